@@ -79,7 +79,8 @@ def validate(
 ) -> Study:
     """The validation suite: ``gearwear validate``, all of it or the cases named, of the tier ``"smoke"``, ``"full"`` or ``"long"``.
 
-    A case that misses its bound raises nothing: ``summary["cases"]`` says it.
+    A case that misses its bound raises nothing: ``summary["cases"]`` says it. ``["invariants"]``: random scenes held against statements that are
+    true of every scene, a hundred of the tier ``"smoke"``, a thousand otherwise; ``summary["violations"]`` says which are not.
     """
     if isinstance(cases, str):
         raise TypeError(f"cases: found {cases!r}; allowed: a list of names or folders")

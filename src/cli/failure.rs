@@ -64,6 +64,12 @@ pub(super) enum Failure {
     /// Cases of the validation suite that are not as expected; the reports are written.
     #[error("{} of the validation suite's cases missed: {}", cases.len(), cases.join(", "))]
     Missed { cases: Vec<String> },
+    /// A run that contradicts statements which hold for every run; it is written all the same.
+    #[error("the results are kept, and are not to be relied on: {}", violations.join("; "))]
+    Violated { violations: Vec<String> },
+    /// Random scenes that contradict statements which hold for every scene; the report is written.
+    #[error("{count} of the statements on random scenes are violated: {names}")]
+    InvariantsViolated { count: usize, names: String },
     /// The user interrupted the run; it was said what is kept.
     #[error("interrupted")]
     Interrupted,
@@ -77,6 +83,14 @@ pub(super) enum Failure {
 pub(super) enum InputError {
     #[error(transparent)]
     ValidationCase(LibraryError),
+    /// An option of random scenes beside cases.
+    #[error("{option}: found beside cases; allowed: gearwear validate invariants {option} N")]
+    #[diagnostic(help("leave {option} out, or give the word invariants alone"))]
+    OnlyForInvariants { option: &'static str },
+    /// An option of cases beside random scenes.
+    #[error("{option}: found beside invariants; allowed: beside cases")]
+    #[diagnostic(help("leave {option} out"))]
+    NotForInvariants { option: &'static str },
     /// A file that is no record of the validation suite.
     #[error("{name}: line {line}: found {reason}; allowed: a validation.json that gearwear validate wrote")]
     NoValidationRecord {
@@ -306,7 +320,7 @@ impl Failure {
     pub(super) fn exit_status(&self) -> u8 {
         match self {
             Failure::Scene(_) | Failure::Input(_) => super::WRONG_INPUT,
-            Failure::Missed { .. } => 1,
+            Failure::Missed { .. } | Failure::Violated { .. } | Failure::InvariantsViolated { .. } => 1,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
             Failure::Run(_) | Failure::Solve(_) | Failure::FemPair(_) | Failure::Accuracy(_) => 3,

@@ -11,6 +11,7 @@ use crate::pipeline::{self, Done, Resumption, RunError};
 use crate::plan::StageKind;
 use crate::report;
 use crate::report::ReportError;
+use crate::results::invariant::Invariant;
 use crate::results::run::{RunRecord, StageTime, StopReason};
 use crate::resume::folder;
 use crate::scene::loaded::LoadedScene;
@@ -117,7 +118,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     match failure {
         Some(failure) => Err(Failure::Run(failure)),
         None if record.summary.stopped == StopReason::Interrupted => Err(Failure::Interrupted),
-        None => Ok(()),
+        None => {
+            let violations: Vec<String> = record.summary.invariants.iter().filter_map(Invariant::violation).collect();
+            if violations.is_empty() { Ok(()) } else { Err(Failure::Violated { violations }) }
+        }
     }
 }
 

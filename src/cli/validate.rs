@@ -1,11 +1,13 @@
 //! `gearwear validate`: the validation suite.
 
 use std::fs;
-use std::num::NonZeroUsize;
+use std::num::{NonZeroU64, NonZeroUsize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::report;
+use crate::studies::invariants;
+use crate::studies::invariants::study::{self, Asked, INVARIANTS};
 use crate::studies::validation::library::{self, Library};
 use crate::studies::validation::record::{Tier, ValidationRecord};
 use crate::studies::validation::{self, against};
@@ -17,7 +19,8 @@ use super::{print, say};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// Cases: names of built-in ones, or folders with a case.toml; default: all built-in cases of the tier
+    /// Cases: names of built-in ones, or folders with a case.toml; default: all built-in cases of the tier. The word invariants
+    /// alone: random scenes, held against statements that are true of every scene
     #[arg(value_name = "CASE")]
     cases: Vec<String>,
     /// How much to run: smoke takes below 3 minutes on two cores, full below 15, long as long as it takes. With CASEs given,
@@ -27,6 +30,15 @@ pub(super) struct Args {
     /// The folder for the results; files of an earlier run are replaced
     #[arg(long, value_name = "DIR", required_unless_present_any = ["export", "list"])]
     out: Option<PathBuf>,
+    /// With invariants: the seed that the scenes are drawn from. Default: 1
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// With invariants: number of scenes. Default: 1000, with --tier smoke 100
+    #[arg(long, value_name = "N")]
+    count: Option<NonZeroU64>,
+    /// With invariants: number of the first scene of the seed, so that one can be run again, or many on several machines. Default: 0
+    #[arg(long, value_name = "N")]
+    first: Option<u64>,
     /// An earlier run's validation.json: what got worse or better since, in verdicts, errors and work
     #[arg(long, value_name = "JSON")]
     against: Option<PathBuf>,
@@ -56,6 +68,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         say(&format!("{} cases are in {}", library::names().len(), folder.join("validation").display()));
         return Ok(());
     }
+    if args.cases == [INVARIANTS] {
+        return random_scenes(args);
+    }
+    let of_scenes =
+        [("--seed", args.seed.is_some()), ("--count", args.count.is_some()), ("--first", args.first.is_some())];
+    if let Some((option, _)) = of_scenes.into_iter().find(|(_, given)| *given) {
+        return Err(InputError::OnlyForInvariants { option }.into());
+    }
     let library = Library::open(&args.cases).map_err(InputError::ValidationCase)?;
     let tier = library.tier(args.tier, args.cases.is_empty()).map_err(InputError::ValidationCase)?;
     if args.list {
@@ -84,6 +104,41 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         }
         (true, false) => Err(Failure::Missed { cases: missed }),
         (true, true) => Ok(()),
+    }
+}
+
+/// Random scenes, held against statements that are true of every scene.
+fn random_scenes(args: &Args) -> Result<(), Failure> {
+    if args.list || args.against.is_some() {
+        let option = if args.list { "--list" } else { "--against" };
+        return Err(InputError::NotForInvariants { option }.into());
+    }
+    let Some(out) = &args.out else { unreachable!("clap demands it") };
+    let of_tier = Asked::of_tier(args.tier);
+    let asked = Asked {
+        seed: args.seed.unwrap_or(of_tier.seed),
+        first: args.first.unwrap_or(of_tier.first),
+        count: args.count.map_or(of_tier.count, NonZeroU64::get),
+    };
+    report::writable(out)?;
+    let interrupted = watch_for_interrupt();
+    let progress = CountedProgress::new(args.quiet, Arc::clone(&interrupted));
+    let record = study::run(asked, thread_count(args.threads), &progress);
+    progress.finish();
+    invariants::report::write(&record, out)?;
+    if !args.quiet {
+        print(&format!("{}report: {}\n", invariants::report::terminal(&record), out.join("report.html").display()))?;
+    }
+    if record.drawn < record.count {
+        say(&format!("interrupted: {} scenes were finished and are kept in {}", record.drawn, out.display()));
+        return Err(Failure::Interrupted);
+    }
+    let mut names: Vec<&str> = record.violations.iter().map(|violation| violation.statement.as_str()).collect();
+    names.sort_unstable();
+    names.dedup();
+    match names.is_empty() {
+        true => Ok(()),
+        false => Err(Failure::InvariantsViolated { count: record.violations.len(), names: names.join(", ") }),
     }
 }
 

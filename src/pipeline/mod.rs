@@ -10,6 +10,7 @@ mod error_estimates;
 pub(crate) mod fem_problem;
 pub(crate) mod fem_scene;
 pub(crate) mod guarded;
+mod invariants;
 mod left_out_contact;
 mod load_case;
 mod lubrication;

@@ -3,7 +3,7 @@
 use super::lubrication::{self, Observed};
 use super::temperature::{self, ObservedHeat};
 use super::{
-    Model, RunError, UM_PER_MM, drawing, error_estimates, left_out_contact, phases, root_stress, slices,
+    Model, RunError, UM_PER_MM, drawing, error_estimates, invariants, left_out_contact, phases, root_stress, slices,
     stability::Judged, verification::Verified,
 };
 use crate::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
@@ -100,6 +100,8 @@ pub(super) fn summary(
     let worn = PerGear::from_fn(|gear| wear_figures(model, outcome, gear));
     (error.volume_balance, error.how.volume_balance) = volume_balance(model, &worn);
     warnings.extend(imbalance_warning(&wear_balance, error.volume_balance));
+    let invariants = invariants::of_run(model, outcome, &wear_balance);
+    warnings.extend(invariants::warnings(&invariants));
     warnings.extend(slices::warning(model, outcome));
     warnings.extend(error_estimates::warnings(&error));
     warnings.extend(found.verified.and_then(|verified| verified.warning.clone()));
@@ -140,6 +142,7 @@ pub(super) fn summary(
         pinion: worn.pinion,
         wheel: worn.wheel,
         wear_balance,
+        invariants,
         error,
         work: WorkSummary {
             wear_steps: outcome.steps.accepted,

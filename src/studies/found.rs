@@ -7,17 +7,18 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use serde::Serialize;
 
-use super::accuracy::selection::Asked;
+use super::accuracy::selection;
 use super::accuracy::study::AccuracyError;
 use super::compare::asked::{CompareFault, Prepared};
 use super::compare::question;
 use super::compare::run_folder::RunFolderError;
 use super::compare::study::CompareError;
+use super::invariants::study::{Asked, INVARIANTS};
 use super::validation::library::{Library, LibraryError};
 use super::validation::record::Tier;
 use super::variants::finished_run::FinishedRun;
 use super::variants::record::VariantsRecord;
-use super::{accuracy, compare, validation, variants};
+use super::{accuracy, compare, invariants, validation, variants};
 use crate::gear::Gear;
 use crate::observer::Observer;
 use crate::report::ReportError;
@@ -106,7 +107,7 @@ pub fn accuracy(scene: &LoadedScene, within: f64, quick: bool, observer: &dyn Ob
     if !(within > 0.0 && within <= 1.0) {
         return Err(StudyFault::Within { found: within }.into());
     }
-    let record = accuracy::study::run(scene, Asked { within, quick }, observer).map_err(StudyFault::Accuracy)?;
+    let record = accuracy::study::run(scene, selection::Asked { within, quick }, observer).map_err(StudyFault::Accuracy)?;
     Study::new(record, |record, folder| accuracy::report::write(record, folder).map(drop))
 }
 
@@ -181,7 +182,8 @@ pub fn compare_runs(runs: &[(PathBuf, String)]) -> Result<Study, StudyError> {
     Study::new(VariantsRecord::new(&runs), move |record, folder| variants::report::write(record, &runs, folder))
 }
 
-/// The validation suite, as `gearwear validate`: cases by name or folder, none: all, of the `tier` smoke, full or long.
+/// The validation suite, as `gearwear validate`: cases by name or folder, none: all, of the `tier` smoke, full or long. The word `invariants` alone:
+/// random scenes, a hundred of the tier smoke, a thousand otherwise.
 ///
 /// # Errors
 /// Cases or tiers that do not exist. A case that misses its bound is none: the record says it.
@@ -195,8 +197,13 @@ pub fn validate(
         let named = Tier::ALL.into_iter().find(|tier| tier.name() == name);
         named.ok_or_else(|| word("tier", name, Tier::ALL.map(Tier::name).join(", ")))
     });
+    let tier = tier.transpose()?;
+    if cases == [INVARIANTS] {
+        let record = invariants::study::run(Asked::of_tier(tier), threads, observer);
+        return Study::new(record, invariants::report::write);
+    }
     let library = Library::open(cases).map_err(StudyFault::Library)?;
-    let tier = library.tier(tier.transpose()?, cases.is_empty()).map_err(StudyFault::Library)?;
+    let tier = library.tier(tier, cases.is_empty()).map_err(StudyFault::Library)?;
     let record = validation::run(&library.cases, tier, threads, observer);
     Study::new(record, |record, folder| validation::report::write(record, None, folder).map(drop))
 }

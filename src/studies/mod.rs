@@ -7,6 +7,8 @@ pub(crate) mod compare;
 pub(crate) mod evaluate;
 #[cfg(feature = "program")]
 pub(crate) mod found;
+#[cfg(feature = "program")]
+pub(crate) mod invariants;
 pub(crate) mod spread;
 #[cfg(feature = "program")]
 pub(crate) mod sweep;

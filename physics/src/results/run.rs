@@ -9,6 +9,7 @@ pub use super::drawing::{GearCircles, PairDrawing};
 
 use super::chemistry::{TemperatureSummary, WearLawSummary};
 use super::error::ErrorSummary;
+use super::invariant::Invariant;
 use super::life::LifeSummary;
 use super::lubrication::{FilmRow, LubricationSummary};
 pub use super::path_points::PathPoints;
@@ -107,6 +108,9 @@ pub struct Summary {
     pub wheel: WearSummary,
     /// How far what both flanks lose in one mesh is from balance.
     pub wear_balance: WearBalance,
+    /// Statements that hold for every run, and whether this one contradicts them.
+    #[serde(default)]
+    pub invariants: Vec<Invariant>,
     /// Estimated errors.
     pub error: ErrorSummary,
     /// Work done by the simulation.

@@ -54,7 +54,7 @@ pub(crate) struct RunSpec {
     pub name: String,
     #[serde(default)]
     pub command: Command,
-    /// A preset, or a file beside the case.
+    /// A preset, or a file beside the case; with `invariants` the word `random`.
     pub scene: String,
     /// With `fem` of a gear pair: the one position; without it the mesh cycle.
     pub position_mm: Option<f64>,
@@ -105,6 +105,8 @@ pub(crate) enum Command {
     Fem,
     /// K/H and tooth stiffness from finite elements.
     Calibrate,
+    /// Random scenes, held against statements that are true of every scene: `set` has `seed`, `first` and `count`.
+    Invariants,
 }
 
 #[derive(Debug, Clone, Deserialize)]

@@ -29,6 +29,7 @@ use crate::scene::draft::{self, Draft};
 use crate::scene::fem_problem::FemProblem;
 use crate::scene::loaded::{self, LoadedScene, NamedFiles, SceneText};
 use crate::scene::{Problem, Resolved, presets};
+use crate::studies::invariants::study::{self, Asked};
 use crate::studies::validation::record::RunOutcome;
 
 /// What a run came to.
@@ -114,6 +115,7 @@ impl Task<'_> {
             Command::Run => self.wear_run(),
             Command::Fem => self.finite_elements(),
             Command::Calibrate => self.calibrated(),
+            Command::Invariants => self.random_scenes(),
         });
         let executed = match done {
             Err(said) => Executed::without_result(RunOutcome::Panicked, said),
@@ -235,6 +237,32 @@ impl Task<'_> {
         let work = [("iterations", record.summary.iterations as u64), ("positions", record.summary.positions as u64)];
         let failure = failure(done.failure, record.summary.stopped);
         Ok(Executed::of(value, work.map(|(name, count)| (name.to_owned(), count)).into(), failure, None))
+    }
+
+    /// Random scenes: their record, and a group `statements` with a group for each of them, by its name with `_` for spaces and hyphens.
+    fn random_scenes(&self) -> Result<Executed, Failed> {
+        let whole = |key: &str| {
+            let given = self.member.set.iter().rev().find(|(name, _)| name == key).and_then(|(_, value)| value.as_integer());
+            let number = given.and_then(|number| u64::try_from(number).ok());
+            number.ok_or_else(|| refused(format!("{key}: allowed in set of a run of invariants: a whole number, 0 or more")))
+        };
+        let asked = Asked { seed: whole("seed")?, first: whole("first")?, count: whole("count")? };
+        let record = study::run(asked, 1, self.watch);
+        if record.drawn < record.count {
+            return Err(not_converged("interrupted"));
+        }
+        let mut statements = Value::group::<&str>([]);
+        for row in &record.statements {
+            statements.add(&row.statement.replace([' ', '-'], "_").replace(',', ""), tree(row)?);
+        }
+        let value = Value::group([("summary", tree(&record)?), ("statements", statements)]);
+        let violations = record.violations.iter().map(|violation| {
+            format!("scene {} of seed {}, {}: {}", violation.scene, record.seed, violation.statement, violation.figure)
+        });
+        let said: Vec<String> = violations.take(5).collect();
+        let fault = (!said.is_empty()).then(|| said.join("; "));
+        let work = BTreeMap::from([("runs".to_owned(), record.runs)]);
+        Ok(Executed::of(value, work, None, fault))
     }
 
     fn calibrated(&self) -> Result<Executed, Failed> {

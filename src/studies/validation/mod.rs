@@ -22,7 +22,7 @@ pub(crate) mod profile;
 pub(crate) mod record;
 pub(crate) mod report;
 pub(crate) mod schedule;
-mod soundness;
+pub(crate) mod soundness;
 pub(crate) mod syntax;
 mod value;
 

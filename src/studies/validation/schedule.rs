@@ -57,9 +57,10 @@ pub(crate) fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer
     let (after, mut first): (Vec<Job>, Vec<Job>) = jobs.into_iter().partition(reads_calibration);
     // Long ones first, so that no thread is left with one at the end.
     first.sort_by_key(|job| match cases[job.case].file.run[job.run].command {
-        Command::Calibrate => 0,
-        Command::Fem => 1,
-        Command::Run => 2,
+        Command::Invariants => 0,
+        Command::Calibrate => 1,
+        Command::Fem => 2,
+        Command::Run => 3,
     });
     let done = AtomicUsize::new(0);
     for jobs in [first, after] {

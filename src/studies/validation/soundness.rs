@@ -8,7 +8,7 @@ use crate::results::run::{CycleSummary, FlankRecord, RunRecord};
 pub(super) const MOST_IMBALANCE: f64 = 1e-6;
 
 /// The first thing about the run that cannot be; `None` where all is well.
-pub(super) fn fault(record: &RunRecord) -> Option<String> {
+pub(crate) fn fault(record: &RunRecord) -> Option<String> {
     let summary = &record.summary;
     let imbalance = |(when, cycle): (&str, &CycleSummary)| {
         // Written so that a number that is none is a fault too.

@@ -308,6 +308,7 @@ fn summary() -> Summary {
         pinion: worn(Gear::Pinion, CURVATURE.A),
         wheel: worn(Gear::Wheel, CURVATURE.E),
         wear_balance: WearBalance::default(),
+        invariants: Vec::new(),
         error: ErrorSummary {
             total: TotalError {
                 profile: ErrorPerGear { pinion: Some(0.03), wheel: Some(0.03) },

@@ -1,0 +1,58 @@
+//! A random scene carried out, and how it ended.
+
+use toml::Table;
+
+use crate::observer::Observer;
+use crate::pipeline::guarded::guarded;
+use crate::pipeline::{self, RunError};
+use crate::results::run::{RunRecord, StopReason};
+use crate::scene::loaded::LoadedScene;
+use crate::studies::varied_scene::one_line;
+
+/// How a scene ends that does not run to its end.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Ended {
+    /// With a message of what is wrong with it.
+    Refused(String),
+    /// A tooth is worn through, and the run says so.
+    WornThrough,
+    /// The solver gave up.
+    NotConverged(String),
+    /// A defect of the program.
+    Panicked(String),
+    /// The user stopped it.
+    Interrupted,
+}
+
+impl Ended {
+    /// What is wrong with the program, where anything is.
+    pub(super) fn defect(&self) -> Option<String> {
+        match self {
+            Ended::NotConverged(said) => Some(format!("did not converge: {said}")),
+            Ended::Panicked(said) => Some(format!("a defect of the program: {said}")),
+            Ended::Refused(_) | Ended::WornThrough | Ended::Interrupted => None,
+        }
+    }
+}
+
+/// Runs the scene; only one that comes to its end has a record.
+pub(super) fn carried_out(table: &Table, observer: &dyn Observer) -> Result<RunRecord, Ended> {
+    guarded(|| run(table, observer)).unwrap_or_else(|said| Err(Ended::Panicked(one_line(&said))))
+}
+
+fn run(table: &Table, observer: &dyn Observer) -> Result<RunRecord, Ended> {
+    let refused = |error: &dyn std::fmt::Display| Ended::Refused(one_line(&error.to_string()));
+    let scene = LoadedScene::from_toml(&table.to_string()).map_err(|error| refused(&error))?;
+    let done = pipeline::run(&scene, observer).map_err(|error| match &error {
+        RunError::Simulation(_) if error.stiffness().is_none() => Ended::NotConverged(one_line(&error.to_string())),
+        _ => refused(&error),
+    })?;
+    match (done.record.summary.stopped, done.failure) {
+        (StopReason::Completed | StopReason::LimitReached, None) => Ok(done.record),
+        (StopReason::WornThrough, _) => Err(Ended::WornThrough),
+        (StopReason::Interrupted, _) => Err(Ended::Interrupted),
+        (_, failure) => {
+            Err(Ended::NotConverged(failure.map_or_else(String::new, |failure| one_line(&failure.to_string()))))
+        }
+    }
+}

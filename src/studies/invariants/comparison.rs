@@ -1,0 +1,199 @@
+//! Two runs beside each other, figure by figure, where one follows from the other.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::gear::{Gear, PerGear};
+use crate::results::run::{MeshCycleRow, RunRecord};
+
+/// A difference with what is allowed.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Measured {
+    /// What is compared.
+    pub figure: String,
+    /// Difference, relative to the greatest value of the figure.
+    pub value: f64,
+    pub bound: f64,
+}
+
+impl Measured {
+    pub(super) fn new(figure: impl Into<String>, value: f64, bound: f64) -> Self {
+        Self { figure: figure.into(), value, bound }
+    }
+
+    /// How much of what is allowed the difference is; a difference that is no number is more than anything.
+    pub(super) fn used(&self) -> f64 {
+        if self.value.is_nan() { f64::INFINITY } else { self.value / self.bound }
+    }
+}
+
+/// How the figures of the other run follow from those of the first.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Follows {
+    /// Wear depth of the other run over that of the first, of each gear of the first.
+    pub depth: PerGear<f64>,
+    /// Pressure.
+    pub pressure: f64,
+    /// Transmission error.
+    pub error: f64,
+    /// Worn volume over the depth's.
+    pub area: f64,
+    /// The gears have changed places, and the mesh runs from E to A.
+    pub exchanged: bool,
+    /// The face width runs the other way.
+    pub mirrored: bool,
+}
+
+impl Default for Follows {
+    fn default() -> Self {
+        let depth = PerGear { pinion: 1.0, wheel: 1.0 };
+        Self { depth, pressure: 1.0, error: 1.0, area: 1.0, exchanged: false, mirrored: false }
+    }
+}
+
+/// Relative differences that are allowed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bounds {
+    /// Of wear depth at any point.
+    pub wear: f64,
+    /// Of worn volume.
+    pub volume: f64,
+    /// Of the pressure at any point.
+    pub pressure: f64,
+    /// Of transmission error and load share at any position.
+    pub cycle: f64,
+}
+
+impl Bounds {
+    pub(super) fn all(bound: f64) -> Self {
+        Self { wear: bound, volume: bound, pressure: bound, cycle: bound }
+    }
+}
+
+/// All figures that two runs have in common.
+pub(super) fn compare(first: &RunRecord, other: &RunRecord, follows: &Follows, bounds: Bounds) -> Vec<Measured> {
+    let mut found = Vec::new();
+    for gear in Gear::BOTH {
+        let theirs = if follows.exchanged { gear.mate() } else { gear };
+        let (mine, other_flank) = (&first.flanks[gear], &other.flanks[theirs]);
+        let slices = mine.width_mm.len();
+        let ordered = |column: &[f64]| if follows.mirrored { mirrored(column, slices) } else { column.to_vec() };
+        let (name, depth) = (gear.name(), follows.depth[gear]);
+        let wear = difference(&mine.wear_um, &ordered(&other_flank.wear_um), depth);
+        found.push(Measured::new(format!("wear of the {name}"), wear, bounds.wear));
+        let new = difference(&mine.pressure_new_MPa, &ordered(&other_flank.pressure_new_MPa), follows.pressure);
+        found.push(Measured::new(format!("pressure on the new {name}"), new, bounds.pressure));
+        let worn = difference(&mine.pressure_worn_MPa, &ordered(&other_flank.pressure_worn_MPa), follows.pressure);
+        found.push(Measured::new(format!("pressure on the worn {name}"), worn, bounds.pressure));
+        let volume = |record: &RunRecord, gear: Gear| {
+            [if gear == Gear::Pinion { &record.summary.pinion } else { &record.summary.wheel }.worn_volume_mm3]
+        };
+        let volumes = difference(&volume(first, gear), &volume(other, theirs), depth * follows.area);
+        found.push(Measured::new(format!("worn volume of the {name}"), volumes, bounds.volume));
+    }
+    found.extend(cycles(first, other, follows, bounds.cycle));
+    found
+}
+
+/// Transmission errors and load shares of the mesh.
+fn cycles(first: &RunRecord, other: &RunRecord, follows: &Follows, bound: f64) -> Vec<Measured> {
+    let columns: [(&str, f64, fn(&MeshCycleRow) -> f64); 4] = [
+        ("new transmission error", follows.error, |row| row.transmission_error_new_um),
+        ("worn transmission error", follows.error, |row| row.transmission_error_worn_um),
+        ("new load share", 1.0, |row| row.load_share_new),
+        ("worn load share", 1.0, |row| row.load_share_worn),
+    ];
+    let compared = |(name, factor, of): (&str, f64, fn(&MeshCycleRow) -> f64)| {
+        let mine: Vec<f64> = first.mesh_cycle.iter().map(of).collect();
+        let mut theirs: Vec<f64> = other.mesh_cycle.iter().map(of).collect();
+        if follows.exchanged {
+            theirs.reverse();
+        }
+        Measured::new(name, difference(&mine, &theirs, factor), bound)
+    };
+    columns.map(compared).into()
+}
+
+/// Greatest |theirs − factor · mine| over the greatest of `factor · mine`; columns of different lengths differ wholly.
+pub(super) fn difference(mine: &[f64], theirs: &[f64], factor: f64) -> f64 {
+    if mine.len() != theirs.len() {
+        return f64::INFINITY;
+    }
+    let pairs = || mine.iter().map(|x| factor * x).zip(theirs);
+    let greatest = pairs().map(|(x, y)| x.abs().max(y.abs())).fold(0.0, f64::max);
+    let apart = pairs()
+        .map(|(x, y)| (x - y).abs())
+        .fold(0.0, |most, next| if next.is_nan() { next } else { f64::max(most, next) });
+    if greatest > 0.0 { apart / greatest } else { apart }
+}
+
+/// Slices in the order of the face width turned round.
+fn mirrored(column: &[f64], slices: usize) -> Vec<f64> {
+    let points = (column.len() / slices.max(1)).max(1);
+    column.chunks(points).rev().flatten().copied().collect()
+}
+
+/// The greatest relative difference of any number of two summaries, with its path. Times, hashes, counts of work and what `besides` begins with are
+/// left out; texts and numbers that one of the two lacks differ wholly.
+pub(super) fn summaries(first: &impl Serialize, other: &impl Serialize, besides: &[&str]) -> (f64, String) {
+    let mut worst = (0.0, String::new());
+    if let (Ok(first), Ok(other)) = (serde_json::to_value(first), serde_json::to_value(other)) {
+        walk(&first, &other, "", besides, &mut worst);
+    }
+    worst
+}
+
+/// What differs between runs that are alike.
+const NOT_COMPARED: [&str; 10] =
+    ["stages", "wall_s", "scene_hash", "title", "work", "warnings", "left_out", "report", "invariants", "error"];
+
+fn walk(first: &Value, other: &Value, path: &str, besides: &[&str], worst: &mut (f64, String)) {
+    if NOT_COMPARED.contains(&path) || besides.iter().any(|besides| path.starts_with(besides)) {
+        return;
+    }
+    match (first, other) {
+        (Value::Object(mine), Value::Object(theirs)) => {
+            for (name, value) in mine {
+                let below = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
+                walk(value, theirs.get(name).unwrap_or(&Value::Null), &below, besides, worst);
+            }
+        }
+        (Value::Array(mine), Value::Array(theirs)) if mine.len() == theirs.len() => {
+            for (index, (mine, theirs)) in mine.iter().zip(theirs).enumerate() {
+                walk(mine, theirs, &format!("{path}.{}", index + 1), besides, worst);
+            }
+        }
+        (Value::Number(mine), Value::Number(theirs)) => {
+            let [mine, theirs] = [mine, theirs].map(|number| number.as_f64().unwrap_or(f64::NAN));
+            let apart = difference(&[mine], &[theirs], 1.0);
+            if apart.is_nan() || apart > worst.0 {
+                *worst = (apart, path.to_owned());
+            }
+        }
+        (mine, theirs) if mine == theirs => {}
+        _ => *worst = (f64::INFINITY, path.to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn differences_are_relative_to_the_greatest_value() {
+        assert_eq!(difference(&[1.0, 4.0], &[2.0, 8.0], 2.0), 0.0);
+        assert_eq!(difference(&[1.0, 4.0], &[2.0, 4.0], 1.0), 0.25);
+        assert_eq!(difference(&[0.0], &[0.0], 1.0), 0.0);
+        assert!(difference(&[1.0], &[f64::NAN], 1.0).is_nan());
+        assert_eq!(difference(&[1.0], &[], 1.0), f64::INFINITY);
+        assert_eq!(mirrored(&[1.0, 2.0, 3.0, 4.0], 2), [3.0, 4.0, 1.0, 2.0]);
+    }
+
+    #[test]
+    fn summaries_are_compared_number_by_number() {
+        let first = serde_json::json!({ "a": { "b": [1.0, 2.0], "c": null }, "wall_s": 3.0 });
+        let other = serde_json::json!({ "a": { "b": [1.0, 2.5], "c": null }, "wall_s": 4.0 });
+        assert_eq!(summaries(&first, &other, &[]), (0.2, "a.b.2".to_owned()));
+        assert_eq!(summaries(&first, &other, &["a.b"]).0, 0.0);
+    }
+}

@@ -1,0 +1,99 @@
+//! Inequalities: what more load, more removed material or more duration can only do.
+
+use crate::gear::Gear;
+use crate::results::run::{MeshCycleRow, RunRecord};
+use crate::studies::invariants::comparison::{Bounds, Follows, Measured, compare};
+use crate::studies::invariants::relation::{Relation, Subject, Verdict};
+use crate::studies::invariants::scene_table::{gives, number, scaled, value, with};
+use crate::studies::invariants::traits_of_scene::{has_fixed_steps, is_hard_severe, is_sliced};
+
+use super::SOLVED;
+
+/// Torque and last bits: what a machine that computes in another order makes of the torque.
+const LAST_BITS: f64 = 1.0 + 1e-12;
+
+pub(super) const RELATIONS: &[Relation] = &[
+    Relation {
+        name: "last bits",
+        states: "The last bits of the torque change no figure: every figure is a continuous function of the load.",
+        bound: "1e-6 of the greatest value, a million times the change",
+        check: last_bits,
+    },
+    Relation {
+        name: "more load, more approach",
+        states: "A tenth more torque raises the transmission error of the new pair at every position.",
+        bound: "solver tolerance: it must not become less",
+        check: more_load,
+    },
+    Relation {
+        name: "relief opens the gap",
+        states: "Material removed at the tips raises the transmission error of the new pair, or leaves it, at every position.",
+        bound: "solver tolerance: it must not become less",
+        check: relief_opens,
+    },
+    Relation {
+        name: "longer is deeper",
+        states: "Half of the duration wears no point deeper than the whole.",
+        bound: "rounding",
+        check: longer,
+    },
+];
+
+fn last_bits(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    if is_hard_severe(table) || !has_fixed_steps(table) {
+        return Verdict::NotOfThisScene;
+    }
+    let other = scaled(table, &|key| if key == "pinion_torque_Nm" { LAST_BITS } else { 1.0 });
+    subject.beside(other, |record| compare(subject.record, record, &Follows::default(), Bounds::all(SOLVED)))
+}
+
+/// By how much the transmission error of the new pair becomes less at any position, over its greatest value.
+fn less_error(first: &RunRecord, other: &RunRecord) -> Vec<Measured> {
+    let of = |row: &MeshCycleRow| row.transmission_error_new_um;
+    let greatest = first.mesh_cycle.iter().map(|row| of(row).abs()).fold(0.0, f64::max);
+    let less = first.mesh_cycle.iter().zip(&other.mesh_cycle).map(|(a, b)| (of(a) - of(b)) / greatest);
+    vec![Measured::new("new transmission error", less.fold(0.0, f64::max), SOLVED)]
+}
+
+fn more_load(subject: &Subject<'_>) -> Verdict {
+    let other = scaled(subject.table, &|key| if key == "pinion_torque_Nm" { 1.1 } else { 1.0 });
+    subject.beside(other, |record| less_error(subject.record, record))
+}
+
+fn relief_opens(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    let (Some(width), false) = (number(table, "pair.face_width_mm"), is_sliced(table)) else {
+        return Verdict::NotOfThisScene;
+    };
+    let mut other = table.clone();
+    for gear in Gear::BOTH {
+        let of = |key: &str| format!("pair.{}.tip_relief.{key}", gear.name());
+        if gives(table, &of("amount_um")) {
+            other = with(&other, &of("amount_um"), 1.5 * number(table, &of("amount_um")).unwrap_or_default());
+        } else {
+            other = with(&other, &of("amount_um"), 0.5 * width);
+            other = with(&other, &of("length_mm"), 0.05 * width);
+        }
+    }
+    subject.beside(other, |record| less_error(subject.record, record))
+}
+
+fn longer(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    if value(table, "operation.phases").is_some() || !has_fixed_steps(table) {
+        return Verdict::NotOfThisScene;
+    }
+    let Some(revolutions) = number(table, "operation.pinion_revolutions") else { return Verdict::NotOfThisScene };
+    let other = with(table, "operation.pinion_revolutions", 0.5 * revolutions);
+    let other = with(&other, "operation.snapshots_revolutions", vec![0.5 * revolutions]);
+    subject.beside(other, |record| {
+        let of = |gear: Gear| {
+            let (whole, half) = (&subject.record.flanks[gear].wear_um, &record.flanks[gear].wear_um);
+            let greatest = whole.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+            let deeper = whole.iter().zip(half).map(|(whole, half)| (half - whole) / greatest).fold(0.0, f64::max);
+            Measured::new(format!("wear of the {}", gear.name()), deeper, 1e-9)
+        };
+        Gear::BOTH.map(of).into()
+    })
+}

@@ -1,0 +1,73 @@
+//! Gears exchanged, and the face width turned round.
+
+use toml::Value;
+
+use super::{ROUNDING, SOLVED};
+use crate::studies::invariants::comparison::{Bounds, Follows, compare};
+use crate::studies::invariants::relation::{Relation, Subject, Verdict};
+use crate::studies::invariants::scene_table::{exchange_gears, number, scaled, with};
+use crate::studies::invariants::traits_of_scene::{
+    follows_tip_edges, has_heat_or_oil, is_hard_severe, is_on, is_sliced,
+};
+
+pub(super) const RELATIONS: &[Relation] = &[
+    Relation {
+        name: "roles exchanged",
+        states: "A mesh without friction runs backwards as it runs forwards: driven by the other gear, each gear wears as before.",
+        bound: "solver tolerance; where tip edges are followed, the lever of the load outside A to E is that on the driving gear, by some \
+                hundredths another, and flank points of the two gears are another grid for each other's contact: 5 % of pressure and wear",
+        check: roles,
+    },
+    Relation {
+        name: "face width turned round",
+        states: "With helix angle, slopes, shaft ends and axes turned round, wear over the face width is turned round.",
+        bound: "solver tolerance",
+        check: mirror,
+    },
+];
+
+fn roles(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    // Heat and oil know which gear drives: approach and recess, and the ratio of speeds within a phase.
+    if has_heat_or_oil(table) || is_hard_severe(table) || is_on(table, "fem") {
+        return Verdict::NotOfThisScene;
+    }
+    let (Some(z1), Some(z2)) = (number(table, "pair.pinion.teeth"), number(table, "pair.wheel.teeth")) else {
+        return Verdict::NotOfThisScene;
+    };
+    let u = z2 / z1;
+    let mut other = scaled(table, &|key| match key {
+        "pinion_torque_Nm" => u,
+        "pinion_speed_rpm" | "pinion_revolutions" | "revolutions" | "snapshots_revolutions" => 1.0 / u,
+        // Backwards, the slice that was the first to enter is the last.
+        "helix_angle_deg" => -1.0,
+        _ => 1.0,
+    });
+    exchange_gears(&mut other);
+    let bounds = match follows_tip_edges(table) {
+        true => Bounds { wear: 0.05, volume: 0.02, pressure: 0.05, cycle: 0.02 },
+        false => Bounds::all(SOLVED),
+    };
+    let follows = Follows { exchanged: true, ..Follows::default() };
+    subject.beside(other, |record| compare(subject.record, record, &follows, bounds))
+}
+
+fn mirror(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    if !is_sliced(table) || is_hard_severe(table) {
+        return Verdict::NotOfThisScene;
+    }
+    let mut other = scaled(table, &|key| match key {
+        "helix_angle_deg" | "helix_slope_deviation_um" | "in_plane_um" | "out_of_plane_um" => -1.0,
+        _ => 1.0,
+    });
+    for gear in ["pinion", "wheel"] {
+        let key = format!("pair.{gear}.shaft.driven_at");
+        if let Some(face) = crate::studies::invariants::scene_table::word(table, &key) {
+            other = with(&other, &key, Value::from(if face == "start" { "end" } else { "start" }));
+        }
+    }
+    let follows = Follows { mirrored: true, ..Follows::default() };
+    let bounds = Bounds { cycle: SOLVED, ..Bounds::all(1e3 * ROUNDING) };
+    subject.beside(other, |record| compare(subject.record, record, &follows, bounds))
+}

@@ -1,0 +1,197 @@
+//! Keys at values that must change nothing, and keys that say the same in two ways.
+
+use toml::{Table, Value};
+
+use super::{ROUNDING, SOLVED};
+use crate::results::run::RunRecord;
+use crate::studies::invariants::comparison::{Bounds, Follows, Measured, compare, summaries};
+use crate::studies::invariants::relation::{Relation, Subject, Verdict};
+use crate::studies::invariants::scene_table::{gives, number, value, with};
+use crate::studies::invariants::traits_of_scene::{
+    has_finite_elements, has_heat_or_oil, has_one_coefficient, is_sliced,
+};
+
+pub(super) const RELATIONS: &[Relation] = &[
+    Relation {
+        name: "resolved scene again",
+        states: "The resolved scene that a run writes gives the same run.",
+        bound: "none: the same bits",
+        check: resolved_again,
+    },
+    Relation {
+        name: "neutral film",
+        states: "A factor of 1 at every film changes nothing.",
+        bound: "rounding",
+        check: neutral_film,
+    },
+    Relation {
+        name: "neutral temperature factor",
+        states: "A factor of 1 at every temperature of the teeth, and a modulus that does not depend on it, change nothing.",
+        bound: "rounding",
+        check: neutral_warm,
+    },
+    Relation {
+        name: "neutral severe wear",
+        states: "Severe wear with a factor of 1 changes nothing.",
+        bound: "rounding",
+        check: neutral_severe,
+    },
+    Relation {
+        name: "law of each gear",
+        states: "A law written for each gear, with the coefficient of both, changes nothing.",
+        bound: "rounding",
+        check: law_of_each_gear,
+    },
+    Relation {
+        name: "half by any factor",
+        states: "A factor of ½ on one gear at every film, at every temperature or at every pressure is half of its wear coefficient.",
+        bound: "rounding",
+        check: half,
+    },
+    Relation {
+        name: "slices of a spur pair",
+        states: "A pair without slices is any of its slices: a lead crowning of a millionth of a micrometre changes nothing.",
+        bound: "solver tolerance; the crowning itself is 1e-7 of the approach",
+        check: slices,
+    },
+];
+
+/// Everything of two runs that are to be the same.
+fn alike(one: &RunRecord, other: &RunRecord, bound: f64, besides: &[&str]) -> Vec<Measured> {
+    let (value, path) = summaries(&one.summary, &other.summary, besides);
+    let mut found = compare(one, other, &Follows::default(), Bounds::all(bound));
+    found.push(Measured::new(format!("summary, {path}"), value, bound));
+    found
+}
+
+fn resolved_again(subject: &Subject<'_>) -> Verdict {
+    let Ok(other) = subject.record.scene_toml.parse::<Table>() else { return Verdict::NotOfThisScene };
+    subject.beside(other, |record| alike(subject.record, record, f64::MIN_POSITIVE, &[]))
+}
+
+fn numbers<const N: usize>(of: [f64; N]) -> Value {
+    Value::Array(of.map(Value::Float).into())
+}
+
+fn neutral_film(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    if !gives(table, "lubricant")
+        || ["wear", "wear.pinion", "wear.wheel"].iter().any(|of| gives(table, &format!("{of}.film")))
+    {
+        return Verdict::NotOfThisScene;
+    }
+    let other = with(table, "wear.film.lambda", numbers([0.0, 1000.0]));
+    let other = with(&other, "wear.film.factor", numbers([1.0, 1.0]));
+    subject.beside(other, |record| alike(subject.record, record, ROUNDING, &["wear", "lubrication"]))
+}
+
+fn neutral_warm(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    let has_factor = ["wear", "wear.pinion", "wear.wheel"].iter().any(|of| gives(table, &format!("{of}.warm")));
+    if !gives(table, "temperature.tooth") || has_factor {
+        return Verdict::NotOfThisScene;
+    }
+    let mut other = with(table, "wear.warm.temperature_C", numbers([0.0, 200.0]));
+    other = with(&other, "wear.warm.factor", numbers([1.0, 1.0]));
+    for gear in ["pinion", "wheel"] {
+        let key = format!("material.{gear}.young_modulus_GPa");
+        if let Some(modulus) = number(table, &key) {
+            if let Some(of_gear) =
+                other.get_mut("material").and_then(|all| all.get_mut(gear)).and_then(Value::as_table_mut)
+            {
+                of_gear.remove("young_modulus_GPa");
+            }
+            let curve = format!("material.{gear}.young_modulus_curve");
+            other = with(&other, &format!("{curve}.temperature_C"), numbers([0.0, 200.0]));
+            other = with(&other, &format!("{curve}.young_modulus_GPa"), numbers([modulus, modulus]));
+        }
+    }
+    subject.beside(other, |record| alike(subject.record, record, ROUNDING, &["wear", "temperature"]))
+}
+
+fn neutral_severe(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    let has_severe = ["wear", "wear.pinion", "wear.wheel"].iter().any(|of| gives(table, &format!("{of}.severe")));
+    if has_severe {
+        return Verdict::NotOfThisScene;
+    }
+    let above = 0.5 * subject.record.summary.contact.hertz_peak_pressure_MPa;
+    let mut other = with(table, "wear.severe.above_MPa", above);
+    other = with(&other, "wear.severe.factor", 1.0);
+    other = with(&other, "wear.severe.band_MPa", 0.1 * above);
+    subject.beside(other, |record| alike(subject.record, record, ROUNDING, &["wear"]))
+}
+
+fn law_of_each_gear(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    if !has_one_coefficient(table) {
+        return Verdict::NotOfThisScene;
+    }
+    let mut other = table.clone();
+    for (key, of_both) in [
+        ("law", "wear.law"),
+        ("coefficient_m2_per_N", "wear.coefficient_m2_per_N"),
+        ("coefficient_mm3_per_Nm", "wear.coefficient_mm3_per_Nm"),
+    ] {
+        if let Some(given) = value(table, of_both) {
+            for gear in ["pinion", "wheel"] {
+                other = with(&other, &format!("wear.{gear}.{key}"), given.clone());
+            }
+        }
+    }
+    subject.beside(other, |record| alike(subject.record, record, ROUNDING, &["wear", "phases", "error"]))
+}
+
+/// The same half said in two ways: by a factor, and by the coefficient.
+fn half(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    if !has_one_coefficient(table) {
+        return Verdict::NotOfThisScene;
+    }
+    let has = |key: &str| gives(table, &format!("wear.{key}"));
+    let gear = if number(table, "numerics.flank_points").is_some_and(|points| points % 2.0 == 0.0) {
+        "pinion"
+    } else {
+        "wheel"
+    };
+    let own = format!("wear.{gear}");
+    let by_factor = if gives(table, "lubricant") && !has("film") {
+        let scene = with(table, &format!("{own}.film.lambda"), numbers([0.0, 1000.0]));
+        with(&scene, &format!("{own}.film.factor"), numbers([0.5, 0.5]))
+    } else if gives(table, "temperature.tooth") && !has("warm") {
+        let scene = with(table, &format!("{own}.warm.temperature_C"), numbers([0.0, 200.0]));
+        with(&scene, &format!("{own}.warm.factor"), numbers([0.5, 0.5]))
+    } else if !has("severe") {
+        let scene = with(table, &format!("{own}.severe.above_MPa"), 1e-9);
+        with(&scene, &format!("{own}.severe.factor"), 0.5)
+    } else {
+        return Verdict::NotOfThisScene;
+    };
+    let keys = ["coefficient_m2_per_N", "coefficient_mm3_per_Nm"];
+    let given = keys.into_iter().find_map(|key| Some((key, number(table, &format!("wear.{key}"))?)));
+    let Some((key, coefficient)) = given else { return Verdict::NotOfThisScene };
+    let by_coefficient = with(table, &format!("{own}.{key}"), 0.5 * coefficient);
+    subject.two(by_coefficient, by_factor, |one, other| {
+        compare(one, other, &Follows::default(), Bounds::all(1e2 * ROUNDING))
+    })
+}
+
+fn slices(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    if is_sliced(table) || has_finite_elements(table) || has_heat_or_oil(table) {
+        return Verdict::NotOfThisScene;
+    }
+    let other = with(table, "pair.pinion.lead_crowning_um", 1e-6);
+    subject.beside(other, |record| {
+        let slices = record.flanks.pinion.width_mm.len();
+        let mut of_one = subject.record.clone();
+        for gear in crate::gear::Gear::BOTH {
+            let flank = &mut of_one.flanks[gear];
+            for column in [&mut flank.wear_um, &mut flank.pressure_new_MPa, &mut flank.pressure_worn_MPa] {
+                *column = column.repeat(slices);
+            }
+        }
+        let bounds = Bounds { cycle: 0.05, ..Bounds::all(SOLVED) };
+        compare(&of_one, record, &Follows::default(), bounds)
+    })
+}

@@ -1,0 +1,68 @@
+//! Finer resolutions come to the same.
+
+use crate::gear::Gear;
+use crate::results::run::{RunRecord, Summary};
+use crate::studies::invariants::comparison::{Measured, difference};
+use crate::studies::invariants::relation::{Relation, Subject, Verdict};
+use crate::studies::invariants::scene_table::{number, with};
+use crate::studies::invariants::traits_of_scene::{has_heat_or_oil, is_hard_severe};
+
+pub(super) const RELATIONS: &[Relation] = &[
+    Relation {
+        name: "finer flanks",
+        states: "Twice the flank points come to the same worn volumes and transmission error.",
+        bound: "60 to 120 points of a flank, some three in a contact: 15 % of the volume, 3 % of the transmission error",
+        check: finer_points,
+    },
+    Relation {
+        name: "finer positions",
+        states: "Twice the positions come to the same worn volumes and transmission error.",
+        bound: "24 to 160 positions, of second order where loads change steadily: 15 % of the volume, 15 % of the transmission error",
+        check: finer_positions,
+    },
+];
+
+const OF_VOLUME: f64 = 0.15;
+
+fn finer_points(subject: &Subject<'_>) -> Verdict {
+    finer(subject, "numerics.flank_points", 2.0, 0.03)
+}
+
+fn finer_positions(subject: &Subject<'_>) -> Verdict {
+    // Both ends stay positions, and each lies halfway between two.
+    finer(subject, "numerics.positions", 2.0, 0.15)
+}
+
+fn finer(subject: &Subject<'_>, key: &str, by: f64, of_error: f64) -> Verdict {
+    let table = subject.table;
+    // What wear makes of temperatures and limits of pressure is no matter of one resolution.
+    if is_hard_severe(table) || has_heat_or_oil(table) {
+        return Verdict::NotOfThisScene;
+    }
+    let Some(count) = number(table, key) else { return Verdict::NotOfThisScene };
+    let other = with(table, key, (by * count) as i64);
+    subject.beside(other, |record| volumes_and_error(subject.record, record, of_error))
+}
+
+fn volumes_and_error(first: &RunRecord, other: &RunRecord, of_error: f64) -> Vec<Measured> {
+    let of = |summary: &Summary, gear: Gear| match gear {
+        Gear::Pinion => summary.pinion.worn_volume_mm3,
+        Gear::Wheel => summary.wheel.worn_volume_mm3,
+    };
+    let mut found: Vec<Measured> = Gear::BOTH
+        .into_iter()
+        .map(|gear| {
+            let value = difference(&[of(&first.summary, gear)], &[of(&other.summary, gear)], 1.0);
+            Measured::new(format!("worn volume of the {}", gear.name()), value, OF_VOLUME)
+        })
+        .collect();
+    let [mine, theirs] = [first, other].map(|record| record.summary.new.transmission_error_um);
+    for (name, mine, theirs) in [("least", mine.min, theirs.min), ("greatest", mine.max, theirs.max)] {
+        found.push(Measured::new(
+            format!("{name} new transmission error"),
+            difference(&[mine], &[theirs], 1.0),
+            of_error,
+        ));
+    }
+    found
+}

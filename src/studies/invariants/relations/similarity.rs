@@ -1,0 +1,95 @@
+//! Laws of similarity: sizes, moduli, widths.
+
+use super::SOLVED;
+use crate::gear::PerGear;
+use crate::studies::invariants::comparison::{Bounds, Follows, compare};
+use crate::studies::invariants::relation::{Relation, Subject, Verdict};
+use crate::studies::invariants::scene_table::{gives, scaled};
+use crate::studies::invariants::traits_of_scene::{has_finite_elements, has_heat_or_oil, is_hard_severe, is_sliced};
+
+/// No power of two, so that digits change.
+const SIZE: f64 = 1.7;
+const MODULUS: f64 = 1.9;
+const WIDTH: f64 = 1.3;
+
+pub(super) const RELATIONS: &[Relation] = &[
+    Relation {
+        name: "size",
+        states: "All lengths times s and the torque times s³: the same pressures, s times the wear depth, s³ times the volume.",
+        bound: "solver tolerance",
+        check: size,
+    },
+    Relation {
+        name: "modulus and torque",
+        states: "Young's moduli, torque and limits of pressure times c, wear coefficients over c: c times the pressure, the same deformation and wear.",
+        bound: "solver tolerance",
+        check: modulus,
+    },
+    Relation {
+        name: "face width",
+        states: "Face width and torque of a pair without slices times c: the same in every section, c times the volume.",
+        bound: "solver tolerance",
+        check: width,
+    },
+];
+
+fn size(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    if has_heat_or_oil(table) || is_hard_severe(table) {
+        return Verdict::NotOfThisScene;
+    }
+    let other = scaled(table, &|key| match key {
+        "pinion_torque_Nm" => SIZE.powi(3),
+        "foundation_MPa_per_mm" => 1.0 / SIZE,
+        // N/mm for every µm: as great at any size.
+        "pair_N_per_mm_um" => 1.0,
+        key if key.ends_with("_mm") || key.ends_with("_um") => SIZE,
+        _ => 1.0,
+    });
+    let depth = PerGear { pinion: SIZE, wheel: SIZE };
+    let follows = Follows { depth, error: SIZE, area: SIZE * SIZE, ..Follows::default() };
+    subject.beside(other, |record| compare(subject.record, record, &follows, bounds(table)))
+}
+
+fn modulus(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    // What a preset of materials or a default gives cannot be raised.
+    if has_heat_or_oil(table) || is_hard_severe(table) || !says_its_moduli(table) {
+        return Verdict::NotOfThisScene;
+    }
+    let other = scaled(table, &|key| match key {
+        "young_modulus_GPa"
+        | "pinion_torque_Nm"
+        | "above_MPa"
+        | "band_MPa"
+        | "foundation_MPa_per_mm"
+        | "pair_N_per_mm_um" => MODULUS,
+        "coefficient_m2_per_N" | "coefficient_mm3_per_Nm" => 1.0 / MODULUS,
+        _ => 1.0,
+    });
+    let follows = Follows { pressure: MODULUS, ..Follows::default() };
+    subject.beside(other, |record| compare(subject.record, record, &follows, bounds(table)))
+}
+
+/// Whether the scene says both Young's moduli by number.
+fn says_its_moduli(table: &toml::Table) -> bool {
+    gives(table, "material.young_modulus_GPa")
+        || ["pinion", "wheel"].iter().all(|gear| gives(table, &format!("material.{gear}.young_modulus_GPa")))
+}
+
+fn width(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    if is_sliced(table) || has_heat_or_oil(table) || has_finite_elements(table) {
+        return Verdict::NotOfThisScene;
+    }
+    let other = scaled(table, &|key| match key {
+        "face_width_mm" | "pinion_torque_Nm" => WIDTH,
+        _ => 1.0,
+    });
+    let follows = Follows { area: WIDTH, ..Follows::default() };
+    subject.beside(other, |record| compare(subject.record, record, &follows, bounds(table)))
+}
+
+fn bounds(_table: &toml::Table) -> Bounds {
+    Bounds::all(SOLVED)
+}

@@ -1,0 +1,92 @@
+//! Wear so small that it changes no contact adds up.
+
+use toml::{Table, Value};
+
+use super::ROUNDING;
+use crate::gear::{Gear, PerGear};
+use crate::results::run::RunRecord;
+use crate::studies::invariants::comparison::{Bounds, Follows, Measured, compare, difference};
+use crate::studies::invariants::relation::{Relation, Subject, Verdict};
+use crate::studies::invariants::scene_table::{number, phases, scaled, with};
+use crate::studies::invariants::traits_of_scene::{has_fixed_steps, has_one_coefficient, is_on, is_sliced};
+
+/// Coefficients are divided by so much: wear of at most 2e-3 modules becomes 2e-9 modules, which changes contact by as much of itself.
+const SMALL: f64 = 1e-6;
+/// What is left of the effect of wear on contact: a depth of 2e-9 modules beside an approach of 1e-4 modules and more.
+const FEEDBACK: f64 = 3e-4;
+
+pub(super) const RELATIONS: &[Relation] = &[
+    Relation {
+        name: "phases add up",
+        states: "Wear so small that it changes no contact: that of a load spectrum is the sum of what each phase wears by itself.",
+        bound: "effect of the wear left on the contact, 3e-4",
+        check: phases_add_up,
+    },
+    Relation {
+        name: "coefficient of one gear",
+        states: "Twice the coefficient of the wheel alone, wear being that small: twice its wear, and the pinion's as before.",
+        bound: "effect of the wear left on the contact, 3e-4",
+        check: of_one_gear,
+    },
+];
+
+/// The scene with wear that changes nothing.
+fn hardly_worn(table: &Table) -> Table {
+    scaled(table, &|key| match key {
+        "coefficient_m2_per_N" | "coefficient_mm3_per_Nm" => SMALL,
+        _ => 1.0,
+    })
+}
+
+fn phases_add_up(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    let Some(all) = phases(table).filter(|_| has_fixed_steps(table) && !is_on(table, "fem")) else {
+        return Verdict::NotOfThisScene;
+    };
+    // Slices are as stiff in all phases as in that of the greatest load.
+    if is_sliced(table) && number(table, "temperature.tooth.ambient_temperature_C").is_some() {
+        return Verdict::NotOfThisScene;
+    }
+    let whole = hardly_worn(table);
+    let mut alone: Vec<RunRecord> = Vec::new();
+    for phase in all {
+        let scene = only(&whole, phase);
+        match (subject.run)(&scene) {
+            Ok(record) => alone.push(record),
+            Err(how) => return Verdict::Ended { scene, how },
+        }
+    }
+    subject.beside(whole, |together| {
+        let of = |gear: Gear| {
+            let mut sum = vec![0.0; together.flanks[gear].wear_um.len()];
+            for record in &alone {
+                sum.iter_mut().zip(&record.flanks[gear].wear_um).for_each(|(sum, wear)| *sum += wear);
+            }
+            let value = difference(&sum, &together.flanks[gear].wear_um, 1.0);
+            Measured::new(format!("wear of the {}", gear.name()), value, FEEDBACK)
+        };
+        Gear::BOTH.map(of).into()
+    })
+}
+
+/// The scene with one of its phases alone.
+fn only(table: &Table, phase: &Value) -> Table {
+    let duration = phase.get("pinion_revolutions").and_then(Value::as_float).unwrap_or_default();
+    let scene = with(table, "operation.phases", Value::Array(vec![phase.clone()]));
+    with(&scene, "operation.snapshots_revolutions", Value::Array(vec![Value::Float(duration)]))
+}
+
+fn of_one_gear(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    if !has_fixed_steps(table) || !has_one_coefficient(table) {
+        return Verdict::NotOfThisScene;
+    }
+    let keys = ["coefficient_m2_per_N", "coefficient_mm3_per_Nm"];
+    let given = keys.into_iter().find_map(|key| Some((key, number(table, &format!("wear.{key}"))?)));
+    let Some((key, coefficient)) = given else { return Verdict::NotOfThisScene };
+    let one = hardly_worn(table);
+    let other = with(&one, &format!("wear.wheel.{key}"), 2.0 * SMALL * coefficient);
+    let follows = Follows { depth: PerGear { pinion: 1.0, wheel: 2.0 }, ..Follows::default() };
+    let bounds = Bounds { wear: FEEDBACK, volume: FEEDBACK, pressure: FEEDBACK, cycle: 1e3 * ROUNDING };
+    subject.two(one, other, |one, other| compare(one, other, &follows, bounds))
+}

@@ -1,0 +1,299 @@
+//! The study: scenes drawn, run, judged, one a thread, and put together in the order of their numbers.
+
+use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use toml::Table;
+
+use super::carried_out::{Ended, carried_out};
+use super::comparison::Measured;
+use super::record::{InvariantsRecord, Refusal, StatementRow, Violation};
+use super::relation::{Relation, Subject, Verdict};
+use super::{relations, scene_generator};
+use crate::observer::Observer;
+use crate::results::run::RunRecord;
+use crate::studies::spread::spread;
+use crate::studies::validation::record::Tier;
+use crate::studies::validation::soundness;
+
+/// Of the relations, one in so many is tried on a scene.
+const STRIDE: u64 = 4;
+/// Statement of the scenes themselves.
+const RUNS: &str = "runs or is refused";
+/// Statement of what every record is.
+const SOUND: &str = "sound";
+
+/// The word among cases of the validation suite that stands for random scenes.
+pub(crate) const INVARIANTS: &str = "invariants";
+
+/// Which scenes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Asked {
+    pub seed: u64,
+    /// Number of the first.
+    pub first: u64,
+    pub count: u64,
+}
+
+impl Asked {
+    /// As many as belong to a tier of the validation suite, of the first seed.
+    pub(crate) fn of_tier(tier: Option<Tier>) -> Self {
+        Self { seed: 1, first: 0, count: if tier == Some(Tier::Smoke) { 100 } else { 1000 } }
+    }
+}
+
+/// What came of one scene.
+struct OfScene {
+    index: u64,
+    ended: Option<Ended>,
+    runs: u64,
+    found: Vec<Finding>,
+}
+
+/// A statement held against a scene.
+struct Finding {
+    statement: String,
+    kind: &'static str,
+    states: String,
+    reason: String,
+    /// The worst of its figures; none where the other scene gave none.
+    worst: Option<Measured>,
+    /// What is wrong beside figures.
+    defect: Option<String>,
+    text: String,
+    other: Option<String>,
+}
+
+/// Carries the study out on so many threads; the record is the same for any number of them, but for times.
+pub(crate) fn run(asked: Asked, threads: usize, observer: &dyn Observer) -> InvariantsRecord {
+    let start = Instant::now();
+    let relations = relations::all();
+    let tasks: Vec<u64> = (asked.first..asked.first + asked.count).collect();
+    let mut scenes: BTreeMap<u64, OfScene> = BTreeMap::new();
+    spread(
+        &tasks,
+        threads.max(1),
+        observer,
+        |&index, within| of_scene(asked.seed, index, &relations, within),
+        |scene| {
+            scenes.insert(scene.index, scene);
+            observer.counted(scenes.len(), tasks.len(), "scenes", "");
+            true
+        },
+    );
+    let mut record = InvariantsRecord {
+        program_version: env!("CARGO_PKG_VERSION").to_owned(),
+        seed: asked.seed,
+        first: asked.first,
+        count: asked.count,
+        drawn: scenes.len() as u64,
+        ran: 0,
+        refused: 0,
+        worn_through: 0,
+        runs: 0,
+        violations: Vec::new(),
+        statements: Vec::new(),
+        refusals: Vec::new(),
+        threads,
+        wall_s: 0.0,
+    };
+    let mut rows = Rows::of(&relations);
+    scenes.into_values().for_each(|scene| take(scene, &mut record, &mut rows));
+    record.statements = rows.0;
+    record.wall_s = start.elapsed().as_secs_f64();
+    record
+}
+
+/// One scene with all that is held against it; none where it was interrupted.
+fn of_scene(seed: u64, index: u64, relations: &[Relation], observer: &dyn Observer) -> Option<OfScene> {
+    let table = scene_generator::scene(seed, index);
+    let runs = Cell::new(1);
+    let mut scene = OfScene { index, ended: None, runs: 1, found: Vec::new() };
+    match carried_out(&table, observer) {
+        Err(Ended::Interrupted) => return None,
+        Err(ended) => {
+            scene.found.push(Finding::of_run(RUNS, &table, None, ended.defect()));
+            scene.ended = Some(ended);
+        }
+        Ok(record) => {
+            scene.found.push(Finding::of_run(RUNS, &table, None, None));
+            scene.found.extend(own_invariants(&table, &record));
+            let count = |table: &Table| {
+                runs.set(runs.get() + 1);
+                carried_out(table, observer)
+            };
+            let subject = Subject { table: &table, record: &record, run: &count };
+            let tried = relations.iter().enumerate().filter(|(k, _)| (index + *k as u64).is_multiple_of(STRIDE));
+            for (_, relation) in tried {
+                match (relation.check)(&subject) {
+                    Verdict::NotOfThisScene => {}
+                    Verdict::Ended { how: Ended::Interrupted, .. } => return None,
+                    verdict => scene.found.extend(Finding::of_relation(relation, &table, verdict)),
+                }
+            }
+        }
+    }
+    scene.runs = runs.get();
+    Some(scene)
+}
+
+/// The statements that hold for every run by itself.
+fn own_invariants(table: &Table, record: &RunRecord) -> Vec<Finding> {
+    let mut found = vec![Finding::of_run(SOUND, table, None, soundness::fault(record))];
+    for invariant in &record.summary.invariants {
+        let (Some(value), Some(bound)) = (invariant.value, invariant.bound) else { continue };
+        let place = invariant.place.clone().unwrap_or_default();
+        found.push(Finding {
+            states: invariant.how.clone(),
+            ..Finding::of_run(&invariant.name, table, Some(Measured::new(place, value, bound)), None)
+        });
+    }
+    found
+}
+
+impl Finding {
+    fn of_run(statement: &str, table: &Table, worst: Option<Measured>, defect: Option<String>) -> Self {
+        let is_wrong = defect.is_some() || worst.as_ref().is_some_and(is_violated);
+        Self {
+            statement: statement.to_owned(),
+            kind: "run",
+            states: String::new(),
+            reason: String::new(),
+            worst,
+            defect,
+            text: if is_wrong { table.to_string() } else { String::new() },
+            other: None,
+        }
+    }
+
+    fn of_relation(relation: &Relation, table: &Table, verdict: Verdict) -> Option<Self> {
+        let (other, worst, defect) = match verdict {
+            Verdict::NotOfThisScene => return None,
+            Verdict::Ended { scene, how } => (scene, None, how.defect()),
+            Verdict::Measured { scene, figures } => {
+                (scene, figures.into_iter().max_by(|a, b| a.used().total_cmp(&b.used())), None)
+            }
+        };
+        let own = Self::of_run(relation.name, table, worst, defect);
+        let other = (!own.text.is_empty()).then(|| other.to_string());
+        Some(Self {
+            kind: "relation",
+            states: relation.states.to_owned(),
+            reason: relation.bound.to_owned(),
+            other,
+            ..own
+        })
+    }
+}
+
+fn is_violated(measured: &Measured) -> bool {
+    !(measured.value <= measured.bound)
+}
+
+/// The rows of all statements, in the order in which they were first found.
+struct Rows(Vec<StatementRow>);
+
+impl Rows {
+    /// With a row for each relation, whether any scene comes to it or not.
+    fn of(relations: &[Relation]) -> Self {
+        let mut rows = Self(Vec::new());
+        for relation in relations {
+            rows.row(relation.name, "relation", relation.states, relation.bound);
+        }
+        rows
+    }
+
+    fn row(&mut self, statement: &str, kind: &str, states: &str, reason: &str) -> &mut StatementRow {
+        let index = self.0.iter().position(|row| row.statement == statement).unwrap_or(self.0.len());
+        if index == self.0.len() {
+            self.0.push(StatementRow {
+                statement: statement.to_owned(),
+                kind: kind.to_owned(),
+                scenes: 0,
+                violated: 0,
+                not_compared: 0,
+                worst_used: 0.0,
+                worst_value: 0.0,
+                worst_bound: 0.0,
+                worst_figure: String::new(),
+                worst_scene: None,
+                states: states.to_owned(),
+                reason: reason.to_owned(),
+            });
+        }
+        &mut self.0[index]
+    }
+}
+
+/// Adds a scene to the record.
+fn take(scene: OfScene, record: &mut InvariantsRecord, rows: &mut Rows) {
+    record.runs += scene.runs;
+    match &scene.ended {
+        None => record.ran += 1,
+        Some(Ended::Refused(message)) => {
+            record.refused += 1;
+            let kind = without_numbers(message);
+            match record.refusals.iter_mut().find(|known| without_numbers(&known.message) == kind) {
+                Some(known) => known.count += 1,
+                None => record.refusals.push(Refusal { message: message.clone(), count: 1, first_scene: scene.index }),
+            }
+        }
+        Some(Ended::WornThrough) => record.worn_through += 1,
+        Some(Ended::NotConverged(_) | Ended::Panicked(_) | Ended::Interrupted) => {}
+    }
+    for finding in scene.found {
+        let row = rows.row(&finding.statement, finding.kind, &finding.states, &finding.reason);
+        if finding.kind == "relation" && finding.worst.is_none() && finding.defect.is_none() {
+            row.not_compared += 1;
+            continue;
+        }
+        row.scenes += 1;
+        let violated = finding.defect.is_some() || finding.worst.as_ref().is_some_and(is_violated);
+        row.violated += u64::from(violated);
+        if let Some(worst) =
+            finding.worst.as_ref().filter(|worst| row.worst_scene.is_none() || worst.used() > row.worst_used)
+        {
+            (row.worst_used, row.worst_value, row.worst_bound) = (worst.used(), worst.value, worst.bound);
+            (row.worst_figure, row.worst_scene) = (worst.figure.clone(), Some(scene.index));
+        }
+        if violated {
+            let worst = finding.worst.as_ref();
+            record.violations.push(Violation {
+                scene: scene.index,
+                statement: finding.statement,
+                figure: finding.defect.or_else(|| worst.map(|worst| worst.figure.clone())).unwrap_or_default(),
+                value: worst.map(|worst| worst.value),
+                bound: worst.map(|worst| worst.bound),
+                text: finding.text,
+                other: finding.other,
+            });
+        }
+    }
+}
+
+/// The message with its numbers taken out: its kind.
+fn without_numbers(message: &str) -> String {
+    message.chars().filter(|c| !c.is_ascii_digit() && !matches!(c, '.' | '-' | '+')).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::observer::Unwatched;
+
+    /// The same scenes on one and two threads, and the record of the whole is that of its parts.
+    #[test]
+    fn threads_and_parts_change_nothing() {
+        let asked = Asked { seed: 5, first: 0, count: 6 };
+        let of = |first, count, threads| run(Asked { first, count, ..asked }, threads, &Unwatched);
+        let (one, two) = (of(0, 6, 1), of(0, 6, 2));
+        assert_eq!(
+            (&one.statements, one.ran, one.refused, one.runs),
+            (&two.statements, two.ran, two.refused, two.runs)
+        );
+        let (early, late) = (of(0, 3, 1), of(3, 3, 1));
+        assert_eq!((one.ran, one.runs), (early.ran + late.ran, early.runs + late.runs));
+        assert!(one.ran > 0);
+    }
+}
