@@ -338,7 +338,8 @@ fn carry_out<R>(
         true => Some(stages.run(StageKind::TeethInSpace.name(), || {
             let material = scene.material.map(Material::elastic);
             let slices = scene.slices.map_or(1, |slices| slices.count);
-            loaded.teeth_in_space.condensed(&pair, material, scene.fem.in_space(), slices)
+            let load = pair.line_load_n_per_mm(scene.operation.pinion_torque_n_mm);
+            loaded.teeth_in_space.condensed(&pair, material, scene.fem.in_space(), slices, load)
         })),
         false => None,
     };

@@ -37,7 +37,7 @@ const CLEAR_OF_CORNERS: f64 = 2.0;
 /// Places of the curve from there to where the edge touches.
 const PLACES_TO_EDGE: usize = 5;
 /// Places of the curve from there on.
-const PLACES_BEYOND_EDGE: usize = 16;
+const PLACES_BEYOND_EDGE: usize = 40;
 /// A little more than the half-width is kept clear, so that round-off puts nothing over an edge.
 const CLEAR: f64 = 1.0 + 1e-6;
 

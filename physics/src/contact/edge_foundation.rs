@@ -90,7 +90,8 @@ impl EdgeFoundations {
         criterion: MatchCriterion,
         approach: &FoundationCurve,
     ) -> Self {
-        let [before, after] = pair.farthest_touch_mm();
+        let contact_modulus_mpa = hertz::contact_modulus_mpa(material);
+        let [before, after] = pair.ample_tip_reach_mm(line_load_n_per_mm, contact_modulus_mpa);
         let ends = [(Gear::Wheel, pair.path.start_mm - before), (Gear::Pinion, pair.path.end_mm + after)];
         let ends = ends.map(|(tip_of, last_mm)| {
             let edge_mm = pair.path.rho_mm(tip_of, pair.rounding_start_rho_mm(tip_of));

@@ -31,12 +31,17 @@
 
 use nalgebra::Vector2;
 
+use super::conjugate::ConjugateFlanks;
 use super::{Gear, GearPair, PerGear, removed_material::tip_rounding_length_mm, tooth::LoadLine};
 
-/// Greatest part of a base pitch before A and after E at which flanks are looked at.
-const MOST_BASE_PITCHES: f64 = 0.3;
-/// Least distance from T1 and T2, as part of the curvature at A and E.
+/// An approach that no pair's flanks exceed, in units of line load over E*: steel on type C approaches by 7.4 of these at the pitch point, plastic
+/// on a rigid pinion by 4.8.
+const AMPLE_APPROACH: f64 = 15.0;
+/// Least radius of curvature that a flank is taken to have, as part of that at its start of active profile: the theoretical contact point of a
+/// tip edge may lie beyond T1 or T2, where the mate has no involute, while the edge touches it farther up.
 const LEAST_CURVATURE: f64 = 0.05;
+/// Steps in which the path is walked, per base pitch.
+const STEPS_IN_PITCH: f64 = 1000.0;
 
 /// How the flanks touch at some position.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,11 +83,55 @@ impl GearPair {
         (2.0 * tooth.involute.base_radius_mm * arc_mm).sqrt()
     }
 
-    /// How far before A and after E flanks are looked at, mm of path: the tangents end with the base circles.
+    /// How far before A and after E the tip edge of the wheel, and that of the pinion, is within its mate's tip circle, mm of path: farther out
+    /// nothing can touch.
+    ///
+    /// With r_a, r_a' the tip radii of the gear and its mate, a the centre distance and α_a = acos(r_b/r_a), the edge turns from where both tip
+    /// circles meet to A or E by
+    ///
+    /// ```text
+    /// acos((a² + r_a² − r_a'²)/(2 a r_a)) − (α_a − α_wt)
+    /// ```
     pub fn farthest_touch_mm(&self) -> [f64; 2] {
+        let centre_mm = self.spec.centre_distance_mm;
+        [Gear::Wheel, Gear::Pinion].map(|gear| {
+            let tooth = &self.teeth[gear];
+            let (own, mate) = (tooth.tip_radius_mm, self.teeth[gear.mate()].tip_radius_mm);
+            let cos = (centre_mm * centre_mm + own * own - mate * mate) / (2.0 * centre_mm * own);
+            let at_end_rad = tooth.involute.pressure_angle_rad(tooth.tip_rho_mm()) - self.working_pressure_angle_rad;
+            (tooth.involute.base_radius_mm * (cos.clamp(-1.0, 1.0).acos() - at_end_rad)).max(0.0)
+        })
+    }
+
+    /// ρ of a gear's flank at the theoretical contact point, kept from going to nothing before A and after E.
+    pub(super) fn rho_on_flank_mm(&self, gear: Gear, position_mm: f64) -> f64 {
+        self.path.rho_mm(gear, position_mm).max(LEAST_CURVATURE * self.active_start_rho_mm(gear))
+    }
+
+    /// How far before A and after E the tip edges of unworn, unmodified flanks are nearer to the mate than `approach_mm`, mm of
+    /// path.
+    pub fn tip_reach_mm(&self, approach_mm: f64) -> [f64; 2] {
         let path = &self.path;
-        let rooms = [path.start_mm, path.rho_mm(Gear::Wheel, path.end_mm)];
-        rooms.map(|room| (MOST_BASE_PITCHES * path.base_pitch_mm).min((1.0 - LEAST_CURVATURE) * room))
+        let [before, after] = self.farthest_touch_mm();
+        let ends = [(Gear::Wheel, path.start_mm, -1.0, before), (Gear::Pinion, path.end_mm, 1.0, after)];
+        ends.map(|(tip_of, end_mm, outwards, most)| {
+            let step = path.base_pitch_mm / STEPS_IN_PITCH;
+            let steps = (most / step) as usize;
+            let touches = |k: &usize| self.tip_gap_mm(tip_of, end_mm + outwards * *k as f64 * step) <= approach_mm;
+            (1..=steps).take_while(touches).last().unwrap_or(0) as f64 * step
+        })
+    }
+
+    /// [`Self::tip_reach_mm`] of an approach that `line_load_n_per_mm` does not exceed on bodies with the contact modulus E*.
+    pub fn ample_tip_reach_mm(&self, line_load_n_per_mm: f64, contact_modulus_mpa: f64) -> [f64; 2] {
+        self.tip_reach_mm(AMPLE_APPROACH * line_load_n_per_mm / contact_modulus_mpa)
+    }
+
+    /// Gap between the tip edge of a gear and its mate's flank, along the line of action, with the theoretical contact point at
+    /// `position_mm`.
+    pub fn tip_gap_mm(&self, tip_of: Gear, position_mm: f64) -> f64 {
+        let edge = self.in_tangent_frame(tip_of, self.teeth[tip_of].tip_rho_mm(), position_mm);
+        edge.drop_mm + self.at_along(tip_of.mate(), -edge.along_mm, position_mm).1
     }
 
     fn touch_at_edge(&self, gear: Gear, position_mm: f64) -> Touch {

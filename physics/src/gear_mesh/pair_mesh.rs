@@ -20,9 +20,6 @@ use crate::gear_mesh::settings::{
 };
 use crate::mesh::{CellBlock, CellKind, Mesh};
 
-/// Contact ratio by which load makes teeth touch beyond the theoretical path, at most.
-const EARLY_CONTACT: f64 = 0.15;
-
 /// Half-widths of flank above the start of active profile that the mate's tip edge touches, early contact included.
 const TIP_MEETS_HALF_WIDTHS: f64 = 3.0;
 
@@ -91,9 +88,11 @@ pub fn gear_sector(
 }
 
 /// Numbers of the tooth pairs that may touch while the reference pair runs from A to E: 0 that pair itself, +1 the one a
-/// base pitch ahead, −1 the one behind …
-pub fn touching_pairs(pair: &GearPair) -> Vec<i32> {
-    let beside = (pair.path.contact_ratio() + EARLY_CONTACT).floor().max(1.0) as i32;
+/// base pitch ahead, −1 the one behind …; under a load that closes gaps of tip edges up to `reach_mm` before A and after E
+/// ([`GearPair::ample_tip_reach_mm`]).
+pub fn touching_pairs(pair: &GearPair, reach_mm: [f64; 2]) -> Vec<i32> {
+    let early = reach_mm[0].max(reach_mm[1]) / pair.path.base_pitch_mm;
+    let beside = (pair.path.contact_ratio() + early).floor().max(1.0) as i32;
     (-beside..=beside).collect()
 }
 

@@ -19,7 +19,6 @@ use super::collected::Collected;
 use super::condensed_contact::{ContactPlace, HeatedContactRows, parts_of_rows};
 use super::flank_pressure::PressureFigures;
 use super::load_sharing::EquilibriumError;
-use super::tip_contact;
 use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, PositionObservation, Work};
 use crate::contact::Footprint;
 use crate::fem::active_set::Equilibrium;
@@ -172,7 +171,7 @@ fn stretches(model: &CondensedPair<'_>, positions: usize, line_load_n_per_mm: f6
     let approach = model
         .at(path.pitch_point_mm, line_load_n_per_mm, &Default::default())
         .map_or(0.0, |contact| contact.transmission_error_mm);
-    let [before, after] = tip_contact::reach_mm(pair, AMPLE_APPROACH * approach);
+    let [before, after] = pair.tip_reach_mm(AMPLE_APPROACH * approach);
     // Both zones, moved by base pitches to where they begin in the first one from A on, and cut at its end.
     let zones = [(start - before, start + within), (path.end_mm - within, path.end_mm + after)];
     let mut at_edges: Vec<(f64, f64)> = zones

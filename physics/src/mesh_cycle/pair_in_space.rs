@@ -21,7 +21,7 @@ use nalgebra::DMatrix;
 
 use super::influence::Influence;
 use super::sliced_positions::SliceContact;
-use crate::fem::elastic::Elastic;
+use crate::fem::elastic::{self, Elastic};
 use crate::fem::gear::in_space::{DeformedTooth, FlankForces, PlaneSection, SpaceError, TeethInSpace};
 use crate::fem::quadrature::GAUSS_3;
 use crate::fem::shape::along_edge;
@@ -65,6 +65,8 @@ pub struct PairInSpace {
     gears: PerGear<GearInSpace>,
     /// Elements over the face width, before those at its end faces are divided.
     even_layers: usize,
+    /// How far before A and after E there are teeth for every contact.
+    reach_mm: [f64; 2],
 }
 
 /// The pair that was condensed last, shared by the scenes that were made of one another: most of them have the same teeth.
@@ -73,7 +75,7 @@ pub struct KeptInSpace(Arc<Mutex<Option<Kept>>>);
 
 /// Both gears, and what they are made of.
 struct Kept {
-    of: (PairSpec, PerGear<Elastic>, PerGear<SpaceBody>, usize),
+    of: (PairSpec, PerGear<Elastic>, PerGear<SpaceBody>, [usize; 2]),
     teeth: Arc<PairInSpace>,
 }
 
@@ -91,37 +93,41 @@ impl fmt::Debug for KeptInSpace {
 }
 
 impl KeptInSpace {
-    /// The teeth of `pair`, meshed for so many slices, condensed unless they are kept.
+    /// The teeth of `pair` under a line load, meshed for so many slices, condensed unless they are kept.
     pub fn condensed(
         &self,
         pair: &GearPair,
         material: PerGear<Elastic>,
         bodies: PerGear<SpaceBody>,
         slices: usize,
+        line_load_n_per_mm: f64,
     ) -> Result<Arc<PairInSpace>, PairInSpaceError> {
         // Another thread may have failed at its pair: that says nothing of this one.
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let resolution = SpaceResolution::of_slices(slices);
         let layers = resolution.even_layers(&pair.spec);
-        let of = (pair.spec.on_rigid_parallel_shafts(), material, bodies, layers);
+        let reach_mm = pair.ample_tip_reach_mm(line_load_n_per_mm, elastic::contact_modulus_mpa(&material));
+        let together = [layers, teeth_together(pair, reach_mm)];
+        let of = (pair.spec.on_rigid_parallel_shafts(), material, bodies, together);
         if let Some(Kept { teeth, .. }) = kept.as_ref().filter(|kept| kept.of == of) {
             return Ok(Arc::clone(teeth));
         }
-        let teeth = Arc::new(PairInSpace::new(pair, &material, &bodies, &resolution)?);
+        let teeth = Arc::new(PairInSpace::new(pair, &material, &bodies, &resolution, reach_mm)?);
         *kept = Some(Kept { of, teeth: Arc::clone(&teeth) });
         Ok(teeth)
     }
 }
 
 impl PairInSpace {
-    /// Condenses both gears with their bodies.
+    /// Condenses both gears with their bodies, for contact up to `reach_mm` before A and after E.
     pub fn new(
         pair: &GearPair,
         material: &PerGear<Elastic>,
         bodies: &PerGear<SpaceBody>,
         resolution: &SpaceResolution,
+        reach_mm: [f64; 2],
     ) -> Result<Self, PairInSpaceError> {
-        let needed = teeth_together(pair);
+        let needed = teeth_together(pair, reach_mm);
         for gear in Gear::BOTH {
             let teeth = pair.teeth[gear].teeth;
             if needed > teeth as usize {
@@ -137,7 +143,12 @@ impl PairInSpace {
             };
             build().map_err(|source| PairInSpaceError::Gear { gear, source: Box::new(source) })
         })?;
-        Ok(Self { gears, even_layers: resolution.even_layers(&pair.spec) })
+        Ok(Self { gears, even_layers: resolution.even_layers(&pair.spec), reach_mm })
+    }
+
+    /// How far before A and after E contact may be looked for, mm of path.
+    pub fn reach_mm(&self) -> [f64; 2] {
+        self.reach_mm
     }
 
     /// The fewest slices, no fewer than `least`, that the elements over the face width end with.
@@ -296,10 +307,10 @@ fn projection(count: usize, layer_ends_mm: &[f64]) -> Vec<f64> {
     (0..count * count).map(|k| product[(k / count, k % count)]).collect()
 }
 
-/// Most teeth of a gear that touch at any phase, tip edges included.
-fn teeth_together(pair: &GearPair) -> usize {
+/// Most teeth of a gear that touch at any phase, tip edges included, which do so up to `reach_mm` before A and after E.
+fn teeth_together(pair: &GearPair, reach_mm: [f64; 2]) -> usize {
     let path = &pair.path;
     let over_width_mm = pair.spec.face_width_mm * pair.base_helix_angle_rad().tan().abs();
-    let length_mm = path.end_mm - path.start_mm + pair.farthest_touch_mm().iter().sum::<f64>() + over_width_mm;
+    let length_mm = path.end_mm - path.start_mm + reach_mm.iter().sum::<f64>() + over_width_mm;
     (length_mm / path.base_pitch_mm) as usize + 1
 }

@@ -1,4 +1,4 @@
-//! How far before A and after E a tooth pair may touch.
+//! Contact of a tooth pair at a tip edge, before A and after E ([`GearPair::tip_reach_mm`] says how far).
 //!
 //! Under load the pairs in mesh yield, the gears approach each other by the transmission error δ, and the next pair touches
 //! before its theoretical contact point has reached A: at its mate's tip edge, beside the line of action. After E the same
@@ -28,32 +28,7 @@
 //! and top contact", *Proc. Inst. Mech. Eng. C* 213 (1999) 389–400, for the phenomenon.
 
 use crate::contact::{Footprint, PairContact, PointContact, PressedCell, Response, Sweep};
-use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks};
-
-/// Steps in which the path is walked, per base pitch.
-const STEPS_IN_PITCH: f64 = 1000.0;
-
-/// How far before A and after E the tip edges of unworn, unmodified flanks are nearer to the mate than `approach_mm`, mm of
-/// path.
-pub fn reach_mm(pair: &GearPair, approach_mm: f64) -> [f64; 2] {
-    let path = &pair.path;
-    let [before, after] = pair.farthest_touch_mm();
-    let ends = [(Gear::Wheel, path.start_mm, -1.0, before), (Gear::Pinion, path.end_mm, 1.0, after)];
-    ends.map(|(tip_of, end_mm, outwards, most)| {
-        let step = path.base_pitch_mm / STEPS_IN_PITCH;
-        let steps = (most / step) as usize;
-        let touches = |k: &usize| tip_gap_mm(pair, tip_of, end_mm + outwards * *k as f64 * step) <= approach_mm;
-        (1..=steps).take_while(touches).last().unwrap_or(0) as f64 * step
-    })
-}
-
-/// Gap between the tip edge of a gear and its mate's flank, along the line of action, with the theoretical contact point at
-/// `position_mm`.
-fn tip_gap_mm(pair: &GearPair, tip_of: Gear, position_mm: f64) -> f64 {
-    let (_, tip_rho) = pair.flank_limits_mm(tip_of);
-    let edge = pair.in_tangent_frame(tip_of, tip_rho, position_mm);
-    edge.drop_mm + pair.at_along(tip_of.mate(), -edge.along_mm, position_mm).1
-}
+use crate::gear::{Gear, GearPair, PerGear};
 
 /// l/(r_b1 cos ε): approach in the tangent frame over transmission error with the theoretical contact point at `position_mm`.
 pub(crate) fn approach_ratio(pair: &GearPair, position_mm: f64) -> f64 {

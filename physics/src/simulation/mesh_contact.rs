@@ -71,6 +71,25 @@ fn slice_spring(teeth: &TeethSpring<'_>, sliced: &SlicedTeeth, position_mm: f64)
     }
 }
 
+/// How far before A and after E tip edges are followed on the line of action, mm of path.
+fn tip_range_mm(
+    pair: &GearPair,
+    surface: &dyn ContactSurface,
+    teeth: &TeethSpring<'_>,
+    sliced: Option<&SlicedTeeth>,
+    line_load_n_per_mm: f64,
+) -> Result<[f64; 2], StiffnessError> {
+    let pitch_point = pair.path.pitch_point_mm;
+    let section = pair.normal_section();
+    let along_normal = surface.plain_approach_mm(&section, pitch_point, line_load_n_per_mm);
+    let surfaces = section.obliquity.transverse_mm(along_normal);
+    let yielding = bodies_mm2_per_n(teeth, sliced) + 1.0 / teeth.own_n_per_mm2(pitch_point)?;
+    let reach_mm = pair.tip_reach_mm(AMPLE_APPROACH * (surfaces + yielding * line_load_n_per_mm));
+    // Teeth in space are there for contacts so far out and no farther.
+    let in_space = sliced.and_then(SlicedTeeth::in_space);
+    Ok(in_space.map_or(reach_mm, |teeth| [0, 1].map(|end| reach_mm[end].min(teeth.reach_mm()[end]))))
+}
+
 /// A pair under a load, at some resolution.
 pub(super) struct LoadedMesh<'a> {
     pub pair: &'a GearPair,
@@ -94,6 +113,17 @@ impl MeshContact<'_> {
         };
         let of_evaluation = effort.of_equilibrium * (positions * slices) as f64;
         (EFFORT_BETWEEN_CLEAN_STARTS / of_evaluation).max(effort.of_clean_start / SHARE_OF_CLEAN_STARTS) as u64
+    }
+
+    /// How far before A and after E contact of `pair` is looked for, mm of path: nowhere where tip edges are not followed.
+    pub fn range_mm(&self, pair: &GearPair, line_load_n_per_mm: f64) -> Result<[f64; 2], StiffnessError> {
+        match self {
+            MeshContact::LineOfAction { surface, teeth, tip_contact: true, sliced } => {
+                tip_range_mm(pair, *surface, teeth, *sliced, line_load_n_per_mm)
+            }
+            MeshContact::LineOfAction { .. } | MeshContact::Simplified { .. } => Ok([0.0; 2]),
+            MeshContact::FiniteElements(model) => Ok(model.range_mm()),
+        }
     }
 
     /// The slices of `pair` over the face width: one where all sections are alike.
@@ -178,15 +208,9 @@ impl<'a> LoadedMesh<'a> {
             self.pair.spec.gears.as_ref().map(|gear| tip_contact && gear.modification.tip_rounding_mm == 0.0);
         let flanks = Flanks { sharp_edges, ..flanks };
         let lever_ratio = |at| tip_contact::approach_ratio(self.pair, at);
-        let beyond = if tip_contact {
-            let pitch_point = path.pitch_point_mm;
-            let section = self.pair.normal_section();
-            let along_normal = surface.plain_approach_mm(&section, pitch_point, line_load);
-            let surfaces = section.obliquity.transverse_mm(along_normal);
-            let approach = bodies + surfaces + line_load / spring(pitch_point)?;
-            Some(tip_contact::reach_mm(self.pair, AMPLE_APPROACH * approach))
-        } else {
-            None
+        let beyond = match tip_contact {
+            true => Some(tip_range_mm(self.pair, surface, teeth, sliced, line_load)?),
+            false => None,
         };
         if let Some(sliced) = sliced {
             let spring = |at| slice_spring(teeth, sliced, at);

@@ -19,8 +19,6 @@ use crate::gear::{Gear, PerGear};
 
 /// Rows at an inner end of the window that must stay without load.
 const FREE_ROWS: usize = 3;
-/// Parts of a base pitch before A and after E in which contact outside the line of action is looked for.
-pub(super) const OUTSIDE_BASE_PITCHES: f64 = 0.3;
 
 /// Which way a displacement of the flanks is looked at.
 #[derive(Debug, Clone, Copy)]
@@ -83,8 +81,8 @@ impl CondensedPair<'_> {
     fn facing(&self, position_mm: f64, pair: i32, window: &Window) -> Option<FacingTeeth> {
         let path = &self.pair.path;
         let own_mm = position_mm + f64::from(pair) * path.base_pitch_mm;
-        let outside_mm = OUTSIDE_BASE_PITCHES * path.base_pitch_mm;
-        if own_mm < path.start_mm - outside_mm || own_mm > path.end_mm + outside_mm {
+        let [before_mm, after_mm] = self.pair.farthest_touch_mm();
+        if own_mm < path.start_mm - before_mm || own_mm > path.end_mm + after_mm {
             return None;
         }
         let addendum = if own_mm <= path.pitch_point_mm { Gear::Wheel } else { Gear::Pinion };
