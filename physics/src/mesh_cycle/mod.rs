@@ -10,6 +10,7 @@ mod collected;
 pub mod condensed;
 mod condensed_contact;
 pub mod coupled_teeth;
+mod half_layers;
 pub(crate) mod influence;
 pub mod load_sharing;
 pub mod pair_in_space;
