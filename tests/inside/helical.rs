@@ -483,7 +483,11 @@ proptest! {
 /// Whole ratios leave nothing that changes; spur gears change by a whole line.
 #[test]
 fn ver_lines_of_contact_of_whole_ratios_have_the_mean_always() {
-    for (found, expected) in [(least_and_greatest_over_width(1.6, 2.0), 1.6), (least_and_greatest_over_width(2.0, 0.7), 2.0), (least_and_greatest_over_width(1.3, 1.0), 1.3)] {
+    for (found, expected) in [
+        (least_and_greatest_over_width(1.6, 2.0), 1.6),
+        (least_and_greatest_over_width(2.0, 0.7), 2.0),
+        (least_and_greatest_over_width(1.3, 1.0), 1.3),
+    ] {
         found.iter().for_each(|length| assert!((length - expected).abs() < 1e-9, "{found:?}"));
     }
     assert_eq!(least_and_greatest_over_width(1.6, 0.0), [1.0, 2.0]);

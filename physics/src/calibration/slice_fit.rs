@@ -137,8 +137,7 @@ pub fn fit(
     for phase in sliced_positions(&pair.path, &slices, POSITIONS, SliceEnds::AtOnce) {
         let contacts = &phase.contacts;
         let at = |contact: &SliceContact| contact.cell.position_mm;
-        let influence =
-            in_space.influence(pair, &slices, contacts, |contact| whole.mm2_per_n(at(contact))).mm2_per_n;
+        let influence = in_space.influence(pair, &slices, contacts, |contact| whole.mm2_per_n(at(contact))).mm2_per_n;
         let mut first = 0;
         let lines: Vec<LineOfContact> = contacts
             .chunk_by(|a, b| a.tooth == b.tooth)

@@ -44,7 +44,8 @@ impl GearPair {
         let along_line = |mm: f64| self.obliquity().along_line(mm);
         let width_mm = self.spec.face_width_mm;
         let (contact_ratio, overlap_ratio) = (self.path.contact_ratio(), self.overlap_ratio());
-        let lengths = least_and_greatest_over_width(contact_ratio, overlap_ratio).map(|part| along_line(width_mm * part));
+        let lengths =
+            least_and_greatest_over_width(contact_ratio, overlap_ratio).map(|part| along_line(width_mm * part));
         let [least_mm, greatest_mm] = lengths;
         LinesOfContact { least_mm, mean_mm: along_line(contact_ratio * width_mm), greatest_mm }
     }

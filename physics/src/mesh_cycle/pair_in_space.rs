@@ -213,7 +213,8 @@ impl PairInSpace {
         let parts: Vec<&[(usize, f64)]> = lines.iter().flat_map(|line| &line.parts).map(Vec::as_slice).collect();
         let (count, width_mm) = (contacts.len(), slices.slice_width_mm);
         let between = |mm_per_n: &DMatrix<f64>, a: usize, b: usize| -> f64 {
-            let of_piece = |piece: usize| parts[b].iter().map(|(other, part)| part * mm_per_n[(piece, *other)]).sum::<f64>();
+            let of_piece =
+                |piece: usize| parts[b].iter().map(|(other, part)| part * mm_per_n[(piece, *other)]).sum::<f64>();
             width_mm * parts[a].iter().map(|(piece, part)| part * of_piece(*piece)).sum::<f64>()
         };
         let of_teeth = (0..count).map(|a| between(&mm_per_n, a, a)).collect();
@@ -242,7 +243,8 @@ impl PairInSpace {
     fn piece(&self, pair: &GearPair, slices: &Slices, of_tooth: &[SliceContact], half: usize) -> LinePiece {
         let middle_mm = self.halves.middle_mm(half);
         let from_middle = |contact: &&SliceContact| (slices.width_mm[contact.slice] - middle_mm).abs();
-        let nearest = of_tooth.iter().min_by(|a, b| from_middle(a).total_cmp(&from_middle(b))).expect("a tooth in contact");
+        let nearest =
+            of_tooth.iter().min_by(|a, b| from_middle(a).total_cmp(&from_middle(b))).expect("a tooth in contact");
         let tan_base_helix = pair.base_helix_angle_rad().tan();
         let at_mm = |z_mm: f64| nearest.cell.position_mm - (z_mm - slices.width_mm[nearest.slice]) * tan_base_helix;
         let points = self.halves.points(half).map(|(z_mm, weight)| {
@@ -290,9 +292,8 @@ impl PairInSpace {
         section_mm2_per_n: impl Fn(&SliceContact) -> f64,
         mm_per_n: &mut DMatrix<f64>,
     ) {
-        let wrong = |piece: &LinePiece| {
-            section_mm2_per_n(&piece.contact) - obliquity.transverse_mm(piece.section_mm2_per_n)
-        };
+        let wrong =
+            |piece: &LinePiece| section_mm2_per_n(&piece.contact) - obliquity.transverse_mm(piece.section_mm2_per_n);
         let own: Vec<f64> = line.pieces.iter().map(wrong).collect();
         // Where the line has no piece, that of the nearest.
         let of_half = |half: usize| own[half.clamp(line.halves.start, line.halves.end - 1) - line.halves.start];
@@ -341,9 +342,9 @@ fn points_of_slice(slice: usize, count: usize, layer_ends_mm: &[f64]) -> impl It
     let pieces = layer_ends_mm.windows(2).map(move |ends| (first.max(ends[0]), last.min(ends[1])));
     // What is left of rounding makes no piece.
     pieces.filter(move |(from, to)| to - from > 1e-9 * width_mm).flat_map(move |(from, to)| {
-        GAUSS_3.into_iter().map(move |(s, weight)| {
-            (0.5 * ((from + to) + (to - from) * s), 0.5 * weight * (to - from) / width_mm)
-        })
+        GAUSS_3
+            .into_iter()
+            .map(move |(s, weight)| (0.5 * ((from + to) + (to - from) * s), 0.5 * weight * (to - from) / width_mm))
     })
 }
 

@@ -56,9 +56,7 @@ impl SlicedTeeth {
         let model = match settings.coupling {
             Coupling::None => Model::Thin,
             Coupling::Slicing => Model::Plate(compliance.coupling(&slices)),
-            Coupling::Fem => {
-                Model::InSpace(in_space.expect("the coupling by teeth in space comes with them"))
-            }
+            Coupling::Fem => Model::InSpace(in_space.expect("the coupling by teeth in space comes with them")),
         };
         let softness = match settings.coupling {
             Coupling::Fem => vec![1.0; settings.count].into(),
