@@ -162,7 +162,9 @@ fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
 struct Work {
     sliding_w: f64,
     friction_w: f64,
-    /// Sliding of each gear that counts as wearing under its films; none where its law reads none.
+    /// Sliding between A and E.
+    on_path_w: f64,
+    /// Sliding of each gear there that counts as wearing under its films; none where its law reads none.
     wearing_w: PerGear<Option<f64>>,
 }
 
@@ -178,6 +180,10 @@ impl Work {
             work.sliding_w += power_w;
             let Some(state) = states[which] else { continue };
             work.friction_w += power_w * state.friction;
+            if !seen.is_on_path(place) {
+                continue;
+            }
+            work.on_path_w += power_w;
             for gear in Gear::BOTH {
                 let wear = &model.reference().wear;
                 if let Some(factor) = wear.film_factor(gear, &place.loaded(which)) {
@@ -190,8 +196,8 @@ impl Work {
 
     /// Mean factor of the film on the wear of each gear; none where neither law reads films.
     fn wear_factors(&self) -> Option<PerGear<f64>> {
-        let reads = self.sliding_w > 0.0 && Gear::BOTH.into_iter().any(|gear| self.wearing_w[gear].is_some());
-        reads.then(|| self.wearing_w.map(|wearing_w| wearing_w.map_or(1.0, |wearing| wearing / self.sliding_w)))
+        let reads = self.on_path_w > 0.0 && Gear::BOTH.into_iter().any(|gear| self.wearing_w[gear].is_some());
+        reads.then(|| self.wearing_w.map(|wearing_w| wearing_w.map_or(1.0, |wearing| wearing / self.on_path_w)))
     }
 
     /// μ, the mean over the sliding.
@@ -206,6 +212,14 @@ pub(super) struct Seen<'a> {
     places: Vec<Place>,
     /// New and worn at each place.
     states: Vec<[Option<State>; 2]>,
+}
+
+impl Seen<'_> {
+    /// Whether a place lies between A and E.
+    fn is_on_path(&self, place: &Place) -> bool {
+        let path = &self.running.pair.path;
+        (path.start_mm..=path.end_mm).contains(&place.position_mm)
+    }
 }
 
 /// Looks at both states of a run; none where nobody asks.
@@ -225,12 +239,10 @@ pub(super) fn sum_up(model: &Model<'_>, outcome: &Outcome, seen: &Seen<'_>) -> O
     let work = [0, 1].map(|which| Work::over(model, seen, width_mm, which));
     let wear_factors = work.each_ref().map(Work::wear_factors);
     let rows: Vec<FilmRow> = places.iter().zip(states).map(|(place, states)| row(running, place, states)).collect();
-    let path = &running.pair.path;
-    let is_on_path = |place: &Place| (path.start_mm..=path.end_mm).contains(&place.position_mm);
     let on_path: Vec<RowOfPath<'_>> = rows
         .iter()
         .zip(places)
-        .filter(|(_, place)| is_on_path(place))
+        .filter(|(_, place)| seen.is_on_path(place))
         .map(|(row, place)| (row, place.length_mm))
         .collect();
     let summary = LubricationSummary {

@@ -41,7 +41,7 @@ use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::mesh_cycle::slice_coupling::SliceCompliance;
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::observer::Observer;
-use crate::plan::{Plan, StageKind, memory_in_space_gb};
+use crate::plan::{MUCH_OF_SLICES_GB, Plan, StageKind, memory_in_space_gb, memory_of_slices_gb};
 use crate::reference::flattening::Flattening;
 use crate::results::error::ErrorSummary;
 use crate::results::run::{RunRecord, StopReason, Summary};
@@ -125,6 +125,17 @@ fn much_in_space(scene: &Scene) -> Option<String> {
         format!(
             "the teeth in space take some {gb:.1} GB, and a minute or more; a smaller pair.face_width_mm, fewer helical.slices, \
              numerics.positions or loads of operation.phases, or numerics.verify = false take less"
+        )
+    })
+}
+
+/// What is to be said before the contacts of many slices are made, where they take much.
+fn many_slices(scene: &Scene) -> Option<String> {
+    let gb = memory_of_slices_gb(scene);
+    (gb > MUCH_OF_SLICES_GB).then(|| {
+        format!(
+            "the contacts of all slices take some {gb:.1} GB, and a wear step as much longer; fewer helical.slices, numerics.positions or \
+             loads of operation.phases take less"
         )
     })
 }
@@ -344,6 +355,9 @@ fn carry_out<R>(
         false => None,
     };
     let (slices, coupling_warning) = own_slices(scene, stiffness, in_space.as_ref())?;
+    if let Some(much) = many_slices(scene) {
+        observer.announcement(&much);
+    }
     let sliced = slices.map(|settings| {
         let coupling = in_space.as_ref().and_then(|teeth| teeth.as_ref().ok()).cloned();
         let compliance = slice_compliance(&pair, scene, files, teeth[0].as_ref());

@@ -26,7 +26,11 @@ pub(super) fn summaries(model: &Model<'_>, outcome: &Outcome) -> Vec<PhaseSummar
         // The ends of phases are among the snapshots.
         let after = outcome.snapshots.iter().rfind(|snapshot| snapshot.revolutions <= end).unwrap_or(before);
         let load = run.line_load_n_per_mm;
-        let at_pitch = hertz::flattening(&model.pair.normal_section(), &model.scene.material_in(phase), model.pair.path.pitch_point_mm);
+        let at_pitch = hertz::flattening(
+            &model.pair.normal_section(),
+            &model.scene.material_in(phase),
+            model.pair.path.pitch_point_mm,
+        );
         let coefficient = model.scene.wear_in(phase).map(|own| own.coefficient_mm2_per_n / MM2_PER_N);
         let heat =
             model.scene.heat.and_then(|asked| Some((asked, temperature::observe_at(model, outcome, after, index)?)));

@@ -410,11 +410,14 @@ fn flank(model: &Model<'_>, RunFindings { outcome, verified, .. }: RunFindings<'
     let involute = pair.teeth[gear].involute;
     let um = |values: &[f64]| values.iter().map(|value| value * UM_PER_MM).collect::<Vec<_>>();
     let rho = &outcome.grid[gear].coordinate_mm;
+    // Along the transverse line of action, as drawings have them.
+    let normal_mm = outcome.modification_mm[gear].iter();
+    let drawn_mm: Vec<f64> = normal_mm.map(|&normal| pair.obliquity().transverse_mm(normal)).collect();
     FlankRecord {
         radius_mm: rho.iter().map(|&rho| involute.radius_mm(rho)).collect(),
         roll_angle_deg: rho.iter().map(|&rho| involute.roll_angle_rad(rho).to_degrees()).collect(),
         width_mm: outcome.slices.width_mm.clone(),
-        removed_um: um(&outcome.modification_mm[gear]),
+        removed_um: um(&drawn_mm),
         sliding_mm_per_mesh: outcome.new.cycle.sliding_mm[gear].clone(),
         wear_um: um(&outcome.worn.wear_mm[gear]),
         verified_wear_um: verified.and_then(|verified| verified.wear_mm.as_ref()).map(|wear_mm| um(&wear_mm[gear])),

@@ -126,7 +126,6 @@ pub fn fit(
     let surface = HalfSpace { material: *material, expected_line_load_n_per_mm: line_load_n_per_mm };
     let teeth = TeethSpring::new(StiffnessSettings::Fem, Some(curve), pair, material, &surface, line_load_n_per_mm)?;
     let slices = Slices::new(pair, SLICES);
-    let seen = in_space.seen(SLICES);
     // The whole spring, which teeth in space have beside the surface, and what slices have of it to themselves.
     let along = |spring: &dyn Fn(f64) -> Result<f64, StiffnessError>| {
         SpringAlongPath::new(&pair.path, STIFFNESS_POSITIONS, [0.0; 2], spring)
@@ -138,8 +137,7 @@ pub fn fit(
     for phase in sliced_positions(&pair.path, &slices, POSITIONS, SliceEnds::AtOnce) {
         let contacts = &phase.contacts;
         let at = |contact: &SliceContact| contact.cell.position_mm;
-        let influence =
-            in_space.influence(pair, &slices, &seen, contacts, |contact| whole.mm2_per_n(at(contact))).mm2_per_n;
+        let influence = in_space.influence(pair, &slices, contacts, |contact| whole.mm2_per_n(at(contact))).mm2_per_n;
         let mut first = 0;
         let lines: Vec<LineOfContact> = contacts
             .chunk_by(|a, b| a.tooth == b.tooth)

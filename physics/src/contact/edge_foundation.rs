@@ -95,8 +95,10 @@ impl EdgeFoundations {
         let ends = [(Gear::Wheel, pair.path.start_mm - before), (Gear::Pinion, pair.path.end_mm + after)];
         let ends = ends.map(|(tip_of, last_mm)| {
             let edge_mm = pair.path.rho_mm(tip_of, pair.rounding_start_rho_mm(tip_of));
-            let half_width_mm =
-                hertz::flattening(&pair.normal_section(), material, edge_mm).contact.loaded(line_load_n_per_mm).half_width_mm;
+            let half_width_mm = hertz::flattening(&pair.normal_section(), material, edge_mm)
+                .contact
+                .loaded(line_load_n_per_mm)
+                .half_width_mm;
             // By so far of the path the edge is within the contact.
             let within_mm = WIDENED * half_width_mm / pair.rolling_ratio(tip_of, edge_mm);
             let first_mm = edge_mm + within_mm.copysign(edge_mm - last_mm);
@@ -224,11 +226,8 @@ impl Bodies<'_> {
         }
         points.reverse();
         let w = self.line_load_n_per_mm;
-        let calibrated = self
-            .approach
-            .springs_at(position_mm)
-            .approach_and_compliance(flattening.contact.relative_radius_mm(), w)
-            .0;
+        let calibrated =
+            self.approach.springs_at(position_mm).approach_and_compliance(flattening.contact.relative_radius_mm(), w).0;
         let beside_mm2_per_n = (calibrated - flattening.approach_mm(w)) / w;
         points.iter_mut().for_each(|point: &mut EdgePoint| point.further_mm2_per_n += beside_mm2_per_n);
         EdgeStiffness { points }

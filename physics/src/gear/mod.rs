@@ -9,6 +9,7 @@ pub mod flank_surface;
 pub mod flank_zones;
 pub(crate) mod half_profile;
 pub mod involute;
+pub mod lines_of_contact;
 pub mod modification;
 pub mod normal_section;
 pub mod outline;

@@ -11,6 +11,7 @@ pub mod condensed;
 mod condensed_contact;
 pub mod coupled_teeth;
 pub mod flank_pressure;
+mod half_layers;
 pub(crate) mod influence;
 pub mod load_sharing;
 pub mod pair_in_space;

@@ -290,7 +290,7 @@ pub struct HelicalSummary {
     pub wear: PerGear<OverWidthSummary>,
 }
 
-/// All lines of contact together over a mesh.
+/// All lines of contact together over a mesh, within A–E: contact of tip edges outside it is left out.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LineOfContactSummary {
     /// Least length.

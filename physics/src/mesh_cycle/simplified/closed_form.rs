@@ -70,9 +70,8 @@ impl<'a> ContactForms<'a> {
     pub fn new(pair: &'a GearPair, material: &PerGear<Material>, line_load_n_per_mm: f64) -> Self {
         let constants = Gear::BOTH.map(|gear| material[gear]);
         let obliquity = pair.obliquity();
-        let factor = constants.map(|own| {
-            obliquity.transverse_mm(2.0 / PI * (1.0 - own.poisson_ratio.powi(2)) / own.young_modulus_mpa)
-        });
+        let factor = constants
+            .map(|own| obliquity.transverse_mm(2.0 / PI * (1.0 - own.poisson_ratio.powi(2)) / own.young_modulus_mpa));
         let table = pair.path.evenly_mm(TABLE).into_iter().map(|at| {
             let depth = Gear::BOTH.map(|gear| pair.depth_mm(gear, at));
             [factor[0] * depth[0].ln() + factor[1] * depth[1].ln(), depth[0].powi(-2), depth[1].powi(-2)]

@@ -88,7 +88,8 @@ impl SlicesInSeries<'_> {
                 let gap_mm = section.obliquity.normal_mm(gap_mm);
                 let flattening = hertz::flattening(&section, self.material, contact.cell.position_mm);
                 let teeth = if coupled { f64::INFINITY } else { 1.0 / compliance(contact) };
-                let mut pair = MeshedPair::on_lever(Box::new(GivenGap { flattening, gap_mm }), teeth, 1.0, section.obliquity);
+                let mut pair =
+                    MeshedPair::on_lever(Box::new(GivenGap { flattening, gap_mm }), teeth, 1.0, section.obliquity);
                 let nothing = PerGear { pinion: &[][..], wheel: &[][..] };
                 pair.set_removed(nothing);
                 pair
