@@ -43,12 +43,20 @@ pub struct Flanks<'a> {
     pub modification_mm: Option<PerGear<&'a [f64]>>,
     /// Whose tip edge may carry load and is mathematically sharp: contact that it cuts off has no pressure of its own.
     pub sharp_edges: PerGear<bool>,
+    /// The same of the corner at the form circle that undercut leaves.
+    pub sharp_corners: PerGear<bool>,
 }
 
 impl<'a> Flanks<'a> {
     /// Flanks that end where their contact does: no tip edge carries load.
     pub fn new(geometry: &'a dyn ConjugateFlanks, grid: PerGear<&'a FlankGrid>) -> Self {
-        Self { geometry, grid, modification_mm: None, sharp_edges: PerGear::default() }
+        Self {
+            geometry,
+            grid,
+            modification_mm: None,
+            sharp_edges: PerGear::default(),
+            sharp_corners: PerGear::default(),
+        }
     }
 }
 

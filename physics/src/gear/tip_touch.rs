@@ -24,6 +24,8 @@
 //! l = (r_b1 + r_b2) cos ε − T1T2 sin ε − r_b
 //! ```
 //!
+//! Where the form circle ends the path instead ([`super::flank_edge`]), the corner there touches the mate in the same way, with ρ_k = 0.
+//!
 //! Unworn flanks without relief: a relief of some hundredths of a millimetre moves an edge too little to turn its normal.
 //!
 //! Source: the geometry itself; R. G. Munro, L. Morrish and D. Palmer, *Proc. Inst. Mech. Eng. C* 213 (1999) 389–400, for sharp
@@ -31,6 +33,7 @@
 
 use nalgebra::Vector2;
 
+use super::flank_edge::{FlankEdge, PathEnd};
 use super::{Gear, GearPair, PerGear, removed_material::tip_rounding_length_mm, tooth::LoadLine};
 
 /// Greatest part of a base pitch before A and after E at which flanks are looked at.
@@ -41,7 +44,7 @@ const LEAST_CURVATURE: f64 = 0.05;
 /// How the flanks touch at some position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
-    /// The gear whose tip edge, or the rounding of it, touches; none where both involutes do.
+    /// The gear whose edge touches: the tip edge or its rounding, or the corner at the form circle; none where both involutes do.
     pub edge_of: Option<Gear>,
     /// ε: turn of the normal from the line of action, rad.
     pub turned_rad: f64,
@@ -57,9 +60,10 @@ impl GearPair {
     /// How the flanks touch with the theoretical contact point at `position_mm`.
     pub fn touch(&self, position_mm: f64) -> Touch {
         let rho = |gear| self.path.rho_mm(gear, position_mm);
-        let passed = |gear: &Gear| rho(*gear) > self.rounding_start_rho_mm(*gear);
-        match [Gear::Wheel, Gear::Pinion].into_iter().find(passed) {
-            Some(gear) => self.touch_at_edge(gear, position_mm),
+        let edges = PathEnd::BOTH.map(|end| self.edge(end));
+        let passed = |edge: &FlankEdge| (rho(edge.gear) > edge.rho_mm) != edge.at_root;
+        match edges.into_iter().find(|edge| rho(edge.gear) != edge.rho_mm && passed(edge)) {
+            Some(edge) => self.touch_at_edge(edge, position_mm),
             None => {
                 let rho_mm = PerGear::from_fn(rho);
                 let load_line = PerGear::from_fn(|gear| self.teeth[gear].load_line(rho_mm[gear]));
@@ -85,11 +89,10 @@ impl GearPair {
         rooms.map(|room| (MOST_BASE_PITCHES * path.base_pitch_mm).min((1.0 - LEAST_CURVATURE) * room))
     }
 
-    fn touch_at_edge(&self, gear: Gear, position_mm: f64) -> Touch {
+    fn touch_at_edge(&self, edge: FlankEdge, position_mm: f64) -> Touch {
+        let FlankEdge { gear, rho_mm: start_rho, rounding_mm, .. } = edge;
         let (own, mate) = (self.path.involute[gear], self.path.involute[gear.mate()]);
         let (own_rho, mate_rho) = (self.path.rho_mm(gear, position_mm), self.path.rho_mm(gear.mate(), position_mm));
-        let rounding_mm = self.spec.gears[gear].modification.tip_rounding_mm;
-        let start_rho = self.rounding_start_rho_mm(gear);
         let own_turn = (start_rho - own_rho) / own.base_radius_mm;
         // O in the tangent frame of the gear: along the inward normal (−sin, cos) from where the rounding begins.
         let start = own.in_tangent_frame(start_rho, own_rho);

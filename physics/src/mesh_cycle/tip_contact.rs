@@ -28,6 +28,7 @@
 //! and top contact", *Proc. Inst. Mech. Eng. C* 213 (1999) 389–400, for the phenomenon.
 
 use crate::contact::{Footprint, PairContact, PointContact, Response, Sweep};
+use crate::gear::flank_edge::{FlankEdge, PathEnd};
 use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks};
 
 /// Steps in which the path is walked, per base pitch.
@@ -38,21 +39,22 @@ const STEPS_IN_PITCH: f64 = 1000.0;
 pub fn reach_mm(pair: &GearPair, approach_mm: f64) -> [f64; 2] {
     let path = &pair.path;
     let [before, after] = pair.farthest_touch_mm();
-    let ends = [(Gear::Wheel, path.start_mm, -1.0, before), (Gear::Pinion, path.end_mm, 1.0, after)];
-    ends.map(|(tip_of, end_mm, outwards, most)| {
+    let ends = [(PathEnd::Start, path.start_mm, -1.0, before), (PathEnd::End, path.end_mm, 1.0, after)];
+    ends.map(|(end, end_mm, outwards, most)| {
         let step = path.base_pitch_mm / STEPS_IN_PITCH;
         let steps = (most / step) as usize;
-        let touches = |k: &usize| tip_gap_mm(pair, tip_of, end_mm + outwards * *k as f64 * step) <= approach_mm;
+        let touches = |k: &usize| edge_gap_mm(pair, end, end_mm + outwards * *k as f64 * step) <= approach_mm;
         (1..=steps).take_while(touches).last().unwrap_or(0) as f64 * step
     })
 }
 
-/// Gap between the tip edge of a gear and its mate's flank, along the line of action, with the theoretical contact point at
+/// Gap between the edge in which the path ends and the mate's flank, along the line of action, with the theoretical contact point at
 /// `position_mm`.
-fn tip_gap_mm(pair: &GearPair, tip_of: Gear, position_mm: f64) -> f64 {
-    let (_, tip_rho) = pair.flank_limits_mm(tip_of);
-    let edge = pair.in_tangent_frame(tip_of, tip_rho, position_mm);
-    edge.drop_mm + pair.at_along(tip_of.mate(), -edge.along_mm, position_mm).1
+fn edge_gap_mm(pair: &GearPair, end: PathEnd, position_mm: f64) -> f64 {
+    let FlankEdge { gear, at_root, .. } = pair.edge(end);
+    let (root_rho, tip_rho) = pair.flank_limits_mm(gear);
+    let edge = pair.in_tangent_frame(gear, if at_root { root_rho } else { tip_rho }, position_mm);
+    edge.drop_mm + pair.at_along(gear.mate(), -edge.along_mm, position_mm).1
 }
 
 /// l/(r_b1 cos ε): approach in the tangent frame over transmission error with the theoretical contact point at `position_mm`.
