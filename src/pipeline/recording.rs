@@ -6,6 +6,7 @@ use super::{
     Model, RunError, UM_PER_MM, drawing, error_estimates, invariants, left_out_contact, phases, root_stress, slices,
     stability::Judged, verification::Verified,
 };
+use crate::gear::flank_edge::PathEnd;
 use crate::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
 use crate::mesh_cycle::CycleObservation;
 use crate::mesh_cycle::wearing_pair::Snapshot;
@@ -272,6 +273,7 @@ pub(super) fn geometry(pair: &GearPair) -> GeometrySummary {
         backlash_mm: pair.backlash_mm,
         gears: PerGear::from_fn(|gear| {
             let tooth = &pair.teeth[gear];
+            let (span, over_balls) = (pair.span(gear), pair.over_balls(gear));
             GearSummary {
                 teeth: tooth.teeth,
                 reference_diameter_mm: 2.0 * tooth.reference_radius_mm,
@@ -285,6 +287,13 @@ pub(super) fn geometry(pair: &GearPair) -> GeometrySummary {
                 tip_thickness_mm: tooth.thickness_mm(tooth.tip_radius_mm),
                 tip_clearance_mm: pair.tip_clearance_mm[gear],
                 undercut: tooth.undercut,
+                tip_form_diameter_mm: 2.0 * pair.tip_form_radius_mm(gear),
+                end_of_active_profile_diameter_mm: 2.0 * pair.active_end_radius_mm(gear),
+                specific_sliding_at_root: pair.specific_sliding_at_root(gear),
+                span_teeth: span.map(|span| span.teeth),
+                span_mm: span.map(|span| span.span_mm),
+                ball_diameter_mm: over_balls.map(|balls| balls.ball_diameter_mm),
+                dimension_over_balls_mm: over_balls.map(|balls| balls.dimension_mm),
             }
         }),
     }
@@ -491,17 +500,21 @@ fn mesh_cycle(model: &Model<'_>, RunFindings { outcome, heat, .. }: RunFindings<
         .collect()
 }
 
-/// Warns where a mathematically sharp tip edge carries load at any moment that is kept.
+/// Warns where a mathematically sharp edge carries load at any moment that is kept.
 fn sharp_edge_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
     let mut states = [&outcome.new].into_iter().chain(&outcome.snapshots);
     let is_loaded = states.any(|state| state.cycle.greatest_pressure.sharp_edge_mpa.is_some());
-    let is_sharp = |gear: &Gear| pair.spec.gears[*gear].modification.tip_rounding_mm == 0.0;
-    let sharp: Vec<&str> = Gear::BOTH.into_iter().filter(is_sharp).map(Gear::name).collect();
+    let tips = Gear::BOTH.into_iter().filter(|&gear| pair.spec.is_tip_sharp(gear));
+    let corners = PathEnd::BOTH.map(|end| pair.edge(end)).into_iter().filter(|edge| edge.at_root && edge.is_sharp);
+    let sharp: Vec<String> = tips
+        .map(|gear| format!("the tip edge of {}", gear.name()))
+        .chain(corners.map(|edge| format!("the edge that undercut leaves on {}", edge.gear.name())))
+        .collect();
     is_loaded.then(|| {
         format!(
-            "the tip edge of {} is mathematically sharp and carries load: the pressure at the edge (sharp_edge_pressure_MPa, left out of \
-             peak_pressure_MPa) and the wear of the edge (tip_edge_wear_um, left out of peak_wear_um) are not defined, they depend on the \
-             resolution; give tip_rounding_mm",
+            "{} is mathematically sharp and carries load: the pressure at the edge (sharp_edge_pressure_MPa, left out of \
+             peak_pressure_MPa) and the wear of the edge (of a tip tip_edge_wear_um, left out of peak_wear_um) are not defined, they depend on \
+             the resolution; a tip edge gets a pressure with tip_rounding_mm",
             sharp.join(" and ")
         )
     })

@@ -30,6 +30,7 @@ use super::hertz;
 use super::pressure_field::PressureField;
 use super::settings::{MatchCriterion, Material};
 use super::strip::common_extent_mm;
+use crate::gear::flank_edge::PathEnd;
 use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, removed_material::tip_rounding_mm};
 use crate::reference::half_plane::cell_compliance_mm_per_mpa;
 
@@ -92,15 +93,16 @@ impl EdgeFoundations {
     ) -> Self {
         let contact_modulus_mpa = hertz::contact_modulus_mpa(material);
         let [before, after] = pair.ample_tip_reach_mm(line_load_n_per_mm, contact_modulus_mpa);
-        let ends = [(Gear::Wheel, pair.path.start_mm - before), (Gear::Pinion, pair.path.end_mm + after)];
-        let ends = ends.map(|(tip_of, last_mm)| {
-            let edge_mm = pair.path.rho_mm(tip_of, pair.rounding_start_rho_mm(tip_of));
+        let ends = [(PathEnd::Start, pair.path.start_mm - before), (PathEnd::End, pair.path.end_mm + after)];
+        let ends = ends.map(|(end, last_mm)| {
+            let edge_mm = pair.edge_position_mm(end);
             let half_width_mm = hertz::flattening(&pair.normal_section(), material, edge_mm)
                 .contact
                 .loaded(line_load_n_per_mm)
                 .half_width_mm;
-            // By so far of the path the edge is within the contact.
-            let within_mm = WIDENED * half_width_mm / pair.rolling_ratio(tip_of, edge_mm);
+            // By so far of the path the edge is within the contact; near a base circle a contact hardly moves over the flank.
+            let within_mm = WIDENED * half_width_mm / pair.rolling_ratio(pair.edge(end).gear, edge_mm);
+            let within_mm = within_mm.min(0.5 * (pair.path.end_mm - pair.path.start_mm));
             let first_mm = edge_mm + within_mm.copysign(edge_mm - last_mm);
             // Closer together where flank and edge share the contact.
             let along = |k: usize| (k as f64 / (PLACES - 1) as f64).powi(2);

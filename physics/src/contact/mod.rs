@@ -48,6 +48,8 @@ pub struct Flanks<'a> {
     pub sharp_edges: PerGear<bool>,
     /// The parts that figures of pressure speak of; none where nobody asks for such.
     pub parts: Option<FlankParts>,
+    /// Whose corner at the form circle, which undercut leaves, may carry load.
+    pub sharp_corners: PerGear<bool>,
 }
 
 impl<'a> Flanks<'a> {
@@ -62,7 +64,14 @@ impl<'a> Flanks<'a> {
     }
 
     fn in_section(geometry: NormalSection<'a>, grid: PerGear<&'a FlankGrid>) -> Self {
-        Self { geometry, grid, modification_mm: None, sharp_edges: PerGear::default(), parts: None }
+        Self {
+            geometry,
+            grid,
+            modification_mm: None,
+            sharp_edges: PerGear::default(),
+            sharp_corners: PerGear::default(),
+            parts: None,
+        }
     }
 }
 

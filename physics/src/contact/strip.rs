@@ -111,7 +111,8 @@ pub(crate) struct Window {
     pub upper_mm: f64,
     /// Whether each end is where a flank really ends.
     pub ends_are_real: [bool; 2],
-    /// Whether it ends there in a sharp tip edge that may carry load: the wheel's below, the pinion's above.
+    /// Whether it ends there in a sharp edge that may carry load: the wheel's tip or the pinion's corner of undercut below, the pinion's tip or
+    /// the wheel's corner above.
     pub ends_are_sharp: [bool; 2],
 }
 
@@ -123,12 +124,14 @@ impl Window {
         let centre = 0.0_f64.min(upper).max(lower);
         let (from, to) = (centre - half_length_mm, centre + half_length_mm);
         let ends_are_real = [lower >= from, upper <= to];
-        let sharp = [flanks.sharp_edges.wheel, flanks.sharp_edges.pinion];
+        let (edges, corners) = (flanks.sharp_edges, flanks.sharp_corners);
+        let sharp = [(edges.wheel, corners.pinion), (edges.pinion, corners.wheel)];
         Self {
             lower_mm: lower.max(from),
             upper_mm: upper.min(to),
             ends_are_real,
-            ends_are_sharp: [0, 1].map(|end| ends_are_real[end] && at_tips[end] && sharp[end]),
+            ends_are_sharp: [0, 1]
+                .map(|end| ends_are_real[end] && if at_tips[end] { sharp[end].0 } else { sharp[end].1 }),
         }
     }
 

@@ -67,11 +67,13 @@ pub fn gear_sector(
     let rounding_mm = pair.spec.gears[gear.mate()].modification.tip_rounding_mm;
     // Elements on a very small rounding would be shorter than any may be.
     let least_mm = 2.0 * LEAST_MODULES * pair.spec.normal_module_mm * settings.elements_per_half_width;
+    // Where contact begins near the base circle of an undercut pinion the half-width falls to nothing.
+    let floor_mm = least_mm.min(half_width_mm(pair.path.pitch_point_mm.clamp(pair.path.start_mm, pair.path.end_mm)));
     let at_tip_mm = (ROUNDING_HALF_WIDTH * rounding_mm).max(least_mm);
     let met_from_mm = involute.arc_mm(start_rho) - MARGIN_HALF_WIDTHS * at_tip_mm;
     let by_rho = |rho_mm: f64| match (met_from_mm..met_by_tip_mm).contains(&involute.arc_mm(rho_mm)) {
-        true if rounding_mm > 0.0 => on_flank(rho_mm).min(at_tip_mm),
-        _ => on_flank(rho_mm),
+        true if rounding_mm > 0.0 => on_flank(rho_mm).min(at_tip_mm).max(floor_mm),
+        _ => on_flank(rho_mm).max(floor_mm),
     };
     let flank = FlankResolution {
         half_width_mm: &by_rho,

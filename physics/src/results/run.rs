@@ -251,6 +251,20 @@ pub struct GearSummary {
     pub tip_thickness_mm: f64,
     pub tip_clearance_mm: f64,
     pub undercut: bool,
+    /// Where the usable flank ends towards the tip, d_Fa: the tip circle, or where the rounding of the tip edge begins.
+    pub tip_form_diameter_mm: f64,
+    /// End of active profile towards the tip, d_Na: below the tip circle where the form circle of the mate ends the contact.
+    pub end_of_active_profile_diameter_mm: f64,
+    /// Specific sliding at the start of active profile, ζ_f; `None` where that lies on the base circle.
+    pub specific_sliding_at_root: Option<f64>,
+    /// Number of teeth k that the span is measured over; `None` where no number touches the flanks within the face width.
+    pub span_teeth: Option<u32>,
+    /// Span W_k, thickness allowance included; `None` as its number of teeth.
+    pub span_mm: Option<f64>,
+    /// Diameter of the measuring balls (pins), 1.728 or 1.92 normal modules; `None` where neither touches the flanks and stands out.
+    pub ball_diameter_mm: Option<f64>,
+    /// Diametral dimension over two balls, M_dK, thickness allowance included; `None` as their diameter.
+    pub dimension_over_balls_mm: Option<f64>,
 }
 
 /// The pair slice by slice.

@@ -14,6 +14,7 @@
 //! Source: R. G. Munro, L. Morrish and D. Palmer, *Proc. Inst. Mech. Eng. C* 213 (1999) 389–400, for the phenomenon.
 
 use super::wear_run::Outcome;
+use crate::gear::flank_edge::PathEnd;
 use crate::gear::{Gear, GearPair, removed_material};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 
@@ -43,10 +44,10 @@ pub fn overlaps_mm(
         let coming_in = path.start_mm + pitch - (range_mm[0] + ahead_mm).rem_euclid(pitch);
         let leaving = path.end_mm - pitch + (range_mm[1] - ahead_mm).rem_euclid(pitch);
         let ends_mm = [path.start_mm - range_mm[0], path.end_mm + range_mm[1]];
-        [(Gear::Wheel, ends_mm[0], before(coming_in)), (Gear::Pinion, ends_mm[1], after(leaving))].map(
-            |(tip_of, end_mm, observed)| {
+        [(PathEnd::Start, ends_mm[0], before(coming_in)), (PathEnd::End, ends_mm[1], after(leaving))].map(
+            |(end, end_mm, observed)| {
                 let error_mm = observed.map_or(f64::NEG_INFINITY, |at| at.transmission_error_mm);
-                error_mm - bodies_mm - separation_mm(pair, outcome, state, slice, tip_of, end_mm)
+                error_mm - bodies_mm - separation_mm(pair, outcome, state, slice, end, end_mm)
             },
         )
     };
@@ -71,10 +72,11 @@ pub fn shares_outside(pair: &GearPair, state: &Snapshot, range_mm: [f64; 2]) -> 
     })
 }
 
-/// How far the flanks of a slice are apart with the theoretical contact point at the end of the path that the tip of a gear makes.
-fn separation_mm(pair: &GearPair, outcome: &Outcome, state: &Snapshot, slice: usize, tip_of: Gear, end_mm: f64) -> f64 {
+/// How far the flanks of a slice are apart with the theoretical contact point at an end of the path.
+fn separation_mm(pair: &GearPair, outcome: &Outcome, state: &Snapshot, slice: usize, end: PathEnd, end_mm: f64) -> f64 {
     let touch = pair.touch(end_mm);
-    let rho = |gear: Gear| if gear == tip_of { pair.rounding_start_rho_mm(gear) } else { touch.rho_mm[gear] };
+    let edge = pair.edge(end);
+    let rho = |gear: Gear| if gear == edge.gear { edge.rho_mm } else { touch.rho_mm[gear] };
     let removed: f64 = Gear::BOTH
         .into_iter()
         .map(|gear| {

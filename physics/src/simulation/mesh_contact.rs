@@ -204,9 +204,9 @@ impl<'a> LoadedMesh<'a> {
         let (path, count) = (&self.pair.path, self.numerics.positions);
         let spring = |at| teeth.own_n_per_mm2(at);
         let bodies = bodies_mm2_per_n(teeth, sliced) * line_load;
-        let sharp_edges =
-            self.pair.spec.gears.as_ref().map(|gear| tip_contact && gear.modification.tip_rounding_mm == 0.0);
-        let flanks = Flanks { sharp_edges, ..flanks };
+        let sharp_edges = PerGear::from_fn(|gear| tip_contact && self.pair.spec.is_tip_sharp(gear));
+        let sharp_corners = self.pair.undercut_corners().map(|corner| tip_contact && corner);
+        let flanks = Flanks { sharp_edges, sharp_corners, ..flanks };
         let lever_ratio = |at| tip_contact::approach_ratio(self.pair, at);
         let beyond = match tip_contact {
             true => Some(tip_range_mm(self.pair, surface, teeth, sliced, line_load)?),

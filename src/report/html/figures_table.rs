@@ -145,6 +145,9 @@ fn gears(s: &Summary) -> Markup {
     let both = |label, value: fn(&GearSummary) -> f64| {
         row(label, "mm", [&gears.pinion, &gears.wheel].map(|gear| fixed(value(gear), 3)))
     };
+    let maybe = |label, unit, value: fn(&GearSummary) -> Option<f64>| {
+        row(label, unit, [&gears.pinion, &gears.wheel].map(|gear| value(gear).map(|value| fixed(value, 3))))
+    };
     table(
         "Geometry of the gears",
         &["pinion", "wheel"],
@@ -154,6 +157,8 @@ fn gears(s: &Summary) -> Markup {
             both("Working pitch diameter", |g| g.working_pitch_diameter_mm),
             both("Reference diameter", |g| g.reference_diameter_mm),
             both("Base diameter", |g| g.base_diameter_mm),
+            both("Tip form diameter", |g| g.tip_form_diameter_mm),
+            both("End of active profile, diameter", |g| g.end_of_active_profile_diameter_mm),
             both("Start of active profile, diameter", |g| g.start_of_active_profile_diameter_mm),
             both("Root form diameter", |g| g.root_form_diameter_mm),
             both("Root diameter", |g| g.root_diameter_mm),
@@ -161,6 +166,11 @@ fn gears(s: &Summary) -> Markup {
             both("Tooth thickness at the tip", |g| g.tip_thickness_mm),
             both("Tip clearance", |g| g.tip_clearance_mm),
             row("Undercut", "", [gears.pinion.undercut, gears.wheel.undercut]),
+            maybe("Specific sliding at the start of active profile", "", |g| g.specific_sliding_at_root),
+            row("Span over teeth, number of teeth", "", [gears.pinion.span_teeth, gears.wheel.span_teeth]),
+            maybe("Span over teeth", "mm", |g| g.span_mm),
+            maybe("Diameter of measuring balls or pins", "mm", |g| g.ball_diameter_mm),
+            maybe("Dimension over balls or pins", "mm", |g| g.dimension_over_balls_mm),
         ],
     )
 }

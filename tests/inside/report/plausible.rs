@@ -223,6 +223,13 @@ fn summary() -> Summary {
         tip_thickness_mm: 2.73,
         tip_clearance_mm: 1.12,
         undercut: false,
+        tip_form_diameter_mm: tip,
+        end_of_active_profile_diameter_mm: tip,
+        specific_sliding_at_root: Some(-3.5),
+        span_teeth: Some(3),
+        span_mm: Some(34.9),
+        ball_diameter_mm: Some(7.776),
+        dimension_over_balls_mm: Some(tip + 1.7),
     };
     let cycle = |peak, te_min, te_max| CycleSummary {
         peak_pressure_MPa: peak,

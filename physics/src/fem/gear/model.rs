@@ -171,7 +171,7 @@ impl MeshedGear {
             coarse: if surroundings.coarse() > 0 { Some(mesh(false)?) } else { None },
             fine_teeth,
             surroundings,
-            sharp: pair.spec.gears[gear].modification.tip_rounding_mm == 0.0,
+            sharp: pair.spec.is_tip_sharp(gear),
             settings: *settings,
         })
     }
