@@ -11,9 +11,11 @@
 //!
 //! Film and friction of each contact are those of [`crate::lubrication::running_pair`].
 
+use std::f64::consts::PI;
+
 use super::{Model, scuffing};
 use crate::contact::settings::SurfaceKind;
-use crate::gear::{Gear, PerGear};
+use crate::gear::{Gear, PerGear, flank_zones::FlankZone};
 use crate::lubrication::local_film::local_film;
 use crate::lubrication::loss;
 use crate::lubrication::running_pair::{ContactFilm, Finish, LoadedPlace, OilInMesh, RunningPair};
@@ -23,6 +25,10 @@ use crate::results::lubrication::{
     OilSummary,
 };
 use crate::simulation::wear_run::Outcome;
+
+/// Why figures that need the standards' load sharing factor are missing.
+pub(super) const NO_SHARING_FACTOR: &str =
+    "the standards have a load sharing factor for transverse contact ratios below 2 alone";
 
 /// What is found, as the record has it.
 pub(super) struct Observed {
@@ -84,6 +90,7 @@ fn method_b(running: &RunningPair<'_>, oil: &OilInMesh) -> MethodBSummary {
             let nominal_pressure_mpa = running.bodies.peak_pressure_mpa(&unpressed);
             let pressure_mpa = nominal_pressure_mpa * running.settings.load_factors.product().sqrt();
             let contact = running.contact(position_mm, load, pressure_mpa);
+            let pressed = load * running.settings.load_factors.product();
             let local = local_film(&contact, &running.bodies, &oil.oil, oil.bulk_c, mean_friction);
             let (flash_k, film_um) = local.map_or((0.0, 0.0), |local| (local.flash_k, local.thickness_um));
             MethodBPoint {
@@ -93,6 +100,8 @@ fn method_b(running: &RunningPair<'_>, oil: &OilInMesh) -> MethodBSummary {
                 relative_radius_mm: unpressed.relative_radius_mm,
                 nominal_pressure_MPa: nominal_pressure_mpa,
                 pressure_MPa: pressure_mpa,
+                // p = 2 w/(π a).
+                half_width_mm: 2.0 * pressed / (PI * pressure_mpa),
                 contact_temperature_C: oil.bulk_c + flash_k,
                 film_um,
                 lambda: film_um / oil.mean.ra_um,
@@ -234,21 +243,24 @@ pub(super) fn look<'a>(model: &Model<'a>, outcome: &Outcome) -> Option<Seen<'a>>
 pub(super) fn sum_up(model: &Model<'_>, outcome: &Outcome, seen: &Seen<'_>) -> Observed {
     let Seen { running, places, states } = seen;
     let oil = running.oil.as_ref();
+    let has_factor = running.sharing.is_of_standard();
     let slices = outcome.slices.count().max(1) as f64;
     let width_mm = model.pair.spec.face_width_mm / slices;
     let work = [0, 1].map(|which| Work::over(model, seen, width_mm, which));
     let wear_factors = work.each_ref().map(Work::wear_factors);
     let rows: Vec<FilmRow> = places.iter().zip(states).map(|(place, states)| row(running, place, states)).collect();
+    let is_between = between_tip_edges(model);
     let on_path: Vec<RowOfPath<'_>> = rows
         .iter()
         .zip(places)
-        .filter(|(_, place)| seen.is_on_path(place))
+        .filter(|(_, place)| seen.is_on_path(place) && is_between(place))
         .map(|(row, place)| (row, place.length_mm))
         .collect();
     let summary = LubricationSummary {
         oil: oil.map(oil_summary),
         film: oil.and_then(|oil| film_summary(&on_path, oil.settings.permissible_lambda, wear_factors)),
-        method_b: oil.map(|oil| method_b(running, oil)),
+        method_b: oil.filter(|_| has_factor).map(|oil| method_b(running, oil)),
+        method_b_null_because: oil.filter(|_| !has_factor).map(|_| NO_SHARING_FACTOR.to_owned()),
         scuffing: oil.map(|oil| scuffing::summary(running, oil, &model.scene.material)),
         friction: friction_summary(running, &work),
         losses: losses(running, &work),
@@ -264,8 +276,7 @@ pub(super) fn warning(summary: &LubricationSummary) -> Option<String> {
     (!without.is_empty()).then(|| {
         format!(
             "the least λ by ISO/TS 6336-22 is 0 ({}): flash temperatures of up to {:.0} K are beyond what its fits of the oil hold for (the \
-             pressure–viscosity coefficient ends at 510 °C), as where tip edges carry load; λ and the safety against micropitting are of no \
-             use there",
+             pressure–viscosity coefficient ends at 510 °C); λ and the safety against micropitting are of no use there",
             without.join(", "),
             film.greatest_flash_new_K.max(film.greatest_flash_worn_K)
         )
@@ -324,10 +335,24 @@ fn oil_summary(in_mesh: &OilInMesh) -> OilSummary {
     }
 }
 
-/// A row between A and E, and the length of the path that it stands for, mm.
+/// A row between A and E and between the tip-edge zones, and the length of the path that it stands for, mm.
 type RowOfPath<'a> = (&'a FilmRow, f64);
 
 type Value = fn(&FilmRow) -> Option<f64>;
+
+/// Which places are between the tip-edge zones of both gears: all, where the surface sees no tip edges.
+fn between_tip_edges(model: &Model<'_>) -> impl Fn(&Place) -> bool {
+    let contact = &model.scene.contact;
+    let sees_edges = contact.tip_contact || contact.surface == SurfaceKind::Fem;
+    let (path, zones) = (&model.pair.path, model.zones());
+    move |place| {
+        let is_edge = |gear: Gear| {
+            let radius_mm = path.involute[gear].base_radius_mm.hypot(path.rho_mm(gear, place.position_mm));
+            zones[gear].at(radius_mm) == FlankZone::TipEdge
+        };
+        !(sees_edges && Gear::BOTH.into_iter().any(is_edge))
+    }
+}
 
 /// Extremes and mean of a column, where it has values.
 fn along_path(rows: &[RowOfPath<'_>], value: Value) -> Option<AlongPath> {
@@ -350,6 +375,11 @@ fn film_summary(
         least.map(|row| row.position_mm)
     };
     let (lambda_new, lambda_worn) = (along(|row| row.lambda_new)?, along(|row| row.lambda_worn)?);
+    let greatest = |value: Value| rows.iter().filter_map(value).fold(0.0, f64::max);
+    let least_of_edges = |value: Value| {
+        let edges = rows.iter().zip(zones).filter(|(_, zone)| zone.at_tip_edge);
+        edges.filter_map(|(row, _)| value(row)).reduce(f64::min)
+    };
     let safety = |lambda: AlongPath| permissible_lambda.map(|permissible| lambda.min / permissible);
     Some(FilmSummary {
         central_film_new_um: along(|row| row.central_film_new_um)?,
@@ -362,8 +392,10 @@ fn film_summary(
         least_lambda_worn_position_mm: place_of_least(|row| row.lambda_worn)?,
         micropitting_safety_new: safety(lambda_new),
         micropitting_safety_worn: safety(lambda_worn),
-        greatest_flash_new_K: along(|row| row.flash_new_K)?.max,
-        greatest_flash_worn_K: along(|row| row.flash_worn_K)?.max,
+        tip_edge_lambda_new: least_of_edges(|row| row.lambda_new),
+        tip_edge_lambda_worn: least_of_edges(|row| row.lambda_worn),
+        greatest_flash_new_K: greatest(|row| row.flash_new_K),
+        greatest_flash_worn_K: greatest(|row| row.flash_worn_K),
         composite_lambda_new: along(|row| row.composite_lambda_new),
         composite_lambda_worn: along(|row| row.composite_lambda_worn),
         wear_factor_new,

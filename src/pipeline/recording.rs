@@ -16,9 +16,9 @@ use crate::results::error::ErrorSummary;
 use crate::results::life::LifeSummary;
 use crate::results::path_points::among;
 use crate::results::run::{
-    ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, InputFile, MeshCycleRow,
-    PathPoints, RangeSummary, ReportedBy, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary,
-    WorkSummary,
+    ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, InputFile,
+    IsoStiffnessSummary, MeshCycleRow, PathPoints, RangeSummary, ReportedBy, RunRecord, StageLeftOut, StiffnessSummary,
+    Summary, WearBalance, WearSummary, WorkSummary,
 };
 use crate::results::worn_pair::WornPair;
 use crate::scene::Resolved;
@@ -27,6 +27,7 @@ use crate::scene::loaded::LoadedScene;
 use crate::scene::problem::number;
 use crate::simulation::figures::{WearFigures, wear_profile};
 use crate::simulation::wear_run::{Outcome, SMALL_WEAR_MODULES};
+use crate::stiffness::iso6336;
 use crate::thermal::settings::TemperatureMethod;
 use crate::wear::settings::WearSettings;
 use crate::wear::vdi_2736::{SteadyWear, mean_wear_mm};
@@ -133,6 +134,7 @@ pub(super) fn summary(
         reference_phase: outcome.reference_phase + 1,
         phases: phases::summaries(model, outcome),
         stiffness: stiffness(model)?,
+        stiffness_iso_6336_1: Some(stiffness_iso_6336_1(model)),
         root_stress: root_stress::summary(pair, model.reference().line_load_n_per_mm),
         wear,
         wear_of_gear,
@@ -307,6 +309,19 @@ fn contact(model: &Model<'_>, outcome: &Outcome) -> ContactSummary {
         foundation_MPa_per_mm: model.foundations_mpa_per_mm[outcome.reference_phase],
         hertz_half_width_mm: at_pitch.half_width_mm,
         hertz_peak_pressure_MPa: at_pitch.peak_pressure_mpa,
+    }
+}
+
+/// c', c_γα and c_γβ of the pair under the load of the reference phase.
+fn stiffness_iso_6336_1(model: &Model<'_>) -> IsoStiffnessSummary {
+    let (scene, pair) = (model.scene, model.pair);
+    let load = model.reference().line_load_n_per_mm;
+    let single = iso6336::single_stiffness_n_per_mm2(&scene.pair, &scene.material, load) / UM_PER_MM;
+    let mesh = iso6336::mesh_over_single(pair.path.contact_ratio()) * single;
+    IsoStiffnessSummary {
+        single_N_per_mm_um: single,
+        mesh_alpha_N_per_mm_um: mesh,
+        mesh_beta_N_per_mm_um: iso6336::MISALIGNED_OVER_MESH * mesh,
     }
 }
 

@@ -199,6 +199,13 @@ fn contact(s: &Summary) -> Markup {
                 .map(|share| row("Residual of the split of tooth and contact compliance, at 50 % load", "", [share])),
         );
     }
+    if let Some(iso) = &s.stiffness_iso_6336_1 {
+        rows.extend([
+            row("c′, ISO 6336-1", "N/(mm·µm)", [iso.single_N_per_mm_um]),
+            row("c_γα, ISO 6336-1", "N/(mm·µm)", [iso.mesh_alpha_N_per_mm_um]),
+            row("c_γβ, ISO 6336-1", "N/(mm·µm)", [iso.mesh_beta_N_per_mm_um]),
+        ]);
+    }
     table("Contact and stiffness", &["value"], rows)
 }
 

@@ -305,6 +305,7 @@ fn summary() -> Summary {
             teeth_at_pitch_N_per_mm_um: 20.0,
             split_remainder_at_half_load: Some(0.012),
         }),
+        stiffness_iso_6336_1: None,
         root_stress: PerGear::from_fn(|_| root_stress()),
         wear: Some(law()),
         wear_of_gear: PerGear::from_fn(|_| law()),
