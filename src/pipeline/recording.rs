@@ -9,12 +9,12 @@ use super::{
 use crate::gear::flank_edge::PathEnd;
 use crate::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
 use crate::mesh_cycle::CycleObservation;
+use crate::mesh_cycle::flank_pressure::{PressureFigures, TIP_EDGE_MEAN_OVER_MM};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::plan::Plan;
 use crate::reference::steel_yield;
 use crate::results::error::ErrorSummary;
 use crate::results::life::LifeSummary;
-use crate::results::path_points::among;
 use crate::results::run::{
     ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, InputFile,
     IsoStiffnessSummary, MeshCycleRow, PathPoints, RangeSummary, ReportedBy, RunRecord, StageLeftOut, StiffnessSummary,
@@ -97,7 +97,7 @@ pub(super) fn summary(
     warnings.extend(sharp_edge_warning(pair, outcome));
     warnings.extend(left_out_contact::warning(model, outcome));
     warnings.extend(deep_wear_warning(pair, outcome));
-    warnings.extend(pressure_warning(pair, outcome));
+    warnings.extend(pressure_warning(outcome));
     let wear_balance = balance(model, outcome);
     let worn = PerGear::from_fn(|gear| wear_figures(model, outcome, gear));
     (error.volume_balance, error.how.volume_balance) = volume_balance(model, &worn);
@@ -535,25 +535,16 @@ fn sharp_edge_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
     })
 }
 
-/// Warns where steel would flow under the pressure of the new or worn pair.
-fn pressure_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
+/// Warns where steel would flow under the pressure of the new or worn pair, of the flanks or of a tip edge.
+fn pressure_warning(outcome: &Outcome) -> Option<String> {
     let states = [("new", &outcome.new), ("worn", &outcome.worn)];
-    let greatest =
-        states.map(|(when, state)| (when, state.cycle.greatest_pressure.defined_mpa, &state.cycle.positions));
-    let (when, pressure_mpa, positions) = greatest.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let position_mm = positions
-        .iter()
-        .filter(|position| !position.footprint.at_sharp_edge)
-        .max_by(|a, b| a.footprint.peak_pressure_mpa.total_cmp(&b.footprint.peak_pressure_mpa))
-        .map(|position| position.position_mm);
-    let places = path_points(pair.path.points_mm()).named();
-    match position_mm {
-        // Slices are at positions of their own.
-        Some(at) if outcome.slices.width_mm.len() == 1 => {
-            steel_yield::warning(pressure_mpa, &format!("{when}, {}", among(&places, at)))
-        }
-        _ => steel_yield::warning(pressure_mpa, when),
-    }
+    let pressures = states.into_iter().flat_map(|(when, state)| {
+        let PressureFigures { flank_mpa, tip_edge_mean_mpa, .. } = state.cycle.pressure_figures;
+        let at_tip_edge = format!("tip edge, mean over {TIP_EDGE_MEAN_OVER_MM} mm, {when}");
+        [(format!("flank, {when}"), flank_mpa), (at_tip_edge, tip_edge_mean_mpa)]
+    });
+    let (place, pressure_mpa) = pressures.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    steel_yield::warning(pressure_mpa, &place)
 }
 
 /// Warns where so much is worn that the nominal tooth no longer stands for the worn one.

@@ -376,20 +376,31 @@ fn compared(
             new: flank_pressure([&run.new, &life.new]).map(|off| off + of_life.flank_pressure[0]),
             worn: flank_pressure([&run.worn, &life.worn]).map(|off| off + of_life.flank_pressure[1]),
         },
-        how: format!(
-            "the same wear simulation with {on} ({} positions in a base pitch, {} wear steps, {} mesh cycles); their own uncertainty is added: \
-             {} % of the profile, {} % of the maximum wear, {} % of that of the tip edges, and of the flank pressure {} % new and {} % worn",
-            life.work.equilibria / life.work.mesh_cycles.max(1),
-            life.steps.accepted,
-            life.work.mesh_cycles,
-            100.0 * of_life.profile,
-            100.0 * of_life.peak,
-            100.0 * of_life.tip_edge,
-            100.0 * of_life.flank_pressure[0],
-            100.0 * of_life.flank_pressure[1],
-        ),
+        how: [how(life, of_life, on), without_wear(&own)].concat(),
     };
     Verified { total, surface_model, wear_mm: Some(wear_mm.clone()), warning: None }
+}
+
+/// How a life vouches for a run.
+fn how(life: &Outcome, of_life: &Uncertainty, on: &str) -> String {
+    format!(
+        "the same wear simulation with {on} ({} positions in a base pitch, {} wear steps, {} mesh cycles); their own uncertainty is added: \
+             {} % of the profile, {} % of the maximum wear, {} % of that of the tip edges, and of the flank pressure {} % new and {} % worn",
+        life.work.equilibria / life.work.mesh_cycles.max(1),
+        life.steps.accepted,
+        life.work.mesh_cycles,
+        100.0 * of_life.profile,
+        100.0 * of_life.peak,
+        100.0 * of_life.tip_edge,
+        100.0 * of_life.flank_pressure[0],
+        100.0 * of_life.flank_pressure[1],
+    )
+}
+
+/// Why a gear has no error of its wear.
+fn without_wear(figures: &PerGear<WearFigures>) -> String {
+    let still = Gear::BOTH.into_iter().filter(|gear| figures[*gear].peak_mm <= 0.0);
+    still.map(|gear| format!("; the {} does not wear, so that its wear has no error", gear.name())).collect()
 }
 
 /// Whether the pressure reaches a transition to severe wear at any moment that is kept.

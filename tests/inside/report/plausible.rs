@@ -148,7 +148,9 @@ fn flank(gear: Gear) -> FlankRecord {
         zones: FlankZones {
             active_start_radius_mm: [34.123, 51.998][gear as usize],
             tip_edge_radius_mm: tip - 0.4,
+            tip_end_radius_mm: tip - 0.1,
             tip_radius_mm: tip,
+            pressure_length_mm: 0.04,
         },
         radius_mm,
     }
@@ -174,6 +176,8 @@ fn history_row(hours: f64) -> HistoryRow {
         wheel_tip_edge_wear_um: 0.0,
         pinion_below_sap_wear_um: 0.0,
         wheel_below_sap_wear_um: 0.0,
+        flank_pressure_MPa: 1655.8,
+        tip_edge_line_load_N_per_mm: 260.0,
     }
 }
 
@@ -234,6 +238,9 @@ fn summary() -> Summary {
     let cycle = |peak, te_min, te_max| CycleSummary {
         peak_pressure_MPa: peak,
         sharp_edge_pressure_MPa: None,
+        flank_pressure_MPa: 0.98 * peak,
+        tip_edge_line_load_N_per_mm: 260.0,
+        tip_edge_mean_pressure_MPa: 3000.0,
         pitch_pressure_MPa: 1655.8,
         load_imbalance: 1e-12,
         transmission_error_um: RangeSummary { min: te_min, max: te_max, peak_to_peak: te_max - te_min },
