@@ -35,7 +35,7 @@ use crate::contact::settings::SurfaceKind;
 use crate::gear::Gear;
 use crate::mesh_cycle::sliced_mesh::SlicedMesh;
 use crate::mesh_cycle::wearing_pair::Snapshot;
-use crate::mesh_cycle::{CycleObservation, PositionObservation, tip_contact};
+use crate::mesh_cycle::{CycleObservation, PositionObservation};
 use crate::results::invariant::Invariant;
 use crate::results::run::WearBalance;
 use crate::simulation::wear_run::Outcome;

@@ -250,15 +250,17 @@ pub(super) fn sum_up(model: &Model<'_>, outcome: &Outcome, seen: &Seen<'_>) -> O
     let wear_factors = work.each_ref().map(Work::wear_factors);
     let rows: Vec<FilmRow> = places.iter().zip(states).map(|(place, states)| row(running, place, states)).collect();
     let is_between = between_tip_edges(model);
-    let on_path: Vec<RowOfPath<'_>> = rows
+    let (on_path, at_tip_edges) = rows
         .iter()
         .zip(places)
-        .filter(|(_, place)| seen.is_on_path(place) && is_between(place))
-        .map(|(row, place)| (row, place.length_mm))
-        .collect();
+        .map(|(row, place)| (row, place, is_between(place)))
+        .partition::<Vec<_>, _>(|(_, place, between)| *between && seen.is_on_path(place));
+    let between: Vec<RowOfPath<'_>> = on_path.into_iter().map(|(row, place, _)| (row, place.length_mm)).collect();
+    let at_tip_edges: Vec<&FilmRow> =
+        at_tip_edges.into_iter().filter(|(.., between)| !between).map(|(row, ..)| row).collect();
     let summary = LubricationSummary {
         oil: oil.map(oil_summary),
-        film: oil.and_then(|oil| film_summary(&on_path, oil.settings.permissible_lambda, wear_factors)),
+        film: oil.and_then(|oil| film_summary(&between, &at_tip_edges, oil.settings.permissible_lambda, wear_factors)),
         method_b: oil.filter(|_| has_factor).map(|oil| method_b(running, oil)),
         method_b_null_because: oil.filter(|_| !has_factor).map(|_| NO_SHARING_FACTOR.to_owned()),
         scuffing: oil.map(|oil| scuffing::summary(running, oil, &model.scene.material)),
@@ -363,8 +365,10 @@ fn along_path(rows: &[RowOfPath<'_>], value: Value) -> Option<AlongPath> {
     (length > 0.0).then(|| AlongPath { min: extremes.0, max: extremes.1, mean: total / length })
 }
 
+/// Of the rows between A and E and between the tip-edge zones, `rows`, and of those at tip edges.
 fn film_summary(
     rows: &[RowOfPath<'_>],
+    at_tip_edges: &[&FilmRow],
     permissible_lambda: Option<f64>,
     [wear_factor_new, wear_factor_worn]: [Option<PerGear<f64>>; 2],
 ) -> Option<FilmSummary> {
@@ -375,11 +379,9 @@ fn film_summary(
         least.map(|row| row.position_mm)
     };
     let (lambda_new, lambda_worn) = (along(|row| row.lambda_new)?, along(|row| row.lambda_worn)?);
-    let greatest = |value: Value| rows.iter().filter_map(value).fold(0.0, f64::max);
-    let least_of_edges = |value: Value| {
-        let edges = rows.iter().zip(zones).filter(|(_, zone)| zone.at_tip_edge);
-        edges.filter_map(|(row, _)| value(row)).reduce(f64::min)
-    };
+    let all = || rows.iter().map(|(row, _)| *row).chain(at_tip_edges.iter().copied());
+    let greatest = |value: Value| all().filter_map(value).fold(0.0, f64::max);
+    let least_of_edges = |value: Value| at_tip_edges.iter().copied().filter_map(value).reduce(f64::min);
     let safety = |lambda: AlongPath| permissible_lambda.map(|permissible| lambda.min / permissible);
     Some(FilmSummary {
         central_film_new_um: along(|row| row.central_film_new_um)?,

@@ -327,7 +327,7 @@ fn note_contact_of_points(
 /// Figures of a contact's pressure, where the parts of the flanks are told.
 fn figures_of(flanks: Flanks<'_>, position_mm: f64, contact: &dyn PairContact) -> PressureFigures {
     let of_parts =
-        |parts: flank_pressure::FlankParts| parts.figures(flanks.geometry, position_mm, &contact.pressed_cells());
+        |parts: flank_pressure::FlankParts| parts.figures(&flanks.geometry, position_mm, &contact.pressed_cells());
     flanks.parts.map(of_parts).unwrap_or_default()
 }
 
