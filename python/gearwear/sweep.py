@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class Sweep(Table):
-    """The combinations of a sweep, a row each: the columns of ``sweep.csv`` as arrays, ``sweep["pinion_peak_wear_um"]``."""
+    """The combinations of a sweep, a row each: the columns of ``sweep.csv`` as arrays, ``sweep["pinion.peak_wear_um"]``."""
 
     def __init__(self, columns: Columns, summary: dict[str, Any]) -> None:
         super().__init__("sweep", columns)

@@ -85,7 +85,7 @@ def test_columns_are_those_of_the_command(whole: gearwear.Sweep, tmp_path: Path)
     assert whole.rows[3][TORQUE] == 150.0 and whole.rows[3][RELIEF] == 0.15
     assert whole.summary["failed"] == 2 and repr(whole).endswith("2 failed>")
     assert timeless(pickle.loads(pickle.dumps(whole))) == timeless(whole)
-    assert whole.to_pandas()["pinion_peak_wear_um"].idxmin() == whole.summary["best"][0]["index"]
+    assert whole.to_pandas()["pinion.peak_wear_um"].idxmin() == whole.summary["best"][0]["index"]
 
 
 def command(file: Path, out: Path, vary: list[str]) -> str:
@@ -349,7 +349,7 @@ def test_what_is_wrong_is_named() -> None:
         gearwear.sweep(scene(), {TORQUE: [None]})
     with pytest.raises(TypeError, match="vary: found str"):
         gearwear.sweep(scene(), f"{TORQUE}=1,2")  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="unknown figure pinion_peak_ware_um.*pinion_peak_wear_um"):
-        gearwear.sweep(scene(), VARY, best="pinion_peak_ware_um")
+    with pytest.raises(ValueError, match="unknown figure pinion.peak_ware_um.*pinion.peak_wear_um"):
+        gearwear.sweep(scene(), VARY, best="pinion.peak_ware_um")
     with ThreadPoolExecutor(1) as pool, pytest.raises(ValueError, match="threads: found 2 beside an executor"):
         gearwear.sweep(scene(), VARY, executor=pool, threads=2)

@@ -188,7 +188,7 @@ pub(super) enum InputError {
     #[diagnostic(help("{}", .0.help().unwrap_or_else(|| "for example --vary pair.face_width_mm=10:30:21".to_owned())))]
     Vary(AxisError),
     #[error("--best, --subject-to: {0}")]
-    #[diagnostic(help("for example --best pinion_peak_wear_um --subject-to \"wheel_peak_wear_um<=8\""))]
+    #[diagnostic(help("for example --best pinion.peak_wear_um --subject-to \"wheel.peak_wear_um<=8\""))]
     Goal(GoalError),
     /// `uncertainty` with a question that cannot be asked.
     #[error("{option}{0}", option = .0.option())]

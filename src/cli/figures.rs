@@ -1,27 +1,12 @@
 //! The main figures of a run, as a table for the terminal.
 
+use crate::report::headline;
 use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError};
-use crate::results::run::{HelicalSummary, OverWidthSummary, Summary};
+use crate::results::run::{HelicalSummary, OverWidthSummary, Summary, WearSummary};
 
 pub(super) fn table(summary: &Summary) -> String {
-    let (pinion, wheel) = (&summary.pinion, &summary.wheel);
     let (new, worn) = (&summary.new, &summary.worn);
-    let te = [&new.transmission_error_um, &worn.transmission_error_um].map(|te| te.peak_to_peak);
-    let mut text = [
-        format!("{}\n\n{}", summary.title, row("", ["pinion", "wheel"])),
-        figures("maximum wear, µm", [pinion.peak_wear_um, wheel.peak_wear_um]),
-        figures("  at radius, mm", [pinion.peak_wear_radius_mm, wheel.peak_wear_radius_mm]),
-        figures("wear of the tip edge, µm", [pinion.tip_edge_wear_um, wheel.tip_edge_wear_um]),
-        figures("wear below the active profile, µm", [pinion.below_sap_wear_um, wheel.below_sap_wear_um]),
-        figures("wear near the root, µm", [pinion.root_wear_um, wheel.root_wear_um]),
-        figures("wear at the pitch circle, µm", [pinion.pitch_wear_um, wheel.pitch_wear_um]),
-        figures("worn mass, mg", [pinion.worn_mass_mg, wheel.worn_mass_mg]),
-        row("", ["new", "worn"]),
-        figures("maximum pressure, MPa", [new.peak_pressure_MPa, worn.peak_pressure_MPa]),
-        figures("pressure at the pitch point, MPa", [new.pitch_pressure_MPa, worn.pitch_pressure_MPa]),
-        figures("transmission error, peak to peak, µm", te),
-    ]
-    .concat();
+    let mut text = [headline(summary), details(summary)].concat();
     let sharp = [new.sharp_edge_pressure_MPa, worn.sharp_edge_pressure_MPa];
     if sharp.iter().any(Option::is_some) {
         let [new, worn] = sharp.map(|pressure| pressure.map_or_else(|| "–".to_owned(), digits));
@@ -40,6 +25,58 @@ pub(super) fn table(summary: &Summary) -> String {
     }
     text.push_str(&format!("\n{run}, computed in {:.2} s\n", summary.wall_s));
     text
+}
+
+/// What is asked first: wear and how far it is known, flank pressure, transmission error, and what to do about the tip edges.
+fn headline(summary: &Summary) -> String {
+    let (new, worn, total) = (&summary.new, &summary.worn, &summary.error.total);
+    let scatter = format!("± {}", headline::scatter_percent());
+    let scatters = |wear: &WearSummary| if wear.peak_wear_um > 0.0 { scatter.as_str() } else { "–" };
+    let off =
+        |error: Option<f64>| error.map_or_else(|| "–".to_owned(), |error| format!("± {}", two_digits(100.0 * error)));
+    let errors = |name, [one, other]: [Option<f64>; 2]| row(name, [&off(one), &off(other)]);
+    let te = [&new.transmission_error_um, &worn.transmission_error_um].map(|te| te.peak_to_peak);
+    let is_verified = total.peak_wear.pinion.or(total.peak_wear.wheel).is_some();
+    let of_computation = "  error of the computation, %";
+    let mut text = [
+        format!("{}\n\n{}", summary.title, row("", ["pinion", "wheel"])),
+        figures("maximum wear, µm", [summary.pinion.peak_wear_um, summary.wheel.peak_wear_um]),
+        row("  scatter of k in repeated tests, %", [scatters(&summary.pinion), scatters(&summary.wheel)]),
+    ]
+    .concat();
+    if is_verified {
+        text.push_str(&errors(of_computation, [total.peak_wear.pinion, total.peak_wear.wheel]));
+    }
+    text.push_str(&row("", ["new", "worn"]));
+    text.push_str(&figures("flank pressure, MPa", [new.flank_pressure_MPa, worn.flank_pressure_MPa]));
+    if is_verified {
+        text.push_str(&errors(of_computation, [total.flank_pressure.new, total.flank_pressure.worn]));
+    }
+    text.push_str(&figures("transmission error, peak to peak, µm", te));
+    if is_verified {
+        text.push_str(&errors(of_computation, [None, total.transmission_error_peak_to_peak]));
+    }
+    if let Some(tips) = headline::tip_edges(summary) {
+        text.push_str(&format!("\n  {}\n", tips.replacen(". ", ".\n  ", 1)));
+    }
+    text
+}
+
+/// More of the wear of both flanks.
+fn details(summary: &Summary) -> String {
+    let (pinion, wheel) = (&summary.pinion, &summary.wheel);
+    [
+        format!("\n{}", row("", ["pinion", "wheel"])),
+        figures("radius of the maximum wear, mm", [pinion.peak_wear_radius_mm, wheel.peak_wear_radius_mm]),
+        figures("wear of the tip edge, µm", [pinion.tip_edge_wear_um, wheel.tip_edge_wear_um]),
+        figures("wear below the active profile, µm", [pinion.below_sap_wear_um, wheel.below_sap_wear_um]),
+        figures("wear near the root, µm", [pinion.root_wear_um, wheel.root_wear_um]),
+        figures("wear at the pitch circle, µm", [pinion.pitch_wear_um, wheel.pitch_wear_um]),
+        figures("worn mass, mg", [pinion.worn_mass_mg, wheel.worn_mass_mg]),
+        row("", ["new", "worn"]),
+        figures("pressure at the pitch point, MPa", [summary.new.pitch_pressure_MPa, summary.worn.pitch_pressure_MPa]),
+    ]
+    .concat()
 }
 
 /// What the slices tell; nothing where all sections are alike.
@@ -69,18 +106,14 @@ fn verified(total: &TotalError) -> String {
     }
     [
         row("difference from finite elements", ["pinion", "wheel"]),
-        both("maximum wear, %", &total.peak_wear),
         both("wear of the tip edge, %", &total.tip_edge_wear),
         both("wear over the flank (rms), %", &total.profile),
-        one("transmission error, peak to peak, %", total.transmission_error_peak_to_peak),
-        one("pressure between the tip edges, %", total.pressure_between_tips),
-        one("maximum pressure, new, %", total.peak_pressure.new),
-        one("maximum pressure, worn, %", total.peak_pressure.worn),
+        one("pressure between the tip edges (rms), %", total.pressure_between_tips),
     ]
     .concat()
 }
 
-/// The error estimates of the pinion's maximum wear; nothing where none was made.
+/// The error estimates of the maximum wear; nothing where none was made.
 fn estimated_errors(error: &ErrorSummary) -> String {
     let parts: Vec<String> = [
         ("points and positions", error.discretisation),
@@ -94,7 +127,7 @@ fn estimated_errors(error: &ErrorSummary) -> String {
     if parts.is_empty() {
         return String::new();
     }
-    format!("\n  estimated error of the pinion's maximum wear: {}\n", parts.join(", "))
+    format!("\n  estimated error of the maximum wear: {}\n", parts.join(", "))
 }
 
 /// An estimate with two significant digits: more it does not have.

@@ -117,6 +117,7 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
         error_estimate: args.error_estimate,
     };
     let sweep = Sweep::of(&scene, &question)?;
+    question.notes().iter().for_each(|note| say(&format!("note: {note}")));
     warn(&sweep.warnings());
     let mut unfinished = UnfinishedSweep::begin_part(&sweep, Some(&args.out), args.shard)?;
     let threads = thread_count(args.threads);

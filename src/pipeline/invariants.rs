@@ -21,7 +21,7 @@
 //!
 //! which is 0 or less where a smooth curve or a kink is resolved. What is steeper than the samples resolve is at most as steep as the gap
 //! of the pair that comes in: outside A to E the gap of a tip edge grows with the square of the distance, to δ at the reach s_δ of
-//! [`tip_contact::reach_mm`], so that
+//! [`GearPair::tip_reach_mm`], so that
 //!
 //! ```text
 //! |dδ/dξ| ≤ 2 δ/s_δ + slopes of the modifications and of the wear        |dX/dξ| ≤ c_γ/F |dδ/dξ|
@@ -160,7 +160,7 @@ fn follows_tip_edges(model: &Model<'_>) -> bool {
 fn steepest(model: &Model<'_>, outcome: &Outcome, state: &Snapshot) -> f64 {
     let pair = model.pair;
     let (_, most_mm) = state.cycle.transmission_error_mm();
-    let reach_mm = tip_contact::reach_mm(pair, most_mm);
+    let reach_mm = pair.tip_reach_mm(most_mm);
     let least_mm = reach_mm[0].min(reach_mm[1]).max(pair.path.base_pitch_mm / UM_PER_MM);
     let slopes = Gear::BOTH.map(|gear| {
         let rho = &outcome.grid[gear].coordinate_mm;

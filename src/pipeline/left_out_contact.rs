@@ -2,8 +2,7 @@
 
 use super::{Model, UM_PER_MM};
 use crate::contact::settings::SurfaceKind;
-use crate::mesh_cycle::tip_contact;
-use crate::simulation::left_out_contact::overlaps_mm;
+use crate::simulation::left_out_contact::{overlaps_mm, shares_outside};
 use crate::simulation::mesh_contact;
 use crate::simulation::wear_run::Outcome;
 
@@ -12,12 +11,66 @@ const LEAST_MM: f64 = 5e-5;
 
 /// Warns of the contact before A and after E that the run leaves out, if there is any.
 pub(super) fn warning(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
-    let (contact, teeth) = (model.scene.contact, model.teeth?);
-    if contact.tip_contact {
-        return None;
+    if model.scene.contact.surface == SurfaceKind::Fem || model.scene.contact.tip_contact {
+        return beyond_range(model, outcome);
     }
-    let bodies_mm = mesh_contact::bodies_mm2_per_n(teeth, model.sliced) * model.reference().line_load_n_per_mm;
-    let [new, worn] = [&outcome.new, &outcome.worn].map(|state| overlaps_mm(model.pair, outcome, state, bodies_mm));
+    outside_path(model, outcome)
+}
+
+/// How far the bodies that all pairs share yield.
+fn bodies_mm(model: &Model<'_>) -> f64 {
+    let of_load = |teeth| mesh_contact::bodies_mm2_per_n(teeth, model.sliced) * model.reference().line_load_n_per_mm;
+    model.teeth.map_or(0.0, of_load)
+}
+
+/// Of a run that follows tip edges: where it does not follow them far enough.
+fn beyond_range(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
+    let reference = model.reference();
+    let range_mm = reference.contact.range_mm(model.pair, reference.line_load_n_per_mm).ok()?;
+    let states = [&outcome.new, &outcome.worn];
+    let overlaps = states.map(|state| overlaps_mm(model.pair, outcome, state, bodies_mm(model), range_mm));
+    let farthest_mm = model.pair.farthest_touch_mm();
+    let mut ends = Vec::new();
+    for (end, name) in ["before A", "after E"].into_iter().enumerate() {
+        let overlap_mm = overlaps[0][end].max(overlaps[1][end]);
+        if overlap_mm < LEAST_MM {
+            continue;
+        }
+        let lost = match model.sliced {
+            Some(_) => String::new(),
+            None => {
+                let shares = states.map(|state| shares_outside(model.pair, state, range_mm)[end]);
+                format!(
+                    ", so that up to {:.0} % of the load comes in or leaves at once there",
+                    1e2 * shares[0].max(shares[1])
+                )
+            }
+        };
+        let why = match range_mm[end] > 0.99 * farthest_mm[end] {
+            true => ", where the tip circles of both gears part: tips would meet tips",
+            false => "",
+        };
+        ends.push(format!(
+            "{:.2} mm of the path {name}{why}, where the flanks would overlap by {:.1} µm{lost}",
+            range_mm[end],
+            overlap_mm * UM_PER_MM
+        ));
+    }
+    (!ends.is_empty()).then(|| {
+        format!(
+            "loaded teeth touch farther outside A to E than this run follows them, up to {}; less operation.pinion_torque_Nm, a stiffer material, \
+             or a shorter run keeps them within",
+            ends.join(" and ")
+        )
+    })
+}
+
+/// Of a run that does not follow tip edges.
+fn outside_path(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
+    let contact = model.scene.contact;
+    model.teeth?;
+    let [new, worn] =
+        [&outcome.new, &outcome.worn].map(|state| overlaps_mm(model.pair, outcome, state, bodies_mm(model), [0.0; 2]));
     let ends: Vec<String> = ["before A", "after E"]
         .into_iter()
         .zip(new.into_iter().zip(worn))
@@ -31,7 +84,7 @@ pub(super) fn warning(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
         return None;
     }
     let most_mm = [0, 1].map(|end| new[end].max(worn[end]));
-    let [before, after] = [0, 1].map(|end| tip_contact::reach_mm(model.pair, most_mm[end])[end]);
+    let [before, after] = [0, 1].map(|end| model.pair.tip_reach_mm(most_mm[end])[end]);
     let follow = match contact.surface {
         SurfaceKind::Winkler | SurfaceKind::HalfSpace => "contact.tip_contact = true follows it".to_owned(),
         other => format!(

@@ -46,17 +46,17 @@ pub(super) fn load_case<'a>(
             Some(WinklerFoundation::Uniform { mpa_per_mm: foundation_mpa_per_mm })
         }
         (SurfaceKind::Winkler, Foundation::Calibrated(criterion), Some(calibration)) => {
-            let approach = &calibration.foundation[&MatchCriterion::Approach];
-            let edges = || EdgeFoundations::new(pair, &material, line_load_n_per_mm, criterion, approach);
-            Some(WinklerFoundation::Curve {
-                pressure: calibration.foundation[&criterion].clone(),
-                approach: approach.clone(),
-                edges: scene.contact.tip_contact.then(edges),
-            })
+            let curve = |criterion| calibration.foundation[&criterion].in_normal_section(pair.obliquity());
+            let approach = curve(MatchCriterion::Approach);
+            let edges = scene
+                .contact
+                .tip_contact
+                .then(|| EdgeFoundations::new(pair, &material, line_load_n_per_mm, criterion, &approach));
+            Some(WinklerFoundation::Curve { pressure: curve(criterion), approach, edges })
         }
         (SurfaceKind::Winkler, Foundation::Calibrated(_), None) => unreachable!("a loaded scene has its calibration"),
         (SurfaceKind::Winkler, Foundation::Matched(criterion), _) => {
-            let at_pitch = hertz::flattening(pair, &material, pair.path.pitch_point_mm);
+            let at_pitch = hertz::flattening(&pair.normal_section(), &material, pair.path.pitch_point_mm);
             let matched = || matched_mpa_per_mm(criterion, &at_pitch, line_load_n_per_mm);
             Some(WinklerFoundation::Uniform { mpa_per_mm: stages.run(StageKind::ContactMatch.name(), matched) })
         }

@@ -1,16 +1,21 @@
 //! Films, friction and losses of the new and of the worn pair, from the loads and pressures of the run.
 //!
-//! With x the pinion's radius of curvature at the contact point of a slice, w its load per mm of face width, v_g its sliding speed and n slices,
+//! With x the pinion's radius of curvature at the contact point of a slice, w its transverse load per mm of face width, v_g its sliding speed and
+//! n slices, the normal force is w/cos β_b ([`crate::gear::normal_section`]) and
 //!
 //! ```text
-//! P_VZ = 1/p_bt ∫ b/n Σ μ w v_g dx        H_VL = 1/p_bt ∫ b/n Σ w v_g dx / P
+//! P_VZ = 1/p_bt ∫ b/n Σ μ w v_g/cos β_b dx        H_VL = 1/p_bt ∫ b/n Σ w v_g/cos β_b dx / P
 //! ```
+//!
+//! over all contacts of slices, also those of tip edges before A and after E.
 //!
 //! Film and friction of each contact are those of [`crate::lubrication::running_pair`].
 
+use std::f64::consts::PI;
+
 use super::{Model, scuffing};
 use crate::contact::settings::SurfaceKind;
-use crate::gear::{Gear, PerGear};
+use crate::gear::{Gear, PerGear, flank_zones::FlankZone};
 use crate::lubrication::local_film::local_film;
 use crate::lubrication::loss;
 use crate::lubrication::running_pair::{ContactFilm, Finish, LoadedPlace, OilInMesh, RunningPair};
@@ -20,6 +25,10 @@ use crate::results::lubrication::{
     OilSummary,
 };
 use crate::simulation::wear_run::Outcome;
+
+/// Why figures that need the standards' load sharing factor are missing.
+pub(super) const NO_SHARING_FACTOR: &str =
+    "the standards have a load sharing factor for transverse contact ratios below 2 alone";
 
 /// What is found, as the record has it.
 pub(super) struct Observed {
@@ -35,6 +44,9 @@ struct Place {
     width_mm: f64,
     /// Length of the path that it stands for.
     length_mm: f64,
+    /// Part of the width of its slice that is in contact.
+    part_of_width: f64,
+    /// Transverse load over the whole width of its slice.
     load_n_per_mm: [f64; 2],
     pressure_mpa: [f64; 2],
 }
@@ -50,7 +62,7 @@ impl Place {
     fn loaded(&self, which: usize) -> LoadedPlace {
         LoadedPlace {
             position_mm: self.position_mm,
-            line_load_n_per_mm: self.load_n_per_mm[which],
+            line_load_n_per_mm: self.load_n_per_mm[which] / self.part_of_width,
             peak_pressure_mpa: self.pressure_mpa[which],
         }
     }
@@ -78,6 +90,7 @@ fn method_b(running: &RunningPair<'_>, oil: &OilInMesh) -> MethodBSummary {
             let nominal_pressure_mpa = running.bodies.peak_pressure_mpa(&unpressed);
             let pressure_mpa = nominal_pressure_mpa * running.settings.load_factors.product().sqrt();
             let contact = running.contact(position_mm, load, pressure_mpa);
+            let pressed = load * running.settings.load_factors.product();
             let local = local_film(&contact, &running.bodies, &oil.oil, oil.bulk_c, mean_friction);
             let (flash_k, film_um) = local.map_or((0.0, 0.0), |local| (local.flash_k, local.thickness_um));
             MethodBPoint {
@@ -87,6 +100,8 @@ fn method_b(running: &RunningPair<'_>, oil: &OilInMesh) -> MethodBSummary {
                 relative_radius_mm: unpressed.relative_radius_mm,
                 nominal_pressure_MPa: nominal_pressure_mpa,
                 pressure_MPa: pressure_mpa,
+                // p = 2 w/(π a).
+                half_width_mm: 2.0 * pressed / (PI * pressure_mpa),
                 contact_temperature_C: oil.bulk_c + flash_k,
                 film_um,
                 lambda: film_um / oil.mean.ra_um,
@@ -100,7 +115,7 @@ fn method_b(running: &RunningPair<'_>, oil: &OilInMesh) -> MethodBSummary {
     MethodBSummary { points, mean_friction, least_lambda_at, least_lambda, micropitting_safety }
 }
 
-/// All contacts of the run's mesh, new and worn, within the line of action.
+/// All contacts of the run's mesh, new and worn; of a pair without slices, those within the line of action.
 fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
     let (new, worn) = (&outcome.new.cycle, &outcome.worn.cycle);
     // The simplified surface has the mean pressure for the greatest.
@@ -120,6 +135,7 @@ fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
                 slice: 0,
                 width_mm: middle_mm,
                 length_mm: 0.5 * (at((k + 1).min(last)) - at(k.saturating_sub(1))),
+                part_of_width: 1.0,
                 load_n_per_mm: [new.load_share * whole, worn.load_share * whole],
                 pressure_mpa: [new, worn].map(|seen| greatest * seen.footprint.peak_pressure_mpa),
             })
@@ -128,22 +144,26 @@ fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
     let count = new_slices.slices;
     let spacing = new_slices.base_pitch_mm / new_slices.transmission_error_mm.len() as f64;
     let cells = new_slices.position_mm.iter().enumerate();
+    let path = &model.pair.path;
+    let touches_beyond = model.scene.contact.tip_contact;
     let all = cells.flat_map(|(row, &position_mm)| {
         (0..count).map(move |slice| {
             let cell = row * count + slice;
             let meshes = [new_slices, worn_slices];
+            let middle_mm = position_mm + outcome.slices.ahead_mm[slice];
             Place {
-                position_mm: position_mm + outcome.slices.ahead_mm[slice],
+                // The part of a slice whose middle is not in contact is.
+                position_mm: if touches_beyond { middle_mm } else { path.folded_mm(middle_mm) },
                 slice,
                 width_mm: outcome.slices.width_mm[slice],
                 length_mm: spacing,
+                part_of_width: new_slices.part_of_width[cell],
                 load_n_per_mm: meshes.map(|mesh| mesh.line_load_n_per_mm[cell]),
                 pressure_mpa: meshes.map(|mesh| greatest * mesh.peak_pressure_mpa[cell]),
             }
         })
     });
-    let path = &model.pair.path;
-    all.filter(|place| (path.start_mm..=path.end_mm).contains(&place.position_mm)).collect()
+    all.filter(|place| place.part_of_width > 0.0).collect()
 }
 
 /// Sums over the path.
@@ -151,7 +171,9 @@ fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
 struct Work {
     sliding_w: f64,
     friction_w: f64,
-    /// Sliding of each gear that counts as wearing under its films; none where its law reads none.
+    /// Sliding between A and E.
+    on_path_w: f64,
+    /// Sliding of each gear there that counts as wearing under its films; none where its law reads none.
     wearing_w: PerGear<Option<f64>>,
 }
 
@@ -159,13 +181,18 @@ impl Work {
     /// Of the new (0) or worn (1) pair.
     fn over(model: &Model<'_>, seen: &Seen<'_>, slice_width_mm: f64, which: usize) -> Self {
         let mut work = Self::default();
+        let obliquity = model.pair.obliquity();
         for (place, states) in seen.places.iter().zip(&seen.states) {
             let sliding_m_per_s = seen.running.contact(place.position_mm, 0.0, 0.0).sliding_speed_m_per_s();
-            let power_w = place.load_n_per_mm[which] * slice_width_mm * sliding_m_per_s * place.length_mm
-                / model.pair.path.base_pitch_mm;
+            let force_n = obliquity.normal_force(place.load_n_per_mm[which]) * slice_width_mm;
+            let power_w = force_n * sliding_m_per_s * place.length_mm / model.pair.path.base_pitch_mm;
             work.sliding_w += power_w;
             let Some(state) = states[which] else { continue };
             work.friction_w += power_w * state.friction;
+            if !seen.is_on_path(place) {
+                continue;
+            }
+            work.on_path_w += power_w;
             for gear in Gear::BOTH {
                 let wear = &model.reference().wear;
                 if let Some(factor) = wear.film_factor(gear, &place.loaded(which)) {
@@ -178,8 +205,8 @@ impl Work {
 
     /// Mean factor of the film on the wear of each gear; none where neither law reads films.
     fn wear_factors(&self) -> Option<PerGear<f64>> {
-        let reads = self.sliding_w > 0.0 && Gear::BOTH.into_iter().any(|gear| self.wearing_w[gear].is_some());
-        reads.then(|| self.wearing_w.map(|wearing_w| wearing_w.map_or(1.0, |wearing| wearing / self.sliding_w)))
+        let reads = self.on_path_w > 0.0 && Gear::BOTH.into_iter().any(|gear| self.wearing_w[gear].is_some());
+        reads.then(|| self.wearing_w.map(|wearing_w| wearing_w.map_or(1.0, |wearing| wearing / self.on_path_w)))
     }
 
     /// μ, the mean over the sliding.
@@ -196,6 +223,14 @@ pub(super) struct Seen<'a> {
     states: Vec<[Option<State>; 2]>,
 }
 
+impl Seen<'_> {
+    /// Whether a place lies between A and E.
+    fn is_on_path(&self, place: &Place) -> bool {
+        let path = &self.running.pair.path;
+        (path.start_mm..=path.end_mm).contains(&place.position_mm)
+    }
+}
+
 /// Looks at both states of a run; none where nobody asks.
 pub(super) fn look<'a>(model: &Model<'a>, outcome: &Outcome) -> Option<Seen<'a>> {
     let running = model.phases[outcome.reference_phase].wear.running?;
@@ -208,15 +243,24 @@ pub(super) fn look<'a>(model: &Model<'a>, outcome: &Outcome) -> Option<Seen<'a>>
 pub(super) fn sum_up(model: &Model<'_>, outcome: &Outcome, seen: &Seen<'_>) -> Observed {
     let Seen { running, places, states } = seen;
     let oil = running.oil.as_ref();
+    let has_factor = running.sharing.is_of_standard();
     let slices = outcome.slices.count().max(1) as f64;
     let width_mm = model.pair.spec.face_width_mm / slices;
     let work = [0, 1].map(|which| Work::over(model, seen, width_mm, which));
     let wear_factors = work.each_ref().map(Work::wear_factors);
     let rows: Vec<FilmRow> = places.iter().zip(states).map(|(place, states)| row(running, place, states)).collect();
+    let is_between = between_tip_edges(model);
+    let on_path: Vec<RowOfPath<'_>> = rows
+        .iter()
+        .zip(places)
+        .filter(|(_, place)| seen.is_on_path(place) && is_between(place))
+        .map(|(row, place)| (row, place.length_mm))
+        .collect();
     let summary = LubricationSummary {
         oil: oil.map(oil_summary),
-        film: oil.and_then(|oil| film_summary(&rows, places, oil.settings.permissible_lambda, wear_factors)),
-        method_b: oil.map(|oil| method_b(running, oil)),
+        film: oil.and_then(|oil| film_summary(&on_path, oil.settings.permissible_lambda, wear_factors)),
+        method_b: oil.filter(|_| has_factor).map(|oil| method_b(running, oil)),
+        method_b_null_because: oil.filter(|_| !has_factor).map(|_| NO_SHARING_FACTOR.to_owned()),
         scuffing: oil.map(|oil| scuffing::summary(running, oil, &model.scene.material)),
         friction: friction_summary(running, &work),
         losses: losses(running, &work),
@@ -232,8 +276,7 @@ pub(super) fn warning(summary: &LubricationSummary) -> Option<String> {
     (!without.is_empty()).then(|| {
         format!(
             "the least λ by ISO/TS 6336-22 is 0 ({}): flash temperatures of up to {:.0} K are beyond what its fits of the oil hold for (the \
-             pressure–viscosity coefficient ends at 510 °C), as where tip edges carry load; λ and the safety against micropitting are of no \
-             use there",
+             pressure–viscosity coefficient ends at 510 °C); λ and the safety against micropitting are of no use there",
             without.join(", "),
             film.greatest_flash_new_K.max(film.greatest_flash_worn_K)
         )
@@ -252,6 +295,7 @@ fn row(running: &RunningPair<'_>, place: &Place, states: &[Option<State>; 2]) ->
     let [composite_lambda_new, composite_lambda_worn] = of(|film| Some(film.composite_lambda));
     let [flash_new_k, flash_worn_k] = of(|film| film.local.map(|local| local.flash_k));
     let [friction_new, friction_worn] = states.map(|state| state.map(|state| state.friction));
+    let normal_force = |transverse| running.pair.obliquity().normal_force(transverse);
     FilmRow {
         position_mm: place.position_mm,
         slice: place.slice,
@@ -259,8 +303,8 @@ fn row(running: &RunningPair<'_>, place: &Place, states: &[Option<State>; 2]) ->
         relative_radius_mm: surfaces.relative_radius_mm,
         sum_speed_m_per_s: surfaces.sum_speed_m_per_s(),
         sliding_speed_m_per_s: surfaces.sliding_speed_m_per_s(),
-        line_load_new_N_per_mm: place.load_n_per_mm[0],
-        line_load_worn_N_per_mm: place.load_n_per_mm[1],
+        line_load_new_N_per_mm: normal_force(place.load_n_per_mm[0]),
+        line_load_worn_N_per_mm: normal_force(place.load_n_per_mm[1]),
         central_film_new_um,
         central_film_worn_um,
         minimum_film_new_um,
@@ -291,11 +335,28 @@ fn oil_summary(in_mesh: &OilInMesh) -> OilSummary {
     }
 }
 
+/// A row between A and E and between the tip-edge zones, and the length of the path that it stands for, mm.
+type RowOfPath<'a> = (&'a FilmRow, f64);
+
 type Value = fn(&FilmRow) -> Option<f64>;
 
+/// Which places are between the tip-edge zones of both gears: all, where the surface sees no tip edges.
+fn between_tip_edges(model: &Model<'_>) -> impl Fn(&Place) -> bool {
+    let contact = &model.scene.contact;
+    let sees_edges = contact.tip_contact || contact.surface == SurfaceKind::Fem;
+    let (path, zones) = (&model.pair.path, model.zones());
+    move |place| {
+        let is_edge = |gear: Gear| {
+            let radius_mm = path.involute[gear].base_radius_mm.hypot(path.rho_mm(gear, place.position_mm));
+            zones[gear].at(radius_mm) == FlankZone::TipEdge
+        };
+        !(sees_edges && Gear::BOTH.into_iter().any(is_edge))
+    }
+}
+
 /// Extremes and mean of a column, where it has values.
-fn along_path(rows: &[FilmRow], places: &[Place], value: Value) -> Option<AlongPath> {
-    let values = || rows.iter().zip(places).filter_map(|(row, place)| Some((value(row)?, place.length_mm)));
+fn along_path(rows: &[RowOfPath<'_>], value: Value) -> Option<AlongPath> {
+    let values = || rows.iter().filter_map(|(row, length_mm)| Some((value(row)?, *length_mm)));
     let (total, length) = values().fold((0.0, 0.0), |(sum, length), (value, part)| (sum + value * part, length + part));
     let extremes =
         values().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (value, _)| (low.min(value), high.max(value)));
@@ -303,18 +364,22 @@ fn along_path(rows: &[FilmRow], places: &[Place], value: Value) -> Option<AlongP
 }
 
 fn film_summary(
-    rows: &[FilmRow],
-    places: &[Place],
+    rows: &[RowOfPath<'_>],
     permissible_lambda: Option<f64>,
     [wear_factor_new, wear_factor_worn]: [Option<PerGear<f64>>; 2],
 ) -> Option<FilmSummary> {
-    let along = |value: Value| along_path(rows, places, value);
+    let along = |value: Value| along_path(rows, value);
     let place_of_least = |value: Value| {
-        let least = rows.iter().filter(|row| value(row).is_some());
+        let least = rows.iter().map(|(row, _)| *row).filter(|row| value(row).is_some());
         let least = least.min_by(|one, two| value(one).partial_cmp(&value(two)).unwrap_or(std::cmp::Ordering::Equal));
         least.map(|row| row.position_mm)
     };
     let (lambda_new, lambda_worn) = (along(|row| row.lambda_new)?, along(|row| row.lambda_worn)?);
+    let greatest = |value: Value| rows.iter().filter_map(value).fold(0.0, f64::max);
+    let least_of_edges = |value: Value| {
+        let edges = rows.iter().zip(zones).filter(|(_, zone)| zone.at_tip_edge);
+        edges.filter_map(|(row, _)| value(row)).reduce(f64::min)
+    };
     let safety = |lambda: AlongPath| permissible_lambda.map(|permissible| lambda.min / permissible);
     Some(FilmSummary {
         central_film_new_um: along(|row| row.central_film_new_um)?,
@@ -327,8 +392,10 @@ fn film_summary(
         least_lambda_worn_position_mm: place_of_least(|row| row.lambda_worn)?,
         micropitting_safety_new: safety(lambda_new),
         micropitting_safety_worn: safety(lambda_worn),
-        greatest_flash_new_K: along(|row| row.flash_new_K)?.max,
-        greatest_flash_worn_K: along(|row| row.flash_worn_K)?.max,
+        tip_edge_lambda_new: least_of_edges(|row| row.lambda_new),
+        tip_edge_lambda_worn: least_of_edges(|row| row.lambda_worn),
+        greatest_flash_new_K: greatest(|row| row.flash_new_K),
+        greatest_flash_worn_K: greatest(|row| row.flash_worn_K),
         composite_lambda_new: along(|row| row.composite_lambda_new),
         composite_lambda_worn: along(|row| row.composite_lambda_worn),
         wear_factor_new,

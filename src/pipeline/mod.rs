@@ -41,7 +41,7 @@ use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::mesh_cycle::slice_coupling::SliceCompliance;
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::observer::Observer;
-use crate::plan::{Plan, StageKind, memory_in_space_gb};
+use crate::plan::{MUCH_OF_SLICES_GB, Plan, StageKind, memory_in_space_gb, memory_of_slices_gb};
 use crate::reference::flattening::Flattening;
 use crate::results::error::ErrorSummary;
 use crate::results::run::{RunRecord, StopReason, Summary};
@@ -125,6 +125,17 @@ fn much_in_space(scene: &Scene) -> Option<String> {
         format!(
             "the teeth in space take some {gb:.1} GB, and a minute or more; a smaller pair.face_width_mm, fewer helical.slices, \
              numerics.positions or loads of operation.phases, or numerics.verify = false take less"
+        )
+    })
+}
+
+/// What is to be said before the contacts of many slices are made, where they take much.
+fn many_slices(scene: &Scene) -> Option<String> {
+    let gb = memory_of_slices_gb(scene);
+    (gb > MUCH_OF_SLICES_GB).then(|| {
+        format!(
+            "the contacts of all slices take some {gb:.1} GB, and a wear step as much longer; fewer helical.slices, numerics.positions or \
+             loads of operation.phases take less"
         )
     })
 }
@@ -261,7 +272,7 @@ fn carry_out<R>(
     let mut stages = StageClock::new(observer);
 
     let pair = stages.run(StageKind::Geometry.name(), || GearPair::new(&scene.pair))?;
-    let at_pitch = hertz::flattening(&pair, &scene.material, pair.path.pitch_point_mm);
+    let at_pitch = hertz::flattening(&pair.normal_section(), &scene.material, pair.path.pitch_point_mm);
     let line_load = |phase: &Phase| pair.line_load_n_per_mm(phase.pinion_torque_n_mm);
     // One model of finite elements serves the stiffness of the teeth and the verification.
     let elements = match plan.has(StageKind::FiniteElementModel) && scene.contact.surface != SurfaceKind::Fem {
@@ -338,11 +349,15 @@ fn carry_out<R>(
         true => Some(stages.run(StageKind::TeethInSpace.name(), || {
             let material = scene.material.map(Material::elastic);
             let slices = scene.slices.map_or(1, |slices| slices.count);
-            loaded.teeth_in_space.condensed(&pair, material, scene.fem.in_space(), slices)
+            let load = pair.line_load_n_per_mm(scene.operation.pinion_torque_n_mm);
+            loaded.teeth_in_space.condensed(&pair, material, scene.fem.in_space(), slices, load)
         })),
         false => None,
     };
     let (slices, coupling_warning) = own_slices(scene, stiffness, in_space.as_ref())?;
+    if let Some(much) = many_slices(scene) {
+        observer.announcement(&much);
+    }
     let sliced = slices.map(|settings| {
         let coupling = in_space.as_ref().and_then(|teeth| teeth.as_ref().ok()).cloned();
         let compliance = slice_compliance(&pair, scene, files, teeth[0].as_ref());

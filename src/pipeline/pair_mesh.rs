@@ -130,7 +130,8 @@ pub(crate) fn build(scene: &Scene, position_mm: Option<f64>) -> Result<PairMesh,
         hertz::flattening(&pair, &scene.material, position_mm).contact.loaded(line_load_n_per_mm).half_width_mm
     };
     let sectors = gear_mesh::pair_sectors(&pair, &scene.fem, &half_width_mm)?;
-    let mut fine_teeth = gear_mesh::touching_pairs(&pair);
+    let reach_mm = pair.ample_tip_reach_mm(line_load_n_per_mm, hertz::contact_modulus_mpa(&scene.material));
+    let mut fine_teeth = gear_mesh::touching_pairs(&pair, reach_mm);
     if let Body::Sector { teeth, .. } = scene.fem.body {
         fine_teeth.retain(|index| 2 * index.unsigned_abs() < teeth);
     }

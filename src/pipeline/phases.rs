@@ -26,7 +26,11 @@ pub(super) fn summaries(model: &Model<'_>, outcome: &Outcome) -> Vec<PhaseSummar
         // The ends of phases are among the snapshots.
         let after = outcome.snapshots.iter().rfind(|snapshot| snapshot.revolutions <= end).unwrap_or(before);
         let load = run.line_load_n_per_mm;
-        let at_pitch = hertz::flattening(model.pair, &model.scene.material_in(phase), model.pair.path.pitch_point_mm);
+        let at_pitch = hertz::flattening(
+            &model.pair.normal_section(),
+            &model.scene.material_in(phase),
+            model.pair.path.pitch_point_mm,
+        );
         let coefficient = model.scene.wear_in(phase).map(|own| own.coefficient_mm2_per_n / MM2_PER_N);
         let heat =
             model.scene.heat.and_then(|asked| Some((asked, temperature::observe_at(model, outcome, after, index)?)));
@@ -63,13 +67,12 @@ fn wear(
         (Some(after), Some(before)) => after[gear].wear_mm2 - before[gear].wear_mm2,
         _ => lost.area_mm2,
     };
-    let spec = &model.scene.pair;
     PhaseWear {
         coefficient_m2_per_N: coefficient_m2_per_n,
         greatest_depth_um: lost.peak_mm * UM_PER_MM,
         tip_edge_depth_um: lost.tip_edge.depth_mm * UM_PER_MM,
         below_sap_depth_um: lost.below_active.depth_mm * UM_PER_MM,
-        worn_volume_mm3: area_mm2 * spec.face_width_mm * f64::from(spec.gears[gear].teeth),
+        worn_volume_mm3: model.pair.over_all_flanks(gear, area_mm2),
     }
 }
 

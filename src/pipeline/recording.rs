@@ -6,18 +6,19 @@ use super::{
     Model, RunError, UM_PER_MM, drawing, error_estimates, invariants, left_out_contact, phases, root_stress, slices,
     stability::Judged, verification::Verified,
 };
+use crate::gear::flank_edge::PathEnd;
 use crate::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
 use crate::mesh_cycle::CycleObservation;
+use crate::mesh_cycle::flank_pressure::{PressureFigures, TIP_EDGE_MEAN_OVER_MM};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::plan::Plan;
 use crate::reference::steel_yield;
 use crate::results::error::ErrorSummary;
 use crate::results::life::LifeSummary;
-use crate::results::path_points::among;
 use crate::results::run::{
-    ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, InputFile, MeshCycleRow,
-    PathPoints, RangeSummary, ReportedBy, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary,
-    WorkSummary,
+    ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, InputFile,
+    IsoStiffnessSummary, MeshCycleRow, PathPoints, RangeSummary, ReportedBy, RunRecord, StageLeftOut, StiffnessSummary,
+    Summary, WearBalance, WearSummary, WorkSummary,
 };
 use crate::results::worn_pair::WornPair;
 use crate::scene::Resolved;
@@ -26,6 +27,7 @@ use crate::scene::loaded::LoadedScene;
 use crate::scene::problem::number;
 use crate::simulation::figures::{WearFigures, wear_profile};
 use crate::simulation::wear_run::{Outcome, SMALL_WEAR_MODULES};
+use crate::stiffness::iso6336;
 use crate::thermal::settings::TemperatureMethod;
 use crate::wear::settings::WearSettings;
 use crate::wear::vdi_2736::{SteadyWear, mean_wear_mm};
@@ -95,7 +97,7 @@ pub(super) fn summary(
     warnings.extend(sharp_edge_warning(pair, outcome));
     warnings.extend(left_out_contact::warning(model, outcome));
     warnings.extend(deep_wear_warning(pair, outcome));
-    warnings.extend(pressure_warning(pair, outcome));
+    warnings.extend(pressure_warning(outcome));
     let wear_balance = balance(model, outcome);
     let worn = PerGear::from_fn(|gear| wear_figures(model, outcome, gear));
     (error.volume_balance, error.how.volume_balance) = volume_balance(model, &worn);
@@ -132,6 +134,7 @@ pub(super) fn summary(
         reference_phase: outcome.reference_phase + 1,
         phases: phases::summaries(model, outcome),
         stiffness: stiffness(model)?,
+        stiffness_iso_6336_1: Some(stiffness_iso_6336_1(model)),
         root_stress: root_stress::summary(pair, model.reference().line_load_n_per_mm),
         wear,
         wear_of_gear,
@@ -272,6 +275,7 @@ pub(super) fn geometry(pair: &GearPair) -> GeometrySummary {
         backlash_mm: pair.backlash_mm,
         gears: PerGear::from_fn(|gear| {
             let tooth = &pair.teeth[gear];
+            let (span, over_balls) = (pair.span(gear), pair.over_balls(gear));
             GearSummary {
                 teeth: tooth.teeth,
                 reference_diameter_mm: 2.0 * tooth.reference_radius_mm,
@@ -285,6 +289,13 @@ pub(super) fn geometry(pair: &GearPair) -> GeometrySummary {
                 tip_thickness_mm: tooth.thickness_mm(tooth.tip_radius_mm),
                 tip_clearance_mm: pair.tip_clearance_mm[gear],
                 undercut: tooth.undercut,
+                tip_form_diameter_mm: 2.0 * pair.tip_form_radius_mm(gear),
+                end_of_active_profile_diameter_mm: 2.0 * pair.active_end_radius_mm(gear),
+                specific_sliding_at_root: pair.specific_sliding_at_root(gear),
+                span_teeth: span.map(|span| span.teeth),
+                span_mm: span.map(|span| span.span_mm),
+                ball_diameter_mm: over_balls.map(|balls| balls.ball_diameter_mm),
+                dimension_over_balls_mm: over_balls.map(|balls| balls.dimension_mm),
             }
         }),
     }
@@ -298,6 +309,19 @@ fn contact(model: &Model<'_>, outcome: &Outcome) -> ContactSummary {
         foundation_MPa_per_mm: model.foundations_mpa_per_mm[outcome.reference_phase],
         hertz_half_width_mm: at_pitch.half_width_mm,
         hertz_peak_pressure_MPa: at_pitch.peak_pressure_mpa,
+    }
+}
+
+/// c', c_γα and c_γβ of the pair under the load of the reference phase.
+fn stiffness_iso_6336_1(model: &Model<'_>) -> IsoStiffnessSummary {
+    let (scene, pair) = (model.scene, model.pair);
+    let load = model.reference().line_load_n_per_mm;
+    let single = iso6336::single_stiffness_n_per_mm2(&scene.pair, &scene.material, load) / UM_PER_MM;
+    let mesh = iso6336::mesh_over_single(pair.path.contact_ratio()) * single;
+    IsoStiffnessSummary {
+        single_N_per_mm_um: single,
+        mesh_alpha_N_per_mm_um: mesh,
+        mesh_beta_N_per_mm_um: iso6336::MISALIGNED_OVER_MESH * mesh,
     }
 }
 
@@ -320,6 +344,9 @@ fn cycle(pair: &GearPair, cycle: &CycleObservation) -> CycleSummary {
         peak_pressure_MPa: cycle.greatest_pressure.defined_mpa,
         sharp_edge_pressure_MPa: cycle.greatest_pressure.sharp_edge_mpa,
         load_imbalance: cycle.positions.iter().map(|p| p.load_imbalance.abs()).fold(0.0, f64::max),
+        flank_pressure_MPa: cycle.pressure_figures.flank_mpa,
+        tip_edge_line_load_N_per_mm: cycle.pressure_figures.tip_edge_line_load_n_per_mm,
+        tip_edge_mean_pressure_MPa: cycle.pressure_figures.tip_edge_mean_mpa,
         pitch_pressure_MPa: cycle.peak_pressure_at_mpa(pair.path.pitch_point_mm),
         transmission_error_um: RangeSummary {
             min: min * UM_PER_MM,
@@ -332,7 +359,7 @@ fn cycle(pair: &GearPair, cycle: &CycleObservation) -> CycleSummary {
 fn wear_figures(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> WearSummary {
     let (scene, pair) = (model.scene, model.pair);
     let figures = WearFigures::at(pair, gear, outcome, &outcome.worn);
-    let volume_mm3 = figures.area_mm2 * scene.pair.face_width_mm * f64::from(scene.pair.gears[gear].teeth);
+    let volume_mm3 = pair.over_all_flanks(gear, figures.area_mm2);
     let mean_mm = vdi_2736_mean_wear_mm(model, outcome, gear);
     WearSummary {
         peak_wear_um: figures.peak_mm * UM_PER_MM,
@@ -407,11 +434,14 @@ fn flank(model: &Model<'_>, RunFindings { outcome, verified, .. }: RunFindings<'
     let involute = pair.teeth[gear].involute;
     let um = |values: &[f64]| values.iter().map(|value| value * UM_PER_MM).collect::<Vec<_>>();
     let rho = &outcome.grid[gear].coordinate_mm;
+    // Along the transverse line of action, as drawings have them.
+    let normal_mm = outcome.modification_mm[gear].iter();
+    let drawn_mm: Vec<f64> = normal_mm.map(|&normal| pair.obliquity().transverse_mm(normal)).collect();
     FlankRecord {
         radius_mm: rho.iter().map(|&rho| involute.radius_mm(rho)).collect(),
         roll_angle_deg: rho.iter().map(|&rho| involute.roll_angle_rad(rho).to_degrees()).collect(),
         width_mm: outcome.slices.width_mm.clone(),
-        removed_um: um(&outcome.modification_mm[gear]),
+        removed_um: um(&drawn_mm),
         sliding_mm_per_mesh: outcome.new.cycle.sliding_mm[gear].clone(),
         wear_um: um(&outcome.worn.wear_mm[gear]),
         verified_wear_um: verified.and_then(|verified| verified.wear_mm.as_ref()).map(|wear_mm| um(&wear_mm[gear])),
@@ -448,6 +478,8 @@ fn history_row(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> His
         wheel_tip_edge_wear_um: wheel.tip_edge.depth_mm * UM_PER_MM,
         pinion_below_sap_wear_um: pinion.below_active.depth_mm * UM_PER_MM,
         wheel_below_sap_wear_um: wheel.below_active.depth_mm * UM_PER_MM,
+        flank_pressure_MPa: snapshot.cycle.pressure_figures.flank_mpa,
+        tip_edge_line_load_N_per_mm: snapshot.cycle.pressure_figures.tip_edge_line_load_n_per_mm,
     }
 }
 
@@ -483,41 +515,36 @@ fn mesh_cycle(model: &Model<'_>, RunFindings { outcome, heat, .. }: RunFindings<
         .collect()
 }
 
-/// Warns where a mathematically sharp tip edge carries load at any moment that is kept.
+/// Warns where a mathematically sharp edge carries load at any moment that is kept.
 fn sharp_edge_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
     let mut states = [&outcome.new].into_iter().chain(&outcome.snapshots);
     let is_loaded = states.any(|state| state.cycle.greatest_pressure.sharp_edge_mpa.is_some());
-    let is_sharp = |gear: &Gear| pair.spec.gears[*gear].modification.tip_rounding_mm == 0.0;
-    let sharp: Vec<&str> = Gear::BOTH.into_iter().filter(is_sharp).map(Gear::name).collect();
+    let tips = Gear::BOTH.into_iter().filter(|&gear| pair.spec.is_tip_sharp(gear));
+    let corners = PathEnd::BOTH.map(|end| pair.edge(end)).into_iter().filter(|edge| edge.at_root && edge.is_sharp);
+    let sharp: Vec<String> = tips
+        .map(|gear| format!("the tip edge of {}", gear.name()))
+        .chain(corners.map(|edge| format!("the edge that undercut leaves on {}", edge.gear.name())))
+        .collect();
     is_loaded.then(|| {
         format!(
-            "the tip edge of {} is mathematically sharp and carries load: the pressure at the edge (sharp_edge_pressure_MPa, left out of \
-             peak_pressure_MPa) and the wear of the edge (tip_edge_wear_um, left out of peak_wear_um) are not defined, they depend on the \
-             resolution; give tip_rounding_mm",
+            "{} is mathematically sharp and carries load: the pressure at the edge (sharp_edge_pressure_MPa, left out of \
+             peak_pressure_MPa) and the wear of the edge (of a tip tip_edge_wear_um, left out of peak_wear_um) are not defined, they depend on \
+             the resolution; a tip edge gets a pressure with tip_rounding_mm",
             sharp.join(" and ")
         )
     })
 }
 
-/// Warns where steel would flow under the pressure of the new or worn pair.
-fn pressure_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
+/// Warns where steel would flow under the pressure of the new or worn pair, of the flanks or of a tip edge.
+fn pressure_warning(outcome: &Outcome) -> Option<String> {
     let states = [("new", &outcome.new), ("worn", &outcome.worn)];
-    let greatest =
-        states.map(|(when, state)| (when, state.cycle.greatest_pressure.defined_mpa, &state.cycle.positions));
-    let (when, pressure_mpa, positions) = greatest.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let position_mm = positions
-        .iter()
-        .filter(|position| !position.footprint.at_sharp_edge)
-        .max_by(|a, b| a.footprint.peak_pressure_mpa.total_cmp(&b.footprint.peak_pressure_mpa))
-        .map(|position| position.position_mm);
-    let places = path_points(pair.path.points_mm()).named();
-    match position_mm {
-        // Slices are at positions of their own.
-        Some(at) if outcome.slices.width_mm.len() == 1 => {
-            steel_yield::warning(pressure_mpa, &format!("{when}, {}", among(&places, at)))
-        }
-        _ => steel_yield::warning(pressure_mpa, when),
-    }
+    let pressures = states.into_iter().flat_map(|(when, state)| {
+        let PressureFigures { flank_mpa, tip_edge_mean_mpa, .. } = state.cycle.pressure_figures;
+        let at_tip_edge = format!("tip edge, mean over {TIP_EDGE_MEAN_OVER_MM} mm, {when}");
+        [(format!("flank, {when}"), flank_mpa), (at_tip_edge, tip_edge_mean_mpa)]
+    });
+    let (place, pressure_mpa) = pressures.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    steel_yield::warning(pressure_mpa, &place)
 }
 
 /// Warns where so much is worn that the nominal tooth no longer stands for the worn one.

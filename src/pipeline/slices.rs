@@ -3,7 +3,7 @@
 use super::{Model, UM_PER_MM};
 use crate::contact::settings::SurfaceKind;
 use crate::gear::spec::AxisParallelism;
-use crate::gear::{Gear, PerGear};
+use crate::gear::{Gear, GearPair, PerGear, lines_of_contact::LinesOfContact};
 use crate::mesh_cycle::sliced_mesh::SlicedMesh;
 use crate::results::run::{HelicalSummary, LineOfContactSummary, OverWidthSummary, SliceRecord};
 use crate::simulation::figures::{SliceFigures, WearFigures, variation};
@@ -60,7 +60,7 @@ pub(super) fn summary(model: &Model<'_>, outcome: &Outcome) -> Option<HelicalSum
         base_helix_angle_deg: model.pair.base_helix_angle_rad().to_degrees(),
         total_contact_ratio: model.pair.path.contact_ratio() + model.pair.overlap_ratio(),
         width_mm: outcome.slices.width_mm.clone(),
-        line_of_contact_mm: line_of_contact(model, outcome, new),
+        line_of_contact_mm: line_of_contact(model.pair),
         K_Hbeta_new: new.face_load_factor(),
         K_Hbeta_worn: worn.face_load_factor(),
         mesh_orders_new_um: um(new.mesh_orders_mm(MESH_ORDERS)),
@@ -77,15 +77,9 @@ fn shaft_twist_mm(model: &Model<'_>, gear: Gear) -> Option<f64> {
     Some(shaft.twist_mm(base_radius_mm, shear_modulus_mpa, width_mm, load_n_per_mm))
 }
 
-fn line_of_contact(model: &Model<'_>, outcome: &Outcome, mesh: &SlicedMesh) -> LineOfContactSummary {
-    let in_contact = &mesh.contacts_at_phases;
-    let length = |contacts: f64| contacts * outcome.slices.slice_width_mm / model.pair.base_helix_angle_rad().cos();
-    let pair = model.pair;
-    LineOfContactSummary {
-        min: length(in_contact.iter().copied().fold(f64::INFINITY, f64::min)),
-        max: length(in_contact.iter().copied().fold(0.0, f64::max)),
-        mean: pair.path.contact_ratio() * pair.spec.face_width_mm / pair.base_helix_angle_rad().cos(),
-    }
+fn line_of_contact(pair: &GearPair) -> LineOfContactSummary {
+    let LinesOfContact { least_mm, mean_mm, greatest_mm } = pair.lines_of_contact();
+    LineOfContactSummary { min: least_mm, max: greatest_mm, mean: mean_mm }
 }
 
 fn over_width(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> OverWidthSummary {

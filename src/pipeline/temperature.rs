@@ -22,6 +22,9 @@ use crate::wear::regime::{MM3_PER_NM, Regime};
 /// By how much Young's moduli of phases may differ without a word.
 const NEGLIGIBLE_CHANGE: f64 = 0.02;
 
+/// Why a metal gear beside a plastic one has no temperature of its teeth.
+const OF_PLASTIC_ALONE: &str = "VDI 2736-2 has the temperature of the plastic gear alone";
+
 /// Above the melting point of any plastic that gears are made of, °C: that of PEEK is 343.
 const HOTTEST_PLASTIC_C: f64 = 350.0;
 
@@ -32,7 +35,13 @@ pub(super) fn in_phase(scene: &Scene, pair: &GearPair, phase: &Phase) -> Option<
     if let Some(teeth) = scene.teeth_in(pair, phase)
         && settings.tooth.is_some_and(|tooth| tooth.is_bulk)
     {
-        settings.bulk_temperature_k = 0.5 * (teeth.pinion.flank_c + teeth.wheel.flank_c) - ABSOLUTE_ZERO_C;
+        let flanks_c: Vec<f64> = Gear::BOTH.into_iter().filter_map(|gear| Some(teeth[gear]?.flank_c)).collect();
+        settings.bulk_temperature_k = flanks_c.iter().sum::<f64>() / flanks_c.len() as f64 - ABSOLUTE_ZERO_C;
+    }
+    if settings.is_bulk_of_mesh
+        && let Some(oil) = scene.running_in(pair, phase).and_then(|running| running.oil)
+    {
+        settings.bulk_temperature_k = oil.bulk_c - ABSOLUTE_ZERO_C;
     }
     Some(ContactHeat::new(settings, pair.path.involute.pinion.base_radius_mm * pinion_per_s))
 }
@@ -44,7 +53,8 @@ pub(super) fn tooth_warnings(model: &Model<'_>, summary: Option<&TemperatureSumm
     let phases = || scene.operation.phases.iter();
     let mut warnings = Vec::new();
     for gear in Gear::BOTH.into_iter().filter(|&gear| scene.material[gear].is_plastic()) {
-        let (name, at) = (gear.name(), teeth[gear]);
+        let Some(at) = teeth[gear] else { continue };
+        let name = gear.name();
         let modulus_gpa = 1e-3 * scene.material[gear].young_modulus_mpa;
         let (modulus, wear) = (&scene.modulus[gear], &scene.wear[gear].warm);
         let wears = scene.wear[gear].coefficient_mm2_per_n > 0.0;
@@ -65,7 +75,7 @@ pub(super) fn tooth_warnings(model: &Model<'_>, summary: Option<&TemperatureSumm
                 at.flank_C
             ));
         }
-        let found: Vec<_> = phases().filter_map(|phase| Some(scene.teeth_in(model.pair, phase)?[gear])).collect();
+        let found: Vec<_> = phases().filter_map(|phase| scene.teeth_in(model.pair, phase)?[gear]).collect();
         let outside = |curve: &TemperatureCurve, at: fn(&ToothTemperatures) -> f64| {
             found.iter().map(at).find(|&celsius| !curve.covers(celsius))
         };
@@ -152,13 +162,17 @@ pub(super) fn summary(model: &Model<'_>, observed: &ObservedHeat) -> Option<Temp
         friction_coefficient: mean_friction(&settings, running),
         bulk_temperature_C: settings.bulk_temperature_k + ABSOLUTE_ZERO_C,
         tooth: teeth.map(|both| {
-            PerGear::from_fn(|gear| ToothTemperatureSummary {
-                flank_C: both[gear].flank_c,
-                root_C: both[gear].root_c,
-                young_modulus_GPa: Some(1e-3 * model.scene.material[gear].young_modulus_mpa),
-                wear_factor: model.scene.wear[gear].warm.as_ref().map(|warm| warm.at(both[gear].flank_c)),
+            PerGear::from_fn(|gear| {
+                let own = both[gear]?;
+                Some(ToothTemperatureSummary {
+                    flank_C: own.flank_c,
+                    root_C: own.root_c,
+                    young_modulus_GPa: Some(1e-3 * model.scene.material[gear].young_modulus_mpa),
+                    wear_factor: model.scene.wear[gear].warm.as_ref().map(|warm| warm.at(own.flank_c)),
+                })
             })
         }),
+        tooth_null_because: teeth.map(|both| both.map(|own| own.is_none().then(|| OF_PLASTIC_ALONE.to_owned()))),
         greatest_rise_new_K: own.greatest_rise_new_K,
         greatest_rise_worn_K: own.greatest_rise_worn_K,
         peclet_min,

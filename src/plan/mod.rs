@@ -319,13 +319,18 @@ fn tooth_stiffness(scene: &Scene) -> Result<String, String> {
     }
 }
 
-/// Memory that the teeth in space of `scene` take, GB: their sectors, and for each of its loads the matrices that couple its slices.
-pub(crate) fn memory_in_space_gb(scene: &Scene) -> f64 {
+/// How many loads the phases of `scene` have.
+fn loads(scene: &Scene) -> f64 {
     let phases = &scene.operation.phases;
     let is_first = |(at, phase): &(usize, &Phase)| {
         phases[..*at].iter().all(|earlier| earlier.pinion_torque_n_mm != phase.pinion_torque_n_mm)
     };
-    let loads = phases.iter().enumerate().filter(is_first).count() as f64;
+    phases.iter().enumerate().filter(is_first).count() as f64
+}
+
+/// Memory that the teeth in space of `scene` take, GB: their sectors, and for each of its loads the matrices that couple its slices.
+pub(crate) fn memory_in_space_gb(scene: &Scene) -> f64 {
+    let loads = loads(scene);
     let count = scene.slices.map_or(1, |slices| slices.count);
     let (slices, positions) = (count as f64 / 100.0, scene.numerics.positions as f64 / 400.0);
     SpaceResolution::of_slices(count).memory_gb(&scene.pair, &scene.fem.in_space())
@@ -345,6 +350,24 @@ fn teeth_in_space(scene: &Scene) -> Result<String, String> {
     }
 }
 
+/// Memory that the contacts of the slices of `scene` take, GB: one for every slice at every position of one load, measured on the preset `helical`
+/// with 300 points a flank; points and cells across a contact grow with theirs.
+pub(crate) fn memory_of_slices_gb(scene: &Scene) -> f64 {
+    let count = scene.slices.map_or(0, |slices| slices.count);
+    let of_contact_kb = match scene.contact.surface {
+        SurfaceKind::Winkler => 8.0,
+        SurfaceKind::HalfSpace => 20.0,
+        SurfaceKind::Hertz => 6.0,
+        SurfaceKind::HertzMean | SurfaceKind::Fem => 1.0,
+    };
+    let contacts = loads(scene) * (count * scene.numerics.positions) as f64;
+    let finer = (scene.numerics.flank_points as f64 / 300.0).max(1.0);
+    1e-6 * of_contact_kb * finer * contacts
+}
+
+/// Memory of the contacts of slices, above which it is said, GB.
+pub(crate) const MUCH_OF_SLICES_GB: f64 = 1.0;
+
 fn helical_slices(scene: &Scene) -> Result<String, String> {
     let Some(slices) = scene.slices else {
         return Err("no helix angle, no modification over the face width and no web: all sections are alike".to_owned());
@@ -354,7 +377,13 @@ fn helical_slices(scene: &Scene) -> Result<String, String> {
         Coupling::Slicing => "coupled by plate theory through the bending of the tooth",
         Coupling::Fem => "coupled by three-dimensional finite elements of both gears",
     };
-    Ok(format!("{} slices over the face width, {coupling}", slices.count))
+    let gb = memory_of_slices_gb(scene);
+    let much = if gb > MUCH_OF_SLICES_GB {
+        format!("; their contacts at all positions take some {gb:.1} GB, and a wear step as much longer")
+    } else {
+        String::new()
+    };
+    Ok(format!("{} slices over the face width, {coupling}{much}", slices.count))
 }
 
 /// On Hertz's ellipse the pressure does not answer to short waves of wear, so that no step makes them grow.

@@ -27,6 +27,7 @@ pub(crate) mod fem_pair;
 pub(crate) mod figure;
 pub(crate) mod files;
 pub(crate) mod flank_mesh;
+pub(crate) mod headline;
 pub(crate) mod html;
 mod plot_script;
 mod pressure_plot;

@@ -137,8 +137,8 @@ pub struct BasicRackFile {
     /// Dedendum factor h_fP*, > 0 to 3. Default 1.25.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 3))]
     pub dedendum_factor: Option<f64>,
-    /// Root fillet radius factor ρ_fP*, 0 to 1. Default 0.38; of a transverse module, less where the normal section of a steep
-    /// helix has no room for it.
+    /// Root fillet radius factor ρ_fP*, 0 to 1. Default 0.38; less where the rack has no room for it, at a great pressure angle or
+    /// dedendum, or in the normal section of a steep helix.
     #[schemars(range(min = 0, max = 1))]
     pub fillet_radius_factor: Option<f64>,
 }
@@ -181,7 +181,7 @@ pub struct GearFile {
     /// Profile shift coefficient x of the module that is given, −5 to 5; 0 for none. Required without a preset.
     #[schemars(range(min = -5, max = 5))]
     pub profile_shift: Option<f64>,
-    /// Tip diameter d_a in mm, > 0. Default: from the rack, shortened so that the full tip clearance is kept.
+    /// Tip diameter d_a in mm, > 0. Default: that of the rack, d + 2 m (x + h_aP*), shortened where the full tip clearance asks for it.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub tip_diameter_mm: Option<f64>,
     /// Tooth thickness allowance E_sn in µm in the normal section; negative thins the tooth. Default 0.
@@ -205,7 +205,7 @@ pub struct GearFile {
     /// reference diameter and the face width, positive: material is missing at the full width. Of both gears they add up.
     #[schemars(range(min = 1, max = 11))]
     pub helix_slope_class: Option<u32>,
-    /// Radius of the rounding of the tip edge in mm, 0 or more. Default 0.
+    /// Radius of the rounding of the tip edge in mm, 0 or more; below a thousandth of the module the edge counts as sharp. Default 0.
     #[schemars(range(min = 0))]
     pub tip_rounding_mm: Option<f64>,
     /// Roughness of the flanks as arithmetic mean Ra in µm, 0.0001 to 50; read by films and friction, which need it. Default: not given.

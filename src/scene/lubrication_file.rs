@@ -53,6 +53,17 @@ pub struct LubricantFile {
     /// with it alone. Default: none.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 10))]
     pub permissible_lambda: Option<f64>,
+    /// Failure load stage of the oil in the FZG scuffing test A/8.3/90 (ISO 14635-1), 1 to 14; the safeties against scuffing S_B and S_intS of
+    /// ISO/TS 6336-20 and -21 are told with it alone. Default: none.
+    #[schemars(range(min = 1, max = 14))]
+    pub fzg_scuffing_load_stage: Option<u32>,
+    /// Structural factor X_W of the flanks over that of the case-hardened test gears, 0.2 to 3: 1 of case-hardened and through-hardened steel, 1.5 of
+    /// nitrided, 1.25 of phosphated, 0.45 of stainless steel. Default 1.
+    #[schemars(range(min = 0.2, max = 3))]
+    pub structural_factor: Option<f64>,
+    /// Running-in φ_E of the scuffing temperatures, 0 of new flanks to 1 of flanks that are run in. Default 1.
+    #[schemars(range(min = 0, max = 1))]
+    pub relative_run_in: Option<f64>,
 }
 
 /// Friction of the mesh: losses, and the heat of the films.

@@ -12,6 +12,7 @@ mod locate;
 pub(crate) mod lubrication_file;
 pub(crate) mod material_presets;
 pub(crate) mod nearest;
+mod outside_model;
 pub(crate) mod phase_conditions;
 pub(crate) mod presets;
 pub(crate) mod problem;

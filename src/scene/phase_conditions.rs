@@ -7,7 +7,8 @@
 use std::f64::consts::TAU;
 
 use super::Scene;
-use crate::contact::settings::Material;
+use crate::contact::settings::{Foundation, Material, SurfaceKind};
+use crate::contact::{foundation, hertz};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::lubrication::loss;
 use crate::lubrication::running_pair::{RunningConditions, RunningPair};
@@ -30,7 +31,7 @@ impl Scene {
         PerGear::from_fn(|gear| {
             let own = &self.wear[gear];
             let given = phase.coefficient_mm2_per_n[gear].unwrap_or(own.coefficient_mm2_per_n);
-            let factor = own.warm.as_ref().zip(phase.flank_c).map_or(1.0, |(warm, flank_c)| warm.at(flank_c[gear]));
+            let factor = own.warm.as_ref().zip(phase.flank_c[gear]).map_or(1.0, |(warm, flank_c)| warm.at(flank_c));
             WearSettings { coefficient_mm2_per_n: factor * given, ..own.clone() }
         })
     }
@@ -50,22 +51,39 @@ impl Scene {
         let material = self.material_in(phase);
         let elastic = Gear::BOTH.map(|gear| material[gear]);
         let modulus = contact_modulus_mpa(elastic.map(|body| (body.young_modulus_mpa, body.poisson_ratio)));
+        let line_load_n_per_mm = pair.line_load_n_per_mm(phase.pinion_torque_n_mm);
         let conditions = RunningConditions {
             pinion_speed_rpm: phase.pinion_speed_rpm?,
-            line_load_n_per_mm: pair.line_load_n_per_mm(phase.pinion_torque_n_mm),
+            line_load_n_per_mm,
             reduced_modulus_mpa: 2.0 * modulus,
+            pressure_over_hertz: self.pressure_over_hertz(pair, &material, line_load_n_per_mm),
         };
         Some(RunningPair::new(pair, self.lubrication.as_ref()?, conditions))
     }
 
-    /// The teeth of each gear in `phase`; none where nobody asks for their temperature.
-    pub(crate) fn teeth_in(&self, pair: &GearPair, phase: &Phase) -> Option<PerGear<ToothTemperatures>> {
+    /// Greatest pressure of the contact surface over Hertz's at the pitch point under the whole load; 1 of all but springs.
+    fn pressure_over_hertz(&self, pair: &GearPair, material: &PerGear<Material>, line_load_n_per_mm: f64) -> f64 {
+        if self.contact.surface != SurfaceKind::Winkler {
+            return 1.0;
+        }
+        let at_pitch = hertz::flattening(pair, material, pair.path.pitch_point_mm);
+        let foundation_mpa_per_mm = match self.contact.foundation {
+            Foundation::Given { foundation_mpa_per_mm } => foundation_mpa_per_mm,
+            Foundation::Matched(criterion) | Foundation::Calibrated(criterion) => {
+                foundation::matched_mpa_per_mm(criterion, &at_pitch, line_load_n_per_mm)
+            }
+        };
+        foundation::peak_pressure_over_hertz(foundation_mpa_per_mm, &at_pitch, line_load_n_per_mm)
+    }
+
+    /// The teeth of each gear in `phase` whose temperature is asked for; none of a metal gear beside a plastic one, and none where nobody asks.
+    pub(crate) fn teeth_in(&self, pair: &GearPair, phase: &Phase) -> Option<PerGear<Option<ToothTemperatures>>> {
         let running = self.running_in(pair, phase);
         self.teeth_under(pair, phase, mean_friction(&self.heat?, running.as_ref()))
     }
 
     /// The same under this coefficient of friction.
-    fn teeth_under(&self, pair: &GearPair, phase: &Phase, friction: f64) -> Option<PerGear<ToothTemperatures>> {
+    fn teeth_under(&self, pair: &GearPair, phase: &Phase, friction: f64) -> Option<PerGear<Option<ToothTemperatures>>> {
         let tooth = self.heat?.tooth?;
         let pinion_per_s = TAU * phase.pinion_speed_rpm? / 60.0;
         let power_w = W_PER_N_MM_PER_S * phase.pinion_torque_n_mm * pinion_per_s;
@@ -77,7 +95,7 @@ impl Scene {
                 pitch_velocity_m_per_s: 1e-3 * pair.working_pitch_radius_mm(Gear::Pinion) * pinion_per_s,
                 normal_module_mm: pair.spec.normal_module_mm,
             };
-            tooth.temperatures(&warm, loss_w)
+            tooth.of[gear].then(|| tooth.temperatures(&warm, loss_w))
         }))
     }
 
@@ -108,8 +126,8 @@ impl Scene {
             .map(|phase| {
                 let young_modulus_mpa = in_each.then(|| self.moduli_in(&pair, phase)).flatten();
                 let warm = Phase { young_modulus_mpa, ..*phase };
-                let flank_c = self.teeth_in(&pair, &warm).map(|teeth| teeth.map(|tooth| tooth.flank_c));
-                Phase { flank_c, ..warm }
+                let teeth = self.teeth_in(&pair, &warm).unwrap_or_default();
+                Phase { flank_c: teeth.map(|tooth| tooth.map(|tooth| tooth.flank_c)), ..warm }
             })
             .collect();
         self.operation.phases = phases;
@@ -121,9 +139,9 @@ impl Scene {
         let heat = self.heat?;
         let moduli_under = |friction: f64| {
             let teeth = self.teeth_under(pair, phase, friction)?;
-            Some(PerGear::from_fn(|gear| match &self.modulus[gear] {
-                Some(modulus) => modulus.at(teeth[gear].mean_c()),
-                None => self.material[gear].young_modulus_mpa,
+            Some(PerGear::from_fn(|gear| match (&self.modulus[gear], teeth[gear]) {
+                (Some(modulus), Some(tooth)) => modulus.at(tooth.mean_c()),
+                _ => self.material[gear].young_modulus_mpa,
             }))
         };
         let friction_of = |young_modulus_mpa: PerGear<f64>| {

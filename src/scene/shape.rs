@@ -9,6 +9,7 @@ use super::decimal_comma;
 use super::findings::Findings;
 use super::locate::join;
 use super::nearest::nearest;
+use super::outside_model;
 use super::problem::{ProblemKind, number, words};
 use super::schema::Node;
 
@@ -36,7 +37,7 @@ fn check_table(format: Format, node: Node<'_>, table: &Table, path: &str, findin
                     sound.insert(name.clone(), value);
                 }
             }
-            None => unknown_key(format, node, name, &key, path, findings),
+            None => unknown_key(format, node, (name, value), &key, path, findings),
         }
     }
     for name in node.required() {
@@ -125,17 +126,33 @@ fn check_number(node: Node<'_>, x: f64, value: &Value, key: &str, findings: &mut
         return Some(value.clone());
     }
     findings.not_allowed(key, number(x), node.allowed());
+    if let Some(reason) = outside_model::reason(key, x) {
+        findings.help(reason);
+    }
     None
 }
 
-fn unknown_key(format: Format, node: Node<'_>, name: &str, key: &str, path: &str, findings: &mut Findings) {
+fn unknown_key(
+    format: Format,
+    node: Node<'_>,
+    (name, value): (&str, &Value),
+    key: &str,
+    path: &str,
+    findings: &mut Findings,
+) {
     if let Some((_, instead)) = format.of_other_files.iter().find(|(other, _)| *other == key) {
         return findings.problem(ProblemKind::NotAvailable, key, "this key", *instead);
     }
     let known = node.keys();
     findings.problem(ProblemKind::UnknownKey, key, name, known.join(", "));
     let elsewhere = tables_with(format.root, name, "");
-    if !elsewhere.is_empty() {
+    let given = value.as_float().or_else(|| value.as_integer().map(|n| n as f64));
+    if let Some(reason) = outside_model::reason_of_key(name) {
+        findings.help(reason);
+    } else if let Some(converted) = outside_model::converted(name, given).filter(|to| known.contains(&&*to.name)) {
+        findings.help(converted.sentence);
+        findings.spoil(&join(path, &converted.name));
+    } else if !elsewhere.is_empty() {
         findings.help(format!("{name} belongs in {}", elsewhere.join(" or ")));
     } else if let Some(near) = nearest(name, &known) {
         findings.help(format!("did you mean {near}?"));

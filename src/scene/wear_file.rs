@@ -22,8 +22,9 @@ pub struct TemperatureFile {
     /// Coefficient of friction μ, > 0 to 2. Default: with [friction] or [lubricant] that of the mesh at every point, otherwise 0.1.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 2))]
     pub friction_coefficient: Option<f64>,
-    /// Bulk temperature of the gears in °C, above absolute zero (−273.15) to 1500. Default: with [temperature.tooth] the mean of
-    /// both flanks by it, otherwise 90, usual for the oil of gear tests.
+    /// Bulk temperature of the gears in °C, above absolute zero (−273.15) to 1500. Default: with [temperature.tooth] that of the
+    /// plastic gear's flanks by it (the mean of two), with [lubricant] the temperature of the teeth θ_M of ISO/TS 6336-22, otherwise
+    /// 90, usual for the oil of gear tests.
     #[schemars(extend("exclusiveMinimum" = -273.15, "maximum" = 1500))]
     pub bulk_temperature_C: Option<f64>,
     /// Temperature of the teeth of plastic gears. Default: not computed.

@@ -214,18 +214,54 @@ fn pointed_tooth() {
 
 #[test]
 fn interference() {
-    // Twelve teeth without shift: a standard wheel of 50 teeth reaches beyond the point where the involute begins.
+    // The tip of the wheel, 0.2 modules longer than the rack's, runs into the fillet of the pinion.
     let case = Case::of(
-        "[pair]\nnormal_module_mm = 4.5\npressure_angle_deg = 20.0\ncentre_distance_mm = 139.6\nface_width_mm = 14.0\n\
-         [pair.pinion]\nteeth = 12\nprofile_shift = 0.0\n[pair.wheel]\nteeth = 50\nprofile_shift = 0.0\n\
-         tip_diameter_mm = 234.0\n[operation]\npinion_torque_Nm = 100.0\npinion_revolutions = 1e6\n\
+        "[pair]\nnormal_module_mm = 4.5\npressure_angle_deg = 20.0\ncentre_distance_mm = 157.6\nface_width_mm = 14.0\n\
+         [pair.pinion]\nteeth = 20\nprofile_shift = 0.0\n[pair.wheel]\nteeth = 50\nprofile_shift = 0.0\n\
+         tip_diameter_mm = 235.8\n[operation]\npinion_torque_Nm = 100.0\npinion_revolutions = 1e6\n\
          [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n",
     );
     let line = case.line_of("tip_diameter_mm");
     case.refused().at_line(line).says(&[
         "interference on the pinion",
         "pair.wheel.tip_diameter_mm",
+        "allowed: a tip diameter of the wheel of at most 23",
         "pair.pinion.profile_shift",
+    ]);
+}
+
+#[test]
+fn a_rack_that_is_pointed() {
+    // (π/4)/tan 35° = 1.12166: there the flanks of the rack meet.
+    let case = Case::fzg_c().with("pair", "pressure_angle_deg", "pressure_angle_deg = 35.0");
+    case.refused().says(&["pair.basic_rack.dedendum_factor", "the rack is pointed", "at most 1.1216"]);
+}
+
+#[test]
+fn what_the_model_does_not_hold() {
+    let internal = Case::fzg_c().with("pair.wheel", "teeth", "teeth = -61");
+    internal.refused().says(&["pair.wheel.teeth", "found -61", "internal gears", "are not in the model"]);
+    let crossed = Case::fzg_c().with("pair", "face_width_mm", "face_width_mm = 14.0\nhelix_angle_deg = 67.5");
+    crossed.refused().says(&["pair.helix_angle_deg", "found 67.5", "crossed axes", "not in the model"]);
+}
+
+#[test]
+fn inches_and_pounds() {
+    // m = 25.4/8 = 3.175 mm; 3.5 in = 88.9 mm; 635 lbf·in = 71.745 N·m.
+    let case = Case::of(
+        "[pair]\ndiametral_pitch = 8\npressure_angle_deg = 20.0\ncentre_distance_in = 3.5\nface_width_in = 1.0\n\
+         [pair.pinion]\nteeth = 28\nprofile_shift = 0.0\n[pair.wheel]\nteeth = 28\nprofile_shift = 0.0\n\
+         [operation]\npinion_torque_lbin = 635\npinion_revolutions = 1e6\n\
+         [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-18\n",
+    );
+    case.refused().says(&[
+        "unknown key pair.diametral_pitch",
+        "m = 25.4/DP",
+        "normal_module_mm = 3.175",
+        "centre_distance_mm = 88.9",
+        "face_width_mm = 25.4",
+        "pinion_torque_Nm = 71.7454",
+        "1 lbf·in = 0.112985 N·m",
     ]);
 }
 

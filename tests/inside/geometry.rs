@@ -127,12 +127,13 @@ fn impossible_pairs_are_refused() {
         refuse(&|s| s.gears.wheel.tip_diameter_mm = Some(121.0)),
         PairError::NoTipClearance { gear: Gear::Wheel, .. }
     ));
-    // A 12-tooth pinion without shift against 60 teeth: the wheel's tip reaches into the undercut.
-    let mates = spur(1.0, 36.0, 10.0, gear(12, 0.0, None), gear(60, 0.0, None));
+    // The tip of a wheel that reaches below what the tool's straight flank has made runs into the fillet.
+    let mates = spur(1.0, 40.0, 10.0, gear(20, 0.0, None), gear(60, 0.0, Some(62.4)));
     assert!(matches!(
         gearwear::gear::GearPair::new(&mates).unwrap_err(),
         PairError::Interference { gear: Gear::Pinion, .. }
     ));
+    assert!(matches!(refuse(&|s| s.rack.dedendum_factor = 2.2), PairError::RackPointed { .. }));
     assert!(matches!(refuse(&|s| s.rack.fillet_radius_factor = 0.6), PairError::RackTipPointed { .. }));
     assert!(matches!(
         refuse(&|s| s.gears.wheel.bore_diameter_mm = Some(98.4)),

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use gearwear::gear::{
     Gear, GearPair, PairError,
     conjugate::ConjugateFlanks,
+    lines_of_contact::least_and_greatest_over_width,
     modification::{EndRelief, Modification, ReliefShape},
     removed_material::lead_removed_mm,
     slices::Slices,
@@ -444,4 +445,51 @@ fn steps_of_single_slices_are_told() {
     };
     assert!(warnings("h951").iter().any(|warning| warning.starts_with("helical.slices: the transmission error")));
     assert!(!warnings("thesis-helical").iter().any(|warning| warning.starts_with("helical.slices")));
+}
+
+/// Sum of the lengths of all lines within a rectangle of `contact_ratio` pitches by the face width, at `phase` (in pitches), in face widths.
+fn clipped_lines(contact_ratio: f64, overlap_ratio: f64, phase: f64) -> f64 {
+    let reach = (contact_ratio + overlap_ratio).ceil() as i32 + 1;
+    (-reach..=reach)
+        .map(|line| {
+            // The line is at `at` in the section z = 0 and at `at + overlap_ratio` in z = b.
+            let at = phase + f64::from(line);
+            let (from, to) = ((-at / overlap_ratio).max(0.0), ((contact_ratio - at) / overlap_ratio).min(1.0));
+            (to - from).max(0.0)
+        })
+        .sum()
+}
+
+proptest! {
+    /// Clipping every line at many phases, and where one enters or leaves, which is where the sum has its extremes, finds the closed form.
+    #[test]
+    fn prop_lengths_of_lines_of_contact_are_those_of_lines_clipped_one_by_one(
+        contact_ratio in 1.0..3.2_f64,
+        overlap_ratio in 0.01..4.3_f64,
+    ) {
+        let kinks = [0.0, contact_ratio, -overlap_ratio, contact_ratio - overlap_ratio];
+        let phases = (0..200).map(|k| f64::from(k) / 200.0).chain(kinks);
+        let lengths: Vec<f64> = phases.map(|phase| clipped_lines(contact_ratio, overlap_ratio, phase)).collect();
+        let least = lengths.iter().copied().fold(f64::INFINITY, f64::min);
+        let greatest = lengths.iter().copied().fold(0.0, f64::max);
+        let mean = lengths[..200].iter().sum::<f64>() / 200.0;
+        let [low, high] = least_and_greatest_over_width(contact_ratio, overlap_ratio);
+        prop_assert!((low - least).abs() < 1e-9, "{low} {least}");
+        prop_assert!((high - greatest).abs() < 1e-9, "{high} {greatest}");
+        prop_assert!((contact_ratio - mean).abs() < 1e-2);
+    }
+}
+
+/// Whole ratios leave nothing that changes; spur gears change by a whole line.
+#[test]
+fn ver_lines_of_contact_of_whole_ratios_have_the_mean_always() {
+    for (found, expected) in [
+        (least_and_greatest_over_width(1.6, 2.0), 1.6),
+        (least_and_greatest_over_width(2.0, 0.7), 2.0),
+        (least_and_greatest_over_width(1.3, 1.0), 1.3),
+    ] {
+        found.iter().for_each(|length| assert!((length - expected).abs() < 1e-9, "{found:?}"));
+    }
+    assert_eq!(least_and_greatest_over_width(1.6, 0.0), [1.0, 2.0]);
+    assert_eq!(least_and_greatest_over_width(2.0, 0.0), [2.0, 2.0]);
 }

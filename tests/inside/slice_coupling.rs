@@ -194,6 +194,10 @@ impl PairContact for Softening {
     fn footprint(&self) -> Footprint {
         Footprint::default()
     }
+
+    fn pressed_cells(&self) -> Vec<PressedCell> {
+        Vec::new()
+    }
 }
 
 /// Slices that soften with their load balance on their tooth however far apart they touch: the last in contact is on the verge of

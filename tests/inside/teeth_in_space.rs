@@ -177,7 +177,8 @@ fn gears_with_too_few_teeth_are_refused() {
     let wide = LoadedScene::preset("helical").unwrap().with("pair.face_width_mm", 900.0).unwrap();
     let pair = GearPair::new(&wide.scene().pair).unwrap();
     let steel = PerGear::from_fn(|_| STEEL);
-    let refused = PairInSpace::new(&pair, &steel, &discs(CLAMP_RADIUS_MM), &SpaceResolution::USUAL).map(|_| ());
+    let refused =
+        PairInSpace::new(&pair, &steel, &discs(CLAMP_RADIUS_MM), &SpaceResolution::USUAL, [0.0; 2]).map(|_| ());
     assert!(matches!(refused, Err(PairInSpaceError::TooFewTeeth { gear: Gear::Pinion, .. })), "{refused:?}");
 }
 
@@ -575,8 +576,9 @@ fn val_calibrated_slices() {
 fn teeth_are_condensed_once() {
     let kept = KeptInSpace::default();
     let steel = PerGear::from_fn(|_| STEEL);
-    let condensed =
-        |spec: &PairSpec| kept.condensed(&GearPair::new(spec).unwrap(), steel, discs(CLAMP_RADIUS_MM), 20).unwrap();
+    let condensed = |spec: &PairSpec| {
+        kept.condensed(&GearPair::new(spec).unwrap(), steel, discs(CLAMP_RADIUS_MM), 20, 600.0).unwrap()
+    };
     let (first, again) = (condensed(&fzg_c()), condensed(&fzg_c()));
     assert!(Arc::ptr_eq(&first, &again));
     // What carries the teeth is no part of them.

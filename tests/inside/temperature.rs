@@ -27,6 +27,7 @@ fn settings(method: TemperatureMethod, velocity: HeatVelocity, partition: HeatPa
         partition,
         friction_coefficient: None,
         bulk_temperature_k: 363.15,
+        is_bulk_of_mesh: false,
         tooth: None,
         material: PerGear { pinion: STEEL, wheel: STEEL },
     }

@@ -8,7 +8,7 @@ use gearwear::contact::{
 };
 use gearwear::fem::gear::placement::{axis_mm, tooth_angle_rad};
 use gearwear::gear::{Gear, GearPair, conjugate::ConjugateFlanks, removed_material::tip_rounding_mm};
-use gearwear::mesh_cycle::{PositionObservation, positions::positions_with_tip_contact, tip_contact::reach_mm};
+use gearwear::mesh_cycle::{PositionObservation, positions::positions_with_tip_contact};
 use gearwear::simulation::settings::{AdaptiveMethod, Stepping};
 use gearwear::simulation::wear_run::Outcome;
 use gearwear::stiffness::settings::StiffnessSettings;
@@ -45,13 +45,13 @@ fn ver_tip_edges_leave_with_the_square_of_the_path() {
         (2.0 * radius * gap).sqrt() * path.involute[tip_of].base_radius_mm / path.rho_mm(tip_of, end)
     };
     let gap = 2e-4;
-    let [before, after] = reach_mm(&pair, gap);
+    let [before, after] = pair.tip_reach_mm(gap);
     // Steps of a thousandth of a base pitch, 0.013 mm.
     assert!((before - of_gap(Gear::Wheel, path.start_mm, gap)).abs() < 0.02, "{before}");
     assert!((after - of_gap(Gear::Pinion, path.end_mm, gap)).abs() < 0.02, "{after}");
-    assert_eq!(reach_mm(&pair, -1.0), [0.0; 2]);
+    assert_eq!(pair.tip_reach_mm(-1.0), [0.0; 2]);
     // At most 0.3 base pitches, and never beyond T1 or T2.
-    let most = reach_mm(&pair, 1e3);
+    let most = pair.tip_reach_mm(1e3);
     assert!(
         most.iter().all(|reach| (0.29 * path.base_pitch_mm..=0.3 * path.base_pitch_mm).contains(reach)),
         "{most:?}"
@@ -358,7 +358,7 @@ fn positions_stay_between_the_base_circles() {
     let pair = pair(&fzg_c());
     let path = &pair.path;
     for count in [20, 33, 60, 400] {
-        let beyond = reach_mm(&pair, 10.0);
+        let beyond = pair.tip_reach_mm(10.0);
         let positions = positions_with_tip_contact(path, count, beyond, |_| 1.0, |_| Ok::<_, ()>(1.0)).unwrap();
         for position in positions.iter().flat_map(|position| &position.pairs) {
             assert!(position.position_mm > 0.0 && position.position_mm < path.line_of_action_mm, "{position:?}");

@@ -55,8 +55,8 @@ PAGES = {
     ],
     "sweep-words": ["sweep {s}/spur.toml --vary contact.surface=half-space,winkler --vary operation.pinion_torque_Nm=100,300 --out {o}"],
     "sweep-best": [
-        "sweep {s}/spur.toml --vary wear.coefficient_m2_per_N=1e-19:1e-17:4:log --best pinion_peak_wear_um "
-        "--subject-to wheel_peak_wear_um<=8 --out {o}"
+        "sweep {s}/spur.toml --vary wear.coefficient_m2_per_N=1e-19:1e-17:4:log --best pinion.peak_wear_um "
+        "--subject-to wheel.peak_wear_um<=8 --out {o}"
     ],
     "compare-measured": ["run {s}/spur.toml --out {o}", "compare {o} {s}/trace.csv --shift-within 0 --out {o}/compared"],
     "compare-flanks": ["run {s}/spur.toml --out {o}", "compare {o} {o}/pinion-trace.csv {o}/wheel-trace.csv --out {o}/compared"],

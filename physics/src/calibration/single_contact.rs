@@ -250,13 +250,13 @@ fn read(
     }
 }
 
-/// Whether a tip end, or a rounding of it, carries pressure.
+/// Whether an end of a flank, or the rounding of its tip, carries pressure.
 fn is_at_edge(condensed: &CondensedPair<'_>, found: &PositionContact) -> bool {
     let at_edge = PerGear::from_fn(|gear| {
         let flank = &condensed.flanks[gear];
-        let tip = flank.tip_node();
+        let ends = [flank.tip_node(), flank.root_node()];
         let loaded = found.forces[gear].iter().flatten().map(|(column, _)| column / 2);
-        loaded.into_iter().any(|node| node == tip || flank.rho_mm[node].is_nan())
+        loaded.into_iter().any(|node| ends.contains(&node) || flank.rho_mm[node].is_nan())
     });
     at_edge.pinion || at_edge.wheel
 }

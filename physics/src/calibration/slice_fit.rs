@@ -125,20 +125,19 @@ pub fn fit(
 ) -> Result<SliceFit, StiffnessError> {
     let surface = HalfSpace { material: *material, expected_line_load_n_per_mm: line_load_n_per_mm };
     let teeth = TeethSpring::new(StiffnessSettings::Fem, Some(curve), pair, material, &surface, line_load_n_per_mm)?;
-    let (slices, base_helix) = (Slices::new(pair, SLICES), pair.base_helix_angle_rad());
-    let seen = in_space.seen(SLICES);
+    let slices = Slices::new(pair, SLICES);
     // The whole spring, which teeth in space have beside the surface, and what slices have of it to themselves.
     let along = |spring: &dyn Fn(f64) -> Result<f64, StiffnessError>| {
         SpringAlongPath::new(&pair.path, STIFFNESS_POSITIONS, [0.0; 2], spring)
     };
-    let whole = along(&|at| teeth.oblique_n_per_mm2(at, base_helix))?;
-    let own = along(&|at| teeth.slice_n_per_mm2(at, base_helix))?;
+    let whole = along(&|at| teeth.oblique_n_per_mm2(at))?;
+    let own = along(&|at| teeth.own_n_per_mm2(at))?;
+    let section = pair.normal_section();
     let mut phases = Vec::new();
     for phase in sliced_positions(&pair.path, &slices, POSITIONS, SliceEnds::AtOnce) {
         let contacts = &phase.contacts;
         let at = |contact: &SliceContact| contact.cell.position_mm;
-        let influence =
-            in_space.influence(pair, &slices, &seen, contacts, |contact| whole.mm2_per_n(at(contact))).mm2_per_n;
+        let influence = in_space.influence(pair, &slices, contacts, |contact| whole.mm2_per_n(at(contact))).mm2_per_n;
         let mut first = 0;
         let lines: Vec<LineOfContact> = contacts
             .chunk_by(|a, b| a.tooth == b.tooth)
@@ -156,7 +155,8 @@ pub fn fit(
         let load_n_per_mm = line_load_n_per_mm * SLICES as f64 / contacts.len() as f64;
         let flattening = contacts
             .iter()
-            .map(|contact| hertz::flattening(pair, material, at(contact)).approach_and_compliance(load_n_per_mm).1);
+            .map(|contact| hertz::flattening(&section, material, at(contact)).approach_and_compliance(load_n_per_mm).1)
+            .map(|along_normal| section.obliquity.transverse_mm(along_normal));
         let tilt: Vec<f64> = contacts
             .iter()
             .map(|contact| 2.0 * slices.width_mm[contact.slice] / pair.spec.face_width_mm - 1.0)

@@ -25,6 +25,7 @@ use super::loaded_tooth::LoadedTooth;
 use crate::contact::{hertz, settings::Material};
 use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::fem::gear::ring::ToothForce;
+use crate::gear::flank_edge::PathEnd;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::reference::flattening::Flattening;
 use crate::stiffness::curve::{PairCompliance, StandsFor};
@@ -37,7 +38,7 @@ const CLEAR_OF_CORNERS: f64 = 2.0;
 /// Places of the curve from there to where the edge touches.
 const PLACES_TO_EDGE: usize = 5;
 /// Places of the curve from there on.
-const PLACES_BEYOND_EDGE: usize = 16;
+const PLACES_BEYOND_EDGE: usize = 40;
 /// A little more than the half-width is kept clear, so that round-off puts nothing over an edge.
 const CLEAR: f64 = 1.0 + 1e-6;
 
@@ -246,11 +247,11 @@ impl<'a> LoadedPair<'a> {
         }
         let path = &self.pair.path;
         let [before, after] = self.pair.farthest_touch_mm();
-        let edge_mm = |gear| path.rho_mm(gear, self.pair.rounding_start_rho_mm(gear));
-        let mut points = self.continued(inner[0], edge_mm(Gear::Wheel), path.start_mm - before);
+        let edge_mm = |end| self.pair.edge_position_mm(end);
+        let mut points = self.continued(inner[0], edge_mm(PathEnd::Start), path.start_mm - before);
         points.reverse();
         points.extend_from_slice(&inner);
-        points.extend(self.continued(inner[inner.len() - 1], edge_mm(Gear::Pinion), path.end_mm + after));
+        points.extend(self.continued(inner[inner.len() - 1], edge_mm(PathEnd::End), path.end_mm + after));
         let (position_mm, mm2_per_n) = points.into_iter().unzip();
         // The coupling hardly depends on the position: the whole bodies yield.
         let couplings: Vec<f64> =

@@ -30,6 +30,7 @@ use super::hertz;
 use super::pressure_field::PressureField;
 use super::settings::{MatchCriterion, Material};
 use super::strip::common_extent_mm;
+use crate::gear::flank_edge::PathEnd;
 use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, removed_material::tip_rounding_mm};
 use crate::reference::half_plane::cell_compliance_mm_per_mpa;
 
@@ -90,14 +91,18 @@ impl EdgeFoundations {
         criterion: MatchCriterion,
         approach: &FoundationCurve,
     ) -> Self {
-        let [before, after] = pair.farthest_touch_mm();
-        let ends = [(Gear::Wheel, pair.path.start_mm - before), (Gear::Pinion, pair.path.end_mm + after)];
-        let ends = ends.map(|(tip_of, last_mm)| {
-            let edge_mm = pair.path.rho_mm(tip_of, pair.rounding_start_rho_mm(tip_of));
-            let half_width_mm =
-                hertz::flattening(pair, material, edge_mm).contact.loaded(line_load_n_per_mm).half_width_mm;
-            // By so far of the path the edge is within the contact.
-            let within_mm = WIDENED * half_width_mm / pair.rolling_ratio(tip_of, edge_mm);
+        let contact_modulus_mpa = hertz::contact_modulus_mpa(material);
+        let [before, after] = pair.ample_tip_reach_mm(line_load_n_per_mm, contact_modulus_mpa);
+        let ends = [(PathEnd::Start, pair.path.start_mm - before), (PathEnd::End, pair.path.end_mm + after)];
+        let ends = ends.map(|(end, last_mm)| {
+            let edge_mm = pair.edge_position_mm(end);
+            let half_width_mm = hertz::flattening(&pair.normal_section(), material, edge_mm)
+                .contact
+                .loaded(line_load_n_per_mm)
+                .half_width_mm;
+            // By so far of the path the edge is within the contact; near a base circle a contact hardly moves over the flank.
+            let within_mm = WIDENED * half_width_mm / pair.rolling_ratio(pair.edge(end).gear, edge_mm);
+            let within_mm = within_mm.min(0.5 * (pair.path.end_mm - pair.path.start_mm));
             let first_mm = edge_mm + within_mm.copysign(edge_mm - last_mm);
             // Closer together where flank and edge share the contact.
             let along = |k: usize| (k as f64 / (PLACES - 1) as f64).powi(2);
@@ -197,7 +202,7 @@ struct Pressed {
 
 impl Bodies<'_> {
     fn springs_at(&self, position_mm: f64) -> EdgeStiffness {
-        let flattening = hertz::flattening(self.pair, self.material, position_mm);
+        let flattening = hertz::flattening(&self.pair.normal_section(), self.material, position_mm);
         let load = GREATEST_LOAD * self.line_load_n_per_mm;
         let half_width_mm = WIDENED * flattening.contact.loaded(load).half_width_mm;
         let ((lower_mm, upper_mm), _) = common_extent_mm(self.pair, position_mm);
@@ -223,11 +228,8 @@ impl Bodies<'_> {
         }
         points.reverse();
         let w = self.line_load_n_per_mm;
-        let calibrated = self
-            .approach
-            .springs_at(position_mm)
-            .approach_and_compliance(self.pair.relative_radius_mm(position_mm), w)
-            .0;
+        let calibrated =
+            self.approach.springs_at(position_mm).approach_and_compliance(flattening.contact.relative_radius_mm(), w).0;
         let beside_mm2_per_n = (calibrated - flattening.approach_mm(w)) / w;
         points.iter_mut().for_each(|point: &mut EdgePoint| point.further_mm2_per_n += beside_mm2_per_n);
         EdgeStiffness { points }
@@ -241,7 +243,7 @@ impl Bodies<'_> {
             (0..=2 * CELLS).map(|k| self.gap_mm(position_mm, from_mm + k as f64 * spacing_mm)).collect();
         let least_mm = gap_mm.iter().copied().fold(f64::INFINITY, f64::min);
         gap_mm.iter_mut().for_each(|gap| *gap -= least_mm);
-        let flattening = hertz::flattening(self.pair, self.material, position_mm);
+        let flattening = hertz::flattening(&self.pair.normal_section(), self.material, position_mm);
         let width_mm = 2.0 * spacing_mm;
         let mut cells = ElasticCells::new(width_mm, cell_compliance_mm_per_mpa(&flattening.bodies, width_mm, CELLS));
         // The mean of each cell.
@@ -262,14 +264,14 @@ impl Bodies<'_> {
         touches.then_some((pressed, (lower_mm, upper_mm)))
     }
 
-    /// The gap of the unworn flanks.
+    /// The gap of the unworn flanks, along their normal.
     fn gap_mm(&self, position_mm: f64, along_mm: f64) -> f64 {
         let of = |gear: Gear, along_mm: f64| {
             let (rho_mm, drop_mm) = self.pair.at_along(gear, along_mm, position_mm);
             let rounding_mm = self.pair.spec.gears[gear].modification.tip_rounding_mm;
             drop_mm + tip_rounding_mm(rounding_mm, &self.pair.teeth[gear], rho_mm)
         };
-        of(Gear::Pinion, along_mm) + of(Gear::Wheel, -along_mm)
+        self.pair.obliquity().normal_mm(of(Gear::Pinion, along_mm) + of(Gear::Wheel, -along_mm))
     }
 }
 

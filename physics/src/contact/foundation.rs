@@ -21,6 +21,7 @@ use std::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 
 use super::settings::MatchCriterion;
+use crate::gear::normal_section::Obliquity;
 use crate::reference::flattening::Flattening;
 
 /// K/H in MPa/mm that makes the foundation agree with `hertz` under `line_load_n_per_mm`.
@@ -33,6 +34,13 @@ pub fn matched_mpa_per_mm(criterion: MatchCriterion, hertz: &Flattening, line_lo
         MatchCriterion::Approach => (2.0 * radius * hertz.approach_mm(w)).sqrt(),
     };
     1.5 * w * radius / a_bed.powi(3)
+}
+
+/// Greatest pressure of the foundation's parabola over that of Hertz's ellipse under `line_load_n_per_mm`, (3π/8) a_H/a.
+pub fn peak_pressure_over_hertz(foundation_mpa_per_mm: f64, hertz: &Flattening, line_load_n_per_mm: f64) -> f64 {
+    let contact = &hertz.contact;
+    let own_mm = half_width_mm(foundation_mpa_per_mm, contact.relative_radius_mm(), line_load_n_per_mm);
+    3.0 * PI / 8.0 * contact.loaded(line_load_n_per_mm).half_width_mm / own_mm
 }
 
 /// The springs at one position: K/H = K (w/w_ref)^(−m), all alike, softer under more load where m > 0.
@@ -120,6 +128,14 @@ pub struct FoundationCurve {
 }
 
 impl FoundationCurve {
+    /// The same for lines of contact that are oblique, where the curve is known of a plane section: K/H depends on the half-width alone, and
+    /// under w a contact in the normal section is as wide as one in the transverse section under w/cos β_b.
+    pub fn in_normal_section(&self, obliquity: Obliquity) -> Self {
+        let reference = self.reference_line_load_n_per_mm;
+        let of_section = reference / obliquity.as_wide_under_n_per_mm(1.0);
+        Self { reference_line_load_n_per_mm: of_section, ..self.clone() }
+    }
+
     /// K/H at a position under a line load (> 0), MPa/mm.
     pub fn at_mpa_per_mm(&self, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
         self.springs_at(position_mm).mpa_per_mm(line_load_n_per_mm)

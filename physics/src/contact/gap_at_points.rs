@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::Flanks;
 use super::observed_points::ObservedPoints;
 use super::strip::Interpolation;
-use crate::gear::{Gear, PerGear};
+use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 
 /// By this part of its course the theoretical contact point may miss a point and still passes it: where it passes between two
 /// cells, neither must lose it to rounding.

@@ -22,7 +22,7 @@
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), sections 2.5 and 5.9.
 
 use super::{
-    ContactSurface, Effort, Flanks, Footprint, PairContact, PointContact, PositionCell, Response, Sweep,
+    ContactSurface, Effort, Flanks, Footprint, PairContact, PointContact, PositionCell, PressedCell, Response, Sweep,
     elastic_cells::ElasticCells,
     growing_window::{GrowingWindow, Sampled},
     hertz,
@@ -56,12 +56,14 @@ const FREE_CELLS: usize = 2;
 const LEAST_CELLS: usize = 4;
 /// Most cells in a window: those of a window that has grown beyond are wider.
 const MOST_CELLS: f64 = 320.0;
+/// Part of a cell that is rounding, per cell.
+const CELL_ROUND_OFF: f64 = 1e-9;
 /// Measured on the preset `fzg-c`, rounded.
 const EFFORT: Effort = Effort { of_equilibrium: 20.0, of_clean_start: 15.0 };
 
 impl ContactSurface for HalfSpace {
     fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
-        let flattening = hertz::flattening(flanks.geometry, &self.material, position_mm);
+        let flattening = hertz::flattening(&flanks.geometry, &self.material, position_mm);
         let half_width = flattening.contact.loaded(self.expected_line_load_n_per_mm).half_width_mm;
         let stretch =
             ObservedStretch { flanks, position_mm, cell, flattening, cell_mm: self.cell_width_mm(flanks, position_mm) };
@@ -85,7 +87,7 @@ impl ContactSurface for HalfSpace {
 impl HalfSpace {
     /// About two flank points, within what the contact needs.
     fn cell_width_mm(&self, flanks: Flanks<'_>, position_mm: f64) -> f64 {
-        let contact = hertz::flattening(flanks.geometry, &self.material, position_mm).contact;
+        let contact = hertz::flattening(&flanks.geometry, &self.material, position_mm).contact;
         let half_width = contact.loaded(self.expected_line_load_n_per_mm).half_width_mm;
         (POINTS_PER_CELL * point_distance_mm(flanks, Gear::Pinion, position_mm))
             .clamp(half_width / FINEST_CELLS_PER_HALF_WIDTH, half_width / CELLS_PER_HALF_WIDTH)
@@ -113,13 +115,29 @@ impl Sampled for ObservedStretch<'_> {
 
     fn sample(&self, half_length_mm: f64) -> SampledStretch {
         let window = Window::new(self.flanks, self.position_mm, half_length_mm);
-        let widest = self.cell_mm.max(window.length_mm() / MOST_CELLS);
-        let count = ((window.length_mm() / widest).ceil() as usize).max(LEAST_CELLS);
+        let (window, count) = in_cells(window, self.cell_mm);
         let strip = Strip::new(self.flanks, self.position_mm, window, 2 * count, self.cell);
         let width = 2.0 * strip.spacing_mm;
         let compliance = cell_compliance_mm_per_mpa(&self.flattening.bodies, width, count);
         let swept = SweptField::new(self.flanks, window, width, self.cell);
         SampledStretch { strip, cells: ElasticCells::new(width, compliance), swept }
+    }
+}
+
+/// The window in whole cells, about `cell_mm` wide, and how many.
+///
+/// Where one end is a real one cells are as wide as that and begin there, and the free end gives way: how they lie over an edge under load then
+/// follows the load without jumps, and a rounding in the last bit adds no cell.
+fn in_cells(window: Window, cell_mm: f64) -> (Window, usize) {
+    let widest = cell_mm.max(window.length_mm() / MOST_CELLS);
+    let cells = window.length_mm() / widest;
+    let whole = (cells * (1.0 + CELL_ROUND_OFF)).floor();
+    let free_lower_mm = window.upper_mm - whole * widest;
+    let free_upper_mm = window.lower_mm + whole * widest;
+    match window.ends_are_real {
+        [true, false] if whole >= LEAST_CELLS as f64 => (Window { upper_mm: free_upper_mm, ..window }, whole as usize),
+        [false, true] if whole >= LEAST_CELLS as f64 => (Window { lower_mm: free_lower_mm, ..window }, whole as usize),
+        _ => (window, ((cells * (1.0 - CELL_ROUND_OFF)).ceil() as usize).max(LEAST_CELLS)),
     }
 }
 
@@ -194,5 +212,11 @@ impl PairContact for HalfSpacePair<'_> {
         let field = &self.window.samples.swept.field;
         let at_ends = [field.cells_mpa().first(), field.cells_mpa().last()].map(|end| end.is_some_and(|p| *p > 0.0));
         Footprint { at_sharp_edge: self.window.samples.strip.window.is_sharp_where(at_ends), ..field.footprint() }
+    }
+
+    fn pressed_cells(&self) -> Vec<PressedCell> {
+        let SampledStretch { strip, swept, .. } = &self.window.samples;
+        let pressures_mpa = swept.field.cells_mpa().iter().copied();
+        PressedCell::evenly(strip.window.lower_mm, 2.0 * strip.spacing_mm, pressures_mpa)
     }
 }

@@ -18,7 +18,7 @@
 use std::f64::consts::PI;
 
 use super::{
-    ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, Response, Sweep,
+    ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, PressedCell, Response, Sweep,
     growing_window::{GrowingWindow, Sampled},
     observed_points::ObservedPoints,
     settings::Material,
@@ -57,6 +57,9 @@ pub fn flattening(geometry: &dyn ConjugateFlanks, material: &PerGear<Material>, 
     }
 }
 
+/// Cells of an ellipse where its pressure is asked for.
+const CELLS_OF_ELLIPSE: usize = 80;
+
 /// Load against approach of a pair in closed form; what `hertz` and `hertz-mean` share.
 pub(super) struct ClosedFormPair<'a> {
     pub flanks: Flanks<'a>,
@@ -70,7 +73,7 @@ pub(super) struct ClosedFormPair<'a> {
 
 impl<'a> ClosedFormPair<'a> {
     pub(super) fn new(flanks: Flanks<'a>, material: &PerGear<Material>, position_mm: f64) -> Self {
-        let flattening = flattening(flanks.geometry, material, position_mm);
+        let flattening = flattening(&flanks.geometry, material, position_mm);
         Self { flanks, position_mm, flattening, removed_mm: 0.0, line_load: 0.0 }
     }
 
@@ -218,6 +221,18 @@ impl PairContact for HertzPair<'_> {
         let extent = self.extent.upper_mm.min(a) - self.extent.lower_mm.max(-a);
         let peak_pressure_mpa = self.closed_form.flattening.contact.loaded(self.strip_load).peak_pressure_mpa;
         Footprint { peak_pressure_mpa, half_width_mm: 0.5 * extent, at_sharp_edge: false }
+    }
+
+    fn pressed_cells(&self) -> Vec<PressedCell> {
+        let a = self.half_width_mm;
+        if a == 0.0 {
+            return Vec::new();
+        }
+        let (lower, upper) = ((self.extent.lower_mm / a).max(-1.0), (self.extent.upper_mm / a).min(1.0));
+        let width = (upper - lower) / CELLS_OF_ELLIPSE as f64;
+        let end = |k: usize| carried_below(lower + k as f64 * width);
+        let mean = |k: usize| self.strip_load * (end(k + 1) - end(k)) / (width * a);
+        PressedCell::evenly(lower * a, width * a, (0..CELLS_OF_ELLIPSE).map(mean))
     }
 }
 

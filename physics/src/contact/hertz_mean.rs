@@ -14,8 +14,8 @@
 //! Source: S. Andersson (1975) and the thesis, section 3.4 and appendix 1 (papers A's comparison and E).
 
 use super::{
-    ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, Response, Sweep, hertz::ClosedFormPair,
-    settings::Material,
+    ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, PressedCell, Response, Sweep,
+    hertz::ClosedFormPair, settings::Material,
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 
@@ -120,5 +120,10 @@ impl PairContact for HertzMeanPair<'_> {
         let half_width_mm = self.closed_form.flattening.contact.loaded(self.closed_form.line_load).half_width_mm;
         let mean = if half_width_mm > 0.0 { self.closed_form.line_load / (2.0 * half_width_mm) } else { 0.0 };
         Footprint { peak_pressure_mpa: mean, half_width_mm, at_sharp_edge: false }
+    }
+
+    fn pressed_cells(&self) -> Vec<PressedCell> {
+        let Footprint { peak_pressure_mpa, half_width_mm, .. } = self.footprint();
+        PressedCell::even(half_width_mm, peak_pressure_mpa)
     }
 }

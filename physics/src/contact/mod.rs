@@ -29,13 +29,16 @@ pub mod winkler;
 
 use serde::{Deserialize, Serialize};
 
-use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
+use crate::gear::{
+    Gear, GearPair, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid, normal_section::NormalSection,
+};
+use crate::mesh_cycle::flank_pressure::FlankParts;
 
 /// Two flanks and the points on them.
 #[derive(Clone, Copy)]
 pub struct Flanks<'a> {
-    /// Their geometry.
-    pub geometry: &'a dyn ConjugateFlanks,
+    /// Their geometry, in the normal section: gaps and what is removed are normal to the flanks.
+    pub geometry: NormalSection<'a>,
     /// Their points.
     pub grid: PerGear<&'a FlankGrid>,
     /// What of the removed material is no wear but the modification of the profile, but for a constant; none where that is not told
@@ -43,12 +46,32 @@ pub struct Flanks<'a> {
     pub modification_mm: Option<PerGear<&'a [f64]>>,
     /// Whose tip edge may carry load and is mathematically sharp: contact that it cuts off has no pressure of its own.
     pub sharp_edges: PerGear<bool>,
+    /// The parts that figures of pressure speak of; none where nobody asks for such.
+    pub parts: Option<FlankParts>,
+    /// Whose corner at the form circle, which undercut leaves, may carry load.
+    pub sharp_corners: PerGear<bool>,
 }
 
 impl<'a> Flanks<'a> {
-    /// Flanks that end where their contact does: no tip edge carries load.
+    /// Flanks that end where their contact does, and along whose lines of contact nothing changes: no tip edge carries load.
     pub fn new(geometry: &'a dyn ConjugateFlanks, grid: PerGear<&'a FlankGrid>) -> Self {
-        Self { geometry, grid, modification_mm: None, sharp_edges: PerGear::default() }
+        Self::in_section(NormalSection::of_spur(geometry), grid)
+    }
+
+    /// The same of gears.
+    pub fn of_gears(pair: &'a GearPair, grid: PerGear<&'a FlankGrid>) -> Self {
+        Self::in_section(pair.normal_section(), grid)
+    }
+
+    fn in_section(geometry: NormalSection<'a>, grid: PerGear<&'a FlankGrid>) -> Self {
+        Self {
+            geometry,
+            grid,
+            modification_mm: None,
+            sharp_edges: PerGear::default(),
+            sharp_corners: PerGear::default(),
+            parts: None,
+        }
     }
 }
 
@@ -66,7 +89,7 @@ pub struct PositionCell {
 /// A tooth pair's answer to being pressed together.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Response {
-    /// Load it carries, N per mm of face width.
+    /// Load it carries, N per mm of the line of contact: as much as F_bt per mm of face width.
     pub line_load_n_per_mm: f64,
     /// Derivative of the load with respect to the indentation, N/mm².
     pub stiffness_n_per_mm2: f64,
@@ -112,6 +135,43 @@ pub struct Footprint {
     pub half_width_mm: f64,
     /// Whether a sharp tip edge cuts the contact off: the pressure then is not defined, and what is found grows with every refinement.
     pub at_sharp_edge: bool,
+}
+
+/// A part of a contact under a mean pressure. Places are along the tangent from the theoretical contact point, positive towards the
+/// pinion's tip.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PressedCell {
+    /// Where it begins, mm.
+    pub lower_mm: f64,
+    /// Where it ends, mm.
+    pub upper_mm: f64,
+    /// Mean pressure on it, MPa.
+    pub pressure_mpa: f64,
+}
+
+impl PressedCell {
+    /// The load on it, N/mm.
+    pub fn line_load_n_per_mm(&self) -> f64 {
+        self.pressure_mpa * (self.upper_mm - self.lower_mm)
+    }
+
+    /// The part of it from one place to another; none where there is no such.
+    pub(crate) fn within(&self, [from_mm, to_mm]: [f64; 2]) -> Option<Self> {
+        let (lower_mm, upper_mm) = (self.lower_mm.max(from_mm), self.upper_mm.min(to_mm));
+        (lower_mm < upper_mm).then_some(Self { lower_mm, upper_mm, ..*self })
+    }
+
+    /// Evenly spaced cells of `width_mm` from `lower_mm` on.
+    pub(crate) fn evenly(lower_mm: f64, width_mm: f64, pressures_mpa: impl Iterator<Item = f64>) -> Vec<Self> {
+        let at = |k: usize| lower_mm + k as f64 * width_mm;
+        let cell = |(k, pressure_mpa)| Self { lower_mm: at(k), upper_mm: at(k + 1), pressure_mpa };
+        pressures_mpa.enumerate().map(cell).collect()
+    }
+
+    /// `half_width_mm` to either side of the theoretical contact point under one pressure.
+    pub(crate) fn even(half_width_mm: f64, pressure_mpa: f64) -> Vec<Self> {
+        vec![Self { lower_mm: -half_width_mm, upper_mm: half_width_mm, pressure_mpa }]
+    }
 }
 
 /// One tooth pair at one loading position.
@@ -164,6 +224,9 @@ pub trait PairContact: Send {
 
     /// Extent and greatest pressure.
     fn footprint(&self) -> Footprint;
+
+    /// The pressure along the contact, cell after cell towards the pinion's tip; their loads are that of the contact.
+    fn pressed_cells(&self) -> Vec<PressedCell>;
 }
 
 /// How long equilibria take, about.

@@ -65,7 +65,7 @@ impl ObservedPoints {
         let exposure = Exposure::new(flanks, gear, cell);
         let (mut sliding_mm, mut partly_exposed) = (Vec::with_capacity(at.len()), Vec::new());
         for (sample, (i, point)) in (first_point..=last).zip(&at[1..]).enumerate() {
-            let (from, to) = exposure.of(geometry, grid.coordinate_mm[i], point.along_mm);
+            let (from, to) = exposure.of(&geometry, grid.coordinate_mm[i], point.along_mm);
             sliding_mm.push(sliding * (to - from));
             if from > 0.0 || to < 1.0 {
                 partly_exposed.push(PartlyExposed { sample, from, to });
@@ -79,7 +79,7 @@ impl ObservedPoints {
             partly_exposed,
             standing_to_mm: None,
             at,
-            shift_to_ends_mm: shift_to_ends_mm(geometry, gear, middle, cell),
+            shift_to_ends_mm: shift_to_ends_mm(&geometry, gear, middle, cell),
         }
     }
 }
@@ -89,7 +89,7 @@ impl ObservedPoints {
     /// mate passes it all the time.
     pub(crate) fn under_standing_pressure(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
         let mut points = Self::new(flanks, gear, window, cell);
-        if let Some(edge) = edge_under_load(flanks.geometry, cell.position_mm) {
+        if let Some(edge) = edge_under_load(&flanks.geometry, cell.position_mm) {
             let sliding = flanks.geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
             points.partly_exposed.retain(|point| point.from == point.to);
             points.sliding_mm.fill(sliding);
@@ -99,7 +99,7 @@ impl ObservedPoints {
                 let tip = flanks.geometry.flank_limits_mm(gear).1;
                 points.standing_to_mm = Some(flanks.geometry.in_tangent_frame(gear, tip, cell.position_mm).along_mm);
             }
-            points.shift_to_ends_mm = passes_to_ends_mm(flanks.geometry, gear, middle, cell, points.spacing_mm);
+            points.shift_to_ends_mm = passes_to_ends_mm(&flanks.geometry, gear, middle, cell, points.spacing_mm);
         }
         points
     }

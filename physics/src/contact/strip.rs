@@ -80,7 +80,7 @@ impl PassingMean {
         // Empty again after every sample.
         let mut sums = vec![0.0; grid.len()];
         for along in along_mm {
-            let passes = passes_to_ends_mm(geometry, gear, coordinate_mm(along), cell, spacing_mm);
+            let passes = passes_to_ends_mm(&geometry, gear, coordinate_mm(along), cell, spacing_mm);
             let ends = passes.map(|by| coordinate_mm(along - by));
             let reached = add_means(&grid.coordinate_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
             passing.first.push(reached.start as u32);
@@ -111,7 +111,8 @@ pub(crate) struct Window {
     pub upper_mm: f64,
     /// Whether each end is where a flank really ends.
     pub ends_are_real: [bool; 2],
-    /// Whether it ends there in a sharp tip edge that may carry load: the wheel's below, the pinion's above.
+    /// Whether it ends there in a sharp edge that may carry load: the wheel's tip or the pinion's corner of undercut below, the pinion's tip or
+    /// the wheel's corner above.
     pub ends_are_sharp: [bool; 2],
 }
 
@@ -119,16 +120,18 @@ impl Window {
     /// `half_length_mm` to either side of the theoretical contact point, or of the tip edge next to it where the one flank
     /// ends before it, cut where a flank ends.
     pub(crate) fn new(flanks: Flanks<'_>, position_mm: f64, half_length_mm: f64) -> Self {
-        let ((lower, upper), at_tips) = common_extent_mm(flanks.geometry, position_mm);
+        let ((lower, upper), at_tips) = common_extent_mm(&flanks.geometry, position_mm);
         let centre = 0.0_f64.min(upper).max(lower);
         let (from, to) = (centre - half_length_mm, centre + half_length_mm);
         let ends_are_real = [lower >= from, upper <= to];
-        let sharp = [flanks.sharp_edges.wheel, flanks.sharp_edges.pinion];
+        let (edges, corners) = (flanks.sharp_edges, flanks.sharp_corners);
+        let sharp = [(edges.wheel, corners.pinion), (edges.pinion, corners.wheel)];
         Self {
             lower_mm: lower.max(from),
             upper_mm: upper.min(to),
             ends_are_real,
-            ends_are_sharp: [0, 1].map(|end| ends_are_real[end] && at_tips[end] && sharp[end]),
+            ends_are_sharp: [0, 1]
+                .map(|end| ends_are_real[end] && if at_tips[end] { sharp[end].0 } else { sharp[end].1 }),
         }
     }
 

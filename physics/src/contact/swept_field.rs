@@ -31,7 +31,7 @@ impl SweptField {
         // An edge moves to both sides of where it is, but where the cell lies to one side of its position, or the field goes with the edge.
         let both_ways = |cell: PositionCell| {
             let two_sided = cell.lower_mm < cell.position_mm && cell.position_mm < cell.upper_mm;
-            two_sided && edge_under_load(flanks.geometry, cell.position_mm).is_none()
+            two_sided && edge_under_load(&flanks.geometry, cell.position_mm).is_none()
         };
         let observed = cell.map(|cell| {
             PerGear::from_fn(|gear| {

@@ -27,7 +27,7 @@
 use std::ops::Range;
 
 use super::{
-    ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, Response, Sweep,
+    ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, PressedCell, Response, Sweep,
     edge_foundation::{EdgeFoundations, EdgeStiffness},
     foundation::{FoundationCurve, FoundationStiffness, mean_positive},
     gap_at_points::GapAtPoints,
@@ -101,6 +101,8 @@ const POINTS_PER_SAMPLE: f64 = 2.0;
 const LEAST_INTERVALS: usize = 8;
 /// The same where a tip edge touches over a part of the window.
 const LEAST_INTERVALS_AT_EDGE: usize = 200;
+/// Cells of an interval between samples where the pressure itself is asked for.
+const CELLS_PER_INTERVAL: usize = 4;
 
 impl ContactSurface for Winkler {
     fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
@@ -323,6 +325,23 @@ impl PairContact for WinklerPair<'_> {
         let at_ends = [self.gap.first(), self.gap.last()].map(|gap| gap.is_some_and(|gap| *gap < self.indentation_mm));
         let at_sharp_edge = self.strip().window.is_sharp_where(at_ends);
         Footprint { peak_pressure_mpa: self.foundation * penetration, half_width_mm, at_sharp_edge }
+    }
+
+    fn pressed_cells(&self) -> Vec<PressedCell> {
+        let Strip { window, spacing_mm, .. } = self.strip();
+        let parts = CELLS_PER_INTERVAL as f64;
+        // Between two samples the gap is a parabola of the contact's curvature through both, and a straight line between its places.
+        let sagitta = spacing_mm * spacing_mm / (2.0 * self.radius_mm);
+        let pressures = self.gap.windows(2).flat_map(|ends| {
+            let penetration = |k: usize| {
+                let part = k as f64 / parts;
+                self.indentation_mm - ends[0] - part * (ends[1] - ends[0]) + sagitta * part * (1.0 - part)
+            };
+            let bulge = sagitta / (6.0 * parts * parts);
+            let mean = move |k: usize| mean_positive([penetration(k) + bulge, penetration(k + 1) + bulge]).0;
+            (0..CELLS_PER_INTERVAL).map(move |k| self.foundation * mean(k))
+        });
+        PressedCell::evenly(window.lower_mm, spacing_mm / parts, pressures)
     }
 }
 

@@ -46,7 +46,7 @@ pub trait ConjugateFlanks: Sync {
 
 impl ConjugateFlanks for GearPair {
     fn contact_coordinate_mm(&self, gear: Gear, position_mm: f64) -> f64 {
-        self.path.rho_mm(gear, position_mm)
+        self.rho_on_flank_mm(gear, position_mm)
     }
 
     fn position_at_mm(&self, gear: Gear, coordinate_mm: f64) -> f64 {
@@ -68,11 +68,11 @@ impl ConjugateFlanks for GearPair {
     }
 
     fn curvature_radius_mm(&self, gear: Gear, position_mm: f64) -> f64 {
-        self.path.rho_mm(gear, position_mm)
+        self.rho_on_flank_mm(gear, position_mm)
     }
 
     fn rolling_ratio(&self, gear: Gear, position_mm: f64) -> f64 {
-        self.path.rho_mm(gear, position_mm) / self.path.involute[gear].base_radius_mm
+        self.rho_on_flank_mm(gear, position_mm) / self.path.involute[gear].base_radius_mm
     }
 
     fn sliding_mm(&self, from_mm: f64, to_mm: f64) -> f64 {

@@ -53,20 +53,19 @@ pub enum PairError {
         /// d_b.
         base_diameter_mm: f64,
     },
-    /// Contact would have to take place where the flank is no involute.
+    /// The mate's tip runs into the fillet.
     #[error(
-        "interference on the {}: its mate's tip reaches down to {}, but its involute begins at diameter \
-         {form_diameter_mm:.4} mm",
+        "interference on the {}: the tip of the {} runs into its root fillet by {overlap_mm:.4} mm",
         .gear.name(),
-        .contact_diameter_mm.map_or("beyond the end of the line of action".to_owned(), |d| format!("diameter {d:.4} mm"))
+        .gear.mate().name()
     )]
     Interference {
-        /// Which gear.
+        /// Gear whose fillet it is.
         gear: Gear,
-        /// Diameter the mate's tip reaches down to; `None` where it passes beyond the base tangent point.
-        contact_diameter_mm: Option<f64>,
-        /// Root form diameter d_Ff.
-        form_diameter_mm: f64,
+        /// Greatest overlap, along the circle through the tip.
+        overlap_mm: f64,
+        /// Greatest tip diameter of the mate that has room.
+        greatest_tip_diameter_mm: f64,
     },
     /// The tip of one gear reaches into the root of the other.
     #[error("the {} tip runs into the root of its mate: tip clearance is {clearance_mm:.4} mm", .gear.name())]
@@ -75,6 +74,15 @@ pub enum PairError {
         gear: Gear,
         /// Negative.
         clearance_mm: f64,
+    },
+    /// The flanks of the generating rack meet above its dedendum.
+    #[error(
+        "the rack is pointed: at this pressure angle its flanks meet {greatest_dedendum_factor:.4} modules below the datum line, above the \
+         dedendum"
+    )]
+    RackPointed {
+        /// Greatest possible h_fP*.
+        greatest_dedendum_factor: f64,
     },
     /// The generating rack has no tip left: its fillet radius is too large.
     #[error("the rack's fillet radius factor is too large: at most {greatest:.4} fits between its flanks")]

@@ -22,6 +22,8 @@ const TIP_MM: f64 = 2.0;
 const TIP_EDGE_HALF_WIDTHS: f64 = 3.0;
 /// Its greatest length, in normal modules.
 const MOST_TIP_EDGE_MODULES: f64 = 0.15;
+/// Length over which a flank's pressure is a mean: in Hertz half-widths at the pitch point, and its greatest, mm.
+const PRESSURE_LENGTH: (f64, f64) = (0.4, 0.04);
 
 /// A part of the flank; each place belongs to one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,8 +43,12 @@ pub struct FlankZones {
     pub active_start_radius_mm: f64,
     /// Where the tip-edge zone begins.
     pub tip_edge_radius_mm: f64,
+    /// Where the tip edge or its rounding begins.
+    pub tip_end_radius_mm: f64,
     /// The tip circle.
     pub tip_radius_mm: f64,
+    /// Length over which the pressure of the flank is a mean: 0.04 mm, at most 0.4 of Hertz's half-width at the pitch point.
+    pub pressure_length_mm: f64,
 }
 
 impl FlankZones {
@@ -53,13 +59,19 @@ impl FlankZones {
         let rounding_mm = tip_rounding_length_mm(spec.gears[gear].modification.tip_rounding_mm, tooth);
         let length_mm = (TIP_EDGE_HALF_WIDTHS * half_width_mm).min(MOST_TIP_EDGE_MODULES * spec.normal_module_mm);
         let start = pair.active_start_rho_mm(gear);
-        let arc_mm = tooth.involute.arc_mm(tooth.tip_rho_mm()) - rounding_mm - length_mm;
         // s = ρ²/(2 r_b); a flank shorter than its tip-edge zone has no other.
-        let rho_mm = (2.0 * tooth.involute.base_radius_mm * arc_mm.max(0.0)).sqrt().max(start);
+        let below_tip_mm = |length_mm: f64| {
+            let arc_mm = tooth.involute.arc_mm(tooth.tip_rho_mm()) - length_mm;
+            let rho_mm = (2.0 * tooth.involute.base_radius_mm * arc_mm.max(0.0)).sqrt().max(start);
+            tooth.involute.radius_mm(rho_mm)
+        };
+        let (of_half_widths, most_mm) = PRESSURE_LENGTH;
         Self {
             active_start_radius_mm: pair.active_start_radius_mm(gear),
-            tip_edge_radius_mm: tooth.involute.radius_mm(rho_mm),
+            tip_edge_radius_mm: below_tip_mm(rounding_mm + length_mm),
+            tip_end_radius_mm: below_tip_mm(rounding_mm),
             tip_radius_mm: tooth.tip_radius_mm,
+            pressure_length_mm: (of_half_widths * half_width_mm).min(most_mm),
         }
     }
 

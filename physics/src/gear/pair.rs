@@ -16,13 +16,16 @@ use super::{
 /// teeth interfere when it exceeds this part of the normal module (4.5 µm for module 4.5).
 const BACKLASH_ROUNDING_MODULES: f64 = 1e-3;
 
+/// A tip may overlap a fillet by this part of the normal module: a tenth of what rounded data do to the backlash.
+const OVERLAP_ROUNDING_MODULES: f64 = 1e-4;
+
 /// Modifications take micrometres off a flank; one that takes more than this part of the module leaves none.
 const GREATEST_REMOVAL_MODULES: f64 = 0.25;
 
 /// A gear pair with all that is derived from its data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearPair {
-    /// The data it was built from.
+    /// The data it was built from, tip roundings that count as sharp taken away.
     pub spec: PairSpec,
     /// Circles and teeth.
     pub teeth: PerGear<Tooth>,
@@ -63,15 +66,18 @@ impl GearPair {
         let path = PathOfContact {
             line_of_action_mm,
             base_pitch_mm: 2.0 * PI * base_radii.pinion / f64::from(spec.gears.pinion.teeth),
-            start_mm: line_of_action_mm - teeth.wheel.tip_rho_mm(),
+            start_mm: (line_of_action_mm - teeth.wheel.tip_rho_mm()).max(teeth.pinion.root_form_rho_mm()),
             pitch_point_mm: base_radii.pinion * working_pressure_angle_rad.tan(),
-            end_mm: teeth.pinion.tip_rho_mm(),
+            end_mm: teeth.pinion.tip_rho_mm().min(line_of_action_mm - teeth.wheel.root_form_rho_mm()),
             involute: teeth.as_ref().map(|tooth| tooth.involute),
         };
         let tip_clearance_mm =
             PerGear::from_fn(|g| centre_distance_mm - teeth[g].tip_radius_mm - teeth[g.mate()].root_radius_mm);
-        let mut pair =
-            Self { spec: spec.clone(), teeth, working_pressure_angle_rad, path, backlash_mm: 0.0, tip_clearance_mm };
+        let mut spec = spec.clone();
+        for gear in Gear::BOTH {
+            spec.gears[gear].modification.tip_rounding_mm = spec.tip_rounding_mm(gear);
+        }
+        let mut pair = Self { spec, teeth, working_pressure_angle_rad, path, backlash_mm: 0.0, tip_clearance_mm };
         pair.backlash_mm = pair.checked_backlash_mm()?;
         pair.check_contact()?;
         pair.check_modifications()?;
@@ -103,7 +109,7 @@ impl GearPair {
         }
     }
 
-    /// Radius of the start of active profile (SAP), r_Nf.
+    /// Radius of the start of active profile (SAP), r_Nf: where the mate's tip touches, or the form circle where that is larger.
     pub fn active_start_radius_mm(&self, gear: Gear) -> f64 {
         self.path.involute[gear].radius_mm(self.active_start_rho_mm(gear))
     }
@@ -156,14 +162,13 @@ impl GearPair {
             if clearance_mm < 0.0 {
                 return Err(PairError::NoTipClearance { gear, clearance_mm });
             }
-            let rho = self.active_start_rho_mm(gear);
-            let form_radius = self.teeth[gear].root_form_radius_mm;
-            let contact_radius = (rho > 0.0).then(|| self.active_start_radius_mm(gear));
-            if contact_radius.is_none_or(|radius| radius < form_radius * (1.0 - 1e-9)) {
+            let least_mm = -OVERLAP_ROUNDING_MODULES * self.spec.normal_module_mm;
+            let gap_mm = self.fillet_gap_mm(gear, self.teeth[gear.mate()].tip_radius_mm);
+            if gap_mm < least_mm {
                 return Err(PairError::Interference {
                     gear,
-                    contact_diameter_mm: contact_radius.map(|radius| 2.0 * radius),
-                    form_diameter_mm: 2.0 * form_radius,
+                    overlap_mm: -gap_mm,
+                    greatest_tip_diameter_mm: 2.0 * self.greatest_mate_tip_radius_mm(gear, least_mm),
                 });
             }
         }

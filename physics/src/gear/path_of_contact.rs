@@ -5,9 +5,11 @@
 //! the line, to E, where the pinion's does, a tooth pair is in contact; a base pitch p_bt later the next one follows:
 //!
 //! ```text
-//! A = T1T2 − √(r_a2² − r_b2²)     E = √(r_a1² − r_b1²)     C = r_b1 tan α_wt
+//! A = max(T1T2 − √(r_a2² − r_b2²), ρ_Ff1)     E = min(√(r_a1² − r_b1²), T1T2 − ρ_Ff2)     C = r_b1 tan α_wt
 //! B = E − p_bt                    D = A + p_bt             ε_α = (E − A) / p_bt
 //! ```
+//!
+//! ρ_Ff is the radius of curvature at the form circle: no flank reaches below it.
 //!
 //! The flanks slide on each other with v_s = (ω1 + ω2) |ξ − C|, and dξ = r_b1 ω1 dt.
 //!
@@ -22,11 +24,11 @@ pub struct PathOfContact {
     pub line_of_action_mm: f64,
     /// p_bt.
     pub base_pitch_mm: f64,
-    /// A: the wheel's tip.
+    /// A: the wheel's tip, or the pinion's form circle ([`super::flank_edge`]).
     pub start_mm: f64,
     /// C: the pitch point.
     pub pitch_point_mm: f64,
-    /// E: the pinion's tip.
+    /// E: the pinion's tip, or the wheel's form circle.
     pub end_mm: f64,
     /// Flanks in contact.
     pub involute: PerGear<Involute>,
@@ -58,6 +60,12 @@ impl PathOfContact {
     pub fn evenly_mm(&self, count: usize) -> Vec<f64> {
         let at = |j: usize| self.start_mm + (self.end_mm - self.start_mm) * j as f64 / (count - 1) as f64;
         (0..count).map(at).collect()
+    }
+
+    /// Place between A and E whose mirror image at the nearer of them is `position_mm`; itself between both.
+    pub fn folded_mm(&self, position_mm: f64) -> f64 {
+        let nearer = position_mm.clamp(self.start_mm, self.end_mm);
+        (2.0 * nearer - position_mm).clamp(self.start_mm, self.end_mm)
     }
 
     /// ε_α.

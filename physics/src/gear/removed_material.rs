@@ -17,6 +17,9 @@
 //! helix slope    f z/b            f > 0; |f| (1 − z/b) where f < 0: a flank only ever lacks material
 //! ```
 //!
+//! Amounts are those of a drawing, along the transverse line of action (ISO 1328-1:2013, 3.4 and 3.5); along the normal of an oblique flank
+//! they are cos β_b as much ([`super::normal_section`]).
+//!
 //! Axes that are not parallel are a helix slope of the pinion, f_Σδ sin α_wt + f_Σβ cos α_wt.
 //!
 //! Source: ISO 21771-1, profile and helix modifications; ISO/TR 10064-3 for the axes; the rounding is the circle tangent to flank and tip circle.
@@ -29,13 +32,14 @@ use super::{
     tooth::Tooth,
 };
 
-/// The modifications of a gear's flank as removed material at its points, slice after slice, mm.
+/// The modifications of a gear's flank as removed material at its points, normal to the flank, slice after slice, mm.
 pub fn modifications_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid, slices: &Slices) -> Vec<f64> {
     let (modification, tooth) = (&with_axes(pair, gear), &pair.teeth[gear]);
     let start = pair.active_start_rho_mm(gear);
     let profile: Vec<f64> = grid.coordinate_mm.iter().map(|&rho| removed_mm(modification, tooth, start, rho)).collect();
     let over_width = slices.width_mm.iter().map(|&z| lead_removed_mm(modification, pair.spec.face_width_mm, z));
-    over_width.flat_map(|lead| profile.iter().map(move |removed| removed + lead)).collect()
+    let obliquity = pair.obliquity();
+    over_width.flat_map(|lead| profile.iter().map(move |removed| obliquity.normal_mm(removed + lead))).collect()
 }
 
 /// The modification of a gear's flank, with what axes that are not parallel make of it.
@@ -45,7 +49,8 @@ fn with_axes(pair: &GearPair, gear: Gear) -> Modification {
     Modification { helix_slope_mm: own.helix_slope_mm + of_axes_mm, ..own }
 }
 
-/// What all modifications of a gear's flank but the rounding of its tip edge remove at radius of curvature `rho_mm` and `width_mm`.
+/// What all modifications of a gear's flank but the rounding of its tip edge remove at radius of curvature `rho_mm` and `width_mm`, along the
+/// transverse line of action.
 pub(crate) fn without_rounding_mm(pair: &GearPair, gear: Gear, width_mm: f64, rho_mm: f64) -> f64 {
     let modification = Modification { tip_rounding_mm: 0.0, ..with_axes(pair, gear) };
     removed_mm(&modification, &pair.teeth[gear], pair.active_start_rho_mm(gear), rho_mm)

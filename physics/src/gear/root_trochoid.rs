@@ -46,17 +46,16 @@ pub struct RackTip {
     pub fillet_radius_factor: f64,
 }
 
-impl RackTip {
-    /// Largest ρ_fP* that still leaves a tip: there the two roundings meet on the centre line.
-    pub fn greatest_fillet_radius_factor(&self) -> f64 {
-        greatest_fillet_radius_factor(self.normal_pressure_angle_rad, self.dedendum_factor)
-    }
-}
-
-/// The same of a rack given by α_n and h_fP*.
+/// Largest ρ_fP* that still leaves a tip of a rack given by α_n and h_fP*: there the two roundings meet on the centre line. Negative where
+/// the flanks meet above the dedendum, so that no rounding leaves one.
 pub fn greatest_fillet_radius_factor(normal_pressure_angle_rad: f64, dedendum_factor: f64) -> f64 {
     let alpha = normal_pressure_angle_rad;
     (std::f64::consts::FRAC_PI_4 - dedendum_factor * alpha.tan()) / (1.0 / alpha.cos() - alpha.tan())
+}
+
+/// Largest h_fP* that leaves a rack of pressure angle α_n a tip, without rounding: there its flanks meet, (π/4)/tan α_n.
+pub fn greatest_dedendum_factor(normal_pressure_angle_rad: f64) -> f64 {
+    std::f64::consts::FRAC_PI_4 / normal_pressure_angle_rad.tan()
 }
 
 impl RootTrochoid {

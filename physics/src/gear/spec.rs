@@ -36,7 +36,7 @@ pub struct GearSpec {
     pub teeth: u32,
     /// Profile shift coefficient x, of the normal module.
     pub profile_shift: f64,
-    /// Tip diameter d_a in mm; `None`: from the rack with addendum shortening (full tip clearance kept).
+    /// Tip diameter d_a in mm; `None`: that of the rack, shortened where the full tip clearance asks for it.
     pub tip_diameter_mm: Option<f64>,
     /// Tooth thickness allowance E_sn in mm in the normal section; negative thins the tooth.
     pub tooth_thickness_allowance_mm: f64,
@@ -138,16 +138,25 @@ impl PairSpec {
         self.reference_radius_mm(gear) + shift_mm - self.rack.dedendum_factor * self.normal_module_mm
     }
 
-    /// Tip radius as given, or from the rack with addendum shortening: the tip keeps the clearance c* = h_fP* − h_aP*
-    /// from the mate's root circle.
+    /// Tip radius as given, or that of the rack, shortened where the mate's root circle asks for it: r_a = r + (h_aP* + x + k) m_n, with the
+    /// tip alteration k ≤ 0 that keeps the clearance c* = h_fP* − h_aP* (ISO 21771, section 4.2.5).
     pub fn tip_radius_mm(&self, gear: Gear) -> f64 {
         match self.gears[gear].tip_diameter_mm {
             Some(diameter) => 0.5 * diameter,
-            None => {
-                let mate = gear.mate();
-                let mate_addendum_line = self.gears[mate].profile_shift - self.rack.addendum_factor;
-                self.centre_distance_mm - self.reference_radius_mm(mate) - mate_addendum_line * self.normal_module_mm
-            }
+            None => self.rack_tip_radius_mm(gear).min(self.clear_tip_radius_mm(gear)),
         }
+    }
+
+    /// r + (h_aP* + x) m_n: tip radius as the rack of the teeth has it, without tip alteration.
+    fn rack_tip_radius_mm(&self, gear: Gear) -> f64 {
+        let addendum_factor = self.rack.addendum_factor + self.gears[gear].profile_shift;
+        self.reference_radius_mm(gear) + addendum_factor * self.normal_module_mm
+    }
+
+    /// Tip radius that keeps the clearance c* from the mate's root circle.
+    fn clear_tip_radius_mm(&self, gear: Gear) -> f64 {
+        let mate = gear.mate();
+        let mate_addendum_line = self.gears[mate].profile_shift - self.rack.addendum_factor;
+        self.centre_distance_mm - self.reference_radius_mm(mate) - mate_addendum_line * self.normal_module_mm
     }
 }

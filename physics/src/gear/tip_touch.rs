@@ -24,6 +24,8 @@
 //! l = (r_b1 + r_b2) cos ε − T1T2 sin ε − r_b
 //! ```
 //!
+//! Where the form circle ends the path instead ([`super::flank_edge`]), the corner there touches the mate in the same way, with ρ_k = 0.
+//!
 //! Unworn flanks without relief: a relief of some hundredths of a millimetre moves an edge too little to turn its normal.
 //!
 //! Source: the geometry itself; R. G. Munro, L. Morrish and D. Palmer, *Proc. Inst. Mech. Eng. C* 213 (1999) 389–400, for sharp
@@ -31,17 +33,23 @@
 
 use nalgebra::Vector2;
 
+use super::conjugate::ConjugateFlanks;
+use super::flank_edge::{FlankEdge, PathEnd};
 use super::{Gear, GearPair, PerGear, removed_material::tip_rounding_length_mm, tooth::LoadLine};
 
-/// Greatest part of a base pitch before A and after E at which flanks are looked at.
-const MOST_BASE_PITCHES: f64 = 0.3;
-/// Least distance from T1 and T2, as part of the curvature at A and E.
+/// An approach that no pair's flanks exceed, in units of line load over E*: steel on type C approaches by 7.4 of these at the pitch point, plastic
+/// on a rigid pinion by 4.8.
+const AMPLE_APPROACH: f64 = 15.0;
+/// Least radius of curvature that a flank is taken to have, as part of that at its start of active profile: the theoretical contact point of a
+/// tip edge may lie beyond T1 or T2, where the mate has no involute, while the edge touches it farther up.
 const LEAST_CURVATURE: f64 = 0.05;
+/// Steps in which the path is walked, per base pitch.
+const STEPS_IN_PITCH: f64 = 1000.0;
 
 /// How the flanks touch at some position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
-    /// The gear whose tip edge, or the rounding of it, touches; none where both involutes do.
+    /// The gear whose edge touches: the tip edge or its rounding, or the corner at the form circle; none where both involutes do.
     pub edge_of: Option<Gear>,
     /// ε: turn of the normal from the line of action, rad.
     pub turned_rad: f64,
@@ -57,9 +65,10 @@ impl GearPair {
     /// How the flanks touch with the theoretical contact point at `position_mm`.
     pub fn touch(&self, position_mm: f64) -> Touch {
         let rho = |gear| self.path.rho_mm(gear, position_mm);
-        let passed = |gear: &Gear| rho(*gear) > self.rounding_start_rho_mm(*gear);
-        match [Gear::Wheel, Gear::Pinion].into_iter().find(passed) {
-            Some(gear) => self.touch_at_edge(gear, position_mm),
+        let edges = PathEnd::BOTH.map(|end| self.edge(end));
+        let passed = |edge: &FlankEdge| (rho(edge.gear) > edge.rho_mm) != edge.at_root;
+        match edges.into_iter().find(|edge| rho(edge.gear) != edge.rho_mm && passed(edge)) {
+            Some(edge) => self.touch_at_edge(edge, position_mm),
             None => {
                 let rho_mm = PerGear::from_fn(rho);
                 let load_line = PerGear::from_fn(|gear| self.teeth[gear].load_line(rho_mm[gear]));
@@ -78,18 +87,70 @@ impl GearPair {
         (2.0 * tooth.involute.base_radius_mm * arc_mm).sqrt()
     }
 
-    /// How far before A and after E flanks are looked at, mm of path: the tangents end with the base circles.
+    /// How far before A and after E the edge in which the path ends there is within its mate's tip circle, mm of path: farther out
+    /// nothing can touch.
+    ///
+    /// With r_e the radius of the edge, r_a' the tip radius of the mate, a the centre distance and α_e = acos(r_b/r_e), the edge turns from
+    /// where its circle meets the mate's tip circle to A or E by
+    ///
+    /// ```text
+    /// acos((a² + r_e² − r_a'²)/(2 a r_e)) − |α_e − α_wt|
+    /// ```
     pub fn farthest_touch_mm(&self) -> [f64; 2] {
-        let path = &self.path;
-        let rooms = [path.start_mm, path.rho_mm(Gear::Wheel, path.end_mm)];
-        rooms.map(|room| (MOST_BASE_PITCHES * path.base_pitch_mm).min((1.0 - LEAST_CURVATURE) * room))
+        let centre_mm = self.spec.centre_distance_mm;
+        PathEnd::BOTH.map(|end| {
+            let FlankEdge { gear, .. } = self.edge(end);
+            let involute = self.teeth[gear].involute;
+            let rho_mm = self.outermost_rho_mm(end);
+            let (own, mate) = (involute.radius_mm(rho_mm), self.teeth[gear.mate()].tip_radius_mm);
+            let cos = (centre_mm * centre_mm + own * own - mate * mate) / (2.0 * centre_mm * own);
+            let at_end_rad = (involute.pressure_angle_rad(rho_mm) - self.working_pressure_angle_rad).abs();
+            (involute.base_radius_mm * (cos.clamp(-1.0, 1.0).acos() - at_end_rad)).max(0.0)
+        })
     }
 
-    fn touch_at_edge(&self, gear: Gear, position_mm: f64) -> Touch {
+    /// ρ of the edge in which the path ends: at the tip circle, where it is of the tip, and at the form circle.
+    fn outermost_rho_mm(&self, end: PathEnd) -> f64 {
+        let FlankEdge { gear, at_root, rho_mm, .. } = self.edge(end);
+        if at_root { rho_mm } else { self.teeth[gear].tip_rho_mm() }
+    }
+
+    /// ρ of a gear's flank at the theoretical contact point, kept from going to nothing before A and after E.
+    pub(super) fn rho_on_flank_mm(&self, gear: Gear, position_mm: f64) -> f64 {
+        self.path.rho_mm(gear, position_mm).max(LEAST_CURVATURE * self.active_start_rho_mm(gear))
+    }
+
+    /// How far before A and after E the tip edges of unworn, unmodified flanks are nearer to the mate than `approach_mm`, mm of
+    /// path.
+    pub fn tip_reach_mm(&self, approach_mm: f64) -> [f64; 2] {
+        let path = &self.path;
+        let [before, after] = self.farthest_touch_mm();
+        let ends = [(PathEnd::Start, path.start_mm, -1.0, before), (PathEnd::End, path.end_mm, 1.0, after)];
+        ends.map(|(end, end_mm, outwards, most)| {
+            let step = path.base_pitch_mm / STEPS_IN_PITCH;
+            let steps = (most / step) as usize;
+            let touches = |k: &usize| self.edge_gap_mm(end, end_mm + outwards * *k as f64 * step) <= approach_mm;
+            (1..=steps).take_while(touches).last().unwrap_or(0) as f64 * step
+        })
+    }
+
+    /// [`Self::tip_reach_mm`] of an approach that `line_load_n_per_mm` does not exceed on bodies with the contact modulus E*.
+    pub fn ample_tip_reach_mm(&self, line_load_n_per_mm: f64, contact_modulus_mpa: f64) -> [f64; 2] {
+        self.tip_reach_mm(AMPLE_APPROACH * line_load_n_per_mm / contact_modulus_mpa)
+    }
+
+    /// Gap between the edge in which the path ends and the mate's flank, along the line of action, with the theoretical contact point at
+    /// `position_mm`.
+    pub fn edge_gap_mm(&self, end: PathEnd, position_mm: f64) -> f64 {
+        let gear = self.edge(end).gear;
+        let edge = self.in_tangent_frame(gear, self.outermost_rho_mm(end), position_mm);
+        edge.drop_mm + self.at_along(gear.mate(), -edge.along_mm, position_mm).1
+    }
+
+    fn touch_at_edge(&self, edge: FlankEdge, position_mm: f64) -> Touch {
+        let FlankEdge { gear, rho_mm: start_rho, rounding_mm, .. } = edge;
         let (own, mate) = (self.path.involute[gear], self.path.involute[gear.mate()]);
         let (own_rho, mate_rho) = (self.path.rho_mm(gear, position_mm), self.path.rho_mm(gear.mate(), position_mm));
-        let rounding_mm = self.spec.gears[gear].modification.tip_rounding_mm;
-        let start_rho = self.rounding_start_rho_mm(gear);
         let own_turn = (start_rho - own_rho) / own.base_radius_mm;
         // O in the tangent frame of the gear: along the inward normal (−sin, cos) from where the rounding begins.
         let start = own.in_tangent_frame(start_rho, own_rho);

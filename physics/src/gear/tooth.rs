@@ -17,7 +17,7 @@ use nalgebra::Vector2;
 use super::{
     Gear, PairError,
     involute::{Involute, inv, inverse_inv},
-    root_trochoid::{RackTip, RootTrochoid},
+    root_trochoid::{RackTip, RootTrochoid, greatest_dedendum_factor, greatest_fillet_radius_factor},
     spec::PairSpec,
 };
 
@@ -50,7 +50,7 @@ impl Tooth {
     /// Generates the tooth of `gear`; `tip_radius_mm` as given or derived by the pair.
     ///
     /// # Errors
-    /// [`PairError::RackTipPointed`], [`PairError::NoTooth`], [`PairError::TipBelowBase`], [`PairError::PointedTooth`],
+    /// [`PairError::RackPointed`], [`PairError::RackTipPointed`], [`PairError::NoTooth`], [`PairError::TipBelowBase`], [`PairError::PointedTooth`],
     /// [`PairError::BoreTooLarge`].
     pub fn new(spec: &PairSpec, gear: Gear, tip_radius_mm: f64) -> Result<Self, PairError> {
         let own = &spec.gears[gear];
@@ -66,7 +66,10 @@ impl Tooth {
             dedendum_factor: spec.rack.dedendum_factor,
             fillet_radius_factor: spec.rack.fillet_radius_factor,
         };
-        let greatest = rack.greatest_fillet_radius_factor();
+        let greatest = greatest_fillet_radius_factor(alpha_n, rack.dedendum_factor);
+        if greatest < 0.0 {
+            return Err(PairError::RackPointed { greatest_dedendum_factor: greatest_dedendum_factor(alpha_n) });
+        }
         if rack.fillet_radius_factor > greatest {
             return Err(PairError::RackTipPointed { greatest });
         }

@@ -52,8 +52,6 @@ const GREATEST_MODULES: f64 = 0.5;
 
 /// Shortest element, in modules.
 const LEAST_MODULES: f64 = 2e-4;
-/// A tip rounding smaller than this is left out, in modules: some micrometres.
-const NEGLIGIBLE_ROUNDING_MODULES: f64 = 1e-3;
 
 /// The gear whose tooth is meshed.
 #[derive(Debug, Clone, Copy)]
@@ -202,11 +200,8 @@ impl<'a> ToothShape<'a> {
 /// [`ToothMeshError`] where the clamp circle, the resolution or the shape of the tooth leave no mesh.
 pub fn sector(shape: &ToothShape, settings: &SectorSettings) -> Result<ToothSector, ToothMeshError> {
     check(settings)?;
-    // A coarse tooth touches nothing, the rounding of its tip edges would only cost nodes; and an edge as rough as a
-    // ground surface is sharp.
-    let given_mm = shape.modification.tip_rounding_mm;
-    let negligible = given_mm < NEGLIGIBLE_ROUNDING_MODULES * shape.normal_module_mm;
-    let rounding_mm = if settings.flank.is_none() || negligible { 0.0 } else { given_mm };
+    // A coarse tooth touches nothing, the rounding of its tip edges would only cost nodes.
+    let rounding_mm = if settings.flank.is_none() { 0.0 } else { shape.modification.tip_rounding_mm };
     let profile = Profile::new(shape.tooth, shape.modification, shape.active_start_rho_mm)?.rounded(rounding_mm)?;
     let outline = Outline::new(shape, settings, &profile)?;
     let cut = Cut::new(shape, settings.clamp_radius_mm, outline.at_cut_mm)?;

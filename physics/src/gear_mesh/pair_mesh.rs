@@ -20,9 +20,6 @@ use crate::gear_mesh::settings::{
 };
 use crate::mesh::{CellBlock, CellKind, Mesh};
 
-/// Contact ratio by which load makes teeth touch beyond the theoretical path, at most.
-const EARLY_CONTACT: f64 = 0.15;
-
 /// Half-widths of flank above the start of active profile that the mate's tip edge touches, early contact included.
 const TIP_MEETS_HALF_WIDTHS: f64 = 3.0;
 
@@ -70,11 +67,13 @@ pub fn gear_sector(
     let rounding_mm = pair.spec.gears[gear.mate()].modification.tip_rounding_mm;
     // Elements on a very small rounding would be shorter than any may be.
     let least_mm = 2.0 * LEAST_MODULES * pair.spec.normal_module_mm * settings.elements_per_half_width;
+    // Where contact begins near the base circle of an undercut pinion the half-width falls to nothing.
+    let floor_mm = least_mm.min(half_width_mm(pair.path.pitch_point_mm.clamp(pair.path.start_mm, pair.path.end_mm)));
     let at_tip_mm = (ROUNDING_HALF_WIDTH * rounding_mm).max(least_mm);
     let met_from_mm = involute.arc_mm(start_rho) - MARGIN_HALF_WIDTHS * at_tip_mm;
     let by_rho = |rho_mm: f64| match (met_from_mm..met_by_tip_mm).contains(&involute.arc_mm(rho_mm)) {
-        true if rounding_mm > 0.0 => on_flank(rho_mm).min(at_tip_mm),
-        _ => on_flank(rho_mm),
+        true if rounding_mm > 0.0 => on_flank(rho_mm).min(at_tip_mm).max(floor_mm),
+        _ => on_flank(rho_mm).max(floor_mm),
     };
     let flank = FlankResolution {
         half_width_mm: &by_rho,
@@ -91,9 +90,11 @@ pub fn gear_sector(
 }
 
 /// Numbers of the tooth pairs that may touch while the reference pair runs from A to E: 0 that pair itself, +1 the one a
-/// base pitch ahead, −1 the one behind …
-pub fn touching_pairs(pair: &GearPair) -> Vec<i32> {
-    let beside = (pair.path.contact_ratio() + EARLY_CONTACT).floor().max(1.0) as i32;
+/// base pitch ahead, −1 the one behind …; under a load that closes gaps of tip edges up to `reach_mm` before A and after E
+/// ([`GearPair::ample_tip_reach_mm`]).
+pub fn touching_pairs(pair: &GearPair, reach_mm: [f64; 2]) -> Vec<i32> {
+    let early = reach_mm[0].max(reach_mm[1]) / pair.path.base_pitch_mm;
+    let beside = (pair.path.contact_ratio() + early).floor().max(1.0) as i32;
     (-beside..=beside).collect()
 }
 

@@ -7,7 +7,7 @@
 //! Schlenk          μ = 0.048 (K_A F_bt/b / (v_ΣC ρ_C))^0.2 η^−0.05 Ra^0.25 X_L
 //! ISO/TS 6336-22   μ = 0.045 (K K_Bγ F_bt/b / (v_ΣC ρ_C))^0.2 η^−0.05 · 2.2 (Ra/ρ_C)^0.25 X_L
 //! ISO/TS 6336-21   the same with F_t
-//! ISO/TS 6336-20   μ = 0.060 (K F_t/b / (v_ΣC ρ_C))^0.2 η^−0.05 (0.6 Ra)^0.25 X_L        flanks run in to 0.6 Ra
+//! ISO/TS 6336-20   μ = 0.060 (K F_t/b / (v_ΣC ρ_C))^0.2 η^−0.05 ((1 − 0.4 φ_E) Ra)^0.25 X_L        flanks run in to 0.6 Ra at φ_E = 1
 //! ```
 //!
 //! At every point (w in N per mm of line of contact, v_g in m/s):
@@ -58,6 +58,8 @@ pub struct MeanConditions {
     pub viscosity_milli_pa_s: f64,
     /// Ra, µm.
     pub ra_um: f64,
+    /// φ_E of the integral temperature: 0 of new flanks, 1 of flanks that are run in.
+    pub relative_run_in: f64,
     /// X_L.
     pub lubricant_factor: f64,
 }
@@ -90,7 +92,8 @@ impl MeanConditions {
 
     /// μ_m of the flash temperature.
     pub fn iso_6336_20(&self) -> f64 {
-        let roughness = (RUN_IN_ROUGHNESS * self.ra_um).powf(0.25);
+        let smoothed = 1.0 - (1.0 - RUN_IN_ROUGHNESS) * self.relative_run_in;
+        let roughness = (smoothed * self.ra_um).powf(0.25);
         self.with(0.060, self.load_factor * self.tangential_over_base, roughness)
     }
 

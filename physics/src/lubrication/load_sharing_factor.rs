@@ -10,7 +10,12 @@
 //! Γ is the place on the line of action from C in units of T₁C. ISO/TS 6336-22 takes the factor of spur gears times X_but up to
 //! ε_β = 0.8, that of helical gears from 1.2 on, and what lies between in proportion.
 //!
+//! Above ε_α = 2 the standards have no factor; all pairs in mesh then share the load evenly here, for means over the path alone
+//! ([`SharingGeometry::is_of_standard`]).
+//!
 //! Sources: ISO/TS 6336-22 (first ISO/TR 15144-1:2014), clause 8; ISO/TS 6336-20 (first ISO/TR 13989-1:2000), clause 8. Method B.
+
+use super::loss::pairs_in_mesh;
 
 /// What the factor needs of a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,8 +35,17 @@ impl SharingGeometry {
         (e - a) / (e - b)
     }
 
+    /// Whether the standards have a factor for this contact ratio: below 2.
+    pub fn is_of_standard(&self) -> bool {
+        self.contact_ratio() < 2.0
+    }
+
     fn spur(&self, position_mm: f64) -> f64 {
-        let [a, b, _, d, e] = self.points_mm;
+        let [a, b, c, d, e] = self.points_mm;
+        if !self.is_of_standard() {
+            let in_pitches = |from: f64, to: f64| (to - from) / (e - b);
+            return 1.0 / pairs_in_mesh([in_pitches(c, e), in_pitches(a, c)], in_pitches(c, position_mm));
+        }
         // Below ε_α = 2 two pairs share the load before B and after D.
         if position_mm < b {
             (1.0 + (position_mm - a) / (b - a)) / 3.0

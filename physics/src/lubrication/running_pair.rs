@@ -2,7 +2,15 @@
 //!
 //! Each surface runs at ω ρ through the contact. Load and pressure of a film are those of the contact with the factors K_A K_V, as
 //! ISO/TS 6336-22 has it for a contact analysis (Method A); its radius and speeds are the nominal ones, also where flanks are worn, and before A
-//! and after E those of A and E.
+//! and after E those of A and E. Where a contact is under more pressure p than its load w on the nominal radius ρ_n gives, as at a tip edge, its
+//! radius is that of the cylinders which this load presses as hard,
+//!
+//! ```text
+//! ρ = ρ_n (κ p_H/p)² for p > κ p_H      p_H = √(E_r w/(2π ρ_n))      that is, with κ = 1, ρ = E_r w/(2π p²)
+//! ```
+//!
+//! κ is the surface's pressure over Hertz's on the nominal radius: 1 where the surface is elastic, and what a foundation of springs makes of it.
+//! Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.2.
 
 use std::f64::consts::TAU;
 
@@ -33,6 +41,8 @@ pub struct RunningConditions {
     pub line_load_n_per_mm: f64,
     /// E_r of both materials, MPa.
     pub reduced_modulus_mpa: f64,
+    /// κ, greatest pressure of the contact surface over Hertz's on the same radius.
+    pub pressure_over_hertz: f64,
 }
 
 /// The pair with its oil.
@@ -48,6 +58,8 @@ pub struct RunningPair<'a> {
     pub line_load_n_per_mm: f64,
     /// E_r and B_M.
     pub bodies: Bodies,
+    /// κ, greatest pressure of the contact surface over Hertz's on the same radius.
+    pub pressure_over_hertz: f64,
     /// For Method B.
     pub sharing: SharingGeometry,
     /// None where only friction without oil is asked for.
@@ -129,6 +141,7 @@ impl<'a> RunningPair<'a> {
                 reduced_modulus_mpa: conditions.reduced_modulus_mpa,
                 thermal_contact_w_s05_per_m2_k: thermal.unwrap_or_default(),
             },
+            pressure_over_hertz: conditions.pressure_over_hertz,
             sharing: SharingGeometry {
                 points_mm: pair.path.points_mm(),
                 overlap_ratio: pair.overlap_ratio(),
@@ -154,6 +167,7 @@ impl<'a> RunningPair<'a> {
             relative_radius_mm: at_pitch.relative_radius_mm,
             viscosity_milli_pa_s: oil.viscosity_milli_pa_s(settings.temperature_c),
             ra_um: 0.5 * settings.roughness.map(|roughness| roughness.ra_um).sum(),
+            relative_run_in: settings.scuffing.relative_run_in,
             lubricant_factor: settings.lubricant_factor.unwrap_or_else(usual),
         };
         let loss_kw = 1e-3 * self.power_w() * mean.iso_6336_22() * loss::of_pair(self.pair);
@@ -178,7 +192,7 @@ impl<'a> RunningPair<'a> {
     pub fn contact(&self, position_mm: f64, line_load_n_per_mm: f64, peak_pressure_mpa: f64) -> RollingContact {
         RollingContact {
             line_load_n_per_mm,
-            relative_radius_mm: self.pair.relative_radius_mm(position_mm) / self.pair.base_helix_angle_rad().cos(),
+            relative_radius_mm: self.pair.normal_section().relative_radius_mm(position_mm),
             peak_pressure_mpa,
             surface_speeds_m_per_s: PerGear::from_fn(|gear| {
                 1e-3 * self.angular_speed_per_s[gear] * self.pair.path.rho_mm(gear, position_mm)
@@ -190,7 +204,19 @@ impl<'a> RunningPair<'a> {
         let path = &self.pair.path;
         let position_mm = place.position_mm.clamp(path.start_mm, path.end_mm);
         let pressure_mpa = load_factor.sqrt() * place.peak_pressure_mpa;
-        self.contact(position_mm, load_factor * place.line_load_n_per_mm, pressure_mpa)
+        let nominal = self.contact(position_mm, load_factor * place.line_load_n_per_mm, pressure_mpa);
+        RollingContact { relative_radius_mm: self.radius_of_contact_mm(&nominal), ..nominal }
+    }
+
+    /// ρ of a contact, from its own load and pressure where that is above the nominal one, mm.
+    fn radius_of_contact_mm(&self, nominal: &RollingContact) -> f64 {
+        let expected_mpa = self.pressure_over_hertz * self.bodies.peak_pressure_mpa(nominal);
+        let excess = nominal.peak_pressure_mpa / expected_mpa;
+        if excess > 1.0 && excess.is_finite() {
+            nominal.relative_radius_mm / (excess * excess)
+        } else {
+            nominal.relative_radius_mm
+        }
     }
 
     /// μ of a contact.

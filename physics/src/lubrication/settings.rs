@@ -112,10 +112,23 @@ pub struct LubricantSettings {
     pub lubricant_factor: Option<f64>,
     /// λ_GFP by a test of the oil.
     pub permissible_lambda: Option<f64>,
+    /// What scuffing hangs on beyond the oil.
+    pub scuffing: ScuffingSettings,
     /// Roughness of both flanks.
     pub roughness: PerGear<Roughness>,
     /// Thermal contact coefficient B_M = √(λ ρ c) of each gear, W·√s/(m²·K).
     pub thermal_contact_w_s05_per_m2_k: PerGear<f64>,
+}
+
+/// What scuffing hangs on beyond the oil.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ScuffingSettings {
+    /// Failure load stage of the oil in the FZG test A/8.3/90; none where it is not given.
+    pub fzg_load_stage: Option<u32>,
+    /// X_W over that of the test gears.
+    pub structural_factor: f64,
+    /// φ_E: 0 of new flanks, 1 of flanks that are run in.
+    pub relative_run_in: f64,
 }
 
 /// Roughness of a flank.

@@ -16,9 +16,9 @@
 use rayon::prelude::*;
 
 use super::collected::Collected;
-use super::condensed_contact::{ContactPlace, HeatedContactRows};
+use super::condensed_contact::{ContactPlace, HeatedContactRows, parts_of_rows};
+use super::flank_pressure::PressureFigures;
 use super::load_sharing::EquilibriumError;
-use super::tip_contact;
 use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, PositionObservation, Work};
 use crate::contact::Footprint;
 use crate::fem::active_set::Equilibrium;
@@ -28,7 +28,7 @@ use crate::fem::gear::flank_nodes::{FlankNodes, Weights};
 use crate::fem::gear::load_transfer::LoadTransfer;
 use crate::fem::gear::prepared::Prepared;
 use crate::fem::gear::tilted::Worn;
-use crate::gear::{Gear, PerGear};
+use crate::gear::{Gear, PerGear, flank_zones::FlankZones};
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::reference::{linear_means::value_at, monotone_cubic::MonotoneCubic};
 use crate::wear::{SlidingRow, WearModel};
@@ -98,6 +98,8 @@ pub struct CondensedCycle<'a> {
     groups: Vec<Group>,
     /// Positions from A to E at which the cycle is observed.
     observation_mm: Vec<f64>,
+    /// The parts of the flanks that figures of pressure speak of.
+    zones: Option<PerGear<FlankZones>>,
 }
 
 impl<'a> CondensedCycle<'a> {
@@ -123,7 +125,12 @@ impl<'a> CondensedCycle<'a> {
             })
             .collect();
         let observation_mm = model.pair.path.evenly_mm(positions);
-        Self { model, line_load_n_per_mm, nodes, radius_mm, groups, observation_mm }
+        Self { model, line_load_n_per_mm, nodes, radius_mm, groups, observation_mm, zones: None }
+    }
+
+    /// The same with figures of the pressure on these parts of the flanks.
+    pub(crate) fn observing(self, zones: PerGear<FlankZones>) -> Self {
+        Self { zones: Some(zones), ..self }
     }
 
     /// The nodes of both flanks.
@@ -164,7 +171,7 @@ fn stretches(model: &CondensedPair<'_>, positions: usize, line_load_n_per_mm: f6
     let approach = model
         .at(path.pitch_point_mm, line_load_n_per_mm, &Default::default())
         .map_or(0.0, |contact| contact.transmission_error_mm);
-    let [before, after] = tip_contact::reach_mm(pair, AMPLE_APPROACH * approach);
+    let [before, after] = pair.tip_reach_mm(AMPLE_APPROACH * approach);
     // Both zones, moved by base pitches to where they begin in the first one from A on, and cut at its end.
     let zones = [(start - before, start + within), (path.end_mm - within, path.end_mm + after)];
     let mut at_edges: Vec<(f64, f64)> = zones
@@ -226,6 +233,7 @@ impl MeshCycle for CondensedCycle<'_> {
         let mut observation = CycleObservation {
             positions: self.along_the_path(),
             greatest_pressure: self.greatest_pressure(),
+            pressure_figures: self.pressure_figures(),
             pressure_mpa: zeros(),
             sliding_mm: zeros(),
             sliding_work_n: None,
@@ -301,6 +309,21 @@ impl CondensedCycle<'_> {
             }
         }
         greatest
+    }
+
+    /// Of all pairs found in the base pitch.
+    fn pressure_figures(&self) -> PressureFigures {
+        let mut figures = PressureFigures::default();
+        let Some(zones) = &self.zones else { return figures };
+        for loaded in self.loaded_positions() {
+            let Some(found) = &loaded.found else { continue };
+            for contact in &loaded.transfers {
+                let force = &found.force[contact.first_row..contact.first_row + contact.len()];
+                let (parts, cells) = parts_of_rows(contact, force, self.radius_mm(), zones);
+                figures.note(parts.figures(&cells));
+            }
+        }
+        figures
     }
 
     /// The reference pair from A to E, from the pairs found in the base pitch.

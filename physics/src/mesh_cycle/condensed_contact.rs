@@ -1,8 +1,16 @@
 //! A contact of the condensed pair as laws of wear see it: where it is on the path, and the conditions of its rows in its own heat.
 
+use super::flank_pressure::ContactParts;
+use crate::contact::PressedCell;
 use crate::fem::gear::condensed_pair::CondensedPair;
+use crate::fem::gear::flank_nodes::Weights;
 use crate::fem::gear::load_transfer::LoadTransfer;
-use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use crate::gear::{
+    Gear, PerGear,
+    conjugate::ConjugateFlanks,
+    flank_zones::{FlankZone, FlankZones},
+};
+use crate::reference::linear_means::weighted_sum;
 use crate::thermal::{ContactHeat, HeatedStrip, SpeedRatios};
 use crate::wear::{
     ContactConditions,
@@ -24,6 +32,47 @@ impl ContactPlace<'_> {
         let own_mm = self.stretch_mm.0.midpoint(self.stretch_mm.1) + f64::from(self.contact.pair) * path.base_pitch_mm;
         own_mm.clamp(path.start_mm, path.end_mm)
     }
+}
+
+/// A contact under `force` on its rows as cells along it, and where these lie on the flanks, whose nodes have the nominal radii `radius_mm`.
+pub(super) fn parts_of_rows(
+    contact: &LoadTransfer,
+    force: &[f64],
+    radius_mm: PerGear<&[f64]>,
+    zones: &PerGear<FlankZones>,
+) -> (ContactParts, Vec<PressedCell>) {
+    let mut order: Vec<usize> = (0..contact.len()).collect();
+    order.sort_by(|&a, &b| contact.along_mm[a].total_cmp(&contact.along_mm[b]));
+    let mut cells = Vec::with_capacity(order.len());
+    let (mut flank_mm, mut edges_mm) = ([f64::INFINITY, f64::NEG_INFINITY], [f64::NEG_INFINITY, f64::INFINITY]);
+    let mut lower_mm = 0.0;
+    for i in order {
+        let width_mm = contact.weight_mm[i];
+        let upper_mm = lower_mm + width_mm;
+        let radius = |gear: Gear| weighted_mean(contact.means[gear].row(i), radius_mm[gear]);
+        let at = PerGear::from_fn(radius);
+        if Gear::BOTH.into_iter().all(|gear| zones[gear].at(at[gear]) == FlankZone::Active) {
+            flank_mm = [flank_mm[0].min(lower_mm), flank_mm[1].max(upper_mm)];
+        }
+        let is_at_tip = |gear: Gear| at[gear] + 0.5 * width_mm >= zones[gear].tip_end_radius_mm;
+        if is_at_tip(Gear::Wheel) {
+            edges_mm[0] = edges_mm[0].max(lower_mm.midpoint(upper_mm));
+        }
+        if is_at_tip(Gear::Pinion) {
+            edges_mm[1] = edges_mm[1].min(lower_mm.midpoint(upper_mm));
+        }
+        cells.push(PressedCell { lower_mm, upper_mm, pressure_mpa: force[i] / width_mm });
+        lower_mm = upper_mm;
+    }
+    if flank_mm[0] > flank_mm[1] {
+        flank_mm = [0.0; 2];
+    }
+    (ContactParts { flank_mm, edges_mm, flank_mean_over_mm: zones.pinion.pressure_length_mm }, cells)
+}
+
+/// Mean of what the nodes of a row have; not a number for a row that faces none.
+fn weighted_mean(Weights { first, weights }: Weights<'_>, at_nodes: &[f64]) -> f64 {
+    weighted_sum(weights, &at_nodes[first..]) / weights.iter().sum::<f64>()
 }
 
 /// The rows of a contact, whose multipliers stand for stretches of different lengths, as evenly spaced ones and back.

@@ -22,7 +22,7 @@ use super::Work;
 use super::tip_contact::OnLever;
 use crate::contact::{PairContact, Response};
 use crate::fem::active_set::ActiveSetError;
-use crate::gear::PerGear;
+use crate::gear::{PerGear, normal_section::Obliquity};
 
 /// Greatest imbalance, relative to the load, at which an equilibrium is accepted.
 pub const TOLERANCE: f64 = 1e-11;
@@ -116,17 +116,23 @@ impl<'a> MeshedPair<'a> {
         }
     }
 
-    /// The same where the load has a lever on the pinion of `ratio` base radii: 1 on the line of action.
-    pub(crate) fn on_lever(contact: Box<dyn PairContact + 'a>, teeth_n_per_mm2: f64, ratio: f64) -> Self {
-        if ratio == 1.0 {
+    /// The same where the load has a lever on the pinion of `ratio` base radii: 1 on the line of action; and where its normal is oblique.
+    pub(crate) fn on_lever(
+        contact: Box<dyn PairContact + 'a>,
+        teeth_n_per_mm2: f64,
+        ratio: f64,
+        obliquity: Obliquity,
+    ) -> Self {
+        if ratio == 1.0 && obliquity == Obliquity::SPUR {
             return Self::new(contact, teeth_n_per_mm2);
         }
         // The spring of the teeth is pressed along the same normal.
-        let pressed = Self::new(Box::new(OnLever { contact, ratio }), ratio * ratio * teeth_n_per_mm2);
+        let on_lever = OnLever { contact, approach: obliquity.normal_mm(ratio), load: ratio };
+        let pressed = Self::new(Box::new(on_lever), ratio * ratio * teeth_n_per_mm2);
         Self { lever_ratio: ratio, ..pressed }
     }
 
-    /// What presses the flanks on each other, N per mm of face width; its response is the torque of that over the base radius.
+    /// What presses the flanks on each other, N per mm of the line of contact; its response is the torque of that over the base radius.
     pub(super) fn normal_load_n_per_mm(&self) -> f64 {
         self.response.line_load_n_per_mm / self.lever_ratio
     }

@@ -10,6 +10,8 @@ mod collected;
 pub mod condensed;
 mod condensed_contact;
 pub mod coupled_teeth;
+pub mod flank_pressure;
+mod half_layers;
 pub(crate) mod influence;
 pub mod load_sharing;
 pub mod pair_in_space;
@@ -31,9 +33,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCell, Sweep};
-use crate::gear::{Gear, PerGear, slices::greatest_over_width};
+use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, slices::greatest_over_width};
 use crate::wear::WearModel;
 use collected::Collected;
+use flank_pressure::PressureFigures;
 use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use sliced_mesh::SlicedMesh;
 use worn_points::{ContactPlace, WornPoints};
@@ -110,6 +113,7 @@ pub struct LineOfActionCycle<'a> {
     line_load_n_per_mm: f64,
     /// How far the bodies that all pairs share yield under the whole load, mm.
     bodies_mm: f64,
+    flanks: Flanks<'a>,
 }
 
 /// What was observed at one position.
@@ -172,12 +176,14 @@ pub struct CycleObservation {
     pub positions: Vec<PositionObservation>,
     /// Greatest pressure at any position and of any flank point.
     pub greatest_pressure: GreatestPressure,
+    /// Pressure between the tip-edge zones and load of the tip edges; none where the parts of the flanks are not told.
+    pub pressure_figures: PressureFigures,
     /// Greatest pressure on each flank point, also at sharp tip edges, MPa.
     pub pressure_mpa: PerGear<Vec<f64>>,
     /// How far each flank point slid while in contact, mm.
     pub sliding_mm: PerGear<Vec<f64>>,
     /// ∫ F ds of a tooth pair over its mesh, also before A and after E: load times sliding distance, which is the volume that a flank loses
-    /// over its wear coefficient. N, that is N·mm per mm of face width; where there are slices, the sum over them. `None` where a model
+    /// over its wear coefficient. N, that is N·mm per mm of the line of contact; where there are slices, the sum over them. `None` where a model
     /// follows single points.
     pub sliding_work_n: Option<f64>,
     /// The mesh of one tooth slice by slice, where there are slices.
@@ -231,7 +237,7 @@ impl<'a> LineOfActionCycle<'a> {
                 points: WornPoints::default(),
             })
             .collect();
-        Self { groups, line_load_n_per_mm, bodies_mm: 0.0 }
+        Self { groups, line_load_n_per_mm, bodies_mm: 0.0, flanks }
     }
 
     /// The same with all pairs on gear bodies that yield by `bodies_mm` under the whole load.
@@ -265,6 +271,7 @@ impl MeshCycle for LineOfActionCycle<'_> {
         let mut observation = CycleObservation {
             positions: Vec::new(),
             greatest_pressure: GreatestPressure::default(),
+            pressure_figures: PressureFigures::default(),
             pressure_mpa: zeros(),
             sliding_mm: zeros(),
             sliding_work_n: None,
@@ -282,6 +289,8 @@ impl MeshCycle for LineOfActionCycle<'_> {
                 let greatest_mpa = note_contact_of_points(contact, gear, removed_mm, &mut sweep, pressure, sliding);
                 observation.greatest_pressure.note(greatest_mpa, contact.footprint().at_sharp_edge);
             }
+            let position_mm = loaded.cell.position_mm;
+            observation.pressure_figures.note(figures_of(self.flanks, position_mm, &*loaded.pairs[0].contact));
             sliding_work_n += loaded.pairs[0].normal_load_n_per_mm() * loaded.sliding_mm;
         }
         observation.sliding_work_n = Some(sliding_work_n);
@@ -315,6 +324,13 @@ fn note_contact_of_points(
     most_mpa
 }
 
+/// Figures of a contact's pressure, where the parts of the flanks are told.
+fn figures_of(flanks: Flanks<'_>, position_mm: f64, contact: &dyn PairContact) -> PressureFigures {
+    let of_parts =
+        |parts: flank_pressure::FlankParts| parts.figures(flanks.geometry, position_mm, &contact.pressed_cells());
+    flanks.parts.map(of_parts).unwrap_or_default()
+}
+
 impl Group<'_> {
     fn evaluate(
         &mut self,
@@ -345,7 +361,7 @@ impl<'a> LoadedPosition<'a> {
             .map(|(k, pair)| {
                 let cell = (k == 0).then_some(position.cell);
                 let contact = surface.pair(flanks, pair.position_mm, cell);
-                MeshedPair::on_lever(contact, pair.teeth_n_per_mm2, pair.lever_ratio)
+                MeshedPair::on_lever(contact, pair.teeth_n_per_mm2, pair.lever_ratio, flanks.geometry.obliquity)
             })
             .collect();
         let (cell, on_line_of_action) = (position.cell, position.on_line_of_action);

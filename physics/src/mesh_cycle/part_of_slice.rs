@@ -8,7 +8,7 @@
 //! ```
 
 use super::sliced_positions::ContactPart;
-use crate::contact::{Footprint, PairContact, PointContact, Response, Sweep};
+use crate::contact::{Footprint, PairContact, PointContact, PressedCell, Response, Sweep};
 use crate::gear::{Gear, PerGear};
 
 /// The contact of a part of a slice, reckoned over the width of the slice.
@@ -75,5 +75,9 @@ impl PairContact for PartOfSlice<'_> {
 
     fn footprint(&self) -> Footprint {
         self.contact.footprint()
+    }
+
+    fn pressed_cells(&self) -> Vec<PressedCell> {
+        self.contact.pressed_cells()
     }
 }

@@ -15,6 +15,7 @@ use rayon::prelude::*;
 
 use super::collected::Collected;
 use super::coupled_teeth::CoupledTeeth;
+use super::flank_pressure::PressureFigures;
 use super::load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use super::part_of_slice::PartOfSlice;
 use super::sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh};
@@ -23,10 +24,11 @@ use super::sliced_sharing::balance_on_teeth;
 use super::sliced_teeth::SlicedTeeth;
 use super::worn_points::{ContactPlace, WornPoints};
 use super::{
-    CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, in_series, note_contact_of_points,
+    CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, figures_of, in_series,
+    note_contact_of_points,
 };
 use crate::contact::{ContactSurface, Flanks, Sweep};
-use crate::gear::{Gear, GearPair, PerGear, path_of_contact::PathOfContact};
+use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, path_of_contact::PathOfContact};
 use crate::wear::WearModel;
 
 /// The spring of the teeth along the path of contact, evaluated once for all slices.
@@ -100,6 +102,7 @@ pub(crate) struct SlicedCycle<'a> {
     groups: Vec<Group<'a>>,
     sliced: &'a SlicedTeeth,
     path: &'a PathOfContact,
+    flanks: Flanks<'a>,
     /// Points of each flank's slice.
     points: PerGear<usize>,
     /// Rows from A to E that are observed.
@@ -140,7 +143,7 @@ impl<'a> SlicedCycle<'a> {
                 points: WornPoints::default(),
             })
             .collect();
-        Self { groups, sliced, path, points, positions, line_load_n_per_mm, bodies_mm: 0.0 }
+        Self { groups, sliced, path, flanks, points, positions, line_load_n_per_mm, bodies_mm: 0.0 }
     }
 
     /// The same on gear bodies that yield by `bodies_mm` under the whole load.
@@ -186,6 +189,8 @@ impl MeshCycle for SlicedCycle<'_> {
         let mut greatest_pressure = GreatestPressure::default();
         let mut sliding_work_n = 0.0;
         let mut of_slices = vec![GreatestPressure::default(); slices];
+        let mut pressure_figures = PressureFigures::default();
+        let mut figures_of_slices = vec![PressureFigures::default(); slices];
         for loaded in self.groups.iter().flat_map(|group| &group.loaded_positions) {
             for ((contact, pair), sliding) in loaded.contacts.iter().zip(&loaded.pairs).zip(&loaded.sliding_mm) {
                 let own = of_slice(removed_mm, self.points, contact.slice);
@@ -202,6 +207,8 @@ impl MeshCycle for SlicedCycle<'_> {
                     let greatest_mpa = note_contact_of_points(&*pair.contact, gear, own, &mut sweep, pressure, sliding);
                     greatest.note(greatest_mpa, footprint.at_sharp_edge);
                 }
+                let figures = if is_whole { &mut figures_of_slices[contact.slice] } else { &mut pressure_figures };
+                figures.note(figures_of(self.flanks, contact.cell.position_mm, &*pair.contact));
                 sliding_work_n += pair.normal_load_n_per_mm() * sliding;
             }
             phases.push(loaded.observe(slices, self.line_load_n_per_mm, self.bodies_mm));
@@ -209,9 +216,11 @@ impl MeshCycle for SlicedCycle<'_> {
         let mesh = SlicedMesh::new(&phases, slices, self.path.base_pitch_mm);
         let positions = mesh.along_path(self.path, self.positions, self.line_load_n_per_mm);
         greatest_pressure.note_slices(&of_slices);
+        pressure_figures.note_slices(&figures_of_slices);
         Ok(CycleObservation {
             positions,
             greatest_pressure,
+            pressure_figures,
             pressure_mpa,
             sliding_mm,
             sliding_work_n: Some(sliding_work_n),
@@ -265,7 +274,7 @@ impl<'a> LoadedPosition<'a> {
                 let touching = PartOfSlice::of(touching, contact.part);
                 // Where slices are coupled the teeth bend beside the pairs, not in them.
                 let teeth = if teeth.is_some() { f64::INFINITY } else { contact.part.of_width / compliance(contact) };
-                MeshedPair::on_lever(touching, teeth, (springs.lever_ratio)(position_mm))
+                MeshedPair::on_lever(touching, teeth, (springs.lever_ratio)(position_mm), flanks.geometry.obliquity)
             })
             .collect();
         Self {

@@ -64,8 +64,6 @@ pub struct SlicedMesh {
     pub first_phase_mm: f64,
     /// The base pitch.
     pub base_pitch_mm: f64,
-    /// Slices within A–E at each phase, all teeth together and parts as such, whether they carry load or not.
-    pub contacts_at_phases: Vec<f64>,
     /// Greatest imbalance of loads at any phase.
     pub load_imbalance: f64,
 }
@@ -102,10 +100,6 @@ impl SlicedMesh {
             stiffness_n_per_mm2: phases.iter().filter_map(|phase| phase.stiffness_n_per_mm2).collect(),
             first_phase_mm: phases[0].position_mm,
             base_pitch_mm,
-            contacts_at_phases: phases
-                .iter()
-                .map(|phase| phase.contacts.iter().map(|contact| contact.part_of_width).sum())
-                .collect(),
             load_imbalance: phases.iter().map(|phase| phase.load_imbalance.abs()).fold(0.0, f64::max),
         };
         for (j, phase) in phases.iter().enumerate() {

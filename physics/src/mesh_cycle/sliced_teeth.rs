@@ -37,11 +37,7 @@ enum Model {
     /// Each tooth is a plate.
     Plate(SliceCoupling),
     /// All teeth in space.
-    InSpace {
-        teeth: Arc<PairInSpace>,
-        /// What their elements see of the loads of the slices.
-        seen: Arc<[f64]>,
-    },
+    InSpace(Arc<PairInSpace>),
 }
 
 impl SlicedTeeth {
@@ -60,10 +56,7 @@ impl SlicedTeeth {
         let model = match settings.coupling {
             Coupling::None => Model::Thin,
             Coupling::Slicing => Model::Plate(compliance.coupling(&slices)),
-            Coupling::Fem => {
-                let teeth = in_space.expect("the coupling by teeth in space comes with them");
-                Model::InSpace { seen: teeth.seen(settings.count).into(), teeth }
-            }
+            Coupling::Fem => Model::InSpace(in_space.expect("the coupling by teeth in space comes with them")),
         };
         let softness = match settings.coupling {
             Coupling::Fem => vec![1.0; settings.count].into(),
@@ -98,7 +91,7 @@ impl SlicedTeeth {
     /// The teeth in space, where they couple the slices.
     pub fn in_space(&self) -> Option<&Arc<PairInSpace>> {
         match &self.model {
-            Model::InSpace { teeth, .. } => Some(teeth),
+            Model::InSpace(teeth) => Some(teeth),
             Model::Thin | Model::Plate(_) => None,
         }
     }
@@ -107,7 +100,7 @@ impl SlicedTeeth {
     pub fn reach(&self) -> Option<Reach> {
         match &self.model {
             Model::Plate(coupling) => Some(coupling.reach),
-            Model::Thin | Model::InSpace { .. } => None,
+            Model::Thin | Model::InSpace(_) => None,
         }
     }
 
@@ -129,7 +122,7 @@ impl SlicedTeeth {
             }
             (Model::Thin, Some(_)) => Influence::of_thin_slices(contacts, mm2_per_n),
             (Model::Plate(coupling), Some(_)) => coupling.influence(contacts, mm2_per_n),
-            (Model::InSpace { teeth, seen }, _) => teeth.influence(pair, &self.slices, seen, contacts, mm2_per_n),
+            (Model::InSpace(teeth), _) => teeth.influence(pair, &self.slices, contacts, mm2_per_n),
         };
         if let Some(twist) = &self.twist {
             influence.add(|a, b| twist[contacts[a].slice * self.slices.count() + contacts[b].slice]);

@@ -1,4 +1,4 @@
-//! How far before A and after E a tooth pair may touch.
+//! Contact of a tooth pair at a tip edge, before A and after E ([`GearPair::tip_reach_mm`] says how far).
 //!
 //! Under load the pairs in mesh yield, the gears approach each other by the transmission error δ, and the next pair touches
 //! before its theoretical contact point has reached A: at its mate's tip edge, beside the line of action. After E the same
@@ -27,33 +27,8 @@
 //! Source: R. G. Munro, L. Morrish and D. Palmer, "Gear transmission error outside the normal path of contact due to corner
 //! and top contact", *Proc. Inst. Mech. Eng. C* 213 (1999) 389–400, for the phenomenon.
 
-use crate::contact::{Footprint, PairContact, PointContact, Response, Sweep};
-use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks};
-
-/// Steps in which the path is walked, per base pitch.
-const STEPS_IN_PITCH: f64 = 1000.0;
-
-/// How far before A and after E the tip edges of unworn, unmodified flanks are nearer to the mate than `approach_mm`, mm of
-/// path.
-pub fn reach_mm(pair: &GearPair, approach_mm: f64) -> [f64; 2] {
-    let path = &pair.path;
-    let [before, after] = pair.farthest_touch_mm();
-    let ends = [(Gear::Wheel, path.start_mm, -1.0, before), (Gear::Pinion, path.end_mm, 1.0, after)];
-    ends.map(|(tip_of, end_mm, outwards, most)| {
-        let step = path.base_pitch_mm / STEPS_IN_PITCH;
-        let steps = (most / step) as usize;
-        let touches = |k: &usize| tip_gap_mm(pair, tip_of, end_mm + outwards * *k as f64 * step) <= approach_mm;
-        (1..=steps).take_while(touches).last().unwrap_or(0) as f64 * step
-    })
-}
-
-/// Gap between the tip edge of a gear and its mate's flank, along the line of action, with the theoretical contact point at
-/// `position_mm`.
-fn tip_gap_mm(pair: &GearPair, tip_of: Gear, position_mm: f64) -> f64 {
-    let (_, tip_rho) = pair.flank_limits_mm(tip_of);
-    let edge = pair.in_tangent_frame(tip_of, tip_rho, position_mm);
-    edge.drop_mm + pair.at_along(tip_of.mate(), -edge.along_mm, position_mm).1
-}
+use crate::contact::{Footprint, PairContact, PointContact, PressedCell, Response, Sweep};
+use crate::gear::{Gear, GearPair, PerGear};
 
 /// l/(r_b1 cos ε): approach in the tangent frame over transmission error with the theoretical contact point at `position_mm`.
 pub(crate) fn approach_ratio(pair: &GearPair, position_mm: f64) -> f64 {
@@ -61,13 +36,15 @@ pub(crate) fn approach_ratio(pair: &GearPair, position_mm: f64) -> f64 {
     pair.pinion_lever_ratio(&touch) / touch.turned_rad.cos()
 }
 
-/// A contact whose load has another lever on the pinion than r_b1: approach and load are reckoned as the transmission error and
-/// the load along the line of action that go with them.
+/// A contact whose load has another lever on the pinion than r_b1, or whose normal is oblique to the transverse plane: approach and load are
+/// reckoned as the transmission error and the load along the transverse line of action that go with them.
 pub(crate) struct OnLever<'a> {
     /// The contact along its own normal.
     pub contact: Box<dyn PairContact + 'a>,
-    /// [`approach_ratio`].
-    pub ratio: f64,
+    /// [`approach_ratio`], along the normal ([`crate::gear::normal_section`]): approach over transmission error.
+    pub approach: f64,
+    /// [`approach_ratio`] alone: load that goes with the torque over load along the line of contact.
+    pub load: f64,
 }
 
 impl PairContact for OnLever<'_> {
@@ -76,24 +53,24 @@ impl PairContact for OnLever<'_> {
     }
 
     fn touch_mm(&self) -> f64 {
-        self.contact.touch_mm() / self.ratio
+        self.contact.touch_mm() / self.approach
     }
 
     fn load_at(&mut self, indentation_mm: f64) -> Response {
-        let along_normal = self.contact.load_at(self.ratio * indentation_mm);
+        let along_normal = self.contact.load_at(self.approach * indentation_mm);
         Response {
-            line_load_n_per_mm: self.ratio * along_normal.line_load_n_per_mm,
-            stiffness_n_per_mm2: self.ratio * self.ratio * along_normal.stiffness_n_per_mm2,
+            line_load_n_per_mm: self.load * along_normal.line_load_n_per_mm,
+            stiffness_n_per_mm2: self.load * self.approach * along_normal.stiffness_n_per_mm2,
         }
     }
 
     fn further_approach_mm(&self, line_load_n_per_mm: f64) -> (f64, f64) {
-        let (approach, compliance) = self.contact.further_approach_mm(line_load_n_per_mm / self.ratio);
-        (approach / self.ratio, compliance / (self.ratio * self.ratio))
+        let (approach, compliance) = self.contact.further_approach_mm(line_load_n_per_mm / self.load);
+        (approach / self.approach, compliance / (self.load * self.approach))
     }
 
     fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64 {
-        self.contact.ample_indentation_mm(line_load_n_per_mm / self.ratio) / self.ratio
+        self.contact.ample_indentation_mm(line_load_n_per_mm / self.load) / self.approach
     }
 
     fn window_suffices(&mut self) -> bool {
@@ -118,5 +95,9 @@ impl PairContact for OnLever<'_> {
 
     fn footprint(&self) -> Footprint {
         self.contact.footprint()
+    }
+
+    fn pressed_cells(&self) -> Vec<PressedCell> {
+        self.contact.pressed_cells()
     }
 }

@@ -35,7 +35,7 @@ impl ContactPlace {
     pub(super) fn new(flanks: Flanks<'_>, cell: PositionCell) -> Self {
         Self {
             position_mm: cell.position_mm,
-            ratios: SpeedRatios::over(flanks.geometry, cell.lower_mm, cell.upper_mm),
+            ratios: SpeedRatios::over(&flanks.geometry, cell.lower_mm, cell.upper_mm),
             spacing_mm: PerGear::from_fn(|gear| point_distance_mm(flanks, gear, cell.position_mm)),
             part: 1.0,
         }

@@ -50,8 +50,11 @@ pub struct TemperatureSummary {
     pub friction_coefficient: f64,
     /// Of the gears away from the contact.
     pub bulk_temperature_C: f64,
-    /// Of the teeth of each gear by VDI 2736-2; `None` where nobody asks for them.
-    pub tooth: Option<PerGear<ToothTemperatureSummary>>,
+    /// Of the teeth of each gear by VDI 2736-2; `None` where nobody asks for them, and of a metal gear beside a plastic one.
+    pub tooth: Option<PerGear<Option<ToothTemperatureSummary>>>,
+    /// Why a gear has none although it is asked for.
+    #[serde(default)]
+    pub tooth_null_because: Option<PerGear<Option<String>>>,
     /// Maximum rise above it over a mesh, new.
     pub greatest_rise_new_K: f64,
     /// The same, worn.

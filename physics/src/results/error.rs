@@ -17,10 +17,9 @@ pub struct TotalError {
     pub transmission_error_peak_to_peak: Option<f64>,
     /// Of the maximum pressure of the worn pair at positions between the tip edges, root mean square.
     pub pressure_between_tips: Option<f64>,
-    /// Of the maximum pressure, wherever it is. `None` also where a sharp tip edge carries load: its pressure is not defined, and what is next to it
-    /// hangs on where the edge begins.
+    /// Of the maximum pressure between the tip-edge zones.
     #[serde(default)]
-    pub peak_pressure: ErrorNewAndWorn,
+    pub flank_pressure: ErrorNewAndWorn,
     /// How it was obtained, or why it was not.
     pub how: String,
 }

@@ -14,8 +14,11 @@ pub struct LubricationSummary {
     pub oil: Option<OilSummary>,
     /// Films of the run's own contact.
     pub film: Option<FilmSummary>,
-    /// ISO/TS 6336-22 Method B, without a contact analysis.
+    /// ISO/TS 6336-22 Method B, without a contact analysis; `None` without oil and for the reason in `method_b_null_because`.
     pub method_b: Option<MethodBSummary>,
+    /// Why there is no Method B although there is an oil.
+    #[serde(default)]
+    pub method_b_null_because: Option<String>,
     /// Scuffing temperatures.
     pub scuffing: Option<ScuffingSummary>,
     /// Friction.
@@ -43,7 +46,7 @@ pub struct OilSummary {
     pub dynamic_viscosity_at_bulk_mPas: f64,
 }
 
-/// Extremes and mean along the path of contact, where the pair carries load.
+/// Extremes and mean along the path of contact, where the pair carries load; between the tip-edge zones where the contact surface sees tip edges.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct AlongPath {
     /// Least value.
@@ -79,7 +82,13 @@ pub struct FilmSummary {
     /// The same, worn.
     #[serde(default)]
     pub micropitting_safety_worn: Option<f64>,
-    /// Maximum flash temperature, new.
+    /// Least λ of the tip-edge zones, new; `None` where they carry no load, or the contact surface does not see tip edges.
+    #[serde(default)]
+    pub tip_edge_lambda_new: Option<f64>,
+    /// The same, worn.
+    #[serde(default)]
+    pub tip_edge_lambda_worn: Option<f64>,
+    /// Maximum flash temperature, new, tip edges included.
     pub greatest_flash_new_K: f64,
     /// The same, worn.
     pub greatest_flash_worn_K: f64,
@@ -128,6 +137,9 @@ pub struct MethodBPoint {
     pub nominal_pressure_MPa: f64,
     /// p_dyn.
     pub pressure_MPa: f64,
+    /// Hertz's half-width under p_dyn.
+    #[serde(default)]
+    pub half_width_mm: f64,
     /// θ_B.
     pub contact_temperature_C: f64,
     /// h.
@@ -136,23 +148,67 @@ pub struct MethodBPoint {
     pub lambda: f64,
 }
 
-/// Scuffing temperatures.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// Scuffing temperatures, and the safeties against scuffing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ScuffingSummary {
-    /// μ_m of the flash temperature.
-    pub flash_friction: f64,
+    /// μ_m of the flash temperature; `None` of it, and of what follows from it, for the reason in `flash_null_because`.
+    pub flash_friction: Option<f64>,
     /// Mean of θ_fl over the path.
-    pub mean_flash_K: f64,
+    pub mean_flash_K: Option<f64>,
     /// Greatest θ_fl.
-    pub greatest_flash_K: f64,
+    pub greatest_flash_K: Option<f64>,
+    /// θ_M of ISO/TS 6336-20.
+    #[serde(default)]
+    pub flash_bulk_temperature_C: Option<f64>,
     /// θ_B: bulk and maximum flash temperature, ISO/TS 6336-20.
-    pub contact_temperature_C: f64,
-    /// μ_m of the integral temperature.
-    pub integral_friction: f64,
+    pub contact_temperature_C: Option<f64>,
+    /// θ_S of ISO/TS 6336-20.
+    #[serde(default)]
+    pub scuffing_temperature_C: Option<f64>,
+    /// S_B, safety against scuffing by ISO/TS 6336-20.
+    #[serde(default)]
+    pub scuffing_safety: Option<f64>,
+    /// θ_fl at A, B, C, D and E.
+    #[serde(default)]
+    pub flash_points: Vec<FlashPoint>,
+    /// Why there is no flash temperature.
+    #[serde(default)]
+    pub flash_null_because: Option<String>,
+    /// X_E of the integral temperature.
+    #[serde(default)]
+    pub run_in_factor: Option<f64>,
+    /// μ_m of the integral temperature; `None` of it, and of what follows from it, for the reason in `integral_null_because`.
+    pub integral_friction: Option<f64>,
     /// θ_flaint.
-    pub integral_flash_K: f64,
+    pub integral_flash_K: Option<f64>,
+    /// θ_M of ISO/TS 6336-21.
+    #[serde(default)]
+    pub integral_bulk_temperature_C: Option<f64>,
     /// θ_int, ISO/TS 6336-21.
-    pub integral_temperature_C: f64,
+    pub integral_temperature_C: Option<f64>,
+    /// θ_intS of ISO/TS 6336-21.
+    #[serde(default)]
+    pub integral_scuffing_temperature_C: Option<f64>,
+    /// S_intS, safety against scuffing by ISO/TS 6336-21.
+    #[serde(default)]
+    pub integral_scuffing_safety: Option<f64>,
+    /// Why there is no integral temperature.
+    #[serde(default)]
+    pub integral_null_because: Option<String>,
+    /// Why there are no safeties.
+    #[serde(default)]
+    pub safeties_null_because: Option<String>,
+}
+
+/// Flash temperature at a point of the path.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FlashPoint {
+    /// A, B, C, D or E.
+    pub name: String,
+    /// Radius of curvature of the pinion there.
+    pub position_mm: f64,
+    /// θ_fl.
+    pub flash_K: f64,
 }
 
 /// Friction of the mesh.
@@ -202,7 +258,7 @@ pub struct FilmRow {
     pub sum_speed_m_per_s: f64,
     /// speed of the surfaces against each other
     pub sliding_speed_m_per_s: f64,
-    /// load per mm of face width, new
+    /// normal load per mm of face width, new: 1/cos β_b of the transverse one
     pub line_load_new_N_per_mm: f64,
     /// the same, worn
     pub line_load_worn_N_per_mm: f64,

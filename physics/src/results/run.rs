@@ -88,6 +88,9 @@ pub struct Summary {
     pub phases: Vec<PhaseSummary>,
     /// Of the tooth pair as a spring; `None` with finite elements, whose teeth are no springs.
     pub stiffness: Option<StiffnessSummary>,
+    /// Stiffness by ISO 6336-1 under the load of the reference phase, whatever the run takes.
+    #[serde(default)]
+    pub stiffness_iso_6336_1: Option<IsoStiffnessSummary>,
     /// Nominal stress at the roots of each gear by the standards.
     pub root_stress: PerGear<RootStressSummary>,
     /// Of the wear law; `None` where each gear has its own.
@@ -251,6 +254,20 @@ pub struct GearSummary {
     pub tip_thickness_mm: f64,
     pub tip_clearance_mm: f64,
     pub undercut: bool,
+    /// Where the usable flank ends towards the tip, d_Fa: the tip circle, or where the rounding of the tip edge begins.
+    pub tip_form_diameter_mm: f64,
+    /// End of active profile towards the tip, d_Na: below the tip circle where the form circle of the mate ends the contact.
+    pub end_of_active_profile_diameter_mm: f64,
+    /// Specific sliding at the start of active profile, ζ_f; `None` where that lies on the base circle.
+    pub specific_sliding_at_root: Option<f64>,
+    /// Number of teeth k that the span is measured over; `None` where no number touches the flanks within the face width.
+    pub span_teeth: Option<u32>,
+    /// Span W_k, thickness allowance included; `None` as its number of teeth.
+    pub span_mm: Option<f64>,
+    /// Diameter of the measuring balls (pins), 1.728 or 1.92 normal modules; `None` where neither touches the flanks and stands out.
+    pub ball_diameter_mm: Option<f64>,
+    /// Diametral dimension over two balls, M_dK, thickness allowance included; `None` as their diameter.
+    pub dimension_over_balls_mm: Option<f64>,
 }
 
 /// The pair slice by slice.
@@ -290,7 +307,7 @@ pub struct HelicalSummary {
     pub wear: PerGear<OverWidthSummary>,
 }
 
-/// All lines of contact together over a mesh.
+/// All lines of contact together over a mesh, within A–E: contact of tip edges outside it is left out.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LineOfContactSummary {
     /// Least length.
@@ -357,14 +374,33 @@ pub struct StiffnessSummary {
     pub split_remainder_at_half_load: Option<f64>,
 }
 
+/// Stiffness by ISO 6336-1 Method B, of solid gears, per mm of face width.
+#[allow(non_snake_case, reason = "the contract's key names")]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct IsoStiffnessSummary {
+    /// c', of one tooth pair.
+    pub single_N_per_mm_um: f64,
+    /// c_γα, of all pairs in mesh, for dynamics and load sharing.
+    pub mesh_alpha_N_per_mm_um: f64,
+    /// c_γβ, of all pairs in mesh, for the load distribution over the face width.
+    pub mesh_beta_N_per_mm_um: f64,
+}
+
 /// One mesh cycle in figures. Maximum pressures of whole slices leave 1/40 of the face width out at either end face.
 #[allow(non_snake_case, reason = "the contract's key names")]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CycleSummary {
-    /// Maximum pressure of contact whose pressure is defined: not of that which a sharp tip edge cuts off.
+    /// Maximum pressure at a single point, the tip edges' roundings and the kinks of linear reliefs included: there it depends on the
+    /// resolution. Not of that which a sharp tip edge cuts off.
     pub peak_pressure_MPa: f64,
     /// Maximum pressure found at a mathematically sharp tip edge under load, which grows with every refinement; `None` where there is none.
     pub sharp_edge_pressure_MPa: Option<f64>,
+    /// Maximum pressure between the tip-edge zones of both flanks, as a mean over 0.04 mm of profile, at most 0.4 Hertz half-widths.
+    pub flank_pressure_MPa: f64,
+    /// Greatest line load of a contact that reaches a tip edge or its rounding; 0 where none does.
+    pub tip_edge_line_load_N_per_mm: f64,
+    /// Pressure of such a contact in the tip-edge zones as a mean over 0.04 mm of profile, the greatest; 0 where there is none.
+    pub tip_edge_mean_pressure_MPa: f64,
     /// Maximum pressure with the theoretical contact point at C.
     pub pitch_pressure_MPa: f64,
     /// Loaded transmission error over the cycle.
@@ -507,7 +543,7 @@ pub struct HistoryRow {
     pub pinion_pitch_wear_um: f64,
     /// the same of the wheel
     pub wheel_peak_wear_um: f64,
-    /// maximum pressure during one mesh, sharp tip edges under load apart
+    /// maximum pressure at a single point during one mesh, sharp tip edges under load apart
     pub peak_pressure_MPa: f64,
     /// of the loaded pair, along the line of action
     pub transmission_error_peak_to_peak_um: f64,
@@ -530,6 +566,10 @@ pub struct HistoryRow {
     pub pinion_below_sap_wear_um: f64,
     /// the same of the wheel
     pub wheel_below_sap_wear_um: f64,
+    /// maximum pressure between the tip-edge zones
+    pub flank_pressure_MPa: f64,
+    /// greatest line load of a contact that reaches a tip edge
+    pub tip_edge_line_load_N_per_mm: f64,
 }
 
 /// A row of `mesh_cycle.csv`: the reference pair at one loading position.

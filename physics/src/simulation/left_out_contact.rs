@@ -9,20 +9,27 @@
 //!
 //! it touches before A in truth, at the tip edge of the wheel, and a model whose contact begins at A lets it come in overlapping by u; likewise
 //! after E, at the tip edge of the pinion. Of a pair with slices each slice comes in by itself; that slices of one tooth pull each other along is
-//! not reckoned with.
+//! not reckoned with. The same holds at the end of any range in which tip edges are followed: there u > 0 says that the range is too short.
 //!
 //! Source: R. G. Munro, L. Morrish and D. Palmer, *Proc. Inst. Mech. Eng. C* 213 (1999) 389–400, for the phenomenon.
 
 use super::wear_run::Outcome;
+use crate::gear::flank_edge::PathEnd;
 use crate::gear::{Gear, GearPair, removed_material};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 
 /// Distances along the path are compared to this part of the base pitch.
 const SAME_PLACE: f64 = 1e-9;
 
-/// By how much the flanks overlap where a pair comes in at A, and where one leaves at E; negative where they are apart. Of slices, the greatest.
-/// `bodies_mm` is δ_b.
-pub fn overlaps_mm(pair: &GearPair, outcome: &Outcome, state: &Snapshot, bodies_mm: f64) -> [f64; 2] {
+/// By how much the flanks overlap where a pair comes in `range_mm` before A, and where one leaves as far after E; negative where they are
+/// apart. Of slices, the greatest. `bodies_mm` is δ_b.
+pub fn overlaps_mm(
+    pair: &GearPair,
+    outcome: &Outcome,
+    state: &Snapshot,
+    bodies_mm: f64,
+    range_mm: [f64; 2],
+) -> [f64; 2] {
     let path = &pair.path;
     let (pitch, same) = (path.base_pitch_mm, SAME_PLACE * path.base_pitch_mm);
     let positions = &state.cycle.positions;
@@ -34,12 +41,13 @@ pub fn overlaps_mm(pair: &GearPair, outcome: &Outcome, state: &Snapshot, bodies_
     let of_slice = |slice: usize| {
         let ahead_mm = outcome.slices.ahead_mm[slice];
         // The reference tooth in the middle of the face width, while the slice of another tooth comes in or leaves; a base pitch repeats itself.
-        let coming_in = path.start_mm + pitch - ahead_mm.rem_euclid(pitch);
-        let leaving = path.end_mm - pitch + (-ahead_mm).rem_euclid(pitch);
-        [(Gear::Wheel, path.start_mm, before(coming_in)), (Gear::Pinion, path.end_mm, after(leaving))].map(
-            |(tip_of, end_mm, observed)| {
+        let coming_in = path.start_mm + pitch - (range_mm[0] + ahead_mm).rem_euclid(pitch);
+        let leaving = path.end_mm - pitch + (range_mm[1] - ahead_mm).rem_euclid(pitch);
+        let ends_mm = [path.start_mm - range_mm[0], path.end_mm + range_mm[1]];
+        [(PathEnd::Start, ends_mm[0], before(coming_in)), (PathEnd::End, ends_mm[1], after(leaving))].map(
+            |(end, end_mm, observed)| {
                 let error_mm = observed.map_or(f64::NEG_INFINITY, |at| at.transmission_error_mm);
-                error_mm - bodies_mm - separation_mm(pair, outcome, state, slice, tip_of, end_mm)
+                error_mm - bodies_mm - separation_mm(pair, outcome, state, slice, end, end_mm)
             },
         )
     };
@@ -48,17 +56,35 @@ pub fn overlaps_mm(pair: &GearPair, outcome: &Outcome, state: &Snapshot, bodies_
         .fold([f64::NEG_INFINITY; 2], |most, of| [most[0].max(of[0]), most[1].max(of[1])])
 }
 
-/// How far the flanks of a slice are apart with the theoretical contact point at the end of the path that the tip of a gear makes.
-fn separation_mm(pair: &GearPair, outcome: &Outcome, state: &Snapshot, slice: usize, tip_of: Gear, end_mm: f64) -> f64 {
+/// Part of the load that pairs outside A to E carry while one of them comes in `range_mm` before A, and while one leaves as far after E; of a
+/// pair without slices.
+pub fn shares_outside(pair: &GearPair, state: &Snapshot, range_mm: [f64; 2]) -> [f64; 2] {
+    let path = &pair.path;
+    let pitch = path.base_pitch_mm;
+    let positions = &state.cycle.positions;
+    [path.start_mm - range_mm[0], path.end_mm + range_mm[1]].map(|end_mm| {
+        let first = path.start_mm + (end_mm - path.start_mm).rem_euclid(pitch);
+        let places = (0..).map(|k| first + f64::from(k) * pitch).take_while(|place| *place <= path.end_mm);
+        let nearest = |place: f64| {
+            positions.iter().min_by(|a, b| (a.position_mm - place).abs().total_cmp(&(b.position_mm - place).abs()))
+        };
+        1.0 - places.filter_map(nearest).map(|at| at.load_share).sum::<f64>()
+    })
+}
+
+/// How far the flanks of a slice are apart with the theoretical contact point at an end of the path.
+fn separation_mm(pair: &GearPair, outcome: &Outcome, state: &Snapshot, slice: usize, end: PathEnd, end_mm: f64) -> f64 {
     let touch = pair.touch(end_mm);
-    let rho = |gear: Gear| if gear == tip_of { pair.rounding_start_rho_mm(gear) } else { touch.rho_mm[gear] };
+    let edge = pair.edge(end);
+    let rho = |gear: Gear| if gear == edge.gear { edge.rho_mm } else { touch.rho_mm[gear] };
     let removed: f64 = Gear::BOTH
         .into_iter()
         .map(|gear| {
             let grid = &outcome.grid[gear];
             let wear = &state.wear_mm[gear][slice * grid.len()..(slice + 1) * grid.len()];
             let width_mm = outcome.slices.width_mm[slice];
-            removed_material::without_rounding_mm(pair, gear, width_mm, rho(gear)) + grid.value_at(wear, rho(gear))
+            removed_material::without_rounding_mm(pair, gear, width_mm, rho(gear))
+                + pair.obliquity().transverse_mm(grid.value_at(wear, rho(gear)))
         })
         .sum();
     touch.gap_mm + removed

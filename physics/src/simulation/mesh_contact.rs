@@ -3,12 +3,13 @@
 use super::settings::Numerics;
 use crate::contact::{ContactSurface, Effort, Flanks, settings::Material};
 use crate::fem::gear::condensed_pair::CondensedPair;
-use crate::gear::{GearPair, PerGear, slices::Slices};
+use crate::gear::{GearPair, PerGear, flank_zones::FlankZones, slices::Slices};
 use crate::mesh_cycle::simplified::{SimplifiedPair, exact::SlicesInSeries};
 use crate::mesh_cycle::wearing_pair::{OnFlankNodes, OnFlankPoints, WearingPair};
 use crate::mesh_cycle::{
     LineOfActionCycle, MeshCycle,
     condensed::CondensedCycle,
+    flank_pressure::FlankParts,
     positions::{loading_positions, positions_with_tip_contact},
     sliced::{SliceSprings, SlicedCycle, SpringAlongPath},
     sliced_positions::{SliceEnds, sliced_positions},
@@ -63,16 +64,30 @@ pub fn bodies_mm2_per_n(teeth: &TeethSpring<'_>, sliced: Option<&SlicedTeeth>) -
 }
 
 /// The spring of a slice beside its surface, N/mm²: of teeth in space, that of the whole section.
-fn slice_spring(
-    pair: &GearPair,
-    teeth: &TeethSpring<'_>,
-    sliced: &SlicedTeeth,
-    position_mm: f64,
-) -> Result<f64, StiffnessError> {
+fn slice_spring(teeth: &TeethSpring<'_>, sliced: &SlicedTeeth, position_mm: f64) -> Result<f64, StiffnessError> {
     match sliced.in_space() {
-        Some(_) => teeth.oblique_n_per_mm2(position_mm, pair.base_helix_angle_rad()),
-        None => teeth.slice_n_per_mm2(position_mm, pair.base_helix_angle_rad()),
+        Some(_) => teeth.oblique_n_per_mm2(position_mm),
+        None => teeth.own_n_per_mm2(position_mm),
     }
+}
+
+/// How far before A and after E tip edges are followed on the line of action, mm of path.
+fn tip_range_mm(
+    pair: &GearPair,
+    surface: &dyn ContactSurface,
+    teeth: &TeethSpring<'_>,
+    sliced: Option<&SlicedTeeth>,
+    line_load_n_per_mm: f64,
+) -> Result<[f64; 2], StiffnessError> {
+    let pitch_point = pair.path.pitch_point_mm;
+    let section = pair.normal_section();
+    let along_normal = surface.plain_approach_mm(&section, pitch_point, line_load_n_per_mm);
+    let surfaces = section.obliquity.transverse_mm(along_normal);
+    let yielding = bodies_mm2_per_n(teeth, sliced) + 1.0 / teeth.own_n_per_mm2(pitch_point)?;
+    let reach_mm = pair.tip_reach_mm(AMPLE_APPROACH * (surfaces + yielding * line_load_n_per_mm));
+    // Teeth in space are there for contacts so far out and no farther.
+    let in_space = sliced.and_then(SlicedTeeth::in_space);
+    Ok(in_space.map_or(reach_mm, |teeth| [0, 1].map(|end| reach_mm[end].min(teeth.reach_mm()[end]))))
 }
 
 /// A pair under a load, at some resolution.
@@ -81,6 +96,8 @@ pub(super) struct LoadedMesh<'a> {
     pub contact: MeshContact<'a>,
     pub line_load_n_per_mm: f64,
     pub numerics: Numerics,
+    /// The parts of each flank that figures speak of.
+    pub zones: PerGear<FlankZones>,
 }
 
 impl MeshContact<'_> {
@@ -96,6 +113,17 @@ impl MeshContact<'_> {
         };
         let of_evaluation = effort.of_equilibrium * (positions * slices) as f64;
         (EFFORT_BETWEEN_CLEAN_STARTS / of_evaluation).max(effort.of_clean_start / SHARE_OF_CLEAN_STARTS) as u64
+    }
+
+    /// How far before A and after E contact of `pair` is looked for, mm of path: nowhere where tip edges are not followed.
+    pub fn range_mm(&self, pair: &GearPair, line_load_n_per_mm: f64) -> Result<[f64; 2], StiffnessError> {
+        match self {
+            MeshContact::LineOfAction { surface, teeth, tip_contact: true, sliced } => {
+                tip_range_mm(pair, *surface, teeth, *sliced, line_load_n_per_mm)
+            }
+            MeshContact::LineOfAction { .. } | MeshContact::Simplified { .. } => Ok([0.0; 2]),
+            MeshContact::FiniteElements(model) => Ok(model.range_mm()),
+        }
     }
 
     /// The slices of `pair` over the face width: one where all sections are alike.
@@ -121,14 +149,15 @@ impl<'a> LoadedMesh<'a> {
             MeshContact::LineOfAction { surface, teeth, tip_contact, sliced } => {
                 // In every slice the profile is modified alike, but for a constant.
                 let of_profile = PerGear::from_fn(|gear| &modification_mm[gear][..flanks.grid[gear].len()]);
-                let flanks = Flanks { modification_mm: Some(of_profile), ..flanks };
+                let parts = Some(FlankParts::new(self.pair, &self.zones));
+                let flanks = Flanks { modification_mm: Some(of_profile), parts, ..flanks };
                 self.on_line_of_action(flanks, surface, teeth, tip_contact, sliced)?
             }
             MeshContact::Simplified { material, teeth, sliced } => {
                 return Ok(Box::new(self.simplified(flanks, modification_mm, material, teeth, sliced)?));
             }
             MeshContact::FiniteElements(model) => {
-                let cycle = CondensedCycle::new(model, count, line_load);
+                let cycle = CondensedCycle::new(model, count, line_load).observing(self.zones);
                 let radius_mm = PerGear::from_fn(|gear| {
                     let involute = self.pair.teeth[gear].involute;
                     flanks.grid[gear].coordinate_mm.iter().map(|&rho| involute.radius_mm(rho)).collect()
@@ -152,13 +181,14 @@ impl<'a> LoadedMesh<'a> {
         let springs = SlicesInSeries {
             pair: self.pair,
             material,
-            along_path: SpringAlongPath::new(path, count, [0.0; 2], |at| slice_spring(self.pair, teeth, sliced, at))?,
+            along_path: SpringAlongPath::new(path, count, [0.0; 2], |at| slice_spring(teeth, sliced, at))?,
             sliced,
             line_load_n_per_mm: line_load * sliced.slices.count() as f64,
         };
         let phases = sliced_positions(path, &sliced.slices, count, SliceEnds::AtOnce);
         let bodies_mm = bodies_mm2_per_n(teeth, Some(sliced)) * line_load;
-        Ok(SimplifiedPair::new(springs, phases, flanks.grid, modification_mm, count, bodies_mm))
+        let parts = FlankParts::new(self.pair, &self.zones);
+        Ok(SimplifiedPair::new(springs, phases, flanks.grid, modification_mm, count, bodies_mm, parts))
     }
 
     /// SlicesInSeries on the line of action, at every loading position.
@@ -174,20 +204,16 @@ impl<'a> LoadedMesh<'a> {
         let (path, count) = (&self.pair.path, self.numerics.positions);
         let spring = |at| teeth.own_n_per_mm2(at);
         let bodies = bodies_mm2_per_n(teeth, sliced) * line_load;
-        let sharp_edges =
-            self.pair.spec.gears.as_ref().map(|gear| tip_contact && gear.modification.tip_rounding_mm == 0.0);
-        let flanks = Flanks { sharp_edges, ..flanks };
+        let sharp_edges = PerGear::from_fn(|gear| tip_contact && self.pair.spec.is_tip_sharp(gear));
+        let sharp_corners = self.pair.undercut_corners().map(|corner| tip_contact && corner);
+        let flanks = Flanks { sharp_edges, sharp_corners, ..flanks };
         let lever_ratio = |at| tip_contact::approach_ratio(self.pair, at);
-        let beyond = if tip_contact {
-            let pitch_point = path.pitch_point_mm;
-            let surfaces = surface.plain_approach_mm(self.pair, pitch_point, line_load);
-            let approach = bodies + surfaces + line_load / spring(pitch_point)?;
-            Some(tip_contact::reach_mm(self.pair, AMPLE_APPROACH * approach))
-        } else {
-            None
+        let beyond = match tip_contact {
+            true => Some(tip_range_mm(self.pair, surface, teeth, sliced, line_load)?),
+            false => None,
         };
         if let Some(sliced) = sliced {
-            let spring = |at| slice_spring(self.pair, teeth, sliced, at);
+            let spring = |at| slice_spring(teeth, sliced, at);
             let along = SpringAlongPath::new(path, count, beyond.unwrap_or_default(), spring)?;
             let ends = match beyond {
                 Some(beyond_mm) => SliceEnds::Beyond(beyond_mm),

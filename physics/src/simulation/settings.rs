@@ -18,7 +18,7 @@ pub struct Phase {
     /// Each gear's own wear coefficient, mm²/N; `None`: that of its wear law.
     pub coefficient_mm2_per_n: PerGear<Option<f64>>,
     /// Temperature of each gear's flanks, °C; none where nothing follows it.
-    pub flank_c: Option<PerGear<f64>>,
+    pub flank_c: PerGear<Option<f64>>,
     /// Young's modulus of each gear, MPa; none where that of the scene holds.
     pub young_modulus_mpa: Option<PerGear<f64>>,
     /// When it ends, in revolutions of the pinion from the beginning of the run.
@@ -72,7 +72,7 @@ impl Operation {
             pinion_torque_n_mm,
             pinion_speed_rpm,
             coefficient_mm2_per_n: PerGear::default(),
-            flank_c: None,
+            flank_c: PerGear::default(),
             young_modulus_mpa: None,
             end_revolutions: pinion_revolutions,
         };

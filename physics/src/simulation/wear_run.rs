@@ -288,8 +288,9 @@ impl WearRun<'_> {
             contact: phase.contact,
             line_load_n_per_mm: phase.line_load_n_per_mm,
             numerics: self.numerics,
+            zones: self.zones,
         };
-        Ok(mesh.wearing_pair(Flanks::new(self.pair, flanks.grid.as_ref()), &flanks.modification_mm)?)
+        Ok(mesh.wearing_pair(Flanks::of_gears(self.pair, flanks.grid.as_ref()), &flanks.modification_mm)?)
     }
 
     /// A run that has not begun.

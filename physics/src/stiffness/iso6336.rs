@@ -7,6 +7,8 @@
 //! C_B   = [1 + 0.5 (1.2 − h_fP/m_n)] [1 − 0.02 (20° − α_n)]
 //! ```
 //!
+//! Of all pairs in mesh, c_γα = c' (0.75 ε_α + 0.25), and c_γβ = 0.85 c_γα for the load distribution over the face width.
+//!
 //! Below 100 N/mm of line load c' falls with the fourth root of the load. The standard gives one value for the whole
 //! path of contact; so does this model.
 //!
@@ -32,6 +34,14 @@ pub(crate) fn theoretical_single_stiffness_n_per_mm_um(spec: &PairSpec) -> f64 {
     let terms = [1.0, 1.0 / z1, 1.0 / z2, x1, x1 / z1, x2, x2 / z2, x1 * x1, x2 * x2];
     1.0 / C.iter().zip(terms).map(|(c, term)| c * term).sum::<f64>()
 }
+
+/// c_γα/c', of a transverse contact ratio of at least 1.
+pub fn mesh_over_single(transverse_contact_ratio: f64) -> f64 {
+    0.75 * transverse_contact_ratio + 0.25
+}
+
+/// c_γβ/c_γα: the mesh stiffness of misaligned gears (K_Hβ) over that of dynamics and sharing.
+pub const MISALIGNED_OVER_MESH: f64 = 0.85;
 
 /// c' in N per mm of approach and mm of face width.
 pub fn single_stiffness_n_per_mm2(spec: &PairSpec, material: &PerGear<Material>, line_load_n_per_mm: f64) -> f64 {

@@ -39,7 +39,7 @@ pub mod settings;
 pub mod weber_banaschek;
 
 use crate::contact::{ContactSurface, hertz, settings::Material};
-use crate::gear::{GearPair, PerGear, conjugate::ConjugateFlanks};
+use crate::gear::{GearPair, PerGear, normal_section::Obliquity};
 use curve::{PairCompliance, StandsFor};
 use settings::StiffnessSettings;
 use weber_banaschek::ToothCompliance;
@@ -82,6 +82,7 @@ pub struct TeethSpring<'a> {
     pair: &'a GearPair,
     material: PerGear<Material>,
     surface: &'a dyn ContactSurface,
+    obliquity: Obliquity,
     curve: Curve<'a>,
     weber_banaschek: PerGear<ToothCompliance>,
     /// The load at which spring and surface together have the model's compliance, N/mm.
@@ -114,7 +115,8 @@ impl<'a> TeethSpring<'a> {
         };
         let weber_banaschek = PerGear::from_fn(|gear| ToothCompliance::new(&pair.teeth[gear], &material[gear]));
         let reference_line_load_n_per_mm = line_load_n_per_mm;
-        Ok(Self { pair, material: *material, surface, curve, weber_banaschek, reference_line_load_n_per_mm })
+        let (material, obliquity) = (*material, pair.obliquity());
+        Ok(Self { pair, material, surface, obliquity, curve, weber_banaschek, reference_line_load_n_per_mm })
     }
 
     /// Stiffness of the spring with the theoretical contact point at `position_mm`, N per mm of approach and mm of face
@@ -183,16 +185,6 @@ impl<'a> TeethSpring<'a> {
         }
     }
 
-    /// Stiffness of what a slice has to itself of the spring, N/mm²; what a model that states the section alone says of its flattening counts in
-    /// the normal section, as in [`Self::oblique_n_per_mm2`].
-    pub(crate) fn slice_n_per_mm2(&self, position_mm: f64, base_helix_rad: f64) -> Result<f64, StiffnessError> {
-        let own = self.own_n_per_mm2(position_mm)?;
-        if !self.states_the_section() {
-            return Ok(own);
-        }
-        Ok(1.0 / (1.0 / own + self.surface_mm2_per_n(position_mm) * (1.0 / base_helix_rad.cos() - 1.0)))
-    }
-
     /// Whether the model speaks of the transverse section alone, and not of oblique teeth too.
     pub fn states_the_section(&self) -> bool {
         match &self.curve {
@@ -201,13 +193,14 @@ impl<'a> TeethSpring<'a> {
         }
     }
 
-    /// Stiffness of the whole spring, shared bodies included, where the line of contact is oblique by `base_helix_rad`: what is local
-    /// acts in the normal section, and yields 1/cos β_b times as much along the transverse line of action. The surface keeps its own
-    /// approach, so that the spring takes its part too, N/mm².
-    pub(crate) fn oblique_n_per_mm2(&self, position_mm: f64, base_helix_rad: f64) -> Result<f64, StiffnessError> {
-        let per_cosine = 1.0 / base_helix_rad.cos();
-        let (spring, surface) = (1.0 / self.n_per_mm2(position_mm)?, self.surface_mm2_per_n(position_mm));
-        Ok(1.0 / (spring * per_cosine + surface * (per_cosine - 1.0)))
+    /// Stiffness of the whole spring, shared bodies included, where all of the section's compliance counts along the normal of an oblique line of
+    /// contact, as flattening does: what the section says of its teeth, too, then yields 1/cos β_b times as much along the transverse line of
+    /// action, N/mm².
+    pub(crate) fn oblique_n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
+        let spring = 1.0 / self.n_per_mm2(position_mm)?;
+        let flattening = self.flattening_mm2_per_n(position_mm, self.reference_line_load_n_per_mm);
+        let of_teeth = spring + self.surface_mm2_per_n(position_mm) - flattening;
+        Ok(1.0 / (spring + (self.obliquity.transverse_mm(of_teeth) - of_teeth)))
     }
 
     /// Stiffness of the whole pair, flattening included, at the reference load, N/mm².
@@ -220,8 +213,8 @@ impl<'a> TeethSpring<'a> {
     pub fn split_remainder(&self, position_mm: f64, load_fraction: f64) -> Option<f64> {
         let (Curve::WeberBanaschek | Curve::Given(_)) = self.curve else { return None };
         let w = self.reference_line_load_n_per_mm;
-        let flattening = |load| hertz::flattening(self.pair, &self.material, position_mm).approach_mm(load);
-        let surface = |load| self.surface.plain_approach_mm(self.pair, position_mm, load);
+        let flattening = |load| load * self.flattening_mm2_per_n(position_mm, load);
+        let surface = |load| self.surface_mm(position_mm, load);
         // The spring is linear, so the difference of whole approaches is that of the shares once both agree at w.
         let spring_differs_by = (flattening(w) - surface(w)) / w;
         let part = load_fraction * w;
@@ -242,8 +235,14 @@ impl<'a> TeethSpring<'a> {
         }
     }
 
-    /// Flattening in closed form over line load.
+    /// Flattening in closed form, which is along the normal, over line load, along the transverse line of action.
     fn flattening_mm2_per_n(&self, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
+        let flattening = hertz::flattening(&self.pair.normal_section(), &self.material, position_mm);
+        self.obliquity.transverse_mm(flattening.approach_mm(line_load_n_per_mm)) / line_load_n_per_mm
+    }
+
+    /// The same of a spur pair with the transverse section of this one.
+    fn flattening_of_section_mm2_per_n(&self, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
         let flattening = hertz::flattening(self.pair, &self.material, position_mm);
         flattening.approach_mm(line_load_n_per_mm) / line_load_n_per_mm
     }
@@ -255,7 +254,7 @@ impl<'a> TeethSpring<'a> {
             Curve::Given(curve) => match curve.stands_for {
                 StandsFor::Teeth => curve.at(position_mm),
                 StandsFor::WholePair { line_load_n_per_mm } => {
-                    curve.at(position_mm) - self.flattening_mm2_per_n(position_mm, line_load_n_per_mm)
+                    curve.at(position_mm) - self.flattening_of_section_mm2_per_n(position_mm, line_load_n_per_mm)
                 }
             },
             Curve::Teeth(_) | Curve::WholePair(_) => 0.0,
@@ -269,8 +268,13 @@ impl<'a> TeethSpring<'a> {
     }
 
     fn surface_mm2_per_n(&self, position_mm: f64) -> f64 {
-        let geometry: &dyn ConjugateFlanks = self.pair;
         let w = self.reference_line_load_n_per_mm;
-        self.surface.plain_approach_mm(geometry, position_mm, w) / w
+        self.surface_mm(position_mm, w) / w
+    }
+
+    /// Approach of the surface under a line load along the transverse line of action.
+    fn surface_mm(&self, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
+        let along_normal = self.surface.plain_approach_mm(&self.pair.normal_section(), position_mm, line_load_n_per_mm);
+        self.obliquity.transverse_mm(along_normal)
     }
 }

@@ -182,6 +182,7 @@ mod tests {
             partition: HeatPartition::ArchardRowntree,
             friction_coefficient: None,
             bulk_temperature_k: 363.15,
+            is_bulk_of_mesh: false,
             tooth: None,
             material: PerGear { pinion: steel, wheel: steel },
         };

@@ -87,9 +87,11 @@ pub struct HeatSettings {
     pub partition: HeatPartition,
     /// μ; none where it is that of the mesh.
     pub friction_coefficient: Option<f64>,
-    /// Temperature of the bodies away from the contact, K; where `tooth` is the bulk, that of the surroundings, above which it is found for
-    /// each load and speed.
+    /// Temperature of the bodies away from the contact, K; where `tooth` or the mesh is the bulk, that of the surroundings or of the oil, above
+    /// which it is found for each load and speed.
     pub bulk_temperature_k: f64,
+    /// Whether it is that of the teeth in their oil, θ_M of ISO/TS 6336-22.
+    pub is_bulk_of_mesh: bool,
     /// Temperature of the teeth of plastic gears, where asked for.
     pub tooth: Option<ToothHeatSettings>,
     /// Of each gear.

@@ -12,8 +12,11 @@
 //! Sources: VDI 2736-2:2014, equation 9, after H. Hachmann and E. Strickle (1966); k_θ as in the public program GEARpie, that in oil as in the
 //! report of `validation/plastic-pair`. Public values of grease were not found.
 //!
+//! The guideline speaks of the plastic gear alone: a metal gear beside it conducts the heat away, and has no temperature here.
+//!
 //! Limits: a steady mean of both gears' loss; in dry running an error of tens of kelvins is usual.
 
+use crate::gear::PerGear;
 use crate::reference::linear_means::value_at;
 
 /// k_θ of flank and root of a plastic gear on a metal one, dry.
@@ -43,6 +46,8 @@ pub struct ToothHeatSettings {
     pub housing_k_per_w: f64,
     /// ED.
     pub duty_cycle: f64,
+    /// Gears whose temperature it is: the plastic ones where there are any.
+    pub of: PerGear<bool>,
     /// Whether contact temperatures are counted from that of the flanks.
     pub is_bulk: bool,
 }

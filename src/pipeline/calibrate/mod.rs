@@ -168,7 +168,7 @@ fn slices(
     observer: &dyn Observer,
 ) -> Result<Option<SliceFit>, StiffnessError> {
     let elastic = scene.material.map(Material::elastic);
-    match kept.condensed(pair, elastic, scene.fem.in_space(), slice_fit::SLICES) {
+    match kept.condensed(pair, elastic, scene.fem.in_space(), slice_fit::SLICES, line_load_n_per_mm) {
         Ok(in_space) => slice_fit::fit(pair, &scene.material, &in_space, curve, line_load_n_per_mm).map(Some),
         Err(error) => {
             observer.warning(&format!(

@@ -1,4 +1,4 @@
-//! How far the pinion's peak wear is from the truth, from companions that cost at most half of the run itself.
+//! How far the peak wear is from the truth, from companions that cost at most half of the run itself.
 //!
 //! | estimate | companions | module |
 //! |---|---|---|
@@ -13,7 +13,7 @@ mod severe_switch;
 mod wear_runs;
 
 use super::Model;
-use crate::gear::PerGear;
+use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::observer::Observer;
 use crate::results::error::{ErrorSources, ErrorSummary};
@@ -41,7 +41,7 @@ impl Estimate {
     }
 }
 
-/// Estimates the errors of the pinion's peak wear in `outcome`. A companion that fails leaves its estimate out, never the
+/// Estimates the errors of the peak wear in `outcome`: of the gear for which they are larger. A companion that fails leaves its estimate out, never the
 /// result of the run. `step_over_safe` is the run's step over the longest safe one, 0 where there is no limit.
 pub(super) fn estimate(
     model: &Model<'_>,
@@ -49,6 +49,10 @@ pub(super) fn estimate(
     step_over_safe: f64,
     observer: &dyn Observer,
 ) -> ErrorSummary {
+    let peaks_mm = peak_wear_of_both_mm(model, outcome);
+    if Gear::BOTH.into_iter().all(|gear| peaks_mm[gear] <= 0.0) {
+        return ErrorSummary::not_estimated("neither gear wears");
+    }
     let slices = coarse_slices(model);
     let runs = wear_runs::estimate(model, outcome, slices.as_ref(), step_over_safe, observer);
     let (severe_switch, switch_cost) = severe_switch::estimate(model, outcome, BUDGET - runs.cost, observer);

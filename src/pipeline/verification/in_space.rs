@@ -34,7 +34,7 @@ const OF_HALF_PLANES: Uncertainty = Uncertainty {
     tip_edge: 0.06,
     transmission_error: 0.01,
     pressure: 0.03,
-    tip_edge_pressure: [0.15, 0.5],
+    flank_pressure: [0.03, 0.03],
 };
 
 /// The life in space; where it does not come to its end, why.

@@ -37,7 +37,15 @@ fn new_and_worn(s: &Summary) -> Markup {
     let compare = |label, unit, new: f64, worn: f64| row(label, unit, cells![new, worn, change(new, worn)]);
     let (new, worn) = (&s.new, &s.worn);
     let (te_new, te_worn) = (&new.transmission_error_um, &worn.transmission_error_um);
-    let mut rows = vec![compare("Maximum pressure", "MPa", new.peak_pressure_MPa, worn.peak_pressure_MPa)];
+    let tip_load = [new.tip_edge_line_load_N_per_mm, worn.tip_edge_line_load_N_per_mm];
+    let tip_mean = [new.tip_edge_mean_pressure_MPa, worn.tip_edge_mean_pressure_MPa];
+    let mut rows = vec![compare("Flank pressure", "MPa", new.flank_pressure_MPa, worn.flank_pressure_MPa)];
+    if tip_load.iter().any(|load| *load > 0.0) {
+        rows.push(compare("Line load of a tip edge", "N/mm", tip_load[0], tip_load[1]));
+        rows.push(compare("Pressure of a tip edge, mean over 0.04 mm", "MPa", tip_mean[0], tip_mean[1]));
+    }
+    let at_a_point = "Maximum pressure at a point (not converged)";
+    rows.push(row(at_a_point, "MPa", cells![new.peak_pressure_MPa, worn.peak_pressure_MPa, ""]));
     let sharp = [new.sharp_edge_pressure_MPa, worn.sharp_edge_pressure_MPa];
     if sharp.iter().any(Option::is_some) {
         rows.push(row("At sharp tip edges (not defined)", "MPa", cells![sharp[0], sharp[1], ""]));
@@ -137,6 +145,9 @@ fn gears(s: &Summary) -> Markup {
     let both = |label, value: fn(&GearSummary) -> f64| {
         row(label, "mm", [&gears.pinion, &gears.wheel].map(|gear| fixed(value(gear), 3)))
     };
+    let maybe = |label, unit, value: fn(&GearSummary) -> Option<f64>| {
+        row(label, unit, [&gears.pinion, &gears.wheel].map(|gear| value(gear).map(|value| fixed(value, 3))))
+    };
     table(
         "Geometry of the gears",
         &["pinion", "wheel"],
@@ -146,6 +157,8 @@ fn gears(s: &Summary) -> Markup {
             both("Working pitch diameter", |g| g.working_pitch_diameter_mm),
             both("Reference diameter", |g| g.reference_diameter_mm),
             both("Base diameter", |g| g.base_diameter_mm),
+            both("Tip form diameter", |g| g.tip_form_diameter_mm),
+            both("End of active profile, diameter", |g| g.end_of_active_profile_diameter_mm),
             both("Start of active profile, diameter", |g| g.start_of_active_profile_diameter_mm),
             both("Root form diameter", |g| g.root_form_diameter_mm),
             both("Root diameter", |g| g.root_diameter_mm),
@@ -153,6 +166,11 @@ fn gears(s: &Summary) -> Markup {
             both("Tooth thickness at the tip", |g| g.tip_thickness_mm),
             both("Tip clearance", |g| g.tip_clearance_mm),
             row("Undercut", "", [gears.pinion.undercut, gears.wheel.undercut]),
+            maybe("Specific sliding at the start of active profile", "", |g| g.specific_sliding_at_root),
+            row("Span over teeth, number of teeth", "", [gears.pinion.span_teeth, gears.wheel.span_teeth]),
+            maybe("Span over teeth", "mm", |g| g.span_mm),
+            maybe("Diameter of measuring balls or pins", "mm", |g| g.ball_diameter_mm),
+            maybe("Dimension over balls or pins", "mm", |g| g.dimension_over_balls_mm),
         ],
     )
 }
@@ -180,6 +198,13 @@ fn contact(s: &Summary) -> Markup {
             remainder
                 .map(|share| row("Residual of the split of tooth and contact compliance, at 50 % load", "", [share])),
         );
+    }
+    if let Some(iso) = &s.stiffness_iso_6336_1 {
+        rows.extend([
+            row("c′, ISO 6336-1", "N/(mm·µm)", [iso.single_N_per_mm_um]),
+            row("c_γα, ISO 6336-1", "N/(mm·µm)", [iso.mesh_alpha_N_per_mm_um]),
+            row("c_γβ, ISO 6336-1", "N/(mm·µm)", [iso.mesh_beta_N_per_mm_um]),
+        ]);
     }
     table("Contact and stiffness", &["value"], rows)
 }
@@ -255,8 +280,8 @@ pub(crate) fn errors(error: &ErrorSummary) -> Markup {
         ("Finite elements: wheel’s wear over the flank", total.profile.wheel, above),
         ("Finite elements: transmission error", total.transmission_error_peak_to_peak, above),
         ("Finite elements: pressure between the tip edges, worn", total.pressure_between_tips, above),
-        ("Finite elements: maximum pressure, new", total.peak_pressure.new, above),
-        ("Finite elements: maximum pressure, worn", total.peak_pressure.worn, above),
+        ("Finite elements: flank pressure, new", total.flank_pressure.new, above),
+        ("Finite elements: flank pressure, worn", total.flank_pressure.worn, above),
         ("Points and positions", error.discretisation, &*how.discretisation),
         ("Wear step", error.wear_step, &*how.wear_step),
         ("Worn volumes of pinion and wheel, difference", error.volume_balance, &*how.volume_balance),

@@ -2,7 +2,8 @@
 
 use maud::{Markup, html};
 
-use super::number::{fixed, percent};
+use super::number::{fixed, percent, significant};
+use super::page;
 use super::table::{cells, line, list, row, table};
 use crate::gear::Gear;
 use crate::results::lubrication::{FilmSummary, LubricationSummary, MethodBSummary, OilSummary, ScuffingSummary};
@@ -15,6 +16,7 @@ pub(crate) fn tables(s: &Summary) -> Markup {
         @if let Some(film) = &of.film { (self::film(film, of.method_b.as_ref())) }
         (losses(of))
         @if let Some(method_b) = &of.method_b { (self::method_b(method_b)) }
+        @if let Some(reason) = &of.method_b_null_because { (page::note(&format!("No ISO/TS 6336-22 Method B: {reason}."))) }
         @if let Some(scuffing) = &of.scuffing { (self::scuffing(scuffing)) }
     }
 }
@@ -41,8 +43,12 @@ fn film(f: &FilmSummary, method_b: Option<&MethodBSummary>) -> Markup {
         row("Central film thickness, minimum", "µm", [f.central_film_new_um.min, f.central_film_worn_um.min]),
         row("Central film thickness, mean", "µm", [f.central_film_new_um.mean, f.central_film_worn_um.mean]),
         row("Minimum film thickness, lowest", "µm", [f.minimum_film_new_um.min, f.minimum_film_worn_um.min]),
-        row("Flash temperature, maximum", "K", [f.greatest_flash_new_K, f.greatest_flash_worn_K]),
+        row("Flash temperature, maximum, tip edges included", "K", [f.greatest_flash_new_K, f.greatest_flash_worn_K]),
     ];
+    if f.tip_edge_lambda_new.is_some() || f.tip_edge_lambda_worn.is_some() {
+        let said = |value: Option<f64>| value.map_or("–".to_owned(), |value| fixed(value, 3));
+        rows.push(row("λ of tip edges, minimum", "", [f.tip_edge_lambda_new, f.tip_edge_lambda_worn].map(said)));
+    }
     if let (Some(new), Some(worn)) = (f.composite_lambda_new, f.composite_lambda_worn) {
         rows.push(row("Minimum film over √(Rq₁² + Rq₂²), lowest", "", [new.min, worn.min]));
         rows.push(row("The same, mean", "", [new.mean, worn.mean]));
@@ -101,13 +107,22 @@ fn method_b(b: &MethodBSummary) -> Markup {
 }
 
 fn scuffing(s: &ScuffingSummary) -> Markup {
-    table(
-        "Scuffing temperatures",
-        &["value"],
-        [
-            row("Contact temperature, ISO/TS 6336-20", "°C", [s.contact_temperature_C]),
-            row("Maximum flash temperature", "K", [s.greatest_flash_K]),
-            row("Integral temperature, ISO/TS 6336-21", "°C", [s.integral_temperature_C]),
-        ],
-    )
+    let said = [
+        ("Contact temperature, ISO/TS 6336-20", "°C", s.contact_temperature_C),
+        ("Maximum flash temperature", "K", s.greatest_flash_K),
+        ("Scuffing temperature", "°C", s.scuffing_temperature_C),
+        ("Safety against scuffing S_B", "", s.scuffing_safety),
+        ("Integral temperature, ISO/TS 6336-21", "°C", s.integral_temperature_C),
+        ("Integral scuffing temperature", "°C", s.integral_scuffing_temperature_C),
+        ("Safety against scuffing S_intS", "", s.integral_scuffing_safety),
+    ];
+    let rows = said.into_iter().filter_map(|(label, unit, value)| {
+        let value = if unit.is_empty() { fixed(value?, 2) } else { significant(value?, 4) };
+        Some(row(label, unit, [value]))
+    });
+    let reasons = [&s.flash_null_because, &s.integral_null_because];
+    html! {
+        (table("Scuffing", &["value"], rows))
+        @for reason in reasons.into_iter().flatten() { (page::note(&format!("{reason}."))) }
+    }
 }

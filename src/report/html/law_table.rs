@@ -42,15 +42,19 @@ fn law(s: &Summary) -> Markup {
     table("Wear law", columns, rows)
 }
 
-fn teeth(of: &PerGear<ToothTemperatureSummary>) -> Markup {
-    let both = |label, value: fn(&ToothTemperatureSummary) -> f64| row(label, "°C", [&of.pinion, &of.wheel].map(value));
-    let mut rows = vec![both("Flank", |at| at.flank_C), both("Root", |at| at.root_C)];
-    let gears = [&of.pinion, &of.wheel];
-    if let [Some(pinion), Some(wheel)] = gears.map(|at| at.young_modulus_GPa) {
-        rows.push(row("Young’s modulus", "GPa", [pinion, wheel]));
-    }
-    if gears.iter().any(|at| at.wear_factor.is_some()) {
-        let factors = gears.map(|at| at.wear_factor.map_or("–".to_owned(), |factor| fixed(factor, 3)));
+fn teeth(of: &PerGear<Option<ToothTemperatureSummary>>) -> Markup {
+    type Value = fn(&ToothTemperatureSummary) -> Option<f64>;
+    let both = |value: Value| [&of.pinion, &of.wheel].map(|own| own.as_ref().and_then(value));
+    let said =
+        |values: [Option<f64>; 2]| values.map(|value| value.map_or("–".to_owned(), |value| significant(value, 4)));
+    let mut rows = vec![
+        row("Flank", "°C", said(both(|at| Some(at.flank_C)))),
+        row("Root", "°C", said(both(|at| Some(at.root_C)))),
+        row("Young’s modulus", "GPa", said(both(|at| at.young_modulus_GPa))),
+    ];
+    let factors = both(|at| at.wear_factor);
+    if factors.iter().any(Option::is_some) {
+        let factors = factors.map(|factor| factor.map_or("–".to_owned(), |factor| fixed(factor, 3)));
         rows.push(row("Factor on the wear coefficient", "", factors));
     }
     table("Temperature of the teeth, VDI 2736-2", &["pinion", "wheel"], rows)

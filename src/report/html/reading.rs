@@ -3,6 +3,7 @@
 use super::number::{change, figure, hours, percent, revolutions, significant};
 use crate::gear::Gear;
 use crate::reference::steel_yield;
+use crate::report::headline;
 use crate::results::path_points::among;
 use crate::results::run::{FlankRecord, MeshCycleRow, RunRecord, StopReason, Summary, WearSummary};
 
@@ -30,8 +31,7 @@ pub(crate) fn place_on_flank(flank: &FlankRecord, radius_mm: f64) -> String {
 pub(crate) fn tip_edge_note(places: &[(&str, f64)], at: f64) -> &'static str {
     match among(places, at).as_str() {
         "close to A" | "close to E" | "outside the active flank" => {
-            " This is at a tip edge: where the edge is sharp, or has worn to an edge again, the pressure depends on the \
-             contact model and on the spacing of points and positions, and only an unworn tip rounding gives it a true value."
+            " This is at a tip edge, where the maximum at a point depends on the resolution; pairs are compared by the flank pressure."
         }
         _ => "",
     }
@@ -66,33 +66,25 @@ pub(crate) fn answer(record: &RunRecord) -> String {
             format!("the pinion has lost {}, and the wheel {}", depth(record, Gear::Pinion), depth(record, Gear::Wheel))
         }
     };
-    let vouched = match (s.error.total.peak_wear.pinion.or(s.error.total.peak_wear.wheel), &s.helical) {
-        (Some(_), None) => {
-            " ± is the difference from the same wear simulation with finite elements, with their own uncertainty."
-        }
-        (Some(_), Some(_)) => {
-            " ± is the difference from the same wear simulation with other slices, coupled by three-dimensional finite elements, with \
-             their own uncertainty."
-        }
-        (None, _) => "",
-    };
     let life = s.life.as_ref().map_or_else(String::new, |life| format!("{} ", life.in_words(&duration(s))));
-    let mut text = format!("{life}After {} {lost}.{vouched}", duration(s));
+    let mut text = format!("{life}After {} {lost}.{}", duration(s), how_well_known(s));
     if record.history.is_empty() {
         return text;
     }
     let total = &s.error.total;
     let with_error = |value: f64, off: Option<f64>| within(figure(value), value, off);
     text.push_str(&format!(
-        " The maximum pressure went from {} to {} MPa ({}), worn {}; the transmission error peak to peak from {} to {} µm.",
-        with_error(s.new.peak_pressure_MPa, total.peak_pressure.new),
-        with_error(s.worn.peak_pressure_MPa, total.peak_pressure.worn),
-        change(s.new.peak_pressure_MPa, s.worn.peak_pressure_MPa),
-        place_of_pressure(record),
+        " The flank pressure went from {} to {} MPa ({}); the transmission error peak to peak from {} to {} µm.",
+        with_error(s.new.flank_pressure_MPa, total.flank_pressure.new),
+        with_error(s.worn.flank_pressure_MPa, total.flank_pressure.worn),
+        change(s.new.flank_pressure_MPa, s.worn.flank_pressure_MPa),
         figure(s.new.transmission_error_um.peak_to_peak),
         with_error(s.worn.transmission_error_um.peak_to_peak, total.transmission_error_peak_to_peak),
     ));
-    text.push_str(yield_note(s.new.peak_pressure_MPa.max(s.worn.peak_pressure_MPa)));
+    if let Some(tips) = headline::tip_edges(s) {
+        text.push_str(&format!(" {tips}"));
+    }
+    text.push_str(yield_note(s.new.flank_pressure_MPa.max(s.worn.flank_pressure_MPa)));
     if let Some(helical) = &s.helical {
         let wear = &helical.wear.pinion;
         text.push_str(&format!(
@@ -107,23 +99,6 @@ pub(crate) fn answer(record: &RunRecord) -> String {
     text
 }
 
-/// Where on the path of contact the pressure of the worn pair is greatest, of a pair with slices that of any slice.
-fn place_of_pressure(record: &RunRecord) -> String {
-    let (pressures, position_mm) = match &record.slices {
-        Some(slices) => {
-            let own = slices.position_mm.iter().flat_map(|at| slices.ahead_mm.iter().map(move |ahead| at + ahead));
-            let defined = slices.peak_pressure_worn_MPa.iter().zip(&slices.at_sharp_edge_worn);
-            (defined.map(|(&pressure, &sharp)| defined_pressure(pressure, sharp)).collect(), own.collect())
-        }
-        None => (
-            defined_pressures(&record.mesh_cycle, |row| (row.peak_pressure_worn_MPa, row.at_sharp_edge_worn)),
-            record.mesh_cycle.iter().map(|row| row.position_mm).collect::<Vec<f64>>(),
-        ),
-    };
-    let positions = record.summary.geometry.curvature_radius_mm.named();
-    greatest(&pressures).map_or_else(String::new, |at| among(&positions, position_mm[at.index]))
-}
-
 /// The pressure of each row, and NaN where it is that of a sharp tip edge, which is not defined.
 pub(crate) fn defined_pressures(rows: &[MeshCycleRow], of: fn(&MeshCycleRow) -> (f64, bool)) -> Vec<f64> {
     rows.iter().map(of).map(|(pressure, at_sharp_edge)| defined_pressure(pressure, at_sharp_edge)).collect()
@@ -133,15 +108,37 @@ fn defined_pressure(pressure_mpa: f64, at_sharp_edge: bool) -> f64 {
     if at_sharp_edge { f64::NAN } else { pressure_mpa }
 }
 
+/// How far the wear is known: by its coefficient first, then by the computation.
+fn how_well_known(s: &Summary) -> String {
+    let wear = &s.error.total.peak_wear;
+    let errors: Vec<String> = [("pinion", wear.pinion), ("wheel", wear.wheel)]
+        .into_iter()
+        .filter_map(|(gear, error)| Some(format!("± {} % ({gear})", significant(100.0 * error?, 2))))
+        .collect();
+    let wears = s.pinion.peak_wear_um.max(s.wheel.peak_wear_um) > 0.0;
+    let mut text = String::new();
+    if wears {
+        text.push_str(&format!(
+            " In repeated tests the wear coefficient scatters by ± {} %, and wear with it",
+            headline::scatter_percent()
+        ));
+        text.push_str(&match errors.as_slice() {
+            [] => ".".to_owned(),
+            errors => format!("; the error of the computation is {}, against finite elements.", errors.join(" and ")),
+        });
+    }
+    text
+}
+
 fn depth(record: &RunRecord, gear: Gear) -> String {
     let (s, flank) = (&record.summary, &record.flanks[gear]);
-    let (wear, off): (&WearSummary, _) = match gear {
-        Gear::Pinion => (&s.pinion, s.error.total.peak_wear.pinion),
-        Gear::Wheel => (&s.wheel, s.error.total.peak_wear.wheel),
+    let wear: &WearSummary = match gear {
+        Gear::Pinion => &s.pinion,
+        Gear::Wheel => &s.wheel,
     };
     format!(
         "up to {} µm of its active profile {}",
-        within(significant(wear.peak_wear_um, 3), wear.peak_wear_um, off),
+        significant(wear.peak_wear_um, 3),
         place_on_flank(flank, wear.peak_wear_radius_mm)
     )
 }

@@ -57,7 +57,7 @@ pub(super) fn choose(
             Ok(centre_distance_mm) => centre_distance_mm,
             Err(TeethTooThin { least_mm }) => {
                 let (Backlash::Circumferential(found_mm) | Backlash::Normal(found_mm)) = backlash;
-                let allowed = format!("more than {:.1}", least_mm / UM);
+                let allowed = format!("more than {:.1}", (10.0 * least_mm / UM).ceil() / 10.0);
                 findings.not_allowed(key, number(found_mm / UM), allowed);
                 findings.help("such thin teeth have as much at any centre distance: check profile shifts and tooth_thickness_allowance_um");
                 return None;

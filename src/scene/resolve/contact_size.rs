@@ -46,7 +46,7 @@ struct Contact {
 /// Refuses contacts of `pair` at the pitch point whose size cannot be meant, and warns of those that are not narrow: of loads, and of
 /// foundations given by hand.
 pub(super) fn check(scene: &Scene, pair: &GearPair, findings: &mut Findings) {
-    let radius_mm = pair.relative_radius_mm(pair.path.pitch_point_mm);
+    let radius_mm = pair.normal_section().relative_radius_mm(pair.path.pitch_point_mm);
     let contacts = contacts(scene, pair, findings);
     let meant = |contact: &Contact| {
         contact.half_width_mm >= LEAST_MEANT_MM && contact.half_width_mm <= GREATEST_MEANT * radius_mm
@@ -80,7 +80,7 @@ pub(super) fn check(scene: &Scene, pair: &GearPair, findings: &mut Findings) {
 /// The contacts under the least and the greatest torque, and the widest on a foundation given by hand.
 fn contacts(scene: &Scene, pair: &GearPair, findings: &Findings) -> Vec<Contact> {
     let pitch_point_mm = pair.path.pitch_point_mm;
-    let flattening = hertz::flattening(pair, &scene.material, pitch_point_mm);
+    let flattening = hertz::flattening(&pair.normal_section(), &scene.material, pitch_point_mm);
     let torques = || scene.operation.phases.iter().map(|phase| phase.pinion_torque_n_mm);
     let greatest_n_mm = torques().fold(0.0, f64::max);
     let least_n_mm = torques().fold(f64::INFINITY, f64::min);
@@ -94,7 +94,7 @@ fn contacts(scene: &Scene, pair: &GearPair, findings: &Findings) -> Vec<Contact>
         contacts.push(of_hertz(least_n_mm));
     }
     if let Foundation::Given { foundation_mpa_per_mm } = scene.contact.foundation {
-        let radius_mm = pair.relative_radius_mm(pitch_point_mm);
+        let radius_mm = pair.normal_section().relative_radius_mm(pitch_point_mm);
         contacts.push(Contact {
             key: "contact.foundation_MPa_per_mm".to_owned(),
             value: foundation_mpa_per_mm,

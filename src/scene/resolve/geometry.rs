@@ -57,6 +57,9 @@ fn check_slices(pair: &GearPair, count: usize, findings: &mut Findings) {
 
 fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
     let key_of = |gear: Gear, name: &str| format!("pair.{}.{name}", gear.name());
+    // Factors of the file are of the module that it gives.
+    let is_transverse = findings.is_in_file("pair.transverse_module_mm");
+    let factor_scale = if is_transverse { 1.0 / spec.helix_angle_rad.cos() } else { 1.0 };
     // The tip is mended where the file gives it; otherwise the profile shift decides.
     let tip_key = |gear: Gear| {
         let tip = key_of(gear, "tip_diameter_mm");
@@ -77,7 +80,7 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
     let centre = |least_mm: f64, help: &str| Cause {
         key: centre_key.to_owned(),
         found: centre_found.clone(),
-        allowed: format!("a centre distance of at least {least_mm:.4} mm"),
+        allowed: format!("a centre distance of at least {} mm", at_least(least_mm)),
         help: help.to_owned(),
     };
     match *error {
@@ -107,27 +110,28 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
         PairError::PointedTooth { gear, tip_diameter_mm, pointed_diameter_mm, .. } => Cause {
             key: tip_key(gear),
             found: tip_found(gear, tip_diameter_mm),
-            allowed: format!("a tip diameter below {pointed_diameter_mm:.4} mm, where the flanks meet"),
+            allowed: format!("a tip diameter below {} mm, where the flanks meet", at_most(pointed_diameter_mm)),
             help: format!("give {} or a smaller profile shift", key_of(gear, "tip_diameter_mm")),
         },
         PairError::TipBelowBase { gear, tip_diameter_mm, base_diameter_mm } => Cause {
             key: tip_key(gear),
             found: tip_found(gear, tip_diameter_mm),
-            allowed: format!("a tip diameter above the base circle, {base_diameter_mm:.4} mm"),
+            allowed: format!("a tip diameter above the base circle, {} mm", at_least(base_diameter_mm)),
             help: "check tip diameter, module and number of teeth".to_owned(),
         },
-        PairError::Interference { gear, form_diameter_mm, .. } => Cause {
+        PairError::Interference { gear, greatest_tip_diameter_mm, .. } => Cause {
             key: match tip_key(gear.mate()) {
                 tip if tip.ends_with("tip_diameter_mm") => tip,
                 _ => key_of(gear, "profile_shift"),
             },
             found: match spec.gears[gear.mate()].tip_diameter_mm {
                 Some(tip_mm) => tip_found(gear.mate(), tip_mm),
-                None => format!("profile shift {}", number(spec.gears[gear].profile_shift)),
+                None => format!("profile shift {}", of_file(spec.gears[gear].profile_shift, factor_scale)),
             },
             allowed: format!(
-                "a tip of the {} that touches the {} above its form diameter {form_diameter_mm:.4} mm",
+                "a tip diameter of the {} of at most {} mm, which leaves the root fillet of the {} alone",
                 gear.mate().name(),
+                at_most(greatest_tip_diameter_mm),
                 gear.name()
             ),
             help: format!(
@@ -140,31 +144,42 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
         PairError::NoTipClearance { gear, clearance_mm } => Cause {
             key: tip_key(gear),
             found: spec.gears[gear].tip_diameter_mm.map_or_else(|| "a tip from the rack".to_owned(), number),
-            allowed: format!("a tip diameter smaller by at least {:.4} mm", 2.0 * clearance_mm.abs()),
+            allowed: format!(
+                "a tip diameter of at most {} mm, beyond which it reaches the root circle of the {}",
+                at_most(2.0 * (spec.tip_radius_mm(gear) + clearance_mm)),
+                gear.mate().name()
+            ),
             help: "or a larger centre distance, or a larger pair.basic_rack.dedendum_factor".to_owned(),
+        },
+        PairError::RackPointed { greatest_dedendum_factor } => Cause {
+            key: "pair.basic_rack.dedendum_factor".to_owned(),
+            found: of_file(spec.rack.dedendum_factor, factor_scale),
+            allowed: format!("at most {}", at_most(greatest_dedendum_factor / factor_scale)),
+            help: "or a smaller pressure angle; the root fillet that a dedendum factor leaves room for grows as it falls below that"
+                .to_owned(),
         },
         PairError::RackTipPointed { greatest } => Cause {
             key: "pair.basic_rack.fillet_radius_factor".to_owned(),
-            found: number(spec.rack.fillet_radius_factor),
-            allowed: format!("at most {greatest:.4}"),
+            found: of_file(spec.rack.fillet_radius_factor, factor_scale),
+            allowed: format!("at most {}", at_most(greatest / factor_scale)),
             help: "or a smaller pair.basic_rack.dedendum_factor".to_owned(),
         },
         PairError::NoTooth { gear } => Cause {
             key: key_of(gear, "profile_shift"),
-            found: number(spec.gears[gear].profile_shift),
+            found: of_file(spec.gears[gear].profile_shift, factor_scale),
             allowed: "a profile shift that leaves a flank above the base circle".to_owned(),
             help: format!("a larger profile shift or more teeth on the {}", gear.name()),
         },
         PairError::BoreTooLarge { gear, bore_diameter_mm, root_diameter_mm } => Cause {
             key: key_of(gear, "bore_diameter_mm"),
             found: number(bore_diameter_mm),
-            allowed: format!("less than the root diameter, {root_diameter_mm:.4} mm"),
+            allowed: format!("less than the root diameter, {} mm", at_most(root_diameter_mm)),
             help: "leave the bore out where it does not matter".to_owned(),
         },
         PairError::ModificationTooLong { gear, modification, length_mm, available_mm } => Cause {
             key: key_of(gear, &format!("{}.length_mm", modification.replace(' ', "_"))),
             found: number(length_mm),
-            allowed: format!("at most {available_mm:.4} mm"),
+            allowed: format!("at most {} mm", at_most(available_mm)),
             help: match modification {
                 "end relief" => "it begins at either end of the face width, and ends before its middle",
                 _ => "lengths are roll lengths, along the path of contact",
@@ -185,22 +200,37 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
                 },
             ),
             found: number(1e3 * amount_mm),
-            allowed: format!("at most {:.0} µm, a quarter of the module", 1e3 * greatest_mm),
+            allowed: format!("at most {} µm, a quarter of the module", at_most(1e3 * greatest_mm)),
             help: "amounts are in µm".to_owned(),
         },
         PairError::AxesTooFarFromParallel { slope_mm, greatest_mm } => Cause {
             key: "pair.axis_parallelism".to_owned(),
             found: format!("a helix slope of {:.0} µm over the face width", 1e3 * slope_mm),
-            allowed: format!("at most {:.0} µm, a quarter of the module", 1e3 * greatest_mm),
+            allowed: format!("at most {} µm, a quarter of the module", at_most(1e3 * greatest_mm)),
             help: "deviations are in µm, over over_length_mm where that is given".to_owned(),
         },
         PairError::TipRoundingTooLarge { gear, radius_mm, greatest_mm } => Cause {
             key: key_of(gear, "tip_rounding_mm"),
             found: number(radius_mm),
-            allowed: format!("at most {:.4} mm", (greatest_mm * 1e4).floor() / 1e4),
+            allowed: format!("at most {} mm", at_most(greatest_mm)),
             help: "the roundings of both flanks must fit on the tip, and leave some active flank".to_owned(),
         },
     }
+}
+
+/// A limit that a value may reach, to four digits and within the true one.
+fn at_most(limit: f64) -> f64 {
+    (limit * 1e4).floor() / 1e4
+}
+
+/// A limit that a value must reach, to four digits and within the true one.
+fn at_least(limit: f64) -> f64 {
+    (limit * 1e4).ceil() / 1e4
+}
+
+/// A factor of the normal module as the file has it, without the digits of the conversion.
+fn of_file(factor: f64, factor_scale: f64) -> String {
+    number((factor / factor_scale * 1e10).round() / 1e10)
 }
 
 /// A derived length without the digits of its rounding.
@@ -240,14 +270,11 @@ mod tests {
                 of_pinion("tip_diameter_mm"),
             ),
             (
-                PairError::Interference {
-                    gear: Gear::Wheel,
-                    contact_diameter_mm: Some(101.0),
-                    form_diameter_mm: 102.61,
-                },
+                PairError::Interference { gear: Gear::Wheel, overlap_mm: 0.1, greatest_tip_diameter_mm: 82.0 },
                 of_pinion("tip_diameter_mm"),
             ),
             (PairError::NoTipClearance { gear, clearance_mm: -0.5 }, of_pinion("tip_diameter_mm")),
+            (PairError::RackPointed { greatest_dedendum_factor: 1.1216 }, "pair.basic_rack.dedendum_factor".to_owned()),
             (PairError::RackTipPointed { greatest: 0.47 }, "pair.basic_rack.fillet_radius_factor".to_owned()),
             (PairError::NoTooth { gear }, of_pinion("profile_shift")),
             (

@@ -4,7 +4,7 @@ use super::curve;
 use crate::gear::{Gear, PerGear};
 use crate::lubrication::settings::{
     BaseOil, FrictionModel, FrictionSettings, FrictionTable, LoadFactors, LubricantSettings, LubricationSettings,
-    OilSettings, PressureViscosity, Roughness,
+    OilSettings, PressureViscosity, Roughness, ScuffingSettings,
 };
 use crate::scene::file::{GearFile, PairFile, SceneFile};
 use crate::scene::findings::Findings;
@@ -191,6 +191,11 @@ fn lubricant(
         central_film,
         lubricant_factor: file.lubricant_factor,
         permissible_lambda: file.permissible_lambda,
+        scuffing: ScuffingSettings {
+            fzg_load_stage: file.fzg_scuffing_load_stage,
+            structural_factor: *file.structural_factor.get_or_insert(1.0),
+            relative_run_in: *file.relative_run_in.get_or_insert(1.0),
+        },
         roughness: PerGear { pinion: roughness.pinion?, wheel: roughness.wheel? },
         // λ/√κ is √(λ ρ c).
         thermal_contact_w_s05_per_m2_k: material

@@ -139,6 +139,9 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let thermal = materials.as_ref().map(|materials| materials.thermal);
     let laws = wear.as_ref().map(|wear| wear.as_ref().map(|own| own.law));
     let heat = temperature::choose(&mut file, materials.as_ref(), laws, findings);
+    if let (true, Some(materials), Some(wear)) = (has_tooth_temperature, &materials, &wear) {
+        temperature::check_followers(&file.wear, materials, wear, findings);
+    }
     let lubrication = lubrication::choose(&mut file, thermal, findings);
     let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
     let in_space = slices.is_some_and(|slices| slices.coupling == Coupling::Fem);

@@ -8,6 +8,7 @@
 //!
 //! with ρ_a at the tip circle and ρ_Nf at the start of active profile (SAP). A helix slope is a deviation, or the whole tolerance of a class.
 
+use crate::gear::flank_edge::LEAST_ROUNDING_MODULES;
 use crate::gear::modification::{EndRelief, Modification, Relief};
 use crate::gear::spec::PairSpec;
 use crate::gear::{Gear, GearPair, tolerance};
@@ -54,11 +55,21 @@ fn of_gear(
     let tip_relief = relief(&mut file.tip_relief, "tip_relief", FlankEnd::Tip, findings);
     let root_relief = relief(&mut file.root_relief, "root_relief", FlankEnd::Root, findings);
     let helix_slope_um = helix_slope_um(file, gear, spec, findings);
+    let tip_rounding_mm = *file.tip_rounding_mm.get_or_insert(0.0);
+    let least_mm = LEAST_ROUNDING_MODULES * spec.normal_module_mm;
+    if tip_rounding_mm > 0.0 && tip_rounding_mm < least_mm {
+        findings.warnings.push(format!(
+            "{}: {} mm is less than {} mm, a thousandth of the module, and as rough as a ground surface: the tip edge counts as sharp",
+            key("tip_rounding_mm"),
+            number(tip_rounding_mm),
+            number((least_mm * 1e7).round() / 1e7),
+        ));
+    }
     Some(Modification {
         tip_relief: tip_relief?,
         root_relief: root_relief?,
         profile_crowning_mm: UM * *file.profile_crowning_um.get_or_insert(0.0),
-        tip_rounding_mm: *file.tip_rounding_mm.get_or_insert(0.0),
+        tip_rounding_mm,
         lead_crowning_mm: UM * *file.lead_crowning_um.get_or_insert(0.0),
         end_relief: file.end_relief.as_mut().map(end_relief),
         helix_slope_mm: UM * helix_slope_um?,

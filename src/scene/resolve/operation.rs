@@ -28,7 +28,7 @@ pub(super) fn choose(file: &mut OperationFile, findings: &mut Findings) -> Optio
         pinion_torque_n_mm: 1e3 * file.pinion_torque_Nm.unwrap_or(1.0),
         pinion_speed_rpm: file.pinion_speed_rpm,
         coefficient_mm2_per_n: PerGear::default(),
-        flank_c: None,
+        flank_c: PerGear::default(),
         young_modulus_mpa: None,
         end_revolutions: 0.0,
     };
@@ -146,7 +146,7 @@ fn phases(given: &[PhaseFile], of_whole: Phase, findings: &mut Findings) -> Opti
             pinion_torque_n_mm: phase.pinion_torque_Nm.map_or(of_whole.pinion_torque_n_mm, |torque| 1e3 * torque),
             pinion_speed_rpm,
             coefficient_mm2_per_n,
-            flank_c: None,
+            flank_c: PerGear::default(),
             young_modulus_mpa: None,
             end_revolutions,
         });

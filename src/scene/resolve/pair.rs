@@ -96,17 +96,21 @@ fn rack(
     let addendum_factor = factor_scale * *file.addendum_factor.get_or_insert(standard.addendum_factor);
     let dedendum_factor = factor_scale * *file.dedendum_factor.get_or_insert(standard.dedendum_factor);
     let fillet = file.fillet_radius_factor.unwrap_or_else(|| {
-        // The standard's rounding of a transverse module does not fit into the normal section of a steep helix.
-        let room = normal_pressure_angle_rad.map_or(f64::INFINITY, |alpha| {
-            greatest_fillet_radius_factor(alpha, dedendum_factor) / factor_scale
-        });
-        if factor_scale == 1.0 || room >= standard.fillet_radius_factor || room <= 0.0 {
+        // The standard's rounding does not fit into a rack of great pressure angle or dedendum, nor that of a transverse module into the
+        // normal section of a steep helix. Where no rounding fits, the rack itself is refused.
+        let room = normal_pressure_angle_rad
+            .map_or(f64::INFINITY, |alpha| greatest_fillet_radius_factor(alpha, dedendum_factor) / factor_scale);
+        if room >= standard.fillet_radius_factor || room < 0.0 {
             return standard.fillet_radius_factor;
         }
-        let fits = (1e3 * room).floor() / 1e3;
+        let fits = (1e4 * room).floor() / 1e4;
+        let why = if factor_scale == 1.0 {
+            "the default does not fit between the flanks of the rack at this pressure angle and dedendum"
+        } else {
+            "that much of the transverse module, the default, does not fit into the normal section of the rack"
+        };
         findings.warnings.push(format!(
-            "pair.basic_rack.fillet_radius_factor: {} of the transverse module does not fit into the normal section of the rack; \
-             {fits} is used",
+            "pair.basic_rack.fillet_radius_factor: {fits} instead of {}, as {why}",
             standard.fillet_radius_factor
         ));
         fits

@@ -6,12 +6,12 @@ use crate::contact::settings::Material;
 use crate::gear::{Gear, PerGear};
 use crate::scene::file::{OperationFile, PhaseFile, SceneFile};
 use crate::scene::findings::Findings;
-use crate::scene::wear_file::{ToothLubrication, ToothTemperatureFile};
+use crate::scene::wear_file::{ToothLubrication, ToothTemperatureFile, WearFile};
 use crate::thermal::settings::{ABSOLUTE_ZERO_C, HeatSettings};
 use crate::thermal::tooth::{
     DRY_ON_METAL, DRY_ON_PLASTIC, IN_OIL, TemperatureCurve, ToothCoefficients, ToothHeatSettings,
 };
-use crate::wear::settings::LawSettings;
+use crate::wear::settings::{LawSettings, WearSettings};
 
 const FRICTION_COEFFICIENT: f64 = 0.1;
 const BULK_TEMPERATURE_C: f64 = 90.0;
@@ -39,6 +39,7 @@ pub(super) fn choose(
         return None;
     }
     let has_mesh_friction = file.friction.is_some() || file.lubricant.is_some();
+    let oil_c = file.lubricant.as_ref().and_then(|lubricant| lubricant.temperature_C);
     let file = file.temperature.get_or_insert_default();
     let tooth = match &mut file.tooth {
         None => None,
@@ -51,8 +52,10 @@ pub(super) fn choose(
             Some(ToothHeatSettings { is_bulk: file.bulk_temperature_C.is_none(), ..chosen })
         }
     };
-    let bulk_c = match tooth {
-        Some(tooth) if tooth.is_bulk => tooth.ambient_c,
+    let is_bulk_of_mesh = tooth.is_none() && file.bulk_temperature_C.is_none() && oil_c.is_some();
+    let bulk_c = match (tooth, oil_c) {
+        (Some(tooth), _) if tooth.is_bulk => tooth.ambient_c,
+        (_, Some(oil_c)) if is_bulk_of_mesh => oil_c,
         _ => *file.bulk_temperature_C.get_or_insert(BULK_TEMPERATURE_C),
     };
     if !has_mesh_friction {
@@ -64,6 +67,7 @@ pub(super) fn choose(
         partition: *file.partition.get_or_insert_default(),
         friction_coefficient: file.friction_coefficient,
         bulk_temperature_k: bulk_c - ABSOLUTE_ZERO_C,
+        is_bulk_of_mesh,
         tooth,
         material: materials.thermal,
     }))
@@ -92,9 +96,50 @@ fn tooth_heat(
         ambient_c: file.ambient_temperature_C?,
         coefficients: coefficients?,
         housing_k_per_w: housing_k_per_w?,
+        of: with_tooth_temperature(material),
         duty_cycle: *file.duty_cycle.get_or_insert(1.0),
         is_bulk: false,
     })
+}
+
+/// Gears of whose teeth VDI 2736-2 has a temperature: the plastic ones; of two metal gears both, whose coefficients the user gives.
+pub(super) fn with_tooth_temperature(material: &PerGear<Material>) -> PerGear<bool> {
+    let plastic = material.map(|body| body.is_plastic());
+    if plastic.pinion || plastic.wheel { plastic } else { PerGear { pinion: true, wheel: true } }
+}
+
+/// Refuses what is to follow the temperature of teeth that have none.
+pub(super) fn check_followers(
+    file: &Option<WearFile>,
+    materials: &Materials,
+    wear: &PerGear<WearSettings>,
+    findings: &mut Findings,
+) {
+    let has_temperature = with_tooth_temperature(&materials.elastic);
+    let own_wear = |gear: Gear| match gear {
+        Gear::Pinion => file.as_ref()?.pinion.as_ref(),
+        Gear::Wheel => file.as_ref()?.wheel.as_ref(),
+    };
+    for gear in Gear::BOTH.into_iter().filter(|&gear| !has_temperature[gear]) {
+        let (name, mate) = (gear.name(), gear.mate().name());
+        let found = format!(
+            "given for the {name}, of metal beside a plastic {mate}, of whose teeth VDI 2736-2 has no temperature"
+        );
+        if materials.modulus[gear].is_some() {
+            findings.not_allowed(
+                &format!("material.{name}.young_modulus_curve"),
+                found.clone(),
+                format!("material.{name}.young_modulus_GPa"),
+            );
+        }
+        if own_wear(gear).is_some_and(|own| own.warm.is_some()) {
+            findings.not_allowed(&format!("wear.{name}.warm"), found, format!("wear.{mate}.warm"));
+        } else if wear[gear].warm.is_some() && wear[gear].coefficient_mm2_per_n > 0.0 {
+            findings.warnings.push(format!(
+                "wear.warm: the {name}, of metal, keeps its coefficient: VDI 2736-2 has the temperature of the plastic {mate} alone"
+            ));
+        }
+    }
 }
 
 /// k_θ as given, or by the lubrication of the pair.

@@ -173,7 +173,9 @@ mod tests {
             zones: FlankZones {
                 active_start_radius_mm: 0.0,
                 tip_edge_radius_mm: f64::INFINITY,
+                tip_end_radius_mm: f64::INFINITY,
                 tip_radius_mm: f64::INFINITY,
+                pressure_length_mm: 0.04,
             },
         };
         let alternating = (0..2000).map(|i| 3.0 + if i % 2 == 0 { 1.0 } else { -1.0 }).collect();

@@ -181,7 +181,7 @@ fn finished(measured: &[Measured], index: usize) -> Result<&Finished, AccuracyEr
 
 fn windows(resolved: &Resolved, measured: &[Measured]) -> Result<Windows, AccuracyError> {
     let summary = &finished(measured, 0)?.summary;
-    let sharp = PerGear::from_fn(|gear| resolved.scene.pair.gears[gear].modification.tip_rounding_mm == 0.0);
+    let sharp = PerGear::from_fn(|gear| resolved.scene.pair.is_tip_sharp(gear));
     Ok(Windows::new(&summary.geometry.curvature_radius_mm, sharp, summary.contact.hertz_half_width_mm))
 }
 

@@ -4,6 +4,7 @@ use std::io;
 
 use super::axis::{self, AxisError};
 use super::combination::Sweep;
+use super::figures::name_now;
 use super::goal::{Goal, GoalError};
 use super::journal::JournalError;
 use crate::report::ReportError;
@@ -16,12 +17,24 @@ pub struct SweepQuestion {
     /// Keys and their values: `KEY=FROM:TO:COUNT`, the same with `:log` for equal ratios, or `KEY=VALUE,VALUE,…` of rising numbers or of
     /// words. The first changes slowest.
     pub vary: Vec<String>,
-    /// The figure that is to be least, a column of `sweep.csv`.
+    /// The figure that is to be least, a column of `sweep.csv`: its path in `summary.json`.
     pub best: Option<String>,
     /// Limits that the best keeps to: `FIGURE<=VALUE` or `FIGURE>=VALUE`.
     pub subject_to: Vec<String>,
     /// Whether the errors of each combination are estimated.
     pub error_estimate: bool,
+}
+
+impl SweepQuestion {
+    /// What to say of figures that are asked for by the name that they had in the version before.
+    pub fn notes(&self) -> Vec<String> {
+        let of_limits = self.subject_to.iter().map(|limit| limit.split(['<', '>']).next().unwrap_or_default().trim());
+        let asked = self.best.iter().map(String::as_str).chain(of_limits);
+        let former = asked.filter_map(|name| Some((name, name_now(name)?)));
+        former
+            .map(|(name, now)| format!("{name} is now called {now}; the next version does not know the older name"))
+            .collect()
+    }
 }
 
 /// Why a sweep cannot be run or its rows not be kept.

@@ -38,9 +38,9 @@ pub(crate) struct Limit {
 /// What is wrong with a goal.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum GoalError {
-    #[error("unknown figure {name}; allowed: a column of sweep.csv such as pinion_peak_wear_um{}", meant.as_ref().map_or_else(String::new, |meant| format!("; did you mean {meant}?")))]
+    #[error("unknown figure {name}; allowed: a column of sweep.csv such as pinion.peak_wear_um{}", meant.as_ref().map_or_else(String::new, |meant| format!("; did you mean {meant}?")))]
     Unknown { name: String, meant: Option<&'static str> },
-    #[error("found {given:?}; allowed: FIGURE<=VALUE or FIGURE>=VALUE, such as \"wheel_peak_wear_um<=8\"")]
+    #[error("found {given:?}; allowed: FIGURE<=VALUE or FIGURE>=VALUE, such as \"wheel.peak_wear_um<=8\"")]
     Form { given: String },
 }
 
@@ -90,7 +90,7 @@ impl Goal {
         row.error.is_none() && row.figure(self.figure()).is_some() && self.limits.iter().all(keeps)
     }
 
-    /// In words: "pinion_peak_wear_um, with wheel_peak_wear_um ≤ 8".
+    /// In words: "pinion.peak_wear_um, with wheel.peak_wear_um ≤ 8".
     pub(crate) fn in_words(&self) -> String {
         let limits: Vec<String> = self.limits.iter().map(ToString::to_string).collect();
         if limits.is_empty() { self.figure.clone() } else { format!("{}, with {}", self.figure, limits.join(" and ")) }
@@ -175,13 +175,13 @@ type Claimed = fn(&TotalError) -> Option<f64>;
 fn claim_of(figure: &str) -> Option<Claimed> {
     Some(match figure {
         "peak_wear_um" => |total| Some(total.peak_wear.pinion?.max(total.peak_wear.wheel?)),
-        "pinion_peak_wear_um" => |total| total.peak_wear.pinion,
-        "wheel_peak_wear_um" => |total| total.peak_wear.wheel,
-        "pinion_tip_edge_wear_um" => |total| total.tip_edge_wear.pinion,
-        "wheel_tip_edge_wear_um" => |total| total.tip_edge_wear.wheel,
-        "peak_pressure_new_MPa" => |total| total.peak_pressure.new,
-        "peak_pressure_worn_MPa" => |total| total.peak_pressure.worn,
-        "transmission_error_peak_to_peak_new_um" | "transmission_error_peak_to_peak_worn_um" => {
+        "pinion.peak_wear_um" => |total| total.peak_wear.pinion,
+        "wheel.peak_wear_um" => |total| total.peak_wear.wheel,
+        "pinion.tip_edge_wear_um" => |total| total.tip_edge_wear.pinion,
+        "wheel.tip_edge_wear_um" => |total| total.tip_edge_wear.wheel,
+        "new.flank_pressure_MPa" => |total| total.flank_pressure.new,
+        "worn.flank_pressure_MPa" => |total| total.flank_pressure.worn,
+        "new.transmission_error_um.peak_to_peak" | "worn.transmission_error_um.peak_to_peak" => {
             |total| total.transmission_error_peak_to_peak
         }
         _ => return None,
@@ -210,7 +210,7 @@ mod tests {
         let identity = SweepIdentity { axes: vec![axis], ..SweepIdentity::default() };
         let row = |(index, &wear): (usize, &f64)| {
             let of =
-                |figure: &SweepFigure| Some(if figure.name == "pinion_peak_wear_um" { wear } else { index as f64 });
+                |figure: &SweepFigure| Some(if figure.name == "pinion.peak_wear_um" { wear } else { index as f64 });
             let figures = FIGURES.iter().map(of).collect();
             SweepRow { index, values: identity.values(index), figures, ..SweepRow::default() }
         };
@@ -222,7 +222,7 @@ mod tests {
     #[test]
     fn ver_an_optimum_is_a_plateau_of_the_width_of_its_error() {
         let (identity, mut rows) = rows(&[10.0, 9.0, 8.9, 9.2, 12.0]);
-        let goal = Goal::new("pinion_peak_wear_um", Vec::new()).unwrap();
+        let goal = Goal::new("pinion.peak_wear_um", Vec::new()).unwrap();
         let unknown = goal.optimum(&identity, &rows).unwrap();
         assert_eq!((unknown.index, unknown.value, unknown.error, unknown.plateau), (2, 8.9, None, None));
         assert!(unknown.why_no_error.unwrap().contains("not verified"));
@@ -233,18 +233,18 @@ mod tests {
         assert_eq!(found.plateau, Some(vec![1, 2, 3]));
         assert_eq!(found.plateau_keys.unwrap(), ["pair.pinion.tip_relief.amount_um from 1 to 3"]);
         // Every figure but this one is the number of the row.
-        let limited = Goal::new("pinion_peak_wear_um", vec!["wheel_peak_wear_um<=1".parse().unwrap()]).unwrap();
+        let limited = Goal::new("pinion.peak_wear_um", vec!["wheel.peak_wear_um<=1".parse().unwrap()]).unwrap();
         let found = limited.optimum(&identity, &rows).unwrap();
         assert_eq!((found.index, found.within_limits), (1, 2));
-        let never = Goal::new("pinion_peak_wear_um", vec!["wheel_peak_wear_um >= 9".parse().unwrap()]).unwrap();
+        let never = Goal::new("pinion.peak_wear_um", vec!["wheel.peak_wear_um >= 9".parse().unwrap()]).unwrap();
         assert_eq!(never.optimum(&identity, &rows), None);
     }
 
     #[test]
     fn what_is_wrong_with_a_goal_is_said() {
         let unknown = Goal::new("pinion_peak_wear", Vec::new()).unwrap_err().to_string();
-        assert!(unknown.contains("did you mean pinion_peak_wear_um?"), "{unknown}");
-        for given in ["wheel_peak_wear_um<8", "wheel_peak_wear_um<=", "wheel_peak_wear_um<=eight"] {
+        assert!(unknown.contains("did you mean pinion.peak_wear_um?"), "{unknown}");
+        for given in ["wheel.peak_wear_um<8", "wheel.peak_wear_um<=", "wheel.peak_wear_um<=eight"] {
             assert!(given.parse::<Limit>().unwrap_err().to_string().contains("FIGURE<=VALUE"), "{given}");
         }
     }

@@ -98,8 +98,8 @@ pub(crate) const CLAIMS: [Claim; 10] = [
     claim("error.total.pressure_between_tips", "pressure between the tip edges (rms)", |total| {
         total.pressure_between_tips
     }),
-    claim("error.total.peak_pressure.new", "maximum pressure, new", |total| total.peak_pressure.new),
-    claim("error.total.peak_pressure.worn", "maximum pressure, worn", |total| total.peak_pressure.worn),
+    claim("error.total.flank_pressure.new", "flank pressure, new", |total| total.flank_pressure.new),
+    claim("error.total.flank_pressure.worn", "flank pressure, worn", |total| total.flank_pressure.worn),
 ];
 
 /// The corners of the box that is swept, at most [`MOST_CORNERS`], by index.

@@ -42,6 +42,9 @@ pub(crate) struct ContactSummary {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(crate) struct MeshSummary {
     pub peak_pressure_MPa: Option<f64>,
+    pub flank_pressure_MPa: Option<f64>,
+    pub tip_edge_line_load_N_per_mm: Option<f64>,
+    pub tip_edge_mean_pressure_MPa: Option<f64>,
     pub transmission_error_um: RangeSummary,
 }
 

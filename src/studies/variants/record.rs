@@ -89,7 +89,7 @@ impl Figure {
     }
 }
 
-static FIGURES: [Figure; 17] = [
+static FIGURES: [Figure; 23] = [
     Figure::of(
         "pinion.peak_wear_um",
         "Maximum wear of the pinion, active profile",
@@ -147,18 +147,60 @@ static FIGURES: [Figure; 17] = [
         |_| None,
     ),
     Figure::of(
+        "worn.flank_pressure_MPa",
+        "Flank pressure, worn",
+        "MPa",
+        |s| s.worn.flank_pressure_MPa,
+        |e| e.flank_pressure.worn,
+    ),
+    Figure::of(
+        "new.flank_pressure_MPa",
+        "Flank pressure, new",
+        "MPa",
+        |s| s.new.flank_pressure_MPa,
+        |e| e.flank_pressure.new,
+    ),
+    Figure::of(
+        "worn.tip_edge_line_load_N_per_mm",
+        "Line load of a tip edge, worn",
+        "N/mm",
+        |s| s.worn.tip_edge_line_load_N_per_mm,
+        |_| None,
+    ),
+    Figure::of(
+        "new.tip_edge_line_load_N_per_mm",
+        "Line load of a tip edge, new",
+        "N/mm",
+        |s| s.new.tip_edge_line_load_N_per_mm,
+        |_| None,
+    ),
+    Figure::of(
+        "worn.tip_edge_mean_pressure_MPa",
+        "Pressure of a tip edge over 0.04 mm, worn",
+        "MPa",
+        |s| s.worn.tip_edge_mean_pressure_MPa,
+        |_| None,
+    ),
+    Figure::of(
+        "new.tip_edge_mean_pressure_MPa",
+        "Pressure of a tip edge over 0.04 mm, new",
+        "MPa",
+        |s| s.new.tip_edge_mean_pressure_MPa,
+        |_| None,
+    ),
+    Figure::of(
         "worn.peak_pressure_MPa",
-        "Maximum pressure, worn",
+        "Maximum pressure at a point, worn",
         "MPa",
         |s| s.worn.peak_pressure_MPa,
-        |e| e.peak_pressure.worn,
+        |_| None,
     ),
     Figure::of(
         "new.peak_pressure_MPa",
-        "Maximum pressure, new",
+        "Maximum pressure at a point, new",
         "MPa",
         |s| s.new.peak_pressure_MPa,
-        |e| e.peak_pressure.new,
+        |_| None,
     ),
     Figure::of("pinion.worn_volume_mm3", "Worn volume of the pinion", "mm³", |s| s.pinion.worn_volume_mm3, |_| None),
     Figure::of("wheel.worn_volume_mm3", "Worn volume of the wheel", "mm³", |s| s.wheel.worn_volume_mm3, |_| None),
@@ -304,7 +346,7 @@ fn warnings(runs: &[FinishedRun]) -> Vec<String> {
         )
     });
     let pressures = runs.iter().filter_map(|run| {
-        let (new, worn) = (run.summary.new.peak_pressure_MPa, run.summary.worn.peak_pressure_MPa);
+        let (new, worn) = (run.summary.new.flank_pressure_MPa, run.summary.worn.flank_pressure_MPa);
         let (pressure_mpa, when) = if worn > new { (worn?, "worn") } else { (new?, "new") };
         steel_yield::warning(pressure_mpa, &format!("{}, {when}", run.name))
     });

@@ -148,7 +148,9 @@ fn flank(gear: Gear) -> FlankRecord {
         zones: FlankZones {
             active_start_radius_mm: [34.123, 51.998][gear as usize],
             tip_edge_radius_mm: tip - 0.4,
+            tip_end_radius_mm: tip - 0.1,
             tip_radius_mm: tip,
+            pressure_length_mm: 0.04,
         },
         radius_mm,
     }
@@ -174,6 +176,8 @@ fn history_row(hours: f64) -> HistoryRow {
         wheel_tip_edge_wear_um: 0.0,
         pinion_below_sap_wear_um: 0.0,
         wheel_below_sap_wear_um: 0.0,
+        flank_pressure_MPa: 1655.8,
+        tip_edge_line_load_N_per_mm: 260.0,
     }
 }
 
@@ -223,10 +227,20 @@ fn summary() -> Summary {
         tip_thickness_mm: 2.73,
         tip_clearance_mm: 1.12,
         undercut: false,
+        tip_form_diameter_mm: tip,
+        end_of_active_profile_diameter_mm: tip,
+        specific_sliding_at_root: Some(-3.5),
+        span_teeth: Some(3),
+        span_mm: Some(34.9),
+        ball_diameter_mm: Some(7.776),
+        dimension_over_balls_mm: Some(tip + 1.7),
     };
     let cycle = |peak, te_min, te_max| CycleSummary {
         peak_pressure_MPa: peak,
         sharp_edge_pressure_MPa: None,
+        flank_pressure_MPa: 0.98 * peak,
+        tip_edge_line_load_N_per_mm: 260.0,
+        tip_edge_mean_pressure_MPa: 3000.0,
         pitch_pressure_MPa: 1655.8,
         load_imbalance: 1e-12,
         transmission_error_um: RangeSummary { min: te_min, max: te_max, peak_to_peak: te_max - te_min },
@@ -298,6 +312,7 @@ fn summary() -> Summary {
             teeth_at_pitch_N_per_mm_um: 20.0,
             split_remainder_at_half_load: Some(0.012),
         }),
+        stiffness_iso_6336_1: None,
         root_stress: PerGear::from_fn(|_| root_stress()),
         wear: Some(law()),
         wear_of_gear: PerGear::from_fn(|_| law()),

@@ -19,6 +19,15 @@ pub struct CondensedPair<'a> {
 }
 
 impl CondensedPair<'_> {
+    /// How far before A and after E contact is found in the base pitch from A on, mm of path: as far as tip circles reach each other, or as
+    /// there are fine teeth for it.
+    pub fn range_mm(&self) -> [f64; 2] {
+        let (path, beside) = (&self.pair.path, (self.gears.pinion.teeth().min(self.gears.wheel.teeth()) / 2) as f64);
+        let [before, after] = self.pair.farthest_touch_mm();
+        let of_teeth = [beside, beside + 1.0 - path.contact_ratio()].map(|pitches| pitches * path.base_pitch_mm);
+        [before.min(of_teeth[0]), after.min(of_teeth[1])]
+    }
+
     /// The same elements of gears with other Young's moduli; Poisson's ratios stay.
     pub fn with_moduli(&self, condensed: &PerGear<Elastic>, own: &PerGear<Elastic>) -> Self {
         let softness = PerGear::from_fn(|gear| condensed[gear].young_modulus_mpa / own[gear].young_modulus_mpa);

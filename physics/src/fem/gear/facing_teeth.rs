@@ -1,7 +1,7 @@
 //! Two teeth that may touch: coupled by mortar on their true profiles in their true places.
 //!
-//! Of the two flanks, one is in contact with its addendum: the wheel's below the pitch point, the pinion's above it. Where its
-//! tip edge is sharp, the pressure lives on it, so that multipliers end where the flank ends. Where it is rounded, the
+//! One of the two flanks ends the contact with an edge: below the pitch point with the wheel's tip edge or the corner of an undercut pinion,
+//! above it with the pinion's tip edge or the corner of an undercut wheel. Where that edge is sharp, the pressure lives on its flank, so that multipliers end where the flank ends. Where it is rounded, the
 //! pressure lives on the mate, so that normals are those of the smoother surface: normals that turn within the contact
 //! would mix the sliding of the surfaces on each other into the gap.
 
@@ -15,12 +15,11 @@ use super::condensed_pair::hertz_half_width_mm;
 use super::flank_surface::FlankSurface;
 use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
 use crate::fem::contact::mortar::Coupling;
+use crate::gear::flank_edge::{FlankEdge, PathEnd};
 use crate::gear::{Gear, PerGear};
 
 /// Rows at an inner end of the window that must stay without load.
 const FREE_ROWS: usize = 3;
-/// Parts of a base pitch before A and after E in which contact outside the line of action is looked for.
-pub(super) const OUTSIDE_BASE_PITCHES: f64 = 0.3;
 
 /// Which way a displacement of the flanks is looked at.
 #[derive(Debug, Clone, Copy)]
@@ -83,12 +82,12 @@ impl CondensedPair<'_> {
     fn facing(&self, position_mm: f64, pair: i32, window: &Window) -> Option<FacingTeeth> {
         let path = &self.pair.path;
         let own_mm = position_mm + f64::from(pair) * path.base_pitch_mm;
-        let outside_mm = OUTSIDE_BASE_PITCHES * path.base_pitch_mm;
-        if own_mm < path.start_mm - outside_mm || own_mm > path.end_mm + outside_mm {
+        let [before_mm, after_mm] = self.pair.farthest_touch_mm();
+        if own_mm < path.start_mm - before_mm || own_mm > path.end_mm + after_mm {
             return None;
         }
-        let addendum = if own_mm <= path.pitch_point_mm { Gear::Wheel } else { Gear::Pinion };
-        let slave = if self.flanks[addendum].sharp { addendum } else { addendum.mate() };
+        let edge = self.pair.edge(if own_mm <= path.pitch_point_mm { PathEnd::Start } else { PathEnd::End });
+        let slave = if edge.is_sharp { edge.gear } else { edge.gear.mate() };
         let master = slave.mate();
         let expected = self.expected_from_tip_mm(position_mm, pair, own_mm);
         let half_width_mm = hertz_half_width_mm(self.pair, self.contact_modulus_mpa, window.line_load_n_per_mm, own_mm);
@@ -137,27 +136,40 @@ impl CondensedPair<'_> {
         })
     }
 
-    /// ρ of the flank of `gear` at the radius that its mate's tip end has from its axis.
-    pub(super) fn rho_at_mates_tip_mm(&self, gear: Gear, position_mm: f64, pair: i32) -> f64 {
-        let mate = &self.flanks[gear.mate()];
-        let tip = mate.surface.points_mm[mate.tip_node()];
-        let tip = in_place_mm(self.pair, gear.mate(), position_mm, pair, tip);
-        self.pair.path.involute[gear].curvature_radius_mm((tip - axis_mm(self.pair, gear)).norm())
+    /// The edge beyond which a tooth pair with its theoretical contact point at `own_mm` is; none between A and E.
+    pub(super) fn edge_passed(&self, own_mm: f64) -> Option<FlankEdge> {
+        let path = &self.pair.path;
+        if own_mm < path.start_mm {
+            Some(self.pair.edge(PathEnd::Start))
+        } else if own_mm > path.end_mm {
+            Some(self.pair.edge(PathEnd::End))
+        } else {
+            None
+        }
+    }
+
+    /// ρ of the mate's flank at the radius that `edge` has from the mate's axis.
+    pub(super) fn rho_at_edge_mm(&self, edge: FlankEdge, position_mm: f64, pair: i32) -> f64 {
+        let own = &self.flanks[edge.gear];
+        let point = own.surface.points_mm[if edge.at_root { own.root_node() } else { own.tip_node() }];
+        let point = in_place_mm(self.pair, edge.gear, position_mm, pair, point);
+        let mate = edge.gear.mate();
+        self.pair.path.involute[mate].curvature_radius_mm((point - axis_mm(self.pair, mate)).norm())
     }
 
     /// Where contact is expected on each flank, from its tip end: on the line of action, or before A and after E at the
-    /// mate's tip.
+    /// edge.
     fn expected_from_tip_mm(&self, position_mm: f64, pair: i32, own_mm: f64) -> PerGear<f64> {
-        let path = &self.pair.path;
-        let at_mates_tip =
-            |gear: Gear| self.flanks[gear].distance_to_tip_mm(self.rho_at_mates_tip_mm(gear, position_mm, pair));
-        if own_mm < path.start_mm {
-            PerGear { pinion: at_mates_tip(Gear::Pinion), wheel: 0.0 }
-        } else if own_mm > path.end_mm {
-            PerGear { pinion: 0.0, wheel: at_mates_tip(Gear::Wheel) }
-        } else {
-            PerGear::from_fn(|gear| self.flanks[gear].distance_to_tip_mm(path.rho_mm(gear, own_mm)))
-        }
+        let edge = self.edge_passed(own_mm);
+        PerGear::from_fn(|gear| {
+            let flank = &self.flanks[gear];
+            match edge {
+                Some(edge) if edge.gear == gear && edge.at_root => flank.from_tip_mm[flank.root_node()],
+                Some(edge) if edge.gear == gear => 0.0,
+                Some(edge) => flank.distance_to_tip_mm(self.rho_at_edge_mm(edge, position_mm, pair)),
+                None => flank.distance_to_tip_mm(self.pair.path.rho_mm(gear, own_mm)),
+            }
+        })
     }
 
     /// Change of each gap of a pair, or of its place along the flank from root to tip, per transmission error.

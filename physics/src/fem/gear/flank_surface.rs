@@ -43,6 +43,11 @@ impl FlankSurface {
         self.surface.edges.first().map_or(0, |edge| edge.nodes()[0])
     }
 
+    /// Local number of the node at the root end.
+    pub(crate) fn root_node(&self) -> usize {
+        self.surface.edges.last().map_or(0, |edge| edge.nodes()[1])
+    }
+
     /// Distance from the tip end of the point with radius of curvature `rho_mm`, within the surface, mm.
     pub(crate) fn distance_to_tip_mm(&self, rho_mm: f64) -> f64 {
         let mut nearest = (f64::INFINITY, 0.0);

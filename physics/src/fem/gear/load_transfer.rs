@@ -316,16 +316,14 @@ impl CondensedPair<'_> {
         let involute = path.involute[gear];
         let ahead_mm = f64::from(pair) * path.base_pitch_mm;
         let own_mm = position_mm + ahead_mm;
-        let beyond_mates_tip = match gear {
-            Gear::Pinion => own_mm < path.start_mm,
-            Gear::Wheel => own_mm > path.end_mm,
+        let edge = self.edge_passed(own_mm);
+        let arc = |at_mm: f64| match edge {
+            Some(edge) if edge.gear != gear => involute.arc_mm(self.rho_at_edge_mm(edge, at_mm, pair)),
+            _ => involute.arc_mm(path.rho_mm(gear, at_mm + ahead_mm)),
         };
-        let arc = |at_mm: f64| match beyond_mates_tip {
-            true => involute.arc_mm(self.rho_at_mates_tip_mm(gear, at_mm, pair)),
-            false => involute.arc_mm(path.rho_mm(gear, at_mm + ahead_mm)),
-        };
-        // On its own tip edge the contact stands still.
-        if path.rho_mm(gear, own_mm) > self.involute_end_mm(gear) {
+        // On its own edge the contact stands still.
+        let on_corner = edge.is_some_and(|edge| edge.gear == gear && edge.at_root);
+        if on_corner || path.rho_mm(gear, own_mm) > self.involute_end_mm(gear) {
             return [0.0, 0.0];
         }
         let here = arc(position_mm);

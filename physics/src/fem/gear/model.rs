@@ -116,7 +116,8 @@ impl MeshedGear {
         settings: &BodySettings,
     ) -> Result<Self, ModelError> {
         let teeth = pair.teeth[gear].teeth;
-        let fine_teeth = (touching_pairs(pair).len() as u32).min(teeth - 1 + teeth % 2);
+        let reach_mm = pair.ample_tip_reach_mm(line_load_n_per_mm, elastic::contact_modulus_mpa(material));
+        let fine_teeth = (touching_pairs(pair, reach_mm).len() as u32).min(teeth - 1 + teeth % 2);
         Self::with_fine_teeth(fine_teeth, pair, gear, material, line_load_n_per_mm, settings)
     }
 
@@ -170,7 +171,7 @@ impl MeshedGear {
             coarse: if surroundings.coarse() > 0 { Some(mesh(false)?) } else { None },
             fine_teeth,
             surroundings,
-            sharp: pair.spec.gears[gear].modification.tip_rounding_mm == 0.0,
+            sharp: pair.spec.is_tip_sharp(gear),
             settings: *settings,
         })
     }

@@ -212,9 +212,11 @@ impl<'a> CondensedPair<'a> {
     fn is_at_sharp_edge(&self, facing: &FacingTeeth, force: &[f64]) -> bool {
         Gear::BOTH.into_iter().any(|gear| {
             let (operator, flank) = (&facing.operator[gear], &self.flanks[gear]);
-            let tip = flank.tip_node();
-            let at_tip = |row: sprs::CsVecView<'_, f64>| row.iter().any(|(column, b)| column / 2 == tip && *b != 0.0);
-            flank.sharp && operator.outer_iterator().zip(force).any(|(row, f)| *f > 0.0 && at_tip(row))
+            let loads = |node: usize| {
+                let at = |row: sprs::CsVecView<'_, f64>| row.iter().any(|(column, b)| column / 2 == node && *b != 0.0);
+                operator.outer_iterator().zip(force).any(|(row, f)| *f > 0.0 && at(row))
+            };
+            (flank.sharp && loads(flank.tip_node())) || (self.pair.teeth[gear].undercut && loads(flank.root_node()))
         })
     }
 }

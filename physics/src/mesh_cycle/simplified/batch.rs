@@ -7,7 +7,8 @@
 //! p = w/(2a) = √w / (2 √α)          s = 2 a |ζ| = √w · 2 √α |ζ|          a = √(α w)
 //! ```
 //!
-//! rows of both go to the wear law, and what it answers is added to the gap of the flanks before the next equilibrium.
+//! rows of both go to the wear law, and what it answers opens the gap of the flanks before the next equilibrium, along the transverse line of
+//! action by 1/cos β_b of the depth.
 
 use super::closed_form::ContactForms;
 use super::exact::SlicesInSeries;
@@ -45,7 +46,7 @@ pub(crate) struct Batch {
     /// Their states.
     pub loaded_positions: Vec<LoadedPosition>,
     packs: Vec<Pack>,
-    /// Gap of the unworn flanks.
+    /// Gap of the unworn flanks along the transverse line of action.
     modification_mm: Vec<Lanes>,
     per_root: Vec<PerRoot>,
     /// How fast the surfaces move at the contact in each lane.
@@ -53,6 +54,8 @@ pub(crate) struct Batch {
     /// The teeth of each phase, where slices are coupled.
     teeth: Vec<CoupledTeeth>,
     common: Common,
+    /// By how much the gap along the transverse line of action opens for a depth normal to the flanks ([`crate::gear::normal_section`]).
+    gap_per_depth: f64,
     /// Depth that both flanks have lost at each contact, mm.
     wear_mm: PerGear<Row>,
     /// Depth that they lose in one mesh, mm.
@@ -147,6 +150,7 @@ impl Batch {
             ratios,
             teeth: teeth_of_phases,
             common,
+            gap_per_depth: springs.pair.obliquity().transverse_mm(1.0),
             wear_mm: PerGear::from_fn(|_| row(count)),
             depth_mm: PerGear::from_fn(|_| row(count)),
             tangents: vec![Tangent::default(); longest],
@@ -205,7 +209,7 @@ impl Batch {
             for (pack, (h, dh)) in self.packs[range.clone()].iter_mut().zip(wear.iter_mut().zip(depth)) {
                 let lost = Lanes(*dh) * meshes[gear];
                 *h = (Lanes(*h) + lost).0;
-                pack.gap_mm += lost;
+                pack.gap_mm += lost * self.gap_per_depth;
             }
         }
     }
@@ -323,7 +327,7 @@ impl Batch {
         for (index, pack) in self.packs.iter_mut().enumerate() {
             pack.gap_mm = self.modification_mm[index];
             for gear in Gear::BOTH {
-                pack.gap_mm += Lanes(self.wear_mm[gear][index]);
+                pack.gap_mm += Lanes(self.wear_mm[gear][index]) * self.gap_per_depth;
             }
         }
     }

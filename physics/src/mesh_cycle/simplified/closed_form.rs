@@ -17,12 +17,16 @@
 //! 0.3 and 2e-5 for 1, where the strip is as wide as the tooth and the closed form itself says little. X is the least of [`RANGES`] that
 //! holds [`AMPLE_LOADS`] times the whole line load.
 //!
+//! Of an oblique line of contact R is that of the normal section, and s along the transverse line of action: 1/cos β_b of the flattening.
+//!
 //! Depths are smooth along the path of contact and cost an arc tangent each; they are tabulated and interpolated by cubics.
 
 use std::f64::consts::{LN_2, PI};
 
 use crate::contact::{hertz::contact_modulus_mpa, settings::Material};
-use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, path_of_contact::PathOfContact};
+use crate::gear::{
+    Gear, GearPair, PerGear, conjugate::ConjugateFlanks, normal_section::Obliquity, path_of_contact::PathOfContact,
+};
 
 /// X: ranges of (a/t)² with a polynomial each.
 pub const RANGES: [f64; 4] = [0.03, 0.1, 0.3, 1.0];
@@ -48,6 +52,7 @@ pub struct ContactForm {
 /// The contacts of a pair of gears.
 pub struct ContactForms<'a> {
     path: &'a PathOfContact,
+    obliquity: Obliquity,
     /// F of each gear, mm²/N.
     factor: [f64; 2],
     poisson: [f64; 2],
@@ -64,7 +69,9 @@ impl<'a> ContactForms<'a> {
     /// Of a pair under a whole line load.
     pub fn new(pair: &'a GearPair, material: &PerGear<Material>, line_load_n_per_mm: f64) -> Self {
         let constants = Gear::BOTH.map(|gear| material[gear]);
-        let factor = constants.map(|own| 2.0 / PI * (1.0 - own.poisson_ratio.powi(2)) / own.young_modulus_mpa);
+        let obliquity = pair.obliquity();
+        let factor = constants
+            .map(|own| obliquity.transverse_mm(2.0 / PI * (1.0 - own.poisson_ratio.powi(2)) / own.young_modulus_mpa));
         let table = pair.path.evenly_mm(TABLE).into_iter().map(|at| {
             let depth = Gear::BOTH.map(|gear| pair.depth_mm(gear, at));
             [factor[0] * depth[0].ln() + factor[1] * depth[1].ln(), depth[0].powi(-2), depth[1].powi(-2)]
@@ -72,6 +79,7 @@ impl<'a> ContactForms<'a> {
         let poisson = constants.map(|own| own.poisson_ratio / (1.0 - own.poisson_ratio));
         Self {
             path: &pair.path,
+            obliquity,
             factor,
             poisson,
             fits: poisson.map(|kappa| RANGES.map(|range| fit(|x| rest(x, kappa), range))),
@@ -90,7 +98,7 @@ impl<'a> ContactForms<'a> {
     pub fn at(&self, position_mm: f64) -> ContactForm {
         let [log_depths, inverse_squares @ ..] = self.between(position_mm);
         let whole = self.path.line_of_action_mm;
-        let relative_radius_mm = position_mm * (whole - position_mm) / whole;
+        let relative_radius_mm = self.obliquity.normal_radius_mm(position_mm * (whole - position_mm) / whole);
         let square_half_width = 4.0 * relative_radius_mm / (PI * self.contact_modulus_mpa);
         let to_load = 0.5 * square_half_width.ln();
         let (mut surface_mm2_per_n, mut series) = (log_depths, [0.0; 4]);

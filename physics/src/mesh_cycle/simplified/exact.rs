@@ -3,7 +3,7 @@
 //! Every contact becomes a [`PairContact`] of the closed form itself, whose gap is given; teeth and their coupling are those of the
 //! general mesh cycle ([`crate::mesh_cycle::sliced`]).
 
-use crate::contact::{Footprint, PairContact, PointContact, Response, Sweep, hertz, settings::Material};
+use crate::contact::{Footprint, PairContact, PointContact, PressedCell, Response, Sweep, hertz, settings::Material};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::mesh_cycle::{
     load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance},
@@ -17,7 +17,7 @@ use crate::reference::flattening::Flattening;
 /// A contact whose gap is known.
 struct GivenGap {
     flattening: Flattening,
-    /// Approach at which the flanks touch.
+    /// Approach along the normal at which the flanks touch.
     gap_mm: f64,
 }
 
@@ -49,6 +49,10 @@ impl PairContact for GivenGap {
     fn footprint(&self) -> Footprint {
         Footprint::default()
     }
+
+    fn pressed_cells(&self) -> Vec<PressedCell> {
+        Vec::new()
+    }
 }
 
 /// What the general solver is told of a phase beside its gaps.
@@ -76,13 +80,16 @@ impl SlicesInSeries<'_> {
         let compliance = |contact: &SliceContact| self.sliced.mm2_per_n(contact, &self.along_path);
         let mut teeth = self.sliced.coupled_teeth(self.pair, contacts, compliance);
         let coupled = teeth.is_some();
+        let section = self.pair.normal_section();
         let mut pairs: Vec<MeshedPair<'_>> = contacts
             .iter()
             .zip(gap_mm)
             .map(|(contact, gap_mm)| {
-                let flattening = hertz::flattening(self.pair, self.material, contact.cell.position_mm);
+                let gap_mm = section.obliquity.normal_mm(gap_mm);
+                let flattening = hertz::flattening(&section, self.material, contact.cell.position_mm);
                 let teeth = if coupled { f64::INFINITY } else { 1.0 / compliance(contact) };
-                let mut pair = MeshedPair::new(Box::new(GivenGap { flattening, gap_mm }), teeth);
+                let mut pair =
+                    MeshedPair::on_lever(Box::new(GivenGap { flattening, gap_mm }), teeth, 1.0, section.obliquity);
                 let nothing = PerGear { pinion: &[][..], wheel: &[][..] };
                 pair.set_removed(nothing);
                 pair

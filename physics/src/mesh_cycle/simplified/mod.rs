@@ -32,14 +32,15 @@ pub(crate) mod on_flanks;
 use rayon::prelude::*;
 
 use super::wearing_pair::WearingPair;
-use crate::contact::Footprint;
+use crate::contact::{Footprint, PressedCell};
 use crate::gear::{Gear, PerGear, flank::FlankGrid};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::mesh_cycle::{
     CycleObservation, GreatestPressure, Work,
+    flank_pressure::{FlankParts, PressureFigures},
     load_sharing::EquilibriumError,
     sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh},
-    sliced_positions::{SliceContact, SlicedPosition},
+    sliced_positions::{ContactPart, SliceContact, SlicedPosition},
 };
 use crate::wear::WearModel;
 use batch::Batch;
@@ -81,6 +82,7 @@ pub(crate) struct SimplifiedPair<'a> {
     flank_points: FlankPoints,
     /// The contacts of each slice in the order of the path.
     knots: Vec<Vec<Knot>>,
+    parts: FlankParts,
 }
 
 impl<'a> SimplifiedPair<'a> {
@@ -93,6 +95,7 @@ impl<'a> SimplifiedPair<'a> {
         modification_mm: &PerGear<Vec<f64>>,
         positions: usize,
         bodies_mm: f64,
+        parts: FlankParts,
     ) -> Self {
         let line_load = springs.line_load_n_per_mm / springs.sliced.slices.count() as f64;
         let forms = ContactForms::new(springs.pair, springs.material, line_load);
@@ -107,7 +110,7 @@ impl<'a> SimplifiedPair<'a> {
                 let own = &modification_mm[gear][contact.slice * points..(contact.slice + 1) * points];
                 grid[gear].value_at(own, path.rho_mm(gear, contact.cell.position_mm))
             };
-            PerGear::from_fn(of_gear).sum()
+            springs.pair.obliquity().transverse_mm(PerGear::from_fn(of_gear).sum())
         };
         let contacts: usize = phases.iter().map(|phase| phase.contacts.len()).sum();
         let size = phases.len().div_ceil(contacts.div_ceil(BATCH).max(1)).max(1);
@@ -120,7 +123,25 @@ impl<'a> SimplifiedPair<'a> {
         let meshes = PerGear { pinion: 0.0, wheel: 0.0 };
         let flank_points = FlankPoints::new(springs.pair, grid);
         let knots = knots(&batches, springs.sliced.slices.count());
-        Self { springs, grid, batches, meshes, positions, bodies_mm, flank_points, knots }
+        Self { springs, grid, batches, meshes, positions, bodies_mm, flank_points, knots, parts }
+    }
+
+    /// Figures of the pressure of all contacts, parts of slices apart.
+    fn pressure_figures(&self) -> PressureFigures {
+        let mut figures = PressureFigures::default();
+        let mut of_slices = vec![PressureFigures::default(); self.knots.len()];
+        for batch in &self.batches {
+            for index in 0..batch.loaded_positions.len() {
+                for (contact, _, state) in batch.contacts(index) {
+                    let cells = PressedCell::even(state.half_width_mm, state.pressure_mpa);
+                    let own = self.parts.figures(self.springs.pair, contact.cell.position_mm, &cells);
+                    let is_whole = contact.part == ContactPart::WHOLE;
+                    if is_whole { of_slices[contact.slice].note(own) } else { figures.note(own) }
+                }
+            }
+        }
+        figures.note_slices(&of_slices);
+        figures
     }
 
     /// The mesh of one tooth.
@@ -279,6 +300,7 @@ impl WearingPair for SimplifiedPair<'_> {
         let cycle = CycleObservation {
             positions,
             greatest_pressure,
+            pressure_figures: self.pressure_figures(),
             pressure_mpa,
             sliding_mm,
             sliding_work_n: None,

@@ -88,7 +88,7 @@ fn ends(of: &ShownAxis<'_>) -> [f64; 2] {
 }
 
 pub(super) fn id(kind: &str, figure: &SweepFigure) -> String {
-    format!("{kind}-{}", figure.name.to_lowercase().replace('_', "-"))
+    format!("{kind}-{}", figure.name.to_lowercase().replace(['_', '.'], "-"))
 }
 
 /// Where the figure is least, and how far it is from there to its greatest.

@@ -24,7 +24,7 @@ const DATA_FILES: &[(&str, &str)] = &[
 ];
 
 /// Figures whose least value is said at the top of the page, where there is one.
-const HEADLINES: [&str; 2] = ["pinion_root_tip_wear_variation", "pinion_peak_wear_um"];
+const HEADLINES: [&str; 2] = ["helical.wear.pinion.root_tip_variation", "pinion.peak_wear_um"];
 
 pub(super) fn page(record: &SweepRecord) -> String {
     let charts = figures(record);
@@ -67,11 +67,12 @@ fn figures(record: &SweepRecord) -> Vec<Chart> {
 
 /// Warns where the pressure of any combination is above the hardness of steel, of the one where it is greatest.
 fn pressure_warning(record: &SweepRecord) -> Option<String> {
-    let pressures =
-        [("peak_pressure_new_MPa", "new"), ("peak_pressure_worn_MPa", "worn")].into_iter().flat_map(|(name, when)| {
+    let pressures = [("new.flank_pressure_MPa", "new"), ("worn.flank_pressure_MPa", "worn")].into_iter().flat_map(
+        |(name, when)| {
             let figure = SweepFigure::find(name);
             record.rows.iter().filter_map(move |row| Some((row.figure(figure?)?, when, row.index)))
-        });
+        },
+    );
     let (pressure_mpa, when, index) = pressures.max_by(|a, b| a.0.total_cmp(&b.0))?;
     steel_yield::warning(pressure_mpa, &format!("{when}, combination {index}"))
 }

@@ -1,0 +1,108 @@
+//! The edge in which the path of contact ends on either side.
+//!
+//! A flank reaches from its form circle to its tip circle. Contact begins at A with the tip edge of the wheel, unless the pinion's involute
+//! begins above where that edge would touch it, as undercut teeth have it; then it begins at the form circle of the pinion:
+//!
+//! ```text
+//! A = max(T1T2 − ρ_a2, ρ_Ff1)        E = min(ρ_a1, T1T2 − ρ_Ff2)
+//! ```
+//!
+//! Where the rack undercuts a tooth, fillet and involute meet in a corner, and that is an edge like the one of a tip that is not rounded.
+//!
+//! Source: ISO 21771, section 5.4 (start of active profile: the larger of form circle and the circle that the mate's tip meets).
+
+use super::{Gear, GearPair, PerGear, spec::PairSpec};
+
+/// Least tip rounding, in normal modules: a smaller one is as rough as a ground surface, and the edge counts as sharp.
+pub const LEAST_ROUNDING_MODULES: f64 = 1e-3;
+
+impl PairSpec {
+    /// Radius of the rounding of the tip edge of `gear`, mm; 0 where the edge counts as sharp, that is below 10⁻³ normal modules.
+    pub fn tip_rounding_mm(&self, gear: Gear) -> f64 {
+        let given_mm = self.gears[gear].modification.tip_rounding_mm;
+        if given_mm < LEAST_ROUNDING_MODULES * self.normal_module_mm { 0.0 } else { given_mm }
+    }
+
+    /// Whether the tip edge of `gear` is sharp.
+    pub fn is_tip_sharp(&self, gear: Gear) -> bool {
+        self.tip_rounding_mm(gear) == 0.0
+    }
+}
+
+/// An end of the path of contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PathEnd {
+    /// A.
+    Start,
+    /// E.
+    End,
+}
+
+/// The edge of a flank in which the path of contact ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlankEdge {
+    /// Gear whose edge it is.
+    pub gear: Gear,
+    /// Whether it is at the form circle, not at the tip.
+    pub at_root: bool,
+    /// Radius of curvature of the flank there, mm; where the rounding begins, of a rounded tip.
+    pub rho_mm: f64,
+    /// Radius of its rounding, mm.
+    pub rounding_mm: f64,
+    /// Whether pressure has no bound there: a tip without rounding, or the corner that undercut leaves.
+    pub is_sharp: bool,
+}
+
+impl PathEnd {
+    /// Both, in the order of the path.
+    pub const BOTH: [Self; 2] = [Self::Start, Self::End];
+
+    /// Gear whose addendum is in contact there.
+    pub fn addendum_of(self) -> Gear {
+        match self {
+            Self::Start => Gear::Wheel,
+            Self::End => Gear::Pinion,
+        }
+    }
+}
+
+impl GearPair {
+    /// The edge in which the path ends.
+    pub fn edge(&self, end: PathEnd) -> FlankEdge {
+        let tip_of = end.addendum_of();
+        let root_of = tip_of.mate();
+        let form_rho_mm = self.teeth[root_of].root_form_rho_mm();
+        if self.path.rho_mm(tip_of, self.path.rho_mm(root_of, form_rho_mm)) < self.teeth[tip_of].tip_rho_mm() {
+            let is_sharp = self.teeth[root_of].undercut;
+            return FlankEdge { gear: root_of, at_root: true, rho_mm: form_rho_mm, rounding_mm: 0.0, is_sharp };
+        }
+        FlankEdge {
+            gear: tip_of,
+            at_root: false,
+            rho_mm: self.rounding_start_rho_mm(tip_of),
+            rounding_mm: self.spec.tip_rounding_mm(tip_of),
+            is_sharp: self.spec.is_tip_sharp(tip_of),
+        }
+    }
+
+    /// Place of the theoretical contact point from which on, outwards, the edge touches, mm.
+    pub fn edge_position_mm(&self, end: PathEnd) -> f64 {
+        let edge = self.edge(end);
+        self.path.rho_mm(edge.gear, edge.rho_mm)
+    }
+
+    /// Whether the root end of each flank is a corner that undercut leaves.
+    pub fn undercut_corners(&self) -> PerGear<bool> {
+        self.teeth.as_ref().map(|tooth| tooth.undercut)
+    }
+
+    /// Radius where the active profile of a gear ends towards its tip, r_Na, mm: the tip circle, or below it where its mate's form circle
+    /// ends the contact.
+    pub fn active_end_radius_mm(&self, gear: Gear) -> f64 {
+        let end_mm = match gear {
+            Gear::Pinion => self.path.end_mm,
+            Gear::Wheel => self.path.start_mm,
+        };
+        self.radius_at_mm(gear, end_mm)
+    }
+}

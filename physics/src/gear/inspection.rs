@@ -1,0 +1,109 @@
+//! Dimensions by which a gear is inspected: span over teeth, and diametral dimension over balls or pins.
+//!
+//! With the generating profile shift x_E, in which the tooth thickness allowance is included, and ψ_b half the tooth's angle at the base circle:
+//!
+//! ```text
+//! W_k  = m_n cos α_n [(k − ½) π + z inv α_t] + 2 x_E m_n sin α_n          k teeth spanned; touches at ρ = ½ W_k cos β_b
+//! k    ≈ (z/π) [tan α_Vt / cos² β_b − 2 x_E tan α_n / z − inv α_t] + ½     α_Vt: pressure angle on d_V = d + 2 x_E m_n
+//!
+//! inv α_Kt = D_M/(d_b cos β_b) − (π/z − ψ_b)                               D_M: ball diameter; touches at ρ = r_b tan α_Kt − ½ D_M cos β_b
+//! M_dK = d_b/cos α_Kt · (1, or cos(π/2z) of an odd number of teeth) + D_M
+//! ```
+//!
+//! On spur gears, and on helical gears with an even number of teeth, the dimension over pins M_dR is the same.
+//!
+//! Source: ISO 21771, sections 6.2 (span) and 6.4 (balls and pins); ball diameters 1.728 m_n and, of long addenda, 1.92 m_n after Van Keuren.
+
+use std::f64::consts::PI;
+
+use super::involute::{inv, inverse_inv};
+use super::{Gear, GearPair};
+
+/// Ball diameters in normal modules, the first of which stands out of the space and touches the flanks is taken.
+const BALLS_MODULES: [f64; 2] = [1.728, 1.92];
+
+/// Span measurement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Span {
+    /// k.
+    pub teeth: u32,
+    /// W_k, mm.
+    pub span_mm: f64,
+}
+
+/// Diametral dimension over two balls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OverBalls {
+    /// D_M, mm.
+    pub ball_diameter_mm: f64,
+    /// M_dK, mm.
+    pub dimension_mm: f64,
+}
+
+impl GearPair {
+    /// W_k over the number of teeth that touches nearest to the middle of the flanks; none where no number of teeth touches both flanks
+    /// between form circle and tip circle, or the face width is too small for the helix (b < W_k sin β_b).
+    pub fn span(&self, gear: Gear) -> Option<Span> {
+        let (spec, tooth) = (&self.spec, &self.teeth[gear]);
+        let z = f64::from(tooth.teeth);
+        let (m_n, alpha_n, alpha_t) =
+            (spec.normal_module_mm, spec.normal_pressure_angle_rad, spec.transverse_pressure_angle_rad());
+        let (sin_base_helix, cos_base_helix) = self.base_helix_angle_rad().sin_cos();
+        let shift_mm = spec.generating_shift_mm(gear);
+        let middle_rho_mm = tooth.involute.curvature_radius_mm(tooth.reference_radius_mm + shift_mm);
+        let tan_middle = middle_rho_mm / tooth.involute.base_radius_mm;
+        let wanted = z / PI
+            * (tan_middle / cos_base_helix.powi(2) - 2.0 * shift_mm / m_n * alpha_n.tan() / z - inv(alpha_t))
+            + 0.5;
+        let over = |teeth: u32| {
+            let span_mm = m_n * alpha_n.cos() * ((f64::from(teeth) - 0.5) * PI + z * inv(alpha_t))
+                + 2.0 * shift_mm * alpha_n.sin();
+            Span { teeth, span_mm }
+        };
+        let touches = |span: &Span| {
+            let rho_mm = 0.5 * span.span_mm * cos_base_helix;
+            (tooth.root_form_rho_mm()..=tooth.tip_rho_mm()).contains(&rho_mm)
+                && spec.face_width_mm >= span.span_mm * sin_base_helix.abs()
+        };
+        let nearest = wanted.round().max(1.0) as u32;
+        [nearest, nearest + 1, nearest.saturating_sub(1)]
+            .into_iter()
+            .filter(|teeth| (1..tooth.teeth).contains(teeth))
+            .map(over)
+            .find(touches)
+    }
+
+    /// M_dK over balls of 1.728, else 1.92 normal modules; none where neither touches the flanks between form circle and tip circle and
+    /// stands out beyond the latter.
+    pub fn over_balls(&self, gear: Gear) -> Option<OverBalls> {
+        let tooth = &self.teeth[gear];
+        let base_mm = tooth.involute.base_radius_mm;
+        let cos_base_helix = self.base_helix_angle_rad().cos();
+        let half_pitch = PI / f64::from(tooth.teeth);
+        let odd = if tooth.teeth % 2 == 1 { (0.5 * half_pitch).cos() } else { 1.0 };
+        BALLS_MODULES.into_iter().find_map(|modules| {
+            let ball_diameter_mm = modules * self.spec.normal_module_mm;
+            let involute =
+                0.5 * ball_diameter_mm / (base_mm * cos_base_helix) - (half_pitch - tooth.base_half_angle_rad);
+            let alpha = inverse_inv(involute);
+            let rho_mm = base_mm * alpha.tan() - 0.5 * ball_diameter_mm * cos_base_helix;
+            let centre_mm = base_mm / alpha.cos();
+            let touches = involute > 0.0
+                && (tooth.root_form_rho_mm()..=tooth.tip_rho_mm()).contains(&rho_mm)
+                && centre_mm + 0.5 * ball_diameter_mm > tooth.tip_radius_mm;
+            let dimension_mm = 2.0 * centre_mm * odd + ball_diameter_mm;
+            touches.then_some(OverBalls { ball_diameter_mm, dimension_mm })
+        })
+    }
+
+    /// d_Fa/2: radius where the usable flank ends towards the tip, at the tip circle or where the rounding of the edge begins, mm.
+    pub fn tip_form_radius_mm(&self, gear: Gear) -> f64 {
+        self.teeth[gear].involute.radius_mm(self.rounding_start_rho_mm(gear))
+    }
+
+    /// ζ_f: specific sliding at the start of active profile; none where that lies on the base circle.
+    pub fn specific_sliding_at_root(&self, gear: Gear) -> Option<f64> {
+        let position_mm = self.path.rho_mm(gear, self.active_start_rho_mm(gear));
+        Some(self.path.specific_sliding(gear, position_mm)).filter(|sliding| sliding.is_finite())
+    }
+}

@@ -1,0 +1,152 @@
+//! The normal section: where the flanks of oblique teeth press, wear and are measured.
+//!
+//! Slices are cut in transverse sections, and loads are shared along the transverse line of action. The surfaces do not know either: they
+//! touch along a line that is oblique by β_b in the plane of action, and are pressed together along their common normal. In the tangent
+//! plane the direction across that line is the tangent of the transverse profile, e_t, because both the line of contact and the normal lie
+//! in the plane of action. So places across the contact are the same in both sections, and with w the transverse line load F_bt/b,
+//!
+//! ```text
+//! normal force                 F_bn = F_bt/cos β_b
+//! length of the line           l = b/cos β_b
+//! load along the line          F_bn/l = w
+//! gap along the normal         g_n(x) = cos β_b · g_t(x) + h           g_t along the transverse line of action, h: depth of wear
+//! approach                     δ_n = cos β_b · δ_t,      work  w l δ_n = F_bt δ_t
+//! radius of curvature          R_n = R_t/cos β_b
+//! Hertz                        a² = 4 w R_n/(π E*)       p₀ = √(w E*/(π R_n)) = √cos β_b · p₀ of the transverse section
+//! sliding                      v_s along e_t: as in the transverse section
+//! area of a flank              dA = ds · dz/cos β_b
+//! ```
+//!
+//! The depth that a point loses in a mesh is k ∫ p ds = k w ζ, as in a spur pair; the volume is k F_bn s, by 1/cos β_b more than that of the
+//! spur pair. Modifications are those of a drawing, along the transverse line of action: of the field of removed material, which is normal
+//! to the flank, they are cos β_b of their amount.
+//!
+//! Of a spur pair cos β_b is 1, and nothing changes in any bit.
+//!
+//! Source: the geometry of the involute helicoid, ISO 21771:2007, 5.4 and 5.5; ISO 1328-1:2013, 3.4 and 3.5, for where deviations are
+//! measured; K. L. Johnson, *Contact Mechanics* (1985), section 4.2.
+
+use super::{Gear, GearPair, conjugate::ConjugateFlanks, involute::TangentFramePoint};
+
+/// How oblique a line of contact is in the plane of action: what is transverse and what is normal of the same contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Obliquity {
+    /// cos β_b.
+    cos_base_helix: f64,
+}
+
+impl Obliquity {
+    /// Lines of contact parallel to the axes.
+    pub const SPUR: Self = Self { cos_base_helix: 1.0 };
+
+    /// Lines of contact at the base helix angle `base_helix_rad`.
+    pub fn new(base_helix_rad: f64) -> Self {
+        Self { cos_base_helix: base_helix_rad.cos() }
+    }
+
+    /// Normal force of a transverse one, along the line of action: also a normal force per mm of face width of a transverse line load.
+    pub fn normal_force(self, transverse: f64) -> f64 {
+        transverse / self.cos_base_helix
+    }
+
+    /// Approach, gap or depth along the normal of one along the transverse line of action, mm.
+    pub fn normal_mm(self, transverse_mm: f64) -> f64 {
+        transverse_mm * self.cos_base_helix
+    }
+
+    /// Approach, gap or depth along the transverse line of action of one along the normal, mm; a compliance likewise.
+    pub fn transverse_mm(self, normal_mm: f64) -> f64 {
+        normal_mm / self.cos_base_helix
+    }
+
+    /// Radius of curvature in the normal section of one in the transverse section, mm.
+    pub fn normal_radius_mm(self, transverse_mm: f64) -> f64 {
+        transverse_mm / self.cos_base_helix
+    }
+
+    /// Length of a line of contact over a width, mm; of an area of the profile times the width, area of the flank, and the volume that it
+    /// loses.
+    pub fn along_line(self, over_width: f64) -> f64 {
+        over_width / self.cos_base_helix
+    }
+
+    /// Transverse line load with whose radius R_t a contact is as wide as under `line_load_n_per_mm` in the normal section: w R_n/R_t, N/mm.
+    pub fn as_wide_under_n_per_mm(self, line_load_n_per_mm: f64) -> f64 {
+        line_load_n_per_mm / self.cos_base_helix
+    }
+}
+
+/// Two flanks in their normal section.
+#[derive(Clone, Copy)]
+pub struct NormalSection<'a> {
+    transverse: &'a dyn ConjugateFlanks,
+    /// How oblique their line of contact is.
+    pub obliquity: Obliquity,
+}
+
+impl<'a> NormalSection<'a> {
+    /// Flanks whose line of contact is at right angles to the section in which `flanks` are told.
+    pub fn of_spur(flanks: &'a dyn ConjugateFlanks) -> Self {
+        Self { transverse: flanks, obliquity: Obliquity::SPUR }
+    }
+}
+
+impl GearPair {
+    /// How oblique the lines of contact are.
+    pub fn obliquity(&self) -> Obliquity {
+        Obliquity::new(self.base_helix_angle_rad())
+    }
+
+    /// The flanks in their normal section.
+    pub fn normal_section(&self) -> NormalSection<'_> {
+        NormalSection { transverse: self, obliquity: self.obliquity() }
+    }
+
+    /// Area of all working flanks of a gear along a length of the profile, or the volume that they lose over an area of it: whole face width,
+    /// all teeth.
+    pub fn over_all_flanks(&self, gear: Gear, of_profile: f64) -> f64 {
+        self.obliquity().along_line(of_profile * self.spec.face_width_mm) * f64::from(self.spec.gears[gear].teeth)
+    }
+}
+
+impl ConjugateFlanks for NormalSection<'_> {
+    fn contact_coordinate_mm(&self, gear: Gear, position_mm: f64) -> f64 {
+        self.transverse.contact_coordinate_mm(gear, position_mm)
+    }
+
+    fn position_at_mm(&self, gear: Gear, coordinate_mm: f64) -> f64 {
+        self.transverse.position_at_mm(gear, coordinate_mm)
+    }
+
+    fn in_tangent_frame(&self, gear: Gear, coordinate_mm: f64, position_mm: f64) -> TangentFramePoint {
+        let TangentFramePoint { along_mm, drop_mm } =
+            self.transverse.in_tangent_frame(gear, coordinate_mm, position_mm);
+        TangentFramePoint { along_mm, drop_mm: self.obliquity.normal_mm(drop_mm) }
+    }
+
+    fn at_along(&self, gear: Gear, along_mm: f64, position_mm: f64) -> (f64, f64) {
+        let (coordinate_mm, drop_mm) = self.transverse.at_along(gear, along_mm, position_mm);
+        (coordinate_mm, self.obliquity.normal_mm(drop_mm))
+    }
+
+    fn flank_limits_mm(&self, gear: Gear) -> (f64, f64) {
+        self.transverse.flank_limits_mm(gear)
+    }
+
+    fn curvature_radius_mm(&self, gear: Gear, position_mm: f64) -> f64 {
+        self.obliquity.normal_radius_mm(self.transverse.curvature_radius_mm(gear, position_mm))
+    }
+
+    fn rolling_ratio(&self, gear: Gear, position_mm: f64) -> f64 {
+        self.transverse.rolling_ratio(gear, position_mm)
+    }
+
+    fn sliding_mm(&self, from_mm: f64, to_mm: f64) -> f64 {
+        self.transverse.sliding_mm(from_mm, to_mm)
+    }
+
+    /// The depth of the transverse section: it only says where flattening ends and the tooth begins, which stiffness models do there.
+    fn depth_mm(&self, gear: Gear, position_mm: f64) -> f64 {
+        self.transverse.depth_mm(gear, position_mm)
+    }
+}

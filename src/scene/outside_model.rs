@@ -1,0 +1,114 @@
+//! What a file asks for that the model does not hold, and units that it does not take, in words of the field.
+
+use super::problem::number;
+
+/// 1 lbf·in in N·m.
+const NEWTON_METRES_IN_POUND_INCH: f64 = 0.112_984_829;
+
+/// Why the model does not hold a value of `key` that lies outside its range.
+pub(super) fn reason(key: &str, value: f64) -> Option<&'static str> {
+    match key {
+        "pair.pinion.teeth" | "pair.wheel.teeth" if value < 0.0 => Some(
+            "a negative number of teeth is that of an internal gear (ISO 21771): internal gears, such as the ring gear of a planetary \
+             stage, are not in the model",
+        ),
+        "pair.helix_angle_deg" if value.abs() > 45.0 => Some(
+            "helix angles beyond 45° are those of gears on crossed axes: crossed helical and worm gears are not in the model, axes are \
+             parallel",
+        ),
+        _ => None,
+    }
+}
+
+/// Why the model does not hold what a key of this name would say.
+pub(super) fn reason_of_key(name: &str) -> Option<&'static str> {
+    match name {
+        "shaft_angle_deg" | "axis_angle_deg" | "crossing_angle_deg" => Some(
+            "axes that cross are not in the model: they are parallel, but for the deviations of pair.axis_parallelism",
+        ),
+        "cone_angle_deg" | "pitch_angle_deg" | "reference_cone_angle_deg" => Some("bevel gears are not in the model"),
+        "planets" | "ring" | "sun" => Some(
+            "planetary stages are not in the model as a whole: a scene is one pair of external gears, such as sun and planet",
+        ),
+        _ => None,
+    }
+}
+
+/// A key in units of inches and pounds: the key to give instead, and how the value is converted.
+pub(super) struct Converted {
+    /// Name of the key in units of the scene.
+    pub name: String,
+    /// Sentence that names the key, the value where it is a number, and the conversion.
+    pub sentence: String,
+}
+
+/// What a value of inches or pounds is in the units of a scene.
+pub(super) fn converted(name: &str, value: Option<f64>) -> Option<Converted> {
+    let said = |target: String, in_scene: Option<f64>, by: &str| {
+        let equals = in_scene.map(|x| format!(" = {}", number(six_digits(x)))).unwrap_or_default();
+        let sentence = format!("write {target}{equals}: {by}");
+        Converted { name: target, sentence }
+    };
+    let pitch = |target: &str| {
+        let module_mm = value.filter(|&pitch| pitch > 0.0).map(|pitch| 25.4 / pitch);
+        Some(said(target.to_owned(), module_mm, "module in mm = 25.4/diametral pitch (m = 25.4/DP)"))
+    };
+    match name {
+        "diametral_pitch" | "normal_diametral_pitch" | "DP" => return pitch("normal_module_mm"),
+        "transverse_diametral_pitch" => return pitch("transverse_module_mm"),
+        _ => {}
+    }
+    let units = [
+        (&["_in", "_inch", "_inches"][..], "_mm", 25.4, "1 in = 25.4 mm"),
+        (
+            &["_lbin", "_lbfin", "_lb_in", "_lbf_in", "_inlb", "_in_lb", "_in_lbf"][..],
+            "_Nm",
+            NEWTON_METRES_IN_POUND_INCH,
+            "1 lbf·in = 0.112985 N·m",
+        ),
+        (
+            &["_lbft", "_lbfft", "_lb_ft", "_lbf_ft", "_ftlb", "_ft_lb", "_ft_lbf"][..],
+            "_Nm",
+            12.0 * NEWTON_METRES_IN_POUND_INCH,
+            "1 lbf·ft = 1.355818 N·m",
+        ),
+        (&["_psi"][..], "_MPa", 0.006_894_757, "1 psi = 0.00689476 MPa"),
+        (&["_ksi"][..], "_MPa", 6.894_757, "1 ksi = 6.89476 MPa"),
+        (&["_Mpsi", "_Msi"][..], "_GPa", 6.894_757, "10⁶ psi = 6.89476 GPa"),
+    ];
+    // The longest ending counts: `_lb_in` is no length.
+    let endings =
+        units.iter().flat_map(|(endings, unit, factor, by)| endings.iter().map(move |e| (*e, *unit, *factor, *by)));
+    let (ending, unit, factor, by) =
+        endings.filter(|(ending, ..)| name.ends_with(ending)).max_by_key(|(ending, ..)| ending.len())?;
+    let target = format!("{}{unit}", &name[..name.len() - ending.len()]);
+    Some(said(target, value.map(|value| factor * value), by))
+}
+
+/// Without digits that the conversion does not have.
+fn six_digits(x: f64) -> f64 {
+    format!("{x:.5e}").parse().unwrap_or(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// m = 25.4/DP; 1 in = 25.4 mm; 1 lbf·in = 4.4482216 N · 0.0254 m = 0.1129848 N·m (NIST SP 811, appendix B).
+    #[test]
+    fn ver_inches_and_pounds_are_converted() {
+        for (name, value, key, in_scene) in [
+            ("diametral_pitch", 8.0, "normal_module_mm", "3.175"),
+            ("centre_distance_in", 3.5, "centre_distance_mm", "88.9"),
+            ("pinion_torque_lbin", 635.0, "pinion_torque_Nm", "71.7454"),
+            ("pinion_torque_lb_in", 635.0, "pinion_torque_Nm", "71.7454"),
+            ("pinion_torque_lbft", 100.0, "pinion_torque_Nm", "135.582"),
+            ("above_ksi", 290.0, "above_MPa", "1999.48"),
+        ] {
+            let found = converted(name, Some(value)).unwrap();
+            assert_eq!(found.name, key);
+            assert!(found.sentence.starts_with(&format!("write {key} = {in_scene}: ")), "{}", found.sentence);
+        }
+        assert!(converted("face_width_mm", Some(1.0)).is_none());
+    }
+}
