@@ -107,7 +107,8 @@ pub fn accuracy(scene: &LoadedScene, within: f64, quick: bool, observer: &dyn Ob
     if !(within > 0.0 && within <= 1.0) {
         return Err(StudyFault::Within { found: within }.into());
     }
-    let record = accuracy::study::run(scene, selection::Asked { within, quick }, observer).map_err(StudyFault::Accuracy)?;
+    let record =
+        accuracy::study::run(scene, selection::Asked { within, quick }, observer).map_err(StudyFault::Accuracy)?;
     Study::new(record, |record, folder| accuracy::report::write(record, folder).map(drop))
 }
 

@@ -2,6 +2,8 @@
 
 use toml::{Table, Value};
 
+use crate::results::run::RunRecord;
+
 use super::scene_table::{gives, number, phases, value, word};
 
 /// Whether some gear's wear law has a transition at `severe.above_MPa` without a band: its rate is discontinuous there.
@@ -54,4 +56,20 @@ pub(super) fn has_finite_elements(table: &Table) -> bool {
 pub(super) fn follows_tip_edges(table: &Table) -> bool {
     let is_cut_off = value(table, "contact.tip_contact").and_then(Value::as_bool) == Some(false);
     is_on(table, "fem") || (!is_cut_off && !is_on(table, "hertz") && !is_on(table, "hertz-mean"))
+}
+
+/// Whether any gear wears severely anywhere by its law.
+pub(super) fn is_severe(table: &Table) -> bool {
+    ["wear", "wear.pinion", "wear.wheel"].iter().any(|whose| gives(table, &format!("{whose}.severe")))
+}
+
+/// Whether no wear step is longer than what is stable: longer ones amplify the last bits.
+pub(super) fn takes_stable_steps(record: &RunRecord) -> bool {
+    !record.summary.warnings.iter().any(|warning| warning.starts_with("numerics.step"))
+}
+
+/// Whether the stiffness model has a size of its own: c' of ISO 6336 falls with the line load below 100 N/mm.
+pub(super) fn has_a_size(table: &Table, record: &RunRecord) -> bool {
+    let loads = record.summary.phases.iter().map(|phase| phase.line_load_N_per_mm);
+    word(table, "stiffness.model") == Some("iso6336") && loads.fold(f64::INFINITY, f64::min) < 100.0
 }

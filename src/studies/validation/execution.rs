@@ -242,9 +242,12 @@ impl Task<'_> {
     /// Random scenes: their record, and a group `statements` with a group for each of them, by its name with `_` for spaces and hyphens.
     fn random_scenes(&self) -> Result<Executed, Failed> {
         let whole = |key: &str| {
-            let given = self.member.set.iter().rev().find(|(name, _)| name == key).and_then(|(_, value)| value.as_integer());
+            let given =
+                self.member.set.iter().rev().find(|(name, _)| name == key).and_then(|(_, value)| value.as_integer());
             let number = given.and_then(|number| u64::try_from(number).ok());
-            number.ok_or_else(|| refused(format!("{key}: allowed in set of a run of invariants: a whole number, 0 or more")))
+            number.ok_or_else(|| {
+                refused(format!("{key}: allowed in set of a run of invariants: a whole number, 0 or more"))
+            })
         };
         let asked = Asked { seed: whole("seed")?, first: whole("first")?, count: whole("count")? };
         let record = study::run(asked, 1, self.watch);

@@ -5,7 +5,7 @@ use crate::results::run::{MeshCycleRow, RunRecord};
 use crate::studies::invariants::comparison::{Bounds, Follows, Measured, compare};
 use crate::studies::invariants::relation::{Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{gives, number, scaled, value, with};
-use crate::studies::invariants::traits_of_scene::{has_fixed_steps, is_hard_severe, is_sliced};
+use crate::studies::invariants::traits_of_scene::{has_fixed_steps, is_hard_severe, is_sliced, takes_stable_steps};
 
 use super::SOLVED;
 
@@ -41,7 +41,7 @@ pub(super) const RELATIONS: &[Relation] = &[
 
 fn last_bits(subject: &Subject<'_>) -> Verdict {
     let table = subject.table;
-    if is_hard_severe(table) || !has_fixed_steps(table) {
+    if is_hard_severe(table) || !has_fixed_steps(table) || !takes_stable_steps(subject.record) {
         return Verdict::NotOfThisScene;
     }
     let other = scaled(table, &|key| if key == "pinion_torque_Nm" { LAST_BITS } else { 1.0 });

@@ -5,7 +5,7 @@ use crate::results::run::{RunRecord, Summary};
 use crate::studies::invariants::comparison::{Measured, difference};
 use crate::studies::invariants::relation::{Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{number, with};
-use crate::studies::invariants::traits_of_scene::{has_heat_or_oil, is_hard_severe};
+use crate::studies::invariants::traits_of_scene::{has_heat_or_oil, is_severe, takes_stable_steps};
 
 pub(super) const RELATIONS: &[Relation] = &[
     Relation {
@@ -36,7 +36,7 @@ fn finer_positions(subject: &Subject<'_>) -> Verdict {
 fn finer(subject: &Subject<'_>, key: &str, by: f64, of_error: f64) -> Verdict {
     let table = subject.table;
     // What wear makes of temperatures and limits of pressure is no matter of one resolution.
-    if is_hard_severe(table) || has_heat_or_oil(table) {
+    if is_severe(table) || has_heat_or_oil(table) || !takes_stable_steps(subject.record) {
         return Verdict::NotOfThisScene;
     }
     let Some(count) = number(table, key) else { return Verdict::NotOfThisScene };
@@ -44,7 +44,7 @@ fn finer(subject: &Subject<'_>, key: &str, by: f64, of_error: f64) -> Verdict {
     subject.beside(other, |record| volumes_and_error(subject.record, record, of_error))
 }
 
-fn volumes_and_error(first: &RunRecord, other: &RunRecord, of_error: f64) -> Vec<Measured> {
+pub(super) fn volumes_and_error(first: &RunRecord, other: &RunRecord, of_error: f64) -> Vec<Measured> {
     let of = |summary: &Summary, gear: Gear| match gear {
         Gear::Pinion => summary.pinion.worn_volume_mm3,
         Gear::Wheel => summary.wheel.worn_volume_mm3,

@@ -5,7 +5,9 @@ use crate::gear::PerGear;
 use crate::studies::invariants::comparison::{Bounds, Follows, compare};
 use crate::studies::invariants::relation::{Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{gives, scaled};
-use crate::studies::invariants::traits_of_scene::{has_finite_elements, has_heat_or_oil, is_hard_severe, is_sliced};
+use crate::studies::invariants::traits_of_scene::{
+    has_a_size, has_finite_elements, has_heat_or_oil, is_hard_severe, is_sliced, takes_stable_steps,
+};
 
 /// No power of two, so that digits change.
 const SIZE: f64 = 1.7;
@@ -35,7 +37,11 @@ pub(super) const RELATIONS: &[Relation] = &[
 
 fn size(subject: &Subject<'_>) -> Verdict {
     let table = subject.table;
-    if has_heat_or_oil(table) || is_hard_severe(table) {
+    if has_heat_or_oil(table)
+        || is_hard_severe(table)
+        || !takes_stable_steps(subject.record)
+        || has_a_size(table, subject.record)
+    {
         return Verdict::NotOfThisScene;
     }
     let other = scaled(table, &|key| match key {
@@ -48,13 +54,18 @@ fn size(subject: &Subject<'_>) -> Verdict {
     });
     let depth = PerGear { pinion: SIZE, wheel: SIZE };
     let follows = Follows { depth, error: SIZE, area: SIZE * SIZE, ..Follows::default() };
-    subject.beside(other, |record| compare(subject.record, record, &follows, bounds(table)))
+    subject.beside(other, |record| compare(subject.record, record, &follows, Bounds::all(SOLVED)))
 }
 
 fn modulus(subject: &Subject<'_>) -> Verdict {
     let table = subject.table;
     // What a preset of materials or a default gives cannot be raised.
-    if has_heat_or_oil(table) || is_hard_severe(table) || !says_its_moduli(table) {
+    if has_heat_or_oil(table)
+        || is_hard_severe(table)
+        || !says_its_moduli(table)
+        || !takes_stable_steps(subject.record)
+        || has_a_size(table, subject.record)
+    {
         return Verdict::NotOfThisScene;
     }
     let other = scaled(table, &|key| match key {
@@ -68,7 +79,7 @@ fn modulus(subject: &Subject<'_>) -> Verdict {
         _ => 1.0,
     });
     let follows = Follows { pressure: MODULUS, ..Follows::default() };
-    subject.beside(other, |record| compare(subject.record, record, &follows, bounds(table)))
+    subject.beside(other, |record| compare(subject.record, record, &follows, Bounds::all(SOLVED)))
 }
 
 /// Whether the scene says both Young's moduli by number.
@@ -79,7 +90,12 @@ fn says_its_moduli(table: &toml::Table) -> bool {
 
 fn width(subject: &Subject<'_>) -> Verdict {
     let table = subject.table;
-    if is_sliced(table) || has_heat_or_oil(table) || has_finite_elements(table) {
+    if is_sliced(table)
+        || has_heat_or_oil(table)
+        || has_finite_elements(table)
+        || is_hard_severe(table)
+        || !takes_stable_steps(subject.record)
+    {
         return Verdict::NotOfThisScene;
     }
     let other = scaled(table, &|key| match key {
@@ -87,9 +103,5 @@ fn width(subject: &Subject<'_>) -> Verdict {
         _ => 1.0,
     });
     let follows = Follows { area: WIDTH, ..Follows::default() };
-    subject.beside(other, |record| compare(subject.record, record, &follows, bounds(table)))
-}
-
-fn bounds(_table: &toml::Table) -> Bounds {
-    Bounds::all(SOLVED)
+    subject.beside(other, |record| compare(subject.record, record, &follows, Bounds::all(SOLVED)))
 }

@@ -6,7 +6,9 @@ use super::ROUNDING;
 use crate::studies::invariants::comparison::{Bounds, Follows, Measured, compare, summaries};
 use crate::studies::invariants::relation::{Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{phases, scaled, value, with};
-use crate::studies::invariants::traits_of_scene::{has_fixed_steps, has_heat_or_oil, is_hard_severe};
+use crate::studies::invariants::traits_of_scene::{
+    has_fixed_steps, has_heat_or_oil, is_hard_severe, takes_stable_steps,
+};
 
 const FASTER: f64 = 3.7;
 
@@ -33,7 +35,7 @@ pub(super) const RELATIONS: &[Relation] = &[
 
 fn faster(subject: &Subject<'_>) -> Verdict {
     let table = subject.table;
-    if !has_fixed_steps(table) || is_hard_severe(table) {
+    if !has_fixed_steps(table) || is_hard_severe(table) || !takes_stable_steps(subject.record) {
         return Verdict::NotOfThisScene;
     }
     let other = scaled(table, &|key| match key {
@@ -46,7 +48,7 @@ fn faster(subject: &Subject<'_>) -> Verdict {
 
 fn cut_in_two(subject: &Subject<'_>) -> Verdict {
     let table = subject.table;
-    if !has_fixed_steps(table) || is_hard_severe(table) {
+    if !has_fixed_steps(table) || is_hard_severe(table) || !takes_stable_steps(subject.record) {
         return Verdict::NotOfThisScene;
     }
     let mut all = match phases(table) {
