@@ -8,7 +8,7 @@ use gearwear::contact::{
 };
 use gearwear::fem::gear::placement::{axis_mm, tooth_angle_rad};
 use gearwear::gear::{Gear, GearPair, conjugate::ConjugateFlanks, removed_material::tip_rounding_mm};
-use gearwear::mesh_cycle::{PositionObservation, positions::positions_with_tip_contact};
+use gearwear::mesh_cycle::PositionObservation;
 use gearwear::simulation::settings::{AdaptiveMethod, Stepping};
 use gearwear::simulation::wear_run::Outcome;
 use gearwear::stiffness::settings::StiffnessSettings;
@@ -50,12 +50,9 @@ fn ver_tip_edges_leave_with_the_square_of_the_path() {
     assert!((before - of_gap(Gear::Wheel, path.start_mm, gap)).abs() < 0.02, "{before}");
     assert!((after - of_gap(Gear::Pinion, path.end_mm, gap)).abs() < 0.02, "{after}");
     assert_eq!(pair.tip_reach_mm(-1.0), [0.0; 2]);
-    // At most 0.3 base pitches, and never beyond T1 or T2.
-    let most = pair.tip_reach_mm(1e3);
-    assert!(
-        most.iter().all(|reach| (0.29 * path.base_pitch_mm..=0.3 * path.base_pitch_mm).contains(reach)),
-        "{most:?}"
-    );
+    // As far as the tip circles reach each other.
+    let [farthest, most] = [pair.farthest_touch_mm(), pair.tip_reach_mm(1e3)];
+    assert!(most.iter().zip(farthest).all(|(most, farthest)| (0.0..0.014).contains(&(farthest - most))), "{most:?}");
 }
 
 fn share_at(positions: &[PositionObservation], at_mm: f64) -> f64 {
@@ -352,16 +349,58 @@ fn ver_beds_at_edges_are_hertzs_where_no_edge_is() {
     }
 }
 
-/// However far apart the positions are and however far the teeth yield, none lies beyond the base circles.
+/// Where the range ends, the tip edge of the one gear is on the tip circle of the other: seen from the pinion's axis at (0, 0) and the
+/// wheel's at (a, 0), each edge turned by the roll that the position asks for.
 #[test]
-fn positions_stay_between_the_base_circles() {
-    let pair = pair(&fzg_c());
-    let path = &pair.path;
-    for count in [20, 33, 60, 400] {
-        let beyond = pair.tip_reach_mm(10.0);
-        let positions = positions_with_tip_contact(path, count, beyond, |_| 1.0, |_| Ok::<_, ()>(1.0)).unwrap();
-        for position in positions.iter().flat_map(|position| &position.pairs) {
-            assert!(position.position_mm > 0.0 && position.position_mm < path.line_of_action_mm, "{position:?}");
+fn ver_tip_edges_are_followed_until_the_tip_circles_part() {
+    for scene in [fzg_c(), fzg_c_scene().pair] {
+        let pair = pair(&scene);
+        let path = &pair.path;
+        let ends = pair.farthest_touch_mm();
+        for (tip_of, sign, end) in [(Gear::Wheel, -1.0, ends[0]), (Gear::Pinion, 1.0, ends[1])] {
+            let (own, mate) = (&pair.teeth[tip_of], &pair.teeth[tip_of.mate()]);
+            // Angle of the edge from the line of centres while it is on the line of action, and how far it turns from there.
+            let on_line = (own.involute.base_radius_mm / own.tip_radius_mm).acos() - pair.working_pressure_angle_rad;
+            let angle = on_line + end / own.involute.base_radius_mm;
+            let (x, y) = (own.tip_radius_mm * angle.cos(), own.tip_radius_mm * angle.sin());
+            let from_mate = (pair.spec.centre_distance_mm - x).hypot(y);
+            assert_close("radius from the mate's axis", from_mate, mate.tip_radius_mm, 1e-12);
+            // Farther in, the edge is among the mate's teeth, clear of its flank, and farther out the more.
+            let gaps: Vec<f64> = (1..20)
+                .map(|k| {
+                    let end_mm = if sign < 0.0 { path.start_mm } else { path.end_mm };
+                    pair.tip_gap_mm(tip_of, end_mm + sign * end * f64::from(k) / 20.0)
+                })
+                .collect();
+            assert!(gaps[0] > 0.0 && gaps.windows(2).all(|two| two[1] > two[0]), "{gaps:?}");
         }
+    }
+}
+
+/// The theoretical contact point of a tip edge may lie beyond T1, where the tip circles of FZG type C still reach each other: gap and radii of
+/// curvature stay those of the flank that is touched.
+#[test]
+fn ver_tip_edges_may_touch_beyond_the_end_of_the_line_of_action() {
+    let few = pair(&fzg_c());
+    let path = &few.path;
+    let before = few.farthest_touch_mm()[0];
+    assert!(before > path.start_mm, "{before} {}", path.start_mm);
+    let mut last = 0.0;
+    for k in 1..=40 {
+        let at = path.start_mm - before * f64::from(k) / 40.0;
+        let touch = few.touch(at);
+        assert!(touch.rho_mm.pinion > path.start_mm && touch.gap_mm > last, "{at} {touch:?}");
+        // The gap by brute force: the nearest of many points of the pinion's involute to the edge.
+        let edge = few.in_tangent_frame(Gear::Wheel, few.teeth.wheel.tip_rho_mm(), at);
+        let nearest = (0..20_000)
+            .map(|i| {
+                let rho = 1.2 * few.teeth.pinion.tip_rho_mm() * f64::from(i) / 20_000.0;
+                let own = few.in_tangent_frame(Gear::Pinion, rho, at);
+                (own.along_mm + edge.along_mm).hypot(own.drop_mm + edge.drop_mm)
+            })
+            .fold(f64::INFINITY, f64::min);
+        assert!((touch.gap_mm - nearest).abs() < 1e-5, "{at}: {} {nearest}", touch.gap_mm);
+        last = touch.gap_mm;
+        assert!(few.relative_radius_mm(at) > 0.0 && few.rolling_ratio(Gear::Pinion, at) > 0.0);
     }
 }

@@ -13,5 +13,6 @@ trap 'rm -rf "$work"' EXIT
 python3 "$here"/nafems_cylinder.py "$work"
 python3 "$here"/fzg_c_pair.py "$work"
 python3 "$here"/tip_edges.py "$work"
+python3 "$here"/plastic_pair.py "$work"
 python3 "$here"/teeth_in_space.py "$work"
 python3 "$here"/compare.py "$work"

@@ -161,19 +161,19 @@ impl<'a> CondensedCycle<'a> {
     }
 }
 
-/// The stretches of one base pitch that positions stand for, from A on: short ones where a tip edge touches.
+/// The stretches of one base pitch that positions stand for: short ones where a tip edge touches.
 fn stretches(model: &CondensedPair<'_>, positions: usize, line_load_n_per_mm: f64) -> Vec<(f64, f64)> {
     let (pair, path) = (model.pair, &model.pair.path);
-    let (start, pitch) = (path.start_mm, path.base_pitch_mm);
-    let even = (path.end_mm - start) / (positions - 1) as f64;
+    let (start, pitch) = (model.first_position_mm(), path.base_pitch_mm);
+    let even = (path.end_mm - path.start_mm) / (positions - 1) as f64;
     let half_width = hertz_half_width_mm(pair, model.contact_modulus_mpa, line_load_n_per_mm, path.pitch_point_mm);
     let within = WITHIN_HALF_WIDTHS * half_width;
     let approach = model
         .at(path.pitch_point_mm, line_load_n_per_mm, &Default::default())
         .map_or(0.0, |contact| contact.transmission_error_mm);
     let [before, after] = pair.tip_reach_mm(AMPLE_APPROACH * approach);
-    // Both zones, moved by base pitches to where they begin in the first one from A on, and cut at its end.
-    let zones = [(start - before, start + within), (path.end_mm - within, path.end_mm + after)];
+    // Both zones, moved by base pitches to where they begin in this one, and cut at its end.
+    let zones = [(path.start_mm - before, path.start_mm + within), (path.end_mm - within, path.end_mm + after)];
     let mut at_edges: Vec<(f64, f64)> = zones
         .into_iter()
         .flat_map(|(from, to)| {

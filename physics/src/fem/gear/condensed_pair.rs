@@ -19,13 +19,19 @@ pub struct CondensedPair<'a> {
 }
 
 impl CondensedPair<'_> {
-    /// How far before A and after E contact is found in the base pitch from A on, mm of path: as far as tip circles reach each other, or as
-    /// there are fine teeth for it.
+    /// Where the base pitch that stands for the whole mesh begins: half of it before the middle of A–E, so that the loads stay as near to the
+    /// middle tooth as they can, which matters to a sector.
+    pub fn first_position_mm(&self) -> f64 {
+        let path = &self.pair.path;
+        path.start_mm.midpoint(path.end_mm) - 0.5 * path.base_pitch_mm
+    }
+
+    /// How far before A and after E contact is found in that base pitch, mm of path: as far as tip circles reach each other, or as there are
+    /// fine teeth for it.
     pub fn range_mm(&self) -> [f64; 2] {
         let (path, beside) = (&self.pair.path, (self.gears.pinion.teeth().min(self.gears.wheel.teeth()) / 2) as f64);
-        let [before, after] = self.pair.farthest_touch_mm();
-        let of_teeth = [beside, beside + 1.0 - path.contact_ratio()].map(|pitches| pitches * path.base_pitch_mm);
-        [before.min(of_teeth[0]), after.min(of_teeth[1])]
+        let of_teeth_mm = (beside + 0.5 - 0.5 * path.contact_ratio()) * path.base_pitch_mm;
+        self.pair.farthest_touch_mm().map(|farthest_mm| farthest_mm.min(of_teeth_mm))
     }
 
     /// The same elements of gears with other Young's moduli; Poisson's ratios stay.
