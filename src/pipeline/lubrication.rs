@@ -43,6 +43,7 @@ struct Place {
     length_mm: f64,
     load_n_per_mm: [f64; 2],
     pressure_mpa: [f64; 2],
+    half_width_mm: [f64; 2],
 }
 
 /// One contact, new or worn.
@@ -58,6 +59,7 @@ impl Place {
             position_mm: self.position_mm,
             line_load_n_per_mm: self.load_n_per_mm[which],
             peak_pressure_mpa: self.pressure_mpa[which],
+            half_width_mm: self.half_width_mm[which],
         }
     }
 
@@ -131,6 +133,7 @@ fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
                 length_mm: 0.5 * (at((k + 1).min(last)) - at(k.saturating_sub(1))),
                 load_n_per_mm: [new.load_share * whole, worn.load_share * whole],
                 pressure_mpa: [new, worn].map(|seen| greatest * seen.footprint.peak_pressure_mpa),
+                half_width_mm: [new, worn].map(|seen| seen.footprint.half_width_mm),
             })
             .collect();
     };
@@ -148,6 +151,7 @@ fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
                 length_mm: spacing,
                 load_n_per_mm: meshes.map(|mesh| mesh.line_load_n_per_mm[cell]),
                 pressure_mpa: meshes.map(|mesh| greatest * mesh.peak_pressure_mpa[cell]),
+                half_width_mm: meshes.map(|mesh| mesh.half_width_mm[cell]),
             }
         })
     });
