@@ -49,6 +49,7 @@ struct Place {
     /// Transverse load over the whole width of its slice.
     load_n_per_mm: [f64; 2],
     pressure_mpa: [f64; 2],
+    half_width_mm: [f64; 2],
 }
 
 /// One contact, new or worn.
@@ -64,6 +65,7 @@ impl Place {
             position_mm: self.position_mm,
             line_load_n_per_mm: self.load_n_per_mm[which] / self.part_of_width,
             peak_pressure_mpa: self.pressure_mpa[which],
+            half_width_mm: self.half_width_mm[which],
         }
     }
 
@@ -138,6 +140,7 @@ fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
                 part_of_width: 1.0,
                 load_n_per_mm: [new.load_share * whole, worn.load_share * whole],
                 pressure_mpa: [new, worn].map(|seen| greatest * seen.footprint.peak_pressure_mpa),
+                half_width_mm: [new, worn].map(|seen| seen.footprint.half_width_mm),
             })
             .collect();
     };
@@ -160,6 +163,7 @@ fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
                 part_of_width: new_slices.part_of_width[cell],
                 load_n_per_mm: meshes.map(|mesh| mesh.line_load_n_per_mm[cell]),
                 pressure_mpa: meshes.map(|mesh| greatest * mesh.peak_pressure_mpa[cell]),
+                half_width_mm: meshes.map(|mesh| mesh.half_width_mm[cell]),
             }
         })
     });

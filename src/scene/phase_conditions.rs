@@ -11,7 +11,7 @@ use crate::contact::settings::{Foundation, Material, SurfaceKind};
 use crate::contact::{foundation, hertz};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::lubrication::loss;
-use crate::lubrication::running_pair::{RunningConditions, RunningPair};
+use crate::lubrication::running_pair::{RunningConditions, RunningPair, SurfaceOverHertz};
 use crate::reference::hertz_line::contact_modulus_mpa;
 use crate::simulation::settings::Phase;
 use crate::thermal::settings::HeatSettings;
@@ -56,15 +56,20 @@ impl Scene {
             pinion_speed_rpm: phase.pinion_speed_rpm?,
             line_load_n_per_mm,
             reduced_modulus_mpa: 2.0 * modulus,
-            pressure_over_hertz: self.pressure_over_hertz(pair, &material, line_load_n_per_mm),
+            surface: self.surface_over_hertz(pair, &material, line_load_n_per_mm),
         };
         Some(RunningPair::new(pair, self.lubrication.as_ref()?, conditions))
     }
 
-    /// Greatest pressure of the contact surface over Hertz's at the pitch point under the whole load; 1 of all but springs.
-    fn pressure_over_hertz(&self, pair: &GearPair, material: &PerGear<Material>, line_load_n_per_mm: f64) -> f64 {
+    /// The contact surface over Hertz's at the pitch point under the whole load.
+    fn surface_over_hertz(
+        &self,
+        pair: &GearPair,
+        material: &PerGear<Material>,
+        line_load_n_per_mm: f64,
+    ) -> SurfaceOverHertz {
         if self.contact.surface != SurfaceKind::Winkler {
-            return 1.0;
+            return SurfaceOverHertz::ELASTIC;
         }
         let at_pitch = hertz::flattening(pair, material, pair.path.pitch_point_mm);
         let foundation_mpa_per_mm = match self.contact.foundation {
@@ -73,7 +78,8 @@ impl Scene {
                 foundation::matched_mpa_per_mm(criterion, &at_pitch, line_load_n_per_mm)
             }
         };
-        foundation::peak_pressure_over_hertz(foundation_mpa_per_mm, &at_pitch, line_load_n_per_mm)
+        let [half_width, pressure] = foundation::over_hertz(foundation_mpa_per_mm, &at_pitch, line_load_n_per_mm);
+        SurfaceOverHertz { half_width, pressure }
     }
 
     /// The teeth of each gear in `phase` whose temperature is asked for; none of a metal gear beside a plastic one, and none where nobody asks.

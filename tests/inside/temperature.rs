@@ -169,7 +169,8 @@ fn teeth_are_the_bulk_of_the_contact() {
     let run = |more: &str| run(&[("young_modulus_GPa = 206.0", "young_modulus_GPa = 3.0")], more);
     let record = run(&format!("{friction}{tooth}"));
     let found = record.summary.temperature.as_ref().unwrap();
-    let teeth = found.tooth.unwrap();
+    let both = found.tooth.unwrap();
+    let teeth = both.map(Option::unwrap);
     assert_eq!(found.friction_coefficient, 0.15);
     assert_eq!(found.bulk_temperature_C, 0.5 * (teeth.pinion.flank_C + teeth.wheel.flank_C));
     // Fewer teeth get warmer, and roots less than flanks.
@@ -180,7 +181,37 @@ fn teeth_are_the_bulk_of_the_contact() {
 
     let given = run(&format!("[temperature]\nbulk_temperature_C = 70.0\n{friction}{tooth}"));
     let found = given.summary.temperature.unwrap();
-    assert_eq!((found.bulk_temperature_C, found.tooth), (70.0, Some(teeth)));
+    assert_eq!((found.bulk_temperature_C, found.tooth), (70.0, Some(both)));
+}
+
+/// Beside a plastic wheel a steel pinion has no temperature of its teeth (VDI 2736-2 has that of the plastic gear alone), and contact temperatures
+/// are counted from the wheel's; what is to follow the pinion's is refused.
+#[test]
+fn a_metal_gear_beside_a_plastic_one_has_no_tooth_temperature() {
+    let tooth = "[temperature.tooth]\nambient_temperature_C = 23.0\nlubrication = \"dry\"\n[friction]\nmodel = \"constant\"\ncoefficient = 0.2\n";
+    let materials = "[material.pinion]\npreset = \"steel\"\n[material.wheel]\npreset = \"POM\"\n[operation]";
+    let given = "[material]                        # of both\nyoung_modulus_GPa = 206.0\npoisson_ratio = 0.3\ndensity_kg_per_m3 = 7830.0        # for the worn mass\n\n[operation]";
+    let torque = ("pinion_torque_Nm = 302.0", "pinion_torque_Nm = 5.0");
+    let record = run(&[(given, materials), torque], tooth);
+    let found = record.summary.temperature.unwrap();
+    let both = found.tooth.unwrap();
+    assert!(both.pinion.is_none());
+    let because = found.tooth_null_because.unwrap();
+    assert!(because.pinion.unwrap().contains("plastic gear alone") && because.wheel.is_none());
+    // θ = θ_0 + P μ H_V 6300/(b z (v m)^0.75): H_V and P of the run, 24 teeth, 14 mm, v of the working pitch circle.
+    let losses = record.summary.lubrication.unwrap().losses;
+    let power_w = 5.0 * std::f64::consts::TAU * 150.0 / 60.0;
+    let speed = std::f64::consts::TAU * 150.0 / 60.0 * 36.6e-3;
+    let expected =
+        23.0 + power_w * 0.2 * losses.loss_factor_ohlendorf * 6300.0 / (14.0 * 24.0 * (speed * 4.5f64).powf(0.75));
+    let wheel = both.wheel.unwrap();
+    assert!((wheel.flank_C / expected - 1.0).abs() < 1e-9, "{} {expected}", wheel.flank_C);
+    assert!((found.bulk_temperature_C - wheel.flank_C).abs() < 1e-9);
+
+    let curve = "[material.pinion]\npreset = \"steel\"\nyoung_modulus_curve = { temperature_C = [20.0, 100.0], young_modulus_GPa = [206.0, 200.0] }\n[material.wheel]\npreset = \"POM\"\n[operation]";
+    let text = presets::find("thesis-spur").unwrap().text.replace(given, curve);
+    let problems = Scene::from_toml(&format!("{text}\n{tooth}")).unwrap_err();
+    assert!(problems.iter().any(|p| p.key == "material.pinion.young_modulus_curve"), "{problems:?}");
 }
 
 /// Young's modulus over the mean of flank and root temperature, the wear coefficient over that of the flank in each phase: the same as when it is given.
@@ -193,7 +224,7 @@ fn ver_modulus_and_wear_follow_the_teeth() {
     let curve = "young_modulus_curve = { temperature_C = [20.0, 1000.0], young_modulus_GPa = [3.0, 1.0] }";
     let warm = format!("warm = {{ temperature_C = [20.0, 1000.0], factor = [1.0, 3.0] }}\n{wear}");
     let followed = run(&[(modulus, curve), (wear, &warm), (hours, phases)], tooth);
-    let teeth = followed.summary.temperature.as_ref().unwrap().tooth.unwrap();
+    let teeth = followed.summary.temperature.as_ref().unwrap().tooth.unwrap().map(Option::unwrap);
     let mean = |at: &ToothTemperatureSummary| 0.5 * (at.flank_C + at.root_C);
     for at in [&teeth.pinion, &teeth.wheel] {
         assert!((at.young_modulus_GPa.unwrap() - (3.0 - 2.0 * (mean(at) - 20.0) / 980.0)).abs() < 1e-12);
@@ -256,7 +287,8 @@ fn ver_phases_have_the_modulus_of_their_temperature() {
         let alone = [4.0, 2.0].map(|torque| {
             let operation = format!("pinion_revolutions = 1.0\npinion_torque_Nm = {torque:?}");
             let followed = scene(surface, curve, &operation, tooth);
-            let modulus = followed.summary.temperature.unwrap().tooth.unwrap().wheel.young_modulus_GPa.unwrap();
+            let modulus =
+                followed.summary.temperature.unwrap().tooth.unwrap().wheel.unwrap().young_modulus_GPa.unwrap();
             let given = scene(surface, &format!("young_modulus_GPa = {modulus:?}"), &operation, "");
             assert_eq!(followed.flanks.wheel.wear_um, given.flanks.wheel.wear_um);
             (modulus, given.flanks.wheel.wear_um, given.summary.contact.hertz_peak_pressure_MPa)

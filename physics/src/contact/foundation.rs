@@ -36,11 +36,13 @@ pub fn matched_mpa_per_mm(criterion: MatchCriterion, hertz: &Flattening, line_lo
     1.5 * w * radius / a_bed.powi(3)
 }
 
-/// Greatest pressure of the foundation's parabola over that of Hertz's ellipse under `line_load_n_per_mm`, (3π/8) a_H/a.
-pub fn peak_pressure_over_hertz(foundation_mpa_per_mm: f64, hertz: &Flattening, line_load_n_per_mm: f64) -> f64 {
+/// Half-width and greatest pressure of the foundation's parabola over those of Hertz's ellipse under `line_load_n_per_mm`: a/a_H and
+/// (3π/8) a_H/a.
+pub fn over_hertz(foundation_mpa_per_mm: f64, hertz: &Flattening, line_load_n_per_mm: f64) -> [f64; 2] {
     let contact = &hertz.contact;
     let own_mm = half_width_mm(foundation_mpa_per_mm, contact.relative_radius_mm(), line_load_n_per_mm);
-    3.0 * PI / 8.0 * contact.loaded(line_load_n_per_mm).half_width_mm / own_mm
+    let wider = own_mm / contact.loaded(line_load_n_per_mm).half_width_mm;
+    [wider, 3.0 * PI / 8.0 / wider]
 }
 
 /// The springs at one position: K/H = K (w/w_ref)^(−m), all alike, softer under more load where m > 0.

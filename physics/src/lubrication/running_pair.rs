@@ -2,17 +2,19 @@
 //!
 //! Each surface runs at ω ρ through the contact. Load and pressure of a film are those of the contact with the factors K_A K_V, as
 //! ISO/TS 6336-22 has it for a contact analysis (Method A); its radius and speeds are the nominal ones, also where flanks are worn, and before A
-//! and after E those of A and E. Where a contact is under more pressure p than its load w on the nominal radius ρ_n gives, as at a tip edge, its
-//! radius is that of the cylinders which this load presses as hard,
+//! and after E those of A and E. A contact that is narrower than its load w makes it on the nominal radius ρ_n, as at a tip edge, has the radius of
+//! the cylinders which this load presses onto that width, and Hertz's pressure of it:
 //!
 //! ```text
-//! ρ = ρ_n (κ p_H/p)² for p > κ p_H      p_H = √(E_r w/(2π ρ_n))      that is, with κ = 1, ρ = E_r w/(2π p²)
+//! ρ = ρ_n (a/a_n)²    p = κ_p p_H a_n/a    for a < a_n = κ_a a_H    that is, with κ = 1, ρ = π E_r a²/(8 w) and p = 2w/(π a)
 //! ```
 //!
-//! κ is the surface's pressure over Hertz's on the nominal radius: 1 where the surface is elastic, and what a foundation of springs makes of it.
-//! Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.2.
+//! a is the half-width of the contact, or where that is the greater the one of Hertz's ellipse with its greatest pressure, which at an edge grows
+//! with every refinement, as the width does not. κ_a and κ_p are half-width and pressure of the surface over Hertz's a_H and p_H on the nominal
+//! radius: 1 where the surface is elastic, and what a foundation of springs makes of them. Source: K. L. Johnson, *Contact Mechanics* (1985),
+//! section 4.2.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::film::FilmParameters;
 use super::friction::{self, MeanConditions};
@@ -41,8 +43,22 @@ pub struct RunningConditions {
     pub line_load_n_per_mm: f64,
     /// E_r of both materials, MPa.
     pub reduced_modulus_mpa: f64,
-    /// κ, greatest pressure of the contact surface over Hertz's on the same radius.
-    pub pressure_over_hertz: f64,
+    /// κ_a and κ_p of the contact surface.
+    pub surface: SurfaceOverHertz,
+}
+
+/// A contact surface on a given radius under a load over Hertz's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfaceOverHertz {
+    /// κ_a, of its half-widths.
+    pub half_width: f64,
+    /// κ_p, of its greatest pressures.
+    pub pressure: f64,
+}
+
+impl SurfaceOverHertz {
+    /// An elastic surface.
+    pub const ELASTIC: Self = Self { half_width: 1.0, pressure: 1.0 };
 }
 
 /// The pair with its oil.
@@ -58,8 +74,8 @@ pub struct RunningPair<'a> {
     pub line_load_n_per_mm: f64,
     /// E_r and B_M.
     pub bodies: Bodies,
-    /// κ, greatest pressure of the contact surface over Hertz's on the same radius.
-    pub pressure_over_hertz: f64,
+    /// κ_a and κ_p of the contact surface.
+    pub surface: SurfaceOverHertz,
     /// For Method B.
     pub sharing: SharingGeometry,
     /// None where only friction without oil is asked for.
@@ -110,6 +126,8 @@ pub struct LoadedPlace {
     pub line_load_n_per_mm: f64,
     /// Greatest pressure, MPa.
     pub peak_pressure_mpa: f64,
+    /// Half of its extent, mm.
+    pub half_width_mm: f64,
 }
 
 /// Film of a contact.
@@ -141,7 +159,7 @@ impl<'a> RunningPair<'a> {
                 reduced_modulus_mpa: conditions.reduced_modulus_mpa,
                 thermal_contact_w_s05_per_m2_k: thermal.unwrap_or_default(),
             },
-            pressure_over_hertz: conditions.pressure_over_hertz,
+            surface: conditions.surface,
             sharing: SharingGeometry {
                 points_mm: pair.path.points_mm(),
                 overlap_ratio: pair.overlap_ratio(),
@@ -203,19 +221,21 @@ impl<'a> RunningPair<'a> {
     fn at(&self, place: &LoadedPlace, load_factor: f64) -> RollingContact {
         let path = &self.pair.path;
         let position_mm = place.position_mm.clamp(path.start_mm, path.end_mm);
-        let pressure_mpa = load_factor.sqrt() * place.peak_pressure_mpa;
-        let nominal = self.contact(position_mm, load_factor * place.line_load_n_per_mm, pressure_mpa);
-        RollingContact { relative_radius_mm: self.radius_of_contact_mm(&nominal), ..nominal }
-    }
-
-    /// ρ of a contact, from its own load and pressure where that is above the nominal one, mm.
-    fn radius_of_contact_mm(&self, nominal: &RollingContact) -> f64 {
-        let expected_mpa = self.pressure_over_hertz * self.bodies.peak_pressure_mpa(nominal);
-        let excess = nominal.peak_pressure_mpa / expected_mpa;
-        if excess > 1.0 && excess.is_finite() {
-            nominal.relative_radius_mm / (excess * excess)
-        } else {
-            nominal.relative_radius_mm
+        let grown = load_factor.sqrt();
+        let nominal =
+            self.contact(position_mm, load_factor * place.line_load_n_per_mm, grown * place.peak_pressure_mpa);
+        let hertz_mpa = self.bodies.peak_pressure_mpa(&nominal);
+        let hertz_mm = 2.0 * nominal.line_load_n_per_mm / (PI * hertz_mpa);
+        let by_pressure = self.surface.pressure * hertz_mpa / nominal.peak_pressure_mpa;
+        let by_extent = grown * place.half_width_mm / (self.surface.half_width * hertz_mm);
+        let narrower = by_extent.max(by_pressure);
+        if !(0.0..1.0).contains(&narrower) || narrower == 0.0 {
+            return nominal;
+        }
+        RollingContact {
+            relative_radius_mm: nominal.relative_radius_mm * narrower * narrower,
+            peak_pressure_mpa: self.surface.pressure * hertz_mpa / narrower,
+            ..nominal
         }
     }
 
@@ -257,8 +277,9 @@ impl<'a> RunningPair<'a> {
             let line_load_n_per_mm = self.sharing.factor(position_mm) * self.line_load_n_per_mm;
             let contact = self.contact(position_mm, line_load_n_per_mm, 0.0);
             let peak_pressure_mpa = self.bodies.peak_pressure_mpa(&contact);
+            let half_width_mm = 2.0 * line_load_n_per_mm / (PI * peak_pressure_mpa);
             let work = line_load_n_per_mm * contact.sliding_speed_m_per_s();
-            (work, self.friction(&LoadedPlace { position_mm, line_load_n_per_mm, peak_pressure_mpa }))
+            (work, self.friction(&LoadedPlace { position_mm, line_load_n_per_mm, peak_pressure_mpa, half_width_mm }))
         };
         let places = self.pair.path.evenly_mm(PLACES).into_iter().map(at);
         let (work, friction) = places.fold((0.0, 0.0), |(sum, of), (work, mu)| (sum + work, of + work * mu));

@@ -528,10 +528,12 @@ impl LoadedPosition {
             rows.pressure_mpa.clear();
             rows.pressure_mpa.extend(force.iter().zip(&contact.weight_mm).map(|(force, weight)| force / weight));
             let place = ContactPlace { model: step.model, contact, stretch_mm: self.stretch_mm };
+            let pressed = force.iter().zip(&contact.weight_mm).filter(|(force, _)| **force > 0.0);
             let loaded = LoadedPlace {
                 position_mm: place.position_mm(),
                 line_load_n_per_mm: force.iter().sum(),
                 peak_pressure_mpa: rows.pressure_mpa.iter().copied().fold(0.0, f64::max),
+                half_width_mm: 0.5 * pressed.map(|(_, weight_mm)| weight_mm).sum::<f64>(),
             };
             let lambdas = step.wear.lambdas(&loaded);
             for gear in Gear::BOTH {

@@ -102,6 +102,7 @@ impl WornPoints {
             position_mm: place.position_mm,
             line_load_n_per_mm: pair.response.line_load_n_per_mm / place.part,
             peak_pressure_mpa: greatest * pair.contact.footprint().peak_pressure_mpa,
+            half_width_mm: pair.contact.footprint().half_width_mm,
         };
         let source = place.under(wear, &*pair.contact, &loaded);
         let lambdas = wear.lambdas(&loaded);

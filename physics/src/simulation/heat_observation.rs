@@ -212,6 +212,7 @@ impl HeatObserver<'_> {
             position_mm: contact.position_mm,
             line_load_n_per_mm,
             peak_pressure_mpa: PEAK_OVER_MEAN * mean_mpa,
+            half_width_mm,
         };
         let strip = HeatedStrip {
             ratios: SpeedRatios::over(self.pair, contact.position_mm, contact.position_mm),

@@ -140,6 +140,74 @@ fn results_without_load_spectrum_stand_in_the_model() {
     assert_eq!((depth.1.as_str(), diameters.1.as_str()), ("0.04.5", "70.082.5"));
 }
 
+/// Figures of films, friction, scuffing and of VDI 2736 in the unit of their attribute; W_m is in mm, and each figure has its own number.
+#[test]
+fn ver_figures_of_films_and_wear_stand_in_their_unit() {
+    let mut run = run(&[[100.0, 1500.0]]);
+    let path = |value: f64| json!({ "min": value, "max": 900.0, "mean": 901.0 });
+    run.summary["lubrication"] = json!({
+        "oil": { "bulk_temperature_C": 78.5 },
+        "losses": {
+            "loss_factor_ohlendorf": 0.195, "mesh_power_loss_new_W": 177.5, "mesh_power_loss_worn_W": 166.5,
+            "efficiency_new": 0.9925, "efficiency_worn": 0.9935,
+        },
+        "friction": { "mean_new": 0.045, "mean_worn": 0.044 },
+        "film": {
+            "minimum_film_new_um": path(0.375), "minimum_film_worn_um": path(0.365), "lambda_new": path(0.875),
+            "lambda_worn": path(0.865), "micropitting_safety_new": 1.125, "micropitting_safety_worn": 1.115,
+            "greatest_flash_new_K": 46.5, "greatest_flash_worn_K": 45.5,
+        },
+        "method_b": { "micropitting_safety": 1.25 },
+        "scuffing": {
+            "contact_temperature_C": 119.0, "integral_temperature_C": 158.0, "scuffing_safety": 1.5,
+            "integral_scuffing_safety": 0.96,
+        },
+    });
+    run.summary["temperature"] = json!({
+        "greatest_rise_new_K": 33.5, "greatest_rise_worn_K": 32.5,
+        "tooth": { "pinion": null, "wheel": { "flank_C": 61.5, "root_C": 41.5 } },
+    });
+    run.summary["pinion"]["vdi_2736_mean_wear_um"] = json!(12.5);
+    let with = written(&without_load_spectrum(), &run);
+    for (id, unit, text) in [
+        ("degree_of_tooth_loss_vdi_2736_2014", "none", "0.195"),
+        ("custom_gearwear_mesh_power_loss_new", "W", "177.5"),
+        ("custom_gearwear_mesh_power_loss_worn", "W", "166.5"),
+        ("custom_gearwear_mesh_efficiency_new", "none", "0.9925"),
+        ("custom_gearwear_mesh_efficiency_worn", "none", "0.9935"),
+        ("custom_gearwear_mean_coefficient_of_friction_new", "none", "0.045"),
+        ("custom_gearwear_mean_coefficient_of_friction_worn", "none", "0.044"),
+        ("custom_gearwear_minimum_lubricant_film_thickness_new", "mum", "0.375"),
+        ("custom_gearwear_minimum_lubricant_film_thickness_worn", "mum", "0.365"),
+        ("custom_gearwear_minimum_specific_lubricant_film_thickness_new", "none", "0.875"),
+        ("custom_gearwear_minimum_specific_lubricant_film_thickness_worn", "none", "0.865"),
+        ("custom_gearwear_safety_factor_micropitting_method_a_new", "none", "1.125"),
+        ("custom_gearwear_safety_factor_micropitting_method_a_worn", "none", "1.115"),
+        ("custom_gearwear_safety_factor_micropitting_method_b", "none", "1.25"),
+        ("custom_gearwear_maximum_flash_temperature_new", "K", "46.5"),
+        ("custom_gearwear_maximum_flash_temperature_worn", "K", "45.5"),
+        ("custom_gearwear_maximum_contact_temperature_iso_ts_6336_20", "C", "119.0"),
+        ("custom_gearwear_integral_temperature_iso_ts_6336_21", "C", "158.0"),
+        ("custom_gearwear_safety_factor_scuffing_iso_ts_6336_20", "none", "1.5"),
+        ("custom_gearwear_safety_factor_scuffing_iso_ts_6336_21", "none", "0.96"),
+        ("custom_gearwear_maximum_contact_temperature_rise_new", "K", "33.5"),
+        ("custom_gearwear_maximum_contact_temperature_rise_worn", "K", "32.5"),
+    ] {
+        assert_eq!(attribute(&with.text, MODEL, "10", id), value(unit, text), "{id}");
+    }
+    for (component, id, expected) in [
+        ("11", "bulk_temperature", value("C", "78.5")),
+        ("12", "bulk_temperature", value("C", "78.5")),
+        ("5", "averaged_linear_wear_vdi_2736_2014", value("mm", "0.0125")),
+        ("6", "averaged_linear_wear_vdi_2736_2014", None),
+        ("5", "flank_temperature_characteristic_vdi_2736_2014", None),
+        ("6", "flank_temperature_characteristic_vdi_2736_2014", value("C", "61.5")),
+        ("6", "root_temperature_vdi_2736_2014", value("C", "41.5")),
+    ] {
+        assert_eq!(attribute(&with.text, MODEL, component, id), expected, "{component} {id}");
+    }
+}
+
 /// A load case alone has the figures of its load, the accumulation those of the whole life.
 #[test]
 fn results_of_one_load_case_stand_in_it() {

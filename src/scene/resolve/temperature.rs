@@ -110,15 +110,15 @@ pub(super) fn with_tooth_temperature(material: &PerGear<Material>) -> PerGear<bo
 
 /// Refuses what is to follow the temperature of teeth that have none.
 pub(super) fn check_followers(
-    file: &Option<WearFile>,
+    file: &WearFile,
     materials: &Materials,
     wear: &PerGear<WearSettings>,
     findings: &mut Findings,
 ) {
     let has_temperature = with_tooth_temperature(&materials.elastic);
     let own_wear = |gear: Gear| match gear {
-        Gear::Pinion => file.as_ref()?.pinion.as_ref(),
-        Gear::Wheel => file.as_ref()?.wheel.as_ref(),
+        Gear::Pinion => file.pinion.as_ref(),
+        Gear::Wheel => file.wheel.as_ref(),
     };
     for gear in Gear::BOTH.into_iter().filter(|&gear| !has_temperature[gear]) {
         let (name, mate) = (gear.name(), gear.mate().name());

@@ -264,7 +264,12 @@ impl Batch {
         self.places.clear();
         if wear.reads_places() {
             self.places.extend(positions.zip(loads).map(|(position_mm, (line_load_n_per_mm, &mean_mpa))| {
-                LoadedPlace { position_mm, line_load_n_per_mm, peak_pressure_mpa: PEAK_OVER_MEAN * mean_mpa }
+                LoadedPlace {
+                    position_mm,
+                    line_load_n_per_mm,
+                    peak_pressure_mpa: PEAK_OVER_MEAN * mean_mpa,
+                    half_width_mm: if mean_mpa > 0.0 { 0.5 * line_load_n_per_mm / mean_mpa } else { 0.0 },
+                }
             }));
         }
         let places = &self.places;
