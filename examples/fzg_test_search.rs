@@ -1,5 +1,6 @@
 //! Searches what the thesis's text leaves open of its FZG wear test (torque, speed, stiffness of the contact) for settings that meet
-//! D1, D2 and D3 together: the tables of docs/fzg-test.md. Takes minutes.
+//! D1, D2 and D3 together: the tables of docs/fzg-test.md. Takes minutes. The width of the transition, MPa, may be given, and after it the number of
+//! flank points (half as many positions) and what the contact's lines must contain.
 
 #[path = "../tests/inside/common/fzg_test.rs"]
 mod fzg_test;
@@ -12,22 +13,27 @@ const TORQUES_NM: [f64; 16] =
     [300.0, 310.0, 320.0, 330.0, 340.0, 350.0, 360.0, 372.6, 382.0, 390.0, 400.0, 410.0, 420.0, 430.0, 440.0, 450.0];
 
 fn main() {
-    let band_mpa = std::env::args().nth(1).map_or(100.0, |band| band.parse().expect("a width of the transition, MPa"));
+    let mut given = std::env::args().skip(1);
+    let band_mpa = given.next().map_or(100.0, |band| band.parse().expect("a width of the transition, MPa"));
+    let flank_points: usize = given.next().map_or(750, |points| points.parse().expect("a number of flank points"));
+    let within = given.next().unwrap_or_default();
     let contacts = [
         "surface = \"winkler\"\nmatch = \"half-width\"",
         "surface = \"winkler\"\nmatch = \"peak-pressure\"",
         "surface = \"winkler\"\nmatch = \"half-width\"\ntip_contact = true",
         "surface = \"winkler\"\nmatch = \"peak-pressure\"\ntip_contact = true",
         "surface = \"half-space\"",
-        "surface = \"half-space\"\ntip_contact = true",
     ];
     let mut estimates = Vec::new();
-    for contact in contacts {
+    for contact in contacts.into_iter().filter(|contact| contact.contains(&within)) {
         for torque_nm in TORQUES_NM {
             estimates.push(Estimate {
                 torque_nm,
                 contact: contact.to_owned(),
-                numerics: "step = \"adaptive\"\ntolerance_um = 0.05".to_owned(),
+                numerics: format!(
+                    "step = \"adaptive\"\ntolerance_um = 0.05\nflank_points = {flank_points}\npositions = {}",
+                    flank_points / 2
+                ),
                 band_mpa,
                 speeds_rpm: SPEEDS_RPM.to_vec(),
             });

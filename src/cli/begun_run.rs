@@ -1,5 +1,6 @@
 //! Where a run begins: in a fresh folder, or where an earlier run of the same scene was broken off.
 
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -13,7 +14,7 @@ use crate::scene::loaded::LoadedScene;
 use crate::simulation::checkpoint::{Checkpoint, Keeper};
 
 use super::failure::{Failure, InputError};
-use super::say;
+use super::{run, say};
 
 /// Least time between two checkpoints.
 const LEAST_INTERVAL: Duration = Duration::from_millis(250);
@@ -28,10 +29,33 @@ pub(super) struct BegunRun {
     pub identity: Identity,
     /// Where it goes on from; `None`: from the beginning.
     pub from: Option<Checkpoint>,
+    /// What its beginning made.
+    pub made: Option<MadeFolder>,
+}
+
+/// A folder in which a run was begun anew.
+pub(super) struct MadeFolder {
+    out: PathBuf,
+    files: Vec<String>,
+    /// Whether it was not there before.
+    is_new: bool,
+}
+
+impl MadeFolder {
+    /// Takes away what the beginning of a run that its scene does not allow has put there. What cannot be taken away stays.
+    pub(super) fn abandon(&self) {
+        folder::abandon(&self.out, &self.files);
+        if self.is_new {
+            // Where something else lies in it, it stays.
+            let _ = fs::remove_dir(&self.out);
+        }
+    }
 }
 
 pub(super) fn begin(scene: &Path, out: &Path) -> Result<BegunRun, Failure> {
-    let (scene, identity) = named_as_copied(LoadedScene::open(scene)?);
+    let scene = LoadedScene::open(scene)?;
+    scene.check_springs().map_err(|error| run::in_the_scene(error, &scene))?;
+    let (scene, identity) = named_as_copied(scene);
     report::writable(out)?;
     begin_anew(scene, identity, out)
 }
@@ -51,7 +75,7 @@ pub(super) fn resume(scene: Option<&Path>, out: &Path) -> Result<Option<BegunRun
         Contents::Checkpoint(found) => {
             let CheckpointFile { warnings, checkpoint, .. } = *found;
             scene.resolved.warnings = warnings;
-            Ok(Some(BegunRun { scene, out: out.to_owned(), identity, from: Some(checkpoint) }))
+            Ok(Some(BegunRun { scene, out: out.to_owned(), identity, from: Some(checkpoint), made: None }))
         }
         Contents::Ended(stopped) if stopped.is_complete() => Ok(None),
         Contents::Ended(_) => Err(InputError::NothingLeft { folder: out.display().to_string() }.into()),
@@ -65,9 +89,12 @@ fn named_as_copied(scene: LoadedScene) -> (LoadedScene, Identity) {
 }
 
 fn begin_anew(scene: LoadedScene, identity: Identity, out: &Path) -> Result<BegunRun, Failure> {
+    let is_new = !out.exists();
     report::create_folder(out)?;
     folder::begin(out, &identity, &scene.files.as_read)?;
-    Ok(BegunRun { scene, out: out.to_owned(), identity, from: None })
+    let files = scene.files.as_read.iter().map(|file| file.name.clone()).collect();
+    let made = Some(MadeFolder { out: out.to_owned(), files, is_new });
+    Ok(BegunRun { scene, out: out.to_owned(), identity, from: None, made })
 }
 
 /// Writes checkpoints into the folder of a run, so rarely that it costs nothing. That a checkpoint cannot be written is no reason to

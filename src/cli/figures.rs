@@ -1,7 +1,7 @@
 //! The main figures of a run, as a table for the terminal.
 
 use crate::report::headline;
-use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError};
+use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError, WearAtLimit};
 use crate::results::run::{HelicalSummary, OverWidthSummary, Summary, WearSummary};
 
 pub(super) fn table(summary: &Summary) -> String {
@@ -15,6 +15,7 @@ pub(super) fn table(summary: &Summary) -> String {
     text.push_str(&over_the_width(summary.helical.as_ref()));
     text.push_str(&verified(&summary.error.total));
     text.push_str(&estimated_errors(&summary.error));
+    text.push_str(&at_other_limits(&summary.error));
     if let Some(balance) = summary.error.volume_balance {
         text.push_str(&format!("\n  worn volumes of pinion and wheel differ by {} %\n", two_digits(100.0 * balance)));
     }
@@ -128,6 +129,18 @@ fn estimated_errors(error: &ErrorSummary) -> String {
         return String::new();
     }
     format!("\n  estimated error of the maximum wear: {}\n", parts.join(", "))
+}
+
+/// The maximum wear with limits of severe wear a tenth lower and higher; nothing where it is not known.
+fn at_other_limits(error: &ErrorSummary) -> String {
+    let Some(limit) = &error.severe_limit else { return String::new() };
+    let peaks = |at: &WearAtLimit| [at.pinion.peak_wear_um, at.wheel.peak_wear_um];
+    [
+        format!("\n{}", row("maximum wear, µm, with", ["pinion", "wheel"])),
+        figures("a limit of severe wear 10 % lower", peaks(&limit.low)),
+        figures("a limit of severe wear 10 % higher", peaks(&limit.high)),
+    ]
+    .concat()
 }
 
 /// An estimate with two significant digits: more it does not have.

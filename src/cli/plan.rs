@@ -8,7 +8,7 @@ use clap::ValueEnum;
 use crate::scene::loaded::LoadedScene;
 
 use super::failure::Failure;
-use super::{print, warn};
+use super::{print, run, warn};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -29,6 +29,7 @@ enum Format {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let scene = LoadedScene::open(&args.scene)?;
+    scene.check_springs().map_err(|error| run::in_the_scene(error, &scene))?;
     warn(scene.warnings());
     let plan = scene.plan();
     print(&match args.format {

@@ -12,8 +12,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 /// How long an interrupted run may take to finish its wear step.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Parts of the bar.
-const PARTS: u64 = 1000;
+/// Parts of the bar: so many that a long run moves it between any two looks, from which it tells what is left.
+const PARTS: u64 = 1_000_000;
 
 /// How progress is shown: a bar on a terminal, elsewhere a log, which remembers something.
 pub(super) enum Display<L> {
@@ -36,15 +36,21 @@ impl<L> Display<L> {
 const JUDGED_AFTER_S: f64 = 2.0;
 /// What takes longer is said, s.
 const LONG_S: f64 = 20.0;
+/// It is said again after this long, s, and then half as long again each time.
+const SAID_AGAIN_AFTER_S: f64 = 20.0;
+/// Part of the time so far by which what is left is judged: work slows down and speeds up as flanks wear.
+const JUDGED_BY: f64 = 0.5;
+/// Moments at which progress is remembered, at the most.
+const MOST_MARKS: usize = 64;
 
 /// The stage that was begun last.
 struct Begun {
     name: String,
     start: Instant,
-    /// Its progress when that was first told, and when.
-    first: Option<(f64, Instant)>,
-    /// Whether it was said how long it takes.
-    is_said: bool,
+    /// How much of it was finished, and how long after its start that was told, s.
+    marks: Vec<(f64, f64)>,
+    /// When it is said how long it takes, s after its start.
+    say_at_s: f64,
 }
 
 /// Watches a run for the user, who may interrupt it.
@@ -90,7 +96,8 @@ impl Observer for Progress {
         match &self.display {
             Display::Quiet => {}
             Display::Log(stage) => {
-                let begun = Begun { name: name.to_owned(), start: Instant::now(), first: None, is_said: false };
+                let begun =
+                    Begun { name: name.to_owned(), start: Instant::now(), marks: Vec::new(), say_at_s: JUDGED_AFTER_S };
                 log_end(stage, Some(begun));
             }
             Display::Bar(bar) => {
@@ -159,35 +166,65 @@ fn log_end(stage: &Mutex<Option<Begun>>, next: Option<Begun>) {
     }
 }
 
-/// Says once of a stage, of which the part `done` is finished, what it takes more where the command, begun at `command`, takes long with it.
+/// Says of a stage, of which the part `done` is finished, what it takes more where the command, begun at `command`, takes long with it; and again now and
+/// then, for the pace changes.
 fn log_long(stage: &Mutex<Option<Begun>>, done: f64, command: Instant) {
     let Ok(mut stage) = stage.lock() else { return };
-    let Some(begun) = stage.as_mut().filter(|begun| !begun.is_said) else { return };
-    let (before, start) = *begun.first.get_or_insert_with(|| (done, Instant::now()));
-    let elapsed_s = start.elapsed().as_secs_f64();
-    if elapsed_s < JUDGED_AFTER_S {
+    let Some(begun) = stage.as_mut() else { return };
+    let elapsed_s = begun.start.elapsed().as_secs_f64();
+    mark(&mut begun.marks, (done, elapsed_s));
+    if elapsed_s < begun.say_at_s {
         return;
     }
-    if let Some(left_s) =
-        left_s(elapsed_s, done - before, 1.0 - done).filter(|left_s| command.elapsed().as_secs_f64() + left_s > LONG_S)
-    {
-        begun.is_said = true;
+    if let Some(left_s) = left_s(&begun.marks).filter(|left_s| command.elapsed().as_secs_f64() + left_s > LONG_S) {
+        begun.say_at_s = (1.5 * elapsed_s).max(elapsed_s + SAID_AGAIN_AFTER_S);
         super::say(&format!("{}: takes some {left_s:.0} s more", begun.name));
     }
 }
 
-/// What is left takes as long for each part as what is finished took; `None` where nothing is.
-fn left_s(elapsed_s: f64, finished: f64, left: f64) -> Option<f64> {
-    (finished > 0.0).then(|| elapsed_s / finished * left)
+/// Remembers how much is finished when, at fewer moments where they become many.
+fn mark(marks: &mut Vec<(f64, f64)>, now: (f64, f64)) {
+    if marks.len() >= MOST_MARKS {
+        let last = marks[marks.len() - 1];
+        let mut keep = false;
+        marks.retain(|_| {
+            keep = !keep;
+            keep
+        });
+        if marks.last() != Some(&last) {
+            marks.push(last);
+        }
+    }
+    marks.push(now);
+}
+
+/// What is left takes as long for each part as what was finished of late took; `None` where nothing was.
+fn left_s(marks: &[(f64, f64)]) -> Option<f64> {
+    let &(done, now_s) = marks.last()?;
+    let late = marks.iter().rev().find(|(_, at_s)| *at_s <= (1.0 - JUDGED_BY) * now_s).or(marks.first())?;
+    let (finished, in_s) = (done - late.0, now_s - late.1);
+    (finished > 0.0).then(|| in_s / finished * (1.0 - done))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// A run that is four times as fast from its middle on; closed form.
     #[test]
-    fn what_is_left_follows_from_what_is_finished() {
-        assert_eq!(left_s(2.0, 0.05, 0.95), Some(38.0));
-        assert_eq!(left_s(2.0, 0.0, 1.0), None);
+    fn what_is_left_follows_from_what_was_finished_of_late() {
+        let mut marks = Vec::new();
+        assert_eq!(left_s(&marks), None);
+        mark(&mut marks, (0.0, 0.0));
+        assert_eq!(left_s(&marks), None);
+        mark(&mut marks, (0.05, 2.0));
+        assert_eq!(left_s(&marks), Some(38.0));
+        marks.clear();
+        for k in 1..=400 {
+            let now_s = f64::from(k);
+            mark(&mut marks, (if now_s <= 100.0 { 1e-3 * now_s } else { 0.1 + 2e-3 * (now_s - 100.0) }, now_s));
+        }
+        let left = left_s(&marks).unwrap();
+        assert!((left - 150.0).abs() < 1e-6 && marks.len() <= MOST_MARKS + 1, "{left}");
     }
 }

@@ -17,7 +17,7 @@ use crate::resume::folder;
 use crate::scene::loaded::LoadedScene;
 use crate::simulation::settings::Operation;
 
-use super::begun_run::{self, BegunRun, FolderKeeper};
+use super::begun_run::{self, BegunRun, FolderKeeper, MadeFolder};
 use super::failure::{Failure, InputError};
 use super::progress::Progress;
 use super::{figures, print, say, warn};
@@ -72,7 +72,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         (Some(scene), Some(out), None) => begun_run::begin(scene, out)?,
         (_, _, None) => unreachable!("clap demands both"),
     };
-    let BegunRun { scene, out, identity, from } = begun;
+    let BegunRun { scene, out, identity, from, made } = begun;
     let resolved = &scene.resolved;
     warn(&resolved.warnings);
     if let Some(from) = from.as_ref().filter(|_| !args.quiet) {
@@ -101,7 +101,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return Err(Failure::Interrupted);
     }
     let Done { record, failure } = done.map_err(|failure| match failure {
-        Failure::Run(error) => in_the_scene(error, &scene),
+        Failure::Run(error) => refused(error, &scene, made.as_ref()),
         other => other,
     })?;
     warn(&progress.not_yet_told(&record.summary.warnings[resolved.warnings.len()..]));
@@ -128,6 +128,15 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 /// Puts a failure that the scene is to blame for at its key.
 pub(super) fn in_the_scene(error: RunError, scene: &LoadedScene) -> Failure {
     error.in_the_scene(&scene.given).map_or(Failure::Run(error), Failure::Scene)
+}
+
+/// A failure of a run of which nothing was finished. Of a run that its scene does not allow nothing stays.
+fn refused(error: RunError, scene: &LoadedScene, made: Option<&MadeFolder>) -> Failure {
+    let failure = in_the_scene(error, scene);
+    if let (Failure::Scene(_), Some(made)) = (&failure, made) {
+        made.abandon();
+    }
+    failure
 }
 
 /// The last stage: the output folder. Its own time is in the summary, which is therefore written last.

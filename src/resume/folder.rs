@@ -81,6 +81,17 @@ pub(crate) fn place(dir: &Path, name: &str, bytes: &[u8]) -> Result<(), ReportEr
         .map_err(|source| ReportError::WriteFile { path, source })
 }
 
+/// Takes away what [`begin`] has put into `dir`, with input files of these names; what cannot be taken away stays.
+pub(crate) fn abandon(dir: &Path, files: &[String]) {
+    for path in files.iter().map(String::as_str).chain([SCENE]).map(|name| dir.join(name)) {
+        let _ = fs::remove_file(&path);
+        if let Some(folder) = path.parent().filter(|folder| *folder != dir) {
+            // Goes once it is empty.
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
 /// Takes away the checkpoint in `dir`, if there is one.
 pub(crate) fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
     let path = dir.join(CHECKPOINT);

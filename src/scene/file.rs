@@ -80,8 +80,8 @@ pub struct ReportFile {
 #[serde(deny_unknown_fields)]
 pub struct PairFile {
     /// A pair of the library; a key given beside it overrides the preset's. fzg-c and fzg-a: gears of ISO 14635-1, FZG
-    /// type C (face width 14 mm) and A (20 mm). thesis-spur, fzg-test: type C again; the scenes of these names are the
-    /// thesis's model of it with every choice written out, and its wear test. helical: the transverse section of type C
+    /// type C (face width 14 mm) and A (20 mm). thesis-spur, fzg-test, thesis-fzg-test: type C again; the scenes of these names are the
+    /// thesis's model of it with every choice written out, its wear test on elastic contact with tips rounded by 0.1 mm, and the same test with the thesis's model. helical: the transverse section of type C
     /// with a helix of 15°, 20 mm wide; thesis-helical: the same, its scene the thesis's model. h501, h701, h951: the public helical pairs of FEUP. Default: none.
     #[schemars(extend("enum" = presets::names()))]
     pub preset: Option<String>,

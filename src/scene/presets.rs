@@ -2,8 +2,8 @@
 //!
 //! `gearwear init NAME` prints the file; `pair.preset = "NAME"` takes its `[pair]` table. The numbers of the FZG gears
 //! are those of ISO 14635-1: their tip diameters are data of the standard, not derived. `fzg-c` runs them with this library's
-//! defaults, `thesis-spur` with the thesis's model, every choice written out, and `fzg-test` is the thesis's wear test. Helical
-//! pairs: one like the FZG gears, again with the thesis's model as `thesis-helical`, and the public ones of FEUP (Porto), whose tip diameters follow from the rack.
+//! defaults, `thesis-spur` with the thesis's model, every choice written out, and `fzg-test` is the thesis's wear test on elastic contact,
+//! `thesis-fzg-test` with the thesis's model. Helical pairs: one like the FZG gears, again with the thesis's model as `thesis-helical`, and the public ones of FEUP (Porto), whose tip diameters follow from the rack.
 
 /// A scene of the library.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,10 +15,11 @@ pub struct Preset {
 }
 
 /// All presets; the first is the one `gearwear init` prints unasked.
-pub const PRESETS: [Preset; 9] = [
+pub const PRESETS: [Preset; 10] = [
     Preset { name: "fzg-c", text: include_str!("presets/fzg-c.toml") },
     Preset { name: "thesis-spur", text: include_str!("presets/thesis-spur.toml") },
     Preset { name: "fzg-test", text: include_str!("presets/fzg-test.toml") },
+    Preset { name: "thesis-fzg-test", text: include_str!("presets/thesis-fzg-test.toml") },
     Preset { name: "fzg-a", text: include_str!("presets/fzg-a.toml") },
     Preset { name: "helical", text: include_str!("presets/helical.toml") },
     Preset { name: "thesis-helical", text: include_str!("presets/thesis-helical.toml") },

@@ -225,7 +225,7 @@ pub struct SevereFile {
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub factor: f64,
     /// Pressure in MPa over which the factor rises, half of it to either side of above_MPa, 0 or more; adaptive steps
-    /// resolve such a band cheaply. Default 0: at once, as in the thesis.
+    /// resolve such a band cheaply. 0: at once, as in the thesis. Default: 5 % of above_MPa.
     #[schemars(range(min = 0))]
     pub band_MPa: Option<f64>,
 }

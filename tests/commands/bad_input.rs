@@ -355,7 +355,7 @@ fn preset_that_does_not_exist() {
     case.refused().at_line(2).says(&[
         "pair.preset",
         "found \"fzg-d\"",
-        "\"fzg-c\", \"thesis-spur\", \"fzg-test\", \"fzg-a\"",
+        "\"fzg-c\", \"thesis-spur\", \"fzg-test\", \"thesis-fzg-test\", \"fzg-a\"",
         "did you mean",
     ]);
     let mut init = Command::cargo_bin("gearwear").unwrap();

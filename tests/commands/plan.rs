@@ -1,9 +1,11 @@
 //! `gearwear plan`: what it prints.
 
+use std::fs;
+
 use assert_cmd::Command;
 use predicates::prelude::*;
 
-use crate::program::preset;
+use crate::program::{gearwear, preset};
 
 #[test]
 fn json_for_scripts_and_text_for_people() {
@@ -36,4 +38,43 @@ fn a_plan_promises_nothing_that_cannot_run() {
         assert_eq!(output.status.code(), Some(2));
         assert!(String::from_utf8_lossy(&output.stderr).contains("standard output cannot be written"));
     }
+}
+
+/// What a run would refuse before its first step is refused by the plan too, and a run that is refused leaves nothing behind: a foundation that yields
+/// more than the stiffness model allows the whole pair.
+#[test]
+fn plan_and_run_refuse_the_same_springs_and_nothing_stays() {
+    let dir = tempfile::tempdir().unwrap();
+    let scene = dir.path().join("soft.toml");
+    let text = "[pair]\npreset = \"fzg-c\"\n[operation]\npinion_torque_Nm = 302.0\npinion_revolutions = 10.0\n[wear]\nlaw = \"archard\"\n\
+                coefficient_m2_per_N = 1e-17\n[contact]\nsurface = \"winkler\"\nfoundation_MPa_per_mm = 20.0\n[stiffness]\nmodel = \"iso6336\"\n\
+                [numerics]\npositions = 40\nflank_points = 100\nerror_estimate = false\nverify = false\n";
+    fs::write(&scene, text).unwrap();
+    let out = dir.path().join("out");
+    let plan = gearwear().arg("plan").arg(&scene).output().unwrap();
+    let run = gearwear().arg("run").arg(&scene).arg("--out").arg(&out).output().unwrap();
+    for output in [&plan, &run] {
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains("contact.foundation_MPa_per_mm") && said.contains("soft.toml:8"), "{said}");
+    }
+    assert!(!out.exists());
+}
+
+/// Finite elements are not asked by the plan: a run that they refuse the scene leaves nothing behind either, nor takes away what else is there.
+#[test]
+fn a_run_that_its_elements_refuse_leaves_nothing() {
+    let dir = tempfile::tempdir().unwrap();
+    let scene = dir.path().join("soft.toml");
+    let text = "[pair]\npreset = \"fzg-c\"\n[operation]\npinion_torque_Nm = 302.0\npinion_revolutions = 10.0\n[wear]\nlaw = \"archard\"\n\
+                coefficient_m2_per_N = 1e-17\n[contact]\nsurface = \"winkler\"\nfoundation_MPa_per_mm = 20.0\n\
+                [fem]\nelements_per_half_width = 3\n[numerics]\npositions = 40\nflank_points = 100\nerror_estimate = false\nverify = false\n";
+    fs::write(&scene, text).unwrap();
+    let out = dir.path().join("out");
+    fs::create_dir(&out).unwrap();
+    fs::write(out.join("notes.txt"), "mine").unwrap();
+    let run = gearwear().arg("run").arg(&scene).arg("--out").arg(&out).output().unwrap();
+    assert_eq!(run.status.code(), Some(2), "{}", String::from_utf8_lossy(&run.stderr));
+    let left: Vec<_> = fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(left, ["notes.txt"]);
 }

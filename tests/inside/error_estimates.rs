@@ -222,6 +222,39 @@ fn adaptive_steps_estimate_their_own_error() {
     }
 }
 
+/// The wear with limits of severe wear a tenth lower and higher is that of runs with these limits, and where it hangs on them the run warns; a pressure far
+/// below the limit has no such interval.
+#[test]
+fn val_the_interval_of_the_limit_is_that_of_other_limits() {
+    let limited = |above_mpa: f64, estimate: bool| {
+        let text = with("half-space", 4, 7_665.0)
+            .replace("step = { revolutions = 7665.0 }", "step = \"adaptive\"\ntolerance_um = 0.05")
+            .replace(
+                "coefficient_m2_per_N",
+                &format!("severe = {{ above_MPa = {above_mpa:?}, factor = 20.0 }}\ncoefficient_m2_per_N"),
+            );
+        let text = unverified(&text);
+        run(&if estimate { text } else { text.replace("error_estimate = true", "error_estimate = false") })
+    };
+    let own = limited(1700.0, true);
+    let limit = own.error.severe_limit.expect("wear is severe");
+    assert_eq!([limit.low.limit_factor, limit.high.limit_factor], [0.9, 1.1]);
+    for (at, above_mpa) in [(limit.low, 1530.0), (limit.high, 1870.0)] {
+        let other = limited(above_mpa, false);
+        for (told, truth) in [(at.pinion, other.pinion), (at.wheel, other.wheel)] {
+            let off = told.peak_wear_um / truth.peak_wear_um - 1.0;
+            println!("{above_mpa}: {told:?}, {} and {} µm", truth.peak_wear_um, truth.pitch_wear_um);
+            assert!(off.abs() < 0.1, "{above_mpa}: {told:?}, {truth:?}");
+        }
+    }
+    let ratio = limit.low.pinion.pitch_wear_um / limit.high.pinion.pitch_wear_um;
+    let ratio = ratio.max(limit.low.wheel.pitch_wear_um / limit.high.wheel.pitch_wear_um);
+    assert_eq!(own.warnings.iter().any(|warning| warning.contains("hangs on the limit")), ratio > 2.0, "{ratio}");
+    let far = limited(9000.0, true);
+    assert_eq!(far.error.severe_limit, None);
+    assert!(far.error.how.severe_limit.contains("no pressure comes near"), "{:?}", far.error.how);
+}
+
 /// Where the contact is too narrow to be meshed, or teeth cannot be had in space, the run has its result, and says why nothing vouches for it.
 #[test]
 fn what_finite_elements_cannot_vouch_for_is_said() {

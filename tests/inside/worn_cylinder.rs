@@ -194,3 +194,40 @@ fn val_a_flat_wears_a_cylinder_of_elastic_half_planes() {
     }
     assert!(late > 50, "{late} late stages");
 }
+
+/// The load of a cylinder pressed onto the flat by `approach_mm` after it has lost `worn_mm` at its points, in a window as long as it takes.
+fn settled_load(surface: &dyn ContactSurface, grid: &FlankGrid, worn_mm: &[f64], approach_mm: f64) -> f64 {
+    let zeros = vec![0.0; grid.len()];
+    let flanks = Flanks::new(&CylinderOnFlat, PerGear { pinion: grid, wheel: grid });
+    let mut pair = surface.pair(flanks, 0.0, None);
+    loop {
+        pair.set_removed(PerGear { pinion: worn_mm, wheel: &zeros });
+        let load = pair.load_at(approach_mm - pair.touch_mm()).line_load_n_per_mm;
+        if pair.window_suffices() {
+            return load;
+        }
+        pair.widen();
+    }
+}
+
+/// A cylinder worn hollow touches on both shoulders of the hollow, half a millimetre beside the place that is looked at first: the load is that of a
+/// window which holds them from the beginning on, and the hollow carries none of it.
+#[test]
+fn ver_shoulders_beside_a_hollow_are_found() {
+    let count = 2000;
+    let arcs: Vec<f64> = (0..=count).map(|i| 2.0 * MIDDLE_MM * f64::from(i) / f64::from(count)).collect();
+    let worn: Vec<f64> =
+        arcs.iter().map(|arc| 0.02 * (1.0 - ((arc - MIDDLE_MM) / 0.6).powi(2)).max(0.0).powi(2)).collect();
+    let grid = FlankGrid { coordinate_mm: arcs.clone(), arc_mm: arcs };
+    let bed = WinklerFoundation::Uniform { mpa_per_mm: 4e5 };
+    let half_planes = |load| HalfSpace { material: steel(), expected_line_load_n_per_mm: load };
+    let springs = |load| Winkler { foundation: bed.clone(), expected_line_load_n_per_mm: load };
+    for approach_mm in [0.010, 0.014, 0.018] {
+        let [narrow, wide] = [1.0, 30.0].map(|load| settled_load(&half_planes(load), &grid, &worn, approach_mm));
+        println!("half-planes, {approach_mm} mm: {narrow} and {wide} N/mm");
+        assert!(wide > 1.0 && (narrow / wide - 1.0).abs() < 0.02, "half-planes, {approach_mm} mm: {narrow} and {wide}");
+        let [narrow, wide] = [1.0, 30.0].map(|load| settled_load(&springs(load), &grid, &worn, approach_mm));
+        println!("springs, {approach_mm} mm: {narrow} and {wide} N/mm");
+        assert!(wide > 1.0 && (narrow / wide - 1.0).abs() < 0.02, "springs, {approach_mm} mm: {narrow} and {wide}");
+    }
+}

@@ -88,6 +88,23 @@ impl ElasticCells {
         }
     }
 
+    /// The last indentation.
+    pub(crate) fn indentation_mm(&self) -> f64 {
+        self.indentation_mm
+    }
+
+    /// How far the pressures at the last indentation lower the first and the last cell, mm.
+    pub(crate) fn sunk_at_ends_mm(&self) -> [f64; 2] {
+        let Some(touching) = self.touching.as_ref().filter(|_| self.indentation_mm > 0.0) else { return [0.0; 2] };
+        [0, self.gap_mm.len() - 1].map(|end| {
+            let cells = touching.members.iter().zip(&touching.per_indentation).zip(&touching.relieved);
+            let sunk = |((&member, per_indentation), relieved): ((&usize, &f64), &f64)| {
+                self.compliance[end.abs_diff(member)] * (self.indentation_mm * per_indentation - relieved)
+            };
+            cells.map(sunk).sum()
+        })
+    }
+
     /// The pressures at the last indentation.
     pub(crate) fn pressure_mpa(&self, pressure_mpa: &mut Vec<f64>) {
         pressure_mpa.clear();

@@ -16,6 +16,10 @@
 //! points: the tent of straight lines to its neighbours, here ¼, ½, ¼ at the cell's ends and centre. Whatever the wave, what
 //! stands up then never wears less than what lies low.
 //!
+//! Where neighbouring stretches have lost more than others, flanks may touch a second time beside the contact: a tip edge on the ridge that
+//! its mate's wear ends in below the active profile. The window reaches as far as that can be, from the geometric gap, what both have lost
+//! at least there, and how far the pressure lowers both surfaces at its end.
+//!
 //! Limits: the half-planes go on beyond a tip edge, as if the tooth did not end there. Towards a sharp edge the pressure grows
 //! without bound, and what is given there is the mean of the outermost cell.
 //!
@@ -27,7 +31,7 @@ use super::{
     growing_window::{GrowingWindow, Sampled},
     hertz,
     settings::Material,
-    strip::{Strip, Window, point_distance_mm},
+    strip::{Strip, Window, least_removed_mm, point_distance_mm},
     swept_field::SweptField,
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
@@ -52,6 +56,8 @@ const POINTS_PER_CELL: f64 = 2.0;
 const FIRST_WINDOW: f64 = 1.25;
 /// Cells at an end of the window that is not real which must stay without pressure.
 const FREE_CELLS: usize = 2;
+/// Removed everywhere, less than this part of the gap at the end of a window is not looked for.
+const LITTLE_REMOVED: f64 = 0.05;
 /// Fewest cells in a window.
 const LEAST_CELLS: usize = 4;
 /// Most cells in a window: those of a window that has grown beyond are wider.
@@ -72,6 +78,7 @@ impl ContactSurface for HalfSpace {
             samples: Vec::new(),
             gap: Vec::new(),
             touch: 0.0,
+            removed_everywhere: 0.0,
         })
     }
 
@@ -150,6 +157,20 @@ struct HalfSpacePair<'a> {
     gap: Vec<f64>,
     /// The least gap, mm.
     touch: f64,
+    /// The least that both flanks together have lost where they may touch, mm; 0 where that is little.
+    removed_everywhere: f64,
+}
+
+impl HalfSpacePair<'_> {
+    /// Whether the flanks may touch beyond an end of the window that is not real.
+    fn may_touch_beyond(&self) -> bool {
+        let SampledStretch { strip, cells, .. } = &self.window.samples;
+        let approach_mm = self.touch + cells.indentation_mm();
+        let sunk_mm = cells.sunk_at_ends_mm();
+        let gaps = [strip.geometric_gap_mm[0], strip.geometric_gap_mm[strip.geometric_gap_mm.len() - 1]];
+        let ends = gaps.into_iter().zip(sunk_mm).zip(strip.window.ends_are_real);
+        ends.into_iter().any(|((gap, sunk), real)| !real && gap + sunk + self.removed_everywhere < approach_mm)
+    }
 }
 
 impl PairContact for HalfSpacePair<'_> {
@@ -166,6 +187,13 @@ impl PairContact for HalfSpacePair<'_> {
         self.gap.iter_mut().for_each(|gap| *gap -= touch);
         self.touch = touch;
         cells.set_gap(&self.gap);
+        let ObservedStretch { flanks, position_mm, flattening, .. } = &self.window.flanks;
+        let half_length_mm = self.window.half_length_mm;
+        let at_end = half_length_mm * half_length_mm / (2.0 * flattening.contact.relative_radius_mm());
+        self.removed_everywhere = match touch > LITTLE_REMOVED * at_end {
+            true => least_removed_mm(*flanks, *position_mm, touch + at_end, removed_mm),
+            false => 0.0,
+        };
     }
 
     fn touch_mm(&self) -> f64 {
@@ -188,7 +216,9 @@ impl PairContact for HalfSpacePair<'_> {
         let free = |end: &[f64]| end.iter().all(|p| *p == 0.0);
         let cells = FREE_CELLS.min(pressure.len());
         let [real_below, real_above] = strip.window.ends_are_real;
-        (real_below || free(&pressure[..cells])) && (real_above || free(&pressure[pressure.len() - cells..]))
+        (real_below || free(&pressure[..cells]))
+            && (real_above || free(&pressure[pressure.len() - cells..]))
+            && !self.may_touch_beyond()
     }
 
     fn widen(&mut self) {

@@ -65,7 +65,11 @@ pub struct ErrorSummary {
     pub volume_balance: Option<f64>,
     /// Between an abrupt transition to severe wear and one over a band; `None` where no wear is severe. Not an error but a choice of the scene.
     pub severe_switch: Option<f64>,
-    /// What the estimates cost over what the run itself did, counted in equilibria weighted by their time.
+    /// The wear with limits of severe wear a tenth lower and higher than the scene's; `None` where no wear is severe, or would be with the lower one. Not an
+    /// error either: how well the limit is known is the scene's matter.
+    #[serde(default)]
+    pub severe_limit: Option<SevereLimit>,
+    /// What the estimates but `severe_limit` cost over what the run itself did, counted in equilibria weighted by their time.
     pub companions_cost: Option<f64>,
     /// How each was obtained, or why it was not.
     pub how: ErrorSources,
@@ -80,6 +84,7 @@ impl ErrorSummary {
             surface_model: format!("not estimated: {reason}"),
             volume_balance: String::new(),
             severe_switch: format!("not estimated: {reason}"),
+            severe_limit: format!("not estimated: {reason}"),
         };
         Self { how, ..Self::default() }
     }
@@ -94,4 +99,36 @@ pub struct ErrorSources {
     pub surface_model: String,
     pub volume_balance: String,
     pub severe_switch: String,
+    #[serde(default)]
+    pub severe_limit: String,
+}
+
+/// Wear with other limits of severe wear (`wear.severe.above_MPa`).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SevereLimit {
+    /// With the lower one: the greater wear.
+    pub low: WearAtLimit,
+    /// With the higher one.
+    pub high: WearAtLimit,
+}
+
+/// Wear with another limit of severe wear.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WearAtLimit {
+    /// The limit over that of the scene.
+    pub limit_factor: f64,
+    /// Of the pinion.
+    pub pinion: WearOfGearAtLimit,
+    /// Of the wheel.
+    pub wheel: WearOfGearAtLimit,
+}
+
+/// Wear of a gear with another limit of severe wear.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[allow(non_snake_case, reason = "names end in their unit as engineers write it")]
+pub struct WearOfGearAtLimit {
+    /// Maximum wear of the active profile, µm.
+    pub peak_wear_um: f64,
+    /// Wear at the pitch circle, µm.
+    pub pitch_wear_um: f64,
 }

@@ -173,7 +173,10 @@ impl<'a> TeethSpring<'a> {
     }
 
     /// Stiffness of what a pair has to itself of the spring, beside the shared bodies, N/mm².
-    pub(crate) fn own_n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
+    ///
+    /// # Errors
+    /// As those of [`Self::n_per_mm2`].
+    pub fn own_n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
         let (whole, shared) = (1.0 / self.n_per_mm2(position_mm)?, self.shared_mm2_per_n());
         if shared < whole {
             Ok(1.0 / (whole - shared))

@@ -20,6 +20,16 @@ pub struct SevereTransition {
     pub band_mpa: f64,
 }
 
+impl SevereTransition {
+    /// Band over its limit where a scene names none.
+    pub const DEFAULT_BAND: f64 = 0.05;
+
+    /// The same transition at `part` of its limit, over a band that is as wide in MPa.
+    pub fn with_limit(self, part: f64) -> Self {
+        Self { above_mpa: part * self.above_mpa, ..self }
+    }
+}
+
 /// How wear fades as the film of oil gets thicker: a factor on the wear coefficient.
 ///
 /// Source of the form that [`FilmDependence::priest_taylor`] gives: M. Priest and C. M. Taylor, *Automobile engine tribology – approaching the
@@ -150,6 +160,11 @@ impl PerGear<WearSettings> {
         let wearing = Gear::BOTH.into_iter().map(|gear| &self[gear]).filter(|own| own.coefficient_mm2_per_n > 0.0);
         let severe = wearing.filter_map(|own| own.severe).filter(|severe| severe.factor_at(peak_pressure_mpa) > 1.0);
         severe.map(|severe| severe.factor).reduce(f64::max)
+    }
+
+    /// Whether wear of either gear is faster than mild under this maximum pressure, MPa, or would be with limits of `part` of their own.
+    pub fn is_severe_under(&self, peak_pressure_mpa: f64, part: f64) -> bool {
+        self.with_severe(|own| Some(own.with_limit(part))).severe_factor_under(peak_pressure_mpa).is_some()
     }
 
     /// The same laws with another transition in place of each gear's own.

@@ -5,10 +5,12 @@
 //! | wear step, discretisation | coarser wear runs | [`wear_runs`] |
 //! | wear step of adaptive runs | none: their own steps estimate it | [`wear_runs`] |
 //! | severe switch: hard or over a band | two short wear runs | [`severe_switch`] |
+//! | limits of severe wear a tenth lower and higher | three coarser wear runs, beyond that half, which is said before | [`severe_limit`] |
 //!
 //! What the contact surface and the stiffness of the teeth make is told by the same wear simulation with finite elements
 //! ([`super::verification`]). Cost is counted in equilibria of the run itself.
 
+mod severe_limit;
 mod severe_switch;
 mod wear_runs;
 
@@ -56,6 +58,7 @@ pub(super) fn estimate(
     let slices = coarse_slices(model);
     let runs = wear_runs::estimate(model, outcome, slices.as_ref(), step_over_safe, observer);
     let (severe_switch, switch_cost) = severe_switch::estimate(model, outcome, BUDGET - runs.cost, observer);
+    let (severe_limit, limit_how) = severe_limit::estimate(model, outcome, observer);
     if observer.interrupted() {
         return ErrorSummary::not_estimated("the estimates were interrupted");
     }
@@ -63,11 +66,13 @@ pub(super) fn estimate(
         discretisation: runs.discretisation.relative,
         wear_step: runs.wear_step.relative,
         severe_switch: severe_switch.relative,
+        severe_limit,
         companions_cost: Some(runs.cost + switch_cost),
         how: ErrorSources {
             discretisation: runs.discretisation.how,
             wear_step: runs.wear_step.how,
             severe_switch: severe_switch.how,
+            severe_limit: limit_how,
             ..ErrorSources::default()
         },
         ..ErrorSummary::default()
@@ -102,5 +107,6 @@ pub(super) fn warnings(error: &ErrorSummary) -> Vec<String> {
             100.0 * estimate
         )
     });
-    unresolved.chain(model).collect()
+    let hangs = error.severe_limit.as_ref().and_then(severe_limit::warning);
+    unresolved.chain(model).chain(hangs).collect()
 }

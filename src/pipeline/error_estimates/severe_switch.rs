@@ -20,8 +20,6 @@ use crate::simulation::settings::{Numerics, Phase, Stepping};
 use crate::simulation::wear_run::{Outcome, RunPhase, WearRun};
 use crate::wear::{self, Laws, settings::SevereTransition};
 
-/// Band that a hard switch is compared with, over its limit.
-const BAND: f64 = 0.05;
 /// Points are divided by this.
 const POINTS_SPACING: usize = 4;
 /// Positions are divided by the first of these that the budget allows. With fewer each position is a jump of its own, and the switch
@@ -78,7 +76,9 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
     };
     let revolutions = duration / steps;
     let hard = |_: SevereTransition| 0.0;
-    let over_band = |own: SevereTransition| if own.band_mpa > 0.0 { own.band_mpa } else { BAND * own.above_mpa };
+    let over_band = |own: SevereTransition| {
+        if own.band_mpa > 0.0 { own.band_mpa } else { SevereTransition::DEFAULT_BAND * own.above_mpa }
+    };
     let mut equilibria = 0;
     let mut peaks_mm = |band_mpa: &dyn Fn(SevereTransition) -> f64| -> Result<PerGear<f64>, String> {
         let with_band = |own: SevereTransition| Some(SevereTransition { band_mpa: band_mpa(own), ..own });

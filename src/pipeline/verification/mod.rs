@@ -52,8 +52,8 @@ const POSITIONS: usize = 400;
 const TOLERANCE: f64 = 0.03;
 /// Least tolerance, mm: less is no wear.
 const LEAST_TOLERANCE_MM: f64 = 1e-9;
-/// Most wear steps: an ordinary life takes some fifteen.
-const MOST_STEPS: u64 = 200;
+/// Most wear steps: an ordinary life takes some fifteen, one with severe wear or of great depth some hundreds.
+const MOST_STEPS: u64 = 2000;
 /// Half-widths of contact at the pitch point from A and E within which the tip edges shape the pressure.
 const NEAR_TIP_EDGES: f64 = 3.0;
 

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::number::{change, fixed, percent, significant, to_digits};
 use super::table::{Cell, cells, line, list, row, table, whole};
 use super::{film_table, law_table, page, root_stress_table, sliced};
-use crate::results::error::ErrorSummary;
+use crate::results::error::{ErrorSummary, SevereLimit, WearAtLimit};
 use crate::results::run::{GearSummary, PhaseSummary, PhaseWear, RunRecord, Summary, WearSummary};
 
 /// Phases that are shown one by one.
@@ -294,8 +294,21 @@ pub(crate) fn errors(error: &ErrorSummary) -> Markup {
     let caption = "Error of the result: against finite elements, and estimates for the maximum wear";
     html! {
         (whole(Some("errors"), Some(html! { (caption) }), ["".into(), "relative".into(), Cell::sentence("how obtained")], rows))
+        @if let Some(limit) = &error.severe_limit { (page::note(&at_other_limits(limit))) }
         @if let Some(cost) = error.companions_cost.filter(|&cost| cost > 0.0) {
             (page::note(&format!("The estimates took {} of the work of the run itself.", percent(cost))))
         }
     }
+}
+
+/// What limits of severe wear a tenth lower and higher make of the maximum wear.
+fn at_other_limits(limit: &SevereLimit) -> String {
+    let of = |gear: fn(&WearAtLimit) -> f64| {
+        format!("{} to {} µm", significant(gear(&limit.high), 3), significant(gear(&limit.low), 3))
+    };
+    format!(
+        "With limits of severe wear between 10 % higher and 10 % lower than the scene's the maximum wear is {} of the pinion and {} of the wheel.",
+        of(|at| at.pinion.peak_wear_um),
+        of(|at| at.wheel.peak_wear_um)
+    )
 }

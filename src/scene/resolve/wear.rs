@@ -158,7 +158,7 @@ fn of_gear(file: &mut GearWearFile, gear: Gear, findings: &mut Findings) -> Opti
     let severe = file.severe.as_mut().map(|severe| SevereTransition {
         above_mpa: severe.above_MPa,
         factor: severe.factor,
-        band_mpa: *severe.band_MPa.get_or_insert(0.0),
+        band_mpa: *severe.band_MPa.get_or_insert(SevereTransition::DEFAULT_BAND * severe.above_MPa),
     });
     Some(WearSettings { law, coefficient_mm2_per_n, severe, film: None, warm: None })
 }

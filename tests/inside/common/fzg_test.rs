@@ -97,10 +97,16 @@ impl Estimate {
         products.dedup();
         let (last, list) = (products[products.len() - 1], format!("{products:?}"));
         let Self { torque_nm, contact, numerics, band_mpa, .. } = self;
-        let within = if contact.contains("tip_contact") { "" } else { "tip_contact = false" };
+        // On elastic contact the preset's own stiffness and rounded tips; springs have the thesis's.
+        let elastic = contact.contains("half-space");
+        let within = if elastic || contact.contains("tip_contact") { "" } else { "tip_contact = false" };
+        let (pair, stiffness) = match elastic {
+            true => ("fzg-test", ""),
+            false => ("thesis-fzg-test", "[stiffness]\nmodel = \"constant\"\npair_N_per_mm_um = 20.0\n"),
+        };
         let text = format!(
-            "[pair]\npreset = \"fzg-test\"\n[operation]\npinion_torque_Nm = {torque_nm:?}\npinion_revolutions = {last:?}\n\
-             snapshots_revolutions = {list}\n[contact]\n{contact}\n{within}\n[stiffness]\nmodel = \"constant\"\npair_N_per_mm_um = 20.0\n\
+            "[pair]\npreset = \"{pair}\"\n[operation]\npinion_torque_Nm = {torque_nm:?}\npinion_revolutions = {last:?}\n\
+             snapshots_revolutions = {list}\n[contact]\n{contact}\n{within}\n{stiffness}\
              [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n\
              severe = {{ above_MPa = 2000.0, factor = 100.0, band_MPa = {band_mpa:?} }}\n\
              [numerics]\nerror_estimate = false\nverify = false\n{numerics}\n"

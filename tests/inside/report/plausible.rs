@@ -340,12 +340,14 @@ fn summary() -> Summary {
             surface_model: None,
             volume_balance: Some(0.003),
             severe_switch: None,
+            severe_limit: None,
             how: ErrorSources {
                 discretisation: "run again with half the points and positions; the difference over three".into(),
                 wear_step: "run again with twice the step; the difference".into(),
                 surface_model: "needs a calibration file".into(),
                 volume_balance: "worn volumes of the whole gears".into(),
                 severe_switch: "the scene has no transition to severe wear".into(),
+                severe_limit: "the scene has no transition to severe wear".into(),
             },
         },
         work: WorkSummary {
