@@ -440,7 +440,8 @@ impl Draw {
             }
         }
         if has_tooth_temperature && self.chance(0.4) {
-            let whose = whose(self);
+            // The wheel is of plastic in all of them.
+            let whose = self.pick(&["wear", "wear.wheel"]);
             self.set(&format!("{whose}.warm.temperature_C"), numbers([20.0, 60.0, 120.0]));
             self.set(&format!("{whose}.warm.factor"), numbers([0.7, 1.0, 2.5]));
         }
