@@ -54,8 +54,8 @@ impl FlankZones {
         let length_mm = (TIP_EDGE_HALF_WIDTHS * half_width_mm).min(MOST_TIP_EDGE_MODULES * spec.normal_module_mm);
         let start = pair.active_start_rho_mm(gear);
         let arc_mm = tooth.involute.arc_mm(tooth.tip_rho_mm()) - rounding_mm - length_mm;
-        // s = ρ²/(2 r_b); a flank shorter than its tip-edge zone has no other.
-        let rho_mm = (2.0 * tooth.involute.base_radius_mm * arc_mm.max(0.0)).sqrt().max(start);
+        // A flank shorter than its tip-edge zone has no other.
+        let rho_mm = tooth.involute.rho_at_arc_mm(arc_mm).max(start);
         Self {
             active_start_radius_mm: pair.active_start_radius_mm(gear),
             tip_edge_radius_mm: tooth.involute.radius_mm(rho_mm),

@@ -7,6 +7,7 @@ pub mod error;
 pub mod flank;
 pub mod flank_surface;
 pub mod flank_zones;
+mod graded_spacing;
 pub(crate) mod half_profile;
 pub mod involute;
 pub mod modification;

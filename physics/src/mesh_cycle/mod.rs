@@ -89,7 +89,7 @@ impl std::ops::AddAssign for Work {
 struct LoadedPosition<'a> {
     cell: PositionCell,
     on_line_of_action: bool,
-    place: ContactPlace,
+    place: ContactPlace<'a>,
     /// How far the flanks slide on each other there, mm.
     sliding_mm: f64,
     /// The reference pair first.

@@ -80,7 +80,7 @@ struct LoadedPosition<'a> {
     contacts: Vec<SliceContact>,
     pairs: Vec<MeshedPair<'a>>,
     /// Of each contact.
-    places: Vec<ContactPlace>,
+    places: Vec<ContactPlace<'a>>,
     /// Of each contact: how far its load, counted over the whole slice, slides, mm.
     sliding_mm: Vec<f64>,
     /// The teeth that the contacts belong to, where slices are coupled.
