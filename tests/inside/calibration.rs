@@ -19,7 +19,10 @@ use gearwear::fem::locate::locate;
 use gearwear::gear::conjugate::ConjugateFlanks;
 use gearwear::gear::modification::{Relief, ReliefShape};
 use gearwear::gear::spec::PairSpec;
-use gearwear::gear::{Gear, GearPair, PerGear, flank::FlankGrid};
+use gearwear::gear::{
+    Gear, GearPair, PerGear,
+    flank::{FlankGrid, PointSpacing},
+};
 use gearwear::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides};
 use gearwear::mesh_cycle::pair_in_space::KeptInSpace;
 use gearwear::observer::Unwatched;
@@ -269,7 +272,7 @@ fn val_calibrated_bed_where_it_was_held_out() {
 fn val_calibrated_winkler_surface_in_single_contact() {
     let calibration = calibration();
     let pair = GearPair::new(&fzg_c()).unwrap();
-    let grids = PerGear::from_fn(|gear| FlankGrid::new(&pair, gear, 750));
+    let grids = PerGear::from_fn(|gear| FlankGrid::new(&pair, gear, 750, PointSpacing::Even));
     let unworn = PerGear::from_fn(|gear| vec![0.0; grids[gear].len()]);
     let flanks = Flanks::new(&pair, grids.as_ref());
     let mut compared = 0;

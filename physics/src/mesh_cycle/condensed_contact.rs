@@ -1,7 +1,7 @@
 //! A contact of the condensed pair as laws of wear see it: where it is on the path, and the conditions of its rows in its own heat.
 
-use super::flank_pressure::ContactParts;
 use crate::contact::PressedCell;
+use crate::contact::flank_pressure::ContactParts;
 use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::fem::gear::flank_nodes::Weights;
 use crate::fem::gear::load_transfer::LoadTransfer;
@@ -89,6 +89,7 @@ fn weighted_mean(Weights { first, weights }: Weights<'_>, at_nodes: &[f64]) -> f
 #[derive(Default)]
 pub(super) struct HeatedContactRows {
     even_mpa: Vec<f64>,
+    even_along_mm: Vec<f64>,
     even_sliding_mm: Vec<f64>,
     row: HeatedRow,
     conditions: Vec<ContactConditions>,
@@ -132,6 +133,8 @@ impl HeatedContactRows {
             let at = if gear == Gear::Pinion { at } else { greatest - at };
             ((at / spacing_mm).round() as usize).min(count - 1)
         };
+        self.even_along_mm.clear();
+        self.even_along_mm.extend((0..count).map(|k| k as f64 * spacing_mm));
         for row in [&mut self.even_mpa, &mut self.even_sliding_mm] {
             row.clear();
             row.resize(count, 0.0);
@@ -144,7 +147,7 @@ impl HeatedContactRows {
                 self.even_sliding_mm[k] = contact.sliding_mm[i];
             }
         }
-        let points = RowOfPoints { gear, spacing_mm, pressure_mpa: &self.even_mpa };
+        let points = RowOfPoints { gear, along_mm: &self.even_along_mm, pressure_mpa: &self.even_mpa };
         let time_s = length_mm / heat.speed_mm_per_s;
         let even = self.row.across_sliding(&heated, points, &self.even_sliding_mm, time_s);
         self.conditions.clear();
