@@ -397,9 +397,9 @@ fn ver_tip_edges_may_touch_beyond_the_end_of_the_line_of_action() {
         assert!(touch.rho_mm.pinion > path.start_mm && touch.gap_mm > last, "{at} {touch:?}");
         // The gap by brute force: the nearest of many points of the pinion's involute to the edge.
         let edge = few.in_tangent_frame(Gear::Wheel, few.teeth.wheel.tip_rho_mm(), at);
-        let nearest = (0..20_000)
+        let nearest = (0..200_000)
             .map(|i| {
-                let rho = 1.2 * few.teeth.pinion.tip_rho_mm() * f64::from(i) / 20_000.0;
+                let rho = 1.2 * few.teeth.pinion.tip_rho_mm() * f64::from(i) / 200_000.0;
                 let own = few.in_tangent_frame(Gear::Pinion, rho, at);
                 (own.along_mm + edge.along_mm).hypot(own.drop_mm + edge.drop_mm)
             })
