@@ -85,7 +85,7 @@ pub enum PairError {
         greatest_dedendum_factor: f64,
     },
     /// The generating rack has no tip left: its fillet radius is too large.
-    #[error("the rack's fillet radius factor is too large: at most {greatest:.4} fits between its flanks")]
+    #[error("the rack's fillet radius factor is too large to fit between its flanks")]
     RackTipPointed {
         /// Greatest possible ρ_fP*.
         greatest: f64,
