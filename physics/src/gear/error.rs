@@ -53,6 +53,16 @@ pub enum PairError {
         /// d_b.
         base_diameter_mm: f64,
     },
+    /// The tip circle leaves no involute above the form circle.
+    #[error("the {} tip circle ({tip_diameter_mm:.4} mm) lies inside the form circle ({form_diameter_mm:.4} mm)", .gear.name())]
+    TipBelowForm {
+        /// Which gear.
+        gear: Gear,
+        /// Given or derived.
+        tip_diameter_mm: f64,
+        /// d_Ff.
+        form_diameter_mm: f64,
+    },
     /// The mate's tip runs into the fillet.
     #[error(
         "interference on the {}: the tip of the {} runs into its root fillet by {overlap_mm:.4} mm",
