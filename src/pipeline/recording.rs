@@ -528,10 +528,10 @@ fn sharp_edge_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
         .collect();
     is_loaded.then(|| {
         format!(
-            "{} is mathematically sharp and carries load: the pressure at the edge (sharp_edge_pressure_MPa, left out of \
-             peak_pressure_MPa) and the wear of the edge (of a tip tip_edge_wear_um, left out of peak_wear_um) are not defined, they depend on \
-             the resolution; a tip edge gets a pressure with tip_rounding_mm",
-            sharp.join(" and ")
+            "mathematically sharp edges carry load ({}): the pressure at an edge (sharp_edge_pressure_MPa, left out of peak_pressure_MPa) and \
+             its wear (of a tip tip_edge_wear_um, left out of peak_wear_um) are not defined, they depend on the resolution; a tip edge gets a \
+             pressure with tip_rounding_mm",
+            sharp.join(", ")
         )
     })
 }

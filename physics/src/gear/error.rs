@@ -53,6 +53,16 @@ pub enum PairError {
         /// d_b.
         base_diameter_mm: f64,
     },
+    /// The tip circle leaves no involute above the form circle.
+    #[error("the {} tip circle ({tip_diameter_mm:.4} mm) lies inside the form circle ({form_diameter_mm:.4} mm)", .gear.name())]
+    TipBelowForm {
+        /// Which gear.
+        gear: Gear,
+        /// Given or derived.
+        tip_diameter_mm: f64,
+        /// d_Ff.
+        form_diameter_mm: f64,
+    },
     /// The mate's tip runs into the fillet.
     #[error(
         "interference on the {}: the tip of the {} runs into its root fillet by {overlap_mm:.4} mm",
@@ -85,7 +95,7 @@ pub enum PairError {
         greatest_dedendum_factor: f64,
     },
     /// The generating rack has no tip left: its fillet radius is too large.
-    #[error("the rack's fillet radius factor is too large: at most {greatest:.4} fits between its flanks")]
+    #[error("the rack's fillet radius factor is too large to fit between its flanks")]
     RackTipPointed {
         /// Greatest possible ρ_fP*.
         greatest: f64,

@@ -50,8 +50,8 @@ impl Tooth {
     /// Generates the tooth of `gear`; `tip_radius_mm` as given or derived by the pair.
     ///
     /// # Errors
-    /// [`PairError::RackPointed`], [`PairError::RackTipPointed`], [`PairError::NoTooth`], [`PairError::TipBelowBase`], [`PairError::PointedTooth`],
-    /// [`PairError::BoreTooLarge`].
+    /// [`PairError::RackPointed`], [`PairError::RackTipPointed`], [`PairError::NoTooth`], [`PairError::TipBelowBase`],
+    /// [`PairError::TipBelowForm`], [`PairError::PointedTooth`], [`PairError::BoreTooLarge`].
     pub fn new(spec: &PairSpec, gear: Gear, tip_radius_mm: f64) -> Result<Self, PairError> {
         let own = &spec.gears[gear];
         let (m_n, alpha_n) = (spec.normal_module_mm, spec.normal_pressure_angle_rad);
@@ -136,7 +136,11 @@ impl Tooth {
             self.fillet_end_angle_rad = self.undercut_angle_rad().ok_or(PairError::NoTooth { gear })?;
             self.root_form_radius_mm = self.trochoid.point_mm(self.fillet_end_angle_rad).norm();
         }
-        if self.root_form_radius_mm < self.tip_radius_mm { Ok(self) } else { Err(PairError::NoTooth { gear }) }
+        if self.root_form_radius_mm < self.tip_radius_mm {
+            return Ok(self);
+        }
+        let (tip_diameter_mm, form_diameter_mm) = (2.0 * self.tip_radius_mm, 2.0 * self.root_form_radius_mm);
+        Err(PairError::TipBelowForm { gear, tip_diameter_mm, form_diameter_mm })
     }
 
     /// Angle by which the fillet point `t` lies inside the tooth as bounded by the involute; `None` below the base

@@ -119,6 +119,13 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
             allowed: format!("a tip diameter above the base circle, {} mm", at_least(base_diameter_mm)),
             help: "check tip diameter, module and number of teeth".to_owned(),
         },
+        PairError::TipBelowForm { gear, tip_diameter_mm, form_diameter_mm } => Cause {
+            key: tip_key(gear),
+            found: tip_found(gear, tip_diameter_mm),
+            allowed: format!("a tip diameter above the form circle, {} mm", at_least(form_diameter_mm)),
+            help: "a larger centre distance leaves more of a tip that follows from the rack, less profile shift of its mate too"
+                .to_owned(),
+        },
         PairError::Interference { gear, greatest_tip_diameter_mm, .. } => Cause {
             key: match tip_key(gear.mate()) {
                 tip if tip.ends_with("tip_diameter_mm") => tip,
@@ -271,6 +278,10 @@ mod tests {
             ),
             (
                 PairError::Interference { gear: Gear::Wheel, overlap_mm: 0.1, greatest_tip_diameter_mm: 82.0 },
+                of_pinion("tip_diameter_mm"),
+            ),
+            (
+                PairError::TipBelowForm { gear, tip_diameter_mm: 67.0, form_diameter_mm: 67.7 },
                 of_pinion("tip_diameter_mm"),
             ),
             (PairError::NoTipClearance { gear, clearance_mm: -0.5 }, of_pinion("tip_diameter_mm")),
