@@ -14,11 +14,12 @@ use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::plan::Plan;
 use crate::reference::steel_yield;
 use crate::results::error::ErrorSummary;
+use crate::results::iso_stiffness::IsoStiffnessSummary;
 use crate::results::life::LifeSummary;
 use crate::results::run::{
-    ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, InputFile,
-    IsoStiffnessSummary, MeshCycleRow, PathPoints, RangeSummary, ReportedBy, RunRecord, StageLeftOut, StiffnessSummary,
-    Summary, WearBalance, WearSummary, WorkSummary,
+    ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, InputFile, MeshCycleRow,
+    PathPoints, RangeSummary, ReportedBy, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary,
+    WorkSummary,
 };
 use crate::results::worn_pair::WornPair;
 use crate::scene::Resolved;

@@ -8,6 +8,7 @@ pub mod error;
 pub mod fem_pair;
 pub mod fem_problem;
 pub mod invariant;
+pub mod iso_stiffness;
 pub mod life;
 pub mod lubrication;
 pub mod path_points;

@@ -10,6 +10,7 @@ pub use super::drawing::{GearCircles, PairDrawing};
 use super::chemistry::{TemperatureSummary, WearLawSummary};
 use super::error::ErrorSummary;
 use super::invariant::Invariant;
+use super::iso_stiffness::IsoStiffnessSummary;
 use super::life::LifeSummary;
 use super::lubrication::{FilmRow, LubricationSummary};
 pub use super::path_points::PathPoints;
@@ -372,18 +373,6 @@ pub struct StiffnessSummary {
     /// What the split leaves over: relative difference between the surface's and the true flattening's share of the
     /// pair's approach at C at half the reference load; `None` where the model states no flattening.
     pub split_remainder_at_half_load: Option<f64>,
-}
-
-/// Stiffness by ISO 6336-1 Method B, of solid gears, per mm of face width.
-#[allow(non_snake_case, reason = "the contract's key names")]
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct IsoStiffnessSummary {
-    /// c', of one tooth pair.
-    pub single_N_per_mm_um: f64,
-    /// c_γα, of all pairs in mesh, for dynamics and load sharing.
-    pub mesh_alpha_N_per_mm_um: f64,
-    /// c_γβ, of all pairs in mesh, for the load distribution over the face width.
-    pub mesh_beta_N_per_mm_um: f64,
 }
 
 /// One mesh cycle in figures. Maximum pressures of whole slices leave 1/40 of the face width out at either end face.
