@@ -1,6 +1,6 @@
 //! How slices of a tooth hold each other: limit cases, and the plate that a tooth is taken for.
 
-use gearwear::contact::{Footprint, PairContact, PointContact, PositionCell, Response, Sweep};
+use gearwear::contact::{Footprint, PairContact, PointContact, PositionCell, PressedCell, Response, Sweep};
 use gearwear::gear::slices::Slices;
 use gearwear::gear::{Gear, PerGear};
 use gearwear::mesh_cycle::bent_tooth::BentTooth;
