@@ -5,7 +5,7 @@
 //! | wear step, discretisation | coarser wear runs | [`wear_runs`] |
 //! | wear step of adaptive runs | none: their own steps estimate it | [`wear_runs`] |
 //! | severe switch: hard or over a band | two short wear runs | [`severe_switch`] |
-//! | limits of severe wear a tenth lower and higher | three coarser wear runs, beyond that half, which is said before | [`severe_limit`] |
+//! | limits of severe wear a tenth lower and higher | two wear runs as long, beyond that half, which is said before | [`severe_limit`] |
 //!
 //! What the contact surface and the stiffness of the teeth make is told by the same wear simulation with finite elements
 //! ([`super::verification`]). Cost is counted in equilibria of the run itself.
