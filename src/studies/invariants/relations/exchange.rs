@@ -7,7 +7,7 @@ use crate::studies::invariants::comparison::{Bounds, Follows, compare};
 use crate::studies::invariants::relation::{Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{exchange_gears, number, scaled, with};
 use crate::studies::invariants::traits_of_scene::{
-    follows_tip_edges, has_heat_or_oil, is_hard_severe, is_on, is_sliced,
+    follows_tip_edges, has_heat_or_oil, is_hard_severe, is_on, is_severe, is_sliced, takes_stable_steps,
 };
 
 pub(super) const RELATIONS: &[Relation] = &[
