@@ -104,7 +104,7 @@ impl MeasuredProfile {
 
 /// ρ at an arc length from the base circle; 0 below it.
 fn rho_mm(involute: &Involute, arc_mm: f64) -> f64 {
-    (2.0 * involute.base_radius_mm * arc_mm.max(0.0)).sqrt()
+    involute.rho_at_arc_mm(arc_mm)
 }
 
 /// What places are allowed, in the unit of the file.

@@ -6,10 +6,10 @@ use super::{
     Model, RunError, UM_PER_MM, drawing, error_estimates, invariants, left_out_contact, phases, root_stress,
     severe_pressure, slices, stability::Judged, verification::Verified,
 };
+use crate::contact::flank_pressure::{PressureFigures, TIP_EDGE_MEAN_OVER_MM};
 use crate::gear::flank_edge::PathEnd;
 use crate::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
 use crate::mesh_cycle::CycleObservation;
-use crate::mesh_cycle::flank_pressure::{PressureFigures, TIP_EDGE_MEAN_OVER_MM};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::plan::Plan;
 use crate::reference::steel_yield;

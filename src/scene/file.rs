@@ -15,6 +15,7 @@ use super::material_presets::MaterialPreset;
 use super::presets;
 use super::wear_file::{GearWearFile, TemperatureFile, WearFile};
 use crate::contact::settings::{MatchCriterion, SurfaceKind};
+use crate::gear::flank::PointSpacing;
 use crate::gear::modification::ReliefShape;
 use crate::gear::shaft::EndFace;
 use crate::mesh_cycle::settings::Coupling;
@@ -491,9 +492,11 @@ pub struct HelicalFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NumericsFile {
-    /// Intervals of a flank, evenly in radius from base to tip circle, 20 to 100000. Default 750.
+    /// Intervals of a flank from base to tip circle, 20 to 100000. Default 750.
     #[schemars(range(min = 20, max = 100000))]
     pub flank_points: Option<u32>,
+    /// How flank points are spaced. Default: graded where tip edges touch (contact.tip_contact), otherwise even.
+    pub flank_point_spacing: Option<PointSpacing>,
     /// Loading positions, evenly from A to E, 20 to 1000000. Default 400.
     #[schemars(range(min = 20, max = 1000000))]
     pub positions: Option<u32>,

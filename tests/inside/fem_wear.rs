@@ -7,7 +7,7 @@ use gearwear::fem::gear::condensed_pair::CondensedPair;
 use gearwear::fem::gear::position::WarmStart;
 use gearwear::gear::{
     Gear, GearPair, PerGear,
-    flank::FlankGrid,
+    flank::{FlankGrid, PointSpacing},
     modification::{Relief, ReliefShape},
     removed_material::modifications_mm,
     slices::Slices,
@@ -41,7 +41,7 @@ fn condensed(pair: &GearPair, elements_per_half_width: f64) -> CondensedPair<'_>
 }
 
 fn grid(pair: &GearPair, flank_points: usize) -> PerGear<FlankGrid> {
-    PerGear::from_fn(|gear| FlankGrid::new(pair, gear, flank_points))
+    PerGear::from_fn(|gear| FlankGrid::new(pair, gear, flank_points, PointSpacing::Even))
 }
 
 /// One mesh of flanks that have lost `wear` at their nodes: the depth each node loses, what was observed, the work, and the cycle.

@@ -17,6 +17,7 @@ mod fem_stability;
 mod fem_table;
 mod fem_wear;
 mod flank_ends;
+mod flank_points;
 mod flank_surface;
 mod fzg_test;
 mod geometry;

@@ -2,7 +2,7 @@
 
 use gearwear::fem::elastic::Elastic;
 use gearwear::fem::gear::condensed_pair::CondensedPair;
-use gearwear::gear::{Gear, PerGear};
+use gearwear::gear::{Gear, PerGear, flank::PointSpacing};
 use gearwear::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
 use gearwear::observer::Unwatched;
 use gearwear::simulation::mesh_contact::MeshContact;
@@ -101,7 +101,13 @@ fn ver_eulers_steps_break_where_the_bound_says_on_finite_elements() {
             end_revolutions: steps * step,
         };
         let stepping = Stepping::Fixed { revolutions: step };
-        let numerics = Numerics { flank_points: 300, positions: 40, stepping, error_estimate: false };
+        let numerics = Numerics {
+            flank_points: 300,
+            point_spacing: PointSpacing::Even,
+            positions: 40,
+            stepping,
+            error_estimate: false,
+        };
         let zones = zones(&pair, scene.line_load());
         let limits = LifeLimits::default();
         let run = WearRun { pair: &pair, zones, phases: &[phase], snapshots_revolutions: snapshots, limits, numerics };

@@ -7,7 +7,9 @@ use gearwear::contact::{
     settings::MatchCriterion,
 };
 use gearwear::fem::gear::placement::{axis_mm, tooth_angle_rad};
-use gearwear::gear::{Gear, GearPair, conjugate::ConjugateFlanks, removed_material::tip_rounding_mm};
+use gearwear::gear::{
+    Gear, GearPair, conjugate::ConjugateFlanks, flank_edge::PathEnd, removed_material::tip_rounding_mm,
+};
 use gearwear::mesh_cycle::PositionObservation;
 use gearwear::simulation::settings::{AdaptiveMethod, Stepping};
 use gearwear::simulation::wear_run::Outcome;
@@ -368,8 +370,11 @@ fn ver_tip_edges_are_followed_until_the_tip_circles_part() {
             // Farther in, the edge is among the mate's teeth, clear of its flank, and farther out the more.
             let gaps: Vec<f64> = (1..20)
                 .map(|k| {
-                    let end_mm = if sign < 0.0 { path.start_mm } else { path.end_mm };
-                    pair.tip_gap_mm(tip_of, end_mm + sign * end * f64::from(k) / 20.0)
+                    let (at, end_mm) = match sign < 0.0 {
+                        true => (PathEnd::Start, path.start_mm),
+                        false => (PathEnd::End, path.end_mm),
+                    };
+                    pair.edge_gap_mm(at, end_mm + sign * end * f64::from(k) / 20.0)
                 })
                 .collect();
             assert!(gaps[0] > 0.0 && gaps.windows(2).all(|two| two[1] > two[0]), "{gaps:?}");

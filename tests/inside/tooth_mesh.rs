@@ -384,7 +384,7 @@ fn the_same_tooth_gives_the_same_bits() {
 fn pair_mesh(pair: &GearPair, body: Body, position_mm: f64) -> Mesh {
     let settings = BodySettings { body, ..settings(pair, 6.0) };
     let sectors = sectors(pair, &settings);
-    gear_mesh::pair_mesh(pair, &settings, &sectors, &gear_mesh::touching_pairs(pair), position_mm).unwrap()
+    gear_mesh::pair_mesh(pair, &settings, &sectors, &gear_mesh::touching_pairs(pair, [0.0; 2]), position_mm).unwrap()
 }
 
 /// Nodes of a set of lines.

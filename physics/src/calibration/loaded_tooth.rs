@@ -170,7 +170,7 @@ pub struct Inside {
 pub(crate) fn limits_mm(tooth: &Tooth, flank: &FlankSurface, half_width_mm: f64) -> Option<(f64, f64)> {
     let stretches = stretches(tooth, flank);
     let (low, high) = (stretches.first()?.arc_mm[0] + half_width_mm, stretches.last()?.arc_mm[2] - half_width_mm);
-    let rho = |arc_mm: f64| (2.0 * tooth.involute.base_radius_mm * arc_mm).sqrt();
+    let rho = |arc_mm: f64| tooth.involute.rho_at_arc_mm(arc_mm);
     (low < high).then(|| (rho(low), rho(high)))
 }
 

@@ -38,7 +38,9 @@ const CLEAR_OF_CORNERS: f64 = 2.0;
 /// Places of the curve from there to where the edge touches.
 const PLACES_TO_EDGE: usize = 5;
 /// Places of the curve from there on.
-const PLACES_BEYOND_EDGE: usize = 40;
+const PLACES_BEYOND_EDGE: usize = 16;
+/// Load up to which the curve reaches as far as tip edges do, over the one that it is made under.
+const GREATEST_LOAD: f64 = 2.0;
 /// A little more than the half-width is kept clear, so that round-off puts nothing over an edge.
 const CLEAR: f64 = 1.0 + 1e-6;
 
@@ -234,7 +236,8 @@ impl<'a> LoadedPair<'a> {
 
     /// The curve for [`crate::stiffness::TeethSpring`], which adds the closed-form flattening again: the whole compliance of
     /// the finite elements less that flattening, both under `line_load_n_per_mm`, so that the whole pair comes out right.
-    /// Next to the edges, and beyond, it changes as bending does: there an ellipse feels the corner, which half-planes do not.
+    /// Next to the edges, and beyond, it changes as bending does, as far as tip edges may touch under twice that load: there an ellipse feels the
+    /// corner, which half-planes do not.
     pub fn curve(&self, deflections: &[PairDeflection], line_load_n_per_mm: f64) -> PairCompliance {
         let clear = self.clear_of_the_edges_mm(line_load_n_per_mm, CLEAR_OF_CORNERS);
         let counts = |at: &&PairDeflection| clear.is_none_or(|(low, high)| (low..=high).contains(&at.position_mm));
@@ -246,7 +249,8 @@ impl<'a> LoadedPair<'a> {
             inner = deflections.iter().map(teeth).collect();
         }
         let path = &self.pair.path;
-        let [before, after] = self.pair.farthest_touch_mm();
+        let contact_modulus_mpa = hertz::contact_modulus_mpa(&self.material);
+        let [before, after] = self.pair.ample_tip_reach_mm(GREATEST_LOAD * line_load_n_per_mm, contact_modulus_mpa);
         let edge_mm = |end| self.pair.edge_position_mm(end);
         let mut points = self.continued(inner[0], edge_mm(PathEnd::Start), path.start_mm - before);
         points.reverse();

@@ -135,7 +135,13 @@ impl GapAtPoints {
         }
         let curvature = 1.0 / flanks.geometry.relative_radius_mm(position_mm);
         let shifts = points.shifts_to_ends_mm();
-        let slope = |k: usize| 0.5 * (geometric_gap_mm[k + 2] - geometric_gap_mm[k]) / points.spacing_mm;
+        // Of the parabola through a point and its neighbours.
+        let slope = |k: usize| {
+            let [before, after] = [k, k + 1].map(|i| points.at[i + 1].along_mm - points.at[i].along_mm);
+            let [below, above] = [(k, before), (k + 1, after)]
+                .map(|(i, length)| (geometric_gap_mm[i + 1] - geometric_gap_mm[i]) / length);
+            (after * below + before * above) / (before + after)
+        };
         // Conjugate flanks touch once the contact has come to the point: there, the parabola's bottom is a gap of nought, which
         // what differences and a constant curvature miss would drown in the narrow contact of a light load. Nowhere do they dip
         // into each other.

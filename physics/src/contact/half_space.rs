@@ -96,7 +96,7 @@ impl HalfSpace {
     fn cell_width_mm(&self, flanks: Flanks<'_>, position_mm: f64) -> f64 {
         let contact = hertz::flattening(&flanks.geometry, &self.material, position_mm).contact;
         let half_width = contact.loaded(self.expected_line_load_n_per_mm).half_width_mm;
-        (POINTS_PER_CELL * point_distance_mm(flanks, Gear::Pinion, position_mm))
+        (POINTS_PER_CELL * point_distance_mm(flanks, position_mm))
             .clamp(half_width / FINEST_CELLS_PER_HALF_WIDTH, half_width / CELLS_PER_HALF_WIDTH)
     }
 }

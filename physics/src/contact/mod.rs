@@ -14,6 +14,7 @@
 pub mod edge_foundation;
 pub(crate) mod elastic_cells;
 mod flank_motion;
+pub mod flank_pressure;
 pub mod foundation;
 pub(crate) mod gap_at_points;
 mod growing_window;
@@ -32,7 +33,7 @@ use serde::{Deserialize, Serialize};
 use crate::gear::{
     Gear, GearPair, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid, normal_section::NormalSection,
 };
-use crate::mesh_cycle::flank_pressure::FlankParts;
+use flank_pressure::FlankParts;
 
 /// Two flanks and the points on them.
 #[derive(Clone, Copy)]

@@ -14,14 +14,12 @@ pub(crate) struct ObservedPoints {
     pub first_point: usize,
     /// Where the samples lie in the tangent frame.
     pub at: Vec<TangentFramePoint>,
-    /// Distance of the samples, mm.
-    pub spacing_mm: f64,
     /// Sliding of each point (without the ends) while the contact moves through the cell, counted only while the mate
     /// faces it, mm.
     pub sliding_mm: Vec<f64>,
     /// How far the points move along the tangent from the cell's position to its lower and to its upper end, mm.
     shift_to_ends_mm: [f64; 2],
-    /// Where the flank ends that stands under the pressure, along the tangent, mm.
+    /// Where the flank ends that stands under the pressure, along the tangent, mm; its points feel what presses on their part of it.
     standing_to_mm: Option<f64>,
     /// The points that an end of the mate's flank passes within the cell, or that face nothing.
     partly_exposed: Vec<PartlyExposed>,
@@ -56,9 +54,9 @@ impl ObservedPoints {
         let samples = first_point - 1..=(last + 1).min(tip);
         let mut at: Vec<TangentFramePoint> =
             samples.map(|i| geometry.in_tangent_frame(gear, grid.coordinate_mm[i], cell.position_mm)).collect();
-        let spacing_mm = (at[at.len() - 1].along_mm - at[0].along_mm) / (at.len() - 1) as f64;
         if last == tip {
-            let along = at[at.len() - 1].along_mm + spacing_mm;
+            let [.., before, end] = at[..] else { unreachable!("two points at least") };
+            let along = 2.0 * end.along_mm - before.along_mm;
             at.push(TangentFramePoint { along_mm: along, drop_mm: geometry.at_along(gear, along, cell.position_mm).1 });
         }
         let sliding = geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
@@ -71,10 +69,9 @@ impl ObservedPoints {
                 partly_exposed.push(PartlyExposed { sample, from, to });
             }
         }
-        let middle = grid.coordinate_mm[first_point.midpoint(last)];
+        let middle = grid.coordinate_mm[first_point].midpoint(grid.coordinate_mm[last]);
         Self {
             first_point,
-            spacing_mm,
             sliding_mm,
             partly_exposed,
             standing_to_mm: None,
@@ -94,12 +91,15 @@ impl ObservedPoints {
             points.partly_exposed.retain(|point| point.from == point.to);
             points.sliding_mm.fill(sliding);
             points.partly_exposed.iter().for_each(|point| points.sliding_mm[point.sample] = 0.0);
-            let middle = flanks.grid[gear].coordinate_mm[points.first_point + points.sliding_mm.len() / 2];
+            let rho_mm = |i: usize| flanks.grid[gear].coordinate_mm[i];
+            let first = points.first_point;
+            let middle = rho_mm(first).midpoint(rho_mm(first + points.sliding_mm.len() - 1));
             if edge == gear {
                 let tip = flanks.geometry.flank_limits_mm(gear).1;
                 points.standing_to_mm = Some(flanks.geometry.in_tangent_frame(gear, tip, cell.position_mm).along_mm);
             }
-            points.shift_to_ends_mm = passes_to_ends_mm(&flanks.geometry, gear, middle, cell, points.spacing_mm);
+            let widest_mm = points.at.windows(2).map(|two| two[1].along_mm - two[0].along_mm).fold(0.0, f64::max);
+            points.shift_to_ends_mm = passes_to_ends_mm(&flanks.geometry, gear, middle, cell, widest_mm);
         }
         points
     }
@@ -109,9 +109,11 @@ impl ObservedPoints {
     pub(crate) fn courses_mm(&self) -> Vec<Option<[f64; 2]>> {
         let mut courses: Vec<_> = self.shifts_to_ends_mm().into_iter().map(Some).collect();
         if let Some(tip_mm) = self.standing_to_mm {
-            // The part of the last point ends with the edge.
-            for (point, course) in self.at[1..].iter().zip(&mut courses) {
-                *course = course.map(|ends| ends.map(|by| by.min((tip_mm - point.along_mm).max(0.0))));
+            // Half of the way to either neighbour; the part of the last point ends with the edge.
+            for (three, course) in self.at.windows(3).zip(&mut courses) {
+                let [before, here, after] = [three[0], three[1], three[2]].map(|point| point.along_mm);
+                let ends = [0.5 * (before - here), (0.5 * (after - here)).min((tip_mm - here).max(0.0))];
+                *course = course.map(|_| ends);
             }
         }
         let unexposed = self.partly_exposed.iter().filter(|point| point.from == point.to);
@@ -134,11 +136,11 @@ impl ObservedPoints {
     /// while the contact moves through the cell; a few more at either end do not.
     pub(crate) fn between(&self, lower_mm: f64, upper_mm: f64) -> Range<usize> {
         let [a, b] = self.shift_to_ends_mm;
-        let sample = |along: f64| (along - self.at[1].along_mm) / self.spacing_mm;
-        // Points are almost evenly spaced; two more make up for the difference.
-        let first = (sample(lower_mm - a.max(b)) - 2.0).max(0.0) as usize;
-        let end = (sample(upper_mm - a.min(b)) + 3.0).max(0.0) as usize;
-        let end = end.min(self.sliding_mm.len());
+        let points = &self.at[1..=self.sliding_mm.len()];
+        let below = |along_mm: f64| points.partition_point(|point| point.along_mm < along_mm);
+        // All points move almost alike; two more make up for the difference.
+        let first = below(lower_mm - a.max(b)).saturating_sub(2);
+        let end = (below(upper_mm - a.min(b)) + 2).min(points.len());
         first.min(end)..end
     }
 }

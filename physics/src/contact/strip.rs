@@ -75,12 +75,12 @@ impl PassingMean {
     fn new(flanks: Flanks<'_>, gear: Gear, cell: PositionCell, along_mm: impl Iterator<Item = f64>) -> Self {
         let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
         let coordinate_mm = |along: f64| geometry.at_along(gear, along, cell.position_mm).0;
-        let spacing_mm = grid.arc_mm[grid.len() - 1] - grid.arc_mm[grid.len() - 2];
         let mut passing = Self::default();
         // Empty again after every sample.
         let mut sums = vec![0.0; grid.len()];
         for along in along_mm {
-            let passes = passes_to_ends_mm(&geometry, gear, coordinate_mm(along), cell, spacing_mm);
+            let at_mm = coordinate_mm(along);
+            let passes = passes_to_ends_mm(&geometry, gear, at_mm, cell, grid.distance_at_mm(at_mm));
             let ends = passes.map(|by| coordinate_mm(along - by));
             let reached = add_means(&grid.coordinate_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
             passing.first.push(reached.start as u32);
@@ -164,11 +164,10 @@ pub(super) fn common_extent_mm(geometry: &dyn ConjugateFlanks, position_mm: f64)
     (extent, [lowers[1] >= lowers[0], uppers[0] <= uppers[1]])
 }
 
-/// Distance of the points of a gear's flank at the theoretical contact point.
-pub(crate) fn point_distance_mm(flanks: Flanks<'_>, gear: Gear, position_mm: f64) -> f64 {
-    let grid = flanks.grid[gear];
-    let here = grid.place(flanks.geometry.contact_coordinate_mm(gear, position_mm)).index;
-    grid.arc_mm[here + 1] - grid.arc_mm[here]
+/// Distance of the points at the theoretical contact point on the flank where they are closer.
+pub(crate) fn point_distance_mm(flanks: Flanks<'_>, position_mm: f64) -> f64 {
+    let of = |gear: Gear| flanks.grid[gear].distance_at_mm(flanks.geometry.contact_coordinate_mm(gear, position_mm));
+    of(Gear::Pinion).min(of(Gear::Wheel))
 }
 
 /// Evenly spaced samples across the candidate contact.

@@ -158,7 +158,7 @@ impl Sampled for ObservedStretch<'_> {
 
     fn sample(&self, half_length_mm: f64) -> Self::Samples {
         let window = Window::new(self.flanks, self.position_mm, half_length_mm);
-        let distance_mm = POINTS_PER_SAMPLE * point_distance_mm(self.flanks, Gear::Pinion, self.position_mm);
+        let distance_mm = POINTS_PER_SAMPLE * point_distance_mm(self.flanks, self.position_mm);
         let least = if self.at_edge { LEAST_INTERVALS_AT_EDGE } else { LEAST_INTERVALS };
         let intervals = ((window.length_mm() / distance_mm).ceil() as usize).max(least);
         // Elsewhere points carry their own wear through the contact.

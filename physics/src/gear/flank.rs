@@ -1,10 +1,21 @@
 //! The flank as a row of points: single-point observation.
 //!
-//! Points are spaced evenly in radius from the base circle (0) to the tip circle (`flank_points`), as the thesis
-//! numbers them. Whatever varies over the flank (removed material, pressure, sliding) is a slice with one value a point,
-//! linear in between.
+//! Points lie between the base circle (0) and the tip circle (`flank_points`), where [`PointSpacing`] puts them. Whatever varies over
+//! the flank (removed material, pressure, sliding) is a slice with one value a point, linear in between.
 
-use super::{Gear, GearPair};
+use serde::{Deserialize, Serialize};
+
+use super::{Gear, GearPair, graded_spacing};
+
+/// How the points of a flank are spaced between base and tip circle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PointSpacing {
+    /// Evenly in radius, as the thesis numbers them.
+    Even,
+    /// Closer on tip roundings, about the start of active profile and where a relief begins; few below the flank that touches.
+    Graded,
+}
 
 /// The points of one flank.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,7 +37,20 @@ pub struct GridPosition {
 
 impl FlankGrid {
     /// `flank_points` intervals on a gear's flank: `flank_points + 1` points.
-    pub fn new(pair: &GearPair, gear: Gear, flank_points: usize) -> Self {
+    pub fn new(pair: &GearPair, gear: Gear, flank_points: usize, spacing: PointSpacing) -> Self {
+        match spacing {
+            PointSpacing::Even => Self::evenly_in_radius(pair, gear, flank_points),
+            PointSpacing::Graded => {
+                let involute = pair.teeth[gear].involute;
+                let arc_mm = graded_spacing::arcs_mm(pair, gear, flank_points);
+                let mut coordinate_mm: Vec<f64> = arc_mm.iter().map(|&arc| involute.rho_at_arc_mm(arc)).collect();
+                coordinate_mm[flank_points] = pair.teeth[gear].tip_rho_mm();
+                Self { coordinate_mm, arc_mm }
+            }
+        }
+    }
+
+    fn evenly_in_radius(pair: &GearPair, gear: Gear, flank_points: usize) -> Self {
         let (involute, tip) = (pair.teeth[gear].involute, pair.teeth[gear].tip_radius_mm);
         let base = involute.base_radius_mm;
         let radius = |i: usize| base + (tip - base) * i as f64 / flank_points as f64;
@@ -66,6 +90,12 @@ impl FlankGrid {
     pub fn value_at(&self, values: &[f64], coordinate_mm: f64) -> f64 {
         let GridPosition { index, weight } = self.place(coordinate_mm);
         values[index] + weight * (values[index + 1] - values[index])
+    }
+
+    /// Distance of the two points along the flank between which `coordinate_mm` falls.
+    pub fn distance_at_mm(&self, coordinate_mm: f64) -> f64 {
+        let GridPosition { index, .. } = self.place(coordinate_mm);
+        self.arc_mm[index + 1] - self.arc_mm[index]
     }
 
     /// Length of flank that point `i` stands for: from halfway to the point before to halfway to the point after.

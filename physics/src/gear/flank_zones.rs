@@ -59,11 +59,10 @@ impl FlankZones {
         let rounding_mm = tip_rounding_length_mm(spec.gears[gear].modification.tip_rounding_mm, tooth);
         let length_mm = (TIP_EDGE_HALF_WIDTHS * half_width_mm).min(MOST_TIP_EDGE_MODULES * spec.normal_module_mm);
         let start = pair.active_start_rho_mm(gear);
-        // s = ρ²/(2 r_b); a flank shorter than its tip-edge zone has no other.
+        // A flank shorter than its tip-edge zone has no other.
         let below_tip_mm = |length_mm: f64| {
             let arc_mm = tooth.involute.arc_mm(tooth.tip_rho_mm()) - length_mm;
-            let rho_mm = (2.0 * tooth.involute.base_radius_mm * arc_mm.max(0.0)).sqrt().max(start);
-            tooth.involute.radius_mm(rho_mm)
+            tooth.involute.radius_mm(tooth.involute.rho_at_arc_mm(arc_mm).max(start))
         };
         let (of_half_widths, most_mm) = PRESSURE_LENGTH;
         Self {

@@ -68,6 +68,11 @@ impl Involute {
         rho_mm * rho_mm / (2.0 * self.base_radius_mm)
     }
 
+    /// Radius of curvature at the arc length `arc_mm` from the base circle; 0 below it.
+    pub fn rho_at_arc_mm(&self, arc_mm: f64) -> f64 {
+        (2.0 * self.base_radius_mm * arc_mm.max(0.0)).sqrt()
+    }
+
     /// The flank point with radius of curvature `rho_mm`, seen from where the flank's normal is the line of action:
     /// theoretical contact at radius of curvature `contact_rho_mm`.
     ///

@@ -84,7 +84,7 @@ impl GearPair {
             return tooth.tip_rho_mm();
         }
         let arc_mm = tooth.involute.arc_mm(tooth.tip_rho_mm()) - tip_rounding_length_mm(rounding_mm, tooth);
-        (2.0 * tooth.involute.base_radius_mm * arc_mm).sqrt()
+        tooth.involute.rho_at_arc_mm(arc_mm)
     }
 
     /// How far before A and after E the edge in which the path ends there is within its mate's tip circle, mm of path: farther out

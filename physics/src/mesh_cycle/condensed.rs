@@ -17,10 +17,10 @@ use rayon::prelude::*;
 
 use super::collected::Collected;
 use super::condensed_contact::{ContactPlace, HeatedContactRows, parts_of_rows};
-use super::flank_pressure::PressureFigures;
 use super::load_sharing::EquilibriumError;
 use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, PositionObservation, Work};
 use crate::contact::Footprint;
+use crate::contact::flank_pressure::PressureFigures;
 use crate::fem::active_set::Equilibrium;
 use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::fem::gear::condensed_pair::hertz_half_width_mm;
@@ -56,6 +56,8 @@ const WITHIN_HALF_WIDTHS: f64 = 2.0;
 const LEAST_LEVER_CHANGE: f64 = 1e-3;
 /// By how much, in rad and over the tilt itself, a tip edge under load may have tilted since.
 const LEAST_TILT: (f64, f64) = (0.02, 0.2);
+/// By how much of itself the transmission error may differ from that under which what faces what was found.
+const LEAST_TURN: f64 = 0.1;
 /// Times that a position is made to follow its tilted flanks before its contact is taken as it is.
 const MOST_TILTS: usize = 3;
 
@@ -66,6 +68,8 @@ struct LoadedPosition {
     stretch_mm: (f64, f64),
     /// Of each tooth pair that may touch.
     transfers: Vec<LoadTransfer>,
+    /// The transmission error under which that is so, mm; 0 as long as there is none.
+    turned_mm: f64,
     /// In which of the windows of `prepared` that was found.
     windows: usize,
     /// The tilt of the worn flanks that it is about; new ones if there is none.
@@ -221,7 +225,7 @@ impl MeshCycle for CondensedCycle<'_> {
         self.groups.par_iter_mut().flat_map(|group| &mut group.loaded_positions).for_each(|loaded| {
             model.reset(&mut loaded.prepared);
             loaded.found = None;
-            if loaded.windows != loaded.prepared.windows() || loaded.about_rad.is_some() {
+            if loaded.windows != loaded.prepared.windows() || loaded.about_rad.is_some() || loaded.turned_mm != 0.0 {
                 loaded.observe(model, nodes);
             }
         });
@@ -434,15 +438,23 @@ impl LoadedPosition {
         nodes: PerGear<&FlankNodes>,
     ) -> Self {
         let prepared = model.prepare(stretch_mm.0.midpoint(stretch_mm.1), line_load_n_per_mm);
-        let mut loaded = Self { prepared, stretch_mm, transfers: Vec::new(), windows: 0, about_rad: None, found: None };
+        let mut loaded = Self {
+            prepared,
+            stretch_mm,
+            transfers: Vec::new(),
+            turned_mm: 0.0,
+            windows: 0,
+            about_rad: None,
+            found: None,
+        };
         loaded.observe(model, nodes);
         loaded
     }
 
     /// The load's way to the nodes of new flanks, in the window as it is now.
     fn observe(&mut self, model: &CondensedPair<'_>, nodes: PerGear<&FlankNodes>) {
-        self.transfers = model.load_transfers(&self.prepared, self.stretch_mm, nodes, None);
-        (self.windows, self.about_rad) = (self.prepared.windows(), None);
+        self.transfers = model.load_transfers(&self.prepared, self.stretch_mm, 0.0, nodes, None);
+        (self.turned_mm, self.windows, self.about_rad) = (0.0, self.prepared.windows(), None);
     }
 
     fn solve(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
@@ -469,10 +481,10 @@ impl LoadedPosition {
     /// Finds the contact on the flanks as they are, in the directions that the position was made for.
     fn solve_linearised(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
         let position_mm = self.prepared.position_mm;
-        let Self { prepared, stretch_mm, transfers, windows, about_rad, .. } = self;
+        let Self { prepared, stretch_mm, transfers, turned_mm, windows, about_rad, .. } = self;
         let mut opening = |prepared: &Prepared, gap_mm: &mut [f64]| {
             if *windows != prepared.windows() {
-                *transfers = step.model.load_transfers(prepared, *stretch_mm, step.nodes, None);
+                *transfers = step.model.load_transfers(prepared, *stretch_mm, *turned_mm, step.nodes, None);
                 (*windows, *about_rad) = (prepared.windows(), None);
             }
             transfers.iter().for_each(|contact| contact.open_gaps(step.worn.depth_mm, gap_mm));
@@ -485,8 +497,8 @@ impl LoadedPosition {
         Ok(Work { newton_iterations, pair_evaluations, ..Work::default() })
     }
 
-    /// Makes the position for its worn flanks where the load acts in another direction, or on a tip edge worn to another shape, than
-    /// it was made for; answers whether that was so.
+    /// Makes the position for its worn flanks where the load acts in another direction, on a tip edge worn to another shape, or under another
+    /// transmission error than it was made for; answers whether that was so.
     fn is_tilted_anew(&mut self, step: &Step<'_>) -> bool {
         let Some(found) = &self.found else { return false };
         let tilt_rad = |gear: Gear, node: usize| step.worn.tilt_rad[gear][step.nodes[gear].place[node]];
@@ -496,11 +508,18 @@ impl LoadedPosition {
             step.model.tilt(&mut self.prepared, tilt_rad);
         }
         let reshapes = self.has_reshaped(step, found);
+        let turned_mm = found.rigid[0];
+        let moves = (turned_mm - self.turned_mm).abs() > LEAST_TURN * turned_mm.abs();
         if reshapes {
-            self.transfers = step.model.load_transfers(&self.prepared, self.stretch_mm, step.nodes, Some(step.worn));
             self.about_rad = Some(step.worn.tilt_rad.clone());
         }
-        turns || reshapes
+        if reshapes || moves {
+            let worn = self.about_rad.is_some().then_some(step.worn);
+            let (prepared, stretch_mm) = (&self.prepared, self.stretch_mm);
+            self.transfers = step.model.load_transfers(prepared, stretch_mm, turned_mm, step.nodes, worn);
+            self.turned_mm = turned_mm;
+        }
+        turns || reshapes || moves
     }
 
     /// Whether a tip edge under load has another shape.

@@ -1,7 +1,7 @@
 //! A contact of the condensed pair as laws of wear see it: where it is on the path, and the conditions of its rows in its own heat.
 
-use super::flank_pressure::ContactParts;
 use crate::contact::PressedCell;
+use crate::contact::flank_pressure::ContactParts;
 use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::fem::gear::flank_nodes::Weights;
 use crate::fem::gear::load_transfer::LoadTransfer;
@@ -35,6 +35,9 @@ impl ContactPlace<'_> {
 }
 
 /// A contact under `force` on its rows as cells along it, and where these lie on the flanks, whose nodes have the nominal radii `radius_mm`.
+///
+/// Cells reach from the middle of a row to that of the next: multipliers at the corners and in the middle of quadratic elements lie to
+/// opposite sides of the pressure, and together they carry its load.
 pub(super) fn parts_of_rows(
     contact: &LoadTransfer,
     force: &[f64],
@@ -43,26 +46,33 @@ pub(super) fn parts_of_rows(
 ) -> (ContactParts, Vec<PressedCell>) {
     let mut order: Vec<usize> = (0..contact.len()).collect();
     order.sort_by(|&a, &b| contact.along_mm[a].total_cmp(&contact.along_mm[b]));
-    let mut cells = Vec::with_capacity(order.len());
+    let mut cells = Vec::with_capacity(order.len() + 1);
     let (mut flank_mm, mut edges_mm) = ([f64::INFINITY, f64::NEG_INFINITY], [f64::NEG_INFINITY, f64::INFINITY]);
-    let mut lower_mm = 0.0;
+    let (mut lower_mm, mut half_row_mm, mut half_force) = (0.0, 0.0, 0.0);
+    let mut end_cell = |to_mm: f64, load: f64| {
+        cells.push(PressedCell { lower_mm, upper_mm: to_mm, pressure_mpa: load / (to_mm - lower_mm) });
+        lower_mm = to_mm;
+    };
+    let mut middle_mm = 0.0;
     for i in order {
-        let width_mm = contact.weight_mm[i];
-        let upper_mm = lower_mm + width_mm;
-        let radius = |gear: Gear| weighted_mean(contact.means[gear].row(i), radius_mm[gear]);
-        let at = PerGear::from_fn(radius);
+        let next_half_mm = 0.5 * contact.weight_mm[i];
+        middle_mm += half_row_mm + next_half_mm;
+        end_cell(middle_mm, half_force + 0.5 * force[i]);
+        (half_row_mm, half_force) = (next_half_mm, 0.5 * force[i]);
+        let at = PerGear::from_fn(|gear| weighted_mean(contact.means[gear].row(i), radius_mm[gear]));
         if Gear::BOTH.into_iter().all(|gear| zones[gear].at(at[gear]) == FlankZone::Active) {
-            flank_mm = [flank_mm[0].min(lower_mm), flank_mm[1].max(upper_mm)];
+            flank_mm = [flank_mm[0].min(middle_mm), flank_mm[1].max(middle_mm)];
         }
-        let is_at_tip = |gear: Gear| at[gear] + 0.5 * width_mm >= zones[gear].tip_end_radius_mm;
-        if is_at_tip(Gear::Wheel) {
-            edges_mm[0] = edges_mm[0].max(lower_mm.midpoint(upper_mm));
+        let is_at_tip = |gear: Gear| at[gear] + next_half_mm >= zones[gear].tip_end_radius_mm;
+        if force[i] > 0.0 && is_at_tip(Gear::Wheel) {
+            edges_mm[0] = edges_mm[0].max(middle_mm);
         }
-        if is_at_tip(Gear::Pinion) {
-            edges_mm[1] = edges_mm[1].min(lower_mm.midpoint(upper_mm));
+        if force[i] > 0.0 && is_at_tip(Gear::Pinion) {
+            edges_mm[1] = edges_mm[1].min(middle_mm);
         }
-        cells.push(PressedCell { lower_mm, upper_mm, pressure_mpa: force[i] / width_mm });
-        lower_mm = upper_mm;
+    }
+    if half_row_mm > 0.0 {
+        end_cell(middle_mm + half_row_mm, half_force);
     }
     if flank_mm[0] > flank_mm[1] {
         flank_mm = [0.0; 2];
@@ -79,6 +89,7 @@ fn weighted_mean(Weights { first, weights }: Weights<'_>, at_nodes: &[f64]) -> f
 #[derive(Default)]
 pub(super) struct HeatedContactRows {
     even_mpa: Vec<f64>,
+    even_along_mm: Vec<f64>,
     even_sliding_mm: Vec<f64>,
     row: HeatedRow,
     conditions: Vec<ContactConditions>,
@@ -122,6 +133,8 @@ impl HeatedContactRows {
             let at = if gear == Gear::Pinion { at } else { greatest - at };
             ((at / spacing_mm).round() as usize).min(count - 1)
         };
+        self.even_along_mm.clear();
+        self.even_along_mm.extend((0..count).map(|k| k as f64 * spacing_mm));
         for row in [&mut self.even_mpa, &mut self.even_sliding_mm] {
             row.clear();
             row.resize(count, 0.0);
@@ -134,7 +147,7 @@ impl HeatedContactRows {
                 self.even_sliding_mm[k] = contact.sliding_mm[i];
             }
         }
-        let points = RowOfPoints { gear, spacing_mm, pressure_mpa: &self.even_mpa };
+        let points = RowOfPoints { gear, along_mm: &self.even_along_mm, pressure_mpa: &self.even_mpa };
         let time_s = length_mm / heat.speed_mm_per_s;
         let even = self.row.across_sliding(&heated, points, &self.even_sliding_mm, time_s);
         self.conditions.clear();

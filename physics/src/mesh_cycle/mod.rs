@@ -10,7 +10,6 @@ mod collected;
 pub mod condensed;
 mod condensed_contact;
 pub mod coupled_teeth;
-pub mod flank_pressure;
 mod half_layers;
 pub(crate) mod influence;
 pub mod load_sharing;
@@ -32,11 +31,11 @@ mod worn_points;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::contact::flank_pressure::{FlankParts, PressureFigures};
 use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCell, Sweep};
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, slices::greatest_over_width};
 use crate::wear::WearModel;
 use collected::Collected;
-use flank_pressure::PressureFigures;
 use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use sliced_mesh::SlicedMesh;
 use worn_points::{ContactPlace, WornPoints};
@@ -92,7 +91,7 @@ impl std::ops::AddAssign for Work {
 struct LoadedPosition<'a> {
     cell: PositionCell,
     on_line_of_action: bool,
-    place: ContactPlace,
+    place: ContactPlace<'a>,
     /// How far the flanks slide on each other there, mm.
     sliding_mm: f64,
     /// The reference pair first.
@@ -326,8 +325,7 @@ fn note_contact_of_points(
 
 /// Figures of a contact's pressure, where the parts of the flanks are told.
 fn figures_of(flanks: Flanks<'_>, position_mm: f64, contact: &dyn PairContact) -> PressureFigures {
-    let of_parts =
-        |parts: flank_pressure::FlankParts| parts.figures(&flanks.geometry, position_mm, &contact.pressed_cells());
+    let of_parts = |parts: FlankParts| parts.figures(&flanks.geometry, position_mm, &contact.pressed_cells());
     flanks.parts.map(of_parts).unwrap_or_default()
 }
 

@@ -15,7 +15,6 @@ use rayon::prelude::*;
 
 use super::collected::Collected;
 use super::coupled_teeth::CoupledTeeth;
-use super::flank_pressure::PressureFigures;
 use super::load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use super::part_of_slice::PartOfSlice;
 use super::sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh};
@@ -27,6 +26,7 @@ use super::{
     CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, figures_of, in_series,
     note_contact_of_points,
 };
+use crate::contact::flank_pressure::PressureFigures;
 use crate::contact::{ContactSurface, Flanks, Sweep};
 use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, path_of_contact::PathOfContact};
 use crate::wear::WearModel;
@@ -82,7 +82,7 @@ struct LoadedPosition<'a> {
     contacts: Vec<SliceContact>,
     pairs: Vec<MeshedPair<'a>>,
     /// Of each contact.
-    places: Vec<ContactPlace>,
+    places: Vec<ContactPlace<'a>>,
     /// Of each contact: how far its load, counted over the whole slice, slides, mm.
     sliding_mm: Vec<f64>,
     /// The teeth that the contacts belong to, where slices are coupled.

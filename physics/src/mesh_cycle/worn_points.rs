@@ -1,7 +1,7 @@
 //! The wear of the flank points in a tooth pair's contact, which is a source of heat and has a film, for wear laws that read them.
 
 use super::load_sharing::MeshedPair;
-use crate::contact::{Flanks, PairContact, PositionCell, Sweep, strip::point_distance_mm};
+use crate::contact::{Flanks, PairContact, PositionCell, Sweep};
 use crate::gear::{Gear, PerGear};
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::reference::hertz_line::PEAK_OVER_MEAN;
@@ -13,11 +13,11 @@ use crate::wear::{
 
 /// What heat and film need to know of the place of a contact.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ContactPlace {
+pub(super) struct ContactPlace<'a> {
     position_mm: f64,
     ratios: SpeedRatios,
-    /// Distance of each flank's points there, mm.
-    spacing_mm: PerGear<f64>,
+    /// Where the points of each flank lie along it, mm.
+    arc_mm: PerGear<&'a [f64]>,
     /// Part of the width that is in contact, and carries all of its load.
     part: f64,
 }
@@ -25,18 +25,18 @@ pub(super) struct ContactPlace {
 /// A contact under its load, and where it is.
 struct HeatedPair<'a> {
     contact: HeatedContact<'a>,
-    spacing_mm: PerGear<f64>,
+    arc_mm: PerGear<&'a [f64]>,
     /// Whether rows of points run across it.
     across: bool,
 }
 
-impl ContactPlace {
+impl<'p> ContactPlace<'p> {
     /// The stretch of the path that a loading position stands for.
-    pub(super) fn new(flanks: Flanks<'_>, cell: PositionCell) -> Self {
+    pub(super) fn new(flanks: Flanks<'p>, cell: PositionCell) -> Self {
         Self {
             position_mm: cell.position_mm,
             ratios: SpeedRatios::over(&flanks.geometry, cell.lower_mm, cell.upper_mm),
-            spacing_mm: PerGear::from_fn(|gear| point_distance_mm(flanks, gear, cell.position_mm)),
+            arc_mm: flanks.grid.map(|grid| grid.arc_mm.as_slice()),
             part: 1.0,
         }
     }
@@ -47,7 +47,10 @@ impl ContactPlace {
     }
 
     /// A pair that is pressed together here; none where neither law reads what heat does.
-    fn under<'a>(&self, wear: &WearModel<'a>, pair: &dyn PairContact, loaded: &LoadedPlace) -> Option<HeatedPair<'a>> {
+    fn under<'a>(&self, wear: &WearModel<'a>, pair: &dyn PairContact, loaded: &LoadedPlace) -> Option<HeatedPair<'a>>
+    where
+        'p: 'a,
+    {
         let heated = |heat: &'a ContactHeat| HeatedPair {
             contact: HeatedContact {
                 heat,
@@ -58,7 +61,7 @@ impl ContactPlace {
                     friction_coefficient: wear.friction(heat, loaded),
                 },
             },
-            spacing_mm: self.spacing_mm,
+            arc_mm: self.arc_mm,
             across: pair.sweeps_across(),
         };
         wear.heat_of_laws().map(heated)
@@ -69,7 +72,8 @@ impl HeatedPair<'_> {
     /// The conditions of the points of `gear`'s flank in a sweep.
     fn conditions<'r>(&self, row: &'r mut HeatedRow, gear: Gear, sweep: &Sweep) -> &'r [ContactConditions] {
         if self.across {
-            let points = RowOfPoints { gear, spacing_mm: self.spacing_mm[gear], pressure_mpa: &sweep.pressure_mpa };
+            let along_mm = &self.arc_mm[gear][sweep.first_point..sweep.first_point + sweep.pressure_mpa.len()];
+            let points = RowOfPoints { gear, along_mm, pressure_mpa: &sweep.pressure_mpa };
             row.across(&self.contact, points)
         } else {
             row.even(&self.contact, gear, sweep.pressure_mpa.len())
@@ -90,7 +94,7 @@ impl WornPoints {
     pub(super) fn wear(
         &mut self,
         wear: &WearModel<'_>,
-        (pair, place): (&MeshedPair<'_>, &ContactPlace),
+        (pair, place): (&MeshedPair<'_>, &ContactPlace<'_>),
         removed_mm: PerGear<&[f64]>,
         first: PerGear<usize>,
         depth_mm: &mut PerGear<Vec<f64>>,

@@ -251,7 +251,9 @@ impl HeatObserver<'_> {
             match self.spread {
                 Spread::Even => rises.fill(band.greatest_rise_k(gear, Spread::Even)),
                 Spread::Ellipse => {
-                    band.rises_k(gear, 2.0 * contact.half_width_mm / PLACES as f64, &pressure, &mut rises);
+                    let along_mm: [f64; PLACES] =
+                        std::array::from_fn(|k| 2.0 * contact.half_width_mm * k as f64 / PLACES as f64);
+                    band.rises_k(gear, &along_mm, &pressure, &mut rises);
                 }
             }
             let slid_mm = 2.0 * contact.half_width_mm * ratios.sliding / ratios.rolling[gear];

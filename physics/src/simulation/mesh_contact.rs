@@ -1,6 +1,7 @@
 //! The elastic model of a pair in mesh, and the pair that wears by it.
 
 use super::settings::Numerics;
+use crate::contact::flank_pressure::FlankParts;
 use crate::contact::{ContactSurface, Effort, Flanks, settings::Material};
 use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::gear::{GearPair, PerGear, flank_zones::FlankZones, slices::Slices};
@@ -9,7 +10,6 @@ use crate::mesh_cycle::wearing_pair::{OnFlankNodes, OnFlankPoints, WearingPair};
 use crate::mesh_cycle::{
     LineOfActionCycle, MeshCycle,
     condensed::CondensedCycle,
-    flank_pressure::FlankParts,
     positions::{loading_positions, positions_with_tip_contact},
     sliced::{SliceSprings, SlicedCycle, SpringAlongPath},
     sliced_positions::{SliceEnds, sliced_positions},

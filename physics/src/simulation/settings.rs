@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::gear::PerGear;
+use crate::gear::{PerGear, flank::PointSpacing};
 
 /// Wear steps of a run where nothing else is asked for.
 const STEPS: f64 = 150.0;
@@ -175,8 +175,10 @@ impl Stepping {
 /// Resolution in space and time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Numerics {
-    /// Intervals of the flank between base circle (point 0) and tip circle (point `flank_points`), evenly in radius.
+    /// Intervals of the flank between base circle (point 0) and tip circle (point `flank_points`).
     pub flank_points: usize,
+    /// How these are spaced.
+    pub point_spacing: PointSpacing,
     /// Loading positions from A to E, evenly along the path of contact, both ends included.
     pub positions: usize,
     /// Steps in time.

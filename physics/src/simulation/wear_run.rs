@@ -272,7 +272,9 @@ impl WearRun<'_> {
 
     /// The flanks as they are made, in these slices.
     pub(super) fn unworn_flanks(&self, slices: Slices) -> UnwornFlanks {
-        let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));
+        let grid = PerGear::from_fn(|gear| {
+            FlankGrid::new(self.pair, gear, self.numerics.flank_points, self.numerics.point_spacing)
+        });
         let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear], &slices));
         let thickness_mm = PerGear::from_fn(|gear| thickness_mm(self.pair, gear, &grid[gear]));
         UnwornFlanks { grid, slices, modification_mm, thickness_mm }

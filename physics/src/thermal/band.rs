@@ -5,6 +5,7 @@ use super::peclet::peclet;
 use super::settings::{HeatVelocity, TemperatureMethod, ThermalMaterial};
 use super::{ContactHeat, HeatedStrip, enters_at_tip_side, partition, tian_kennedy, williams};
 use crate::gear::{Gear, PerGear};
+use crate::reference::linear_means::value_at;
 
 /// How the heat is spread over the strip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -94,19 +95,17 @@ impl<'a> HeatedBand<'a> {
         flux / material.conductivity_n_per_s_k * (material.diffusivity_mm2_per_s * passage_s).sqrt()
     }
 
-    /// The rise of `gear`'s surface at consecutive points of its flank, from root to tip and `spacing_mm` apart, which are under
+    /// The rise of `gear`'s surface at consecutive points of its flank, from root to tip at `along_mm`, which are under
     /// `pressure_mpa`; K. The strip is as wide as the band and lies around the centre of the pressure; `rise_k` is as long as the
     /// row.
-    pub(crate) fn rises_k(&self, gear: Gear, spacing_mm: f64, pressure_mpa: &[f64], rise_k: &mut [f64]) {
+    pub(crate) fn rises_k(&self, gear: Gear, along_mm: &[f64], pressure_mpa: &[f64], rise_k: &mut [f64]) {
         rise_k.fill(0.0);
         let HeatedBody { flux, velocity_mm_per_s, material } = &self.bodies[gear];
-        let sum: f64 = pressure_mpa.iter().sum();
-        if *flux <= 0.0 || sum <= 0.0 {
-            return;
-        }
-        let moment: f64 = pressure_mpa.iter().enumerate().map(|(k, pressure)| k as f64 * pressure).sum();
         let width = 2.0 * self.half_width_mm;
-        let strip = Strip { centre: moment / sum, per_point: spacing_mm / width, backwards: enters_at_tip_side(gear) };
+        let backwards = enters_at_tip_side(gear);
+        let Some(strip) = Strip::under(along_mm, pressure_mpa, width, backwards).filter(|_| *flux > 0.0) else {
+            return;
+        };
         let heated = rise_k.iter_mut().enumerate().zip(pressure_mpa).filter(|(_, pressure)| **pressure > 0.0);
         match self.method {
             TemperatureMethod::TianKennedy => {
@@ -134,38 +133,59 @@ impl<'a> HeatedBand<'a> {
 
 /// Where a row of points lies in the strip of the contact.
 #[derive(Debug, Clone, Copy)]
-struct Strip {
-    /// Number of the point, with a fraction, in the middle of the strip.
-    centre: f64,
-    /// Distance of the points over the width of the strip.
-    per_point: f64,
+struct Strip<'a> {
+    /// Of the points.
+    along_mm: &'a [f64],
+    /// Middle of the strip.
+    centre_mm: f64,
+    width_mm: f64,
     /// Whether material enters at the row's end.
     backwards: bool,
 }
 
-impl Strip {
+impl<'a> Strip<'a> {
+    /// Around the centre of the pressure on a row; none without pressure.
+    fn under(along_mm: &'a [f64], pressure_mpa: &[f64], width_mm: f64, backwards: bool) -> Option<Self> {
+        let last = along_mm.len() - 1;
+        let (mut sum, mut moment) = (0.0, 0.0);
+        for (k, (at, pressure)) in along_mm.iter().zip(pressure_mpa).enumerate() {
+            let part = if last == 0 { 1.0 } else { part_mm(along_mm, k) };
+            sum += part * pressure;
+            moment += part * pressure * (at - along_mm[0]);
+        }
+        (sum > 0.0).then(|| Self { along_mm, centre_mm: along_mm[0] + moment / sum, width_mm, backwards })
+    }
+
     /// Part of the strip that point k has come through: 0 before it, 1 behind it.
     fn passed(&self, k: usize) -> f64 {
-        let from_centre = (k as f64 - self.centre) * self.per_point;
+        let from_centre = (self.along_mm[k] - self.centre_mm) / self.width_mm;
         (0.5 + if self.backwards { -from_centre } else { from_centre }).clamp(0.0, 1.0)
     }
 
     /// The pressure in the middle of every cell of the passage over their mean: straight lines between the points within the strip,
     /// and beyond the ends of the row the pressure at its ends.
     fn cells(&self, pressure_mpa: &[f64]) -> [f64; CELLS] {
-        let last = pressure_mpa.len() - 1;
         let at = |cell: usize| {
             let from_inlet = (cell as f64 + 0.5) / CELLS as f64;
             let from_start = if self.backwards { 1.0 - from_inlet } else { from_inlet };
-            let place = (self.centre + (from_start - 0.5) / self.per_point).clamp(0.0, last as f64);
-            let before = (place as usize).min(last.saturating_sub(1));
-            let next = (before + 1).min(last);
-            pressure_mpa[before] + (place - before as f64) * (pressure_mpa[next] - pressure_mpa[before])
+            let place_mm = self.centre_mm + (from_start - 0.5) * self.width_mm;
+            match pressure_mpa {
+                [alone] => *alone,
+                row => value_at(self.along_mm, row, place_mm),
+            }
         };
         let cells: [f64; CELLS] = std::array::from_fn(at);
         let mean = cells.iter().sum::<f64>() / CELLS as f64;
         if mean > 0.0 { cells.map(|pressure| pressure / mean) } else { [1.0; CELLS] }
     }
+}
+
+/// From the point before to the point after the k-th of a row; beyond its ends it goes on as at them.
+fn part_mm(along_mm: &[f64], k: usize) -> f64 {
+    let last = along_mm.len() - 1;
+    let before = if k > 0 { along_mm[k] - along_mm[k - 1] } else { along_mm[1] - along_mm[0] };
+    let after = if k < last { along_mm[k + 1] - along_mm[k] } else { along_mm[last] - along_mm[last - 1] };
+    before + after
 }
 
 #[cfg(test)]
@@ -210,7 +230,8 @@ mod tests {
                     *pressure = if spread == Spread::Even { 1.0 } else { (1.0 - x * x).sqrt() };
                 }
                 for gear in Gear::BOTH {
-                    band.rises_k(gear, 2.0 * 0.0966 / 200.0, &row, &mut rise);
+                    let along_mm: Vec<f64> = (0..204).map(|k| f64::from(k) * 2.0 * 0.0966 / 200.0).collect();
+                    band.rises_k(gear, &along_mm, &row, &mut rise);
                     let (greatest, expected) =
                         (rise.iter().copied().fold(0.0, f64::max), band.greatest_rise_k(gear, spread));
                     assert!((greatest / expected - 1.0).abs() < 4e-3, "{method:?} {spread:?} {greatest} {expected}");
@@ -221,6 +242,27 @@ mod tests {
                     assert!(hot > cool || method == TemperatureMethod::TianKennedy);
                 }
             }
+        }
+    }
+
+    /// Points that are twice as far apart on one side of the contact as on the other tell of the same strip as even ones.
+    #[test]
+    fn ver_uneven_rows_feel_the_same_strip() {
+        let heat = heat(TemperatureMethod::HeatEquation, HeatVelocity::Surface);
+        let band = heat.band(&STRIP);
+        let half = STRIP.half_width_mm;
+        let pressure = |along: f64| (1.0 - (along / half).powi(2)).max(0.0).sqrt();
+        let even: Vec<f64> = (0..=400).map(|k| 1.2 * half * (f64::from(k) / 200.0 - 1.0)).collect();
+        let uneven: Vec<f64> =
+            even.iter().enumerate().filter(|(k, at)| **at >= 0.0 || k % 2 == 0).map(|(_, at)| *at).collect();
+        let rises = |along_mm: &[f64]| {
+            let row: Vec<f64> = along_mm.iter().map(|&at| pressure(at)).collect();
+            let mut rise = vec![0.0; row.len()];
+            band.rises_k(Gear::Wheel, along_mm, &row, &mut rise);
+            [-0.6, -0.3, 0.0, 0.3, 0.6].map(|at| value_at(along_mm, &rise, at * half))
+        };
+        for (one, other) in rises(&even).iter().zip(rises(&uneven)) {
+            assert!((one / other - 1.0).abs() < 5e-3, "{one} {other}");
         }
     }
 
@@ -237,9 +279,8 @@ mod tests {
         for (row, per_point) in
             [(vec![0.0, 1.0, 0.0], 0.9), (vec![2.0], 3.0), (vec![0.0, 1.0, 2.0, 1.5, 0.5, 0.0], 0.24)]
         {
-            let sum: f64 = row.iter().sum();
-            let centre = row.iter().enumerate().map(|(k, p)| k as f64 * p).sum::<f64>() / sum;
-            let cells = Strip { centre, per_point, backwards: true }.cells(&row);
+            let along_mm: Vec<f64> = (0..row.len()).map(|k| per_point * k as f64).collect();
+            let cells = Strip::under(&along_mm, &row, 1.0, true).unwrap().cells(&row);
             assert!((cells.iter().sum::<f64>() / CELLS as f64 - 1.0).abs() < 1e-12, "{row:?}");
         }
     }

@@ -34,8 +34,8 @@ impl HeatedContact<'_> {
 pub(crate) struct RowOfPoints<'a> {
     /// Whose they are.
     pub gear: Gear,
-    /// Their distance along the flank.
-    pub spacing_mm: f64,
+    /// Where each lies along the flank, rising, mm.
+    pub along_mm: &'a [f64],
     /// Pressure on each.
     pub pressure_mpa: &'a [f64],
 }
@@ -74,7 +74,7 @@ impl HeatedRow {
     fn heat_up(&mut self, contact: &HeatedContact<'_>, points: RowOfPoints<'_>) {
         self.rise_k.resize(points.pressure_mpa.len(), 0.0);
         let band = contact.heat.band(&contact.strip);
-        band.rises_k(points.gear, points.spacing_mm, points.pressure_mpa, &mut self.rise_k);
+        band.rises_k(points.gear, points.along_mm, points.pressure_mpa, &mut self.rise_k);
     }
 
     /// Of `points` of `gear`'s flank that all feel the hottest place of an even contact.

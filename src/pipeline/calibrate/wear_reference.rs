@@ -3,7 +3,10 @@
 use super::CalibrateError;
 use crate::calibration::wear_reference::{FLANK_POINTS, FlankWear, LOADS, POSITIONS, WearReference};
 use crate::fem::gear::condensed_pair::CondensedPair;
-use crate::gear::{Gear, PerGear, flank::FlankGrid};
+use crate::gear::{
+    Gear, PerGear,
+    flank::{FlankGrid, PointSpacing},
+};
 use crate::mesh_cycle::condensed::CondensedCycle;
 use crate::mesh_cycle::load_sharing::EquilibriumError;
 use crate::mesh_cycle::{LostMaterial, MeshCycle};
@@ -31,7 +34,7 @@ pub(super) fn references(
             Err(source) => return Err(CalibrateError::Cycle { line_load_n_per_mm: load, source }),
         }
         let flanks = PerGear::from_fn(|gear: Gear| {
-            let grid = FlankGrid::new(pair, gear, FLANK_POINTS);
+            let grid = FlankGrid::new(pair, gear, FLANK_POINTS, PointSpacing::Even);
             let radius_mm: Vec<f64> =
                 grid.coordinate_mm.iter().map(|&rho| pair.teeth[gear].involute.radius_mm(rho)).collect();
             let depth_per_coefficient_n_per_mm = cycle.at_radii(gear, &depth[gear], radius_mm.iter().copied());

@@ -75,7 +75,7 @@ const OF_ELEMENTS: Uncertainty = Uncertainty {
     tip_edge: 0.015,
     transmission_error: 0.005,
     pressure: 0.02,
-    flank_pressure: [0.02, 0.02],
+    flank_pressure: [0.015, 0.015],
 };
 /// Of the profile and the peak wear where wear is severe: what elements twice as fine find differs by that on nine of ten random pairs.
 const SEVERE: f64 = 0.02;

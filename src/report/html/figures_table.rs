@@ -167,7 +167,11 @@ fn gears(s: &Summary) -> Markup {
             both("Tip clearance", |g| g.tip_clearance_mm),
             row("Undercut", "", [gears.pinion.undercut, gears.wheel.undercut]),
             maybe("Specific sliding at the start of active profile", "", |g| g.specific_sliding_at_root),
-            row("Span over teeth, number of teeth", "", [gears.pinion.span_teeth, gears.wheel.span_teeth]),
+            row(
+                "Span over teeth, number of teeth",
+                "",
+                [&gears.pinion, &gears.wheel].map(|gear| gear.span_teeth.map(|teeth| teeth.to_string())),
+            ),
             maybe("Span over teeth", "mm", |g| g.span_mm),
             maybe("Diameter of measuring balls or pins", "mm", |g| g.ball_diameter_mm),
             maybe("Dimension over balls or pins", "mm", |g| g.dimension_over_balls_mm),

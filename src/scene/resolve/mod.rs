@@ -159,7 +159,9 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let is_severe = wear.as_ref().is_some_and(|wear| wear.may_be_severe());
     // A life may end within a small part of the duration.
     let adaptive = finely_resolved || is_severe || operation.stop.are_set();
-    let numerics = settings::numerics(&mut file.numerics, operation.pinion_revolutions, adaptive, findings);
+    let tip_contact = contact.is_some_and(|contact| contact.tip_contact);
+    let numerics =
+        settings::numerics(&mut file.numerics, operation.pinion_revolutions, adaptive, tip_contact, findings);
     let verify = *file.numerics.get_or_insert_default().verify.get_or_insert(true);
     if !verify {
         findings.warnings.push("numerics.verify is false: the error against finite elements is unknown".to_owned());

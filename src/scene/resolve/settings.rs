@@ -1,6 +1,7 @@
 //! Contact, stiffness and numerics.
 
 use crate::contact::settings::{ContactSettings, Foundation, SurfaceKind};
+use crate::gear::flank::PointSpacing;
 use crate::mesh_cycle::settings::Coupling;
 use crate::scene::file::{ContactFile, NamedStep, NumericsFile, StepFile, StiffnessFile, StiffnessModel};
 use crate::scene::findings::Findings;
@@ -133,18 +134,23 @@ pub(super) fn stiffness(
     Some(settings)
 }
 
-/// Chooses the resolution for a run of `duration` revolutions, with `adaptive` steps where the file does not say.
+/// Chooses the resolution for a run of `duration` revolutions, with `adaptive` steps where the file does not say, and flank points closer
+/// at the tip edges where these touch.
 pub(super) fn numerics(
     file: &mut Option<NumericsFile>,
     duration: f64,
     adaptive: bool,
+    tip_contact: bool,
     findings: &mut Findings,
 ) -> Option<Numerics> {
     let file = file.get_or_insert_default();
     let stepping = stepping(file, duration, adaptive, findings)?;
     let flank_points = *file.flank_points.get_or_insert(FLANK_POINTS) as usize;
     let positions = *file.positions.get_or_insert(POSITIONS) as usize;
-    Some(Numerics { flank_points, positions, stepping, error_estimate: *file.error_estimate.get_or_insert(true) })
+    let spacing = if tip_contact { PointSpacing::Graded } else { PointSpacing::Even };
+    let point_spacing = *file.flank_point_spacing.get_or_insert(spacing);
+    let error_estimate = *file.error_estimate.get_or_insert(true);
+    Some(Numerics { flank_points, point_spacing, positions, stepping, error_estimate })
 }
 
 fn stepping(file: &mut NumericsFile, duration: f64, adaptive: bool, findings: &mut Findings) -> Option<Stepping> {

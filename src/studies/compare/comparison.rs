@@ -10,6 +10,7 @@
 use super::question::ProfileQuestion;
 use crate::gear::{GearPair, flank::FlankGrid};
 use crate::measurement::form::FormRemoval;
+use crate::simulation::settings::Numerics;
 
 /// Shifts tried to begin with, to either side.
 const SHIFTS_TRIED: i32 = 15;
@@ -41,8 +42,9 @@ pub(super) struct Beginning {
 
 impl<'a> Comparison<'a> {
     /// Of a profile with wear at the flank points of a run.
-    pub(super) fn new(of: &'a ProfileQuestion, pair: &'a GearPair, flank_points: usize) -> Self {
-        let grid_arc_mm = FlankGrid::new(pair, of.profile.gear, flank_points).arc_mm;
+    pub(super) fn new(of: &'a ProfileQuestion, pair: &'a GearPair, numerics: &Numerics) -> Self {
+        let Numerics { flank_points, point_spacing, .. } = *numerics;
+        let grid_arc_mm = FlankGrid::new(pair, of.profile.gear, flank_points, point_spacing).arc_mm;
         let removal = FormRemoval::new(of.form, &of.profile.arc_mm);
         let mut measured_um = of.profile.height_um.clone();
         removal.remove(&mut measured_um);

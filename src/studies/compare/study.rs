@@ -35,7 +35,7 @@ pub(crate) fn run(
     let resolved = &given.resolved;
     let scene = &resolved.scene;
     let pair = &GearPair::new(&scene.pair).map_err(RunError::from)?;
-    let compared = |of| Comparison::new(of, pair, scene.numerics.flank_points);
+    let compared = |of| Comparison::new(of, pair, &scene.numerics);
     let comparisons: Vec<Comparison<'_>> = question.profiles.iter().map(compared).collect();
     let mut simulations = Simulations::new(given, question, observer);
     let kept: Option<Vec<_>> = comparisons.iter().map(|one| as_kept(one, pair)).collect();

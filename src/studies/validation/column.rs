@@ -17,6 +17,7 @@
 //! | `local_maxima(y)` | how many inner points are above both neighbours |
 //! | `count_above(x, level)`, `count_below(x, level)` | how many points |
 //! | `relative_l2(y, reference)`, `relative_max(y, reference)` | ‖y − r‖ / ‖r‖ in the 2-norm, in the greatest value; the first also of two lists of columns, a number for each |
+//! | `relative_l2(x, y, reference)` | √(∫ (y − r)² dx / ∫ r² dx), whatever the distances of the places x; also of three lists of columns |
 //! | `order(h, error)` | slope of log error over log h, least squares |
 //! | `share_within(claim, truth, above, low, high)` | of those whose truth is above a level, the share whose claim/truth lies from low to high |
 //! | `column([a, b, …])` | a column of these |
@@ -142,15 +143,34 @@ fn relative_l2(y: &[f64], reference: &[f64]) -> Result<f64, ColumnError> {
 
 /// Of two lists of columns, such as one profile for each member of two families: a number for each.
 fn relative_l2_of_each(rows: &[Value], references: &[Value]) -> Result<Arc<[f64]>, ColumnError> {
-    if rows.len() != references.len() {
-        return Err(ColumnError::ListLengths(rows.len(), references.len()));
-    }
+    same_count(rows, references)?;
     let of_two = |(row, reference): (&Value, &Value)| match (row, reference) {
         (Value::Column(row), Value::Column(reference)) => relative_l2(row, reference),
         // A member that did not run has no profile.
         _ => Ok(f64::NAN),
     };
     rows.iter().zip(references).map(of_two).collect()
+}
+
+fn same_count(rows: &[Value], others: &[Value]) -> Result<(), ColumnError> {
+    let same = rows.len() == others.len();
+    if same { Ok(()) } else { Err(ColumnError::ListLengths(rows.len(), others.len())) }
+}
+
+fn relative_l2_over(x: &[f64], y: &[f64], reference: &[f64]) -> Result<f64, ColumnError> {
+    let off = zip(y, reference, |y, r| (y - r).powi(2))?;
+    Ok((integral(x, &off)? / integral(x, &map(reference, |r| r * r))?).sqrt())
+}
+
+/// Of three lists of columns: a number for each.
+fn relative_l2_over_each(places: &[Value], rows: &[Value], references: &[Value]) -> Result<Arc<[f64]>, ColumnError> {
+    same_count(places, rows)?;
+    same_count(rows, references)?;
+    let of_three = |((x, row), reference): ((&Value, &Value), &Value)| match (x, row, reference) {
+        (Value::Column(x), Value::Column(row), Value::Column(reference)) => relative_l2_over(x, row, reference),
+        _ => Ok(f64::NAN),
+    };
+    places.iter().zip(rows).zip(references).map(of_three).collect()
 }
 
 fn relative_max(y: &[f64], reference: &[f64]) -> Result<f64, ColumnError> {
@@ -306,6 +326,8 @@ pub(crate) fn call(name: &str, arguments: &[Value]) -> Result<Option<Value>, Col
         ("integral", [Column(x), Column(y)]) => Number(integral(x, y)?),
         ("relative_l2", [Column(y), Column(reference)]) => Number(relative_l2(y, reference)?),
         ("relative_l2", [List(rows), List(references)]) => Column(relative_l2_of_each(rows, references)?),
+        ("relative_l2", [Column(x), Column(y), Column(reference)]) => Number(relative_l2_over(x, y, reference)?),
+        ("relative_l2", [List(x), List(rows), List(references)]) => Column(relative_l2_over_each(x, rows, references)?),
         ("relative_max", [Column(y), Column(reference)]) => Number(relative_max(y, reference)?),
         ("order", [Column(h), Column(error)]) => Number(order(h, error)?),
         ("share_within", [Column(claim), Column(truth), Number(above), Number(low), Number(high)]) => {

@@ -8,6 +8,7 @@ pub mod mesh;
 
 use gearwear::gear::{
     GearPair, PerGear,
+    flank::PointSpacing,
     flank_zones::FlankZones,
     modification::Modification,
     spec::{AxisParallelism, BasicRack, GearSpec, PairSpec},
@@ -193,6 +194,7 @@ impl Scene {
     pub fn numerics(&self) -> Numerics {
         Numerics {
             flank_points: self.flank_points,
+            point_spacing: PointSpacing::Even,
             positions: self.positions,
             stepping: self.stepping.unwrap_or(Stepping::Fixed { revolutions: self.revolutions / self.steps }),
             error_estimate: false,

@@ -331,7 +331,7 @@ fn summary() -> Summary {
                 tip_edge_wear: ErrorPerGear { pinion: Some(0.034), wheel: Some(0.041) },
                 transmission_error_peak_to_peak: Some(0.012),
                 pressure_between_tips: Some(0.04),
-                peak_pressure: ErrorNewAndWorn { new: Some(0.12), worn: Some(0.45) },
+                flank_pressure: ErrorNewAndWorn { new: Some(0.12), worn: Some(0.45) },
                 how: "the same wear simulation with finite elements".into(),
             },
             companions_cost: Some(0.31),

@@ -32,12 +32,14 @@ pub(crate) mod on_flanks;
 use rayon::prelude::*;
 
 use super::wearing_pair::WearingPair;
-use crate::contact::{Footprint, PressedCell};
+use crate::contact::{
+    Footprint, PressedCell,
+    flank_pressure::{FlankParts, PressureFigures},
+};
 use crate::gear::{Gear, PerGear, flank::FlankGrid};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::mesh_cycle::{
     CycleObservation, GreatestPressure, Work,
-    flank_pressure::{FlankParts, PressureFigures},
     load_sharing::EquilibriumError,
     sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh},
     sliced_positions::{ContactPart, SliceContact, SlicedPosition},

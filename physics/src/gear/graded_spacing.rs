@@ -1,0 +1,132 @@
+//! Flank points where wear needs them: how far they are apart along the flank.
+//!
+//! With s the length of the involute from the base circle and m the normal module, neighbouring points are apart in proportion to
+//!
+//! ```text
+//! h(s) = min over features ( h_f + g |s − feature| )          at most h_0 = 0.003 m
+//! h(s) = h_0 + g₀ (s_0 − s)                                    below  s_0 = s_SAP − 0.1 m, where hardly anything touches
+//!
+//! tip rounding, and as far below it         h_f = 1/24 of its length, h_0/8 at least; h_0/4 at a sharp tip edge
+//! start of active profile, ± 0.05 m         h_f = h_0/3: here the mate's tip edge ends its way
+//! where a relief begins                     h_f = h_0/3: a kink of the flank
+//! ```
+//!
+//! The number of points up to s is the integral of 1/h, made as large as it is asked to be: half of the points are twice as far apart
+//! everywhere. Below the flank that touches the distance grows as a geometric series, so that even a rack, whose base circle is
+//! a hundred times its teeth's height below them, spends few points there.
+
+use super::{Gear, GearPair, removed_material::tip_rounding_length_mm};
+
+/// h_0, in modules.
+const WIDEST_MODULES: f64 = 0.003;
+/// g: growth of the distance with that from a feature.
+const GROWTH: f64 = 0.1;
+/// g₀: the same below the flank that touches.
+const GROWTH_BELOW: f64 = 0.05;
+/// How far below the start of active profile that begins, in modules.
+const TOUCHED_BELOW_MODULES: f64 = 0.1;
+/// Points on a tip rounding where h_0 is the distance elsewhere.
+const ON_ROUNDING: f64 = 24.0;
+/// Least h_f of a rounding, over h_0.
+const FINEST: f64 = 1.0 / 8.0;
+/// h_f of a sharp tip edge, over h_0.
+const AT_SHARP_EDGE: f64 = 1.0 / 4.0;
+/// h_f of the start of active profile and of reliefs, over h_0.
+const AT_KINK: f64 = 1.0 / 3.0;
+/// Half of the length about the start of active profile, in modules.
+const ABOUT_START_MODULES: f64 = 0.05;
+/// Length over which h is taken as a straight line, over h.
+const PIECE: f64 = 0.25;
+
+/// A stretch of flank with closer points.
+#[derive(Debug, Clone, Copy)]
+struct Feature {
+    from_mm: f64,
+    to_mm: f64,
+    /// h_f, mm.
+    distance_mm: f64,
+}
+
+/// Distance of the points along a flank but for a factor.
+struct Distances {
+    features: Vec<Feature>,
+    /// h_0, mm.
+    widest_mm: f64,
+    /// s_0, mm.
+    touched_from_mm: f64,
+}
+
+impl Distances {
+    fn new(pair: &GearPair, gear: Gear) -> Self {
+        let (tooth, module_mm) = (&pair.teeth[gear], pair.spec.normal_module_mm);
+        let modification = &pair.spec.gears[gear].modification;
+        let arc_mm = |rho_mm: f64| tooth.involute.arc_mm(rho_mm.max(0.0));
+        let (tip_rho_mm, start_rho_mm) = (tooth.tip_rho_mm(), pair.active_start_rho_mm(gear));
+        let (tip_mm, start_mm) = (arc_mm(tip_rho_mm), arc_mm(start_rho_mm));
+        let widest_mm = WIDEST_MODULES * module_mm;
+        let rounding_mm = tip_rounding_length_mm(modification.tip_rounding_mm, tooth);
+        let at_tip = match rounding_mm > 0.0 {
+            true => (rounding_mm / ON_ROUNDING).clamp(FINEST * widest_mm, widest_mm),
+            false => AT_SHARP_EDGE * widest_mm,
+        };
+        let about_mm = ABOUT_START_MODULES * module_mm;
+        let mut features = vec![
+            Feature { from_mm: tip_mm - 2.0 * rounding_mm, to_mm: tip_mm, distance_mm: at_tip },
+            Feature { from_mm: start_mm - about_mm, to_mm: start_mm + about_mm, distance_mm: AT_KINK * widest_mm },
+        ];
+        let begins = [
+            modification.tip_relief.map(|relief| tip_rho_mm - relief.length_mm),
+            modification.root_relief.map(|relief| start_rho_mm + relief.length_mm),
+        ];
+        features.extend(begins.into_iter().flatten().map(|rho_mm| {
+            let at_mm = arc_mm(rho_mm);
+            Feature { from_mm: at_mm, to_mm: at_mm, distance_mm: AT_KINK * widest_mm }
+        }));
+        Self { features, widest_mm, touched_from_mm: start_mm - TOUCHED_BELOW_MODULES * module_mm }
+    }
+
+    /// h(s).
+    fn at_mm(&self, arc_mm: f64) -> f64 {
+        let below_mm = (self.touched_from_mm - arc_mm).max(0.0);
+        let widest_mm = self.widest_mm + GROWTH_BELOW * below_mm;
+        self.features.iter().fold(widest_mm, |least, feature| {
+            let away_mm = (feature.from_mm - arc_mm).max(arc_mm - feature.to_mm).max(0.0);
+            least.min(feature.distance_mm + GROWTH * away_mm)
+        })
+    }
+}
+
+/// Lengths of the involute from the base circle to each of `flank_points + 1` points, the first at 0 and the last at the tip circle.
+pub(super) fn arcs_mm(pair: &GearPair, gear: Gear, flank_points: usize) -> Vec<f64> {
+    let tooth = &pair.teeth[gear];
+    let tip_mm = tooth.involute.arc_mm(tooth.tip_rho_mm());
+    let distances = Distances::new(pair, gear);
+    // Pieces of flank from the tip down on which h is a straight line, and the points up to each of their ends.
+    let (mut ends_mm, mut points_to) = (vec![tip_mm], vec![0.0]);
+    let (mut at_mm, mut points) = (tip_mm, 0.0);
+    while at_mm > 0.0 {
+        let next_mm = (at_mm - PIECE * distances.at_mm(at_mm)).max(0.0);
+        // Simpson's rule of 1/h.
+        let per_distance = [at_mm, at_mm.midpoint(next_mm), next_mm].map(|at_mm| 1.0 / distances.at_mm(at_mm));
+        points += (at_mm - next_mm) * (per_distance[0] + 4.0 * per_distance[1] + per_distance[2]) / 6.0;
+        at_mm = next_mm;
+        ends_mm.push(at_mm);
+        points_to.push(points);
+    }
+    let mut piece = 1;
+    let mut arcs_mm: Vec<f64> = (0..=flank_points)
+        .map(|from_tip| {
+            let wanted = points * from_tip as f64 / flank_points as f64;
+            while piece + 1 < points_to.len() && points_to[piece] < wanted {
+                piece += 1;
+            }
+            let [before, after] = [points_to[piece - 1], points_to[piece]];
+            let part = if after > before { ((wanted - before) / (after - before)).clamp(0.0, 1.0) } else { 0.0 };
+            ends_mm[piece - 1] + part * (ends_mm[piece] - ends_mm[piece - 1])
+        })
+        .collect();
+    arcs_mm.reverse();
+    arcs_mm[0] = 0.0;
+    arcs_mm[flank_points] = tip_mm;
+    arcs_mm
+}

@@ -1,0 +1,99 @@
+//! Where flank points lie.
+
+use gearwear::gear::{
+    Gear, GearPair,
+    flank::{FlankGrid, PointSpacing},
+    modification::{Modification, Relief, ReliefShape},
+    removed_material::tip_rounding_length_mm,
+    spec::PairSpec,
+};
+
+use super::common::{fzg_c, gear, pair, spur};
+
+fn rounded(tip_rounding_mm: f64) -> GearPair {
+    let gears = fzg_c().gears.map(|mut gear| {
+        gear.modification.tip_rounding_mm = tip_rounding_mm;
+        gear
+    });
+    pair(&PairSpec { gears, ..fzg_c() })
+}
+
+fn rack_of_10000_teeth() -> GearPair {
+    pair(&spur(2.0, 10018.0, 10.0, gear(18, 0.0, None), gear(10000, 0.0, None)))
+}
+
+fn grids(pair: &GearPair, gear: Gear, count: usize) -> [FlankGrid; 2] {
+    [PointSpacing::Even, PointSpacing::Graded].map(|spacing| FlankGrid::new(pair, gear, count, spacing))
+}
+
+/// Both spacings lead from the base circle to the tip circle with as many points, rising, and ∫ ds is the flank's length.
+#[test]
+fn ver_graded_points_cover_the_same_flank() {
+    for pair in [rounded(0.1), rounded(0.0), rack_of_10000_teeth()] {
+        for gear in Gear::BOTH {
+            for count in [20, 101, 750, 3000] {
+                let [even, graded] = grids(&pair, gear, count);
+                assert_eq!(graded.len(), count + 1);
+                assert!(graded.arc_mm.windows(2).all(|two| two[1] > two[0]), "{gear:?} {count}");
+                assert!(graded.coordinate_mm[0] == 0.0);
+                let (last, tip) = (graded.coordinate_mm[count], pair.teeth[gear].tip_rho_mm());
+                assert!((last / tip - 1.0).abs() < 1e-14);
+                let ones = vec![1.0; count + 1];
+                let lengths = [&even, &graded].map(|grid| grid.integral(&ones));
+                assert!((lengths[1] / lengths[0] - 1.0).abs() < 1e-12, "{lengths:?}");
+            }
+        }
+    }
+}
+
+/// Twenty-four intervals on a rounding of a tenth of a millimetre where 750 even ones leave it nine or ten; half as many points are twice as
+/// far apart there; and neighbouring distances differ by a tenth.
+#[test]
+fn ver_points_crowd_on_tip_roundings() {
+    let pair = rounded(0.1);
+    for gear in Gear::BOTH {
+        let tooth = &pair.teeth[gear];
+        let begins = tooth.involute.arc_mm(tooth.tip_rho_mm()) - tip_rounding_length_mm(0.1, tooth);
+        let within = |grid: &FlankGrid| grid.arc_mm.iter().filter(|arc| **arc > begins).count();
+        let [even, graded] = grids(&pair, gear, 750);
+        let [_, coarse] = grids(&pair, gear, 375);
+        assert!(within(&graded) >= 20, "{}", within(&graded));
+        assert!(2 * within(&even) < within(&graded), "{} {}", within(&even), within(&graded));
+        assert!(within(&graded).abs_diff(2 * within(&coarse)) <= 2);
+        let distances: Vec<f64> = graded.arc_mm.windows(2).map(|two| two[1] - two[0]).collect();
+        assert!(distances.windows(2).all(|two| (two[1] / two[0]).ln().abs() < 0.13));
+    }
+}
+
+/// A tooth whose base circle is six hundred millimetres below it, of four millimetres' height, has most of its points on it; evenly in
+/// radius it has five.
+#[test]
+fn ver_a_rack_has_its_points_on_its_teeth() {
+    let pair = rack_of_10000_teeth();
+    let start = pair.active_start_rho_mm(Gear::Wheel);
+    let on_tooth =
+        grids(&pair, Gear::Wheel, 750).map(|grid| grid.coordinate_mm.iter().filter(|rho| **rho >= start).count());
+    assert!(on_tooth[0] <= 8 && on_tooth[1] > 450, "{on_tooth:?}");
+}
+
+/// Where a relief begins, points are three times as close as far from it, by 1/h_f and 1/h_0; at the start of active profile too.
+#[test]
+fn ver_points_crowd_where_reliefs_begin() {
+    let relief = Relief { amount_mm: 0.01, length_mm: 2.0, shape: ReliefShape::Linear };
+    let modification = Modification { tip_relief: Some(relief), root_relief: Some(relief), ..Modification::default() };
+    let gears = fzg_c().gears.map(|mut gear| {
+        gear.modification = modification;
+        gear
+    });
+    let pair = pair(&PairSpec { gears, ..fzg_c() });
+    for gear in Gear::BOTH {
+        let [even, graded] = grids(&pair, gear, 3000);
+        let (start, tip) = (pair.active_start_rho_mm(gear), pair.teeth[gear].tip_rho_mm());
+        let far = graded.distance_at_mm(0.5 * (start + 2.0 + tip - 2.0) + 0.2);
+        for kink in [tip - 2.0, start + 2.0, start] {
+            assert!((graded.distance_at_mm(kink) / far - 1.0 / 3.0).abs() < 0.05, "{gear:?} {kink}");
+            // Evenly in radius, points know nothing of it.
+            assert!((even.distance_at_mm(kink - 0.05) / even.distance_at_mm(kink + 0.05) - 1.0).abs() < 0.05);
+        }
+    }
+}
