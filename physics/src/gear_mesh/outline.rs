@@ -10,7 +10,7 @@ use std::ops::Range;
 use super::profile::{Piece, Profile};
 use super::spacing::{OutlineNode, OutlinePoint, Part, Run, Side, limit_growth};
 use super::{FlankResolution, GREATEST_MODULES, GROWTH, LEAST_MODULES, SectorSettings, ToothMeshError, ToothShape};
-use crate::gear_mesh::settings::ROUNDING_HALF_WIDTH;
+use crate::gear_mesh::settings::rounding_element_mm;
 
 /// Longest element of a flank that is not resolved, in modules.
 const FLANK_MODULES: f64 = 0.3;
@@ -232,7 +232,7 @@ impl<'a> Wanted<'a> {
             Part::Rounding => {
                 let [fine, open] = ROUNDING_OVER_RADIUS.map(|part| (part * profile.rounding_mm()).max(least));
                 let wanted = resolved.map_or(open, |resolved| {
-                    let own = ROUNDING_HALF_WIDTH * profile.rounding_mm() / resolved.flank.elements_per_half_width;
+                    let own = rounding_element_mm(profile.rounding_mm(), resolved.flank.elements_per_half_width);
                     fine.min(resolved.element_mm(resolved.tip_rho_mm)).min(own.max(least))
                 });
                 run.want(|_, _| wanted);

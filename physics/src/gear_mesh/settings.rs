@@ -14,6 +14,11 @@ pub(crate) const DEPTH_HALF_WIDTHS: f64 = 1.0;
 /// Half-width of contact on a rounded tip edge over its radius, for the length of elements there.
 pub(crate) const ROUNDING_HALF_WIDTH: f64 = 0.3;
 
+/// Length of the elements on a tip rounding, where these are no shorter than any may be, mm.
+pub fn rounding_element_mm(rounding_mm: f64, elements_per_half_width: f64) -> f64 {
+    ROUNDING_HALF_WIDTH * rounding_mm / elements_per_half_width
+}
+
 /// Depth of the body below the root circle, in normal modules, where nothing else is given.
 const BODY_MODULES: f64 = 2.5;
 /// Least clamp radius that leaves, over the root radius; what is taken where it leaves less.

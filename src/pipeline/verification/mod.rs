@@ -27,7 +27,7 @@ use super::guarded::guarded;
 use crate::contact::settings::{Material, SurfaceKind};
 use crate::fem::gear::{condensed_pair::CondensedPair, model::ModelError};
 use crate::gear::{Gear, GearPair, PerGear, flank_zones::FlankZone};
-use crate::gear_mesh::settings::BodySettings;
+use crate::gear_mesh::settings::{BodySettings, rounding_element_mm};
 use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::mesh_cycle::{CycleObservation, PositionObservation};
@@ -77,6 +77,11 @@ const OF_ELEMENTS: Uncertainty = Uncertainty {
     pressure: 0.02,
     flank_pressure: [0.015, 0.015],
 };
+/// Of the wear of a tip edge that is hardly worn in, over how far an element of its rounding bulges beyond its chord, over the depth: on a contact
+/// narrower than the element, where the wear is has the length of the element.
+const OF_BULGE: f64 = 0.042;
+/// That at most.
+const MOST_OF_TIP_EDGE: f64 = 0.5;
 /// Of the profile and the peak wear where wear is severe: what elements twice as fine find differs by that on nine of ten random pairs.
 const SEVERE: f64 = 0.02;
 
@@ -116,6 +121,8 @@ impl Beyond {
 struct Life {
     outcome: Outcome,
     own: Uncertainty,
+    /// Elements in a half-width of contact, of plane finite elements.
+    elements_per_half_width: Option<f64>,
     /// How many times differences to it are what the run leaves.
     beyond: Beyond,
     /// What the flank points of the run have lost there.
@@ -259,10 +266,11 @@ fn on_elements<'a>(
     elements: Option<Result<Elements<'a>, ModelError>>,
     observer: &dyn Observer,
 ) -> Result<Life, String> {
+    let own = model.scene.wear_elements_per_half_width;
+    let elements_per_half_width = if elements.is_some() { own } else { own + 1.0 };
     let other_mesh = || {
         let greatest_load = model.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max);
-        let finer = model.scene.wear_elements_per_half_width + 1.0;
-        condensed(model.scene, model.pair, greatest_load, finer, observer)
+        condensed(model.scene, model.pair, greatest_load, elements_per_half_width, observer)
     };
     let elements = match elements {
         Some(Ok(Elements { half_width_mm: (half_width, least), .. })) if half_width < least => {
@@ -288,6 +296,7 @@ fn on_elements<'a>(
         wear_mm: life.worn.wear_mm.clone(),
         outcome: life,
         own,
+        elements_per_half_width: Some(elements_per_half_width),
         beyond: Beyond::NONE,
         on: "finite elements".to_owned(),
     })
@@ -328,7 +337,7 @@ fn life(
 fn compared(
     model: &Model<'_>,
     run: &Outcome,
-    Life { outcome: life, own: of_life, beyond, wear_mm, on }: &Life,
+    Life { outcome: life, own: of_life, elements_per_half_width, beyond, wear_mm, on }: &Life,
 ) -> Verified {
     let per_gear = |of: &dyn Fn(Gear) -> Option<f64>| ErrorPerGear { pinion: of(Gear::Pinion), wheel: of(Gear::Wheel) };
     let profile = per_gear(&|gear| {
@@ -352,9 +361,14 @@ fn compared(
     let (own, truth) = (figures(run), figures(life));
     let off = |gear: Gear| relative(own[gear].peak_mm, truth[gear].peak_mm);
     let peak_wear = per_gear(&|gear| off(gear).map(|off| beyond.wear * off + of_life.peak));
+    let of_tip_edge = PerGear::from_fn(|gear| {
+        let depth_mm = truth[gear].tip_edge.depth_mm;
+        let of_edge = |&elements: &f64| of_hardly_worn_edge(model.pair, gear, elements, depth_mm);
+        elements_per_half_width.as_ref().map_or(0.0, of_edge).max(of_life.tip_edge)
+    });
     let tip_edge_wear = per_gear(&|gear| {
         let off = relative(own[gear].tip_edge.depth_mm, truth[gear].tip_edge.depth_mm);
-        off.map(|off| off + of_life.tip_edge)
+        off.map(|off| off + of_tip_edge[gear])
     });
     let surface_model = match model.scene.contact.surface {
         SurfaceKind::Fem => None,
@@ -376,22 +390,23 @@ fn compared(
             new: flank_pressure([&run.new, &life.new]).map(|off| off + of_life.flank_pressure[0]),
             worn: flank_pressure([&run.worn, &life.worn]).map(|off| off + of_life.flank_pressure[1]),
         },
-        how: [how(life, of_life, on), without_wear(&own)].concat(),
+        how: [how(life, of_life, &of_tip_edge, on), without_wear(&own)].concat(),
     };
     Verified { total, surface_model, wear_mm: Some(wear_mm.clone()), warning: None }
 }
 
-/// How a life vouches for a run.
-fn how(life: &Outcome, of_life: &Uncertainty, on: &str) -> String {
+/// How a life vouches for a run, with its own uncertainty of the wear of each tip edge.
+fn how(life: &Outcome, of_life: &Uncertainty, of_tip_edge: &PerGear<f64>, on: &str) -> String {
     format!(
         "the same wear simulation with {on} ({} positions in a base pitch, {} wear steps, {} mesh cycles); their own uncertainty is added: \
-             {} % of the profile, {} % of the maximum wear, {} % of that of the tip edges, and of the flank pressure {} % new and {} % worn",
+             {} % of the profile, {} % of the maximum wear, {:.2} and {:.2} % of that of the tip edges, and of the flank pressure {} % new and {} % worn",
         life.work.equilibria / life.work.mesh_cycles.max(1),
         life.steps.accepted,
         life.work.mesh_cycles,
         100.0 * of_life.profile,
         100.0 * of_life.peak,
-        100.0 * of_life.tip_edge,
+        100.0 * of_tip_edge.pinion,
+        100.0 * of_tip_edge.wheel,
         100.0 * of_life.flank_pressure[0],
         100.0 * of_life.flank_pressure[1],
     )
@@ -401,6 +416,16 @@ fn how(life: &Outcome, of_life: &Uncertainty, on: &str) -> String {
 fn without_wear(figures: &PerGear<WearFigures>) -> String {
     let still = Gear::BOTH.into_iter().filter(|gear| figures[*gear].peak_mm <= 0.0);
     still.map(|gear| format!("; the {} does not wear, so that its wear has no error", gear.name())).collect()
+}
+
+/// What the length of the elements leaves open of the wear of a rounded tip edge that has lost `depth_mm`.
+fn of_hardly_worn_edge(pair: &GearPair, gear: Gear, elements_per_half_width: f64, depth_mm: f64) -> f64 {
+    let rounding_mm = pair.spec.tip_rounding_mm(gear);
+    if rounding_mm <= 0.0 || depth_mm <= 0.0 {
+        return 0.0;
+    }
+    let bulge_mm = rounding_element_mm(rounding_mm, elements_per_half_width).powi(2) / (8.0 * rounding_mm);
+    (OF_BULGE * bulge_mm / depth_mm).min(MOST_OF_TIP_EDGE)
 }
 
 /// Whether the pressure reaches a transition to severe wear at any moment that is kept.
