@@ -9,6 +9,8 @@
 //!
 //! Of all pairs in mesh, c_γα = c' (0.75 ε_α + 0.25), and c_γβ = 0.85 c_γα for the load distribution over the face width.
 //!
+//! Gear 1 is the pinion, the gear with fewer teeth, whichever drives.
+//!
 //! Below 100 N/mm of line load c' falls with the fourth root of the load. The standard gives one value for the whole
 //! path of contact; so does this model.
 //!
@@ -26,11 +28,12 @@ const MEASURED: f64 = 0.8;
 
 /// c'_th in N/(mm·µm).
 pub(crate) fn theoretical_single_stiffness_n_per_mm_um(spec: &PairSpec) -> f64 {
-    let (x1, x2) = (spec.gears.pinion.profile_shift, spec.gears.wheel.profile_shift);
+    let smaller = if spec.gears.pinion.teeth <= spec.gears.wheel.teeth { Gear::Pinion } else { Gear::Wheel };
+    let (x1, x2) = (spec.gears[smaller].profile_shift, spec.gears[smaller.mate()].profile_shift);
     let base_helix = (spec.helix_angle_rad.sin() * spec.normal_pressure_angle_rad.cos()).asin();
     let virtual_teeth =
         |gear: Gear| f64::from(spec.gears[gear].teeth) / (base_helix.cos().powi(2) * spec.helix_angle_rad.cos());
-    let (z1, z2) = (virtual_teeth(Gear::Pinion), virtual_teeth(Gear::Wheel));
+    let (z1, z2) = (virtual_teeth(smaller), virtual_teeth(smaller.mate()));
     let terms = [1.0, 1.0 / z1, 1.0 / z2, x1, x1 / z1, x2, x2 / z2, x1 * x1, x2 * x2];
     1.0 / C.iter().zip(terms).map(|(c, term)| c * term).sum::<f64>()
 }

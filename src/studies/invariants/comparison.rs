@@ -144,8 +144,20 @@ pub(super) fn summaries(first: &impl Serialize, other: &impl Serialize, besides:
 }
 
 /// What differs between runs that are alike.
-const NOT_COMPARED: [&str; 10] =
-    ["stages", "wall_s", "scene_hash", "title", "work", "warnings", "left_out", "report", "invariants", "error"];
+const NOT_COMPARED: [&str; 12] = [
+    "stages",
+    "wall_s",
+    "scene_hash",
+    "title",
+    "work",
+    "warnings",
+    "left_out",
+    "report",
+    "invariants",
+    "error",
+    "new.load_imbalance",
+    "worn.load_imbalance",
+];
 
 fn walk(first: &Value, other: &Value, path: &str, besides: &[&str], worst: &mut (f64, String)) {
     if NOT_COMPARED.contains(&path) || besides.iter().any(|besides| path.starts_with(besides)) {

@@ -87,7 +87,14 @@ fn neutral_film(subject: &Subject<'_>) -> Verdict {
     }
     let other = with(table, "wear.film.lambda", numbers([0.0, 1000.0]));
     let other = with(&other, "wear.film.factor", numbers([1.0, 1.0]));
-    subject.beside(other, |record| alike(subject.record, record, ROUNDING, &["wear", "lubrication"]))
+    subject.beside(other, |record| {
+        alike(
+            subject.record,
+            record,
+            ROUNDING,
+            &["wear", "lubrication", "pinion.vdi", "wheel.vdi", "pinion.peak_over", "wheel.peak_over"],
+        )
+    })
 }
 
 fn neutral_warm(subject: &Subject<'_>) -> Verdict {

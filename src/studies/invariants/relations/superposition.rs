@@ -2,7 +2,6 @@
 
 use toml::{Table, Value};
 
-use super::ROUNDING;
 use crate::gear::{Gear, PerGear};
 use crate::results::run::RunRecord;
 use crate::studies::invariants::comparison::{Bounds, Follows, Measured, compare, difference};
@@ -87,6 +86,6 @@ fn of_one_gear(subject: &Subject<'_>) -> Verdict {
     let one = hardly_worn(table);
     let other = with(&one, &format!("wear.wheel.{key}"), 2.0 * SMALL * coefficient);
     let follows = Follows { depth: PerGear { pinion: 1.0, wheel: 2.0 }, ..Follows::default() };
-    let bounds = Bounds { wear: FEEDBACK, volume: FEEDBACK, pressure: FEEDBACK, cycle: 1e3 * ROUNDING };
+    let bounds = Bounds { wear: FEEDBACK, volume: FEEDBACK, pressure: FEEDBACK, cycle: FEEDBACK };
     subject.two(one, other, |one, other| compare(one, other, &follows, bounds))
 }

@@ -22,7 +22,8 @@ pub(super) const RELATIONS: &[Relation] = &[
     Relation {
         name: "phases cut in two",
         states: "The last phase cut into two halves of the same load, at the end of a step: the same wear.",
-        bound: "rounding, in steps of the same number",
+        bound: "each phase begins with contact windows of its own, and a window that has grown has other cells: 0.2 % of the volume, 2 % of the wear \
+                and 20 % of the pressure at a point, 1 % of the transmission error",
         check: cut_in_two,
     },
     Relation {
@@ -66,7 +67,7 @@ fn cut_in_two(subject: &Subject<'_>) -> Verdict {
     last.insert("pinion_revolutions".to_owned(), Value::Float(0.5 * duration));
     all.extend([Value::Table(last.clone()), Value::Table(last)]);
     let other = with(table, "operation.phases", Value::Array(all));
-    let bounds = Bounds::all(1e2 * ROUNDING);
+    let bounds = Bounds { wear: 0.02, volume: 2e-3, pressure: 0.2, cycle: 0.01 };
     subject.beside(other, |record| compare(subject.record, record, &Follows::default(), bounds))
 }
 
