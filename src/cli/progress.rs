@@ -182,18 +182,16 @@ fn log_long(stage: &Mutex<Option<Begun>>, done: f64, command: Instant) {
     }
 }
 
-/// Remembers how much is finished when, at fewer moments where they become many.
+/// Remembers how much is finished when; where the moments become many, evenly over the time so far.
 fn mark(marks: &mut Vec<(f64, f64)>, now: (f64, f64)) {
     if marks.len() >= MOST_MARKS {
-        let last = marks[marks.len() - 1];
-        let mut keep = false;
-        marks.retain(|_| {
-            keep = !keep;
-            keep
+        let apart_s = 2.0 * now.1 / MOST_MARKS as f64;
+        let mut kept_s = f64::NEG_INFINITY;
+        marks.retain(|(_, at_s)| {
+            let keeps = *at_s >= kept_s + apart_s;
+            kept_s = if keeps { *at_s } else { kept_s };
+            keeps
         });
-        if marks.last() != Some(&last) {
-            marks.push(last);
-        }
     }
     marks.push(now);
 }

@@ -122,7 +122,7 @@ fn impossible_pairs_are_refused() {
         refuse(&|s| s.gears.pinion.tip_diameter_mm = Some(95.0)),
         PairError::PointedTooth { gear: Gear::Pinion, .. }
     ));
-    assert!(matches!(refuse(&|s| s.gears.wheel.tip_diameter_mm = Some(100.0)), PairError::TipBelowBase { .. }));
+    assert!(matches!(refuse(&|s| s.gears.wheel.tip_diameter_mm = Some(100.0)), PairError::TipBelowForm { .. }));
     assert!(matches!(
         refuse(&|s| s.gears.wheel.tip_diameter_mm = Some(121.0)),
         PairError::NoTipClearance { gear: Gear::Wheel, .. }

@@ -66,7 +66,7 @@ fn ver_slices() {
         assert!(of_peaks < 0.012, "{coupling:?}: {of_peaks}");
         if coupling == Coupling::Slicing {
             let order = (mean_change(&ten, &twenty) / mean_change(&twenty, &forty)).log2();
-            assert!(order > 1.5, "order {order}");
+            assert!(order > 1.5, "order {order}: {ten:?} {twenty:?} {forty:?}");
         }
     }
 }

@@ -254,8 +254,8 @@ fn ver_the_flank_pressure_is_that_of_hertz_between_the_tips() {
     }
 }
 
-/// A linear relief begins in a kink, where the pressure has no limit: its mean over a length has one, and is the same on cells of 1/16 and of
-/// 1/40 of the half-width.
+/// A linear relief begins in a kink, where the pressure has no limit: its mean over a length has one, which is approached by the order of one in
+/// the distance of points (2483, 2586 MPa with 400 and 1600 points).
 #[test]
 fn ver_the_flank_pressure_settles_at_a_kink() {
     let relief =
@@ -266,11 +266,12 @@ fn ver_the_flank_pressure_settles_at_a_kink() {
         .collect();
     let relieved: Vec<(&str, toml::Value)> =
         relieved.iter().map(|(key, value)| (key.as_str(), value.clone())).collect();
-    let [coarse, fine] = [400, 1600].map(|points| {
+    let [coarse, fine, finest] = [400, 1600, 3200].map(|points| {
         let record = run("thesis-spur", &[once("half-space", points).as_slice(), &relieved].concat());
         [record.summary.new.flank_pressure_MPa, record.summary.new.peak_pressure_MPa]
     });
     println!("flank {} and {} MPa, at a point {} and {} MPa", coarse[0], fine[0], coarse[1], fine[1]);
-    assert!((fine[0] / coarse[0] - 1.0).abs() < 0.015);
+    let changes = [(fine[0] / coarse[0] - 1.0).abs(), (finest[0] / fine[0] - 1.0).abs()];
+    assert!(changes[0] < 0.05 && changes[1] < 0.015, "{changes:?}");
     assert!(fine[1] > fine[0] && fine[1] / coarse[1] > 1.02);
 }

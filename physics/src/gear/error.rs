@@ -43,16 +43,6 @@ pub enum PairError {
         /// Where the flanks meet.
         pointed_diameter_mm: f64,
     },
-    /// There is no involute flank at all.
-    #[error("the {} tip circle ({tip_diameter_mm:.4} mm) lies inside the base circle ({base_diameter_mm:.4} mm)", .gear.name())]
-    TipBelowBase {
-        /// Which gear.
-        gear: Gear,
-        /// Given or derived.
-        tip_diameter_mm: f64,
-        /// d_b.
-        base_diameter_mm: f64,
-    },
     /// The tip circle leaves no involute above the form circle.
     #[error("the {} tip circle ({tip_diameter_mm:.4} mm) lies inside the form circle ({form_diameter_mm:.4} mm)", .gear.name())]
     TipBelowForm {

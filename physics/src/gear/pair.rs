@@ -162,6 +162,8 @@ impl GearPair {
             if clearance_mm < 0.0 {
                 return Err(PairError::NoTipClearance { gear, clearance_mm });
             }
+        }
+        for gear in Gear::BOTH {
             let least_mm = -OVERLAP_ROUNDING_MODULES * self.spec.normal_module_mm;
             let gap_mm = self.fillet_gap_mm(gear, self.teeth[gear.mate()].tip_radius_mm);
             if gap_mm < least_mm {

@@ -50,7 +50,7 @@ impl Tooth {
     /// Generates the tooth of `gear`; `tip_radius_mm` as given or derived by the pair.
     ///
     /// # Errors
-    /// [`PairError::RackPointed`], [`PairError::RackTipPointed`], [`PairError::NoTooth`], [`PairError::TipBelowBase`],
+    /// [`PairError::RackPointed`], [`PairError::RackTipPointed`], [`PairError::NoTooth`],
     /// [`PairError::TipBelowForm`], [`PairError::PointedTooth`], [`PairError::BoreTooLarge`].
     pub fn new(spec: &PairSpec, gear: Gear, tip_radius_mm: f64) -> Result<Self, PairError> {
         let own = &spec.gears[gear];
@@ -99,13 +99,7 @@ impl Tooth {
         if self.root_radius_mm <= 0.0 || self.base_half_angle_rad <= 0.0 {
             return Err(PairError::NoTooth { gear });
         }
-        if self.tip_radius_mm <= self.involute.base_radius_mm {
-            return Err(PairError::TipBelowBase {
-                gear,
-                tip_diameter_mm: 2.0 * self.tip_radius_mm,
-                base_diameter_mm: 2.0 * self.involute.base_radius_mm,
-            });
-        }
+        // Not a number below the base circle, which the form circle's check refuses.
         let tip_thickness_mm = self.thickness_mm(self.tip_radius_mm);
         if tip_thickness_mm <= 0.0 {
             let pointed = self.involute.base_radius_mm / inverse_inv(self.base_half_angle_rad).cos();

@@ -113,12 +113,6 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
             allowed: format!("a tip diameter below {} mm, where the flanks meet", at_most(pointed_diameter_mm)),
             help: format!("give {} or a smaller profile shift", key_of(gear, "tip_diameter_mm")),
         },
-        PairError::TipBelowBase { gear, tip_diameter_mm, base_diameter_mm } => Cause {
-            key: tip_key(gear),
-            found: tip_found(gear, tip_diameter_mm),
-            allowed: format!("a tip diameter above the base circle, {} mm", at_least(base_diameter_mm)),
-            help: "check tip diameter, module and number of teeth".to_owned(),
-        },
         PairError::TipBelowForm { gear, tip_diameter_mm, form_diameter_mm } => Cause {
             key: tip_key(gear),
             found: tip_found(gear, tip_diameter_mm),
@@ -270,10 +264,6 @@ mod tests {
                     tip_diameter_mm: 92.0,
                     pointed_diameter_mm: 91.0,
                 },
-                of_pinion("tip_diameter_mm"),
-            ),
-            (
-                PairError::TipBelowBase { gear, tip_diameter_mm: 67.0, base_diameter_mm: 67.6577 },
                 of_pinion("tip_diameter_mm"),
             ),
             (
