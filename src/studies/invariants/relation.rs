@@ -14,6 +14,8 @@ pub(crate) struct Relation {
     pub states: &'static str,
     /// Why the bound is what it is.
     pub bound: &'static str,
+    /// Whether so few scenes can be held against it that each is.
+    pub is_rare: bool,
     pub check: fn(&Subject<'_>) -> Verdict,
 }
 

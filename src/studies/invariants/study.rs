@@ -124,7 +124,10 @@ fn of_scene(seed: u64, index: u64, relations: &[Relation], observer: &dyn Observ
                 carried_out(table, observer)
             };
             let subject = Subject { table: &table, record: &record, run: &count };
-            let tried = relations.iter().enumerate().filter(|(k, _)| (index + *k as u64).is_multiple_of(STRIDE));
+            let tried = relations
+                .iter()
+                .enumerate()
+                .filter(|(k, relation)| relation.is_rare || (index + *k as u64).is_multiple_of(STRIDE));
             for (_, relation) in tried {
                 match (relation.check)(&subject) {
                     Verdict::NotOfThisScene => {}

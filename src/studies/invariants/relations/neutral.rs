@@ -18,42 +18,63 @@ pub(super) const RELATIONS: &[Relation] = &[
         name: "resolved scene again",
         states: "The resolved scene that a run writes gives the same run.",
         bound: "none: the same bits",
+        is_rare: false,
         check: resolved_again,
     },
     Relation {
         name: "neutral film",
         states: "A factor of 1 at every film changes nothing.",
         bound: "rounding",
+        is_rare: true,
         check: neutral_film,
     },
     Relation {
         name: "neutral temperature factor",
         states: "A factor of 1 at every temperature of the teeth, and a modulus that does not depend on it, change nothing.",
         bound: "rounding",
+        is_rare: true,
         check: neutral_warm,
     },
     Relation {
         name: "neutral severe wear",
         states: "Severe wear with a factor of 1 changes nothing.",
         bound: "rounding",
+        is_rare: false,
         check: neutral_severe,
     },
     Relation {
         name: "law of each gear",
         states: "A law written for each gear, with the coefficient of both, changes nothing.",
         bound: "rounding",
+        is_rare: false,
         check: law_of_each_gear,
     },
     Relation {
-        name: "half by any factor",
-        states: "A factor of ½ on one gear at every film, at every temperature or at every pressure is half of its wear coefficient.",
+        name: "half of the pinion by a factor",
+        states: "A factor of ½ on the pinion at every film is half of its wear coefficient.",
         bound: "rounding",
-        check: half,
+        is_rare: true,
+        check: half_of_pinion,
+    },
+    Relation {
+        name: "half of the wheel by a factor",
+        states: "A factor of ½ on the wheel at every film or temperature is half of its wear coefficient.",
+        bound: "rounding",
+        is_rare: true,
+        check: half_of_wheel,
+    },
+    Relation {
+        name: "half by severe wear",
+        states: "Severe wear at any pressure with a factor of ½ on one gear is half of its wear coefficient.",
+        bound: "rounding",
+        is_rare: false,
+        check: half_severe,
     },
     Relation {
         name: "slices of a spur pair",
         states: "A pair without slices is any of its slices: a lead crowning of a millionth of a micrometre changes nothing.",
         bound: "positions of slices lie over one base pitch, others than those from A to E: 15 % of the volume, 5 % of the transmission error",
+        is_rare: false,
         check: slices,
     },
 ];
@@ -161,34 +182,49 @@ fn law_of_each_gear(subject: &Subject<'_>) -> Verdict {
     subject.beside(other, |record| alike(subject.record, record, ROUNDING, &["wear", "phases", "error"]))
 }
 
-/// The same half said in two ways: by a factor, and by the coefficient.
-fn half(subject: &Subject<'_>) -> Verdict {
+fn half_of_pinion(subject: &Subject<'_>) -> Verdict {
+    half(subject, "pinion")
+}
+
+fn half_of_wheel(subject: &Subject<'_>) -> Verdict {
+    half(subject, "wheel")
+}
+
+/// The same half said in two ways: by a factor over film or temperature, and by the coefficient.
+fn half(subject: &Subject<'_>, gear: &str) -> Verdict {
     let table = subject.table;
-    if !has_one_coefficient(table) {
-        return Verdict::NotOfThisScene;
-    }
     let has = |key: &str| gives(table, &format!("wear.{key}"));
-    let gear = if number(table, "numerics.flank_points").is_some_and(|points| points % 2.0 == 0.0) {
-        "pinion"
-    } else {
-        "wheel"
-    };
     let own = format!("wear.{gear}");
     let by_factor = if gives(table, "lubricant") && !has("film") {
         let scene = with(table, &format!("{own}.film.lambda"), numbers([0.0, 1000.0]));
         with(&scene, &format!("{own}.film.factor"), numbers([0.5, 0.5]))
-    } else if gives(table, "temperature.tooth") && !has("warm") {
+    } else if gear == "wheel" && gives(table, "temperature.tooth") && !has("warm") {
         let scene = with(table, &format!("{own}.warm.temperature_C"), numbers([0.0, 200.0]));
         with(&scene, &format!("{own}.warm.factor"), numbers([0.5, 0.5]))
-    } else if !has("severe") {
-        let scene = with(table, &format!("{own}.severe.above_MPa"), 1e-9);
-        with(&scene, &format!("{own}.severe.factor"), 0.5)
     } else {
         return Verdict::NotOfThisScene;
     };
+    against_half(subject, &own, by_factor)
+}
+
+/// By the severe factor of a wear that is severe at any pressure.
+fn half_severe(subject: &Subject<'_>) -> Verdict {
+    let table = subject.table;
+    if is_severe(table) {
+        return Verdict::NotOfThisScene;
+    }
+    let is_even = number(table, "numerics.flank_points").is_some_and(|points| points % 2.0 == 0.0);
+    let own = if is_even { "wear.pinion" } else { "wear.wheel" };
+    let by_factor = with(table, &format!("{own}.severe.above_MPa"), 1e-9);
+    against_half(subject, own, with(&by_factor, &format!("{own}.severe.factor"), 0.5))
+}
+
+/// The scene `by_factor` against the one with half of the coefficient in the table `own` of a gear's law.
+fn against_half(subject: &Subject<'_>, own: &str, by_factor: Table) -> Verdict {
+    let table = subject.table;
     let keys = ["coefficient_m2_per_N", "coefficient_mm3_per_Nm"];
     let given = keys.into_iter().find_map(|key| Some((key, number(table, &format!("wear.{key}"))?)));
-    let Some((key, coefficient)) = given else { return Verdict::NotOfThisScene };
+    let Some((key, coefficient)) = given.filter(|_| has_one_coefficient(table)) else { return Verdict::NotOfThisScene };
     let by_coefficient = with(table, &format!("{own}.{key}"), 0.5 * coefficient);
     subject.two(by_coefficient, by_factor, |one, other| {
         compare(one, other, &Follows::default(), Bounds::all(1e2 * ROUNDING))

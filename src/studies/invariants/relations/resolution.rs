@@ -5,19 +5,21 @@ use crate::results::run::{RunRecord, Summary};
 use crate::studies::invariants::comparison::{Measured, difference};
 use crate::studies::invariants::relation::{Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{number, with};
-use crate::studies::invariants::traits_of_scene::{has_heat_or_oil, is_severe, takes_stable_steps};
+use crate::studies::invariants::traits_of_scene::{follows_tip_edges, has_heat_or_oil, is_severe, takes_stable_steps};
 
 pub(super) const RELATIONS: &[Relation] = &[
     Relation {
         name: "finer flanks",
         states: "Twice the flank points come to the same worn volumes and transmission error.",
         bound: "60 to 120 points of a flank, some three in a contact: 15 % of the volume, 3 % of the transmission error",
+        is_rare: false,
         check: finer_points,
     },
     Relation {
         name: "finer positions",
         states: "Twice the positions come to the same worn volumes and transmission error.",
         bound: "24 to 160 positions, of second order where loads change steadily: 15 % of the volume, 15 % of the transmission error",
+        is_rare: false,
         check: finer_positions,
     },
 ];
@@ -36,7 +38,8 @@ fn finer_positions(subject: &Subject<'_>) -> Verdict {
 fn finer(subject: &Subject<'_>, key: &str, by: f64, of_error: f64) -> Verdict {
     let table = subject.table;
     // What wear makes of temperatures and limits of pressure is no matter of one resolution.
-    if is_severe(table) || has_heat_or_oil(table) || !takes_stable_steps(subject.record) {
+    // Where contact is cut off, what the rounding of a tip removes there is that of the nearest flank points.
+    if !follows_tip_edges(table) || is_severe(table) || has_heat_or_oil(table) || !takes_stable_steps(subject.record) {
         return Verdict::NotOfThisScene;
     }
     let Some(count) = number(table, key) else { return Verdict::NotOfThisScene };

@@ -19,12 +19,14 @@ pub(super) const RELATIONS: &[Relation] = &[
         name: "phases add up",
         states: "Wear so small that it changes no contact: that of a load spectrum is the sum of what each phase wears by itself.",
         bound: "effect of the wear left on the contact, 3e-4",
+        is_rare: true,
         check: phases_add_up,
     },
     Relation {
         name: "coefficient of one gear",
         states: "Twice the coefficient of the wheel alone, wear being that small: twice its wear, and the pinion's as before.",
         bound: "effect of the wear left on the contact, 3e-4",
+        is_rare: false,
         check: of_one_gear,
     },
 ];
@@ -39,7 +41,8 @@ fn hardly_worn(table: &Table) -> Table {
 
 fn phases_add_up(subject: &Subject<'_>) -> Verdict {
     let table = subject.table;
-    let Some(all) = phases(table).filter(|_| has_fixed_steps(table) && !is_on(table, "fem")) else {
+    let Some(all) = phases(table).filter(|_| has_fixed_steps(table) && !is_on(table, "fem") && !is_simplified(table))
+    else {
         return Verdict::NotOfThisScene;
     };
     // Slices are as stiff in all phases as in that of the greatest load.
@@ -66,6 +69,11 @@ fn phases_add_up(subject: &Subject<'_>) -> Verdict {
         };
         Gear::BOTH.map(of).into()
     })
+}
+
+/// Whether the run keeps its wear at contact points of the simplified model, which lie by the load of the phases.
+fn is_simplified(table: &Table) -> bool {
+    is_on(table, "hertz-mean") && is_sliced(table)
 }
 
 /// The scene with one of its phases alone.

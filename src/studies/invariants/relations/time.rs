@@ -17,6 +17,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         name: "coefficient and duration",
         states: "Wear coefficients times c and the duration over c: the same wear.",
         bound: "rounding, in steps of the same number",
+        is_rare: false,
         check: faster,
     },
     Relation {
@@ -24,12 +25,14 @@ pub(super) const RELATIONS: &[Relation] = &[
         states: "The last phase cut into two halves of the same load, at the end of a step: the same wear.",
         bound: "each phase begins with contact windows of its own, and a window that has grown has other cells: 0.2 % of the volume, 2 % of the wear \
                 and 20 % of the pressure at a point, 1 % of the transmission error",
+        is_rare: false,
         check: cut_in_two,
     },
     Relation {
         name: "speed that nothing reads",
         states: "Without heat and oil, a run over given revolutions does not depend on the speed.",
         bound: "none: the same bits",
+        is_rare: false,
         check: speed,
     },
 ];
