@@ -731,7 +731,7 @@ fn helical_pairs_out_of_range() {
             "teeth",
             "teeth = 24\nend_relief = { amount_um = 10.0, length_mm = 8.0 }",
             "end_relief",
-            "at most 7.0000 mm",
+            "at most 7 mm",
         ),
         (
             "pair.wheel",

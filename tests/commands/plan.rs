@@ -56,7 +56,7 @@ fn plan_and_run_refuse_the_same_springs_and_nothing_stays() {
     for output in [&plan, &run] {
         let said = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{said}");
-        assert!(said.contains("contact.foundation_MPa_per_mm") && said.contains("soft.toml:8"), "{said}");
+        assert!(said.contains("contact.foundation_MPa_per_mm") && said.contains("soft.toml:11"), "{said}");
     }
     assert!(!out.exists());
 }

@@ -95,9 +95,12 @@ pub(super) fn compare(first: &RunRecord, other: &RunRecord, follows: &Follows, b
     found
 }
 
+/// A column of the mesh cycle.
+type ColumnOfCycle = fn(&MeshCycleRow) -> f64;
+
 /// Transmission errors and load shares of the mesh.
 fn cycles(first: &RunRecord, other: &RunRecord, follows: &Follows, bound: f64) -> Vec<Measured> {
-    let columns: [(&str, f64, fn(&MeshCycleRow) -> f64); 4] = [
+    let columns: [(&str, f64, ColumnOfCycle); 4] = [
         ("new transmission error", follows.error, |row| row.transmission_error_new_um),
         ("worn transmission error", follows.error, |row| row.transmission_error_worn_um),
         ("new load share", 1.0, |row| row.load_share_new),

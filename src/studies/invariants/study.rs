@@ -191,7 +191,7 @@ impl Finding {
 }
 
 fn is_violated(measured: &Measured) -> bool {
-    !(measured.value <= measured.bound)
+    measured.value.is_nan() || measured.bound.is_nan() || measured.value > measured.bound
 }
 
 /// The rows of all statements, in the order in which they were first found.
