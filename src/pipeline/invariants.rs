@@ -46,8 +46,9 @@ const MOST_IMBALANCE: f64 = 1e-6;
 const MOST_VOLUME_DIFFERENCE: f64 = 0.2;
 /// Flank points that a contact needs in its half-width before volumes are held against each other.
 const POINTS_IN_HALF_WIDTH: f64 = 2.0;
-/// Greatest part of the transmission error by which worn flanks are nearer: what the equilibria are solved to.
-const MOST_NEARER: f64 = 1e-6;
+/// Greatest part of the transmission error by which worn flanks are nearer: a contact's window that has grown has other cells (found: 3e-4
+/// on four of 2500 random scenes, on foundations that are coarsely sampled).
+const MOST_NEARER: f64 = 1e-3;
 /// The same of finite elements, whose worn sharp edges begin to carry between two nodes (found: 0.4 %).
 const MOST_NEARER_OF_ELEMENTS: f64 = 0.01;
 /// Steeper than the gap of a single tip edge: slices and pairs come in together, and their stiffness varies.
