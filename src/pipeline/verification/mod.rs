@@ -78,7 +78,7 @@ const OF_ELEMENTS: Uncertainty = Uncertainty {
 };
 /// Of the wear of a tip edge that is hardly worn in, over how far an element of its rounding bulges beyond its chord, over the depth: on a contact
 /// narrower than the element, where the wear is has the length of the element.
-const OF_BULGE: f64 = 0.021;
+const OF_BULGE: f64 = 0.0105;
 /// That at most.
 const MOST_OF_TIP_EDGE: f64 = 0.5;
 /// How much greater than between the tip edges a pressure is that is at one of them.
