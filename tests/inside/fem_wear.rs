@@ -145,23 +145,27 @@ fn val_away_from_a_to_e_each_point_wears_like_a_disc() {
     assert!(compared > 120, "{compared} points compared");
 }
 
-/// Flanks that have lost the shape of a root relief touch as flanks that were meshed with it. (A tip relief would not do:
-/// wear takes the tip edge with it, a mesh has it at the
-/// tip circle.) Both flanks of a meshed tooth are relieved, so that it is thinner at its root by twice the relief, and softer:
-/// three times 10 µm over some 9 mm of the part of the deflection that is bending, or 5e-4 of all.
+/// Flanks that have lost the shape of a root relief touch as flanks that were meshed with it. (A tip relief would not do: wear takes the
+/// tip edge with it, a mesh has it at the tip circle. Nor would sharp tip edges: they stay where they are, and what they meet moves under
+/// load, of which a mesh knows nothing.) Both flanks of a meshed tooth are relieved, so that it is thinner at its root by twice the
+/// relief, and softer: three times 8 µm over some 9 mm of the part of the deflection that is bending, or 4e-4 of all.
 #[test]
 fn val_wear_opens_the_gap_as_a_relief_does() {
-    let mut spec = fzg_c();
-    for gear in Gear::BOTH {
-        let relief = Relief { amount_mm: 0.005, length_mm: 6.0, shape: ReliefShape::Parabolic };
-        spec.gears[gear].modification.root_relief = Some(relief);
-    }
-    let (plain, modified) = (pair(&fzg_c()), pair(&spec));
+    let with = |relief: Option<Relief>, tip_rounding_mm: f64| {
+        let mut spec = fzg_c();
+        for gear in Gear::BOTH {
+            spec.gears[gear].modification.root_relief = relief;
+            spec.gears[gear].modification.tip_rounding_mm = tip_rounding_mm;
+        }
+        pair(&spec)
+    };
+    let relief = Some(Relief { amount_mm: 0.004, length_mm: 6.0, shape: ReliefShape::Parabolic });
+    let (plain, modified, relieved) = (with(None, 0.1), with(relief, 0.1), with(relief, 0.0));
     let grid = grid(&plain, 750);
     let (by_wear_model, by_mesh_model) = (condensed(&plain, 6.0), condensed(&modified, 6.0));
     let (.., cycle) = mesh_once(&by_wear_model, 400, None);
     let worn = PerGear::from_fn(|gear| {
-        let removed = modifications_mm(&modified, gear, &grid[gear], &Slices::new(&modified, 1));
+        let removed = modifications_mm(&relieved, gear, &grid[gear], &Slices::new(&relieved, 1));
         let involute = plain.path.involute[gear];
         let rho = |radius: &f64| involute.curvature_radius_mm(*radius);
         cycle.radius_mm()[gear].iter().map(|radius| grid[gear].value_at(&removed, rho(radius))).collect()
@@ -171,7 +175,8 @@ fn val_wear_opens_the_gap_as_a_relief_does() {
     let off = by_wear.positions.iter().zip(&by_mesh.positions);
     let squares = off.map(|(worn, meshed)| (worn.transmission_error_mm / meshed.transmission_error_mm - 1.0).powi(2));
     let off = (squares.sum::<f64>() / by_wear.positions.len() as f64).sqrt();
-    // The softness of the meshed tooth, and what lies between the positions.
+    // The softness of the meshed tooth, and what lies between the positions; 8.6e-4 where the slave's material is not followed
+    // along its flank.
     assert!(off < 7e-4, "transmission error, root mean square: {off}");
     for (worn, meshed) in by_wear.positions.iter().zip(&by_mesh.positions) {
         let what = format!("at {:.3}", worn.position_mm);

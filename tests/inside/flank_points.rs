@@ -3,6 +3,7 @@
 use gearwear::gear::{
     Gear, GearPair,
     flank::{FlankGrid, PointSpacing},
+    flank_zones::FlankZones,
     modification::{Modification, Relief, ReliefShape},
     removed_material::tip_rounding_length_mm,
     spec::PairSpec,
@@ -94,6 +95,24 @@ fn ver_points_crowd_where_reliefs_begin() {
             assert!((graded.distance_at_mm(kink) / far - 1.0 / 3.0).abs() < 0.05, "{gear:?} {kink}");
             // Evenly in radius, points know nothing of it.
             assert!((even.distance_at_mm(kink - 0.05) / even.distance_at_mm(kink + 0.05) - 1.0).abs() < 0.05);
+        }
+    }
+}
+
+/// The tip-edge zone reaches three Hertz half-widths from where the rounding begins, 0.15 modules at most, by length of the flank.
+#[test]
+fn ver_the_tip_edge_zone_is_as_long_as_it_is_said_to_be() {
+    let pair = rounded(0.1);
+    for gear in Gear::BOTH {
+        let tooth = &pair.teeth[gear];
+        let arc_mm = |radius_mm: f64| tooth.involute.arc_mm(tooth.involute.curvature_radius_mm(radius_mm));
+        let begins_mm = arc_mm(tooth.tip_radius_mm) - tip_rounding_length_mm(0.1, tooth);
+        for (half_width_mm, length_mm) in [(0.1, 0.3), (0.3, 0.15 * 4.5)] {
+            let zones = FlankZones::new(&pair, gear, half_width_mm);
+            assert!(
+                (begins_mm - arc_mm(zones.tip_edge_radius_mm) - length_mm).abs() < 1e-9,
+                "{gear:?} {half_width_mm}"
+            );
         }
     }
 }

@@ -487,7 +487,9 @@ impl LoadedPosition {
                 *transfers = step.model.load_transfers(prepared, *stretch_mm, *turned_mm, step.nodes, None);
                 (*windows, *about_rad) = (prepared.windows(), None);
             }
-            transfers.iter().for_each(|contact| contact.open_gaps(step.worn.depth_mm, gap_mm));
+            for (contact, tilt_rad) in transfers.iter().zip(prepared.tilts_rad()) {
+                contact.open_gaps(step.worn.depth_mm, tilt_rad, gap_mm);
+            }
         };
         let solved = step.model.solve(prepared, &mut opening);
         let found = solved.map_err(|source| EquilibriumError::Contact { position_mm, source })?;

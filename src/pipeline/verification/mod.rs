@@ -79,9 +79,9 @@ const OF_ELEMENTS: Uncertainty = Uncertainty {
 };
 /// Of the wear of a tip edge that is hardly worn in, over how far an element of its rounding bulges beyond its chord, over the depth: on a contact
 /// narrower than the element, where the wear is has the length of the element.
-const OF_BULGE: f64 = 0.021;
+const OF_BULGE: f64 = 0.01;
 /// That at most.
-const MOST_OF_TIP_EDGE: f64 = 0.5;
+const MOST_OF_TIP_EDGE: f64 = 0.2;
 /// Of the profile and the peak wear where wear is severe: what elements twice as fine find differs by that on nine of ten random pairs.
 const SEVERE: f64 = 0.02;
 

@@ -81,6 +81,8 @@ pub(crate) struct LoadTransfer {
     pub means: PerGear<Means>,
     /// What the gap of each row differs by from the rule at the wear that it is about, mm.
     beyond_rule_mm: Vec<f64>,
+    /// How far the slave's material lies off what the rows faced in the places of the unloaded teeth, towards its tip, mm.
+    slave_off_mm: f64,
 }
 
 /// M_ik of one flank: row by row, consecutive nodes.
@@ -122,11 +124,13 @@ impl LoadTransfer {
         self.weight_mm.len()
     }
 
-    /// Adds to the gaps of the position's rows what flanks that have lost `depth_mm` at their nodes open them by.
-    pub(crate) fn open_gaps(&self, depth_mm: PerGear<&[f64]>, gap_mm: &mut [f64]) {
+    /// Adds to the gaps of the position's rows what flanks that have lost `depth_mm` at their nodes open them by. Where the coupling is
+    /// that of flanks tilted by `tilt_rad` ([`super::tilted`]), it opens them by what material of the slave is off along that tilt already.
+    pub(crate) fn open_gaps(&self, depth_mm: PerGear<&[f64]>, tilt_rad: f64, gap_mm: &mut [f64]) {
+        let by_tilt_mm = tilt_rad * self.slave_off_mm;
         for (i, gap) in gap_mm[self.first_row..self.first_row + self.len()].iter_mut().enumerate() {
             let opening_mm = |gear: Gear| self.means[gear].opening_mm(i, depth_mm[gear]);
-            *gap += opening_mm(Gear::Pinion) + opening_mm(Gear::Wheel) + self.beyond_rule_mm[i];
+            *gap += opening_mm(Gear::Pinion) + opening_mm(Gear::Wheel) + self.beyond_rule_mm[i] - by_tilt_mm;
         }
     }
 
@@ -236,7 +240,9 @@ impl CondensedPair<'_> {
             }
             None => vec![0.0; facing.coupling.len()],
         };
-        let moves = self.moves_mm(passing, facing);
+        let (moved, off_mm) = self.off_mm(passing, facing);
+        let mut moves = PerGear::from_fn(|gear| self.contact_moves_mm(position_mm, stretch_mm, facing.pair, gear));
+        moves[moved].iter_mut().for_each(|end| *end += off_mm);
         let mut sums = PerGear::from_fn(|gear| vec![0.0; nodes[gear].len()]);
         let mut means: PerGear<Means> = PerGear::default();
         let (mut sliding_mm, mut along_mm) = (Vec::new(), Vec::new());
@@ -266,6 +272,7 @@ impl CondensedPair<'_> {
             along_mm,
             means,
             beyond_rule_mm,
+            slave_off_mm: if moved == slave { off_mm } else { 0.0 },
         }
     }
 
@@ -340,20 +347,16 @@ impl CondensedPair<'_> {
         feet
     }
 
-    /// How far the contact of a pair moves along either flank, from where its nodes face each other in the places of the unloaded teeth: to the root's
-    /// side and to the tip's side.
-    fn moves_mm(&self, passing: Passing, facing: &FacingTeeth) -> PerGear<[f64; 2]> {
-        let Passing { position_mm, stretch_mm, turned_mm } = passing;
+    /// How far material of one of the flanks, and of which, lies off what faced its mate's in the places of the unloaded teeth, towards its
+    /// tip, mm.
+    fn off_mm(&self, passing: Passing, facing: &FacingTeeth) -> (Gear, f64) {
         let (path, slave) = (&self.pair.path, facing.slave);
-        let mut moves = PerGear::from_fn(|gear| self.contact_moves_mm(position_mm, stretch_mm, facing.pair, gear));
-        let own_mm = position_mm + f64::from(facing.pair) * path.base_pitch_mm;
+        let own_mm = passing.position_mm + f64::from(facing.pair) * path.base_pitch_mm;
         let slope = |gear: Gear| path.rho_mm(gear, own_mm) / path.involute[gear].base_radius_mm;
         let sign = if slave == Gear::Pinion { 0.5 } else { -0.5 };
-        let along_mm = sign * turned_mm * (slope(slave) - slope(slave.mate()));
+        let off_mm = sign * passing.turned_mm * (slope(slave) - slope(slave.mate()));
         // The two flanks run against each other.
-        let moved = if self.is_on_tip_edge(slave, own_mm) { slave.mate() } else { slave };
-        moves[moved].iter_mut().for_each(|end| *end += along_mm);
-        moves
+        (if self.is_on_tip_edge(slave, own_mm) { slave.mate() } else { slave }, off_mm)
     }
 
     /// Whether a gear touches with its tip edge, with the theoretical contact point of its pair at `own_mm`.

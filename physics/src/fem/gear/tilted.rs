@@ -71,6 +71,11 @@ impl CondensedPair<'_> {
 }
 
 impl Prepared {
+    /// By how much the flanks of each tooth pair are tilted.
+    pub(crate) fn tilts_rad(&self) -> impl Iterator<Item = f64> {
+        (0..self.facings.len()).map(|pair| self.tilt_rad.get(pair).copied().unwrap_or(0.0))
+    }
+
     /// How far each tooth pair's flank is tilted in the mean over the load of `force`, where it is tilted by `tilt_rad` at the local nodes
     /// of a gear; none without load.
     pub fn mean_tilts(&self, force: &[f64], tilt_rad: impl Fn(Gear, usize) -> f64) -> Vec<f64> {
