@@ -91,7 +91,7 @@ pub(crate) fn is_number(node: Node<'_>) -> bool {
     node.choices().is_empty() && matches!(node.type_name(), "number" | "integer")
 }
 
-/// The path of a number that `path` is most like: one that ends in it, or the nearest in spelling.
+/// The path of a number that `path` is most like: the least deep one that ends in it, or the nearest in spelling.
 fn nearest_number(path: &str) -> Option<String> {
     nearest_path(path, Node::root(schema()), is_number)
 }
@@ -106,7 +106,8 @@ pub(crate) fn nearest_path(path: &str, root: Node<'_>, wanted: fn(Node<'_>) -> b
     let mut known = Vec::new();
     paths_below(root, "", wanted, &mut known);
     let ending = format!(".{path}");
-    if let Some(whole) = known.iter().find(|known| known.ends_with(&ending)) {
+    let whole = known.iter().filter(|known| known.ends_with(&ending));
+    if let Some(whole) = whole.min_by_key(|known| known.matches('.').count()) {
         return Some(whole.clone());
     }
     let known: Vec<&str> = known.iter().map(String::as_str).collect();

@@ -508,8 +508,8 @@ fn as_plates_and_in_space(scene: &LoadedScene) -> [RunRecord; 2] {
 }
 
 /// Slices as plates with the calibration of their pair against those in space, new flanks: mean transmission error within 1 %, its range within
-/// 5 %, loads within 0.06 of their mean (root mean square); worn ones, root wear of every slice within 10 % (9.6 % in
-/// one at an end face, where the elements feel the load of a slice over half a layer).
+/// 5 %, loads within 0.06 of their mean (root mean square); worn ones, root wear of every slice within 8 %, but for
+/// those at the end faces: 12 % of the least worn one at 30°, 1.6 % of the maximum; 8 % held before slices acted on halves of layers.
 #[test]
 fn val_calibrated_slices() {
     for (helix_deg, width_mm, torque_nm) in [(15.0, 20.0, 302.0), (30.0, 20.0, 302.0), (35.0, 12.0, 181.2)] {
@@ -565,8 +565,9 @@ fn val_calibrated_slices() {
                 let wear = &run.summary.helical.as_ref().unwrap().wear;
                 [wear.pinion.root_wear_um.clone(), wear.wheel.root_wear_um.clone()].concat()
             };
-            for (own, there) in root(&plates).into_iter().zip(root(&space)) {
-                assert_close("root wear of a slice", own, there, 0.1);
+            for (k, (own, there)) in root(&plates).into_iter().zip(root(&space)).enumerate() {
+                let at_end_face = [0, 19].contains(&(k % 20));
+                assert_close("root wear of a slice", own, there, if at_end_face { 0.13 } else { 0.08 });
             }
         }
     }
