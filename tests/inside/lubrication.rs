@@ -196,7 +196,12 @@ fn ver_flash_of_a_tip_edge_is_with_its_own_radius() {
 /// ε_α of 2 and more: H_V in its general form, the standards' load sharing factor and what hangs on it null with the reason.
 #[test]
 fn what_the_standards_do_not_cover_is_null_with_its_reason() {
-    let high = "[pair]\nnormal_module_mm = 2.0\npressure_angle_deg = 20.0\ncentre_distance_mm = 100.0\nface_width_mm = 20.0\n        basic_rack = { addendum_factor = 1.35, dedendum_factor = 1.55, fillet_radius_factor = 0.2 }\n        [pair.pinion]\nteeth = 50\nprofile_shift = 0.0\nroughness_Ra_um = 0.5\n[pair.wheel]\nteeth = 50\nprofile_shift = 0.0\nroughness_Ra_um = 0.5\n        [operation]\npinion_torque_Nm = 100.0\npinion_speed_rpm = 1000.0\npinion_revolutions = 1.0\n[contact]\nsurface = \"hertz-mean\"\n        [stiffness]\nmodel = \"constant\"\npair_N_per_mm_um = 20.0\n[wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n        [numerics]\nstep = { revolutions = 1.0 }\nerror_estimate = false\nverify = false\n";
+    let high = "[pair]\nnormal_module_mm = 2.0\npressure_angle_deg = 20.0\ncentre_distance_mm = 100.0\nface_width_mm = 20.0\n\
+        basic_rack = { addendum_factor = 1.35, dedendum_factor = 1.55, fillet_radius_factor = 0.2 }\n\
+        [pair.pinion]\nteeth = 50\nprofile_shift = 0.0\nroughness_Ra_um = 0.5\n[pair.wheel]\nteeth = 50\nprofile_shift = 0.0\nroughness_Ra_um = 0.5\n\
+        [operation]\npinion_torque_Nm = 100.0\npinion_speed_rpm = 1000.0\npinion_revolutions = 1.0\n[contact]\nsurface = \"hertz-mean\"\n\
+        [stiffness]\nmodel = \"constant\"\npair_N_per_mm_um = 20.0\n[wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n\
+        [numerics]\nstep = { revolutions = 1.0 }\nerror_estimate = false\nverify = false\n";
     let resolved = Scene::from_toml(&format!("{high}{OIL}")).unwrap_or_else(|problems| panic!("{problems:?}"));
     let record = pipeline::run(&loaded(&resolved), &Unwatched).unwrap().complete().unwrap();
     let ratio = record.summary.geometry.transverse_contact_ratio;
