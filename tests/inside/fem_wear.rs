@@ -285,7 +285,7 @@ fn ver_tilt_changes_the_lever_by_the_radius_of_curvature() {
     // One pair is below the pitch point and one above it: each has its multipliers on the flank of another gear.
     for (position_mm, tilted) in [(path.start_mm + 2.0, Gear::Wheel), (path.end_mm - 2.0, Gear::Pinion)] {
         let mut prepared = model.prepare(position_mm, line_load(&pair));
-        let found = model.solve(&mut prepared, &mut |_, _| {}).expect("the contact is found");
+        let found = model.solve(&mut prepared, &mut |_, _| {}, &|_, _| 0.0).expect("the contact is found");
         let pairs = model.tooth_pairs(&prepared, &found);
         let theta = 1e-3;
         let tilts = prepared.mean_tilts(&found.force, |gear, _| if gear == tilted { theta } else { 0.0 });
@@ -312,7 +312,7 @@ fn ver_tilt_keeps_the_load_and_acts_in_proportion() {
         let mut prepared = model.prepare(position_mm, line_load(&pair));
         let pairs = prepared.tooth_pairs();
         model.tilt(&mut prepared, vec![theta; pairs]);
-        let found = model.solve(&mut prepared, &mut |_, _| {}).expect("the contact is found");
+        let found = model.solve(&mut prepared, &mut |_, _| {}, &|_, _| 0.0).expect("the contact is found");
         (found.rigid[0], model.tooth_pairs(&prepared, &found).iter().map(|own| own.line_load_n_per_mm).sum::<f64>())
     };
     let (level, _) = transmission_error_mm(0.0);

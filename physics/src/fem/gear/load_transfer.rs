@@ -125,11 +125,11 @@ impl LoadTransfer {
     }
 
     /// Adds to the gaps of the position's rows what flanks that have lost `depth_mm` at their nodes open them by. Where the coupling is
-    /// that of flanks tilted by `tilt_rad` ([`super::tilted`]), it opens them by what material of the slave is off along that tilt already.
-    pub(crate) fn open_gaps(&self, depth_mm: PerGear<&[f64]>, tilt_rad: f64, gap_mm: &mut [f64]) {
-        let by_tilt_mm = tilt_rad * self.slave_off_mm;
+    /// that of flanks tilted by `tilt_rad` at a row ([`super::tilted`]), it opens them by what material of the slave is off along that tilt already.
+    pub(crate) fn open_gaps(&self, depth_mm: PerGear<&[f64]>, tilt_rad: impl Fn(usize) -> f64, gap_mm: &mut [f64]) {
         for (i, gap) in gap_mm[self.first_row..self.first_row + self.len()].iter_mut().enumerate() {
             let opening_mm = |gear: Gear| self.means[gear].opening_mm(i, depth_mm[gear]);
+            let by_tilt_mm = tilt_rad(self.first_row + i) * self.slave_off_mm;
             *gap += opening_mm(Gear::Pinion) + opening_mm(Gear::Wheel) + self.beyond_rule_mm[i] - by_tilt_mm;
         }
     }
@@ -402,7 +402,9 @@ fn spread(nodes: &FlankNodes, stretch_mm: [f64; 2], moves_mm: [f64; 2], sums: &m
         let moved = moves_mm[0] + way * (part as f64 + 0.5) / parts as f64;
         // The last parts of a long way are as long as the way between them.
         let wider = 0.5 * (way / parts as f64 - length).max(0.0);
-        let stretch = [stretch_mm[0] + moved - wider, stretch_mm[1] + moved + wider];
+        // What would wear beyond the root end is on the flank, as long as it is.
+        let onto = (wider - moved - stretch_mm[0]).max(0.0);
+        let stretch = [stretch_mm[0] + moved - wider + onto, stretch_mm[1] + moved + wider + onto];
         let range = nodes.add_means(stretch, 1.0 / parts as f64, sums);
         reached = Some(match reached {
             Some(before) => before.start.min(range.start)..before.end.max(range.end),

@@ -1,8 +1,9 @@
 //! Finite-element contact of a gear pair: each gear condensed once, every position a small contact problem.
 
+mod beside_window;
 pub mod condensed_pair;
 pub mod cycle;
-mod facing_teeth;
+pub(crate) mod facing_teeth;
 pub(crate) mod flank_nodes;
 pub(crate) mod flank_surface;
 pub mod full;
