@@ -506,12 +506,11 @@ impl LoadedPosition {
         let Some(found) = &self.found else { return false };
         let tilt_rad = |gear: Gear, node: usize| step.worn.tilt_rad[gear][step.nodes[gear].place[node]];
         let tilt_rad = self.prepared.mean_tilts(&found.force, tilt_rad);
-        let no = std::env::var("NOTILT").unwrap_or_default();
-        let turns = !no.contains('t') && self.prepared.lever_change(&found.force, &tilt_rad) > LEAST_LEVER_CHANGE;
+        let turns = self.prepared.lever_change(&found.force, &tilt_rad) > LEAST_LEVER_CHANGE;
         if turns {
             step.model.tilt(&mut self.prepared, tilt_rad);
         }
-        let reshapes = !no.contains('r') && self.has_reshaped(step, found);
+        let reshapes = self.has_reshaped(step, found);
         let turned_mm = found.rigid[0];
         let moves = (turned_mm - self.turned_mm).abs() > LEAST_TURN * turned_mm.abs();
         if reshapes {
@@ -574,59 +573,6 @@ impl LoadedPosition {
                 rows.depth_mm.resize(contact.len(), 0.0);
                 step.wear.laws[gear].add_depth(&sliding_row, &mut rows.depth_mm);
                 contact.wear_nodes(gear, step.nodes[gear], &rows.depth_mm, &mut depth_mm[gear]);
-            }
-        }
-    }
-}
-impl CondensedCycle<'_> {
-    pub fn linearise_anew_pub(
-        &mut self,
-        lost: LostMaterial<'_>,
-        wear: &WearModel<'_>,
-        depth_mm: &mut PerGear<Vec<f64>>,
-    ) {
-        let _ = self.linearise_anew(lost, wear, depth_mm, &|| false);
-    }
-    pub fn debug(&self) {
-        let path = &self.model.pair.path;
-        for l in self.loaded_positions() {
-            let f = l.found.as_ref().unwrap();
-            println!(
-                "{:.3} te {:.2} windows {} about {} tilts {:?}",
-                l.prepared.position_mm,
-                1e3 * f.rigid[0],
-                l.windows,
-                l.about_rad.is_some(),
-                l.transfers.iter().map(|t| [l.prepared.tilt_rad(t.first_row),l.prepared.tilt_rad(t.first_row+t.len()/2),l.prepared.tilt_rad(t.first_row+t.len()-1)]).collect::<Vec<_>>()
-            );
-            for (t, fa) in l.transfers.iter().zip(&l.prepared.facings) {
-                let sl = fa.slave;
-                let mut rows: Vec<usize> = fa.from_tip.clone();
-                rows.reverse();
-                let radius = |r: usize| self.radius_mm[sl][self.nodes[sl].place[fa.coupling.nodes[r]]];
-                print!(
-                    "   own {:.3} slave {:?} rows {} r {:.3}..{:.3}:",
-                    l.prepared.position_mm + t.pair as f64 * path.base_pitch_mm,
-                    sl,
-                    rows.len(),
-                    radius(rows[0]),
-                    radius(*rows.last().unwrap())
-                );
-                let mut zone: Option<(f64, f64, f64)> = None;
-                for r in rows {
-                    let fo = f.force[fa.first_row + r];
-                    if fo > 0.0 {
-                        let z = zone.get_or_insert((radius(r), 0.0, 0.0));
-                        z.1 = radius(r);
-                        z.2 += fo;
-                    } else if let Some(z) = zone.take() {
-                        print!(" [{:.3}..{:.3} F {:.2}]", z.0, z.1, z.2);
-                    }
-                }
-                if let Some(z) = zone {
-                    print!(" [{:.3}..{:.3} F {:.2}]*", z.0, z.1, z.2);
-                }
-                println!();
             }
         }
     }

@@ -26,7 +26,7 @@ use crate::gear::{Gear, PerGear};
 /// Part of the transmission error by which nodes may overlap: what straight lines between nodes and probes are off by is less.
 const OVERLOOKED: f64 = 1e-3;
 /// Distance of probes in half-widths of contact.
-const PROBES_APART: f64 = 0.25;
+const PROBES_APART: f64 = 0.5;
 
 /// Nodes of a tooth pair's slave beside the window that may come to touch.
 pub(super) struct BesideWindow {
@@ -35,7 +35,13 @@ pub(super) struct BesideWindow {
     tooth: PerGear<usize>,
     /// From tip to root.
     nodes: Vec<BesideNode>,
+    /// The transmission error at which each would touch if rigid and unworn, mm.
+    touch_at_mm: Vec<f64>,
+    /// The least of these.
+    first_touch_mm: f64,
     probes: Vec<Probe>,
+    /// Nodes that would overlap if rigid, and their gaps; empty but while they are looked at.
+    overlapping: Vec<(usize, f64)>,
 }
 
 struct BesideNode {
@@ -61,6 +67,8 @@ struct Probe {
     at: usize,
     /// Once it was needed.
     compliance: Option<Vec<f64>>,
+    /// b C Bᵀ f, while it is looked at.
+    yields_mm: Option<f64>,
 }
 
 impl CondensedPair<'_> {
@@ -93,7 +101,8 @@ impl CondensedPair<'_> {
                 Gear::Wheel => PerGear { pinion: in_masters, wheel: normal },
             };
             let foot = [(first, 1.0 - t), (second, t)];
-            let mut beside = BesideNode { node, foot, normal, cosine, gap_mm, by_rotation: 0.0, probes: [(0, 1.0), (0, 0.0)] };
+            let mut beside =
+                BesideNode { node, foot, normal, cosine, gap_mm, by_rotation: 0.0, probes: [(0, 1.0), (0, 0.0)] };
             let of_pinion = beside.entries(slave, Gear::Pinion);
             beside.by_rotation = of_pinion.map(|(column, b)| b * self.rotation(column, Direction::AcrossFlank)).sum();
             Some(beside)
@@ -109,8 +118,13 @@ impl CondensedPair<'_> {
                 nodes[at].probes = [(after, 1.0 - t), (after + 1, t)];
             }
         }
-        let probes = probes.into_iter().map(|at| Probe { at, compliance: None }).collect();
-        BesideWindow { pair, slave, tooth, nodes, probes }
+        let probes = probes.into_iter().map(|at| Probe { at, compliance: None, yields_mm: None }).collect();
+        // A node that turning does not bring nearer never touches.
+        let touch_at_mm =
+            |at: &BesideNode| if at.by_rotation < 0.0 { -at.gap_mm / at.by_rotation } else { f64::INFINITY };
+        let touch_at_mm: Vec<f64> = nodes.iter().map(touch_at_mm).collect();
+        let first_touch_mm = touch_at_mm.iter().copied().fold(f64::INFINITY, f64::min);
+        BesideWindow { pair, slave, tooth, nodes, touch_at_mm, first_touch_mm, probes, overlapping: Vec::new() }
     }
 
     /// Where the flanks overlap beside the window of `facings`, in which `found` holds them apart; `depth_mm` is what the local nodes of a
@@ -123,31 +137,26 @@ impl CondensedPair<'_> {
         depth_mm: &dyn Fn(Gear, usize) -> f64,
     ) -> Option<Overlap> {
         let turned_mm = found.rigid[0];
-        let (slave, master) = (beside.slave, beside.slave.mate());
-        let if_rigid_mm = |(at, node): (usize, &BesideNode)| {
-            let unworn_mm = node.gap_mm + node.by_rotation * turned_mm;
-            if unworn_mm >= 0.0 {
-                return None;
-            }
-            let mates_mm = node.at_foot(|node| depth_mm(master, node));
-            let gap_mm = unworn_mm + depth_mm(slave, node.node) + mates_mm / node.cosine;
-            (gap_mm < 0.0).then_some((at, gap_mm))
-        };
-        let overlapping: Vec<(usize, f64)> = beside.nodes.iter().enumerate().filter_map(if_rigid_mm).collect();
-        if overlapping.is_empty() {
+        if turned_mm <= beside.first_touch_mm {
             return None;
         }
-        let yields_mm = self.yields_mm(beside, &overlapping, facings, &found.force);
+        beside.find_overlapping(turned_mm, depth_mm);
+        let unknown = beside.probes_without_compliance();
+        if !unknown.is_empty() {
+            self.find_compliance(beside, &unknown, facings);
+        }
+        beside.probes.iter_mut().for_each(|probe| probe.yields_mm = None);
+        let mut overlapping = std::mem::take(&mut beside.overlapping);
         let mut from_tip_mm: Option<PerGear<[f64; 2]>> = None;
-        for (at, if_rigid_mm) in overlapping {
-            let at = &beside.nodes[at];
-            let yields_mm: f64 = at.probes.iter().map(|&(probe, part)| part * yields_mm[probe]).sum();
+        for (at, if_rigid_mm) in overlapping.drain(..) {
+            let yields_mm = beside.yields_mm(at, &found.force);
             if if_rigid_mm + yields_mm >= -OVERLOOKED * turned_mm {
                 continue;
             }
+            let at = &beside.nodes[at];
             let along_mm = PerGear::from_fn(|gear| {
                 let along_mm = &self.flanks[gear].from_tip_mm;
-                if gear == slave { along_mm[at.node] } else { at.at_foot(|node| along_mm[node]) }
+                if gear == beside.slave { along_mm[at.node] } else { at.at_foot(|node| along_mm[node]) }
             });
             let ends_mm = from_tip_mm.get_or_insert(along_mm.map(|along_mm| [along_mm; 2]));
             for gear in Gear::BOTH {
@@ -155,31 +164,8 @@ impl CondensedPair<'_> {
                 ends_mm[gear] = [from_mm.min(along_mm[gear]), to_mm.max(along_mm[gear])];
             }
         }
+        beside.overlapping = overlapping;
         from_tip_mm.map(|from_tip_mm| Overlap { pair: beside.pair, from_tip_mm })
-    }
-
-    /// How far the flanks give way under `force` at the probes around the `overlapping` nodes, mm; 0 at others.
-    fn yields_mm(
-        &self,
-        beside: &mut BesideWindow,
-        overlapping: &[(usize, f64)],
-        facings: &[FacingTeeth],
-        force: &[f64],
-    ) -> Vec<f64> {
-        let mut needed = vec![false; beside.probes.len()];
-        for (at, _) in overlapping {
-            beside.nodes[*at].probes.iter().for_each(|(probe, _)| needed[*probe] = true);
-        }
-        let unknown = |probe: &usize| needed[*probe] && beside.probes[*probe].compliance.is_none();
-        let unknown: Vec<usize> = (0..needed.len()).filter(unknown).collect();
-        if !unknown.is_empty() {
-            self.find_compliance(beside, &unknown, facings);
-        }
-        let yields_mm = |(probe, needed): (&Probe, &bool)| match &probe.compliance {
-            Some(compliance) if *needed => compliance.iter().zip(force).map(|(c, force)| c * force).sum(),
-            _ => 0.0,
-        };
-        beside.probes.iter().zip(&needed).map(yields_mm).collect()
     }
 
     /// Finds b C Bᵀ at these probes.
@@ -216,6 +202,40 @@ fn probes(along_mm: &[f64], apart_mm: f64) -> Vec<usize> {
 }
 
 impl BesideWindow {
+    /// Finds the nodes that would overlap if the flanks were rigid.
+    fn find_overlapping(&mut self, turned_mm: f64, depth_mm: &dyn Fn(Gear, usize) -> f64) {
+        let (slave, master) = (self.slave, self.slave.mate());
+        for (at, node) in self.nodes.iter().enumerate().filter(|(at, _)| self.touch_at_mm[*at] < turned_mm) {
+            let mates_mm = node.at_foot(|node| depth_mm(master, node));
+            let worn_mm = depth_mm(slave, node.node) + mates_mm / node.cosine;
+            let gap_mm = node.gap_mm + worn_mm + node.by_rotation * turned_mm;
+            if gap_mm < 0.0 {
+                self.overlapping.push((at, gap_mm));
+            }
+        }
+    }
+
+    /// The probes around those nodes where it is not known how far the flanks give way.
+    fn probes_without_compliance(&self) -> Vec<usize> {
+        let mut unknown = Vec::new();
+        for (probe, _) in self.overlapping.iter().flat_map(|(at, _)| self.nodes[*at].probes) {
+            if self.probes[probe].compliance.is_none() && !unknown.contains(&probe) {
+                unknown.push(probe);
+            }
+        }
+        unknown
+    }
+
+    /// How far the flanks give way at a node under `force`, mm.
+    fn yields_mm(&mut self, at: usize, force: &[f64]) -> f64 {
+        let mut at_probe = |(probe, part): (usize, f64)| {
+            let Probe { compliance, yields_mm, .. } = &mut self.probes[probe];
+            let products = compliance.iter().flatten().zip(force).map(|(c, force)| c * force);
+            part * *yields_mm.get_or_insert_with(|| products.sum())
+        };
+        self.nodes[at].probes.map(&mut at_probe).iter().sum()
+    }
+
     /// B of these probes.
     fn operator(&self, probes: &[usize], gear: Gear, flank_nodes: usize) -> CsMat<f64> {
         let mut triplets = TriMat::new((probes.len(), 2 * flank_nodes));

@@ -74,8 +74,17 @@ pub(super) struct PlacedTeeth {
     pinion_axis_mm: Vector2<f64>,
 }
 
+/// Loaded rows of a tooth pair that belong together, by their places from tip to root.
+struct LoadedRows {
+    first: usize,
+    last: usize,
+    load: f64,
+    /// Each row's load times its tilt.
+    tilted_load: f64,
+}
+
 /// A tooth pair prepared for contact.
-pub(crate) struct FacingTeeth {
+pub(super) struct FacingTeeth {
     pub pair: i32,
     pub slave: Gear,
     /// Places of its teeth among the fine ones.
@@ -280,24 +289,49 @@ impl FacingTeeth {
         if self.slave == Gear::Pinion { -from_tip_mm } else { from_tip_mm }
     }
 
-    /// The rows of each contact under `force`, from tip to root: loaded rows farther apart than the half-width belong to two, which part in
-    /// the middle between them.
-    pub(super) fn contacts(&self, force: &[f64]) -> Vec<&[usize]> {
-        let loaded = |row: usize| force[self.first_row + row] > 0.0;
-        let mut contacts = Vec::new();
-        let (mut start, mut last) = (0, None);
-        for (at, _) in self.from_tip.iter().enumerate().filter(|(_, row)| loaded(**row)) {
-            if let Some(last) = last.replace(at)
-                && self.along_mm[at] - self.along_mm[last] > self.half_width_mm
-            {
-                let middle_mm = self.along_mm[last].midpoint(self.along_mm[at]);
-                let end = self.along_mm.partition_point(|&along_mm| along_mm < middle_mm);
-                contacts.push(&self.from_tip[start..end]);
-                start = end;
+    /// Sets for each of its rows what it has of what `tilt_rad` is at the slave's nodes: within a half-width of loaded rows the mean over the
+    /// load of their contact, farther off the mean over a half-width to either side. Loaded rows farther apart than a half-width belong to two
+    /// contacts. Without load nothing is set.
+    pub(super) fn set_mean_tilts(&self, force: &[f64], tilt_rad: impl Fn(usize) -> f64, of_rows: &mut [f64]) {
+        let tilt_rad = |at: usize| tilt_rad(self.coupling.nodes[self.from_tip[at]]);
+        let mut contacts: Vec<LoadedRows> = Vec::new();
+        for (at, row) in self.from_tip.iter().enumerate() {
+            let force = force[self.first_row + row];
+            if force <= 0.0 {
+                continue;
+            }
+            match contacts.last_mut() {
+                Some(contact) if self.along_mm[at] - self.along_mm[contact.last] <= self.half_width_mm => {
+                    contact.last = at;
+                    contact.load += force;
+                    contact.tilted_load += force * tilt_rad(at);
+                }
+                _ => contacts.push(LoadedRows { first: at, last: at, load: force, tilted_load: force * tilt_rad(at) }),
             }
         }
-        contacts.push(&self.from_tip[start..]);
-        contacts
+        if contacts.is_empty() {
+            return;
+        }
+        let ([mut from, mut to], mut sum) = ([0, 0], 0.0);
+        for (at, row) in self.from_tip.iter().enumerate() {
+            let here_mm = self.along_mm[at];
+            while to < self.along_mm.len() && self.along_mm[to] <= here_mm + self.half_width_mm {
+                sum += tilt_rad(to);
+                to += 1;
+            }
+            while self.along_mm[from] < here_mm - self.half_width_mm {
+                sum -= tilt_rad(from);
+                from += 1;
+            }
+            let off_mm = |contact: &LoadedRows| {
+                (self.along_mm[contact.first] - here_mm).max(here_mm - self.along_mm[contact.last])
+            };
+            let nearest = contacts.iter().min_by(|a, b| off_mm(a).total_cmp(&off_mm(b)));
+            of_rows[self.first_row + row] = match nearest {
+                Some(contact) if off_mm(contact) <= self.half_width_mm => contact.tilted_load / contact.load,
+                _ => sum / (to - from) as f64,
+            };
+        }
     }
 
     /// Whether load comes close to an inner end of the window, so that it may have been cut off.

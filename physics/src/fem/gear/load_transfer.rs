@@ -402,9 +402,7 @@ fn spread(nodes: &FlankNodes, stretch_mm: [f64; 2], moves_mm: [f64; 2], sums: &m
         let moved = moves_mm[0] + way * (part as f64 + 0.5) / parts as f64;
         // The last parts of a long way are as long as the way between them.
         let wider = 0.5 * (way / parts as f64 - length).max(0.0);
-        // What would wear beyond the root end is on the flank, as long as it is.
-        let onto = (wider - moved - stretch_mm[0]).max(0.0);
-        let stretch = [stretch_mm[0] + moved - wider + onto, stretch_mm[1] + moved + wider + onto];
+        let stretch = [stretch_mm[0] + moved - wider, stretch_mm[1] + moved + wider];
         let range = nodes.add_means(stretch, 1.0 / parts as f64, sums);
         reached = Some(match reached {
             Some(before) => before.start.min(range.start)..before.end.max(range.end),
@@ -422,15 +420,17 @@ fn faced_mm(
     loaded_mm: [f64; 2],
 ) -> [f64; 2] {
     // FacingTeeth flanks run against each other at equal lengths, but for their curvature.
-    let foot = |k: usize| feet.get(&k).map(|foot| foot.along_mm);
-    let neighbour = |k: Option<usize>| k.and_then(|k| Some((own.along_mm.get(k).copied()?, foot(k)?)));
-    let (before, after) = (neighbour(place.checked_sub(1)), neighbour(Some(place + 1)));
-    let here = (own.along_mm[place], foot(place));
-    let (at, met) = match (here, before, after) {
-        ((at, Some(met)), ..) => (at, met),
-        (_, Some((at, met)), _) | (_, None, Some((at, met))) => (at, met),
-        ((at, None), None, None) => (at, 0.0),
+    let foot = |(&k, foot): (&usize, &Foot)| (own.along_mm[k], foot.along_mm);
+    let is_beside = |(k, _): &(&usize, &Foot)| place.abs_diff(**k) == 1;
+    let (next_before, next_after) = (feet.range(..place).next_back(), feet.range(place + 1..).next());
+    let (before, after) = (next_before.filter(is_beside).map(foot), next_after.filter(is_beside).map(foot));
+    // Beyond the end of the master: as far from the nearest foot.
+    let nearest = || match (next_before, next_after) {
+        (Some(before), Some(after)) => Some(if place - before.0 <= after.0 - place { before } else { after }),
+        (before, after) => before.or(after),
     };
+    let here = feet.get_key_value(&place).or_else(nearest).map(foot);
+    let Some((at, met)) = here else { return [0.0; 2] };
     let slope = |other: Option<(f64, f64)>| match other {
         Some((other_at, other_met)) if other_at != at => (other_met - met) / (other_at - at),
         _ => -1.0,

@@ -3,7 +3,7 @@
 mod beside_window;
 pub mod condensed_pair;
 pub mod cycle;
-pub(crate) mod facing_teeth;
+mod facing_teeth;
 pub(crate) mod flank_nodes;
 pub(crate) mod flank_surface;
 pub mod full;

@@ -39,7 +39,7 @@ pub struct Prepared {
     /// ξ.
     pub position_mm: f64,
     window: Window,
-    pub(crate) facings: Vec<FacingTeeth>,
+    pub(super) facings: Vec<FacingTeeth>,
     /// Of each tooth pair.
     beside: Vec<BesideWindow>,
     pub(super) condensed: Condensed,

@@ -76,24 +76,11 @@ impl Prepared {
         self.tilt_rad.get(row).copied().unwrap_or(0.0)
     }
 
-    /// How far the flank of the contact that each multiplier belongs to is tilted in the mean over the load of `force`, where it is tilted by
-    /// `tilt_rad` at the local nodes of a gear; none of a tooth pair without load.
+    /// How far the flank is tilted at each multiplier under `force`, where it is tilted by `tilt_rad` at the local nodes of a gear.
     pub fn mean_tilts(&self, force: &[f64], tilt_rad: impl Fn(Gear, usize) -> f64) -> Vec<f64> {
         let mut of_rows = vec![0.0; force.len()];
         for facing in &self.facings {
-            for contact in facing.contacts(force) {
-                let (mut whole, mut sum) = (0.0, 0.0);
-                for &row in contact {
-                    let force = force[facing.first_row + row];
-                    if force > 0.0 {
-                        whole += force;
-                        sum += force * tilt_rad(facing.slave, facing.coupling.nodes[row]);
-                    }
-                }
-                if whole > 0.0 {
-                    contact.iter().for_each(|row| of_rows[facing.first_row + row] = sum / whole);
-                }
-            }
+            facing.set_mean_tilts(force, |node| tilt_rad(facing.slave, node), &mut of_rows);
         }
         of_rows
     }
