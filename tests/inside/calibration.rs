@@ -432,7 +432,7 @@ fn rounded_tips_and_other_orders_of_the_points_are_calibrated_too() {
 /// A relief changes the curvature of a flank where it begins; K/H is fitted without it, and is as good as that of plain flanks.
 #[test]
 fn relieved_flanks_have_the_foundation_of_plain_ones() {
-    let mut scene = fzg_c_scene(4.0);
+    let mut scene = fzg_c_scene(5.0);
     for gear in Gear::BOTH {
         let relief = Relief { amount_mm: 0.020, length_mm: 2.0, shape: ReliefShape::Linear };
         scene.pair.gears[gear].modification.tip_relief = Some(relief);

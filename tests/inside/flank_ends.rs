@@ -64,16 +64,15 @@ fn depth_in(polygon: &[[f64; 2]], point: [f64; 2]) -> f64 {
     let (mut nearest, mut within) = (f64::INFINITY, false);
     for (k, a) in polygon.iter().enumerate() {
         let b = polygon[(k + 1) % polygon.len()];
-        let above = [a, &b].map(|end| end[1] > point[1]);
-        // Neither crossed by the ray from the point nor near it.
-        if above[0] == above[1] && (a[1] - point[1]).abs() > 1.0 {
+        let crosses = (a[1] > point[1]) != (b[1] > point[1]);
+        if !crosses && (a[1] > point[1] + 1.0 || a[1] < point[1] - 1.0) {
             continue;
         }
         let (side, to) = ([b[0] - a[0], b[1] - a[1]], [point[0] - a[0], point[1] - a[1]]);
         let square = side[0] * side[0] + side[1] * side[1];
         let t = if square > 0.0 { ((side[0] * to[0] + side[1] * to[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
         nearest = nearest.min((to[0] - t * side[0]).hypot(to[1] - t * side[1]));
-        if above[0] != above[1] && point[0] < a[0] + side[0] * (point[1] - a[1]) / side[1] {
+        if crosses && point[0] < a[0] + side[0] * (point[1] - a[1]) / side[1] {
             within = !within;
         }
     }

@@ -388,7 +388,7 @@ fn ver_transmission_error_with_tip_edges_has_no_steps() {
         let second = error.windows(3).map(|of| (of[0] - 2.0 * of[1] + of[2]).abs()).fold(0.0, f64::max);
         second / run.summary.new.transmission_error_um.peak_to_peak
     };
-    let [coarse, fine, more_slices] = [greatest(8, 100), greatest(8, 200), greatest(16, 200)];
+    let [coarse, fine, more_slices] = [greatest(8, 200), greatest(8, 400), greatest(16, 400)];
     println!("{coarse} {fine} {more_slices}");
     assert!(fine <= 0.7 * coarse && more_slices <= fine, "{coarse} {fine} {more_slices}");
 }
