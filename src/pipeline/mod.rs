@@ -84,9 +84,30 @@ pub enum RunError {
     /// The solver failed.
     #[error(transparent)]
     Simulation(#[from] SimulationError),
+    /// Wear that oscillates has left flanks that touch nowhere as the solver expects: tilted by more than the angles that it is linear in.
+    #[error(
+        "{source}; the wear steps are {step_over_safe:.1} times as long as the longest stable one, so that wear oscillates and spoils the \
+         flanks: choose a smaller numerics.step.revolutions, or numerics.step = \"adaptive\""
+    )]
+    UnstableSteps {
+        /// Step over the longest stable one.
+        step_over_safe: f64,
+        /// What the solver says of it.
+        source: SimulationError,
+    },
 }
 
 impl RunError {
+    /// Why a run ended before its time, whose steps are so many times as long as the longest stable one.
+    fn of_run(failure: SimulationError, step_over_safe: f64) -> Self {
+        match failure {
+            source @ SimulationError::Equilibrium { .. } if step_over_safe > 1.0 => {
+                Self::UnstableSteps { step_over_safe, source }
+            }
+            other => Self::Simulation(other),
+        }
+    }
+
     /// The scene's contradiction between stiffness model and contact surface, if that is what is wrong.
     pub(crate) fn stiffness(&self) -> Option<&StiffnessError> {
         match self {
@@ -418,6 +439,7 @@ fn carry_out<R>(
         true => stages.run(StageKind::StepBound.name(), || stability::judge(&model, observer)),
         false => stability::Judged::default(),
     };
+    let step_over_safe = judged.step_over_safe;
     let Resumption { from, keeper } = resumption;
     let outcome = stages.run(StageKind::Simulation.name(), || model.wear_run().run_from(from, keeper, observer))?;
     let model = model.ending_with(&outcome);
@@ -428,7 +450,7 @@ fn carry_out<R>(
     let films = films_and_losses(plan, &model, &outcome, &mut stages);
     let found = RunFindings { outcome: &outcome, heat: heat.as_ref(), lubrication: films.as_ref(), verified: None };
     let mut error = if plan.has(StageKind::ErrorEstimates) && outcome.stop.is_complete() {
-        let estimate = || error_estimates::estimate(&model, &outcome, judged.step_over_safe, observer);
+        let estimate = || error_estimates::estimate(&model, &outcome, step_over_safe, observer);
         stages.run(StageKind::ErrorEstimates.name(), estimate)
     } else {
         ErrorSummary::not_estimated(not_estimated_because(&outcome))
@@ -451,7 +473,7 @@ fn carry_out<R>(
     summary.warnings.extend(stiffness_warning.into_iter().chain(coupling_warning));
     summary.stages = stages.times;
     let record = keep(&model, found, summary);
-    Ok(Done { record, failure: outcome.failure.map(RunError::from) })
+    Ok(Done { record, failure: outcome.failure.map(|failure| RunError::of_run(failure, step_over_safe)) })
 }
 
 /// The stiffness model of a run, and the curve that it makes for itself on `elements`. Where these cannot be had and the scene does not
@@ -557,5 +579,24 @@ fn not_estimated_because(outcome: &Outcome) -> &'static str {
         StopReason::Interrupted => "the run was interrupted",
         StopReason::NotConverged => "the run did not converge",
         StopReason::WornThrough => "a tooth is worn through",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh_cycle::load_sharing::EquilibriumError;
+
+    /// A contact that is not found after steps longer than the stable one names the step; nothing else does.
+    #[test]
+    fn a_contact_spoilt_by_long_steps_names_the_step() {
+        let lost = SimulationError::Equilibrium { revolutions: 1e5, source: EquilibriumError::Interrupted };
+        let said = RunError::of_run(lost.clone(), 560.5).to_string();
+        assert!(
+            said.starts_with(&lost.to_string()) && said.contains("560.5 times") && said.contains("numerics.step"),
+            "{said}"
+        );
+        assert_eq!(RunError::of_run(lost.clone(), 1.0), RunError::Simulation(lost));
+        assert_eq!(RunError::of_run(SimulationError::OtherRun, 2.0), RunError::Simulation(SimulationError::OtherRun));
     }
 }

@@ -51,6 +51,7 @@ fn run(table: &Table, observer: &dyn Observer) -> Result<RunRecord, Ended> {
         (StopReason::Completed | StopReason::LimitReached, None) => Ok(done.record),
         (StopReason::WornThrough, _) => Err(Ended::WornThrough),
         (StopReason::Interrupted, _) => Err(Ended::Interrupted),
+        (_, Some(unstable @ RunError::UnstableSteps { .. })) => Err(refused(&unstable)),
         (_, failure) => {
             Err(Ended::NotConverged(failure.map_or_else(String::new, |failure| one_line(&failure.to_string()))))
         }

@@ -4,6 +4,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::gear::{Gear, PerGear};
+use crate::reference::linear_means::value_at;
 use crate::results::run::{MeshCycleRow, RunRecord};
 
 /// A difference with what is allowed.
@@ -40,6 +41,8 @@ pub(super) struct Follows {
     pub area: f64,
     /// The gears have changed places, and the mesh runs from E to A.
     pub exchanged: bool,
+    /// What is at a position of the one run may be at another in the other run, as far from it as the transmission error is great.
+    pub lags: bool,
     /// The face width runs the other way.
     pub mirrored: bool,
 }
@@ -47,7 +50,7 @@ pub(super) struct Follows {
 impl Default for Follows {
     fn default() -> Self {
         let depth = PerGear { pinion: 1.0, wheel: 1.0 };
-        Self { depth, pressure: 1.0, error: 1.0, area: 1.0, exchanged: false, mirrored: false }
+        Self { depth, pressure: 1.0, error: 1.0, area: 1.0, exchanged: false, lags: false, mirrored: false }
     }
 }
 
@@ -67,6 +70,24 @@ pub(super) struct Bounds {
 impl Bounds {
     pub(super) fn all(bound: f64) -> Self {
         Self { wear: bound, volume: bound, pressure: bound, cycle: bound }
+    }
+}
+
+impl Bounds {
+    /// The same of runs whose adaptive steps are others: they promise `tolerance_um` at every point, which opens the gap of both flanks and so moves
+    /// the transmission error, and the load shares by as much of themselves; nothing of the pressure at a point where contact begins.
+    pub(super) fn within_steps_of(self, tolerance_um: f64, record: &RunRecord) -> Self {
+        let over = |whole: f64| if whole > 0.0 { tolerance_um / whole } else { 0.0 };
+        let flanks = || Gear::BOTH.into_iter().map(|gear| &record.flanks[gear].wear_um);
+        let greatest = |row: &Vec<f64>| row.iter().copied().fold(0.0, f64::max);
+        let mean = |row: &Vec<f64>| row.iter().sum::<f64>() / row.len() as f64;
+        let error = record.mesh_cycle.iter().map(|row| row.transmission_error_worn_um.abs()).fold(0.0, f64::max);
+        Self {
+            wear: flanks().map(|row| over(greatest(row))).fold(self.wear, f64::max),
+            volume: flanks().map(|row| over(mean(row))).fold(self.volume, f64::max),
+            pressure: f64::INFINITY,
+            cycle: self.cycle.max(2.0 * over(error)),
+        }
     }
 }
 
@@ -106,15 +127,37 @@ fn cycles(first: &RunRecord, other: &RunRecord, follows: &Follows, bound: f64) -
         ("new load share", 1.0, |row| row.load_share_new),
         ("worn load share", 1.0, |row| row.load_share_worn),
     ];
+    let position_mm: Vec<f64> = first.mesh_cycle.iter().map(|row| row.position_mm).collect();
+    let errors =
+        first.mesh_cycle.iter().flat_map(|row| [row.transmission_error_new_um, row.transmission_error_worn_um]);
+    let lag_mm = 1e-3 * errors.map(f64::abs).fold(0.0, f64::max);
     let compared = |(name, factor, of): (&str, f64, fn(&MeshCycleRow) -> f64)| {
         let mine: Vec<f64> = first.mesh_cycle.iter().map(of).collect();
         let mut theirs: Vec<f64> = other.mesh_cycle.iter().map(of).collect();
         if follows.exchanged {
             theirs.reverse();
         }
+        if follows.lags && mine.len() == theirs.len() {
+            theirs = nearest(&position_mm, lag_mm, &mine, factor, &theirs);
+        }
         Measured::new(name, difference(&mine, &theirs, factor), bound)
     };
     columns.map(compared).into()
+}
+
+/// `factor` times `mine`, a column at the positions `position_mm`, with what is left of the difference of `theirs` from what that is anywhere within
+/// `lag_mm`.
+fn nearest(position_mm: &[f64], lag_mm: f64, mine: &[f64], factor: f64, theirs: &[f64]) -> Vec<f64> {
+    let within = |at: f64| {
+        let between = position_mm.iter().zip(mine).filter(move |(position, _)| (*position - at).abs() < lag_mm);
+        let ends = [at - lag_mm, at + lag_mm].map(|end| value_at(position_mm, mine, end));
+        between.map(|(_, &value)| value).chain(ends).map(|value| factor * value)
+    };
+    let of = |((&at, &own), &their): ((&f64, &f64), &f64)| {
+        let (least, most) = within(at).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        factor * own + their - their.max(least).min(most)
+    };
+    position_mm.iter().zip(mine).zip(theirs).map(of).collect()
 }
 
 /// Greatest |theirs − factor · mine| over the greatest of `factor · mine`; columns of different lengths differ wholly.
@@ -146,8 +189,8 @@ pub(super) fn summaries(first: &impl Serialize, other: &impl Serialize, besides:
     worst
 }
 
-/// What differs between runs that are alike.
-const NOT_COMPARED: [&str; 12] = [
+/// What differs between runs that are alike; the remainder of a split that is exact is rounding.
+const NOT_COMPARED: [&str; 13] = [
     "stages",
     "wall_s",
     "scene_hash",
@@ -158,6 +201,7 @@ const NOT_COMPARED: [&str; 12] = [
     "report",
     "invariants",
     "error",
+    "stiffness.split_remainder_at_half_load",
     "new.load_imbalance",
     "worn.load_imbalance",
 ];
@@ -202,6 +246,14 @@ mod tests {
         assert!(difference(&[1.0], &[f64::NAN], 1.0).is_nan());
         assert_eq!(difference(&[1.0], &[], 1.0), f64::INFINITY);
         assert_eq!(mirrored(&[1.0, 2.0, 3.0, 4.0], 2), [3.0, 4.0, 1.0, 2.0]);
+    }
+
+    #[test]
+    fn what_lags_is_held_against_what_is_near() {
+        // Within 0.5 mm of each position the column takes 0…0.5, 0.5…2, 2…3 and 3.
+        let held = |theirs: [f64; 4]| nearest(&[0.0, 1.0, 2.0, 3.0], 0.5, &[0.0, 1.0, 3.0, 3.0], 1.0, &theirs);
+        assert_eq!(held([0.5, 0.5, 2.0, 3.0]), [0.0, 1.0, 3.0, 3.0]);
+        assert_eq!(held([1.0, 2.5, 1.0, 3.5]), [0.5, 1.5, 2.0, 3.5]);
     }
 
     #[test]

@@ -11,6 +11,8 @@ use super::SOLVED;
 
 /// What the cells of contact windows make of the transmission error.
 const OF_CELLS: f64 = 2e-3;
+/// Flank points over those of the scene where reliefs are to be seen.
+const FINER: f64 = 4.0;
 /// Torque and last bits: what a machine that computes in another order makes of the torque.
 const LAST_BITS: f64 = 1.0 + 1e-12;
 
@@ -72,7 +74,10 @@ fn relief_opens(subject: &Subject<'_>) -> Verdict {
     let (Some(width), false) = (number(table, "pair.face_width_mm"), is_sliced(table)) else {
         return Verdict::NotOfThisScene;
     };
-    let mut other = table.clone();
+    let Some(points) = number(table, "numerics.flank_points") else { return Verdict::NotOfThisScene };
+    // 50 points put the kink of a relief to 1 % of the transmission error, and flanks with another relief have other points.
+    let one = with(table, "numerics.flank_points", (FINER * points) as i64);
+    let mut other = one.clone();
     for gear in Gear::BOTH {
         let of = |key: &str| format!("pair.{}.tip_relief.{key}", gear.name());
         if gives(table, &of("amount_um")) {
@@ -82,7 +87,7 @@ fn relief_opens(subject: &Subject<'_>) -> Verdict {
             other = with(&other, &of("length_mm"), 0.05 * width);
         }
     }
-    subject.beside(other, |record| less_error(subject.record, record))
+    subject.two(one, other, less_error)
 }
 
 fn longer(subject: &Subject<'_>) -> Verdict {
