@@ -18,6 +18,7 @@ pub(crate) mod pair_mesh;
 mod phases;
 mod recording;
 mod root_stress;
+mod run_error;
 mod scuffing;
 mod severe_pressure;
 mod slices;
@@ -36,7 +37,7 @@ use crate::contact::{
     settings::{Material, SurfaceKind},
 };
 use crate::fem::gear::model::ModelError;
-use crate::gear::{GearPair, PairError, PerGear, flank_zones::FlankZones};
+use crate::gear::{GearPair, PerGear, flank_zones::FlankZones};
 use crate::lubrication::running_pair::RunningPair;
 use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
@@ -53,71 +54,16 @@ use crate::scene::loaded::{LoadedScene, NamedFiles};
 use crate::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
 use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::settings::{LifeLimits, Phase};
-use crate::simulation::wear_run::{Outcome, RunPhase, SimulationError, WearRun, reference_phase};
+use crate::simulation::wear_run::{Outcome, RunPhase, WearRun, reference_phase};
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
 use crate::thermal::ContactHeat;
 use crate::wear::{self, Laws, WearModel};
 use load_case::{LoadCase, load_case};
 use recording::RunFindings;
+pub use run_error::RunError;
 use stage_clock::StageClock;
 use verification::{Elements, Means, Verified};
-
-/// Why a plan could not be carried out.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum RunError {
-    /// The pair cannot exist.
-    #[error(transparent)]
-    Pair(#[from] PairError),
-    /// Stiffness model and contact surface do not go together.
-    #[error(transparent)]
-    Stiffness(#[from] StiffnessError),
-    /// The finite-element model cannot be made.
-    #[error(transparent)]
-    FiniteElements(#[from] ModelError),
-    /// The teeth cannot be condensed in space.
-    #[error("the three-dimensional teeth, which couple the slices: {0}")]
-    TeethInSpace(#[from] PairInSpaceError),
-    /// The tooth stiffness of finite elements cannot be computed.
-    #[error(transparent)]
-    Calibration(#[from] CalibrationError),
-    /// The solver failed.
-    #[error(transparent)]
-    Simulation(#[from] SimulationError),
-    /// Wear that oscillates has left flanks that touch nowhere as the solver expects: tilted by more than the angles that it is linear in.
-    #[error(
-        "{source}; the wear steps are {step_over_safe:.1} times as long as the longest stable one, so that wear oscillates and spoils the \
-         flanks: choose a smaller numerics.step.revolutions, or numerics.step = \"adaptive\""
-    )]
-    UnstableSteps {
-        /// Step over the longest stable one.
-        step_over_safe: f64,
-        /// What the solver says of it.
-        source: SimulationError,
-    },
-}
-
-impl RunError {
-    /// Why a run ended before its time, whose steps are so many times as long as the longest stable one.
-    fn of_run(failure: SimulationError, step_over_safe: f64) -> Self {
-        match failure {
-            source @ SimulationError::Equilibrium { .. } if step_over_safe > 1.0 => {
-                Self::UnstableSteps { step_over_safe, source }
-            }
-            other => Self::Simulation(other),
-        }
-    }
-
-    /// The scene's contradiction between stiffness model and contact surface, if that is what is wrong.
-    pub(crate) fn stiffness(&self) -> Option<&StiffnessError> {
-        match self {
-            RunError::Stiffness(error) | RunError::Simulation(SimulationError::Stiffness(error)) => {
-                Some(error).filter(|error| matches!(error, StiffnessError::SurfaceTooSoft { .. }))
-            }
-            _ => None,
-        }
-    }
-}
 
 /// What a computation came to.
 #[derive(Debug, Clone, PartialEq)]
@@ -253,6 +199,7 @@ impl Resumption<'_> {
 /// # Errors
 /// [`RunError`] where nothing was finished.
 pub fn run(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done, RunError> {
+    scene.check_springs()?;
     run_from(&scene.clone().naming_copies(), Resumption::none(), observer)
 }
 
@@ -579,24 +526,5 @@ fn not_estimated_because(outcome: &Outcome) -> &'static str {
         StopReason::Interrupted => "the run was interrupted",
         StopReason::NotConverged => "the run did not converge",
         StopReason::WornThrough => "a tooth is worn through",
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::mesh_cycle::load_sharing::EquilibriumError;
-
-    /// A contact that is not found after steps longer than the stable one names the step; nothing else does.
-    #[test]
-    fn a_contact_spoilt_by_long_steps_names_the_step() {
-        let lost = SimulationError::Equilibrium { revolutions: 1e5, source: EquilibriumError::Interrupted };
-        let said = RunError::of_run(lost.clone(), 560.5).to_string();
-        assert!(
-            said.starts_with(&lost.to_string()) && said.contains("560.5 times") && said.contains("numerics.step"),
-            "{said}"
-        );
-        assert_eq!(RunError::of_run(lost.clone(), 1.0), RunError::Simulation(lost));
-        assert_eq!(RunError::of_run(SimulationError::OtherRun, 2.0), RunError::Simulation(SimulationError::OtherRun));
     }
 }

@@ -4,20 +4,19 @@ use std::sync::LazyLock;
 
 use super::common::fzg_test::{Estimate, ReadRun, Verdict};
 
+/// Half of the preset's.
+const RESOLUTION: &str = "flank_points = 375\npositions = 200";
+
 /// With steps of 1000 revolutions, which resolve the transition, hard as in the thesis.
 fn resolved(torque_nm: f64, contact: &str, speeds_rpm: &[f64]) -> ReadRun {
     stepped(torque_nm, contact, speeds_rpm, 1000.0)
 }
 
 fn stepped(torque_nm: f64, contact: &str, speeds_rpm: &[f64], step_revolutions: f64) -> ReadRun {
-    with(torque_nm, contact, speeds_rpm, &format!("step = {{ revolutions = {step_revolutions:?} }}"))
-}
-
-fn with(torque_nm: f64, contact: &str, speeds_rpm: &[f64], numerics: &str) -> ReadRun {
     let estimate = Estimate {
         torque_nm,
         contact: format!("surface = \"winkler\"\n{contact}"),
-        numerics: numerics.to_owned(),
+        numerics: format!("{RESOLUTION}\nstep = {{ revolutions = {step_revolutions:?} }}"),
         band_mpa: 0.0,
         speeds_rpm: speeds_rpm.to_vec(),
     };
@@ -43,7 +42,6 @@ fn val_root_wear_of_independent_calculations() {
 
 /// The same beyond the limit.
 #[test]
-#[ignore = "long: weekly"]
 fn val_severe_root_wear_of_independent_calculations() {
     assert_root_wear(372.6, *SEVERE, 26.5, 24.0);
     assert_root_wear(400.0, MILD.verdict(300.0), 16.0, 1.7);
@@ -58,10 +56,8 @@ fn assert_root_wear(torque_nm: f64, found: Verdict, root_um: f64, pitch_um: f64)
 /// D1 and D3 hold together where tip edges are followed into contact: root and tip then wear beyond the limit, while K/H matched on peak
 /// pressure keeps the stretch of single contact below it. D2's separate peak does not come out there: docs/fzg-test.md.
 #[test]
-#[ignore = "long: weekly"]
 fn val_d1_and_d3_hold_together_and_d2_does_not() {
-    let numerics = "flank_points = 400\npositions = 200\nstep = { revolutions = 1000.0 }";
-    let found = with(400.0, "match = \"peak-pressure\"\ntip_contact = true", &[150.0], numerics).verdict(150.0);
+    let found = verdict(400.0, "match = \"peak-pressure\"\ntip_contact = true", 150.0);
     assert!(found.d1() && found.d3(), "{found:?}");
     assert!(!found.d2(), "{found:?}");
     // Without tip contact the wear-in is too slow for D1.
@@ -71,7 +67,6 @@ fn val_d1_and_d3_hold_together_and_d2_does_not() {
 
 /// Where the stretch of single contact passes the limit, all of it does: against D3.
 #[test]
-#[ignore = "long: weekly"]
 fn val_severe_wear_of_single_contact_reaches_the_pitch_point() {
     let found = &*SEVERE;
     let [_, _, start, pitch, _] = found.places_um;
@@ -81,7 +76,6 @@ fn val_severe_wear_of_single_contact_reaches_the_pitch_point() {
 /// Fig 26's sudden peak comes out with 40 Euler steps in 128 h, many times beyond the stability bound of severe wear: a step takes away
 /// more than the pressure above the limit allows. Resolved steps have no such peak.
 #[test]
-#[ignore = "long: weekly"]
 fn val_the_separate_peak_comes_of_steps_beyond_the_bound() {
     let contact = "match = \"peak-pressure\"";
     let few = stepped(410.0, contact, &[150.0], 127.75 * 60.0 * 150.0 / 40.0).verdict(150.0);

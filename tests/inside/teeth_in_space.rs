@@ -518,7 +518,6 @@ fn val_calibrated_slices() {
 
 /// The same at the preset's angle, and new flanks of narrow teeth at a large one.
 #[test]
-#[ignore = "long: weekly"]
 fn val_calibrated_slices_at_other_angles() {
     assert_calibrated_slices(15.0, 20.0, 302.0);
     assert_calibrated_slices(35.0, 12.0, 181.2);

@@ -83,10 +83,7 @@ fn tip_range_mm(
     let section = pair.normal_section();
     let along_normal = surface.plain_approach_mm(&section, pitch_point, line_load_n_per_mm);
     let surfaces = section.obliquity.transverse_mm(along_normal);
-    // Where nothing is left for the teeth, the refusal names the first position, as it does without tip contact.
-    let first = if sliced.is_none() { pair.path.start_mm } else { pitch_point };
-    let spring = teeth.own_n_per_mm2(first).and_then(|_| teeth.own_n_per_mm2(pitch_point))?;
-    let yielding = bodies_mm2_per_n(teeth, sliced) + 1.0 / spring;
+    let yielding = bodies_mm2_per_n(teeth, sliced) + 1.0 / teeth.own_n_per_mm2(pitch_point)?;
     let reach_mm = pair.tip_reach_mm(AMPLE_APPROACH * (surfaces + yielding * line_load_n_per_mm));
     // Teeth in space are there for contacts so far out and no farther.
     let in_space = sliced.and_then(SlicedTeeth::in_space);

@@ -65,18 +65,19 @@ pub(super) struct Bounds {
     pub pressure: f64,
     /// Of transmission error and load share at any position.
     pub cycle: f64,
+    /// What adaptive steps promise of the depth at any point, µm, where the two runs may take others.
+    pub tolerance_um: Option<f64>,
 }
 
 impl Bounds {
-    pub(super) fn all(bound: f64) -> Self {
-        Self { wear: bound, volume: bound, pressure: bound, cycle: bound }
+    pub(super) const fn all(bound: f64) -> Self {
+        Self { wear: bound, volume: bound, pressure: bound, cycle: bound, tolerance_um: None }
     }
-}
 
-impl Bounds {
-    /// The same of runs whose adaptive steps are others: they promise `tolerance_um` at every point, which opens the gap of both flanks and so moves
-    /// the transmission error, and the load shares by as much of themselves; nothing of the pressure at a point where contact begins.
-    pub(super) fn within_steps_of(self, tolerance_um: f64, record: &RunRecord) -> Self {
+    /// Those of what is worn, beside `record`. The promise of adaptive steps opens the gap of both flanks and so moves the transmission error, and the
+    /// load shares by as much of themselves; it says nothing of the pressure at a point where contact begins.
+    fn of_worn(self, record: &RunRecord) -> Self {
+        let Some(tolerance_um) = self.tolerance_um else { return self };
         let over = |whole: f64| if whole > 0.0 { tolerance_um / whole } else { 0.0 };
         let flanks = || Gear::BOTH.into_iter().map(|gear| &record.flanks[gear].wear_um);
         let greatest = |row: &Vec<f64>| row.iter().copied().fold(0.0, f64::max);
@@ -87,6 +88,7 @@ impl Bounds {
             volume: flanks().map(|row| over(mean(row))).fold(self.volume, f64::max),
             pressure: f64::INFINITY,
             cycle: self.cycle.max(2.0 * over(error)),
+            ..self
         }
     }
 }
@@ -94,6 +96,7 @@ impl Bounds {
 /// All figures that two runs have in common.
 pub(super) fn compare(first: &RunRecord, other: &RunRecord, follows: &Follows, bounds: Bounds) -> Vec<Measured> {
     let mut found = Vec::new();
+    let of_worn = bounds.of_worn(first);
     for gear in Gear::BOTH {
         let theirs = if follows.exchanged { gear.mate() } else { gear };
         let (mine, other_flank) = (&first.flanks[gear], &other.flanks[theirs]);
@@ -101,37 +104,37 @@ pub(super) fn compare(first: &RunRecord, other: &RunRecord, follows: &Follows, b
         let ordered = |column: &[f64]| if follows.mirrored { mirrored(column, slices) } else { column.to_vec() };
         let (name, depth) = (gear.name(), follows.depth[gear]);
         let wear = difference(&mine.wear_um, &ordered(&other_flank.wear_um), depth);
-        found.push(Measured::new(format!("wear of the {name}"), wear, bounds.wear));
+        found.push(Measured::new(format!("wear of the {name}"), wear, of_worn.wear));
         let new = difference(&mine.pressure_new_MPa, &ordered(&other_flank.pressure_new_MPa), follows.pressure);
         found.push(Measured::new(format!("pressure on the new {name}"), new, bounds.pressure));
         let worn = difference(&mine.pressure_worn_MPa, &ordered(&other_flank.pressure_worn_MPa), follows.pressure);
-        found.push(Measured::new(format!("pressure on the worn {name}"), worn, bounds.pressure));
+        found.push(Measured::new(format!("pressure on the worn {name}"), worn, of_worn.pressure));
         let volume = |record: &RunRecord, gear: Gear| {
             [if gear == Gear::Pinion { &record.summary.pinion } else { &record.summary.wheel }.worn_volume_mm3]
         };
         let volumes = difference(&volume(first, gear), &volume(other, theirs), depth * follows.area);
-        found.push(Measured::new(format!("worn volume of the {name}"), volumes, bounds.volume));
+        found.push(Measured::new(format!("worn volume of the {name}"), volumes, of_worn.volume));
     }
-    found.extend(cycles(first, other, follows, bounds.cycle));
+    found.extend(cycles(first, other, follows, [bounds.cycle, of_worn.cycle]));
     found
 }
 
 /// A column of the mesh cycle.
 type ColumnOfCycle = fn(&MeshCycleRow) -> f64;
 
-/// Transmission errors and load shares of the mesh.
-fn cycles(first: &RunRecord, other: &RunRecord, follows: &Follows, bound: f64) -> Vec<Measured> {
-    let columns: [(&str, f64, ColumnOfCycle); 4] = [
-        ("new transmission error", follows.error, |row| row.transmission_error_new_um),
-        ("worn transmission error", follows.error, |row| row.transmission_error_worn_um),
-        ("new load share", 1.0, |row| row.load_share_new),
-        ("worn load share", 1.0, |row| row.load_share_worn),
+/// Transmission errors and load shares of the mesh, new and worn within these bounds.
+fn cycles(first: &RunRecord, other: &RunRecord, follows: &Follows, [new, worn]: [f64; 2]) -> Vec<Measured> {
+    let columns: [(&str, f64, ColumnOfCycle, f64); 4] = [
+        ("new transmission error", follows.error, |row| row.transmission_error_new_um, new),
+        ("worn transmission error", follows.error, |row| row.transmission_error_worn_um, worn),
+        ("new load share", 1.0, |row| row.load_share_new, new),
+        ("worn load share", 1.0, |row| row.load_share_worn, worn),
     ];
     let position_mm: Vec<f64> = first.mesh_cycle.iter().map(|row| row.position_mm).collect();
     let errors =
         first.mesh_cycle.iter().flat_map(|row| [row.transmission_error_new_um, row.transmission_error_worn_um]);
     let lag_mm = 1e-3 * errors.map(f64::abs).fold(0.0, f64::max);
-    let compared = |(name, factor, of): (&str, f64, fn(&MeshCycleRow) -> f64)| {
+    let compared = |(name, factor, of, bound): (&str, f64, ColumnOfCycle, f64)| {
         let mine: Vec<f64> = first.mesh_cycle.iter().map(of).collect();
         let mut theirs: Vec<f64> = other.mesh_cycle.iter().map(of).collect();
         if follows.exchanged {

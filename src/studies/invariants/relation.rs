@@ -38,8 +38,8 @@ pub(crate) enum Verdict {
     Measured { scene: Table, figures: Vec<Measured> },
 }
 
-/// How much finer two runs are that are beyond their bound at the scene's own resolution.
-const FINER: f64 = 4.0;
+/// Points or positions over those of the scene, where its own are too few for its contacts.
+pub(super) const FINER: f64 = 4.0;
 
 impl Verdict {
     fn is_beyond(&self) -> bool {
@@ -51,10 +51,13 @@ impl Verdict {
 }
 
 impl Subject<'_> {
-    /// Runs the scene `other` and judges its record.
+    /// Runs the scene `other` and judges its record; without a figure nothing is said of the scene.
     pub(super) fn beside(&self, other: Table, judge: impl FnOnce(&RunRecord) -> Vec<Measured>) -> Verdict {
         match (self.run)(&other) {
-            Ok(record) => Verdict::Measured { figures: judge(&record), scene: other },
+            Ok(record) => match judge(&record) {
+                figures if figures.is_empty() => Verdict::NotOfThisScene,
+                figures => Verdict::Measured { figures, scene: other },
+            },
             Err(how) => Verdict::Ended { scene: other, how },
         }
     }

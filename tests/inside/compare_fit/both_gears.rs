@@ -77,8 +77,8 @@ fn ver_intervals_and_correlations_where_one_flank_tells_of_the_other() {
 }
 
 /// What `ask` says of traces with so many times the noise of 5 %, again and again: the 95 % intervals of both coefficients and of their
-/// ratio hold the true values for 34 to 40 of 40 seeds (fewer in one of 300 such samples), and the stated correlations of all four fitted values, which are given back, are
-/// those of the values fitted, within three of the standard deviations (1 − ρ²)/√n of a sample correlation.
+/// ratio hold the true values for 34 to 40 of 40 seeds (fewer in one of 300 such samples), and the stated correlations of all four fitted
+/// values, which are given back, are those of the values fitted, within three of the standard deviations (1 − ρ²)/√n of a sample correlation.
 fn many_measurements(of: &Laboratory, ask: &Asked, times: [f64; 2]) -> [[f64; 4]; 4] {
     let ask = &Asked { shift_within_mm: 0.5, ..*ask };
     let mut held = [0; 3];

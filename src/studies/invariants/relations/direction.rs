@@ -3,7 +3,7 @@
 use crate::gear::Gear;
 use crate::results::run::{MeshCycleRow, RunRecord};
 use crate::studies::invariants::comparison::{Bounds, Follows, Measured, compare};
-use crate::studies::invariants::relation::{Relation, Subject, Verdict};
+use crate::studies::invariants::relation::{FINER, Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{gives, number, scaled, value, with};
 use crate::studies::invariants::traits_of_scene::{has_fixed_steps, is_hard_severe, is_sliced, takes_stable_steps};
 
@@ -11,8 +11,6 @@ use super::SOLVED;
 
 /// What the cells of contact windows make of the transmission error.
 const OF_CELLS: f64 = 2e-3;
-/// Flank points over those of the scene where reliefs are to be seen.
-const FINER: f64 = 4.0;
 /// Torque and last bits: what a machine that computes in another order makes of the torque.
 const LAST_BITS: f64 = 1.0 + 1e-12;
 

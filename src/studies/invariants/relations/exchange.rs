@@ -17,14 +17,15 @@ pub(super) const RELATIONS: &[Relation] = &[
         states: "A mesh without friction runs backwards as it runs forwards: driven by the other gear, each gear wears as before.",
         bound: "without slices, from A to E: a stretch of the path too short to hold a position goes to the one before it, seen from E to another, 0.2 % of \
                 the volume and 0.1 % of the transmission error; where tip edges are followed, whose lever on the driving gear is by some hundredths \
-                another: 10 % of the volume and 3 % of the transmission error within as far on the path as that is great; two to four slices at other positions: 15 % of it; with adaptive steps numerics.tolerance_um",
+                another: 10 % of the volume and 3 % of the transmission error within as far on the path as that is great; two to four slices at other \
+                positions: 15 % of it; worn by adaptive steps numerics.tolerance_um",
         is_rare: false,
         check: roles,
     },
     Relation {
         name: "face width turned round",
         states: "With helix angle, slopes, shaft ends and axes turned round, wear over the face width is turned round.",
-        bound: "solver tolerance; with adaptive steps numerics.tolerance_um",
+        bound: "solver tolerance; worn by adaptive steps numerics.tolerance_um",
         is_rare: false,
         check: mirror,
     },
@@ -55,20 +56,21 @@ fn roles(subject: &Subject<'_>) -> Verdict {
         exchange_gears(&mut other);
         other
     };
-    let no_point = Bounds { wear: f64::INFINITY, volume: 0.1, pressure: f64::INFINITY, cycle: 0.03 };
+    // Points in another order: adaptive steps take their probes as noise by the number of a point.
+    let tolerance_um = tolerance_of_steps_um(table);
+    let no_point = Bounds { wear: f64::INFINITY, volume: 0.1, pressure: f64::INFINITY, cycle: 0.03, tolerance_um };
     let bounds = match (is_sliced(table), follows_tip_edges(table)) {
         // Positions of slices lie over one base pitch, which does not look the same from both ends, and a slice of a few that comes in moves
         // the transmission error by its share.
         (true, _) => Bounds { cycle: 0.15, ..no_point },
         (false, true) => no_point,
-        (false, false) => Bounds { wear: 0.02, volume: 2e-3, pressure: 0.2, cycle: 1e-3 },
+        (false, false) => Bounds { wear: 0.02, volume: 2e-3, pressure: 0.2, cycle: 1e-3, tolerance_um },
     };
     let bounds = match (is_on(table, "hertz-mean"), is_sliced(table)) {
         // A slice comes in all at once: a position at the jump is on one side of it or on the other.
         (true, true) => Bounds { cycle: f64::INFINITY, ..bounds },
         _ => bounds,
     };
-    let bounds = within_steps(subject, bounds);
     // Positions are those of the driving gear, behind which the driven one stays by the transmission error: so far apart are the two runs' tip edges.
     let lags = follows_tip_edges(table);
     let follows = Follows { exchanged: true, lags, ..Follows::default() };
@@ -78,14 +80,6 @@ fn roles(subject: &Subject<'_>) -> Verdict {
             false => Vec::new(),
         }
     })
-}
-
-/// `bounds` with what adaptive steps make of points in another order: their probes are noise by the number of a point.
-fn within_steps(subject: &Subject<'_>, bounds: Bounds) -> Bounds {
-    match tolerance_of_steps_um(subject.table) {
-        Some(tolerance_um) => bounds.within_steps_of(tolerance_um, subject.record),
-        None => bounds,
-    }
 }
 
 fn mirror(subject: &Subject<'_>) -> Verdict {
@@ -104,6 +98,6 @@ fn mirror(subject: &Subject<'_>) -> Verdict {
         }
     }
     let follows = Follows { mirrored: true, ..Follows::default() };
-    let bounds = within_steps(subject, Bounds { cycle: SOLVED, ..Bounds::all(1e3 * ROUNDING) });
+    let bounds = Bounds { cycle: SOLVED, tolerance_um: tolerance_of_steps_um(table), ..Bounds::all(1e3 * ROUNDING) };
     subject.beside(other, |record| compare(subject.record, record, &follows, bounds))
 }

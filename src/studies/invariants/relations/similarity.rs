@@ -10,7 +10,7 @@ use crate::studies::invariants::traits_of_scene::{
 };
 
 /// What steps make of the tolerance of the equilibria.
-const BOUNDS: Bounds = Bounds { wear: 1e-4, volume: 1e-5, pressure: 1e-4, cycle: 1e-5 };
+const BOUNDS: Bounds = Bounds { volume: 1e-5, cycle: 1e-5, ..Bounds::all(1e-4) };
 /// No power of two, so that digits change.
 const SIZE: f64 = 1.7;
 const MODULUS: f64 = 1.9;
@@ -21,7 +21,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         name: "size",
         states: "All lengths times s and the torque times s³: the same pressures, s times the wear depth, s³ times the volume.",
         bound: "equilibria solved to 1e-10 of the load, which steps amplify: 1e-4 at a point, 1e-5 of volume and transmission error; \
-                with adaptive steps and severe wear numerics.tolerance_um",
+                worn by adaptive steps and severe wear numerics.tolerance_um",
         is_rare: false,
         check: size,
     },
@@ -29,7 +29,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         name: "modulus and torque",
         states: "Young's moduli, torque and limits of pressure times c, wear coefficients over c: c times the pressure, the same deformation and wear.",
         bound: "equilibria solved to 1e-10 of the load, which steps amplify: 1e-4 at a point, 1e-5 of volume and transmission error; \
-                with adaptive steps and severe wear numerics.tolerance_um",
+                worn by adaptive steps and severe wear numerics.tolerance_um",
         is_rare: false,
         check: modulus,
     },
@@ -37,7 +37,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         name: "face width",
         states: "Face width and torque of a pair without slices times c: the same in every section, c times the volume.",
         bound: "equilibria solved to 1e-10 of the load, which steps amplify: 1e-4 at a point, 1e-5 of volume and transmission error; \
-                with adaptive steps and severe wear numerics.tolerance_um",
+                worn by adaptive steps and severe wear numerics.tolerance_um",
         is_rare: false,
         check: width,
     },
@@ -46,10 +46,8 @@ pub(super) const RELATIONS: &[Relation] = &[
 /// Adaptive steps are chosen by the stiffness of the rate, whose estimate ends at a threshold: where wear is severe the last bits may decide on
 /// other steps.
 fn bounds(subject: &Subject<'_>) -> Bounds {
-    match tolerance_of_steps_um(subject.table).filter(|_| is_severe(subject.table)) {
-        Some(tolerance_um) => BOUNDS.within_steps_of(tolerance_um, subject.record),
-        None => BOUNDS,
-    }
+    let table = subject.table;
+    Bounds { tolerance_um: tolerance_of_steps_um(table).filter(|_| is_severe(table)), ..BOUNDS }
 }
 
 fn size(subject: &Subject<'_>) -> Verdict {

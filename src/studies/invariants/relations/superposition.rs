@@ -92,6 +92,6 @@ fn of_one_gear(subject: &Subject<'_>) -> Verdict {
     let one = hardly_worn(table);
     let other = with(&one, &format!("wear.wheel.{key}"), 2.0 * SMALL * coefficient);
     let follows = Follows { depth: PerGear { pinion: 1.0, wheel: 2.0 }, ..Follows::default() };
-    let bounds = Bounds { wear: FEEDBACK, volume: FEEDBACK, pressure: FEEDBACK, cycle: FEEDBACK };
+    let bounds = Bounds::all(FEEDBACK);
     subject.two(one, other, |one, other| compare(one, other, &follows, bounds))
 }
