@@ -21,6 +21,6 @@ def helical() -> gearwear.Run:
 
 @pytest.fixture(scope="session")
 def handed_scenes() -> list[Path]:
-    """The scenes that `cargo test --test commands bad_input` found refused."""
+    """The scenes that `cargo test --release --test commands bad_input` found refused."""
     folder = Path(__file__).parents[2] / "target" / "tmp" / "bad_input"
     return sorted(folder.glob("*.toml"))

@@ -20,7 +20,7 @@ impl RunError {
             (None, RunError::FiniteElements(model)) => Some(of_model(model, text)),
             (None, RunError::Calibration(calibration)) => of_calibration(calibration, text),
             (None, RunError::Pair(pair)) => Some(Problem::of_pair(text, pair)),
-            (None, RunError::Stiffness(_) | RunError::Simulation(_)) => None,
+            (None, RunError::Stiffness(_) | RunError::Simulation(_) | RunError::UnstableSteps { .. }) => None,
         };
         problem.map(|problem| given.refused(vec![problem]))
     }

@@ -18,6 +18,7 @@ pub(crate) mod pair_mesh;
 mod phases;
 mod recording;
 mod root_stress;
+mod run_error;
 mod scuffing;
 mod severe_pressure;
 mod slices;
@@ -36,7 +37,7 @@ use crate::contact::{
     settings::{Material, SurfaceKind},
 };
 use crate::fem::gear::model::ModelError;
-use crate::gear::{GearPair, PairError, PerGear, flank_zones::FlankZones};
+use crate::gear::{GearPair, PerGear, flank_zones::FlankZones};
 use crate::lubrication::running_pair::RunningPair;
 use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
@@ -53,50 +54,16 @@ use crate::scene::loaded::{LoadedScene, NamedFiles};
 use crate::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
 use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::settings::{LifeLimits, Phase};
-use crate::simulation::wear_run::{Outcome, RunPhase, SimulationError, WearRun, reference_phase};
+use crate::simulation::wear_run::{Outcome, RunPhase, WearRun, reference_phase};
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
 use crate::thermal::ContactHeat;
 use crate::wear::{self, Laws, WearModel};
 use load_case::{LoadCase, load_case};
 use recording::RunFindings;
+pub use run_error::RunError;
 use stage_clock::StageClock;
 use verification::{Elements, Means, Verified};
-
-/// Why a plan could not be carried out.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum RunError {
-    /// The pair cannot exist.
-    #[error(transparent)]
-    Pair(#[from] PairError),
-    /// Stiffness model and contact surface do not go together.
-    #[error(transparent)]
-    Stiffness(#[from] StiffnessError),
-    /// The finite-element model cannot be made.
-    #[error(transparent)]
-    FiniteElements(#[from] ModelError),
-    /// The teeth cannot be condensed in space.
-    #[error("the three-dimensional teeth, which couple the slices: {0}")]
-    TeethInSpace(#[from] PairInSpaceError),
-    /// The tooth stiffness of finite elements cannot be computed.
-    #[error(transparent)]
-    Calibration(#[from] CalibrationError),
-    /// The solver failed.
-    #[error(transparent)]
-    Simulation(#[from] SimulationError),
-}
-
-impl RunError {
-    /// The scene's contradiction between stiffness model and contact surface, if that is what is wrong.
-    pub(crate) fn stiffness(&self) -> Option<&StiffnessError> {
-        match self {
-            RunError::Stiffness(error) | RunError::Simulation(SimulationError::Stiffness(error)) => {
-                Some(error).filter(|error| matches!(error, StiffnessError::SurfaceTooSoft { .. }))
-            }
-            _ => None,
-        }
-    }
-}
 
 /// What a computation came to.
 #[derive(Debug, Clone, PartialEq)]
@@ -232,6 +199,7 @@ impl Resumption<'_> {
 /// # Errors
 /// [`RunError`] where nothing was finished.
 pub fn run(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done, RunError> {
+    scene.check_springs()?;
     run_from(&scene.clone().naming_copies(), Resumption::none(), observer)
 }
 
@@ -418,6 +386,7 @@ fn carry_out<R>(
         true => stages.run(StageKind::StepBound.name(), || stability::judge(&model, observer)),
         false => stability::Judged::default(),
     };
+    let step_over_safe = judged.step_over_safe;
     let Resumption { from, keeper } = resumption;
     let outcome = stages.run(StageKind::Simulation.name(), || model.wear_run().run_from(from, keeper, observer))?;
     let model = model.ending_with(&outcome);
@@ -428,7 +397,7 @@ fn carry_out<R>(
     let films = films_and_losses(plan, &model, &outcome, &mut stages);
     let found = RunFindings { outcome: &outcome, heat: heat.as_ref(), lubrication: films.as_ref(), verified: None };
     let mut error = if plan.has(StageKind::ErrorEstimates) && outcome.stop.is_complete() {
-        let estimate = || error_estimates::estimate(&model, &outcome, judged.step_over_safe, observer);
+        let estimate = || error_estimates::estimate(&model, &outcome, step_over_safe, observer);
         stages.run(StageKind::ErrorEstimates.name(), estimate)
     } else {
         ErrorSummary::not_estimated(not_estimated_because(&outcome))
@@ -451,7 +420,7 @@ fn carry_out<R>(
     summary.warnings.extend(stiffness_warning.into_iter().chain(coupling_warning));
     summary.stages = stages.times;
     let record = keep(&model, found, summary);
-    Ok(Done { record, failure: outcome.failure.map(RunError::from) })
+    Ok(Done { record, failure: outcome.failure.map(|failure| RunError::of_run(failure, step_over_safe)) })
 }
 
 /// The stiffness model of a run, and the curve that it makes for itself on `elements`. Where these cannot be had and the scene does not

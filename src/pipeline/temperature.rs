@@ -210,7 +210,7 @@ fn law_over(
     };
     let new = mild(observed.map(|heat| &heat.new));
     let worn = mild(observed.map(|heat| &heat.worn));
-    let severe = wear.severe.map(|severe| severe.factor * new);
+    let severe = wear.severe_transition().map(|severe| severe.factor * new);
     let outside =
         |of: fn(&ObservedHeat) -> &HeatObservation| observed.and_then(|heat| over(&of(heat).law).work_outside_validity);
     WearLawSummary {

@@ -23,7 +23,7 @@ fn scene(contact: &str, fem: &str) -> String {
 }
 
 /// Coarse elements: the fewer, the faster.
-const COARSE: &str = "elements_per_half_width = 3.0";
+const COARSE: &str = "elements_per_half_width = 2.0";
 
 fn calibrate(dir: &Path, more: &[&str]) -> Output {
     fs::write(dir.join("scene.toml"), scene("surface = \"winkler\"", COARSE)).unwrap();

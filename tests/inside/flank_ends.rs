@@ -25,8 +25,8 @@ fn overlap_by_turning(pair: &GearPair) -> f64 {
     let outlines = [Gear::Pinion, Gear::Wheel].map(|gear| outline::polyline(&pair.teeth[gear], 100));
     let axis = pair.spec.centre_distance_mm;
     let mut deepest = f64::NEG_INFINITY;
-    for k in 0..20 {
-        let position = pair.path.start_mm + pair.path.base_pitch_mm * f64::from(k) / 20.0;
+    for k in 0..10 {
+        let position = pair.path.start_mm + pair.path.base_pitch_mm * f64::from(k) / 10.0;
         // Space 0 of either outline lies on +y; the tooth beside it is half a pitch on. Contact on the flank at x < 0 of the tooth.
         let turn = |gear: Gear| {
             let tooth = &pair.teeth[gear];
@@ -64,11 +64,15 @@ fn depth_in(polygon: &[[f64; 2]], point: [f64; 2]) -> f64 {
     let (mut nearest, mut within) = (f64::INFINITY, false);
     for (k, a) in polygon.iter().enumerate() {
         let b = polygon[(k + 1) % polygon.len()];
+        let crosses = (a[1] > point[1]) != (b[1] > point[1]);
+        if !crosses && (a[1] > point[1] + 1.0 || a[1] < point[1] - 1.0) {
+            continue;
+        }
         let (side, to) = ([b[0] - a[0], b[1] - a[1]], [point[0] - a[0], point[1] - a[1]]);
         let square = side[0] * side[0] + side[1] * side[1];
         let t = if square > 0.0 { ((side[0] * to[0] + side[1] * to[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
         nearest = nearest.min((to[0] - t * side[0]).hypot(to[1] - t * side[1]));
-        if (a[1] > point[1]) != (b[1] > point[1]) && point[0] < a[0] + side[0] * (point[1] - a[1]) / side[1] {
+        if crosses && point[0] < a[0] + side[0] * (point[1] - a[1]) / side[1] {
             within = !within;
         }
     }

@@ -4,20 +4,19 @@ use std::sync::LazyLock;
 
 use super::common::fzg_test::{Estimate, ReadRun, Verdict};
 
+/// Half of the preset's.
+const RESOLUTION: &str = "flank_points = 375\npositions = 200";
+
 /// With steps of 1000 revolutions, which resolve the transition, hard as in the thesis.
 fn resolved(torque_nm: f64, contact: &str, speeds_rpm: &[f64]) -> ReadRun {
     stepped(torque_nm, contact, speeds_rpm, 1000.0)
 }
 
 fn stepped(torque_nm: f64, contact: &str, speeds_rpm: &[f64], step_revolutions: f64) -> ReadRun {
-    with(torque_nm, contact, speeds_rpm, &format!("step = {{ revolutions = {step_revolutions:?} }}"))
-}
-
-fn with(torque_nm: f64, contact: &str, speeds_rpm: &[f64], numerics: &str) -> ReadRun {
     let estimate = Estimate {
         torque_nm,
         contact: format!("surface = \"winkler\"\n{contact}"),
-        numerics: numerics.to_owned(),
+        numerics: format!("{RESOLUTION}\nstep = {{ revolutions = {step_revolutions:?} }}"),
         band_mpa: 0.0,
         speeds_rpm: speeds_rpm.to_vec(),
     };
@@ -38,22 +37,27 @@ static MILD: LazyLock<ReadRun> = LazyLock::new(|| resolved(400.0, "match = \"pea
 #[test]
 fn val_root_wear_of_independent_calculations() {
     // Below the limit everywhere, so that there is no transition to resolve.
-    let below = stepped(302.0, "match = \"half-width\"", &[150.0], 4000.0).verdict(150.0);
-    for (torque, found, root_um, pitch_um) in
-        [(302.0, below, 7.3, 0.8), (372.6, *SEVERE, 26.5, 24.0), (400.0, MILD.verdict(300.0), 16.0, 1.7)]
-    {
-        assert!((found.root_um[0] / root_um - 1.0).abs() < 0.04, "{torque}: {found:?} instead of {root_um}");
-        // The verdict takes the greatest depth near C, the calculations that at C.
-        assert!(found.places_um[3] > 0.9 * pitch_um, "{torque}: {found:?}");
-    }
+    assert_root_wear(302.0, stepped(302.0, "match = \"half-width\"", &[150.0], 4000.0).verdict(150.0), 7.3, 0.8);
+}
+
+/// The same beyond the limit.
+#[test]
+fn val_severe_root_wear_of_independent_calculations() {
+    assert_root_wear(372.6, *SEVERE, 26.5, 24.0);
+    assert_root_wear(400.0, MILD.verdict(300.0), 16.0, 1.7);
+}
+
+fn assert_root_wear(torque_nm: f64, found: Verdict, root_um: f64, pitch_um: f64) {
+    assert!((found.root_um[0] / root_um - 1.0).abs() < 0.04, "{torque_nm}: {found:?} instead of {root_um}");
+    // The verdict takes the greatest depth near C, the calculations that at C.
+    assert!(found.places_um[3] > 0.9 * pitch_um, "{torque_nm}: {found:?}");
 }
 
 /// D1 and D3 hold together where tip edges are followed into contact: root and tip then wear beyond the limit, while K/H matched on peak
 /// pressure keeps the stretch of single contact below it. D2's separate peak does not come out there: docs/fzg-test.md.
 #[test]
 fn val_d1_and_d3_hold_together_and_d2_does_not() {
-    let numerics = "flank_points = 400\npositions = 200\nstep = { revolutions = 1000.0 }";
-    let found = with(400.0, "match = \"peak-pressure\"\ntip_contact = true", &[150.0], numerics).verdict(150.0);
+    let found = verdict(400.0, "match = \"peak-pressure\"\ntip_contact = true", 150.0);
     assert!(found.d1() && found.d3(), "{found:?}");
     assert!(!found.d2(), "{found:?}");
     // Without tip contact the wear-in is too slow for D1.

@@ -192,7 +192,7 @@ fn ver_adaptive_steps_never_break() {
 fn ver_adaptive_steps_bear_any_transition() {
     for band in [0.0, 0.05] {
         for above_mpa in [500.0, 1200.0, 3000.0] {
-            for factor in [1.0, 10.0, 100.0, 1000.0] {
+            for factor in [10.0, 1000.0] {
                 let severe = Some(SevereTransition { above_mpa, factor, band_mpa: band * above_mpa });
                 let scene = Scene { severe, revolutions: 1e5, stepping: chebyshev(1.0), ..coarse("winkler") };
                 let what = format!("factor {factor} above {above_mpa} MPa, band {band}");

@@ -1,7 +1,7 @@
 """Reads with meshio and Gmsh what gearwear writes, and lets gearwear read what they write.
 
     cargo build --example convert_mesh
-    python tests/python/check_meshes.py target/debug/examples/convert_mesh      (needs meshio, numpy and gmsh)
+    python tests/python/check_meshes.py target/release/examples/convert_mesh      (needs meshio, numpy and gmsh)
 
 The program is the converter of `examples/convert_mesh.rs`. Ends with status 1 at the first difference.
 """

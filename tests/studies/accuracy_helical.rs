@@ -14,8 +14,8 @@ fn coarse_scene() -> String {
     exchanged(
         "thesis-helical",
         &[
-            ("flank_points = 750 ", "flank_points = 120 "),
-            ("positions = 400 ", "positions = 40 "),
+            ("flank_points = 750 ", "flank_points = 80 "),
+            ("positions = 400 ", "positions = 30 "),
             ("revolutions = 10000.0", "revolutions = 60000.0"),
             ("snapshots_revolutions", "# snapshots_revolutions"),
             ("slices = 20 ", "slices = 4 "),

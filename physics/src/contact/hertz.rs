@@ -57,6 +57,9 @@ pub fn flattening(geometry: &dyn ConjugateFlanks, material: &PerGear<Material>, 
     }
 }
 
+/// Half-length of the first window over the half-width under twice the expected load: of two slices one may carry exactly that, and rounding must not
+/// decide whether its window suffices.
+const AMPLE: f64 = 1.0001;
 /// Cells of an ellipse where its pressure is asked for.
 const CELLS_OF_ELLIPSE: usize = 80;
 
@@ -105,7 +108,7 @@ impl ContactSurface for Hertz {
         let closed_form = ClosedFormPair::new(flanks, &self.material, position_mm);
         let extent = Window::new(flanks, position_mm, f64::INFINITY);
         let widest = closed_form.flattening.contact.loaded(2.0 * self.expected_line_load_n_per_mm).half_width_mm;
-        let window = GrowingWindow::new(PassedCell { flanks, cell }, widest);
+        let window = GrowingWindow::new(PassedCell { flanks, cell }, AMPLE * widest);
         Box::new(HertzPair { closed_form, extent, window, strip_load: 0.0, half_width_mm: 0.0 })
     }
 

@@ -145,7 +145,7 @@ impl<L: WearLaw> FlankWear for WithFactors<L> {
 /// The wear that a scene asks for.
 pub fn of(settings: &WearSettings) -> Box<dyn FlankWear> {
     fn boxed<L: WearLaw + 'static>(law: L, settings: &WearSettings) -> Box<dyn FlankWear> {
-        Box::new(WithFactors { law, severe: settings.severe, film: settings.film.clone() })
+        Box::new(WithFactors { law, severe: settings.severe_transition(), film: settings.film.clone() })
     }
     let k = settings.coefficient_mm2_per_n;
     match settings.law {

@@ -135,7 +135,7 @@ pub struct WearSettings {
     pub law: LawSettings,
     /// Wear coefficient: k of the generalised Archard law, k_r of the others, mm²/N (1e-17 m²/N is 1e-11 mm²/N).
     pub coefficient_mm2_per_n: f64,
-    /// Mild-to-severe transition, where asked for.
+    /// Mild-to-severe transition, where asked for; [`Self::severe_transition`] is the one that changes wear.
     pub severe: Option<SevereTransition>,
     /// How it follows the film of oil, where asked for.
     pub film: Option<FilmDependence>,
@@ -146,19 +146,23 @@ pub struct WearSettings {
 impl PerGear<WearSettings> {
     /// Whether both gears wear by the same law with the same constants and coefficient.
     pub fn are_alike(&self) -> bool {
-        self.pinion == self.wheel
+        let [pinion, wheel] =
+            Gear::BOTH.map(|gear| WearSettings { severe: self[gear].severe_transition(), ..self[gear].clone() });
+        pinion == wheel
     }
 
     /// Whether wear of either gear may be severe.
     pub fn may_be_severe(&self) -> bool {
-        Gear::BOTH.into_iter().any(|gear| self[gear].severe.is_some())
+        Gear::BOTH.into_iter().any(|gear| self[gear].severe_transition().is_some())
     }
 
     /// The greatest factor of severe wear of the gears that wear severely somewhere under this maximum pressure, MPa; none where
     /// neither does.
     pub fn severe_factor_under(&self, peak_pressure_mpa: f64) -> Option<f64> {
         let wearing = Gear::BOTH.into_iter().map(|gear| &self[gear]).filter(|own| own.coefficient_mm2_per_n > 0.0);
-        let severe = wearing.filter_map(|own| own.severe).filter(|severe| severe.factor_at(peak_pressure_mpa) > 1.0);
+        let severe = wearing
+            .filter_map(WearSettings::severe_transition)
+            .filter(|severe| severe.factor_at(peak_pressure_mpa) > 1.0);
         severe.map(|severe| severe.factor).reduce(f64::max)
     }
 
@@ -179,9 +183,14 @@ impl WearSettings {
         Self { law: LawSettings::Archard, coefficient_mm2_per_n, severe: None, film: None, warm: None }
     }
 
+    /// The transition to severe wear, where there is one: a factor of 1 is none.
+    pub fn severe_transition(&self) -> Option<SevereTransition> {
+        self.severe.filter(|severe| severe.factor != 1.0)
+    }
+
     /// The coefficient, mm²/N, where it is the same at every pressure, temperature and film.
     pub fn constant_coefficient_mm2_per_n(&self) -> Option<f64> {
-        (self.law == LawSettings::Archard && self.severe.is_none() && self.film.is_none())
+        (self.law == LawSettings::Archard && self.severe_transition().is_none() && self.film.is_none())
             .then_some(self.coefficient_mm2_per_n)
     }
 }
@@ -189,6 +198,22 @@ impl WearSettings {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A factor of 1 is no severe wear: neither the resolution nor the coefficient depends on it.
+    #[test]
+    fn ver_a_severe_factor_of_one_is_none() {
+        let with = |factor: f64| {
+            let severe = Some(SevereTransition { above_mpa: 100.0, factor, band_mpa: 5.0 });
+            WearSettings { severe, ..WearSettings::archard(1e-11) }
+        };
+        for (factor, is_severe) in [(1.0, false), (0.5, true), (2.0, true)] {
+            let own = with(factor);
+            assert_eq!(own.severe_transition().is_some(), is_severe, "{factor}");
+            assert_eq!(own.constant_coefficient_mm2_per_n().is_none(), is_severe, "{factor}");
+            let both = PerGear { pinion: WearSettings::archard(1e-11), wheel: own };
+            assert_eq!((both.may_be_severe(), both.are_alike()), (is_severe, !is_severe), "{factor}");
+        }
+    }
 
     /// Priest and Taylor: k₀ for λ < 0.5, (2/7) k₀ (4 − λ) from 0.5 to 4, none above.
     #[test]

@@ -56,7 +56,7 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
     let mild = wear::of_both(&scene.wear_in(&scene.heaviest_phase()).with_severe(|_| None));
     let reference = model.reference();
     let phase = RunPhase { wear: reference.wear.with_laws(&mild), ..*reference };
-    let transitions = || Gear::BOTH.into_iter().filter_map(|gear| scene.wear[gear].severe);
+    let transitions = || Gear::BOTH.into_iter().filter_map(|gear| scene.wear[gear].severe_transition());
     let factor = transitions().map(|severe| severe.factor).fold(1.0, f64::max);
     let bound = match coarse(fewest, duration).step_bound(&phase, false, &|| observer.gives_up()) {
         Ok(bound) => bound.revolutions / factor,
@@ -103,7 +103,7 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
     let estimate = match peaks {
         Ok((hard, band)) => {
             let of = |gear: Gear| {
-                let has_band = scene.wear[gear].severe.is_some_and(|severe| severe.band_mpa > 0.0);
+                let has_band = scene.wear[gear].severe_transition().is_some_and(|severe| severe.band_mpa > 0.0);
                 let reference = if has_band { band[gear] } else { hard[gear] };
                 if reference > 0.0 { (hard[gear] - band[gear]).abs() / reference } else { 0.0 }
             };

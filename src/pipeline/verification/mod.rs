@@ -432,7 +432,7 @@ fn of_hardly_worn_edge(pair: &GearPair, gear: Gear, elements_per_half_width: f64
 fn wears_severely(model: &Model<'_>, life: &Outcome) -> bool {
     let states = [&life.new].into_iter().chain(&life.snapshots);
     let greatest_mpa = states.map(|state| state.cycle.peak_pressure_mpa()).fold(0.0, f64::max);
-    let mut transitions = Gear::BOTH.into_iter().filter_map(|gear| model.scene.wear[gear].severe);
+    let mut transitions = Gear::BOTH.into_iter().filter_map(|gear| model.scene.wear[gear].severe_transition());
     transitions.any(|severe| greatest_mpa > severe.above_mpa - 0.5 * severe.band_mpa)
 }
 

@@ -4,6 +4,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::gear::{Gear, PerGear};
+use crate::reference::linear_means::value_at;
 use crate::results::run::{MeshCycleRow, RunRecord};
 
 /// A difference with what is allowed.
@@ -40,6 +41,8 @@ pub(super) struct Follows {
     pub area: f64,
     /// The gears have changed places, and the mesh runs from E to A.
     pub exchanged: bool,
+    /// What is at a position of the one run may be at another in the other run, as far from it as the transmission error is great.
+    pub lags: bool,
     /// The face width runs the other way.
     pub mirrored: bool,
 }
@@ -47,7 +50,7 @@ pub(super) struct Follows {
 impl Default for Follows {
     fn default() -> Self {
         let depth = PerGear { pinion: 1.0, wheel: 1.0 };
-        Self { depth, pressure: 1.0, error: 1.0, area: 1.0, exchanged: false, mirrored: false }
+        Self { depth, pressure: 1.0, error: 1.0, area: 1.0, exchanged: false, lags: false, mirrored: false }
     }
 }
 
@@ -62,17 +65,38 @@ pub(super) struct Bounds {
     pub pressure: f64,
     /// Of transmission error and load share at any position.
     pub cycle: f64,
+    /// What adaptive steps promise of the depth at any point, µm, where the two runs may take others.
+    pub tolerance_um: Option<f64>,
 }
 
 impl Bounds {
-    pub(super) fn all(bound: f64) -> Self {
-        Self { wear: bound, volume: bound, pressure: bound, cycle: bound }
+    pub(super) const fn all(bound: f64) -> Self {
+        Self { wear: bound, volume: bound, pressure: bound, cycle: bound, tolerance_um: None }
+    }
+
+    /// Those of what is worn, beside `record`. The promise of adaptive steps opens the gap of both flanks and so moves the transmission error, and the
+    /// load shares by as much of themselves; it says nothing of the pressure at a point where contact begins.
+    fn of_worn(self, record: &RunRecord) -> Self {
+        let Some(tolerance_um) = self.tolerance_um else { return self };
+        let over = |whole: f64| if whole > 0.0 { tolerance_um / whole } else { 0.0 };
+        let flanks = || Gear::BOTH.into_iter().map(|gear| &record.flanks[gear].wear_um);
+        let greatest = |row: &Vec<f64>| row.iter().copied().fold(0.0, f64::max);
+        let mean = |row: &Vec<f64>| row.iter().sum::<f64>() / row.len() as f64;
+        let error = record.mesh_cycle.iter().map(|row| row.transmission_error_worn_um.abs()).fold(0.0, f64::max);
+        Self {
+            wear: flanks().map(|row| over(greatest(row))).fold(self.wear, f64::max),
+            volume: flanks().map(|row| over(mean(row))).fold(self.volume, f64::max),
+            pressure: f64::INFINITY,
+            cycle: self.cycle.max(2.0 * over(error)),
+            ..self
+        }
     }
 }
 
 /// All figures that two runs have in common.
 pub(super) fn compare(first: &RunRecord, other: &RunRecord, follows: &Follows, bounds: Bounds) -> Vec<Measured> {
     let mut found = Vec::new();
+    let of_worn = bounds.of_worn(first);
     for gear in Gear::BOTH {
         let theirs = if follows.exchanged { gear.mate() } else { gear };
         let (mine, other_flank) = (&first.flanks[gear], &other.flanks[theirs]);
@@ -80,41 +104,63 @@ pub(super) fn compare(first: &RunRecord, other: &RunRecord, follows: &Follows, b
         let ordered = |column: &[f64]| if follows.mirrored { mirrored(column, slices) } else { column.to_vec() };
         let (name, depth) = (gear.name(), follows.depth[gear]);
         let wear = difference(&mine.wear_um, &ordered(&other_flank.wear_um), depth);
-        found.push(Measured::new(format!("wear of the {name}"), wear, bounds.wear));
+        found.push(Measured::new(format!("wear of the {name}"), wear, of_worn.wear));
         let new = difference(&mine.pressure_new_MPa, &ordered(&other_flank.pressure_new_MPa), follows.pressure);
         found.push(Measured::new(format!("pressure on the new {name}"), new, bounds.pressure));
         let worn = difference(&mine.pressure_worn_MPa, &ordered(&other_flank.pressure_worn_MPa), follows.pressure);
-        found.push(Measured::new(format!("pressure on the worn {name}"), worn, bounds.pressure));
+        found.push(Measured::new(format!("pressure on the worn {name}"), worn, of_worn.pressure));
         let volume = |record: &RunRecord, gear: Gear| {
             [if gear == Gear::Pinion { &record.summary.pinion } else { &record.summary.wheel }.worn_volume_mm3]
         };
         let volumes = difference(&volume(first, gear), &volume(other, theirs), depth * follows.area);
-        found.push(Measured::new(format!("worn volume of the {name}"), volumes, bounds.volume));
+        found.push(Measured::new(format!("worn volume of the {name}"), volumes, of_worn.volume));
     }
-    found.extend(cycles(first, other, follows, bounds.cycle));
+    found.extend(cycles(first, other, follows, [bounds.cycle, of_worn.cycle]));
     found
 }
 
 /// A column of the mesh cycle.
 type ColumnOfCycle = fn(&MeshCycleRow) -> f64;
 
-/// Transmission errors and load shares of the mesh.
-fn cycles(first: &RunRecord, other: &RunRecord, follows: &Follows, bound: f64) -> Vec<Measured> {
-    let columns: [(&str, f64, ColumnOfCycle); 4] = [
-        ("new transmission error", follows.error, |row| row.transmission_error_new_um),
-        ("worn transmission error", follows.error, |row| row.transmission_error_worn_um),
-        ("new load share", 1.0, |row| row.load_share_new),
-        ("worn load share", 1.0, |row| row.load_share_worn),
+/// Transmission errors and load shares of the mesh, new and worn within these bounds.
+fn cycles(first: &RunRecord, other: &RunRecord, follows: &Follows, [new, worn]: [f64; 2]) -> Vec<Measured> {
+    let columns: [(&str, f64, ColumnOfCycle, f64); 4] = [
+        ("new transmission error", follows.error, |row| row.transmission_error_new_um, new),
+        ("worn transmission error", follows.error, |row| row.transmission_error_worn_um, worn),
+        ("new load share", 1.0, |row| row.load_share_new, new),
+        ("worn load share", 1.0, |row| row.load_share_worn, worn),
     ];
-    let compared = |(name, factor, of): (&str, f64, fn(&MeshCycleRow) -> f64)| {
+    let position_mm: Vec<f64> = first.mesh_cycle.iter().map(|row| row.position_mm).collect();
+    let errors =
+        first.mesh_cycle.iter().flat_map(|row| [row.transmission_error_new_um, row.transmission_error_worn_um]);
+    let lag_mm = 1e-3 * errors.map(f64::abs).fold(0.0, f64::max);
+    let compared = |(name, factor, of, bound): (&str, f64, ColumnOfCycle, f64)| {
         let mine: Vec<f64> = first.mesh_cycle.iter().map(of).collect();
         let mut theirs: Vec<f64> = other.mesh_cycle.iter().map(of).collect();
         if follows.exchanged {
             theirs.reverse();
         }
+        if follows.lags && mine.len() == theirs.len() {
+            theirs = nearest(&position_mm, lag_mm, &mine, factor, &theirs);
+        }
         Measured::new(name, difference(&mine, &theirs, factor), bound)
     };
     columns.map(compared).into()
+}
+
+/// `factor` times `mine`, a column at the positions `position_mm`, with what is left of the difference of `theirs` from what that is anywhere within
+/// `lag_mm`.
+fn nearest(position_mm: &[f64], lag_mm: f64, mine: &[f64], factor: f64, theirs: &[f64]) -> Vec<f64> {
+    let within = |at: f64| {
+        let between = position_mm.iter().zip(mine).filter(move |(position, _)| (*position - at).abs() < lag_mm);
+        let ends = [at - lag_mm, at + lag_mm].map(|end| value_at(position_mm, mine, end));
+        between.map(|(_, &value)| value).chain(ends).map(|value| factor * value)
+    };
+    let of = |((&at, &own), &their): ((&f64, &f64), &f64)| {
+        let (least, most) = within(at).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        factor * own + their - their.max(least).min(most)
+    };
+    position_mm.iter().zip(mine).zip(theirs).map(of).collect()
 }
 
 /// Greatest |theirs − factor · mine| over the greatest of `factor · mine`; columns of different lengths differ wholly.
@@ -146,8 +192,8 @@ pub(super) fn summaries(first: &impl Serialize, other: &impl Serialize, besides:
     worst
 }
 
-/// What differs between runs that are alike.
-const NOT_COMPARED: [&str; 12] = [
+/// What differs between runs that are alike; the remainder of a split that is exact is rounding.
+const NOT_COMPARED: [&str; 13] = [
     "stages",
     "wall_s",
     "scene_hash",
@@ -158,6 +204,7 @@ const NOT_COMPARED: [&str; 12] = [
     "report",
     "invariants",
     "error",
+    "stiffness.split_remainder_at_half_load",
     "new.load_imbalance",
     "worn.load_imbalance",
 ];
@@ -202,6 +249,14 @@ mod tests {
         assert!(difference(&[1.0], &[f64::NAN], 1.0).is_nan());
         assert_eq!(difference(&[1.0], &[], 1.0), f64::INFINITY);
         assert_eq!(mirrored(&[1.0, 2.0, 3.0, 4.0], 2), [3.0, 4.0, 1.0, 2.0]);
+    }
+
+    #[test]
+    fn what_lags_is_held_against_what_is_near() {
+        // Within 0.5 mm of each position the column takes 0…0.5, 0.5…2, 2…3 and 3.
+        let held = |theirs: [f64; 4]| nearest(&[0.0, 1.0, 2.0, 3.0], 0.5, &[0.0, 1.0, 3.0, 3.0], 1.0, &theirs);
+        assert_eq!(held([0.5, 0.5, 2.0, 3.0]), [0.0, 1.0, 3.0, 3.0]);
+        assert_eq!(held([1.0, 2.5, 1.0, 3.5]), [0.5, 1.5, 2.0, 3.5]);
     }
 
     #[test]

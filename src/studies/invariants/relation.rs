@@ -4,6 +4,7 @@ use toml::Table;
 
 use super::carried_out::Ended;
 use super::comparison::Measured;
+use super::scene_table::{number, with};
 use crate::results::run::RunRecord;
 
 /// A relation of the suite.
@@ -37,11 +38,26 @@ pub(crate) enum Verdict {
     Measured { scene: Table, figures: Vec<Measured> },
 }
 
+/// Points or positions over those of the scene, where its own are too few for its contacts.
+pub(super) const FINER: f64 = 4.0;
+
+impl Verdict {
+    fn is_beyond(&self) -> bool {
+        match self {
+            Verdict::Measured { figures, .. } => figures.iter().any(|figure| figure.used() > 1.0),
+            Verdict::NotOfThisScene | Verdict::Ended { .. } => false,
+        }
+    }
+}
+
 impl Subject<'_> {
-    /// Runs the scene `other` and judges its record.
+    /// Runs the scene `other` and judges its record; without a figure nothing is said of the scene.
     pub(super) fn beside(&self, other: Table, judge: impl FnOnce(&RunRecord) -> Vec<Measured>) -> Verdict {
         match (self.run)(&other) {
-            Ok(record) => Verdict::Measured { figures: judge(&record), scene: other },
+            Ok(record) => match judge(&record) {
+                figures if figures.is_empty() => Verdict::NotOfThisScene,
+                figures => Verdict::Measured { figures, scene: other },
+            },
             Err(how) => Verdict::Ended { scene: other, how },
         }
     }
@@ -56,6 +72,24 @@ impl Subject<'_> {
         match (self.run)(&one) {
             Ok(first) => self.beside(other, |second| judge(&first, second)),
             Err(how) => Verdict::Ended { scene: one, how },
+        }
+    }
+
+    /// Runs what `other` makes of the scene and judges both; where they are beyond a bound, `key` may be too small a number for the scene's contacts, and
+    /// both at four times the number are what is judged.
+    pub(super) fn refined(
+        &self,
+        key: &str,
+        other: impl Fn(&Table) -> Table,
+        judge: impl Fn(&RunRecord, &RunRecord) -> Vec<Measured>,
+    ) -> Verdict {
+        let verdict = self.beside(other(self.table), |record| judge(self.record, record));
+        match number(self.table, key).filter(|_| verdict.is_beyond()) {
+            Some(count) => {
+                let finer = with(self.table, key, (FINER * count) as i64);
+                self.two(finer.clone(), other(&finer), judge)
+            }
+            None => verdict,
         }
     }
 }

@@ -299,4 +299,13 @@ mod tests {
         assert_eq!((one.ran, one.runs), (early.ran + late.ran, early.runs + late.runs));
         assert!(one.ran > 0);
     }
+
+    /// Wear of the simplified model became less at flank points (seed 1, 602), and a contact window grew or not by rounding (seed 3, 268).
+    #[test]
+    fn reg_scenes_that_broke_a_statement_hold() {
+        for (seed, first) in [(1, 602), (3, 268)] {
+            let record = run(Asked { seed, first, count: 1 }, 1, &Unwatched);
+            assert_eq!((record.ran, &record.violations[..]), (1, &[][..]), "{seed} {first}");
+        }
+    }
 }

@@ -26,6 +26,11 @@ pub(super) fn has_fixed_steps(table: &Table) -> bool {
     gives(table, "numerics.step.revolutions")
 }
 
+/// Tolerance of adaptive steps, where the scene asks for them and says it.
+pub(super) fn tolerance_of_steps_um(table: &Table) -> Option<f64> {
+    number(table, "numerics.tolerance_um").filter(|_| !has_fixed_steps(table))
+}
+
 /// Whether both gears have one coefficient in all phases.
 pub(super) fn has_one_coefficient(table: &Table) -> bool {
     !["wear.pinion", "wear.wheel"].iter().any(|whose| gives(table, whose))

@@ -1,17 +1,16 @@
 //! What is known at the contacts of every slice, brought onto the points of the flanks.
 //!
 //! Along each slice contacts follow each other from A to E, each in the middle of its stretch of the path, for which its values are the
-//! mean. Over the stretch a quantity runs straight through that mean, with the gentler of the slopes towards both neighbours, and none
-//! where they disagree or one is missing,
+//! mean. From the middle of a stretch of length h_j a quantity runs straight to the mean of it and its neighbour at their common end,
 //!
 //! ```text
-//! v(ξ) = v_j + minmod((v_j − v_{j−1})/(ξ_j − ξ_{j−1}), (v_{j+1} − v_j)/(ξ_{j+1} − ξ_j)) (ξ − ξ_j)
+//! v(ξ) = (1 − t) v_j + t v_n        t = 2 |ξ − ξ_j|/h_j · h_n/(h_j + h_n)
 //! ```
 //!
-//! so that what all stretches have worn is kept, jumps where other slices come or go stay sharp, and nothing rises above its
-//! neighbours. A point whose share of the flank reaches beyond A or E counts for the part of it that does not.
-//!
-//! Source: B. van Leer, *J. Comput. Phys.* 32 (1979) 101–136, for slopes that keep means and monotony.
+//! but where slices come or go between both: there, and up to A and E, each stretch keeps its value, and the jump stays sharp. No weight is
+//! negative and none depends on the values, so that what every contact adds to its wear adds to that of the points around it, in any order,
+//! and nothing rises above its neighbours. What all stretches together have worn is kept. A point whose share of the flank reaches beyond
+//! A or E counts for the part of it that does not.
 
 use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 
@@ -22,8 +21,17 @@ pub(crate) struct Knot {
     pub position_mm: f64,
     /// Where its stretch of the path ends.
     pub upper_mm: f64,
+    /// Whether slices come or go at that end.
+    pub jumps: bool,
     /// Where its values are kept: batch and lane.
     pub at: (usize, usize),
+}
+
+impl Knot {
+    /// h, which the contact stands in the middle of.
+    fn length_mm(&self) -> f64 {
+        2.0 * (self.upper_mm - self.position_mm)
+    }
 }
 
 /// A point of a flank that wears.
@@ -35,22 +43,6 @@ struct Point {
     position_mm: f64,
     /// Part of its share of the flank that lies within A–E.
     part: f64,
-}
-
-/// The slope of each value at each knot.
-fn slopes<const N: usize>(knots: &[Knot], values: &[[f64; N]]) -> Vec<[f64; N]> {
-    let minmod = |a: f64, b: f64| if a * b <= 0.0 { 0.0 } else { a.signum() * a.abs().min(b.abs()) };
-    let mut slopes = vec![[0.0; N]; knots.len()];
-    // Towards the knot before.
-    let mut before = [0.0; N];
-    for (j, (two, values)) in knots.windows(2).zip(values.windows(2)).enumerate() {
-        let distance = two[1].position_mm - two[0].position_mm;
-        let per_distance = if distance > 0.0 { 1.0 / distance } else { 0.0 };
-        let after: [f64; N] = std::array::from_fn(|k| (values[1][k] - values[0][k]) * per_distance);
-        slopes[j] = std::array::from_fn(|k| minmod(before[k], after[k]));
-        before = after;
-    }
-    slopes
 }
 
 /// The points of both flanks, in the order of the path.
@@ -95,14 +87,61 @@ impl FlankPoints {
         mut put: impl FnMut(usize, f64, [f64; N]),
     ) {
         let Some(last) = knots.len().checked_sub(1) else { return };
-        let slopes = slopes(knots, values);
         let mut own = 0;
         for point in &self.points[gear] {
             while own < last && knots[own].upper_mm <= point.position_mm {
                 own += 1;
             }
             let beyond = point.position_mm - knots[own].position_mm;
-            put(point.index, point.part, std::array::from_fn(|k| values[own][k] + beyond * slopes[own][k]));
+            let neighbour = if beyond > 0.0 { own + 1 } else { own.saturating_sub(1) };
+            let neighbour = if neighbour > last || knots[own.min(neighbour)].jumps { own } else { neighbour };
+            let [h_j, h_n] = [own, neighbour].map(|knot| knots[knot].length_mm());
+            let t = if neighbour == own { 0.0 } else { 2.0 * beyond.abs() / h_j * h_n / (h_j + h_n) };
+            // Rounding too leaves a sum of such products no less where a value grows.
+            let value = |k: usize| (1.0 - t) * values[own][k] + t * values[neighbour][k];
+            put(point.index, point.part, std::array::from_fn(value));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values at points of the pinion's flank 0.25 mm apart, of stretches of 1, 1, 2 and 1 mm, the last of which begins with a jump.
+    fn at_points(values: [f64; 4]) -> Vec<f64> {
+        let stretches = [(0.5, 1.0), (1.5, 2.0), (3.0, 4.0), (4.5, 5.0)];
+        let knot = |(k, (position_mm, upper_mm))| Knot { position_mm, upper_mm, jumps: k == 2, at: (0, k) };
+        let knots: Vec<Knot> = stretches.into_iter().enumerate().map(knot).collect();
+        let point = |index: usize| Point { index, position_mm: 0.25 * index as f64 + 0.125, part: 1.0 };
+        let points = FlankPoints { points: PerGear { pinion: (0..20).map(point).collect(), wheel: Vec::new() } };
+        let mut found = vec![0.0; 20];
+        points.bring(Gear::Pinion, &knots, &values.map(|value| [value]), |index, part, [value]| {
+            found[index] = part * value
+        });
+        found
+    }
+
+    /// Straight between the middles of stretches, level at the ends of the path and at a jump; what the stretches have is kept.
+    #[test]
+    fn ver_straight_between_contacts_and_sharp_at_jumps() {
+        let found = at_points([1.0, 2.0, 4.0, 9.0]);
+        assert_eq!(
+            (&found[..3], &found[12..]),
+            (&[1.0, 1.0, 1.125][..], &[4.0, 4.0, 4.0, 4.0, 9.0, 9.0, 9.0, 9.0][..])
+        );
+        assert!((0.25 * found.iter().sum::<f64>() - (1.0 + 2.0 + 2.0 * 4.0 + 9.0)).abs() < 1e-14);
+    }
+
+    /// What wears on is nowhere less deep, whatever its course becomes, and wear adds up.
+    #[test]
+    fn ver_wear_never_becomes_less_at_a_point() {
+        let (early, more) = ([0.0, 1.0, 1.0, 4.0], [0.3, 0.0, 1.0, 0.0]);
+        let late = std::array::from_fn(|k| early[k] + more[k]);
+        let (early, more, late) = (at_points(early), at_points(more), at_points(late));
+        assert!(early.iter().zip(&late).all(|(early, late)| early <= late));
+        assert!(
+            late.iter().zip(early.iter().zip(more)).all(|(late, (early, more))| (late - early - more).abs() < 1e-15)
+        );
     }
 }

@@ -3,7 +3,7 @@
 use crate::gear::Gear;
 use crate::results::run::{MeshCycleRow, RunRecord};
 use crate::studies::invariants::comparison::{Bounds, Follows, Measured, compare};
-use crate::studies::invariants::relation::{Relation, Subject, Verdict};
+use crate::studies::invariants::relation::{FINER, Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{gives, number, scaled, value, with};
 use crate::studies::invariants::traits_of_scene::{has_fixed_steps, is_hard_severe, is_sliced, takes_stable_steps};
 
@@ -72,7 +72,10 @@ fn relief_opens(subject: &Subject<'_>) -> Verdict {
     let (Some(width), false) = (number(table, "pair.face_width_mm"), is_sliced(table)) else {
         return Verdict::NotOfThisScene;
     };
-    let mut other = table.clone();
+    let Some(points) = number(table, "numerics.flank_points") else { return Verdict::NotOfThisScene };
+    // 50 points put the kink of a relief to 1 % of the transmission error, and flanks with another relief have other points.
+    let one = with(table, "numerics.flank_points", (FINER * points) as i64);
+    let mut other = one.clone();
     for gear in Gear::BOTH {
         let of = |key: &str| format!("pair.{}.tip_relief.{key}", gear.name());
         if gives(table, &of("amount_um")) {
@@ -82,7 +85,7 @@ fn relief_opens(subject: &Subject<'_>) -> Verdict {
             other = with(&other, &of("length_mm"), 0.05 * width);
         }
     }
-    subject.beside(other, |record| less_error(subject.record, record))
+    subject.two(one, other, less_error)
 }
 
 fn longer(subject: &Subject<'_>) -> Verdict {

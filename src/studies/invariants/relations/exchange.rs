@@ -1,6 +1,6 @@
 //! Gears exchanged, and the face width turned round.
 
-use toml::Value;
+use toml::{Table, Value};
 
 use super::{ROUNDING, SOLVED};
 use crate::studies::invariants::comparison::{Bounds, Follows, compare};
@@ -8,6 +8,7 @@ use crate::studies::invariants::relation::{Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{exchange_gears, number, scaled, with, word};
 use crate::studies::invariants::traits_of_scene::{
     follows_tip_edges, has_heat_or_oil, is_hard_severe, is_on, is_severe, is_sliced, takes_stable_steps,
+    tolerance_of_steps_um,
 };
 
 pub(super) const RELATIONS: &[Relation] = &[
@@ -16,14 +17,15 @@ pub(super) const RELATIONS: &[Relation] = &[
         states: "A mesh without friction runs backwards as it runs forwards: driven by the other gear, each gear wears as before.",
         bound: "without slices, from A to E: a stretch of the path too short to hold a position goes to the one before it, seen from E to another, 0.2 % of \
                 the volume and 0.1 % of the transmission error; where tip edges are followed, whose lever on the driving gear is by some hundredths \
-                another: 10 % of the volume and 3 % of the transmission error; two to four slices at other positions: 15 % of it",
+                another: 10 % of the volume and 3 % of the transmission error within as far on the path as that is great; two to four slices at other \
+                positions: 15 % of it; worn by adaptive steps numerics.tolerance_um",
         is_rare: false,
         check: roles,
     },
     Relation {
         name: "face width turned round",
         states: "With helix angle, slopes, shaft ends and axes turned round, wear over the face width is turned round.",
-        bound: "solver tolerance",
+        bound: "solver tolerance; worn by adaptive steps numerics.tolerance_um",
         is_rare: false,
         check: mirror,
     },
@@ -42,25 +44,42 @@ fn roles(subject: &Subject<'_>) -> Verdict {
     if z1 == z2 && word(table, "stiffness.model") == Some("iso6336") {
         return Verdict::NotOfThisScene;
     }
-    let u = z2 / z1;
-    let mut other = scaled(table, &|key| match key {
-        "pinion_torque_Nm" => u,
-        "pinion_speed_rpm" | "pinion_revolutions" | "revolutions" | "snapshots_revolutions" => 1.0 / u,
-        // Backwards, the slice that was the first to enter is the last.
-        "helix_angle_deg" => -1.0,
-        _ => 1.0,
-    });
-    exchange_gears(&mut other);
-    let no_point = Bounds { wear: f64::INFINITY, volume: 0.1, pressure: f64::INFINITY, cycle: 0.03 };
+    let backwards = |table: &Table| {
+        let u = z2 / z1;
+        let mut other = scaled(table, &|key| match key {
+            "pinion_torque_Nm" => u,
+            "pinion_speed_rpm" | "pinion_revolutions" | "revolutions" | "snapshots_revolutions" => 1.0 / u,
+            // Backwards, the slice that was the first to enter is the last.
+            "helix_angle_deg" => -1.0,
+            _ => 1.0,
+        });
+        exchange_gears(&mut other);
+        other
+    };
+    // Points in another order: adaptive steps take their probes as noise by the number of a point.
+    let tolerance_um = tolerance_of_steps_um(table);
+    let no_point = Bounds { wear: f64::INFINITY, volume: 0.1, pressure: f64::INFINITY, cycle: 0.03, tolerance_um };
     let bounds = match (is_sliced(table), follows_tip_edges(table)) {
         // Positions of slices lie over one base pitch, which does not look the same from both ends, and a slice of a few that comes in moves
         // the transmission error by its share.
         (true, _) => Bounds { cycle: 0.15, ..no_point },
         (false, true) => no_point,
-        (false, false) => Bounds { wear: 0.02, volume: 2e-3, pressure: 0.2, cycle: 1e-3 },
+        (false, false) => Bounds { wear: 0.02, volume: 2e-3, pressure: 0.2, cycle: 1e-3, tolerance_um },
     };
-    let follows = Follows { exchanged: true, ..Follows::default() };
-    subject.beside(other, |record| compare(subject.record, record, &follows, bounds))
+    let bounds = match (is_on(table, "hertz-mean"), is_sliced(table)) {
+        // A slice comes in all at once: a position at the jump is on one side of it or on the other.
+        (true, true) => Bounds { cycle: f64::INFINITY, ..bounds },
+        _ => bounds,
+    };
+    // Positions are those of the driving gear, behind which the driven one stays by the transmission error: so far apart are the two runs' tip edges.
+    let lags = follows_tip_edges(table);
+    let follows = Follows { exchanged: true, lags, ..Follows::default() };
+    subject.refined("numerics.positions", backwards, |one, other| {
+        match takes_stable_steps(one) && takes_stable_steps(other) {
+            true => compare(one, other, &follows, bounds),
+            false => Vec::new(),
+        }
+    })
 }
 
 fn mirror(subject: &Subject<'_>) -> Verdict {
@@ -79,6 +98,6 @@ fn mirror(subject: &Subject<'_>) -> Verdict {
         }
     }
     let follows = Follows { mirrored: true, ..Follows::default() };
-    let bounds = Bounds { cycle: SOLVED, ..Bounds::all(1e3 * ROUNDING) };
+    let bounds = Bounds { cycle: SOLVED, tolerance_um: tolerance_of_steps_um(table), ..Bounds::all(1e3 * ROUNDING) };
     subject.beside(other, |record| compare(subject.record, record, &follows, bounds))
 }

@@ -7,25 +7,28 @@ use crate::results::run::RunRecord;
 use crate::studies::invariants::comparison::{Bounds, Follows, Measured, compare, difference};
 use crate::studies::invariants::relation::{Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{number, phases, scaled, with};
-use crate::studies::invariants::traits_of_scene::{has_fixed_steps, has_one_coefficient, is_on, is_sliced};
+use crate::studies::invariants::traits_of_scene::{
+    has_finite_elements, has_fixed_steps, has_one_coefficient, is_sliced,
+};
 
-/// Coefficients are divided by so much: wear of at most 2e-3 modules becomes 2e-9 modules, which changes contact by as much of itself.
-const SMALL: f64 = 1e-6;
-/// What is left of the effect of wear on contact: a depth of 2e-9 modules beside an approach of 1e-4 modules and more.
-const FEEDBACK: f64 = 3e-4;
+/// Coefficients are divided by so much: wear of at most 2e-3 modules becomes 2e-12 modules, which changes contact by as much of itself.
+const SMALL: f64 = 1e-9;
+/// What is left of the effect of wear on contact: a depth of 2e-12 modules, up to a hundred times as deep where wear is severe, beside an approach
+/// of 1e-4 modules and more; and ten times that where a severe rate rises over a band of a few hundredths of the pressure.
+const FEEDBACK: f64 = 2e-5;
 
 pub(super) const RELATIONS: &[Relation] = &[
     Relation {
         name: "phases add up",
         states: "Wear so small that it changes no contact: that of a load spectrum is the sum of what each phase wears by itself.",
-        bound: "effect of the wear left on the contact, 3e-4",
+        bound: "effect of the wear left on the contact, 2e-5",
         is_rare: true,
         check: phases_add_up,
     },
     Relation {
         name: "coefficient of one gear",
         states: "Twice the coefficient of the wheel alone, wear being that small: twice its wear, and the pinion's as before.",
-        bound: "effect of the wear left on the contact, 3e-4",
+        bound: "effect of the wear left on the contact, 2e-5",
         is_rare: false,
         check: of_one_gear,
     },
@@ -41,8 +44,8 @@ fn hardly_worn(table: &Table) -> Table {
 
 fn phases_add_up(subject: &Subject<'_>) -> Verdict {
     let table = subject.table;
-    let Some(all) = phases(table).filter(|_| has_fixed_steps(table) && !is_on(table, "fem") && !is_simplified(table))
-    else {
+    // Finite elements are as fine as the greatest load of all phases asks.
+    let Some(all) = phases(table).filter(|_| has_fixed_steps(table) && !has_finite_elements(table)) else {
         return Verdict::NotOfThisScene;
     };
     // Slices are as stiff in all phases as in that of the greatest load.
@@ -71,11 +74,6 @@ fn phases_add_up(subject: &Subject<'_>) -> Verdict {
     })
 }
 
-/// Whether the run keeps its wear at contact points of the simplified model, which lie by the load of the phases.
-fn is_simplified(table: &Table) -> bool {
-    is_on(table, "hertz-mean") && is_sliced(table)
-}
-
 /// The scene with one of its phases alone.
 fn only(table: &Table, phase: &Value) -> Table {
     let duration = phase.get("pinion_revolutions").and_then(Value::as_float).unwrap_or_default();
@@ -94,6 +92,6 @@ fn of_one_gear(subject: &Subject<'_>) -> Verdict {
     let one = hardly_worn(table);
     let other = with(&one, &format!("wear.wheel.{key}"), 2.0 * SMALL * coefficient);
     let follows = Follows { depth: PerGear { pinion: 1.0, wheel: 2.0 }, ..Follows::default() };
-    let bounds = Bounds { wear: FEEDBACK, volume: FEEDBACK, pressure: FEEDBACK, cycle: FEEDBACK };
+    let bounds = Bounds::all(FEEDBACK);
     subject.two(one, other, |one, other| compare(one, other, &follows, bounds))
 }
