@@ -77,7 +77,7 @@ impl CondensedPair<'_> {
         let PlacedTeeth { pair, slave, tooth, half_width_mm, ref edges, turn, master_axis_mm, .. } = *placed;
         let (own, mate) = (&self.flanks[slave], &self.flanks[slave.mate()]);
         let master: Vec<(usize, Vector2<f64>)> =
-            mate.from_tip_to_root().map(|node| (node, turn * mate.surface.points_mm[node] + master_axis_mm)).collect();
+            mate.tip_to_root().map(|node| (node, turn * mate.surface.points_mm[node] + master_axis_mm)).collect();
         let mut in_window = vec![false; own.surface.points_mm.len()];
         for edge in &own.surface.edges[edges[slave].clone()] {
             edge.nodes().iter().for_each(|&node| in_window[node] = true);
@@ -108,7 +108,7 @@ impl CondensedPair<'_> {
             Some(beside)
         };
         let mut nodes: Vec<BesideNode> =
-            own.from_tip_to_root().filter(|&node| !in_window[node]).filter_map(beside).collect();
+            own.tip_to_root().filter(|&node| !in_window[node]).filter_map(beside).collect();
         let along_mm: Vec<f64> = nodes.iter().map(|at| own.from_tip_mm[at.node]).collect();
         let probes = probes(&along_mm, PROBES_APART * half_width_mm);
         for (after, ends) in probes.windows(2).enumerate() {

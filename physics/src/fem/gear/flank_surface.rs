@@ -49,7 +49,7 @@ impl FlankSurface {
     }
 
     /// Local numbers of the nodes in their order.
-    pub(crate) fn from_tip_to_root(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn tip_to_root(&self) -> impl Iterator<Item = usize> {
         let before_ends = self.surface.edges.iter().flat_map(|edge| {
             let nodes = edge.nodes();
             std::iter::once(nodes[0]).chain(nodes.get(2).copied())

@@ -60,6 +60,8 @@ pub struct Prepared {
 pub(super) struct Sideways {
     /// B⊥ C Bᵀ.
     pub compliance: Mat<f64>,
+    /// B⊥ C B⊥ᵀ.
+    pub along: Mat<f64>,
     pub level_compliance: Mat<f64>,
     pub level_rigid: Mat<f64>,
 }

@@ -4,17 +4,18 @@
 //! the load on the gears, and where the teeth give way to. With B⊥ the coupling along the flank where B is that across it,
 //!
 //! ```text
-//! B(θ) = B + Θ B⊥      B(θ) C B(θ)ᵀ = B C Bᵀ + Θ B⊥ C Bᵀ + (Θ B⊥ C Bᵀ)ᵀ      B(θ) r = B r + Θ B⊥ r
+//! B(θ) = B + Θ B⊥      B(θ) C B(θ)ᵀ = B C Bᵀ + Θ B⊥ C Bᵀ + (Θ B⊥ C Bᵀ)ᵀ + Θ B⊥ C B⊥ᵀ Θ      B(θ) r = B r + Θ B⊥ r
 //! ```
 //!
-//! but for θ². Θ is the same for all multipliers of a contact, the mean of the tilt under its load: the flanks in contact have one
+//! Θ is the same for all multipliers of a contact, the mean of the tilt under its load: the flanks in contact have one
 //! direction, whatever waves of wear there are in it. A tooth pair that touches in two places, on the line of action and on a ridge, has a
-//! direction in each. B⊥ C Bᵀ is found once for a position, and only where the tilt matters.
+//! direction in each. B⊥ C Bᵀ and B⊥ C B⊥ᵀ are found once for a position, and only where the tilt matters.
 
 use std::f64::consts::FRAC_PI_2;
 
 use faer::Mat;
 use nalgebra::Rotation2;
+use sprs::CsMat;
 
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::{FacingTeeth, turned};
@@ -36,13 +37,14 @@ impl CondensedPair<'_> {
         if prepared.sideways.is_none() {
             prepared.sideways = Some(self.sideways(prepared));
         }
-        let Some(Sideways { compliance, level_compliance, level_rigid }) = &prepared.sideways else { return };
+        let Some(Sideways { compliance, along, level_compliance, level_rigid }) = &prepared.sideways else { return };
         let of_rows = &tilt_rad;
         let condensed = &mut prepared.condensed;
         for j in 0..of_rows.len() {
             for i in 0..of_rows.len() {
                 let turned = of_rows[i] * compliance[(i, j)] + of_rows[j] * compliance[(j, i)];
-                condensed.compliance[(i, j)] = level_compliance[(i, j)] + turned;
+                let turned_twice = of_rows[i] * along[(i, j)] * of_rows[j];
+                condensed.compliance[(i, j)] = level_compliance[(i, j)] + turned + turned_twice;
             }
             condensed.rigid[(j, 0)] = level_rigid[(j, 0)] + of_rows[j] * prepared.along_rotation[j];
         }
@@ -51,19 +53,22 @@ impl CondensedPair<'_> {
 
     fn sideways(&self, prepared: &Prepared) -> Sideways {
         let rows = prepared.along_rotation.len();
-        let mut compliance = Mat::zeros(rows, rows);
+        let (mut compliance, mut along) = (Mat::zeros(rows, rows), Mat::zeros(rows, rows));
         for gear in Gear::BOTH {
-            for facing in &prepared.facings {
-                let along = turned(&facing.operator[gear], Rotation2::new(-FRAC_PI_2));
-                for other in &prepared.facings {
-                    let between = self.gears[gear].between(other.tooth[gear], facing.tooth[gear]);
+            let turned = |facing: &FacingTeeth| turned(&facing.operator[gear], Rotation2::new(-FRAC_PI_2));
+            let sideways: Vec<CsMat<f64>> = prepared.facings.iter().map(turned).collect();
+            for (facing, own) in prepared.facings.iter().zip(&sideways) {
+                for (other, others) in prepared.facings.iter().zip(&sideways) {
+                    let between = || self.gears[gear].between(other.tooth[gear], facing.tooth[gear]);
                     let places = (facing.first_row, other.first_row);
-                    add_sandwich(&mut compliance, places, &along, between, &other.operator[gear], false);
+                    add_sandwich(&mut compliance, places, own, between(), &other.operator[gear], false);
+                    add_sandwich(&mut along, places, own, between(), others, false);
                 }
             }
         }
         Sideways {
             compliance,
+            along,
             level_compliance: prepared.condensed.compliance.clone(),
             level_rigid: prepared.condensed.rigid.clone(),
         }
