@@ -79,6 +79,17 @@ pub struct Log {
     pub factorisations: usize,
 }
 
+impl Log {
+    /// Goes on with `later`, which is empty then.
+    pub(crate) fn append(&mut self, later: &mut Log) {
+        let Log { mut steps, changes, cycles_broken, factorisations } = std::mem::take(later);
+        self.steps.append(&mut steps);
+        self.changes += changes;
+        self.cycles_broken += cycles_broken;
+        self.factorisations += factorisations;
+    }
+}
+
 /// Why there is no equilibrium.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ActiveSetError {

@@ -487,11 +487,12 @@ impl LoadedPosition {
                 *transfers = step.model.load_transfers(prepared, *stretch_mm, *turned_mm, step.nodes, None);
                 (*windows, *about_rad) = (prepared.windows(), None);
             }
-            for (contact, tilt_rad) in transfers.iter().zip(prepared.tilts_rad()) {
-                contact.open_gaps(step.worn.depth_mm, tilt_rad, gap_mm);
+            for contact in transfers.iter() {
+                contact.open_gaps(step.worn.depth_mm, |row| prepared.tilt_rad(row), gap_mm);
             }
         };
-        let solved = step.model.solve(prepared, &mut opening);
+        let depth_mm = |gear: Gear, node: usize| step.worn.depth_mm[gear][step.nodes[gear].place[node]];
+        let solved = step.model.solve(prepared, &mut opening, &depth_mm);
         let found = solved.map_err(|source| EquilibriumError::Contact { position_mm, source })?;
         let newton_iterations = found.log.steps.len() as u64;
         let pair_evaluations = newton_iterations * prepared.tooth_pairs() as u64;

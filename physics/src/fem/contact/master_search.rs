@@ -21,7 +21,7 @@ use super::edge::{shape, shape_derivative};
 use super::surface::{Surface, SurfaceEdge};
 
 /// Surfaces whose normals differ from opposite by more than this angle's cosine do not face each other.
-const LEAST_FACING: f64 = 0.1;
+pub(crate) const LEAST_FACING: f64 = 0.1;
 const PARALLEL: f64 = 1e-12;
 
 /// A stretch of a slave edge that faces one master edge.

@@ -20,6 +20,8 @@ use crate::gear::{Gear, PerGear};
 
 /// Rows at an inner end of the window that must stay without load.
 const FREE_ROWS: usize = 3;
+/// How far beyond an overlap the window reaches, in its own half-lengths.
+const BEYOND_OVERLAP: f64 = 0.5;
 
 /// Which way a displacement of the flanks is looked at.
 #[derive(Debug, Clone, Copy)]
@@ -30,8 +32,8 @@ pub(super) enum Direction {
     AlongFlank,
 }
 
-/// How far around the expected contact multipliers are looked for.
-#[derive(Debug, Clone, Copy)]
+/// Where multipliers are looked for: around the expected contact, and as far as flanks overlapped beside an earlier window.
+#[derive(Debug, Clone)]
 pub(super) struct Window {
     /// Tooth pairs on either side of the reference pair.
     pub beside: i32,
@@ -41,6 +43,44 @@ pub(super) struct Window {
     pub half_widths: f64,
     /// Distance between the flanks within which they may come to touch, mm.
     pub reach_mm: f64,
+    /// One of a tooth pair at most.
+    pub overlaps: Vec<Overlap>,
+}
+
+/// Where the flanks of a tooth pair overlapped beside its window.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Overlap {
+    pub pair: i32,
+    /// From and to on either flank, from its tip end, mm.
+    pub from_tip_mm: PerGear<[f64; 2]>,
+}
+
+/// Two teeth in their places, and the parts of their flanks that are looked at.
+pub(super) struct PlacedTeeth {
+    pub pair: i32,
+    pub slave: Gear,
+    /// Their places among the fine ones.
+    pub tooth: PerGear<usize>,
+    /// Hertz half-width of contact under the whole load.
+    pub half_width_mm: f64,
+    /// Edges of each flank in the window.
+    pub edges: PerGear<Range<usize>>,
+    /// From the frame of the master's tooth to that of the slave's: a turn, and where the master's axis lies.
+    pub turn: Rotation2<f64>,
+    pub master_axis_mm: Vector2<f64>,
+    /// Expected contact from the slave's tip end, mm.
+    expected_mm: f64,
+    /// The pinion's axis in the frame of the slave's tooth.
+    pinion_axis_mm: Vector2<f64>,
+}
+
+/// Loaded rows of a tooth pair that belong together, by their places from tip to root.
+struct LoadedRows {
+    first: usize,
+    last: usize,
+    load: f64,
+    /// Each row's load times its tilt.
+    tilted_load: f64,
 }
 
 /// A tooth pair prepared for contact.
@@ -62,24 +102,33 @@ pub(super) struct FacingTeeth {
     pub inner_ends: (bool, bool),
     /// Its rows from tip to root.
     pub from_tip: Vec<usize>,
+    /// Distance from the slave's tip end of each of these, mm.
+    along_mm: Vec<f64>,
+    /// Hertz half-width of contact under the whole load.
+    half_width_mm: f64,
     pub first_row: usize,
 }
 
 impl CondensedPair<'_> {
-    /// All tooth pairs that may touch with the reference pair at `position_mm`, rows numbered through.
-    pub(super) fn facings(&self, position_mm: f64, window: &Window) -> Vec<FacingTeeth> {
-        let mut first_row = 0;
-        (-window.beside..=window.beside)
-            .filter_map(|pair| {
-                let mut facing = self.facing(position_mm, pair, window)?;
-                facing.first_row = first_row;
-                first_row += facing.coupling.len();
-                Some(facing)
-            })
-            .collect()
+    /// All tooth pairs whose tip circles reach each other with the reference pair at `position_mm`.
+    pub(super) fn placed_teeth(&self, position_mm: f64, window: &Window) -> Vec<PlacedTeeth> {
+        let pairs = -window.beside..=window.beside;
+        pairs.filter_map(|pair| self.placed(position_mm, pair, window)).collect()
     }
 
-    fn facing(&self, position_mm: f64, pair: i32, window: &Window) -> Option<FacingTeeth> {
+    /// Those with anything in their window that may touch, rows numbered through.
+    pub(super) fn facings(&self, placed: &[PlacedTeeth], window: &Window) -> Vec<FacingTeeth> {
+        let mut first_row = 0;
+        let facing = |placed: &PlacedTeeth| {
+            let mut facing = self.facing(placed, window)?;
+            facing.first_row = first_row;
+            first_row += facing.coupling.len();
+            Some(facing)
+        };
+        placed.iter().filter_map(facing).collect()
+    }
+
+    fn placed(&self, position_mm: f64, pair: i32, window: &Window) -> Option<PlacedTeeth> {
         let path = &self.pair.path;
         let own_mm = position_mm + f64::from(pair) * path.base_pitch_mm;
         let [before_mm, after_mm] = self.pair.farthest_touch_mm();
@@ -92,17 +141,40 @@ impl CondensedPair<'_> {
         let expected = self.expected_from_tip_mm(position_mm, pair, own_mm);
         let half_width_mm = hertz_half_width_mm(self.pair, self.contact_modulus_mpa, window.line_load_n_per_mm, own_mm);
         let window_mm = window.half_widths * half_width_mm;
+        let overlap = window.overlaps.iter().find(|overlap| overlap.pair == pair);
         let edges = PerGear::from_fn(|gear| {
             // The master must be met over the whole of the slave's window, also where it is seen a little askew.
-            let window = if gear == slave { window_mm } else { 1.3 * window_mm };
-            self.flanks[gear].edges_between(expected[gear] - window, expected[gear] + window)
+            let window_mm = if gear == slave { window_mm } else { 1.3 * window_mm };
+            let mut ends_mm = [expected[gear] - window_mm, expected[gear] + window_mm];
+            if let Some(Overlap { from_tip_mm, .. }) = overlap {
+                let beyond_mm = BEYOND_OVERLAP * window_mm;
+                let [from_mm, to_mm] = from_tip_mm[gear];
+                ends_mm = [ends_mm[0].min(from_mm - beyond_mm), ends_mm[1].max(to_mm + beyond_mm)];
+            }
+            self.flanks[gear].edges_between(ends_mm[0], ends_mm[1])
         });
-        let inner_ends = (edges[slave].start > 0, edges[slave].end < self.flanks[slave].surface.edges.len());
         // Both in the frame of the slave's tooth.
         let angle_rad = |gear| tooth_angle_rad(self.pair, gear, position_mm, pair);
         let from_slave = |point: Vector2<f64>| Rotation2::new(-angle_rad(slave)) * (point - axis_mm(self.pair, slave));
-        let turn = Rotation2::new(angle_rad(master) - angle_rad(slave));
-        let master_axis_mm = from_slave(axis_mm(self.pair, master));
+        let middle = (self.gears.pinion.teeth() / 2) as i32;
+        Some(PlacedTeeth {
+            pair,
+            slave,
+            // The pair ahead is the next anticlockwise tooth of the pinion, and the next clockwise one of the wheel.
+            tooth: PerGear { pinion: (middle + pair) as usize, wheel: (middle - pair) as usize },
+            half_width_mm,
+            edges,
+            turn: Rotation2::new(angle_rad(master) - angle_rad(slave)),
+            master_axis_mm: from_slave(axis_mm(self.pair, master)),
+            expected_mm: expected[slave],
+            pinion_axis_mm: from_slave(axis_mm(self.pair, Gear::Pinion)),
+        })
+    }
+
+    fn facing(&self, placed: &PlacedTeeth, window: &Window) -> Option<FacingTeeth> {
+        let PlacedTeeth { slave, ref edges, turn, master_axis_mm, .. } = *placed;
+        let master = slave.mate();
+        let inner_ends = (edges[slave].start > 0, edges[slave].end < self.flanks[slave].surface.edges.len());
         let slave_part = self.flanks[slave].surface.part(edges[slave].clone());
         let master_part =
             self.flanks[master].surface.part(edges[master].clone()).placed(|x| turn * x + master_axis_mm, |n| turn * n);
@@ -113,24 +185,24 @@ impl CondensedPair<'_> {
         let from_tip_mm = |row: &usize| self.flanks[slave].from_tip_mm[coupling.nodes[*row]];
         let mut from_tip: Vec<usize> = (0..coupling.len()).collect();
         from_tip.sort_by(|a, b| from_tip_mm(a).total_cmp(&from_tip_mm(b)));
+        let along_mm = from_tip.iter().map(from_tip_mm).collect();
         let of_master = turned(&coupling.master, turn.inverse());
         let operator = match slave {
             Gear::Pinion => PerGear { pinion: coupling.slave.clone(), wheel: of_master },
             Gear::Wheel => PerGear { pinion: of_master, wheel: coupling.slave.clone() },
         };
-        let middle = (self.gears.pinion.teeth() / 2) as i32;
-        // The pair ahead is the next anticlockwise tooth of the pinion, and the next clockwise one of the wheel.
-        let tooth = PerGear { pinion: (middle + pair) as usize, wheel: (middle - pair) as usize };
         Some(FacingTeeth {
-            pair,
+            pair: placed.pair,
             slave,
-            tooth,
+            tooth: placed.tooth,
             coupling,
-            edges,
+            edges: edges.clone(),
             operator,
-            expected_mm: expected[slave],
-            pinion_axis_mm: from_slave(axis_mm(self.pair, Gear::Pinion)),
+            expected_mm: placed.expected_mm,
+            pinion_axis_mm: placed.pinion_axis_mm,
             inner_ends,
+            along_mm,
+            half_width_mm: placed.half_width_mm,
             from_tip,
             first_row: 0,
         })
@@ -185,7 +257,7 @@ impl CondensedPair<'_> {
     }
 
     /// Displacement of a candidate column of the pinion per transmission error, `direction` being that of the column's normal.
-    fn rotation(&self, column: usize, direction: Direction) -> f64 {
+    pub(super) fn rotation(&self, column: usize, direction: Direction) -> f64 {
         let point = self.flanks.pinion.surface.points_mm[column / 2];
         let r_b = self.pair.path.involute.pinion.base_radius_mm;
         let [x, y] = match direction {
@@ -197,11 +269,69 @@ impl CondensedPair<'_> {
     }
 }
 
+impl Window {
+    /// Reaches as far as `overlap`, too.
+    pub(super) fn reach_to(&mut self, overlap: Overlap) {
+        let Some(known) = self.overlaps.iter_mut().find(|known| known.pair == overlap.pair) else {
+            return self.overlaps.push(overlap);
+        };
+        for gear in Gear::BOTH {
+            let ([from, to], [other_from, other_to]) = (known.from_tip_mm[gear], overlap.from_tip_mm[gear]);
+            known.from_tip_mm[gear] = [from.min(other_from), to.max(other_to)];
+        }
+    }
+}
+
 impl FacingTeeth {
     /// Distance of a node of the slave from the expected contact, towards the pinion's tip.
     pub(super) fn towards_pinion_tip_mm(&self, slave: &FlankSurface, node: usize) -> f64 {
         let from_tip_mm = slave.from_tip_mm[node] - self.expected_mm;
         if self.slave == Gear::Pinion { -from_tip_mm } else { from_tip_mm }
+    }
+
+    /// Sets for each of its rows what it has of what `tilt_rad` is at the slave's nodes: within a half-width of loaded rows the mean over the
+    /// load of their contact, farther off the mean over a half-width to either side. Loaded rows farther apart than a half-width belong to two
+    /// contacts. Without load nothing is set.
+    pub(super) fn set_mean_tilts(&self, force: &[f64], tilt_rad: impl Fn(usize) -> f64, of_rows: &mut [f64]) {
+        let tilt_rad = |at: usize| tilt_rad(self.coupling.nodes[self.from_tip[at]]);
+        let mut contacts: Vec<LoadedRows> = Vec::new();
+        for (at, row) in self.from_tip.iter().enumerate() {
+            let force = force[self.first_row + row];
+            if force <= 0.0 {
+                continue;
+            }
+            match contacts.last_mut() {
+                Some(contact) if self.along_mm[at] - self.along_mm[contact.last] <= self.half_width_mm => {
+                    contact.last = at;
+                    contact.load += force;
+                    contact.tilted_load += force * tilt_rad(at);
+                }
+                _ => contacts.push(LoadedRows { first: at, last: at, load: force, tilted_load: force * tilt_rad(at) }),
+            }
+        }
+        if contacts.is_empty() {
+            return;
+        }
+        let ([mut from, mut to], mut sum) = ([0, 0], 0.0);
+        for (at, row) in self.from_tip.iter().enumerate() {
+            let here_mm = self.along_mm[at];
+            while to < self.along_mm.len() && self.along_mm[to] <= here_mm + self.half_width_mm {
+                sum += tilt_rad(to);
+                to += 1;
+            }
+            while self.along_mm[from] < here_mm - self.half_width_mm {
+                sum -= tilt_rad(from);
+                from += 1;
+            }
+            let off_mm = |contact: &LoadedRows| {
+                (self.along_mm[contact.first] - here_mm).max(here_mm - self.along_mm[contact.last])
+            };
+            let nearest = contacts.iter().min_by(|a, b| off_mm(a).total_cmp(&off_mm(b)));
+            of_rows[self.first_row + row] = match nearest {
+                Some(contact) if off_mm(contact) <= self.half_width_mm => contact.tilted_load / contact.load,
+                _ => sum / (to - from) as f64,
+            };
+        }
     }
 
     /// Whether load comes close to an inner end of the window, so that it may have been cut off.

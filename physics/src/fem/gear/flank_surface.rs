@@ -48,6 +48,15 @@ impl FlankSurface {
         self.surface.edges.last().map_or(0, |edge| edge.nodes()[1])
     }
 
+    /// Local numbers of the nodes in their order.
+    pub(crate) fn tip_to_root(&self) -> impl Iterator<Item = usize> {
+        let before_ends = self.surface.edges.iter().flat_map(|edge| {
+            let nodes = edge.nodes();
+            std::iter::once(nodes[0]).chain(nodes.get(2).copied())
+        });
+        before_ends.chain(std::iter::once(self.root_node()))
+    }
+
     /// Distance from the tip end of the point with radius of curvature `rho_mm`, within the surface, mm.
     pub(crate) fn distance_to_tip_mm(&self, rho_mm: f64) -> f64 {
         let mut nearest = (f64::INFINITY, 0.0);

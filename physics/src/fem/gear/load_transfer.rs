@@ -125,11 +125,11 @@ impl LoadTransfer {
     }
 
     /// Adds to the gaps of the position's rows what flanks that have lost `depth_mm` at their nodes open them by. Where the coupling is
-    /// that of flanks tilted by `tilt_rad` ([`super::tilted`]), it opens them by what material of the slave is off along that tilt already.
-    pub(crate) fn open_gaps(&self, depth_mm: PerGear<&[f64]>, tilt_rad: f64, gap_mm: &mut [f64]) {
-        let by_tilt_mm = tilt_rad * self.slave_off_mm;
+    /// that of flanks tilted by `tilt_rad` at a row ([`super::tilted`]), it opens them by what material of the slave is off along that tilt already.
+    pub(crate) fn open_gaps(&self, depth_mm: PerGear<&[f64]>, tilt_rad: impl Fn(usize) -> f64, gap_mm: &mut [f64]) {
         for (i, gap) in gap_mm[self.first_row..self.first_row + self.len()].iter_mut().enumerate() {
             let opening_mm = |gear: Gear| self.means[gear].opening_mm(i, depth_mm[gear]);
+            let by_tilt_mm = tilt_rad(self.first_row + i) * self.slave_off_mm;
             *gap += opening_mm(Gear::Pinion) + opening_mm(Gear::Wheel) + self.beyond_rule_mm[i] - by_tilt_mm;
         }
     }
@@ -420,15 +420,17 @@ fn faced_mm(
     loaded_mm: [f64; 2],
 ) -> [f64; 2] {
     // FacingTeeth flanks run against each other at equal lengths, but for their curvature.
-    let foot = |k: usize| feet.get(&k).map(|foot| foot.along_mm);
-    let neighbour = |k: Option<usize>| k.and_then(|k| Some((own.along_mm.get(k).copied()?, foot(k)?)));
-    let (before, after) = (neighbour(place.checked_sub(1)), neighbour(Some(place + 1)));
-    let here = (own.along_mm[place], foot(place));
-    let (at, met) = match (here, before, after) {
-        ((at, Some(met)), ..) => (at, met),
-        (_, Some((at, met)), _) | (_, None, Some((at, met))) => (at, met),
-        ((at, None), None, None) => (at, 0.0),
+    let foot = |(&k, foot): (&usize, &Foot)| (own.along_mm[k], foot.along_mm);
+    let is_beside = |(k, _): &(&usize, &Foot)| place.abs_diff(**k) == 1;
+    let (next_before, next_after) = (feet.range(..place).next_back(), feet.range(place + 1..).next());
+    let (before, after) = (next_before.filter(is_beside).map(foot), next_after.filter(is_beside).map(foot));
+    // Beyond the end of the master: as far from the nearest foot.
+    let nearest = || match (next_before, next_after) {
+        (Some(before), Some(after)) => Some(if place - before.0 <= after.0 - place { before } else { after }),
+        (before, after) => before.or(after),
     };
+    let here = feet.get_key_value(&place).or_else(nearest).map(foot);
+    let Some((at, met)) = here else { return [0.0; 2] };
     let slope = |other: Option<(f64, f64)>| match other {
         Some((other_at, other_met)) if other_at != at => (other_met - met) / (other_at - at),
         _ => -1.0,

@@ -1,5 +1,6 @@
 //! Finite-element contact of a gear pair: each gear condensed once, every position a small contact problem.
 
+mod beside_window;
 pub mod condensed_pair;
 pub mod cycle;
 mod facing_teeth;

@@ -11,7 +11,7 @@ use crate::fem::solid::{Element, ElementKind, Solid};
 use crate::fem::stress::{StressComponent, StressRecovery};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::{Body, BodySettings, SectorSides};
-use crate::gear_mesh::{Cell, ToothMeshError, ToothSector, gear_sector, touching_pairs};
+use crate::gear_mesh::{Cell, FlankChain, ToothMeshError, ToothSector, gear_sector, touching_pairs};
 use crate::mesh::CellKind;
 
 /// Nodes of one flank whose compliance among three teeth takes [`GB_OF_MOST_NODES`].
@@ -247,10 +247,11 @@ impl MeshedGear {
         self.joined(pair, sector(&self.fine, half_angle_rad(pair, self.gear), nodes), material)
     }
 
-    /// The working flank as a contact surface.
+    /// The working flank as a contact surface, down to where the involute ends: what lies below the resolved part touches a mate that
+    /// has worn deeply.
     pub fn flank(&self) -> FlankSurface {
-        let (chain, rho_mm) = self.fine.working_flank.resolved_nodes();
-        FlankSurface::new(chain, rho_mm, &self.fine.points_mm, self.sharp)
+        let FlankChain { nodes, rho_mm, .. } = &self.fine.working_flank;
+        FlankSurface::new(nodes, rho_mm, &self.fine.points_mm, self.sharp)
     }
 
     fn joined(&self, pair: &GearPair, fine: Sector, material: Elastic) -> Result<GearCompliance, ModelError> {

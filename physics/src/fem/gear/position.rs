@@ -107,7 +107,7 @@ impl<'a> CondensedPair<'a> {
 
     fn solve_from(&self, mut prepared: Prepared, warm: &WarmStart) -> Result<PositionContact, ActiveSetError> {
         prepared.active = start(&prepared.facings, &self.flanks, warm);
-        let found = self.solve(&mut prepared, &mut |_, _| {})?;
+        let found = self.solve(&mut prepared, &mut |_, _| {}, &|_, _| 0.0)?;
         Ok(self.read(&prepared, found))
     }
 

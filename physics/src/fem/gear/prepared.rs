@@ -13,10 +13,11 @@
 use faer::Mat;
 use sprs::CsMat;
 
+use super::beside_window::BesideWindow;
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::{Direction, FacingTeeth, Window};
 use super::ring::Between;
-use crate::fem::active_set::{ActiveSetError, Condensed, Equilibrium, Kept};
+use crate::fem::active_set::{ActiveSetError, Condensed, Equilibrium, Kept, Log};
 use crate::gear::Gear;
 
 /// Distance between the flanks within which they may come to touch, in units of line load over E*: an approach is some
@@ -39,11 +40,13 @@ pub struct Prepared {
     pub position_mm: f64,
     window: Window,
     pub(super) facings: Vec<FacingTeeth>,
+    /// Of each tooth pair.
+    beside: Vec<BesideWindow>,
     pub(super) condensed: Condensed,
     /// Change of each row's place along the flank, from root to tip, per transmission error.
     pub(super) along_rotation: Vec<f64>,
     pub(super) sideways: Option<Sideways>,
-    /// Of each tooth pair's flanks; empty: not at all.
+    /// Of the flanks at each row; empty: not at all.
     pub(super) tilt_rad: Vec<f64>,
     unworn_gap_mm: Vec<f64>,
     /// Where the next solution starts.
@@ -57,6 +60,8 @@ pub struct Prepared {
 pub(super) struct Sideways {
     /// B⊥ C Bᵀ.
     pub compliance: Mat<f64>,
+    /// B⊥ C B⊥ᵀ.
+    pub along: Mat<f64>,
     pub level_compliance: Mat<f64>,
     pub level_rigid: Mat<f64>,
 }
@@ -83,11 +88,14 @@ impl<'a> CondensedPair<'a> {
             line_load_n_per_mm,
             half_widths: FIRST_WINDOW,
             reach_mm: FIRST_REACH * line_load_n_per_mm / self.contact_modulus_mpa,
+            overlaps: Vec::new(),
         }
     }
 
     fn observe(&self, position_mm: f64, window: Window) -> Prepared {
-        let facings = self.facings(position_mm, &window);
+        let placed = self.placed_teeth(position_mm, &window);
+        let facings = self.facings(&placed, &window);
+        let beside = placed.iter().map(|placed| self.beside_window(placed, window.reach_mm)).collect();
         let condensed = self.condensed(&facings, window.line_load_n_per_mm);
         let along_rotation =
             facings.iter().flat_map(|facing| self.by_rotation(facing, Direction::AlongFlank)).collect();
@@ -96,6 +104,7 @@ impl<'a> CondensedPair<'a> {
             window,
             unworn_gap_mm: condensed.gap_mm.clone(),
             facings,
+            beside,
             condensed,
             along_rotation,
             sideways: None,
@@ -106,27 +115,55 @@ impl<'a> CondensedPair<'a> {
         }
     }
 
-    /// Solves a prepared position, in a wider window where contact comes close to the end of the first. `opening` adds to the gaps of the
-    /// unworn flanks what these are opened by: each time anew where the window is wider, and so has other multipliers.
+    /// Solves a prepared position, in a wider window where contact comes close to the end of the first or the flanks overlap beside it.
+    /// `opening` adds to the gaps of the unworn flanks what these are opened by: each time anew where the window is wider, and so has other
+    /// multipliers; `depth_mm` is what the local nodes of a gear's flank have lost.
     pub fn solve(
         &self,
         prepared: &mut Prepared,
         opening: &mut dyn FnMut(&Prepared, &mut [f64]),
+        depth_mm: &dyn Fn(Gear, usize) -> f64,
     ) -> Result<Equilibrium, ActiveSetError> {
+        let mut log = Log::default();
         for attempt in 1..=MOST_WINDOWS {
             prepared.open_gaps(opening);
             let last = attempt == MOST_WINDOWS;
-            match prepared.condensed.solve_with(prepared.active.as_deref(), &mut prepared.kept) {
-                Ok(found) if last || !prepared.is_cramped(&found) => {
+            let wider = match prepared.condensed.solve_with(prepared.active.as_deref(), &mut prepared.kept) {
+                Ok(mut found) => {
+                    log.append(&mut found.log);
+                    let wider = if last { None } else { self.wider_window(prepared, &found, depth_mm) };
                     prepared.active = Some(found.active.clone());
-                    return Ok(found);
+                    match wider {
+                        Some(wider) => wider,
+                        None => return Ok(Equilibrium { log, ..found }),
+                    }
                 }
                 Err(error) if last || !prepared.misses_contact(&error) => return Err(error),
-                // Flanks far relieved or worn touch elsewhere, and later.
-                Ok(_) | Err(_) => self.widen(prepared),
-            }
+                Err(_) => prepared.window.wider(),
+            };
+            self.widen(prepared, wider);
         }
         unreachable!("the last attempt returns")
+    }
+
+    /// Where flanks far relieved or worn touch beyond the window of `found`.
+    fn wider_window(
+        &self,
+        prepared: &mut Prepared,
+        found: &Equilibrium,
+        depth_mm: &dyn Fn(Gear, usize) -> f64,
+    ) -> Option<Window> {
+        if prepared.is_cramped(found) {
+            return Some(prepared.window.wider());
+        }
+        let Prepared { window, facings, beside, .. } = prepared;
+        let mut wider: Option<Window> = None;
+        for beside in beside {
+            if let Some(overlap) = self.overlap(beside, facings, found, depth_mm) {
+                wider.get_or_insert_with(|| window.clone()).reach_to(overlap);
+            }
+        }
+        wider
     }
 
     /// Makes a prepared position as if it had never been solved, and its wear never seen: it starts from no contact, in a window no
@@ -140,10 +177,8 @@ impl<'a> CondensedPair<'a> {
         }
     }
 
-    fn widen(&self, prepared: &mut Prepared) {
-        let Window { half_widths, reach_mm, .. } = prepared.window;
-        let wider = Window { half_widths: WIDER * half_widths, reach_mm: FARTHER * reach_mm, ..prepared.window };
-        let mut next = self.observe(prepared.position_mm, wider);
+    fn widen(&self, prepared: &mut Prepared, window: Window) {
+        let mut next = self.observe(prepared.position_mm, window);
         next.active = prepared.active.as_ref().map(|active| carried_over(&prepared.facings, active, &next.facings));
         next.windows = prepared.windows + 1;
         *prepared = next;
@@ -175,6 +210,13 @@ impl<'a> CondensedPair<'a> {
             }
         }
         Condensed { compliance, gap_mm, rigid, rigid_load: vec![-line_load_n_per_mm] }
+    }
+}
+
+impl Window {
+    fn wider(&self) -> Self {
+        let Self { half_widths, reach_mm, .. } = *self;
+        Self { half_widths: WIDER * half_widths, reach_mm: FARTHER * reach_mm, ..self.clone() }
     }
 }
 

@@ -4,16 +4,18 @@
 //! the load on the gears, and where the teeth give way to. With B⊥ the coupling along the flank where B is that across it,
 //!
 //! ```text
-//! B(θ) = B + Θ B⊥      B(θ) C B(θ)ᵀ = B C Bᵀ + Θ B⊥ C Bᵀ + (Θ B⊥ C Bᵀ)ᵀ      B(θ) r = B r + Θ B⊥ r
+//! B(θ) = B + Θ B⊥      B(θ) C B(θ)ᵀ = B C Bᵀ + Θ B⊥ C Bᵀ + (Θ B⊥ C Bᵀ)ᵀ + Θ B⊥ C B⊥ᵀ Θ      B(θ) r = B r + Θ B⊥ r
 //! ```
 //!
-//! but for θ². Θ is the same for all multipliers of a tooth pair, the mean of the tilt under its load: the flanks in contact have one
-//! direction, whatever waves of wear there are in it. B⊥ C Bᵀ is found once for a position, and only where the tilt matters.
+//! Θ is the same for all multipliers of a contact, the mean of the tilt under its load: the flanks in contact have one
+//! direction, whatever waves of wear there are in it. A tooth pair that touches in two places, on the line of action and on a ridge, has a
+//! direction in each. B⊥ C Bᵀ and B⊥ C B⊥ᵀ are found once for a position, and only where the tilt matters.
 
 use std::f64::consts::FRAC_PI_2;
 
 use faer::Mat;
 use nalgebra::Rotation2;
+use sprs::CsMat;
 
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::{FacingTeeth, turned};
@@ -30,19 +32,19 @@ pub(crate) struct Worn<'a> {
 }
 
 impl CondensedPair<'_> {
-    /// Takes the flanks of each tooth pair in contact to be tilted by `tilt_rad`; contact goes on from where it is.
+    /// Takes the flanks at each multiplier to be tilted by `tilt_rad`; contact goes on from where it is.
     pub fn tilt(&self, prepared: &mut Prepared, tilt_rad: Vec<f64>) {
         if prepared.sideways.is_none() {
             prepared.sideways = Some(self.sideways(prepared));
         }
-        let Some(Sideways { compliance, level_compliance, level_rigid }) = &prepared.sideways else { return };
-        let of_rows = prepared.facings.iter().zip(&tilt_rad);
-        let of_rows: Vec<f64> = of_rows.flat_map(|(facing, tilt)| vec![*tilt; facing.coupling.len()]).collect();
+        let Some(Sideways { compliance, along, level_compliance, level_rigid }) = &prepared.sideways else { return };
+        let of_rows = &tilt_rad;
         let condensed = &mut prepared.condensed;
         for j in 0..of_rows.len() {
             for i in 0..of_rows.len() {
                 let turned = of_rows[i] * compliance[(i, j)] + of_rows[j] * compliance[(j, i)];
-                condensed.compliance[(i, j)] = level_compliance[(i, j)] + turned;
+                let turned_twice = of_rows[i] * along[(i, j)] * of_rows[j];
+                condensed.compliance[(i, j)] = level_compliance[(i, j)] + turned + turned_twice;
             }
             condensed.rigid[(j, 0)] = level_rigid[(j, 0)] + of_rows[j] * prepared.along_rotation[j];
         }
@@ -51,19 +53,22 @@ impl CondensedPair<'_> {
 
     fn sideways(&self, prepared: &Prepared) -> Sideways {
         let rows = prepared.along_rotation.len();
-        let mut compliance = Mat::zeros(rows, rows);
+        let (mut compliance, mut along) = (Mat::zeros(rows, rows), Mat::zeros(rows, rows));
         for gear in Gear::BOTH {
-            for facing in &prepared.facings {
-                let along = turned(&facing.operator[gear], Rotation2::new(-FRAC_PI_2));
-                for other in &prepared.facings {
-                    let between = self.gears[gear].between(other.tooth[gear], facing.tooth[gear]);
+            let turned = |facing: &FacingTeeth| turned(&facing.operator[gear], Rotation2::new(-FRAC_PI_2));
+            let sideways: Vec<CsMat<f64>> = prepared.facings.iter().map(turned).collect();
+            for (facing, own) in prepared.facings.iter().zip(&sideways) {
+                for (other, others) in prepared.facings.iter().zip(&sideways) {
+                    let between = || self.gears[gear].between(other.tooth[gear], facing.tooth[gear]);
                     let places = (facing.first_row, other.first_row);
-                    add_sandwich(&mut compliance, places, &along, between, &other.operator[gear], false);
+                    add_sandwich(&mut compliance, places, own, between(), &other.operator[gear], false);
+                    add_sandwich(&mut along, places, own, between(), others, false);
                 }
             }
         }
         Sideways {
             compliance,
+            along,
             level_compliance: prepared.condensed.compliance.clone(),
             level_rigid: prepared.condensed.rigid.clone(),
         }
@@ -71,41 +76,32 @@ impl CondensedPair<'_> {
 }
 
 impl Prepared {
-    /// By how much the flanks of each tooth pair are tilted.
-    pub(crate) fn tilts_rad(&self) -> impl Iterator<Item = f64> {
-        (0..self.facings.len()).map(|pair| self.tilt_rad.get(pair).copied().unwrap_or(0.0))
+    /// By how much the flanks are tilted at a multiplier.
+    pub(crate) fn tilt_rad(&self, row: usize) -> f64 {
+        self.tilt_rad.get(row).copied().unwrap_or(0.0)
     }
 
-    /// How far each tooth pair's flank is tilted in the mean over the load of `force`, where it is tilted by `tilt_rad` at the local nodes
-    /// of a gear; none without load.
+    /// How far the flank is tilted at each multiplier under `force`, where it is tilted by `tilt_rad` at the local nodes of a gear.
     pub fn mean_tilts(&self, force: &[f64], tilt_rad: impl Fn(Gear, usize) -> f64) -> Vec<f64> {
-        let mean = |facing: &FacingTeeth| {
-            let (mut whole, mut sum) = (0.0, 0.0);
-            for (&node, force) in facing.coupling.nodes.iter().zip(&force[facing.first_row..]) {
-                if *force > 0.0 {
-                    whole += force;
-                    sum += force * tilt_rad(facing.slave, node);
-                }
-            }
-            if whole > 0.0 { sum / whole } else { 0.0 }
-        };
-        self.facings.iter().map(mean).collect()
+        let mut of_rows = vec![0.0; force.len()];
+        for facing in &self.facings {
+            facing.set_mean_tilts(force, |node| tilt_rad(facing.slave, node), &mut of_rows);
+        }
+        of_rows
     }
 
-    /// How much the levers of the tooth pairs' loads change on the pinion under `force` where the flanks tilt to `tilt_rad`, each
-    /// over itself and times the part of the load that the others carry: where one pair carries all, nothing changes but its lever.
+    /// How much the levers of the tooth pairs' loads change on the pinion under `force` where the flanks tilt to `tilt_rad` at the
+    /// multipliers, each over itself and times the part of the load that the others carry: where one pair carries all, nothing changes but its lever.
     pub fn lever_change(&self, force: &[f64], tilt_rad: &[f64]) -> f64 {
-        let of_pair = |(pair, facing): (usize, &FacingTeeth)| {
-            let turn = tilt_rad[pair] - self.tilt_rad.get(pair).unwrap_or(&0.0);
+        let of_pair = |facing: &FacingTeeth| {
             let (mut own, mut change) = (0.0, 0.0);
-            let rows = facing.first_row..facing.first_row + facing.coupling.len();
-            for ((row, force), along) in rows.clone().zip(&force[rows.clone()]).zip(&self.along_rotation[rows]) {
-                own -= force * self.condensed.rigid[(row, 0)];
-                change -= force * turn * along;
+            for row in facing.first_row..facing.first_row + facing.coupling.len() {
+                own -= force[row] * self.condensed.rigid[(row, 0)];
+                change -= force[row] * (tilt_rad[row] - self.tilt_rad(row)) * self.along_rotation[row];
             }
             (own, change)
         };
-        let pairs: Vec<(f64, f64)> = self.facings.iter().enumerate().map(of_pair).collect();
+        let pairs: Vec<(f64, f64)> = self.facings.iter().map(of_pair).collect();
         let whole: f64 = pairs.iter().map(|(own, _)| own).sum();
         let loaded = pairs.iter().filter(|(own, _)| *own > 0.0);
         loaded.map(|(own, change)| (change / own).abs() * (1.0 - own / whole)).fold(0.0, f64::max)
