@@ -328,6 +328,20 @@ fn ver_tilt_keeps_the_load_and_acts_in_proportion() {
     assert!(slope.abs() > 1e-3 * level, "{slope}");
 }
 
+/// B(θ) C B(θ)ᵀ takes work whatever the tilts, also where those of neighbouring multipliers are opposite: with its linear part alone it would not,
+/// for forces of changing sign, which hardly press but shear.
+#[test]
+fn ver_contact_is_found_whatever_the_tilts() {
+    let pair = pair(&fzg_c());
+    let model = condensed(&pair, 6.0);
+    let mut prepared = model.prepare(pair.path.start_mm + 2.0, line_load(&pair));
+    let level = model.solve(&mut prepared, &mut |_, _| {}, &|_, _| 0.0).expect("the contact is found");
+    model.tilt(&mut prepared, (0..level.force.len()).map(|row| if row % 2 == 0 { 0.3 } else { -0.3 }).collect());
+    let tilted = model.solve(&mut prepared, &mut |_, _| {}, &|_, _| 0.0).expect("the contact is found");
+    let pairs = model.tooth_pairs(&prepared, &tilted);
+    assert_close("line load", pairs.iter().map(|own| own.line_load_n_per_mm).sum(), line_load(&pair), 1e-9);
+}
+
 /// A worn plastic flank touches in two places, on the line of action and on the ridge in which its wear ends. Half-planes look along the whole
 /// flank, finite elements in a window that grows where flanks overlap beside it: both find one transmission error at every position, within what
 /// 250 flank points and two elements in a half-width make of it. Where the ridge was not seen, they were 45 µm apart.

@@ -40,8 +40,6 @@ pub(super) struct BesideWindow {
     /// The least of these.
     first_touch_mm: f64,
     probes: Vec<Probe>,
-    /// Nodes that would overlap if rigid, and their gaps; empty but while they are looked at.
-    overlapping: Vec<(usize, f64)>,
 }
 
 struct BesideNode {
@@ -124,7 +122,7 @@ impl CondensedPair<'_> {
             |at: &BesideNode| if at.by_rotation < 0.0 { -at.gap_mm / at.by_rotation } else { f64::INFINITY };
         let touch_at_mm: Vec<f64> = nodes.iter().map(touch_at_mm).collect();
         let first_touch_mm = touch_at_mm.iter().copied().fold(f64::INFINITY, f64::min);
-        BesideWindow { pair, slave, tooth, nodes, touch_at_mm, first_touch_mm, probes, overlapping: Vec::new() }
+        BesideWindow { pair, slave, tooth, nodes, touch_at_mm, first_touch_mm, probes }
     }
 
     /// Where the flanks overlap beside the window of `facings`, in which `found` holds them apart; `depth_mm` is what the local nodes of a
@@ -140,15 +138,14 @@ impl CondensedPair<'_> {
         if turned_mm <= beside.first_touch_mm {
             return None;
         }
-        beside.find_overlapping(turned_mm, depth_mm);
-        let unknown = beside.probes_without_compliance();
+        let overlapping = beside.overlapping(turned_mm, depth_mm);
+        let unknown = beside.probes_without_compliance(&overlapping);
         if !unknown.is_empty() {
             self.find_compliance(beside, &unknown, facings);
         }
         beside.probes.iter_mut().for_each(|probe| probe.yields_mm = None);
-        let mut overlapping = std::mem::take(&mut beside.overlapping);
         let mut from_tip_mm: Option<PerGear<[f64; 2]>> = None;
-        for (at, if_rigid_mm) in overlapping.drain(..) {
+        for (at, if_rigid_mm) in overlapping {
             let yields_mm = beside.yields_mm(at, &found.force);
             if if_rigid_mm + yields_mm >= -OVERLOOKED * turned_mm {
                 continue;
@@ -164,7 +161,6 @@ impl CondensedPair<'_> {
                 ends_mm[gear] = [from_mm.min(along_mm[gear]), to_mm.max(along_mm[gear])];
             }
         }
-        beside.overlapping = overlapping;
         from_tip_mm.map(|from_tip_mm| Overlap { pair: beside.pair, from_tip_mm })
     }
 
@@ -202,27 +198,25 @@ fn probes(along_mm: &[f64], apart_mm: f64) -> Vec<usize> {
 }
 
 impl BesideWindow {
-    /// Finds the nodes that would overlap if the flanks were rigid.
-    fn find_overlapping(&mut self, turned_mm: f64, depth_mm: &dyn Fn(Gear, usize) -> f64) {
+    /// Nodes that would overlap if the flanks were rigid, and their gaps.
+    fn overlapping(&self, turned_mm: f64, depth_mm: &dyn Fn(Gear, usize) -> f64) -> Vec<(usize, f64)> {
         let (slave, master) = (self.slave, self.slave.mate());
-        for (at, node) in self.nodes.iter().enumerate().filter(|(at, _)| self.touch_at_mm[*at] < turned_mm) {
+        let if_rigid_mm = |(at, node): (usize, &BesideNode)| {
             let mates_mm = node.at_foot(|node| depth_mm(master, node));
             let worn_mm = depth_mm(slave, node.node) + mates_mm / node.cosine;
             let gap_mm = node.gap_mm + worn_mm + node.by_rotation * turned_mm;
-            if gap_mm < 0.0 {
-                self.overlapping.push((at, gap_mm));
-            }
-        }
+            (gap_mm < 0.0).then_some((at, gap_mm))
+        };
+        let may_touch = self.nodes.iter().enumerate().filter(|(at, _)| self.touch_at_mm[*at] < turned_mm);
+        may_touch.filter_map(if_rigid_mm).collect()
     }
 
-    /// The probes around those nodes where it is not known how far the flanks give way.
-    fn probes_without_compliance(&self) -> Vec<usize> {
-        let mut unknown = Vec::new();
-        for (probe, _) in self.overlapping.iter().flat_map(|(at, _)| self.nodes[*at].probes) {
-            if self.probes[probe].compliance.is_none() && !unknown.contains(&probe) {
-                unknown.push(probe);
-            }
-        }
+    /// The probes around these nodes where it is not known how far the flanks give way.
+    fn probes_without_compliance(&self, overlapping: &[(usize, f64)]) -> Vec<usize> {
+        let around = overlapping.iter().flat_map(|(at, _)| self.nodes[*at].probes.map(|(probe, _)| probe));
+        let mut unknown: Vec<usize> = around.filter(|probe| self.probes[*probe].compliance.is_none()).collect();
+        unknown.sort_unstable();
+        unknown.dedup();
         unknown
     }
 

@@ -186,30 +186,38 @@ impl<'a> CondensedPair<'a> {
 
     fn condensed(&self, facings: &[FacingTeeth], line_load_n_per_mm: f64) -> Condensed {
         let rows = facings.iter().map(|facing| facing.coupling.len()).sum();
-        let mut compliance = Mat::zeros(rows, rows);
         let mut rigid = Mat::zeros(rows, 1);
         let mut gap_mm = Vec::with_capacity(rows);
-        for (a, facing) in facings.iter().enumerate() {
+        for facing in facings {
             gap_mm.extend_from_slice(&facing.coupling.gap_mm);
             for (i, change) in self.by_rotation(facing, Direction::AcrossFlank).enumerate() {
                 rigid[(facing.first_row + i, 0)] = change;
             }
-            for other in &facings[..=a] {
-                let places = (facing.first_row, other.first_row);
-                for gear in Gear::BOTH {
-                    let between = self.gears[gear].between(other.tooth[gear], facing.tooth[gear]);
-                    // Symmetric: what lies above the diagonal follows below.
-                    let half = facing.first_row == other.first_row;
-                    add_sandwich(&mut compliance, places, &facing.operator[gear], between, &other.operator[gear], half);
-                }
-            }
         }
-        for i in 0..rows {
-            for j in i + 1..rows {
-                compliance[(i, j)] = compliance[(j, i)];
-            }
+        let mut compliance = Mat::zeros(rows, rows);
+        for gear in Gear::BOTH {
+            let operators: Vec<&CsMat<f64>> = facings.iter().map(|facing| &facing.operator[gear]).collect();
+            self.add_symmetric_sandwich(&mut compliance, facings, gear, &operators);
         }
+        mirror_below(&mut compliance);
         Condensed { compliance, gap_mm, rigid, rigid_load: vec![-line_load_n_per_mm] }
+    }
+
+    /// Adds L C Lᵀ of a gear on and below the diagonal to `sum`, `operators` being L of each tooth pair.
+    pub(super) fn add_symmetric_sandwich(
+        &self,
+        sum: &mut Mat<f64>,
+        facings: &[FacingTeeth],
+        gear: Gear,
+        operators: &[&CsMat<f64>],
+    ) {
+        for (a, (facing, own)) in facings.iter().zip(operators).enumerate() {
+            for (other, others) in facings[..=a].iter().zip(operators) {
+                let places = (facing.first_row, other.first_row);
+                let between = self.gears[gear].between(other.tooth[gear], facing.tooth[gear]);
+                add_sandwich(sum, places, own, between, others, facing.first_row == other.first_row);
+            }
+        }
     }
 }
 
@@ -281,6 +289,15 @@ fn carried_over(before: &[FacingTeeth], active: &[bool], after: &[FacingTeeth]) 
     };
     let rows = after.iter().flat_map(|facing| facing.coupling.nodes.iter().map(|&node| (facing.pair, node)));
     rows.map(|(pair, node)| was_active(pair, node)).collect()
+}
+
+/// Has above the diagonal what lies below it.
+pub(super) fn mirror_below(matrix: &mut Mat<f64>) {
+    for i in 0..matrix.nrows() {
+        for j in i + 1..matrix.ncols() {
+            matrix[(i, j)] = matrix[(j, i)];
+        }
+    }
 }
 
 /// Adds `left · Cᵀ · rightᵀ`, or the `half` of it on and below the diagonal, at `places` of `sum`; `compliance` is C, a row for a

@@ -19,7 +19,7 @@ use sprs::CsMat;
 
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::{FacingTeeth, turned};
-use super::prepared::{Prepared, Sideways, add_sandwich};
+use super::prepared::{Prepared, Sideways, add_sandwich, mirror_below};
 use crate::gear::{Gear, PerGear};
 
 /// What flanks have lost and how that tilts them.
@@ -57,15 +57,16 @@ impl CondensedPair<'_> {
         for gear in Gear::BOTH {
             let turned = |facing: &FacingTeeth| turned(&facing.operator[gear], Rotation2::new(-FRAC_PI_2));
             let sideways: Vec<CsMat<f64>> = prepared.facings.iter().map(turned).collect();
+            self.add_symmetric_sandwich(&mut along, &prepared.facings, gear, &sideways.iter().collect::<Vec<_>>());
             for (facing, own) in prepared.facings.iter().zip(&sideways) {
-                for (other, others) in prepared.facings.iter().zip(&sideways) {
-                    let between = || self.gears[gear].between(other.tooth[gear], facing.tooth[gear]);
+                for other in &prepared.facings {
+                    let between = self.gears[gear].between(other.tooth[gear], facing.tooth[gear]);
                     let places = (facing.first_row, other.first_row);
-                    add_sandwich(&mut compliance, places, own, between(), &other.operator[gear], false);
-                    add_sandwich(&mut along, places, own, between(), others, false);
+                    add_sandwich(&mut compliance, places, own, between, &other.operator[gear], false);
                 }
             }
         }
+        mirror_below(&mut along);
         Sideways {
             compliance,
             along,
