@@ -342,6 +342,26 @@ fn ver_contact_is_found_whatever_the_tilts() {
     assert_close("line load", pairs.iter().map(|own| own.line_load_n_per_mm).sum(), line_load(&pair), 1e-9);
 }
 
+/// Flanks that have lost the same depth everywhere touch where new ones do, only later: no window grows, for the flanks are held apart by what they have lost
+/// and bend away from each other beside their contact.
+#[test]
+fn ver_windows_of_evenly_worn_flanks_do_not_grow() {
+    // With the approach of some 30 µm less than four fifths of the distance that the first window looks across, 25 w/E*.
+    const DEPTH_MM: f64 = 0.02;
+    let pair = pair(&fzg_c());
+    let model = condensed(&pair, 6.0);
+    for k in 0..12 {
+        let position_mm = pair.path.start_mm + pair.path.base_pitch_mm * f64::from(k) / 12.0;
+        let mut prepared = model.prepare(position_mm, line_load(&pair));
+        let new = model.solve(&mut prepared, &mut |_, _| {}, &|_, _| 0.0).expect("the contact is found");
+        let windows = prepared.windows();
+        let opened = &mut |_: &_, gap_mm: &mut [f64]| gap_mm.iter_mut().for_each(|gap| *gap += 2.0 * DEPTH_MM);
+        let worn = model.solve(&mut prepared, opened, &|_, _| DEPTH_MM).expect("the contact is found");
+        assert_eq!((windows, prepared.windows()), (1, 1), "at {position_mm} mm");
+        assert_close("transmission error", worn.rigid[0] - new.rigid[0], 2.0 * DEPTH_MM, 1e-2);
+    }
+}
+
 /// A worn plastic flank touches in two places, on the line of action and on the ridge in which its wear ends. Half-planes look along the whole
 /// flank, finite elements in a window that grows where flanks overlap beside it: both find one transmission error at every position, within what
 /// 250 flank points and two elements in a half-width make of it. Where the ridge was not seen, they were 45 µm apart.

@@ -108,3 +108,77 @@ impl Prepared {
         loaded.map(|(own, change)| (change / own).abs() * (1.0 - own / whole)).fold(0.0, f64::max)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fem::elastic::Elastic;
+    use crate::gear::GearPair;
+    use crate::gear::modification::Modification;
+    use crate::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
+    use crate::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
+
+    /// FZG type A gears with sharp tips (DIN 51354-1).
+    fn fzg_a() -> GearPair {
+        let gear = |teeth, profile_shift| GearSpec {
+            teeth,
+            profile_shift,
+            tip_diameter_mm: None,
+            tooth_thickness_allowance_mm: 0.0,
+            bore_diameter_mm: None,
+            modification: Modification::default(),
+            shaft: None,
+        };
+        let spec = PairSpec {
+            normal_module_mm: 4.5,
+            normal_pressure_angle_rad: 20f64.to_radians(),
+            helix_angle_rad: 0.0,
+            centre_distance_mm: 91.5,
+            face_width_mm: 20.0,
+            rack: BasicRack::default(),
+            axis_parallelism: AxisParallelism::default(),
+            gears: PerGear { pinion: gear(16, 0.8635), wheel: gear(24, -0.5103) },
+        };
+        GearPair::new(&spec).expect("the pair of the test exists")
+    }
+
+    /// What tilting makes of the compliance is B(θ) C B(θ)ᵀ of the tilted coupling itself.
+    #[test]
+    fn the_compliance_is_that_of_the_tilted_coupling() {
+        let pair = fzg_a();
+        let settings = BodySettings {
+            body: Body::Ring,
+            clamp_radius_mm: PerGear::from_fn(|gear| {
+                default_clamp(pair.teeth[gear].root_radius_mm, pair.spec.normal_module_mm).radius_mm
+            }),
+            web: NO_WEBS,
+            elements_per_half_width: 2.0,
+        };
+        let steel = Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 };
+        let material = PerGear { pinion: steel, wheel: steel };
+        let line_load_n_per_mm = 300.0;
+        let model = CondensedPair::build(&pair, &material, line_load_n_per_mm, &settings, &|_| {});
+        let model = model.expect("the pair of the test can be condensed");
+        let mut prepared = model.prepare(pair.path.start_mm + 2.0, line_load_n_per_mm);
+        let tilt_rad: Vec<f64> = (0..prepared.along_rotation.len()).map(|row| 0.3 * (row as f64).sin()).collect();
+        model.tilt(&mut prepared, tilt_rad.clone());
+        let mut expected = Mat::zeros(tilt_rad.len(), tilt_rad.len());
+        for gear in Gear::BOTH {
+            let tilted = |facing: &FacingTeeth| {
+                let across = &facing.operator[gear];
+                let mut along = turned(across, Rotation2::new(-FRAC_PI_2));
+                for (row, mut entries) in along.outer_iterator_mut().enumerate() {
+                    entries.iter_mut().for_each(|(_, value)| *value *= tilt_rad[facing.first_row + row]);
+                }
+                across + &along
+            };
+            let operators: Vec<CsMat<f64>> = prepared.facings.iter().map(tilted).collect();
+            let operators: Vec<&CsMat<f64>> = operators.iter().collect();
+            model.add_symmetric_sandwich(&mut expected, &prepared.facings, gear, &operators);
+        }
+        mirror_below(&mut expected);
+        assert!(prepared.facings.len() > 1, "two pairs are in contact");
+        let off = (&prepared.condensed.compliance - &expected).norm_max();
+        assert!(off < 1e-12 * expected.norm_max(), "{off} of {}", expected.norm_max());
+    }
+}
