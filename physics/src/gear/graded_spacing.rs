@@ -59,12 +59,11 @@ struct Distances {
 impl Distances {
     fn new(pair: &GearPair, gear: Gear) -> Self {
         let (tooth, module_mm) = (&pair.teeth[gear], pair.spec.normal_module_mm);
-        let modification = &pair.spec.gears[gear].modification;
         let arc_mm = |rho_mm: f64| tooth.involute.arc_mm(rho_mm.max(0.0));
         let (tip_rho_mm, start_rho_mm) = (tooth.tip_rho_mm(), pair.active_start_rho_mm(gear));
         let (tip_mm, start_mm) = (arc_mm(tip_rho_mm), arc_mm(start_rho_mm));
         let widest_mm = WIDEST_MODULES * module_mm;
-        let rounding_mm = tip_rounding_length_mm(modification.tip_rounding_mm, tooth);
+        let rounding_mm = tip_rounding_length_mm(pair.spec.tip_rounding_mm(gear), tooth);
         let at_tip = match rounding_mm > 0.0 {
             true => (rounding_mm / ON_ROUNDING).clamp(FINEST * widest_mm, widest_mm),
             false => AT_SHARP_EDGE * widest_mm,
@@ -74,11 +73,7 @@ impl Distances {
             Feature { from_mm: tip_mm - 2.0 * rounding_mm, to_mm: tip_mm, distance_mm: at_tip },
             Feature { from_mm: start_mm - about_mm, to_mm: start_mm + about_mm, distance_mm: AT_KINK * widest_mm },
         ];
-        let begins = [
-            modification.tip_relief.map(|relief| tip_rho_mm - relief.length_mm),
-            modification.root_relief.map(|relief| start_rho_mm + relief.length_mm),
-        ];
-        features.extend(begins.into_iter().flatten().map(|rho_mm| {
+        features.extend(pair.begins_of_reliefs(gear).map(|(rho_mm, _)| {
             let at_mm = arc_mm(rho_mm);
             Feature { from_mm: at_mm, to_mm: at_mm, distance_mm: AT_KINK * widest_mm }
         }));

@@ -7,6 +7,7 @@
 
 use std::f64::consts::PI;
 
+use super::modification::{Modification, ReliefShape};
 use super::{
     Gear, PairError, PerGear, backlash::Backlash, path_of_contact::PathOfContact,
     removed_material::tip_rounding_length_mm, spec::PairSpec, tooth::Tooth,
@@ -107,6 +108,15 @@ impl GearPair {
             Gear::Pinion => self.path.start_mm,
             Gear::Wheel => self.path.line_of_action_mm - self.path.end_mm,
         }
+    }
+
+    /// Radii of curvature of a gear's flank where its reliefs begin, each with how it grows from there.
+    pub fn begins_of_reliefs(&self, gear: Gear) -> impl Iterator<Item = (f64, ReliefShape)> + use<> {
+        let Modification { tip_relief, root_relief, .. } = self.spec.gears[gear].modification;
+        let (tip_rho_mm, start_rho_mm) = (self.teeth[gear].tip_rho_mm(), self.active_start_rho_mm(gear));
+        let of_tip = tip_relief.map(|relief| (tip_rho_mm - relief.length_mm, relief.shape));
+        let of_root = root_relief.map(|relief| (start_rho_mm + relief.length_mm, relief.shape));
+        of_tip.into_iter().chain(of_root)
     }
 
     /// Radius of the start of active profile (SAP), r_Nf: where the mate's tip touches, or the form circle where that is larger.

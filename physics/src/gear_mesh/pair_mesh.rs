@@ -14,7 +14,7 @@ use nalgebra::{Rotation2, Vector2};
 
 use super::whole_gear::{GearMesh, ToothNodes, gear_mesh};
 use super::{FlankResolution, LEAST_MODULES, SectorSettings, ToothMeshError, ToothSector, ToothShape, sector};
-use crate::gear::{Gear, GearPair, PerGear};
+use crate::gear::{Gear, GearPair, PerGear, modification::ReliefShape};
 use crate::gear_mesh::settings::{
     BodySettings, DEPTH_HALF_WIDTHS, FILLET_ELEMENTS, MARGIN_HALF_WIDTHS, ROUNDING_HALF_WIDTH,
 };
@@ -22,6 +22,8 @@ use crate::mesh::{CellBlock, CellKind, Mesh};
 
 /// Half-widths of flank above the start of active profile that the mate's tip edge touches, early contact included.
 const TIP_MEETS_HALF_WIDTHS: f64 = 3.0;
+/// Where a linear relief begins, on either flank: length of the elements over that elsewhere, and to how many half-widths from there.
+const AT_KINK: (f64, f64) = (1.0 / 3.0, 0.5);
 
 /// The sectors of both gears.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +50,8 @@ pub fn pair_sectors(
 }
 
 /// Meshes one tooth of `gear`, fine or coarse, as [`pair_sectors`] does. Where the mate's rounded tip edge touches a fine
-/// one, about the start of active profile, elements are as short as on that rounding.
+/// one, about the start of active profile, elements are as short as on that rounding; where a linear relief begins, and on the mate's flank
+/// where that meets it, they are a third as long as elsewhere, for the pressure rises there over a small part of the half-width.
 pub fn gear_sector(
     pair: &GearPair,
     gear: Gear,
@@ -71,9 +74,20 @@ pub fn gear_sector(
     let floor_mm = least_mm.min(half_width_mm(pair.path.pitch_point_mm.clamp(pair.path.start_mm, pair.path.end_mm)));
     let at_tip_mm = (ROUNDING_HALF_WIDTH * rounding_mm).max(least_mm);
     let met_from_mm = involute.arc_mm(start_rho) - MARGIN_HALF_WIDTHS * at_tip_mm;
-    let by_rho = |rho_mm: f64| match (met_from_mm..met_by_tip_mm).contains(&involute.arc_mm(rho_mm)) {
-        true if rounding_mm > 0.0 => on_flank(rho_mm).min(at_tip_mm).max(floor_mm),
-        _ => on_flank(rho_mm).max(floor_mm),
+    let kinks_mm: Vec<f64> = Gear::BOTH
+        .into_iter()
+        .flat_map(|of| pair.begins_of_reliefs(of).map(move |(rho_mm, shape)| (of, rho_mm, shape)))
+        .filter(|&(_, _, shape)| shape == ReliefShape::Linear)
+        .map(|(of, rho_mm, _)| pair.path.rho_mm(gear, pair.path.rho_mm(of, rho_mm)))
+        .map(|rho_mm| involute.arc_mm(rho_mm.max(0.0)))
+        .collect();
+    let by_rho = |rho_mm: f64| {
+        let (arc_mm, half_width_mm) = (involute.arc_mm(rho_mm), on_flank(rho_mm));
+        let at_tip = rounding_mm > 0.0 && (met_from_mm..met_by_tip_mm).contains(&arc_mm);
+        let at_kink = kinks_mm.iter().any(|kink_mm| (arc_mm - kink_mm).abs() < AT_KINK.1 * half_width_mm);
+        let of_tip_mm = if at_tip { at_tip_mm } else { f64::INFINITY };
+        let of_kink = if at_kink { AT_KINK.0 } else { 1.0 };
+        (of_kink * half_width_mm).min(of_tip_mm).max(floor_mm)
     };
     let flank = FlankResolution {
         half_width_mm: &by_rho,
