@@ -44,8 +44,9 @@ class Results:
 class Deck:
     """An input deck of one step, in the order CalculiX wants it."""
 
-    def __init__(self, mesh):
+    def __init__(self, mesh, tolerances=TOLERANCES):
         self.mesh, self.lines, self.step, self.contacts = mesh, ["*NODE"], [], []
+        self.tolerances = tolerances
         self.lines += [f"{node},{NUMBER(x)},{NUMBER(y)},0." for node, (x, y) in sorted(mesh.points.items())]
         for body, cells in mesh.bodies.items():
             for kind in sorted({mesh.cells[cell][0] for cell in cells}):
@@ -81,7 +82,7 @@ class Deck:
     def text(self, reactions_of):
         """The whole deck; it asks for the reactions of the nodes on a group of edges."""
         lines = self.lines + ["*NSET,NSET=REACTIONS"] + [f"{node}," for node in self.mesh.nodes_of(reactions_of)]
-        lines += ["*STEP", "*CONTROLS,PARAMETERS=FIELD", TOLERANCES, "*STATIC,DIRECT", "1.,1."] + self.step
+        lines += ["*STEP", "*CONTROLS,PARAMETERS=FIELD", self.tolerances, "*STATIC,DIRECT", "1.,1."] + self.step
         lines += ["*NODE PRINT,NSET=REACTIONS", "RF", "*NODE FILE", "U"]
         if self.contacts:
             lines += ["*CONTACT FILE", "CSTR"]

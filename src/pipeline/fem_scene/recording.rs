@@ -6,6 +6,7 @@ use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::fem::gear::model::{MeshedGear, solid};
 use crate::fem::gear::position::{PositionContact, ToothPairContact};
 use crate::fem::gear::ring::Surroundings;
+use crate::gear::flank_edge::PathEnd;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::ToothSector;
 use crate::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides, default_clamp};
@@ -280,13 +281,20 @@ impl Parts<'_> {
     fn warnings(&self, new: &FemCycleSummary) -> Vec<String> {
         let mut warnings = Vec::new();
         if new.sharp_edge_pressure_MPa.is_some() {
-            let sharp: Vec<&str> =
-                Gear::BOTH.into_iter().filter(|&gear| self.meshed[gear].sharp).map(Gear::name).collect();
+            let tips = Gear::BOTH.into_iter().filter(|&gear| self.meshed[gear].sharp);
+            let corners = PathEnd::BOTH
+                .map(|end| self.model.pair.edge(end))
+                .into_iter()
+                .filter(|edge| edge.at_root && edge.is_sharp);
+            let sharp: Vec<String> = tips
+                .map(|gear| format!("the tip edge of {}", gear.name()))
+                .chain(corners.map(|edge| format!("the edge that undercut leaves on {}", edge.gear.name())))
+                .collect();
             warnings.push(format!(
-                "the tip edge of {} is sharp: where it carries load the elastic pressure is singular, and what is found \
-                 there grows with every refinement; such contacts are marked at_sharp_edge and left out of \
-                 peak_pressure_MPa (a tip_rounding_mm makes the pressure finite)",
-                sharp.join(" and ")
+                "mathematically sharp edges carry load ({}): the elastic pressure there is singular, and what is found grows with every \
+                 refinement; such contacts are marked at_sharp_edge and left out of peak_pressure_MPa (at a tip tip_rounding_mm makes the \
+                 pressure finite)",
+                sharp.join(", ")
             ));
         }
         let is_default = |gear: Gear| {
