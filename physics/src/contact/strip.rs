@@ -8,19 +8,31 @@
 //! its tip edge (or its involute ends at the form circle), are kept exactly: no pressure acts beyond them.
 
 use std::cmp::Ordering;
+use std::ops::Range;
 
 use super::flank_motion::{ROUND_OFF, on_tangent, passes_to_ends_mm};
 use super::{Flanks, PositionCell};
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 use crate::reference::linear_means::add_means;
 
-/// Removed material of one flank at samples between its points.
+/// The points of a gear's grid between which its removed material is read.
 ///
 /// Where the flank ends between two points, only the one within it wears: on the last stretch up to the end, what is removed is what that point has
 /// lost. A straight line to the point beyond would leave a ridge there that carries load and never wears.
+fn points_within(flanks: Flanks<'_>, gear: Gear) -> Range<usize> {
+    let coordinate_mm = &flanks.grid[gear].coordinate_mm;
+    let limits = flanks.geometry.flank_limits_mm(gear);
+    let round_off = ROUND_OFF * limits.1;
+    let first = coordinate_mm.partition_point(|&at| at < limits.0 - round_off);
+    let end = coordinate_mm.partition_point(|&at| at <= limits.1 + round_off);
+    // Points too far apart for two of them to lie within are taken as they are.
+    if end >= first + 2 { first..end } else { 0..coordinate_mm.len() }
+}
+
+/// Removed material of one flank at samples between its points.
 #[derive(Debug, Clone)]
 pub(super) struct Interpolation {
-    /// Index of the first and the last but one of the points within the flank.
+    /// Index of the first and the last but one of [`points_within`].
     within: [usize; 2],
     index: Vec<u32>,
     weight: Vec<f64>,
@@ -28,14 +40,8 @@ pub(super) struct Interpolation {
 
 impl Interpolation {
     pub(super) fn new(flanks: Flanks<'_>, gear: Gear) -> Self {
-        let coordinate_mm = &flanks.grid[gear].coordinate_mm;
-        let limits = flanks.geometry.flank_limits_mm(gear);
-        let round_off = ROUND_OFF * limits.1;
-        let first = coordinate_mm.partition_point(|&at| at < limits.0 - round_off);
-        let end = coordinate_mm.partition_point(|&at| at <= limits.1 + round_off);
-        // Points too far apart for two of them to lie within are taken as they are.
-        let within = if end >= first + 2 { [first, end - 2] } else { [0, coordinate_mm.len() - 2] };
-        Self { within, index: Vec::new(), weight: Vec::new() }
+        let within = points_within(flanks, gear);
+        Self { within: [within.start, within.end - 2], index: Vec::new(), weight: Vec::new() }
     }
 
     pub(super) fn push(&mut self, grid: &FlankGrid, coordinate_mm: f64) {
@@ -76,14 +82,16 @@ impl PassingMean {
         let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
         let coordinate_mm = |along: f64| geometry.at_along(gear, along, cell.position_mm).0;
         let mut passing = Self::default();
+        let within = points_within(flanks, gear);
+        let points_mm = &grid.coordinate_mm[within.clone()];
         // Empty again after every sample.
-        let mut sums = vec![0.0; grid.len()];
+        let mut sums = vec![0.0; points_mm.len()];
         for along in along_mm {
             let at_mm = coordinate_mm(along);
             let passes = passes_to_ends_mm(&geometry, gear, at_mm, cell, grid.distance_at_mm(at_mm));
             let ends = passes.map(|by| coordinate_mm(along - by));
-            let reached = add_means(&grid.coordinate_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
-            passing.first.push(reached.start as u32);
+            let reached = add_means(points_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
+            passing.first.push((within.start + reached.start) as u32);
             passing.weights.extend_from_slice(&sums[reached.clone()]);
             passing.ends.push(passing.weights.len() as u32);
             sums[reached].fill(0.0);
