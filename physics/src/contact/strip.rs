@@ -288,3 +288,69 @@ pub(crate) fn least_removed_mm(
     };
     least(Gear::Pinion) + least(Gear::Wheel)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gear::GearPair;
+    use crate::gear::flank::PointSpacing;
+    use crate::gear::modification::Modification;
+    use crate::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
+
+    /// The plastic pair of `validation/plastic-ridge`, whose contact reaches the wheel's root form circle.
+    fn pair() -> GearPair {
+        let gear = |teeth, profile_shift| GearSpec {
+            teeth,
+            profile_shift,
+            tip_diameter_mm: None,
+            tooth_thickness_allowance_mm: -0.06,
+            bore_diameter_mm: None,
+            modification: Modification::default(),
+            shaft: None,
+        };
+        let spec = PairSpec {
+            normal_module_mm: 3.0,
+            normal_pressure_angle_rad: 20f64.to_radians(),
+            helix_angle_rad: 0.0,
+            centre_distance_mm: 114.74,
+            face_width_mm: 30.0,
+            rack: BasicRack::default(),
+            axis_parallelism: AxisParallelism::default(),
+            gears: PerGear { pinion: gear(19, 0.35), wheel: gear(57, -0.1) },
+        };
+        GearPair::new(&spec).expect("the pair of the test exists")
+    }
+
+    /// Points beyond the end of a flank never wear. Flanks that have lost the same at all points within are opened by that up to their ends,
+    /// whether their material is read at a place or as it passes.
+    #[test]
+    fn ver_flanks_are_worn_up_to_their_ends() {
+        let pair = pair();
+        let grid = PerGear::from_fn(|gear| FlankGrid::new(&pair, gear, 300, PointSpacing::Graded));
+        let unmodified = grid.as_ref().map(|grid| vec![0.0; grid.len()]);
+        let worn_mm = PerGear::from_fn(|gear| {
+            let (from, to) = pair.flank_limits_mm(gear);
+            let depth_mm = |rho: &f64| if (from..=to).contains(rho) { 0.05 } else { 0.0 };
+            grid[gear].coordinate_mm.iter().map(depth_mm).collect::<Vec<f64>>()
+        });
+        let modification_mm = Some(unmodified.as_ref().map(Vec::as_slice));
+        let flanks = Flanks { modification_mm, ..Flanks::of_gears(&pair, grid.as_ref()) };
+        let mut ends_at_root_form = 0;
+        for k in 0..=40 {
+            let position_mm = pair.path.start_mm + (pair.path.end_mm - pair.path.start_mm) * f64::from(k) / 40.0;
+            let window = Window::new(flanks, position_mm, f64::INFINITY);
+            let (_, at_tips) = common_extent_mm(&flanks.geometry, position_mm);
+            ends_at_root_form += at_tips.into_iter().filter(|at_tip| !at_tip).count();
+            let cell = PositionCell { position_mm, lower_mm: position_mm - 0.1, upper_mm: position_mm + 0.1 };
+            for passed_during in [None, Some(cell)] {
+                let strip = Strip::new(flanks, position_mm, window, 400, passed_during);
+                let mut gap_mm = Vec::new();
+                strip.gap_mm(worn_mm.as_ref().map(Vec::as_slice), &mut gap_mm);
+                for (gap, geometric) in gap_mm.iter().zip(&strip.geometric_gap_mm) {
+                    assert!((gap - geometric - 0.1).abs() < 1e-12, "at {position_mm} mm: {gap} {geometric}");
+                }
+            }
+        }
+        assert!(ends_at_root_form > 10, "{ends_at_root_form}");
+    }
+}
