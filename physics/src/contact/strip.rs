@@ -266,6 +266,46 @@ impl Strip {
     }
 }
 
+/// Parts in which the stretch from an end of a window to where a flank ends is looked at.
+const PARTS_BESIDE: usize = 64;
+
+/// Places along the tangent beside a window, each with the gap of flanks that have lost `removed_mm`, mm: all at which flanks pressed together by
+/// `approach_mm` can touch. Unworn flanks part ever farther with the distance from their contact; where they alone are that far apart, so are all
+/// farther on.
+pub(crate) fn gaps_beside_mm(
+    flanks: Flanks<'_>,
+    position_mm: f64,
+    window: Window,
+    approach_mm: f64,
+    removed_mm: PerGear<&[f64]>,
+) -> Vec<(f64, f64)> {
+    let ((lowest_mm, highest_mm), _) = common_extent_mm(&flanks.geometry, position_mm);
+    let mut places = Vec::new();
+    let sides = [(window.lower_mm, lowest_mm.min(window.lower_mm)), (window.upper_mm, highest_mm.max(window.upper_mm))];
+    for (from_mm, to_mm) in sides.into_iter().filter(|(from_mm, to_mm)| from_mm != to_mm) {
+        let first = places.len();
+        let mut here: Option<PerGear<Interpolation>> = None;
+        for part in 0..=PARTS_BESIDE {
+            let along_mm = from_mm + (to_mm - from_mm) * part as f64 / PARTS_BESIDE as f64;
+            let on_flank =
+                PerGear::from_fn(|gear| flanks.geometry.at_along(gear, on_tangent(gear, along_mm), position_mm));
+            let unworn_mm = on_flank.pinion.1 + on_flank.wheel.1;
+            if unworn_mm >= approach_mm {
+                break;
+            }
+            let here = here.get_or_insert_with(|| PerGear::from_fn(|gear| Interpolation::new(flanks, gear)));
+            Gear::BOTH.into_iter().for_each(|gear| here[gear].push(flanks.grid[gear], on_flank[gear].0));
+            places.push((along_mm, unworn_mm));
+        }
+        let Some(here) = here else { continue };
+        for gear in Gear::BOTH {
+            let removed = here[gear].of(removed_mm[gear], 0);
+            places[first..].iter_mut().zip(removed).for_each(|((_, gap), removed)| *gap += removed);
+        }
+    }
+    places
+}
+
 /// Flanks are searched this much farther than parabolas of their relative curvature would touch.
 const AMPLE_REACH: f64 = 1.25;
 
@@ -292,6 +332,10 @@ pub(crate) fn least_removed_mm(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::ContactSurface;
+    use crate::contact::half_space::HalfSpace;
+    use crate::contact::settings::Material;
+    use crate::contact::winkler::{Winkler, WinklerFoundation};
     use crate::gear::GearPair;
     use crate::gear::flank::PointSpacing;
     use crate::gear::modification::Modification;
@@ -352,5 +396,49 @@ mod tests {
             }
         }
         assert!(ends_at_root_form > 10, "{ends_at_root_form}");
+    }
+
+    /// The pinion's tip on a ridge below the wear of the wheel, beside the line of action: seen as an overlap as long as the window does not reach
+    /// there, and gone once it does.
+    #[test]
+    fn ver_windows_grow_until_flanks_overlap_nowhere() {
+        let pair = pair();
+        let grid = PerGear::from_fn(|gear| FlankGrid::new(&pair, gear, 300, PointSpacing::Graded));
+        let flanks = Flanks::of_gears(&pair, grid.as_ref());
+        let position_mm = 15.5;
+        let whole = Window::new(flanks, position_mm, f64::INFINITY);
+        let ridge_mm = *Strip::new(flanks, position_mm, whole, 8, None).geometric_gap_mm.last().unwrap();
+        // Rigid flanks would overlap by 0.02 mm on the line of action and by 0.01 mm on the ridge.
+        let approach_mm = ridge_mm + 0.01;
+        let above_ridge_mm = pair.flank_limits_mm(Gear::Wheel).0 + 0.5;
+        let depth_mm = |rho: &f64| if *rho > above_ridge_mm { ridge_mm - 0.01 } else { 0.0 };
+        let worn_mm = PerGear {
+            pinion: vec![0.0; grid.pinion.len()],
+            wheel: grid.wheel.coordinate_mm.iter().map(depth_mm).collect::<Vec<f64>>(),
+        };
+        let worn_mm = worn_mm.as_ref().map(Vec::as_slice);
+        let material = |young_modulus_mpa| Material { young_modulus_mpa, poisson_ratio: 0.35, density_kg_per_m3: 1e3 };
+        let half_space = HalfSpace {
+            material: PerGear { pinion: material(206e3), wheel: material(2.8e3) },
+            expected_line_load_n_per_mm: 20.0,
+        };
+        let springs =
+            Winkler { foundation: WinklerFoundation::Uniform { mpa_per_mm: 500.0 }, expected_line_load_n_per_mm: 20.0 };
+        for surface in [&half_space as &dyn ContactSurface, &springs] {
+            let mut contact = surface.pair(flanks, position_mm, None);
+            let mut overlaps_mm = Vec::new();
+            for windows in 1.. {
+                contact.set_removed(worn_mm);
+                contact.load_at(approach_mm - contact.touch_mm());
+                let suffices = contact.window_suffices();
+                overlaps_mm.push(contact.overlap_beside_mm(worn_mm).unwrap());
+                if suffices {
+                    break;
+                }
+                assert!(windows < 20, "{overlaps_mm:?}");
+                contact.widen();
+            }
+            assert!(overlaps_mm[0] > 5e-3 && *overlaps_mm.last().unwrap() == 0.0, "{overlaps_mm:?}");
+        }
     }
 }
