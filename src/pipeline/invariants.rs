@@ -3,6 +3,7 @@
 //! | name | statement |
 //! |---|---|
 //! | `torque-balance` | the loads of all pairs are the load to carry, at every position |
+//! | `flanks-overlap-nowhere` | beside the contacts that are found the flanks do not touch, at any position |
 //! | `volume-balance` | both flanks of a contact lose the same volume for the same coefficient |
 //! | `volume-of-work` | a flank loses k ∫ F ds |
 //! | `load-rises-with-approach` | the mesh stiffness is positive |
@@ -35,13 +36,15 @@ use crate::contact::settings::SurfaceKind;
 use crate::gear::Gear;
 use crate::mesh_cycle::sliced_mesh::SlicedMesh;
 use crate::mesh_cycle::wearing_pair::Snapshot;
-use crate::mesh_cycle::{CycleObservation, PositionObservation};
+use crate::mesh_cycle::{CycleObservation, Overlap, PositionObservation};
 use crate::results::invariant::Invariant;
 use crate::results::run::WearBalance;
 use crate::simulation::wear_run::Outcome;
 
 /// Greatest |Σ loads / load − 1|: equilibria are solved to 1e-10 of the load.
 const MOST_IMBALANCE: f64 = 1e-6;
+/// Greatest part of the transmission error by which flanks overlap: finite elements let pass 1e-3.
+const MOST_OVERLAP: f64 = 2e-3;
 /// Greatest difference of volumes of flanks that are resolved: tip edges and reliefs are not.
 const MOST_VOLUME_DIFFERENCE: f64 = 0.2;
 /// Flank points that a contact needs in its half-width before volumes are held against each other.
@@ -67,6 +70,7 @@ pub(super) fn of_run(model: &Model<'_>, outcome: &Outcome, balance: &WearBalance
     let both = balance.new.filter(|_| balance.work_new.is_some());
     vec![
         torque_balance(&states),
+        overlap_nowhere(&states),
         volumes(
             "volume-balance",
             both.filter(|_| is_resolved),
@@ -112,6 +116,21 @@ fn torque_balance(states: &[(&str, &Snapshot); 2]) -> Invariant {
     let (value, place) = greatest(states.iter().filter_map(of)).unwrap_or_default();
     let how = "loads of all pairs together less the load to carry, over that";
     Invariant::judged("torque-balance", value, MOST_IMBALANCE, Some(place), how)
+}
+
+fn overlap_nowhere(states: &[(&str, &Snapshot); 2]) -> Invariant {
+    let name = "flanks-overlap-nowhere";
+    let of = |(when, state): &(&str, &Snapshot)| {
+        let Overlap { of_transmission_error, position_mm } = state.cycle.deepest_overlap?;
+        Some((of_transmission_error, at(when, position_mm)))
+    };
+    match greatest(states.iter().filter_map(of)) {
+        Some((value, place)) => {
+            let how = "how deep flanks overlap beside the contacts found, over the transmission error";
+            Invariant::judged(name, value, MOST_OVERLAP, Some(place), how)
+        }
+        None => Invariant::not_judged(name, "the model does not look at the gap of the flanks"),
+    }
 }
 
 /// Whether Hertz's contact at C is at least [`POINTS_IN_HALF_WIDTH`] twice as wide as flank points of either gear are apart.

@@ -31,11 +31,14 @@ use super::{
     growing_window::{GrowingWindow, Sampled},
     hertz,
     settings::Material,
-    strip::{Strip, Window, least_removed_mm, point_distance_mm},
+    strip::{Strip, Window, gaps_beside_mm, least_removed_mm, point_distance_mm},
     swept_field::SweptField,
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
-use crate::reference::{flattening::Flattening, half_plane::cell_compliance_mm_per_mpa};
+use crate::reference::{
+    flattening::Flattening,
+    half_plane::{cell_compliance_at_mm_per_mpa, cell_compliance_mm_per_mpa},
+};
 
 /// The surface: elastic constants and the load that contacts are expected to carry.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -223,6 +226,26 @@ impl PairContact for HalfSpacePair<'_> {
 
     fn widen(&mut self) {
         self.window.widen();
+    }
+
+    fn overlap_beside_mm(&self, removed_mm: PerGear<&[f64]>) -> Option<f64> {
+        let ObservedStretch { flanks, position_mm, flattening, .. } = &self.window.flanks;
+        let SampledStretch { strip, cells, .. } = &self.window.samples;
+        let approach_mm = self.touch + cells.indentation_mm();
+        let beside = gaps_beside_mm(*flanks, *position_mm, strip.window, approach_mm, removed_mm);
+        let mut cells = self.pressed_cells();
+        cells.retain(|cell| cell.pressure_mpa > 0.0);
+        let sunk_mm = |at_mm: f64| -> f64 {
+            let by_cell = |cell: &PressedCell| {
+                let (width_mm, distance_mm) =
+                    (cell.upper_mm - cell.lower_mm, at_mm - cell.lower_mm.midpoint(cell.upper_mm));
+                cell.pressure_mpa * cell_compliance_at_mm_per_mpa(&flattening.bodies, width_mm, distance_mm)
+            };
+            cells.iter().map(by_cell).sum()
+        };
+        // Where rigid flanks would not overlap nothing needs to yield.
+        let overlapping = beside.into_iter().filter(|(_, gap)| *gap < approach_mm);
+        Some(overlapping.map(|(at_mm, gap)| approach_mm - gap - sunk_mm(at_mm)).fold(0.0, f64::max))
     }
 
     fn reset(&mut self) {

@@ -207,6 +207,12 @@ pub trait PairContact: Send {
     /// Looks at a longer stretch of flank.
     fn widen(&mut self) {}
 
+    /// How deep flanks that have lost `removed_mm` overlap beside the stretch this contact looks at, at the last indentation, mm; 0 where
+    /// they do so nowhere, and none of contacts that do not look at the real gap.
+    fn overlap_beside_mm(&self, _removed_mm: PerGear<&[f64]>) -> Option<f64> {
+        None
+    }
+
     /// Is again as it was when it was made: what it does then depends only on what it reads and how it is pressed from now on, to the
     /// bit. For contacts that keep something from one wear step to the next.
     fn reset(&mut self) {}

@@ -8,19 +8,31 @@
 //! its tip edge (or its involute ends at the form circle), are kept exactly: no pressure acts beyond them.
 
 use std::cmp::Ordering;
+use std::ops::Range;
 
 use super::flank_motion::{ROUND_OFF, on_tangent, passes_to_ends_mm};
 use super::{Flanks, PositionCell};
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 use crate::reference::linear_means::add_means;
 
-/// Removed material of one flank at samples between its points.
+/// The points of a gear's grid between which its removed material is read.
 ///
 /// Where the flank ends between two points, only the one within it wears: on the last stretch up to the end, what is removed is what that point has
 /// lost. A straight line to the point beyond would leave a ridge there that carries load and never wears.
+fn points_within(flanks: Flanks<'_>, gear: Gear) -> Range<usize> {
+    let coordinate_mm = &flanks.grid[gear].coordinate_mm;
+    let limits = flanks.geometry.flank_limits_mm(gear);
+    let round_off = ROUND_OFF * limits.1;
+    let first = coordinate_mm.partition_point(|&at| at < limits.0 - round_off);
+    let end = coordinate_mm.partition_point(|&at| at <= limits.1 + round_off);
+    // Points too far apart for two of them to lie within are taken as they are.
+    if end >= first + 2 { first..end } else { 0..coordinate_mm.len() }
+}
+
+/// Removed material of one flank at samples between its points.
 #[derive(Debug, Clone)]
 pub(super) struct Interpolation {
-    /// Index of the first and the last but one of the points within the flank.
+    /// Index of the first and the last but one of [`points_within`].
     within: [usize; 2],
     index: Vec<u32>,
     weight: Vec<f64>,
@@ -28,14 +40,8 @@ pub(super) struct Interpolation {
 
 impl Interpolation {
     pub(super) fn new(flanks: Flanks<'_>, gear: Gear) -> Self {
-        let coordinate_mm = &flanks.grid[gear].coordinate_mm;
-        let limits = flanks.geometry.flank_limits_mm(gear);
-        let round_off = ROUND_OFF * limits.1;
-        let first = coordinate_mm.partition_point(|&at| at < limits.0 - round_off);
-        let end = coordinate_mm.partition_point(|&at| at <= limits.1 + round_off);
-        // Points too far apart for two of them to lie within are taken as they are.
-        let within = if end >= first + 2 { [first, end - 2] } else { [0, coordinate_mm.len() - 2] };
-        Self { within, index: Vec::new(), weight: Vec::new() }
+        let within = points_within(flanks, gear);
+        Self { within: [within.start, within.end - 2], index: Vec::new(), weight: Vec::new() }
     }
 
     pub(super) fn push(&mut self, grid: &FlankGrid, coordinate_mm: f64) {
@@ -76,14 +82,16 @@ impl PassingMean {
         let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
         let coordinate_mm = |along: f64| geometry.at_along(gear, along, cell.position_mm).0;
         let mut passing = Self::default();
+        let within = points_within(flanks, gear);
+        let points_mm = &grid.coordinate_mm[within.clone()];
         // Empty again after every sample.
-        let mut sums = vec![0.0; grid.len()];
+        let mut sums = vec![0.0; points_mm.len()];
         for along in along_mm {
             let at_mm = coordinate_mm(along);
             let passes = passes_to_ends_mm(&geometry, gear, at_mm, cell, grid.distance_at_mm(at_mm));
             let ends = passes.map(|by| coordinate_mm(along - by));
-            let reached = add_means(&grid.coordinate_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
-            passing.first.push(reached.start as u32);
+            let reached = add_means(points_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
+            passing.first.push((within.start + reached.start) as u32);
             passing.weights.extend_from_slice(&sums[reached.clone()]);
             passing.ends.push(passing.weights.len() as u32);
             sums[reached].fill(0.0);
@@ -258,6 +266,46 @@ impl Strip {
     }
 }
 
+/// Parts in which the stretch from an end of a window to where a flank ends is looked at.
+const PARTS_BESIDE: usize = 64;
+
+/// Places along the tangent beside a window, each with the gap of flanks that have lost `removed_mm`, mm: all at which flanks pressed together by
+/// `approach_mm` can touch. Unworn flanks part ever farther with the distance from their contact; where they alone are that far apart, so are all
+/// farther on.
+pub(crate) fn gaps_beside_mm(
+    flanks: Flanks<'_>,
+    position_mm: f64,
+    window: Window,
+    approach_mm: f64,
+    removed_mm: PerGear<&[f64]>,
+) -> Vec<(f64, f64)> {
+    let ((lowest_mm, highest_mm), _) = common_extent_mm(&flanks.geometry, position_mm);
+    let mut places = Vec::new();
+    let sides = [(window.lower_mm, lowest_mm.min(window.lower_mm)), (window.upper_mm, highest_mm.max(window.upper_mm))];
+    for (from_mm, to_mm) in sides.into_iter().filter(|(from_mm, to_mm)| from_mm != to_mm) {
+        let first = places.len();
+        let mut here: Option<PerGear<Interpolation>> = None;
+        for part in 0..=PARTS_BESIDE {
+            let along_mm = from_mm + (to_mm - from_mm) * part as f64 / PARTS_BESIDE as f64;
+            let on_flank =
+                PerGear::from_fn(|gear| flanks.geometry.at_along(gear, on_tangent(gear, along_mm), position_mm));
+            let unworn_mm = on_flank.pinion.1 + on_flank.wheel.1;
+            if unworn_mm >= approach_mm {
+                break;
+            }
+            let here = here.get_or_insert_with(|| PerGear::from_fn(|gear| Interpolation::new(flanks, gear)));
+            Gear::BOTH.into_iter().for_each(|gear| here[gear].push(flanks.grid[gear], on_flank[gear].0));
+            places.push((along_mm, unworn_mm));
+        }
+        let Some(here) = here else { continue };
+        for gear in Gear::BOTH {
+            let removed = here[gear].of(removed_mm[gear], 0);
+            places[first..].iter_mut().zip(removed).for_each(|((_, gap), removed)| *gap += removed);
+        }
+    }
+    places
+}
+
 /// Flanks are searched this much farther than parabolas of their relative curvature would touch.
 const AMPLE_REACH: f64 = 1.25;
 
@@ -279,4 +327,118 @@ pub(crate) fn least_removed_mm(
         removed_mm[gear][first..end].iter().copied().fold(f64::INFINITY, f64::min)
     };
     least(Gear::Pinion) + least(Gear::Wheel)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::ContactSurface;
+    use crate::contact::half_space::HalfSpace;
+    use crate::contact::settings::Material;
+    use crate::contact::winkler::{Winkler, WinklerFoundation};
+    use crate::gear::GearPair;
+    use crate::gear::flank::PointSpacing;
+    use crate::gear::modification::Modification;
+    use crate::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
+
+    /// The plastic pair of `validation/plastic-ridge`, whose contact reaches the wheel's root form circle.
+    fn pair() -> GearPair {
+        let gear = |teeth, profile_shift| GearSpec {
+            teeth,
+            profile_shift,
+            tip_diameter_mm: None,
+            tooth_thickness_allowance_mm: -0.06,
+            bore_diameter_mm: None,
+            modification: Modification::default(),
+            shaft: None,
+        };
+        let spec = PairSpec {
+            normal_module_mm: 3.0,
+            normal_pressure_angle_rad: 20f64.to_radians(),
+            helix_angle_rad: 0.0,
+            centre_distance_mm: 114.74,
+            face_width_mm: 30.0,
+            rack: BasicRack::default(),
+            axis_parallelism: AxisParallelism::default(),
+            gears: PerGear { pinion: gear(19, 0.35), wheel: gear(57, -0.1) },
+        };
+        GearPair::new(&spec).expect("the pair of the test exists")
+    }
+
+    /// Points beyond the end of a flank never wear. Flanks that have lost the same at all points within are opened by that up to their ends,
+    /// whether their material is read at a place or as it passes.
+    #[test]
+    fn ver_flanks_are_worn_up_to_their_ends() {
+        let pair = pair();
+        let grid = PerGear::from_fn(|gear| FlankGrid::new(&pair, gear, 300, PointSpacing::Graded));
+        let unmodified = grid.as_ref().map(|grid| vec![0.0; grid.len()]);
+        let worn_mm = PerGear::from_fn(|gear| {
+            let (from, to) = pair.flank_limits_mm(gear);
+            let depth_mm = |rho: &f64| if (from..=to).contains(rho) { 0.05 } else { 0.0 };
+            grid[gear].coordinate_mm.iter().map(depth_mm).collect::<Vec<f64>>()
+        });
+        let modification_mm = Some(unmodified.as_ref().map(Vec::as_slice));
+        let flanks = Flanks { modification_mm, ..Flanks::of_gears(&pair, grid.as_ref()) };
+        let mut ends_at_root_form = 0;
+        for k in 0..=40 {
+            let position_mm = pair.path.start_mm + (pair.path.end_mm - pair.path.start_mm) * f64::from(k) / 40.0;
+            let window = Window::new(flanks, position_mm, f64::INFINITY);
+            let (_, at_tips) = common_extent_mm(&flanks.geometry, position_mm);
+            ends_at_root_form += at_tips.into_iter().filter(|at_tip| !at_tip).count();
+            let cell = PositionCell { position_mm, lower_mm: position_mm - 0.1, upper_mm: position_mm + 0.1 };
+            for passed_during in [None, Some(cell)] {
+                let strip = Strip::new(flanks, position_mm, window, 400, passed_during);
+                let mut gap_mm = Vec::new();
+                strip.gap_mm(worn_mm.as_ref().map(Vec::as_slice), &mut gap_mm);
+                for (gap, geometric) in gap_mm.iter().zip(&strip.geometric_gap_mm) {
+                    assert!((gap - geometric - 0.1).abs() < 1e-12, "at {position_mm} mm: {gap} {geometric}");
+                }
+            }
+        }
+        assert!(ends_at_root_form > 10, "{ends_at_root_form}");
+    }
+
+    /// The pinion's tip on a ridge below the wear of the wheel, beside the line of action: seen as an overlap as long as the window does not reach
+    /// there, and gone once it does.
+    #[test]
+    fn ver_windows_grow_until_flanks_overlap_nowhere() {
+        let pair = pair();
+        let grid = PerGear::from_fn(|gear| FlankGrid::new(&pair, gear, 300, PointSpacing::Graded));
+        let flanks = Flanks::of_gears(&pair, grid.as_ref());
+        let position_mm = 15.5;
+        let whole = Window::new(flanks, position_mm, f64::INFINITY);
+        let ridge_mm = *Strip::new(flanks, position_mm, whole, 8, None).geometric_gap_mm.last().unwrap();
+        // Rigid flanks would overlap by 0.02 mm on the line of action and by 0.01 mm on the ridge.
+        let approach_mm = ridge_mm + 0.01;
+        let above_ridge_mm = pair.flank_limits_mm(Gear::Wheel).0 + 0.5;
+        let depth_mm = |rho: &f64| if *rho > above_ridge_mm { ridge_mm - 0.01 } else { 0.0 };
+        let worn_mm = PerGear {
+            pinion: vec![0.0; grid.pinion.len()],
+            wheel: grid.wheel.coordinate_mm.iter().map(depth_mm).collect::<Vec<f64>>(),
+        };
+        let worn_mm = worn_mm.as_ref().map(Vec::as_slice);
+        let material = |young_modulus_mpa| Material { young_modulus_mpa, poisson_ratio: 0.35, density_kg_per_m3: 1e3 };
+        let half_space = HalfSpace {
+            material: PerGear { pinion: material(206e3), wheel: material(2.8e3) },
+            expected_line_load_n_per_mm: 20.0,
+        };
+        let springs =
+            Winkler { foundation: WinklerFoundation::Uniform { mpa_per_mm: 500.0 }, expected_line_load_n_per_mm: 20.0 };
+        for surface in [&half_space as &dyn ContactSurface, &springs] {
+            let mut contact = surface.pair(flanks, position_mm, None);
+            let mut overlaps_mm = Vec::new();
+            for windows in 1.. {
+                contact.set_removed(worn_mm);
+                contact.load_at(approach_mm - contact.touch_mm());
+                let suffices = contact.window_suffices();
+                overlaps_mm.push(contact.overlap_beside_mm(worn_mm).unwrap());
+                if suffices {
+                    break;
+                }
+                assert!(windows < 20, "{overlaps_mm:?}");
+                contact.widen();
+            }
+            assert!(overlaps_mm[0] > 5e-3 && *overlaps_mm.last().unwrap() == 0.0, "{overlaps_mm:?}");
+        }
+    }
 }

@@ -33,7 +33,7 @@ use super::{
     gap_at_points::GapAtPoints,
     growing_window::{GrowingWindow, Sampled},
     observed_points::ObservedPoints,
-    strip::{Strip, Window, least_removed_mm, point_distance_mm},
+    strip::{Strip, Window, gaps_beside_mm, least_removed_mm, point_distance_mm},
     swept_field::SweptField,
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
@@ -282,6 +282,13 @@ impl PairContact for WinklerPair<'_> {
 
     fn widen(&mut self) {
         self.window.widen();
+    }
+
+    fn overlap_beside_mm(&self, removed_mm: PerGear<&[f64]>) -> Option<f64> {
+        let ObservedStretch { flanks, position_mm, .. } = self.window.flanks;
+        let approach_mm = self.touch + self.indentation_mm;
+        let beside = gaps_beside_mm(flanks, position_mm, self.strip().window, approach_mm, removed_mm);
+        Some(beside.into_iter().map(|(_, gap)| approach_mm - gap).fold(0.0, f64::max))
     }
 
     fn reset(&mut self) {

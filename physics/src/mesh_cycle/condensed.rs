@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use super::collected::Collected;
 use super::condensed_contact::{ContactPlace, HeatedContactRows, parts_of_rows};
 use super::load_sharing::EquilibriumError;
-use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, PositionObservation, Work};
+use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Overlap, PositionObservation, Work};
 use crate::contact::Footprint;
 use crate::contact::flank_pressure::PressureFigures;
 use crate::fem::active_set::Equilibrium;
@@ -242,6 +242,7 @@ impl MeshCycle for CondensedCycle<'_> {
             sliding_mm: zeros(),
             sliding_work_n: None,
             slices: None,
+            deepest_overlap: self.loaded_positions().filter_map(LoadedPosition::overlap).reduce(Overlap::deeper),
         };
         let mut sliding_work_n = 0.0;
         for loaded in self.loaded_positions() {
@@ -455,6 +456,11 @@ impl LoadedPosition {
     fn observe(&mut self, model: &CondensedPair<'_>, nodes: PerGear<&FlankNodes>) {
         self.transfers = model.load_transfers(&self.prepared, self.stretch_mm, 0.0, nodes, None);
         (self.turned_mm, self.windows, self.about_rad) = (0.0, self.prepared.windows(), None);
+    }
+
+    fn overlap(&self) -> Option<Overlap> {
+        let of_transmission_error = self.prepared.overlap_beside_mm() / self.found.as_ref()?.rigid[0];
+        Some(Overlap { of_transmission_error, position_mm: self.prepared.position_mm })
     }
 
     fn solve(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {

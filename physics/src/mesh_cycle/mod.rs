@@ -168,6 +168,22 @@ impl GreatestPressure {
     }
 }
 
+/// Where flanks overlap beside the contact that was found: nowhere, if all of it was.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Overlap {
+    /// How deep, over the transmission error.
+    pub of_transmission_error: f64,
+    /// Theoretical contact point of the pair.
+    pub position_mm: f64,
+}
+
+impl Overlap {
+    /// The deeper of two.
+    pub(crate) fn deeper(self, other: Self) -> Self {
+        if other.of_transmission_error > self.of_transmission_error { other } else { self }
+    }
+}
+
 /// What was observed over a mesh cycle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CycleObservation {
@@ -187,6 +203,8 @@ pub struct CycleObservation {
     pub sliding_work_n: Option<f64>,
     /// The mesh of one tooth slice by slice, where there are slices.
     pub slices: Option<SlicedMesh>,
+    /// Deepest overlap of the flanks beside their contacts; `None` where a model does not look at their gap.
+    pub deepest_overlap: Option<Overlap>,
 }
 
 /// What flanks have lost so far, at their points.
@@ -243,6 +261,10 @@ impl<'a> LineOfActionCycle<'a> {
     pub(crate) fn on_bodies_that_yield_by(self, bodies_mm: f64) -> Self {
         Self { bodies_mm, ..self }
     }
+
+    fn loaded_positions(&self) -> impl Iterator<Item = &LoadedPosition<'a>> {
+        self.groups.iter().flat_map(|group| &group.loaded_positions)
+    }
 }
 
 impl MeshCycle for LineOfActionCycle<'_> {
@@ -275,10 +297,14 @@ impl MeshCycle for LineOfActionCycle<'_> {
             sliding_mm: zeros(),
             sliding_work_n: None,
             slices: None,
+            deepest_overlap: self
+                .loaded_positions()
+                .filter_map(|at| at.overlap(removed_mm, self.bodies_mm))
+                .reduce(Overlap::deeper),
         };
         let mut sliding_work_n = 0.0;
         let mut sweep = Sweep::default();
-        for loaded in self.groups.iter().flat_map(|group| &group.loaded_positions) {
+        for loaded in self.loaded_positions() {
             if loaded.on_line_of_action {
                 observation.positions.push(loaded.observe(self.line_load_n_per_mm, self.bodies_mm));
             }
@@ -387,6 +413,13 @@ impl<'a> LoadedPosition<'a> {
             load_imbalance: total / line_load - 1.0,
             footprint: reference.contact.footprint(),
         }
+    }
+
+    /// Of the reference pair.
+    fn overlap(&self, removed_mm: PerGear<&[f64]>, bodies_mm: f64) -> Option<Overlap> {
+        let overlap_mm = self.pairs[0].contact.overlap_beside_mm(removed_mm)?;
+        let of_transmission_error = overlap_mm / (self.equilibrium.transmission_error_mm + bodies_mm);
+        Some(Overlap { of_transmission_error, position_mm: self.cell.position_mm })
     }
 }
 

@@ -56,6 +56,10 @@ impl PairContact for PartOfSlice<'_> {
         self.contact.widen();
     }
 
+    fn overlap_beside_mm(&self, removed_mm: PerGear<&[f64]>) -> Option<f64> {
+        self.contact.overlap_beside_mm(removed_mm)
+    }
+
     fn reset(&mut self) {
         self.contact.reset();
     }

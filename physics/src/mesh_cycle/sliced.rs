@@ -23,7 +23,7 @@ use super::sliced_sharing::balance_on_teeth;
 use super::sliced_teeth::SlicedTeeth;
 use super::worn_points::{ContactPlace, WornPoints};
 use super::{
-    CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, figures_of, in_series,
+    CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Overlap, Work, figures_of, in_series,
     note_contact_of_points,
 };
 use crate::contact::flank_pressure::PressureFigures;
@@ -188,13 +188,20 @@ impl MeshCycle for SlicedCycle<'_> {
         let mut phases = Vec::new();
         let mut greatest_pressure = GreatestPressure::default();
         let mut sliding_work_n = 0.0;
+        let mut deepest_overlap: Option<Overlap> = None;
         let mut of_slices = vec![GreatestPressure::default(); slices];
         let mut pressure_figures = PressureFigures::default();
         let mut figures_of_slices = vec![PressureFigures::default(); slices];
         for loaded in self.groups.iter().flat_map(|group| &group.loaded_positions) {
+            let transmission_error_mm = loaded.equilibrium.transmission_error_mm + self.bodies_mm;
             for ((contact, pair), sliding) in loaded.contacts.iter().zip(&loaded.pairs).zip(&loaded.sliding_mm) {
                 let own = of_slice(removed_mm, self.points, contact.slice);
                 let footprint = pair.contact.footprint();
+                let overlap = pair.contact.overlap_beside_mm(own).map(|overlap_mm| Overlap {
+                    of_transmission_error: overlap_mm / transmission_error_mm,
+                    position_mm: contact.cell.position_mm,
+                });
+                deepest_overlap = deepest_overlap.into_iter().chain(overlap).reduce(Overlap::deeper);
                 // A part of a slice has its pressure where the line of contact ends, and not in the middle of the slice.
                 let is_whole = contact.part == ContactPart::WHOLE;
                 let greatest = if is_whole { &mut of_slices[contact.slice] } else { &mut greatest_pressure };
@@ -225,6 +232,7 @@ impl MeshCycle for SlicedCycle<'_> {
             sliding_mm,
             sliding_work_n: Some(sliding_work_n),
             slices: Some(mesh),
+            deepest_overlap,
         })
     }
 }

@@ -81,6 +81,10 @@ impl PairContact for OnLever<'_> {
         self.contact.widen();
     }
 
+    fn overlap_beside_mm(&self, removed_mm: PerGear<&[f64]>) -> Option<f64> {
+        self.contact.overlap_beside_mm(removed_mm).map(|along_normal| along_normal / self.approach)
+    }
+
     fn reset(&mut self) {
         self.contact.reset();
     }

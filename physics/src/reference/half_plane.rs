@@ -27,13 +27,13 @@ use super::flattening::Body;
 /// How far both of two half-planes together yield, at distance `k` · `width_mm` from the centre of a cell of that width under
 /// unit pressure, mm/MPa, for k = 0 … `count` − 1.
 pub(crate) fn cell_compliance_mm_per_mpa(bodies: &[Body; 2], width_mm: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|k| cell_compliance_at_mm_per_mpa(bodies, width_mm, k as f64 * width_mm)).collect()
+}
+
+/// The same at any distance from the centre.
+pub(crate) fn cell_compliance_at_mm_per_mpa(bodies: &[Body; 2], width_mm: f64, distance_mm: f64) -> f64 {
     let primitive = |x: f64| bodies.iter().map(|body| line_load_primitive(body, x)).sum::<f64>();
-    (0..count)
-        .map(|k| {
-            let centre = k as f64 * width_mm;
-            primitive(centre + 0.5 * width_mm) - primitive(centre - 0.5 * width_mm)
-        })
-        .collect()
+    primitive(distance_mm + 0.5 * width_mm) - primitive(distance_mm - 0.5 * width_mm)
 }
 
 /// ∫ G from 0 to `x_mm` of one body, mm² per N/mm.

@@ -40,6 +40,8 @@ pub(super) struct BesideWindow {
     /// The least of these.
     first_touch_mm: f64,
     probes: Vec<Probe>,
+    /// How deep the flanks overlap, as last looked at, mm.
+    deepest_mm: f64,
 }
 
 struct BesideNode {
@@ -122,7 +124,7 @@ impl CondensedPair<'_> {
             |at: &BesideNode| if at.by_rotation < 0.0 { -at.gap_mm / at.by_rotation } else { f64::INFINITY };
         let touch_at_mm: Vec<f64> = nodes.iter().map(touch_at_mm).collect();
         let first_touch_mm = touch_at_mm.iter().copied().fold(f64::INFINITY, f64::min);
-        BesideWindow { pair, slave, tooth, nodes, touch_at_mm, first_touch_mm, probes }
+        BesideWindow { pair, slave, tooth, nodes, touch_at_mm, first_touch_mm, probes, deepest_mm: 0.0 }
     }
 
     /// Where the flanks overlap beside the window of `facings`, in which `found` holds them apart; `depth_mm` is what the local nodes of a
@@ -135,6 +137,7 @@ impl CondensedPair<'_> {
         depth_mm: &dyn Fn(Gear, usize) -> f64,
     ) -> Option<Overlap> {
         let turned_mm = found.rigid[0];
+        beside.deepest_mm = 0.0;
         if turned_mm <= beside.first_touch_mm {
             return None;
         }
@@ -146,8 +149,9 @@ impl CondensedPair<'_> {
         beside.probes.iter_mut().for_each(|probe| probe.yields_mm = None);
         let mut from_tip_mm: Option<PerGear<[f64; 2]>> = None;
         for (at, if_rigid_mm) in overlapping {
-            let yields_mm = beside.yields_mm(at, &found.force);
-            if if_rigid_mm + yields_mm >= -OVERLOOKED * turned_mm {
+            let gap_mm = if_rigid_mm + beside.yields_mm(at, &found.force);
+            beside.deepest_mm = beside.deepest_mm.max(-gap_mm);
+            if gap_mm >= -OVERLOOKED * turned_mm {
                 continue;
             }
             let at = &beside.nodes[at];
@@ -198,6 +202,11 @@ fn probes(along_mm: &[f64], apart_mm: f64) -> Vec<usize> {
 }
 
 impl BesideWindow {
+    /// How deep the flanks overlap, as last looked at, mm.
+    pub(super) fn deepest_mm(&self) -> f64 {
+        self.deepest_mm
+    }
+
     /// Nodes that would overlap if the flanks were rigid, and their gaps.
     fn overlapping(&self, turned_mm: f64, depth_mm: &dyn Fn(Gear, usize) -> f64) -> Vec<(usize, f64)> {
         let (slave, master) = (self.slave, self.slave.mate());

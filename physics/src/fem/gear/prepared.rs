@@ -131,7 +131,11 @@ impl<'a> CondensedPair<'a> {
             let wider = match prepared.condensed.solve_with(prepared.active.as_deref(), &mut prepared.kept) {
                 Ok(mut found) => {
                     log.append(&mut found.log);
-                    let wider = if last { None } else { self.wider_window(prepared, &found, depth_mm) };
+                    // What overlaps beside the last window is left, and told.
+                    let wider = match prepared.is_cramped(&found) && !last {
+                        true => Some(prepared.window.wider()),
+                        false => self.window_over_overlaps(prepared, &found, depth_mm).filter(|_| !last),
+                    };
                     prepared.active = Some(found.active.clone());
                     match wider {
                         Some(wider) => wider,
@@ -146,16 +150,13 @@ impl<'a> CondensedPair<'a> {
         unreachable!("the last attempt returns")
     }
 
-    /// Where flanks far relieved or worn touch beyond the window of `found`.
-    fn wider_window(
+    /// Where flanks far relieved or worn touch beside the window of `found`.
+    fn window_over_overlaps(
         &self,
         prepared: &mut Prepared,
         found: &Equilibrium,
         depth_mm: &dyn Fn(Gear, usize) -> f64,
     ) -> Option<Window> {
-        if prepared.is_cramped(found) {
-            return Some(prepared.window.wider());
-        }
         let Prepared { window, facings, beside, .. } = prepared;
         let mut wider: Option<Window> = None;
         for beside in beside {
@@ -252,6 +253,11 @@ impl Prepared {
     /// Number of the window, from 1: each is wider than the one before.
     pub fn windows(&self) -> usize {
         self.windows
+    }
+
+    /// How deep the flanks overlap beside the window of the last solution, mm.
+    pub(crate) fn overlap_beside_mm(&self) -> f64 {
+        self.beside.iter().map(BesideWindow::deepest_mm).fold(0.0, f64::max)
     }
 
     /// Number of tooth pairs that may touch.

@@ -330,6 +330,7 @@ impl WearingPair for SimplifiedPair<'_> {
             sliding_mm,
             sliding_work_n: None,
             slices: Some(mesh),
+            deepest_overlap: None,
         };
         Ok(Snapshot { revolutions, wear_mm, depth_per_mesh_mm: depth_mm, lost_at_nodes: None, cycle })
     }
