@@ -23,16 +23,29 @@ fn bodies_mm(model: &Model<'_>) -> f64 {
     model.teeth.map_or(0.0, of_load)
 }
 
-/// Of a run that follows tip edges: where it does not follow them far enough.
-fn beyond_range(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
+/// How far a run follows tip edges before A and after E, and by how much the flanks of loaded teeth would overlap there, new or worn; none where it cannot.
+fn overlaps_at_range_mm(model: &Model<'_>, outcome: &Outcome) -> Option<[[f64; 2]; 2]> {
     let reference = model.reference();
     let range_mm = reference.contact.range_mm(model.pair, reference.line_load_n_per_mm).ok()?;
+    let [new, worn] =
+        [&outcome.new, &outcome.worn].map(|state| overlaps_mm(model.pair, outcome, state, bodies_mm(model), range_mm));
+    Some([range_mm, [0, 1].map(|end| new[end].max(worn[end]))])
+}
+
+/// Whether loads jump where a run that follows tip edges follows them no farther.
+pub(super) fn is_beyond_range(model: &Model<'_>, outcome: &Outcome) -> bool {
+    overlaps_at_range_mm(model, outcome)
+        .is_some_and(|[_, overlaps]| overlaps.iter().any(|&overlap| overlap >= LEAST_MM))
+}
+
+/// Of a run that follows tip edges: where it does not follow them far enough.
+fn beyond_range(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
+    let [range_mm, overlaps_mm] = overlaps_at_range_mm(model, outcome)?;
     let states = [&outcome.new, &outcome.worn];
-    let overlaps = states.map(|state| overlaps_mm(model.pair, outcome, state, bodies_mm(model), range_mm));
     let farthest_mm = model.pair.farthest_touch_mm();
     let mut ends = Vec::new();
     for (end, name) in ["before A", "after E"].into_iter().enumerate() {
-        let overlap_mm = overlaps[0][end].max(overlaps[1][end]);
+        let overlap_mm = overlaps_mm[end];
         if overlap_mm < LEAST_MM {
             continue;
         }

@@ -317,6 +317,45 @@ fn val_without_helix_it_is_the_spur_pair() {
     }
 }
 
+/// Where all slices of a tooth come and go at once the rows show the jump as sharp as the pair without slices has it, at A and E and between.
+#[test]
+fn val_slices_that_come_at_once_jump_as_the_spur_pair() {
+    for surface in ["winkler", "hertz"] {
+        let spur = Scene { steps: 1.0, surface, positions: 100, flank_points: 400, ..fzg_c_scene() };
+        let sliced = Scene { slices: slices(3, Coupling::None), ..spur.clone() };
+        let rows = [spur, sliced].map(|scene| scene.run().new.cycle.positions);
+        assert_eq!(rows[0].len(), rows[1].len());
+        let [first, last] = [rows[0][0].load_share, rows[0][99].load_share];
+        // FZG type C on springs of one stiffness: half of the load, but for other radii.
+        assert!((0.4..0.6).contains(&first) && (0.4..0.6).contains(&last), "{first} {last}");
+        for (a, b) in rows[0].iter().zip(&rows[1]) {
+            let at = format!("{surface} {:.3}", a.position_mm);
+            // A row is level with the phase beside it, as far as half of their distance from a jump.
+            assert!((a.load_share - b.load_share).abs() < 5e-3, "{at}: {} {}", a.load_share, b.load_share);
+            let errors = [a, b].map(|row| row.transmission_error_mm);
+            assert_close(&format!("{at} transmission error"), errors[1], errors[0], 5e-3);
+        }
+    }
+}
+
+/// Slices that come into contact by first touch stand where their tooth is, also in the first and the last stretch: half of one deeper, a tip edge would carry
+/// what it has not come to yet.
+#[test]
+fn ver_slices_by_first_touch_stand_where_their_tooth_is() {
+    let pair = pair(&preset("thesis-helical"));
+    let slices = Slices::new(&pair, 3);
+    let (pitch, mut contacts) = (pair.path.base_pitch_mm, 0);
+    for phase in sliced_positions(&pair.path, &slices, 24, SliceEnds::Beyond([1.1, 1.3])) {
+        for SliceContact { tooth, slice, cell, .. } in phase.contacts {
+            let at_mm = phase.position_mm + f64::from(tooth) * pitch + slices.ahead_mm[slice];
+            assert!((cell.position_mm - at_mm).abs() < 1e-12 * pitch, "{tooth} {slice}");
+            assert!(cell.lower_mm <= at_mm && at_mm <= cell.upper_mm, "{tooth} {slice}");
+            contacts += 1;
+        }
+    }
+    assert!(contacts > 40, "{contacts}");
+}
+
 /// A negative helix angle is the mirror image: the last slice enters first.
 #[test]
 fn val_negative_helix_mirrors_the_width() {

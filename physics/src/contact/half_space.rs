@@ -126,8 +126,8 @@ impl Sampled for ObservedStretch<'_> {
     fn sample(&self, half_length_mm: f64) -> SampledStretch {
         let window = Window::new(self.flanks, self.position_mm, half_length_mm);
         let (window, count) = in_cells(window, self.cell_mm);
-        let strip = Strip::new(self.flanks, self.position_mm, window, 2 * count, self.cell);
-        let width = 2.0 * strip.spacing_mm;
+        let strip = Strip::new(self.flanks, self.position_mm, window, window.evenly_mm(2 * count), self.cell);
+        let width = 2.0 * strip.spacing_mm();
         let compliance = cell_compliance_mm_per_mpa(&self.flattening.bodies, width, count);
         let swept = SweptField::new(self.flanks, window, width, self.cell);
         SampledStretch { strip, cells: ElasticCells::new(width, compliance), swept }
@@ -181,7 +181,7 @@ impl PairContact for HalfSpacePair<'_> {
         let SampledStretch { strip, cells, .. } = &mut self.window.samples;
         strip.gap_mm(removed_mm, &mut self.samples);
         // What the weights add to the parabola at the centre: Δ²/16R.
-        let rise = strip.spacing_mm.powi(2) / (4.0 * self.window.flanks.flattening.contact.relative_radius_mm());
+        let rise = strip.spacing_mm().powi(2) / (4.0 * self.window.flanks.flattening.contact.relative_radius_mm());
         let of_cell = |ends: &[f64]| 0.25 * (ends[0] + ends[2]) + 0.5 * ends[1] - rise;
         self.gap.clear();
         self.gap.extend(self.samples.windows(3).step_by(2).map(of_cell));
@@ -270,6 +270,6 @@ impl PairContact for HalfSpacePair<'_> {
     fn pressed_cells(&self) -> Vec<PressedCell> {
         let SampledStretch { strip, swept, .. } = &self.window.samples;
         let pressures_mpa = swept.field.cells_mpa().iter().copied();
-        PressedCell::evenly(strip.window.lower_mm, 2.0 * strip.spacing_mm, pressures_mpa)
+        PressedCell::evenly(strip.window.lower_mm, 2.0 * strip.spacing_mm(), pressures_mpa)
     }
 }

@@ -3,8 +3,8 @@
 //! A strip carries samples of the geometric gap in the tangent frame and, for each, where it lies between the points of
 //! both flanks, so that the real gap (geometry plus removed material) is one pass over plain arrays.
 //!
-//! These samples are evenly spaced across the contact, and the load follows from them; pressure and sliding are observed on the points
-//! of the flanks themselves ([`super::observed_points`]). Real ends of a strip, where a flank ends in
+//! These samples are evenly spaced across the contact, with more of them where a modification has a kink, and the load follows from them; pressure and
+//! sliding are observed on the points of the flanks themselves ([`super::observed_points`]). Real ends of a strip, where a flank ends in
 //! its tip edge (or its involute ends at the form circle), are kept exactly: no pressure acts beyond them.
 
 use std::cmp::Ordering;
@@ -148,6 +148,47 @@ impl Window {
         self.upper_mm - self.lower_mm
     }
 
+    /// Both its ends and the places between `intervals` even parts of it.
+    pub(crate) fn evenly_mm(&self, intervals: usize) -> Vec<f64> {
+        let spacing_mm = self.length_mm() / intervals as f64;
+        (0..=intervals).map(|k| self.lower_mm + k as f64 * spacing_mm).collect()
+    }
+
+    /// The same with the points of both flanks where a modification has a kink that these places would miss by `missed_mm` or more: between two places,
+    /// h apart, a course that turns by κ lies up to κ h/4 beside the straight line.
+    pub(crate) fn with_kinks_mm(
+        &self,
+        flanks: Flanks<'_>,
+        position_mm: f64,
+        intervals: usize,
+        missed_mm: f64,
+    ) -> Vec<f64> {
+        let mut places_mm = self.evenly_mm(intervals);
+        let spacing_mm = self.length_mm() / intervals as f64;
+        let Some(modification_mm) = flanks.modification_mm else { return places_mm };
+        for gear in Gear::BOTH {
+            let (grid, removed_mm) = (flanks.grid[gear], modification_mm[gear]);
+            let place =
+                |end_mm: f64| grid.place(flanks.geometry.at_along(gear, on_tangent(gear, end_mm), position_mm).0).index;
+            let (low, high) = (place(self.lower_mm), place(self.upper_mm));
+            let within = low.min(high).max(1)..(low.max(high) + 1).min(grid.len() - 2) + 1;
+            let along_mm =
+                |i: usize| flanks.geometry.in_tangent_frame(gear, grid.coordinate_mm[i], position_mm).along_mm;
+            for i in within.filter(|&i| removed_mm[i - 1] != removed_mm[i] || removed_mm[i] != removed_mm[i + 1]) {
+                let at_mm = [i - 1, i, i + 1].map(along_mm);
+                let slope = |k: usize| (removed_mm[i + k] - removed_mm[i + k - 1]) / (at_mm[k + 1] - at_mm[k]);
+                let (turn, place_mm) = ((slope(1) - slope(0)).abs(), on_tangent(gear, at_mm[1]));
+                let is_within = self.lower_mm < place_mm && place_mm < self.upper_mm;
+                if is_within && 0.25 * turn * spacing_mm >= missed_mm {
+                    places_mm.push(place_mm);
+                }
+            }
+        }
+        places_mm.sort_by(f64::total_cmp);
+        places_mm.dedup_by(|a, b| (*a - *b).abs() <= SAME_PLACE * spacing_mm);
+        places_mm
+    }
+
     /// Whether a sharp tip edge cuts off a contact that presses on these of the ends.
     pub(crate) fn is_sharp_where(&self, pressed: [bool; 2]) -> bool {
         self.ends_are_sharp.iter().zip(pressed).any(|(sharp, pressed)| *sharp && pressed)
@@ -178,13 +219,16 @@ pub(crate) fn point_distance_mm(flanks: Flanks<'_>, position_mm: f64) -> f64 {
     of(Gear::Pinion).min(of(Gear::Wheel))
 }
 
-/// Evenly spaced samples across the candidate contact.
+/// Places nearer to each other than this part of the samples' distance are one.
+const SAME_PLACE: f64 = 1e-6;
+
+/// Samples across the candidate contact.
 #[derive(Debug, Clone)]
 pub(crate) struct Strip {
     /// What the samples cover.
     pub window: Window,
-    /// Distance of the samples, mm.
-    pub spacing_mm: f64,
+    /// Where the samples are, mm.
+    pub along_mm: Vec<f64>,
     /// Geometric gap at each sample, mm.
     pub geometric_gap_mm: Vec<f64>,
     removed: Removed,
@@ -200,39 +244,42 @@ enum Removed {
 }
 
 impl Strip {
-    /// Samples at both ends of `window` and between `intervals` even parts of it. Where the pressure stands still while the flanks pass
+    /// Samples at `along_mm`, in order, the first and the last at the ends of `window`. Where the pressure stands still while the flanks pass
     /// under it during a cell, `passed_during`, each sample sees the mean wear of what passes it, as all that passes it feels its pressure:
     /// seen at one place alone, a wave of wear as long as the positions are apart would meet each of them alike, and grow.
     pub(crate) fn new(
         flanks: Flanks<'_>,
         position_mm: f64,
         window: Window,
-        intervals: usize,
+        along_mm: Vec<f64>,
         passed_during: Option<PositionCell>,
     ) -> Self {
-        let spacing_mm = window.length_mm() / intervals as f64;
-        let along = |gear: Gear, k: usize| on_tangent(gear, window.lower_mm + k as f64 * spacing_mm);
-        let mut geometric_gap_mm = vec![0.0; intervals + 1];
+        let mut geometric_gap_mm = vec![0.0; along_mm.len()];
         let here = PerGear::from_fn(|gear| {
             let mut here = Interpolation::new(flanks, gear);
-            for (k, gap) in geometric_gap_mm.iter_mut().enumerate() {
-                let (coordinate, drop) = flanks.geometry.at_along(gear, along(gear, k), position_mm);
+            for (&along, gap) in along_mm.iter().zip(&mut geometric_gap_mm) {
+                let (coordinate, drop) = flanks.geometry.at_along(gear, on_tangent(gear, along), position_mm);
                 *gap += drop;
                 here.push(flanks.grid[gear], coordinate);
             }
             here
         });
         let (Some(modification_mm), Some(cell)) = (flanks.modification_mm, passed_during) else {
-            return Self { window, spacing_mm, geometric_gap_mm, removed: Removed::Here(here) };
+            return Self { window, along_mm, geometric_gap_mm, removed: Removed::Here(here) };
         };
         let passing = PerGear::from_fn(|gear| {
-            let passing = PassingMean::new(flanks, gear, cell, (0..=intervals).map(|k| along(gear, k)));
+            let passing = PassingMean::new(flanks, gear, cell, along_mm.iter().map(|&along| on_tangent(gear, along)));
             // A modification stays what it is at the sample.
             let beside = here[gear].of(modification_mm[gear], 0).zip(passing.of(modification_mm[gear]));
             geometric_gap_mm.iter_mut().zip(beside).for_each(|(gap, (here, mean))| *gap += here - mean);
             passing
         });
-        Self { window, spacing_mm, geometric_gap_mm, removed: Removed::Passing(passing) }
+        Self { window, along_mm, geometric_gap_mm, removed: Removed::Passing(passing) }
+    }
+
+    /// Distance of samples that are evenly spaced.
+    pub(crate) fn spacing_mm(&self) -> f64 {
+        self.window.length_mm() / (self.along_mm.len() - 1) as f64
     }
 
     /// The gap with `removed_mm` of material gone, into `gap_mm`, and its least value.

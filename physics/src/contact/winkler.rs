@@ -6,8 +6,8 @@
 //! p(x) = (K/H) max(0, δ − g(x))          w = ∫ p dx          dw/dδ = (K/H) · length in contact
 //! ```
 //!
-//! The load is summed over cells of evenly spaced samples. In a cell the penetration u = δ − g is a straight line
-//! between its samples, raised by Δ²/(12 R), the mean of what the curvature of the gap adds to it; its positive part
+//! The load is summed over cells of evenly spaced samples, divided where a modification has a kink at a flank point. In a cell the penetration
+//! u = δ − g is a straight line between its samples, raised by Δ²/(12 R), the mean of what the curvature of the gap adds to it; its positive part
 //! integrates exactly. So the ends of the contact are found between samples, and the load is a smooth, ever steeper
 //! function of δ.
 //!
@@ -97,6 +97,8 @@ const FIRST_WINDOW: f64 = 1.25;
 /// Distance of the samples in points of the pinion's flank. The load needs less resolution than the wear: its geometric
 /// part is exact to the gap's curvature, and the worn part is smooth over several points.
 const POINTS_PER_SAMPLE: f64 = 2.0;
+/// A kink of a modification is a sample of its own where the others would miss it by this part of the plain contact's indentation.
+const LITTLE_MISSED: f64 = 1e-3;
 /// Fewest intervals between samples.
 const LEAST_INTERVALS: usize = 8;
 /// The same where a tip edge touches over a part of the window.
@@ -110,7 +112,8 @@ impl ContactSurface for Winkler {
         let stiffness = self.foundation.at(position_mm);
         let half_width = stiffness.half_width_mm(radius_mm, self.expected_line_load_n_per_mm);
         let edge = self.foundation.at_edge(position_mm);
-        let stretch = ObservedStretch { flanks, position_mm, cell, at_edge: edge.is_some() };
+        let indentation_mm = half_width * half_width / (2.0 * radius_mm);
+        let stretch = ObservedStretch { flanks, position_mm, cell, at_edge: edge.is_some(), indentation_mm };
         let first_foundation = stiffness.mpa_per_mm(self.expected_line_load_n_per_mm);
         Box::new(WinklerPair {
             stiffness,
@@ -151,6 +154,8 @@ struct ObservedStretch<'a> {
     cell: Option<PositionCell>,
     /// Whether a tip edge touches.
     at_edge: bool,
+    /// Indentation of the plain contact under the expected load.
+    indentation_mm: f64,
 }
 
 impl Sampled for ObservedStretch<'_> {
@@ -163,9 +168,17 @@ impl Sampled for ObservedStretch<'_> {
         let intervals = ((window.length_mm() / distance_mm).ceil() as usize).max(least);
         // Elsewhere points carry their own wear through the contact.
         let passed_during = self.cell.filter(|_| self.at_edge);
-        let strip = Strip::new(self.flanks, self.position_mm, window, intervals, passed_during);
+        let places_mm = match self.at_edge {
+            // Pressure is swept in even cells.
+            true => window.evenly_mm(intervals),
+            false => {
+                let missed_mm = LITTLE_MISSED * self.indentation_mm;
+                window.with_kinks_mm(self.flanks, self.position_mm, intervals, missed_mm)
+            }
+        };
+        let strip = Strip::new(self.flanks, self.position_mm, window, places_mm, passed_during);
         if self.at_edge {
-            let swept = SweptField::new(self.flanks, window, strip.spacing_mm, self.cell);
+            let swept = SweptField::new(self.flanks, window, strip.spacing_mm(), self.cell);
             return (strip, Some(Observed::Swept(swept)));
         }
         let observed = self.cell.map(|cell| {
@@ -223,20 +236,17 @@ impl PairContact for WinklerPair<'_> {
 
     fn load_at(&mut self, indentation_mm: f64) -> Response {
         self.indentation_mm = indentation_mm;
-        // The curvature of the gap between two samples, which the straight line misses, as its mean Δ²/12R.
-        let spacing = self.strip().spacing_mm;
-        let bulge = spacing * spacing / (12.0 * self.radius_mm);
-        // Sums over cells of mean penetration and of the fraction in contact, which is how fast the former grows.
+        let curvature = 1.0 / (12.0 * self.radius_mm);
+        // Integrals of the penetration and of the length in contact, which is how fast the former grows.
         let (mut penetration, mut contact) = (0.0, 0.0);
-        let mut before = indentation_mm + bulge - self.gap[0];
-        for gap in &self.gap[1..] {
-            let here = indentation_mm + bulge - gap;
-            let (mean, fraction) = mean_positive([before, here]);
-            penetration += mean;
-            contact += fraction;
-            before = here;
+        for (ends, gaps) in self.strip().along_mm.windows(2).zip(self.gap.windows(2)) {
+            let length = ends[1] - ends[0];
+            // The curvature of the gap between two samples, which the straight line misses, as its mean Δ²/12R.
+            let raised = indentation_mm + curvature * length * length;
+            let (mean, fraction) = mean_positive([raised - gaps[0], raised - gaps[1]]);
+            penetration += length * mean;
+            contact += length * fraction;
         }
-        let (penetration, contact) = (spacing * penetration, spacing * contact);
         let (load, stiffness) = match &self.edge {
             Some(edge) => edge.load_and_stiffness(penetration, contact),
             None => self.stiffness.load_and_stiffness(penetration, contact),
@@ -327,7 +337,7 @@ impl PairContact for WinklerPair<'_> {
     }
 
     fn footprint(&self) -> Footprint {
-        let penetration = (self.indentation_mm - least(&self.gap)).max(0.0);
+        let penetration = (self.indentation_mm - least(&self.strip().along_mm, &self.gap, self.radius_mm)).max(0.0);
         let half_width_mm = 0.5 * (self.extent_mm.1 - self.extent_mm.0);
         let at_ends = [self.gap.first(), self.gap.last()].map(|gap| gap.is_some_and(|gap| *gap < self.indentation_mm));
         let at_sharp_edge = self.strip().window.is_sharp_where(at_ends);
@@ -335,33 +345,38 @@ impl PairContact for WinklerPair<'_> {
     }
 
     fn pressed_cells(&self) -> Vec<PressedCell> {
-        let Strip { window, spacing_mm, .. } = self.strip();
         let parts = CELLS_PER_INTERVAL as f64;
-        // Between two samples the gap is a parabola of the contact's curvature through both, and a straight line between its places.
-        let sagitta = spacing_mm * spacing_mm / (2.0 * self.radius_mm);
-        let pressures = self.gap.windows(2).flat_map(|ends| {
+        let cells = self.strip().along_mm.windows(2).zip(self.gap.windows(2)).flat_map(|(places, ends)| {
+            let length_mm = places[1] - places[0];
+            // Between two samples the gap is a parabola of the contact's curvature through both, and a straight line between its places.
+            let sagitta = length_mm * length_mm / (2.0 * self.radius_mm);
             let penetration = |k: usize| {
                 let part = k as f64 / parts;
                 self.indentation_mm - ends[0] - part * (ends[1] - ends[0]) + sagitta * part * (1.0 - part)
             };
             let bulge = sagitta / (6.0 * parts * parts);
             let mean = move |k: usize| mean_positive([penetration(k) + bulge, penetration(k + 1) + bulge]).0;
-            (0..CELLS_PER_INTERVAL).map(move |k| self.foundation * mean(k))
+            let pressures = (0..CELLS_PER_INTERVAL).map(move |k| self.foundation * mean(k));
+            PressedCell::evenly(places[0], length_mm / parts, pressures)
         });
-        PressedCell::evenly(window.lower_mm, spacing_mm / parts, pressures)
+        cells.collect()
     }
 }
 
-/// The least of evenly spaced samples: the bottom of the parabola through the lowest and its neighbours, or the lowest
-/// itself at an end.
-fn least(samples: &[f64]) -> f64 {
+/// The least of `samples` at `places` of a gap whose curvature between two of them is 1/R, but for what wear takes of it: below the lowest of them the bottom
+/// of the parabola through it and its neighbours, but no lower than with the geometric curvature between two, as where a kink is the lowest.
+fn least(places: &[f64], samples: &[f64], radius: f64) -> f64 {
     let Some(k) = (0..samples.len()).min_by(|&a, &b| samples[a].total_cmp(&samples[b])) else { return f64::INFINITY };
-    match samples.get(k.wrapping_sub(1)..k + 2) {
-        Some(&[before, lowest, after]) if before + after > 2.0 * lowest => {
-            lowest - (before - after).powi(2) / (8.0 * (before + after - 2.0 * lowest))
-        }
-        _ => samples[k],
+    let Some(&[before, lowest, after]) = samples.get(k.wrapping_sub(1)..k + 2) else { return samples[k] };
+    let lengths = [places[k] - places[k - 1], places[k + 1] - places[k]];
+    let rises = [(before - lowest) / lengths[0], (after - lowest) / lengths[1]];
+    if rises == [0.0; 2] {
+        return lowest;
     }
+    let slope = (rises[1] * lengths[0] - rises[0] * lengths[1]) / (lengths[0] + lengths[1]);
+    let below = slope * slope * (lengths[0] + lengths[1]) / (4.0 * (rises[0] + rises[1]));
+    let beside = |side: usize| (0.5 * lengths[side] - rises[side] * radius).max(0.0).powi(2) / (2.0 * radius);
+    lowest - below.min(beside(0).max(beside(1)))
 }
 
 impl WinklerPair<'_> {
@@ -385,10 +400,11 @@ impl WinklerPair<'_> {
             return (0.0, 0.0);
         };
         // The gap passes through the approach between the outermost sample in contact and the next one.
-        let before = if first > 0 { u(first) / (u(first) - u(first - 1)) } else { 0.0 };
-        let after = if last + 1 < self.gap.len() { u(last) / (u(last) - u(last + 1)) } else { 0.0 };
-        let Strip { window, spacing_mm, .. } = self.strip();
-        let place = |sample: f64| window.lower_mm + sample * spacing_mm;
-        (place(first as f64 - before), place(last as f64 + after))
+        let along_mm = &self.strip().along_mm;
+        let passes =
+            |from: usize, to: usize| along_mm[from] + u(from) / (u(from) - u(to)) * (along_mm[to] - along_mm[from]);
+        let lower_mm = if first > 0 { passes(first, first - 1) } else { along_mm[first] };
+        let upper_mm = if last + 1 < self.gap.len() { passes(last, last + 1) } else { along_mm[last] };
+        (lower_mm, upper_mm)
     }
 }

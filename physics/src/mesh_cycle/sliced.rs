@@ -79,6 +79,8 @@ pub(crate) struct SliceSprings<'a> {
 /// The state of one phase.
 struct LoadedPosition<'a> {
     position_mm: f64,
+    /// [`SlicedPosition::jump_mm`].
+    jump_mm: Option<f64>,
     contacts: Vec<SliceContact>,
     pairs: Vec<MeshedPair<'a>>,
     /// Of each contact.
@@ -287,6 +289,7 @@ impl<'a> LoadedPosition<'a> {
             .collect();
         Self {
             position_mm: phase.position_mm,
+            jump_mm: phase.jump_mm,
             contacts: phase.contacts.clone(),
             pairs,
             places: phase
@@ -341,6 +344,7 @@ impl<'a> LoadedPosition<'a> {
             stiffness_n_per_mm2: Some(in_series(of_teeth_n_per_mm2, bodies_mm / line_load_n_per_mm)),
             load_imbalance: total / (line_load_n_per_mm * slices as f64) - 1.0,
             contacts: contacts.collect(),
+            jump_mm: self.jump_mm,
         }
     }
 }

@@ -37,6 +37,8 @@ pub struct ObservedSlicedPosition {
     pub load_imbalance: f64,
     /// All slices in contact.
     pub contacts: Vec<ObservedContact>,
+    /// Where, between here and the next phase, slices come or go at once; none where all change steadily.
+    pub jump_mm: Option<f64>,
 }
 
 /// The mesh of one tooth, and the base pitch that tells it.
@@ -60,6 +62,8 @@ pub struct SlicedMesh {
     pub transmission_error_mm: Vec<f64>,
     /// Mesh stiffness there, N/mm²; empty where a model does not give it.
     pub stiffness_n_per_mm2: Vec<f64>,
+    /// Of each phase: after which part of the way to the next one slices come or go at once; none where all change steadily.
+    pub jumps: Vec<Option<f64>>,
     /// Position of the tooth at the first phase.
     pub first_phase_mm: f64,
     /// The base pitch.
@@ -98,6 +102,7 @@ impl SlicedMesh {
             at_sharp_edge: vec![false; rows * slices],
             transmission_error_mm: phases.iter().map(|phase| phase.transmission_error_mm).collect(),
             stiffness_n_per_mm2: phases.iter().filter_map(|phase| phase.stiffness_n_per_mm2).collect(),
+            jumps: phases.iter().map(|phase| phase.jump_mm.map(|at| (at - phase.position_mm) / spacing)).collect(),
             first_phase_mm: phases[0].position_mm,
             base_pitch_mm,
             load_imbalance: phases.iter().map(|phase| phase.load_imbalance.abs()).fold(0.0, f64::max),
@@ -183,17 +188,18 @@ impl SlicedMesh {
     }
 
     fn at(&self, position_mm: f64, line_load_n_per_mm: f64) -> PositionObservation {
-        let m = self.transmission_error_mm.len();
-        let spacing = self.base_pitch_mm / m as f64;
-        let phase = (position_mm - self.first_phase_mm) / spacing;
-        let over_phases = |values: &[f64]| {
-            let of = |j: f64| values[j.rem_euclid(m as f64) as usize % m];
-            of(phase.floor()) + (phase - phase.floor()) * (of(phase.floor() + 1.0) - of(phase.floor()))
-        };
-        let row = (position_mm - self.position_mm[0]) / spacing;
-        let between = |f: &dyn Fn(usize) -> f64, row: f64| {
-            let of = |row: f64| if row >= 0.0 && row < self.position_mm.len() as f64 { f(row as usize) } else { 0.0 };
-            of(row.floor()) + (row - row.floor()) * (of(row.floor() + 1.0) - of(row.floor()))
+        let phases = self.transmission_error_mm.len();
+        let spacing = self.base_pitch_mm / phases as f64;
+        let first_row = ((self.position_mm[0] - self.first_phase_mm) / spacing).round();
+        let line = self.line_at((position_mm - self.first_phase_mm) / spacing, first_row);
+        let over_phases =
+            |values: &[f64]| line.value(|phase| values[phase.rem_euclid(phases as f64) as usize % phases]);
+        let rows = self.position_mm.len() as f64;
+        let over_rows = |of: &dyn Fn(usize) -> f64| {
+            line.value(|phase| {
+                let row = phase - first_row;
+                if row >= 0.0 && row < rows { of(row as usize) } else { 0.0 }
+            })
         };
         let slices = |row: usize| row * self.slices..(row + 1) * self.slices;
         let greatest = |field: &[f64], row: usize| field[slices(row)].iter().copied().fold(0.0, f64::max);
@@ -207,14 +213,48 @@ impl SlicedMesh {
         PositionObservation {
             position_mm,
             transmission_error_mm: over_phases(&self.transmission_error_mm),
-            stiffness_n_per_mm2: (self.stiffness_n_per_mm2.len() == m).then(|| over_phases(&self.stiffness_n_per_mm2)),
-            load_share: between(&load, row) / line_load_n_per_mm,
+            stiffness_n_per_mm2: (self.stiffness_n_per_mm2.len() == phases)
+                .then(|| over_phases(&self.stiffness_n_per_mm2)),
+            load_share: over_rows(&load) / line_load_n_per_mm,
             load_imbalance: self.load_imbalance,
             footprint: Footprint {
-                peak_pressure_mpa: between(&|row| greatest(&self.peak_pressure_mpa, row), row),
-                half_width_mm: between(&|row| greatest(&self.half_width_mm, row), row),
-                at_sharp_edge: between(&sharp, row) > 0.0,
+                peak_pressure_mpa: over_rows(&|row| greatest(&self.peak_pressure_mpa, row)),
+                half_width_mm: over_rows(&|row| greatest(&self.half_width_mm, row)),
+                at_sharp_edge: over_rows(&sharp) > 0.0,
             },
         }
+    }
+
+    /// The straight line that holds at `phase`, counted from the first phase on, of a tooth with rows from `first_row` on: between the phases around it, or
+    /// where slices come or go at once between these, level from the one on its side of the jump, so that the jump stays sharp. A tooth that touches from
+    /// a jump to another touches at both.
+    fn line_at(&self, phase: f64, first_row: f64) -> Line {
+        let (before, part) = (phase.floor(), phase - phase.floor());
+        let count = self.jumps.len();
+        let Some(jump) = self.jumps[before.rem_euclid(count as f64) as usize % count] else {
+            return Line { from: before, along: part };
+        };
+        let is_before = if (part - jump).abs() <= SAME_PLACE { before >= first_row } else { part < jump };
+        Line { from: if is_before { before } else { before + 1.0 }, along: 0.0 }
+    }
+}
+
+/// Positions are compared to this part of the phases' distance.
+const SAME_PLACE: f64 = 1e-6;
+
+/// A straight line through what is found at a phase and at the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Line {
+    /// The phase.
+    from: f64,
+    /// Part of the way to the next.
+    along: f64,
+}
+
+impl Line {
+    /// What `at` the phases comes to on the line.
+    fn value(&self, at: impl Fn(f64) -> f64) -> f64 {
+        let from = at(self.from);
+        if self.along == 0.0 { from } else { from + self.along * (at(self.from + 1.0) - from) }
     }
 }

@@ -29,6 +29,8 @@
 //! adds to 1 with what is not, ∫ f over all ξ_ki that stand for a place of the path is 1 at every place, and every place is worn as often as
 //! any other.
 
+use std::collections::BTreeSet;
+
 use crate::contact::PositionCell;
 use crate::gear::{path_of_contact::PathOfContact, slices::Slices};
 
@@ -37,6 +39,9 @@ const SAME_PLACE: f64 = 1e-9;
 
 /// A slice of which no more than this part is in contact carries nothing.
 const LEAST_PART: f64 = 1e-9;
+
+/// Where more than this part of all contacts comes or goes at once, loads jump; where less does, they change as from any position to the next.
+const JUMP: f64 = 0.05;
 
 /// A slice of a tooth in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,6 +88,8 @@ pub struct SlicedPosition {
     pub position_mm: f64,
     /// The contacts, tooth by tooth and slice by slice.
     pub contacts: Vec<SliceContact>,
+    /// Where, between here and the next position, slices come or go at once; none where all change steadily.
+    pub jump_mm: Option<f64>,
 }
 
 /// Phases of one base pitch, no farther apart than `positions` (≥ 2) from A to E would be. Where slices come into contact all at once,
@@ -99,6 +106,7 @@ pub fn sliced_positions(
     let passage = SlicePassage {
         first_mm: path.start_mm - before,
         last_mm: path.end_mm + after,
+        by_first_touch: matches!(ends, SliceEnds::Beyond(_)),
         pitch_mm: pitch,
         ahead_mm: &slices.ahead_mm,
     };
@@ -108,18 +116,18 @@ pub fn sliced_positions(
     if ends == SliceEnds::Gradual && varies_mm >= spacing {
         let position = |&position_mm: &f64| {
             let contacts = passage.parts(position_mm, 0.5 * spacing, varies_mm);
-            SlicedPosition { position_mm, contacts }
+            SlicedPosition { position_mm, contacts, jump_mm: None }
         };
         return places.iter().map(position).collect();
     }
     // Where each place's contacts are decided, and where its stretch begins and ends.
-    let (decided_at, bounds) = if matches!(ends, SliceEnds::Beyond(_)) {
+    let (decided_at, bounds) = if passage.by_first_touch {
         let bounds = places.iter().map(|place| [place - 0.5 * spacing, place + 0.5 * spacing]).collect();
         (places.clone(), bounds)
     } else {
         zones(&places, pitch, &passage.changes_mm(path.start_mm))
     };
-    (0..count)
+    let mut phases: Vec<SlicedPosition> = (0..count)
         .map(|j| {
             let neighbour = |step: i32| {
                 let k = j as i32 + step;
@@ -127,9 +135,30 @@ pub fn sliced_positions(
                 decided_at[k.rem_euclid(count as i32) as usize] + f64::from(turns) * pitch
             };
             let contacts = passage.contacts(bounds[j], [neighbour(-1), decided_at[j], neighbour(1)]);
-            SlicedPosition { position_mm: places[j], contacts }
+            SlicedPosition { position_mm: places[j], contacts, jump_mm: None }
         })
-        .collect()
+        .collect();
+    if !passage.by_first_touch {
+        for (j, jumps) in jumps(&phases).into_iter().enumerate() {
+            phases[j].jump_mm = jumps.then_some(bounds[j][1]);
+        }
+    }
+    phases
+}
+
+/// Whether slices come or go at once between each of the `phases` of a base pitch and the next.
+fn jumps(phases: &[SlicedPosition]) -> Vec<bool> {
+    let of = |phase: &SlicedPosition, ahead: i32| -> BTreeSet<(i32, usize)> {
+        phase.contacts.iter().map(|contact| (contact.tooth - ahead, contact.slice)).collect()
+    };
+    let after = |index: usize| {
+        // The first phase comes again a base pitch later, when each tooth is where the one ahead of it was.
+        let (next, ahead) = if index + 1 < phases.len() { (index + 1, 0) } else { (0, 1) };
+        let (before, after) = (of(&phases[index], 0), of(&phases[next], ahead));
+        let changed = before.symmetric_difference(&after).count();
+        changed as f64 > JUMP * before.len().max(after.len()) as f64
+    };
+    (0..phases.len()).map(after).collect()
 }
 
 /// How slices go through the mesh.
@@ -138,6 +167,8 @@ struct SlicePassage<'a> {
     first_mm: f64,
     /// Its last.
     last_mm: f64,
+    /// Whether it begins there without load.
+    by_first_touch: bool,
     pitch_mm: f64,
     ahead_mm: &'a [f64],
 }
@@ -173,8 +204,9 @@ impl SlicePassage<'_> {
                 }
                 let lower_mm = if self.touches(before + shift) { bounds[0] + shift } else { self.first_mm };
                 let upper_mm = if self.touches(after + shift) { bounds[1] + shift } else { self.last_mm };
-                // A contact stands in the middle of its stretch, so that what a cut stretch wears is of second order too.
-                let position_mm = lower_mm.midpoint(upper_mm);
+                // A contact stands in the middle of its stretch, so that what a cut stretch wears is of second order too; one that begins by first touch stands
+                // where it is, since how far it has come decides what it carries.
+                let position_mm = if self.by_first_touch { here + shift } else { lower_mm.midpoint(upper_mm) };
                 let cell = PositionCell { position_mm, lower_mm, upper_mm };
                 contacts.push(SliceContact { tooth, slice, cell, part: ContactPart::WHOLE });
             }

@@ -61,14 +61,18 @@ pub fn overlaps_mm(
 pub fn shares_outside(pair: &GearPair, state: &Snapshot, range_mm: [f64; 2]) -> [f64; 2] {
     let path = &pair.path;
     let pitch = path.base_pitch_mm;
+    let same = SAME_PLACE * pitch;
     let positions = &state.cycle.positions;
-    [path.start_mm - range_mm[0], path.end_mm + range_mm[1]].map(|end_mm| {
+    let ends = [(PathEnd::Start, path.start_mm - range_mm[0]), (PathEnd::End, path.end_mm + range_mm[1])];
+    ends.map(|(end, end_mm)| {
         let first = path.start_mm + (end_mm - path.start_mm).rem_euclid(pitch);
         let places = (0..).map(|k| first + f64::from(k) * pitch).take_while(|place| *place <= path.end_mm);
-        let nearest = |place: f64| {
-            positions.iter().min_by(|a, b| (a.position_mm - place).abs().total_cmp(&(b.position_mm - place).abs()))
+        // The row beside each place on that side of it on which the pair is within the range.
+        let touching = |place: f64| match end {
+            PathEnd::Start => positions.iter().find(|at| at.position_mm >= place - same).or(positions.last()),
+            PathEnd::End => positions.iter().rfind(|at| at.position_mm <= place + same).or(positions.first()),
         };
-        1.0 - places.filter_map(nearest).map(|at| at.load_share).sum::<f64>()
+        1.0 - places.filter_map(touching).map(|at| at.load_share).sum::<f64>()
     })
 }
 

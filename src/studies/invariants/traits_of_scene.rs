@@ -73,6 +73,11 @@ pub(super) fn takes_stable_steps(record: &RunRecord) -> bool {
     !record.summary.warnings.iter().any(|warning| warning.starts_with("numerics.step"))
 }
 
+/// Whether teeth touch farther outside A to E than the run follows them: there loads jump.
+pub(super) fn touches_beyond_range(record: &RunRecord) -> bool {
+    record.summary.warnings.iter().any(|warning| warning.starts_with("loaded teeth touch farther"))
+}
+
 /// Whether the stiffness model has a size of its own: c' of ISO 6336 falls with the line load below 100 N/mm.
 pub(super) fn has_a_size(table: &Table, record: &RunRecord) -> bool {
     let loads = record.summary.phases.iter().map(|phase| phase.line_load_N_per_mm);

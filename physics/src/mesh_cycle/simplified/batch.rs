@@ -42,7 +42,8 @@ type Row = Vec<[f64; LANES]>;
 
 /// Some phases in rows.
 pub(crate) struct Batch {
-    phases: Vec<SlicedPosition>,
+    /// Where and what they are.
+    pub phases: Vec<SlicedPosition>,
     /// Their states.
     pub loaded_positions: Vec<LoadedPosition>,
     packs: Vec<Pack>,

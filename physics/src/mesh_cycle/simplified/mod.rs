@@ -29,8 +29,6 @@ pub(crate) mod lanes;
 pub(crate) mod loaded_position;
 pub(crate) mod on_flanks;
 
-use std::collections::BTreeSet;
-
 use rayon::prelude::*;
 
 use super::wearing_pair::WearingPair;
@@ -55,32 +53,15 @@ use on_flanks::{FlankPoints, Knot};
 /// Contacts of a batch: enough that handing it to another thread costs nothing beside it, about 0.1 ms.
 const BATCH: usize = 16_000;
 
-/// Where more than this part of all contacts comes or goes, loads jump; where less does, they change as from any position to the next.
-const JUMP: f64 = 0.05;
-
-/// Whether slices come or go at once between each of the `phases` of a base pitch and the next.
-fn jumps(phases: &[SlicedPosition]) -> Vec<bool> {
-    let of = |phase: &SlicedPosition, ahead: i32| -> BTreeSet<(i32, usize)> {
-        phase.contacts.iter().map(|contact| (contact.tooth - ahead, contact.slice)).collect()
-    };
-    let after = |index: usize| {
-        // The first phase comes again a base pitch later, when each tooth is where the one ahead of it was.
-        let (next, ahead) = if index + 1 < phases.len() { (index + 1, 0) } else { (0, 1) };
-        let (before, after) = (of(&phases[index], 0), of(&phases[next], ahead));
-        let changed = before.symmetric_difference(&after).count();
-        changed as f64 > JUMP * before.len().max(after.len()) as f64
-    };
-    (0..phases.len()).map(after).collect()
-}
-
-/// The contacts of each slice in the order of the path; `jumps` tells of each phase whether slices come or go after it.
-fn knots(batches: &[Batch], jumps: &[bool], slices: usize) -> Vec<Vec<Knot>> {
+/// The contacts of each slice in the order of the path.
+fn knots(batches: &[Batch], slices: usize) -> Vec<Vec<Knot>> {
     let mut knots = vec![Vec::new(); slices];
     let phases = batches
         .iter()
         .enumerate()
         .flat_map(|(number, batch)| (0..batch.loaded_positions.len()).map(move |loaded| (number, batch, loaded)));
-    for ((number, batch, loaded), &jumps) in phases.zip(jumps) {
+    for (number, batch, loaded) in phases {
+        let jumps = batch.phases[loaded].jump_mm.is_some();
         for (contact, lane, _) in batch.contacts(loaded) {
             let (position_mm, upper_mm) = (contact.cell.position_mm, contact.cell.upper_mm);
             knots[contact.slice].push(Knot { position_mm, upper_mm, jumps, at: (number, lane) });
@@ -136,7 +117,6 @@ impl<'a> SimplifiedPair<'a> {
             };
             springs.pair.obliquity().transverse_mm(PerGear::from_fn(of_gear).sum())
         };
-        let jumps = jumps(&phases);
         let contacts: usize = phases.iter().map(|phase| phase.contacts.len()).sum();
         let size = phases.len().div_ceil(contacts.div_ceil(BATCH).max(1)).max(1);
         let mut batches = Vec::new();
@@ -147,7 +127,7 @@ impl<'a> SimplifiedPair<'a> {
         }
         let meshes = PerGear { pinion: 0.0, wheel: 0.0 };
         let flank_points = FlankPoints::new(springs.pair, grid);
-        let knots = knots(&batches, &jumps, springs.sliced.slices.count());
+        let knots = knots(&batches, springs.sliced.slices.count());
         Self { springs, grid, batches, meshes, positions, bodies_mm, flank_points, knots, parts }
     }
 
@@ -196,6 +176,7 @@ impl<'a> SimplifiedPair<'a> {
                     stiffness_n_per_mm2: None,
                     load_imbalance: total / load - 1.0,
                     contacts,
+                    jump_mm: batch.phases[index].jump_mm,
                 });
             }
         }

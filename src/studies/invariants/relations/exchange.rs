@@ -8,7 +8,7 @@ use crate::studies::invariants::relation::{Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{exchange_gears, number, scaled, with, word};
 use crate::studies::invariants::traits_of_scene::{
     follows_tip_edges, has_heat_or_oil, is_hard_severe, is_on, is_severe, is_sliced, takes_stable_steps,
-    tolerance_of_steps_um,
+    tolerance_of_steps_um, touches_beyond_range,
 };
 
 pub(super) const RELATIONS: &[Relation] = &[
@@ -33,6 +33,10 @@ pub(super) const RELATIONS: &[Relation] = &[
 
 fn roles(subject: &Subject<'_>) -> Verdict {
     let table = subject.table;
+    // Where loads jump at the end of the range of tip edges, each run has the jump where its own driving gear has it.
+    if touches_beyond_range(subject.record) {
+        return Verdict::NotOfThisScene;
+    }
     // Heat and oil know which gear drives: approach and recess, and the ratio of speeds within a phase.
     if has_heat_or_oil(table) || is_severe(table) || is_on(table, "fem") || !takes_stable_steps(subject.record) {
         return Verdict::NotOfThisScene;

@@ -74,7 +74,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         name: "slices of a spur pair",
         states: "A pair without slices is any of its slices: a lead crowning of a millionth of a micrometre changes nothing.",
         bound: "positions of slices lie over one base pitch, others than those from A to E: 15 % of the volume, 5 % of the transmission error; \
-                where they are too few for narrow contacts, four times as many",
+                where they are too few for narrow contacts, four or sixteen times as many",
         is_rare: false,
         check: slices,
     },

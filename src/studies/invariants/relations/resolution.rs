@@ -13,8 +13,8 @@ pub(super) const RELATIONS: &[Relation] = &[
     Relation {
         name: "finer flanks",
         states: "Twice the flank points come to the same worn volumes and transmission error.",
-        bound: "60 to 120 points of a flank, some three in a contact: 15 % of the volume, 3 % of the transmission error; where they are too few, four times \
-                as many",
+        bound: "60 to 120 points of a flank, some three in a contact: 15 % of the volume, 3 % of the transmission error; where they are too few, four or \
+                sixteen times as many",
         is_rare: false,
         check: finer_points,
     },
@@ -22,7 +22,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         name: "finer positions",
         states: "Twice the positions come to the same worn volumes and transmission error.",
         bound: "24 to 160 positions, of second order where loads change steadily: 15 % of the volume, 15 % of the transmission error; where \
-                they are too few for narrow contacts, four times as many",
+                they are too few for narrow contacts, four or sixteen times as many",
         is_rare: false,
         check: finer_positions,
     },

@@ -5,7 +5,7 @@ use crate::studies::invariants::comparison::{Bounds, Follows, compare};
 use crate::studies::invariants::relation::{Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{gives, scaled};
 use crate::studies::invariants::traits_of_scene::{
-    has_a_size, has_finite_elements, has_heat_or_oil, is_hard_severe, is_severe, is_sliced, takes_stable_steps,
+    has_a_size, has_finite_elements, has_heat_or_oil, is_hard_severe, is_sliced, takes_stable_steps,
     tolerance_of_steps_um,
 };
 
@@ -21,7 +21,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         name: "size",
         states: "All lengths times s and the torque times s³: the same pressures, s times the wear depth, s³ times the volume.",
         bound: "equilibria solved to 1e-10 of the load, which steps amplify: 1e-4 at a point, 1e-5 of volume and transmission error; \
-                worn by adaptive steps and severe wear numerics.tolerance_um",
+                worn by adaptive steps numerics.tolerance_um",
         is_rare: false,
         check: size,
     },
@@ -29,7 +29,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         name: "modulus and torque",
         states: "Young's moduli, torque and limits of pressure times c, wear coefficients over c: c times the pressure, the same deformation and wear.",
         bound: "equilibria solved to 1e-10 of the load, which steps amplify: 1e-4 at a point, 1e-5 of volume and transmission error; \
-                worn by adaptive steps and severe wear numerics.tolerance_um",
+                worn by adaptive steps numerics.tolerance_um",
         is_rare: false,
         check: modulus,
     },
@@ -37,17 +37,16 @@ pub(super) const RELATIONS: &[Relation] = &[
         name: "face width",
         states: "Face width and torque of a pair without slices times c: the same in every section, c times the volume.",
         bound: "equilibria solved to 1e-10 of the load, which steps amplify: 1e-4 at a point, 1e-5 of volume and transmission error; \
-                worn by adaptive steps and severe wear numerics.tolerance_um",
+                worn by adaptive steps numerics.tolerance_um",
         is_rare: false,
         check: width,
     },
 ];
 
-/// Adaptive steps are chosen by the stiffness of the rate, whose estimate ends at a threshold: where wear is severe the last bits may decide on
-/// other steps.
+/// Adaptive steps are chosen by the stiffness of the rate, whose estimate ends at a threshold: the last bits may decide on other steps, of which one more or
+/// less moves the depth by a part of what they promise (seed 7, 5546: 20 steps and 19, 0.08 µm of 0.54 µm).
 fn bounds(subject: &Subject<'_>) -> Bounds {
-    let table = subject.table;
-    Bounds { tolerance_um: tolerance_of_steps_um(table).filter(|_| is_severe(table)), ..BOUNDS }
+    Bounds { tolerance_um: tolerance_of_steps_um(subject.table), ..BOUNDS }
 }
 
 fn size(subject: &Subject<'_>) -> Verdict {
