@@ -434,7 +434,7 @@ mod tests {
             ends_at_root_form += at_tips.into_iter().filter(|at_tip| !at_tip).count();
             let cell = PositionCell { position_mm, lower_mm: position_mm - 0.1, upper_mm: position_mm + 0.1 };
             for passed_during in [None, Some(cell)] {
-                let strip = Strip::new(flanks, position_mm, window, 400, passed_during);
+                let strip = Strip::new(flanks, position_mm, window, window.evenly_mm(400), passed_during);
                 let mut gap_mm = Vec::new();
                 strip.gap_mm(worn_mm.as_ref().map(Vec::as_slice), &mut gap_mm);
                 for (gap, geometric) in gap_mm.iter().zip(&strip.geometric_gap_mm) {
@@ -454,7 +454,8 @@ mod tests {
         let flanks = Flanks::of_gears(&pair, grid.as_ref());
         let position_mm = 15.5;
         let whole = Window::new(flanks, position_mm, f64::INFINITY);
-        let ridge_mm = *Strip::new(flanks, position_mm, whole, 8, None).geometric_gap_mm.last().unwrap();
+        let ridge_mm =
+            *Strip::new(flanks, position_mm, whole, whole.evenly_mm(8), None).geometric_gap_mm.last().unwrap();
         // Rigid flanks would overlap by 0.02 mm on the line of action and by 0.01 mm on the ridge.
         let approach_mm = ridge_mm + 0.01;
         let above_ridge_mm = pair.flank_limits_mm(Gear::Wheel).0 + 0.5;
