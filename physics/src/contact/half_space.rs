@@ -168,11 +168,7 @@ impl HalfSpacePair<'_> {
     /// Whether the flanks may touch beyond an end of the window that is not real.
     fn may_touch_beyond(&self) -> bool {
         let SampledStretch { strip, cells, .. } = &self.window.samples;
-        let approach_mm = self.touch + cells.indentation_mm();
-        let sunk_mm = cells.sunk_at_ends_mm();
-        let gaps = [strip.geometric_gap_mm[0], strip.geometric_gap_mm[strip.geometric_gap_mm.len() - 1]];
-        let ends = gaps.into_iter().zip(sunk_mm).zip(strip.window.ends_are_real);
-        ends.into_iter().any(|((gap, sunk), real)| !real && gap + sunk + self.removed_everywhere < approach_mm)
+        strip.may_touch_beyond(self.touch + cells.indentation_mm(), self.removed_everywhere, cells.sunk_at_ends_mm())
     }
 }
 

@@ -178,7 +178,8 @@ impl Window {
                 let at_mm = [i - 1, i, i + 1].map(along_mm);
                 let slope = |k: usize| (removed_mm[i + k] - removed_mm[i + k - 1]) / (at_mm[k + 1] - at_mm[k]);
                 let (turn, place_mm) = ((slope(1) - slope(0)).abs(), on_tangent(gear, at_mm[1]));
-                let is_within = self.lower_mm < place_mm && place_mm < self.upper_mm;
+                let apart_mm = SAME_PLACE * spacing_mm;
+                let is_within = self.lower_mm + apart_mm < place_mm && place_mm < self.upper_mm - apart_mm;
                 if is_within && 0.25 * turn * spacing_mm >= missed_mm {
                     places_mm.push(place_mm);
                 }
@@ -231,6 +232,8 @@ pub(crate) struct Strip {
     pub along_mm: Vec<f64>,
     /// Geometric gap at each sample, mm.
     pub geometric_gap_mm: Vec<f64>,
+    /// Gap of flanks that have lost nothing, modifications neither, at both ends, mm.
+    unmodified_at_ends_mm: [f64; 2],
     removed: Removed,
 }
 
@@ -264,8 +267,9 @@ impl Strip {
             }
             here
         });
+        let unmodified_at_ends_mm = [0, geometric_gap_mm.len() - 1].map(|end| geometric_gap_mm[end]);
         let (Some(modification_mm), Some(cell)) = (flanks.modification_mm, passed_during) else {
-            return Self { window, along_mm, geometric_gap_mm, removed: Removed::Here(here) };
+            return Self { window, along_mm, geometric_gap_mm, unmodified_at_ends_mm, removed: Removed::Here(here) };
         };
         let passing = PerGear::from_fn(|gear| {
             let passing = PassingMean::new(flanks, gear, cell, along_mm.iter().map(|&along| on_tangent(gear, along)));
@@ -274,7 +278,7 @@ impl Strip {
             geometric_gap_mm.iter_mut().zip(beside).for_each(|(gap, (here, mean))| *gap += here - mean);
             passing
         });
-        Self { window, along_mm, geometric_gap_mm, removed: Removed::Passing(passing) }
+        Self { window, along_mm, geometric_gap_mm, unmodified_at_ends_mm, removed: Removed::Passing(passing) }
     }
 
     /// Distance of samples that are evenly spaced.
@@ -306,10 +310,11 @@ impl Strip {
     }
 
     /// Whether flanks pressed together by `approach_mm`, and that have lost at least `removed_mm` wherever they may touch, can touch
-    /// beyond an end of the window that is not real: what else is removed only widens the gap, so the geometric gap decides.
-    pub(crate) fn may_touch_beyond(&self, approach_mm: f64, removed_mm: f64) -> bool {
-        let ends = [self.geometric_gap_mm[0], self.geometric_gap_mm[self.geometric_gap_mm.len() - 1]];
-        ends.iter().zip(self.window.ends_are_real).any(|(&gap, real)| !real && approach_mm - removed_mm > gap)
+    /// beyond an end of the window that is not real, where their surfaces have sunk by `sunk_mm`: what else is removed only widens the gap. A
+    /// modification at the end itself says nothing of what lies beyond, where a rounding or a relief may not have begun.
+    pub(crate) fn may_touch_beyond(&self, approach_mm: f64, removed_mm: f64, sunk_mm: [f64; 2]) -> bool {
+        let ends = self.unmodified_at_ends_mm.into_iter().zip(sunk_mm).zip(self.window.ends_are_real);
+        ends.into_iter().any(|((gap, sunk), real)| !real && gap + sunk + removed_mm < approach_mm)
     }
 }
 

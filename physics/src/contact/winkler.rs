@@ -287,7 +287,7 @@ impl PairContact for WinklerPair<'_> {
                 pressure.extend(gap.windows(2).map(mean));
             });
         }
-        !self.strip().may_touch_beyond(self.touch + self.indentation_mm, self.removed_everywhere)
+        !self.strip().may_touch_beyond(self.touch + self.indentation_mm, self.removed_everywhere, [0.0; 2])
     }
 
     fn widen(&mut self) {

@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use super::modification::{Modification, ReliefShape};
+use super::modification::{Modification, Relief, ReliefShape};
 use super::{
     Gear, PairError, PerGear, backlash::Backlash, path_of_contact::PathOfContact,
     removed_material::tip_rounding_length_mm, spec::PairSpec, tooth::Tooth,
@@ -110,12 +110,13 @@ impl GearPair {
         }
     }
 
-    /// Radii of curvature of a gear's flank where its reliefs begin, each with how it grows from there.
+    /// Radii of curvature of a gear's flank where its reliefs begin, each with how it grows from there; a relief of nothing begins nowhere.
     pub fn begins_of_reliefs(&self, gear: Gear) -> impl Iterator<Item = (f64, ReliefShape)> + use<> {
         let Modification { tip_relief, root_relief, .. } = self.spec.gears[gear].modification;
         let (tip_rho_mm, start_rho_mm) = (self.teeth[gear].tip_rho_mm(), self.active_start_rho_mm(gear));
-        let of_tip = tip_relief.map(|relief| (tip_rho_mm - relief.length_mm, relief.shape));
-        let of_root = root_relief.map(|relief| (start_rho_mm + relief.length_mm, relief.shape));
+        let removes = |relief: &Relief| relief.amount_mm > 0.0;
+        let of_tip = tip_relief.filter(removes).map(|relief| (tip_rho_mm - relief.length_mm, relief.shape));
+        let of_root = root_relief.filter(removes).map(|relief| (start_rho_mm + relief.length_mm, relief.shape));
         of_tip.into_iter().chain(of_root)
     }
 

@@ -22,8 +22,10 @@ use crate::mesh::{CellBlock, CellKind, Mesh};
 
 /// Half-widths of flank above the start of active profile that the mate's tip edge touches, early contact included.
 const TIP_MEETS_HALF_WIDTHS: f64 = 3.0;
-/// Where a linear relief begins, on either flank: length of the elements over that elsewhere, and to how many half-widths from there.
-const AT_KINK: (f64, f64) = (1.0 / 3.0, 0.5);
+/// Length of the elements where a linear relief begins, on either flank, over that elsewhere.
+const AT_KINK: f64 = 1.0 / 3.0;
+/// Half-widths from there over which they grow to that: as slowly as the layer of quadrilaterals bears.
+const KINK_REACHES_HALF_WIDTHS: f64 = 3.0;
 
 /// The sectors of both gears.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,9 +86,9 @@ pub fn gear_sector(
     let by_rho = |rho_mm: f64| {
         let (arc_mm, half_width_mm) = (involute.arc_mm(rho_mm), on_flank(rho_mm));
         let at_tip = rounding_mm > 0.0 && (met_from_mm..met_by_tip_mm).contains(&arc_mm);
-        let at_kink = kinks_mm.iter().any(|kink_mm| (arc_mm - kink_mm).abs() < AT_KINK.1 * half_width_mm);
+        let away_mm = kinks_mm.iter().map(|kink_mm| (arc_mm - kink_mm).abs()).fold(f64::INFINITY, f64::min);
         let of_tip_mm = if at_tip { at_tip_mm } else { f64::INFINITY };
-        let of_kink = if at_kink { AT_KINK.0 } else { 1.0 };
+        let of_kink = (AT_KINK + (1.0 - AT_KINK) * away_mm / (KINK_REACHES_HALF_WIDTHS * half_width_mm)).min(1.0);
         (of_kink * half_width_mm).min(of_tip_mm).max(floor_mm)
     };
     let flank = FlankResolution {

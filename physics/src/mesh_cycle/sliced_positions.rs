@@ -88,7 +88,9 @@ pub struct SlicedPosition {
     pub position_mm: f64,
     /// The contacts, tooth by tooth and slice by slice.
     pub contacts: Vec<SliceContact>,
-    /// Where, between here and the next position, slices come or go at once; none where all change steadily.
+    /// Whether slices come or go at once between here and the next position.
+    pub jumps: bool,
+    /// Where they do, if all in one place.
     pub jump_mm: Option<f64>,
 }
 
@@ -116,14 +118,14 @@ pub fn sliced_positions(
     if ends == SliceEnds::Gradual && varies_mm >= spacing {
         let position = |&position_mm: &f64| {
             let contacts = passage.parts(position_mm, 0.5 * spacing, varies_mm);
-            SlicedPosition { position_mm, contacts, jump_mm: None }
+            SlicedPosition { position_mm, contacts, jumps: false, jump_mm: None }
         };
         return places.iter().map(position).collect();
     }
     // Where each place's contacts are decided, and where its stretch begins and ends.
-    let (decided_at, bounds) = if passage.by_first_touch {
+    let Zones { decided_at, bounds, one_change } = if passage.by_first_touch {
         let bounds = places.iter().map(|place| [place - 0.5 * spacing, place + 0.5 * spacing]).collect();
-        (places.clone(), bounds)
+        Zones { decided_at: places.clone(), bounds, one_change: vec![false; count] }
     } else {
         zones(&places, pitch, &passage.changes_mm(path.start_mm))
     };
@@ -135,12 +137,13 @@ pub fn sliced_positions(
                 decided_at[k.rem_euclid(count as i32) as usize] + f64::from(turns) * pitch
             };
             let contacts = passage.contacts(bounds[j], [neighbour(-1), decided_at[j], neighbour(1)]);
-            SlicedPosition { position_mm: places[j], contacts, jump_mm: None }
+            SlicedPosition { position_mm: places[j], contacts, jumps: false, jump_mm: None }
         })
         .collect();
     if !passage.by_first_touch {
         for (j, jumps) in jumps(&phases).into_iter().enumerate() {
-            phases[j].jump_mm = jumps.then_some(bounds[j][1]);
+            phases[j].jumps = jumps;
+            phases[j].jump_mm = (jumps && one_change[j]).then_some(bounds[j][1]);
         }
     }
     phases
@@ -271,9 +274,18 @@ impl SlicePassage<'_> {
     }
 }
 
-/// For each of the evenly spaced `places` of a period: the middle of the zone between `changes` that holds it, and the bounds of
-/// its stretch: halfway to the next place, or the change where that place's zone begins.
-fn zones(places: &[f64], period: f64, changes: &[f64]) -> (Vec<f64>, Vec<[f64; 2]>) {
+/// What changes of the contacts make of each place.
+struct Zones {
+    /// The middle of the zone between changes that holds it, where it is decided who touches.
+    decided_at: Vec<f64>,
+    /// The bounds of its stretch: halfway to the next place, or the change where that place's zone begins.
+    bounds: Vec<[f64; 2]>,
+    /// Whether one change lies between it and the next.
+    one_change: Vec<bool>,
+}
+
+/// The zones between `changes` of the evenly spaced `places` of a period.
+fn zones(places: &[f64], period: f64, changes: &[f64]) -> Zones {
     let count = places.len() as i32;
     let place = |j: i32| places[j.rem_euclid(count) as usize] + f64::from(j.div_euclid(count)) * period;
     // The zone of a place as the change where it begins, with its number, which grows over periods.
@@ -289,7 +301,9 @@ fn zones(places: &[f64], period: f64, changes: &[f64]) -> (Vec<f64>, Vec<[f64; 2
     let bound_after = |j: i32| {
         if zone(j) == zone(j + 1) { place(j).midpoint(place(j + 1)) } else { change(zone(j + 1)) }
     };
-    let middles = (0..count).map(|j| change(zone(j)).midpoint(change(zone(j) + 1))).collect();
-    let bounds = (0..count).map(|j| [bound_after(j - 1), bound_after(j)]).collect();
-    (middles, bounds)
+    Zones {
+        decided_at: (0..count).map(|j| change(zone(j)).midpoint(change(zone(j) + 1))).collect(),
+        bounds: (0..count).map(|j| [bound_after(j - 1), bound_after(j)]).collect(),
+        one_change: (0..count).map(|j| zone(j + 1) == zone(j) + 1).collect(),
+    }
 }

@@ -46,10 +46,20 @@ const FINEST: f64 = 16.0;
 
 impl Verdict {
     fn is_beyond(&self) -> bool {
+        self.figures().iter().any(|figure| figure.used() > 1.0)
+    }
+
+    fn figures(&self) -> &[Measured] {
         match self {
-            Verdict::Measured { figures, .. } => figures.iter().any(|figure| figure.used() > 1.0),
-            Verdict::NotOfThisScene | Verdict::Ended { .. } => false,
+            Verdict::Measured { figures, .. } => figures,
+            Verdict::NotOfThisScene | Verdict::Ended { .. } => &[],
         }
+    }
+
+    /// Whether it has every figure that is beyond its bound in `other`.
+    fn says_of_all_beyond(&self, other: &Self) -> bool {
+        let mut beyond = other.figures().iter().filter(|figure| figure.used() > 1.0);
+        beyond.all(|figure| self.figures().iter().any(|own| own.figure == figure.figure))
     }
 }
 
@@ -91,7 +101,11 @@ impl Subject<'_> {
         for by in [FINER, FINEST] {
             if verdict.is_beyond() {
                 let finer = with(self.table, key, (by * count) as i64);
-                verdict = self.two(finer.clone(), other(&finer), &judge);
+                let of_finer = self.two(finer.clone(), other(&finer), &judge);
+                // A run that says nothing of what is beyond acquits of nothing.
+                if of_finer.says_of_all_beyond(&verdict) {
+                    verdict = of_finer;
+                }
             }
         }
         verdict

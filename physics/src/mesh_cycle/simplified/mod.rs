@@ -61,7 +61,7 @@ fn knots(batches: &[Batch], slices: usize) -> Vec<Vec<Knot>> {
         .enumerate()
         .flat_map(|(number, batch)| (0..batch.loaded_positions.len()).map(move |loaded| (number, batch, loaded)));
     for (number, batch, loaded) in phases {
-        let jumps = batch.phases[loaded].jump_mm.is_some();
+        let jumps = batch.phases[loaded].jumps;
         for (contact, lane, _) in batch.contacts(loaded) {
             let (position_mm, upper_mm) = (contact.cell.position_mm, contact.cell.upper_mm);
             knots[contact.slice].push(Knot { position_mm, upper_mm, jumps, at: (number, lane) });

@@ -21,7 +21,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         name: "size",
         states: "All lengths times s and the torque times s³: the same pressures, s times the wear depth, s³ times the volume.",
         bound: "equilibria solved to 1e-10 of the load, which steps amplify: 1e-4 at a point, 1e-5 of volume and transmission error; \
-                worn by adaptive steps numerics.tolerance_um",
+                worn by adaptive steps numerics.tolerance_um, and no pressure",
         is_rare: false,
         check: size,
     },
@@ -29,7 +29,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         name: "modulus and torque",
         states: "Young's moduli, torque and limits of pressure times c, wear coefficients over c: c times the pressure, the same deformation and wear.",
         bound: "equilibria solved to 1e-10 of the load, which steps amplify: 1e-4 at a point, 1e-5 of volume and transmission error; \
-                worn by adaptive steps numerics.tolerance_um",
+                worn by adaptive steps numerics.tolerance_um, and no pressure",
         is_rare: false,
         check: modulus,
     },
@@ -37,7 +37,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         name: "face width",
         states: "Face width and torque of a pair without slices times c: the same in every section, c times the volume.",
         bound: "equilibria solved to 1e-10 of the load, which steps amplify: 1e-4 at a point, 1e-5 of volume and transmission error; \
-                worn by adaptive steps numerics.tolerance_um",
+                worn by adaptive steps numerics.tolerance_um, and no pressure",
         is_rare: false,
         check: width,
     },
