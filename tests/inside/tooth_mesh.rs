@@ -362,6 +362,43 @@ fn kinks_of_reliefs_fall_on_nodes() {
 
 /// Sizes the rest of the program counts on, fzg-c with 10 elements in a half-width: 12 to 25 thousand degrees of freedom
 /// for a resolved tooth, below 1500 for another.
+/// Elements are a third as long where linear reliefs begin, on the flank that has one and where the mate meets it, and the quadrilaterals lie under as much of
+/// the flank as without.
+#[test]
+fn kinks_have_short_elements_and_quadrilaterals() {
+    let plain = pair(&fzg_c());
+    let mut spec = fzg_c();
+    spec.gears.pinion.modification.tip_relief =
+        Some(Relief { amount_mm: 0.015, length_mm: 2.0, shape: ReliefShape::Linear });
+    let relieved = pair(&spec);
+    for elements in [3.0, 10.0] {
+        let of = |pair: &GearPair| sectors(pair, &settings(pair, elements)).fine;
+        let (before, after) = (of(&plain), of(&relieved));
+        for g in Gear::BOTH {
+            let radii = |sector: &ToothSector| {
+                let quads = sector.cells.iter().filter(|cell| cell.kind == CellKind::Quad8);
+                let radii = quads.flat_map(|cell| cell.nodes()).map(|&node| sector.points_mm[node as usize].norm());
+                radii.fold((f64::INFINITY, 0.0_f64), |(low, high), radius| (low.min(radius), high.max(radius)))
+            };
+            let ((low, high), (least, greatest)) = (radii(&before[g]), radii(&after[g]));
+            assert!(
+                least < low + 0.1 && greatest > high - 0.1,
+                "{g:?} {elements}: {low} to {high}, {least} to {greatest} mm"
+            );
+            let position_mm = relieved.teeth.pinion.tip_rho_mm() - 2.0;
+            let kink_rho_mm = relieved.path.rho_mm(g, position_mm);
+            let length_mm = |sector: &ToothSector| {
+                let (_, rho) = sector.working_flank.resolved_nodes();
+                let k = rho.partition_point(|&rho| rho < kink_rho_mm).clamp(2, rho.len() - 2);
+                let arc_mm = |k: usize| relieved.teeth[g].involute.arc_mm(rho[k]);
+                arc_mm(k) - arc_mm(k - 1)
+            };
+            let ratio = length_mm(&after[g]) / length_mm(&before[g]);
+            assert!((0.25..0.45).contains(&ratio), "{g:?} {elements}: {ratio}");
+        }
+    }
+}
+
 #[test]
 fn sectors_have_the_size_they_should() {
     let pair = pair(&fzg_c());
