@@ -317,6 +317,19 @@ fn val_without_helix_it_is_the_spur_pair() {
     }
 }
 
+/// Where slices come one after the other between two phases, the row at A is no jump: half a degree of helix, against 2000 positions.
+#[test]
+fn val_slices_that_come_one_by_one_are_no_jump() {
+    let pair_spec = PairSpec { helix_angle_rad: 0.5_f64.to_radians(), ..fzg_c() };
+    let scene =
+        Scene { pair: pair_spec, steps: 1.0, surface: "hertz", slices: slices(7, Coupling::None), ..fzg_c_scene() };
+    let at_a = [60, 200, 2000].map(|positions| {
+        Scene { positions, flank_points: 100, ..scene.clone() }.run().new.cycle.positions[0].load_share
+    });
+    println!("{at_a:?}");
+    assert!((at_a[0] - at_a[2]).abs() < 0.1 && (at_a[1] - at_a[2]).abs() < 0.05, "{at_a:?}");
+}
+
 /// Where all slices of a tooth come and go at once the rows show the jump as sharp as the pair without slices has it, at A and E and between. A row beside a
 /// jump is level with the phase next to it.
 #[test]
