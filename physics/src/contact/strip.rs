@@ -360,23 +360,42 @@ pub(crate) fn gaps_beside_mm(
 
 /// Flanks are searched this much farther than parabolas of their relative curvature would touch.
 const AMPLE_REACH: f64 = 1.25;
+/// Part of what both flanks have in common along the tangent that is looked at in any case.
+const LEAST_REACH: f64 = 1e-3;
 
-/// The least that both flanks together have lost wherever they can touch when pressed together by `approach_mm`: where a parabola
-/// of their relative curvature, and some way on, is nearer than that.
+/// The least that both flanks together have lost wherever they can touch when pressed together by `approach_mm`: as far as they are nearer than
+/// that unworn.
 pub(crate) fn least_removed_mm(
     flanks: Flanks<'_>,
     position_mm: f64,
     approach_mm: f64,
     removed_mm: PerGear<&[f64]>,
 ) -> f64 {
-    let reach = AMPLE_REACH * (2.0 * flanks.geometry.relative_radius_mm(position_mm) * approach_mm).sqrt();
+    let ((lowest_mm, highest_mm), _) = common_extent_mm(&flanks.geometry, position_mm);
+    let on_flank = |gear: Gear, along_mm: f64| flanks.geometry.at_along(gear, on_tangent(gear, along_mm), position_mm);
+    let unworn_mm = |along_mm: f64| Gear::BOTH.into_iter().map(|gear| on_flank(gear, along_mm).1).sum::<f64>();
+    let centre_mm = 0.0_f64.min(highest_mm).max(lowest_mm);
+    let of_parabola_mm = (2.0 * flanks.geometry.relative_radius_mm(position_mm).max(0.0) * approach_mm).sqrt();
+    let first_mm = (AMPLE_REACH * of_parabola_mm).max(LEAST_REACH * (highest_mm - lowest_mm));
+    // Outside A to E flanks part otherwise than the parabola of their contact.
+    let reached_mm = |outwards: f64| {
+        let mut by_mm = first_mm;
+        loop {
+            let at_mm = (centre_mm + outwards * by_mm).min(highest_mm).max(lowest_mm);
+            if at_mm == lowest_mm || at_mm == highest_mm || unworn_mm(at_mm) >= approach_mm {
+                return at_mm;
+            }
+            by_mm *= 1.5;
+        }
+    };
+    let ends_mm = [reached_mm(-1.0), reached_mm(1.0)];
     let least = |gear: Gear| {
-        let grid = flanks.grid[gear];
-        let here = grid.arc_mm[grid.place(flanks.geometry.contact_coordinate_mm(gear, position_mm)).index];
+        let coordinate_mm = &flanks.grid[gear].coordinate_mm;
+        let at_mm = ends_mm.map(|along_mm| on_flank(gear, along_mm).0);
         // The next point on either side counts too: what is removed is linear in between.
-        let first = grid.arc_mm.partition_point(|&arc| arc < here - reach).saturating_sub(1);
-        let end = (grid.arc_mm.partition_point(|&arc| arc <= here + reach) + 2).min(grid.len());
-        removed_mm[gear][first..end].iter().copied().fold(f64::INFINITY, f64::min)
+        let first = coordinate_mm.partition_point(|&at| at < at_mm[0].min(at_mm[1])).saturating_sub(1);
+        let end = (coordinate_mm.partition_point(|&at| at <= at_mm[0].max(at_mm[1])) + 1).min(coordinate_mm.len());
+        removed_mm[gear][first.min(end - 1)..end].iter().copied().fold(f64::INFINITY, f64::min)
     };
     least(Gear::Pinion) + least(Gear::Wheel)
 }

@@ -303,10 +303,22 @@ mod tests {
     /// Wear of the simplified model became less at flank points (seed 1, 602), a contact window grew or not by rounding (seed 3, 268), the kink of a relief
     /// lay between samples of a contact (seed 3, 1576), rows ran across the jump where slices come all at once (seed 3, 1776), the first and the last
     /// contact of a slice stood half of their stretch off (seed 7, 1016), loads jumped where tip edges are followed no farther (seed 7, 3922), positions were
-    /// farther apart than contacts are wide (seed 7, 5133), and last bits chose other adaptive steps (seed 7, 5546).
+    /// farther apart than contacts are wide (seed 7, 5133), last bits chose other adaptive steps (seed 7, 5546), and a window ended
+    /// within a tip rounding (seed 11, 1536) or where flanks part otherwise than a parabola (seed 13, 2877), with contact beside it.
     #[test]
     fn reg_scenes_that_broke_a_statement_hold() {
-        for (seed, first) in [(1, 602), (3, 268), (3, 1576), (3, 1776), (7, 1016), (7, 3922), (7, 5133), (7, 5546)] {
+        for (seed, first) in [
+            (1, 602),
+            (3, 268),
+            (3, 1576),
+            (3, 1776),
+            (7, 1016),
+            (7, 3922),
+            (7, 5133),
+            (7, 5546),
+            (11, 1536),
+            (13, 2877),
+        ] {
             let record = run(Asked { seed, first, count: 1 }, 1, &Unwatched);
             assert_eq!((record.ran, &record.violations[..]), (1, &[][..]), "{seed} {first}");
         }
