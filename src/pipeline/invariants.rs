@@ -202,9 +202,11 @@ fn jumps_by_itself(model: &Model<'_>, outcome: &Outcome) -> Option<&'static str>
         SurfaceKind::Winkler | SurfaceKind::HalfSpace => contact.tip_contact,
         SurfaceKind::Hertz | SurfaceKind::HertzMean => false,
     };
+    // What overlaps by less makes no jump that is judged.
+    let (_, most_mm) = outcome.new.cycle.transmission_error_mm();
     match follows {
         false => Some("the model cuts contact off at A and E, where its loads jump"),
-        true if is_beyond_range(model, outcome) => {
+        true if is_beyond_range(model, outcome, LEAST_JUMP * most_mm) => {
             Some("teeth touch farther outside A to E than the run follows them, where its loads jump")
         }
         true => None,

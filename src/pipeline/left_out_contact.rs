@@ -32,10 +32,10 @@ fn overlaps_at_range_mm(model: &Model<'_>, outcome: &Outcome) -> Option<[[f64; 2
     Some([range_mm, [0, 1].map(|end| new[end].max(worn[end]))])
 }
 
-/// Whether loads jump where a run that follows tip edges follows them no farther.
-pub(super) fn is_beyond_range(model: &Model<'_>, outcome: &Outcome) -> bool {
+/// Whether teeth overlap by more than `least_mm` where a run that follows tip edges follows them no farther, so that loads jump there.
+pub(super) fn is_beyond_range(model: &Model<'_>, outcome: &Outcome, least_mm: f64) -> bool {
     overlaps_at_range_mm(model, outcome)
-        .is_some_and(|[_, overlaps]| overlaps.iter().any(|&overlap| overlap >= LEAST_MM))
+        .is_some_and(|[_, overlaps]| overlaps.iter().any(|&overlap| overlap >= least_mm))
 }
 
 /// Of a run that follows tip edges: where it does not follow them far enough.

@@ -521,20 +521,23 @@ fn mesh_cycle(model: &Model<'_>, RunFindings { outcome, heat, .. }: RunFindings<
 fn sharp_edge_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
     let mut states = [&outcome.new].into_iter().chain(&outcome.snapshots);
     let is_loaded = states.any(|state| state.cycle.greatest_pressure.sharp_edge_mpa.is_some());
-    let tips = Gear::BOTH.into_iter().filter(|&gear| pair.spec.is_tip_sharp(gear));
-    let corners = PathEnd::BOTH.map(|end| pair.edge(end)).into_iter().filter(|edge| edge.at_root && edge.is_sharp);
-    let sharp: Vec<String> = tips
-        .map(|gear| format!("the tip edge of {}", gear.name()))
-        .chain(corners.map(|edge| format!("the edge that undercut leaves on {}", edge.gear.name())))
-        .collect();
     is_loaded.then(|| {
         format!(
             "mathematically sharp edges carry load ({}): the pressure at an edge (sharp_edge_pressure_MPa, left out of peak_pressure_MPa) and \
              its wear (of a tip tip_edge_wear_um, left out of peak_wear_um) are not defined, they depend on the resolution; a tip edge gets a \
              pressure with tip_rounding_mm",
-            sharp.join(", ")
+            sharp_edges(pair)
         )
     })
+}
+
+/// The mathematically sharp edges of a pair in words: of tips, and those that undercut leaves.
+pub(super) fn sharp_edges(pair: &GearPair) -> String {
+    let tips = Gear::BOTH.into_iter().filter(|&gear| pair.spec.is_tip_sharp(gear));
+    let corners = PathEnd::BOTH.map(|end| pair.edge(end)).into_iter().filter(|edge| edge.at_root && edge.is_sharp);
+    let tips = tips.map(|gear| format!("the tip edge of {}", gear.name()));
+    let corners = corners.map(|edge| format!("the edge that undercut leaves on {}", edge.gear.name()));
+    tips.chain(corners).collect::<Vec<_>>().join(", ")
 }
 
 /// Warns where steel would flow under the pressure of the new or worn pair, of the flanks or of a tip edge; not of plastics, which have other

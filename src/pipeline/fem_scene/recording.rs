@@ -6,14 +6,13 @@ use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::fem::gear::model::{MeshedGear, solid};
 use crate::fem::gear::position::{PositionContact, ToothPairContact};
 use crate::fem::gear::ring::Surroundings;
-use crate::gear::flank_edge::PathEnd;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::ToothSector;
 use crate::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides, default_clamp};
 use crate::mesh::quality::{self, MeshQuality};
 use crate::mesh::{CellBlock, CellKind, Mesh};
 use crate::pipeline::UM_PER_MM;
-use crate::pipeline::recording::{geometry, path_points};
+use crate::pipeline::recording::{geometry, path_points, sharp_edges};
 use crate::pipeline::root_stress;
 use crate::reference::hertz_line::LineContact;
 use crate::reference::steel_yield;
@@ -281,20 +280,11 @@ impl Parts<'_> {
     fn warnings(&self, new: &FemCycleSummary) -> Vec<String> {
         let mut warnings = Vec::new();
         if new.sharp_edge_pressure_MPa.is_some() {
-            let tips = Gear::BOTH.into_iter().filter(|&gear| self.meshed[gear].sharp);
-            let corners = PathEnd::BOTH
-                .map(|end| self.model.pair.edge(end))
-                .into_iter()
-                .filter(|edge| edge.at_root && edge.is_sharp);
-            let sharp: Vec<String> = tips
-                .map(|gear| format!("the tip edge of {}", gear.name()))
-                .chain(corners.map(|edge| format!("the edge that undercut leaves on {}", edge.gear.name())))
-                .collect();
             warnings.push(format!(
                 "mathematically sharp edges carry load ({}): the elastic pressure there is singular, and what is found grows with every \
                  refinement; such contacts are marked at_sharp_edge and left out of peak_pressure_MPa (at a tip tip_rounding_mm makes the \
                  pressure finite)",
-                sharp.join(", ")
+                sharp_edges(self.model.pair)
             ));
         }
         let is_default = |gear: Gear| {

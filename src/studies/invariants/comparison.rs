@@ -65,19 +65,26 @@ pub(super) struct Bounds {
     pub pressure: f64,
     /// Of transmission error and load share at any position.
     pub cycle: f64,
+    /// Least of each of what is worn, where the two runs take as many adaptive steps, whose lengths differ.
+    pub least_of_worn: f64,
     /// What adaptive steps promise of the depth at any point, µm, where the two runs may take others.
     pub tolerance_um: Option<f64>,
 }
 
 impl Bounds {
     pub(super) const fn all(bound: f64) -> Self {
-        Self { wear: bound, volume: bound, pressure: bound, cycle: bound, tolerance_um: None }
+        Self { wear: bound, volume: bound, pressure: bound, cycle: bound, least_of_worn: 0.0, tolerance_um: None }
     }
 
     /// Those of what is worn, beside `record`. The promise of adaptive steps opens the gap of both flanks and so moves the transmission error, and the
     /// load shares by as much of themselves; it says nothing of the pressure at a point where contact begins.
     fn of_worn(self, record: &RunRecord) -> Self {
-        let Some(tolerance_um) = self.tolerance_um else { return self };
+        let Some(tolerance_um) = self.tolerance_um else {
+            let at_least = |bound: f64| bound.max(self.least_of_worn);
+            let Self { wear, volume, pressure, cycle, .. } = self;
+            let [wear, volume, pressure, cycle] = [wear, volume, pressure, cycle].map(at_least);
+            return Self { wear, volume, pressure, cycle, ..self };
+        };
         let over = |whole: f64| if whole > 0.0 { tolerance_um / whole } else { 0.0 };
         let flanks = || Gear::BOTH.into_iter().map(|gear| &record.flanks[gear].wear_um);
         let greatest = |row: &Vec<f64>| row.iter().copied().fold(0.0, f64::max);

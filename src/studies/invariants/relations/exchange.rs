@@ -62,13 +62,22 @@ fn roles(subject: &Subject<'_>) -> Verdict {
     };
     // Points in another order: adaptive steps take their probes as noise by the number of a point.
     let tolerance_um = tolerance_of_steps_um(table);
-    let no_point = Bounds { wear: f64::INFINITY, volume: 0.1, pressure: f64::INFINITY, cycle: 0.03, tolerance_um };
+    let no_point = Bounds {
+        wear: f64::INFINITY,
+        volume: 0.1,
+        pressure: f64::INFINITY,
+        cycle: 0.03,
+        tolerance_um,
+        ..Bounds::all(0.0)
+    };
     let bounds = match (is_sliced(table), follows_tip_edges(table)) {
         // Positions of slices lie over one base pitch, which does not look the same from both ends, and a slice of a few that comes in moves
         // the transmission error by its share.
         (true, _) => Bounds { cycle: 0.15, ..no_point },
         (false, true) => no_point,
-        (false, false) => Bounds { wear: 0.02, volume: 2e-3, pressure: 0.2, cycle: 1e-3, tolerance_um },
+        (false, false) => {
+            Bounds { wear: 0.02, volume: 2e-3, pressure: 0.2, cycle: 1e-3, tolerance_um, ..Bounds::all(0.0) }
+        }
     };
     let bounds = match (is_on(table, "hertz-mean"), is_sliced(table)) {
         // A slice comes in all at once: a position at the jump is on one side of it or on the other.

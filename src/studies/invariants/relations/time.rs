@@ -70,7 +70,7 @@ fn cut_in_two(subject: &Subject<'_>) -> Verdict {
     last.insert("pinion_revolutions".to_owned(), Value::Float(0.5 * duration));
     all.extend([Value::Table(last.clone()), Value::Table(last)]);
     let other = with(table, "operation.phases", Value::Array(all));
-    let bounds = Bounds { wear: 0.02, volume: 2e-3, pressure: 0.2, cycle: 0.01, tolerance_um: None };
+    let bounds = Bounds { wear: 0.02, volume: 2e-3, pressure: 0.2, cycle: 0.01, ..Bounds::all(0.0) };
     subject.beside(other, |record| compare(subject.record, record, &Follows::default(), bounds))
 }
 
