@@ -208,7 +208,8 @@ fn adaptive_steps_estimate_their_own_error() {
     let severe = "severe = { above_MPa = 2000.0, factor = 100.0, band_MPa = 100.0 }\n";
     for (surface, severe) in [("winkler", ""), ("winkler", severe), ("half-space", "")] {
         let text = with(surface, 2, 7_665.0)
-            .replace("step = { revolutions = 7665.0 }", "step = \"adaptive\"")
+            // A tenth of the default tolerance, of some 7 µm.
+            .replace("step = { revolutions = 7665.0 }", "step = \"adaptive\"\ntolerance_um = 0.005")
             .replace("coefficient_m2_per_N", &format!("{severe}coefficient_m2_per_N"));
         let summary = run(&unverified(&text));
         let (error, work) = (summary.error, summary.work);

@@ -414,7 +414,11 @@ mod tests {
 
     /// The plastic pair of `validation/plastic-ridge`, whose contact reaches the wheel's root form circle.
     fn pair() -> GearPair {
-        let gear = |teeth, profile_shift| GearSpec {
+        pair_of(3.0, 114.74, [(19, 0.35), (57, -0.1)])
+    }
+
+    fn pair_of(normal_module_mm: f64, centre_distance_mm: f64, teeth_and_shifts: [(u32, f64); 2]) -> GearPair {
+        let gear = |(teeth, profile_shift)| GearSpec {
             teeth,
             profile_shift,
             tip_diameter_mm: None,
@@ -424,14 +428,14 @@ mod tests {
             shaft: None,
         };
         let spec = PairSpec {
-            normal_module_mm: 3.0,
+            normal_module_mm,
             normal_pressure_angle_rad: 20f64.to_radians(),
             helix_angle_rad: 0.0,
-            centre_distance_mm: 114.74,
+            centre_distance_mm,
             face_width_mm: 30.0,
             rack: BasicRack::default(),
             axis_parallelism: AxisParallelism::default(),
-            gears: PerGear { pinion: gear(19, 0.35), wheel: gear(57, -0.1) },
+            gears: PerGear { pinion: gear(teeth_and_shifts[0]), wheel: gear(teeth_and_shifts[1]) },
         };
         GearPair::new(&spec).expect("the pair of the test exists")
     }
@@ -467,6 +471,46 @@ mod tests {
             }
         }
         assert!(ends_at_root_form > 10, "{ends_at_root_form}");
+    }
+
+    /// Flanks that have lost the less the farther from the line of action, from before A to after E: nothing at which they touch when pressed together has lost
+    /// less than what is said, by a search of 4000 places.
+    #[test]
+    fn ver_what_is_lost_where_flanks_touch_is_found_as_far_as_they_do() {
+        // A plastic pair, and a wheel that is undercut, whose flank begins near the base circle.
+        for pair in [pair(), pair_of(5.407, 127.4, [(37, 0.02266), (10, 0.0)])] {
+            let grid = PerGear::from_fn(|gear| FlankGrid::new(&pair, gear, 3000, PointSpacing::Graded));
+            let flanks = Flanks::of_gears(&pair, grid.as_ref());
+            for k in -4..=44 {
+                let position_mm = pair.path.start_mm + (pair.path.end_mm - pair.path.start_mm) * f64::from(k) / 40.0;
+                let removed_mm = PerGear::from_fn(|gear| {
+                    let here_mm = pair.contact_coordinate_mm(gear, position_mm);
+                    let lost_mm = |at: &f64| 1.0 / (1.0 + (at - here_mm).abs());
+                    grid[gear].coordinate_mm.iter().map(lost_mm).collect::<Vec<f64>>()
+                });
+                let ((lowest_mm, highest_mm), _) = common_extent_mm(&flanks.geometry, position_mm);
+                for approach_mm in [0.005, 0.05, 0.3] {
+                    let mut least_mm = [f64::INFINITY; 2];
+                    for part in 0..=4000 {
+                        let along_mm = lowest_mm + (highest_mm - lowest_mm) * f64::from(part) / 4000.0;
+                        let on_flank =
+                            Gear::BOTH.map(|gear| pair.at_along(gear, on_tangent(gear, along_mm), position_mm));
+                        if on_flank[0].1 + on_flank[1].1 >= approach_mm {
+                            continue;
+                        }
+                        for (least, (gear, (at_mm, _))) in least_mm.iter_mut().zip(Gear::BOTH.into_iter().zip(on_flank))
+                        {
+                            let here_mm = pair.contact_coordinate_mm(gear, position_mm);
+                            *least = least.min(1.0 / (1.0 + (at_mm - here_mm).abs()));
+                        }
+                    }
+                    let found_mm =
+                        least_removed_mm(flanks, position_mm, approach_mm, removed_mm.as_ref().map(Vec::as_slice));
+                    let most_mm = least_mm[0] + least_mm[1] + 1e-9;
+                    assert!(found_mm <= most_mm, "at {position_mm} mm by {approach_mm} mm: {found_mm}, {most_mm} mm");
+                }
+            }
+        }
     }
 
     /// The pinion's tip on a ridge below the wear of the wheel, beside the line of action: seen as an overlap as long as the window does not reach
