@@ -2,7 +2,7 @@
 
 use super::{Model, UM_PER_MM};
 use crate::contact::settings::SurfaceKind;
-use crate::simulation::left_out_contact::{overlaps_mm, shares_outside};
+use crate::simulation::left_out_contact::overlaps_mm;
 use crate::simulation::mesh_contact;
 use crate::simulation::wear_run::Outcome;
 
@@ -49,22 +49,16 @@ fn beyond_range(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
         if overlap_mm < LEAST_MM {
             continue;
         }
-        let lost = match model.sliced {
-            Some(_) => String::new(),
-            None => {
-                let shares = states.map(|state| shares_outside(model.pair, state, range_mm)[end]);
-                format!(
-                    ", so that up to {:.0} % of the load comes in or leaves at once there",
-                    1e2 * shares[0].max(shares[1])
-                )
-            }
-        };
+        let shares = states.into_iter().filter_map(|state| state.cycle.shares_at_ends.map(|shares| shares[end]));
+        let at_once = shares.reduce(f64::max).map_or_else(String::new, |share| {
+            format!(", so that up to {:.0} % of the load comes in or leaves at once there", 1e2 * share)
+        });
         let why = match range_mm[end] > 0.99 * farthest_mm[end] {
             true => ", where the tip circles of both gears part: tips would meet tips",
             false => "",
         };
         ends.push(format!(
-            "{:.2} mm of the path {name}{why}, where the flanks would overlap by {:.1} µm{lost}",
+            "{:.2} mm of the path {name}{why}, where the flanks would overlap by {:.1} µm{at_once}",
             range_mm[end],
             overlap_mm * UM_PER_MM
         ));

@@ -236,6 +236,7 @@ impl MeshCycle for CondensedCycle<'_> {
         let zeros = || PerGear::from_fn(|gear| vec![0.0; self.nodes[gear].len()]);
         let mut observation = CycleObservation {
             positions: self.along_the_path(),
+            shares_at_ends: Some(self.shares_at_ends()),
             greatest_pressure: self.greatest_pressure(),
             pressure_figures: self.pressure_figures(),
             pressure_mpa: zeros(),
@@ -329,6 +330,25 @@ impl CondensedCycle<'_> {
             }
         }
         figures
+    }
+
+    /// Of the pairs found in the base pitch, those that have just come in and those that are about to leave.
+    fn shares_at_ends(&self) -> [f64; 2] {
+        let mut ends = [(f64::INFINITY, 0.0), (f64::NEG_INFINITY, 0.0)];
+        for loaded in self.loaded_positions() {
+            let Some(equilibrium) = &loaded.found else { continue };
+            for pair in self.model.tooth_pairs(&loaded.prepared, equilibrium) {
+                let at_mm = loaded.prepared.position_mm + f64::from(pair.pair) * self.model.pair.path.base_pitch_mm;
+                let share = pair.line_load_n_per_mm / self.line_load_n_per_mm;
+                if at_mm < ends[0].0 {
+                    ends[0] = (at_mm, share);
+                }
+                if at_mm > ends[1].0 {
+                    ends[1] = (at_mm, share);
+                }
+            }
+        }
+        ends.map(|(_, share)| share)
     }
 
     /// The reference pair from A to E, from the pairs found in the base pitch.

@@ -189,6 +189,9 @@ impl Overlap {
 pub struct CycleObservation {
     /// At each position, in order.
     pub positions: Vec<PositionObservation>,
+    /// Part of the load that a pair carries at the first and at the last position of its mesh, before A and after E where tip edges are followed;
+    /// `None` where pairs have slices, or where single points are followed.
+    pub shares_at_ends: Option<[f64; 2]>,
     /// Greatest pressure at any position and of any flank point.
     pub greatest_pressure: GreatestPressure,
     /// Pressure between the tip-edge zones and load of the tip edges; none where the parts of the flanks are not told.
@@ -289,8 +292,10 @@ impl MeshCycle for LineOfActionCycle<'_> {
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
         let removed_mm = lost.removed_mm;
         let zeros = || removed_mm.map(|flank| vec![0.0; flank.len()]);
+        let share_at = |at: Option<&LoadedPosition<'_>>| at.map_or(0.0, |at| at.load_share(self.line_load_n_per_mm));
         let mut observation = CycleObservation {
             positions: Vec::new(),
+            shares_at_ends: Some([self.loaded_positions().next(), self.loaded_positions().last()].map(share_at)),
             greatest_pressure: GreatestPressure::default(),
             pressure_figures: PressureFigures::default(),
             pressure_mpa: zeros(),
@@ -409,10 +414,15 @@ impl<'a> LoadedPosition<'a> {
             position_mm: self.cell.position_mm,
             transmission_error_mm: self.equilibrium.transmission_error_mm + bodies_mm,
             stiffness_n_per_mm2: Some(in_series(self.equilibrium.n_per_mm2, bodies_mm / line_load)),
-            load_share: reference.response.line_load_n_per_mm / line_load,
+            load_share: self.load_share(line_load),
             load_imbalance: total / line_load - 1.0,
             footprint: reference.contact.footprint(),
         }
+    }
+
+    /// Of the reference pair.
+    fn load_share(&self, line_load: f64) -> f64 {
+        self.pairs[0].response.line_load_n_per_mm / line_load
     }
 
     /// Of the reference pair.

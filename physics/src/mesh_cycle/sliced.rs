@@ -228,6 +228,7 @@ impl MeshCycle for SlicedCycle<'_> {
         pressure_figures.note_slices(&figures_of_slices);
         Ok(CycleObservation {
             positions,
+            shares_at_ends: None,
             greatest_pressure,
             pressure_figures,
             pressure_mpa,

@@ -56,26 +56,6 @@ pub fn overlaps_mm(
         .fold([f64::NEG_INFINITY; 2], |most, of| [most[0].max(of[0]), most[1].max(of[1])])
 }
 
-/// Part of the load that pairs outside A to E carry while one of them comes in `range_mm` before A, and while one leaves as far after E; of a
-/// pair without slices.
-pub fn shares_outside(pair: &GearPair, state: &Snapshot, range_mm: [f64; 2]) -> [f64; 2] {
-    let path = &pair.path;
-    let pitch = path.base_pitch_mm;
-    let same = SAME_PLACE * pitch;
-    let positions = &state.cycle.positions;
-    let ends = [(PathEnd::Start, path.start_mm - range_mm[0]), (PathEnd::End, path.end_mm + range_mm[1])];
-    ends.map(|(end, end_mm)| {
-        let first = path.start_mm + (end_mm - path.start_mm).rem_euclid(pitch);
-        let places = (0..).map(|k| first + f64::from(k) * pitch).take_while(|place| *place <= path.end_mm);
-        // The row beside each place on that side of it on which the pair is within the range.
-        let touching = |place: f64| match end {
-            PathEnd::Start => positions.iter().find(|at| at.position_mm >= place - same).or(positions.last()),
-            PathEnd::End => positions.iter().rfind(|at| at.position_mm <= place + same).or(positions.first()),
-        };
-        1.0 - places.filter_map(touching).map(|at| at.load_share).sum::<f64>()
-    })
-}
-
 /// How far the flanks of a slice are apart with the theoretical contact point at an end of the path.
 fn separation_mm(pair: &GearPair, outcome: &Outcome, state: &Snapshot, slice: usize, end: PathEnd, end_mm: f64) -> f64 {
     let touch = pair.touch(end_mm);

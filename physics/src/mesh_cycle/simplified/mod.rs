@@ -305,6 +305,7 @@ impl WearingPair for SimplifiedPair<'_> {
         greatest_pressure.note_slices(&of_slices);
         let cycle = CycleObservation {
             positions,
+            shares_at_ends: None,
             greatest_pressure,
             pressure_figures: self.pressure_figures(),
             pressure_mpa,
