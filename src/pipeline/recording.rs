@@ -7,7 +7,6 @@ use super::{
     severe_pressure, slices, stability::Judged, verification::Verified,
 };
 use crate::contact::flank_pressure::{PressureFigures, TIP_EDGE_MEAN_OVER_MM};
-use crate::gear::flank_edge::PathEnd;
 use crate::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
 use crate::mesh_cycle::CycleObservation;
 use crate::mesh_cycle::wearing_pair::Snapshot;
@@ -534,9 +533,9 @@ fn sharp_edge_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
 /// The mathematically sharp edges of a pair in words: of tips, and those that undercut leaves.
 pub(super) fn sharp_edges(pair: &GearPair) -> String {
     let tips = Gear::BOTH.into_iter().filter(|&gear| pair.spec.is_tip_sharp(gear));
-    let corners = PathEnd::BOTH.map(|end| pair.edge(end)).into_iter().filter(|edge| edge.at_root && edge.is_sharp);
+    let corners = Gear::BOTH.into_iter().filter(|&gear| pair.undercut_corners()[gear]);
     let tips = tips.map(|gear| format!("the tip edge of {}", gear.name()));
-    let corners = corners.map(|edge| format!("the edge that undercut leaves on {}", edge.gear.name()));
+    let corners = corners.map(|gear| format!("the edge that undercut leaves on {}", gear.name()));
     tips.chain(corners).collect::<Vec<_>>().join(", ")
 }
 

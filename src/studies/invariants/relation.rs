@@ -38,8 +38,13 @@ pub(crate) enum Verdict {
     Measured { scene: Table, figures: Vec<Measured> },
 }
 
+/// Flank points, positions, and wear steps of a fixed length.
+pub(super) const POINTS: &str = "numerics.flank_points";
+pub(super) const POSITIONS: &str = "numerics.positions";
+const STEP: &str = "numerics.step.revolutions";
+
 /// Points or positions over those of the scene, where its own are too few for its contacts.
-pub(super) const FINER: f64 = 4.0;
+const FINER: f64 = 4.0;
 /// The same where these are too few as well, as for contacts near a base circle (seed 7, 1232: what a flank loses is 56 % off what load and sliding ask for
 /// at 96 positions, 25 % at 192, 10 % at 384, 4 % at 768).
 const FINEST: f64 = 16.0;
@@ -63,6 +68,22 @@ impl Verdict {
     }
 }
 
+/// The scene with so many times the numbers at `keys`, where it has them; with steps of wear for twice as many flank points, where they are of a fixed length:
+/// what is stable is as long as points are apart.
+fn finer(table: &Table, keys: &[&str], by: f64) -> Table {
+    let mut finer = table.clone();
+    for key in keys {
+        if let Some(count) = number(table, key) {
+            finer = with(&finer, key, (by * count) as i64);
+        }
+    }
+    let step = number(table, STEP).filter(|_| keys.contains(&POINTS));
+    match step {
+        Some(step) => with(&finer, STEP, step / (2.0 * by)),
+        None => finer,
+    }
+}
+
 impl Subject<'_> {
     /// Runs the scene `other` and judges its record; without a figure nothing is said of the scene.
     pub(super) fn beside(&self, other: Table, judge: impl FnOnce(&RunRecord) -> Vec<Measured>) -> Verdict {
@@ -73,6 +94,11 @@ impl Subject<'_> {
             },
             Err(how) => Verdict::Ended { scene: other, how },
         }
+    }
+
+    /// The scene with four times the flank points and positions.
+    pub(super) fn finer(&self) -> Table {
+        finer(self.table, &[POINTS, POSITIONS], FINER)
     }
 
     /// Runs two scenes and judges both.
@@ -88,19 +114,18 @@ impl Subject<'_> {
         }
     }
 
-    /// Runs what `other` makes of the scene and judges both; where they are beyond a bound, `key` may be too small a number for the scene's contacts, and
-    /// both at four times the number are what is judged, or at sixteen times where these are beyond it too.
+    /// Runs what `other` makes of the scene and judges both; where they are beyond a bound, `keys` may be too small numbers for the scene's contacts, and
+    /// both at four times the numbers are what is judged, or at sixteen times where these are beyond it too.
     pub(super) fn refined(
         &self,
-        key: &str,
+        keys: &[&str],
         other: impl Fn(&Table) -> Table,
         judge: impl Fn(&RunRecord, &RunRecord) -> Vec<Measured>,
     ) -> Verdict {
         let mut verdict = self.beside(other(self.table), |record| judge(self.record, record));
-        let Some(count) = number(self.table, key) else { return verdict };
         for by in [FINER, FINEST] {
             if verdict.is_beyond() {
-                let finer = with(self.table, key, (by * count) as i64);
+                let finer = finer(self.table, keys, by);
                 let of_finer = self.two(finer.clone(), other(&finer), &judge);
                 // A run that says nothing of what is beyond acquits of nothing.
                 if of_finer.says_of_all_beyond(&verdict) {

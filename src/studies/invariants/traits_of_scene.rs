@@ -78,6 +78,11 @@ pub(super) fn touches_beyond_range(record: &RunRecord) -> bool {
     record.summary.warnings.iter().any(|warning| warning.starts_with("loaded teeth touch farther"))
 }
 
+/// Whether contacts are so wide that the run calls its result unreliable.
+pub(super) fn has_large_strains(record: &RunRecord) -> bool {
+    record.summary.warnings.iter().any(|warning| warning.contains("strains are not small"))
+}
+
 /// Whether the stiffness model has a size of its own: c' of ISO 6336 falls with the line load below 100 N/mm.
 pub(super) fn has_a_size(table: &Table, record: &RunRecord) -> bool {
     let loads = record.summary.phases.iter().map(|phase| phase.line_load_N_per_mm);

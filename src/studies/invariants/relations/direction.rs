@@ -1,9 +1,11 @@
 //! Inequalities: what more load, more removed material or more duration can only do.
 
+use toml::Table;
+
 use crate::gear::Gear;
 use crate::results::run::{MeshCycleRow, RunRecord};
 use crate::studies::invariants::comparison::{Bounds, Follows, Measured, compare};
-use crate::studies::invariants::relation::{FINER, Relation, Subject, Verdict};
+use crate::studies::invariants::relation::{POINTS, POSITIONS, Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{gives, number, scaled, value, with};
 use crate::studies::invariants::traits_of_scene::{has_fixed_steps, is_hard_severe, is_sliced, takes_stable_steps};
 
@@ -32,7 +34,8 @@ pub(super) const RELATIONS: &[Relation] = &[
     Relation {
         name: "relief opens the gap",
         states: "Material removed at the tips raises the transmission error of the new pair, or leaves it, at every position.",
-        bound: "0.2 % of the greatest: gaps with the kink of a relief or a rounding are sampled at other cells of a contact's window",
+        bound: "0.2 % of the greatest: gaps with the kink of a relief or a rounding are sampled at other cells of a contact's window; where flank points or the \
+                positions between which rows of finite elements lie are too few, four or sixteen times as many",
         is_rare: false,
         check: relief_opens,
     },
@@ -72,20 +75,20 @@ fn relief_opens(subject: &Subject<'_>) -> Verdict {
     let (Some(width), false) = (number(table, "pair.face_width_mm"), is_sliced(table)) else {
         return Verdict::NotOfThisScene;
     };
-    let Some(points) = number(table, "numerics.flank_points") else { return Verdict::NotOfThisScene };
-    // 50 points put the kink of a relief to 1 % of the transmission error, and flanks with another relief have other points.
-    let one = with(table, "numerics.flank_points", (FINER * points) as i64);
-    let mut other = one.clone();
-    for gear in Gear::BOTH {
-        let of = |key: &str| format!("pair.{}.tip_relief.{key}", gear.name());
-        if gives(table, &of("amount_um")) {
-            other = with(&other, &of("amount_um"), 1.5 * number(table, &of("amount_um")).unwrap_or_default());
-        } else {
-            other = with(&other, &of("amount_um"), 0.5 * width);
-            other = with(&other, &of("length_mm"), 0.05 * width);
+    let relieved = |table: &Table| {
+        let mut other = table.clone();
+        for gear in Gear::BOTH {
+            let of = |key: &str| format!("pair.{}.tip_relief.{key}", gear.name());
+            if gives(table, &of("amount_um")) {
+                other = with(&other, &of("amount_um"), 1.5 * number(table, &of("amount_um")).unwrap_or_default());
+            } else {
+                other = with(&other, &of("amount_um"), 0.5 * width);
+                other = with(&other, &of("length_mm"), 0.05 * width);
+            }
         }
-    }
-    subject.two(one, other, less_error)
+        other
+    };
+    subject.refined(&[POINTS, POSITIONS], relieved, less_error)
 }
 
 fn longer(subject: &Subject<'_>) -> Verdict {

@@ -4,11 +4,11 @@ use toml::{Table, Value};
 
 use super::{ROUNDING, SOLVED};
 use crate::studies::invariants::comparison::{Bounds, Follows, compare};
-use crate::studies::invariants::relation::{Relation, Subject, Verdict};
+use crate::studies::invariants::relation::{POSITIONS, Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{exchange_gears, number, scaled, with, word};
 use crate::studies::invariants::traits_of_scene::{
-    follows_tip_edges, has_heat_or_oil, is_hard_severe, is_on, is_severe, is_sliced, takes_stable_steps,
-    tolerance_of_steps_um, touches_beyond_range,
+    follows_tip_edges, has_heat_or_oil, has_large_strains, is_hard_severe, is_on, is_severe, is_sliced,
+    takes_stable_steps, tolerance_of_steps_um, touches_beyond_range,
 };
 
 pub(super) const RELATIONS: &[Relation] = &[
@@ -33,8 +33,9 @@ pub(super) const RELATIONS: &[Relation] = &[
 
 fn roles(subject: &Subject<'_>) -> Verdict {
     let table = subject.table;
-    // Where loads jump at the end of the range of tip edges, each run has the jump where its own driving gear has it.
-    if touches_beyond_range(subject.record) {
+    // Where loads jump at the end of the range of tip edges, each run has the jump where its own driving gear has it. Where strains are large, so is the
+    // difference of the levers that tip edges have on either gear.
+    if touches_beyond_range(subject.record) || has_large_strains(subject.record) {
         return Verdict::NotOfThisScene;
     }
     // Heat and oil know which gear drives: approach and recess, and the ratio of speeds within a phase.
@@ -87,11 +88,9 @@ fn roles(subject: &Subject<'_>) -> Verdict {
     // Positions are those of the driving gear, behind which the driven one stays by the transmission error: so far apart are the two runs' tip edges.
     let lags = follows_tip_edges(table);
     let follows = Follows { exchanged: true, lags, ..Follows::default() };
-    subject.refined("numerics.positions", backwards, |one, other| {
-        match takes_stable_steps(one) && takes_stable_steps(other) {
-            true => compare(one, other, &follows, bounds),
-            false => Vec::new(),
-        }
+    subject.refined(&[POSITIONS], backwards, |one, other| match takes_stable_steps(one) && takes_stable_steps(other) {
+        true => compare(one, other, &follows, bounds),
+        false => Vec::new(),
     })
 }
 

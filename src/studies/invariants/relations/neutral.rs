@@ -6,7 +6,7 @@ use super::ROUNDING;
 use super::resolution::volumes_and_error;
 use crate::results::run::RunRecord;
 use crate::studies::invariants::comparison::{Bounds, Follows, Measured, compare, summaries};
-use crate::studies::invariants::relation::{Relation, Subject, Verdict};
+use crate::studies::invariants::relation::{POSITIONS, Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{gives, number, value, with};
 use crate::studies::invariants::traits_of_scene::{
     follows_tip_edges, has_finite_elements, has_heat_or_oil, has_one_coefficient, is_severe, is_sliced,
@@ -245,5 +245,5 @@ fn slices(subject: &Subject<'_>) -> Verdict {
         return Verdict::NotOfThisScene;
     }
     let sliced = |table: &Table| with(table, "pair.pinion.lead_crowning_um", 1e-6);
-    subject.refined("numerics.positions", sliced, |one, other| volumes_and_error(one, other, OF_POSITIONS))
+    subject.refined(&[POSITIONS], sliced, |one, other| volumes_and_error(one, other, OF_POSITIONS))
 }

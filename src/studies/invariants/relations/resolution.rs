@@ -5,7 +5,7 @@ use toml::Table;
 use crate::gear::Gear;
 use crate::results::run::{RunRecord, Summary};
 use crate::studies::invariants::comparison::{Measured, difference};
-use crate::studies::invariants::relation::{Relation, Subject, Verdict};
+use crate::studies::invariants::relation::{POINTS, POSITIONS, Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{gives, number, with};
 use crate::studies::invariants::traits_of_scene::{follows_tip_edges, has_heat_or_oil, is_severe, takes_stable_steps};
 
@@ -31,12 +31,12 @@ pub(super) const RELATIONS: &[Relation] = &[
 const OF_VOLUME: f64 = 0.15;
 
 fn finer_points(subject: &Subject<'_>) -> Verdict {
-    finer(subject, "numerics.flank_points", 2.0, 0.03)
+    finer(subject, POINTS, 2.0, 0.03)
 }
 
 fn finer_positions(subject: &Subject<'_>) -> Verdict {
     // Both ends stay positions, and each lies halfway between two.
-    finer(subject, "numerics.positions", 2.0, 0.15)
+    finer(subject, POSITIONS, 2.0, 0.15)
 }
 
 fn finer(subject: &Subject<'_>, key: &str, by: f64, of_error: f64) -> Verdict {
@@ -50,7 +50,7 @@ fn finer(subject: &Subject<'_>, key: &str, by: f64, of_error: f64) -> Verdict {
         return Verdict::NotOfThisScene;
     }
     let finer = |table: &Table| with(table, key, (by * number(table, key).unwrap_or_default()) as i64);
-    subject.refined(key, finer, |one, other| volumes_and_error(one, other, of_error))
+    subject.refined(&[key], finer, |one, other| volumes_and_error(one, other, of_error))
 }
 
 /// Worn volumes and transmission error; no volumes where a run takes steps that are too long for it: twice the points halve the stable one.
