@@ -259,7 +259,7 @@ fn carry_out<R>(
             let loads = || scene.operation.phases.iter().map(line_load);
             let (least, greatest) = (loads().fold(f64::INFINITY, f64::min), loads().fold(0.0, f64::max));
             let load = least.max(LEAST_MESHED_LOAD * greatest);
-            verification::condensed(scene, &pair, load, scene.wear_elements_per_half_width, observer)
+            verification::condensed(scene, &pair, load, &scene.wear_bodies(), observer)
         })?),
         _ => None,
     };

@@ -90,6 +90,11 @@ impl Scene {
         resolve::resolve(text)
     }
 
+    /// Bodies of finite elements that wear.
+    pub(crate) fn wear_bodies(&self) -> BodySettings {
+        BodySettings { elements_per_half_width: self.wear_elements_per_half_width, ..self.fem }
+    }
+
     /// What a command that looks at one load leaves out of a scene with phases under others; none where there are no others.
     pub fn one_load_warning(&self) -> Option<String> {
         let own = self.operation.pinion_torque_n_mm;

@@ -24,7 +24,13 @@ fn steel() -> PerGear<Elastic> {
 }
 
 fn settings(body: Body, elements_per_half_width: f64) -> BodySettings {
-    BodySettings { body, clamp_radius_mm: CLAMP_RADIUS_MM, web: NO_WEBS, elements_per_half_width }
+    BodySettings {
+        body,
+        clamp_radius_mm: CLAMP_RADIUS_MM,
+        web: NO_WEBS,
+        elements_per_half_width,
+        rounding_refinement: 1.0,
+    }
 }
 
 /// 302 N·m over base radius and face width.
@@ -265,6 +271,7 @@ fn ver_same_in_mm_and_in_m() {
             clamp_radius_mm: CLAMP_RADIUS_MM.map(|r| r * s),
             web: NO_WEBS,
             elements_per_half_width: 3.0,
+            rounding_refinement: 1.0,
         };
         let load = 637.66 / s;
         let gears = PerGear::from_fn(|gear| {

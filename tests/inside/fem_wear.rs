@@ -34,6 +34,7 @@ fn condensed(pair: &GearPair, elements_per_half_width: f64) -> CondensedPair<'_>
         clamp_radius_mm: PerGear::from_fn(clamp),
         web: NO_WEBS,
         elements_per_half_width,
+        rounding_refinement: 1.0,
     };
     let material =
         steel().map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio });

@@ -86,6 +86,7 @@ fn ver_eulers_steps_break_where_the_bound_says_on_finite_elements() {
         clamp_radius_mm: PerGear::from_fn(clamp),
         web: NO_WEBS,
         elements_per_half_width: 4.0,
+        rounding_refinement: 1.0,
     };
     let material =
         steel().map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio });

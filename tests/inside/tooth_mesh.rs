@@ -27,7 +27,7 @@ const LINE_LOAD: f64 = 302e3 / 33.8289 / 14.0;
 fn settings(pair: &GearPair, elements_per_half_width: f64) -> BodySettings {
     let module = pair.spec.normal_module_mm;
     let clamp_radius_mm = PerGear::from_fn(|g| default_clamp(pair.teeth[g].root_radius_mm, module).radius_mm);
-    BodySettings { body: Body::Ring, clamp_radius_mm, web: NO_WEBS, elements_per_half_width }
+    BodySettings { body: Body::Ring, clamp_radius_mm, web: NO_WEBS, elements_per_half_width, rounding_refinement: 1.0 }
 }
 
 fn sectors(pair: &GearPair, settings: &BodySettings) -> PairSectors {
@@ -345,6 +345,39 @@ fn flank_elements_have_the_length_asked_for() {
     }
 }
 
+/// Elements of roundings, and those of the flank that the mate's rounding touches, are refined as asked for; others keep their length.
+#[test]
+fn roundings_are_refined_by_themselves() {
+    let mut spec = fzg_c();
+    Gear::BOTH.into_iter().for_each(|g| spec.gears[g].modification.tip_rounding_mm = 0.1);
+    let pair = pair(&spec);
+    let settings = settings(&pair, 3.0);
+    let [usual, refined] =
+        [1.0, 3.0].map(|rounding_refinement| sectors(&pair, &BodySettings { rounding_refinement, ..settings }));
+    for g in Gear::BOTH {
+        // Lengths of the elements at the start of active profile, on the middle of the flank and on the rounding.
+        let lengths_mm = |sectors: &PairSectors| {
+            let sector = &sectors.fine[g];
+            let (nodes, _) = sector.working_flank.resolved_nodes();
+            let point = |k: usize| sector.points_mm[nodes[k] as usize];
+            let ends = || (0..nodes.len() - 2).step_by(2).map(|k| (point(k), point(k + 2)));
+            let at_radius = |radius_mm: f64| {
+                let near =
+                    ends().min_by(|a, b| (a.0.norm() - radius_mm).abs().total_cmp(&(b.0.norm() - radius_mm).abs()));
+                near.map(|(a, b)| (b - a).norm()).unwrap()
+            };
+            let involute = pair.teeth[g].involute;
+            let at_start = at_radius(involute.radius_mm(pair.active_start_rho_mm(g)));
+            [at_start, at_radius(pair.working_pitch_radius_mm(g)), at_radius(pair.teeth[g].tip_radius_mm)]
+        };
+        let (usual, refined) = (lengths_mm(&usual), lengths_mm(&refined));
+        let ratio = [0, 1, 2].map(|k| refined[k] / usual[k]);
+        assert!((ratio[0] - 1.0 / 3.0).abs() < 0.04, "{}: {usual:?} {refined:?}", g.name());
+        assert!((ratio[1] - 1.0).abs() < 0.02, "{}: {usual:?} {refined:?}", g.name());
+        assert!((ratio[2] - 1.0 / 3.0).abs() < 0.04, "{}: {usual:?} {refined:?}", g.name());
+    }
+}
+
 #[test]
 fn kinks_of_reliefs_fall_on_nodes() {
     let spec = modified(fzg_c(), 0.3);
@@ -521,6 +554,7 @@ fn what_cannot_be_meshed_is_refused() {
         let flank = FlankResolution {
             half_width_mm: &half_width,
             elements_per_half_width,
+            rounding_refinement: 1.0,
             margin_mm: 3.0 * half_width_mm,
             depth_half_widths: 1.0,
         };
@@ -553,6 +587,7 @@ fn any_load_gives_a_mesh() {
             let flank = FlankResolution {
                 half_width_mm: &half_width,
                 elements_per_half_width,
+                rounding_refinement: 1.0,
                 margin_mm: 3.0 * half_width_mm,
                 depth_half_widths: 1.0,
             };

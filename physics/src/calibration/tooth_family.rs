@@ -141,6 +141,7 @@ fn mesh(shape: &ToothShape<'_>, fine: bool) -> Result<ToothSector, tooth_mesh::T
     let flank = FlankResolution {
         half_width_mm: &everywhere,
         elements_per_half_width: ELEMENTS_IN_LENGTH,
+        rounding_refinement: 1.0,
         margin_mm: MARGIN * length_mm,
         depth_half_widths: DEPTH,
     };

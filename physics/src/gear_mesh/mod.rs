@@ -84,6 +84,8 @@ pub struct FlankResolution<'a> {
     pub half_width_mm: &'a dyn Fn(f64) -> f64,
     /// Elements per half-width.
     pub elements_per_half_width: f64,
+    /// [`BodySettings::rounding_refinement`](settings::BodySettings::rounding_refinement).
+    pub rounding_refinement: f64,
     /// Length of flank by which the resolved part begins below the start of active profile, mm.
     pub margin_mm: f64,
     /// Depth of the structured layer in half-widths.

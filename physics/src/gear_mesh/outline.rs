@@ -232,7 +232,8 @@ impl<'a> Wanted<'a> {
             Part::Rounding => {
                 let [fine, open] = ROUNDING_OVER_RADIUS.map(|part| (part * profile.rounding_mm()).max(least));
                 let wanted = resolved.map_or(open, |resolved| {
-                    let own = rounding_element_mm(profile.rounding_mm(), resolved.flank.elements_per_half_width);
+                    let FlankResolution { elements_per_half_width, rounding_refinement, .. } = resolved.flank;
+                    let own = rounding_element_mm(profile.rounding_mm(), elements_per_half_width, rounding_refinement);
                     fine.min(resolved.element_mm(resolved.tip_rho_mm)).min(own.max(least))
                 });
                 run.want(|_, _| wanted);

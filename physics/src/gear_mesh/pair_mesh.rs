@@ -16,7 +16,7 @@ use super::whole_gear::{GearMesh, ToothNodes, gear_mesh};
 use super::{FlankResolution, LEAST_MODULES, SectorSettings, ToothMeshError, ToothSector, ToothShape, sector};
 use crate::gear::{Gear, GearPair, PerGear, modification::ReliefShape};
 use crate::gear_mesh::settings::{
-    BodySettings, DEPTH_HALF_WIDTHS, FILLET_ELEMENTS, MARGIN_HALF_WIDTHS, ROUNDING_HALF_WIDTH,
+    BodySettings, DEPTH_HALF_WIDTHS, FILLET_ELEMENTS, MARGIN_HALF_WIDTHS, rounding_element_mm,
 };
 use crate::mesh::{CellBlock, CellKind, Mesh};
 
@@ -74,7 +74,7 @@ pub fn gear_sector(
     let least_mm = 2.0 * LEAST_MODULES * pair.spec.normal_module_mm * settings.elements_per_half_width;
     // Where contact begins near the base circle of an undercut pinion the half-width falls to nothing.
     let floor_mm = least_mm.min(half_width_mm(pair.path.pitch_point_mm.clamp(pair.path.start_mm, pair.path.end_mm)));
-    let at_tip_mm = (ROUNDING_HALF_WIDTH * rounding_mm).max(least_mm);
+    let at_tip_mm = rounding_element_mm(rounding_mm, 1.0, settings.rounding_refinement).max(least_mm);
     let met_from_mm = involute.arc_mm(start_rho) - MARGIN_HALF_WIDTHS * at_tip_mm;
     let kinks_mm: Vec<f64> = Gear::BOTH
         .into_iter()
@@ -94,6 +94,7 @@ pub fn gear_sector(
     let flank = FlankResolution {
         half_width_mm: &by_rho,
         elements_per_half_width: settings.elements_per_half_width,
+        rounding_refinement: settings.rounding_refinement,
         margin_mm: MARGIN_HALF_WIDTHS * on_flank(start_rho),
         depth_half_widths: DEPTH_HALF_WIDTHS,
     };

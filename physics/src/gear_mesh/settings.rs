@@ -12,11 +12,12 @@ pub(crate) const MARGIN_HALF_WIDTHS: f64 = 3.0;
 pub(crate) const DEPTH_HALF_WIDTHS: f64 = 1.0;
 
 /// Half-width of contact on a rounded tip edge over its radius, for the length of elements there.
-pub(crate) const ROUNDING_HALF_WIDTH: f64 = 0.3;
+const ROUNDING_HALF_WIDTH: f64 = 0.3;
 
-/// Length of the elements on a tip rounding, where these are no shorter than any may be, mm.
-pub fn rounding_element_mm(rounding_mm: f64, elements_per_half_width: f64) -> f64 {
-    ROUNDING_HALF_WIDTH * rounding_mm / elements_per_half_width
+/// Length of the elements on a tip rounding, where these are no shorter than any may be, mm; divided by `refinement`
+/// ([`BodySettings::rounding_refinement`]).
+pub fn rounding_element_mm(rounding_mm: f64, elements_per_half_width: f64, refinement: f64) -> f64 {
+    ROUNDING_HALF_WIDTH * rounding_mm / (elements_per_half_width * refinement)
 }
 
 /// Depth of the body below the root circle, in normal modules, where nothing else is given.
@@ -36,6 +37,9 @@ pub struct BodySettings {
     pub web: PerGear<Option<Web>>,
     /// Elements in the local half-width of contact under the whole load.
     pub elements_per_half_width: f64,
+    /// Elements on tip roundings, and where these touch the mate, over those in as long a contact elsewhere: 1; more for tip edges that are hardly worn in,
+    /// whose contact is narrower.
+    pub rounding_refinement: f64,
 }
 
 impl BodySettings {

@@ -105,7 +105,7 @@ pub(super) fn life(
         false => String::new(),
     };
     let on = format!("elastic half-planes in {count} slices, coupled by three-dimensional finite elements{counts}");
-    Ok(Life { outcome: life, own: OF_HALF_PLANES, elements_per_half_width: None, beyond, wear_mm, on })
+    Ok(Life { outcome: life, own: OF_HALF_PLANES, bodies: None, beyond, wear_mm, on })
 }
 
 /// What so many `points` of slices have lost, as means over other slices of the same face width.

@@ -80,6 +80,10 @@ const OF_ELEMENTS: Uncertainty = Uncertainty {
 /// Of the wear of a tip edge that is hardly worn in, over how far an element of its rounding bulges beyond its chord, over the depth: on a contact
 /// narrower than the element, where the wear is has the length of the element.
 const OF_BULGE: f64 = 0.01;
+/// Where that is more, which is where the depth is less than ten times the bulge, the elements of roundings are refined …
+const HARDLY_WORN: f64 = 0.001;
+/// … so many times.
+const ON_HARDLY_WORN_EDGES: f64 = 3.0;
 /// That at most.
 const MOST_OF_TIP_EDGE: f64 = 0.2;
 /// Of the profile and the peak wear where wear is severe: what elements twice as fine find differs by that on nine of ten random pairs.
@@ -121,8 +125,8 @@ impl Beyond {
 struct Life {
     outcome: Outcome,
     own: Uncertainty,
-    /// Elements in a half-width of contact, of plane finite elements.
-    elements_per_half_width: Option<f64>,
+    /// How the bodies were meshed, of plane finite elements.
+    bodies: Option<BodySettings>,
     /// How many times differences to it are what the run leaves.
     beyond: Beyond,
     /// What the flank points of the run have lost there.
@@ -216,21 +220,20 @@ pub(super) fn elements<'a>(
     let least_mm = LEAST_HALF_WIDTH_MODULES * pair.spec.normal_module_mm;
     // a² is proportional to the load.
     let line_load_n_per_mm = greatest_load * (least_mm / half_width_mm).max(1.0).powi(2);
-    let condensed = condensed(scene, pair, line_load_n_per_mm, scene.wear_elements_per_half_width, observer)?;
+    let condensed = condensed(scene, pair, line_load_n_per_mm, &scene.wear_bodies(), observer)?;
     Ok(Elements { condensed, line_load_n_per_mm, half_width_mm: (half_width_mm, least_mm) })
 }
 
-/// The scene's gears with so many elements in the half-width of contact under a load.
+/// The scene's gears, meshed for the contact under a load.
 pub(super) fn condensed<'a>(
     scene: &Scene,
     pair: &'a GearPair,
     line_load_n_per_mm: f64,
-    elements_per_half_width: f64,
+    bodies: &BodySettings,
     observer: &dyn Observer,
 ) -> Result<CondensedPair<'a>, ModelError> {
-    let bodies = BodySettings { elements_per_half_width, ..scene.fem };
     let announce = |much: &str| observer.announcement(much);
-    CondensedPair::build(pair, &scene.material.map(Material::elastic), line_load_n_per_mm, &bodies, &announce)
+    CondensedPair::build(pair, &scene.material.map(Material::elastic), line_load_n_per_mm, bodies, &announce)
 }
 
 /// The elements of the scene's gears, of a material that is softer or stiffer than the scene's.
@@ -266,12 +269,18 @@ fn on_elements<'a>(
     elements: Option<Result<Elements<'a>, ModelError>>,
     observer: &dyn Observer,
 ) -> Result<Life, String> {
-    let own = model.scene.wear_elements_per_half_width;
-    let elements_per_half_width = if elements.is_some() { own } else { own + 1.0 };
-    let other_mesh = || {
-        let greatest_load = model.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max);
-        condensed(model.scene, model.pair, greatest_load, elements_per_half_width, observer)
-    };
+    let mut bodies = model.scene.wear_bodies();
+    if elements.is_none() {
+        bodies.elements_per_half_width += 1.0;
+    }
+    let hardly_worn = Gear::BOTH.into_iter().any(|gear| {
+        let depth_mm = WearFigures::at(model.pair, gear, outcome, &outcome.worn).tip_edge.depth_mm;
+        of_hardly_worn_edge(model.pair, gear, &bodies, depth_mm) > HARDLY_WORN
+    });
+    if hardly_worn {
+        bodies.rounding_refinement = ON_HARDLY_WORN_EDGES;
+    }
+    let mesh = |line_load_n_per_mm: f64| condensed(model.scene, model.pair, line_load_n_per_mm, &bodies, observer);
     let elements = match elements {
         Some(Ok(Elements { half_width_mm: (half_width, least), .. })) if half_width < least => {
             return Err(format!(
@@ -279,8 +288,9 @@ fn on_elements<'a>(
                  at least {least:.2e} mm is wanted, for narrower contact takes too many elements"
             ));
         }
+        Some(Ok(elements)) if hardly_worn => mesh(elements.line_load_n_per_mm),
         Some(elements) => elements.map(|elements| elements.condensed),
-        None => other_mesh(),
+        None => mesh(model.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max)),
     };
     let elements = elements.map_err(|error| error.to_string())?;
     let scene = model.scene;
@@ -296,9 +306,9 @@ fn on_elements<'a>(
         wear_mm: life.worn.wear_mm.clone(),
         outcome: life,
         own,
-        elements_per_half_width: Some(elements_per_half_width),
+        bodies: Some(bodies),
         beyond: Beyond::NONE,
-        on: "finite elements".to_owned(),
+        on: if hardly_worn { "finite elements, short on tip roundings" } else { "finite elements" }.to_owned(),
     })
 }
 
@@ -337,7 +347,7 @@ fn life(
 fn compared(
     model: &Model<'_>,
     run: &Outcome,
-    Life { outcome: life, own: of_life, elements_per_half_width, beyond, wear_mm, on }: &Life,
+    Life { outcome: life, own: of_life, bodies, beyond, wear_mm, on }: &Life,
 ) -> Verified {
     let per_gear = |of: &dyn Fn(Gear) -> Option<f64>| ErrorPerGear { pinion: of(Gear::Pinion), wheel: of(Gear::Wheel) };
     let profile = per_gear(&|gear| {
@@ -363,8 +373,8 @@ fn compared(
     let peak_wear = per_gear(&|gear| off(gear).map(|off| beyond.wear * off + of_life.peak));
     let of_tip_edge = PerGear::from_fn(|gear| {
         let depth_mm = truth[gear].tip_edge.depth_mm;
-        let of_edge = |&elements: &f64| of_hardly_worn_edge(model.pair, gear, elements, depth_mm);
-        elements_per_half_width.as_ref().map_or(0.0, of_edge).max(of_life.tip_edge)
+        let of_edge = |bodies: &BodySettings| of_hardly_worn_edge(model.pair, gear, bodies, depth_mm);
+        bodies.as_ref().map_or(0.0, of_edge).max(of_life.tip_edge)
     });
     let tip_edge_wear = per_gear(&|gear| {
         let off = relative(own[gear].tip_edge.depth_mm, truth[gear].tip_edge.depth_mm);
@@ -419,12 +429,14 @@ fn without_wear(figures: &PerGear<WearFigures>) -> String {
 }
 
 /// What the length of the elements leaves open of the wear of a rounded tip edge that has lost `depth_mm`.
-fn of_hardly_worn_edge(pair: &GearPair, gear: Gear, elements_per_half_width: f64, depth_mm: f64) -> f64 {
+fn of_hardly_worn_edge(pair: &GearPair, gear: Gear, bodies: &BodySettings, depth_mm: f64) -> f64 {
     let rounding_mm = pair.spec.tip_rounding_mm(gear);
     if rounding_mm <= 0.0 || depth_mm <= 0.0 {
         return 0.0;
     }
-    let bulge_mm = rounding_element_mm(rounding_mm, elements_per_half_width).powi(2) / (8.0 * rounding_mm);
+    let BodySettings { elements_per_half_width, rounding_refinement, .. } = *bodies;
+    let element_mm = rounding_element_mm(rounding_mm, elements_per_half_width, rounding_refinement);
+    let bulge_mm = element_mm.powi(2) / (8.0 * rounding_mm);
     (OF_BULGE * bulge_mm / depth_mm).min(MOST_OF_TIP_EDGE)
 }
 

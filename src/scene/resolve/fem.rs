@@ -39,7 +39,13 @@ fn given(file: &mut FemFile, pair: &PairSpec, findings: &mut Findings) -> Option
             number(elements_per_half_width)
         ));
     }
-    Some(BodySettings { body: body?, clamp_radius_mm: clamp_radius_mm?, web: web?, elements_per_half_width })
+    Some(BodySettings {
+        body: body?,
+        clamp_radius_mm: clamp_radius_mm?,
+        web: web?,
+        elements_per_half_width,
+        rounding_refinement: 1.0,
+    })
 }
 
 fn webs(

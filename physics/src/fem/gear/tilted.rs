@@ -153,6 +153,7 @@ mod tests {
             }),
             web: NO_WEBS,
             elements_per_half_width: 2.0,
+            rounding_refinement: 1.0,
         };
         let steel = Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 };
         let material = PerGear { pinion: steel, wheel: steel };
