@@ -15,7 +15,9 @@ use gearwear::mesh_cycle::{
     settings::{Coupling, SliceSettings},
     sliced_positions::{SliceContact, SliceEnds, sliced_positions},
 };
-use gearwear::scene::draft::Draft;
+use gearwear::observer::Unwatched;
+use gearwear::pipeline;
+use gearwear::scene::{draft::Draft, presets};
 use gearwear::simulation::figures::WearFigures;
 use gearwear::simulation::wear_run::Outcome;
 use gearwear::stiffness::settings::StiffnessSettings;
@@ -542,4 +544,88 @@ fn ver_lines_of_contact_of_whole_ratios_have_the_mean_always() {
     }
     assert_eq!(least_and_greatest_over_width(1.6, 0.0), [1.0, 2.0]);
     assert_eq!(least_and_greatest_over_width(2.0, 0.0), [2.0, 2.0]);
+}
+
+/// With tip edges followed, all slices, also those whose middle is before A or after E, lose together what their load and sliding ask for, and both flanks alike.
+#[test]
+fn ver_slices_lose_what_load_and_sliding_ask_for() {
+    let mut draft = Draft::parse(presets::find("helical").unwrap().text).unwrap();
+    for (key, value) in [("helical.slices", 10), ("numerics.flank_points", 300), ("numerics.positions", 200)] {
+        draft.set(key, value);
+    }
+    draft.set("numerics.error_estimate", false);
+    draft.set("numerics.verify", false);
+    let resolved = draft.resolve().unwrap_or_else(|problems| panic!("{problems:?}"));
+    let invariants = pipeline::run(&loaded(&resolved), &Unwatched).unwrap().record.summary.invariants;
+    for name in ["volume-balance", "volume-of-work"] {
+        let found = invariants.iter().find(|invariant| invariant.name == name).and_then(|invariant| invariant.value);
+        assert!(found.is_some_and(|value| value < 3e-3), "{name}: {found:?}");
+    }
+}
+
+/// So narrow that all of its width is in the same place of the mesh, a helical pair has in its normal section lines as long as its load is greater, and radii greater by
+/// 1/cos β_b: it has the half-width and the pressure of the spur pair of its transverse section whose modulus is cos β_b times as great, and, as gaps are greater by 1/cos β_b
+/// along the transverse line of action, its transmission error.
+#[test]
+fn ver_a_narrow_helical_pair_is_a_softer_spur_pair() {
+    let (helix, module_mm, centre_mm) = (30f64.to_radians(), 4.0, 99.0);
+    let of_transverse = (20f64.to_radians().tan() / helix.cos()).atan();
+    let cos_base = (1.0 - (helix.sin() * 20f64.to_radians().cos()).powi(2)).sqrt();
+    let (transverse_module_mm, teeth) = (module_mm / helix.cos(), [18, 24]);
+    let shifts_mm = [0.3 * module_mm, 0.2 * module_mm];
+    let run = |surface: &str, is_helical: bool| {
+        let of = |mm: f64| if is_helical { mm / module_mm } else { mm / transverse_module_mm };
+        let gear = |k: usize| {
+            let reference_mm = transverse_module_mm * f64::from(teeth[k]);
+            format!(
+                "{{ teeth = {}, profile_shift = {:?}, tip_diameter_mm = {:?} }}",
+                teeth[k],
+                of(shifts_mm[k]),
+                reference_mm + 2.0 * (0.9 * module_mm + shifts_mm[k])
+            )
+        };
+        let (module, angle, modulus) = match is_helical {
+            true => (module_mm, 20.0, 206.0),
+            false => (transverse_module_mm, of_transverse.to_degrees(), 206.0 * cos_base),
+        };
+        let rack = format!(
+            "{{ addendum_factor = {:?}, dedendum_factor = {:?}, fillet_radius_factor = {:?} }}",
+            of(module_mm),
+            of(1.25 * module_mm),
+            of(0.2 * module_mm)
+        );
+        let text = format!(
+            "[pair]\nnormal_module_mm = {module:?}\npressure_angle_deg = {angle:?}\nhelix_angle_deg = {:?}\ncentre_distance_mm = {centre_mm:?}\nface_width_mm = 0.4\n\
+             basic_rack = {rack}\npinion = {}\nwheel = {}\n[material]\nyoung_modulus_GPa = {modulus:?}\npoisson_ratio = 0.3\n\
+             [operation]\npinion_torque_Nm = 8.0\npinion_revolutions = 1.0\n[contact]\nsurface = \"{surface}\"\ntip_contact = false\n\
+             [helical]\nslices = 2\ncoupling = \"none\"\n[stiffness]\nmodel = \"constant\"\npair_N_per_mm_um = 1000.0\n\
+             [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-20\n\
+             [numerics]\nflank_points = 1500\npositions = 200\nerror_estimate = false\nverify = false\n",
+            if is_helical { helix.to_degrees() } else { 0.0 },
+            gear(0),
+            gear(1)
+        );
+        let resolved = Draft::parse(&text).unwrap().resolve().unwrap_or_else(|problems| panic!("{problems:?}"));
+        pipeline::run(&loaded(&resolved), &Unwatched).unwrap().record
+    };
+    for surface in ["hertz", "winkler", "half-space"] {
+        let [helical, spur] = [true, false].map(|is_helical| run(surface, is_helical));
+        let path = (spur.mesh_cycle[0].position_mm, spur.mesh_cycle[spur.mesh_cycle.len() - 1].position_mm);
+        assert_eq!(helical.mesh_cycle.len(), spur.mesh_cycle.len());
+        let mut most = [0.0_f64; 3];
+        for (narrow, own) in helical.mesh_cycle.iter().zip(&spur.mesh_cycle) {
+            assert!((narrow.position_mm - own.position_mm).abs() < 1e-9 * path.1);
+            // Slices come and go by themselves: where one pair has the path to itself.
+            if narrow.load_share_new.min(own.load_share_new) < 0.999 {
+                continue;
+            }
+            let off = [
+                narrow.transmission_error_new_um / own.transmission_error_new_um,
+                narrow.peak_pressure_new_MPa / own.peak_pressure_new_MPa,
+                narrow.half_width_mm / own.half_width_mm,
+            ];
+            most = [0, 1, 2].map(|k| most[k].max((off[k] - 1.0).abs()));
+        }
+        assert!(most[0] < 1e-4 && most[1].max(most[2]) < 4e-3, "{surface}: {most:?}");
+    }
 }

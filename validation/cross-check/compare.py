@@ -12,6 +12,7 @@ import fzg_c_pair
 import pressure_course
 import table
 import tip_edges
+import turned_pair
 
 HERE = pathlib.Path(__file__).parent
 # The course of the pressure is compared up to this part of gearwear's fitted half-width; see pressure_course.py.
@@ -20,7 +21,7 @@ COMPARED_HALF_WIDTHS = 0.8
 
 def solve(out, *arguments):
     """The folder in which `gearwear fem` left its results."""
-    subprocess.run([fzg_c_pair.gearwear(), "fem", *arguments, "--out", out, "--quiet"], check=True)
+    subprocess.run([turned_pair.gearwear(), "fem", *arguments, "--out", out, "--quiet"], check=True)
     return out
 
 
@@ -84,7 +85,7 @@ def gear_pair(folder):
         lines = [("transmission error, µm", 3, float(theirs["transmission_error_um"]),
                   float(ours[0]["transmission_error_um"]))]
         differences = []
-        for pair, name in zip(fzg_c_pair.PAIRS, ("behind", "reference", "ahead")):
+        for pair, name in zip(turned_pair.PAIRS, ("behind", "reference", "ahead")):
             if pair not in ours:
                 continue
             our_course = columns([row for row in our_courses if int(row["pair"]) == pair and float(row["pressure_MPa"]) > 0.0],

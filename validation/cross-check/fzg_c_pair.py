@@ -1,41 +1,33 @@
 """The fzg-c pair at 302 N·m, solved by CalculiX on the meshes that `gearwear mesh` writes, at three positions.
 
-The wheel is held at its clamp circle and the pinion's clamp circle is turned rigidly by θ, linearly: u = θ (−y, x). The
-transmission error is θ r_b1; θ is what gives the torque, the moment of the reactions about the pinion's axis (the
-origin) with arms before deformation, times the face width. Tips are sharp: no tip edge touches at these positions.
+Tips are sharp: no tip edge touches at these positions.
 
     python3 fzg_c_pair.py WORK_FOLDER
 """
 
 import math
-import os
 import pathlib
 import subprocess
 import sys
 
 import calculix
-import mesh_files
 import pressure_course
 import table
+import turned_pair
+from turned_pair import PAIRS, PINION_ON_WHEEL, TurnedPair, flank, gearwear
 
 HERE = pathlib.Path(__file__).parent
 # Double contact before B (10.28 mm), single contact at C, double contact after D (17.76 mm); with the transmission error
 # in µm that the search begins at, near the answer to save runs.
 POSITIONS_MM = {"7": 25.0, "13.9701": 37.5, "21.5": 25.0}
 SINGLE_CONTACT_MM = "13.9701"
-# The pairs whose flanks are resolved: the one behind the reference pair, that pair, the one ahead of it.
-PAIRS = (-1, 0, 1)
 YOUNG_MODULUS_MPA, POISSON_RATIO = 206e3, 0.3
 TORQUE_NM, FACE_WIDTH_MM = 302.0, 14.0
 BASE_RADIUS_MM = 0.5 * 4.5 * 16 * math.cos(math.radians(20.0))
 # The penalty of the result, and two more ten times apart around it.
 PENALTY_MPA_PER_MM, OTHER_PENALTIES_MPA_PER_MM = 1e8, (3e7, 3e8)
-# The torque is met to this part of it.
-TORQUE_TOLERANCE = 1e-4
-
-
-def gearwear():
-    return os.environ.get("GEARWEAR", "gearwear")
+YOUNG_MODULI_MPA = dict.fromkeys(turned_pair.GEARS, YOUNG_MODULUS_MPA)
+PAIR = TurnedPair(YOUNG_MODULI_MPA, POISSON_RATIO, BASE_RADIUS_MM, FACE_WIDTH_MM, TORQUE_NM, torque_tolerance=1e-4)
 
 
 def scene_file(folder):
@@ -43,59 +35,6 @@ def scene_file(folder):
     scene = folder / "fzg-c.toml"
     scene.write_bytes(subprocess.run([gearwear(), "init", "thesis-spur"], capture_output=True, check=True).stdout)
     return scene
-
-
-def pair_mesh(scene, position_mm):
-    """The mesh of a scene's pair with the reference pair in contact at the position."""
-    path = scene.with_name(f"pair-{position_mm}.inp")
-    command = [gearwear(), "mesh", scene, "--position", position_mm, "--out", path]
-    subprocess.run(command, stdout=subprocess.DEVNULL, check=True)
-    return mesh_files.read_abaqus(path)
-
-
-def flank(gear, pair):
-    """The name of the flank of a gear's tooth in the mesh."""
-    return f"{gear}-flank{pair:+d}" if pair else f"{gear}-flank-0"
-
-
-# Slave and master of each tooth pair.
-PINION_ON_WHEEL = [(flank("pinion", pair), flank("wheel", pair)) for pair in PAIRS]
-
-
-def solve(folder, name, mesh, transmission_error_um, penalty_mpa_per_mm, contacts=PINION_ON_WHEEL):
-    """The results at an angle, and the torque in N·m."""
-    angle_rad = 1e-3 * transmission_error_um / BASE_RADIUS_MM
-    deck = calculix.Deck(mesh)
-    for body in mesh.bodies:
-        deck.material(body, YOUNG_MODULUS_MPA, POISSON_RATIO)
-    deck.penalty(penalty_mpa_per_mm)
-    for slave, master in contacts:
-        deck.contact(slave, master)
-    for node in mesh.nodes_of("wheel-clamp"):
-        deck.displace(node, 1)
-        deck.displace(node, 2)
-    for node in mesh.nodes_of("pinion-clamp"):
-        x, y = mesh.points[node]
-        deck.displace(node, 1, -angle_rad * y)
-        deck.displace(node, 2, angle_rad * x)
-    results = deck.solve(folder, name, "pinion-clamp")
-    moment_n = sum(mesh.points[node][0] * fy - mesh.points[node][1] * fx
-                   for node, (fx, fy) in results.reaction_n_per_mm.items())
-    return results, 1e-3 * moment_n * FACE_WIDTH_MM
-
-
-def at_torque(folder, name, mesh, error_um, contacts=PINION_ON_WHEEL, tolerance=TORQUE_TOLERANCE):
-    """The transmission error in µm that gives the torque, with the results there: secant steps from the origin."""
-    before = (0.0, 0.0)
-    for _ in range(8):
-        results, torque_nm = solve(folder, name, mesh, error_um, PENALTY_MPA_PER_MM, contacts)
-        print(f"{name}: {error_um:.5f} µm, {torque_nm:.5f} N·m, {results.iterations} iterations", flush=True)
-        if abs(torque_nm - TORQUE_NM) < tolerance * TORQUE_NM:
-            return error_um, torque_nm, results
-        slope = (error_um - before[0]) / (torque_nm - before[1])
-        before = (error_um, torque_nm)
-        error_um += slope * (TORQUE_NM - torque_nm)
-    raise SystemExit(f"{name}: no angle found that gives {TORQUE_NM} N·m")
 
 
 def course(mesh, results, pair):
@@ -128,8 +67,9 @@ def main():
     made_by = f"CalculiX {calculix.version()}, made by validation/cross-check/run.sh (fzg_c_pair.py)"
     scene, rows, pressures = scene_file(folder), [], []
     for position_mm, guess_um in POSITIONS_MM.items():
-        mesh = pair_mesh(scene, position_mm)
-        error_um, torque_nm, results = at_torque(folder, f"pair-at-{position_mm}", mesh, guess_um)
+        mesh = turned_pair.pair_mesh(scene, position_mm)
+        error_um, torque_nm, results = PAIR.at_torque(
+            folder, f"pair-at-{position_mm}", mesh, guess_um, PINION_ON_WHEEL, PENALTY_MPA_PER_MM)
         courses = [course(mesh, results, pair) for pair in PAIRS]
         of_pairs = [figures(results, points, torque_nm, pair) for pair, points in zip(PAIRS, courses)]
         rows.append([float(position_mm), torque_nm, error_um, *[value for column in zip(*of_pairs) for value in column]])
@@ -137,7 +77,8 @@ def main():
         if position_mm == SINGLE_CONTACT_MM:
             penalties = [penalty_row(PENALTY_MPA_PER_MM, results, torque_nm, mesh)]
             for penalty in OTHER_PENALTIES_MPA_PER_MM:
-                other, other_nm = solve(folder, f"pair-penalty-{penalty:.0e}", mesh, error_um, penalty)
+                other, other_nm = PAIR.solve(
+                    folder, f"pair-penalty-{penalty:.0e}", mesh, error_um, PINION_ON_WHEEL, penalty)
                 penalties.append(penalty_row(penalty, other, other_nm, mesh))
     quantities = ("line_load_{}_N_per_mm", "peak_pressure_{}_MPa", "half_width_{}_mm", "fitted_pressure_{}_MPa",
                   "fitted_half_width_{}_mm")

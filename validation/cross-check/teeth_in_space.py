@@ -22,6 +22,7 @@ from dataclasses import dataclass
 import calculix
 import fzg_c_pair
 import table
+import turned_pair
 
 HERE = pathlib.Path(__file__).parent
 TEETH, BASE_RADIUS_MM = 16, fzg_c_pair.BASE_RADIUS_MM
@@ -271,12 +272,12 @@ def main():
     folder = pathlib.Path(sys.argv[1])
     for case in CASES:
         scene, mesh = folder / f"{case.preset}-in-space.toml", folder / f"{case.preset}-in-space.inp"
-        preset = subprocess.run([fzg_c_pair.gearwear(), "init", case.preset], capture_output=True, check=True, text=True).stdout
+        preset = subprocess.run([turned_pair.gearwear(), "init", case.preset], capture_output=True, check=True, text=True).stdout
         # Bodies are held 2.5 normal modules below the root circles.
         depth_mm = 2.5 * 4.5 * math.cos(math.radians(case.helix_angle_deg))
         clamp = ", ".join(f"{gear} = {root_mm - depth_mm!r}" for gear, root_mm in (("pinion", 31.19265), ("wheel", 49.14675)))
         scene.write_text(f"{preset}\n[fem]\nclamp_radius_mm = {{ {clamp} }}\n")
-        command = [fzg_c_pair.gearwear(), "mesh", scene, "--three-dimensional", "--out", mesh]
+        command = [turned_pair.gearwear(), "mesh", scene, "--three-dimensional", "--out", mesh]
         subprocess.run(command, stdout=subprocess.DEVNULL, check=True)
         sector = read_solid(mesh, "pinion")
         rows = [row for body in case.bodies for row in rows_of(folder, case, sector, *body)]

@@ -10,6 +10,7 @@ by the depth at its nominal radius, and the bodies follow as an elastic solid wo
 """
 
 import bisect
+import dataclasses
 import math
 import pathlib
 import subprocess
@@ -18,6 +19,7 @@ import sys
 import calculix
 import fzg_c_pair
 import table
+import turned_pair
 
 HERE = pathlib.Path(__file__).parent
 SCENE = """
@@ -58,29 +60,12 @@ INVOLUTE_MM = {"pinion": (36.0, 40.0), "wheel": (55.0, 58.0)}
 HOURS = 127.75
 # Flanks further apart than this before deformation do not touch: they approach each other by the transmission error at most.
 REACH_MM = 0.06
-# The torque is met to this part of it.
-TORQUE_TOLERANCE = 1e-3
+PAIR = dataclasses.replace(fzg_c_pair.PAIR, torque_tolerance=1e-3)
 
 
 def contacts(mesh, position_mm):
-    """Slave and master of each tooth pair: first the gear whose addendum touches. CalculiX spends its time on faces that may touch."""
-    sides = []
-    for pair in fzg_c_pair.PAIRS:
-        below_pitch_point = position_mm + pair * BASE_PITCH_MM < PITCH_POINT_MM
-        order = ("wheel", "pinion") if below_pitch_point else ("pinion", "wheel")
-        sides.append(tuple(fzg_c_pair.flank(gear, pair) for gear in order))
-    for sides_of_pair in sides:
-        near = [edges_near(mesh, group, other, reach_mm)
-                for group, other, reach_mm in zip(sides_of_pair, reversed(sides_of_pair), (REACH_MM, 2.0 * REACH_MM))]
-        mesh.edges.update(zip(sides_of_pair, near))
-    return [sides_of_pair for sides_of_pair in sides if all(mesh.edges[side] for side in sides_of_pair)]
-
-
-def edges_near(mesh, group, other, reach_mm):
-    """The edges of a flank with a node within reach of the other flank's nodes."""
-    far = [mesh.points[node] for node in mesh.nodes_of(other)]
-    is_near = {node: min(math.dist(mesh.points[node], point) for point in far) < reach_mm for node in mesh.nodes_of(group)}
-    return [edge for edge in mesh.edges[group] if any(is_near[node] for node in mesh.edge_nodes(*edge))]
+    """Slave and master of each tooth pair: first the gear whose addendum touches."""
+    return turned_pair.contacts(mesh, lambda pair: position_mm + pair * BASE_PITCH_MM < PITCH_POINT_MM, REACH_MM)
 
 
 def wear_of(run, gear):
@@ -131,8 +116,8 @@ def wear_down(folder, name, mesh, run):
     moves = {}
     for gear in GEARS:
         worn = wear_of(run, gear)
-        for pair in fzg_c_pair.PAIRS:
-            nodes = chain(mesh, fzg_c_pair.flank(gear, pair))
+        for pair in turned_pair.PAIRS:
+            nodes = chain(mesh, turned_pair.flank(gear, pair))
             points = [mesh.points[node] for node in nodes]
             for i, (node, radius_mm) in enumerate(zip(nodes, nominal_radii(points, gear))):
                 middle = min(max(i, 1), len(nodes) - 2)
@@ -151,35 +136,24 @@ def wear_down(folder, name, mesh, run):
         mesh.points[node] = x + dx, y + dy
 
 
-def figures(mesh, results, torque_nm, sides):
-    """Line loads in N/mm and peaks in MPa, pair by pair."""
-    whole = 1e3 * torque_nm / (fzg_c_pair.BASE_RADIUS_MM * fzg_c_pair.FACE_WIDTH_MM)
-    moments = {slave: abs(results.contacts[slave].moment_n) for slave, _ in sides}
-    loads, peaks = [], []
-    for pair in fzg_c_pair.PAIRS:
-        slave = next((slave for slave, _ in sides if slave in [fzg_c_pair.flank(gear, pair) for gear in GEARS]), None)
-        loads.append(moments[slave] / sum(moments.values()) * whole if slave else 0.0)
-        peaks.append(max(results.pressure_mpa.get(node, 0.0) for node in mesh.nodes_of(slave)) if slave else 0.0)
-    return loads + peaks
-
-
 def row(folder, scene, run, hours, position_mm):
     """A line of the table: new at 0 hours, with the wear of the run at its end."""
-    mesh = fzg_c_pair.pair_mesh(scene, position_mm)
+    mesh = turned_pair.pair_mesh(scene, position_mm)
     name = f"tips-{hours:g}-h-at-{position_mm}"
     if hours > 0.0:
         wear_down(folder, f"{name}-shape", mesh, run)
     sides = contacts(mesh, float(position_mm))
     guess_um = POSITIONS_MM[position_mm][hours > 0.0]
-    error_um, torque_nm, results = fzg_c_pair.at_torque(folder, name, mesh, guess_um, sides, TORQUE_TOLERANCE)
-    return [hours, float(position_mm), torque_nm, error_um, *figures(mesh, results, torque_nm, sides)]
+    error_um, torque_nm, results = PAIR.at_torque(folder, name, mesh, guess_um, sides, fzg_c_pair.PENALTY_MPA_PER_MM)
+    return [hours, float(position_mm), torque_nm, error_um, *PAIR.line_loads(results, torque_nm, sides),
+            *turned_pair.peaks(mesh, results, sides)]
 
 
 def main():
     folder = pathlib.Path(sys.argv[1])
     scene, run = folder / "rounded.toml", folder / "worn"
     scene.write_text(SCENE, encoding="utf-8")
-    subprocess.run([fzg_c_pair.gearwear(), "run", scene, "--out", run, "--quiet"], check=True)
+    subprocess.run([turned_pair.gearwear(), "run", scene, "--out", run, "--quiet"], check=True)
     rows = [row(folder, scene, run, hours, position_mm) for hours in (0.0, HOURS) for position_mm in POSITIONS_MM]
     write_rows(rows, calculix.version())
 

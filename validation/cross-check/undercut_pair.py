@@ -16,10 +16,9 @@ import pathlib
 import sys
 
 import calculix
-import fzg_c_pair
 import rack_outline
 import table
-import tip_edges
+import turned_pair
 
 HERE = pathlib.Path(__file__).parent
 SCENE = """
@@ -71,24 +70,21 @@ YOUNG_MODULUS_MPA, POISSON_RATIO = 206e3, 0.3
 TOLERANCES = "1e-6,1e-5,,,1e-6"
 # Flanks farther apart than this before deformation do not touch, and the trochoid is looked at so far from the corner.
 REACH_MM, BELOW_CORNER_MM = 0.015, 0.04
-TORQUE_TOLERANCE = 2e-3
+PAIR = turned_pair.TurnedPair(
+    dict.fromkeys(turned_pair.GEARS, YOUNG_MODULUS_MPA), POISSON_RATIO, BASE_RADIUS_MM, FACE_WIDTH_MM, TORQUE_NM,
+    torque_tolerance=2e-3, tolerances=TOLERANCES)
 
 
 def contacts(mesh, position_mm, below_corner):
-    """Slave and master of each tooth pair, only the edges that may touch."""
-    sides = []
-    for pair in fzg_c_pair.PAIRS:
+    """Slave and master of each tooth pair."""
+    def is_wheel_slave(pair):
         own_mm = position_mm + pair * BASE_PITCH_MM
-        if below_corner:
-            add_trochoid(mesh, fzg_c_pair.flank("pinion", pair))
-        is_at_corner = below_corner and own_mm < 0.5
-        order = ("wheel", "pinion") if own_mm < PITCH_POINT_MM and not is_at_corner else ("pinion", "wheel")
-        sides.append(tuple(fzg_c_pair.flank(gear, pair) for gear in order))
-    for pair in sides:
-        near = [tip_edges.edges_near(mesh, group, other, reach_mm)
-                for group, other, reach_mm in zip(pair, reversed(pair), (REACH_MM, 2.0 * REACH_MM))]
-        mesh.edges.update(zip(pair, near))
-    return [pair for pair in sides if all(mesh.edges[side] for side in pair)]
+        return own_mm < PITCH_POINT_MM and not (below_corner and own_mm < 0.5)
+
+    if below_corner:
+        for pair in turned_pair.PAIRS:
+            add_trochoid(mesh, turned_pair.flank("pinion", pair))
+    return turned_pair.contacts(mesh, is_wheel_slave, REACH_MM)
 
 
 def add_trochoid(mesh, flank):
@@ -97,55 +93,6 @@ def add_trochoid(mesh, flank):
     mesh.edges[flank] = mesh.edges[flank] + [
         edge for edge in mesh.edges["pinion-fillets"]
         if all(math.dist(mesh.points[node], corner) < BELOW_CORNER_MM for node in mesh.edge_nodes(*edge))]
-
-
-def solve(folder, name, mesh, transmission_error_um, sides, penalty_mpa_per_mm):
-    """The results at an angle, and the torque in N·m."""
-    angle_rad = 1e-3 * transmission_error_um / BASE_RADIUS_MM
-    deck = calculix.Deck(mesh, TOLERANCES)
-    for body in mesh.bodies:
-        deck.material(body, YOUNG_MODULUS_MPA, POISSON_RATIO)
-    deck.penalty(penalty_mpa_per_mm)
-    for slave, master in sides:
-        deck.contact(slave, master)
-    for node in mesh.nodes_of("wheel-clamp"):
-        deck.displace(node, 1)
-        deck.displace(node, 2)
-    for node in mesh.nodes_of("pinion-clamp"):
-        x, y = mesh.points[node]
-        deck.displace(node, 1, -angle_rad * y)
-        deck.displace(node, 2, angle_rad * x)
-    results = deck.solve(folder, name, "pinion-clamp")
-    moment_n = sum(mesh.points[node][0] * fy - mesh.points[node][1] * fx
-                   for node, (fx, fy) in results.reaction_n_per_mm.items())
-    return results, 1e-3 * moment_n * FACE_WIDTH_MM
-
-
-def at_torque(folder, name, mesh, error_um, sides, penalty_mpa_per_mm):
-    """The transmission error in µm that gives the torque, with the results there: secant steps from the origin."""
-    before = (0.0, 0.0)
-    for _ in range(8):
-        results, torque_nm = solve(folder, name, mesh, error_um, sides, penalty_mpa_per_mm)
-        print(f"{name}: {error_um:.5f} µm, {torque_nm:.5f} N·m, {results.iterations} iterations", flush=True)
-        if abs(torque_nm - TORQUE_NM) < TORQUE_TOLERANCE * TORQUE_NM:
-            return error_um, torque_nm, results
-        slope = (error_um - before[0]) / (torque_nm - before[1])
-        before = (error_um, torque_nm)
-        error_um += slope * (TORQUE_NM - torque_nm)
-    raise SystemExit(f"{name}: no angle found that gives {TORQUE_NM} N·m")
-
-
-def figures(mesh, results, torque_nm, sides):
-    """Line loads in N/mm and peaks in MPa, pair by pair: shares of the moment of all contact forces about the pinion's axis."""
-    whole = 1e3 * torque_nm / (BASE_RADIUS_MM * FACE_WIDTH_MM)
-    moments = {slave: abs(results.contacts[slave].moment_n) for slave, _ in sides}
-    loads, peaks = [], []
-    for pair in fzg_c_pair.PAIRS:
-        names = [fzg_c_pair.flank(gear, pair) for gear in REFERENCE_RADIUS_MM]
-        slave = next((slave for slave, _ in sides if slave in names), None)
-        loads.append(moments[slave] / sum(moments.values()) * whole if slave else 0.0)
-        peaks.append(max(results.pressure_mpa.get(node, 0.0) for node in mesh.nodes_of(slave)) if slave else 0.0)
-    return loads + peaks
 
 
 def from_space(gear, position_mm, point):
@@ -170,7 +117,7 @@ def outlines(mesh, position_mm):
     rows = []
     for number, (gear, teeth, tip_mm) in enumerate((("pinion", 15, 8.5), ("wheel", 40, 21.0))):
         cut = rack_outline.CutGear(rack, teeth, tip_mm, 0.05)
-        flanks = {node for pair in fzg_c_pair.PAIRS for node in mesh.nodes_of(fzg_c_pair.flank(gear, pair))}
+        flanks = {node for pair in turned_pair.PAIRS for node in mesh.nodes_of(turned_pair.flank(gear, pair))}
         parts = [flanks, *(set(mesh.nodes_of(f"{gear}-{part}")) for part in ("fillets", "roots"))]
         for part, nodes in enumerate(parts):
             off_um = [1e3 * cut.off_mm(*from_space(gear, position_mm, mesh.points[node])) for node in nodes]
@@ -183,13 +130,14 @@ def main():
     scene, rows = folder / "undercut.toml", []
     scene.write_text(SCENE, encoding="utf-8")
     for position_mm, below_corner, guess_um, penalty_mpa_per_mm in POSITIONS_MM:
-        mesh = fzg_c_pair.pair_mesh(scene, position_mm)
+        mesh = turned_pair.pair_mesh(scene, position_mm)
         if not rows:
             write_outlines(outlines(mesh, float(position_mm)))
         sides = contacts(mesh, float(position_mm), below_corner)
         name = f"undercut-at-{position_mm}{'-below-corner' if below_corner else ''}"
-        error_um, torque_nm, results = at_torque(folder, name, mesh, guess_um, sides, penalty_mpa_per_mm)
-        rows.append([float(position_mm), below_corner, penalty_mpa_per_mm, torque_nm, error_um, *figures(mesh, results, torque_nm, sides)])
+        error_um, torque_nm, results = PAIR.at_torque(folder, name, mesh, guess_um, sides, penalty_mpa_per_mm)
+        rows.append([float(position_mm), below_corner, penalty_mpa_per_mm, torque_nm, error_um, *PAIR.line_loads(results, torque_nm, sides),
+                     *turned_pair.peaks(mesh, results, sides)])
     write_rows(rows, calculix.version())
 
 

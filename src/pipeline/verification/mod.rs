@@ -75,7 +75,7 @@ const OF_ELEMENTS: Uncertainty = Uncertainty {
     tip_edge: 0.015,
     transmission_error: 0.005,
     pressure: 0.02,
-    flank_pressure: [0.015, 0.015],
+    flank_pressure: [0.01, 0.01],
 };
 /// Of the wear of a tip edge that is hardly worn in, over how far an element of its rounding bulges beyond its chord, over the depth: on a contact
 /// narrower than the element, where the wear is has the length of the element.
