@@ -202,6 +202,31 @@ mod tests {
         assert!((approach / hertz.approach_mm(w) - 1.0).abs() < 1e-12);
     }
 
+    /// A curve that has Hertz's half-width in the transverse section, √(8 w R_t/(π E′)), has it in the normal section, where radii are R_t/cos β_b.
+    #[test]
+    fn ver_a_curve_has_hertz_half_width_in_the_normal_section() {
+        let (transverse_mm, modulus_mpa, reference) = (7.3, 113e3, 600.0);
+        let hertz_mm = |line_load: f64, radius_mm: f64| {
+            let body = HertzLine::new([radius_mm, f64::INFINITY], modulus_mpa).unwrap();
+            body.loaded(line_load).half_width_mm
+        };
+        let curve = FoundationCurve {
+            position_mm: vec![10.0],
+            mpa_per_mm: vec![1.5 * reference * transverse_mm / hertz_mm(reference, transverse_mm).powi(3)],
+            load_exponent: vec![0.5],
+            reference_line_load_n_per_mm: reference,
+        };
+        let base_helix_rad = 0.6_f64;
+        let normal_mm = transverse_mm / base_helix_rad.cos();
+        let oblique = curve.in_normal_section(Obliquity::new(base_helix_rad));
+        for line_load in [100.0, 600.0, 900.0] {
+            for (of, radius_mm) in [(&curve, transverse_mm), (&oblique, normal_mm)] {
+                let found_mm = half_width_mm(of.at_mpa_per_mm(10.0, line_load), radius_mm, line_load);
+                assert!((found_mm / hertz_mm(line_load, radius_mm) - 1.0).abs() < 1e-12, "{line_load} N/mm");
+            }
+        }
+    }
+
     fn curve() -> FoundationCurve {
         FoundationCurve {
             position_mm: vec![4.0, 14.0, 24.0],
