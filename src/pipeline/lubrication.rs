@@ -13,12 +13,13 @@
 
 use std::f64::consts::PI;
 
-use super::{Model, scuffing};
+use super::{Model, scuffing, slices};
 use crate::contact::settings::SurfaceKind;
 use crate::gear::{Gear, PerGear, flank_zones::FlankZone};
 use crate::lubrication::local_film::local_film;
 use crate::lubrication::loss;
 use crate::lubrication::running_pair::{ContactFilm, Finish, LoadedPlace, OilInMesh, RunningPair};
+use crate::mesh_cycle::sliced_mesh::SlicedMesh;
 use crate::reference::hertz_line::PEAK_OVER_MEAN;
 use crate::results::lubrication::{
     AlongPath, FilmRow, FilmSummary, FrictionSummary, LossSummary, LubricationSummary, MethodBPoint, MethodBSummary,
@@ -124,7 +125,7 @@ fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
     let greatest = if model.scene.contact.surface == SurfaceKind::HertzMean { PEAK_OVER_MEAN } else { 1.0 };
     let whole = model.reference().line_load_n_per_mm;
     let middle_mm = 0.5 * model.pair.spec.face_width_mm;
-    let Some([new_slices, worn_slices]) = new.slices.as_ref().zip(worn.slices.as_ref()).map(<[_; 2]>::from) else {
+    let Some(meshes) = slices::meshes(outcome) else {
         let last = new.positions.len().saturating_sub(1);
         let at = |k: usize| new.positions[k].position_mm;
         return new
@@ -144,15 +145,17 @@ fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
             })
             .collect();
     };
+    let [new_slices, _] = &meshes;
     let count = new_slices.slices;
     let spacing = new_slices.base_pitch_mm / new_slices.transmission_error_mm.len() as f64;
     let cells = new_slices.position_mm.iter().enumerate();
     let path = &model.pair.path;
     let touches_beyond = model.scene.contact.tip_contact;
+    let meshes = &meshes;
     let all = cells.flat_map(|(row, &position_mm)| {
         (0..count).map(move |slice| {
             let cell = row * count + slice;
-            let meshes = [new_slices, worn_slices];
+            let of = |field: fn(&SlicedMesh) -> &Vec<f64>| meshes.each_ref().map(|mesh| field(mesh)[cell]);
             let middle_mm = position_mm + outcome.slices.ahead_mm[slice];
             Place {
                 // The part of a slice whose middle is not in contact is.
@@ -160,10 +163,10 @@ fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
                 slice,
                 width_mm: outcome.slices.width_mm[slice],
                 length_mm: spacing,
-                part_of_width: new_slices.part_of_width[cell],
-                load_n_per_mm: meshes.map(|mesh| mesh.line_load_n_per_mm[cell]),
-                pressure_mpa: meshes.map(|mesh| greatest * mesh.peak_pressure_mpa[cell]),
-                half_width_mm: meshes.map(|mesh| mesh.half_width_mm[cell]),
+                part_of_width: of(|mesh| &mesh.part_of_width).into_iter().fold(0.0, f64::max),
+                load_n_per_mm: of(|mesh| &mesh.line_load_n_per_mm),
+                pressure_mpa: of(|mesh| &mesh.peak_pressure_mpa).map(|mean| greatest * mean),
+                half_width_mm: of(|mesh| &mesh.half_width_mm),
             }
         })
     });

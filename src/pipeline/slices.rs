@@ -12,9 +12,10 @@ use crate::simulation::wear_run::Outcome;
 /// Mesh orders that are kept.
 const MESH_ORDERS: usize = 5;
 
-/// New and worn mesh of a pair with slices.
-fn meshes(outcome: &Outcome) -> Option<[&SlicedMesh; 2]> {
-    Some([outcome.new.cycle.slices.as_ref()?, outcome.worn.cycle.slices.as_ref()?])
+/// New and worn mesh of a pair with slices, row beside row: worn teeth may touch farther before A and after E.
+pub(super) fn meshes(outcome: &Outcome) -> Option<[SlicedMesh; 2]> {
+    let (new, worn) = (outcome.new.cycle.slices.as_ref()?, outcome.worn.cycle.slices.as_ref()?);
+    Some([new.with_rows_of(worn), worn.with_rows_of(new)])
 }
 
 /// Part of the peak-to-peak transmission error above which the step of a single slice is warned of.
@@ -119,12 +120,12 @@ pub(super) fn record(outcome: &Outcome) -> Option<SliceRecord> {
     Some(SliceRecord {
         width_mm: outcome.slices.width_mm.clone(),
         ahead_mm: outcome.slices.ahead_mm.clone(),
-        position_mm: new.position_mm.clone(),
-        line_load_new_N_per_mm: new.line_load_n_per_mm.clone(),
-        line_load_worn_N_per_mm: worn.line_load_n_per_mm.clone(),
-        peak_pressure_new_MPa: new.peak_pressure_mpa.clone(),
-        peak_pressure_worn_MPa: worn.peak_pressure_mpa.clone(),
-        at_sharp_edge_new: new.at_sharp_edge.clone(),
-        at_sharp_edge_worn: worn.at_sharp_edge.clone(),
+        position_mm: new.position_mm,
+        line_load_new_N_per_mm: new.line_load_n_per_mm,
+        line_load_worn_N_per_mm: worn.line_load_n_per_mm,
+        peak_pressure_new_MPa: new.peak_pressure_mpa,
+        peak_pressure_worn_MPa: worn.peak_pressure_mpa,
+        at_sharp_edge_new: new.at_sharp_edge,
+        at_sharp_edge_worn: worn.at_sharp_edge,
     })
 }

@@ -133,6 +133,37 @@ impl SlicedMesh {
         self
     }
 
+    /// The same over the rows of `other` too, another mesh of the pair at the same phases: in what it has no row of, nothing is in contact.
+    pub fn with_rows_of(&self, other: &Self) -> Self {
+        let spacing = self.base_pitch_mm / self.transmission_error_mm.len() as f64;
+        let rows = |from_mm: f64, to_mm: f64| ((to_mm - from_mm) / spacing).round().max(0.0) as usize;
+        let ends_mm = |mesh: &Self| [mesh.position_mm[0], mesh.position_mm[mesh.position_mm.len() - 1]];
+        let ([first_mm, last_mm], [other_first_mm, other_last_mm]) = (ends_mm(self), ends_mm(other));
+        let (before, after) = (rows(other_first_mm, first_mm), rows(last_mm, other_last_mm));
+        let beyond = other.position_mm.len() - after.min(other.position_mm.len());
+        let position_mm = [
+            &other.position_mm[..before.min(other.position_mm.len())],
+            &self.position_mm,
+            &other.position_mm[beyond..],
+        ];
+        let extended =
+            |field: &[f64]| [&vec![0.0; before * self.slices], field, &vec![0.0; after * self.slices]].concat();
+        Self {
+            position_mm: position_mm.concat(),
+            part_of_width: extended(&self.part_of_width),
+            line_load_n_per_mm: extended(&self.line_load_n_per_mm),
+            peak_pressure_mpa: extended(&self.peak_pressure_mpa),
+            half_width_mm: extended(&self.half_width_mm),
+            at_sharp_edge: [
+                &vec![false; before * self.slices],
+                &*self.at_sharp_edge,
+                &vec![false; after * self.slices],
+            ]
+            .concat(),
+            ..self.clone()
+        }
+    }
+
     /// Load of each slice on average over the mesh, all teeth together, N per mm of face width.
     pub(crate) fn mean_line_loads_n_per_mm(&self) -> Vec<f64> {
         let phases = self.transmission_error_mm.len() as f64;
@@ -256,5 +287,49 @@ impl Line {
     fn value(&self, at: impl Fn(f64) -> f64) -> f64 {
         let from = at(self.from);
         if self.along == 0.0 { from } else { from + self.along * (at(self.from + 1.0) - from) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A mesh that is in contact from one phase to another, of four in a base pitch of 2 mm, with one slice.
+    fn mesh(first: i32, last: i32) -> SlicedMesh {
+        let phase = |j: i32| {
+            let in_contact = (first..=last).filter(|row| row.rem_euclid(4) == j);
+            let contacts = in_contact.map(|row| ObservedContact {
+                tooth: row.div_euclid(4),
+                slice: 0,
+                part_of_width: 1.0,
+                line_load_n_per_mm: f64::from(row),
+                footprint: Footprint { peak_pressure_mpa: 1.0, half_width_mm: 0.1, at_sharp_edge: true },
+            });
+            ObservedSlicedPosition {
+                position_mm: 10.0 + 0.5 * f64::from(j),
+                transmission_error_mm: 0.01,
+                stiffness_n_per_mm2: None,
+                jump_mm: None,
+                load_imbalance: 0.0,
+                contacts: contacts.collect(),
+            }
+        };
+        SlicedMesh::new(&[0, 1, 2, 3].map(phase), 1, 2.0)
+    }
+
+    /// Worn teeth touch over other rows than new ones: each mesh gets those of the other, without contact.
+    #[test]
+    fn meshes_have_each_others_rows() {
+        let (new, worn) = (mesh(-3, 6), mesh(-1, 9));
+        let [new, worn] = [new.with_rows_of(&worn), worn.with_rows_of(&new)];
+        let rows = -3..=9;
+        let of = |value: fn(i32) -> f64| rows.clone().map(value).collect::<Vec<_>>();
+        assert_eq!((&new.position_mm, &worn.position_mm), (&of(|row| 10.0 + 0.5 * f64::from(row)), &new.position_mm));
+        assert_eq!(new.line_load_n_per_mm, of(|row| if row > 6 { 0.0 } else { f64::from(row) }));
+        assert_eq!(worn.line_load_n_per_mm, of(|row| if row < -1 { 0.0 } else { f64::from(row) }));
+        for mesh in [&new, &worn] {
+            let lengths = [&mesh.part_of_width, &mesh.peak_pressure_mpa, &mesh.half_width_mm].map(Vec::len);
+            assert_eq!((lengths, mesh.at_sharp_edge.len()), ([13; 3], 13));
+        }
     }
 }
