@@ -140,16 +140,12 @@ impl SlicedMesh {
         let ends_mm = |mesh: &Self| [mesh.position_mm[0], mesh.position_mm[mesh.position_mm.len() - 1]];
         let ([first_mm, last_mm], [other_first_mm, other_last_mm]) = (ends_mm(self), ends_mm(other));
         let (before, after) = (rows(other_first_mm, first_mm), rows(last_mm, other_last_mm));
-        let beyond = other.position_mm.len() - after.min(other.position_mm.len());
-        let position_mm = [
-            &other.position_mm[..before.min(other.position_mm.len())],
-            &self.position_mm,
-            &other.position_mm[beyond..],
-        ];
+        let down = (1..=before).rev().map(|row| first_mm - row as f64 * spacing);
+        let up = (1..=after).map(|row| last_mm + row as f64 * spacing);
         let extended =
             |field: &[f64]| [&vec![0.0; before * self.slices], field, &vec![0.0; after * self.slices]].concat();
         Self {
-            position_mm: position_mm.concat(),
+            position_mm: down.chain(self.position_mm.iter().copied()).chain(up).collect(),
             part_of_width: extended(&self.part_of_width),
             line_load_n_per_mm: extended(&self.line_load_n_per_mm),
             peak_pressure_mpa: extended(&self.peak_pressure_mpa),

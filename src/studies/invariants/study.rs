@@ -123,7 +123,7 @@ fn of_scene(seed: u64, index: u64, relations: &[Relation], observer: &dyn Observ
                 carried_out(table, observer)
             };
             let subject = Subject { table: &table, record: &record, run: &count };
-            scene.found.extend(own_invariants(&subject));
+            scene.found.extend(own_invariants(&subject)?);
             let tried = relations
                 .iter()
                 .enumerate()
@@ -142,8 +142,8 @@ fn of_scene(seed: u64, index: u64, relations: &[Relation], observer: &dyn Observ
 }
 
 /// The statements that hold for every run by itself. Of too few points and positions for its contacts a run says that they are: its volumes are held
-/// against those of a finer run.
-fn own_invariants(subject: &Subject<'_>) -> Vec<Finding> {
+/// against those of a finer run. None where that was interrupted.
+fn own_invariants(subject: &Subject<'_>) -> Option<Vec<Finding>> {
     let (table, record) = (subject.table, subject.record);
     let mut found = vec![Finding::of_run(SOUND, table, None, soundness::fault(record))];
     let measured = |invariant: &Invariant| {
@@ -151,19 +151,22 @@ fn own_invariants(subject: &Subject<'_>) -> Vec<Finding> {
         Some(Measured::new(place, invariant.value?, invariant.bound?))
     };
     for invariant in &record.summary.invariants {
-        let Some(own) = measured(invariant) else { continue };
-        let of_finer = || {
-            let finer = (subject.run)(&subject.finer()).ok()?;
-            finer.summary.invariants.iter().find(|same| same.name == invariant.name).and_then(measured)
-        };
-        let is_of_resolution = invariant.name.starts_with("volume") && is_violated(&own);
-        let value = if is_of_resolution { of_finer().unwrap_or(own) } else { own };
+        let Some(mut value) = measured(invariant) else { continue };
+        if invariant.name.starts_with("volume") && is_violated(&value) {
+            let finer = match (subject.run)(&subject.finer()) {
+                Err(Ended::Interrupted) => return None,
+                finer => finer.ok(),
+            };
+            let same =
+                finer.iter().flat_map(|finer| &finer.summary.invariants).find(|same| same.name == invariant.name);
+            value = same.and_then(measured).unwrap_or(value);
+        }
         found.push(Finding {
             states: invariant.how.clone(),
             ..Finding::of_run(&invariant.name, table, Some(value), None)
         });
     }
-    found
+    Some(found)
 }
 
 impl Finding {
