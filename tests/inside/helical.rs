@@ -565,7 +565,8 @@ fn ver_slices_lose_what_load_and_sliding_ask_for() {
 
 /// So narrow that all of its width is in the same place of the mesh, a helical pair has in its normal section lines as long as its load is greater, and radii greater by
 /// 1/cos β_b: it has the half-width and the pressure of the spur pair of its transverse section whose modulus is cos β_b times as great, and, as gaps are greater by 1/cos β_b
-/// along the transverse line of action, its transmission error.
+/// along the transverse line of action, its transmission error. Where the stiffness model speaks of the section, the teeth yield 1/cos⁴ β times as much and the pair, at
+/// the load for which the model speaks, alike on every surface.
 #[test]
 fn ver_a_narrow_helical_pair_is_a_softer_spur_pair() {
     let (helix, module_mm, centre_mm) = (30f64.to_radians(), 4.0, 99.0);
@@ -573,7 +574,7 @@ fn ver_a_narrow_helical_pair_is_a_softer_spur_pair() {
     let cos_base = (1.0 - (helix.sin() * 20f64.to_radians().cos()).powi(2)).sqrt();
     let (transverse_module_mm, teeth) = (module_mm / helix.cos(), [18, 24]);
     let shifts_mm = [0.3 * module_mm, 0.2 * module_mm];
-    let run = |surface: &str, is_helical: bool| {
+    let run = |surface: &str, stiffness: &str, is_helical: bool| {
         let of = |mm: f64| if is_helical { mm / module_mm } else { mm / transverse_module_mm };
         let gear = |k: usize| {
             let reference_mm = transverse_module_mm * f64::from(teeth[k]);
@@ -598,7 +599,7 @@ fn ver_a_narrow_helical_pair_is_a_softer_spur_pair() {
             "[pair]\nnormal_module_mm = {module:?}\npressure_angle_deg = {angle:?}\nhelix_angle_deg = {:?}\ncentre_distance_mm = {centre_mm:?}\nface_width_mm = 0.4\n\
              basic_rack = {rack}\npinion = {}\nwheel = {}\n[material]\nyoung_modulus_GPa = {modulus:?}\npoisson_ratio = 0.3\n\
              [operation]\npinion_torque_Nm = 8.0\npinion_revolutions = 1.0\n[contact]\nsurface = \"{surface}\"\ntip_contact = false\n\
-             [helical]\nslices = 2\ncoupling = \"none\"\n[stiffness]\nmodel = \"constant\"\npair_N_per_mm_um = 1000.0\n\
+             [helical]\nslices = 2\ncoupling = \"none\"\n[stiffness]\n{stiffness}\n\
              [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-20\n\
              [numerics]\nflank_points = 1500\npositions = 200\nerror_estimate = false\nverify = false\n",
             if is_helical { helix.to_degrees() } else { 0.0 },
@@ -608,8 +609,10 @@ fn ver_a_narrow_helical_pair_is_a_softer_spur_pair() {
         let resolved = Draft::parse(&text).unwrap().resolve().unwrap_or_else(|problems| panic!("{problems:?}"));
         pipeline::run(&loaded(&resolved), &Unwatched).unwrap().record
     };
-    for surface in ["hertz", "winkler", "half-space"] {
-        let [helical, spur] = [true, false].map(|is_helical| run(surface, is_helical));
+    let (rigid, weber_banaschek) = ("model = \"constant\"\npair_N_per_mm_um = 1e6", "model = \"weber-banaschek\"");
+    let surfaces = ["hertz", "winkler", "half-space"];
+    for surface in surfaces {
+        let [helical, spur] = [true, false].map(|is_helical| run(surface, rigid, is_helical));
         let path = (spur.mesh_cycle[0].position_mm, spur.mesh_cycle[spur.mesh_cycle.len() - 1].position_mm);
         assert_eq!(helical.mesh_cycle.len(), spur.mesh_cycle.len());
         let mut most = [0.0_f64; 3];
@@ -627,5 +630,19 @@ fn ver_a_narrow_helical_pair_is_a_softer_spur_pair() {
             most = [0, 1, 2].map(|k| most[k].max((off[k] - 1.0).abs()));
         }
         assert!(most[0] < 1e-4 && most[1].max(most[2]) < 4e-3, "{surface}: {most:?}");
+    }
+    // In the middle of the path, which belongs to one pair.
+    let in_the_middle_um = |surface: &str, stiffness: &str, is_helical: bool| {
+        let record = run(surface, stiffness, is_helical);
+        let middle = &record.mesh_cycle[record.mesh_cycle.len() / 2];
+        assert!(middle.load_share_new > 0.999);
+        middle.transmission_error_new_um
+    };
+    let flattening_um = in_the_middle_um("half-space", rigid, true);
+    let [helical, spur] = [true, false].map(|is_helical| in_the_middle_um("half-space", weber_banaschek, is_helical));
+    let softer = (helical - flattening_um) / (spur - flattening_um);
+    assert_close("teeth", softer, cos_base / helix.cos().powi(4), 5e-3);
+    for surface in surfaces {
+        assert_close(surface, in_the_middle_um(surface, weber_banaschek, true), helical, 1e-3);
     }
 }

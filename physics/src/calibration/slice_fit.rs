@@ -32,7 +32,7 @@ use crate::mesh_cycle::slice_coupling::{Factors, Reach, SliceCompliance};
 use crate::mesh_cycle::sliced::SpringAlongPath;
 use crate::mesh_cycle::sliced_positions::{SliceContact, SliceEnds, sliced_positions};
 use crate::stiffness::settings::StiffnessSettings;
-use crate::stiffness::{StiffnessError, TeethSpring, curve::PairCompliance};
+use crate::stiffness::{SpringParts, StiffnessError, TeethSpring, curve::PairCompliance};
 
 /// Slices of the fit.
 pub const SLICES: usize = 20;
@@ -127,24 +127,25 @@ pub fn fit(
     let teeth = TeethSpring::new(StiffnessSettings::Fem, Some(curve), pair, material, &surface, line_load_n_per_mm)?;
     let slices = Slices::new(pair, SLICES);
     // The whole spring, which teeth in space have beside the surface, and what slices have of it to themselves.
-    let along = |spring: &dyn Fn(f64) -> Result<f64, StiffnessError>| {
+    let along = |spring: &dyn Fn(f64) -> Result<SpringParts, StiffnessError>| {
         SpringAlongPath::new(&pair.path, STIFFNESS_POSITIONS, [0.0; 2], spring)
     };
-    let whole = along(&|at| teeth.oblique_n_per_mm2(at))?;
-    let own = along(&|at| teeth.own_n_per_mm2(at))?;
+    let whole = along(&|at| teeth.oblique_parts(at))?;
+    let own = along(&|at| teeth.own_parts(at))?;
     let section = pair.normal_section();
     let mut phases = Vec::new();
     for phase in sliced_positions(&pair.path, &slices, POSITIONS, SliceEnds::AtOnce) {
         let contacts = &phase.contacts;
         let at = |contact: &SliceContact| contact.cell.position_mm;
-        let influence = in_space.influence(pair, &slices, contacts, |contact| whole.mm2_per_n(at(contact))).mm2_per_n;
+        let influence =
+            in_space.influence(pair, &slices, contacts, |contact| whole.at(at(contact)).with_softness(1.0)).mm2_per_n;
         let mut first = 0;
         let lines: Vec<LineOfContact> = contacts
             .chunk_by(|a, b| a.tooth == b.tooth)
             .map(|of_tooth| {
                 let begins = first;
                 first += of_tooth.len();
-                let mm2_per_n = of_tooth.iter().map(|contact| own.mm2_per_n(at(contact))).collect();
+                let mm2_per_n = of_tooth.iter().map(|contact| own.at(at(contact)).teeth).collect();
                 LineOfContact {
                     first: begins,
                     slices: of_tooth.iter().map(|contact| contact.slice).collect(),

@@ -29,7 +29,7 @@ use super::foundation::{FoundationCurve, FoundationStiffness, matched_mpa_per_mm
 use super::hertz;
 use super::pressure_field::PressureField;
 use super::settings::{MatchCriterion, Material};
-use super::strip::common_extent_mm;
+use super::strip::{common_extent_mm, nearest_mm};
 use crate::gear::flank_edge::PathEnd;
 use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, removed_material::tip_rounding_mm};
 use crate::reference::half_plane::cell_compliance_mm_per_mpa;
@@ -206,8 +206,7 @@ impl Bodies<'_> {
         let load = GREATEST_LOAD * self.line_load_n_per_mm;
         let half_width_mm = WIDENED * flattening.contact.loaded(load).half_width_mm;
         let ((lower_mm, upper_mm), _) = common_extent_mm(self.pair, position_mm);
-        // About the theoretical contact point, or the edge beside it.
-        let centre_mm = 0.0_f64.min(upper_mm).max(lower_mm);
+        let centre_mm = nearest_mm(self.pair, position_mm, (lower_mm, upper_mm));
         let mut window = (lower_mm.max(centre_mm - half_width_mm), upper_mm.min(centre_mm + half_width_mm));
         let mut indentation_mm = flattening.approach_mm(load);
         let mut points = Vec::with_capacity(DEPTHS);

@@ -129,7 +129,7 @@ impl Window {
     /// ends before it, cut where a flank ends.
     pub(crate) fn new(flanks: Flanks<'_>, position_mm: f64, half_length_mm: f64) -> Self {
         let ((lower, upper), at_tips) = common_extent_mm(&flanks.geometry, position_mm);
-        let centre = 0.0_f64.min(upper).max(lower);
+        let centre = nearest_mm(&flanks.geometry, position_mm, (lower, upper));
         let (from, to) = (centre - half_length_mm, centre + half_length_mm);
         let ends_are_real = [lower >= from, upper <= to];
         let (edges, corners) = (flanks.sharp_edges, flanks.sharp_corners);
@@ -212,6 +212,22 @@ pub(super) fn common_extent_mm(geometry: &dyn ConjugateFlanks, position_mm: f64)
         if upper > -round_off { upper.max(0.0) } else { upper },
     );
     (extent, [lowers[1] >= lowers[0], uppers[0] <= uppers[1]])
+}
+
+/// Where within the extent of [`common_extent_mm`] unworn flanks are nearest: at the theoretical contact point, or at the edge beside it where a
+/// flank has not begun or has ended. Before T1 and after T2 the corner of an undercut flank may lie on the other side of that point.
+pub(super) fn nearest_mm(geometry: &dyn ConjugateFlanks, position_mm: f64, (lower_mm, upper_mm): (f64, f64)) -> f64 {
+    let position_at = |gear: Gear, coordinate_mm: f64| geometry.position_at_mm(gear, coordinate_mm);
+    let (pinion, wheel) = (geometry.flank_limits_mm(Gear::Pinion), geometry.flank_limits_mm(Gear::Wheel));
+    // The contact moves up the pinion and down the wheel.
+    let first_mm = position_at(Gear::Pinion, pinion.0).max(position_at(Gear::Wheel, wheel.1));
+    let last_mm = position_at(Gear::Pinion, pinion.1).min(position_at(Gear::Wheel, wheel.0));
+    let round_off = ROUND_OFF * last_mm;
+    match position_mm {
+        before if before < first_mm - round_off => lower_mm,
+        after if after > last_mm + round_off => upper_mm,
+        _ => 0.0_f64.min(upper_mm).max(lower_mm),
+    }
 }
 
 /// Distance of the points at the theoretical contact point on the flank where they are closer.
@@ -374,7 +390,7 @@ pub(crate) fn least_removed_mm(
     let ((lowest_mm, highest_mm), _) = common_extent_mm(&flanks.geometry, position_mm);
     let on_flank = |gear: Gear, along_mm: f64| flanks.geometry.at_along(gear, on_tangent(gear, along_mm), position_mm);
     let unworn_mm = |along_mm: f64| Gear::BOTH.into_iter().map(|gear| on_flank(gear, along_mm).1).sum::<f64>();
-    let centre_mm = 0.0_f64.min(highest_mm).max(lowest_mm);
+    let centre_mm = nearest_mm(&flanks.geometry, position_mm, (lowest_mm, highest_mm));
     let of_parabola_mm = (2.0 * flanks.geometry.relative_radius_mm(position_mm).max(0.0) * approach_mm).sqrt();
     let first_mm = (AMPLE_REACH * of_parabola_mm).max(LEAST_REACH * (highest_mm - lowest_mm));
     // Outside A to E flanks part otherwise than the parabola of their contact.
@@ -471,6 +487,30 @@ mod tests {
             }
         }
         assert!(ends_at_root_form > 10, "{ends_at_root_form}");
+    }
+
+    /// Unworn flanks are nowhere nearer than where it is said, by a search of 1000 places: also far before A, where the corner of the undercut pinion has passed the
+    /// theoretical contact point to its other side.
+    #[test]
+    fn ver_unworn_flanks_are_nearest_where_they_touch_or_at_their_edge() {
+        let pair = pair_of(6.81, 152.02, [(11, -0.06334), (34, -0.1643)]);
+        let (mut beyond, [before_mm, after_mm]) = (0, pair.farthest_touch_mm());
+        for k in 0..=60 {
+            let (from_mm, to_mm) = (pair.path.start_mm - before_mm, pair.path.end_mm + after_mm);
+            let position_mm = from_mm + (to_mm - from_mm) * f64::from(k) / 60.0;
+            let (extent_mm, _) = common_extent_mm(&pair, position_mm);
+            let gap_mm = |along_mm: f64| -> f64 {
+                Gear::BOTH.map(|gear| pair.at_along(gear, on_tangent(gear, along_mm), position_mm).1).iter().sum()
+            };
+            let nearest_mm = nearest_mm(&pair, position_mm, extent_mm);
+            beyond += i32::from(nearest_mm < -1e-3);
+            for part in 0..=1000 {
+                let along_mm = extent_mm.0 + (extent_mm.1 - extent_mm.0) * f64::from(part) / 1000.0;
+                let deeper_mm = gap_mm(nearest_mm) - gap_mm(along_mm);
+                assert!(deeper_mm < 1e-9, "{position_mm}: {along_mm} {nearest_mm} {deeper_mm}");
+            }
+        }
+        assert!(beyond > 3, "{beyond}");
     }
 
     /// Flanks that have lost the less the farther from the line of action, from before A to after E: nothing at which they touch when pressed together has lost

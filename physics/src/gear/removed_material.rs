@@ -32,6 +32,9 @@ use super::{
     tooth::Tooth,
 };
 
+/// Places over the face width whose mean is taken.
+const PLACES_OVER_WIDTH: usize = 100;
+
 /// The modifications of a gear's flank as removed material at its points, normal to the flank, slice after slice, mm.
 pub fn modifications_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid, slices: &Slices) -> Vec<f64> {
     let (modification, tooth) = (&with_axes(pair, gear), &pair.teeth[gear]);
@@ -52,9 +55,21 @@ fn with_axes(pair: &GearPair, gear: Gear) -> Modification {
 /// What all modifications of a gear's flank but the rounding of its tip edge remove at radius of curvature `rho_mm` and `width_mm`, along the
 /// transverse line of action.
 pub(crate) fn without_rounding_mm(pair: &GearPair, gear: Gear, width_mm: f64, rho_mm: f64) -> f64 {
-    let modification = Modification { tip_rounding_mm: 0.0, ..with_axes(pair, gear) };
+    of_profile_mm(pair, gear, rho_mm) + lead_removed_mm(&with_axes(pair, gear), pair.spec.face_width_mm, width_mm)
+}
+
+/// The same of what is alike in every transverse section.
+pub(crate) fn of_profile_mm(pair: &GearPair, gear: Gear, rho_mm: f64) -> f64 {
+    let modification = Modification { tip_rounding_mm: 0.0, ..pair.spec.gears[gear].modification };
     removed_mm(&modification, &pair.teeth[gear], pair.active_start_rho_mm(gear), rho_mm)
-        + lead_removed_mm(&modification, pair.spec.face_width_mm, width_mm)
+}
+
+/// Mean over the face width of what varies over it, along the transverse line of action, mm.
+pub(crate) fn mean_over_width_mm(pair: &GearPair, gear: Gear) -> f64 {
+    let (modification, face_width_mm) = (with_axes(pair, gear), pair.spec.face_width_mm);
+    let at = |k: usize| (k as f64 + 0.5) / PLACES_OVER_WIDTH as f64 * face_width_mm;
+    let removed = (0..PLACES_OVER_WIDTH).map(|k| lead_removed_mm(&modification, face_width_mm, at(k)));
+    removed.sum::<f64>() / PLACES_OVER_WIDTH as f64
 }
 
 /// Material removed at `width_mm` of a face of width `face_width_mm` by what varies over it alone.

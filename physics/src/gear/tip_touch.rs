@@ -35,7 +35,11 @@ use nalgebra::Vector2;
 
 use super::conjugate::ConjugateFlanks;
 use super::flank_edge::{FlankEdge, PathEnd};
-use super::{Gear, GearPair, PerGear, removed_material::tip_rounding_length_mm, tooth::LoadLine};
+use super::{
+    Gear, GearPair, PerGear,
+    removed_material::{self, tip_rounding_length_mm},
+    tooth::LoadLine,
+};
 
 /// An approach that no pair's flanks exceed, in units of line load over E*: steel on type C approaches by 7.4 of these at the pitch point, plastic
 /// on a rigid pinion by 4.8.
@@ -45,6 +49,8 @@ const AMPLE_APPROACH: f64 = 15.0;
 const LEAST_CURVATURE: f64 = 0.05;
 /// Steps in which the path is walked, per base pitch.
 const STEPS_IN_PITCH: f64 = 1000.0;
+/// Places per base pitch at which modifications are asked for.
+const PLACES_IN_PITCH: usize = 100;
 
 /// How the flanks touch at some position.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -134,9 +140,32 @@ impl GearPair {
         })
     }
 
-    /// [`Self::tip_reach_mm`] of an approach that `line_load_n_per_mm` does not exceed on bodies with the contact modulus E*.
+    /// [`Self::tip_reach_mm`] of an approach that unworn flanks under `line_load_n_per_mm` do not exceed on bodies with the contact modulus E*.
     pub fn ample_tip_reach_mm(&self, line_load_n_per_mm: f64, contact_modulus_mpa: f64) -> [f64; 2] {
-        self.tip_reach_mm(AMPLE_APPROACH * line_load_n_per_mm / contact_modulus_mpa)
+        self.tip_reach_mm(AMPLE_APPROACH * line_load_n_per_mm / contact_modulus_mpa + self.unloaded_approach_mm())
+    }
+
+    /// What modifications add to the transmission error of loaded, unworn flanks at the most, mm: over a base pitch, the greatest that the pair
+    /// that has lost least has lost of its profiles, and the mean of what its flanks lack over the face width. Where springs are linear, no
+    /// gap that is taken up before its mean makes the gears approach more than that and the elastic approach.
+    pub fn unloaded_approach_mm(&self) -> f64 {
+        let path = &self.path;
+        let of_profiles = |position_mm: f64| {
+            Gear::BOTH
+                .map(|gear| removed_material::of_profile_mm(self, gear, path.rho_mm(gear, position_mm)))
+                .iter()
+                .sum::<f64>()
+        };
+        let step_mm = path.base_pitch_mm / PLACES_IN_PITCH as f64;
+        let places = ((path.end_mm - path.start_mm) / step_mm) as usize;
+        // Of each phase, the tooth pair that has lost least.
+        let mut least_mm = [f64::INFINITY; PLACES_IN_PITCH];
+        for k in 0..=places {
+            let least = &mut least_mm[k % PLACES_IN_PITCH];
+            *least = least.min(of_profiles(path.start_mm + k as f64 * step_mm));
+        }
+        let of_profiles_mm = least_mm.into_iter().filter(|least| least.is_finite()).fold(0.0, f64::max);
+        of_profiles_mm + Gear::BOTH.map(|gear| removed_material::mean_over_width_mm(self, gear)).iter().sum::<f64>()
     }
 
     /// Gap between the edge in which the path ends and the mate's flank, along the line of action, with the theoretical contact point at

@@ -29,14 +29,15 @@ use super::{
 use crate::contact::flank_pressure::PressureFigures;
 use crate::contact::{ContactSurface, Flanks, Sweep};
 use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, path_of_contact::PathOfContact};
+use crate::stiffness::SpringParts;
 use crate::wear::WearModel;
 
 /// The spring of the teeth along the path of contact, evaluated once for all slices.
 pub struct SpringAlongPath {
     start_mm: f64,
     spacing_mm: f64,
-    /// Compliance at evenly spaced places, mm²/N.
-    mm2_per_n: Vec<f64>,
+    /// At evenly spaced places.
+    parts: Vec<SpringParts>,
 }
 
 impl SpringAlongPath {
@@ -46,23 +47,27 @@ impl SpringAlongPath {
         path: &PathOfContact,
         count: usize,
         beyond_mm: [f64; 2],
-        mut n_per_mm2: impl FnMut(f64) -> Result<f64, E>,
+        parts: impl FnMut(f64) -> Result<SpringParts, E>,
     ) -> Result<Self, E> {
         let spacing_mm = (path.end_mm - path.start_mm) / (count - 1) as f64;
         let [before, after] = beyond_mm.map(|beyond| (beyond / spacing_mm).ceil() as usize);
         let start_mm = path.start_mm - before as f64 * spacing_mm;
         let at = |j: usize| path.start_mm + spacing_mm * (j as f64 - before as f64);
-        let mm2_per_n = (0..before + count + after).map(|j| n_per_mm2(at(j)).map(|k| 1.0 / k));
-        Ok(Self { start_mm, spacing_mm, mm2_per_n: mm2_per_n.collect::<Result<_, E>>()? })
+        let parts = (0..before + count + after).map(at).map(parts).collect::<Result<_, E>>()?;
+        Ok(Self { start_mm, spacing_mm, parts })
     }
 
-    /// Compliance of the teeth with the theoretical contact point at `position_mm`, mm²/N; beyond its places, that there.
-    pub fn mm2_per_n(&self, position_mm: f64) -> f64 {
-        let last = self.mm2_per_n.len() - 1;
+    /// Compliance with the theoretical contact point at `position_mm`; beyond its places, that there.
+    pub fn at(&self, position_mm: f64) -> SpringParts {
+        let last = self.parts.len() - 1;
         let place = ((position_mm - self.start_mm) / self.spacing_mm).clamp(0.0, last as f64);
         let before = (place as usize).min(last - 1);
         let weight = place - before as f64;
-        self.mm2_per_n[before] + weight * (self.mm2_per_n[before + 1] - self.mm2_per_n[before])
+        let [here, next] = [self.parts[before], self.parts[before + 1]];
+        SpringParts {
+            teeth: here.teeth + weight * (next.teeth - here.teeth),
+            left_by_surface: here.left_by_surface + weight * (next.left_by_surface - here.left_by_surface),
+        }
     }
 }
 

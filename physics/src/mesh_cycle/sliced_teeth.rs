@@ -68,7 +68,12 @@ impl SlicedTeeth {
 
     /// Compliance of the teeth at a contact, mm²/N, by that of their section along the path of contact.
     pub fn mm2_per_n(&self, contact: &SliceContact, section: &SpringAlongPath) -> f64 {
-        self.softness[contact.slice] * section.mm2_per_n(contact.cell.position_mm)
+        section.at(contact.cell.position_mm).with_softness(self.softness[contact.slice])
+    }
+
+    /// Least and greatest compliance of the teeth of a slice over that of the section.
+    pub fn softness(&self) -> [f64; 2] {
+        self.softness.iter().fold([f64::INFINITY, 0.0], |[least, most], &of| [of.min(least), of.max(most)])
     }
 
     /// Compliance of the bodies that all pairs in mesh share, where the section's is given, mm²/N; those of teeth in space are part of what

@@ -366,9 +366,10 @@ pub struct StiffnessSummary {
     pub model: String,
     /// Line load at which the spring of the teeth and the contact surface together have the model's compliance.
     pub reference_line_load_N_per_mm: f64,
-    /// Whole pair with flattening, at C and the reference load.
+    /// Whole pair with flattening, at C and the reference load, as the model states it: of a helical pair, of its transverse section, without what
+    /// oblique teeth, end faces and coupling make of its slices.
     pub pair_at_pitch_N_per_mm_um: f64,
-    /// Tooth spring alone, at C.
+    /// Tooth spring alone, at C, likewise.
     pub teeth_at_pitch_N_per_mm_um: f64,
     /// What the split leaves over: relative difference between the surface's and the true flattening's share of the
     /// pair's approach at C at half the reference load; `None` where the model states no flattening.

@@ -16,7 +16,7 @@ use crate::mesh_cycle::{
     sliced_teeth::SlicedTeeth,
     tip_contact,
 };
-use crate::stiffness::{StiffnessError, TeethSpring};
+use crate::stiffness::{SpringParts, StiffnessError, TeethSpring};
 
 /// The elastic model of the pair in mesh.
 #[derive(Clone, Copy)]
@@ -63,11 +63,22 @@ pub fn bodies_mm2_per_n(teeth: &TeethSpring<'_>, sliced: Option<&SlicedTeeth>) -
     sliced.map_or(of_section, |sliced| sliced.bodies_mm2_per_n(of_section))
 }
 
-/// The spring of a slice beside its surface, N/mm²: of teeth in space, that of the whole section.
-fn slice_spring(teeth: &TeethSpring<'_>, sliced: &SlicedTeeth, position_mm: f64) -> Result<f64, StiffnessError> {
-    match sliced.in_space() {
-        Some(_) => teeth.oblique_n_per_mm2(position_mm),
-        None => teeth.own_n_per_mm2(position_mm),
+/// The spring of the section of a slice beside its surface: of teeth in space, that of the whole section.
+///
+/// # Errors
+/// [`StiffnessError::SurfaceTooSoft`] also where the section's spring is positive and a slice's is not.
+fn slice_spring(
+    teeth: &TeethSpring<'_>,
+    sliced: &SlicedTeeth,
+    position_mm: f64,
+) -> Result<SpringParts, StiffnessError> {
+    let parts = match sliced.in_space() {
+        Some(_) => teeth.oblique_parts(position_mm)?,
+        None => teeth.own_parts(position_mm)?,
+    };
+    match sliced.softness().map(|softness| parts.with_softness(softness)) {
+        [least, most] if least.min(most) > 0.0 => Ok(parts),
+        _ => Err(teeth.too_soft(position_mm)),
     }
 }
 
@@ -83,8 +94,13 @@ fn tip_range_mm(
     let section = pair.normal_section();
     let along_normal = surface.plain_approach_mm(&section, pitch_point, line_load_n_per_mm);
     let surfaces = section.obliquity.transverse_mm(along_normal);
-    let yielding = bodies_mm2_per_n(teeth, sliced) + 1.0 / teeth.own_n_per_mm2(pitch_point)?;
-    let reach_mm = pair.tip_reach_mm(AMPLE_APPROACH * (surfaces + yielding * line_load_n_per_mm));
+    let own = match sliced {
+        Some(sliced) => slice_spring(teeth, sliced, pitch_point)?.with_softness(sliced.softness()[1]),
+        None => 1.0 / teeth.own_n_per_mm2(pitch_point)?,
+    };
+    let yielding = bodies_mm2_per_n(teeth, sliced) + own;
+    let elastic_mm = AMPLE_APPROACH * (surfaces + yielding * line_load_n_per_mm);
+    let reach_mm = pair.tip_reach_mm(elastic_mm + pair.unloaded_approach_mm());
     // Teeth in space are there for contacts so far out and no farther.
     let in_space = sliced.and_then(SlicedTeeth::in_space);
     Ok(in_space.map_or(reach_mm, |teeth| [0, 1].map(|end| reach_mm[end].min(teeth.reach_mm()[end]))))

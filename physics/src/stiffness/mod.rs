@@ -77,6 +77,23 @@ enum Curve<'a> {
     Given(&'a PairCompliance),
 }
 
+/// Compliance of a pair's spring, mm²/N, in its two parts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpringParts {
+    /// Of the teeth: where they are oblique or end, this part yields more.
+    pub teeth: f64,
+    /// By how much the flattening that the model states exceeds the surface's approach, at the reference load; negative where the surface
+    /// yields more. It is the surface's, and no tooth changes it.
+    pub left_by_surface: f64,
+}
+
+impl SpringParts {
+    /// Of teeth that yield `softness` times as much.
+    pub fn with_softness(self, softness: f64) -> f64 {
+        softness * self.teeth + self.left_by_surface
+    }
+}
+
 /// The spring of the teeth of a pair, in series with its contact surface.
 pub struct TeethSpring<'a> {
     pair: &'a GearPair,
@@ -178,14 +195,16 @@ impl<'a> TeethSpring<'a> {
     /// As those of [`Self::n_per_mm2`].
     pub fn own_n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
         let (whole, shared) = (1.0 / self.n_per_mm2(position_mm)?, self.shared_mm2_per_n());
-        if shared < whole {
-            Ok(1.0 / (whole - shared))
-        } else {
-            let um = 1e3 * self.reference_line_load_n_per_mm;
-            let surface = self.surface_mm2_per_n(position_mm);
-            let (surface_um, pair_um) = (um * (surface + shared), um * (surface + whole));
-            Err(StiffnessError::SurfaceTooSoft { position_mm, surface_um, pair_um })
-        }
+        if shared < whole { Ok(1.0 / (whole - shared)) } else { Err(self.too_soft(position_mm)) }
+    }
+
+    /// That surface and shared bodies leave nothing of the whole pair's compliance to the teeth.
+    pub(crate) fn too_soft(&self, position_mm: f64) -> StiffnessError {
+        let um = 1e3 * self.reference_line_load_n_per_mm;
+        let surface = self.surface_mm2_per_n(position_mm);
+        let whole = surface + self.n_per_mm2(position_mm).map_or(0.0, |stiffness| 1.0 / stiffness);
+        let surface_um = um * (surface + self.shared_mm2_per_n());
+        StiffnessError::SurfaceTooSoft { position_mm, surface_um, pair_um: um * whole }
     }
 
     /// Whether the model speaks of the transverse section alone, and not of oblique teeth too.
@@ -196,14 +215,38 @@ impl<'a> TeethSpring<'a> {
         }
     }
 
-    /// Stiffness of the whole spring, shared bodies included, where all of the section's compliance counts along the normal of an oblique line of
+    /// What a pair has to itself of the spring, in parts. A model that does not speak of the section has no other part than the teeth.
+    ///
+    /// # Errors
+    /// As those of [`Self::n_per_mm2`].
+    pub fn own_parts(&self, position_mm: f64) -> Result<SpringParts, StiffnessError> {
+        let own = 1.0 / self.own_n_per_mm2(position_mm)?;
+        let left_by_surface = if self.states_the_section() { self.left_by_surface_mm2_per_n(position_mm) } else { 0.0 };
+        Ok(SpringParts { teeth: own - left_by_surface, left_by_surface })
+    }
+
+    /// The whole spring, shared bodies included, where all of the section's compliance counts along the normal of an oblique line of
     /// contact, as flattening does: what the section says of its teeth, too, then yields 1/cos β_b times as much along the transverse line of
-    /// action, N/mm².
-    pub(crate) fn oblique_n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
-        let spring = 1.0 / self.n_per_mm2(position_mm)?;
-        let flattening = self.flattening_mm2_per_n(position_mm, self.reference_line_load_n_per_mm);
-        let of_teeth = spring + self.surface_mm2_per_n(position_mm) - flattening;
-        Ok(1.0 / (spring + (self.obliquity.transverse_mm(of_teeth) - of_teeth)))
+    /// action.
+    ///
+    /// # Errors
+    /// As those of [`Self::n_per_mm2`].
+    pub(crate) fn oblique_parts(&self, position_mm: f64) -> Result<SpringParts, StiffnessError> {
+        let SpringParts { teeth, left_by_surface } = self.own_parts(position_mm)?;
+        let teeth = self.obliquity.transverse_mm(teeth + self.shared_mm2_per_n());
+        Ok(SpringParts { teeth, left_by_surface })
+    }
+
+    /// [`SpringParts::left_by_surface`]; beyond what the model states, in proportion to the spring.
+    fn left_by_surface_mm2_per_n(&self, position_mm: f64) -> f64 {
+        let (first_mm, last_mm) = self.stated_mm();
+        let end_mm = position_mm.clamp(first_mm, last_mm);
+        let flattening = self.flattening_mm2_per_n(end_mm, self.reference_line_load_n_per_mm);
+        let left = flattening - self.surface_mm2_per_n(end_mm);
+        if end_mm == position_mm {
+            return left;
+        }
+        left * self.weber_banaschek_mm2_per_n(position_mm) / self.weber_banaschek_mm2_per_n(end_mm)
     }
 
     /// Stiffness of the whole pair, flattening included, at the reference load, N/mm².
