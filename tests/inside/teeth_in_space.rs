@@ -155,7 +155,7 @@ fn ver_webs_over_the_face_width() {
         assert_close("mirrored", own(&before, z_mm), own(&after, width_mm - z_mm), 1e-9);
         assert!(own(&before, z_mm) > own(&wide, z_mm), "{z_mm}");
     }
-    assert!(own(&before, 2.5) < own(&before, 11.5));
+    assert!(own(&before, 2.5) < 0.95 * own(&before, 11.5));
 }
 
 #[test]
