@@ -9,6 +9,9 @@ use crate::simulation::wear_run::Outcome;
 /// An overlap of less is none, mm.
 const LEAST_MM: f64 = 5e-5;
 
+/// A part of the load that is worth telling.
+const LEAST_SHARE: f64 = 0.005;
+
 /// Warns of the contact before A and after E that the run leaves out, if there is any.
 pub(super) fn warning(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
     if model.scene.contact.surface == SurfaceKind::Fem || model.scene.contact.tip_contact {
@@ -50,7 +53,7 @@ fn beyond_range(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
             continue;
         }
         let shares = states.into_iter().filter_map(|state| state.cycle.shares_at_ends.map(|shares| shares[end]));
-        let at_once = shares.reduce(f64::max).map_or_else(String::new, |share| {
+        let at_once = shares.reduce(f64::max).filter(|share| *share >= LEAST_SHARE).map_or_else(String::new, |share| {
             format!(", so that up to {:.0} % of the load comes in or leaves at once there", 1e2 * share)
         });
         let why = match range_mm[end] > 0.99 * farthest_mm[end] {
