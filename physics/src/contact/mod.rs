@@ -87,6 +87,15 @@ pub struct PositionCell {
     pub upper_mm: f64,
 }
 
+impl PositionCell {
+    /// Whether the contact moves to both sides of its position while it stands for the stretch: not at A and E, where the stretch ends at the position,
+    /// but for the last bits with which either is calculated.
+    pub(crate) fn goes_both_ways(&self) -> bool {
+        let round_off = flank_motion::ROUND_OFF * (self.upper_mm - self.lower_mm);
+        self.position_mm - self.lower_mm > round_off && self.upper_mm - self.position_mm > round_off
+    }
+}
+
 /// A tooth pair's answer to being pressed together.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Response {
@@ -262,5 +271,20 @@ pub trait ContactSurface: Sync {
     /// How long equilibria take.
     fn effort(&self) -> Effort {
         Effort { of_equilibrium: 1.0, of_clean_start: 4.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At A and E the stretch ends at the position, whichever of the two the last bit has farther out.
+    #[test]
+    fn stretches_end_at_a_and_e_but_for_the_last_bit() {
+        let goes = |lower_mm, upper_mm| PositionCell { position_mm: 23.4, lower_mm, upper_mm }.goes_both_ways();
+        for end_mm in [23.4_f64.next_down(), 23.4, 23.4_f64.next_up()] {
+            assert!(!goes(22.9, end_mm) && !goes(end_mm, 23.9));
+        }
+        assert!(goes(22.9, 23.9));
     }
 }

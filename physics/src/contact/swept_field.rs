@@ -29,10 +29,8 @@ impl SweptField {
     /// A field of cells of `width_mm` over `window`, without pressure so far; with a `cell`, points are collected.
     pub(crate) fn new(flanks: Flanks<'_>, window: Window, width_mm: f64, cell: Option<PositionCell>) -> Self {
         // An edge moves to both sides of where it is, but where the cell lies to one side of its position, or the field goes with the edge.
-        let both_ways = |cell: PositionCell| {
-            let two_sided = cell.lower_mm < cell.position_mm && cell.position_mm < cell.upper_mm;
-            two_sided && edge_under_load(&flanks.geometry, cell.position_mm).is_none()
-        };
+        let both_ways =
+            |cell: PositionCell| cell.goes_both_ways() && edge_under_load(&flanks.geometry, cell.position_mm).is_none();
         let observed = cell.map(|cell| {
             PerGear::from_fn(|gear| {
                 let points = ObservedPoints::under_standing_pressure(flanks, gear, window, cell);
