@@ -17,8 +17,9 @@ pub(crate) struct ObservedPoints {
     /// Sliding of each point (without the ends) while the contact moves through the cell, counted only while the mate
     /// faces it, mm.
     pub sliding_mm: Vec<f64>,
-    /// How far the points move along the tangent from the cell's position to its lower and to its upper end, mm.
-    shift_to_ends_mm: [f64; 2],
+    /// How far each point moves along the tangent from the cell's position to its lower and to its upper end, mm: near a base circle, neighbours
+    /// differ much in that.
+    shifts_to_ends_mm: Vec<[f64; 2]>,
     /// Where the flank ends that stands under the pressure, along the tangent, mm; its points feel what presses on their part of it.
     standing_to_mm: Option<f64>,
     /// The points that an end of the mate's flank passes within the cell, or that face nothing.
@@ -69,15 +70,9 @@ impl ObservedPoints {
                 partly_exposed.push(PartlyExposed { sample, from, to });
             }
         }
-        let middle = grid.coordinate_mm[first_point].midpoint(grid.coordinate_mm[last]);
-        Self {
-            first_point,
-            sliding_mm,
-            partly_exposed,
-            standing_to_mm: None,
-            at,
-            shift_to_ends_mm: shift_to_ends_mm(&geometry, gear, middle, cell),
-        }
+        let coordinates_mm = &grid.coordinate_mm[first_point..=last];
+        let shifts_to_ends_mm = coordinates_mm.iter().map(|&at| shift_to_ends_mm(&geometry, gear, at, cell)).collect();
+        Self { first_point, sliding_mm, partly_exposed, standing_to_mm: None, at, shifts_to_ends_mm }
     }
 }
 
@@ -91,15 +86,15 @@ impl ObservedPoints {
             points.partly_exposed.retain(|point| point.from == point.to);
             points.sliding_mm.fill(sliding);
             points.partly_exposed.iter().for_each(|point| points.sliding_mm[point.sample] = 0.0);
-            let rho_mm = |i: usize| flanks.grid[gear].coordinate_mm[i];
-            let first = points.first_point;
-            let middle = rho_mm(first).midpoint(rho_mm(first + points.sliding_mm.len() - 1));
             if edge == gear {
                 let tip = flanks.geometry.flank_limits_mm(gear).1;
                 points.standing_to_mm = Some(flanks.geometry.in_tangent_frame(gear, tip, cell.position_mm).along_mm);
             }
             let widest_mm = points.at.windows(2).map(|two| two[1].along_mm - two[0].along_mm).fold(0.0, f64::max);
-            points.shift_to_ends_mm = passes_to_ends_mm(&flanks.geometry, gear, middle, cell, widest_mm);
+            let coordinates_mm = flanks.grid[gear].coordinate_mm[points.first_point..].iter();
+            for (shift, &at) in points.shifts_to_ends_mm.iter_mut().zip(coordinates_mm) {
+                *shift = passes_to_ends_mm(&flanks.geometry, gear, at, cell, widest_mm);
+            }
         }
         points
     }
@@ -124,9 +119,9 @@ impl ObservedPoints {
     /// How far each point moves along the tangent from the cell's position to the beginning and to the end of the part of
     /// the cell in which it faces the mate.
     pub(crate) fn shifts_to_ends_mm(&self) -> Vec<[f64; 2]> {
-        let [lower, upper] = self.shift_to_ends_mm;
-        let mut shifts = vec![self.shift_to_ends_mm; self.sliding_mm.len()];
+        let mut shifts = self.shifts_to_ends_mm.clone();
         for point in &self.partly_exposed {
+            let [lower, upper] = shifts[point.sample];
             shifts[point.sample] = [point.from, point.to].map(|t| lower + t * (upper - lower));
         }
         shifts
@@ -135,12 +130,12 @@ impl ObservedPoints {
     /// The points, counted from the first, that touch anywhere between `lower_mm` and `upper_mm` (gear's own direction)
     /// while the contact moves through the cell; a few more at either end do not.
     pub(crate) fn between(&self, lower_mm: f64, upper_mm: f64) -> Range<usize> {
-        let [a, b] = self.shift_to_ends_mm;
+        let ends = || self.shifts_to_ends_mm.iter().flatten().copied();
+        let (most, least) = (ends().fold(0.0, f64::max), ends().fold(0.0, f64::min));
         let points = &self.at[1..=self.sliding_mm.len()];
         let below = |along_mm: f64| points.partition_point(|point| point.along_mm < along_mm);
-        // All points move almost alike; two more make up for the difference.
-        let first = below(lower_mm - a.max(b)).saturating_sub(2);
-        let end = (below(upper_mm - a.min(b)) + 2).min(points.len());
+        let first = below(lower_mm - most).saturating_sub(1);
+        let end = (below(upper_mm - least) + 1).min(points.len());
         first.min(end)..end
     }
 }
@@ -195,5 +190,45 @@ fn positive_stretch(before: f64, after: f64) -> (f64, f64) {
         (false, true) => (before / (before - after), 1.0),
         (true, false) => (0.0, before / (before - after)),
         (false, false) => (0.0, 0.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::strip::tests::pair_of;
+    use super::*;
+    use crate::gear::PerGear;
+    use crate::gear::flank::{FlankGrid, PointSpacing};
+
+    /// A window that has grown sees more points; those that it saw before move as they did, also near the base circle of an undercut wheel, where
+    /// neighbours move by other distances.
+    #[test]
+    fn prop_points_move_alike_whatever_the_window() {
+        let pair = pair_of(5.407, 127.4, [(37, 0.02266), (10, 0.0)]);
+        let grid = PerGear::from_fn(|gear| FlankGrid::new(&pair, gear, 80, PointSpacing::Graded));
+        let flanks = Flanks::of_gears(&pair, grid.as_ref());
+        let spacing_mm = (pair.path.end_mm - pair.path.start_mm) / 20.0;
+        let mut differing = 0;
+        for k in -1..=21 {
+            let position_mm = pair.path.start_mm + spacing_mm * f64::from(k);
+            let (lower_mm, upper_mm) = (position_mm - 0.5 * spacing_mm, position_mm + 0.5 * spacing_mm);
+            let cell = PositionCell { position_mm, lower_mm, upper_mm };
+            for gear in Gear::BOTH {
+                let [first, grown] = [0.1, 0.4].map(|half_length_mm| {
+                    let window = Window::new(flanks, position_mm, half_length_mm);
+                    ObservedPoints::under_standing_pressure(flanks, gear, window, cell)
+                });
+                let before = first.first_point - grown.first_point;
+                let courses_mm = grown.shifts_to_ends_mm();
+                let seen_before = &courses_mm[before..before + first.sliding_mm.len()];
+                if edge_under_load(&flanks.geometry, position_mm) != Some(gear) {
+                    assert_eq!(first.shifts_to_ends_mm(), seen_before, "{gear:?} at {position_mm} mm");
+                }
+                let [least, most] = [f64::min, f64::max]
+                    .map(|of| seen_before.iter().map(|[from, to]| (to - from).abs()).reduce(of).unwrap_or_default());
+                differing += usize::from(least < 0.8 * most);
+            }
+        }
+        assert!(differing > 2, "{differing}");
     }
 }

@@ -417,7 +417,7 @@ pub(crate) fn least_removed_mm(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::contact::ContactSurface;
     use crate::contact::half_space::HalfSpace;
@@ -433,7 +433,12 @@ mod tests {
         pair_of(3.0, 114.74, [(19, 0.35), (57, -0.1)])
     }
 
-    fn pair_of(normal_module_mm: f64, centre_distance_mm: f64, teeth_and_shifts: [(u32, f64); 2]) -> GearPair {
+    /// A pair of so many teeth and such profile shifts.
+    pub(in crate::contact) fn pair_of(
+        normal_module_mm: f64,
+        centre_distance_mm: f64,
+        teeth_and_shifts: [(u32, f64); 2],
+    ) -> GearPair {
         let gear = |(teeth, profile_shift)| GearSpec {
             teeth,
             profile_shift,
