@@ -20,6 +20,8 @@ pub(crate) struct ObservedPoints {
     /// How far each point moves along the tangent from the cell's position to its lower and to its upper end, mm: near a base circle, neighbours
     /// differ much in that.
     shifts_to_ends_mm: Vec<[f64; 2]>,
+    /// The least of that (at most 0) and the greatest (at least 0).
+    least_and_most_mm: [f64; 2],
     /// Where the flank ends that stands under the pressure, along the tangent, mm; its points feel what presses on their part of it.
     standing_to_mm: Option<f64>,
     /// The points that an end of the mate's flank passes within the cell, or that face nothing.
@@ -71,12 +73,26 @@ impl ObservedPoints {
             }
         }
         let coordinates_mm = &grid.coordinate_mm[first_point..=last];
-        let shifts_to_ends_mm = coordinates_mm.iter().map(|&at| shift_to_ends_mm(&geometry, gear, at, cell)).collect();
-        Self { first_point, sliding_mm, partly_exposed, standing_to_mm: None, at, shifts_to_ends_mm }
+        let shifts = coordinates_mm.iter().map(|&at| shift_to_ends_mm(&geometry, gear, at, cell));
+        let (shifts_to_ends_mm, least_and_most_mm) = (Vec::new(), [0.0; 2]);
+        let standing_to_mm = None;
+        Self { first_point, sliding_mm, partly_exposed, standing_to_mm, at, shifts_to_ends_mm, least_and_most_mm }
+            .moving_by(shifts)
     }
 }
 
 impl ObservedPoints {
+    /// The same points, each of which moves by so much.
+    fn moving_by(mut self, shifts_to_ends_mm: impl Iterator<Item = [f64; 2]>) -> Self {
+        self.shifts_to_ends_mm = shifts_to_ends_mm.collect();
+        self.least_and_most_mm = self
+            .shifts_to_ends_mm
+            .iter()
+            .flatten()
+            .fold([0.0; 2], |[least, most], &shift| [shift.min(least), shift.max(most)]);
+        self
+    }
+
     /// The same under a pressure that stands still during the cell, or goes with a tip edge: where an edge stands, its
     /// mate passes it all the time.
     pub(crate) fn under_standing_pressure(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
@@ -91,10 +107,10 @@ impl ObservedPoints {
                 points.standing_to_mm = Some(flanks.geometry.in_tangent_frame(gear, tip, cell.position_mm).along_mm);
             }
             let widest_mm = points.at.windows(2).map(|two| two[1].along_mm - two[0].along_mm).fold(0.0, f64::max);
-            let coordinates_mm = flanks.grid[gear].coordinate_mm[points.first_point..].iter();
-            for (shift, &at) in points.shifts_to_ends_mm.iter_mut().zip(coordinates_mm) {
-                *shift = passes_to_ends_mm(&flanks.geometry, gear, at, cell, widest_mm);
-            }
+            let seen = points.first_point..points.first_point + points.sliding_mm.len();
+            let coordinates_mm = flanks.grid[gear].coordinate_mm[seen].iter();
+            points = points
+                .moving_by(coordinates_mm.map(|&at| passes_to_ends_mm(&flanks.geometry, gear, at, cell, widest_mm)));
         }
         points
     }
@@ -130,8 +146,7 @@ impl ObservedPoints {
     /// The points, counted from the first, that touch anywhere between `lower_mm` and `upper_mm` (gear's own direction)
     /// while the contact moves through the cell; a few more at either end do not.
     pub(crate) fn between(&self, lower_mm: f64, upper_mm: f64) -> Range<usize> {
-        let ends = || self.shifts_to_ends_mm.iter().flatten().copied();
-        let (most, least) = (ends().fold(0.0, f64::max), ends().fold(0.0, f64::min));
+        let [least, most] = self.least_and_most_mm;
         let points = &self.at[1..=self.sliding_mm.len()];
         let below = |along_mm: f64| points.partition_point(|point| point.along_mm < along_mm);
         let first = below(lower_mm - most).saturating_sub(1);
