@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use crate::gear::{Gear, PerGear};
 use crate::reference::linear_means::value_at;
-use crate::results::run::{MeshCycleRow, RunRecord};
+use crate::results::run::{FlankRecord, MeshCycleRow, RunRecord};
 
 /// A difference with what is allowed.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,6 +45,13 @@ pub(super) struct Follows {
     pub lags: bool,
     /// The face width runs the other way.
     pub mirrored: bool,
+}
+
+impl Follows {
+    /// A column of the other run's points in the order of the flank `mine`.
+    fn ordered(&self, mine: &FlankRecord, column: &[f64]) -> Vec<f64> {
+        if self.mirrored { mirrored(column, mine.width_mm.len()) } else { column.to_vec() }
+    }
 }
 
 impl Default for Follows {
@@ -102,19 +109,16 @@ impl Bounds {
 
 /// All figures that two runs have in common.
 pub(super) fn compare(first: &RunRecord, other: &RunRecord, follows: &Follows, bounds: Bounds) -> Vec<Measured> {
-    let mut found = Vec::new();
+    let mut found = compare_new(first, other, follows, bounds);
     let of_worn = bounds.of_worn(first);
     for gear in Gear::BOTH {
         let theirs = if follows.exchanged { gear.mate() } else { gear };
         let (mine, other_flank) = (&first.flanks[gear], &other.flanks[theirs]);
-        let slices = mine.width_mm.len();
-        let ordered = |column: &[f64]| if follows.mirrored { mirrored(column, slices) } else { column.to_vec() };
         let (name, depth) = (gear.name(), follows.depth[gear]);
-        let wear = difference(&mine.wear_um, &ordered(&other_flank.wear_um), depth);
+        let wear = difference(&mine.wear_um, &follows.ordered(mine, &other_flank.wear_um), depth);
         found.push(Measured::new(format!("wear of the {name}"), wear, of_worn.wear));
-        let new = difference(&mine.pressure_new_MPa, &ordered(&other_flank.pressure_new_MPa), follows.pressure);
-        found.push(Measured::new(format!("pressure on the new {name}"), new, bounds.pressure));
-        let worn = difference(&mine.pressure_worn_MPa, &ordered(&other_flank.pressure_worn_MPa), follows.pressure);
+        let pressure_mpa = follows.ordered(mine, &other_flank.pressure_worn_MPa);
+        let worn = difference(&mine.pressure_worn_MPa, &pressure_mpa, follows.pressure);
         found.push(Measured::new(format!("pressure on the worn {name}"), worn, of_worn.pressure));
         let volume = |record: &RunRecord, gear: Gear| {
             [if gear == Gear::Pinion { &record.summary.pinion } else { &record.summary.wheel }.worn_volume_mm3]
@@ -122,48 +126,92 @@ pub(super) fn compare(first: &RunRecord, other: &RunRecord, follows: &Follows, b
         let volumes = difference(&volume(first, gear), &volume(other, theirs), depth * follows.area);
         found.push(Measured::new(format!("worn volume of the {name}"), volumes, of_worn.volume));
     }
-    found.extend(cycles(first, other, follows, [bounds.cycle, of_worn.cycle]));
+    let error: ColumnOfCycle = |row| row.transmission_error_worn_um;
+    found.extend(cycles(first, other, follows, ("worn", error, |row| row.load_share_worn), of_worn.cycle));
     found
+}
+
+/// The figures of the new pairs: no step of wear is in them.
+pub(super) fn compare_new(first: &RunRecord, other: &RunRecord, follows: &Follows, bounds: Bounds) -> Vec<Measured> {
+    let of_gear = |gear: Gear| {
+        let theirs = if follows.exchanged { gear.mate() } else { gear };
+        let mine = &first.flanks[gear];
+        let pressure_mpa = follows.ordered(mine, &other.flanks[theirs].pressure_new_MPa);
+        let new = difference(&mine.pressure_new_MPa, &pressure_mpa, follows.pressure);
+        Measured::new(format!("pressure on the new {}", gear.name()), new, bounds.pressure)
+    };
+    let error: ColumnOfCycle = |row| row.transmission_error_new_um;
+    let cycles = cycles(first, other, follows, ("new", error, |row| row.load_share_new), bounds.cycle);
+    Gear::BOTH.into_iter().map(of_gear).chain(cycles).collect()
 }
 
 /// A column of the mesh cycle.
 type ColumnOfCycle = fn(&MeshCycleRow) -> f64;
 
-/// Transmission errors and load shares of the mesh, new and worn within these bounds.
-fn cycles(first: &RunRecord, other: &RunRecord, follows: &Follows, [new, worn]: [f64; 2]) -> Vec<Measured> {
-    let columns: [(&str, f64, ColumnOfCycle, f64); 4] = [
-        ("new transmission error", follows.error, |row| row.transmission_error_new_um, new),
-        ("worn transmission error", follows.error, |row| row.transmission_error_worn_um, worn),
-        ("new load share", 1.0, |row| row.load_share_new, new),
-        ("worn load share", 1.0, |row| row.load_share_worn, worn),
-    ];
+/// Transmission error and load share of the mesh, new or worn.
+fn cycles(
+    first: &RunRecord,
+    other: &RunRecord,
+    follows: &Follows,
+    (state, error, share): (&str, ColumnOfCycle, ColumnOfCycle),
+    bound: f64,
+) -> [Measured; 2] {
     let position_mm: Vec<f64> = first.mesh_cycle.iter().map(|row| row.position_mm).collect();
     let errors =
         first.mesh_cycle.iter().flat_map(|row| [row.transmission_error_new_um, row.transmission_error_worn_um]);
     let lag_mm = 1e-3 * errors.map(f64::abs).fold(0.0, f64::max);
-    let compared = |(name, factor, of, bound): (&str, f64, ColumnOfCycle, f64)| {
+    // The transmission error repeats itself with every tooth.
+    let pitch_mm = Some(first.summary.geometry.base_pitch_mm);
+    let columns: [(&str, f64, ColumnOfCycle, Option<f64>); 2] =
+        [("transmission error", follows.error, error, pitch_mm), ("load share", 1.0, share, None)];
+    columns.map(|(name, factor, of, period_mm)| {
         let mine: Vec<f64> = first.mesh_cycle.iter().map(of).collect();
         let mut theirs: Vec<f64> = other.mesh_cycle.iter().map(of).collect();
         if follows.exchanged {
             theirs.reverse();
         }
         if follows.lags && mine.len() == theirs.len() {
-            theirs = nearest(&position_mm, lag_mm, &mine, factor, &theirs);
+            let around = repeated(&position_mm, &mine, period_mm);
+            theirs = nearest(&position_mm, lag_mm, (&mine, &around), factor, &theirs);
         }
-        Measured::new(name, difference(&mine, &theirs, factor), bound)
+        Measured::new(format!("{state} {name}"), difference(&mine, &theirs, factor), bound)
+    })
+}
+
+/// Positions with the values of a column there.
+type Course = (Vec<f64>, Vec<f64>);
+
+/// A column with its period before the first and after the last position, if it has one.
+fn repeated(position_mm: &[f64], column: &[f64], period_mm: Option<f64>) -> Course {
+    let moved = |by_mm: f64| position_mm.iter().map(move |at| at + by_mm).zip(column.iter().copied());
+    let (Some(period_mm), Some(&first), Some(&last)) = (period_mm, position_mm.first(), position_mm.last()) else {
+        return moved(0.0).unzip();
     };
-    columns.map(compared).into()
+    let before = moved(-period_mm).filter(|(at, _)| *at < first);
+    let after = moved(period_mm).filter(|(at, _)| *at > last);
+    before.chain(moved(0.0)).chain(after).unzip()
 }
 
 /// `factor` times `mine`, a column at the positions `position_mm`, with what is left of the difference of `theirs` from what that is anywhere within
-/// `lag_mm`.
-fn nearest(position_mm: &[f64], lag_mm: f64, mine: &[f64], factor: f64, theirs: &[f64]) -> Vec<f64> {
+/// `lag_mm` by its course `around`; none where that reaches beyond the course.
+fn nearest(
+    position_mm: &[f64],
+    lag_mm: f64,
+    (mine, around): (&[f64], &Course),
+    factor: f64,
+    theirs: &[f64],
+) -> Vec<f64> {
+    let (places_mm, values) = around;
     let within = |at: f64| {
-        let between = position_mm.iter().zip(mine).filter(move |(position, _)| (*position - at).abs() < lag_mm);
-        let ends = [at - lag_mm, at + lag_mm].map(|end| value_at(position_mm, mine, end));
+        let between = places_mm.iter().zip(values).filter(move |(place, _)| (*place - at).abs() < lag_mm);
+        let ends = [at - lag_mm, at + lag_mm].map(|end| value_at(places_mm, values, end));
         between.map(|(_, &value)| value).chain(ends).map(|value| factor * value)
     };
+    let (Some(&first), Some(&last)) = (places_mm.first(), places_mm.last()) else { return theirs.to_vec() };
     let of = |((&at, &own), &their): ((&f64, &f64), &f64)| {
+        if at - lag_mm < first || at + lag_mm > last {
+            return factor * own;
+        }
         let (least, most) = within(at).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
         factor * own + their - their.max(least).min(most)
     };
@@ -255,9 +303,18 @@ mod tests {
     #[test]
     fn what_lags_is_held_against_what_is_near() {
         // Within 0.5 mm of each position the column takes 0…0.5, 0.5…2, 2…3 and 3.
-        let held = |theirs: [f64; 4]| nearest(&[0.0, 1.0, 2.0, 3.0], 0.5, &[0.0, 1.0, 3.0, 3.0], 1.0, &theirs);
-        assert_eq!(held([0.5, 0.5, 2.0, 3.0]), [0.0, 1.0, 3.0, 3.0]);
-        assert_eq!(held([1.0, 2.5, 1.0, 3.5]), [0.5, 1.5, 2.0, 3.5]);
+        let (position_mm, mine) = ([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 3.0, 3.0]);
+        let held = |period_mm: Option<f64>, theirs: [f64; 4]| {
+            let around = repeated(&position_mm, &mine, period_mm);
+            nearest(&position_mm, 0.5, (&mine, &around), 1.0, &theirs)
+        };
+        assert_eq!(held(None, [0.5, 0.5, 2.0, 3.0]), [0.0, 1.0, 3.0, 3.0]);
+        // What it is beyond both ends nobody knows.
+        assert_eq!(held(None, [1.0, 2.5, 1.0, 3.5]), [0.0, 1.5, 2.0, 3.0]);
+        // A period of 2.5 has 0 half a millimetre after 2, and 3 half a millimetre before 0: between these and the ends are 0…1.5 and 1.5…3.
+        assert_eq!(repeated(&position_mm, &mine, Some(2.5)).0, [-2.5, -1.5, -0.5, 0.0, 1.0, 2.0, 3.0, 3.5, 4.5, 5.5]);
+        assert_eq!(held(Some(2.5), [1.0, 0.5, 2.0, 1.0]), [0.0, 1.0, 3.0, 3.0]);
+        assert_eq!(held(Some(2.5), [3.5, 2.5, 1.0, 0.5]), [0.5, 1.5, 2.0, 2.5]);
     }
 
     #[test]

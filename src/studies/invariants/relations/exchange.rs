@@ -3,7 +3,7 @@
 use toml::{Table, Value};
 
 use super::{ROUNDING, SOLVED};
-use crate::studies::invariants::comparison::{Bounds, Follows, compare};
+use crate::studies::invariants::comparison::{Bounds, Follows, compare, compare_new};
 use crate::studies::invariants::relation::{POSITIONS, Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{exchange_gears, number, scaled, with, word};
 use crate::studies::invariants::traits_of_scene::{
@@ -16,8 +16,8 @@ pub(super) const RELATIONS: &[Relation] = &[
         name: "roles exchanged",
         states: "A mesh without friction runs backwards as it runs forwards: driven by the other gear, each gear wears as before.",
         bound: "without slices, from A to E: a stretch of the path too short to hold a position goes to the one before it, seen from E to another, 0.2 % of \
-                the volume and 0.1 % of the transmission error; where tip edges are followed, whose lever on the driving gear is by some hundredths \
-                another: 10 % of the volume and 3 % of the transmission error within as far on the path as that is great; two to four slices at other \
+                the volume and 0.1 % of the transmission error; where tip edges are followed, whose lever on the driving gear is by up to a \
+                fifth another: 10 % of the volume and 3 % of the transmission error within as far on the path as that is great; two to four slices at other \
                 positions: 15 % of it; worn by adaptive steps numerics.tolerance_um",
         is_rare: false,
         check: roles,
@@ -85,12 +85,14 @@ fn roles(subject: &Subject<'_>) -> Verdict {
         (true, true) => Bounds { cycle: f64::INFINITY, ..bounds },
         _ => bounds,
     };
-    // Positions are those of the driving gear, behind which the driven one stays by the transmission error: so far apart are the two runs' tip edges.
+    // Positions are those of the driving gear, behind which the driven one stays by the transmission error: so far apart are the two runs' tip edges. With
+    // levers of r_b1 alone both runs are alike within 1e-14, where those of edges 2.4 mm outside are 0.80 of it (seed 19, 6456).
     let lags = follows_tip_edges(table);
     let follows = Follows { exchanged: true, lags, ..Follows::default() };
     subject.refined(&[POSITIONS], backwards, |one, other| match takes_stable_steps(one) && takes_stable_steps(other) {
         true => compare(one, other, &follows, bounds),
-        false => Vec::new(),
+        // More positions ask for shorter steps, the new pair for none.
+        false => compare_new(one, other, &follows, bounds),
     })
 }
 
