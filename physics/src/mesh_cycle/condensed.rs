@@ -175,7 +175,7 @@ fn stretches(model: &CondensedPair<'_>, positions: usize, line_load_n_per_mm: f6
     let approach = model
         .at(path.pitch_point_mm, line_load_n_per_mm, &Default::default())
         .map_or(0.0, |contact| contact.transmission_error_mm);
-    let [before, after] = pair.tip_reach_mm(AMPLE_APPROACH * approach + pair.unloaded_approach_mm());
+    let [before, after] = pair.tip_reach_mm(AMPLE_APPROACH * approach);
     // Both zones, moved by base pitches to where they begin in this one, and cut at its end.
     let zones = [(path.start_mm - before, path.start_mm + within), (path.end_mm - within, path.end_mm + after)];
     let mut at_edges: Vec<(f64, f64)> = zones
