@@ -138,14 +138,14 @@ pub fn fit(
         let contacts = &phase.contacts;
         let at = |contact: &SliceContact| contact.cell.position_mm;
         let influence =
-            in_space.influence(pair, &slices, contacts, |contact| whole.at(at(contact)).with_softness(1.0)).mm2_per_n;
+            in_space.influence(pair, &slices, contacts, |contact| whole.at(at(contact)).mm2_per_n(1.0)).mm2_per_n;
         let mut first = 0;
         let lines: Vec<LineOfContact> = contacts
             .chunk_by(|a, b| a.tooth == b.tooth)
             .map(|of_tooth| {
                 let begins = first;
                 first += of_tooth.len();
-                let mm2_per_n = of_tooth.iter().map(|contact| own.at(at(contact)).teeth).collect();
+                let mm2_per_n = of_tooth.iter().map(|contact| own.at(at(contact)).teeth_mm2_per_n).collect();
                 LineOfContact {
                     first: begins,
                     slices: of_tooth.iter().map(|contact| contact.slice).collect(),

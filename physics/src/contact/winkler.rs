@@ -128,6 +128,7 @@ impl ContactSurface for Winkler {
             removed_everywhere: 0.0,
             indentation_mm: 0.0,
             extent_mm: (0.0, 0.0),
+            samples_beside_mm: (0.0, 0.0),
         })
     }
 
@@ -215,6 +216,8 @@ struct WinklerPair<'a> {
     indentation_mm: f64,
     /// Outermost places in contact at equilibrium, along the tangent.
     extent_mm: (f64, f64),
+    /// The samples beside those: nothing between them is known not to touch.
+    samples_beside_mm: (f64, f64),
 }
 
 impl PairContact for WinklerPair<'_> {
@@ -277,7 +280,7 @@ impl PairContact for WinklerPair<'_> {
     }
 
     fn window_suffices(&mut self) -> bool {
-        self.extent_mm = self.extent_mm();
+        [self.extent_mm, self.samples_beside_mm] = self.extents_mm();
         if let Some(Observed::Swept(swept)) = &mut self.window.samples.1 {
             let (gap, indentation_mm, foundation) = (&self.gap, self.indentation_mm, self.foundation);
             let mean =
@@ -387,24 +390,25 @@ impl WinklerPair<'_> {
     /// The points of a flank that may touch at the last approach pressed.
     fn touching(&self, gear: Gear, points: &ObservedPoints) -> Range<usize> {
         match gear {
-            Gear::Pinion => points.between(self.extent_mm.0, self.extent_mm.1),
-            Gear::Wheel => points.between(-self.extent_mm.1, -self.extent_mm.0),
+            Gear::Pinion => points.between(self.samples_beside_mm.0, self.samples_beside_mm.1),
+            Gear::Wheel => points.between(-self.samples_beside_mm.1, -self.samples_beside_mm.0),
         }
     }
 
-    /// Outermost places in contact, found between samples; empty at 0 without contact.
-    fn extent_mm(&self) -> (f64, f64) {
+    /// Outermost places in contact, found between samples, and the samples beside them; empty at 0 without contact.
+    fn extents_mm(&self) -> [(f64, f64); 2] {
         let u = |k: usize| self.indentation_mm - self.gap[k];
         let touches = |gap: &f64| *gap < self.indentation_mm;
         let (Some(first), Some(last)) = (self.gap.iter().position(touches), self.gap.iter().rposition(touches)) else {
-            return (0.0, 0.0);
+            return [(0.0, 0.0); 2];
         };
         // The gap passes through the approach between the outermost sample in contact and the next one.
         let along_mm = &self.strip().along_mm;
         let passes =
             |from: usize, to: usize| along_mm[from] + u(from) / (u(from) - u(to)) * (along_mm[to] - along_mm[from]);
-        let lower_mm = if first > 0 { passes(first, first - 1) } else { along_mm[first] };
-        let upper_mm = if last + 1 < self.gap.len() { passes(last, last + 1) } else { along_mm[last] };
-        (lower_mm, upper_mm)
+        let (before, after) = (first.saturating_sub(1), (last + 1).min(self.gap.len() - 1));
+        let lower_mm = if before < first { passes(first, before) } else { along_mm[first] };
+        let upper_mm = if after > last { passes(last, after) } else { along_mm[last] };
+        [(lower_mm, upper_mm), (along_mm[before], along_mm[after])]
     }
 }

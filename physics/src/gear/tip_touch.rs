@@ -145,9 +145,11 @@ impl GearPair {
         self.tip_reach_mm(AMPLE_APPROACH * line_load_n_per_mm / contact_modulus_mpa + self.unloaded_approach_mm())
     }
 
-    /// What modifications add to the transmission error of loaded, unworn flanks at the most, mm: over a base pitch, the greatest that the pair
-    /// that has lost least has lost of its profiles, and the mean of what its flanks lack over the face width. Where springs are linear, no
-    /// gap that is taken up before its mean makes the gears approach more than that and the elastic approach.
+    /// What modifications add at the most to the transmission error of loaded, unworn flanks, mm.
+    ///
+    /// Springs k_i behind gaps g_i carry F = Σ k_i max(δ − g_i, 0) ≥ Σ k_i (δ − g_i), so that δ ≤ F/Σ k_i + Σ k_i g_i/Σ k_i: the elastic approach without
+    /// gaps, and the mean gap. Over the face width that is the mean of what both flanks lack; over the tooth pairs of a phase, that of the one that
+    /// has lost least of its profiles, as it could carry the load alone. The greatest over all phases counts.
     pub fn unloaded_approach_mm(&self) -> f64 {
         let path = &self.path;
         let of_profiles = |position_mm: f64| {

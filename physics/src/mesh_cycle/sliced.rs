@@ -64,9 +64,10 @@ impl SpringAlongPath {
         let before = (place as usize).min(last - 1);
         let weight = place - before as f64;
         let [here, next] = [self.parts[before], self.parts[before + 1]];
+        let between = |here: f64, next: f64| here + weight * (next - here);
         SpringParts {
-            teeth: here.teeth + weight * (next.teeth - here.teeth),
-            left_by_surface: here.left_by_surface + weight * (next.left_by_surface - here.left_by_surface),
+            teeth_mm2_per_n: between(here.teeth_mm2_per_n, next.teeth_mm2_per_n),
+            left_by_surface_mm2_per_n: between(here.left_by_surface_mm2_per_n, next.left_by_surface_mm2_per_n),
         }
     }
 }

@@ -68,7 +68,7 @@ impl SlicedTeeth {
 
     /// Compliance of the teeth at a contact, mm²/N, by that of their section along the path of contact.
     pub fn mm2_per_n(&self, contact: &SliceContact, section: &SpringAlongPath) -> f64 {
-        section.at(contact.cell.position_mm).with_softness(self.softness[contact.slice])
+        section.at(contact.cell.position_mm).mm2_per_n(self.softness[contact.slice])
     }
 
     /// Least and greatest compliance of the teeth of a slice over that of the section.

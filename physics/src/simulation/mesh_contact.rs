@@ -76,9 +76,10 @@ fn slice_spring(
         Some(_) => teeth.oblique_parts(position_mm)?,
         None => teeth.own_parts(position_mm)?,
     };
-    match sliced.softness().map(|softness| parts.with_softness(softness)) {
-        [least, most] if least.min(most) > 0.0 => Ok(parts),
-        _ => Err(teeth.too_soft(position_mm)),
+    let [one, other] = sliced.softness().map(|softness| parts.mm2_per_n(softness));
+    match one.min(other) {
+        least if least > 0.0 => Ok(parts),
+        least => Err(teeth.too_soft(position_mm, least)),
     }
 }
 
@@ -95,7 +96,7 @@ fn tip_range_mm(
     let along_normal = surface.plain_approach_mm(&section, pitch_point, line_load_n_per_mm);
     let surfaces = section.obliquity.transverse_mm(along_normal);
     let own = match sliced {
-        Some(sliced) => slice_spring(teeth, sliced, pitch_point)?.with_softness(sliced.softness()[1]),
+        Some(sliced) => slice_spring(teeth, sliced, pitch_point)?.mm2_per_n(sliced.softness()[1]),
         None => 1.0 / teeth.own_n_per_mm2(pitch_point)?,
     };
     let yielding = bodies_mm2_per_n(teeth, sliced) + own;

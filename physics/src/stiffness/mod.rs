@@ -77,20 +77,20 @@ enum Curve<'a> {
     Given(&'a PairCompliance),
 }
 
-/// Compliance of a pair's spring, mm²/N, in its two parts.
+/// Compliance of a pair's spring in its two parts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringParts {
     /// Of the teeth: where they are oblique or end, this part yields more.
-    pub teeth: f64,
+    pub teeth_mm2_per_n: f64,
     /// By how much the flattening that the model states exceeds the surface's approach, at the reference load; negative where the surface
     /// yields more. It is the surface's, and no tooth changes it.
-    pub left_by_surface: f64,
+    pub left_by_surface_mm2_per_n: f64,
 }
 
 impl SpringParts {
-    /// Of teeth that yield `softness` times as much.
-    pub fn with_softness(self, softness: f64) -> f64 {
-        softness * self.teeth + self.left_by_surface
+    /// The whole, where the teeth yield `softness` times as much.
+    pub fn mm2_per_n(self, softness: f64) -> f64 {
+        softness * self.teeth_mm2_per_n + self.left_by_surface_mm2_per_n
     }
 }
 
@@ -142,13 +142,18 @@ impl<'a> TeethSpring<'a> {
     /// # Errors
     /// [`StiffnessError::SurfaceTooSoft`] where nothing of the pair's compliance is left for the teeth.
     pub fn n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
+        let (end_mm, yields) = self.beyond_stated(position_mm);
+        Ok(self.stated_n_per_mm2(end_mm)? / yields)
+    }
+
+    /// The nearest position for which the model states something, and how many times as much as there the spring yields at `position_mm`.
+    fn beyond_stated(&self, position_mm: f64) -> (f64, f64) {
         let (first_mm, last_mm) = self.stated_mm();
         let end_mm = position_mm.clamp(first_mm, last_mm);
-        let stated = self.stated_n_per_mm2(end_mm)?;
         if end_mm == position_mm {
-            return Ok(stated);
+            return (end_mm, 1.0);
         }
-        Ok(stated * self.weber_banaschek_mm2_per_n(end_mm) / self.weber_banaschek_mm2_per_n(position_mm))
+        (end_mm, self.weber_banaschek_mm2_per_n(position_mm) / self.weber_banaschek_mm2_per_n(end_mm))
     }
 
     /// The positions for which the model states something.
@@ -195,16 +200,14 @@ impl<'a> TeethSpring<'a> {
     /// As those of [`Self::n_per_mm2`].
     pub fn own_n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
         let (whole, shared) = (1.0 / self.n_per_mm2(position_mm)?, self.shared_mm2_per_n());
-        if shared < whole { Ok(1.0 / (whole - shared)) } else { Err(self.too_soft(position_mm)) }
+        if shared < whole { Ok(1.0 / (whole - shared)) } else { Err(self.too_soft(position_mm, whole - shared)) }
     }
 
-    /// That surface and shared bodies leave nothing of the whole pair's compliance to the teeth.
-    pub(crate) fn too_soft(&self, position_mm: f64) -> StiffnessError {
+    /// That a spring beside surface and shared bodies would have the compliance `own_mm2_per_n` (≤ 0).
+    pub(crate) fn too_soft(&self, position_mm: f64, own_mm2_per_n: f64) -> StiffnessError {
         let um = 1e3 * self.reference_line_load_n_per_mm;
-        let surface = self.surface_mm2_per_n(position_mm);
-        let whole = surface + self.n_per_mm2(position_mm).map_or(0.0, |stiffness| 1.0 / stiffness);
-        let surface_um = um * (surface + self.shared_mm2_per_n());
-        StiffnessError::SurfaceTooSoft { position_mm, surface_um, pair_um: um * whole }
+        let surface_um = um * (self.surface_mm2_per_n(position_mm) + self.shared_mm2_per_n());
+        StiffnessError::SurfaceTooSoft { position_mm, surface_um, pair_um: surface_um + um * own_mm2_per_n }
     }
 
     /// Whether the model speaks of the transverse section alone, and not of oblique teeth too.
@@ -215,14 +218,26 @@ impl<'a> TeethSpring<'a> {
         }
     }
 
-    /// What a pair has to itself of the spring, in parts. A model that does not speak of the section has no other part than the teeth.
+    /// The whole spring in parts, shared bodies included. A model that does not speak of the section has no other part than the teeth.
+    fn parts(&self, position_mm: f64) -> Result<SpringParts, StiffnessError> {
+        let whole = 1.0 / self.n_per_mm2(position_mm)?;
+        let left_by_surface_mm2_per_n = if self.states_the_section() {
+            let (end_mm, yields) = self.beyond_stated(position_mm);
+            let flattening = self.flattening_mm2_per_n(end_mm, self.reference_line_load_n_per_mm);
+            yields * (flattening - self.surface_mm2_per_n(end_mm))
+        } else {
+            0.0
+        };
+        Ok(SpringParts { teeth_mm2_per_n: whole - left_by_surface_mm2_per_n, left_by_surface_mm2_per_n })
+    }
+
+    /// What a pair has to itself of the spring, beside the shared bodies, in parts: the whole may be nothing or less.
     ///
     /// # Errors
     /// As those of [`Self::n_per_mm2`].
     pub fn own_parts(&self, position_mm: f64) -> Result<SpringParts, StiffnessError> {
-        let own = 1.0 / self.own_n_per_mm2(position_mm)?;
-        let left_by_surface = if self.states_the_section() { self.left_by_surface_mm2_per_n(position_mm) } else { 0.0 };
-        Ok(SpringParts { teeth: own - left_by_surface, left_by_surface })
+        let parts = self.parts(position_mm)?;
+        Ok(SpringParts { teeth_mm2_per_n: parts.teeth_mm2_per_n - self.shared_mm2_per_n(), ..parts })
     }
 
     /// The whole spring, shared bodies included, where all of the section's compliance counts along the normal of an oblique line of
@@ -232,21 +247,8 @@ impl<'a> TeethSpring<'a> {
     /// # Errors
     /// As those of [`Self::n_per_mm2`].
     pub(crate) fn oblique_parts(&self, position_mm: f64) -> Result<SpringParts, StiffnessError> {
-        let SpringParts { teeth, left_by_surface } = self.own_parts(position_mm)?;
-        let teeth = self.obliquity.transverse_mm(teeth + self.shared_mm2_per_n());
-        Ok(SpringParts { teeth, left_by_surface })
-    }
-
-    /// [`SpringParts::left_by_surface`]; beyond what the model states, in proportion to the spring.
-    fn left_by_surface_mm2_per_n(&self, position_mm: f64) -> f64 {
-        let (first_mm, last_mm) = self.stated_mm();
-        let end_mm = position_mm.clamp(first_mm, last_mm);
-        let flattening = self.flattening_mm2_per_n(end_mm, self.reference_line_load_n_per_mm);
-        let left = flattening - self.surface_mm2_per_n(end_mm);
-        if end_mm == position_mm {
-            return left;
-        }
-        left * self.weber_banaschek_mm2_per_n(position_mm) / self.weber_banaschek_mm2_per_n(end_mm)
+        let parts = self.parts(position_mm)?;
+        Ok(SpringParts { teeth_mm2_per_n: self.obliquity.transverse_mm(parts.teeth_mm2_per_n), ..parts })
     }
 
     /// Stiffness of the whole pair, flattening included, at the reference load, N/mm².

@@ -327,7 +327,8 @@ mod tests {
     /// contact of a slice stood half of their stretch off (seed 7, 1016), loads jumped where tip edges are followed no farther (seed 7, 3922), positions were
     /// farther apart than contacts are wide (seed 7, 5133), last bits chose other adaptive steps (seed 7, 5546), and a window ended
     /// within a tip rounding (seed 11, 1536) or where flanks part otherwise than a parabola (seed 13, 2877), with contact beside it. The last bit decided whether
-    /// the contact at E goes on beyond it (seed 19, 5514, 14962), and all points of a window moved like those in its middle (seed 19, 6906). Statements broken
+    /// the contact at E goes on beyond it (seed 19, 5514, 14962), and all points of a window moved like those in its middle (seed 19, 6906). A point
+    /// between the outermost sample in contact and the next was left out (seed 23, 13706). Statements broken
     /// that asked too much: of strains of a tenth (seed 11, 6136), of 24 positions (seed 13, 833; seed 19, 12644, of whose new pair in a finer run nothing was
     /// said where its steps of wear were not stable), of the sign of rounding (seed 13, 2255), of 71 flank points under little load (seed 17, 501), of a transmission error that lags where the path
     /// ends (seed 19, 6456), and of adaptive steps through severe wear (seed 19, 14364).
@@ -354,6 +355,7 @@ mod tests {
             (19, 12644),
             (19, 14364),
             (19, 14962),
+            (23, 13706),
         ] {
             let record = run(Asked { seed, first, count: 1 }, 1, &Unwatched);
             assert_eq!((record.ran, &record.violations[..]), (1, &[][..]), "{seed} {first}");
