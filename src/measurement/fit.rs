@@ -128,6 +128,26 @@ pub(crate) fn gauss_newton_step(jacobian: &[Vec<f64>], residuals: &[f64]) -> Opt
     newton_step(jacobian, residuals, 0.0)
 }
 
+/// Gives J the change of the residuals over the last `step` of the parameters, each measured by its width, and what J says of all other directions stays:
+/// J + (Δr − J s) sᵀ/(sᵀs) (C. G. Broyden, *Math. Comp.* 19 (1965) 577–593). A change that is mostly another one than J foretells tells of scatter: J then
+/// stays as it is.
+pub(crate) fn broyden_update(jacobian: &mut [Vec<f64>], parameters: &[Parameter], step: &[f64], change: &[f64]) {
+    let mut foretold = vec![0.0; change.len()];
+    for (column, by) in jacobian.iter().zip(step) {
+        foretold.iter_mut().zip(column).for_each(|(sum, slope)| *sum += slope * by);
+    }
+    let missed: Vec<f64> = change.iter().zip(&foretold).map(|(change, foretold)| change - foretold).collect();
+    let widths: Vec<f64> = step.iter().zip(parameters).map(|(by, parameter)| by / parameter.width).collect();
+    let length = square(&widths);
+    if length == 0.0 || square(&missed) > square(&foretold) {
+        return;
+    }
+    for (column, (width, parameter)) in jacobian.iter_mut().zip(widths.iter().zip(parameters)) {
+        let by = width / (parameter.width * length);
+        column.iter_mut().zip(&missed).for_each(|(slope, missed)| *slope += missed * by);
+    }
+}
+
 /// (JᵀJ)⁻¹, row by row; `None` where the parameters are not determined.
 pub(crate) fn inverse_normal_matrix(jacobian: &[Vec<f64>]) -> Option<DMatrix<f64>> {
     let (scales, normal) = scaled_normal_matrix(jacobian, 0.0)?;
@@ -214,6 +234,23 @@ mod tests {
         // Var of the slope: 1/Σ(x − x̄)² = 1/665, in units of a thousandth.
         let covariance = inverse_normal_matrix(&fitted.jacobian).unwrap();
         assert!((covariance[(1, 1)] * 1e6 * 665.0 - 1.0).abs() < 1e-6);
+    }
+
+    /// The secant condition: the updated J foretells the change it was given, and says what it did across the step.
+    #[test]
+    fn ver_broydens_update_knows_the_last_change() {
+        let parameters = [free(0.0), Parameter { width: 0.1, ..free(0.0) }];
+        let mut jacobian = vec![vec![1.0, 0.0, 2.0], vec![0.5, -1.0, 0.0]];
+        let (step, change) = ([2e-3, 0.3], [0.16, -0.28, 0.01]);
+        broyden_update(&mut jacobian, &parameters, &step, &change);
+        let along = |step: [f64; 2]| [0, 1, 2].map(|row| jacobian[0][row] * step[0] + jacobian[1][row] * step[1]);
+        assert!(along(step).iter().zip(change).all(|(a, b)| (a - b).abs() < 1e-12), "{jacobian:?}");
+        // Across the step where both parameters are measured by their widths: 2 and 3 widths along, so (−3, 2).
+        let (across, before) = (along([-3e-3, 0.2]), [-3e-3 + 0.1, -0.2, -6e-3]);
+        assert!(across.iter().zip(before).all(|(a, b)| (a - b).abs() < 1e-12), "{across:?}");
+        let settled = jacobian.clone();
+        broyden_update(&mut jacobian, &parameters, &step, &[-0.2, 0.3, 0.0]);
+        assert_eq!(jacobian, settled);
     }
 
     #[test]

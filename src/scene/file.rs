@@ -510,7 +510,7 @@ pub struct NumericsFile {
     /// fem, where wear may turn severe and with operation.stop, otherwise 1/150 of the duration.
     pub step: Option<StepFile>,
     /// Error of the wear depth allowed in µm, > 0, at least 0.0001; where more than 50 µm are worn it grows in proportion to the
-    /// wear. Through severe wear the error can be several times as great. Read with step = "adaptive". Default 0.05.
+    /// wear. Read with step = "adaptive". Default 0.05.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub tolerance_um: Option<f64>,
     /// How the wear is integrated; read with step = "adaptive". Default: runge-kutta-chebyshev, the better one by far;

@@ -1,7 +1,7 @@
 //! Where flank points lie.
 
 use gearwear::contact::{
-    ContactSurface, Flanks,
+    ContactSurface, Flanks, PositionCell, Sweep,
     winkler::{Winkler, WinklerFoundation},
 };
 use gearwear::gear::{
@@ -151,4 +151,52 @@ fn ver_load_at_a_kink_does_not_depend_on_the_window() {
     println!("{worst:.1e} of loads from {least:.1} to {greatest:.1} N/mm");
     assert!(greatest > 120.0 && least < 1.0, "{least} {greatest}");
     assert!(worst < 3e-3, "{worst}");
+}
+
+/// Once a window is long enough, a longer one changes nothing, whatever the flanks have lost: neither the load nor the pressure of any point. Windows grow with
+/// what a run has been through, and two halves of it have not been through the same.
+#[test]
+fn ver_longer_windows_change_nothing() {
+    let pair = pair(&fzg_c());
+    let grid = PerGear::from_fn(|gear| FlankGrid::new(&pair, gear, 150, PointSpacing::Graded));
+    let flanks = Flanks::of_gears(&pair, grid.as_ref());
+    let worn_mm = PerGear::from_fn(|gear| {
+        let depth_mm = |(k, rho): (usize, &f64)| 1e-3 * (1.0 + (7.0 * rho).sin()) + 3e-4 * ((k * k) % 7) as f64;
+        grid[gear].coordinate_mm.iter().enumerate().map(depth_mm).collect::<Vec<f64>>()
+    });
+    let removed_mm = worn_mm.as_ref().map(Vec::as_slice);
+    let surface =
+        Winkler { foundation: WinklerFoundation::Uniform { mpa_per_mm: 3e5 }, expected_line_load_n_per_mm: 150.0 };
+    let (mut worst, mut grown) = (0.0_f64, 0);
+    for position_mm in pair.path.evenly_mm(60) {
+        let cell = PositionCell { position_mm, lower_mm: position_mm - 0.1, upper_mm: position_mm + 0.1 };
+        let mut contact = surface.pair(flanks, position_mm, Some(cell));
+        let mut of_windows = Vec::new();
+        for _ in 0..12 {
+            contact.set_removed(removed_mm);
+            let load = contact.load_at(6e-3 - contact.touch_mm()).line_load_n_per_mm;
+            if contact.window_suffices() {
+                let pressures_mpa = Gear::BOTH.map(|gear| {
+                    let (mut sweep, mut all) = (Sweep::default(), vec![0.0; grid[gear].len()]);
+                    contact.sweep(gear, removed_mm, &mut sweep);
+                    all[sweep.first_point..][..sweep.pressure_mpa.len()].copy_from_slice(&sweep.pressure_mpa);
+                    all
+                });
+                of_windows.push((load, pressures_mpa));
+            }
+            if of_windows.len() == 3 {
+                break;
+            }
+            contact.widen();
+            grown += 1;
+        }
+        let ((load, pressures_mpa), longer) = of_windows.split_first().expect("some window suffices");
+        for (longer_load, longer_pressures_mpa) in longer {
+            worst = worst.max((longer_load - load).abs() / load.max(1.0));
+            let points = pressures_mpa.iter().flatten().zip(longer_pressures_mpa.iter().flatten());
+            worst = points.map(|(a, b)| (a - b).abs() / a.max(1.0)).fold(worst, f64::max);
+        }
+    }
+    println!("{worst:.1e}, {grown} times longer");
+    assert!(worst < 1e-9 && grown > 130, "{worst} {grown}");
 }

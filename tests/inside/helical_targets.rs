@@ -219,10 +219,11 @@ fn val_h6_the_simplified_model_is_stable_at_depth() {
         below.map(|(_, wear)| *wear).fold(0.0, f64::max)
     };
     assert!(below_start(&simplified) == 0.0 && below_start(&springs) > 0.5, "{}", below_start(&springs));
-    // Work tells the speed: one Newton step a phase and wear step, on some tens of bytes a contact.
+    // Work tells the speed: two Newton iterations an equilibrium, on some tens of bytes a contact; springs take nearly four.
     let (work, of_springs) = (&simplified.summary.work, &springs.summary.work);
     assert_eq!(work.equilibria, of_springs.equilibria);
-    assert!(work.newton_iterations < of_springs.newton_iterations / 2, "{work:?} {of_springs:?}");
+    assert!(work.newton_iterations < 2 * work.equilibria, "{work:?}");
+    assert!(10 * work.newton_iterations < 6 * of_springs.newton_iterations, "{work:?} {of_springs:?}");
 }
 
 /// Both gears lose the same volume where k is the same, slices coupled or not: thesis, equation 11 with the same sliding distance.

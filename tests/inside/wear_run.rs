@@ -32,8 +32,11 @@ fn worst_imbalance(outcome: &Outcome) -> f64 {
     cycles.flat_map(|cycle| &cycle.positions).map(|p| p.load_imbalance.abs()).fold(0.0, f64::max)
 }
 
+/// Relative change below which the places of points decide which way it goes.
+const NOTHING: f64 = 2e-4;
+
 /// Halving the spacing of points and positions and the wear step changes the peak wear of the fzg-c scene by less than
-/// 0.5 %; the observed order is printed. The peak of hertz-mean is the value at its jump at A, averaged over the stretch
+/// 0.5 %, and by less and less, in first order or better, until it is nothing; the observed order is printed. The peak of hertz-mean is the value at its jump at A, averaged over the stretch
 /// of the first point: that is of first order in the spacing of points, and changes by up to 1 %.
 #[test]
 fn ver_peak_wear_converges() {
@@ -50,7 +53,7 @@ fn ver_peak_wear_converges() {
         let order = ((coarse - standard) / (standard - fine)).abs().log2();
         let change = (fine / standard - 1.0).abs();
         println!("{surface}: {coarse:.6e} {standard:.6e} {fine:.6e} mm, change {change:.2e}, order {order:.2}");
-        assert!(change < allowed && order > 0.9, "{surface}: {change}, order {order}");
+        assert!(change < allowed && (order > 0.9 || change < NOTHING), "{surface}: {change}, order {order}");
     }
 }
 

@@ -117,6 +117,8 @@ pub(crate) struct Window {
     pub lower_mm: f64,
     /// Upper end.
     pub upper_mm: f64,
+    /// Where in it unworn flanks are nearest.
+    pub nearest_mm: f64,
     /// Whether each end is where a flank really ends.
     pub ends_are_real: [bool; 2],
     /// Whether it ends there in a sharp edge that may carry load: the wheel's tip or the pinion's corner of undercut below, the pinion's tip or
@@ -129,14 +131,15 @@ impl Window {
     /// ends before it, cut where a flank ends.
     pub(crate) fn new(flanks: Flanks<'_>, position_mm: f64, half_length_mm: f64) -> Self {
         let ((lower, upper), at_tips) = common_extent_mm(&flanks.geometry, position_mm);
-        let centre = nearest_mm(&flanks.geometry, position_mm, (lower, upper));
-        let (from, to) = (centre - half_length_mm, centre + half_length_mm);
+        let nearest_mm = nearest_mm(&flanks.geometry, position_mm, (lower, upper));
+        let (from, to) = (nearest_mm - half_length_mm, nearest_mm + half_length_mm);
         let ends_are_real = [lower >= from, upper <= to];
         let (edges, corners) = (flanks.sharp_edges, flanks.sharp_corners);
         let sharp = [(edges.wheel, corners.pinion), (edges.pinion, corners.wheel)];
         Self {
             lower_mm: lower.max(from),
             upper_mm: upper.min(to),
+            nearest_mm,
             ends_are_real,
             ends_are_sharp: [0, 1]
                 .map(|end| ends_are_real[end] && if at_tips[end] { sharp[end].0 } else { sharp[end].1 }),
@@ -154,17 +157,22 @@ impl Window {
         (0..=intervals).map(|k| self.lower_mm + k as f64 * spacing_mm).collect()
     }
 
-    /// The same with the points of both flanks where a modification has a kink that these places would miss by `missed_mm` or more: between two places,
-    /// h apart, a course that turns by κ lies up to κ h/4 beside the straight line.
+    /// Both its ends and all places between them that are whole multiples of `spacing_mm` from where unworn flanks are nearest, which a longer window has
+    /// too: what a contact carries is the same in both. And the points of both flanks where a modification has a kink that these places would miss by
+    /// `missed_mm` or more: between two places, h apart, a course that turns by κ lies up to κ h/4 beside the straight line.
     pub(crate) fn with_kinks_mm(
         &self,
         flanks: Flanks<'_>,
         position_mm: f64,
-        intervals: usize,
+        spacing_mm: f64,
         missed_mm: f64,
     ) -> Vec<f64> {
-        let mut places_mm = self.evenly_mm(intervals);
-        let spacing_mm = self.length_mm() / intervals as f64;
+        let multiple = |end_mm: f64| (end_mm - self.nearest_mm) / spacing_mm;
+        let first = (multiple(self.lower_mm) + SAME_PLACE).floor() as i64 + 1;
+        let last = (multiple(self.upper_mm) - SAME_PLACE).ceil() as i64 - 1;
+        let within = (first..=last).map(|k| self.nearest_mm + k as f64 * spacing_mm);
+        let mut places_mm: Vec<f64> =
+            std::iter::once(self.lower_mm).chain(within).chain(std::iter::once(self.upper_mm)).collect();
         let Some(modification_mm) = flanks.modification_mm else { return places_mm };
         for gear in Gear::BOTH {
             let (grid, removed_mm) = (flanks.grid[gear], modification_mm[gear]);

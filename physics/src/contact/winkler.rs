@@ -6,7 +6,7 @@
 //! p(x) = (K/H) max(0, δ − g(x))          w = ∫ p dx          dw/dδ = (K/H) · length in contact
 //! ```
 //!
-//! The load is summed over cells of evenly spaced samples, divided where a modification has a kink at a flank point. In a cell the penetration
+//! The load is summed over cells of evenly spaced samples, the same in windows of all lengths, divided where a modification has a kink at a flank point. In a cell the penetration
 //! u = δ − g is a straight line between its samples, raised by Δ²/(12 R), the mean of what the curvature of the gap adds to it; its positive part
 //! integrates exactly. So the ends of the contact are found between samples, and the load is a smooth, ever steeper
 //! function of δ.
@@ -100,7 +100,7 @@ const POINTS_PER_SAMPLE: f64 = 2.0;
 /// A kink of a modification is a sample of its own where the others would miss it by this part of the plain contact's indentation.
 const LITTLE_MISSED: f64 = 1e-3;
 /// Fewest intervals between samples.
-const LEAST_INTERVALS: usize = 8;
+const LEAST_INTERVALS: f64 = 8.0;
 /// The same where a tip edge touches over a part of the window.
 const LEAST_INTERVALS_AT_EDGE: usize = 200;
 /// Cells of an interval between samples where the pressure itself is asked for.
@@ -113,7 +113,15 @@ impl ContactSurface for Winkler {
         let half_width = stiffness.half_width_mm(radius_mm, self.expected_line_load_n_per_mm);
         let edge = self.foundation.at_edge(position_mm);
         let indentation_mm = half_width * half_width / (2.0 * radius_mm);
-        let stretch = ObservedStretch { flanks, position_mm, cell, at_edge: edge.is_some(), indentation_mm };
+        let first_half_length_mm = FIRST_WINDOW * half_width;
+        let stretch = ObservedStretch {
+            flanks,
+            position_mm,
+            cell,
+            at_edge: edge.is_some(),
+            indentation_mm,
+            first_half_length_mm,
+        };
         let first_foundation = stiffness.mpa_per_mm(self.expected_line_load_n_per_mm);
         Box::new(WinklerPair {
             stiffness,
@@ -122,7 +130,7 @@ impl ContactSurface for Winkler {
             foundation: first_foundation,
             first_foundation,
             radius_mm,
-            window: GrowingWindow::new(stretch, FIRST_WINDOW * half_width),
+            window: GrowingWindow::new(stretch, first_half_length_mm),
             gap: Vec::new(),
             touch: 0.0,
             removed_everywhere: 0.0,
@@ -157,35 +165,35 @@ struct ObservedStretch<'a> {
     at_edge: bool,
     /// Indentation of the plain contact under the expected load.
     indentation_mm: f64,
+    /// Half-length of the first window.
+    first_half_length_mm: f64,
 }
 
 impl Sampled for ObservedStretch<'_> {
     type Samples = (Strip, Option<Observed>);
 
     fn sample(&self, half_length_mm: f64) -> Self::Samples {
-        let window = Window::new(self.flanks, self.position_mm, half_length_mm);
-        let distance_mm = POINTS_PER_SAMPLE * point_distance_mm(self.flanks, self.position_mm);
-        let least = if self.at_edge { LEAST_INTERVALS_AT_EDGE } else { LEAST_INTERVALS };
-        let intervals = ((window.length_mm() / distance_mm).ceil() as usize).max(least);
-        // Elsewhere points carry their own wear through the contact.
-        let passed_during = self.cell.filter(|_| self.at_edge);
-        let places_mm = match self.at_edge {
-            // Pressure is swept in even cells.
-            true => window.evenly_mm(intervals),
-            false => {
-                let missed_mm = LITTLE_MISSED * self.indentation_mm;
-                window.with_kinks_mm(self.flanks, self.position_mm, intervals, missed_mm)
-            }
-        };
-        let strip = Strip::new(self.flanks, self.position_mm, window, places_mm, passed_during);
+        let Self { flanks, position_mm, cell, .. } = *self;
+        let distance_mm = POINTS_PER_SAMPLE * point_distance_mm(flanks, position_mm);
         if self.at_edge {
-            let swept = SweptField::new(self.flanks, window, strip.spacing_mm(), self.cell);
+            let window = Window::new(flanks, position_mm, half_length_mm);
+            // Pressure is swept in even cells.
+            let intervals = ((window.length_mm() / distance_mm).ceil() as usize).max(LEAST_INTERVALS_AT_EDGE);
+            let strip = Strip::new(flanks, position_mm, window, window.evenly_mm(intervals), cell);
+            let swept = SweptField::new(flanks, window, strip.spacing_mm(), cell);
             return (strip, Some(Observed::Swept(swept)));
         }
+        // The same spacing in windows of all lengths, which are whole multiples of it.
+        let spacing_mm = distance_mm.min(2.0 * self.first_half_length_mm / LEAST_INTERVALS);
+        let half_length_mm = (half_length_mm / spacing_mm).ceil() * spacing_mm;
+        let window = Window::new(flanks, position_mm, half_length_mm);
+        let places_mm = window.with_kinks_mm(flanks, position_mm, spacing_mm, LITTLE_MISSED * self.indentation_mm);
+        // Points carry their own wear through the contact.
+        let strip = Strip::new(flanks, position_mm, window, places_mm, None);
         let observed = self.cell.map(|cell| {
             Observed::Facing(PerGear::from_fn(|gear| {
-                let points = ObservedPoints::new(self.flanks, gear, window, cell);
-                let gap = GapAtPoints::new(self.flanks, gear, &points, self.position_mm);
+                let points = ObservedPoints::new(flanks, gear, window, cell);
+                let gap = GapAtPoints::new(flanks, gear, &points, position_mm);
                 (points, gap)
             }))
         });

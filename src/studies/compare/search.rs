@@ -10,7 +10,7 @@
 //! it is fitted alone, and how many neighbouring points say what one says ([`crate::measurement::interval`]): what the model does not
 //! describe of a profile lessens its weight, what it does not share with the other one does not. χ² is least over profiles interpolated between runs ([`Simulations::about`]); then runs with just the parameters found
 //! take the place of the interpolation, and Gauss–Newton steps on their residuals go on until they no longer matter. The result is that
-//! of the exact runs, the best of them; only the derivatives are interpolated. Where wear does not change smoothly with the coefficient (an
+//! of the exact runs, the best of them; the derivatives are those of the interpolation, mended by what each exact run says of the last step. Where wear does not change smoothly with the coefficient (an
 //! abrupt transition to severe wear, wear steps beyond the stable one), exact runs scatter: steps of up to half a standard deviation are
 //! then left, and reported.
 
@@ -19,7 +19,7 @@ use super::question::{FitKind, Fitted, Question};
 use super::simulations::{Change, CompareError, Simulations};
 use super::unknown::Unknown;
 use crate::gear::{Gear, PerGear};
-use crate::measurement::fit::{FitStop, Parameter, gauss_newton_step, least_squares};
+use crate::measurement::fit::{FitStop, Parameter, broyden_update, gauss_newton_step, least_squares};
 use crate::measurement::interval::{ProfilePart, Uncertainty, uncertainty};
 
 /// Least factor on the wear coefficient.
@@ -138,7 +138,7 @@ impl<'a> Search<'a> {
             unknowns: self.unknowns.clone(),
         };
         if needs_runs {
-            self.settle(&mut found, &parameters, &fitted.jacobian, simulations)?;
+            self.settle(&mut found, &parameters, fitted.jacobian, simulations)?;
         }
         // Beside the best value that was searched no interval means anything.
         found.uncertainty = found.uncertainty.filter(|_| found.stop == FitStop::Converged);
@@ -204,7 +204,7 @@ impl<'a> Search<'a> {
         &self,
         found: &mut FittedCoefficients,
         parameters: &[Parameter],
-        jacobian: &[Vec<f64>],
+        mut jacobian: Vec<Vec<f64>>,
         simulations: &mut Simulations<'_>,
     ) -> Result<(), CompareError> {
         let mut theta = found.parameters.clone();
@@ -212,12 +212,18 @@ impl<'a> Search<'a> {
         let parts = self.parts();
         let mut least: Option<f64> = None;
         let mut last_step = 0.0;
+        let mut before: Option<(Vec<f64>, Vec<f64>)> = None;
         for _ in 0..MOST_EXACT_RUNS {
             let wear_um = simulations.exactly(self.change(&theta))?;
             let r = self.residuals(&wear_um, &theta);
             let square: f64 = r.iter().map(|r| r * r).sum();
-            let step = converges.then(|| gauss_newton_step(jacobian, &r)).flatten();
-            let uncertainty = uncertainty(jacobian, &r, &parts);
+            if let Some((theta_before, r_before)) = before.take() {
+                let [step, change] = [(&theta, theta_before), (&r, r_before)]
+                    .map(|(now, before)| now.iter().zip(before).map(|(now, before)| now - before).collect::<Vec<_>>());
+                broyden_update(&mut jacobian, parameters, &step, &change);
+            }
+            let step = converges.then(|| gauss_newton_step(&jacobian, &r)).flatten();
+            let uncertainty = uncertainty(&jacobian, &r, &parts);
             let deviations = uncertainty.as_ref().map(|u| u.deviations.clone());
             if least.is_none_or(|least| square < least) {
                 least = Some(square);
@@ -233,6 +239,7 @@ impl<'a> Search<'a> {
             if last_step <= NEGLIGIBLE {
                 break;
             }
+            before = Some((theta.clone(), r));
             for ((value, by), p) in theta.iter_mut().zip(&step).zip(parameters) {
                 *value = (*value + by).clamp(p.least, p.greatest);
             }

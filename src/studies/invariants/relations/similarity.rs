@@ -8,7 +8,7 @@ use crate::studies::invariants::comparison::{Bounds, Follows, compare};
 use crate::studies::invariants::relation::{Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{gives, scaled};
 use crate::studies::invariants::traits_of_scene::{
-    has_a_size, has_finite_elements, has_heat_or_oil, is_hard_severe, is_severe, is_sliced, takes_stable_steps,
+    has_a_size, has_finite_elements, has_heat_or_oil, is_hard_severe, is_sliced, takes_stable_steps,
     tolerance_of_steps_um,
 };
 
@@ -18,8 +18,6 @@ const BOUNDS: Bounds = Bounds { volume: 1e-5, cycle: 1e-5, ..Bounds::all(1e-4) }
 const SIZE: f64 = 1.7;
 const MODULUS: f64 = 1.9;
 const WIDTH: f64 = 1.3;
-/// A power of two, which changes no digits.
-const DOUBLE: f64 = 2.0;
 
 pub(super) const RELATIONS: &[Relation] = &[
     Relation {
@@ -61,13 +59,6 @@ fn bounds(subject: &Subject<'_>, other: &RunRecord) -> Bounds {
     }
 }
 
-/// The factor by which a scene is made similar. Adaptive steps do not keep their tolerance through the transition to severe wear, where wear goes with a high
-/// power of the pressure: last bits that choose other steps, 312 or 267 of them, make 0.75 µm of 13 µm at a tolerance of 0.31 µm, either run being 1.8 to 2.1 µm
-/// off 64,000 short steps (seed 19, 14364; 5e-3 µm at a tolerance of 0.03 µm, 3e-4 µm at 0.01 µm). There the digits must be the same.
-fn similar_by(table: &Table, by: f64) -> f64 {
-    if tolerance_of_steps_um(table).is_some() && is_severe(table) { DOUBLE } else { by }
-}
-
 fn size(subject: &Subject<'_>) -> Verdict {
     let table = subject.table;
     if has_heat_or_oil(table)
@@ -77,17 +68,16 @@ fn size(subject: &Subject<'_>) -> Verdict {
     {
         return Verdict::NotOfThisScene;
     }
-    let size = similar_by(table, SIZE);
     let other = scaled(table, &|key| match key {
-        "pinion_torque_Nm" => size.powi(3),
-        "foundation_MPa_per_mm" => 1.0 / size,
+        "pinion_torque_Nm" => SIZE.powi(3),
+        "foundation_MPa_per_mm" => 1.0 / SIZE,
         // N/mm for every µm: as great at any size.
         "pair_N_per_mm_um" => 1.0,
-        key if key.ends_with("_mm") || key.ends_with("_um") => size,
+        key if key.ends_with("_mm") || key.ends_with("_um") => SIZE,
         _ => 1.0,
     });
-    let depth = PerGear { pinion: size, wheel: size };
-    let follows = Follows { depth, error: size, area: size * size, ..Follows::default() };
+    let depth = PerGear { pinion: SIZE, wheel: SIZE };
+    let follows = Follows { depth, error: SIZE, area: SIZE * SIZE, ..Follows::default() };
     subject.beside(other, |record| compare(subject.record, record, &follows, bounds(subject, record)))
 }
 
@@ -102,18 +92,17 @@ fn modulus(subject: &Subject<'_>) -> Verdict {
     {
         return Verdict::NotOfThisScene;
     }
-    let modulus = similar_by(table, MODULUS);
     let other = scaled(table, &|key| match key {
         "young_modulus_GPa"
         | "pinion_torque_Nm"
         | "above_MPa"
         | "band_MPa"
         | "foundation_MPa_per_mm"
-        | "pair_N_per_mm_um" => modulus,
-        "coefficient_m2_per_N" | "coefficient_mm3_per_Nm" => 1.0 / modulus,
+        | "pair_N_per_mm_um" => MODULUS,
+        "coefficient_m2_per_N" | "coefficient_mm3_per_Nm" => 1.0 / MODULUS,
         _ => 1.0,
     });
-    let follows = Follows { pressure: modulus, ..Follows::default() };
+    let follows = Follows { pressure: MODULUS, ..Follows::default() };
     subject.beside(other, |record| compare(subject.record, record, &follows, bounds(subject, record)))
 }
 
@@ -133,11 +122,10 @@ fn width(subject: &Subject<'_>) -> Verdict {
     {
         return Verdict::NotOfThisScene;
     }
-    let width = similar_by(table, WIDTH);
     let other = scaled(table, &|key| match key {
-        "face_width_mm" | "pinion_torque_Nm" => width,
+        "face_width_mm" | "pinion_torque_Nm" => WIDTH,
         _ => 1.0,
     });
-    let follows = Follows { area: width, ..Follows::default() };
+    let follows = Follows { area: WIDTH, ..Follows::default() };
     subject.beside(other, |record| compare(subject.record, record, &follows, bounds(subject, record)))
 }
