@@ -11,7 +11,7 @@ use gearwear::gear::{
 };
 use proptest::prelude::*;
 
-use super::common::{assert_close, fzg_a, fzg_c, gear, pair, spur};
+use super::common::{assert_close, fzg_a, fzg_c, gear, loaded, pair, spur};
 
 fn standard(module: f64, teeth: [u32; 2], pressure_angle_deg: f64) -> PairSpec {
     let centre = 0.5 * module * f64::from(teeth[0] + teeth[1]);
@@ -138,6 +138,33 @@ fn ver_the_corner_of_undercut_takes_the_contact_over() {
     assert!(beyond.rho_mm.wheel < undercut.teeth.wheel.tip_rho_mm());
     // The gap is the distance of the corner from the wheel's involute: along a tangent of the base circle, longer than its arc by the gap.
     assert!(beyond.gap_mm < 0.05);
+}
+
+/// Where the corner of an undercut pinion carries the load, before A, it stands under the pressure, which its mate slides past: what it loses is the same whatever
+/// the distance of the positions. Were it to roll through each pressure, it would lose 7.67 to 7.96 µm with 100 to 400 of them.
+#[test]
+fn ver_the_corner_of_undercut_stands_under_its_load() {
+    let corner_um = |positions: u32| {
+        let text = format!(
+            "[pair]\nnormal_module_mm = 6.81\npressure_angle_deg = 20.0\ncentre_distance_mm = 152.02\nface_width_mm = 40.0\n\
+             [pair.pinion]\nteeth = 11\nprofile_shift = -0.06334\ntip_rounding_mm = 0.2\n\
+             [pair.wheel]\nteeth = 34\nprofile_shift = -0.1643\ntip_rounding_mm = 0.2\n\
+             [operation]\npinion_torque_Nm = 300.0\npinion_speed_rpm = 100.0\nhours = 50.0\n\
+             [contact]\nsurface = \"half-space\"\n[wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 2e-17\n\
+             [numerics]\nflank_points = 400\npositions = {positions}\nstep = \"adaptive\"\nerror_estimate = false\nverify = false\n"
+        );
+        let scene = loaded(&gearwear::scene::Scene::from_toml(&text).unwrap());
+        let record = gearwear::run(&scene, &gearwear::Unwatched).unwrap().record;
+        let (pinion, wear) = (&record.summary.pinion, &record.flanks.pinion);
+        let corner_mm = record.summary.geometry.gears.pinion.root_form_diameter_mm / 2.0;
+        let first = wear.radius_mm.partition_point(|radius| *radius < corner_mm - 1e-6);
+        assert_eq!(pinion.peak_wear_um, wear.wear_um[first], "{corner_mm}");
+        pinion.peak_wear_um
+    };
+    let all_um = [100, 200, 400].map(corner_um);
+    let [least, most] = [f64::min, f64::max].map(|of| all_um.into_iter().reduce(of).unwrap());
+    println!("{all_um:?} µm");
+    assert!(least > 7.0 && most / least < 1.001, "{all_um:?}");
 }
 
 /// Rounding below a thousandth of the module is none, whoever asks; one at it is one.

@@ -21,19 +21,39 @@ pub(super) fn shift_to_ends_mm(
     })
 }
 
-/// The gear whose tip edge carries the load with the theoretical contact point at `position_mm`: before A and after E.
-pub(super) fn edge_under_load(geometry: &dyn ConjugateFlanks, position_mm: f64) -> Option<Gear> {
-    let at_tip = |gear: Gear| geometry.position_at_mm(gear, geometry.flank_limits_mm(gear).1);
-    let round_off = ROUND_OFF * at_tip(Gear::Pinion);
+/// The edge in which a flank ends, where it carries the load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct EdgeUnderLoad {
+    /// Gear whose edge it is.
+    pub gear: Gear,
+    /// Where on its flank.
+    pub coordinate_mm: f64,
+    /// Whether before A and not after E.
+    pub is_before: bool,
+}
+
+/// The edge that carries the load with the theoretical contact point at `position_mm`: before A the wheel's tip edge or the corner in which the
+/// pinion's flank begins, after E the pinion's tip edge or the wheel's corner.
+pub(super) fn edge_under_load(geometry: &dyn ConjugateFlanks, position_mm: f64) -> Option<EdgeUnderLoad> {
+    let [pinion, wheel] = Gear::BOTH.map(|gear| geometry.flank_limits_mm(gear));
+    let edge = |gear: Gear, coordinate_mm: f64, is_before: bool| {
+        (geometry.position_at_mm(gear, coordinate_mm), EdgeUnderLoad { gear, coordinate_mm, is_before })
+    };
+    // The contact moves up the pinion and down the wheel.
+    let of_start = [edge(Gear::Pinion, pinion.0, true), edge(Gear::Wheel, wheel.1, true)];
+    let of_end = [edge(Gear::Pinion, pinion.1, false), edge(Gear::Wheel, wheel.0, false)];
+    let (first_mm, first) = if of_start[0].0 > of_start[1].0 { of_start[0] } else { of_start[1] };
+    let (last_mm, last) = if of_end[1].0 < of_end[0].0 { of_end[1] } else { of_end[0] };
+    let round_off = ROUND_OFF * last_mm;
     match position_mm {
-        before if before < at_tip(Gear::Wheel) - round_off => Some(Gear::Wheel),
-        after if after > at_tip(Gear::Pinion) + round_off => Some(Gear::Pinion),
+        before if before < first_mm - round_off => Some(first),
+        after if after > last_mm + round_off => Some(last),
         _ => None,
     }
 }
 
 /// How far the flank of `gear` around `coordinate_mm` passes its contact from the cell's position to its ends. On the line of action the
-/// contact stands still in the tangent frame; before A and after E it stands on the tip edge, which the mate passes as far as it slides. Its
+/// contact stands still in the tangent frame; before A and after E it stands on an edge, which the mate passes as far as it slides. Its
 /// points, `spacing_mm` apart, then each feel what presses on their part of the edge.
 pub(super) fn passes_to_ends_mm(
     geometry: &dyn ConjugateFlanks,
@@ -45,10 +65,9 @@ pub(super) fn passes_to_ends_mm(
     let own = shift_to_ends_mm(geometry, gear, coordinate_mm, cell);
     match edge_under_load(geometry, cell.position_mm) {
         None => own,
-        Some(edge) if edge == gear => [-0.5 * spacing_mm, 0.5 * spacing_mm],
+        Some(edge) if edge.gear == gear => [-0.5 * spacing_mm, 0.5 * spacing_mm],
         Some(edge) => {
-            let at = geometry.contact_coordinate_mm(edge, cell.position_mm);
-            let edges = shift_to_ends_mm(geometry, edge, at, cell);
+            let edges = shift_to_ends_mm(geometry, edge.gear, edge.coordinate_mm, cell);
             [own[0] + edges[0], own[1] + edges[1]]
         }
     }

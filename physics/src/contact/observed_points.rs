@@ -22,8 +22,8 @@ pub(crate) struct ObservedPoints {
     shifts_to_ends_mm: Vec<[f64; 2]>,
     /// The least of that (at most 0) and the greatest (at least 0).
     least_and_most_mm: [f64; 2],
-    /// Where the flank ends that stands under the pressure, along the tangent, mm; its points feel what presses on their part of it.
-    standing_to_mm: Option<f64>,
+    /// Where the flank begins and ends that stands under the pressure, along the tangent, mm; its points feel what presses on their part of it.
+    standing_within_mm: Option<[f64; 2]>,
     /// The points that an end of the mate's flank passes within the cell, or that face nothing.
     partly_exposed: Vec<PartlyExposed>,
 }
@@ -75,8 +75,8 @@ impl ObservedPoints {
         let coordinates_mm = &grid.coordinate_mm[first_point..=last];
         let shifts = coordinates_mm.iter().map(|&at| shift_to_ends_mm(&geometry, gear, at, cell));
         let (shifts_to_ends_mm, least_and_most_mm) = (Vec::new(), [0.0; 2]);
-        let standing_to_mm = None;
-        Self { first_point, sliding_mm, partly_exposed, standing_to_mm, at, shifts_to_ends_mm, least_and_most_mm }
+        let standing_within_mm = None;
+        Self { first_point, sliding_mm, partly_exposed, standing_within_mm, at, shifts_to_ends_mm, least_and_most_mm }
             .moving_by(shifts)
     }
 }
@@ -93,7 +93,7 @@ impl ObservedPoints {
         self
     }
 
-    /// The same under a pressure that stands still during the cell, or goes with a tip edge: where an edge stands, its
+    /// The same under a pressure that stands still during the cell, or goes with an edge: where an edge stands, its
     /// mate passes it all the time.
     pub(crate) fn under_standing_pressure(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
         let mut points = Self::new(flanks, gear, window, cell);
@@ -102,9 +102,10 @@ impl ObservedPoints {
             points.partly_exposed.retain(|point| point.from == point.to);
             points.sliding_mm.fill(sliding);
             points.partly_exposed.iter().for_each(|point| points.sliding_mm[point.sample] = 0.0);
-            if edge == gear {
-                let tip = flanks.geometry.flank_limits_mm(gear).1;
-                points.standing_to_mm = Some(flanks.geometry.in_tangent_frame(gear, tip, cell.position_mm).along_mm);
+            if edge.gear == gear {
+                let (from_mm, to_mm) = flanks.geometry.flank_limits_mm(gear);
+                let along_mm = |end_mm| flanks.geometry.in_tangent_frame(gear, end_mm, cell.position_mm).along_mm;
+                points.standing_within_mm = Some([from_mm, to_mm].map(along_mm));
             }
             let widest_mm = points.at.windows(2).map(|two| two[1].along_mm - two[0].along_mm).fold(0.0, f64::max);
             let seen = points.first_point..points.first_point + points.sliding_mm.len();
@@ -119,11 +120,14 @@ impl ObservedPoints {
     /// mate; nothing of points that do not.
     pub(crate) fn courses_mm(&self) -> Vec<Option<[f64; 2]>> {
         let mut courses: Vec<_> = self.shifts_to_ends_mm().into_iter().map(Some).collect();
-        if let Some(tip_mm) = self.standing_to_mm {
-            // Half of the way to either neighbour; the part of the last point ends with the edge.
+        if let Some([from_mm, to_mm]) = self.standing_within_mm {
+            // Half of the way to either neighbour; the part of the outermost point ends with the edge.
             for (three, course) in self.at.windows(3).zip(&mut courses) {
                 let [before, here, after] = [three[0], three[1], three[2]].map(|point| point.along_mm);
-                let ends = [0.5 * (before - here), (0.5 * (after - here)).min((tip_mm - here).max(0.0))];
+                let ends = [
+                    (0.5 * (before - here)).max((from_mm - here).min(0.0)),
+                    (0.5 * (after - here)).min((to_mm - here).max(0.0)),
+                ];
                 *course = course.map(|_| ends);
             }
         }
@@ -236,7 +240,7 @@ mod tests {
                 let before = first.first_point - grown.first_point;
                 let courses_mm = grown.shifts_to_ends_mm();
                 let seen_before = &courses_mm[before..before + first.sliding_mm.len()];
-                if edge_under_load(&flanks.geometry, position_mm) != Some(gear) {
+                if edge_under_load(&flanks.geometry, position_mm).is_none_or(|edge| edge.gear != gear) {
                     assert_eq!(first.shifts_to_ends_mm(), seen_before, "{gear:?} at {position_mm} mm");
                 }
                 let [least, most] = [f64::min, f64::max]

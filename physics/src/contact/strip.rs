@@ -10,7 +10,7 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
-use super::flank_motion::{ROUND_OFF, on_tangent, passes_to_ends_mm};
+use super::flank_motion::{ROUND_OFF, edge_under_load, on_tangent, passes_to_ends_mm};
 use super::{Flanks, PositionCell};
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 use crate::reference::linear_means::add_means;
@@ -225,16 +225,15 @@ pub(super) fn common_extent_mm(geometry: &dyn ConjugateFlanks, position_mm: f64)
 /// Where within the extent of [`common_extent_mm`] unworn flanks are nearest: at the theoretical contact point, or at the edge beside it where a
 /// flank has not begun or has ended. Before T1 and after T2 the corner of an undercut flank may lie on the other side of that point.
 pub(super) fn nearest_mm(geometry: &dyn ConjugateFlanks, position_mm: f64, (lower_mm, upper_mm): (f64, f64)) -> f64 {
-    let position_at = |gear: Gear, coordinate_mm: f64| geometry.position_at_mm(gear, coordinate_mm);
-    let (pinion, wheel) = (geometry.flank_limits_mm(Gear::Pinion), geometry.flank_limits_mm(Gear::Wheel));
-    // The contact moves up the pinion and down the wheel.
-    let first_mm = position_at(Gear::Pinion, pinion.0).max(position_at(Gear::Wheel, wheel.1));
-    let last_mm = position_at(Gear::Pinion, pinion.1).min(position_at(Gear::Wheel, wheel.0));
-    let round_off = ROUND_OFF * last_mm;
-    match position_mm {
-        before if before < first_mm - round_off => lower_mm,
-        after if after > last_mm + round_off => upper_mm,
-        _ => 0.0_f64.min(upper_mm).max(lower_mm),
+    match edge_under_load(geometry, position_mm) {
+        Some(edge) => {
+            if edge.is_before {
+                lower_mm
+            } else {
+                upper_mm
+            }
+        }
+        None => 0.0_f64.min(upper_mm).max(lower_mm),
     }
 }
 
