@@ -1,7 +1,5 @@
 //! The gap that observed points face, which changes while the contact passes them.
 
-use std::ops::Range;
-
 use super::Flanks;
 use super::observed_points::ObservedPoints;
 use super::strip::Interpolation;
@@ -169,18 +167,17 @@ impl GapAtPoints {
         Self { geometric_gap_mm, mate, course, growth }
     }
 
-    /// The gap at the points of `range` (counted from the first) with `removed_mm` of material gone.
+    /// The gap at the points with `removed_mm` of material gone.
     pub(crate) fn faced<'a>(
         &'a self,
         points: &ObservedPoints,
         gear: Gear,
         removed_mm: PerGear<&'a [f64]>,
-        range: Range<usize>,
     ) -> impl Iterator<Item = FacedGap<'a>> + 'a {
-        let own = &removed_mm[gear][points.first_point + range.start..];
-        let mate = self.mate.of(removed_mm[gear.mate()], range.start);
-        let gaps = self.geometric_gap_mm[range.clone()].iter().zip(own).zip(mate);
-        let courses = self.growth[range.clone()].iter().zip(&self.course[range]);
+        let own = &removed_mm[gear][points.first_point..];
+        let mate = self.mate.of(removed_mm[gear.mate()]);
+        let gaps = self.geometric_gap_mm.iter().zip(own).zip(mate);
+        let courses = self.growth.iter().zip(&self.course);
         gaps.zip(courses).map(|(((geometric, own), mate), (growth, course))| FacedGap {
             gap_mm: geometric + own + mate,
             growth,

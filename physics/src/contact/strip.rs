@@ -59,9 +59,9 @@ impl Interpolation {
         self.index.push(index as u32);
     }
 
-    /// The values at samples from `first` on.
-    pub(super) fn of<'a>(&'a self, values: &'a [f64], first: usize) -> impl Iterator<Item = f64> + 'a {
-        self.index[first..].iter().zip(&self.weight[first..]).map(|(&i, &weight)| {
+    /// The values at the samples.
+    pub(super) fn of<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        self.index.iter().zip(&self.weight).map(|(&i, &weight)| {
             let ends = &values[i as usize..i as usize + 2];
             ends[0] + weight * (ends[1] - ends[0])
         })
@@ -297,7 +297,7 @@ impl Strip {
         let passing = PerGear::from_fn(|gear| {
             let passing = PassingMean::new(flanks, gear, cell, along_mm.iter().map(|&along| on_tangent(gear, along)));
             // A modification stays what it is at the sample.
-            let beside = here[gear].of(modification_mm[gear], 0).zip(passing.of(modification_mm[gear]));
+            let beside = here[gear].of(modification_mm[gear]).zip(passing.of(modification_mm[gear]));
             geometric_gap_mm.iter_mut().zip(beside).for_each(|(gap, (here, mean))| *gap += here - mean);
             passing
         });
@@ -312,7 +312,7 @@ impl Strip {
     /// The gap with `removed_mm` of material gone, into `gap_mm`, and its least value.
     pub(crate) fn gap_mm(&self, removed_mm: PerGear<&[f64]>, gap_mm: &mut Vec<f64>) -> f64 {
         match &self.removed {
-            Removed::Here(here) => self.opened_mm(Gear::BOTH.map(|gear| here[gear].of(removed_mm[gear], 0)), gap_mm),
+            Removed::Here(here) => self.opened_mm(Gear::BOTH.map(|gear| here[gear].of(removed_mm[gear])), gap_mm),
             Removed::Passing(passing) => {
                 self.opened_mm(Gear::BOTH.map(|gear| passing[gear].of(removed_mm[gear])), gap_mm)
             }
@@ -374,7 +374,7 @@ pub(crate) fn gaps_beside_mm(
         }
         let Some(here) = here else { continue };
         for gear in Gear::BOTH {
-            let removed = here[gear].of(removed_mm[gear], 0);
+            let removed = here[gear].of(removed_mm[gear]);
             places[first..].iter_mut().zip(removed).for_each(|((_, gap), removed)| *gap += removed);
         }
     }

@@ -24,8 +24,6 @@
 //!
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.3; the thesis, section 3.2.
 
-use std::ops::Range;
-
 use super::{
     ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, PressedCell, Response, Sweep,
     edge_foundation::{EdgeFoundations, EdgeStiffness},
@@ -136,7 +134,6 @@ impl ContactSurface for Winkler {
             removed_everywhere: 0.0,
             indentation_mm: 0.0,
             extent_mm: (0.0, 0.0),
-            samples_beside_mm: (0.0, 0.0),
         })
     }
 
@@ -224,8 +221,6 @@ struct WinklerPair<'a> {
     indentation_mm: f64,
     /// Outermost places in contact at equilibrium, along the tangent.
     extent_mm: (f64, f64),
-    /// The samples beside those: nothing between them is known not to touch.
-    samples_beside_mm: (f64, f64),
 }
 
 impl PairContact for WinklerPair<'_> {
@@ -247,13 +242,11 @@ impl PairContact for WinklerPair<'_> {
 
     fn load_at(&mut self, indentation_mm: f64) -> Response {
         self.indentation_mm = indentation_mm;
-        let curvature = 1.0 / (12.0 * self.radius_mm);
         // Integrals of the penetration and of the length in contact, which is how fast the former grows.
         let (mut penetration, mut contact) = (0.0, 0.0);
         for (ends, gaps) in self.strip().along_mm.windows(2).zip(self.gap.windows(2)) {
             let length = ends[1] - ends[0];
-            // The curvature of the gap between two samples, which the straight line misses, as its mean Δ²/12R.
-            let raised = indentation_mm + curvature * length * length;
+            let raised = indentation_mm + self.raised_mm(length);
             let (mean, fraction) = mean_positive([raised - gaps[0], raised - gaps[1]]);
             penetration += length * mean;
             contact += length * fraction;
@@ -288,7 +281,7 @@ impl PairContact for WinklerPair<'_> {
     }
 
     fn window_suffices(&mut self) -> bool {
-        [self.extent_mm, self.samples_beside_mm] = self.extents_mm();
+        self.extent_mm = self.extent_in_contact_mm();
         if let Some(Observed::Swept(swept)) = &mut self.window.samples.1 {
             let (gap, indentation_mm, foundation) = (&self.gap, self.indentation_mm, self.foundation);
             let mean =
@@ -298,7 +291,12 @@ impl PairContact for WinklerPair<'_> {
                 pressure.extend(gap.windows(2).map(mean));
             });
         }
-        !self.strip().may_touch_beyond(self.touch + self.indentation_mm, self.removed_everywhere, [0.0; 2])
+        // What the curvature raises penetration by may reach into the next cell.
+        let along_mm = &self.strip().along_mm;
+        let raised_mm = [along_mm[1] - along_mm[0], along_mm[along_mm.len() - 1] - along_mm[along_mm.len() - 2]]
+            .map(|length_mm| self.raised_mm(length_mm).max(0.0));
+        let approach_mm = self.touch + self.indentation_mm;
+        !self.strip().may_touch_beyond(approach_mm, self.removed_everywhere, raised_mm.map(|raised_mm| -raised_mm))
     }
 
     fn widen(&mut self) {
@@ -323,10 +321,10 @@ impl PairContact for WinklerPair<'_> {
             Some(Observed::Swept(swept)) => return swept.sweep(gear, sweep),
             Some(Observed::Facing(facing)) => &facing[gear],
         };
-        let near = self.touching(gear, points);
-        sweep.begin(points.first_point + near.start, &points.sliding_mm[near.clone()]);
+        // All points of the window: one between two samples may touch where neither does.
+        sweep.begin(points.first_point, &points.sliding_mm);
         let approach_mm = self.touch + self.indentation_mm;
-        for (pressure, faced) in sweep.pressure_mpa.iter_mut().zip(faced.faced(points, gear, removed_mm, near)) {
+        for (pressure, faced) in sweep.pressure_mpa.iter_mut().zip(faced.faced(points, gear, removed_mm)) {
             *pressure = self.foundation * faced.mean_penetration(approach_mm).0;
         }
     }
@@ -339,7 +337,7 @@ impl PairContact for WinklerPair<'_> {
         };
         let approach_mm = self.touch + self.indentation_mm;
         faced
-            .faced(points, gear, removed_mm, self.touching(gear, points))
+            .faced(points, gear, removed_mm)
             .map(|faced| PointContact {
                 pressure_mpa: self.foundation * faced.greatest_penetration_mm(approach_mm).max(0.0),
                 contact_fraction: faced.mean_penetration(approach_mm).1,
@@ -395,28 +393,24 @@ impl WinklerPair<'_> {
         &self.window.samples.0
     }
 
-    /// The points of a flank that may touch at the last approach pressed.
-    fn touching(&self, gear: Gear, points: &ObservedPoints) -> Range<usize> {
-        match gear {
-            Gear::Pinion => points.between(self.samples_beside_mm.0, self.samples_beside_mm.1),
-            Gear::Wheel => points.between(-self.samples_beside_mm.1, -self.samples_beside_mm.0),
-        }
+    /// What the curvature of the gap between two samples adds to the penetration, which the straight line misses, as its mean Δ²/12R.
+    fn raised_mm(&self, cell_mm: f64) -> f64 {
+        cell_mm * cell_mm / (12.0 * self.radius_mm)
     }
 
-    /// Outermost places in contact, found between samples, and the samples beside them; empty at 0 without contact.
-    fn extents_mm(&self) -> [(f64, f64); 2] {
+    /// Outermost places in contact, found between samples; both 0 without contact.
+    fn extent_in_contact_mm(&self) -> (f64, f64) {
         let u = |k: usize| self.indentation_mm - self.gap[k];
         let touches = |gap: &f64| *gap < self.indentation_mm;
         let (Some(first), Some(last)) = (self.gap.iter().position(touches), self.gap.iter().rposition(touches)) else {
-            return [(0.0, 0.0); 2];
+            return (0.0, 0.0);
         };
         // The gap passes through the approach between the outermost sample in contact and the next one.
         let along_mm = &self.strip().along_mm;
         let passes =
             |from: usize, to: usize| along_mm[from] + u(from) / (u(from) - u(to)) * (along_mm[to] - along_mm[from]);
-        let (before, after) = (first.saturating_sub(1), (last + 1).min(self.gap.len() - 1));
-        let lower_mm = if before < first { passes(first, before) } else { along_mm[first] };
-        let upper_mm = if after > last { passes(last, after) } else { along_mm[last] };
-        [(lower_mm, upper_mm), (along_mm[before], along_mm[after])]
+        let lower_mm = if first > 0 { passes(first, first - 1) } else { along_mm[0] };
+        let upper_mm = if last + 1 < self.gap.len() { passes(last, last + 1) } else { along_mm[last] };
+        (lower_mm, upper_mm)
     }
 }
