@@ -98,8 +98,8 @@ impl Scene {
     /// What a command that looks at one load leaves out of a scene with phases under others; none where there are no others.
     pub fn one_load_warning(&self) -> Option<String> {
         let own = self.operation.pinion_torque_n_mm;
-        let torques = self.operation.phases.iter().map(|phase| phase.pinion_torque_n_mm);
-        let (least, greatest) = torques.fold((own, own), |(least, most), torque| (least.min(torque), most.max(torque)));
+        let [least, greatest] = self.operation.torque_range_n_mm();
+        let (least, greatest) = (least.min(own), greatest.max(own));
         (least < greatest).then(|| {
             let n_m = 1e-3;
             format!(

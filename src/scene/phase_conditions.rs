@@ -36,16 +36,6 @@ impl Scene {
         })
     }
 
-    /// The phase of the greatest load, the first of equals.
-    pub(crate) fn heaviest_phase(&self) -> Phase {
-        let heavier = |best: Phase, phase: &Phase| match phase.pinion_torque_n_mm > best.pinion_torque_n_mm {
-            true => *phase,
-            false => best,
-        };
-        let phases = &self.operation.phases;
-        phases.iter().fold(phases[0], heavier)
-    }
-
     /// The pair at the speed and load of `phase`, with its oil; none where nobody asks for films or losses.
     pub(crate) fn running_in<'a>(&'a self, pair: &'a GearPair, phase: &Phase) -> Option<RunningPair<'a>> {
         let material = self.material_in(phase);
@@ -119,7 +109,7 @@ impl Scene {
         let follows_modulus = Gear::BOTH.into_iter().any(|gear| self.modulus[gear].is_some());
         let follows = follows_modulus || Gear::BOTH.into_iter().any(|gear| self.wear[gear].warm.is_some());
         let Some(pair) = follows.then(|| GearPair::new(&self.pair).ok()).flatten() else { return };
-        if let Some(moduli) = self.moduli_in(&pair, &self.heaviest_phase()) {
+        if let Some(moduli) = self.moduli_in(&pair, &self.operation.phases[self.operation.heaviest_phase()]) {
             for gear in Gear::BOTH {
                 self.material[gear].young_modulus_mpa = moduli[gear];
             }

@@ -86,6 +86,17 @@ impl Operation {
         }
     }
 
+    /// Index of the phase of the greatest load, the first of equals.
+    pub fn heaviest_phase(&self) -> usize {
+        first_greatest(self.phases.iter().map(|phase| phase.pinion_torque_n_mm))
+    }
+
+    /// Least and greatest torque on the pinion of all phases, N·mm.
+    pub fn torque_range_n_mm(&self) -> [f64; 2] {
+        let torques = || self.phases.iter().map(|phase| phase.pinion_torque_n_mm);
+        [torques().fold(f64::INFINITY, f64::min), torques().fold(0.0, f64::max)]
+    }
+
     /// Running time after `revolutions` of the pinion, in hours; `None` without a speed.
     pub fn hours(&self, revolutions: f64) -> Option<f64> {
         let (mut begin, mut hours) = (0.0, 0.0);
@@ -117,6 +128,14 @@ impl Operation {
     pub fn phase_at(&self, revolutions: f64) -> usize {
         self.phases.partition_point(|phase| phase.end_revolutions < revolutions).min(self.phases.len() - 1)
     }
+}
+
+/// Index of the greatest, the first of equals; 0 of none.
+pub(crate) fn first_greatest(loads: impl Iterator<Item = f64>) -> usize {
+    let greater = |(best, most): (usize, f64), (index, load): (usize, f64)| {
+        if load > most { (index, load) } else { (best, most) }
+    };
+    loads.enumerate().fold((0, f64::NEG_INFINITY), greater).0
 }
 
 /// How the wear is integrated with an error that is controlled.

@@ -10,7 +10,7 @@ use super::advance::{self, Stepper, Stretch};
 use super::checkpoint::{Checkpoint, Keeper, NothingKept};
 use super::life::{LimitReached, LimitsOfPair, StepBeginning};
 use super::mesh_contact::{LoadedMesh, MeshContact};
-use super::settings::{LifeLimits, Numerics, Stepping};
+use super::settings::{LifeLimits, Numerics, Stepping, first_greatest};
 use crate::contact::Flanks;
 use crate::gear::{
     Gear, GearPair, PerGear, flank::FlankGrid, flank_zones::FlankZones, removed_material::modifications_mm,
@@ -476,13 +476,7 @@ fn thickness_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid) -> Vec<f64> {
 
 /// Index of the phase of the greatest load, the first of equals: what is said of the new and of the worn pair is under that load.
 pub fn reference_phase(phases: &[RunPhase<'_>]) -> usize {
-    let heavier = |best: usize, (index, phase): (usize, &RunPhase<'_>)| match phase.line_load_n_per_mm
-        > phases[best].line_load_n_per_mm
-    {
-        true => index,
-        false => best,
-    };
-    phases.iter().enumerate().fold(0, heavier)
+    first_greatest(phases.iter().map(|phase| phase.line_load_n_per_mm))
 }
 
 impl RunState {

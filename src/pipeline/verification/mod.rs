@@ -212,10 +212,10 @@ pub(super) fn elements<'a>(
     scene: &Scene,
     pair: &'a GearPair,
     at_pitch: &Flattening,
-    line_load_n_per_mm: impl Fn(&Phase) -> f64,
     observer: &dyn Observer,
 ) -> Result<Elements<'a>, ModelError> {
-    let greatest_load = scene.operation.phases.iter().map(line_load_n_per_mm).fold(0.0, f64::max);
+    let [_, greatest] = scene.operation.torque_range_n_mm();
+    let greatest_load = pair.line_load_n_per_mm(greatest);
     let half_width_mm = at_pitch.contact.loaded(greatest_load).half_width_mm;
     let least_mm = LEAST_HALF_WIDTH_MODULES * pair.spec.normal_module_mm;
     // a² is proportional to the load.

@@ -81,9 +81,7 @@ pub(super) fn check(scene: &Scene, pair: &GearPair, findings: &mut Findings) {
 fn contacts(scene: &Scene, pair: &GearPair, findings: &Findings) -> Vec<Contact> {
     let pitch_point_mm = pair.path.pitch_point_mm;
     let flattening = hertz::flattening(&pair.normal_section(), &scene.material, pitch_point_mm);
-    let torques = || scene.operation.phases.iter().map(|phase| phase.pinion_torque_n_mm);
-    let greatest_n_mm = torques().fold(0.0, f64::max);
-    let least_n_mm = torques().fold(f64::INFINITY, f64::min);
+    let [least_n_mm, greatest_n_mm] = scene.operation.torque_range_n_mm();
     let of_hertz = |torque_n_mm: f64| {
         let (key, value) = to_blame(scene, pair, torque_n_mm, findings);
         let half_width_mm = flattening.contact.loaded(pair.line_load_n_per_mm(torque_n_mm)).half_width_mm;

@@ -55,116 +55,56 @@ fn check_slices(pair: &GearPair, count: usize, findings: &mut Findings) {
     }
 }
 
+/// Says which key of a file has made an error of the geometry.
+struct Place<'a> {
+    spec: &'a PairSpec,
+    findings: &'a Findings,
+    /// A factor as the file gives it over one of the normal module: factors of the file are of the module that it gives.
+    factor_scale: f64,
+}
+
 fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
-    let key_of = |gear: Gear, name: &str| format!("pair.{}.{name}", gear.name());
-    // Factors of the file are of the module that it gives.
     let is_transverse = findings.is_in_file("pair.transverse_module_mm");
     let factor_scale = if is_transverse { 1.0 / spec.helix_angle_rad.cos() } else { 1.0 };
-    // The tip is mended where the file gives it; otherwise the profile shift decides.
-    let tip_key = |gear: Gear| {
-        let tip = key_of(gear, "tip_diameter_mm");
-        if spec.gears[gear].tip_diameter_mm.is_some() && findings.is_in_file(&tip) {
-            tip
-        } else {
-            key_of(gear, "profile_shift")
-        }
-    };
-    let tip_found = |gear: Gear, tip_mm: f64| format!("tip diameter {} of the {}", short(tip_mm), gear.name());
-    // Where the centre distance follows from the backlash, that is what mends it.
-    let centre_key = centre_distance::KEYS.into_iter().find(|key| findings.is_in_file(key));
-    let centre_key = centre_key.unwrap_or("pair.centre_distance_mm");
-    let centre_found = match centre_key {
-        "pair.centre_distance_mm" => number(spec.centre_distance_mm),
-        _ => format!("a backlash that gives centre distance {}", short(spec.centre_distance_mm)),
-    };
-    let centre = |least_mm: f64, help: &str| Cause {
-        key: centre_key.to_owned(),
-        found: centre_found.clone(),
-        allowed: format!("a centre distance of at least {} mm", at_least(least_mm)),
-        help: help.to_owned(),
-    };
+    let place = Place { spec, findings, factor_scale };
     match *error {
-        PairError::NoMesh { least_mm, .. } => centre(least_mm, "check centre distance, module and numbers of teeth"),
-        PairError::NegativeBacklash { least_mm, .. } => centre(
+        PairError::NoMesh { least_mm, .. } => {
+            place.centre_distance(least_mm, "check centre distance, module and numbers of teeth")
+        }
+        PairError::NegativeBacklash { least_mm, .. } => place.centre_distance(
             least_mm,
             "or smaller profile shifts, or thinner teeth by a negative tooth_thickness_allowance_um on a gear",
         ),
-        PairError::ContactRatioBelowOne { contact_ratio, overlap_ratio } if overlap_ratio > 0.0 => Cause {
-            key: "pair.face_width_mm".to_owned(),
-            found: format!(
-                "{}, transverse contact ratio {contact_ratio:.4}, overlap ratio {overlap_ratio:.4}",
-                number(spec.face_width_mm)
-            ),
-            allowed: "contact ratios that together are at least 1, the transverse one above 0".to_owned(),
-            help: "a larger face width or helix angle raises the overlap; larger tip diameters or a smaller centre distance \
-                   raise the transverse contact ratio"
-                .to_owned(),
-        },
-        PairError::ContactRatioBelowOne { contact_ratio, .. } => Cause {
-            key: centre_key.to_owned(),
-            found: format!("{centre_found}, contact ratio {contact_ratio:.4}"),
-            allowed: "a transverse contact ratio of at least 1".to_owned(),
-            help: "a smaller centre distance, larger tip diameters, more teeth or a smaller pressure angle raise it"
-                .to_owned(),
-        },
+        PairError::ContactRatioBelowOne { contact_ratio, overlap_ratio } => {
+            place.contact_ratio(contact_ratio, overlap_ratio)
+        }
         PairError::PointedTooth { gear, tip_diameter_mm, pointed_diameter_mm, .. } => Cause {
-            key: tip_key(gear),
+            key: place.tip_key(gear),
             found: tip_found(gear, tip_diameter_mm),
             allowed: format!("a tip diameter below {} mm, where the flanks meet", at_most(pointed_diameter_mm)),
             help: format!("give {} or a smaller profile shift", key_of(gear, "tip_diameter_mm")),
         },
         PairError::TipBelowForm { gear, tip_diameter_mm, form_diameter_mm } => Cause {
-            key: tip_key(gear),
+            key: place.tip_key(gear),
             found: tip_found(gear, tip_diameter_mm),
             allowed: format!("a tip diameter above the form circle, {} mm", at_least(form_diameter_mm)),
             help: "a larger centre distance leaves more of a tip that follows from the rack, less profile shift of its mate too"
                 .to_owned(),
         },
-        PairError::Interference { gear, greatest_tip_diameter_mm, .. } => Cause {
-            key: match tip_key(gear.mate()) {
-                tip if tip.ends_with("tip_diameter_mm") => tip,
-                _ => key_of(gear, "profile_shift"),
-            },
-            found: match spec.gears[gear.mate()].tip_diameter_mm {
-                Some(tip_mm) => tip_found(gear.mate(), tip_mm),
-                None => format!("profile shift {}", of_file(spec.gears[gear].profile_shift, factor_scale)),
-            },
-            allowed: format!(
-                "a tip diameter of the {} of at most {} mm, which leaves the root fillet of the {} alone",
-                gear.mate().name(),
-                at_most(greatest_tip_diameter_mm),
-                gear.name()
-            ),
-            help: format!(
-                "a smaller {}, a larger {} or more teeth on the {}",
-                key_of(gear.mate(), "tip_diameter_mm"),
-                key_of(gear, "profile_shift"),
-                gear.name()
-            ),
-        },
-        PairError::NoTipClearance { gear, clearance_mm } => Cause {
-            key: tip_key(gear),
-            found: spec.gears[gear].tip_diameter_mm.map_or_else(|| "a tip from the rack".to_owned(), number),
-            allowed: format!(
-                "a tip diameter of at most {} mm, beyond which it reaches the root circle of the {}",
-                at_most(2.0 * (spec.tip_radius_mm(gear) + clearance_mm)),
-                gear.mate().name()
-            ),
-            help: "or a larger centre distance, or a larger pair.basic_rack.dedendum_factor".to_owned(),
-        },
-        PairError::RackPointed { greatest_dedendum_factor } => Cause {
-            key: "pair.basic_rack.dedendum_factor".to_owned(),
-            found: of_file(spec.rack.dedendum_factor, factor_scale),
-            allowed: format!("at most {}", at_most(greatest_dedendum_factor / factor_scale)),
-            help: "or a smaller pressure angle; the root fillet that a dedendum factor leaves room for grows as it falls below that"
-                .to_owned(),
-        },
-        PairError::RackTipPointed { greatest } => Cause {
-            key: "pair.basic_rack.fillet_radius_factor".to_owned(),
-            found: of_file(spec.rack.fillet_radius_factor, factor_scale),
-            allowed: format!("at most {}", at_most(greatest / factor_scale)),
-            help: "or a smaller pair.basic_rack.dedendum_factor".to_owned(),
-        },
+        PairError::Interference { gear, greatest_tip_diameter_mm, .. } => {
+            place.interference(gear, greatest_tip_diameter_mm)
+        }
+        PairError::NoTipClearance { gear, clearance_mm } => place.tip_clearance(gear, clearance_mm),
+        PairError::RackPointed { greatest_dedendum_factor } => place.rack(
+            "dedendum_factor",
+            (spec.rack.dedendum_factor, greatest_dedendum_factor),
+            "or a smaller pressure angle; the root fillet that a dedendum factor leaves room for grows as it falls below that",
+        ),
+        PairError::RackTipPointed { greatest } => place.rack(
+            "fillet_radius_factor",
+            (spec.rack.fillet_radius_factor, greatest),
+            "or a smaller pair.basic_rack.dedendum_factor",
+        ),
         PairError::NoTooth { gear } => Cause {
             key: key_of(gear, "profile_shift"),
             found: of_file(spec.gears[gear].profile_shift, factor_scale),
@@ -177,33 +117,12 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
             allowed: format!("less than the root diameter, {} mm", at_most(root_diameter_mm)),
             help: "leave the bore out where it does not matter".to_owned(),
         },
-        PairError::ModificationTooLong { gear, modification, length_mm, available_mm } => Cause {
-            key: key_of(gear, &format!("{}.length_mm", modification.replace(' ', "_"))),
-            found: number(length_mm),
-            allowed: format!("at most {} mm", at_most(available_mm)),
-            help: match modification {
-                "end relief" => "it begins at either end of the face width, and ends before its middle",
-                _ => "lengths are roll lengths, along the path of contact",
-            }
-            .to_owned(),
-        },
-        PairError::ModificationTooDeep { gear, modification, amount_mm, greatest_mm } => Cause {
-            key: key_of(
-                gear,
-                &match modification {
-                    "helix slope deviation" if findings.is_in_file(&key_of(gear, "helix_slope_class")) => {
-                        "helix_slope_class".to_owned()
-                    }
-                    crowning @ ("profile crowning" | "lead crowning" | "helix slope deviation") => {
-                        format!("{}_um", crowning.replace(' ', "_"))
-                    }
-                    relief => format!("{}.amount_um", relief.replace(' ', "_")),
-                },
-            ),
-            found: number(1e3 * amount_mm),
-            allowed: format!("at most {} µm, a quarter of the module", at_most(1e3 * greatest_mm)),
-            help: "amounts are in µm".to_owned(),
-        },
+        PairError::ModificationTooLong { gear, modification, length_mm, available_mm } => {
+            too_long(gear, modification, length_mm, available_mm)
+        }
+        PairError::ModificationTooDeep { gear, modification, amount_mm, greatest_mm } => {
+            place.too_deep(gear, modification, amount_mm, greatest_mm)
+        }
         PairError::AxesTooFarFromParallel { slope_mm, greatest_mm } => Cause {
             key: "pair.axis_parallelism".to_owned(),
             found: format!("a helix slope of {:.0} µm over the face width", 1e3 * slope_mm),
@@ -216,6 +135,139 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
             allowed: format!("at most {} mm", at_most(greatest_mm)),
             help: "the roundings of both flanks must fit on the tip, and leave some active flank".to_owned(),
         },
+    }
+}
+
+fn key_of(gear: Gear, name: &str) -> String {
+    format!("pair.{}.{name}", gear.name())
+}
+
+fn tip_found(gear: Gear, tip_mm: f64) -> String {
+    format!("tip diameter {} of the {}", short(tip_mm), gear.name())
+}
+
+fn too_long(gear: Gear, modification: &str, length_mm: f64, available_mm: f64) -> Cause {
+    let help = match modification {
+        "end relief" => "it begins at either end of the face width, and ends before its middle",
+        _ => "lengths are roll lengths, along the path of contact",
+    };
+    Cause {
+        key: key_of(gear, &format!("{}.length_mm", modification.replace(' ', "_"))),
+        found: number(length_mm),
+        allowed: format!("at most {} mm", at_most(available_mm)),
+        help: help.to_owned(),
+    }
+}
+
+impl Place<'_> {
+    /// The tip is mended where the file gives it; otherwise the profile shift decides.
+    fn tip_key(&self, gear: Gear) -> String {
+        let tip = key_of(gear, "tip_diameter_mm");
+        let is_given = self.spec.gears[gear].tip_diameter_mm.is_some() && self.findings.is_in_file(&tip);
+        if is_given { tip } else { key_of(gear, "profile_shift") }
+    }
+
+    /// The key of the centre distance and what it says; where that follows from the backlash, the backlash mends it.
+    fn centre(&self) -> (&'static str, String) {
+        let key = centre_distance::KEYS.into_iter().find(|key| self.findings.is_in_file(key));
+        match key.unwrap_or("pair.centre_distance_mm") {
+            key @ "pair.centre_distance_mm" => (key, number(self.spec.centre_distance_mm)),
+            key => (key, format!("a backlash that gives centre distance {}", short(self.spec.centre_distance_mm))),
+        }
+    }
+
+    fn centre_distance(&self, least_mm: f64, help: &str) -> Cause {
+        let (key, found) = self.centre();
+        let allowed = format!("a centre distance of at least {} mm", at_least(least_mm));
+        Cause { key: key.to_owned(), found, allowed, help: help.to_owned() }
+    }
+
+    fn contact_ratio(&self, contact_ratio: f64, overlap_ratio: f64) -> Cause {
+        if overlap_ratio > 0.0 {
+            let width = number(self.spec.face_width_mm);
+            return Cause {
+                key: "pair.face_width_mm".to_owned(),
+                found: format!("{width}, transverse contact ratio {contact_ratio:.4}, overlap ratio {overlap_ratio:.4}"),
+                allowed: "contact ratios that together are at least 1, the transverse one above 0".to_owned(),
+                help: "a larger face width or helix angle raises the overlap; larger tip diameters or a smaller centre distance \
+                       raise the transverse contact ratio"
+                    .to_owned(),
+            };
+        }
+        let (key, found) = self.centre();
+        Cause {
+            key: key.to_owned(),
+            found: format!("{found}, contact ratio {contact_ratio:.4}"),
+            allowed: "a transverse contact ratio of at least 1".to_owned(),
+            help: "a smaller centre distance, larger tip diameters, more teeth or a smaller pressure angle raise it"
+                .to_owned(),
+        }
+    }
+
+    fn interference(&self, gear: Gear, greatest_tip_diameter_mm: f64) -> Cause {
+        let mate = gear.mate();
+        Cause {
+            key: match self.tip_key(mate) {
+                tip if tip.ends_with("tip_diameter_mm") => tip,
+                _ => key_of(gear, "profile_shift"),
+            },
+            found: match self.spec.gears[mate].tip_diameter_mm {
+                Some(tip_mm) => tip_found(mate, tip_mm),
+                None => format!("profile shift {}", of_file(self.spec.gears[gear].profile_shift, self.factor_scale)),
+            },
+            allowed: format!(
+                "a tip diameter of the {} of at most {} mm, which leaves the root fillet of the {} alone",
+                mate.name(),
+                at_most(greatest_tip_diameter_mm),
+                gear.name()
+            ),
+            help: format!(
+                "a smaller {}, a larger {} or more teeth on the {}",
+                key_of(mate, "tip_diameter_mm"),
+                key_of(gear, "profile_shift"),
+                gear.name()
+            ),
+        }
+    }
+
+    fn tip_clearance(&self, gear: Gear, clearance_mm: f64) -> Cause {
+        Cause {
+            key: self.tip_key(gear),
+            found: self.spec.gears[gear].tip_diameter_mm.map_or_else(|| "a tip from the rack".to_owned(), number),
+            allowed: format!(
+                "a tip diameter of at most {} mm, beyond which it reaches the root circle of the {}",
+                at_most(2.0 * (self.spec.tip_radius_mm(gear) + clearance_mm)),
+                gear.mate().name()
+            ),
+            help: "or a larger centre distance, or a larger pair.basic_rack.dedendum_factor".to_owned(),
+        }
+    }
+
+    fn rack(&self, name: &str, (found, greatest): (f64, f64), help: &str) -> Cause {
+        Cause {
+            key: format!("pair.basic_rack.{name}"),
+            found: of_file(found, self.factor_scale),
+            allowed: format!("at most {}", at_most(greatest / self.factor_scale)),
+            help: help.to_owned(),
+        }
+    }
+
+    fn too_deep(&self, gear: Gear, modification: &str, amount_mm: f64, greatest_mm: f64) -> Cause {
+        let name = match modification {
+            "helix slope deviation" if self.findings.is_in_file(&key_of(gear, "helix_slope_class")) => {
+                "helix_slope_class".to_owned()
+            }
+            crowning @ ("profile crowning" | "lead crowning" | "helix slope deviation") => {
+                format!("{}_um", crowning.replace(' ', "_"))
+            }
+            relief => format!("{}.amount_um", relief.replace(' ', "_")),
+        };
+        Cause {
+            key: key_of(gear, &name),
+            found: number(1e3 * amount_mm),
+            allowed: format!("at most {} µm, a quarter of the module", at_most(1e3 * greatest_mm)),
+            help: "amounts are in µm".to_owned(),
+        }
     }
 }
 
