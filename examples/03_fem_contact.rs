@@ -4,7 +4,8 @@
 
 use std::path::Path;
 
-use gearwear::reference::hertz_line::{HertzLine, contact_modulus_mpa};
+use gearwear::material::{Elastic, contact_modulus_mpa};
+use gearwear::reference::hertz_line::HertzLine;
 use gearwear::{LoadedScene, Unwatched};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -13,7 +14,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let problem = std::fs::read_to_string(folder.join("cylinder-on-block.toml"))?;
     let solved = gearwear::fem_problem(&problem, &folder, &Unwatched)?;
     let contact = &solved.summary.contact[0];
-    let modulus_mpa = contact_modulus_mpa([(210e3, 0.3), (70e3, 0.3)]);
+    let modulus_mpa =
+        contact_modulus_mpa([210e3, 70e3].map(|young_modulus_mpa| Elastic { young_modulus_mpa, poisson_ratio: 0.3 }));
     let hertz = HertzLine::of_relative_radius(50.0, modulus_mpa).loaded(35e3);
     println!("cylinder on block: {:.1} MPa, Hertz {:.1} MPa", contact.peak_pressure_MPa, hertz.peak_pressure_mpa);
 

@@ -113,10 +113,10 @@ mod studies;
 
 // What it calculates with, under the names of the rooms there.
 use gearwear_physics::{
-    calibration, contact, content_hash, data_table, fem, gear, gear_mesh, lubrication, mesh_cycle, observer,
+    calibration, contact, content_hash, data_table, fem, gear, gear_fem, gear_mesh, lubrication, mesh_cycle, observer,
     root_stress, simulation, stiffness, thermal, wear, whole_file,
 };
-pub use gearwear_physics::{mesh, reference, results};
+pub use gearwear_physics::{material, mesh, reference, results};
 
 #[cfg(all(test, feature = "program"))]
 #[allow(unreachable_pub, reason = "test modules are of one crate")]
@@ -194,9 +194,9 @@ pub mod error {
     pub use crate::fem::element::ElementError;
     pub use crate::fem::equilibrium::SolveError;
     pub use crate::fem::factor::FactorError;
-    pub use crate::fem::gear::{cycle::CycleError, full::FullError, in_space::SpaceError, model::ModelError};
     pub use crate::fem::space::FoldedHexahedron;
     pub use crate::gear::error::PairError;
+    pub use crate::gear_fem::{cycle::CycleError, full::FullError, in_space::SpaceError, model::ModelError};
     pub use crate::mesh_cycle::load_sharing::EquilibriumError;
     pub use crate::mesh_cycle::pair_in_space::PairInSpaceError;
     pub use crate::simulation::wear_run::SimulationError;

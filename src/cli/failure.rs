@@ -377,8 +377,8 @@ mod tests {
     use super::*;
     use crate::calibration::CalibrationError;
     use crate::fem::factor::FactorError;
-    use crate::fem::gear::model::ModelError;
     use crate::gear::Gear;
+    use crate::gear_fem::model::ModelError;
     use crate::mesh::quality::QualityError;
     use crate::stiffness::StiffnessError;
 

@@ -2,7 +2,7 @@
 //! at its key like everything else that is wrong with a scene.
 
 use crate::calibration::CalibrationError;
-use crate::fem::gear::model::ModelError;
+use crate::gear_fem::model::ModelError;
 use crate::pipeline::RunError;
 use crate::pipeline::calibrate::CalibrateError;
 use crate::pipeline::fem_scene::FemPairError;

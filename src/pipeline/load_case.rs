@@ -9,11 +9,12 @@ use crate::contact::{
     half_space::HalfSpace,
     hertz::{self, Hertz},
     hertz_mean::HertzMean,
-    settings::{Foundation, MatchCriterion, Material, SurfaceKind},
+    settings::{Foundation, MatchCriterion, SurfaceKind},
     winkler::{Winkler, WinklerFoundation},
 };
-use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::gear::{GearPair, PerGear};
+use crate::gear_fem::condensed_pair::CondensedPair;
+use crate::material::Material;
 use crate::plan::StageKind;
 use crate::scene::Scene;
 use crate::scene::loaded::NamedFiles;

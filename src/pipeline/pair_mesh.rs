@@ -6,6 +6,7 @@ use crate::gear::{Gear, GearPair, PairError, PerGear};
 use crate::gear_mesh::settings::{Body, SpaceResolution};
 use crate::gear_mesh::tooth_section::ExtrudedTooth;
 use crate::gear_mesh::{self, ToothMeshError};
+use crate::material::{Material, contact_modulus_mpa};
 use crate::mesh::quality::{self, MeshQuality, QualityError};
 use crate::mesh::{CellKind, Mesh};
 use crate::mesh_cycle::pair_in_space::PairInSpaceError;
@@ -130,7 +131,8 @@ pub(crate) fn build(scene: &Scene, position_mm: Option<f64>) -> Result<PairMesh,
         hertz::flattening(&pair, &scene.material, position_mm).contact.loaded(line_load_n_per_mm).half_width_mm
     };
     let sectors = gear_mesh::pair_sectors(&pair, &scene.fem, &half_width_mm)?;
-    let reach_mm = pair.ample_tip_reach_mm(line_load_n_per_mm, hertz::contact_modulus_mpa(&scene.material));
+    let reach_mm =
+        pair.ample_tip_reach_mm(line_load_n_per_mm, contact_modulus_mpa(scene.material.map(Material::elastic)));
     let mut fine_teeth = gear_mesh::touching_pairs(&pair, reach_mm);
     if let Body::Sector { teeth, .. } = scene.fem.body {
         fine_teeth.retain(|index| 2 * index.unsigned_abs() < teeth);

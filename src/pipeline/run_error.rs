@@ -1,8 +1,8 @@
 //! Why a run could not be made, or ended before its time.
 
 use crate::calibration::CalibrationError;
-use crate::fem::gear::model::ModelError;
 use crate::gear::PairError;
+use crate::gear_fem::model::ModelError;
 use crate::mesh_cycle::load_sharing::EquilibriumError;
 use crate::mesh_cycle::pair_in_space::PairInSpaceError;
 use crate::simulation::wear_run::SimulationError;

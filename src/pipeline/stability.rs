@@ -1,8 +1,8 @@
 //! Whether Euler's steps are short enough, asked before the first of them.
 
 use super::Model;
-use crate::contact::settings::Material;
 use crate::gear::PerGear;
+use crate::material::Material;
 use crate::observer::Observer;
 use crate::simulation::settings::Stepping;
 use crate::simulation::stability::StepBound;

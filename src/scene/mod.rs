@@ -23,11 +23,12 @@ mod text;
 mod unit_slip;
 pub(crate) mod wear_file;
 
-use crate::contact::settings::{ContactSettings, Material};
+use crate::contact::settings::ContactSettings;
 use crate::content_hash::sha256;
 use crate::gear::{PerGear, spec::PairSpec};
 use crate::gear_mesh::settings::BodySettings;
 use crate::lubrication::settings::LubricationSettings;
+use crate::material::Material;
 use crate::mesh_cycle::settings::SliceSettings;
 use crate::simulation::settings::{Numerics, Operation};
 use crate::stiffness::settings::StiffnessSettings;

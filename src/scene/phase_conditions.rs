@@ -7,12 +7,12 @@
 use std::f64::consts::TAU;
 
 use super::Scene;
-use crate::contact::settings::{Foundation, Material, SurfaceKind};
+use crate::contact::settings::{Foundation, SurfaceKind};
 use crate::contact::{foundation, hertz};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::lubrication::loss;
 use crate::lubrication::running_pair::{RunningConditions, RunningPair, SurfaceOverHertz};
-use crate::reference::hertz_line::contact_modulus_mpa;
+use crate::material::{Material, contact_modulus_mpa};
 use crate::simulation::settings::Phase;
 use crate::thermal::settings::HeatSettings;
 use crate::thermal::tooth::{ToothTemperatures, WarmGear};
@@ -39,8 +39,7 @@ impl Scene {
     /// The pair at the speed and load of `phase`, with its oil; none where nobody asks for films or losses.
     pub(crate) fn running_in<'a>(&'a self, pair: &'a GearPair, phase: &Phase) -> Option<RunningPair<'a>> {
         let material = self.material_in(phase);
-        let elastic = Gear::BOTH.map(|gear| material[gear]);
-        let modulus = contact_modulus_mpa(elastic.map(|body| (body.young_modulus_mpa, body.poisson_ratio)));
+        let modulus = contact_modulus_mpa(material.map(Material::elastic));
         let line_load_n_per_mm = pair.line_load_n_per_mm(phase.pinion_torque_n_mm);
         let conditions = RunningConditions {
             pinion_speed_rpm: phase.pinion_speed_rpm?,

@@ -14,7 +14,6 @@ use gearwear::contact::settings::MatchCriterion;
 use gearwear::contact::winkler::Winkler;
 use gearwear::contact::winkler::WinklerFoundation;
 use gearwear::contact::{ContactSurface, Flanks};
-use gearwear::fem::gear::position::WarmStart;
 use gearwear::fem::locate::locate;
 use gearwear::gear::conjugate::ConjugateFlanks;
 use gearwear::gear::modification::{Relief, ReliefShape};
@@ -23,6 +22,7 @@ use gearwear::gear::{
     Gear, GearPair, PerGear,
     flank::{FlankGrid, PointSpacing},
 };
+use gearwear::gear_fem::position::WarmStart;
 use gearwear::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides};
 use gearwear::mesh_cycle::pair_in_space::KeptInSpace;
 use gearwear::observer::Unwatched;

@@ -1,13 +1,13 @@
 //! Finite-element contact of the FZG type C pair at 302 N·m: against Hertz, against other programs, against itself.
 
 use gearwear::fem::elastic::Elastic;
-use gearwear::fem::gear::condensed_pair::CondensedPair;
-use gearwear::fem::gear::cycle::cycle;
-use gearwear::fem::gear::full;
-use gearwear::fem::gear::model::MeshedGear;
-use gearwear::fem::gear::position::{PositionContact, ToothPairContact, WarmStart};
 use gearwear::gear::spec::PairSpec;
 use gearwear::gear::{GearPair, PerGear};
+use gearwear::gear_fem::condensed_pair::CondensedPair;
+use gearwear::gear_fem::cycle::cycle;
+use gearwear::gear_fem::full;
+use gearwear::gear_fem::model::MeshedGear;
+use gearwear::gear_fem::position::{PositionContact, ToothPairContact, WarmStart};
 use gearwear::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides};
 use gearwear::reference::hertz_line::HertzLine;
 

@@ -3,8 +3,6 @@
 
 use gearwear::contact::hertz;
 use gearwear::fem::elastic::Elastic;
-use gearwear::fem::gear::condensed_pair::CondensedPair;
-use gearwear::fem::gear::position::WarmStart;
 use gearwear::gear::{
     Gear, GearPair, PerGear,
     flank::{FlankGrid, PointSpacing},
@@ -13,6 +11,8 @@ use gearwear::gear::{
     slices::Slices,
     spec::PairSpec,
 };
+use gearwear::gear_fem::condensed_pair::CondensedPair;
+use gearwear::gear_fem::position::WarmStart;
 use gearwear::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
 use gearwear::mesh_cycle::{CycleObservation, LostMaterial, MeshCycle, Work, condensed::CondensedCycle};
 use gearwear::wear::{WearModel, settings::WearSettings};

@@ -1,8 +1,8 @@
 //! Where Euler's steps break, and that adaptive ones do not.
 
 use gearwear::fem::elastic::Elastic;
-use gearwear::fem::gear::condensed_pair::CondensedPair;
 use gearwear::gear::{Gear, PerGear, flank::PointSpacing};
+use gearwear::gear_fem::condensed_pair::CondensedPair;
 use gearwear::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
 use gearwear::observer::Unwatched;
 use gearwear::simulation::mesh_contact::MeshContact;

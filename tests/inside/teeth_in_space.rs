@@ -9,11 +9,11 @@ use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use gearwear::fem::elastic::Elastic;
-use gearwear::fem::gear::in_space::{self, FlankForces, PlaneSection, TeethInSpace};
 use gearwear::fem::quadrature::GAUSS_3;
 use gearwear::gear::shaft::{EndFace, Shaft};
 use gearwear::gear::spec::{AxisParallelism, PairSpec};
 use gearwear::gear::{Gear, GearPair, PerGear};
+use gearwear::gear_fem::in_space::{self, FlankForces, PlaneSection, TeethInSpace};
 use gearwear::gear_mesh::settings::{SectionDivisions, SpaceBody, SpaceResolution, Web};
 use gearwear::gear_mesh::tooth_section::ExtrudedTooth;
 use gearwear::mesh::quality;

@@ -6,10 +6,10 @@ use gearwear::contact::{
     hertz,
     settings::MatchCriterion,
 };
-use gearwear::fem::gear::placement::{axis_mm, tooth_angle_rad};
 use gearwear::gear::{
     Gear, GearPair, conjugate::ConjugateFlanks, flank_edge::PathEnd, removed_material::tip_rounding_mm,
 };
+use gearwear::gear_fem::placement::{axis_mm, tooth_angle_rad};
 use gearwear::mesh_cycle::PositionObservation;
 use gearwear::simulation::settings::{AdaptiveMethod, Stepping};
 use gearwear::simulation::wear_run::Outcome;

@@ -9,6 +9,7 @@ use gearwear::contact::{
     winkler::{Winkler, WinklerFoundation},
 };
 use gearwear::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid, involute::TangentFramePoint};
+use gearwear::material::{Material, contact_modulus_mpa};
 use gearwear::mesh_cycle::{LineOfActionCycle, LoadingPosition, LostMaterial, MeshCycle, PairInMesh};
 use gearwear::reference::worn_cylinder::WornCylinder;
 use gearwear::wear::{WearModel, settings::WearSettings};
@@ -173,7 +174,7 @@ fn val_a_flat_wears_a_cylinder_of_elastic_half_planes() {
     let surface = HalfSpace { material: steel(), expected_line_load_n_per_mm: load };
     // Two points a cell; half-planes are stiffest against the shortest wave of cells.
     let cell = unworn / 16.0;
-    let stiffness = std::f64::consts::PI * hertz::contact_modulus_mpa(&steel()) / (2.0 * cell);
+    let stiffness = std::f64::consts::PI * contact_modulus_mpa(steel().map(Material::elastic)) / (2.0 * cell);
     let stages = wear(&surface, unworn, 7.0, 32.0, stiffness);
     assert_close("unworn", stages[0].half_width_mm, unworn, 1e-2);
     let mut late = 0;

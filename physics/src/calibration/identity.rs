@@ -7,10 +7,10 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use crate::contact::settings::Material;
 use crate::gear::modification::{Relief, ReliefShape};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides, Web};
+use crate::material::Material;
 
 /// Relative difference of two numbers below which they are the same: round-off of units.
 const SAME: f64 = 1e-9;

@@ -20,11 +20,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector2;
 
-use crate::fem::gear::flank_surface::FlankSurface;
-use crate::fem::gear::ring::{GearCompliance, ToothForce};
-use crate::fem::gear::sector::{Answer, Functional};
 use crate::fem::locate::locate;
 use crate::gear::tooth::{LoadLine, Tooth};
+use crate::gear_fem::flank_surface::FlankSurface;
+use crate::gear_fem::ring::{GearCompliance, ToothForce};
+use crate::gear_fem::sector::{Answer, Functional};
 
 /// Forces that stand for the ellipse.
 const SAMPLES: usize = 240;

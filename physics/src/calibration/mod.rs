@@ -38,10 +38,11 @@ use self::stiffness_variation::StiffnessVariation;
 use self::tooth_family::FamilyMember;
 use self::tooth_stiffness::{LoadedPair, PairDeflection};
 use self::wear_reference::WearReference;
-use crate::contact::{foundation::FoundationCurve, settings::MatchCriterion, settings::Material};
+use crate::contact::{foundation::FoundationCurve, settings::MatchCriterion};
 use crate::fem::active_set::ActiveSetError;
-use crate::fem::gear::{condensed_pair::CondensedPair, model::ModelError};
 use crate::gear::{Gear, PerGear};
+use crate::gear_fem::{condensed_pair::CondensedPair, model::ModelError};
+use crate::material::Material;
 use crate::stiffness::curve::PairCompliance;
 
 /// Positions of the stiffness curve.

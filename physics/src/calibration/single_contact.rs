@@ -27,12 +27,12 @@ use super::CalibrationError;
 use super::loaded_tooth::Inside;
 use super::tooth_stiffness::{LoadedPair, evenly};
 use crate::contact::settings::MatchCriterion;
-use crate::fem::gear::condensed_pair::CondensedPair;
-use crate::fem::gear::flank_surface::FlankSurface;
-use crate::fem::gear::position::{PositionContact, WarmStart};
-use crate::fem::gear::ring::ToothForce;
 use crate::gear::conjugate::ConjugateFlanks;
 use crate::gear::{Gear, PerGear};
+use crate::gear_fem::condensed_pair::CondensedPair;
+use crate::gear_fem::flank_surface::FlankSurface;
+use crate::gear_fem::position::{PositionContact, WarmStart};
+use crate::gear_fem::ring::ToothForce;
 
 /// Loads that the fit is made on, in units of the scene's, largest first.
 pub const FITTED_LOADS: [f64; 4] = [1.5, 1.0, 0.5, 0.25];

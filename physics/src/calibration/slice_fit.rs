@@ -25,8 +25,9 @@ use serde::{Deserialize, Serialize};
 
 use super::STIFFNESS_POSITIONS;
 use super::identity::same;
-use crate::contact::{half_space::HalfSpace, hertz, settings::Material};
+use crate::contact::{half_space::HalfSpace, hertz};
 use crate::gear::{GearPair, PerGear, slices::Slices};
+use crate::material::Material;
 use crate::mesh_cycle::pair_in_space::PairInSpace;
 use crate::mesh_cycle::slice_coupling::{Factors, Reach, SliceCompliance};
 use crate::mesh_cycle::sliced::SpringAlongPath;

@@ -22,11 +22,12 @@ use serde::{Deserialize, Serialize};
 
 use super::CalibrationError;
 use super::loaded_tooth::LoadedTooth;
-use crate::contact::{hertz, settings::Material};
-use crate::fem::gear::condensed_pair::CondensedPair;
-use crate::fem::gear::ring::ToothForce;
+use crate::contact::hertz;
 use crate::gear::flank_edge::PathEnd;
 use crate::gear::{Gear, GearPair, PerGear};
+use crate::gear_fem::condensed_pair::CondensedPair;
+use crate::gear_fem::ring::ToothForce;
+use crate::material::{Material, contact_modulus_mpa};
 use crate::reference::flattening::Flattening;
 use crate::stiffness::curve::{PairCompliance, StandsFor};
 use crate::stiffness::weber_banaschek::ToothCompliance;
@@ -249,7 +250,7 @@ impl<'a> LoadedPair<'a> {
             inner = deflections.iter().map(teeth).collect();
         }
         let path = &self.pair.path;
-        let contact_modulus_mpa = hertz::contact_modulus_mpa(&self.material);
+        let contact_modulus_mpa = contact_modulus_mpa(self.material.map(Material::elastic));
         let [before, after] = self.pair.ample_tip_reach_mm(GREATEST_LOAD * line_load_n_per_mm, contact_modulus_mpa);
         let edge_mm = |end| self.pair.edge_position_mm(end);
         let mut points = self.continued(inner[0], edge_mm(PathEnd::Start), path.start_mm - before);

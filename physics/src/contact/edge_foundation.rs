@@ -28,10 +28,11 @@ use super::elastic_cells::ElasticCells;
 use super::foundation::{FoundationCurve, FoundationStiffness, matched_mpa_per_mm, mean_positive};
 use super::hertz;
 use super::pressure_field::PressureField;
-use super::settings::{MatchCriterion, Material};
+use super::settings::MatchCriterion;
 use super::strip::{common_extent_mm, nearest_mm};
 use crate::gear::flank_edge::PathEnd;
 use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, removed_material::tip_rounding_mm};
+use crate::material::{Material, contact_modulus_mpa};
 use crate::reference::half_plane::cell_compliance_mm_per_mpa;
 
 /// Greatest load, over the whole one.
@@ -91,7 +92,7 @@ impl EdgeFoundations {
         criterion: MatchCriterion,
         approach: &FoundationCurve,
     ) -> Self {
-        let contact_modulus_mpa = hertz::contact_modulus_mpa(material);
+        let contact_modulus_mpa = contact_modulus_mpa(material.map(Material::elastic));
         let [before, after] = pair.ample_tip_reach_mm(line_load_n_per_mm, contact_modulus_mpa);
         let ends = [(PathEnd::Start, pair.path.start_mm - before), (PathEnd::End, pair.path.end_mm + after)];
         let ends = ends.map(|(end, last_mm)| {

@@ -190,15 +190,17 @@ fn solved(factor: &Llt<f64>, side: impl ExactSizeIterator<Item = f64>) -> Vec<f6
 mod tests {
     use super::*;
     use crate::contact::pressure_field::PressureField;
+    use crate::fem::elastic::Elastic;
     use crate::reference::{
-        flattening::{Body, Flattening},
+        flattening::{Flattening, HalfPlane},
         half_plane::cell_compliance_mm_per_mpa,
         hertz_line::{HertzLine, LineContact},
     };
 
     /// FZG type C at the pitch point, 302 N·m, the bodies so deep that the half-planes' own curvature is all there is.
     fn hertz(indentation_mm: f64) -> (Flattening, f64, LineContact) {
-        let body = Body { young_modulus_mpa: 206e3, poisson_ratio: 0.3, depth_mm: indentation_mm };
+        let elastic = Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 };
+        let body = HalfPlane { elastic, depth_mm: indentation_mm };
         let contact = HertzLine::new([13.9701, 20.9551], 206e3 / 0.91 / 2.0).unwrap();
         (Flattening { contact, bodies: [body; 2] }, 637.66, contact.loaded(637.66))
     }

@@ -175,12 +175,14 @@ pub(super) fn mean_positive([u0, u1]: [f64; 2]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reference::{flattening::Body, hertz_line::HertzLine};
+    use crate::fem::elastic::Elastic;
+    use crate::reference::{flattening::HalfPlane, hertz_line::HertzLine};
 
     /// Each criterion holds, checked through the foundation's own closed form.
     #[test]
     fn ver_each_match_meets_hertz_in_its_respect() {
-        let body = Body { young_modulus_mpa: 206e3, poisson_ratio: 0.3, depth_mm: 3.9 };
+        let elastic = Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 };
+        let body = HalfPlane { elastic, depth_mm: 3.9 };
         let modulus = 206e3 / 0.91 / 2.0;
         let hertz = Flattening { contact: HertzLine::new([13.97, 20.96], modulus).unwrap(), bodies: [body; 2] };
         let (w, radius) = (637.66, hertz.contact.relative_radius_mm());

@@ -30,11 +30,11 @@ use super::{
     elastic_cells::ElasticCells,
     growing_window::{GrowingWindow, Sampled},
     hertz,
-    settings::Material,
     strip::{Strip, Window, gaps_beside_mm, least_removed_mm, point_distance_mm},
     swept_field::SweptField,
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use crate::material::Material;
 use crate::reference::{
     flattening::Flattening,
     half_plane::{cell_compliance_at_mm_per_mpa, cell_compliance_mm_per_mpa},

@@ -21,13 +21,12 @@ use super::{
     ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, PressedCell, Response, Sweep,
     growing_window::{GrowingWindow, Sampled},
     observed_points::ObservedPoints,
-    settings::Material,
     strip::Window,
 };
-use crate::fem::elastic;
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use crate::material::{Material, contact_modulus_mpa};
 use crate::reference::{
-    flattening::{Body, Flattening},
+    flattening::{Flattening, HalfPlane},
     hertz_line::HertzLine,
 };
 
@@ -40,18 +39,15 @@ pub struct Hertz {
     pub expected_line_load_n_per_mm: f64,
 }
 
-/// Contact modulus E* of both gears.
-pub fn contact_modulus_mpa(material: &PerGear<Material>) -> f64 {
-    elastic::contact_modulus_mpa(&material.map(Material::elastic))
-}
-
 /// The closed-form contact of two flanks at `position_mm`, flattening measured to the teeth's centre lines.
 pub fn flattening(geometry: &dyn ConjugateFlanks, material: &PerGear<Material>, position_mm: f64) -> Flattening {
     Flattening {
-        contact: HertzLine::of_relative_radius(geometry.relative_radius_mm(position_mm), contact_modulus_mpa(material)),
-        bodies: Gear::BOTH.map(|gear| Body {
-            young_modulus_mpa: material[gear].young_modulus_mpa,
-            poisson_ratio: material[gear].poisson_ratio,
+        contact: HertzLine::of_relative_radius(
+            geometry.relative_radius_mm(position_mm),
+            contact_modulus_mpa(material.map(Material::elastic)),
+        ),
+        bodies: Gear::BOTH.map(|gear| HalfPlane {
+            elastic: material[gear].elastic(),
             depth_mm: geometry.depth_mm(gear, position_mm),
         }),
     }

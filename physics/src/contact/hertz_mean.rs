@@ -15,9 +15,10 @@
 
 use super::{
     ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, PressedCell, Response, Sweep,
-    hertz::ClosedFormPair, settings::Material,
+    hertz::ClosedFormPair,
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use crate::material::Material;
 
 /// Hertz's mean pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,5 @@
 //! What is asked of the contact surface.
 
-use crate::fem::elastic::Elastic;
 use serde::{Deserialize, Serialize};
 
 /// The model of the surfaces in contact, from cheap to true.
@@ -90,30 +89,4 @@ pub struct ContactSettings {
     /// Whether a tip edge is followed into contact before A and after E by the surfaces that know the real gap
     /// (`winkler`, `half-space`); `fem` always does.
     pub tip_contact: bool,
-}
-
-/// Linear elastic, isotropic material of one gear.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Material {
-    /// Young's modulus E, MPa.
-    pub young_modulus_mpa: f64,
-    /// Poisson's ratio ν.
-    pub poisson_ratio: f64,
-    /// Density, kg/m³; used for the worn mass.
-    pub density_kg_per_m3: f64,
-}
-
-/// Metals are stiffer, plastics softer, those filled with glass too, MPa.
-const STIFFEST_PLASTIC_MPA: f64 = 25e3;
-
-impl Material {
-    /// Whether it is so soft that it must be a plastic.
-    pub fn is_plastic(self) -> bool {
-        self.young_modulus_mpa < STIFFEST_PLASTIC_MPA
-    }
-
-    /// The elastic constants alone.
-    pub fn elastic(self) -> Elastic {
-        Elastic { young_modulus_mpa: self.young_modulus_mpa, poisson_ratio: self.poisson_ratio }
-    }
 }

@@ -428,12 +428,12 @@ pub(super) mod tests {
     use super::*;
     use crate::contact::ContactSurface;
     use crate::contact::half_space::HalfSpace;
-    use crate::contact::settings::Material;
     use crate::contact::winkler::{Winkler, WinklerFoundation};
     use crate::gear::GearPair;
     use crate::gear::flank::PointSpacing;
     use crate::gear::modification::Modification;
     use crate::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
+    use crate::material::Material;
 
     /// The plastic pair of `validation/plastic-ridge`, whose contact reaches the wheel's root form circle.
     fn pair() -> GearPair {

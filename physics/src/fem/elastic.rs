@@ -9,9 +9,6 @@
 
 use nalgebra::Matrix3;
 
-use crate::gear::{Gear, PerGear};
-use crate::reference::hertz_line;
-
 /// What the direction across the plane does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Analysis {
@@ -31,13 +28,6 @@ pub struct Elastic {
     pub poisson_ratio: f64,
 }
 
-/// Contact modulus E* of two gears, MPa: 1/E* = Σ (1 − ν²)/E.
-pub fn contact_modulus_mpa(material: &PerGear<Elastic>) -> f64 {
-    hertz_line::contact_modulus_mpa(
-        Gear::BOTH.map(|gear| (material[gear].young_modulus_mpa, material[gear].poisson_ratio)),
-    )
-}
-
 impl Elastic {
     /// D with σ = D ε for σ = (σ_x, σ_y, τ_xy) and ε = (ε_x, ε_y, γ_xy), MPa.
     pub fn stiffness_mpa(&self, analysis: Analysis) -> Matrix3<f64> {
@@ -50,6 +40,14 @@ impl Elastic {
             Analysis::PlaneStress => {
                 Matrix3::new(1.0, nu, 0.0, nu, 1.0, 0.0, 0.0, 0.0, 0.5 * (1.0 - nu)) * (e / (1.0 - nu * nu))
             }
+        }
+    }
+
+    /// How far a half-plane yields to pressure on it, but for lengths: (1 − ν²)/E in plane strain, 1/E in plane stress, 1/MPa.
+    pub fn surface_compliance_per_mpa(&self, analysis: Analysis) -> f64 {
+        match analysis {
+            Analysis::PlaneStrain => (1.0 - self.poisson_ratio.powi(2)) / self.young_modulus_mpa,
+            Analysis::PlaneStress => 1.0 / self.young_modulus_mpa,
         }
     }
 

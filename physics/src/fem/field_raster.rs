@@ -2,7 +2,6 @@
 //! and the sides of the elements there.
 
 use super::solid::{Element, ElementKind};
-use crate::reference::statistics::extent;
 
 /// Squares of a raster.
 const SQUARES: f64 = 60_000.0;
@@ -28,7 +27,8 @@ impl Window {
     /// Around all `points_mm`, with a little room.
     pub fn around(points_mm: &[[f64; 2]]) -> Self {
         let [x_mm, y_mm] = [0, 1].map(|axis| {
-            let [low, high] = extent(points_mm.iter().map(|p| p[axis]));
+            let along = || points_mm.iter().map(|p| p[axis]);
+            let (low, high) = (along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max));
             let room = 0.02 * (high - low).abs();
             [low - room, high + room]
         });

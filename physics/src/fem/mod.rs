@@ -9,7 +9,6 @@ mod enhanced_quad;
 pub mod equilibrium;
 pub mod factor;
 pub mod field_raster;
-pub mod gear;
 pub mod loads;
 pub mod locate;
 pub mod nodal_fields;

@@ -63,6 +63,13 @@ impl<T> PerGear<T> {
     }
 }
 
+impl<T> From<PerGear<T>> for [T; 2] {
+    /// The pinion's, then the wheel's.
+    fn from(of: PerGear<T>) -> Self {
+        [of.pinion, of.wheel]
+    }
+}
+
 impl<T: Send> PerGear<T> {
     /// What `of` makes of each gear, of both at the same time where there are threads for it.
     ///

@@ -1,12 +1,12 @@
 //! The mesh cycle on the finite-element model: both gears condensed onto their flanks, contact found from their true, worn profiles.
 //!
-//! All tooth pairs at a position are in one complementarity problem, coupled through the gear bodies ([`crate::fem::gear`]),
+//! All tooth pairs at a position are in one complementarity problem, coupled through the gear bodies ([`crate::gear_fem`]),
 //! and touch wherever their profiles do, also before A and after E, where a tip edge meets its mate outside the line of
 //! action. As every tooth of a gear wears alike, the positions of one base pitch tell all: the pairs found there, each at its
 //! own place of the path, together are one tooth pair over its whole mesh.
 //!
 //! What wears are the nodes of both flanks: the load of every multiplier reaches those that it faces while the contact moves on
-//! ([`crate::fem::gear::load_transfer`]). Positions are closer together where a tip edge touches, about A and E, for there the contact is
+//! ([`crate::gear_fem::load_transfer`]). Positions are closer together where a tip edge touches, about A and E, for there the contact is
 //! narrow, stands still on the edge and runs along the mate; where the number of pairs changes, about B and D, they are closer by that, for
 //! a base pitch leads from A to D and from B to E.
 //!
@@ -22,13 +22,13 @@ use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle,
 use crate::contact::Footprint;
 use crate::contact::flank_pressure::PressureFigures;
 use crate::fem::active_set::Equilibrium;
-use crate::fem::gear::condensed_pair::CondensedPair;
-use crate::fem::gear::condensed_pair::hertz_half_width_mm;
-use crate::fem::gear::flank_nodes::{FlankNodes, Weights};
-use crate::fem::gear::load_transfer::LoadTransfer;
-use crate::fem::gear::prepared::Prepared;
-use crate::fem::gear::tilted::Worn;
 use crate::gear::{Gear, PerGear, flank_zones::FlankZones};
+use crate::gear_fem::condensed_pair::CondensedPair;
+use crate::gear_fem::condensed_pair::hertz_half_width_mm;
+use crate::gear_fem::flank_nodes::{FlankNodes, Weights};
+use crate::gear_fem::load_transfer::LoadTransfer;
+use crate::gear_fem::prepared::Prepared;
+use crate::gear_fem::tilted::Worn;
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::reference::{linear_means::value_at, monotone_cubic::MonotoneCubic};
 use crate::wear::{SlidingRow, WearModel};

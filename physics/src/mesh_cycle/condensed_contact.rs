@@ -2,14 +2,14 @@
 
 use crate::contact::PressedCell;
 use crate::contact::flank_pressure::ContactParts;
-use crate::fem::gear::condensed_pair::CondensedPair;
-use crate::fem::gear::flank_nodes::Weights;
-use crate::fem::gear::load_transfer::LoadTransfer;
 use crate::gear::{
     Gear, PerGear,
     conjugate::ConjugateFlanks,
     flank_zones::{FlankZone, FlankZones},
 };
+use crate::gear_fem::condensed_pair::CondensedPair;
+use crate::gear_fem::flank_nodes::Weights;
+use crate::gear_fem::load_transfer::LoadTransfer;
 use crate::reference::linear_means::weighted_sum;
 use crate::thermal::{ContactHeat, HeatedStrip, SpeedRatios};
 use crate::wear::{

@@ -6,7 +6,7 @@
 //! u = Tᵀ (U + S g S b) T w          g = (q − q°)/cos β_b
 //! ```
 //!
-//! U is the compliance of both gears in three-dimensional finite elements ([`crate::fem::gear::in_space`]): bending, shear, bodies,
+//! U is the compliance of both gears in three-dimensional finite elements ([`crate::gear_fem::in_space`]): bending, shear, bodies,
 //! neighbouring teeth and free end faces, under loads along the pieces of a line of contact in halves of layers of elements. T brings loads of
 //! slices onto those halves, and their deflections back ([`super::half_layers`]): what elements see of a load depends on where in one it lies, and
 //! only halves are alike. The elements are too coarse for what happens close to a line of contact. There, a slice is in
@@ -26,14 +26,15 @@ use super::half_layers::HalfLayers;
 use super::influence::Influence;
 use super::sliced_positions::{ContactPart, SliceContact};
 use crate::contact::PositionCell;
-use crate::fem::elastic::{self, Elastic};
-use crate::fem::gear::in_space::{DeformedTooth, FlankForces, PlaneSection, SpaceError, TeethInSpace};
+use crate::fem::elastic::Elastic;
 use crate::fem::quadrature::GAUSS_3;
 use crate::gear::{Gear, GearPair, PerGear, normal_section::Obliquity, slices::Slices, spec::PairSpec};
+use crate::gear_fem::in_space::{DeformedTooth, FlankForces, PlaneSection, SpaceError, TeethInSpace};
 use crate::gear_mesh::{
     settings::{SpaceBody, SpaceResolution},
     tooth_section::ExtrudedTooth,
 };
+use crate::material::contact_modulus_mpa;
 
 /// Why a pair has no teeth in space.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -111,7 +112,7 @@ impl KeptInSpace {
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let resolution = SpaceResolution::of_slices(slices);
         let layers = resolution.even_layers(&pair.spec);
-        let reach_mm = pair.ample_tip_reach_mm(line_load_n_per_mm, elastic::contact_modulus_mpa(&material));
+        let reach_mm = pair.ample_tip_reach_mm(line_load_n_per_mm, contact_modulus_mpa(material));
         let together = [layers, teeth_together(pair, reach_mm)];
         let of = (pair.spec.on_rigid_parallel_shafts(), material, bodies, together);
         if let Some(Kept { teeth, .. }) = kept.as_ref().filter(|kept| kept.of == of) {

@@ -10,8 +10,8 @@ use super::settings::{Coupling, SliceSettings};
 use super::slice_coupling::{Reach, SliceCompliance, SliceCoupling};
 use super::sliced::SpringAlongPath;
 use super::sliced_positions::SliceContact;
-use crate::contact::settings::Material;
 use crate::gear::{Gear, GearPair, PerGear, slices::Slices};
+use crate::material::Material;
 
 /// The slices of a pair, and how they hold each other.
 #[derive(Clone)]

@@ -15,16 +15,22 @@
 use std::f64::consts::PI;
 
 use super::hertz_line::HertzLine;
+use crate::fem::elastic::{Analysis, Elastic};
 
-/// One body: elastic constants and depth of the reference point.
+/// One body, a half-plane in plane strain: elastic constants and depth of the reference point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Body {
-    /// E, MPa.
-    pub young_modulus_mpa: f64,
-    /// ν.
-    pub poisson_ratio: f64,
+pub struct HalfPlane {
+    /// E and ν.
+    pub elastic: Elastic,
     /// t, mm.
     pub depth_mm: f64,
+}
+
+impl HalfPlane {
+    /// 2 (1 − ν²)/(π E), mm²/N: the factor of the displacements under a line load.
+    pub(crate) fn factor_mm2_per_n(&self) -> f64 {
+        2.0 / PI * self.elastic.surface_compliance_per_mpa(Analysis::PlaneStrain)
+    }
 }
 
 /// Flattening of both bodies of a Hertzian line contact.
@@ -33,7 +39,7 @@ pub struct Flattening {
     /// The contact.
     pub contact: HertzLine,
     /// The bodies.
-    pub bodies: [Body; 2],
+    pub bodies: [HalfPlane; 2],
 }
 
 impl Flattening {
@@ -53,9 +59,9 @@ impl Flattening {
         let a = self.contact.loaded(w).half_width_mm;
         let (mut approach, mut compliance) = (0.0, 0.0);
         for body in &self.bodies {
-            let (t, nu) = (body.depth_mm, body.poisson_ratio);
+            let (t, nu) = (body.depth_mm, body.elastic.poisson_ratio);
             let root = t.hypot(a);
-            let factor = 2.0 / PI * (1.0 - nu * nu) / body.young_modulus_mpa;
+            let factor = body.factor_mm2_per_n();
             let bracket = (t / a).asinh() - nu / (1.0 - nu) * t / (root + t);
             // a · d(bracket)/da = −t/√(t²+a²) + ν/(1−ν) · t a² / (√(t²+a²) (√(t²+a²)+t)²)
             let a_slope = -t / root + nu / (1.0 - nu) * t * a * a / (root * (root + t).powi(2));
@@ -85,12 +91,8 @@ impl Flattening {
 
     /// A load that gives about `approach_mm`: with the bracket of δ at t/a = 30.
     fn start_load(&self, approach_mm: f64) -> f64 {
-        let compliance: f64 = self
-            .bodies
-            .iter()
-            .map(|b| 2.0 / PI * (1.0 - b.poisson_ratio.powi(2)) / b.young_modulus_mpa * 30f64.asinh())
-            .sum();
-        approach_mm / compliance
+        let compliance: f64 = self.bodies.iter().map(HalfPlane::factor_mm2_per_n).sum();
+        approach_mm / (compliance * 30f64.asinh())
     }
 }
 
@@ -100,7 +102,8 @@ mod tests {
 
     fn fzg_c_at_the_pitch_point() -> Flattening {
         // Depths of the FZG type C teeth at C along the line of action: about half the tooth thickness.
-        let body = |depth_mm| Body { young_modulus_mpa: 206e3, poisson_ratio: 0.3, depth_mm };
+        let elastic = Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 };
+        let body = |depth_mm| HalfPlane { elastic, depth_mm };
         let modulus = 206e3 / (1.0 - 0.09) / 2.0;
         Flattening { contact: HertzLine::new([13.9701, 20.9551], modulus).unwrap(), bodies: [body(3.9), body(3.9)] }
     }

@@ -20,44 +20,43 @@
 //!
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), sections 2.3 and 2.5.
 
-use std::f64::consts::PI;
-
-use super::flattening::Body;
+use super::flattening::HalfPlane;
 
 /// How far both of two half-planes together yield, at distance `k` · `width_mm` from the centre of a cell of that width under
 /// unit pressure, mm/MPa, for k = 0 … `count` − 1.
-pub(crate) fn cell_compliance_mm_per_mpa(bodies: &[Body; 2], width_mm: f64, count: usize) -> Vec<f64> {
+pub(crate) fn cell_compliance_mm_per_mpa(bodies: &[HalfPlane; 2], width_mm: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| cell_compliance_at_mm_per_mpa(bodies, width_mm, k as f64 * width_mm)).collect()
 }
 
 /// The same at any distance from the centre.
-pub(crate) fn cell_compliance_at_mm_per_mpa(bodies: &[Body; 2], width_mm: f64, distance_mm: f64) -> f64 {
+pub(crate) fn cell_compliance_at_mm_per_mpa(bodies: &[HalfPlane; 2], width_mm: f64, distance_mm: f64) -> f64 {
     let primitive = |x: f64| bodies.iter().map(|body| line_load_primitive(body, x)).sum::<f64>();
     primitive(distance_mm + 0.5 * width_mm) - primitive(distance_mm - 0.5 * width_mm)
 }
 
 /// ∫ G from 0 to `x_mm` of one body, mm² per N/mm.
-fn line_load_primitive(body: &Body, x_mm: f64) -> f64 {
-    let (t, nu) = (body.depth_mm, body.poisson_ratio);
-    let factor = 2.0 * (1.0 - nu * nu) / (PI * body.young_modulus_mpa);
+fn line_load_primitive(body: &HalfPlane, x_mm: f64) -> f64 {
+    let (t, nu) = (body.depth_mm, body.elastic.poisson_ratio);
     let logarithm = if x_mm == 0.0 { 0.0 } else { x_mm * (x_mm.hypot(t) / x_mm.abs()).ln() };
-    factor * (logarithm + t * (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu)) * (x_mm / t).atan())
+    body.factor_mm2_per_n() * (logarithm + t * (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu)) * (x_mm / t).atan())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fem::elastic::Elastic;
+    use crate::material::contact_modulus_mpa;
     use crate::reference::{flattening::Flattening, hertz_line::HertzLine};
 
-    const BODIES: [Body; 2] = [
-        Body { young_modulus_mpa: 206e3, poisson_ratio: 0.3, depth_mm: 3.9 },
-        Body { young_modulus_mpa: 70e3, poisson_ratio: 0.33, depth_mm: 2.1 },
+    const BODIES: [HalfPlane; 2] = [
+        HalfPlane { elastic: Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 }, depth_mm: 3.9 },
+        HalfPlane { elastic: Elastic { young_modulus_mpa: 70e3, poisson_ratio: 0.33 }, depth_mm: 2.1 },
     ];
 
     /// Under Hertz's ellipse the middle yields by the closed-form flattening: 4000 cells of the ellipse's mean pressure.
     #[test]
     fn ver_hertzs_ellipse_yields_the_closed_form_flattening() {
-        let modulus = 1.0 / BODIES.map(|b| (1.0 - b.poisson_ratio.powi(2)) / b.young_modulus_mpa).iter().sum::<f64>();
+        let modulus = contact_modulus_mpa(BODIES.map(|body| body.elastic));
         let hertz = Flattening { contact: HertzLine::new([13.97, 20.96], modulus).unwrap(), bodies: BODIES };
         let strip = hertz.contact.loaded(637.66);
         let half_cells = 2000;
@@ -77,9 +76,9 @@ mod tests {
         let kernel: f64 = BODIES
             .iter()
             .map(|b| {
-                let (x, t, nu) = (k as f64 * width, b.depth_mm, b.poisson_ratio);
+                let (x, t, nu) = (k as f64 * width, b.depth_mm, b.elastic.poisson_ratio);
                 let bracket = (x.hypot(t) / x).ln() - t * t / (2.0 * (1.0 - nu) * (x * x + t * t));
-                2.0 * (1.0 - nu * nu) / (PI * b.young_modulus_mpa) * bracket
+                2.0 * (1.0 - nu * nu) / (std::f64::consts::PI * b.elastic.young_modulus_mpa) * bracket
             })
             .sum();
         assert!((cell / (kernel * width) - 1.0).abs() < 1e-6);

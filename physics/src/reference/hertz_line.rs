@@ -25,12 +25,6 @@ pub enum HertzError {
 /// Greatest over mean pressure of a line contact, whose pressure is an ellipse.
 pub const PEAK_OVER_MEAN: f64 = 4.0 / std::f64::consts::PI;
 
-/// Contact modulus E* of two bodies with Young's modulus E in MPa and Poisson's ratio ν each: 1/E* = (1 − ν1²)/E1 + (1 − ν2²)/E2.
-pub fn contact_modulus_mpa(bodies: [(f64, f64); 2]) -> f64 {
-    let [one, two] = bodies.map(|(young_modulus_mpa, poisson_ratio)| (1.0 - poisson_ratio.powi(2)) / young_modulus_mpa);
-    1.0 / (one + two)
-}
-
 /// One line contact: geometry and stiffness, without load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HertzLine {

@@ -2,9 +2,10 @@
 
 use super::settings::Numerics;
 use crate::contact::flank_pressure::FlankParts;
-use crate::contact::{ContactSurface, Effort, Flanks, settings::Material};
-use crate::fem::gear::condensed_pair::CondensedPair;
+use crate::contact::{ContactSurface, Effort, Flanks};
 use crate::gear::{GearPair, PerGear, flank_zones::FlankZones, slices::Slices};
+use crate::gear_fem::condensed_pair::CondensedPair;
+use crate::material::Material;
 use crate::mesh_cycle::simplified::{SimplifiedPair, exact::SlicesInSeries};
 use crate::mesh_cycle::wearing_pair::{OnFlankNodes, OnFlankPoints, WearingPair};
 use crate::mesh_cycle::{

@@ -38,8 +38,9 @@ pub mod iso6336;
 pub mod settings;
 pub mod weber_banaschek;
 
-use crate::contact::{ContactSurface, hertz, settings::Material};
+use crate::contact::{ContactSurface, hertz};
 use crate::gear::{GearPair, PerGear, normal_section::Obliquity};
+use crate::material::Material;
 use curve::{PairCompliance, StandsFor};
 use settings::StiffnessSettings;
 use weber_banaschek::ToothCompliance;

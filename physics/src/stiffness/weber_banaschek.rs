@@ -18,9 +18,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Rotation2, Vector2};
 
-use crate::contact::settings::Material;
 use crate::gear::half_profile::{half_profile, in_tooth_frame};
 use crate::gear::tooth::{LoadLine, Tooth};
+use crate::material::Material;
 
 /// Samples of the profile on fillet and flank each; the trapezoidal rule is then exact to about 1e-6.
 const SAMPLES: usize = 1500;

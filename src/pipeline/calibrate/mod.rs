@@ -14,11 +14,11 @@ use crate::calibration::{
     Calibration, CalibrationError, STIFFNESS_POSITIONS, foundation_fit, single_contact, slice_fit, stiffness_variation,
     tooth_family,
 };
-use crate::contact::settings::Material;
-use crate::fem::gear::{condensed_pair::CondensedPair, model::much_memory};
 use crate::gear::modification::Modification;
 use crate::gear::{Gear, GearPair, PairError};
+use crate::gear_fem::{condensed_pair::CondensedPair, model::much_memory};
 use crate::gear_mesh::settings::Body;
+use crate::material::Material;
 use crate::mesh_cycle::load_sharing::EquilibriumError;
 use crate::mesh_cycle::pair_in_space::KeptInSpace;
 use crate::observer::Observer;

@@ -2,11 +2,11 @@
 
 use super::CalibrateError;
 use crate::calibration::wear_reference::{FLANK_POINTS, FlankWear, LOADS, POSITIONS, WearReference};
-use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::gear::{
     Gear, PerGear,
     flank::{FlankGrid, PointSpacing},
 };
+use crate::gear_fem::condensed_pair::CondensedPair;
 use crate::mesh_cycle::condensed::CondensedCycle;
 use crate::mesh_cycle::load_sharing::EquilibriumError;
 use crate::mesh_cycle::{LostMaterial, MeshCycle};

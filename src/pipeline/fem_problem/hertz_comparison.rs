@@ -13,7 +13,7 @@
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
-use crate::fem::elastic::{Analysis, Elastic};
+use crate::fem::elastic::Elastic;
 use crate::fem::problem::{ContactPair, Edge, Problem};
 use crate::reference::hertz_line::HertzLine;
 use crate::results::fem_problem::HertzSummary;
@@ -115,13 +115,10 @@ fn arc(problem: &Problem, edges: &[Edge], patch: Patch) -> Option<Arc> {
 
 /// E*, MPa: 1/E* = Σ (1 − ν²)/E in plane strain, Σ 1/E in plane stress.
 fn contact_modulus_mpa(problem: &Problem, pair: &ContactPair, patch: Patch) -> Option<f64> {
-    let compliance = |material: &Elastic| match problem.analysis {
-        Analysis::PlaneStrain => (1.0 - material.poisson_ratio.powi(2)) / material.young_modulus_mpa,
-        Analysis::PlaneStress => 1.0 / material.young_modulus_mpa,
-    };
     let slave = material(problem, &pair.slave, patch)?;
     let master = material(problem, &pair.master, patch)?;
-    Some(1.0 / (compliance(slave) + compliance(master)))
+    let [one, other] = [slave, master].map(|body| body.surface_compliance_per_mpa(problem.analysis));
+    Some(1.0 / (one + other))
 }
 
 /// The material behind the edge nearest to the contact.

@@ -7,13 +7,13 @@ use nalgebra::{Rotation2, Vector2};
 
 use crate::fem::elastic::{Analysis, Elastic};
 use crate::fem::element::ElementError;
-use crate::fem::gear::condensed_pair::CondensedPair;
-use crate::fem::gear::model::{MeshedGear, solid};
-use crate::fem::gear::placement::{in_place_mm, tooth_angle_rad};
-use crate::fem::gear::position::PositionContact;
 use crate::fem::solid::{Element, Solid};
 use crate::fem::stress::StressRecovery;
 use crate::gear::{Gear, PerGear};
+use crate::gear_fem::condensed_pair::CondensedPair;
+use crate::gear_fem::model::{MeshedGear, solid};
+use crate::gear_fem::placement::{in_place_mm, tooth_angle_rad};
+use crate::gear_fem::position::PositionContact;
 use crate::results::fem_pair::{ContactPlace, PairSolution};
 use crate::results::fem_problem::NodalStress;
 

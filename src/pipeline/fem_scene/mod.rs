@@ -1,6 +1,6 @@
 //! Carries out finite-element contact of a scene's gear pair: mesh, condense, solve the positions, record.
 //!
-//! Each gear is factorised and condensed once; a position then is a small contact problem ([`crate::fem::gear`]). The
+//! Each gear is factorised and condensed once; a position then is a small contact problem ([`crate::gear_fem`]). The
 //! positions are solved in batches of fixed size, so that progress is told and an interrupt heard between them without
 //! any effect on the results.
 
@@ -12,15 +12,15 @@ use std::time::Instant;
 
 use self::whole::WholeModel;
 
-use crate::contact::settings::Material;
 use crate::fem::element::ElementError;
-use crate::fem::gear::condensed_pair::CondensedPair;
-use crate::fem::gear::cycle::{CycleError, cycle};
-use crate::fem::gear::full::FullError;
-use crate::fem::gear::model::{MeshedGear, ModelError, much_memory};
-use crate::fem::gear::position::PositionContact;
 use crate::gear::path_of_contact::PathOfContact;
 use crate::gear::{Gear, GearPair, PairError, PerGear};
+use crate::gear_fem::condensed_pair::CondensedPair;
+use crate::gear_fem::cycle::{CycleError, cycle};
+use crate::gear_fem::full::FullError;
+use crate::gear_fem::model::{MeshedGear, ModelError, much_memory};
+use crate::gear_fem::position::PositionContact;
+use crate::material::Material;
 use crate::mesh::quality::QualityError;
 use crate::observer::Observer;
 use crate::pipeline::Done;

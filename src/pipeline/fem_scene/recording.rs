@@ -2,11 +2,11 @@
 
 use super::{FemPairError, Solved};
 use crate::contact::hertz::flattening;
-use crate::fem::gear::condensed_pair::CondensedPair;
-use crate::fem::gear::model::{MeshedGear, solid};
-use crate::fem::gear::position::{PositionContact, ToothPairContact};
-use crate::fem::gear::ring::Surroundings;
 use crate::gear::{Gear, GearPair, PerGear};
+use crate::gear_fem::condensed_pair::CondensedPair;
+use crate::gear_fem::model::{MeshedGear, solid};
+use crate::gear_fem::position::{PositionContact, ToothPairContact};
+use crate::gear_fem::ring::Surroundings;
 use crate::gear_mesh::ToothSector;
 use crate::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides, default_clamp};
 use crate::mesh::quality::{self, MeshQuality};

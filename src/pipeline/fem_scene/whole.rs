@@ -4,10 +4,10 @@ use std::time::Instant;
 
 use super::FemPairError;
 use crate::fem::elastic::Elastic;
-use crate::fem::gear::full;
-use crate::fem::gear::model::MeshedGear;
-use crate::fem::gear::position::PositionContact;
 use crate::gear::{GearPair, PerGear};
+use crate::gear_fem::full;
+use crate::gear_fem::model::MeshedGear;
+use crate::gear_fem::position::PositionContact;
 use crate::pipeline::UM_PER_MM;
 use crate::results::fem_pair::FullModelSummary;
 

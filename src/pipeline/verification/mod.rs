@@ -1,7 +1,7 @@
 //! The same life on finite elements: how far the run is from what vouches for it.
 //!
 //! Both gears are meshed with few elements and condensed, and the same operation wears their flanks by the same law in adaptive steps.
-//! Wear handed over conservatively ([`crate::fem::gear::load_transfer`]) needs no more: on the pairs of the case `verified-pairs` this life is within
+//! Wear handed over conservatively ([`crate::gear_fem::load_transfer`]) needs no more: on the pairs of the case `verified-pairs` this life is within
 //! its stated uncertainty of one on elements, positions and steps four times as fine (docs/accuracy.md). The whole life is run and not a part of it, for worn
 //! flanks that fit one surface do not fit another, and what a short run says of a long one swings with its steps.
 //!
@@ -24,10 +24,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::Model;
 use super::guarded::guarded;
-use crate::contact::settings::{Material, SurfaceKind};
-use crate::fem::gear::{condensed_pair::CondensedPair, model::ModelError};
+use crate::contact::settings::SurfaceKind;
 use crate::gear::{Gear, GearPair, PerGear, flank_zones::FlankZone};
+use crate::gear_fem::{condensed_pair::CondensedPair, model::ModelError};
 use crate::gear_mesh::settings::{BodySettings, rounding_element_mm};
+use crate::material::Material;
 use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::mesh_cycle::{CycleObservation, PositionObservation};

@@ -1,8 +1,8 @@
 //! Material of each gear: how it deforms and conducts heat.
 
 use super::temperature;
-use crate::contact::settings::Material;
 use crate::gear::{Gear, PerGear};
+use crate::material::Material;
 use crate::scene::file::{GearMaterialFile, MaterialFile, ModulusCurveFile};
 use crate::scene::findings::Findings;
 use crate::scene::material_presets::MaterialPreset;

@@ -2,8 +2,8 @@
 
 use super::curve;
 use super::material::Materials;
-use crate::contact::settings::Material;
 use crate::gear::{Gear, PerGear};
+use crate::material::Material;
 use crate::scene::file::{OperationFile, PhaseFile, SceneFile};
 use crate::scene::findings::Findings;
 use crate::scene::wear_file::{ToothLubrication, ToothTemperatureFile, WearFile};

@@ -88,11 +88,11 @@ pub fn zones(pair: &GearPair, line_load_n_per_mm: f64) -> PerGear<FlankZones> {
 }
 
 /// Steel as in the scene's default.
-pub const STEEL: gearwear::contact::settings::Material =
-    gearwear::contact::settings::Material { young_modulus_mpa: 206e3, poisson_ratio: 0.3, density_kg_per_m3: 7830.0 };
+pub const STEEL: gearwear::material::Material =
+    gearwear::material::Material { young_modulus_mpa: 206e3, poisson_ratio: 0.3, density_kg_per_m3: 7830.0 };
 
 /// Both gears of steel.
-pub fn steel() -> PerGear<gearwear::contact::settings::Material> {
+pub fn steel() -> PerGear<gearwear::material::Material> {
     PerGear { pinion: STEEL, wheel: STEEL }
 }
 

@@ -23,10 +23,11 @@
 
 use std::f64::consts::{LN_2, PI};
 
-use crate::contact::{hertz::contact_modulus_mpa, settings::Material};
+use crate::fem::elastic::Analysis;
 use crate::gear::{
     Gear, GearPair, PerGear, conjugate::ConjugateFlanks, normal_section::Obliquity, path_of_contact::PathOfContact,
 };
+use crate::material::{Material, contact_modulus_mpa};
 
 /// X: ranges of (a/t)² with a polynomial each.
 pub const RANGES: [f64; 4] = [0.03, 0.1, 0.3, 1.0];
@@ -70,8 +71,9 @@ impl<'a> ContactForms<'a> {
     pub fn new(pair: &'a GearPair, material: &PerGear<Material>, line_load_n_per_mm: f64) -> Self {
         let constants = Gear::BOTH.map(|gear| material[gear]);
         let obliquity = pair.obliquity();
-        let factor = constants
-            .map(|own| obliquity.transverse_mm(2.0 / PI * (1.0 - own.poisson_ratio.powi(2)) / own.young_modulus_mpa));
+        let factor = constants.map(|own| {
+            obliquity.transverse_mm(2.0 / PI * own.elastic().surface_compliance_per_mpa(Analysis::PlaneStrain))
+        });
         let table = pair.path.evenly_mm(TABLE).into_iter().map(|at| {
             let depth = Gear::BOTH.map(|gear| pair.depth_mm(gear, at));
             [factor[0] * depth[0].ln() + factor[1] * depth[1].ln(), depth[0].powi(-2), depth[1].powi(-2)]
@@ -84,7 +86,7 @@ impl<'a> ContactForms<'a> {
             poisson,
             fits: poisson.map(|kappa| RANGES.map(|range| fit(|x| rest(x, kappa), range))),
             ample_load_n_per_mm: AMPLE_LOADS * line_load_n_per_mm,
-            contact_modulus_mpa: contact_modulus_mpa(material),
+            contact_modulus_mpa: contact_modulus_mpa(material.map(Material::elastic)),
             table: table.collect(),
         }
     }

@@ -3,8 +3,9 @@
 //! Every contact becomes a [`PairContact`] of the closed form itself, whose gap is given; teeth and their coupling are those of the
 //! general mesh cycle ([`crate::mesh_cycle::sliced`]).
 
-use crate::contact::{Footprint, PairContact, PointContact, PressedCell, Response, Sweep, hertz, settings::Material};
+use crate::contact::{Footprint, PairContact, PointContact, PressedCell, Response, Sweep, hertz};
 use crate::gear::{Gear, GearPair, PerGear};
+use crate::material::Material;
 use crate::mesh_cycle::{
     load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance},
     sliced::SpringAlongPath,

@@ -5,13 +5,14 @@ use super::flank_surface::FlankSurface;
 use super::ring::{GearCompliance, Surroundings};
 use super::sector::{CondensedSector, Functional, Sector};
 use crate::fem::active_set::ActiveSetError;
-use crate::fem::elastic::{self, Analysis, Elastic};
+use crate::fem::elastic::{Analysis, Elastic};
 use crate::fem::equilibrium::SolveError;
 use crate::fem::solid::{Element, ElementKind, Solid};
 use crate::fem::stress::{StressComponent, StressRecovery};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::{Body, BodySettings, SectorSides};
 use crate::gear_mesh::{Cell, FlankChain, ToothMeshError, ToothSector, gear_sector, touching_pairs};
+use crate::material::contact_modulus_mpa;
 use crate::mesh::CellKind;
 
 /// Nodes of one flank whose compliance among three teeth takes [`GB_OF_MOST_NODES`].
@@ -116,7 +117,7 @@ impl MeshedGear {
         settings: &BodySettings,
     ) -> Result<Self, ModelError> {
         let teeth = pair.teeth[gear].teeth;
-        let reach_mm = pair.ample_tip_reach_mm(line_load_n_per_mm, elastic::contact_modulus_mpa(material));
+        let reach_mm = pair.ample_tip_reach_mm(line_load_n_per_mm, contact_modulus_mpa(*material));
         let fine_teeth = (touching_pairs(pair, reach_mm).len() as u32).min(teeth - 1 + teeth % 2);
         Self::with_fine_teeth(fine_teeth, pair, gear, material, line_load_n_per_mm, settings)
     }
@@ -158,7 +159,7 @@ impl MeshedGear {
                 }
             }
         };
-        let contact_modulus_mpa = elastic::contact_modulus_mpa(material);
+        let contact_modulus_mpa = contact_modulus_mpa(*material);
         let half_width_mm =
             |position_mm: f64| hertz_half_width_mm(pair, contact_modulus_mpa, line_load_n_per_mm, position_mm);
         let mesh = |fine: bool| {
@@ -340,7 +341,7 @@ impl<'a> CondensedPair<'a> {
         let (wheel, wheel_flank) = gears.wheel;
         Self {
             pair,
-            contact_modulus_mpa: elastic::contact_modulus_mpa(material),
+            contact_modulus_mpa: contact_modulus_mpa(*material),
             gears: PerGear { pinion, wheel },
             flanks: PerGear { pinion: pinion_flank, wheel: wheel_flank },
         }

@@ -2,8 +2,9 @@
 
 use super::flank_surface::FlankSurface;
 use super::ring::GearCompliance;
-use crate::fem::elastic::{self, Elastic};
+use crate::fem::elastic::Elastic;
 use crate::gear::{GearPair, PerGear};
+use crate::material::contact_modulus_mpa;
 use crate::reference::hertz_line::HertzLine;
 
 /// The pair with both gears condensed.
@@ -41,7 +42,7 @@ impl CondensedPair<'_> {
             pair: self.pair,
             gears: PerGear::from_fn(|gear| self.gears[gear].softened(softness[gear])),
             flanks: self.flanks.clone(),
-            contact_modulus_mpa: elastic::contact_modulus_mpa(own),
+            contact_modulus_mpa: contact_modulus_mpa(*own),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The teeth of a gear in space, condensed onto the loads along their lines of contact.
 //!
 //! One pitch of the gear over its whole face width is condensed onto the nodes of its working flank, each with the one force that
-//! contact without friction exerts on it, and onto its cuts; the sectors join to the ring as in the plane (`fem::gear::ring`). A line
+//! contact without friction exerts on it, and onto its cuts; the sectors join to the ring as in the plane (`gear_fem::ring`). A line
 //! load of 1 N in all along a piece of a line of contact is the row r of forces at the nodes around it, and
 //!
 //! ```text
