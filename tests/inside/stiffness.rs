@@ -62,3 +62,22 @@ fn a_surface_softer_than_the_pair_is_refused() {
     let spring = TeethSpring::new(StiffnessSettings::WeberBanaschek, None, &pair, &steel(), &bed, 400.0).unwrap();
     assert!(spring.n_per_mm2(pair.path.pitch_point_mm).is_err());
 }
+
+/// A stiffness that is stated from A to E alone goes on beyond it as Weber and Banaschek's teeth do, which are stated everywhere.
+#[test]
+fn ver_beyond_a_and_e_teeth_yield_as_weber_and_banascheks() {
+    let pair = pair(&fzg_c());
+    // It flattens as the model has it, so that the spring is that of the teeth.
+    let hertz = hertz::Hertz { material: steel(), expected_line_load_n_per_mm: 400.0 };
+    let [stated, everywhere] = [StiffnessSettings::Iso6336, StiffnessSettings::WeberBanaschek]
+        .map(|model| TeethSpring::new(model, None, &pair, &steel(), &hertz, 400.0).unwrap());
+    let beyond_mm = 0.2 * pair.path.base_pitch_mm;
+    for (end_mm, beyond_mm) in
+        [(pair.path.start_mm, pair.path.start_mm - beyond_mm), (pair.path.end_mm, pair.path.end_mm + beyond_mm)]
+    {
+        let [found, expected] = [&stated, &everywhere]
+            .map(|spring| spring.n_per_mm2(end_mm).unwrap() / spring.n_per_mm2(beyond_mm).unwrap());
+        assert_close("spring beyond the path", found, expected, 1e-9);
+        assert!((expected - 1.0).abs() > 0.01, "{expected}");
+    }
+}
