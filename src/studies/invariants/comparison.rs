@@ -267,8 +267,16 @@ fn walk(first: &Value, other: &Value, path: &str, besides: &[&str], worst: &mut 
             }
         }
         (Value::Array(mine), Value::Array(theirs)) if mine.len() == theirs.len() => {
+            let greatest = mine.iter().chain(theirs).filter_map(Value::as_f64).map(f64::abs).reduce(f64::max);
             for (index, (mine, theirs)) in mine.iter().zip(theirs).enumerate() {
-                walk(mine, theirs, &format!("{path}.{}", index + 1), besides, worst);
+                let path = format!("{path}.{}", index + 1);
+                match (mine.as_f64(), theirs.as_f64(), greatest) {
+                    // Numbers of a row are of one kind: the least of them may be rounding of the greatest.
+                    (Some(mine), Some(theirs), Some(greatest)) if mine != theirs => {
+                        note((mine - theirs).abs() / greatest, &path, worst);
+                    }
+                    _ => walk(mine, theirs, &path, besides, worst),
+                }
             }
         }
         (Value::Number(mine), Value::Number(theirs)) => {
@@ -277,12 +285,17 @@ fn walk(first: &Value, other: &Value, path: &str, besides: &[&str], worst: &mut 
                 true => (mine - theirs).abs(),
                 false => difference(&[mine], &[theirs], 1.0),
             };
-            if apart.is_nan() || apart > worst.0 {
-                *worst = (apart, path.to_owned());
-            }
+            note(apart, path, worst);
         }
         (mine, theirs) if mine == theirs => {}
         _ => *worst = (f64::INFINITY, path.to_owned()),
+    }
+}
+
+/// Keeps the worst difference with its path.
+fn note(apart: f64, path: &str, worst: &mut (f64, String)) {
+    if apart.is_nan() || apart > worst.0 {
+        *worst = (apart, path.to_owned());
     }
 }
 
@@ -323,6 +336,8 @@ mod tests {
         let other = serde_json::json!({ "a": { "b": [1.0, 2.5], "c": null }, "wall_s": 4.0 });
         assert_eq!(summaries(&first, &other, &[]), (0.2, "a.b.2".to_owned()));
         assert_eq!(summaries(&first, &other, &["a.b"]).0, 0.0);
+        let [first, other] = [1.0, 2.0].map(|least| serde_json::json!({ "mesh_orders_um": [1e-6 * least, 2.0] }));
+        assert_eq!(summaries(&first, &other, &[]), (5e-7, "mesh_orders_um.1".to_owned()));
         let [first, other] = [1e-16, -1e-16].map(|rounding| serde_json::json!({ "root_asymmetry": rounding }));
         assert_eq!(summaries(&first, &other, &[]).0, 2e-16);
     }

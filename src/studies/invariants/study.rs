@@ -351,6 +351,7 @@ mod tests {
             (17, 501, "asked too much: 71 flank points under little load"),
             (19, 6456, "asked too much: a transmission error that lags where the path ends"),
             (19, 12644, "asked too much: a finer new pair whose steps of wear were not stable"),
+            (41, 1877, "asked too much: rounding of a mesh order beside orders a million times as great"),
             (19, 14364, "asked too much: adaptive steps through severe wear on springs that sampled the gap elsewhere"),
         ] {
             let record = run(Asked { seed, first, count: 1 }, 1, &Unwatched);
