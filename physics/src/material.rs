@@ -29,10 +29,23 @@ impl Material {
     }
 }
 
-/// Contact modulus E* of two bodies in plane strain, MPa: 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂.
-///
-/// Source: K. L. Johnson, *Contact Mechanics* (1985), equation 4.4.
+/// Contact modulus E* of two gears, which are in plane strain, MPa.
 pub fn contact_modulus_mpa(bodies: impl Into<[Elastic; 2]>) -> f64 {
-    let [one, two] = bodies.into().map(|body| body.surface_compliance_per_mpa(Analysis::PlaneStrain));
-    1.0 / (one + two)
+    Analysis::PlaneStrain.contact_modulus_mpa(bodies.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Steel on aluminium, 1/E* = (1 − 0.3²)/206 + (1 − 0.33²)/70 per GPa, by hand; in plane stress 1/206 + 1/70.
+    #[test]
+    fn ver_contact_modulus_of_unlike_bodies() {
+        let bodies = [(206e3, 0.3), (70e3, 0.33)]
+            .map(|(young_modulus_mpa, poisson_ratio)| Elastic { young_modulus_mpa, poisson_ratio });
+        let per_gpa = 0.004_417_476 + 0.012_73;
+        assert!((contact_modulus_mpa(bodies) * per_gpa / 1e3 - 1.0).abs() < 1e-6);
+        let in_plane_stress = Analysis::PlaneStress.contact_modulus_mpa(bodies);
+        assert!((in_plane_stress - 206e3 * 70e3 / 276e3).abs() < 1e-6);
+    }
 }

@@ -73,6 +73,7 @@ impl<R, E> Done<R, E> {
 
 /// Micrometres, in which records are written.
 const UM_PER_MM: f64 = 1e3;
+
 /// Where a run goes on, and who keeps its checkpoints.
 pub(crate) struct Resumption<'a> {
     /// A checkpoint of this same run; `None`: it begins.

@@ -108,7 +108,7 @@ impl Scene {
         let follows_modulus = Gear::BOTH.into_iter().any(|gear| self.modulus[gear].is_some());
         let follows = follows_modulus || Gear::BOTH.into_iter().any(|gear| self.wear[gear].warm.is_some());
         let Some(pair) = follows.then(|| GearPair::new(&self.pair).ok()).flatten() else { return };
-        if let Some(moduli) = self.moduli_in(&pair, &self.operation.phases[self.operation.heaviest_phase()]) {
+        if let Some(moduli) = self.moduli_in(&pair, self.operation.heaviest_phase()) {
             for gear in Gear::BOTH {
                 self.material[gear].young_modulus_mpa = moduli[gear];
             }

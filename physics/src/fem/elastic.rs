@@ -7,6 +7,8 @@
 //!
 //! Source: S. P. Timoshenko and J. N. Goodier, *Theory of Elasticity* (1970), sections 8 to 11.
 
+use std::f64::consts::PI;
+
 use nalgebra::Matrix3;
 
 /// What the direction across the plane does.
@@ -17,6 +19,16 @@ pub enum Analysis {
     PlaneStrain,
     /// No stress across the plane: a thin sheet.
     PlaneStress,
+}
+
+impl Analysis {
+    /// Contact modulus E* of two bodies, MPa: 1/E* = Σ (1 − ν²)/E in plane strain, Σ 1/E in plane stress.
+    ///
+    /// Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.1.
+    pub fn contact_modulus_mpa(self, bodies: [Elastic; 2]) -> f64 {
+        let [one, two] = bodies.map(|body| body.surface_compliance_per_mpa(self));
+        1.0 / (one + two)
+    }
 }
 
 /// An isotropic material.
@@ -49,6 +61,11 @@ impl Elastic {
             Analysis::PlaneStrain => (1.0 - self.poisson_ratio.powi(2)) / self.young_modulus_mpa,
             Analysis::PlaneStress => 1.0 / self.young_modulus_mpa,
         }
+    }
+
+    /// 2 (1 − ν²)/(π E), mm²/N: the factor of a half-plane's displacements under a line load, in plane strain.
+    pub fn half_plane_mm2_per_n(&self) -> f64 {
+        2.0 / PI * self.surface_compliance_per_mpa(Analysis::PlaneStrain)
     }
 
     /// κ = E/(3 (1 − 2ν)), MPa.

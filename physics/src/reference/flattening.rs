@@ -12,10 +12,8 @@
 //! Source: C. Weber and K. Banaschek (1953), section on flattening; K. L. Johnson, *Contact Mechanics* (1985),
 //! section 5.6, for the stresses on the axis it integrates.
 
-use std::f64::consts::PI;
-
 use super::hertz_line::HertzLine;
-use crate::fem::elastic::{Analysis, Elastic};
+use crate::fem::elastic::Elastic;
 
 /// One body, a half-plane in plane strain: elastic constants and depth of the reference point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,13 +22,6 @@ pub struct HalfPlane {
     pub elastic: Elastic,
     /// t, mm.
     pub depth_mm: f64,
-}
-
-impl HalfPlane {
-    /// 2 (1 − ν²)/(π E), mm²/N: the factor of the displacements under a line load.
-    pub(crate) fn factor_mm2_per_n(&self) -> f64 {
-        2.0 / PI * self.elastic.surface_compliance_per_mpa(Analysis::PlaneStrain)
-    }
 }
 
 /// Flattening of both bodies of a Hertzian line contact.
@@ -61,7 +52,7 @@ impl Flattening {
         for body in &self.bodies {
             let (t, nu) = (body.depth_mm, body.elastic.poisson_ratio);
             let root = t.hypot(a);
-            let factor = body.factor_mm2_per_n();
+            let factor = body.elastic.half_plane_mm2_per_n();
             let bracket = (t / a).asinh() - nu / (1.0 - nu) * t / (root + t);
             // a · d(bracket)/da = −t/√(t²+a²) + ν/(1−ν) · t a² / (√(t²+a²) (√(t²+a²)+t)²)
             let a_slope = -t / root + nu / (1.0 - nu) * t * a * a / (root * (root + t).powi(2));
@@ -91,7 +82,7 @@ impl Flattening {
 
     /// A load that gives about `approach_mm`: with the bracket of δ at t/a = 30.
     fn start_load(&self, approach_mm: f64) -> f64 {
-        let compliance: f64 = self.bodies.iter().map(HalfPlane::factor_mm2_per_n).sum();
+        let compliance: f64 = self.bodies.iter().map(|body| body.elastic.half_plane_mm2_per_n()).sum();
         approach_mm / (compliance * 30f64.asinh())
     }
 }
@@ -133,7 +124,7 @@ mod tests {
         let mut f = fzg_c_at_the_pitch_point();
         f.bodies.iter_mut().for_each(|b| b.depth_mm = 1e4);
         let a = f.contact.loaded(100.0).half_width_mm;
-        let each = 2.0 * 100.0 / PI * 0.91 / 206e3 * ((2e4 / a).ln() - 0.3 / 1.4);
+        let each = 2.0 * 100.0 / std::f64::consts::PI * 0.91 / 206e3 * ((2e4 / a).ln() - 0.3 / 1.4);
         assert!((f.approach_mm(100.0) / (2.0 * each) - 1.0).abs() < 1e-9);
     }
 }

@@ -38,14 +38,13 @@ pub(crate) fn cell_compliance_at_mm_per_mpa(bodies: &[HalfPlane; 2], width_mm: f
 fn line_load_primitive(body: &HalfPlane, x_mm: f64) -> f64 {
     let (t, nu) = (body.depth_mm, body.elastic.poisson_ratio);
     let logarithm = if x_mm == 0.0 { 0.0 } else { x_mm * (x_mm.hypot(t) / x_mm.abs()).ln() };
-    body.factor_mm2_per_n() * (logarithm + t * (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu)) * (x_mm / t).atan())
+    body.elastic.half_plane_mm2_per_n() * (logarithm + t * (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu)) * (x_mm / t).atan())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::fem::elastic::Elastic;
-    use crate::material::contact_modulus_mpa;
     use crate::reference::{flattening::Flattening, hertz_line::HertzLine};
 
     const BODIES: [HalfPlane; 2] = [
@@ -56,7 +55,8 @@ mod tests {
     /// Under Hertz's ellipse the middle yields by the closed-form flattening: 4000 cells of the ellipse's mean pressure.
     #[test]
     fn ver_hertzs_ellipse_yields_the_closed_form_flattening() {
-        let modulus = contact_modulus_mpa(BODIES.map(|body| body.elastic));
+        let compliance = |body: HalfPlane| (1.0 - body.elastic.poisson_ratio.powi(2)) / body.elastic.young_modulus_mpa;
+        let modulus = 1.0 / BODIES.map(compliance).iter().sum::<f64>();
         let hertz = Flattening { contact: HertzLine::new([13.97, 20.96], modulus).unwrap(), bodies: BODIES };
         let strip = hertz.contact.loaded(637.66);
         let half_cells = 2000;

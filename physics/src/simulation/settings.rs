@@ -86,9 +86,9 @@ impl Operation {
         }
     }
 
-    /// Index of the phase of the greatest load, the first of equals.
-    pub fn heaviest_phase(&self) -> usize {
-        first_greatest(self.phases.iter().map(|phase| phase.pinion_torque_n_mm))
+    /// The phase of the greatest load, the first of equals.
+    pub fn heaviest_phase(&self) -> &Phase {
+        &self.phases[first_greatest(self.phases.iter().map(|phase| phase.pinion_torque_n_mm))]
     }
 
     /// Least and greatest torque on the pinion of all phases, N·mm.

@@ -53,8 +53,7 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
         let numerics = Numerics { flank_points, positions, stepping: Stepping::Fixed { revolutions }, ..fine };
         WearRun { numerics, snapshots_revolutions: &[], ..model.wear_run() }
     };
-    let heaviest = &scene.operation.phases[scene.operation.heaviest_phase()];
-    let mild = wear::of_both(&scene.wear_in(heaviest).with_severe(|_| None));
+    let mild = wear::of_both(&scene.wear_in(scene.operation.heaviest_phase()).with_severe(|_| None));
     let reference = model.reference();
     let phase = RunPhase { wear: reference.wear.with_laws(&mild), ..*reference };
     let transitions = || Gear::BOTH.into_iter().filter_map(|gear| scene.wear[gear].severe_transition());

@@ -113,12 +113,11 @@ fn arc(problem: &Problem, edges: &[Edge], patch: Patch) -> Option<Arc> {
     })
 }
 
-/// E*, MPa: 1/E* = Σ (1 − ν²)/E in plane strain, Σ 1/E in plane stress.
+/// E* of the bodies behind both surfaces, MPa.
 fn contact_modulus_mpa(problem: &Problem, pair: &ContactPair, patch: Patch) -> Option<f64> {
     let slave = material(problem, &pair.slave, patch)?;
     let master = material(problem, &pair.master, patch)?;
-    let [one, other] = [slave, master].map(|body| body.surface_compliance_per_mpa(problem.analysis));
-    Some(1.0 / (one + other))
+    Some(problem.analysis.contact_modulus_mpa([*slave, *master]))
 }
 
 /// The material behind the edge nearest to the contact.

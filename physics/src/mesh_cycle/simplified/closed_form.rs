@@ -23,7 +23,6 @@
 
 use std::f64::consts::{LN_2, PI};
 
-use crate::fem::elastic::Analysis;
 use crate::gear::{
     Gear, GearPair, PerGear, conjugate::ConjugateFlanks, normal_section::Obliquity, path_of_contact::PathOfContact,
 };
@@ -71,9 +70,7 @@ impl<'a> ContactForms<'a> {
     pub fn new(pair: &'a GearPair, material: &PerGear<Material>, line_load_n_per_mm: f64) -> Self {
         let constants = Gear::BOTH.map(|gear| material[gear]);
         let obliquity = pair.obliquity();
-        let factor = constants.map(|own| {
-            obliquity.transverse_mm(2.0 / PI * own.elastic().surface_compliance_per_mpa(Analysis::PlaneStrain))
-        });
+        let factor = constants.map(|own| obliquity.transverse_mm(own.elastic().half_plane_mm2_per_n()));
         let table = pair.path.evenly_mm(TABLE).into_iter().map(|at| {
             let depth = Gear::BOTH.map(|gear| pair.depth_mm(gear, at));
             [factor[0] * depth[0].ln() + factor[1] * depth[1].ln(), depth[0].powi(-2), depth[1].powi(-2)]
