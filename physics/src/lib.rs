@@ -7,6 +7,7 @@
     reason = "its documentation is read by those who work on it, private items with it"
 )]
 
+pub mod assessment;
 pub mod calibration;
 pub mod contact;
 pub mod content_hash;
@@ -20,6 +21,8 @@ pub mod material;
 pub mod mesh;
 pub mod mesh_cycle;
 pub mod observer;
+pub mod operation;
+pub mod plan;
 pub mod reference;
 pub mod results;
 pub mod root_stress;

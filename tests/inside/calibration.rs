@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
+use gearwear::assessment::calibrate::{self, Extent};
 use gearwear::calibration::bodies::Setup;
 use gearwear::calibration::identity::Identity;
 use gearwear::calibration::single_contact::{Purpose, SingleContact, Touch};
@@ -26,8 +27,8 @@ use gearwear::gear_fem::position::WarmStart;
 use gearwear::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides};
 use gearwear::mesh_cycle::pair_in_space::KeptInSpace;
 use gearwear::observer::Unwatched;
-use gearwear::pipeline::calibrate::{self, Extent};
-use gearwear::scene::Scene;
+use gearwear::operation::Scene;
+use gearwear::scene::Resolved;
 use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
 use nalgebra::Vector2;
 
@@ -55,7 +56,7 @@ fn fzg_c_scene(elements_per_half_width: f64) -> Scene {
          [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n\
          [fem]\nelements_per_half_width = {elements_per_half_width:?}\n"
     );
-    Scene::from_toml(&text).unwrap().scene
+    Resolved::from_toml(&text).unwrap().scene
 }
 
 /// The whole calibration of the preset, made once for all tests.

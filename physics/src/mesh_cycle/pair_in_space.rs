@@ -59,6 +59,16 @@ pub enum PairInSpaceError {
     },
 }
 
+impl PairInSpaceError {
+    /// The key of a scene to change.
+    pub fn scene_key(&self) -> String {
+        match self {
+            Self::TooFewTeeth { .. } => "pair.face_width_mm".to_owned(),
+            Self::Gear { gear, .. } => format!("fem.clamp_radius_mm.{}", gear.name()),
+        }
+    }
+}
+
 /// One gear.
 struct GearInSpace {
     teeth: TeethInSpace,

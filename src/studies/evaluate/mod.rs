@@ -11,9 +11,10 @@
 
 pub(crate) mod output;
 
+use crate::assessment::guarded::guarded;
 use crate::observer::Observer;
-use crate::pipeline::{self, guarded::guarded};
 use crate::results::run::StopReason;
+use crate::runs;
 use crate::scene::draft::{Draft, other_ways_to_say};
 use crate::scene::key::{self, NumberKey, is_key};
 use crate::scene::loaded::{LoadedScene, SceneError};
@@ -134,7 +135,7 @@ pub fn evaluate(
         let mut resolved = resolved?;
         resolved.scene.verify = of_error && scene.scene().verify;
         varied.inputs_belong_to(&resolved)?;
-        let summary = varied.carry_out(resolved, within, pipeline::summarise)?;
+        let summary = varied.carry_out(resolved, within, runs::summarise)?;
         if summary.stopped == StopReason::Interrupted {
             return Ok(None);
         }

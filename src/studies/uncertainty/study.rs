@@ -16,13 +16,14 @@ use super::design::{Correlation, Design, Matrix};
 use super::distribution::Uncertain;
 use super::life::{Growth, Limit};
 use super::record::{Band, FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, SampleRow, UncertaintyRecord};
+use crate::assessment::guarded::guarded;
 use crate::gear::PerGear;
 use crate::observer::Observer;
-use crate::pipeline::{self, guarded::guarded};
 use crate::reference::sobol_indices::indices;
 use crate::reference::statistics::{SHARES, mean, quantile, standard_deviation};
 use crate::results::run::StopReason;
 use crate::results::worn_pair::{WearProfile, WornPair};
+use crate::runs;
 use crate::scene::loaded::LoadedScene;
 use crate::studies::evaluate::output::Output;
 use crate::studies::spread::spread;
@@ -155,7 +156,7 @@ fn worn<'a>(
         let moment = |number: usize| operation.pinion_revolutions * number as f64 / MOMENTS as f64;
         operation.snapshots_revolutions = (1..=MOMENTS).map(moment).collect();
     }
-    varied.carry_out(resolved, observer, pipeline::worn_pair)
+    varied.carry_out(resolved, observer, runs::worn_pair)
 }
 
 /// Each output with the time until which it is known: a life to a limit that is not reached is infinite.
@@ -259,7 +260,7 @@ fn nominal(
             let moment = |number: usize| operation.pinion_revolutions * number as f64 / MOMENTS as f64;
             operation.snapshots_revolutions = (1..=MOMENTS).map(moment).collect();
         }
-        varied.carry_out(resolved, observer, pipeline::worn_pair)
+        varied.carry_out(resolved, observer, runs::worn_pair)
     });
     let run = run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
     match run {
@@ -287,7 +288,7 @@ fn record(
     }
     let figures = question.outputs.len() + question.limits.len();
     Ok(UncertaintyRecord {
-        title: scene.scene().title.clone(),
+        title: scene.resolved.title().to_owned(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_hash: scene.resolved.scene_hash(),
         uncertain: question.uncertain.clone(),

@@ -73,7 +73,7 @@ pub fn fzg_a() -> PairSpec {
 /// The pair of a preset.
 pub fn preset(name: &str) -> PairSpec {
     let text = gearwear::scene::presets::find(name).expect("a preset").text;
-    gearwear::scene::Scene::from_toml(text).expect("presets are sound").scene.pair
+    gearwear::scene::Resolved::from_toml(text).expect("presets are sound").scene.pair
 }
 
 /// A pair that can run.
