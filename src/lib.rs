@@ -112,11 +112,14 @@ mod scene;
 mod studies;
 
 // What it calculates with, under the names of the rooms there.
+use gearwear_fem as fem;
+use gearwear_files::{content_hash, data_table, whole_file};
+pub use gearwear_mesh as mesh;
 use gearwear_physics::{
-    assessment, calibration, contact, content_hash, data_table, fem, gear, gear_fem, gear_mesh, lubrication,
-    mesh_cycle, observer, operation, plan, simulation, stiffness, thermal, wear, whole_file,
+    assessment, calibration, contact, gear, gear_fem, gear_mesh, lubrication, mesh_cycle, observer, operation, plan,
+    simulation, stiffness, thermal, wear,
 };
-pub use gearwear_physics::{material, mesh, reference, results};
+pub use gearwear_physics::{material, reference, results};
 
 #[cfg(test)]
 use gearwear_physics::root_stress;

@@ -11,8 +11,6 @@ use super::pair_mesh::{PairMeshError, SpaceMesh, in_space_at, on_path_mm};
 use super::{Model, Resumption, RunInputs, UM_PER_MM, carry_out};
 use crate::contact::PositionCell;
 use crate::contact::settings::SurfaceKind;
-use crate::fem::nodal_fields::add_nodal_fields;
-use crate::fem::stress::von_mises_mpa;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_fem::in_space::DeformedTooth;
 use crate::gear_mesh::pair_mesh::in_place;
@@ -24,6 +22,8 @@ use crate::mesh_cycle::sliced_positions::{ContactPart, SliceContact};
 use crate::observer::Observer;
 use crate::simulation::settings::Operation;
 use crate::stiffness::settings::StiffnessSettings;
+use gearwear_fem::nodal_fields::add_nodal_fields;
+use gearwear_fem::stress::von_mises_mpa;
 
 /// Slices over the face width, where the scene has none.
 const SLICES: usize = 20;

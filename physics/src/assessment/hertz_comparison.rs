@@ -13,10 +13,10 @@
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
-use crate::fem::elastic::Elastic;
-use crate::fem::problem::{ContactPair, Edge, Problem};
 use crate::reference::hertz_line::HertzLine;
 use crate::results::fem_problem::HertzSummary;
+use gearwear_fem::elastic::Elastic;
+use gearwear_fem::problem::{ContactPair, Edge, Problem};
 
 /// Half-widths on either side over which surfaces must be round.
 const REACH: f64 = 2.0;
@@ -135,7 +135,7 @@ fn material<'a>(problem: &'a Problem, edges: &[Edge], patch: Patch) -> Option<&'
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fem::solid::{Element, ElementKind, Solid};
+    use gearwear_fem::solid::{Element, ElementKind, Solid};
 
     /// Points of two circles that touch in (3, 4), the slave above, from angle `from` to `to` around the contact; and one
     /// element behind an edge of each.

@@ -7,10 +7,10 @@ use crate::gear_mesh::settings::{Body, SpaceResolution};
 use crate::gear_mesh::tooth_section::ExtrudedTooth;
 use crate::gear_mesh::{self, ToothMeshError};
 use crate::material::{Material, contact_modulus_mpa};
-use crate::mesh::quality::{self, MeshQuality, QualityError};
-use crate::mesh::{CellKind, Mesh};
 use crate::mesh_cycle::pair_in_space::PairInSpaceError;
 use crate::operation::Scene;
+use gearwear_mesh::quality::{self, MeshQuality, QualityError};
+use gearwear_mesh::{CellKind, Mesh};
 
 /// A mesh and what it was made with.
 #[derive(Debug, Clone, PartialEq)]

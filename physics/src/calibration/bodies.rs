@@ -10,13 +10,13 @@ use serde::{Deserialize, Serialize};
 use super::CalibrationError;
 use super::loaded_tooth::{LoadedTooth, nodes_under};
 use crate::contact::hertz;
-use crate::fem::elastic::Elastic;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_fem::condensed_pair::CondensedPair;
 use crate::gear_fem::model::MeshedGear;
 use crate::gear_fem::ring::ToothForce;
 use crate::gear_mesh::settings::{Body, BodySettings, SectorSides, greatest_clamp_mm};
 use crate::material::Material;
+use gearwear_fem::elastic::Elastic;
 
 /// Elements per half-width that the tables of rim and neighbours are made with; the convergence table shows that it is
 /// enough.

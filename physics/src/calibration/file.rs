@@ -3,7 +3,7 @@
 //! The hash is the SHA-256 of the same JSON with an empty hash, so that white space does not matter and every number does.
 
 use super::Calibration;
-use crate::content_hash::sha256;
+use gearwear_files::content_hash::sha256;
 
 /// Why a text is no calibration.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -20,11 +20,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector2;
 
-use crate::fem::locate::locate;
 use crate::gear::tooth::{LoadLine, Tooth};
 use crate::gear_fem::flank_surface::FlankSurface;
 use crate::gear_fem::ring::{GearCompliance, ToothForce};
 use crate::gear_fem::sector::{Answer, Functional};
+use gearwear_fem::locate::locate;
 
 /// Forces that stand for the ellipse.
 const SAMPLES: usize = 240;

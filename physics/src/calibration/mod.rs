@@ -39,11 +39,11 @@ use self::tooth_family::FamilyMember;
 use self::tooth_stiffness::{LoadedPair, PairDeflection};
 use self::wear_reference::WearReference;
 use crate::contact::{foundation::FoundationCurve, settings::MatchCriterion};
-use crate::fem::active_set::ActiveSetError;
 use crate::gear::{Gear, PerGear};
 use crate::gear_fem::{condensed_pair::CondensedPair, model::ModelError};
 use crate::material::Material;
 use crate::stiffness::curve::PairCompliance;
+use gearwear_fem::active_set::ActiveSetError;
 
 /// Positions of the stiffness curve.
 pub const STIFFNESS_POSITIONS: usize = 61;

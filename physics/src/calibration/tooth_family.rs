@@ -23,8 +23,6 @@ use super::CalibrationError;
 use super::bodies::Setup;
 use super::loaded_tooth::{LoadedTooth, limits_mm};
 use super::tooth_stiffness::evenly;
-use crate::fem::elastic::Analysis;
-use crate::fem::equilibrium::SolveError;
 use crate::gear::modification::Modification;
 use crate::gear::spec::{GearSpec, PairSpec};
 use crate::gear::{Gear, tooth::Tooth};
@@ -34,6 +32,8 @@ use crate::gear_fem::ring::{GearCompliance, Surroundings, ToothForce};
 use crate::gear_mesh::settings::default_clamp;
 use crate::gear_mesh::{self as tooth_mesh, FlankResolution, SectorSettings, ToothSector, ToothShape};
 use crate::stiffness::weber_banaschek::ToothCompliance;
+use gearwear_fem::elastic::Analysis;
+use gearwear_fem::equilibrium::SolveError;
 
 const TEETH: [u32; 11] = [10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30];
 /// Heights from root to tip.

@@ -21,7 +21,7 @@ use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, Side};
 
 use super::Response;
-use crate::fem::active_set::{ActiveSetError, Condensed};
+use gearwear_fem::active_set::{ActiveSetError, Condensed};
 
 /// A row of cells that may touch.
 pub(crate) struct ElasticCells {
@@ -190,12 +190,12 @@ fn solved(factor: &Llt<f64>, side: impl ExactSizeIterator<Item = f64>) -> Vec<f6
 mod tests {
     use super::*;
     use crate::contact::pressure_field::PressureField;
-    use crate::fem::elastic::Elastic;
     use crate::reference::{
         flattening::{Flattening, HalfPlane},
         half_plane::cell_compliance_mm_per_mpa,
         hertz_line::{HertzLine, LineContact},
     };
+    use gearwear_fem::elastic::Elastic;
 
     /// FZG type C at the pitch point, 302 N·m, the bodies so deep that the half-planes' own curvature is all there is.
     fn hertz(indentation_mm: f64) -> (Flattening, f64, LineContact) {

@@ -175,8 +175,8 @@ pub(super) fn mean_positive([u0, u1]: [f64; 2]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fem::elastic::Elastic;
     use crate::reference::{flattening::HalfPlane, hertz_line::HertzLine};
+    use gearwear_fem::elastic::Elastic;
 
     /// Each criterion holds, checked through the foundation's own closed form.
     #[test]

@@ -21,7 +21,6 @@ use super::load_sharing::EquilibriumError;
 use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Overlap, PositionObservation, Work};
 use crate::contact::Footprint;
 use crate::contact::flank_pressure::PressureFigures;
-use crate::fem::active_set::Equilibrium;
 use crate::gear::{Gear, PerGear, flank_zones::FlankZones};
 use crate::gear_fem::condensed_pair::CondensedPair;
 use crate::gear_fem::condensed_pair::hertz_half_width_mm;
@@ -32,6 +31,7 @@ use crate::gear_fem::tilted::Worn;
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::reference::{linear_means::value_at, monotone_cubic::MonotoneCubic};
 use crate::wear::{SlidingRow, WearModel};
+use gearwear_fem::active_set::Equilibrium;
 
 /// How far positions are apart.
 #[derive(Clone, Copy)]

@@ -18,8 +18,8 @@
 
 use nalgebra::DMatrix;
 
-use crate::fem::quadrature::GAUSS_3;
-use crate::fem::shape::along_edge;
+use gearwear_fem::quadrature::GAUSS_3;
+use gearwear_fem::shape::along_edge;
 
 /// Halves of layers of elements over the face width.
 pub(super) struct HalfLayers {

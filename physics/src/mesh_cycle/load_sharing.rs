@@ -21,8 +21,8 @@
 use super::Work;
 use super::tip_contact::OnLever;
 use crate::contact::{PairContact, Response};
-use crate::fem::active_set::ActiveSetError;
 use crate::gear::{PerGear, normal_section::Obliquity};
+use gearwear_fem::active_set::ActiveSetError;
 
 /// Greatest imbalance, relative to the load, at which an equilibrium is accepted.
 pub const TOLERANCE: f64 = 1e-11;

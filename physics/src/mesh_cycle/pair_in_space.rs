@@ -26,8 +26,6 @@ use super::half_layers::HalfLayers;
 use super::influence::Influence;
 use super::sliced_positions::{ContactPart, SliceContact};
 use crate::contact::PositionCell;
-use crate::fem::elastic::Elastic;
-use crate::fem::quadrature::GAUSS_3;
 use crate::gear::{Gear, GearPair, PerGear, normal_section::Obliquity, slices::Slices, spec::PairSpec};
 use crate::gear_fem::in_space::{DeformedTooth, FlankForces, PlaneSection, SpaceError, TeethInSpace};
 use crate::gear_mesh::{
@@ -35,6 +33,8 @@ use crate::gear_mesh::{
     tooth_section::ExtrudedTooth,
 };
 use crate::material::contact_modulus_mpa;
+use gearwear_fem::elastic::Elastic;
+use gearwear_fem::quadrature::GAUSS_3;
 
 /// Why a pair has no teeth in space.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

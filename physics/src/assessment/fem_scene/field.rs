@@ -5,10 +5,6 @@
 
 use nalgebra::{Rotation2, Vector2};
 
-use crate::fem::elastic::{Analysis, Elastic};
-use crate::fem::element::ElementError;
-use crate::fem::solid::{Element, Solid};
-use crate::fem::stress::StressRecovery;
 use crate::gear::{Gear, PerGear};
 use crate::gear_fem::condensed_pair::CondensedPair;
 use crate::gear_fem::model::{MeshedGear, solid};
@@ -16,6 +12,10 @@ use crate::gear_fem::placement::{in_place_mm, tooth_angle_rad};
 use crate::gear_fem::position::PositionContact;
 use crate::results::fem_pair::{ContactPlace, PairSolution};
 use crate::results::fem_problem::NodalStress;
+use gearwear_fem::elastic::{Analysis, Elastic};
+use gearwear_fem::element::ElementError;
+use gearwear_fem::solid::{Element, Solid};
+use gearwear_fem::stress::StressRecovery;
 
 /// Nodes and elements of both gears' teeth as they gather, with the displacement of each node.
 #[derive(Default)]

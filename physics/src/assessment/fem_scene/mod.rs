@@ -14,7 +14,6 @@ use self::whole::WholeModel;
 
 use crate::assessment::Done;
 use crate::assessment::stage_clock::StageClock;
-use crate::fem::element::ElementError;
 use crate::gear::path_of_contact::PathOfContact;
 use crate::gear::{Gear, GearPair, PairError, PerGear};
 use crate::gear_fem::condensed_pair::CondensedPair;
@@ -23,13 +22,14 @@ use crate::gear_fem::full::FullError;
 use crate::gear_fem::model::{MeshedGear, ModelError, much_memory};
 use crate::gear_fem::position::PositionContact;
 use crate::material::Material;
-use crate::mesh::quality::QualityError;
 use crate::observer::Observer;
 use crate::operation::Scene;
 use crate::plan::fem_pair::FemPairStage;
 use crate::results::fem_pair::{FemPairRecord, FullModelSummary};
 use crate::results::provenance::Provenance;
 use crate::results::run::StopReason;
+use gearwear_fem::element::ElementError;
+use gearwear_mesh::quality::QualityError;
 
 /// Positions solved before the observer is asked again.
 const BATCH: usize = 64;

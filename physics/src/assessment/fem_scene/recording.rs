@@ -12,8 +12,6 @@ use crate::gear_fem::position::{PositionContact, ToothPairContact};
 use crate::gear_fem::ring::Surroundings;
 use crate::gear_mesh::ToothSector;
 use crate::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides, default_clamp};
-use crate::mesh::quality::{self, MeshQuality};
-use crate::mesh::{CellBlock, CellKind, Mesh};
 use crate::operation::Scene;
 use crate::reference::hertz_line::LineContact;
 use crate::reference::steel_yield;
@@ -24,6 +22,8 @@ use crate::results::fem_pair::{
 use crate::results::path_points::among;
 use crate::results::provenance::Provenance;
 use crate::results::run::{ContactSummary, PathPoints, RangeSummary};
+use gearwear_mesh::quality::{self, MeshQuality};
+use gearwear_mesh::{CellBlock, CellKind, Mesh};
 
 /// What the torque ratio says.
 const TORQUE_RATIO: &str = "|T2/T1| is z2/z1 where all force acts along the line of action. Forces act on the flanks as they \

@@ -4,12 +4,12 @@ use std::time::Instant;
 
 use super::FemPairError;
 use crate::assessment::UM_PER_MM;
-use crate::fem::elastic::Elastic;
 use crate::gear::{GearPair, PerGear};
 use crate::gear_fem::full;
 use crate::gear_fem::model::MeshedGear;
 use crate::gear_fem::position::PositionContact;
 use crate::results::fem_pair::FullModelSummary;
+use gearwear_fem::elastic::Elastic;
 
 /// What the whole model is made of.
 pub(super) struct WholeModel<'a> {
