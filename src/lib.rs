@@ -121,9 +121,6 @@ use gearwear_physics::{
 };
 pub use gearwear_physics::{material, reference, results};
 
-#[cfg(test)]
-use gearwear_physics::root_stress;
-
 #[cfg(all(test, feature = "program"))]
 #[allow(unreachable_pub, reason = "test modules are of one crate")]
 #[path = "../tests/inside/mod.rs"]
