@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use gearwear_mesh::{CellBlock, CellKind, DataArray, Format, Mesh, PhysicalTag, Values, from_bytes, read, to_bytes};
 use proptest::prelude::*;
 
-use super::common::mesh::{FORMATS, any_mesh, without_data};
+use super::common::{FORMATS, any_mesh, without_data};
 
 fn repository(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path)

@@ -8,7 +8,7 @@ use gearwear_mesh::error::{LARGEST_EXPANSION, Problem};
 use gearwear_mesh::{DataArray, Format, Mesh, from_bytes, to_bytes};
 use proptest::prelude::*;
 
-use super::common::mesh::{FORMATS, any_mesh, without_data};
+use super::common::{FORMATS, any_mesh, without_data};
 
 /// Small files have this allowance in any case.
 const LEAST_ALLOWANCE: u64 = 10_000;
