@@ -1,4 +1,5 @@
-//! Tables of the keys of a file, from its JSON schema: type, unit, range, default and meaning.
+//! Tables of the keys of a file, from its JSON schema: value (type, range and unit), default and meaning. Tables with the same keys are
+//! written once.
 //!
 //! The schema's objects are sorted by name. The order of keys is that of the structures they are made from, which is read
 //! from the source text. A description ends in sentences that begin with "Default" or "Required": they become a column of
@@ -54,16 +55,37 @@ struct Section<'a> {
     unit: Option<&'static (&'static str, &'static str, &'static str)>,
 }
 
+/// What stands in the tables so far.
+#[derive(Default)]
+struct Written<'a> {
+    /// Keys of each table, with its heading.
+    tables: Vec<(&'a Value, String)>,
+    /// Lists of words, with the key that takes them.
+    words: Vec<(&'a Value, String)>,
+}
+
+impl<'a> Written<'a> {
+    /// The words that the key at `path` takes, or the key before it that takes the same.
+    fn words(&mut self, node: &'a Value, path: String) -> String {
+        let list = if node["items"].is_object() { &node["items"]["oneOf"] } else { &node["oneOf"] };
+        if let Some((_, earlier)) = self.words.iter().find(|(words, _)| list.is_array() && *words == list) {
+            return format!(" Words of `{earlier}`.");
+        }
+        self.words.push((list, path));
+        choices(node)
+    }
+}
+
 /// All tables of the file that `schema` describes, made from structures in `sources`.
 pub fn of_schema(schema: &Value, sources: &str) -> String {
     let orders = field_orders(sources);
     let root = Section { paths: Vec::new(), likewise: None, list: false, about: "", node: schema, unit: None };
     let mut text = String::new();
-    write_section(&root, &orders, &mut text);
+    write_section(&root, &orders, &mut Written::default(), &mut text);
     text
 }
 
-fn write_section(section: &Section, orders: &[Vec<String>], text: &mut String) {
+fn write_section<'a>(section: &Section<'a>, orders: &[Vec<String>], written: &mut Written<'a>, text: &mut String) {
     let keys = ordered_keys(section.node, orders);
     let required: Vec<&str> =
         section.node["required"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
@@ -74,6 +96,9 @@ fn write_section(section: &Section, orders: &[Vec<String>], text: &mut String) {
     for key in &keys {
         let node = &properties[key.as_str()];
         let Some((table, list)) = table_of(node) else { continue };
+        if written.tables.iter().any(|(keys, _)| **keys == table["properties"]) {
+            continue;
+        }
         if let Some(same) = nested.iter_mut().find(|other| other.node["properties"] == table["properties"]) {
             same.paths.push(child_path(section, key));
             continue;
@@ -82,7 +107,8 @@ fn write_section(section: &Section, orders: &[Vec<String>], text: &mut String) {
             [_, second, ..] => Some(second.clone()),
             _ => section.likewise.as_ref().map(|outer| format!("{outer}.{}", last_name(&section.paths[0]))),
         };
-        let about = table["description"].as_str().filter(|_| list).unwrap_or_else(|| description(node));
+        // The row of the table above says what a single table is.
+        let about = table["description"].as_str().filter(|_| list).unwrap_or_default();
         nested.push(Section {
             paths: vec![child_path(section, key)],
             likewise,
@@ -97,9 +123,7 @@ fn write_section(section: &Section, orders: &[Vec<String>], text: &mut String) {
         text.push_str("## Top level\n\n");
     } else {
         write!(text, "## {}\n\n", heading(section)).expect("text can be written");
-        // Of neighbours, the table above says what each is.
-        let about = if section.paths.len() > 1 { "" } else { section.about };
-        let mut prose = split_default(about, false).0;
+        let mut prose = section.about.to_owned();
         if let Some(likewise) = &section.likewise {
             write!(prose, " Likewise under `{likewise}`.").expect("text can be written");
         }
@@ -107,20 +131,33 @@ fn write_section(section: &Section, orders: &[Vec<String>], text: &mut String) {
             write!(text, "{}\n\n", prose.trim()).expect("text can be written");
         }
     }
-    text.push_str("| key | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n");
+    text.push_str("| key | value | default | meaning |\n|---|---|---|---|\n");
     for key in &keys {
         let node = &properties[key.as_str()];
         let unit = unit_of(key).or(section.unit);
-        let target = nested.iter().find(|table| table.paths.contains(&child_path(section, key)));
-        text.push_str(&row(key, node, unit, required.contains(&key.as_str()), target));
+        let target = table_of(node).and_then(|(table, _)| {
+            let same = |keys: &Value| *keys == table["properties"];
+            let earlier = written.tables.iter().find(|(keys, _)| same(keys)).map(|(_, heading)| heading.clone());
+            earlier.or_else(|| nested.iter().find(|table| same(&table.node["properties"])).map(heading))
+        });
+        let words = if target.is_some() { String::new() } else { written.words(node, child_path(section, key)) };
+        text.push_str(&row(key, node, unit, required.contains(&key.as_str()), target.as_deref(), &words));
     }
     text.push('\n');
     for table in &nested {
-        write_section(table, orders, text);
+        written.tables.push((&table.node["properties"], heading(table)));
+        write_section(table, orders, written, text);
     }
 }
 
-fn row(key: &str, node: &Value, unit: Option<&(&str, &str, &str)>, required: bool, target: Option<&Section>) -> String {
+fn row(
+    key: &str,
+    node: &Value,
+    unit: Option<&(&str, &str, &str)>,
+    required: bool,
+    target: Option<&str>,
+    words: &str,
+) -> String {
     let (mut meaning, default) = split_default(description(node), required);
     let range = range(node);
     if target.is_none() {
@@ -131,15 +168,19 @@ fn row(key: &str, node: &Value, unit: Option<&(&str, &str, &str)>, required: boo
             meaning = meaning.replacen(&format!(" in {words}"), "", 1);
         }
     }
-    let choices = choices(node);
-    if !choices.is_empty() && target.is_none() {
-        meaning.push_str(&choices);
-    }
-    let kind =
-        target.map_or_else(|| type_name(node), |table| format!("[{}](#{})", type_name(node), anchor(&heading(table))));
-    let shown_unit = if target.is_some() || !is_number(node) { "" } else { unit.map_or("", |unit| unit.1) };
-    let range = if target.is_some() { String::new() } else { range };
-    let cells = [format!("`{key}`"), kind, shown_unit.to_owned(), range, default, meaning];
+    meaning.push_str(words);
+    let value = match target {
+        Some(heading) => format!("[{}](#{})", type_name(node), anchor(heading)),
+        None => {
+            let shown_unit = unit.filter(|_| is_number(node)).map_or("", |unit| unit.1);
+            [type_name(node).as_str(), &range, shown_unit]
+                .into_iter()
+                .filter(|part| !part.is_empty())
+                .collect::<Vec<_>>()
+                .join(", ")
+        }
+    };
+    let cells = [format!("`{key}`"), value, default, meaning];
     let cells: Vec<String> = cells.iter().map(|cell| flat(cell).replace('|', "\\|")).collect();
     format!("| {} |\n", cells.join(" | "))
 }
