@@ -172,12 +172,11 @@ fn row(
     let value = match target {
         Some(heading) => format!("[{}](#{})", type_name(node), anchor(heading)),
         None => {
+            let bounds = range.strip_suffix(" or more").map_or_else(|| range.clone(), |least| format!("≥ {least}"));
             let shown_unit = unit.filter(|_| is_number(node)).map_or("", |unit| unit.1);
-            [type_name(node).as_str(), &range, shown_unit]
-                .into_iter()
-                .filter(|part| !part.is_empty())
-                .collect::<Vec<_>>()
-                .join(", ")
+            let amount = format!("{bounds} {shown_unit}");
+            let parts = [type_name(node), amount.trim().to_owned()];
+            parts.join(", ").trim_end_matches(", ").to_owned()
         }
     };
     let cells = [format!("`{key}`"), value, default, meaning];
