@@ -75,7 +75,7 @@ pub enum ToothLubrication {
 pub struct WearFile {
     /// Wear law. Required, here or for each gear.
     pub law: Option<WearLaw>,
-    /// Wear coefficient k, depth per pressure and sliding distance, in m²/N, > 0. Mild wear of steel: 1e-19 to 1e-16. Required, here or for
+    /// Wear coefficient k in m²/N, > 0: depth per pressure and sliding distance. Mild wear of steel: 1e-19 to 1e-16. Required, here or for
     /// each gear, or coefficient_mm3_per_Nm.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub coefficient_m2_per_N: Option<f64>,

@@ -10,11 +10,12 @@ use std::fmt::Write;
 use serde_json::Value;
 
 /// Ends of key names, the unit each stands for, and how descriptions word it. The longer of two that fit comes first.
-const UNITS: [(&str, &str, &str); 27] = [
+const UNITS: [(&str, &str, &str); 29] = [
     ("_K_m2_per_W", "K·m²/W", "K·m²/W"),
     ("_kg_per_m2s", "kg/(m²·s)", "kg/(m²·s)"),
     ("_kg_per_m3", "kg/m³", "kg/m³"),
     ("_W_per_mK", "W/(m·K)", "W/(m·K)"),
+    ("_mm2_per_s", "mm²/s", "mm²/s (cSt)"),
     ("_m2_per_s", "m²/s", "m²/s"),
     ("_m2_per_N", "m²/N", "m²/N"),
     ("_mm3_per_Nm", "mm³/(N·m)", "mm³/(N·m)"),
@@ -23,6 +24,7 @@ const UNITS: [(&str, &str, &str); 27] = [
     ("_N_per_mm", "N/mm", "N per mm of thickness"),
     ("_N", "N", "N"),
     ("_kJ_per_mol", "kJ/mol", "kJ/mol"),
+    ("_per_GPa", "1/GPa", "1/GPa"),
     ("_GPa", "GPa", "GPa"),
     ("_MPa", "MPa", "MPa"),
     ("_Nm", "N·m", "N·m"),
@@ -239,7 +241,7 @@ fn type_name(node: &Value) -> String {
     if let Some(variants) = node["anyOf"].as_array() {
         return variants.iter().map(type_name).collect::<Vec<_>>().join(" or ");
     }
-    if node["oneOf"].is_array() || node["enum"].is_array() || node["const"].is_string() {
+    if node["oneOf"].is_array() || node["enum"][0].is_string() || node["const"].is_string() {
         return "word".to_owned();
     }
     match node["type"].as_str() {
