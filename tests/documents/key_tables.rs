@@ -92,34 +92,7 @@ fn write_section<'a>(section: &Section<'a>, orders: &[Vec<String>], written: &mu
     let required: Vec<&str> =
         section.node["required"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
     let properties = &section.node["properties"];
-
-    // Neighbours with the same keys share a section.
-    let mut nested: Vec<Section> = Vec::new();
-    for key in &keys {
-        let node = &properties[key.as_str()];
-        let Some((table, list)) = table_of(node) else { continue };
-        if written.tables.iter().any(|(keys, _)| **keys == table["properties"]) {
-            continue;
-        }
-        if let Some(same) = nested.iter_mut().find(|other| other.node["properties"] == table["properties"]) {
-            same.paths.push(child_path(section, key));
-            continue;
-        }
-        let likewise = match section.paths.as_slice() {
-            [_, second, ..] => Some(second.clone()),
-            _ => section.likewise.as_ref().map(|outer| format!("{outer}.{}", last_name(&section.paths[0]))),
-        };
-        // The row of the table above says what a single table is.
-        let about = table["description"].as_str().filter(|_| list).unwrap_or_default();
-        nested.push(Section {
-            paths: vec![child_path(section, key)],
-            likewise,
-            list,
-            about,
-            node: table,
-            unit: unit_of(key),
-        });
-    }
+    let nested = nested_tables(section, &keys, written);
 
     if section.paths.is_empty() {
         text.push_str("## Top level\n\n");
@@ -150,6 +123,37 @@ fn write_section<'a>(section: &Section<'a>, orders: &[Vec<String>], written: &mu
         written.tables.push((&table.node["properties"], heading(table)));
         write_section(table, orders, written, text);
     }
+}
+
+/// Tables that the keys of a section take and that are not written yet; neighbours with the same keys share one.
+fn nested_tables<'a>(section: &Section<'a>, keys: &[String], written: &Written<'a>) -> Vec<Section<'a>> {
+    let mut nested: Vec<Section> = Vec::new();
+    for key in keys {
+        let node = &section.node["properties"][key.as_str()];
+        let Some((table, list)) = table_of(node) else { continue };
+        if written.tables.iter().any(|(keys, _)| **keys == table["properties"]) {
+            continue;
+        }
+        if let Some(same) = nested.iter_mut().find(|other| other.node["properties"] == table["properties"]) {
+            same.paths.push(child_path(section, key));
+            continue;
+        }
+        let likewise = match section.paths.as_slice() {
+            [_, second, ..] => Some(second.clone()),
+            _ => section.likewise.as_ref().map(|outer| format!("{outer}.{}", last_name(&section.paths[0]))),
+        };
+        // The row of the table above says what a single table is.
+        let about = table["description"].as_str().filter(|_| list).unwrap_or_default();
+        nested.push(Section {
+            paths: vec![child_path(section, key)],
+            likewise,
+            list,
+            about,
+            node: table,
+            unit: unit_of(key),
+        });
+    }
+    nested
 }
 
 fn row(
