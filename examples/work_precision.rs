@@ -1,6 +1,6 @@
 //! Error of the wear against mesh cycles evaluated: Euler's method and both adaptive ones on the scene `thesis-spur`, half of the points
 //! and positions, without severe wear, with a factor of 100 above 2000 MPa over a band of 100 MPa, and with the hard switch.
-//! Prints the tables of docs/stepping.md; `work_precision winkler` does so for one surface alone.
+//! Prints the tables that docs/runs.md summarises; `work_precision winkler` does so for one surface alone.
 
 use gearwear::{LoadError, LoadedScene, RunRecord, Unwatched};
 

@@ -209,7 +209,7 @@ fn hours_over_phases_of_different_speed() {
 /// The example of the documentation is a scene.
 #[test]
 fn the_documented_spectrum_is_a_scene() {
-    let page = include_str!("../../docs/phases.md");
+    let page = include_str!("../../docs/runs.md");
     let text = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
     let scene = Resolved::from_toml(text).unwrap().scene;
     assert_eq!(scene.operation.phases.len(), 4);

@@ -140,7 +140,7 @@ fn val_nafems_cylinder_on_block() {
             assert!(solution.residual < 1e-9 && solution.force_balance < 1e-10, "{kind:?} {n}");
             if n >= 8.0 {
                 assert!((c.half_width_mm / 6.215 - 1.0).abs() < 0.01, "{kind:?} {n}: {}", c.half_width_mm);
-                // The linear triangle's end node on the symmetry line is too stiff: see docs/fem-verification.md.
+                // The linear triangle's end node on the symmetry line is too stiff: see docs/fem-gear-pair.md.
                 let close = (c.peak_pressure_mpa / 3585.4 - 1.0).abs() < 0.003;
                 assert!(close || kind == ElementKind::Triangle3, "{kind:?} {n}: {}", c.peak_pressure_mpa);
             }
@@ -158,7 +158,7 @@ fn val_nafems_cylinder_on_block() {
     }
 }
 
-/// The same on the meshes whose times docs/fem-verification.md gives, the finest with some 70,000 unknowns, within the same bounds.
+/// The same on the meshes whose times docs/fem-gear-pair.md gives, the finest with some 70,000 unknowns, within the same bounds.
 #[test]
 fn val_nafems_cylinder_on_fine_meshes() {
     for kind in [ElementKind::Quad4, ElementKind::Triangle6, ElementKind::Quad8] {

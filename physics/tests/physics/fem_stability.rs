@@ -92,7 +92,7 @@ fn val_nearly_incompressible() {
     for kind in KINDS {
         for nu in [0.3, 0.45, 0.49, 0.499, 0.4999] {
             let errors = against_hertz(&format!("nu = {nu}"), cylinder(kind, [210e3, 70e3], nu, 1.0));
-            // Above, the peak of the quadratic triangle drifts away: see docs/fem-verification.md.
+            // Above, the peak of the quadratic triangle drifts away: see docs/fem-gear-pair.md.
             if nu <= 0.45 || !matches!(kind, ElementKind::Triangle3 | ElementKind::Triangle6) {
                 assert_close("nearly incompressible", kind, errors, [0.005, 0.015]);
             }

@@ -158,7 +158,7 @@ fn difference_um(one: &Outcome, other: &Outcome) -> (f64, Gear, usize) {
 
 /// Runs of 1/100 to 100 times the bound are sound, with few steps. On the Winkler foundation, and up to ten times the bound (the 128 h of the
 /// scene) on half-planes, the error stays within the tolerance, against Euler's method with steps of a fiftieth of the bound. Beyond,
-/// points below the wheel's active profile differ by more (docs/stepping.md).
+/// points below the wheel's active profile differ by more (docs/runs.md).
 #[test]
 fn ver_adaptive_steps_never_break() {
     for surface in ["winkler", "half-space"] {

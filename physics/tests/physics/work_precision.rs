@@ -19,7 +19,7 @@ fn error(run: &Outcome, reference: &Outcome) -> f64 {
 }
 
 /// fzg-c, 128 h on half-planes, a quarter of the points and positions. The error of Euler's method is of first order, that of the
-/// adaptive steps nearly of second, so that what they save grows with the accuracy. Measured here (docs/stepping.md has the table at higher resolution): 2.8, 1.9, 1.7, 1.7
+/// adaptive steps nearly of second, so that what they save grows with the accuracy. Measured here (docs/runs.md has it at higher resolution): 2.8, 1.9, 1.7, 1.7
 /// times with tolerances of 0.3, 0.2, 0.15, 0.12 µm (0.06 to 0.08 %) and 4.2, 7.3, 4.5 times with 0.1, 0.05, 0.02 µm (0.02 to 0.03 %).
 #[test]
 fn ver_adaptive_steps_take_fewer_evaluations() {

@@ -21,7 +21,7 @@ const DEFAULT_OUTPUTS: [&str; 5] = [
 /// What is asked of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UncertaintyQuestion {
-    /// Uncertain keys: `KEY=DISTRIBUTION` (docs/uncertainty.md).
+    /// Uncertain keys: `KEY=DISTRIBUTION` (docs/sweep.md).
     pub uncertain: Vec<String>,
     /// Correlations of their normal scores: `KEY:KEY=R`.
     pub correlation: Vec<String>,
