@@ -21,7 +21,7 @@ use super::{
     Rate, greatest,
     runge_kutta_chebyshev::{ERROR_FACTOR, MOST_STAGES, RungeKuttaChebyshev, stability_bound, stages_for},
     spectral_radius::SpectralRadius,
-    step_control::{StepControl, Verdict},
+    step_control::{StepControl, StepVerdict},
 };
 
 /// Part of the tolerance that any step may spend.
@@ -152,12 +152,12 @@ impl Adaptive {
             let allowed = SHARE * self.tolerance_at(state);
             let error = greatest(&self.error) / allowed;
             let verdict = self.control.judge(length, error, length < planned);
-            if verdict == Verdict::Rejected && !(at_floor && error.is_finite()) {
+            if verdict == StepVerdict::Rejected && !(at_floor && error.is_finite()) {
                 self.counts.rejected += 1;
                 self.renew_unless_fresh();
                 continue;
             }
-            self.counts.at_floor += u64::from(verdict == Verdict::Rejected);
+            self.counts.at_floor += u64::from(verdict == StepVerdict::Rejected);
             self.counts.accepted += 1;
             self.age += 1;
             if self.age >= RENEWAL {
