@@ -215,7 +215,7 @@ mod tests {
     fn ver_priest_and_taylor() {
         let film = FilmDependence::priest_taylor(FilmRatio::Composite);
         for lambda in [0.0, 0.3, 0.5, 1.0, 2.25, 3.9, 4.0, 7.0] {
-            let expected = if lambda < 0.5 { 1.0 } else { (2.0 / 7.0 * (4.0 - lambda)).max(0.0) };
+            let expected = if lambda < 0.5 { 1.0 } else { (2.0_f64 / 7.0 * (4.0 - lambda)).max(0.0) };
             assert!((film.factor_at(lambda) - expected).abs() < 1e-14, "{lambda}");
         }
     }
