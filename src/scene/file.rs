@@ -19,7 +19,6 @@ use crate::gear::flank::PointSpacing;
 use crate::gear::modification::ReliefShape;
 use crate::gear::shaft::EndFace;
 use crate::mesh_cycle::settings::Coupling;
-use crate::simulation::settings::AdaptiveMethod;
 
 /// A gear pair, its load and how its wear is to be computed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -483,6 +482,15 @@ pub struct NumericsFile {
     pub tolerance_um: Option<f64>,
     /// Integration of the wear in adaptive steps. Default: runge-kutta-chebyshev.
     pub method: Option<AdaptiveMethod>,
+}
+
+/// Method of adaptive wear steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum AdaptiveMethod {
+    /// Stabilised explicit, of second order: Runge–Kutta–Chebyshev.
+    #[default]
+    RungeKuttaChebyshev,
 }
 
 /// Steps of the wear run: a table for Euler's method, or a word.

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use gearwear::assessment::calibrate::{self, Extent};
 use gearwear::calibration::bodies::Setup;
 use gearwear::calibration::identity::Identity;
-use gearwear::calibration::single_contact::{Purpose, SingleContact, Touch};
+use gearwear::calibration::single_contact::{Purpose, SingleContact, TouchFigures};
 use gearwear::calibration::stiffness_variation::VariationOf;
 use gearwear::calibration::tooth_stiffness::LoadedPair;
 use gearwear::calibration::{Calibration, file::CalibrationFileError, foundation_fit, single_contact};
@@ -213,7 +213,7 @@ fn hertz_contacts(pair: &GearPair) -> Vec<SingleContact> {
         for (load, fitted) in [(1.5, true), (1.0, true), (0.7, false), (0.5, true), (0.25, true)] {
             let line_load_n_per_mm = load * LINE_LOAD_N_PER_MM;
             let strip = closed.contact.loaded(line_load_n_per_mm);
-            let touch = Touch {
+            let touch = TouchFigures {
                 half_width_mm: strip.half_width_mm,
                 peak_pressure_mpa: strip.peak_pressure_mpa,
                 approach_mm: closed.approach_mm(line_load_n_per_mm),

@@ -130,7 +130,7 @@ fn deformed(model: &Model<'_>, mesh: &SlicedMesh, position_mm: f64) -> Result<De
     let load = |of: &dyn Fn(i32) -> bool| -> f64 {
         contacts.iter().filter(|(contact, _)| of(contact.tooth)).map(|(_, load)| load).sum()
     };
-    let phase = ((mesh.position_mm[row] - mesh.first_phase_mm) / spacing_mm).round() as i64;
+    let phase = ((mesh.position_mm[row] - mesh.first_position_mm) / spacing_mm).round() as i64;
     let error_mm = mesh.transmission_error_mm[phase.rem_euclid(phases as i64) as usize];
     let greatest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     Ok(DeformedTeeth {

@@ -37,7 +37,7 @@ use crate::contact::settings::SurfaceKind;
 use crate::gear::Gear;
 use crate::mesh_cycle::sliced_mesh::SlicedMesh;
 use crate::mesh_cycle::wearing_pair::Snapshot;
-use crate::mesh_cycle::{CycleObservation, Overlap, PositionObservation};
+use crate::mesh_cycle::{CycleObservation, FlankOverlap, PositionObservation};
 use crate::results::invariant::Invariant;
 use crate::results::run::WearBalance;
 use crate::simulation::wear_run::Outcome;
@@ -122,7 +122,7 @@ fn torque_balance(states: &[(&str, &Snapshot); 2]) -> Invariant {
 fn overlap_nowhere(states: &[(&str, &Snapshot); 2]) -> Invariant {
     let name = "flanks-overlap-nowhere";
     let of = |(when, state): &(&str, &Snapshot)| {
-        let Overlap { of_transmission_error, position_mm } = state.cycle.deepest_overlap?;
+        let FlankOverlap { of_transmission_error, position_mm } = state.cycle.deepest_overlap?;
         Some((of_transmission_error, at(when, position_mm)))
     };
     match greatest(states.iter().filter_map(of)) {
@@ -284,7 +284,7 @@ fn judged_jump(name: &str, found: impl Iterator<Item = (f64, f64, f64, String)>,
 fn errors(cycle: &CycleObservation) -> Option<(Vec<f64>, f64, f64, bool)> {
     if let Some(mesh) = &cycle.slices {
         let samples = mesh.transmission_error_mm.clone();
-        return Some((samples, spacing_mm(mesh), mesh.first_phase_mm, true));
+        return Some((samples, spacing_mm(mesh), mesh.first_position_mm, true));
     }
     let [first, second] = cycle.positions.first_chunk()?;
     let samples = cycle.positions.iter().map(|position| position.transmission_error_mm).collect();

@@ -10,7 +10,7 @@ use crate::gear::Gear;
 use crate::gear_mesh::settings::{Body, SpaceResolution};
 use crate::mesh_cycle::settings::{Coupling, MOST_SLICES_IN_SPACE, SliceSettings};
 use crate::operation::Scene;
-use crate::simulation::settings::{AdaptiveMethod, Operation, Phase, Stepping};
+use crate::simulation::settings::{Operation, Phase, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
 
 /// Phases that are listed one by one.
@@ -413,12 +413,8 @@ fn simulation(scene: &Scene) -> String {
         Stepping::Fixed { revolutions } => {
             format!("about {} wear steps", (operation.pinion_revolutions / revolutions).ceil())
         }
-        Stepping::Adaptive { tolerance_mm, method } => {
-            let method = match method {
-                AdaptiveMethod::RungeKuttaChebyshev => "Runge–Kutta–Chebyshev",
-                AdaptiveMethod::LinearlyImplicit => "linearly implicit",
-            };
-            format!("adaptive wear steps ({method}) within {} µm", 1e3 * tolerance_mm)
+        Stepping::Adaptive { tolerance_mm } => {
+            format!("adaptive wear steps (Runge–Kutta–Chebyshev) within {} µm", 1e3 * tolerance_mm)
         }
     };
     let stop = operation.stop;

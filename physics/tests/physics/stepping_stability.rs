@@ -6,7 +6,7 @@ use gearwear_physics::gear_fem::condensed_pair::CondensedPair;
 use gearwear_physics::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
 use gearwear_physics::observer::Unwatched;
 use gearwear_physics::simulation::mesh_contact::MeshContact;
-use gearwear_physics::simulation::settings::{AdaptiveMethod, LifeLimits, Numerics, Stepping};
+use gearwear_physics::simulation::settings::{LifeLimits, Numerics, Stepping};
 use gearwear_physics::simulation::wear_run::{Outcome, RunPhase, WearRun};
 use gearwear_physics::wear::{WearModel, settings::SevereTransition, settings::WearSettings};
 
@@ -25,7 +25,7 @@ fn coarse(surface: &'static str) -> Scene {
 }
 
 fn chebyshev(tolerance_um: f64) -> Option<Stepping> {
-    Some(Stepping::Adaptive { tolerance_mm: 1e-3 * tolerance_um, method: AdaptiveMethod::RungeKuttaChebyshev })
+    Some(Stepping::Adaptive { tolerance_mm: 1e-3 * tolerance_um })
 }
 
 /// How far the wear of a place in a step swings about its mean, over that mean, in the last five steps, wherever at least a

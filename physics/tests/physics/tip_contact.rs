@@ -11,7 +11,7 @@ use gearwear_physics::gear::{
 };
 use gearwear_physics::gear_fem::placement::{axis_mm, tooth_angle_rad};
 use gearwear_physics::mesh_cycle::PositionObservation;
-use gearwear_physics::simulation::settings::{AdaptiveMethod, Stepping};
+use gearwear_physics::simulation::settings::Stepping;
 use gearwear_physics::simulation::wear_run::Outcome;
 use gearwear_physics::stiffness::settings::StiffnessSettings;
 use nalgebra::{Rotation2, Vector2};
@@ -185,7 +185,7 @@ fn ver_fine_points_make_no_grooves() {
         positions: 200,
         flank_points: 2000,
         revolutions: 1_149_750.0,
-        stepping: Some(Stepping::Adaptive { tolerance_mm: 1e-4, method: AdaptiveMethod::default() }),
+        stepping: Some(Stepping::Adaptive { tolerance_mm: 1e-4 }),
         ..rounded("half-space")
     }
     .run();

@@ -1,7 +1,7 @@
 //! How many mesh cycles a given accuracy of the wear takes, by Euler's method and by adaptive steps.
 
 use gearwear_physics::gear::Gear;
-use gearwear_physics::simulation::settings::{AdaptiveMethod, Stepping};
+use gearwear_physics::simulation::settings::Stepping;
 use gearwear_physics::simulation::wear_run::Outcome;
 
 use super::common::{Scene, fzg_c_scene};
@@ -38,8 +38,7 @@ fn ver_adaptive_steps_take_fewer_evaluations() {
     assert!((1.8..2.2).contains(&(coarse / fine)), "{coarse} {fine}");
     let of_euler = |wanted: f64| 150.0 * fine / wanted;
     for (tolerance_um, times) in [(0.2, 1.6), (0.02, 4.0)] {
-        let method = AdaptiveMethod::RungeKuttaChebyshev;
-        let outcome = run(Stepping::Adaptive { tolerance_mm: 1e-3 * tolerance_um, method });
+        let outcome = run(Stepping::Adaptive { tolerance_mm: 1e-3 * tolerance_um });
         let reached = error(&outcome, &reference);
         let saved = of_euler(reached) / outcome.work.mesh_cycles as f64;
         println!(

@@ -1,7 +1,7 @@
 //! One mesh of unworn flanks on the finite-element contact.
 
 use super::CalibrateError;
-use crate::calibration::wear_reference::{FLANK_POINTS, FlankWear, LOADS, POSITIONS, WearReference};
+use crate::calibration::wear_reference::{FLANK_POINTS, LOADS, POSITIONS, ReferenceDepth, WearReference};
 use crate::gear::{
     Gear, PerGear,
     flank::{FlankGrid, PointSpacing},
@@ -38,7 +38,7 @@ pub(super) fn references(
             let radius_mm: Vec<f64> =
                 grid.coordinate_mm.iter().map(|&rho| pair.teeth[gear].involute.radius_mm(rho)).collect();
             let depth_per_coefficient_n_per_mm = cycle.at_radii(gear, &depth[gear], radius_mm.iter().copied());
-            FlankWear { radius_mm, depth_per_coefficient_n_per_mm }
+            ReferenceDepth { radius_mm, depth_per_coefficient_n_per_mm }
         });
         Ok(WearReference { line_load_n_per_mm: load, flanks })
     };

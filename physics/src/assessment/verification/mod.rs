@@ -40,7 +40,7 @@ use crate::results::error::{ErrorNewAndWorn, ErrorPerGear, ErrorSummary, TotalEr
 use crate::results::run::StopReason;
 use crate::simulation::figures::WearFigures;
 use crate::simulation::mesh_contact::MeshContact;
-use crate::simulation::settings::{AdaptiveMethod, Numerics, Phase, Stepping};
+use crate::simulation::settings::{Numerics, Phase, Stepping};
 use crate::simulation::wear_run::{Outcome, RunPhase, WearRun};
 use crate::stiffness::curve::PairCompliance;
 use crate::wear::stepping::adaptive::SHALLOW_MM;
@@ -328,7 +328,7 @@ fn life(
     let deepest_mm = deepest(Gear::Pinion).max(deepest(Gear::Wheel));
     // Beyond it grows with the wear by itself.
     let tolerance_mm = (TOLERANCE * deepest_mm.min(SHALLOW_MM)).max(LEAST_TOLERANCE_MM);
-    let stepping = Stepping::Adaptive { tolerance_mm, method: AdaptiveMethod::RungeKuttaChebyshev };
+    let stepping = Stepping::Adaptive { tolerance_mm };
     let numerics = Numerics { positions, stepping, ..scene.numerics };
     let run = WearRun { phases: &phases, numerics, snapshots_revolutions: &[], ..model.wear_run() };
     let bounded = Bounded { observer, steps: AtomicU64::new(0) };
