@@ -216,7 +216,7 @@ fn ver_softening_slices_balance() {
                 .map(|slice| MeshedPair::new(Box::new(Softening { touch_mm: touch_mm(slice) }), f64::INFINITY))
                 .collect();
             pairs.iter_mut().for_each(|pair| pair.set_removed(PerGear::default()));
-            let teeth = BentTooth::of_phase(&contacts, count, |_| mm2_per_n);
+            let teeth = BentTooth::of_contacts(&contacts, count, |_| mm2_per_n);
             let mut teeth = CoupledTeeth::Plates { teeth, coupling: coupling.clone() };
             let found =
                 balance_on_teeth(&mut pairs, &mut teeth, load, 0.0).unwrap_or_else(|e| panic!("{tilt_mm}: {e}"));
