@@ -110,8 +110,8 @@ pub(crate) fn uncertainty(jacobian: &[Vec<f64>], residuals: &[f64], parts: &[Pro
     }
     let mut deviations = Vec::with_capacity(count);
     let mut half_widths = Vec::with_capacity(count);
-    for i in 0..count {
-        let variances = covariances(&influence[i], &influence[i], &rows, &scatter);
+    for own in &influence {
+        let variances = covariances(own, own, &rows, &scatter);
         let student = StudentsT::new(0.0, 1.0, degrees_of_freedom(&variances, &scatter)).ok()?;
         let deviation = variances.iter().sum::<f64>().sqrt();
         deviations.push(deviation);

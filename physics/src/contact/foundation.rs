@@ -260,8 +260,8 @@ mod tests {
             let stiffness = curve().springs_at(position);
             // A parabola of radius R penetrated by δ: U = (4/3) δ √(2Rδ), U' = 2 √(2Rδ).
             let [((load, rise), half_width), ((more, _), _), ((less, _), _)] =
-                [4e-3, 4e-3 + 1e-8, 4e-3 - 1e-8].map(|depth| {
-                    let half_width: f64 = (2.0 * 8.4 * depth as f64).sqrt();
+                [4e-3, 4e-3 + 1e-8, 4e-3 - 1e-8].map(|depth: f64| {
+                    let half_width: f64 = (2.0 * 8.4 * depth).sqrt();
                     (stiffness.load_and_stiffness(4.0 / 3.0 * depth * half_width, 2.0 * half_width), half_width)
                 });
             let k = stiffness.mpa_per_mm(load);

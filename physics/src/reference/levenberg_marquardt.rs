@@ -73,11 +73,11 @@ impl LevenbergMarquardt {
         let mut damping = FIRST_DAMPING;
         for _ in 0..self.most_steps {
             let before = sum_of_squares(&at.residuals);
-            let Some((theta, residuals)) = self.descend(problem, &at, &mut damping)? else {
+            let Some(next) = self.descend(problem, &at, &mut damping)? else {
                 return Ok(Minimum { is_converged: true, ..at });
             };
-            let after = sum_of_squares(&residuals);
-            at = Minimum { theta, residuals, is_converged: before - after <= self.settled * before };
+            let after = sum_of_squares(&next.residuals);
+            at = Minimum { is_converged: before - after <= self.settled * before, ..next };
             if at.is_converged {
                 break;
             }
@@ -85,20 +85,20 @@ impl LevenbergMarquardt {
         Ok(at)
     }
 
-    /// θ and r(θ) after the first step that lessens the sum of squares, with ever greater `damping`; `None` where there is none.
+    /// The first step that lessens the sum of squares, with ever greater `damping`; `None` where there is none.
     fn descend<P: LeastSquares>(
         &self,
         problem: &mut P,
         at: &Minimum,
         damping: &mut f64,
-    ) -> Result<Option<(Vec<f64>, Vec<f64>)>, P::Error> {
+    ) -> Result<Option<Minimum>, P::Error> {
         let jacobian = problem.jacobian(&at.theta, &at.residuals)?;
         while *damping < self.most_damping {
             let Some(theta) = problem.damped_step(&at.theta, &at.residuals, &jacobian, *damping) else { break };
             let residuals = problem.residuals(&theta)?;
             if sum_of_squares(&residuals) < sum_of_squares(&at.residuals) {
                 *damping = (*damping * self.damping_decrease).max(self.least_damping);
-                return Ok(Some((theta, residuals)));
+                return Ok(Some(Minimum { theta, residuals, is_converged: false }));
             }
             *damping *= 10.0;
         }
