@@ -11,7 +11,7 @@ use crate::fem::solid::{Element, ElementKind, Solid};
 use crate::fem::stress::{StressComponent, StressRecovery};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::{Body, BodySettings, SectorSides};
-use crate::gear_mesh::{Cell, FlankChain, ToothMeshError, ToothSector, gear_sector, touching_pairs};
+use crate::gear_mesh::{FlankChain, ToothElement, ToothMeshError, ToothSector, gear_sector, touching_pairs};
 use crate::material::contact_modulus_mpa;
 use crate::mesh::CellKind;
 
@@ -307,7 +307,7 @@ pub fn solid(mesh: &ToothSector) -> Solid {
 }
 
 /// The element of a mesh's cell on `nodes`.
-pub fn element(cell: &Cell, nodes: &[u32], material: u16) -> Element {
+pub fn element(cell: &ToothElement, nodes: &[u32], material: u16) -> Element {
     let kind = if cell.kind == CellKind::Quad8 { ElementKind::Quad8 } else { ElementKind::Triangle6 };
     Element::new(kind, nodes, material)
 }
