@@ -22,7 +22,7 @@ use nalgebra::Vector2;
 
 use crate::fem::locate::locate;
 use crate::gear::tooth::{LoadLine, Tooth};
-use crate::gear_fem::flank_surface::FlankSurface;
+use crate::gear_fem::flank_surface::MeshedFlank;
 use crate::gear_fem::ring::{GearCompliance, ToothForce};
 use crate::gear_fem::sector::{Answer, Functional};
 
@@ -41,7 +41,7 @@ struct Stretch {
 pub struct LoadedTooth<'a> {
     tooth: &'a Tooth,
     body: &'a GearCompliance,
-    flank: &'a FlankSurface,
+    flank: &'a MeshedFlank,
     /// From root to tip, the involute part of the resolved flank.
     stretches: Vec<Stretch>,
     /// Place of each local flank node among the gear's candidates.
@@ -50,7 +50,7 @@ pub struct LoadedTooth<'a> {
 
 impl<'a> LoadedTooth<'a> {
     /// The flank of a gear with teeth as `tooth`.
-    pub fn new(tooth: &'a Tooth, body: &'a GearCompliance, flank: &'a FlankSurface) -> Self {
+    pub fn new(tooth: &'a Tooth, body: &'a GearCompliance, flank: &'a MeshedFlank) -> Self {
         let candidates = &body.sector.sector.candidates;
         let candidate =
             flank.surface.mesh_nodes.iter().map(|node| candidates.iter().position(|own| own == node)).collect();
@@ -167,7 +167,7 @@ pub struct Inside {
 }
 
 /// Least and greatest ρ at which an ellipse of half-width `half_width_mm` lies wholly on the resolved involute of `flank`.
-pub(crate) fn limits_mm(tooth: &Tooth, flank: &FlankSurface, half_width_mm: f64) -> Option<(f64, f64)> {
+pub(crate) fn limits_mm(tooth: &Tooth, flank: &MeshedFlank, half_width_mm: f64) -> Option<(f64, f64)> {
     let stretches = stretches(tooth, flank);
     let (low, high) = (stretches.first()?.arc_mm[0] + half_width_mm, stretches.last()?.arc_mm[2] - half_width_mm);
     let rho = |arc_mm: f64| tooth.involute.rho_at_arc_mm(arc_mm);
@@ -175,7 +175,7 @@ pub(crate) fn limits_mm(tooth: &Tooth, flank: &FlankSurface, half_width_mm: f64)
 }
 
 /// The nodes of the mesh under an ellipse around ρ: what such a load needs as candidates.
-pub(crate) fn nodes_under(tooth: &Tooth, flank: &FlankSurface, rho_mm: f64, half_width_mm: f64) -> Vec<u32> {
+pub(crate) fn nodes_under(tooth: &Tooth, flank: &MeshedFlank, rho_mm: f64, half_width_mm: f64) -> Vec<u32> {
     let centre_mm = tooth.involute.arc_mm(rho_mm);
     let mut nodes: Vec<u32> = stretches(tooth, flank)
         .iter()
@@ -188,7 +188,7 @@ pub(crate) fn nodes_under(tooth: &Tooth, flank: &FlankSurface, rho_mm: f64, half
 }
 
 /// The involute part of a flank, from root to tip.
-fn stretches(tooth: &Tooth, flank: &FlankSurface) -> Vec<Stretch> {
+fn stretches(tooth: &Tooth, flank: &MeshedFlank) -> Vec<Stretch> {
     let arc_mm = |node: usize| tooth.involute.arc_mm(flank.rho_mm[node]);
     flank
         .surface

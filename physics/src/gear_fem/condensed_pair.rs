@@ -1,6 +1,6 @@
 //! Gear pair whose gears are condensed onto the flanks that may touch.
 
-use super::flank_surface::FlankSurface;
+use super::flank_surface::MeshedFlank;
 use super::ring::GearCompliance;
 use crate::fem::elastic::Elastic;
 use crate::gear::{GearPair, PerGear};
@@ -14,7 +14,7 @@ pub struct CondensedPair<'a> {
     /// Both gears.
     pub gears: PerGear<GearCompliance>,
     /// Working flanks of both gears.
-    pub flanks: PerGear<FlankSurface>,
+    pub flanks: PerGear<MeshedFlank>,
     /// Contact modulus E*, MPa.
     pub contact_modulus_mpa: f64,
 }

@@ -9,7 +9,7 @@
 //!
 //! so that Σ W_k h_k grows by V, whatever the stretch. The mean depth on the stretch is Σ m_k h_k.
 
-use super::flank_surface::FlankSurface;
+use super::flank_surface::MeshedFlank;
 use crate::reference::linear_means::{add_means, value_at};
 
 /// Fraction of an edge that the multiplier of a corner loads: ∫ψ of a quadratic edge is 1/6, 4/6 and 1/6 of its length.
@@ -42,7 +42,7 @@ pub(crate) struct Weights<'a> {
 
 impl FlankNodes {
     /// Nodes of `flank`.
-    pub fn new(flank: &FlankSurface) -> Self {
+    pub fn new(flank: &MeshedFlank) -> Self {
         let count = flank.from_tip_mm.len();
         let mut order: Vec<usize> = (0..count).collect();
         order.sort_by(|&a, &b| flank.from_tip_mm[b].total_cmp(&flank.from_tip_mm[a]));

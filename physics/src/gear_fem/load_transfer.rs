@@ -53,7 +53,7 @@ use super::condensed_pair::CondensedPair;
 use super::facing_teeth::FacingTeeth;
 use super::flank_nodes::{FlankNodes, Weights};
 use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
-use super::prepared::Prepared;
+use super::prepared::PreparedPosition;
 use super::tilted::Worn;
 use crate::gear::{Gear, PerGear};
 use crate::reference::linear_means::weighted_sum;
@@ -209,7 +209,7 @@ impl CondensedPair<'_> {
     /// `stretch_mm.0` to `stretch_mm.1`, under the transmission error `turned_mm`; linearised about `worn` flanks where given.
     pub(crate) fn load_transfers(
         &self,
-        prepared: &Prepared,
+        prepared: &PreparedPosition,
         stretch_mm: (f64, f64),
         turned_mm: f64,
         nodes: PerGear<&FlankNodes>,

@@ -27,7 +27,7 @@ use crate::gear_fem::condensed_pair::CondensedPair;
 use crate::gear_fem::condensed_pair::hertz_half_width_mm;
 use crate::gear_fem::flank_nodes::{FlankNodes, Weights};
 use crate::gear_fem::load_transfer::LoadTransfer;
-use crate::gear_fem::prepared::Prepared;
+use crate::gear_fem::prepared::PreparedPosition;
 use crate::gear_fem::tilted::Worn;
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::reference::{linear_means::value_at, monotone_cubic::MonotoneCubic};
@@ -63,7 +63,7 @@ const MOST_TILTS: usize = 3;
 
 /// One position and how its load reaches the nodes.
 struct LoadedPosition {
-    prepared: Prepared,
+    prepared: PreparedPosition,
     /// The part of the path that it stands for.
     stretch_mm: (f64, f64),
     /// Of each tooth pair that may touch.
@@ -508,7 +508,7 @@ impl LoadedPosition {
     fn solve_linearised(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
         let position_mm = self.prepared.position_mm;
         let Self { prepared, stretch_mm, transfers, turned_mm, windows, about_rad, .. } = self;
-        let mut opening = |prepared: &Prepared, gap_mm: &mut [f64]| {
+        let mut opening = |prepared: &PreparedPosition, gap_mm: &mut [f64]| {
             if *windows != prepared.windows() {
                 *transfers = step.model.load_transfers(prepared, *stretch_mm, *turned_mm, step.nodes, None);
                 (*windows, *about_rad) = (prepared.windows(), None);
