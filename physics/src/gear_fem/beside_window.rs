@@ -19,7 +19,7 @@ use sprs::{CsMat, TriMat};
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::{Direction, FacingTeeth, FlankOverlap, PlacedTeeth};
 use super::prepared::add_sandwich;
-use crate::fem::active_set::Equilibrium;
+use crate::fem::active_set::ContactEquilibrium;
 use crate::fem::contact::master_search::LEAST_FACING;
 use crate::gear::{Gear, PerGear};
 
@@ -144,7 +144,7 @@ impl CondensedPair<'_> {
         &self,
         beside: &mut BesideWindow,
         facings: &[FacingTeeth],
-        found: &Equilibrium,
+        found: &ContactEquilibrium,
         depth_mm: &dyn Fn(Gear, usize) -> f64,
     ) -> Option<FlankOverlap> {
         let turned_mm = found.rigid[0];

@@ -14,7 +14,7 @@ use super::condensed_pair::CondensedPair;
 use super::condensed_pair::hertz_half_width_mm;
 use super::flank_surface::MeshedFlank;
 use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
-use crate::fem::contact::mortar::Coupling;
+use crate::fem::contact::mortar::MortarCoupling;
 use crate::gear::flank_edge::{FlankEdge, PathEnd};
 use crate::gear::{Gear, PerGear};
 
@@ -90,10 +90,10 @@ pub(super) struct FacingTeeth {
     pub slave: Gear,
     /// Numbers of both teeth among the fine ones.
     pub tooth: PerGear<usize>,
-    pub coupling: Coupling,
+    pub coupling: MortarCoupling,
     /// Edges of each flank in the window.
     pub edges: PerGear<Range<usize>>,
-    /// Coupling matrix B for each gear, in its own tooth's frame.
+    /// MortarCoupling matrix B for each gear, in its own tooth's frame.
     pub operator: PerGear<CsMat<f64>>,
     /// Expected contact from the slave's tip end, mm.
     pub expected_mm: f64,
@@ -179,7 +179,7 @@ impl CondensedPair<'_> {
         let slave_part = self.flanks[slave].surface.part(edges[slave].clone());
         let master_part =
             self.flanks[master].surface.part(edges[master].clone()).placed(|x| turn * x + master_axis_mm, |n| turn * n);
-        let coupling = Coupling::new(&slave_part, &master_part, window.reach_mm);
+        let coupling = MortarCoupling::new(&slave_part, &master_part, window.reach_mm);
         if coupling.is_empty() {
             return None;
         }

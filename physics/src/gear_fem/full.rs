@@ -13,7 +13,7 @@ use super::placement::{axis_mm, in_place_mm};
 use super::position::PositionContact;
 use super::ring::Surroundings;
 use crate::fem::active_set::Condensed;
-use crate::fem::contact::{mortar::Coupling, surface::Surface};
+use crate::fem::contact::{mortar::MortarCoupling, surface::Surface};
 use crate::fem::elastic::{Analysis, Elastic};
 use crate::fem::equilibrium::SolveError;
 use crate::fem::factor::Factor;
@@ -193,7 +193,7 @@ struct CoupledPair {
     pair: i32,
     slave: Surface,
     master: Surface,
-    coupling: Coupling,
+    coupling: MortarCoupling,
 }
 
 impl WholePair {
@@ -214,7 +214,7 @@ impl WholePair {
                 let (first, last) =
                     window.next().map_or((0, 0), |first| (first, window.next_back().unwrap_or(first) + 1));
                 let slave = slave.part(first..last);
-                let coupling = Coupling::new(&slave, &master, reach_mm);
+                let coupling = MortarCoupling::new(&slave, &master, reach_mm);
                 CoupledPair { pair: contact.pair, slave, master, coupling }
             })
             .collect()

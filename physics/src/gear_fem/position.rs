@@ -20,7 +20,7 @@ use super::facing_teeth::FacingTeeth;
 use super::flank_surface::MeshedFlank;
 use super::prepared::PreparedPosition;
 use super::ring::ToothForce;
-use crate::fem::active_set::{ActiveSetError, Equilibrium, Log};
+use crate::fem::active_set::{ActiveSetError, ActiveSetLog, ContactEquilibrium};
 use crate::fem::contact::zones;
 use crate::gear::{Gear, PerGear};
 
@@ -74,7 +74,7 @@ pub struct PositionContact {
     /// Stresses at the fillets of the reference pair's teeth.
     pub root: PerGear<RootStress>,
     /// Iterations of the active set.
-    pub log: Log,
+    pub log: ActiveSetLog,
     /// Number of multipliers.
     pub multipliers: usize,
     /// Active parts of the flank, to start the next position from.
@@ -113,7 +113,7 @@ impl<'a> CondensedPair<'a> {
     }
 
     /// Each tooth pair in contact.
-    pub fn tooth_pairs(&self, prepared: &PreparedPosition, found: &Equilibrium) -> Vec<ToothPairContact> {
+    pub fn tooth_pairs(&self, prepared: &PreparedPosition, found: &ContactEquilibrium) -> Vec<ToothPairContact> {
         let loaded = prepared.facings.iter().filter_map(|facing| {
             let force = &found.force[facing.first_row..facing.first_row + facing.coupling.len()];
             force.iter().any(|f| *f > 0.0).then(|| self.tooth_pair(prepared, facing, force).0)
@@ -122,7 +122,7 @@ impl<'a> CondensedPair<'a> {
     }
 
     /// The figures of a solution.
-    pub fn read(&self, prepared: &PreparedPosition, found: Equilibrium) -> PositionContact {
+    pub fn read(&self, prepared: &PreparedPosition, found: ContactEquilibrium) -> PositionContact {
         let PreparedPosition { position_mm, ref facings, .. } = *prepared;
         let line_load_n_per_mm = prepared.line_load_n_per_mm();
         let mut forces = self.gears.as_ref().map(|gear| vec![ToothForce::new(); gear.teeth()]);

@@ -17,7 +17,7 @@ use super::beside_window::BesideWindow;
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::{Direction, FacingTeeth, SearchWindow};
 use super::ring::Between;
-use crate::fem::active_set::{ActiveSetError, Condensed, Equilibrium, Kept, Log};
+use crate::fem::active_set::{ActiveSetError, ActiveSetLog, Condensed, ContactEquilibrium, ReusableFactor};
 use crate::gear::Gear;
 
 /// Greatest gap with multipliers in the first window, in units of line load over E*; approaches are about ten units.
@@ -50,7 +50,7 @@ pub struct PreparedPosition {
     unworn_gap_mm: Vec<f64>,
     /// Active set that the next solution starts from.
     pub(super) active: Option<Vec<bool>>,
-    pub(super) kept: Option<Kept>,
+    pub(super) kept: Option<ReusableFactor>,
     /// Number of the window, from 1.
     windows: usize,
 }
@@ -122,8 +122,8 @@ impl<'a> CondensedPair<'a> {
         prepared: &mut PreparedPosition,
         opening: &mut dyn FnMut(&PreparedPosition, &mut [f64]),
         depth_mm: &dyn Fn(Gear, usize) -> f64,
-    ) -> Result<Equilibrium, ActiveSetError> {
-        let mut log = Log::default();
+    ) -> Result<ContactEquilibrium, ActiveSetError> {
+        let mut log = ActiveSetLog::default();
         for attempt in 1..=MOST_WINDOWS {
             prepared.open_gaps(opening);
             let last = attempt == MOST_WINDOWS;
@@ -138,7 +138,7 @@ impl<'a> CondensedPair<'a> {
                     prepared.active = Some(found.active.clone());
                     match wider {
                         Some(wider) => wider,
-                        None => return Ok(Equilibrium { log, ..found }),
+                        None => return Ok(ContactEquilibrium { log, ..found }),
                     }
                 }
                 Err(error) if last || !prepared.misses_contact(&error) => return Err(error),
@@ -153,7 +153,7 @@ impl<'a> CondensedPair<'a> {
     fn window_over_overlaps(
         &self,
         prepared: &mut PreparedPosition,
-        found: &Equilibrium,
+        found: &ContactEquilibrium,
         depth_mm: &dyn Fn(Gear, usize) -> f64,
     ) -> Option<SearchWindow> {
         let PreparedPosition { window, facings, beside, .. } = prepared;
@@ -277,7 +277,7 @@ impl PreparedPosition {
     }
 
     /// Whether contact may extend beyond the window.
-    fn is_cramped(&self, found: &Equilibrium) -> bool {
+    fn is_cramped(&self, found: &ContactEquilibrium) -> bool {
         found.rigid[0] > REACH_USED * self.window.reach_mm
             || self.facings.iter().any(|facing| facing.is_cramped(&found.force))
     }

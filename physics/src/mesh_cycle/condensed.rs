@@ -21,7 +21,7 @@ use super::load_sharing::EquilibriumError;
 use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Overlap, PositionObservation, Work};
 use crate::contact::Footprint;
 use crate::contact::flank_pressure::PressureFigures;
-use crate::fem::active_set::Equilibrium;
+use crate::fem::active_set::ContactEquilibrium;
 use crate::gear::{Gear, PerGear, flank_zones::FlankZones};
 use crate::gear_fem::condensed_pair::CondensedPair;
 use crate::gear_fem::condensed_pair::hertz_half_width_mm;
@@ -74,7 +74,7 @@ struct LoadedPosition {
     windows: usize,
     /// The tilt of the worn flanks that it is about; new ones if there is none.
     about_rad: Option<PerGear<Vec<f64>>>,
-    found: Option<Equilibrium>,
+    found: Option<ContactEquilibrium>,
 }
 
 /// Positions that collect wear together.
@@ -552,7 +552,7 @@ impl LoadedPosition {
     }
 
     /// Whether a tip edge under load has another shape.
-    fn has_reshaped(&self, step: &Step<'_>, found: &Equilibrium) -> bool {
+    fn has_reshaped(&self, step: &Step<'_>, found: &ContactEquilibrium) -> bool {
         self.transfers.iter().any(|contact| {
             let mate = contact.slave.mate();
             let force = &found.force[contact.first_row..contact.first_row + contact.len()];
