@@ -20,7 +20,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::Vector2;
 
 use crate::gear::tooth::{LoadLine, Tooth};
-use crate::gear_fem::flank_surface::FlankSurface;
+use crate::gear_fem::flank_surface::MeshedFlank;
 use crate::gear_fem::ring::{GearCompliance, ToothForce};
 use crate::gear_fem::sector::{Answer, Functional};
 use gearwear_fem::locate::locate;
@@ -40,7 +40,7 @@ struct FlankEdge {
 pub struct LoadedTooth<'a> {
     tooth: &'a Tooth,
     body: &'a GearCompliance,
-    flank: &'a FlankSurface,
+    flank: &'a MeshedFlank,
     /// From root to tip, the involute part of the resolved flank.
     edges: Vec<FlankEdge>,
     /// Index of each local flank node among the gear's candidates.
@@ -49,7 +49,7 @@ pub struct LoadedTooth<'a> {
 
 impl<'a> LoadedTooth<'a> {
     /// The flank of a gear with teeth as `tooth`.
-    pub fn new(tooth: &'a Tooth, body: &'a GearCompliance, flank: &'a FlankSurface) -> Self {
+    pub fn new(tooth: &'a Tooth, body: &'a GearCompliance, flank: &'a MeshedFlank) -> Self {
         let candidates = &body.sector.sector.candidates;
         let candidate =
             flank.surface.mesh_nodes.iter().map(|node| candidates.iter().position(|own| own == node)).collect();
@@ -165,14 +165,14 @@ pub struct Inside {
 }
 
 /// Least and greatest ρ at which an ellipse of half-width `half_width_mm` lies wholly on the resolved involute of `flank`.
-pub(crate) fn limits_mm(tooth: &Tooth, flank: &FlankSurface, half_width_mm: f64) -> Option<(f64, f64)> {
+pub(crate) fn limits_mm(tooth: &Tooth, flank: &MeshedFlank, half_width_mm: f64) -> Option<(f64, f64)> {
     let edges = flank_edges(tooth, flank);
     let (low, high) = (edges.first()?.arc_mm[0] + half_width_mm, edges.last()?.arc_mm[2] - half_width_mm);
     (low < high).then(|| (tooth.involute.rho_at_arc_mm(low), tooth.involute.rho_at_arc_mm(high)))
 }
 
 /// Nodes of the mesh under an ellipse around ρ: the candidates of such a load.
-pub(crate) fn nodes_under(tooth: &Tooth, flank: &FlankSurface, rho_mm: f64, half_width_mm: f64) -> Vec<u32> {
+pub(crate) fn nodes_under(tooth: &Tooth, flank: &MeshedFlank, rho_mm: f64, half_width_mm: f64) -> Vec<u32> {
     let centre_mm = tooth.involute.arc_mm(rho_mm);
     let mut nodes: Vec<u32> = flank_edges(tooth, flank)
         .iter()
@@ -185,7 +185,7 @@ pub(crate) fn nodes_under(tooth: &Tooth, flank: &FlankSurface, rho_mm: f64, half
 }
 
 /// Edges of the involute part of a flank, from root to tip.
-fn flank_edges(tooth: &Tooth, flank: &FlankSurface) -> Vec<FlankEdge> {
+fn flank_edges(tooth: &Tooth, flank: &MeshedFlank) -> Vec<FlankEdge> {
     flank
         .surface
         .edges

@@ -3,7 +3,7 @@
 //! A problem file is checked twice. [`FemProblem::from_toml`] reads it by itself: names, types, ranges, and what keys say
 //! about each other. [`FemProblem::on`] then looks for its groups in the mesh and makes of both what the solver takes
 //! ([`crate::fem::problem::Problem`]), [`FemProblem::in_space_on`] of three-dimensional problems
-//! ([`crate::fem::space::problem::Problem`]), after checks that need both: elements that belong to no body or to two, contact
+//! ([`crate::fem::space::problem::SpaceProblem`]), after checks that need both: elements that belong to no body or to two, contact
 //! edges inside a body, supports that contradict each other, bodies that nothing holds.
 //! Each step reports all that is wrong, at its key.
 
@@ -89,7 +89,7 @@ impl FemProblem {
     }
 
     /// A three-dimensional problem on its mesh.
-    pub(crate) fn in_space_on(&self, mesh: &Mesh) -> Result<Posed<fem::space::problem::Problem>, Vec<Problem>> {
+    pub(crate) fn in_space_on(&self, mesh: &Mesh) -> Result<Posed<fem::space::problem::SpaceProblem>, Vec<Problem>> {
         self.posed(|findings| pose_in_space(&self.file, mesh, findings))
     }
 
@@ -250,7 +250,11 @@ fn pose(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) -> Option<f
 }
 
 /// The same in space.
-fn pose_in_space(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) -> Option<fem::space::problem::Problem> {
+fn pose_in_space(
+    file: &FemProblemFile,
+    mesh: &Mesh,
+    findings: &mut Findings,
+) -> Option<fem::space::problem::SpaceProblem> {
     let groups = groups::Groups::new(mesh);
     let bodies = space_bodies::mesh_bodies(file, mesh, &groups, findings)?;
     let place = meshed_groups::MeshedGroups { groups: &groups, bodies: &bodies };
@@ -260,5 +264,5 @@ fn pose_in_space(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) ->
     if findings.problems.is_empty() {
         floating_in_space::check(&bodies, &held, findings);
     }
-    Some(fem::space::problem::Problem { materials: bodies::materials(file), solid: bodies.solid, held, forces_n })
+    Some(fem::space::problem::SpaceProblem { materials: bodies::materials(file), solid: bodies.solid, held, forces_n })
 }

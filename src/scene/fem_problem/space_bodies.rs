@@ -12,7 +12,7 @@ use super::meshed_groups::{Bodies, place};
 use super::owned_cells::{BodyNodes, owned_cells};
 use crate::fem::space::hexahedron::{HexahedronKind, edges, faces, is_sound};
 use crate::fem::space::loads::spread_shares;
-use crate::fem::space::problem::{Element, Solid};
+use crate::fem::space::problem::{SpaceElement, SpaceSolid};
 use crate::mesh::Mesh;
 use crate::scene::findings::Findings;
 
@@ -22,7 +22,7 @@ const ALLOWED: &str = "hexahedra of 8 or 20 nodes";
 /// The bodies of a problem in space.
 pub(super) struct SpaceBodies {
     /// Nodes and elements.
-    pub solid: Solid,
+    pub solid: SpaceSolid,
     /// The elements around each face, which is known by its corners.
     pub faces: BTreeMap<[u32; 4], Vec<u32>>,
     /// The middle of each edge, which is known by its ends; none where elements of eight nodes have it.
@@ -43,9 +43,9 @@ pub(super) fn mesh_bodies(
     if findings.problems.len() > before {
         return None;
     }
-    let solid = Solid {
+    let solid = SpaceSolid {
         points_mm: nodes.points_mm.iter().map(|&point| point.into()).collect(),
-        elements: cells.into_iter().map(|cell| Element { nodes: cell.nodes, body: cell.body }).collect(),
+        elements: cells.into_iter().map(|cell| SpaceElement { nodes: cell.nodes, body: cell.body }).collect(),
     };
     check_elements(file, &solid, findings);
     let mut bodies = SpaceBodies { solid, faces: BTreeMap::new(), middles: BTreeMap::new(), nodes };
@@ -68,7 +68,7 @@ fn check_cells(file: &FemProblemFile, groups: &Groups<'_>, findings: &mut Findin
 }
 
 /// Refuses elements without volume somewhere.
-fn check_elements(file: &FemProblemFile, solid: &Solid, findings: &mut Findings) {
+fn check_elements(file: &FemProblemFile, solid: &SpaceSolid, findings: &mut Findings) {
     for (i, body) in file.body.iter().enumerate() {
         let folded: Vec<Vector3<f64>> = solid
             .elements
