@@ -22,14 +22,14 @@ const LEAST_INTERVAL: Duration = Duration::from_millis(250);
 const INTERVAL_OVER_WRITING: u32 = 20;
 
 pub(super) struct BegunRun {
-    /// Its scene, with input files as they lie in the folder.
+    /// Scene, with input files as they lie in the folder.
     pub scene: LoadedScene,
-    /// Its folder, which holds the scene and the input files.
+    /// Folder, which holds the scene and the input files.
     pub out: PathBuf,
     pub identity: Identity,
-    /// Where it goes on from; `None`: from the beginning.
+    /// Checkpoint to go on from; `None`: from the beginning.
     pub from: Option<Checkpoint>,
-    /// What its beginning made.
+    /// Folder made at the beginning.
     pub made: Option<MadeFolder>,
 }
 

@@ -25,7 +25,7 @@ use super::{print, say, warn};
 /// Longest shift along the flank, where nothing else is asked, mm.
 const SHIFT_WITHIN_MM: f64 = 0.1;
 
-/// What a measured file looks like.
+/// Description of a measured file.
 const FILE_HELP: &str = "\
 The measured file is CSV. Lines that begin with # come first and say what is measured:
   # gear = pinion                        or wheel
@@ -53,7 +53,7 @@ pub(super) struct Args {
     /// wear depths
     #[arg(long, value_enum)]
     form: Option<Form>,
-    /// What is fitted; default: k, and each with two profiles
+    /// Coefficients to fit; default: k, and each with two profiles
     #[arg(long, value_enum)]
     fit: Option<FitKind>,
     /// How far a profile may be shifted along the flank to where it fits best; 0: not at all
@@ -158,7 +158,7 @@ impl From<CompareFault> for Failure {
 /// One of the figures of a profile, where it has it.
 type Figure = fn(&CompareFigures) -> Option<f64>;
 
-/// What was found, for the terminal.
+/// Findings for the terminal.
 fn table(record: &CompareRecord) -> String {
     let (fit, profiles) = (&record.fit, &record.profiles);
     let several = profiles.len() > 1;

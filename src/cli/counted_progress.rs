@@ -12,13 +12,13 @@ use super::say;
 /// Time between two lines of the log.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
 
-/// What the log remembers.
+/// State of the log.
 struct Log {
     counted: Option<Counted>,
     last: Instant,
 }
 
-/// What is being counted.
+/// Things being counted.
 struct Counted {
     things: &'static str,
     /// When the first of this start was begun.

@@ -78,7 +78,7 @@ pub(super) enum Failure {
     Closed,
 }
 
-/// What can be wrong with a command beside the scene's content.
+/// Failures of a command beside the scene's content.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 pub(super) enum InputError {
     #[error(transparent)]
@@ -246,7 +246,7 @@ impl From<SweepError> for Failure {
     }
 }
 
-/// What to do about a file that cannot be opened as a scene.
+/// Remedy for a file that cannot be opened as a scene.
 fn load_help(error: &LoadError) -> &'static str {
     match error {
         LoadError::NotUtf8 { .. } => "save the file as UTF-8",
@@ -259,7 +259,7 @@ fn load_help(error: &LoadError) -> &'static str {
     }
 }
 
-/// What to do about a run that cannot go on.
+/// Remedy for a run that cannot go on.
 fn resume_help(error: &FolderError) -> &'static str {
     match error {
         FolderError::OtherRun { .. } => "resume it with its own scene and files, or choose another folder with --out",
@@ -272,7 +272,7 @@ fn resume_help(error: &FolderError) -> &'static str {
     }
 }
 
-/// What to do about rows that cannot be kept.
+/// Remedy for rows that cannot be kept.
 fn journal_help(error: &JournalError) -> &'static str {
     match error {
         JournalError::OtherSweep { .. } | JournalError::Damaged { .. } | JournalError::Foreign { .. } => {
@@ -285,7 +285,7 @@ fn journal_help(error: &JournalError) -> &'static str {
     }
 }
 
-/// What to do about shards that do not make a sweep.
+/// Remedy for shards that do not make a sweep.
 fn merge_help(error: &MergeError) -> String {
     match error {
         MergeError::Journal(error) => journal_help(error).to_owned(),

@@ -28,7 +28,7 @@ pub(super) fn table(summary: &Summary) -> String {
     text
 }
 
-/// What is asked first: wear and how far it is known, flank pressure, transmission error, and what to do about the tip edges.
+/// First lines: wear and its uncertainty, flank pressure, transmission error, and what to do about the tip edges.
 fn headline(summary: &Summary) -> String {
     let (new, worn, total) = (&summary.new, &summary.worn, &summary.error.total);
     let scatter = format!("± {}", headline::scatter_percent());
@@ -80,7 +80,7 @@ fn details(summary: &Summary) -> String {
     .concat()
 }
 
-/// What the slices tell; nothing where all sections are alike.
+/// Variation over the face width; nothing where all sections are alike.
 fn over_the_width(helical: Option<&HelicalSummary>) -> String {
     let Some(helical) = helical else { return String::new() };
     let per_cent =

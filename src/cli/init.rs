@@ -17,7 +17,7 @@ pub(super) struct Args {
     /// Make the scene from a cylindrical stage of a gear unit in REXS (versions 1.4 to 2.0, XML)
     #[arg(long, value_name = "FILE", conflicts_with = "preset")]
     from: Option<PathBuf>,
-    /// Which cylindrical stage of the file, from 1; may be left out where there is one
+    /// Number of the cylindrical stage in the file, from 1; may be left out where there is one
     #[arg(long, value_name = "N", requires = "from")]
     stage: Option<usize>,
 }

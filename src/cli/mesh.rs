@@ -82,7 +82,7 @@ fn loaded(args: &Args, format: Format) -> Result<(), Failure> {
     print(&text)
 }
 
-/// What was built in space.
+/// Description of a mesh in space.
 fn text_in_space(scene: &Scene, built: &SpaceMesh, out: &Path) -> String {
     let mut text = format!("{}\n\n", scene.title);
     let mut line = |name: &str, value: String| {
@@ -103,7 +103,7 @@ fn text_in_space(scene: &Scene, built: &SpaceMesh, out: &Path) -> String {
     text
 }
 
-/// What was built.
+/// Description of a plane mesh.
 fn described(scene: &Scene, built: &PairMesh, out: &Path) -> String {
     let mut text = format!("{}\n\n", scene.title);
     let mut line = |name: &str, value: String| {

@@ -34,9 +34,9 @@ impl<L> Display<L> {
 
 /// A stage takes this long before how long it takes in all is judged by.
 const JUDGED_AFTER_S: f64 = 2.0;
-/// What takes longer is said, s.
+/// Time after which a stage is announced, s.
 const LONG_S: f64 = 20.0;
-/// It is said again after this long, s, and then half as long again each time.
+/// Time until it is announced again, s; half as long again each time.
 const SAID_AGAIN_AFTER_S: f64 = 20.0;
 /// Part of the time so far by which what is left is judged: work slows down and speeds up as flanks wear.
 const JUDGED_BY: f64 = 0.5;
@@ -76,7 +76,7 @@ impl Progress {
         }
     }
 
-    /// Those of `warnings` that have not been given during the run.
+    /// Warnings among `warnings` that have not been given during the run.
     pub(super) fn not_yet_told(&self, warnings: &[String]) -> Vec<String> {
         let told = self.told.lock().map(|told| told.clone()).unwrap_or_default();
         warnings.iter().filter(|warning| !told.contains(warning)).cloned().collect()
@@ -166,7 +166,8 @@ fn log_end(stage: &Mutex<Option<Begun>>, next: Option<Begun>) {
     }
 }
 
-/// Says of a stage, of which the part `done` is finished, what it takes more where the command, begun at `command`, takes long with it; and again now and
+/// Says of a stage, of which the part `done` is finished, what it takes more where the command, begun at `command`, takes long
+/// with it; and again now and
 /// then, for the pace changes.
 fn log_long(stage: &Mutex<Option<Begun>>, done: f64, command: Instant) {
     let Ok(mut stage) = stage.lock() else { return };
@@ -196,7 +197,7 @@ fn mark(marks: &mut Vec<(f64, f64)>, now: (f64, f64)) {
     marks.push(now);
 }
 
-/// What is left takes as long for each part as what was finished of late took; `None` where nothing was.
+/// Time left, s, at the pace of the parts finished last; `None` where none was.
 fn left_s(marks: &[(f64, f64)]) -> Option<f64> {
     let &(done, now_s) = marks.last()?;
     let late = marks.iter().rev().find(|(_, at_s)| *at_s <= (1.0 - JUDGED_BY) * now_s).or(marks.first())?;

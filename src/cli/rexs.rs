@@ -22,7 +22,7 @@ pub(super) struct Args {
     /// The gear unit in REXS (versions 1.4 to 2.0, XML) that the run's scene came from; it is left as it is
     #[arg(long, value_name = "FILE")]
     into: PathBuf,
-    /// Which cylindrical stage of the file, from 1; may be left out where there is one
+    /// Number of the cylindrical stage in the file, from 1; may be left out where there is one
     #[arg(long, value_name = "N")]
     stage: Option<usize>,
     /// The file to be written: all that FILE holds, with the results as attributes of the stage and its gears
@@ -59,7 +59,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     ))
 }
 
-/// What is written of the finished run.
+/// Results of the finished run to be written.
 fn read(args: &Args) -> Result<RunResults, Failure> {
     let folder = RunFolder::read(&args.run).map_err(InputError::RunFolder)?;
     let scene = LoadedScene::open(RunFolder::scene_path(&args.run))?;

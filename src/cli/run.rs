@@ -165,7 +165,7 @@ fn write(record: &mut RunRecord, out: &Path, args: &Args, progress: &Progress) -
     report::write_summary(&record.summary, out).map(drop)
 }
 
-/// As many threads as asked for; default: all cores. More than cores only wait for each other.
+/// Number of threads: as asked for, at most all cores, which is the default.
 pub(super) fn thread_count(asked: Option<NonZeroUsize>) -> usize {
     let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
     asked.map_or(cores, NonZeroUsize::get).min(cores)

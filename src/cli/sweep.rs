@@ -143,7 +143,7 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
     finish(&unfinished.finish()?, &args.out, args.quiet)
 }
 
-/// What is about to be run.
+/// Description of the sweep about to be run.
 fn begun(sweep: &Sweep, args: &RunArgs, total: usize, finished: usize) -> String {
     let part = args.shard.map_or_else(String::new, |shard| {
         format!(", shard {}/{} of {}", shard.number, shard.of, sweep.identity.combinations())
@@ -282,7 +282,7 @@ fn found(record: &SweepRecord, optimum: &Optimum) -> String {
     text
 }
 
-/// What finite elements say of the chosen rows, for the terminal.
+/// Verification of the chosen rows by finite elements, for the terminal.
 fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> String {
     let SweepVerification { intention, chosen, verified, unanswered, open, .. } = verification;
     let mut text = format!("\nverified by finite elements: {verified} of {chosen} chosen\n  {intention}\n");

@@ -67,7 +67,7 @@ impl UncertaintyFault {
         }
     }
 
-    /// What to do about it.
+    /// Remedy.
     pub(super) fn help(&self) -> String {
         match self {
             Self::Output(_) => "summary.json of a run has all of them".to_owned(),

@@ -21,7 +21,7 @@ use super::{print, warn};
 /// Most runs side by side.
 pub(super) const MOST_RUNS: usize = 6;
 
-/// What is compared, and how.
+/// Runs to compare, and how.
 pub(super) struct Variants<'a> {
     /// Folders of runs, or scenes.
     pub runs: Vec<&'a Path>,
@@ -107,7 +107,7 @@ fn names(paths: &[&Path]) -> Vec<String> {
     found.unwrap_or_else(|| (1..=paths.len()).map(|number| format!("run-{number}")).collect())
 }
 
-/// What was found, for the terminal.
+/// Findings for the terminal.
 fn table(record: &VariantsRecord) -> String {
     let mut text = String::new();
     let line = |name: &str, cells: Vec<String>| {

@@ -30,13 +30,13 @@ const PROGRAM_VERSION: &str = env!("CARGO_PKG_VERSION");
 pub(crate) struct CheckpointFile {
     /// Scene and input files.
     pub identity: Identity,
-    /// What the user was told of the scene when the run began.
+    /// Warnings given when the run began.
     pub warnings: Vec<String>,
     /// How far it has come.
     pub checkpoint: Checkpoint,
 }
 
-/// The same to be written.
+/// File to be written.
 #[derive(Serialize)]
 struct Body<'a> {
     identity: &'a Identity,
@@ -66,7 +66,7 @@ pub(crate) enum CheckpointError {
         "it has format {found} (gearwear {program_version}), this program, {PROGRAM_VERSION}, reads format {FORMAT}"
     )]
     OtherFormat {
-        /// Its format.
+        /// Format of the file.
         found: u32,
         /// The version that wrote it.
         program_version: String,

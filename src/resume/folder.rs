@@ -23,7 +23,7 @@ pub(crate) const SCENE: &str = "scene.toml";
 pub(crate) const CHECKPOINT: &str = "checkpoint.bin";
 const SUMMARY: &str = "summary.json";
 
-/// What a folder holds of a run.
+/// Contents of the folder of a run.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Contents {
     /// Nothing that was begun.
@@ -44,7 +44,7 @@ pub(crate) enum FolderError {
     Checkpoint {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Fault of the file.
         source: CheckpointError,
     },
     /// The run of another scene, or of other input files.
@@ -52,7 +52,7 @@ pub(crate) enum FolderError {
     OtherRun {
         /// The file that says so.
         path: PathBuf,
-        /// What differs, there and here.
+        /// Differences, there and here.
         differences: Vec<String>,
     },
     /// The system cannot read a file.
@@ -60,7 +60,7 @@ pub(crate) enum FolderError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
 }
@@ -101,7 +101,7 @@ pub(crate) fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
     }
 }
 
-/// What `dir` holds of the run of `identity` with the scene hash `scene_hash`.
+/// Contents of `dir`, of the run of `identity` with the scene hash `scene_hash`.
 pub(crate) fn contents(dir: &Path, identity: &Identity, scene_hash: &str) -> Result<Contents, FolderError> {
     let Some(scene_toml) = read(&dir.join(SCENE))? else { return Ok(Contents::Nothing) };
     let other_run = |path: PathBuf, differences: Vec<String>| match differences.is_empty() {

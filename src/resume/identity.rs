@@ -1,4 +1,4 @@
-//! Which run a checkpoint is of: the resolved scene, and the contents of the files it names.
+//! Identity of the run of a checkpoint: the resolved scene, and the contents of the files it names.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use toml::{Table, Value};
 use crate::content_hash::sha256;
 use crate::scene::loaded::NamedFile;
 
-/// What a run is made from.
+/// Inputs of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Identity {
     /// The resolved scene.
@@ -23,7 +23,7 @@ impl Identity {
         Self { scene_toml, inputs: files.iter().map(|file| (file.key.to_owned(), sha256(&file.bytes))).collect() }
     }
 
-    /// What differs here from `asked`: each key with both values.
+    /// Differences from `asked`: each key with both values.
     pub(crate) fn differences(&self, asked: &Self) -> Vec<String> {
         let mut differences = between_scenes(&self.scene_toml, &asked.scene_toml);
         let keys: std::collections::BTreeSet<_> = self.inputs.keys().chain(asked.inputs.keys()).collect();

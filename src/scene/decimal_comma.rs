@@ -36,7 +36,7 @@ pub(super) fn problems(text: &str, at: usize) -> Vec<Problem> {
     found.into_iter().map(problem).collect()
 }
 
-/// The same number with a decimal point, where `text` is a number with a decimal comma.
+/// Number with a decimal point, where `text` is a number with a decimal comma.
 pub(super) fn mended(text: &str) -> Option<String> {
     let text = text.trim();
     (number_with_comma(text.as_bytes()) == Some(text.len())).then(|| text.replace(',', "."))

@@ -22,14 +22,14 @@ const SAME_THING: [&[&str]; 8] = [
     &["lubricant.pressure_viscosity", "lubricant.pressure_viscosity_per_GPa"],
 ];
 
-/// The same of `pair.pinion` and `pair.wheel`.
+/// Alternative keys of `pair.pinion` and `pair.wheel`.
 const SAME_THING_OF_GEAR: [&[&str]; 3] = [
     &["tip_relief.length_mm", "tip_relief.begins_at_diameter_mm", "tip_relief.begins_at_roll_angle_deg"],
     &["root_relief.length_mm", "root_relief.begins_at_diameter_mm", "root_relief.begins_at_roll_angle_deg"],
     &["helix_slope_deviation_um", "helix_slope_class"],
 ];
 
-/// The same of `wear.pinion` and `wear.wheel`.
+/// Alternative keys of `wear.pinion` and `wear.wheel`.
 const SAME_THING_OF_WEAR: [&[&str]; 1] = [&["coefficient_m2_per_N", "coefficient_mm3_per_Nm"]];
 
 /// The other keys that say what `key` says.
@@ -152,7 +152,7 @@ impl Draft {
         resolve::resolve_table(self.table.clone(), Findings::new(self.locator.clone()))
     }
 
-    /// What it says now, as text.
+    /// Scene as text, with the changes made.
     pub(crate) fn to_toml(&self) -> String {
         self.table.to_string()
     }

@@ -11,7 +11,7 @@ pub(super) struct Findings {
     locator: Locator,
     /// Problems, in the order found.
     pub problems: Vec<Problem>,
-    /// What the user should know although the scene is valid.
+    /// Warnings about a scene that is valid.
     pub warnings: Vec<String>,
     /// Keys already complained about: what follows from them is not reported again.
     spoiled: BTreeSet<String>,

@@ -16,22 +16,22 @@ pub(crate) enum KeyError {
     /// No scene has the key.
     #[error("unknown key {key}; allowed: a key of the scene that takes a number, such as pair.face_width_mm")]
     Unknown {
-        /// As given.
+        /// Key as given.
         key: String,
-        /// What was probably meant.
+        /// Key that was probably meant.
         nearest: Option<String>,
     },
     /// The key takes something else.
     #[error("{key} takes {takes}; allowed: a key that takes a number, such as pair.face_width_mm")]
     NotANumber {
-        /// As given.
+        /// Key as given.
         key: String,
-        /// What it takes.
+        /// Values that it takes.
         takes: String,
     },
 }
 
-/// What the key at this path takes; none where no scene has it. Items of lists are numbered from 1.
+/// Node of the schema at this path; none where no scene has it. Items of lists are numbered from 1.
 fn node_at(path: &str) -> Option<Node<'static>> {
     let below = |node: Node<'static>, name: &str| match name.parse::<usize>() {
         Ok(1..) => node.items(),
@@ -81,7 +81,7 @@ impl NumberKey {
         self.node.holds(value) && !(self.whole() && value.fract() != 0.0)
     }
 
-    /// What it takes, in words.
+    /// Values that it takes, in words.
     pub(crate) fn allowed(&self) -> String {
         self.node.allowed()
     }

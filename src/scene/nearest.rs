@@ -1,4 +1,4 @@
-//! What a misspelt word was probably meant to be.
+//! Suggestion for a misspelt word.
 
 /// The word of `known` that `word` is most like, if it is like any.
 pub(crate) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {

@@ -1,4 +1,4 @@
-//! What a file asks for that the model does not hold, and units that it does not take, in words of the field.
+//! Keys and units of other programs that the model does not have, with messages in words of the field.
 
 use super::problem::number;
 
@@ -42,7 +42,7 @@ pub(super) struct Converted {
     pub sentence: String,
 }
 
-/// What a value of inches or pounds is in the units of a scene.
+/// Value given in inches or pounds, in the units of a scene.
 pub(super) fn converted(name: &str, value: Option<f64>) -> Option<Converted> {
     let said = |target: String, in_scene: Option<f64>, by: &str| {
         let equals = in_scene.map(|x| format!(" = {}", number(six_digits(x)))).unwrap_or_default();

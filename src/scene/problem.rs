@@ -1,4 +1,4 @@
-//! What is wrong with a scene file, where, and what to do about it.
+//! Problems of a scene file: where they are, and what to do about them.
 
 use std::fmt;
 use std::ops::Range;
@@ -38,17 +38,17 @@ pub enum ProblemKind {
 /// One thing that is wrong with a scene file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
-    /// Its nature.
+    /// Kind of problem.
     pub kind: ProblemKind,
     /// Path of the key, such as `pair.pinion.teeth`; empty where the file as a whole is meant.
     pub key: String,
-    /// What the file says.
+    /// Value in the file.
     pub found: String,
-    /// What it may say.
+    /// Values allowed.
     pub allowed: String,
-    /// What to do about it.
+    /// Remedy.
     pub help: Option<String>,
-    /// Where it says it, in bytes from the beginning of the file.
+    /// Place in the file, in bytes from its beginning.
     pub span: Option<Range<usize>>,
 }
 
@@ -200,7 +200,7 @@ impl Problem {
     }
 }
 
-/// What decides whether a body can be meshed.
+/// Remedy where a body cannot be meshed.
 const BODIES_HELP: &str =
     "what the gears and their modifications are decides, and fem.clamp_radius_mm where their bodies end";
 

@@ -13,10 +13,10 @@ use super::outside_model;
 use super::problem::{ProblemKind, number, words};
 use super::schema::Node;
 
-/// What a file may hold.
+/// Keys and tables that a file may hold.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Format {
-    /// Its schema.
+    /// Schema of the file.
     pub root: Node<'static>,
     /// Keys of other files, each with what to do instead.
     pub of_other_files: &'static [(&'static str, &'static str)],

@@ -13,11 +13,11 @@ use super::problem::number;
 pub(super) struct UnitSlip {
     /// Path of the key.
     pub key: String,
-    /// As given.
+    /// Value as given.
     pub value: f64,
-    /// What was likely meant, in the unit of the key.
+    /// Value likely meant, in the unit of the key.
     pub meant: f64,
-    /// Which units were likely confused.
+    /// Units that were likely confused.
     pub units: &'static str,
 }
 

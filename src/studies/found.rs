@@ -26,7 +26,7 @@ use crate::scene::loaded::{LoadError, LoadedScene, SceneText};
 
 type Write = dyn Fn(&Path) -> Result<(), ReportError> + Send + Sync;
 
-/// What a study found.
+/// Findings of a study.
 pub struct Study {
     json: String,
     write: Box<Write>,
@@ -87,7 +87,7 @@ enum StudyFault {
 }
 
 impl StudyError {
-    /// What is wrong with a file, if that is it.
+    /// Fault of a file, if that is the reason.
     pub fn in_loading(&self) -> Option<&LoadError> {
         if let StudyFault::Compare(CompareFault::Load(error)) = &self.0 { Some(error) } else { None }
     }
@@ -98,7 +98,8 @@ impl StudyError {
     }
 }
 
-/// The error of every model that fits the scene against its run time, as `gearwear accuracy`: `within` is the relative error that recommendations stay
+/// The error of every model that fits the scene against its run time, as `gearwear accuracy`: `within` is the relative error that
+/// recommendations stay
 /// within, `quick` leaves the scene's own resolution out.
 ///
 /// # Errors
@@ -112,14 +113,14 @@ pub fn accuracy(scene: &LoadedScene, within: f64, quick: bool, observer: &dyn Ob
     Study::new(record, |record, folder| accuracy::report::write(record, folder).map(drop))
 }
 
-/// What is asked of a comparison with measured profiles, in the words of the command line.
+/// Options of a comparison with measured profiles, in the words of the command line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CompareQuestion {
-    /// Which gear; `None`: as the file says.
+    /// Measured gear; `None`: as the file says.
     pub gear: Option<String>,
-    /// What is taken for the form: cubic, involute or none; `None`: cubic of heights, none of wear depths.
+    /// Form to remove: cubic, involute or none; `None`: cubic of heights, none of wear depths.
     pub form: Option<String>,
-    /// What is fitted: none, k, each, severe or both; `None`: k of one profile, each of two.
+    /// Coefficients to fit: none, k, each, severe or both; `None`: k of one profile, each of two.
     pub fit: Option<String>,
     /// How far a profile may be shifted along the flank, mm; 0: not at all.
     pub shift_within_mm: f64,

@@ -191,7 +191,7 @@ fn doubled_area_mm2(points_mm: &[Vector2<f64>], element: &Element) -> f64 {
     (1..corners.len() - 1).map(|i| (at(i) - at(0)).perp(&(at(i + 1) - at(0)))).sum()
 }
 
-/// The same element the other way round, from the same first corner.
+/// Element the other way round, from the same first corner.
 fn reversed(element: &Element) -> Element {
     let nodes = element.nodes();
     let n = corners(element.kind);

@@ -12,12 +12,12 @@ const MOST_NAMED: usize = 20;
 /// A cell of the mesh: its block, and its number within the block.
 pub(super) type CellRef = (usize, usize);
 
-/// What a name stands for.
+/// Cells and nodes that a name stands for.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Group {
-    /// Its cells by dimension: points, lines, surfaces, volumes.
+    /// Cells by dimension: points, lines, surfaces, volumes.
     pub cells: [Vec<CellRef>; 4],
-    /// Its nodes, where it is a set of nodes.
+    /// Nodes, where it is a set of nodes.
     pub nodes: Vec<usize>,
 }
 
@@ -81,7 +81,7 @@ impl<'a> Groups<'a> {
 }
 
 impl Group {
-    /// What it holds: `20 lines`, `1 point and 3 nodes`.
+    /// Contents in words: `20 lines`, `1 point and 3 nodes`.
     pub(super) fn in_words(&self) -> String {
         let kinds = ["point", "line", "surface", "volume"];
         let cells = kinds.iter().zip(&self.cells).map(|(kind, cells)| (*kind, cells.len()));

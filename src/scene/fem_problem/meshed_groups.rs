@@ -14,12 +14,12 @@ pub(super) trait Bodies {
     const DIRECTIONS: usize;
     /// The cells over which a force is spread: `lines`.
     const CARRIER: &'static str;
-    /// What such a cell is of an element: its `side`.
+    /// Name of such a cell in relation to an element: its `side`.
     const PART: &'static str;
     /// The cells that are: `lines along the elements of a body`.
     const PARTS: &'static str;
 
-    /// Their nodes.
+    /// Nodes of the bodies.
     fn nodes(&self) -> &BodyNodes;
 
     /// The middle nodes that quadratic elements have along a cell on these nodes of the mesh, which may be linear.

@@ -45,7 +45,7 @@ pub fn schema() -> &'static Value {
 /// A problem file without its mesh: sound as far as that goes, every default filled in.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FemProblem {
-    /// What it says.
+    /// Contents of the file.
     pub file: FemProblemFile,
     /// Likely slips of unit.
     pub warnings: Vec<String>,
@@ -60,7 +60,7 @@ pub(crate) struct Posed<P> {
     pub problem: P,
     /// Groups of the bodies, numbered as the elements' materials are.
     pub bodies: Vec<String>,
-    /// What the user should know although the problem can be solved.
+    /// Warnings about a problem that can be solved.
     pub warnings: Vec<String>,
 }
 
@@ -249,7 +249,7 @@ fn pose(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) -> Option<f
     Some(problem)
 }
 
-/// The same in space.
+/// Problem in space.
 fn pose_in_space(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) -> Option<fem::space::problem::Problem> {
     let groups = groups::Groups::new(mesh);
     let bodies = space_bodies::mesh_bodies(file, mesh, &groups, findings)?;

@@ -8,11 +8,11 @@ use crate::scene::findings::Findings;
 
 /// A cell of a body.
 pub(super) struct OwnedCell {
-    /// What it is.
+    /// Kind of cell.
     pub kind: CellKind,
-    /// Its nodes, as the bodies number them.
+    /// Nodes, as the bodies number them.
     pub nodes: Vec<u32>,
-    /// Its body.
+    /// Body of the cell.
     pub body: u16,
 }
 

@@ -14,7 +14,7 @@ use crate::scene::problem::number;
 
 /// Mean strain, or displacement over extent, beyond which nothing is meant.
 const GREATEST_MEANT: f64 = 100.0;
-/// What yields to a breath, MPa: below it Young's modulus is to blame, not the force.
+/// Least plausible Young's modulus, MPa: below it the modulus is the likely error, not the force.
 const SOFTEST_MPA: f64 = 1e-6;
 
 /// Refuses forces and displacements that cannot be meant on bodies with these nodes.

@@ -16,7 +16,7 @@ use crate::fem::space::problem::{Element, Solid};
 use crate::mesh::Mesh;
 use crate::scene::findings::Findings;
 
-/// What bodies in space are of.
+/// Cells allowed in bodies in space.
 const ALLOWED: &str = "hexahedra of 8 or 20 nodes";
 
 /// The bodies of a problem in space.

@@ -26,7 +26,7 @@ const GREATEST_SMALL: f64 = 0.1;
 const GREATEST_MEANT: f64 = 100.0;
 /// Half-width below which nothing is meant, mm: an atom.
 const LEAST_MEANT_MM: f64 = 1e-7;
-/// What steel gears are like: Young's modulus in MPa, line load in N/mm, face width in modules. The key furthest from it is to blame.
+/// Usual values of steel gears: Young's modulus in MPa, line load in N/mm, face width in modules. The key furthest from them is the likely error.
 const USUAL: (f64, f64, f64) = (206e3, 500.0, 10.0);
 
 /// Another key than the torque is to blame where its value is that many times the usual one, or as small.
@@ -36,7 +36,7 @@ const CLEARLY_OFF: f64 = 1e3;
 struct Contact {
     /// The key that the user changes.
     key: String,
-    /// Its value, as the file gives it.
+    /// Value, as the file gives it.
     value: f64,
     /// In words.
     name: &'static str,

@@ -12,7 +12,7 @@ use crate::scene::problem::number;
 const ELEMENTS_PER_HALF_WIDTH: f64 = 10.0;
 /// In a wear run: 3 and 8 give the same maximum wear within half a per cent (docs/accuracy.md).
 const WEAR_ELEMENTS_PER_HALF_WIDTH: f64 = 3.0;
-/// The same with severe wear, which depends on where the pressure passes a limit: 3 and 8 differ by 3 %, 5 and 8 by 1 to 2 %.
+/// Elements with severe wear, which depends on where the pressure passes a limit: 3 and 8 differ by 3 %, 5 and 8 by 1 to 2 %.
 const SEVERE_WEAR_ELEMENTS_PER_HALF_WIDTH: f64 = 5.0;
 /// Fewer elements in a half-width than this leave several per cent of error in the pressure.
 const FEW_ELEMENTS: f64 = 8.0;

@@ -15,7 +15,7 @@ const POSITIONS: u32 = 400;
 const TOLERANCE_UM: f64 = 0.05;
 /// Smaller errors than an atom are lost in the rounding of equilibria, and steps for them never end.
 const LEAST_TOLERANCE_UM: f64 = 1e-4;
-/// What the memory of a machine holds: 300 000 take about 10 MB.
+/// Limit by the memory of a machine: 300 000 take about 10 MB.
 const MOST_POINTS_TIMES_POSITIONS: usize = 100_000_000;
 /// More wear steps than this never end.
 const MOST_STEPS: f64 = 1e7;
@@ -68,7 +68,7 @@ pub(super) fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -
     Some(ContactSettings { surface, foundation, tip_contact })
 }
 
-/// What the choice of a stiffness model depends on.
+/// Inputs of the choice of a stiffness model.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Teeth {
     /// How the flanks touch.

@@ -29,7 +29,7 @@ const COEFFICIENTS: [&str; 2] = ["coefficient_m2_per_N", "coefficient_mm3_per_Nm
 /// The names of the laws.
 const LAWS: &str = "\"archard\", \"adsorption\" or \"oxidation\"";
 
-/// What laws may read that other tables of the scene give.
+/// Inputs of wear laws from other tables of the scene.
 #[derive(Clone, Copy)]
 pub(super) struct Given {
     /// `[lubricant]`.
@@ -91,7 +91,7 @@ pub(super) fn choose(file: &mut WearFile, given: Given, findings: &mut Findings)
     Some(settings)
 }
 
-/// What `[wear]` and the table of `gear` say of it together; constants of its own law only.
+/// Law of `gear` from `[wear]` and its own table together; constants of its own law only.
 fn whole(file: &WearFile, gear: Gear) -> GearWearFile {
     let own = match gear {
         Gear::Pinion => &file.pinion,

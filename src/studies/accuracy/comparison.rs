@@ -16,7 +16,7 @@ use crate::studies::accuracy::record::{Comparison, ComparisonRow};
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Run<'a> {
     pub setting: &'a Setting,
-    /// Its curves, at the reference's coordinates.
+    /// Curves of the run, at the reference's coordinates.
     pub observed: &'a Observed,
     /// Wall time of the wear run.
     pub simulation_s: f64,

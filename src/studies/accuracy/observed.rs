@@ -6,7 +6,7 @@ use crate::gear::slices::greatest_over_width;
 use crate::gear::{Gear, PerGear};
 use crate::results::run::{FlankRecord, RunRecord};
 
-/// What errors are measured on.
+/// Curves and figures that errors are measured on.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Observed {
     pub flanks: PerGear<ObservedFlank>,
@@ -26,7 +26,7 @@ pub(crate) struct ObservedFlank {
     pub width_mm: Vec<f64>,
     /// Wear depth, slice after slice.
     pub wear_um: Vec<f64>,
-    /// Its parts.
+    /// Zones of the flank.
     pub zones: FlankZones,
 }
 
@@ -69,7 +69,7 @@ impl Observed {
         }
     }
 
-    /// The same curves at the coordinates of `other`, linear in between.
+    /// Curves at the coordinates of `other`, linear in between.
     pub(crate) fn at_coordinates_of(&self, other: &Self) -> Self {
         let flank = |gear: Gear| {
             let (own, common) = (&self.flanks[gear], &other.flanks[gear]);

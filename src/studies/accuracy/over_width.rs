@@ -1,4 +1,4 @@
-//! What is observed over the face width of a pair with slices, and how different numbers of slices are brought together.
+//! Fields over the face width of a pair with slices, and how different numbers of slices are brought together.
 //!
 //! The value of a slice stands at its middle, z_i = (i + 1/2) b/m. Between the middles a field is linear in z; over the outer
 //! half of the first and the last slice it goes on as straight lines, since a slice does not know where on it the tooth ends:
@@ -17,7 +17,7 @@ pub(crate) struct OverWidth {
     pub root_wear_um: PerGear<Vec<f64>>,
     /// Face load factor K_Hβ, new.
     pub face_load_factor: f64,
-    /// The same, worn.
+    /// Face load factor, worn.
     pub worn_face_load_factor: f64,
 }
 
@@ -33,7 +33,7 @@ impl OverWidth {
         })
     }
 
-    /// The same curves at other places over the face width.
+    /// Curves at other places over the face width.
     pub(crate) fn at_widths(&self, width_mm: &[f64]) -> Self {
         let there = |gear: Gear| {
             let own: Vec<&[f64]> = self.root_wear_um[gear].chunks_exact(1).collect();

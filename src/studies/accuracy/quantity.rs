@@ -1,4 +1,4 @@
-//! What errors are measured of when models are compared.
+//! Quantities whose errors are compared.
 
 use std::fmt;
 
@@ -46,7 +46,7 @@ pub(crate) enum Quantity {
     WornFaceLoadFactor,
 }
 
-/// Its name in results.
+/// Name in results.
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.serialize(f)
@@ -75,7 +75,7 @@ impl Quantity {
         Self::WornFaceLoadFactor,
     ];
 
-    /// What it is, for people.
+    /// Title for readers.
     pub(crate) fn title(self) -> &'static str {
         match self {
             Self::WearProfile => "Wear profile, both gears",

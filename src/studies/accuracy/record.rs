@@ -1,4 +1,4 @@
-//! What the comparison of models by error and run time leaves behind, as plain data in the units of the output files.
+//! Record of the comparison of models by error and run time, in the units of the output files.
 //!
 //! Field names are the key names of `accuracy.json`.
 
@@ -32,7 +32,7 @@ pub(crate) struct AccuracyRecord {
     pub threads: usize,
     /// The relative error that the recommendations ask for.
     pub within: f64,
-    /// What the others are measured against.
+    /// Reference that the others are measured against.
     pub reference: ReferenceRecord,
     /// Every run, in the order of the work.
     pub variants: Vec<VariantRecord>,
@@ -84,9 +84,9 @@ impl AccuracyRecord {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct ReferenceRecord {
     pub how: String,
-    /// What the errors against it do not tell; `None` where it is a finite-element solution of the whole pair.
+    /// Limits of the reference that errors against it do not show; `None` where it is a finite-element solution of the whole pair.
     pub does_not_tell: Option<String>,
-    /// What remains uncertain of each quantity, relative: errors below this are not told apart.
+    /// Relative uncertainty of each quantity of the reference: errors below it are not told apart.
     pub uncertainty: BTreeMap<Quantity, f64>,
     /// The runs it was extrapolated from; indices of `variants`.
     pub runs: Vec<usize>,
@@ -134,7 +134,7 @@ impl ReferenceFlank {
 /// A run: what it was made of, what it took, and how far it is from the reference.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct VariantRecord {
-    /// What it is called in tables and plots.
+    /// Name in tables and plots.
     pub name: String,
     pub settings: VariantSettings,
     /// Wall time of the wear run alone, s: the least of the repeats.
@@ -162,7 +162,7 @@ pub(crate) struct VariantRecord {
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct VariantSettings {
     pub surface: String,
-    /// What K/H shares with Hertz or the calibration; `None` where the surface has no K/H.
+    /// Quantity in which K/H matches Hertz or the calibration; `None` where the surface has no K/H.
     #[serde(rename = "match")]
     pub match_criterion: Option<String>,
     /// Whether K/H is the calibration's, for every position and load.
@@ -183,7 +183,7 @@ pub(crate) struct VariantSettings {
     pub step_revolutions: f64,
     /// The scene's numbers of flank points and positions over these.
     pub spacing_coarsening: u32,
-    /// This wear step over the scene's.
+    /// Ratio of the wear step to the scene's.
     pub step_coarsening: u32,
 }
 
@@ -217,16 +217,16 @@ pub(crate) struct NotRanked {
     pub quantity: Quantity,
     /// Of the reference, relative.
     pub uncertainty: f64,
-    /// What would make the reference more certain, the greatest part of the uncertainty first.
+    /// Change of the scene that would make the reference more certain, for the greatest part of the uncertainty first.
     pub remedy: String,
 }
 
 /// Runs that differ in one respect only.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Comparison {
-    /// What they differ in.
+    /// Setting that differs between them.
     pub title: String,
-    /// What they have in common.
+    /// Settings in common.
     pub common: String,
     /// Name of the run that the others are compared with.
     pub baseline: String,
@@ -250,7 +250,7 @@ pub(crate) struct ComparisonRow {
 /// oscillates from step to step then finds other depths, one that does not hardly notices.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct DeepRuns {
-    /// What they have in common.
+    /// Settings in common.
     pub common: String,
     /// The scene's revolutions times this.
     pub revolutions_factor: f64,

@@ -38,11 +38,11 @@ pub(crate) struct Correction<'a> {
 /// The reference with what remains uncertain of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Reference {
-    /// Its curves.
+    /// Curves of the reference.
     pub observed: Observed,
     /// Relative uncertainty of each quantity.
     pub uncertainty: BTreeMap<Quantity, f64>,
-    /// What each correction alone changes of every quantity, relative.
+    /// Relative change of every quantity by each correction alone.
     pub parts: Vec<BTreeMap<Quantity, f64>>,
 }
 

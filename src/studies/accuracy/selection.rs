@@ -1,4 +1,4 @@
-//! Which settings are run, in which order, and which are not, with the reason.
+//! Selection of the settings that are run, their order, and the reason for those left out.
 //!
 //! Not every combination tells something. The plan is
 //!
@@ -27,7 +27,7 @@ const LEAST_ELEMENTS: f64 = 2.0;
 /// waves of wear; much longer ones would not be of the order that is extrapolated with.
 pub(super) const COMPANION_STEP: u32 = 2;
 
-/// What is asked of the comparison beside the scene.
+/// Options of the comparison beside the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Asked {
     /// The relative error that recommendations stay within.
@@ -44,7 +44,7 @@ pub(crate) struct Companions {
     pub spacing: Spacing,
 }
 
-/// What differs between two companions.
+/// Setting that differs between two companions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Spacing {
     /// The size of elements, by this ratio.
@@ -58,7 +58,7 @@ pub(crate) enum Spacing {
 }
 
 impl Spacing {
-    /// What in the scene makes it less.
+    /// Change of the scene that makes the difference less.
     pub(crate) fn remedy(self) -> &'static str {
         match self {
             Self::Elements(_) => "more fem.elements_per_half_width",
@@ -223,7 +223,7 @@ impl Selection {
         }
     }
 
-    /// What no scene is run with.
+    /// Leaves out settings that no scene is run with.
     fn leave_out_of_all(&mut self, resolved: &Resolved, calibrated: &[MatchCriterion], no_calibration: &str) {
         let own = resolved.file.stiffness.as_ref().and_then(|stiffness| stiffness.model);
         for (model, name) in [(StiffnessModel::Simon, "simon"), (StiffnessModel::WangCheng, "wang-cheng")] {

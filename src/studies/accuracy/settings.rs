@@ -55,7 +55,7 @@ impl Coarsening {
 pub(crate) struct Stiffness {
     /// The scene's section.
     pub file: StiffnessFile,
-    /// What it is called: `constant 20`, `weber-banaschek`.
+    /// Name: `constant 20`, `weber-banaschek`.
     pub name: String,
 }
 
@@ -122,7 +122,7 @@ impl Stiffness {
         Self { file: StiffnessFile { model: Some(model), ..StiffnessFile::default() }, name: name.to_owned() }
     }
 
-    /// As tables and plots say it: "teeth by ISO 6336".
+    /// Title in tables and plots: "teeth by ISO 6336".
     pub(crate) fn title(&self) -> String {
         let how = match self.file.model {
             Some(StiffnessModel::Constant) => {
@@ -163,7 +163,7 @@ pub(crate) fn euler_revolutions(scene: &Scene) -> f64 {
     scene.numerics.stepping.euler_revolutions(scene.operation.pinion_revolutions)
 }
 
-/// As tables and plots say it.
+/// Title in tables and plots.
 pub(crate) fn coupling_name(coupling: Coupling) -> &'static str {
     match coupling {
         Coupling::None => "uncoupled",
@@ -173,7 +173,7 @@ pub(crate) fn coupling_name(coupling: Coupling) -> &'static str {
 }
 
 impl Setting {
-    /// What it is called in tables and plots.
+    /// Name in tables and plots.
     pub(crate) fn name(&self) -> String {
         let slices = self.slices.map(|s| format!("{} slices, {}", s.count, coupling_name(s.coupling)));
         let stiffness = self.stiffness.as_ref().map(Stiffness::title);
@@ -238,7 +238,7 @@ impl Setting {
         Scene::from_toml(&file.to_toml())
     }
 
-    /// What the record says of it.
+    /// Settings as the record has them.
     pub(crate) fn record(&self, scene: &Scene) -> VariantSettings {
         let match_criterion = match self.surface {
             Surface::Winkler(Foundation::Matched(criterion) | Foundation::Calibrated(criterion)) => {

@@ -1,8 +1,8 @@
-//! Which settings are run where sections differ over the face width.
+//! Selection of the settings that are run where sections differ over the face width.
 //!
-//! Plane finite elements are no solution of such a pair. The truest model there is takes their place, elastic half-planes whose slices are
-//! coupled by three-dimensional finite elements of both gears, tip edges followed, on twice the scene's slices; where teeth cannot be had
-//! in space, or so many slices not be coupled there, the slices are coupled by plate theory. The plan is
+//! Plane finite elements are no solution of such a pair. The reference is therefore elastic half-planes whose slices are coupled
+//! by three-dimensional finite elements of both gears, with tip contact, on twice the scene's slices; where the gears cannot be
+//! meshed in space, or not with so many slices, the slices are coupled by plate theory. The plan is
 //!
 //! * the reference and its companions: steps twice as long, half of the slices, half of the points and positions;
 //! * the surfaces that stand for the others, coupled in space, at the finest resolution;

@@ -28,7 +28,7 @@ use crate::studies::accuracy::record::{
 
 /// Least ratio of the wear steps taken of which anything is learned.
 const LEAST_STEP_RATIO: f64 = 1.2;
-/// What a reference on half-planes leaves open.
+/// Limits of a reference on half-planes.
 const DOES_NOT_TELL: &str = "The teeth of the reference are three-dimensional finite elements, or plates where these cannot be had; contact \
                              itself is plane in every slice, on half-planes. The errors are those of the contact surface, of the coupling of \
                              slices and of the resolution; what half-planes themselves leave out at tip edges and end faces they do not tell.";

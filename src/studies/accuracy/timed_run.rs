@@ -20,13 +20,13 @@ const LONG_ENOUGH_S: f64 = 0.2;
 /// Repeats at the most.
 const MOST_REPEATS: u32 = 20;
 
-/// What one setting came to.
+/// Outcome of one setting.
 pub(super) struct Measured {
     pub record: VariantRecord,
     pub finished: Option<Finished>,
 }
 
-/// What is kept of a run: far less than its record, of which there would be a hundred.
+/// Part of a run that is kept: far less than its record, of which there would be a hundred.
 pub(super) struct Finished {
     pub observed: Observed,
     pub summary: Summary,

@@ -12,7 +12,7 @@ use crate::measurement::file;
 use crate::observer::Observer;
 use crate::scene::loaded::{LoadError, LoadedScene, SceneText};
 
-/// What keeps profiles from being compared.
+/// Why profiles cannot be compared.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum CompareFault {
     #[error(transparent)]

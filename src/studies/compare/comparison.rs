@@ -28,7 +28,7 @@ pub(super) struct Comparison<'a> {
 
 /// Deeper than this, in modules, no model vouches for the wear, and runs soon wear teeth through.
 const DEEPEST_MODULES: f64 = 0.3;
-/// What greatest factor a search has at least, and at most.
+/// Least and greatest upper end of a search for a factor.
 const GREATEST_FACTOR: [f64; 2] = [4.0, 1e3];
 
 /// Where a search begins.

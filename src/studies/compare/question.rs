@@ -1,4 +1,4 @@
-//! What is asked of a comparison, checked against the run and the measured files before anything is computed.
+//! Question of a comparison, checked against the run and the measured files before anything is computed.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ const SPARE_POINTS: usize = 2;
 /// Most profiles that are fitted together: one of each gear.
 pub(crate) const MOST_PROFILES: usize = 2;
 
-/// What is fitted: the values of `--fit`.
+/// Coefficients to fit: the values of `--fit`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum FitKind {
     /// Nothing but the place along the flank.
@@ -34,7 +34,7 @@ pub(crate) enum FitKind {
 }
 
 impl FitKind {
-    /// What is fitted to this many profiles where nothing else is asked.
+    /// Default for this many profiles.
     fn of(profiles: usize) -> Self {
         if profiles > 1 { FitKind::Each } else { FitKind::K }
     }
@@ -47,7 +47,7 @@ impl FitKind {
         matches!(self, FitKind::Severe | FitKind::Both)
     }
 
-    /// Its name on the command line.
+    /// Name on the command line.
     fn name(self) -> &'static str {
         match self {
             FitKind::None => "none",
@@ -62,11 +62,11 @@ impl FitKind {
 /// Whose constants of wear are fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Fitted {
-    /// Those of both gears, by one factor.
+    /// Coefficients of both gears, by one factor.
     Together,
-    /// Those of the measured gear alone, whose law is not that of its mate.
+    /// Coefficients of the measured gear alone, whose law is not that of its mate.
     Alone(Gear),
-    /// Those of both gears, each by a factor of its own.
+    /// Coefficients of both gears, each by a factor of its own.
     Each,
 }
 
@@ -77,20 +77,20 @@ impl Fitted {
     }
 }
 
-/// What the user asks beside the files.
+/// Options beside the files.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Asked {
-    /// Which gear; `None`: as the file says.
+    /// Measured gear; `None`: as the file says.
     pub gear: Option<Gear>,
-    /// What is taken for the form; `None`: a cubic of heights, nothing of wear depths.
+    /// Form to remove; `None`: a cubic of heights, nothing of wear depths.
     pub form: Option<Form>,
-    /// What is fitted; `None`: the wear coefficient of each measured gear.
+    /// Coefficients to fit; `None`: the wear coefficient of each measured gear.
     pub fit: Option<FitKind>,
     /// How far a profile may be shifted along the flank, mm; 0: not at all.
     pub shift_within_mm: f64,
 }
 
-/// What does not fit together.
+/// Inputs that do not fit together.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum QuestionError {
     #[error(transparent)]
@@ -149,7 +149,7 @@ pub(crate) struct Refused {
 pub(crate) struct ProfileQuestion {
     /// Name of its file.
     pub measured: String,
-    /// What was measured, on its flank.
+    /// Measured profile, on its flank.
     pub profile: MeasuredProfile,
     /// When, in pinion revolutions.
     pub revolutions: f64,
@@ -226,7 +226,7 @@ impl Question {
 }
 
 impl ProfileQuestion {
-    /// What `file` says, and what is asked of it.
+    /// Question about `file`, with the user's options.
     fn new(
         name: &str,
         file: &MeasuredFile,

@@ -1,4 +1,4 @@
-//! What a comparison of measured profiles with a run leaves behind, as plain data: what its reports read.
+//! Record of a comparison of measured profiles with a run: what its reports read.
 
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
@@ -39,16 +39,16 @@ pub(crate) struct ProfileRecord {
     pub width_mm: Option<f64>,
     /// When it was measured; `None` where the scene gives no speed.
     pub hours: Option<f64>,
-    /// The same in pinion revolutions.
+    /// Time in pinion revolutions.
     pub revolutions: f64,
-    /// What was taken for the form: `cubic`, `involute`, `none`.
+    /// Form removed: `cubic`, `involute`, `none`.
     pub form: String,
     /// Shift of the measured profile towards the tip; `None` where none was allowed.
     pub shift_mm: Option<Estimate>,
     pub points: usize,
     /// Points that count, given the autocorrelation of the residuals; `None` where too few do for an interval.
     pub effective_points: Option<f64>,
-    /// Those less the values fitted, form included.
+    /// Independent points less the values fitted, form included.
     pub degrees_of_freedom: Option<f64>,
     pub figures: CompareFigures,
     /// Radii of the points A–E on the gear.
@@ -90,11 +90,11 @@ pub(crate) struct Correlation {
     pub matrix: Vec<Vec<f64>>,
 }
 
-/// What was fitted, and how.
+/// Fitted coefficients, and how they were found.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FitRecord {
     pub stopped: FitStop,
-    /// What is to blame where it did not converge.
+    /// Coefficient that kept the search from converging.
     pub blamed: Option<Unknown>,
     /// Of each gear that has its own; empty where none was fitted.
     pub coefficients: Vec<Coefficient>,
@@ -130,7 +130,7 @@ impl FitRecord {
 pub(crate) struct CompareFigures {
     /// Arithmetic mean deviation of the measured profile (of one trace; Sa where it stands for an area).
     pub mean_deviation_um: f64,
-    /// That of the simulated profile.
+    /// Mean deviation of the simulated profile.
     pub simulated_mean_deviation_um: f64,
     /// Ra of the measured profile after a Gaussian filter; `None` where it is too short or its points too far apart.
     pub roughness_um: Option<f64>,
@@ -138,7 +138,7 @@ pub(crate) struct CompareFigures {
     pub cutoff_mm: f64,
     /// Root mean square of measured less simulated, as the run has it (its place along the flank fitted, where allowed).
     pub as_run_difference_um: f64,
-    /// The same after the fit.
+    /// Difference after the fit.
     pub difference_um: f64,
     /// Greatest absolute difference after the fit.
     pub greatest_difference_um: f64,
@@ -171,7 +171,7 @@ pub(crate) struct CompareRow {
     pub gear: Gear,
 }
 
-/// As `compare.json` has it: what there is of each profile stands at the top for the first of them, and in `profiles` for all.
+/// Serialised as in `compare.json`: the first profile at the top, and all of them in `profiles`.
 impl Serialize for CompareRecord {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]

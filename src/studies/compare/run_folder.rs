@@ -1,4 +1,4 @@
-//! What a finished run left behind, as far as a comparison reads it: `summary.json` and `profiles.csv`.
+//! Files of a finished run that a comparison reads: `summary.json` and `profiles.csv`.
 //!
 //! `scene.toml` lies beside them; its SHA-256 is the summary's scene hash, so that a scene changed after the run is noticed.
 
@@ -18,7 +18,7 @@ const SCENE: &str = "scene.toml";
 /// Times this close to each other, relatively, are the same: hours and revolutions round differently.
 const SAME_TIME: f64 = 1e-9;
 
-/// What is wrong with the folder of a run.
+/// Faults of the folder of a run.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum RunFolderError {
     #[error("{} cannot be read: {reason}; allowed: the folder of a finished gearwear run", path.display())]
@@ -30,14 +30,14 @@ pub(crate) enum RunFolderError {
     #[error("{}: line {line}: found {found}; allowed: {allowed}", path.display())]
     Damaged {
         path: PathBuf,
-        /// Its line, from 1.
+        /// Line, from 1.
         line: u64,
         found: String,
         allowed: String,
     },
 }
 
-/// What is read of the summary.
+/// Fields read from the summary.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(crate) struct Summary {
     pub title: String,
@@ -47,7 +47,7 @@ pub(crate) struct Summary {
     scene_hash: String,
 }
 
-/// What is read of a row of the profiles.
+/// Fields read from a row of the profiles.
 #[derive(Debug, Clone, Copy, Deserialize)]
 struct ProfileRow {
     gear: Gear,
@@ -109,7 +109,7 @@ impl RunFolder {
     }
 }
 
-/// What `S` holds of the summary of a finished run.
+/// Fields of `S` from the summary of a finished run.
 pub(crate) fn summary<S: DeserializeOwned>(folder: &Path) -> Result<S, RunFolderError> {
     #[derive(Deserialize)]
     struct Ended<S> {

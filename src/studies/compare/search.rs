@@ -8,9 +8,11 @@
 //! the factor on the wear coefficient, or of one on that of each gear, and of the factor of severe wear, and the shift d_p of each profile
 //! along its flank. Of several profiles each has the weight w_p = 1/(σ_p √τ_p), with the standard deviation of the residuals that it has when
 //! it is fitted alone, and how many neighbouring points say what one says ([`crate::measurement::interval`]): what the model does not
-//! describe of a profile lessens its weight, what it does not share with the other one does not. χ² is least over profiles interpolated between runs ([`Simulations::about`]); then runs with just the parameters found
+//! describe of a profile lessens its weight, what it does not share with the other one does not. χ² is least over profiles
+//! interpolated between runs ([`Simulations::about`]); then runs with just the parameters found
 //! take the place of the interpolation, and Gauss–Newton steps on their residuals go on until they no longer matter. The result is that
-//! of the exact runs, the best of them; the derivatives are those of the interpolation, mended by what each exact run says of the last step. Where wear does not change smoothly with the coefficient (an
+//! of the exact runs, the best of them; the derivatives are those of the interpolation, mended by what each exact run says of the
+//! last step. Where wear does not change smoothly with the coefficient (an
 //! abrupt transition to severe wear, wear steps beyond the stable one), exact runs scatter: steps of up to half a standard deviation are
 //! then left, and reported.
 
@@ -40,14 +42,14 @@ const SMALL_STEP: f64 = 5e-3;
 const MOST_EXACT_RUNS: usize = 6;
 /// Least scatter that weights are made of, µm.
 const LEAST_SCATTER_UM: f64 = 1e-6;
-/// What the search found.
+/// Result of the search.
 pub(super) struct FittedCoefficients {
     pub unknowns: Vec<Unknown>,
     parameters: Vec<f64>,
     pub stop: FitStop,
-    /// Which is to blame, where one is.
+    /// Coefficient that kept the search from converging.
     pub blamed: Option<Unknown>,
-    /// What the residuals say; `None` where nothing was fitted or too few points count.
+    /// Uncertainty from the residuals; `None` where nothing was fitted or too few points count.
     pub uncertainty: Option<Uncertainty>,
     /// Wear depth of the flank points of each profile.
     pub wear_um: Vec<Vec<f64>>,

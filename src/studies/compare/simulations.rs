@@ -37,7 +37,7 @@ pub(crate) enum CompareError {
 
 /// Snapshots of the run that holds all coefficients, at squares of even steps: dense where little is worn.
 const SNAPSHOTS: u32 = 40;
-/// The same where each is a run of its own.
+/// Number of simulations where each is a run of its own.
 const SEPARATE_RUNS: u32 = 6;
 /// Longer runs have no more wear steps than one of this factor.
 const AS_FINE_UP_TO: f64 = 4.0;
@@ -128,7 +128,7 @@ impl<'a> Simulations<'a> {
         Ok(self.question.profiles.iter().enumerate().map(measured).collect())
     }
 
-    /// The same, interpolated between profiles that are computed where they are first needed.
+    /// Wear profiles, interpolated between profiles that are computed where they are first needed.
     pub(super) fn about(&mut self, change: Change) -> Result<Vec<Vec<f64>>, CompareError> {
         let profiles = &self.question.profiles;
         let mut sums = vec![Vec::new(); profiles.len()];

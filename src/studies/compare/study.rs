@@ -275,7 +275,7 @@ fn warnings(fit: &FitRecord, profiles: &[ProfileRecord], unsettled: Option<f64>)
     warnings
 }
 
-/// What to say of a profile whose residuals its uncertainty does not explain, with its gear where there are others.
+/// Warning about a profile whose residuals its uncertainty does not explain, with its gear where there are others.
 fn not_described(of: &ProfileRecord, name_gear: bool) -> Option<String> {
     let difference_um = of.figures.difference_um;
     let uncertainty_um = of.figures.uncertainty_um.filter(|u| difference_um > NOT_DESCRIBED * u)?;

@@ -25,7 +25,7 @@ pub(crate) enum Ended {
 }
 
 impl Ended {
-    /// What is wrong with the program, where anything is.
+    /// Defect of the program that the run shows, if any.
     pub(super) fn defect(&self) -> Option<String> {
         match self {
             Ended::NotConverged(said) => Some(format!("did not converge: {said}")),

@@ -10,7 +10,7 @@ use crate::results::run::{FlankRecord, MeshCycleRow, RunRecord};
 /// A difference with what is allowed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Measured {
-    /// What is compared.
+    /// Name of the figure compared.
     pub figure: String,
     /// Difference, relative to the greatest value of the figure.
     pub value: f64,
@@ -41,7 +41,7 @@ pub(super) struct Follows {
     pub area: f64,
     /// The gears have changed places, and the mesh runs from E to A.
     pub exchanged: bool,
-    /// What is at a position of the one run may be at another in the other run, as far from it as the transmission error is great.
+    /// Whether values at a position of one run may be at another in the other run, at most one transmission error away.
     pub lags: bool,
     /// The face width runs the other way.
     pub mirrored: bool,
@@ -74,7 +74,7 @@ pub(super) struct Bounds {
     pub cycle: f64,
     /// Least of each of what is worn, where the two runs take as many adaptive steps, whose lengths differ.
     pub least_of_worn: f64,
-    /// What adaptive steps promise of the depth at any point, µm, where the two runs may take others.
+    /// Tolerance of adaptive steps on the depth at any point, µm, where the two runs may take other steps.
     pub tolerance_um: Option<f64>,
 }
 
@@ -83,8 +83,8 @@ impl Bounds {
         Self { wear: bound, volume: bound, pressure: bound, cycle: bound, least_of_worn: 0.0, tolerance_um: None }
     }
 
-    /// Those of what is worn, beside `record`. The promise of adaptive steps opens the gap of both flanks and so moves the transmission error, and the
-    /// load shares by as much of themselves; it says nothing of the pressure at a point where contact begins.
+    /// Bounds on worn figures, beside `record`. The tolerance of adaptive steps opens the gap of both flanks and so moves the
+    /// transmission error, and the load shares by as much of themselves; it bounds no pressure at a point where contact begins.
     fn of_worn(self, record: &RunRecord) -> Self {
         let Some(tolerance_um) = self.tolerance_um else {
             let at_least = |bound: f64| bound.max(self.least_of_worn);
@@ -251,7 +251,7 @@ pub(super) fn summaries(first: &impl Serialize, other: &impl Serialize, besides:
 const RELATIVE: [&str; 5] =
     ["load_imbalance", "split_remainder_at_half_load", "variation", "asymmetry", "asymmetry_first_mesh"];
 
-/// What differs between runs that are alike.
+/// Figures that differ between runs that are alike.
 const NOT_COMPARED: [&str; 10] =
     ["stages", "wall_s", "scene_hash", "title", "work", "warnings", "left_out", "report", "invariants", "error"];
 

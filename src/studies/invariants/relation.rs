@@ -11,7 +11,7 @@ use crate::results::run::RunRecord;
 #[derive(Clone, Copy)]
 pub(crate) struct Relation {
     pub name: &'static str,
-    /// What must be so, in a sentence.
+    /// Statement in a sentence.
     pub states: &'static str,
     /// Why the bound is what it is.
     pub bound: &'static str,
@@ -28,9 +28,9 @@ pub(crate) struct Subject<'a> {
     pub run: &'a dyn Fn(&Table) -> Result<RunRecord, Ended>,
 }
 
-/// What a relation came to on a scene.
+/// Outcome of a relation on a scene.
 pub(crate) enum Verdict {
-    /// It says nothing of such a scene.
+    /// The relation says nothing about such a scene.
     NotOfThisScene,
     /// The other scene did not run to its end.
     Ended { scene: Table, how: Ended },
@@ -45,7 +45,8 @@ const STEP: &str = "numerics.step.revolutions";
 
 /// Points or positions over those of the scene, where its own are too few for its contacts.
 const FINER: f64 = 4.0;
-/// The same where these are too few as well, as for contacts near a base circle (seed 7, 1232: what a flank loses is 56 % off what load and sliding ask for
+/// Refinement where these are too few as well, as for contacts near a base circle (seed 7, 1232: what a flank loses is 56 % off
+/// what load and sliding ask for
 /// at 96 positions, 25 % at 192, 10 % at 384, 4 % at 768).
 const FINEST: f64 = 16.0;
 
@@ -68,7 +69,8 @@ impl Verdict {
     }
 }
 
-/// The scene with so many times the numbers at `keys`, where it has them; with steps of wear for twice as many flank points, where they are of a fixed length:
+/// The scene with so many times the numbers at `keys`, where it has them; with steps of wear for twice as many flank points,
+/// where they are of a fixed length:
 /// what is stable is as long as points are apart.
 fn finer(table: &Table, keys: &[&str], by: f64) -> Table {
     let mut finer = table.clone();
@@ -114,7 +116,8 @@ impl Subject<'_> {
         }
     }
 
-    /// Runs what `other` makes of the scene and judges both; where they are beyond a bound, `keys` may be too small numbers for the scene's contacts, and
+    /// Runs what `other` makes of the scene and judges both; where they are beyond a bound, `keys` may be too small numbers for
+    /// the scene's contacts, and
     /// both at four times the numbers are what is judged, or at sixteen times where these are beyond it too.
     pub(super) fn refined(
         &self,

@@ -61,7 +61,7 @@ fn answer(record: &InvariantsRecord) -> String {
     )
 }
 
-/// What the terminal shows.
+/// Text for the terminal.
 pub(crate) fn terminal(record: &InvariantsRecord) -> String {
     let mut text = format!(
         "{:34} {:>6} {:>8} {:>10} {:>10}  {}\n",

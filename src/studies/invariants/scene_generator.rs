@@ -32,7 +32,7 @@ struct Sizes {
     is_plastic: bool,
 }
 
-/// What load and wear are aimed at.
+/// Target of load and wear.
 struct Aim {
     line_load_n_per_mm: f64,
     torque_nm: f64,
@@ -82,7 +82,7 @@ impl Draw {
         four_digits(from + (to - from) * self.random.f64())
     }
 
-    /// The same evenly in the logarithm.
+    /// Number evenly distributed in the logarithm.
     fn logarithmic(&mut self, from: f64, to: f64) -> f64 {
         four_digits((from.ln() + (to / from).ln() * self.random.f64()).exp())
     }

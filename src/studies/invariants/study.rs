@@ -27,7 +27,7 @@ const SOUND: &str = "sound";
 /// The word among cases of the validation suite that stands for random scenes.
 pub(crate) const INVARIANTS: &str = "invariants";
 
-/// Which scenes.
+/// Range of scenes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Asked {
     pub seed: u64,
@@ -37,13 +37,13 @@ pub(crate) struct Asked {
 }
 
 impl Asked {
-    /// As many as belong to a tier of the validation suite, of the first seed.
+    /// Range of a tier of the validation suite, of the first seed.
     pub(crate) fn of_tier(tier: Option<Tier>) -> Self {
         Self { seed: 1, first: 0, count: if tier == Some(Tier::Smoke) { 100 } else { 1000 } }
     }
 }
 
-/// What came of one scene.
+/// Findings on one scene.
 struct OfScene {
     index: u64,
     ended: Option<Ended>,
@@ -59,7 +59,7 @@ struct Finding {
     reason: String,
     /// The worst of its figures; none where the other scene gave none.
     worst: Option<Measured>,
-    /// What is wrong beside figures.
+    /// Defect of the program beside figures.
     defect: Option<String>,
     text: String,
     other: Option<String>,
@@ -307,7 +307,7 @@ mod tests {
     use super::*;
     use crate::observer::Unwatched;
 
-    /// The same scenes on one and two threads, and the record of the whole is that of its parts.
+    /// Scenes give the same on one and two threads, and the record of the whole is that of its parts.
     #[test]
     fn threads_and_parts_change_nothing() {
         let asked = Asked { seed: 5, first: 0, count: 6 };
@@ -322,7 +322,7 @@ mod tests {
         assert!(one.ran > 0);
     }
 
-    /// What broke a statement once, and statements that asked too much.
+    /// Scenes that once broke a statement, or that a statement once asked too much of.
     #[test]
     fn reg_scenes_that_broke_a_statement_hold() {
         for (seed, first, broke) in [

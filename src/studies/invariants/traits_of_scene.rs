@@ -1,4 +1,4 @@
-//! What relations ask of a scene before they say anything of it.
+//! Properties of a scene that relations depend on.
 
 use toml::{Table, Value};
 

@@ -18,7 +18,7 @@ const DEFAULT_OUTPUTS: [&str; 5] = [
     "worn.transmission_error_um.peak_to_peak",
 ];
 
-/// What is asked of a scene.
+/// Question of a study of uncertainty.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UncertaintyQuestion {
     /// Uncertain keys: `KEY=DISTRIBUTION` (docs/uncertainty.md).
@@ -67,7 +67,7 @@ impl From<OutputError> for UncertaintyFault {
 }
 
 impl UncertaintyError {
-    /// What is wrong with the scene itself, if that is it.
+    /// Fault of the scene itself, if that is the reason.
     pub fn in_the_scene(&self) -> Option<&SceneError> {
         if let UncertaintyFault::Scene(error) = &self.0 { Some(error) } else { None }
     }
@@ -79,7 +79,7 @@ impl UncertaintyError {
 }
 
 impl Question {
-    /// What `asked` means for `scene`.
+    /// Question `asked`, resolved for `scene`.
     pub(crate) fn of(scene: &LoadedScene, asked: &UncertaintyQuestion) -> Result<Self, UncertaintyFault> {
         let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
         let resolved: toml::Table = scene.to_toml().parse().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! What became of the suite since an earlier run of it.
+//! Changes of the suite since an earlier run of it.
 //!
 //! Compared are verdicts, errors and counts of work, each with a threshold that rounding on another machine stays below:
 //! a share of a tolerance by 0.05 of the tolerance, a number that is held against a bound by 1 % of itself, a count by 1 %.
@@ -15,7 +15,7 @@ const RELATIVE: f64 = 0.01;
 /// Below this share of its bound a number is as good as zero, and its relative change says nothing.
 const NOTHING: f64 = 1e-6;
 
-/// What changed from `old` to `new`. A case that only one of them has is named, not judged: a suite may be run in part.
+/// Changes from `old` to `new`. A case that only one of them has is named, not judged: a suite may be run in part.
 pub(crate) fn changes(old: &ValidationRecord, new: &ValidationRecord) -> Changes {
     let missing_in = |other: &ValidationRecord, record: &ValidationRecord| {
         let names = record.cases.iter().map(|case| &case.name);

@@ -24,7 +24,7 @@ pub(crate) struct CaseFile {
     /// The targets it speaks to, such as `S1`.
     #[serde(default)]
     pub targets: Vec<String>,
-    /// What the source says, in the project's own words.
+    /// Statement of the source, in the project's own words.
     pub says: Option<String>,
     /// Estimates it rests on.
     #[serde(default)]
@@ -116,7 +116,7 @@ pub(crate) struct VarySpec {
     pub key: OneOrMore,
     /// The column of its values in the family; default: the last part of the first key.
     pub name: Option<String>,
-    /// Its values …
+    /// Values …
     pub values: Option<Vec<toml::Value>>,
     /// … or from this number …
     pub from: Option<f64>,
@@ -148,9 +148,9 @@ impl OneOrMore {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MemberSpec {
-    /// What it is called in plots and messages; default: what it sets.
+    /// Name in plots and messages; default: the keys it sets.
     pub label: Option<String>,
-    /// Its place on an axis: the column `value` of the family.
+    /// Place on an axis: the column `value` of the family.
     pub value: Option<f64>,
     /// Keys and values beside those of the run.
     #[serde(default)]
@@ -223,9 +223,9 @@ pub(crate) struct QuantitySpec {
     pub near: Option<Formula>,
     /// How near.
     pub within: Option<Extent>,
-    /// Its least value.
+    /// Lower bound.
     pub at_least: Option<Formula>,
-    /// Its greatest value; with `at_least`, both hold.
+    /// Upper bound; with `at_least`, both hold.
     pub at_most: Option<Formula>,
     /// `true`: the expression is a statement that must be true.
     pub is_true: Option<bool>,
@@ -234,7 +234,7 @@ pub(crate) struct QuantitySpec {
     pub source: String,
     /// Of the reference.
     pub uncertainty: Option<Extent>,
-    /// What the spacing of the computation contributes.
+    /// Contribution of the computation's resolution.
     pub discretisation: Option<Extent>,
     /// Why the tolerance or bound is what it is.
     pub because: Option<String>,
@@ -252,7 +252,7 @@ pub(crate) struct QuantitySpec {
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlotSpec {
     pub title: String,
-    /// What one sees, in a sentence.
+    /// Description of what the plot shows, in a sentence.
     pub reading: String,
     /// Title of the abscissa, unit included.
     pub x: String,
@@ -274,7 +274,7 @@ pub(crate) struct PlotSpec {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CurveSpec {
-    /// Its name; with `each`, before the member's own.
+    /// Name; with `each`, before the member's own.
     #[serde(default)]
     pub name: String,
     /// Expression for the abscissae.
@@ -308,12 +308,12 @@ pub(crate) struct WorkPrecisionSpec {
     pub family: String,
     /// The column of the family that names the curves.
     pub series: String,
-    /// What else is said of them, such as `with tip edges`.
+    /// Addition to their names, such as `with tip edges`.
     #[serde(default)]
     pub name: String,
     /// Expression for the relative error of a member, `run`.
     pub error: String,
-    /// What is counted, as in the summary's `work`.
+    /// Work count, as in the summary's `work`.
     pub counted: String,
 }
 
@@ -324,6 +324,6 @@ pub(crate) struct StabilitySpec {
     pub family: String,
     /// The parameter, unit included.
     pub parameter: String,
-    /// Its column in the family.
+    /// Column in the family.
     pub value: String,
 }

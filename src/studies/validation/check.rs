@@ -1,4 +1,4 @@
-//! What a case file must be beyond its shape: names that are known and used once, criteria that say one thing, sources.
+//! Checks of a case file beyond its shape: names that are known and used once, one criterion for each quantity, sources.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use crate::studies::validation::record::{RunOutcome, Standing};
 /// Greatest number of members of a family.
 pub(super) const MOST_MEMBERS: usize = 10_000;
 
-/// What is wrong with a case.
+/// Fault of a case.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{kind} {name:?}: found {found}; allowed: {allowed}")]
 pub(super) struct CaseFault {

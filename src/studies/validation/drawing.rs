@@ -1,4 +1,4 @@
-//! What a case draws: plots, error against cost, outcomes over a range.
+//! Plots of a case, error against cost, outcomes over a range.
 
 use std::collections::BTreeMap;
 

@@ -32,13 +32,13 @@ use crate::scene::{Problem, Resolved, presets};
 use crate::studies::invariants::study::{self, Asked};
 use crate::studies::validation::record::RunOutcome;
 
-/// What a run came to.
+/// Result of a run.
 #[derive(Debug, Clone)]
 pub(crate) struct Executed {
     pub outcome: RunOutcome,
-    /// What it said, where that is not sound.
+    /// Message of the program, or the reason why the run is not sound.
     pub said: Option<String>,
-    /// What it left behind: a group, empty where nothing was finished.
+    /// Results as a group, empty where nothing was finished.
     pub value: Value,
     /// The calibration, of a run that makes one.
     pub calibration: Option<Calibration>,
@@ -64,7 +64,7 @@ impl Executed {
         Self { outcome, said: Some(said), value, calibration: None, wall_s: 0.0, work: BTreeMap::new() }
     }
 
-    /// As expressions see it.
+    /// Value for expressions.
     pub(crate) fn as_value(&self) -> Value {
         let mut group = self.value.clone();
         group.add("outcome", Value::Text(self.outcome.name()));

@@ -18,7 +18,7 @@ const MOST_ITEMS: usize = 100_000;
 pub(crate) struct ExpressionError {
     /// The expression.
     pub expression: String,
-    /// What is wrong with it.
+    /// Reason.
     pub reason: String,
 }
 
@@ -73,7 +73,7 @@ impl Evaluator {
         self.evaluate(&node).map_err(|(fault, place)| error(format!("{fault} (character {place})")))
     }
 
-    /// The same, which must be a number; a truth is 1 or 0.
+    /// Value of an expression that must be a number; a truth is 1 or 0.
     pub(crate) fn number(&self, expression: &str) -> Result<f64, ExpressionError> {
         match self.value(expression)? {
             Value::Number(number) => Ok(number),
@@ -82,7 +82,7 @@ impl Evaluator {
         }
     }
 
-    /// The same, which must be a column.
+    /// Value of an expression that must be a column.
     pub(crate) fn column(&self, expression: &str) -> Result<Vec<f64>, ExpressionError> {
         match self.value(expression)? {
             Value::Column(numbers) => Ok(numbers.to_vec()),
@@ -139,7 +139,7 @@ impl Evaluator {
     }
 }
 
-/// What has the name `name` in `of`.
+/// Member of `of` with the name `name`.
 fn member(of: &Value, name: &str) -> Result<Value, Fault> {
     let found = match of {
         Value::Group(entries) if name == "unworn" && !entries.contains_key(name) => entries.get("new").cloned(),

@@ -50,7 +50,7 @@ pub(super) fn columns(
     Ok(group)
 }
 
-/// What was counted by all members, each as a column.
+/// Work counts of all members, each as a column.
 fn work(executed: &[&Executed]) -> Value {
     let Some(counted) = executed.iter().find(|run| !run.work.is_empty()) else { return Value::group::<&str>([]) };
     let count = |run: &Executed, name: &str| run.work.get(name).map_or(f64::NAN, |&count| count as f64);

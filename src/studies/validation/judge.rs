@@ -114,7 +114,7 @@ pub(crate) fn judge(
     Ok(record)
 }
 
-/// That every member of a run ended as it should.
+/// Quantity that holds where every member of a run ended as it should.
 pub(crate) fn endings(run: &str, family: &Members) -> QuantityRecord {
     let as_expected = family.ended().filter(|(member, run)| member.may_end(run.outcome)).count();
     let (count, all) = (as_expected as f64, family.members.len() as f64);
@@ -141,7 +141,7 @@ pub(crate) fn endings(run: &str, family: &Members) -> QuantityRecord {
     }
 }
 
-/// What the first member that did not end as it should has said.
+/// Message of the first member that did not end as it should.
 fn first_surprise(family: &Members) -> Option<String> {
     let (member, run) = family.ended().find(|(member, run)| !member.may_end(run.outcome))?;
     let said = run.said.as_deref().unwrap_or("nothing");

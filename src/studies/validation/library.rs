@@ -36,7 +36,7 @@ pub(crate) enum LibraryError {
     /// Two cases of one name: reports and later comparisons could not tell them apart.
     #[error("found two cases called {name:?}; allowed: each name once")]
     Twice { name: String },
-    /// What is there already is not written over: it may have been changed.
+    /// Existing files are not written over: they may have been changed.
     #[error("found {} there already; allowed: a folder without it", path.display())]
     Exists { path: PathBuf },
     #[error("cannot write the built-in cases to {}: {reason}", folder.display())]

@@ -27,7 +27,7 @@ impl Member {
         outcome == self.expected || self.accepted.contains(&outcome)
     }
 
-    /// Its value in a column of the family.
+    /// Value in a column of the family.
     pub(super) fn value(&self, column: &str) -> Option<&Value> {
         self.values.iter().find(|(name, _)| name == column).map(|(_, value)| value)
     }

@@ -1,5 +1,4 @@
-//! What the validation suite came to: the plain data that its reports are written from, and that a later run is compared
-//! with.
+//! Record of the validation suite: the plain data that its reports are written from, and that a later run is compared with.
 //!
 //! Two judgements stand side by side. A quantity *holds* or does not, against its reference or bound: that is physics, and
 //! it is computed. A case *passes* where every quantity stands as the case file says it does: that is what the exit status
@@ -40,7 +39,7 @@ pub(crate) enum Tier {
     Smoke,
     /// Below fifteen minutes on two cores: for every release.
     Full,
-    /// As long as it takes.
+    /// No limit.
     Long,
 }
 
@@ -48,7 +47,7 @@ impl Tier {
     /// All of them, shortest first.
     pub(crate) const ALL: [Self; 3] = [Self::Smoke, Self::Full, Self::Long];
 
-    /// As the user writes it.
+    /// Name on the command line.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Smoke => "smoke",
@@ -58,18 +57,18 @@ impl Tier {
     }
 }
 
-/// What a case shows (after ASME V&V 10).
+/// Purpose of a case (after ASME V&V 10).
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum CaseKind {
     /// The equations are solved right: against closed forms and orders of convergence.
     #[default]
     CodeVerification,
-    /// This solution is resolved: against finer ones.
+    /// A solution is resolved: against finer ones.
     SolutionVerification,
     /// The right equations are solved: against a standard, a publication, another program, a measurement.
     Validation,
-    /// It has not changed: against our own earlier result.
+    /// A result has not changed: against our own earlier one.
     Regression,
 }
 
@@ -93,18 +92,18 @@ pub(crate) struct CaseRecord {
     pub kind: CaseKind,
     /// The first tier that holds it.
     pub tier: Tier,
-    /// What the source of the requirement says, in our own words, where there is something to compare by eye.
+    /// Statement of the source in our own words, where there is something to compare by eye.
     pub says: Option<String>,
     /// The estimates it rests on, such as a torque that no text gives.
     pub rests_on: Vec<String>,
     pub runs: Vec<CaseRun>,
-    /// What was computed and judged.
+    /// Quantities computed and judged.
     pub quantities: Vec<QuantityRecord>,
     /// Error against cost, of the cases that ask for it.
     pub work_precision: Vec<WorkPrecisionPoint>,
     /// Outcomes over a range of a parameter, of the cases that ask for it.
     pub stability: Vec<StabilityPoint>,
-    /// What is drawn; not kept as JSON.
+    /// Plots; not kept as JSON.
     #[serde(skip)]
     pub plots: Vec<CasePlot>,
     /// Why it could not be carried out to its end: a failure, never a skip.
@@ -129,7 +128,7 @@ impl CaseRecord {
     }
 }
 
-/// What a comparison says.
+/// Outcome of a comparison.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Standing {
@@ -177,7 +176,7 @@ pub(crate) enum RunOutcome {
 }
 
 impl RunOutcome {
-    /// As case files, expressions and style sheets write it.
+    /// Name in case files, expressions and style sheets.
     pub(crate) fn name(self) -> String {
         written(self)
     }
@@ -200,7 +199,7 @@ pub(crate) struct QuantityRecord {
     pub name: String,
     /// The one target of its case that it speaks to; `None`: all of them.
     pub target: Option<String>,
-    /// Its unit; empty for a ratio.
+    /// Unit; empty for a ratio.
     pub unit: String,
     /// The number; `None` where it could not be computed.
     pub value: Option<f64>,
@@ -209,19 +208,19 @@ pub(crate) struct QuantityRecord {
     pub source: String,
     /// Uncertainty of the reference, in the quantity's unit.
     pub uncertainty: Option<f64>,
-    /// What the spacing of the computation contributes, in the quantity's unit.
+    /// Contribution of the computation's resolution, in the quantity's unit.
     pub discretisation: Option<f64>,
     /// Why the tolerance or the bound is what it is.
     pub because: Option<String>,
     /// |value − reference|, in the quantity's unit.
     pub error: Option<f64>,
-    /// The same over |reference|.
+    /// Error over |reference|.
     pub relative_error: Option<f64>,
     /// Share of the tolerance that the error uses: at most 1 where it holds.
     pub share: Option<f64>,
-    /// What the comparison says.
+    /// Outcome of the comparison.
     pub standing: Standing,
-    /// What the case says that it should.
+    /// Outcome that the case expects.
     pub expected: Standing,
     /// Why it is not expected to hold, or what is missing to compare it.
     pub remark: Option<String>,
@@ -241,7 +240,7 @@ impl QuantityRecord {
     }
 }
 
-/// What a quantity is compared with.
+/// Reference or bound of a quantity.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "is")]
 pub(crate) enum Criterion {
@@ -288,20 +287,20 @@ pub(crate) struct WorkPrecisionPoint {
 pub(crate) struct StabilityPoint {
     /// The parameter, unit included.
     pub parameter: String,
-    /// Its value, to be placed on an axis.
+    /// Value on an axis.
     pub value: f64,
     /// The value as text, with whatever goes with it.
     pub setting: String,
     pub outcome: RunOutcome,
     pub expected: RunOutcome,
-    /// What the program said, where it refused or did not converge, or what is unsound.
+    /// Message of the program, where it refused or did not converge, or what is unsound.
     pub said: Option<String>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CasePlot {
     pub title: String,
-    /// What one sees, in a sentence.
+    /// Description of what the plot shows, in a sentence.
     pub reading: String,
     /// Title of the abscissa, unit included.
     pub x: String,
@@ -342,12 +341,12 @@ pub(crate) enum CurveStyle {
     Band,
 }
 
-/// What became of the suite since an earlier run of it.
+/// Changes of the suite since an earlier run of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Changes {
     /// Version of the program that made the earlier record.
     pub against_version: String,
-    /// What got worse: a verdict, an error, work.
+    /// Changes for the worse: of a verdict, an error, work.
     pub worse: Vec<Change>,
     pub better: Vec<Change>,
     /// Cases that only the new record has.
@@ -359,20 +358,20 @@ pub(crate) struct Changes {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Change {
     pub case: String,
-    /// What of it: the name of a quantity or of what is counted, or `verdict`.
+    /// Name of a quantity or of a work count, or `verdict`.
     pub what: String,
     pub before: State,
     pub now: State,
 }
 
-/// What is compared of two records.
+/// Property that is compared between two records.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum State {
     /// Whether the case could be carried out.
     Ran(bool),
     Absent,
-    /// What the comparison says.
+    /// Outcome of a comparison.
     Stands(Standing),
     Ended(RunOutcome),
     /// The share of its tolerance that a quantity uses.

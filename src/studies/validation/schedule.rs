@@ -15,12 +15,12 @@ use crate::observer::{Observer, PartOf};
 #[derive(Debug)]
 pub(crate) struct Members {
     pub members: Vec<Member>,
-    /// What each came to; `None` where the suite was interrupted before.
+    /// Result of each; `None` where the suite was interrupted before.
     pub executed: Vec<Option<Executed>>,
 }
 
 impl Members {
-    /// Those that ended, each with what it came to.
+    /// Members that ended, each with its result.
     pub(super) fn ended(&self) -> impl Iterator<Item = (&Member, &Executed)> {
         self.members.iter().zip(&self.executed).filter_map(|(member, executed)| Some((member, executed.as_ref()?)))
     }

@@ -1,4 +1,4 @@
-//! What must be so of every wear run, whatever its scene: numbers that are numbers, no negative wear or pressure, forces in
+//! Conditions of every wear run, whatever its scene: finite numbers, no negative wear or pressure, forces in
 //! equilibrium at every position.
 
 use crate::gear::{Gear, PerGear};

@@ -34,7 +34,7 @@ pub(crate) struct Node {
     pub place: usize,
 }
 
-/// What an expression is made of.
+/// Token of an expression.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Term {
     Number(f64),

@@ -1,4 +1,4 @@
-//! What a run left behind, as a tree of names: groups, numbers, texts, and columns of numbers.
+//! Results of a run as a tree of names: groups, numbers, texts, and columns of numbers.
 //!
 //! The names are those of the output files, since the tree is read from them: `summary.json` as JSON, the tables as CSV. An
 //! expression of a case thus says what a user would look up in the files of `gearwear run`.

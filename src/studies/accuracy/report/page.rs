@@ -74,7 +74,7 @@ fn data_files(record: &AccuracyRecord) -> Vec<(&'static str, &'static str)> {
     DATA_FILES.into_iter().filter(|(name, _)| !missing(name)).collect()
 }
 
-/// What to use, in a sentence or two.
+/// Recommendation, in a sentence or two.
 fn answer(record: &AccuracyRecord) -> String {
     if let Some(not) = record.not_ranked(Quantity::WearProfile) {
         return format!(

@@ -93,7 +93,7 @@ fn middle(reference: &ReferenceFlank) -> usize {
     reference.width_mm.len() / 2
 }
 
-/// What a heading adds for that slice.
+/// Addition to a heading: the place of the slice over the face width.
 fn where_over_width(reference: &ReferenceFlank) -> String {
     match reference.width_mm.len() {
         0 | 1 => String::new(),
@@ -196,7 +196,7 @@ fn of_run(variant: &VariantRecord, along: &[f64], values: impl Iterator<Item = f
     line.at_once(at_once).hover("%{y:.3f} µm")
 }
 
-/// What `value` makes of each run's wear and the reference's.
+/// Curves of `value`, a function of each run's wear and the reference's.
 fn of_runs(shown: &[&VariantRecord], reference: &ReferenceFlank, gear: Gear, value: fn(f64, f64) -> f64) -> Vec<Trace> {
     let runs = shown.iter().filter_map(|variant| {
         let wear = &variant.wear_um.as_ref()?[gear];

@@ -13,7 +13,7 @@ use crate::studies::invariants::traits_of_scene::{
 
 use super::SOLVED;
 
-/// What the cells of contact windows make of the transmission error.
+/// Relative effect of the cells of contact windows on the transmission error.
 const OF_CELLS: f64 = 2e-3;
 /// Torque and last bits: what a machine that computes in another order makes of the torque.
 const LAST_BITS: f64 = 1.0 + 1e-12;

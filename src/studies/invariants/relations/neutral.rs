@@ -80,7 +80,7 @@ pub(super) const RELATIONS: &[Relation] = &[
     },
 ];
 
-/// What other positions make of the least and the greatest transmission error.
+/// Relative effect of other positions on the least and the greatest transmission error.
 const OF_POSITIONS: f64 = 0.05;
 
 /// Everything of two runs that are to be the same.
@@ -191,7 +191,7 @@ fn half_of_wheel(subject: &Subject<'_>) -> Verdict {
     half(subject, "wheel")
 }
 
-/// The same half said in two ways: by a factor over film or temperature, and by the coefficient.
+/// Halves the wear in two ways: by a factor over film or temperature, and by the coefficient.
 fn half(subject: &Subject<'_>, gear: &str) -> Verdict {
     let table = subject.table;
     let has = |key: &str| gives(table, &format!("wear.{key}"));

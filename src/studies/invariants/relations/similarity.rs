@@ -12,7 +12,7 @@ use crate::studies::invariants::traits_of_scene::{
     tolerance_of_steps_um,
 };
 
-/// What steps make of the tolerance of the equilibria.
+/// Relative effect of the tolerance of the equilibria, amplified by steps.
 const BOUNDS: Bounds = Bounds { volume: 1e-5, cycle: 1e-5, ..Bounds::all(1e-4) };
 /// No power of two, so that digits change.
 const SIZE: f64 = 1.7;
@@ -46,10 +46,12 @@ pub(super) const RELATIONS: &[Relation] = &[
     },
 ];
 
-/// Worn by as many adaptive steps, whose lengths follow the last bits of an estimate: seed 7, 6202 has 0.16 % of the depth, 5546 0.07 % of the pressure.
+/// Worn by as many adaptive steps, whose lengths follow the last bits of an estimate: seed 7, 6202 has 0.16 % of the depth, 5546
+/// 0.07 % of the pressure.
 const OF_STEP_LENGTHS: f64 = 1e-2;
 
-/// Adaptive steps are chosen by the stiffness of the rate, whose estimate ends at a threshold: the last bits may decide on other steps, of which one more or
+/// Adaptive steps are chosen by the stiffness of the rate, whose estimate ends at a threshold: the last bits may decide on other
+/// steps, of which one more or
 /// less moves the depth by a part of what they promise.
 fn bounds(subject: &Subject<'_>, other: &RunRecord) -> Bounds {
     let steps = |record: &RunRecord| (record.summary.work.wear_steps, record.summary.work.rejected_steps);

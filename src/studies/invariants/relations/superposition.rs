@@ -13,7 +13,7 @@ use crate::studies::invariants::traits_of_scene::{
 
 /// Coefficients are divided by so much: wear of at most 2e-3 modules becomes 2e-12 modules, which changes contact by as much of itself.
 const SMALL: f64 = 1e-9;
-/// What is left of the effect of wear on contact: a depth of 2e-12 modules, up to a hundred times as deep where wear is severe, beside an approach
+/// Remaining effect of wear on contact: a depth of 2e-12 modules, up to a hundred times as deep where wear is severe, beside an approach
 /// of 1e-4 modules and more; and ten times that where a severe rate rises over a band of a few hundredths of the pressure.
 const FEEDBACK: f64 = 2e-5;
 

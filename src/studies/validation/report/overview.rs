@@ -44,7 +44,7 @@ fn case_row(case: &CaseRecord) -> Markup {
     html! { tr data-verdict=(verdict.class()) data-group=(case.group) { (inner(cells)) } }
 }
 
-/// What a reader should know beside the verdict: targets, estimates, what of the case does not hold or cannot be compared.
+/// Marks beside the verdict: targets, estimates, quantities that do not hold or cannot be compared.
 fn marks(case: &CaseRecord) -> Markup {
     let mut marks: Vec<Markup> = case.targets.iter().map(|target| html! { b { (target) } }).collect();
     if !case.rests_on.is_empty() {

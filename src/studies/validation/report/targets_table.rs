@@ -75,7 +75,7 @@ fn row(id: &str, words: &str, cases: &[&CaseRecord], verdict: Markup) -> Markup 
     ])
 }
 
-/// What becomes of a target: the most urgent of its cases, with how many of its quantities hold where not all do; `None`
+/// Verdict of a target: the most urgent of its cases, with how many of its quantities hold where not all do; `None`
 /// where no case speaks to it.
 fn verdict(id: &str, cases: &[&CaseRecord]) -> Option<Markup> {
     let of_case = |case: &&CaseRecord| match case.failure {

@@ -1,4 +1,4 @@
-//! What every file must hold, on a record with everything in it.
+//! Contents of every file, on a record with everything in it.
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -11,7 +11,7 @@ pub(super) struct Totals {
     pub(super) cases: usize,
     /// Cases that are as expected.
     pub(super) passed: usize,
-    /// Those of them with a statement that is known not to hold.
+    /// Number of cases with a statement that is known not to hold.
     pub(super) deviating: usize,
     /// Cases with a quantity that is not as expected.
     pub(super) missed: usize,

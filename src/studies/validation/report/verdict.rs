@@ -10,15 +10,15 @@ use crate::studies::validation::record::{CaseRecord, Criterion, QuantityRecord, 
 pub(super) enum Verdict {
     /// The case could not be carried out to its end.
     CouldNotRun,
-    /// It should hold, or be comparable, and does not or is not.
+    /// Does not hold, or cannot be compared, against expectation.
     Missed,
-    /// It was not expected to hold and does.
+    /// Holds against expectation.
     NowHolds,
-    /// It does not hold, as the case says.
+    /// Does not hold, as the case says.
     KnownNot,
     /// There is nothing to compare with, as the case says.
     CannotBeCompared,
-    /// It holds, as it should.
+    /// Holds, as expected.
     Holds,
     /// A number that nothing is compared with.
     Reported,
@@ -50,7 +50,7 @@ impl Verdict {
         }
     }
 
-    /// That of a case: the most urgent of its quantities.
+    /// Verdict of a case: the most urgent of its quantities.
     pub(super) fn of_case(case: &CaseRecord) -> Self {
         if case.failure.is_some() {
             return Self::CouldNotRun;
@@ -58,7 +58,7 @@ impl Verdict {
         Self::of_quantities(&case.quantities.iter().collect::<Vec<_>>())
     }
 
-    /// That of several quantities: the most urgent of theirs.
+    /// Verdict of several quantities: the most urgent of theirs.
     pub(super) fn of_quantities(quantities: &[&QuantityRecord]) -> Self {
         let each = || quantities.iter().map(|quantity| Self::of_quantity(quantity));
         let worst = each().min().unwrap_or(Self::Reported);
@@ -79,7 +79,7 @@ impl Verdict {
         self.shown()[1]
     }
 
-    /// Its name in the page's style sheet and script.
+    /// Name in the page's style sheet and script.
     pub(super) fn class(self) -> &'static str {
         self.shown()[2]
     }

@@ -1,4 +1,4 @@
-//! What the reports say of a quantity, in plain text: its value, what it is held against, how far off it is and why.
+//! Texts of a quantity: its value, its criterion, its error and the reasons.
 
 use super::verdict::Verdict;
 use crate::report::html::number::{count, figure, given, percent, significant};
@@ -22,7 +22,7 @@ fn digits(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e6 { given(value) } else { figure(value) }
 }
 
-/// As many digits as it takes to see a tenth of the tolerance.
+/// Digits enough to see a tenth of the tolerance.
 fn resolved(value: f64, tolerance: f64) -> String {
     let needed = (10.0 * value / tolerance).abs().log10().ceil();
     if needed > 4.0 && needed < 12.0 { significant(value, needed as usize) } else { digits(value) }
@@ -52,7 +52,7 @@ fn with_unit(text: &str, unit: &str) -> String {
     if unit.is_empty() { text.to_owned() } else { format!("{text} {unit}") }
 }
 
-/// What it is compared with, with the unit.
+/// Criterion with its unit.
 pub(super) fn criterion(quantity: &QuantityRecord) -> String {
     match quantity.criterion {
         Criterion::True | Criterion::Reported => limit(quantity.criterion),
@@ -174,7 +174,7 @@ pub(super) fn main_work(case: &CaseRecord) -> String {
     most.map_or_else(|| NONE.to_owned(), |(name, &counted)| format!("{} {}", count(counted), counted_thing(name)))
 }
 
-/// What was counted, as words.
+/// Name of a work count as words.
 pub(super) fn counted_thing(name: &str) -> String {
     name.replace('_', " ")
 }
