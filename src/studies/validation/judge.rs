@@ -52,55 +52,7 @@ pub(crate) fn judge(
     }
     let Some(value) = spec.value.as_ref().map(|formula| number(formula, e)).transpose()? else { return Ok(record) };
     record.value = Some(value).filter(|value| value.is_finite());
-    let finite = |what: &'static str, found: Option<f64>| match found {
-        Some(found) if !found.is_finite() => Err(JudgeError::NotFinite { what, found }),
-        found => Ok(found),
-    };
-    let mut of = |what: &'static str, formula: &Option<Formula>| {
-        finite(what, formula.as_ref().map(|f| number(f, e)).transpose()?)
-    };
-    let near = of("near", &spec.near)?;
-    let (at_least, at_most) = (of("at_least", &spec.at_least)?, of("at_most", &spec.at_most)?);
-    let holds = match (near, &spec.within, at_least, at_most) {
-        (Some(reference), Some(within), ..) => {
-            let scale = reference.abs();
-            let mut of = |what: &'static str, extent: Option<&Extent>| {
-                finite(what, extent.map(|x| size(x, scale, e)).transpose()?)
-            };
-            let tolerance = of("within", Some(within))?.unwrap_or_default();
-            record.uncertainty = of("uncertainty", spec.uncertainty.as_ref())?;
-            record.discretisation = of("discretisation", spec.discretisation.as_ref())?;
-            let allowed = record.uncertainty.unwrap_or_default() + record.discretisation.unwrap_or_default();
-            if tolerance > allowed * (1.0 + ROUNDING) && spec.because.is_none() {
-                return Err(JudgeError::TooWide { tolerance, allowed });
-            }
-            let error = (value - reference).abs();
-            record.criterion = Criterion::Near { reference, tolerance };
-            record.error = Some(error).filter(|error| error.is_finite());
-            record.relative_error = Some(error / scale).filter(|relative| relative.is_finite());
-            record.share = Some(error / tolerance).filter(|share| share.is_finite());
-            Some(error <= tolerance)
-        }
-        (_, _, Some(low), Some(high)) => {
-            record.criterion = Criterion::Between { low, high };
-            Some(value >= low && value <= high)
-        }
-        (_, _, Some(bound), None) => {
-            record.criterion = Criterion::AtLeast { bound };
-            Some(value >= bound)
-        }
-        (_, _, None, Some(bound)) => {
-            record.criterion = Criterion::AtMost { bound };
-            // How much of a bound is used says something where zero is perfect.
-            record.share = Some(value / bound).filter(|share| bound > 0.0 && *share >= 0.0);
-            Some(value <= bound)
-        }
-        _ if spec.is_true.is_some() => {
-            record.criterion = Criterion::True;
-            Some(value == 1.0)
-        }
-        _ => None,
-    };
+    let holds = compare(&mut record, value, spec, e)?;
     record.standing = match (record.value, holds) {
         // No number fulfils nothing; where a failure is expected it is not that failure either.
         (None, _) if expected == Standing::Fails => Standing::CannotBeCompared,
@@ -112,6 +64,45 @@ pub(crate) fn judge(
         record.expected = Standing::CannotBeCompared;
     }
     Ok(record)
+}
+
+/// Whether `value` fulfils the criterion of `spec`, which is entered in the record with the errors; `None` without a criterion.
+fn compare(
+    record: &mut QuantityRecord,
+    value: f64,
+    spec: &QuantitySpec,
+    e: &mut Evaluator,
+) -> Result<Option<bool>, JudgeError> {
+    let near = finite("near", spec.near.as_ref(), e)?;
+    let at_least = finite("at_least", spec.at_least.as_ref(), e)?;
+    let at_most = finite("at_most", spec.at_most.as_ref(), e)?;
+    let (criterion, holds) = match (near, &spec.within, at_least, at_most) {
+        (Some(reference), Some(within), ..) => {
+            let tolerance = size("within", Some(within), reference, e)?.unwrap_or_default();
+            record.uncertainty = size("uncertainty", spec.uncertainty.as_ref(), reference, e)?;
+            record.discretisation = size("discretisation", spec.discretisation.as_ref(), reference, e)?;
+            let allowed = record.uncertainty.unwrap_or_default() + record.discretisation.unwrap_or_default();
+            if tolerance > allowed * (1.0 + ROUNDING) && spec.because.is_none() {
+                return Err(JudgeError::TooWide { tolerance, allowed });
+            }
+            let error = (value - reference).abs();
+            record.error = Some(error).filter(|error| error.is_finite());
+            record.relative_error = Some(error / reference.abs()).filter(|relative| relative.is_finite());
+            record.share = Some(error / tolerance).filter(|share| share.is_finite());
+            (Criterion::Near { reference, tolerance }, error <= tolerance)
+        }
+        (_, _, Some(low), Some(high)) => (Criterion::Between { low, high }, value >= low && value <= high),
+        (_, _, Some(bound), None) => (Criterion::AtLeast { bound }, value >= bound),
+        (_, _, None, Some(bound)) => {
+            // How much of a bound is used says something where zero is perfect.
+            record.share = Some(value / bound).filter(|share| bound > 0.0 && *share >= 0.0);
+            (Criterion::AtMost { bound }, value <= bound)
+        }
+        _ if spec.is_true.is_some() => (Criterion::True, value == 1.0),
+        _ => return Ok(None),
+    };
+    record.criterion = criterion;
+    Ok(Some(holds))
 }
 
 /// Quantity that holds where every member of a run ended as it should.
@@ -156,9 +147,26 @@ pub(crate) fn number(formula: &Formula, e: &mut Evaluator) -> Result<f64, Expres
     }
 }
 
-fn size(extent: &Extent, scale: f64, e: &mut Evaluator) -> Result<f64, ExpressionError> {
-    match extent {
-        Extent::Relative(share) => Ok(number(share, e)? * scale),
-        Extent::Absolute(size) => number(size, e),
-    }
+/// Value of a formula, which must be finite.
+fn finite(what: &'static str, formula: Option<&Formula>, e: &mut Evaluator) -> Result<Option<f64>, JudgeError> {
+    formula.map(|formula| checked(what, number(formula, e)?)).transpose()
+}
+
+/// Size of an extent in the quantity's unit, which must be finite.
+fn size(
+    what: &'static str,
+    extent: Option<&Extent>,
+    reference: f64,
+    e: &mut Evaluator,
+) -> Result<Option<f64>, JudgeError> {
+    let Some(extent) = extent else { return Ok(None) };
+    let size = match extent {
+        Extent::Relative(share) => number(share, e)? * reference.abs(),
+        Extent::Absolute(size) => number(size, e)?,
+    };
+    checked(what, size).map(Some)
+}
+
+fn checked(what: &'static str, found: f64) -> Result<f64, JudgeError> {
+    if found.is_finite() { Ok(found) } else { Err(JudgeError::NotFinite { what, found }) }
 }

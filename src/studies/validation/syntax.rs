@@ -34,7 +34,7 @@ pub(crate) struct Node {
     pub place: usize,
 }
 
-/// Token of an expression.
+/// Kind of a term, with its parts.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Term {
     Number(f64),
@@ -77,8 +77,6 @@ enum Token {
 }
 
 fn tokens(expression: &str) -> Result<Vec<(Token, usize)>, SyntaxError> {
-    let unexpected =
-        |found: &str, place, allowed| SyntaxError::Unexpected { found: format!("`{found}`"), place, allowed };
     let mut tokens = Vec::new();
     let (mut rest, mut place) = (expression, 1);
     while let Some(first) = rest.chars().next() {
@@ -110,20 +108,29 @@ fn tokens(expression: &str) -> Result<Vec<(Token, usize)>, SyntaxError> {
     Ok(tokens)
 }
 
+fn unexpected(found: &str, place: usize, allowed: &'static str) -> SyntaxError {
+    SyntaxError::Unexpected { found: format!("`{found}`"), place, allowed }
+}
+
 /// Bytes of the number at the beginning: digits, a fraction, an exponent.
 fn length_of_number(text: &str) -> usize {
-    let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
-    let mut length = digits(0);
-    if text[length..].starts_with('.') && digits(length + 1) > 0 {
-        length += 1 + digits(length + 1);
+    let mut length = leading_digits(text);
+    if let Some(fraction) = text[length..].strip_prefix('.')
+        && leading_digits(fraction) > 0
+    {
+        length += 1 + leading_digits(fraction);
     }
-    if text[length..].starts_with(['e', 'E']) {
-        let sign = usize::from(text[length + 1..].starts_with(['+', '-']));
-        if digits(length + 1 + sign) > 0 {
-            length += 1 + sign + digits(length + 1 + sign);
+    if let Some(exponent) = text[length..].strip_prefix(['e', 'E']) {
+        let sign = usize::from(exponent.starts_with(['+', '-']));
+        if leading_digits(&exponent[sign..]) > 0 {
+            length += 1 + sign + leading_digits(&exponent[sign..]);
         }
     }
     length
+}
+
+fn leading_digits(text: &str) -> usize {
+    text.bytes().take_while(u8::is_ascii_digit).count()
 }
 
 /// The text in quotes at the beginning and its bytes with them; `\` takes the next character as it is.
