@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use crate::report;
 use crate::studies::invariants;
-use crate::studies::invariants::study::{self, Asked, INVARIANTS};
+use crate::studies::invariants::study::{self, INVARIANTS, SceneRange};
 use crate::studies::validation::library::{self, Library};
 use crate::studies::validation::record::{Tier, ValidationRecord};
 use crate::studies::validation::{self, against};
@@ -114,8 +114,8 @@ fn random_scenes(args: &Args) -> Result<(), Failure> {
         return Err(InputError::NotForInvariants { option }.into());
     }
     let Some(out) = &args.out else { unreachable!("clap demands it") };
-    let of_tier = Asked::of_tier(args.tier);
-    let asked = Asked {
+    let of_tier = SceneRange::of_tier(args.tier);
+    let asked = SceneRange {
         seed: args.seed.unwrap_or(of_tier.seed),
         first: args.first.unwrap_or(of_tier.first),
         count: args.count.map_or(of_tier.count, NonZeroU64::get),

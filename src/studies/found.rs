@@ -13,7 +13,7 @@ use super::compare::asked::{CompareFault, Prepared};
 use super::compare::question;
 use super::compare::run_folder::RunFolderError;
 use super::compare::study::CompareError;
-use super::invariants::study::{Asked, INVARIANTS};
+use super::invariants::study::{INVARIANTS, SceneRange};
 use super::validation::library::{Library, LibraryError};
 use super::validation::record::Tier;
 use super::variants::finished_run::FinishedRun;
@@ -201,7 +201,7 @@ pub fn validate(
     });
     let tier = tier.transpose()?;
     if cases == [INVARIANTS] {
-        let record = invariants::study::run(Asked::of_tier(tier), threads, observer);
+        let record = invariants::study::run(SceneRange::of_tier(tier), threads, observer);
         return Study::new(record, invariants::report::write);
     }
     let library = Library::open(cases).map_err(StudyFault::Library)?;

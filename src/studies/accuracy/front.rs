@@ -3,7 +3,7 @@
 //! A run is on the front where no other run is both at least as fast and at least as accurate, and better in one of the
 //! two. Errors below the reference's own uncertainty cannot be told apart and count as equal to it.
 
-/// A run as the front sees it.
+/// Run time and error of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Point {
     /// Run time.
@@ -12,33 +12,35 @@ pub(crate) struct Point {
     pub error: f64,
 }
 
-/// Whether each of `points` is on the front, with errors below `uncertainty` told apart no more.
+impl Point {
+    fn is_comparable(&self) -> bool {
+        self.wall_s.is_finite() && self.error.is_finite()
+    }
+}
+
+/// Whether each of `points` is on the front; errors below `uncertainty` count as equal.
 pub(crate) fn on_front(points: &[Point], uncertainty: f64) -> Vec<bool> {
-    let error = |point: &Point| point.error.max(uncertainty);
-    let comparable = |point: &Point| point.wall_s.is_finite() && point.error.is_finite();
-    points
-        .iter()
-        .enumerate()
-        .map(|(i, point)| {
-            let beaten_by = |(j, other): (usize, &Point)| {
-                let no_worse = other.wall_s <= point.wall_s && error(other) <= error(point);
-                let better = other.wall_s < point.wall_s || error(other) < error(point);
-                // Of equals, the first stands for all.
-                comparable(other) && no_worse && (better || j < i)
-            };
-            comparable(point) && !points.iter().enumerate().any(beaten_by)
-        })
-        .collect()
+    let others = points.iter().enumerate().filter(|(_, other)| other.is_comparable());
+    let on_front = points.iter().enumerate().map(|(i, point)| {
+        let beaten = others.clone().any(|(j, other)| {
+            let (own, others) = (point.error.max(uncertainty), other.error.max(uncertainty));
+            let no_worse = other.wall_s <= point.wall_s && others <= own;
+            let better = other.wall_s < point.wall_s || others < own;
+            // Of equals, the first stands for all.
+            no_worse && (better || j < i)
+        });
+        point.is_comparable() && !beaten
+    });
+    on_front.collect()
 }
 
 /// The fastest of `points` whose error is within `wanted`, else the one with the least error; and whether it is within.
 pub(crate) fn cheapest_within(points: &[Point], wanted: f64) -> Option<(usize, bool)> {
-    let comparable = || points.iter().enumerate().filter(|(_, p)| p.wall_s.is_finite() && p.error.is_finite());
-    let fastest =
-        comparable().filter(|(_, p)| p.error <= wanted).min_by(|(_, a), (_, b)| a.wall_s.total_cmp(&b.wall_s));
-    match fastest {
+    let all = points.iter().enumerate().filter(|(_, point)| point.is_comparable());
+    let within = all.clone().filter(|(_, point)| point.error <= wanted);
+    match within.min_by(|(_, a), (_, b)| a.wall_s.total_cmp(&b.wall_s)) {
         Some((index, _)) => Some((index, true)),
-        None => comparable().min_by(|(_, a), (_, b)| a.error.total_cmp(&b.error)).map(|(index, _)| (index, false)),
+        None => all.min_by(|(_, a), (_, b)| a.error.total_cmp(&b.error)).map(|(index, _)| (index, false)),
     }
 }
 

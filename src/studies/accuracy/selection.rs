@@ -1,6 +1,6 @@
 //! Selection of the settings that are run, their order, and the reason for those left out.
 //!
-//! Not every combination tells something. The plan is
+//! Not every combination is run, but
 //!
 //! * the finite-element surface on meshes of three sizes, each at every resolution of points, positions and steps; the
 //!   finest and some companions of it make the reference and come first;
@@ -134,13 +134,6 @@ impl Selection {
 
     /// The reference with its companions, then the finite elements of other sizes.
     fn finite_elements(&mut self, elements: f64, levels: &[u32]) {
-        let fem = |elements_per_half_width: f64, coarsening: Coarsening| Setting {
-            surface: Surface::Fem { elements_per_half_width },
-            tip_contact: false,
-            stiffness: None,
-            slices: None,
-            coarsening,
-        };
         let mut meshes = vec![elements];
         for share in COARSER_MESHES {
             let coarser = (elements * share).round();
@@ -155,23 +148,23 @@ impl Selection {
         }
         let finest = levels[0];
         let long_steps = Coarsening { spacing: finest, step: COMPANION_STEP * finest };
-        self.add(fem(elements, Coarsening::even(finest)));
-        let long = self.add(fem(elements, long_steps));
+        self.add(Setting::fem(elements, Coarsening::even(finest)));
+        let long = self.add(Setting::fem(elements, long_steps));
         self.companions.push(Companions { fine: 0, coarse: long, spacing: Spacing::Step });
         if let Some(&coarser) = meshes.get(1) {
-            let coarse = self.add(fem(coarser, long_steps));
+            let coarse = self.add(Setting::fem(coarser, long_steps));
             self.companions.push(Companions { fine: long, coarse, spacing: Spacing::Elements(elements / coarser) });
         }
         let cheapest = meshes.get(1).copied().unwrap_or(elements);
         if let Some(&wider) = levels.get(1) {
-            let fine = self.add(fem(cheapest, long_steps));
-            let coarse = self.add(fem(cheapest, Coarsening { spacing: wider, ..long_steps }));
+            let fine = self.add(Setting::fem(cheapest, long_steps));
+            let coarse = self.add(Setting::fem(cheapest, Coarsening { spacing: wider, ..long_steps }));
             let ratio = f64::from(wider) / f64::from(finest);
             self.companions.push(Companions { fine, coarse, spacing: Spacing::Points(ratio) });
         }
         for mesh in meshes {
             for &by in levels {
-                self.add(fem(mesh, Coarsening::even(by)));
+                self.add(Setting::fem(mesh, Coarsening::even(by)));
             }
         }
     }
@@ -194,17 +187,17 @@ impl Selection {
                     if by != finest && !tried.contains(&stiffness.name) {
                         continue;
                     }
-                    let setting = |tip_contact| Setting {
+                    let tip_contact = follows_tip(surface, has_calibration);
+                    let setting = Setting {
                         surface,
                         tip_contact,
                         stiffness: Some(stiffness.clone()),
                         slices: None,
                         coarsening: Coarsening::even(by),
                     };
-                    let follows = follows_tip(surface, has_calibration);
-                    self.add(setting(follows));
+                    self.add(setting.clone());
                     if surface.may_follow_tip() && by == finest && stiffness.name == *best {
-                        self.add(setting(!follows));
+                        self.add(Setting { tip_contact: !tip_contact, ..setting });
                     }
                 }
             }

@@ -40,13 +40,13 @@ impl Coarsening {
 
     /// "1/2 of points, positions and steps", "1/4 of steps"; none where nothing is coarser.
     fn name(self) -> Option<String> {
-        let of = |by: u32, what: &str| (by != 1).then(|| format!("1/{by} of {what}"));
-        match self {
-            Self { spacing, step } if spacing == step => of(step, "points, positions and steps"),
-            Self { spacing, step: 1 } => of(spacing, "points and positions"),
-            Self { spacing: 1, step } => of(step, "steps"),
-            Self { spacing, step } => Some(format!("1/{spacing} of points and positions, 1/{step} of steps")),
-        }
+        Some(match self {
+            Self { spacing: 1, step: 1 } => return None,
+            Self { spacing, step } if spacing == step => format!("1/{step} of points, positions and steps"),
+            Self { spacing, step: 1 } => format!("1/{spacing} of points and positions"),
+            Self { spacing: 1, step } => format!("1/{step} of steps"),
+            Self { spacing, step } => format!("1/{spacing} of points and positions, 1/{step} of steps"),
+        })
     }
 }
 
@@ -72,6 +72,10 @@ pub(crate) struct Setting {
     pub coarsening: Coarsening,
 }
 
+fn in_words(criterion: MatchCriterion) -> String {
+    criterion.name().replace("peak-", "peak ")
+}
+
 impl Surface {
     /// The scene's own, with the scene's own K/H.
     pub(crate) fn of_scene(resolved: &Resolved) -> Self {
@@ -86,14 +90,17 @@ impl Surface {
 
     /// "Winkler, K/H calibrated by peak pressure", "finite elements, 10 in a half-width".
     pub(crate) fn name(self) -> String {
-        let by = |criterion: MatchCriterion| criterion.name().replace("peak-", "peak ");
         match self {
             Self::HertzMean => "Hertz, mean pressure".to_owned(),
             Self::Hertz => "Hertz".to_owned(),
             Self::HalfSpace => "elastic half-planes".to_owned(),
             Self::Winkler(Foundation::Given { .. }) => "Winkler, K/H given".to_owned(),
-            Self::Winkler(Foundation::Matched(criterion)) => format!("Winkler, K/H from Hertz by {}", by(criterion)),
-            Self::Winkler(Foundation::Calibrated(criterion)) => format!("Winkler, K/H calibrated by {}", by(criterion)),
+            Self::Winkler(Foundation::Matched(criterion)) => {
+                format!("Winkler, K/H from Hertz by {}", in_words(criterion))
+            }
+            Self::Winkler(Foundation::Calibrated(criterion)) => {
+                format!("Winkler, K/H calibrated by {}", in_words(criterion))
+            }
             Self::Fem { elements_per_half_width } => {
                 format!("finite elements, {} in a half-width", significant(elements_per_half_width, 3))
             }
@@ -158,7 +165,7 @@ impl Stiffness {
     }
 }
 
-/// The wear step that everything is compared with: Euler's.
+/// Length of Euler's wear step in pinion revolutions, which settings coarsen.
 pub(crate) fn euler_revolutions(scene: &Scene) -> f64 {
     scene.numerics.stepping.euler_revolutions(scene.operation.pinion_revolutions)
 }
@@ -173,6 +180,12 @@ pub(crate) fn coupling_name(coupling: Coupling) -> &'static str {
 }
 
 impl Setting {
+    /// Plane finite elements, which bring their own stiffness.
+    pub(super) fn fem(elements_per_half_width: f64, coarsening: Coarsening) -> Self {
+        let surface = Surface::Fem { elements_per_half_width };
+        Self { surface, tip_contact: false, stiffness: None, slices: None, coarsening }
+    }
+
     /// Name in tables and plots.
     pub(crate) fn name(&self) -> String {
         let slices = self.slices.map(|s| format!("{} slices, {}", s.count, coupling_name(s.coupling)));
@@ -227,10 +240,11 @@ impl Setting {
         }
         file.stiffness = self.stiffness.as_ref().map(|stiffness| stiffness.file.clone());
         let numerics = base.scene.numerics;
-        let coarser = |count: usize| (count as u32 / self.coarsening.spacing).max(LEAST_POINTS as u32);
+        let [flank_points, positions] = [numerics.flank_points, numerics.positions]
+            .map(|count| Some((count as u32 / self.coarsening.spacing).max(LEAST_POINTS as u32)));
         file.numerics = Some(NumericsFile {
-            flank_points: Some(coarser(numerics.flank_points)),
-            positions: Some(coarser(numerics.positions)),
+            flank_points,
+            positions,
             error_estimate: Some(false),
             step: Some(StepFile::fixed(f64::from(self.coarsening.step) * euler_revolutions(&base.scene))),
             ..NumericsFile::default()

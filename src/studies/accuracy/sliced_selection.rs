@@ -97,22 +97,20 @@ pub(super) fn add(
 /// The reference, first of all, with its companions.
 fn reference(selection: &mut Selection, own: SliceSettings, levels: &[u32], stiffness: &Stiffness) {
     let (finest, slices) = (levels[0], own.count);
-    let of = |count: usize, coarsening: Coarsening| {
-        let slices = SliceSettings { count, ..own };
-        setting(Surface::HalfSpace, stiffness, slices, coarsening)
-    };
     let long_steps = Coarsening { spacing: finest, step: COMPANION_STEP * finest };
     let most = (2 * slices).min(most_slices(own.coupling));
-    selection.add(of(most, Coarsening::even(finest)));
-    let long = selection.add(of(most, long_steps));
+    let many = SliceSettings { count: most, ..own };
+    selection.add(setting(Surface::HalfSpace, stiffness, many, Coarsening::even(finest)));
+    let long = selection.add(setting(Surface::HalfSpace, stiffness, many, long_steps));
     selection.companions.push(Companions { fine: 0, coarse: long, spacing: Spacing::Step });
-    let wide = selection.add(of(slices, long_steps));
+    let wide = selection.add(setting(Surface::HalfSpace, stiffness, own, long_steps));
     if most > slices {
         let ratio = most as f64 / slices as f64;
         selection.companions.push(Companions { fine: long, coarse: wide, spacing: Spacing::Slices(ratio) });
     }
     if let Some(&wider) = levels.get(1) {
-        let coarse = selection.add(of(slices, Coarsening { spacing: wider, ..long_steps }));
+        let coarser = Coarsening { spacing: wider, ..long_steps };
+        let coarse = selection.add(setting(Surface::HalfSpace, stiffness, own, coarser));
         let ratio = f64::from(wider) / f64::from(finest);
         selection.companions.push(Companions { fine: wide, coarse, spacing: Spacing::Points(ratio) });
     }

@@ -29,9 +29,9 @@ use crate::studies::accuracy::record::{
 /// Least ratio of the wear steps taken of which anything is learned.
 const LEAST_STEP_RATIO: f64 = 1.2;
 /// Limits of a reference on half-planes.
-const DOES_NOT_TELL: &str = "The teeth of the reference are three-dimensional finite elements, or plates where these cannot be had; contact \
-                             itself is plane in every slice, on half-planes. The errors are those of the contact surface, of the coupling of \
-                             slices and of the resolution; what half-planes themselves leave out at tip edges and end faces they do not tell.";
+const DOES_NOT_TELL: &str = "The teeth of the reference are three-dimensional finite elements, or plates where the gears cannot be meshed in \
+                             space; contact itself is plane in every slice, on half-planes. The errors are those of the contact surface, of \
+                             the coupling of slices and of the resolution, not that of half-planes at tip edges and end faces.";
 
 /// Why there is nothing to compare.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -51,31 +51,20 @@ pub(crate) enum AccuracyError {
 /// [`AccuracyError`] where the reference is not finished.
 pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) -> Result<AccuracyRecord, AccuracyError> {
     let start = Instant::now();
-    let calibration = calibration(given, observer)?;
-    let mut given = calibration.made.map_or_else(|| given.clone(), |made| given.calibrated(made));
-    if given.resolved.file.operation.stop.take().is_some() {
-        given.resolved.scene.operation.stop = LifeLimits::default();
-        let warning =
-            "operation.stop is left out: all models run the whole duration, so that their wear can be compared";
-        given.resolved.warnings.push(warning.to_owned());
-    }
-    let given = &given;
+    let CalibrationOfRuns { made, wall_s: calibration_s, why_none } = calibration(given, observer)?;
+    let mut given = made.map_or_else(|| given.clone(), |made| given.calibrated(made));
+    leave_out_stop(&mut given.resolved);
     let (resolved, made) = (&given.resolved, given.files.calibration.as_ref());
     let calibrated: Vec<MatchCriterion> = made.map_or_else(Vec::new, |made| made.foundation.keys().copied().collect());
-    let selection = Selection::new(resolved, asked, &calibrated, &calibration.why_none);
+    let selection = Selection::new(resolved, asked, &calibrated, &why_none);
     let settings = selection.settings.len();
     let count = settings + if resolved.scene.slices.is_some() { deep_runs::RUNS } else { 0 };
-    let mut measured: Vec<Measured> = Vec::with_capacity(settings);
-    for (number, setting) in selection.settings.iter().enumerate() {
-        observer.run_of(number, count, &setting.name());
-        match measure(setting, given, &PartOf::new(observer, number, count)) {
-            Some(one) => measured.push(one),
-            None => break,
-        }
-    }
+    let measured = measure_all(&selection.settings, &given, observer, count);
     let all_measured = measured.len() == settings;
-    let deep = || deep_runs::run(given, &selection.second_resolution(), observer, settings, count);
-    let deep_runs = all_measured.then(deep).flatten();
+    let deep_runs = match all_measured {
+        true => deep_runs::run(&given, &selection.second_resolution(), observer, settings, count),
+        false => None,
+    };
     let is_complete = all_measured && deep_runs.is_some() == resolved.scene.slices.is_some();
     let stopped = if is_complete { StopReason::Completed } else { StopReason::Interrupted };
     let windows = windows(resolved, &measured)?;
@@ -93,16 +82,7 @@ pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) ->
     for quantity in Quantity::ALL.into_iter().filter(|&q| not_ranked.iter().all(|one| one.quantity != q)) {
         mark_front(&mut variants, quantity, reference.uncertainty.get(&quantity).copied().unwrap_or(0.0));
     }
-    let finest = selection.settings[0].coarsening;
-    for ((variant, observed), setting) in variants.iter_mut().zip(&at_reference).zip(&selection.settings) {
-        // The reference's own slices would show the same curves once more.
-        let own_slices = setting.slices.map(|s| s.count) == resolved.scene.slices.map(|s| s.count);
-        if setting.coarsening == finest && own_slices {
-            variant.wear_um = observed.as_ref().map(|o| PerGear::from_fn(|gear| o.flanks[gear].wear_um.clone()));
-            let over_width = observed.as_ref().and_then(|o| o.over_width.as_ref());
-            variant.root_wear_um = over_width.map(|o| o.root_wear_um.clone());
-        }
-    }
+    keep_shown_curves(&mut variants, &at_reference, &selection.settings, resolved);
     let compared: Vec<Run<'_>> = selection
         .settings
         .iter()
@@ -117,7 +97,7 @@ pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) ->
     Ok(AccuracyRecord {
         recommended_toml: recommended_toml(&recommendations, &selection.settings, resolved),
         calibration_json: made.map(Calibration::to_json),
-        calibration_s: calibration.wall_s,
+        calibration_s,
         title: resolved.scene.title.clone(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_hash: resolved.scene_hash(),
@@ -140,26 +120,65 @@ pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) ->
     })
 }
 
-/// The calibration that the runs read.
-struct Calibrated {
+/// Takes limits that end a run away: wear is compared after the whole duration.
+fn leave_out_stop(resolved: &mut Resolved) {
+    if resolved.file.operation.stop.take().is_some() {
+        resolved.scene.operation.stop = LifeLimits::default();
+        let warning =
+            "operation.stop is left out: all models run the whole duration, so that their wear can be compared";
+        resolved.warnings.push(warning.to_owned());
+    }
+}
+
+/// Runs the settings one after the other, up to an interrupt; `count` is the number of all runs, for the observer.
+fn measure_all(settings: &[Setting], given: &LoadedScene, observer: &dyn Observer, count: usize) -> Vec<Measured> {
+    let runs = settings.iter().enumerate().map_while(|(number, setting)| {
+        observer.run_of(number, count, &setting.name());
+        measure(setting, given, &PartOf::new(observer, number, count))
+    });
+    runs.collect()
+}
+
+/// Keeps the curves of runs of the finest resolution on the scene's own slices; the reference's would show them once more.
+fn keep_shown_curves(
+    variants: &mut [VariantRecord],
+    at_reference: &[Option<Observed>],
+    settings: &[Setting],
+    resolved: &Resolved,
+) {
+    let finest = settings[0].coarsening;
+    for ((variant, observed), setting) in variants.iter_mut().zip(at_reference).zip(settings) {
+        let own_slices = setting.slices.map(|s| s.count) == resolved.scene.slices.map(|s| s.count);
+        if setting.coarsening == finest && own_slices {
+            variant.wear_um = observed.as_ref().map(|o| PerGear::from_fn(|gear| o.flanks[gear].wear_um.clone()));
+            let over_width = observed.as_ref().and_then(|o| o.over_width.as_ref());
+            variant.root_wear_um = over_width.map(|o| o.root_wear_um.clone());
+        }
+    }
+}
+
+/// Calibration that the runs read.
+struct CalibrationOfRuns {
     made: Option<Calibration>,
     wall_s: Option<f64>,
     /// Why there is none.
     why_none: String,
 }
 
-/// The scene's own, or one made now.
-fn calibration(given: &LoadedScene, observer: &dyn Observer) -> Result<Calibrated, AccuracyError> {
+/// The scene's own calibration, or one made now.
+fn calibration(given: &LoadedScene, observer: &dyn Observer) -> Result<CalibrationOfRuns, AccuracyError> {
     if let Some(own) = &given.files.calibration {
-        return Ok(Calibrated { made: Some(own.clone()), wall_s: None, why_none: String::new() });
+        return Ok(CalibrationOfRuns { made: Some(own.clone()), wall_s: None, why_none: String::new() });
     }
     observer.stage("calibration");
-    match calibrate::run(given.scene(), Extent::FastModel, &given.teeth_in_space, &PartOf::new(observer, 0, usize::MAX))
+    let watch = PartOf::new(observer, 0, usize::MAX);
+    let (made, wall_s, why_none) = match calibrate::run(given.scene(), Extent::FastModel, &given.teeth_in_space, &watch)
     {
-        Ok(done) => Ok(Calibrated { made: Some(done.calibration), wall_s: Some(done.wall_s), why_none: String::new() }),
-        Err(CalibrateError::Interrupted) => Err(AccuracyError::Interrupted),
-        Err(error) => Ok(Calibrated { made: None, wall_s: None, why_none: format!("no calibration: {error}") }),
-    }
+        Ok(done) => (Some(done.calibration), Some(done.wall_s), String::new()),
+        Err(CalibrateError::Interrupted) => return Err(AccuracyError::Interrupted),
+        Err(error) => (None, None, format!("no calibration: {error}")),
+    };
+    Ok(CalibrationOfRuns { made, wall_s, why_none })
 }
 
 /// The scene of the recommended run of the wear profile, with errors estimated again.
@@ -196,11 +215,11 @@ fn reference(
     let mut runs = vec![0];
     for &Companions { fine, coarse, spacing } in &selection.companions {
         let (fine_run, coarse_run) = (finished(measured, fine)?, finished(measured, coarse)?);
-        let steps = |run: &Finished| run.summary.work.wear_steps as f64;
+        let [fine_steps, coarse_steps] = [fine_run, coarse_run].map(|run| run.summary.work.wear_steps as f64);
         let (ratio, order) = match spacing {
             Spacing::Elements(ratio) | Spacing::Points(ratio) => (ratio, 2),
             Spacing::Slices(ratio) => (ratio, 1),
-            Spacing::Step => (steps(fine_run) / steps(coarse_run), 1),
+            Spacing::Step => (fine_steps / coarse_steps, 1),
         };
         runs.extend([fine, coarse]);
         if ratio >= LEAST_STEP_RATIO {
@@ -213,22 +232,25 @@ fn reference(
     Ok((Reference::extrapolated(finest, &corrections, windows), runs, spacings))
 }
 
-/// The quantities of which `reference` is more uncertain than the error wanted.
+/// Quantities of which `reference` is more uncertain than the error wanted.
 fn not_ranked(reference: &Reference, spacings: &[Spacing], within: f64) -> Vec<NotRanked> {
-    let of = |(&quantity, &uncertainty): (&Quantity, &f64)| {
-        if uncertainty <= within {
-            return None;
-        }
-        let part = |index: usize| reference.parts[index].get(&quantity).copied().unwrap_or(0.0);
-        let mut by: Vec<usize> = (0..spacings.len()).collect();
-        by.sort_by(|&a, &b| part(b).total_cmp(&part(a)));
-        let greatest = by.first().map_or(0.0, |&index| part(index));
-        // What is less than a third of the greatest part would not help.
-        by.retain(|&index| part(index) > 0.0 && 3.0 * part(index) >= greatest);
-        let remedies: Vec<&str> = by.iter().map(|&index| spacings[index].remedy()).collect();
-        Some(NotRanked { quantity, uncertainty, remedy: remedies.join("; ") })
-    };
-    reference.uncertainty.iter().filter_map(of).collect()
+    let uncertain = reference.uncertainty.iter().filter(|(_, uncertainty)| **uncertainty > within);
+    let not_ranked = uncertain.map(|(&quantity, &uncertainty)| {
+        let remedy = remedies(reference, spacings, quantity);
+        NotRanked { quantity, uncertainty, remedy }
+    });
+    not_ranked.collect()
+}
+
+/// Remedies for the corrections that contribute most to the uncertainty of `quantity`, the greatest first.
+fn remedies(reference: &Reference, spacings: &[Spacing], quantity: Quantity) -> String {
+    let parts = reference.parts.iter().map(|part| part.get(&quantity).copied().unwrap_or(0.0));
+    let mut parts: Vec<(f64, Spacing)> = parts.zip(spacings.iter().copied()).collect();
+    parts.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    let greatest = parts.first().map_or(0.0, |(part, _)| *part);
+    // A part below a third of the greatest would not help.
+    let remedies = parts.iter().filter(|(part, _)| *part > 0.0 && 3.0 * part >= greatest);
+    remedies.map(|(_, spacing)| spacing.remedy()).collect::<Vec<_>>().join("; ")
 }
 
 /// Measures every run against the reference.
@@ -251,19 +273,19 @@ fn mark_front(variants: &mut [VariantRecord], quantity: Quantity, uncertainty: f
 
 /// Run time and error of every run; not a number where it has none.
 fn points(variants: &[VariantRecord], quantity: Quantity) -> Vec<Point> {
-    let point = |variant: &VariantRecord| Point {
+    let points = variants.iter().map(|variant| Point {
         wall_s: variant.simulation_s.unwrap_or(f64::NAN),
         error: variant.errors.get(&quantity).map_or(f64::NAN, |error| error.relative),
-    };
-    variants.iter().map(point).collect()
+    });
+    points.collect()
 }
 
 fn recommendations(variants: &[VariantRecord], within: f64) -> Vec<Recommendation> {
-    let of = |quantity| {
+    let all = Quantity::ALL.into_iter().filter_map(|quantity| {
         let (variant, is_within) = cheapest_within(&points(variants, quantity), within)?;
         Some(Recommendation { quantity, variant, is_within })
-    };
-    Quantity::ALL.into_iter().filter_map(of).collect()
+    });
+    all.collect()
 }
 
 fn reference_record(

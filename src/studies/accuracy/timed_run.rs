@@ -26,6 +26,12 @@ pub(super) struct Measured {
     pub finished: Option<Finished>,
 }
 
+impl Measured {
+    fn failed(record: VariantRecord, failure: String) -> Self {
+        Self { record: VariantRecord { failure: Some(failure), ..record }, finished: None }
+    }
+}
+
 /// Part of a run that is kept: far less than its record, of which there would be a hundred.
 pub(super) struct Finished {
     pub observed: Observed,
@@ -41,14 +47,11 @@ pub(super) fn measure(setting: &Setting, base: &LoadedScene, observer: &PartOf<'
     }
     let mut record =
         VariantRecord { name: setting.name(), settings: setting.record(base.scene()), ..VariantRecord::default() };
-    let failed = |record: VariantRecord, failure: String| {
-        Some(Measured { record: VariantRecord { failure: Some(failure), ..record }, finished: None })
-    };
     let mut resolved = match setting.scene(&base.resolved, Some(CALIBRATION_FILE)) {
         Ok(resolved) => resolved,
         Err(problems) => {
             let all: Vec<String> = problems.iter().map(ToString::to_string).collect();
-            return failed(record, all.join("; "));
+            return Some(Measured::failed(record, all.join("; ")));
         }
     };
     // It is held against a reference of its own.
@@ -56,17 +59,17 @@ pub(super) fn measure(setting: &Setting, base: &LoadedScene, observer: &PartOf<'
     record.settings = setting.record(&resolved.scene);
     let scene = match base.variant(resolved) {
         Ok(scene) => scene,
-        Err(problem) => return failed(record, problem.to_string()),
+        Err(problem) => return Some(Measured::failed(record, problem.to_string())),
     };
     let mut kept = None;
     let start = Instant::now();
     while record.repeats == 0 || (start.elapsed().as_secs_f64() < LONG_ENOUGH_S && record.repeats < MOST_REPEATS) {
         let done = match pipeline::run(&scene, observer) {
             Ok(Done { record: done, failure: None }) if done.summary.stopped == StopReason::Completed => done,
-            Ok(Done { failure: Some(failure), .. }) => return failed(record, failure.to_string()),
+            Ok(Done { failure: Some(failure), .. }) => return Some(Measured::failed(record, failure.to_string())),
             Ok(_) => return None,
             Err(_) if observer.interrupted() => return None,
-            Err(failure) => return failed(record, RunError::to_string(&failure)),
+            Err(failure) => return Some(Measured::failed(record, RunError::to_string(&failure))),
         };
         let (simulation_s, setup_s) = times(&done);
         record.repeats += 1;

@@ -29,14 +29,14 @@ pub(crate) const INVARIANTS: &str = "invariants";
 
 /// Range of scenes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Asked {
+pub(crate) struct SceneRange {
     pub seed: u64,
     /// Number of the first.
     pub first: u64,
     pub count: u64,
 }
 
-impl Asked {
+impl SceneRange {
     /// Range of a tier of the validation suite, of the first seed.
     pub(crate) fn of_tier(tier: Option<Tier>) -> Self {
         Self { seed: 1, first: 0, count: if tier == Some(Tier::Smoke) { 100 } else { 1000 } }
@@ -66,7 +66,7 @@ struct Finding {
 }
 
 /// Carries the study out on so many threads; the record is the same for any number of them, but for times.
-pub(crate) fn run(asked: Asked, threads: usize, observer: &dyn Observer) -> InvariantsRecord {
+pub(crate) fn run(asked: SceneRange, threads: usize, observer: &dyn Observer) -> InvariantsRecord {
     let start = Instant::now();
     let relations = relations::all();
     let tasks: Vec<u64> = (asked.first..asked.first + asked.count).collect();
@@ -310,8 +310,8 @@ mod tests {
     /// Scenes give the same on one and two threads, and the record of the whole is that of its parts.
     #[test]
     fn threads_and_parts_change_nothing() {
-        let asked = Asked { seed: 5, first: 0, count: 6 };
-        let of = |first, count, threads| run(Asked { first, count, ..asked }, threads, &Unwatched);
+        let asked = SceneRange { seed: 5, first: 0, count: 6 };
+        let of = |first, count, threads| run(SceneRange { first, count, ..asked }, threads, &Unwatched);
         let (one, two) = (of(0, 6, 1), of(0, 6, 2));
         assert_eq!(
             (&one.statements, one.ran, one.refused, one.runs),
@@ -354,7 +354,7 @@ mod tests {
             (41, 1877, "asked too much: rounding of a mesh order beside orders a million times as great"),
             (19, 14364, "asked too much: adaptive steps through severe wear on springs that sampled the gap elsewhere"),
         ] {
-            let record = run(Asked { seed, first, count: 1 }, 1, &Unwatched);
+            let record = run(SceneRange { seed, first, count: 1 }, 1, &Unwatched);
             assert_eq!((record.ran, &record.violations[..]), (1, &[][..]), "{seed} {first}: {broke}");
         }
     }

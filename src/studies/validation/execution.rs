@@ -29,7 +29,7 @@ use crate::scene::draft::{self, Draft};
 use crate::scene::fem_problem::FemProblem;
 use crate::scene::loaded::{self, LoadedScene, NamedFiles, SceneText};
 use crate::scene::{Problem, Resolved, presets};
-use crate::studies::invariants::study::{self, Asked};
+use crate::studies::invariants::study::{self, SceneRange};
 use crate::studies::validation::record::RunOutcome;
 
 /// Result of a run.
@@ -48,7 +48,7 @@ pub(crate) struct Executed {
 }
 
 impl Executed {
-    /// A run that left `value` behind, and why it did not come to its end or cannot be sound.
+    /// Run with results, and why it did not come to its end or is not sound.
     fn of(value: Value, work: BTreeMap<String, u64>, failure: Option<Failed>, fault: Option<String>) -> Self {
         let fault = fault.map(|fault| Failed(RunOutcome::Unsound, fault));
         let (outcome, said) = match failure.or(fault) {
@@ -58,7 +58,7 @@ impl Executed {
         Self { outcome, said, value, calibration: None, wall_s: 0.0, work }
     }
 
-    /// A run that has nothing to show.
+    /// Run without results.
     fn without_result(outcome: RunOutcome, said: String) -> Self {
         let value = Value::group::<&str>([]);
         Self { outcome, said: Some(said), value, calibration: None, wall_s: 0.0, work: BTreeMap::new() }
@@ -76,15 +76,15 @@ impl Executed {
     }
 }
 
-/// Why a run has nothing to show: how it ended, and what was said.
+/// Outcome of a run without results, and its message.
 struct Failed(RunOutcome, String);
 
-/// The input is wrong.
+/// Failure by wrong input.
 fn refused(error: impl ToString) -> Failed {
     Failed(RunOutcome::Refused, error.to_string())
 }
 
-/// The solver says so.
+/// Failure of the solver.
 fn not_converged(error: impl ToString) -> Failed {
     Failed(RunOutcome::NotConverged, error.to_string())
 }
@@ -93,8 +93,8 @@ fn wrong(problems: Vec<Problem>) -> Failed {
     refused(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))
 }
 
-/// One member of a run.
-pub(crate) struct Task<'a> {
+/// One member of a run to carry out.
+pub(crate) struct MemberRun<'a> {
     pub run: &'a RunSpec,
     pub member: &'a Member,
     /// In which the files of the case lie.
@@ -104,7 +104,7 @@ pub(crate) struct Task<'a> {
     pub watch: &'a dyn Observer,
 }
 
-impl Task<'_> {
+impl MemberRun<'_> {
     pub(crate) fn execute(&self) -> Executed {
         if let (Some(name), None) = (&self.run.calibration, self.calibration) {
             let said = format!("the calibration of {name:?} was not made");
@@ -241,15 +241,11 @@ impl Task<'_> {
 
     /// Random scenes: their record, and a group `statements` with a group for each of them, by its name with `_` for spaces and hyphens.
     fn random_scenes(&self) -> Result<Executed, Failed> {
-        let whole = |key: &str| {
-            let given =
-                self.member.set.iter().rev().find(|(name, _)| name == key).and_then(|(_, value)| value.as_integer());
-            let number = given.and_then(|number| u64::try_from(number).ok());
-            number.ok_or_else(|| {
-                refused(format!("{key}: allowed in set of a run of invariants: a whole number, 0 or more"))
-            })
+        let asked = SceneRange {
+            seed: self.whole_number("seed")?,
+            first: self.whole_number("first")?,
+            count: self.whole_number("count")?,
         };
-        let asked = Asked { seed: whole("seed")?, first: whole("first")?, count: whole("count")? };
         let record = study::run(asked, 1, self.watch);
         if record.drawn < record.count {
             return Err(not_converged("interrupted"));
@@ -268,6 +264,13 @@ impl Task<'_> {
         Ok(Executed::of(value, work, None, fault))
     }
 
+    fn whole_number(&self, key: &str) -> Result<u64, Failed> {
+        let given = self.member.set.iter().rev().find(|(name, _)| name == key);
+        let number = given.and_then(|(_, value)| value.as_integer()).and_then(|number| u64::try_from(number).ok());
+        number
+            .ok_or_else(|| refused(format!("{key}: allowed in set of a run of invariants: a whole number, 0 or more")))
+    }
+
     fn calibrated(&self) -> Result<Executed, Failed> {
         let resolved = self.resolved(self.draft()?)?;
         let extent = if self.run.full { Extent::Whole } else { Extent::FastModel };
@@ -284,22 +287,24 @@ impl Task<'_> {
     }
 }
 
-/// The tree of anything that can be written as JSON.
+/// Tree of names of anything that can be written as JSON.
 fn tree(summary: &impl Serialize) -> Result<Value, Failed> {
     serde_json::to_value(summary).map(Value::of_json).map_err(not_converged)
 }
 
-/// Whole numbers of a group, as counts of work.
+/// Numbers of a group as work counts.
 fn counts(value: &Value) -> BTreeMap<String, u64> {
     let Value::Group(entries) = value else { return BTreeMap::new() };
-    let count = |(name, value): (&String, &Value)| match value {
-        Value::Number(number) if *number >= 0.0 => Some((name.clone(), *number as u64)),
-        _ => None,
-    };
-    entries.iter().filter_map(count).collect()
+    entries
+        .iter()
+        .filter_map(|(name, value)| match value {
+            Value::Number(number) if *number >= 0.0 => Some((name.clone(), *number as u64)),
+            _ => None,
+        })
+        .collect()
 }
 
-/// The table that `write` writes.
+/// Columns of the table that `write` writes.
 fn table(write: impl FnOnce(&mut dyn Write) -> io::Result<Vec<Column>>) -> Result<Value, Failed> {
     let mut bytes = Vec::new();
     write(&mut bytes).map_err(not_converged)?;

@@ -60,8 +60,8 @@ pub(crate) struct Library {
 }
 
 pub(crate) fn names() -> Vec<&'static str> {
-    let has_case = |dir: &&Dir<'static>| dir.contains(dir.path().join(CASE_FILE));
-    CASES.dirs().filter(has_case).filter_map(|dir| dir.path().to_str()).collect()
+    let cases = CASES.dirs().filter(|dir| dir.contains(dir.path().join(CASE_FILE)));
+    cases.filter_map(|dir| dir.path().to_str()).collect()
 }
 
 /// Lays the built-in cases out in `folder`: `validation/` with one folder a case, and `meshes/` beside it.
@@ -80,6 +80,14 @@ pub(crate) fn export(folder: &Path) -> Result<(), LibraryError> {
     Ok(())
 }
 
+/// Temporary folder with the built-in cases.
+fn exported() -> Result<TemporaryFolder, LibraryError> {
+    let folder = TemporaryFolder::new();
+    let folder = folder.map_err(|reason| LibraryError::Export { folder: std::env::temp_dir(), reason })?;
+    export(folder.path())?;
+    Ok(folder)
+}
+
 impl Library {
     /// The tier that is run: the one `asked` for. The whole suite, `all` of it, is run to the full one; cases that are named, whatever theirs is.
     pub(crate) fn tier(&self, asked: Option<Tier>, all: bool) -> Result<Option<Tier>, LibraryError> {
@@ -95,28 +103,26 @@ impl Library {
     /// The cases asked for, each by its name or by the folder it lies in; none asked for: all built-in ones.
     pub(crate) fn open(asked: &[String]) -> Result<Self, LibraryError> {
         let names = names();
-        // A name of the program's own is that case; `./NAME` is a folder.
-        let is_folder =
-            |asked: &&String| !names.contains(&asked.as_str()) && Path::new(asked).join(CASE_FILE).is_file();
-        let is_known = |asked: &&String| is_folder(asked) || names.contains(&asked.as_str());
-        if let Some(found) = asked.iter().find(|asked| !is_known(asked)) {
-            let nearest = crate::scene::nearest::nearest(found, &names);
-            return Err(LibraryError::Unknown { found: found.clone(), nearest });
-        }
         let all: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
         let asked = if asked.is_empty() { &all } else { asked };
-        let mut built_in = None;
-        if asked.iter().any(|asked| !is_folder(&asked)) {
-            let folder = TemporaryFolder::new()
-                .map_err(|reason| LibraryError::Export { folder: std::env::temp_dir(), reason })?;
-            export(folder.path())?;
-            built_in = Some(folder);
+        let mut built_in: Option<TemporaryFolder> = None;
+        let mut folders = Vec::with_capacity(asked.len());
+        // A name of the program's own is that case; `./NAME` is a folder.
+        for asked in asked {
+            if names.contains(&asked.as_str()) {
+                let folder = match &built_in {
+                    Some(folder) => folder,
+                    None => built_in.insert(exported()?),
+                };
+                folders.push(folder.path().join("validation").join(asked));
+            } else if Path::new(asked).join(CASE_FILE).is_file() {
+                folders.push(PathBuf::from(asked));
+            } else {
+                let nearest = crate::scene::nearest::nearest(asked, &names);
+                return Err(LibraryError::Unknown { found: asked.clone(), nearest });
+            }
         }
-        let place = |asked: &String| match &built_in {
-            Some(folder) if !is_folder(&asked) => folder.path().join("validation").join(asked),
-            _ => PathBuf::from(asked),
-        };
-        let cases = asked.iter().map(|asked| read(&place(asked))).collect::<Result<Vec<Case>, _>>()?;
+        let cases = folders.iter().map(|folder| read(folder)).collect::<Result<Vec<Case>, _>>()?;
         let mut taken = BTreeSet::new();
         if let Some(twice) = cases.iter().find(|case| !taken.insert(case.name.as_str())) {
             return Err(LibraryError::Twice { name: twice.name.clone() });

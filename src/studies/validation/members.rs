@@ -22,7 +22,7 @@ pub(crate) struct Member {
 }
 
 impl Member {
-    /// Whether it may end so.
+    /// Whether `outcome` is one that the case expects or accepts.
     pub(crate) fn may_end(&self, outcome: RunOutcome) -> bool {
         outcome == self.expected || self.accepted.contains(&outcome)
     }
@@ -62,8 +62,10 @@ impl VarySpec {
     }
 
     fn all(&self) -> Vec<toml::Value> {
-        let at = |index| self.between(index as f64 / (self.count().max(2) - 1) as f64);
-        self.values.clone().unwrap_or_else(|| (0..self.count()).map(at).collect())
+        self.values.clone().unwrap_or_else(|| {
+            let intervals = (self.count().max(2) - 1) as f64;
+            (0..self.count()).map(|index| self.between(index as f64 / intervals)).collect()
+        })
     }
 
     /// The number at `share` of the range.
@@ -109,8 +111,10 @@ fn short(number: f64) -> String {
 
 fn one_by_one(alone: &Member, spec: &MemberSpec) -> Member {
     let own: Vec<(String, toml::Value)> = spec.set.iter().map(|(key, value)| (key.clone(), value.clone())).collect();
-    let in_words = || own.iter().map(|(key, value)| format!("{key} = {value}")).collect::<Vec<_>>().join(", ");
-    let label = spec.label.clone().unwrap_or_else(in_words);
+    let label = spec.label.clone().unwrap_or_else(|| {
+        let changed: Vec<String> = own.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+        changed.join(", ")
+    });
     Member {
         values: vec![("value".to_owned(), Value::Number(spec.value.unwrap_or(f64::NAN)))],
         unset: [alone.unset.clone(), spec.unset.clone()].concat(),
@@ -168,10 +172,13 @@ mod tests {
         assert_eq!((listed[1].label.as_str(), listed[1].expected), ("b", RunOutcome::Sound));
 
         let either = members(&run("accept = [\"refused\"]\n[[each]]\nset = { k = 1 }\n[[each]]\nexpect = \"sound\"\n"));
-        let may_end = |outcome| either.iter().map(|member| member.may_end(outcome)).collect::<Vec<_>>();
-        assert_eq!(may_end(RunOutcome::Sound), [true, true]);
-        assert_eq!(may_end(RunOutcome::Refused), [true, false]);
-        assert_eq!(may_end(RunOutcome::Panicked), [false, false]);
+        for (outcome, may_end) in [
+            (RunOutcome::Sound, [true, true]),
+            (RunOutcome::Refused, [true, false]),
+            (RunOutcome::Panicked, [false, false]),
+        ] {
+            assert_eq!([either[0].may_end(outcome), either[1].may_end(outcome)], may_end);
+        }
 
         let sampled = members(&run(
             "[sample]\ncount = 200\nof = [{ key = \"m\", from = 1, to = 3 }, { key = \"s\", values = [\"a\", \"b\"] }]\n",

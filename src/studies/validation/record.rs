@@ -122,9 +122,9 @@ impl CaseRecord {
 
     /// The quantities that speak to a target: those that name it, or else those that name none.
     pub(crate) fn speaking_to(&self, target: &str) -> Vec<&QuantityRecord> {
-        let named = |name: Option<&str>| self.quantities.iter().filter(|q| q.target.as_deref() == name).collect();
-        let own: Vec<&QuantityRecord> = named(Some(target));
-        if own.is_empty() { named(None) } else { own }
+        let has_own = self.quantities.iter().any(|quantity| quantity.target.as_deref() == Some(target));
+        let wanted = has_own.then_some(target);
+        self.quantities.iter().filter(|quantity| quantity.target.as_deref() == wanted).collect()
     }
 }
 

@@ -4,8 +4,8 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use super::case_file::Command;
-use super::execution::{Executed, Task};
+use super::case_file::{Command, RunSpec};
+use super::execution::{Executed, MemberRun};
 use super::library::Case;
 use super::members::{Member, members};
 use crate::calibration::Calibration;
@@ -20,6 +20,11 @@ pub(crate) struct Members {
 }
 
 impl Members {
+    fn not_yet_run(run: &RunSpec) -> Self {
+        let members = members(run);
+        Self { executed: vec![None; members.len()], members }
+    }
+
     /// Members that ended, each with its result.
     pub(super) fn ended(&self) -> impl Iterator<Item = (&Member, &Executed)> {
         self.members.iter().zip(&self.executed).filter_map(|(member, executed)| Some((member, executed.as_ref()?)))
@@ -36,16 +41,8 @@ struct Job {
 
 /// Carries out all runs of `cases` on `threads` threads: for each case, each of its runs.
 pub(crate) fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer) -> Vec<Vec<Members>> {
-    let mut all: Vec<Vec<Members>> = cases
-        .iter()
-        .map(|case| {
-            let of_run = |run| {
-                let members = members(run);
-                Members { executed: vec![None; members.len()], members }
-            };
-            case.file.run.iter().map(of_run).collect()
-        })
-        .collect();
+    let mut all: Vec<Vec<Members>> =
+        cases.iter().map(|case| case.file.run.iter().map(Members::not_yet_run).collect()).collect();
     let mut jobs: Vec<Job> = Vec::new();
     for (case, runs) in all.iter().enumerate() {
         for (run, family) in runs.iter().enumerate() {
@@ -53,8 +50,8 @@ pub(crate) fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer
         }
     }
     let total = jobs.len();
-    let reads_calibration = |job: &Job| cases[job.case].file.run[job.run].calibration.is_some();
-    let (after, mut first): (Vec<Job>, Vec<Job>) = jobs.into_iter().partition(reads_calibration);
+    let (after, mut first): (Vec<Job>, Vec<Job>) =
+        jobs.into_iter().partition(|job| cases[job.case].file.run[job.run].calibration.is_some());
     // Long ones first, so that no thread is left with one at the end.
     first.sort_by_key(|job| match cases[job.case].file.run[job.run].command {
         Command::Invariants => 0,
@@ -72,7 +69,8 @@ pub(crate) fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer
             let spec = &case.file.run[job.run];
             let calibration = spec.calibration.as_ref().and_then(|name| made_by(case, &all[job.case], name));
             let member = &family.members[job.member];
-            let task = Task { run: spec, member, folder: &case.folder, calibration, watch: &PartOf::whole(observer) };
+            let task =
+                MemberRun { run: spec, member, folder: &case.folder, calibration, watch: &PartOf::whole(observer) };
             let executed = task.execute();
             observer.counted(
                 done.fetch_add(1, Ordering::Relaxed) + 1,
@@ -101,12 +99,10 @@ fn made_by<'a>(case: &Case, runs: &'a [Members], name: &str) -> Option<&'a Calib
 fn spread<T: Send>(jobs: &[Job], threads: usize, work: impl Fn(&Job) -> T + Sync) -> Vec<T> {
     let next = AtomicUsize::new(0);
     let results: Mutex<Vec<(usize, T)>> = Mutex::new(Vec::with_capacity(jobs.len()));
-    let take = || {
-        let index = next.fetch_add(1, Ordering::Relaxed);
-        jobs.get(index).map(|job| (index, job))
-    };
     let hand_out = || {
-        while let Some((index, job)) = take() {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(job) = jobs.get(index) else { return };
             let done = work(job);
             results.lock().unwrap_or_else(PoisonError::into_inner).push((index, done));
         }

@@ -42,12 +42,10 @@ pub(super) fn all(record: &AccuracyRecord) -> Vec<Chart> {
 }
 
 fn front(record: &AccuracyRecord, quantity: Quantity) -> Chart {
-    let runs = || {
-        record.variants.iter().filter_map(|v| {
-            let error = v.errors.get(&quantity).filter(|error| error.relative.is_finite())?;
-            Some((v, v.simulation_s?, error.relative, error.on_front))
-        })
-    };
+    let runs = record.variants.iter().filter_map(|v| {
+        let error = v.errors.get(&quantity).filter(|error| error.relative.is_finite())?;
+        Some((v, v.simulation_s?, error.relative, error.on_front))
+    });
     let uncertainty = record.reference.uncertainty.get(&quantity).copied().unwrap_or(0.0);
     let id = format!("front-{}", quantity.to_string().to_lowercase().replace('_', "-"));
     let mut chart = Chart::new(id, quantity.title())
@@ -62,14 +60,14 @@ fn front(record: &AccuracyRecord, quantity: Quantity) -> Chart {
         .y_set("ticktext", TICK_TEXTS.to_vec())
         .reading(reading(record, quantity, uncertainty));
     let mut on_front: Vec<(f64, f64)> =
-        runs().filter(|run| run.3).map(|(_, wall_s, error, _)| (wall_s, shown(error))).collect();
+        runs.clone().filter(|run| run.3).map(|(_, wall_s, error, _)| (wall_s, shown(error))).collect();
     on_front.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (wall_s, errors): (Vec<f64>, Vec<f64>) = on_front.into_iter().unzip();
     chart = chart.add(Trace::line("Pareto front", wall_s, errors, (MUTED, 8.0, Dash::Solid)).opacity(0.35).silent());
     for (kind, colour, symbol, holds) in KINDS {
         for (coupling, how, open) in COUPLINGS {
-            let is_shown = |v: &VariantRecord| holds(&v.settings) && v.settings.coupling.as_deref() == coupling;
-            let of_kind: Vec<_> = runs().filter(|(v, ..)| is_shown(v)).collect();
+            let of_coupling = runs.clone().filter(|(v, ..)| v.settings.coupling.as_deref() == coupling);
+            let of_kind: Vec<_> = of_coupling.filter(|(v, ..)| holds(&v.settings)).collect();
             if of_kind.is_empty() {
                 continue;
             }
@@ -83,7 +81,7 @@ fn front(record: &AccuracyRecord, quantity: Quantity) -> Chart {
             chart = chart.add(points.set("marker", marker).hover_texts(text.collect()));
         }
     }
-    let ends = extent(runs().map(|run| run.1));
+    let ends = extent(runs.map(|run| run.1));
     for (name, level, dash) in
         [("error wanted", record.within, Dash::Dashed), ("the reference’s own uncertainty", uncertainty, Dash::Dot)]
     {

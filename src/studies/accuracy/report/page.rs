@@ -66,12 +66,13 @@ fn reference(record: &AccuracyRecord) -> Markup {
 
 /// The files that are there.
 fn data_files(record: &AccuracyRecord) -> Vec<(&'static str, &'static str)> {
-    let missing = |name: &str| {
-        name == OVER_WIDTH_FILE && !record.has_slices()
-            || name == CALIBRATION_FILE && record.calibration_json.is_none()
-            || name == "recommended.toml" && record.recommended_toml.is_none()
-    };
-    DATA_FILES.into_iter().filter(|(name, _)| !missing(name)).collect()
+    let written = DATA_FILES.into_iter().filter(|&(name, _)| match name {
+        OVER_WIDTH_FILE => record.has_slices(),
+        CALIBRATION_FILE => record.calibration_json.is_some(),
+        "recommended.toml" => record.recommended_toml.is_some(),
+        _ => true,
+    });
+    written.collect()
 }
 
 /// Recommendation, in a sentence or two.

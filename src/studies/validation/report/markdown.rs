@@ -81,14 +81,20 @@ fn estimates(record: &ValidationRecord) -> String {
 }
 
 fn all_cases(record: &ValidationRecord) -> String {
-    let row = |case: &CaseRecord| {
-        let share = words::share(words::tightest(case.quantities.iter()).map(|(_, share)| share));
-        let [group, name] = [&case.group, &case.name].map(String::clone);
-        vec![signed(Verdict::of_case(case)), group, name, share, words::main_work(case), time(case.wall_s)]
-    };
-    let rows: Vec<Vec<String>> = record.cases.iter().map(row).collect();
+    let rows: Vec<Vec<String>> = record.cases.iter().map(case_row).collect();
     let columns = ["", "group", "case", "of tolerance", "work", "time"];
     folded(&format!("What each of {} cost", counted(rows.len(), "case", "cases")), &columns, &rows)
+}
+
+fn case_row(case: &CaseRecord) -> Vec<String> {
+    let share = words::share(words::tightest(case.quantities.iter()).map(|(_, share)| share));
+    let [group, name] = [&case.group, &case.name].map(String::clone);
+    vec![signed(Verdict::of_case(case)), group, name, share, words::main_work(case), time(case.wall_s)]
+}
+
+fn change_rows(changes: &[Change]) -> Vec<Vec<String>> {
+    let cells = changes.iter().map(|c| [c.case.clone(), c.what.clone(), words::state(&c.before), words::state(&c.now)]);
+    cells.map(Vec::from).collect()
 }
 
 fn changed(changes: &Changes) -> String {
@@ -96,14 +102,12 @@ fn changed(changes: &Changes) -> String {
     if changes.worse.is_empty() && changes.better.is_empty() && changes.added.is_empty() && changes.gone.is_empty() {
         return format!("{against}: nothing changed beyond the noise.\n\n");
     }
-    let row = |c: &Change| vec![c.case.clone(), c.what.clone(), words::state(&c.before), words::state(&c.now)];
-    let rows = |changes: &[Change]| changes.iter().map(row).collect::<Vec<_>>();
     let columns = ["case", "what", "before", "now"];
     let mut text = format!("{against}: {} worse, {} better.\n\n", changes.worse.len(), changes.better.len());
     if !changes.worse.is_empty() {
-        text.push_str(&format!("### Got worse\n\n{}\n", table(&columns, &rows(&changes.worse))));
+        text.push_str(&format!("### Got worse\n\n{}\n", table(&columns, &change_rows(&changes.worse))));
     }
-    text.push_str(&folded("What got better", &columns, &rows(&changes.better)));
+    text.push_str(&folded("What got better", &columns, &change_rows(&changes.better)));
     for (heading, names) in [("New cases", &changes.added), ("Cases that are gone", &changes.gone)] {
         if !names.is_empty() {
             text.push_str(&format!("{heading}: {}.\n\n", escape(&shortened(&names.join(", "), CELL_LIMIT))));

@@ -50,12 +50,11 @@ fn marks(case: &CaseRecord) -> Markup {
     if !case.rests_on.is_empty() {
         marks.push(html! { "estimate" });
     }
-    let of = |wanted| case.quantities.iter().filter(|quantity| Verdict::of_quantity(quantity) == wanted).count();
-    for (verdict, one, many) in [
+    for (wanted, one, many) in [
         (Verdict::KnownNot, "does not hold", "do not hold"),
         (Verdict::CannotBeCompared, "not comparable", "not comparable"),
     ] {
-        match of(verdict) {
+        match case.quantities.iter().filter(|quantity| Verdict::of_quantity(quantity) == wanted).count() {
             0 => {}
             number => marks.push(html! { (counted(number, one, many)) }),
         }
@@ -65,15 +64,16 @@ fn marks(case: &CaseRecord) -> Markup {
 
 /// Choices by verdict and group; shown by the script that serves them.
 fn controls(record: &ValidationRecord) -> Markup {
-    let of = |wanted: Verdict| record.cases.iter().filter(|case| Verdict::of_case(case) == wanted).count();
+    let verdicts: Vec<Verdict> = record.cases.iter().map(Verdict::of_case).collect();
+    let counts = Verdict::ALL.map(|wanted| (wanted, verdicts.iter().filter(|verdict| **verdict == wanted).count()));
     html! {
         form.filter #filter hidden {
             fieldset {
                 legend { "Show" }
-                @for verdict in Verdict::ALL.into_iter().filter(|verdict| of(*verdict) > 0) {
+                @for (verdict, cases) in counts.into_iter().filter(|(_, cases)| *cases > 0) {
                     label {
                         input type="checkbox" value=(verdict.class()) checked;
-                        " " (badge(verdict)) " (" (of(verdict)) ")"
+                        " " (badge(verdict)) " (" (cases) ")"
                     }
                     " "
                 }

@@ -54,13 +54,19 @@ pub(super) fn page(record: &ValidationRecord, changes: Option<&Changes>) -> Stri
     .html_with(include_str!("validation.css"), include_str!("validation.js"))
 }
 
+/// `class` where there is something to look at.
+fn alarm(number: usize, class: &'static str) -> &'static str {
+    if number > 0 { class } else { "quiet" }
+}
+
+/// Class, number and words of a count.
+fn tile<'a>(class: &'a str, number: usize, one: &'a str, many: &'a str) -> (&'a str, String, &'a str) {
+    (class, number.to_string(), if number == 1 { one } else { many })
+}
+
 fn tiles(record: &ValidationRecord) -> Markup {
     let t = Totals::of(record);
-    let alarm = |number: usize, class: &'static str| if number > 0 { class } else { "quiet" };
     let wrong = t.missed + t.could_not_run;
-    let tile = |class, number: usize, one: &'static str, many: &'static str| {
-        (class, number.to_string(), if number == 1 { one } else { many })
-    };
     let (known_not, open) = (t.known_not, t.cannot_be_compared);
     let threads = format!("on {}", words::counted(record.threads, "thread", "threads"));
     let all_well = if wrong == 0 { "holds" } else { "" };
@@ -91,13 +97,14 @@ fn not_as_expected(record: &ValidationRecord) -> Markup {
     items(Some("wrong"), cases)
 }
 
+fn change_row(word: &'static str, change: &Change) -> Markup {
+    let (before, now) = (words::state(&change.before), words::state(&change.now));
+    line(cells![word, &*change.case, &*change.what, before, now])
+}
+
 fn changed(changes: &Changes) -> Markup {
-    let row = |word: &'static str, change: &Change| {
-        let (before, now) = (words::state(&change.before), words::state(&change.now));
-        line(cells![word, &*change.case, &*change.what, before, now])
-    };
-    let worse = changes.worse.iter().map(|change| row("↓ worse", change));
-    let rows: Vec<Markup> = worse.chain(changes.better.iter().map(|change| row("↑ better", change))).collect();
+    let worse = changes.worse.iter().map(|change| change_row("↓ worse", change));
+    let rows: Vec<Markup> = worse.chain(changes.better.iter().map(|change| change_row("↑ better", change))).collect();
     html! {
         p { "Against a run of version " (changes.against_version) "." }
         @if rows.is_empty() {

@@ -94,10 +94,13 @@ fn near(value: f64) -> String {
     )
 }
 
+fn holds(name: &str) -> String {
+    format!("[[quantity]]\nname = '{name}'\nvalue = 1\nis_true = true\n")
+}
+
 /// Every verdict, every kind of criterion, and points of both further kinds.
 pub(super) fn record() -> ValidationRecord {
     let gate = "[[quantity]]\nname = 'Newton iterations'\nvalue = 412\nat_most = 450\nwork = true\n";
-    let holds = |name: &str| format!("[[quantity]]\nname = '{name}'\nvalue = 1\nis_true = true\n");
     let hertz = case("hertz-cylinders", "Contact", &[], &(near(1300.0) + gate + &holds("symmetric")));
     let fzg = case("fzg-root-wear", "FZG test", &["D1", "D2", "D3"], &(FZG.to_owned() + PLOT));
     let missed = case("pitch-point", "Geometry", &["S1"], &(near(1400.0) + PLOT));

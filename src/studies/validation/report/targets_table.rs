@@ -78,11 +78,11 @@ fn row(id: &str, words: &str, cases: &[&CaseRecord], verdict: Markup) -> Markup 
 /// Verdict of a target: the most urgent of its cases, with how many of its quantities hold where not all do; `None`
 /// where no case speaks to it.
 fn verdict(id: &str, cases: &[&CaseRecord]) -> Option<Markup> {
-    let of_case = |case: &&CaseRecord| match case.failure {
+    let of_cases = cases.iter().map(|case| match case.failure {
         Some(_) => Verdict::CouldNotRun,
         None => Verdict::of_quantities(&case.speaking_to(id)),
-    };
-    let worst = cases.iter().map(of_case).min()?;
+    });
+    let worst = of_cases.min()?;
     let all = cases.iter().flat_map(|case| case.speaking_to(id)).map(Verdict::of_quantity);
     let compared: Vec<Verdict> = all.filter(|verdict| *verdict != Verdict::Reported).collect();
     let hold = compared.iter().filter(|verdict| matches!(verdict, Verdict::Holds | Verdict::NowHolds)).count();

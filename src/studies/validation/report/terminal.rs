@@ -51,13 +51,9 @@ fn cases(record: &ValidationRecord, width: Option<u16>) -> String {
 
 /// The cells for which there is room.
 fn shown(width: Option<u16>, cells: [String; 7]) -> Vec<String> {
-    let has_room = |least: u16| width.is_none_or(|width| width >= least);
-    let is_shown = |column: usize| match column {
-        1 | 4 => has_room(WITH_QUANTITY),
-        5 => has_room(WITH_WORK),
-        _ => true,
-    };
-    cells.into_iter().enumerate().filter(|&(column, _)| is_shown(column)).map(|(_, cell)| cell).collect()
+    const LEAST_WIDTH: [u16; 7] = [0, WITH_QUANTITY, 0, 0, WITH_QUANTITY, WITH_WORK, 0];
+    let shown = cells.into_iter().zip(LEAST_WIDTH).filter(|&(_, least)| width.is_none_or(|width| width >= least));
+    shown.map(|(cell, _)| cell).collect()
 }
 
 fn shortened(name: &str) -> String {

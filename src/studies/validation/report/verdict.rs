@@ -60,14 +60,10 @@ impl Verdict {
 
     /// Verdict of several quantities: the most urgent of theirs.
     pub(super) fn of_quantities(quantities: &[&QuantityRecord]) -> Self {
-        let each = || quantities.iter().map(|quantity| Self::of_quantity(quantity));
-        let worst = each().min().unwrap_or(Self::Reported);
-        // What cannot be compared beside something that holds is a mark on the whole, not what became of it.
-        if worst == Self::CannotBeCompared && each().any(|verdict| verdict == Self::Holds) {
-            Self::Holds
-        } else {
-            worst
-        }
+        let each: Vec<Self> = quantities.iter().map(|quantity| Self::of_quantity(quantity)).collect();
+        let worst = each.iter().min().copied().unwrap_or(Self::Reported);
+        // A quantity that cannot be compared, beside one that holds, is a mark on the whole, not its verdict.
+        if worst == Self::CannotBeCompared && each.contains(&Self::Holds) { Self::Holds } else { worst }
     }
 
     pub(super) fn word(self) -> &'static str {

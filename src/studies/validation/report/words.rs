@@ -134,22 +134,23 @@ pub(super) fn deviation(quantity: &QuantityRecord) -> String {
 /// Beside the record's own shares, of references and of upper bounds: of a lower bound as bound ÷ value, of a range by the way
 /// from its middle.
 pub(super) fn used(quantity: &QuantityRecord) -> Option<f64> {
-    let of_bound = |value: f64| match quantity.criterion {
-        Criterion::AtLeast { bound } if bound > 0.0 && value > 0.0 => Some(bound / value),
-        Criterion::Between { low, high } if low < high => Some((2.0 * value - low - high).abs() / (high - low)),
-        _ => None,
-    };
     // Of a number of things one more or less is no margin.
-    let counts_things = |limit: f64| {
-        quantity.unit.is_empty() && limit.fract() == 0.0 && quantity.value.is_some_and(|value| value.fract() == 0.0)
-    };
     if let Criterion::AtLeast { bound } | Criterion::AtMost { bound } = quantity.criterion
-        && counts_things(bound)
+        && quantity.unit.is_empty()
+        && bound.fract() == 0.0
+        && quantity.value.is_some_and(|value| value.fract() == 0.0)
         && !quantity.counts_work
     {
         return None;
     }
-    quantity.share.or_else(|| quantity.value.and_then(of_bound)).filter(|share| share.is_finite())
+    let share = match (quantity.share, quantity.value, quantity.criterion) {
+        (None, Some(value), Criterion::AtLeast { bound }) if bound > 0.0 && value > 0.0 => Some(bound / value),
+        (None, Some(value), Criterion::Between { low, high }) if low < high => {
+            Some((2.0 * value - low - high).abs() / (high - low))
+        }
+        (share, ..) => share,
+    };
+    share.filter(|share| share.is_finite())
 }
 
 /// The quantity that uses most of its tolerance, and how much: of those that are missed, if there are any. Counts of work are
@@ -157,15 +158,14 @@ pub(super) fn used(quantity: &QuantityRecord) -> Option<f64> {
 pub(super) fn tightest<'a>(
     quantities: impl Iterator<Item = &'a QuantityRecord> + Clone,
 ) -> Option<(&'a QuantityRecord, f64)> {
-    let among = |wanted: Verdict| {
+    [Verdict::Missed, Verdict::Holds].into_iter().find_map(|wanted| {
         quantities
             .clone()
             .filter(|quantity| Verdict::of_quantity(quantity) == wanted)
             .filter(|quantity| wanted == Verdict::Missed || !quantity.counts_work)
             .filter_map(|quantity| Some((quantity, used(quantity)?)))
             .reduce(|most, next| if next.1 > most.1 { next } else { most })
-    };
-    among(Verdict::Missed).or_else(|| among(Verdict::Holds))
+    })
 }
 
 /// The greatest of the work counts: what the time went into.
