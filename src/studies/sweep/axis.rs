@@ -96,8 +96,7 @@ impl AxisError {
 ///
 /// A range that lies partly outside what the key takes is kept: those combinations become rows with their error.
 pub(crate) fn parse(given: &str) -> Result<SweepAxis, AxisError> {
-    let form = || AxisError::Form { given: given.to_owned() };
-    let (key, values) = given.split_once('=').ok_or_else(form)?;
+    let Some((key, values)) = given.split_once('=') else { return Err(AxisError::Form { given: given.to_owned() }) };
     let key = key.trim().to_owned();
     let keys = linked_keys(&key);
     if keys.iter().any(|key| key.contains(['{', '}'])) {
@@ -114,7 +113,7 @@ pub(crate) fn parse(given: &str) -> Result<SweepAxis, AxisError> {
         [list] if !list.is_empty() => listed(key, list, whole)?,
         [from, to, count] => range(key, [from, to], count, Spacing::Even, whole)?,
         [from, to, count, "log"] => range(key, [from, to], count, Spacing::Logarithmic, whole)?,
-        _ => return Err(form()),
+        _ => return Err(AxisError::Form { given: given.to_owned() }),
     };
     let values = axis.values();
     if let Some(&value) = values.iter().find(|value| axis.whole && value.fract() != 0.0) {
@@ -181,7 +180,7 @@ fn range(
     }
 }
 
-/// Reads all of them and checks that they go together.
+/// Reads all axes and checks that they go together.
 pub(crate) fn parse_all<'a>(given: impl IntoIterator<Item = &'a str>) -> Result<Vec<SweepAxis>, AxisError> {
     let mut axes: Vec<SweepAxis> = Vec::new();
     for given in given {

@@ -72,11 +72,10 @@ impl Sweep {
         }))
     }
 
-    /// Where not a single combination makes a scene, what is wrong with the first.
+    /// Problems of the first combination, where not a single one makes a scene.
     pub(crate) fn unbuildable(&self) -> Option<String> {
-        let problems = |index| self.scene(index).err();
-        let first = problems(0)?;
-        let all = (1..self.identity.combinations()).all(|index| problems(index).is_some());
+        let first = self.scene(0).err()?;
+        let all = (1..self.identity.combinations()).all(|index| self.scene(index).is_err());
         all.then(|| in_words(&first))
     }
 
@@ -152,7 +151,7 @@ impl Sweep {
     }
 }
 
-/// Of the files that a scene names; empty where it names none.
+/// Hash of the files that a scene names; empty where it names none.
 fn hash_of(files: &NamedFiles) -> String {
     let calibration = files.calibration.as_ref().map(|calibration| calibration.to_json());
     let curve = files.stiffness_curve.as_ref().map(|curve| format!("{curve:?}"));

@@ -48,11 +48,20 @@ impl FromStr for Limit {
     type Err = GoalError;
 
     fn from_str(given: &str) -> Result<Self, GoalError> {
-        let form = || GoalError::Form { given: given.to_owned() };
-        let split = |sign: &str| given.split_once(sign).map(|(figure, value)| (figure, value, sign == "<="));
-        let (figure, value, at_most) = split("<=").or_else(|| split(">=")).ok_or_else(form)?;
-        let value = value.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(form)?;
-        Ok(Self { figure: known(figure.trim())?.name.to_owned(), at_most, value })
+        let split = ["<=", ">="].into_iter().find_map(|sign| Some((given.split_once(sign)?, sign)));
+        let read = split.and_then(|((figure, value), sign)| {
+            let value = value.trim().parse::<f64>().ok().filter(|value| value.is_finite())?;
+            Some((figure.trim(), sign == "<=", value))
+        });
+        let (figure, at_most, value) = read.ok_or_else(|| GoalError::Form { given: given.to_owned() })?;
+        Ok(Self { figure: known(figure)?.name.to_owned(), at_most, value })
+    }
+}
+
+impl Limit {
+    fn is_kept_by(&self, row: &SweepRow) -> bool {
+        let value = SweepFigure::find(&self.figure).and_then(|figure| row.figure(figure));
+        value.is_some_and(|value| if self.at_most { value <= self.value } else { value >= self.value })
     }
 }
 
@@ -83,11 +92,9 @@ impl Goal {
 
     /// Whether `row` has the figure and keeps to all limits.
     pub(crate) fn allows(&self, row: &SweepRow) -> bool {
-        let keeps = |limit: &Limit| {
-            let value = SweepFigure::find(&limit.figure).and_then(|figure| row.figure(figure));
-            value.is_some_and(|value| if limit.at_most { value <= limit.value } else { value >= limit.value })
-        };
-        row.error.is_none() && row.figure(self.figure()).is_some() && self.limits.iter().all(keeps)
+        row.error.is_none()
+            && row.figure(self.figure()).is_some()
+            && self.limits.iter().all(|limit| limit.is_kept_by(row))
     }
 
     /// In words: "pinion.peak_wear_um, with wheel.peak_wear_um ≤ 8".
@@ -126,26 +133,28 @@ impl Goal {
             value,
             error,
             why_no_error,
-            plateau_keys: plateau.as_ref().map(|plateau| {
-                let of_axis = |at: usize| {
-                    let axis = &identity.axes[at];
-                    let mut places: Vec<usize> = plateau.iter().map(|&index| identity.digits(index)[at]).collect();
-                    places.sort_unstable();
-                    places.dedup();
-                    match (axis.words(), places.first(), places.last()) {
-                        (None, Some(&first), Some(&last)) if places.len() > 2 && places.len() == last - first + 1 => {
-                            format!("{} from {} to {}", axis.key, plain(axis.value(first)), plain(axis.value(last)))
-                        }
-                        _ => {
-                            let said: Vec<String> = places.iter().map(|&place| axis.said(axis.value(place))).collect();
-                            format!("{} = {}", axis.key, said.join(", "))
-                        }
-                    }
-                };
-                (0..identity.axes.len()).map(of_axis).collect()
-            }),
+            plateau_keys: plateau
+                .as_ref()
+                .map(|plateau| (0..identity.axes.len()).map(|at| values_among(identity, plateau, at)).collect()),
             plateau,
         })
+    }
+}
+
+/// Values of axis number `at` among these combinations: `KEY from FIRST to LAST`, or `KEY = VALUE, VALUE`.
+fn values_among(identity: &SweepIdentity, combinations: &[usize], at: usize) -> String {
+    let axis = &identity.axes[at];
+    let mut places: Vec<usize> = combinations.iter().map(|&index| identity.digits(index)[at]).collect();
+    places.sort_unstable();
+    places.dedup();
+    match (axis.words(), places.first(), places.last()) {
+        (None, Some(&first), Some(&last)) if places.len() > 2 && places.len() == last - first + 1 => {
+            format!("{} from {} to {}", axis.key, plain(axis.value(first)), plain(axis.value(last)))
+        }
+        _ => {
+            let said: Vec<String> = places.iter().map(|&place| axis.said(axis.value(place))).collect();
+            format!("{} = {}", axis.key, said.join(", "))
+        }
     }
 }
 
@@ -208,13 +217,12 @@ mod tests {
             spacing: Spacing::Even,
         };
         let identity = SweepIdentity { axes: vec![axis], ..SweepIdentity::default() };
-        let row = |(index, &wear): (usize, &f64)| {
-            let of =
-                |figure: &SweepFigure| Some(if figure.name == "pinion.peak_wear_um" { wear } else { index as f64 });
-            let figures = FIGURES.iter().map(of).collect();
+        let rows = wear.iter().enumerate().map(|(index, &wear)| {
+            let is_wear = FIGURES.iter().map(|figure| figure.name == "pinion.peak_wear_um");
+            let figures = is_wear.map(|is_wear| Some(if is_wear { wear } else { index as f64 })).collect();
             SweepRow { index, values: identity.values(index), figures, ..SweepRow::default() }
-        };
-        let rows = wear.iter().enumerate().map(row).collect();
+        });
+        let rows = rows.collect();
         (identity, rows)
     }
 

@@ -8,7 +8,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -111,15 +111,32 @@ fn whole_lines(text: &str) -> &str {
 
 /// The contents of a journal's whole lines; `None` where there is none.
 fn parse(path: &Path, text: &str) -> Result<Option<Contents>, JournalError> {
-    let mut lines = text.lines().enumerate();
-    let damaged = |line: usize, found: String| JournalError::Damaged { path: path.to_owned(), line: line + 1, found };
-    let Some((_, first)) = lines.next() else { return Ok(None) };
-    let mut contents: Contents = serde_json::from_str(first).map_err(|error| damaged(0, error.to_string()))?;
-    for (line, text) in lines {
-        let row = contents.row(text).map_err(|found| damaged(line, found))?;
-        contents.rows.insert(row.index, row);
+    let mut contents: Option<Contents> = None;
+    for (number, line) in text.lines().enumerate() {
+        let read = match &mut contents {
+            None => serde_json::from_str(line).map(|first| contents = Some(first)).map_err(|error| error.to_string()),
+            Some(contents) => contents.row(line).map(|row| drop(contents.rows.insert(row.index, row))),
+        };
+        read.map_err(|found| JournalError::Damaged { path: path.to_owned(), line: number + 1, found })?;
     }
-    Ok(Some(contents))
+    Ok(contents)
+}
+
+fn cannot_open(path: &Path, source: io::Error) -> JournalError {
+    JournalError::Open { path: path.to_owned(), source }
+}
+
+/// File of a journal, made where there is none.
+fn opened(folder: &Path, path: &Path) -> io::Result<File> {
+    fs::create_dir_all(folder)?;
+    OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)
+}
+
+/// Cuts the file after its whole lines, and writes the first line of a journal that is `new`.
+fn begin_at(file: &mut File, length: usize, new: Option<&Contents>) -> io::Result<()> {
+    file.set_len(length as u64)?;
+    file.seek(SeekFrom::End(0))?;
+    new.map_or(Ok(()), |contents| file.write_all(&line_of(contents)?))
 }
 
 impl Journal {
@@ -134,16 +151,12 @@ impl Journal {
     /// [`JournalError`] where it cannot be written, is written by another program now, or is another sweep's.
     pub(crate) fn open(folder: &Path, identity: &SweepIdentity, shard: Option<Shard>) -> Result<Self, JournalError> {
         let path = folder.join(FILE_NAME);
-        let at = |source| JournalError::Open { path: path.clone(), source };
-        fs::create_dir_all(folder).map_err(at)?;
-        let mut file =
-            OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path).map_err(at)?;
+        let mut file = opened(folder, &path).map_err(|source| cannot_open(&path, source))?;
         // A file system without locks is no reason not to run.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(JournalError::InUse { path });
         }
-        let mut text = String::new();
-        file.read_to_string(&mut text).map_err(at)?;
+        let text = io::read_to_string(&file).map_err(|source| cannot_open(&path, source))?;
         let text = whole_lines(&text);
         let Self { contents: new, .. } = Self::in_memory(identity, shard);
         let found = parse(&path, text)?;
@@ -151,11 +164,8 @@ impl Journal {
         if !differences.is_empty() {
             return Err(JournalError::OtherSweep { path, differences });
         }
-        file.set_len(text.len() as u64).map_err(at)?;
-        file.seek(SeekFrom::End(0)).map_err(at)?;
-        if found.is_none() {
-            file.write_all(&line_of(&new).map_err(at)?).map_err(at)?;
-        }
+        let begun = begin_at(&mut file, text.len(), found.is_none().then_some(&new));
+        begun.map_err(|source| cannot_open(&path, source))?;
         Ok(Self { kept: Some((path, file)), contents: found.unwrap_or(new) })
     }
 
@@ -170,8 +180,7 @@ impl Journal {
             return Ok(());
         };
         let kept = rows.len();
-        let failed = |path: &Path, source| JournalError::Write { path: path.to_owned(), kept, source };
-        let line = line_of(&row).map_err(|source| failed(path, source))?;
+        let line = line_of(&row).map_err(|source| JournalError::Write { path: path.clone(), kept, source })?;
         let index = row.index;
         let before = rows.insert(index, row);
         // A file that was unlinked could still be written to, for nobody.
@@ -183,7 +192,7 @@ impl Journal {
                 Some(row) => rows.insert(index, row),
                 None => rows.remove(&index),
             };
-            return Err(failed(path, source));
+            return Err(JournalError::Write { path: path.clone(), kept, source });
         }
         Ok(())
     }
@@ -217,10 +226,9 @@ fn line_of(item: &impl Serialize) -> io::Result<Vec<u8>> {
 fn differences(found: &Contents, wanted: &Contents) -> Vec<String> {
     let mut differences = found.identity.differences(&wanted.identity);
     if found.shard != wanted.shard {
-        let words = |shard: Option<Shard>| {
-            shard.map_or_else(|| "all of it".to_owned(), |s| format!("shard {}/{}", s.number, s.of))
-        };
-        differences.push(format!("the part that is run: {} and {}", words(found.shard), words(wanted.shard)));
+        let [there, here] = [found.shard, wanted.shard]
+            .map(|shard| shard.map_or_else(|| "all of it".to_owned(), |s| format!("shard {}/{}", s.number, s.of)));
+        differences.push(format!("the part that is run: {there} and {here}"));
     }
     differences
 }

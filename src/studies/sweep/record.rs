@@ -1,4 +1,4 @@
-//! Everything a sweep leaves behind, as plain data in the units of the output files: what its reports read.
+//! Record of a sweep in the units of the output files, which its reports are written from.
 
 use serde::{Deserialize, Serialize};
 
@@ -81,10 +81,10 @@ impl SweepAxis {
 
     /// Axis as the user may write it: `pair.face_width_mm=10:30:21`.
     pub(crate) fn as_given(&self) -> String {
-        let range = || format!("{}:{}:{}", plain(self.from), plain(self.to), self.count);
+        let range = format!("{}:{}:{}", plain(self.from), plain(self.to), self.count);
         let values = match &self.spacing {
-            Spacing::Even => range(),
-            Spacing::Logarithmic => format!("{}:log", range()),
+            Spacing::Even => range,
+            Spacing::Logarithmic => format!("{range}:log"),
             Spacing::Listed(values) => values.iter().map(|value| plain(*value)).collect::<Vec<_>>().join(","),
             Spacing::Words(words) => words.join(","),
         };
@@ -104,12 +104,12 @@ impl SweepAxis {
         self.words()?.get(value as usize).map(String::as_str)
     }
 
-    /// A value as one would write it.
+    /// Value as text: a word, or a number in its shortest form.
     pub(crate) fn said(&self, value: f64) -> String {
         self.word(value).map_or_else(|| plain(value), str::to_owned)
     }
 
-    /// For an axis of a plot, with the unit that ends the name of the key: `tip relief, amount, pinion and wheel, µm`.
+    /// Title of an axis of a plot, with the unit that ends the name of the key: `tip relief, amount, pinion and wheel, µm`.
     pub(crate) fn title(&self) -> String {
         let (name, unit) = self.name_and_unit();
         unit.map_or_else(|| name.clone(), |unit| format!("{name}, {unit}"))
@@ -164,7 +164,7 @@ const UNITS: [(&str, &str); 20] = [
     (" K", "K"),
 ];
 
-/// A number as one would write it: `10`, `0.5`, `1e-17`.
+/// Number in its shortest form: `10`, `0.5`, `1e-17`.
 pub(crate) fn plain(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
@@ -232,22 +232,8 @@ impl SweepIdentity {
 
     /// Differences from `other`, in words; empty where both are one sweep.
     pub(crate) fn differences(&self, other: &Self) -> Vec<String> {
-        let axes = |of: &Self| {
-            let said: Vec<String> = of.axes.iter().map(SweepAxis::as_given).collect();
-            said.join(" ")
-        };
-        let yes = |is: bool| if is { "yes" } else { "no" }.to_owned();
-        let all = [
-            ("program version", self.program_version.clone(), other.program_version.clone()),
-            ("what is varied", axes(self), axes(other)),
-            ("scene", self.given_hash.clone(), other.given_hash.clone()),
-            ("the resolved scene", self.scene_hash.clone(), other.scene_hash.clone()),
-            ("files that the scene names", self.inputs_hash.clone(), other.inputs_hash.clone()),
-            ("errors estimated", yes(self.error_estimate), yes(other.error_estimate)),
-            ("figures of a row", self.figures.join(" "), other.figures.join(" ")),
-        ];
         let mut differences: Vec<String> = Vec::new();
-        for (what, mine, theirs) in all {
+        for ((what, mine), (_, theirs)) in self.said().into_iter().zip(other.said()) {
             // The resolved scene differs wherever the scene does.
             let said_before = what == "the resolved scene" && self.given_hash != other.given_hash;
             if mine != theirs && !said_before {
@@ -255,6 +241,20 @@ impl SweepIdentity {
             }
         }
         differences
+    }
+
+    /// Parts of the identity with their names.
+    fn said(&self) -> [(&'static str, String); 7] {
+        let axes: Vec<String> = self.axes.iter().map(SweepAxis::as_given).collect();
+        [
+            ("program version", self.program_version.clone()),
+            ("what is varied", axes.join(" ")),
+            ("scene", self.given_hash.clone()),
+            ("the resolved scene", self.scene_hash.clone()),
+            ("files that the scene names", self.inputs_hash.clone()),
+            ("errors estimated", if self.error_estimate { "yes" } else { "no" }.to_owned()),
+            ("figures of a row", self.figures.join(" ")),
+        ]
     }
 }
 
@@ -291,9 +291,10 @@ impl SweepRow {
 
     /// Whether everything but the wall times is the same, the verification where both have one.
     pub(crate) fn same_result(&self, other: &Self) -> bool {
-        let timeless = |row: &Self| Self { simulation_s: None, wall_s: 0.0, verification: None, ..row.clone() };
+        let [mine, theirs] =
+            [self, other].map(|row| Self { simulation_s: None, wall_s: 0.0, verification: None, ..row.clone() });
         let verifications = self.verification.as_ref().zip(other.verification.as_ref());
-        timeless(self) == timeless(other) && verifications.is_none_or(|(mine, theirs)| mine.total == theirs.total)
+        mine == theirs && verifications.is_none_or(|(mine, theirs)| mine.total == theirs.total)
     }
 }
 

@@ -62,11 +62,11 @@ pub(crate) fn tasks(sweep: &Sweep, shard: Option<Shard>, rows: &BTreeMap<usize, 
     if !missing.is_empty() || !sweep.identity.verify || shard.is_some() {
         return missing;
     }
-    let open = |(index, chosen): (usize, Chosen)| {
+    let open = chosen(&sweep.identity, rows.values()).into_iter().filter_map(|(index, chosen)| {
         let row = rows.get(&index).filter(|row| row.verification.is_none())?;
         Some(Task::Verify { row: Box::new(row.clone()), chosen })
-    };
-    chosen(&sweep.identity, rows.values()).into_iter().filter_map(open).collect()
+    });
+    open.collect()
 }
 
 /// Does what is left of `shard`, whose finished rows `journal` holds, on `threads` threads.
@@ -120,8 +120,8 @@ mod tests {
     /// The parts of a sweep are disjoint, and together all of it.
     #[test]
     fn shards_take_turns() {
-        let of = |number| part(10, Some(Shard { number, of: 4 })).collect::<Vec<_>>();
-        assert_eq!([of(1), of(2), of(3), of(4)], [vec![0, 4, 8], vec![1, 5, 9], vec![2, 6], vec![3, 7]]);
+        let parts = [1, 2, 3, 4].map(|number| part(10, Some(Shard { number, of: 4 })).collect::<Vec<_>>());
+        assert_eq!(parts, [vec![0, 4, 8], vec![1, 5, 9], vec![2, 6], vec![3, 7]]);
         assert_eq!(part(3, None).collect::<Vec<_>>(), [0, 1, 2]);
         assert_eq!(part(2, Some(Shard { number: 3, of: 3 })).count(), 0);
     }

@@ -315,13 +315,10 @@ mod tests {
     fn the_worst_claims_are_over_the_verified_rows() {
         let identity = identity(&[4]);
         let mut rows: Vec<SweepRow> = (0..4).map(|index| row(index, Some(index as f64))).collect();
-        let verified = |peak: Option<f64>| {
+        for (row, peak) in rows.iter_mut().zip([Some(0.01), Some(0.03), None]) {
             let mut total = TotalError::none("the contact is too narrow");
             total.peak_wear.wheel = peak;
-            Some(RowVerification { chosen: Chosen::default(), total, wall_s: 1.0 })
-        };
-        for (row, peak) in rows.iter_mut().zip([Some(0.01), Some(0.03), None]) {
-            row.verification = verified(peak);
+            row.verification = Some(RowVerification { chosen: Chosen::default(), total, wall_s: 1.0 });
         }
         let found = SweepVerification::of(&identity, &rows);
         assert_eq!((found.chosen, found.verified, found.unanswered, found.open), (4, 2, 1, 1));

@@ -41,14 +41,16 @@ impl FromStr for Limit {
     type Err = LimitError;
 
     fn from_str(given: &str) -> Result<Self, LimitError> {
-        let form = || LimitError::Form { given: given.to_owned() };
-        let (name, value) = given.split_once('=').ok_or_else(form)?;
-        let depth_um: f64 = value.trim().parse().ok().filter(|v: &f64| v.is_finite() && *v > 0.0).ok_or_else(form)?;
-        let name = name.trim();
-        let unknown =
-            || LimitError::Unknown { name: name.to_owned(), meant: nearest(name, &DEPTHS.map(|depth| depth.0)) };
-        let (output, _) = DEPTHS.iter().find(|depth| depth.0 == name).ok_or_else(unknown)?;
-        Ok(Self { output, depth_um })
+        let read = given.split_once('=').and_then(|(name, value)| {
+            let depth_um: f64 = value.trim().parse().ok()?;
+            Some((name.trim(), depth_um)).filter(|_| depth_um.is_finite() && depth_um > 0.0)
+        });
+        let (name, depth_um) = read.ok_or_else(|| LimitError::Form { given: given.to_owned() })?;
+        let known = DEPTHS.map(|depth| depth.0);
+        match known.into_iter().find(|known| *known == name) {
+            Some(output) => Ok(Self { output, depth_um }),
+            None => Err(LimitError::Unknown { name: name.to_owned(), meant: nearest(name, &known) }),
+        }
     }
 }
 

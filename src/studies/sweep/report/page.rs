@@ -123,12 +123,12 @@ fn answer(record: &SweepRecord) -> String {
     {
         text.push_str(&format!(" No combination has {}.", goal.in_words()));
     }
-    text.push_str(&vouched(record));
+    text.push_str(&verification_sentence(record));
     text
 }
 
-/// How far finite elements vouch for the sweep, in a sentence.
-fn vouched(record: &SweepRecord) -> String {
+/// Result of the verification by finite elements, in a sentence.
+fn verification_sentence(record: &SweepRecord) -> String {
     let Some(verification) = record.verification() else {
         return " None of them is verified by finite elements.".to_owned();
     };
