@@ -162,9 +162,10 @@ pub fn compare(
 
 /// One of the words that an option takes.
 fn one_of<E: ValueEnum>(key: &'static str, name: &str) -> Result<E, StudyFault> {
-    let words = E::value_variants().iter().filter_map(ValueEnum::to_possible_value);
-    let allowed = || words.map(|word| word.get_name().to_owned()).collect::<Vec<_>>().join(", ");
-    E::from_str(name, false).map_err(|_| word(key, name, allowed()))
+    E::from_str(name, false).map_err(|_| {
+        let words = E::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+        word(key, name, words.map(|word| word.get_name().to_owned()).collect::<Vec<_>>().join(", "))
+    })
 }
 
 fn word(key: &'static str, found: &str, allowed: String) -> StudyFault {
@@ -179,8 +180,8 @@ pub fn compare_runs(runs: &[(PathBuf, String)]) -> Result<Study, StudyError> {
     if runs.len() < 2 {
         return Err(StudyFault::TooFewRuns { found: runs.len() }.into());
     }
-    let read = |(folder, name): &(PathBuf, String)| FinishedRun::read(folder, name.clone());
-    let runs = runs.iter().map(read).collect::<Result<Vec<_>, _>>().map_err(StudyFault::RunFolder)?;
+    let runs: Result<Vec<_>, _> = runs.iter().map(|(folder, name)| FinishedRun::read(folder, name.clone())).collect();
+    let runs = runs.map_err(StudyFault::RunFolder)?;
     Study::new(VariantsRecord::new(&runs), move |record, folder| variants::report::write(record, &runs, folder))
 }
 

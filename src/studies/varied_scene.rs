@@ -14,17 +14,15 @@ use crate::scene::{Problem, Resolved};
 pub(crate) fn linked_keys(key: &str) -> Vec<String> {
     let Some((before, rest)) = key.split_once('{') else { return vec![key.to_owned()] };
     let Some((alternatives, after)) = rest.split_once('}') else { return vec![key.to_owned()] };
-    let each = |name: &str| linked_keys(&format!("{before}{}{after}", name.trim()));
-    alternatives.split(',').flat_map(each).collect()
+    alternatives.split(',').flat_map(|name| linked_keys(&format!("{before}{}{after}", name.trim()))).collect()
 }
 
 /// The first of `keys` that names a phase of the operation which `scene` does not have.
 pub(crate) fn missing_phase(keys: impl IntoIterator<Item = String>, scene: &Draft) -> Option<String> {
-    let has_phase = |key: &String| {
+    keys.into_iter().find(|key| {
         let number = key.strip_prefix("operation.phases.").and_then(|rest| rest.split('.').next());
-        number.is_none_or(|number| scene.gives(&format!("operation.phases.{number}")))
-    };
-    keys.into_iter().find(|key| !has_phase(key))
+        number.is_some_and(|number| !scene.gives(&format!("operation.phases.{number}")))
+    })
 }
 
 #[derive(Debug, Clone)]

@@ -40,12 +40,11 @@ impl Prepared {
         let scene = LoadedScene::open(RunFolder::scene_path(run))?;
         let resolved = &scene.resolved;
         folder.check_scene(resolved)?;
-        let parsed = |text: &SceneText| {
-            let file = file::parse(&text.text);
-            file.map(|file| (text.name.clone(), file))
-                .map_err(|error| Refused { name: text.name.clone(), error: error.into() })
-        };
-        let files = measured.iter().map(parsed).collect::<Result<Vec<_>, _>>()?;
+        let mut files = Vec::with_capacity(measured.len());
+        for SceneText { name, text } in measured {
+            let file = file::parse(text).map_err(|error| Refused { name: name.clone(), error: error.into() })?;
+            files.push((name.clone(), file));
+        }
         let pair = GearPair::new(&resolved.scene.pair)?;
         let question = Question::new(asked, &files, &folder, resolved, &pair)?;
         Ok(Self { folder, scene, question })

@@ -26,7 +26,7 @@ pub(super) struct Comparison<'a> {
     pub measured_um: Vec<f64>,
 }
 
-/// Deeper than this, in modules, no model vouches for the wear, and runs soon wear teeth through.
+/// Greatest wear depth of a search, in modules: beyond it no model is valid, and runs soon wear teeth through.
 const DEEPEST_MODULES: f64 = 0.3;
 /// Least and greatest upper end of a search for a factor.
 const GREATEST_FACTOR: [f64; 2] = [4.0, 1e3];
@@ -40,8 +40,12 @@ pub(super) struct Beginning {
     pub factor: f64,
 }
 
+fn dot(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).map(|(x, y)| x * y).sum()
+}
+
 impl<'a> Comparison<'a> {
-    /// Of a profile with wear at the flank points of a run.
+    /// Comparison of a profile with wear at the flank points of a run.
     pub(super) fn new(of: &'a ProfileQuestion, pair: &'a GearPair, numerics: &Numerics) -> Self {
         let Numerics { flank_points, point_spacing, .. } = *numerics;
         let grid_arc_mm = FlankGrid::new(pair, of.profile.gear, flank_points, point_spacing).arc_mm;
@@ -66,12 +70,12 @@ impl<'a> Comparison<'a> {
     /// Wear depth at the measured points, shifted.
     pub(super) fn wear_at_points_um(&self, wear_um: &[f64], shift_mm: f64) -> Vec<f64> {
         let grid = &self.grid_arc_mm;
-        let at = |&arc: &f64| {
+        let wear = self.of.profile.arc_mm.iter().map(|arc| {
             let after = grid.partition_point(|&s| s <= arc + shift_mm).clamp(1, grid.len() - 1);
             let t = ((arc + shift_mm - grid[after - 1]) / (grid[after] - grid[after - 1])).clamp(0.0, 1.0);
             wear_um[after - 1] + t * (wear_um[after] - wear_um[after - 1])
-        };
-        self.of.profile.arc_mm.iter().map(at).collect()
+        });
+        wear.collect()
     }
 
     /// P (z₀ − h): the simulated profile, form removed.
@@ -99,7 +103,6 @@ impl<'a> Comparison<'a> {
             // r = a + κ b: with nothing worn, and what the wear adds.
             let (a, whole) = (self.residuals_um(&nothing, shift), self.residuals_um(wear_um, shift));
             let b: Vec<f64> = whole.iter().zip(&a).map(|(w, a)| w - a).collect();
-            let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
             let factor = factors.map_or(1.0, |[least, most]| (-dot(&a, &b) / dot(&b, &b)).clamp(least, most));
             let factor = if factor.is_finite() { factor } else { 1.0 };
             let square = dot(&a, &a) + 2.0 * factor * dot(&a, &b) + factor * factor * dot(&b, &b);

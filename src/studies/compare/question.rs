@@ -189,21 +189,20 @@ impl Question {
         let fit = asked.fit.unwrap_or(FitKind::of(files.len()));
         let mut profiles: Vec<ProfileQuestion> = Vec::new();
         for (name, file) in files {
-            let refused = |error| Refused { name: name.clone(), error };
-            if files.len() > MOST_PROFILES {
-                return Err(refused(QuestionError::TooManyProfiles { found: files.len() }));
-            }
-            if files.len() > 1 && asked.gear.is_some() {
-                return Err(refused(QuestionError::GearOfTwo));
-            }
-            let of_file = ProfileQuestion::new(name, file, asked, fit, (folder, resolved, pair)).map_err(refused)?;
-            let gear = of_file.profile.gear;
-            if let Some(first) = profiles.iter().find(|first| first.profile.gear == gear) {
-                let first = first.measured.clone();
-                return Err(refused(QuestionError::SameGear { gear: gear.name(), first }));
-            }
-            check_fit(fit, gear, files.len(), scene).map_err(refused)?;
-            profiles.push(of_file);
+            let of_file = match (files.len(), asked.gear) {
+                (found, _) if found > MOST_PROFILES => Err(QuestionError::TooManyProfiles { found }),
+                (2.., Some(_)) => Err(QuestionError::GearOfTwo),
+                _ => ProfileQuestion::new(name, file, asked, fit, (folder, resolved, pair)),
+            };
+            let of_file = of_file.and_then(|of_file| {
+                let gear = of_file.profile.gear;
+                if let Some(first) = profiles.iter().find(|first| first.profile.gear == gear) {
+                    return Err(QuestionError::SameGear { gear: gear.name(), first: first.measured.clone() });
+                }
+                check_fit(fit, gear, files.len(), scene)?;
+                Ok(of_file)
+            });
+            profiles.push(of_file.map_err(|error| Refused { name: name.clone(), error })?);
         }
         profiles.sort_by_key(|of| of.profile.gear);
         let fitted = match &profiles[..] {
@@ -301,9 +300,9 @@ fn revolutions(file: &MeasuredFile, end: f64, resolved: &Resolved) -> Result<f64
         Moment::End => return Ok(end),
         Moment::Revolutions(given) => (given, "revolutions", given, end),
         Moment::Hours(hours) => {
-            let no_speed = || QuestionError::NoSpeed { line, hours };
-            let at = operation.revolutions_after(hours).ok_or_else(no_speed)?;
-            (at, "hours", hours, operation.hours(end).ok_or_else(no_speed)?)
+            let both = operation.revolutions_after(hours).zip(operation.hours(end));
+            let (at, end_hours) = both.ok_or(QuestionError::NoSpeed { line, hours })?;
+            (at, "hours", hours, end_hours)
         }
     };
     if revolutions > end * (1.0 + SAME_TIME) {

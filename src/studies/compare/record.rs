@@ -120,8 +120,9 @@ impl FitRecord {
     /// The correlation coefficient of the wear coefficients of both gears, where each was fitted.
     pub(crate) fn coefficient_correlation(&self) -> Option<f64> {
         let Correlation { parameters, matrix } = self.correlation.as_ref()?;
-        let index = |gear| parameters.iter().position(|&own| own == Unknown::Coefficient(Some(gear)));
-        Some(matrix[index(Gear::Pinion)?][index(Gear::Wheel)?])
+        let [pinion, wheel] =
+            Gear::BOTH.map(|gear| parameters.iter().position(|&own| own == Unknown::Coefficient(Some(gear))));
+        Some(matrix[pinion?][wheel?])
     }
 }
 

@@ -104,8 +104,9 @@ impl RunFolder {
 
     /// Wear depth of each point of a flank, slice after slice, at the snapshot after `revolutions`, if there is one.
     pub(crate) fn wear_um(&self, gear: Gear, revolutions: f64) -> Option<&[f64]> {
-        let same = |snapshot: &&Snapshot| (snapshot.revolutions / revolutions - 1.0).abs() <= SAME_TIME;
-        self.snapshots.iter().find(same).map(|snapshot| snapshot.wear_um[gear].as_slice())
+        let mut snapshots = self.snapshots.iter();
+        let found = snapshots.find(|snapshot| (snapshot.revolutions / revolutions - 1.0).abs() <= SAME_TIME);
+        found.map(|snapshot| snapshot.wear_um[gear].as_slice())
     }
 }
 

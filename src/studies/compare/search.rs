@@ -19,6 +19,7 @@
 use super::comparison::{Beginning, Comparison};
 use super::question::{FitKind, Fitted, Question};
 use super::simulations::{Change, CompareError, Simulations};
+use super::study::root_mean_square;
 use super::unknown::Unknown;
 use crate::gear::{Gear, PerGear};
 use crate::measurement::fit::{FitStop, Parameter, broyden_update, gauss_newton_step, least_squares};
@@ -115,10 +116,10 @@ impl<'a> Search<'a> {
         let fit = self.question.fit;
         let most: Vec<f64> =
             self.comparisons.iter().zip(as_run_um).map(|(one, wear)| one.greatest_factor(wear)).collect();
-        let begin = |((one, wear), &most): ((&Comparison<'_>, &Vec<f64>), &f64)| {
+        let begun = self.comparisons.iter().zip(as_run_um).zip(&most).map(|((one, wear), &most)| {
             one.begin(wear, self.question.shift_within_mm, fit.coefficient().then_some([LEAST_FACTOR, most]))
-        };
-        let begun: Vec<Beginning> = self.comparisons.iter().zip(as_run_um).zip(&most).map(begin).collect();
+        });
+        let begun: Vec<Beginning> = begun.collect();
         let mut parameters = self.parameters(&begun, &most, simulations.severe_factor());
         let needs_runs = fit.coefficient() || fit.severe();
         let mut wear = |search: &Self, theta: &[f64]| match needs_runs {
@@ -150,27 +151,26 @@ impl<'a> Search<'a> {
     /// The unknowns as parameters that begin where each profile alone would.
     fn parameters(&self, begun: &[Beginning], most: &[f64], severe_factor: f64) -> Vec<Parameter> {
         let within = self.question.shift_within_mm;
-        let of_gear = |gear: Option<Gear>| {
-            let profiles = self.comparisons.iter().zip(begun.iter().zip(most));
-            let own = profiles.filter(move |(one, _)| gear.is_none_or(|gear| one.of.profile.gear == gear));
-            own.map(|(_, begun)| begun)
-        };
-        let parameter = |unknown: &Unknown| match *unknown {
-            Unknown::Coefficient(gear) => {
-                let count = of_gear(gear).count() as f64;
-                let start = of_gear(gear).map(|(begun, _)| begun.factor.ln()).sum::<f64>() / count;
-                let greatest = of_gear(gear).map(|(_, most)| most.ln()).fold(f64::INFINITY, f64::min);
-                Parameter { start: start.min(greatest), least: LEAST_FACTOR.ln(), greatest, width: LOG_WIDTH }
+        let parameters = self.unknowns.iter().map(|&unknown| {
+            let own = self.comparisons.iter().zip(begun.iter().zip(most));
+            let own = own.filter(|(one, _)| unknown.is_of(one.of.profile.gear)).map(|(_, begun)| begun);
+            match unknown {
+                Unknown::Coefficient(_) => {
+                    let count = own.clone().count() as f64;
+                    let start = own.clone().map(|(begun, _)| begun.factor.ln()).sum::<f64>() / count;
+                    let greatest = own.map(|(_, most)| most.ln()).fold(f64::INFINITY, f64::min);
+                    Parameter { start: start.min(greatest), least: LEAST_FACTOR.ln(), greatest, width: LOG_WIDTH }
+                }
+                Unknown::Severe => {
+                    Parameter { start: severe_factor.ln(), least: 0.0, greatest: MOST_SEVERE.ln(), width: LOG_WIDTH }
+                }
+                Unknown::Shift(_) => {
+                    let start = own.map(|(begun, _)| begun.shift_mm).sum();
+                    Parameter { start, least: -within, greatest: within, width: SHIFT_WIDTH_MM }
+                }
             }
-            Unknown::Severe => {
-                Parameter { start: severe_factor.ln(), least: 0.0, greatest: MOST_SEVERE.ln(), width: LOG_WIDTH }
-            }
-            Unknown::Shift(gear) => {
-                let start = of_gear(gear).map(|(begun, _)| begun.shift_mm).sum();
-                Parameter { start, least: -within, greatest: within, width: SHIFT_WIDTH_MM }
-            }
-        };
-        self.unknowns.iter().map(parameter).collect()
+        });
+        parameters.collect()
     }
 
     /// Gives each profile its weight: fitted alone, from where `parameters` begin, which then begin there.
@@ -188,9 +188,10 @@ impl<'a> Search<'a> {
             let of_own: Vec<Parameter> = own.iter().map(|&i| parameters[i]).collect();
             let alone = least_squares::<CompareError>(&of_own, &mut residuals)?;
             let found = uncertainty(&alone.jacobian, &alone.residuals, &[part]);
-            let root_mean_square =
-                || (alone.residuals.iter().map(|r| r * r).sum::<f64>() / alone.residuals.len() as f64).sqrt();
-            let deviation = found.map_or_else(root_mean_square, |found| found.scatter[0].deviation);
+            let deviation = match found {
+                Some(found) => found.scatter[0].deviation,
+                None => root_mean_square(alone.residuals.iter().copied()),
+            };
             self.weights[index] = deviation.max(LEAST_SCATTER_UM).recip();
             for (&i, &value) in own.iter().zip(&alone.parameters) {
                 if self.unknowns[i] == Unknown::Coefficient(Some(one.of.profile.gear)) {
@@ -264,23 +265,23 @@ impl<'a> Search<'a> {
 
     /// How the residuals of all profiles are made up.
     fn parts(&self) -> Vec<ProfilePart> {
-        let part =
-            |one: &Comparison<'_>| ProfilePart { points: one.measured_um.len(), also_fitted: one.of.form.parameters() };
-        self.comparisons.iter().map(part).collect()
+        self.comparisons
+            .iter()
+            .map(|one| ProfilePart { points: one.measured_um.len(), also_fitted: one.of.form.parameters() })
+            .collect()
     }
 
     /// The change of the scene that the parameters stand for.
     fn change(&self, theta: &[f64]) -> Change {
-        let factor = |gear: Gear| {
-            let of_gear = match self.question.fitted {
-                Fitted::Each => Some(gear),
-                fitted if fitted.has(gear) => None,
-                _ => return 1.0,
-            };
-            self.value(Unknown::Coefficient(of_gear), theta).map_or(1.0, f64::exp)
-        };
         Change {
-            coefficient_factor: PerGear::from_fn(factor),
+            coefficient_factor: PerGear::from_fn(|gear| {
+                let of_gear = match self.question.fitted {
+                    Fitted::Each => Some(gear),
+                    fitted if fitted.has(gear) => None,
+                    _ => return 1.0,
+                };
+                self.value(Unknown::Coefficient(of_gear), theta).map_or(1.0, f64::exp)
+            }),
             severe_factor: self.value(Unknown::Severe, theta).map(f64::exp),
         }
     }

@@ -17,7 +17,7 @@
 
 use std::f64::consts::LN_2;
 
-use super::question::{Fitted, ProfileQuestion, Question};
+use super::question::{Fitted, Question};
 use super::wear_by_coefficient::WearByCoefficient;
 use crate::gear::{Gear, PerGear};
 use crate::observer::{Observer, PartOf};
@@ -120,12 +120,12 @@ impl<'a> Simulations<'a> {
     /// Wear of the flank points of each profile, by a run with just this change, µm.
     pub(super) fn exactly(&mut self, change: Change) -> Result<Vec<Vec<f64>>, CompareError> {
         let snapshots = self.run(self.changed(change))?;
-        let measured = |(index, of): (usize, &ProfileQuestion)| {
-            let away = |snapshot: &&Snapshot| (snapshot.revolutions - of.revolutions).abs();
-            let nearest = snapshots.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
-            nearest.map(|snapshot| snapshot.wear_um[index].clone()).unwrap_or_default()
-        };
-        Ok(self.question.profiles.iter().enumerate().map(measured).collect())
+        let measured = self.question.profiles.iter().enumerate().map(|(index, of)| {
+            let away = snapshots.iter().map(|snapshot| ((snapshot.revolutions - of.revolutions).abs(), snapshot));
+            let nearest = away.min_by(|(a, _), (b, _)| a.total_cmp(b));
+            nearest.map(|(_, snapshot)| snapshot.wear_um[index].clone()).unwrap_or_default()
+        });
+        Ok(measured.collect())
     }
 
     /// Wear profiles, interpolated between profiles that are computed where they are first needed.
@@ -135,8 +135,8 @@ impl<'a> Simulations<'a> {
         for (n, weight) in self.courses_around(change) {
             // The course's own coefficients, and how far along it those of the change lie for each gear.
             let once = self.on_course(n, 1.0).coefficient_factor;
-            let own = |gear: Gear| change.coefficient_factor[gear] / once[gear];
-            let factors: Vec<f64> = profiles.iter().map(|of| own(of.profile.gear)).collect();
+            let own = PerGear::from_fn(|gear| change.coefficient_factor[gear] / once[gear]);
+            let factors: Vec<f64> = profiles.iter().map(|of| own[of.profile.gear]).collect();
             let course = self.course(n, factors.iter().copied().fold(0.0, f64::max))?;
             for (sum, (wear, factor)) in sums.iter_mut().zip(course.wear.iter().zip(factors)) {
                 let wear = wear.at(factor);
@@ -165,15 +165,15 @@ impl<'a> Simulations<'a> {
 
     /// The change of the course `n` at a factor.
     fn on_course(&self, n: i32, factor: f64) -> Change {
-        let times = |by: f64| (by * f64::from(n) * STEP).exp();
+        let [less, more, whole] = [-0.5, 0.5, 1.0].map(|by| (by * f64::from(n) * STEP).exp());
         match self.question.fitted {
             Fitted::Each => Change {
-                coefficient_factor: PerGear { pinion: factor * times(-0.5), wheel: factor * times(0.5) },
+                coefficient_factor: PerGear { pinion: factor * less, wheel: factor * more },
                 severe_factor: None,
             },
             fitted => Change {
                 coefficient_factor: PerGear::from_fn(|gear| if fitted.has(gear) { factor } else { 1.0 }),
-                severe_factor: (n != 0).then(|| self.severe_factor() * times(1.0)),
+                severe_factor: (n != 0).then(|| self.severe_factor() * whole),
             },
         }
     }
@@ -198,12 +198,11 @@ impl<'a> Simulations<'a> {
     }
 
     fn compute(&mut self, n: i32, reach: f64) -> Result<Course, CompareError> {
-        let squares = |count: u32| (1..=count).map(move |i| reach * (f64::from(i) / f64::from(count)).powi(2));
         let profiles = &self.question.profiles;
         // The factor that each snapshot stands for, profile by profile, and the wear.
         let mut rows: Vec<(Vec<f64>, Vec<Vec<f64>>)> = Vec::new();
         if self.until_measured.operation.phases.len() > 1 || !self.scales_with_time() {
-            for factor in squares(SEPARATE_RUNS) {
+            for factor in squares(reach, SEPARATE_RUNS) {
                 rows.push((vec![factor; profiles.len()], self.exactly(self.on_course(n, factor))?));
             }
         } else {
@@ -212,7 +211,7 @@ impl<'a> Simulations<'a> {
             let operation = &mut scene.operation;
             operation.pinion_revolutions = reach * duration;
             operation.phases.iter_mut().for_each(|phase| phase.end_revolutions = reach * duration);
-            operation.snapshots_revolutions = squares(SNAPSHOTS).map(|factor| factor * duration).collect();
+            operation.snapshots_revolutions = squares(reach, SNAPSHOTS).map(|factor| factor * duration).collect();
             scene.numerics.stepping = scene.numerics.stepping.coarser((reach / AS_FINE_UP_TO).max(1.0));
             for Snapshot { revolutions, wear_um } in self.run(scene)? {
                 rows.push((profiles.iter().map(|of| revolutions / of.revolutions).collect(), wear_um));
@@ -226,10 +225,11 @@ impl<'a> Simulations<'a> {
     /// Whether a longer run holds the wear of greater coefficients: where both change in the same way, or the mate does not wear.
     fn scales_with_time(&self) -> bool {
         let scene = &self.until_measured;
-        let rests = |gear: Gear| {
-            scene.operation.phases.iter().all(|phase| scene.wear_in(phase)[gear].coefficient_mm2_per_n <= 0.0)
-        };
-        Gear::BOTH.into_iter().all(|gear| self.question.fitted.has(gear) || rests(gear))
+        Gear::BOTH.into_iter().all(|gear| {
+            let mut phases = scene.operation.phases.iter();
+            self.question.fitted.has(gear)
+                || phases.all(|phase| scene.wear_in(phase)[gear].coefficient_mm2_per_n <= 0.0)
+        })
     }
 
     /// Carries a scene out: the wear of each profile's flank points at each snapshot.
@@ -251,17 +251,16 @@ impl<'a> Simulations<'a> {
         }
         self.mesh_cycles += done.record.summary.work.mesh_cycles;
         let record = &done.record;
-        let at_snapshot = |index: usize, of: &ProfileQuestion| {
-            let flank = &record.flanks[of.profile.gear];
-            over_width(&flank.snapshot_wear_um[index], &flank.width_mm, flank.radius_mm.len(), of.width_mm)
-        };
         let profiles = &self.question.profiles;
-        let snapshot = |index: usize| Snapshot {
-            revolutions: record.history[index].revolutions,
-            wear_um: profiles.iter().map(|of| at_snapshot(index, of)).collect(),
-        };
         let kept = profiles.iter().map(|of| record.flanks[of.profile.gear].snapshot_wear_um.len()).min();
-        Ok((0..kept.unwrap_or(0).min(record.history.len())).map(snapshot).collect())
+        let snapshots = record.history.iter().take(kept.unwrap_or(0)).enumerate().map(|(index, row)| {
+            let wear_um = profiles.iter().map(|of| {
+                let flank = &record.flanks[of.profile.gear];
+                over_width(&flank.snapshot_wear_um[index], &flank.width_mm, flank.radius_mm.len(), of.width_mm)
+            });
+            Snapshot { revolutions: row.revolutions, wear_um: wear_um.collect() }
+        });
+        Ok(snapshots.collect())
     }
 
     /// The scene with a change.
@@ -300,9 +299,14 @@ pub(super) fn over_width(wear_um: &[f64], slices_mm: &[f64], points: usize, widt
 /// Lagrange's polynomial through so many courses from `first` on: their weights at `place`.
 fn lagrange(place: f64, first: i32, count: i32) -> Vec<(i32, f64)> {
     let nodes = first..first + count;
-    let weight = |n: i32| {
+    let weights = nodes.clone().map(|n| {
         let others = nodes.clone().filter(|&other| other != n).map(f64::from);
-        others.map(|other| (place - other) / (f64::from(n) - other)).product()
-    };
-    nodes.clone().map(|n| (n, weight(n))).collect()
+        (n, others.map(|other| (place - other) / (f64::from(n) - other)).product())
+    });
+    weights.collect()
+}
+
+/// Factors up to `reach`, evenly in their square roots.
+fn squares(reach: f64, count: u32) -> impl Iterator<Item = f64> {
+    (1..=count).map(move |i| reach * (f64::from(i) / f64::from(count)).powi(2))
 }

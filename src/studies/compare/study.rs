@@ -10,7 +10,7 @@ use super::search::{FittedCoefficients, Search};
 pub(crate) use super::simulations::CompareError;
 use super::simulations::{Change, Simulations, over_width};
 use super::unknown::Unknown;
-use crate::gear::{Gear, GearPair, slices::Slices};
+use crate::gear::{Gear, GearPair, PerGear, slices::Slices};
 use crate::measurement::fit::FitStop;
 use crate::measurement::interval::CONFIDENCE;
 use crate::measurement::roughness::{CUTOFF_MM, mean_deviation, roughness};
@@ -35,8 +35,8 @@ pub(crate) fn run(
     let resolved = &given.resolved;
     let scene = &resolved.scene;
     let pair = &GearPair::new(&scene.pair).map_err(RunError::from)?;
-    let compared = |of| Comparison::new(of, pair, &scene.numerics);
-    let comparisons: Vec<Comparison<'_>> = question.profiles.iter().map(compared).collect();
+    let comparisons: Vec<Comparison<'_>> =
+        question.profiles.iter().map(|of| Comparison::new(of, pair, &scene.numerics)).collect();
     let mut simulations = Simulations::new(given, question, observer);
     let kept: Option<Vec<_>> = comparisons.iter().map(|one| as_kept(one, pair)).collect();
     let as_run_um = match kept {
@@ -45,11 +45,11 @@ pub(crate) fn run(
     };
     let found = Search::new(question, &comparisons).run(&as_run_um, &mut simulations)?;
 
-    let profile = |index: usize| {
-        let rows = rows(question, pair, &comparisons[index], [&found.wear_um[index], &as_run_um[index]], &found);
+    let profiles = comparisons.iter().enumerate().map(|(index, comparison)| {
+        let rows = rows(question, pair, comparison, [&found.wear_um[index], &as_run_um[index]], &found);
         profile(question, resolved, pair, (index, rows), &found)
-    };
-    let profiles: Vec<ProfileRecord> = (0..comparisons.len()).map(profile).collect();
+    });
+    let profiles: Vec<ProfileRecord> = profiles.collect();
     let fit = fit(question, resolved, &found, &profiles, &simulations);
     let warnings = folder.version_warning().into_iter().chain(warnings(&fit, &profiles, found.unsettled)).collect();
     Ok(CompareRecord {
@@ -144,14 +144,9 @@ fn fit(
     profiles: &[ProfileRecord],
     simulations: &Simulations<'_>,
 ) -> FitRecord {
-    // Of a logarithm and half the width of its interval.
-    let estimate = |(value, half): (f64, Option<f64>), of_run: f64, unit: f64| {
-        let at = |by: f64| unit * (value + by).exp();
-        Estimate { value: at(0.0), low: half.map(|h| at(-h)), high: half.map(at), of_run }
-    };
-    let coefficient = |gear: Gear| M2_PER_MM2 * resolved.scene.wear[gear].coefficient_mm2_per_n;
-    let ratio = coefficient(Gear::Pinion) / coefficient(Gear::Wheel);
-    let of_ratio = |[one, other]: [Unknown; 2]| Some(estimate(found.difference(one, other)?, ratio, ratio));
+    let coefficient = PerGear::from_fn(|gear| M2_PER_MM2 * resolved.scene.wear[gear].coefficient_mm2_per_n);
+    let ratio = coefficient.pinion / coefficient.wheel;
+    let [pinion, wheel] = Gear::BOTH.map(|gear| Unknown::Coefficient(Some(gear)));
     let parameters = &found.unknowns;
     FitRecord {
         stopped: found.stop,
@@ -160,12 +155,12 @@ fn fit(
             .into_iter()
             .filter_map(|(unknown, gear)| {
                 let logarithm = found.of(unknown)?;
-                let of_run = coefficient(gear.unwrap_or(profiles[0].gear));
+                let of_run = coefficient[gear.unwrap_or(profiles[0].gear)];
                 let (factor, value) = (estimate(logarithm, 1.0, 1.0), estimate(logarithm, of_run, of_run));
                 Some(Coefficient { gear, factor, coefficient_m2_per_N: value })
             })
             .collect(),
-        coefficient_ratio: of_ratio(Gear::BOTH.map(|gear| Unknown::Coefficient(Some(gear)))),
+        coefficient_ratio: found.difference(pinion, wheel).map(|logarithm| estimate(logarithm, ratio, ratio)),
         severe_factor: found.of(Unknown::Severe).map(|log| estimate(log, simulations.severe_factor(), 1.0)),
         correlation: found
             .uncertainty
@@ -178,6 +173,12 @@ fn fit(
     }
 }
 
+/// `unit` times the number of a logarithm, given with half the width of its interval.
+fn estimate((value, half): (f64, Option<f64>), of_run: f64, unit: f64) -> Estimate {
+    let [value, low, high] = [Some(0.0), half.map(|half| -half), half].map(|by| by.map(|by| unit * (value + by).exp()));
+    Estimate { value: value.unwrap_or(f64::NAN), low, high, of_run }
+}
+
 /// The unknowns that stand for a wear coefficient, and whose it is: both gears' where they wear by one law.
 fn whose(question: &Question, resolved: &Resolved) -> Vec<(Unknown, Option<Gear>)> {
     match question.fitted {
@@ -188,10 +189,14 @@ fn whose(question: &Question, resolved: &Resolved) -> Vec<(Unknown, Option<Gear>
     }
 }
 
+/// Points that count: "20 of 150 points".
+fn counted(of: &ProfileRecord) -> Option<String> {
+    Some(format!("{:.0} of {} points", of.effective_points?, of.points))
+}
+
 /// How the intervals were obtained, or why there are none.
 fn how(question: &Question, found: &FittedCoefficients, profiles: &[ProfileRecord]) -> String {
     let confidence = 100.0 * CONFIDENCE;
-    let counted = |of: &ProfileRecord| Some(format!("{:.0} of {} points", of.effective_points?, of.points));
     let how = match profiles {
         _ if found.unknowns.is_empty() => "nothing was fitted".to_owned(),
         _ if found.uncertainty.is_none() => {
@@ -226,21 +231,25 @@ fn how(question: &Question, found: &FittedCoefficients, profiles: &[ProfileRecor
 
 fn figures(of: &ProfileQuestion, rows: &[CompareRow]) -> CompareFigures {
     let arc = &of.profile.arc_mm;
-    let column = |value: fn(&CompareRow) -> f64| rows.iter().map(value).collect::<Vec<f64>>();
-    let rms = |values: &[f64]| (values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64).sqrt();
-    let measured = column(|row| row.measured_um);
+    let measured: Vec<f64> = rows.iter().map(|row| row.measured_um).collect();
+    let simulated: Vec<f64> = rows.iter().map(|row| row.simulated_um).collect();
     let worst = rows.iter().max_by(|a, b| a.difference_um.abs().total_cmp(&b.difference_um.abs()));
     CompareFigures {
         mean_deviation_um: mean_deviation(arc, &measured),
-        simulated_mean_deviation_um: mean_deviation(arc, &column(|row| row.simulated_um)),
+        simulated_mean_deviation_um: mean_deviation(arc, &simulated),
         roughness_um: roughness(arc, &measured, CUTOFF_MM),
         cutoff_mm: CUTOFF_MM,
-        as_run_difference_um: rms(&column(|row| row.measured_um - row.as_run_um)),
-        difference_um: rms(&column(|row| row.difference_um)),
+        as_run_difference_um: root_mean_square(rows.iter().map(|row| row.measured_um - row.as_run_um)),
+        difference_um: root_mean_square(rows.iter().map(|row| row.difference_um)),
         greatest_difference_um: worst.map_or(0.0, |row| row.difference_um.abs()),
         greatest_difference_radius_mm: worst.map_or(0.0, |row| row.radius_mm),
         uncertainty_um: of.uncertainty_um,
     }
+}
+
+pub(super) fn root_mean_square(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len() as f64;
+    (values.map(|v| v * v).sum::<f64>() / count).sqrt()
 }
 
 fn warnings(fit: &FitRecord, profiles: &[ProfileRecord], unsettled: Option<f64>) -> Vec<String> {

@@ -40,19 +40,22 @@ pub(super) fn carried_out(table: &Table, observer: &dyn Observer) -> Result<RunR
     guarded(|| run(table, observer)).unwrap_or_else(|said| Err(Ended::Panicked(one_line(&said))))
 }
 
+fn refused(error: impl ToString) -> Ended {
+    Ended::Refused(one_line(&error.to_string()))
+}
+
 fn run(table: &Table, observer: &dyn Observer) -> Result<RunRecord, Ended> {
-    let refused = |error: &dyn std::fmt::Display| Ended::Refused(one_line(&error.to_string()));
-    let scene = LoadedScene::from_toml(&table.to_string()).map_err(|error| refused(&error))?;
+    let scene = LoadedScene::from_toml(&table.to_string()).map_err(refused)?;
     let done = pipeline::run(&scene, observer).map_err(|error| match &error {
         error if error.is_interrupted() => Ended::Interrupted,
         RunError::Simulation(_) if error.stiffness().is_none() => Ended::NotConverged(one_line(&error.to_string())),
-        _ => refused(&error),
+        _ => refused(error),
     })?;
     match (done.record.summary.stopped, done.failure) {
         (StopReason::Completed | StopReason::LimitReached, None) => Ok(done.record),
         (StopReason::WornThrough, _) => Err(Ended::WornThrough),
         (StopReason::Interrupted, _) => Err(Ended::Interrupted),
-        (_, Some(unstable @ RunError::UnstableSteps { .. })) => Err(refused(&unstable)),
+        (_, Some(unstable @ RunError::UnstableSteps { .. })) => Err(refused(unstable)),
         (_, failure) => {
             Err(Ended::NotConverged(failure.map_or_else(String::new, |failure| one_line(&failure.to_string()))))
         }

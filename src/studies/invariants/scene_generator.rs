@@ -32,6 +32,14 @@ struct Sizes {
     is_plastic: bool,
 }
 
+/// Tables of wear laws, of both gears most often.
+const WEAR_TABLES: [&str; 4] = ["wear", "wear", "wear.pinion", "wear.wheel"];
+
+/// E/(1 − ν²), MPa.
+fn plane_modulus_mpa(modulus_gpa: f64, poisson: f64) -> f64 {
+    1e3 * modulus_gpa / (1.0 - poisson * poisson)
+}
+
 /// Target of load and wear.
 struct Aim {
     line_load_n_per_mm: f64,
@@ -206,22 +214,21 @@ impl Draw {
     }
 
     fn material(&mut self, sizes: &mut Sizes) {
-        let plane = |modulus_gpa: f64, poisson: f64| 1e3 * modulus_gpa / (1.0 - poisson * poisson);
-        let mut of_gear = [plane(STEEL_GPA, 0.3); 2];
+        let mut of_gear = [plane_modulus_mpa(STEEL_GPA, 0.3); 2];
         match self.random.u8(0..10) {
             0..=3 => {}
             4 | 5 => {
                 let (modulus, poisson) = (self.logarithmic(70.0, 220.0), self.between(0.2, 0.35));
                 self.set("material.young_modulus_GPa", modulus);
                 self.set("material.poisson_ratio", poisson);
-                of_gear = [plane(modulus, poisson); 2];
+                of_gear = [plane_modulus_mpa(modulus, poisson); 2];
             }
             6 => {
                 for (gear, of_gear) in ["pinion", "wheel"].into_iter().zip(&mut of_gear) {
                     let (modulus, poisson) = (self.logarithmic(70.0, 220.0), self.between(0.2, 0.35));
                     self.set(&format!("material.{gear}.young_modulus_GPa"), modulus);
                     self.set(&format!("material.{gear}.poisson_ratio"), poisson);
-                    *of_gear = plane(modulus, poisson);
+                    *of_gear = plane_modulus_mpa(modulus, poisson);
                 }
             }
             _ => {
@@ -235,7 +242,7 @@ impl Draw {
                     self.set(&format!("material.{gear}.preset"), name);
                     self.set(&format!("material.{gear}.young_modulus_GPa"), modulus);
                     self.set(&format!("material.{gear}.poisson_ratio"), poisson);
-                    *of_gear = plane(modulus, poisson);
+                    *of_gear = plane_modulus_mpa(modulus, poisson);
                 }
             }
         }
@@ -419,9 +426,8 @@ impl Draw {
             let own = if self.chance(0.3) { 0.0 } else { four_digits(coefficient * self.between(0.2, 3.0)) };
             self.set(&format!("wear.{gear}.coefficient_m2_per_N"), own);
         }
-        let whose = |draw: &mut Self| draw.pick(&["wear", "wear", "wear.pinion", "wear.wheel"]);
         if self.chance(0.15) {
-            let whose = whose(self);
+            let whose = self.pick(&WEAR_TABLES);
             let above = four_digits(aim.hertz_mpa * self.between(0.7, 1.3));
             self.set(&format!("{whose}.severe.above_MPa"), above);
             let factor = self.logarithmic(2.0, 100.0);
@@ -430,7 +436,7 @@ impl Draw {
             self.set(&format!("{whose}.severe.band_MPa"), band);
         }
         if has_oil && self.chance(0.4) {
-            let whose = whose(self);
+            let whose = self.pick(&WEAR_TABLES);
             let ratio = self.pick(&["composite", "iso-6336-22"]);
             self.set(&format!("{whose}.film.ratio"), ratio);
             if self.chance(0.5) {

@@ -149,15 +149,16 @@ fn of_scene(seed: u64, index: u64, relations: &[Relation], observer: &dyn Observ
     Some(scene)
 }
 
+fn measured(invariant: &Invariant) -> Option<Measured> {
+    let place = invariant.place.clone().unwrap_or_default();
+    Some(Measured::new(place, invariant.value?, invariant.bound?))
+}
+
 /// The statements that hold for every run by itself. Of too few points and positions for its contacts a run says that they are: its volumes are held
 /// against those of a finer run. None where that was interrupted.
 fn own_invariants(subject: &Subject<'_>) -> Option<Vec<Finding>> {
     let (table, record) = (subject.table, subject.record);
     let mut found = vec![Finding::of_run(SOUND, table, None, soundness::fault(record))];
-    let measured = |invariant: &Invariant| {
-        let place = invariant.place.clone().unwrap_or_default();
-        Some(Measured::new(place, invariant.value?, invariant.bound?))
-    };
     for invariant in &record.summary.invariants {
         let Some(mut value) = measured(invariant) else { continue };
         if invariant.name.starts_with("volume") && is_violated(&value) {
@@ -311,13 +312,12 @@ mod tests {
     #[test]
     fn threads_and_parts_change_nothing() {
         let asked = SceneRange { seed: 5, first: 0, count: 6 };
-        let of = |first, count, threads| run(SceneRange { first, count, ..asked }, threads, &Unwatched);
-        let (one, two) = (of(0, 6, 1), of(0, 6, 2));
+        let (one, two) = (run(asked, 1, &Unwatched), run(asked, 2, &Unwatched));
         assert_eq!(
             (&one.statements, one.ran, one.refused, one.runs),
             (&two.statements, two.ran, two.refused, two.runs)
         );
-        let (early, late) = (of(0, 3, 1), of(3, 3, 1));
+        let [early, late] = [0, 3].map(|first| run(SceneRange { first, count: 3, ..asked }, 1, &Unwatched));
         assert_eq!((one.ran, one.runs), (early.ran + late.ran, early.runs + late.runs));
         assert!(one.ran > 0);
     }

@@ -40,10 +40,12 @@ pub(super) fn has_one_coefficient(table: &Table) -> bool {
 /// Whether sections differ over the face width, so that the run has slices.
 pub(super) fn is_sliced(table: &Table) -> bool {
     let over_width = ["lead_crowning_um", "helix_slope_deviation_um", "end_relief", "shaft"];
-    let of_gear = |gear: &str| over_width.iter().any(|key| gives(table, &format!("pair.{gear}.{key}")));
     number(table, "pair.helix_angle_deg").is_some_and(|angle| angle != 0.0)
         || gives(table, "pair.axis_parallelism")
-        || ["pinion", "wheel"].into_iter().any(of_gear)
+        || ["pinion", "wheel"].into_iter().any(|gear| {
+            let mut keys = over_width.iter();
+            keys.any(|key| gives(table, &format!("pair.{gear}.{key}")))
+        })
 }
 
 pub(super) fn is_on(table: &Table, surface: &str) -> bool {

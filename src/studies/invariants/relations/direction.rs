@@ -3,7 +3,7 @@
 use toml::Table;
 
 use crate::gear::Gear;
-use crate::results::run::{MeshCycleRow, RunRecord};
+use crate::results::run::RunRecord;
 use crate::studies::invariants::comparison::{Bounds, Follows, Measured, compare};
 use crate::studies::invariants::relation::{POINTS, POSITIONS, Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{gives, number, scaled, value, with};
@@ -61,9 +61,9 @@ fn last_bits(subject: &Subject<'_>) -> Verdict {
 
 /// By how much the transmission error of the new pair becomes less at any position, over its greatest value.
 fn less_error(first: &RunRecord, other: &RunRecord) -> Vec<Measured> {
-    let of = |row: &MeshCycleRow| row.transmission_error_new_um;
-    let greatest = first.mesh_cycle.iter().map(|row| of(row).abs()).fold(0.0, f64::max);
-    let less = first.mesh_cycle.iter().zip(&other.mesh_cycle).map(|(a, b)| (of(a) - of(b)) / greatest);
+    let [mine, theirs] = [first, other].map(|of| of.mesh_cycle.iter().map(|row| row.transmission_error_new_um));
+    let greatest = mine.clone().map(f64::abs).fold(0.0, f64::max);
+    let less = mine.zip(theirs).map(|(a, b)| (a - b) / greatest);
     vec![Measured::new("new transmission error", less.fold(0.0, f64::max), OF_CELLS)]
 }
 
@@ -81,20 +81,22 @@ fn relief_opens(subject: &Subject<'_>) -> Verdict {
     let (Some(width), false) = (number(table, "pair.face_width_mm"), is_sliced(table)) else {
         return Verdict::NotOfThisScene;
     };
-    let relieved = |table: &Table| {
-        let mut other = table.clone();
-        for gear in Gear::BOTH {
-            let of = |key: &str| format!("pair.{}.tip_relief.{key}", gear.name());
-            if gives(table, &of("amount_um")) {
-                other = with(&other, &of("amount_um"), 1.5 * number(table, &of("amount_um")).unwrap_or_default());
-            } else {
-                other = with(&other, &of("amount_um"), 0.5 * width);
-                other = with(&other, &of("length_mm"), 0.05 * width);
-            }
+    subject.refined(&[POINTS, POSITIONS], |table| relieved(table, width), less_error)
+}
+
+/// The scene with more tip relief, or some where it has none, for a face width in mm.
+fn relieved(table: &Table, width: f64) -> Table {
+    let mut other = table.clone();
+    for gear in Gear::BOTH {
+        let [amount, length] = ["amount_um", "length_mm"].map(|key| format!("pair.{}.tip_relief.{key}", gear.name()));
+        if gives(table, &amount) {
+            other = with(&other, &amount, 1.5 * number(table, &amount).unwrap_or_default());
+        } else {
+            other = with(&other, &amount, 0.5 * width);
+            other = with(&other, &length, 0.05 * width);
         }
-        other
-    };
-    subject.refined(&[POINTS, POSITIONS], relieved, less_error)
+    }
+    other
 }
 
 fn longer(subject: &Subject<'_>) -> Verdict {
@@ -106,12 +108,12 @@ fn longer(subject: &Subject<'_>) -> Verdict {
     let other = with(table, "operation.pinion_revolutions", 0.5 * revolutions);
     let other = with(&other, "operation.snapshots_revolutions", vec![0.5 * revolutions]);
     subject.beside(other, |record| {
-        let of = |gear: Gear| {
+        let of_gears = Gear::BOTH.map(|gear| {
             let (whole, half) = (&subject.record.flanks[gear].wear_um, &record.flanks[gear].wear_um);
             let greatest = whole.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
             let deeper = whole.iter().zip(half).map(|(whole, half)| (half - whole) / greatest).fold(0.0, f64::max);
             Measured::new(format!("wear of the {}", gear.name()), deeper, 1e-9)
-        };
-        Gear::BOTH.map(of).into()
+        });
+        of_gears.into()
     })
 }

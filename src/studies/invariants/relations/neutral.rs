@@ -194,12 +194,11 @@ fn half_of_wheel(subject: &Subject<'_>) -> Verdict {
 /// Halves the wear in two ways: by a factor over film or temperature, and by the coefficient.
 fn half(subject: &Subject<'_>, gear: &str) -> Verdict {
     let table = subject.table;
-    let has = |key: &str| gives(table, &format!("wear.{key}"));
     let own = format!("wear.{gear}");
-    let by_factor = if gives(table, "lubricant") && !has("film") {
+    let by_factor = if gives(table, "lubricant") && !gives(table, "wear.film") {
         let scene = with(table, &format!("{own}.film.lambda"), numbers([0.0, 1000.0]));
         with(&scene, &format!("{own}.film.factor"), numbers([0.5, 0.5]))
-    } else if gear == "wheel" && gives(table, "temperature.tooth") && !has("warm") {
+    } else if gear == "wheel" && gives(table, "temperature.tooth") && !gives(table, "wear.warm") {
         let scene = with(table, &format!("{own}.warm.temperature_C"), numbers([0.0, 200.0]));
         with(&scene, &format!("{own}.warm.factor"), numbers([0.5, 0.5]))
     } else {
@@ -244,6 +243,9 @@ fn slices(subject: &Subject<'_>) -> Verdict {
     if is_sliced(table) || is_another || !takes_stable_steps(subject.record) {
         return Verdict::NotOfThisScene;
     }
-    let sliced = |table: &Table| with(table, "pair.pinion.lead_crowning_um", 1e-6);
-    subject.refined(&[POSITIONS], sliced, |one, other| volumes_and_error(one, other, OF_POSITIONS))
+    subject.refined(
+        &[POSITIONS],
+        |table| with(table, "pair.pinion.lead_crowning_um", 1e-6),
+        |one, other| volumes_and_error(one, other, OF_POSITIONS),
+    )
 }

@@ -1,10 +1,8 @@
 //! Finer resolutions come to the same.
 
-use toml::Table;
-
 use crate::gear::Gear;
-use crate::results::run::{RunRecord, Summary};
-use crate::studies::invariants::comparison::{Measured, difference};
+use crate::results::run::RunRecord;
+use crate::studies::invariants::comparison::{Measured, difference, worn_volume_mm3};
 use crate::studies::invariants::relation::{POINTS, POSITIONS, Relation, Subject, Verdict};
 use crate::studies::invariants::scene_table::{gives, number, with};
 use crate::studies::invariants::traits_of_scene::{follows_tip_edges, has_heat_or_oil, is_severe, takes_stable_steps};
@@ -49,22 +47,21 @@ fn finer(subject: &Subject<'_>, key: &str, by: f64, of_error: f64) -> Verdict {
     if !gives(table, key) {
         return Verdict::NotOfThisScene;
     }
-    let finer = |table: &Table| with(table, key, (by * number(table, key).unwrap_or_default()) as i64);
-    subject.refined(&[key], finer, |one, other| volumes_and_error(one, other, of_error))
+    subject.refined(
+        &[key],
+        |table| with(table, key, (by * number(table, key).unwrap_or_default()) as i64),
+        |one, other| volumes_and_error(one, other, of_error),
+    )
 }
 
 /// Worn volumes and transmission error; no volumes where a run takes steps that are too long for it: twice the points halve the stable one.
 pub(super) fn volumes_and_error(first: &RunRecord, other: &RunRecord, of_error: f64) -> Vec<Measured> {
-    let of = |summary: &Summary, gear: Gear| match gear {
-        Gear::Pinion => summary.pinion.worn_volume_mm3,
-        Gear::Wheel => summary.wheel.worn_volume_mm3,
-    };
     let is_stable = takes_stable_steps(first) && takes_stable_steps(other);
     let worn = Gear::BOTH.into_iter().filter(|_| is_stable);
     let mut found: Vec<Measured> = worn
         .map(|gear| {
-            let value = difference(&[of(&first.summary, gear)], &[of(&other.summary, gear)], 1.0);
-            Measured::new(format!("worn volume of the {}", gear.name()), value, OF_VOLUME)
+            let [mine, theirs] = [first, other].map(|record| worn_volume_mm3(&record.summary, gear));
+            Measured::new(format!("worn volume of the {}", gear.name()), difference(&[mine], &[theirs], 1.0), OF_VOLUME)
         })
         .collect();
     let [mine, theirs] = [first, other].map(|record| record.summary.new.transmission_error_um);

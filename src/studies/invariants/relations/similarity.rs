@@ -54,9 +54,10 @@ const OF_STEP_LENGTHS: f64 = 1e-2;
 /// steps, of which one more or
 /// less moves the depth by a part of what they promise.
 fn bounds(subject: &Subject<'_>, other: &RunRecord) -> Bounds {
-    let steps = |record: &RunRecord| (record.summary.work.wear_steps, record.summary.work.rejected_steps);
+    let [mine, theirs] = [subject.record, other].map(|record| &record.summary.work);
+    let same_steps = mine.wear_steps == theirs.wear_steps && mine.rejected_steps == theirs.rejected_steps;
     match tolerance_of_steps_um(subject.table) {
-        Some(_) if steps(subject.record) == steps(other) => Bounds { least_of_worn: OF_STEP_LENGTHS, ..BOUNDS },
+        Some(_) if same_steps => Bounds { least_of_worn: OF_STEP_LENGTHS, ..BOUNDS },
         tolerance_um => Bounds { tolerance_um, ..BOUNDS },
     }
 }

@@ -62,15 +62,15 @@ fn phases_add_up(subject: &Subject<'_>) -> Verdict {
         }
     }
     subject.beside(whole, |together| {
-        let of = |gear: Gear| {
+        let of_gears = Gear::BOTH.map(|gear| {
             let mut sum = vec![0.0; together.flanks[gear].wear_um.len()];
             for record in &alone {
                 sum.iter_mut().zip(&record.flanks[gear].wear_um).for_each(|(sum, wear)| *sum += wear);
             }
             let value = difference(&sum, &together.flanks[gear].wear_um, 1.0);
             Measured::new(format!("wear of the {}", gear.name()), value, FEEDBACK)
-        };
-        Gear::BOTH.map(of).into()
+        });
+        of_gears.into()
     })
 }
 
