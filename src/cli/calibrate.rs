@@ -66,21 +66,19 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// Whether the files can be written, before any work.
 fn check_out(out: &Path) -> Result<(), Failure> {
-    let refused = |what| InputError::CalibrationOut { name: out.display().to_string(), what };
-    if out.is_dir() {
-        return Err(refused("which is a folder").into());
-    }
-    if out.file_name().is_none() {
-        return Err(refused("which names no file").into());
-    }
-    if out == report::calibration::page_beside(out) {
-        return Err(refused("whose ending is that of the page beside it").into());
-    }
-    report::writable(report::calibration::folder(out))?;
-    Ok(())
+    let what = if out.is_dir() {
+        "which is a folder"
+    } else if out.file_name().is_none() {
+        "which names no file"
+    } else if out == report::calibration::page_beside(out) {
+        "whose ending is that of the page beside it"
+    } else {
+        return Ok(report::writable(report::calibration::folder(out))?);
+    };
+    Err(InputError::CalibrationOut { name: out.display().to_string(), what }.into())
 }
 
-/// A failure, told apart by who is to blame: the input, at its place, or the solver.
+/// Failure of the input, at its place, or of the solver.
 fn refused(error: CalibrateError, text: &SceneText) -> Failure {
     if let Some(scene) = error.in_the_scene(text) {
         return scene.into();

@@ -16,7 +16,7 @@ use crate::studies::compare::record::{CompareFigures, CompareRecord, Correlation
 use crate::studies::compare::study::CompareError;
 
 use super::failure::{Failure, InputError};
-use super::figures::digits;
+use super::figures::{digits, or_dash};
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
 use super::variants::{self, MOST_RUNS, Variants, is_run};
@@ -97,12 +97,14 @@ impl Args {
 
     /// Where the results go.
     fn out(&self) -> PathBuf {
-        let name = |path: &PathBuf| {
+        if let Some(out) = &self.out {
+            return out.clone();
+        }
+        let stems = self.with.iter().map(|path| {
             let stem = path.file_stem().filter(|stem| *stem != "-").unwrap_or("measured".as_ref());
             stem.to_string_lossy().into_owned()
-        };
-        let names: Vec<String> = self.with.iter().map(name).collect();
-        self.out.clone().unwrap_or_else(|| self.run.join("compare").join(names.join("-")))
+        });
+        self.run.join("compare").join(stems.collect::<Vec<_>>().join("-"))
     }
 }
 
@@ -158,15 +160,14 @@ impl From<CompareFault> for Failure {
 /// One of the figures of a profile, where it has it.
 type Figure = fn(&CompareFigures) -> Option<f64>;
 
-/// Findings for the terminal.
-fn table(record: &CompareRecord) -> String {
-    let (fit, profiles) = (&record.fit, &record.profiles);
-    let several = profiles.len() > 1;
-    let line = |name: &str, cells: &[String]| {
-        let cells: String = cells.iter().map(|cell| format!("{cell:>12}")).collect();
-        format!("  {name:44}{cells}\n")
-    };
-    let known = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), digits);
+fn line(name: &str, cells: &[String]) -> String {
+    let cells: String = cells.iter().map(|cell| format!("{cell:>12}")).collect();
+    format!("  {name:44}{cells}\n")
+}
+
+/// Fitted values with their names.
+fn estimates(record: &CompareRecord) -> Vec<(String, &Estimate)> {
+    let (fit, several) = (&record.fit, record.profiles.len() > 1);
     let mut estimates: Vec<(String, &Estimate)> = Vec::new();
     for own in &fit.coefficients {
         let whose = own.gear.filter(|_| several).map_or_else(String::new, |gear| format!(" of the {}", gear.name()));
@@ -175,16 +176,24 @@ fn table(record: &CompareRecord) -> String {
     estimates
         .extend(fit.coefficient_ratio.iter().map(|ratio| ("k of the pinion over that of the wheel".to_owned(), ratio)));
     estimates.extend(fit.severe_factor.iter().map(|severe| ("factor of severe wear".to_owned(), severe)));
-    for of in profiles {
+    for of in &record.profiles {
         let whose = if several { format!(" of the {}", of.gear.name()) } else { String::new() };
         estimates.extend(of.shift_mm.iter().map(|shift| (format!("shift{whose} towards the tip, mm"), shift)));
     }
+    estimates
+}
+
+/// Findings for the terminal.
+fn table(record: &CompareRecord) -> String {
+    let (fit, profiles) = (&record.fit, &record.profiles);
+    let several = profiles.len() > 1;
+    let estimates = estimates(record);
     let mut text = format!("{}\n\n", record.headline());
     if !estimates.is_empty() {
         text.push_str(&line("", &["run", "fitted", "95 % from", "to"].map(str::to_owned)));
     }
     for (name, e) in estimates {
-        text.push_str(&line(&name, &[digits(e.of_run), digits(e.value), known(e.low), known(e.high)]));
+        text.push_str(&line(&name, &[digits(e.of_run), digits(e.value), or_dash(e.low), or_dash(e.high)]));
     }
     if let Some(correlation) = &fit.correlation {
         text.push_str(&correlations(correlation));
@@ -201,7 +210,7 @@ fn table(record: &CompareRecord) -> String {
         ("  after the fit", |f| Some(f.difference_um)),
     ];
     for (name, value) in figures {
-        text.push_str(&line(name, &profiles.iter().map(|of| known(value(&of.figures))).collect::<Vec<_>>()));
+        text.push_str(&line(name, &profiles.iter().map(|of| or_dash(value(&of.figures))).collect::<Vec<_>>()));
     }
     let runs = if fit.runs == 1 { "run" } else { "runs" };
     let mut forms: Vec<&str> = profiles.iter().map(|of| of.form.as_str()).collect();

@@ -84,11 +84,7 @@ impl Observer for CountedProgress {
         let Ok(mut announced) = self.announced.lock() else { return };
         if announced.iter().all(|other| other != text) {
             announced.push(text.to_owned());
-            let say = || say(&format!("warning: {text}"));
-            match &self.display {
-                Display::Bar(bar) => bar.suspend(say),
-                Display::Log(_) | Display::Quiet => say(),
-            }
+            self.display.warn(text);
         }
     }
 

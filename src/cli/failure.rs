@@ -399,12 +399,10 @@ mod tests {
     /// Errors that no valid scene is known to cause have a place all the same.
     #[test]
     fn every_refusal_of_a_model_has_its_key_and_place() {
-        let quality = |gear| PairMeshError::Quality { gear, source: QualityError::NoPlaneCells };
-        assert_eq!(
-            place(no_mesh(quality(Some(Gear::Wheel)), &text())),
-            ("fem.clamp_radius_mm.wheel".to_owned(), "37.9")
-        );
-        let (key, at) = place(no_mesh(quality(None), &text()));
+        let [of_wheel, of_pair] = [Some(Gear::Wheel), None]
+            .map(|gear| no_mesh(PairMeshError::Quality { gear, source: QualityError::NoPlaneCells }, &text()));
+        assert_eq!(place(of_wheel), ("fem.clamp_radius_mm.wheel".to_owned(), "37.9"));
+        let (key, at) = place(of_pair);
         assert!(key == "fem.clamp_radius_mm" && at.contains("pinion = 19.9"), "{key} {at}");
         let condense =
             ModelError::Condense { gear: Gear::Pinion, source: SolveError::Factor(FactorError::OutOfMemory) };

@@ -10,7 +10,6 @@ use crate::report;
 use crate::report::ReportError;
 use crate::results::fem_problem::{FemRecord, FemSummary};
 use crate::results::run::StageTime;
-use crate::scene::Problem;
 use crate::scene::fem_problem::FemProblem;
 use crate::scene::loaded::SceneText;
 
@@ -70,14 +69,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// A problem with its own mesh.
 fn problem(args: &Args, text: SceneText) -> Result<(), Failure> {
-    let refused = |problems: Vec<Problem>| Failure::from(text.refused(problems));
-    let problem = FemProblem::from_toml(&text.text).map_err(refused)?;
+    let problem = FemProblem::from_toml(&text.text).map_err(|problems| text.refused(problems))?;
     report::writable(&args.out)?;
     report::remove_summary(&args.out)?;
     let folder = args.file.parent().unwrap_or(Path::new(""));
     let progress = Progress::new(args.quiet, Arc::default());
     let record = fem_problem::run(&problem, folder, &progress).map_err(|error| match error {
-        FemProblemError::Input(problems) => refused(problems),
+        FemProblemError::Input(problems) => text.refused(problems).into(),
         FemProblemError::Solve(error) => Failure::Solve(error),
     });
     progress.finish();

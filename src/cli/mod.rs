@@ -59,7 +59,7 @@ enum Command {
     Accuracy(accuracy::Args),
     /// Run a scene for all combinations of varied keys: restartable, in shards on a cluster, with contour plots
     Sweep(sweep::Args),
-    /// Run a scene for samples of uncertain keys: quantiles of its figures, and which key is to blame (Sobol indices)
+    /// Run a scene for samples of uncertain keys: quantiles of its figures, and how much each key contributes (Sobol indices)
     Uncertainty(uncertainty::Args),
     /// Calibrate the fast model: tooth stiffness and K/H from finite elements, against Hertz
     Calibrate(calibrate::Args),

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::plan::{Plan, Stage};
+use crate::plan::Plan;
 use clap::ValueEnum;
 
 use crate::scene::loaded::LoadedScene;
@@ -40,8 +40,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 fn text(title: &str, plan: &Plan) -> String {
     let width = plan.stages.iter().chain(&plan.left_out).map(|stage| stage.kind.name().len()).max().unwrap_or(0);
-    let lines = |stages: &[Stage]| -> String {
+    let [run, left_out] = [&plan.stages, &plan.left_out].map(|stages| -> String {
         stages.iter().map(|stage| format!("  {:width$}  {}\n", stage.kind.name(), stage.reason)).collect()
-    };
-    format!("{title}\n\nStages\n{}\nLeft out\n{}", lines(&plan.stages), lines(&plan.left_out))
+    });
+    format!("{title}\n\nStages\n{run}\nLeft out\n{left_out}")
 }

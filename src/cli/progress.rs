@@ -30,6 +30,15 @@ impl<L> Display<L> {
             (false, false) => Display::Log(Mutex::new(log)),
         }
     }
+
+    /// Prints a warning, beside the bar where there is one.
+    pub(super) fn warn(&self, text: &str) {
+        let warning = format!("warning: {text}");
+        match self {
+            Display::Bar(bar) => bar.suspend(|| super::say(&warning)),
+            Display::Log(_) | Display::Quiet => super::say(&warning),
+        }
+    }
 }
 
 /// A stage takes this long before how long it takes in all is judged by.
@@ -133,11 +142,7 @@ impl Observer for Progress {
             }
             told.push(text.to_owned());
         }
-        let say = || super::say(&format!("warning: {text}"));
-        match &self.display {
-            Display::Bar(bar) => bar.suspend(say),
-            Display::Log(_) | Display::Quiet => say(),
-        }
+        self.display.warn(text);
     }
 
     fn interrupted(&self) -> bool {

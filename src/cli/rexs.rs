@@ -65,14 +65,14 @@ fn read(args: &Args) -> Result<RunResults, Failure> {
     let scene = LoadedScene::open(RunFolder::scene_path(&args.run))?;
     folder.check_scene(&scene.resolved).map_err(InputError::RunFolder)?;
     let finished = FinishedRun::read(&args.run, String::new()).map_err(InputError::RunFolder)?;
-    let column = |name: &str| finished.mesh_cycle.get(name).to_vec();
+    let cycle = &finished.mesh_cycle;
     Ok(RunResults {
         summary: run_folder::summary(&args.run).map_err(InputError::RunFolder)?,
         pair: scene.scene().pair.clone(),
         mesh_stiffness: MeshStiffness {
-            pinion_rotation_deg: column("pinion_rotation_deg"),
-            new_N_per_mm_um: column("mesh_stiffness_new_N_per_mm_um"),
-            worn_N_per_mm_um: column("mesh_stiffness_worn_N_per_mm_um"),
+            pinion_rotation_deg: cycle.get("pinion_rotation_deg").to_vec(),
+            new_N_per_mm_um: cycle.get("mesh_stiffness_new_N_per_mm_um").to_vec(),
+            worn_N_per_mm_um: cycle.get("mesh_stiffness_worn_N_per_mm_um").to_vec(),
         },
         wear_profile: PerGear::from_fn(|gear| {
             let (radius_mm, depth_um) = finished.wear_profile(gear);

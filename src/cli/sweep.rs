@@ -167,8 +167,9 @@ fn begun(sweep: &Sweep, args: &RunArgs, total: usize, finished: usize) -> String
 }
 
 fn merge_shards(args: &MergeArgs) -> Result<(), Failure> {
-    let same = |folder: &PathBuf| matches!((folder.canonicalize(), args.out.canonicalize()), (Ok(a), Ok(b)) if a == b);
-    if let Some(folder) = args.folders.iter().find(|folder| same(folder)) {
+    let out = args.out.canonicalize().ok();
+    let mut folders = args.folders.iter();
+    if let Some(folder) = folders.find(|folder| out.is_some() && folder.canonicalize().ok() == out) {
         return Err(InputError::MergeIntoShard { name: folder.display().to_string() }.into());
     }
     let start = Instant::now();
@@ -206,9 +207,11 @@ fn not_another_sweep(whole: &Contents, out: &Path) -> Result<(), JournalError> {
 
 /// The scene of the sweep, from the first folder that has it.
 fn scene_of(whole: &Contents, folders: &[PathBuf]) -> Result<String, InputError> {
-    let of_sweep = |text: &String| Draft::parse(text).is_ok_and(|draft| draft.hash() == whole.identity.given_hash);
-    let read = |folder: &PathBuf| fs::read_to_string(folder.join(crate::studies::sweep::report::SCENE)).ok();
-    folders.iter().filter_map(read).find(of_sweep).ok_or(InputError::MergeWithoutScene)
+    let scenes = folders.iter().map(|folder| folder.join(crate::studies::sweep::report::SCENE));
+    let mut texts = scenes.filter_map(|scene| fs::read_to_string(scene).ok());
+    texts
+        .find(|text| Draft::parse(text).is_ok_and(|draft| draft.hash() == whole.identity.given_hash))
+        .ok_or(InputError::MergeWithoutScene)
 }
 
 /// Says what came out.

@@ -14,7 +14,7 @@ use crate::studies::uncertainty::study::{self, Question, StudyError};
 
 use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError};
-use super::figures::digits;
+use super::figures::{digits, or_dash};
 use super::run::{thread_count, watch_for_interrupt};
 use super::{print, say, warn};
 
@@ -133,7 +133,6 @@ impl From<UncertaintyFault> for Failure {
 
 /// Quantiles and indices, for the terminal.
 fn table(record: &UncertaintyRecord, out: &Path) -> String {
-    let cell = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), digits);
     let mut text = format!(
         "{}\n\n{} points, {} runs, {} failed, in {} s\n\n  {:42}{:>12}{:>12}{:>12}{:>12}\n",
         record.title,
@@ -149,8 +148,7 @@ fn table(record: &UncertaintyRecord, out: &Path) -> String {
     );
     for output in &record.outputs {
         let [p05, _, p50, _, p95] = output.quantiles.all();
-        let cells = [output.nominal, p05, p50, p95].map(cell);
-        let [given, low, middle, high] = &cells;
+        let [given, low, middle, high] = [output.nominal, p05, p50, p95].map(or_dash);
         text.push_str(&format!("  {:42}{given:>12}{low:>12}{middle:>12}{high:>12} {}\n", output.output, output.unit));
         if let Some(censored) = output.censored.filter(|&part| part > 0.0) {
             let part = digits(100.0 * censored);

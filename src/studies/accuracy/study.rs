@@ -83,15 +83,7 @@ pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) ->
         mark_front(&mut variants, quantity, reference.uncertainty.get(&quantity).copied().unwrap_or(0.0));
     }
     keep_shown_curves(&mut variants, &at_reference, &selection.settings, resolved);
-    let compared: Vec<Run<'_>> = selection
-        .settings
-        .iter()
-        .zip(&at_reference)
-        .zip(&variants)
-        .filter_map(|((setting, observed), variant)| {
-            Some(Run { setting, observed: observed.as_ref()?, simulation_s: variant.simulation_s? })
-        })
-        .collect();
+    let compared = compared(&selection.settings, &at_reference, &variants);
     let mut recommendations = recommendations(&variants, asked.within);
     recommendations.retain(|one| not_ranked.iter().all(|not| not.quantity != one.quantity));
     Ok(AccuracyRecord {
@@ -118,6 +110,15 @@ pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) ->
         scene_toml: resolved.to_toml(),
         wall_s: start.elapsed().as_secs_f64(),
     })
+}
+
+/// Runs with a result, to be compared with each other.
+fn compared<'a>(settings: &'a [Setting], at: &'a [Option<Observed>], variants: &[VariantRecord]) -> Vec<Run<'a>> {
+    let all = settings.iter().zip(at).zip(variants);
+    let runs = all.filter_map(|((setting, observed), variant)| {
+        Some(Run { setting, observed: observed.as_ref()?, simulation_s: variant.simulation_s? })
+    });
+    runs.collect()
 }
 
 /// Takes limits that end a run away: wear is compared after the whole duration.
