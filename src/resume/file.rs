@@ -190,16 +190,19 @@ mod tests {
     fn another_version_or_format_is_named() {
         let (bytes, _) = written();
         let line_end = bytes.iter().position(|&byte| byte == b'\n').unwrap();
-        let with = |from: &str, to: &str| {
-            let line = std::str::from_utf8(&bytes[..line_end]).unwrap();
-            assert!(line.contains(from), "{line}");
-            let edited = [line.replace(from, to).as_bytes(), &bytes[line_end..]].concat();
-            parse(&edited).unwrap_err().to_string()
-        };
-        let version = format!("\"program_version\":\"{PROGRAM_VERSION}\"");
-        let other = with(&version, "\"program_version\":\"99.0.0\"");
-        assert_eq!(other, format!("it was written by gearwear 99.0.0, this is {PROGRAM_VERSION}"));
-        let format = format!("\"format\":{FORMAT}");
-        assert!(with(&format, "\"format\":99").contains("format 99"));
+        let line = std::str::from_utf8(&bytes[..line_end]).unwrap();
+        for (from, to, said) in [
+            (
+                format!("\"program_version\":\"{PROGRAM_VERSION}\""),
+                "\"program_version\":\"99.0.0\"",
+                format!("it was written by gearwear 99.0.0, this is {PROGRAM_VERSION}"),
+            ),
+            (format!("\"format\":{FORMAT}"), "\"format\":99", "format 99".to_owned()),
+        ] {
+            assert!(line.contains(&from), "{line}");
+            let edited = [line.replace(&from, to).as_bytes(), &bytes[line_end..]].concat();
+            let message = parse(&edited).unwrap_err().to_string();
+            assert!(message.contains(&said), "{message}");
+        }
     }
 }

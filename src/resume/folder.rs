@@ -104,11 +104,7 @@ pub(crate) fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
 /// Contents of `dir`, of the run of `identity` with the scene hash `scene_hash`.
 pub(crate) fn contents(dir: &Path, identity: &Identity, scene_hash: &str) -> Result<Contents, FolderError> {
     let Some(scene_toml) = read(&dir.join(SCENE))? else { return Ok(Contents::Nothing) };
-    let other_run = |path: PathBuf, differences: Vec<String>| match differences.is_empty() {
-        true => Ok(()),
-        false => Err(FolderError::OtherRun { path, differences }),
-    };
-    other_run(dir.join(SCENE), between_scenes(&scene_toml, &identity.scene_toml))?;
+    refuse_other_run(&dir.join(SCENE), between_scenes(&scene_toml, &identity.scene_toml))?;
     if let Some(stopped) = read(&dir.join(SUMMARY))?.and_then(|text| stopped(&text, scene_hash))
         && stopped != StopReason::Interrupted
     {
@@ -118,10 +114,17 @@ pub(crate) fn contents(dir: &Path, identity: &Identity, scene_hash: &str) -> Res
     match file::read(&path) {
         Ok(None) => Ok(Contents::Begun),
         Ok(Some(found)) => {
-            other_run(path, found.identity.differences(identity))?;
+            refuse_other_run(&path, found.identity.differences(identity))?;
             Ok(Contents::Checkpoint(Box::new(found)))
         }
         Err(source) => Err(FolderError::Checkpoint { path, source }),
+    }
+}
+
+fn refuse_other_run(path: &Path, differences: Vec<String>) -> Result<(), FolderError> {
+    match differences.is_empty() {
+        true => Ok(()),
+        false => Err(FolderError::OtherRun { path: path.to_owned(), differences }),
     }
 }
 

@@ -45,27 +45,29 @@ pub(crate) fn between_scenes(there: &str, here: &str) -> Vec<String> {
     if there == here {
         return Vec::new();
     }
-    let keys = |text: &str| {
-        let mut keys = BTreeMap::new();
-        if let Ok(table) = text.parse::<Table>() {
-            flatten("", &Value::Table(table), &mut keys);
-        }
-        keys
-    };
-    let (there, here) = (keys(there), keys(here));
+    let [there, here] = [there, here].map(values);
     let all: std::collections::BTreeSet<_> = there.keys().chain(here.keys()).collect();
-    let value = |keys: &BTreeMap<String, String>, key: &str| keys.get(key).cloned().unwrap_or("nothing".to_owned());
-    let differences: Vec<String> = all
-        .into_iter()
-        .filter(|key| there.get(*key) != here.get(*key))
-        .map(|key| format!("{key}: {} there, {} here", value(&there, key), value(&here, key)))
-        .collect();
+    let mut differences = Vec::new();
+    for key in all {
+        let [there, here] = [&there, &here].map(|values| values.get(key).map_or("nothing", String::as_str));
+        if there != here {
+            differences.push(format!("{key}: {there} there, {here} here"));
+        }
+    }
     if differences.is_empty() { vec!["the text of the scene".to_owned()] } else { differences }
+}
+
+/// Values of a scene by the paths of their keys.
+fn values(scene: &str) -> BTreeMap<String, String> {
+    let mut values = BTreeMap::new();
+    if let Ok(table) = scene.parse::<Table>() {
+        flatten("", &Value::Table(table), &mut values);
+    }
+    values
 }
 
 /// Every value below `path` with the path of its key.
 fn flatten(path: &str, value: &Value, keys: &mut BTreeMap<String, String>) {
-    let tables = |list: &Vec<Value>| !list.is_empty() && list.iter().all(Value::is_table);
     match value {
         Value::Table(table) => {
             for (key, value) in table {
@@ -73,7 +75,7 @@ fn flatten(path: &str, value: &Value, keys: &mut BTreeMap<String, String>) {
                 flatten(&path, value, keys);
             }
         }
-        Value::Array(list) if tables(list) => {
+        Value::Array(list) if !list.is_empty() && list.iter().all(Value::is_table) => {
             for (index, value) in list.iter().enumerate() {
                 flatten(&format!("{path}[{index}]"), value, keys);
             }

@@ -49,11 +49,11 @@ pub(crate) fn other_ways_to_say(key: &str) -> Vec<String> {
 
 /// The paths of all values of `table`, which stands at `path`, that are no tables.
 pub(crate) fn keys_of(table: &Table, path: &str) -> Vec<String> {
-    let below = |(name, value): (&String, &Value)| match value {
+    let keys = table.iter().flat_map(|(name, value)| match value {
         Value::Table(table) => keys_of(table, &join(path, name)),
         _ => vec![join(path, name)],
-    };
-    table.iter().flat_map(below).collect()
+    });
+    keys.collect()
 }
 
 /// Takes the key at the path `key` of `table` away, if it is there. Items of lists are numbered from 1.
@@ -132,11 +132,13 @@ impl Draft {
     pub(crate) fn gives(&self, key: &str) -> bool {
         let mut parts = key.split('.');
         let first = parts.next().and_then(|part| self.table.get(part));
-        let below = |value: &'_ Value, part: &str| match (value.as_array(), part.parse::<usize>()) {
-            (Some(list), Ok(number)) => list.get(number.checked_sub(1)?).cloned(),
-            _ => value.get(part).cloned(),
-        };
-        parts.try_fold(first.cloned(), |value, part| value.map(|value| below(&value, part))).flatten().is_some()
+        let found = first.and_then(|first| {
+            parts.try_fold(first, |value, part| match (value.as_array(), part.parse::<usize>()) {
+                (Some(list), Ok(number)) => list.get(number.checked_sub(1)?),
+                _ => value.get(part),
+            })
+        });
+        found.is_some()
     }
 
     /// Takes the key at the path `key` away, if it is there.

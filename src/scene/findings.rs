@@ -93,10 +93,9 @@ impl Findings {
 
     /// One of `keys` must be given and none is.
     pub(super) fn missing(&mut self, keys: &[&str], allowed: &str) {
-        let spoiled = |key: &&str| {
+        self.reported = !keys.iter().any(|key| {
             self.spoiled.iter().any(|s| s == key || key.strip_prefix(s).is_some_and(|k| k.starts_with('.')))
-        };
-        self.reported = !keys.iter().any(spoiled);
+        });
         if self.reported {
             self.problem(ProblemKind::Missing, keys[0], "nothing", allowed);
             if let [_, others @ ..] = keys

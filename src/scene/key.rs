@@ -33,11 +33,10 @@ pub(crate) enum KeyError {
 
 /// Node of the schema at this path; none where no scene has it. Items of lists are numbered from 1.
 fn node_at(path: &str) -> Option<Node<'static>> {
-    let below = |node: Node<'static>, name: &str| match name.parse::<usize>() {
+    path.split('.').try_fold(Node::root(schema()), |node, name| match name.parse::<usize>() {
         Ok(1..) => node.items(),
         _ => node.child(name),
-    };
-    path.split('.').try_fold(Node::root(schema()), below)
+    })
 }
 
 /// The words that the key at `path` takes, "true" and "false" where it is said so; none where it takes no words.

@@ -44,19 +44,15 @@ pub(super) struct Converted {
 
 /// Value given in inches or pounds, in the units of a scene.
 pub(super) fn converted(name: &str, value: Option<f64>) -> Option<Converted> {
-    let said = |target: String, in_scene: Option<f64>, by: &str| {
-        let equals = in_scene.map(|x| format!(" = {}", number(six_digits(x)))).unwrap_or_default();
-        let sentence = format!("write {target}{equals}: {by}");
-        Converted { name: target, sentence }
+    let module = match name {
+        "diametral_pitch" | "normal_diametral_pitch" | "DP" => Some("normal_module_mm"),
+        "transverse_diametral_pitch" => Some("transverse_module_mm"),
+        _ => None,
     };
-    let pitch = |target: &str| {
+    if let Some(module) = module {
         let module_mm = value.filter(|&pitch| pitch > 0.0).map(|pitch| 25.4 / pitch);
-        Some(said(target.to_owned(), module_mm, "module in mm = 25.4/diametral pitch (m = 25.4/DP)"))
-    };
-    match name {
-        "diametral_pitch" | "normal_diametral_pitch" | "DP" => return pitch("normal_module_mm"),
-        "transverse_diametral_pitch" => return pitch("transverse_module_mm"),
-        _ => {}
+        let by = "module in mm = 25.4/diametral pitch (m = 25.4/DP)";
+        return Some(Converted::new(module.to_owned(), module_mm, by));
     }
     let units = [
         (&["_in", "_inch", "_inches"][..], "_mm", 25.4, "1 in = 25.4 mm"),
@@ -82,7 +78,15 @@ pub(super) fn converted(name: &str, value: Option<f64>) -> Option<Converted> {
     let (ending, unit, factor, by) =
         endings.filter(|(ending, ..)| name.ends_with(ending)).max_by_key(|(ending, ..)| ending.len())?;
     let target = format!("{}{unit}", &name[..name.len() - ending.len()]);
-    Some(said(target, value.map(|value| factor * value), by))
+    Some(Converted::new(target, value.map(|value| factor * value), by))
+}
+
+impl Converted {
+    fn new(name: String, in_scene: Option<f64>, by: &str) -> Self {
+        let equals = in_scene.map(|x| format!(" = {}", number(six_digits(x)))).unwrap_or_default();
+        let sentence = format!("write {name}{equals}: {by}");
+        Self { name, sentence }
+    }
 }
 
 /// Without digits that the conversion does not have.

@@ -85,25 +85,24 @@ impl Problem {
         }
     }
 
-    /// A tooth of the scene in `text` cannot be meshed, of `gear` where one of them alone is to blame.
+    /// A tooth of the scene in `text` cannot be meshed, of `gear` where only one of them cannot.
     pub(crate) fn of_tooth_mesh(text: &str, gear: Option<Gear>, error: &ToothMeshError) -> Self {
-        let below = |table: &str, key: &str| {
-            let gear = gear.map(|gear| format!(".{}", gear.name())).unwrap_or_default();
-            if table == "pair" { format!("pair{gear}{key}") } else { format!("{table}{gear}") }
-        };
+        let of_gear = gear.map_or_else(|| "pair".to_owned(), |gear| format!("pair.{}", gear.name()));
         let (key, allowed) = match error {
-            ToothMeshError::ClampRadius { .. } => (below("fem.clamp_radius_mm", ""), "a circle below the teeth"),
+            ToothMeshError::ClampRadius { .. } => (clamp_key(gear), "a circle below the teeth"),
             ToothMeshError::SectorTeeth { .. } => ("fem.sector_teeth".to_owned(), "an odd number, at most all teeth"),
             ToothMeshError::NotPositive { .. }
             | ToothMeshError::ElementLength { .. }
             | ToothMeshError::TooFine { .. } => return Self::of_elements(text, error.to_string()),
-            ToothMeshError::ReliefBeyondCurvature { .. } => (below("pair", ".root_relief"), "less relief at the root"),
-            ToothMeshError::PointedTip { .. } => (below("pair", ".tip_relief"), "relief that leaves a tip land"),
+            ToothMeshError::ReliefBeyondCurvature { .. } => {
+                (format!("{of_gear}.root_relief"), "less relief at the root")
+            }
+            ToothMeshError::PointedTip { .. } => (format!("{of_gear}.tip_relief"), "relief that leaves a tip land"),
             ToothMeshError::TipRounding { .. } => {
-                (below("pair", ".tip_rounding_mm"), "a rounding that fits on the tip")
+                (format!("{of_gear}.tip_rounding_mm"), "a rounding that fits on the tip")
             }
             ToothMeshError::CrossedOutline { .. } | ToothMeshError::Inverted { .. } => {
-                (below("pair", ""), "a tooth with a body between its flanks")
+                (of_gear, "a tooth with a body between its flanks")
             }
         };
         Self::of_body(text, key, format!("a pair that cannot be meshed ({error})"), allowed, BODIES_HELP)
@@ -159,7 +158,7 @@ impl Problem {
         }
     }
 
-    /// The teeth of the scene in `text` cannot be had in space: its face width asks for too many of them, or its body cannot be meshed.
+    /// The gears of the scene in `text` cannot be meshed in space: its face width asks for too many teeth, or its body cannot be meshed.
     pub(crate) fn of_teeth_in_space(text: &str, error: &PairInSpaceError) -> Self {
         let key = key_of_teeth_in_space(error);
         let allowed = match error {
@@ -170,7 +169,7 @@ impl Problem {
             kind: ProblemKind::NotAllowed,
             span: Some(Locator::new(text).unwrap_or_default().nearest(&key)),
             key,
-            found: format!("a pair whose teeth cannot be had in space ({error})"),
+            found: format!("a pair that cannot be meshed in three dimensions ({error})"),
             allowed: allowed.to_owned(),
             help: Some("helical.coupling = \"slicing\" couples them by plate theory".to_owned()),
         }
@@ -201,15 +200,14 @@ impl Problem {
 }
 
 /// Remedy where a body cannot be meshed.
-const BODIES_HELP: &str =
-    "what the gears and their modifications are decides, and fem.clamp_radius_mm where their bodies end";
+const BODIES_HELP: &str = "change the teeth or their modifications in [pair], or fem.clamp_radius_mm, the radius at which the bodies are held";
 
-/// The key that says where the body of `gear` ends, or of both.
+/// Key of the radius at which the body of `gear` is held, or of both.
 fn clamp_key(gear: Option<Gear>) -> String {
     gear.map_or_else(|| "fem.clamp_radius_mm".to_owned(), |gear| format!("fem.clamp_radius_mm.{}", gear.name()))
 }
 
-/// The key to blame where the teeth of a pair cannot be had in space.
+/// Key to change where the gears of a pair cannot be meshed in space.
 pub(crate) fn key_of_teeth_in_space(error: &PairInSpaceError) -> String {
     match error {
         PairInSpaceError::TooFewTeeth { .. } => "pair.face_width_mm".to_owned(),
@@ -237,7 +235,7 @@ impl fmt::Display for Problem {
 
 impl std::error::Error for Problem {}
 
-/// A number as one would write it into the file: `4`, `0.0045`, `1e-17`.
+/// Number in its shortest form, as in a file: `4`, `0.0045`, `1e-17`.
 pub(crate) fn number(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)

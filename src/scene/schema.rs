@@ -104,8 +104,8 @@ impl<'a> Node<'a> {
 
     /// How many items this list must have, if that is fixed.
     pub(super) fn length(&self) -> Option<usize> {
-        let count = |name: &str| self.0.get(name).and_then(Value::as_u64).and_then(|n| usize::try_from(n).ok());
-        count("minItems").filter(|_| count("minItems") == count("maxItems"))
+        let [least, most] = ["minItems", "maxItems"].map(|name| self.0.get(name).and_then(Value::as_u64));
+        least.filter(|_| least == most).and_then(|length| usize::try_from(length).ok())
     }
 
     /// `object`, `array`, `number`, `integer`, `boolean` or `string`.

@@ -56,8 +56,9 @@ fn stand_in(node: Node<'_>) -> Value {
     match (node.type_name(), node.choices().first()) {
         (_, Some(&choice)) => Value::String(choice.to_owned()),
         ("object", _) => {
-            let of = |name: &str| node.child(name).map(|child| (name.to_owned(), stand_in(child)));
-            Value::Table(node.required().into_iter().filter_map(of).collect())
+            let required = node.required().into_iter();
+            let table = required.filter_map(|name| Some((name.to_owned(), stand_in(node.child(name)?))));
+            Value::Table(table.collect())
         }
         ("array", _) => Value::Array(Vec::new()),
         ("string", _) => Value::String(String::new()),

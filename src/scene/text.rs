@@ -10,8 +10,8 @@ use super::problem::{Problem, ProblemKind};
 
 /// The file as a table, and findings that know where each key stands.
 pub(super) fn parse(text: &str) -> Result<(Table, Findings), Vec<Problem>> {
-    let read = || -> Result<(Table, Locator), toml::de::Error> { Ok((text.parse()?, Locator::new(text)?)) };
-    let (table, locator) = read().map_err(|error| syntax(&error, text))?;
+    let table = text.parse().map_err(|error| syntax(&error, text))?;
+    let locator = Locator::new(text).map_err(|error| syntax(&error, text))?;
     Ok((table, Findings::new(locator)))
 }
 

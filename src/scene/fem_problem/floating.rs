@@ -58,10 +58,10 @@ pub(super) fn check(problem: &Problem, solid: &Solid, findings: &mut Findings) {
             let at = middle(edge, solid);
             let [a, b] = edge.ends.map(|node| solid.points_mm[node as usize]);
             let normal = Vector2::new(b.y - a.y, a.x - b.x).normalize();
-            let distance = |to: &&(Vector2<f64>, usize)| (to.0 - at).norm_squared();
-            let Some((_, other)) = master.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))) else { continue };
+            let distances = master.iter().map(|(to, piece)| ((to - at).norm_squared(), *piece));
+            let Some((_, other)) = distances.min_by(|(a, _), (b, _)| a.total_cmp(b)) else { continue };
             let own = pieces.of_node[edge.ends[0] as usize];
-            equations.push(vec![(own, pieces.motion(own, at, normal)), (*other, pieces.motion(*other, at, -normal))]);
+            equations.push(vec![(own, pieces.motion(own, at, normal)), (other, pieces.motion(other, at, -normal))]);
         }
     }
     for (members, own) in pieces.clusters(&equations) {
@@ -102,10 +102,7 @@ fn check_cluster(pieces: &Pieces, members: &[usize], equations: &[&Equation], al
         }
     }
     let motion = match free.as_slice() {
-        [only] => {
-            let way = |way: usize| eigen.eigenvectors[(place[&piece] + way, *only)];
-            pieces.in_words(piece, [way(0), way(1), way(2)])
-        }
+        [only] => pieces.in_words(piece, [0, 1, 2].map(|way| eigen.eigenvectors[(place[&piece] + way, *only)])),
         several if several.len() == WAYS && equations.is_empty() => "nothing holds".to_owned(),
         several => format!("can move in {} ways that nothing resists", several.len()),
     };

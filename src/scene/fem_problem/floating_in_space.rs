@@ -59,9 +59,9 @@ fn check_cluster(parts: &Parts, Cluster { members, equations }: &Cluster, findin
     let first_of: BTreeMap<u32, usize> = members.iter().enumerate().map(|(i, &part)| (part, WAYS * i)).collect();
     let mut gram = DMatrix::<f64>::zeros(WAYS * members.len(), WAYS * members.len());
     for equation in equations {
-        let entries = || equation.iter().flat_map(|(part, motion)| (first_of[part]..).zip(*motion));
-        for (i, a) in entries() {
-            entries().for_each(|(k, b)| gram[(i, k)] += a * b);
+        let entries = equation.iter().flat_map(|(part, motion)| (first_of[part]..).zip(*motion));
+        for (i, a) in entries.clone() {
+            entries.clone().for_each(|(k, b)| gram[(i, k)] += a * b);
         }
     }
     let eigen = SymmetricEigen::new(gram);
@@ -127,22 +127,21 @@ impl Parts {
         let (cluster, count) = sets.numbered();
         let mut clusters: Vec<Cluster> = (0..count).map(|_| Cluster::default()).collect();
         (0..).zip(&cluster).for_each(|(part, &of)| clusters[of as usize].members.push(part));
-        let mut add = |equation: Vec<(u32, [f64; WAYS])>| {
-            clusters[cluster[equation[0].0 as usize] as usize].equations.push(equation);
-        };
-        let along = |k: usize| Vector3::ith(k, 1.0);
         for (parts, at_mm) in self.of_node.iter().zip(&bodies.solid.points_mm) {
             for pair in parts.windows(2) {
                 for k in 0..3 {
-                    let [one, other] = [(pair[0], along(k)), (pair[1], -along(k))];
-                    add([one, other].map(|(part, e)| (part, self.motion(part, at_mm, e))).to_vec());
+                    let along = Vector3::ith(k, 1.0);
+                    let equation =
+                        [(pair[0], along), (pair[1], -along)].map(|(part, e)| (part, self.motion(part, at_mm, e)));
+                    clusters[cluster[pair[0] as usize] as usize].equations.push(equation.to_vec());
                 }
             }
         }
         for held in held {
             let (node, component) = ((held.dof / 3) as usize, (held.dof % 3) as usize);
             let part = self.of_node[node][0];
-            add(vec![(part, self.motion(part, &bodies.solid.points_mm[node], along(component)))]);
+            let motion = self.motion(part, &bodies.solid.points_mm[node], Vector3::ith(component, 1.0));
+            clusters[cluster[part as usize] as usize].equations.push(vec![(part, motion)]);
         }
         clusters
     }

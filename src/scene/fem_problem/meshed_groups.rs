@@ -48,11 +48,11 @@ impl<B: Bodies> MeshedGroups<'_, B> {
             findings.not_allowed(key, found, "a group of points, of lines or of surfaces, not of both");
             return Vec::new();
         }
-        let node = |node: &usize| self.bodies.nodes().node(*node);
-        let mut nodes: BTreeSet<u32> = group.nodes.iter().filter_map(node).collect();
+        let numbers = self.bodies.nodes();
+        let mut nodes: BTreeSet<u32> = group.nodes.iter().filter_map(|&node| numbers.node(node)).collect();
         for &cell in group.cells.iter().flatten() {
             let (_, own) = self.groups.cell(cell);
-            nodes.extend(own.iter().filter_map(node));
+            nodes.extend(own.iter().filter_map(|&node| numbers.node(node)));
             // A line of two nodes along a quadratic element holds the middle node too.
             nodes.extend(self.bodies.middles(own));
         }

@@ -34,7 +34,7 @@ use crate::fem::problem::ThirdDirection;
 use crate::mesh::Mesh;
 use meshed_groups::Bodies;
 
-pub(crate) use file::{BodyFile, Component, FemProblemFile, LoadFile};
+pub(crate) use file::{Component, FemProblemFile, LoadFile};
 
 /// The JSON schema of a problem file.
 pub fn schema() -> &'static Value {

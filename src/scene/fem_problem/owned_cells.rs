@@ -2,7 +2,7 @@
 //! body.
 
 use super::file::FemProblemFile;
-use super::groups::{CellRef, Groups};
+use super::groups::Groups;
 use crate::mesh::{CellKind, Mesh};
 use crate::scene::findings::Findings;
 
@@ -109,13 +109,11 @@ fn warn_of_leftovers(mesh: &Mesh, owners: &[Vec<Option<u16>>], dimension: u8, fi
 }
 
 fn number_nodes(mesh: &Mesh, groups: &Groups<'_>, owners: &[Vec<Option<u16>>]) -> (Vec<OwnedCell>, BodyNodes) {
-    let owned = || {
-        owners.iter().enumerate().flat_map(|(block, cells)| {
-            cells.iter().enumerate().filter_map(move |(cell, owner)| owner.map(|body| ((block, cell), body)))
-        })
-    };
+    let owned = owners.iter().enumerate().flat_map(|(block, cells)| {
+        cells.iter().enumerate().filter_map(move |(cell, owner)| owner.map(|body| ((block, cell), body)))
+    });
     let mut used = vec![false; mesh.points.len()];
-    for (cell, _) in owned() {
+    for (cell, _) in owned.clone() {
         for &node in groups.cell(cell).1 {
             used[node] = true;
         }
@@ -131,10 +129,9 @@ fn number_nodes(mesh: &Mesh, groups: &Groups<'_>, owners: &[Vec<Option<u16>>]) -
             })
         })
         .collect();
-    let cell = |(cell, body): (CellRef, u16)| {
+    let cells = owned.map(|(cell, body)| {
         let (kind, nodes) = groups.cell(cell);
         OwnedCell { kind, nodes: nodes.iter().filter_map(|&node| number[node]).collect(), body }
-    };
-    let cells = owned().map(cell).collect();
-    (cells, BodyNodes { number, points_mm })
+    });
+    (cells.collect(), BodyNodes { number, points_mm })
 }

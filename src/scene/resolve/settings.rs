@@ -70,7 +70,7 @@ pub(super) fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -
 
 /// Inputs of the choice of a stiffness model.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Teeth {
+pub(super) struct StiffnessInputs {
     /// How the flanks touch.
     pub surface: Option<SurfaceKind>,
     /// Whether a calibration is given.
@@ -82,7 +82,7 @@ pub(super) struct Teeth {
 /// Chooses the tooth stiffness.
 pub(super) fn stiffness(
     file: &mut Option<StiffnessFile>,
-    Teeth { surface, calibrated, coupling }: Teeth,
+    StiffnessInputs { surface, calibrated, coupling }: StiffnessInputs,
     findings: &mut Findings,
 ) -> Option<StiffnessSettings> {
     let key = "stiffness.pair_N_per_mm_um";
