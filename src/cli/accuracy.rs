@@ -7,8 +7,8 @@ use std::sync::Arc;
 use crate::report;
 use crate::results::run::StopReason;
 use crate::scene::loaded::LoadedScene;
-use crate::studies::accuracy::record::{AccuracyRecord, Quantity, VariantRecord};
-use crate::studies::accuracy::selection::Asked;
+use crate::studies::accuracy::record::{AccuracyRecord, ComparedQuantity, VariantRecord};
+use crate::studies::accuracy::selection::AccuracyOptions;
 use crate::studies::accuracy::study::{self, AccuracyError};
 
 use super::failure::Failure;
@@ -18,7 +18,7 @@ use super::run::{pool, watch_for_interrupt};
 use super::{print, say, warn};
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct AccuracyArgs {
     /// The scene file; - reads standard input
     scene: PathBuf,
     /// The folder for the results; files of an earlier comparison are replaced
@@ -45,13 +45,13 @@ fn per_cent(text: &str) -> Result<f64, String> {
     }
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &AccuracyArgs) -> Result<(), Failure> {
     let scene = LoadedScene::open(&args.scene)?;
     warn(scene.warnings());
     report::writable(&args.out)?;
     let pool = pool(args.threads)?;
     let progress = Progress::new(args.quiet, Arc::clone(&watch_for_interrupt()));
-    let asked = Asked { within: args.within / 100.0, quick: args.quick };
+    let asked = AccuracyOptions { within: args.within / 100.0, quick: args.quick };
     let done = pool.install(|| study::run(&scene, asked, &progress));
     progress.finish();
     let record = done.map_err(|error| match error {
@@ -78,7 +78,7 @@ fn in_percent(error: f64) -> String {
 }
 
 /// Error of a run in `quantity`.
-fn error(run: &VariantRecord, quantity: Quantity) -> Option<String> {
+fn error(run: &VariantRecord, quantity: ComparedQuantity) -> Option<String> {
     run.errors.get(&quantity).map(|error| in_percent(error.relative))
 }
 
@@ -94,12 +94,16 @@ fn table(record: &AccuracyRecord) -> String {
         "  {:width$}{:>10}{:>12}{:>12}{:>12}\n",
         "Pareto front of the wear profile", "time, s", "profile", "pressure", "trans. err"
     ));
-    let mut front: Vec<&VariantRecord> =
-        record.variants.iter().filter(|v| v.errors.get(&Quantity::WearProfile).is_some_and(|e| e.on_front)).collect();
+    let mut front: Vec<&VariantRecord> = record
+        .variants
+        .iter()
+        .filter(|v| v.errors.get(&ComparedQuantity::WearProfile).is_some_and(|e| e.on_front))
+        .collect();
     front.sort_by(|a, b| a.simulation_s.unwrap_or(0.0).total_cmp(&b.simulation_s.unwrap_or(0.0)));
     for variant in front {
-        let [profile, pressure, error] = [Quantity::WearProfile, Quantity::FlankPressure, Quantity::TransmissionError]
-            .map(|quantity| error(variant, quantity).unwrap_or_else(|| "–".to_owned()));
+        let [profile, pressure, error] =
+            [ComparedQuantity::WearProfile, ComparedQuantity::FlankPressure, ComparedQuantity::TransmissionError]
+                .map(|quantity| error(variant, quantity).unwrap_or_else(|| "–".to_owned()));
         let (name, wall_s) = (&variant.name, or_dash(variant.simulation_s));
         text.push_str(&format!("  {name:width$}{wall_s:>10}{profile:>12}{pressure:>12}{error:>12}\n"));
     }

@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 
 use crate::report;
 use crate::resume::file::{self, CheckpointFile};
-use crate::resume::folder::{self, Contents};
-use crate::resume::identity::Identity;
+use crate::resume::folder::{self, FolderContents};
+use crate::resume::identity::RunIdentity;
 use crate::scene::loaded::LoadedScene;
 use crate::simulation::checkpoint::{Checkpoint, Keeper};
 
@@ -26,7 +26,7 @@ pub(super) struct BegunRun {
     pub scene: LoadedScene,
     /// Folder, which holds the scene and the input files.
     pub out: PathBuf,
-    pub identity: Identity,
+    pub identity: RunIdentity,
     /// Checkpoint to go on from; `None`: from the beginning.
     pub from: Option<Checkpoint>,
     /// Folder made at the beginning.
@@ -71,24 +71,24 @@ pub(super) fn resume(scene: Option<&Path>, out: &Path) -> Result<Option<BegunRun
     let contents = folder::contents(out, &identity, &scene.resolved.scene_hash())
         .map_err(|error| InputError::Resume(Box::new(error)))?;
     match contents {
-        Contents::Nothing | Contents::Begun => begin_anew(scene, identity, out).map(Some),
-        Contents::Checkpoint(found) => {
+        FolderContents::Nothing | FolderContents::Begun => begin_anew(scene, identity, out).map(Some),
+        FolderContents::Checkpoint(found) => {
             let CheckpointFile { warnings, checkpoint, .. } = *found;
             scene.resolved.warnings = warnings;
             Ok(Some(BegunRun { scene, out: out.to_owned(), identity, from: Some(checkpoint), made: None }))
         }
-        Contents::Ended(stopped) if stopped.is_complete() => Ok(None),
-        Contents::Ended(_) => Err(InputError::NothingLeft { folder: out.display().to_string() }.into()),
+        FolderContents::Ended(stopped) if stopped.is_complete() => Ok(None),
+        FolderContents::Ended(_) => Err(InputError::NothingLeft { folder: out.display().to_string() }.into()),
     }
 }
 
-fn named_as_copied(scene: LoadedScene) -> (LoadedScene, Identity) {
+fn named_as_copied(scene: LoadedScene) -> (LoadedScene, RunIdentity) {
     let scene = scene.naming_copies();
-    let identity = Identity::new(scene.resolved.to_toml(), &scene.files.as_read);
+    let identity = RunIdentity::new(scene.resolved.to_toml(), &scene.files.as_read);
     (scene, identity)
 }
 
-fn begin_anew(scene: LoadedScene, identity: Identity, out: &Path) -> Result<BegunRun, Failure> {
+fn begin_anew(scene: LoadedScene, identity: RunIdentity, out: &Path) -> Result<BegunRun, Failure> {
     let is_new = !out.exists();
     report::create_folder(out)?;
     folder::begin(out, &identity, &scene.files.as_read)?;
@@ -101,7 +101,7 @@ fn begin_anew(scene: LoadedScene, identity: Identity, out: &Path) -> Result<Begu
 /// end a run.
 pub(super) struct FolderKeeper<'a> {
     path: PathBuf,
-    identity: &'a Identity,
+    identity: &'a RunIdentity,
     warnings: &'a [String],
     due: Mutex<Instant>,
     failure: Mutex<Option<io::Error>>,
@@ -109,7 +109,7 @@ pub(super) struct FolderKeeper<'a> {
 
 impl<'a> FolderKeeper<'a> {
     /// For the run `identity` in the folder `out`, whose user was told `warnings`.
-    pub(super) fn new(out: &Path, identity: &'a Identity, warnings: &'a [String]) -> Self {
+    pub(super) fn new(out: &Path, identity: &'a RunIdentity, warnings: &'a [String]) -> Self {
         let due = Mutex::new(Instant::now() + LEAST_INTERVAL);
         Self { path: out.join(folder::CHECKPOINT), identity, warnings, due, failure: Mutex::new(None) }
     }

@@ -18,7 +18,7 @@ use super::run::{pool, watch_for_interrupt};
 use super::{figures, print, say, warn};
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct CalibrateArgs {
     /// The scene file; - reads standard input
     scene: PathBuf,
     /// The calibration file, JSON; a page of the same name with the ending .html is written beside it
@@ -32,7 +32,7 @@ pub(super) struct Args {
     quiet: bool,
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     // A calibration that the scene names may not be there yet: it is about to be made.
     let text = SceneText::read(&args.scene)?;
     let resolved = &text.resolve()?;

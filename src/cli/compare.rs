@@ -10,9 +10,9 @@ use crate::measurement::form::Form;
 use crate::pipeline::RunError;
 use crate::report;
 use crate::scene::loaded::SceneText;
-use crate::studies::compare::asked::{CompareFault, Prepared};
-use crate::studies::compare::question::{Asked, FitKind};
-use crate::studies::compare::record::{CompareFigures, CompareRecord, Correlation, Estimate};
+use crate::studies::compare::asked::{CompareFault, PreparedComparison};
+use crate::studies::compare::question::{CompareOptions, FitKind};
+use crate::studies::compare::record::{CoefficientCorrelation, CompareFigures, CompareRecord, FittedValue};
 use crate::studies::compare::study::CompareError;
 
 use super::failure::{Failure, InputError};
@@ -39,7 +39,7 @@ where material is gone) or wear_um or wear_mm (rises there); then a row for each
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = FILE_HELP)]
-pub(super) struct Args {
+pub(super) struct CompareArgs {
     /// The folder of a finished `gearwear run`; beside other runs a scene too, which is run first
     run: PathBuf,
     /// The measured profile, a CSV file (- reads standard input), or two, of pinion and wheel; or one to five more runs, to be
@@ -82,7 +82,7 @@ fn length(text: &str) -> Result<f64, String> {
     }
 }
 
-impl Args {
+impl CompareArgs {
     /// The runs to be shown side by side; none where there are measured profiles.
     fn variants(&self) -> Result<Option<Variants<'_>>, InputError> {
         let Some(path) = self.with.iter().find(|path| !is_run(path)) else {
@@ -108,7 +108,7 @@ impl Args {
     }
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &CompareArgs) -> Result<(), Failure> {
     if let Some(variants) = args.variants()? {
         return match (args.gear, args.form) {
             (Some(_), _) => Err(InputError::OnlyForMeasured { option: "--gear" }.into()),
@@ -117,8 +117,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         };
     }
     let texts = args.with.iter().map(|path| SceneText::read(path)).collect::<Result<Vec<_>, _>>()?;
-    let asked = Asked { gear: args.gear, form: args.form, fit: args.fit, shift_within_mm: args.shift_within };
-    let prepared = Prepared::open(&args.run, &texts, &asked)?;
+    let asked = CompareOptions { gear: args.gear, form: args.form, fit: args.fit, shift_within_mm: args.shift_within };
+    let prepared = PreparedComparison::open(&args.run, &texts, &asked)?;
     let out = args.out();
     report::writable(&out)?;
 
@@ -166,9 +166,9 @@ fn line(name: &str, cells: &[String]) -> String {
 }
 
 /// Fitted values with their names.
-fn estimates(record: &CompareRecord) -> Vec<(String, &Estimate)> {
+fn estimates(record: &CompareRecord) -> Vec<(String, &FittedValue)> {
     let (fit, several) = (&record.fit, record.profiles.len() > 1);
-    let mut estimates: Vec<(String, &Estimate)> = Vec::new();
+    let mut estimates: Vec<(String, &FittedValue)> = Vec::new();
     for own in &fit.coefficients {
         let whose = own.gear.filter(|_| several).map_or_else(String::new, |gear| format!(" of the {}", gear.name()));
         estimates.push((format!("wear coefficient k{whose}, m²/N"), &own.coefficient_m2_per_N));
@@ -225,7 +225,7 @@ fn table(record: &CompareRecord) -> String {
 }
 
 /// The correlation coefficient of each pair of fitted values, a line for each.
-fn correlations(correlation: &Correlation) -> String {
+fn correlations(correlation: &CoefficientCorrelation) -> String {
     let (parameters, matrix) = (&correlation.parameters, &correlation.matrix);
     let mut text = String::new();
     for i in 0..parameters.len() {

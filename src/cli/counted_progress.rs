@@ -13,7 +13,7 @@ use super::say;
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
 
 /// State of the log.
-struct Log {
+struct ProgressLog {
     counted: Option<Counted>,
     last: Instant,
 }
@@ -29,7 +29,7 @@ struct Counted {
 
 /// Watches the runs for the user, who may interrupt them.
 pub(super) struct CountedProgress {
-    display: Display<Log>,
+    display: Display<ProgressLog>,
     interrupted: Arc<AtomicBool>,
     /// Announcements made so far.
     announced: Mutex<Vec<String>>,
@@ -38,7 +38,7 @@ pub(super) struct CountedProgress {
 impl CountedProgress {
     /// A bar on a terminal, a log elsewhere, nothing where `quiet`; `interrupted` is set when the user wants to stop.
     pub(super) fn new(quiet: bool, interrupted: Arc<AtomicBool>) -> Self {
-        let log = Log { counted: None, last: Instant::now() };
+        let log = ProgressLog { counted: None, last: Instant::now() };
         Self { display: Display::new(quiet, log), interrupted, announced: Mutex::default() }
     }
 

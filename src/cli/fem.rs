@@ -18,7 +18,7 @@ use super::progress::Progress;
 use super::{fem_scene, figures, print, warn};
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct FemArgs {
     /// The file, TOML: a problem with its own [mesh], or a scene with a [pair]; - reads standard input
     file: PathBuf,
     /// The folder for the results; files of an earlier run are replaced
@@ -39,7 +39,7 @@ pub(super) struct Args {
     pub quiet: bool,
 }
 
-impl Args {
+impl FemArgs {
     /// An option given that only a gear pair has.
     fn of_a_pair(&self) -> Option<&'static str> {
         match self {
@@ -51,7 +51,7 @@ impl Args {
     }
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &FemArgs) -> Result<(), Failure> {
     let text = SceneText::read(&args.file)?;
     // Text that is no TOML is refused, with its place, by whoever reads it next.
     let Ok(table) = text.text.parse::<toml::Table>() else {
@@ -68,7 +68,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// A problem with its own mesh.
-fn problem(args: &Args, text: SceneText) -> Result<(), Failure> {
+fn problem(args: &FemArgs, text: SceneText) -> Result<(), Failure> {
     let problem = FemProblem::from_toml(&text.text).map_err(|problems| text.refused(problems))?;
     report::writable(&args.out)?;
     report::remove_summary(&args.out)?;

@@ -16,12 +16,12 @@ use crate::results::run::{StageTime, StopReason};
 use crate::scene::loaded::SceneText;
 
 use super::failure::{Failure, InputError};
-use super::fem::Args;
+use super::fem::FemArgs;
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
 use super::{figures, print, say, warn};
 
-pub(super) fn run(args: &Args, text: SceneText) -> Result<(), Failure> {
+pub(super) fn run(args: &FemArgs, text: SceneText) -> Result<(), Failure> {
     let resolved = &text.resolve()?;
     warn(&resolved.warnings);
     report::writable(&args.out)?;

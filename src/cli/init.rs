@@ -10,7 +10,7 @@ use super::failure::{Failure, InputError};
 use super::{print, warn};
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct InitArgs {
     /// The scene to print
     #[arg(default_value = presets::PRESETS[0].name, help = format!("The scene to print: {}", presets::names().join(", ")))]
     preset: String,
@@ -22,7 +22,7 @@ pub(super) struct Args {
     stage: Option<usize>,
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &InitArgs) -> Result<(), Failure> {
     if let Some(file) = &args.from {
         return from_rexs(file, args.stage);
     }

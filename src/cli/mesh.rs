@@ -16,7 +16,7 @@ use super::progress::Progress;
 use super::{print, warn};
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct MeshArgs {
     /// The scene file; - reads standard input
     scene: PathBuf,
     /// The mesh file; its ending says the format
@@ -33,7 +33,7 @@ pub(super) struct Args {
     loaded: bool,
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &MeshArgs) -> Result<(), Failure> {
     // Whether the ending is one of a mesh file is known before the work.
     let format = Format::of_path(&args.out).map_err(InputError::MeshFile)?;
     if args.loaded {
@@ -55,7 +55,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// The teeth in space under load.
-fn loaded(args: &Args, format: Format) -> Result<(), Failure> {
+fn loaded(args: &MeshArgs, format: Format) -> Result<(), Failure> {
     let scene = LoadedScene::open(&args.scene)?;
     warn(scene.warnings());
     let progress = Progress::new(false, Arc::default());

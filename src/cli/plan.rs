@@ -11,30 +11,30 @@ use super::failure::Failure;
 use super::{print, run, warn};
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct PlanArgs {
     /// The scene file; - reads standard input
     scene: PathBuf,
     /// How to print the plan
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = PlanFormat::Text)]
+    format: PlanFormat,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum PlanFormat {
     /// For people
     Text,
     /// For scripts
     Json,
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &PlanArgs) -> Result<(), Failure> {
     let scene = LoadedScene::open(&args.scene)?;
     scene.check_springs().map_err(|error| run::in_the_scene(error, &scene))?;
     warn(scene.warnings());
     let plan = scene.plan();
     print(&match args.format {
-        Format::Text => text(&scene.scene().title, &plan),
-        Format::Json => serde_json::to_string_pretty(&plan).expect("a plan is names and texts") + "\n",
+        PlanFormat::Text => text(&scene.scene().title, &plan),
+        PlanFormat::Json => serde_json::to_string_pretty(&plan).expect("a plan is names and texts") + "\n",
     })
 }
 

@@ -16,7 +16,7 @@ use super::failure::{Failure, InputError};
 use super::{print, warn};
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct RexsArgs {
     /// The folder of a finished `gearwear run`
     run: PathBuf,
     /// The gear unit in REXS (versions 1.4 to 2.0, XML) that the run's scene came from; it is left as it is
@@ -33,7 +33,7 @@ pub(super) struct Args {
     quiet: bool,
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &RexsArgs) -> Result<(), Failure> {
     let run = read(args)?;
     let name = args.into.display().to_string();
     let bytes = fs::read(&args.into).map_err(|reason| InputError::Unreadable { name: name.clone(), reason })?;
@@ -60,7 +60,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// Results of the finished run to be written.
-fn read(args: &Args) -> Result<RunResults, Failure> {
+fn read(args: &RexsArgs) -> Result<RunResults, Failure> {
     let folder = RunFolder::read(&args.run).map_err(InputError::RunFolder)?;
     let scene = LoadedScene::open(RunFolder::scene_path(&args.run))?;
     folder.check_scene(&scene.resolved).map_err(InputError::RunFolder)?;

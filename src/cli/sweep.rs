@@ -13,7 +13,7 @@ use crate::studies::sweep::asked::SweepQuestion;
 use crate::studies::sweep::axis::{self, AxisError};
 use crate::studies::sweep::combination::Sweep;
 use crate::studies::sweep::goal::Optimum;
-use crate::studies::sweep::journal::{self, Contents, JournalError};
+use crate::studies::sweep::journal::{self, JournalContents, JournalError};
 use crate::studies::sweep::merge::merge;
 use crate::studies::sweep::record::{Shard, SweepRecord};
 use crate::studies::sweep::unfinished::UnfinishedSweep;
@@ -27,16 +27,16 @@ use super::{print, say, warn};
 
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
-pub(super) struct Args {
+pub(super) struct SweepArgs {
     #[command(flatten)]
-    run: Option<RunArgs>,
+    run: Option<SweepRunArgs>,
     #[command(subcommand)]
-    part: Option<Part>,
+    part: Option<SweepSubcommand>,
 }
 
 /// A sweep to run.
 #[derive(Debug, clap::Args)]
-pub(super) struct RunArgs {
+pub(super) struct SweepRunArgs {
     /// The scene file; - reads standard input
     #[arg(required = true)]
     scene: PathBuf,
@@ -70,7 +70,7 @@ pub(super) struct RunArgs {
 }
 
 #[derive(Debug, clap::Subcommand)]
-enum Part {
+enum SweepSubcommand {
     /// Make one sweep from the folders of its shards
     Merge(MergeArgs),
 }
@@ -99,15 +99,15 @@ fn shard(text: &str) -> Result<Shard, String> {
     }
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &SweepArgs) -> Result<(), Failure> {
     match (&args.part, &args.run) {
-        (Some(Part::Merge(args)), _) => merge_shards(args),
+        (Some(SweepSubcommand::Merge(args)), _) => merge_shards(args),
         (None, Some(args)) => run_sweep(args),
         (None, None) => Err(InputError::Vary(AxisError::Form { given: String::new() }).into()),
     }
 }
 
-fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
+fn run_sweep(args: &SweepRunArgs) -> Result<(), Failure> {
     let scene = LoadedScene::open(&args.scene)?;
     warn(scene.warnings());
     let question = SweepQuestion {
@@ -144,7 +144,7 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
 }
 
 /// Description of the sweep about to be run.
-fn begun(sweep: &Sweep, args: &RunArgs, total: usize, finished: usize) -> String {
+fn begun(sweep: &Sweep, args: &SweepRunArgs, total: usize, finished: usize) -> String {
     let part = args.shard.map_or_else(String::new, |shard| {
         format!(", shard {}/{} of {}", shard.number, shard.of, sweep.identity.combinations())
     });
@@ -193,7 +193,7 @@ fn merge_shards(args: &MergeArgs) -> Result<(), Failure> {
 }
 
 /// Rows that stand in `out` already must be those of this sweep: they are about to be replaced.
-fn not_another_sweep(whole: &Contents, out: &Path) -> Result<(), JournalError> {
+fn not_another_sweep(whole: &JournalContents, out: &Path) -> Result<(), JournalError> {
     let differences = match journal::read(out) {
         Ok(found) => found.identity.differences(&whole.identity),
         Err(JournalError::NoSweep { .. }) => Vec::new(),
@@ -206,7 +206,7 @@ fn not_another_sweep(whole: &Contents, out: &Path) -> Result<(), JournalError> {
 }
 
 /// The scene of the sweep, from the first folder that has it.
-fn scene_of(whole: &Contents, folders: &[PathBuf]) -> Result<String, InputError> {
+fn scene_of(whole: &JournalContents, folders: &[PathBuf]) -> Result<String, InputError> {
     let scenes = folders.iter().map(|folder| folder.join(crate::studies::sweep::report::SCENE));
     let mut texts = scenes.filter_map(|scene| fs::read_to_string(scene).ok());
     texts

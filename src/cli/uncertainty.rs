@@ -10,7 +10,7 @@ use crate::studies::uncertainty::asked::{UncertaintyFault, UncertaintyQuestion};
 use crate::studies::uncertainty::design::CorrelationError;
 use crate::studies::uncertainty::distribution::FORMS;
 use crate::studies::uncertainty::record::UncertaintyRecord;
-use crate::studies::uncertainty::study::{self, Question, StudyError};
+use crate::studies::uncertainty::study::{self, Question, UncertaintyStudyError};
 
 use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError};
@@ -19,7 +19,7 @@ use super::run::{thread_count, watch_for_interrupt};
 use super::{print, say, warn};
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct UncertaintyArgs {
     /// The scene file; - reads standard input
     scene: PathBuf,
     /// A key of the scene, and its distribution: normal:MEAN:SD, lognormal:MEDIAN:FACTOR (68 % of the values lie from MEDIAN/FACTOR to
@@ -81,7 +81,7 @@ impl UncertaintyFault {
     }
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &UncertaintyArgs) -> Result<(), Failure> {
     let scene = LoadedScene::open(&args.scene)?;
     warn(scene.warnings());
     let asked = UncertaintyQuestion {
@@ -119,11 +119,11 @@ impl From<UncertaintyFault> for Failure {
     fn from(fault: UncertaintyFault) -> Self {
         match fault {
             UncertaintyFault::Scene(error) => Failure::Scene(error),
-            UncertaintyFault::Study(error @ StudyError::Interrupted) => {
+            UncertaintyFault::Study(error @ UncertaintyStudyError::Interrupted) => {
                 say(&format!("{error}: nothing to write"));
                 Failure::Interrupted
             }
-            UncertaintyFault::Study(StudyError::AllFailed { runs, first }) => {
+            UncertaintyFault::Study(UncertaintyStudyError::AllFailed { runs, first }) => {
                 Failure::NoSample { count: runs, error: first }
             }
             wrong => InputError::Uncertainty(wrong).into(),

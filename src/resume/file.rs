@@ -15,7 +15,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::identity::Identity;
+use super::identity::RunIdentity;
 use crate::content_hash::sha256;
 use crate::simulation::checkpoint::Checkpoint;
 use crate::whole_file;
@@ -29,7 +29,7 @@ const PROGRAM_VERSION: &str = env!("CARGO_PKG_VERSION");
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(crate) struct CheckpointFile {
     /// Scene and input files.
-    pub identity: Identity,
+    pub identity: RunIdentity,
     /// Warnings given when the run began.
     pub warnings: Vec<String>,
     /// How far it has come.
@@ -38,14 +38,14 @@ pub(crate) struct CheckpointFile {
 
 /// File to be written.
 #[derive(Serialize)]
-struct Body<'a> {
-    identity: &'a Identity,
+struct CheckpointBody<'a> {
+    identity: &'a RunIdentity,
     warnings: &'a [String],
     checkpoint: &'a Checkpoint,
 }
 
 #[derive(Serialize, Deserialize)]
-struct Header {
+struct CheckpointHeader {
     format: u32,
     program_version: String,
     body_bytes: usize,
@@ -91,9 +91,14 @@ pub(crate) enum CheckpointError {
 }
 
 /// Writes a checkpoint of the run `identity` in the place of the one before, whole or not at all.
-pub(crate) fn write(path: &Path, identity: &Identity, warnings: &[String], checkpoint: &Checkpoint) -> io::Result<()> {
-    let body = postcard::to_stdvec(&Body { identity, warnings, checkpoint }).map_err(io::Error::other)?;
-    let header = Header {
+pub(crate) fn write(
+    path: &Path,
+    identity: &RunIdentity,
+    warnings: &[String],
+    checkpoint: &Checkpoint,
+) -> io::Result<()> {
+    let body = postcard::to_stdvec(&CheckpointBody { identity, warnings, checkpoint }).map_err(io::Error::other)?;
+    let header = CheckpointHeader {
         format: FORMAT,
         program_version: PROGRAM_VERSION.to_owned(),
         body_bytes: body.len(),
@@ -121,10 +126,10 @@ fn parse(bytes: &[u8]) -> Result<CheckpointFile, CheckpointError> {
     let end = bytes.iter().position(|&byte| byte == b'\n').ok_or(CheckpointError::NoCheckpoint)?;
     let line = std::str::from_utf8(&bytes[..end]).ok().and_then(|line| line.strip_prefix(MAGIC));
     let line = line.ok_or(CheckpointError::NoCheckpoint)?;
-    let header: Header = serde_json::from_str(line).map_err(|_| CheckpointError::NoCheckpoint)?;
+    let header: CheckpointHeader = serde_json::from_str(line).map_err(|_| CheckpointError::NoCheckpoint)?;
     let body = &bytes[end + 1..];
     if header.format != FORMAT {
-        let Header { format: found, program_version, .. } = header;
+        let CheckpointHeader { format: found, program_version, .. } = header;
         return Err(CheckpointError::OtherFormat { found, program_version });
     }
     if header.program_version != PROGRAM_VERSION {
@@ -147,7 +152,7 @@ mod tests {
     use crate::simulation::advance::StepperState;
 
     fn written() -> (Vec<u8>, CheckpointFile) {
-        let identity = Identity::new("title = \"x\"\n".to_owned(), &[]);
+        let identity = RunIdentity::new("title = \"x\"\n".to_owned(), &[]);
         // Numbers that text would round, and those that no text format has.
         let wear_mm = PerGear { pinion: vec![0.1 + 0.2, f64::MIN_POSITIVE / 3.0], wheel: vec![-0.0, f64::INFINITY] };
         let checkpoint = Checkpoint {

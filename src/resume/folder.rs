@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use super::file::{self, CheckpointError, CheckpointFile};
-use super::identity::{Identity, between_scenes};
+use super::identity::{RunIdentity, between_scenes};
 use crate::report::ReportError;
 use crate::results::run::StopReason;
 use crate::scene::loaded::NamedFile;
@@ -25,7 +25,7 @@ const SUMMARY: &str = "summary.json";
 
 /// Contents of the folder of a run.
 #[derive(Debug, PartialEq)]
-pub(crate) enum Contents {
+pub(crate) enum FolderContents {
     /// Nothing that was begun.
     Nothing,
     /// A run that began, and has no checkpoint yet.
@@ -66,7 +66,7 @@ pub(crate) enum FolderError {
 }
 
 /// Begins the run of `identity` in `dir`, which exists, with copies of its input files: what an earlier run could go on from is gone.
-pub(crate) fn begin(dir: &Path, identity: &Identity, files: &[NamedFile]) -> Result<(), ReportError> {
+pub(crate) fn begin(dir: &Path, identity: &RunIdentity, files: &[NamedFile]) -> Result<(), ReportError> {
     remove_checkpoint(dir)?;
     files.iter().try_for_each(|file| place(dir, &file.name, &file.bytes))?;
     place(dir, SCENE, identity.scene_toml.as_bytes())
@@ -102,20 +102,20 @@ pub(crate) fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
 }
 
 /// Contents of `dir`, of the run of `identity` with the scene hash `scene_hash`.
-pub(crate) fn contents(dir: &Path, identity: &Identity, scene_hash: &str) -> Result<Contents, FolderError> {
-    let Some(scene_toml) = read(&dir.join(SCENE))? else { return Ok(Contents::Nothing) };
+pub(crate) fn contents(dir: &Path, identity: &RunIdentity, scene_hash: &str) -> Result<FolderContents, FolderError> {
+    let Some(scene_toml) = read(&dir.join(SCENE))? else { return Ok(FolderContents::Nothing) };
     refuse_other_run(&dir.join(SCENE), between_scenes(&scene_toml, &identity.scene_toml))?;
     if let Some(stopped) = read(&dir.join(SUMMARY))?.and_then(|text| stopped(&text, scene_hash))
         && stopped != StopReason::Interrupted
     {
-        return Ok(Contents::Ended(stopped));
+        return Ok(FolderContents::Ended(stopped));
     }
     let path = dir.join(CHECKPOINT);
     match file::read(&path) {
-        Ok(None) => Ok(Contents::Begun),
+        Ok(None) => Ok(FolderContents::Begun),
         Ok(Some(found)) => {
             refuse_other_run(&path, found.identity.differences(identity))?;
-            Ok(Contents::Checkpoint(Box::new(found)))
+            Ok(FolderContents::Checkpoint(Box::new(found)))
         }
         Err(source) => Err(FolderError::Checkpoint { path, source }),
     }

@@ -10,14 +10,14 @@ use crate::scene::loaded::NamedFile;
 
 /// Inputs of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Identity {
+pub(crate) struct RunIdentity {
     /// The resolved scene.
     pub scene_toml: String,
     /// SHA-256 of the file that each key of the scene names.
     pub inputs: BTreeMap<String, String>,
 }
 
-impl Identity {
+impl RunIdentity {
     /// Of a run of the resolved scene `scene_toml` with `files`.
     pub(crate) fn new(scene_toml: String, files: &[NamedFile]) -> Self {
         Self { scene_toml, inputs: files.iter().map(|file| (file.key.to_owned(), sha256(&file.bytes))).collect() }
@@ -90,9 +90,9 @@ fn flatten(path: &str, value: &Value, keys: &mut BTreeMap<String, String>) {
 mod tests {
     use super::*;
 
-    fn identity(scene_toml: &str, bytes: &[u8]) -> Identity {
+    fn identity(scene_toml: &str, bytes: &[u8]) -> RunIdentity {
         let file = NamedFile { key: "stiffness.curve", name: "c.csv".to_owned(), bytes: bytes.to_vec() };
-        Identity::new(scene_toml.to_owned(), &[file])
+        RunIdentity::new(scene_toml.to_owned(), &[file])
     }
 
     #[test]

@@ -15,7 +15,7 @@ use super::schema::Node;
 
 /// Keys and tables that a file may hold.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Format {
+pub(super) struct FileShape {
     /// Schema of the file.
     pub root: Node<'static>,
     /// Keys of other files, each with what to do instead.
@@ -23,11 +23,11 @@ pub(super) struct Format {
 }
 
 /// The part of `table` that has the right shape; the rest is reported.
-pub(super) fn check(format: Format, table: &Table, findings: &mut Findings) -> Table {
+pub(super) fn check(format: FileShape, table: &Table, findings: &mut Findings) -> Table {
     check_table(format, format.root, table, "", findings)
 }
 
-fn check_table(format: Format, node: Node<'_>, table: &Table, path: &str, findings: &mut Findings) -> Table {
+fn check_table(format: FileShape, node: Node<'_>, table: &Table, path: &str, findings: &mut Findings) -> Table {
     let mut sound = Table::new();
     for (name, value) in table {
         let key = join(path, name);
@@ -67,7 +67,7 @@ fn stand_in(node: Node<'_>) -> Value {
     }
 }
 
-fn check_value(format: Format, node: Node<'_>, value: &Value, key: &str, findings: &mut Findings) -> Option<Value> {
+fn check_value(format: FileShape, node: Node<'_>, value: &Value, key: &str, findings: &mut Findings) -> Option<Value> {
     let node = node.variant(value);
     match (node.type_name(), value) {
         ("object", Value::Table(table)) => Some(Value::Table(check_table(format, node, table, key, findings))),
@@ -91,7 +91,13 @@ fn check_value(format: Format, node: Node<'_>, value: &Value, key: &str, finding
     }
 }
 
-fn check_items(format: Format, node: Node<'_>, items: &[Value], key: &str, findings: &mut Findings) -> Option<Value> {
+fn check_items(
+    format: FileShape,
+    node: Node<'_>,
+    items: &[Value],
+    key: &str,
+    findings: &mut Findings,
+) -> Option<Value> {
     let item_node = node.items()?;
     if node.length().is_some_and(|length| length != items.len()) {
         findings.problem(ProblemKind::WrongType, key, format!("a list of {}", items.len()), node.allowed());
@@ -134,7 +140,7 @@ fn check_number(node: Node<'_>, x: f64, value: &Value, key: &str, findings: &mut
 }
 
 fn unknown_key(
-    format: Format,
+    format: FileShape,
     node: Node<'_>,
     (name, value): (&str, &Value),
     key: &str,

@@ -46,7 +46,7 @@ const GREATEST_TOOTH_LOAD_MPA: f64 = 5000.0;
 
 /// All suspicions in a scene, its preset expanded.
 pub(super) fn find(scene: &Table) -> Vec<UnitSlip> {
-    let mut search = Search { scene, slips: Vec::new() };
+    let mut search = SlipSearch { scene, slips: Vec::new() };
     search.lengths();
     search.angles();
     search.operation();
@@ -84,12 +84,12 @@ fn as_number(value: &Value) -> Option<f64> {
     }
 }
 
-struct Search<'a> {
+struct SlipSearch<'a> {
     scene: &'a Table,
     slips: Vec<UnitSlip>,
 }
 
-impl Search<'_> {
+impl SlipSearch<'_> {
     /// The number at `key`, if there is one.
     fn get(&self, key: &str) -> Option<f64> {
         let (path, last) = key.rsplit_once('.')?;

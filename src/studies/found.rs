@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::accuracy::selection;
 use super::accuracy::study::AccuracyError;
-use super::compare::asked::{CompareFault, Prepared};
+use super::compare::asked::{CompareFault, PreparedComparison};
 use super::compare::question;
 use super::compare::run_folder::RunFolderError;
 use super::compare::study::CompareError;
@@ -108,8 +108,8 @@ pub fn accuracy(scene: &LoadedScene, within: f64, quick: bool, observer: &dyn Ob
     if !(within > 0.0 && within <= 1.0) {
         return Err(StudyFault::Within { found: within }.into());
     }
-    let record =
-        accuracy::study::run(scene, selection::Asked { within, quick }, observer).map_err(StudyFault::Accuracy)?;
+    let record = accuracy::study::run(scene, selection::AccuracyOptions { within, quick }, observer)
+        .map_err(StudyFault::Accuracy)?;
     Study::new(record, |record, folder| accuracy::report::write(record, folder).map(drop))
 }
 
@@ -144,7 +144,7 @@ pub fn compare(
     if !(question.shift_within_mm >= 0.0 && question.shift_within_mm.is_finite()) {
         return Err(StudyFault::Shift { found: question.shift_within_mm }.into());
     }
-    let asked = question::Asked {
+    let asked = question::CompareOptions {
         gear: gear.transpose()?,
         form: question.form.as_deref().map(|name| one_of("form", name)).transpose()?,
         fit: question.fit.as_deref().map(|name| one_of("fit", name)).transpose()?,
@@ -155,7 +155,7 @@ pub fn compare(
     }
     let texts = measured.iter().map(|path| SceneText::read(path)).collect::<Result<Vec<_>, _>>();
     let texts = texts.map_err(|error| StudyFault::Compare(error.into()))?;
-    let prepared = Prepared::open(run, &texts, &asked).map_err(StudyFault::Compare)?;
+    let prepared = PreparedComparison::open(run, &texts, &asked).map_err(StudyFault::Compare)?;
     let record = prepared.carry_out(observer).map_err(StudyFault::Comparison)?;
     Study::new(record, compare::report::write)
 }

@@ -10,7 +10,7 @@ use std::thread;
 use crate::observer::Observer;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Ended {
+pub(crate) enum SpreadOutcome {
     Completed,
     Interrupted,
 }
@@ -39,7 +39,7 @@ pub(crate) fn spread<T: Sync, R>(
     observer: &dyn Observer,
     work: impl Fn(&T, &dyn Observer) -> Option<R> + Sync,
     keep: impl FnMut(R) -> bool + Send,
-) -> Ended {
+) -> SpreadOutcome {
     let next = AtomicUsize::new(0);
     let stopped = AtomicBool::new(false);
     let kept = Mutex::new((0, keep));
@@ -70,7 +70,7 @@ pub(crate) fn spread<T: Sync, R>(
         }
     });
     let (count, _) = kept.into_inner().unwrap_or_else(PoisonError::into_inner);
-    if count == tasks.len() { Ended::Completed } else { Ended::Interrupted }
+    if count == tasks.len() { SpreadOutcome::Completed } else { SpreadOutcome::Interrupted }
 }
 
 #[cfg(test)]
@@ -94,7 +94,10 @@ mod tests {
                 },
             );
             found.sort_unstable();
-            assert_eq!((ended, found), (Ended::Completed, tasks.iter().map(|task| task * task).collect::<Vec<_>>()));
+            assert_eq!(
+                (ended, found),
+                (SpreadOutcome::Completed, tasks.iter().map(|task| task * task).collect::<Vec<_>>())
+            );
             let mut count = 0;
             let ended = spread(
                 &tasks,
@@ -106,7 +109,7 @@ mod tests {
                     count < 5
                 },
             );
-            assert_eq!((ended, count), (Ended::Interrupted, 5));
+            assert_eq!((ended, count), (SpreadOutcome::Interrupted, 5));
         }
     }
 }

@@ -6,9 +6,9 @@ use nalgebra::Vector2;
 
 use super::file::FemProblemFile;
 use super::groups::Groups;
-use super::meshed_groups::Bodies;
+use super::meshed_groups::MeshedBodies;
 use super::owned_cells::{BodyNodes, owned_cells};
-use super::sides::{Side, Sides, corners};
+use super::sides::{BodySide, Sides, corners};
 use crate::fem::elastic::Elastic;
 use crate::fem::element;
 use crate::fem::loads::add_spread_force;
@@ -33,7 +33,7 @@ pub(super) struct PlaneBodies {
 
 impl PlaneBodies {
     /// The side of an element along the line on these nodes of the mesh (ends, middle).
-    pub(super) fn line_side(&self, line: &[usize]) -> Option<&Side> {
+    pub(super) fn line_side(&self, line: &[usize]) -> Option<&BodySide> {
         let ends = [self.nodes.node(*line.first()?)?, self.nodes.node(*line.get(1)?)?];
         let side = self.sides.find(ends)?;
         match line.get(2) {
@@ -43,7 +43,7 @@ impl PlaneBodies {
     }
 }
 
-impl Bodies for PlaneBodies {
+impl MeshedBodies for PlaneBodies {
     const DIRECTIONS: usize = 2;
     const CARRIER: &'static str = "lines";
     const PART: &'static str = "side";

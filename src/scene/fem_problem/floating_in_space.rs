@@ -29,7 +29,7 @@ const MOST_PARTS: usize = 100;
 const WAYS: usize = 6;
 
 /// Elements joined by faces.
-struct Parts {
+struct JoinedParts {
     /// For each node the parts it belongs to, in rising order.
     of_node: Vec<Vec<u32>>,
     /// The body of each.
@@ -47,7 +47,7 @@ struct Cluster {
 
 /// Refuses bodies that can move.
 pub(super) fn check(bodies: &SpaceBodies, held: &[Held], findings: &mut Findings) {
-    let parts = Parts::of(bodies);
+    let parts = JoinedParts::of(bodies);
     for cluster in parts.clusters(bodies, held) {
         if cluster.members.len() <= MOST_PARTS {
             check_cluster(&parts, &cluster, findings);
@@ -55,7 +55,7 @@ pub(super) fn check(bodies: &SpaceBodies, held: &[Held], findings: &mut Findings
     }
 }
 
-fn check_cluster(parts: &Parts, Cluster { members, equations }: &Cluster, findings: &mut Findings) {
+fn check_cluster(parts: &JoinedParts, Cluster { members, equations }: &Cluster, findings: &mut Findings) {
     let first_of: BTreeMap<u32, usize> = members.iter().enumerate().map(|(i, &part)| (part, WAYS * i)).collect();
     let mut gram = DMatrix::<f64>::zeros(WAYS * members.len(), WAYS * members.len());
     for equation in equations {
@@ -84,7 +84,7 @@ fn check_cluster(parts: &Parts, Cluster { members, equations }: &Cluster, findin
     findings.help("hold it in one more direction with [[fixed]], or on a plane of symmetry");
 }
 
-impl Parts {
+impl JoinedParts {
     fn of(bodies: &SpaceBodies) -> Self {
         let solid = &bodies.solid;
         let mut sets = DisjointSets::new(solid.elements.len());

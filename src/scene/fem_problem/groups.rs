@@ -14,7 +14,7 @@ pub(super) type CellRef = (usize, usize);
 
 /// Cells and nodes that a name stands for.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Group {
+pub(super) struct NamedGroup {
     /// Cells by dimension: points, lines, surfaces, volumes.
     pub cells: [Vec<CellRef>; 4],
     /// Nodes, where it is a set of nodes.
@@ -24,13 +24,13 @@ pub(super) struct Group {
 /// All groups of a mesh.
 pub(super) struct Groups<'a> {
     mesh: &'a Mesh,
-    by_name: BTreeMap<&'a str, Group>,
+    by_name: BTreeMap<&'a str, NamedGroup>,
 }
 
 impl<'a> Groups<'a> {
     /// Collects the groups of `mesh`.
     pub(super) fn new(mesh: &'a Mesh) -> Self {
-        let mut by_name: BTreeMap<&str, Group> = BTreeMap::new();
+        let mut by_name: BTreeMap<&str, NamedGroup> = BTreeMap::new();
         for (name, blocks) in &mesh.cell_sets {
             let group = by_name.entry(name).or_default();
             for (block, numbers) in blocks.iter().enumerate() {
@@ -46,7 +46,7 @@ impl<'a> Groups<'a> {
     }
 
     /// The group that the value of `key` names; reported where there is none.
-    pub(super) fn find(&self, name: &str, key: &str, findings: &mut Findings) -> Option<&Group> {
+    pub(super) fn find(&self, name: &str, key: &str, findings: &mut Findings) -> Option<&NamedGroup> {
         let found = self.by_name.get(name);
         if found.is_none() {
             let names: Vec<&str> = self.by_name.keys().copied().collect();
@@ -80,7 +80,7 @@ impl<'a> Groups<'a> {
     }
 }
 
-impl Group {
+impl NamedGroup {
     /// Contents in words: `20 lines`, `1 point and 3 nodes`.
     pub(super) fn in_words(&self) -> String {
         let kinds = ["point", "line", "surface", "volume"];

@@ -9,7 +9,7 @@ use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 
 /// The bodies of a problem, as supports and loads see them.
-pub(super) trait Bodies {
+pub(super) trait MeshedBodies {
     /// Directions in which a node moves.
     const DIRECTIONS: usize;
     /// The cells over which a force is spread: `lines`.
@@ -38,7 +38,7 @@ pub(super) struct MeshedGroups<'a, B> {
     pub bodies: &'a B,
 }
 
-impl<B: Bodies> MeshedGroups<'_, B> {
+impl<B: MeshedBodies> MeshedGroups<'_, B> {
     /// The nodes of bodies in the group that `key` names, in increasing order; reported where there are none, or where the
     /// name stands for cells of several dimensions, of which one was meant.
     pub(super) fn nodes(&self, name: &str, key: &str, findings: &mut Findings) -> Vec<u32> {

@@ -27,12 +27,12 @@ use serde_json::Value;
 use super::findings::Findings;
 use super::problem::{Problem, ProblemKind, number};
 use super::schema::{Node, schema_of};
-use super::shape::{self, Format};
+use super::shape::{self, FileShape};
 use super::{short_hash, text, unit_slip};
 use crate::fem;
 use crate::fem::problem::ThirdDirection;
 use crate::mesh::Mesh;
-use meshed_groups::Bodies;
+use meshed_groups::MeshedBodies;
 
 pub(crate) use file::{Component, FemProblemFile, LoadFile};
 
@@ -68,7 +68,7 @@ impl FemProblem {
     /// Reads the text of a problem file, without its mesh.
     pub(crate) fn from_toml(text: &str) -> Result<Self, Vec<Problem>> {
         let (table, mut findings) = text::parse(text)?;
-        let format = Format { root: Node::root(schema()), of_other_files: &[] };
+        let format = FileShape { root: Node::root(schema()), of_other_files: &[] };
         let sound = shape::check(format, &table, &mut findings);
         let file = text::typed::<FemProblemFile>(sound, &mut findings);
         match file.filter(|_| findings.problems.is_empty()) {

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::bodies::PlaneBodies;
 use super::file::FemProblemFile;
-use super::meshed_groups::{Bodies, MeshedGroups};
-use super::sides::Side;
+use super::meshed_groups::{MeshedBodies, MeshedGroups};
+use super::sides::BodySide;
 use crate::fem::problem::{ContactPair, Edge};
 use crate::scene::findings::Findings;
 
@@ -82,7 +82,7 @@ fn surface(name: &str, key: &str, place: MeshedGroups<'_, PlaneBodies>, findings
 }
 
 /// Inside which body a side lies, or between which two.
-fn where_inside(side: &Side, place: MeshedGroups<'_, PlaneBodies>) -> String {
+fn where_inside(side: &BodySide, place: MeshedGroups<'_, PlaneBodies>) -> String {
     match side.elements.map(|element| element.map(|number| place.bodies.solid.elements[number].material)) {
         [Some(one), Some(other)] if one != other => "between bodies that are joined there".to_owned(),
         _ => "inside a body".to_owned(),

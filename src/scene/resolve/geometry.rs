@@ -116,12 +116,7 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
             place.too_deep(gear, modification, amount_mm, greatest_mm)
         }
         PairError::AxesTooFarFromParallel { slope_mm, greatest_mm } => axes(slope_mm, greatest_mm),
-        PairError::TipRoundingTooLarge { gear, radius_mm, greatest_mm } => Cause {
-            key: key_of(gear, "tip_rounding_mm"),
-            found: number(radius_mm),
-            allowed: format!("at most {} mm", at_most(greatest_mm)),
-            help: "the roundings of both flanks must fit on the tip, and leave some active flank".to_owned(),
-        },
+        PairError::TipRoundingTooLarge { gear, radius_mm, greatest_mm } => tip_rounding(gear, radius_mm, greatest_mm),
     }
 }
 
@@ -131,6 +126,15 @@ fn key_of(gear: Gear, name: &str) -> String {
 
 fn tip_found(gear: Gear, tip_mm: f64) -> String {
     format!("tip diameter {} of the {}", short(tip_mm), gear.name())
+}
+
+fn tip_rounding(gear: Gear, radius_mm: f64, greatest_mm: f64) -> Cause {
+    Cause {
+        key: key_of(gear, "tip_rounding_mm"),
+        found: number(radius_mm),
+        allowed: format!("at most {} mm", at_most(greatest_mm)),
+        help: "the roundings of both flanks must fit on the tip, and leave some active flank".to_owned(),
+    }
 }
 
 fn axes(slope_mm: f64, greatest_mm: f64) -> Cause {

@@ -25,7 +25,7 @@ use super::findings::Findings;
 use super::problem::{Problem, ProblemKind};
 use super::resolve::settings::StiffnessInputs;
 use super::schema::{Node, schema};
-use super::shape::{self, Format};
+use super::shape::{self, FileShape};
 use super::{Resolved, Scene, draft, presets, text, unit_slip};
 use crate::contact::settings::{ContactSettings, SurfaceKind};
 use crate::gear::spec::PairSpec;
@@ -45,7 +45,7 @@ pub(super) fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
 
 /// Resolves a scene file that was read before; `findings` know where its keys stand.
 pub(super) fn resolve_table(table: Table, mut findings: Findings) -> Result<Resolved, Vec<Problem>> {
-    let format = Format { root: Node::root(schema()), of_other_files: OF_OTHER_FILES };
+    let format = FileShape { root: Node::root(schema()), of_other_files: OF_OTHER_FILES };
     let sound = with_preset(shape::check(format, &table, &mut findings));
     // A value outside its range is a suspect too, so the slips are looked for in the file as it is.
     let slips = unit_slip::find(&with_preset(table));

@@ -5,34 +5,34 @@
 //! are differences of two runs of the same resolution.
 
 use super::measure::profile_error;
-use super::observed::Observed;
-use super::settings::{Setting, Stiffness, Surface};
+use super::observed::ObservedRun;
+use super::settings::{Setting, StiffnessSetting, SurfaceSetting};
 use crate::gear::PerGear;
 use crate::scene::Resolved;
 use crate::scene::file::StiffnessModel;
-use crate::studies::accuracy::record::{Comparison, ComparisonRow};
+use crate::studies::accuracy::record::{ComparisonRow, SettingComparison};
 
 /// A run to compare.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Run<'a> {
+pub(crate) struct ComparedRun<'a> {
     pub setting: &'a Setting,
     /// Curves of the run, at the reference's coordinates.
-    pub observed: &'a Observed,
+    pub observed: &'a ObservedRun,
     /// Wall time of the wear run.
     pub simulation_s: f64,
 }
 
-impl Run<'_> {
+impl ComparedRun<'_> {
     fn stiffness_model(&self) -> Option<StiffnessModel> {
         self.setting.stiffness.as_ref().and_then(|stiffness| stiffness.file.model)
     }
 
     fn stiffness_title(&self) -> String {
-        self.setting.stiffness.as_ref().map_or_else(String::new, Stiffness::title)
+        self.setting.stiffness.as_ref().map_or_else(String::new, StiffnessSetting::title)
     }
 
     fn is_fem(&self) -> bool {
-        matches!(self.setting.surface, Surface::Fem { .. })
+        matches!(self.setting.surface, SurfaceSetting::Fem { .. })
     }
 
     /// Rank of the tooth stiffness, the most accurate highest.
@@ -46,9 +46,9 @@ impl Run<'_> {
 }
 
 /// Tooth stiffnesses on the scene's surface, and contact surfaces with the best stiffness there is, where all sections are alike.
-pub(crate) fn comparisons(resolved: &Resolved, runs: &[Run<'_>]) -> Vec<Comparison> {
+pub(crate) fn comparisons(resolved: &Resolved, runs: &[ComparedRun<'_>]) -> Vec<SettingComparison> {
     let Some(finest) = runs.iter().map(|run| run.setting.coarsening.spacing).min() else { return Vec::new() };
-    let even: Vec<Run<'_>> = runs
+    let even: Vec<ComparedRun<'_>> = runs
         .iter()
         .copied()
         .filter(|run| run.setting.coarsening.spacing == finest && run.setting.coarsening.step == finest)
@@ -57,9 +57,9 @@ pub(crate) fn comparisons(resolved: &Resolved, runs: &[Run<'_>]) -> Vec<Comparis
 }
 
 /// All stiffnesses on one surface; none where only one was run.
-pub(super) fn stiffnesses(resolved: &Resolved, runs: &[Run<'_>]) -> Option<Comparison> {
-    let surface = Surface::of_scene(resolved);
-    let on_it: Vec<Run<'_>> = runs.iter().copied().filter(|run| run.setting.surface == surface).collect();
+pub(super) fn stiffnesses(resolved: &Resolved, runs: &[ComparedRun<'_>]) -> Option<SettingComparison> {
+    let surface = SurfaceSetting::of_scene(resolved);
+    let on_it: Vec<ComparedRun<'_>> = runs.iter().copied().filter(|run| run.setting.surface == surface).collect();
     let baseline = [StiffnessModel::Fem, StiffnessModel::WeberBanaschek]
         .into_iter()
         .find_map(|wanted| on_it.iter().find(|run| run.stiffness_model() == Some(wanted)))?;
@@ -73,22 +73,33 @@ pub(super) fn stiffnesses(resolved: &Resolved, runs: &[Run<'_>]) -> Option<Compa
 }
 
 /// None where nothing is to be compared.
-pub(super) fn table(title: &str, common: String, baseline: &str, rows: Vec<ComparisonRow>) -> Option<Comparison> {
-    (!rows.is_empty()).then(|| Comparison { title: title.to_owned(), common, baseline: baseline.to_owned(), rows })
+pub(super) fn table(
+    title: &str,
+    common: String,
+    baseline: &str,
+    rows: Vec<ComparisonRow>,
+) -> Option<SettingComparison> {
+    (!rows.is_empty()).then(|| SettingComparison {
+        title: title.to_owned(),
+        common,
+        baseline: baseline.to_owned(),
+        rows,
+    })
 }
 
 /// All surfaces with one stiffness against finite elements; none where there are none.
-fn surfaces(runs: &[Run<'_>]) -> Option<Comparison> {
+fn surfaces(runs: &[ComparedRun<'_>]) -> Option<SettingComparison> {
     let baseline = runs.iter().find(|run| run.is_fem())?;
-    let best = runs.iter().map(Run::stiffness_rank).max()?;
-    let others: Vec<&Run<'_>> = runs.iter().filter(|run| !run.is_fem() && run.stiffness_rank() == best).collect();
+    let best = runs.iter().map(ComparedRun::stiffness_rank).max()?;
+    let others: Vec<&ComparedRun<'_>> =
+        runs.iter().filter(|run| !run.is_fem() && run.stiffness_rank() == best).collect();
     let stiffness = others.iter().find_map(|run| run.setting.stiffness.as_ref())?;
     let rows = others.iter().map(|run| row(run.setting.surface_name(), run, baseline)).collect();
     let common = format!("{} on the line of action", stiffness.title());
     table("Contact surface", common, &baseline.setting.surface.name(), rows)
 }
 
-pub(super) fn row(name: String, run: &Run<'_>, baseline: &Run<'_>) -> ComparisonRow {
+pub(super) fn row(name: String, run: &ComparedRun<'_>, baseline: &ComparedRun<'_>) -> ComparisonRow {
     ComparisonRow {
         name,
         wear_profile: PerGear::from_fn(|gear| {

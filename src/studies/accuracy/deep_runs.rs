@@ -11,8 +11,8 @@
 //! change it by far more. A run is called stable where both gears' greatest depths change by less than [`STABLE_WITHIN`].
 
 use super::measure::{profile_error, ratio, relative_difference};
-use super::observed::{Observed, ObservedFlank};
-use super::settings::{Coarsening, Setting, Surface, coupling_name, euler_revolutions};
+use super::observed::{ObservedFlank, ObservedRun};
+use super::settings::{Coarsening, Setting, SurfaceSetting, coupling_name, euler_revolutions};
 use super::timed_run::{Finished, measure};
 use crate::contact::settings::{Foundation, MatchCriterion};
 use crate::gear::{Gear, PerGear};
@@ -22,6 +22,7 @@ use crate::scene::file::StepFile;
 use crate::scene::loaded::LoadedScene;
 use crate::scene::{Problem, Resolved, Scene};
 use crate::studies::accuracy::record::{DeepRow, DeepRun, DeepRuns};
+use crate::studies::varied_scene::in_words;
 
 /// The scene's revolutions times this.
 const DEEPER: f64 = 10.0;
@@ -32,12 +33,12 @@ const STABLE_WITHIN: f64 = 0.1;
 /// Least ratio of the numbers of steps of which anything is learned.
 const LEAST_STEP_RATIO: f64 = 2.0;
 /// Models, the baseline first.
-const MODELS: [(Surface, Coupling); 5] = [
-    (Surface::HalfSpace, Coupling::Slicing),
-    (Surface::Winkler(Foundation::Matched(MatchCriterion::HalfWidth)), Coupling::Slicing),
-    (Surface::Hertz, Coupling::Slicing),
-    (Surface::HertzMean, Coupling::Slicing),
-    (Surface::HertzMean, Coupling::None),
+const MODELS: [(SurfaceSetting, Coupling); 5] = [
+    (SurfaceSetting::HalfSpace, Coupling::Slicing),
+    (SurfaceSetting::Winkler(Foundation::Matched(MatchCriterion::HalfWidth)), Coupling::Slicing),
+    (SurfaceSetting::Hertz, Coupling::Slicing),
+    (SurfaceSetting::HertzMean, Coupling::Slicing),
+    (SurfaceSetting::HertzMean, Coupling::None),
 ];
 
 /// How many runs the comparison has.
@@ -55,17 +56,15 @@ pub(super) fn run(
     let slices = given.scene().slices?;
     let deeper = deeper(&given.resolved).map(|resolved| LoadedScene { resolved, ..given.clone() });
     let mut rows = Vec::new();
-    let mut baseline: Option<Observed> = None;
+    let mut baseline: Option<ObservedRun> = None;
     for (index, (surface, coupling)) in MODELS.into_iter().enumerate() {
         let slices = Some(SliceSettings { coupling, ..slices });
         let model = Setting { surface, tip_contact: surface.may_follow_tip(), slices, ..like.clone() };
-        let name = format!("{} · {}", model.surface_name(), coupling_name(coupling));
-        let mut row = DeepRow { name, ..DeepRow::default() };
+        let mut row = DeepRow::of(format!("{} · {}", model.surface_name(), coupling_name(coupling)));
         let base = match &deeper {
             Ok(base) => base,
             Err(problems) => {
-                row.failure = Some(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "));
-                rows.push(row);
+                rows.push(DeepRow { failure: Some(in_words(problems)), ..row });
                 continue;
             }
         };
@@ -73,8 +72,7 @@ pub(super) fn run(
         for (number, step) in [1, FEWER_STEPS].into_iter().enumerate() {
             let number = first + 2 * index + number;
             observer.run_of(number, count, &format!("{DEEPER} times the revolutions: {}, steps {step}", row.name));
-            let coarsening = Coarsening { spacing: like.coarsening.spacing, step };
-            let setting = Setting { coarsening, ..model.clone() };
+            let setting = Setting { coarsening: Coarsening { step, ..like.coarsening }, ..model.clone() };
             let measured = measure(&setting, base, &PartOf::new(observer, number, count))?;
             row.failure = row.failure.or(measured.record.failure);
             let finished = measured.finished.zip(measured.record.simulation_s);

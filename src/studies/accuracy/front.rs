@@ -5,21 +5,21 @@
 
 /// Run time and error of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Point {
+pub(crate) struct FrontPoint {
     /// Run time.
     pub wall_s: f64,
     /// Relative error.
     pub error: f64,
 }
 
-impl Point {
+impl FrontPoint {
     fn is_comparable(&self) -> bool {
         self.wall_s.is_finite() && self.error.is_finite()
     }
 }
 
 /// Whether each of `points` is on the front; errors below `uncertainty` count as equal.
-pub(crate) fn on_front(points: &[Point], uncertainty: f64) -> Vec<bool> {
+pub(crate) fn on_front(points: &[FrontPoint], uncertainty: f64) -> Vec<bool> {
     let others = points.iter().enumerate().filter(|(_, other)| other.is_comparable());
     let on_front = points.iter().enumerate().map(|(i, point)| {
         let beaten = others.clone().any(|(j, other)| {
@@ -35,7 +35,7 @@ pub(crate) fn on_front(points: &[Point], uncertainty: f64) -> Vec<bool> {
 }
 
 /// The fastest of `points` whose error is within `wanted`, else the one with the least error; and whether it is within.
-pub(crate) fn cheapest_within(points: &[Point], wanted: f64) -> Option<(usize, bool)> {
+pub(crate) fn cheapest_within(points: &[FrontPoint], wanted: f64) -> Option<(usize, bool)> {
     let all = points.iter().enumerate().filter(|(_, point)| point.is_comparable());
     let within = all.clone().filter(|(_, point)| point.error <= wanted);
     match within.min_by(|(_, a), (_, b)| a.wall_s.total_cmp(&b.wall_s)) {
@@ -49,8 +49,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn points(of: &[(f64, f64)]) -> Vec<Point> {
-        of.iter().map(|&(wall_s, error)| Point { wall_s, error }).collect()
+    fn points(of: &[(f64, f64)]) -> Vec<FrontPoint> {
+        of.iter().map(|&(wall_s, error)| FrontPoint { wall_s, error }).collect()
     }
 
     /// By hand: the second is beaten by the first (faster and better), the fourth by the third (as good, faster); the last

@@ -16,11 +16,11 @@
 
 use std::collections::BTreeMap;
 
-use super::observed::{Observed, ObservedCycle, ObservedFlank};
+use super::observed::{ObservedCycle, ObservedFlank, ObservedRun};
 use super::over_width::OverWidth;
 use crate::gear::PerGear;
 use crate::results::run::PathPoints;
-use crate::studies::accuracy::record::Quantity;
+use crate::studies::accuracy::record::ComparedQuantity;
 
 /// Length of the path of contact at a sharp tip edge without a comparable pressure, in half-widths of Hertz at the pitch
 /// point.
@@ -53,7 +53,11 @@ impl Windows {
 }
 
 /// Errors of `observed`, at the coordinates of `reference`, in every quantity.
-pub(crate) fn errors(observed: &Observed, reference: &Observed, windows: &Windows) -> BTreeMap<Quantity, f64> {
+pub(crate) fn errors(
+    observed: &ObservedRun,
+    reference: &ObservedRun,
+    windows: &Windows,
+) -> BTreeMap<ComparedQuantity, f64> {
     let flanks = PerGear::from_fn(|gear| [&observed.flanks[gear], &reference.flanks[gear]]);
     let profile = PerGear::from_fn(|gear| profile_error(flanks[gear][0], flanks[gear][1]));
     let peak = PerGear::from_fn(|gear| flanks[gear].map(ObservedFlank::peak_wear_um));
@@ -63,19 +67,22 @@ pub(crate) fn errors(observed: &Observed, reference: &Observed, windows: &Window
     let new = cycles.map(|cycle| &cycle.transmission_error_um[..]);
     let worn = cycles.map(|cycle| &cycle.worn_transmission_error_um[..]);
     let mut errors = BTreeMap::from([
-        (Quantity::WearProfile, profile.pinion.max(profile.wheel)),
-        (Quantity::PinionWearProfile, profile.pinion),
-        (Quantity::WheelWearProfile, profile.wheel),
-        (Quantity::PinionPeakWear, difference_of(peak.pinion)),
-        (Quantity::WheelPeakWear, difference_of(peak.wheel)),
-        (Quantity::PinionTipEdgeWear, difference_of(tip_edge.pinion)),
-        (Quantity::WheelTipEdgeWear, difference_of(tip_edge.wheel)),
-        (Quantity::PeakPressure, difference_of(cycles.map(|cycle| greatest_within(cycle, windows.pressure_mm)))),
-        (Quantity::FlankPressure, difference_of(cycles.map(|cycle| greatest_within(cycle, windows.flank_mm)))),
-        (Quantity::TransmissionError, relative_l2(x, new[0], new[1])),
-        (Quantity::TransmissionErrorPeakToPeak, difference_of(new.map(peak_to_peak))),
-        (Quantity::WornTransmissionError, relative_l2(x, worn[0], worn[1])),
-        (Quantity::WornTransmissionErrorPeakToPeak, difference_of(worn.map(peak_to_peak))),
+        (ComparedQuantity::WearProfile, profile.pinion.max(profile.wheel)),
+        (ComparedQuantity::PinionWearProfile, profile.pinion),
+        (ComparedQuantity::WheelWearProfile, profile.wheel),
+        (ComparedQuantity::PinionPeakWear, difference_of(peak.pinion)),
+        (ComparedQuantity::WheelPeakWear, difference_of(peak.wheel)),
+        (ComparedQuantity::PinionTipEdgeWear, difference_of(tip_edge.pinion)),
+        (ComparedQuantity::WheelTipEdgeWear, difference_of(tip_edge.wheel)),
+        (
+            ComparedQuantity::PeakPressure,
+            difference_of(cycles.map(|cycle| greatest_within(cycle, windows.pressure_mm))),
+        ),
+        (ComparedQuantity::FlankPressure, difference_of(cycles.map(|cycle| greatest_within(cycle, windows.flank_mm)))),
+        (ComparedQuantity::TransmissionError, relative_l2(x, new[0], new[1])),
+        (ComparedQuantity::TransmissionErrorPeakToPeak, difference_of(new.map(peak_to_peak))),
+        (ComparedQuantity::WornTransmissionError, relative_l2(x, worn[0], worn[1])),
+        (ComparedQuantity::WornTransmissionErrorPeakToPeak, difference_of(worn.map(peak_to_peak))),
     ]);
     match (&observed.over_width, &reference.over_width) {
         (Some(own), Some(of_reference)) => errors.extend(errors_over_width(own, of_reference)),
@@ -83,7 +90,7 @@ pub(crate) fn errors(observed: &Observed, reference: &Observed, windows: &Window
         _ => {
             let [own, other] = cycles.map(|cycle| within(x, &cycle.half_width_mm, windows.single_contact_mm));
             let half_width = relative_l2(&within(x, x, windows.single_contact_mm), &own, &other);
-            errors.extend([(Quantity::HalfWidth, half_width)]);
+            errors.extend([(ComparedQuantity::HalfWidth, half_width)]);
         }
     }
     errors
@@ -95,15 +102,15 @@ fn difference_of([value, reference]: [f64; 2]) -> f64 {
 }
 
 /// Errors over the face width, at the same places.
-fn errors_over_width(own: &OverWidth, reference: &OverWidth) -> [(Quantity, f64); 3] {
+fn errors_over_width(own: &OverWidth, reference: &OverWidth) -> [(ComparedQuantity, f64); 3] {
     let root = PerGear::from_fn(|gear| {
         relative_l2(&reference.width_mm, &own.root_wear_um[gear], &reference.root_wear_um[gear])
     });
     let both = [own, reference];
     [
-        (Quantity::RootWear, root.pinion.max(root.wheel)),
-        (Quantity::FaceLoadFactor, difference_of(both.map(|of| of.face_load_factor))),
-        (Quantity::WornFaceLoadFactor, difference_of(both.map(|of| of.worn_face_load_factor))),
+        (ComparedQuantity::RootWear, root.pinion.max(root.wheel)),
+        (ComparedQuantity::FaceLoadFactor, difference_of(both.map(|of| of.face_load_factor))),
+        (ComparedQuantity::WornFaceLoadFactor, difference_of(both.map(|of| of.worn_face_load_factor))),
     ]
 }
 

@@ -8,7 +8,7 @@ use crate::results::run::{FlankRecord, RunRecord};
 
 /// Curves and figures that errors are measured on.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Observed {
+pub(crate) struct ObservedRun {
     pub flanks: PerGear<ObservedFlank>,
     pub cycle: ObservedCycle,
     /// Over the face width; none where all sections are alike.
@@ -45,7 +45,7 @@ pub(crate) struct ObservedCycle {
     pub worn_transmission_error_um: Vec<f64>,
 }
 
-impl Observed {
+impl ObservedRun {
     /// The curves of a run.
     pub(crate) fn of(record: &RunRecord) -> Self {
         let rows = &record.mesh_cycle;

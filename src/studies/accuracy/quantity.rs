@@ -7,7 +7,7 @@ use serde::Serialize;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub(crate) enum Quantity {
+pub(crate) enum ComparedQuantity {
     /// relative L2 error of the depth over the whole flank, the larger of both gears'
     WearProfile,
     /// relative L2 error of the depth over the pinion's flank
@@ -47,13 +47,13 @@ pub(crate) enum Quantity {
 }
 
 /// Name in results.
-impl fmt::Display for Quantity {
+impl fmt::Display for ComparedQuantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.serialize(f)
     }
 }
 
-impl Quantity {
+impl ComparedQuantity {
     /// All of them, in the order of the tables; the last three are of pairs with slices, half-width is of the others.
     pub(crate) const ALL: [Self; 17] = [
         Self::WearProfile,

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-pub(crate) use super::quantity::Quantity;
+pub(crate) use super::quantity::ComparedQuantity;
 use crate::gear::PerGear;
 use crate::results::run::{PathPoints, StopReason, WorkSummary};
 
@@ -41,7 +41,7 @@ pub(crate) struct AccuracyRecord {
     pub recommendations: Vec<Recommendation>,
     /// The quantities in which the reference is too uncertain for a ranking.
     pub not_ranked: Vec<NotRanked>,
-    pub comparisons: Vec<Comparison>,
+    pub comparisons: Vec<SettingComparison>,
     /// Runs to a greater depth; `None` where the scene has no slices.
     pub deep_runs: Option<DeepRuns>,
     pub warnings: Vec<String>,
@@ -63,19 +63,19 @@ impl AccuracyRecord {
     }
 
     /// The run recommended for `quantity`: whether it is within the error wanted, the run, its error and its run time, s.
-    pub(crate) fn recommended(&self, quantity: Quantity) -> Option<(bool, &VariantRecord, f64, f64)> {
+    pub(crate) fn recommended(&self, quantity: ComparedQuantity) -> Option<(bool, &VariantRecord, f64, f64)> {
         let chosen = self.recommendations.iter().find(|r| r.quantity == quantity)?;
         let variant = self.variants.get(chosen.variant)?;
         Some((chosen.is_within, variant, variant.errors.get(&quantity)?.relative, variant.simulation_s?))
     }
 
     /// Why no run is ranked by `quantity`, where none is.
-    pub(crate) fn not_ranked(&self, quantity: Quantity) -> Option<&NotRanked> {
+    pub(crate) fn not_ranked(&self, quantity: ComparedQuantity) -> Option<&NotRanked> {
         self.not_ranked.iter().find(|one| one.quantity == quantity)
     }
 
     /// Whether any run has an error of `quantity`.
-    pub(crate) fn measures(&self, quantity: Quantity) -> bool {
+    pub(crate) fn measures(&self, quantity: ComparedQuantity) -> bool {
         self.variants.iter().any(|variant| variant.errors.contains_key(&quantity))
     }
 }
@@ -87,7 +87,7 @@ pub(crate) struct ReferenceRecord {
     /// Limits of the reference that errors against it do not show; `None` where it is a finite-element solution of the whole pair.
     pub does_not_tell: Option<String>,
     /// Relative uncertainty of each quantity of the reference: errors below it are not told apart.
-    pub uncertainty: BTreeMap<Quantity, f64>,
+    pub uncertainty: BTreeMap<ComparedQuantity, f64>,
     /// The runs it was extrapolated from; indices of `variants`.
     pub runs: Vec<usize>,
     /// Greatest wear depth of each gear, µm.
@@ -146,7 +146,7 @@ pub(crate) struct VariantRecord {
     pub work: Option<WorkSummary>,
     /// Greatest wear depth of each gear, µm.
     pub peak_wear_um: Option<PerGear<f64>>,
-    pub errors: BTreeMap<Quantity, MeasuredError>,
+    pub errors: BTreeMap<ComparedQuantity, MeasuredError>,
     /// Why there is no result, where there is none.
     pub failure: Option<String>,
     /// Whether the reference was extrapolated from it.
@@ -204,7 +204,7 @@ pub(crate) struct LeftOut {
 /// The cheapest setting whose error is within the one wanted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Recommendation {
-    pub quantity: Quantity,
+    pub quantity: ComparedQuantity,
     /// Index of the run in `variants`; the one with the least error where none is within.
     pub variant: usize,
     /// Whether its error is within the one wanted.
@@ -214,7 +214,7 @@ pub(crate) struct Recommendation {
 /// A quantity of which the reference is more uncertain than the error wanted: no run is ranked or recommended by it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct NotRanked {
-    pub quantity: Quantity,
+    pub quantity: ComparedQuantity,
     /// Of the reference, relative.
     pub uncertainty: f64,
     /// Change of the scene that would make the reference more certain, for the greatest part of the uncertainty first.
@@ -223,7 +223,7 @@ pub(crate) struct NotRanked {
 
 /// Runs that differ in one respect only.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct Comparison {
+pub(crate) struct SettingComparison {
     /// Setting that differs between them.
     pub title: String,
     /// Settings in common.
@@ -276,6 +276,13 @@ pub(crate) struct DeepRow {
     pub stable: Option<bool>,
     /// Why there is no result, where there is none.
     pub failure: Option<String>,
+}
+
+impl DeepRow {
+    /// A model that has not run yet.
+    pub(crate) fn of(name: String) -> Self {
+        Self { name, ..Self::default() }
+    }
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]

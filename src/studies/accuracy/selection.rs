@@ -10,7 +10,7 @@
 //!
 //! A scene with slices over the face width has another plan: `sliced_selection`.
 
-use super::settings::{Coarsening, Setting, Stiffness, Surface};
+use super::settings::{Coarsening, Setting, StiffnessSetting, SurfaceSetting};
 use super::sliced_selection;
 use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use crate::scene::Resolved;
@@ -29,7 +29,7 @@ pub(super) const COMPANION_STEP: u32 = 2;
 
 /// Options of the comparison beside the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Asked {
+pub(crate) struct AccuracyOptions {
     /// The relative error that recommendations stay within.
     pub within: f64,
     /// Whether to leave the finest resolution out.
@@ -38,15 +38,15 @@ pub(crate) struct Asked {
 
 /// Two runs of the reference that differ in one spacing; indices of the settings.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Companions {
+pub(crate) struct CompanionRuns {
     pub fine: usize,
     pub coarse: usize,
-    pub spacing: Spacing,
+    pub spacing: RefinedSpacing,
 }
 
 /// Setting that differs between two companions.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Spacing {
+pub(crate) enum RefinedSpacing {
     /// The size of elements, by this ratio.
     Elements(f64),
     /// The spacing of flank points and positions, by this ratio.
@@ -57,7 +57,7 @@ pub(crate) enum Spacing {
     Step,
 }
 
-impl Spacing {
+impl RefinedSpacing {
     /// Change of the scene that makes the difference less.
     pub(crate) fn remedy(self) -> &'static str {
         match self {
@@ -74,14 +74,19 @@ pub(crate) struct Selection {
     /// Every setting, in the order of the work; the first is the finest.
     pub settings: Vec<Setting>,
     /// From which of them the reference is extrapolated, beside the first.
-    pub companions: Vec<Companions>,
+    pub companions: Vec<CompanionRuns>,
     pub left_out: Vec<LeftOut>,
 }
 
 impl Selection {
     /// The settings that fit the scene; `calibrated` says for which criteria there is a calibration, empty where there is
     /// none, for `no_calibration`'s reason.
-    pub(crate) fn new(resolved: &Resolved, asked: Asked, calibrated: &[MatchCriterion], no_calibration: &str) -> Self {
+    pub(crate) fn new(
+        resolved: &Resolved,
+        asked: AccuracyOptions,
+        calibrated: &[MatchCriterion],
+        no_calibration: &str,
+    ) -> Self {
         let scene = &resolved.scene;
         let finest = if asked.quick { 2 } else { 1 };
         let mut levels = vec![finest];
@@ -150,17 +155,21 @@ impl Selection {
         let long_steps = Coarsening { spacing: finest, step: COMPANION_STEP * finest };
         self.add(Setting::fem(elements, Coarsening::even(finest)));
         let long = self.add(Setting::fem(elements, long_steps));
-        self.companions.push(Companions { fine: 0, coarse: long, spacing: Spacing::Step });
+        self.companions.push(CompanionRuns { fine: 0, coarse: long, spacing: RefinedSpacing::Step });
         if let Some(&coarser) = meshes.get(1) {
             let coarse = self.add(Setting::fem(coarser, long_steps));
-            self.companions.push(Companions { fine: long, coarse, spacing: Spacing::Elements(elements / coarser) });
+            self.companions.push(CompanionRuns {
+                fine: long,
+                coarse,
+                spacing: RefinedSpacing::Elements(elements / coarser),
+            });
         }
         let cheapest = meshes.get(1).copied().unwrap_or(elements);
         if let Some(&wider) = levels.get(1) {
             let fine = self.add(Setting::fem(cheapest, long_steps));
             let coarse = self.add(Setting::fem(cheapest, Coarsening { spacing: wider, ..long_steps }));
             let ratio = f64::from(wider) / f64::from(finest);
-            self.companions.push(Companions { fine, coarse, spacing: Spacing::Points(ratio) });
+            self.companions.push(CompanionRuns { fine, coarse, spacing: RefinedSpacing::Points(ratio) });
         }
         for mesh in meshes {
             for &by in levels {
@@ -233,7 +242,7 @@ impl Selection {
 
 /// The stiffnesses that fit a scene.
 pub(super) struct Stiffnesses {
-    pub all: Vec<Stiffness>,
+    pub all: Vec<StiffnessSetting>,
     /// Names of those that more than one resolution is tried with, the best last.
     pub tried: Vec<String>,
 }
@@ -241,18 +250,18 @@ pub(super) struct Stiffnesses {
 impl Stiffnesses {
     fn new(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Self {
         let has_calibration = !calibrated.is_empty();
-        let own = (resolved.scene.contact.surface != SurfaceKind::Fem).then(|| Stiffness::of_scene(resolved));
+        let own = (resolved.scene.contact.surface != SurfaceKind::Fem).then(|| StiffnessSetting::of_scene(resolved));
         let own = own.filter(|own| has_calibration || own.file.model != Some(StiffnessModel::Fem));
-        let of_fem = has_calibration.then(|| Stiffness::of_model(StiffnessModel::Fem, "fem"));
+        let of_fem = has_calibration.then(|| StiffnessSetting::of_model(StiffnessModel::Fem, "fem"));
         let own_is_constant = own.as_ref().is_some_and(|own| own.file.model == Some(StiffnessModel::Constant));
-        let usual = (!own_is_constant).then(|| Stiffness::constant(USUAL_STIFFNESS_N_PER_MM_UM));
-        let weber_banaschek = Stiffness::of_model(StiffnessModel::WeberBanaschek, "weber-banaschek");
+        let usual = (!own_is_constant).then(|| StiffnessSetting::constant(USUAL_STIFFNESS_N_PER_MM_UM));
+        let weber_banaschek = StiffnessSetting::of_model(StiffnessModel::WeberBanaschek, "weber-banaschek");
         let mut tried: Vec<String> = own.iter().chain(&of_fem).map(|stiffness| stiffness.name.clone()).collect();
         if tried.is_empty() {
             tried.push(weber_banaschek.name.clone());
         }
-        let closed_forms = [weber_banaschek, Stiffness::of_model(StiffnessModel::Iso6336, "iso6336")];
-        let mut all: Vec<Stiffness> = Vec::new();
+        let closed_forms = [weber_banaschek, StiffnessSetting::of_model(StiffnessModel::Iso6336, "iso6336")];
+        let mut all: Vec<StiffnessSetting> = Vec::new();
         for stiffness in own.into_iter().chain(of_fem).chain(closed_forms).chain(usual) {
             if all.iter().all(|other| other.name != stiffness.name) {
                 all.push(stiffness);
@@ -262,28 +271,28 @@ impl Stiffnesses {
     }
 
     /// The one that tip edges are tried with: that of finite elements where there is one.
-    pub(super) fn best(&self) -> &Stiffness {
+    pub(super) fn best(&self) -> &StiffnessSetting {
         let name = self.tried.last();
         self.all.iter().find(|stiffness| Some(&stiffness.name) == name).unwrap_or(&self.all[0])
     }
 }
 
 /// The surfaces on the line of action, from cheap to true.
-pub(super) fn surfaces(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Vec<Surface> {
-    let mut surfaces = vec![Surface::HertzMean, Surface::Hertz];
+pub(super) fn surfaces(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Vec<SurfaceSetting> {
+    let mut surfaces = vec![SurfaceSetting::HertzMean, SurfaceSetting::Hertz];
     let own = resolved.scene.contact.foundation;
-    surfaces.extend(matches!(own, Foundation::Given { .. }).then_some(Surface::Winkler(own)));
-    surfaces.extend(MatchCriterion::ALL.map(|criterion| Surface::Winkler(Foundation::Matched(criterion))));
-    surfaces.extend(calibrated.iter().map(|&criterion| Surface::Winkler(Foundation::Calibrated(criterion))));
-    surfaces.push(Surface::HalfSpace);
+    surfaces.extend(matches!(own, Foundation::Given { .. }).then_some(SurfaceSetting::Winkler(own)));
+    surfaces.extend(MatchCriterion::ALL.map(|criterion| SurfaceSetting::Winkler(Foundation::Matched(criterion))));
+    surfaces.extend(calibrated.iter().map(|&criterion| SurfaceSetting::Winkler(Foundation::Calibrated(criterion))));
+    surfaces.push(SurfaceSetting::HalfSpace);
     surfaces
 }
 
 /// Whether a surface follows tip edges where nothing else is tried: the calibrated and the true ones do.
-fn follows_tip(surface: Surface, has_calibration: bool) -> bool {
+fn follows_tip(surface: SurfaceSetting, has_calibration: bool) -> bool {
     match surface {
-        Surface::Winkler(Foundation::Calibrated(_)) => true,
-        Surface::HalfSpace => has_calibration,
+        SurfaceSetting::Winkler(Foundation::Calibrated(_)) => true,
+        SurfaceSetting::HalfSpace => has_calibration,
         _ => false,
     }
 }

@@ -15,7 +15,7 @@ pub(crate) const LEAST_POINTS: usize = 20;
 
 /// A contact surface with what it needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Surface {
+pub(crate) enum SurfaceSetting {
     HertzMean,
     Hertz,
     Winkler(Foundation),
@@ -52,7 +52,7 @@ impl Coarsening {
 
 /// A tooth stiffness as a scene asks for it.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Stiffness {
+pub(crate) struct StiffnessSetting {
     /// The scene's section.
     pub file: StiffnessFile,
     /// Name: `constant 20`, `weber-banaschek`.
@@ -62,11 +62,11 @@ pub(crate) struct Stiffness {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Setting {
     /// How the flanks touch.
-    pub surface: Surface,
+    pub surface: SurfaceSetting,
     /// Whether a tip edge is followed outside A to E, by the surfaces that can.
     pub tip_contact: bool,
     /// How the teeth yield; `None` for finite elements.
-    pub stiffness: Option<Stiffness>,
+    pub stiffness: Option<StiffnessSetting>,
     /// The slices over the face width; none where all sections are alike.
     pub slices: Option<SliceSettings>,
     pub coarsening: Coarsening,
@@ -76,7 +76,7 @@ fn in_words(criterion: MatchCriterion) -> String {
     criterion.name().replace("peak-", "peak ")
 }
 
-impl Surface {
+impl SurfaceSetting {
     /// The scene's own, with the scene's own K/H.
     pub(crate) fn of_scene(resolved: &Resolved) -> Self {
         let contact = &resolved.scene.contact;
@@ -123,7 +123,7 @@ impl Surface {
     }
 }
 
-impl Stiffness {
+impl StiffnessSetting {
     /// A model without data of its own.
     pub(crate) fn of_model(model: StiffnessModel, name: &str) -> Self {
         Self { file: StiffnessFile { model: Some(model), ..StiffnessFile::default() }, name: name.to_owned() }
@@ -182,14 +182,14 @@ pub(crate) fn coupling_name(coupling: Coupling) -> &'static str {
 impl Setting {
     /// Plane finite elements, which bring their own stiffness.
     pub(super) fn fem(elements_per_half_width: f64, coarsening: Coarsening) -> Self {
-        let surface = Surface::Fem { elements_per_half_width };
+        let surface = SurfaceSetting::Fem { elements_per_half_width };
         Self { surface, tip_contact: false, stiffness: None, slices: None, coarsening }
     }
 
     /// Name in tables and plots.
     pub(crate) fn name(&self) -> String {
         let slices = self.slices.map(|s| format!("{} slices, {}", s.count, coupling_name(s.coupling)));
-        let stiffness = self.stiffness.as_ref().map(Stiffness::title);
+        let stiffness = self.stiffness.as_ref().map(StiffnessSetting::title);
         let parts = [Some(self.surface_name()), stiffness, slices, self.coarsening.name()];
         parts.into_iter().flatten().collect::<Vec<_>>().join(" · ")
     }
@@ -219,19 +219,19 @@ impl Setting {
         // A calibration that is given makes every Winkler foundation a calibrated one.
         let reads_calibration = self.stiffness.as_ref().is_some_and(|s| s.file.model == Some(StiffnessModel::Fem));
         match self.surface {
-            Surface::Winkler(Foundation::Given { foundation_mpa_per_mm }) => {
+            SurfaceSetting::Winkler(Foundation::Given { foundation_mpa_per_mm }) => {
                 contact.foundation_MPa_per_mm = Some(foundation_mpa_per_mm);
             }
-            Surface::Winkler(Foundation::Matched(criterion)) => contact.match_criterion = Some(criterion),
-            Surface::Winkler(Foundation::Calibrated(criterion)) => {
+            SurfaceSetting::Winkler(Foundation::Matched(criterion)) => contact.match_criterion = Some(criterion),
+            SurfaceSetting::Winkler(Foundation::Calibrated(criterion)) => {
                 contact.match_criterion = Some(criterion);
                 contact.calibration = calibration.map(str::to_owned);
             }
-            Surface::Hertz | Surface::HertzMean | Surface::HalfSpace if reads_calibration => {
+            SurfaceSetting::Hertz | SurfaceSetting::HertzMean | SurfaceSetting::HalfSpace if reads_calibration => {
                 contact.calibration = calibration.map(str::to_owned);
             }
-            Surface::Hertz | Surface::HertzMean | Surface::HalfSpace => {}
-            Surface::Fem { elements_per_half_width } => {
+            SurfaceSetting::Hertz | SurfaceSetting::HertzMean | SurfaceSetting::HalfSpace => {}
+            SurfaceSetting::Fem { elements_per_half_width } => {
                 file.fem.get_or_insert_default().elements_per_half_width = Some(elements_per_half_width);
             }
         }
@@ -255,20 +255,20 @@ impl Setting {
     /// Settings as the record has them.
     pub(crate) fn record(&self, scene: &Scene) -> VariantSettings {
         let match_criterion = match self.surface {
-            Surface::Winkler(Foundation::Matched(criterion) | Foundation::Calibrated(criterion)) => {
+            SurfaceSetting::Winkler(Foundation::Matched(criterion) | Foundation::Calibrated(criterion)) => {
                 Some(criterion.name())
             }
-            Surface::Winkler(Foundation::Given { .. }) => Some("given"),
+            SurfaceSetting::Winkler(Foundation::Given { .. }) => Some("given"),
             _ => None,
         };
         let elements_per_half_width = match self.surface {
-            Surface::Fem { elements_per_half_width } => Some(elements_per_half_width),
+            SurfaceSetting::Fem { elements_per_half_width } => Some(elements_per_half_width),
             _ => None,
         };
         VariantSettings {
             surface: self.surface.kind().name().to_owned(),
             match_criterion: match_criterion.map(str::to_owned),
-            calibrated: matches!(self.surface, Surface::Winkler(Foundation::Calibrated(_))),
+            calibrated: matches!(self.surface, SurfaceSetting::Winkler(Foundation::Calibrated(_))),
             tip_contact: self.tip_contact || elements_per_half_width.is_some(),
             stiffness: self.stiffness.as_ref().map(|stiffness| stiffness.name.clone()),
             elements_per_half_width,

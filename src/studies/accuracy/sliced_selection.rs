@@ -10,8 +10,8 @@
 //! * other numbers of slices with the surfaces that stand for the others, at the second resolution;
 //! * other tooth stiffnesses on the scene's own surface, and tip edges that are not followed.
 
-use super::selection::{COMPANION_STEP, Companions, Selection, Spacing, Stiffnesses, surfaces};
-use super::settings::{Coarsening, Setting, Stiffness, Surface};
+use super::selection::{COMPANION_STEP, CompanionRuns, RefinedSpacing, Selection, Stiffnesses, surfaces};
+use super::settings::{Coarsening, Setting, StiffnessSetting, SurfaceSetting};
 use crate::contact::settings::{Foundation, MatchCriterion};
 use crate::gear_mesh::settings::Body;
 use crate::mesh_cycle::settings::{Coupling, MOST_SLICES_IN_SPACE, SliceSettings};
@@ -21,7 +21,7 @@ use crate::scene::{Resolved, Scene};
 const LEAST_SLICES: usize = 2;
 /// The K/H that stands for the others.
 const CRITERION: MatchCriterion = MatchCriterion::HalfWidth;
-const MATCHED: Surface = Surface::Winkler(Foundation::Matched(CRITERION));
+const MATCHED: SurfaceSetting = SurfaceSetting::Winkler(Foundation::Matched(CRITERION));
 /// Of every surface, the truer one first.
 const COUPLINGS: [Coupling; 2] = [Coupling::Slicing, Coupling::None];
 
@@ -76,7 +76,7 @@ pub(super) fn add(
         }
     }
     for count in other_counts(selection, own.count) {
-        for surface in [Surface::HertzMean, Surface::Hertz, MATCHED, Surface::HalfSpace] {
+        for surface in [SurfaceSetting::HertzMean, SurfaceSetting::Hertz, MATCHED, SurfaceSetting::HalfSpace] {
             for coupling in COUPLINGS {
                 selection.add(setting(surface, best, SliceSettings { count, coupling }, Coarsening::even(second)));
             }
@@ -84,10 +84,10 @@ pub(super) fn add(
     }
     for stiffness in &stiffnesses.all {
         let slices = slices_of_any_stiffness(own);
-        selection.add(setting(Surface::of_scene(resolved), stiffness, slices, Coarsening::even(second)));
+        selection.add(setting(SurfaceSetting::of_scene(resolved), stiffness, slices, Coarsening::even(second)));
     }
     let coupled = SliceSettings { coupling: Coupling::Slicing, ..own };
-    for (surface, by) in [(MATCHED, finest), (Surface::HalfSpace, second)] {
+    for (surface, by) in [(MATCHED, finest), (SurfaceSetting::HalfSpace, second)] {
         let followed = setting(surface, best, coupled, Coarsening::even(by));
         selection.add(Setting { tip_contact: false, ..followed });
     }
@@ -95,24 +95,24 @@ pub(super) fn add(
 }
 
 /// The reference, first of all, with its companions.
-fn reference(selection: &mut Selection, own: SliceSettings, levels: &[u32], stiffness: &Stiffness) {
+fn reference(selection: &mut Selection, own: SliceSettings, levels: &[u32], stiffness: &StiffnessSetting) {
     let (finest, slices) = (levels[0], own.count);
     let long_steps = Coarsening { spacing: finest, step: COMPANION_STEP * finest };
     let most = (2 * slices).min(most_slices(own.coupling));
     let many = SliceSettings { count: most, ..own };
-    selection.add(setting(Surface::HalfSpace, stiffness, many, Coarsening::even(finest)));
-    let long = selection.add(setting(Surface::HalfSpace, stiffness, many, long_steps));
-    selection.companions.push(Companions { fine: 0, coarse: long, spacing: Spacing::Step });
-    let wide = selection.add(setting(Surface::HalfSpace, stiffness, own, long_steps));
+    selection.add(setting(SurfaceSetting::HalfSpace, stiffness, many, Coarsening::even(finest)));
+    let long = selection.add(setting(SurfaceSetting::HalfSpace, stiffness, many, long_steps));
+    selection.companions.push(CompanionRuns { fine: 0, coarse: long, spacing: RefinedSpacing::Step });
+    let wide = selection.add(setting(SurfaceSetting::HalfSpace, stiffness, own, long_steps));
     if most > slices {
         let ratio = most as f64 / slices as f64;
-        selection.companions.push(Companions { fine: long, coarse: wide, spacing: Spacing::Slices(ratio) });
+        selection.companions.push(CompanionRuns { fine: long, coarse: wide, spacing: RefinedSpacing::Slices(ratio) });
     }
     if let Some(&wider) = levels.get(1) {
         let coarser = Coarsening { spacing: wider, ..long_steps };
-        let coarse = selection.add(setting(Surface::HalfSpace, stiffness, own, coarser));
+        let coarse = selection.add(setting(SurfaceSetting::HalfSpace, stiffness, own, coarser));
         let ratio = f64::from(wider) / f64::from(finest);
-        selection.companions.push(Companions { fine: wide, coarse, spacing: Spacing::Points(ratio) });
+        selection.companions.push(CompanionRuns { fine: wide, coarse, spacing: RefinedSpacing::Points(ratio) });
     }
 }
 
@@ -131,7 +131,12 @@ fn other_counts(selection: &mut Selection, own: usize) -> Vec<usize> {
     counts
 }
 
-fn setting(surface: Surface, stiffness: &Stiffness, slices: SliceSettings, coarsening: Coarsening) -> Setting {
+fn setting(
+    surface: SurfaceSetting,
+    stiffness: &StiffnessSetting,
+    slices: SliceSettings,
+    coarsening: Coarsening,
+) -> Setting {
     Setting {
         surface,
         tip_contact: surface.may_follow_tip(),
@@ -142,9 +147,11 @@ fn setting(surface: Surface, stiffness: &Stiffness, slices: SliceSettings, coars
 }
 
 /// Whether a surface is tried at every resolution and coupling: of the Winkler foundations, those matched on half-width.
-fn stands_for_others(surface: Surface) -> bool {
+fn stands_for_others(surface: SurfaceSetting) -> bool {
     match surface {
-        Surface::Winkler(Foundation::Matched(criterion) | Foundation::Calibrated(criterion)) => criterion == CRITERION,
+        SurfaceSetting::Winkler(Foundation::Matched(criterion) | Foundation::Calibrated(criterion)) => {
+            criterion == CRITERION
+        }
         _ => true,
     }
 }

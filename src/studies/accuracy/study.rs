@@ -2,16 +2,16 @@
 
 use std::time::Instant;
 
-use super::comparison::{self, Run};
+use super::comparison::{self, ComparedRun};
 use super::deep_runs;
-use super::front::{Point, cheapest_within, on_front};
+use super::front::{FrontPoint, cheapest_within, on_front};
 use super::measure::{Windows, errors, peak_pressure_mpa, peak_to_peak};
-use super::observed::Observed;
+use super::observed::ObservedRun;
 use super::reference::{Correction, Reference};
-use super::selection::{Asked, Companions, Selection, Spacing};
+use super::selection::{AccuracyOptions, CompanionRuns, RefinedSpacing, Selection};
 use super::settings::Setting;
 use super::sliced_comparison;
-use super::timed_run::{Finished, Measured, measure};
+use super::timed_run::{Finished, MeasuredSetting, measure};
 use crate::calibration::Calibration;
 use crate::contact::settings::MatchCriterion;
 use crate::gear::{Gear, PerGear};
@@ -22,7 +22,7 @@ use crate::scene::Resolved;
 use crate::scene::loaded::LoadedScene;
 use crate::simulation::settings::LifeLimits;
 use crate::studies::accuracy::record::{
-    AccuracyRecord, CALIBRATION_FILE, MeasuredError, NotRanked, Quantity, Recommendation, ReferenceFlank,
+    AccuracyRecord, CALIBRATION_FILE, ComparedQuantity, MeasuredError, NotRanked, Recommendation, ReferenceFlank,
     ReferenceRecord, VariantRecord,
 };
 
@@ -49,7 +49,11 @@ pub(crate) enum AccuracyError {
 ///
 /// # Errors
 /// [`AccuracyError`] where the reference is not finished.
-pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) -> Result<AccuracyRecord, AccuracyError> {
+pub(crate) fn run(
+    given: &LoadedScene,
+    asked: AccuracyOptions,
+    observer: &dyn Observer,
+) -> Result<AccuracyRecord, AccuracyError> {
     let start = Instant::now();
     let CalibrationOfRuns { made, wall_s: calibration_s, why_none } = calibration(given, observer)?;
     let mut given = made.map_or_else(|| given.clone(), |made| given.calibrated(made));
@@ -61,16 +65,14 @@ pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) ->
     let count = settings + if resolved.scene.slices.is_some() { deep_runs::RUNS } else { 0 };
     let measured = measure_all(&selection.settings, &given, observer, count);
     let all_measured = measured.len() == settings;
-    let deep_runs = match all_measured {
-        true => deep_runs::run(&given, &selection.second_resolution(), observer, settings, count),
-        false => None,
-    };
+    let second = selection.second_resolution();
+    let deep_runs = all_measured.then(|| deep_runs::run(&given, &second, observer, settings, count)).flatten();
     let is_complete = all_measured && deep_runs.is_some() == resolved.scene.slices.is_some();
     let stopped = if is_complete { StopReason::Completed } else { StopReason::Interrupted };
     let windows = windows(resolved, &measured)?;
     let (reference, runs, spacings) = reference(&selection, &measured, &windows)?;
     let not_ranked = not_ranked(&reference, &spacings, asked.within);
-    let at_reference: Vec<Option<Observed>> = measured
+    let at_reference: Vec<Option<ObservedRun>> = measured
         .iter()
         .map(|one| one.finished.as_ref().map(|run| run.observed.at_coordinates_of(&reference.observed)))
         .collect();
@@ -79,7 +81,7 @@ pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) ->
         variants[index].part_of_reference = true;
     }
     add_errors(&mut variants, &at_reference, &reference, &windows);
-    for quantity in Quantity::ALL.into_iter().filter(|&q| not_ranked.iter().all(|one| one.quantity != q)) {
+    for quantity in ComparedQuantity::ALL.into_iter().filter(|&q| not_ranked.iter().all(|one| one.quantity != q)) {
         mark_front(&mut variants, quantity, reference.uncertainty.get(&quantity).copied().unwrap_or(0.0));
     }
     keep_shown_curves(&mut variants, &at_reference, &selection.settings, resolved);
@@ -113,10 +115,14 @@ pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) ->
 }
 
 /// Runs with a result, to be compared with each other.
-fn compared<'a>(settings: &'a [Setting], at: &'a [Option<Observed>], variants: &[VariantRecord]) -> Vec<Run<'a>> {
+fn compared<'a>(
+    settings: &'a [Setting],
+    at: &'a [Option<ObservedRun>],
+    variants: &[VariantRecord],
+) -> Vec<ComparedRun<'a>> {
     let all = settings.iter().zip(at).zip(variants);
     let runs = all.filter_map(|((setting, observed), variant)| {
-        Some(Run { setting, observed: observed.as_ref()?, simulation_s: variant.simulation_s? })
+        Some(ComparedRun { setting, observed: observed.as_ref()?, simulation_s: variant.simulation_s? })
     });
     runs.collect()
 }
@@ -132,7 +138,12 @@ fn leave_out_stop(resolved: &mut Resolved) {
 }
 
 /// Runs the settings one after the other, up to an interrupt; `count` is the number of all runs, for the observer.
-fn measure_all(settings: &[Setting], given: &LoadedScene, observer: &dyn Observer, count: usize) -> Vec<Measured> {
+fn measure_all(
+    settings: &[Setting],
+    given: &LoadedScene,
+    observer: &dyn Observer,
+    count: usize,
+) -> Vec<MeasuredSetting> {
     let runs = settings.iter().enumerate().map_while(|(number, setting)| {
         observer.run_of(number, count, &setting.name());
         measure(setting, given, &PartOf::new(observer, number, count))
@@ -143,7 +154,7 @@ fn measure_all(settings: &[Setting], given: &LoadedScene, observer: &dyn Observe
 /// Keeps the curves of runs of the finest resolution on the scene's own slices; the reference's would show them once more.
 fn keep_shown_curves(
     variants: &mut [VariantRecord],
-    at_reference: &[Option<Observed>],
+    at_reference: &[Option<ObservedRun>],
     settings: &[Setting],
     resolved: &Resolved,
 ) {
@@ -184,14 +195,14 @@ fn calibration(given: &LoadedScene, observer: &dyn Observer) -> Result<Calibrati
 
 /// The scene of the recommended run of the wear profile, with errors estimated again.
 fn recommended_toml(recommendations: &[Recommendation], settings: &[Setting], resolved: &Resolved) -> Option<String> {
-    let chosen = recommendations.iter().find(|r| r.quantity == Quantity::WearProfile)?;
+    let chosen = recommendations.iter().find(|r| r.quantity == ComparedQuantity::WearProfile)?;
     let mut file = settings.get(chosen.variant)?.scene(resolved, Some(CALIBRATION_FILE)).ok()?.file;
     file.numerics.get_or_insert_default().error_estimate = Some(true);
     Some(file.to_toml())
 }
 
 /// A run of the reference, which must be there.
-fn finished(measured: &[Measured], index: usize) -> Result<&Finished, AccuracyError> {
+fn finished(measured: &[MeasuredSetting], index: usize) -> Result<&Finished, AccuracyError> {
     let one = measured.get(index).ok_or(AccuracyError::Interrupted)?;
     one.finished.as_ref().ok_or_else(|| AccuracyError::Reference {
         name: one.record.name.clone(),
@@ -199,7 +210,7 @@ fn finished(measured: &[Measured], index: usize) -> Result<&Finished, AccuracyEr
     })
 }
 
-fn windows(resolved: &Resolved, measured: &[Measured]) -> Result<Windows, AccuracyError> {
+fn windows(resolved: &Resolved, measured: &[MeasuredSetting]) -> Result<Windows, AccuracyError> {
     let summary = &finished(measured, 0)?.summary;
     let sharp = PerGear::from_fn(|gear| resolved.scene.pair.is_tip_sharp(gear));
     Ok(Windows::new(&summary.geometry.curvature_radius_mm, sharp, summary.contact.hertz_half_width_mm))
@@ -208,19 +219,19 @@ fn windows(resolved: &Resolved, measured: &[Measured]) -> Result<Windows, Accura
 /// The reference, the indices of the runs it was made from, and what each of its corrections is for.
 fn reference(
     selection: &Selection,
-    measured: &[Measured],
+    measured: &[MeasuredSetting],
     windows: &Windows,
-) -> Result<(Reference, Vec<usize>, Vec<Spacing>), AccuracyError> {
+) -> Result<(Reference, Vec<usize>, Vec<RefinedSpacing>), AccuracyError> {
     let finest = &finished(measured, 0)?.observed;
     let (mut corrections, mut spacings) = (Vec::new(), Vec::new());
     let mut runs = vec![0];
-    for &Companions { fine, coarse, spacing } in &selection.companions {
+    for &CompanionRuns { fine, coarse, spacing } in &selection.companions {
         let (fine_run, coarse_run) = (finished(measured, fine)?, finished(measured, coarse)?);
         let [fine_steps, coarse_steps] = [fine_run, coarse_run].map(|run| run.summary.work.wear_steps as f64);
         let (ratio, order) = match spacing {
-            Spacing::Elements(ratio) | Spacing::Points(ratio) => (ratio, 2),
-            Spacing::Slices(ratio) => (ratio, 1),
-            Spacing::Step => (fine_steps / coarse_steps, 1),
+            RefinedSpacing::Elements(ratio) | RefinedSpacing::Points(ratio) => (ratio, 2),
+            RefinedSpacing::Slices(ratio) => (ratio, 1),
+            RefinedSpacing::Step => (fine_steps / coarse_steps, 1),
         };
         runs.extend([fine, coarse]);
         if ratio >= LEAST_STEP_RATIO {
@@ -234,7 +245,7 @@ fn reference(
 }
 
 /// Quantities of which `reference` is more uncertain than the error wanted.
-fn not_ranked(reference: &Reference, spacings: &[Spacing], within: f64) -> Vec<NotRanked> {
+fn not_ranked(reference: &Reference, spacings: &[RefinedSpacing], within: f64) -> Vec<NotRanked> {
     let uncertain = reference.uncertainty.iter().filter(|(_, uncertainty)| **uncertainty > within);
     let not_ranked = uncertain.map(|(&quantity, &uncertainty)| {
         let remedy = remedies(reference, spacings, quantity);
@@ -244,9 +255,9 @@ fn not_ranked(reference: &Reference, spacings: &[Spacing], within: f64) -> Vec<N
 }
 
 /// Remedies for the corrections that contribute most to the uncertainty of `quantity`, the greatest first.
-fn remedies(reference: &Reference, spacings: &[Spacing], quantity: Quantity) -> String {
+fn remedies(reference: &Reference, spacings: &[RefinedSpacing], quantity: ComparedQuantity) -> String {
     let parts = reference.parts.iter().map(|part| part.get(&quantity).copied().unwrap_or(0.0));
-    let mut parts: Vec<(f64, Spacing)> = parts.zip(spacings.iter().copied()).collect();
+    let mut parts: Vec<(f64, RefinedSpacing)> = parts.zip(spacings.iter().copied()).collect();
     parts.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     let greatest = parts.first().map_or(0.0, |(part, _)| *part);
     // A part below a third of the greatest would not help.
@@ -255,7 +266,7 @@ fn remedies(reference: &Reference, spacings: &[Spacing], quantity: Quantity) -> 
 }
 
 /// Measures every run against the reference.
-fn add_errors(variants: &mut [VariantRecord], at: &[Option<Observed>], reference: &Reference, windows: &Windows) {
+fn add_errors(variants: &mut [VariantRecord], at: &[Option<ObservedRun>], reference: &Reference, windows: &Windows) {
     for (variant, observed) in variants.iter_mut().zip(at) {
         let all = observed.as_ref().map(|observed| errors(observed, &reference.observed, windows));
         let measured = all.into_iter().flatten().filter(|(_, relative)| !relative.is_nan());
@@ -265,7 +276,7 @@ fn add_errors(variants: &mut [VariantRecord], at: &[Option<Observed>], reference
 }
 
 /// Marks the runs on the Pareto front of `quantity`.
-fn mark_front(variants: &mut [VariantRecord], quantity: Quantity, uncertainty: f64) {
+fn mark_front(variants: &mut [VariantRecord], quantity: ComparedQuantity, uncertainty: f64) {
     let front = on_front(&points(variants, quantity), uncertainty);
     for (variant, on_front) in variants.iter_mut().zip(front) {
         variant.errors.entry(quantity).and_modify(|error| error.on_front = on_front);
@@ -273,8 +284,8 @@ fn mark_front(variants: &mut [VariantRecord], quantity: Quantity, uncertainty: f
 }
 
 /// Run time and error of every run; not a number where it has none.
-fn points(variants: &[VariantRecord], quantity: Quantity) -> Vec<Point> {
-    let points = variants.iter().map(|variant| Point {
+fn points(variants: &[VariantRecord], quantity: ComparedQuantity) -> Vec<FrontPoint> {
+    let points = variants.iter().map(|variant| FrontPoint {
         wall_s: variant.simulation_s.unwrap_or(f64::NAN),
         error: variant.errors.get(&quantity).map_or(f64::NAN, |error| error.relative),
     });
@@ -282,7 +293,7 @@ fn points(variants: &[VariantRecord], quantity: Quantity) -> Vec<Point> {
 }
 
 fn recommendations(variants: &[VariantRecord], within: f64) -> Vec<Recommendation> {
-    let all = Quantity::ALL.into_iter().filter_map(|quantity| {
+    let all = ComparedQuantity::ALL.into_iter().filter_map(|quantity| {
         let (variant, is_within) = cheapest_within(&points(variants, quantity), within)?;
         Some(Recommendation { quantity, variant, is_within })
     });
@@ -291,7 +302,7 @@ fn recommendations(variants: &[VariantRecord], within: f64) -> Vec<Recommendatio
 
 fn reference_record(
     selection: &Selection,
-    measured: &[Measured],
+    measured: &[MeasuredSetting],
     reference: Reference,
     runs: Vec<usize>,
     windows: &Windows,
@@ -300,10 +311,12 @@ fn reference_record(
         .companions
         .iter()
         .map(|companions| match companions.spacing {
-            Spacing::Elements(ratio) => format!("size of elements, second order, ratio {ratio:.3}"),
-            Spacing::Points(ratio) => format!("spacing of flank points and positions, second order, ratio {ratio}"),
-            Spacing::Slices(ratio) => format!("width of the slices, first order, ratio {ratio}"),
-            Spacing::Step => "length of the wear step, first order".to_owned(),
+            RefinedSpacing::Elements(ratio) => format!("size of elements, second order, ratio {ratio:.3}"),
+            RefinedSpacing::Points(ratio) => {
+                format!("spacing of flank points and positions, second order, ratio {ratio}")
+            }
+            RefinedSpacing::Slices(ratio) => format!("width of the slices, first order, ratio {ratio}"),
+            RefinedSpacing::Step => "length of the wear step, first order".to_owned(),
         })
         .collect();
     let how = format!(

@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 
-use super::observed::Observed;
+use super::observed::ObservedRun;
 use super::settings::Setting;
 use crate::gear::PerGear;
 use crate::observer::{Observer, PartOf};
@@ -14,6 +14,7 @@ use crate::plan::StageKind;
 use crate::results::run::{PathPoints, RunRecord, StopReason, Summary};
 use crate::scene::loaded::LoadedScene;
 use crate::studies::accuracy::record::{CALIBRATION_FILE, VariantRecord};
+use crate::studies::varied_scene::in_words;
 
 /// Runs are repeated until they have taken this long, all that comes before the simulation included; the least time counts.
 const LONG_ENOUGH_S: f64 = 0.2;
@@ -21,12 +22,12 @@ const LONG_ENOUGH_S: f64 = 0.2;
 const MOST_REPEATS: u32 = 20;
 
 /// Outcome of one setting.
-pub(super) struct Measured {
+pub(super) struct MeasuredSetting {
     pub record: VariantRecord,
     pub finished: Option<Finished>,
 }
 
-impl Measured {
+impl MeasuredSetting {
     fn failed(record: VariantRecord, failure: String) -> Self {
         Self { record: VariantRecord { failure: Some(failure), ..record }, finished: None }
     }
@@ -34,14 +35,14 @@ impl Measured {
 
 /// Part of a run that is kept: far less than its record, of which there would be a hundred.
 pub(super) struct Finished {
-    pub observed: Observed,
+    pub observed: ObservedRun,
     pub summary: Summary,
     /// Radii of the points A–E.
     pub path_point_radius_mm: PerGear<PathPoints>,
 }
 
 /// Runs one setting, a short one several times; `None` where the user interrupted it.
-pub(super) fn measure(setting: &Setting, base: &LoadedScene, observer: &PartOf<'_>) -> Option<Measured> {
+pub(super) fn measure(setting: &Setting, base: &LoadedScene, observer: &PartOf<'_>) -> Option<MeasuredSetting> {
     if observer.interrupted() {
         return None;
     }
@@ -49,27 +50,26 @@ pub(super) fn measure(setting: &Setting, base: &LoadedScene, observer: &PartOf<'
         VariantRecord { name: setting.name(), settings: setting.record(base.scene()), ..VariantRecord::default() };
     let mut resolved = match setting.scene(&base.resolved, Some(CALIBRATION_FILE)) {
         Ok(resolved) => resolved,
-        Err(problems) => {
-            let all: Vec<String> = problems.iter().map(ToString::to_string).collect();
-            return Some(Measured::failed(record, all.join("; ")));
-        }
+        Err(problems) => return Some(MeasuredSetting::failed(record, in_words(&problems))),
     };
     // It is held against a reference of its own.
     resolved.scene.verify = false;
     record.settings = setting.record(&resolved.scene);
     let scene = match base.variant(resolved) {
         Ok(scene) => scene,
-        Err(problem) => return Some(Measured::failed(record, problem.to_string())),
+        Err(problem) => return Some(MeasuredSetting::failed(record, problem.to_string())),
     };
     let mut kept = None;
     let start = Instant::now();
     while record.repeats == 0 || (start.elapsed().as_secs_f64() < LONG_ENOUGH_S && record.repeats < MOST_REPEATS) {
         let done = match pipeline::run(&scene, observer) {
             Ok(Done { record: done, failure: None }) if done.summary.stopped == StopReason::Completed => done,
-            Ok(Done { failure: Some(failure), .. }) => return Some(Measured::failed(record, failure.to_string())),
+            Ok(Done { failure: Some(failure), .. }) => {
+                return Some(MeasuredSetting::failed(record, failure.to_string()));
+            }
             Ok(_) => return None,
             Err(_) if observer.interrupted() => return None,
-            Err(failure) => return Some(Measured::failed(record, RunError::to_string(&failure))),
+            Err(failure) => return Some(MeasuredSetting::failed(record, RunError::to_string(&failure))),
         };
         let (simulation_s, setup_s) = times(&done);
         record.repeats += 1;
@@ -82,11 +82,11 @@ pub(super) fn measure(setting: &Setting, base: &LoadedScene, observer: &PartOf<'
     record.peak_wear_um =
         Some(PerGear { pinion: run.summary.pinion.peak_wear_um, wheel: run.summary.wheel.peak_wear_um });
     let finished = Finished {
-        observed: Observed::of(&run),
+        observed: ObservedRun::of(&run),
         path_point_radius_mm: PerGear::from_fn(|gear| run.flanks[gear].path_point_radius_mm),
         summary: run.summary,
     };
-    Some(Measured { record, finished: Some(finished) })
+    Some(MeasuredSetting { record, finished: Some(finished) })
 }
 
 /// Wall times of the wear run and of everything before it, s.

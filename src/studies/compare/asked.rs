@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::question::{Asked, Question, Refused};
+use super::question::{CompareOptions, ComparisonQuestion, Refused};
 use super::record::CompareRecord;
 use super::run_folder::{RunFolder, RunFolderError};
 use super::study::{self, CompareError};
@@ -27,15 +27,15 @@ pub(crate) enum CompareFault {
 
 /// A comparison that can be carried out.
 #[derive(Debug)]
-pub(crate) struct Prepared {
+pub(crate) struct PreparedComparison {
     folder: RunFolder,
     scene: LoadedScene,
-    question: Question,
+    question: ComparisonQuestion,
 }
 
-impl Prepared {
+impl PreparedComparison {
     /// Of the finished run in the folder `run` with the profiles in the texts `measured`.
-    pub(crate) fn open(run: &Path, measured: &[SceneText], asked: &Asked) -> Result<Self, CompareFault> {
+    pub(crate) fn open(run: &Path, measured: &[SceneText], asked: &CompareOptions) -> Result<Self, CompareFault> {
         let folder = RunFolder::read(run)?;
         let scene = LoadedScene::open(RunFolder::scene_path(run))?;
         let resolved = &scene.resolved;
@@ -46,7 +46,7 @@ impl Prepared {
             files.push((name.clone(), file));
         }
         let pair = GearPair::new(&resolved.scene.pair)?;
-        let question = Question::new(asked, &files, &folder, resolved, &pair)?;
+        let question = ComparisonQuestion::new(asked, &files, &folder, resolved, &pair)?;
         Ok(Self { folder, scene, question })
     }
 

@@ -61,7 +61,7 @@ impl FitKind {
 
 /// Whose constants of wear are fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Fitted {
+pub(crate) enum FittedGears {
     /// Coefficients of both gears, by one factor.
     Together,
     /// Coefficients of the measured gear alone, whose law is not that of its mate.
@@ -70,16 +70,16 @@ pub(crate) enum Fitted {
     Each,
 }
 
-impl Fitted {
+impl FittedGears {
     /// Whether those of `gear` are.
     pub(crate) fn has(self, gear: Gear) -> bool {
-        self != Fitted::Alone(gear.mate())
+        self != FittedGears::Alone(gear.mate())
     }
 }
 
 /// Options beside the files.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Asked {
+pub(crate) struct CompareOptions {
     /// Measured gear; `None`: as the file says.
     pub gear: Option<Gear>,
     /// Form to remove; `None`: a cubic of heights, nothing of wear depths.
@@ -164,22 +164,22 @@ pub(crate) struct ProfileQuestion {
 
 /// A comparison that can be made.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Question {
+pub(crate) struct ComparisonQuestion {
     /// One, or that of the pinion and that of the wheel.
     pub profiles: Vec<ProfileQuestion>,
     pub fit: FitKind,
-    pub fitted: Fitted,
+    pub fitted: FittedGears,
     /// How far a profile may be shifted along the flank, mm.
     pub shift_within_mm: f64,
 }
 
-impl Question {
+impl ComparisonQuestion {
     /// Checks what is asked of the run in `folder`, whose scene is `resolved`, and of its `pair`, with files by their names.
     ///
     /// # Errors
     /// The first thing that does not fit together.
     pub(crate) fn new(
-        asked: &Asked,
+        asked: &CompareOptions,
         files: &[(String, MeasuredFile)],
         folder: &RunFolder,
         resolved: &Resolved,
@@ -206,9 +206,9 @@ impl Question {
         }
         profiles.sort_by_key(|of| of.profile.gear);
         let fitted = match &profiles[..] {
-            _ if fit == FitKind::Each => Fitted::Each,
-            [one] if !is_of_both(scene) => Fitted::Alone(one.profile.gear),
-            _ => Fitted::Together,
+            _ if fit == FitKind::Each => FittedGears::Each,
+            [one] if !is_of_both(scene) => FittedGears::Alone(one.profile.gear),
+            _ => FittedGears::Together,
         };
         Ok(Self { profiles, fit, fitted, shift_within_mm: asked.shift_within_mm })
     }
@@ -229,7 +229,7 @@ impl ProfileQuestion {
     fn new(
         name: &str,
         file: &MeasuredFile,
-        asked: &Asked,
+        asked: &CompareOptions,
         fit: FitKind,
         (folder, resolved, pair): (&RunFolder, &Resolved, &GearPair),
     ) -> Result<Self, QuestionError> {

@@ -44,7 +44,7 @@ pub(crate) struct ProfileRecord {
     /// Form removed: `cubic`, `involute`, `none`.
     pub form: String,
     /// Shift of the measured profile towards the tip; `None` where none was allowed.
-    pub shift_mm: Option<Estimate>,
+    pub shift_mm: Option<FittedValue>,
     pub points: usize,
     /// Points that count, given the autocorrelation of the residuals; `None` where too few do for an interval.
     pub effective_points: Option<f64>,
@@ -60,7 +60,7 @@ pub(crate) struct ProfileRecord {
 
 /// A fitted value with its interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub(crate) struct Estimate {
+pub(crate) struct FittedValue {
     pub value: f64,
     /// Lower end of the 95 % interval; `None` where the residuals give none.
     pub low: Option<f64>,
@@ -76,14 +76,14 @@ pub(crate) struct Coefficient {
     /// Whose it is; `None`: one law, which both gears wear by.
     pub gear: Option<Gear>,
     /// Factor on the wear coefficients of the scene.
-    pub factor: Estimate,
+    pub factor: FittedValue,
     /// The wear coefficient of the scene's law times that factor.
-    pub coefficient_m2_per_N: Estimate,
+    pub coefficient_m2_per_N: FittedValue,
 }
 
 /// Correlation coefficients of the fitted values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct Correlation {
+pub(crate) struct CoefficientCorrelation {
     /// Of the logarithms of coefficients and factors, and of shifts.
     pub parameters: Vec<Unknown>,
     /// Row by row.
@@ -99,11 +99,11 @@ pub(crate) struct FitRecord {
     /// Of each gear that has its own; empty where none was fitted.
     pub coefficients: Vec<Coefficient>,
     /// The coefficient of the pinion over that of the wheel, where each was fitted.
-    pub coefficient_ratio: Option<Estimate>,
+    pub coefficient_ratio: Option<FittedValue>,
     /// Factor of severe wear; `None` where it was not fitted.
-    pub severe_factor: Option<Estimate>,
+    pub severe_factor: Option<FittedValue>,
     /// `None` where there is no interval, or less than two values were fitted.
-    pub correlation: Option<Correlation>,
+    pub correlation: Option<CoefficientCorrelation>,
     /// Runs of the scene it took.
     pub runs: u64,
     pub mesh_cycles: u64,
@@ -119,7 +119,7 @@ impl FitRecord {
 
     /// The correlation coefficient of the wear coefficients of both gears, where each was fitted.
     pub(crate) fn coefficient_correlation(&self) -> Option<f64> {
-        let Correlation { parameters, matrix } = self.correlation.as_ref()?;
+        let CoefficientCorrelation { parameters, matrix } = self.correlation.as_ref()?;
         let [pinion, wheel] =
             Gear::BOTH.map(|gear| parameters.iter().position(|&own| own == Unknown::Coefficient(Some(gear))));
         Some(matrix[pinion?][wheel?])
@@ -219,10 +219,10 @@ impl Serialize for CompareRecord {
 struct WrittenFit<'a> {
     stopped: FitStop,
     blamed: Option<String>,
-    coefficient_factor: Option<Estimate>,
-    coefficient_m2_per_N: Option<Estimate>,
-    severe_factor: Option<Estimate>,
-    shift_mm: Option<Estimate>,
+    coefficient_factor: Option<FittedValue>,
+    coefficient_m2_per_N: Option<FittedValue>,
+    severe_factor: Option<FittedValue>,
+    shift_mm: Option<FittedValue>,
     points: usize,
     effective_points: Option<f64>,
     degrees_of_freedom: Option<f64>,
@@ -230,8 +230,8 @@ struct WrittenFit<'a> {
     mesh_cycles: u64,
     how: &'a str,
     coefficients: &'a [Coefficient],
-    coefficient_ratio: Option<Estimate>,
-    correlation: Option<&'a Correlation>,
+    coefficient_ratio: Option<FittedValue>,
+    correlation: Option<&'a CoefficientCorrelation>,
 }
 
 impl<'a> WrittenFit<'a> {

@@ -39,7 +39,7 @@ pub(crate) enum RunFolderError {
 
 /// Fields read from the summary.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(crate) struct Summary {
+pub(crate) struct RunFolderSummary {
     pub title: String,
     /// How long the run was, in pinion revolutions.
     pub revolutions: f64,
@@ -49,7 +49,7 @@ pub(crate) struct Summary {
 
 /// Fields read from a row of the profiles.
 #[derive(Debug, Clone, Copy, Deserialize)]
-struct ProfileRow {
+struct KeptProfileRow {
     gear: Gear,
     wear_um: f64,
     revolutions: f64,
@@ -57,7 +57,7 @@ struct ProfileRow {
 
 /// Wear of both flanks at a snapshot.
 #[derive(Debug, Clone, PartialEq)]
-struct Snapshot {
+struct FlankSnapshot {
     revolutions: f64,
     wear_um: PerGear<Vec<f64>>,
 }
@@ -65,8 +65,8 @@ struct Snapshot {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RunFolder {
     path: PathBuf,
-    pub summary: Summary,
-    snapshots: Vec<Snapshot>,
+    pub summary: RunFolderSummary,
+    snapshots: Vec<FlankSnapshot>,
 }
 
 impl RunFolder {
@@ -113,13 +113,13 @@ impl RunFolder {
 /// Fields of `S` from the summary of a finished run.
 pub(crate) fn summary<S: DeserializeOwned>(folder: &Path) -> Result<S, RunFolderError> {
     #[derive(Deserialize)]
-    struct Ended<S> {
+    struct StoppedSummary<S> {
         stopped: String,
         #[serde(flatten)]
         rest: S,
     }
     let path = folder.join(SUMMARY);
-    let ended: Ended<S> = serde_json::from_str(&read(&path)?).map_err(|error| RunFolderError::Damaged {
+    let ended: StoppedSummary<S> = serde_json::from_str(&read(&path)?).map_err(|error| RunFolderError::Damaged {
         path: path.clone(),
         line: error.line() as u64,
         found: error.to_string(),
@@ -138,11 +138,11 @@ pub(crate) fn read(path: &Path) -> Result<String, RunFolderError> {
 }
 
 /// The wear in `profiles.csv`.
-fn snapshots(path: &Path) -> Result<Vec<Snapshot>, RunFolderError> {
+fn snapshots(path: &Path) -> Result<Vec<FlankSnapshot>, RunFolderError> {
     let text = read(path)?;
     let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let mut snapshots: Vec<Snapshot> = Vec::new();
-    for row in reader.deserialize::<ProfileRow>() {
+    let mut snapshots: Vec<FlankSnapshot> = Vec::new();
+    for row in reader.deserialize::<KeptProfileRow>() {
         let row = row.map_err(|error| RunFolderError::Damaged {
             path: path.to_owned(),
             line: error.position().map_or(0, csv::Position::line),
@@ -151,7 +151,7 @@ fn snapshots(path: &Path) -> Result<Vec<Snapshot>, RunFolderError> {
         })?;
         if snapshots.last().is_none_or(|last| last.revolutions != row.revolutions) {
             let wear_um = PerGear { pinion: Vec::new(), wheel: Vec::new() };
-            snapshots.push(Snapshot { revolutions: row.revolutions, wear_um });
+            snapshots.push(FlankSnapshot { revolutions: row.revolutions, wear_um });
         }
         if let Some(snapshot) = snapshots.last_mut() {
             snapshot.wear_um[row.gear].push(row.wear_um);

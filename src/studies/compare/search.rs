@@ -17,8 +17,8 @@
 //! then left, and reported.
 
 use super::comparison::{Beginning, Comparison};
-use super::question::{FitKind, Fitted, Question};
-use super::simulations::{Change, CompareError, Simulations};
+use super::question::{ComparisonQuestion, FitKind, FittedGears};
+use super::simulations::{CoefficientChange, CompareError, Simulations};
 use super::study::root_mean_square;
 use super::unknown::Unknown;
 use crate::gear::{Gear, PerGear};
@@ -81,17 +81,17 @@ impl FittedCoefficients {
 type Wear<'a, S> = dyn FnMut(&S, &[f64]) -> Result<Vec<Vec<f64>>, CompareError> + 'a;
 
 /// Measured profiles, and how their parameters are found.
-pub(super) struct Search<'a> {
-    question: &'a Question,
+pub(super) struct CoefficientSearch<'a> {
+    question: &'a ComparisonQuestion,
     comparisons: &'a [Comparison<'a>],
     unknowns: Vec<Unknown>,
     /// w_p.
     weights: Vec<f64>,
 }
 
-impl<'a> Search<'a> {
+impl<'a> CoefficientSearch<'a> {
     /// Of what `question` asks, with a comparison for each of its profiles.
-    pub(super) fn new(question: &'a Question, comparisons: &'a [Comparison<'a>]) -> Self {
+    pub(super) fn new(question: &'a ComparisonQuestion, comparisons: &'a [Comparison<'a>]) -> Self {
         let mut unknowns = Vec::new();
         match question.fit {
             FitKind::Each => unknowns.extend(Gear::BOTH.map(|gear| Unknown::Coefficient(Some(gear)))),
@@ -272,11 +272,11 @@ impl<'a> Search<'a> {
     }
 
     /// The change of the scene that the parameters stand for.
-    fn change(&self, theta: &[f64]) -> Change {
-        Change {
+    fn change(&self, theta: &[f64]) -> CoefficientChange {
+        CoefficientChange {
             coefficient_factor: PerGear::from_fn(|gear| {
                 let of_gear = match self.question.fitted {
-                    Fitted::Each => Some(gear),
+                    FittedGears::Each => Some(gear),
                     fitted if fitted.has(gear) => None,
                     _ => return 1.0,
                 };

@@ -17,7 +17,7 @@
 
 use std::f64::consts::LN_2;
 
-use super::question::{Fitted, Question};
+use super::question::{ComparisonQuestion, FittedGears};
 use super::wear_by_coefficient::WearByCoefficient;
 use crate::gear::{Gear, PerGear};
 use crate::observer::{Observer, PartOf};
@@ -48,14 +48,14 @@ const AHEAD: f64 = 2.0;
 const STEP: f64 = LN_2;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Change {
+pub(super) struct CoefficientChange {
     /// On the wear coefficient of each gear.
     pub coefficient_factor: PerGear<f64>,
     /// The factor of severe wear; `None`: the scene's.
     pub severe_factor: Option<f64>,
 }
 
-impl Change {
+impl CoefficientChange {
     pub(super) const NOTHING: Self =
         Self { coefficient_factor: PerGear { pinion: 1.0, wheel: 1.0 }, severe_factor: None };
 }
@@ -71,7 +71,7 @@ struct Course {
 }
 
 /// Wear of the flank points of each profile.
-struct Snapshot {
+struct ProfileSnapshot {
     revolutions: f64,
     wear_um: Vec<Vec<f64>>,
 }
@@ -79,7 +79,7 @@ struct Snapshot {
 /// Runs of one scene until the profiles were measured.
 pub(super) struct Simulations<'a> {
     given: &'a LoadedScene,
-    question: &'a Question,
+    question: &'a ComparisonQuestion,
     /// The scene, ending when the last profile was measured, without error estimates.
     until_measured: Scene,
     observer: &'a dyn Observer,
@@ -91,7 +91,7 @@ pub(super) struct Simulations<'a> {
 
 impl<'a> Simulations<'a> {
     /// Runs of `given`, of which wear is wanted where and when the profiles of `question` were measured.
-    pub(super) fn new(given: &'a LoadedScene, question: &'a Question, observer: &'a dyn Observer) -> Self {
+    pub(super) fn new(given: &'a LoadedScene, question: &'a ComparisonQuestion, observer: &'a dyn Observer) -> Self {
         let last = question.last_revolutions();
         let mut scene = given.resolved.scene.clone();
         (scene.numerics.error_estimate, scene.verify) = (false, false);
@@ -118,7 +118,7 @@ impl<'a> Simulations<'a> {
     }
 
     /// Wear of the flank points of each profile, by a run with just this change, µm.
-    pub(super) fn exactly(&mut self, change: Change) -> Result<Vec<Vec<f64>>, CompareError> {
+    pub(super) fn exactly(&mut self, change: CoefficientChange) -> Result<Vec<Vec<f64>>, CompareError> {
         let snapshots = self.run(self.changed(change))?;
         let measured = self.question.profiles.iter().enumerate().map(|(index, of)| {
             let away = snapshots.iter().map(|snapshot| ((snapshot.revolutions - of.revolutions).abs(), snapshot));
@@ -129,7 +129,7 @@ impl<'a> Simulations<'a> {
     }
 
     /// Wear profiles, interpolated between profiles that are computed where they are first needed.
-    pub(super) fn about(&mut self, change: Change) -> Result<Vec<Vec<f64>>, CompareError> {
+    pub(super) fn about(&mut self, change: CoefficientChange) -> Result<Vec<Vec<f64>>, CompareError> {
         let profiles = &self.question.profiles;
         let mut sums = vec![Vec::new(); profiles.len()];
         for (n, weight) in self.courses_around(change) {
@@ -148,10 +148,10 @@ impl<'a> Simulations<'a> {
     }
 
     /// The courses that a change lies between, with their weights.
-    fn courses_around(&self, change: Change) -> Vec<(i32, f64)> {
+    fn courses_around(&self, change: CoefficientChange) -> Vec<(i32, f64)> {
         let ratio = change.coefficient_factor.wheel / change.coefficient_factor.pinion;
         match (self.question.fitted, change.severe_factor) {
-            (Fitted::Each, _) => {
+            (FittedGears::Each, _) => {
                 let place = ratio.ln() / STEP;
                 lagrange(place, place.round() as i32 - 1, 3)
             }
@@ -164,14 +164,14 @@ impl<'a> Simulations<'a> {
     }
 
     /// The change of the course `n` at a factor.
-    fn on_course(&self, n: i32, factor: f64) -> Change {
+    fn on_course(&self, n: i32, factor: f64) -> CoefficientChange {
         let [less, more, whole] = [-0.5, 0.5, 1.0].map(|by| (by * f64::from(n) * STEP).exp());
         match self.question.fitted {
-            Fitted::Each => Change {
+            FittedGears::Each => CoefficientChange {
                 coefficient_factor: PerGear { pinion: factor * less, wheel: factor * more },
                 severe_factor: None,
             },
-            fitted => Change {
+            fitted => CoefficientChange {
                 coefficient_factor: PerGear::from_fn(|gear| if fitted.has(gear) { factor } else { 1.0 }),
                 severe_factor: (n != 0).then(|| self.severe_factor() * whole),
             },
@@ -213,7 +213,7 @@ impl<'a> Simulations<'a> {
             operation.phases.iter_mut().for_each(|phase| phase.end_revolutions = reach * duration);
             operation.snapshots_revolutions = squares(reach, SNAPSHOTS).map(|factor| factor * duration).collect();
             scene.numerics.stepping = scene.numerics.stepping.coarser((reach / AS_FINE_UP_TO).max(1.0));
-            for Snapshot { revolutions, wear_um } in self.run(scene)? {
+            for ProfileSnapshot { revolutions, wear_um } in self.run(scene)? {
                 rows.push((profiles.iter().map(|of| revolutions / of.revolutions).collect(), wear_um));
             }
         }
@@ -233,7 +233,7 @@ impl<'a> Simulations<'a> {
     }
 
     /// Carries a scene out: the wear of each profile's flank points at each snapshot.
-    fn run(&mut self, scene: Scene) -> Result<Vec<Snapshot>, CompareError> {
+    fn run(&mut self, scene: Scene) -> Result<Vec<ProfileSnapshot>, CompareError> {
         self.runs += 1;
         self.observer.stage(&format!("run {}", self.runs));
         let resolved = Resolved { scene, file: self.given.resolved.file.clone(), warnings: Vec::new() };
@@ -258,13 +258,13 @@ impl<'a> Simulations<'a> {
                 let flank = &record.flanks[of.profile.gear];
                 over_width(&flank.snapshot_wear_um[index], &flank.width_mm, flank.radius_mm.len(), of.width_mm)
             });
-            Snapshot { revolutions: row.revolutions, wear_um: wear_um.collect() }
+            ProfileSnapshot { revolutions: row.revolutions, wear_um: wear_um.collect() }
         });
         Ok(snapshots.collect())
     }
 
     /// The scene with a change.
-    fn changed(&self, change: Change) -> Scene {
+    fn changed(&self, change: CoefficientChange) -> Scene {
         let mut scene = self.until_measured.clone();
         for gear in Gear::BOTH {
             let factor = change.coefficient_factor[gear];

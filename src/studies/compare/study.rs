@@ -1,14 +1,15 @@
 //! A comparison from beginning to end.
 
 use super::comparison::Comparison;
-use super::question::{Fitted, ProfileQuestion, Question, is_of_both};
+use super::question::{ComparisonQuestion, FittedGears, ProfileQuestion, is_of_both};
 use super::record::{
-    Coefficient, CompareFigures, CompareRecord, CompareRow, Correlation, Estimate, FitRecord, ProfileRecord,
+    Coefficient, CoefficientCorrelation, CompareFigures, CompareRecord, CompareRow, FitRecord, FittedValue,
+    ProfileRecord,
 };
 use super::run_folder::RunFolder;
-use super::search::{FittedCoefficients, Search};
+use super::search::{CoefficientSearch, FittedCoefficients};
 pub(crate) use super::simulations::CompareError;
-use super::simulations::{Change, Simulations, over_width};
+use super::simulations::{CoefficientChange, Simulations, over_width};
 use super::unknown::Unknown;
 use crate::gear::{Gear, GearPair, PerGear, slices::Slices};
 use crate::measurement::fit::FitStop;
@@ -27,7 +28,7 @@ const NOT_DESCRIBED: f64 = 2.0;
 
 /// Compares what was measured with the run in `folder`, whose scene is `given`.
 pub(crate) fn run(
-    question: &Question,
+    question: &ComparisonQuestion,
     folder: &RunFolder,
     given: &LoadedScene,
     observer: &dyn Observer,
@@ -41,9 +42,9 @@ pub(crate) fn run(
     let kept: Option<Vec<_>> = comparisons.iter().map(|one| as_kept(one, pair)).collect();
     let as_run_um = match kept {
         Some(kept) => kept,
-        None => simulations.exactly(Change::NOTHING)?,
+        None => simulations.exactly(CoefficientChange::NOTHING)?,
     };
-    let found = Search::new(question, &comparisons).run(&as_run_um, &mut simulations)?;
+    let found = CoefficientSearch::new(question, &comparisons).run(&as_run_um, &mut simulations)?;
 
     let profiles = comparisons.iter().enumerate().map(|(index, comparison)| {
         let rows = rows(question, pair, comparison, [&found.wear_um[index], &as_run_um[index]], &found);
@@ -72,7 +73,7 @@ fn as_kept(comparison: &Comparison<'_>, pair: &GearPair) -> Option<Vec<f64>> {
 }
 
 fn rows(
-    question: &Question,
+    question: &ComparisonQuestion,
     pair: &GearPair,
     comparison: &Comparison<'_>,
     [wear_um, as_run_um]: [&[f64]; 2],
@@ -105,7 +106,7 @@ fn rows(
 }
 
 fn profile(
-    question: &Question,
+    question: &ComparisonQuestion,
     resolved: &Resolved,
     pair: &GearPair,
     (index, rows): (usize, Vec<CompareRow>),
@@ -122,7 +123,7 @@ fn profile(
         hours: resolved.scene.operation.hours(of.revolutions),
         revolutions: of.revolutions,
         form: of.form.name().to_owned(),
-        shift_mm: found.of(question.shift_of(gear)).map(|(value, half)| Estimate {
+        shift_mm: found.of(question.shift_of(gear)).map(|(value, half)| FittedValue {
             value,
             low: half.map(|h| value - h),
             high: half.map(|h| value + h),
@@ -138,7 +139,7 @@ fn profile(
 }
 
 fn fit(
-    question: &Question,
+    question: &ComparisonQuestion,
     resolved: &Resolved,
     found: &FittedCoefficients,
     profiles: &[ProfileRecord],
@@ -166,7 +167,7 @@ fn fit(
             .uncertainty
             .as_ref()
             .filter(|_| parameters.len() > 1)
-            .map(|u| Correlation { parameters: parameters.clone(), matrix: u.correlation.clone() }),
+            .map(|u| CoefficientCorrelation { parameters: parameters.clone(), matrix: u.correlation.clone() }),
         runs: simulations.runs,
         mesh_cycles: simulations.mesh_cycles,
         how: how(question, found, profiles),
@@ -174,18 +175,18 @@ fn fit(
 }
 
 /// `unit` times the number of a logarithm, given with half the width of its interval.
-fn estimate((value, half): (f64, Option<f64>), of_run: f64, unit: f64) -> Estimate {
+fn estimate((value, half): (f64, Option<f64>), of_run: f64, unit: f64) -> FittedValue {
     let [value, low, high] = [Some(0.0), half.map(|half| -half), half].map(|by| by.map(|by| unit * (value + by).exp()));
-    Estimate { value: value.unwrap_or(f64::NAN), low, high, of_run }
+    FittedValue { value: value.unwrap_or(f64::NAN), low, high, of_run }
 }
 
 /// The unknowns that stand for a wear coefficient, and whose it is: both gears' where they wear by one law.
-fn whose(question: &Question, resolved: &Resolved) -> Vec<(Unknown, Option<Gear>)> {
+fn whose(question: &ComparisonQuestion, resolved: &Resolved) -> Vec<(Unknown, Option<Gear>)> {
     match question.fitted {
-        Fitted::Each => Gear::BOTH.map(|gear| (Unknown::Coefficient(Some(gear)), Some(gear))).into(),
-        Fitted::Alone(gear) => vec![(Unknown::Coefficient(None), Some(gear))],
-        Fitted::Together if is_of_both(&resolved.scene) => vec![(Unknown::Coefficient(None), None)],
-        Fitted::Together => Gear::BOTH.map(|gear| (Unknown::Coefficient(None), Some(gear))).into(),
+        FittedGears::Each => Gear::BOTH.map(|gear| (Unknown::Coefficient(Some(gear)), Some(gear))).into(),
+        FittedGears::Alone(gear) => vec![(Unknown::Coefficient(None), Some(gear))],
+        FittedGears::Together if is_of_both(&resolved.scene) => vec![(Unknown::Coefficient(None), None)],
+        FittedGears::Together => Gear::BOTH.map(|gear| (Unknown::Coefficient(None), Some(gear))).into(),
     }
 }
 
@@ -195,7 +196,7 @@ fn counted(of: &ProfileRecord) -> Option<String> {
 }
 
 /// How the intervals were obtained, or why there are none.
-fn how(question: &Question, found: &FittedCoefficients, profiles: &[ProfileRecord]) -> String {
+fn how(question: &ComparisonQuestion, found: &FittedCoefficients, profiles: &[ProfileRecord]) -> String {
     let confidence = 100.0 * CONFIDENCE;
     let how = match profiles {
         _ if found.unknowns.is_empty() => "nothing was fitted".to_owned(),
@@ -220,7 +221,7 @@ fn how(question: &Question, found: &FittedCoefficients, profiles: &[ProfileRecor
         }
     };
     match question.fitted {
-        Fitted::Alone(gear) if question.fit.coefficient() => format!(
+        FittedGears::Alone(gear) if question.fit.coefficient() => format!(
             "{how}; the gears wear by different laws: what is fitted is that of the {} alone, and that of the {} is as in the run",
             gear.name(),
             gear.mate().name()

@@ -9,7 +9,7 @@ use crate::results::run::RunRecord;
 
 /// A relation of the suite.
 #[derive(Clone, Copy)]
-pub(crate) struct Relation {
+pub(crate) struct SceneRelation {
     pub name: &'static str,
     /// Statement in a sentence.
     pub states: &'static str,
@@ -17,7 +17,7 @@ pub(crate) struct Relation {
     pub bound: &'static str,
     /// Whether so few scenes can be held against it that each is.
     pub is_rare: bool,
-    pub check: fn(&Subject<'_>) -> Verdict,
+    pub check: fn(&Subject<'_>) -> RelationOutcome,
 }
 
 /// A scene that has run.
@@ -29,7 +29,7 @@ pub(crate) struct Subject<'a> {
 }
 
 /// Outcome of a relation on a scene.
-pub(crate) enum Verdict {
+pub(crate) enum RelationOutcome {
     /// The relation says nothing about such a scene.
     NotOfThisScene,
     /// The other scene did not run to its end.
@@ -50,15 +50,15 @@ const FINER: f64 = 4.0;
 /// at 96 positions, 25 % at 192, 10 % at 384, 4 % at 768).
 const FINEST: f64 = 16.0;
 
-impl Verdict {
+impl RelationOutcome {
     fn is_beyond(&self) -> bool {
         self.figures().iter().any(|figure| figure.used() > 1.0)
     }
 
     fn figures(&self) -> &[Measured] {
         match self {
-            Verdict::Measured { figures, .. } => figures,
-            Verdict::NotOfThisScene | Verdict::Ended { .. } => &[],
+            RelationOutcome::Measured { figures, .. } => figures,
+            RelationOutcome::NotOfThisScene | RelationOutcome::Ended { .. } => &[],
         }
     }
 
@@ -88,13 +88,13 @@ fn finer(table: &Table, keys: &[&str], by: f64) -> Table {
 
 impl Subject<'_> {
     /// Runs the scene `other` and judges its record; without a figure nothing is said of the scene.
-    pub(super) fn beside(&self, other: Table, judge: impl FnOnce(&RunRecord) -> Vec<Measured>) -> Verdict {
+    pub(super) fn beside(&self, other: Table, judge: impl FnOnce(&RunRecord) -> Vec<Measured>) -> RelationOutcome {
         match (self.run)(&other) {
             Ok(record) => match judge(&record) {
-                figures if figures.is_empty() => Verdict::NotOfThisScene,
-                figures => Verdict::Measured { figures, scene: other },
+                figures if figures.is_empty() => RelationOutcome::NotOfThisScene,
+                figures => RelationOutcome::Measured { figures, scene: other },
             },
-            Err(how) => Verdict::Ended { scene: other, how },
+            Err(how) => RelationOutcome::Ended { scene: other, how },
         }
     }
 
@@ -109,10 +109,10 @@ impl Subject<'_> {
         one: Table,
         other: Table,
         judge: impl FnOnce(&RunRecord, &RunRecord) -> Vec<Measured>,
-    ) -> Verdict {
+    ) -> RelationOutcome {
         match (self.run)(&one) {
             Ok(first) => self.beside(other, |second| judge(&first, second)),
-            Err(how) => Verdict::Ended { scene: one, how },
+            Err(how) => RelationOutcome::Ended { scene: one, how },
         }
     }
 
@@ -124,7 +124,7 @@ impl Subject<'_> {
         keys: &[&str],
         other: impl Fn(&Table) -> Table,
         judge: impl Fn(&RunRecord, &RunRecord) -> Vec<Measured>,
-    ) -> Verdict {
+    ) -> RelationOutcome {
         let mut verdict = self.beside(other(self.table), |record| judge(self.record, record));
         for by in [FINER, FINEST] {
             if verdict.is_beyond() {

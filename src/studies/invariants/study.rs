@@ -9,7 +9,7 @@ use toml::Table;
 use super::carried_out::{Ended, carried_out};
 use super::comparison::Measured;
 use super::record::{InvariantsRecord, Refusal, StatementRow, Violation};
-use super::relation::{Relation, Subject, Verdict};
+use super::relation::{RelationOutcome, SceneRelation, Subject};
 use super::{relations, scene_generator};
 use crate::observer::Observer;
 use crate::results::invariant::Invariant;
@@ -86,7 +86,7 @@ pub(crate) fn run(asked: SceneRange, threads: usize, observer: &dyn Observer) ->
         threads,
         wall_s: 0.0,
     };
-    let mut rows = Rows::of(&relations);
+    let mut rows = StatementRows::of(&relations);
     // Scenes that came before one of a lower number: the record takes them in their order, and keeps none.
     let mut early: BTreeMap<u64, OfScene> = BTreeMap::new();
     let mut next = asked.first;
@@ -114,7 +114,7 @@ pub(crate) fn run(asked: SceneRange, threads: usize, observer: &dyn Observer) ->
 }
 
 /// One scene with all that is held against it; none where it was interrupted.
-fn of_scene(seed: u64, index: u64, relations: &[Relation], observer: &dyn Observer) -> Option<OfScene> {
+fn of_scene(seed: u64, index: u64, relations: &[SceneRelation], observer: &dyn Observer) -> Option<OfScene> {
     let table = scene_generator::scene(seed, index);
     let runs = Cell::new(1);
     let mut scene = OfScene { index, ended: None, runs: 1, found: Vec::new() };
@@ -138,8 +138,8 @@ fn of_scene(seed: u64, index: u64, relations: &[Relation], observer: &dyn Observ
                 .filter(|(k, relation)| relation.is_rare || (index + *k as u64).is_multiple_of(STRIDE));
             for (_, relation) in tried {
                 match (relation.check)(&subject) {
-                    Verdict::NotOfThisScene => {}
-                    Verdict::Ended { how: Ended::Interrupted, .. } => return None,
+                    RelationOutcome::NotOfThisScene => {}
+                    RelationOutcome::Ended { how: Ended::Interrupted, .. } => return None,
                     verdict => scene.found.extend(Finding::of_relation(relation, &table, verdict)),
                 }
             }
@@ -193,11 +193,11 @@ impl Finding {
         }
     }
 
-    fn of_relation(relation: &Relation, table: &Table, verdict: Verdict) -> Option<Self> {
+    fn of_relation(relation: &SceneRelation, table: &Table, verdict: RelationOutcome) -> Option<Self> {
         let (other, worst, defect) = match verdict {
-            Verdict::NotOfThisScene => return None,
-            Verdict::Ended { scene, how } => (scene, None, how.defect()),
-            Verdict::Measured { scene, figures } => {
+            RelationOutcome::NotOfThisScene => return None,
+            RelationOutcome::Ended { scene, how } => (scene, None, how.defect()),
+            RelationOutcome::Measured { scene, figures } => {
                 (scene, figures.into_iter().max_by(|a, b| a.used().total_cmp(&b.used())), None)
             }
         };
@@ -218,11 +218,11 @@ fn is_violated(measured: &Measured) -> bool {
 }
 
 /// The rows of all statements, in the order in which they were first found.
-struct Rows(Vec<StatementRow>);
+struct StatementRows(Vec<StatementRow>);
 
-impl Rows {
+impl StatementRows {
     /// With a row for each relation, whether any scene comes to it or not.
-    fn of(relations: &[Relation]) -> Self {
+    fn of(relations: &[SceneRelation]) -> Self {
         let mut rows = Self(Vec::new());
         for relation in relations {
             rows.row(relation.name, "relation", relation.states, relation.bound);
@@ -253,7 +253,7 @@ impl Rows {
 }
 
 /// Adds a scene to the record.
-fn take(scene: OfScene, record: &mut InvariantsRecord, rows: &mut Rows) {
+fn take(scene: OfScene, record: &mut InvariantsRecord, rows: &mut StatementRows) {
     record.runs += scene.runs;
     match &scene.ended {
         None => record.ran += 1,

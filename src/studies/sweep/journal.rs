@@ -21,7 +21,7 @@ pub(crate) const FILE_NAME: &str = "rows.jsonl";
 
 /// Contents of a journal: its first line and, one line each, the rows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Contents {
+pub(crate) struct JournalContents {
     pub identity: SweepIdentity,
     /// Part of the sweep; `None`: all of it.
     pub shard: Option<Shard>,
@@ -30,7 +30,7 @@ pub(crate) struct Contents {
     pub rows: BTreeMap<usize, SweepRow>,
 }
 
-impl Contents {
+impl JournalContents {
     /// The row in a line; an error says why it is none of this sweep.
     pub(crate) fn row(&self, line: &str) -> Result<SweepRow, String> {
         let row: SweepRow = serde_json::from_str(line).map_err(|error| error.to_string())?;
@@ -45,7 +45,7 @@ impl Contents {
 pub(crate) struct Journal {
     /// Path and file; `None`: kept in memory alone.
     kept: Option<(PathBuf, File)>,
-    pub contents: Contents,
+    pub contents: JournalContents,
 }
 
 /// Why rows cannot be read or kept.
@@ -91,7 +91,7 @@ pub(crate) enum JournalError {
 ///
 /// # Errors
 /// [`JournalError`] where there is none, or one that no sweep wrote.
-pub(crate) fn read(folder: &Path) -> Result<Contents, JournalError> {
+pub(crate) fn read(folder: &Path) -> Result<JournalContents, JournalError> {
     let path = folder.join(FILE_NAME);
     let text = match fs::read_to_string(&path) {
         Ok(text) => text,
@@ -110,8 +110,8 @@ fn whole_lines(text: &str) -> &str {
 }
 
 /// The contents of a journal's whole lines; `None` where there is none.
-fn parse(path: &Path, text: &str) -> Result<Option<Contents>, JournalError> {
-    let mut contents: Option<Contents> = None;
+fn parse(path: &Path, text: &str) -> Result<Option<JournalContents>, JournalError> {
+    let mut contents: Option<JournalContents> = None;
     for (number, line) in text.lines().enumerate() {
         let read = match &mut contents {
             None => serde_json::from_str(line).map(|first| contents = Some(first)).map_err(|error| error.to_string()),
@@ -133,7 +133,7 @@ fn opened(folder: &Path, path: &Path) -> io::Result<File> {
 }
 
 /// Cuts the file after its whole lines, and writes the first line of a journal that is `new`.
-fn begin_at(file: &mut File, length: usize, new: Option<&Contents>) -> io::Result<()> {
+fn begin_at(file: &mut File, length: usize, new: Option<&JournalContents>) -> io::Result<()> {
     file.set_len(length as u64)?;
     file.seek(SeekFrom::End(0))?;
     new.map_or(Ok(()), |contents| file.write_all(&line_of(contents)?))
@@ -142,7 +142,7 @@ fn begin_at(file: &mut File, length: usize, new: Option<&Contents>) -> io::Resul
 impl Journal {
     /// A journal that is not kept.
     pub(crate) fn in_memory(identity: &SweepIdentity, shard: Option<Shard>) -> Self {
-        Self { kept: None, contents: Contents { identity: identity.clone(), shard, rows: BTreeMap::new() } }
+        Self { kept: None, contents: JournalContents { identity: identity.clone(), shard, rows: BTreeMap::new() } }
     }
 
     /// Opens the journal of a sweep in `folder`, which is made if need be, and reads the rows it holds already.
@@ -199,7 +199,7 @@ impl Journal {
 }
 
 /// Writes all rows into a new file of the old name.
-fn write_anew(path: &Path, contents: &Contents) -> JournalError {
+fn write_anew(path: &Path, contents: &JournalContents) -> JournalError {
     let path = path.to_owned();
     match write(path.parent().unwrap_or(Path::new(".")), contents) {
         Ok(()) => JournalError::Removed { kept: contents.rows.len(), path },
@@ -208,7 +208,7 @@ fn write_anew(path: &Path, contents: &Contents) -> JournalError {
 }
 
 /// Writes a journal whole, its rows in the order of the combinations, into `folder`, which is made if need be.
-pub(crate) fn write(folder: &Path, contents: &Contents) -> io::Result<()> {
+pub(crate) fn write(folder: &Path, contents: &JournalContents) -> io::Result<()> {
     fs::create_dir_all(folder)?;
     whole_file::write(&folder.join(FILE_NAME), |out| {
         out.write_all(&line_of(contents)?)?;
@@ -223,7 +223,7 @@ fn line_of(item: &impl Serialize) -> io::Result<Vec<u8>> {
 }
 
 /// Differences between the sweep of the journal and the one to be run, in that order.
-fn differences(found: &Contents, wanted: &Contents) -> Vec<String> {
+fn differences(found: &JournalContents, wanted: &JournalContents) -> Vec<String> {
     let mut differences = found.identity.differences(&wanted.identity);
     if found.shard != wanted.shard {
         let [there, here] = [found.shard, wanted.shard]

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::combination::Sweep;
 use super::journal::{Journal, JournalError};
 use crate::observer::Observer;
-use crate::studies::spread::{Ended, spread};
+use crate::studies::spread::{SpreadOutcome, spread};
 use crate::studies::sweep::record::{Shard, SweepRow};
 use crate::studies::sweep::verification::{Chosen, chosen};
 
@@ -22,14 +22,14 @@ pub(crate) fn part(combinations: usize, shard: Option<Shard>) -> impl Iterator<I
 }
 
 /// Journal that rows are kept in.
-struct Kept<'a, F> {
+struct RowKeeper<'a, F> {
     journal: &'a mut Journal,
     tell: F,
     /// Why no row can be kept any more.
     error: Option<JournalError>,
 }
 
-impl<F: FnMut(&SweepRow)> Kept<'_, F> {
+impl<F: FnMut(&SweepRow)> RowKeeper<'_, F> {
     /// Keeps a finished row, if rows can still be kept: what follows a line that was not written whole could not be read again.
     fn keep(&mut self, row: SweepRow) -> bool {
         if self.error.is_some() {
@@ -79,12 +79,12 @@ pub(crate) fn run(
     journal: &mut Journal,
     threads: usize,
     observer: &dyn Observer,
-) -> Result<Ended, JournalError> {
+) -> Result<SpreadOutcome, JournalError> {
     loop {
         let rows = &journal.contents.rows;
         let tasks = tasks(sweep, shard, rows);
         let (things, total, mut failed) = match tasks.first() {
-            None => return Ok(Ended::Completed),
+            None => return Ok(SpreadOutcome::Completed),
             Some(Task::Run(_)) => {
                 let failed = rows.values().filter(|row| row.error.is_some()).count();
                 ("combinations", part(sweep.identity.combinations(), shard).count(), failed)
@@ -98,12 +98,12 @@ pub(crate) fn run(
             failed += usize::from(row.error.is_some());
             observer.counted(done, total, things, &with_failed(failed));
         };
-        let mut kept = Kept { journal, tell, error: None };
+        let mut kept = RowKeeper { journal, tell, error: None };
         let ended = spread(&tasks, threads, observer, |task, within| sweep.row_of(task, within), |row| kept.keep(row));
         if let Some(error) = kept.error {
             return Err(error);
         }
-        if ended == Ended::Interrupted {
+        if ended == SpreadOutcome::Interrupted {
             return Ok(ended);
         }
     }

@@ -20,7 +20,7 @@ use crate::observer::Observer;
 use crate::report::columns::Table;
 use crate::report::writable;
 use crate::results::error::TotalError;
-use crate::studies::spread::Ended;
+use crate::studies::spread::SpreadOutcome;
 use crate::studies::varied_scene::one_line;
 
 /// A sweep with the rows that are finished.
@@ -104,7 +104,7 @@ impl UnfinishedSweep {
     pub fn run(&mut self, threads: usize, observer: &dyn Observer) -> Result<bool, SweepError> {
         self.threads = threads;
         let ended = study::run(&self.sweep, self.shard, &mut self.journal, threads, observer);
-        Ok(ended.map_err(SweepFault::Journal)? == Ended::Completed)
+        Ok(ended.map_err(SweepFault::Journal)? == SpreadOutcome::Completed)
     }
 
     /// The finished sweep, whose files are written where it has a folder.

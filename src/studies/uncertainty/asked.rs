@@ -3,7 +3,7 @@
 use super::design::{self, CorrelationError, MOST_FACTORS, MOST_SAMPLES};
 use super::distribution::{self, UncertainError};
 use super::life::LimitError;
-use super::study::{Question, StudyError};
+use super::study::{Question, UncertaintyStudyError};
 use crate::scene::draft::Draft;
 use crate::scene::loaded::{LoadedScene, SceneError};
 use crate::studies::evaluate::output::{Output, OutputError};
@@ -57,7 +57,7 @@ pub(crate) enum UncertaintyFault {
     #[error("found {found} samples; allowed: a whole number from 2 to {MOST_SAMPLES}")]
     Samples { found: usize },
     #[error(transparent)]
-    Study(#[from] StudyError),
+    Study(#[from] UncertaintyStudyError),
 }
 
 impl From<OutputError> for UncertaintyFault {

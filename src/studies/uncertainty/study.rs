@@ -14,7 +14,7 @@ use std::time::Instant;
 
 use super::design::{Correlation, Design, Matrix};
 use super::distribution::Uncertain;
-use super::life::{Growth, Limit};
+use super::life::{DepthLimit, Growth};
 use super::record::{Band, FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, SampleRow, UncertaintyRecord};
 use crate::gear::PerGear;
 use crate::observer::Observer;
@@ -44,14 +44,14 @@ pub(crate) struct Question {
     /// How the keys are correlated, if they are.
     pub correlation: Option<Correlation>,
     pub outputs: Vec<Output>,
-    pub limits: Vec<Limit>,
+    pub limits: Vec<DepthLimit>,
     /// Points of the sequence.
     pub samples: usize,
     pub seed: u32,
 }
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub(crate) enum StudyError {
+pub(crate) enum UncertaintyStudyError {
     #[error("the scene as given cannot be run: {0}")]
     Nominal(String),
     #[error("none of {runs} samples has a result; the first says: {first}")]
@@ -242,9 +242,10 @@ pub(crate) fn run(
     question: &Question,
     threads: usize,
     observer: &dyn Observer,
-) -> Result<UncertaintyRecord, StudyError> {
+) -> Result<UncertaintyRecord, UncertaintyStudyError> {
     let start = Instant::now();
-    let varied = VariedScene::new(scene, false).map_err(|problems| StudyError::Nominal(in_words(&problems)))?;
+    let varied =
+        VariedScene::new(scene, false).map_err(|problems| UncertaintyStudyError::Nominal(in_words(&problems)))?;
     let nominal = nominal(scene, &varied, question, observer)?;
     let total = &nominal.summary.error.total;
     let paths = question.outputs.iter().map(|output| output.path.as_str());
@@ -278,7 +279,7 @@ pub(crate) fn run(
     let whole: Vec<Row> = rows.into_iter().map_while(|row| row).collect();
     let points = whole.len() / matrices.len();
     if points < question.samples.min(FEWEST_SAMPLES) {
-        return Err(StudyError::Interrupted);
+        return Err(UncertaintyStudyError::Interrupted);
     }
     let rows: Vec<&[Row]> = whole.chunks_exact(matrices.len()).collect();
     record(scene, &samples, &matrices, &rows, threads, start)
@@ -290,7 +291,7 @@ fn nominal(
     varied: &VariedScene,
     question: &Question,
     observer: &dyn Observer,
-) -> Result<WornPair, StudyError> {
+) -> Result<WornPair, UncertaintyStudyError> {
     observer.stage("the scene as given");
     let run = guarded(|| -> Result<WornPair, String> {
         let mut resolved = varied.resolved([]).map_err(|problems| in_words(&problems))?;
@@ -302,10 +303,10 @@ fn nominal(
     });
     let run = run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
     match run {
-        Ok(found) if found.summary.stopped == StopReason::Interrupted => Err(StudyError::Interrupted),
+        Ok(found) if found.summary.stopped == StopReason::Interrupted => Err(UncertaintyStudyError::Interrupted),
         Ok(found) => Ok(found),
-        Err(_) if observer.interrupted() => Err(StudyError::Interrupted),
-        Err(error) => Err(StudyError::Nominal(one_line(&error))),
+        Err(_) if observer.interrupted() => Err(UncertaintyStudyError::Interrupted),
+        Err(error) => Err(UncertaintyStudyError::Nominal(one_line(&error))),
     }
 }
 
@@ -316,13 +317,13 @@ fn record(
     rows: &[&[Row]],
     threads: usize,
     start: Instant,
-) -> Result<UncertaintyRecord, StudyError> {
+) -> Result<UncertaintyRecord, UncertaintyStudyError> {
     let question = samples.question;
     let mut failures = rows.iter().flat_map(|row| row.iter()).filter_map(|row| row.as_ref().err());
     let (runs, failed) = (rows.iter().map(|row| row.len()).sum(), failures.clone().count());
     let first_failure = failures.next().cloned();
     if let (true, Some(first)) = (failed == runs, &first_failure) {
-        return Err(StudyError::AllFailed { runs, first: first.clone() });
+        return Err(UncertaintyStudyError::AllFailed { runs, first: first.clone() });
     }
     let figures = question.outputs.len() + question.limits.len();
     Ok(UncertaintyRecord {
@@ -407,7 +408,7 @@ fn naming(samples: &Samples<'_>, figure: usize) -> (String, String, &'static str
         let meaning = known.map_or_else(|| name.clone(), |known| known.meaning.to_owned());
         return (name.clone(), meaning, known.map_or("", |known| known.unit));
     }
-    let Limit { output: name, depth_um } = &question.limits[figure - question.outputs.len()];
+    let DepthLimit { output: name, depth_um } = &question.limits[figure - question.outputs.len()];
     let meaning = described(name).map_or(*name, |known| known.meaning);
     let unit = if samples.nominal.summary.hours.is_some() { "h" } else { "revolutions" };
     (format!("life.{name}={depth_um}"), format!("Life until {depth_um} µm: {meaning}"), unit)

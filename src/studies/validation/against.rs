@@ -5,7 +5,7 @@
 //! Wall times are never compared: they say as much of the machine as of the program.
 
 use crate::studies::validation::record::{
-    CaseRecord, Change, Changes, Criterion, QuantityRecord, Standing, State, ValidationRecord,
+    CaseRecord, Change, Changes, ComparedState, Criterion, QuantityRecord, Standing, ValidationRecord,
 };
 
 /// A share of a tolerance has changed from this difference on.
@@ -39,14 +39,14 @@ fn names_missing_in(other: &ValidationRecord, record: &ValidationRecord) -> Vec<
 }
 
 impl Changes {
-    fn add(&mut self, is_worse: bool, case: &CaseRecord, what: &str, before: State, now: State) {
+    fn add(&mut self, is_worse: bool, case: &CaseRecord, what: &str, before: ComparedState, now: ComparedState) {
         let change = Change { case: case.name.clone(), what: what.to_owned(), before, now };
         if is_worse { &mut self.worse } else { &mut self.better }.push(change);
     }
 
     fn compare(&mut self, before: &CaseRecord, now: &CaseRecord) {
         if before.failure.is_some() != now.failure.is_some() {
-            let [ran_before, ran_now] = [before, now].map(|case| State::Ran(case.failure.is_none()));
+            let [ran_before, ran_now] = [before, now].map(|case| ComparedState::Ran(case.failure.is_none()));
             self.add(now.failure.is_some(), now, "verdict", ran_before, ran_now);
         }
         for quantity in &now.quantities {
@@ -54,7 +54,13 @@ impl Changes {
                 Some(earlier) => self.compare_quantity(now, earlier, quantity),
                 // A quantity that is new is no change of the program, unless it fails.
                 None if !quantity.as_expected() => {
-                    self.add(true, now, &quantity.name, State::Absent, State::Stands(quantity.standing));
+                    self.add(
+                        true,
+                        now,
+                        &quantity.name,
+                        ComparedState::Absent,
+                        ComparedState::Stands(quantity.standing),
+                    );
                 }
                 None => {}
             }
@@ -63,7 +69,7 @@ impl Changes {
         if now.failure.is_none() {
             for earlier in &before.quantities {
                 if now.quantities.iter().all(|quantity| quantity.name != earlier.name) {
-                    self.add(true, now, &earlier.name, State::Stands(earlier.standing), State::Absent);
+                    self.add(true, now, &earlier.name, ComparedState::Stands(earlier.standing), ComparedState::Absent);
                 }
             }
         }
@@ -76,13 +82,13 @@ impl Changes {
             let (was, is) = (earlier.outcome == earlier.expected, point.outcome == point.expected);
             if was != is {
                 let what = format!("{}: {}", point.parameter, point.setting);
-                self.add(was, now, &what, State::Ended(earlier.outcome), State::Ended(point.outcome));
+                self.add(was, now, &what, ComparedState::Ended(earlier.outcome), ComparedState::Ended(point.outcome));
             }
         }
         for (name, &count) in &now.work {
             let Some(&earlier) = before.work.get(name) else { continue };
             if count.abs_diff(earlier) as f64 > RELATIVE * earlier as f64 {
-                self.add(count > earlier, now, name, State::Counted(earlier), State::Counted(count));
+                self.add(count > earlier, now, name, ComparedState::Counted(earlier), ComparedState::Counted(count));
             }
         }
     }
@@ -90,24 +96,37 @@ impl Changes {
     fn compare_quantity(&mut self, case: &CaseRecord, before: &QuantityRecord, now: &QuantityRecord) {
         if before.standing != now.standing {
             let is_worse = rank(now.standing) < rank(before.standing);
-            self.add(is_worse, case, &now.name, State::Stands(before.standing), State::Stands(now.standing));
+            self.add(
+                is_worse,
+                case,
+                &now.name,
+                ComparedState::Stands(before.standing),
+                ComparedState::Stands(now.standing),
+            );
         } else if let Some(is_worse) = limit_moved(before.criterion, now.criterion) {
             // A share of another tolerance says nothing: what is compared is the error, in the tolerance as it was.
             let what = format!("{}: what it is compared with", now.name);
-            self.add(is_worse, case, &what, State::Against(before.criterion), State::Against(now.criterion));
+            self.add(
+                is_worse,
+                case,
+                &what,
+                ComparedState::Against(before.criterion),
+                ComparedState::Against(now.criterion),
+            );
             if let (Some(earlier), Some(error), Criterion::Near { tolerance, .. }) =
                 (before.error, now.error, before.criterion)
                 && (error - earlier).abs() > SHARE * tolerance
             {
-                let [before, after] = [earlier, error].map(|error| State::Errs(error, now.unit.clone()));
+                let [before, after] = [earlier, error].map(|error| ComparedState::Errs(error, now.unit.clone()));
                 self.add(error > earlier, case, &now.name, before, after);
             }
         } else if let (Some(earlier), Some(share), false) = (before.share, now.share, now.counts_work) {
             if (share - earlier).abs() > SHARE {
-                self.add(share > earlier, case, &now.name, State::Uses(earlier), State::Uses(share));
+                self.add(share > earlier, case, &now.name, ComparedState::Uses(earlier), ComparedState::Uses(share));
             }
         } else if let Some(is_worse) = nearer_to_bound(before, now) {
-            let [earlier, later] = [before, now].map(|quantity| State::Is(quantity.value, quantity.unit.clone()));
+            let [earlier, later] =
+                [before, now].map(|quantity| ComparedState::Is(quantity.value, quantity.unit.clone()));
             self.add(is_worse, case, &now.name, earlier, later);
         }
     }

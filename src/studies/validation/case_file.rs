@@ -53,7 +53,7 @@ pub(crate) struct RunSpec {
     /// By which expressions know it.
     pub name: String,
     #[serde(default)]
-    pub command: Command,
+    pub command: CaseCommand,
     /// A preset, or a file beside the case; with `invariants` the word `random`.
     pub scene: String,
     /// With `fem` of a gear pair: the one position; without it the mesh cycle.
@@ -97,7 +97,7 @@ impl RunSpec {
 /// The command that does the same from a terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Command {
+pub(crate) enum CaseCommand {
     /// The wear simulation.
     #[default]
     Run,
@@ -203,7 +203,7 @@ pub(crate) enum Formula {
 /// How far from a reference, or how uncertain one is.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub(crate) enum Extent {
+pub(crate) enum ToleranceSize {
     /// A share of the reference.
     Relative(Formula),
     /// In the quantity's unit.
@@ -222,7 +222,7 @@ pub(crate) struct QuantitySpec {
     /// The reference it must be near.
     pub near: Option<Formula>,
     /// How near.
-    pub within: Option<Extent>,
+    pub within: Option<ToleranceSize>,
     /// Lower bound.
     pub at_least: Option<Formula>,
     /// Upper bound; with `at_least`, both hold.
@@ -233,9 +233,9 @@ pub(crate) struct QuantitySpec {
     #[serde(default)]
     pub source: String,
     /// Of the reference.
-    pub uncertainty: Option<Extent>,
+    pub uncertainty: Option<ToleranceSize>,
     /// Contribution of the computation's resolution.
-    pub discretisation: Option<Extent>,
+    pub discretisation: Option<ToleranceSize>,
     /// Why the tolerance or bound is what it is.
     pub because: Option<String>,
     /// `fails`: known not to hold.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::case_file::{CaseFile, Command, QuantitySpec, RunSpec, VarySpec};
+use super::case_file::{CaseCommand, CaseFile, QuantitySpec, RunSpec, VarySpec};
 use super::expression::Evaluator;
 use crate::studies::validation::record::{RunOutcome, Standing};
 
@@ -79,7 +79,7 @@ fn check_run(run: &RunSpec, case: &CaseFile) -> Result<(), CaseFault> {
     let ways = [!run.vary.is_empty(), !run.each.is_empty(), run.sample.is_some()];
     let more_ways = ways.iter().filter(|&&way| way).count() > 1;
     let no_family = !run.is_family() && !run.take.is_empty();
-    let (no_fem, is_run) = (run.command != Command::Fem, run.command == Command::Run);
+    let (no_fem, is_run) = (run.command != CaseCommand::Fem, run.command == CaseCommand::Run);
     let defect = run.accept.iter().any(|outcome| matches!(outcome, RunOutcome::Unsound | RunOutcome::Panicked));
     let accepted = "accept of \"sound\", \"refused\", \"not-converged\" and \"worn-through\" alone";
     let faults = [
@@ -100,8 +100,8 @@ fn check_run(run: &RunSpec, case: &CaseFile) -> Result<(), CaseFault> {
     }
     if let Some(name) = &run.calibration {
         let made = case.run.iter().find(|other| other.name == *name);
-        let is_calibration = made.is_some_and(|made| made.command == Command::Calibrate && !made.is_family());
-        if !is_calibration || run.command == Command::Calibrate {
+        let is_calibration = made.is_some_and(|made| made.command == CaseCommand::Calibrate && !made.is_family());
+        if !is_calibration || run.command == CaseCommand::Calibrate {
             let allowed = "the name of a single run with command = \"calibrate\"";
             return Err(fault("run", &run.name, format!("calibration = {name:?}"), allowed));
         }

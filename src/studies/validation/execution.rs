@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use super::case_file::{Command, RunSpec};
+use super::case_file::{CaseCommand, RunSpec};
 use super::members::Member;
 use super::soundness;
 use super::value::Value;
@@ -31,6 +31,7 @@ use crate::scene::loaded::{self, LoadedScene, NamedFiles, SceneText};
 use crate::scene::{Problem, Resolved, presets};
 use crate::studies::invariants::study::{self, SceneRange};
 use crate::studies::validation::record::RunOutcome;
+use crate::studies::varied_scene::in_words;
 
 /// Result of a run.
 #[derive(Debug, Clone)]
@@ -90,7 +91,7 @@ fn not_converged(error: impl ToString) -> Failed {
 }
 
 fn wrong(problems: Vec<Problem>) -> Failed {
-    refused(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))
+    refused(in_words(&problems))
 }
 
 /// One member of a run to carry out.
@@ -112,10 +113,10 @@ impl MemberRun<'_> {
         }
         let start = Instant::now();
         let done = guarded(|| match self.run.command {
-            Command::Run => self.wear_run(),
-            Command::Fem => self.finite_elements(),
-            Command::Calibrate => self.calibrated(),
-            Command::Invariants => self.random_scenes(),
+            CaseCommand::Run => self.wear_run(),
+            CaseCommand::Fem => self.finite_elements(),
+            CaseCommand::Calibrate => self.calibrated(),
+            CaseCommand::Invariants => self.random_scenes(),
         });
         let executed = match done {
             Err(said) => Executed::without_result(RunOutcome::Panicked, said),

@@ -6,7 +6,7 @@
 //! `summary.unworn`. The functions are those of [`super::column`] and [`super::profile`].
 
 use super::column;
-use super::syntax::{self, Node, Term};
+use super::syntax::{self, Term, TermNode};
 use super::value::Value;
 
 /// Items of a list that an expression makes, lists in it included; columns of results may be longer.
@@ -92,7 +92,7 @@ impl Evaluator {
     }
 
     /// Value of a term, or why it has none and the place of the fault.
-    fn evaluate(&self, node: &Node) -> Result<Value, (TermFault, usize)> {
+    fn evaluate(&self, node: &TermNode) -> Result<Value, (TermFault, usize)> {
         let at = node.place;
         Ok(match &node.term {
             Term::Number(number) => Value::Number(*number),
@@ -134,7 +134,7 @@ impl Evaluator {
         })
     }
 
-    fn truth(&self, node: &Node) -> Result<bool, (TermFault, usize)> {
+    fn truth(&self, node: &TermNode) -> Result<bool, (TermFault, usize)> {
         match self.evaluate(node)? {
             Value::Truth(truth) => Ok(truth),
             other => Err((no_function("a statement", &[other]), node.place)),

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::case_file::{Extent, Formula, QuantitySpec};
+use super::case_file::{Formula, QuantitySpec, ToleranceSize};
 use super::expression::{Evaluator, ExpressionError};
 use super::schedule::Members;
 use crate::studies::validation::record::{Criterion, QuantityRecord, RunOutcome, Standing};
@@ -155,14 +155,14 @@ fn finite(what: &'static str, formula: Option<&Formula>, e: &mut Evaluator) -> R
 /// Size of an extent in the quantity's unit, which must be finite.
 fn size(
     what: &'static str,
-    extent: Option<&Extent>,
+    extent: Option<&ToleranceSize>,
     reference: f64,
     e: &mut Evaluator,
 ) -> Result<Option<f64>, JudgeError> {
     let Some(extent) = extent else { return Ok(None) };
     let size = match extent {
-        Extent::Relative(share) => number(share, e)? * reference.abs(),
-        Extent::Absolute(size) => number(size, e)?,
+        ToleranceSize::Relative(share) => number(share, e)? * reference.abs(),
+        ToleranceSize::Absolute(size) => number(size, e)?,
     };
     checked(what, size).map(Some)
 }

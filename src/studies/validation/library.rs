@@ -45,7 +45,7 @@ pub(crate) enum LibraryError {
 
 /// A case with its place on disk.
 #[derive(Debug, Clone)]
-pub(crate) struct Case {
+pub(crate) struct ValidationCase {
     /// Name of its folder.
     pub name: String,
     pub folder: PathBuf,
@@ -55,7 +55,7 @@ pub(crate) struct Case {
 /// Cases, and the folder that keeps the built-in ones as long as they are needed.
 #[derive(Debug)]
 pub(crate) struct Library {
-    pub cases: Vec<Case>,
+    pub cases: Vec<ValidationCase>,
     _built_in: Option<TemporaryFolder>,
 }
 
@@ -122,7 +122,7 @@ impl Library {
                 return Err(LibraryError::Unknown { found: asked.clone(), nearest });
             }
         }
-        let cases = folders.iter().map(|folder| read(folder)).collect::<Result<Vec<Case>, _>>()?;
+        let cases = folders.iter().map(|folder| read(folder)).collect::<Result<Vec<ValidationCase>, _>>()?;
         let mut taken = BTreeSet::new();
         if let Some(twice) = cases.iter().find(|case| !taken.insert(case.name.as_str())) {
             return Err(LibraryError::Twice { name: twice.name.clone() });
@@ -131,7 +131,7 @@ impl Library {
     }
 }
 
-fn read(folder: &Path) -> Result<Case, LibraryError> {
+fn read(folder: &Path) -> Result<ValidationCase, LibraryError> {
     let path = folder.join(CASE_FILE);
     let text = fs::read_to_string(&path).map_err(|reason| LibraryError::Unreadable { path: path.clone(), reason })?;
     let file: CaseFile = toml::from_str(&text).map_err(|error| {
@@ -146,7 +146,7 @@ fn read(folder: &Path) -> Result<Case, LibraryError> {
     // A folder given as `.` has a name all the same.
     let whole = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
     let name = whole.file_name().map_or_else(|| "case".to_owned(), |name| name.to_string_lossy().into_owned());
-    Ok(Case { name, folder: folder.to_owned(), file })
+    Ok(ValidationCase { name, folder: folder.to_owned(), file })
 }
 
 #[cfg(test)]

@@ -33,13 +33,19 @@ use std::time::Instant;
 use crate::observer::Observer;
 use crate::studies::validation::record::{CaseRecord, CaseRun, RunOutcome, Tier, ValidationRecord, written};
 use expression::Evaluator;
-use library::Case;
+use library::ValidationCase;
 use schedule::Members;
 
 /// Carries out the cases of `tier` (all of them where there is none) on `threads` threads.
-pub(crate) fn run(cases: &[Case], tier: Option<Tier>, threads: usize, observer: &dyn Observer) -> ValidationRecord {
+pub(crate) fn run(
+    cases: &[ValidationCase],
+    tier: Option<Tier>,
+    threads: usize,
+    observer: &dyn Observer,
+) -> ValidationRecord {
     let start = Instant::now();
-    let chosen: Vec<&Case> = cases.iter().filter(|case| tier.is_none_or(|tier| case.file.tier <= tier)).collect();
+    let chosen: Vec<&ValidationCase> =
+        cases.iter().filter(|case| tier.is_none_or(|tier| case.file.tier <= tier)).collect();
     let executed = schedule::carry_out(&chosen, threads, observer);
     let (finished, left_out): (Vec<_>, Vec<_>) = chosen
         .iter()
@@ -58,7 +64,7 @@ pub(crate) fn run(cases: &[Case], tier: Option<Tier>, threads: usize, observer: 
 }
 
 /// Record of a case with everything judged.
-fn record(case: &Case, runs: &[Members]) -> CaseRecord {
+fn record(case: &ValidationCase, runs: &[Members]) -> CaseRecord {
     let file = &case.file;
     let runs_of_case: Vec<CaseRun> = file.run.iter().zip(runs).map(|(spec, family)| of_run(spec, family)).collect();
     let mut record = CaseRecord {
@@ -82,7 +88,7 @@ fn record(case: &Case, runs: &[Members]) -> CaseRecord {
 }
 
 /// Judges the quantities of a case and makes its plots.
-fn fill(record: &mut CaseRecord, case: &Case, runs: &[Members]) -> Result<(), Box<dyn Error>> {
+fn fill(record: &mut CaseRecord, case: &ValidationCase, runs: &[Members]) -> Result<(), Box<dyn Error>> {
     let file = &case.file;
     let by_name: BTreeMap<&str, &Members> = file.run.iter().map(|spec| spec.name.as_str()).zip(runs).collect();
     // Outcomes come first: they are worth knowing of a case that fails.

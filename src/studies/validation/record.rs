@@ -360,14 +360,14 @@ pub(crate) struct Change {
     pub case: String,
     /// Name of a quantity or of a work count, or `verdict`.
     pub what: String,
-    pub before: State,
-    pub now: State,
+    pub before: ComparedState,
+    pub now: ComparedState,
 }
 
 /// Property that is compared between two records.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum State {
+pub(crate) enum ComparedState {
     /// Whether the case could be carried out.
     Ran(bool),
     Absent,

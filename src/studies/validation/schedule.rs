@@ -4,9 +4,9 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use super::case_file::{Command, RunSpec};
+use super::case_file::{CaseCommand, RunSpec};
 use super::execution::{Executed, MemberRun};
-use super::library::Case;
+use super::library::ValidationCase;
 use super::members::{Member, members};
 use crate::calibration::Calibration;
 use crate::observer::{Observer, PartOf};
@@ -40,7 +40,7 @@ struct Job {
 }
 
 /// Carries out all runs of `cases` on `threads` threads: for each case, each of its runs.
-pub(crate) fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer) -> Vec<Vec<Members>> {
+pub(crate) fn carry_out(cases: &[&ValidationCase], threads: usize, observer: &dyn Observer) -> Vec<Vec<Members>> {
     let mut all: Vec<Vec<Members>> =
         cases.iter().map(|case| case.file.run.iter().map(Members::not_yet_run).collect()).collect();
     let mut jobs: Vec<Job> = Vec::new();
@@ -54,10 +54,10 @@ pub(crate) fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer
         jobs.into_iter().partition(|job| cases[job.case].file.run[job.run].calibration.is_some());
     // Long ones first, so that no thread is left with one at the end.
     first.sort_by_key(|job| match cases[job.case].file.run[job.run].command {
-        Command::Invariants => 0,
-        Command::Calibrate => 1,
-        Command::Fem => 2,
-        Command::Run => 3,
+        CaseCommand::Invariants => 0,
+        CaseCommand::Calibrate => 1,
+        CaseCommand::Fem => 2,
+        CaseCommand::Run => 3,
     });
     let done = AtomicUsize::new(0);
     for jobs in [first, after] {
@@ -89,7 +89,7 @@ pub(crate) fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer
 }
 
 /// The calibration that the run called `name` of the case made.
-fn made_by<'a>(case: &Case, runs: &'a [Members], name: &str) -> Option<&'a Calibration> {
+fn made_by<'a>(case: &ValidationCase, runs: &'a [Members], name: &str) -> Option<&'a Calibration> {
     let index = case.file.run.iter().position(|run| run.name == name)?;
     runs[index].executed.first()?.as_ref()?.calibration.as_ref()
 }

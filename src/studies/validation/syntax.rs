@@ -29,7 +29,7 @@ pub(crate) enum SyntaxError {
 
 /// A term, and the character of the expression at which it stands, from 1.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Node {
+pub(crate) struct TermNode {
     pub term: Term,
     pub place: usize,
 }
@@ -42,27 +42,27 @@ pub(crate) enum Term {
     Text(String),
     Name(String),
     /// `[a, b]`
-    List(Vec<Node>),
+    List(Vec<TermNode>),
     /// `-a`
-    Minus(Box<Node>),
+    Minus(Box<TermNode>),
     /// `!a`
-    Not(Box<Node>),
+    Not(Box<TermNode>),
     /// `a && b`, `a || b`: the second term has a value only where the first one does not decide.
-    Both(Box<[Node; 2]>),
+    Both(Box<[TermNode; 2]>),
     /// See [`Term::Both`].
-    Either(Box<[Node; 2]>),
+    Either(Box<[TermNode; 2]>),
     /// Any other operator between two terms.
-    Binary(&'static str, Box<[Node; 2]>),
+    Binary(&'static str, Box<[TermNode; 2]>),
     /// `a.name`
-    Member(Box<Node>, String),
+    Member(Box<TermNode>, String),
     /// `a[b]`
-    Index(Box<[Node; 2]>),
+    Index(Box<[TermNode; 2]>),
     /// `function(a, b)`
-    Call(String, Vec<Node>),
+    Call(String, Vec<TermNode>),
 }
 
 /// The tree of an expression.
-pub(crate) fn parse(expression: &str) -> Result<Node, SyntaxError> {
+pub(crate) fn parse(expression: &str) -> Result<TermNode, SyntaxError> {
     let mut parser = Parser { tokens: tokens(expression)?, next: 0, end: expression.chars().count() + 1 };
     let whole = parser.expression(0, 0)?;
     if parser.peek().is_some() { Err(parser.unexpected("an operator or the end")) } else { Ok(whole) }
@@ -199,7 +199,7 @@ impl Parser {
     }
 
     /// A term with all operators behind it that are at least as strong as `least`.
-    fn expression(&mut self, least: u8, depth: usize) -> Result<Node, SyntaxError> {
+    fn expression(&mut self, least: u8, depth: usize) -> Result<TermNode, SyntaxError> {
         let mut left = self.term(depth)?;
         // Every link of a chain makes the tree one deeper.
         let mut depth = depth;
@@ -217,21 +217,21 @@ impl Parser {
                 "||" => Term::Either(both),
                 sign => Term::Binary(sign, both),
             };
-            left = Node { term, place };
+            left = TermNode { term, place };
         }
         Ok(left)
     }
 
-    fn term(&mut self, depth: usize) -> Result<Node, SyntaxError> {
+    fn term(&mut self, depth: usize) -> Result<TermNode, SyntaxError> {
         let place = self.place();
         if depth >= MOST_DEPTH {
             return Err(SyntaxError::TooDeep { place });
         }
         if self.takes("-") {
-            return Ok(Node { term: Term::Minus(Box::new(self.term(depth + 1)?)), place });
+            return Ok(TermNode { term: Term::Minus(Box::new(self.term(depth + 1)?)), place });
         }
         if self.takes("!") {
-            return Ok(Node { term: Term::Not(Box::new(self.term(depth + 1)?)), place });
+            return Ok(TermNode { term: Term::Not(Box::new(self.term(depth + 1)?)), place });
         }
         let mut operand = self.operand(depth)?;
         for depth in depth + 1.. {
@@ -256,12 +256,12 @@ impl Parser {
             } else {
                 return Ok(operand);
             };
-            operand = Node { term, place };
+            operand = TermNode { term, place };
         }
         Ok(operand)
     }
 
-    fn operand(&mut self, depth: usize) -> Result<Node, SyntaxError> {
+    fn operand(&mut self, depth: usize) -> Result<TermNode, SyntaxError> {
         let place = self.place();
         let Some(token) = self.peek().cloned() else { return Err(self.unexpected("a term")) };
         if token == Token::Sign("(") {
@@ -282,11 +282,11 @@ impl Parser {
             Token::Name(name) => Term::Name(name),
             Token::Sign(_) => Term::List(self.list("]", depth + 1)?),
         };
-        Ok(Node { term, place })
+        Ok(TermNode { term, place })
     }
 
     /// Expressions between commas, up to the bracket that closes them.
-    fn list(&mut self, close: &'static str, depth: usize) -> Result<Vec<Node>, SyntaxError> {
+    fn list(&mut self, close: &'static str, depth: usize) -> Result<Vec<TermNode>, SyntaxError> {
         let mut items = Vec::new();
         while !self.takes(close) {
             if !items.is_empty() {

@@ -7,7 +7,7 @@ use serde_json::json;
 use crate::reference::statistics::extent;
 use crate::report::chart::{Chart, Dash, MUTED, Trace};
 use crate::report::html::number::{percent, significant};
-use crate::studies::accuracy::record::{AccuracyRecord, Quantity, VariantRecord, VariantSettings};
+use crate::studies::accuracy::record::{AccuracyRecord, ComparedQuantity, VariantRecord, VariantSettings};
 
 /// Errors below this are drawn at it: a logarithmic axis knows no zero.
 const LEAST_SHOWN: f64 = 1e-5;
@@ -38,10 +38,10 @@ const COUPLINGS: [(Option<&str>, &str, &str); 4] = [
 ];
 
 pub(super) fn all(record: &AccuracyRecord) -> Vec<Chart> {
-    Quantity::ALL.into_iter().filter(|q| record.measures(*q)).map(|quantity| front(record, quantity)).collect()
+    ComparedQuantity::ALL.into_iter().filter(|q| record.measures(*q)).map(|quantity| front(record, quantity)).collect()
 }
 
-fn front(record: &AccuracyRecord, quantity: Quantity) -> Chart {
+fn front(record: &AccuracyRecord, quantity: ComparedQuantity) -> Chart {
     let runs = record.variants.iter().filter_map(|v| {
         let error = v.errors.get(&quantity).filter(|error| error.relative.is_finite())?;
         Some((v, v.simulation_s?, error.relative, error.on_front))
@@ -49,7 +49,7 @@ fn front(record: &AccuracyRecord, quantity: Quantity) -> Chart {
     let uncertainty = record.reference.uncertainty.get(&quantity).copied().unwrap_or(0.0);
     let id = format!("front-{}", quantity.to_string().to_lowercase().replace('_', "-"));
     let mut chart = Chart::new(id, quantity.title())
-        .wide_if(quantity == Quantity::WearProfile)
+        .wide_if(quantity == ComparedQuantity::WearProfile)
         .height(430)
         .read_nearest()
         .x("wall time of the wear run, s")
@@ -105,7 +105,7 @@ fn size(variant: &VariantRecord) -> usize {
     }
 }
 
-fn reading(record: &AccuracyRecord, quantity: Quantity, uncertainty: f64) -> String {
+fn reading(record: &AccuracyRecord, quantity: ComparedQuantity, uncertainty: f64) -> String {
     let found = record.recommended(quantity).map_or_else(String::new, |(is_within, variant, error, wall_s)| {
         let within = percent(record.within);
         let found = format!("{}: {} in {} s.", variant.name, percent(error), significant(wall_s, 3));

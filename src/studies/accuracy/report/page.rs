@@ -6,7 +6,7 @@ use super::{front_figures, profile_figures, run_tables};
 use crate::report::html::number::{percent, significant};
 use crate::report::html::page::{Page, Plots, section, sources_list};
 use crate::results::run::{ReportedBy, StopReason};
-use crate::studies::accuracy::record::{AccuracyRecord, CALIBRATION_FILE, OVER_WIDTH_FILE, Quantity};
+use crate::studies::accuracy::record::{AccuracyRecord, CALIBRATION_FILE, ComparedQuantity, OVER_WIDTH_FILE};
 
 /// The data files named in the page, which lie beside it.
 const DATA_FILES: [(&str, &str); 7] = [
@@ -77,7 +77,7 @@ fn data_files(record: &AccuracyRecord) -> Vec<(&'static str, &'static str)> {
 
 /// Recommendation, in a sentence or two.
 fn answer(record: &AccuracyRecord) -> String {
-    if let Some(not) = record.not_ranked(Quantity::WearProfile) {
+    if let Some(not) = record.not_ranked(ComparedQuantity::WearProfile) {
         return format!(
             "No ranking by wear profile, and no recommendation: the reference itself is uncertain by {}, more than the {} wanted. \
              To converge, it needs: {}.",
@@ -86,7 +86,7 @@ fn answer(record: &AccuracyRecord) -> String {
             not.remedy
         );
     }
-    let Some((is_within, variant, error, wall_s)) = record.recommended(Quantity::WearProfile) else {
+    let Some((is_within, variant, error, wall_s)) = record.recommended(ComparedQuantity::WearProfile) else {
         return "No run could be compared with the reference.".to_owned();
     };
     let reference = record.variants.first().and_then(|finest| finest.simulation_s);

@@ -9,7 +9,7 @@ use crate::report::chart::{Chart, Dash, INK, Trace, padded};
 use crate::report::html::number::{figure, percent, significant};
 use crate::report::html::reading::greatest;
 use crate::results::path_points::among;
-use crate::studies::accuracy::record::{AccuracyRecord, Quantity, ReferenceFlank, VariantRecord};
+use crate::studies::accuracy::record::{AccuracyRecord, ComparedQuantity, ReferenceFlank, VariantRecord};
 
 /// Stiffnesses to show the surfaces with, the best first.
 const BEST_STIFFNESS: [&str; 2] = ["fem", "weber-banaschek"];
@@ -210,9 +210,9 @@ fn over_flank(chart: Chart, reference: &ReferenceFlank, gear: Gear) -> Chart {
     chart.x_range(range).x_format(".3f").mark_path_points(points)
 }
 
-fn profile_of(gear: Gear) -> Quantity {
+fn profile_of(gear: Gear) -> ComparedQuantity {
     match gear {
-        Gear::Pinion => Quantity::PinionWearProfile,
-        Gear::Wheel => Quantity::WheelWearProfile,
+        Gear::Pinion => ComparedQuantity::PinionWearProfile,
+        Gear::Wheel => ComparedQuantity::WheelWearProfile,
     }
 }

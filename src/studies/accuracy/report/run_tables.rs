@@ -4,20 +4,20 @@ use maud::{Markup, html};
 
 use crate::report::html::number::{count, fixed, percent, significant};
 use crate::report::html::table::{Cell, cells, line, list};
-use crate::studies::accuracy::record::{AccuracyRecord, Comparison, DeepRun, Quantity, VariantRecord};
+use crate::studies::accuracy::record::{AccuracyRecord, ComparedQuantity, DeepRun, SettingComparison, VariantRecord};
 
 /// The quantities with a column of their own in the table of all runs, where they are measured.
-const SHOWN: [(Quantity, &str); 10] = [
-    (Quantity::WearProfile, "wear profile"),
-    (Quantity::PinionPeakWear, "maximum wear, pinion"),
-    (Quantity::PinionTipEdgeWear, "its tip edge"),
-    (Quantity::FlankPressure, "flank pressure"),
-    (Quantity::PeakPressure, "maximum at a point"),
-    (Quantity::HalfWidth, "half-width"),
-    (Quantity::TransmissionError, "transmission error"),
-    (Quantity::WornTransmissionError, "the same, worn"),
-    (Quantity::RootWear, "root wear"),
-    (Quantity::WornFaceLoadFactor, "K_Hβ, worn"),
+const SHOWN: [(ComparedQuantity, &str); 10] = [
+    (ComparedQuantity::WearProfile, "wear profile"),
+    (ComparedQuantity::PinionPeakWear, "maximum wear, pinion"),
+    (ComparedQuantity::PinionTipEdgeWear, "its tip edge"),
+    (ComparedQuantity::FlankPressure, "flank pressure"),
+    (ComparedQuantity::PeakPressure, "maximum at a point"),
+    (ComparedQuantity::HalfWidth, "half-width"),
+    (ComparedQuantity::TransmissionError, "transmission error"),
+    (ComparedQuantity::WornTransmissionError, "the same, worn"),
+    (ComparedQuantity::RootWear, "root wear"),
+    (ComparedQuantity::WornFaceLoadFactor, "K_Hβ, worn"),
 ];
 
 /// The cheapest setting for each quantity.
@@ -62,14 +62,15 @@ fn not_ranked(record: &AccuracyRecord) -> Markup {
 }
 
 fn profile_error(run: &VariantRecord) -> f64 {
-    run.errors.get(&Quantity::WearProfile).map_or(f64::INFINITY, |error| error.relative)
+    run.errors.get(&ComparedQuantity::WearProfile).map_or(f64::INFINITY, |error| error.relative)
 }
 
 /// Every run, the most accurate wear profile first, those without a result last.
 pub(super) fn runs(record: &AccuracyRecord) -> Markup {
     let mut sorted: Vec<&VariantRecord> = record.variants.iter().collect();
     sorted.sort_by(|a, b| profile_error(a).total_cmp(&profile_error(b)));
-    let shown: Vec<(Quantity, &str)> = SHOWN.into_iter().filter(|&(quantity, _)| record.measures(quantity)).collect();
+    let shown: Vec<(ComparedQuantity, &str)> =
+        SHOWN.into_iter().filter(|&(quantity, _)| record.measures(quantity)).collect();
     let columns = ["run", "time, s", "set-up, s", "equilibria"].into_iter().chain(shown.iter().map(|&(_, name)| name));
     let rows = sorted.into_iter().map(|v| {
         let errors = shown.iter().map(|(quantity, _)| {
@@ -88,7 +89,7 @@ pub(super) fn runs(record: &AccuracyRecord) -> Markup {
 }
 
 /// Runs that differ in one respect only.
-pub(super) fn comparison(of: &Comparison) -> Markup {
+pub(super) fn comparison(of: &SettingComparison) -> Markup {
     let columns = ["profile, pinion", "profile, wheel", "maximum wear, pinion", "maximum wear, wheel", "time, s"];
     let rows = of.rows.iter().map(|row| {
         line(cells![

@@ -10,7 +10,7 @@ use crate::report::chart::{Chart, Dash, MUTED, NEW, Trace, WORN, padded};
 use crate::report::html::number::{figure, fixed, significant};
 use crate::report::html::reading::greatest;
 use crate::results::path_points::among;
-use crate::studies::compare::record::{CompareRecord, CompareRow, Estimate, ProfileRecord};
+use crate::studies::compare::record::{CompareRecord, CompareRow, FittedValue, ProfileRecord};
 
 const MEASURED: &str = "var(--wheel)";
 const SIMULATED: &str = "var(--pinion)";
@@ -20,7 +20,7 @@ const ELLIPSE_POINTS: usize = 120;
 /// The plots of each profile.
 pub(super) fn of_profiles(record: &CompareRecord) -> Vec<Chart> {
     let charts = record.profiles.iter().flat_map(|of| {
-        let shown = Shown { of, is_fitted: record.fit.is_of_wear(), is_alone: record.profiles.len() == 1 };
+        let shown = ShownProfile { of, is_fitted: record.fit.is_of_wear(), is_alone: record.profiles.len() == 1 };
         [shown.profiles(), shown.depths(), shown.differences()].map(|chart| shown.over_radius(chart))
     });
     charts.collect()
@@ -68,19 +68,19 @@ pub(super) fn coefficients(record: &CompareRecord) -> Option<Chart> {
 }
 
 /// Logarithm, which is what is fitted, and half the width of its interval.
-fn logarithm(of: Estimate) -> Option<(f64, f64)> {
+fn logarithm(of: FittedValue) -> Option<(f64, f64)> {
     Some((of.value.ln(), 0.5 * (of.high?.ln() - of.low?.ln())))
 }
 
 /// A profile with what its plots need to know of the others.
-struct Shown<'a> {
+struct ShownProfile<'a> {
     of: &'a ProfileRecord,
     /// Whether there is another simulated profile beside that of the run as it is.
     is_fitted: bool,
     is_alone: bool,
 }
 
-impl Shown<'_> {
+impl ShownProfile<'_> {
     /// A plot that the other profile has too.
     fn chart(&self, id: &str, title: &str) -> Chart {
         let gear = self.of.gear.name();

@@ -10,7 +10,7 @@ use crate::report::html::page::{Page, Plots, section, sources_list};
 use crate::report::html::reading::capitalised;
 use crate::report::html::table::{Cell, NONE, line, list, row, table};
 use crate::results::run::ReportedBy;
-use crate::studies::compare::record::{CompareRecord, Correlation, Estimate, ProfileRecord};
+use crate::studies::compare::record::{CoefficientCorrelation, CompareRecord, FittedValue, ProfileRecord};
 use crate::studies::compare::unknown::Unknown;
 
 const DATA_FILES: [(&str, &str); 2] = [
@@ -96,12 +96,12 @@ fn answer(record: &CompareRecord) -> String {
 }
 
 /// "a wear coefficient of …, 95 % interval … to …".
-fn of_estimate(what: &str, estimate: &Estimate) -> String {
+fn of_estimate(what: &str, estimate: &FittedValue) -> String {
     format!("{what} of {}{}", significant(estimate.value, 3), interval(estimate))
 }
 
 /// ", 95 % interval … to …".
-pub(super) fn interval(estimate: &Estimate) -> String {
+pub(super) fn interval(estimate: &FittedValue) -> String {
     match (estimate.low, estimate.high) {
         (Some(low), Some(high)) => {
             format!(", 95 % interval {} to {}", significant(low, 3), significant(high, 3))
@@ -110,7 +110,7 @@ pub(super) fn interval(estimate: &Estimate) -> String {
     }
 }
 
-fn estimated(name: String, unit: &str, e: &Estimate) -> Markup {
+fn estimated(name: String, unit: &str, e: &FittedValue) -> Markup {
     let [low, high] = [e.low, e.high].map(|end| end.map_or_else(|| NONE.to_owned(), |end| significant(end, 4)));
     row(name, unit, [significant(e.of_run, 4), significant(e.value, 4), low, high])
 }
@@ -169,7 +169,7 @@ fn tables(record: &CompareRecord, correlated: Option<Markup>) -> Markup {
 }
 
 /// Each pair of fitted values once.
-fn correlations(correlation: &Correlation) -> Markup {
+fn correlations(correlation: &CoefficientCorrelation) -> Markup {
     let names: Vec<String> = correlation.parameters.iter().map(|unknown| unknown.name()).collect();
     let count = names.len();
     let columns = [String::new()].into_iter().chain(names[..count - 1].iter().cloned());

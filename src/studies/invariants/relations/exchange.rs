@@ -4,15 +4,15 @@ use toml::{Table, Value};
 
 use super::{ROUNDING, SOLVED};
 use crate::studies::invariants::comparison::{Bounds, Follows, compare, compare_new};
-use crate::studies::invariants::relation::{POSITIONS, Relation, Subject, Verdict};
+use crate::studies::invariants::relation::{POSITIONS, RelationOutcome, SceneRelation, Subject};
 use crate::studies::invariants::scene_table::{exchange_gears, number, scaled, with, word};
 use crate::studies::invariants::traits_of_scene::{
     follows_tip_edges, has_heat_or_oil, has_large_strains, is_hard_severe, is_on, is_severe, is_sliced,
     takes_stable_steps, tolerance_of_steps_um, touches_beyond_range,
 };
 
-pub(super) const RELATIONS: &[Relation] = &[
-    Relation {
+pub(super) const RELATIONS: &[SceneRelation] = &[
+    SceneRelation {
         name: "roles exchanged",
         states: "A mesh without friction runs backwards as it runs forwards: driven by the other gear, each gear wears as before.",
         bound: "without slices, from A to E: a stretch of the path too short to hold a position goes to the one before it, seen from E to another, 0.2 % of \
@@ -22,7 +22,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         is_rare: false,
         check: roles,
     },
-    Relation {
+    SceneRelation {
         name: "face width turned round",
         states: "With helix angle, slopes, shaft ends and axes turned round, wear over the face width is turned round.",
         bound: "solver tolerance; worn by adaptive steps numerics.tolerance_um",
@@ -31,23 +31,23 @@ pub(super) const RELATIONS: &[Relation] = &[
     },
 ];
 
-fn roles(subject: &Subject<'_>) -> Verdict {
+fn roles(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     // Where loads jump at the end of the range of tip edges, each run has the jump where its own driving gear has it. Where strains are large, so is the
     // difference of the levers that tip edges have on either gear.
     if touches_beyond_range(subject.record) || has_large_strains(subject.record) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     // Heat and oil know which gear drives: approach and recess, and the ratio of speeds within a phase.
     if has_heat_or_oil(table) || is_severe(table) || is_on(table, "fem") || !takes_stable_steps(subject.record) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let (Some(z1), Some(z2)) = (number(table, "pair.pinion.teeth"), number(table, "pair.wheel.teeth")) else {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     };
     // With as many teeth ISO 6336 takes the driving gear for its gear 1.
     if z1 == z2 && word(table, "stiffness.model") == Some("iso6336") {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     // Positions are those of the driving gear, behind which the driven one stays by the transmission error: so far apart are the two runs' tip edges. With
     // levers of r_b1 alone both runs are alike within 1e-14, where those of edges 2.4 mm outside are 0.80 of it (seed 19, 6456).
@@ -102,10 +102,10 @@ fn bounds_of_roles(table: &Table) -> Bounds {
     }
 }
 
-fn mirror(subject: &Subject<'_>) -> Verdict {
+fn mirror(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     if !is_sliced(table) || is_hard_severe(table) || !takes_stable_steps(subject.record) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let mut other = scaled(table, &|key| match key {
         "helix_angle_deg" | "helix_slope_deviation_um" | "in_plane_um" | "out_of_plane_um" => -1.0,

@@ -3,12 +3,12 @@
 use crate::gear::Gear;
 use crate::results::run::RunRecord;
 use crate::studies::invariants::comparison::{Measured, difference, worn_volume_mm3};
-use crate::studies::invariants::relation::{POINTS, POSITIONS, Relation, Subject, Verdict};
+use crate::studies::invariants::relation::{POINTS, POSITIONS, RelationOutcome, SceneRelation, Subject};
 use crate::studies::invariants::scene_table::{gives, number, with};
 use crate::studies::invariants::traits_of_scene::{follows_tip_edges, has_heat_or_oil, is_severe, takes_stable_steps};
 
-pub(super) const RELATIONS: &[Relation] = &[
-    Relation {
+pub(super) const RELATIONS: &[SceneRelation] = &[
+    SceneRelation {
         name: "finer flanks",
         states: "Twice the flank points come to the same worn volumes and transmission error.",
         bound: "60 to 120 points of a flank, some three in a contact: 15 % of the volume, 3 % of the transmission error; where they are too few, four or \
@@ -16,7 +16,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         is_rare: false,
         check: finer_points,
     },
-    Relation {
+    SceneRelation {
         name: "finer positions",
         states: "Twice the positions come to the same worn volumes and transmission error.",
         bound: "24 to 160 positions, of second order where loads change steadily: 15 % of the volume, 15 % of the transmission error; where \
@@ -28,24 +28,24 @@ pub(super) const RELATIONS: &[Relation] = &[
 
 const OF_VOLUME: f64 = 0.15;
 
-fn finer_points(subject: &Subject<'_>) -> Verdict {
+fn finer_points(subject: &Subject<'_>) -> RelationOutcome {
     finer(subject, POINTS, 2.0, 0.03)
 }
 
-fn finer_positions(subject: &Subject<'_>) -> Verdict {
+fn finer_positions(subject: &Subject<'_>) -> RelationOutcome {
     // Both ends stay positions, and each lies halfway between two.
     finer(subject, POSITIONS, 2.0, 0.15)
 }
 
-fn finer(subject: &Subject<'_>, key: &str, by: f64, of_error: f64) -> Verdict {
+fn finer(subject: &Subject<'_>, key: &str, by: f64, of_error: f64) -> RelationOutcome {
     let table = subject.table;
     // What wear makes of temperatures and limits of pressure is no matter of one resolution.
     // Where contact is cut off, what the rounding of a tip removes there is that of the nearest flank points.
     if !follows_tip_edges(table) || is_severe(table) || has_heat_or_oil(table) || !takes_stable_steps(subject.record) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     if !gives(table, key) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     subject.refined(
         &[key],

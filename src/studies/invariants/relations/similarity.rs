@@ -5,7 +5,7 @@ use toml::Table;
 use crate::gear::PerGear;
 use crate::results::run::RunRecord;
 use crate::studies::invariants::comparison::{Bounds, Follows, compare};
-use crate::studies::invariants::relation::{Relation, Subject, Verdict};
+use crate::studies::invariants::relation::{RelationOutcome, SceneRelation, Subject};
 use crate::studies::invariants::scene_table::{gives, scaled};
 use crate::studies::invariants::traits_of_scene::{
     has_a_size, has_finite_elements, has_heat_or_oil, is_hard_severe, is_sliced, takes_stable_steps,
@@ -19,8 +19,8 @@ const SIZE: f64 = 1.7;
 const MODULUS: f64 = 1.9;
 const WIDTH: f64 = 1.3;
 
-pub(super) const RELATIONS: &[Relation] = &[
-    Relation {
+pub(super) const RELATIONS: &[SceneRelation] = &[
+    SceneRelation {
         name: "size",
         states: "All lengths times s and the torque times s³: the same pressures, s times the wear depth, s³ times the volume.",
         bound: "equilibria solved to 1e-10 of the load, which steps amplify: 1e-4 at a point, 1e-5 of volume and transmission error; \
@@ -28,7 +28,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         is_rare: false,
         check: size,
     },
-    Relation {
+    SceneRelation {
         name: "modulus and torque",
         states: "Young's moduli, torque and limits of pressure times c, wear coefficients over c: c times the pressure, the same deformation and wear.",
         bound: "equilibria solved to 1e-10 of the load, which steps amplify: 1e-4 at a point, 1e-5 of volume and transmission error; \
@@ -36,7 +36,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         is_rare: false,
         check: modulus,
     },
-    Relation {
+    SceneRelation {
         name: "face width",
         states: "Face width and torque of a pair without slices times c: the same in every section, c times the volume.",
         bound: "equilibria solved to 1e-10 of the load, which steps amplify: 1e-4 at a point, 1e-5 of volume and transmission error; \
@@ -62,14 +62,14 @@ fn bounds(subject: &Subject<'_>, other: &RunRecord) -> Bounds {
     }
 }
 
-fn size(subject: &Subject<'_>) -> Verdict {
+fn size(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     if has_heat_or_oil(table)
         || is_hard_severe(table)
         || !takes_stable_steps(subject.record)
         || has_a_size(table, subject.record)
     {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let other = scaled(table, &|key| match key {
         "pinion_torque_Nm" => SIZE.powi(3),
@@ -84,7 +84,7 @@ fn size(subject: &Subject<'_>) -> Verdict {
     subject.beside(other, |record| compare(subject.record, record, &follows, bounds(subject, record)))
 }
 
-fn modulus(subject: &Subject<'_>) -> Verdict {
+fn modulus(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     // What a preset of materials or a default gives cannot be raised.
     if has_heat_or_oil(table)
@@ -93,7 +93,7 @@ fn modulus(subject: &Subject<'_>) -> Verdict {
         || !takes_stable_steps(subject.record)
         || has_a_size(table, subject.record)
     {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let other = scaled(table, &|key| match key {
         "young_modulus_GPa"
@@ -115,7 +115,7 @@ fn says_its_moduli(table: &Table) -> bool {
         || ["pinion", "wheel"].iter().all(|gear| gives(table, &format!("material.{gear}.young_modulus_GPa")))
 }
 
-fn width(subject: &Subject<'_>) -> Verdict {
+fn width(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     if is_sliced(table)
         || has_heat_or_oil(table)
@@ -123,7 +123,7 @@ fn width(subject: &Subject<'_>) -> Verdict {
         || is_hard_severe(table)
         || !takes_stable_steps(subject.record)
     {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let other = scaled(table, &|key| match key {
         "face_width_mm" | "pinion_torque_Nm" => WIDTH,

@@ -60,15 +60,16 @@ fn work_precision(record: &ValidationRecord) -> impl Serialize {
     struct File<'a> {
         program_version: &'a str,
         threads: usize,
-        cases: Vec<Case<'a>>,
+        cases: Vec<CasePoints<'a>>,
     }
     #[derive(Serialize)]
-    struct Case<'a> {
+    struct CasePoints<'a> {
         case: &'a str,
         title: &'a str,
         points: &'a [WorkPrecisionPoint],
     }
     let cases = record.cases.iter().filter(|case| !case.work_precision.is_empty());
-    let cases = cases.map(|case| Case { case: &case.name, title: &case.title, points: &case.work_precision }).collect();
+    let cases =
+        cases.map(|case| CasePoints { case: &case.name, title: &case.title, points: &case.work_precision }).collect();
     File { program_version: &record.program_version, threads: record.threads, cases }
 }

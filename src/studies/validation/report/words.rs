@@ -2,7 +2,7 @@
 
 use super::verdict::Verdict;
 use crate::report::html::number::{count, figure, given, percent, significant};
-use crate::studies::validation::record::{CaseRecord, Criterion, QuantityRecord, Standing, State};
+use crate::studies::validation::record::{CaseRecord, ComparedState, Criterion, QuantityRecord, Standing};
 
 /// Stands where there is no number.
 pub(super) const NONE: &str = "–";
@@ -76,18 +76,20 @@ fn limit(criterion: Criterion) -> String {
 }
 
 /// One side of a change.
-pub(super) fn state(state: &State) -> String {
+pub(super) fn state(state: &ComparedState) -> String {
     match state {
-        State::Ran(true) => "ran".to_owned(),
-        State::Ran(false) => "could not run".to_owned(),
-        State::Absent => "not there".to_owned(),
-        State::Stands(standing) => standing.title(),
-        State::Ended(outcome) => outcome.title().to_owned(),
-        State::Uses(used) => format!("{} of the tolerance", share(Some(*used))),
-        State::Is(value, unit) => value.map_or_else(|| NONE.to_owned(), |value| with_unit(&digits(value), unit)),
-        State::Errs(error, unit) => format!("an error of {}", with_unit(&significant(*error, 2), unit)),
-        State::Against(criterion) => limit(*criterion),
-        State::Counted(number) => count(*number),
+        ComparedState::Ran(true) => "ran".to_owned(),
+        ComparedState::Ran(false) => "could not run".to_owned(),
+        ComparedState::Absent => "not there".to_owned(),
+        ComparedState::Stands(standing) => standing.title(),
+        ComparedState::Ended(outcome) => outcome.title().to_owned(),
+        ComparedState::Uses(used) => format!("{} of the tolerance", share(Some(*used))),
+        ComparedState::Is(value, unit) => {
+            value.map_or_else(|| NONE.to_owned(), |value| with_unit(&digits(value), unit))
+        }
+        ComparedState::Errs(error, unit) => format!("an error of {}", with_unit(&significant(*error, 2), unit)),
+        ComparedState::Against(criterion) => limit(*criterion),
+        ComparedState::Counted(number) => count(*number),
     }
 }
 
