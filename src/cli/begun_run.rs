@@ -1,4 +1,4 @@
-//! Where a run begins: in a fresh folder, or where an earlier run of the same scene was broken off.
+//! Start of a run: in a new folder, or from the checkpoint of an interrupted run of the same scene.
 
 use std::fs;
 use std::io;
@@ -18,7 +18,7 @@ use super::{run, say};
 
 /// Least time between two checkpoints.
 const LEAST_INTERVAL: Duration = Duration::from_millis(250);
-/// Least time between two checkpoints over what writing the last one took.
+/// Least time between two checkpoints over the time of writing the last one.
 const INTERVAL_OVER_WRITING: u32 = 20;
 
 pub(super) struct BegunRun {
@@ -27,26 +27,26 @@ pub(super) struct BegunRun {
     /// Folder, which holds the scene and the input files.
     pub out: PathBuf,
     pub identity: RunIdentity,
-    /// Checkpoint to go on from; `None`: from the beginning.
+    /// Checkpoint to continue from; `None`: from the beginning.
     pub from: Option<Checkpoint>,
     /// Folder made at the beginning.
     pub made: Option<MadeFolder>,
 }
 
-/// A folder in which a run was begun anew.
+/// Folder of a new run.
 pub(super) struct MadeFolder {
     out: PathBuf,
     files: Vec<String>,
-    /// Whether it was not there before.
+    /// Whether the folder is new.
     is_new: bool,
 }
 
 impl MadeFolder {
-    /// Takes away what the beginning of a run that its scene does not allow has put there. What cannot be taken away stays.
+    /// Removes the files of a run that its scene does not allow. What cannot be removed stays.
     pub(super) fn abandon(&self) {
         folder::abandon(&self.out, &self.files);
         if self.is_new {
-            // Where something else lies in it, it stays.
+            // A folder with other files stays.
             let _ = fs::remove_dir(&self.out);
         }
     }
@@ -60,7 +60,7 @@ pub(super) fn begin(scene: &Path, out: &Path) -> Result<BegunRun, Failure> {
     begin_anew(scene, identity, out)
 }
 
-/// Goes on with the run in the folder `out`: that of `scene`, or, without one, of the scene that lies there. None where it is complete.
+/// Continues the run in the folder `out`: that of `scene`, or else of the scene in the folder. `None` where it is complete.
 pub(super) fn resume(scene: Option<&Path>, out: &Path) -> Result<Option<BegunRun>, Failure> {
     let own = out.join(folder::SCENE);
     if scene.is_none() && !own.exists() {
@@ -97,8 +97,7 @@ fn begin_anew(scene: LoadedScene, identity: RunIdentity, out: &Path) -> Result<B
     Ok(BegunRun { scene, out: out.to_owned(), identity, from: None, made })
 }
 
-/// Writes checkpoints into the folder of a run, so rarely that it costs nothing. That a checkpoint cannot be written is no reason to
-/// end a run.
+/// Writes checkpoints into the folder of a run, seldom enough to cost no time. A checkpoint that cannot be written does not end the run.
 pub(super) struct FolderKeeper<'a> {
     path: PathBuf,
     identity: &'a RunIdentity,
@@ -108,7 +107,7 @@ pub(super) struct FolderKeeper<'a> {
 }
 
 impl<'a> FolderKeeper<'a> {
-    /// For the run `identity` in the folder `out`, whose user was told `warnings`.
+    /// Keeper for the run `identity` in the folder `out`, whose user was given `warnings`.
     pub(super) fn new(out: &Path, identity: &'a RunIdentity, warnings: &'a [String]) -> Self {
         let due = Mutex::new(Instant::now() + LEAST_INTERVAL);
         Self { path: out.join(folder::CHECKPOINT), identity, warnings, due, failure: Mutex::new(None) }

@@ -33,7 +33,7 @@ pub(super) struct CalibrateArgs {
 }
 
 pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
-    // A calibration that the scene names may not be there yet: it is about to be made.
+    // The calibration file that the scene names may not exist yet: this command writes it.
     let text = SceneText::read(&args.scene)?;
     let resolved = &text.resolve()?;
     warn(&resolved.warnings);
@@ -64,7 +64,7 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether the files can be written, before any work.
+/// Checks that the files can be written, before any work.
 fn check_out(out: &Path) -> Result<(), Failure> {
     let what = if out.is_dir() {
         "which is a folder"

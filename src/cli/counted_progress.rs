@@ -1,4 +1,4 @@
-//! Tells the user how far a number of runs is: a bar on a terminal, a line now and then elsewhere, each with the remaining time.
+//! Progress of a number of runs: a bar on a terminal, else a line from time to time, with the remaining time.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
@@ -21,13 +21,13 @@ struct ProgressLog {
 /// Things being counted.
 struct Counted {
     things: &'static str,
-    /// When the first of this start was begun.
+    /// Start of the first run of this command.
     start: Instant,
-    /// How many there were before.
+    /// Number of runs finished by earlier commands.
     before: usize,
 }
 
-/// Watches the runs for the user, who may interrupt them.
+/// Observer of runs that shows progress and hears interrupts.
 pub(super) struct CountedProgress {
     display: Display<ProgressLog>,
     interrupted: Arc<AtomicBool>,
@@ -69,7 +69,7 @@ impl Observer for CountedProgress {
             }
             Display::Bar(bar) => {
                 if bar.length() != Some(total as u64) || (done as u64) < bar.position() {
-                    // Something else is counted from here on, and runs of an earlier start took no time of this one.
+                    // Another count begins here; runs of an earlier command took no time of this one.
                     bar.set_length(total as u64);
                     bar.set_position(done as u64);
                     bar.reset_eta();

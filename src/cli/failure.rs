@@ -1,4 +1,4 @@
-//! Why a command did not do what was asked, and the exit status that says so.
+//! Failures of commands and their exit statuses.
 
 use std::io;
 use std::path::PathBuf;
@@ -29,16 +29,16 @@ use crate::studies::uncertainty::asked::UncertaintyFault;
 use crate::studies::validation::library::LibraryError;
 use miette::{Diagnostic, LabeledSpan, MietteDiagnostic, NamedSource, Report};
 
-/// Problems of one file that are shown; the rest is counted.
+/// Greatest number of problems of a file that are shown.
 const MOST_SHOWN: usize = 20;
 
-/// Why a command ended without its result.
+/// Failure of a command.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Failure {
     /// The scene or problem file is wrong.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// Something else about the command is wrong.
+    /// Any other wrong input.
     #[error(transparent)]
     Input(#[from] InputError),
     #[error(transparent)]
@@ -47,12 +47,12 @@ pub(super) enum Failure {
     Solve(#[from] SolveError),
     #[error(transparent)]
     FemPair(FemPairError),
-    /// There is no reference to compare models with.
+    /// No reference for the comparison of models.
     #[error(transparent)]
     Accuracy(AccuracyError),
     #[error(transparent)]
     Calibrate(CalibrateError),
-    /// A measured profile does not give what was to be fitted to it; the comparison is written.
+    /// The fit did not converge; the comparison is written.
     #[error("the fit failed: {why}")]
     NotFitted { why: String },
     /// No combination of a sweep has a result; its rows are written.
@@ -70,10 +70,10 @@ pub(super) enum Failure {
     /// Random scenes that contradict statements which hold for every scene; the report is written.
     #[error("{count} of the statements on random scenes are violated: {names}")]
     InvariantsViolated { count: usize, names: String },
-    /// The user interrupted the run; it was said what is kept.
+    /// The user interrupted the command; what is kept was printed.
     #[error("interrupted")]
     Interrupted,
-    /// Nobody reads what the command prints.
+    /// The standard output was closed.
     #[error("the output was closed")]
     Closed,
 }
@@ -300,7 +300,7 @@ fn merge_help(error: &MergeError) -> String {
     }
 }
 
-/// An error with everything that led to it, on one line.
+/// Error with its causes, on one line.
 fn causes(error: &dyn std::error::Error) -> String {
     let chain = std::iter::successors(error.source(), |cause| cause.source());
     chain.fold(error.to_string(), |text, cause| format!("{text}: {cause}"))
@@ -332,7 +332,7 @@ impl Failure {
     }
 }
 
-/// Says every problem of a scene, at its place in the text.
+/// Prints every problem of a scene with its place in the text.
 fn print_problems(SceneError { given, problems }: SceneError) {
     let count = problems.len();
     let source = Arc::new(NamedSource::new(&given.name, given.text));
@@ -358,7 +358,7 @@ fn label(problem: &Problem) -> Option<LabeledSpan> {
     problem.span.clone().map(|span| LabeledSpan::new_primary_with_span(Some(text), span))
 }
 
-/// The failure that a mesh which cannot be made is: at its key or its option.
+/// Failure of a mesh at its key or option.
 pub(super) fn no_mesh(error: PairMeshError, text: &SceneText) -> Failure {
     let refused = error.in_the_scene(text);
     match error {
@@ -396,7 +396,7 @@ mod tests {
         (problems[0].key.clone(), &SCENE[problems[0].span.clone().unwrap()])
     }
 
-    /// Errors that no valid scene is known to cause have a place all the same.
+    /// Errors that no known scene causes have a key too.
     #[test]
     fn every_refusal_of_a_model_has_its_key_and_place() {
         let [of_wheel, of_pair] = [Some(Gear::Wheel), None]

@@ -40,7 +40,7 @@ pub(super) struct FemArgs {
 }
 
 impl FemArgs {
-    /// An option given that only a gear pair has.
+    /// Option that is given but applies to gear pairs only.
     fn of_a_pair(&self) -> Option<&'static str> {
         match self {
             Self { position: Some(_), .. } => Some("--position"),
@@ -53,7 +53,7 @@ impl FemArgs {
 
 pub(super) fn run(args: &FemArgs) -> Result<(), Failure> {
     let text = SceneText::read(&args.file)?;
-    // Text that is no TOML is refused, with its place, by whoever reads it next.
+    // Text that is not TOML is refused by the reader that follows.
     let Ok(table) = text.text.parse::<toml::Table>() else {
         return if args.of_a_pair().is_some() { fem_scene::run(args, text) } else { problem(args, text) };
     };

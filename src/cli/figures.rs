@@ -28,7 +28,7 @@ pub(super) fn table(summary: &Summary) -> String {
     text
 }
 
-/// First lines: wear and its uncertainty, flank pressure, transmission error, and what to do about the tip edges.
+/// First lines: wear and its uncertainty, flank pressure, transmission error, and advice on the tip edges.
 fn headline(summary: &Summary) -> String {
     let (new, worn, total) = (&summary.new, &summary.worn, &summary.error.total);
     let scatter = format!("± {}", headline::scatter_percent());
@@ -150,7 +150,7 @@ fn at_other_limits(error: &ErrorSummary) -> String {
     .concat()
 }
 
-/// Estimate with two significant digits, which is all that is known of it.
+/// Estimate with two significant digits.
 pub(super) fn two_digits(value: f64) -> String {
     let magnitude = value.abs();
     let decimals = if magnitude > 0.0 { (1 - magnitude.log10().floor() as i32).clamp(0, 4) as usize } else { 0 };

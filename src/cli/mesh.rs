@@ -34,7 +34,7 @@ pub(super) struct MeshArgs {
 }
 
 pub(super) fn run(args: &MeshArgs) -> Result<(), Failure> {
-    // Whether the ending is one of a mesh file is known before the work.
+    // The file ending is checked before the work.
     let format = Format::of_path(&args.out).map_err(InputError::MeshFile)?;
     if args.loaded {
         return loaded(args, format);

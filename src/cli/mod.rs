@@ -85,7 +85,7 @@ pub fn with_arguments(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(error) => {
-            // Help and version are told this way too. Where nobody can hear it, that is no reason to fail otherwise.
+            // Help and version are errors of clap too. A closed output is no failure.
             let _ = error.print();
             return u8::try_from(error.exit_code()).unwrap_or(WRONG_INPUT);
         }
@@ -122,14 +122,14 @@ pub fn with_arguments(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// Prints warnings; they go where errors go, so that results can be piped.
+/// Prints warnings on standard error, so that results can be piped.
 fn warn(warnings: &[String]) {
     for warning in warnings {
         say(&format!("warning: {warning}"));
     }
 }
 
-/// Says something on standard error; where nobody can hear it, that is no reason to fail.
+/// Prints a line on standard error; a closed stream is no failure.
 fn say(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");
 }

@@ -82,7 +82,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
 
     let interrupted = watch_for_interrupt();
     let progress = Progress::new(args.quiet, Arc::clone(&interrupted));
-    // The summary's presence says that everything else in the folder is complete and of the same run.
+    // The summary is written last: where it exists, the folder is complete and of one run.
     report::remove_summary(&out)?;
     let keeper = FolderKeeper::new(&out, &identity, &resolved.warnings);
     let done = pool.install(|| -> Result<Done, Failure> {
@@ -182,7 +182,7 @@ pub(super) fn thread_count(asked: Option<NonZeroUsize>) -> usize {
     asked.map_or(cores, NonZeroUsize::get).min(cores)
 }
 
-/// A pool of so many threads.
+/// Pool of the threads asked for.
 pub(super) fn pool(asked: Option<NonZeroUsize>) -> Result<rayon::ThreadPool, InputError> {
     Ok(rayon::ThreadPoolBuilder::new().num_threads(thread_count(asked)).build()?)
 }

@@ -192,7 +192,7 @@ fn merge_shards(args: &MergeArgs) -> Result<(), Failure> {
     finish(&record, &args.out, args.quiet)
 }
 
-/// Rows that stand in `out` already must be those of this sweep: they are about to be replaced.
+/// Checks that rows in `out` are of this sweep, as they will be replaced.
 fn not_another_sweep(whole: &JournalContents, out: &Path) -> Result<(), JournalError> {
     let differences = match journal::read(out) {
         Ok(found) => found.identity.differences(&whole.identity),
@@ -214,14 +214,14 @@ fn scene_of(whole: &JournalContents, folders: &[PathBuf]) -> Result<String, Inpu
         .ok_or(InputError::MergeWithoutScene)
 }
 
-/// Says what came out.
+/// Prints the result.
 fn finish(record: &SweepRecord, out: &Path, quiet: bool) -> Result<(), Failure> {
     if !quiet {
         print(&table(record, out))?;
     }
     let first_error = record.rows.iter().find_map(|row| row.error.clone());
     match first_error {
-        // A shard may well lie where nothing can be built.
+        // All combinations of a shard may be invalid scenes.
         Some(error) if record.shard.is_none() && record.failed() == record.rows.len() => {
             Err(Failure::NoCombination { count: record.rows.len(), error })
         }
@@ -265,7 +265,7 @@ fn table(record: &SweepRecord, out: &Path) -> String {
     text
 }
 
-/// The combination asked for, and those that are as good within the error, for the terminal.
+/// Optimum, and the combinations that equal it within the error, for the terminal.
 fn found(record: &SweepRecord, optimum: &Optimum) -> String {
     let place = record.identity.in_words(optimum.index);
     let mut text = format!("\nleast {}: {} at {place}\n", optimum.goal.in_words(), digits(optimum.value));

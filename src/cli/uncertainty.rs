@@ -55,7 +55,7 @@ pub(super) struct UncertaintyArgs {
 }
 
 impl UncertaintyFault {
-    /// The option that it is about.
+    /// Option that caused the error.
     pub(super) fn option(&self) -> &'static str {
         match self {
             Self::Uncertain(_) | Self::Count { .. } => "--uncertain: ",

@@ -67,7 +67,7 @@ pub(super) fn run(asked: &Variants<'_>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Carries out a scene into a folder of its own.
+/// Runs a scene into its own folder.
 fn run_scene(
     path: &Path,
     folder: &Path,
@@ -86,7 +86,7 @@ fn run_scene(
     }
 }
 
-/// The runs by the last part of their paths that tells them apart.
+/// Names of the runs: the shortest last parts of their paths that differ.
 fn names(paths: &[&Path]) -> Vec<String> {
     for parts in 1..=4 {
         let names: Vec<String> = paths.iter().map(|path| last_parts(path, parts)).collect();

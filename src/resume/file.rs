@@ -20,7 +20,7 @@ use crate::content_hash::sha256;
 use crate::simulation::checkpoint::Checkpoint;
 use crate::whole_file;
 
-/// Changes with the content of the file.
+/// Version of the format, raised with every change of the content.
 const FORMAT: u32 = 3;
 const MAGIC: &str = "gearwear checkpoint ";
 const PROGRAM_VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -32,7 +32,7 @@ pub(crate) struct CheckpointFile {
     pub identity: RunIdentity,
     /// Warnings given when the run began.
     pub warnings: Vec<String>,
-    /// How far it has come.
+    /// State of the run.
     pub checkpoint: Checkpoint,
 }
 
@@ -52,7 +52,7 @@ struct CheckpointHeader {
     body_sha256: String,
 }
 
-/// Why a file is no checkpoint to go on from.
+/// Error of a checkpoint file.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum CheckpointError {
     /// The system cannot read it.
@@ -61,7 +61,7 @@ pub(crate) enum CheckpointError {
     /// Another file, or one whose first line was damaged.
     #[error("its first line is not that of a checkpoint")]
     NoCheckpoint,
-    /// Written in another way.
+    /// Written in another format.
     #[error(
         "it has format {found} (gearwear {program_version}), this program, {PROGRAM_VERSION}, reads format {FORMAT}"
     )]
@@ -71,26 +71,26 @@ pub(crate) enum CheckpointError {
         /// The version that wrote it.
         program_version: String,
     },
-    /// Written by another version, whose bits may be others.
+    /// Written by another version, whose results may differ in their last bits.
     #[error("it was written by gearwear {found}, this is {PROGRAM_VERSION}")]
     OtherVersion {
         /// The version that wrote it.
         found: String,
     },
-    /// Not as long as it says.
+    /// Shorter or longer than its first line states.
     #[error("it is incomplete: {found} bytes where its first line says {said}")]
     Torn {
-        /// Bytes there are.
+        /// Length of the file's body, bytes.
         found: usize,
-        /// Bytes there should be.
+        /// Length stated in the first line, bytes.
         said: usize,
     },
-    /// Not what was written.
+    /// Damaged content.
     #[error("it is damaged: its content has another SHA-256 than its first line says")]
     Damaged,
 }
 
-/// Writes a checkpoint of the run `identity` in the place of the one before, whole or not at all.
+/// Replaces the checkpoint by one of the run `identity`, atomically.
 pub(crate) fn write(
     path: &Path,
     identity: &RunIdentity,

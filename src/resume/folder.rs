@@ -26,20 +26,20 @@ const SUMMARY: &str = "summary.json";
 /// Contents of the folder of a run.
 #[derive(Debug, PartialEq)]
 pub(crate) enum FolderContents {
-    /// Nothing that was begun.
+    /// No run.
     Nothing,
-    /// A run that began, and has no checkpoint yet.
+    /// A run without a checkpoint yet.
     Begun,
-    /// A run that can go on.
+    /// A run that can be continued.
     Checkpoint(Box<CheckpointFile>),
-    /// A run that has ended, in whatever way.
+    /// A run that has ended.
     Ended(StopReason),
 }
 
-/// Why a folder cannot be gone on with.
+/// Reason why the run in a folder cannot be continued.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum FolderError {
-    /// Not a checkpoint to go on from.
+    /// An unusable checkpoint.
     #[error("{}: {source}", path.display())]
     Checkpoint {
         /// The file.
@@ -50,7 +50,7 @@ pub(crate) enum FolderError {
     /// The run of another scene, or of other input files.
     #[error("{} holds the run of another scene: {}", path.display(), differences.join("; "))]
     OtherRun {
-        /// The file that says so.
+        /// File of the other run.
         path: PathBuf,
         /// Differences, there and here.
         differences: Vec<String>,
@@ -65,7 +65,7 @@ pub(crate) enum FolderError {
     },
 }
 
-/// Begins the run of `identity` in `dir`, which exists, with copies of its input files: what an earlier run could go on from is gone.
+/// Begins the run of `identity` in the existing folder `dir`, with copies of its input files; the checkpoint of an earlier run is removed first.
 pub(crate) fn begin(dir: &Path, identity: &RunIdentity, files: &[NamedFile]) -> Result<(), ReportError> {
     remove_checkpoint(dir)?;
     files.iter().try_for_each(|file| place(dir, &file.name, &file.bytes))?;
@@ -81,18 +81,18 @@ pub(crate) fn place(dir: &Path, name: &str, bytes: &[u8]) -> Result<(), ReportEr
         .map_err(|source| ReportError::WriteFile { path, source })
 }
 
-/// Takes away what [`begin`] has put into `dir`, with input files of these names; what cannot be taken away stays.
+/// Removes the files that [`begin`] put into `dir`, with input files of these names; what cannot be removed stays.
 pub(crate) fn abandon(dir: &Path, files: &[String]) {
     for path in files.iter().map(String::as_str).chain([SCENE]).map(|name| dir.join(name)) {
         let _ = fs::remove_file(&path);
         if let Some(folder) = path.parent().filter(|folder| *folder != dir) {
-            // Goes once it is empty.
+            // Removed if empty.
             let _ = fs::remove_dir(folder);
         }
     }
 }
 
-/// Takes away the checkpoint in `dir`, if there is one.
+/// Removes the checkpoint in `dir`, if there is one.
 pub(crate) fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
     let path = dir.join(CHECKPOINT);
     match fs::remove_file(&path) {

@@ -29,7 +29,7 @@ impl RunIdentity {
         let keys: std::collections::BTreeSet<_> = self.inputs.keys().chain(asked.inputs.keys()).collect();
         for key in keys {
             let [there, here] = [self, asked].map(|identity| identity.inputs.get(key));
-            // A file that only one of them has differs in the scene's key already.
+            // A file that only one of them names already differs in its key.
             if let (Some(there), Some(here)) = (there, here)
                 && there != here
             {

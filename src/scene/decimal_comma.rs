@@ -79,7 +79,7 @@ fn path_of_table(header: &str, before: &mut Vec<String>) -> String {
     format!("{name}[{index}]")
 }
 
-/// Looks for `key = 30,5` in a line, also within `{ … }`.
+/// Finds `key = 30,5` in a line, also within `{ … }`.
 fn find_in_line(line: &str, begin: usize, table: &str, found: &mut Vec<DecimalComma>) {
     let bytes = line.as_bytes();
     let (mut quote, mut outer, mut word) = (None, String::new(), String::new());

@@ -10,7 +10,7 @@ pub(crate) struct NumberKey {
     node: Node<'static>,
 }
 
-/// Why a path is not that of a number.
+/// Error of a path that is not that of a number.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum KeyError {
     /// No scene has the key.
@@ -21,7 +21,7 @@ pub(crate) enum KeyError {
         /// Key that was probably meant.
         nearest: Option<String>,
     },
-    /// The key takes something else.
+    /// The key does not take a number.
     #[error("{key} takes {takes}; allowed: a key that takes a number, such as pair.face_width_mm")]
     NotANumber {
         /// Key as given.
@@ -70,12 +70,12 @@ impl NumberKey {
         }
     }
 
-    /// Whether it takes whole numbers only.
+    /// Whether the key takes whole numbers only.
     pub(crate) fn whole(&self) -> bool {
         self.node.type_name() == "integer"
     }
 
-    /// Whether `value` lies within what it takes.
+    /// Whether the key allows `value`.
     pub(crate) fn holds(&self, value: f64) -> bool {
         self.node.holds(value) && !(self.whole() && value.fract() != 0.0)
     }

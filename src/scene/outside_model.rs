@@ -5,7 +5,7 @@ use super::problem::number;
 /// 1 lbf·in in N·m.
 const NEWTON_METRES_IN_POUND_INCH: f64 = 0.112_984_829;
 
-/// Why the model does not hold a value of `key` that lies outside its range.
+/// Reason why a value of `key` outside its range is not modelled.
 pub(super) fn reason(key: &str, value: f64) -> Option<&'static str> {
     match key {
         "pair.pinion.teeth" | "pair.wheel.teeth" if value < 0.0 => Some(
@@ -20,7 +20,7 @@ pub(super) fn reason(key: &str, value: f64) -> Option<&'static str> {
     }
 }
 
-/// Why the model does not hold what a key of this name would say.
+/// Reason why the model has no key of this name.
 pub(super) fn reason_of_key(name: &str) -> Option<&'static str> {
     match name {
         "shaft_angle_deg" | "axis_angle_deg" | "crossing_angle_deg" => Some(
@@ -72,7 +72,7 @@ pub(super) fn converted(name: &str, value: Option<f64>) -> Option<Converted> {
         (&["_ksi"][..], "_MPa", 6.894_757, "1 ksi = 6.89476 MPa"),
         (&["_Mpsi", "_Msi"][..], "_GPa", 6.894_757, "10⁶ psi = 6.89476 GPa"),
     ];
-    // The longest ending counts: `_lb_in` is no length.
+    // The longest suffix counts: `_lb_in` is not a length.
     let endings =
         units.iter().flat_map(|(endings, unit, factor, by)| endings.iter().map(move |e| (*e, *unit, *factor, *by)));
     let (ending, unit, factor, by) =
@@ -89,7 +89,7 @@ impl Converted {
     }
 }
 
-/// Without digits that the conversion does not have.
+/// Value with six significant digits.
 fn six_digits(x: f64) -> f64 {
     format!("{x:.5e}").parse().unwrap_or(x)
 }

@@ -45,7 +45,7 @@ fn check_table(format: FileShape, node: Node<'_>, table: &Table, path: &str, fin
         if !table.contains_key(name) {
             findings.missing(&[&join(path, name)], &child.allowed());
         }
-        // Reported; something must stand there so that the rest of the file can be checked further.
+        // The key is reported; a stand-in lets the rest of the file be checked.
         sound.entry(name).or_insert_with(|| stand_in(child));
     }
     sound

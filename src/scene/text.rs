@@ -37,7 +37,7 @@ pub(super) fn typed<F: DeserializeOwned>(sound: Table, findings: &mut Findings) 
     match serde_path_to_error::deserialize(Value::Table(sound)) {
         Ok(file) => Some(file),
         Err(error) => {
-            // The shape was checked against the schema of this same structure; should the two differ, this tells.
+            // The table was checked against the schema of this structure; an error here shows that the two differ.
             let key = error.path().to_string();
             let found = error.into_inner().message().to_owned();
             findings.problem(ProblemKind::WrongType, &key, found, "what gearwear schema says");

@@ -1,4 +1,4 @@
-//! Values that were likely meant in another unit: m for mm, N·mm for N·m, MPa for GPa.
+//! Values probably given in another unit: m for mm, N·mm for N·m, MPa for GPa.
 //!
 //! A value is suspected only where it is far outside what gears have *and* a plain change of unit brings it back.
 //! Lengths are judged against the module, torque against the tooth load it makes. A suspicion is a warning, never an
@@ -41,7 +41,7 @@ const MICROMETRES: Conversion = (1e-3, "µm given for mm");
 const MILLIMETRES: Conversion = (1e3, "mm given for µm");
 const METRES_FOR_MICROMETRES: Conversion = (1e6, "m given for µm");
 
-/// A tooth load over width and module beyond this is no load of a gear, MPa; ISO 6336 rates a few hundred at most.
+/// Greatest plausible tooth load over width and module, MPa; ISO 6336 rates a few hundred at most.
 const GREATEST_TOOTH_LOAD_MPA: f64 = 5000.0;
 
 /// All suspicions in a scene, its preset expanded.
@@ -169,7 +169,7 @@ impl SlipSearch<'_> {
     }
 
     fn modifications(&mut self, gear: &str, module: f64) {
-        // A relief of some millionths of the module does nothing; one of the whole module leaves no tooth.
+        // A relief of some millionths of the module has no effect; one of the whole module leaves no tooth.
         let (credible, usual) = ([0.02 * module, 1e3 * module], [0.1 * module, 50.0 * module]);
         for key in [
             "tip_relief.amount_um",

@@ -55,7 +55,7 @@ impl Study {
     }
 }
 
-/// Why a study came to nothing.
+/// Error of a study.
 #[derive(Debug, thiserror::Error)]
 #[error(transparent)]
 pub struct StudyError(#[from] StudyFault);

@@ -1,7 +1,7 @@
 //! Many runs on several threads, one run a thread.
 //!
-//! A run is done by one thread from beginning to end: with many runs that loses nothing to waiting, and what one comes to depends
-//! neither on the number of threads nor on the order in which they finish.
+//! Each run is done by one thread. With many runs no thread waits, and results depend neither on the number of threads nor on the order in which runs
+//! finish.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -15,7 +15,7 @@ pub(crate) enum SpreadOutcome {
     Interrupted,
 }
 
-/// A run among others: it stops when all do.
+/// Observer of one run: the run stops when the study does.
 struct Within<'a> {
     observer: &'a dyn Observer,
     stopped: &'a AtomicBool,
@@ -31,8 +31,8 @@ impl Observer for Within<'_> {
     }
 }
 
-/// Does `work` for each of `tasks` on `threads` threads and hands what it comes to to `keep`, one at a time in the order in which they
-/// are finished. `work` gives nothing where it was interrupted; where `keep` says no, all of it stops.
+/// Calls `work` for each of `tasks` on `threads` threads and passes each result to `keep`, one at a time, in the order of completion. `work` gives
+/// `None` where it was interrupted; where `keep` returns false, everything stops.
 pub(crate) fn spread<T: Sync, R>(
     tasks: &[T],
     threads: usize,
@@ -62,8 +62,7 @@ pub(crate) fn spread<T: Sync, R>(
     thread::scope(|scope| {
         for _ in 0..threads.min(tasks.len()) {
             scope.spawn(|| {
-                // What is parallel in it runs on this thread alone. Without a pool of its own it would use the program's, which gives
-                // the same results.
+                // Parallel parts of a run stay on this thread; the global pool would give the same results.
                 let _own = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
                 take();
             });

@@ -19,7 +19,7 @@ use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 
 const MPA_PER_GPA: f64 = 1e3;
-/// A node may lie this far from the plane z = 0, relative to the mesh's extent: what writing decimals leaves.
+/// Tolerance of z = 0 relative to the mesh's extent, for the rounding of decimals.
 const FLAT: f64 = 1e-9;
 
 /// The bodies of a plane problem.
@@ -147,7 +147,7 @@ fn check_plane(mesh: &Mesh, nodes: &BodyNodes, findings: &mut Findings) {
     }
 }
 
-/// Turns clockwise elements; refuses what is no element either way round.
+/// Reverses clockwise elements; refuses those that are invalid in both directions.
 fn turn(file: &FemProblemFile, solid: &mut Solid, findings: &mut Findings) {
     let bodies = file.body.len();
     let (mut clockwise, mut all) = (vec![0_usize; bodies], vec![0_usize; bodies]);

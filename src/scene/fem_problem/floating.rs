@@ -1,4 +1,4 @@
-//! Bodies that nothing can hold: refused before the solver meets a singular matrix.
+//! Bodies that are not held: refused before the solver meets a singular matrix.
 //!
 //! A piece of the solid that shares no node with the rest can move rigidly in three ways: along x, along y, and turning
 //! about its centre c, scaled with its size L. With q those amplitudes for all pieces, every held degree of freedom and,
@@ -21,11 +21,11 @@ use crate::fem::problem::{Edge, Problem};
 use crate::fem::solid::Solid;
 use crate::scene::findings::Findings;
 
-/// A motion counts as free where the sum of its squared equations is this small beside the largest.
+/// Ratio of the sum of squared equations to the greatest, below which a motion is free.
 const FREE: f64 = 1e-10;
-/// Pieces that hang together by contacts, beyond which the check is left to the solver.
+/// Greatest number of connected pieces that are checked; above it the check is left to the solver.
 const MOST_PIECES: usize = 100;
-/// Ways in which a piece can move.
+/// Degrees of freedom of a piece.
 const WAYS: usize = 3;
 
 /// Pieces of the solid that share no node.
@@ -41,7 +41,7 @@ struct Pieces {
 /// Coefficients of one equation: those of each piece that takes part.
 type Equation = Vec<(usize, [f64; WAYS])>;
 
-/// Refuses bodies that can move whatever the contacts do.
+/// Refuses bodies that can move even with all contacts closed.
 pub(super) fn check(problem: &Problem, solid: &Solid, findings: &mut Findings) {
     let pieces = Pieces::of(solid);
     let mut equations: Vec<Equation> = Vec::new();
@@ -71,7 +71,7 @@ pub(super) fn check(problem: &Problem, solid: &Solid, findings: &mut Findings) {
     }
 }
 
-/// The motions of pieces that hang together.
+/// Motions of connected pieces.
 fn check_cluster(pieces: &Pieces, members: &[usize], equations: &[&Equation], alone: bool, findings: &mut Findings) {
     let place: BTreeMap<usize, usize> = members.iter().enumerate().map(|(i, &piece)| (piece, WAYS * i)).collect();
     let mut gram = DMatrix::<f64>::zeros(WAYS * members.len(), WAYS * members.len());
@@ -96,7 +96,7 @@ fn check_cluster(pieces: &Pieces, members: &[usize], equations: &[&Equation], al
     };
     let mut piece = members[0];
     for &other in members {
-        // Beyond round-off, so that of equals the first is named.
+        // Tolerance for round-off, so that of equal ones the first is named.
         if part(other) > part(piece) * (1.0 + 1e-6) {
             piece = other;
         }
@@ -151,7 +151,7 @@ impl Pieces {
         [direction.x, direction.y, arm.perp(&direction)]
     }
 
-    /// Pieces that equations tie together, each with its equations.
+    /// Connected pieces, with their equations.
     fn clusters<'e>(&self, equations: &'e [Equation]) -> Vec<(Vec<usize>, Vec<&'e Equation>)> {
         let mut sets = DisjointSets::new(self.body.len());
         for pair in equations.iter().flat_map(|equation| equation.windows(2)) {

@@ -21,11 +21,11 @@ use crate::fem::disjoint_sets::DisjointSets;
 use crate::fem::problem::Held;
 use crate::scene::findings::Findings;
 
-/// A motion counts as free where the sum of its squared equations is this small beside the largest.
+/// Ratio of the sum of squared equations to the greatest, below which a motion is free.
 const FREE: f64 = 1e-10;
-/// Parts that hang together, beyond which the check is left to the solver.
+/// Greatest number of connected parts that are checked; above it the check is left to the solver.
 const MOST_PARTS: usize = 100;
-/// Ways in which a part can move.
+/// Degrees of freedom of a part.
 const WAYS: usize = 6;
 
 /// Elements joined by faces.
@@ -38,7 +38,7 @@ struct JoinedParts {
     size_mm: Vec<f64>,
 }
 
-/// Parts that hang together, with the coefficients of the equations that hold them.
+/// Connected parts, with the coefficients of the equations that hold them.
 #[derive(Default)]
 struct Cluster {
     members: Vec<u32>,
@@ -71,7 +71,7 @@ fn check_cluster(parts: &JoinedParts, Cluster { members, equations }: &Cluster, 
         let rows = first_of[&part]..first_of[&part] + WAYS;
         free.iter().flat_map(|&i| rows.clone().map(move |row| (row, i))).map(|at| eigen.eigenvectors[at].powi(2)).sum()
     };
-    // Beyond round-off, so that of equals the first is named.
+    // Tolerance for round-off, so that of equal ones the first is named.
     let most = members.iter().copied().reduce(|a, b| if share(b) > share(a) * (1.0 + 1e-6) { b } else { a });
     let (Some(part), false) = (most, free.is_empty()) else { return };
     let motion = match free.as_slice() {

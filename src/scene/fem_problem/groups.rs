@@ -1,4 +1,4 @@
-//! The named groups of a mesh: what cells and nodes a name stands for, and what to say where it stands for none.
+//! Named groups of a mesh: their cells and nodes, and the message where a name is unknown.
 
 use std::collections::BTreeMap;
 
@@ -6,13 +6,13 @@ use crate::mesh::{CellKind, Mesh};
 use crate::scene::findings::Findings;
 use crate::scene::nearest::nearest;
 
-/// Groups named in a message; the rest is counted.
+/// Greatest number of groups named in a message.
 const MOST_NAMED: usize = 20;
 
 /// A cell of the mesh: its block, and its number within the block.
 pub(super) type CellRef = (usize, usize);
 
-/// Cells and nodes that a name stands for.
+/// Cells and nodes of a group.
 #[derive(Debug, Clone, Default)]
 pub(super) struct NamedGroup {
     /// Cells by dimension: points, lines, surfaces, volumes.

@@ -36,7 +36,7 @@ pub(super) fn held(
 }
 
 impl<B: MeshedBodies> Given<'_, B> {
-    /// Gives the nodes of `table` their displacement; reported where another table gives another one.
+    /// Adds the displacement of the nodes of `table`; reports a different one from another table.
     fn add(
         &mut self,
         nodes: &[u32],
@@ -104,7 +104,7 @@ pub(super) fn forces<B: MeshedBodies>(
     forces
 }
 
-/// A force on a held node goes straight into the support: an error where all of it does, else worth knowing.
+/// Reports forces on held nodes, which go into the support: an error where all of the force does, else a warning.
 fn say_what_is_lost(
     load: &LoadFile,
     table: &str,

@@ -30,7 +30,7 @@ pub(super) trait MeshedBodies {
     fn spread<'m>(&self, cells: impl Iterator<Item = &'m [usize]>) -> Option<BTreeMap<u32, f64>>;
 }
 
-/// Groups and bodies: where the other tables of a problem look.
+/// Groups and bodies of a problem.
 pub(super) struct MeshedGroups<'a, B> {
     /// The groups.
     pub groups: &'a Groups<'a>,

@@ -42,7 +42,7 @@ pub fn schema() -> &'static Value {
     SCHEMA.get_or_init(schema_of::<FemProblemFile>)
 }
 
-/// A problem file without its mesh: sound as far as that goes, every default filled in.
+/// A problem file without its mesh, checked, every default filled in.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FemProblem {
     /// Contents of the file.
@@ -60,7 +60,7 @@ pub(crate) struct Posed<P> {
     pub problem: P,
     /// Groups of the bodies, numbered as the elements' materials are.
     pub bodies: Vec<String>,
-    /// Warnings about a problem that can be solved.
+    /// Warnings.
     pub warnings: Vec<String>,
 }
 
@@ -228,7 +228,7 @@ fn components(given: &mut Option<Vec<Component>>, third: ThirdDirection, key: &s
     }
 }
 
-/// Everything on the mesh; `None` where a body is in doubt, without which nothing else can be checked.
+/// Problem on the mesh; `None` where a body is faulty, without which nothing else can be checked.
 fn pose(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) -> Option<fem::problem::Problem> {
     let groups = groups::Groups::new(mesh);
     let bodies = bodies::mesh_bodies(file, mesh, &groups, findings)?;

@@ -1,4 +1,4 @@
-//! Loads that cannot be meant: bodies strained a hundred times over, or moved by a hundred times their own size.
+//! Implausible loads: strains above 100, or displacements above 100 times the size of the body.
 //!
 //! Strains are taken to be small. A force F on bodies of extent L and Young's modulus E strains them by about
 //!
@@ -12,12 +12,12 @@ use super::file::{FemProblemFile, LoadFile};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 
-/// Mean strain, or displacement over extent, beyond which nothing is meant.
+/// Greatest plausible mean strain, or displacement over extent.
 const GREATEST_MEANT: f64 = 100.0;
 /// Least plausible Young's modulus, MPa: below it the modulus is the likely error, not the force.
 const SOFTEST_MPA: f64 = 1e-6;
 
-/// Refuses forces and displacements that cannot be meant on bodies with these nodes.
+/// Refuses implausible forces and displacements of bodies with these nodes.
 pub(super) fn check(file: &FemProblemFile, points_mm: &[[f64; 3]], findings: &mut Findings) {
     let extent_mm = extent_mm(points_mm);
     let moduli_mpa = file.body.iter().map(|body| 1e3 * body.young_modulus_GPa).enumerate();
@@ -56,7 +56,7 @@ pub(super) fn check(file: &FemProblemFile, points_mm: &[[f64; 3]], findings: &mu
     }
 }
 
-/// L in the plane, L² in space.
+/// Loaded cross-section: L in the plane, L² in space.
 fn carrying(load: &LoadFile, extent_mm: f64) -> f64 {
     if load.force_N.is_some() { extent_mm * extent_mm } else { extent_mm }
 }

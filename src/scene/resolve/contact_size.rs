@@ -20,16 +20,16 @@ use crate::scene::Scene;
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 
-/// Half-width over relative radius beyond which strains are no longer small.
+/// Greatest half-width over relative radius with small strains.
 const GREATEST_SMALL: f64 = 0.1;
-/// Half-width over relative radius beyond which nothing is meant: 5 under 10⁷ N·m on FZG type C, 13 with rubber of 1 MPa.
+/// Greatest plausible half-width over relative radius: it is 5 under 10⁷ N·m on FZG type C, 13 with rubber of 1 MPa.
 const GREATEST_MEANT: f64 = 100.0;
-/// Half-width below which nothing is meant, mm: an atom.
+/// Least plausible half-width, mm: the size of an atom.
 const LEAST_MEANT_MM: f64 = 1e-7;
 /// Usual values of steel gears: Young's modulus in MPa, line load in N/mm, face width in modules. The key furthest from them is the likely error.
 const USUAL: (f64, f64, f64) = (206e3, 500.0, 10.0);
 
-/// Another key than the torque is to blame where its value is that many times the usual one, or as small.
+/// Ratio to the usual value, or its inverse, from which a key other than the torque is reported as the cause.
 const CLEARLY_OFF: f64 = 1e3;
 
 /// Half the width of a contact of the scene, and what decides it.
@@ -38,13 +38,13 @@ struct Contact {
     key: String,
     /// Value, as the file gives it.
     value: f64,
-    /// In words.
+    /// Name in messages.
     name: &'static str,
     half_width_mm: f64,
 }
 
-/// Refuses contacts of `pair` at the pitch point whose size cannot be meant, and warns of those that are not narrow: of loads, and of
-/// foundations given by hand.
+/// Refuses contacts of `pair` at the pitch point of implausible size, and warns of those that are not narrow: of loads, and of foundations given by
+/// hand.
 pub(super) fn check(scene: &Scene, pair: &GearPair, findings: &mut Findings) {
     let radius_mm = pair.normal_section().relative_radius_mm(pair.path.pitch_point_mm);
     let contacts = contacts(scene, pair, findings);

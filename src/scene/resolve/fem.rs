@@ -10,11 +10,11 @@ use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 
 const ELEMENTS_PER_HALF_WIDTH: f64 = 10.0;
-/// In a wear run: 3 and 8 give the same maximum wear within half a per cent (docs/accuracy.md).
+/// Elements in a wear run: 3 and 8 give the same maximum wear within half a per cent (docs/accuracy.md).
 const WEAR_ELEMENTS_PER_HALF_WIDTH: f64 = 3.0;
 /// Elements with severe wear, which depends on where the pressure passes a limit: 3 and 8 differ by 3 %, 5 and 8 by 1 to 2 %.
 const SEVERE_WEAR_ELEMENTS_PER_HALF_WIDTH: f64 = 5.0;
-/// Fewer elements in a half-width than this leave several per cent of error in the pressure.
+/// Number of elements in a half-width below which the pressure has an error of several per cent.
 const FEW_ELEMENTS: f64 = 8.0;
 const SECTOR_TEETH: u32 = 3;
 
@@ -31,7 +31,7 @@ fn given(file: &mut FemFile, pair: &PairSpec, findings: &mut Findings) -> Option
     let radii = file.clamp_radius_mm.get_or_insert_default();
     let clamp_radius_mm = clamp_radii(radii, pair, findings);
     let web = webs(file.web.as_mut(), pair, clamp_radius_mm, findings);
-    // What it is by default depends on the command: left open, it stays open.
+    // The default depends on the command and is not written into the file.
     let elements_per_half_width = file.elements_per_half_width.unwrap_or(ELEMENTS_PER_HALF_WIDTH);
     if elements_per_half_width < FEW_ELEMENTS {
         findings.warnings.push(format!(

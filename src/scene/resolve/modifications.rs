@@ -25,13 +25,13 @@ enum FlankEnd {
     Root,
 }
 
-/// Gives both gears of `spec`, which has all else, their modifications; `None` where one is contradictory.
+/// Sets the modifications of both gears of `spec`; `None` where one is contradictory.
 pub(super) fn choose(file: &mut PairFile, spec: &mut PairSpec, findings: &mut Findings) -> Option<()> {
     let begins =
         |relief: &ReliefFile| relief.begins_at_diameter_mm.is_some() || relief.begins_at_roll_angle_deg.is_some();
     let gears = [&file.pinion, &file.wheel].into_iter().flatten();
     let is_needed = gears.flat_map(|gear| [&gear.tip_relief, &gear.root_relief]).flatten().any(begins);
-    // Where this is no pair, it is said later why, and no relief has a place.
+    // An impossible pair is reported later; reliefs then have no position.
     let pair = is_needed.then(|| GearPair::new(spec).ok()).flatten();
     let [pinion, wheel] = [(&mut file.pinion, Gear::Pinion), (&mut file.wheel, Gear::Wheel)]
         .map(|(file, gear)| of_gear(file.get_or_insert_default(), gear, spec, pair.as_ref(), findings));

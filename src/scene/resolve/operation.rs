@@ -7,10 +7,10 @@ use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 use crate::simulation::settings::{LifeLimits, Operation, Phase};
 
-/// Snapshots this close to the end of the run, relatively, are the end: hours and revolutions round differently.
+/// Relative tolerance of snapshots at the end of the run: hours and revolutions round differently.
 const SAME_TIME: f64 = 1e-9;
 
-/// Default snapshots halve the duration this many times.
+/// Number of default snapshots, each at half the duration of the next.
 const HALVINGS: i32 = 6;
 
 /// Chooses what `[operation]` leaves open.
@@ -24,7 +24,7 @@ pub(super) fn choose(file: &mut OperationFile, findings: &mut Findings) -> Optio
         findings.missing(&["operation.pinion_torque_Nm"], allowed);
     }
     let of_whole = Phase {
-        // What else is wrong is found with any load.
+        // Any load serves to find the other problems.
         pinion_torque_n_mm: 1e3 * file.pinion_torque_Nm.unwrap_or(1.0),
         pinion_speed_rpm: file.pinion_speed_rpm,
         coefficient_mm2_per_n: PerGear::default(),
@@ -83,7 +83,7 @@ pub(super) fn check_stop(stop: &LifeLimits, pair: &GearPair, findings: &mut Find
     }
 }
 
-/// A duration said in one of two ways, in revolutions of the pinion.
+/// Duration given by one of two keys, in revolutions of the pinion.
 fn duration(
     keys: [&str; 2],
     hours: Option<f64>,
@@ -182,7 +182,7 @@ fn add_up(file: &OperationFile, phases: &[Phase], findings: &mut Findings) -> Op
     None
 }
 
-/// When the state is kept, in revolutions of the pinion, the end of the run included.
+/// Snapshots in revolutions of the pinion, the end of the run included.
 fn snapshots(file: &mut OperationFile, operation: &Operation, findings: &mut Findings) -> Option<Vec<f64>> {
     let keys = ["operation.snapshots_h", "operation.snapshots_revolutions"];
     let duration = operation.pinion_revolutions;

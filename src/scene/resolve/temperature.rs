@@ -16,7 +16,7 @@ use crate::wear::settings::{LawSettings, WearSettings};
 const FRICTION_COEFFICIENT: f64 = 0.1;
 const BULK_TEMPERATURE_C: f64 = 90.0;
 
-/// Chooses what `[temperature]` leaves open; `Some(None)` where nobody asks for temperatures.
+/// Chooses what `[temperature]` leaves open; `Some(None)` where temperatures are not needed.
 pub(super) fn choose(
     file: &mut SceneFile,
     materials: Option<&Materials>,
@@ -108,7 +108,7 @@ pub(super) fn with_tooth_temperature(material: &PerGear<Material>) -> PerGear<bo
     if plastic.pinion || plastic.wheel { plastic } else { PerGear { pinion: true, wheel: true } }
 }
 
-/// Refuses what is to follow the temperature of teeth that have none.
+/// Refuses dependence on the tooth temperature where there is none.
 pub(super) fn check_followers(
     file: &WearFile,
     materials: &Materials,

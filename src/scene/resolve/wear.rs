@@ -1,4 +1,4 @@
-//! The wear law of each gear and its constants: what `[wear]` says holds for both, unless a gear's own table says otherwise.
+//! The wear law of each gear and its constants: `[wear]` holds for both gears unless a gear's own table overrides it.
 
 use super::{curve, temperature};
 use crate::gear::{Gear, PerGear};
@@ -24,7 +24,7 @@ const ARRHENIUS_CONSTANT_KG_PER_M2S: f64 = 1e3;
 const ACTIVATION_ENERGY_KJ_PER_MOL: f64 = 100.0;
 const IRON_KG_PER_M3: f64 = 7870.0;
 
-/// The two ways to say a coefficient.
+/// Alternative keys of the coefficient.
 const COEFFICIENTS: [&str; 2] = ["coefficient_m2_per_N", "coefficient_mm3_per_Nm"];
 /// The names of the laws.
 const LAWS: &str = "\"archard\", \"adsorption\" or \"oxidation\"";
@@ -163,7 +163,7 @@ fn of_gear(file: &mut GearWearFile, gear: Gear, findings: &mut Findings) -> Opti
     Some(WearSettings { law, coefficient_mm2_per_n, severe, film: None, warm: None })
 }
 
-/// How wear follows the film by the table `key`; `Some(None)` where not at all.
+/// Dependence of wear on the film in the table `key`; `Some(None)` where there is none.
 fn film(
     key: &str,
     file: &mut Option<FilmFile>,
@@ -224,7 +224,7 @@ fn warn_of_unused(file: &WearFile, wholes: &PerGear<GearWearFile>, findings: &mu
     }
 }
 
-/// Checks what phases say of the coefficients against the law of each gear.
+/// Checks the coefficients of phases against the law of each gear.
 pub(super) fn check_phases(
     file: &OperationFile,
     operation: &Operation,
@@ -255,7 +255,7 @@ pub(super) fn check_phases(
     }
 }
 
-/// A coefficient said in one of two units; `Some(None)` where in neither.
+/// Coefficient in one of two units; `Some(None)` where it is not given.
 pub(super) fn coefficient_mm2_per_n(
     keys: [&str; 2],
     m2_per_n: Option<f64>,

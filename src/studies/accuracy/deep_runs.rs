@@ -24,15 +24,15 @@ use crate::scene::{Problem, Resolved, Scene};
 use crate::studies::accuracy::record::{DeepRow, DeepRun, DeepRuns};
 use crate::studies::varied_scene::in_words;
 
-/// The scene's revolutions times this.
+/// Factor on the scene's revolutions.
 const DEEPER: f64 = 10.0;
-/// The number of wear steps over this.
+/// Divisor of the scene's number of wear steps.
 const FEWER_STEPS: u32 = 10;
-/// Beyond this change of the greatest depth a run has oscillated.
+/// Greatest relative change of the greatest depth of a stable run.
 const STABLE_WITHIN: f64 = 0.1;
-/// Least ratio of the numbers of steps of which anything is learned.
+/// Least ratio of the numbers of steps for a judgement of stability.
 const LEAST_STEP_RATIO: f64 = 2.0;
-/// Models, the baseline first.
+/// Models that are run, the baseline first.
 const MODELS: [(SurfaceSetting, Coupling); 5] = [
     (SurfaceSetting::HalfSpace, Coupling::Slicing),
     (SurfaceSetting::Winkler(Foundation::Matched(MatchCriterion::HalfWidth)), Coupling::Slicing),
@@ -41,7 +41,7 @@ const MODELS: [(SurfaceSetting, Coupling); 5] = [
     (SurfaceSetting::HertzMean, Coupling::None),
 ];
 
-/// How many runs the comparison has.
+/// Number of runs of the comparison.
 pub(super) const RUNS: usize = 2 * MODELS.len();
 
 /// Runs the models that `like`, a setting with slices, stands beside; `first` of `count` runs are done. `None` without slices, or
@@ -107,7 +107,7 @@ pub(super) fn run(
     })
 }
 
-/// Says whether the greatest depths hardly change with fewer steps, where so many fewer were taken that it means something.
+/// Judges the stability by the change of the greatest depths, where the numbers of steps differ by at least [`LEAST_STEP_RATIO`].
 fn judge_stability(row: &mut DeepRow) {
     if let (Some(usual), Some(fewer)) = (&row.usual, &row.fewer_steps)
         && usual.wear_steps as f64 >= LEAST_STEP_RATIO * fewer.wear_steps as f64
@@ -132,7 +132,7 @@ fn deeper(resolved: &Resolved) -> Result<Resolved, Vec<Problem>> {
         }
     }
     operation.snapshots_h = None;
-    // The end alone: a snapshot shortens the step before it.
+    // Only the end of the run is a snapshot: any other shortens the step before it.
     operation.snapshots_revolutions = Some(vec![DEEPER * resolved.scene.operation.pinion_revolutions]);
     file.numerics.get_or_insert_default().step = Some(StepFile::fixed(DEEPER * euler_revolutions(&resolved.scene)));
     Scene::from_toml(&file.to_toml())

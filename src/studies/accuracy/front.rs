@@ -26,7 +26,7 @@ pub(crate) fn on_front(points: &[FrontPoint], uncertainty: f64) -> Vec<bool> {
             let (own, others) = (point.error.max(uncertainty), other.error.max(uncertainty));
             let no_worse = other.wall_s <= point.wall_s && others <= own;
             let better = other.wall_s < point.wall_s || others < own;
-            // Of equals, the first stands for all.
+            // Of equal points only the first is on the front.
             no_worse && (better || j < i)
         });
         point.is_comparable() && !beaten

@@ -29,22 +29,21 @@ pub(crate) const EDGE_HALF_WIDTHS: f64 = 3.0;
 /// Where on the path of contact the quantities are compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Windows {
-    /// From A to E less what a sharp tip edge spoils.
+    /// A to E without the neighbourhood of sharp tip edges.
     pub pressure_mm: [f64; 2],
-    /// From A to E less what any tip edge takes part in.
+    /// A to E without the neighbourhood of all tip edges.
     pub flank_mm: [f64; 2],
-    /// Where one pair carries the load alone.
+    /// Single contact, B to D.
     pub single_contact_mm: [f64; 2],
 }
 
 impl Windows {
-    /// For a pair with these points A–E and sharp tip edges; `half_width_mm` is Hertz's at the pitch point.
+    /// Windows of a pair with these points A–E and sharp tip edges; `half_width_mm` is Hertz's at the pitch point.
     pub(crate) fn new(points: &PathPoints, sharp: PerGear<bool>, half_width_mm: f64) -> Self {
         let edge_mm = EDGE_HALF_WIDTHS * half_width_mm;
         let [at_a, at_e] = [sharp.wheel, sharp.pinion].map(|sharp| if sharp { edge_mm } else { 0.0 });
         let single = if points.B < points.D { [points.B, points.D] } else { [points.A, points.E] };
         Self {
-            // At A the wheel's tip is in contact, at E the pinion's.
             pressure_mm: [points.A + at_a, points.E - at_e],
             flank_mm: [points.A + edge_mm, points.E - edge_mm],
             single_contact_mm: single,
@@ -86,7 +85,7 @@ pub(crate) fn errors(
     ]);
     match (&observed.over_width, &reference.over_width) {
         (Some(own), Some(of_reference)) => errors.extend(errors_over_width(own, of_reference)),
-        // Where slices of one tooth enter while others leave, no pair ever carries the load alone.
+        // Where the slices of one pair enter while others leave, there is no single contact.
         _ => {
             let [own, other] = cycles.map(|cycle| within(x, &cycle.half_width_mm, windows.single_contact_mm));
             let half_width = relative_l2(&within(x, x, windows.single_contact_mm), &own, &other);
@@ -133,7 +132,7 @@ fn greatest_within(cycle: &ObservedCycle, window_mm: [f64; 2]) -> f64 {
     within(&cycle.position_mm, &cycle.peak_pressure_mpa, window_mm).into_iter().fold(0.0, f64::max)
 }
 
-/// Greatest less least value.
+/// Peak-to-peak value.
 pub(crate) fn peak_to_peak(values: &[f64]) -> f64 {
     let (low, high) =
         values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &y| (low.min(y), high.max(y)));
@@ -156,7 +155,7 @@ fn integral(x: &[f64], value: impl Fn(usize) -> f64) -> f64 {
     (1..x.len()).map(|i| 0.5 * (x[i] - x[i - 1]) * (value(i - 1) + value(i))).sum()
 }
 
-/// `difference` over `size`, where nothing over nothing is nothing.
+/// `difference` over `size`; 0 where both are 0.
 pub(crate) fn ratio(difference: f64, size: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / size }
 }

@@ -69,7 +69,7 @@ pub(crate) fn depths_at_widths(width_mm: &[f64], slices: &[&[f64]], at_mm: &[f64
     depths.collect()
 }
 
-/// The two places that a straight line through `at` is drawn by, and how far along it lies.
+/// The two neighbouring places for the linear interpolation at `at`, and its weight.
 fn neighbours(places: &[f64], at: f64) -> (usize, usize, f64) {
     if places.len() < 2 {
         return (0, 0, 0.0);

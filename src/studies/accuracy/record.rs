@@ -30,7 +30,7 @@ pub(crate) struct AccuracyRecord {
     pub calibration_s: Option<f64>,
     /// Threads that every run could use.
     pub threads: usize,
-    /// The relative error that the recommendations ask for.
+    /// Relative error that the recommendations stay within.
     pub within: f64,
     /// Reference that the others are measured against.
     pub reference: ReferenceRecord,
@@ -211,13 +211,13 @@ pub(crate) struct Recommendation {
     pub is_within: bool,
 }
 
-/// A quantity of which the reference is more uncertain than the error wanted: no run is ranked or recommended by it.
+/// A quantity whose reference is more uncertain than the error asked for: runs are not ranked by it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct NotRanked {
     pub quantity: ComparedQuantity,
     /// Of the reference, relative.
     pub uncertainty: f64,
-    /// Change of the scene that would make the reference more certain, for the greatest part of the uncertainty first.
+    /// Change of the scene that reduces the uncertainty, its largest part first.
     pub remedy: String,
 }
 
@@ -252,11 +252,11 @@ pub(crate) struct ComparisonRow {
 pub(crate) struct DeepRuns {
     /// Settings in common.
     pub common: String,
-    /// The scene's revolutions times this.
+    /// Factor on the scene's revolutions.
     pub revolutions_factor: f64,
     /// The run that the profiles are compared with.
     pub baseline: String,
-    /// Beyond this change of the greatest depth with the wear step a run is said to be unstable.
+    /// Greatest relative change of the greatest depth of a stable run.
     pub stable_within: f64,
     pub rows: Vec<DeepRow>,
 }
@@ -272,7 +272,7 @@ pub(crate) struct DeepRow {
     pub wear_profile: Option<f64>,
     /// Relative change of the greatest depth by the longer steps, the larger of both gears'.
     pub peak_wear_change: Option<f64>,
-    /// Whether that is within what stable runs change.
+    /// Whether that is within the limit of stable runs.
     pub stable: Option<bool>,
     /// Why there is no result, where there is none.
     pub failure: Option<String>,

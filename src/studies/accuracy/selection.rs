@@ -23,8 +23,8 @@ const USUAL_STIFFNESS_N_PER_MM_UM: f64 = 20.0;
 const COARSER_MESHES: [f64; 2] = [0.6, 0.4];
 /// Fewest elements in a half-width.
 const LEAST_ELEMENTS: f64 = 2.0;
-/// How much longer the wear steps of the reference's companions are. On a fine mesh Euler's steps are bounded by short
-/// waves of wear; much longer ones would not be of the order that is extrapolated with.
+/// Factor on the wear step of the companions of the reference. On a fine mesh short waves of wear limit Euler's step; much longer steps would not
+/// show the order of convergence that the extrapolation assumes.
 pub(super) const COMPANION_STEP: u32 = 2;
 
 /// Options of the comparison beside the scene.
@@ -58,7 +58,7 @@ pub(crate) enum RefinedSpacing {
 }
 
 impl RefinedSpacing {
-    /// Change of the scene that makes the difference less.
+    /// Change of the scene that reduces the difference.
     pub(crate) fn remedy(self) -> &'static str {
         match self {
             Self::Elements(_) => "more fem.elements_per_half_width",
@@ -71,16 +71,15 @@ impl RefinedSpacing {
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Selection {
-    /// Every setting, in the order of the work; the first is the finest.
+    /// Every setting, in the order of the runs; the first is the finest.
     pub settings: Vec<Setting>,
-    /// From which of them the reference is extrapolated, beside the first.
+    /// Settings from which, with the first, the reference is extrapolated.
     pub companions: Vec<CompanionRuns>,
     pub left_out: Vec<LeftOut>,
 }
 
 impl Selection {
-    /// The settings that fit the scene; `calibrated` says for which criteria there is a calibration, empty where there is
-    /// none, for `no_calibration`'s reason.
+    /// Settings that fit the scene. `calibrated` holds the criteria with a calibrated K/H; where it is empty, `no_calibration` is the reason.
     pub(crate) fn new(
         resolved: &Resolved,
         asked: AccuracyOptions,
@@ -117,7 +116,7 @@ impl Selection {
         selection
     }
 
-    /// The finest setting with half of its points and positions, where it was run with that.
+    /// Finest setting with half of its points and positions, where that was run.
     pub(crate) fn second_resolution(&self) -> Setting {
         let finest = &self.settings[0];
         let by = 2 * finest.coarsening.spacing;
@@ -178,7 +177,7 @@ impl Selection {
         }
     }
 
-    /// Everything on the theoretical line of action.
+    /// Adds the settings whose contact is on the theoretical line of action.
     fn line_of_action(
         &mut self,
         resolved: &Resolved,
@@ -225,7 +224,7 @@ impl Selection {
         }
     }
 
-    /// Leaves out settings that no scene is run with.
+    /// Records the settings that are left out for every scene.
     fn leave_out_of_all(&mut self, resolved: &Resolved, calibrated: &[MatchCriterion], no_calibration: &str) {
         let own = resolved.file.stiffness.as_ref().and_then(|stiffness| stiffness.model);
         for (model, name) in [(StiffnessModel::Simon, "simon"), (StiffnessModel::WangCheng, "wang-cheng")] {
@@ -240,10 +239,10 @@ impl Selection {
     }
 }
 
-/// The stiffnesses that fit a scene.
+/// Stiffness models that fit a scene.
 pub(super) struct Stiffnesses {
     pub all: Vec<StiffnessSetting>,
-    /// Names of those that more than one resolution is tried with, the best last.
+    /// Names of those tried at several resolutions, the best last.
     pub tried: Vec<String>,
 }
 
@@ -270,14 +269,14 @@ impl Stiffnesses {
         Self { all, tried }
     }
 
-    /// The one that tip edges are tried with: that of finite elements where there is one.
+    /// Stiffness with which tip contact is tried: that of finite elements where there is one.
     pub(super) fn best(&self) -> &StiffnessSetting {
         let name = self.tried.last();
         self.all.iter().find(|stiffness| Some(&stiffness.name) == name).unwrap_or(&self.all[0])
     }
 }
 
-/// The surfaces on the line of action, from cheap to true.
+/// Surfaces on the line of action, from the fastest to the most accurate.
 pub(super) fn surfaces(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Vec<SurfaceSetting> {
     let mut surfaces = vec![SurfaceSetting::HertzMean, SurfaceSetting::Hertz];
     let own = resolved.scene.contact.foundation;
@@ -288,7 +287,7 @@ pub(super) fn surfaces(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Ve
     surfaces
 }
 
-/// Whether a surface follows tip edges where nothing else is tried: the calibrated and the true ones do.
+/// Whether a surface is run with tip contact alone: the calibrated and the most accurate ones are.
 fn follows_tip(surface: SurfaceSetting, has_calibration: bool) -> bool {
     match surface {
         SurfaceSetting::Winkler(Foundation::Calibrated(_)) => true,

@@ -1,4 +1,4 @@
-//! A setting of the models and their resolution, and the scene it stands for.
+//! A setting of models and resolution, and its scene.
 //!
 //! The scene is the user's file with some keys changed, resolved again: what was measured can be repeated by
 //! `gearwear run` on that file, and the checks of scenes hold for settings as well.
@@ -23,17 +23,17 @@ pub(crate) enum SurfaceSetting {
     Fem { elements_per_half_width: f64 },
 }
 
-/// How much coarser than the scene.
+/// Coarsening relative to the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Coarsening {
-    /// The scene's numbers of flank points and positions are divided by this.
+    /// Divisor of the numbers of flank points and positions.
     pub spacing: u32,
-    /// The scene's wear step is multiplied by this.
+    /// Factor on the wear step.
     pub step: u32,
 }
 
 impl Coarsening {
-    /// Points, positions and steps alike.
+    /// Equal coarsening of points, positions and steps.
     pub(crate) fn even(by: u32) -> Self {
         Self { spacing: by, step: by }
     }
@@ -61,11 +61,11 @@ pub(crate) struct StiffnessSetting {
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Setting {
-    /// How the flanks touch.
+    /// Contact surface.
     pub surface: SurfaceSetting,
-    /// Whether a tip edge is followed outside A to E, by the surfaces that can.
+    /// Whether contact at a tip edge outside A to E is computed, where the surface can.
     pub tip_contact: bool,
-    /// How the teeth yield; `None` for finite elements.
+    /// Stiffness of the teeth; `None` for finite elements.
     pub stiffness: Option<StiffnessSetting>,
     /// The slices over the face width; none where all sections are alike.
     pub slices: Option<SliceSettings>,
@@ -77,7 +77,7 @@ fn in_words(criterion: MatchCriterion) -> String {
 }
 
 impl SurfaceSetting {
-    /// The scene's own, with the scene's own K/H.
+    /// Surface of the scene, with its K/H.
     pub(crate) fn of_scene(resolved: &Resolved) -> Self {
         let contact = &resolved.scene.contact;
         match contact.surface {
@@ -107,7 +107,7 @@ impl SurfaceSetting {
         }
     }
 
-    /// Whether it knows the gap of the flanks beside the line of action, and so may follow a tip edge.
+    /// Whether the surface models the gap beside the line of action, and so can follow a tip edge.
     pub(crate) fn may_follow_tip(self) -> bool {
         matches!(self, Self::Winkler(_) | Self::HalfSpace)
     }
@@ -143,7 +143,7 @@ impl StiffnessSetting {
         format!("teeth by {how}")
     }
 
-    /// One value for the spring of the teeth, N/(mm·µm).
+    /// Constant stiffness of a tooth pair, N/(mm·µm).
     pub(crate) fn constant(pair_n_per_mm_um: f64) -> Self {
         let file = StiffnessFile {
             model: Some(StiffnessModel::Constant),
@@ -156,7 +156,7 @@ impl StiffnessSetting {
     /// The scene's own.
     pub(crate) fn of_scene(resolved: &Resolved) -> Self {
         let mut file = resolved.file.stiffness.clone().unwrap_or_default();
-        // Left open, it is that of finite elements.
+        // The default is the stiffness of finite elements.
         file.model.get_or_insert(StiffnessModel::Fem);
         match file.pair_N_per_mm_um.filter(|_| file.model == Some(StiffnessModel::Constant)) {
             Some(value) => Self::constant(value),
@@ -207,7 +207,7 @@ impl Setting {
             || numerics.flank_points.min(numerics.positions) / coarsening.spacing as usize >= LEAST_POINTS
     }
 
-    /// The scene it stands for. `calibration` is the name of the calibration file where there is a calibration.
+    /// Scene of the setting. `calibration` is the name of the calibration file where there is one.
     pub(crate) fn scene(&self, base: &Resolved, calibration: Option<&str>) -> Result<Resolved, Vec<Problem>> {
         let mut file = base.file.clone();
         let contact = file.contact.get_or_insert_default();
@@ -252,7 +252,7 @@ impl Setting {
         Scene::from_toml(&file.to_toml())
     }
 
-    /// Settings as the record has them.
+    /// Setting as recorded.
     pub(crate) fn record(&self, scene: &Scene) -> VariantSettings {
         let match_criterion = match self.surface {
             SurfaceSetting::Winkler(Foundation::Matched(criterion) | Foundation::Calibrated(criterion)) => {

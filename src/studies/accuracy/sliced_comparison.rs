@@ -44,7 +44,7 @@ pub(super) fn comparisons(resolved: &Resolved, own: SliceSettings, runs: &[Compa
     .collect()
 }
 
-/// The run that differs from `run` in what `change` does to its setting only.
+/// The run whose setting is that of `run` after `change`.
 fn counterpart<'a>(
     runs: &[ComparedRun<'a>],
     run: &ComparedRun<'_>,
@@ -59,7 +59,7 @@ fn coupling_of(run: &ComparedRun<'_>) -> Coupling {
     run.setting.slices.map_or(Coupling::None, |slices| slices.coupling)
 }
 
-/// Every surface against itself with the truest coupling.
+/// Every surface against itself with the most accurate coupling.
 fn coupling(runs: &[ComparedRun<'_>], slices: usize, truest: Coupling) -> Option<SettingComparison> {
     let rows = runs
         .iter()

@@ -17,15 +17,15 @@ use crate::gear_mesh::settings::Body;
 use crate::mesh_cycle::settings::{Coupling, MOST_SLICES_IN_SPACE, SliceSettings};
 use crate::scene::{Resolved, Scene};
 
-/// Fewest slices that tell something of the width.
+/// Least number of slices worth comparing.
 const LEAST_SLICES: usize = 2;
-/// The K/H that stands for the others.
+/// Criterion of the K/H whose Winkler foundation is tried at every resolution and coupling.
 const CRITERION: MatchCriterion = MatchCriterion::HalfWidth;
 const MATCHED: SurfaceSetting = SurfaceSetting::Winkler(Foundation::Matched(CRITERION));
-/// Of every surface, the truer one first.
+/// Couplings tried with every surface, the more accurate one first.
 const COUPLINGS: [Coupling; 2] = [Coupling::Slicing, Coupling::None];
 
-/// The coupling of the reference to a scene with so many slices: in space where its teeth can be had there.
+/// Coupling of the reference with this many slices: three-dimensional finite elements where they can be meshed, else plate theory.
 pub(super) fn truest(scene: &Scene, slices: usize) -> Coupling {
     match scene.fem.body == Body::Ring && slices <= MOST_SLICES_IN_SPACE {
         true => Coupling::Fem,
@@ -33,7 +33,7 @@ pub(super) fn truest(scene: &Scene, slices: usize) -> Coupling {
     }
 }
 
-/// Most slices that the reference may have.
+/// Greatest number of slices of the reference.
 fn most_slices(coupling: Coupling) -> usize {
     match coupling {
         Coupling::Fem => MOST_SLICES_IN_SPACE,
@@ -41,7 +41,7 @@ fn most_slices(coupling: Coupling) -> usize {
     }
 }
 
-/// The slices that stiffnesses are compared on, of a scene that has `own`: in space there is one alone.
+/// Slices on which the stiffness models are compared: a single one where the coupling is three-dimensional.
 pub(super) fn slices_of_any_stiffness(own: SliceSettings) -> SliceSettings {
     match own.coupling {
         Coupling::Fem => SliceSettings { coupling: Coupling::Slicing, ..own },
@@ -116,7 +116,7 @@ fn reference(selection: &mut Selection, own: SliceSettings, levels: &[u32], stif
     }
 }
 
-/// A quarter, half and twice the scene's slices, as far as these are slices at all.
+/// A quarter, half and twice the scene's number of slices, where at least [`LEAST_SLICES`].
 fn other_counts(selection: &mut Selection, own: usize) -> Vec<usize> {
     let mut counts: Vec<usize> = Vec::new();
     for (count, name) in

@@ -26,9 +26,9 @@ use crate::studies::accuracy::record::{
     ReferenceRecord, VariantRecord,
 };
 
-/// Least ratio of the wear steps taken of which anything is learned.
+/// Least ratio of the numbers of wear steps for an extrapolation.
 const LEAST_STEP_RATIO: f64 = 1.2;
-/// Limits of a reference on half-planes.
+/// Limits of a reference on elastic half-planes.
 const DOES_NOT_TELL: &str = "The teeth of the reference are three-dimensional finite elements, or plates where the gears cannot be meshed in \
                              space; contact itself is plane in every slice, on half-planes. The errors are those of the contact surface, of \
                              the coupling of slices and of the resolution, not that of half-planes at tip edges and end faces.";
@@ -127,7 +127,7 @@ fn compared<'a>(
     runs.collect()
 }
 
-/// Takes limits that end a run away: wear is compared after the whole duration.
+/// Removes limits that end a run early: wear is compared after the whole duration.
 fn leave_out_stop(resolved: &mut Resolved) {
     if resolved.file.operation.stop.take().is_some() {
         resolved.scene.operation.stop = LifeLimits::default();
@@ -173,7 +173,7 @@ fn keep_shown_curves(
 struct CalibrationOfRuns {
     made: Option<Calibration>,
     wall_s: Option<f64>,
-    /// Why there is none.
+    /// Reason where there is none.
     why_none: String,
 }
 
@@ -201,7 +201,7 @@ fn recommended_toml(recommendations: &[Recommendation], settings: &[Setting], re
     Some(file.to_toml())
 }
 
-/// A run of the reference, which must be there.
+/// Result of a run that the reference needs.
 fn finished(measured: &[MeasuredSetting], index: usize) -> Result<&Finished, AccuracyError> {
     let one = measured.get(index).ok_or(AccuracyError::Interrupted)?;
     one.finished.as_ref().ok_or_else(|| AccuracyError::Reference {
@@ -260,7 +260,7 @@ fn remedies(reference: &Reference, spacings: &[RefinedSpacing], quantity: Compar
     let mut parts: Vec<(f64, RefinedSpacing)> = parts.zip(spacings.iter().copied()).collect();
     parts.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     let greatest = parts.first().map_or(0.0, |(part, _)| *part);
-    // A part below a third of the greatest would not help.
+    // Reducing a part below a third of the greatest would not help.
     let remedies = parts.iter().filter(|(part, _)| *part > 0.0 && 3.0 * part >= greatest);
     remedies.map(|(_, spacing)| spacing.remedy()).collect::<Vec<_>>().join("; ")
 }

@@ -16,9 +16,9 @@ use crate::scene::loaded::LoadedScene;
 use crate::studies::accuracy::record::{CALIBRATION_FILE, VariantRecord};
 use crate::studies::varied_scene::in_words;
 
-/// Runs are repeated until they have taken this long, all that comes before the simulation included; the least time counts.
+/// Total time of the repeats of a run, preparation included; the least time counts.
 const LONG_ENOUGH_S: f64 = 0.2;
-/// Repeats at the most.
+/// Greatest number of repeats.
 const MOST_REPEATS: u32 = 20;
 
 /// Outcome of one setting.
@@ -33,7 +33,7 @@ impl MeasuredSetting {
     }
 }
 
-/// Part of a run that is kept: far less than its record, of which there would be a hundred.
+/// Part of a run that is kept for the comparison; a hundred whole records would need too much memory.
 pub(super) struct Finished {
     pub observed: ObservedRun,
     pub summary: Summary,
@@ -52,7 +52,7 @@ pub(super) fn measure(setting: &Setting, base: &LoadedScene, observer: &PartOf<'
         Ok(resolved) => resolved,
         Err(problems) => return Some(MeasuredSetting::failed(record, in_words(&problems))),
     };
-    // It is held against a reference of its own.
+    // The comparison has its own reference.
     resolved.scene.verify = false;
     record.settings = setting.record(&resolved.scene);
     let scene = match base.variant(resolved) {

@@ -12,10 +12,10 @@ use crate::gear::{GearPair, flank::FlankGrid};
 use crate::measurement::form::FormRemoval;
 use crate::simulation::settings::Numerics;
 
-/// Shifts tried to begin with, to either side.
+/// Number of shifts tried on either side for the start of a search.
 const SHIFTS_TRIED: i32 = 15;
 
-/// Measured heights, and what is compared with them.
+/// Measured heights and the flank they are compared on.
 pub(super) struct Comparison<'a> {
     pub of: &'a ProfileQuestion,
     pair: &'a GearPair,
@@ -28,10 +28,10 @@ pub(super) struct Comparison<'a> {
 
 /// Greatest wear depth of a search, in modules: beyond it no model is valid, and runs soon wear teeth through.
 const DEEPEST_MODULES: f64 = 0.3;
-/// Least and greatest upper end of a search for a factor.
+/// Bounds of the upper end of a search for a factor.
 const GREATEST_FACTOR: [f64; 2] = [4.0, 1e3];
 
-/// Where a search begins.
+/// Start of a search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Beginning {
     /// d.
@@ -55,12 +55,12 @@ impl<'a> Comparison<'a> {
         Self { of, pair, removal, grid_arc_mm, measured_um }
     }
 
-    /// How many flank points a wear profile has.
+    /// Number of flank points of a wear profile.
     pub(super) fn flank_points(&self) -> usize {
         self.grid_arc_mm.len()
     }
 
-    /// The greatest factor on wear of `wear_um` that is searched.
+    /// Upper end of the search for the factor on `wear_um`.
     pub(super) fn greatest_factor(&self, wear_um: &[f64]) -> f64 {
         let deepest_mm = 1e-3 * wear_um.iter().copied().fold(0.0, f64::max);
         let [least, most] = GREATEST_FACTOR;
@@ -100,13 +100,13 @@ impl<'a> Comparison<'a> {
         let mut best = (f64::INFINITY, 0.0, 1.0);
         for step in -tried..=tried {
             let shift = within_mm * f64::from(step) / f64::from(tried.max(1));
-            // r = a + κ b: with nothing worn, and what the wear adds.
+            // r = a + κ b: a without wear, b the contribution of the wear.
             let (a, whole) = (self.residuals_um(&nothing, shift), self.residuals_um(wear_um, shift));
             let b: Vec<f64> = whole.iter().zip(&a).map(|(w, a)| w - a).collect();
             let factor = factors.map_or(1.0, |[least, most]| (-dot(&a, &b) / dot(&b, &b)).clamp(least, most));
             let factor = if factor.is_finite() { factor } else { 1.0 };
             let square = dot(&a, &a) + 2.0 * factor * dot(&a, &b) + factor * factor * dot(&b, &b);
-            // Of equals, the least shift.
+            // Of equal sums of squares the least shift is taken.
             if square < best.0 * (1.0 - 1e-12) || square <= best.0 && shift.abs() < f64::abs(best.1) {
                 best = (square, shift, factor);
             }

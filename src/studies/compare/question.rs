@@ -11,9 +11,9 @@ use crate::measurement::form::Form;
 use crate::measurement::profile::MeasuredProfile;
 use crate::scene::{Resolved, Scene};
 
-/// Times beyond the end by less than this part are the end.
+/// Relative tolerance on the end of the run.
 const SAME_TIME: f64 = 1e-9;
-/// Points that a fit needs beyond the values it finds.
+/// Least degrees of freedom of a fit.
 const SPARE_POINTS: usize = 2;
 /// Most profiles that are fitted together: one of each gear.
 pub(crate) const MOST_PROFILES: usize = 2;
@@ -34,7 +34,7 @@ pub(crate) enum FitKind {
 }
 
 impl FitKind {
-    /// Default for this many profiles.
+    /// Default for this number of profiles.
     fn of(profiles: usize) -> Self {
         if profiles > 1 { FitKind::Each } else { FitKind::K }
     }
@@ -59,7 +59,7 @@ impl FitKind {
     }
 }
 
-/// Whose constants of wear are fitted.
+/// Gears whose coefficients are fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FittedGears {
     /// Coefficients of both gears, by one factor.
@@ -71,7 +71,7 @@ pub(crate) enum FittedGears {
 }
 
 impl FittedGears {
-    /// Whether those of `gear` are.
+    /// Whether coefficients of `gear` are fitted.
     pub(crate) fn has(self, gear: Gear) -> bool {
         self != FittedGears::Alone(gear.mate())
     }
@@ -90,7 +90,7 @@ pub(crate) struct CompareOptions {
     pub shift_within_mm: f64,
 }
 
-/// Inputs that do not fit together.
+/// Inconsistent inputs.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum QuestionError {
     #[error(transparent)]
@@ -109,7 +109,7 @@ pub(crate) enum QuestionError {
     Width { line: usize, found: f64, face_width_mm: f64 },
     #[error("found {found} points; allowed: at least {least}, for {needs}")]
     TooFewPoints { found: usize, least: usize, needs: String },
-    /// The curvature of a tooth taken for wear.
+    /// A form removal that leaves the curvature of the tooth, which would count as wear.
     #[error(
         "--form: found none with heights from a line; allowed: cubic or involute, which take the tooth's curvature away"
     )]
@@ -151,9 +151,9 @@ pub(crate) struct ProfileQuestion {
     pub measured: String,
     /// Measured profile, on its flank.
     pub profile: MeasuredProfile,
-    /// When, in pinion revolutions.
+    /// Time of the measurement, in pinion revolutions.
     pub revolutions: f64,
-    /// Where over the face width; `None` where all sections are alike.
+    /// Place over the face width; `None` where all sections are alike.
     pub width_mm: Option<f64>,
     /// Standard deviation of a height, as the file says.
     pub uncertainty_um: Option<f64>,
@@ -165,7 +165,7 @@ pub(crate) struct ProfileQuestion {
 /// A comparison that can be made.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ComparisonQuestion {
-    /// One, or that of the pinion and that of the wheel.
+    /// One profile, or one of each gear.
     pub profiles: Vec<ProfileQuestion>,
     pub fit: FitKind,
     pub fitted: FittedGears,
@@ -174,7 +174,7 @@ pub(crate) struct ComparisonQuestion {
 }
 
 impl ComparisonQuestion {
-    /// Checks what is asked of the run in `folder`, whose scene is `resolved`, and of its `pair`, with files by their names.
+    /// Checks the options and files against the run in `folder`, whose scene is `resolved` and whose pair is `pair`; files go by their names.
     ///
     /// # Errors
     /// The first thing that does not fit together.

@@ -15,7 +15,7 @@ use crate::scene::Resolved;
 const SUMMARY: &str = "summary.json";
 const PROFILES: &str = "profiles.csv";
 const SCENE: &str = "scene.toml";
-/// Times this close to each other, relatively, are the same: hours and revolutions round differently.
+/// Relative difference up to which times are equal: hours and revolutions round differently.
 const SAME_TIME: f64 = 1e-9;
 
 /// Faults of the folder of a run.
@@ -78,7 +78,7 @@ impl RunFolder {
     pub(crate) fn read(folder: &Path) -> Result<Self, RunFolderError> {
         let summary = summary(folder)?;
         let snapshots = snapshots(&folder.join(PROFILES))?;
-        // The scene is resolved by others, who say better what is wrong with it; that it is there belongs here.
+        // The scene is resolved elsewhere, with better messages; here it must only exist.
         read(&folder.join(SCENE))?;
         Ok(Self { path: folder.to_owned(), summary, snapshots })
     }

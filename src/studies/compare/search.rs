@@ -29,19 +29,19 @@ use crate::measurement::interval::{ProfilePart, Uncertainty, uncertainty};
 const LEAST_FACTOR: f64 = 1e-3;
 /// Greatest factor of severe wear; the least is 1.
 const MOST_SEVERE: f64 = 1e4;
-/// Differences of logarithms.
+/// Width of the finite differences of logarithms.
 const LOG_WIDTH: f64 = 0.02;
-/// Differences of the shift, mm.
+/// Width of the finite differences of the shift, mm.
 const SHIFT_WIDTH_MM: f64 = 5e-3;
-/// A step shorter than this part of a parameter's standard deviation no longer matters.
+/// Step, in standard deviations of a parameter, below which the search has converged.
 const NEGLIGIBLE: f64 = 0.02;
-/// One shorter than this part of it is left where exact runs go on to scatter.
+/// Step, in standard deviations, that is accepted where the scatter of exact runs prevents a shorter one.
 const TOLERABLE: f64 = 0.5;
-/// Nor does one shorter than this part of the width of its differences.
+/// Step, in widths of the finite differences, below which the search has converged.
 const SMALL_STEP: f64 = 5e-3;
-/// Most exact runs at the end.
+/// Greatest number of exact runs at the end.
 const MOST_EXACT_RUNS: usize = 6;
-/// Least scatter that weights are made of, µm.
+/// Least scatter of a profile for its weight, µm.
 const LEAST_SCATTER_UM: f64 = 1e-6;
 /// Result of the search.
 pub(super) struct FittedCoefficients {
@@ -54,7 +54,7 @@ pub(super) struct FittedCoefficients {
     pub uncertainty: Option<Uncertainty>,
     /// Wear depth of the flank points of each profile.
     pub wear_um: Vec<Vec<f64>>,
-    /// The last step in standard deviations, where exact runs still ask for one.
+    /// Last step in standard deviations, where it is above the limit of convergence.
     pub unsettled: Option<f64>,
 }
 
@@ -69,7 +69,7 @@ impl FittedCoefficients {
         Some((self.parameters[index], self.uncertainty.as_ref().map(|u| u.half_widths[index])))
     }
 
-    /// One parameter less another, and half the width of the interval of that.
+    /// Difference of two parameters and half the width of its interval.
     pub(super) fn difference(&self, one: Unknown, other: Unknown) -> Option<(f64, Option<f64>)> {
         let (i, j) = (self.index(one)?, self.index(other)?);
         let half_width = self.uncertainty.as_ref().map(|u| u.half_width_of_difference(i, j));
@@ -77,7 +77,7 @@ impl FittedCoefficients {
     }
 }
 
-/// Wear of the flank points of each profile under some parameters.
+/// Function that gives the wear of the flank points of each profile for some parameters.
 type Wear<'a, S> = dyn FnMut(&S, &[f64]) -> Result<Vec<Vec<f64>>, CompareError> + 'a;
 
 /// Measured profiles, and how their parameters are found.
@@ -90,7 +90,7 @@ pub(super) struct CoefficientSearch<'a> {
 }
 
 impl<'a> CoefficientSearch<'a> {
-    /// Of what `question` asks, with a comparison for each of its profiles.
+    /// Search for the parameters of `question`, with a comparison for each of its profiles.
     pub(super) fn new(question: &'a ComparisonQuestion, comparisons: &'a [Comparison<'a>]) -> Self {
         let mut unknowns = Vec::new();
         match question.fit {
@@ -107,7 +107,7 @@ impl<'a> CoefficientSearch<'a> {
         Self { question, comparisons, unknowns, weights: vec![1.0; comparisons.len()] }
     }
 
-    /// The parameters that fit best, beginning with the run's own wear.
+    /// Parameters of the best fit, starting from the run's own wear.
     pub(super) fn run(
         mut self,
         as_run_um: &[Vec<f64>],
@@ -143,12 +143,12 @@ impl<'a> CoefficientSearch<'a> {
         if needs_runs {
             self.settle(&mut found, &parameters, fitted.jacobian, simulations)?;
         }
-        // Beside the best value that was searched no interval means anything.
+        // A value at the end of its range has no interval.
         found.uncertainty = found.uncertainty.filter(|_| found.stop == FitStop::Converged);
         Ok(found)
     }
 
-    /// The unknowns as parameters that begin where each profile alone would.
+    /// The unknowns as parameters, each starting where its profile alone fits best.
     fn parameters(&self, begun: &[Beginning], most: &[f64], severe_factor: f64) -> Vec<Parameter> {
         let within = self.question.shift_within_mm;
         let parameters = self.unknowns.iter().map(|&unknown| {
@@ -173,7 +173,7 @@ impl<'a> CoefficientSearch<'a> {
         parameters.collect()
     }
 
-    /// Gives each profile its weight: fitted alone, from where `parameters` begin, which then begin there.
+    /// Weighs each profile by the scatter of its own fit, which begins at `parameters`; these then start from its result.
     fn weigh(&mut self, parameters: &mut [Parameter], wear: &mut Wear<'_, Self>) -> Result<(), CompareError> {
         let begun: Vec<f64> = parameters.iter().map(|parameter| parameter.start).collect();
         for (index, part) in self.parts().into_iter().enumerate() {
@@ -202,7 +202,7 @@ impl<'a> CoefficientSearch<'a> {
         Ok(())
     }
 
-    /// Gauss–Newton steps on the residuals of exact runs, until they no longer matter.
+    /// Gauss–Newton steps on the residuals of exact runs until convergence.
     fn settle(
         &self,
         found: &mut FittedCoefficients,
@@ -234,7 +234,7 @@ impl<'a> CoefficientSearch<'a> {
                 (found.wear_um, found.uncertainty) = (wear_um, uncertainty);
             }
             let Some(step) = step else { break };
-            // Steps in standard deviations; those that are nothing beside the differences count for nothing.
+            // Steps in standard deviations; those below [`SMALL_STEP`] count as 0.
             last_step = (0..step.len())
                 .filter(|&i| step[i].abs() > SMALL_STEP * parameters[i].width)
                 .map(|i| step[i].abs() / deviations.as_ref().map_or(0.0, |all| all[i]))
@@ -263,7 +263,7 @@ impl<'a> CoefficientSearch<'a> {
         all
     }
 
-    /// How the residuals of all profiles are made up.
+    /// The part of each profile in the residuals.
     fn parts(&self) -> Vec<ProfilePart> {
         self.comparisons
             .iter()
@@ -271,7 +271,7 @@ impl<'a> CoefficientSearch<'a> {
             .collect()
     }
 
-    /// The change of the scene that the parameters stand for.
+    /// Change of the scene for these parameters.
     fn change(&self, theta: &[f64]) -> CoefficientChange {
         CoefficientChange {
             coefficient_factor: PerGear::from_fn(|gear| {

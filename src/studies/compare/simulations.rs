@@ -39,12 +39,11 @@ pub(crate) enum CompareError {
 const SNAPSHOTS: u32 = 40;
 /// Number of simulations where each is a run of its own.
 const SEPARATE_RUNS: u32 = 6;
-/// Longer runs have no more wear steps than one of this factor.
+/// Factor on the duration up to which the number of wear steps rises with it.
 const AS_FINE_UP_TO: f64 = 4.0;
-/// A curve reaches this much further than the factor it is made for.
+/// Factor by which a curve reaches beyond the factor asked for.
 const AHEAD: f64 = 2.0;
-/// Factors of severe wear, or ratios of the coefficients, whose curves are computed are this far apart, as a logarithm; between them it is
-/// interpolated.
+/// Logarithmic spacing of the factors of severe wear, or ratios of the coefficients, for which curves are computed; between them it is interpolated.
 const STEP: f64 = LN_2;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,13 +59,13 @@ impl CoefficientChange {
         Self { coefficient_factor: PerGear { pinion: 1.0, wheel: 1.0 }, severe_factor: None };
 }
 
-/// Wear for all factors on the wear coefficients, at one factor of severe wear and one ratio of the coefficients.
+/// Wear as a function of the factor on the wear coefficients, at one factor of severe wear and one ratio of the coefficients.
 struct Course {
-    /// The scene's own factor of severe wear, or ratio of the wheel's coefficient to the pinion's, times 2ⁿ.
+    /// Number of the curve: its factor of severe wear, or ratio of the wheel's coefficient to the pinion's, is the scene's times 2ⁿ.
     n: i32,
-    /// The greatest factor it knows.
+    /// Greatest factor of the curve.
     reach: f64,
-    /// Profile by profile.
+    /// Wear of each profile.
     wear: Vec<WearByCoefficient>,
 }
 
@@ -90,7 +89,7 @@ pub(super) struct Simulations<'a> {
 }
 
 impl<'a> Simulations<'a> {
-    /// Runs of `given`, of which wear is wanted where and when the profiles of `question` were measured.
+    /// Runs of `given` up to the time of each profile of `question`.
     pub(super) fn new(given: &'a LoadedScene, question: &'a ComparisonQuestion, observer: &'a dyn Observer) -> Self {
         let last = question.last_revolutions();
         let mut scene = given.resolved.scene.clone();
@@ -102,7 +101,7 @@ impl<'a> Simulations<'a> {
         }
         operation.pinion_revolutions = last;
         operation.stop = LifeLimits::default();
-        // Those of the scene stay: steps end at them.
+        // Snapshots of the scene are kept: steps end at them.
         let snapshots = &mut operation.snapshots_revolutions;
         snapshots.retain(|&at| at < last);
         snapshots.extend(question.profiles.iter().map(|of| of.revolutions));
@@ -128,12 +127,12 @@ impl<'a> Simulations<'a> {
         Ok(measured.collect())
     }
 
-    /// Wear profiles, interpolated between profiles that are computed where they are first needed.
+    /// Wear profiles interpolated between computed ones, which are computed when first needed.
     pub(super) fn about(&mut self, change: CoefficientChange) -> Result<Vec<Vec<f64>>, CompareError> {
         let profiles = &self.question.profiles;
         let mut sums = vec![Vec::new(); profiles.len()];
         for (n, weight) in self.courses_around(change) {
-            // The course's own coefficients, and how far along it those of the change lie for each gear.
+            // Coefficients of the course at factor 1, and the factor of the change on it for each gear.
             let once = self.on_course(n, 1.0).coefficient_factor;
             let own = PerGear::from_fn(|gear| change.coefficient_factor[gear] / once[gear]);
             let factors: Vec<f64> = profiles.iter().map(|of| own[of.profile.gear]).collect();
@@ -199,7 +198,7 @@ impl<'a> Simulations<'a> {
 
     fn compute(&mut self, n: i32, reach: f64) -> Result<Course, CompareError> {
         let profiles = &self.question.profiles;
-        // The factor that each snapshot stands for, profile by profile, and the wear.
+        // Factor of each snapshot and its wear, profile by profile.
         let mut rows: Vec<(Vec<f64>, Vec<Vec<f64>>)> = Vec::new();
         if self.until_measured.operation.phases.len() > 1 || !self.scales_with_time() {
             for factor in squares(reach, SEPARATE_RUNS) {
@@ -222,7 +221,7 @@ impl<'a> Simulations<'a> {
         Ok(Course { n, reach, wear: (0..profiles.len()).map(of_profile).collect() })
     }
 
-    /// Whether a longer run holds the wear of greater coefficients: where both change in the same way, or the mate does not wear.
+    /// Whether wear of greater coefficients equals that of a longer run: the coefficients of both gears change alike, or the mate does not wear.
     fn scales_with_time(&self) -> bool {
         let scene = &self.until_measured;
         Gear::BOTH.into_iter().all(|gear| {
@@ -232,7 +231,7 @@ impl<'a> Simulations<'a> {
         })
     }
 
-    /// Carries a scene out: the wear of each profile's flank points at each snapshot.
+    /// Runs a scene; the wear of each profile's flank points at each snapshot.
     fn run(&mut self, scene: Scene) -> Result<Vec<ProfileSnapshot>, CompareError> {
         self.runs += 1;
         self.observer.stage(&format!("run {}", self.runs));
@@ -283,8 +282,7 @@ impl<'a> Simulations<'a> {
     }
 }
 
-/// The row of `points` at `width_mm` out of rows in slices at `slices_mm`: between their middles by straight lines, outside them
-/// that of the outermost.
+/// Wear at `width_mm`, linear between the middles of the slices at `slices_mm`; beyond them that of the outermost slice.
 pub(super) fn over_width(wear_um: &[f64], slices_mm: &[f64], points: usize, width_mm: Option<f64>) -> Vec<f64> {
     let rows: Vec<&[f64]> = wear_um.chunks_exact(points.max(1)).collect();
     let (Some(width), true) = (width_mm, rows.len() > 1) else {
@@ -296,7 +294,7 @@ pub(super) fn over_width(wear_um: &[f64], slices_mm: &[f64], points: usize, widt
     rows[after - 1].iter().zip(rows[after]).map(|(a, b)| a + t * (b - a)).collect()
 }
 
-/// Lagrange's polynomial through so many courses from `first` on: their weights at `place`.
+/// Weights at `place` of Lagrange's polynomial through `count` courses from `first` on.
 fn lagrange(place: f64, first: i32, count: i32) -> Vec<(i32, f64)> {
     let nodes = first..first + count;
     let weights = nodes.clone().map(|n| {

@@ -23,10 +23,10 @@ use crate::scene::loaded::LoadedScene;
 
 /// mm²/N to m²/N.
 const M2_PER_MM2: f64 = 1e-6;
-/// Residuals this many times the uncertainty of the heights say that the simulation does not describe the profile.
+/// Ratio of residuals to the uncertainty of the heights above which the simulation does not describe the profile.
 const NOT_DESCRIBED: f64 = 2.0;
 
-/// Compares what was measured with the run in `folder`, whose scene is `given`.
+/// Compares the measured profiles with the run in `folder`, whose scene is `given`.
 pub(crate) fn run(
     question: &ComparisonQuestion,
     folder: &RunFolder,
@@ -64,7 +64,7 @@ pub(crate) fn run(
     })
 }
 
-/// Wear that the run kept of the time when a profile was measured.
+/// Wear that the run recorded at the time of the measurement.
 fn as_kept(comparison: &Comparison<'_>, pair: &GearPair) -> Option<Vec<f64>> {
     let (of, points) = (comparison.of, comparison.flank_points());
     let wear_um = of.as_run_um.as_ref()?;
@@ -180,7 +180,7 @@ fn estimate((value, half): (f64, Option<f64>), of_run: f64, unit: f64) -> Fitted
     FittedValue { value: value.unwrap_or(f64::NAN), low, high, of_run }
 }
 
-/// The unknowns that stand for a wear coefficient, and whose it is: both gears' where they wear by one law.
+/// Unknown wear coefficients, each with its gear; `None` for both where they have one law.
 fn whose(question: &ComparisonQuestion, resolved: &Resolved) -> Vec<(Unknown, Option<Gear>)> {
     match question.fitted {
         FittedGears::Each => Gear::BOTH.map(|gear| (Unknown::Coefficient(Some(gear)), Some(gear))).into(),
@@ -190,7 +190,7 @@ fn whose(question: &ComparisonQuestion, resolved: &Resolved) -> Vec<(Unknown, Op
     }
 }
 
-/// Points that count: "20 of 150 points".
+/// Effective number of points: "20 of 150 points".
 fn counted(of: &ProfileRecord) -> Option<String> {
     Some(format!("{:.0} of {} points", of.effective_points?, of.points))
 }

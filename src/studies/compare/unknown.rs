@@ -27,7 +27,7 @@ impl Unknown {
         }
     }
 
-    /// Whether it says something of the profile of `gear`.
+    /// Whether the profile of `gear` depends on it.
     pub(super) fn is_of(self, gear: Gear) -> bool {
         match self {
             Unknown::Coefficient(own) | Unknown::Shift(own) => own.is_none_or(|own| own == gear),

@@ -9,14 +9,14 @@ use crate::results::run::{RunRecord, StopReason};
 use crate::scene::loaded::LoadedScene;
 use crate::studies::varied_scene::one_line;
 
-/// How a scene ends that does not run to its end.
+/// Outcome of a scene that does not run to its end.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Ended {
-    /// With a message of what is wrong with it.
+    /// Refused with a message.
     Refused(String),
-    /// A tooth is worn through, and the run says so.
+    /// A tooth is worn through.
     WornThrough,
-    /// The solver gave up.
+    /// The solver did not converge.
     NotConverged(String),
     /// A defect of the program.
     Panicked(String),
@@ -35,7 +35,7 @@ impl Ended {
     }
 }
 
-/// Runs the scene; only one that comes to its end has a record.
+/// Runs the scene; only a run that comes to its end has a record.
 pub(super) fn carried_out(table: &Table, observer: &dyn Observer) -> Result<RunRecord, Ended> {
     guarded(|| run(table, observer)).unwrap_or_else(|said| Err(Ended::Panicked(one_line(&said))))
 }

@@ -22,7 +22,7 @@ impl Measured {
         Self { figure: figure.into(), value, bound }
     }
 
-    /// How much of what is allowed the difference is; a difference that is no number is more than anything.
+    /// Difference over its bound; infinite where it is not a number.
     pub(super) fn used(&self) -> f64 {
         if self.value.is_nan() { f64::INFINITY } else { self.value / self.bound }
     }
@@ -61,7 +61,7 @@ impl Default for Follows {
     }
 }
 
-/// Relative differences that are allowed.
+/// Bounds of relative differences.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bounds {
     /// Of wear depth at any point.
@@ -72,7 +72,7 @@ pub(super) struct Bounds {
     pub pressure: f64,
     /// Of transmission error and load share at any position.
     pub cycle: f64,
-    /// Least of each of what is worn, where the two runs take as many adaptive steps, whose lengths differ.
+    /// Least bound of worn figures, where both runs take the same number of adaptive steps, whose lengths differ.
     pub least_of_worn: f64,
     /// Tolerance of adaptive steps on the depth at any point, µm, where the two runs may take other steps.
     pub tolerance_um: Option<f64>,
@@ -140,7 +140,7 @@ pub(super) fn worn_volume_mm3(summary: &Summary, gear: Gear) -> f64 {
     }
 }
 
-/// Figures of the new pairs: no step of wear is in them.
+/// Figures of the new pair, which depend on no wear step.
 pub(super) fn compare_new(first: &RunRecord, other: &RunRecord, follows: &Follows, bounds: Bounds) -> Vec<Measured> {
     let pressures = Gear::BOTH.map(|gear| {
         let theirs = if follows.exchanged { gear.mate() } else { gear };
@@ -201,8 +201,8 @@ fn repeated(position_mm: &[f64], column: &[f64], period_mm: Option<f64>) -> Cour
     before.chain(own).chain(after).unzip()
 }
 
-/// `factor` times `mine`, a column at the positions `position_mm`, with what is left of the difference of `theirs` from what that is anywhere within
-/// `lag_mm` by its course `around`; none where that reaches beyond the course.
+/// For each position, the value of `mine` times `factor` plus the remaining difference to `theirs`, where `theirs` may be any value of the course
+/// `around` within `lag_mm`; `None` where that reaches beyond the course.
 fn nearest(
     position_mm: &[f64],
     lag_mm: f64,
@@ -225,7 +225,7 @@ fn nearest(
     left.collect()
 }
 
-/// Greatest |theirs − factor · mine| over the greatest of `factor · mine`; columns of different lengths differ wholly.
+/// Greatest |theirs − factor · mine| over the greatest of both; infinite where the lengths differ.
 pub(super) fn difference(mine: &[f64], theirs: &[f64], factor: f64) -> f64 {
     if mine.len() != theirs.len() {
         return f64::INFINITY;
@@ -238,14 +238,14 @@ pub(super) fn difference(mine: &[f64], theirs: &[f64], factor: f64) -> f64 {
     if greatest > 0.0 { apart / greatest } else { apart }
 }
 
-/// Slices in the order of the face width turned round.
+/// Column with its slices in reverse order.
 fn mirrored(column: &[f64], slices: usize) -> Vec<f64> {
     let points = (column.len() / slices.max(1)).max(1);
     column.chunks(points).rev().flatten().copied().collect()
 }
 
-/// The greatest relative difference of any number of two summaries, with its path. Times, hashes, counts of work and what `besides` begins with are
-/// left out; texts and numbers that one of the two lacks differ wholly.
+/// Greatest relative difference of the numbers of two summaries, with its path. Times, hashes, work counts and paths that begin with one of `besides`
+/// are left out; differing texts and numbers that one summary lacks count as infinite.
 pub(super) fn summaries(first: &impl Serialize, other: &impl Serialize, besides: &[&str]) -> (f64, String) {
     let mut worst = (0.0, String::new());
     if let (Ok(first), Ok(other)) = (serde_json::to_value(first), serde_json::to_value(other)) {
@@ -254,7 +254,7 @@ pub(super) fn summaries(first: &impl Serialize, other: &impl Serialize, besides:
     worst
 }
 
-/// Differences that are relative already: of what is alike, they are rounding.
+/// Figures that are relative differences themselves: where runs are alike they are rounding.
 const RELATIVE: [&str; 5] =
     ["load_imbalance", "split_remainder_at_half_load", "variation", "asymmetry", "asymmetry_first_mesh"];
 
@@ -278,7 +278,7 @@ fn walk(first: &Value, other: &Value, path: &str, besides: &[&str], worst: &mut 
             for (index, (mine, theirs)) in mine.iter().zip(theirs).enumerate() {
                 let path = format!("{path}.{}", index + 1);
                 match (mine.as_f64(), theirs.as_f64(), greatest) {
-                    // Numbers of a row are of one kind: the least of them may be rounding of the greatest.
+                    // Numbers of a row have the same unit: differences are relative to the greatest of them.
                     (Some(mine), Some(theirs), Some(greatest)) if mine != theirs => {
                         note((mine - theirs).abs() / greatest, &path, worst);
                     }

@@ -15,7 +15,7 @@ pub(crate) struct SceneRelation {
     pub states: &'static str,
     /// Why the bound is what it is.
     pub bound: &'static str,
-    /// Whether so few scenes can be held against it that each is.
+    /// Whether it applies to so few scenes that it is tested on each of them.
     pub is_rare: bool,
     pub check: fn(&Subject<'_>) -> RelationOutcome,
 }
@@ -24,13 +24,13 @@ pub(crate) struct SceneRelation {
 pub(crate) struct Subject<'a> {
     pub table: &'a Table,
     pub record: &'a RunRecord,
-    /// Runs another one.
+    /// Runs another scene.
     pub run: &'a dyn Fn(&Table) -> Result<RunRecord, Ended>,
 }
 
 /// Outcome of a relation on a scene.
 pub(crate) enum RelationOutcome {
-    /// The relation says nothing about such a scene.
+    /// The relation does not apply to the scene.
     NotOfThisScene,
     /// The other scene did not run to its end.
     Ended { scene: Table, how: Ended },
@@ -43,11 +43,10 @@ pub(super) const POINTS: &str = "numerics.flank_points";
 pub(super) const POSITIONS: &str = "numerics.positions";
 const STEP: &str = "numerics.step.revolutions";
 
-/// Points or positions over those of the scene, where its own are too few for its contacts.
+/// Refinement of points or positions where the scene's own are too few for its contacts.
 const FINER: f64 = 4.0;
-/// Refinement where these are too few as well, as for contacts near a base circle (seed 7, 1232: what a flank loses is 56 % off
-/// what load and sliding ask for
-/// at 96 positions, 25 % at 192, 10 % at 384, 4 % at 768).
+/// Further refinement where these are too few as well, as for contacts near a base circle (seed 7, 1232: the worn volume is 56 % off what load and
+/// sliding give at 96 positions, 25 % at 192, 10 % at 384, 4 % at 768).
 const FINEST: f64 = 16.0;
 
 impl RelationOutcome {
@@ -87,7 +86,7 @@ fn finer(table: &Table, keys: &[&str], by: f64) -> Table {
 }
 
 impl Subject<'_> {
-    /// Runs the scene `other` and judges its record; without a figure nothing is said of the scene.
+    /// Runs the scene `other` and judges its record; without figures the relation does not apply.
     pub(super) fn beside(&self, other: Table, judge: impl FnOnce(&RunRecord) -> Vec<Measured>) -> RelationOutcome {
         match (self.run)(&other) {
             Ok(record) => match judge(&record) {
@@ -116,9 +115,8 @@ impl Subject<'_> {
         }
     }
 
-    /// Runs what `other` makes of the scene and judges both; where they are beyond a bound, `keys` may be too small numbers for
-    /// the scene's contacts, and
-    /// both at four times the numbers are what is judged, or at sixteen times where these are beyond it too.
+    /// Runs the scene that `other` makes of this one and judges both. Where a bound is exceeded, the numbers at `keys` may be too small for the
+    /// contacts: both scenes are then judged at four times the numbers, and at sixteen times where a bound is exceeded there too.
     pub(super) fn refined(
         &self,
         keys: &[&str],
@@ -130,7 +128,7 @@ impl Subject<'_> {
             if verdict.is_beyond() {
                 let finer = finer(self.table, keys, by);
                 let of_finer = self.two(finer.clone(), other(&finer), &judge);
-                // A run that says nothing of what is beyond acquits of nothing.
+                // The finer run counts only where it has every figure that exceeds its bound.
                 if of_finer.says_of_all_beyond(&verdict) {
                     verdict = of_finer;
                 }

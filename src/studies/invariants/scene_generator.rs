@@ -47,7 +47,7 @@ struct Aim {
     hertz_mpa: f64,
     revolutions: f64,
     depth_mm: f64,
-    /// The coefficient that gives this depth, m²/N.
+    /// Coefficient that gives the depth, m²/N.
     coefficient: f64,
 }
 
@@ -179,7 +179,7 @@ impl Draw {
                 self.set(&of("tip_rounding_mm"), rounding);
             }
         }
-        // Over the face width: these ask for slices.
+        // Modifications over the face width, which need slices.
         if !self.chance(if sizes.helix_rad == 0.0 { 0.08 } else { 0.4 }) {
             return;
         }
@@ -264,7 +264,7 @@ impl Draw {
             hertz_mpa: (line_load_n_per_mm * sizes.modulus_mpa / (PI * relative_radius_mm)).sqrt(),
             revolutions,
             depth_mm,
-            // A flank slides over its mate by some third of the contact's width.
+            // A flank slides over its mate by about a third of the contact's width.
             coefficient: four_digits(1e-6 * depth_mm / (0.3 * line_load_n_per_mm * revolutions)),
         }
     }

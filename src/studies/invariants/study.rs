@@ -17,11 +17,11 @@ use crate::studies::spread::spread;
 use crate::studies::validation::record::Tier;
 use crate::studies::validation::soundness;
 
-/// Of the relations, one in so many is tried on a scene.
+/// A scene is tested against every fourth relation.
 const STRIDE: u64 = 4;
-/// Statement of the scenes themselves.
+/// Name of the statement that a scene runs or is refused.
 const RUNS: &str = "runs or is refused";
-/// Statement of what every record is.
+/// Name of the statement that a record is sound.
 const SOUND: &str = "sound";
 
 /// The word among cases of the validation suite that stands for random scenes.
@@ -65,7 +65,7 @@ struct Finding {
     other: Option<String>,
 }
 
-/// Carries the study out on so many threads; the record is the same for any number of them, but for times.
+/// Runs the study on `threads` threads; but for times, the record does not depend on their number.
 pub(crate) fn run(asked: SceneRange, threads: usize, observer: &dyn Observer) -> InvariantsRecord {
     let start = Instant::now();
     let relations = relations::all();
@@ -87,7 +87,7 @@ pub(crate) fn run(asked: SceneRange, threads: usize, observer: &dyn Observer) ->
         wall_s: 0.0,
     };
     let mut rows = StatementRows::of(&relations);
-    // Scenes that came before one of a lower number: the record takes them in their order, and keeps none.
+    // Scenes finished before one of a lower number: the record takes them in order.
     let mut early: BTreeMap<u64, OfScene> = BTreeMap::new();
     let mut next = asked.first;
     spread(
@@ -113,7 +113,7 @@ pub(crate) fn run(asked: SceneRange, threads: usize, observer: &dyn Observer) ->
     record
 }
 
-/// One scene with all that is held against it; none where it was interrupted.
+/// Findings on one scene; `None` where it was interrupted.
 fn of_scene(seed: u64, index: u64, relations: &[SceneRelation], observer: &dyn Observer) -> Option<OfScene> {
     let table = scene_generator::scene(seed, index);
     let runs = Cell::new(1);
@@ -221,7 +221,7 @@ fn is_violated(measured: &Measured) -> bool {
 struct StatementRows(Vec<StatementRow>);
 
 impl StatementRows {
-    /// With a row for each relation, whether any scene comes to it or not.
+    /// Rows of `relations`, also of those that no scene comes to.
     fn of(relations: &[SceneRelation]) -> Self {
         let mut rows = Self(Vec::new());
         for relation in relations {
@@ -322,7 +322,7 @@ mod tests {
         assert!(one.ran > 0);
     }
 
-    /// Scenes that once broke a statement, or that a statement once asked too much of.
+    /// Scenes that once violated a statement, or whose bound was once too narrow.
     #[test]
     fn reg_scenes_that_broke_a_statement_hold() {
         for (seed, first, broke) in [

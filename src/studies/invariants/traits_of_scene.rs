@@ -85,7 +85,7 @@ pub(super) fn has_large_strains(record: &RunRecord) -> bool {
     record.summary.warnings.iter().any(|warning| warning.contains("strains are not small"))
 }
 
-/// Whether the stiffness model has a size of its own: c' of ISO 6336 falls with the line load below 100 N/mm.
+/// Whether the stiffness model is not similar: c' of ISO 6336 falls with the line load below 100 N/mm.
 pub(super) fn has_a_size(table: &Table, record: &RunRecord) -> bool {
     let loads = record.summary.phases.iter().map(|phase| phase.line_load_N_per_mm);
     word(table, "stiffness.model") == Some("iso6336") && loads.fold(f64::INFINITY, f64::min) < 100.0

@@ -9,18 +9,18 @@ use crate::scene::key::{self, KeyError, NumberKey};
 use crate::studies::sweep::record::{Spacing, SweepAxis, plain};
 use crate::studies::varied_scene::{linked_keys, missing_phase};
 
-/// Values of one key.
+/// Greatest number of values of one key.
 pub(crate) const MOST_VALUES: usize = 100_000;
-/// Combinations of a sweep.
+/// Greatest number of combinations of a sweep.
 pub(crate) const MOST_COMBINATIONS: usize = 1_000_000;
 
 const FORM: &str =
     "KEY=FROM:TO:COUNT, such as pair.face_width_mm=10:30:21, with :log for equal ratios, or KEY=VALUE,VALUE,…";
 
-/// Faults of a varied key.
+/// Errors of a varied key.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum AxisError {
-    /// Not of one of the forms.
+    /// None of the forms.
     #[error("found {given:?}; allowed: {FORM}")]
     Form { given: String },
     #[error(transparent)]
@@ -31,16 +31,16 @@ pub(crate) enum AxisError {
     Count { key: String, found: String },
     #[error("{key}: found the range {from}:{to}, which is reversed; allowed: FROM below TO", from = plain(*.from), to = plain(*.to))]
     Reversed { key: String, from: f64, to: f64 },
-    /// One value, but two ends.
+    /// One value for two ends.
     #[error("{key}: found 1 value for the range {from}:{to}; allowed: a COUNT of at least 2, or {from}:{from}:1", from = plain(*.from), to = plain(*.to))]
     OneValue { key: String, from: f64, to: f64 },
-    /// Several values, but one end.
+    /// Several values for equal ends.
     #[error("{key}: found {count} values for the range {from}:{from}; allowed: {from}:{from}:1, or FROM below TO", from = plain(*.from))]
     SameEnds { key: String, from: f64, count: usize },
-    /// Ratios of numbers of which one is not positive.
+    /// Equal ratios between numbers that are not both positive.
     #[error("{key}: found the range {from}:{to} by equal ratios; allowed: FROM above 0", from = plain(*.from), to = plain(*.to))]
     NoRatio { key: String, from: f64, to: f64 },
-    /// A list that falls or repeats a value.
+    /// A list that is not rising.
     #[error("{key}: found {value} after {before}; allowed: rising values", value = plain(*.value), before = plain(*.before))]
     NotRising { key: String, before: f64, value: f64 },
     /// None of the words that the key takes.
@@ -51,17 +51,17 @@ pub(crate) enum AxisError {
     /// A phase that the scene does not have.
     #[error("found {key}; allowed: a phase that the scene has, numbered from 1")]
     NoPhase { key: String },
-    /// Alternatives of a key without an end.
+    /// Unclosed braces.
     #[error("found {key:?}; allowed: alternatives in braces, such as pair.{{pinion,wheel}}.tip_rounding_mm")]
     Braces { key: String },
-    /// A value between whole numbers for a key that takes only those.
+    /// A fractional value of a key that takes whole numbers.
     #[error("{key}: found the value {value}; allowed: whole numbers, so choose a COUNT that steps over whole numbers")]
     NotWhole {
         key: String,
         /// The first such value.
         value: f64,
     },
-    /// No value is one that the key takes.
+    /// No value is allowed for the key.
     #[error("{key}: found {from} to {to}; allowed: {allowed}", from = plain(*.from), to = plain(*.to))]
     NotAllowed { key: String, from: f64, to: f64, allowed: String },
     #[error("found {key} twice; allowed: each key once")]
@@ -71,7 +71,7 @@ pub(crate) enum AxisError {
     /// More combinations than can be kept.
     #[error("found {count} combinations; allowed: at most {MOST_COMBINATIONS}")]
     TooMany {
-        /// How many, in words where they cannot be counted.
+        /// Their number, in words where it overflows.
         count: String,
     },
 }
@@ -92,9 +92,9 @@ impl AxisError {
     }
 }
 
-/// Reads a key with its values and checks them against what the key takes.
+/// Reads a key with its values and checks that the key allows them.
 ///
-/// A range that lies partly outside what the key takes is kept: those combinations become rows with their error.
+/// A range that the key allows only partly is kept: the other combinations become rows with an error.
 pub(crate) fn parse(given: &str) -> Result<SweepAxis, AxisError> {
     let Some((key, values)) = given.split_once('=') else { return Err(AxisError::Form { given: given.to_owned() }) };
     let key = key.trim().to_owned();
@@ -211,7 +211,7 @@ pub(crate) fn check_phases(axes: &[SweepAxis], scene: &Draft) -> Result<(), Axis
     missing.map_or(Ok(()), |key| Err(AxisError::NoPhase { key }))
 }
 
-/// Values of `axis` that the key does not take, in words; `None` where it takes all.
+/// Values of `axis` that the key does not allow, in words; `None` where it allows all.
 pub(crate) fn partly_not_allowed(axis: &SweepAxis) -> Option<String> {
     if axis.words().is_some() {
         return None;
@@ -238,7 +238,6 @@ mod tests {
         let teeth = parse(" pair.pinion.teeth = 16 : 20 : 3 ").unwrap();
         assert_eq!((teeth.values(), teeth.whole), (vec![16.0, 18.0, 20.0], true));
         assert_eq!(parse("wear.coefficient_m2_per_N=1e-18:1e-18:1").unwrap().values(), [1e-18]);
-        // A range that is partly bad is a sweep with some bad rows.
         let widths = parse("pair.face_width_mm=-10:10:3").unwrap();
         assert!(partly_not_allowed(&widths).unwrap().contains("2 of 3"));
         assert_eq!(partly_not_allowed(&axis), None);

@@ -17,7 +17,7 @@ use super::record::{SweepIdentity, SweepRow, plain};
 use crate::results::error::TotalError;
 use crate::scene::nearest::nearest;
 
-/// The figure that is to be least, and the limits of others.
+/// Figure to minimise, and limits of other figures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Goal {
     /// Name of its column.
@@ -25,12 +25,12 @@ pub(crate) struct Goal {
     pub limits: Vec<Limit>,
 }
 
-/// A figure that must not pass a value.
+/// Limit of a figure.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Limit {
     /// Name of its column.
     pub figure: String,
-    /// Whether the value is the most that it may be; else the least.
+    /// Whether the value is an upper limit; else a lower one.
     pub at_most: bool,
     pub value: f64,
 }
@@ -77,7 +77,7 @@ fn known(name: &str) -> Result<&'static SweepFigure, GoalError> {
 }
 
 impl Goal {
-    /// The least of the figure `name` within `limits`.
+    /// Goal of the least figure `name` within `limits`.
     ///
     /// # Errors
     /// A name that no column has.
@@ -86,11 +86,11 @@ impl Goal {
     }
 
     pub(crate) fn figure(&self) -> &'static SweepFigure {
-        // A journal of another version may name one that is gone.
+        // The journal of another version may name a figure that no longer exists.
         SweepFigure::find(&self.figure).unwrap_or(&PEAK_WEAR)
     }
 
-    /// Whether `row` has the figure and keeps to all limits.
+    /// Whether `row` has the figure and is within all limits.
     pub(crate) fn allows(&self, row: &SweepRow) -> bool {
         row.error.is_none()
             && row.figure(self.figure()).is_some()
@@ -103,7 +103,7 @@ impl Goal {
         if limits.is_empty() { self.figure.clone() } else { format!("{}, with {}", self.figure, limits.join(" and ")) }
     }
 
-    /// The optimum among `rows`; `None` where none keeps to the limits.
+    /// Optimum among `rows`; `None` where no row is within the limits.
     pub(crate) fn optimum(&self, identity: &SweepIdentity, rows: &[SweepRow]) -> Option<Optimum> {
         let figure = self.figure();
         let allowed: Vec<(&SweepRow, f64)> =
@@ -163,16 +163,16 @@ fn values_among(identity: &SweepIdentity, combinations: &[usize], at: usize) -> 
 pub(crate) struct Optimum {
     #[serde(flatten)]
     pub goal: Goal,
-    /// Combinations that keep to the limits.
+    /// Number of combinations within the limits.
     pub within_limits: usize,
     pub index: usize,
     pub values: Vec<f64>,
     pub value: f64,
     /// Relative error of the figure: the greatest that a verified combination states.
     pub error: Option<f64>,
-    /// Why there is none.
+    /// Reason where it is not known.
     pub why_no_error: Option<String>,
-    /// The combinations that are not known to be worse, itself among them; null where the error is not known.
+    /// Combinations that are not known to be worse, the best included; null where the error is not known.
     pub plateau: Option<Vec<usize>>,
     /// Values of each key among them.
     pub plateau_keys: Option<Vec<String>>,

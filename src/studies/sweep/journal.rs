@@ -31,7 +31,7 @@ pub(crate) struct JournalContents {
 }
 
 impl JournalContents {
-    /// The row in a line; an error says why it is none of this sweep.
+    /// Row in a line; the error is the reason why it does not belong to this sweep.
     pub(crate) fn row(&self, line: &str) -> Result<SweepRow, String> {
         let row: SweepRow = serde_json::from_str(line).map_err(|error| error.to_string())?;
         if row.index >= self.identity.combinations() || row.figures.len() != self.identity.figures.len() {
@@ -48,7 +48,7 @@ pub(crate) struct Journal {
     pub contents: JournalContents,
 }
 
-/// Why rows cannot be read or kept.
+/// Error of reading or writing rows.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum JournalError {
     #[error("{} holds no sweep: there is no {FILE_NAME} in it", folder.display())]
@@ -76,11 +76,11 @@ pub(crate) enum JournalError {
         kept: usize,
         source: io::Error,
     },
-    /// The folder was taken away while the sweep ran; the rows were written anew.
+    /// The folder was removed while the sweep ran; the rows were written again.
     #[error("{} was removed while the sweep ran; its {kept} finished rows were written there anew", path.display())]
     Removed {
         path: PathBuf,
-        /// Rows that were written anew.
+        /// Rows that were written again.
         kept: usize,
     },
     #[error("{} was removed while the sweep ran, and cannot be written anew: {source}", path.display())]
@@ -126,7 +126,7 @@ fn cannot_open(path: &Path, source: io::Error) -> JournalError {
     JournalError::Open { path: path.to_owned(), source }
 }
 
-/// File of a journal, made where there is none.
+/// Opens the file of a journal, or creates it.
 fn opened(folder: &Path, path: &Path) -> io::Result<File> {
     fs::create_dir_all(folder)?;
     OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)
@@ -140,7 +140,7 @@ fn begin_at(file: &mut File, length: usize, new: Option<&JournalContents>) -> io
 }
 
 impl Journal {
-    /// A journal that is not kept.
+    /// Journal kept in memory only.
     pub(crate) fn in_memory(identity: &SweepIdentity, shard: Option<Shard>) -> Self {
         Self { kept: None, contents: JournalContents { identity: identity.clone(), shard, rows: BTreeMap::new() } }
     }
@@ -152,7 +152,7 @@ impl Journal {
     pub(crate) fn open(folder: &Path, identity: &SweepIdentity, shard: Option<Shard>) -> Result<Self, JournalError> {
         let path = folder.join(FILE_NAME);
         let mut file = opened(folder, &path).map_err(|source| cannot_open(&path, source))?;
-        // A file system without locks is no reason not to run.
+        // A file system without locks does not prevent a sweep.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(JournalError::InUse { path });
         }
@@ -183,7 +183,7 @@ impl Journal {
         let line = line_of(&row).map_err(|source| JournalError::Write { path: path.clone(), kept, source })?;
         let index = row.index;
         let before = rows.insert(index, row);
-        // A file that was unlinked could still be written to, for nobody.
+        // Writing to an unlinked file would succeed and be lost.
         if !path.exists() {
             return Err(write_anew(path, &self.contents));
         }
@@ -222,7 +222,7 @@ fn line_of(item: &impl Serialize) -> io::Result<Vec<u8>> {
     Ok(line)
 }
 
-/// Differences between the sweep of the journal and the one to be run, in that order.
+/// Differences between the sweep of the journal and the one to be run, each with both values, the journal's first.
 fn differences(found: &JournalContents, wanted: &JournalContents) -> Vec<String> {
     let mut differences = found.identity.differences(&wanted.identity);
     if found.shard != wanted.shard {

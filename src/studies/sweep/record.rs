@@ -7,7 +7,7 @@ use super::goal::{Goal, Optimum};
 use super::verification::{Chosen, RowVerification, SweepVerification};
 use crate::results::error::TotalError;
 
-/// Digits of a value between the ends of a range.
+/// Significant digits of a value between the ends of a range.
 const DIGITS: i32 = 12;
 
 /// How the values of a key are spaced.
@@ -137,10 +137,10 @@ impl SweepAxis {
     }
 }
 
-/// Names of keys that need that of their section before them.
+/// Last parts of keys that are clear only with the name of their section.
 const SAY_NOTHING_ALONE: [&str; 4] = ["coefficient", "surface", "model", "law"];
 
-/// How names of keys end, and the unit that it stands for.
+/// Suffixes of keys and their units.
 const UNITS: [(&str, &str); 20] = [
     (" N per mm um", "N/(mm·µm)"),
     (" MPa per mm", "MPa/mm"),
@@ -170,7 +170,7 @@ pub(crate) fn plain(value: f64) -> String {
     text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
 }
 
-/// A part of a sweep that is run by itself: every `of`-th combination, beginning with `number`.
+/// A shard: every `of`-th combination, beginning with `number`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Shard {
     /// Number of the part, from 1.
@@ -178,7 +178,7 @@ pub(crate) struct Shard {
     pub of: usize,
 }
 
-/// Identity of a sweep: rows of two sweeps may stand in one table where all of it is the same.
+/// Identity of a sweep: rows of sweeps with equal identities can be merged.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct SweepIdentity {
     pub title: String,
@@ -190,13 +190,13 @@ pub(crate) struct SweepIdentity {
     /// Hash of the calibration and the stiffness curve that the scene names; empty where it names none.
     pub inputs_hash: String,
     pub error_estimate: bool,
-    /// Whether the scene asks by name for the verification, which the best rows and the corners then get.
+    /// Whether the scene sets `verify = true`: the best rows and the corners are then verified.
     pub verify: bool,
     /// Varied keys; the first changes slowest.
     pub axes: Vec<SweepAxis>,
     /// Names of the figures of a row, in order.
     pub figures: Vec<String>,
-    /// Figure to minimise; rows do not depend on it, so that it may be another one at the next start.
+    /// Figure to minimise; rows do not depend on it, so it may change at a restart.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub goal: Option<Goal>,
 }
@@ -264,7 +264,7 @@ pub(crate) struct SweepRow {
     /// Number of the combination, from 0.
     pub index: usize,
     pub values: Vec<f64>,
-    /// Why there are no figures, on one line; `None` where the run was completed.
+    /// Reason why there are no figures, on one line; `None` where the run was completed.
     pub error: Option<String>,
     /// The figures, in the order of [`FIGURES`]; `None` where the scene does not have one.
     pub figures: Vec<Option<f64>>,
@@ -308,9 +308,9 @@ pub struct SweepRecord {
     pub(crate) scene_toml: String,
     /// One row per combination, in the order of the combinations.
     pub(crate) rows: Vec<SweepRow>,
-    /// Threads it was run on; 0 where others ran it: other processes or machines, or parts that were merged.
+    /// Number of threads; 0 where the rows come from elsewhere: other processes or machines, or merged shards.
     pub(crate) threads: usize,
-    /// Wall time since the command was started, s: rows of an earlier start are not in it.
+    /// Wall time since the start of the command, s, without rows of earlier starts.
     pub(crate) wall_s: f64,
 }
 
@@ -326,7 +326,7 @@ pub(crate) struct SweepSummary<'a> {
     pub failed: usize,
     /// The best combination by each figure that has a best.
     pub best: Vec<BestCombination>,
-    /// The combination that is asked for; null where none is asked for or none keeps to the limits.
+    /// Optimum; null without a goal or where no combination is within the limits.
     pub optimum: Option<Optimum>,
     /// Verification of the best rows and the corners by finite elements; null where the scene does not ask for it, and in a shard, which
     /// does not know the best of all rows.
@@ -346,7 +346,7 @@ pub(crate) struct BestCombination {
 }
 
 impl SweepRecord {
-    /// The row with the least value of `figure`, the first of equals.
+    /// Row with the least value of `figure`, the first of equal ones.
     pub(crate) fn least(&self, figure: &SweepFigure) -> Option<(&SweepRow, f64)> {
         let valued = self.rows.iter().filter_map(|row| Some((row, row.figure(figure)?)));
         valued.min_by(|a, b| a.1.total_cmp(&b.1))
@@ -356,7 +356,7 @@ impl SweepRecord {
         self.rows.iter().filter(|row| row.error.is_some()).count()
     }
 
-    /// The combination that is asked for; `None` where none is, or where no combination keeps to the limits.
+    /// Optimum; `None` without a goal or where no combination is within the limits.
     pub(crate) fn optimum(&self) -> Option<Optimum> {
         self.identity.goal.as_ref()?.optimum(&self.identity, &self.rows)
     }
@@ -400,7 +400,7 @@ mod tests {
         SweepAxis { key: key.to_owned(), from, to, count, whole: false, spacing: Spacing::Even }
     }
 
-    /// Ends are as given, and the values between them as one would write them.
+    /// Ends are as given; values between them are rounded.
     #[test]
     fn ver_values_are_evenly_spaced() {
         assert_eq!(axis("k", 0.1, 0.7, 7).values(), [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]);

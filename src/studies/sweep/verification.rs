@@ -24,19 +24,18 @@ use super::goal::Goal;
 use super::record::{SweepIdentity, SweepRow};
 use crate::results::error::TotalError;
 
-/// The figure by which rows are best: that of the goal; of a sweep without one wear, which the program is about.
+/// Figure by which rows are ranked: that of the goal, else the wear.
 pub(crate) fn objective(identity: &SweepIdentity) -> &'static SweepFigure {
     identity.goal.as_ref().map_or(&PEAK_WEAR, Goal::figure)
 }
 
-/// Best rows that are verified: the least is one that somebody will use, and two more tell whether it is least by more than its
-/// error.
+/// Number of best rows that are verified: the best, and two more to tell whether it is best by more than its error.
 pub(crate) const MOST_BEST: usize = 3;
-/// Corners that are verified: all of four keys, which take about half a minute on one thread; each key more would double it.
+/// Number of corners that are verified: all of four keys, which take about half a minute on one thread; each further key would double that.
 pub(crate) const MOST_CORNERS: usize = 16;
 
-/// Of each varied key, in which corners it is at its last value; four digits, as there are 16 corners. Those of three digits come
-/// before the others: with up to eight keys any three have all eight triples of their ends.
+/// Corners in which each varied key is at its last value, as masks of four bits for 16 corners. Those of three bits come before the others: with up
+/// to eight keys any three have all eight combinations of their ends.
 const MASKS: [usize; 15] = [1, 2, 4, 8, 7, 11, 13, 14, 15, 3, 5, 6, 9, 10, 12];
 
 /// Why a row is verified.
@@ -60,7 +59,7 @@ impl Chosen {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct RowVerification {
     pub chosen: Chosen,
-    /// How far it is from them, or why that is not known.
+    /// Errors against finite elements, or the reason why they are not known.
     pub total: TotalError,
     pub wall_s: f64,
 }
@@ -71,7 +70,7 @@ impl RowVerification {
     }
 }
 
-/// One of the relative errors that a verification states.
+/// Relative error given by a verification.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Claim {
     /// Path in the summary of a run, which is the name of the column.
@@ -165,7 +164,7 @@ pub(crate) struct SweepVerification<'a> {
     /// Rows that were chosen: fewer than intended where the best are corners or a corner has no figures.
     pub chosen: usize,
     pub verified: usize,
-    /// Number of rows without a result, for the reason in their `total.how`.
+    /// Rows without a result; the reason is in their `total.how`.
     pub unanswered: usize,
     /// Number of rows not verified yet: of merged shards, none of which knows the best of all rows.
     pub open: usize,
@@ -183,7 +182,7 @@ pub(crate) struct VerifiedRow<'a> {
     pub values: &'a [f64],
     /// The greatest wear of both gears.
     pub peak_wear_um: Option<f64>,
-    /// The figure by which rows are best.
+    /// Value of the figure by which rows are ranked.
     pub objective: Option<f64>,
     #[serde(flatten)]
     pub verification: &'a RowVerification,
@@ -237,7 +236,7 @@ impl<'a> SweepVerification<'a> {
         peaks.flat_map(|peak| [peak.pinion, peak.wheel]).flatten().reduce(f64::max)
     }
 
-    /// Why the first row without an answer has none.
+    /// Reason of the first row without a result.
     pub(crate) fn first_reason(&self) -> Option<&'a str> {
         let unanswered = self.rows.iter().find(|row| !row.verification.has_answer());
         unanswered.map(|row| row.verification.total.how.as_str())

@@ -1,4 +1,4 @@
-//! A study as it is asked for, in the same words on the command line and in Python, and what can be wrong with it.
+//! Question of a study, the same on the command line and in Python, and its errors.
 
 use super::design::{self, CorrelationError, MOST_FACTORS, MOST_SAMPLES};
 use super::distribution::{self, UncertainError};
@@ -27,15 +27,15 @@ pub struct UncertaintyQuestion {
     pub correlation: Vec<String>,
     /// Figures to keep, as paths in `summary.json`; empty: the greatest wear and tip-edge wear of both gears and the transmission error, worn.
     pub outputs: Vec<String>,
-    /// Depths of wear that end a life: `FIGURE=VALUE`.
+    /// Limits of the wear depth that end the life: `FIGURE=VALUE`.
     pub limits: Vec<String>,
     /// Points of the Sobol sequence, best a power of two; each takes two runs and one more for every uncertain key.
     pub samples: usize,
-    /// Another seed scrambles the sequence in another way.
+    /// Seed of the scrambling of the sequence.
     pub seed: u32,
 }
 
-/// Why a study of uncertainty came to nothing.
+/// Error of a study of uncertainty.
 #[derive(Debug, thiserror::Error)]
 #[error(transparent)]
 pub struct UncertaintyError(#[from] pub(crate) UncertaintyFault);

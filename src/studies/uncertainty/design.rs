@@ -20,9 +20,9 @@ use nalgebra::DMatrix;
 
 use super::distribution::{normal_quantile, normal_share};
 
-/// Points of the sequence.
+/// Greatest number of points of the sequence.
 pub(crate) const MOST_SAMPLES: usize = 1 << 16;
-/// Half of its dimensions.
+/// Greatest number of factors: half of the dimensions of the sequence.
 pub(crate) const MOST_FACTORS: usize = sobol_burley::NUM_DIMENSIONS as usize / 2;
 const HALF_A_BIT: f64 = 1.0 / (1 << 25) as f64;
 
@@ -31,7 +31,7 @@ const HALF_A_BIT: f64 = 1.0 / (1 << 25) as f64;
 pub(crate) enum Matrix {
     A,
     B,
-    /// A with this factor from B.
+    /// Sample A with this factor taken from B.
     Mixed(usize),
 }
 
@@ -39,7 +39,7 @@ pub(crate) enum Matrix {
 pub(crate) struct Design {
     pub factors: usize,
     pub seed: u32,
-    /// L, of the first factors; the others are independent.
+    /// Lower triangular matrix L of the first factors; the others are independent.
     pub correlation: Option<DMatrix<f64>>,
 }
 
@@ -58,7 +58,7 @@ pub(crate) enum CorrelationError {
     NotPositiveDefinite,
 }
 
-/// How the normal scores of uncertain keys are correlated.
+/// Correlation of the normal scores of the uncertain keys.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Correlation {
     /// R.

@@ -27,10 +27,10 @@ pub(crate) enum UncertainError {
     Form { given: String },
     #[error(transparent)]
     Key(#[from] KeyError),
-    /// Whole numbers have no such distribution.
+    /// A key that takes whole numbers has no distribution.
     #[error("{key} takes whole numbers; allowed: a key that takes any number")]
     Whole { key: String },
-    /// A part of a value that the scene does not have, or of two that differ.
+    /// A distribution relative to a value that the scene does not have, or to two that differ.
     #[error("{key}: found {given}, a part of the scene's own value, {found}; allowed: one of {FORMS}")]
     NoValue { key: String, given: String, found: &'static str },
     #[error("{key}: found {given}; allowed: {allowed}")]
@@ -145,7 +145,7 @@ pub(crate) fn parse(given: &str, own: impl Fn(&str) -> Option<f64>) -> Result<Un
     }
 }
 
-/// A distribution about the scene's own value, which the scene does not have.
+/// Error of a distribution about the scene's value where the scene has none.
 struct NeedsOwnValue;
 
 /// Distribution of one of the forms; `own` is the scene's own value. `None` where `text` has none of the forms.

@@ -1,4 +1,4 @@
-//! Runs the samples on all threads, and makes figures of them.
+//! Runs the samples on all threads and evaluates them.
 //!
 //! The scene as given is run first: its wear gives the places of the bands, and its verification by finite elements the relative errors
 //! e of the fast model. With a factor u of its own, between 0 and 1, the error is part of the samples without further runs:
@@ -30,11 +30,11 @@ use crate::studies::spread::spread;
 use crate::studies::variants::record::described;
 use crate::studies::varied_scene::{VariedScene, in_words, one_line};
 
-/// Moments of a history, evenly over the duration.
+/// Number of moments of a history, evenly over the duration.
 const MOMENTS: usize = 20;
-/// Places of a band over the flank at most.
+/// Greatest number of places of a band over the flank.
 const PLACES: usize = 160;
-/// Finished points that a study which was interrupted can still speak of.
+/// Least number of finished points for the results of an interrupted study.
 pub(crate) const FEWEST_SAMPLES: usize = 8;
 
 /// Question, resolved.
@@ -65,13 +65,13 @@ struct Ran {
     /// Each with the time until which it is known, where it is a life.
     outputs: Vec<(f64, f64)>,
     growths: Vec<Growth>,
-    /// At the places of the bands; of samples of A and B alone.
+    /// Wear at the places of the bands, for samples A and B only.
     wear_um: Option<PerGear<Vec<f32>>>,
 }
 
 type Row = Result<Ran, String>;
 
-/// The samples with everything that they are made of.
+/// Inputs of the samples.
 struct Samples<'a> {
     question: &'a Question,
     varied: &'a VariedScene,
@@ -83,7 +83,7 @@ struct Samples<'a> {
 }
 
 impl Samples<'_> {
-    /// The runs that a point takes.
+    /// Runs of a point.
     fn matrices(&self) -> Vec<Matrix> {
         let mixed = match self.question.correlation {
             None => self.question.uncertain.len(),
@@ -193,7 +193,7 @@ fn worn<'a>(
     varied.carry_out(resolved, observer, pipeline::worn_pair)
 }
 
-/// Asks for a history of [`MOMENTS`] moments, evenly over the duration.
+/// Sets [`MOMENTS`] moments of the history, evenly over the duration.
 fn take_moments(resolved: &mut Resolved) {
     let operation = &mut resolved.scene.operation;
     let moments = (1..=MOMENTS).map(|number| operation.pinion_revolutions * number as f64 / MOMENTS as f64);
@@ -366,7 +366,7 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
     let mut sorted: Vec<f64> = known.iter().map(|known| known.0).collect();
     sorted.sort_by(f64::total_cmp);
     let censored = known.iter().filter(|(value, _)| value.is_infinite());
-    // A life that is known to be longer than t says nothing of quantiles above t.
+    // A life known only to be longer than t gives no quantiles above t.
     let until = censored.clone().map(|known| known.1).fold(f64::INFINITY, f64::min);
     let censored = censored.count();
     let [p05, p25, p50, p75, p95] =
@@ -400,7 +400,7 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
     }
 }
 
-/// Name, meaning and unit of a figure.
+/// Path, description and unit of a figure.
 fn naming(samples: &Samples<'_>, figure: usize) -> (String, String, &'static str) {
     let question = samples.question;
     if let Some(output) = question.outputs.get(figure) {

@@ -8,11 +8,11 @@ use crate::studies::validation::record::{
     CaseRecord, Change, Changes, ComparedState, Criterion, QuantityRecord, Standing, ValidationRecord,
 };
 
-/// A share of a tolerance has changed from this difference on.
+/// Least change of a share of a tolerance that is reported.
 const SHARE: f64 = 0.05;
-/// A number compared with a bound, or a count of work, has changed from this relative difference on.
+/// Least relative change of a number with a bound, or of a work count, that is reported.
 const RELATIVE: f64 = 0.01;
-/// Below this share of its bound a number is as good as zero, and its relative change says nothing.
+/// Share of its bound below which a number counts as zero and its relative change is not reported.
 const NOTHING: f64 = 1e-6;
 
 /// Changes from `old` to `new`. A case that only one of them has is named, not judged: a suite may be run in part.
@@ -52,7 +52,7 @@ impl Changes {
         for quantity in &now.quantities {
             match before.quantities.iter().find(|earlier| earlier.name == quantity.name) {
                 Some(earlier) => self.compare_quantity(now, earlier, quantity),
-                // A quantity that is new is no change of the program, unless it fails.
+                // A new quantity is reported only where it fails.
                 None if !quantity.as_expected() => {
                     self.add(
                         true,
@@ -65,7 +65,7 @@ impl Changes {
                 None => {}
             }
         }
-        // A check that is gone, where the case ran, is a check lost.
+        // A quantity that is gone although the case ran is reported.
         if now.failure.is_none() {
             for earlier in &before.quantities {
                 if now.quantities.iter().all(|quantity| quantity.name != earlier.name) {
@@ -104,7 +104,7 @@ impl Changes {
                 ComparedState::Stands(now.standing),
             );
         } else if let Some(is_worse) = limit_moved(before.criterion, now.criterion) {
-            // A share of another tolerance says nothing: what is compared is the error, in the tolerance as it was.
+            // Shares of different tolerances are not comparable: the error is compared, in units of the old tolerance.
             let what = format!("{}: what it is compared with", now.name);
             self.add(
                 is_worse,
@@ -132,7 +132,7 @@ impl Changes {
     }
 }
 
-/// The higher, the better.
+/// Rank of an outcome: the higher, the better.
 fn rank(standing: Standing) -> u8 {
     match standing {
         Standing::Fails => 0,
@@ -163,7 +163,7 @@ fn differs(before: f64, now: f64, scale: f64) -> bool {
     (now - before).abs() > RELATIVE * scale.abs()
 }
 
-/// Whether a number without a tolerance went the worse way, seen from its bound; `None` where it did not move, or has no bound.
+/// Whether a number without a tolerance moved towards its bound; `None` where it did not move or has no bound.
 fn nearer_to_bound(before: &QuantityRecord, now: &QuantityRecord) -> Option<bool> {
     let (earlier, value) = (before.value?, now.value?);
     let (scale, is_worse) = match now.criterion {

@@ -50,7 +50,7 @@ pub(crate) struct CaseFile {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RunSpec {
-    /// By which expressions know it.
+    /// Name in expressions.
     pub name: String,
     #[serde(default)]
     pub command: CaseCommand,
@@ -77,13 +77,13 @@ pub(crate) struct RunSpec {
     pub each: Vec<MemberSpec>,
     /// Members drawn from ranges.
     pub sample: Option<SampleSpec>,
-    /// How it must end, members of `each` that say otherwise apart.
+    /// Expected outcome, unless a member of `each` has its own.
     #[serde(default)]
     pub expect: RunOutcome,
-    /// Other ways in which members may end, where nobody can say beforehand which of them are refused.
+    /// Further accepted outcomes, where it is not known beforehand which members are refused.
     #[serde(default)]
     pub accept: Vec<RunOutcome>,
-    /// Of a family: expressions for every member, in which `run` is the member; each becomes a column of the family.
+    /// Expressions for every member of a family, in which `run` is the member; each becomes a column of the family.
     #[serde(default)]
     pub take: BTreeMap<String, String>,
 }
@@ -105,7 +105,7 @@ pub(crate) enum CaseCommand {
     Fem,
     /// K/H and tooth stiffness from finite elements.
     Calibrate,
-    /// Random scenes, held against statements that are true of every scene: `set` has `seed`, `first` and `count`.
+    /// Random scenes tested against statements that are true of every scene: `set` has `seed`, `first` and `count`.
     Invariants,
 }
 
@@ -116,15 +116,15 @@ pub(crate) struct VarySpec {
     pub key: OneOrMore,
     /// The column of its values in the family; default: the last part of the first key.
     pub name: Option<String>,
-    /// Values …
+    /// List of values, or a range:
     pub values: Option<Vec<toml::Value>>,
-    /// … or from this number …
+    /// First value of a range.
     pub from: Option<f64>,
-    /// … to this one …
+    /// Last value of the range.
     pub to: Option<f64>,
-    /// … so many.
+    /// Number of values of the range.
     pub count: Option<usize>,
-    /// Evenly in the logarithm.
+    /// Even spacing of the logarithms.
     #[serde(default)]
     pub log: bool,
 }
@@ -167,7 +167,7 @@ pub(crate) struct MemberSpec {
 #[serde(deny_unknown_fields)]
 pub(crate) struct SampleSpec {
     pub count: usize,
-    /// Another number draws others.
+    /// Seed.
     #[serde(default)]
     pub seed: usize,
     pub of: Vec<VarySpec>,
@@ -177,12 +177,12 @@ pub(crate) struct SampleSpec {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DataSpec {
-    /// By which expressions know it.
+    /// Name in expressions.
     pub name: String,
     pub file: String,
     /// The columns that it must have.
     pub columns: Vec<String>,
-    /// Why it may be missing, and what is then not known; without this it must be there.
+    /// Consequence of a missing file, where it may be missing.
     pub missing: Option<String>,
 }
 
@@ -200,7 +200,7 @@ pub(crate) enum Formula {
     Expression(String),
 }
 
-/// How far from a reference, or how uncertain one is.
+/// Tolerance or uncertainty of a reference.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub(crate) enum ToleranceSize {
@@ -219,9 +219,9 @@ pub(crate) struct QuantitySpec {
     #[serde(default)]
     pub unit: String,
     pub value: Option<Formula>,
-    /// The reference it must be near.
+    /// Reference.
     pub near: Option<Formula>,
-    /// How near.
+    /// Tolerance.
     pub within: Option<ToleranceSize>,
     /// Lower bound.
     pub at_least: Option<Formula>,
@@ -232,13 +232,13 @@ pub(crate) struct QuantitySpec {
     /// Where reference or bound come from.
     #[serde(default)]
     pub source: String,
-    /// Of the reference.
+    /// Uncertainty of the reference.
     pub uncertainty: Option<ToleranceSize>,
     /// Contribution of the computation's resolution.
     pub discretisation: Option<ToleranceSize>,
     /// Why the tolerance or bound is what it is.
     pub because: Option<String>,
-    /// `fails`: known not to hold.
+    /// Expected outcome; `fails`: known not to hold.
     pub stands: Option<Standing>,
     /// Why it is known not to hold, or why it cannot be compared.
     pub remark: Option<String>,

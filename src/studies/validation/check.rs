@@ -9,11 +9,11 @@ use crate::studies::validation::record::{RunOutcome, Standing};
 /// Greatest number of members of a family.
 pub(super) const MOST_MEMBERS: usize = 10_000;
 
-/// Fault of a case.
+/// Error in a case file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{kind} {name:?}: found {found}; allowed: {allowed}")]
 pub(super) struct CaseFault {
-    /// Run, quantity or another part of the file; its name is looked for in the file.
+    /// Kind of the part of the file, such as run or quantity.
     kind: &'static str,
     name: String,
     found: String,
@@ -21,14 +21,14 @@ pub(super) struct CaseFault {
 }
 
 impl CaseFault {
-    /// The line of `text` that names what is wrong, from 1.
+    /// Line of `text` with the faulty name, from 1.
     pub(super) fn line(&self, text: &str) -> usize {
         let quoted = format!("\"{}\"", self.name);
         text.lines().position(|line| line.contains(&quoted)).map_or(1, |line| line + 1)
     }
 }
 
-/// Refuses with the first of `faults` that is one; each is whether it is one, what is found and what is allowed.
+/// Returns the first of `faults` that applies; each is a condition, what is found and what is allowed.
 fn first<const N: usize>(kind: &'static str, name: &str, faults: [(bool, &str, &str); N]) -> Result<(), CaseFault> {
     let first = faults.into_iter().find(|(is_fault, ..)| *is_fault);
     first.map_or(Ok(()), |(_, found, allowed)| Err(fault(kind, name, found, allowed)))
@@ -38,7 +38,7 @@ fn fault(kind: &'static str, name: &str, found: impl Into<String>, allowed: impl
     CaseFault { kind, name: name.to_owned(), found: found.into(), allowed: allowed.into() }
 }
 
-/// The first thing that is wrong with a case.
+/// Returns the first error of a case file.
 pub(super) fn check(case: &CaseFile) -> Result<(), CaseFault> {
     let mut names = BTreeSet::from(["run"]);
     let all = case.run.iter().map(|run| run.name.as_str()).chain(case.data.iter().map(|data| data.name.as_str()));

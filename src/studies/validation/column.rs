@@ -67,7 +67,7 @@ fn not_empty(x: &[f64]) -> Result<&[f64], ColumnError> {
     if x.is_empty() { Err(ColumnError::Empty) } else { Ok(x) }
 }
 
-/// Figure of a column by `f` of two; NaN where any of the column is.
+/// Reduction of a column by `f`; NaN where any value is.
 fn fold(x: &[f64], f: fn(f64, f64) -> f64) -> Result<f64, ColumnError> {
     let of_two = not_empty(x)?.iter().copied().reduce(|a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { f(a, b) });
     Ok(of_two.unwrap_or(f64::NAN))
@@ -148,7 +148,7 @@ fn relative_l2_of_each(rows: &[Value], references: &[Value]) -> Result<Arc<[f64]
         .zip(references)
         .map(|both| match both {
             (Value::Column(row), Value::Column(reference)) => relative_l2(row, reference),
-            // A member that did not run has no profile.
+            // A member without results has no profile.
             _ => Ok(f64::NAN),
         })
         .collect()

@@ -13,7 +13,7 @@ use crate::studies::validation::record::{
     CasePlot, CurveStyle, PlotCurve, RunOutcome, StabilityPoint, WorkPrecisionPoint,
 };
 
-/// The members of a family that left something behind.
+/// Members of a family that have results.
 fn finished(family: &Members) -> impl Iterator<Item = (&Member, &Executed)> {
     family.ended().filter(|(_, run)| run.outcome == RunOutcome::Sound)
 }

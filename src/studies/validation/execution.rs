@@ -1,4 +1,4 @@
-//! One run of a case, carried out as its command would, and read back as its output files would be.
+//! One run of a case: done as by its command, and read as from its output files.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -49,7 +49,7 @@ pub(crate) struct Executed {
 }
 
 impl Executed {
-    /// Run with results, and why it did not come to its end or is not sound.
+    /// Run with results, and the reason where it did not complete or is not sound.
     fn of(value: Value, work: BTreeMap<String, u64>, failure: Option<Failed>, fault: Option<String>) -> Self {
         let fault = fault.map(|fault| Failed(RunOutcome::Unsound, fault));
         let (outcome, said) = match failure.or(fault) {
@@ -80,7 +80,7 @@ impl Executed {
 /// Outcome of a run without results, and its message.
 struct Failed(RunOutcome, String);
 
-/// Failure by wrong input.
+/// Refusal of the input.
 fn refused(error: impl ToString) -> Failed {
     Failed(RunOutcome::Refused, error.to_string())
 }
@@ -98,7 +98,7 @@ fn wrong(problems: Vec<Problem>) -> Failed {
 pub(crate) struct MemberRun<'a> {
     pub run: &'a RunSpec,
     pub member: &'a Member,
-    /// In which the files of the case lie.
+    /// Folder of the case.
     pub folder: &'a Path,
     /// The calibration that the run names, where it was made.
     pub calibration: Option<&'a Calibration>,
@@ -150,7 +150,7 @@ impl MemberRun<'_> {
 
     fn resolved(&self, draft: Draft) -> Result<Resolved, Failed> {
         let mut resolved = draft.resolve().map_err(wrong)?;
-        // A case holds a run against a reference of its own; one that is about verification asks for it.
+        // Cases have references of their own: a run is verified only where the case sets `verify`.
         resolved.scene.verify &= self.member.set.iter().any(|(key, _)| key == "numerics.verify");
         Ok(resolved)
     }
@@ -288,7 +288,7 @@ impl MemberRun<'_> {
     }
 }
 
-/// Tree of names of anything that can be written as JSON.
+/// Value of anything that serialises to JSON.
 fn tree(summary: &impl Serialize) -> Result<Value, Failed> {
     serde_json::to_value(summary).map(Value::of_json).map_err(not_converged)
 }
@@ -312,7 +312,7 @@ fn table(write: impl FnOnce(&mut dyn Write) -> io::Result<Vec<Column>>) -> Resul
     Value::of_csv(&bytes).map_err(not_converged)
 }
 
-/// Why a run has not converged, or was left before its end.
+/// Reason why a run did not converge or was stopped.
 fn failure(failure: Option<impl ToString>, stop: StopReason) -> Option<Failed> {
     let (outcome, said) = match stop {
         StopReason::Completed | StopReason::LimitReached => return failure.map(not_converged),

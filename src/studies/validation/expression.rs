@@ -9,7 +9,7 @@ use super::column;
 use super::syntax::{self, Term, TermNode};
 use super::value::Value;
 
-/// Items of a list that an expression makes, lists in it included; columns of results may be longer.
+/// Greatest number of items of a list made by an expression, nested lists included; columns of results may be longer.
 const MOST_ITEMS: usize = 100_000;
 
 /// Why an expression has no value.
@@ -31,7 +31,7 @@ pub(crate) enum TermFault {
     NoMember { name: String, of: &'static str },
     #[error("a {what} of {length} {part}s has no {part} {index}")]
     NoItem { what: &'static str, part: &'static str, length: usize, index: f64 },
-    /// An operator or function for other things.
+    /// An operator or function that does not take these operands.
     #[error("found {0}, which there is not")]
     NoFunction(String),
     #[error("found a list too large; allowed: {MOST_ITEMS} items, those of lists in it included")]
@@ -47,12 +47,12 @@ pub(crate) struct Evaluator {
 }
 
 impl Evaluator {
-    /// Lets `name` stand for `value` from now on.
+    /// Defines `name` as `value`.
     pub(crate) fn name(&mut self, name: &str, value: &Value) {
         self.names.push((name.to_owned(), value.clone()));
     }
 
-    /// Carries out `work` with `name` standing for `value` only there.
+    /// Calls `work` with `name` defined as `value` during the call.
     pub(crate) fn with<T>(&mut self, name: &str, value: &Value, work: impl FnOnce(&mut Self) -> T) -> T {
         let before = self.names.len();
         self.name(name, value);
@@ -61,7 +61,7 @@ impl Evaluator {
         done
     }
 
-    /// Whether `name` can stand for something: words of the language cannot.
+    /// Whether `name` may be defined: words of the language may not.
     pub(crate) fn can_name(name: &str) -> bool {
         syntax::parse(name).is_ok_and(|node| matches!(node.term, Term::Name(_)))
     }
@@ -279,7 +279,6 @@ mod tests {
         }
     }
 
-    /// A chain of definitions, each a list of the one before twice.
     #[test]
     fn lists_are_not_made_too_large() {
         let mut e = evaluator();

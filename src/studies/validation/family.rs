@@ -1,4 +1,4 @@
-//! A family of runs as expressions see it: one column for each key varied, for each figure taken, and for how members ended.
+//! A family of runs in expressions: one column for each varied key, each figure, and the outcomes.
 
 use std::collections::BTreeMap;
 
@@ -32,7 +32,7 @@ pub(super) fn columns(
     }
     let mut taken: Vec<Vec<Value>> = vec![Vec::with_capacity(executed.len()); take.len()];
     for run in &executed {
-        // A member is laid out for the expressions once, whatever is taken of it.
+        // Each member is converted to a value once, for all its expressions.
         e.with("run", &run.as_value(), |e| -> Result<(), ExpressionError> {
             for (column, expression) in taken.iter_mut().zip(take.values()) {
                 column.push(match e.value(expression) {

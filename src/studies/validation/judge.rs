@@ -1,4 +1,4 @@
-//! Holds the quantities of a case against what they must be.
+//! Judges the quantities of a case.
 //!
 //! A tolerance is honest where it is no wider than the reference is uncertain plus what the spacing of the computation
 //! contributes; a wider one must come with a sentence that says why, or the case does not count.
@@ -13,7 +13,7 @@ use crate::studies::validation::record::{Criterion, QuantityRecord, RunOutcome, 
 /// Rounding of a sum of allowances.
 const ROUNDING: f64 = 1e-9;
 
-/// Why a quantity could not be judged.
+/// Error of a judgement.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum JudgeError {
     #[error(transparent)]
@@ -29,7 +29,7 @@ pub(crate) enum JudgeError {
     TooWide { tolerance: f64, allowed: f64 },
 }
 
-/// Judges one quantity; `absent` holds the names of the files of numbers that are not there, with what is then not known.
+/// Judges one quantity; `absent` holds the names of missing files of numbers, each with the consequence.
 pub(crate) fn judge(
     spec: &QuantitySpec,
     absent: &BTreeMap<&str, &str>,
@@ -54,7 +54,7 @@ pub(crate) fn judge(
     record.value = Some(value).filter(|value| value.is_finite());
     let holds = compare(&mut record, value, spec, e)?;
     record.standing = match (record.value, holds) {
-        // No number fulfils nothing; where a failure is expected it is not that failure either.
+        // A quantity without a number cannot be judged, even where a failure is expected.
         (None, _) if expected == Standing::Fails => Standing::CannotBeCompared,
         (None, _) | (_, Some(false)) => Standing::Fails,
         (_, Some(true)) => Standing::Holds,
@@ -94,7 +94,7 @@ fn compare(
         (_, _, Some(low), Some(high)) => (Criterion::Between { low, high }, value >= low && value <= high),
         (_, _, Some(bound), None) => (Criterion::AtLeast { bound }, value >= bound),
         (_, _, None, Some(bound)) => {
-            // How much of a bound is used says something where zero is perfect.
+            // The share of an upper bound is meaningful where the best value is zero.
             record.share = Some(value / bound).filter(|share| bound > 0.0 && *share >= 0.0);
             (Criterion::AtMost { bound }, value <= bound)
         }
@@ -105,7 +105,7 @@ fn compare(
     Ok(Some(holds))
 }
 
-/// Quantity that holds where every member of a run ended as it should.
+/// Quantity that holds where every member of a run ended as expected.
 pub(crate) fn endings(run: &str, family: &Members) -> QuantityRecord {
     let as_expected = family.ended().filter(|(member, run)| member.may_end(run.outcome)).count();
     let (count, all) = (as_expected as f64, family.members.len() as f64);
@@ -117,7 +117,7 @@ pub(crate) fn endings(run: &str, family: &Members) -> QuantityRecord {
         (_, 0) => format!("{run}: members that end sound"),
         _ => format!("{run}: members that end as they should, {refusals} of them not with a result"),
     };
-    // Refusals that are accepted beside results prove nothing where there is no result.
+    // Accepted refusals count only where some member has a result.
     let any_result = !may_be_refused || family.ended().any(|(_, run)| run.outcome == RunOutcome::Sound);
     let standing = if as_expected == family.members.len() && any_result { Standing::Holds } else { Standing::Fails };
     QuantityRecord {
@@ -132,7 +132,7 @@ pub(crate) fn endings(run: &str, family: &Members) -> QuantityRecord {
     }
 }
 
-/// Message of the first member that did not end as it should.
+/// Message of the first member that did not end as expected.
 fn first_surprise(family: &Members) -> Option<String> {
     let (member, run) = family.ended().find(|(member, run)| !member.may_end(run.outcome))?;
     let said = run.said.as_deref().unwrap_or("nothing");
@@ -152,7 +152,7 @@ fn finite(what: &'static str, formula: Option<&Formula>, e: &mut Evaluator) -> R
     formula.map(|formula| checked(what, number(formula, e)?)).transpose()
 }
 
-/// Size of an extent in the quantity's unit, which must be finite.
+/// Tolerance in the quantity's unit, which must be finite.
 fn size(
     what: &'static str,
     extent: Option<&ToleranceSize>,

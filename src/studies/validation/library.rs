@@ -11,14 +11,14 @@ use super::case_file::CaseFile;
 use super::record::Tier;
 use crate::whole_file::TemporaryFolder;
 
-/// The cases of this version, with everything that they read.
+/// Built-in cases with their files.
 static CASES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/validation");
 /// Finite-element meshes that cases read.
 static MESHES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/meshes");
-/// The file that makes a folder a case.
+/// File of a case in its folder.
 const CASE_FILE: &str = "case.toml";
 
-/// Why there is no such case.
+/// Error of finding cases.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum LibraryError {
     #[error(
@@ -33,10 +33,10 @@ pub(crate) enum LibraryError {
     /// None of the cases asked for belongs to the tier asked for.
     #[error("found no case of the tier {tier} among those named; allowed: cases of that tier, or none named")]
     NoCaseOfTier { tier: &'static str },
-    /// Two cases of one name: reports and later comparisons could not tell them apart.
+    /// Two cases of the same name, which reports could not distinguish.
     #[error("found two cases called {name:?}; allowed: each name once")]
     Twice { name: String },
-    /// Existing files are not written over: they may have been changed.
+    /// Existing files are not overwritten: they may have been changed.
     #[error("found {} there already; allowed: a folder without it", path.display())]
     Exists { path: PathBuf },
     #[error("cannot write the built-in cases to {}: {reason}", folder.display())]
@@ -89,7 +89,7 @@ fn exported() -> Result<TemporaryFolder, LibraryError> {
 }
 
 impl Library {
-    /// The tier that is run: the one `asked` for. The whole suite, `all` of it, is run to the full one; cases that are named, whatever theirs is.
+    /// Tier that is run: `asked` if given, else the full tier of the whole suite (`all`) and no limit for named cases.
     pub(crate) fn tier(&self, asked: Option<Tier>, all: bool) -> Result<Option<Tier>, LibraryError> {
         let tier = asked.or(all.then_some(Tier::Full));
         match tier {
@@ -107,7 +107,7 @@ impl Library {
         let asked = if asked.is_empty() { &all } else { asked };
         let mut built_in: Option<TemporaryFolder> = None;
         let mut folders = Vec::with_capacity(asked.len());
-        // A name of the program's own is that case; `./NAME` is a folder.
+        // A built-in name is that case; `./NAME` is a folder.
         for asked in asked {
             if names.contains(&asked.as_str()) {
                 let folder = match &built_in {

@@ -1,4 +1,4 @@
-//! The members of a family of runs: which keys each exchanges, and what it is called.
+//! Members of a family of runs: the keys that each sets, and its label.
 
 use super::case_file::{MemberSpec, RunSpec, SampleSpec, VarySpec};
 use super::value::Value;
@@ -15,9 +15,9 @@ pub(crate) struct Member {
     pub label: String,
     /// Columns of the family with this member's value.
     pub values: Vec<(String, Value)>,
-    /// How it must end.
+    /// Expected outcome.
     pub expected: RunOutcome,
-    /// Other ways in which it may end.
+    /// Further accepted outcomes.
     pub accepted: Vec<RunOutcome>,
 }
 
@@ -49,7 +49,7 @@ pub(super) fn members(run: &RunSpec) -> Vec<Member> {
     if !run.each.is_empty() {
         return run.each.iter().map(|member| one_by_one(&alone, member)).collect();
     }
-    // The last key runs fastest.
+    // The last key changes fastest.
     run.vary.iter().fold(vec![alone], |members, varied| {
         let values = varied.all();
         members.iter().flat_map(|member| values.iter().map(|value| with(member, varied, value.clone()))).collect()
@@ -119,7 +119,7 @@ fn one_by_one(alone: &Member, spec: &MemberSpec) -> Member {
         values: vec![("value".to_owned(), Value::Number(spec.value.unwrap_or(f64::NAN)))],
         unset: [alone.unset.clone(), spec.unset.clone()].concat(),
         expected: spec.expect.unwrap_or(alone.expected),
-        // A member that says how it ends ends so.
+        // A member with its own expected outcome accepts no other.
         accepted: if spec.expect.is_some() { Vec::new() } else { alone.accepted.clone() },
         set: [alone.set.clone(), own].concat(),
         label,

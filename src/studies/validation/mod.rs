@@ -1,4 +1,4 @@
-//! The validation suite: every claim of the program, held against its reference, with what it costs.
+//! The validation suite: every claim of the program compared with its reference, with its cost.
 //!
 //! A case is a folder of data with a file `case.toml` ([`case_file`]); adding one adds no code. [`library`] finds cases, built in or
 //! on disk; [`schedule`] hands their runs to the threads; [`execution`] carries each out through the pipeline and reads it back
@@ -91,7 +91,7 @@ fn record(case: &ValidationCase, runs: &[Members]) -> CaseRecord {
 fn fill(record: &mut CaseRecord, case: &ValidationCase, runs: &[Members]) -> Result<(), Box<dyn Error>> {
     let file = &case.file;
     let by_name: BTreeMap<&str, &Members> = file.run.iter().map(|spec| spec.name.as_str()).zip(runs).collect();
-    // Outcomes come first: they are worth knowing of a case that fails.
+    // Outcomes come first, so that a failed case has them.
     for spec in &file.stability {
         if let Some(family) = by_name.get(spec.family.as_str()) {
             record.stability.extend(drawing::stability(spec, family)?);

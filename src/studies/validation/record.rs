@@ -85,16 +85,16 @@ pub(crate) struct CaseRecord {
     pub title: String,
     /// The group it is shown in, such as `FZG test gears`.
     pub group: String,
-    /// The targets it speaks to, such as `S1`; may be none.
+    /// Targets, such as `S1`; may be empty.
     pub targets: Vec<String>,
-    /// One sentence: what must be so.
+    /// Requirement, one sentence.
     pub requirement: String,
     pub kind: CaseKind,
     /// The first tier that holds it.
     pub tier: Tier,
     /// Statement of the source in our own words, where there is something to compare by eye.
     pub says: Option<String>,
-    /// The estimates it rests on, such as a torque that no text gives.
+    /// Estimates in its inputs, such as a torque that no source gives.
     pub rests_on: Vec<String>,
     pub runs: Vec<CaseRun>,
     /// Quantities computed and judged.
@@ -106,7 +106,7 @@ pub(crate) struct CaseRecord {
     /// Plots; not kept as JSON.
     #[serde(skip)]
     pub plots: Vec<CasePlot>,
-    /// Why it could not be carried out to its end: a failure, never a skip.
+    /// Reason why the case could not be completed: a failure, never a skip.
     pub failure: Option<String>,
     /// Wall time of its runs together: on several threads the suite takes less.
     pub wall_s: f64,
@@ -115,12 +115,12 @@ pub(crate) struct CaseRecord {
 }
 
 impl CaseRecord {
-    /// Whether everything stands as the case says.
+    /// Whether every outcome is as expected.
     pub(crate) fn passed(&self) -> bool {
         self.failure.is_none() && self.quantities.iter().all(QuantityRecord::as_expected)
     }
 
-    /// The quantities that speak to a target: those that name it, or else those that name none.
+    /// Quantities of a target: those that name it, or else those without a target.
     pub(crate) fn speaking_to(&self, target: &str) -> Vec<&QuantityRecord> {
         let has_own = self.quantities.iter().any(|quantity| quantity.target.as_deref() == Some(target));
         let wanted = has_own.then_some(target);
@@ -193,11 +193,11 @@ impl RunOutcome {
     }
 }
 
-/// A number with what it is compared with.
+/// A number with its reference or bound.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct QuantityRecord {
     pub name: String,
-    /// The one target of its case that it speaks to; `None`: all of them.
+    /// Target of the quantity; `None`: all of its case.
     pub target: Option<String>,
     /// Unit; empty for a ratio.
     pub unit: String,
@@ -234,7 +234,7 @@ impl QuantityRecord {
         Self { name: name.to_owned(), expected: Standing::Holds, ..Self::default() }
     }
 
-    /// Whether it stands as the case says.
+    /// Whether the outcome is as expected.
     pub(crate) fn as_expected(&self) -> bool {
         self.standing == self.expected
     }
@@ -267,7 +267,7 @@ pub(crate) enum Criterion {
     Reported,
 }
 
-/// A setting of a scene: what it costs and how far off it is.
+/// A setting of a scene with its error and cost.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct WorkPrecisionPoint {
     /// The curve it belongs to, such as the contact surface.
@@ -282,7 +282,7 @@ pub(crate) struct WorkPrecisionPoint {
     pub counted: String,
 }
 
-/// How the program behaves at one value of a parameter.
+/// Outcome at one value of a parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct StabilityPoint {
     /// The parameter, unit included.
@@ -351,7 +351,7 @@ pub(crate) struct Changes {
     pub better: Vec<Change>,
     /// Cases that only the new record has.
     pub added: Vec<String>,
-    /// Cases that only the old record has.
+    /// Names of cases that only the old record has.
     pub gone: Vec<String>,
 }
 

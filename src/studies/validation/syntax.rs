@@ -11,14 +11,14 @@
 //! A sign binds tighter than a power: `-2 ** 2` is 4. `x.f(y)` is `f(x, y)`. Operator precedence is climbed as Pratt does (Top
 //! down operator precedence, 1973): each operator has a strength, and a term extends to the right over all that are stronger.
 
-/// Depth of nested terms: far more than any expression needs, so that none exhausts the stack.
+/// Greatest depth of nested terms, against exhaustion of the stack.
 const MOST_DEPTH: usize = 128;
 
 /// Signs, the longer ones first.
 const SIGNS: [&str; 21] =
     ["**", "==", "!=", "<=", ">=", "&&", "||", "+", "-", "*", "/", "%", "<", ">", "!", "(", ")", "[", "]", ",", "."];
 
-/// Why a text is no expression.
+/// Syntax error.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum SyntaxError {
     #[error("found {found} at character {place}; allowed: {allowed}")]
@@ -187,7 +187,7 @@ impl Parser {
         SyntaxError::Unexpected { found, place: self.place(), allowed }
     }
 
-    /// Takes `sign` if it comes next.
+    /// Consumes `sign` if it comes next.
     fn takes(&mut self, sign: &str) -> bool {
         let found = matches!(self.peek(), Some(Token::Sign(next)) if *next == sign);
         self.next += usize::from(found);
@@ -201,7 +201,7 @@ impl Parser {
     /// A term with all operators behind it that are at least as strong as `least`.
     fn expression(&mut self, least: u8, depth: usize) -> Result<TermNode, SyntaxError> {
         let mut left = self.term(depth)?;
-        // Every link of a chain makes the tree one deeper.
+        // Every link of a chain deepens the tree by one.
         let mut depth = depth;
         while let Some(Token::Sign(sign)) = self.peek() {
             let (sign, place) = (*sign, self.place());
@@ -322,7 +322,7 @@ mod tests {
         }
     }
 
-    /// The stack bears neither brackets nor chains without end.
+    /// Nested brackets and chains are limited, against exhaustion of the stack.
     #[test]
     fn depth_has_a_limit() {
         for deep in

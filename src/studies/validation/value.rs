@@ -32,7 +32,7 @@ impl Value {
         Self::Group(Arc::new(entries.into_iter().map(|(name, value)| (name.into(), value)).collect()))
     }
 
-    /// Adds a name to a group; nothing else has names.
+    /// Adds a name to a group; other values are left as they are.
     pub(crate) fn add(&mut self, name: &str, value: Value) {
         if let Self::Group(entries) = self {
             Arc::make_mut(entries).insert(name.to_owned(), value);

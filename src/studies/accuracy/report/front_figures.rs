@@ -1,6 +1,7 @@
 //! Error against run time, one plot for each quantity, with its Pareto front.
 //!
-//! Colours and shapes are the surfaces; of pairs with slices, full marks are slices coupled by plate theory, those with a dot in space, open ones uncoupled.
+//! Colours and shapes are the surfaces; of pairs with slices, full marks are slices coupled by plate theory, those with a dot in
+//! space, open ones uncoupled.
 
 use serde_json::json;
 
@@ -9,10 +10,10 @@ use crate::report::chart::{Chart, Dash, MUTED, Trace};
 use crate::report::html::number::{percent, significant};
 use crate::studies::accuracy::record::{AccuracyRecord, ComparedQuantity, VariantRecord, VariantSettings};
 
-/// Errors below this are drawn at it: a logarithmic axis knows no zero.
+/// Least error shown; smaller ones are drawn here, on the logarithmic axis.
 const LEAST_SHOWN: f64 = 1e-5;
 
-/// Marks of the error axis: a whole decade and its third, as in engineering plots.
+/// Ticks of the error axis: 1 and 3 of each decade.
 const TICKS: [f64; 12] = [1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0];
 const TICK_TEXTS: [&str; 12] =
     ["0.001 %", "0.003 %", "0.01 %", "0.03 %", "0.1 %", "0.3 %", "1 %", "3 %", "10 %", "30 %", "100 %", "300 %"];
@@ -96,7 +97,7 @@ fn shown(error: f64) -> f64 {
     error.max(LEAST_SHOWN)
 }
 
-/// The finer, the larger.
+/// Size of the mark: the finer the run, the larger.
 fn size(variant: &VariantRecord) -> usize {
     match variant.settings.spacing_coarsening.max(variant.settings.step_coarsening) {
         1 => 13,

@@ -11,10 +11,10 @@ use crate::report::html::reading::greatest;
 use crate::results::path_points::among;
 use crate::studies::accuracy::record::{AccuracyRecord, ComparedQuantity, ReferenceFlank, VariantRecord};
 
-/// Stiffnesses to show the surfaces with, the best first.
+/// Stiffness models with which the surfaces are shown, the best first.
 const BEST_STIFFNESS: [&str; 2] = ["fem", "weber-banaschek"];
 
-/// How a surface is drawn: its colour, its dash, and whether to begin with or only when the reader asks for it.
+/// Style of a surface: colour, dash, and whether it is visible before the reader selects it.
 type SurfaceStyle = (&'static str, Dash, bool);
 
 /// Profiles and differences of both gears.
@@ -30,7 +30,7 @@ pub(super) fn all(record: &AccuracyRecord) -> Vec<Chart> {
         .collect()
 }
 
-/// The runs of the finest resolution with the best stiffness there is, and the finest finite elements.
+/// Runs of the finest resolution with the best available stiffness, and the finest finite elements.
 fn shown(record: &AccuracyRecord) -> Vec<&VariantRecord> {
     let finest = record.variants.iter().filter(|v| v.wear_um.is_some());
     let stiffnesses: Vec<&str> = finest.clone().filter_map(|v| v.settings.stiffness.as_deref()).collect();

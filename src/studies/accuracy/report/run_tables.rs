@@ -41,7 +41,7 @@ pub(super) fn recommendations(record: &AccuracyRecord) -> Markup {
     }
 }
 
-/// The quantities without a ranking, and what would give them one.
+/// Quantities without a ranking, and the remedy.
 fn not_ranked(record: &AccuracyRecord) -> Markup {
     if record.not_ranked.is_empty() {
         return Markup::default();

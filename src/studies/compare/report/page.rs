@@ -168,7 +168,7 @@ fn tables(record: &CompareRecord, correlated: Option<Markup>) -> Markup {
     }
 }
 
-/// Each pair of fitted values once.
+/// Rows of the correlations, each pair of fitted values once.
 fn correlations(correlation: &CoefficientCorrelation) -> Markup {
     let names: Vec<String> = correlation.parameters.iter().map(|unknown| unknown.name()).collect();
     let count = names.len();

@@ -1,4 +1,4 @@
-//! Inequalities: what more load, more removed material or more duration can only do.
+//! Inequalities: the sign of the effect of more load, more removed material or a longer duration.
 
 use toml::Table;
 
@@ -15,7 +15,7 @@ use super::SOLVED;
 
 /// Relative effect of the cells of contact windows on the transmission error.
 const OF_CELLS: f64 = 2e-3;
-/// Torque and last bits: what a machine that computes in another order makes of the torque.
+/// Relative change of a torque that leaves only its last bits in doubt, which depend on the order of operations.
 const LAST_BITS: f64 = 1.0 + 1e-12;
 
 pub(super) const RELATIONS: &[SceneRelation] = &[
@@ -59,7 +59,7 @@ fn last_bits(subject: &Subject<'_>) -> RelationOutcome {
     subject.beside(other, |record| compare(subject.record, record, &Follows::default(), Bounds::all(SOLVED)))
 }
 
-/// By how much the transmission error of the new pair becomes less at any position, over its greatest value.
+/// Greatest decrease of the transmission error of the new pair at a position, over its greatest value.
 fn less_error(first: &RunRecord, other: &RunRecord) -> Vec<Measured> {
     let [mine, theirs] = [first, other].map(|of| of.mesh_cycle.iter().map(|row| row.transmission_error_new_um));
     let greatest = mine.clone().map(f64::abs).fold(0.0, f64::max);

@@ -33,12 +33,13 @@ pub(super) const RELATIONS: &[SceneRelation] = &[
 
 fn roles(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
-    // Where loads jump at the end of the range of tip edges, each run has the jump where its own driving gear has it. Where strains are large, so is the
+    // Where loads jump at the end of the range of tip edges, each run has the jump where its own driving gear has it. Where
+    // strains are large, so is the
     // difference of the levers that tip edges have on either gear.
     if touches_beyond_range(subject.record) || has_large_strains(subject.record) {
         return RelationOutcome::NotOfThisScene;
     }
-    // Heat and oil know which gear drives: approach and recess, and the ratio of speeds within a phase.
+    // Heat and oil depend on which gear drives: approach and recess, and the ratio of speeds within a phase.
     if has_heat_or_oil(table) || is_severe(table) || is_on(table, "fem") || !takes_stable_steps(subject.record) {
         return RelationOutcome::NotOfThisScene;
     }
@@ -49,7 +50,8 @@ fn roles(subject: &Subject<'_>) -> RelationOutcome {
     if z1 == z2 && word(table, "stiffness.model") == Some("iso6336") {
         return RelationOutcome::NotOfThisScene;
     }
-    // Positions are those of the driving gear, behind which the driven one stays by the transmission error: so far apart are the two runs' tip edges. With
+    // Positions are those of the driving gear, behind which the driven one stays by the transmission error: so far apart are the
+    // two runs' tip edges. With
     // levers of r_b1 alone both runs are alike within 1e-14, where those of edges 2.4 mm outside are 0.80 of it (seed 19, 6456).
     let lags = follows_tip_edges(table);
     let follows = Follows { exchanged: true, lags, ..Follows::default() };
@@ -59,7 +61,7 @@ fn roles(subject: &Subject<'_>) -> RelationOutcome {
         |table| backwards(table, z2 / z1),
         |one, other| match takes_stable_steps(one) && takes_stable_steps(other) {
             true => compare(one, other, &follows, bounds),
-            // More positions ask for shorter steps, the new pair for none.
+            // More positions need shorter wear steps; the new pair needs none.
             false => compare_new(one, other, &follows, bounds),
         },
     )
@@ -70,7 +72,7 @@ fn backwards(table: &Table, u: f64) -> Table {
     let mut other = scaled(table, &|key| match key {
         "pinion_torque_Nm" => u,
         "pinion_speed_rpm" | "pinion_revolutions" | "revolutions" | "snapshots_revolutions" => 1.0 / u,
-        // Backwards, the slice that was the first to enter is the last.
+        // In reverse, the slice that entered first enters last.
         "helix_angle_deg" => -1.0,
         _ => 1.0,
     });
@@ -90,10 +92,10 @@ fn bounds_of_roles(table: &Table) -> Bounds {
         ..Bounds::all(0.0)
     };
     match (is_sliced(table), follows_tip_edges(table)) {
-        // A slice comes in all at once: a position at the jump is on one side of it or on the other.
+        // A slice enters with a jump, and a position at the jump may be on either side of it.
         (true, _) if is_on(table, "hertz-mean") => Bounds { cycle: f64::INFINITY, ..no_point },
-        // Positions of slices lie over one base pitch, which does not look the same from both ends, and a slice of a few that comes in moves
-        // the transmission error by its share.
+        // Positions of a pair with slices lie over one base pitch, which differ between the directions; where there are few slices, one that enters
+        // moves the transmission error by its share.
         (true, _) => Bounds { cycle: 0.15, ..no_point },
         (false, true) => no_point,
         (false, false) => {

@@ -83,7 +83,7 @@ pub(super) const RELATIONS: &[SceneRelation] = &[
 /// Relative effect of other positions on the least and the greatest transmission error.
 const OF_POSITIONS: f64 = 0.05;
 
-/// Everything of two runs that are to be the same.
+/// Differences of all figures of two runs that must be the same.
 fn alike(one: &RunRecord, other: &RunRecord, bound: f64, besides: &[&str]) -> Vec<Measured> {
     let (value, path) = summaries(&one.summary, &other.summary, besides);
     let mut found = compare(one, other, &Follows::default(), Bounds::all(bound));
@@ -207,7 +207,7 @@ fn half(subject: &Subject<'_>, gear: &str) -> RelationOutcome {
     against_half(subject, table, &own, by_factor)
 }
 
-/// By the severe factor of a wear that is severe at any pressure.
+/// Halves the wear by the severe factor, where wear is severe at any pressure.
 fn half_severe(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     if is_severe(table) {
@@ -239,7 +239,7 @@ fn against_half(subject: &Subject<'_>, table: &Table, own: &str, by_factor: Tabl
 
 fn slices(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
-    // What contact jumps at A and E is a matter of where positions lie, and the simplified model is another.
+    // Jumps of the contact at A and E depend on the positions, and the simplified model is another model.
     let is_another =
         has_finite_elements(table) || is_severe(table) || has_heat_or_oil(table) || !follows_tip_edges(table);
     if is_sliced(table) || is_another || !takes_stable_steps(subject.record) {

@@ -1,4 +1,4 @@
-//! Finer resolutions come to the same.
+//! Finer resolutions give the same result.
 
 use crate::gear::Gear;
 use crate::results::run::RunRecord;
@@ -33,7 +33,7 @@ fn finer_points(subject: &Subject<'_>) -> RelationOutcome {
 }
 
 fn finer_positions(subject: &Subject<'_>) -> RelationOutcome {
-    // Both ends stay positions, and each lies halfway between two.
+    // Both ends remain positions, and the new positions lie halfway between the old ones.
     finer(subject, POSITIONS, 2.0, 0.15)
 }
 

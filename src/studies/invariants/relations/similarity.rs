@@ -14,7 +14,7 @@ use crate::studies::invariants::traits_of_scene::{
 
 /// Relative effect of the tolerance of the equilibria, amplified by steps.
 const BOUNDS: Bounds = Bounds { volume: 1e-5, cycle: 1e-5, ..Bounds::all(1e-4) };
-/// No power of two, so that digits change.
+/// Factor on sizes: no power of two, so that the digits change.
 const SIZE: f64 = 1.7;
 const MODULUS: f64 = 1.9;
 const WIDTH: f64 = 1.3;
@@ -46,8 +46,8 @@ pub(super) const RELATIONS: &[SceneRelation] = &[
     },
 ];
 
-/// Worn by as many adaptive steps, whose lengths follow the last bits of an estimate: seed 7, 6202 has 0.16 % of the depth, 5546
-/// 0.07 % of the pressure.
+/// Relative differences at the same number of adaptive steps, whose lengths depend on the last bits of an error estimate: seed 7, scene 6202 has 0.16
+/// % of the depth, 5546 0.07 % of the pressure.
 const OF_STEP_LENGTHS: f64 = 1e-2;
 
 /// Adaptive steps are chosen by the stiffness of the rate, whose estimate ends at a threshold: the last bits may decide on other
@@ -74,7 +74,7 @@ fn size(subject: &Subject<'_>) -> RelationOutcome {
     let other = scaled(table, &|key| match key {
         "pinion_torque_Nm" => SIZE.powi(3),
         "foundation_MPa_per_mm" => 1.0 / SIZE,
-        // N/mm for every µm: as great at any size.
+        // N/mm per µm does not depend on the size.
         "pair_N_per_mm_um" => 1.0,
         key if key.ends_with("_mm") || key.ends_with("_um") => SIZE,
         _ => 1.0,
@@ -86,7 +86,7 @@ fn size(subject: &Subject<'_>) -> RelationOutcome {
 
 fn modulus(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
-    // What a preset of materials or a default gives cannot be raised.
+    // Values from a preset of materials or a default cannot be scaled.
     if has_heat_or_oil(table)
         || is_hard_severe(table)
         || !says_its_moduli(table)

@@ -11,7 +11,7 @@ use crate::studies::invariants::traits_of_scene::{
     has_finite_elements, has_fixed_steps, has_one_coefficient, is_sliced,
 };
 
-/// Coefficients are divided by so much: wear of at most 2e-3 modules becomes 2e-12 modules, which changes contact by as much of itself.
+/// Factor on the wear coefficients: wear of at most 2e-3 modules becomes 2e-12 modules, whose relative effect on contact is as small.
 const SMALL: f64 = 1e-9;
 /// Remaining effect of wear on contact: a depth of 2e-12 modules, up to a hundred times as deep where wear is severe, beside an approach
 /// of 1e-4 modules and more; and ten times that where a severe rate rises over a band of a few hundredths of the pressure.
@@ -34,7 +34,7 @@ pub(super) const RELATIONS: &[SceneRelation] = &[
     },
 ];
 
-/// The scene with wear that changes nothing.
+/// The scene with wear too small to change the contact.
 fn hardly_worn(table: &Table) -> Table {
     scaled(table, &|key| match key {
         "coefficient_m2_per_N" | "coefficient_mm3_per_Nm" => SMALL,

@@ -12,7 +12,7 @@ use crate::studies::sweep::goal::Optimum;
 use crate::studies::sweep::record::{SweepAxis, SweepRecord, SweepRow};
 use crate::studies::sweep::verification::{CLAIMS, SweepVerification, objective};
 
-/// Combinations without a result that the page lists; all are in the table.
+/// Greatest number of combinations without a result on the page; all are in the table.
 const MOST_LISTED: usize = 20;
 /// The varied keys as columns. A long one may go on in another line after each of its dots.
 fn keys(record: &SweepRecord) -> impl Iterator<Item = Cell> + '_ {
@@ -46,7 +46,7 @@ pub(super) fn best(record: &SweepRecord) -> Markup {
     list("Each figure over all combinations, and where its minimum is", columns, rows)
 }
 
-/// The combination asked for, and those that are as good within the error.
+/// Optimum, and the combinations that equal it within the error.
 pub(super) fn optimum(optimum: &Optimum) -> Markup {
     let figure = optimum.goal.figure();
     html! {
@@ -69,12 +69,12 @@ pub(super) fn optimum(optimum: &Optimum) -> Markup {
     }
 }
 
-/// A claim as a percentage: more than two digits it does not have.
+/// An error as a percentage with two digits.
 pub(super) fn within(claim: f64) -> String {
     significant(100.0 * claim, 2) + "\u{202f}%"
 }
 
-/// The claims of each verified combination, the worst of all below them, and the reasons of those without an answer.
+/// Errors of each verified combination, the greatest of all below them, and the reasons of those without a result.
 pub(super) fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> Markup {
     let claims = CLAIMS.iter().map(|claim| claim.title.into());
     let columns = cells!["combination", "chosen as"].into_iter().chain(keys(record));
@@ -102,7 +102,7 @@ pub(super) fn verified(record: &SweepRecord, verification: &SweepVerification<'_
     }
 }
 
-/// A table of combinations, number and values, with the reason why something is missing of each.
+/// Table of combinations, number and values, with the reason of what is missing.
 fn without<'a>(
     record: &SweepRecord,
     caption: String,

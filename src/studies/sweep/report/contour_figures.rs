@@ -86,7 +86,7 @@ pub(super) fn id(kind: &str, figure: &SweepFigure) -> String {
     format!("{kind}-{}", figure.name.to_lowercase().replace(['_', '.'], "-"))
 }
 
-/// Where the figure is least, and how far it is from there to its greatest.
+/// Sentence with the least and greatest value of the figure and where it is least.
 pub(super) fn reading(record: &SweepRecord, figure: &SweepFigure, best: &SweepRow, shown: &[&ShownAxis<'_>]) -> String {
     let Some((least, greatest)) = range(record, figure) else { return String::new() };
     let axes = &record.identity.axes;

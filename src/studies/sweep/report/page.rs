@@ -23,7 +23,7 @@ const DATA_FILES: &[(&str, &str)] = &[
     ("scene.toml", "the scene as given"),
 ];
 
-/// Figures whose least value is said at the top of the page, where there is one.
+/// Figures whose least value is given at the top of the page, where there is one.
 const HEADLINES: [&str; 2] = ["helical.wear.pinion.root_tip_variation", "pinion.peak_wear_um"];
 
 pub(super) fn page(record: &SweepRecord) -> String {
@@ -52,7 +52,7 @@ pub(super) fn page(record: &SweepRecord) -> String {
     .html()
 }
 
-/// The figures that one wants to be small and that are not the same everywhere.
+/// Figures to minimise that are not constant.
 fn shown(record: &SweepRecord) -> impl Iterator<Item = &'static SweepFigure> + '_ {
     FIGURES.iter().filter(|figure| figure.less_is_better && differs(record, figure))
 }

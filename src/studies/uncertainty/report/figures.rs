@@ -9,7 +9,7 @@ use crate::report::chart::{Chart, Dash, INK, Trace, TraceKind, gear_colour, padd
 use crate::report::html::number::{figure, percent};
 use crate::studies::uncertainty::record::{FactorIndices, OutputRecord, UncertaintyRecord};
 
-/// Bars of a distribution.
+/// Number of bars of a distribution.
 const BARS: usize = 30;
 
 pub(super) fn all(record: &UncertaintyRecord) -> Vec<Chart> {
@@ -20,13 +20,13 @@ pub(super) fn all(record: &UncertaintyRecord) -> Vec<Chart> {
     indices.chain(distributions).chain(bands).collect()
 }
 
-/// At its axis: of a life, whose limit stands in the title of the plot, only that it is one.
+/// Title of the axis; the limit of a life stands in the title of the plot.
 fn with_unit(output: &OutputRecord) -> String {
     let name = if output.censored.is_some() { "life" } else { &output.meaning };
     if output.unit.is_empty() { name.to_owned() } else { format!("{name}, {}", output.unit) }
 }
 
-/// Where the samples lie, as parts of all between equal steps.
+/// Histogram of the samples as parts of all.
 fn distribution(number: usize, output: &OutputRecord) -> Option<Chart> {
     let finite: Vec<f64> = output.sorted.iter().copied().filter(|value| value.is_finite()).collect();
     let (low, high) = (*finite.first()?, *finite.last()?);
@@ -109,7 +109,7 @@ fn bars(indices: &[FactorIndices], name: &str, colour: &str, of: fn(&FactorIndic
         .hover("%{x:.3f}")
 }
 
-/// A key on lines of its parts, so that the plot keeps its room.
+/// Key with a line break after each part, to keep the plot wide.
 fn wrapped(key: &str) -> String {
     key.rsplit_once('.').map_or_else(|| key.to_owned(), |(tables, name)| format!("{tables}.<br>{name}"))
 }

@@ -23,7 +23,7 @@ use crate::report::files::{ReportError, create_folder, place, remove, write_json
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "uncertainty.json";
 
-/// Takes away what an earlier study in `dir` said, which is made if need be.
+/// Creates `dir` or removes the results of an earlier study there.
 pub(crate) fn begin(dir: &Path) -> Result<(), ReportError> {
     create_folder(dir)?;
     remove(dir, LAST)

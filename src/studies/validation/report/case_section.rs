@@ -1,4 +1,4 @@
-//! A case in full: what must be so, what was found, what it rests on, what it cost, and its plots.
+//! Section of a case: requirement, results, estimates, cost and plots.
 
 use maud::{Markup, html};
 
@@ -57,7 +57,7 @@ fn quantities(case: &CaseRecord) -> Markup {
             margin_bar(words::used(quantity)),
         ])
     });
-    // Why something is not expected to hold, or what is missing: not hidden, it is what readers must know.
+    // Reasons of expected failures and missing references are always visible.
     let remarks = case.quantities.iter().filter_map(|quantity| {
         let remark = quantity.remark.as_ref()?;
         Some(html! { (badge(Verdict::of_quantity(quantity))) " " (quantity.name) ": " (remark) })
@@ -76,7 +76,7 @@ fn quantities(case: &CaseRecord) -> Markup {
     }
 }
 
-/// Where the reference comes from, how sure it is and why the tolerance is what it is.
+/// Source and uncertainty of the reference and the reason for the tolerance.
 fn reasons(quantity: &QuantityRecord) -> Option<String> {
     let mut said = vec![quantity.source.clone()];
     for (what, value) in [

@@ -8,10 +8,10 @@ use super::verdict::Verdict;
 use super::words::{self, counted, time};
 use crate::studies::validation::record::{CaseRecord, Change, Changes, ValidationRecord};
 
-/// Bytes that one of the six tables may have: together they stay below 45 000.
+/// Greatest size of each of the six tables in bytes: together below 45 000.
 const TABLE_LIMIT: usize = 7_000;
 
-/// Letters that one cell may have: a message of many lines belongs in the page.
+/// Greatest number of characters of a cell: longer messages are on the page.
 const CELL_LIMIT: usize = 600;
 
 pub(super) fn text(record: &ValidationRecord, changes: Option<&Changes>) -> String {
@@ -124,7 +124,7 @@ fn folded(heading: &str, columns: &[&str], rows: &[Vec<String>]) -> String {
     format!("<details>\n<summary>{heading}</summary>\n\n{}\n</details>\n\n", table(columns, rows))
 }
 
-/// A Markdown table of as many rows as there is room for.
+/// Markdown table with as many rows as fit into [`TABLE_LIMIT`].
 fn table(columns: &[&str], rows: &[Vec<String>]) -> String {
     let mut text = format!("| {} |\n|{}\n", columns.join(" | "), " --- |".repeat(columns.len()));
     for (written, row) in rows.iter().enumerate() {
@@ -151,7 +151,7 @@ fn shortened(text: &str, most: usize) -> String {
     }
 }
 
-/// Text that Markdown takes for nothing but text, and that stays in its cell.
+/// Text escaped for a table cell of Markdown.
 fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
@@ -160,7 +160,7 @@ fn escape(text: &str) -> String {
             '<' => escaped.push_str("&lt;"),
             '>' => escaped.push_str("&gt;"),
             '&' => escaped.push_str("&amp;"),
-            // Nobody is to be called into a conversation by a message.
+            // `@` would notify a user.
             '@' => escaped.push_str("&#64;"),
             '|' | '\\' | '`' | '*' | '_' | '[' | ']' | '#' | '~' => {
                 escaped.push('\\');
