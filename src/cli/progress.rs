@@ -187,7 +187,7 @@ fn log_long(stage: &Mutex<Option<Begun>>, done: f64, command: Instant) {
     }
 }
 
-/// Records a moment of progress; where there are too many, every other one is dropped.
+/// Records a moment of progress; where there are too many, they are thinned evenly over the time so far.
 fn mark(marks: &mut Vec<(f64, f64)>, now: (f64, f64)) {
     if marks.len() >= MOST_MARKS {
         let apart_s = 2.0 * now.1 / MOST_MARKS as f64;

@@ -6,7 +6,8 @@ use std::str::FromStr;
 use crate::scene::decimal_comma;
 use crate::scene::draft::{Draft, other_ways_to_say};
 use crate::scene::key::{self, KeyError, NumberKey};
-use crate::studies::sweep::record::{Spacing, SweepAxis, plain};
+use crate::scene::problem::number;
+use crate::studies::sweep::record::{Spacing, SweepAxis};
 use crate::studies::varied_scene::{linked_keys, missing_phase};
 
 /// Greatest number of values of one key.
@@ -29,19 +30,19 @@ pub(crate) enum AxisError {
     NotANumber { key: String, end: &'static str, found: String },
     #[error("{key}: found {found:?} as COUNT; allowed: a whole number from 1 to {MOST_VALUES}")]
     Count { key: String, found: String },
-    #[error("{key}: found the range {from}:{to}, which is reversed; allowed: FROM below TO", from = plain(*.from), to = plain(*.to))]
+    #[error("{key}: found the range {from}:{to}, which is reversed; allowed: FROM below TO", from = number(*.from), to = number(*.to))]
     Reversed { key: String, from: f64, to: f64 },
     /// One value for two ends.
-    #[error("{key}: found 1 value for the range {from}:{to}; allowed: a COUNT of at least 2, or {from}:{from}:1", from = plain(*.from), to = plain(*.to))]
+    #[error("{key}: found 1 value for the range {from}:{to}; allowed: a COUNT of at least 2, or {from}:{from}:1", from = number(*.from), to = number(*.to))]
     OneValue { key: String, from: f64, to: f64 },
     /// Several values for equal ends.
-    #[error("{key}: found {count} values for the range {from}:{from}; allowed: {from}:{from}:1, or FROM below TO", from = plain(*.from))]
+    #[error("{key}: found {count} values for the range {from}:{from}; allowed: {from}:{from}:1, or FROM below TO", from = number(*.from))]
     SameEnds { key: String, from: f64, count: usize },
     /// Equal ratios between numbers that are not both positive.
-    #[error("{key}: found the range {from}:{to} by equal ratios; allowed: FROM above 0", from = plain(*.from), to = plain(*.to))]
+    #[error("{key}: found the range {from}:{to} by equal ratios; allowed: FROM above 0", from = number(*.from), to = number(*.to))]
     NoRatio { key: String, from: f64, to: f64 },
     /// A list that is not rising.
-    #[error("{key}: found {value} after {before}; allowed: rising values", value = plain(*.value), before = plain(*.before))]
+    #[error("{key}: found {value} after {before}; allowed: rising values", value = number(*.value), before = number(*.before))]
     NotRising { key: String, before: f64, value: f64 },
     /// None of the words that the key takes.
     #[error("{key}: found {found:?}; allowed: a list of {allowed}")]
@@ -62,7 +63,7 @@ pub(crate) enum AxisError {
         value: f64,
     },
     /// No value is allowed for the key.
-    #[error("{key}: found {from} to {to}; allowed: {allowed}", from = plain(*.from), to = plain(*.to))]
+    #[error("{key}: found {from} to {to}; allowed: {allowed}", from = number(*.from), to = number(*.to))]
     NotAllowed { key: String, from: f64, to: f64, allowed: String },
     #[error("found {key} twice; allowed: each key once")]
     Twice { key: String },
@@ -84,7 +85,7 @@ impl AxisError {
             Self::Key(_) => Some("gearwear schema prints all keys with their ranges".to_owned()),
             Self::NotANumber { found, .. } | Self::Count { found, .. } => decimal_comma::help(found),
             Self::NotRising { before, value, .. } if before.fract() == 0.0 && value.fract() == 0.0 => {
-                let (before, value) = (plain(*before), plain(*value));
+                let (before, value) = (number(*before), number(*value));
                 Some(format!("commas separate values; decimal point, not comma: {before}.{value}"))
             }
             _ => None,
@@ -128,14 +129,14 @@ pub(crate) fn parse(given: &str) -> Result<SweepAxis, AxisError> {
     }
 }
 
-fn number(key: &str, end: &'static str, text: &str) -> Result<f64, AxisError> {
+fn parsed(key: &str, end: &'static str, text: &str) -> Result<f64, AxisError> {
     let value = f64::from_str(text).ok().filter(|value| value.is_finite());
     value.ok_or_else(|| AxisError::NotANumber { key: key.to_owned(), end, found: text.to_owned() })
 }
 
 /// Values one by one.
 fn listed(key: String, list: &str, whole: bool) -> Result<SweepAxis, AxisError> {
-    let values = list.split(',').map(|value| number(&key, "a value", value.trim())).collect::<Result<Vec<f64>, _>>()?;
+    let values = list.split(',').map(|value| parsed(&key, "a value", value.trim())).collect::<Result<Vec<f64>, _>>()?;
     if let Some(two) = values.windows(2).find(|two| two[1] <= two[0]) {
         return Err(AxisError::NotRising { key, before: two[0], value: two[1] });
     }
@@ -168,7 +169,7 @@ fn range(
     spacing: Spacing,
     whole: bool,
 ) -> Result<SweepAxis, AxisError> {
-    let (from, to) = (number(&key, "FROM", from)?, number(&key, "TO", to)?);
+    let (from, to) = (parsed(&key, "FROM", from)?, parsed(&key, "TO", to)?);
     let counted = count.parse::<usize>().ok().filter(|count| (1..=MOST_VALUES).contains(count));
     let Some(count) = counted else { return Err(AxisError::Count { key, found: count.to_owned() }) };
     match (count, from == to) {

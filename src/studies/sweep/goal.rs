@@ -13,9 +13,10 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use super::figures::{FIGURES, PEAK_WEAR, SweepFigure};
-use super::record::{SweepIdentity, SweepRow, plain};
+use super::record::{SweepIdentity, SweepRow};
 use crate::results::error::TotalError;
 use crate::scene::nearest::nearest;
+use crate::scene::problem::number;
 
 /// Figure to minimise, and limits of other figures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -67,7 +68,7 @@ impl Limit {
 
 impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {} {}", self.figure, if self.at_most { "≤" } else { "≥" }, plain(self.value))
+        write!(f, "{} {} {}", self.figure, if self.at_most { "≤" } else { "≥" }, number(self.value))
     }
 }
 
@@ -149,7 +150,7 @@ fn values_among(identity: &SweepIdentity, combinations: &[usize], at: usize) -> 
     places.dedup();
     match (axis.words(), places.first(), places.last()) {
         (None, Some(&first), Some(&last)) if places.len() > 2 && places.len() == last - first + 1 => {
-            format!("{} from {} to {}", axis.key, plain(axis.value(first)), plain(axis.value(last)))
+            format!("{} from {} to {}", axis.key, number(axis.value(first)), number(axis.value(last)))
         }
         _ => {
             let said: Vec<String> = places.iter().map(|&place| axis.said(axis.value(place))).collect();

@@ -6,6 +6,7 @@ use super::figures::{FIGURES, SweepFigure};
 use super::goal::{Goal, Optimum};
 use super::verification::{Chosen, RowVerification, SweepVerification};
 use crate::results::error::TotalError;
+use crate::scene::problem::number;
 
 /// Significant digits of a value between the ends of a range.
 const DIGITS: i32 = 12;
@@ -81,11 +82,11 @@ impl SweepAxis {
 
     /// Axis as the user may write it: `pair.face_width_mm=10:30:21`.
     pub(crate) fn as_given(&self) -> String {
-        let range = format!("{}:{}:{}", plain(self.from), plain(self.to), self.count);
+        let range = format!("{}:{}:{}", number(self.from), number(self.to), self.count);
         let values = match &self.spacing {
             Spacing::Even => range,
             Spacing::Logarithmic => format!("{range}:log"),
-            Spacing::Listed(values) => values.iter().map(|value| plain(*value)).collect::<Vec<_>>().join(","),
+            Spacing::Listed(values) => values.iter().map(|value| number(*value)).collect::<Vec<_>>().join(","),
             Spacing::Words(words) => words.join(","),
         };
         format!("{}={values}", self.key)
@@ -106,7 +107,7 @@ impl SweepAxis {
 
     /// Value as text: a word, or a number in its shortest form.
     pub(crate) fn said(&self, value: f64) -> String {
-        self.word(value).map_or_else(|| plain(value), str::to_owned)
+        self.word(value).map_or_else(|| number(value), str::to_owned)
     }
 
     /// Title of an axis of a plot, with the unit that ends the name of the key: `tip relief, amount, pinion and wheel, µm`.
@@ -163,12 +164,6 @@ const UNITS: [(&str, &str); 20] = [
     (" h", "h"),
     (" K", "K"),
 ];
-
-/// Number in its shortest form: `10`, `0.5`, `1e-17`.
-pub(crate) fn plain(value: f64) -> String {
-    let text = format!("{value:?}");
-    text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
-}
 
 /// A shard: every `of`-th combination, beginning with `number`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -437,6 +432,6 @@ mod tests {
         let all: Vec<Vec<f64>> = (0..6).map(|index| identity.values(index)).collect();
         assert_eq!(all, [[0.0, 5.0], [0.0, 6.0], [0.0, 7.0], [1.0, 5.0], [1.0, 6.0], [1.0, 7.0]]);
         assert_eq!(identity.in_words(4), "a = 1, b = 6");
-        assert_eq!([10.0, -0.25, 1e-17].map(plain), ["10", "-0.25", "1e-17"]);
+        assert_eq!([10.0, -0.25, 1e-17].map(number), ["10", "-0.25", "1e-17"]);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::case_file::{MemberSpec, RunSpec, SampleSpec, VarySpec};
 use super::value::Value;
+use crate::report::html::number::to_digits;
 use crate::studies::validation::record::RunOutcome;
 
 /// One run of a family, or a run that is alone.
@@ -105,8 +106,7 @@ fn with(member: &Member, varied: &VarySpec, value: toml::Value) -> Member {
 
 /// The number with four digits, for labels.
 fn short(number: f64) -> String {
-    let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
-    format!("{rounded:?}")
+    format!("{:?}", to_digits(number, 4))
 }
 
 fn one_by_one(alone: &Member, spec: &MemberSpec) -> Member {

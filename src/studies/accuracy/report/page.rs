@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::{front_figures, profile_figures, run_tables};
+use super::{LAST, PROFILES, RECOMMENDED, RUNS, SCENE, front_figures, profile_figures, run_tables};
 use crate::report::html::number::{percent, significant};
 use crate::report::html::page::{Page, Plots, section, sources_list};
 use crate::results::run::{ReportedBy, StopReason};
@@ -10,13 +10,13 @@ use crate::studies::accuracy::record::{AccuracyRecord, CALIBRATION_FILE, Compare
 
 /// The data files named in the page, which lie beside it.
 const DATA_FILES: [(&str, &str); 7] = [
-    ("accuracy.json", "everything: the reference, every run with its errors, the recommendations"),
-    ("accuracy.csv", "one row per run: settings, times, work, errors, fronts"),
-    ("wear_profiles.csv", "wear over both flanks, reference and runs of the finest resolution"),
+    (LAST, "everything: the reference, every run with its errors, the recommendations"),
+    (RUNS, "one row per run: settings, times, work, errors, fronts"),
+    (PROFILES, "wear over both flanks, reference and runs of the finest resolution"),
     (OVER_WIDTH_FILE, "root wear over the face width, reference and runs of the finest resolution"),
-    ("scene.toml", "the resolved scene"),
-    ("recommended.toml", "the scene of the recommended run of the wear profile"),
-    ("calibration.json", "the calibration that the runs read"),
+    (SCENE, "the resolved scene"),
+    (RECOMMENDED, "the scene of the recommended run of the wear profile"),
+    (CALIBRATION_FILE, "the calibration that the runs read"),
 ];
 
 pub(super) fn page(record: &AccuracyRecord) -> String {
@@ -69,7 +69,7 @@ fn data_files(record: &AccuracyRecord) -> Vec<(&'static str, &'static str)> {
     let written = DATA_FILES.into_iter().filter(|&(name, _)| match name {
         OVER_WIDTH_FILE => record.has_slices(),
         CALIBRATION_FILE => record.calibration_json.is_some(),
-        "recommended.toml" => record.recommended_toml.is_some(),
+        RECOMMENDED => record.recommended_toml.is_some(),
         _ => true,
     });
     written.collect()

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::figures;
+use super::{LAST, POINTS, figures};
 use crate::gear::Gear;
 use crate::measurement::fit::FitStop;
 use crate::report::html::number::{figure, fixed, given, hours, revolutions, significant};
@@ -13,10 +13,8 @@ use crate::results::run::ReportedBy;
 use crate::studies::compare::record::{CoefficientCorrelation, CompareRecord, FittedValue, ProfileRecord};
 use crate::studies::compare::unknown::Unknown;
 
-const DATA_FILES: [(&str, &str); 2] = [
-    ("compare.json", "the figures and what was fitted"),
-    ("compare.csv", "measured and simulated profile, point by point"),
-];
+const DATA_FILES: [(&str, &str); 2] =
+    [(LAST, "the figures and what was fitted"), (POINTS, "measured and simulated profile, point by point")];
 
 pub(super) fn page(record: &CompareRecord) -> String {
     let sources = sources_list(&DATA_FILES, "The resolved scene of the run", &record.scene_toml);

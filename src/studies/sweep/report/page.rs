@@ -2,25 +2,28 @@
 
 use maud::{Markup, html};
 
+#[cfg(feature = "parquet")]
+use super::PARQUET;
 use super::best_tables::shown_value;
 use super::section_plane::{differs, varied};
-use super::{best_tables, contour_figures, line_figures};
+use super::{COMBINATIONS, LAST, SCENE, best_tables, contour_figures, line_figures};
 use crate::reference::steel_yield;
 use crate::report::chart::Chart;
 use crate::report::html::number::{count, figure as shown_number, given, significant};
 use crate::report::html::page::{Page, Plots, section, sources_list};
 use crate::results::run::ReportedBy;
 use crate::studies::sweep::figures::{FIGURES, SweepFigure};
+use crate::studies::sweep::journal;
 use crate::studies::sweep::record::SweepRecord;
 use crate::studies::sweep::verification::SweepVerification;
 
 const DATA_FILES: &[(&str, &str)] = &[
-    ("sweep.csv", "one row per combination: varied values, figures, times, errors, verification"),
+    (COMBINATIONS, "one row per combination: varied values, figures, times, errors, verification"),
     #[cfg(feature = "parquet")]
-    ("sweep.parquet", "the same table as Parquet"),
-    ("sweep.json", "the sweep, its counts and the best combinations"),
-    ("rows.jsonl", "the rows as they were finished; a restart reads it"),
-    ("scene.toml", "the scene as given"),
+    (PARQUET, "the same table as Parquet"),
+    (LAST, "the sweep, its counts and the best combinations"),
+    (journal::FILE_NAME, "the rows as they were finished; a restart reads it"),
+    (SCENE, "the scene as given"),
 ];
 
 /// Figures whose least value is given at the top of the page, where there is one.

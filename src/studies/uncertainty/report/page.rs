@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::figures;
+use super::{LAST, SAMPLES, SCENE, figures};
 use crate::reference::sobol_indices::Index;
 use crate::report::html::number::{count, figure, fixed, percent, significant};
 use crate::report::html::page::{Page, Plots, note, section, sources_list};
@@ -10,9 +10,9 @@ use crate::report::html::table::{Cell, NONE, cells, line, list};
 use crate::studies::uncertainty::record::UncertaintyRecord;
 
 const DATA_FILES: &[(&str, &str)] = &[
-    ("samples.csv", "one row per run: values of the keys, figures, errors"),
-    ("uncertainty.json", "distributions, quantiles, indices, bands"),
-    ("scene.toml", "the scene as given"),
+    (SAMPLES, "one row per run: values of the keys, figures, errors"),
+    (LAST, "distributions, quantiles, indices, bands"),
+    (SCENE, "the scene as given"),
 ];
 
 pub(super) fn page(record: &UncertaintyRecord) -> String {

@@ -36,6 +36,9 @@ use serde::Serialize;
 
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "validation.json";
+const JUNIT: &str = "junit.xml";
+const SUMMARY: &str = "summary.md";
+const WORK_PRECISION: &str = "work_precision.json";
 
 /// Writes all files of `record` into `dir`, which is made if need be; returns their paths in the order written.
 pub(crate) fn write(
@@ -47,9 +50,9 @@ pub(crate) fn write(
     remove(dir, LAST)?;
     Ok(vec![
         place(dir, "report.html", |out| out.write_all(page::page(record, changes).as_bytes()))?,
-        place(dir, "junit.xml", |out| junit::write(out, record))?,
-        place(dir, "summary.md", |out| out.write_all(markdown::text(record, changes).as_bytes()))?,
-        place(dir, "work_precision.json", |out| write_json(out, &work_precision(record)))?,
+        place(dir, JUNIT, |out| junit::write(out, record))?,
+        place(dir, SUMMARY, |out| out.write_all(markdown::text(record, changes).as_bytes()))?,
+        place(dir, WORK_PRECISION, |out| write_json(out, &work_precision(record)))?,
         place(dir, LAST, |out| write_json(out, record))?,
     ])
 }

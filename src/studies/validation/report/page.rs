@@ -10,17 +10,19 @@ use super::markup::{badge, items, link, scrolling};
 use super::totals::{self, Totals};
 use super::verdict::Verdict;
 use super::words::{self, time};
-use super::{case_section, overview, stability_map, targets_table, work_precision_figures};
+use super::{
+    JUNIT, LAST, SUMMARY, WORK_PRECISION, case_section, overview, stability_map, targets_table, work_precision_figures,
+};
 use crate::report::html::page::{Page, Plots, files_list, note, section};
 use crate::report::html::table::{cells, line};
 use crate::studies::validation::record::{Change, Changes, ValidationRecord};
 
 /// The data files named in the page, which lie beside it.
 const DATA_FILES: &[(&str, &str)] = &[
-    ("validation.json", "the whole record but the plots: what a later run is compared with"),
-    ("work_precision.json", "error against cost of every setting"),
-    ("junit.xml", "a test for each quantity, for services that collect test results"),
-    ("summary.md", "the summary for a comment"),
+    (LAST, "the whole record but the plots: what a later run is compared with"),
+    (WORK_PRECISION, "error against cost of every setting"),
+    (JUNIT, "a test for each quantity, for services that collect test results"),
+    (SUMMARY, "the summary for a comment"),
 ];
 
 pub(super) fn page(record: &ValidationRecord, changes: Option<&Changes>) -> String {

@@ -1,7 +1,7 @@
 //! Texts of a quantity: its value, its criterion, its error and the reasons.
 
 use super::verdict::Verdict;
-use crate::report::html::number::{count, figure, given, percent, significant};
+use crate::report::html::number::{count, figure, given, percent, significant, to_digits};
 use crate::studies::validation::record::{CaseRecord, ComparedState, Criterion, QuantityRecord, Standing};
 
 /// Stands where there is no number.
@@ -30,7 +30,7 @@ fn resolved(value: f64, tolerance: f64) -> String {
 
 /// Two digits, which is what is known of an uncertainty.
 pub(super) fn rough(value: f64) -> String {
-    as_written(format!("{value:.1e}").parse().unwrap_or(value))
+    as_written(to_digits(value, 2))
 }
 
 /// A bound or a setting as a person writes it: no digits that say nothing, powers of ten as such.
