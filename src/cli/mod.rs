@@ -1,4 +1,4 @@
-//! The commands, one file each, and what they share: reading scenes, saying what is wrong, exit statuses.
+//! The commands, one file each, and what they share: reading scenes, printing errors, exit statuses.
 
 mod accuracy;
 mod begun_run;

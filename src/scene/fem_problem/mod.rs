@@ -1,11 +1,11 @@
 //! A finite-element problem of one's own: the file, its checks, and what it asks of its mesh.
 //!
-//! A problem file is checked twice. [`FemProblem::from_toml`] reads it by itself: names, types, ranges, and what keys say
-//! about each other. [`FemProblem::on`] then looks for its groups in the mesh and makes of both what the solver takes
+//! A problem file is checked twice. [`FemProblem::from_toml`] reads it by itself: names, types, ranges, and what keys say about
+//! each other. [`FemProblem::on`] then looks for its groups in the mesh and makes of both what the solver takes
 //! ([`crate::fem::problem::Problem`]), [`FemProblem::in_space_on`] of three-dimensional problems
 //! ([`crate::fem::space::problem::Problem`]), after checks that need both: elements that belong to no body or to two, contact
-//! edges inside a body, supports that contradict each other, bodies that nothing holds.
-//! Each step reports all that is wrong, at its key.
+//! edges inside a body, supports that contradict each other, bodies that nothing holds. Each step reports all that is wrong, at
+//! its key.
 
 mod bodies;
 mod file;

@@ -31,7 +31,7 @@ impl BodyNodes {
     }
 }
 
-/// The cells of `dimension` that bodies take, with their nodes; what is wrong with them is reported. `allowed` says what bodies are of.
+/// Cells of `dimension` that belong to bodies, with their nodes; errors are reported. `allowed` names the cells that bodies may have.
 pub(super) fn owned_cells(
     file: &FemProblemFile,
     mesh: &Mesh,

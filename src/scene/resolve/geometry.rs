@@ -1,4 +1,4 @@
-//! Puts what is wrong with the gear pair at the key that can mend it.
+//! Reports errors of the gear pair at the key to change.
 
 use super::centre_distance;
 use crate::gear::pair::GearPair;

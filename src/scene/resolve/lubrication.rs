@@ -33,7 +33,7 @@ const RQ_OVER_RA: f64 = 1.253_314_137_315_5;
 /// Where the roughness term of Benedict and Kelley's friction has its pole, µm.
 const ROUGHEST_OF_BENEDICT_KELLEY_UM: f64 = 1.27;
 
-/// Chooses what the tables leave open; `Some(None)` where nobody asks for films or losses.
+/// Chooses what the tables leave open; `Some(None)` where neither films nor losses are needed.
 pub(super) fn choose(
     file: &mut SceneFile,
     material: Option<PerGear<ThermalMaterial>>,

@@ -7,9 +7,8 @@
 //! ```
 //!
 //! The correction is made value by value over the flanks and the path of contact, once for each kind of spacing: size of
-//! elements and spacing of points and positions (second order), length of the wear step and width of the slices (first
-//! order). The differences
-//! are taken at a coarser level of the other spacings, which changes a correction by a correction of it only.
+//! elements and spacing of points and positions (second order), length of the wear step and width of the slices (first order).
+//! The differences are taken at a coarser level of the other spacings, which changes a correction by a correction of it only.
 //!
 //! What remains uncertain is stated as the size of the whole correction: the error of the finest run itself, measured
 //! against the reference. It is an upper bound as long as the corrections have the right sign and magnitude.

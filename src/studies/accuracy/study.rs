@@ -68,7 +68,6 @@ pub(crate) fn run(
     let second = selection.second_resolution();
     let deep_runs = all_measured.then(|| deep_runs::run(&given, &second, observer, settings, count)).flatten();
     let is_complete = all_measured && deep_runs.is_some() == resolved.scene.slices.is_some();
-    let stopped = if is_complete { StopReason::Completed } else { StopReason::Interrupted };
     let windows = windows(resolved, &measured)?;
     let (reference, runs, spacings) = reference(&selection, &measured, &windows)?;
     let not_ranked = not_ranked(&reference, &spacings, asked.within);
@@ -77,13 +76,9 @@ pub(crate) fn run(
         .map(|one| one.finished.as_ref().map(|run| run.observed.at_coordinates_of(&reference.observed)))
         .collect();
     let mut variants: Vec<VariantRecord> = measured.iter().map(|one| one.record.clone()).collect();
-    for &index in &runs {
-        variants[index].part_of_reference = true;
-    }
+    runs.iter().for_each(|&index| variants[index].part_of_reference = true);
     add_errors(&mut variants, &at_reference, &reference, &windows);
-    for quantity in ComparedQuantity::ALL.into_iter().filter(|&q| not_ranked.iter().all(|one| one.quantity != q)) {
-        mark_front(&mut variants, quantity, reference.uncertainty.get(&quantity).copied().unwrap_or(0.0));
-    }
+    mark_fronts(&mut variants, &reference, &not_ranked);
     keep_shown_curves(&mut variants, &at_reference, &selection.settings, resolved);
     let compared = compared(&selection.settings, &at_reference, &variants);
     let mut recommendations = recommendations(&variants, asked.within);
@@ -95,7 +90,7 @@ pub(crate) fn run(
         title: resolved.scene.title.clone(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_hash: resolved.scene_hash(),
-        stopped,
+        stopped: if is_complete { StopReason::Completed } else { StopReason::Interrupted },
         threads: rayon::current_num_threads(),
         within: asked.within,
         recommendations,
@@ -272,6 +267,13 @@ fn add_errors(variants: &mut [VariantRecord], at: &[Option<ObservedRun>], refere
         let measured = all.into_iter().flatten().filter(|(_, relative)| !relative.is_nan());
         let measured = measured.map(|(quantity, relative)| (quantity, MeasuredError { relative, on_front: false }));
         variant.errors.extend(measured);
+    }
+}
+
+/// Marks the runs on the Pareto front of each ranked quantity.
+fn mark_fronts(variants: &mut [VariantRecord], reference: &Reference, not_ranked: &[NotRanked]) {
+    for quantity in ComparedQuantity::ALL.into_iter().filter(|&q| not_ranked.iter().all(|one| one.quantity != q)) {
+        mark_front(variants, quantity, reference.uncertainty.get(&quantity).copied().unwrap_or(0.0));
     }
 }
 

@@ -4,17 +4,14 @@
 //! χ² = Σ w_p² |r_p|²,          r_p = P [z − z₀(s + d_p) + h(s + d_p; κ k, C)]
 //! ```
 //!
-//! with the residuals r_p of each profile ([`Comparison`]) and as parameters, where they are asked for, ln κ and ln C, the logarithms of
-//! the factor on the wear coefficient, or of one on that of each gear, and of the factor of severe wear, and the shift d_p of each profile
-//! along its flank. Of several profiles each has the weight w_p = 1/(σ_p √τ_p), with the standard deviation of the residuals that it has when
-//! it is fitted alone, and how many neighbouring points say what one says ([`crate::measurement::interval`]): what the model does not
-//! describe of a profile lessens its weight, what it does not share with the other one does not. χ² is least over profiles
-//! interpolated between runs ([`Simulations::about`]); then runs with just the parameters found
-//! take the place of the interpolation, and Gauss–Newton steps on their residuals go on until they no longer matter. The result is that
-//! of the exact runs, the best of them; the derivatives are those of the interpolation, mended by what each exact run says of the
-//! last step. Where wear does not change smoothly with the coefficient (an
-//! abrupt transition to severe wear, wear steps beyond the stable one), exact runs scatter: steps of up to half a standard deviation are
-//! then left, and reported.
+//! with the residuals r_p of each profile ([`Comparison`]). Parameters, where they are fitted: ln κ, the logarithm of the factor on the wear
+//! coefficient (one for each gear where both are fitted); ln C, that of the factor of severe wear; d_p, the shift of each profile along its flank. Of
+//! several profiles each has the weight w_p = 1/(σ_p √τ_p), with the standard deviation σ_p of its residuals when it is fitted alone and the number
+//! τ_p of neighbouring points that are correlated ([`crate::measurement::interval`]). χ² is minimised over profiles interpolated between runs
+//! ([`Simulations::about`]), then by Gauss–Newton steps on the residuals of exact runs until convergence. The result is the best exact run; the
+//! derivatives are those of the interpolation, updated after each exact run (Broyden). Where wear is not a smooth function of the coefficient (an
+//! abrupt transition to severe wear, wear steps beyond the stable one), exact runs scatter: steps of up to half a standard deviation then remain, and
+//! are reported.
 
 use super::comparison::{Beginning, Comparison};
 use super::question::{ComparisonQuestion, FitKind, FittedGears};

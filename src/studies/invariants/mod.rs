@@ -5,8 +5,7 @@
 //! sizes scaled, coefficients against duration, neutral keys. Every fourth relation is tried on a scene, another fourth on the next.
 //!
 //! The result is a table of relation, count and worst deviation with the number of the scene ([`record`]); scenes that violate
-//! one are written beside it
-//! ([`report`]).
+//! one are written beside it ([`report`]).
 
 pub(crate) mod carried_out;
 pub(crate) mod comparison;

@@ -68,9 +68,8 @@ impl RelationOutcome {
     }
 }
 
-/// The scene with so many times the numbers at `keys`, where it has them; with steps of wear for twice as many flank points,
-/// where they are of a fixed length:
-/// what is stable is as long as points are apart.
+/// The scene with `by` times the numbers at `keys`, where it has them. Wear steps of a fixed length are divided by twice that where the flank points
+/// are among them: the stable step is proportional to their spacing.
 fn finer(table: &Table, keys: &[&str], by: f64) -> Table {
     let mut finer = table.clone();
     for key in keys {

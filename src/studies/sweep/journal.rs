@@ -1,10 +1,8 @@
 //! The rows finished so far, on disk: `rows.jsonl`, one JSON object per line, the first of which says whose rows they are.
 //!
-//! A line is written with one call as soon as its combination is finished. A row that is verified stands there once more, and
-//! the later line counts. Whatever ends the program, what is lost is at most
-//! the combinations that were running; a last line that was cut short is dropped when the journal is opened again. While a
-//! sweep runs it holds a lock on the file, so that a second start in the same folder is refused, where the file system
-//! has locks.
+//! A line is written with one call as soon as its combination is finished. A verified row is written again, and the later line counts. A program that
+//! ends early loses at most the combinations that were running; an incomplete last line is dropped when the journal is opened again. A running sweep
+//! locks the file, so that a second start in the same folder is refused, where the file system has locks.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions, TryLockError};

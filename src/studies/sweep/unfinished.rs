@@ -77,9 +77,8 @@ impl UnfinishedSweep {
         self.journal.contents.rows.values().filter(|row| row.verification.is_some()).count()
     }
 
-    /// Tasks that can be done now, one text each: the combinations that are missing; where none is, the rows that finite elements
-    /// are to verify. Empty: it
-    /// is finished.
+    /// Tasks that can be done now, one text each: the missing combinations, then the rows to be verified by finite elements. Empty where the sweep is
+    /// finished.
     ///
     /// # Errors
     /// None of a sweep whose rows have finite values.

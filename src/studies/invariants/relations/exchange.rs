@@ -33,9 +33,8 @@ pub(super) const RELATIONS: &[SceneRelation] = &[
 
 fn roles(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
-    // Where loads jump at the end of the range of tip edges, each run has the jump where its own driving gear has it. Where
-    // strains are large, so is the
-    // difference of the levers that tip edges have on either gear.
+    // Where loads jump at the end of the range of tip edges, the place of the jump depends on which gear drives. Where strains are large, so is the
+    // difference between the lever arms of tip edges on the two gears.
     if touches_beyond_range(subject.record) || has_large_strains(subject.record) {
         return RelationOutcome::NotOfThisScene;
     }
@@ -50,9 +49,8 @@ fn roles(subject: &Subject<'_>) -> RelationOutcome {
     if z1 == z2 && word(table, "stiffness.model") == Some("iso6336") {
         return RelationOutcome::NotOfThisScene;
     }
-    // Positions are those of the driving gear, behind which the driven one stays by the transmission error: so far apart are the
-    // two runs' tip edges. With
-    // levers of r_b1 alone both runs are alike within 1e-14, where those of edges 2.4 mm outside are 0.80 of it (seed 19, 6456).
+    // Positions are those of the driving gear; the driven one lags by the transmission error, and the tip edges of the two runs differ by as much.
+    // With lever arms r_b1 both runs agree within 1e-14, with those of edges 2.4 mm outside within 0.80 of the lag (seed 19, 6456).
     let lags = follows_tip_edges(table);
     let follows = Follows { exchanged: true, lags, ..Follows::default() };
     let bounds = bounds_of_roles(table);

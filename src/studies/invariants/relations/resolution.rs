@@ -39,8 +39,8 @@ fn finer_positions(subject: &Subject<'_>) -> RelationOutcome {
 
 fn finer(subject: &Subject<'_>, key: &str, by: f64, of_error: f64) -> RelationOutcome {
     let table = subject.table;
-    // What wear makes of temperatures and limits of pressure is no matter of one resolution.
-    // Where contact is cut off, what the rounding of a tip removes there is that of the nearest flank points.
+    // Temperatures and pressure limits make wear depend on further resolutions. Where contact is cut off, the rounding of a tip removes the wear of
+    // the nearest flank points only.
     if !follows_tip_edges(table) || is_severe(table) || has_heat_or_oil(table) || !takes_stable_steps(subject.record) {
         return RelationOutcome::NotOfThisScene;
     }

@@ -50,9 +50,8 @@ pub(super) const RELATIONS: &[SceneRelation] = &[
 /// % of the depth, 5546 0.07 % of the pressure.
 const OF_STEP_LENGTHS: f64 = 1e-2;
 
-/// Adaptive steps are chosen by the stiffness of the rate, whose estimate ends at a threshold: the last bits may decide on other
-/// steps, of which one more or
-/// less moves the depth by a part of what they promise.
+/// Bounds with adaptive steps. Their length follows from an estimate of the stiffness of the rate with a threshold, so that the last bits may change
+/// the steps; one step more or less changes the depth by a part of the tolerance.
 fn bounds(subject: &Subject<'_>, other: &RunRecord) -> Bounds {
     let [mine, theirs] = [subject.record, other].map(|record| &record.summary.work);
     let same_steps = mine.wear_steps == theirs.wear_steps && mine.rejected_steps == theirs.rejected_steps;

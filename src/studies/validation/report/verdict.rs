@@ -37,7 +37,7 @@ impl Verdict {
     ];
 
     pub(super) fn of_quantity(quantity: &QuantityRecord) -> Self {
-        // Nothing is missing to compare the number: nobody asked for a comparison.
+        // Reported only: no comparison was asked for.
         let is_only_reported =
             quantity.criterion == Criterion::Reported && quantity.value.is_some() && quantity.remark.is_none();
         match (quantity.as_expected(), quantity.standing) {
