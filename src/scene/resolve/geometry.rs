@@ -34,10 +34,10 @@ pub(super) fn check(spec: &PairSpec, slices: Option<SliceSettings>, findings: &m
     }
 }
 
-/// More teeth than this do not lie side by side over a face width.
+/// Greatest number of teeth side by side over a face width.
 const GREATEST_OVERLAP: f64 = 1000.0;
 
-/// The middles of the outermost slices are (n − 1)/n of the face width apart, and so much of the overlap they have.
+/// Checks the slices: the middles of the outermost ones are (n − 1)/n of the face width apart, and have that part of the overlap.
 fn check_slices(pair: &GearPair, count: usize, findings: &mut Findings) {
     let (contact_ratio, overlap_ratio) = (pair.path.contact_ratio(), pair.overlap_ratio());
     if overlap_ratio > GREATEST_OVERLAP {
@@ -55,11 +55,11 @@ fn check_slices(pair: &GearPair, count: usize, findings: &mut Findings) {
     }
 }
 
-/// Finds the key of a file that has made an error of the geometry.
+/// Finder of the key that causes an error of the geometry.
 struct ErrorPlace<'a> {
     spec: &'a PairSpec,
     findings: &'a Findings,
-    /// A factor as the file gives it over one of the normal module: factors of the file are of the module that it gives.
+    /// Ratio of a factor in the file, of the module given there, to the factor of the normal module.
     factor_scale: f64,
 }
 
@@ -160,14 +160,14 @@ fn too_long(gear: Gear, modification: &str, length_mm: f64, available_mm: f64) -
 }
 
 impl ErrorPlace<'_> {
-    /// The tip is mended where the file gives it; otherwise the profile shift decides.
+    /// Key of the tip, where the file gives it, else of the profile shift.
     fn tip_key(&self, gear: Gear) -> String {
         let tip = key_of(gear, "tip_diameter_mm");
         let is_given = self.spec.gears[gear].tip_diameter_mm.is_some() && self.findings.is_in_file(&tip);
         if is_given { tip } else { key_of(gear, "profile_shift") }
     }
 
-    /// The key of the centre distance and what it says; where that follows from the backlash, the backlash mends it.
+    /// Key and meaning of the centre distance; the backlash where it follows from that.
     fn centre(&self) -> (&'static str, String) {
         let key = centre_distance::KEYS.into_iter().find(|key| self.findings.is_in_file(key));
         match key.unwrap_or("pair.centre_distance_mm") {
@@ -294,12 +294,12 @@ fn at_least(limit: f64) -> f64 {
     (limit * 1e4).ceil() / 1e4
 }
 
-/// A factor of the normal module as the file has it, without the digits of the conversion.
+/// Factor of the normal module in terms of the file, without the digits of the conversion.
 fn of_file(factor: f64, factor_scale: f64) -> String {
     number((factor / factor_scale * 1e10).round() / 1e10)
 }
 
-/// A derived length without the digits of its rounding.
+/// Derived length without rounding errors.
 fn short(length_mm: f64) -> String {
     format!("{} mm", (length_mm * 1e4).round() / 1e4)
 }

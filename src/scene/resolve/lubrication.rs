@@ -30,7 +30,7 @@ const CLASSES: [(u32, f64); 13] = [
 ];
 /// Rq over Ra of heights that are spread normally, √(π/2).
 const RQ_OVER_RA: f64 = 1.253_314_137_315_5;
-/// Where the roughness term of Benedict and Kelley's friction has its pole, µm.
+/// Pole of the roughness term of Benedict and Kelley's friction, µm.
 const ROUGHEST_OF_BENEDICT_KELLEY_UM: f64 = 1.27;
 
 /// Chooses what the tables leave open; `Some(None)` where neither films nor losses are needed.

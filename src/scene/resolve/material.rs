@@ -1,4 +1,4 @@
-//! Material of each gear: how it deforms and conducts heat.
+//! Material of each gear: elastic and thermal.
 
 use super::temperature;
 use crate::gear::{Gear, PerGear};
@@ -14,11 +14,11 @@ const ROOM_C: f64 = 23.0;
 
 /// The materials of both gears.
 pub(super) struct Materials {
-    /// How they deform, for now as at room temperature.
+    /// Elastic materials, at first at room temperature.
     pub elastic: PerGear<Material>,
-    /// How they conduct heat.
+    /// Thermal materials.
     pub thermal: PerGear<ThermalMaterial>,
-    /// How Young's modulus follows the temperature of the teeth, MPa; none where it is given.
+    /// Young's modulus over the temperature of the teeth, MPa; `None` where it is a constant.
     pub modulus: PerGear<Option<TemperatureCurve>>,
 }
 
@@ -106,7 +106,7 @@ fn given_constants(of: &GearMaterialFile) -> [(&'static str, bool); 7] {
 fn over(above: GearMaterialFile, below: &GearMaterialFile) -> GearMaterialFile {
     GearMaterialFile {
         preset: above.preset.or(below.preset),
-        // One stands for the other.
+        // Young's modulus is a constant or a curve: giving one replaces the other.
         young_modulus_GPa: above
             .young_modulus_GPa
             .or(below.young_modulus_GPa.filter(|_| above.young_modulus_curve.is_none())),
@@ -120,7 +120,7 @@ fn over(above: GearMaterialFile, below: &GearMaterialFile) -> GearMaterialFile {
     }
 }
 
-/// E over temperature, MPa.
+/// Young's modulus over temperature, MPa.
 fn modulus_curve(
     file: &ModulusCurveFile,
     key: &str,

@@ -33,7 +33,7 @@ use crate::gear_mesh::settings::{Body, BodySettings, NO_WEBS};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::simulation::settings::{Numerics, Operation};
 
-/// Keys that other files have, and what to do with those.
+/// Keys of other files, each with the command that reads them.
 const OF_OTHER_FILES: &[(&str, &str)] =
     &[("mesh", "a gear pair, [pair]; gearwear fem runs a problem with a mesh of its own")];
 
@@ -43,11 +43,11 @@ pub(super) fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
     resolve_table(table, findings)
 }
 
-/// Resolves a scene file that was read before; `findings` know where its keys stand.
+/// Resolves a parsed scene file; `findings` know where its keys stand.
 pub(super) fn resolve_table(table: Table, mut findings: Findings) -> Result<Resolved, Vec<Problem>> {
     let format = FileShape { root: Node::root(schema()), of_other_files: OF_OTHER_FILES };
     let sound = with_preset(shape::check(format, &table, &mut findings));
-    // A value outside its range is a suspect too, so the slips are looked for in the file as it is.
+    // Slips of unit are looked for in the file as it is, since they may exceed the allowed range.
     let slips = unit_slip::find(&with_preset(table));
 
     let resolved = text::typed::<SceneFile>(sound, &mut findings).and_then(|file| choose(file, &mut findings));
@@ -85,13 +85,13 @@ pub(super) fn resolve_table(table: Table, mut findings: Findings) -> Result<Reso
     }
 }
 
-/// The scene with its preset, if any, put below what the file itself says.
+/// Scene with the values of its preset, if any, where the file has none.
 fn with_preset(mut scene: Table) -> Table {
     let Some(Value::Table(pair)) = scene.get_mut("pair") else { return scene };
     let preset = pair.get("preset").and_then(Value::as_str).and_then(presets::find);
     if let Some(preset) = preset {
         pair.remove("preset");
-        // What the file says in another way replaces the preset's, whichever way that is.
+        // Keys of the file also replace alternative keys of the preset.
         let mut below = Table::from_iter([("pair".to_owned(), Value::Table(preset.pair()))]);
         for key in draft::keys_of(pair, "pair") {
             for other in draft::other_ways_to_say(&key) {
@@ -104,7 +104,7 @@ fn with_preset(mut scene: Table) -> Table {
     scene
 }
 
-/// Adds what `above` does not say itself.
+/// Adds the keys of `below` that `above` does not have.
 fn lay_below(above: &mut Table, below: Table) {
     for (key, value) in below {
         match (above.get_mut(&key), value) {
@@ -117,7 +117,7 @@ fn lay_below(above: &mut Table, below: Table) {
     }
 }
 
-/// Refuses bodies that the coupling of slices cannot have, and warns of webs that the run does not read.
+/// Refuses bodies that do not fit the coupling of the slices, and warns of webs that the run does not use.
 fn check_bodies(
     fem: Option<BodySettings>,
     slices: Option<SliceSettings>,
@@ -146,7 +146,7 @@ fn choose_numerics(
 ) -> Option<Numerics> {
     let surface = contact.map(|contact| contact.surface);
     let finely_resolved = matches!(surface, Some(SurfaceKind::Fem | SurfaceKind::HalfSpace));
-    // A life may end within a small part of the duration.
+    // The life may be a small part of the duration.
     let adaptive = finely_resolved || is_severe || operation.stop.are_set();
     let tip_contact = contact.is_some_and(|contact| contact.tip_contact);
     let numerics = settings::numerics(file, operation.pinion_revolutions, adaptive, tip_contact, findings);

@@ -1,5 +1,5 @@
-//! Hands the runs of all cases to the threads. Each run has one thread of its own, so that its wall time is its own; results never
-//! depend on which thread took it.
+//! Distribution of the runs of all cases over threads. Each run has one thread, so that its wall time is meaningful; results do not depend on the
+//! thread.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -52,7 +52,7 @@ pub(crate) fn carry_out(cases: &[&ValidationCase], threads: usize, observer: &dy
     let total = jobs.len();
     let (after, mut first): (Vec<Job>, Vec<Job>) =
         jobs.into_iter().partition(|job| cases[job.case].file.run[job.run].calibration.is_some());
-    // Long ones first, so that no thread is left with one at the end.
+    // Long runs first, so that none is left to the end.
     first.sort_by_key(|job| match cases[job.case].file.run[job.run].command {
         CaseCommand::Invariants => 0,
         CaseCommand::Calibrate => 1,
@@ -78,7 +78,7 @@ pub(crate) fn carry_out(cases: &[&ValidationCase], threads: usize, observer: &dy
                 "runs",
                 &format!(", the last of {}", case.name),
             );
-            // What was running when the user stopped it is not its result.
+            // A run that was interrupted has no result.
             (!observer.interrupted()).then_some(executed)
         });
         for (job, executed) in jobs.iter().zip(executed) {
@@ -94,8 +94,7 @@ fn made_by<'a>(case: &ValidationCase, runs: &'a [Members], name: &str) -> Option
     runs[index].executed.first()?.as_ref()?.calibration.as_ref()
 }
 
-/// Does `work` for every job on so many threads, each with a pool of one thread for whatever runs in parallel inside;
-/// results in the order of the jobs.
+/// Calls `work` for every job on `threads` threads, each with a pool of one thread; results in the order of the jobs.
 fn spread<T: Send>(jobs: &[Job], threads: usize, work: impl Fn(&Job) -> T + Sync) -> Vec<T> {
     let next = AtomicUsize::new(0);
     let results: Mutex<Vec<(usize, T)>> = Mutex::new(Vec::with_capacity(jobs.len()));
@@ -111,7 +110,7 @@ fn spread<T: Send>(jobs: &[Job], threads: usize, work: impl Fn(&Job) -> T + Sync
         for _ in 0..threads.clamp(1, jobs.len().max(1)) {
             scope.spawn(|| match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
                 Ok(pool) => pool.install(hand_out),
-                // Without a pool of its own a run shares the program's: slower to time, the same results.
+                // Without its own pool a run uses the global one: its time is less reliable, its results are the same.
                 Err(_) => hand_out(),
             });
         }

@@ -7,7 +7,7 @@ use crate::results::run::{CycleSummary, FlankRecord, RunRecord};
 /// Greatest relative difference between the loads of the pairs together and the load to carry.
 pub(super) const MOST_IMBALANCE: f64 = 1e-6;
 
-/// The first thing about the run that cannot be; `None` where all is well.
+/// First violated condition; `None` where the run is sound.
 pub(crate) fn fault(record: &RunRecord) -> Option<String> {
     of_equilibria("new", &record.summary.new)
         .or_else(|| of_equilibria("worn", &record.summary.worn))

@@ -12,7 +12,7 @@ use super::markup::{items, link};
 use super::words::as_written;
 use crate::studies::validation::record::{CaseRecord, RunOutcome, StabilityPoint, ValidationRecord};
 
-/// How many times the least value the greatest must be for a logarithmic axis.
+/// Least ratio of the greatest to the least value for a logarithmic axis.
 const LOGARITHMIC_FROM: f64 = 10.0;
 
 /// The sign of each outcome.

@@ -1,4 +1,4 @@
-//! How many cases and quantities came out in which way.
+//! Counts of cases and quantities by verdict.
 
 use super::verdict::Verdict;
 use super::words::{counted, time};
@@ -84,7 +84,7 @@ pub(super) fn sentence(record: &ValidationRecord) -> String {
     )
 }
 
-/// Counts with what they are of; those of nothing are left out.
+/// Counts with their names, without those that are 0.
 fn listed(counts: &[(usize, &str)]) -> String {
     let some = counts.iter().filter(|(count, _)| *count > 0);
     some.map(|(count, what)| format!("{count} {what}")).collect::<Vec<_>>().join(", ")

@@ -1,11 +1,11 @@
-//! In which of a few ways a case or a quantity came out, with the word and the sign that each is shown with.
+//! Verdict of a case or a quantity, with its word and sign.
 //!
 //! The record keeps apart what *holds* (physics) and what is *as expected* (the exit status). Readers need one word for
 //! both: a statement that does not hold and is not expected to is no news, the same one holding all of a sudden is.
 
 use crate::studies::validation::record::{CaseRecord, Criterion, QuantityRecord, Standing};
 
-/// How a case or a quantity came out, the most urgent first.
+/// Verdict of a case or a quantity, the most urgent first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Verdict {
     /// The case could not be carried out to its end.
@@ -62,7 +62,7 @@ impl Verdict {
     pub(super) fn of_quantities(quantities: &[&QuantityRecord]) -> Self {
         let each: Vec<Self> = quantities.iter().map(|quantity| Self::of_quantity(quantity)).collect();
         let worst = each.iter().min().copied().unwrap_or(Self::Reported);
-        // A quantity that cannot be compared, beside one that holds, is a mark on the whole, not its verdict.
+        // A quantity that cannot be compared does not decide the verdict of a case with one that holds.
         if worst == Self::CannotBeCompared && each.contains(&Self::Holds) { Self::Holds } else { worst }
     }
 

@@ -4,7 +4,7 @@ use super::verdict::Verdict;
 use crate::report::html::number::{count, figure, given, percent, significant, to_digits};
 use crate::studies::validation::record::{CaseRecord, ComparedState, Criterion, QuantityRecord, Standing};
 
-/// Stands where there is no number.
+/// Placeholder of a missing number.
 pub(super) const NONE: &str = "–";
 
 /// The value with its unit; a statement's in words.
@@ -17,23 +17,23 @@ pub(super) fn value(quantity: &QuantityRecord) -> String {
     }
 }
 
-/// Four digits or so; whole numbers keep all of theirs.
+/// Number with three or four digits; whole numbers with all.
 fn digits(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e6 { given(value) } else { figure(value) }
 }
 
-/// Digits enough to see a tenth of the tolerance.
+/// Number with digits down to a tenth of the tolerance.
 fn resolved(value: f64, tolerance: f64) -> String {
     let needed = (10.0 * value / tolerance).abs().log10().ceil();
     if needed > 4.0 && needed < 12.0 { significant(value, needed as usize) } else { digits(value) }
 }
 
-/// Two digits, which is what is known of an uncertainty.
+/// Uncertainty with two digits.
 pub(super) fn rough(value: f64) -> String {
     as_written(to_digits(value, 2))
 }
 
-/// A bound or a setting as a person writes it: no digits that say nothing, powers of ten as such.
+/// Bound or setting in its shortest form, with powers of ten.
 pub(super) fn as_written(value: f64) -> String {
     let text = given(value);
     match text.split_once('\u{2009}') {
@@ -93,7 +93,7 @@ pub(super) fn state(state: &ComparedState) -> String {
     }
 }
 
-/// How far it is from its reference: relative where that makes sense.
+/// Error of a quantity: relative where that makes sense.
 pub(super) fn error(quantity: &QuantityRecord) -> String {
     match (quantity.relative_error, quantity.error) {
         (Some(relative), _) if relative.is_finite() => percent(relative),
@@ -112,7 +112,7 @@ pub(super) fn share(share: Option<f64>) -> String {
     }
 }
 
-/// Everything about a quantity that is not as it should be, in a line.
+/// Line about a quantity that is not as expected.
 pub(super) fn deviation(quantity: &QuantityRecord) -> String {
     let mut text = match (quantity.value, quantity.criterion) {
         (None, _) => "could not be computed".to_owned(),
@@ -131,12 +131,12 @@ pub(super) fn deviation(quantity: &QuantityRecord) -> String {
     text
 }
 
-/// The share of its tolerance or bound that a quantity uses: 1 is where it stops to hold.
+/// Share of the tolerance or bound that a quantity uses; above 1 it does not hold.
 ///
 /// Beside the record's own shares, of references and of upper bounds: of a lower bound as bound ÷ value, of a range by the way
 /// from its middle.
 pub(super) fn used(quantity: &QuantityRecord) -> Option<f64> {
-    // Of a number of things one more or less is no margin.
+    // Counts have no margin.
     if let Criterion::AtLeast { bound } | Criterion::AtMost { bound } = quantity.criterion
         && quantity.unit.is_empty()
         && bound.fract() == 0.0
@@ -155,8 +155,8 @@ pub(super) fn used(quantity: &QuantityRecord) -> Option<f64> {
     share.filter(|share| share.is_finite())
 }
 
-/// The quantity that uses most of its tolerance, and how much: of those that are missed, if there are any. Counts of work are
-/// kept close to what they are, and say nothing of accuracy: they are named only where one is missed.
+/// Quantity that uses most of its tolerance, and the share: of those that are missed, if any. Work counts are named only where one is missed, since
+/// their bounds are close to their values.
 pub(super) fn tightest<'a>(
     quantities: impl Iterator<Item = &'a QuantityRecord> + Clone,
 ) -> Option<(&'a QuantityRecord, f64)> {
@@ -170,7 +170,7 @@ pub(super) fn tightest<'a>(
     })
 }
 
-/// The greatest of the work counts: what the time went into.
+/// Greatest of the work counts.
 pub(super) fn main_work(case: &CaseRecord) -> String {
     let most = case.work.iter().reduce(|most, next| if next.1 > most.1 { next } else { most });
     most.map_or_else(|| NONE.to_owned(), |(name, &counted)| format!("{} {}", count(counted), counted_thing(name)))
