@@ -1,8 +1,8 @@
 //! The main figures of a run, as a table for the terminal.
 
 use crate::report::headline;
-use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError, WearAtLimit};
-use crate::results::run::{HelicalSummary, OverWidthSummary, Summary, WearSummary};
+use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError};
+use crate::results::run::{HelicalSummary, Summary};
 
 pub(super) fn table(summary: &Summary) -> String {
     let (new, worn) = (&summary.new, &summary.worn);
@@ -28,39 +28,42 @@ pub(super) fn table(summary: &Summary) -> String {
     text
 }
 
-/// What is asked first: wear and how far it is known, flank pressure, transmission error, and what to do about the tip edges.
+/// First lines: wear and its uncertainty, flank pressure, transmission error, and advice on the tip edges.
 fn headline(summary: &Summary) -> String {
     let (new, worn, total) = (&summary.new, &summary.worn, &summary.error.total);
     let scatter = format!("± {}", headline::scatter_percent());
-    let scatters = |wear: &WearSummary| if wear.peak_wear_um > 0.0 { scatter.as_str() } else { "–" };
-    let off =
-        |error: Option<f64>| error.map_or_else(|| "–".to_owned(), |error| format!("± {}", two_digits(100.0 * error)));
-    let errors = |name, [one, other]: [Option<f64>; 2]| row(name, [&off(one), &off(other)]);
+    let peaks = [summary.pinion.peak_wear_um, summary.wheel.peak_wear_um];
+    let scatters = peaks.map(|peak_wear_um| if peak_wear_um > 0.0 { scatter.as_str() } else { "–" });
     let te = [&new.transmission_error_um, &worn.transmission_error_um].map(|te| te.peak_to_peak);
     let is_verified = total.peak_wear.pinion.or(total.peak_wear.wheel).is_some();
-    let of_computation = "  error of the computation, %";
     let mut text = [
         format!("{}\n\n{}", summary.title, row("", ["pinion", "wheel"])),
-        figures("maximum wear, µm", [summary.pinion.peak_wear_um, summary.wheel.peak_wear_um]),
-        row("  scatter of k in repeated tests, %", [scatters(&summary.pinion), scatters(&summary.wheel)]),
+        figures("maximum wear, µm", peaks),
+        row("  scatter of k in repeated tests, %", scatters),
     ]
     .concat();
     if is_verified {
-        text.push_str(&errors(of_computation, [total.peak_wear.pinion, total.peak_wear.wheel]));
+        text.push_str(&errors_of_computation([total.peak_wear.pinion, total.peak_wear.wheel]));
     }
     text.push_str(&row("", ["new", "worn"]));
     text.push_str(&figures("flank pressure, MPa", [new.flank_pressure_MPa, worn.flank_pressure_MPa]));
     if is_verified {
-        text.push_str(&errors(of_computation, [total.flank_pressure.new, total.flank_pressure.worn]));
+        text.push_str(&errors_of_computation([total.flank_pressure.new, total.flank_pressure.worn]));
     }
     text.push_str(&figures("transmission error, peak to peak, µm", te));
     if is_verified {
-        text.push_str(&errors(of_computation, [None, total.transmission_error_peak_to_peak]));
+        text.push_str(&errors_of_computation([None, total.transmission_error_peak_to_peak]));
     }
     if let Some(tips) = headline::tip_edges(summary) {
         text.push_str(&format!("\n  {}\n", tips.replacen(". ", ".\n  ", 1)));
     }
     text
+}
+
+fn errors_of_computation(errors: [Option<f64>; 2]) -> String {
+    let [one, other] =
+        errors.map(|error| error.map_or_else(|| "–".to_owned(), |error| format!("± {}", two_digits(100.0 * error))));
+    row("  error of the computation, %", [&one, &other])
 }
 
 /// More of the wear of both flanks.
@@ -80,38 +83,42 @@ fn details(summary: &Summary) -> String {
     .concat()
 }
 
-/// What the slices tell; nothing where all sections are alike.
+/// Variation over the face width; nothing where all sections are alike.
 fn over_the_width(helical: Option<&HelicalSummary>) -> String {
     let Some(helical) = helical else { return String::new() };
-    let per_cent =
-        |of: fn(&OverWidthSummary) -> f64| [&helical.wear.pinion, &helical.wear.wheel].map(|w| 100.0 * of(w));
+    let wear = [&helical.wear.pinion, &helical.wear.wheel];
     let orders = [&helical.mesh_orders_new_um, &helical.mesh_orders_worn_um];
     [
         figures("face load factor K_Hbeta", [helical.K_Hbeta_new, helical.K_Hbeta_worn]),
         figures("first mesh order, µm", orders.map(|orders| orders.first().copied().unwrap_or_default())),
         row("over the face width", ["pinion", "wheel"]),
-        figures("variation of root wear, %", per_cent(|w| w.root_variation)),
-        figures("variation of tip wear, %", per_cent(|w| w.tip_variation)),
-        figures("variation of both together, %", per_cent(|w| w.root_tip_variation)),
+        figures("variation of root wear, %", wear.map(|w| 100.0 * w.root_variation)),
+        figures("variation of tip wear, %", wear.map(|w| 100.0 * w.tip_variation)),
+        figures("variation of both together, %", wear.map(|w| 100.0 * w.root_tip_variation)),
     ]
     .concat()
 }
 
-/// How far the run is from finite elements, or why that is not known.
+/// Difference of the run from finite elements, or why it is not known.
 fn verified(total: &TotalError) -> String {
-    let within = |error: Option<f64>| error.map_or_else(|| "–".to_owned(), |error| two_digits(100.0 * error));
-    let both = |name, errors: &ErrorPerGear| row(name, [&within(errors.pinion), &within(errors.wheel)]);
-    let one = |name, error| format!("  {name:38}{:>12}\n", within(error));
     if total.peak_wear.pinion.or(total.peak_wear.wheel).is_none() {
         return format!("\n  {}\n", total.how);
     }
     [
         row("difference from finite elements", ["pinion", "wheel"]),
-        both("wear of the tip edge, %", &total.tip_edge_wear),
-        both("wear over the flank (rms), %", &total.profile),
-        one("pressure between the tip edges (rms), %", total.pressure_between_tips),
+        of_both_gears("wear of the tip edge, %", &total.tip_edge_wear),
+        of_both_gears("wear over the flank (rms), %", &total.profile),
+        format!("  {:38}{:>12}\n", "pressure between the tip edges (rms), %", in_percent(total.pressure_between_tips)),
     ]
     .concat()
+}
+
+fn of_both_gears(name: &str, errors: &ErrorPerGear) -> String {
+    row(name, [&in_percent(errors.pinion), &in_percent(errors.wheel)])
+}
+
+fn in_percent(error: Option<f64>) -> String {
+    error.map_or_else(|| "–".to_owned(), |error| two_digits(100.0 * error))
 }
 
 /// The error estimates of the maximum wear; nothing where none was made.
@@ -134,16 +141,16 @@ fn estimated_errors(error: &ErrorSummary) -> String {
 /// The maximum wear with limits of severe wear a tenth lower and higher; nothing where it is not known.
 fn at_other_limits(error: &ErrorSummary) -> String {
     let Some(limit) = &error.severe_limit else { return String::new() };
-    let peaks = |at: &WearAtLimit| [at.pinion.peak_wear_um, at.wheel.peak_wear_um];
+    let [low, high] = [&limit.low, &limit.high].map(|at| [at.pinion.peak_wear_um, at.wheel.peak_wear_um]);
     [
         format!("\n{}", row("maximum wear, µm, with", ["pinion", "wheel"])),
-        figures("a limit of severe wear 10 % lower", peaks(&limit.low)),
-        figures("a limit of severe wear 10 % higher", peaks(&limit.high)),
+        figures("a limit of severe wear 10 % lower", low),
+        figures("a limit of severe wear 10 % higher", high),
     ]
     .concat()
 }
 
-/// An estimate with two significant digits: more it does not have.
+/// Estimate with two significant digits.
 pub(super) fn two_digits(value: f64) -> String {
     let magnitude = value.abs();
     let decimals = if magnitude > 0.0 { (1 - magnitude.log10().floor() as i32).clamp(0, 4) as usize } else { 0 };
@@ -168,6 +175,11 @@ pub(super) fn digits(value: f64) -> String {
     }
     let decimals = if magnitude == 0.0 { 0 } else { (3 - magnitude.log10().floor() as i32).max(0) as usize };
     format!("{value:.decimals$}")
+}
+
+/// A figure, or a dash where there is none.
+pub(super) fn or_dash(value: Option<f64>) -> String {
+    value.map_or_else(|| "–".to_owned(), digits)
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use super::bodies::in_words;
 use super::file::FemProblemFile;
 use super::groups::Groups;
-use super::meshed_groups::{Bodies, place};
+use super::meshed_groups::{MeshedBodies, place};
 use super::owned_cells::{BodyNodes, owned_cells};
 use crate::fem::space::hexahedron::{HexahedronKind, edges, faces, is_sound};
 use crate::fem::space::loads::spread_shares;
@@ -16,7 +16,7 @@ use crate::fem::space::problem::{SpaceElement, SpaceSolid};
 use crate::mesh::Mesh;
 use crate::scene::findings::Findings;
 
-/// What bodies in space are of.
+/// Cells allowed in bodies in space.
 const ALLOWED: &str = "hexahedra of 8 or 20 nodes";
 
 /// The bodies of a problem in space.
@@ -129,7 +129,7 @@ fn sorted<const N: usize>(mut nodes: [u32; N]) -> [u32; N] {
     nodes
 }
 
-impl Bodies for SpaceBodies {
+impl MeshedBodies for SpaceBodies {
     const DIRECTIONS: usize = 3;
     const CARRIER: &'static str = "quadrilaterals";
     const PART: &'static str = "face";

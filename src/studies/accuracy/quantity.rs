@@ -1,4 +1,4 @@
-//! What errors are measured of when models are compared.
+//! Quantities whose errors are compared.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use serde::Serialize;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub(crate) enum Quantity {
+pub(crate) enum ComparedQuantity {
     /// relative L2 error of the depth over the whole flank, the larger of both gears'
     WearProfile,
     /// relative L2 error of the depth over the pinion's flank
@@ -46,14 +46,14 @@ pub(crate) enum Quantity {
     WornFaceLoadFactor,
 }
 
-/// Its name in results.
-impl fmt::Display for Quantity {
+/// Name in results.
+impl fmt::Display for ComparedQuantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.serialize(f)
     }
 }
 
-impl Quantity {
+impl ComparedQuantity {
     /// All of them, in the order of the tables; the last three are of pairs with slices, half-width is of the others.
     pub(crate) const ALL: [Self; 17] = [
         Self::WearProfile,
@@ -75,7 +75,7 @@ impl Quantity {
         Self::WornFaceLoadFactor,
     ];
 
-    /// What it is, for people.
+    /// Title for readers.
     pub(crate) fn title(self) -> &'static str {
         match self {
             Self::WearProfile => "Wear profile, both gears",

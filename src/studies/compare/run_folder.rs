@@ -1,4 +1,4 @@
-//! What a finished run left behind, as far as a comparison reads it: `summary.json` and `profiles.csv`.
+//! Files of a finished run that a comparison reads: `summary.json` and `profiles.csv`.
 //!
 //! `scene.toml` lies beside them; its SHA-256 is the summary's scene hash, so that a scene changed after the run is noticed.
 
@@ -15,10 +15,10 @@ use crate::scene::Resolved;
 const SUMMARY: &str = "summary.json";
 const PROFILES: &str = "profiles.csv";
 const SCENE: &str = "scene.toml";
-/// Times this close to each other, relatively, are the same: hours and revolutions round differently.
+/// Relative difference up to which times are equal: hours and revolutions round differently.
 const SAME_TIME: f64 = 1e-9;
 
-/// What is wrong with the folder of a run.
+/// Faults of the folder of a run.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum RunFolderError {
     #[error("{} cannot be read: {reason}; allowed: the folder of a finished gearwear run", path.display())]
@@ -30,16 +30,16 @@ pub(crate) enum RunFolderError {
     #[error("{}: line {line}: found {found}; allowed: {allowed}", path.display())]
     Damaged {
         path: PathBuf,
-        /// Its line, from 1.
+        /// Line, from 1.
         line: u64,
         found: String,
         allowed: String,
     },
 }
 
-/// What is read of the summary.
+/// Fields read from the summary.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(crate) struct Summary {
+pub(crate) struct RunFolderSummary {
     pub title: String,
     /// How long the run was, in pinion revolutions.
     pub revolutions: f64,
@@ -47,9 +47,9 @@ pub(crate) struct Summary {
     scene_hash: String,
 }
 
-/// What is read of a row of the profiles.
+/// Fields read from a row of the profiles.
 #[derive(Debug, Clone, Copy, Deserialize)]
-struct ProfileRow {
+struct KeptProfileRow {
     gear: Gear,
     wear_um: f64,
     revolutions: f64,
@@ -57,7 +57,7 @@ struct ProfileRow {
 
 /// Wear of both flanks at a snapshot.
 #[derive(Debug, Clone, PartialEq)]
-struct Snapshot {
+struct FlankSnapshot {
     revolutions: f64,
     wear_um: PerGear<Vec<f64>>,
 }
@@ -65,8 +65,8 @@ struct Snapshot {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RunFolder {
     path: PathBuf,
-    pub summary: Summary,
-    snapshots: Vec<Snapshot>,
+    pub summary: RunFolderSummary,
+    snapshots: Vec<FlankSnapshot>,
 }
 
 impl RunFolder {
@@ -78,7 +78,7 @@ impl RunFolder {
     pub(crate) fn read(folder: &Path) -> Result<Self, RunFolderError> {
         let summary = summary(folder)?;
         let snapshots = snapshots(&folder.join(PROFILES))?;
-        // The scene is resolved by others, who say better what is wrong with it; that it is there belongs here.
+        // The scene is resolved elsewhere, with better messages; here it must only exist.
         read(&folder.join(SCENE))?;
         Ok(Self { path: folder.to_owned(), summary, snapshots })
     }
@@ -104,21 +104,22 @@ impl RunFolder {
 
     /// Wear depth of each point of a flank, slice after slice, at the snapshot after `revolutions`, if there is one.
     pub(crate) fn wear_um(&self, gear: Gear, revolutions: f64) -> Option<&[f64]> {
-        let same = |snapshot: &&Snapshot| (snapshot.revolutions / revolutions - 1.0).abs() <= SAME_TIME;
-        self.snapshots.iter().find(same).map(|snapshot| snapshot.wear_um[gear].as_slice())
+        let mut snapshots = self.snapshots.iter();
+        let found = snapshots.find(|snapshot| (snapshot.revolutions / revolutions - 1.0).abs() <= SAME_TIME);
+        found.map(|snapshot| snapshot.wear_um[gear].as_slice())
     }
 }
 
-/// What `S` holds of the summary of a finished run.
+/// Fields of `S` from the summary of a finished run.
 pub(crate) fn summary<S: DeserializeOwned>(folder: &Path) -> Result<S, RunFolderError> {
     #[derive(Deserialize)]
-    struct Ended<S> {
+    struct StoppedSummary<S> {
         stopped: String,
         #[serde(flatten)]
         rest: S,
     }
     let path = folder.join(SUMMARY);
-    let ended: Ended<S> = serde_json::from_str(&read(&path)?).map_err(|error| RunFolderError::Damaged {
+    let ended: StoppedSummary<S> = serde_json::from_str(&read(&path)?).map_err(|error| RunFolderError::Damaged {
         path: path.clone(),
         line: error.line() as u64,
         found: error.to_string(),
@@ -137,11 +138,11 @@ pub(crate) fn read(path: &Path) -> Result<String, RunFolderError> {
 }
 
 /// The wear in `profiles.csv`.
-fn snapshots(path: &Path) -> Result<Vec<Snapshot>, RunFolderError> {
+fn snapshots(path: &Path) -> Result<Vec<FlankSnapshot>, RunFolderError> {
     let text = read(path)?;
     let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let mut snapshots: Vec<Snapshot> = Vec::new();
-    for row in reader.deserialize::<ProfileRow>() {
+    let mut snapshots: Vec<FlankSnapshot> = Vec::new();
+    for row in reader.deserialize::<KeptProfileRow>() {
         let row = row.map_err(|error| RunFolderError::Damaged {
             path: path.to_owned(),
             line: error.position().map_or(0, csv::Position::line),
@@ -150,7 +151,7 @@ fn snapshots(path: &Path) -> Result<Vec<Snapshot>, RunFolderError> {
         })?;
         if snapshots.last().is_none_or(|last| last.revolutions != row.revolutions) {
             let wear_um = PerGear { pinion: Vec::new(), wheel: Vec::new() };
-            snapshots.push(Snapshot { revolutions: row.revolutions, wear_um });
+            snapshots.push(FlankSnapshot { revolutions: row.revolutions, wear_um });
         }
         if let Some(snapshot) = snapshots.last_mut() {
             snapshot.wear_um[row.gear].push(row.wear_um);

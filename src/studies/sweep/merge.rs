@@ -1,15 +1,15 @@
-//! One sweep from parts of it that were run elsewhere.
+//! Merges shards of a sweep.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::journal::{self, Contents, JournalError};
+use super::journal::{self, JournalContents, JournalError};
 use crate::studies::sweep::record::SweepRow;
 
-/// Missing combinations that are named.
+/// Greatest number of missing combinations named in a message.
 const MOST_NAMED: usize = 5;
 
-/// Why parts do not make a sweep.
+/// Errors of a merge.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum MergeError {
     #[error(transparent)]
@@ -17,9 +17,9 @@ pub(crate) enum MergeError {
     #[error("{} and {} are not parts of one sweep: {}", first.display(), other.display(), differences.join("; "))]
     OtherSweep {
         first: PathBuf,
-        /// The one that does not belong to it.
+        /// The folder of another sweep.
         other: PathBuf,
-        /// What differs, in the first and in the other.
+        /// Differences, in the first and in the other.
         differences: Vec<String>,
     },
     #[error("{} has another result than an earlier folder for {combination}", folder.display())]
@@ -38,12 +38,12 @@ pub(crate) enum MergeError {
 /// The whole sweep from the journals in `folders`, in any order.
 ///
 /// Parts may overlap, where their results are the same.
-pub(crate) fn merge(folders: &[PathBuf]) -> Result<Contents, MergeError> {
-    let parts: Vec<(&Path, Contents)> = folders
+pub(crate) fn merge(folders: &[PathBuf]) -> Result<JournalContents, MergeError> {
+    let parts: Vec<(&Path, JournalContents)> = folders
         .iter()
         .map(|folder| Ok((folder.as_path(), journal::read(folder)?)))
         .collect::<Result<_, JournalError>>()?;
-    let Some((first, Contents { identity, .. })) = parts.first() else {
+    let Some((first, JournalContents { identity, .. })) = parts.first() else {
         return Err(JournalError::NoSweep { folder: PathBuf::new() }.into());
     };
     let mut rows: BTreeMap<usize, SweepRow> = BTreeMap::new();
@@ -69,7 +69,7 @@ pub(crate) fn merge(folders: &[PathBuf]) -> Result<Contents, MergeError> {
     let combinations = identity.combinations();
     let missing: Vec<usize> = (0..combinations).filter(|index| !rows.contains_key(index)).collect();
     if missing.is_empty() {
-        return Ok(Contents { identity: identity.clone(), shard: None, rows });
+        return Ok(JournalContents { identity: identity.clone(), shard: None, rows });
     }
     let unfinished = parts.iter().filter_map(|(folder, part)| {
         let own: Vec<usize> = super::study::part(combinations, part.shard).collect();

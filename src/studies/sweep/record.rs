@@ -1,4 +1,4 @@
-//! Everything a sweep leaves behind, as plain data in the units of the output files: what its reports read.
+//! Record of a sweep in the units of the output files, which its reports are written from.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,8 +6,9 @@ use super::figures::{FIGURES, SweepFigure};
 use super::goal::{Goal, Optimum};
 use super::verification::{Chosen, RowVerification, SweepVerification};
 use crate::results::error::TotalError;
+use crate::scene::problem::number;
 
-/// Digits of a value between the ends of a range.
+/// Significant digits of a value between the ends of a range.
 const DIGITS: i32 = 12;
 
 /// How the values of a key are spaced.
@@ -19,7 +20,7 @@ pub(crate) enum Spacing {
     Even,
     /// By equal ratios, both ends included.
     Logarithmic,
-    /// As they are listed, rising.
+    /// Listed values, rising.
     Listed(Vec<f64>),
     /// Words as they are listed; the values are their places, from 0.
     Words(Vec<String>),
@@ -79,13 +80,13 @@ impl SweepAxis {
         (0..self.count).map(|index| self.value(index)).collect()
     }
 
-    /// As the user may write it: `pair.face_width_mm=10:30:21`.
+    /// Axis as the user may write it: `pair.face_width_mm=10:30:21`.
     pub(crate) fn as_given(&self) -> String {
-        let range = || format!("{}:{}:{}", plain(self.from), plain(self.to), self.count);
+        let range = format!("{}:{}:{}", number(self.from), number(self.to), self.count);
         let values = match &self.spacing {
-            Spacing::Even => range(),
-            Spacing::Logarithmic => format!("{}:log", range()),
-            Spacing::Listed(values) => values.iter().map(|value| plain(*value)).collect::<Vec<_>>().join(","),
+            Spacing::Even => range,
+            Spacing::Logarithmic => format!("{range}:log"),
+            Spacing::Listed(values) => values.iter().map(|value| number(*value)).collect::<Vec<_>>().join(","),
             Spacing::Words(words) => words.join(","),
         };
         format!("{}={values}", self.key)
@@ -104,18 +105,18 @@ impl SweepAxis {
         self.words()?.get(value as usize).map(String::as_str)
     }
 
-    /// A value as one would write it.
+    /// Value as text: a word, or a number in its shortest form.
     pub(crate) fn said(&self, value: f64) -> String {
-        self.word(value).map_or_else(|| plain(value), str::to_owned)
+        self.word(value).map_or_else(|| number(value), str::to_owned)
     }
 
-    /// For an axis of a plot, with the unit that ends the name of the key: `tip relief, amount, pinion and wheel, µm`.
+    /// Title of an axis of a plot, with the unit that ends the name of the key: `tip relief, amount, pinion and wheel, µm`.
     pub(crate) fn title(&self) -> String {
         let (name, unit) = self.name_and_unit();
         unit.map_or_else(|| name.clone(), |unit| format!("{name}, {unit}"))
     }
 
-    /// The same in two parts.
+    /// Name and unit apart.
     pub(crate) fn name_and_unit(&self) -> (String, Option<&'static str>) {
         let mut parts: Vec<String> = self.key.split('.').skip(1).map(|part| part.replace('_', " ")).collect();
         let Some(last) = parts.pop() else { return (self.key.clone(), None) };
@@ -137,10 +138,10 @@ impl SweepAxis {
     }
 }
 
-/// Names of keys that need that of their section before them.
+/// Last parts of keys that are clear only with the name of their section.
 const SAY_NOTHING_ALONE: [&str; 4] = ["coefficient", "surface", "model", "law"];
 
-/// How names of keys end, and the unit that it stands for.
+/// Suffixes of keys and their units.
 const UNITS: [(&str, &str); 20] = [
     (" N per mm um", "N/(mm·µm)"),
     (" MPa per mm", "MPa/mm"),
@@ -164,39 +165,33 @@ const UNITS: [(&str, &str); 20] = [
     (" K", "K"),
 ];
 
-/// A number as one would write it: `10`, `0.5`, `1e-17`.
-pub(crate) fn plain(value: f64) -> String {
-    let text = format!("{value:?}");
-    text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
-}
-
-/// A part of a sweep that is run by itself: every `of`-th combination, beginning with `number`.
+/// A shard: every `of`-th combination, beginning with `number`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Shard {
-    /// Which part, from 1.
+    /// Number of the part, from 1.
     pub number: usize,
     pub of: usize,
 }
 
-/// What makes a sweep this sweep: rows of two sweeps may stand in one table where all of this is the same.
+/// Identity of a sweep: rows of sweeps with equal identities can be merged.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct SweepIdentity {
     pub title: String,
     pub program_version: String,
     /// First 16 hexadecimal digits of the SHA-256 of the scene as given, resolved.
     pub scene_hash: String,
-    /// The same of what the file itself says: what it leaves open is chosen anew for each combination.
+    /// Hash of the scene file as given: what it leaves open is chosen anew for each combination.
     pub given_hash: String,
-    /// The same of the calibration and the stiffness curve that the scene names; empty where it names none.
+    /// Hash of the calibration and the stiffness curve that the scene names; empty where it names none.
     pub inputs_hash: String,
     pub error_estimate: bool,
-    /// Whether the scene asks by name for the verification, which the best rows and the corners then get.
+    /// Whether the scene sets `verify = true`: the best rows and the corners are then verified.
     pub verify: bool,
-    /// What is varied; the first key changes slowest.
+    /// Varied keys; the first changes slowest.
     pub axes: Vec<SweepAxis>,
     /// Names of the figures of a row, in order.
     pub figures: Vec<String>,
-    /// What is to be least; rows do not depend on it, so that it may be another one at the next start.
+    /// Figure to minimise; rows do not depend on it, so it may change at a restart.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub goal: Option<Goal>,
 }
@@ -206,7 +201,7 @@ impl SweepIdentity {
         self.axes.iter().map(|axis| axis.count).product()
     }
 
-    /// Which value each axis has in combination `index`, in the order of the axes.
+    /// Index of each axis's value in combination `index`, in the order of the axes.
     pub(crate) fn digits(&self, index: usize) -> Vec<usize> {
         let mut rest = index;
         let mut digits = vec![0; self.axes.len()];
@@ -230,24 +225,10 @@ impl SweepIdentity {
         said.join(", ")
     }
 
-    /// What is not the same in `other`, in words; empty where both are one sweep.
+    /// Differences from `other`, in words; empty where both are one sweep.
     pub(crate) fn differences(&self, other: &Self) -> Vec<String> {
-        let axes = |of: &Self| {
-            let said: Vec<String> = of.axes.iter().map(SweepAxis::as_given).collect();
-            said.join(" ")
-        };
-        let yes = |is: bool| if is { "yes" } else { "no" }.to_owned();
-        let all = [
-            ("program version", self.program_version.clone(), other.program_version.clone()),
-            ("what is varied", axes(self), axes(other)),
-            ("scene", self.given_hash.clone(), other.given_hash.clone()),
-            ("the resolved scene", self.scene_hash.clone(), other.scene_hash.clone()),
-            ("files that the scene names", self.inputs_hash.clone(), other.inputs_hash.clone()),
-            ("errors estimated", yes(self.error_estimate), yes(other.error_estimate)),
-            ("figures of a row", self.figures.join(" "), other.figures.join(" ")),
-        ];
         let mut differences: Vec<String> = Vec::new();
-        for (what, mine, theirs) in all {
+        for ((what, mine), (_, theirs)) in self.said().into_iter().zip(other.said()) {
             // The resolved scene differs wherever the scene does.
             let said_before = what == "the resolved scene" && self.given_hash != other.given_hash;
             if mine != theirs && !said_before {
@@ -256,15 +237,29 @@ impl SweepIdentity {
         }
         differences
     }
+
+    /// Parts of the identity with their names.
+    fn said(&self) -> [(&'static str, String); 7] {
+        let axes: Vec<String> = self.axes.iter().map(SweepAxis::as_given).collect();
+        [
+            ("program version", self.program_version.clone()),
+            ("what is varied", axes.join(" ")),
+            ("scene", self.given_hash.clone()),
+            ("the resolved scene", self.scene_hash.clone()),
+            ("files that the scene names", self.inputs_hash.clone()),
+            ("errors estimated", if self.error_estimate { "yes" } else { "no" }.to_owned()),
+            ("figures of a row", self.figures.join(" ")),
+        ]
+    }
 }
 
-/// What one combination came to.
+/// Result of one combination.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct SweepRow {
-    /// Which combination, from 0.
+    /// Number of the combination, from 0.
     pub index: usize,
     pub values: Vec<f64>,
-    /// Why there are no figures, on one line; `None` where the run was completed.
+    /// Reason why there are no figures, on one line; `None` where the run was completed.
     pub error: Option<String>,
     /// The figures, in the order of [`FIGURES`]; `None` where the scene does not have one.
     pub figures: Vec<Option<f64>>,
@@ -273,7 +268,7 @@ pub(crate) struct SweepRow {
     pub simulation_s: Option<f64>,
     /// Wall time of the whole combination, its verification apart, s.
     pub wall_s: f64,
-    /// What finite elements say of it; `None` where it is not verified.
+    /// Verification by finite elements; `None` where the row is not verified.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verification: Option<RowVerification>,
 }
@@ -284,16 +279,17 @@ impl SweepRow {
         self.figures.get(at).copied().flatten()
     }
 
-    /// The same row with what finite elements say of it.
+    /// Row with its verification by finite elements.
     pub(crate) fn verified(self, chosen: Chosen, total: TotalError, wall_s: f64) -> Self {
         Self { verification: Some(RowVerification { chosen, total, wall_s }), ..self }
     }
 
     /// Whether everything but the wall times is the same, the verification where both have one.
     pub(crate) fn same_result(&self, other: &Self) -> bool {
-        let timeless = |row: &Self| Self { simulation_s: None, wall_s: 0.0, verification: None, ..row.clone() };
+        let [mine, theirs] =
+            [self, other].map(|row| Self { simulation_s: None, wall_s: 0.0, verification: None, ..row.clone() });
         let verifications = self.verification.as_ref().zip(other.verification.as_ref());
-        timeless(self) == timeless(other) && verifications.is_none_or(|(mine, theirs)| mine.total == theirs.total)
+        mine == theirs && verifications.is_none_or(|(mine, theirs)| mine.total == theirs.total)
     }
 }
 
@@ -301,15 +297,15 @@ impl SweepRow {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepRecord {
     pub(crate) identity: SweepIdentity,
-    /// Which part of it; `None`: all of it.
+    /// Part of the sweep; `None`: all of it.
     pub(crate) shard: Option<Shard>,
     /// The scene, as the user gave it.
     pub(crate) scene_toml: String,
     /// One row per combination, in the order of the combinations.
     pub(crate) rows: Vec<SweepRow>,
-    /// Threads it was run on; 0 where others ran it: other processes or machines, or parts that were merged.
+    /// Number of threads; 0 where the rows come from elsewhere: other processes or machines, or merged shards.
     pub(crate) threads: usize,
-    /// Wall time since the command was started, s: rows of an earlier start are not in it.
+    /// Wall time since the start of the command, s, without rows of earlier starts.
     pub(crate) wall_s: f64,
 }
 
@@ -318,16 +314,16 @@ pub struct SweepRecord {
 pub(crate) struct SweepSummary<'a> {
     #[serde(flatten)]
     pub identity: &'a SweepIdentity,
-    /// Which part of it; null: all of it.
+    /// Part of the sweep; null: all of it.
     pub shard: Option<Shard>,
     pub combinations: usize,
     pub ok: usize,
     pub failed: usize,
     /// The best combination by each figure that has a best.
     pub best: Vec<BestCombination>,
-    /// The combination that is asked for; null where none is asked for or none keeps to the limits.
+    /// Optimum; null without a goal or where no combination is within the limits.
     pub optimum: Option<Optimum>,
-    /// What finite elements say of the best rows and the corners; null where the scene does not ask for it, and in a shard, which
+    /// Verification of the best rows and the corners by finite elements; null where the scene does not ask for it, and in a shard, which
     /// does not know the best of all rows.
     pub verification: Option<SweepVerification<'a>>,
     /// Wall times of all combinations together, their verifications apart, s.
@@ -345,7 +341,7 @@ pub(crate) struct BestCombination {
 }
 
 impl SweepRecord {
-    /// The row with the least value of `figure`, the first of equals.
+    /// Row with the least value of `figure`, the first of equal ones.
     pub(crate) fn least(&self, figure: &SweepFigure) -> Option<(&SweepRow, f64)> {
         let valued = self.rows.iter().filter_map(|row| Some((row, row.figure(figure)?)));
         valued.min_by(|a, b| a.1.total_cmp(&b.1))
@@ -355,12 +351,12 @@ impl SweepRecord {
         self.rows.iter().filter(|row| row.error.is_some()).count()
     }
 
-    /// The combination that is asked for; `None` where none is, or where no combination keeps to the limits.
+    /// Optimum; `None` without a goal or where no combination is within the limits.
     pub(crate) fn optimum(&self) -> Option<Optimum> {
         self.identity.goal.as_ref()?.optimum(&self.identity, &self.rows)
     }
 
-    /// What finite elements say; `None` where they are not asked.
+    /// Verification by finite elements; `None` where it is not asked for.
     pub(crate) fn verification(&self) -> Option<SweepVerification<'_>> {
         let asked = self.identity.verify && self.shard.is_none();
         asked.then(|| SweepVerification::of(&self.identity, &self.rows))
@@ -399,7 +395,7 @@ mod tests {
         SweepAxis { key: key.to_owned(), from, to, count, whole: false, spacing: Spacing::Even }
     }
 
-    /// Ends are as given, and the values between them as one would write them.
+    /// Ends are as given; values between them are rounded.
     #[test]
     fn ver_values_are_evenly_spaced() {
         assert_eq!(axis("k", 0.1, 0.7, 7).values(), [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]);
@@ -411,7 +407,7 @@ mod tests {
         assert_eq!(axis("k", 0.0, 3e15, 4).values(), [0.0, 1e15, 2e15, 3e15]);
     }
 
-    /// What a key says, without its section, and its unit.
+    /// Names of keys without their section, and units.
     #[test]
     fn axes_have_titles_with_units() {
         for (key, title) in [
@@ -436,6 +432,6 @@ mod tests {
         let all: Vec<Vec<f64>> = (0..6).map(|index| identity.values(index)).collect();
         assert_eq!(all, [[0.0, 5.0], [0.0, 6.0], [0.0, 7.0], [1.0, 5.0], [1.0, 6.0], [1.0, 7.0]]);
         assert_eq!(identity.in_words(4), "a = 1, b = 6");
-        assert_eq!([10.0, -0.25, 1e-17].map(plain), ["10", "-0.25", "1e-17"]);
+        assert_eq!([10.0, -0.25, 1e-17].map(number), ["10", "-0.25", "1e-17"]);
     }
 }

@@ -20,18 +20,18 @@ use nalgebra::DMatrix;
 
 use super::distribution::{normal_quantile, normal_share};
 
-/// Points of the sequence.
+/// Greatest number of points of the sequence.
 pub(crate) const MOST_SAMPLES: usize = 1 << 16;
-/// Half of its dimensions.
+/// Greatest number of factors: half of the dimensions of the sequence.
 pub(crate) const MOST_FACTORS: usize = sobol_burley::NUM_DIMENSIONS as usize / 2;
 const HALF_A_BIT: f64 = 1.0 / (1 << 25) as f64;
 
-/// Which sample of a point.
+/// Sample of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Matrix {
     A,
     B,
-    /// A with this factor from B.
+    /// Sample A with this factor taken from B.
     Mixed(usize),
 }
 
@@ -39,11 +39,11 @@ pub(crate) enum Matrix {
 pub(crate) struct Design {
     pub factors: usize,
     pub seed: u32,
-    /// L, of the first factors; the others are independent.
+    /// Lower triangular matrix L of the first factors; the others are independent.
     pub correlation: Option<DMatrix<f64>>,
 }
 
-/// What is wrong with correlations.
+/// Faults of correlations.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum CorrelationError {
     #[error(
@@ -58,7 +58,7 @@ pub(crate) enum CorrelationError {
     NotPositiveDefinite,
 }
 
-/// How the normal scores of uncertain keys are correlated.
+/// Correlation of the normal scores of the uncertain keys.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Correlation {
     /// R.
@@ -67,27 +67,22 @@ pub(crate) struct Correlation {
     pub lower: DMatrix<f64>,
 }
 
-/// The correlation of `keys` that `given` makes; none where nothing is correlated.
+/// Correlation of `keys` as `given`; none where nothing is correlated.
 pub(crate) fn correlation(keys: &[&str], given: &[String]) -> Result<Option<Correlation>, CorrelationError> {
     if given.is_empty() {
         return Ok(None);
     }
     let mut matrix = DMatrix::identity(keys.len(), keys.len());
     for text in given {
-        let form = || CorrelationError::Form { given: text.clone() };
-        let (pair, value) = text.rsplit_once('=').ok_or_else(form)?;
-        let (key, other) = pair.split_once(':').ok_or_else(form)?;
-        let value: f64 = value.trim().parse().ok().filter(|value: &f64| value.abs() < 1.0).ok_or_else(form)?;
-        let place = |key: &str| {
-            let unknown = || CorrelationError::Key { key: key.to_owned(), known: keys.join(", ") };
-            keys.iter().position(|known| *known == key).ok_or_else(unknown)
-        };
-        let (i, j) = (place(key.trim())?, place(other.trim())?);
-        if i == j {
-            return Err(form());
-        }
+        let read = text.rsplit_once('=').and_then(|(pair, value)| {
+            let (key, other) = pair.split_once(':')?;
+            let value: f64 = value.trim().parse().ok()?;
+            Some((key.trim(), other.trim(), value)).filter(|(key, other, value)| value.abs() < 1.0 && key != other)
+        });
+        let (key, other, value) = read.ok_or_else(|| CorrelationError::Form { given: text.clone() })?;
+        let (i, j) = (place(keys, key)?, place(keys, other)?);
         if matrix[(i, j)] != 0.0 {
-            return Err(CorrelationError::Twice { key: key.trim().to_owned(), other: other.trim().to_owned() });
+            return Err(CorrelationError::Twice { key: key.to_owned(), other: other.to_owned() });
         }
         matrix[(i, j)] = value;
         matrix[(j, i)] = value;
@@ -96,18 +91,22 @@ pub(crate) fn correlation(keys: &[&str], given: &[String]) -> Result<Option<Corr
     Ok(Some(Correlation { matrix, lower }))
 }
 
+fn place(keys: &[&str], key: &str) -> Result<usize, CorrelationError> {
+    let place = keys.iter().position(|known| *known == key);
+    place.ok_or_else(|| CorrelationError::Key { key: key.to_owned(), known: keys.join(", ") })
+}
+
 impl Design {
     /// The factors of a sample of the point `number`, each between 0 and 1.
     pub(crate) fn sample(&self, number: usize, matrix: Matrix) -> Vec<f64> {
-        let at =
-            |dimension: usize| f64::from(sobol_burley::sample(number as u32, dimension as u32, self.seed)) + HALF_A_BIT;
-        let from_b = |factor: usize| match matrix {
-            Matrix::A => false,
-            Matrix::B => true,
-            Matrix::Mixed(mixed) => factor == mixed,
-        };
-        let mut u: Vec<f64> =
-            (0..self.factors).map(|factor| at(if from_b(factor) { self.factors + factor } else { factor })).collect();
+        let dimensions = (0..self.factors).map(|factor| match matrix {
+            Matrix::A => factor,
+            Matrix::Mixed(mixed) if factor != mixed => factor,
+            Matrix::B | Matrix::Mixed(_) => self.factors + factor,
+        });
+        let mut u: Vec<f64> = dimensions
+            .map(|dimension| f64::from(sobol_burley::sample(number as u32, dimension as u32, self.seed)) + HALF_A_BIT)
+            .collect();
         if let Some(lower) = &self.correlation {
             let z: Vec<f64> = u.iter().take(lower.nrows()).map(|&u| normal_quantile(u)).collect();
             for (row, u) in u.iter_mut().enumerate().take(lower.nrows()) {
@@ -146,20 +145,25 @@ mod tests {
         let Correlation { lower, .. } = correlation(&["a", "b"], &given).unwrap().unwrap();
         let design = Design { factors: 3, seed: 1, correlation: Some(lower) };
         let samples: Vec<Vec<f64>> = (0..4096).map(|n| design.sample(n, Matrix::A)).collect();
-        let score = |n: usize, factor: usize| normal_quantile(samples[n][factor]);
-        let product = |i: usize, j: usize| (0..4096).map(|n| score(n, i) * score(n, j)).sum::<f64>() / 4096.0;
-        assert!((product(0, 1) - 0.8).abs() < 0.01 && product(0, 2).abs() < 0.02, "{}", product(0, 1));
+        for (other, expected, within) in [(1, 0.8, 0.01), (2, 0.0, 0.02)] {
+            let products = samples.iter().map(|u| normal_quantile(u[0]) * normal_quantile(u[other]));
+            let found = products.sum::<f64>() / 4096.0;
+            assert!((found - expected).abs() < within, "{found}");
+        }
     }
 
     #[test]
     fn contradictions_are_refused() {
-        let refused = |given: &[&str]| {
+        for (given, said) in [
+            (&["a:b=0.9", "b:c=0.9", "a:c=-0.9"][..], "not positive definite"),
+            (&["a:d=0.9"], "a, b, c"),
+            (&["a:b=1.5"], "KEY:KEY=R"),
+            (&["a:a=0.5"], "KEY:KEY=R"),
+            (&["a:b=0.5", "b:a=0.5"], "twice"),
+        ] {
             let given: Vec<String> = given.iter().map(|text| (*text).to_owned()).collect();
-            correlation(&["a", "b", "c"], &given).unwrap_err().to_string()
-        };
-        assert!(refused(&["a:b=0.9", "b:c=0.9", "a:c=-0.9"]).contains("not positive definite"));
-        assert!(refused(&["a:d=0.9"]).contains("a, b, c"));
-        assert!(refused(&["a:b=1.5"]).contains("KEY:KEY=R") && refused(&["a:a=0.5"]).contains("KEY:KEY=R"));
-        assert!(refused(&["a:b=0.5", "b:a=0.5"]).contains("twice"));
+            let message = correlation(&["a", "b", "c"], &given).unwrap_err().to_string();
+            assert!(message.contains(said), "{message}");
+        }
     }
 }

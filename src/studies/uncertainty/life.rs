@@ -1,4 +1,4 @@
-//! Life: when a depth of wear comes to a limit, read off the history of the run.
+//! Life: the time at which a depth of wear reaches a limit, read off the history of the run.
 //!
 //! Between the moments of the history the depth is taken to grow evenly, from 0 at the beginning. A run that does not come to the limit
 //! says only that its life is longer than its duration: it is censored.
@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::results::run::HistoryRow;
 use crate::scene::nearest::nearest;
 
-/// Depths that a history has, by their path in the summary.
+/// Depth in the history by its path in the summary.
 type Depth = (&'static str, fn(&HistoryRow) -> f64);
 
 const DEPTHS: [Depth; 6] = [
@@ -24,7 +24,7 @@ const DEPTHS: [Depth; 6] = [
 
 /// A depth that ends the life.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct Limit {
+pub(crate) struct DepthLimit {
     pub output: &'static str,
     pub depth_um: f64,
 }
@@ -37,32 +37,34 @@ pub(crate) enum LimitError {
     Unknown { name: String, meant: Option<&'static str> },
 }
 
-impl FromStr for Limit {
+impl FromStr for DepthLimit {
     type Err = LimitError;
 
     fn from_str(given: &str) -> Result<Self, LimitError> {
-        let form = || LimitError::Form { given: given.to_owned() };
-        let (name, value) = given.split_once('=').ok_or_else(form)?;
-        let depth_um: f64 = value.trim().parse().ok().filter(|v: &f64| v.is_finite() && *v > 0.0).ok_or_else(form)?;
-        let name = name.trim();
-        let unknown =
-            || LimitError::Unknown { name: name.to_owned(), meant: nearest(name, &DEPTHS.map(|depth| depth.0)) };
-        let (output, _) = DEPTHS.iter().find(|depth| depth.0 == name).ok_or_else(unknown)?;
-        Ok(Self { output, depth_um })
+        let read = given.split_once('=').and_then(|(name, value)| {
+            let depth_um: f64 = value.trim().parse().ok()?;
+            Some((name.trim(), depth_um)).filter(|_| depth_um.is_finite() && depth_um > 0.0)
+        });
+        let (name, depth_um) = read.ok_or_else(|| LimitError::Form { given: given.to_owned() })?;
+        let known = DEPTHS.map(|depth| depth.0);
+        match known.into_iter().find(|known| *known == name) {
+            Some(output) => Ok(Self { output, depth_um }),
+            None => Err(LimitError::Unknown { name: name.to_owned(), meant: nearest(name, &known) }),
+        }
     }
 }
 
 /// Time, in hours where the scene has a speed and else in revolutions of the pinion, and depth at each moment.
 pub(crate) type Growth = Vec<(f64, f64)>;
 
-impl Limit {
-    /// How the depth grew.
+impl DepthLimit {
+    /// Growth of the depth over the history.
     pub(crate) fn growth(&self, history: &[HistoryRow]) -> Growth {
         let Some((_, of)) = DEPTHS.iter().find(|depth| depth.0 == self.output) else { return Growth::new() };
         history.iter().map(|row| (row.hours.unwrap_or(row.revolutions), of(row))).collect()
     }
 
-    /// When the depth, `times` as great, comes to the limit; infinite where it does not, with the time until which that is known.
+    /// Life: when `times` times the depth reaches the limit; infinite where it does not, with the time up to which that is known.
     pub(crate) fn life(&self, growth: &Growth, times: f64) -> (f64, f64) {
         let (mut time, mut depth) = (0.0, 0.0);
         for &(next_time, next_depth) in growth {
@@ -85,7 +87,7 @@ mod tests {
     /// Wear that grows evenly, 2 µm an hour.
     #[test]
     fn ver_life_of_linear_wear() {
-        let limit: Limit = "pinion.peak_wear_um = 5".parse().unwrap();
+        let limit: DepthLimit = "pinion.peak_wear_um = 5".parse().unwrap();
         let growth = vec![(1.0, 2.0), (2.0, 4.0), (3.0, 6.0)];
         assert_eq!(limit.life(&growth, 1.0), (2.5, 2.5));
         assert_eq!(limit.life(&growth, 5.0), (0.5, 0.5));
@@ -99,7 +101,7 @@ mod tests {
             ("pinion.peak_wear_um=-1", "above 0"),
             ("pinion.peek_wear_um=1", "did you mean pinion.peak_wear_um?"),
         ] {
-            assert!(given.parse::<Limit>().unwrap_err().to_string().contains(part), "{given}");
+            assert!(given.parse::<DepthLimit>().unwrap_err().to_string().contains(part), "{given}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Runs the samples on all threads, and makes figures of them.
+//! Runs the samples on all threads and evaluates them.
 //!
 //! The scene as given is run first: its wear gives the places of the bands, and its verification by finite elements the relative errors
 //! e of the fast model. With a factor u of its own, between 0 and 1, the error is part of the samples without further runs:
@@ -14,7 +14,7 @@ use std::time::Instant;
 
 use super::design::{Correlation, Design, Matrix};
 use super::distribution::Uncertain;
-use super::life::{Growth, Limit};
+use super::life::{DepthLimit, Growth};
 use super::record::{Band, FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, SampleRow, UncertaintyRecord};
 use crate::assessment::guarded::guarded;
 use crate::gear::PerGear;
@@ -24,34 +24,35 @@ use crate::reference::statistics::{SHARES, mean, quantile, standard_deviation};
 use crate::results::run::StopReason;
 use crate::results::worn_pair::{WearProfile, WornPair};
 use crate::runs;
+use crate::scene::Resolved;
 use crate::scene::loaded::LoadedScene;
 use crate::studies::evaluate::output::Output;
 use crate::studies::spread::spread;
 use crate::studies::variants::record::described;
 use crate::studies::varied_scene::{VariedScene, in_words, one_line};
 
-/// Moments of a history, evenly over the duration.
+/// Number of moments of a history, evenly over the duration.
 const MOMENTS: usize = 20;
-/// Places of a band over the flank at most.
+/// Greatest number of places of a band over the flank.
 const PLACES: usize = 160;
-/// Finished points that a study which was interrupted can still speak of.
+/// Least number of finished points for the results of an interrupted study.
 pub(crate) const FEWEST_SAMPLES: usize = 8;
 
-/// What is asked.
+/// Question, resolved.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Question {
     pub uncertain: Vec<Uncertain>,
     /// How the keys are correlated, if they are.
     pub correlation: Option<Correlation>,
     pub outputs: Vec<Output>,
-    pub limits: Vec<Limit>,
+    pub limits: Vec<DepthLimit>,
     /// Points of the sequence.
     pub samples: usize,
     pub seed: u32,
 }
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub(crate) enum StudyError {
+pub(crate) enum UncertaintyStudyError {
     #[error("the scene as given cannot be run: {0}")]
     Nominal(String),
     #[error("none of {runs} samples has a result; the first says: {first}")]
@@ -60,18 +61,18 @@ pub(crate) enum StudyError {
     Interrupted,
 }
 
-/// What is kept of a run.
+/// Part of a run that is kept.
 struct Ran {
     /// Each with the time until which it is known, where it is a life.
     outputs: Vec<(f64, f64)>,
     growths: Vec<Growth>,
-    /// At the places of the bands; of samples of A and B alone.
+    /// Wear at the places of the bands, for samples A and B only.
     wear_um: Option<PerGear<Vec<f32>>>,
 }
 
 type Row = Result<Ran, String>;
 
-/// The samples with everything that they are made of.
+/// Inputs of the samples.
 struct Samples<'a> {
     question: &'a Question,
     varied: &'a VariedScene,
@@ -83,7 +84,7 @@ struct Samples<'a> {
 }
 
 impl Samples<'_> {
-    /// The runs that a point takes.
+    /// Runs of a point.
     fn matrices(&self) -> Vec<Matrix> {
         let mixed = match self.question.correlation {
             None => self.question.uncertain.len(),
@@ -117,11 +118,11 @@ impl Samples<'_> {
     }
 
     fn kept(&self, found: &WornPair, matrix: Matrix) -> Row {
-        let at_places = || PerGear::from_fn(|gear| at(&found.flanks[gear], &self.places[gear]));
         Ok(Ran {
             outputs: outputs_of(self.question, found)?,
             growths: self.question.limits.iter().map(|limit| limit.growth(&found.history)).collect(),
-            wear_um: matches!(matrix, Matrix::A | Matrix::B).then(at_places),
+            wear_um: matches!(matrix, Matrix::A | Matrix::B)
+                .then(|| PerGear::from_fn(|gear| at(&found.flanks[gear], &self.places[gear]))),
         })
     }
 
@@ -140,6 +141,42 @@ impl Samples<'_> {
         let limits = self.question.limits.iter().zip(&ran.growths).zip(of_limits);
         outputs.chain(limits.map(|((limit, growth), times)| limit.life(growth, *times))).collect()
     }
+
+    /// Figure number `figure` of a sample, and until when it is known; `None` where its run has none.
+    fn figure(&self, rows: &[&[Row]], point: usize, matrix: Matrix, figure: usize) -> Option<(f64, f64)> {
+        let row = match matrix {
+            Matrix::B => 1,
+            Matrix::Mixed(factor) if factor < self.question.uncertain.len() => 2 + factor,
+            // The error of the model takes no runs of its own: those of A stand for them.
+            Matrix::A | Matrix::Mixed(_) => 0,
+        };
+        let ran = rows[point].get(row)?.as_ref().ok()?;
+        Some(self.figures(ran, point, matrix)[figure]).filter(|(value, _)| !value.is_nan())
+    }
+}
+
+impl Samples<'_> {
+    fn row(&self, point: usize, matrix: Matrix, row: &Row) -> SampleRow {
+        let question = self.question;
+        SampleRow {
+            point,
+            matrix: match matrix {
+                Matrix::A => "A".to_owned(),
+                Matrix::B => "B".to_owned(),
+                Matrix::Mixed(factor) => question.uncertain[factor].key.clone(),
+            },
+            values: self.values(point, matrix),
+            model_error: self.times(point, matrix).0,
+            outputs: match row {
+                Ok(ran) => {
+                    let figures = self.figures(ran, point, matrix);
+                    figures.into_iter().map(|(value, _)| Some(value).filter(|value| value.is_finite())).collect()
+                }
+                Err(_) => vec![None; question.outputs.len() + question.limits.len()],
+            },
+            error: row.as_ref().err().cloned(),
+        }
+    }
 }
 
 /// Runs the scene with these values.
@@ -152,27 +189,32 @@ fn worn<'a>(
     let mut resolved = varied.resolved(values).map_err(|problems| in_words(&problems))?;
     varied.inputs_belong_to(&resolved)?;
     if with_history {
-        let operation = &mut resolved.scene.operation;
-        let moment = |number: usize| operation.pinion_revolutions * number as f64 / MOMENTS as f64;
-        operation.snapshots_revolutions = (1..=MOMENTS).map(moment).collect();
+        take_moments(&mut resolved);
     }
     varied.carry_out(resolved, observer, runs::worn_pair)
+}
+
+/// Sets [`MOMENTS`] moments of the history, evenly over the duration.
+fn take_moments(resolved: &mut Resolved) {
+    let operation = &mut resolved.scene.operation;
+    let moments = (1..=MOMENTS).map(|number| operation.pinion_revolutions * number as f64 / MOMENTS as f64);
+    operation.snapshots_revolutions = moments.collect();
 }
 
 /// Each output with the time until which it is known: a life to a limit that is not reached is infinite.
 fn outputs_of(question: &Question, found: &WornPair) -> Result<Vec<(f64, f64)>, String> {
     let summary = serde_json::to_value(&found.summary).map_err(|error| error.to_string())?;
-    let of = |output: &Output| match (output.of(&summary), output.at_least(&summary)) {
+    let outputs = question.outputs.iter().map(|output| match (output.of(&summary), output.at_least(&summary)) {
         (None, Some(at_least)) => (f64::INFINITY, at_least),
         (value, _) => (value.unwrap_or(f64::NAN), value.unwrap_or(f64::NAN)),
-    };
-    Ok(question.outputs.iter().map(of).collect())
+    });
+    Ok(outputs.collect())
 }
 
 /// Wear at these radii, even between the points; 0 outside them.
 fn at(profile: &WearProfile, radii: &[f64]) -> Vec<f32> {
     let (radius, wear) = (&profile.radius_mm, &profile.wear_um);
-    let value = |&r: &f64| {
+    let values = radii.iter().map(|&r| {
         let above = radius.partition_point(|&point| point < r);
         let value = match (above.checked_sub(1), radius.get(above)) {
             (Some(below), Some(&high)) => {
@@ -183,8 +225,8 @@ fn at(profile: &WearProfile, radii: &[f64]) -> Vec<f32> {
             _ => 0.0,
         };
         value as f32
-    };
-    radii.iter().map(value).collect()
+    });
+    values.collect()
 }
 
 /// Places of a band: points of the active profile, thinned.
@@ -201,15 +243,15 @@ pub(crate) fn run(
     question: &Question,
     threads: usize,
     observer: &dyn Observer,
-) -> Result<UncertaintyRecord, StudyError> {
+) -> Result<UncertaintyRecord, UncertaintyStudyError> {
     let start = Instant::now();
-    let varied = VariedScene::new(scene, false).map_err(|problems| StudyError::Nominal(in_words(&problems)))?;
+    let varied =
+        VariedScene::new(scene, false).map_err(|problems| UncertaintyStudyError::Nominal(in_words(&problems)))?;
     let nominal = nominal(scene, &varied, question, observer)?;
     let total = &nominal.summary.error.total;
-    let error_of = |path: &str| described(path).and_then(|known| (known.error)(total));
     let paths = question.outputs.iter().map(|output| output.path.as_str());
-    let errors: Vec<Option<f64>> =
-        paths.chain(question.limits.iter().map(|limit| limit.output)).map(error_of).collect();
+    let paths = paths.chain(question.limits.iter().map(|limit| limit.output));
+    let errors: Vec<Option<f64>> = paths.map(|path| described(path).and_then(|known| (known.error)(total))).collect();
     let factors = question.uncertain.len() + usize::from(errors.iter().any(Option::is_some));
     let places = PerGear::from_fn(|gear| places(&nominal.flanks[gear]));
     let correlation = question.correlation.as_ref().map(|correlation| correlation.lower.clone());
@@ -238,7 +280,7 @@ pub(crate) fn run(
     let whole: Vec<Row> = rows.into_iter().map_while(|row| row).collect();
     let points = whole.len() / matrices.len();
     if points < question.samples.min(FEWEST_SAMPLES) {
-        return Err(StudyError::Interrupted);
+        return Err(UncertaintyStudyError::Interrupted);
     }
     let rows: Vec<&[Row]> = whole.chunks_exact(matrices.len()).collect();
     record(scene, &samples, &matrices, &rows, threads, start)
@@ -250,24 +292,22 @@ fn nominal(
     varied: &VariedScene,
     question: &Question,
     observer: &dyn Observer,
-) -> Result<WornPair, StudyError> {
+) -> Result<WornPair, UncertaintyStudyError> {
     observer.stage("the scene as given");
     let run = guarded(|| -> Result<WornPair, String> {
         let mut resolved = varied.resolved([]).map_err(|problems| in_words(&problems))?;
         resolved.scene.verify = scene.scene().verify;
-        let operation = &mut resolved.scene.operation;
         if !question.limits.is_empty() {
-            let moment = |number: usize| operation.pinion_revolutions * number as f64 / MOMENTS as f64;
-            operation.snapshots_revolutions = (1..=MOMENTS).map(moment).collect();
+            take_moments(&mut resolved);
         }
         varied.carry_out(resolved, observer, runs::worn_pair)
     });
     let run = run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
     match run {
-        Ok(found) if found.summary.stopped == StopReason::Interrupted => Err(StudyError::Interrupted),
+        Ok(found) if found.summary.stopped == StopReason::Interrupted => Err(UncertaintyStudyError::Interrupted),
         Ok(found) => Ok(found),
-        Err(_) if observer.interrupted() => Err(StudyError::Interrupted),
-        Err(error) => Err(StudyError::Nominal(one_line(&error))),
+        Err(_) if observer.interrupted() => Err(UncertaintyStudyError::Interrupted),
+        Err(error) => Err(UncertaintyStudyError::Nominal(one_line(&error))),
     }
 }
 
@@ -278,13 +318,13 @@ fn record(
     rows: &[&[Row]],
     threads: usize,
     start: Instant,
-) -> Result<UncertaintyRecord, StudyError> {
+) -> Result<UncertaintyRecord, UncertaintyStudyError> {
     let question = samples.question;
-    let all = || rows.iter().flat_map(|row| row.iter());
-    let (runs, failed) = (all().count(), all().filter(|row| row.is_err()).count());
-    let first_failure = all().find_map(|row| row.as_ref().err().cloned());
+    let mut failures = rows.iter().flat_map(|row| row.iter()).filter_map(|row| row.as_ref().err());
+    let (runs, failed) = (rows.iter().map(|row| row.len()).sum(), failures.clone().count());
+    let first_failure = failures.next().cloned();
     if let (true, Some(first)) = (failed == runs, &first_failure) {
-        return Err(StudyError::AllFailed { runs, first: first.clone() });
+        return Err(UncertaintyStudyError::AllFailed { runs, first: first.clone() });
     }
     let figures = question.outputs.len() + question.limits.len();
     Ok(UncertaintyRecord {
@@ -320,43 +360,21 @@ fn record(
 fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> OutputRecord {
     let question = samples.question;
     let limit = figure.checked_sub(question.outputs.len()).map(|number| &question.limits[number]);
-    // Of the error of the model there are no runs: A's stand for them.
-    let row_of = |matrix: Matrix| match matrix {
-        Matrix::A => 0,
-        Matrix::B => 1,
-        Matrix::Mixed(factor) if factor < question.uncertain.len() => 2 + factor,
-        Matrix::Mixed(_) => 0,
-    };
-    let value = |point: usize, matrix: Matrix| -> Option<(f64, f64)> {
-        let ran = rows[point].get(row_of(matrix))?.as_ref().ok()?;
-        Some(samples.figures(ran, point, matrix)[figure]).filter(|(value, _)| !value.is_nan())
-    };
-    let both = (0..rows.len()).flat_map(|point| [value(point, Matrix::A), value(point, Matrix::B)]);
-    let known: Vec<(f64, f64)> = both.flatten().collect();
+    let known: Vec<(f64, f64)> = (0..rows.len())
+        .flat_map(|point| [Matrix::A, Matrix::B].map(|matrix| samples.figure(rows, point, matrix, figure)))
+        .flatten()
+        .collect();
     let mut sorted: Vec<f64> = known.iter().map(|known| known.0).collect();
     sorted.sort_by(f64::total_cmp);
     let censored = known.iter().filter(|(value, _)| value.is_infinite());
-    // A life that is known to be longer than t says nothing of quantiles above t.
+    // A life known only to be longer than t gives no quantiles above t.
     let until = censored.clone().map(|known| known.1).fold(f64::INFINITY, f64::min);
     let censored = censored.count();
     let [p05, p25, p50, p75, p95] =
         SHARES.map(|share| quantile(&sorted, share).filter(|value| censored == 0 || *value <= until));
     let complete = censored == 0 && !sorted.is_empty();
-    let name = limit.map_or_else(|| question.outputs[figure].path.as_str(), |limit| limit.output);
-    let known = described(name);
-    let is_in_hours = samples.nominal.summary.hours.is_some();
-    let (output, meaning, unit) = match limit {
-        None => (
-            name.to_owned(),
-            known.map_or_else(|| name.to_owned(), |known| known.meaning.to_owned()),
-            known.map_or("", |known| known.unit),
-        ),
-        Some(limit) => (
-            format!("life.{name}={}", limit.depth_um),
-            format!("Life until {} µm: {}", limit.depth_um, known.map_or(name, |known| known.meaning)),
-            if is_in_hours { "h" } else { "revolutions" },
-        ),
-    };
+    let (output, meaning, unit) = naming(samples, figure);
+    let is_life = limit.is_some() || output.starts_with("life.");
     let nominal = match limit {
         None => outputs_of(question, samples.nominal).ok().map(|values| values[figure].0),
         Some(limit) => Some(limit.life(&limit.growth(&samples.nominal.history), 1.0).0),
@@ -364,7 +382,7 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
     let found = match (&question.correlation, censored) {
         (Some(_), _) => Err("the keys are correlated: no part of the variance belongs to one of them".to_owned()),
         (None, 1..) => Err("some lives are longer than their duration".to_owned()),
-        (None, 0) => factor_indices(samples, rows.len(), figure, value),
+        (None, 0) => factor_indices(samples, rows, figure),
     };
     OutputRecord {
         output,
@@ -373,7 +391,7 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
         nominal: nominal.filter(|value| value.is_finite()),
         model_error: samples.errors[figure],
         samples: sorted.len(),
-        censored: (limit.is_some() || name.starts_with("life.")).then(|| censored as f64 / sorted.len().max(1) as f64),
+        censored: is_life.then(|| censored as f64 / sorted.len().max(1) as f64),
         mean: complete.then(|| mean(sorted.iter().copied())),
         standard_deviation: complete.then(|| standard_deviation(&sorted)).flatten(),
         quantiles: Quantiles { p05, p25, p50, p75, p95 },
@@ -383,23 +401,33 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
     }
 }
 
-/// The indices of a figure, over the points all of whose runs have it.
-fn factor_indices(
-    samples: &Samples<'_>,
-    points: usize,
-    figure: usize,
-    value: impl Fn(usize, Matrix) -> Option<(f64, f64)>,
-) -> Result<Vec<FactorIndices>, String> {
+/// Path, description and unit of a figure.
+fn naming(samples: &Samples<'_>, figure: usize) -> (String, String, &'static str) {
+    let question = samples.question;
+    if let Some(output) = question.outputs.get(figure) {
+        let (name, known) = (&output.path, described(&output.path));
+        let meaning = known.map_or_else(|| name.clone(), |known| known.meaning.to_owned());
+        return (name.clone(), meaning, known.map_or("", |known| known.unit));
+    }
+    let DepthLimit { output: name, depth_um } = &question.limits[figure - question.outputs.len()];
+    let meaning = described(name).map_or(*name, |known| known.meaning);
+    let unit = if samples.nominal.summary.hours.is_some() { "h" } else { "revolutions" };
+    (format!("life.{name}={depth_um}"), format!("Life until {depth_um} µm: {meaning}"), unit)
+}
+
+/// Indices of a figure, over the points all of whose runs have it.
+fn factor_indices(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Result<Vec<FactorIndices>, String> {
     let factors = samples.design.factors;
     let (mut a, mut b) = (Vec::new(), Vec::new());
     let mut mixed = vec![Vec::new(); factors];
-    for point in 0..points {
-        let of = |matrix| value(point, matrix).map(|known| known.0);
-        let of_mixed: Option<Vec<f64>> = (0..factors).map(|factor| of(Matrix::Mixed(factor))).collect();
-        if let (Some(of_a), Some(of_b), Some(of_mixed)) = (of(Matrix::A), of(Matrix::B), of_mixed) {
-            a.push(of_a);
-            b.push(of_b);
-            mixed.iter_mut().zip(of_mixed).for_each(|(all, value)| all.push(value));
+    for point in 0..rows.len() {
+        let matrices = [Matrix::A, Matrix::B].into_iter().chain((0..factors).map(Matrix::Mixed));
+        let values: Option<Vec<f64>> =
+            matrices.map(|matrix| Some(samples.figure(rows, point, matrix, figure)?.0)).collect();
+        if let Some([of_a, of_b, of_mixed @ ..]) = values.as_deref() {
+            a.push(*of_a);
+            b.push(*of_b);
+            mixed.iter_mut().zip(of_mixed).for_each(|(all, value)| all.push(*value));
         }
     }
     let seed = u64::from(samples.question.seed).wrapping_add(figure as u64);
@@ -426,25 +454,9 @@ fn band(places: &[f64], nominal: &WearProfile, wear: &[&[f32]]) -> Band {
 }
 
 fn sample_rows(samples: &Samples<'_>, matrices: &[Matrix], rows: &[&[Row]]) -> Vec<SampleRow> {
-    let question = samples.question;
-    let of = |point: usize, matrix: Matrix, row: &Row| SampleRow {
-        point,
-        matrix: match matrix {
-            Matrix::A => "A".to_owned(),
-            Matrix::B => "B".to_owned(),
-            Matrix::Mixed(factor) => question.uncertain[factor].key.clone(),
-        },
-        values: samples.values(point, matrix),
-        model_error: samples.times(point, matrix).0,
-        outputs: match row {
-            Ok(ran) => {
-                let figures = samples.figures(ran, point, matrix);
-                figures.into_iter().map(|(value, _)| Some(value).filter(|value| value.is_finite())).collect()
-            }
-            Err(_) => vec![None; question.outputs.len() + question.limits.len()],
-        },
-        error: row.as_ref().err().cloned(),
-    };
-    let points = rows.iter().enumerate();
-    points.flat_map(|(point, row)| matrices.iter().zip(*row).map(move |(&m, row)| of(point, m, row))).collect()
+    let mut sample_rows = Vec::new();
+    for (point, row) in rows.iter().enumerate() {
+        sample_rows.extend(matrices.iter().zip(*row).map(|(&matrix, row)| samples.row(point, matrix, row)));
+    }
+    sample_rows
 }

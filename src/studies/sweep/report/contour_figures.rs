@@ -18,20 +18,49 @@ pub(super) fn contour(
     y: &ShownAxis<'_>,
 ) -> Option<Chart> {
     let (best, least) = record.least(figure)?;
-    let at = |i: usize, j: usize| section_plane::row(record, best, &[(x, i), (y, j)]);
-    let z: Vec<Vec<Option<f64>>> = y
+    let rows: Vec<Vec<Option<&SweepRow>>> = y
         .shown
         .iter()
-        .map(|&j| x.shown.iter().map(|&i| at(i, j).and_then(|row| row.figure(figure)).map(plotted)).collect())
+        .map(|&j| x.shown.iter().map(|&i| section_plane::row(record, best, &[(x, i), (y, j)])).collect())
         .collect();
-    let failed: Vec<&SweepRow> = y
-        .shown
-        .iter()
-        .flat_map(|&j| x.shown.iter().filter_map(move |&i| at(i, j)))
-        .filter(|row| row.error.is_some())
-        .collect();
+    let mut chart = Chart::new(id("contour", figure), capitalised(figure.title))
+        .height(460)
+        .read_nearest()
+        .x(&x.axis.title())
+        .x_range(ends(x))
+        .y(&y.axis.title())
+        .y_range(ends(y))
+        .without_grid()
+        .add(contours(figure, x, y, &rows))
+        .reading(reading(record, figure, best, &[x, y]));
+    if let Some(words) = x.axis.words() {
+        chart = chart.x_set("tickvals", x.axis.values()).x_set("ticktext", words.to_vec());
+    }
+    if let Some(words) = y.axis.words() {
+        chart = chart.y_set("tickvals", y.axis.values()).y_set("ticktext", words.to_vec());
+    }
+    if x.axis.spacing == Spacing::Logarithmic {
+        chart = chart.x_logarithmic();
+    }
+    if y.axis.spacing == Spacing::Logarithmic {
+        chart = chart.y_logarithmic();
+    }
+    let failed = rows.iter().flatten().flatten().filter_map(|row| Some((row, row.error.clone()?)));
+    let (failed, errors): (Vec<&SweepRow>, Vec<String>) = failed.unzip();
+    if !failed.is_empty() {
+        let [along_x, along_y] = [x, y].map(|axis| failed.iter().map(|row| row.values[axis.at]).collect::<Vec<_>>());
+        chart = chart.add(Trace::points("no result", along_x, along_y, (MUTED, "x", 6)).hover_texts(errors));
+    }
+    let least_at = Trace::points("minimum", [best.values[x.at]], [best.values[y.at]], ("#ff5a36", "star", 15));
+    Some(chart.add(least_at.hover(format!("minimum: {} {}<extra></extra>", shown_number(least), figure.unit))))
+}
+
+/// Contours of a figure, from a row of combinations for each value of `y`.
+fn contours(figure: &SweepFigure, x: &ShownAxis<'_>, y: &ShownAxis<'_>, rows: &[Vec<Option<&SweepRow>>]) -> Trace {
+    let z: Vec<Vec<Option<f64>>> =
+        rows.iter().map(|rows| rows.iter().map(|row| row.as_ref()?.figure(figure).map(plotted)).collect()).collect();
     let unit = figure.unit;
-    let contours = Trace::new(TraceKind::Contour, figure.title)
+    Trace::new(TraceKind::Contour, figure.title)
         .set("x", x.values())
         .set("y", y.values())
         .set("z", z)
@@ -41,41 +70,7 @@ pub(super) fn contour(
         .set("connectgaps", false)
         .set("hoverongaps", false)
         .unlisted()
-        .hover(format!(
-            "{}: %{{x}}<br>{}: %{{y}}<br>%{{z:.5~g}} {unit}<extra></extra>",
-            x.axis.title(),
-            y.axis.title()
-        ));
-    let mut chart = Chart::new(id("contour", figure), capitalised(figure.title))
-        .height(460)
-        .read_nearest()
-        .x(&x.axis.title())
-        .x_range(ends(x))
-        .y(&y.axis.title())
-        .y_range(ends(y))
-        .without_grid()
-        .add(contours)
-        .reading(reading(record, figure, best, &[x, y]));
-    let places = |words: &[String]| (0..words.len()).map(|place| place as f64).collect::<Vec<_>>();
-    if let Some(words) = x.axis.words() {
-        chart = chart.x_set("tickvals", places(words)).x_set("ticktext", words.to_vec());
-    }
-    if let Some(words) = y.axis.words() {
-        chart = chart.y_set("tickvals", places(words)).y_set("ticktext", words.to_vec());
-    }
-    if x.axis.spacing == Spacing::Logarithmic {
-        chart = chart.x_logarithmic();
-    }
-    if y.axis.spacing == Spacing::Logarithmic {
-        chart = chart.y_logarithmic();
-    }
-    if !failed.is_empty() {
-        let along = |axis: &ShownAxis<'_>| failed.iter().map(|row| row.values[axis.at]).collect::<Vec<_>>();
-        let errors = failed.iter().map(|row| row.error.clone().unwrap_or_default()).collect();
-        chart = chart.add(Trace::points("no result", along(x), along(y), (MUTED, "x", 6)).hover_texts(errors));
-    }
-    let least_at = Trace::points("minimum", [best.values[x.at]], [best.values[y.at]], ("#ff5a36", "star", 15));
-    Some(chart.add(least_at.hover(format!("minimum: {} {unit}<extra></extra>", shown_number(least)))))
+        .hover(format!("{}: %{{x}}<br>{}: %{{y}}<br>%{{z:.5~g}} {unit}<extra></extra>", x.axis.title(), y.axis.title()))
 }
 
 /// The ends of an axis as plotly takes them: of a logarithmic one the exponents.
@@ -91,17 +86,18 @@ pub(super) fn id(kind: &str, figure: &SweepFigure) -> String {
     format!("{kind}-{}", figure.name.to_lowercase().replace(['_', '.'], "-"))
 }
 
-/// Where the figure is least, and how far it is from there to its greatest.
+/// Sentence with the least and greatest value of the figure and where it is least.
 pub(super) fn reading(record: &SweepRecord, figure: &SweepFigure, best: &SweepRow, shown: &[&ShownAxis<'_>]) -> String {
     let Some((least, greatest)) = range(record, figure) else { return String::new() };
-    let value_of = |at: usize| {
-        format!("{} = {}", record.identity.axes[at].key, shown_value(&record.identity.axes[at], best.values[at]))
-    };
-    let places: Vec<String> = shown.iter().map(|axis| value_of(axis.at)).collect();
-    let others: Vec<String> = (0..record.identity.axes.len())
-        .filter(|at| record.identity.axes[*at].count > 1 && shown.iter().all(|axis| axis.at != *at))
-        .map(value_of)
+    let axes = &record.identity.axes;
+    let values: Vec<String> = axes
+        .iter()
+        .zip(&best.values)
+        .map(|(axis, &value)| format!("{} = {}", axis.key, shown_value(axis, value)))
         .collect();
+    let places: Vec<&str> = shown.iter().map(|axis| values[axis.at].as_str()).collect();
+    let others = (0..axes.len()).filter(|&at| axes[at].count > 1 && shown.iter().all(|axis| axis.at != at));
+    let others: Vec<&str> = others.map(|at| values[at].as_str()).collect();
     let unit = if figure.unit.is_empty() { String::new() } else { format!(" {}", figure.unit) };
     let mut text = format!(
         "Minimum {}{unit} at {}, maximum {}{unit} of all combinations: {}.",

@@ -24,7 +24,6 @@ pub(crate) fn bytes(record: &SweepRecord) -> Result<Vec<u8>, ParquetError> {
     let kinds: Vec<PhysicalType> = columns.iter().map(|column| kind(column, record)).collect();
     let fields = columns.iter().zip(&kinds).map(|(column, &kind)| field(&column.name, kind));
     let schema = Type::group_type_builder("sweep").with_fields(fields.collect::<Result<_, _>>()?).build()?;
-    let metadata = |key: &str, value: &str| KeyValue::new(key.to_owned(), value.to_owned());
     let mut about = vec![
         metadata("gearwear_version", &record.identity.program_version),
         metadata("scene_hash", &record.identity.scene_hash),
@@ -59,7 +58,11 @@ pub(crate) fn bytes(record: &SweepRecord) -> Result<Vec<u8>, ParquetError> {
     file.into_inner()
 }
 
-/// What the cells of a column are; a table without rows has numbers.
+fn metadata(key: &str, value: &str) -> KeyValue {
+    KeyValue::new(key.to_owned(), value.to_owned())
+}
+
+/// Type of a column's cells; a table without rows has numbers.
 fn kind(column: &SweepColumn, record: &SweepRecord) -> PhysicalType {
     match record.rows.first().map(|row| column.cell(row)) {
         Some(Cell::Whole(_)) => PhysicalType::INT64,

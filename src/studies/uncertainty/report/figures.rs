@@ -9,7 +9,7 @@ use crate::report::chart::{Chart, Dash, INK, Trace, TraceKind, gear_colour, padd
 use crate::report::html::number::{figure, percent};
 use crate::studies::uncertainty::record::{FactorIndices, OutputRecord, UncertaintyRecord};
 
-/// Bars of a distribution.
+/// Number of bars of a distribution.
 const BARS: usize = 30;
 
 pub(super) fn all(record: &UncertaintyRecord) -> Vec<Chart> {
@@ -20,13 +20,13 @@ pub(super) fn all(record: &UncertaintyRecord) -> Vec<Chart> {
     indices.chain(distributions).chain(bands).collect()
 }
 
-/// At its axis: of a life, whose limit stands in the title of the plot, only that it is one.
+/// Title of the axis; the limit of a life stands in the title of the plot.
 fn with_unit(output: &OutputRecord) -> String {
     let name = if output.censored.is_some() { "life" } else { &output.meaning };
     if output.unit.is_empty() { name.to_owned() } else { format!("{name}, {}", output.unit) }
 }
 
-/// Where the samples lie, as parts of all between equal steps.
+/// Histogram of the samples as parts of all.
 fn distribution(number: usize, output: &OutputRecord) -> Option<Chart> {
     let finite: Vec<f64> = output.sorted.iter().copied().filter(|value| value.is_finite()).collect();
     let (low, high) = (*finite.first()?, *finite.last()?);
@@ -71,23 +71,9 @@ fn distribution(number: usize, output: &OutputRecord) -> Option<Chart> {
     )
 }
 
-/// What each factor explains, with intervals.
+/// Share of the variance that each factor explains, with intervals.
 fn indices(number: usize, output: &OutputRecord) -> Option<Chart> {
     let indices = output.indices.as_ref()?;
-    // The first factor stands at the top.
-    let factors: Vec<String> = indices.iter().rev().map(|one| wrapped(&one.factor)).collect();
-    let bars = |name: &str, colour: &str, of: fn(&FactorIndices) -> Index| {
-        let of = || indices.iter().rev().map(of);
-        let above: Vec<f64> = of().map(|index| index.high - index.value).collect();
-        let below: Vec<f64> = of().map(|index| index.value - index.low).collect();
-        Trace::new(TraceKind::Bar, name)
-            .set("orientation", "h")
-            .set("y", factors.clone())
-            .set("x", of().map(|index| index.value).collect::<Vec<_>>())
-            .set("error_x", json!({ "type": "data", "symmetric": false, "array": above, "arrayminus": below, "thickness": 1, "color": INK }))
-            .set("marker", json!({ "color": colour }))
-            .hover("%{x:.3f}")
-    };
     let most = indices.iter().max_by(|a, b| a.total.value.total_cmp(&b.total.value))?;
     Some(
         Chart::new(format!("indices-{number}"), format!("Sobol indices: {}", output.meaning))
@@ -96,8 +82,8 @@ fn indices(number: usize, output: &OutputRecord) -> Option<Chart> {
             .x("part of the variance")
             .y("")
             .set("barmode", "group")
-            .add(bars("total", "var(--wheel)", |one| one.total))
-            .add(bars("first order", "var(--pinion)", |one| one.first))
+            .add(bars(indices, "total", "var(--wheel)", |one| one.total))
+            .add(bars(indices, "first order", "var(--pinion)", |one| one.first))
             .reading(format!(
                 "{} matters most: without knowing it, {} of the variance stays; alone it explains {}. Lines: 95 % intervals.",
                 most.factor,
@@ -107,9 +93,32 @@ fn indices(number: usize, output: &OutputRecord) -> Option<Chart> {
     )
 }
 
-/// A key on lines of its parts, so that the plot keeps its room.
+/// Bars of one kind of index with their intervals, the first factor at the top.
+fn bars(indices: &[FactorIndices], name: &str, colour: &str, of: fn(&FactorIndices) -> Index) -> Trace {
+    let factors: Vec<String> = indices.iter().rev().map(|one| wrapped(&one.factor)).collect();
+    let shown: Vec<Index> = indices.iter().rev().map(of).collect();
+    let above: Vec<f64> = shown.iter().map(|index| index.high - index.value).collect();
+    let below: Vec<f64> = shown.iter().map(|index| index.value - index.low).collect();
+    let error = json!({ "type": "data", "symmetric": false, "array": above, "arrayminus": below, "thickness": 1, "color": INK });
+    Trace::new(TraceKind::Bar, name)
+        .set("orientation", "h")
+        .set("y", factors)
+        .set("x", shown.iter().map(|index| index.value).collect::<Vec<_>>())
+        .set("error_x", error)
+        .set("marker", json!({ "color": colour }))
+        .hover("%{x:.3f}")
+}
+
+/// Key with a line break after each part, to keep the plot wide.
 fn wrapped(key: &str) -> String {
     key.rsplit_once('.').map_or_else(|| key.to_owned(), |(tables, name)| format!("{tables}.<br>{name}"))
+}
+
+/// Outline of the area between two curves.
+fn area(name: &str, radius: &[f64], [below, above]: [&Vec<f64>; 2]) -> Trace {
+    let x = radius.iter().chain(radius.iter().rev()).copied();
+    let y = below.iter().chain(above.iter().rev()).copied();
+    Trace::line(name, x, y, ("rgba(0,0,0,0)", 0.0, Dash::Solid))
 }
 
 /// Quantiles of wear over a flank.
@@ -122,12 +131,7 @@ fn band(record: &UncertaintyRecord, gear: Gear) -> Option<Chart> {
     }
     let radius = &band.radius_mm;
     let [low, high] = extent(radius.iter().copied());
-    let area = |name: &str, below: &[f64], above: &[f64], opacity: f64| {
-        let x = radius.iter().chain(radius.iter().rev()).copied();
-        let y = below.iter().chain(above.iter().rev()).copied();
-        Trace::line(name, x, y, ("rgba(0,0,0,0)", 0.0, Dash::Solid)).filled(gear_colour(gear)).opacity(opacity)
-    };
-    let line = |values: &[f64]| values.to_vec();
+    let [x, median, nominal] = [radius, p50, &band.nominal_um].map(|values| values.iter().copied());
     Some(
         Chart::new(format!("band-{}", gear.name()), format!("Wear over the flank of the {}", gear.name()))
             .wide()
@@ -137,10 +141,10 @@ fn band(record: &UncertaintyRecord, gear: Gear) -> Option<Chart> {
             .x_format(".3f")
             .y("wear depth, µm")
             .y_down_to(deepest)
-            .add(area("5 to 95 %", p05, p95, 0.16))
-            .add(area("25 to 75 %", p25, p75, 0.28))
-            .line("median", radius.iter().copied(), line(p50), (gear_colour(gear), 2.2, Dash::Solid), "%{y:.3f} µm")
-            .line("scene as given", radius.iter().copied(), line(&band.nominal_um), (INK, 1.4, Dash::Dashed), "%{y:.3f} µm")
+            .add(area("5 to 95 %", radius, [p05, p95]).filled(gear_colour(gear)).opacity(0.16))
+            .add(area("25 to 75 %", radius, [p25, p75]).filled(gear_colour(gear)).opacity(0.28))
+            .line("median", x.clone(), median, (gear_colour(gear), 2.2, Dash::Solid), "%{y:.3f} µm")
+            .line("scene as given", x, nominal, (INK, 1.4, Dash::Dashed), "%{y:.3f} µm")
             .reading(format!(
                 "Quantiles of the samples at each radius, maximum over the face width; at the deepest place 95 % of them have worn less than {} µm. The error \
                  of the fast model is not in them.",

@@ -8,14 +8,14 @@ use crate::report::chart::{Chart, Dash, MUTED, Trace};
 use crate::report::html::number::plotted;
 use crate::studies::validation::record::{CasePlot, CaseRecord, CurveStyle, PlotCurve};
 
-/// By which colour and which sign the curve of that number is told from the others; they recur.
+/// Colour and symbol of curve `number`; they repeat.
 pub(super) fn colour_and_symbol(number: usize) -> (&'static str, &'static str) {
     const COLOURS: [&str; 5] = ["var(--pinion)", "var(--wheel)", "var(--path)", "var(--worn)", "var(--new)"];
     const SYMBOLS: [&str; 7] = ["circle", "square", "diamond", "triangle-up", "cross", "triangle-down", "x"];
     (COLOURS[number % COLOURS.len()], SYMBOLS[number % SYMBOLS.len()])
 }
 
-/// Curves with no more points than this show them.
+/// Greatest number of points of a curve that are marked.
 const FEW_POINTS: usize = 40;
 
 pub(super) fn all(case: &CaseRecord) -> Vec<Chart> {
