@@ -1,13 +1,11 @@
-//! Charts: what is drawn, in the words of plotly.js, which draws them in the page; as files they are drawn by `figure`.
+//! Charts: what is drawn, as data. `figure` draws them as files, the script of a page as `plot_description` tells it.
 //!
-//! A [`Chart`] is built line by line; what has no method of its own is set under plotly's name, as plotly's reference has it,
-//! <https://plotly.com/javascript/reference/>. Which bundle of the script goes into a page follows from its traces (`plot_script`).
+//! A [`Chart`] is built line by line. Numbers are in the unit that the axis names; what is no number is a gap.
 //!
-//! Colours are tokens, `var(--name)` or `mix(--from,--to,share)`. The page's script replaces them by the custom properties
-//! of `page.css` in force, so that one place holds the palette and charts follow the light, dark or printed page.
+//! Colours are tokens, `var(--name)` or `mix(--from,--to,share)`, of the custom properties of `page.css`: one place holds the palette, and
+//! charts follow the light, dark or printed page.
 
 use serde::Serialize;
-use serde_json::{Map, Value, json};
 
 use super::control::Control;
 use super::html::number::plotted;
@@ -22,9 +20,6 @@ pub(crate) const MUTED: &str = "var(--muted)";
 pub(crate) const PATH: &str = "var(--path)";
 /// Outlines and the answer that others are compared with.
 pub(crate) const INK: &str = "var(--ink)";
-const RULE: &str = "var(--rule)";
-const PAPER: &str = "var(--paper)";
-const NOTHING: &str = "rgba(0,0,0,0)";
 
 pub(crate) fn gear_colour(gear: Gear) -> &'static str {
     match gear {
@@ -50,7 +45,7 @@ pub(crate) fn colour_between_gears(share: f64) -> String {
     format!("mix(--pinion,--wheel,{share:.3})")
 }
 
-/// How a line is dashed, in plotly's words.
+/// How a line is dashed.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Dash {
@@ -62,60 +57,158 @@ pub(crate) enum Dash {
     Mixed,
 }
 
-/// plotly's types of traces that charts use.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum TraceKind {
-    /// Lines and points.
-    Scatter,
-    Bar,
-    HeatMap,
-    Contour,
-    Surface,
+/// Values of a field, row by row upwards.
+pub(crate) type Rows = Vec<Vec<f64>>;
+
+/// Lines and points.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Curve {
+    pub x: Vec<f64>,
+    pub y: Vec<f64>,
+    pub line: Option<Line>,
+    pub signs: Option<Signs>,
+    /// Colour of the area within the line.
+    pub fill: Option<String>,
+    /// Whether the texts of its points stand above them.
+    pub is_lettered: bool,
+    /// Half the length of a bar through each point; empty where there is none.
+    pub uncertainty: Vec<f64>,
 }
 
-impl TraceKind {
-    /// As plotly calls it.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Scatter => "scatter",
-            Self::Bar => "bar",
-            Self::HeatMap => "heatmap",
-            Self::Contour => "contour",
-            Self::Surface => "surface",
-        }
-    }
+#[derive(Debug, Clone)]
+pub(crate) struct Line {
+    pub colour: String,
+    pub width_px: f64,
+    pub dash: Dash,
+}
+
+/// The signs of points.
+#[derive(Debug, Clone)]
+pub(crate) struct Signs {
+    pub colour: String,
+    /// `circle`, `square`, `diamond`, `triangle-up`, `-down` or `-right`, `cross`, `x` or `star`; with `-open` an outline, with `-dot` a dot in
+    /// its middle.
+    pub symbol: String,
+    /// One for all points, or one for each.
+    pub size_px: Vec<f64>,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct Bars {
+    pub places: BarPlaces,
+    pub length: Vec<f64>,
+    pub colour: String,
+    /// Bars go from left to right.
+    pub is_horizontal: bool,
+    /// Reach below and above the end of each bar.
+    pub interval: Option<[Vec<f64>; 2]>,
+}
+
+/// Where bars stand on their axis.
+#[derive(Debug, Clone)]
+pub(crate) enum BarPlaces {
+    Named(Vec<String>),
+    At { middles: Vec<f64>, width: f64 },
+}
+
+/// Values over cells or points of a raster, as colours.
+#[derive(Debug, Clone)]
+pub(crate) struct Field {
+    /// Edges of the cells, or their middles; of contours the places of the values.
+    pub x: Vec<f64>,
+    pub y: Vec<f64>,
+    pub values: Rows,
+    pub scale: ColourScale,
+}
+
+/// Colours of values, beside the chart.
+#[derive(Debug, Clone)]
+pub(crate) struct ColourScale {
+    pub unit: String,
+    /// Values of the first and the last colour; otherwise the least and the greatest.
+    pub range: Option<[f64; 2]>,
+    /// Where it stands, in widths of the plot, if not right beside it.
+    pub at: Option<f64>,
+}
+
+/// A field as heights over a plane, to be turned.
+#[derive(Debug, Clone)]
+pub(crate) struct Surface {
+    pub field: Field,
+    pub height: Rows,
+    pub view: View,
+}
+
+/// How a surface is chosen and what its heights are.
+#[derive(Debug, Clone)]
+pub(crate) struct View {
+    /// On its button.
+    pub label: &'static str,
+    pub height_title: &'static str,
+    pub height_range: [f64; 2],
+    /// Lengths of width, depth and height as drawn.
+    pub drawn: [f64; 3],
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum Drawn {
+    Curve(Curve),
+    Bars(Bars),
+    /// One colour for each cell.
+    Cells(Field),
+    Contours(Field),
+    Surface(Surface),
+}
+
+/// When a trace is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Shown {
+    FromTheBeginning,
+    /// Once the reader chooses its entry in the legend.
+    OnRequest,
+    /// Once the reader chooses its view.
+    Hidden,
 }
 
 /// One of the things that a chart shows.
 #[derive(Debug, Clone)]
 pub(crate) struct Trace {
-    pub kind: TraceKind,
-    attributes: Map<String, Value>,
+    pub drawn: Drawn,
+    pub name: String,
+    /// What is read at a point, with `%{x}`, `%{y:.3f}` …: values in a format of d3.
+    pub hover: Option<String>,
+    /// Nothing is read at its points.
+    pub is_silent: bool,
+    /// A text for each point, `%{text}`.
+    pub texts: Vec<String>,
+    /// A further number for each point, `%{customdata}`.
+    pub further: Vec<f64>,
+    pub is_listed: bool,
+    /// Shown and hidden with the others of this group.
+    pub group: Option<String>,
+    pub shown: Shown,
+    pub opacity: f64,
 }
 
-/// Numbers rounded to what a chart needs; what is none, or no number, is a gap.
-fn rounded(values: impl IntoIterator<Item = impl Into<Option<f64>>>) -> Value {
-    values.into_iter().map(|value| value.into().map(plotted)).collect()
+/// Numbers rounded to what a chart needs; what is none is a gap.
+fn rounded(values: impl IntoIterator<Item = impl Into<Option<f64>>>) -> Vec<f64> {
+    values.into_iter().map(|value| value.into().map_or(f64::NAN, plotted)).collect()
 }
 
 impl Trace {
-    pub(crate) fn new(kind: TraceKind, name: impl Into<String>) -> Self {
-        Self::of_kind(kind).set("name", name.into())
-    }
-
-    fn of_kind(kind: TraceKind) -> Self {
-        Self { kind, attributes: Map::new() }.set("type", kind.name())
-    }
-
-    /// An attribute under plotly's name; null where it is not set.
-    pub(crate) fn get(&self, key: &str) -> &Value {
-        self.attributes.get(key).unwrap_or(&Value::Null)
-    }
-
-    /// Sets an attribute under plotly's name.
-    pub(crate) fn set(mut self, key: &str, value: impl Into<Value>) -> Self {
-        self.attributes.insert(key.to_owned(), value.into());
-        self
+    pub(crate) fn new(drawn: Drawn, name: impl Into<String>) -> Self {
+        Self {
+            drawn,
+            name: name.into(),
+            hover: None,
+            is_silent: false,
+            texts: Vec::new(),
+            further: Vec::new(),
+            is_listed: true,
+            group: None,
+            shown: Shown::FromTheBeginning,
+            opacity: 1.0,
+        }
     }
 
     /// A line through points, of a colour, a width in pixels and a dash.
@@ -125,92 +218,204 @@ impl Trace {
         y: impl IntoIterator<Item = impl Into<Option<f64>>>,
         (colour, width_px, dash): (impl Into<String>, f64, Dash),
     ) -> Self {
-        let points = Self::new(TraceKind::Scatter, name).set("x", rounded(x)).set("y", rounded(y));
-        // Through all its points: plotly would leave some out, which puts corners into smooth curves.
-        let line = json!({ "color": colour.into(), "width": width_px, "dash": dash, "simplify": false });
-        points.set("mode", "lines").set("line", line)
+        let line = Some(Line { colour: colour.into(), width_px, dash });
+        Self::new(Drawn::Curve(Curve { x: rounded(x), y: rounded(y), line, ..Curve::default() }), name)
     }
 
-    /// Points, each a sign of plotly's symbols.
+    /// Points, each a sign of [`Signs::symbol`].
     pub(crate) fn points(
         name: impl Into<String>,
         x: impl IntoIterator<Item = impl Into<Option<f64>>>,
         y: impl IntoIterator<Item = impl Into<Option<f64>>>,
         (colour, symbol, size_px): (&str, &str, i32),
     ) -> Self {
-        let points = Self::new(TraceKind::Scatter, name).set("x", rounded(x)).set("y", rounded(y));
-        points.set("mode", "markers").set("marker", json!({ "color": colour, "symbol": symbol, "size": size_px }))
+        let curve = Curve { x: rounded(x), y: rounded(y), ..Curve::default() };
+        Self::new(Drawn::Curve(curve), name).signs(colour, symbol, vec![size_px.into()])
     }
 
-    /// Colours over cells.
-    pub(crate) fn heat_map(unit: &str, x: &[f64], y: &[f64], z: impl Into<Value>) -> Self {
-        let edges = |edges: &[f64]| rounded(edges.iter().copied());
-        Self::of_kind(TraceKind::HeatMap).set("x", edges(x)).set("y", edges(y)).set("z", z).colour_bar(unit)
+    /// Bars upwards.
+    pub(crate) fn bars(name: &str, places: BarPlaces, length: Vec<f64>, colour: &str) -> Self {
+        let colour = colour.to_owned();
+        Self::new(Drawn::Bars(Bars { places, length, colour, is_horizontal: false, interval: None }), name)
     }
 
-    /// Colours for values, with their scale beside the chart.
-    pub(crate) fn colour_bar(self, unit: &str) -> Self {
-        // With empty lines below, so that the unit stands clear of a number at the very top.
-        let title = json!({ "text": format!("{unit}<br>\u{a0}<br>\u{a0}"), "font": { "size": 12 } });
-        let bar = json!({
-            "title": title,
-            "thickness": 12,
-            "exponentformat": "power",
-            "minexponent": LARGEST_PLAIN_EXPONENT,
-        });
-        self.set("colorscale", "Viridis").set("colorbar", bar)
+    /// Colours over cells with these edges (or middles, one fewer).
+    pub(crate) fn heat_map(unit: &str, x: &[f64], y: &[f64], values: Rows) -> Self {
+        let [x, y] = [x, y].map(|places| rounded(places.iter().copied()));
+        Self::new(Drawn::Cells(Field { x, y, values, scale: ColourScale::of(unit) }), "")
     }
 
-    /// The scale of colours farther out, as part of the chart's width.
-    pub(crate) fn colour_bar_at(mut self, x: f64) -> Self {
-        self.attributes["colorbar"]["x"] = x.into();
+    fn signs(mut self, colour: &str, symbol: &str, size_px: Vec<f64>) -> Self {
+        if let Drawn::Curve(curve) = &mut self.drawn {
+            curve.signs = Some(Signs { colour: colour.to_owned(), symbol: symbol.to_owned(), size_px });
+        }
         self
     }
 
     /// The signs of a line's points too.
     pub(crate) fn with_points(self, symbol: &str, size_px: i32) -> Self {
-        let colour = self.attributes["line"]["color"].clone();
-        let marker = json!({ "color": colour, "symbol": symbol, "size": size_px });
-        self.set("mode", "lines+markers").set("marker", marker)
+        let Drawn::Curve(Curve { line: Some(line), .. }) = &self.drawn else { return self };
+        let colour = line.colour.clone();
+        self.signs(&colour, symbol, vec![size_px.into()])
+    }
+
+    /// A size for each point.
+    pub(crate) fn sizes(mut self, px: Vec<f64>) -> Self {
+        if let Drawn::Curve(Curve { signs: Some(signs), .. }) = &mut self.drawn {
+            signs.size_px = px;
+        }
+        self
+    }
+
+    /// A bar of half this length on either side of each point.
+    pub(crate) fn uncertain_by(mut self, half: &[f64]) -> Self {
+        if let Drawn::Curve(curve) = &mut self.drawn {
+            curve.uncertainty = rounded(half.iter().copied());
+        }
+        self
     }
 
     /// An area instead of a line.
-    pub(crate) fn filled(self, colour: impl Into<String>) -> Self {
-        self.set("fill", "toself").set("fillcolor", colour.into()).silent()
+    pub(crate) fn filled(mut self, colour: impl Into<String>) -> Self {
+        if let Drawn::Curve(curve) = &mut self.drawn {
+            curve.fill = Some(colour.into());
+        }
+        self.silent()
     }
 
-    /// What is read at a point, as a template of plotly's.
-    pub(crate) fn hover(self, template: impl Into<String>) -> Self {
-        self.set("hovertemplate", template.into())
+    /// A text above each point.
+    pub(crate) fn lettered(mut self, texts: Vec<String>) -> Self {
+        if let Drawn::Curve(curve) = &mut self.drawn {
+            curve.is_lettered = true;
+        }
+        self.texts(texts)
+    }
+
+    /// Colours from 0 to `greatest`; to 1 where nothing is above zero.
+    pub(crate) fn colours_up_to(mut self, greatest: f64) -> Self {
+        if let Drawn::Cells(field) = &mut self.drawn {
+            field.scale.range = Some([0.0, if greatest > 0.0 { greatest } else { 1.0 }]);
+        }
+        self
+    }
+
+    /// The scale of colours farther out, in widths of the plot.
+    pub(crate) fn colour_scale_at(mut self, at: f64) -> Self {
+        if let Drawn::Cells(field) = &mut self.drawn {
+            field.scale.at = Some(at);
+        }
+        self
+    }
+
+    /// What is read at a point: [`Trace::hover`].
+    pub(crate) fn hover(mut self, template: impl Into<String>) -> Self {
+        self.hover = Some(template.into());
+        self
     }
 
     /// A text of its own to be read at each point.
     pub(crate) fn hover_texts(self, texts: Vec<String>) -> Self {
-        self.set("hovertext", texts).hover("%{hovertext}<extra></extra>")
+        self.texts(texts).hover("%{text}<extra></extra>")
+    }
+
+    pub(crate) fn texts(mut self, texts: Vec<String>) -> Self {
+        self.texts = texts;
+        self
+    }
+
+    /// A further number to be read at each point.
+    pub(crate) fn further(mut self, values: Vec<f64>) -> Self {
+        self.further = rounded(values);
+        self
     }
 
     /// Nothing is read at its points.
-    pub(crate) fn silent(self) -> Self {
-        self.set("hoverinfo", "skip")
+    pub(crate) fn silent(mut self) -> Self {
+        self.is_silent = true;
+        self
     }
 
     pub(crate) fn unlisted(self) -> Self {
-        self.set("showlegend", false)
+        self.listed(false)
+    }
+
+    /// Named in the legend, or not.
+    pub(crate) fn listed(mut self, is_listed: bool) -> Self {
+        self.is_listed = is_listed;
+        self
     }
 
     /// Shown and hidden with the others of the group.
-    pub(crate) fn group(self, name: &str) -> Self {
-        self.set("legendgroup", name)
+    pub(crate) fn group(mut self, name: &str) -> Self {
+        self.group = Some(name.to_owned());
+        self
     }
 
     /// Drawn from the beginning, or not before its entry in the legend is chosen.
-    pub(crate) fn at_once(self, at_once: bool) -> Self {
-        self.set("visible", if at_once { json!(true) } else { json!("legendonly") })
+    pub(crate) fn at_once(mut self, at_once: bool) -> Self {
+        self.shown = if at_once { Shown::FromTheBeginning } else { Shown::OnRequest };
+        self
     }
 
-    pub(crate) fn opacity(self, opacity: f64) -> Self {
-        self.set("opacity", opacity)
+    pub(crate) fn opacity(mut self, opacity: f64) -> Self {
+        self.opacity = opacity;
+        self
     }
+
+    pub(crate) fn is_surface(&self) -> bool {
+        matches!(self.drawn, Drawn::Surface(_))
+    }
+}
+
+impl ColourScale {
+    pub(crate) fn of(unit: &str) -> Self {
+        Self { unit: unit.to_owned(), range: None, at: None }
+    }
+}
+
+/// An axis: its words, range and ticks.
+#[derive(Debug, Clone)]
+pub(crate) struct Axis {
+    /// Unit included.
+    pub title: String,
+    /// Values at its beginning and its end; otherwise they follow from the traces.
+    pub range: Option<[f64; 2]>,
+    pub is_logarithmic: bool,
+    pub has_grid: bool,
+    /// How its values are read at a point, a format of d3.
+    pub format: Option<&'static str>,
+    /// Values with their words, where they are not those of round numbers.
+    pub ticks: Vec<(f64, String)>,
+}
+
+impl Axis {
+    pub(crate) fn new() -> Self {
+        Self {
+            title: String::new(),
+            range: None,
+            is_logarithmic: false,
+            has_grid: true,
+            format: None,
+            ticks: Vec::new(),
+        }
+    }
+}
+
+/// A vertical line with its name above it.
+#[derive(Debug, Clone)]
+pub(crate) struct Mark {
+    pub name: String,
+    pub x: f64,
+    pub is_strong: bool,
+}
+
+/// A name beside something.
+#[derive(Debug, Clone)]
+pub(crate) enum Label {
+    /// At the right of the plot, at this height.
+    Beside { name: String, y: f64 },
+    /// Just above a point.
+    Above { name: String, at: [f64; 2] },
 }
 
 /// A chart with its words.
@@ -223,32 +428,44 @@ pub(crate) struct Chart {
     pub reading: String,
     /// Over the whole width of the page, or beside the next one where there is room.
     pub is_wide: bool,
+    pub height_px: usize,
     /// What the reader may move.
     pub control: Option<Control>,
-    traces: Vec<Trace>,
-    layout: Value,
+    pub x: Axis,
+    pub y: Axis,
+    /// A length is the same on both axes.
+    pub is_to_scale: bool,
+    /// The reader drags the drawing, rather than a frame to be enlarged.
+    pub is_dragged: bool,
+    /// Traces are named below it.
+    pub has_legend: bool,
+    /// The nearest point is read, not all above one another.
+    pub reads_nearest: bool,
+    pub marks: Vec<Mark>,
+    pub labels: Vec<Label>,
+    pub traces: Vec<Trace>,
 }
 
 impl Chart {
-    /// An empty chart. Its width and the legend's height follow from the room there is, in the page's script.
+    /// An empty chart. Its width follows from the room there is.
     pub(crate) fn new(id: impl Into<String>, title: impl Into<String>) -> Self {
-        let layout = json!({
-            "height": 380,
-            "paper_bgcolor": PAPER,
-            "plot_bgcolor": PAPER,
-            "font": { "family": "system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif", "size": 13, "color": INK },
-            "margin": { "l": 56, "r": 12, "t": 28, "b": 48 },
-            "separators": ".\u{202f}",
-            "hovermode": "x unified",
-            "hoverlabel": { "bgcolor": PAPER, "bordercolor": RULE },
-            "modebar": { "bgcolor": NOTHING, "color": MUTED, "activecolor": INK },
-            "showlegend": true,
-            "legend": {
-                "orientation": "h", "x": 0.0, "xanchor": "left", "itemwidth": 34, "bgcolor": NOTHING, "font": { "size": 12 },
-            },
-        });
-        let (id, title) = (id.into(), title.into());
-        Self { id, title, reading: String::new(), is_wide: false, control: None, traces: Vec::new(), layout }
+        Self {
+            id: id.into(),
+            title: title.into(),
+            reading: String::new(),
+            is_wide: false,
+            height_px: 380,
+            control: None,
+            x: Axis::new(),
+            y: Axis::new(),
+            is_to_scale: false,
+            is_dragged: false,
+            has_legend: true,
+            reads_nearest: false,
+            marks: Vec::new(),
+            labels: Vec::new(),
+            traces: Vec::new(),
+        }
     }
 
     pub(crate) fn reading(mut self, text: impl Into<String>) -> Self {
@@ -273,54 +490,55 @@ impl Chart {
         self
     }
 
-    /// Sets an attribute of the layout under plotly's name.
-    pub(crate) fn set(mut self, key: &str, value: impl Into<Value>) -> Self {
-        self.layout[key] = value.into();
+    pub(crate) fn height(mut self, px: usize) -> Self {
+        self.height_px = px;
         self
     }
 
-    pub(crate) fn height(self, px: usize) -> Self {
-        self.set("height", px)
+    /// A length is the same on both axes.
+    pub(crate) fn to_scale(mut self) -> Self {
+        self.is_to_scale = true;
+        self
+    }
+
+    /// The reader drags the drawing, rather than a frame to be enlarged.
+    pub(crate) fn dragged(mut self) -> Self {
+        self.is_dragged = true;
+        self
     }
 
     /// Whether traces are named below it.
-    pub(crate) fn legend(self, is_shown: bool) -> Self {
-        self.set("showlegend", is_shown)
+    pub(crate) fn legend(mut self, is_shown: bool) -> Self {
+        self.has_legend = is_shown;
+        self
     }
 
     /// The nearest point is read, not all above one another.
-    pub(crate) fn read_nearest(self) -> Self {
-        self.set("hovermode", "closest")
+    pub(crate) fn read_nearest(mut self) -> Self {
+        self.reads_nearest = true;
+        self
     }
 
     /// Names the axis across, unit included.
-    pub(crate) fn x(self, title: &str) -> Self {
-        self.set("xaxis", axis(title))
+    pub(crate) fn x(mut self, title: &str) -> Self {
+        self.x.title = title.to_owned();
+        self
     }
 
     /// Names the axis upwards, unit included.
-    pub(crate) fn y(self, title: &str) -> Self {
-        self.set("yaxis", axis(title))
-    }
-
-    /// Sets an attribute of the axis across under plotly's name.
-    pub(crate) fn x_set(mut self, key: &str, value: impl Into<Value>) -> Self {
-        self.layout["xaxis"][key] = value.into();
+    pub(crate) fn y(mut self, title: &str) -> Self {
+        self.y.title = title.to_owned();
         self
     }
 
-    /// Sets an attribute of the axis upwards under plotly's name.
-    pub(crate) fn y_set(mut self, key: &str, value: impl Into<Value>) -> Self {
-        self.layout["yaxis"][key] = value.into();
+    pub(crate) fn x_range(mut self, range: [f64; 2]) -> Self {
+        self.x.range = Some(range);
         self
     }
 
-    pub(crate) fn x_range(self, range: [f64; 2]) -> Self {
-        self.x_set("range", range.to_vec())
-    }
-
-    pub(crate) fn y_range(self, range: [f64; 2]) -> Self {
-        self.y_set("range", range.to_vec())
+    pub(crate) fn y_range(mut self, range: [f64; 2]) -> Self {
+        self.y.range = Some(range);
+        self
     }
 
     /// The axis upwards from 0 to somewhat above `greatest`.
@@ -335,21 +553,36 @@ impl Chart {
     }
 
     /// How places across are read, a format of d3.
-    pub(crate) fn x_format(self, format: &str) -> Self {
-        self.x_set("hoverformat", format)
+    pub(crate) fn x_format(mut self, format: &'static str) -> Self {
+        self.x.format = Some(format);
+        self
     }
 
-    /// Powers of ten written as such, across.
-    pub(crate) fn x_logarithmic(self) -> Self {
-        self.x_set("type", "log")
+    /// Powers of ten evenly spaced, across.
+    pub(crate) fn x_logarithmic(mut self) -> Self {
+        self.x.is_logarithmic = true;
+        self
     }
 
-    pub(crate) fn y_logarithmic(self) -> Self {
-        self.y_set("type", "log")
+    pub(crate) fn y_logarithmic(mut self) -> Self {
+        self.y.is_logarithmic = true;
+        self
     }
 
-    pub(crate) fn without_grid(self) -> Self {
-        self.x_set("showgrid", false).y_set("showgrid", false)
+    /// Values across with words of their own.
+    pub(crate) fn x_ticks(mut self, ticks: impl IntoIterator<Item = (f64, impl Into<String>)>) -> Self {
+        self.x.ticks = ticks.into_iter().map(|(value, word)| (value, word.into())).collect();
+        self
+    }
+
+    pub(crate) fn y_ticks(mut self, ticks: impl IntoIterator<Item = (f64, impl Into<String>)>) -> Self {
+        self.y.ticks = ticks.into_iter().map(|(value, word)| (value, word.into())).collect();
+        self
+    }
+
+    pub(crate) fn without_grid(mut self) -> Self {
+        (self.x.has_grid, self.y.has_grid) = (false, false);
+        self
     }
 
     /// The axis across as the path of contact, with its points.
@@ -360,15 +593,6 @@ impl Chart {
     pub(crate) fn add(mut self, trace: Trace) -> Self {
         self.traces.push(trace);
         self
-    }
-
-    /// Everything but its traces, in plotly's words.
-    pub(crate) fn layout(&self) -> &Value {
-        &self.layout
-    }
-
-    pub(crate) fn traces(&self) -> impl Iterator<Item = &Trace> {
-        self.traces.iter()
     }
 
     /// Draws all of `traces`, one over the other.
@@ -391,13 +615,8 @@ impl Chart {
     /// Draws a quantity new (dashed, grey) and worn (full) against `x`.
     pub(crate) fn new_and_worn(self, x: &[f64], new: Vec<f64>, worn: Vec<f64>, hover: &str) -> Self {
         let x = || x.iter().copied();
-        self.line("new", x(), new, (NEW, 2.0, Dash::Dashed), hover).line(
-            "worn",
-            x(),
-            worn,
-            (WORN, 2.2, Dash::Solid),
-            hover,
-        )
+        let chart = self.line("new", x(), new, (NEW, 2.0, Dash::Dashed), hover);
+        chart.line("worn", x(), worn, (WORN, 2.2, Dash::Solid), hover)
     }
 
     /// A vertical line with its letter at each of the points A–E; the pitch point C is the stronger one.
@@ -406,75 +625,16 @@ impl Chart {
     }
 
     /// A vertical line with its name at each place; that of the name `strongest` is the stronger one.
-    pub(crate) fn mark(self, places: impl IntoIterator<Item = (impl Into<String>, f64)>, strongest: &str) -> Self {
-        // On a logarithmic axis plotly takes the place of a line as it is and that of its name as a logarithm.
-        let is_logarithmic = self.layout["xaxis"]["type"] == "log";
-        let (mut lines, mut names) = (Vec::new(), Vec::new());
-        for (name, x) in places {
-            if !x.is_finite() || is_logarithmic && x <= 0.0 {
-                continue;
-            }
-            let name = name.into();
-            let (width, dash) = if name == strongest { (1.4, "dashdot") } else { (1.0, "dot") };
-            lines.push(json!({
-                "type": "line", "layer": "below", "xref": "x", "yref": "paper", "x0": x, "x1": x, "y0": 0.0, "y1": 1.0,
-                "line": { "color": MUTED, "width": width, "dash": dash },
-            }));
-            let at = if is_logarithmic { x.log10() } else { x };
-            names.push(label(name, json!({ "xref": "x", "yref": "paper", "x": at, "y": 1.0, "yanchor": "bottom" })));
-        }
-        self.set("shapes", lines).set("annotations", names)
+    pub(crate) fn mark(mut self, places: impl IntoIterator<Item = (impl Into<String>, f64)>, strongest: &str) -> Self {
+        let marks = places.into_iter().map(|(name, x)| (name.into(), x));
+        self.marks = marks.map(|(name, x)| Mark { is_strong: name == strongest, name, x }).collect();
+        self
     }
 
-    /// As plotly.js takes it; a number that is none is `null`, a gap.
-    pub(crate) fn to_json(&self) -> String {
-        #[derive(Serialize)]
-        struct Whole<'a> {
-            data: Vec<&'a Map<String, Value>>,
-            layout: &'a Value,
-            config: Value,
-            #[serde(skip_serializing_if = "Option::is_none")]
-            control: Option<&'a Control>,
-        }
-        let config = json!({
-            "typesetMath": false,
-            "displaylogo": false,
-            "displayModeBar": "hover",
-            "doubleClick": "reset+autosize",
-            "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d", "toggleSpikelines"],
-        });
-        let data = self.traces.iter().map(|trace| &trace.attributes).collect();
-        let whole = Whole { data, layout: &self.layout, config, control: self.control.as_ref() };
-        serde_json::to_string(&whole).expect("numbers and texts are JSON")
+    pub(crate) fn label(mut self, labels: impl IntoIterator<Item = Label>) -> Self {
+        self.labels.extend(labels);
+        self
     }
-}
-
-/// A name over a chart, at `place`.
-pub(crate) fn label(name: impl Into<String>, place: Value) -> Value {
-    let mut label = json!({ "showarrow": false, "text": name.into(), "font": { "size": 12, "color": MUTED } });
-    if let (Value::Object(label), Value::Object(place)) = (&mut label, place) {
-        label.extend(place);
-    }
-    label
-}
-
-/// Numbers at an axis are written out up to this power of ten: 10000, not 10k.
-const LARGEST_PLAIN_EXPONENT: i32 = 5;
-
-fn axis(title: &str) -> Value {
-    json!({
-        "title": { "text": title, "font": { "size": 13 } },
-        "automargin": true,
-        "gridcolor": "var(--grid)",
-        "zeroline": false,
-        "showline": true,
-        "linecolor": RULE,
-        "ticks": "outside",
-        "tickcolor": RULE,
-        "ticklen": 4,
-        "exponentformat": "power",
-        "minexponent": LARGEST_PLAIN_EXPONENT,
-    })
 }
 
 /// Range from 0 to somewhat above `greatest`; from 0 to 1 where nothing is above zero.
@@ -486,27 +646,4 @@ pub(crate) fn from_zero(greatest: f64) -> [f64; 2] {
 pub(crate) fn padded(low: f64, high: f64) -> [f64; 2] {
     let pad = 0.025 * (high - low).abs();
     [low - pad, high + pad]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn charts_are_in_the_words_of_the_script() {
-        let dots = Trace::points("dots", [1.0, f64::NAN], [0.5, 2.0], (PATH, "circle-open", 5)).at_once(false);
-        let chart =
-            Chart::new("id", "title").x("x, mm").x_logarithmic().add(dots).mark([("low", -1.0), ("high", 10.0)], "");
-        let json: Value = serde_json::from_str(&chart.to_json()).unwrap();
-        let trace = json!({ "type": "scatter", "name": "dots", "x": [1.0, null], "y": [0.5, 2.0], "mode": "markers",
-            "visible": "legendonly", "marker": { "size": 5, "symbol": "circle-open", "color": PATH } });
-        assert_eq!(json["data"][0], trace);
-        assert_eq!(json["layout"]["xaxis"]["title"]["text"], "x, mm");
-        assert_eq!(json["layout"]["shapes"].as_array().unwrap().len(), 1);
-        assert_eq!(
-            (&json["layout"]["shapes"][0]["x0"], &json["layout"]["annotations"][0]["x"]),
-            (&json!(10.0), &json!(1.0))
-        );
-        assert_eq!(json["config"]["doubleClick"], "reset+autosize");
-    }
 }

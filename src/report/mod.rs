@@ -23,12 +23,12 @@ pub(crate) mod control;
 pub(crate) mod csv_table;
 pub(crate) mod fem;
 pub(crate) mod fem_pair;
-#[cfg(feature = "program")]
 pub(crate) mod figure;
 pub(crate) mod files;
 pub(crate) mod flank_mesh;
 pub(crate) mod headline;
 pub(crate) mod html;
+mod plot_description;
 mod plot_script;
 mod pressure_plot;
 pub(crate) mod slice_table;

@@ -76,7 +76,10 @@
     return Plotly.restyle(plot.node, update, traces);
   }
 
-  const state = ({ steps }, at) => [steps[at].label, steps[at].set, steps[at].traces];
+  function state({ steps }, at) {
+    const { label, change } = steps[at];
+    return change.shown ? [label, { visible: change.shown }, change.shown.map((_, i) => i)] : [label, { z: [change.cells] }, [0]];
+  }
 
   function mesh(data, control, at) {
     const turned = control.bodies.map(({ trace, centre_mm: [cx, cy], radians_per_mm }) => {

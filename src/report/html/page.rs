@@ -10,6 +10,7 @@ use super::table::{inner, line, list};
 use super::terms::terms;
 use crate::report::chart::Chart;
 use crate::report::control::Control;
+use crate::report::plot_description;
 use crate::report::plot_script::PlotScript;
 use crate::results::run::StageTime;
 
@@ -123,7 +124,7 @@ impl Plots {
 fn plot(number: usize, chart: &Chart) -> Markup {
     let id = &chart.id;
     // Nothing in the data may end the element in which they stand.
-    let data = chart.to_json().replace('<', "\\u003c");
+    let data = plot_description::of(chart).to_string().replace('<', "\\u003c");
     html! {
         figure class=[chart.is_wide.then_some("wide")] {
             h3 id={ (id) "-title" } { (chart.title) }

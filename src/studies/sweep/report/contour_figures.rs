@@ -1,10 +1,8 @@
 //! A figure over two varied keys: contours, with the combination where it is least.
 
-use serde_json::json;
-
 use super::best_tables::shown_value;
 use super::section_plane::{self, ShownAxis, range};
-use crate::report::chart::{Chart, MUTED, Trace, TraceKind, padded};
+use crate::report::chart::{Chart, ColourScale, Drawn, Field, MUTED, Rows, Trace, padded};
 use crate::report::html::number::{figure as shown_number, plotted};
 use crate::report::html::reading::capitalised;
 use crate::studies::sweep::figures::SweepFigure;
@@ -19,11 +17,8 @@ pub(super) fn contour(
 ) -> Option<Chart> {
     let (best, least) = record.least(figure)?;
     let at = |i: usize, j: usize| section_plane::row(record, best, &[(x, i), (y, j)]);
-    let z: Vec<Vec<Option<f64>>> = y
-        .shown
-        .iter()
-        .map(|&j| x.shown.iter().map(|&i| at(i, j).and_then(|row| row.figure(figure)).map(plotted)).collect())
-        .collect();
+    let value = |i: usize, j: usize| at(i, j).and_then(|row| row.figure(figure)).map_or(f64::NAN, plotted);
+    let values: Rows = y.shown.iter().map(|&j| x.shown.iter().map(|&i| value(i, j)).collect()).collect();
     let failed: Vec<&SweepRow> = y
         .shown
         .iter()
@@ -31,21 +26,12 @@ pub(super) fn contour(
         .filter(|row| row.error.is_some())
         .collect();
     let unit = figure.unit;
-    let contours = Trace::new(TraceKind::Contour, figure.title)
-        .set("x", x.values())
-        .set("y", y.values())
-        .set("z", z)
-        .colour_bar(unit)
-        .set("contours", json!({ "showlabels": true, "labelfont": { "size": 11, "color": "#ffffff" } }))
-        .set("ncontours", 16)
-        .set("connectgaps", false)
-        .set("hoverongaps", false)
-        .unlisted()
-        .hover(format!(
-            "{}: %{{x}}<br>{}: %{{y}}<br>%{{z:.5~g}} {unit}<extra></extra>",
-            x.axis.title(),
-            y.axis.title()
-        ));
+    let field = Field { x: x.values(), y: y.values(), values, scale: ColourScale::of(unit) };
+    let contours = Trace::new(Drawn::Contours(field), figure.title).unlisted().hover(format!(
+        "{}: %{{x}}<br>{}: %{{y}}<br>%{{z:.5~g}} {unit}<extra></extra>",
+        x.axis.title(),
+        y.axis.title()
+    ));
     let mut chart = Chart::new(id("contour", figure), capitalised(figure.title))
         .height(460)
         .read_nearest()
@@ -56,12 +42,11 @@ pub(super) fn contour(
         .without_grid()
         .add(contours)
         .reading(reading(record, figure, best, &[x, y]));
-    let places = |words: &[String]| (0..words.len()).map(|place| place as f64).collect::<Vec<_>>();
     if let Some(words) = x.axis.words() {
-        chart = chart.x_set("tickvals", places(words)).x_set("ticktext", words.to_vec());
+        chart = chart.x_ticks(numbered(words));
     }
     if let Some(words) = y.axis.words() {
-        chart = chart.y_set("tickvals", places(words)).y_set("ticktext", words.to_vec());
+        chart = chart.y_ticks(numbered(words));
     }
     if x.axis.spacing == Spacing::Logarithmic {
         chart = chart.x_logarithmic();
@@ -78,11 +63,16 @@ pub(super) fn contour(
     Some(chart.add(least_at.hover(format!("minimum: {} {unit}<extra></extra>", shown_number(least)))))
 }
 
-/// The ends of an axis as plotly takes them: of a logarithmic one the exponents.
+/// Words with their places on an axis.
+pub(super) fn numbered(words: &[String]) -> impl Iterator<Item = (f64, String)> {
+    words.iter().enumerate().map(|(place, word)| (place as f64, word.clone()))
+}
+
+/// The ends of an axis, with a little room.
 fn ends(of: &ShownAxis<'_>) -> [f64; 2] {
     let (from, to) = (of.axis.from, of.axis.to);
     match of.axis.spacing {
-        Spacing::Logarithmic => padded(from.log10(), to.log10()),
+        Spacing::Logarithmic => padded(from.log10(), to.log10()).map(|exponent| 10f64.powf(exponent)),
         Spacing::Even | Spacing::Listed(_) | Spacing::Words(_) => padded(from, to),
     }
 }

@@ -1,11 +1,9 @@
 //! The plots of a study of uncertainty: distributions, indices, wear over both flanks.
 
-use serde_json::json;
-
 use crate::gear::Gear;
 use crate::reference::sobol_indices::Index;
 use crate::reference::statistics::extent;
-use crate::report::chart::{Chart, Dash, INK, Trace, TraceKind, gear_colour, padded};
+use crate::report::chart::{BarPlaces, Bars, Chart, Dash, Drawn, INK, Trace, gear_colour, padded};
 use crate::report::html::number::{figure, percent};
 use crate::studies::uncertainty::record::{FactorIndices, OutputRecord, UncertaintyRecord};
 
@@ -38,11 +36,7 @@ fn distribution(number: usize, output: &OutputRecord) -> Option<Chart> {
     finite.iter().for_each(|value| counts[(((value - low) / width) as usize).min(BARS - 1)] += 1);
     let middles: Vec<f64> = (0..BARS).map(|bar| low + (bar as f64 + 0.5) * width).collect();
     let parts: Vec<f64> = counts.iter().map(|&count| 100.0 * count as f64 / output.sorted.len() as f64).collect();
-    let bars = Trace::new(TraceKind::Bar, "samples")
-        .set("x", middles)
-        .set("y", parts)
-        .set("width", width)
-        .set("marker", json!({ "color": "var(--pinion)" }))
+    let bars = Trace::bars("samples", BarPlaces::At { middles, width }, parts, "var(--pinion)")
         .hover("%{x:.4~g}: %{y:.2f} %<extra></extra>")
         .unlisted();
     let [p05, _, p50, _, p95] = output.quantiles.all();
@@ -80,13 +74,14 @@ fn indices(number: usize, output: &OutputRecord) -> Option<Chart> {
         let of = || indices.iter().rev().map(of);
         let above: Vec<f64> = of().map(|index| index.high - index.value).collect();
         let below: Vec<f64> = of().map(|index| index.value - index.low).collect();
-        Trace::new(TraceKind::Bar, name)
-            .set("orientation", "h")
-            .set("y", factors.clone())
-            .set("x", of().map(|index| index.value).collect::<Vec<_>>())
-            .set("error_x", json!({ "type": "data", "symmetric": false, "array": above, "arrayminus": below, "thickness": 1, "color": INK }))
-            .set("marker", json!({ "color": colour }))
-            .hover("%{x:.3f}")
+        let bars = Bars {
+            places: BarPlaces::Named(factors.clone()),
+            length: of().map(|index| index.value).collect(),
+            colour: colour.to_owned(),
+            is_horizontal: true,
+            interval: Some([below, above]),
+        };
+        Trace::new(Drawn::Bars(bars), name).hover("%{x:.3f}")
     };
     let most = indices.iter().max_by(|a, b| a.total.value.total_cmp(&b.total.value))?;
     Some(
@@ -95,7 +90,6 @@ fn indices(number: usize, output: &OutputRecord) -> Option<Chart> {
             .height(150 + 56 * indices.len())
             .x("part of the variance")
             .y("")
-            .set("barmode", "group")
             .add(bars("total", "var(--wheel)", |one| one.total))
             .add(bars("first order", "var(--pinion)", |one| one.first))
             .reading(format!(
