@@ -1,4 +1,4 @@
-//! Charts: what is drawn, as data. `figure` draws them as files, the script of a page as `plot_description` tells it.
+//! Charts: what is drawn, as data. `figure` draws them, in pages and in files.
 //!
 //! A [`Chart`] is built line by line. Numbers are in the unit that the axis names; what is no number is a gap.
 //!
@@ -127,8 +127,6 @@ pub(crate) struct ColourScale {
     pub unit: String,
     /// Values of the first and the last colour; otherwise the least and the greatest.
     pub range: Option<[f64; 2]>,
-    /// Where it stands, in widths of the plot, if not right beside it.
-    pub at: Option<f64>,
 }
 
 /// A field as heights over a plane, to be turned.
@@ -140,7 +138,7 @@ pub(crate) struct Surface {
 }
 
 /// How a surface is chosen and what its heights are.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 pub(crate) struct View {
     /// On its button.
     pub label: &'static str,
@@ -299,14 +297,6 @@ impl Trace {
         self
     }
 
-    /// The scale of colours farther out, in widths of the plot.
-    pub(crate) fn colour_scale_at(mut self, at: f64) -> Self {
-        if let Drawn::Cells(field) = &mut self.drawn {
-            field.scale.at = Some(at);
-        }
-        self
-    }
-
     /// What is read at a point: [`Trace::hover`].
     pub(crate) fn hover(mut self, template: impl Into<String>) -> Self {
         self.hover = Some(template.into());
@@ -369,7 +359,7 @@ impl Trace {
 
 impl ColourScale {
     pub(crate) fn of(unit: &str) -> Self {
-        Self { unit: unit.to_owned(), range: None, at: None }
+        Self { unit: unit.to_owned(), range: None }
     }
 }
 
@@ -386,6 +376,14 @@ pub(crate) struct Axis {
     pub format: Option<&'static str>,
     /// Values with their words, where they are not those of round numbers.
     pub ticks: Vec<(f64, String)>,
+}
+
+impl Curve {
+    /// That of its line, or of its points.
+    pub(crate) fn colour(&self) -> &str {
+        let line = self.line.as_ref().filter(|line| line.width_px > 0.0).map(|line| &line.colour);
+        line.or(self.signs.as_ref().map(|signs| &signs.colour)).map_or(INK, |colour| colour)
+    }
 }
 
 impl Axis {

@@ -28,8 +28,6 @@ pub(crate) mod files;
 pub(crate) mod flank_mesh;
 pub(crate) mod headline;
 pub(crate) mod html;
-mod plot_description;
-mod plot_script;
 mod pressure_plot;
 pub(crate) mod slice_table;
 pub(crate) mod tables;

@@ -8,11 +8,15 @@ use crate::report::html::number::{superscript, to_digits};
 const ROOM: f64 = 0.05;
 /// Decades of a logarithmic axis up to which it has ticks at 2 and 5 as well.
 const FEW_DECADES: f64 = 2.5;
+/// Decades below which there may be none of these.
+const LEAST_DECADES: f64 = 0.3;
 
 /// An axis with its range in coordinates (of a logarithmic axis exponents) and its ends on the drawing.
 pub(super) struct PlacedAxis<'a> {
     pub words: &'a Axis,
     pub range: [f64; 2],
+    /// The range before it was widened to draw to scale.
+    pub asked: [f64; 2],
     /// Names at 0, 1, 2 … where the axis has no numbers.
     pub categories: Vec<String>,
     place: [f64; 2],
@@ -26,10 +30,11 @@ impl<'a> PlacedAxis<'a> {
         categories: Vec<String>,
         tight: bool,
     ) -> Self {
-        let mut axis = Self { words, range: [0.0, 1.0], categories, place: [0.0, 1.0] };
+        let mut axis = Self { words, range: [0.0, 1.0], asked: [0.0, 1.0], categories, place: [0.0, 1.0] };
         let given = words.range.map(|range| range.map(|value| axis.coordinate(value)));
         let is_range = |range: &[f64; 2]| range.iter().all(|end| end.is_finite()) && range[0] != range[1];
-        axis.range = given.filter(is_range).unwrap_or_else(|| axis.around(values, tight));
+        axis.asked = given.filter(is_range).unwrap_or_else(|| axis.around(values, tight));
+        axis.range = axis.asked;
         axis
     }
 
@@ -85,6 +90,10 @@ impl<'a> PlacedAxis<'a> {
         let [low, high] = [self.range[0].min(self.range[1]), self.range[0].max(self.range[1])];
         let inside = |place: f64| low - 1e-9 * (high - low) <= place && place <= high + 1e-9 * (high - low);
         let ticks: Vec<(f64, String)> = match (&self.categories[..], &self.words.ticks[..]) {
+            ([], []) if self.words.is_logarithmic && high - low < LEAST_DECADES => {
+                let ticks = evenly(low, high, most).into_iter();
+                ticks.map(|(exponent, _)| (exponent, plain(to_digits(10f64.powf(exponent), 4)))).collect()
+            }
             ([], []) if self.words.is_logarithmic && high - low < FEW_DECADES => within_decades(low, high),
             ([], []) if self.words.is_logarithmic => decades(low, high, most),
             ([], []) => evenly(low, high, most),

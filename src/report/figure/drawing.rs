@@ -28,7 +28,7 @@ const LEGEND_SIGN: f64 = 30.0;
 /// Mean width of a character over the size of the font.
 const CHARACTER: f64 = 0.6;
 /// Least distances of ticks across and upwards, px.
-pub(super) const TICK_SPACING: [f64; 2] = [80.0, 48.0];
+pub(super) const TICK_SPACING: [f64; 2] = [64.0, 42.0];
 
 pub(super) struct Drawing<'a> {
     pub chart: &'a Chart,
@@ -137,20 +137,8 @@ impl<'a> Drawing<'a> {
         self.axes();
         self.titles();
         self.marks();
-        let mut bars_drawn = 0;
-        for (number, trace) in self.chart.traces.iter().enumerate() {
-            if self.picture.medium == Medium::File && !is_shown(trace) {
-                continue;
-            }
-            let opacity = trace.opacity;
-            let group = Group {
-                trace: Some(number),
-                is_clipped: true,
-                is_hidden: !is_shown(trace),
-                opacity,
-                ..Group::named("trace")
-            };
-            self.group(group, |drawing| drawing.trace(trace, &mut bars_drawn));
+        self.group(Group { is_clipped: true, ..Group::named("area") }, Self::traces);
+        for trace in self.drawn.clone() {
             if let Drawn::Cells(field) | Drawn::Contours(field) = &trace.drawn {
                 self.colour_scale(field);
             }
@@ -163,6 +151,18 @@ impl<'a> Drawing<'a> {
             self.legend();
         }
         self
+    }
+
+    fn traces(&mut self) {
+        let mut bars_drawn = 0;
+        for (number, trace) in self.chart.traces.iter().enumerate() {
+            if self.picture.medium == Medium::File && !is_shown(trace) {
+                continue;
+            }
+            let (opacity, is_hidden) = (trace.opacity, !is_shown(trace));
+            let group = Group { trace: Some(number), is_hidden, opacity, ..Group::named("trace") };
+            self.group(group, |drawing| drawing.trace(trace, &mut bars_drawn));
+        }
     }
 
     pub(super) fn group(&mut self, group: Group, draw: impl FnOnce(&mut Self)) {

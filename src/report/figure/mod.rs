@@ -7,6 +7,7 @@
 mod axis;
 mod contours;
 mod drawing;
+pub(crate) mod in_page;
 mod palette;
 mod picture;
 mod png;

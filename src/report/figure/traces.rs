@@ -216,17 +216,35 @@ impl Drawing<'_> {
     }
 }
 
+/// Middles of bars on their axis, in coordinates; `before` bars of a category stand before each.
+pub(super) fn bar_middles(drawing: &Drawing<'_>, bars: &Bars, before: usize) -> Vec<f64> {
+    let all = drawing.chart.traces.iter().filter(|trace| matches!(trace.drawn, Drawn::Bars(_))).count();
+    let along = if bars.is_horizontal { &drawing.y } else { &drawing.x };
+    let middle = |number| place_of_bar(along, bars, number, (before, all)).map_or(f64::NAN, |(middle, _)| middle);
+    (0..bars.length.len()).map(middle).collect()
+}
+
 /// From one side of the bar of that number to the other, px; `before` of `all` bars of a category stand before it.
-fn span(along: &PlacedAxis<'_>, bars: &Bars, number: usize, (before, all): (usize, usize)) -> Option<[f64; 2]> {
-    let (middle, width) = match &bars.places {
+fn span(along: &PlacedAxis<'_>, bars: &Bars, number: usize, among: (usize, usize)) -> Option<[f64; 2]> {
+    let (middle, width) = place_of_bar(along, bars, number, among)?;
+    Some([middle - 0.5 * width, middle + 0.5 * width].map(|side| along.at(side)))
+}
+
+/// Middle and width of a bar.
+fn place_of_bar(
+    along: &PlacedAxis<'_>,
+    bars: &Bars,
+    number: usize,
+    (before, all): (usize, usize),
+) -> Option<(f64, f64)> {
+    match &bars.places {
         BarPlaces::Named(names) => {
             let category = along.categories.iter().position(|known| Some(known) == names.get(number))?;
             let width = FILLED / all as f64;
-            (category as f64 + (before as f64 + 0.5 - 0.5 * all as f64) * width, width)
+            Some((category as f64 + (before as f64 + 0.5 - 0.5 * all as f64) * width, width))
         }
-        BarPlaces::At { middles, width } => (*middles.get(number)?, *width),
-    };
-    Some([middle - 0.5 * width, middle + 0.5 * width].map(|side| along.at(side)))
+        BarPlaces::At { middles, width } => Some((*middles.get(number)?, *width)),
+    }
 }
 
 /// Edges of `count` cells, of which the edges or the middles are given.

@@ -83,8 +83,7 @@ fn map(run: SlicedRun<'_>, gear: Gear, quantity: Quantity<'_>) -> Chart {
     let unit = quantity.unit;
     let colours = Trace::heat_map(unit, &raster.across.edges, &raster.along.edges, values)
         .colours_up_to(quantity.top)
-        .hover(format!("width %{{x:.2f}} mm, radius %{{y:.2f}} mm<br>%{{z:.4~g}} {unit}<extra></extra>"))
-        .colour_scale_at(1.05);
+        .hover(format!("width %{{x:.2f}} mm, radius %{{y:.2f}} mm<br>%{{z:.4~g}} {unit}<extra></extra>"));
     let ends = |edges: &[f64]| match edges {
         [first, .., last] => [*first, *last],
         _ => [0.0, 1.0],

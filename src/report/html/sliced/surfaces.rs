@@ -81,7 +81,7 @@ fn surface(run: SlicedRun<'_>, gear: Gear, shown: &Quantity<'_>, is_first: bool)
     let width = std::iter::once(0.0).chain(raster.across.middles()).chain([face_width]).map(plotted);
     let radius = raster.along.middles().into_iter().map(plotted);
     let (unit, top) = (shown.unit, shown.top);
-    let scale = ColourScale { range: Some([0.0, top]), ..ColourScale::of(unit) };
+    let scale = ColourScale { unit: unit.to_owned(), range: Some([0.0, top]) };
     let view = View {
         label: shown.label,
         height_title: shown.title,
