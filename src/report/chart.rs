@@ -494,7 +494,7 @@ impl Chart {
     }
 
     /// A length is the same on both axes.
-    pub(crate) fn to_scale(mut self) -> Self {
+    pub(crate) fn drawn_to_scale(mut self) -> Self {
         self.is_to_scale = true;
         self
     }

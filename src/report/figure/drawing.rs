@@ -96,7 +96,8 @@ impl<'a> Drawing<'a> {
         let y = PlacedAxis::new(&chart.y, along(1), names_of_bars(&drawn, true), has_field).placed(bottom, above);
         let longest =
             y.ticks(TICK_SPACING[1]).iter().flat_map(|(_, label)| label.lines().map(width_of)).fold(0.0, f64::max);
-        let left = (AXIS_NAME + longest).max(62.0);
+        let name = if chart.y.title.is_empty() { 14.0 } else { AXIS_NAME };
+        let left = (name + longest).max(62.0);
         let right = width - if has_field { RIGHT_OF_FIELD } else { RIGHT };
         let x = PlacedAxis::new(&chart.x, along(0), names_of_bars(&drawn, false), has_field).placed(left, right);
         let (x, y) = match chart.is_to_scale {

@@ -1,4 +1,4 @@
-//! A chart in a page: its drawing, the entries of its legend, and what the page's script (`html/plots.js`) reads at its points.
+//! A chart in a page: its drawing, the entries of its legend, and what the page's script (`html/page.js`) reads at its points.
 
 use serde::Serialize;
 

@@ -35,14 +35,12 @@ pub struct Figure {
 }
 
 /// Each of `charts` that is no surface in space, drawn.
-#[cfg(feature = "program")]
 fn pictures(charts: &[Chart]) -> impl Iterator<Item = Picture> {
     let flat = charts.iter().filter(|chart| !chart.traces.iter().any(Trace::is_surface));
     flat.map(|chart| Drawing::new(chart, Medium::File).finished().picture)
 }
 
 /// Each of `charts` that is no surface in space, as SVG.
-#[cfg(feature = "program")]
 pub(crate) fn drawn(charts: &[Chart]) -> impl Iterator<Item = Figure> {
     pictures(charts).map(|picture| Figure { svg: picture.svg(), name: picture.id })
 }

@@ -173,10 +173,11 @@ impl Drawing<'_> {
             let lines = contours::lines(&x, &y, &field.values, level);
             let steps = lines.iter().flat_map(|[from, to]| [Step::Move(*from), Step::Line(*to)]).collect();
             self.stroked(steps, ("rgba(255,255,255,0.45)", 1.0, Dash::Solid));
-            // In the middle of the line, where no other label is.
+            // Near the middle of the line, where no other label is.
             let middles = lines.iter().map(|[from, to]| [from[0].midpoint(to[0]), from[1].midpoint(to[1])]);
+            let sum = middles.clone().fold([0.0; 2], |sum, place| [sum[0] + place[0], sum[1] + place[1]]);
+            let middle = sum.map(|sum| sum / lines.len() as f64);
             let [left, top, right, bottom] = self.picture.frame;
-            let middle = [left.midpoint(right), top.midpoint(bottom)];
             let distance = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot(2.0 * (a[1] - b[1]));
             let free = middles.filter(|place| {
                 labels.iter().all(|label| distance(label, place) > 44.0)

@@ -27,7 +27,7 @@ pub(super) fn pair(record: &RunRecord) -> Chart {
         .height(620)
         .x("x, mm")
         .y("y, mm")
-        .to_scale()
+        .drawn_to_scale()
         .read_nearest()
         .dragged()
         .label(ends_of_the_line_of_action(drawing))

@@ -50,7 +50,7 @@ pub(crate) fn to_scale(chart: Chart, window: Window) -> Chart {
         .x_range(window.x_mm)
         .y_range(window.y_mm)
         .without_grid()
-        .to_scale()
+        .drawn_to_scale()
 }
 
 /// Sides of elements as one line with gaps.

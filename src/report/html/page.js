@@ -7,7 +7,7 @@
   const LEAST_FRAME = 6; // px: a smaller one is a click
   const root = document.documentElement;
   const svgElement = (name, attributes) => {
-    const element = document.createElementNS("http://www.w3.org/2000/svg", name);
+    const element = document.createElementNS(document.querySelector(".plot svg").namespaceURI, name);
     for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
     return element;
   };
@@ -155,7 +155,20 @@
         const y = fy * (part.drawn[1] - 4) + sy;
         put(part, part.drawn[0], y + 4, y >= top - 1 && y <= bottom + 1);
       }
+      this.clear();
       this.axes();
+    }
+
+    // Hides labels that would stand on others.
+    clear() {
+      const boxes = [];
+      for (const label of this.svg.querySelectorAll(".trace text")) {
+        const [, x, y] = /translate\(([^,]+),([^)]+)\)/.exec(label.getAttribute("transform")).map(Number);
+        const half = 0.3 * label.getAttribute("font-size") * label.textContent.length + 2;
+        const isFree = boxes.every(([otherX, otherY, other]) => Math.abs(x - otherX) > half + other || Math.abs(y - otherY) > 14);
+        label.style.display = isFree ? "" : "none";
+        if (isFree) boxes.push([x, y, half]);
+      }
     }
 
     // Place on the plot of a coordinate.
@@ -260,23 +273,50 @@
       this.node.append(tools);
     }
 
-    // The drawing with its colours in force, as a picture of twice its size.
+    // The drawing with its colours in force and its legend, as a picture of twice its size.
     save() {
-      const [width, height] = [this.width, this.data.size[1]];
+      const SCALE = 2;
       const copy = this.svg.cloneNode(true);
-      Object.entries({ xmlns: "http://www.w3.org/2000/svg", width: 2 * width, height: 2 * height }).forEach(([key, value]) => copy.setAttribute(key, value));
+      const width = this.width;
+      const height = this.data.size[1] + this.addLegend(copy);
+      const attributes = { width: SCALE * width, height: SCALE * height, viewBox: `0 0 ${width} ${height}` };
+      Object.entries(attributes).forEach(([key, value]) => copy.setAttribute(key, value));
+      // Widths of lines are those of the screen, whatever the scale.
+      for (const path of copy.querySelectorAll(".trace path:not(.at)")) {
+        path.setAttribute("vector-effect", "non-scaling-stroke");
+        for (const name of ["stroke-width", "stroke-dasharray"]) {
+          const lengths = path.getAttribute(name);
+          if (lengths) path.setAttribute(name, lengths.split(" ").map((length) => SCALE * length).join(" "));
+        }
+      }
       const style = getComputedStyle(root);
       const used = new Set(copy.outerHTML.match(/--[\w-]+/g));
       copy.style.cssText = [...used].map((name) => `${name}: ${style.getPropertyValue(name)}`).join(";") + ";font-family: sans-serif";
       copy.prepend(svgElement("rect", { width, height, fill: style.getPropertyValue("--paper") }));
-      copy.append(Object.assign(svgElement("style", {}), { textContent: ".trace path{vector-effect:non-scaling-stroke}.trace path.at{vector-effect:none}" }));
       const picture = new Image();
       picture.onload = () => {
-        const canvas = Object.assign(document.createElement("canvas"), { width: 2 * width, height: 2 * height });
+        const canvas = Object.assign(document.createElement("canvas"), { width: SCALE * width, height: SCALE * height });
         canvas.getContext("2d").drawImage(picture, 0, 0);
         Object.assign(document.createElement("a"), { href: canvas.toDataURL("image/png"), download: `${this.node.id}.png` }).click();
       };
       picture.src = "data:image/svg+xml;charset=utf-8," + encodeURIComponent(new XMLSerializer().serializeToString(copy));
+    }
+
+    // Puts the legend below a copy of the drawing; returns its height.
+    addLegend(copy) {
+      const shown = this.entries().filter((entry) => entry.getAttribute("aria-pressed") === "true");
+      let [x, y] = [this.frame[0], this.data.size[1] + 4];
+      for (const entry of shown) {
+        const length = 46 + 7.2 * entry.textContent.length;
+        if (x > this.frame[0] && x + length > this.width) [x, y] = [this.frame[0], y + 20];
+        const sign = entry.querySelector("svg").cloneNode(true);
+        Object.entries({ x, y, width: 30, height: 14 }).forEach(([key, value]) => sign.setAttribute(key, value));
+        const name = svgElement("text", { x: x + 36, y: y + 11, "font-size": 12, fill: "var(--ink)" });
+        name.textContent = entry.textContent;
+        copy.append(sign, name);
+        x += length;
+      }
+      return shown.length ? y + 24 - this.data.size[1] : 0;
     }
 
     // Place of a pointer on the drawing.

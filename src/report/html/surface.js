@@ -79,7 +79,7 @@ class SurfacePlot {
     pen.font = `12px ${getComputedStyle(this.node).fontFamily}`;
     const place = this.projection(trace);
     this.places = surface.height.map((row, j) => row.map((height, i) => (height === null ? null : place(x[i], y[j], height))));
-    this.walls(pen, place, surface);
+    const words = this.walls(pen, place, surface);
     // From the far side to the near one.
     const order = (count, isRising) => Array.from({ length: count - 1 }, (_, k) => (isRising ? k : count - 2 - k));
     const [low, high] = surface.range;
@@ -106,10 +106,11 @@ class SurfacePlot {
         }
       }
     }
+    words();
     this.colourScale(pen, surface);
   }
 
-  // The sides behind the surface and below it, with grid, ticks and titles.
+  // Draws the sides behind the surface and below it, with their grid; returns what writes their ticks and titles.
   walls(pen, place, { view, titles }) {
     const { x, y, z } = this.ends;
     const near = (ends, i) => (this.eye[i] > 0 ? [ends[1], ends[0]] : [ends[0], ends[1]]);
@@ -129,31 +130,33 @@ class SurfacePlot {
     for (const [at] of alongZ) line([nearX, farY, at], [farX, farY, at], [farX, nearY, at]);
     line([x[0], y[0], z[0]], [x[1], y[0], z[0]], [x[1], y[1], z[0]], [x[0], y[1], z[0]], [x[0], y[0], z[0]]);
     line([nearX, farY, z[0]], [nearX, farY, z[1]], [farX, farY, z[1]], [farX, nearY, z[1]], [farX, nearY, z[0]]);
-    // Words stand in front of their edge, on the way that the lines of the floor come from behind.
-    const write = (text, point, behind, distance, colour) => {
-      const [[px, py], [bx, by]] = [place(...point), place(...behind)];
-      const length = Math.hypot(px - bx, py - by) || 1;
-      pen.fillStyle = colour;
-      pen.textAlign = Math.abs(px - bx) < 0.3 * length ? "center" : px < bx ? "right" : "left";
-      pen.fillText(text, px + (distance * (px - bx)) / length, py + (distance * (py - by)) / length + 4);
+    return () => {
+      // Words stand in front of their edge, on the way that the lines of the floor come from behind.
+      const write = (text, point, behind, distance, colour) => {
+        const [[px, py], [bx, by]] = [place(...point), place(...behind)];
+        const length = Math.hypot(px - bx, py - by) || 1;
+        pen.fillStyle = colour;
+        pen.textAlign = Math.abs(px - bx) < 0.3 * length ? "center" : px < bx ? "right" : "left";
+        pen.fillText(text, px + (distance * (px - bx)) / length, py + (distance * (py - by)) / length + 4);
+      };
+      const centre = ([from, to]) => (from + to) / 2;
+      for (const [at, label] of alongX) write(label, [at, nearY, z[0]], [at, farY, z[0]], 12, this.ink.ink);
+      for (const [at, label] of alongY) write(label, [nearX, at, z[0]], [farX, at, z[0]], 12, this.ink.ink);
+      write(titles[0], [centre(x), nearY, z[0]], [centre(x), farY, z[0]], 44, this.ink.muted);
+      write(titles[1], [nearX, centre(y), z[0]], [farX, centre(y), z[0]], 44, this.ink.muted);
+      // Heights at that of both upright edges that is farther to the left.
+      const edge = [[nearX, farY], [farX, nearY]].sort((one, other) => place(...one, z[0])[0] - place(...other, z[0])[0])[0];
+      pen.textAlign = "right";
+      pen.fillStyle = this.ink.ink;
+      for (const [at, label] of alongZ) {
+        const [px, py] = place(...edge, at);
+        pen.fillText(label, px - 8, py + 4);
+      }
+      const [px, py] = place(...edge, z[1]);
+      pen.fillStyle = this.ink.muted;
+      pen.textAlign = "left";
+      pen.fillText(view.height_title, Math.max(4, px - 60), py - 14);
     };
-    const centre = ([from, to]) => (from + to) / 2;
-    for (const [at, label] of alongX) write(label, [at, nearY, z[0]], [at, farY, z[0]], 12, this.ink.ink);
-    for (const [at, label] of alongY) write(label, [nearX, at, z[0]], [farX, at, z[0]], 12, this.ink.ink);
-    write(titles[0], [centre(x), nearY, z[0]], [centre(x), farY, z[0]], 44, this.ink.muted);
-    write(titles[1], [nearX, centre(y), z[0]], [farX, centre(y), z[0]], 44, this.ink.muted);
-    // Heights at that of both upright edges that is farther to the left.
-    const edge = [[nearX, farY], [farX, nearY]].sort((one, other) => place(...one, z[0])[0] - place(...other, z[0])[0])[0];
-    pen.textAlign = "right";
-    pen.fillStyle = this.ink.ink;
-    for (const [at, label] of alongZ) {
-      const [px, py] = place(...edge, at);
-      pen.fillText(label, px - 8, py + 4);
-    }
-    const [px, py] = place(...edge, z[1]);
-    pen.fillStyle = this.ink.muted;
-    pen.textAlign = "left";
-    pen.fillText(view.height_title, Math.max(4, px - 60), py - 14);
   }
 
   colourScale(pen, { range, unit, colours }) {

@@ -103,7 +103,7 @@ fn indices(number: usize, output: &OutputRecord) -> Option<Chart> {
 
 /// A key on lines of its parts, so that the plot keeps its room.
 fn wrapped(key: &str) -> String {
-    key.rsplit_once('.').map_or_else(|| key.to_owned(), |(tables, name)| format!("{tables}.<br>{name}"))
+    key.rsplit_once('.').map_or_else(|| key.to_owned(), |(tables, name)| format!("{tables}.\n{name}"))
 }
 
 /// Quantiles of wear over a flank.
