@@ -1,7 +1,7 @@
 //! Signs of points, and of traces in a legend.
 
 use super::drawing::{polygon, rectangle};
-use super::picture::{Medium, Moves, Node, Path, Picture, Step};
+use super::picture::{Group, Medium, Moves, Node, Path, Picture, Step};
 use crate::report::chart::{Bars, Curve, Dash, Drawn, Line, Signs, Trace};
 
 /// Width of the outline of open signs, px.
@@ -89,7 +89,7 @@ pub(super) fn of_legend(trace: &Trace, [x, y]: [f64; 2], width: f64) -> Vec<Node
     let path = |steps, fill, line| Node::Path(Path { at: [0.0; 2], moves: Moves::No, steps, fill, line });
     let block =
         |colour: &String| path(rectangle([x + 6.0, y - 5.0, x + width - 6.0, y + 5.0]), Some(colour.clone()), None);
-    match &trace.drawn {
+    let nodes = match &trace.drawn {
         Drawn::Bars(Bars { colour, .. }) => vec![block(colour)],
         Drawn::Curve(Curve { line, signs, fill, .. }) => {
             let across = || vec![Step::Move([x, y]), Step::Line([x + width, y])];
@@ -100,7 +100,9 @@ pub(super) fn of_legend(trace: &Trace, [x, y]: [f64; 2], width: f64) -> Vec<Node
             area.chain(line).chain(sign).collect()
         }
         Drawn::Cells(_) | Drawn::Contours(_) | Drawn::Surface(_) => Vec::new(),
-    }
+    };
+    let group = Group { opacity: trace.opacity, ..Group::named("sign") };
+    [Node::Group(group)].into_iter().chain(nodes).chain([Node::End]).collect()
 }
 
 /// The sign of a trace beside its name in a page, as SVG.
