@@ -31,6 +31,7 @@ pub(crate) mod html;
 mod pressure_plot;
 pub(crate) mod slice_table;
 pub(crate) mod tables;
+mod trace;
 pub(crate) mod unit;
 mod vtu_file;
 #[cfg(feature = "program")]

@@ -4,7 +4,7 @@ use super::axis::PlacedAxis;
 use super::picture::{Anchor, Group, Medium, Moves, Node, Path, Picture, Step, Words};
 use super::sign;
 use crate::reference::statistics::extent;
-use crate::report::chart::{BarPlaces, Chart, Dash, Drawn, INK, Label, Line, MUTED, Shown, Trace};
+use crate::report::chart::{BarPlaces, Chart, Dash, Drawn, Field, INK, Label, Line, MUTED, Shown, Trace};
 
 const GRID: &str = "var(--grid)";
 const RULE: &str = "var(--rule)";
@@ -331,7 +331,7 @@ pub(super) fn polygon(corners: &[[f64; 2]]) -> Vec<Step> {
 }
 
 /// The range of the colours of a field.
-pub(super) fn range_of_colours(field: &crate::report::chart::Field) -> [f64; 2] {
+pub(super) fn range_of_colours(field: &Field) -> [f64; 2] {
     let finite = field.values.iter().flatten().copied().filter(|value| value.is_finite());
     field.scale.range.unwrap_or_else(|| extent(finite))
 }

@@ -7,7 +7,7 @@ use super::picture::Medium;
 use super::sign;
 use super::traces::{bar_middles, edges};
 use super::{axis::PlacedAxis, drawing::range_of_colours, palette};
-use crate::report::chart::{Chart, Drawn, Field, Rows, Trace, View};
+use crate::report::chart::{Chart, Drawn, Field, Rows, Surface, Trace, View};
 use crate::report::control::Control;
 
 pub(crate) struct InPage {
@@ -148,9 +148,7 @@ fn of_trace<'a>(drawing: &Drawing<'a>, number: usize, trace: &'a Trace) -> Trace
             let sides = (edges(&field.x, cells.0), edges(&field.y, cells.1));
             (sides.0.unwrap_or_default(), sides.1.unwrap_or_default(), "")
         }
-        Drawn::Contours(field) | Drawn::Surface(crate::report::chart::Surface { field, .. }) => {
-            (field.x.clone(), field.y.clone(), "")
-        }
+        Drawn::Contours(field) | Drawn::Surface(Surface { field, .. }) => (field.x.clone(), field.y.clone(), ""),
     };
     let (values, surface) = match &trace.drawn {
         Drawn::Cells(Field { values, .. }) | Drawn::Contours(Field { values, .. }) => (Some(values), None),

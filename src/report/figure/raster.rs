@@ -70,6 +70,10 @@ impl Canvas<'_> {
         paint
     }
 
+    fn is_clipped(&self) -> bool {
+        self.groups.iter().any(|(_, is_clipped, _)| *is_clipped)
+    }
+
     fn path(&mut self, path: &Path) {
         let mut builder = PathBuilder::new();
         let single = |place: [f64; 2]| place.map(|place| place as f32);
@@ -87,7 +91,7 @@ impl Canvas<'_> {
         let transform = scale().pre_translate(path.at[0] as f32, path.at[1] as f32);
         let fill = path.fill.as_deref().map(|colour| self.paint(colour));
         let line = path.line.as_ref().map(|line| (self.paint(&line.colour), line));
-        let area = self.groups.iter().any(|(_, is_clipped, _)| *is_clipped).then_some(&self.area);
+        let area = self.is_clipped().then_some(&self.area);
         if let Some(paint) = fill {
             self.pixels.fill_path(&outline, &paint, FillRule::Winding, transform, area);
         }
@@ -133,7 +137,8 @@ impl Canvas<'_> {
         let across = [(right - left) / columns as f32, (bottom - top) / rows as f32];
         let placed = scale().pre_translate(left, top).pre_scale(across[0], across[1]);
         let paint = PixmapPaint { quality: FilterQuality::Nearest, ..PixmapPaint::default() };
-        self.pixels.draw_pixmap(0, 0, cells.as_ref(), &paint, placed, Some(&self.area));
+        let area = self.is_clipped().then_some(&self.area);
+        self.pixels.draw_pixmap(0, 0, cells.as_ref(), &paint, placed, area);
     }
 }
 

@@ -3,11 +3,11 @@
 use super::contours;
 use super::drawing::{Drawing, polygon, range_of_colours, rectangle};
 use super::palette::{hex, of_scale};
-use super::picture::{Anchor, FieldOfColour, Group, Medium, Moves, Node, Step};
+use super::picture::{Anchor, FieldOfColour, Group, Medium, Moves, Node, Path, Step};
 use super::png::{LEVELS, NO_LEVEL};
 use super::sign;
 use super::{axis::PlacedAxis, drawing::TICK_SPACING};
-use crate::report::chart::{Axis, BarPlaces, Bars, Curve, Dash, Drawn, Field, INK, Trace};
+use crate::report::chart::{Axis, BarPlaces, Bars, Curve, Dash, Drawn, Field, INK, Line, Trace};
 use crate::report::control::{Change, Control};
 
 /// Part of the room of a category that its bars fill.
@@ -56,7 +56,7 @@ impl Drawing<'_> {
                 })
                 .collect();
             let (fill, line) = (curve.fill.clone(), (line.width_px > 0.0).then(|| line.clone()));
-            let path = super::picture::Path { at: [0.0; 2], moves: Moves::No, steps, fill, line };
+            let path = Path { at: [0.0; 2], moves: Moves::No, steps, fill, line };
             self.picture.nodes.push(Node::Path(path));
         }
         let colour = curve.signs.as_ref().map_or(INK, |signs| &signs.colour);
@@ -163,9 +163,9 @@ impl Drawing<'_> {
         for (number, area) in contours::bands(&x, &y, &field.values, &levels).into_iter().enumerate() {
             let level = levels[number].midpoint(levels[number + 1]);
             let colour = hex(of_scale(if high > low { (level - low) / (high - low) } else { 0.0 }));
-            let line = Some(crate::report::chart::Line { colour: colour.clone(), width_px: 0.6, dash: Dash::Solid });
+            let line = Some(Line { colour: colour.clone(), width_px: 0.6, dash: Dash::Solid });
             let steps = area.iter().flat_map(|corners| polygon(corners)).collect();
-            let path = super::picture::Path { at: [0.0; 2], moves: Moves::No, steps, fill: Some(colour), line };
+            let path = Path { at: [0.0; 2], moves: Moves::No, steps, fill: Some(colour), line };
             self.picture.nodes.push(Node::Path(path));
         }
         let mut labels: Vec<[f64; 2]> = Vec::new();

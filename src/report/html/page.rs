@@ -13,6 +13,9 @@ use crate::report::control::Control;
 use crate::report::figure::in_page::{self, Entry, InPage};
 use crate::results::run::StageTime;
 
+/// The script of plots.
+const SCRIPTS: [&str; 3] = [include_str!("axis.js"), include_str!("surface.js"), include_str!("page.js")];
+
 pub(crate) struct Page<'a> {
     /// What kind of report it is, above the title.
     pub kind: &'a str,
@@ -71,7 +74,7 @@ impl Page<'_> {
                     }
                     footer { (self.footer) }
                     @if self.plots.shown.get() > 0 {
-                        script { (PreEscaped(include_str!("surface.js"))) (PreEscaped(include_str!("page.js"))) }
+                        script { @for part in SCRIPTS { (PreEscaped(part)) } }
                     }
                     @if !script.is_empty() { script { (PreEscaped(script)) } }
                 }

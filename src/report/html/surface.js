@@ -1,7 +1,7 @@
-// Draws heights over a plane as a surface that the reader turns; buttons choose which one. `ticks` and `formatted` are those of page.js.
+// Draws heights over a plane as a surface that the reader turns; buttons choose which one.
 class SurfacePlot {
-  constructor(node, ticks, formatted) {
-    Object.assign(this, { node, ticks, formatted, width: 0, chosen: 0, azimuth: -2.12, elevation: 0.69 });
+  constructor(node) {
+    Object.assign(this, { node, width: 0, chosen: 0, azimuth: -2.12, elevation: 0.69 });
     this.data = JSON.parse(document.getElementById(node.id + "-data").textContent);
     this.canvas = node.querySelector("canvas");
     this.height = Number(this.canvas.getAttribute("height"));
@@ -123,7 +123,7 @@ class SurfacePlot {
     pen.lineWidth = 1;
     pen.strokeStyle = this.ink.rule;
     const marks = (ends, spacing_px, length) =>
-      this.ticks({ names: [], ticks: [], is_logarithmic: false, spacing_px }, ends, length);
+      ticks({ names: [], ticks: [], is_logarithmic: false, spacing_px }, ends, length);
     const [alongX, alongY, alongZ] = [marks(x, 70, 400), marks(y, 70, 300), marks(z, 45, 160)];
     for (const [at] of alongX) line([at, nearY, z[0]], [at, farY, z[0]], [at, farY, z[1]]);
     for (const [at] of alongY) line([nearX, at, z[0]], [farX, at, z[0]], [farX, at, z[1]]);
@@ -167,7 +167,7 @@ class SurfacePlot {
     });
     pen.fillStyle = this.ink.ink;
     pen.textAlign = "left";
-    for (const [at, label] of this.ticks({ names: [], ticks: [], is_logarithmic: false, spacing_px: 48 }, range, length)) {
+    for (const [at, label] of ticks({ names: [], ticks: [], is_logarithmic: false, spacing_px: 48 }, range, length)) {
       pen.fillText(label, left + 19, top + length - (length * (at - range[0])) / (range[1] - range[0]) + 4);
     }
     pen.fillText(unit, left, top - 10);
@@ -188,7 +188,7 @@ class SurfacePlot {
     if (this.tip.hidden) return;
     const { x, y, surface, hover } = this.data.traces[this.chosen];
     const values = { x: x[best.i], y: y[best.j], z: surface.height[best.j][best.i] };
-    const said = hover.replace("<extra></extra>", "").replace(/%\{(\w+):([^}]+)\}/g, (_, key, format) => this.formatted(values[key], format));
+    const said = hover.replace("<extra></extra>", "").replace(/%\{(\w+):([^}]+)\}/g, (_, key, format) => formatted(values[key], format));
     this.tip.textContent = said.replace("<br>", ": ");
     this.tip.style.left = `${Math.min(px + 12, this.width - this.tip.offsetWidth)}px`;
     this.tip.style.top = `${py + 40}px`;
