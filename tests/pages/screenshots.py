@@ -104,6 +104,7 @@ LOOK = r"""() => {
             if (!trace.closest("[clip-path]")) wrong.push(`a trace is not clipped in “${name(plot)}”`);
         }
         const data = JSON.parse(document.getElementById(plot.id + "-data").textContent);
+        data.traces.forEach((trace, i, all) => trace.x ??= all[i - 1].x);
         // A drawing to scale shows a part on purpose.
         for (const trace of data.is_to_scale ? [] : data.traces) {
             if (!trace.is_shown || trace.values || trace.hover === null) continue;

@@ -270,7 +270,8 @@ impl<'a> Drawing<'a> {
                 Label::Above { name, at } => {
                     let (x, y) = (self.x.at(at[0]), self.y.at(at[1]));
                     let is_inside = (left..=right).contains(&x) && (top..=bottom).contains(&y);
-                    if is_inside || self.picture.medium == Medium::Page {
+                    let is_somewhere = self.picture.medium == Medium::Page && x.is_finite() && y.is_finite();
+                    if is_inside || is_somewhere {
                         let group = Group { is_clipped: true, ..Group::named("above") };
                         let style = (Anchor::Middle, TICK_SIZE, MUTED);
                         self.group(group, |drawing| drawing.words(name, [x, y - 5.0], style, Moves::BothWays));

@@ -67,7 +67,9 @@ struct TraceData<'a> {
     hover: Option<&'a str>,
     texts: &'a [String],
     further: &'a [f64],
-    x: Vec<f64>,
+    /// Left out where it is that of the trace before.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    x: Option<Vec<f64>>,
     y: Vec<f64>,
     /// Values over cells between `x` and `y`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -109,7 +111,7 @@ pub(crate) fn of(chart: &Chart) -> InPage {
         is_to_scale: chart.is_to_scale,
         is_dragged: chart.is_dragged,
         reads_nearest: chart.reads_nearest,
-        traces: chart.traces.iter().enumerate().map(|(number, trace)| of_trace(&drawing, number, trace)).collect(),
+        traces: traces(&drawing),
         control: chart.control.as_ref(),
     };
     let data = serde_json::to_string(&data).expect("numbers and texts are JSON");
@@ -128,6 +130,17 @@ fn axis<'a>(axis: &'a PlacedAxis<'_>, whole: [f64; 2], spacing_px: f64) -> AxisD
         names: &axis.categories,
         ticks: &axis.words.ticks,
     }
+}
+
+fn traces<'a>(drawing: &Drawing<'a>) -> Vec<TraceData<'a>> {
+    let all = drawing.chart.traces.iter().enumerate();
+    let mut all: Vec<TraceData<'a>> = all.map(|(number, trace)| of_trace(drawing, number, trace)).collect();
+    for number in (1..all.len()).rev() {
+        if all[number].x == all[number - 1].x {
+            all[number].x = None;
+        }
+    }
+    all
 }
 
 fn of_trace<'a>(drawing: &Drawing<'a>, number: usize, trace: &'a Trace) -> TraceData<'a> {
@@ -171,7 +184,7 @@ fn of_trace<'a>(drawing: &Drawing<'a>, number: usize, trace: &'a Trace) -> Trace
         hover,
         texts: &trace.texts,
         further: &trace.further,
-        x,
+        x: Some(x),
         y,
         values,
         surface,

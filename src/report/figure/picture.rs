@@ -125,9 +125,9 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// A place on the drawing, to a thousandth of a pixel.
+/// A place on the drawing, to a hundredth of a pixel.
 fn place(value: f64) -> String {
-    let text = format!("{value:.3}");
+    let text = format!("{value:.2}");
     let short = text.trim_end_matches('0').trim_end_matches('.');
     if short == "-0" { "0".to_owned() } else { short.to_owned() }
 }
@@ -260,7 +260,8 @@ impl Picture {
 fn written(step: &Step) -> String {
     match *step {
         Step::Move([x, y]) => format!("M{} {}", place(x), place(y)),
-        Step::Line([x, y]) => format!("L{} {}", place(x), place(y)),
+        // Places after that of a move are ends of lines.
+        Step::Line([x, y]) => format!(" {} {}", place(x), place(y)),
         Step::Circle { centre: [x, y], radius } => {
             let (left, r, across) = (place(x - radius), place(radius), place(2.0 * radius));
             format!("M{left} {}a{r} {r} 0 1 0 {across} 0a{r} {r} 0 1 0 -{across} 0z", place(y))

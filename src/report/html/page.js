@@ -22,6 +22,7 @@
     constructor(node) {
       this.node = node;
       this.data = JSON.parse(document.getElementById(node.id + "-data").textContent);
+      this.data.traces.forEach((trace, i, all) => (trace.x ??= all[i - 1].x));
       this.svg = node.querySelector("svg");
       this.shown = this.data.traces.map((trace) => trace.is_shown);
       this.groups = this.data.traces.map((_, i) => node.querySelector(`.trace[data-trace="${i}"]`));

@@ -3,6 +3,7 @@ class SurfacePlot {
   constructor(node) {
     Object.assign(this, { node, width: 0, chosen: 0, azimuth: -2.12, elevation: 0.69 });
     this.data = JSON.parse(document.getElementById(node.id + "-data").textContent);
+    this.data.traces.forEach((trace, i, all) => (trace.x ??= all[i - 1].x));
     this.canvas = node.querySelector("canvas");
     this.height = Number(this.canvas.getAttribute("height"));
     this.tip = node.appendChild(document.createElement("div"));

@@ -230,7 +230,7 @@ fn page_stands_alone() {
         for outside in ["http:", "https:", "src=", "<link", "@import", "url("] {
             assert!(!own.contains(outside), "{outside} in the page");
         }
-        assert!(page.len() < 500_000, "{} bytes", page.len());
+        assert!(page.len() < 800_000, "{} bytes", page.len());
         assert_eq!(page.matches("<script").count(), page.matches("</script>").count());
     }
 }
