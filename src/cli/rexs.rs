@@ -8,7 +8,7 @@ use crate::exchange::rexs::results::{self, RunResults, WearProfile};
 use crate::gear::PerGear;
 use crate::report::ReportError;
 use crate::scene::loaded::LoadedScene;
-use crate::studies::compare::run_folder::{self, RunFolder};
+use crate::studies::compare::run_folder::RunFolder;
 use crate::studies::variants::finished_run::FinishedRun;
 use crate::whole_file;
 
@@ -61,13 +61,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// What is written of the finished run.
 fn read(args: &Args) -> Result<RunResults, Failure> {
-    let folder = RunFolder::read(&args.run).map_err(InputError::RunFolder)?;
-    let scene = LoadedScene::open(RunFolder::scene_path(&args.run))?;
+    let folder = RunFolder::open(&args.run).map_err(InputError::RunFolder)?;
+    let scene = LoadedScene::open(folder.scene_path())?;
     folder.check_scene(&scene.resolved).map_err(InputError::RunFolder)?;
-    let finished = FinishedRun::read(&args.run, String::new()).map_err(InputError::RunFolder)?;
+    let finished = FinishedRun::of(folder.clone(), String::new()).map_err(InputError::RunFolder)?;
     let column = |name: &str| finished.mesh_cycle.get(name).to_vec();
     Ok(RunResults {
-        summary: run_folder::summary(&args.run).map_err(InputError::RunFolder)?,
+        summary: folder.whole_summary,
         pair: scene.scene().pair.clone(),
         mesh_stiffness: MeshStiffness {
             pinion_rotation_deg: column("pinion_rotation_deg"),

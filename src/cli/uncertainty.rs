@@ -93,6 +93,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         seed: args.seed,
     };
     let question = Question::of(&scene, &asked)?;
+    asked.notes().iter().for_each(|note| say(&format!("note: {note}")));
     report::writable(&args.out)?;
     let threads = thread_count(args.threads);
     let interrupted = watch_for_interrupt();

@@ -11,6 +11,7 @@ use serde_json::Value;
 use super::csv_table::COLUMNS;
 use super::files::{ReportError, place};
 use super::unit;
+use crate::results::figures::{self, MainFigure};
 use crate::results::run::{ReportedBy, Summary};
 
 pub(crate) const WORKBOOK: &str = "results.xlsx";
@@ -103,17 +104,19 @@ fn table(
     Ok(())
 }
 
-/// Every number and word of the summary under its path in `summary.json`.
+/// Every number and word of the summary under its path in `summary.json`, items of lists numbered from 1.
 fn main_figures(sheet: &mut Worksheet, summary: &Value) -> Result<(), XlsxError> {
-    heading(sheet, "summary", &["figure", "value", "unit"])?;
-    sheet.set_column_width(0, 56)?;
-    sheet.set_column_width(1, 24)?;
+    heading(sheet, "summary", &["figure", "value", "unit", "meaning"])?;
+    for (column, width) in [56.0, 24.0, 18.0, 100.0].into_iter().enumerate() {
+        sheet.set_column_width(column as u16, width)?;
+    }
     let mut found = Vec::new();
     for (key, value) in summary.as_object().into_iter().flatten().filter(|(key, _)| !NOT_SHOWN.contains(&key.as_str()))
     {
         flatten(key, unit::of(key), value, &mut found);
     }
     for (row, (path, unit, value)) in (1..).zip(found) {
+        let main = figures::find(&path);
         sheet.write_string(row, 0, path)?;
         match value {
             Value::Number(number) => cell(sheet, row, 1, &number.to_string())?,
@@ -121,7 +124,8 @@ fn main_figures(sheet: &mut Worksheet, summary: &Value) -> Result<(), XlsxError>
             Value::Bool(is_so) => drop(sheet.write_boolean(row, 1, *is_so)?),
             _ => {}
         }
-        sheet.write_string(row, 2, unit.unwrap_or_default())?;
+        sheet.write_string(row, 2, main.map_or(unit.unwrap_or_default(), MainFigure::unit))?;
+        sheet.write_string(row, 3, main.map_or("", |figure| figure.meaning.as_str()))?;
     }
     Ok(())
 }
@@ -141,7 +145,7 @@ fn flatten<'a>(
         }
         Value::Array(parts) => {
             for (number, part) in parts.iter().enumerate() {
-                flatten(&format!("{path}.{number}"), unit, part, found);
+                flatten(&format!("{path}.{}", number + 1), unit, part, found);
             }
         }
         _ => found.push((path.to_owned(), unit.filter(|_| value.is_number()), value)),

@@ -4,9 +4,8 @@
 use gearwear::gear::Gear;
 use gearwear::observer::Unwatched;
 use gearwear::pipeline;
-use gearwear::results::run::RunRecord;
+use gearwear::results::{figures, run::RunRecord};
 use gearwear::scene::{draft::Draft, presets};
-use gearwear::studies::sweep::figures::FIGURES;
 
 use super::common::loaded;
 
@@ -72,7 +71,7 @@ fn assert_zones(record: &RunRecord, rounding_mm: f64, normal_module_mm: f64) {
         [last.pinion_tip_edge_wear_um, last.wheel_tip_edge_wear_um],
         [s.pinion.tip_edge_wear_um, s.wheel.tip_edge_wear_um]
     );
-    let swept = |name: &str| (FIGURES.iter().find(|figure| figure.name == name).unwrap().of)(s).unwrap();
+    let swept = |name: &str| figures::find(name).unwrap().value(s).unwrap();
     assert_eq!(swept("wheel.peak_wear_um"), s.wheel.peak_wear_um);
     assert_eq!(swept("wheel.tip_edge_wear_um"), s.wheel.tip_edge_wear_um);
     assert_eq!(swept("worn.peak_pressure_MPa"), s.worn.peak_pressure_MPa);

@@ -7,6 +7,7 @@ pub(crate) mod drawing;
 pub mod error;
 pub mod fem_pair;
 pub mod fem_problem;
+pub mod figures;
 pub mod invariant;
 pub mod iso_stiffness;
 pub mod life;

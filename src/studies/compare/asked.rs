@@ -36,8 +36,8 @@ pub(crate) struct Prepared {
 impl Prepared {
     /// Of the finished run in the folder `run` with the profiles in the texts `measured`.
     pub(crate) fn open(run: &Path, measured: &[SceneText], asked: &Asked) -> Result<Self, CompareFault> {
-        let folder = RunFolder::read(run)?;
-        let scene = LoadedScene::open(RunFolder::scene_path(run))?;
+        let folder = RunFolder::with_snapshots(run)?;
+        let scene = LoadedScene::open(folder.scene_path())?;
         let resolved = &scene.resolved;
         folder.check_scene(resolved)?;
         let parsed = |text: &SceneText| {

@@ -1,9 +1,11 @@
-//! An output of a run by its path in `summary.json`: `pinion.peak_wear_um`; items of lists are numbered from 1.
+//! An output of a run by its path in `summary.json`: `pinion.peak_wear_um`; items of lists are numbered from 1. Names that main figures had in the
+//! version before are read too.
 
 use std::sync::OnceLock;
 
 use serde_json::Value;
 
+use crate::results::figures;
 use crate::results::run::Summary;
 use crate::scene::key::{is_number, nearest_path};
 use crate::scene::schema::{Node, schema_of};
@@ -31,6 +33,7 @@ fn schema() -> &'static Value {
 impl Output {
     /// The number at `path`.
     pub(crate) fn find(path: &str) -> Result<Self, OutputError> {
+        let path = figures::name_now(path).unwrap_or(path);
         let root = Node::root(schema());
         let mut pointer = String::new();
         let mut node = Some(root);
@@ -84,8 +87,13 @@ mod tests {
         let phase = Output::find("phases.2.wheel.worn_volume_mm3").unwrap();
         let summary = serde_json::json!({ "phases": [null, { "wheel": { "worn_volume_mm3": 1.5 } }] });
         assert_eq!((phase.of(&summary), phase.of(&serde_json::json!({}))), (Some(1.5), None));
+        assert_eq!(Output::find("pinion_peak_wear_um").map(|output| output.path), Ok("pinion.peak_wear_um".to_owned()));
         for path in ["peak_wear_um", "pinion.peak_ware_um"] {
             assert_eq!(Output::find(path).unwrap_err().nearest.as_deref(), Some("pinion.peak_wear_um"));
+        }
+        // All main figures but the one that sweeps alone know are in the summary.
+        for figure in figures::all().iter().filter(|figure| figure.name != figures::PEAK_WEAR_OF_EITHER) {
+            assert!(Output::find(&figure.name).is_ok(), "{}", figure.name);
         }
         for path in ["title", "phases.0.hours", "pinion", ""] {
             assert!(Output::find(path).is_err(), "{path}");

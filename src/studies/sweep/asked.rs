@@ -4,10 +4,10 @@ use std::io;
 
 use super::axis::{self, AxisError};
 use super::combination::Sweep;
-use super::figures::name_now;
 use super::goal::{Goal, GoalError};
 use super::journal::JournalError;
 use crate::report::ReportError;
+use crate::results::figures;
 use crate::scene::draft::Draft;
 use crate::scene::loaded::{LoadedScene, SceneError};
 
@@ -29,11 +29,7 @@ impl SweepQuestion {
     /// What to say of figures that are asked for by the name that they had in the version before.
     pub fn notes(&self) -> Vec<String> {
         let of_limits = self.subject_to.iter().map(|limit| limit.split(['<', '>']).next().unwrap_or_default().trim());
-        let asked = self.best.iter().map(String::as_str).chain(of_limits);
-        let former = asked.filter_map(|name| Some((name, name_now(name)?)));
-        former
-            .map(|(name, now)| format!("{name} is now called {now}; the next version does not know the older name"))
-            .collect()
+        figures::notes(self.best.iter().map(String::as_str).chain(of_limits))
     }
 }
 

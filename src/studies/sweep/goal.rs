@@ -12,9 +12,8 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::figures::{FIGURES, PEAK_WEAR, SweepFigure};
 use super::record::{SweepIdentity, SweepRow, plain};
-use crate::results::error::TotalError;
+use crate::results::figures::{self, MainFigure};
 use crate::scene::nearest::nearest;
 
 /// The figure that is to be least, and the limits of others.
@@ -52,7 +51,7 @@ impl FromStr for Limit {
         let split = |sign: &str| given.split_once(sign).map(|(figure, value)| (figure, value, sign == "<="));
         let (figure, value, at_most) = split("<=").or_else(|| split(">=")).ok_or_else(form)?;
         let value = value.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(form)?;
-        Ok(Self { figure: known(figure.trim())?.name.to_owned(), at_most, value })
+        Ok(Self { figure: known(figure.trim())?.name.clone(), at_most, value })
     }
 }
 
@@ -62,9 +61,14 @@ impl fmt::Display for Limit {
     }
 }
 
-fn known(name: &str) -> Result<&'static SweepFigure, GoalError> {
-    let names: Vec<&'static str> = FIGURES.iter().map(|figure| figure.name).collect();
-    SweepFigure::find(name).ok_or_else(|| GoalError::Unknown { name: name.to_owned(), meant: nearest(name, &names) })
+/// The column of this name, or of this name in the version before.
+fn column(name: &str) -> Option<&'static MainFigure> {
+    figures::find(name).filter(|figure| figures::in_sweeps().contains(figure))
+}
+
+fn known(name: &str) -> Result<&'static MainFigure, GoalError> {
+    let names: Vec<&'static str> = figures::in_sweeps().iter().map(|figure| figure.name.as_str()).collect();
+    column(name).ok_or_else(|| GoalError::Unknown { name: name.to_owned(), meant: nearest(name, &names) })
 }
 
 impl Goal {
@@ -73,18 +77,18 @@ impl Goal {
     /// # Errors
     /// A name that no column has.
     pub(crate) fn new(name: &str, limits: Vec<Limit>) -> Result<Self, GoalError> {
-        Ok(Self { figure: known(name)?.name.to_owned(), limits })
+        Ok(Self { figure: known(name)?.name.clone(), limits })
     }
 
-    pub(crate) fn figure(&self) -> &'static SweepFigure {
+    pub(crate) fn figure(&self) -> &'static MainFigure {
         // A journal of another version may name one that is gone.
-        SweepFigure::find(&self.figure).unwrap_or(&PEAK_WEAR)
+        column(&self.figure).unwrap_or_else(figures::peak_wear_of_either)
     }
 
     /// Whether `row` has the figure and keeps to all limits.
     pub(crate) fn allows(&self, row: &SweepRow) -> bool {
         let keeps = |limit: &Limit| {
-            let value = SweepFigure::find(&limit.figure).and_then(|figure| row.figure(figure));
+            let value = column(&limit.figure).and_then(|figure| row.figure(figure));
             value.is_some_and(|value| if limit.at_most { value <= limit.value } else { value >= limit.value })
         };
         row.error.is_none() && row.figure(self.figure()).is_some() && self.limits.iter().all(keeps)
@@ -102,8 +106,8 @@ impl Goal {
         let allowed: Vec<(&SweepRow, f64)> =
             rows.iter().filter(|row| self.allows(row)).filter_map(|row| Some((row, row.figure(figure)?))).collect();
         let &(best, value) = allowed.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
-        let claims = allowed.iter().filter_map(|(row, _)| claim(&self.figure, &row.verification.as_ref()?.total));
-        let own = best.verification.as_ref().and_then(|of| claim(&self.figure, &of.total));
+        let claims = allowed.iter().filter_map(|(row, _)| figure.error(&row.verification.as_ref()?.total));
+        let own = best.verification.as_ref().and_then(|of| figure.error(&of.total));
         // The row's own error and those of the verified ones beside it: the greatest.
         let error = own.map(|own| claims.fold(own, f64::max));
         let plateau: Option<Vec<usize>> = error.map(|e| {
@@ -113,7 +117,7 @@ impl Goal {
         let why_no_error = match (error, &best.verification) {
             (Some(_), _) => None,
             (None, None) => Some("the best combination is not verified by finite elements".to_owned()),
-            (None, Some(of)) if claim_of(&self.figure).is_none() => {
+            (None, Some(of)) if figure.error_paths().next().is_none() => {
                 Some(format!("the verification states no error of {} ({})", self.figure, of.total.how))
             }
             (None, Some(of)) => Some(of.total.how.clone()),
@@ -169,32 +173,10 @@ pub(crate) struct Optimum {
     pub plateau_keys: Option<Vec<String>>,
 }
 
-type Claimed = fn(&TotalError) -> Option<f64>;
-
-/// Which claim of a verification is about the figure of this name.
-fn claim_of(figure: &str) -> Option<Claimed> {
-    Some(match figure {
-        "peak_wear_um" => |total| Some(total.peak_wear.pinion?.max(total.peak_wear.wheel?)),
-        "pinion.peak_wear_um" => |total| total.peak_wear.pinion,
-        "wheel.peak_wear_um" => |total| total.peak_wear.wheel,
-        "pinion.tip_edge_wear_um" => |total| total.tip_edge_wear.pinion,
-        "wheel.tip_edge_wear_um" => |total| total.tip_edge_wear.wheel,
-        "new.flank_pressure_MPa" => |total| total.flank_pressure.new,
-        "worn.flank_pressure_MPa" => |total| total.flank_pressure.worn,
-        "new.transmission_error_um.peak_to_peak" | "worn.transmission_error_um.peak_to_peak" => {
-            |total| total.transmission_error_peak_to_peak
-        }
-        _ => return None,
-    })
-}
-
-fn claim(figure: &str, total: &TotalError) -> Option<f64> {
-    claim_of(figure).and_then(|of| of(total))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::results::error::TotalError;
     use crate::studies::sweep::record::{Spacing, SweepAxis};
     use crate::studies::sweep::verification::{Chosen, RowVerification};
 
@@ -210,8 +192,8 @@ mod tests {
         let identity = SweepIdentity { axes: vec![axis], ..SweepIdentity::default() };
         let row = |(index, &wear): (usize, &f64)| {
             let of =
-                |figure: &SweepFigure| Some(if figure.name == "pinion.peak_wear_um" { wear } else { index as f64 });
-            let figures = FIGURES.iter().map(of).collect();
+                |figure: &&MainFigure| Some(if figure.name == "pinion.peak_wear_um" { wear } else { index as f64 });
+            let figures = figures::in_sweeps().iter().map(of).collect();
             SweepRow { index, values: identity.values(index), figures, ..SweepRow::default() }
         };
         let rows = wear.iter().enumerate().map(row).collect();

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::figures::{FIGURES, SweepFigure};
 use super::goal::{Goal, Optimum};
 use super::verification::{Chosen, RowVerification, SweepVerification};
 use crate::results::error::TotalError;
+use crate::results::figures::{self, MainFigure};
 
 /// Digits of a value between the ends of a range.
 const DIGITS: i32 = 12;
@@ -266,7 +266,7 @@ pub(crate) struct SweepRow {
     pub values: Vec<f64>,
     /// Why there are no figures, on one line; `None` where the run was completed.
     pub error: Option<String>,
-    /// The figures, in the order of [`FIGURES`]; `None` where the scene does not have one.
+    /// The figures, in the order of the columns; `None` where the scene does not have one.
     pub figures: Vec<Option<f64>>,
     pub warnings: Option<usize>,
     /// Wall time of the wear run alone, s.
@@ -279,8 +279,8 @@ pub(crate) struct SweepRow {
 }
 
 impl SweepRow {
-    pub(crate) fn figure(&self, figure: &SweepFigure) -> Option<f64> {
-        let at = FIGURES.iter().position(|known| known.name == figure.name)?;
+    pub(crate) fn figure(&self, figure: &MainFigure) -> Option<f64> {
+        let at = figures::in_sweeps().iter().position(|known| *known == figure)?;
         self.figures.get(at).copied().flatten()
     }
 
@@ -346,7 +346,7 @@ pub(crate) struct BestCombination {
 
 impl SweepRecord {
     /// The row with the least value of `figure`, the first of equals.
-    pub(crate) fn least(&self, figure: &SweepFigure) -> Option<(&SweepRow, f64)> {
+    pub(crate) fn least(&self, figure: &MainFigure) -> Option<(&SweepRow, f64)> {
         let valued = self.rows.iter().filter_map(|row| Some((row, row.figure(figure)?)));
         valued.min_by(|a, b| a.1.total_cmp(&b.1))
     }
@@ -374,12 +374,12 @@ impl SweepRecord {
             combinations: self.identity.combinations(),
             ok: self.rows.len() - failed,
             failed,
-            best: FIGURES
+            best: figures::in_sweeps()
                 .iter()
-                .filter(|figure| figure.less_is_better)
+                .filter(|figure| figure.family.less_is_better)
                 .filter_map(|figure| {
                     let (row, value) = self.least(figure)?;
-                    Some(BestCombination { figure: figure.name, value, index: row.index, values: row.values.clone() })
+                    Some(BestCombination { figure: &figure.name, value, index: row.index, values: row.values.clone() })
                 })
                 .collect(),
             optimum: self.optimum(),

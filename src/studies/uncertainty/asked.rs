@@ -4,19 +4,11 @@ use super::design::{self, CorrelationError, MOST_FACTORS, MOST_SAMPLES};
 use super::distribution::{self, UncertainError};
 use super::life::LimitError;
 use super::study::{Question, StudyError};
+use crate::results::figures;
 use crate::scene::draft::Draft;
 use crate::scene::loaded::{LoadedScene, SceneError};
 use crate::studies::evaluate::output::{Output, OutputError};
 use crate::studies::varied_scene::{linked_keys, missing_phase};
-
-/// Figures that are kept where none are asked for.
-const DEFAULT_OUTPUTS: [&str; 5] = [
-    "pinion.peak_wear_um",
-    "wheel.peak_wear_um",
-    "pinion.tip_edge_wear_um",
-    "wheel.tip_edge_wear_um",
-    "worn.transmission_error_um.peak_to_peak",
-];
 
 /// What is asked of a scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +25,14 @@ pub struct UncertaintyQuestion {
     pub samples: usize,
     /// Another seed scrambles the sequence in another way.
     pub seed: u32,
+}
+
+impl UncertaintyQuestion {
+    /// What to say of figures that are asked for by the name that they had in the version before.
+    pub fn notes(&self) -> Vec<String> {
+        let of_limits = self.limits.iter().map(|limit| limit.split('=').next().unwrap_or_default());
+        figures::notes(self.outputs.iter().map(String::as_str).chain(of_limits).map(str::trim))
+    }
 }
 
 /// Why a study of uncertainty came to nothing.
@@ -99,7 +99,7 @@ impl Question {
         let correlation = design::correlation(&keys, &asked.correlation)?;
         let limits = asked.limits.iter().map(|text| text.parse()).collect::<Result<_, LimitError>>()?;
         let outputs: Vec<&str> = match asked.outputs.as_slice() {
-            [] => DEFAULT_OUTPUTS.to_vec(),
+            [] => figures::default_outputs().iter().map(|figure| &*figure.name).collect(),
             given => given.iter().map(|path| path.trim()).collect(),
         };
         let outputs = outputs.into_iter().map(Output::find).collect::<Result<_, _>>()?;

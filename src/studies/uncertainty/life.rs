@@ -7,20 +7,18 @@ use std::str::FromStr;
 
 use serde::Serialize;
 
+use crate::results::figures::{self, MainFigure};
 use crate::results::run::HistoryRow;
 use crate::scene::nearest::nearest;
 
-/// Depths that a history has, by their path in the summary.
-type Depth = (&'static str, fn(&HistoryRow) -> f64);
+/// Main figures that are depths of a history.
+fn depths() -> impl Iterator<Item = &'static MainFigure> {
+    figures::all().iter().filter(|figure| figure.depth_of_history().is_some())
+}
 
-const DEPTHS: [Depth; 6] = [
-    ("pinion.peak_wear_um", |row| row.pinion_peak_wear_um),
-    ("wheel.peak_wear_um", |row| row.wheel_peak_wear_um),
-    ("pinion.tip_edge_wear_um", |row| row.pinion_tip_edge_wear_um),
-    ("wheel.tip_edge_wear_um", |row| row.wheel_tip_edge_wear_um),
-    ("pinion.root_wear_um", |row| row.pinion_root_wear_um),
-    ("pinion.pitch_wear_um", |row| row.pinion_pitch_wear_um),
-];
+fn names() -> Vec<&'static str> {
+    depths().map(|figure| figure.name.as_str()).collect()
+}
 
 /// A depth that ends the life.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -33,7 +31,7 @@ pub(crate) struct Limit {
 pub(crate) enum LimitError {
     #[error("found {given:?}; allowed: FIGURE=VALUE with a value above 0, such as pinion.peak_wear_um=10")]
     Form { given: String },
-    #[error("unknown figure {name}; allowed: {}{}", DEPTHS.map(|depth| depth.0).join(", "), meant.map_or_else(String::new, |meant| format!("; did you mean {meant}?")))]
+    #[error("unknown figure {name}; allowed: {}{}", names().join(", "), meant.map_or_else(String::new, |meant| format!("; did you mean {meant}?")))]
     Unknown { name: String, meant: Option<&'static str> },
 }
 
@@ -45,10 +43,10 @@ impl FromStr for Limit {
         let (name, value) = given.split_once('=').ok_or_else(form)?;
         let depth_um: f64 = value.trim().parse().ok().filter(|v: &f64| v.is_finite() && *v > 0.0).ok_or_else(form)?;
         let name = name.trim();
-        let unknown =
-            || LimitError::Unknown { name: name.to_owned(), meant: nearest(name, &DEPTHS.map(|depth| depth.0)) };
-        let (output, _) = DEPTHS.iter().find(|depth| depth.0 == name).ok_or_else(unknown)?;
-        Ok(Self { output, depth_um })
+        let figure = figures::find(name).filter(|figure| figure.depth_of_history().is_some());
+        let figure =
+            figure.ok_or_else(|| LimitError::Unknown { name: name.to_owned(), meant: nearest(name, &names()) })?;
+        Ok(Self { output: &figure.name, depth_um })
     }
 }
 
@@ -58,7 +56,7 @@ pub(crate) type Growth = Vec<(f64, f64)>;
 impl Limit {
     /// How the depth grew.
     pub(crate) fn growth(&self, history: &[HistoryRow]) -> Growth {
-        let Some((_, of)) = DEPTHS.iter().find(|depth| depth.0 == self.output) else { return Growth::new() };
+        let Some(of) = figures::find(self.output).and_then(MainFigure::depth_of_history) else { return Growth::new() };
         history.iter().map(|row| (row.hours.unwrap_or(row.revolutions), of(row))).collect()
     }
 
@@ -90,6 +88,15 @@ mod tests {
         assert_eq!(limit.life(&growth, 1.0), (2.5, 2.5));
         assert_eq!(limit.life(&growth, 5.0), (0.5, 0.5));
         assert_eq!(limit.life(&growth, 0.5), (f64::INFINITY, 3.0));
+    }
+
+    #[test]
+    fn depths_of_the_history_are_called_as_in_the_summary() {
+        for name in ["wheel.below_sap_wear_um", "pinion.root_wear_um", "pinion_root_wear_um"] {
+            let limit: Limit = format!("{name}=1").parse().unwrap();
+            assert_eq!(limit.output, name.replace("pinion_", "pinion."));
+        }
+        assert!("wheel.root_wear_um=1".parse::<Limit>().is_err(), "no history has it");
     }
 
     #[test]

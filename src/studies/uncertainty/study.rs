@@ -21,12 +21,13 @@ use crate::observer::Observer;
 use crate::pipeline::{self, guarded::guarded};
 use crate::reference::sobol_indices::indices;
 use crate::reference::statistics::{SHARES, mean, quantile, standard_deviation};
+use crate::report::html::reading::capitalised;
+use crate::results::figures::{self, MainFigure};
 use crate::results::run::StopReason;
 use crate::results::worn_pair::{WearProfile, WornPair};
 use crate::scene::loaded::LoadedScene;
 use crate::studies::evaluate::output::Output;
 use crate::studies::spread::spread;
-use crate::studies::variants::record::described;
 use crate::studies::varied_scene::{VariedScene, in_words, one_line};
 
 /// Moments of a history, evenly over the duration.
@@ -205,7 +206,7 @@ pub(crate) fn run(
     let varied = VariedScene::new(scene, false).map_err(|problems| StudyError::Nominal(in_words(&problems)))?;
     let nominal = nominal(scene, &varied, question, observer)?;
     let total = &nominal.summary.error.total;
-    let error_of = |path: &str| described(path).and_then(|known| (known.error)(total));
+    let error_of = |path: &str| figures::find(path).and_then(|figure| figure.error(total));
     let paths = question.outputs.iter().map(|output| output.path.as_str());
     let errors: Vec<Option<f64>> =
         paths.chain(question.limits.iter().map(|limit| limit.output)).map(error_of).collect();
@@ -342,17 +343,21 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
         SHARES.map(|share| quantile(&sorted, share).filter(|value| censored == 0 || *value <= until));
     let complete = censored == 0 && !sorted.is_empty();
     let name = limit.map_or_else(|| question.outputs[figure].path.as_str(), |limit| limit.output);
-    let known = described(name);
+    let known = figures::find(name);
     let is_in_hours = samples.nominal.summary.hours.is_some();
     let (output, meaning, unit) = match limit {
         None => (
             name.to_owned(),
-            known.map_or_else(|| name.to_owned(), |known| known.meaning.to_owned()),
-            known.map_or("", |known| known.unit),
+            known.map_or_else(|| name.to_owned(), |known| capitalised(&known.heading)),
+            known.map_or("", MainFigure::unit),
         ),
         Some(limit) => (
             format!("life.{name}={}", limit.depth_um),
-            format!("Life until {} µm: {}", limit.depth_um, known.map_or(name, |known| known.meaning)),
+            format!(
+                "Life until {} µm: {}",
+                limit.depth_um,
+                known.map_or_else(|| name.to_owned(), |known| capitalised(&known.heading))
+            ),
             if is_in_hours { "h" } else { "revolutions" },
         ),
     };

@@ -7,13 +7,13 @@ use super::section_plane::{self, ShownAxis, range};
 use crate::report::chart::{Chart, MUTED, Trace, TraceKind, padded};
 use crate::report::html::number::{figure as shown_number, plotted};
 use crate::report::html::reading::capitalised;
-use crate::studies::sweep::figures::SweepFigure;
+use crate::results::figures::MainFigure;
 use crate::studies::sweep::record::{Spacing, SweepRecord, SweepRow};
 
 /// The plot of `figure` over the keys `x` and `y`; further keys stay at the values where the figure is least.
 pub(super) fn contour(
     record: &SweepRecord,
-    figure: &SweepFigure,
+    figure: &MainFigure,
     x: &ShownAxis<'_>,
     y: &ShownAxis<'_>,
 ) -> Option<Chart> {
@@ -30,8 +30,8 @@ pub(super) fn contour(
         .flat_map(|&j| x.shown.iter().filter_map(move |&i| at(i, j)))
         .filter(|row| row.error.is_some())
         .collect();
-    let unit = figure.unit;
-    let contours = Trace::new(TraceKind::Contour, figure.title)
+    let unit = figure.unit();
+    let contours = Trace::new(TraceKind::Contour, figure.heading.as_str())
         .set("x", x.values())
         .set("y", y.values())
         .set("z", z)
@@ -46,7 +46,7 @@ pub(super) fn contour(
             x.axis.title(),
             y.axis.title()
         ));
-    let mut chart = Chart::new(id("contour", figure), capitalised(figure.title))
+    let mut chart = Chart::new(id("contour", figure), capitalised(&figure.heading))
         .height(460)
         .read_nearest()
         .x(&x.axis.title())
@@ -87,12 +87,12 @@ fn ends(of: &ShownAxis<'_>) -> [f64; 2] {
     }
 }
 
-pub(super) fn id(kind: &str, figure: &SweepFigure) -> String {
+pub(super) fn id(kind: &str, figure: &MainFigure) -> String {
     format!("{kind}-{}", figure.name.to_lowercase().replace(['_', '.'], "-"))
 }
 
 /// Where the figure is least, and how far it is from there to its greatest.
-pub(super) fn reading(record: &SweepRecord, figure: &SweepFigure, best: &SweepRow, shown: &[&ShownAxis<'_>]) -> String {
+pub(super) fn reading(record: &SweepRecord, figure: &MainFigure, best: &SweepRow, shown: &[&ShownAxis<'_>]) -> String {
     let Some((least, greatest)) = range(record, figure) else { return String::new() };
     let value_of = |at: usize| {
         format!("{} = {}", record.identity.axes[at].key, shown_value(&record.identity.axes[at], best.values[at]))
@@ -102,7 +102,7 @@ pub(super) fn reading(record: &SweepRecord, figure: &SweepFigure, best: &SweepRo
         .filter(|at| record.identity.axes[*at].count > 1 && shown.iter().all(|axis| axis.at != *at))
         .map(value_of)
         .collect();
-    let unit = if figure.unit.is_empty() { String::new() } else { format!(" {}", figure.unit) };
+    let unit = if figure.unit().is_empty() { String::new() } else { format!(" {}", figure.unit()) };
     let mut text = format!(
         "Minimum {}{unit} at {}, maximum {}{unit} of all combinations: {}.",
         shown_number(least),
