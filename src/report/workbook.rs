@@ -11,7 +11,7 @@ use serde_json::Value;
 use super::csv_table::COLUMNS;
 use super::files::{ReportError, place};
 use super::unit;
-use crate::results::figures::{self, MainFigure};
+use crate::results::figures;
 use crate::results::run::{ReportedBy, Summary};
 
 pub(crate) const WORKBOOK: &str = "results.xlsx";
@@ -116,7 +116,7 @@ fn main_figures(sheet: &mut Worksheet, summary: &Value) -> Result<(), XlsxError>
         flatten(key, unit::of(key), value, &mut found);
     }
     for (row, (path, unit, value)) in (1..).zip(found) {
-        let main = figures::find(&path);
+        let meaning = figures::find(&path).map_or("", |figure| figure.meaning.as_str());
         sheet.write_string(row, 0, path)?;
         match value {
             Value::Number(number) => cell(sheet, row, 1, &number.to_string())?,
@@ -124,8 +124,8 @@ fn main_figures(sheet: &mut Worksheet, summary: &Value) -> Result<(), XlsxError>
             Value::Bool(is_so) => drop(sheet.write_boolean(row, 1, *is_so)?),
             _ => {}
         }
-        sheet.write_string(row, 2, main.map_or(unit.unwrap_or_default(), MainFigure::unit))?;
-        sheet.write_string(row, 3, main.map_or("", |figure| figure.meaning.as_str()))?;
+        sheet.write_string(row, 2, unit.unwrap_or_default())?;
+        sheet.write_string(row, 3, meaning)?;
     }
     Ok(())
 }
@@ -140,7 +140,8 @@ fn flatten<'a>(
     match value {
         Value::Object(parts) => {
             for (key, part) in parts {
-                flatten(&format!("{path}.{key}"), unit::of(key).or(unit), part, found);
+                let path = format!("{path}.{key}");
+                flatten(&path, unit::of(&path).or(unit), part, found);
             }
         }
         Value::Array(parts) => {

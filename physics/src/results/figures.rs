@@ -55,15 +55,36 @@ pub const STATED_ERRORS: [StatedError; 10] = [
     stated("error.total.flank_pressure.worn", "flank pressure, worn", |total| total.flank_pressure.worn),
 ];
 
+/// Id of an attribute in the database of REXS, in the versions that have it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RexsId {
+    /// The id.
+    pub id: &'static str,
+    /// First and last version; they are in order as texts are.
+    pub versions: [&'static str; 2],
+}
+
+impl RexsId {
+    /// First version that is known.
+    pub const FIRST: &str = "1.4";
+    /// Last version that is known.
+    pub const LAST: &str = "2.0.0";
+
+    /// In all versions.
+    pub const fn always(id: &'static str) -> Self {
+        Self { id, versions: [Self::FIRST, Self::LAST] }
+    }
+}
+
 /// Attribute of a figure in REXS.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RexsAttribute {
     /// Name behind the program's own prefix.
     Own(&'static str),
-    /// Id in the database of the format, in all versions, and the unit there.
+    /// Attribute in the database of the format.
     Database {
-        /// The id.
-        id: &'static str,
+        /// Its ids.
+        ids: &'static [RexsId],
         /// The unit as the database writes it.
         unit: &'static str,
     },
@@ -642,7 +663,7 @@ pub static FAMILIES: &[FigureFamily] = &[
         .in_sweeps([7, 11])
         .compared([17, 18]),
     FigureFamily {
-        rexs: Some(RexsAttribute::Database { id: "averaged_linear_wear_vdi_2736_2014", unit: "mm" }),
+        rexs: Some(RexsAttribute::Database { ids: &[RexsId::always("averaged_linear_wear_vdi_2736_2014")], unit: "mm" }),
         ..gears("{gear}.vdi_2736_mean_wear_um", "µm", "mean wear W_m{}, VDI 2736-2", |s| {
             [s.pinion.vdi_2736_mean_wear_um, s.wheel.vdi_2736_mean_wear_um]
         })
@@ -754,7 +775,9 @@ mod tests {
             }
             assert!(!figure.meaning.is_empty() && !figure.heading.contains('{'), "{}", figure.name);
         }
-        for numbers in [|f: &FigureFamily| f.sweep_column, |f| f.compared_row, |f| f.default_output] {
+        let all_numbers: [fn(&FigureFamily) -> [u8; 2]; 3] =
+            [|family| family.sweep_column, |family| family.compared_row, |family| family.default_output];
+        for numbers in all_numbers {
             let mut given: Vec<u8> = FAMILIES.iter().flat_map(numbers).filter(|number| *number > 0).collect();
             given.sort_unstable();
             assert!(given.iter().copied().eq(1..=given.len() as u8), "{given:?}");

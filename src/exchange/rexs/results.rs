@@ -19,7 +19,7 @@ use quick_xml::escape::escape;
 use serde_json::Value;
 
 use super::RexsError;
-use super::attributes::{self, Attribute, CUSTOM, FIGURES, Figure, Naming, Of, On};
+use super::attributes::{self, Attribute, CUSTOM, FigureAttribute, Naming, Of, On};
 use super::document::{Component, Document};
 use super::load;
 use super::mesh_stiffness::MeshStiffness;
@@ -181,16 +181,16 @@ impl Writer<'_> {
         let mut placed = Vec::new();
         placed.extend(text("program_version").and_then(|text| self.place(&attributes::PROGRAM_VERSION, None, text)));
         placed.extend(text("scene_hash").and_then(|text| self.place(&attributes::SCENE_HASH, None, text)));
-        for figure in FIGURES {
-            self.figure(figure, &mut placed);
+        for figure in attributes::figures() {
+            self.figure(&figure, &mut placed);
         }
         self.mesh_stiffness(&mut placed);
         self.wear_profiles(&mut placed);
         placed
     }
 
-    fn figure(&self, figure: &Figure, placed: &mut Vec<Placed>) {
-        let Figure { path, attribute } = figure;
+    fn figure(&self, figure: &FigureAttribute, placed: &mut Vec<Placed>) {
+        let FigureAttribute { path, attribute } = figure;
         for of_target in self.targets.iter().filter(|target| target.on == attribute.on) {
             let number = |path: &str, phase: u64| {
                 let gear = of_target.gear.map_or("", Gear::name);

@@ -1,6 +1,6 @@
 use serde_json::{Value, json};
 
-use super::attributes::{CUSTOM, FIGURES, Naming, Of};
+use super::attributes::{CUSTOM, Naming, Of, figures};
 use super::document::Document;
 use super::mesh_stiffness::MeshStiffness;
 use super::results::{RunResults, WearProfile, WithResults, with_results};
@@ -311,7 +311,7 @@ fn val_attributes_are_those_of_the_version() {
 /// Every figure is there in the summary, and every id keeps to the naming convention of the format: a–z, 0–9 and _.
 #[test]
 fn every_figure_has_a_number_and_a_name() {
-    for figure in FIGURES {
+    for figure in figures() {
         let path = figure.path.replace("{gear}", "wheel").replace("{phase}", "1");
         assert!(Output::find(&path).is_ok(), "{path}");
         for version in VERSIONS {
@@ -333,8 +333,8 @@ fn every_figure_has_a_number_and_a_name() {
 fn the_document_has_every_figure() {
     let page = include_str!("../../../docs/rexs.md");
     let has = |name: &str| assert!(page.contains(&format!("`{name}`")), "docs/rexs.md: no {name}");
-    for figure in FIGURES {
-        has(figure.path);
+    for figure in figures() {
+        has(&figure.path);
         for version in VERSIONS {
             let text = TWO_STAGES.replace("version=\"1.4\"", &format!("version=\"{version}\""));
             let id = Naming::of(&Document::parse(&text).unwrap(), Loads::One).id(&figure.attribute);
