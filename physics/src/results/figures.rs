@@ -97,6 +97,12 @@ pub enum OverSlices {
     OfPair,
     /// Maximum, a fortieth of the face width at either end face left out.
     Maximum,
+    /// Minimum, likewise.
+    Minimum,
+    /// Where the maximum is.
+    AtMaximum,
+    /// Mean.
+    Mean,
     /// Sum.
     Sum,
     /// Spread or ratio of the slices, none where there are no slices.
@@ -109,6 +115,9 @@ impl OverSlices {
         match self {
             Self::OfPair => "of the pair",
             Self::Maximum => "maximum",
+            Self::Minimum => "minimum",
+            Self::AtMaximum => "where the maximum is",
+            Self::Mean => "mean",
             Self::Sum => "sum",
             Self::Spread => "spread of the slices",
         }
@@ -602,7 +611,7 @@ pub static FAMILIES: &[FigureFamily] = &[
     .compared([1, 2]),
     gears("{gear}.peak_wear_radius_mm", "mm", "radius of the maximum wear{}", |s| wear(s, |w| w.peak_wear_radius_mm))
         .means("distance from the {gear}'s axis of the maximum wear depth on its active profile")
-        .of_slices(OverSlices::Maximum)
+        .of_slices(OverSlices::AtMaximum)
         .shown(),
     FigureFamily {
         history: [Some(|row| row.pinion_tip_edge_wear_um), Some(|row| row.wheel_tip_edge_wear_um)],
@@ -648,7 +657,7 @@ pub static FAMILIES: &[FigureFamily] = &[
         ..gears("{gear}.pitch_wear_um", "µm", "wear{} at the pitch circle", |s| wear(s, |w| w.pitch_wear_um))
     }
     .means("wear depth at the working pitch circle")
-    .of_slices(OverSlices::Maximum)
+    .of_slices(OverSlices::Mean)
     .own_attribute("wear_depth_at_pitch_diameter")
     .once_called("{gear}_pitch_wear_um")
     .wants_less()
@@ -684,6 +693,7 @@ pub static FAMILIES: &[FigureFamily] = &[
         wear(s, |w| w.normal_tip_thickness_mm)
     })
     .means("what is left of it at the {gear}'s tip cylinder, reliefs and roundings not taken off")
+    .of_slices(OverSlices::Minimum)
     .on_page(),
     gears("helical.wear.{gear}.root_variation", "", "variation of root wear{} over the width", |s| {
         over_width(s, |w| w.root_variation)

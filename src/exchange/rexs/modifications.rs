@@ -51,7 +51,7 @@ const PLACES: [&str; 14] = [
     "helix_highest_point",
 ];
 
-/// Those of the components that any relation joins with the flank.
+/// The modifications of the components that any relation joins with the flank.
 pub(super) fn of(
     document: &Document,
     flank: &Component,
@@ -69,51 +69,7 @@ pub(super) fn of(
                 part.label()
             ));
         }
-        match part.kind.as_str() {
-            "tip_relief" => {
-                found.tip_relief = relief(
-                    part,
-                    ["tip_relief_depth", "tip_relief_datum_diameter", "tip_relief_datum_length"],
-                    warnings,
-                )?
-            }
-            "root_relief" => {
-                found.root_relief = relief(
-                    part,
-                    ["root_relief_depth", "root_relief_datum_diameter", "root_relief_datum_length"],
-                    warnings,
-                )?;
-            }
-            "end_relief_datum_face" => {
-                let names = ["end_relief_depth_datum_face", "end_relief_length_datum_face"];
-                ends[0] = end_relief(part, names, warnings)?;
-            }
-            "end_relief_non_datum_face" => {
-                let names = ["end_relief_depth_non_datum_face", "end_relief_length_non_datum_face"];
-                ends[1] = end_relief(part, names, warnings)?;
-            }
-            "profile_crowning" => {
-                found.profile_crowning_um =
-                    crowning(part, ["profile_crowning_at_root", "profile_crowning_at_tip"], warnings)?;
-            }
-            "helix_crowning" => {
-                let ends = ["helix_crowning_amount_datum_face", "helix_crowning_amount_non_datum_face"];
-                found.lead_crowning_um = crowning(part, ends, warnings)?;
-            }
-            "helix_slope"
-            | "profile_slope"
-            | "triangular_tip_relief"
-            | "triangular_root_relief"
-            | "topographical_modification" => {
-                let instead = if part.kind == "helix_slope" {
-                    "; give helix_slope_deviation_um with the sign of the scene"
-                } else {
-                    ""
-                };
-                warnings.push(format!("{gear}: {} is left out{instead}", part.label()));
-            }
-            _ => {}
-        }
+        add(part, gear, &mut found, &mut ends, warnings)?;
     }
     found.end_relief = match ends {
         [Some(one), Some(other)] if one == other => Some(one),
@@ -126,6 +82,51 @@ pub(super) fn of(
         }
     };
     Ok(found)
+}
+
+/// Adds the modification of a component: to `found`, or an end relief to that of the datum face and of the other.
+fn add(
+    part: &Component,
+    gear: &str,
+    found: &mut Modifications,
+    ends: &mut [Option<EndRelief>; 2],
+    warnings: &mut Vec<String>,
+) -> Result<(), RexsError> {
+    match part.kind.as_str() {
+        "tip_relief" => {
+            let names = ["tip_relief_depth", "tip_relief_datum_diameter", "tip_relief_datum_length"];
+            found.tip_relief = relief(part, names, warnings)?;
+        }
+        "root_relief" => {
+            let names = ["root_relief_depth", "root_relief_datum_diameter", "root_relief_datum_length"];
+            found.root_relief = relief(part, names, warnings)?;
+        }
+        "end_relief_datum_face" => {
+            let names = ["end_relief_depth_datum_face", "end_relief_length_datum_face"];
+            ends[0] = end_relief(part, names, warnings)?;
+        }
+        "end_relief_non_datum_face" => {
+            let names = ["end_relief_depth_non_datum_face", "end_relief_length_non_datum_face"];
+            ends[1] = end_relief(part, names, warnings)?;
+        }
+        "profile_crowning" => {
+            let names = ["profile_crowning_at_root", "profile_crowning_at_tip"];
+            found.profile_crowning_um = crowning(part, names, warnings)?;
+        }
+        "helix_crowning" => {
+            let names = ["helix_crowning_amount_datum_face", "helix_crowning_amount_non_datum_face"];
+            found.lead_crowning_um = crowning(part, names, warnings)?;
+        }
+        "helix_slope" => warnings.push(format!(
+            "{gear}: {} is left out; give helix_slope_deviation_um with the sign of the scene",
+            part.label()
+        )),
+        "profile_slope" | "triangular_tip_relief" | "triangular_root_relief" | "topographical_modification" => {
+            warnings.push(format!("{gear}: {} is left out", part.label()));
+        }
+        _ => {}
+    }
+    Ok(())
 }
 
 /// A relief by the names of its depth, of the diameter and of the length where it begins; None where nothing is removed.

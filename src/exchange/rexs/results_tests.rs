@@ -140,9 +140,8 @@ fn results_without_load_spectrum_stand_in_the_model() {
     assert_eq!((depth.1.as_str(), diameters.1.as_str()), ("0.04.5", "70.082.5"));
 }
 
-/// Figures of films, friction, scuffing and of VDI 2736 in the unit of their attribute; W_m is in mm, and each figure has its own number.
-#[test]
-fn ver_figures_of_films_and_wear_stand_in_their_unit() {
+/// A run of a lubricated pair, of which the pinion is a plastic: each figure has its own number.
+fn lubricated() -> RunResults {
     let mut run = run(&[[100.0, 1500.0]]);
     let path = |value: f64| json!({ "min": value, "max": 900.0, "mean": 901.0 });
     run.summary["lubrication"] = json!({
@@ -168,6 +167,13 @@ fn ver_figures_of_films_and_wear_stand_in_their_unit() {
         "tooth": { "pinion": null, "wheel": { "flank_C": 61.5, "root_C": 41.5 } },
     });
     run.summary["pinion"]["vdi_2736_mean_wear_um"] = json!(12.5);
+    run
+}
+
+/// Figures of films, friction, scuffing and of VDI 2736 in the unit of their attribute; W_m is in mm.
+#[test]
+fn ver_figures_of_films_and_wear_stand_in_their_unit() {
+    let run = lubricated();
     let with = written(&without_load_spectrum(), &run);
     for (id, unit, text) in [
         ("degree_of_tooth_loss_vdi_2736_2014", "none", "0.195"),

@@ -123,26 +123,15 @@ pub fn evaluate(
     let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
     check_keys(&keys, &draft)?;
     check_rows(&keys, rows)?;
-    let whole: Vec<bool> = keys.iter().map(|key| takes_whole_numbers(key)).collect();
     let of_error = outputs.iter().any(Output::is_of_error);
     let varied = VariedScene::new(scene, of_error && scene.scene().numerics.error_estimate);
     let varied = varied.map_err(|problems| scene.given.refused(problems))?;
+    let whole = keys.iter().map(|key| takes_whole_numbers(key)).collect();
+    let verify = of_error && scene.scene().verify;
+    let asked = AskedRows { varied, keys, whole, outputs, verify };
 
-    let run = |row: &[toml::Value], within: &dyn Observer| -> Result<Option<Vec<f64>>, String> {
-        let values = row.iter().zip(&whole).map(|(value, &whole)| if whole { as_whole(value) } else { value.clone() });
-        let resolved = varied.resolved(keys.iter().copied().zip(values)).map_err(|problems| in_words(&problems));
-        let mut resolved = resolved?;
-        resolved.scene.verify = of_error && scene.scene().verify;
-        varied.inputs_belong_to(&resolved)?;
-        let summary = varied.carry_out(resolved, within, pipeline::summarise)?;
-        if summary.stopped == StopReason::Interrupted {
-            return Ok(None);
-        }
-        let summary = serde_json::to_value(&summary).map_err(|error| error.to_string())?;
-        Ok(Some(outputs.iter().map(|output| output.of(&summary).unwrap_or(f64::NAN)).collect()))
-    };
     let mut found = Evaluation {
-        values: vec![vec![f64::NAN; outputs.len()]; rows.len()],
+        values: vec![vec![f64::NAN; asked.outputs.len()]; rows.len()],
         reasons: vec![Some("interrupted".to_owned()); rows.len()],
     };
     let mut done = 0;
@@ -151,22 +140,13 @@ pub fn evaluate(
         &tasks,
         threads.max(1),
         observer,
-        |&row, within| {
-            let run = guarded(|| run(&rows[row], within));
-            match run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}"))) {
-                Ok(values) => values.map(|values| (row, Ok(values))),
-                Err(_) if within.interrupted() => None,
-                Err(reason) => Some((row, Err(one_line(&reason)))),
-            }
-        },
+        |&row, within| Some((row, asked.carry_out(&rows[row], within)?)),
         |(row, result)| {
             done += 1;
             observer.counted(done, rows.len(), "rows", "");
             match result {
                 Ok(values) => {
-                    found.reasons[row] = outputs.iter().zip(&values).find_map(|(output, value)| {
-                        (!value.is_finite()).then(|| format!("{}: the run has no such figure", output.path))
-                    });
+                    found.reasons[row] = asked.without_number(&values);
                     found.values[row] = values;
                 }
                 Err(reason) => found.reasons[row] = Some(reason),
@@ -175,6 +155,49 @@ pub fn evaluate(
         },
     );
     Ok(found)
+}
+
+/// What is asked of every row.
+struct AskedRows<'a> {
+    varied: VariedScene,
+    keys: Vec<&'a str>,
+    /// Whether each key takes whole numbers alone.
+    whole: Vec<bool>,
+    outputs: Vec<Output>,
+    verify: bool,
+}
+
+impl AskedRows<'_> {
+    /// The outputs of a row, NaN where the run has none, or on one line why there are none; `None` where the run was interrupted.
+    fn carry_out(&self, row: &[toml::Value], within: &dyn Observer) -> Option<Result<Vec<f64>, String>> {
+        match guarded(|| self.outputs_of(row, within)) {
+            Ok(Ok(values)) => values.map(Ok),
+            Ok(Err(_)) | Err(_) if within.interrupted() => None,
+            Ok(Err(reason)) => Some(Err(one_line(&reason))),
+            Err(said) => Some(Err(one_line(&format!("a defect of the program: {said}")))),
+        }
+    }
+
+    fn outputs_of(&self, row: &[toml::Value], within: &dyn Observer) -> Result<Option<Vec<f64>>, String> {
+        let values = row.iter().zip(&self.whole);
+        let values = values.map(|(value, &whole)| if whole { as_whole(value) } else { value.clone() });
+        let exchanged = self.keys.iter().copied().zip(values);
+        let mut resolved = self.varied.resolved(exchanged).map_err(|problems| in_words(&problems))?;
+        resolved.scene.verify = self.verify;
+        self.varied.inputs_belong_to(&resolved)?;
+        let summary = self.varied.carry_out(resolved, within, pipeline::summarise)?;
+        if summary.stopped == StopReason::Interrupted {
+            return Ok(None);
+        }
+        let summary = serde_json::to_value(&summary).map_err(|error| error.to_string())?;
+        Ok(Some(self.outputs.iter().map(|output| output.of(&summary).unwrap_or(f64::NAN)).collect()))
+    }
+
+    /// The first output of a row that is no number; `None` where all are.
+    fn without_number(&self, values: &[f64]) -> Option<String> {
+        let (output, _) = self.outputs.iter().zip(values).find(|(_, value)| !value.is_finite())?;
+        Some(format!("{}: the run has no such figure", output.path))
+    }
 }
 
 fn check_keys(keys: &[&str], draft: &Draft) -> Result<(), EvaluateError> {

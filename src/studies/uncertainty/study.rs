@@ -317,6 +317,19 @@ fn record(
     })
 }
 
+/// Name, meaning and unit of a figure, or of the life to a limit.
+fn named(samples: &Samples<'_>, figure: usize) -> [String; 3] {
+    let outputs = &samples.question.outputs;
+    let limit = figure.checked_sub(outputs.len()).map(|number| &samples.question.limits[number]);
+    let name = limit.map_or_else(|| outputs[figure].path.as_str(), |limit| limit.output);
+    let known = figures::find(name);
+    let heading = known.map_or_else(|| name.to_owned(), |known| capitalised(&known.heading));
+    let Some(limit) = limit else { return [name.to_owned(), heading, known.map_or("", MainFigure::unit).to_owned()] };
+    let unit = if samples.nominal.summary.hours.is_some() { "h" } else { "revolutions" };
+    let depth_um = limit.depth_um;
+    [format!("life.{name}={depth_um}"), format!("Life until {depth_um} µm: {heading}"), unit.to_owned()]
+}
+
 fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> OutputRecord {
     let question = samples.question;
     let limit = figure.checked_sub(question.outputs.len()).map(|number| &question.limits[number]);
@@ -342,25 +355,8 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
     let [p05, p25, p50, p75, p95] =
         SHARES.map(|share| quantile(&sorted, share).filter(|value| censored == 0 || *value <= until));
     let complete = censored == 0 && !sorted.is_empty();
-    let name = limit.map_or_else(|| question.outputs[figure].path.as_str(), |limit| limit.output);
-    let known = figures::find(name);
-    let is_in_hours = samples.nominal.summary.hours.is_some();
-    let (output, meaning, unit) = match limit {
-        None => (
-            name.to_owned(),
-            known.map_or_else(|| name.to_owned(), |known| capitalised(&known.heading)),
-            known.map_or("", MainFigure::unit),
-        ),
-        Some(limit) => (
-            format!("life.{name}={}", limit.depth_um),
-            format!(
-                "Life until {} µm: {}",
-                limit.depth_um,
-                known.map_or_else(|| name.to_owned(), |known| capitalised(&known.heading))
-            ),
-            if is_in_hours { "h" } else { "revolutions" },
-        ),
-    };
+    let [output, meaning, unit] = named(samples, figure);
+    let is_life = limit.is_some() || output.starts_with("life.");
     let nominal = match limit {
         None => outputs_of(question, samples.nominal).ok().map(|values| values[figure].0),
         Some(limit) => Some(limit.life(&limit.growth(&samples.nominal.history), 1.0).0),
@@ -373,11 +369,11 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
     OutputRecord {
         output,
         meaning,
-        unit: unit.to_owned(),
+        unit,
         nominal: nominal.filter(|value| value.is_finite()),
         model_error: samples.errors[figure],
         samples: sorted.len(),
-        censored: (limit.is_some() || name.starts_with("life.")).then(|| censored as f64 / sorted.len().max(1) as f64),
+        censored: is_life.then(|| censored as f64 / sorted.len().max(1) as f64),
         mean: complete.then(|| mean(sorted.iter().copied())),
         standard_deviation: complete.then(|| standard_deviation(&sorted)).flatten(),
         quantiles: Quantiles { p05, p25, p50, p75, p95 },

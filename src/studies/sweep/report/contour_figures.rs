@@ -24,12 +24,8 @@ pub(super) fn contour(
         .iter()
         .map(|&j| x.shown.iter().map(|&i| at(i, j).and_then(|row| row.figure(figure)).map(plotted)).collect())
         .collect();
-    let failed: Vec<&SweepRow> = y
-        .shown
-        .iter()
-        .flat_map(|&j| x.shown.iter().filter_map(move |&i| at(i, j)))
-        .filter(|row| row.error.is_some())
-        .collect();
+    let all = y.shown.iter().flat_map(|&j| x.shown.iter().filter_map(move |&i| at(i, j)));
+    let failed: Vec<&SweepRow> = all.filter(|row| row.error.is_some()).collect();
     let unit = figure.unit();
     let contours = Trace::new(TraceKind::Contour, figure.heading.as_str())
         .set("x", x.values())
@@ -56,7 +52,6 @@ pub(super) fn contour(
         .without_grid()
         .add(contours)
         .reading(reading(record, figure, best, &[x, y]));
-    let places = |words: &[String]| (0..words.len()).map(|place| place as f64).collect::<Vec<_>>();
     if let Some(words) = x.axis.words() {
         chart = chart.x_set("tickvals", places(words)).x_set("ticktext", words.to_vec());
     }
@@ -70,12 +65,17 @@ pub(super) fn contour(
         chart = chart.y_logarithmic();
     }
     if !failed.is_empty() {
-        let along = |axis: &ShownAxis<'_>| failed.iter().map(|row| row.values[axis.at]).collect::<Vec<_>>();
+        let [along_x, along_y] = [x, y].map(|axis| failed.iter().map(|row| row.values[axis.at]).collect::<Vec<_>>());
         let errors = failed.iter().map(|row| row.error.clone().unwrap_or_default()).collect();
-        chart = chart.add(Trace::points("no result", along(x), along(y), (MUTED, "x", 6)).hover_texts(errors));
+        chart = chart.add(Trace::points("no result", along_x, along_y, (MUTED, "x", 6)).hover_texts(errors));
     }
     let least_at = Trace::points("minimum", [best.values[x.at]], [best.values[y.at]], ("#ff5a36", "star", 15));
     Some(chart.add(least_at.hover(format!("minimum: {} {unit}<extra></extra>", shown_number(least)))))
+}
+
+/// Where the words of an axis stand.
+pub(super) fn places(words: &[String]) -> Vec<f64> {
+    (0..words.len()).map(|place| place as f64).collect()
 }
 
 /// The ends of an axis as plotly takes them: of a logarithmic one the exponents.
