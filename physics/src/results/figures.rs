@@ -83,7 +83,7 @@ pub enum RexsAttribute {
     Own(&'static str),
     /// Attribute in the database of the format.
     Database {
-        /// Its ids.
+        /// Ids, each in the versions that have it.
         ids: &'static [RexsId],
         /// The unit as the database writes it.
         unit: &'static str,
@@ -146,7 +146,7 @@ pub struct FigureFamily {
     pub unit: &'static str,
     /// Short heading, lower case; `{}` where the gear is named.
     pub words: &'static str,
-    /// What the figure holds, in a phrase.
+    /// Meaning of the value, in a phrase.
     pub meaning: &'static str,
     /// Reservation said with the heading: the value depends on the resolution; mostly empty.
     pub caveat: &'static str,
@@ -323,12 +323,12 @@ pub struct MainFigure {
     pub name: String,
     /// Short heading, lower case, without unit: `maximum wear of the pinion, active profile`.
     pub heading: String,
-    /// What it holds, in a phrase.
+    /// Meaning of the value, in a phrase.
     pub meaning: String,
     former: String,
     /// Name of its attribute in REXS behind the program's prefix; empty where it has none of its own.
     pub own_attribute: String,
-    /// Its line of the catalogue.
+    /// Line of the catalogue.
     pub family: &'static FigureFamily,
     side: usize,
 }
@@ -355,7 +355,7 @@ impl MainFigure {
         with_unit(&self.heading, self.unit())
     }
 
-    /// Its value; `None` where the scene does not compute it.
+    /// Value in a summary; `None` where the scene does not compute it.
     pub fn value(&self, summary: &Summary) -> Option<f64> {
         self.family.both(summary)[self.side]
     }
@@ -372,7 +372,7 @@ impl MainFigure {
         self.family.both_errors(total)[self.side]
     }
 
-    /// Its depth in a row of the history; `None` where the history has none.
+    /// Depth in a row of the history; `None` where the history has none.
     pub fn depth_of_history(&self) -> Option<DepthOfHistory> {
         self.family.history[self.side]
     }
@@ -398,17 +398,17 @@ pub fn all() -> &'static [MainFigure] {
     &ALL
 }
 
-/// Those that a sweep keeps of each run, in the order of its columns.
+/// Figures that a sweep keeps of each run, in the order of its columns.
 pub fn in_sweeps() -> &'static [&'static MainFigure] {
     &IN_SWEEPS
 }
 
-/// Those that a study of uncertainty keeps where no outputs are asked for.
+/// Figures that a study of uncertainty keeps where no outputs are asked for.
 pub fn default_outputs() -> &'static [&'static MainFigure] {
     &DEFAULT_OUTPUTS
 }
 
-/// Those that finished runs are compared by, in the order of the rows.
+/// Figures that finished runs are compared by, in the order of the rows.
 pub fn compared() -> &'static [&'static MainFigure] {
     &COMPARED
 }
@@ -424,7 +424,7 @@ pub fn name_now(given: &str) -> Option<&'static str> {
     find(given).filter(|figure| figure.name != given).map(|figure| figure.name.as_str())
 }
 
-/// What to tell a user who calls figures by names of the version before.
+/// Notes for a user who calls figures by names of the version before.
 pub fn notes<'a>(given: impl IntoIterator<Item = &'a str>) -> Vec<String> {
     let former = given.into_iter().filter_map(|name| Some((name, name_now(name)?)));
     former
@@ -439,7 +439,7 @@ pub fn peak_wear_of_either() -> &'static MainFigure {
     &FIGURE
 }
 
-/// Its name.
+/// Name of the greatest wear of either gear.
 pub const PEAK_WEAR_OF_EITHER: &str = "peak_wear_um";
 
 const PEAK_WEAR_ERRORS: [&str; 2] = ["error.total.peak_wear.pinion", "error.total.peak_wear.wheel"];

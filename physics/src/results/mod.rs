@@ -1,4 +1,4 @@
-//! What was found, as plain records in the units of the output files: what reports, tables and tests read.
+//! Plain records of what was found, in the units of the output files: what reports, tables and tests read.
 //!
 //! The records of the studies (accuracy, sweep, compare, validation) are with them in `studies`.
 

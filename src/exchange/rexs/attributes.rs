@@ -1,4 +1,4 @@
-//! Which figure of a run is which attribute of the format: id, unit and component by the format's database (database.rexs.info), versions 1.4
+//! Attributes of the format for figures of a run: id, unit and component by the format's database (database.rexs.info), versions 1.4
 //! to 2.0. An attribute that belongs to a standard or guideline stands for a figure only where the run computes it by that one.
 //!
 //! What the database has no attribute for stands under an id that begins with `custom_`, then the name of the program, as the specification
@@ -27,14 +27,14 @@ pub(super) enum On {
     GearInStage,
 }
 
-/// What a figure is of.
+/// Reach of a figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Of {
     /// The pair, whatever its load.
     Pair,
     /// The load of the reference phase, the greatest.
     Load,
-    /// The same, and proportional to the torque, so that it is known of every load.
+    /// The load of the reference phase, and proportional to the torque, so that the figure is known of every load.
     Torque,
     /// Each phase.
     Phase,
@@ -47,7 +47,7 @@ pub(super) enum Of {
 pub(super) struct Attribute {
     pub of: Of,
     pub on: On,
-    /// As the database writes it.
+    /// Unit as the database writes it.
     unit: &'static str,
     /// In the database, in some versions.
     standard: &'static [RexsId],
@@ -184,7 +184,7 @@ static OF_OPERATION: [FigureAttribute; 4] = [
     custom(Of::Load, On::Stage, "phases.{phase}.pinion_speed_rpm", "1 / min", "pinion_speed"),
 ];
 
-/// What the main figures leave to be written: phases, films, root stress and temperatures, and attributes that differ from version to version.
+/// Attributes beside those of main figures: phases, films, root stress and temperatures, and such as differ from version to version.
 static OTHERS: &[FigureAttribute] = &[
     standard(
         Of::Load,

@@ -12,7 +12,7 @@ pub(super) struct Document {
     pub application: String,
     pub components: Vec<Component>,
     pub relations: Vec<Relation>,
-    /// What each load case says of components, in the order of the file.
+    /// Components as each load case has them, in the order of the file.
     pub load_cases: Vec<Vec<Component>>,
 }
 
@@ -31,7 +31,7 @@ pub(super) struct Component {
 struct Attribute {
     id: String,
     unit: String,
-    /// Its scalar; that of arrays and matrices is empty.
+    /// Scalar; that of arrays and matrices is empty.
     text: String,
     line: usize,
 }
@@ -64,7 +64,7 @@ pub(super) const RPM: Units = &[("1/min", 1.0)];
 pub(super) const HOURS: Units = &[("h", 1.0)];
 
 impl Component {
-    /// As messages name it.
+    /// Name in messages.
     pub(super) fn label(&self) -> String {
         let name = if self.name.is_empty() { &self.kind } else { &self.name };
         format!("{name} (id {})", self.id)
@@ -110,7 +110,7 @@ impl Component {
         RexsError::Missing { line: self.line, component: self.label(), attribute }
     }
 
-    /// That the value of an attribute will not do.
+    /// Error that the value of an attribute will not do.
     pub(super) fn wrong(&self, id: &str, found: String, allowed: String) -> RexsError {
         let line = self.attribute(id).map_or(self.line, |attribute| attribute.line);
         RexsError::Value { line, component: self.label(), attribute: id.to_owned(), found, allowed }
@@ -158,7 +158,7 @@ impl Document {
         self.related("reference", ("origin", &component.id), "referenced").find(|found| found.kind == "material")
     }
 
-    /// What the first load case that speaks of it, or the component itself, says in words.
+    /// Word that the first load case that speaks of it, or the component itself, has.
     pub(super) fn word<'a>(&'a self, component: &'a Component, id: &str) -> Option<&'a str> {
         let cases = self.load_cases.iter().flatten().filter(|said| said.id == component.id);
         cases.chain([component]).find_map(|said| said.text(id))
@@ -280,7 +280,7 @@ pub(super) fn xml_attribute(tag: &BytesStart, name: &str, line: usize) -> Result
     }
 }
 
-/// What a file is that is no XML, by how it begins.
+/// Kind of a file that is no XML, by how it begins.
 fn other_form(text: &str) -> Option<&'static str> {
     let text = text.trim_start_matches('\u{feff}').trim_start();
     if text.is_empty() {

@@ -28,12 +28,12 @@ mod tests;
 use document::Document;
 use stage::Stage;
 
-/// What a file gives.
+/// Scene from a file.
 #[derive(Debug)]
 pub(crate) struct FromRexs {
     /// The scene file.
     pub text: String,
-    /// What of the stage a scene cannot say, or what was left out and why.
+    /// Parts of the stage that a scene cannot say, or that were left out, and why.
     pub warnings: Vec<String>,
 }
 

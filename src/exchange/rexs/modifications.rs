@@ -3,7 +3,7 @@
 use super::RexsError;
 use super::document::{Component, Document, MM, MM_AS_UM};
 
-/// What lies on one flank.
+/// Modifications of one flank.
 #[derive(Debug, Default)]
 pub(super) struct Modifications {
     pub tip_relief: Option<Relief>,

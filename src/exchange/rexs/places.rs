@@ -14,7 +14,7 @@ use super::document::{Lines, xml_attribute};
 /// Elements whose places are kept.
 const KEPT: [&str; 8] =
     ["relations", "relation", "components", "component", "attribute", "load_spectrum", "load_case", "accumulation"];
-/// What children stand deeper than their parent, where none shows how deep.
+/// Indent of children below their parent, where none shows how deep.
 const STEP: &str = "  ";
 const BYTE_ORDER_MARK: char = '\u{feff}';
 
@@ -24,9 +24,9 @@ struct Node {
     name: &'static str,
     id: String,
     line: usize,
-    /// Its tag; of an element without content all of it.
+    /// Tag; of an element without content all of it.
     tag: Range<usize>,
-    /// Its closing tag; empty of an element without content.
+    /// Closing tag; empty of an element without content.
     end: Range<usize>,
     /// The innermost element around it that is kept.
     parent: Option<usize>,
@@ -93,7 +93,7 @@ pub(super) struct Places<'a> {
     text: &'a str,
     nodes: Vec<Node>,
     changes: Vec<(Range<usize>, String)>,
-    /// What is to stand behind the last child of a node.
+    /// Elements to stand behind the last child of a node.
     additions: Vec<(usize, Vec<NewElement>)>,
 }
 

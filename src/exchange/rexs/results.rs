@@ -34,7 +34,7 @@ use crate::studies::evaluate::output::Output;
 
 const GEAR_IN_STAGE: &str = "cylindrical_stage_gear_data";
 
-/// What of a finished run is written.
+/// Results of a finished run that are written.
 #[derive(Debug, Clone)]
 pub(crate) struct RunResults {
     /// `summary.json`.
@@ -61,7 +61,7 @@ pub(crate) struct WithResults {
     pub stage: String,
     /// Attributes that are in the format's database.
     pub standard: usize,
-    /// Those that are not.
+    /// Attributes that are not.
     pub custom: usize,
     pub warnings: Vec<String>,
 }

@@ -28,7 +28,7 @@ pub(super) struct Gears<'a> {
 #[derive(Debug)]
 pub(super) struct GearData<'a> {
     pub component: &'a Component,
-    /// What the stage says of this gear, where it does.
+    /// Data of this gear in the stage, where the file has them.
     pub in_stage: Option<&'a Component>,
     pub teeth: u32,
     pub profile_shift: f64,
@@ -133,7 +133,7 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// What both gears share of the normal section.
+/// Data of the normal section that both gears share.
 struct Section {
     normal_module_mm: f64,
     pressure_angle_deg: f64,

@@ -21,7 +21,7 @@ use crate::studies::spread::spread;
 use crate::studies::varied_scene::{VariedScene, in_words, linked_keys, missing_phase, one_line};
 use output::{Output, OutputError};
 
-/// What came of each row.
+/// Outcome of each row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Evaluation {
     /// The outputs of each row, in their order; NaN where there is none.
@@ -30,21 +30,21 @@ pub struct Evaluation {
     pub reasons: Vec<Option<String>>,
 }
 
-/// What is wrong with what is to be evaluated; a row that cannot be run is none of it.
+/// Fault of the question; a row that cannot be run is none.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum EvaluateError {
     /// No scene has the key.
     #[error("unknown key {key}; allowed: a key of the scene, such as pair.face_width_mm{}", did_you_mean(.nearest))]
     UnknownKey {
-        /// As given.
+        /// Key as given.
         key: String,
-        /// What was probably meant.
+        /// Key that was probably meant.
         nearest: Option<String>,
     },
     /// A phase that the scene does not have.
     #[error("found {key}; allowed: a phase that the scene has, numbered from 1")]
     NoPhase {
-        /// As given.
+        /// Key as given.
         key: String,
     },
     /// A key twice, or two that say the same in different ways.
@@ -58,15 +58,15 @@ pub enum EvaluateError {
     /// No summary has the output.
     #[error("unknown output {output}; allowed: the path of a number in summary.json, such as pinion.peak_wear_um{}", did_you_mean(.nearest))]
     UnknownOutput {
-        /// As given.
+        /// Output as given.
         output: String,
-        /// What was probably meant.
+        /// Output that was probably meant.
         nearest: Option<String>,
     },
     /// A row of another length than the keys.
     #[error("row {row}: found {found} values; allowed: {expected}, one for each key")]
     RowLength {
-        /// Its number, from 0.
+        /// Number of the row, from 0.
         row: usize,
         /// How many it has.
         found: usize,
@@ -76,7 +76,7 @@ pub enum EvaluateError {
     /// A value that is no number.
     #[error("row {row}, {key}: found {found}; allowed: a finite number")]
     NotFinite {
-        /// Its number, from 0.
+        /// Number of the row, from 0.
         row: usize,
         /// Whose value.
         key: String,
@@ -157,7 +157,7 @@ pub fn evaluate(
     Ok(found)
 }
 
-/// What is asked of every row.
+/// Question that all rows share.
 struct AskedRows<'a> {
     varied: VariedScene,
     keys: Vec<&'a str>,

@@ -13,7 +13,7 @@ use crate::scene::schema::{Node, schema_of};
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Output {
     pub path: String,
-    /// The same as a JSON pointer.
+    /// Path as a JSON pointer.
     pointer: String,
 }
 
@@ -21,7 +21,7 @@ pub(crate) struct Output {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct OutputError {
     pub output: String,
-    /// What was probably meant.
+    /// Path that was probably meant.
     pub nearest: Option<String>,
 }
 
@@ -54,13 +54,13 @@ impl Output {
         self.path.starts_with("error.")
     }
 
-    /// Where it is the life to a limit: what a run that comes to none says of it, how long it was.
+    /// Duration of a run that comes to no limit, where the output is the life to a limit.
     pub(crate) fn at_least(&self, summary: &Value) -> Option<f64> {
         let time = self.path.strip_prefix("life.").filter(|time| matches!(*time, "hours" | "revolutions"))?;
         summary["life"].is_object().then(|| summary[time].as_f64())?
     }
 
-    /// Its value in the summary; none where the run does not compute it.
+    /// Value in the summary; none where the run does not compute it.
     pub(crate) fn of(&self, summary: &Value) -> Option<f64> {
         summary.pointer(&self.pointer)?.as_f64()
     }

@@ -11,7 +11,7 @@ use crate::results::figures;
 use crate::scene::draft::Draft;
 use crate::scene::loaded::{LoadedScene, SceneError};
 
-/// What is asked of a scene.
+/// Question to a scene.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SweepQuestion {
     /// Keys and their values: `KEY=FROM:TO:COUNT`, the same with `:log` for equal ratios, or `KEY=VALUE,VALUE,…` of rising numbers or of
@@ -26,7 +26,7 @@ pub struct SweepQuestion {
 }
 
 impl SweepQuestion {
-    /// What to say of figures that are asked for by the name that they had in the version before.
+    /// Notes on figures that are asked for by the name that they had in the version before.
     pub fn notes(&self) -> Vec<String> {
         let of_limits = self.subject_to.iter().map(|limit| limit.split(['<', '>']).next().unwrap_or_default().trim());
         figures::notes(self.best.iter().map(String::as_str).chain(of_limits))
@@ -55,12 +55,12 @@ pub(crate) enum SweepFault {
 }
 
 impl SweepError {
-    /// What is wrong with the scene itself, if that is it.
+    /// Fault of the scene itself, if that is it.
     pub fn in_the_scene(&self) -> Option<&SceneError> {
         if let SweepFault::Scene(error) = &self.0 { Some(error) } else { None }
     }
 
-    /// What the system says, where a file cannot be read or written.
+    /// Reason of the system, where a file cannot be read or written.
     pub fn of_system(&self) -> Option<io::ErrorKind> {
         let kept = |error: &JournalError| match error {
             JournalError::Open { source, .. }
@@ -99,7 +99,7 @@ impl Sweep {
         Ok(sweep.map_err(|problems| scene.given.refused(problems))?)
     }
 
-    /// What the user should know about it: values that their key does not take.
+    /// Warnings to the user: values that their key does not take.
     pub fn warnings(&self) -> Vec<String> {
         self.identity.axes.iter().filter_map(axis::partly_not_allowed).collect()
     }

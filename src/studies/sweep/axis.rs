@@ -17,7 +17,7 @@ pub(crate) const MOST_COMBINATIONS: usize = 1_000_000;
 const FORM: &str =
     "KEY=FROM:TO:COUNT, such as pair.face_width_mm=10:30:21, with :log for equal ratios, or KEY=VALUE,VALUE,…";
 
-/// What is wrong with what is to be varied.
+/// Fault of a key that is to be varied.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum AxisError {
     /// Not of one of the forms.
@@ -77,7 +77,7 @@ pub(crate) enum AxisError {
 }
 
 impl AxisError {
-    /// What to do about it, where the message does not say it.
+    /// Remedy, where the message does not say it.
     pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::Key(KeyError::Unknown { nearest: Some(nearest), .. }) => Some(format!("did you mean {nearest}?")),

@@ -1,4 +1,4 @@
-//! What a sweep is for: the combination where a figure is least, among those that keep to some limits.
+//! Goal of a sweep: the combination where a figure is least, among those that keep to some limits.
 //!
 //! An optimum is only as good as the error of the figure: every combination that is not worse by more than that belongs to it. With the
 //! relative error e of the least value y and of another one, z, which is taken to be as great, z is not known to be worse where
@@ -34,7 +34,7 @@ pub(crate) struct Limit {
     pub value: f64,
 }
 
-/// What is wrong with a goal.
+/// Fault of a goal.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum GoalError {
     #[error("unknown figure {name}; allowed: a column of sweep.csv such as pinion.peak_wear_um{}", meant.as_ref().map_or_else(String::new, |meant| format!("; did you mean {meant}?")))]
@@ -169,7 +169,7 @@ pub(crate) struct Optimum {
     pub why_no_error: Option<String>,
     /// The combinations that are not known to be worse, itself among them; null where the error is not known.
     pub plateau: Option<Vec<usize>>,
-    /// Which values each key has among them.
+    /// Values of each key among them.
     pub plateau_keys: Option<Vec<String>>,
 }
 

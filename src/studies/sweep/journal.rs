@@ -19,11 +19,11 @@ use crate::whole_file;
 /// Name of the journal in the folder of a sweep.
 pub(crate) const FILE_NAME: &str = "rows.jsonl";
 
-/// What a journal holds: its first line and, one line each, the rows.
+/// Content of a journal: its first line and, one line each, the rows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Contents {
     pub identity: SweepIdentity,
-    /// Which part of the sweep; `None`: all of it.
+    /// Part of the sweep; `None`: all of it.
     pub shard: Option<Shard>,
     /// Finished rows by index.
     #[serde(skip)]
@@ -43,12 +43,12 @@ impl Contents {
 
 #[derive(Debug)]
 pub(crate) struct Journal {
-    /// Where it is kept; `None`: in memory alone.
+    /// Place where it is kept; `None`: in memory alone.
     kept: Option<(PathBuf, File)>,
     pub contents: Contents,
 }
 
-/// What keeps rows from being read or kept.
+/// Reason why rows cannot be read or kept.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum JournalError {
     #[error("{} holds no sweep: there is no {FILE_NAME} in it", folder.display())]
@@ -213,7 +213,7 @@ fn line_of(item: &impl Serialize) -> io::Result<Vec<u8>> {
     Ok(line)
 }
 
-/// What the journal and the sweep that is to be run do not have in common, there and here.
+/// Differences between the journal and the sweep that is to be run, there and here.
 fn differences(found: &Contents, wanted: &Contents) -> Vec<String> {
     let mut differences = found.identity.differences(&wanted.identity);
     if found.shard != wanted.shard {

@@ -19,7 +19,7 @@ pub(crate) enum MergeError {
         first: PathBuf,
         /// The one that does not belong to it.
         other: PathBuf,
-        /// What differs, in the first and in the other.
+        /// Differences, in the first and in the other.
         differences: Vec<String>,
     },
     #[error("{} has another result than an earlier folder for {combination}", folder.display())]

@@ -19,7 +19,7 @@ pub(crate) enum Spacing {
     Even,
     /// By equal ratios, both ends included.
     Logarithmic,
-    /// As they are listed, rising.
+    /// Listed, rising.
     Listed(Vec<f64>),
     /// Words as they are listed; the values are their places, from 0.
     Words(Vec<String>),
@@ -79,7 +79,7 @@ impl SweepAxis {
         (0..self.count).map(|index| self.value(index)).collect()
     }
 
-    /// As the user may write it: `pair.face_width_mm=10:30:21`.
+    /// Text as the user may write it: `pair.face_width_mm=10:30:21`.
     pub(crate) fn as_given(&self) -> String {
         let range = || format!("{}:{}:{}", plain(self.from), plain(self.to), self.count);
         let values = match &self.spacing {
@@ -115,7 +115,7 @@ impl SweepAxis {
         unit.map_or_else(|| name.clone(), |unit| format!("{name}, {unit}"))
     }
 
-    /// The same in two parts.
+    /// Title in two parts.
     pub(crate) fn name_and_unit(&self) -> (String, Option<&'static str>) {
         let mut parts: Vec<String> = self.key.split('.').skip(1).map(|part| part.replace('_', " ")).collect();
         let Some(last) = parts.pop() else { return (self.key.clone(), None) };
@@ -173,30 +173,30 @@ pub(crate) fn plain(value: f64) -> String {
 /// A part of a sweep that is run by itself: every `of`-th combination, beginning with `number`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Shard {
-    /// Which part, from 1.
+    /// Number of the part, from 1.
     pub number: usize,
     pub of: usize,
 }
 
-/// What makes a sweep this sweep: rows of two sweeps may stand in one table where all of this is the same.
+/// Identity of a sweep: rows of two sweeps may stand in one table where all of this is the same.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct SweepIdentity {
     pub title: String,
     pub program_version: String,
     /// First 16 hexadecimal digits of the SHA-256 of the scene as given, resolved.
     pub scene_hash: String,
-    /// The same of what the file itself says: what it leaves open is chosen anew for each combination.
+    /// Hash of what the file itself says: what it leaves open is chosen anew for each combination.
     pub given_hash: String,
-    /// The same of the calibration and the stiffness curve that the scene names; empty where it names none.
+    /// Hash of the calibration and the stiffness curve that the scene names; empty where it names none.
     pub inputs_hash: String,
     pub error_estimate: bool,
     /// Whether the scene asks by name for the verification, which the best rows and the corners then get.
     pub verify: bool,
-    /// What is varied; the first key changes slowest.
+    /// Varied keys; the first changes slowest.
     pub axes: Vec<SweepAxis>,
     /// Names of the figures of a row, in order.
     pub figures: Vec<String>,
-    /// What is to be least; rows do not depend on it, so that it may be another one at the next start.
+    /// Goal; rows do not depend on it, so that it may be another one at the next start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub goal: Option<Goal>,
 }
@@ -206,7 +206,7 @@ impl SweepIdentity {
         self.axes.iter().map(|axis| axis.count).product()
     }
 
-    /// Which value each axis has in combination `index`, in the order of the axes.
+    /// Number of the value of each axis in combination `index`, in the order of the axes.
     pub(crate) fn digits(&self, index: usize) -> Vec<usize> {
         let mut rest = index;
         let mut digits = vec![0; self.axes.len()];
@@ -230,7 +230,7 @@ impl SweepIdentity {
         said.join(", ")
     }
 
-    /// What is not the same in `other`, in words; empty where both are one sweep.
+    /// Differences to `other`, in words; empty where both are one sweep.
     pub(crate) fn differences(&self, other: &Self) -> Vec<String> {
         let axes = |of: &Self| {
             let said: Vec<String> = of.axes.iter().map(SweepAxis::as_given).collect();
@@ -258,10 +258,10 @@ impl SweepIdentity {
     }
 }
 
-/// What one combination came to.
+/// Outcome of one combination.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct SweepRow {
-    /// Which combination, from 0.
+    /// Number of the combination, from 0.
     pub index: usize,
     pub values: Vec<f64>,
     /// Why there are no figures, on one line; `None` where the run was completed.
@@ -273,7 +273,7 @@ pub(crate) struct SweepRow {
     pub simulation_s: Option<f64>,
     /// Wall time of the whole combination, its verification apart, s.
     pub wall_s: f64,
-    /// What finite elements say of it; `None` where it is not verified.
+    /// Verification by finite elements; `None` where it is not verified.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verification: Option<RowVerification>,
 }
@@ -284,7 +284,7 @@ impl SweepRow {
         self.figures.get(at).copied().flatten()
     }
 
-    /// The same row with what finite elements say of it.
+    /// Row with its verification by finite elements.
     pub(crate) fn verified(self, chosen: Chosen, total: TotalError, wall_s: f64) -> Self {
         Self { verification: Some(RowVerification { chosen, total, wall_s }), ..self }
     }
@@ -301,7 +301,7 @@ impl SweepRow {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepRecord {
     pub(crate) identity: SweepIdentity,
-    /// Which part of it; `None`: all of it.
+    /// Part of the sweep; `None`: all of it.
     pub(crate) shard: Option<Shard>,
     /// The scene, as the user gave it.
     pub(crate) scene_toml: String,
@@ -318,7 +318,7 @@ pub struct SweepRecord {
 pub(crate) struct SweepSummary<'a> {
     #[serde(flatten)]
     pub identity: &'a SweepIdentity,
-    /// Which part of it; null: all of it.
+    /// Part of the sweep; null: all of it.
     pub shard: Option<Shard>,
     pub combinations: usize,
     pub ok: usize,
@@ -327,7 +327,7 @@ pub(crate) struct SweepSummary<'a> {
     pub best: Vec<BestCombination>,
     /// The combination that is asked for; null where none is asked for or none keeps to the limits.
     pub optimum: Option<Optimum>,
-    /// What finite elements say of the best rows and the corners; null where the scene does not ask for it, and in a shard, which
+    /// Verification of the best rows and the corners by finite elements; null where the scene does not ask for it, and in a shard, which
     /// does not know the best of all rows.
     pub verification: Option<SweepVerification<'a>>,
     /// Wall times of all combinations together, their verifications apart, s.
@@ -360,7 +360,7 @@ impl SweepRecord {
         self.identity.goal.as_ref()?.optimum(&self.identity, &self.rows)
     }
 
-    /// What finite elements say; `None` where they are not asked.
+    /// Verification by finite elements; `None` where it is not asked for.
     pub(crate) fn verification(&self) -> Option<SweepVerification<'_>> {
         let asked = self.identity.verify && self.shard.is_none();
         asked.then(|| SweepVerification::of(&self.identity, &self.rows))
@@ -411,7 +411,7 @@ mod tests {
         assert_eq!(axis("k", 0.0, 3e15, 4).values(), [0.0, 1e15, 2e15, 3e15]);
     }
 
-    /// What a key says, without its section, and its unit.
+    /// Titles of keys, without their section, and their units.
     #[test]
     fn axes_have_titles_with_units() {
         for (key, title) in [

@@ -1,4 +1,4 @@
-//! What is left to do of a sweep, and the way to do it on all threads, one combination a thread.
+//! Tasks that are left of a sweep, and the way to do them on all threads, one combination a thread.
 //!
 //! A combination is run by one thread from beginning to end: with many combinations that loses nothing to waiting, and a row
 //! depends neither on the number of threads nor on the order in which they finish. Where the sweep is verified, the same is done once
@@ -21,7 +21,7 @@ pub(crate) fn part(combinations: usize, shard: Option<Shard>) -> impl Iterator<I
     (first..combinations).step_by(step)
 }
 
-/// What the rows are kept in.
+/// Keeper of the rows.
 struct Kept<'a, F> {
     journal: &'a mut Journal,
     tell: F,
@@ -54,7 +54,7 @@ pub(crate) enum Task {
     Verify { row: Box<SweepRow>, chosen: Chosen },
 }
 
-/// What can be done now: the missing combinations of `shard`; where none is missing, of a whole sweep that asks for it, the chosen rows
+/// Tasks that can be done now: the missing combinations of `shard`; where none is missing, of a whole sweep that asks for it, the chosen rows
 /// that are not verified yet.
 pub(crate) fn tasks(sweep: &Sweep, shard: Option<Shard>, rows: &BTreeMap<usize, SweepRow>) -> Vec<Task> {
     let all = part(sweep.identity.combinations(), shard);

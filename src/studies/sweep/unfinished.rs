@@ -44,7 +44,7 @@ impl UnfinishedSweep {
         Self::begin_part(sweep, folder, None).map_err(SweepError)
     }
 
-    /// The same of a part of it.
+    /// Begins a part of it.
     pub(crate) fn begin_part(sweep: &Sweep, folder: Option<&Path>, shard: Option<Shard>) -> Result<Self, SweepFault> {
         if let Some(problems) = sweep.unbuildable() {
             return Err(SweepFault::NothingToVary(problems));
@@ -77,7 +77,7 @@ impl UnfinishedSweep {
         self.journal.contents.rows.values().filter(|row| row.verification.is_some()).count()
     }
 
-    /// What can be done now, one text each: the combinations that are missing; where none is, the rows that finite elements are to verify. None: it
+    /// Tasks that can be done now, one text each: the combinations that are missing; where none is, the rows that finite elements are to verify. None: it
     /// is finished.
     ///
     /// # Errors

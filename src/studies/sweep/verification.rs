@@ -56,7 +56,7 @@ impl Chosen {
     }
 }
 
-/// What finite elements say of a row.
+/// Verification of a row by finite elements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct RowVerification {
     pub chosen: Chosen,
@@ -93,7 +93,7 @@ fn all_corners(identity: &SweepIdentity) -> usize {
     identity.axes.iter().map(|axis| axis.count.min(2)).product()
 }
 
-/// What will be verified and why, before any row is known.
+/// Rows that will be verified and why, in words, before any row is known.
 pub(crate) fn intention(identity: &SweepIdentity) -> String {
     let (all, taken) = (all_corners(identity), corner_count(identity));
     let best = MOST_BEST.min(identity.combinations());
@@ -103,7 +103,7 @@ pub(crate) fn intention(identity: &SweepIdentity) -> String {
     format!("the best ({best}, by {by}) and {corners} of what is varied, at most {most} combinations")
 }
 
-/// Which of all `rows` are to be verified: the best and the corners, of those that have figures.
+/// Rows among `rows` that are to be verified: the best and the corners, of those that have figures.
 pub(crate) fn chosen<'a>(
     identity: &SweepIdentity,
     rows: impl Iterator<Item = &'a SweepRow>,
@@ -126,17 +126,17 @@ pub(crate) fn chosen<'a>(
     chosen
 }
 
-/// What the verification of a sweep comes to, over its rows.
+/// Verification of a sweep, over its rows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct SweepVerification<'a> {
-    /// Which rows were chosen, and why.
+    /// Rows that were chosen and why, in words.
     pub intention: String,
     /// Rows that were chosen: fewer than intended where the best are corners or a corner has no figures.
     pub chosen: usize,
     pub verified: usize,
-    /// Those without one, for the reason in their `total.how`.
+    /// Count without an answer, for the reason in their `total.how`.
     pub unanswered: usize,
-    /// Those that were not verified yet: of merged shards, none of which knows the best of all rows.
+    /// Count not verified yet: of merged shards, none of which knows the best of all rows.
     pub open: usize,
     /// The greatest of each claim over the verified rows.
     pub worst: Vec<WorstClaim>,
@@ -164,7 +164,7 @@ pub(crate) struct WorstClaim {
     #[serde(skip)]
     pub title: &'static str,
     pub value: f64,
-    /// Which combination it is of, the first of equals.
+    /// Combination that it is of, the first of equals.
     pub index: usize,
     pub values: Vec<f64>,
 }

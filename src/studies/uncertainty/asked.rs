@@ -10,7 +10,7 @@ use crate::scene::loaded::{LoadedScene, SceneError};
 use crate::studies::evaluate::output::{Output, OutputError};
 use crate::studies::varied_scene::{linked_keys, missing_phase};
 
-/// What is asked of a scene.
+/// Question to a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UncertaintyQuestion {
     /// Uncertain keys: `KEY=DISTRIBUTION` (docs/uncertainty.md).
@@ -28,7 +28,7 @@ pub struct UncertaintyQuestion {
 }
 
 impl UncertaintyQuestion {
-    /// What to say of figures that are asked for by the name that they had in the version before.
+    /// Notes on figures that are asked for by the name that they had in the version before.
     pub fn notes(&self) -> Vec<String> {
         let of_limits = self.limits.iter().map(|limit| limit.split('=').next().unwrap_or_default());
         figures::notes(self.outputs.iter().map(String::as_str).chain(of_limits).map(str::trim))
@@ -67,7 +67,7 @@ impl From<OutputError> for UncertaintyFault {
 }
 
 impl UncertaintyError {
-    /// What is wrong with the scene itself, if that is it.
+    /// Fault of the scene itself, if that is it.
     pub fn in_the_scene(&self) -> Option<&SceneError> {
         if let UncertaintyFault::Scene(error) = &self.0 { Some(error) } else { None }
     }
@@ -79,7 +79,7 @@ impl UncertaintyError {
 }
 
 impl Question {
-    /// What `asked` means for `scene`.
+    /// Meaning of `asked` for `scene`.
     pub(crate) fn of(scene: &LoadedScene, asked: &UncertaintyQuestion) -> Result<Self, UncertaintyFault> {
         let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
         let resolved: toml::Table = scene.to_toml().parse().unwrap_or_default();

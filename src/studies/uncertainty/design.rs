@@ -26,7 +26,7 @@ pub(crate) const MOST_SAMPLES: usize = 1 << 16;
 pub(crate) const MOST_FACTORS: usize = sobol_burley::NUM_DIMENSIONS as usize / 2;
 const HALF_A_BIT: f64 = 1.0 / (1 << 25) as f64;
 
-/// Which sample of a point.
+/// Sample of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Matrix {
     A,
@@ -43,7 +43,7 @@ pub(crate) struct Design {
     pub correlation: Option<DMatrix<f64>>,
 }
 
-/// What is wrong with correlations.
+/// Fault of correlations.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum CorrelationError {
     #[error(

@@ -20,7 +20,7 @@ use crate::studies::varied_scene::linked_keys;
 pub(crate) const FORMS: &str = "normal:MEAN:SD, lognormal:MEDIAN:FACTOR, uniform:LOW:HIGH, triangular:LOW:MODE:HIGH, ±40%, normal:10%, \
      lognormal:FACTOR";
 
-/// What is wrong with what is to be uncertain.
+/// Fault of a key that is to be uncertain.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum UncertainError {
     #[error("found {given:?}; allowed: KEY=DISTRIBUTION, with one of {FORMS}")]
@@ -54,7 +54,7 @@ pub(crate) enum Distribution {
 pub(crate) struct Uncertain {
     /// Path of the key, or of several that have the same value: `pair.{pinion,wheel}.tip_rounding_mm`.
     pub key: String,
-    /// As the user wrote it.
+    /// Text of the user.
     pub given: String,
     #[serde(flatten)]
     pub distribution: Distribution,

@@ -65,7 +65,7 @@ impl UncertaintyRecord {
 /// A figure of the runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct OutputRecord {
-    /// Its path in `summary.json`, or of the depth that ends the life.
+    /// Path in `summary.json`, or of the depth that ends the life.
     pub output: String,
     pub meaning: String,
     pub unit: String,
@@ -104,14 +104,14 @@ impl Quantiles {
     }
 }
 
-/// What a factor does to a figure.
+/// Effect of a factor on a figure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct FactorIndices {
     /// The key, or [`MODEL_ERROR`].
     pub factor: String,
     /// Part of the variance that it explains alone.
     pub first: Index,
-    /// The same with all its interactions.
+    /// Part of the variance with all its interactions.
     pub total: Index,
 }
 

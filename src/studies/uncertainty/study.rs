@@ -37,7 +37,7 @@ const PLACES: usize = 160;
 /// Finished points that a study which was interrupted can still speak of.
 pub(crate) const FEWEST_SAMPLES: usize = 8;
 
-/// What is asked.
+/// Question, checked.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Question {
     pub uncertain: Vec<Uncertain>,
@@ -60,7 +60,7 @@ pub(crate) enum StudyError {
     Interrupted,
 }
 
-/// What is kept of a run.
+/// Figures kept of a run.
 struct Ran {
     /// Each with the time until which it is known, where it is a life.
     outputs: Vec<(f64, f64)>,

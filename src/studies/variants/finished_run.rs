@@ -13,7 +13,7 @@ use crate::studies::compare::run_folder::{FinishedSummary, NumberColumns, RunFol
 /// A finished run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FinishedRun {
-    /// As it is called here: the name of its folder.
+    /// Name among the others: that of its folder.
     pub name: String,
     pub summary: FinishedSummary,
     folder: RunFolder,

@@ -60,7 +60,7 @@ pub(crate) struct VariantRow {
 }
 
 impl VariantRow {
-    /// What it is, with its unit.
+    /// Meaning and unit.
     pub(crate) fn named(&self) -> String {
         if self.unit.is_empty() { self.meaning.clone() } else { format!("{}, {}", self.meaning, self.unit) }
     }
@@ -116,7 +116,7 @@ fn row(figure: &MainFigure, first: &FinishedRun, run: &FinishedRun) -> VariantRo
     }
 }
 
-/// What the maximum wear of both gears says of each variant.
+/// Difference of the maximum wear of both gears of each variant, in words.
 fn answer(rows: &[VariantRow], first: &str) -> String {
     let mut sentences = Vec::new();
     for row in rows.iter().filter(|row| row.figure.ends_with(".peak_wear_um")) {

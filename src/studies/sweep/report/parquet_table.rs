@@ -59,7 +59,7 @@ pub(crate) fn bytes(record: &SweepRecord) -> Result<Vec<u8>, ParquetError> {
     file.into_inner()
 }
 
-/// What the cells of a column are; a table without rows has numbers.
+/// Kind of the cells of a column; a table without rows has numbers.
 fn kind(column: &SweepColumn, record: &SweepRecord) -> PhysicalType {
     match record.rows.first().map(|row| column.cell(row)) {
         Some(Cell::Whole(_)) => PhysicalType::INT64,

@@ -100,7 +100,7 @@ pub(crate) fn rows(out: &mut dyn Write, record: &SweepRecord) -> io::Result<Vec<
     table_of(out, names(&columns), cells(record, &columns))
 }
 
-/// The same as columns of values.
+/// Table as columns of values.
 pub(crate) fn table(record: &SweepRecord) -> Table {
     let columns = columns(record);
     of_cells("sweep", names(&columns), cells(record, &columns))

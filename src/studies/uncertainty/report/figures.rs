@@ -71,7 +71,7 @@ fn distribution(number: usize, output: &OutputRecord) -> Option<Chart> {
     )
 }
 
-/// What each factor explains, with intervals.
+/// Part of the variance that each factor explains, with intervals.
 fn indices(number: usize, output: &OutputRecord) -> Option<Chart> {
     let indices = output.indices.as_ref()?;
     // The first factor stands at the top.
