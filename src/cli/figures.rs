@@ -2,7 +2,7 @@
 
 use crate::report::headline;
 use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError, WearAtLimit};
-use crate::results::figures::{FAMILIES, FigureFamily, Values};
+use crate::results::figures::{FAMILIES, FigureFamily, FigureValues};
 use crate::results::run::Summary;
 
 /// Room for the name of a row.
@@ -38,9 +38,9 @@ fn shown([first, _]: [&str; 2]) -> impl Iterator<Item = &'static FigureFamily> {
     FAMILIES.iter().filter(move |family| {
         family.in_terminal
             && match family.values {
-                Values::Gears(_) => first == "pinion",
-                Values::States(_) => first == "new",
-                Values::Pair(_) => false,
+                FigureValues::Gears(_) => first == "pinion",
+                FigureValues::States(_) => first == "new",
+                FigureValues::Pair(_) => false,
             }
     })
 }
@@ -53,7 +53,7 @@ fn rows(families: impl Iterator<Item = &'static FigureFamily>, summary: &Summary
 
 /// The row of a family; ratios of the gears in per cent.
 fn family_row(family: &FigureFamily, values: [Option<f64>; 2]) -> String {
-    let is_share = family.unit.is_empty() && matches!(family.values, Values::Gears(_));
+    let is_share = family.unit.is_empty() && matches!(family.values, FigureValues::Gears(_));
     let (unit, factor) = if is_share { ("%", 100.0) } else { (family.unit, 1.0) };
     let comma = if unit.is_empty() { "" } else { ", " };
     let [one, other] = values.map(|value| value.map_or_else(|| "–".to_owned(), |value| digits(factor * value)));
@@ -70,7 +70,7 @@ fn headline(summary: &Summary) -> String {
         for family in shown(columns).filter(|family| family.in_headline) {
             let values = family.both(summary);
             text.push_str(&family_row(family, values));
-            if matches!(family.values, Values::Gears(_)) {
+            if matches!(family.values, FigureValues::Gears(_)) {
                 let [one, other] = values.map(|wear| match wear {
                     Some(wear) if wear > 0.0 => format!("± {}", headline::scatter_percent()),
                     _ => "–".to_owned(),

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use crate::exchange::rexs::mesh_stiffness::MeshStiffness;
-use crate::exchange::rexs::results::{self, RunResults, WearProfile};
+use crate::exchange::rexs::results::{self, RunResults, WearDepths};
 use crate::gear::PerGear;
 use crate::report::ReportError;
 use crate::scene::loaded::LoadedScene;
@@ -76,7 +76,7 @@ fn read(args: &Args) -> Result<RunResults, Failure> {
         },
         wear_profile: PerGear::from_fn(|gear| {
             let (radius_mm, depth_um) = finished.wear_profile(gear);
-            WearProfile { radius_mm, depth_um }
+            WearDepths { radius_mm, depth_um }
         }),
     })
 }

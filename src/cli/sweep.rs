@@ -13,7 +13,7 @@ use crate::studies::sweep::asked::SweepQuestion;
 use crate::studies::sweep::axis::{self, AxisError};
 use crate::studies::sweep::combination::Sweep;
 use crate::studies::sweep::goal::Optimum;
-use crate::studies::sweep::journal::{self, Contents, JournalError};
+use crate::studies::sweep::journal::{self, JournalContents, JournalError};
 use crate::studies::sweep::merge::merge;
 use crate::studies::sweep::record::{Shard, SweepRecord};
 use crate::studies::sweep::unfinished::UnfinishedSweep;
@@ -192,7 +192,7 @@ fn merge_shards(args: &MergeArgs) -> Result<(), Failure> {
 }
 
 /// Rows that stand in `out` already must be those of this sweep: they are about to be replaced.
-fn not_another_sweep(whole: &Contents, out: &Path) -> Result<(), JournalError> {
+fn not_another_sweep(whole: &JournalContents, out: &Path) -> Result<(), JournalError> {
     let differences = match journal::read(out) {
         Ok(found) => found.identity.differences(&whole.identity),
         Err(JournalError::NoSweep { .. }) => Vec::new(),
@@ -205,7 +205,7 @@ fn not_another_sweep(whole: &Contents, out: &Path) -> Result<(), JournalError> {
 }
 
 /// The scene of the sweep, from the first folder that has it.
-fn scene_of(whole: &Contents, folders: &[PathBuf]) -> Result<String, InputError> {
+fn scene_of(whole: &JournalContents, folders: &[PathBuf]) -> Result<String, InputError> {
     let of_sweep = |text: &String| Draft::parse(text).is_ok_and(|draft| draft.hash() == whole.identity.given_hash);
     let read = |folder: &PathBuf| fs::read_to_string(folder.join(crate::studies::sweep::report::SCENE)).ok();
     folders.iter().filter_map(read).find(of_sweep).ok_or(InputError::MergeWithoutScene)

@@ -10,7 +10,7 @@ use crate::studies::uncertainty::asked::{UncertaintyFault, UncertaintyQuestion};
 use crate::studies::uncertainty::design::CorrelationError;
 use crate::studies::uncertainty::distribution::FORMS;
 use crate::studies::uncertainty::record::UncertaintyRecord;
-use crate::studies::uncertainty::study::{self, Question, StudyError};
+use crate::studies::uncertainty::study::{self, SampledQuestion, SamplingError};
 
 use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError};
@@ -92,7 +92,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         samples: args.samples,
         seed: args.seed,
     };
-    let question = Question::of(&scene, &asked)?;
+    let question = SampledQuestion::of(&scene, &asked)?;
     asked.notes().iter().for_each(|note| say(&format!("note: {note}")));
     report::writable(&args.out)?;
     let threads = thread_count(args.threads);
@@ -120,11 +120,11 @@ impl From<UncertaintyFault> for Failure {
     fn from(fault: UncertaintyFault) -> Self {
         match fault {
             UncertaintyFault::Scene(error) => Failure::Scene(error),
-            UncertaintyFault::Study(error @ StudyError::Interrupted) => {
+            UncertaintyFault::Study(error @ SamplingError::Interrupted) => {
                 say(&format!("{error}: nothing to write"));
                 Failure::Interrupted
             }
-            UncertaintyFault::Study(StudyError::AllFailed { runs, first }) => {
+            UncertaintyFault::Study(SamplingError::AllFailed { runs, first }) => {
                 Failure::NoSample { count: runs, error: first }
             }
             wrong => InputError::Uncertainty(wrong).into(),

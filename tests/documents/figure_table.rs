@@ -2,7 +2,7 @@
 
 use std::ptr;
 
-use gearwear::results::figures::{self, FAMILIES, FigureFamily, MainFigure, RexsAttribute, Values};
+use gearwear::results::figures::{self, FAMILIES, FigureFamily, FigureValues, MainFigure, RexsAttribute};
 
 /// A row for each family of figures.
 pub fn of_catalogue() -> String {
@@ -33,10 +33,10 @@ fn meaning(family: &FigureFamily) -> String {
 fn error(family: &FigureFamily) -> String {
     match (family.errors, &family.values) {
         (["", ""], _) => "–".to_owned(),
-        ([one, other], Values::Pair(_)) => format!("the greater of `{one}` and `{other}`"),
+        ([one, other], FigureValues::Pair(_)) => format!("the greater of `{one}` and `{other}`"),
         (["", worn], _) => format!("`{worn}`, worn"),
-        ([one, _], Values::Gears(_)) => format!("`{}`", one.replace("pinion", "{gear}")),
-        ([one, _], Values::States(_)) => format!("`{}`", one.replace("new", "{state}")),
+        ([one, _], FigureValues::Gears(_)) => format!("`{}`", one.replace("pinion", "{gear}")),
+        ([one, _], FigureValues::States(_)) => format!("`{}`", one.replace("new", "{state}")),
     }
 }
 

@@ -6,7 +6,7 @@ use gearwear::observer::Unwatched;
 use gearwear::pipeline;
 use gearwear::results::{figures, run::RunRecord};
 use gearwear::scene::{draft::Draft, presets};
-use gearwear::studies::evaluate::output::Output;
+use gearwear::studies::evaluate::output::SummaryOutput;
 
 use super::common::loaded;
 
@@ -75,7 +75,7 @@ fn assert_zones(record: &RunRecord, rounding_mm: f64, normal_module_mm: f64) {
     // Main figures are the numbers at their paths.
     let summary = serde_json::to_value(s).unwrap();
     for figure in figures::all().iter().filter(|figure| figure.name != figures::PEAK_WEAR_OF_EITHER) {
-        let written = Output::find(&figure.name).unwrap().of(&summary);
+        let written = SummaryOutput::find(&figure.name).unwrap().of(&summary);
         assert_eq!(figure.value(s).filter(|value| value.is_finite()), written, "{}", figure.name);
     }
 }

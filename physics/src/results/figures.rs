@@ -124,9 +124,9 @@ impl OverSlices {
     }
 }
 
-/// Values of a family's figures; `None` where the scene does not compute one.
+/// FigureValues of a family's figures; `None` where the scene does not compute one.
 #[derive(Debug, Clone, Copy)]
-pub enum Values {
+pub enum FigureValues {
     /// One of the pair.
     Pair(fn(&Summary) -> Option<f64>),
     /// Pinion and wheel.
@@ -151,7 +151,7 @@ pub struct FigureFamily {
     /// Reservation said with the heading: the value depends on the resolution; mostly empty.
     pub caveat: &'static str,
     /// Where the values stand.
-    pub values: Values,
+    pub values: FigureValues,
     /// How slices are summed up.
     pub over_slices: OverSlices,
     /// Whether one looks for the combination where it is least.
@@ -179,7 +179,7 @@ pub struct FigureFamily {
 }
 
 impl FigureFamily {
-    const fn new(path: &'static str, unit: &'static str, words: &'static str, values: Values) -> Self {
+    const fn new(path: &'static str, unit: &'static str, words: &'static str, values: FigureValues) -> Self {
         Self {
             path,
             unit,
@@ -264,8 +264,8 @@ impl FigureFamily {
     /// Pinion and wheel, or new and worn; of a figure of the pair the same twice.
     pub fn both(&self, summary: &Summary) -> [Option<f64>; 2] {
         match self.values {
-            Values::Pair(of) => [of(summary); 2],
-            Values::Gears(of) | Values::States(of) => of(summary),
+            FigureValues::Pair(of) => [of(summary); 2],
+            FigureValues::Gears(of) | FigureValues::States(of) => of(summary),
         }
     }
 
@@ -274,17 +274,17 @@ impl FigureFamily {
         let of = |path: &str| (STATED_ERRORS.iter().find(|error| error.name == path)?.of)(total);
         let [one, other] = self.errors.map(of);
         match self.values {
-            Values::Pair(_) => [one.zip(other).map(|(one, other)| one.max(other)); 2],
-            Values::Gears(_) | Values::States(_) => [one, other],
+            FigureValues::Pair(_) => [one.zip(other).map(|(one, other)| one.max(other)); 2],
+            FigureValues::Gears(_) | FigureValues::States(_) => [one, other],
         }
     }
 
     /// Names of what the two values are of; none of a figure of the pair.
     fn sides(&self) -> &'static [&'static str] {
         match self.values {
-            Values::Pair(_) => &[""],
-            Values::Gears(_) => &["pinion", "wheel"],
-            Values::States(_) => &["new", "worn"],
+            FigureValues::Pair(_) => &[""],
+            FigureValues::Gears(_) => &["pinion", "wheel"],
+            FigureValues::States(_) => &["new", "worn"],
         }
     }
 
@@ -292,9 +292,9 @@ impl FigureFamily {
         let name = self.sides()[side];
         let of_side = |text: &str| text.replace("{gear}", name).replace("{state}", name);
         let heading = match self.values {
-            Values::Pair(_) => self.words.to_owned(),
-            Values::Gears(_) => self.words.replace("{}", &format!(" of the {name}")),
-            Values::States(_) => format!("{}, {name}", self.words),
+            FigureValues::Pair(_) => self.words.to_owned(),
+            FigureValues::Gears(_) => self.words.replace("{}", &format!(" of the {name}")),
+            FigureValues::States(_) => format!("{}, {name}", self.words),
         };
         let custom = match self.rexs {
             Some(RexsAttribute::Own(name)) => of_side(name),
@@ -347,7 +347,7 @@ impl MainFigure {
 
     /// The gear that it is of; `None` of the pair and of states.
     pub fn gear(&self) -> Option<Gear> {
-        matches!(self.family.values, Values::Gears(_)).then(|| Gear::BOTH[self.side])
+        matches!(self.family.values, FigureValues::Gears(_)).then(|| Gear::BOTH[self.side])
     }
 
     /// Heading and unit: `line load, N/mm`.
@@ -362,7 +362,7 @@ impl MainFigure {
 
     /// Paths of the errors that a run states of it; none where it states none.
     pub fn error_paths(&self) -> impl Iterator<Item = &'static str> + '_ {
-        let of_pair = matches!(self.family.values, Values::Pair(_));
+        let of_pair = matches!(self.family.values, FigureValues::Pair(_));
         let paths = self.family.errors.iter().enumerate();
         paths.filter(move |(side, path)| (of_pair || *side == self.side) && !path.is_empty()).map(|(_, path)| *path)
     }
@@ -450,7 +450,7 @@ const fn pair(
     words: &'static str,
     of: fn(&Summary) -> Option<f64>,
 ) -> FigureFamily {
-    FigureFamily::new(path, unit, words, Values::Pair(of))
+    FigureFamily::new(path, unit, words, FigureValues::Pair(of))
 }
 
 const fn gears(
@@ -459,7 +459,7 @@ const fn gears(
     words: &'static str,
     of: fn(&Summary) -> [Option<f64>; 2],
 ) -> FigureFamily {
-    FigureFamily::new(path, unit, words, Values::Gears(of))
+    FigureFamily::new(path, unit, words, FigureValues::Gears(of))
 }
 
 const fn states(
@@ -468,7 +468,7 @@ const fn states(
     words: &'static str,
     of: fn(&Summary) -> [Option<f64>; 2],
 ) -> FigureFamily {
-    FigureFamily::new(path, unit, words, Values::States(of))
+    FigureFamily::new(path, unit, words, FigureValues::States(of))
 }
 
 fn wear(summary: &Summary, of: fn(&WearSummary) -> f64) -> [Option<f64>; 2] {

@@ -6,10 +6,10 @@
 
 use std::borrow::Cow;
 
-use super::document::Document;
+use super::document::RexsDocument;
 use super::same_loads::Loads;
 use crate::gear::Gear;
-use crate::results::figures::{self, MainFigure, RexsAttribute, RexsId, STATED_ERRORS, Values};
+use crate::results::figures::{self, FigureValues, MainFigure, RexsAttribute, RexsId, STATED_ERRORS};
 
 /// The beginning of ids that are not in the database.
 pub(super) const CUSTOM: &str = "custom_gearwear_";
@@ -44,7 +44,7 @@ pub(super) enum Of {
 
 /// An attribute for a figure.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Attribute {
+pub(super) struct AttributeKind {
     pub of: Of,
     pub on: On,
     /// Unit as the database writes it.
@@ -60,7 +60,7 @@ pub(super) struct Attribute {
 pub(super) struct FigureAttribute {
     /// In `summary.json`; `{gear}` is each gear, `{phase}` the number of the phase.
     pub path: Cow<'static, str>,
-    pub attribute: Attribute,
+    pub attribute: AttributeKind,
 }
 
 impl FigureAttribute {
@@ -78,7 +78,7 @@ pub(super) struct Naming<'a> {
 }
 
 impl<'a> Naming<'a> {
-    pub(super) fn of(document: &'a Document, loads: Loads) -> Self {
+    pub(super) fn of(document: &'a RexsDocument, loads: Loads) -> Self {
         Self { version: &document.version, loads }
     }
 
@@ -92,7 +92,7 @@ impl<'a> Naming<'a> {
     }
 
     /// The id of an attribute; None where this version has none for it.
-    pub(super) fn id(&self, attribute: &Attribute) -> Option<String> {
+    pub(super) fn id(&self, attribute: &AttributeKind) -> Option<String> {
         let has = |standard: &&RexsId| (standard.versions[0]..=standard.versions[1]).contains(&self.version);
         let standard = attribute.standard.iter().find(has).map(|standard| standard.id);
         match (standard, self.says_greatest_load(attribute.of)) {
@@ -103,7 +103,7 @@ impl<'a> Naming<'a> {
     }
 
     /// The unit of an attribute. Stresses are in N / mm^2 up to version 1.7 and in MPa from 2.0 on.
-    pub(super) fn unit(&self, attribute: &Attribute) -> &'static str {
+    pub(super) fn unit(&self, attribute: &AttributeKind) -> &'static str {
         if attribute.unit == "MPa" && self.version < "2.0" { "N / mm^2" } else { attribute.unit }
     }
 }
@@ -125,8 +125,8 @@ const fn since_2_0(id: &'static str) -> RexsId {
 }
 
 /// An attribute that is in no version.
-const fn only_custom(of: Of, on: On, unit: &'static str, name: &'static str) -> Attribute {
-    Attribute { of, on, unit, standard: &[], custom: Some(name) }
+const fn only_custom(of: Of, on: On, unit: &'static str, name: &'static str) -> AttributeKind {
+    AttributeKind { of, on, unit, standard: &[], custom: Some(name) }
 }
 
 /// A figure that no version has an attribute for.
@@ -143,11 +143,11 @@ const fn standard(
     standard: &'static [RexsId],
     custom: Option<&'static str>,
 ) -> FigureAttribute {
-    FigureAttribute { path: Cow::Borrowed(path), attribute: Attribute { of, on, unit, standard, custom } }
+    FigureAttribute { path: Cow::Borrowed(path), attribute: AttributeKind { of, on, unit, standard, custom } }
 }
 
 /// Mesh stiffness at each position of one pitch, of all pairs in contact over the whole face width.
-pub(super) const MESH_STIFFNESS: Attribute = Attribute {
+pub(super) const MESH_STIFFNESS: AttributeKind = AttributeKind {
     of: Of::Load,
     on: On::Stage,
     unit: "N / mm",
@@ -155,7 +155,7 @@ pub(super) const MESH_STIFFNESS: Attribute = Attribute {
     custom: None,
 };
 /// Rotation of a gear at each of these positions.
-pub(super) const MESH_POSITIONS: Attribute = Attribute {
+pub(super) const MESH_POSITIONS: AttributeKind = AttributeKind {
     of: Of::Load,
     on: On::GearInStage,
     unit: "deg",
@@ -163,18 +163,19 @@ pub(super) const MESH_POSITIONS: Attribute = Attribute {
     custom: None,
 };
 /// Mean over the pitch per mm of face width, new and worn: c_γ as the mean of the slope dF/dδ, not that of ISO 6336-1 Method B.
-pub(super) const MEAN_MESH_STIFFNESS: [Attribute; 2] = [
+pub(super) const MEAN_MESH_STIFFNESS: [AttributeKind; 2] = [
     only_custom(Of::Load, On::Stage, "N / (mm mum)", "mean_mesh_stiffness_new"),
     only_custom(Of::Load, On::Stage, "N / (mm mum)", "mean_mesh_stiffness_worn"),
 ];
 /// Wear depth from root to tip, the maximum over the face width.
-pub(super) const WEAR_DEPTH: Attribute = only_custom(Of::Life, On::GearInStage, "mum", "wear_depth");
+pub(super) const WEAR_DEPTH: AttributeKind = only_custom(Of::Life, On::GearInStage, "mum", "wear_depth");
 /// The diameters at which it stands.
-pub(super) const WEAR_DEPTH_DIAMETERS: Attribute = only_custom(Of::Life, On::GearInStage, "mm", "wear_depth_diameters");
+pub(super) const WEAR_DEPTH_DIAMETERS: AttributeKind =
+    only_custom(Of::Life, On::GearInStage, "mm", "wear_depth_diameters");
 /// Version of the program.
-pub(super) const PROGRAM_VERSION: Attribute = only_custom(Of::Life, On::Stage, "none", "version");
+pub(super) const PROGRAM_VERSION: AttributeKind = only_custom(Of::Life, On::Stage, "none", "version");
 /// Hash of the run's scene.
-pub(super) const SCENE_HASH: Attribute = only_custom(Of::Life, On::Stage, "none", "scene_hash");
+pub(super) const SCENE_HASH: AttributeKind = only_custom(Of::Life, On::Stage, "none", "scene_hash");
 
 /// Under what the run was, which is written first.
 static OF_OPERATION: [FigureAttribute; 4] = [
@@ -424,8 +425,8 @@ pub(super) fn figures() -> impl Iterator<Item = FigureAttribute> {
 fn of_main_figure(figure: &'static MainFigure) -> Vec<FigureAttribute> {
     let family = figure.family;
     let (of, on, path) = match family.values {
-        Values::Gears(_) => (Of::Life, On::GearInStage, family.path),
-        Values::Pair(_) | Values::States(_) => (Of::Load, On::Stage, figure.name.as_str()),
+        FigureValues::Gears(_) => (Of::Life, On::GearInStage, family.path),
+        FigureValues::Pair(_) | FigureValues::States(_) => (Of::Load, On::Stage, figure.name.as_str()),
     };
     if figure.gear() == Some(Gear::Wheel) {
         return Vec::new();

@@ -6,18 +6,18 @@ use quick_xml::{Reader, XmlVersion};
 use super::{RexsError, VERSIONS};
 
 #[derive(Debug, Default)]
-pub(super) struct Document {
+pub(super) struct RexsDocument {
     pub version: String,
     /// Name and version of the program that wrote the file.
     pub application: String,
-    pub components: Vec<Component>,
-    pub relations: Vec<Relation>,
+    pub components: Vec<RexsComponent>,
+    pub relations: Vec<RexsRelation>,
     /// Components as each load case has them, in the order of the file.
-    pub load_cases: Vec<Vec<Component>>,
+    pub load_cases: Vec<Vec<RexsComponent>>,
 }
 
 #[derive(Debug, Clone)]
-pub(super) struct Component {
+pub(super) struct RexsComponent {
     pub id: String,
     /// Type, as `cylindrical_gear`.
     pub kind: String,
@@ -38,7 +38,7 @@ struct Attribute {
 
 /// Components that belong together, by their roles.
 #[derive(Debug, Default)]
-pub(super) struct Relation {
+pub(super) struct RexsRelation {
     pub kind: String,
     /// Role and id.
     pub members: Vec<(String, String)>,
@@ -63,7 +63,7 @@ pub(super) const NM: Units = &[("Nm", 1.0)];
 pub(super) const RPM: Units = &[("1/min", 1.0)];
 pub(super) const HOURS: Units = &[("h", 1.0)];
 
-impl Component {
+impl RexsComponent {
     /// Name in messages.
     pub(super) fn label(&self) -> String {
         let name = if self.name.is_empty() { &self.kind } else { &self.name };
@@ -117,21 +117,21 @@ impl Component {
     }
 }
 
-impl Relation {
+impl RexsRelation {
     /// The id of the member in this role.
     pub(super) fn member(&self, role: &str) -> Option<&str> {
         self.members.iter().find(|(member, _)| member == role).map(|(_, id)| id.as_str())
     }
 }
 
-impl Document {
-    pub(super) fn component(&self, id: &str) -> Option<&Component> {
+impl RexsDocument {
+    pub(super) fn component(&self, id: &str) -> Option<&RexsComponent> {
         self.components.iter().find(|component| component.id == id)
     }
 
     /// The first relation of `kind` in which each `(role, id)` of `members` stands.
-    pub(super) fn relation(&self, kind: &str, members: &[(&str, &str)]) -> Option<&Relation> {
-        let has = |relation: &Relation| members.iter().all(|(role, id)| relation.member(role) == Some(id));
+    pub(super) fn relation(&self, kind: &str, members: &[(&str, &str)]) -> Option<&RexsRelation> {
+        let has = |relation: &RexsRelation| members.iter().all(|(role, id)| relation.member(role) == Some(id));
         self.relations.iter().find(|relation| relation.kind == kind && has(relation))
     }
 
@@ -141,7 +141,7 @@ impl Document {
         kind: &'a str,
         (role, id): (&'a str, &'a str),
         wanted: &'a str,
-    ) -> impl Iterator<Item = &'a Component> {
+    ) -> impl Iterator<Item = &'a RexsComponent> {
         self.relations
             .iter()
             .filter(move |relation| relation.kind == kind && relation.member(role) == Some(id))
@@ -149,17 +149,17 @@ impl Document {
     }
 
     /// The shaft that carries a gear.
-    pub(super) fn shaft_of<'a>(&'a self, gear: &'a Component) -> Option<&'a Component> {
+    pub(super) fn shaft_of<'a>(&'a self, gear: &'a RexsComponent) -> Option<&'a RexsComponent> {
         self.related("assembly", ("part", &gear.id), "assembly").find(|component| component.kind == "shaft")
     }
 
     /// The material that a component refers to.
-    pub(super) fn material_of<'a>(&'a self, component: &'a Component) -> Option<&'a Component> {
+    pub(super) fn material_of<'a>(&'a self, component: &'a RexsComponent) -> Option<&'a RexsComponent> {
         self.related("reference", ("origin", &component.id), "referenced").find(|found| found.kind == "material")
     }
 
     /// Word that the first load case that speaks of it, or the component itself, has.
-    pub(super) fn word<'a>(&'a self, component: &'a Component, id: &str) -> Option<&'a str> {
+    pub(super) fn word<'a>(&'a self, component: &'a RexsComponent, id: &str) -> Option<&'a str> {
         let cases = self.load_cases.iter().flatten().filter(|said| said.id == component.id);
         cases.chain([component]).find_map(|said| said.text(id))
     }
@@ -171,7 +171,7 @@ impl Document {
         let mut reader = Reader::from_str(text);
         let mut lines = Lines::of(text);
         let mut path: Vec<String> = Vec::new();
-        let mut document = Document::default();
+        let mut document = RexsDocument::default();
         let mut model_seen = false;
         loop {
             let line = lines.at(reader.buffer_position());
@@ -219,7 +219,7 @@ impl Document {
                 self.application =
                     format!("{} {}", value("applicationId")?, value("applicationVersion")?).trim().to_owned();
             }
-            "relation" => self.relations.push(Relation { kind: value("type")?, members: Vec::new() }),
+            "relation" => self.relations.push(RexsRelation { kind: value("type")?, members: Vec::new() }),
             "ref" => {
                 let member = (value("role")?, value("id")?);
                 if let Some(relation) = self.relations.last_mut() {
@@ -228,7 +228,7 @@ impl Document {
             }
             "load_case" => self.load_cases.push(Vec::new()),
             "component" => {
-                let component = Component {
+                let component = RexsComponent {
                     id: value("id")?,
                     kind: value("type")?,
                     name: value("name")?,
@@ -251,7 +251,7 @@ impl Document {
     }
 
     /// Where components within the elements `path` belong; None of sums over the load spectrum, which nothing reads.
-    fn components_of(&mut self, path: &[String]) -> Option<&mut Vec<Component>> {
+    fn components_of(&mut self, path: &[String]) -> Option<&mut Vec<RexsComponent>> {
         let within = |name: &str| path.iter().any(|element| element == name);
         if within("accumulation") {
             None

@@ -1,21 +1,21 @@
 //! The load spectrum, as far as the file says it for the driving gear.
 
 use super::RexsError;
-use super::document::{Component, Document, HOURS, NM, PERCENT, RPM};
+use super::document::{HOURS, NM, PERCENT, RPM, RexsComponent, RexsDocument};
 use super::stage::GearData;
 
 /// Load of the stage over its life.
 #[derive(Debug)]
 pub(super) struct Load {
     /// At least one.
-    pub cases: Vec<Case>,
+    pub cases: Vec<LoadOfCase>,
     /// Hours of the whole.
     pub hours: Option<f64>,
 }
 
 /// One load case; what the file does not say is None.
 #[derive(Debug)]
-pub(super) struct Case {
+pub(super) struct LoadOfCase {
     pub torque_Nm: Option<f64>,
     pub speed_rpm: Option<f64>,
     /// Part of the whole time, all together 1.
@@ -24,18 +24,18 @@ pub(super) struct Case {
 
 /// The components that say something of the load of the driving gear.
 struct Sources<'a> {
-    document: &'a Document,
+    document: &'a RexsDocument,
     gear_id: &'a str,
     /// The gear in its stage.
-    in_stage: Option<&'a Component>,
-    shaft: Option<&'a Component>,
+    in_stage: Option<&'a RexsComponent>,
+    shaft: Option<&'a RexsComponent>,
     /// Ids of the external loads on the shaft, where it carries no other gear.
     external_loads: Vec<String>,
-    unit: Option<&'a Component>,
+    unit: Option<&'a RexsComponent>,
 }
 
 impl<'a> Sources<'a> {
-    fn new(document: &'a Document, pinion: &GearData<'a>) -> Self {
+    fn new(document: &'a RexsDocument, pinion: &GearData<'a>) -> Self {
         let shaft = document.shaft_of(pinion.component);
         let alone = shaft.filter(|shaft| parts(document, shaft, "cylindrical_gear").len() == 1);
         Self {
@@ -49,7 +49,7 @@ impl<'a> Sources<'a> {
     }
 
     /// Torque in N·m, speed in 1/min and part of the time of a load case that says the components `said`.
-    fn case(&self, said: &[Component]) -> Result<[Option<f64>; 3], RexsError> {
+    fn case(&self, said: &[RexsComponent]) -> Result<[Option<f64>; 3], RexsError> {
         // What the case says stands before what the component itself says.
         let number = |id: &str, attribute: &str, units| -> Result<Option<f64>, RexsError> {
             let said = said.iter().find(|component| component.id == id).into_iter().chain(self.document.component(id));
@@ -86,14 +86,14 @@ impl<'a> Sources<'a> {
 }
 
 /// Ids of the parts of a shaft that are of a kind.
-fn parts(document: &Document, shaft: &Component, kind: &str) -> Vec<String> {
+fn parts(document: &RexsDocument, shaft: &RexsComponent, kind: &str) -> Vec<String> {
     let parts = document.related("assembly", ("assembly", &shaft.id), "part");
     parts.filter(|part| part.kind == kind).map(|part| part.id.clone()).collect()
 }
 
 /// The load of the driving gear. Its torque is that of the gear itself, or the sum of the external loads on its shaft where that carries no
 /// other gear; a shaft between two stages would need the equilibrium of the gear unit.
-pub(super) fn of(document: &Document, pinion: &GearData, warnings: &mut Vec<String>) -> Result<Load, RexsError> {
+pub(super) fn of(document: &RexsDocument, pinion: &GearData, warnings: &mut Vec<String>) -> Result<Load, RexsError> {
     let sources = Sources::new(document, pinion);
     let without = [Vec::new()];
     let said = if document.load_cases.is_empty() { &without[..] } else { &document.load_cases[..] };
@@ -104,11 +104,11 @@ pub(super) fn of(document: &Document, pinion: &GearData, warnings: &mut Vec<Stri
         if idle {
             warnings.push(format!("load case {} has no torque, speed or time and is left out", index + 1));
         } else {
-            cases.push(Case { torque_Nm, speed_rpm, fraction: fraction.unwrap_or(1.0) });
+            cases.push(LoadOfCase { torque_Nm, speed_rpm, fraction: fraction.unwrap_or(1.0) });
         }
     }
     if cases.is_empty() {
-        cases.push(Case { torque_Nm: None, speed_rpm: None, fraction: 1.0 });
+        cases.push(LoadOfCase { torque_Nm: None, speed_rpm: None, fraction: 1.0 });
     }
     let sum: f64 = cases.iter().map(|case| case.fraction).sum();
     cases.iter_mut().for_each(|case| case.fraction /= sum);

@@ -1,14 +1,14 @@
 use serde_json::{Value, json};
 
 use super::attributes::{CUSTOM, Naming, Of, figures};
-use super::document::Document;
+use super::document::RexsDocument;
 use super::mesh_stiffness::MeshStiffness;
-use super::results::{RunResults, WearProfile, WithResults, with_results};
+use super::results::{RunResults, WearDepths, WithResults, with_results};
 use super::same_loads::Loads;
 use super::{RexsError, VERSIONS, scene};
 use crate::gear::PerGear;
 use crate::scene::Scene;
-use crate::studies::evaluate::output::Output;
+use crate::studies::evaluate::output::SummaryOutput;
 
 const TWO_STAGES: &str = include_str!("two_stages.rexs");
 
@@ -34,7 +34,7 @@ fn run(loads: &[[f64; 2]]) -> RunResults {
         "pinion": { "peak_wear_um": 4.5 }, "wheel": { "peak_wear_um": 3.5 },
         "root_stress": { "pinion": { "iso_6336_3": section, "vdi_2736": section }, "wheel": { "iso_6336_3": null } },
     });
-    let wear_profile = WearProfile { radius_mm: vec![35.0, 41.25], depth_um: vec![0.0, 4.5] };
+    let wear_profile = WearDepths { radius_mm: vec![35.0, 41.25], depth_um: vec![0.0, 4.5] };
     RunResults {
         summary,
         pair,
@@ -53,7 +53,7 @@ const OF_THE_FILE: [[f64; 2]; 2] = [[302.0, 1500.0], [100.0, 750.0]];
 fn written(text: &str, run: &RunResults) -> WithResults {
     let with = with_results(text, Some(1), run).unwrap();
     // The file is still one of the format, for our reader and for another, and the same run changes it no more.
-    Document::parse(&with.text).unwrap();
+    RexsDocument::parse(&with.text).unwrap();
     roxmltree::Document::parse(&with.text).unwrap();
     assert_eq!(with_results(&with.text, Some(1), run).unwrap().text, with.text);
     with
@@ -130,7 +130,7 @@ fn results_without_load_spectrum_stand_in_the_model() {
     for (component, wear, gear, relation) in [("5", "4.5", "11", "19"), ("6", "3.5", "12", "20")] {
         let id = "custom_gearwear_maximum_wear_depth";
         assert_eq!(attribute(&with.text, MODEL, component, id), value("mum", wear));
-        let document = Document::parse(&with.text).unwrap();
+        let document = RexsDocument::parse(&with.text).unwrap();
         let related = document.relation("stage_gear_data", &[("stage", "10"), ("gear", gear)]).unwrap();
         assert_eq!(related.member("stage_gear_data"), Some(component));
         assert!(with.text.contains(&format!("<relation id=\"{relation}\" type=\"stage_gear_data\">")));
@@ -319,10 +319,10 @@ fn val_attributes_are_those_of_the_version() {
 fn every_figure_has_a_number_and_a_name() {
     for figure in figures() {
         let path = figure.path.replace("{gear}", "wheel").replace("{phase}", "1");
-        assert!(Output::find(&path).is_ok(), "{path}");
+        assert!(SummaryOutput::find(&path).is_ok(), "{path}");
         for version in VERSIONS {
             let text = TWO_STAGES.replace("version=\"1.4\"", &format!("version=\"{version}\""));
-            let document = Document::parse(&text).unwrap();
+            let document = RexsDocument::parse(&text).unwrap();
             for loads in [Loads::One, Loads::PhaseForEach, Loads::Different] {
                 let id = Naming::of(&document, loads).id(&figure.attribute);
                 let is_named = |id: &String| id.bytes().all(|b| matches!(b, b'a'..=b'z' | b'0'..=b'9' | b'_'));
@@ -343,7 +343,7 @@ fn the_document_has_every_figure() {
         has(&figure.path);
         for version in VERSIONS {
             let text = TWO_STAGES.replace("version=\"1.4\"", &format!("version=\"{version}\""));
-            let id = Naming::of(&Document::parse(&text).unwrap(), Loads::One).id(&figure.attribute);
+            let id = Naming::of(&RexsDocument::parse(&text).unwrap(), Loads::One).id(&figure.attribute);
             id.iter().for_each(|id| has(id.strip_prefix(CUSTOM).unwrap_or(id)));
         }
     }

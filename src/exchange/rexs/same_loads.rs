@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::document::Document;
+use super::document::RexsDocument;
 use super::load::Load;
 
 /// Loads this close to each other, relatively, are the same: scenes from REXS have twelve digits.
@@ -20,7 +20,7 @@ pub(super) enum Loads {
 
 impl Loads {
     /// Compares torque and speed of the pinion, as far as the file says them, with the phases of a run's summary.
-    pub(super) fn of(document: &Document, load: &Load, summary: &Value) -> Self {
+    pub(super) fn of(document: &RexsDocument, load: &Load, summary: &Value) -> Self {
         let given = document.load_cases.len().max(1);
         let phases = summary["phases"].as_array().map_or(&[][..], Vec::as_slice);
         let same = |given: Option<f64>, run: Option<f64>| match (given, run) {

@@ -3,18 +3,18 @@
 use std::fmt::Write;
 
 use super::RexsError;
-use super::document::{CELSIUS, Component, Document, GPA, J_PER_KGK, KG_PER_M3, MM2_PER_S, NONE, W_PER_MK};
+use super::document::{CELSIUS, GPA, J_PER_KGK, KG_PER_M3, MM2_PER_S, NONE, RexsComponent, RexsDocument, W_PER_MK};
 use super::load::Load;
-use super::modifications::{EndRelief, Relief, ReliefStart};
-use super::stage::{GearData, Gears, Stage};
+use super::modifications::{ReliefStart, RexsEndRelief, RexsRelief};
+use super::stage::{GearData, Gears, RexsStage};
 
 /// Hours and revolutions of a life that the file does not give.
 const ASSUMED_HOURS: f64 = 1000.0;
 const ASSUMED_REVOLUTIONS: f64 = 1e6;
 
 pub(super) fn of(
-    document: &Document,
-    stage: &Stage,
+    document: &RexsDocument,
+    stage: &RexsStage,
     gears: &Gears,
     load: &Load,
     warnings: &mut Vec<String>,
@@ -76,7 +76,7 @@ fn gear(text: &mut Text, table: &str, data: &GearData) {
         text.number("roughness_Ra_um", roughness_um, "");
     }
     let modifications = &data.modifications;
-    let relief = |relief: &Relief| {
+    let relief = |relief: &RexsRelief| {
         let start = match relief.start {
             ReliefStart::Diameter(diameter_mm) => format!("begins_at_diameter_mm = {}", rounded(diameter_mm)),
             ReliefStart::RollLength(length_mm) => format!("length_mm = {}", rounded(length_mm)),
@@ -89,7 +89,7 @@ fn gear(text: &mut Text, table: &str, data: &GearData) {
     if let Some(root) = &modifications.root_relief {
         text.line(format!("root_relief = {}", relief(root)));
     }
-    if let Some(EndRelief { amount_um, length_mm, parabolic }) = &modifications.end_relief {
+    if let Some(RexsEndRelief { amount_um, length_mm, parabolic }) = &modifications.end_relief {
         let (amount, length) = (rounded(*amount_um), rounded(*length_mm));
         text.line(format!("end_relief = {{ amount_um = {amount}, length_mm = {length}{} }}", shape(*parabolic)));
     }
@@ -102,7 +102,7 @@ fn gear(text: &mut Text, table: &str, data: &GearData) {
 }
 
 /// The material that a reference names of the gear, or of the shaft that carries it.
-fn material(text: &mut Text, document: &Document, table: &str, data: &GearData) -> Result<(), RexsError> {
+fn material(text: &mut Text, document: &RexsDocument, table: &str, data: &GearData) -> Result<(), RexsError> {
     let of_shaft = || document.material_of(document.shaft_of(data.component)?);
     let Some(material) = document.material_of(data.component).or_else(of_shaft) else { return Ok(()) };
     let modulus_GPa = material.number("elastic_modulus", GPA)?;
@@ -161,7 +161,13 @@ fn operation(text: &mut Text, load: &Load, warnings: &mut Vec<String>) {
 }
 
 /// The oil, where the file gives all that films need; otherwise as remarks.
-fn lubricant(text: &mut Text, document: &Document, stage: &Stage, gears: &Gears, load: &Load) -> Result<(), RexsError> {
+fn lubricant(
+    text: &mut Text,
+    document: &RexsDocument,
+    stage: &RexsStage,
+    gears: &Gears,
+    load: &Load,
+) -> Result<(), RexsError> {
     let Some(oil) = document.components.iter().find(|component| component.kind == "lubricant") else { return Ok(()) };
     let viscosities = (
         oil.number("viscosity_at_40_degree_celsius", MM2_PER_S)?,
@@ -169,7 +175,7 @@ fn lubricant(text: &mut Text, document: &Document, stage: &Stage, gears: &Gears,
     );
     let (Some(at_40C), Some(at_100C)) = viscosities else { return Ok(()) };
     let said = document.load_cases.iter().flatten().chain(&document.components);
-    let in_place = |component: &&Component| component.id == stage.component.id || component.kind == "gear_casing";
+    let in_place = |component: &&RexsComponent| component.id == stage.component.id || component.kind == "gear_casing";
     let mut temperature = said.filter(in_place).map(|component| component.number("temperature_lubricant", CELSIUS));
     let temperature_C = temperature.find_map(Result::transpose).transpose()?;
     let speeds = load.cases.iter().all(|case| case.speed_rpm.is_some());

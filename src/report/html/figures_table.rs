@@ -7,7 +7,7 @@ use super::reading::capitalised;
 use super::table::{Cell, cells, line, list, row, table, whole};
 use super::{film_table, law_table, page, root_stress_table, sliced};
 use crate::results::error::{ErrorSummary, SevereLimit, WearAtLimit};
-use crate::results::figures::{FAMILIES, FigureFamily, STATED_ERRORS, Values};
+use crate::results::figures::{FAMILIES, FigureFamily, FigureValues, STATED_ERRORS};
 use crate::results::run::{GearSummary, PhaseSummary, PhaseWear, RunRecord, Summary};
 
 /// Phases that are shown one by one.
@@ -38,7 +38,7 @@ fn figures(record: &RunRecord) -> Markup {
 /// Families on the page whose values are the `wanted`, with heading and values; none of those that the run has no values of.
 fn shown(
     s: &Summary,
-    wanted: fn(&Values) -> bool,
+    wanted: fn(&FigureValues) -> bool,
 ) -> impl Iterator<Item = (&'static FigureFamily, String, [Option<f64>; 2])> {
     let families = FAMILIES.iter().filter(move |family| family.on_page && wanted(&family.values));
     families
@@ -48,7 +48,7 @@ fn shown(
 
 fn new_and_worn(s: &Summary) -> Markup {
     let mut rows = Vec::new();
-    for (family, label, [new, worn]) in shown(s, |values| matches!(values, Values::States(_))) {
+    for (family, label, [new, worn]) in shown(s, |values| matches!(values, FigureValues::States(_))) {
         let changed = match (new, worn) {
             // No tip edge carries anything.
             (Some(0.0), Some(0.0)) => continue,
@@ -69,7 +69,7 @@ fn new_and_worn(s: &Summary) -> Markup {
 }
 
 fn wear(s: &Summary) -> Markup {
-    let rows = shown(s, |values| matches!(values, Values::Gears(_)));
+    let rows = shown(s, |values| matches!(values, FigureValues::Gears(_)));
     table("Wear", &["pinion", "wheel"], rows.map(|(family, label, values)| row(label, family.unit, values)))
 }
 

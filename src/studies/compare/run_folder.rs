@@ -15,7 +15,7 @@ use crate::report::SUMMARY;
 use crate::results::run::ReportedBy;
 use crate::resume::folder::SCENE;
 use crate::scene::Resolved;
-use crate::studies::evaluate::output::Output;
+use crate::studies::evaluate::output::SummaryOutput;
 
 const PROFILES: &str = "profiles.csv";
 /// Times this close to each other, relatively, are the same: hours and revolutions round differently.
@@ -122,7 +122,7 @@ impl RunFolder {
 
     /// Number at a path in the summary; none where the run did not compute it.
     pub(crate) fn number(&self, path: &str) -> Option<f64> {
-        Output::find(path).ok()?.of(&self.whole_summary)
+        SummaryOutput::find(path).ok()?.of(&self.whole_summary)
     }
 
     /// Checks that `resolved`, from the folder's scene, is the scene of the run.

@@ -19,7 +19,7 @@ use crate::scene::key::{self, NumberKey, is_key};
 use crate::scene::loaded::{LoadedScene, SceneError};
 use crate::studies::spread::spread;
 use crate::studies::varied_scene::{VariedScene, in_words, linked_keys, missing_phase, one_line};
-use output::{Output, OutputError};
+use output::{OutputError, SummaryOutput};
 
 /// Outcome of each row.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,9 +58,9 @@ pub enum EvaluateError {
     /// No summary has the output.
     #[error("unknown output {output}; allowed: the path of a number in summary.json, such as pinion.peak_wear_um{}", did_you_mean(.nearest))]
     UnknownOutput {
-        /// Output as given.
+        /// SummaryOutput as given.
         output: String,
-        /// Output that was probably meant.
+        /// SummaryOutput that was probably meant.
         nearest: Option<String>,
     },
     /// A row of another length than the keys.
@@ -119,11 +119,12 @@ pub fn evaluate(
     observer: &dyn Observer,
 ) -> Result<Evaluation, EvaluateError> {
     let keys: Vec<&str> = keys.iter().map(AsRef::as_ref).collect();
-    let outputs: Vec<Output> = outputs.iter().map(|path| Output::find(path.as_ref())).collect::<Result<_, _>>()?;
+    let outputs: Vec<SummaryOutput> =
+        outputs.iter().map(|path| SummaryOutput::find(path.as_ref())).collect::<Result<_, _>>()?;
     let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
     check_keys(&keys, &draft)?;
     check_rows(&keys, rows)?;
-    let of_error = outputs.iter().any(Output::is_of_error);
+    let of_error = outputs.iter().any(SummaryOutput::is_of_error);
     let varied = VariedScene::new(scene, of_error && scene.scene().numerics.error_estimate);
     let varied = varied.map_err(|problems| scene.given.refused(problems))?;
     let whole = keys.iter().map(|key| takes_whole_numbers(key)).collect();
@@ -163,7 +164,7 @@ struct AskedRows<'a> {
     keys: Vec<&'a str>,
     /// Whether each key takes whole numbers alone.
     whole: Vec<bool>,
-    outputs: Vec<Output>,
+    outputs: Vec<SummaryOutput>,
     verify: bool,
 }
 

@@ -11,7 +11,7 @@ use crate::scene::key::{is_number, nearest_path};
 use crate::scene::schema::{Node, schema_of};
 
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Output {
+pub(crate) struct SummaryOutput {
     pub path: String,
     /// Path as a JSON pointer.
     pointer: String,
@@ -30,7 +30,7 @@ fn schema() -> &'static Value {
     SCHEMA.get_or_init(schema_of::<Summary>)
 }
 
-impl Output {
+impl SummaryOutput {
     /// The number at `path`.
     pub(crate) fn find(path: &str) -> Result<Self, OutputError> {
         let path = figures::name_now(path).unwrap_or(path);
@@ -82,21 +82,24 @@ mod tests {
             "phases.2.wheel.worn_volume_mm3",
             "temperature.greatest_rise_new_K",
         ] {
-            assert!(Output::find(path).is_ok(), "{path}");
+            assert!(SummaryOutput::find(path).is_ok(), "{path}");
         }
-        let phase = Output::find("phases.2.wheel.worn_volume_mm3").unwrap();
+        let phase = SummaryOutput::find("phases.2.wheel.worn_volume_mm3").unwrap();
         let summary = serde_json::json!({ "phases": [null, { "wheel": { "worn_volume_mm3": 1.5 } }] });
         assert_eq!((phase.of(&summary), phase.of(&serde_json::json!({}))), (Some(1.5), None));
-        assert_eq!(Output::find("pinion_peak_wear_um").map(|output| output.path), Ok("pinion.peak_wear_um".to_owned()));
+        assert_eq!(
+            SummaryOutput::find("pinion_peak_wear_um").map(|output| output.path),
+            Ok("pinion.peak_wear_um".to_owned())
+        );
         for path in ["peak_wear_um", "pinion.peak_ware_um"] {
-            assert_eq!(Output::find(path).unwrap_err().nearest.as_deref(), Some("pinion.peak_wear_um"));
+            assert_eq!(SummaryOutput::find(path).unwrap_err().nearest.as_deref(), Some("pinion.peak_wear_um"));
         }
         // All main figures but the one that sweeps alone know are in the summary.
         for figure in figures::all().iter().filter(|figure| figure.name != figures::PEAK_WEAR_OF_EITHER) {
-            assert!(Output::find(&figure.name).is_ok(), "{}", figure.name);
+            assert!(SummaryOutput::find(&figure.name).is_ok(), "{}", figure.name);
         }
         for path in ["title", "phases.0.hours", "pinion", ""] {
-            assert!(Output::find(path).is_err(), "{path}");
+            assert!(SummaryOutput::find(path).is_err(), "{path}");
         }
     }
 }

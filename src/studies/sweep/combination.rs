@@ -13,7 +13,7 @@ use crate::scene::loaded::{LoadedScene, NamedFiles};
 use crate::scene::{Problem, Resolved, short_hash};
 use crate::studies::sweep::goal::Goal;
 use crate::studies::sweep::record::{SweepAxis, SweepIdentity, SweepRow};
-use crate::studies::sweep::study::Task;
+use crate::studies::sweep::study::SweepTask;
 use crate::studies::sweep::verification::Chosen;
 use crate::studies::varied_scene::{VariedScene, in_words, one_line};
 
@@ -110,10 +110,10 @@ impl Sweep {
     }
 
     /// Does `task`; `None` where it was interrupted.
-    pub(crate) fn row_of(&self, task: &Task, observer: &dyn Observer) -> Option<SweepRow> {
+    pub(crate) fn row_of(&self, task: &SweepTask, observer: &dyn Observer) -> Option<SweepRow> {
         match task {
-            Task::Run(index) => self.row(*index, observer),
-            Task::Verify { row, chosen } => self.verified(row, *chosen, observer),
+            SweepTask::Run(index) => self.row(*index, observer),
+            SweepTask::Verify { row, chosen } => self.verified(row, *chosen, observer),
         }
     }
 

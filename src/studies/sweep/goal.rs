@@ -21,12 +21,12 @@ use crate::scene::nearest::nearest;
 pub(crate) struct Goal {
     /// Name of its column.
     pub figure: String,
-    pub limits: Vec<Limit>,
+    pub limits: Vec<FigureLimit>,
 }
 
 /// A figure that must not pass a value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Limit {
+pub(crate) struct FigureLimit {
     /// Name of its column.
     pub figure: String,
     /// Whether the value is the most that it may be; else the least.
@@ -43,7 +43,7 @@ pub(crate) enum GoalError {
     Form { given: String },
 }
 
-impl FromStr for Limit {
+impl FromStr for FigureLimit {
     type Err = GoalError;
 
     fn from_str(given: &str) -> Result<Self, GoalError> {
@@ -55,7 +55,7 @@ impl FromStr for Limit {
     }
 }
 
-impl fmt::Display for Limit {
+impl fmt::Display for FigureLimit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} {} {}", self.figure, if self.at_most { "≤" } else { "≥" }, plain(self.value))
     }
@@ -76,7 +76,7 @@ impl Goal {
     ///
     /// # Errors
     /// A name that no column has.
-    pub(crate) fn new(name: &str, limits: Vec<Limit>) -> Result<Self, GoalError> {
+    pub(crate) fn new(name: &str, limits: Vec<FigureLimit>) -> Result<Self, GoalError> {
         Ok(Self { figure: known(name)?.name.clone(), limits })
     }
 
@@ -87,7 +87,7 @@ impl Goal {
 
     /// Whether `row` has the figure and keeps to all limits.
     pub(crate) fn allows(&self, row: &SweepRow) -> bool {
-        let keeps = |limit: &Limit| {
+        let keeps = |limit: &FigureLimit| {
             let value = column(&limit.figure).and_then(|figure| row.figure(figure));
             value.is_some_and(|value| if limit.at_most { value <= limit.value } else { value >= limit.value })
         };
@@ -177,7 +177,7 @@ pub(crate) struct Optimum {
 mod tests {
     use super::*;
     use crate::results::error::TotalError;
-    use crate::studies::sweep::record::{Spacing, SweepAxis};
+    use crate::studies::sweep::record::{AxisSpacing, SweepAxis};
     use crate::studies::sweep::verification::{Chosen, RowVerification};
 
     fn rows(wear: &[f64]) -> (SweepIdentity, Vec<SweepRow>) {
@@ -187,7 +187,7 @@ mod tests {
             to: (wear.len() - 1) as f64,
             count: wear.len(),
             whole: false,
-            spacing: Spacing::Even,
+            spacing: AxisSpacing::Even,
         };
         let identity = SweepIdentity { axes: vec![axis], ..SweepIdentity::default() };
         let row = |(index, &wear): (usize, &f64)| {
@@ -227,7 +227,7 @@ mod tests {
         let unknown = Goal::new("pinion_peak_wear", Vec::new()).unwrap_err().to_string();
         assert!(unknown.contains("did you mean pinion.peak_wear_um?"), "{unknown}");
         for given in ["wheel.peak_wear_um<8", "wheel.peak_wear_um<=", "wheel.peak_wear_um<=eight"] {
-            assert!(given.parse::<Limit>().unwrap_err().to_string().contains("FIGURE<=VALUE"), "{given}");
+            assert!(given.parse::<FigureLimit>().unwrap_err().to_string().contains("FIGURE<=VALUE"), "{given}");
         }
     }
 }

@@ -21,7 +21,7 @@ pub(crate) const FILE_NAME: &str = "rows.jsonl";
 
 /// Content of a journal: its first line and, one line each, the rows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Contents {
+pub(crate) struct JournalContents {
     pub identity: SweepIdentity,
     /// Part of the sweep; `None`: all of it.
     pub shard: Option<Shard>,
@@ -30,7 +30,7 @@ pub(crate) struct Contents {
     pub rows: BTreeMap<usize, SweepRow>,
 }
 
-impl Contents {
+impl JournalContents {
     /// The row in a line; an error says why it is none of this sweep.
     pub(crate) fn row(&self, line: &str) -> Result<SweepRow, String> {
         let row: SweepRow = serde_json::from_str(line).map_err(|error| error.to_string())?;
@@ -45,7 +45,7 @@ impl Contents {
 pub(crate) struct Journal {
     /// Place where it is kept; `None`: in memory alone.
     kept: Option<(PathBuf, File)>,
-    pub contents: Contents,
+    pub contents: JournalContents,
 }
 
 /// Reason why rows cannot be read or kept.
@@ -91,7 +91,7 @@ pub(crate) enum JournalError {
 ///
 /// # Errors
 /// [`JournalError`] where there is none, or one that no sweep wrote.
-pub(crate) fn read(folder: &Path) -> Result<Contents, JournalError> {
+pub(crate) fn read(folder: &Path) -> Result<JournalContents, JournalError> {
     let path = folder.join(FILE_NAME);
     let text = match fs::read_to_string(&path) {
         Ok(text) => text,
@@ -110,11 +110,11 @@ fn whole_lines(text: &str) -> &str {
 }
 
 /// The contents of a journal's whole lines; `None` where there is none.
-fn parse(path: &Path, text: &str) -> Result<Option<Contents>, JournalError> {
+fn parse(path: &Path, text: &str) -> Result<Option<JournalContents>, JournalError> {
     let mut lines = text.lines().enumerate();
     let damaged = |line: usize, found: String| JournalError::Damaged { path: path.to_owned(), line: line + 1, found };
     let Some((_, first)) = lines.next() else { return Ok(None) };
-    let mut contents: Contents = serde_json::from_str(first).map_err(|error| damaged(0, error.to_string()))?;
+    let mut contents: JournalContents = serde_json::from_str(first).map_err(|error| damaged(0, error.to_string()))?;
     for (line, text) in lines {
         let row = contents.row(text).map_err(|found| damaged(line, found))?;
         contents.rows.insert(row.index, row);
@@ -125,7 +125,7 @@ fn parse(path: &Path, text: &str) -> Result<Option<Contents>, JournalError> {
 impl Journal {
     /// A journal that is not kept.
     pub(crate) fn in_memory(identity: &SweepIdentity, shard: Option<Shard>) -> Self {
-        Self { kept: None, contents: Contents { identity: identity.clone(), shard, rows: BTreeMap::new() } }
+        Self { kept: None, contents: JournalContents { identity: identity.clone(), shard, rows: BTreeMap::new() } }
     }
 
     /// Opens the journal of a sweep in `folder`, which is made if need be, and reads the rows it holds already.
@@ -190,7 +190,7 @@ impl Journal {
 }
 
 /// Writes all rows into a new file of the old name.
-fn write_anew(path: &Path, contents: &Contents) -> JournalError {
+fn write_anew(path: &Path, contents: &JournalContents) -> JournalError {
     let path = path.to_owned();
     match write(path.parent().unwrap_or(Path::new(".")), contents) {
         Ok(()) => JournalError::Removed { kept: contents.rows.len(), path },
@@ -199,7 +199,7 @@ fn write_anew(path: &Path, contents: &Contents) -> JournalError {
 }
 
 /// Writes a journal whole, its rows in the order of the combinations, into `folder`, which is made if need be.
-pub(crate) fn write(folder: &Path, contents: &Contents) -> io::Result<()> {
+pub(crate) fn write(folder: &Path, contents: &JournalContents) -> io::Result<()> {
     fs::create_dir_all(folder)?;
     whole_file::write(&folder.join(FILE_NAME), |out| {
         out.write_all(&line_of(contents)?)?;
@@ -214,7 +214,7 @@ fn line_of(item: &impl Serialize) -> io::Result<Vec<u8>> {
 }
 
 /// Differences between the journal and the sweep that is to be run, there and here.
-fn differences(found: &Contents, wanted: &Contents) -> Vec<String> {
+fn differences(found: &JournalContents, wanted: &JournalContents) -> Vec<String> {
     let mut differences = found.identity.differences(&wanted.identity);
     if found.shard != wanted.shard {
         let words = |shard: Option<Shard>| {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::journal::{self, Contents, JournalError};
+use super::journal::{self, JournalContents, JournalError};
 use crate::studies::sweep::record::SweepRow;
 
 /// Missing combinations that are named.
@@ -38,12 +38,12 @@ pub(crate) enum MergeError {
 /// The whole sweep from the journals in `folders`, in any order.
 ///
 /// Parts may overlap, where their results are the same.
-pub(crate) fn merge(folders: &[PathBuf]) -> Result<Contents, MergeError> {
-    let parts: Vec<(&Path, Contents)> = folders
+pub(crate) fn merge(folders: &[PathBuf]) -> Result<JournalContents, MergeError> {
+    let parts: Vec<(&Path, JournalContents)> = folders
         .iter()
         .map(|folder| Ok((folder.as_path(), journal::read(folder)?)))
         .collect::<Result<_, JournalError>>()?;
-    let Some((first, Contents { identity, .. })) = parts.first() else {
+    let Some((first, JournalContents { identity, .. })) = parts.first() else {
         return Err(JournalError::NoSweep { folder: PathBuf::new() }.into());
     };
     let mut rows: BTreeMap<usize, SweepRow> = BTreeMap::new();
@@ -69,7 +69,7 @@ pub(crate) fn merge(folders: &[PathBuf]) -> Result<Contents, MergeError> {
     let combinations = identity.combinations();
     let missing: Vec<usize> = (0..combinations).filter(|index| !rows.contains_key(index)).collect();
     if missing.is_empty() {
-        return Ok(Contents { identity: identity.clone(), shard: None, rows });
+        return Ok(JournalContents { identity: identity.clone(), shard: None, rows });
     }
     let unfinished = parts.iter().filter_map(|(folder, part)| {
         let own: Vec<usize> = super::study::part(combinations, part.shard).collect();

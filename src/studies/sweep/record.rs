@@ -13,7 +13,7 @@ const DIGITS: i32 = 12;
 /// How the values of a key are spaced.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Spacing {
+pub(crate) enum AxisSpacing {
     /// Evenly, both ends included.
     #[default]
     Even,
@@ -25,7 +25,7 @@ pub(crate) enum Spacing {
     Words(Vec<String>),
 }
 
-impl Spacing {
+impl AxisSpacing {
     fn is_even(&self) -> bool {
         *self == Self::Even
     }
@@ -41,8 +41,8 @@ pub(crate) struct SweepAxis {
     pub count: usize,
     /// Whether the key takes whole numbers.
     pub whole: bool,
-    #[serde(default, skip_serializing_if = "Spacing::is_even")]
-    pub spacing: Spacing,
+    #[serde(default, skip_serializing_if = "AxisSpacing::is_even")]
+    pub spacing: AxisSpacing,
 }
 
 impl SweepAxis {
@@ -57,13 +57,13 @@ impl SweepAxis {
         let last = self.count.saturating_sub(1);
         if self.words().is_some() {
             index as f64
-        } else if let Spacing::Listed(values) = &self.spacing {
+        } else if let AxisSpacing::Listed(values) = &self.spacing {
             values[index.min(last)]
         } else if index == 0 {
             self.from
         } else if index >= last {
             self.to
-        } else if self.spacing == Spacing::Logarithmic {
+        } else if self.spacing == AxisSpacing::Logarithmic {
             let between = self.from * (self.to / self.from).powf(index as f64 / last as f64);
             format!("{between:.*e}", (DIGITS - 1) as usize).parse().unwrap_or(between)
         } else {
@@ -83,10 +83,10 @@ impl SweepAxis {
     pub(crate) fn as_given(&self) -> String {
         let range = || format!("{}:{}:{}", plain(self.from), plain(self.to), self.count);
         let values = match &self.spacing {
-            Spacing::Even => range(),
-            Spacing::Logarithmic => format!("{}:log", range()),
-            Spacing::Listed(values) => values.iter().map(|value| plain(*value)).collect::<Vec<_>>().join(","),
-            Spacing::Words(words) => words.join(","),
+            AxisSpacing::Even => range(),
+            AxisSpacing::Logarithmic => format!("{}:log", range()),
+            AxisSpacing::Listed(values) => values.iter().map(|value| plain(*value)).collect::<Vec<_>>().join(","),
+            AxisSpacing::Words(words) => words.join(","),
         };
         format!("{}={values}", self.key)
     }
@@ -94,7 +94,7 @@ impl SweepAxis {
     /// The words, where the key takes words.
     pub(crate) fn words(&self) -> Option<&[String]> {
         match &self.spacing {
-            Spacing::Words(words) => Some(words),
+            AxisSpacing::Words(words) => Some(words),
             _ => None,
         }
     }
@@ -396,7 +396,7 @@ mod tests {
     use super::*;
 
     fn axis(key: &str, from: f64, to: f64, count: usize) -> SweepAxis {
-        SweepAxis { key: key.to_owned(), from, to, count, whole: false, spacing: Spacing::Even }
+        SweepAxis { key: key.to_owned(), from, to, count, whole: false, spacing: AxisSpacing::Even }
     }
 
     /// Ends are as given, and the values between them as one would write them.

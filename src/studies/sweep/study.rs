@@ -22,14 +22,14 @@ pub(crate) fn part(combinations: usize, shard: Option<Shard>) -> impl Iterator<I
 }
 
 /// Keeper of the rows.
-struct Kept<'a, F> {
+struct KeptRows<'a, F> {
     journal: &'a mut Journal,
     tell: F,
     /// Why no row can be kept any more.
     error: Option<JournalError>,
 }
 
-impl<F: FnMut(&SweepRow)> Kept<'_, F> {
+impl<F: FnMut(&SweepRow)> KeptRows<'_, F> {
     /// Keeps a finished row, if rows can still be kept: what follows a line that was not written whole could not be read again.
     fn keep(&mut self, row: SweepRow) -> bool {
         if self.error.is_some() {
@@ -47,7 +47,7 @@ impl<F: FnMut(&SweepRow)> Kept<'_, F> {
 /// Something to do of a sweep: what one thread, wherever it is, does from beginning to end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Task {
+pub(crate) enum SweepTask {
     /// A combination is to be run.
     Run(usize),
     /// A finished row is to be verified.
@@ -56,15 +56,15 @@ pub(crate) enum Task {
 
 /// Tasks that can be done now: the missing combinations of `shard`; where none is missing, of a whole sweep that asks for it, the chosen rows
 /// that are not verified yet.
-pub(crate) fn tasks(sweep: &Sweep, shard: Option<Shard>, rows: &BTreeMap<usize, SweepRow>) -> Vec<Task> {
+pub(crate) fn tasks(sweep: &Sweep, shard: Option<Shard>, rows: &BTreeMap<usize, SweepRow>) -> Vec<SweepTask> {
     let all = part(sweep.identity.combinations(), shard);
-    let missing: Vec<Task> = all.filter(|index| !rows.contains_key(index)).map(Task::Run).collect();
+    let missing: Vec<SweepTask> = all.filter(|index| !rows.contains_key(index)).map(SweepTask::Run).collect();
     if !missing.is_empty() || !sweep.identity.verify || shard.is_some() {
         return missing;
     }
     let open = |(index, chosen): (usize, Chosen)| {
         let row = rows.get(&index).filter(|row| row.verification.is_none())?;
-        Some(Task::Verify { row: Box::new(row.clone()), chosen })
+        Some(SweepTask::Verify { row: Box::new(row.clone()), chosen })
     };
     chosen(&sweep.identity, rows.values()).into_iter().filter_map(open).collect()
 }
@@ -85,11 +85,11 @@ pub(crate) fn run(
         let tasks = tasks(sweep, shard, rows);
         let (things, total, mut failed) = match tasks.first() {
             None => return Ok(Ended::Completed),
-            Some(Task::Run(_)) => {
+            Some(SweepTask::Run(_)) => {
                 let failed = rows.values().filter(|row| row.error.is_some()).count();
                 ("combinations", part(sweep.identity.combinations(), shard).count(), failed)
             }
-            Some(Task::Verify { .. }) => ("verified", chosen(&sweep.identity, rows.values()).len(), 0),
+            Some(SweepTask::Verify { .. }) => ("verified", chosen(&sweep.identity, rows.values()).len(), 0),
         };
         let mut done = total - tasks.len();
         observer.counted(done, total, things, &with_failed(failed));
@@ -98,7 +98,7 @@ pub(crate) fn run(
             failed += usize::from(row.error.is_some());
             observer.counted(done, total, things, &with_failed(failed));
         };
-        let mut kept = Kept { journal, tell, error: None };
+        let mut kept = KeptRows { journal, tell, error: None };
         let ended = spread(&tasks, threads, observer, |task, within| sweep.row_of(task, within), |row| kept.keep(row));
         if let Some(error) = kept.error {
             return Err(error);

@@ -217,11 +217,17 @@ impl<'a> SweepVerification<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::studies::sweep::record::{Spacing, SweepAxis};
+    use crate::studies::sweep::record::{AxisSpacing, SweepAxis};
 
     fn identity(counts: &[usize]) -> SweepIdentity {
-        let axis =
-            |&count| SweepAxis { key: "k".to_owned(), from: 0.0, to: 1.0, count, whole: false, spacing: Spacing::Even };
+        let axis = |&count| SweepAxis {
+            key: "k".to_owned(),
+            from: 0.0,
+            to: 1.0,
+            count,
+            whole: false,
+            spacing: AxisSpacing::Even,
+        };
         SweepIdentity { verify: true, axes: counts.iter().map(axis).collect(), ..SweepIdentity::default() }
     }
 

@@ -3,14 +3,14 @@
 use super::design::{self, CorrelationError, MOST_FACTORS, MOST_SAMPLES};
 use super::distribution::{self, UncertainError};
 use super::life::LimitError;
-use super::study::{Question, StudyError};
+use super::study::{SampledQuestion, SamplingError};
 use crate::results::figures;
 use crate::scene::draft::Draft;
 use crate::scene::loaded::{LoadedScene, SceneError};
-use crate::studies::evaluate::output::{Output, OutputError};
+use crate::studies::evaluate::output::{OutputError, SummaryOutput};
 use crate::studies::varied_scene::{linked_keys, missing_phase};
 
-/// Question to a scene.
+/// SampledQuestion to a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UncertaintyQuestion {
     /// Uncertain keys: `KEY=DISTRIBUTION` (docs/uncertainty.md).
@@ -57,7 +57,7 @@ pub(crate) enum UncertaintyFault {
     #[error("found {found} samples; allowed: a whole number from 2 to {MOST_SAMPLES}")]
     Samples { found: usize },
     #[error(transparent)]
-    Study(#[from] StudyError),
+    Study(#[from] SamplingError),
 }
 
 impl From<OutputError> for UncertaintyFault {
@@ -78,7 +78,7 @@ impl UncertaintyError {
     }
 }
 
-impl Question {
+impl SampledQuestion {
     /// Meaning of `asked` for `scene`.
     pub(crate) fn of(scene: &LoadedScene, asked: &UncertaintyQuestion) -> Result<Self, UncertaintyFault> {
         let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
@@ -102,7 +102,7 @@ impl Question {
             [] => figures::default_outputs().iter().map(|figure| &*figure.name).collect(),
             given => given.iter().map(|path| path.trim()).collect(),
         };
-        let outputs = outputs.into_iter().map(Output::find).collect::<Result<_, _>>()?;
+        let outputs = outputs.into_iter().map(SummaryOutput::find).collect::<Result<_, _>>()?;
         Ok(Self { uncertain, correlation, outputs, limits, samples: asked.samples, seed: asked.seed })
     }
 }

@@ -60,7 +60,7 @@ pub(crate) enum CorrelationError {
 
 /// How the normal scores of uncertain keys are correlated.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Correlation {
+pub(crate) struct ScoreCorrelation {
     /// R.
     pub matrix: DMatrix<f64>,
     /// L of R = L Lᵀ.
@@ -68,7 +68,7 @@ pub(crate) struct Correlation {
 }
 
 /// The correlation of `keys` that `given` makes; none where nothing is correlated.
-pub(crate) fn correlation(keys: &[&str], given: &[String]) -> Result<Option<Correlation>, CorrelationError> {
+pub(crate) fn correlation(keys: &[&str], given: &[String]) -> Result<Option<ScoreCorrelation>, CorrelationError> {
     if given.is_empty() {
         return Ok(None);
     }
@@ -93,7 +93,7 @@ pub(crate) fn correlation(keys: &[&str], given: &[String]) -> Result<Option<Corr
         matrix[(j, i)] = value;
     }
     let lower = matrix.clone().cholesky().ok_or(CorrelationError::NotPositiveDefinite)?.l();
-    Ok(Some(Correlation { matrix, lower }))
+    Ok(Some(ScoreCorrelation { matrix, lower }))
 }
 
 impl Design {
@@ -143,7 +143,7 @@ mod tests {
     #[test]
     fn ver_correlated_factors_have_their_correlation() {
         let given = ["a:b=0.8".to_owned()];
-        let Correlation { lower, .. } = correlation(&["a", "b"], &given).unwrap().unwrap();
+        let ScoreCorrelation { lower, .. } = correlation(&["a", "b"], &given).unwrap().unwrap();
         let design = Design { factors: 3, seed: 1, correlation: Some(lower) };
         let samples: Vec<Vec<f64>> = (0..4096).map(|n| design.sample(n, Matrix::A)).collect();
         let score = |n: usize, factor: usize| normal_quantile(samples[n][factor]);

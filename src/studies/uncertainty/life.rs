@@ -22,7 +22,7 @@ fn names() -> Vec<&'static str> {
 
 /// A depth that ends the life.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct Limit {
+pub(crate) struct DepthLimit {
     pub output: &'static str,
     pub depth_um: f64,
 }
@@ -35,7 +35,7 @@ pub(crate) enum LimitError {
     Unknown { name: String, meant: Option<&'static str> },
 }
 
-impl FromStr for Limit {
+impl FromStr for DepthLimit {
     type Err = LimitError;
 
     fn from_str(given: &str) -> Result<Self, LimitError> {
@@ -53,7 +53,7 @@ impl FromStr for Limit {
 /// Time, in hours where the scene has a speed and else in revolutions of the pinion, and depth at each moment.
 pub(crate) type Growth = Vec<(f64, f64)>;
 
-impl Limit {
+impl DepthLimit {
     /// How the depth grew.
     pub(crate) fn growth(&self, history: &[HistoryRow]) -> Growth {
         let Some(of) = figures::find(self.output).and_then(MainFigure::depth_of_history) else { return Growth::new() };
@@ -83,7 +83,7 @@ mod tests {
     /// Wear that grows evenly, 2 µm an hour.
     #[test]
     fn ver_life_of_linear_wear() {
-        let limit: Limit = "pinion.peak_wear_um = 5".parse().unwrap();
+        let limit: DepthLimit = "pinion.peak_wear_um = 5".parse().unwrap();
         let growth = vec![(1.0, 2.0), (2.0, 4.0), (3.0, 6.0)];
         assert_eq!(limit.life(&growth, 1.0), (2.5, 2.5));
         assert_eq!(limit.life(&growth, 5.0), (0.5, 0.5));
@@ -93,10 +93,10 @@ mod tests {
     #[test]
     fn depths_of_the_history_are_called_as_in_the_summary() {
         for name in ["wheel.below_sap_wear_um", "pinion.root_wear_um", "pinion_root_wear_um"] {
-            let limit: Limit = format!("{name}=1").parse().unwrap();
+            let limit: DepthLimit = format!("{name}=1").parse().unwrap();
             assert_eq!(limit.output, name.replace("pinion_", "pinion."));
         }
-        assert!("wheel.root_wear_um=1".parse::<Limit>().is_err(), "no history has it");
+        assert!("wheel.root_wear_um=1".parse::<DepthLimit>().is_err(), "no history has it");
     }
 
     #[test]
@@ -106,7 +106,7 @@ mod tests {
             ("pinion.peak_wear_um=-1", "above 0"),
             ("pinion.peek_wear_um=1", "did you mean pinion.peak_wear_um?"),
         ] {
-            assert!(given.parse::<Limit>().unwrap_err().to_string().contains(part), "{given}");
+            assert!(given.parse::<DepthLimit>().unwrap_err().to_string().contains(part), "{given}");
         }
     }
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::distribution::Uncertain;
-use super::life::Limit;
+use super::life::DepthLimit;
 use crate::gear::PerGear;
 use crate::reference::sobol_indices::Index;
 use crate::report::columns::Table;
@@ -19,7 +19,7 @@ pub struct UncertaintyRecord {
     /// First 16 hexadecimal digits of the SHA-256 of the scene as given, resolved.
     pub(crate) scene_hash: String,
     pub(crate) uncertain: Vec<Uncertain>,
-    pub(crate) limits: Vec<Limit>,
+    pub(crate) limits: Vec<DepthLimit>,
     /// Of the normal scores of the uncertain keys, in their order; null where they are independent.
     pub(crate) correlation: Option<Vec<Vec<f64>>>,
     pub(crate) seed: u32,

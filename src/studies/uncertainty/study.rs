@@ -12,9 +12,9 @@
 
 use std::time::Instant;
 
-use super::design::{Correlation, Design, Matrix};
+use super::design::{Design, Matrix, ScoreCorrelation};
 use super::distribution::Uncertain;
-use super::life::{Growth, Limit};
+use super::life::{DepthLimit, Growth};
 use super::record::{Band, FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, SampleRow, UncertaintyRecord};
 use crate::gear::PerGear;
 use crate::observer::Observer;
@@ -26,7 +26,7 @@ use crate::results::figures::{self, MainFigure};
 use crate::results::run::StopReason;
 use crate::results::worn_pair::{WearProfile, WornPair};
 use crate::scene::loaded::LoadedScene;
-use crate::studies::evaluate::output::Output;
+use crate::studies::evaluate::output::SummaryOutput;
 use crate::studies::spread::spread;
 use crate::studies::varied_scene::{VariedScene, in_words, one_line};
 
@@ -37,21 +37,21 @@ const PLACES: usize = 160;
 /// Finished points that a study which was interrupted can still speak of.
 pub(crate) const FEWEST_SAMPLES: usize = 8;
 
-/// Question, checked.
+/// SampledQuestion, checked.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Question {
+pub(crate) struct SampledQuestion {
     pub uncertain: Vec<Uncertain>,
     /// How the keys are correlated, if they are.
-    pub correlation: Option<Correlation>,
-    pub outputs: Vec<Output>,
-    pub limits: Vec<Limit>,
+    pub correlation: Option<ScoreCorrelation>,
+    pub outputs: Vec<SummaryOutput>,
+    pub limits: Vec<DepthLimit>,
     /// Points of the sequence.
     pub samples: usize,
     pub seed: u32,
 }
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub(crate) enum StudyError {
+pub(crate) enum SamplingError {
     #[error("the scene as given cannot be run: {0}")]
     Nominal(String),
     #[error("none of {runs} samples has a result; the first says: {first}")]
@@ -73,7 +73,7 @@ type Row = Result<Ran, String>;
 
 /// The samples with everything that they are made of.
 struct Samples<'a> {
-    question: &'a Question,
+    question: &'a SampledQuestion,
     varied: &'a VariedScene,
     nominal: &'a WornPair,
     places: &'a PerGear<Vec<f64>>,
@@ -160,9 +160,9 @@ fn worn<'a>(
 }
 
 /// Each output with the time until which it is known: a life to a limit that is not reached is infinite.
-fn outputs_of(question: &Question, found: &WornPair) -> Result<Vec<(f64, f64)>, String> {
+fn outputs_of(question: &SampledQuestion, found: &WornPair) -> Result<Vec<(f64, f64)>, String> {
     let summary = serde_json::to_value(&found.summary).map_err(|error| error.to_string())?;
-    let of = |output: &Output| match (output.of(&summary), output.at_least(&summary)) {
+    let of = |output: &SummaryOutput| match (output.of(&summary), output.at_least(&summary)) {
         (None, Some(at_least)) => (f64::INFINITY, at_least),
         (value, _) => (value.unwrap_or(f64::NAN), value.unwrap_or(f64::NAN)),
     };
@@ -198,12 +198,12 @@ fn places(profile: &WearProfile) -> Vec<f64> {
 /// Runs the study; where it is interrupted, of the points that were finished.
 pub(crate) fn run(
     scene: &LoadedScene,
-    question: &Question,
+    question: &SampledQuestion,
     threads: usize,
     observer: &dyn Observer,
-) -> Result<UncertaintyRecord, StudyError> {
+) -> Result<UncertaintyRecord, SamplingError> {
     let start = Instant::now();
-    let varied = VariedScene::new(scene, false).map_err(|problems| StudyError::Nominal(in_words(&problems)))?;
+    let varied = VariedScene::new(scene, false).map_err(|problems| SamplingError::Nominal(in_words(&problems)))?;
     let nominal = nominal(scene, &varied, question, observer)?;
     let total = &nominal.summary.error.total;
     let error_of = |path: &str| figures::find(path).and_then(|figure| figure.error(total));
@@ -238,7 +238,7 @@ pub(crate) fn run(
     let whole: Vec<Row> = rows.into_iter().map_while(|row| row).collect();
     let points = whole.len() / matrices.len();
     if points < question.samples.min(FEWEST_SAMPLES) {
-        return Err(StudyError::Interrupted);
+        return Err(SamplingError::Interrupted);
     }
     let rows: Vec<&[Row]> = whole.chunks_exact(matrices.len()).collect();
     record(scene, &samples, &matrices, &rows, threads, start)
@@ -248,9 +248,9 @@ pub(crate) fn run(
 fn nominal(
     scene: &LoadedScene,
     varied: &VariedScene,
-    question: &Question,
+    question: &SampledQuestion,
     observer: &dyn Observer,
-) -> Result<WornPair, StudyError> {
+) -> Result<WornPair, SamplingError> {
     observer.stage("the scene as given");
     let run = guarded(|| -> Result<WornPair, String> {
         let mut resolved = varied.resolved([]).map_err(|problems| in_words(&problems))?;
@@ -264,10 +264,10 @@ fn nominal(
     });
     let run = run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
     match run {
-        Ok(found) if found.summary.stopped == StopReason::Interrupted => Err(StudyError::Interrupted),
+        Ok(found) if found.summary.stopped == StopReason::Interrupted => Err(SamplingError::Interrupted),
         Ok(found) => Ok(found),
-        Err(_) if observer.interrupted() => Err(StudyError::Interrupted),
-        Err(error) => Err(StudyError::Nominal(one_line(&error))),
+        Err(_) if observer.interrupted() => Err(SamplingError::Interrupted),
+        Err(error) => Err(SamplingError::Nominal(one_line(&error))),
     }
 }
 
@@ -278,13 +278,13 @@ fn record(
     rows: &[&[Row]],
     threads: usize,
     start: Instant,
-) -> Result<UncertaintyRecord, StudyError> {
+) -> Result<UncertaintyRecord, SamplingError> {
     let question = samples.question;
     let all = || rows.iter().flat_map(|row| row.iter());
     let (runs, failed) = (all().count(), all().filter(|row| row.is_err()).count());
     let first_failure = all().find_map(|row| row.as_ref().err().cloned());
     if let (true, Some(first)) = (failed == runs, &first_failure) {
-        return Err(StudyError::AllFailed { runs, first: first.clone() });
+        return Err(SamplingError::AllFailed { runs, first: first.clone() });
     }
     let figures = question.outputs.len() + question.limits.len();
     Ok(UncertaintyRecord {

@@ -8,7 +8,7 @@ use crate::report::chart::{Chart, MUTED, Trace, TraceKind, padded};
 use crate::report::html::number::{figure as shown_number, plotted};
 use crate::report::html::reading::capitalised;
 use crate::results::figures::MainFigure;
-use crate::studies::sweep::record::{Spacing, SweepRecord, SweepRow};
+use crate::studies::sweep::record::{AxisSpacing, SweepRecord, SweepRow};
 
 /// The plot of `figure` over the keys `x` and `y`; further keys stay at the values where the figure is least.
 pub(super) fn contour(
@@ -58,10 +58,10 @@ pub(super) fn contour(
     if let Some(words) = y.axis.words() {
         chart = chart.y_set("tickvals", places(words)).y_set("ticktext", words.to_vec());
     }
-    if x.axis.spacing == Spacing::Logarithmic {
+    if x.axis.spacing == AxisSpacing::Logarithmic {
         chart = chart.x_logarithmic();
     }
-    if y.axis.spacing == Spacing::Logarithmic {
+    if y.axis.spacing == AxisSpacing::Logarithmic {
         chart = chart.y_logarithmic();
     }
     if !failed.is_empty() {
@@ -82,8 +82,8 @@ pub(super) fn places(words: &[String]) -> Vec<f64> {
 fn ends(of: &ShownAxis<'_>) -> [f64; 2] {
     let (from, to) = (of.axis.from, of.axis.to);
     match of.axis.spacing {
-        Spacing::Logarithmic => padded(from.log10(), to.log10()),
-        Spacing::Even | Spacing::Listed(_) | Spacing::Words(_) => padded(from, to),
+        AxisSpacing::Logarithmic => padded(from.log10(), to.log10()),
+        AxisSpacing::Even | AxisSpacing::Listed(_) | AxisSpacing::Words(_) => padded(from, to),
     }
 }
 

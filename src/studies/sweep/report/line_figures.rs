@@ -6,7 +6,7 @@ use crate::report::chart::{Chart, Dash, Trace};
 use crate::report::html::number::figure as shown_number;
 use crate::report::html::reading::capitalised;
 use crate::results::figures::MainFigure;
-use crate::studies::sweep::record::{Spacing, SweepRecord};
+use crate::studies::sweep::record::{AxisSpacing, SweepRecord};
 
 /// The plot of `figure` over the key `x`.
 pub(super) fn along(record: &SweepRecord, figure: &MainFigure, x: &ShownAxis<'_>) -> Option<Chart> {
@@ -34,5 +34,5 @@ pub(super) fn along(record: &SweepRecord, figure: &MainFigure, x: &ShownAxis<'_>
         Some(words) => chart.x_set("tickvals", places(words)).x_set("ticktext", words.to_vec()),
         None => chart,
     };
-    Some(if x.axis.spacing == Spacing::Logarithmic { chart.x_logarithmic() } else { chart })
+    Some(if x.axis.spacing == AxisSpacing::Logarithmic { chart.x_logarithmic() } else { chart })
 }

@@ -77,7 +77,7 @@ fn uncertain(record: &UncertaintyRecord) -> Markup {
         (list("Uncertain keys", ["key", "distribution"], rows))
         @if let Some(matrix) = &record.correlation {
             (list(
-                "Correlation of their normal scores",
+                "ScoreCorrelation of their normal scores",
                 [""].into_iter().chain(record.uncertain.iter().map(|one| one.key.as_str())),
                 record.uncertain.iter().zip(matrix).map(|(one, row)| {
                     line([Cell::from(one.key.as_str())].into_iter().chain(row.iter().map(|r| Cell::from(significant(*r, 3)))))
