@@ -124,7 +124,7 @@ impl OverSlices {
     }
 }
 
-/// FigureValues of a family's figures; `None` where the scene does not compute one.
+/// Values of a family's figures; `None` where the scene does not compute one.
 #[derive(Debug, Clone, Copy)]
 pub enum FigureValues {
     /// One of the pair.

@@ -93,8 +93,9 @@ impl<'a> Naming<'a> {
 
     /// The id of an attribute; None where this version has none for it.
     pub(super) fn id(&self, attribute: &AttributeKind) -> Option<String> {
-        let has = |standard: &&RexsId| (standard.versions[0]..=standard.versions[1]).contains(&self.version);
-        let standard = attribute.standard.iter().find(has).map(|standard| standard.id);
+        let mut known = attribute.standard.iter();
+        let standard = known.find(|standard| (standard.versions[0]..=standard.versions[1]).contains(&self.version));
+        let standard = standard.map(|standard| standard.id);
         match (standard, self.says_greatest_load(attribute.of)) {
             (Some(id), false) => Some(id.to_owned()),
             (None, false) => attribute.custom.map(|name| format!("{CUSTOM}{name}")),

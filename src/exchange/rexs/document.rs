@@ -131,8 +131,9 @@ impl RexsDocument {
 
     /// The first relation of `kind` in which each `(role, id)` of `members` stands.
     pub(super) fn relation(&self, kind: &str, members: &[(&str, &str)]) -> Option<&RexsRelation> {
-        let has = |relation: &RexsRelation| members.iter().all(|(role, id)| relation.member(role) == Some(id));
-        self.relations.iter().find(|relation| relation.kind == kind && has(relation))
+        self.relations.iter().find(|relation| {
+            relation.kind == kind && members.iter().all(|(role, id)| relation.member(role) == Some(id))
+        })
     }
 
     /// The members in role `wanted` of the relations of `kind` in which `id` has `role`.
@@ -252,10 +253,9 @@ impl RexsDocument {
 
     /// Where components within the elements `path` belong; None of sums over the load spectrum, which nothing reads.
     fn components_of(&mut self, path: &[String]) -> Option<&mut Vec<RexsComponent>> {
-        let within = |name: &str| path.iter().any(|element| element == name);
-        if within("accumulation") {
+        if path.iter().any(|element| element == "accumulation") {
             None
-        } else if within("load_case") {
+        } else if path.iter().any(|element| element == "load_case") {
             self.load_cases.last_mut()
         } else {
             Some(&mut self.components)
@@ -269,15 +269,19 @@ impl RexsDocument {
 
 /// An attribute of an element on `line`; empty where it is not there.
 pub(super) fn xml_attribute(tag: &BytesStart, name: &str, line: usize) -> Result<String, RexsError> {
-    let wrong = |error: String| RexsError::NoXml { line, found: format!("an attribute that cannot be read ({error})") };
-    match tag.try_get_attribute(name).map_err(|error| wrong(error.to_string()))? {
+    match tag.try_get_attribute(name).map_err(|error| unreadable_attribute(line, error))? {
         None => Ok(String::new()),
         Some(found) => {
-            let value = found.normalized_value(XmlVersion::Implicit1_0).map_err(|error| wrong(error.to_string()))?;
+            let value =
+                found.normalized_value(XmlVersion::Implicit1_0).map_err(|error| unreadable_attribute(line, error))?;
             // Names stand in remarks, which end with their line.
             Ok(value.chars().map(|c| if c.is_control() { ' ' } else { c }).collect())
         }
     }
+}
+
+fn unreadable_attribute(line: usize, error: impl std::fmt::Display) -> RexsError {
+    RexsError::NoXml { line, found: format!("an attribute that cannot be read ({error})") }
 }
 
 /// Kind of a file that is no XML, by how it begins.

@@ -153,8 +153,8 @@ impl<'a> Places<'a> {
 
     /// The first element of a name.
     pub(super) fn first(&self, name: &'static str) -> Result<usize, RexsError> {
-        let missing = || RexsError::NoXml { line: 1, found: format!("no element <{name}>") };
-        self.named(name).next().ok_or_else(missing)
+        let first = self.named(name).next();
+        first.ok_or_else(|| RexsError::NoXml { line: 1, found: format!("no element <{name}>") })
     }
 
     /// The load spectrum with its load cases and, where it has one, its accumulation; None where the file has none.
@@ -253,10 +253,9 @@ impl<'a> Places<'a> {
         let mut children = (0..self.nodes.len()).filter(|&child| self.nodes[child].parent == Some(node));
         let first = children.next();
         let last = children.next_back().or(first);
-        let is_on_line = |at: usize| self.text[..at].trim_end_matches([' ', '\t']).ends_with('\n');
         let indent = match first.map(|child| self.nodes[child].tag.start) {
             _ if line_end.is_empty() => String::new(),
-            Some(at) if is_on_line(at) => self.indent(at).to_owned(),
+            Some(at) if self.text[..at].trim_end_matches([' ', '\t']).ends_with('\n') => self.indent(at).to_owned(),
             _ => format!("{own}{STEP}"),
         };
         let mut text = String::new();

@@ -177,10 +177,13 @@ struct Writer<'a> {
 impl Writer<'_> {
     /// All attributes that the run has a value for.
     fn placed(&self) -> Vec<Placed> {
-        let text = |key: &str| self.run.summary[key].as_str().map(|text| escape(text).into_owned());
         let mut placed = Vec::new();
-        placed.extend(text("program_version").and_then(|text| self.place(&attributes::PROGRAM_VERSION, None, text)));
-        placed.extend(text("scene_hash").and_then(|text| self.place(&attributes::SCENE_HASH, None, text)));
+        for (key, attribute) in
+            [("program_version", &attributes::PROGRAM_VERSION), ("scene_hash", &attributes::SCENE_HASH)]
+        {
+            let text = self.run.summary[key].as_str().map(|text| escape(text).into_owned());
+            placed.extend(text.and_then(|text| self.place(attribute, None, text)));
+        }
         for figure in attributes::figures() {
             self.figure(&figure, &mut placed);
         }
@@ -190,33 +193,46 @@ impl Writer<'_> {
     }
 
     fn figure(&self, figure: &FigureAttribute, placed: &mut Vec<Placed>) {
-        let FigureAttribute { path, attribute } = figure;
-        for of_target in self.targets.iter().filter(|target| target.on == attribute.on) {
-            let number = |path: &str, phase: u64| {
-                let gear = of_target.gear.map_or("", Gear::name);
-                let path = path.replace("{gear}", gear).replace("{phase}", &phase.to_string());
-                SummaryOutput::find(&path).ok()?.of(&self.run.summary)
-            };
-            let reference = self.run.summary["reference_phase"].as_u64().unwrap_or(1);
-            let of_phase = |phase: u64| match attribute.of {
-                Of::Torque => {
-                    let torque = |phase| number("phases.{phase}.pinion_torque_Nm", phase);
-                    Some(number(path, phase)? * (torque(phase)? / torque(reference)?))
-                }
-                _ => number(path, phase),
-            };
-            let place = |value| self.place(attribute, of_target.gear, rounded(figure.in_unit(value)));
-            if matches!(attribute.of, Of::Phase | Of::Torque) && self.loads == Loads::PhaseForEach {
+        let of = figure.attribute.of;
+        for gear in self.targets.iter().filter(|target| target.on == figure.attribute.on).map(|target| target.gear) {
+            if matches!(of, Of::Phase | Of::Torque) && self.loads == Loads::PhaseForEach {
                 // All load cases have as many attributes: each has it, or none.
-                let values: Option<Vec<f64>> = (1..=self.load_cases).map(of_phase).collect();
+                let values: Option<Vec<f64>> =
+                    (1..=self.load_cases).map(|phase| self.of_phase(figure, gear, phase)).collect();
                 for (case, value) in values.into_iter().flatten().enumerate() {
                     let section = FileSection::LoadCase(case);
-                    placed.extend(place(value).map(|place| Placed { section, ..place }));
+                    placed.extend(self.place_number(figure, gear, value).map(|place| Placed { section, ..place }));
                 }
-            } else if attribute.of != Of::Phase {
-                placed.extend(number(path, reference).and_then(place));
+            } else if of != Of::Phase {
+                let value = self.number(&figure.path, gear, self.reference_phase());
+                placed.extend(value.and_then(|value| self.place_number(figure, gear, value)));
             }
         }
+    }
+
+    fn reference_phase(&self) -> u64 {
+        self.run.summary["reference_phase"].as_u64().unwrap_or(1)
+    }
+
+    /// The number at a path of the summary, of a gear and phase where the path names them.
+    fn number(&self, path: &str, gear: Option<Gear>, phase: u64) -> Option<f64> {
+        let path = path.replace("{gear}", gear.map_or("", Gear::name)).replace("{phase}", &phase.to_string());
+        SummaryOutput::find(&path).ok()?.of(&self.run.summary)
+    }
+
+    /// A figure under the load of a phase.
+    fn of_phase(&self, figure: &FigureAttribute, gear: Option<Gear>, phase: u64) -> Option<f64> {
+        let value = self.number(&figure.path, gear, phase);
+        if figure.attribute.of != Of::Torque {
+            return value;
+        }
+        let [of_phase, of_reference] =
+            [phase, self.reference_phase()].map(|phase| self.number("phases.{phase}.pinion_torque_Nm", None, phase));
+        Some(value? * (of_phase? / of_reference?))
+    }
+
+    fn place_number(&self, figure: &FigureAttribute, gear: Option<Gear>, value: f64) -> Option<Placed> {
+        self.place(&figure.attribute, gear, rounded(figure.in_unit(value)))
     }
 
     fn mesh_stiffness(&self, placed: &mut Vec<Placed>) {
@@ -279,21 +295,25 @@ fn add_gear_data(places: &mut Places, stage: &RexsStage, gears: &Gears, targets:
         let gear = if target.gear == Some(Gear::Wheel) { &gears.wheel } else { &gears.pinion };
         let id = places.free_id("relation", &taken);
         taken.insert(id.clone());
-        let member = |id: &str, role: &str| {
-            NewElement::new("ref", vec![("id", id.to_owned()), ("role", role.to_owned())], Vec::new())
-        };
-        let members = vec![
-            member(&stage.component.id, "stage"),
-            member(&gear.component.id, "gear"),
-            member(&target.id, "stage_gear_data"),
-        ];
-        relations.push(NewElement::new("relation", vec![("id", id), ("type", "stage_gear_data".to_owned())], members));
+        let members = [(&stage.component.id, "stage"), (&gear.component.id, "gear"), (&target.id, "stage_gear_data")];
+        let members = members
+            .map(|(id, role)| NewElement::new("ref", vec![("id", id.clone()), ("role", role.to_owned())], Vec::new()));
+        relations.push(NewElement::new(
+            "relation",
+            vec![("id", id), ("type", "stage_gear_data".to_owned())],
+            members.into(),
+        ));
     }
     if !relations.is_empty() {
         let node = places.first("relations")?;
         places.add(node, relations);
     }
     Ok(())
+}
+
+/// Whether an attribute of this id is among them.
+fn has(placed: &[&Placed], id: &str) -> bool {
+    placed.iter().any(|placed| placed.attribute.id() == id)
 }
 
 /// Puts all attributes in place. What an earlier run left under custom ids goes, and from the model what the load spectrum now says.
@@ -316,11 +336,10 @@ fn put(
             let (here, elsewhere): (Vec<&Placed>, Vec<&Placed>) =
                 of_target.partition(|placed| placed.section == section);
             let attributes: Vec<NewElement> = here.iter().map(|placed| placed.attribute.clone()).collect();
-            let is_written = |id: &str| here.iter().any(|placed| placed.attribute.id() == id);
-            let is_moved = |id: &str| elsewhere.iter().any(|placed| placed.attribute.id() == id);
             if let Some(component) = node.and_then(|node| places.component(node, &target.id)) {
                 places.take_out_attributes(component, |id| {
-                    !is_written(id) && (id.starts_with(CUSTOM) || section == FileSection::Model && is_moved(id))
+                    let is_moved = section == FileSection::Model && has(&elsewhere, id);
+                    !has(&here, id) && (id.starts_with(CUSTOM) || is_moved)
                 });
                 places.set_attributes(component, attributes);
             } else if let (FileSection::Model, Some(line)) = (section, target.line) {

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::RexsError;
-use super::document::{CELSIUS, GPA, J_PER_KGK, KG_PER_M3, MM2_PER_S, NONE, RexsComponent, RexsDocument, W_PER_MK};
+use super::document::{CELSIUS, GPA, J_PER_KGK, KG_PER_M3, MM2_PER_S, NONE, RexsDocument, W_PER_MK};
 use super::load::Load;
 use super::modifications::{ReliefStart, RexsEndRelief, RexsRelief};
 use super::stage::{GearData, Gears, RexsStage};
@@ -55,6 +55,15 @@ pub(super) fn of(
     Ok(text.0)
 }
 
+/// The table of a relief in a scene.
+fn relief(relief: &RexsRelief) -> String {
+    let start = match relief.start {
+        ReliefStart::Diameter(diameter_mm) => format!("begins_at_diameter_mm = {}", rounded(diameter_mm)),
+        ReliefStart::RollLength(length_mm) => format!("length_mm = {}", rounded(length_mm)),
+    };
+    format!("{{ amount_um = {}, {start}{} }}", rounded(relief.amount_um), shape(relief.parabolic))
+}
+
 fn gear(text: &mut Text, table: &str, data: &GearData) {
     text.line(format!("\n[pair.{table}]{}", if table == "pinion" { "                     # drives" } else { "" }));
     text.line(format!("# {}", data.component.label()));
@@ -76,13 +85,6 @@ fn gear(text: &mut Text, table: &str, data: &GearData) {
         text.number("roughness_Ra_um", roughness_um, "");
     }
     let modifications = &data.modifications;
-    let relief = |relief: &RexsRelief| {
-        let start = match relief.start {
-            ReliefStart::Diameter(diameter_mm) => format!("begins_at_diameter_mm = {}", rounded(diameter_mm)),
-            ReliefStart::RollLength(length_mm) => format!("length_mm = {}", rounded(length_mm)),
-        };
-        format!("{{ amount_um = {}, {start}{} }}", rounded(relief.amount_um), shape(relief.parabolic))
-    };
     if let Some(tip) = &modifications.tip_relief {
         text.line(format!("tip_relief = {}", relief(tip)));
     }
@@ -103,8 +105,9 @@ fn gear(text: &mut Text, table: &str, data: &GearData) {
 
 /// The material that a reference names of the gear, or of the shaft that carries it.
 fn material(text: &mut Text, document: &RexsDocument, table: &str, data: &GearData) -> Result<(), RexsError> {
-    let of_shaft = || document.material_of(document.shaft_of(data.component)?);
-    let Some(material) = document.material_of(data.component).or_else(of_shaft) else { return Ok(()) };
+    let own = document.material_of(data.component);
+    let material = own.or_else(|| document.material_of(document.shaft_of(data.component)?));
+    let Some(material) = material else { return Ok(()) };
     let modulus_GPa = material.number("elastic_modulus", GPA)?;
     let ratio = material.number("poisson_ratio", NONE)?;
     let density = material.number("density", KG_PER_M3)?;
@@ -175,8 +178,8 @@ fn lubricant(
     );
     let (Some(at_40C), Some(at_100C)) = viscosities else { return Ok(()) };
     let said = document.load_cases.iter().flatten().chain(&document.components);
-    let in_place = |component: &&RexsComponent| component.id == stage.component.id || component.kind == "gear_casing";
-    let mut temperature = said.filter(in_place).map(|component| component.number("temperature_lubricant", CELSIUS));
+    let in_place = said.filter(|said| said.id == stage.component.id || said.kind == "gear_casing");
+    let mut temperature = in_place.map(|component| component.number("temperature_lubricant", CELSIUS));
     let temperature_C = temperature.find_map(Result::transpose).transpose()?;
     let speeds = load.cases.iter().all(|case| case.speed_rpm.is_some());
     let rough = gears.pinion.roughness_Ra_um.is_some() && gears.wheel.roughness_Ra_um.is_some();

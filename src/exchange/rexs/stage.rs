@@ -42,15 +42,15 @@ pub(super) struct GearData<'a> {
 impl<'a> RexsStage<'a> {
     /// The `number`-th stage of two cylindrical gears, from 1; the only one without a number.
     pub(super) fn find(document: &'a RexsDocument, number: Option<usize>) -> Result<Self, RexsError> {
-        let of_kind = |id: Option<&str>, kind: &str| document.component(id?).filter(|component| component.kind == kind);
         let stages: Vec<RexsStage> = document
             .components
             .iter()
             .filter(|component| component.kind == "cylindrical_stage")
             .filter_map(|component| {
                 let relation = document.relation("stage", &[("stage", &component.id)])?;
-                let gear = |role| of_kind(relation.member(role), "cylindrical_gear");
-                Some(RexsStage { component, gears: [gear("gear_1")?, gear("gear_2")?] })
+                let [first, second] = ["gear_1", "gear_2"].map(|role| document.component(relation.member(role)?));
+                let gears = [first?, second?];
+                gears.iter().all(|gear| gear.kind == "cylindrical_gear").then_some(RexsStage { component, gears })
             })
             .collect();
         let index = match number {
@@ -61,26 +61,27 @@ impl<'a> RexsStage<'a> {
         match index {
             Some(index) => Ok(stages.into_iter().nth(index).expect("the index is that of a stage")),
             None => {
-                let name = |(index, stage): (usize, &RexsStage)| {
-                    let teeth =
-                        stage.gears.map(|gear| gear.text("number_of_teeth").unwrap_or("?").to_owned()).join("/");
+                let names = stages.iter().enumerate().map(|(index, stage)| {
+                    let teeth = stage.gears.map(|gear| gear.text("number_of_teeth").unwrap_or("?")).join("/");
                     format!("{} ({}, {teeth} teeth)", index + 1, stage.component.label())
-                };
-                Err(RexsError::Stage { asked: number, stages: stages.iter().enumerate().map(name).collect() })
+                });
+                Err(RexsError::Stage { asked: number, stages: names.collect() })
             }
         }
     }
 
+    /// What the stage says of one of its gears, where it does.
+    fn data_of(&self, document: &'a RexsDocument, gear: &RexsComponent) -> Option<&'a RexsComponent> {
+        let relation = document.relation("stage_gear_data", &[("stage", &self.component.id), ("gear", &gear.id)])?;
+        document.component(relation.member("stage_gear_data")?)
+    }
+
     /// Both gears; the driving one is the pinion, gear_1 where the file does not say.
     pub(super) fn gears(&self, document: &'a RexsDocument, warnings: &mut Vec<String>) -> Result<Gears<'a>, RexsError> {
-        let in_stage = |gear: &RexsComponent| {
-            let relation =
-                document.relation("stage_gear_data", &[("stage", &self.component.id), ("gear", &gear.id)])?;
-            document.component(relation.member("stage_gear_data")?)
-        };
-        let drives = |gear: &RexsComponent| Some(document.word(in_stage(gear)?, "is_driving_gear")? == "true");
         let [first, second] = self.gears;
-        let (pinion, wheel) = match (drives(first), drives(second)) {
+        let [first_drives, second_drives] =
+            self.gears.map(|gear| Some(document.word(self.data_of(document, gear)?, "is_driving_gear")? == "true"));
+        let (pinion, wheel) = match (first_drives, second_drives) {
             (Some(false), _) | (None, Some(true)) => (second, first),
             (Some(true), _) | (None, Some(false)) => (first, second),
             (None, None) => {
@@ -88,26 +89,27 @@ impl<'a> RexsStage<'a> {
                 (first, second)
             }
         };
-        let pinion_flank = working_flank(document, pinion, in_stage(pinion), warnings)?;
-        let wheel_flank = working_flank(document, wheel, in_stage(wheel), warnings)?;
+        let pinion_flank = working_flank(document, pinion, self.data_of(document, pinion), warnings)?;
+        let wheel_flank = working_flank(document, wheel, self.data_of(document, wheel), warnings)?;
 
         let normal_module_mm = same(pinion, wheel, "normal_module", |gear| gear.needed("normal_module", MM))?;
         let pressure_angle_deg = same(pinion_flank, wheel_flank, "normal_pressure_angle", |flank| {
             flank.needed("normal_pressure_angle", DEG)
         })?;
-        let helix = |gear: &RexsComponent| Ok(gear.number("helix_angle_reference_diameter", DEG)?.unwrap_or(0.0));
-        let helix_angle_deg: f64 = helix(pinion)?;
-        if (helix_angle_deg + helix(wheel)?).abs() > 1e-6 {
+        let [helix_angle_deg, of_wheel_deg] =
+            [pinion, wheel].map(|gear| gear.number("helix_angle_reference_diameter", DEG));
+        let (helix_angle_deg, of_wheel_deg) = (helix_angle_deg?.unwrap_or(0.0), of_wheel_deg?.unwrap_or(0.0));
+        if (helix_angle_deg + of_wheel_deg).abs() > 1e-6 {
             let allowed = format!("{} for external gears on parallel axes", 0.0 - helix_angle_deg);
-            return Err(wheel.wrong("helix_angle_reference_diameter", helix(wheel)?.to_string(), allowed));
+            return Err(wheel.wrong("helix_angle_reference_diameter", of_wheel_deg.to_string(), allowed));
         }
         let face_width_mm = match self.component.number("common_face_width", MM)? {
             Some(width) => width,
             None => pinion.needed("face_width", MM)?.min(wheel.needed("face_width", MM)?),
         };
         let section = NormalSectionData { normal_module_mm, pressure_angle_deg, helix_angle_deg };
-        let pinion = section.gear(document, pinion, in_stage(pinion), pinion_flank, warnings)?;
-        let wheel = section.gear(document, wheel, in_stage(wheel), wheel_flank, warnings)?;
+        let pinion = section.gear(document, pinion, self.data_of(document, pinion), pinion_flank, warnings)?;
+        let wheel = section.gear(document, wheel, self.data_of(document, wheel), wheel_flank, warnings)?;
         let dedendum_factor = match (
             section.dedendum_factor(&pinion, pinion_flank)?,
             section.dedendum_factor(&wheel, wheel_flank)?,
@@ -240,16 +242,13 @@ fn working_flank<'a>(
     warnings: &mut Vec<String>,
 ) -> Result<&'a RexsComponent, RexsError> {
     let relation = document.relation("flank", &[("gear", &gear.id)]);
-    let flank = |role| document.component(relation?.member(role)?);
+    let [left, right] = ["left", "right"].map(|role| document.component(relation?.member(role)?));
     let said = in_stage.and_then(|data| document.word(data, "loaded_tooth_flank"));
-    if said.is_none() && flank("left").is_some() && flank("right").is_some() {
+    if said.is_none() && left.is_some() && right.is_some() {
         warnings.push(format!("{}: the file does not say which flank is loaded: the left one is taken", gear.label()));
     }
-    let role = if said == Some("right") { "right" } else { "left" };
-    flank(role)
-        .or_else(|| flank("left"))
-        .or_else(|| flank("right"))
-        .ok_or_else(|| gear.missing("a relation to its flanks"))
+    let loaded = if said == Some("right") { right.or(left) } else { left.or(right) };
+    loaded.ok_or_else(|| gear.missing("a relation to its flanks"))
 }
 
 /// A figure that both must have alike.

@@ -58,9 +58,9 @@ pub enum EvaluateError {
     /// No summary has the output.
     #[error("unknown output {output}; allowed: the path of a number in summary.json, such as pinion.peak_wear_um{}", did_you_mean(.nearest))]
     UnknownOutput {
-        /// SummaryOutput as given.
+        /// Output as given.
         output: String,
-        /// SummaryOutput that was probably meant.
+        /// Output that was probably meant.
         nearest: Option<String>,
     },
     /// A row of another length than the keys.
@@ -207,8 +207,8 @@ fn check_keys(keys: &[&str], draft: &Draft) -> Result<(), EvaluateError> {
         if !is_key(&key) {
             return Err(EvaluateError::UnknownKey { nearest: key::nearest_key(&key), key });
         }
-        let same = |other: &&String| **other == key || other_ways_to_say(&key).contains(other);
-        if let Some(other) = before.iter().find(same) {
+        let ways = other_ways_to_say(&key);
+        if let Some(other) = before.iter().find(|other| **other == key || ways.contains(other)) {
             return Err(EvaluateError::SaidTwice { key: other.clone(), other: key });
         }
         before.push(key);
@@ -221,8 +221,8 @@ fn check_rows(keys: &[&str], rows: &[Vec<toml::Value>]) -> Result<(), EvaluateEr
         if values.len() != keys.len() {
             return Err(EvaluateError::RowLength { row, found: values.len(), expected: keys.len() });
         }
-        let not_finite = |value: &toml::Value| value.as_float().filter(|value| !value.is_finite());
-        if let Some((key, found)) = keys.iter().zip(values).find_map(|(key, value)| Some((key, not_finite(value)?))) {
+        let mut numbers = keys.iter().zip(values).filter_map(|(key, value)| Some((key, value.as_float()?)));
+        if let Some((key, found)) = numbers.find(|(_, value)| !value.is_finite()) {
             return Err(EvaluateError::NotFinite { row, key: (*key).to_owned(), found });
         }
     }

@@ -62,15 +62,8 @@ impl SweepError {
 
     /// Reason of the system, where a file cannot be read or written.
     pub fn of_system(&self) -> Option<io::ErrorKind> {
-        let kept = |error: &JournalError| match error {
-            JournalError::Open { source, .. }
-            | JournalError::Write { source, .. }
-            | JournalError::Lost { source, .. } => Some(source.kind()),
-            JournalError::InUse { .. } => Some(io::ErrorKind::WouldBlock),
-            _ => None,
-        };
         match &self.0 {
-            SweepFault::Journal(error) => kept(error),
+            SweepFault::Journal(error) => error.of_system(),
             SweepFault::Report(ReportError::NotAFolder { .. }) => Some(io::ErrorKind::NotADirectory),
             SweepFault::Report(ReportError::CreateFolder { source, .. } | ReportError::WriteFile { source, .. }) => {
                 Some(source.kind())

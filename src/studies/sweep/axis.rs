@@ -92,12 +92,17 @@ impl AxisError {
     }
 }
 
+impl AxisError {
+    fn form(given: &str) -> Self {
+        Self::Form { given: given.to_owned() }
+    }
+}
+
 /// Reads a key with its values and checks them against what the key takes.
 ///
 /// A range that lies partly outside what the key takes is kept: those combinations become rows with their error.
 pub(crate) fn parse(given: &str) -> Result<SweepAxis, AxisError> {
-    let form = || AxisError::Form { given: given.to_owned() };
-    let (key, values) = given.split_once('=').ok_or_else(form)?;
+    let (key, values) = given.split_once('=').ok_or_else(|| AxisError::form(given))?;
     let key = key.trim().to_owned();
     let keys = linked_keys(&key);
     if keys.iter().any(|key| key.contains(['{', '}'])) {
@@ -114,7 +119,7 @@ pub(crate) fn parse(given: &str) -> Result<SweepAxis, AxisError> {
         [list] if !list.is_empty() => listed(key, list, whole)?,
         [from, to, count] => range(key, [from, to], count, AxisSpacing::Even, whole)?,
         [from, to, count, "log"] => range(key, [from, to], count, AxisSpacing::Logarithmic, whole)?,
-        _ => return Err(form()),
+        _ => return Err(AxisError::form(given)),
     };
     let values = axis.values();
     if let Some(&value) = values.iter().find(|value| axis.whole && value.fract() != 0.0) {

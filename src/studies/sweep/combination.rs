@@ -74,9 +74,8 @@ impl Sweep {
 
     /// Where not a single combination makes a scene, what is wrong with the first.
     pub(crate) fn unbuildable(&self) -> Option<String> {
-        let problems = |index| self.scene(index).err();
-        let first = problems(0)?;
-        let all = (1..self.identity.combinations()).all(|index| problems(index).is_some());
+        let first = self.scene(0).err()?;
+        let all = (1..self.identity.combinations()).all(|index| self.scene(index).is_err());
         all.then(|| in_words(&first))
     }
 

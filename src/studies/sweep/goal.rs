@@ -47,11 +47,21 @@ impl FromStr for FigureLimit {
     type Err = GoalError;
 
     fn from_str(given: &str) -> Result<Self, GoalError> {
-        let form = || GoalError::Form { given: given.to_owned() };
-        let split = |sign: &str| given.split_once(sign).map(|(figure, value)| (figure, value, sign == "<="));
-        let (figure, value, at_most) = split("<=").or_else(|| split(">=")).ok_or_else(form)?;
-        let value = value.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(form)?;
+        let parts = ["<=", ">="].into_iter().find_map(|sign| Some((sign == "<=", given.split_once(sign)?)));
+        let parsed = parts.and_then(|(at_most, (figure, value))| {
+            let value = value.trim().parse::<f64>().ok().filter(|value| value.is_finite())?;
+            Some((figure, value, at_most))
+        });
+        let (figure, value, at_most) = parsed.ok_or_else(|| GoalError::Form { given: given.to_owned() })?;
         Ok(Self { figure: known(figure.trim())?.name.clone(), at_most, value })
+    }
+}
+
+impl FigureLimit {
+    /// Whether `row` has the figure and keeps to the limit.
+    fn is_kept_by(&self, row: &SweepRow) -> bool {
+        let value = column(&self.figure).and_then(|figure| row.figure(figure));
+        value.is_some_and(|value| if self.at_most { value <= self.value } else { value >= self.value })
     }
 }
 
@@ -87,11 +97,9 @@ impl Goal {
 
     /// Whether `row` has the figure and keeps to all limits.
     pub(crate) fn allows(&self, row: &SweepRow) -> bool {
-        let keeps = |limit: &FigureLimit| {
-            let value = column(&limit.figure).and_then(|figure| row.figure(figure));
-            value.is_some_and(|value| if limit.at_most { value <= limit.value } else { value >= limit.value })
-        };
-        row.error.is_none() && row.figure(self.figure()).is_some() && self.limits.iter().all(keeps)
+        row.error.is_none()
+            && row.figure(self.figure()).is_some()
+            && self.limits.iter().all(|limit| limit.is_kept_by(row))
     }
 
     /// In words: "pinion.peak_wear_um, with wheel.peak_wear_um ≤ 8".
@@ -130,26 +138,28 @@ impl Goal {
             value,
             error,
             why_no_error,
-            plateau_keys: plateau.as_ref().map(|plateau| {
-                let of_axis = |at: usize| {
-                    let axis = &identity.axes[at];
-                    let mut places: Vec<usize> = plateau.iter().map(|&index| identity.digits(index)[at]).collect();
-                    places.sort_unstable();
-                    places.dedup();
-                    match (axis.words(), places.first(), places.last()) {
-                        (None, Some(&first), Some(&last)) if places.len() > 2 && places.len() == last - first + 1 => {
-                            format!("{} from {} to {}", axis.key, plain(axis.value(first)), plain(axis.value(last)))
-                        }
-                        _ => {
-                            let said: Vec<String> = places.iter().map(|&place| axis.said(axis.value(place))).collect();
-                            format!("{} = {}", axis.key, said.join(", "))
-                        }
-                    }
-                };
-                (0..identity.axes.len()).map(of_axis).collect()
-            }),
+            plateau_keys: plateau
+                .as_ref()
+                .map(|plateau| (0..identity.axes.len()).map(|at| values_among(identity, at, plateau)).collect()),
             plateau,
         })
+    }
+}
+
+/// Values of the axis `at` among some combinations, in words.
+fn values_among(identity: &SweepIdentity, at: usize, combinations: &[usize]) -> String {
+    let axis = &identity.axes[at];
+    let mut places: Vec<usize> = combinations.iter().map(|&index| identity.digits(index)[at]).collect();
+    places.sort_unstable();
+    places.dedup();
+    match (axis.words(), places.first(), places.last()) {
+        (None, Some(&first), Some(&last)) if places.len() > 2 && places.len() == last - first + 1 => {
+            format!("{} from {} to {}", axis.key, plain(axis.value(first)), plain(axis.value(last)))
+        }
+        _ => {
+            let said: Vec<String> = places.iter().map(|&place| axis.said(axis.value(place))).collect();
+            format!("{} = {}", axis.key, said.join(", "))
+        }
     }
 }
 

@@ -87,6 +87,22 @@ pub(crate) enum JournalError {
     Lost { path: PathBuf, source: io::Error },
 }
 
+impl JournalError {
+    /// Fault in a line, counted from 0.
+    fn damaged(path: &Path, line: usize, found: String) -> Self {
+        Self::Damaged { path: path.to_owned(), line: line + 1, found }
+    }
+
+    /// Kind of the system's error, where a file cannot be read or written.
+    pub(crate) fn of_system(&self) -> Option<io::ErrorKind> {
+        match self {
+            Self::Open { source, .. } | Self::Write { source, .. } | Self::Lost { source, .. } => Some(source.kind()),
+            Self::InUse { .. } => Some(io::ErrorKind::WouldBlock),
+            _ => None,
+        }
+    }
+}
+
 /// Reads the journal in `folder` without holding it.
 ///
 /// # Errors
@@ -112,11 +128,11 @@ fn whole_lines(text: &str) -> &str {
 /// The contents of a journal's whole lines; `None` where there is none.
 fn parse(path: &Path, text: &str) -> Result<Option<JournalContents>, JournalError> {
     let mut lines = text.lines().enumerate();
-    let damaged = |line: usize, found: String| JournalError::Damaged { path: path.to_owned(), line: line + 1, found };
     let Some((_, first)) = lines.next() else { return Ok(None) };
-    let mut contents: JournalContents = serde_json::from_str(first).map_err(|error| damaged(0, error.to_string()))?;
+    let contents = serde_json::from_str(first);
+    let mut contents: JournalContents = contents.map_err(|error| JournalError::damaged(path, 0, error.to_string()))?;
     for (line, text) in lines {
-        let row = contents.row(text).map_err(|found| damaged(line, found))?;
+        let row = contents.row(text).map_err(|found| JournalError::damaged(path, line, found))?;
         contents.rows.insert(row.index, row);
     }
     Ok(Some(contents))
@@ -217,10 +233,11 @@ fn line_of(item: &impl Serialize) -> io::Result<Vec<u8>> {
 fn differences(found: &JournalContents, wanted: &JournalContents) -> Vec<String> {
     let mut differences = found.identity.differences(&wanted.identity);
     if found.shard != wanted.shard {
-        let words = |shard: Option<Shard>| {
-            shard.map_or_else(|| "all of it".to_owned(), |s| format!("shard {}/{}", s.number, s.of))
-        };
-        differences.push(format!("the part that is run: {} and {}", words(found.shard), words(wanted.shard)));
+        let [there, here] = [found.shard, wanted.shard].map(|shard| match shard {
+            None => "all of it".to_owned(),
+            Some(Shard { number, of }) => format!("shard {number}/{of}"),
+        });
+        differences.push(format!("the part that is run: {there} and {here}"));
     }
     differences
 }

@@ -81,10 +81,10 @@ impl SweepAxis {
 
     /// Text as the user may write it: `pair.face_width_mm=10:30:21`.
     pub(crate) fn as_given(&self) -> String {
-        let range = || format!("{}:{}:{}", plain(self.from), plain(self.to), self.count);
+        let (from, to, count) = (plain(self.from), plain(self.to), self.count);
         let values = match &self.spacing {
-            AxisSpacing::Even => range(),
-            AxisSpacing::Logarithmic => format!("{}:log", range()),
+            AxisSpacing::Even => format!("{from}:{to}:{count}"),
+            AxisSpacing::Logarithmic => format!("{from}:{to}:{count}:log"),
             AxisSpacing::Listed(values) => values.iter().map(|value| plain(*value)).collect::<Vec<_>>().join(","),
             AxisSpacing::Words(words) => words.join(","),
         };
@@ -230,20 +230,19 @@ impl SweepIdentity {
         said.join(", ")
     }
 
+    fn axes_in_words(&self) -> String {
+        self.axes.iter().map(SweepAxis::as_given).collect::<Vec<_>>().join(" ")
+    }
+
     /// Differences to `other`, in words; empty where both are one sweep.
     pub(crate) fn differences(&self, other: &Self) -> Vec<String> {
-        let axes = |of: &Self| {
-            let said: Vec<String> = of.axes.iter().map(SweepAxis::as_given).collect();
-            said.join(" ")
-        };
-        let yes = |is: bool| if is { "yes" } else { "no" }.to_owned();
         let all = [
             ("program version", self.program_version.clone(), other.program_version.clone()),
-            ("what is varied", axes(self), axes(other)),
+            ("what is varied", self.axes_in_words(), other.axes_in_words()),
             ("scene", self.given_hash.clone(), other.given_hash.clone()),
             ("the resolved scene", self.scene_hash.clone(), other.scene_hash.clone()),
             ("files that the scene names", self.inputs_hash.clone(), other.inputs_hash.clone()),
-            ("errors estimated", yes(self.error_estimate), yes(other.error_estimate)),
+            ("errors estimated", yes_or_no(self.error_estimate), yes_or_no(other.error_estimate)),
             ("figures of a row", self.figures.join(" "), other.figures.join(" ")),
         ];
         let mut differences: Vec<String> = Vec::new();
@@ -256,6 +255,10 @@ impl SweepIdentity {
         }
         differences
     }
+}
+
+fn yes_or_no(is: bool) -> String {
+    if is { "yes" } else { "no" }.to_owned()
 }
 
 /// Outcome of one combination.
@@ -291,9 +294,10 @@ impl SweepRow {
 
     /// Whether everything but the wall times is the same, the verification where both have one.
     pub(crate) fn same_result(&self, other: &Self) -> bool {
-        let timeless = |row: &Self| Self { simulation_s: None, wall_s: 0.0, verification: None, ..row.clone() };
+        let [mine, theirs] =
+            [self, other].map(|row| Self { simulation_s: None, wall_s: 0.0, verification: None, ..row.clone() });
         let verifications = self.verification.as_ref().zip(other.verification.as_ref());
-        timeless(self) == timeless(other) && verifications.is_none_or(|(mine, theirs)| mine.total == theirs.total)
+        mine == theirs && verifications.is_none_or(|(mine, theirs)| mine.total == theirs.total)
     }
 }
 

@@ -10,7 +10,7 @@ use crate::scene::loaded::{LoadedScene, SceneError};
 use crate::studies::evaluate::output::{OutputError, SummaryOutput};
 use crate::studies::varied_scene::{linked_keys, missing_phase};
 
-/// SampledQuestion to a scene.
+/// Question to a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UncertaintyQuestion {
     /// Uncertain keys: `KEY=DISTRIBUTION` (docs/uncertainty.md).
@@ -83,8 +83,8 @@ impl SampledQuestion {
     pub(crate) fn of(scene: &LoadedScene, asked: &UncertaintyQuestion) -> Result<Self, UncertaintyFault> {
         let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
         let resolved: toml::Table = scene.to_toml().parse().unwrap_or_default();
-        let own = |key: &str| number_at(&resolved, key);
-        let uncertain = distribution::parse_all(asked.uncertain.iter().map(String::as_str), own)?;
+        let given = asked.uncertain.iter().map(String::as_str);
+        let uncertain = distribution::parse_all(given, |key| number_at(&resolved, key))?;
         if let Some(key) = missing_phase(uncertain.iter().flat_map(|one| linked_keys(&one.key)), &draft) {
             return Err(UncertainError::NoPhase { key }.into());
         }

@@ -43,6 +43,17 @@ pub(crate) struct Design {
     pub correlation: Option<DMatrix<f64>>,
 }
 
+impl Matrix {
+    /// Whether the sample has this factor from B.
+    fn is_from_b(self, factor: usize) -> bool {
+        match self {
+            Self::A => false,
+            Self::B => true,
+            Self::Mixed(mixed) => factor == mixed,
+        }
+    }
+}
+
 /// Fault of correlations.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum CorrelationError {
@@ -67,6 +78,19 @@ pub(crate) struct ScoreCorrelation {
     pub lower: DMatrix<f64>,
 }
 
+/// Two keys and their correlation in `KEY:KEY=R`.
+fn parts(text: &str) -> Option<(&str, &str, f64)> {
+    let (pair, value) = text.rsplit_once('=')?;
+    let (key, other) = pair.split_once(':')?;
+    let value: f64 = value.trim().parse().ok().filter(|value: &f64| value.abs() < 1.0)?;
+    Some((key.trim(), other.trim(), value))
+}
+
+fn place(keys: &[&str], key: &str) -> Result<usize, CorrelationError> {
+    let place = keys.iter().position(|known| *known == key);
+    place.ok_or_else(|| CorrelationError::Key { key: key.to_owned(), known: keys.join(", ") })
+}
+
 /// The correlation of `keys` that `given` makes; none where nothing is correlated.
 pub(crate) fn correlation(keys: &[&str], given: &[String]) -> Result<Option<ScoreCorrelation>, CorrelationError> {
     if given.is_empty() {
@@ -74,20 +98,13 @@ pub(crate) fn correlation(keys: &[&str], given: &[String]) -> Result<Option<Scor
     }
     let mut matrix = DMatrix::identity(keys.len(), keys.len());
     for text in given {
-        let form = || CorrelationError::Form { given: text.clone() };
-        let (pair, value) = text.rsplit_once('=').ok_or_else(form)?;
-        let (key, other) = pair.split_once(':').ok_or_else(form)?;
-        let value: f64 = value.trim().parse().ok().filter(|value: &f64| value.abs() < 1.0).ok_or_else(form)?;
-        let place = |key: &str| {
-            let unknown = || CorrelationError::Key { key: key.to_owned(), known: keys.join(", ") };
-            keys.iter().position(|known| *known == key).ok_or_else(unknown)
-        };
-        let (i, j) = (place(key.trim())?, place(other.trim())?);
+        let (key, other, value) = parts(text).ok_or_else(|| CorrelationError::Form { given: text.clone() })?;
+        let (i, j) = (place(keys, key)?, place(keys, other)?);
         if i == j {
-            return Err(form());
+            return Err(CorrelationError::Form { given: text.clone() });
         }
         if matrix[(i, j)] != 0.0 {
-            return Err(CorrelationError::Twice { key: key.trim().to_owned(), other: other.trim().to_owned() });
+            return Err(CorrelationError::Twice { key: key.to_owned(), other: other.to_owned() });
         }
         matrix[(i, j)] = value;
         matrix[(j, i)] = value;
@@ -101,13 +118,9 @@ impl Design {
     pub(crate) fn sample(&self, number: usize, matrix: Matrix) -> Vec<f64> {
         let at =
             |dimension: usize| f64::from(sobol_burley::sample(number as u32, dimension as u32, self.seed)) + HALF_A_BIT;
-        let from_b = |factor: usize| match matrix {
-            Matrix::A => false,
-            Matrix::B => true,
-            Matrix::Mixed(mixed) => factor == mixed,
-        };
-        let mut u: Vec<f64> =
-            (0..self.factors).map(|factor| at(if from_b(factor) { self.factors + factor } else { factor })).collect();
+        let places =
+            (0..self.factors).map(|factor| if matrix.is_from_b(factor) { self.factors + factor } else { factor });
+        let mut u: Vec<f64> = places.map(at).collect();
         if let Some(lower) = &self.correlation {
             let z: Vec<f64> = u.iter().take(lower.nrows()).map(|&u| normal_quantile(u)).collect();
             for (row, u) in u.iter_mut().enumerate().take(lower.nrows()) {
@@ -146,8 +159,10 @@ mod tests {
         let ScoreCorrelation { lower, .. } = correlation(&["a", "b"], &given).unwrap().unwrap();
         let design = Design { factors: 3, seed: 1, correlation: Some(lower) };
         let samples: Vec<Vec<f64>> = (0..4096).map(|n| design.sample(n, Matrix::A)).collect();
-        let score = |n: usize, factor: usize| normal_quantile(samples[n][factor]);
-        let product = |i: usize, j: usize| (0..4096).map(|n| score(n, i) * score(n, j)).sum::<f64>() / 4096.0;
+        let product = |i: usize, j: usize| {
+            let products = samples[..4096].iter().map(|sample| normal_quantile(sample[i]) * normal_quantile(sample[j]));
+            products.sum::<f64>() / 4096.0
+        };
         assert!((product(0, 1) - 0.8).abs() < 0.01 && product(0, 2).abs() < 0.02, "{}", product(0, 1));
     }
 

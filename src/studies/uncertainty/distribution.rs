@@ -97,8 +97,7 @@ fn share(text: &str) -> Option<f64> {
 
 /// Reads one uncertain key; `own` is the scene's own value of a key.
 pub(crate) fn parse(given: &str, own: impl Fn(&str) -> Option<f64>) -> Result<Uncertain, UncertainError> {
-    let form = || UncertainError::Form { given: given.to_owned() };
-    let (key, text) = given.split_once('=').ok_or_else(form)?;
+    let (key, text) = given.split_once('=').ok_or_else(|| UncertainError::form(given))?;
     let (key, text) = (key.trim().to_owned(), text.trim());
     let keys = linked_keys(&key);
     for one in &keys {
@@ -106,50 +105,68 @@ pub(crate) fn parse(given: &str, own: impl Fn(&str) -> Option<f64>) -> Result<Un
             return Err(UncertainError::Whole { key: one.clone() });
         }
     }
-    let own = || {
-        let no = |found| UncertainError::NoValue { key: key.clone(), given: text.to_owned(), found };
-        let values: Vec<Option<f64>> = keys.iter().map(|key| own(key)).collect();
-        match values[0] {
-            None => Err(no("which it does not have")),
-            Some(_) if values.iter().any(|value| *value != values[0]) => Err(no("which is not the same for both")),
-            Some(0.0) => Err(no("which is 0")),
-            Some(value) => Ok(value),
-        }
-    };
-    let bad = |allowed| UncertainError::Parameters { key: key.clone(), given: text.to_owned(), allowed };
+    let values: Vec<Option<f64>> = keys.iter().map(|key| own(key)).collect();
+    let own =
+        own_value(&values).map_err(|found| UncertainError::NoValue { key: key.clone(), given: text.to_owned(), found });
     let within = text.strip_prefix('±').or_else(|| text.strip_prefix("+-"));
     let (name, rest) = text.split_once(':').unwrap_or((text, ""));
     let numbers: Option<Vec<f64>> =
         rest.split(':').map(|part| part.trim().parse().ok().filter(|value: &f64| value.is_finite())).collect();
     let distribution = match (within, name.trim(), numbers.as_deref()) {
         (Some(part), ..) => {
-            let (value, part) = (own()?, share(part).ok_or_else(form)?);
+            let (value, part) = (own?, share(part).ok_or_else(|| UncertainError::form(given))?);
             let (one, other) = (value * (1.0 - part), value * (1.0 + part));
             Distribution::Uniform { low: one.min(other), high: one.max(other) }
         }
         (_, "normal", None) => {
-            let (part, value) = (share(rest).ok_or_else(form)?, own()?);
+            let (part, value) = (share(rest).ok_or_else(|| UncertainError::form(given))?, own?);
             Distribution::Normal { mean: value, standard_deviation: part * value.abs() }
         }
         (_, "normal", Some(&[mean, standard_deviation])) => Distribution::Normal { mean, standard_deviation },
-        (_, "lognormal", Some(&[factor])) => Distribution::Lognormal { median: own()?, factor },
+        (_, "lognormal", Some(&[factor])) => Distribution::Lognormal { median: own?, factor },
         (_, "lognormal", Some(&[median, factor])) => Distribution::Lognormal { median, factor },
         (_, "uniform", Some(&[low, high])) => Distribution::Uniform { low, high },
         (_, "triangular", Some(&[low, mode, high])) => Distribution::Triangular { low, mode, high },
-        _ => return Err(form()),
+        _ => return Err(UncertainError::form(given)),
     };
-    match distribution {
-        Distribution::Normal { standard_deviation, .. } if standard_deviation <= 0.0 => {
-            Err(bad("a standard deviation above 0"))
+    match distribution.allowed_parameters() {
+        Some(allowed) => Err(UncertainError::Parameters { key, given: text.to_owned(), allowed }),
+        None => Ok(Uncertain { key, given: text.to_owned(), distribution }),
+    }
+}
+
+/// The scene's value of keys that have one in common, or what is found instead.
+fn own_value(values: &[Option<f64>]) -> Result<f64, &'static str> {
+    match values[0] {
+        None => Err("which it does not have"),
+        Some(_) if values.iter().any(|value| *value != values[0]) => Err("which is not the same for both"),
+        Some(0.0) => Err("which is 0"),
+        Some(value) => Ok(value),
+    }
+}
+
+impl UncertainError {
+    fn form(given: &str) -> Self {
+        Self::Form { given: given.to_owned() }
+    }
+}
+
+impl Distribution {
+    /// Parameters that are allowed, where these are not.
+    fn allowed_parameters(&self) -> Option<&'static str> {
+        match *self {
+            Self::Normal { standard_deviation, .. } if standard_deviation <= 0.0 => {
+                Some("a standard deviation above 0")
+            }
+            Self::Lognormal { median, factor } if median <= 0.0 || factor <= 1.0 => {
+                Some("a median above 0 and a factor above 1")
+            }
+            Self::Uniform { low, high } if low >= high => Some("LOW below HIGH"),
+            Self::Triangular { low, mode, high } if !(low <= mode && mode <= high && low < high) => {
+                Some("LOW, MODE and HIGH that rise")
+            }
+            _ => None,
         }
-        Distribution::Lognormal { median, factor } if median <= 0.0 || factor <= 1.0 => {
-            Err(bad("a median above 0 and a factor above 1"))
-        }
-        Distribution::Uniform { low, high } if low >= high => Err(bad("LOW below HIGH")),
-        Distribution::Triangular { low, mode, high } if !(low <= mode && mode <= high && low < high) => {
-            Err(bad("LOW, MODE and HIGH that rise"))
-        }
-        distribution => Ok(Uncertain { key, given: text.to_owned(), distribution }),
     }
 }
 
@@ -163,8 +180,8 @@ pub(crate) fn parse_all<'a>(
     for given in given {
         let uncertain = parse(given, &own)?;
         for key in linked_keys(&uncertain.key) {
-            let same = |other: &&String| **other == key || other_ways_to_say(&key).contains(other);
-            if let Some(other) = before.iter().find(same) {
+            let ways = other_ways_to_say(&key);
+            if let Some(other) = before.iter().find(|other| **other == key || ways.contains(other)) {
                 return Err(UncertainError::SaidTwice { key: other.clone(), other: key });
             }
             before.push(key);
@@ -179,8 +196,9 @@ mod tests {
     use super::*;
 
     fn read(given: &str) -> Result<Distribution, String> {
-        let own = |key: &str| (key == "pair.face_width_mm").then_some(20.0);
-        parse(given, own).map(|uncertain| uncertain.distribution).map_err(|error| error.to_string())
+        parse(given, |key| (key == "pair.face_width_mm").then_some(20.0))
+            .map(|uncertain| uncertain.distribution)
+            .map_err(|error| error.to_string())
     }
 
     #[test]

@@ -39,10 +39,10 @@ impl FromStr for DepthLimit {
     type Err = LimitError;
 
     fn from_str(given: &str) -> Result<Self, LimitError> {
-        let form = || LimitError::Form { given: given.to_owned() };
-        let (name, value) = given.split_once('=').ok_or_else(form)?;
-        let depth_um: f64 = value.trim().parse().ok().filter(|v: &f64| v.is_finite() && *v > 0.0).ok_or_else(form)?;
-        let name = name.trim();
+        let parts = given.split_once('=').and_then(|(name, value)| {
+            Some((name.trim(), value.trim().parse().ok().filter(|depth: &f64| depth.is_finite() && *depth > 0.0)?))
+        });
+        let (name, depth_um) = parts.ok_or_else(|| LimitError::Form { given: given.to_owned() })?;
         let figure = figures::find(name).filter(|figure| figure.depth_of_history().is_some());
         let figure =
             figure.ok_or_else(|| LimitError::Unknown { name: name.to_owned(), meant: nearest(name, &names()) })?;

@@ -37,7 +37,7 @@ const PLACES: usize = 160;
 /// Finished points that a study which was interrupted can still speak of.
 pub(crate) const FEWEST_SAMPLES: usize = 8;
 
-/// SampledQuestion, checked.
+/// Question, checked.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SampledQuestion {
     pub uncertain: Vec<Uncertain>,
@@ -117,12 +117,25 @@ impl Samples<'_> {
     }
 
     fn kept(&self, found: &WornPair, matrix: Matrix) -> Row {
-        let at_places = || PerGear::from_fn(|gear| at(&found.flanks[gear], &self.places[gear]));
         Ok(Ran {
             outputs: outputs_of(self.question, found)?,
             growths: self.question.limits.iter().map(|limit| limit.growth(&found.history)).collect(),
-            wear_um: matches!(matrix, Matrix::A | Matrix::B).then(at_places),
+            wear_um: matches!(matrix, Matrix::A | Matrix::B)
+                .then(|| PerGear::from_fn(|gear| at(&found.flanks[gear], &self.places[gear]))),
         })
+    }
+
+    /// A figure of a sample among the `runs` of a point, with the time until which it is known; `None` where the run has none.
+    fn value(&self, runs: &[Row], point: usize, matrix: Matrix, figure: usize) -> Option<(f64, f64)> {
+        let row = match matrix {
+            Matrix::A => 0,
+            Matrix::B => 1,
+            Matrix::Mixed(factor) if factor < self.question.uncertain.len() => 2 + factor,
+            // Of the error of the model there are no runs: A's stand for them.
+            Matrix::Mixed(_) => 0,
+        };
+        let ran = runs.get(row)?.as_ref().ok()?;
+        Some(self.figures(ran, point, matrix)[figure]).filter(|(value, _)| !value.is_nan())
     }
 
     /// 1 + e (2 u − 1) of each output and limit.
@@ -153,8 +166,7 @@ fn worn<'a>(
     varied.inputs_belong_to(&resolved)?;
     if with_history {
         let operation = &mut resolved.scene.operation;
-        let moment = |number: usize| operation.pinion_revolutions * number as f64 / MOMENTS as f64;
-        operation.snapshots_revolutions = (1..=MOMENTS).map(moment).collect();
+        operation.snapshots_revolutions = moments(operation.pinion_revolutions);
     }
     varied.carry_out(resolved, observer, pipeline::worn_pair)
 }
@@ -162,29 +174,33 @@ fn worn<'a>(
 /// Each output with the time until which it is known: a life to a limit that is not reached is infinite.
 fn outputs_of(question: &SampledQuestion, found: &WornPair) -> Result<Vec<(f64, f64)>, String> {
     let summary = serde_json::to_value(&found.summary).map_err(|error| error.to_string())?;
-    let of = |output: &SummaryOutput| match (output.of(&summary), output.at_least(&summary)) {
+    let known = question.outputs.iter().map(|output| match (output.of(&summary), output.at_least(&summary)) {
         (None, Some(at_least)) => (f64::INFINITY, at_least),
         (value, _) => (value.unwrap_or(f64::NAN), value.unwrap_or(f64::NAN)),
-    };
-    Ok(question.outputs.iter().map(of).collect())
+    });
+    Ok(known.collect())
+}
+
+/// Moments at which a run's depth is kept for lives, in pinion revolutions.
+fn moments(revolutions: f64) -> Vec<f64> {
+    (1..=MOMENTS).map(|number| revolutions * number as f64 / MOMENTS as f64).collect()
 }
 
 /// Wear at these radii, even between the points; 0 outside them.
 fn at(profile: &WearProfile, radii: &[f64]) -> Vec<f32> {
     let (radius, wear) = (&profile.radius_mm, &profile.wear_um);
-    let value = |&r: &f64| {
+    let values = radii.iter().map(|&r| {
         let above = radius.partition_point(|&point| point < r);
-        let value = match (above.checked_sub(1), radius.get(above)) {
+        match (above.checked_sub(1), radius.get(above)) {
             (Some(below), Some(&high)) => {
                 let part = (r - radius[below]) / (high - radius[below]);
                 wear[below] + part * (wear[above] - wear[below])
             }
             (None, Some(&high)) if high == r => wear[above],
             _ => 0.0,
-        };
-        value as f32
-    };
-    radii.iter().map(value).collect()
+        }
+    });
+    values.map(|value| value as f32).collect()
 }
 
 /// Places of a band: points of the active profile, thinned.
@@ -206,10 +222,9 @@ pub(crate) fn run(
     let varied = VariedScene::new(scene, false).map_err(|problems| SamplingError::Nominal(in_words(&problems)))?;
     let nominal = nominal(scene, &varied, question, observer)?;
     let total = &nominal.summary.error.total;
-    let error_of = |path: &str| figures::find(path).and_then(|figure| figure.error(total));
     let paths = question.outputs.iter().map(|output| output.path.as_str());
-    let errors: Vec<Option<f64>> =
-        paths.chain(question.limits.iter().map(|limit| limit.output)).map(error_of).collect();
+    let known = paths.chain(question.limits.iter().map(|limit| limit.output)).map(figures::find);
+    let errors: Vec<Option<f64>> = known.map(|figure| figure?.error(total)).collect();
     let factors = question.uncertain.len() + usize::from(errors.iter().any(Option::is_some));
     let places = PerGear::from_fn(|gear| places(&nominal.flanks[gear]));
     let correlation = question.correlation.as_ref().map(|correlation| correlation.lower.clone());
@@ -257,8 +272,7 @@ fn nominal(
         resolved.scene.verify = scene.scene().verify;
         let operation = &mut resolved.scene.operation;
         if !question.limits.is_empty() {
-            let moment = |number: usize| operation.pinion_revolutions * number as f64 / MOMENTS as f64;
-            operation.snapshots_revolutions = (1..=MOMENTS).map(moment).collect();
+            operation.snapshots_revolutions = moments(operation.pinion_revolutions);
         }
         varied.carry_out(resolved, observer, pipeline::worn_pair)
     });
@@ -280,9 +294,9 @@ fn record(
     start: Instant,
 ) -> Result<UncertaintyRecord, SamplingError> {
     let question = samples.question;
-    let all = || rows.iter().flat_map(|row| row.iter());
-    let (runs, failed) = (all().count(), all().filter(|row| row.is_err()).count());
-    let first_failure = all().find_map(|row| row.as_ref().err().cloned());
+    let all = rows.iter().flat_map(|row| row.iter());
+    let (runs, failed) = (all.clone().count(), all.clone().filter(|row| row.is_err()).count());
+    let first_failure = all.clone().find_map(|row| row.as_ref().err().cloned());
     if let (true, Some(first)) = (failed == runs, &first_failure) {
         return Err(SamplingError::AllFailed { runs, first: first.clone() });
     }
@@ -333,17 +347,7 @@ fn named(samples: &Samples<'_>, figure: usize) -> [String; 3] {
 fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> OutputRecord {
     let question = samples.question;
     let limit = figure.checked_sub(question.outputs.len()).map(|number| &question.limits[number]);
-    // Of the error of the model there are no runs: A's stand for them.
-    let row_of = |matrix: Matrix| match matrix {
-        Matrix::A => 0,
-        Matrix::B => 1,
-        Matrix::Mixed(factor) if factor < question.uncertain.len() => 2 + factor,
-        Matrix::Mixed(_) => 0,
-    };
-    let value = |point: usize, matrix: Matrix| -> Option<(f64, f64)> {
-        let ran = rows[point].get(row_of(matrix))?.as_ref().ok()?;
-        Some(samples.figures(ran, point, matrix)[figure]).filter(|(value, _)| !value.is_nan())
-    };
+    let value = |point: usize, matrix: Matrix| samples.value(rows[point], point, matrix, figure);
     let both = (0..rows.len()).flat_map(|point| [value(point, Matrix::A), value(point, Matrix::B)]);
     let known: Vec<(f64, f64)> = both.flatten().collect();
     let mut sorted: Vec<f64> = known.iter().map(|known| known.0).collect();
@@ -426,8 +430,15 @@ fn band(places: &[f64], nominal: &WearProfile, wear: &[&[f32]]) -> Band {
 }
 
 fn sample_rows(samples: &Samples<'_>, matrices: &[Matrix], rows: &[&[Row]]) -> Vec<SampleRow> {
+    let points = rows.iter().enumerate();
+    let runs =
+        points.flat_map(|(point, row)| matrices.iter().zip(*row).map(move |(&matrix, row)| (point, matrix, row)));
+    runs.map(|(point, matrix, row)| sample_row(samples, point, matrix, row)).collect()
+}
+
+fn sample_row(samples: &Samples<'_>, point: usize, matrix: Matrix, row: &Row) -> SampleRow {
     let question = samples.question;
-    let of = |point: usize, matrix: Matrix, row: &Row| SampleRow {
+    SampleRow {
         point,
         matrix: match matrix {
             Matrix::A => "A".to_owned(),
@@ -444,7 +455,5 @@ fn sample_rows(samples: &Samples<'_>, matrices: &[Matrix], rows: &[&[Row]]) -> V
             Err(_) => vec![None; question.outputs.len() + question.limits.len()],
         },
         error: row.as_ref().err().cloned(),
-    };
-    let points = rows.iter().enumerate();
-    points.flat_map(|(point, row)| matrices.iter().zip(*row).map(move |(&m, row)| of(point, m, row))).collect()
+    }
 }

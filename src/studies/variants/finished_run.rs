@@ -36,14 +36,13 @@ impl FinishedRun {
     pub(crate) fn of(folder: RunFolder, name: String) -> Result<Self, RunFolderError> {
         let mut scene = folder.scene_keys()?;
         scene.retain(|key, _| key != "title" && !key.starts_with("report."));
-        let of_gear = |gear: Gear| folder.table(&format!("{}.csv", gear.name()));
         Ok(Self {
             name,
             summary: folder.summary.clone(),
             total: TotalError::deserialize(&folder.whole_summary["error"]["total"]).unwrap_or_default(),
             scene,
             mesh_cycle: folder.table("mesh_cycle.csv")?,
-            flanks: PerGear { pinion: of_gear(Gear::Pinion)?, wheel: of_gear(Gear::Wheel)? },
+            flanks: PerGear { pinion: folder.table("pinion.csv")?, wheel: folder.table("wheel.csv")? },
             folder,
         })
     }

@@ -77,15 +77,15 @@ impl VariantsRecord {
             .filter(|figure| runs.iter().any(|run| run.figure(figure).is_some()))
             .flat_map(|figure| runs.iter().map(move |run| row(figure, &runs[0], run)))
             .collect();
-        let variant = |run: &FinishedRun| Variant {
+        let variants = runs.iter().map(|run| Variant {
             name: run.name.clone(),
             title: run.summary.title.clone(),
             scene_hash: run.summary.scene_hash.clone(),
-        };
+        });
         Self {
             program_version: env!("CARGO_PKG_VERSION").to_owned(),
             answer: answer(&rows, &runs[0].name),
-            runs: runs.iter().map(variant).collect(),
+            runs: variants.collect(),
             keys: varied_keys(runs),
             warnings: warnings(runs),
             rows,
@@ -145,13 +145,11 @@ fn varied_keys(runs: &[FinishedRun]) -> Vec<VariedKey> {
     let mut keys: Vec<&String> = runs.iter().flat_map(|run| run.scene.keys()).collect();
     keys.sort();
     keys.dedup();
-    let values =
-        |key: &String| runs.iter().map(|run| run.scene.get(key).cloned().unwrap_or_default()).collect::<Vec<_>>();
-    let varied = |key: &String| {
-        let values = values(key);
-        values.iter().any(|value| *value != values[0]).then(|| VariedKey { key: key.clone(), values })
-    };
-    keys.into_iter().filter_map(varied).collect()
+    let said = keys.into_iter().map(|key| {
+        let values = runs.iter().map(|run| run.scene.get(key).cloned().unwrap_or_default()).collect();
+        VariedKey { key: key.clone(), values }
+    });
+    said.filter(|varied| varied.values.iter().any(|value| *value != varied.values[0])).collect()
 }
 
 /// Line load under which new and worn pair are stated, N/mm.

@@ -16,10 +16,9 @@ use crate::studies::sweep::verification::{SweepVerification, objective};
 const MOST_LISTED: usize = 20;
 /// The varied keys as columns. A long one may go on in another line after each of its dots.
 fn keys(record: &SweepRecord) -> impl Iterator<Item = Cell> + '_ {
-    let key = |key: &str| {
-        html! { @for (i, part) in key.split('.').enumerate() { @if i > 0 { "." (PreEscaped("<wbr>")) } (part) } }
-    };
-    record.identity.axes.iter().map(move |axis| key(&axis.key).into())
+    record.identity.axes.iter().map(|axis| {
+        html! { @for (i, part) in axis.key.split('.').enumerate() { @if i > 0 { "." (PreEscaped("<wbr>")) } (part) } }.into()
+    })
 }
 
 fn values<'a>(record: &'a SweepRecord, values: &'a [f64]) -> impl Iterator<Item = Cell> + 'a {
@@ -49,10 +48,10 @@ pub(super) fn best(record: &SweepRecord) -> Markup {
 /// The combination asked for, and those that are as good within the error.
 pub(super) fn optimum(optimum: &Optimum) -> Markup {
     let figure = optimum.goal.figure();
-    let said = |value: f64| format!("{} {}", significant(value, 4), figure.unit());
+    let least = format!("{} {}", significant(optimum.value, 4), figure.unit());
     html! {
         p {
-            "Objective: the lowest " (optimum.goal.in_words()) ". It is " b { (said(optimum.value)) } " in combination " (optimum.index) "; "
+            "Objective: the lowest " (optimum.goal.in_words()) ". It is " b { (least) } " in combination " (optimum.index) "; "
             (count(optimum.within_limits as u64)) " combinations satisfy the constraints. "
             @match (&optimum.error, &optimum.plateau, &optimum.plateau_keys) {
                 (Some(error), Some(plateau), Some(keys)) => {
@@ -79,15 +78,15 @@ pub(super) fn verified(record: &SweepRecord, verification: &SweepVerification<'_
     let claims = STATED_ERRORS.iter().map(|claim| claim.title.into());
     let columns = cells!["combination", "chosen as"].into_iter().chain(keys(record));
     let columns = columns.chain([objective(&record.identity).with_unit().into()]).chain(claims);
-    let share = |value: Option<f64>| Cell::from(value.map(within));
     let rows = verification.rows.iter().map(|row| {
-        let claims = STATED_ERRORS.iter().map(|claim| share((claim.of)(&row.verification.total)));
+        let claims = STATED_ERRORS.iter().map(|claim| Cell::from((claim.of)(&row.verification.total).map(within)));
         let name = cells![row.index.to_string(), row.verification.chosen.name()].into_iter();
         line(name.chain(values(record, row.values)).chain([row.objective.into()]).chain(claims))
     });
-    let worst = STATED_ERRORS
-        .iter()
-        .map(|claim| share(verification.worst.iter().find(|worst| worst.claim == claim.name).map(|worst| worst.value)));
+    let worst = STATED_ERRORS.iter().map(|claim| {
+        let worst = verification.worst.iter().find(|worst| worst.claim == claim.name);
+        Cell::from(worst.map(|worst| within(worst.value)))
+    });
     let blank = (0..record.identity.axes.len() + 2).map(|_| "".into());
     let last = line(["worst".into()].into_iter().chain(blank).chain(worst));
     let caption =
@@ -109,10 +108,10 @@ fn without<'a>(
     rows: impl Iterator<Item = (usize, &'a [f64], &'a str)>,
 ) -> Markup {
     let columns = ["combination".into()].into_iter().chain(keys(record)).chain([Cell::sentence("error")]);
-    let row = |(index, at, reason): (usize, &'a [f64], &'a str)| {
+    let lines = rows.map(|(index, at, reason)| {
         line([index.to_string().into()].into_iter().chain(values(record, at)).chain([Cell::sentence(reason)]))
-    };
-    html! { div.errors { (list(caption, columns, rows.map(row))) } }
+    });
+    html! { div.errors { (list(caption, columns, lines)) } }
 }
 
 /// The combinations without a result; empty where all have one.

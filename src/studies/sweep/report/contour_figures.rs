@@ -18,30 +18,9 @@ pub(super) fn contour(
     y: &ShownAxis<'_>,
 ) -> Option<Chart> {
     let (best, least) = record.least(figure)?;
-    let at = |i: usize, j: usize| section_plane::row(record, best, &[(x, i), (y, j)]);
-    let z: Vec<Vec<Option<f64>>> = y
-        .shown
-        .iter()
-        .map(|&j| x.shown.iter().map(|&i| at(i, j).and_then(|row| row.figure(figure)).map(plotted)).collect())
-        .collect();
-    let all = y.shown.iter().flat_map(|&j| x.shown.iter().filter_map(move |&i| at(i, j)));
-    let failed: Vec<&SweepRow> = all.filter(|row| row.error.is_some()).collect();
+    let failed: Vec<&SweepRow> =
+        rows(record, best, x, y).flatten().flatten().filter(|row| row.error.is_some()).collect();
     let unit = figure.unit();
-    let contours = Trace::new(TraceKind::Contour, figure.heading.as_str())
-        .set("x", x.values())
-        .set("y", y.values())
-        .set("z", z)
-        .colour_bar(unit)
-        .set("contours", json!({ "showlabels": true, "labelfont": { "size": 11, "color": "#ffffff" } }))
-        .set("ncontours", 16)
-        .set("connectgaps", false)
-        .set("hoverongaps", false)
-        .unlisted()
-        .hover(format!(
-            "{}: %{{x}}<br>{}: %{{y}}<br>%{{z:.5~g}} {unit}<extra></extra>",
-            x.axis.title(),
-            y.axis.title()
-        ));
     let mut chart = Chart::new(id("contour", figure), capitalised(&figure.heading))
         .height(460)
         .read_nearest()
@@ -50,7 +29,7 @@ pub(super) fn contour(
         .y(&y.axis.title())
         .y_range(ends(y))
         .without_grid()
-        .add(contours)
+        .add(contours(record, figure, best, x, y))
         .reading(reading(record, figure, best, &[x, y]));
     if let Some(words) = x.axis.words() {
         chart = chart.x_set("tickvals", places(words)).x_set("ticktext", words.to_vec());
@@ -71,6 +50,33 @@ pub(super) fn contour(
     }
     let least_at = Trace::points("minimum", [best.values[x.at]], [best.values[y.at]], ("#ff5a36", "star", 15));
     Some(chart.add(least_at.hover(format!("minimum: {} {unit}<extra></extra>", shown_number(least)))))
+}
+
+/// The combinations that are shown, row by row; `None` where one is missing.
+fn rows<'a>(
+    record: &'a SweepRecord,
+    best: &'a SweepRow,
+    x: &'a ShownAxis<'_>,
+    y: &'a ShownAxis<'_>,
+) -> impl Iterator<Item = impl Iterator<Item = Option<&'a SweepRow>>> {
+    let row = move |i, j| section_plane::row(record, best, &[(x, i), (y, j)]);
+    y.shown.iter().map(move |&j| x.shown.iter().map(move |&i| row(i, j)))
+}
+
+fn contours(record: &SweepRecord, figure: &MainFigure, best: &SweepRow, x: &ShownAxis<'_>, y: &ShownAxis<'_>) -> Trace {
+    let unit = figure.unit();
+    let values = rows(record, best, x, y).map(|row| row.map(|row| row?.figure(figure).map(plotted)).collect());
+    Trace::new(TraceKind::Contour, figure.heading.as_str())
+        .set("x", x.values())
+        .set("y", y.values())
+        .set("z", values.collect::<Vec<Vec<Option<f64>>>>())
+        .colour_bar(unit)
+        .set("contours", json!({ "showlabels": true, "labelfont": { "size": 11, "color": "#ffffff" } }))
+        .set("ncontours", 16)
+        .set("connectgaps", false)
+        .set("hoverongaps", false)
+        .unlisted()
+        .hover(format!("{}: %{{x}}<br>{}: %{{y}}<br>%{{z:.5~g}} {unit}<extra></extra>", x.axis.title(), y.axis.title()))
 }
 
 /// Where the words of an axis stand.
@@ -94,14 +100,11 @@ pub(super) fn id(kind: &str, figure: &MainFigure) -> String {
 /// Where the figure is least, and how far it is from there to its greatest.
 pub(super) fn reading(record: &SweepRecord, figure: &MainFigure, best: &SweepRow, shown: &[&ShownAxis<'_>]) -> String {
     let Some((least, greatest)) = range(record, figure) else { return String::new() };
-    let value_of = |at: usize| {
-        format!("{} = {}", record.identity.axes[at].key, shown_value(&record.identity.axes[at], best.values[at]))
-    };
-    let places: Vec<String> = shown.iter().map(|axis| value_of(axis.at)).collect();
-    let others: Vec<String> = (0..record.identity.axes.len())
-        .filter(|at| record.identity.axes[*at].count > 1 && shown.iter().all(|axis| axis.at != *at))
-        .map(value_of)
-        .collect();
+    let axes = record.identity.axes.iter().zip(&best.values).enumerate();
+    let values = axes.map(|(at, (axis, &value))| (at, axis, format!("{} = {}", axis.key, shown_value(axis, value))));
+    let (places, others): (Vec<_>, Vec<_>) =
+        values.filter(|(_, axis, _)| axis.count > 1).partition(|(at, _, _)| shown.iter().any(|axis| axis.at == *at));
+    let [places, others] = [places, others].map(|of| of.into_iter().map(|(_, _, said)| said).collect::<Vec<_>>());
     let unit = if figure.unit().is_empty() { String::new() } else { format!(" {}", figure.unit()) };
     let mut text = format!(
         "Minimum {}{unit} at {}, maximum {}{unit} of all combinations: {}.",

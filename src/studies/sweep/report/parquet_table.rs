@@ -24,12 +24,12 @@ pub(crate) fn bytes(record: &SweepRecord) -> Result<Vec<u8>, ParquetError> {
     let kinds: Vec<PhysicalType> = columns.iter().map(|column| kind(column, record)).collect();
     let fields = columns.iter().zip(&kinds).map(|(column, &kind)| field(&column.name, kind));
     let schema = Type::group_type_builder("sweep").with_fields(fields.collect::<Result<_, _>>()?).build()?;
-    let metadata = |key: &str, value: &str| KeyValue::new(key.to_owned(), value.to_owned());
     let mut about = vec![
-        metadata("gearwear_version", &record.identity.program_version),
-        metadata("scene_hash", &record.identity.scene_hash),
+        KeyValue::new("gearwear_version".to_owned(), record.identity.program_version.clone()),
+        KeyValue::new("scene_hash".to_owned(), record.identity.scene_hash.clone()),
     ];
-    about.extend(columns.iter().map(|column| metadata(&format!("column:{}", column.name), &column.meaning)));
+    let meanings = columns.iter();
+    about.extend(meanings.map(|column| KeyValue::new(format!("column:{}", column.name), column.meaning.clone())));
     let properties = WriterProperties::builder().set_key_value_metadata(Some(about)).build();
 
     let mut file = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;

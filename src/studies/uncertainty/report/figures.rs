@@ -74,20 +74,6 @@ fn distribution(number: usize, output: &OutputRecord) -> Option<Chart> {
 /// Part of the variance that each factor explains, with intervals.
 fn indices(number: usize, output: &OutputRecord) -> Option<Chart> {
     let indices = output.indices.as_ref()?;
-    // The first factor stands at the top.
-    let factors: Vec<String> = indices.iter().rev().map(|one| wrapped(&one.factor)).collect();
-    let bars = |name: &str, colour: &str, of: fn(&FactorIndices) -> Index| {
-        let of = || indices.iter().rev().map(of);
-        let above: Vec<f64> = of().map(|index| index.high - index.value).collect();
-        let below: Vec<f64> = of().map(|index| index.value - index.low).collect();
-        Trace::new(TraceKind::Bar, name)
-            .set("orientation", "h")
-            .set("y", factors.clone())
-            .set("x", of().map(|index| index.value).collect::<Vec<_>>())
-            .set("error_x", json!({ "type": "data", "symmetric": false, "array": above, "arrayminus": below, "thickness": 1, "color": INK }))
-            .set("marker", json!({ "color": colour }))
-            .hover("%{x:.3f}")
-    };
     let most = indices.iter().max_by(|a, b| a.total.value.total_cmp(&b.total.value))?;
     Some(
         Chart::new(format!("indices-{number}"), format!("Sobol indices: {}", output.meaning))
@@ -96,8 +82,8 @@ fn indices(number: usize, output: &OutputRecord) -> Option<Chart> {
             .x("part of the variance")
             .y("")
             .set("barmode", "group")
-            .add(bars("total", "var(--wheel)", |one| one.total))
-            .add(bars("first order", "var(--pinion)", |one| one.first))
+            .add(bars(indices, "total", "var(--wheel)", |one| one.total))
+            .add(bars(indices, "first order", "var(--pinion)", |one| one.first))
             .reading(format!(
                 "{} matters most: without knowing it, {} of the variance stays; alone it explains {}. Lines: 95 % intervals.",
                 most.factor,
@@ -105,6 +91,21 @@ fn indices(number: usize, output: &OutputRecord) -> Option<Chart> {
                 percent(most.first.value.clamp(0.0, 1.0)),
             )),
     )
+}
+
+/// Bars of one of the indices of each factor, with its interval; the first factor stands at the top.
+fn bars(indices: &[FactorIndices], name: &str, colour: &str, of: fn(&FactorIndices) -> Index) -> Trace {
+    let factors: Vec<String> = indices.iter().rev().map(|one| wrapped(&one.factor)).collect();
+    let of: Vec<Index> = indices.iter().rev().map(of).collect();
+    let above: Vec<f64> = of.iter().map(|index| index.high - index.value).collect();
+    let below: Vec<f64> = of.iter().map(|index| index.value - index.low).collect();
+    Trace::new(TraceKind::Bar, name)
+        .set("orientation", "h")
+        .set("y", factors)
+        .set("x", of.iter().map(|index| index.value).collect::<Vec<_>>())
+        .set("error_x", json!({ "type": "data", "symmetric": false, "array": above, "arrayminus": below, "thickness": 1, "color": INK }))
+        .set("marker", json!({ "color": colour }))
+        .hover("%{x:.3f}")
 }
 
 /// A key on lines of its parts, so that the plot keeps its room.
@@ -127,7 +128,6 @@ fn band(record: &UncertaintyRecord, gear: Gear) -> Option<Chart> {
         let y = below.iter().chain(above.iter().rev()).copied();
         Trace::line(name, x, y, ("rgba(0,0,0,0)", 0.0, Dash::Solid)).filled(gear_colour(gear)).opacity(opacity)
     };
-    let line = |values: &[f64]| values.to_vec();
     Some(
         Chart::new(format!("band-{}", gear.name()), format!("Wear over the flank of the {}", gear.name()))
             .wide()
@@ -139,8 +139,8 @@ fn band(record: &UncertaintyRecord, gear: Gear) -> Option<Chart> {
             .y_down_to(deepest)
             .add(area("5 to 95 %", p05, p95, 0.16))
             .add(area("25 to 75 %", p25, p75, 0.28))
-            .line("median", radius.iter().copied(), line(p50), (gear_colour(gear), 2.2, Dash::Solid), "%{y:.3f} µm")
-            .line("scene as given", radius.iter().copied(), line(&band.nominal_um), (INK, 1.4, Dash::Dashed), "%{y:.3f} µm")
+            .line("median", radius.iter().copied(), p50.clone(), (gear_colour(gear), 2.2, Dash::Solid), "%{y:.3f} µm")
+            .line("scene as given", radius.iter().copied(), band.nominal_um.clone(), (INK, 1.4, Dash::Dashed), "%{y:.3f} µm")
             .reading(format!(
                 "Quantiles of the samples at each radius, maximum over the face width; at the deepest place 95 % of them have worn less than {} µm. The error \
                  of the fast model is not in them.",

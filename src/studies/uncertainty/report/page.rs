@@ -7,7 +7,7 @@ use crate::reference::sobol_indices::Index;
 use crate::report::html::number::{count, figure, fixed, percent, significant};
 use crate::report::html::page::{Page, Plots, note, section, sources_list};
 use crate::report::html::table::{Cell, NONE, cells, line, list};
-use crate::studies::uncertainty::record::{OutputRecord, UncertaintyRecord};
+use crate::studies::uncertainty::record::UncertaintyRecord;
 
 const DATA_FILES: &[(&str, &str)] = &[
     ("samples.csv", "one row per run: values of the keys, figures, errors"),
@@ -77,7 +77,7 @@ fn uncertain(record: &UncertaintyRecord) -> Markup {
         (list("Uncertain keys", ["key", "distribution"], rows))
         @if let Some(matrix) = &record.correlation {
             (list(
-                "ScoreCorrelation of their normal scores",
+                "Correlation of their normal scores",
                 [""].into_iter().chain(record.uncertain.iter().map(|one| one.key.as_str())),
                 record.uncertain.iter().zip(matrix).map(|(one, row)| {
                     line([Cell::from(one.key.as_str())].into_iter().chain(row.iter().map(|r| Cell::from(significant(*r, 3)))))
@@ -89,9 +89,8 @@ fn uncertain(record: &UncertaintyRecord) -> Markup {
 }
 
 fn quantiles(record: &UncertaintyRecord) -> Markup {
-    let row = |output: &OutputRecord| {
+    let rows = record.outputs.iter().map(|output| {
         let [p05, p25, p50, p75, p95] = output.quantiles.all();
-        let share = |value: Option<f64>| value.map_or_else(|| NONE.to_owned(), percent);
         line(cells![
             output.meaning.as_str(),
             output.nominal,
@@ -102,15 +101,15 @@ fn quantiles(record: &UncertaintyRecord) -> Markup {
             p95,
             output.mean,
             output.standard_deviation,
-            share(output.model_error),
-            share(output.censored),
+            output.model_error.map(percent),
+            output.censored.map(percent),
             output.unit.as_str(),
         ])
-    };
+    });
     let columns =
         ["", "as given", "5 %", "25 %", "50 %", "75 %", "95 %", "mean", "st. dev.", "model error ±", "longer", "unit"];
     html! {
-        (list("Quantiles", columns, record.outputs.iter().map(row)))
+        (list("Quantiles", columns, rows))
         (note(
             "A quantile of 95 % is the value that 95 % of the samples stay below. Longer: part of the samples whose life is longer than their \
              duration; a quantile among these is not known. Model error: the relative difference to finite elements on the scene as given, within \
@@ -119,15 +118,23 @@ fn quantiles(record: &UncertaintyRecord) -> Markup {
     }
 }
 
+fn with_interval(index: &Index) -> String {
+    let [value, low, high] = [index.value, index.low, index.high].map(|share| fixed(share, 3));
+    format!("{value} ({low} to {high})")
+}
+
 fn indices(record: &UncertaintyRecord) -> Markup {
-    let cell = |index: &Index| {
-        let [value, low, high] = [index.value, index.low, index.high].map(|share| fixed(share, 3));
-        format!("{value} ({low} to {high})")
-    };
     let rows = record.outputs.iter().flat_map(|output| match (&output.indices, &output.no_indices_because) {
         (Some(indices), _) => indices
             .iter()
-            .map(|one| line(cells![output.meaning.as_str(), one.factor.as_str(), cell(&one.first), cell(&one.total)]))
+            .map(|one| {
+                line(cells![
+                    output.meaning.as_str(),
+                    one.factor.as_str(),
+                    with_interval(&one.first),
+                    with_interval(&one.total)
+                ])
+            })
             .collect(),
         (None, because) => {
             let because = because.as_deref().unwrap_or_default();
