@@ -378,7 +378,7 @@ pub struct StiffnessSummary {
 
 /// One mesh cycle in figures. Maximum pressures of whole slices leave 1/40 of the face width out at either end face.
 #[allow(non_snake_case, reason = "the contract's key names")]
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct CycleSummary {
     /// Maximum pressure at a single point, the tip edges' roundings and the kinks of linear reliefs included: there it depends on the
     /// resolution. Not of that which a sharp tip edge cuts off.
@@ -417,7 +417,7 @@ pub struct WearBalance {
 }
 
 /// Extremes and their difference.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct RangeSummary {
     /// Least value.
     pub min: f64,
@@ -428,7 +428,7 @@ pub struct RangeSummary {
 }
 
 /// Wear of a gear. Maxima over the face width leave 1/40 of it out at either end face, whatever the number of slices.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct WearSummary {
     /// Maximum wear depth on the active profile, the zone of the tip edge apart.
     pub peak_wear_um: f64,
