@@ -102,38 +102,41 @@ extern crate self as gearwear;
 mod cli;
 #[cfg(feature = "program")]
 mod exchange;
+mod fem_problem;
 #[cfg(feature = "program")]
 mod measurement;
-mod pipeline;
-mod plan;
 mod report;
 mod resume;
+mod runs;
 mod scene;
 mod studies;
 
 // What it calculates with, under the names of the rooms there.
+use gearwear_fem as fem;
+use gearwear_files::{content_hash, data_table, whole_file};
+pub use gearwear_mesh as mesh;
 use gearwear_physics::{
-    calibration, contact, content_hash, data_table, fem, gear, gear_fem, gear_mesh, lubrication, mesh_cycle, observer,
-    root_stress, simulation, stiffness, thermal, wear, whole_file,
+    assessment, calibration, contact, gear, gear_fem, gear_mesh, lubrication, mesh_cycle, observer, operation, plan,
+    simulation, stiffness, thermal, wear,
 };
-pub use gearwear_physics::{material, mesh, reference, results};
+pub use gearwear_physics::{material, reference, results};
 
 #[cfg(all(test, feature = "program"))]
 #[allow(unreachable_pub, reason = "test modules are of one crate")]
 #[path = "../tests/inside/mod.rs"]
 mod inside;
 
+pub use assessment::calibrate::{CalibrateError, Calibrated};
+pub use assessment::fem_scene::FemPairError;
+pub use assessment::pair_mesh::PairMeshError;
+pub use assessment::{Done, RunError};
 pub use calibration::Calibration;
 #[cfg(feature = "program")]
 pub use cli::{main as program, with_arguments as program_with};
 pub use contact::settings::MatchCriterion;
+pub use fem_problem::FemProblemError;
 pub use gear::{Gear, PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
 pub use observer::{Observer, Unwatched};
-pub use pipeline::calibrate::{CalibrateError, Calibrated};
-pub use pipeline::fem_problem::FemProblemError;
-pub use pipeline::fem_scene::FemPairError;
-pub use pipeline::pair_mesh::PairMeshError;
-pub use pipeline::{Done, RunError, run};
 pub use plan::Plan;
 pub use report::columns;
 #[cfg(feature = "program")]
@@ -141,6 +144,9 @@ pub use report::figure::Figure;
 pub use report::files::ReportError;
 pub use report::unit::of as unit_of;
 pub use results::run::RunRecord;
+pub use runs::run;
+pub use scene::Resolved;
+pub use scene::blame::SceneFault;
 pub use scene::fem_problem::schema as fem_problem_schema;
 pub use scene::loaded::{LoadError, LoadedScene, SceneError, SceneText};
 pub use scene::presets::{PRESETS, Preset};
@@ -215,7 +221,7 @@ use scene::fem_problem::FemProblem;
 /// # Errors
 /// [`CalibrateError`]
 pub fn calibrate(scene: &LoadedScene, observer: &dyn Observer) -> Result<Calibrated, CalibrateError> {
-    pipeline::calibrate::run(scene.scene(), pipeline::calibrate::Extent::Whole, &scene.teeth_in_space, observer)
+    runs::calibrate(scene, assessment::calibrate::Extent::Whole, observer)
 }
 
 /// Solves the contact of the scene's pair with plane finite elements: at the position `position_mm` of the path of contact (radius of
@@ -228,7 +234,7 @@ pub fn fem_pair(
     position_mm: Option<f64>,
     observer: &dyn Observer,
 ) -> Result<Done<FemPairRecord, FemPairError>, FemPairError> {
-    pipeline::fem_scene::run(&scene.resolved, pipeline::fem_scene::Asked { position_mm, full: false }, observer)
+    runs::fem_pair(&scene.resolved, assessment::fem_scene::Asked { position_mm, full: false }, observer)
 }
 
 /// Solves a problem of finite elements on a mesh of one's own, plane with contact or three-dimensional without: `problem_toml` is the text of a problem file
@@ -238,7 +244,7 @@ pub fn fem_pair(
 /// [`FemProblemError`]: everything that is wrong with problem and mesh, or why the solver failed.
 pub fn fem_problem(problem_toml: &str, folder: &Path, observer: &dyn Observer) -> Result<FemRecord, FemProblemError> {
     let problem = FemProblem::from_toml(problem_toml).map_err(FemProblemError::Input)?;
-    pipeline::fem_problem::run(&problem, folder, observer)
+    fem_problem::run(&problem, folder, observer)
 }
 
 /// Solves the same problem on `mesh`; the file that it names is not read.
@@ -251,7 +257,7 @@ pub fn fem_problem_on(
     observer: &dyn Observer,
 ) -> Result<FemRecord, FemProblemError> {
     let problem = FemProblem::from_toml(problem_toml).map_err(FemProblemError::Input)?;
-    pipeline::fem_problem::on_mesh(&problem, mesh, observer)
+    fem_problem::on_mesh(&problem, mesh, observer)
 }
 
 /// The mesh of a problem with its solution at the nodes, as `solution.vtu` has it.
@@ -281,11 +287,13 @@ pub fn pair_mesh(
     position_mm: Option<f64>,
     observer: &dyn Observer,
 ) -> Result<mesh::Mesh, PairMeshError> {
-    use pipeline::{deformed_teeth, pair_mesh};
+    use assessment::{deformed_teeth, pair_mesh};
     Ok(match of {
         Meshed::InPlane => pair_mesh::build(scene.scene(), position_mm)?.mesh,
         Meshed::InSpace => pair_mesh::in_space(scene.scene(), position_mm)?.mesh,
-        Meshed::Loaded => deformed_teeth::deformed_teeth(scene, position_mm, observer)?.space.mesh,
+        Meshed::Loaded => {
+            deformed_teeth::deformed_teeth(scene.inputs(&Default::default()), position_mm, observer)?.space.mesh
+        }
     })
 }
 

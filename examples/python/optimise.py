@@ -1,4 +1,4 @@
-"""Modifications of the flanks that keep a gear pair good until the end of its life (docs/optimise.md).
+"""Modifications of the flanks that keep a gear pair good until the end of its life (docs/sweep.md).
 
     pip install "./python[plot]" pymoo egobox optuna
     python examples/python/optimise.py --out out/optimise

@@ -1,4 +1,4 @@
-"""Mesh stiffness over the rotation of the pinion, for models of rotors and drive lines (docs/rotor-dynamics.md).
+"""Mesh stiffness over the rotation of the pinion, for models of rotors and drive lines (docs/outputs.md).
 
     pip install ./python opentorsion scipy
     python examples/python/rotor_dynamics.py --out out/rotor-dynamics

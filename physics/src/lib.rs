@@ -7,19 +7,18 @@
     reason = "its documentation is read by those who work on it, private items with it"
 )]
 
+pub mod assessment;
 pub mod calibration;
 pub mod contact;
-pub mod content_hash;
-pub mod data_table;
-pub mod fem;
 pub mod gear;
 pub mod gear_fem;
 pub mod gear_mesh;
 pub mod lubrication;
 pub mod material;
-pub mod mesh;
 pub mod mesh_cycle;
 pub mod observer;
+pub mod operation;
+pub mod plan;
 pub mod reference;
 pub mod results;
 pub mod root_stress;
@@ -27,4 +26,3 @@ pub mod simulation;
 pub mod stiffness;
 pub mod thermal;
 pub mod wear;
-pub mod whole_file;

@@ -1,7 +1,7 @@
 //! Materials of gears: linear elastic and isotropic.
 
-use crate::fem::elastic::Analysis;
-pub use crate::fem::elastic::Elastic;
+use gearwear_fem::elastic::Analysis;
+pub use gearwear_fem::elastic::Elastic;
 
 /// Linear elastic, isotropic material of one gear.
 #[derive(Debug, Clone, Copy, PartialEq)]

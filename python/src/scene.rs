@@ -5,6 +5,7 @@ use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
+use gearwear::SceneFault;
 use gearwear::results::run::InputFile;
 use gearwear::sweep::{self, SweepQuestion};
 use gearwear::toml::{Table, Value};

@@ -3,13 +3,14 @@
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
+use crate::assessment::calibrate::{self, CalibrateError, Calibrated, Extent};
 use crate::contact::settings::MatchCriterion;
 use crate::mesh_cycle::pair_in_space::KeptInSpace;
 use crate::observer::Observer;
-use crate::pipeline::calibrate::{self, CalibrateError, Calibrated, Extent};
 use crate::plan::calibration::CalibrationStage;
 use crate::report;
 use crate::results::reported_by::ReportedBy;
+use crate::scene::blame::SceneFault;
 use crate::scene::loaded::SceneText;
 
 use super::failure::{Failure, InputError};
@@ -47,7 +48,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             .map_err(|error| refused(error, &text))?;
         progress.stage(CalibrationStage::Report.name());
         let byline = ReportedBy::line_of_scene(&resolved.to_toml());
-        report::calibration::write(&done.calibration, &done.stages, [&resolved.scene.title, &byline], &args.out)?;
+        report::calibration::write(&done.calibration, &done.stages, [resolved.title(), &byline], &args.out)?;
         Ok(done)
     });
     progress.finish();
@@ -59,7 +60,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         other => other?,
     };
     if !args.quiet {
-        print(&table(&resolved.scene.title, &done, &args.out))?;
+        print(&table(resolved.title(), &done, &args.out))?;
     }
     Ok(())
 }

@@ -4,10 +4,10 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use crate::assessment::RunError;
 use crate::gear::Gear;
 use crate::measurement::fit::FitStop;
 use crate::measurement::form::Form;
-use crate::pipeline::RunError;
 use crate::report;
 use crate::scene::loaded::SceneText;
 use crate::studies::compare::asked::{CompareFault, Prepared};

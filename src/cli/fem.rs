@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::pipeline::fem_problem::{self, FemProblemError};
+use crate::fem_problem::{self, FemProblemError};
 use crate::report;
 use crate::report::ReportError;
 use crate::results::fem_problem::{FemRecord, FemSummary};

@@ -5,14 +5,16 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
+use crate::assessment::Done;
+use crate::assessment::fem_scene::{Asked, FemPairError};
 use crate::observer::Observer;
-use crate::pipeline::Done;
-use crate::pipeline::fem_scene::{self, Asked, FemPairError};
 use crate::plan::fem_pair::FemPairStage;
 use crate::report;
 use crate::report::ReportError;
 use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
 use crate::results::run::{StageTime, StopReason};
+use crate::runs;
+use crate::scene::blame::SceneFault;
 use crate::scene::loaded::SceneText;
 
 use super::failure::{Failure, InputError};
@@ -30,7 +32,7 @@ pub(super) fn run(args: &Args, text: SceneText) -> Result<(), Failure> {
     let progress = Progress::new(args.quiet, Arc::clone(&interrupted));
     let asked = Asked { position_mm: args.position, full: args.full };
     let done = pool.install(|| -> Result<Done<FemPairRecord, FemPairError>, Failure> {
-        let mut done = fem_scene::run(resolved, asked, &progress).map_err(|error| refused(error, &text))?;
+        let mut done = runs::fem_pair(resolved, asked, &progress).map_err(|error| refused(error, &text))?;
         if done.record.summary.positions > 0 {
             write(&mut done.record, &args.out, &progress)?;
         }

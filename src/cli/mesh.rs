@@ -4,13 +4,14 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use crate::assessment::deformed_teeth::deformed_teeth;
+use crate::assessment::pair_mesh::{self, PairMesh, SpaceMesh};
 use crate::gear::Gear;
 use crate::gear_mesh::settings::{Body, SectorSides};
 use crate::mesh::quality::Worst;
 use crate::mesh::{self, CellKind, Format};
-use crate::pipeline::deformed_teeth::deformed_teeth;
-use crate::pipeline::pair_mesh::{self, PairMesh, SpaceMesh};
-use crate::scene::Scene;
+use crate::results::provenance::Provenance;
+use crate::scene::Resolved;
 use crate::scene::loaded::{LoadedScene, SceneText};
 
 use super::failure::{Failure, InputError, no_mesh};
@@ -47,13 +48,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if args.three_dimensional {
         let built = pair_mesh::in_space(&resolved.scene, args.position).map_err(|error| no_mesh(error, &text))?;
         mesh::write_as(&built.mesh, &args.out, format).map_err(InputError::MeshFile)?;
-        return print(&text_in_space(&resolved.scene, &built, &args.out));
+        return print(&text_in_space(&resolved, &built, &args.out));
     }
     warn(resolved.scene.plane_section_warning().as_slice());
     warn(resolved.scene.one_load_warning().as_slice());
     let built = pair_mesh::build(&resolved.scene, args.position).map_err(|error| no_mesh(error, &text))?;
     mesh::write_as(&built.mesh, &args.out, format).map_err(InputError::MeshFile)?;
-    print(&described(&resolved.scene, &built, &args.out))
+    print(&described(&resolved, &built, &args.out))
 }
 
 /// The teeth in space under load.
@@ -61,11 +62,11 @@ fn loaded(args: &Args, format: Format) -> Result<(), Failure> {
     let scene = LoadedScene::open(&args.scene)?;
     warn(scene.warnings());
     let progress = Progress::new(false, Arc::default());
-    let deformed = deformed_teeth(&scene, args.position, &progress);
+    let deformed = deformed_teeth(scene.inputs(&Provenance::default()), args.position, &progress);
     progress.finish();
     let deformed = deformed.map_err(|error| no_mesh(error, &scene.given))?;
     mesh::write_as(&deformed.space.mesh, &args.out, format).map_err(InputError::MeshFile)?;
-    let mut text = text_in_space(scene.scene(), &deformed.space, &args.out);
+    let mut text = text_in_space(&scene.resolved, &deformed.space, &args.out);
     let mut line = |name: &str, value: String| {
         let _ = writeln!(text, "{name:20}{value}");
     };
@@ -83,8 +84,9 @@ fn loaded(args: &Args, format: Format) -> Result<(), Failure> {
 }
 
 /// What was built in space.
-fn text_in_space(scene: &Scene, built: &SpaceMesh, out: &Path) -> String {
-    let mut text = format!("{}\n\n", scene.title);
+fn text_in_space(resolved: &Resolved, built: &SpaceMesh, out: &Path) -> String {
+    let scene = &resolved.scene;
+    let mut text = format!("{}\n\n", resolved.title());
     let mut line = |name: &str, value: String| {
         let _ = writeln!(text, "{name:20}{value}");
     };
@@ -104,8 +106,9 @@ fn text_in_space(scene: &Scene, built: &SpaceMesh, out: &Path) -> String {
 }
 
 /// What was built.
-fn described(scene: &Scene, built: &PairMesh, out: &Path) -> String {
-    let mut text = format!("{}\n\n", scene.title);
+fn described(resolved: &Resolved, built: &PairMesh, out: &Path) -> String {
+    let scene = &resolved.scene;
+    let mut text = format!("{}\n\n", resolved.title());
     let mut line = |name: &str, value: String| {
         let _ = writeln!(text, "{name:20}{value}");
     };

@@ -33,7 +33,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     warn(scene.warnings());
     let plan = scene.plan();
     print(&match args.format {
-        Format::Text => text(&scene.scene().title, &plan),
+        Format::Text => text(scene.resolved.title(), &plan),
         Format::Json => serde_json::to_string_pretty(&plan).expect("a plan is names and texts") + "\n",
     })
 }

@@ -6,14 +6,16 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use crate::assessment::{Done, Resumption, RunError};
 use crate::observer::Observer;
-use crate::pipeline::{self, Done, Resumption, RunError};
 use crate::plan::StageKind;
 use crate::report;
 use crate::report::ReportError;
 use crate::results::invariant::Invariant;
 use crate::results::run::{RunRecord, StageTime, StopReason};
 use crate::resume::folder;
+use crate::runs;
+use crate::scene::blame::SceneFault;
 use crate::scene::loaded::LoadedScene;
 use crate::simulation::settings::Operation;
 
@@ -87,7 +89,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let keeper = FolderKeeper::new(&out, &identity, &resolved.warnings);
     let done = pool.install(|| -> Result<Done, Failure> {
         let resumption = Resumption { from, keeper: &keeper };
-        let mut done = pipeline::run_from(&scene, resumption, &progress)?;
+        let mut done = runs::run_from(&scene, resumption, &progress)?;
         write(&mut done.record, &out, args, &progress)?;
         if done.record.summary.stopped != StopReason::Interrupted {
             folder::remove_checkpoint(&out)?;

@@ -4,9 +4,10 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::pipeline::{self, Done};
+use crate::assessment::Done;
 use crate::report;
 use crate::results::run::StopReason;
+use crate::runs;
 use crate::scene::loaded::LoadedScene;
 use crate::studies::variants;
 use crate::studies::variants::finished_run::FinishedRun;
@@ -75,7 +76,7 @@ fn run_scene(
 ) -> Result<PathBuf, Failure> {
     let scene = LoadedScene::open(path)?;
     warn(scene.warnings());
-    let done = pool(threads)?.install(|| pipeline::run(&scene, progress));
+    let done = pool(threads)?.install(|| runs::run(&scene, progress));
     progress.finish();
     let record = done.and_then(Done::complete).map_err(|error| in_the_scene(error, &scene))?;
     crate::write(&record, folder)?;

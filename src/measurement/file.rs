@@ -10,16 +10,16 @@
 //! 0.01,-3.24
 //! ```
 //!
-//! Lines that begin with # come first; those of the form `key = value` say what is measured:
+//! Lines that begin with # come first; those of the form `key = value` describe the measurement:
 //!
 //! | key | meaning |
 //! |---|---|
 //! | `gear` | `pinion` or `wheel` |
-//! | `hours`, `revolutions` | when it was measured, of the pinion; left out: at the end of the run |
-//! | `width_mm` | where over the face width, for runs with slices |
-//! | `uncertainty_um` | of a height, one standard deviation, for comparison with the scatter |
-//! | `arc_from` | where `arc_mm` begins: `base-circle`, `start-of-active-profile`, or `tip` (towards the root) |
-//! | `height_from` | what heights are measured from: `involute` (the nominal one, along its normal) or `line` (as a stylus on a
+//! | `hours`, `revolutions` | time of the measurement, revolutions of the pinion; left out: end of the run |
+//! | `width_mm` | place over the face width, for runs with slices |
+//! | `uncertainty_um` | standard deviation of a height, for comparison with the scatter |
+//! | `arc_from` | beginning of `arc_mm`: `base-circle`, `start-of-active-profile`, or `tip` (towards the root) |
+//! | `height_from` | reference of the heights: `involute` (the nominal one, along its normal) or `line` (as a stylus on a
 //! straight guide measures them, with the curvature of the tooth in them); left out: `involute` |
 //!
 //! Other lines with # are remarks. One column is the place on the flank: `radius_mm`, `arc_mm` (length along the flank) or
@@ -45,10 +45,10 @@ const VALUES: [(&str, ValueKind, f64); 4] = [
 ];
 const KEYS: [&str; 7] = ["gear", "hours", "revolutions", "width_mm", "uncertainty_um", "arc_from", "height_from"];
 const UM_PER_MM: f64 = 1e3;
-/// Keys as similar as this to one that is known are taken for a slip (Jaro and Winkler's measure).
+/// Similarity to a known key (Jaro and Winkler's measure) above which a key is taken for a misspelling.
 const SLIP: f64 = 0.85;
 
-/// How a file says where on the flank a point is.
+/// Column that gives the place of a point on the flank.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum PlaceColumn {
     /// Distance from the axis.
@@ -61,7 +61,7 @@ pub(crate) enum PlaceColumn {
 }
 
 impl PlaceColumn {
-    /// Its name in the file.
+    /// Name in the file.
     pub(crate) fn name(self) -> &'static str {
         match self {
             PlaceColumn::RadiusMm => "radius_mm",
@@ -71,28 +71,28 @@ impl PlaceColumn {
     }
 }
 
-/// What the heights of a file are.
+/// Kind of the heights of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum ValueKind {
-    /// Of the surface.
+    /// Height of the surface.
     #[default]
     Height,
-    /// Of what is gone of it.
+    /// Depth of the material removed.
     Wear,
 }
 
-/// Where lengths along the flank begin.
+/// Beginning of lengths along the flank.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ArcFrom {
-    /// The involute's own beginning.
+    /// Base circle, where the involute begins.
     BaseCircle,
-    /// Where contact ends towards the root.
+    /// Start of active profile.
     ActiveStart,
     /// The tip circle; lengths run towards the root.
     Tip,
 }
 
-/// What heights are measured from.
+/// Reference of heights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum HeightFrom {
     /// The nominal involute, along its normal.
@@ -102,10 +102,10 @@ pub(crate) enum HeightFrom {
     Line,
 }
 
-/// When a profile was measured.
+/// Time of the measurement of a profile.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) enum Moment {
-    /// When the run ended.
+    /// End of the run.
     #[default]
     End,
     /// After so many hours.
@@ -114,28 +114,28 @@ pub(crate) enum Moment {
     Revolutions(f64),
 }
 
-/// What a file says, as it says it.
+/// Content of a file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct MeasuredFile {
-    /// Which gear.
+    /// Gear that was measured.
     pub gear: Option<Gear>,
-    /// When.
+    /// Time of the measurement.
     pub moment: Moment,
-    /// Line of the key that says when; 0 where none does.
+    /// Line of the key of that time; 0 where there is none.
     pub moment_line: usize,
-    /// Where over the face width.
+    /// Place over the face width.
     pub width_mm: Option<f64>,
-    /// Line of that key; 0 where there is none.
+    /// Line of the key `width_mm`; 0 where there is none.
     pub width_line: usize,
     /// Standard deviation of a height.
     pub uncertainty_um: Option<f64>,
-    /// Where lengths along the flank begin.
+    /// Beginning of lengths along the flank.
     pub arc_from: Option<ArcFrom>,
-    /// What heights are measured from.
+    /// Reference of the heights.
     pub height_from: HeightFrom,
-    /// How places are given.
+    /// Column of the places.
     pub place: PlaceColumn,
-    /// What the heights are.
+    /// Kind of the heights.
     pub kind: ValueKind,
     /// The points.
     pub rows: Vec<MeasuredRow>,
@@ -144,11 +144,11 @@ pub(crate) struct MeasuredFile {
 /// A point of the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MeasuredRow {
-    /// Its line.
+    /// Line in the file.
     pub line: usize,
-    /// Its place, in the unit of the column.
+    /// Place, in the unit of its column.
     pub place: f64,
-    /// Its height, µm, falling where material is gone.
+    /// Height, µm, falling where material is gone.
     pub height_um: f64,
 }
 
@@ -159,7 +159,7 @@ pub(crate) fn parse(text: &str) -> Result<MeasuredFile, DataTableError> {
     for &(line, key, value) in &table.keys {
         file.take(line, key, value)?;
     }
-    let columns = Columns::find(table.names.0, &table.names.1)?;
+    let columns = ProfileColumns::find(table.names.0, &table.names.1)?;
     if columns.place == PlaceColumn::ArcMm && file.arc_from.is_none() {
         return Err(missing(
             "where arc_mm begins",
@@ -179,8 +179,8 @@ pub(crate) fn parse(text: &str) -> Result<MeasuredFile, DataTableError> {
     Ok(file)
 }
 
-/// Where the columns are.
-struct Columns {
+/// Columns of the place and the height.
+struct ProfileColumns {
     count: usize,
     place: PlaceColumn,
     place_index: usize,
@@ -190,15 +190,13 @@ struct Columns {
     um_per_unit: f64,
 }
 
-impl Columns {
+impl ProfileColumns {
     fn find(line: usize, names: &[&str]) -> Result<Self, DataTableError> {
-        let refused = || not_allowed(line, "column names", names.join(","), columns_allowed());
-        let index = |name: &str| names.iter().position(|&n| n == name);
-        let places: Vec<_> = PLACES.iter().filter_map(|(name, column)| Some((index(name)?, *column))).collect();
-        let values: Vec<_> = VALUES.iter().filter_map(|value| Some((index(value.0)?, value))).collect();
+        let places: Vec<_> = PLACES.iter().filter_map(|(name, column)| Some((index(names, name)?, *column))).collect();
+        let values: Vec<_> = VALUES.iter().filter_map(|value| Some((index(names, value.0)?, value))).collect();
         let (&[(place_index, place)], &[(value_index, &(value_name, kind, um_per_unit))]) = (&places[..], &values[..])
         else {
-            return Err(refused());
+            return Err(not_allowed(line, "column names", names.join(","), columns_allowed()));
         };
         Ok(Self { count: names.len(), place, place_index, kind, value_name, value_index, um_per_unit })
     }
@@ -216,15 +214,14 @@ impl Columns {
 
 impl MeasuredFile {
     fn take(&mut self, line: usize, key: &str, value: &str) -> Result<(), DataTableError> {
-        let refused = |allowed: &str| not_allowed(line, key, value, allowed.to_owned());
         match key {
             "gear" => {
                 let gear = Gear::BOTH.into_iter().find(|gear| gear.name() == value);
-                self.gear = Some(gear.ok_or_else(|| refused("pinion or wheel"))?);
+                self.gear = Some(gear.ok_or_else(|| not_allowed(line, key, value, "pinion or wheel".to_owned()))?);
             }
             "hours" | "revolutions" => {
                 if self.moment != Moment::End {
-                    return Err(refused("one of hours and revolutions, once"));
+                    return Err(not_allowed(line, key, value, "one of hours and revolutions, once".to_owned()));
                 }
                 let time = positive(line, key, value)?;
                 self.moment = if key == "hours" { Moment::Hours(time) } else { Moment::Revolutions(time) };
@@ -239,14 +236,17 @@ impl MeasuredFile {
                     "base-circle" => ArcFrom::BaseCircle,
                     "start-of-active-profile" => ArcFrom::ActiveStart,
                     "tip" => ArcFrom::Tip,
-                    _ => return Err(refused("base-circle, start-of-active-profile or tip")),
+                    _ => {
+                        let allowed = "base-circle, start-of-active-profile or tip".to_owned();
+                        return Err(not_allowed(line, key, value, allowed));
+                    }
                 });
             }
             "height_from" => {
                 self.height_from = match value {
                     "involute" => HeightFrom::Involute,
                     "line" => HeightFrom::Line,
-                    _ => return Err(refused("involute or line")),
+                    _ => return Err(not_allowed(line, key, value, "involute or line".to_owned())),
                 };
             }
             _ => {
@@ -259,12 +259,16 @@ impl MeasuredFile {
     }
 }
 
+/// Place of the column `name` among `names`.
+fn index(names: &[&str], name: &str) -> Option<usize> {
+    names.iter().position(|&own| own == name)
+}
+
 fn columns_allowed() -> String {
-    let names = |names: &[&str]| names.join(", ");
     format!(
         "names with units, separated by commas: one of {}, and one of {}",
-        names(&PLACES.map(|(name, _)| name)),
-        names(&VALUES.map(|(name, ..)| name))
+        PLACES.map(|(name, _)| name).join(", "),
+        VALUES.map(|(name, ..)| name).join(", ")
     )
 }
 

@@ -1,24 +1,23 @@
-//! Nonlinear least squares in a few bounded parameters, after Levenberg and Marquardt.
+//! Least squares in a few bounded parameters, by Levenberg and Marquardt's method ([`levenberg_marquardt`](crate::reference::levenberg_marquardt)).
 //!
-//! ```text
-//! minimise |r(θ)|²          (JᵀJ + λ diag JᵀJ) δ = −Jᵀr,          J = ∂r/∂θ by central differences
-//! ```
-//!
-//! λ falls with every step that lessens the sum of squares and grows with every one that does not; steps are cut at the bounds.
-//! Parameters are logarithms of positive quantities, or lengths: each comes with the width of its differences, which is also
-//! the measure of a step that no longer matters.
-//!
-//! Source: J. J. Moré, *The Levenberg–Marquardt algorithm*, Lecture Notes in Mathematics 630 (1978) 105–116.
+//! J is found by central differences, and steps are cut at the bounds. Parameters are logarithms of positive quantities, or lengths: each has the
+//! width of its differences, which is also the measure of a step that no longer matters.
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-/// Most iterations.
-const MOST_ITERATIONS: usize = 60;
+use crate::reference::levenberg_marquardt::{LeastSquares, LevenbergMarquardt, Minimum, sum_of_squares as square};
+
 /// A step shorter than this part of the width of the differences ends the search.
 const SMALL_STEP: f64 = 1e-4;
-/// λ beyond which no step lessens the sum of squares.
-const MOST_DAMPING: f64 = 1e12;
+/// Settings of the search.
+const SEARCH: LevenbergMarquardt = LevenbergMarquardt {
+    most_steps: 60,
+    damping_decrease: 0.1,
+    least_damping: 1e-12,
+    most_damping: 1e12,
+    settled: 0.0,
+};
 /// A parameter whose column of J, times the width of its differences, is shorter than this part of r is not determined.
 const NO_EFFECT: f64 = 1e-12;
 
@@ -54,7 +53,7 @@ pub(crate) enum FitStop {
     NotFinite,
 }
 
-/// What the search found.
+/// Result of a fit.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Fitted {
     /// θ.
@@ -63,64 +62,72 @@ pub(crate) struct Fitted {
     pub residuals: Vec<f64>,
     /// Columns of J at θ.
     pub jacobian: Vec<Vec<f64>>,
-    /// Why it ended.
+    /// Why the search ended.
     pub stop: FitStop,
-    /// Which parameter is to blame, where one is.
+    /// Parameter that is not determined or at a bound.
     pub blamed: Option<usize>,
+}
+
+/// Residuals as a function of bounded parameters.
+struct BoundedResiduals<'a, 'f, E> {
+    parameters: &'a [Parameter],
+    residuals: &'a mut Residuals<'f, E>,
+}
+
+impl<E> LeastSquares for BoundedResiduals<'_, '_, E> {
+    type Error = E;
+    type Jacobian = Vec<Vec<f64>>;
+
+    fn residuals(&mut self, theta: &[f64]) -> Result<Vec<f64>, E> {
+        (self.residuals)(theta)
+    }
+
+    /// Central differences, one-sided at a bound.
+    fn jacobian(&mut self, theta: &[f64], _: &[f64]) -> Result<Vec<Vec<f64>>, E> {
+        let mut columns = Vec::with_capacity(theta.len());
+        let mut moved = theta.to_vec();
+        for (i, p) in self.parameters.iter().enumerate() {
+            let [low, high] = [-p.width, p.width].map(|by| (theta[i] + by).clamp(p.least, p.greatest));
+            moved[i] = low;
+            let below = (self.residuals)(&moved)?;
+            moved[i] = high;
+            let above = (self.residuals)(&moved)?;
+            moved[i] = theta[i];
+            let span = (high - low).max(f64::MIN_POSITIVE);
+            columns.push(below.iter().zip(&above).map(|(a, b)| (b - a) / span).collect());
+        }
+        Ok(columns)
+    }
+
+    fn damped_step(&self, theta: &[f64], r: &[f64], jacobian: &Vec<Vec<f64>>, damping: f64) -> Option<Vec<f64>> {
+        let step = newton_step(jacobian, r, damping)?;
+        let bounded = self.parameters.iter().zip(theta.iter().zip(&step));
+        let next: Vec<f64> = bounded.map(|(p, (value, by))| (value + by).clamp(p.least, p.greatest)).collect();
+        let changes = self.parameters.iter().zip(theta.iter().zip(&next));
+        let change = changes.map(|(p, (a, b))| (b - a).abs() / p.width).fold(0.0, f64::max);
+        (change >= SMALL_STEP).then_some(next)
+    }
 }
 
 /// Finds the parameters with the least sum of squares of `residuals`.
 pub(crate) fn least_squares<E>(parameters: &[Parameter], residuals: &mut Residuals<'_, E>) -> Result<Fitted, E> {
-    let mut theta: Vec<f64> = parameters.iter().map(|p| p.start.clamp(p.least, p.greatest)).collect();
-    let mut r = residuals(&theta)?;
-    let mut damping = 1e-3;
-    let mut stop = FitStop::MaxIterations;
-    for _ in 0..MOST_ITERATIONS {
-        if !square(&r).is_finite() {
-            stop = FitStop::NotFinite;
-            break;
-        }
-        let columns = jacobian(parameters, &theta, residuals)?;
-        let mut stepped = false;
-        while damping < MOST_DAMPING {
-            let Some(step) = newton_step(&columns, &r, damping) else { break };
-            let next: Vec<f64> = parameters
-                .iter()
-                .zip(theta.iter().zip(&step))
-                .map(|(p, (value, by))| (value + by).clamp(p.least, p.greatest))
-                .collect();
-            let change = parameters.iter().zip(theta.iter().zip(&next)).map(|(p, (a, b))| (b - a).abs() / p.width);
-            let change = change.fold(0.0, f64::max);
-            if change < SMALL_STEP {
-                break;
-            }
-            let tried = residuals(&next)?;
-            if square(&tried) < square(&r) {
-                (theta, r) = (next, tried);
-                damping = (damping * 0.1).max(1e-12);
-                stepped = true;
-                break;
-            }
-            damping *= 10.0;
-        }
-        if !stepped {
-            stop = FitStop::Converged;
-            break;
-        }
-    }
-    let jacobian = jacobian(parameters, &theta, residuals)?;
-    let scale = square(&r).sqrt();
+    let start = parameters.iter().map(|p| p.start.clamp(p.least, p.greatest)).collect();
+    let mut problem = BoundedResiduals { parameters, residuals };
+    let Minimum { theta, residuals, is_converged } = SEARCH.minimise(&mut problem, start)?;
+    let jacobian = problem.jacobian(&theta, &residuals)?;
+    let scale = square(&residuals).sqrt();
     let without_effect = (0..theta.len()).find(|&i| {
         square(&jacobian[i]).sqrt() * parameters[i].width <= NO_EFFECT * scale || square(&jacobian[i]) == 0.0
     });
     let at_bound = (0..theta.len()).find(|&i| theta[i] <= parameters[i].least || theta[i] >= parameters[i].greatest);
-    let (stop, blamed) = match (stop, without_effect, at_bound) {
-        (FitStop::NotFinite, ..) => (stop, None),
-        (_, Some(index), _) => (FitStop::Undetermined, Some(index)),
-        (_, None, Some(index)) => (FitStop::AtBound, Some(index)),
-        _ => (stop, None),
+    let (stop, blamed) = match (without_effect, at_bound) {
+        _ if !scale.is_finite() => (FitStop::NotFinite, None),
+        (Some(index), _) => (FitStop::Undetermined, Some(index)),
+        (None, Some(index)) => (FitStop::AtBound, Some(index)),
+        _ if is_converged => (FitStop::Converged, None),
+        _ => (FitStop::MaxIterations, None),
     };
-    Ok(Fitted { parameters: theta, residuals: r, jacobian, stop, blamed })
+    Ok(Fitted { parameters: theta, residuals, jacobian, stop, blamed })
 }
 
 /// The undamped step −(JᵀJ)⁻¹Jᵀr; `None` where the parameters are not determined.
@@ -128,9 +135,9 @@ pub(crate) fn gauss_newton_step(jacobian: &[Vec<f64>], residuals: &[f64]) -> Opt
     newton_step(jacobian, residuals, 0.0)
 }
 
-/// Gives J the change of the residuals over the last `step` of the parameters, each measured by its width, and what J says of all other directions stays:
-/// J + (Δr − J s) sᵀ/(sᵀs) (C. G. Broyden, *Math. Comp.* 19 (1965) 577–593). A change that is mostly another one than J foretells tells of scatter: J then
-/// stays as it is.
+/// Broyden's update of J by the `change` of the residuals over the last `step` of the parameters, each measured by its width:
+/// J + (Δr − J s) sᵀ/(sᵀs) (C. G. Broyden, *Math. Comp.* 19 (1965) 577–593). J stays as it is where most of the change is none that it foretells,
+/// which is scatter.
 pub(crate) fn broyden_update(jacobian: &mut [Vec<f64>], parameters: &[Parameter], step: &[f64], change: &[f64]) {
     let mut foretold = vec![0.0; change.len()];
     for (column, by) in jacobian.iter().zip(step) {
@@ -168,6 +175,7 @@ fn scaled_normal_matrix(jacobian: &[Vec<f64>], damping: f64) -> Option<(Vec<f64>
     Some((scales, normal))
 }
 
+/// The damped step; `None` where the parameters are not determined.
 fn newton_step(jacobian: &[Vec<f64>], residuals: &[f64], damping: f64) -> Option<Vec<f64>> {
     let (scales, normal) = scaled_normal_matrix(jacobian, damping)?;
     let gradient = DVector::from_fn(scales.len(), |i, _| -dot(&jacobian[i], residuals) / scales[i]);
@@ -175,30 +183,8 @@ fn newton_step(jacobian: &[Vec<f64>], residuals: &[f64], damping: f64) -> Option
     Some(step.iter().zip(&scales).map(|(value, scale)| value / scale).collect())
 }
 
-/// Central differences, one-sided at a bound.
-fn jacobian<E>(parameters: &[Parameter], theta: &[f64], residuals: &mut Residuals<'_, E>) -> Result<Vec<Vec<f64>>, E> {
-    let mut columns = Vec::with_capacity(theta.len());
-    for (i, p) in parameters.iter().enumerate() {
-        let [low, high] = [-p.width, p.width].map(|by| (theta[i] + by).clamp(p.least, p.greatest));
-        let mut at = |value: f64| {
-            let mut moved = theta.to_vec();
-            moved[i] = value;
-            residuals(&moved)
-        };
-        let (below, above) = (at(low)?, at(high)?);
-        let span = (high - low).max(f64::MIN_POSITIVE);
-        columns.push(below.iter().zip(&above).map(|(a, b)| (b - a) / span).collect());
-    }
-    Ok(columns)
-}
-
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// Sum of squares.
-fn square(values: &[f64]) -> f64 {
-    dot(values, values)
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Form removal: what is left of a profile when its form is taken away by least squares.
+//! Form removal: the residual of a profile after its form is fitted by least squares.
 //!
 //! All forms are linear in a few functions of the arc length, so that removing them is a projection: with Q the orthonormal
 //! columns of these functions at the points,
@@ -16,7 +16,7 @@
 //! The columns are Legendre's polynomials on the length of the profile, orthonormalised twice: well conditioned for any number of
 //! points.
 
-/// What is taken for the form of a profile: the values of `--form`.
+/// Form of a profile: the values of `--form`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Form {
     /// A least-squares polynomial of third order.
@@ -28,7 +28,7 @@ pub(crate) enum Form {
 }
 
 impl Form {
-    /// Its name on the command line and in reports.
+    /// Name on the command line and in reports.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Form::Cubic => "cubic",
@@ -37,7 +37,7 @@ impl Form {
         }
     }
 
-    /// How many numbers it takes from a profile.
+    /// Number of functions that are fitted.
     pub(crate) fn parameters(self) -> usize {
         match self {
             Form::Cubic => 4,
@@ -130,7 +130,7 @@ mod tests {
         assert!(once.iter().any(|z| z.abs() > 0.5));
     }
 
-    /// What is left is orthogonal to every function of the form: the normal equations of least squares.
+    /// The residual is orthogonal to every function of the form: the normal equations of least squares.
     #[test]
     fn ver_what_is_left_satisfies_the_normal_equations() {
         let arc = places();

@@ -1,4 +1,4 @@
-//! What the residuals of a fit say of its parameters.
+//! Uncertainty of the parameters of a fit, from its residuals.
 //!
 //! Neighbouring points of a stylus trace are not independent: the tip is wider than their distance, and what the model does
 //! not describe is smooth. With ρ_k the autocorrelation of the residuals of a profile at a distance of k points,
@@ -41,30 +41,30 @@ pub(crate) const CONFIDENCE: f64 = 0.95;
 /// Rounds in which the autocorrelation is corrected for what the fit has taken.
 const ROUNDS: usize = 20;
 
-/// The residuals of one profile among those of all.
+/// Part of the residuals that one profile has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct ProfilePart {
-    /// How many there are.
+    /// Number of points.
     pub points: usize,
-    /// Values taken from them beside the parameters: those of the form.
+    /// Values fitted to them beside the parameters: those of the form.
     pub also_fitted: usize,
 }
 
-/// How the residuals of one profile scatter.
+/// Scatter of the residuals of one profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Scatter {
     /// n_eff: points that count.
     pub effective_points: f64,
     /// ν = n_eff − q.
     pub degrees_of_freedom: f64,
-    /// σ √τ: standard deviation of a point times the root of how many say what one says.
+    /// σ √τ: standard deviation of a point, times the root of the number of points correlated with it.
     pub deviation: f64,
 }
 
-/// What the residuals of a fit say.
+/// Uncertainty of fitted parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Uncertainty {
-    /// Profile by profile.
+    /// Scatter of each profile.
     pub scatter: Vec<Scatter>,
     /// Half the width of each parameter's interval.
     pub half_widths: Vec<f64>,
@@ -84,14 +84,18 @@ impl Uncertainty {
     }
 }
 
-/// What `residuals` with the columns `jacobian` say, those of one profile after those of another as in `parts`; `None` where too
-/// few points of a profile count for an interval, or parameters are not determined.
+/// Uncertainty from `residuals` with the columns `jacobian`, profile after profile as in `parts`; `None` where too few points of a profile
+/// count for an interval, or parameters are not determined.
 pub(crate) fn uncertainty(jacobian: &[Vec<f64>], residuals: &[f64], parts: &[ProfilePart]) -> Option<Uncertainty> {
     let count = jacobian.len();
     let inverse = inverse_normal_matrix(jacobian)?;
-    // J N, column by column: what each residual adds to each parameter.
-    let row = |i: usize, row: usize| (0..count).map(|j| jacobian[j][row] * inverse[(j, i)]).sum::<f64>();
-    let influence: Vec<Vec<f64>> = (0..count).map(|i| (0..residuals.len()).map(|at| row(i, at)).collect()).collect();
+    // J N, column by column: the part of each residual in each parameter.
+    let influence: Vec<Vec<f64>> = (0..count)
+        .map(|i| {
+            let rows = 0..residuals.len();
+            rows.map(|row| (0..count).map(|j| jacobian[j][row] * inverse[(j, i)]).sum()).collect()
+        })
+        .collect();
 
     let rows = rows(parts);
     let mut scatter: Vec<Scatter> = Vec::with_capacity(parts.len());
@@ -104,42 +108,40 @@ pub(crate) fn uncertainty(jacobian: &[Vec<f64>], residuals: &[f64], parts: &[Pro
         not_yet_fitted -= leverage;
         scatter.push(scatter_of(&residuals[rows.clone()], part.also_fitted as f64 + leverage)?);
     }
-    // What each profile adds to cov θ.
-    let covariance = |i: usize, j: usize| -> Vec<f64> {
-        let of_profile = |(rows, scatter): (&Range<usize>, &Scatter)| {
-            scatter.deviation.powi(2) * dot(&influence[i][rows.clone()], &influence[j][rows.clone()])
-        };
-        rows.iter().zip(&scatter).map(of_profile).collect()
-    };
     let mut deviations = Vec::with_capacity(count);
     let mut half_widths = Vec::with_capacity(count);
-    for i in 0..count {
-        let variances = covariance(i, i);
+    for own in &influence {
+        let variances = covariances(own, own, &rows, &scatter);
         let student = StudentsT::new(0.0, 1.0, degrees_of_freedom(&variances, &scatter)).ok()?;
         let deviation = variances.iter().sum::<f64>().sqrt();
         deviations.push(deviation);
         half_widths.push(student.inverse_cdf(0.5 + 0.5 * CONFIDENCE) * deviation);
     }
-    let correlation = |i: usize, j: usize| match i == j {
-        true => 1.0,
-        false => covariance(i, j).iter().sum::<f64>() / (deviations[i] * deviations[j]),
-    };
-    let correlation = (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect();
+    let mut correlation = vec![vec![1.0; count]; count];
+    for (i, j) in (0..count).flat_map(|i| (0..count).map(move |j| (i, j))).filter(|(i, j)| i != j) {
+        let covariance: f64 = covariances(&influence[i], &influence[j], &rows, &scatter).iter().sum();
+        correlation[i][j] = covariance / (deviations[i] * deviations[j]);
+    }
     Some(Uncertainty { scatter, half_widths, deviations, correlation })
 }
 
-/// Where the residuals of each profile stand.
-fn rows(parts: &[ProfilePart]) -> Vec<Range<usize>> {
-    let mut end = 0;
-    let next = |part: &ProfilePart| {
-        let start = end;
-        end += part.points;
-        start..end
-    };
-    parts.iter().map(next).collect()
+/// Part of each profile in the covariance of the parameters with these `influence`s.
+fn covariances(one: &[f64], other: &[f64], rows: &[Range<usize>], scatter: &[Scatter]) -> Vec<f64> {
+    let profiles = rows.iter().zip(scatter);
+    profiles.map(|(rows, scatter)| scatter.deviation.powi(2) * dot(&one[rows.clone()], &other[rows.clone()])).collect()
 }
 
-/// How the residuals of a profile scatter, to which `fitted` values were fitted; `None` where too few points count.
+/// Range of the residuals of each profile.
+fn rows(parts: &[ProfilePart]) -> Vec<Range<usize>> {
+    let mut ranges: Vec<Range<usize>> = Vec::with_capacity(parts.len());
+    for part in parts {
+        let start = ranges.last().map_or(0, |range| range.end);
+        ranges.push(start..start + part.points);
+    }
+    ranges
+}
+
+/// Scatter of the residuals of a profile to which `fitted` values were fitted; `None` where too few points count.
 fn scatter_of(residuals: &[f64], fitted: f64) -> Option<Scatter> {
     let points = residuals.len() as f64;
     let time = correlation_points(residuals, fitted);
@@ -163,28 +165,31 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// τ: how many neighbouring points say what one says, at least 1. `fitted` values were taken from the residuals.
+/// Autocorrelation of residuals at a distance of `k` points, over their sum of `squares`.
+fn autocorrelation(residuals: &[f64], k: usize, squares: f64) -> f64 {
+    residuals.iter().zip(&residuals[k..]).map(|(a, b)| a * b).sum::<f64>() / squares
+}
+
+/// τ: number of neighbouring points correlated with one, itself included, at least 1. `fitted` values were fitted to the residuals.
 fn correlation_points(residuals: &[f64], fitted: f64) -> f64 {
     let n = residuals.len();
     let square = dot(residuals, residuals);
     if n < 4 || square <= 0.0 {
         return 1.0;
     }
-    let raw = |k: usize| residuals.iter().zip(&residuals[k..]).map(|(a, b)| a * b).sum::<f64>() / square;
     let mut time = 1.0_f64;
     for _ in 0..ROUNDS {
         // Of γ_k, σ²ρ_k less about q τ σ²/n is left; of γ_0, σ² (1 − q τ/n).
         let taken = (fitted * time / n as f64).min(0.9);
-        let rho = |k: usize| (1.0 - taken) * raw(k) + taken;
         let mut sum = 1.0;
         let mut k = 1;
         while k + 1 < n {
-            let two = rho(k) + rho(k + 1);
-            // The first pair is that of ρ_1 alone with ρ_2: white residuals end here.
-            if two - 2.0 * taken <= 0.0 || rho(k) <= 0.0 {
+            let [rho, next_rho] = [k, k + 1].map(|k| (1.0 - taken) * autocorrelation(residuals, k, square) + taken);
+            // The first pair is ρ_1 and ρ_2: white residuals end here.
+            if rho + next_rho - 2.0 * taken <= 0.0 || rho <= 0.0 {
                 break;
             }
-            sum += 2.0 * rho(k).max(0.0) + 2.0 * rho(k + 1).max(0.0);
+            sum += 2.0 * rho.max(0.0) + 2.0 * next_rho.max(0.0);
             k += 2;
         }
         let next = sum.clamp(1.0, n as f64);
@@ -206,7 +211,7 @@ mod tests {
         (0..count).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect()
     }
 
-    /// All residuals those of one profile.
+    /// Uncertainty where all residuals are of one profile.
     fn of_one(jacobian: &[Vec<f64>], residuals: &[f64], also_fitted: usize) -> Option<Uncertainty> {
         uncertainty(jacobian, residuals, &[ProfilePart { points: residuals.len(), also_fitted }])
     }
@@ -234,9 +239,8 @@ mod tests {
             })
             .collect();
         let repeated: Vec<f64> = signs.iter().flat_map(|&s| [s; 10]).collect();
-        let column = |n: usize| vec![vec![1.0; n]];
-        let once = of_one(&column(400), &signs, 0).unwrap();
-        let tenfold = of_one(&column(4000), &repeated, 0).unwrap();
+        let once = of_one(&[vec![1.0; 400]], &signs, 0).unwrap();
+        let tenfold = of_one(&[vec![1.0; 4000]], &repeated, 0).unwrap();
         let count = tenfold.scatter[0].effective_points;
         assert!((0.5..2.0).contains(&(count / 400.0)), "{count}");
         // The textbook's interval would be √10 times too narrow.
@@ -257,8 +261,12 @@ mod tests {
     fn ver_two_means_are_welchs_problem() {
         let parts = [ProfilePart { points: 10, also_fitted: 0 }, ProfilePart { points: 40, also_fitted: 0 }];
         let residuals = [alternating(10), alternating(40).iter().map(|r| 3.0 * r).collect()].concat();
-        let column = |a: f64, b: f64| [vec![a; 10], vec![b; 40]].concat();
-        let apart = uncertainty(&[column(1.0, 0.0), column(0.0, 1.0)], &residuals, &parts).unwrap();
+        let apart = uncertainty(
+            &[[[1.0; 10].as_slice(), &[0.0; 40]].concat(), [[0.0; 10].as_slice(), &[1.0; 40]].concat()],
+            &residuals,
+            &parts,
+        )
+        .unwrap();
         let variances = [10.0 / 9.0 / 10.0, 9.0 * 40.0 / 39.0 / 40.0];
         for (deviation, variance) in apart.deviations.iter().zip(variances) {
             assert!((deviation * deviation / variance - 1.0).abs() < 1e-12);
@@ -267,7 +275,12 @@ mod tests {
 
         // The same by their sum and difference: θ₁ = (a + b)/2, θ₂ = (a − b)/2 have equal variances, a quarter of the sum of both, and
         // the correlation (s_a² − s_b²)/(s_a² + s_b²).
-        let turned = uncertainty(&[column(1.0, 1.0), column(1.0, -1.0)], &residuals, &parts).unwrap();
+        let turned = uncertainty(
+            &[[[1.0; 10].as_slice(), &[1.0; 40]].concat(), [[1.0; 10].as_slice(), &[-1.0; 40]].concat()],
+            &residuals,
+            &parts,
+        )
+        .unwrap();
         let sum = variances[0] + variances[1];
         assert!(turned.deviations.iter().all(|deviation| (deviation * deviation / (0.25 * sum) - 1.0).abs() < 1e-12));
         assert!((turned.correlation[0][1] - (variances[0] - variances[1]) / sum).abs() < 1e-12, "{turned:?}");

@@ -1,17 +1,17 @@
 //! Measured profiles of a flank: read, freed of their form, and fitted.
 //!
-//! A stylus trace, or one of a replica, is a row of heights along the flank. To see wear in it, the form of the unworn flank is
-//! taken away first, by a least-squares cubic as in the thesis (section 4.2) or by the nominal involute. Whatever is taken from
-//! the measured profile is taken from the simulated one in the same way: a cubic takes a part of the wear with it.
+//! A stylus trace, or one of a replica, is a row of heights along the flank. To show the wear, the form of the unworn flank is
+//! removed first, a least-squares cubic as in the thesis (section 4.2) or the nominal involute. The form of the simulated profile is removed in the
+//! same way: a cubic takes a part of the wear with it.
 //!
 //! | module | what it does |
 //! |---|---|
 //! | [`mod@file`] | the CSV file with its header |
-//! | [`profile`] | its points on the flank of a gear |
+//! | [`profile`] | points on the flank of a gear |
 //! | [`form`] | form removal as a projection |
 //! | [`roughness`] | arithmetic mean deviation, before and after a Gaussian filter |
 //! | [`fit`] | nonlinear least squares in a few parameters |
-//! | [`interval`] | what the residuals say of the parameters |
+//! | [`interval`] | uncertainty of the parameters, from the residuals |
 
 pub(crate) mod file;
 pub(crate) mod fit;

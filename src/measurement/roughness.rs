@@ -16,9 +16,9 @@ use std::f64::consts::{LN_2, PI};
 
 /// Cutoff λc of the roughness, mm: that of ISO 21920-3 for Ra from 0.1 to 2 µm.
 pub(crate) const CUTOFF_MM: f64 = 0.8;
-/// Fewest points in a cutoff with which a filter is one.
+/// Fewest points in a cutoff.
 const POINTS_PER_CUTOFF: f64 = 10.0;
-/// The filter's weights beyond this many cutoffs are below 1e-6.
+/// Reach of the filter in cutoffs: beyond it, weights are below 1e-6.
 const REACH: f64 = 1.0;
 
 /// Arithmetic mean deviation from their mean of `values` at points of these arc lengths.
@@ -29,8 +29,8 @@ pub(crate) fn mean_deviation(arc_mm: &[f64], values: &[f64]) -> f64 {
     values.iter().zip(&shares).map(|(value, share)| (value - mean).abs() * share).sum::<f64>() / length
 }
 
-/// The same from the mean line of the Gaussian filter; `None` where the points are too far apart, or the profile is shorter than
-/// the cutoff.
+/// Ra: arithmetic mean deviation from the mean line of the Gaussian filter; `None` where the points are too far apart, or the profile is
+/// shorter than the cutoff.
 pub(crate) fn roughness(arc_mm: &[f64], values: &[f64], cutoff_mm: f64) -> Option<f64> {
     let length = arc_mm.last()? - arc_mm.first()?;
     let widest = arc_mm.windows(2).map(|two| two[1] - two[0]).fold(0.0, f64::max);

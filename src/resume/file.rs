@@ -21,7 +21,7 @@ use crate::simulation::checkpoint::Checkpoint;
 use crate::whole_file;
 
 /// Changes with the content of the file.
-const FORMAT: u32 = 3;
+const FORMAT: u32 = 4;
 const MAGIC: &str = "gearwear checkpoint ";
 const PROGRAM_VERSION: &str = env!("CARGO_PKG_VERSION");
 

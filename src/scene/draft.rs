@@ -166,7 +166,7 @@ impl Draft {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Scene, presets};
+    use crate::scene::presets;
 
     /// Keys of phases are numbered from 1.
     #[test]
@@ -191,7 +191,7 @@ mod tests {
     fn a_draft_resolves_as_its_text_would() {
         let text = presets::find("fzg-c").unwrap().text;
         let mut draft = Draft::parse(text).unwrap();
-        assert_eq!(draft.resolve().unwrap(), Scene::from_toml(text).unwrap());
+        assert_eq!(draft.resolve().unwrap(), Resolved::from_toml(text).unwrap());
         draft.set("pair.face_width_mm", 20.0);
         draft.set("pair.pinion.teeth", 17);
         draft.remove("pair.pinion.tip_diameter_mm");
@@ -200,7 +200,7 @@ mod tests {
             .replace("face_width_mm = 14.0", "face_width_mm = 20.0")
             .replace("teeth = 16", "teeth = 17")
             .replace("tip_diameter_mm = 82.46", "");
-        let (mine, theirs) = (draft.resolve(), Scene::from_toml(&written));
+        let (mine, theirs) = (draft.resolve(), Resolved::from_toml(&written));
         assert_eq!(mine.map(|r| r.scene), theirs.map(|r| r.scene));
     }
 

@@ -13,19 +13,16 @@ use crate::gear_mesh::settings::SectorSides;
 pub struct FemFile {
     /// How much of each gear is meshed. Default: ring.
     pub body: Option<BodyKind>,
-    /// Teeth of a sector, an odd number from 1; read with body = "sector". Default 3.
+    /// Teeth of a sector, 1 to 9999, odd. Default 3.
     #[schemars(range(min = 1, max = 9999))]
     pub sector_teeth: Option<u32>,
-    /// What holds the cut sides of a sector; read with body = "sector". Default: free.
+    /// Support of the cut sides of a sector. Default: free.
     pub sector_sides: Option<SectorSides>,
-    /// Radii at which the bodies are held or turned rigidly, rim or bore. Default: root radius less 2.5 transverse modules,
-    /// or the bore where that is larger.
+    /// Radii at which the bodies are held or turned rigidly.
     pub clamp_radius_mm: Option<ClampRadiusFile>,
-    /// Webs that carry the rims of the gears. A pair with one is taken in slices over the face width; finite elements in space see it, plane ones
-    /// do not. Default: none; bodies are discs as wide as the teeth.
+    /// Webs that carry the rims: the pair is taken in slices, and finite elements in space see the web. Default: discs as wide as the teeth.
     pub web: Option<WebsFile>,
-    /// Elements in the half-width of contact under the whole load, 2 to 60: the resolution. Default 10, and 3 in a wear
-    /// run (5 with severe wear), which resolve its wear as well.
+    /// Elements in the half-width of contact, 2 to 60. Default 10; in a wear run 3, with severe wear 5.
     #[schemars(range(min = 2, max = 60))]
     pub elements_per_half_width: Option<f64>,
 }
@@ -45,10 +42,10 @@ pub enum BodyKind {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ClampRadiusFile {
-    /// Of the pinion in mm, > 0. Default: root radius less 2.5 transverse modules, or the bore where that is larger.
+    /// Clamp radius of the pinion in mm, > 0. Default: 2.5 transverse modules below the root circle, or the bore where that is larger.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion: Option<f64>,
-    /// Of the wheel in mm, > 0. Default: root radius less 2.5 transverse modules, or the bore where that is larger.
+    /// Clamp radius of the wheel in mm, > 0. Default: likewise.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub wheel: Option<f64>,
 }
@@ -57,9 +54,9 @@ pub struct ClampRadiusFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WebsFile {
-    /// Of the pinion.
+    /// Web of the pinion.
     pub pinion: Option<WebFile>,
-    /// Of the wheel.
+    /// Web of the wheel.
     pub wheel: Option<WebFile>,
 }
 
@@ -74,13 +71,13 @@ impl WebsFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WebFile {
-    /// Thickness b_s of the web along the axis in mm, > 0: at least a tenth of a module, and at most the face width.
+    /// Thickness b_s of the web in mm, > 0: from a tenth of a module to the face width.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub thickness_mm: f64,
-    /// Thickness s_R of the rim from the root circle to where the web begins in mm, > 0: at least a quarter of a module. It leaves a tenth of a module of
-    /// web above fem.clamp_radius_mm.
+    /// Thickness s_R of the rim below the root circle in mm, > 0: at least a quarter of a module; a tenth of a module of web must remain above
+    /// fem.clamp_radius_mm.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub rim_thickness_mm: f64,
-    /// Place of its middle over the face width from that of the teeth in mm, positive towards greater z. Default 0.
+    /// Axial offset of the middle of the web from that of the teeth in mm. Default 0.
     pub offset_mm: Option<f64>,
 }

@@ -19,7 +19,6 @@ use crate::gear::flank::PointSpacing;
 use crate::gear::modification::ReliefShape;
 use crate::gear::shaft::EndFace;
 use crate::mesh_cycle::settings::Coupling;
-use crate::simulation::settings::AdaptiveMethod;
 
 /// A gear pair, its load and how its wear is to be computed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -28,7 +27,7 @@ use crate::simulation::settings::AdaptiveMethod;
 pub struct SceneFile {
     /// Title of the report. Default: the numbers of teeth.
     pub title: Option<String>,
-    /// Who reports, and when: shown on the pages of runs and in their workbooks, read by nothing else.
+    /// Author, company and date, shown on pages and in workbooks.
     pub report: Option<ReportFile>,
     /// The gear pair.
     pub pair: PairFile,
@@ -40,25 +39,20 @@ pub struct SceneFile {
     pub contact: Option<ContactFile>,
     /// Stiffness of the teeth. Default: by finite elements.
     pub stiffness: Option<StiffnessFile>,
-    /// The finite-element bodies: read by contact.surface = "fem", by the stiffness of the teeth, by the verification of
-    /// a run, and by gearwear fem, mesh and calibrate. Default: whole rings.
+    /// Finite-element bodies of both gears. Default: whole rings.
     pub fem: Option<FemFile>,
-    /// Contact temperatures, which need the speed. Default: found only where the wear law reads them.
+    /// Contact temperatures, which need the speed. Default: computed only where the wear law reads them.
     pub temperature: Option<TemperatureFile>,
-    /// The oil, which asks for films, and for losses. Needs the speed and the roughness of both gears. Default: no films.
+    /// The oil: gives films and losses, and needs the speed and the roughness of both gears. Default: no films.
     pub lubricant: Option<LubricantFile>,
-    /// Friction of the mesh, which asks for losses and needs the speed. Default: with [lubricant] the mean value of ISO/TS 6336-22, otherwise
-    /// no losses.
+    /// Friction of the mesh: gives losses, and needs the speed. Default: with [lubricant] the mean value of ISO/TS 6336-22, otherwise no
+    /// losses.
     pub friction: Option<FrictionFile>,
-    /// Load factors of ISO 6336-1, read by films and by the figures of standards. Default: 1 each.
+    /// Load factors of ISO 6336-1 for films and figures of standards. Default: 1 each.
     pub load_factors: Option<LoadFactorsFile>,
     /// The wear law.
     pub wear: WearFile,
-    /// Slices over the face width, read only where sections differ: with a helix angle, a modification over the face
-    /// width, a shaft that twists, or axes that are not parallel. With slices, contact.surface = "hertz-mean" is the
-    /// simplified model of the thesis, whose wear is kept at the contact points themselves. The surface "fem" is plane and
-    /// has no slices; gearwear mesh, fem and calibrate take the transverse section of a helical pair, and its calibration
-    /// serves every slice.
+    /// Slices over the face width, used where sections differ: helix angle, modification over the width, twisting shaft, axes out of parallel.
     pub helical: Option<HelicalFile>,
     /// Resolution in space and time.
     pub numerics: Option<NumericsFile>,
@@ -68,11 +62,11 @@ pub struct SceneFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReportFile {
-    /// Who made the calculation. Default: not said.
+    /// Author of the calculation. Default: none.
     pub author: Option<String>,
-    /// For whom, or where. Default: not said.
+    /// Company or customer. Default: none.
     pub company: Option<String>,
-    /// The day, as it is to be shown. Default: not said, so that the same scene gives the same page.
+    /// Date, as text. Default: none.
     pub date: Option<String>,
 }
 
@@ -80,17 +74,15 @@ pub struct ReportFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PairFile {
-    /// A pair of the library; a key given beside it overrides the preset's. fzg-c and fzg-a: gears of ISO 14635-1, FZG
-    /// type C (face width 14 mm) and A (20 mm). thesis-spur, fzg-test, thesis-fzg-test: type C again; the scenes of these names are the
-    /// thesis's model of it with every choice written out, its wear test on elastic contact with tips rounded by 0.1 mm, and the same test with the thesis's model. helical: the transverse section of type C
-    /// with a helix of 15°, 20 mm wide; thesis-helical: the same, its scene the thesis's model. h501, h701, h951: the public helical pairs of FEUP. Default: none.
+    /// Built-in pair; keys beside it override it. fzg-c, fzg-a: FZG types C (14 mm wide) and A (20 mm) of ISO 14635-1. thesis-spur, fzg-test,
+    /// thesis-fzg-test: type C. helical, thesis-helical: type C with a helix of 15°, 20 mm wide. h501, h701, h951: helical pairs of FEUP.
+    /// Default: none.
     #[schemars(extend("enum" = presets::names()))]
     pub preset: Option<String>,
-    /// Normal module m_n in mm, > 0. Profile shifts and rack factors are then factors of it. Required without a preset,
-    /// or transverse_module_mm.
+    /// Normal module m_n in mm, > 0. Required without a preset, or transverse_module_mm.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub normal_module_mm: Option<f64>,
-    /// Transverse module m_t in mm, > 0, instead of the normal one. Profile shifts and rack factors are then factors of it.
+    /// Transverse module m_t in mm, > 0, instead of the normal one.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub transverse_module_mm: Option<f64>,
     /// Normal pressure angle α_n in degrees, 5 to 45. Required without a preset, or transverse_pressure_angle_deg.
@@ -103,24 +95,22 @@ pub struct PairFile {
     /// Default 0.
     #[schemars(range(min = -45, max = 45))]
     pub helix_angle_deg: Option<f64>,
-    /// Working centre distance a in mm, > 0; sets working pressure angle and backlash. Required without a preset, or backlash_um or
-    /// normal_backlash_um.
+    /// Working centre distance a in mm, > 0. Required without a preset, or backlash_um or normal_backlash_um.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub centre_distance_mm: Option<f64>,
-    /// Circumferential backlash j_wt on the working circles in the transverse section in µm, 0 or more, instead of the centre distance, which
-    /// follows from it with the tooth thickness allowances as they are; 0: no backlash.
+    /// Circumferential backlash j_wt on the working circles in µm, 0 or more, instead of the centre distance.
     #[schemars(range(min = 0))]
     pub backlash_um: Option<f64>,
-    /// Normal backlash j_bn in µm, 0 or more, the shortest distance between the rear flanks, j_wt cos α_wt cos β_b; instead of the centre
-    /// distance.
+    /// Normal backlash j_bn in µm, 0 or more, instead of the centre distance.
     #[schemars(range(min = 0))]
     pub normal_backlash_um: Option<f64>,
     /// Common face width b in mm, > 0. Required without a preset.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub face_width_mm: Option<f64>,
-    /// The rack that generates the teeth. Default: profile A of ISO 53.
+    /// Basic rack of the teeth, in factors of the module that is given. Default: profile A of ISO 53.
     pub basic_rack: Option<BasicRackFile>,
-    /// How far the axes are from parallel, from offsets of their bearings. Default: parallel.
+    /// Deviations of the axes from parallel (ISO/TR 10064-3), positive where the working flanks come apart towards the full width. Default:
+    /// parallel.
     pub axis_parallelism: Option<AxisParallelismFile>,
     /// The driving gear. Required without a preset.
     pub pinion: Option<GearFile>,
@@ -138,8 +128,7 @@ pub struct BasicRackFile {
     /// Dedendum factor h_fP*, > 0 to 3. Default 1.25.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 3))]
     pub dedendum_factor: Option<f64>,
-    /// Root fillet radius factor ρ_fP*, 0 to 1. Default 0.38; less where the rack has no room for it, at a great pressure angle or
-    /// dedendum, or in the normal section of a steep helix.
+    /// Root fillet radius factor ρ_fP*, 0 to 1. Default 0.38, or less where the rack has no room for it.
     #[schemars(range(min = 0, max = 1))]
     pub fillet_radius_factor: Option<f64>,
 }
@@ -148,12 +137,11 @@ pub struct BasicRackFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AxisParallelismFile {
-    /// In-plane deviation f_Σδ in µm: of the distance between the axes. Default 0.
+    /// In-plane deviation f_Σδ in µm. Default 0.
     pub in_plane_um: Option<f64>,
-    /// Out-of-plane deviation f_Σβ in µm: across the plane of the axes. Default 0.
+    /// Out-of-plane deviation f_Σβ in µm. Default 0.
     pub out_of_plane_um: Option<f64>,
-    /// Length in mm over which the deviations are given, > 0, such as the distance between the bearings. Default: the face
-    /// width.
+    /// Length over which the deviations are given in mm, > 0. Default: the face width.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub over_length_mm: Option<f64>,
 }
@@ -162,13 +150,13 @@ pub struct AxisParallelismFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ShaftFile {
-    /// Diameter that twists in mm, > 0; of a pinion shaft close to the root diameter.
+    /// Diameter that twists in mm, > 0; on a pinion shaft about the root diameter.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub diameter_mm: f64,
-    /// Diameter of its bore in mm, 0 or more. Default 0.
+    /// Bore diameter in mm, 0 or more. Default 0.
     #[schemars(range(min = 0))]
     pub bore_diameter_mm: Option<f64>,
-    /// The end face at which the torque enters: start at width 0, end at the full width. Default: start.
+    /// End face at which the torque enters. Default: start.
     pub driven_at: Option<EndFace>,
 }
 
@@ -179,43 +167,38 @@ pub struct GearFile {
     /// Number of teeth z, 5 to 10000. Required without a preset.
     #[schemars(range(min = 5, max = 10000))]
     pub teeth: Option<u32>,
-    /// Profile shift coefficient x of the module that is given, −5 to 5; 0 for none. Required without a preset.
+    /// Profile shift coefficient x of the module that is given, −5 to 5. Required without a preset.
     #[schemars(range(min = -5, max = 5))]
     pub profile_shift: Option<f64>,
-    /// Tip diameter d_a in mm, > 0. Default: that of the rack, d + 2 m (x + h_aP*), shortened where the full tip clearance asks for it.
+    /// Tip diameter d_a in mm, > 0. Default: d + 2 m (x + h_aP*), shortened where the tip clearance asks for it.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub tip_diameter_mm: Option<f64>,
-    /// Tooth thickness allowance E_sn in µm in the normal section; negative thins the tooth. Default 0.
+    /// Tooth thickness allowance E_sn in the normal section in µm; negative thins the tooth. Default 0.
     pub tooth_thickness_allowance_um: Option<f64>,
-    /// Bore diameter in mm, > 0: drawn, and the least clamp radius of the finite-element body. The body must be larger.
-    /// Default: not given.
+    /// Bore diameter in mm, > 0: lower limit of the clamp radius. Default: none.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub bore_diameter_mm: Option<f64>,
-    /// Height of the profile crowning in µm, 0 or more: a parabola over the active profile, nothing removed at its
-    /// middle. Default 0.
+    /// Profile crowning in µm, 0 or more: a parabola over the active profile. Default 0.
     #[schemars(range(min = 0))]
     pub profile_crowning_um: Option<f64>,
-    /// Height of the lead crowning in µm, 0 or more: a parabola over the face width, nothing removed at its middle.
-    /// Default 0.
+    /// Lead crowning in µm, 0 or more: a parabola over the face width. Default 0.
     #[schemars(range(min = 0))]
     pub lead_crowning_um: Option<f64>,
-    /// Helix-slope deviation over the face width in µm, misalignment included: positive, material is missing at the full
-    /// width; negative, at width 0. Default 0.
+    /// Helix-slope deviation over the face width in µm, misalignment included; positive: material is missing at the full width. Default 0.
     pub helix_slope_deviation_um: Option<f64>,
-    /// Flank tolerance class of ISO 1328-1:2013, 1 to 11, instead of the helix-slope deviation, which is then the whole tolerance f_HβT of the
-    /// reference diameter and the face width, positive: material is missing at the full width. Of both gears they add up.
+    /// Flank tolerance class of ISO 1328-1:2013, 1 to 11, instead of the helix-slope deviation, which becomes the tolerance f_HβT.
     #[schemars(range(min = 1, max = 11))]
     pub helix_slope_class: Option<u32>,
-    /// Radius of the rounding of the tip edge in mm, 0 or more; below a thousandth of the module the edge counts as sharp. Default 0.
+    /// Radius of the tip edge in mm, 0 or more; below a thousandth of the module it counts as sharp. Default 0.
     #[schemars(range(min = 0))]
     pub tip_rounding_mm: Option<f64>,
-    /// Roughness of the flanks as arithmetic mean Ra in µm, 0.0001 to 50; read by films and friction, which need it. Default: not given.
+    /// Arithmetic mean roughness Ra in µm, 0.0001 to 50; needed by films and friction. Default: none.
     #[schemars(range(min = 0.0001, max = 50))]
     pub roughness_Ra_um: Option<f64>,
-    /// The same of flanks that are run in, as worn ones are, 0.0001 to 50. Default: that of the new ones.
+    /// Ra of run-in and worn flanks in µm, 0.0001 to 50. Default: that of the new ones.
     #[schemars(range(min = 0.0001, max = 50))]
     pub roughness_run_in_Ra_um: Option<f64>,
-    /// Root mean square Rq in µm, 0.0001 to 60; read by friction.model = "xu" and by wear.film. Default: 1.2533 Ra, of heights spread normally.
+    /// Root mean square roughness Rq in µm, 0.0001 to 60. Default: 1.2533 Ra.
     #[schemars(range(min = 0.0001, max = 60))]
     pub roughness_Rq_um: Option<f64>,
     /// Relief towards the tip. Default: none.
@@ -235,17 +218,16 @@ pub struct ReliefFile {
     /// Material removed at the end of the flank along its normal in µm, 0 or more.
     #[schemars(range(min = 0))]
     pub amount_um: f64,
-    /// Roll length, along the path of contact, over which it runs out in mm, > 0. Required, or begins_at_diameter_mm or
-    /// begins_at_roll_angle_deg.
+    /// Roll length of the relief along the path of contact in mm, > 0. Required, or begins_at_diameter_mm or begins_at_roll_angle_deg.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub length_mm: Option<f64>,
-    /// Diameter at which it begins in mm, > 0, instead of its length: between the start of active profile (SAP) and the tip circle.
+    /// Diameter at which the relief begins in mm, > 0, instead of its length.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub begins_at_diameter_mm: Option<f64>,
     /// Roll angle from the base circle at which it begins in degrees, > 0, instead of its length.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub begins_at_roll_angle_deg: Option<f64>,
-    /// How it grows from its start. Default: linear.
+    /// Growth of the relief from its start. Default: linear.
     pub shape: Option<ReliefShape>,
 }
 
@@ -256,10 +238,10 @@ pub struct EndReliefFile {
     /// Material removed at the end faces along the normal of the flank in µm, 0 or more.
     #[schemars(range(min = 0))]
     pub amount_um: f64,
-    /// Length along the face width over which it runs out at either end in mm, > 0.
+    /// Length of the relief along the face width at either end in mm, > 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub length_mm: f64,
-    /// How it grows from its start. Default: linear.
+    /// Growth of the relief from its start. Default: linear.
     pub shape: Option<ReliefShape>,
 }
 
@@ -267,13 +249,12 @@ pub struct EndReliefFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MaterialFile {
-    /// Both gears' material by name: its constants at room temperature (docs/materials.md); keys beside it override them. It says nothing
-    /// of wear. Default: steel.
+    /// Material of both gears by name, with its constants at room temperature (docs/materials.md). Default: steel.
     pub preset: Option<MaterialPreset>,
     /// Young's modulus E of both gears in GPa, > 0. Default 206.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub young_modulus_GPa: Option<f64>,
-    /// Young's modulus of both gears over the temperature of their teeth, in place of young_modulus_GPa; needs [temperature.tooth].
+    /// Young's modulus over the temperature of the teeth, instead of young_modulus_GPa; needs [temperature.tooth].
     pub young_modulus_curve: Option<ModulusCurveFile>,
     /// Poisson's ratio ν of both gears, 0 to below 0.5. Default 0.3.
     #[schemars(range(min = 0), extend("exclusiveMaximum" = 0.5))]
@@ -281,10 +262,10 @@ pub struct MaterialFile {
     /// Density of both gears in kg/m³, > 0; gives the worn mass. Default 7830.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub density_kg_per_m3: Option<f64>,
-    /// Thermal conductivity in W/(m·K), > 0; read where contact temperatures are. Default 46.
+    /// Thermal conductivity in W/(m·K), > 0, for contact temperatures. Default 46.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub thermal_conductivity_W_per_mK: Option<f64>,
-    /// Thermal diffusivity in m²/s, > 0; read where contact temperatures are. Default 1.2e-5.
+    /// Thermal diffusivity in m²/s, > 0, for contact temperatures. Default 1.2e-5.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub thermal_diffusivity_m2_per_s: Option<f64>,
     /// Material of the pinion.
@@ -310,12 +291,12 @@ pub struct ModulusCurveFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GearMaterialFile {
-    /// Its name; keys beside it override its constants. Default: steel.
+    /// Material of the gear by name. Default: steel.
     pub preset: Option<MaterialPreset>,
     /// Young's modulus E in GPa, > 0. Default 206.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub young_modulus_GPa: Option<f64>,
-    /// Young's modulus over the temperature of the teeth, in place of young_modulus_GPa; needs [temperature.tooth].
+    /// Young's modulus over the temperature of the teeth, instead of young_modulus_GPa; needs [temperature.tooth].
     pub young_modulus_curve: Option<ModulusCurveFile>,
     /// Poisson's ratio ν, 0 to below 0.5. Default 0.3.
     #[schemars(range(min = 0), extend("exclusiveMaximum" = 0.5))]
@@ -323,10 +304,10 @@ pub struct GearMaterialFile {
     /// Density in kg/m³, > 0; gives the worn mass. Default 7830.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub density_kg_per_m3: Option<f64>,
-    /// Thermal conductivity in W/(m·K), > 0; read where contact temperatures are. Default 46.
+    /// Thermal conductivity in W/(m·K), > 0. Default 46.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub thermal_conductivity_W_per_mK: Option<f64>,
-    /// Thermal diffusivity in m²/s, > 0; read where contact temperatures are. Default 1.2e-5.
+    /// Thermal diffusivity in m²/s, > 0. Default 1.2e-5.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub thermal_diffusivity_m2_per_s: Option<f64>,
 }
@@ -335,11 +316,10 @@ pub struct GearMaterialFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OperationFile {
-    /// Torque on the pinion in N·m, > 0. Required, unless every phase gives its own: then the greatest of these.
+    /// Torque on the pinion in N·m, > 0. Required, unless every phase gives its own.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion_torque_Nm: Option<f64>,
-    /// Speed of the pinion in revolutions per minute, > 0. Needed with hours, with snapshots_h and with contact
-    /// temperatures.
+    /// Speed of the pinion in revolutions per minute, > 0; needed with hours, snapshots_h and temperatures.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion_speed_rpm: Option<f64>,
     /// Duration of the run in hours, > 0. Required, or pinion_revolutions.
@@ -348,17 +328,15 @@ pub struct OperationFile {
     /// Duration of the run in revolutions of the pinion, > 0. Required, or hours.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion_revolutions: Option<f64>,
-    /// When the state is kept in hours: increasing, up to the duration (which is added where missing). Default: 1/64,
-    /// 1/32, … 1/2 and the whole of the duration.
+    /// Times in hours at which the state is kept, increasing. Default: 1/64, 1/32, … 1/2 and the whole of the duration.
     #[schemars(extend("items" = { "type": "number", "exclusiveMinimum": 0 }))]
     pub snapshots_h: Option<Vec<f64>>,
-    /// When the state is kept in revolutions of the pinion, instead of hours.
+    /// The same times in revolutions of the pinion.
     #[schemars(extend("items" = { "type": "number", "exclusiveMinimum": 0 }))]
     pub snapshots_revolutions: Option<Vec<f64>>,
-    /// Limits that end the life: the run ends at the first that is reached, and the life until then is a result. Default: none.
+    /// Limits that end the run; the life until then is a result. Default: none.
     pub stop: Option<StopFile>,
-    /// A load spectrum or running-in: phases that follow each other, each with its own duration; hours or
-    /// pinion_revolutions of the whole may be left out then, and must be their sum where given. Default: one phase.
+    /// Load spectrum or running-in: phases one after the other, whose durations add up to that of the run. Default: one phase.
     pub phases: Option<Vec<PhaseFile>>,
 }
 
@@ -366,11 +344,10 @@ pub struct OperationFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StopFile {
-    /// Greatest wear depth in µm, > 0: on the active profile of either gear, as peak_wear_um of the summary.
+    /// Maximum wear depth of the active profile of either gear in µm, > 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub wear_um: Option<f64>,
-    /// Least normal tooth thickness at the tip of either gear in mm, > 0 and less than the thinner of both has new:
-    /// normal_tip_thickness_mm of the summary.
+    /// Minimum normal tooth thickness at the tip of either gear in mm, > 0, below that of the new gears.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub tip_thickness_mm: Option<f64>,
 }
@@ -391,8 +368,7 @@ pub struct PhaseFile {
     /// Speed of the pinion in revolutions per minute, > 0. Default: operation.pinion_speed_rpm.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion_speed_rpm: Option<f64>,
-    /// Wear coefficient of both gears in m²/N, > 0; not where those of `[wear.pinion]` and `[wear.wheel]` differ, which takes one
-    /// for each gear. Default: that of the wear law.
+    /// Wear coefficient of both gears in m²/N, > 0; refused where `[wear.pinion]` and `[wear.wheel]` differ. Default: that of the wear law.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub coefficient_m2_per_N: Option<f64>,
     /// The same in mm³/(N·m), > 0.
@@ -408,7 +384,7 @@ pub struct PhaseFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GearPhaseFile {
-    /// Wear coefficient of this gear in m²/N, 0 or more; not 0 for both gears. Default: that of the phase, or of the wear law.
+    /// Wear coefficient of this gear in m²/N, 0 or more; not 0 for both. Default: that of the phase, or of the wear law.
     #[schemars(range(min = 0))]
     pub coefficient_m2_per_N: Option<f64>,
     /// The same in mm³/(N·m), 0 or more.
@@ -422,19 +398,16 @@ pub struct GearPhaseFile {
 pub struct ContactFile {
     /// Model of the surfaces in contact. Default: half-space; winkler where a calibration or K/H is given or matched.
     pub surface: Option<SurfaceKind>,
-    /// What the Winkler foundation shares with Hertz's contact at the pitch point under the whole load: one of them,
-    /// never all; read by winkler. With half-width the peak pressure at the pitch point is 1.178 times Hertz's. Default:
-    /// half-width.
+    /// Quantity of Hertz's contact at the pitch point that winkler reproduces. With half-width its peak pressure is 1.178 times Hertz's.
+    /// Default: half-width.
     #[serde(rename = "match")]
     pub match_criterion: Option<MatchCriterion>,
-    /// Stiffness K/H of the Winkler foundation by hand in MPa/mm, > 0, instead of match; read by winkler.
+    /// Stiffness K/H of the Winkler foundation in MPa/mm, > 0, instead of match.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub foundation_MPa_per_mm: Option<f64>,
-    /// File of gearwear calibrate, beside the scene: gives winkler its K/H for every position and load, and the tooth
-    /// stiffness of finite elements. It must belong to this pair. Default: none.
+    /// File of gearwear calibrate for this pair, relative to the scene: K/H of winkler and tooth stiffness. Default: none.
     pub calibration: Option<String>,
-    /// Whether a tip edge is followed into contact before A and after E, where loaded teeth touch early; read by winkler
-    /// and half-space, always so with fem. Default true; false is the thesis's model.
+    /// Contact of tip edges before A and after E on winkler and half-space; fem always has it. Default true; false is the thesis's model.
     pub tip_contact: Option<bool>,
 }
 
@@ -442,18 +415,15 @@ pub struct ContactFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessFile {
-    /// Model of the stiffness of a tooth pair. Default: fem, from the run's own finite elements or the calibration that is given (where
-    /// they cannot be had, weber-banaschek with a warning). Not read with contact.surface = "fem".
+    /// Stiffness of a tooth pair, except with contact.surface = "fem". Default: fem, or weber-banaschek with a warning where finite elements
+    /// cannot be had.
     pub model: Option<StiffnessModel>,
-    /// Combined stiffness of a tooth pair without contact flattening in N/(mm·µm), > 0: force per mm of face width and µm
-    /// of approach. For model = "constant" only, which needs it.
+    /// Stiffness of a tooth pair per face width in N/(mm·µm), > 0, without contact flattening. Required with model = "constant".
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pair_N_per_mm_um: Option<f64>,
-    /// Data file (CSV) of the stiffness along the path of contact, beside the scene. For model = "simon" and "wang-cheng" only,
-    /// which need it. Columns position_mm (radius of curvature of the pinion at the theoretical contact point, increasing,
-    /// from A to E) and stiffness_N_per_mm_um (of the pair) or deflection_um (under the line load); above them lines
-    /// "# flattening = included" or "# flattening = excluded" and, for deflections and where flattening is included,
-    /// "# line_load_N_per_mm = …".
+    /// Data file (CSV) relative to the scene: columns position_mm (radius of curvature of the pinion, from A to E) and stiffness_N_per_mm_um or
+    /// deflection_um, under lines "# flattening = included" (or excluded) and, with flattening or deflections, "# line_load_N_per_mm = …".
+    /// Required with model = "simon" or "wang-cheng".
     pub curve: Option<String>,
 }
 
@@ -480,11 +450,10 @@ pub enum StiffnessModel {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HelicalFile {
-    /// Slices over the face width, 1 to 2000: thin spur pairs, each in its own transverse section. Default 20.
+    /// Slices over the face width, 1 to 2000. Default 20.
     #[schemars(range(min = 1, max = 2000))]
     pub slices: Option<u32>,
-    /// How neighbouring slices of a tooth are coupled. Default: "fem", which allows at most 100 slices, whole rings and the stiffness model
-    /// "fem"; where the scene asks for something else there, "slicing".
+    /// Coupling of neighbouring slices of a tooth. Default: fem (at most 100 slices, whole rings and stiffness model fem), otherwise slicing.
     pub coupling: Option<Coupling>,
 }
 
@@ -495,27 +464,33 @@ pub struct NumericsFile {
     /// Intervals of a flank from base to tip circle, 20 to 100000. Default 750.
     #[schemars(range(min = 20, max = 100000))]
     pub flank_points: Option<u32>,
-    /// How flank points are spaced. Default: graded where tip edges touch (contact.tip_contact), otherwise even.
+    /// Spacing of the flank points. Default: graded with contact.tip_contact, otherwise even.
     pub flank_point_spacing: Option<PointSpacing>,
     /// Loading positions, evenly from A to E, 20 to 1000000. Default 400.
     #[schemars(range(min = 20, max = 1000000))]
     pub positions: Option<u32>,
-    /// Whether the summary estimates the numerical errors of the answer, which costs extra runs. Default true.
+    /// Estimates of the numerical errors, which cost extra runs. Default true.
     pub error_estimate: Option<bool>,
-    /// Whether the run is checked by the same duration on finite elements, which gives error.total of the summary.
-    /// Default true; in a sweep false, and true by name verifies its best rows and its corners.
+    /// Verification by the same duration on finite elements: error.total of the summary. Default true; in a sweep false.
     pub verify: Option<bool>,
-    /// Length of a wear step as a table for Euler's method (a warning says when it is too long to be stable), or
-    /// "adaptive": as long as the error allows, stable in any case. Default: "adaptive" on the surfaces half-space and
-    /// fem, where wear may turn severe and with operation.stop, otherwise 1/150 of the duration.
+    /// Wear step: a table for Euler's method, or "adaptive", which is stable in any case. Default: "adaptive" on half-space and fem, with
+    /// severe wear and with operation.stop, otherwise 1/150 of the duration.
     pub step: Option<StepFile>,
-    /// Error of the wear depth allowed in µm, > 0, at least 0.0001; where more than 50 µm are worn it grows in proportion to the
-    /// wear. Read with step = "adaptive". Default 0.05.
+    /// Permitted error of the wear depth in adaptive steps in µm, > 0, at least 0.0001; beyond 50 µm of wear it grows in proportion. Default
+    /// 0.05.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub tolerance_um: Option<f64>,
-    /// How the wear is integrated; read with step = "adaptive". Default: runge-kutta-chebyshev, the better one by far;
-    /// linearly-implicit is to compare with.
+    /// Integration of the wear in adaptive steps. Default: runge-kutta-chebyshev.
     pub method: Option<AdaptiveMethod>,
+}
+
+/// Method of adaptive wear steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum AdaptiveMethod {
+    /// Stabilised explicit, of second order: Runge–Kutta–Chebyshev.
+    #[default]
+    RungeKuttaChebyshev,
 }
 
 /// Steps of the wear run: a table for Euler's method, or a word.
@@ -532,7 +507,7 @@ pub enum StepFile {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FixedStepFile {
-    /// Revolutions of the pinion a wear step, > 0.
+    /// Length of a wear step in revolutions of the pinion, > 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub revolutions: f64,
 }

@@ -12,11 +12,12 @@ use std::sync::Arc;
 
 use super::draft::Draft;
 use super::key::is_key;
-use super::{Problem, ProblemKind, Resolved, Scene, presets};
+use super::{Problem, ProblemKind, Resolved, presets};
 use crate::calibration::{Calibration, identity::Identity};
 use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use crate::gear::GearPair;
 use crate::mesh_cycle::{pair_in_space::KeptInSpace, settings::Coupling};
+use crate::operation::Scene;
 use crate::results::run::InputFile;
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::curve_file::{self, CurveFileError};
@@ -399,7 +400,7 @@ impl SceneText {
 
     /// Resolves the scene it holds; the files it names stay unread.
     pub(crate) fn resolve(&self) -> Result<Resolved, SceneError> {
-        Scene::from_toml(&self.text).map_err(|problems| self.refused(problems))
+        Resolved::from_toml(&self.text).map_err(|problems| self.refused(problems))
     }
 
     /// What is wrong with it.

@@ -161,7 +161,7 @@ impl Problem {
 
     /// The teeth of the scene in `text` cannot be had in space: its face width asks for too many of them, or its body cannot be meshed.
     pub(crate) fn of_teeth_in_space(text: &str, error: &PairInSpaceError) -> Self {
-        let key = key_of_teeth_in_space(error);
+        let key = error.scene_key();
         let allowed = match error {
             PairInSpaceError::TooFewTeeth { .. } => "fewer teeth in mesh than a gear has",
             PairInSpaceError::Gear { .. } => "a body whose section can be meshed",
@@ -207,14 +207,6 @@ const BODIES_HELP: &str =
 /// The key that says where the body of `gear` ends, or of both.
 fn clamp_key(gear: Option<Gear>) -> String {
     gear.map_or_else(|| "fem.clamp_radius_mm".to_owned(), |gear| format!("fem.clamp_radius_mm.{}", gear.name()))
-}
-
-/// The key to blame where the teeth of a pair cannot be had in space.
-pub(crate) fn key_of_teeth_in_space(error: &PairInSpaceError) -> String {
-    match error {
-        PairInSpaceError::TooFewTeeth { .. } => "pair.face_width_mm".to_owned(),
-        PairInSpaceError::Gear { gear, .. } => clamp_key(Some(*gear)),
-    }
 }
 
 impl fmt::Display for Problem {

@@ -13,21 +13,20 @@ use crate::wear::oxidation::MassRatio;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TemperatureFile {
-    /// How contact temperatures are found. Default: tian-kennedy.
+    /// Method of the contact temperatures. Default: tian-kennedy.
     pub method: Option<TemperatureMethod>,
-    /// With which velocity heat moves over the bodies. Default: sliding, as in the thesis.
+    /// Velocity with which heat moves over the bodies. Default: sliding, as in the thesis.
     pub velocity: Option<HeatVelocity>,
-    /// Which part of the heat each body takes. Default: archard-rowntree.
+    /// Partition of the heat between the bodies. Default: archard-rowntree.
     pub partition: Option<HeatPartition>,
-    /// Coefficient of friction μ, > 0 to 2. Default: with [friction] or [lubricant] that of the mesh at every point, otherwise 0.1.
+    /// Coefficient of friction μ, > 0 to 2. Default: that of the mesh with [friction] or [lubricant], otherwise 0.1.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 2))]
     pub friction_coefficient: Option<f64>,
-    /// Bulk temperature of the gears in °C, above absolute zero (−273.15) to 1500. Default: with [temperature.tooth] that of the
-    /// plastic gear's flanks by it (the mean of two), with [lubricant] the temperature of the teeth θ_M of ISO/TS 6336-22, otherwise
-    /// 90, usual for the oil of gear tests.
+    /// Bulk temperature of the gears in °C, > −273.15 to 1500. Default: the plastic gear's flanks with [temperature.tooth], θ_M of ISO/TS
+    /// 6336-22 with [lubricant], otherwise 90.
     #[schemars(extend("exclusiveMinimum" = -273.15, "maximum" = 1500))]
     pub bulk_temperature_C: Option<f64>,
-    /// Temperature of the teeth of plastic gears. Default: not computed.
+    /// Temperature of the teeth of plastic gears by VDI 2736-2; needs a coefficient of friction. Default: not computed.
     pub tooth: Option<ToothTemperatureFile>,
 }
 
@@ -36,25 +35,25 @@ pub struct TemperatureFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ToothTemperatureFile {
-    /// Temperature of the surroundings θ_0 in °C, −60 to 250; of gears in oil, that of the oil. Required.
+    /// Ambient temperature θ_0 in °C, −60 to 250; of gears in oil, that of the oil. Required.
     #[schemars(range(min = -60, max = 250))]
     pub ambient_temperature_C: Option<f64>,
-    /// How the teeth are lubricated, from which the coefficients k_θ follow. Required, or flank_heat_coefficient and root_heat_coefficient.
+    /// Lubrication of the teeth, from which the coefficients k_θ follow. Required, or flank_heat_coefficient and root_heat_coefficient.
     pub lubrication: Option<ToothLubrication>,
-    /// k_θ of the flank in K·(m/s)^0.75·mm^1.75/W, 0 to 50000, for grease and what else lubrication does not name.
+    /// k_θ of the flank in K·(m/s)^0.75·mm^1.75/W, 0 to 50000, for grease and other lubrication.
     #[schemars(range(min = 0, max = 50000))]
     pub flank_heat_coefficient: Option<f64>,
     /// k_θ of the root in the same unit, 0 to 50000.
     #[schemars(range(min = 0, max = 50000))]
     pub root_heat_coefficient: Option<f64>,
-    /// Resistance of the housing to heat R_λG in K·m²/W, 0 to 1: 0.015 to 0.045 where it is open in part, 0.06 where it is closed.
-    /// Default 0: gears in the open.
+    /// Heat resistance R_λG of the housing in K·m²/W, 0 to 1: 0.015 to 0.045 where it is partly open, 0.06 where it is closed. Default 0: gears
+    /// in the open.
     #[schemars(range(min = 0, max = 1))]
     pub housing_resistance_K_m2_per_W: Option<f64>,
-    /// Surface of the housing A_G in m², > 0 to 100. Required with a resistance of the housing.
+    /// Surface A_G of the housing in m², > 0 to 100. Required with a resistance.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 100))]
     pub housing_area_m2: Option<f64>,
-    /// Part of the time under load ED, > 0 to 1. Default 1.
+    /// Duty cycle ED, the time under load over the whole, > 0 to 1. Default 1.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
     pub duty_cycle: Option<f64>,
 }
@@ -74,31 +73,28 @@ pub enum ToothLubrication {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WearFile {
-    /// The law. Required, here or for each gear.
+    /// Wear law. Required, here or for each gear.
     pub law: Option<WearLaw>,
-    /// Wear coefficient k in m²/N, > 0: depth per pressure and sliding distance. Mild wear of steel: 1e-19 to 1e-16.
-    /// Required, here or for each gear, or coefficient_mm3_per_Nm.
+    /// Wear coefficient k in m²/N, > 0: depth per pressure and sliding distance. Mild wear of steel: 1e-19 to 1e-16. Required, here or for
+    /// each gear, or coefficient_mm3_per_Nm.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub coefficient_m2_per_N: Option<f64>,
-    /// The same in mm³/(N·m), > 0: volume per force and sliding distance. 1e-8 mm³/(N·m) is 1e-17 m²/N. Required, or
-    /// coefficient_m2_per_N.
+    /// The same as volume per force and sliding distance in mm³/(N·m), > 0: 1e-8 is 1e-17 m²/N. Required, or coefficient_m2_per_N.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub coefficient_mm3_per_Nm: Option<f64>,
     /// Transition from mild to severe wear. Default: none.
     pub severe: Option<SevereFile>,
-    /// How wear fades as the film of oil gets thicker; needs [lubricant]. Default: not at all.
+    /// Factor of the oil film on wear; needs [lubricant]. Default: none.
     pub film: Option<FilmFile>,
-    /// Factor on the wear coefficient over the temperature of the flanks of each gear in each phase; needs [temperature.tooth]. Default: none.
+    /// Factor on the wear coefficient over the temperature of the flanks; needs [temperature.tooth]. Default: none.
     pub warm: Option<WarmFile>,
-    /// Constants of law = "adsorption". Default: typical orders of magnitude, not those of any lubricant; the run says
-    /// which constants are typical ones.
+    /// Constants of law = "adsorption". Default: typical orders of magnitude, which the run names.
     pub adsorption: Option<AdsorptionFile>,
-    /// Constants of law = "oxidation". Default: typical orders of magnitude, not those of any steel; the run says which
-    /// constants are typical ones.
+    /// Constants of law = "oxidation". Default: typical orders of magnitude, which the run names.
     pub oxidation: Option<OxidationFile>,
-    /// What holds for the pinion alone. Default: as for both.
+    /// Wear law of the pinion alone. Default: as for both.
     pub pinion: Option<GearWearFile>,
-    /// What holds for the wheel alone. Default: as for both.
+    /// Wear law of the wheel alone. Default: as for both.
     pub wheel: Option<GearWearFile>,
 }
 
@@ -106,19 +102,19 @@ pub struct WearFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GearWearFile {
-    /// The law. Default: wear.law.
+    /// Wear law. Default: wear.law.
     pub law: Option<WearLaw>,
-    /// Wear coefficient in m²/N, 0 or more; with 0 the gear does not wear. Not 0 for both gears. Default: that of `[wear]`.
+    /// Wear coefficient in m²/N, 0 or more; with 0 the gear does not wear, not 0 for both. Default: that of `[wear]`.
     #[schemars(range(min = 0))]
     pub coefficient_m2_per_N: Option<f64>,
     /// The same in mm³/(N·m), 0 or more.
     #[schemars(range(min = 0))]
     pub coefficient_mm3_per_Nm: Option<f64>,
-    /// Transition from mild to severe wear, as a whole in place of wear.severe; a factor of 1 is none. Default: wear.severe.
+    /// Transition to severe wear, in place of the whole of wear.severe; a factor of 1 is none. Default: wear.severe.
     pub severe: Option<SevereFile>,
-    /// How wear fades with the film, as a whole in place of wear.film; law = "none": not at all. Default: wear.film.
+    /// Factor of the oil film, in place of the whole of wear.film. Default: wear.film.
     pub film: Option<FilmFile>,
-    /// Factor over the temperature of the flanks, as a whole in place of wear.warm. Default: wear.warm.
+    /// Factor over the temperature, in place of the whole of wear.warm. Default: wear.warm.
     pub warm: Option<WarmFile>,
     /// Constants of law = "adsorption", each in place of that of wear.adsorption.
     pub adsorption: Option<AdsorptionFile>,
@@ -132,12 +128,10 @@ pub struct GearWearFile {
 pub enum WearLaw {
     /// Depth = k · pressure · sliding distance.
     Archard,
-    /// The same where an adsorbed film leaves the surface bare. Its coefficient is that of the bare surface, about 1e-13
-    /// to 1e-12 m²/N.
+    /// Archard's law where an adsorbed film leaves the surface bare. The coefficient is that of the bare surface, 1e-13 to 1e-12 m²/N.
     Adsorption,
-    /// An oxide that grows linearly with time is removed by sliding; holds for contact temperatures of about 200 to 400
-    /// °C. Its coefficient is the part of the area in real contact over the pressure, about one over the hardness, 1e-10
-    /// m²/N.
+    /// Sliding removes an oxide that grows linearly with time, for contact temperatures of about 200 to 400 °C. The coefficient is about one
+    /// over the hardness, 1e-10 m²/N.
     Oxidation,
 }
 
@@ -169,7 +163,7 @@ pub struct OxidationFile {
     /// Density of the iron in kg/m³, > 0. Default 7870.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub density_kg_per_m3: Option<f64>,
-    /// How the mass of iron follows from that of oxygen. Default: stoichiometric.
+    /// Mass of iron from that of oxygen. Default: stoichiometric.
     pub mass_ratio: Option<MassRatio>,
 }
 
@@ -178,15 +172,15 @@ pub struct OxidationFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FilmFile {
-    /// The factor. Required, or lambda and factor, which make it a table.
+    /// Factor over λ. Required, or lambda and factor, which make it a table.
     pub law: Option<FilmLaw>,
     /// λ of law = "table", 0 to 1000, rising.
     #[schemars(length(min = 2), inner(range(min = 0, max = 1000)))]
     pub lambda: Option<Vec<f64>>,
-    /// Factor on the wear coefficient at each λ, 0 to 1000: straight between them, and level beyond the first and the last.
+    /// Factor on the wear coefficient at each λ, 0 to 1000: linear between them, constant beyond.
     #[schemars(length(min = 2), inner(range(min = 0, max = 1000)))]
     pub factor: Option<Vec<f64>>,
-    /// Which film over which roughness λ is. Default: composite.
+    /// Definition of λ, of run-in flanks. Default: composite.
     pub ratio: Option<FilmRatio>,
 }
 
@@ -218,14 +212,14 @@ pub enum FilmLaw {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SevereFile {
-    /// Local pressure in MPa above which wear is severe, > 0.
+    /// Local pressure above which wear is severe in MPa, > 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub above_MPa: f64,
     /// Factor on the wear coefficient there, > 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub factor: f64,
-    /// Pressure in MPa over which the factor rises, half of it to either side of above_MPa, 0 or more; adaptive steps
-    /// resolve such a band cheaply. 0: at once, as in the thesis. Default: 5 % of above_MPa.
+    /// Range of pressure around above_MPa over which the factor rises in MPa, 0 or more; 0: at once, as in the thesis. Default: 5 % of
+    /// above_MPa.
     #[schemars(range(min = 0))]
     pub band_MPa: Option<f64>,
 }

@@ -3,9 +3,9 @@
 //! The text is read once. What the file leaves open is chosen anew each time; the files that it names, and teeth in space that a run
 //! of it has condensed, are shared.
 
+use crate::assessment::{Done, RunError};
 use crate::gear::spec::PairSpec;
 use crate::observer::Observer;
-use crate::pipeline::{Done, RunError};
 use crate::scene::draft::Draft;
 use crate::scene::loaded::LoadedScene;
 use crate::scene::{Problem, Resolved};

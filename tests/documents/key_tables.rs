@@ -1,4 +1,5 @@
-//! Tables of the keys of a file, from its JSON schema: type, unit, range, default and meaning.
+//! Tables of the keys of a file, from its JSON schema: value (type, range and unit), default and meaning. Tables with the same keys are
+//! written once.
 //!
 //! The schema's objects are sorted by name. The order of keys is that of the structures they are made from, which is read
 //! from the source text. A description ends in sentences that begin with "Default" or "Required": they become a column of
@@ -9,11 +10,12 @@ use std::fmt::Write;
 use serde_json::Value;
 
 /// Ends of key names, the unit each stands for, and how descriptions word it. The longer of two that fit comes first.
-const UNITS: [(&str, &str, &str); 27] = [
+const UNITS: [(&str, &str, &str); 29] = [
     ("_K_m2_per_W", "K·m²/W", "K·m²/W"),
     ("_kg_per_m2s", "kg/(m²·s)", "kg/(m²·s)"),
     ("_kg_per_m3", "kg/m³", "kg/m³"),
     ("_W_per_mK", "W/(m·K)", "W/(m·K)"),
+    ("_mm2_per_s", "mm²/s", "mm²/s (cSt)"),
     ("_m2_per_s", "m²/s", "m²/s"),
     ("_m2_per_N", "m²/N", "m²/N"),
     ("_mm3_per_Nm", "mm³/(N·m)", "mm³/(N·m)"),
@@ -22,6 +24,7 @@ const UNITS: [(&str, &str, &str); 27] = [
     ("_N_per_mm", "N/mm", "N per mm of thickness"),
     ("_N", "N", "N"),
     ("_kJ_per_mol", "kJ/mol", "kJ/mol"),
+    ("_per_GPa", "1/GPa", "1/GPa"),
     ("_GPa", "GPa", "GPa"),
     ("_MPa", "MPa", "MPa"),
     ("_Nm", "N·m", "N·m"),
@@ -54,26 +57,83 @@ struct Section<'a> {
     unit: Option<&'static (&'static str, &'static str, &'static str)>,
 }
 
+/// What stands in the tables so far.
+#[derive(Default)]
+struct Written<'a> {
+    /// Keys of each table, with its heading.
+    tables: Vec<(&'a Value, String)>,
+    /// Lists of words, with the key that takes them.
+    words: Vec<(&'a Value, String)>,
+}
+
+impl<'a> Written<'a> {
+    /// The words that the key at `path` takes, or the key before it that takes the same.
+    fn words(&mut self, node: &'a Value, path: String) -> String {
+        let list = if node["items"].is_object() { &node["items"]["oneOf"] } else { &node["oneOf"] };
+        if let Some((_, earlier)) = self.words.iter().find(|(words, _)| list.is_array() && *words == list) {
+            return format!(" Words of `{earlier}`.");
+        }
+        self.words.push((list, path));
+        choices(node)
+    }
+}
+
 /// All tables of the file that `schema` describes, made from structures in `sources`.
 pub fn of_schema(schema: &Value, sources: &str) -> String {
     let orders = field_orders(sources);
     let root = Section { paths: Vec::new(), likewise: None, list: false, about: "", node: schema, unit: None };
     let mut text = String::new();
-    write_section(&root, &orders, &mut text);
+    write_section(&root, &orders, &mut Written::default(), &mut text);
     text
 }
 
-fn write_section(section: &Section, orders: &[Vec<String>], text: &mut String) {
+fn write_section<'a>(section: &Section<'a>, orders: &[Vec<String>], written: &mut Written<'a>, text: &mut String) {
     let keys = ordered_keys(section.node, orders);
     let required: Vec<&str> =
         section.node["required"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
     let properties = &section.node["properties"];
+    let nested = nested_tables(section, &keys, written);
 
-    // Neighbours with the same keys share a section.
-    let mut nested: Vec<Section> = Vec::new();
+    if section.paths.is_empty() {
+        text.push_str("## Top level\n\n");
+    } else {
+        write!(text, "## {}\n\n", heading(section)).expect("text can be written");
+        let mut prose = section.about.to_owned();
+        if let Some(likewise) = &section.likewise {
+            write!(prose, " Likewise under `{likewise}`.").expect("text can be written");
+        }
+        if !prose.is_empty() {
+            write!(text, "{}\n\n", prose.trim()).expect("text can be written");
+        }
+    }
+    text.push_str("| key | value | default | meaning |\n|---|---|---|---|\n");
     for key in &keys {
         let node = &properties[key.as_str()];
+        let unit = unit_of(key).or(section.unit);
+        let target = table_of(node).and_then(|(table, _)| {
+            let same = |keys: &Value| *keys == table["properties"];
+            let earlier = written.tables.iter().find(|(keys, _)| same(keys)).map(|(_, heading)| heading.clone());
+            earlier.or_else(|| nested.iter().find(|table| same(&table.node["properties"])).map(heading))
+        });
+        let words = if target.is_some() { String::new() } else { written.words(node, child_path(section, key)) };
+        text.push_str(&row(key, node, unit, required.contains(&key.as_str()), target.as_deref(), &words));
+    }
+    text.push('\n');
+    for table in &nested {
+        written.tables.push((&table.node["properties"], heading(table)));
+        write_section(table, orders, written, text);
+    }
+}
+
+/// Tables that the keys of a section take and that are not written yet; neighbours with the same keys share one.
+fn nested_tables<'a>(section: &Section<'a>, keys: &[String], written: &Written<'a>) -> Vec<Section<'a>> {
+    let mut nested: Vec<Section> = Vec::new();
+    for key in keys {
+        let node = &section.node["properties"][key.as_str()];
         let Some((table, list)) = table_of(node) else { continue };
+        if written.tables.iter().any(|(keys, _)| **keys == table["properties"]) {
+            continue;
+        }
         if let Some(same) = nested.iter_mut().find(|other| other.node["properties"] == table["properties"]) {
             same.paths.push(child_path(section, key));
             continue;
@@ -82,7 +142,8 @@ fn write_section(section: &Section, orders: &[Vec<String>], text: &mut String) {
             [_, second, ..] => Some(second.clone()),
             _ => section.likewise.as_ref().map(|outer| format!("{outer}.{}", last_name(&section.paths[0]))),
         };
-        let about = table["description"].as_str().filter(|_| list).unwrap_or_else(|| description(node));
+        // The row of the table above says what a single table is.
+        let about = table["description"].as_str().filter(|_| list).unwrap_or_default();
         nested.push(Section {
             paths: vec![child_path(section, key)],
             likewise,
@@ -92,35 +153,17 @@ fn write_section(section: &Section, orders: &[Vec<String>], text: &mut String) {
             unit: unit_of(key),
         });
     }
-
-    if section.paths.is_empty() {
-        text.push_str("## Top level\n\n");
-    } else {
-        write!(text, "## {}\n\n", heading(section)).expect("text can be written");
-        // Of neighbours, the table above says what each is.
-        let about = if section.paths.len() > 1 { "" } else { section.about };
-        let mut prose = split_default(about, false).0;
-        if let Some(likewise) = &section.likewise {
-            write!(prose, " Likewise under `{likewise}`.").expect("text can be written");
-        }
-        if !prose.is_empty() {
-            write!(text, "{}\n\n", prose.trim()).expect("text can be written");
-        }
-    }
-    text.push_str("| key | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n");
-    for key in &keys {
-        let node = &properties[key.as_str()];
-        let unit = unit_of(key).or(section.unit);
-        let target = nested.iter().find(|table| table.paths.contains(&child_path(section, key)));
-        text.push_str(&row(key, node, unit, required.contains(&key.as_str()), target));
-    }
-    text.push('\n');
-    for table in &nested {
-        write_section(table, orders, text);
-    }
+    nested
 }
 
-fn row(key: &str, node: &Value, unit: Option<&(&str, &str, &str)>, required: bool, target: Option<&Section>) -> String {
+fn row(
+    key: &str,
+    node: &Value,
+    unit: Option<&(&str, &str, &str)>,
+    required: bool,
+    target: Option<&str>,
+    words: &str,
+) -> String {
     let (mut meaning, default) = split_default(description(node), required);
     let range = range(node);
     if target.is_none() {
@@ -131,15 +174,18 @@ fn row(key: &str, node: &Value, unit: Option<&(&str, &str, &str)>, required: boo
             meaning = meaning.replacen(&format!(" in {words}"), "", 1);
         }
     }
-    let choices = choices(node);
-    if !choices.is_empty() && target.is_none() {
-        meaning.push_str(&choices);
-    }
-    let kind =
-        target.map_or_else(|| type_name(node), |table| format!("[{}](#{})", type_name(node), anchor(&heading(table))));
-    let shown_unit = if target.is_some() || !is_number(node) { "" } else { unit.map_or("", |unit| unit.1) };
-    let range = if target.is_some() { String::new() } else { range };
-    let cells = [format!("`{key}`"), kind, shown_unit.to_owned(), range, default, meaning];
+    meaning.push_str(words);
+    let value = match target {
+        Some(heading) => format!("[{}](#{})", type_name(node), anchor(heading)),
+        None => {
+            let bounds = range.strip_suffix(" or more").map_or_else(|| range.clone(), |least| format!("≥ {least}"));
+            let shown_unit = unit.filter(|_| is_number(node)).map_or("", |unit| unit.1);
+            let amount = format!("{bounds} {shown_unit}");
+            let parts = [type_name(node), amount.trim().to_owned()];
+            parts.join(", ").trim_end_matches(", ").to_owned()
+        }
+    };
+    let cells = [format!("`{key}`"), value, default, meaning];
     let cells: Vec<String> = cells.iter().map(|cell| flat(cell).replace('|', "\\|")).collect();
     format!("| {} |\n", cells.join(" | "))
 }
@@ -199,7 +245,7 @@ fn type_name(node: &Value) -> String {
     if let Some(variants) = node["anyOf"].as_array() {
         return variants.iter().map(type_name).collect::<Vec<_>>().join(" or ");
     }
-    if node["oneOf"].is_array() || node["enum"].is_array() || node["const"].is_string() {
+    if node["oneOf"].is_array() || node["enum"][0].is_string() || node["const"].is_string() {
         return "word".to_owned();
     }
     match node["type"].as_str() {

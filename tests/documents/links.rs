@@ -20,16 +20,47 @@ pub fn broken(root: &Path) -> Vec<String> {
     faults
 }
 
-/// Markdown files at the top, in `docs` and in `meshes`.
+/// Markdown files at the top, in `docs`, in `meshes` and of the cross-check.
 fn documents(root: &Path) -> Vec<PathBuf> {
-    let mut files: Vec<PathBuf> = ["", "docs", "meshes"]
-        .iter()
-        .flat_map(|folder| fs::read_dir(root.join(folder)).expect("the folder is there"))
-        .map(|entry| entry.expect("the folder can be read").path())
-        .filter(|path| path.extension().is_some_and(|extension| extension == "md"))
-        .collect();
+    ["", "docs", "meshes", "validation/cross-check"].iter().flat_map(|folder| pages(&root.join(folder))).collect()
+}
+
+/// Markdown files of a folder, sorted.
+pub fn pages(folder: &Path) -> Vec<PathBuf> {
+    let mut files = entries(folder);
+    files.retain(|path| path.extension().is_some_and(|extension| extension == "md"));
     files.sort();
     files
+}
+
+fn entries(folder: &Path) -> Vec<PathBuf> {
+    let all = fs::read_dir(folder).expect("the folder is there");
+    all.map(|entry| entry.expect("the folder can be read").path()).collect()
+}
+
+/// Files that name a page `docs/….md` which is not there: sources, tests, cases, examples, scripts and notebooks.
+pub fn missing_pages(root: &Path) -> Vec<String> {
+    let mut faults = Vec::new();
+    let mut waiting: Vec<PathBuf> = entries(root);
+    while let Some(path) = waiting.pop() {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if path.is_dir() {
+            if !matches!(&*name, "target" | ".git" | "out") {
+                waiting.extend(entries(&path));
+            }
+            continue;
+        }
+        // Files that are no text name no pages.
+        let text = fs::read_to_string(&path).unwrap_or_default();
+        for rest in text.split("docs/").skip(1) {
+            let page = rest.split(|c: char| !(c.is_ascii_lowercase() || c == '-')).next().unwrap_or_default();
+            let named = !page.is_empty() && rest[page.len()..].starts_with(".md");
+            if named && !root.join("docs").join(page).with_extension("md").exists() {
+                faults.push(format!("{}: docs/{page}.md", path.strip_prefix(root).unwrap_or(&path).display()));
+            }
+        }
+    }
+    faults
 }
 
 fn lines_outside_code(text: &str) -> impl Iterator<Item = (usize, &str)> {

@@ -1,5 +1,5 @@
-//! The documents of the project say what is so: the tables of keys what the schemas say, the table of figures what their catalogue says, the table of rooms what the imports
-//! are, and links lead to something.
+//! The documents of the project say what is so: the tables of keys what the schemas say, the table of figures what their catalogue says,
+//! the table of rooms what the imports are, links lead to something, and no document grows beyond its bar.
 #![allow(unreachable_pub, reason = "test modules are of one crate")]
 
 mod figure_table;
@@ -71,4 +71,31 @@ fn rooms_stand_in_an_order() {
 fn links_of_documents_lead_somewhere() {
     let faults = links::broken(&in_repository(""));
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn pages_that_the_repository_names_exist() {
+    let faults = links::missing_pages(&in_repository(""));
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// Words as `wc -w` counts them. docs/theory.md has a bar of its own size beside the other pages; the table of figures, which is generated,
+/// is not counted.
+#[test]
+fn documents_stay_short() {
+    let words = |text: &str| text.split_whitespace().count();
+    let changelog = read("CHANGELOG.md");
+    let unreleased = changelog.split("\n## ").find(|part| part.starts_with("[Unreleased]")).unwrap_or_default();
+    let pages = links::pages(&in_repository("docs"));
+    let others = pages.iter().filter(|page| !page.ends_with("theory.md"));
+    let words_of_others: usize = others.map(|page| words(&fs::read_to_string(page).expect("a page can be read"))).sum();
+    let words_of_others = words_of_others - words(&figure_table::of_catalogue());
+    for (what, size, bar) in [
+        ("words of README.md", words(&read("README.md")), 900),
+        ("words under Unreleased of CHANGELOG.md", words(unreleased), 600),
+        ("pages in docs", pages.len(), 17),
+        ("words of the pages in docs without theory.md", words_of_others, 24_000),
+    ] {
+        assert!(size <= bar, "{what}: {size}, at most {bar}");
+    }
 }

@@ -4,10 +4,11 @@ use gearwear::gear::GearPair;
 use gearwear::gear::backlash::{Backlash, TeethTooThin};
 use gearwear::gear::involute::{inv, inverse_inv};
 use gearwear::gear::spec::PairSpec;
-use gearwear::scene::{Scene, presets};
+use gearwear::scene::Resolved;
+use gearwear::scene::presets;
 
 fn spec(preset: &str) -> PairSpec {
-    Scene::from_toml(presets::find(preset).unwrap().text).unwrap().scene.pair
+    Resolved::from_toml(presets::find(preset).unwrap().text).unwrap().scene.pair
 }
 
 /// ISO 21771: inv α_wt = inv α_t + 2 tan α_n (x1 + x2)/(z1 + z2), without allowances and backlash.

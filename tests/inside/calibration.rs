@@ -3,9 +3,10 @@
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
+use gearwear::assessment::calibrate::{self, Extent};
 use gearwear::calibration::bodies::Setup;
 use gearwear::calibration::identity::Identity;
-use gearwear::calibration::single_contact::{Purpose, SingleContact, Touch};
+use gearwear::calibration::single_contact::{Purpose, SingleContact, TouchFigures};
 use gearwear::calibration::stiffness_variation::VariationOf;
 use gearwear::calibration::tooth_stiffness::LoadedPair;
 use gearwear::calibration::{Calibration, file::CalibrationFileError, foundation_fit, single_contact};
@@ -26,8 +27,8 @@ use gearwear::gear_fem::position::WarmStart;
 use gearwear::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides};
 use gearwear::mesh_cycle::pair_in_space::KeptInSpace;
 use gearwear::observer::Unwatched;
-use gearwear::pipeline::calibrate::{self, Extent};
-use gearwear::scene::Scene;
+use gearwear::operation::Scene;
+use gearwear::scene::Resolved;
 use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
 use nalgebra::Vector2;
 
@@ -55,7 +56,7 @@ fn fzg_c_scene(elements_per_half_width: f64) -> Scene {
          [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n\
          [fem]\nelements_per_half_width = {elements_per_half_width:?}\n"
     );
-    Scene::from_toml(&text).unwrap().scene
+    Resolved::from_toml(&text).unwrap().scene
 }
 
 /// The whole calibration of the preset, made once for all tests.
@@ -212,7 +213,7 @@ fn hertz_contacts(pair: &GearPair) -> Vec<SingleContact> {
         for (load, fitted) in [(1.5, true), (1.0, true), (0.7, false), (0.5, true), (0.25, true)] {
             let line_load_n_per_mm = load * LINE_LOAD_N_PER_MM;
             let strip = closed.contact.loaded(line_load_n_per_mm);
-            let touch = Touch {
+            let touch = TouchFigures {
                 half_width_mm: strip.half_width_mm,
                 peak_pressure_mpa: strip.peak_pressure_mpa,
                 approach_mm: closed.approach_mm(line_load_n_per_mm),

@@ -1,10 +1,11 @@
 //! The error estimates of a run, against the true errors that finer runs and truer surfaces show, and what they cost.
 
 use gearwear::observer::Unwatched;
-use gearwear::pipeline;
 use gearwear::plan::Plan;
 use gearwear::results::run::Summary;
-use gearwear::scene::{Scene, presets};
+use gearwear::runs;
+use gearwear::scene::Resolved;
+use gearwear::scene::presets;
 
 use super::common::loaded;
 
@@ -19,8 +20,8 @@ fn scene(edits: &[(&str, &str)]) -> String {
 }
 
 fn run(text: &str) -> Summary {
-    let resolved = Scene::from_toml(text).unwrap_or_else(|problems| panic!("{problems:?}"));
-    let done = pipeline::run(&loaded(&resolved), &Unwatched).unwrap();
+    let resolved = Resolved::from_toml(text).unwrap_or_else(|problems| panic!("{problems:?}"));
+    let done = runs::run(&loaded(&resolved), &Unwatched).unwrap();
     assert!(done.failure.is_none());
     done.record.summary
 }
@@ -215,7 +216,10 @@ fn no_estimates_where_the_scene_wants_none() {
     assert_eq!([error.discretisation, error.wear_step, error.surface_model, error.companions_cost], [None; 4]);
     assert_eq!(error.how.discretisation, "not estimated: numerics.error_estimate is false");
     assert!(
-        Plan::of(&Scene::from_toml(&text).unwrap().scene).left_out.iter().any(|s| s.kind.name() == "error-estimates")
+        Plan::of(&Resolved::from_toml(&text).unwrap().scene)
+            .left_out
+            .iter()
+            .any(|s| s.kind.name() == "error-estimates")
     );
 }
 

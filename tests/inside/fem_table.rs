@@ -1,7 +1,8 @@
 //! The scene's `[fem]` table.
 
 use gearwear::gear_mesh::settings::{Body, SectorSides};
-use gearwear::scene::{Scene, presets};
+use gearwear::scene::Resolved;
+use gearwear::scene::presets;
 
 /// The fzg-c scene with a `[fem]` table.
 fn scene(fem: &str) -> String {
@@ -10,7 +11,7 @@ fn scene(fem: &str) -> String {
 
 #[test]
 fn a_scene_without_fem_gets_the_default_bodies() {
-    let resolved = Scene::from_toml(presets::find("fzg-c").unwrap().text).unwrap();
+    let resolved = Resolved::from_toml(presets::find("fzg-c").unwrap().text).unwrap();
     assert_eq!(resolved.file.fem, None);
     let fem = resolved.scene.fem;
     assert_eq!(fem.body, Body::Ring);
@@ -25,12 +26,12 @@ fn the_table_is_resolved_and_resolves_to_itself() {
     let text = scene(
         "body = \"sector\"\nsector_sides = \"clamped\"\nclamp_radius_mm = { wheel = 30 }\nelements_per_half_width = 12.5",
     );
-    let resolved = Scene::from_toml(&text).unwrap();
+    let resolved = Resolved::from_toml(&text).unwrap();
     assert_eq!(resolved.warnings, [""; 0]);
     let fem = resolved.scene.fem;
     assert_eq!(fem.body, Body::Sector { teeth: 3, sides: SectorSides::Clamped });
     assert_eq!((fem.clamp_radius_mm.wheel, fem.elements_per_half_width), (30.0, 12.5));
-    let again = Scene::from_toml(&resolved.to_toml()).unwrap();
+    let again = Resolved::from_toml(&resolved.to_toml()).unwrap();
     assert_eq!((again.scene, again.file), (resolved.scene, resolved.file));
 }
 
@@ -42,7 +43,7 @@ fn settings_that_change_nothing_or_little_are_warned_of() {
         ("sector_sides = \"free\"", "fem.sector_sides is not used"),
         ("clamp_radius_mm = { pinion = 0.01994 }", "did you mean 19.94? (m given for mm)"),
     ] {
-        let warnings = Scene::from_toml(&scene(fem)).unwrap().warnings;
+        let warnings = Resolved::from_toml(&scene(fem)).unwrap().warnings;
         assert!(warnings.iter().any(|w| w.contains(warning)), "{fem}: {warnings:?}");
     }
 }
@@ -56,7 +57,7 @@ fn a_small_gear_gets_a_smaller_body_with_a_warning() {
                 [pair.wheel]\nteeth = 40\nprofile_shift = 0.35\n\
                 [fem]\n[operation]\npinion_torque_Nm = 1.0\npinion_revolutions = 1000\n\
                 [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n";
-    let resolved = Scene::from_toml(text).unwrap_or_else(|problems| panic!("{problems:?}"));
+    let resolved = Resolved::from_toml(text).unwrap_or_else(|problems| panic!("{problems:?}"));
     assert!((resolved.scene.fem.clamp_radius_mm.pinion - 0.4 * 2.9).abs() < 1e-12);
     assert!(resolved.warnings.iter().any(|w| w.contains("the pinion is too small")), "{:?}", resolved.warnings);
 }
@@ -73,7 +74,7 @@ fn what_is_wrong_with_the_table_is_said_with_what_is_allowed() {
         ("clamp_radius_mm = { pinion = 0.0 }", "greater than 0"),
         ("clamp_radius = 20", "unknown key fem.clamp_radius"),
     ] {
-        let problems = Scene::from_toml(&scene(fem)).unwrap_err();
+        let problems = Resolved::from_toml(&scene(fem)).unwrap_err();
         let text: String = problems.iter().map(|problem| problem.to_string()).collect();
         assert!(problems.len() == 1 && text.contains(says), "{fem}: {problems:?}");
     }

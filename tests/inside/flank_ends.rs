@@ -153,7 +153,7 @@ fn ver_the_corner_of_undercut_stands_under_its_load() {
              [contact]\nsurface = \"half-space\"\n[wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 2e-17\n\
              [numerics]\nflank_points = 400\npositions = {positions}\nstep = \"adaptive\"\nerror_estimate = false\nverify = false\n"
         );
-        let scene = loaded(&gearwear::scene::Scene::from_toml(&text).unwrap());
+        let scene = loaded(&gearwear::scene::Resolved::from_toml(&text).unwrap());
         let record = gearwear::run(&scene, &gearwear::Unwatched).unwrap().record;
         let (pinion, wear) = (&record.summary.pinion, &record.flanks.pinion);
         let corner_mm = record.summary.geometry.gears.pinion.root_form_diameter_mm / 2.0;

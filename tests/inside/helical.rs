@@ -16,7 +16,7 @@ use gearwear::mesh_cycle::{
     sliced_positions::{SliceContact, SliceEnds, sliced_positions},
 };
 use gearwear::observer::Unwatched;
-use gearwear::pipeline;
+use gearwear::runs;
 use gearwear::scene::{draft::Draft, presets};
 use gearwear::simulation::figures::WearFigures;
 use gearwear::simulation::wear_run::Outcome;
@@ -84,7 +84,7 @@ fn val_the_preset_keeps_the_transverse_section() {
     for degrees in [0.0_f64, 15.0, 30.0, -20.0, 45.0] {
         let text = gearwear::scene::presets::find("thesis-helical").unwrap().text;
         let text = text.replace("helix_angle_deg = 15.0", &format!("helix_angle_deg = {degrees:?}"));
-        let spec = gearwear::scene::Scene::from_toml(&text).unwrap().scene.pair;
+        let spec = gearwear::scene::Resolved::from_toml(&text).unwrap().scene.pair;
         let helical = pair(&spec);
         for (a, b) in helical.path.points_mm().into_iter().zip(spur.path.points_mm()) {
             assert_close("path", a, b, 1e-12);
@@ -449,7 +449,7 @@ proptest! {
         let text = text
             .replace("helix_angle_deg = 15.0", &format!("helix_angle_deg = {degrees:?}"))
             .replace("face_width_mm = 20.0", &format!("face_width_mm = {width_mm:?}"));
-        let mut spec = gearwear::scene::Scene::from_toml(&text).unwrap().scene.pair;
+        let mut spec = gearwear::scene::Resolved::from_toml(&text).unwrap().scene.pair;
         spec.gears.pinion.modification.lead_crowning_mm = 1e-3 * crowning_um;
         spec.gears.wheel.modification.helix_slope_mm = 1e-3 * slope_um;
         let scene = Scene {
@@ -493,7 +493,7 @@ fn steps_of_single_slices_are_told() {
         }
         let resolved = draft.resolve().unwrap();
         let unwatched = &gearwear::observer::Unwatched;
-        gearwear::pipeline::run(&loaded(&resolved), unwatched).unwrap().record.summary.warnings
+        gearwear::runs::run(&loaded(&resolved), unwatched).unwrap().record.summary.warnings
     };
     assert!(warnings("h951").iter().any(|warning| warning.starts_with("helical.slices: the transmission error")));
     assert!(!warnings("thesis-helical").iter().any(|warning| warning.starts_with("helical.slices")));
@@ -556,7 +556,7 @@ fn ver_slices_lose_what_load_and_sliding_ask_for() {
     draft.set("numerics.error_estimate", false);
     draft.set("numerics.verify", false);
     let resolved = draft.resolve().unwrap_or_else(|problems| panic!("{problems:?}"));
-    let invariants = pipeline::run(&loaded(&resolved), &Unwatched).unwrap().record.summary.invariants;
+    let invariants = runs::run(&loaded(&resolved), &Unwatched).unwrap().record.summary.invariants;
     for name in ["volume-balance", "volume-of-work"] {
         let found = invariants.iter().find(|invariant| invariant.name == name).and_then(|invariant| invariant.value);
         assert!(found.is_some_and(|value| value < 3e-3), "{name}: {found:?}");
@@ -607,7 +607,7 @@ fn ver_a_narrow_helical_pair_is_a_softer_spur_pair() {
             gear(1)
         );
         let resolved = Draft::parse(&text).unwrap().resolve().unwrap_or_else(|problems| panic!("{problems:?}"));
-        pipeline::run(&loaded(&resolved), &Unwatched).unwrap().record
+        runs::run(&loaded(&resolved), &Unwatched).unwrap().record
     };
     let (rigid, weber_banaschek) = ("model = \"constant\"\npair_N_per_mm_um = 1e6", "model = \"weber-banaschek\"");
     let surfaces = ["hertz", "winkler", "half-space"];

@@ -5,8 +5,8 @@ use gearwear::gear::{Gear, GearPair, PerGear, spec::PairSpec};
 use gearwear::mesh_cycle::settings::{Coupling, SliceSettings};
 use gearwear::mesh_cycle::wearing_pair::Snapshot;
 use gearwear::observer::Unwatched;
-use gearwear::pipeline;
 use gearwear::results::run::RunRecord;
+use gearwear::runs;
 use gearwear::simulation::figures::{SliceFigures, WearFigures, variation};
 use gearwear::simulation::wear_run::Outcome;
 use gearwear::stiffness::settings::StiffnessSettings;
@@ -192,8 +192,8 @@ fn deep_run(surface: &str, steps: f64) -> RunRecord {
         assert!(text.contains(from), "{from}");
         text = text.replace(from, &to);
     }
-    let resolved = gearwear::scene::Scene::from_toml(&text).unwrap();
-    pipeline::run(&loaded(&resolved), &Unwatched).unwrap().record
+    let resolved = gearwear::scene::Resolved::from_toml(&text).unwrap();
+    runs::run(&loaded(&resolved), &Unwatched).unwrap().record
 }
 
 /// H6, paper E: the simplified model runs to greater depths without instability, and loses some boundary effects. To 26 µm in 6 steps it

@@ -3,9 +3,9 @@
 
 use gearwear::gear::{Gear, PerGear};
 use gearwear::observer::Unwatched;
-use gearwear::pipeline;
 use gearwear::results::run::RunRecord;
-use gearwear::scene::Scene;
+use gearwear::runs;
+use gearwear::scene::Resolved;
 
 use super::common::loaded;
 
@@ -27,10 +27,10 @@ fn scene(operation: &str, surface: &str, wear: &str, numerics: &str) -> String {
 }
 
 fn run(text: &str) -> RunRecord {
-    let resolved = Scene::from_toml(text).unwrap_or_else(|problems| panic!("{problems:?}"));
-    let again = Scene::from_toml(&resolved.to_toml()).unwrap_or_else(|problems| panic!("{problems:?}"));
+    let resolved = Resolved::from_toml(text).unwrap_or_else(|problems| panic!("{problems:?}"));
+    let again = Resolved::from_toml(&resolved.to_toml()).unwrap_or_else(|problems| panic!("{problems:?}"));
     assert_eq!(again.scene, resolved.scene, "{}", resolved.to_toml());
-    pipeline::run(&loaded(&resolved), &Unwatched).unwrap().complete().unwrap()
+    runs::run(&loaded(&resolved), &Unwatched).unwrap().complete().unwrap()
 }
 
 /// Each wear depth of `gear` is that of `other`, times `factor`, bit for bit.

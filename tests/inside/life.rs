@@ -2,10 +2,10 @@
 
 use gearwear::gear::Gear;
 use gearwear::observer::Unwatched;
-use gearwear::pipeline;
 use gearwear::results::life::LifeLimit;
 use gearwear::results::run::{RunRecord, StopReason};
-use gearwear::scene::Scene;
+use gearwear::runs;
+use gearwear::scene::Resolved;
 use gearwear::{LoadedScene, evaluate};
 
 use super::common::loaded;
@@ -24,8 +24,8 @@ fn scene(operation: &str, contact: &str, coefficient: f64, step: &str, more: &st
 }
 
 fn run(text: &str) -> RunRecord {
-    let resolved = Scene::from_toml(text).unwrap_or_else(|problems| panic!("{problems:?}\n{text}"));
-    let done = pipeline::run(&loaded(&resolved), &Unwatched).unwrap();
+    let resolved = Resolved::from_toml(text).unwrap_or_else(|problems| panic!("{problems:?}\n{text}"));
+    let done = runs::run(&loaded(&resolved), &Unwatched).unwrap();
     assert_eq!(done.failure, None);
     done.record
 }
@@ -181,7 +181,7 @@ fn limits_that_cannot_be_meant_are_refused() {
         ("stop = { tip_thickness_mm = 3.0 }", "operation.stop.tip_thickness_mm", "the normal tip thickness of the new"),
     ] {
         let text = scene(&format!("pinion_revolutions = 1e5\n{stop}"), "surface = \"hertz\"", 1e-18, FIXED, "");
-        let problems = Scene::from_toml(&text).unwrap_err();
+        let problems = Resolved::from_toml(&text).unwrap_err();
         assert_eq!(problems.len(), 1, "{problems:?}");
         assert_eq!(problems[0].key, key);
         assert!(problems[0].to_string().contains(allowed), "{}", problems[0]);

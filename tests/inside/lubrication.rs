@@ -7,9 +7,9 @@ use gearwear::lubrication::load_sharing_factor::SharingGeometry;
 use gearwear::lubrication::rolling_contact::RollingContact;
 use gearwear::lubrication::scuffing;
 use gearwear::observer::Unwatched;
-use gearwear::pipeline;
 use gearwear::results::run::RunRecord;
-use gearwear::scene::{Problem, Resolved, Scene, presets};
+use gearwear::runs;
+use gearwear::scene::{Problem, Resolved, presets};
 
 use super::common::{assert_close, loaded};
 
@@ -30,12 +30,12 @@ fn scene(more: &str) -> Result<Resolved, Vec<Problem>> {
         assert!(text.contains(old), "{old}");
         text = text.replacen(old, new, 1);
     }
-    Scene::from_toml(&format!("{text}\n{more}"))
+    Resolved::from_toml(&format!("{text}\n{more}"))
 }
 
 fn run(more: &str) -> RunRecord {
     let resolved = scene(more).unwrap();
-    pipeline::run(&loaded(&resolved), &Unwatched).unwrap().complete().unwrap()
+    runs::run(&loaded(&resolved), &Unwatched).unwrap().complete().unwrap()
 }
 
 fn contact() -> RollingContact {
@@ -155,8 +155,8 @@ fn ver_flash_of_a_tip_edge_is_with_its_own_radius() {
         text = text.replacen(old, new, 1);
     }
     let resolved =
-        Scene::from_toml(&format!("{text}\n{OIL}[friction]\nmodel = \"constant\"\ncoefficient = 0.05\n")).unwrap();
-    let record = pipeline::run(&loaded(&resolved), &Unwatched).unwrap().complete().unwrap();
+        Resolved::from_toml(&format!("{text}\n{OIL}[friction]\nmodel = \"constant\"\ncoefficient = 0.05\n")).unwrap();
+    let record = runs::run(&loaded(&resolved), &Unwatched).unwrap().complete().unwrap();
     let film = record.summary.lubrication.as_ref().unwrap().film.as_ref().unwrap();
     let b = 46.0 / 1.2e-5f64.sqrt();
     let e_r = 206_000.0 / (1.0 - 0.09);
@@ -202,8 +202,8 @@ fn what_the_standards_do_not_cover_is_null_with_its_reason() {
         [operation]\npinion_torque_Nm = 100.0\npinion_speed_rpm = 1000.0\npinion_revolutions = 1.0\n[contact]\nsurface = \"hertz-mean\"\n\
         [stiffness]\nmodel = \"constant\"\npair_N_per_mm_um = 20.0\n[wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n\
         [numerics]\nstep = { revolutions = 1.0 }\nerror_estimate = false\nverify = false\n";
-    let resolved = Scene::from_toml(&format!("{high}{OIL}")).unwrap_or_else(|problems| panic!("{problems:?}"));
-    let record = pipeline::run(&loaded(&resolved), &Unwatched).unwrap().complete().unwrap();
+    let resolved = Resolved::from_toml(&format!("{high}{OIL}")).unwrap_or_else(|problems| panic!("{problems:?}"));
+    let record = runs::run(&loaded(&resolved), &Unwatched).unwrap().complete().unwrap();
     let ratio = record.summary.geometry.transverse_contact_ratio;
     assert!((2.0..3.0).contains(&ratio), "{ratio}");
     let of = record.summary.lubrication.unwrap();
@@ -279,7 +279,7 @@ fn ver_safety_against_micropitting() {
 #[test]
 fn a_resolved_scene_resolves_to_itself() {
     let resolved = scene(&format!("{OIL}[friction]\nmodel = \"schlenk\"\n")).unwrap();
-    let again = Scene::from_toml(&resolved.to_toml()).unwrap();
+    let again = Resolved::from_toml(&resolved.to_toml()).unwrap();
     assert_eq!(again.scene, resolved.scene);
     assert!(resolved.warnings.iter().any(|warning| warning.contains("viscosity index 95")), "{:?}", resolved.warnings);
 }

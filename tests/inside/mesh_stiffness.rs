@@ -4,9 +4,9 @@
 //! the split of a given stiffness between teeth and contact, are matched to each load anew.
 
 use gearwear::observer::Unwatched;
-use gearwear::pipeline;
 use gearwear::results::run::RunRecord;
-use gearwear::scene::Scene;
+use gearwear::runs;
+use gearwear::scene::Resolved;
 
 use super::common::loaded;
 
@@ -20,8 +20,8 @@ fn run(torque_nm: f64, preset: &str, keys: &str) -> RunRecord {
          snapshots_revolutions = [100.0]\n{keys}[wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n\
          [numerics]\nflank_points = 400\npositions = 120\nerror_estimate = false\nverify = false\n"
     );
-    let resolved = Scene::from_toml(&text).unwrap_or_else(|problems| panic!("{problems:?}"));
-    pipeline::run(&loaded(&resolved), &Unwatched).unwrap().complete().unwrap()
+    let resolved = Resolved::from_toml(&text).unwrap_or_else(|problems| panic!("{problems:?}"));
+    runs::run(&loaded(&resolved), &Unwatched).unwrap().complete().unwrap()
 }
 
 /// The stiffness is the difference of two loads over that of the transmission errors that other runs find under them; and what both

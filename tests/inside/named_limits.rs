@@ -1,6 +1,7 @@
 //! Limits that refusals name: used, they are accepted.
 
-use gearwear::scene::{Scene, draft::Draft};
+use gearwear::scene::Resolved;
+use gearwear::scene::draft::Draft;
 use proptest::prelude::*;
 
 /// The number that a sentence of what is allowed ends in or holds first.
@@ -27,7 +28,7 @@ fn scene(teeth: [u32; 2], angle_deg: f64, shifts: [f64; 2], centre_mm: f64, rack
 
 /// What is wrong with it about the gears, as the key that a limit is named for, the limit, and the kind of the refusal.
 fn refusal(draft: &Draft) -> Option<(String, f64, String)> {
-    let problems = Scene::from_toml(&draft.to_toml()).err()?;
+    let problems = Resolved::from_toml(&draft.to_toml()).err()?;
     let said = problems[0].to_string();
     let (_, allowed) = said.rsplit_once("allowed: ")?;
     let limit = limit(allowed)?;
@@ -85,7 +86,7 @@ proptest! {
 /// Cases of default racks at great pressure angles: the fillet gives way, the dedendum is refused with the limit (π/4)/tan α.
 #[test]
 fn val_default_racks_at_great_pressure_angles() {
-    let at = |angle_deg: f64| Scene::from_toml(&scene([28, 28], angle_deg, [0.0, 0.0], 84.0, None).to_toml());
+    let at = |angle_deg: f64| Resolved::from_toml(&scene([28, 28], angle_deg, [0.0, 0.0], 84.0, None).to_toml());
     // (π/4 − 1.25 tan 25°)/(1/cos 25° − tan 25°) = 0.317882.
     let resolved = at(25.0).expect("the default gives way");
     assert_eq!(resolved.scene.pair.rack.fillet_radius_factor, 0.3178);
@@ -96,6 +97,6 @@ fn val_default_racks_at_great_pressure_angles() {
     assert_eq!((&*problems[0].key, &*problems[0].allowed), ("pair.basic_rack.dedendum_factor", "at most 1.1216"));
     let mut draft = scene([28, 28], 35.0, [0.0, 0.0], 84.0, None);
     draft.set("pair.basic_rack.dedendum_factor", 1.1216);
-    let resolved = Scene::from_toml(&draft.to_toml()).expect("the limit is true");
+    let resolved = Resolved::from_toml(&draft.to_toml()).expect("the limit is true");
     assert!(resolved.scene.pair.rack.fillet_radius_factor < 1e-3);
 }

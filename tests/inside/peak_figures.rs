@@ -3,8 +3,8 @@
 
 use gearwear::gear::Gear;
 use gearwear::observer::Unwatched;
-use gearwear::pipeline;
 use gearwear::results::{figures, run::RunRecord};
+use gearwear::runs;
 use gearwear::scene::{draft::Draft, presets};
 use gearwear::studies::evaluate::output::SummaryOutput;
 
@@ -19,7 +19,7 @@ fn run(preset: &str, set: &[(&str, toml::Value)]) -> RunRecord {
         draft.set(key, value.clone());
     }
     let resolved = draft.resolve().unwrap_or_else(|problems| panic!("{problems:?}"));
-    let done = pipeline::run(&loaded(&resolved), &Unwatched).unwrap();
+    let done = runs::run(&loaded(&resolved), &Unwatched).unwrap();
     assert_eq!(done.failure, None);
     done.record
 }
@@ -120,7 +120,7 @@ fn the_load_that_comes_in_at_once_is_the_step_of_the_rows() {
             "#
         );
         let resolved = Draft::parse(&text).unwrap().resolve().unwrap_or_else(|problems| panic!("{problems:?}"));
-        let record = pipeline::run(&loaded(&resolved), &Unwatched).unwrap().record;
+        let record = runs::run(&loaded(&resolved), &Unwatched).unwrap().record;
         let said = record.summary.warnings.iter().find_map(|warning| {
             let (before, _) = warning.split_once(" % of the load comes in")?;
             before.rsplit(' ').next()?.parse::<f64>().ok()
@@ -177,7 +177,7 @@ fn tip_edges_are_followed_as_far_as_crowning_lets_them_touch() {
     let leads = text.replace("profile_crowning_um = 6.541", "lead_crowning_um = 60") + "[helical]\nslices = 60\n";
     for text in [text, &leads] {
         let resolved = Draft::parse(text).unwrap().resolve().unwrap_or_else(|problems| panic!("{problems:?}"));
-        let record = pipeline::run(&loaded(&resolved), &Unwatched).unwrap().record;
+        let record = runs::run(&loaded(&resolved), &Unwatched).unwrap().record;
         let warned = record.summary.warnings.iter().find(|warning| warning.contains("farther outside A to E"));
         assert_eq!(warned, None);
     }

@@ -1,9 +1,9 @@
 //! A load spectrum: phases that follow each other, against plain runs and what physics says, and what is refused.
 
 use gearwear::observer::Unwatched;
-use gearwear::pipeline;
 use gearwear::results::run::RunRecord;
-use gearwear::scene::Scene;
+use gearwear::runs;
+use gearwear::scene::Resolved;
 
 use super::common::loaded;
 
@@ -20,8 +20,8 @@ fn scene(operation: &str, contact: &str, coefficient: f64, more: &str) -> String
 }
 
 fn run(text: &str) -> RunRecord {
-    let resolved = Scene::from_toml(text).unwrap_or_else(|problems| panic!("{problems:?}\n{text}"));
-    let done = pipeline::run(&loaded(&resolved), &Unwatched).unwrap();
+    let resolved = Resolved::from_toml(text).unwrap_or_else(|problems| panic!("{problems:?}\n{text}"));
+    let done = runs::run(&loaded(&resolved), &Unwatched).unwrap();
     assert_eq!(done.failure, None);
     done.record
 }
@@ -176,7 +176,7 @@ fn phases_need_no_load_outside() {
     let alone = run(&of(&[&light, &heavy]));
     let beside = run(&scene(&format!("{OPERATION}{}", phases(&[&light, &heavy])), WINKLER, NEGLIGIBLE, ""));
     assert_eq!((&alone.flanks, alone.summary.reference_phase), (&beside.flanks, 2));
-    let problems = Scene::from_toml(&of(&[&light, "hours = 1.0\npinion_speed_rpm = 150.0"])).unwrap_err();
+    let problems = Resolved::from_toml(&of(&[&light, "hours = 1.0\npinion_speed_rpm = 150.0"])).unwrap_err();
     let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
     assert!(
         said.len() == 1
@@ -209,9 +209,9 @@ fn hours_over_phases_of_different_speed() {
 /// The example of the documentation is a scene.
 #[test]
 fn the_documented_spectrum_is_a_scene() {
-    let page = include_str!("../../docs/phases.md");
+    let page = include_str!("../../docs/runs.md");
     let text = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
-    let scene = Scene::from_toml(text).unwrap().scene;
+    let scene = Resolved::from_toml(text).unwrap().scene;
     assert_eq!(scene.operation.phases.len(), 4);
     // 100 hours at 1500 rpm, then 20 000 revolutions.
     assert!((scene.operation.pinion_revolutions - 9_020_000.0).abs() < 1e-3);

@@ -1,10 +1,11 @@
 //! Scenes drawn from physical ranges: a run never panics, no number is none, wear and pressure are never negative, and the
 //! loads of the tooth pairs are the load to carry at every position.
 
+use gearwear::assessment::RunError;
 use gearwear::gear::Gear;
 use gearwear::observer::Unwatched;
-use gearwear::pipeline::{self, RunError};
 use gearwear::results::run::{RunRecord, StopReason};
+use gearwear::runs;
 use gearwear::scene::{Resolved, draft::Draft, presets};
 use gearwear::simulation::wear_run::SimulationError;
 
@@ -109,7 +110,7 @@ proptest! {
             // A message that names its key.
             Err(message) => prop_assert!(message.contains('.') && message.contains("allowed"), "{message}"),
             Ok(resolved) => {
-                let done = pipeline::run(&loaded(&resolved), &Unwatched);
+                let done = runs::run(&loaded(&resolved), &Unwatched);
                 let done = done.map_err(|error| TestCaseError::fail(error.to_string()))?;
                 match done.record.summary.stopped {
                     // More worn off than a tooth has is said, not returned.

@@ -3,7 +3,7 @@
 use gearwear::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use gearwear::gear::{Gear, GearPair};
 use gearwear::scene::loaded::{LoadError, LoadedScene, SceneError};
-use gearwear::scene::{Resolved, Scene, presets, schema};
+use gearwear::scene::{Resolved, presets, schema};
 use gearwear::simulation::settings::Stepping;
 use gearwear::stiffness::settings::StiffnessSettings;
 use proptest::prelude::*;
@@ -13,7 +13,7 @@ const LEAST: &str = "pair.preset = \"fzg-c\"\n[operation]\npinion_torque_Nm = 30
                      [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n";
 
 fn resolve(text: &str) -> Resolved {
-    Scene::from_toml(text).unwrap_or_else(|problems| panic!("{problems:#?}"))
+    Resolved::from_toml(text).unwrap_or_else(|problems| panic!("{problems:#?}"))
 }
 
 /// ISO 14635-1: module 4.5, 20°, 16/24 teeth, centre distance 91.5, type C and type A.
@@ -36,7 +36,7 @@ fn val_presets_are_the_fzg_gears() {
 
 #[test]
 fn a_decimal_comma_is_recognised() {
-    let problems = |value: &str| Scene::from_toml(&LEAST.replace("= 302", value)).unwrap_err();
+    let problems = |value: &str| Resolved::from_toml(&LEAST.replace("= 302", value)).unwrap_err();
     let said = &problems("= 30,5")[0];
     assert_eq!((said.key.as_str(), said.found.as_str()), ("operation.pinion_torque_Nm", "30,5"));
     assert!(said.allowed.contains("decimal point, not a comma") && said.help.as_ref().unwrap().contains("30.5"));
@@ -75,7 +75,9 @@ fn thesis_spur_is_the_model_of_the_thesis() {
 
 #[test]
 fn defaults_are_those_of_the_contract() {
-    let scene = resolve(LEAST).scene;
+    let resolved = resolve(LEAST);
+    assert_eq!(resolved.title(), "Gear pair 16/24, module 4.5 mm");
+    let scene = resolved.scene;
     for gear in Gear::BOTH {
         let material = scene.material[gear];
         assert_eq!(
@@ -90,7 +92,6 @@ fn defaults_are_those_of_the_contract() {
     assert!(matches!(scene.numerics.stepping, Stepping::Adaptive { .. }));
     assert_eq!(scene.operation.snapshots_revolutions, [100.0, 200.0, 400.0, 800.0, 1600.0, 3200.0, 6400.0]);
     assert!(scene.numerics.error_estimate);
-    assert_eq!(scene.title, "Gear pair 16/24, module 4.5 mm");
 }
 
 #[test]
@@ -123,9 +124,9 @@ fn materials_by_name_are_overridden_by_keys() {
         (1850.0, 0.4, 0.3)
     );
     let text = format!("{LEAST}\n[material]\npreset = \"POM\"\n[material.wheel]\npreset = \"steel\"\n");
-    assert_eq!(Scene::from_toml(&text).unwrap_err()[0].key, "material.wheel.preset");
+    assert_eq!(Resolved::from_toml(&text).unwrap_err()[0].key, "material.wheel.preset");
     let text = format!("{LEAST}\n[material]\npreset = \"pom\"\n");
-    assert!(Scene::from_toml(&text).unwrap_err()[0].to_string().contains("POM"));
+    assert!(Resolved::from_toml(&text).unwrap_err()[0].to_string().contains("POM"));
 }
 
 #[test]
@@ -344,9 +345,9 @@ proptest! {
             text.truncate(cut.index(text.len() + 1));
         }
         let text: String = text.into_iter().collect();
-        match Scene::from_toml(&text) {
+        match Resolved::from_toml(&text) {
             Ok(resolved) => {
-                let again = Scene::from_toml(&resolved.to_toml()).map_err(|p| TestCaseError::fail(format!("{p:?}")))?;
+                let again = Resolved::from_toml(&resolved.to_toml()).map_err(|p| TestCaseError::fail(format!("{p:?}")))?;
                 prop_assert_eq!(again.scene, resolved.scene);
             }
             Err(problems) => {
@@ -378,16 +379,16 @@ fn a_loaded_scene_has_its_files() {
     refused(with("[stiffness]\nmodel = \"simon\"\ncurve = \"nowhere.csv\"\n"), "stiffness.curve");
 
     // A variant of a scene without files, as studies make them, cannot ask for one.
-    let asks = |change: &dyn Fn(&mut gearwear::scene::Scene)| {
+    let asks = |change: &dyn Fn(&mut gearwear::operation::Scene)| {
         let mut resolved = winkler.resolved.clone();
         change(&mut resolved.scene);
         winkler.variant(resolved).map(drop)
     };
-    let calibrated = |scene: &mut gearwear::scene::Scene| {
+    let calibrated = |scene: &mut gearwear::operation::Scene| {
         scene.contact.foundation = Foundation::Calibrated(MatchCriterion::HalfWidth);
     };
     assert_eq!(asks(&calibrated).unwrap_err().key, "contact.calibration");
-    let by_curve = |scene: &mut gearwear::scene::Scene| scene.stiffness = StiffnessSettings::WangCheng;
+    let by_curve = |scene: &mut gearwear::operation::Scene| scene.stiffness = StiffnessSettings::WangCheng;
     assert_eq!(asks(&by_curve).unwrap_err().key, "stiffness.curve");
     asks(&|_| ()).unwrap();
 }
@@ -396,7 +397,7 @@ fn a_loaded_scene_has_its_files() {
 /// and the folder of its run is complete.
 #[test]
 fn a_changed_scene_is_as_if_the_file_said_so() {
-    use gearwear::pipeline::calibrate::{self, Extent};
+    use gearwear::assessment::calibrate::{self, Extent};
 
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str, text: &str| {

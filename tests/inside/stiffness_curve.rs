@@ -3,9 +3,9 @@
 use gearwear::contact::{hertz, hertz::Hertz};
 use gearwear::gear::PerGear;
 use gearwear::observer::Unwatched;
-use gearwear::pipeline;
+use gearwear::runs;
 use gearwear::scene::loaded::NamedFiles;
-use gearwear::scene::{Scene as SceneFile, presets};
+use gearwear::scene::{Resolved, presets};
 use gearwear::stiffness::{
     TeethSpring,
     curve::{PairCompliance, StandsFor},
@@ -62,10 +62,10 @@ fn ver_a_run_states_the_stiffness_of_its_curve() {
     let text = text
         .replace("revolutions = 7665.0", "revolutions = 200000.0")
         .replace("error_estimate = true", "verify = false");
-    let resolved = SceneFile::from_toml(&text).unwrap_or_else(|problems| panic!("{problems:?}"));
+    let resolved = Resolved::from_toml(&text).unwrap_or_else(|problems| panic!("{problems:?}"));
     let curve = parse("# flattening = excluded\nposition_mm,stiffness_N_per_mm_um\n4.4,10\n14,20\n23.6,11\n").unwrap();
     let files = NamedFiles { stiffness_curve: Some(curve), ..NamedFiles::default() };
-    let summary = pipeline::run(&loaded_with(&resolved, files), &Unwatched).unwrap().record.summary;
+    let summary = runs::run(&loaded_with(&resolved, files), &Unwatched).unwrap().record.summary;
     let (gears, load) = (pair(&fzg_c()), summary.contact.line_load_N_per_mm);
     let flattening_um = 1e3 * hertz::flattening(&gears, &steel(), gears.path.pitch_point_mm).approach_mm(load);
     let teeth = 0.1 + (13.9701 - 4.4) / 9.6 * (0.05 - 0.1);

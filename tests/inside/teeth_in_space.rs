@@ -8,6 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
+use gearwear::assessment::RunError;
+use gearwear::assessment::calibrate::{self, Extent};
 use gearwear::fem::elastic::Elastic;
 use gearwear::fem::quadrature::GAUSS_3;
 use gearwear::gear::shaft::{EndFace, Shaft};
@@ -18,8 +20,6 @@ use gearwear::gear_mesh::settings::{SectionDivisions, SpaceBody, SpaceResolution
 use gearwear::gear_mesh::tooth_section::ExtrudedTooth;
 use gearwear::mesh::quality;
 use gearwear::mesh_cycle::pair_in_space::{KeptInSpace, PairInSpace, PairInSpaceError};
-use gearwear::pipeline::RunError;
-use gearwear::pipeline::calibrate::{self, Extent};
 use gearwear::{LoadedScene, RunRecord, Unwatched};
 
 use super::common::{assert_close, fzg_c};

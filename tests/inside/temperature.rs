@@ -2,11 +2,12 @@
 
 use gearwear::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 use gearwear::observer::Unwatched;
-use gearwear::pipeline;
 use gearwear::reference::moving_heat_band;
 use gearwear::results::chemistry::ToothTemperatureSummary;
 use gearwear::results::run::RunRecord;
-use gearwear::scene::{Scene, presets};
+use gearwear::runs;
+use gearwear::scene::Resolved;
+use gearwear::scene::presets;
 use gearwear::thermal::{
     ContactHeat, HeatedStrip, SpeedRatios,
     band::Spread,
@@ -46,8 +47,8 @@ fn run(edits: &[(&str, &str)], more: &str) -> RunRecord {
         assert!(text.contains(from), "{from}");
         text = text.replace(from, to);
     }
-    let resolved = Scene::from_toml(&format!("{text}\n{more}")).unwrap_or_else(|problems| panic!("{problems:?}"));
-    pipeline::run(&loaded(&resolved), &Unwatched).unwrap().record
+    let resolved = Resolved::from_toml(&format!("{text}\n{more}")).unwrap_or_else(|problems| panic!("{problems:?}"));
+    runs::run(&loaded(&resolved), &Unwatched).unwrap().record
 }
 
 /// S6, Fig 19: nil at the pitch point, below 100 K, three curves of one shape; Peclet numbers from about 2 down to 0.1 near
@@ -107,7 +108,7 @@ fn val_s6_three_methods_through_the_mesh() {
 fn val_tian_and_kennedy_at_a() {
     let record = run(&[], "");
     let line_load = record.summary.contact.line_load_N_per_mm;
-    let scene = Scene::from_toml(presets::find("thesis-spur").unwrap().text).unwrap().scene;
+    let scene = Resolved::from_toml(presets::find("thesis-spur").unwrap().text).unwrap().scene;
     let pair = gearwear::gear::GearPair::new(&scene.pair).unwrap();
     let a = pair.path.start_mm;
     let ratios = SpeedRatios::over(&pair, a, a);
@@ -176,7 +177,7 @@ fn teeth_are_the_bulk_of_the_contact() {
     // Fewer teeth get warmer, and roots less than flanks.
     assert!(teeth.pinion.flank_C > teeth.wheel.flank_C && teeth.wheel.flank_C > teeth.wheel.root_C);
     assert!(record.summary.warnings.iter().any(|warning| warning.starts_with("[temperature.tooth] pinion")));
-    let again = Scene::from_toml(&record.scene_toml).unwrap();
+    let again = Resolved::from_toml(&record.scene_toml).unwrap();
     assert_eq!(again.to_toml(), record.scene_toml);
 
     let given = run(&format!("[temperature]\nbulk_temperature_C = 70.0\n{friction}{tooth}"));
@@ -210,7 +211,7 @@ fn a_metal_gear_beside_a_plastic_one_has_no_tooth_temperature() {
 
     let curve = "[material.pinion]\npreset = \"steel\"\nyoung_modulus_curve = { temperature_C = [20.0, 100.0], young_modulus_GPa = [206.0, 200.0] }\n[material.wheel]\npreset = \"POM\"\n[operation]";
     let text = presets::find("thesis-spur").unwrap().text.replace(given, curve);
-    let problems = Scene::from_toml(&format!("{text}\n{tooth}")).unwrap_err();
+    let problems = Resolved::from_toml(&format!("{text}\n{tooth}")).unwrap_err();
     assert!(problems.iter().any(|p| p.key == "material.pinion.young_modulus_curve"), "{problems:?}");
 }
 
@@ -232,7 +233,7 @@ fn ver_modulus_and_wear_follow_the_teeth() {
     }
     let said = |of: &RunRecord, what: &str| of.summary.warnings.iter().any(|warning| warning.contains(what));
     assert!(!said(&followed, "taken as given at every temperature"));
-    let again = Scene::from_toml(&followed.scene_toml).unwrap();
+    let again = Resolved::from_toml(&followed.scene_toml).unwrap();
     assert_eq!(again.to_toml(), followed.scene_toml);
 
     // Temperatures rise above those of the surroundings in proportion to the torque.
@@ -275,8 +276,8 @@ fn ver_phases_have_the_modulus_of_their_temperature() {
              [wear]\nlaw = \"archard\"\ncoefficient_mm3_per_Nm = 1e-7\n\
              [numerics]\nflank_points = 300\npositions = 150\nstep = {{ revolutions = 1.0 }}\nerror_estimate = false\nverify = false\n{more}"
         );
-        let resolved = Scene::from_toml(&text).unwrap_or_else(|problems| panic!("{problems:?}"));
-        pipeline::run(&loaded(&resolved), &Unwatched).unwrap().record
+        let resolved = Resolved::from_toml(&text).unwrap_or_else(|problems| panic!("{problems:?}"));
+        runs::run(&loaded(&resolved), &Unwatched).unwrap().record
     };
     let curve = "young_modulus_curve = { temperature_C = [23.0, 123.0], young_modulus_GPa = [2.8, 0.8] }";
     let tooth = "[temperature]\nfriction_coefficient = 0.2\n[temperature.tooth]\nambient_temperature_C = 23.0\n\

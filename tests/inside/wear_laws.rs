@@ -2,9 +2,10 @@
 
 use gearwear::gear::Gear;
 use gearwear::observer::Unwatched;
-use gearwear::pipeline;
 use gearwear::results::run::{RunRecord, Summary};
-use gearwear::scene::{Scene, presets};
+use gearwear::runs;
+use gearwear::scene::Resolved;
+use gearwear::scene::presets;
 use gearwear::wear::regime::Regime;
 
 use super::common::loaded;
@@ -16,8 +17,8 @@ fn run_preset(preset: &str, edits: &[(&str, &str)], more: &str) -> RunRecord {
         assert!(text.contains(from), "{from}");
         text = text.replace(from, to);
     }
-    let resolved = Scene::from_toml(&format!("{text}\n{more}")).unwrap_or_else(|problems| panic!("{problems:?}"));
-    pipeline::run(&loaded(&resolved), &Unwatched).unwrap().record
+    let resolved = Resolved::from_toml(&format!("{text}\n{more}")).unwrap_or_else(|problems| panic!("{problems:?}"));
+    runs::run(&loaded(&resolved), &Unwatched).unwrap().record
 }
 
 const LAW: (&str, &str) = ("law = \"archard\"", "law = \"adsorption\"");

@@ -37,11 +37,11 @@ fn assert_printed(block: &str, printed: &str) {
     }
 }
 
-/// docs/tutorial-measured-profiles.md, but for its second fit, which would take as long again.
+/// The tutorial of docs/compare.md, but for its second fit, which would take as long again.
 #[cfg(unix)]
 #[test]
 fn the_tutorial_on_measured_profiles_says_what_comes_out() {
-    let page = document("tutorial-measured-profiles.md");
+    let page = document("compare.md");
     let dir = tempfile::tempdir().unwrap();
     let commands = blocks(&page, "sh");
     let printed = shell(dir.path(), &commands[..3].concat());
@@ -50,10 +50,10 @@ fn the_tutorial_on_measured_profiles_says_what_comes_out() {
     assert_printed(answers[1], &printed);
 }
 
-/// docs/tutorial-own-problems.md on the mesh that Gmsh made of its geometry.
+/// The tutorial of docs/fem-problems.md on the mesh that Gmsh made of its geometry.
 #[test]
 fn the_tutorial_on_own_problems_says_what_comes_out() {
-    let page = document("tutorial-own-problems.md");
+    let page = document("fem-problems.md");
     let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
     let answers = blocks(&page, "text");
     assert_eq!(answers[0], fs::read_to_string(meshes.join("roller.geo")).unwrap(), "the geometry is the committed one");

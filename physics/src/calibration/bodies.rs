@@ -1,8 +1,7 @@
-//! From the settings of a pair to its condensed gears, and the pair's stiffness at C as they change: resolution, depth of
-//! the body, neighbouring teeth.
+//! Condensed gears of a pair, and its stiffness at C by resolution, depth of the body and neighbouring teeth.
 //!
-//! A known load needs compliances of the loaded nodes alone, so that each row of these tables costs little more than the
-//! factorisation of one tooth of each gear.
+//! A known load needs the compliances of the loaded nodes alone: each row of these tables costs little more than the factorisation of one tooth
+//! of each gear.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -10,24 +9,23 @@ use serde::{Deserialize, Serialize};
 use super::CalibrationError;
 use super::loaded_tooth::{LoadedTooth, nodes_under};
 use crate::contact::hertz;
-use crate::fem::elastic::Elastic;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_fem::condensed_pair::CondensedPair;
 use crate::gear_fem::model::MeshedGear;
 use crate::gear_fem::ring::ToothForce;
 use crate::gear_mesh::settings::{Body, BodySettings, SectorSides, greatest_clamp_mm};
 use crate::material::Material;
+use gearwear_fem::elastic::Elastic;
 
-/// Elements per half-width that the tables of rim and neighbours are made with; the convergence table shows that it is
-/// enough.
+/// Elements per half-width in the tables of rim and neighbours; the convergence table shows that they are enough.
 pub(crate) const TABLE_ELEMENTS_PER_HALF_WIDTH: f64 = 4.0;
 const RESOLUTIONS: [f64; 5] = [4.0, 6.0, 8.0, 10.0, 14.0];
 const RIM_MODULES: [f64; 7] = [0.5, 1.0, 1.5, 2.0, 2.5, 4.0, 5.5];
 const SECTORS: [u32; 3] = [1, 3, 5];
-/// A body must leave something to hold it at.
+/// Least radius at which a body is held, over the root radius.
 const LEAST_CLAMP_OVER_ROOT: f64 = 0.1;
 
-/// A gear pair with what finite elements need to know of it.
+/// A gear pair with its material and its bodies for finite elements.
 #[derive(Clone, Copy)]
 pub struct Setup<'a> {
     /// Geometry.
@@ -48,29 +46,29 @@ pub struct ResolutionRow {
     pub elements_per_half_width: f64,
     /// Degrees of freedom of both gears.
     pub dofs: usize,
-    /// N/(mm·µm).
+    /// Stiffness, N/(mm·µm).
     pub pair_n_per_mm_um: f64,
 }
 
-/// The same with the bodies held elsewhere.
+/// Stiffness of the pair at C with the bodies held at a depth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RimRow {
     /// Depth of the body below the root circle in normal modules.
     pub depth_modules: f64,
-    /// Where each body is held, mm.
+    /// Radius at which each body is held, mm.
     pub clamp_radius_mm: PerGear<f64>,
-    /// N/(mm·µm).
+    /// Stiffness, N/(mm·µm).
     pub pair_n_per_mm_um: f64,
 }
 
-/// The same with more or fewer neighbouring teeth.
+/// Stiffness of the pair at C with some neighbouring teeth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NeighbourRow {
     /// `ring`, or the number of teeth of a sector and how its sides are held.
     pub body: String,
-    /// N/(mm·µm).
+    /// Stiffness, N/(mm·µm).
     pub pair_n_per_mm_um: f64,
 }
 
@@ -124,11 +122,21 @@ impl<'a> Setup<'a> {
         Ok((1e-3 / (pinion.0 + wheel.0), pinion.1 + wheel.1))
     }
 
+    /// Radius at which the body of a gear is held `depth_modules` below its root circle; none where it has no body there.
+    fn clamp_radius_mm(&self, gear: Gear, depth_modules: f64) -> Option<f64> {
+        let module_mm = self.pair.spec.normal_module_mm;
+        let root_mm = self.pair.teeth[gear].root_radius_mm;
+        let radius_mm = root_mm - depth_modules * module_mm;
+        let bore_mm = self.pair.spec.gears[gear].bore_diameter_mm.map_or(0.0, |diameter| 0.5 * diameter);
+        let least_mm = bore_mm.max(LEAST_CLAMP_OVER_ROOT * root_mm);
+        (least_mm..=greatest_clamp_mm(root_mm, module_mm)).contains(&radius_mm).then_some(radius_mm)
+    }
+
     fn coarse(&self) -> BodySettings {
         BodySettings { elements_per_half_width: TABLE_ELEMENTS_PER_HALF_WIDTH, ..self.bodies }
     }
 
-    /// The stiffness on finer and finer meshes.
+    /// Stiffness on finer and finer meshes.
     pub fn convergence(&self) -> Result<Vec<ResolutionRow>, CalibrationError> {
         RESOLUTIONS
             .par_iter()
@@ -140,21 +148,15 @@ impl<'a> Setup<'a> {
             .collect()
     }
 
-    /// The stiffness of thinner and thicker rims, as far as both gears have the body for it.
+    /// Stiffness of thinner and thicker rims, as far as both gears have bodies for them.
     pub fn rim_depths(&self) -> Result<Vec<RimRow>, CalibrationError> {
-        let module_mm = self.pair.spec.normal_module_mm;
-        let held = |depth_modules: f64| {
-            let clamp_radius_mm = PerGear::from_fn(|gear| {
-                let root_mm = self.pair.teeth[gear].root_radius_mm;
-                let radius_mm = root_mm - depth_modules * module_mm;
-                let bore_mm = self.pair.spec.gears[gear].bore_diameter_mm.map_or(0.0, |diameter| 0.5 * diameter);
-                let least_mm = bore_mm.max(LEAST_CLAMP_OVER_ROOT * root_mm);
-                (least_mm..=greatest_clamp_mm(root_mm, module_mm)).contains(&radius_mm).then_some(radius_mm)
-            });
-            let PerGear { pinion: Some(pinion), wheel: Some(wheel) } = clamp_radius_mm else { return None };
-            Some((depth_modules, PerGear { pinion, wheel }))
-        };
-        let rims: Vec<(f64, PerGear<f64>)> = RIM_MODULES.into_iter().filter_map(held).collect();
+        let rims: Vec<(f64, PerGear<f64>)> = RIM_MODULES
+            .into_iter()
+            .filter_map(|modules| {
+                let [pinion, wheel] = Gear::BOTH.map(|gear| self.clamp_radius_mm(gear, modules));
+                Some((modules, PerGear { pinion: pinion?, wheel: wheel? }))
+            })
+            .collect();
         rims.par_iter()
             .map(|&(depth_modules, clamp_radius_mm)| {
                 let (pair_n_per_mm_um, _) = self.pitch_stiffness(BodySettings { clamp_radius_mm, ..self.coarse() })?;
@@ -163,7 +165,7 @@ impl<'a> Setup<'a> {
             .collect()
     }
 
-    /// The stiffness of whole rings and of sectors.
+    /// Stiffness of whole rings and of sectors.
     pub fn neighbours(&self) -> Result<Vec<NeighbourRow>, CalibrationError> {
         let least = self.pair.teeth.as_ref().map(|tooth| tooth.teeth);
         let least = least.pinion.min(least.wheel);

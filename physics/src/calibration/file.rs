@@ -3,9 +3,9 @@
 //! The hash is the SHA-256 of the same JSON with an empty hash, so that white space does not matter and every number does.
 
 use super::Calibration;
-use crate::content_hash::sha256;
+use gearwear_files::content_hash::sha256;
 
-/// Why a text is no calibration.
+/// Reason why a text is no calibration.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CalibrationFileError {
     /// The text is no JSON, or not that of a calibration.
@@ -15,21 +15,21 @@ pub enum CalibrationFileError {
         line: usize,
         /// From 1.
         column: usize,
-        /// What is wrong there.
+        /// Fault.
         reason: String,
     },
-    /// The content does not have the hash it says it has.
+    /// The content does not have the hash in the file.
     #[error("its content has the hash {computed}, but it says {given}")]
     Hash {
-        /// As it says.
+        /// Hash in the file.
         given: String,
-        /// As it is.
+        /// Hash of the content.
         computed: String,
     },
     /// The content cannot be of a calibration that this program made.
     #[error("{what}")]
     Content {
-        /// What is wrong.
+        /// Fault.
         what: String,
     },
 }
@@ -44,7 +44,7 @@ impl Calibration {
         text
     }
 
-    /// Reads what [`Self::to_json`] wrote.
+    /// Reads text that [`Self::to_json`] wrote.
     ///
     /// # Errors
     /// Text that is no calibration, or of another version; one that was changed by hand.
@@ -71,16 +71,18 @@ impl Calibration {
     }
 
     fn text(&self) -> String {
-        // Numbers, texts and enumerations under text keys: nothing in them that JSON could not express.
         serde_json::to_string_pretty(self).expect("a calibration is always expressible in JSON")
     }
 
-    /// What keeps the curves from being used.
+    /// Fault that keeps the curves from being used.
     fn fault(&self) -> Option<String> {
-        let increasing = |places: &[f64]| places.windows(2).all(|pair| pair[0] < pair[1]);
         let compliance = &self.pair_compliance;
         let (n, values) = (compliance.position_mm.len(), &compliance.mm2_per_n);
-        if n < 2 || values.len() != n || !increasing(&compliance.position_mm) || values.iter().any(|q| *q <= 0.0) {
+        if n < 2
+            || values.len() != n
+            || !compliance.position_mm.is_sorted_by(|a, b| a < b)
+            || values.iter().any(|q| *q <= 0.0)
+        {
             return Some("pair_compliance: at least two increasing positions with a positive value each".to_owned());
         }
         if compliance.shared_mm2_per_n < 0.0 || values.iter().any(|q| *q <= compliance.shared_mm2_per_n) {
@@ -91,7 +93,7 @@ impl Calibration {
             let lengths = [curve.mpa_per_mm.len(), curve.load_exponent.len()];
             let positive = curve.mpa_per_mm.iter().all(|k| *k > 0.0) && curve.reference_line_load_n_per_mm > 0.0;
             let exponents = curve.load_exponent.iter().all(|m| (0.0..1.0).contains(m));
-            if n < 2 || lengths != [n; 2] || !increasing(&curve.position_mm) || !positive || !exponents {
+            if n < 2 || lengths != [n; 2] || !curve.position_mm.is_sorted_by(|a, b| a < b) || !positive || !exponents {
                 return Some(format!(
                     "foundation.{}: at least two increasing positions, K/H above 0 and exponents from 0 to below 1",
                     criterion.name()
@@ -102,7 +104,7 @@ impl Calibration {
     }
 }
 
-/// The reason without its place, which is told apart.
+/// Reason of an error without its place.
 fn reason(error: &serde_json::Error) -> String {
     let text = error.to_string();
     text.rsplit_once(" at line ").map_or(text.clone(), |(reason, _)| reason.to_owned())

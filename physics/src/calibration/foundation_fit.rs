@@ -1,4 +1,4 @@
-//! K/H as a curve over position and load, fitted to finite elements, with the error it has where it was not fitted.
+//! K/H as a curve over position and load, fitted to finite elements, with its error at fitted and at held-out points.
 //!
 //! At each fitted position
 //!
@@ -6,17 +6,16 @@
 //! ln K/H = ln K(ξ) − m(ξ) ln(w/w_ref)
 //! ```
 //!
-//! by least squares over the fitted loads, with m held from 0 to below 1: springs soften with the load, and not so much that it has no
-//! answer. Where the edge of a small tooth cuts into the strip the points themselves may ask for more. Hertz has m = ½ for half-width and peak pressure, whatever the position. One
-//! K/H meets one criterion: a foundation that has the half-width of an elliptic pressure peaks 3π/8 = 1.178 times as high, one
-//! that has its peak is 1.178 times as wide, and the approach of either is about a third of the true one. Every row
-//! therefore reports all three.
+//! by least squares over the fitted loads, with m from 0 to below 1: springs soften with the load, and the load still determines the approach. Where the
+//! edge of a small tooth cuts into the strip the points themselves may have a greater m. Hertz has m = ½ for half-width and peak pressure at every
+//! position. One K/H meets one criterion: a foundation with the half-width of an elliptic pressure peaks 3π/8 = 1.178 times as high, one
+//! with its peak is 1.178 times as wide, and the approach of either is about a third of the true one. Every row reports all three.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::single_contact::{Purpose, SingleContact, Touch};
+use super::single_contact::{Purpose, SingleContact, TouchFigures};
 use crate::contact::{foundation::FoundationCurve, settings::MatchCriterion};
 
 /// Greatest m.
@@ -30,9 +29,9 @@ pub struct FitRow {
     pub position_mm: f64,
     /// w, N/mm.
     pub line_load_n_per_mm: f64,
-    /// Whether the fit was made on it.
+    /// Whether the fit was made to this point.
     pub fitted: bool,
-    /// K/H that finite elements ask for, MPa/mm.
+    /// K/H that matches finite elements, MPa/mm.
     pub fem_mpa_per_mm: f64,
     /// K/H of Hertz in closed form, MPa/mm.
     pub hertz_mpa_per_mm: f64,
@@ -40,9 +39,9 @@ pub struct FitRow {
     pub curve_mpa_per_mm: f64,
     /// Half-width of the foundation over that of finite elements, less 1.
     pub half_width_error: f64,
-    /// The same of the peak pressure.
+    /// Peak pressure of the foundation over that of finite elements, less 1.
     pub peak_pressure_error: f64,
-    /// The same of the approach.
+    /// Approach of the foundation over that of finite elements, less 1.
     pub approach_error: f64,
 }
 
@@ -52,7 +51,7 @@ pub struct FitRow {
 pub struct FitErrors {
     /// Greatest magnitude of the error in the matched quantity.
     pub worst_matched: f64,
-    /// Root mean square of the same.
+    /// Root mean square of the error in the matched quantity.
     pub rms_matched: f64,
     /// Mean error of the half-width.
     pub mean_half_width: f64,
@@ -66,11 +65,11 @@ pub struct FitErrors {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FoundationFit {
-    /// On the points it was made on.
+    /// Errors at fitted points.
     pub fitted: FitErrors,
-    /// On those held out.
+    /// Errors at held-out points.
     pub held_out: FitErrors,
-    /// All of them.
+    /// All points.
     pub rows: Vec<FitRow>,
 }
 
@@ -121,14 +120,8 @@ fn continue_to(curve: &mut FoundationCurve, (start_mm, end_mm): (f64, f64)) {
     if n < 2 {
         return;
     }
-    let ln_k = |at: f64, k: usize, j: usize| {
-        let (from, slope) = (
-            curve.mpa_per_mm[k].ln(),
-            (curve.mpa_per_mm[j] / curve.mpa_per_mm[k]).ln() / (curve.position_mm[j] - curve.position_mm[k]),
-        );
-        (from + slope * (at - curve.position_mm[k])).exp()
-    };
-    let (first, last) = (ln_k(start_mm, 0, 1), ln_k(end_mm, n - 1, n - 2));
+    let (first, last) =
+        (continued_mpa_per_mm(curve, start_mm, [0, 1]), continued_mpa_per_mm(curve, end_mm, [n - 1, n - 2]));
     if start_mm < curve.position_mm[0] {
         curve.position_mm.insert(0, start_mm);
         curve.mpa_per_mm.insert(0, first);
@@ -139,6 +132,13 @@ fn continue_to(curve: &mut FoundationCurve, (start_mm, end_mm): (f64, f64)) {
         curve.mpa_per_mm.push(last);
         curve.load_exponent.push(curve.load_exponent[curve.load_exponent.len() - 1]);
     }
+}
+
+/// K/H at a position on the straight line of ln K through two points of the curve.
+fn continued_mpa_per_mm(curve: &FoundationCurve, at_mm: f64, [k, j]: [usize; 2]) -> f64 {
+    let (k_mpa_per_mm, position_mm) = (&curve.mpa_per_mm, &curve.position_mm);
+    let slope = (k_mpa_per_mm[j] / k_mpa_per_mm[k]).ln() / (position_mm[j] - position_mm[k]);
+    (k_mpa_per_mm[k].ln() + slope * (at_mm - position_mm[k])).exp()
 }
 
 /// Intercept and slope of the line that fits best, of those that fall by 0 to [`STEEPEST`].
@@ -156,8 +156,9 @@ fn line(points: &[(f64, f64)]) -> (f64, f64) {
 pub fn compare(criterion: MatchCriterion, curve: &FoundationCurve, contacts: &[SingleContact]) -> FoundationFit {
     let rows: Vec<FitRow> =
         contacts.iter().filter(|c| c.purpose != Purpose::AtEdge).map(|c| row(criterion, curve, c)).collect();
-    let errors = |fitted: bool| FitErrors::of(criterion, rows.iter().filter(|row| row.fitted == fitted));
-    FoundationFit { fitted: errors(true), held_out: errors(false), rows }
+    let [fitted, held_out] =
+        [true, false].map(|fitted| FitErrors::of(criterion, rows.iter().filter(|row| row.fitted == fitted)));
+    FoundationFit { fitted, held_out, rows }
 }
 
 /// Curves and fits of all criteria.
@@ -175,7 +176,7 @@ pub fn all(
 fn row(criterion: MatchCriterion, curve: &FoundationCurve, contact: &SingleContact) -> FitRow {
     let (w, radius, fem) = (contact.line_load_n_per_mm, contact.relative_radius_mm, &contact.fem);
     let curve_mpa_per_mm = curve.at_mpa_per_mm(contact.position_mm, w);
-    let foundation = Touch::of_foundation(curve_mpa_per_mm, radius, w);
+    let foundation = TouchFigures::of_foundation(curve_mpa_per_mm, radius, w);
     FitRow {
         position_mm: contact.position_mm,
         line_load_n_per_mm: w,
@@ -192,13 +193,12 @@ fn row(criterion: MatchCriterion, curve: &FoundationCurve, contact: &SingleConta
 impl FitErrors {
     fn of<'a>(criterion: MatchCriterion, rows: impl Iterator<Item = &'a FitRow> + Clone) -> Self {
         let count = rows.clone().count().max(1) as f64;
-        let mean = |of: &dyn Fn(&FitRow) -> f64| rows.clone().map(of).sum::<f64>() / count;
         Self {
             worst_matched: rows.clone().map(|row| row.matched_error(criterion).abs()).fold(0.0, f64::max),
-            rms_matched: mean(&|row| row.matched_error(criterion).powi(2)).sqrt(),
-            mean_half_width: mean(&|row| row.half_width_error),
-            mean_peak_pressure: mean(&|row| row.peak_pressure_error),
-            mean_approach: mean(&|row| row.approach_error),
+            rms_matched: (rows.clone().map(|row| row.matched_error(criterion).powi(2)).sum::<f64>() / count).sqrt(),
+            mean_half_width: rows.clone().map(|row| row.half_width_error).sum::<f64>() / count,
+            mean_peak_pressure: rows.clone().map(|row| row.peak_pressure_error).sum::<f64>() / count,
+            mean_approach: rows.clone().map(|row| row.approach_error).sum::<f64>() / count,
         }
     }
 }
@@ -207,12 +207,11 @@ impl FitErrors {
 mod tests {
     use super::*;
 
-    /// Points on a line give it back; rising ones and such that fall too steeply the nearest line that is allowed.
+    /// The line of points on a line; where they rise or fall too steeply, the nearest line that is allowed.
     #[test]
     fn ver_lines_are_held_within_their_bounds() {
-        let of_slope = |slope: f64| line(&[(-1.0, 3.0 - slope), (0.0, 3.0), (1.0, 3.0 + slope)]);
         for (slope, expected) in [(-0.5, -0.5), (0.2, 0.0), (-1.5, -STEEPEST)] {
-            let (intercept, found) = of_slope(slope);
+            let (intercept, found) = line(&[(-1.0, 3.0 - slope), (0.0, 3.0), (1.0, 3.0 + slope)]);
             assert!(
                 (found - expected).abs() < 1e-15 && (intercept - 3.0).abs() < 1e-15,
                 "{slope}: {found} {intercept}"

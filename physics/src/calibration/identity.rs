@@ -1,11 +1,10 @@
-//! What a calibration belongs to: every number that shapes the pair in its section, its material, and where its bodies
-//! are held.
+//! Identity of a calibration: every number that shapes the section of the pair, its material, and the radii at which its bodies are held.
 //!
-//! Names and units are those of the scene's keys, so that a difference can be told in the user's words. The face width is
-//! not among them: everything is per mm of it. Neither is the helix angle by itself: pairs of one transverse section share their calibrations.
+//! Names and units are those of the scene's keys, so that messages can name a difference. The face width is
+//! not among them, as everything is per mm of it, nor is the helix angle by itself: pairs of one transverse section share their calibrations.
 
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use crate::gear::modification::{Relief, ReliefShape};
 use crate::gear::{Gear, GearPair, PerGear};
@@ -20,19 +19,19 @@ pub(super) fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME * a.abs().max(b.abs())
 }
 
-/// What a calibration belongs to.
+/// Pair, material and bodies that a calibration belongs to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Identity {
-    /// The pair.
+    /// Geometry of the pair.
     pub pair: PairIdentity,
-    /// Its material.
+    /// Material of each gear.
     pub material: PerGear<MaterialIdentity>,
-    /// Its bodies.
+    /// Bodies of both gears.
     pub fem: BodyIdentity,
 }
 
-/// What shapes the pair.
+/// Geometry of a pair.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PairIdentity {
@@ -44,7 +43,7 @@ pub struct PairIdentity {
     pub helix_angle_deg: f64,
     /// a.
     pub centre_distance_mm: f64,
-    /// The rack.
+    /// Basic rack.
     pub basic_rack: RackIdentity,
     /// The pinion.
     pub pinion: GearIdentity,
@@ -64,7 +63,7 @@ pub struct RackIdentity {
     pub fillet_radius_factor: f64,
 }
 
-/// What shapes one gear.
+/// Geometry of one gear.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GearIdentity {
@@ -109,19 +108,19 @@ pub struct MaterialIdentity {
     pub poisson_ratio: f64,
 }
 
-/// How much of each gear is modelled, and where it is held.
+/// Modelled part of each gear, and the radius at which it is held.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BodyIdentity {
     /// `ring` or `sector`.
     pub body: String,
-    /// Of a sector.
+    /// Teeth of a sector.
     pub sector_teeth: Option<u32>,
-    /// Of a sector.
+    /// Sides of a sector.
     pub sector_sides: Option<SectorSides>,
-    /// Rim or bore.
+    /// Radius of the rim or bore.
     pub clamp_radius_mm: PerGear<f64>,
-    /// Where a gear has one.
+    /// Web of each gear that has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub web: Option<PerGear<Option<WebIdentity>>>,
 }
@@ -134,24 +133,14 @@ pub struct WebIdentity {
     pub thickness_mm: f64,
     /// s_R.
     pub rim_thickness_mm: f64,
-    /// From the middle of the face width.
+    /// Distance from the middle of the face width.
     pub offset_mm: f64,
 }
 
 impl Identity {
-    /// Of a pair.
+    /// Identity of a pair with its material and bodies.
     pub fn of(pair: &GearPair, material: &PerGear<Material>, bodies: &BodySettings) -> Self {
         let spec = &pair.spec;
-        let gear = |gear: Gear| GearIdentity {
-            teeth: spec.gears[gear].teeth,
-            profile_shift: spec.gears[gear].profile_shift,
-            tip_diameter_mm: 2.0 * pair.teeth[gear].tip_radius_mm,
-            tooth_thickness_allowance_um: 1e3 * spec.gears[gear].tooth_thickness_allowance_mm,
-            profile_crowning_um: 1e3 * spec.gears[gear].modification.profile_crowning_mm,
-            tip_rounding_mm: spec.gears[gear].modification.tip_rounding_mm,
-            tip_relief: spec.gears[gear].modification.tip_relief.map(ReliefIdentity::of),
-            root_relief: spec.gears[gear].modification.root_relief.map(ReliefIdentity::of),
-        };
         let (body, sector_teeth, sector_sides) = match bodies.body {
             Body::Ring => ("ring", None, None),
             Body::Sector { teeth, sides } => ("sector", Some(teeth), Some(sides)),
@@ -167,8 +156,8 @@ impl Identity {
                     dedendum_factor: spec.rack.dedendum_factor,
                     fillet_radius_factor: spec.rack.fillet_radius_factor,
                 },
-                pinion: gear(Gear::Pinion),
-                wheel: gear(Gear::Wheel),
+                pinion: GearIdentity::of(pair, Gear::Pinion),
+                wheel: GearIdentity::of(pair, Gear::Wheel),
             },
             material: material.map(|own| MaterialIdentity {
                 young_modulus_gpa: 1e-3 * own.young_modulus_mpa,
@@ -184,7 +173,7 @@ impl Identity {
         }
     }
 
-    /// What `scene` has otherwise, as `key: calibration …, scene …`; the bodies are compared where `bodies_too`.
+    /// Differences of `scene`, as `key: calibration …, scene …`; the bodies are compared where `bodies_too`.
     pub fn differences(&self, scene: &Identity, bodies_too: bool) -> Vec<String> {
         let mut found = Vec::new();
         let (own, other) = match self.pair.helix_angle_deg == scene.pair.helix_angle_deg {
@@ -200,16 +189,37 @@ impl Identity {
     }
 }
 
+impl GearIdentity {
+    fn of(pair: &GearPair, gear: Gear) -> Self {
+        let spec = &pair.spec.gears[gear];
+        let modification = &spec.modification;
+        Self {
+            teeth: spec.teeth,
+            profile_shift: spec.profile_shift,
+            tip_diameter_mm: 2.0 * pair.teeth[gear].tip_radius_mm,
+            tooth_thickness_allowance_um: 1e3 * spec.tooth_thickness_allowance_mm,
+            profile_crowning_um: 1e3 * modification.profile_crowning_mm,
+            tip_rounding_mm: modification.tip_rounding_mm,
+            tip_relief: modification.tip_relief.map(ReliefIdentity::of),
+            root_relief: modification.root_relief.map(ReliefIdentity::of),
+        }
+    }
+
+    /// The gear in the transverse section, where β has the cosine `cos`.
+    fn in_transverse_section(&self, cos: f64) -> Self {
+        Self {
+            profile_shift: self.profile_shift * cos,
+            tooth_thickness_allowance_um: self.tooth_thickness_allowance_um / cos,
+            ..self.clone()
+        }
+    }
+}
+
 impl PairIdentity {
-    /// Its transverse section, as the scene's transverse keys would give it.
+    /// Transverse section, as the scene's transverse keys would give it.
     fn transverse_section(&self) -> Value {
         let cos = self.helix_angle_deg.to_radians().cos();
         let RackIdentity { addendum_factor, dedendum_factor, fillet_radius_factor } = self.basic_rack;
-        let gear = |gear: &GearIdentity| GearIdentity {
-            profile_shift: gear.profile_shift * cos,
-            tooth_thickness_allowance_um: gear.tooth_thickness_allowance_um / cos,
-            ..gear.clone()
-        };
         serde_json::json!({
             "transverse_module_mm": self.normal_module_mm / cos,
             "transverse_pressure_angle_deg": (self.pressure_angle_deg.to_radians().tan() / cos).atan().to_degrees(),
@@ -219,8 +229,8 @@ impl PairIdentity {
                 dedendum_factor: dedendum_factor * cos,
                 fillet_radius_factor: fillet_radius_factor * cos,
             },
-            "pinion": gear(&self.pinion),
-            "wheel": gear(&self.wheel),
+            "pinion": self.pinion.in_transverse_section(cos),
+            "wheel": self.wheel.in_transverse_section(cos),
         })
     }
 }
@@ -238,18 +248,18 @@ impl WebIdentity {
 }
 
 fn json(part: &impl Serialize) -> Value {
-    // Plain structures with text keys: always expressible; were they not, they would differ from anything.
+    // Plain structures with text keys, which JSON always expresses.
     serde_json::to_value(part).unwrap_or_default()
 }
 
 fn compare(key: &str, calibration: &Value, scene: &Value, found: &mut Vec<String>) {
     match (calibration, scene) {
         (Value::Object(own), Value::Object(other)) => {
-            // Both are of the same structure: what one of them has no key for, it does not have.
+            // A key that one of them lacks counts as null.
             let names = own.keys().chain(other.keys().filter(|name| !own.contains_key(*name)));
             for name in names {
-                let of = |object: &Map<String, Value>| object.get(name).cloned().unwrap_or_default();
-                compare(&format!("{key}.{name}"), &of(own), &of(other), found);
+                let [own, other] = [own, other].map(|object| object.get(name).unwrap_or(&Value::Null));
+                compare(&format!("{key}.{name}"), own, other, found);
             }
         }
         (Value::Number(own), Value::Number(other)) => {
@@ -263,7 +273,7 @@ fn compare(key: &str, calibration: &Value, scene: &Value, found: &mut Vec<String
     }
 }
 
-/// A value in an engineer's words.
+/// A value in words.
 fn words(value: &Value) -> String {
     match value {
         Value::Null => "none".to_owned(),

@@ -1,4 +1,4 @@
-//! A line load on one tooth of a condensed gear, and how far it moves the teeth.
+//! A line load on one tooth of a condensed gear, and the displacement of the teeth.
 //!
 //! The load is Hertz's ellipse in the direction of the line of action, the inward normal of the involute at the loaded
 //! point. With x = a sin θ along the flank
@@ -11,26 +11,25 @@
 //! that the forces do the work of the pressure. The same shape functions give the displacement of any flank point, and
 //! those of the elements that of a point inside the tooth.
 //!
-//! Of the displacement at the loaded point, what is left at the point inside, where the load's line crosses the tooth's
-//! centre line, is **bending**: tooth and body; the difference is **flattening**, which a contact surface brings along
-//! itself. The split is the one of Weber and Banaschek's closed form ([`crate::reference::flattening`]), so that nothing
-//! is counted twice.
+//! The displacement at the point inside, where the load's line crosses the tooth's centre line, is **bending** of tooth and body; its
+//! difference from the displacement at the loaded point is **flattening**, which a contact surface has itself. The split is that of Weber and
+//! Banaschek's closed form ([`crate::reference::flattening`]), so that nothing is counted twice.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector2;
 
-use crate::fem::locate::locate;
 use crate::gear::tooth::{LoadLine, Tooth};
 use crate::gear_fem::flank_surface::FlankSurface;
 use crate::gear_fem::ring::{GearCompliance, ToothForce};
 use crate::gear_fem::sector::{Answer, Functional};
+use gearwear_fem::locate::locate;
 
-/// Forces that stand for the ellipse.
+/// Number of forces in place of the ellipse.
 const SAMPLES: usize = 240;
 
-/// A stretch of flank: one edge between two arc lengths.
-struct Stretch {
+/// An edge of the mesh on the flank.
+struct FlankEdge {
     /// Arc length of the involute from the base circle at the end nearer the root, the middle and the end nearer the tip.
     arc_mm: [f64; 3],
     /// Local nodes there.
@@ -43,8 +42,8 @@ pub struct LoadedTooth<'a> {
     body: &'a GearCompliance,
     flank: &'a FlankSurface,
     /// From root to tip, the involute part of the resolved flank.
-    stretches: Vec<Stretch>,
-    /// Place of each local flank node among the gear's candidates.
+    edges: Vec<FlankEdge>,
+    /// Index of each local flank node among the gear's candidates.
     candidate: Vec<Option<usize>>,
 }
 
@@ -54,7 +53,7 @@ impl<'a> LoadedTooth<'a> {
         let candidates = &body.sector.sector.candidates;
         let candidate =
             flank.surface.mesh_nodes.iter().map(|node| candidates.iter().position(|own| own == node)).collect();
-        Self { tooth, body, flank, stretches: stretches(tooth, flank), candidate }
+        Self { tooth, body, flank, edges: flank_edges(tooth, flank), candidate }
     }
 
     /// Least and greatest ρ at which an ellipse of half-width `half_width_mm` lies wholly on the resolved involute.
@@ -90,13 +89,12 @@ impl<'a> LoadedTooth<'a> {
         Some(moved.sum())
     }
 
-    /// The point inside where a load at ρ crosses the tooth's centre line, with its displacement in the direction of that
-    /// load.
+    /// The point inside where a load at ρ crosses the tooth's centre line, with its displacement along that load.
     pub fn inside(&self, rho_mm: f64) -> Option<Inside> {
         self.inside_along(&self.tooth.load_line(rho_mm))
     }
 
-    /// The same for a load along `line`.
+    /// The point inside where a load along `line` crosses the centre line, with its displacement along that load.
     fn inside_along(&self, line: &LoadLine) -> Option<Inside> {
         let direction = direction(line);
         let sector = &self.body.sector;
@@ -120,7 +118,7 @@ impl<'a> LoadedTooth<'a> {
     /// mm²/N. How a load is spread over the flank does not matter there, so that it may act on an edge; ρ counts up to where a
     /// rounding begins.
     pub fn bending_mm2_per_n(&self, rho_mm: f64, line: &LoadLine) -> Option<f64> {
-        let (first, last) = (self.stretches.first()?, self.stretches.last()?);
+        let (first, last) = (self.edges.first()?, self.edges.last()?);
         let arc_mm = self.tooth.involute.arc_mm(rho_mm).clamp(first.arc_mm[0], last.arc_mm[2]);
         let mut force = self.along(arc_mm, direction(line))?;
         force.sort_by_key(|&(column, _)| column);
@@ -141,10 +139,10 @@ impl<'a> LoadedTooth<'a> {
 
     /// Candidate columns and weights of the displacement along `direction` at an arc length.
     fn along(&self, arc_mm: f64, direction: Vector2<f64>) -> Option<Vec<(usize, f64)>> {
-        let after = self.stretches.partition_point(|stretch| stretch.arc_mm[2] < arc_mm);
-        let stretch = self.stretches.get(after).filter(|stretch| stretch.arc_mm[0] <= arc_mm)?;
+        let after = self.edges.partition_point(|edge| edge.arc_mm[2] < arc_mm);
+        let edge = self.edges.get(after).filter(|edge| edge.arc_mm[0] <= arc_mm)?;
         let mut columns = Vec::with_capacity(6);
-        for (node, weight) in stretch.nodes.into_iter().zip(stretch.weights(arc_mm)) {
+        for (node, weight) in edge.nodes.into_iter().zip(edge.weights(arc_mm)) {
             let place = self.candidate[node]?;
             columns.push((2 * place, weight * direction.x));
             columns.push((2 * place + 1, weight * direction.y));
@@ -161,23 +159,22 @@ fn direction(line: &LoadLine) -> Vector2<f64> {
 
 /// A point inside a tooth.
 pub struct Inside {
-    /// Its depth below the flank, mm.
+    /// Depth below the flank, mm.
     pub depth_mm: f64,
     answer: Answer,
 }
 
 /// Least and greatest ρ at which an ellipse of half-width `half_width_mm` lies wholly on the resolved involute of `flank`.
 pub(crate) fn limits_mm(tooth: &Tooth, flank: &FlankSurface, half_width_mm: f64) -> Option<(f64, f64)> {
-    let stretches = stretches(tooth, flank);
-    let (low, high) = (stretches.first()?.arc_mm[0] + half_width_mm, stretches.last()?.arc_mm[2] - half_width_mm);
-    let rho = |arc_mm: f64| tooth.involute.rho_at_arc_mm(arc_mm);
-    (low < high).then(|| (rho(low), rho(high)))
+    let edges = flank_edges(tooth, flank);
+    let (low, high) = (edges.first()?.arc_mm[0] + half_width_mm, edges.last()?.arc_mm[2] - half_width_mm);
+    (low < high).then(|| (tooth.involute.rho_at_arc_mm(low), tooth.involute.rho_at_arc_mm(high)))
 }
 
-/// The nodes of the mesh under an ellipse around ρ: what such a load needs as candidates.
+/// Nodes of the mesh under an ellipse around ρ: the candidates of such a load.
 pub(crate) fn nodes_under(tooth: &Tooth, flank: &FlankSurface, rho_mm: f64, half_width_mm: f64) -> Vec<u32> {
     let centre_mm = tooth.involute.arc_mm(rho_mm);
-    let mut nodes: Vec<u32> = stretches(tooth, flank)
+    let mut nodes: Vec<u32> = flank_edges(tooth, flank)
         .iter()
         .filter(|s| s.arc_mm[2] >= centre_mm - half_width_mm && s.arc_mm[0] <= centre_mm + half_width_mm)
         .flat_map(|s| s.nodes.map(|node| flank.surface.mesh_nodes[node]))
@@ -187,9 +184,8 @@ pub(crate) fn nodes_under(tooth: &Tooth, flank: &FlankSurface, rho_mm: f64, half
     nodes
 }
 
-/// The involute part of a flank, from root to tip.
-fn stretches(tooth: &Tooth, flank: &FlankSurface) -> Vec<Stretch> {
-    let arc_mm = |node: usize| tooth.involute.arc_mm(flank.rho_mm[node]);
+/// Edges of the involute part of a flank, from root to tip.
+fn flank_edges(tooth: &Tooth, flank: &FlankSurface) -> Vec<FlankEdge> {
     flank
         .surface
         .edges
@@ -198,17 +194,17 @@ fn stretches(tooth: &Tooth, flank: &FlankSurface) -> Vec<Stretch> {
         .filter_map(|edge| {
             let &[tip, root, middle] = edge.nodes() else { return None };
             let nodes = [root, middle, tip];
-            // ρ is no number on a tip rounding.
+            // ρ is NaN on a tip rounding.
             nodes
                 .iter()
                 .all(|&node| flank.rho_mm[node].is_finite())
-                .then(|| Stretch { arc_mm: nodes.map(arc_mm), nodes })
+                .then(|| FlankEdge { arc_mm: nodes.map(|node| tooth.involute.arc_mm(flank.rho_mm[node])), nodes })
         })
         .collect()
 }
 
-impl Stretch {
-    /// Shape functions of its nodes at an arc length within it.
+impl FlankEdge {
+    /// Shape functions of the nodes at an arc length within the edge.
     fn weights(&self, arc_mm: f64) -> [f64; 3] {
         let [low, middle, high] = self.arc_mm;
         let (slope, curve) = (0.5 * (high - low), 0.5 * (low + high) - middle);

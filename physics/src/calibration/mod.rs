@@ -1,15 +1,17 @@
-//! What the finite-element model teaches the fast one: tooth stiffness and K/H along the path of contact.
+//! Calibration of the fast model by finite elements: tooth stiffness and K/H along the path of contact.
 //!
-//! | module | what it finds |
+//! | module | result |
 //! |---|---|
-//! | [`tooth_stiffness`] | how far the teeth yield under a known load anywhere on the path, bending and flattening apart |
+//! | [`tooth_stiffness`] | deflection of the teeth under a known load anywhere on the path, bending and flattening apart |
 //! | [`bodies`] | the pair's stiffness at C as resolution, rim and neighbours change |
-//! | [`tooth_family`], [`stiffness_variation`] | the same as families of curves: by number of teeth, and over the path |
+//! | [`tooth_family`] | deflection by number of teeth and height of the load |
+//! | [`stiffness_variation`] | variation of the stiffness over the path |
 //! | [`single_contact`] | the pair alone in contact: half-width, peak pressure, approach by position and load |
-//! | [`foundation_fit`] | K/H as a curve that a Winkler foundation can use, with its error where it was not fitted |
-//! | [`slice_fit`] | how the slices of a pair yield together, from its teeth in space |
-//! | [`wear_reference`] | what one mesh of unworn flanks wears |
-//! | [`identity`], [`mod@file`] | what the calibration belongs to, and the file it is kept in |
+//! | [`foundation_fit`] | K/H as a curve for a Winkler foundation, with its error at fitted and at held-out points |
+//! | [`slice_fit`] | compliance of the slices of a pair together, from its teeth in space |
+//! | [`wear_reference`] | wear of unworn flanks in one mesh |
+//! | [`identity`] | pair, material and bodies that a calibration belongs to |
+//! | [`mod@file`] | the calibration file |
 //!
 //! Everything is per mm of face width, elastic, without friction, and but for [`slice_fit`] in plane strain.
 
@@ -39,18 +41,18 @@ use self::tooth_family::FamilyMember;
 use self::tooth_stiffness::{LoadedPair, PairDeflection};
 use self::wear_reference::WearReference;
 use crate::contact::{foundation::FoundationCurve, settings::MatchCriterion};
-use crate::fem::active_set::ActiveSetError;
 use crate::gear::{Gear, PerGear};
 use crate::gear_fem::{condensed_pair::CondensedPair, model::ModelError};
 use crate::material::Material;
 use crate::stiffness::curve::PairCompliance;
+use gearwear_fem::active_set::ActiveSetError;
 
 /// Positions of the stiffness curve.
 pub const STIFFNESS_POSITIONS: usize = 61;
-/// Positions of the curve that a run makes for itself: straight lines between them are off by 1e-4.
+/// Positions of the curve that a run makes for itself: linear interpolation between them is off by 1e-4.
 const OWN_POSITIONS: usize = 31;
 
-/// Why there is no calibration.
+/// Reason why there is no calibration.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CalibrationError {
     /// A gear cannot be modelled.
@@ -63,13 +65,13 @@ pub enum CalibrationError {
         position_mm: f64,
         /// w.
         line_load_n_per_mm: f64,
-        /// Why.
+        /// Failure of the solver.
         source: ActiveSetError,
     },
     /// The strip of contact is wider than the flank.
     #[error("{}: the contact strip at position {position_mm:.4} mm does not fit on the flank", gear.name())]
     OffTheFlank {
-        /// Whose.
+        /// Gear of the flank.
         gear: Gear,
         /// ξ.
         position_mm: f64,
@@ -90,7 +92,7 @@ pub struct Calibration {
     pub program_version: String,
     /// SHA-256 of everything else (as the file is written, without it).
     pub hash: String,
-    /// What it belongs to.
+    /// Pair, material and bodies.
     pub belongs_to: Identity,
     /// Elements per half-width of contact of the mesh it was made with.
     pub elements_per_half_width: f64,
@@ -98,47 +100,47 @@ pub struct Calibration {
     pub line_load_n_per_mm: f64,
     /// Points A to E of the path of contact, mm.
     pub path_points_mm: [f64; 5],
-    /// Compliance of a tooth pair for the fast model: the whole one by finite elements less the closed-form flattening
-    /// that the fast model adds again.
+    /// Compliance of a tooth pair for the fast model: by finite elements, less the closed-form flattening that the fast model adds
+    /// again.
     pub pair_compliance: PairCompliance,
     /// K/H for each criterion.
     pub foundation: BTreeMap<MatchCriterion, FoundationCurve>,
-    /// How well the curves of K/H meet finite elements, where fitted and where held out.
+    /// Error of the curves of K/H at fitted and at held-out points.
     pub foundation_fit: BTreeMap<MatchCriterion, FoundationFit>,
     /// Deflection of both teeth along the path.
     pub deflection: Vec<PairDeflection>,
-    /// The same at A to E, as far as the load keeps clear of the tip edges.
+    /// Deflection of both teeth at A to E, as far as the load keeps clear of the tip edges.
     pub deflection_at_points: [Option<PairDeflection>; 5],
     /// The single stiffness c' of ISO 6336-1, N/(mm·µm).
     pub iso6336_n_per_mm_um: f64,
     /// The pair alone in contact.
     pub single_contact: Vec<SingleContact>,
-    /// The stiffness at C on finer and finer meshes.
+    /// Stiffness at C on finer and finer meshes.
     pub convergence: Vec<ResolutionRow>,
-    /// The stiffness at C with the bodies held at other depths.
+    /// Stiffness at C with the bodies held at other depths.
     pub rim_depth: Vec<RimRow>,
-    /// The stiffness at C with more or fewer neighbouring teeth.
+    /// Stiffness at C with more or fewer neighbouring teeth.
     pub neighbours: Vec<NeighbourRow>,
     /// Deflection by number of teeth and height of the load.
     pub family: Vec<FamilyMember>,
-    /// How the stiffness varies over the path.
+    /// Variation of the stiffness over the path.
     pub courses: Vec<StiffnessVariation>,
-    /// What one mesh of unworn flanks wears.
+    /// Wear of unworn flanks in one mesh.
     pub wear_reference: Vec<WearReference>,
-    /// How its slices yield together; none where its sections are alike over the face width.
+    /// Compliance of the slices together; none where all sections over the face width are alike.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slices: Option<SliceFit>,
 }
 
 impl Calibration {
-    /// Least and greatest line load that K/H was fitted on, N/mm.
+    /// Least and greatest line load that K/H was fitted to, N/mm.
     pub fn fitted_loads_n_per_mm(&self) -> (f64, f64) {
         let loads = single_contact::FITTED_LOADS.map(|load| load * self.line_load_n_per_mm);
         (loads.iter().copied().fold(f64::INFINITY, f64::min), loads.iter().copied().fold(0.0, f64::max))
     }
 }
 
-/// The stiffness curve alone, for a scene that asks for it without a calibration file.
+/// The stiffness curve alone, for a scene without a calibration file.
 pub fn pair_compliance(
     condensed: &CondensedPair<'_>,
     material: &PerGear<Material>,

@@ -14,11 +14,11 @@
 //! a² = 4 (Σ f x² / Σ f − (Σ f x / Σ f)²)
 //! ```
 //!
-//! with the nodal forces f of the contact at places x along the flank: the ends of the strip itself are known to a part of
-//! an element only, the moments of the forces far better, and for Hertz's pressure both are the same.
+//! with the nodal forces f of the contact at places x along the flank: the ends of the strip are known to a part of
+//! an element only, the moments of the forces far better, and for Hertz's pressure both half-widths are the same.
 //!
 //! Where a tip edge, sharp or rounded, carries pressure, the contact has neither Hertz's curvature nor, if sharp, a finite
-//! peak; such points are kept and marked, and no K/H is made from them.
+//! peak; such points are marked, and no K/H is fitted to them.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -34,20 +34,20 @@ use crate::gear_fem::flank_surface::FlankSurface;
 use crate::gear_fem::position::{PositionContact, WarmStart};
 use crate::gear_fem::ring::ToothForce;
 
-/// Loads that the fit is made on, in units of the scene's, largest first.
+/// Loads of the fit, in units of the scene's, largest first.
 pub const FITTED_LOADS: [f64; 4] = [1.5, 1.0, 0.5, 0.25];
-/// Loads that are held out.
+/// Held-out loads, in units of the scene's.
 pub(crate) const HELD_OUT_LOADS: [f64; 3] = [1.25, 0.7, 0.35];
-/// Positions that the fit is made on; those held out lie halfway between them.
+/// Number of positions of the fit; held-out positions lie halfway between them.
 const FITTED_POSITIONS: usize = 17;
 /// Half-widths that are kept clear of the edges at the greatest load.
 const CLEAR: f64 = 1.05;
 
-/// What a point is for.
+/// Use of a point in the fit of K/H.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Purpose {
-    /// The fit is made on it.
+    /// The fit is made to it.
     Fitted,
     /// The error of the fit is measured on it.
     HeldOut,
@@ -65,18 +65,18 @@ pub struct SingleContact {
     pub line_load_n_per_mm: f64,
     /// R, mm.
     pub relative_radius_mm: f64,
-    /// What it is for.
+    /// Use in the fit.
     pub purpose: Purpose,
     /// By finite elements.
-    pub fem: Touch,
+    pub fem: TouchFigures,
     /// Hertz's half-width and pressure, and the closed-form flattening.
-    pub hertz: Touch,
+    pub hertz: TouchFigures,
 }
 
-/// What K/H can be matched on.
+/// Half-width, peak pressure and approach of a contact: the quantities that K/H can be matched on.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Touch {
+pub struct TouchFigures {
     /// a, mm.
     pub half_width_mm: f64,
     /// p₀, MPa.
@@ -85,7 +85,7 @@ pub struct Touch {
     pub approach_mm: f64,
 }
 
-impl Touch {
+impl TouchFigures {
     /// A Winkler foundation of stiffness K/H under w on a gap of radius R: a³ = 3wR/(2 K/H), p₀ = (K/H) a²/2R, δ = a²/2R.
     pub fn of_foundation(mpa_per_mm: f64, relative_radius_mm: f64, line_load_n_per_mm: f64) -> Self {
         let half_width_mm = (1.5 * line_load_n_per_mm * relative_radius_mm / mpa_per_mm).cbrt();
@@ -93,7 +93,7 @@ impl Touch {
         Self { half_width_mm, peak_pressure_mpa: mpa_per_mm * approach_mm, approach_mm }
     }
 
-    /// K/H of the foundation that shares with this contact what `criterion` says.
+    /// K/H of the foundation that has the quantity of `criterion` in common with this contact.
     ///
     /// ```text
     /// half-width K/H = 3wR/(2a³)   peak pressure K/H = 32 R p₀³/(9 w²)   approach K/H = 3wR/(2 (2Rδ)^{3/2})
@@ -125,7 +125,8 @@ impl SingleContact {
     }
 }
 
-/// A position to be solved, and whether the fit is made on it.
+/// A position to be solved, and whether the fit is made to it.
+#[derive(Clone, Copy)]
 struct SolvedPosition {
     position_mm: f64,
     fitted: bool,
@@ -152,12 +153,13 @@ fn places(loaded: &LoadedPair<'_>, reference_n_per_mm: f64) -> Result<Vec<Solved
     let (low, high) = loaded
         .clear_of_the_edges_mm(line_load_n_per_mm, CLEAR)
         .ok_or(CalibrationError::NoClearPosition { line_load_n_per_mm })?;
-    let held_out = |position_mm| SolvedPosition { position_mm, fitted: false };
-    let mut places: Vec<SolvedPosition> = [path.start_mm, 0.5 * (path.start_mm + low)].map(held_out).into();
+    let before = [path.start_mm, 0.5 * (path.start_mm + low)];
+    let mut places = before.map(|position_mm| SolvedPosition { position_mm, fitted: false }).to_vec();
     for (k, position_mm) in evenly(low, high, 2 * FITTED_POSITIONS - 1).into_iter().enumerate() {
         places.push(SolvedPosition { position_mm, fitted: k % 2 == 0 });
     }
-    places.extend([0.5 * (path.end_mm + high), path.end_mm].map(held_out));
+    let after = [0.5 * (path.end_mm + high), path.end_mm];
+    places.extend(after.map(|position_mm| SolvedPosition { position_mm, fitted: false }));
     Ok(places)
 }
 
@@ -237,12 +239,12 @@ fn read(
         line_load_n_per_mm,
         relative_radius_mm: loaded.pair.relative_radius_mm(position_mm),
         purpose,
-        fem: Touch {
+        fem: TouchFigures {
             half_width_mm: half_width_mm(&condensed.flanks[slave], force),
             peak_pressure_mpa: found.pairs.iter().map(|pair| pair.peak_pressure_mpa).fold(0.0, f64::max),
             approach_mm: found.transmission_error_mm - bent_mm,
         },
-        hertz: Touch {
+        hertz: TouchFigures {
             half_width_mm: strip.half_width_mm,
             peak_pressure_mpa: strip.peak_pressure_mpa,
             approach_mm: hertz.approach_mm(line_load_n_per_mm),

@@ -1,25 +1,25 @@
-//! The course of a stiffness over the path of contact in three figures: how much it varies, and where it is greatest.
+//! Variation of a stiffness over the path of contact: mean, ratio of greatest to least, and place of the greatest.
 
 use serde::{Deserialize, Serialize};
 
 use super::tooth_stiffness::PairDeflection;
 use crate::gear::GearPair;
 
-/// The course of one stiffness.
+/// Variation of one stiffness.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessVariation {
-    /// Of what.
+    /// Stiffness.
     pub of: VariationOf,
     /// Mean over the positions, N/(mm·µm).
     pub mean_n_per_mm_um: f64,
     /// Greatest over least.
     pub max_over_min: f64,
-    /// Where it is greatest: 0 at A, 1 at E.
+    /// Place of the greatest: 0 at A, 1 at E.
     pub greatest_at: f64,
 }
 
-/// What the course is of.
+/// Stiffness whose variation is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum VariationOf {
@@ -47,7 +47,7 @@ impl VariationOf {
         }
     }
 
-    /// The stiffness at a position, N/(mm·µm).
+    /// Stiffness at a position, N/(mm·µm).
     pub fn n_per_mm_um(self, at: &PairDeflection) -> f64 {
         1e-3 / match self {
             Self::PairWhole => at.sum(|tooth| tooth.whole_mm2_per_n),
@@ -58,7 +58,7 @@ impl VariationOf {
     }
 }
 
-/// The courses over the positions of `deflections` (at least one).
+/// Variations over the positions of `deflections` (at least one).
 pub fn courses(pair: &GearPair, deflections: &[PairDeflection]) -> Vec<StiffnessVariation> {
     let path = &pair.path;
     VariationOf::ALL

@@ -1,4 +1,4 @@
-//! How far teeth bend by their number and by where they are loaded: the family of curves of Wang and Cheng.
+//! Deflection of teeth by number of teeth and height of the load: the family of curves of Wang and Cheng.
 //!
 //! Single gears from the scene's basic rack, module and material, each a whole ring held 2.5 modules below its root, carry
 //! a line load in the direction of their involute's normal; read is E δ/w of tooth and body, flattening apart
@@ -23,8 +23,6 @@ use super::CalibrationError;
 use super::bodies::Setup;
 use super::loaded_tooth::{LoadedTooth, limits_mm};
 use super::tooth_stiffness::evenly;
-use crate::fem::elastic::Analysis;
-use crate::fem::equilibrium::SolveError;
 use crate::gear::modification::Modification;
 use crate::gear::spec::{GearSpec, PairSpec};
 use crate::gear::{Gear, tooth::Tooth};
@@ -34,15 +32,19 @@ use crate::gear_fem::ring::{GearCompliance, Surroundings, ToothForce};
 use crate::gear_mesh::settings::default_clamp;
 use crate::gear_mesh::{self as tooth_mesh, FlankResolution, SectorSettings, ToothSector, ToothShape};
 use crate::stiffness::weber_banaschek::ToothCompliance;
+use gearwear_fem::elastic::Analysis;
+use gearwear_fem::equilibrium::SolveError;
 
 const TEETH: [u32; 11] = [10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30];
-/// Heights from root to tip.
+/// Number of heights from root to tip.
 const HEIGHTS: usize = 6;
-/// Elements of the flank: two in this part of a module.
+/// Unit of length of the resolved flank, in modules.
 const LENGTH_MODULES: f64 = 0.1;
+/// Elements of the flank in that length.
 const ELEMENTS_IN_LENGTH: f64 = 2.0;
-/// Resolved below the lowest height, and in depth, in units of that length.
+/// Resolved part below the lowest height, in that length.
 const MARGIN: f64 = 2.0;
+/// Resolved depth, in that length.
 const DEPTH: f64 = 1.0;
 const FILLET_ELEMENTS: u32 = 16;
 
@@ -58,7 +60,7 @@ pub struct FamilyMember {
     pub height: Vec<f64>,
     /// E δ/w of tooth and body by finite elements.
     pub deflection: Vec<f64>,
-    /// The same by Weber and Banaschek.
+    /// E δ/w of tooth and body by Weber and Banaschek.
     pub weber_banaschek: Vec<f64>,
 }
 
@@ -122,7 +124,7 @@ fn member(setup: &Setup<'_>, teeth: u32) -> Result<Option<FamilyMember>, Calibra
     };
     for &height in &found.height {
         let radius_mm = start_mm + height * (tooth.tip_radius_mm - start_mm);
-        // Round-off must not put a load beyond an end of the flank.
+        // Rounding errors must not put a load beyond an end of the flank.
         let rho_mm = tooth.involute.curvature_radius_mm(radius_mm).clamp(low * (1.0 + 1e-12), high * (1.0 - 1e-12));
         let read = loaded.ellipse(rho_mm, 0.0, 1.0).zip(loaded.inside(rho_mm));
         let Some((force, inside)) = read else { return Ok(None) };
@@ -137,9 +139,8 @@ fn member(setup: &Setup<'_>, teeth: u32) -> Result<Option<FamilyMember>, Calibra
 
 fn mesh(shape: &ToothShape<'_>, fine: bool) -> Result<ToothSector, tooth_mesh::ToothMeshError> {
     let length_mm = LENGTH_MODULES * shape.normal_module_mm;
-    let everywhere = |_rho_mm: f64| length_mm;
     let flank = FlankResolution {
-        half_width_mm: &everywhere,
+        half_width_mm: &|_| length_mm,
         elements_per_half_width: ELEMENTS_IN_LENGTH,
         rounding_refinement: 1.0,
         margin_mm: MARGIN * length_mm,
@@ -161,13 +162,13 @@ fn ring(
     coarse: &ToothSector,
     candidates: Vec<u32>,
 ) -> Result<GearCompliance, CalibrationError> {
-    let failed = |source: SolveError| ModelError::Condense { gear: Gear::Pinion, source };
     let material = setup.elastic().pinion;
     let half_angle_rad = std::f64::consts::PI / f64::from(tooth.teeth);
-    let condense = |mesh: &ToothSector, candidates: Vec<u32>| {
-        sector(mesh, half_angle_rad, candidates).condense(material, Analysis::PlaneStrain).map_err(failed)
-    };
-    let (fine, coarse) = (condense(fine, candidates)?, condense(coarse, Vec::new())?);
     let surroundings = Surroundings::Ring { coarse: tooth.teeth as usize - 1 };
-    Ok(GearCompliance::new(fine, Some(&coarse), 1, surroundings).map_err(|error| failed(error.into()))?)
+    let ring = || -> Result<GearCompliance, SolveError> {
+        let fine = sector(fine, half_angle_rad, candidates).condense(material, Analysis::PlaneStrain)?;
+        let coarse = sector(coarse, half_angle_rad, Vec::new()).condense(material, Analysis::PlaneStrain)?;
+        Ok(GearCompliance::new(fine, Some(&coarse), 1, surroundings)?)
+    };
+    Ok(ring().map_err(|source| ModelError::Condense { gear: Gear::Pinion, source })?)
 }

@@ -1,8 +1,7 @@
-//! How far the teeth of a pair yield, with the load anywhere on the path of contact.
+//! Deflection of the teeth of a pair, with the load anywhere on the path of contact.
 //!
-//! At each position a tooth of each gear carries the reference line load as Hertz's ellipse ([`super::loaded_tooth`]).
-//! Read is the displacement of the loaded point in the direction of the load, δ, and that of the point inside the tooth
-//! where the load's line meets the centre line, δ_i:
+//! At each position a tooth of each gear carries the reference line load as Hertz's ellipse ([`super::loaded_tooth`]). With the displacement δ of the
+//! loaded point along the load, and δ_i of the point inside the tooth where the load's line meets the centre line:
 //!
 //! ```text
 //! whole        q = (δ₁ + δ₂) / w           stiffness of the pair = 1/q
@@ -13,8 +12,8 @@
 //! Next to them stand Weber and Banaschek's terms and the closed-form flattening at the same depth and load.
 //!
 //! Positions run evenly over the stretch on which the ellipse lies wholly on both flanks: it begins and ends about a
-//! half-width of flank inside A and E. The curve handed to the fast model ([`LoadedPair::curve`]) goes on from there with what
-//! bending alone changes, under a concentrated load along the normal where the flanks touch ([`crate::gear::tip_touch`]): at A and E,
+//! half-width of flank inside A and E. Beyond it the curve of the fast model ([`LoadedPair::curve`]) changes as bending alone does,
+//! under a concentrated load along the normal where the flanks touch ([`crate::gear::tip_touch`]): at A and E,
 //! and beyond them, where the load turns towards the axis of the tooth whose tip edge touches.
 
 use rayon::prelude::*;
@@ -32,17 +31,17 @@ use crate::reference::flattening::Flattening;
 use crate::stiffness::curve::{PairCompliance, StandsFor};
 use crate::stiffness::weber_banaschek::ToothCompliance;
 
-/// Turns after which the end of the stretch that is clear of an edge is found to round-off.
+/// Iterations that find the end of the stretch clear of an edge.
 const TURNS: usize = 12;
 /// Half-widths from an edge at which an ellipse no longer feels it.
 const CLEAR_OF_CORNERS: f64 = 2.0;
-/// Places of the curve from there to where the edge touches.
+/// Places of the curve from the end of that stretch to where the edge touches.
 const PLACES_TO_EDGE: usize = 5;
-/// Places of the curve from there on.
+/// Places of the curve where the edge touches.
 const PLACES_BEYOND_EDGE: usize = 16;
-/// Load up to which the curve reaches as far as tip edges do, over the one that it is made under.
+/// Greatest load for which the curve reaches as far as tip edges touch, over the load of the calibration.
 const GREATEST_LOAD: f64 = 2.0;
-/// A little more than the half-width is kept clear, so that round-off puts nothing over an edge.
+/// Half-widths kept clear of the edges: a little more than one, for rounding errors.
 const CLEAR: f64 = 1.0 + 1e-6;
 
 /// One tooth under the load, displacements over line load in mm²/N.
@@ -53,7 +52,7 @@ pub struct ToothDeflection {
     pub whole_mm2_per_n: f64,
     /// At the point inside: tooth and body.
     pub bending_mm2_per_n: f64,
-    /// Depth of that point below the flank, mm.
+    /// Depth of the point inside below the flank, mm.
     pub depth_mm: f64,
     /// Flattening of this body in closed form, to the same depth.
     pub closed_form_flattening_mm2_per_n: f64,
@@ -75,12 +74,12 @@ pub struct PairDeflection {
     pub wheel: ToothDeflection,
     /// Displacement at the contact of the pair one base pitch ahead, where it is in mesh, mm²/N.
     pub ahead_mm2_per_n: Option<f64>,
-    /// The same of the pair behind.
+    /// Displacement at the contact of the pair one base pitch behind, where it is in mesh, mm²/N.
     pub behind_mm2_per_n: Option<f64>,
 }
 
 impl ToothDeflection {
-    /// Flattening by finite elements: what the loaded point moves more than the point inside.
+    /// Flattening by finite elements: displacement of the loaded point less that of the point inside.
     pub fn flattening_mm2_per_n(&self) -> f64 {
         self.whole_mm2_per_n - self.bending_mm2_per_n
     }
@@ -105,7 +104,7 @@ impl PairDeflection {
         1e-3 / self.sum(|tooth| tooth.whole_mm2_per_n)
     }
 
-    /// The same by Weber and Banaschek.
+    /// Stiffness of the pair by Weber and Banaschek, flattening included, N/(mm·µm).
     pub fn weber_banaschek_n_per_mm_um(&self) -> f64 {
         1e-3 / self.sum(|t| t.weber_banaschek_bending_mm2_per_n + t.closed_form_flattening_mm2_per_n)
     }
@@ -115,7 +114,7 @@ impl PairDeflection {
 pub struct LoadedPair<'a> {
     /// Geometry.
     pub pair: &'a GearPair,
-    /// Its materials.
+    /// Material of each gear.
     pub material: PerGear<Material>,
     /// The teeth.
     pub teeth: PerGear<LoadedTooth<'a>>,
@@ -146,27 +145,17 @@ impl<'a> LoadedPair<'a> {
     /// `half_widths` times its half-width.
     pub fn clear_of_the_edges_mm(&self, line_load_n_per_mm: f64, half_widths: f64) -> Option<(f64, f64)> {
         let path = &self.pair.path;
-        let half_width_mm =
-            |position_mm| half_widths * self.hertz(position_mm).contact.loaded(line_load_n_per_mm).half_width_mm;
-        // The half-width changes along the path, so that each end is found by turns with it; a few are enough.
+        let PerGear { pinion, wheel } = &self.teeth;
+        // The half-width changes along the path: each end is found in turns with it.
         let (mut low, mut high) = (path.start_mm, path.end_mm);
         for _ in 0..TURNS {
-            let (at_low, at_high) = (half_width_mm(low), half_width_mm(high));
-            let wheel = |half_width_mm: f64| self.teeth.wheel.limits_mm(half_width_mm);
-            low = self
-                .teeth
-                .pinion
-                .limits_mm(at_low)?
-                .0
-                .max(path.line_of_action_mm - wheel(at_low)?.1)
-                .max(path.start_mm);
-            high = self
-                .teeth
-                .pinion
-                .limits_mm(at_high)?
-                .1
-                .min(path.line_of_action_mm - wheel(at_high)?.0)
-                .min(path.end_mm);
+            let [at_low, at_high] = [low, high].map(|position_mm| {
+                half_widths * self.hertz(position_mm).contact.loaded(line_load_n_per_mm).half_width_mm
+            });
+            let wheel_low = path.line_of_action_mm - wheel.limits_mm(at_low)?.1;
+            let wheel_high = path.line_of_action_mm - wheel.limits_mm(at_high)?.0;
+            low = pinion.limits_mm(at_low)?.0.max(wheel_low).max(path.start_mm);
+            high = pinion.limits_mm(at_high)?.1.min(wheel_high).min(path.end_mm);
         }
         (low < high).then_some((low, high))
     }
@@ -230,33 +219,33 @@ impl<'a> LoadedPair<'a> {
     ) -> Result<Vec<PairDeflection>, CalibrationError> {
         let none = CalibrationError::NoClearPosition { line_load_n_per_mm };
         let Some((low, high)) = self.clear_of_the_edges_mm(line_load_n_per_mm, CLEAR) else { return Err(none) };
-        let positions: Vec<f64> = evenly(low, high, count.max(2));
-        let read = |&position_mm: &f64| self.deflection(position_mm, line_load_n_per_mm).ok_or_else(|| none.clone());
-        positions.par_iter().map(read).collect()
+        let positions = evenly(low, high, count.max(2));
+        let deflections = positions.par_iter().map(|&at| self.deflection(at, line_load_n_per_mm));
+        deflections.map(|found| found.ok_or_else(|| none.clone())).collect()
     }
 
-    /// The curve for [`crate::stiffness::TeethSpring`], which adds the closed-form flattening again: the whole compliance of
-    /// the finite elements less that flattening, both under `line_load_n_per_mm`, so that the whole pair comes out right.
-    /// Next to the edges, and beyond, it changes as bending does, as far as tip edges may touch under twice that load: there an ellipse feels the
-    /// corner, which half-planes do not.
+    /// The curve for [`crate::stiffness::TeethSpring`], which adds the closed-form flattening again: the compliance by finite elements less that
+    /// flattening, both under `line_load_n_per_mm`. Next to the edges, where an ellipse feels the corner and half-planes do not, and beyond them, it
+    /// changes as bending does, as far as tip edges may touch under twice that load.
     pub fn curve(&self, deflections: &[PairDeflection], line_load_n_per_mm: f64) -> PairCompliance {
         let clear = self.clear_of_the_edges_mm(line_load_n_per_mm, CLEAR_OF_CORNERS);
-        let counts = |at: &&PairDeflection| clear.is_none_or(|(low, high)| (low..=high).contains(&at.position_mm));
-        let teeth = |at: &PairDeflection| {
-            (at.position_mm, at.sum(|tooth| tooth.whole_mm2_per_n - tooth.closed_form_flattening_mm2_per_n))
-        };
-        let mut inner: Vec<(f64, f64)> = deflections.iter().filter(counts).map(teeth).collect();
+        let all: Vec<(f64, f64)> = deflections
+            .iter()
+            .map(|at| (at.position_mm, at.sum(|tooth| tooth.whole_mm2_per_n - tooth.closed_form_flattening_mm2_per_n)))
+            .collect();
+        let mut inner = all.clone();
+        inner.retain(|(position_mm, _)| clear.is_none_or(|(low, high)| (low..=high).contains(position_mm)));
         if inner.is_empty() {
-            inner = deflections.iter().map(teeth).collect();
+            inner = all;
         }
         let path = &self.pair.path;
         let contact_modulus_mpa = contact_modulus_mpa(self.material.map(Material::elastic));
         let [before, after] = self.pair.ample_tip_reach_mm(GREATEST_LOAD * line_load_n_per_mm, contact_modulus_mpa);
-        let edge_mm = |end| self.pair.edge_position_mm(end);
-        let mut points = self.continued(inner[0], edge_mm(PathEnd::Start), path.start_mm - before);
+        let [start_edge_mm, end_edge_mm] = [PathEnd::Start, PathEnd::End].map(|end| self.pair.edge_position_mm(end));
+        let mut points = self.continued(inner[0], start_edge_mm, path.start_mm - before);
         points.reverse();
         points.extend_from_slice(&inner);
-        points.extend(self.continued(inner[inner.len() - 1], edge_mm(PathEnd::End), path.end_mm + after));
+        points.extend(self.continued(inner[inner.len() - 1], end_edge_mm, path.end_mm + after));
         let (position_mm, mm2_per_n) = points.into_iter().unzip();
         // The coupling hardly depends on the position: the whole bodies yield.
         let couplings: Vec<f64> =
@@ -266,8 +255,7 @@ impl<'a> LoadedPair<'a> {
         PairCompliance { position_mm, mm2_per_n, stands_for: StandsFor::Teeth, shared_mm2_per_n }
     }
 
-    /// The curve from `from` (position and compliance) on by what bending changes, to `to_mm` by way of `edge_mm`, where an edge takes
-    /// the contact over.
+    /// The curve from `from` (position and compliance) to `to_mm` by way of `edge_mm`, where an edge begins to touch: it changes as bending does.
     fn continued(&self, from: (f64, f64), edge_mm: f64, to_mm: f64) -> Vec<(f64, f64)> {
         let Some(at_from) = self.bending_mm2_per_n(from.0) else { return Vec::new() };
         let mut places = evenly(from.0, edge_mm, PLACES_TO_EDGE);
@@ -280,8 +268,9 @@ impl<'a> LoadedPair<'a> {
     /// Bending of both teeth under a concentrated load where the flanks touch, over that load, mm²/N.
     fn bending_mm2_per_n(&self, position_mm: f64) -> Option<f64> {
         let touch = self.pair.touch(position_mm);
-        let of = |gear: Gear| self.teeth[gear].bending_mm2_per_n(touch.rho_mm[gear], &touch.load_line[gear]);
-        Some(of(Gear::Pinion)? + of(Gear::Wheel)?)
+        let [pinion, wheel] =
+            Gear::BOTH.map(|gear| self.teeth[gear].bending_mm2_per_n(touch.rho_mm[gear], &touch.load_line[gear]));
+        Some(pinion? + wheel?)
     }
 }
 

@@ -1,8 +1,8 @@
-//! The springs of a foundation where a tip edge touches, matched to half-planes.
+//! Springs of a Winkler foundation where a tip edge touches, matched to half-planes.
 //!
-//! K/H that shares something with elastic bodies on the plain gap of two involutes does not share it where a tip edge touches: the
-//! gap there has the radius of the rounding on one side, a slope on the other, and a contact a tenth as wide asks for springs many
-//! times as stiff. So there the foundation is matched on the gap itself. At places along the path around A and E the half-planes of
+//! A foundation matched to elastic bodies on the gap of two involutes does not match them where a tip edge touches: the
+//! gap there has the radius of the rounding on one side, a slope on the other, and a contact a tenth as wide needs springs many
+//! times as stiff. There the foundation is matched on that gap. At places along the path around A and E the half-planes of
 //! [`half_space`](super::half_space) are pressed against each other by indentations δ on the unworn gap
 //!
 //! ```text
@@ -17,14 +17,15 @@
 //! ```
 //!
 //! κ: K/H of the criterion in use over that of equal half-width in Hertz's contact under the same load, 1 for the half-width. By δ − d
-//! the bodies approach each other more than the foundation. K/H is a power of the load between those loads, the compliance (δ − d)/w a straight line of its logarithm, and both are straight
-//! lines of the position between the places. On the plain gap all of this is Hertz's contact.
+//! the bodies approach each other more than the foundation. Between those loads K/H is a power of the load, and the compliance (δ − d)/w linear in its
+//! logarithm; both are linear in the position between the places. On the gap of two involutes this is Hertz's contact.
 //!
-//! Limits: the gap is that of unworn flanks without relief; half-planes do not know where the tooth ends.
+//! Limits: the gap is that of unworn flanks without relief; half-planes go on where the tooth ends.
 
 use rayon::prelude::*;
 
 use super::elastic_cells::ElasticCells;
+use super::flank_motion::on_tangent;
 use super::foundation::{FoundationCurve, FoundationStiffness, matched_mpa_per_mm, mean_positive};
 use super::hertz;
 use super::pressure_field::PressureField;
@@ -35,46 +36,46 @@ use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, removed_m
 use crate::material::{Material, contact_modulus_mpa};
 use crate::reference::half_plane::cell_compliance_mm_per_mpa;
 
-/// Greatest load, over the whole one.
+/// Greatest load over the whole load.
 const GREATEST_LOAD: f64 = 1.5;
-/// Depths, each half of the one before.
+/// Number of indentations, each half of the one before.
 const DEPTHS: usize = 11;
-/// Places around each end of the path.
+/// Number of places around each end of the path.
 const PLACES: usize = 25;
-/// Where the plain contact under the whole load, this much widened, reaches the edge, the edge begins to count.
+/// Distance of the contact from the edge, in half-widths under the whole load, below which the edge counts.
 const WIDENED: f64 = 1.25;
 /// Cells of a window.
 const CELLS: usize = 60;
-/// Times that a window is fitted to the contact that it has shown.
+/// Times that a window is fitted to the contact found in it.
 const FITTINGS: usize = 2;
 /// Part of the contact's width by which a window goes beyond it on either side.
 const MARGIN: f64 = 0.2;
-/// Halvings until the indentation of the foundation is found to round-off.
+/// Bisections that find the indentation of the foundation to rounding errors.
 const HALVINGS: usize = 60;
 
-/// The foundations around A and E.
+/// Foundations around A and E.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EdgeFoundations {
-    /// From within the path outwards, before A and after E.
+    /// Positions from within the path outwards, before A and after E.
     ends: [Vec<EdgePosition>; 2],
 }
 
-/// A position and the springs there.
+/// Springs at a position.
 #[derive(Debug, Clone, PartialEq)]
 struct EdgePosition {
     position_mm: f64,
     stiffness: EdgeStiffness,
 }
 
-/// Stiffness at one position: by load, increasing.
+/// Stiffness at one position, by increasing load.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EdgeStiffness {
-    points: Vec<EdgePoint>,
+    points: Vec<LoadedEdge>,
 }
 
-/// One load.
+/// Stiffness at one position under one load.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct EdgePoint {
+struct LoadedEdge {
     ln_line_load: f64,
     ln_mpa_per_mm: f64,
     /// (δ − d)/w, mm²/N.
@@ -82,9 +83,8 @@ struct EdgePoint {
 }
 
 impl EdgeFoundations {
-    /// Matched by `criterion` where the tip edges of `pair` touch under loads about `line_load_n_per_mm`. What the approach of a
-    /// calibrated foundation, `approach`, has under that load beside the closed-form flattening is kept in proportion to the load: the spring
-    /// of the teeth lacks it.
+    /// Foundations matched by `criterion` where the tip edges of `pair` touch under loads about `line_load_n_per_mm`. The difference of the
+    /// calibrated `approach` to the closed-form flattening under that load is added in proportion to the load, as the spring of the teeth lacks it.
     pub fn new(
         pair: &GearPair,
         material: &PerGear<Material>,
@@ -101,14 +101,15 @@ impl EdgeFoundations {
                 .contact
                 .loaded(line_load_n_per_mm)
                 .half_width_mm;
-            // By so far of the path the edge is within the contact; near a base circle a contact hardly moves over the flank.
+            // Length of the path on which the edge is within the contact; near a base circle a contact hardly moves over the flank.
             let within_mm = WIDENED * half_width_mm / pair.rolling_ratio(pair.edge(end).gear, edge_mm);
             let within_mm = within_mm.min(0.5 * (pair.path.end_mm - pair.path.start_mm));
             let first_mm = edge_mm + within_mm.copysign(edge_mm - last_mm);
             // Closer together where flank and edge share the contact.
-            let along = |k: usize| (k as f64 / (PLACES - 1) as f64).powi(2);
-            let places: Vec<f64> = (0..PLACES).map(|k| first_mm + (last_mm - first_mm) * along(k)).collect();
-            let bodies = Bodies { pair, material, line_load_n_per_mm, criterion, approach };
+            let places: Vec<f64> = (0..PLACES)
+                .map(|k| first_mm + (last_mm - first_mm) * (k as f64 / (PLACES - 1) as f64).powi(2))
+                .collect();
+            let bodies = EdgeBodies { pair, material, line_load_n_per_mm, criterion, approach };
             places
                 .into_par_iter()
                 .map(|at| EdgePosition { position_mm: at, stiffness: bodies.springs_at(at) })
@@ -117,16 +118,16 @@ impl EdgeFoundations {
         Self { ends }
     }
 
-    /// The springs at a position; none where no edge counts.
+    /// Springs at a position; none where no edge counts.
     pub fn at(&self, position_mm: f64) -> Option<EdgeStiffness> {
         self.ends.iter().find_map(|places| {
             let first_mm = places.first()?.position_mm;
             let outwards = (places.last()?.position_mm - first_mm).signum();
-            let beyond = |at_mm: f64| outwards * (at_mm - first_mm);
-            if beyond(position_mm) < 0.0 {
+            let beyond_mm = outwards * (position_mm - first_mm);
+            if beyond_mm < 0.0 {
                 return None;
             }
-            let passed = places.partition_point(|place| beyond(place.position_mm) <= beyond(position_mm));
+            let passed = places.partition_point(|place| outwards * (place.position_mm - first_mm) <= beyond_mm);
             let [low, high] = [passed.min(PLACES - 1) - 1, passed.min(PLACES - 1)].map(|k| &places[k]);
             let weight = (position_mm - low.position_mm) / (high.position_mm - low.position_mm);
             Some(low.stiffness.towards(&high.stiffness, weight.min(1.0))).filter(|stiffness| stiffness.points.len() > 1)
@@ -135,26 +136,25 @@ impl EdgeFoundations {
 }
 
 impl EdgeStiffness {
-    /// A straight line, point by point from the greatest load on.
+    /// Linear interpolation to `other`, load by load from the greatest on.
     fn towards(&self, other: &Self, weight: f64) -> Self {
-        let between = |low: f64, high: f64| low + weight * (high - low);
-        let points = self.points.iter().rev().zip(other.points.iter().rev()).map(|(low, high)| EdgePoint {
-            ln_line_load: between(low.ln_line_load, high.ln_line_load),
-            ln_mpa_per_mm: between(low.ln_mpa_per_mm, high.ln_mpa_per_mm),
-            further_mm2_per_n: between(low.further_mm2_per_n, high.further_mm2_per_n),
+        let points = self.points.iter().rev().zip(other.points.iter().rev()).map(|(low, high)| LoadedEdge {
+            ln_line_load: low.ln_line_load + weight * (high.ln_line_load - low.ln_line_load),
+            ln_mpa_per_mm: low.ln_mpa_per_mm + weight * (high.ln_mpa_per_mm - low.ln_mpa_per_mm),
+            further_mm2_per_n: low.further_mm2_per_n + weight * (high.further_mm2_per_n - low.further_mm2_per_n),
         });
-        let mut points: Vec<EdgePoint> = points.collect();
+        let mut points: Vec<LoadedEdge> = points.collect();
         points.reverse();
         Self { points }
     }
 
-    /// The power law that holds where `of` a point is about `value`, and the point it begins at with the next.
-    fn segment(&self, value: f64, of: impl Fn(&EdgePoint) -> f64) -> [EdgePoint; 2] {
+    /// Both points between which `of` is `value`.
+    fn segment(&self, value: f64, of: impl Fn(&LoadedEdge) -> f64) -> [LoadedEdge; 2] {
         let after = self.points.partition_point(|point| of(point) <= value).clamp(1, self.points.len() - 1);
         [self.points[after - 1], self.points[after]]
     }
 
-    fn power_law([low, high]: [EdgePoint; 2]) -> FoundationStiffness {
+    fn power_law([low, high]: [LoadedEdge; 2]) -> FoundationStiffness {
         let load_exponent = -(high.ln_mpa_per_mm - low.ln_mpa_per_mm) / (high.ln_line_load - low.ln_line_load);
         FoundationStiffness::new(low.ln_mpa_per_mm.exp(), load_exponent, low.ln_line_load.exp())
     }
@@ -164,7 +164,7 @@ impl EdgeStiffness {
         Self::power_law(self.segment(line_load_n_per_mm.ln(), |p| p.ln_line_load)).mpa_per_mm(line_load_n_per_mm)
     }
 
-    /// As [`FoundationStiffness::load_and_stiffness`].
+    /// Load and stiffness as of [`FoundationStiffness::load_and_stiffness`].
     pub(crate) fn load_and_stiffness(&self, penetration_mm2: f64, contact_mm: f64) -> (f64, f64) {
         // U = w/(K/H) tells the segment.
         let segment = self.segment(penetration_mm2.ln(), |p| p.ln_line_load - p.ln_mpa_per_mm);
@@ -183,8 +183,8 @@ impl EdgeStiffness {
     }
 }
 
-/// What is matched.
-struct Bodies<'a> {
+/// Bodies to which the foundation is matched.
+struct EdgeBodies<'a> {
     pair: &'a GearPair,
     material: &'a PerGear<Material>,
     line_load_n_per_mm: f64,
@@ -192,7 +192,7 @@ struct Bodies<'a> {
     approach: &'a FoundationCurve,
 }
 
-/// Half-planes in contact: δ, w, a, and the gap from its least value on at even distances.
+/// Half-planes in contact: δ, w, a, and the gap less its least value at even distances.
 struct Pressed {
     indentation_mm: f64,
     line_load_n_per_mm: f64,
@@ -201,7 +201,7 @@ struct Pressed {
     spacing_mm: f64,
 }
 
-impl Bodies<'_> {
+impl EdgeBodies<'_> {
     fn springs_at(&self, position_mm: f64) -> EdgeStiffness {
         let flattening = hertz::flattening(&self.pair.normal_section(), self.material, position_mm);
         let load = GREATEST_LOAD * self.line_load_n_per_mm;
@@ -221,8 +221,9 @@ impl Bodies<'_> {
                 pressed = Some(found);
             }
             points.extend(pressed.map(|pressed: Pressed| {
-                let matched = |criterion| matched_mpa_per_mm(criterion, &flattening, pressed.line_load_n_per_mm);
-                pressed.matched(matched(self.criterion) / matched(MatchCriterion::HalfWidth))
+                let [own, as_wide] = [self.criterion, MatchCriterion::HalfWidth]
+                    .map(|criterion| matched_mpa_per_mm(criterion, &flattening, pressed.line_load_n_per_mm));
+                pressed.matched(own / as_wide)
             }));
             indentation_mm *= 0.5;
         }
@@ -231,11 +232,11 @@ impl Bodies<'_> {
         let calibrated =
             self.approach.springs_at(position_mm).approach_and_compliance(flattening.contact.relative_radius_mm(), w).0;
         let beside_mm2_per_n = (calibrated - flattening.approach_mm(w)) / w;
-        points.iter_mut().for_each(|point: &mut EdgePoint| point.further_mm2_per_n += beside_mm2_per_n);
+        points.iter_mut().for_each(|point: &mut LoadedEdge| point.further_mm2_per_n += beside_mm2_per_n);
         EdgeStiffness { points }
     }
 
-    /// Half-planes pressed together by `indentation_mm` in a window of the tangent, and where their contact lies.
+    /// Half-planes pressed together by `indentation_mm` in a window of the tangent, and the ends of their contact.
     fn pressed(&self, position_mm: f64, window: (f64, f64), indentation_mm: f64) -> Option<(Pressed, (f64, f64))> {
         let (from_mm, to_mm) = window;
         let spacing_mm = (to_mm - from_mm) / (2 * CELLS) as f64;
@@ -246,7 +247,7 @@ impl Bodies<'_> {
         let flattening = hertz::flattening(&self.pair.normal_section(), self.material, position_mm);
         let width_mm = 2.0 * spacing_mm;
         let mut cells = ElasticCells::new(width_mm, cell_compliance_mm_per_mpa(&flattening.bodies, width_mm, CELLS));
-        // The mean of each cell.
+        // Mean of each cell.
         let of_cells: Vec<f64> = gap_mm.windows(3).step_by(2).map(|g| (g[0] + 4.0 * g[1] + g[2]) / 6.0).collect();
         cells.set_gap(&of_cells);
         let response = cells.load_at(indentation_mm);
@@ -264,34 +265,34 @@ impl Bodies<'_> {
         touches.then_some((pressed, (lower_mm, upper_mm)))
     }
 
-    /// The gap of the unworn flanks, along their normal.
+    /// Gap of the unworn flanks, along their normal.
     fn gap_mm(&self, position_mm: f64, along_mm: f64) -> f64 {
-        let of = |gear: Gear, along_mm: f64| {
-            let (rho_mm, drop_mm) = self.pair.at_along(gear, along_mm, position_mm);
+        let [pinion, wheel] = Gear::BOTH.map(|gear| {
+            let (rho_mm, drop_mm) = self.pair.at_along(gear, on_tangent(gear, along_mm), position_mm);
             let rounding_mm = self.pair.spec.gears[gear].modification.tip_rounding_mm;
             drop_mm + tip_rounding_mm(rounding_mm, &self.pair.teeth[gear], rho_mm)
-        };
-        self.pair.obliquity().normal_mm(of(Gear::Pinion, along_mm) + of(Gear::Wheel, -along_mm))
+        });
+        self.pair.obliquity().normal_mm(pinion + wheel)
     }
 }
 
 impl Pressed {
-    /// The foundation whose K/H is `stiffer` times that of the foundation with the same half-width.
-    fn matched(&self, stiffer: f64) -> EdgePoint {
+    /// Foundation whose K/H is `stiffer` times that of the foundation with the same half-width.
+    fn matched(&self, stiffer: f64) -> LoadedEdge {
         let w = self.line_load_n_per_mm;
         let as_wide_mm = self
             .indentation_where(|indentation| self.sum(indentation, |(_, length)| length) >= 2.0 * self.half_width_mm);
         let penetration_mm2 = self.sum(as_wide_mm, |(mean, _)| mean) / stiffer;
         let foundation_mm =
             self.indentation_where(|indentation| self.sum(indentation, |(mean, _)| mean) >= penetration_mm2);
-        EdgePoint {
+        LoadedEdge {
             ln_line_load: w.ln(),
             ln_mpa_per_mm: (w / penetration_mm2).ln(),
             further_mm2_per_n: (self.indentation_mm - foundation_mm) / w,
         }
     }
 
-    /// The least indentation of the foundation at which `reached` holds, no more than twice that of the half-planes.
+    /// Least indentation of the foundation at which `reached` holds, at most twice that of the half-planes.
     fn indentation_where(&self, reached: impl Fn(f64) -> bool) -> f64 {
         let (mut low, mut high) = (0.0, 2.0 * self.indentation_mm);
         for _ in 0..HALVINGS {
@@ -301,7 +302,7 @@ impl Pressed {
         high
     }
 
-    /// U or |{g < d}|: the sum over the samples of `of` mean penetration and fraction in contact, the gap straight between them.
+    /// U or |{g < d}|: sum of `of` mean penetration and fraction in contact over the intervals between samples, where the gap is linear.
     fn sum(&self, indentation_mm: f64, of: impl Fn((f64, f64)) -> f64) -> f64 {
         let parts =
             self.gap_mm.windows(2).map(|ends| of(mean_positive([indentation_mm - ends[0], indentation_mm - ends[1]])));

@@ -7,13 +7,13 @@
 //! ```
 //!
 //! C: [`cell_compliance_mm_per_mpa`](crate::reference::half_plane::cell_compliance_mm_per_mpa). As long as the same cells
-//! touch, the pressures are straight lines of the indentation,
+//! touch, the pressures are linear in the indentation,
 //!
 //! ```text
 //! p = δ C⁻¹1 − C⁻¹g          on the cells in contact
 //! ```
 //!
-//! which hold between two indentations: the one at which the first of them lets go and the one at which the next touches. Within
+//! between the indentation at which the first of them leaves the contact and the one at which the next touches. Within
 //! these, load and stiffness cost nothing; beyond them the set is found anew ([`Condensed`]), starting from the present one. C
 //! does not change with wear, so its factors are kept while the flanks wear until another set of cells touches.
 
@@ -21,7 +21,7 @@ use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, Side};
 
 use super::Response;
-use crate::fem::active_set::{ActiveSetError, Condensed};
+use gearwear_fem::active_set::{ActiveSetError, Condensed};
 
 /// A row of cells that may touch.
 pub(crate) struct ElasticCells {
@@ -33,7 +33,7 @@ pub(crate) struct ElasticCells {
     indentation_mm: f64,
 }
 
-/// The cells in contact, and how they answer.
+/// Cells in contact, with their pressures as linear functions of the indentation.
 struct Touching {
     active: Vec<bool>,
     members: Vec<usize>,
@@ -42,17 +42,17 @@ struct Touching {
     per_indentation: Vec<f64>,
     /// C⁻¹g, MPa.
     relieved: Vec<f64>,
-    /// Depths between which exactly these cells touch.
+    /// Indentations between which exactly these cells touch, mm.
     holds_mm: [f64; 2],
 }
 
 impl ElasticCells {
-    /// Cells of `width_mm`, as many as `compliance` has entries, the effect of one on another by their distance.
+    /// Cells of `width_mm`, as many as `compliance` has entries: the effect of one cell on another by their distance.
     pub(crate) fn new(width_mm: f64, compliance: Vec<f64>) -> Self {
         Self { width_mm, gap_mm: vec![0.0; compliance.len()], compliance, touching: None, indentation_mm: 0.0 }
     }
 
-    /// No longer knows which cells touched.
+    /// Forgets which cells touched.
     pub(crate) fn reset(&mut self) {
         self.touching = None;
         self.indentation_mm = 0.0;
@@ -66,14 +66,14 @@ impl ElasticCells {
         }
     }
 
-    /// Load and stiffness when pressed together by `indentation_mm` beyond a gap of zero; not numbers where the gaps are none.
+    /// Load and stiffness when pressed together by `indentation_mm` beyond a gap of zero; NaN where the gaps are NaN.
     pub(crate) fn load_at(&mut self, indentation_mm: f64) -> Response {
         self.indentation_mm = indentation_mm;
         if indentation_mm <= 0.0 {
             return Response::default();
         }
-        let holds = |touching: &Touching| (touching.holds_mm[0]..=touching.holds_mm[1]).contains(&indentation_mm);
-        if !self.touching.as_ref().is_some_and(holds) {
+        let [least, most] = self.touching.as_ref().map_or([f64::NAN; 2], |touching| touching.holds_mm);
+        if !(least..=most).contains(&indentation_mm) {
             let Ok(touching) = self.find() else {
                 return Response { line_load_n_per_mm: f64::NAN, stiffness_n_per_mm2: f64::NAN };
             };
@@ -93,15 +93,15 @@ impl ElasticCells {
         self.indentation_mm
     }
 
-    /// How far the pressures at the last indentation lower the first and the last cell, mm.
+    /// Displacement of the first and the last cell by the pressures at the last indentation, mm.
     pub(crate) fn sunk_at_ends_mm(&self) -> [f64; 2] {
         let Some(touching) = self.touching.as_ref().filter(|_| self.indentation_mm > 0.0) else { return [0.0; 2] };
         [0, self.gap_mm.len() - 1].map(|end| {
             let cells = touching.members.iter().zip(&touching.per_indentation).zip(&touching.relieved);
-            let sunk = |((&member, per_indentation), relieved): ((&usize, &f64), &f64)| {
+            let sunk = cells.map(|((&member, per_indentation), relieved)| {
                 self.compliance[end.abs_diff(member)] * (self.indentation_mm * per_indentation - relieved)
-            };
-            cells.map(sunk).sum()
+            });
+            sunk.sum()
         })
     }
 
@@ -117,7 +117,7 @@ impl ElasticCells {
         }
     }
 
-    /// The cells that touch at the present indentation.
+    /// Cells that touch at the present indentation.
     fn find(&self) -> Result<Touching, ActiveSetError> {
         let count = self.gap_mm.len();
         let problem = Condensed {
@@ -145,10 +145,10 @@ impl Touching {
         Ok(touching)
     }
 
-    /// Takes other gaps.
+    /// Exchanges the gaps.
     fn relieve(&mut self, gap_mm: &[f64], compliance: &[f64]) {
         self.relieved = solved(&self.factor, self.members.iter().map(|&i| gap_mm[i]));
-        // A cell in contact lets go where δ C⁻¹1 = C⁻¹g.
+        // A cell leaves the contact where δ C⁻¹1 = C⁻¹g.
         let (mut least, mut most) = (0.0_f64, f64::INFINITY);
         for (per_indentation, relieved) in self.per_indentation.iter().zip(&self.relieved) {
             let depth = relieved / per_indentation;
@@ -190,12 +190,12 @@ fn solved(factor: &Llt<f64>, side: impl ExactSizeIterator<Item = f64>) -> Vec<f6
 mod tests {
     use super::*;
     use crate::contact::pressure_field::PressureField;
-    use crate::fem::elastic::Elastic;
     use crate::reference::{
         flattening::{Flattening, HalfPlane},
         half_plane::cell_compliance_mm_per_mpa,
         hertz_line::{HertzLine, LineContact},
     };
+    use gearwear_fem::elastic::Elastic;
 
     /// FZG type C at the pitch point, 302 N·m, the bodies so deep that the half-planes' own curvature is all there is.
     fn hertz(indentation_mm: f64) -> (Flattening, f64, LineContact) {

@@ -1,12 +1,12 @@
-//! How far flanks move under a contact while it stands for one loading position.
+//! Motion of the flanks under a contact within the cell of a loading position.
 
 use super::PositionCell;
 use crate::gear::{Gear, conjugate::ConjugateFlanks};
 
-/// Parts of the flank's length by which a limit may miss the theoretical contact point at A or E.
+/// Part of the flank's length by which a limit may miss the theoretical contact point at A or E, by rounding errors.
 pub(super) const ROUND_OFF: f64 = 1e-9;
 
-/// How far the flank point at `coordinate_mm` moves along the tangent from the cell's position to its ends: the contact
+/// Distances that the flank point at `coordinate_mm` moves along the tangent from the cell's position to its ends: the contact
 /// moves up the pinion and down the wheel.
 pub(super) fn shift_to_ends_mm(
     geometry: &dyn ConjugateFlanks,
@@ -24,9 +24,9 @@ pub(super) fn shift_to_ends_mm(
 /// The edge in which a flank ends, where it carries the load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct EdgeUnderLoad {
-    /// Gear whose edge it is.
+    /// Gear of the edge.
     pub gear: Gear,
-    /// Where on its flank.
+    /// Coordinate on its flank, mm.
     pub coordinate_mm: f64,
     /// Whether before A and not after E.
     pub is_before: bool,
@@ -36,12 +36,13 @@ pub(super) struct EdgeUnderLoad {
 /// pinion's flank begins, after E the pinion's tip edge or the wheel's corner.
 pub(super) fn edge_under_load(geometry: &dyn ConjugateFlanks, position_mm: f64) -> Option<EdgeUnderLoad> {
     let [pinion, wheel] = Gear::BOTH.map(|gear| geometry.flank_limits_mm(gear));
-    let edge = |gear: Gear, coordinate_mm: f64, is_before: bool| {
-        (geometry.position_at_mm(gear, coordinate_mm), EdgeUnderLoad { gear, coordinate_mm, is_before })
-    };
     // The contact moves up the pinion and down the wheel.
-    let of_start = [edge(Gear::Pinion, pinion.0, true), edge(Gear::Wheel, wheel.1, true)];
-    let of_end = [edge(Gear::Pinion, pinion.1, false), edge(Gear::Wheel, wheel.0, false)];
+    let [of_start, of_end] = [(true, [pinion.0, wheel.1]), (false, [pinion.1, wheel.0])].map(|(is_before, ends_mm)| {
+        Gear::BOTH.map(|gear| {
+            let coordinate_mm = ends_mm[gear as usize];
+            (geometry.position_at_mm(gear, coordinate_mm), EdgeUnderLoad { gear, coordinate_mm, is_before })
+        })
+    });
     let (first_mm, first) = if of_start[0].0 > of_start[1].0 { of_start[0] } else { of_start[1] };
     let (last_mm, last) = if of_end[1].0 < of_end[0].0 { of_end[1] } else { of_end[0] };
     let round_off = ROUND_OFF * last_mm;
@@ -52,9 +53,9 @@ pub(super) fn edge_under_load(geometry: &dyn ConjugateFlanks, position_mm: f64) 
     }
 }
 
-/// How far the flank of `gear` around `coordinate_mm` passes its contact from the cell's position to its ends. On the line of action the
-/// contact stands still in the tangent frame; before A and after E it stands on an edge, which the mate passes as far as it slides. Its
-/// points, `spacing_mm` apart, then each feel what presses on their part of the edge.
+/// Distances that the flank of `gear` around `coordinate_mm` passes its contact from the cell's position to its ends. On the line of action the
+/// contact stands still in the tangent frame; before A and after E it stands on an edge, which the mate passes as far as it slides. The
+/// points of the edge's flank, `spacing_mm` apart, then each feel the pressure on their part of the edge.
 pub(super) fn passes_to_ends_mm(
     geometry: &dyn ConjugateFlanks,
     gear: Gear,

@@ -1,8 +1,8 @@
 //! Figures of pressure that converge: of the flanks between their tip-edge zones, and of the tip edges.
 //!
-//! The greatest pressure of a mesh at a single point is no figure to compare by: towards a tip edge it grows with every refinement of the
+//! The greatest pressure of a mesh at a single point does not converge: towards a tip edge it grows with every refinement of the
 //! edge's contact, and where a linear relief begins the flank has a kink, to which the pressure of elastic bodies rises with the logarithm
-//! of the distance. Both are spikes narrow against the contact, whose load and whose mean over a length are definite. So
+//! of the distance. Both are narrow spikes, whose load and whose mean over a length do converge:
 //!
 //! ```text
 //! flank pressure        max over positions and places of  (1/l) ∫_l p dx,   l wholly between the tip-edge zones of both flanks
@@ -11,11 +11,12 @@
 //! ```
 //!
 //! with l = min(0.04 mm, 0.4 a_C) ([`FlankZones::pressure_length_mm`]): a mean over it lies by l²/(24 a²), at most 0.7 %, below the peak of
-//! a Hertz ellipse. A place belongs to the tip edges where it does so on either flank; below the start of active profile of the one gear
+//! a Hertz ellipse. A place lies in a tip-edge zone where it does so on either flank; opposite the flank of one gear below its start of active profile
 //! lies the tip-edge zone of the other.
 
 use serde::{Deserialize, Serialize};
 
+use super::flank_motion::on_tangent;
 use crate::contact::PressedCell;
 use crate::gear::{
     Gear, GearPair, PerGear, conjugate::ConjugateFlanks, flank_zones::FlankZones, slices::greatest_over_width,
@@ -23,7 +24,7 @@ use crate::gear::{
 
 /// Length over which the pressure of a tip edge is a mean, mm.
 pub const TIP_EDGE_MEAN_OVER_MM: f64 = 0.04;
-/// A contact that ends this near to a tip edge reaches it, mm.
+/// Distance from a tip edge within which a contact reaches it, mm.
 const AT_EDGE_MM: f64 = 1e-6;
 
 /// Figures of the pressure over a mesh cycle.
@@ -38,35 +39,34 @@ pub struct PressureFigures {
 }
 
 impl PressureFigures {
-    /// Takes those of another contact into account.
+    /// Takes the figures of another contact into account.
     pub(crate) fn note(&mut self, other: Self) {
         self.flank_mpa = self.flank_mpa.max(other.flank_mpa);
         self.tip_edge_line_load_n_per_mm = self.tip_edge_line_load_n_per_mm.max(other.tip_edge_line_load_n_per_mm);
         self.tip_edge_mean_mpa = self.tip_edge_mean_mpa.max(other.tip_edge_mean_mpa);
     }
 
-    /// Takes into account what each of the slices over the face width has, in their order.
+    /// Takes into account the figures of all slices over the face width, in their order.
     pub(crate) fn note_slices(&mut self, of_slices: &[Self]) {
-        let greatest = |of: fn(&Self) -> f64| greatest_over_width(&of_slices.iter().map(of).collect::<Vec<_>>());
-        self.note(Self {
-            flank_mpa: greatest(|slice| slice.flank_mpa),
-            tip_edge_line_load_n_per_mm: greatest(|slice| slice.tip_edge_line_load_n_per_mm),
-            tip_edge_mean_mpa: greatest(|slice| slice.tip_edge_mean_mpa),
-        });
+        let figures: [fn(&Self) -> f64; 3] =
+            [|slice| slice.flank_mpa, |slice| slice.tip_edge_line_load_n_per_mm, |slice| slice.tip_edge_mean_mpa];
+        let [flank_mpa, tip_edge_line_load_n_per_mm, tip_edge_mean_mpa] =
+            figures.map(|figure| greatest_over_width(&of_slices.iter().map(figure).collect::<Vec<_>>()));
+        self.note(Self { flank_mpa, tip_edge_line_load_n_per_mm, tip_edge_mean_mpa });
     }
 }
 
-/// Parts of both flanks by their coordinates, as contacts on the tangent see them.
+/// Limits of the zones of both flanks, by coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlankParts {
     /// Start of active profile, begin of the tip-edge zone, begin of the edge or its rounding, mm.
     coordinates_mm: PerGear<[f64; 3]>,
-    /// Length over which the flank's pressure is a mean, mm.
+    /// Length over which the pressure of the flank is a mean, mm.
     flank_mean_over_mm: f64,
 }
 
 impl FlankParts {
-    /// The zones of a pair.
+    /// Limits of the zones of a pair.
     pub fn new(pair: &GearPair, zones: &PerGear<FlankZones>) -> Self {
         let coordinates_mm = PerGear::from_fn(|gear| {
             let (involute, own) = (pair.teeth[gear].involute, &zones[gear]);
@@ -83,40 +83,37 @@ impl FlankParts {
         position_mm: f64,
         cells: &[PressedCell],
     ) -> PressureFigures {
-        let along = |gear: Gear, part: usize| {
-            let coordinate_mm = self.coordinates_mm[gear][part];
-            let along_mm = geometry.in_tangent_frame(gear, coordinate_mm, position_mm).along_mm;
-            if gear == Gear::Pinion { along_mm } else { -along_mm }
-        };
-        let from_mm = along(Gear::Pinion, 0).max(along(Gear::Wheel, 1));
-        let to_mm = along(Gear::Pinion, 1).min(along(Gear::Wheel, 0));
+        let [pinion, wheel] = Gear::BOTH.map(|gear| {
+            self.coordinates_mm[gear]
+                .map(|at_mm| on_tangent(gear, geometry.in_tangent_frame(gear, at_mm, position_mm).along_mm))
+        });
+        let (from_mm, to_mm) = (pinion[0].max(wheel[1]), pinion[1].min(wheel[0]));
         let parts = ContactParts {
             flank_mm: [from_mm, to_mm.max(from_mm)],
-            edges_mm: [along(Gear::Wheel, 2), along(Gear::Pinion, 2)],
+            edges_mm: [wheel[2], pinion[2]],
             flank_mean_over_mm: self.flank_mean_over_mm,
         };
         parts.figures(cells)
     }
 }
 
-/// Where a contact lies on its flanks: places along it, towards the pinion's tip.
+/// Limits of the zones along a contact, towards the pinion's tip, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ContactParts {
-    /// Both ends of what lies between the tip-edge zones.
+    /// Both ends of the flank between the tip-edge zones.
     pub flank_mm: [f64; 2],
-    /// The wheel's tip edge, below, and the pinion's, above: where the edge or its rounding begins.
+    /// Begin of the tip edge or its rounding: the wheel's, below, and the pinion's, above.
     pub edges_mm: [f64; 2],
-    /// Length over which the flank's pressure is a mean.
+    /// Length over which the pressure of the flank is a mean.
     pub flank_mean_over_mm: f64,
 }
 
 impl ContactParts {
     /// Figures of a contact, of cells in their order.
     pub(crate) fn figures(&self, cells: &[PressedCell]) -> PressureFigures {
-        let pressed = |cell: &&PressedCell| cell.pressure_mpa > 0.0;
-        let (Some(first), Some(last)) = (cells.iter().find(pressed), cells.iter().rfind(pressed)) else {
-            return PressureFigures::default();
-        };
+        let mut pressed = cells.iter().filter(|cell| cell.pressure_mpa > 0.0);
+        let Some(first) = pressed.next() else { return PressureFigures::default() };
+        let last = pressed.next_back().unwrap_or(first);
         let [from_mm, to_mm] = self.flank_mm;
         let mut figures = PressureFigures {
             flank_mpa: greatest_mean_mpa(cells, self.flank_mean_over_mm, self.flank_mm, self.flank_mm),
@@ -137,30 +134,36 @@ impl ContactParts {
     }
 }
 
-/// Greatest mean of the pressure over a length that lies wholly `within_mm`, where only what is `counted_mm` counts.
+/// Greatest mean of the pressure over a length that lies wholly `within_mm`, where only the load within `counted_mm` counts.
 fn greatest_mean_mpa(cells: &[PressedCell], length_mm: f64, within_mm: [f64; 2], counted_mm: [f64; 2]) -> f64 {
     let [from_mm, to_mm] = [within_mm[0], within_mm[1] - length_mm];
     if to_mm < from_mm {
         return 0.0;
     }
     let counted: Vec<PressedCell> = cells.iter().filter_map(|cell| cell.within(counted_mm)).collect();
-    let mut load_below = Vec::with_capacity(counted.len());
+    let mut below_cells = Vec::with_capacity(counted.len());
     let mut sum = 0.0;
     for cell in &counted {
-        load_below.push(sum);
+        below_cells.push(sum);
         sum += cell.line_load_n_per_mm();
     }
-    let below = |at_mm: f64| {
-        let after = counted.partition_point(|cell| cell.lower_mm <= at_mm);
-        let Some(cell) = after.checked_sub(1).map(|k| &counted[k]) else { return 0.0 };
-        load_below[after - 1] + cell.pressure_mpa * (at_mm.min(cell.upper_mm) - cell.lower_mm)
-    };
-    let mean = |begin_mm: f64| (below(begin_mm + length_mm) - below(begin_mm)) / length_mm;
     // The mean grows with the place as long as the pressure at the one end is above that at the other: it turns where a cell begins or ends.
     let ends = counted.iter().flat_map(|cell| [cell.lower_mm, cell.upper_mm]);
     ends.flat_map(|end_mm| [end_mm, end_mm - length_mm])
-        .map(|begin_mm| mean(begin_mm.clamp(from_mm, to_mm)))
+        .map(|begin_mm| {
+            let begin_mm = begin_mm.clamp(from_mm, to_mm);
+            let [after, before] =
+                [begin_mm + length_mm, begin_mm].map(|at_mm| load_below_n_per_mm(&counted, &below_cells, at_mm));
+            (after - before) / length_mm
+        })
         .fold(0.0, f64::max)
+}
+
+/// Load of `cells` below a place, of which `below_cells` lies below each of them.
+fn load_below_n_per_mm(cells: &[PressedCell], below_cells: &[f64], at_mm: f64) -> f64 {
+    let after = cells.partition_point(|cell| cell.lower_mm <= at_mm);
+    let Some(cell) = after.checked_sub(1).map(|k| &cells[k]) else { return 0.0 };
+    below_cells[after - 1] + cell.pressure_mpa * (at_mm.min(cell.upper_mm) - cell.lower_mm)
 }
 
 #[cfg(test)]
@@ -169,12 +172,11 @@ mod tests {
 
     /// Hertz's ellipse of half-width `a` about 0 as means over 400 cells.
     fn ellipse(a_mm: f64, peak_mpa: f64) -> Vec<PressedCell> {
-        let primitive = |u: f64| 0.5 * (u * (1.0 - u * u).max(0.0).sqrt() + u.asin());
-        let end = |k: i32| f64::from(k) / 200.0 - 1.0;
         (0..400)
             .map(|k| {
-                let [lower, upper] = [end(k), end(k + 1).min(1.0)];
-                let mean = (primitive(upper) - primitive(lower)) / (upper - lower);
+                let [lower, upper] = [k, k + 1].map(|k| (f64::from(k) / 200.0 - 1.0).min(1.0));
+                let [below, to_end] = [lower, upper].map(|u: f64| 0.5 * (u * (1.0 - u * u).max(0.0).sqrt() + u.asin()));
+                let mean = (to_end - below) / (upper - lower);
                 PressedCell { lower_mm: a_mm * lower, upper_mm: a_mm * upper, pressure_mpa: peak_mpa * mean }
             })
             .collect()
@@ -186,13 +188,13 @@ mod tests {
     fn ver_means_over_an_ellipse() {
         let (a, peak) = (0.1, 1200.0);
         let cells = ellipse(a, peak);
-        let mean = |length: f64| {
-            let u = 0.5 * length / a;
+        let [flank_mean, tip_mean] = [0.03, TIP_EDGE_MEAN_OVER_MM].map(|length| {
+            let u: f64 = 0.5 * length / a;
             0.5 * peak * ((1.0 - u * u).sqrt() + u.asin() / u)
-        };
+        });
         let away = ContactParts { flank_mm: [-1.0, 1.0], edges_mm: [-2.0, 2.0], flank_mean_over_mm: 0.03 };
         let figures = away.figures(&cells);
-        assert!((figures.flank_mpa / mean(0.03) - 1.0).abs() < 1e-4, "{figures:?}");
+        assert!((figures.flank_mpa / flank_mean - 1.0).abs() < 1e-4, "{figures:?}");
         assert_eq!(figures.tip_edge_line_load_n_per_mm, 0.0);
         assert_eq!(figures.tip_edge_mean_mpa, 0.0);
         // At the wheel's tip edge, and at the pinion's.
@@ -201,7 +203,7 @@ mod tests {
             let load = 0.5 * std::f64::consts::PI * a * peak;
             assert_eq!(at_edge.flank_mpa, 0.0);
             assert!((at_edge.tip_edge_line_load_n_per_mm / load - 1.0).abs() < 1e-9, "{at_edge:?}");
-            assert!((at_edge.tip_edge_mean_mpa / mean(TIP_EDGE_MEAN_OVER_MM) - 1.0).abs() < 1e-4, "{at_edge:?}");
+            assert!((at_edge.tip_edge_mean_mpa / tip_mean - 1.0).abs() < 1e-4, "{at_edge:?}");
         }
         // A zone that begins in the contact: only the flank beyond it counts, and its greatest pressure is where the zone ends.
         let cut = ContactParts { flank_mm: [0.05, 1.0], edges_mm: [-2.0, 2.0], flank_mean_over_mm: 1e-6 };

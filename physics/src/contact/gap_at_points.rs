@@ -1,50 +1,49 @@
-//! The gap that observed points face, which changes while the contact passes them.
+//! Gap at observed points, which changes while the contact passes them.
 
 use super::Flanks;
 use super::observed_points::ObservedPoints;
 use super::strip::Interpolation;
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 
-/// By this part of its course the theoretical contact point may miss a point and still passes it: where it passes between two
-/// cells, neither must lose it to rounding.
+/// Part of its course by which the theoretical contact point may miss a point and still passes it: between two cells neither must lose it to
+/// rounding errors.
 const SLACK: f64 = 0.02;
 
-/// The gap that observed points face, and how it changes under them.
+/// Gap at observed points, and its change within the cell.
 #[derive(Debug, Clone)]
 pub(crate) struct GapAtPoints {
     geometric_gap_mm: Vec<f64>,
     mate: Interpolation,
-    /// How the gap of each point changes within the cell.
+    /// Change of the gap of each point within the cell.
     course: Vec<GapWhilePassing>,
     growth: Vec<Growth>,
 }
 
-/// How the gap of a point changes while the contact passes: its own wear stays with it, so the geometry alone does.
-///
-/// At `x` along the tangent from where the point is at the cell's position, its gap has grown by slope · x + x²/(2R).
+/// Change of the gap of a point while the contact passes, by the geometry alone, as its wear moves with it: at `x` along the tangent from its place at
+/// the cell's position, the gap has grown by slope · x + x²/(2R).
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct GapWhilePassing {
-    /// Where the point begins to face the mate within the cell, or the cell begins; the lower of both ends, mm.
+    /// Lower end of the course on which the point faces the mate within the cell, mm.
     from_mm: f64,
-    /// Where that ends; the upper of both ends, mm.
+    /// Upper end of that course, mm.
     to_mm: f64,
     slope: f64,
     /// 1/R, 1/mm.
     curvature: f64,
 }
 
-/// What the usual cases, a point in contact over its whole [`GapWhilePassing`] or nowhere on it, need of it.
+/// Figures of a [`GapWhilePassing`] for the usual cases: a point in contact over all of it, or nowhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Growth {
-    /// Of the gap at both ends, mm.
+    /// Growth of the gap at both ends, mm.
     at_ends_mm: [f64; 2],
-    /// Of the gap on average, mm.
+    /// Mean growth, mm.
     mean_mm: f64,
-    /// The least growth anywhere, mm.
+    /// Least growth, mm.
     least_mm: f64,
 }
 
-/// A point's gap at the cell's position, and its course.
+/// Gap of a point at the cell's position, and its course.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FacedGap<'a> {
     /// Gap at the cell's position, mm.
@@ -54,7 +53,7 @@ pub(crate) struct FacedGap<'a> {
 }
 
 impl FacedGap<'_> {
-    /// The greatest penetration on the course, for flanks that have approached each other by `approach_mm`; not positive
+    /// Greatest penetration on the course, for flanks that have approached each other by `approach_mm`; not positive
     /// where the point never touches.
     pub(crate) fn greatest_penetration_mm(&self, approach_mm: f64) -> f64 {
         if self.course.from_mm < self.course.to_mm { approach_mm - self.gap_mm - self.growth.least_mm } else { 0.0 }
@@ -119,7 +118,7 @@ impl GapWhilePassing {
 }
 
 impl GapAtPoints {
-    /// Of `points` at `position_mm`.
+    /// Gap at `points` at `position_mm`.
     pub(crate) fn new(flanks: Flanks<'_>, gear: Gear, points: &ObservedPoints, position_mm: f64) -> Self {
         let count = points.sliding_mm.len();
         let mut mate = Interpolation::new(flanks, gear.mate());
@@ -133,17 +132,6 @@ impl GapAtPoints {
         }
         let curvature = 1.0 / flanks.geometry.relative_radius_mm(position_mm);
         let shifts = points.shifts_to_ends_mm();
-        // Of the parabola through a point and its neighbours.
-        let slope = |k: usize| {
-            let [before, after] = [k, k + 1].map(|i| points.at[i + 1].along_mm - points.at[i].along_mm);
-            let [below, above] = [(k, before), (k + 1, after)]
-                .map(|(i, length)| (geometric_gap_mm[i + 1] - geometric_gap_mm[i]) / length);
-            (after * below + before * above) / (before + after)
-        };
-        // Conjugate flanks touch once the contact has come to the point: there, the parabola's bottom is a gap of nought, which
-        // what differences and a constant curvature miss would drown in the narrow contact of a light load. Nowhere do they dip
-        // into each other.
-        let bottoms_out = |k: usize| (2.0 * geometric_gap_mm[k + 1].max(0.0) * curvature).sqrt();
         let (course, growth): (Vec<GapWhilePassing>, Vec<Growth>) = shifts
             .iter()
             .enumerate()
@@ -152,13 +140,21 @@ impl GapAtPoints {
                 let along = points.at[k + 1].along_mm;
                 let slack = SLACK * (to_mm - from_mm);
                 let passed = (from_mm - slack..=to_mm + slack).contains(&-along);
-                let by_differences = GapWhilePassing { from_mm, to_mm, slope: slope(k), curvature };
+                // Slope of the parabola through the point and its neighbours.
+                let [before, after] = [k, k + 1].map(|i| points.at[i + 1].along_mm - points.at[i].along_mm);
+                let [below, above] = [(k, before), (k + 1, after)]
+                    .map(|(i, length)| (geometric_gap_mm[i + 1] - geometric_gap_mm[i]) / length);
+                let slope = (after * below + before * above) / (before + after);
+                let by_differences = GapWhilePassing { from_mm, to_mm, slope, curvature };
                 let growth = by_differences.growth();
                 let dips = geometric_gap_mm[k + 1] + growth.least_mm < 0.0;
                 if !(passed || dips) {
                     return (by_differences, growth);
                 }
-                let course = GapWhilePassing { slope: bottoms_out(k).copysign(along), ..by_differences };
+                // Conjugate flanks touch once the contact has come to the point, and never overlap: the bottom of the parabola is a gap of 0. Errors of
+                // differences and of a constant curvature would be large against the narrow contact of a light load.
+                let slope = (2.0 * geometric_gap_mm[k + 1].max(0.0) * curvature).sqrt().copysign(along);
+                let course = GapWhilePassing { slope, ..by_differences };
                 (course, course.growth())
             })
             .unzip();
@@ -167,7 +163,7 @@ impl GapAtPoints {
         Self { geometric_gap_mm, mate, course, growth }
     }
 
-    /// The gap at the points with `removed_mm` of material gone.
+    /// Gap at the points of flanks that have lost `removed_mm`.
     pub(crate) fn faced<'a>(
         &'a self,
         points: &ObservedPoints,

@@ -1,23 +1,23 @@
-//! The window of flank that a contact looks at: as long as the contact should need, and longer once it proves too short.
+//! The window of flank in which a contact is looked for: longer once it proves too short.
 
-/// What is seen of both flanks through a window that reaches `half_length_mm` to either side of the contact.
+/// Flanks that can be sampled in a window.
 pub(super) trait Sampled {
-    /// Samples, points and whatever follows from them.
+    /// Samples of both flanks and quantities that follow from them.
     type Samples;
 
-    /// Samples the flanks anew.
+    /// Samples the flanks in a window of `half_length_mm` to either side of the contact.
     fn sample(&self, half_length_mm: f64) -> Self::Samples;
 }
 
 /// A window and the samples in it.
 pub(super) struct GrowingWindow<F: Sampled> {
-    /// Where the window lies.
+    /// Flanks.
     pub flanks: F,
-    /// Half-length before it was ever too short.
+    /// First half-length, mm.
     first_half_length_mm: f64,
-    /// Half-length now.
+    /// Present half-length, mm.
     pub half_length_mm: f64,
-    /// What is in it.
+    /// Samples in the window.
     pub samples: F::Samples,
 }
 
@@ -27,7 +27,7 @@ impl<F: Sampled> GrowingWindow<F> {
         Self { flanks, first_half_length_mm: half_length_mm, half_length_mm, samples }
     }
 
-    /// Samples it over another length, if it has another.
+    /// Gives the window another length, and samples the flanks where that is new.
     pub(super) fn resize(&mut self, half_length_mm: f64) {
         if self.half_length_mm != half_length_mm {
             self.half_length_mm = half_length_mm;
@@ -35,12 +35,12 @@ impl<F: Sampled> GrowingWindow<F> {
         }
     }
 
-    /// Half as long again.
+    /// Makes the window half as long again.
     pub(super) fn widen(&mut self) {
         self.resize(1.5 * self.half_length_mm);
     }
 
-    /// Is again as long as at first.
+    /// Returns to the first length.
     pub(super) fn reset(&mut self) {
         self.resize(self.first_half_length_mm);
     }

@@ -1,8 +1,8 @@
 //! Elastic half-planes against the real, modified and worn gap.
 //!
-//! Each body is an elastic half-plane where it touches: pressure at one place lowers the surface everywhere. On plain
-//! involutes this is Hertz's contact; on worn ones it is what Hertz's theory cannot know, with the elasticity that the
-//! independent springs of [`winkler`](super::winkler) lack. Displacements are measured relative to the tooth's centre line
+//! Each body is an elastic half-plane where it touches: pressure at one place lowers the surface everywhere. On unmodified
+//! involutes this is Hertz's contact; it holds for worn flanks too, with the elasticity that the independent springs of
+//! [`winkler`](super::winkler) lack. Displacements are measured relative to the tooth's centre line
 //! along the line of action ([`half_plane`](crate::reference::half_plane)), so that the load follows from the approach by
 //! itself, and agrees with the closed-form flattening of plain flanks.
 //!
@@ -11,14 +11,13 @@
 //! Hertz's and the half-width within 0.5 % from a half of the load on. A flank point's pressure is the mean of the field
 //! ([`SweptField`]) over the stretch that the point moves while the contact stands for one loading position.
 //!
-//! Cells do not see waves of wear shorter than twice their width for what they are. So that such waves are never driven up,
+//! Cells do not resolve waves of wear shorter than twice their width. So that such waves never grow,
 //! material removed counts in the gap of a cell with the same weights with which the pressure of the cell counts at flank
-//! points: the tent of straight lines to its neighbours, here ¼, ½, ¼ at the cell's ends and centre. Whatever the wave, what
-//! stands up then never wears less than what lies low.
+//! points: linear to its neighbours, here ¼, ½, ¼ at the cell's ends and centre. Crests then never wear less than troughs.
 //!
-//! Where neighbouring stretches have lost more than others, flanks may touch a second time beside the contact: a tip edge on the ridge that
-//! its mate's wear ends in below the active profile. The window reaches as far as that can be, from the geometric gap, what both have lost
-//! at least there, and how far the pressure lowers both surfaces at its end.
+//! Unevenly worn flanks may touch a second time beside the contact: a tip edge on the ridge in which its mate's wear ends below the start of active
+//! profile. The window reaches as far as that can be, by the geometric gap, the least loss of both flanks there, and the displacement of both surfaces
+//! at its end.
 //!
 //! Limits: the half-planes go on beyond a tip edge, as if the tooth did not end there. Towards a sharp edge the pressure grows
 //! without bound, and what is given there is the mean of the outermost cell.
@@ -30,7 +29,7 @@ use super::{
     elastic_cells::ElasticCells,
     growing_window::{GrowingWindow, Sampled},
     hertz,
-    strip::{Strip, Window, gaps_beside_mm, least_removed_mm, point_distance_mm},
+    strip::{ContactWindow, Strip, gaps_beside_mm, least_removed_mm, point_distance_mm},
     swept_field::SweptField,
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
@@ -40,42 +39,47 @@ use crate::reference::{
     half_plane::{cell_compliance_at_mm_per_mpa, cell_compliance_mm_per_mpa},
 };
 
-/// The surface: elastic constants and the load that contacts are expected to carry.
+/// Elastic half-planes as a contact surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfSpace {
-    /// Of each gear.
+    /// Material of each gear.
     pub material: PerGear<Material>,
-    /// Load that the first window and the cells are cut for, N/mm.
+    /// Load for which the first window and the cells are cut, N/mm.
     pub expected_line_load_n_per_mm: f64,
 }
 
 /// Fewest cells in the half-width of the plain contact under the expected load.
 pub(crate) const CELLS_PER_HALF_WIDTH: f64 = 16.0;
-/// As many at most, where the flank points are finer.
+/// Most cells in that half-width, where the flank points are finer.
 const FINEST_CELLS_PER_HALF_WIDTH: f64 = 40.0;
-/// Cells are no wider than this many flank points, within those limits.
+/// Width of cells in flank points, within those limits.
 const POINTS_PER_CELL: f64 = 2.0;
 /// Half-length of the first window over the half-width of the plain contact under the expected load.
 const FIRST_WINDOW: f64 = 1.25;
-/// Cells at an end of the window that is not real which must stay without pressure.
+/// Cells without pressure at an end of the window where no flank ends.
 const FREE_CELLS: usize = 2;
-/// Removed everywhere, less than this part of the gap at the end of a window is not looked for.
+/// Part of the gap at the end of a window below which the least loss of the flanks is taken as 0.
 const LITTLE_REMOVED: f64 = 0.05;
 /// Fewest cells in a window.
 const LEAST_CELLS: usize = 4;
-/// Most cells in a window: those of a window that has grown beyond are wider.
+/// Most cells in a window: a longer window has wider cells.
 const MOST_CELLS: f64 = 320.0;
-/// Part of a cell that is rounding, per cell.
+/// Rounding error per cell, in cells.
 const CELL_ROUND_OFF: f64 = 1e-9;
-/// Measured on the preset `fzg-c`, rounded.
+/// Effort measured on the preset `fzg-c`, rounded.
 const EFFORT: Effort = Effort { of_equilibrium: 20.0, of_clean_start: 15.0 };
 
 impl ContactSurface for HalfSpace {
     fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
         let flattening = hertz::flattening(&flanks.geometry, &self.material, position_mm);
         let half_width = flattening.contact.loaded(self.expected_line_load_n_per_mm).half_width_mm;
-        let stretch =
-            ObservedStretch { flanks, position_mm, cell, flattening, cell_mm: self.cell_width_mm(flanks, position_mm) };
+        let stretch = HalfSpaceStretch {
+            flanks,
+            position_mm,
+            cell,
+            flattening,
+            cell_mm: self.cell_width_mm(flanks, position_mm),
+        };
         Box::new(HalfSpacePair {
             window: GrowingWindow::new(stretch, FIRST_WINDOW * half_width),
             samples: Vec::new(),
@@ -95,7 +99,7 @@ impl ContactSurface for HalfSpace {
 }
 
 impl HalfSpace {
-    /// About two flank points, within what the contact needs.
+    /// Width of two flank points, within the limits of the contact.
     fn cell_width_mm(&self, flanks: Flanks<'_>, position_mm: f64) -> f64 {
         let contact = hertz::flattening(&flanks.geometry, &self.material, position_mm).contact;
         let half_width = contact.loaded(self.expected_line_load_n_per_mm).half_width_mm;
@@ -104,8 +108,8 @@ impl HalfSpace {
     }
 }
 
-/// The flanks of a pair at its position.
-struct ObservedStretch<'a> {
+/// Flanks of a pair on half-planes, at a position.
+struct HalfSpaceStretch<'a> {
     flanks: Flanks<'a>,
     position_mm: f64,
     cell: Option<PositionCell>,
@@ -113,18 +117,18 @@ struct ObservedStretch<'a> {
     cell_mm: f64,
 }
 
-/// What is seen through a window.
+/// Samples in a window.
 struct SampledStretch {
     strip: Strip,
     cells: ElasticCells,
     swept: SweptField,
 }
 
-impl Sampled for ObservedStretch<'_> {
+impl Sampled for HalfSpaceStretch<'_> {
     type Samples = SampledStretch;
 
     fn sample(&self, half_length_mm: f64) -> SampledStretch {
-        let window = Window::new(self.flanks, self.position_mm, half_length_mm);
+        let window = ContactWindow::new(self.flanks, self.position_mm, half_length_mm);
         let (window, count) = in_cells(window, self.cell_mm);
         let strip = Strip::new(self.flanks, self.position_mm, window, window.evenly_mm(2 * count), self.cell);
         let width = 2.0 * strip.spacing_mm();
@@ -134,38 +138,42 @@ impl Sampled for ObservedStretch<'_> {
     }
 }
 
-/// The window in whole cells, about `cell_mm` wide, and how many.
+/// The window in whole cells, about `cell_mm` wide, and their number.
 ///
-/// Where one end is a real one cells are as wide as that and begin there, and the free end gives way: how they lie over an edge under load then
-/// follows the load without jumps, and a rounding in the last bit adds no cell.
-fn in_cells(window: Window, cell_mm: f64) -> (Window, usize) {
+/// Where a flank ends at one end, cells are exactly as wide and begin there, and the other end is moved: the cells over an edge under load then
+/// follow the load without jumps, and a rounding error adds no cell.
+fn in_cells(window: ContactWindow, cell_mm: f64) -> (ContactWindow, usize) {
     let widest = cell_mm.max(window.length_mm() / MOST_CELLS);
     let cells = window.length_mm() / widest;
     let whole = (cells * (1.0 + CELL_ROUND_OFF)).floor();
     let free_lower_mm = window.upper_mm - whole * widest;
     let free_upper_mm = window.lower_mm + whole * widest;
     match window.ends_are_real {
-        [true, false] if whole >= LEAST_CELLS as f64 => (Window { upper_mm: free_upper_mm, ..window }, whole as usize),
-        [false, true] if whole >= LEAST_CELLS as f64 => (Window { lower_mm: free_lower_mm, ..window }, whole as usize),
+        [true, false] if whole >= LEAST_CELLS as f64 => {
+            (ContactWindow { upper_mm: free_upper_mm, ..window }, whole as usize)
+        }
+        [false, true] if whole >= LEAST_CELLS as f64 => {
+            (ContactWindow { lower_mm: free_lower_mm, ..window }, whole as usize)
+        }
         _ => (window, ((cells * (1.0 - CELL_ROUND_OFF)).ceil() as usize).max(LEAST_CELLS)),
     }
 }
 
 /// One tooth pair on half-planes.
 struct HalfSpacePair<'a> {
-    window: GrowingWindow<ObservedStretch<'a>>,
-    /// Real gap at the cells' boundaries and centres, mm.
+    window: GrowingWindow<HalfSpaceStretch<'a>>,
+    /// Real gap at the ends and centres of the cells, mm.
     samples: Vec<f64>,
     /// Real gap of each cell less the least of them, mm.
     gap: Vec<f64>,
-    /// The least gap, mm.
+    /// Least gap, mm.
     touch: f64,
-    /// The least that both flanks together have lost where they may touch, mm; 0 where that is little.
+    /// Least loss of both flanks together where they may touch, mm; 0 where it is little.
     removed_everywhere: f64,
 }
 
 impl HalfSpacePair<'_> {
-    /// Whether the flanks may touch beyond an end of the window that is not real.
+    /// Whether the flanks may touch beyond an end of the window where no flank ends.
     fn may_touch_beyond(&self) -> bool {
         let SampledStretch { strip, cells, .. } = &self.window.samples;
         strip.may_touch_beyond(self.touch + cells.indentation_mm(), self.removed_everywhere, cells.sunk_at_ends_mm())
@@ -176,17 +184,17 @@ impl PairContact for HalfSpacePair<'_> {
     fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
         let SampledStretch { strip, cells, .. } = &mut self.window.samples;
         strip.gap_mm(removed_mm, &mut self.samples);
-        // What the weights add to the parabola at the centre: Δ²/16R.
+        // Rise of the weighted gap of a parabola above that at the centre: Δ²/16R.
         let rise = strip.spacing_mm().powi(2) / (4.0 * self.window.flanks.flattening.contact.relative_radius_mm());
-        let of_cell = |ends: &[f64]| 0.25 * (ends[0] + ends[2]) + 0.5 * ends[1] - rise;
         self.gap.clear();
-        self.gap.extend(self.samples.windows(3).step_by(2).map(of_cell));
+        let ends = self.samples.windows(3).step_by(2);
+        self.gap.extend(ends.map(|ends| 0.25 * (ends[0] + ends[2]) + 0.5 * ends[1] - rise));
         let touch = self.gap.iter().copied().fold(f64::INFINITY, f64::min);
-        // From the first touch on, nothing is lost where a light load meets a deep relief.
+        // Counted from the first touch: a light load on a deep relief keeps its digits.
         self.gap.iter_mut().for_each(|gap| *gap -= touch);
         self.touch = touch;
         cells.set_gap(&self.gap);
-        let ObservedStretch { flanks, position_mm, flattening, .. } = &self.window.flanks;
+        let HalfSpaceStretch { flanks, position_mm, flattening, .. } = &self.window.flanks;
         let half_length_mm = self.window.half_length_mm;
         let at_end = half_length_mm * half_length_mm / (2.0 * flattening.contact.relative_radius_mm());
         self.removed_everywhere = match touch > LITTLE_REMOVED * at_end {
@@ -212,12 +220,11 @@ impl PairContact for HalfSpacePair<'_> {
         let SampledStretch { strip, cells, swept } = &mut self.window.samples;
         swept.field.fill(|pressure| cells.pressure_mpa(pressure));
         let pressure = swept.field.cells_mpa();
-        let free = |end: &[f64]| end.iter().all(|p| *p == 0.0);
         let cells = FREE_CELLS.min(pressure.len());
+        let [free_below, free_above] =
+            [&pressure[..cells], &pressure[pressure.len() - cells..]].map(|end| end.iter().all(|p| *p == 0.0));
         let [real_below, real_above] = strip.window.ends_are_real;
-        (real_below || free(&pressure[..cells]))
-            && (real_above || free(&pressure[pressure.len() - cells..]))
-            && !self.may_touch_beyond()
+        (real_below || free_below) && (real_above || free_above) && !self.may_touch_beyond()
     }
 
     fn widen(&mut self) {
@@ -225,23 +232,15 @@ impl PairContact for HalfSpacePair<'_> {
     }
 
     fn overlap_beside_mm(&self, removed_mm: PerGear<&[f64]>) -> Option<f64> {
-        let ObservedStretch { flanks, position_mm, flattening, .. } = &self.window.flanks;
+        let HalfSpaceStretch { flanks, position_mm, flattening, .. } = &self.window.flanks;
         let SampledStretch { strip, cells, .. } = &self.window.samples;
         let approach_mm = self.touch + cells.indentation_mm();
         let beside = gaps_beside_mm(*flanks, *position_mm, strip.window, approach_mm, removed_mm);
         let mut cells = self.pressed_cells();
         cells.retain(|cell| cell.pressure_mpa > 0.0);
-        let sunk_mm = |at_mm: f64| -> f64 {
-            let by_cell = |cell: &PressedCell| {
-                let (width_mm, distance_mm) =
-                    (cell.upper_mm - cell.lower_mm, at_mm - cell.lower_mm.midpoint(cell.upper_mm));
-                cell.pressure_mpa * cell_compliance_at_mm_per_mpa(&flattening.bodies, width_mm, distance_mm)
-            };
-            cells.iter().map(by_cell).sum()
-        };
-        // Where rigid flanks would not overlap nothing needs to yield.
+        // Only where rigid flanks would overlap.
         let overlapping = beside.into_iter().filter(|(_, gap)| *gap < approach_mm);
-        Some(overlapping.map(|(at_mm, gap)| approach_mm - gap - sunk_mm(at_mm)).fold(0.0, f64::max))
+        Some(overlapping.map(|(at_mm, gap)| approach_mm - gap - sunk_mm(flattening, &cells, at_mm)).fold(0.0, f64::max))
     }
 
     fn reset(&mut self) {
@@ -268,4 +267,13 @@ impl PairContact for HalfSpacePair<'_> {
         let pressures_mpa = swept.field.cells_mpa().iter().copied();
         PressedCell::evenly(strip.window.lower_mm, 2.0 * strip.spacing_mm(), pressures_mpa)
     }
+}
+
+/// Displacement of both surfaces at a place under the pressure of `cells`, mm.
+fn sunk_mm(flattening: &Flattening, cells: &[PressedCell], at_mm: f64) -> f64 {
+    let by_cells = cells.iter().map(|cell| {
+        let (width_mm, distance_mm) = (cell.upper_mm - cell.lower_mm, at_mm - cell.lower_mm.midpoint(cell.upper_mm));
+        cell.pressure_mpa * cell_compliance_at_mm_per_mpa(&flattening.bodies, width_mm, distance_mm)
+    });
+    by_cells.sum()
 }

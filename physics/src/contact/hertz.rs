@@ -11,7 +11,7 @@
 //! A flank point's pressure is averaged over the stretch the contact moves on while it stands for one loading position,
 //! by the same Φ, so that the load is conserved exactly however few the positions.
 //!
-//! Limits: the ellipse does not know that wear changes the curvature; that is what the Winkler surface adds.
+//! Limits: wear does not change the curvature, as it does on the Winkler surface.
 //!
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.2; the thesis, section 3.2 (papers C and E).
 
@@ -21,7 +21,7 @@ use super::{
     ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, PressedCell, Response, Sweep,
     growing_window::{GrowingWindow, Sampled},
     observed_points::ObservedPoints,
-    strip::Window,
+    strip::ContactWindow,
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 use crate::material::{Material, contact_modulus_mpa};
@@ -33,13 +33,13 @@ use crate::reference::{
 /// Hertz's distributed pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hertz {
-    /// Of each gear.
+    /// Material of each gear.
     pub material: PerGear<Material>,
-    /// Load that the observed stretch of flank is cut for, N/mm.
+    /// Load for which the first window is cut, N/mm.
     pub expected_line_load_n_per_mm: f64,
 }
 
-/// The closed-form contact of two flanks at `position_mm`, flattening measured to the teeth's centre lines.
+/// Closed-form contact of two flanks at `position_mm`, with the flattening down to the teeth's centre lines.
 pub fn flattening(geometry: &dyn ConjugateFlanks, material: &PerGear<Material>, position_mm: f64) -> Flattening {
     Flattening {
         contact: HertzLine::of_relative_radius(
@@ -53,20 +53,20 @@ pub fn flattening(geometry: &dyn ConjugateFlanks, material: &PerGear<Material>, 
     }
 }
 
-/// Half-length of the first window over the half-width under twice the expected load: of two slices one may carry exactly that, and rounding must not
+/// Half-length of the first window over the half-width under twice the expected load, which one of two slices may carry exactly: rounding errors must not
 /// decide whether its window suffices.
 const AMPLE: f64 = 1.0001;
-/// Cells of an ellipse where its pressure is asked for.
+/// Cells of pressure of an ellipse.
 const CELLS_OF_ELLIPSE: usize = 80;
 
-/// Load against approach of a pair in closed form; what `hertz` and `hertz-mean` share.
+/// Load against approach of a pair in closed form, for `hertz` and `hertz-mean`.
 pub(super) struct ClosedFormPair<'a> {
     pub flanks: Flanks<'a>,
     position_mm: f64,
     pub flattening: Flattening,
     /// Material removed at the theoretical contact point of both flanks together, mm.
     removed_mm: f64,
-    /// The load of the last indentation, N/mm.
+    /// Load at the last indentation, N/mm.
     pub line_load: f64,
 }
 
@@ -77,11 +77,11 @@ impl<'a> ClosedFormPair<'a> {
     }
 
     pub(super) fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
-        let at_contact = |gear: Gear| {
+        let [pinion, wheel] = Gear::BOTH.map(|gear| {
             let coordinate = self.flanks.geometry.contact_coordinate_mm(gear, self.position_mm);
             self.flanks.grid[gear].value_at(removed_mm[gear], coordinate)
-        };
-        self.removed_mm = at_contact(Gear::Pinion) + at_contact(Gear::Wheel);
+        });
+        self.removed_mm = pinion + wheel;
     }
 
     pub(super) fn touch_mm(&self) -> f64 {
@@ -102,7 +102,7 @@ impl<'a> ClosedFormPair<'a> {
 impl ContactSurface for Hertz {
     fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
         let closed_form = ClosedFormPair::new(flanks, &self.material, position_mm);
-        let extent = Window::new(flanks, position_mm, f64::INFINITY);
+        let extent = ContactWindow::new(flanks, position_mm, f64::INFINITY);
         let widest = closed_form.flattening.contact.loaded(2.0 * self.expected_line_load_n_per_mm).half_width_mm;
         let window = GrowingWindow::new(PassedCell { flanks, cell }, AMPLE * widest);
         Box::new(HertzPair { closed_form, extent, window, strip_load: 0.0, half_width_mm: 0.0 })
@@ -120,12 +120,12 @@ struct PassedCell<'a> {
 }
 
 impl Sampled for PassedCell<'_> {
-    /// The points of each flank that may touch, with their movement through the cell.
+    /// Points of each flank that may touch, with their motion through the cell.
     type Samples = Option<PerGear<(ObservedPoints, Vec<[f64; 2]>)>>;
 
     fn sample(&self, half_length_mm: f64) -> Self::Samples {
         self.cell.map(|cell| {
-            let window = Window::new(self.flanks, cell.position_mm, half_length_mm);
+            let window = ContactWindow::new(self.flanks, cell.position_mm, half_length_mm);
             PerGear::from_fn(|gear| {
                 let points = ObservedPoints::new(self.flanks, gear, window, cell);
                 let shifts = points.shifts_to_ends_mm();
@@ -138,8 +138,8 @@ impl Sampled for PassedCell<'_> {
 /// One tooth pair with Hertz's ellipse.
 struct HertzPair<'a> {
     closed_form: ClosedFormPair<'a>,
-    /// Where both flanks exist.
-    extent: Window,
+    /// Extent of both flanks.
+    extent: ContactWindow,
     window: GrowingWindow<PassedCell<'a>>,
     /// w*: load of the whole ellipse, N/mm.
     strip_load: f64,
@@ -185,7 +185,6 @@ impl PairContact for HertzPair<'_> {
         let courses = points.at[1..].iter().zip(shifts);
         for (pressure, (point, shift)) in sweep.pressure_mpa.iter_mut().zip(courses) {
             let [from, to] = shift.map(|shift| (point.along_mm + shift) / a);
-            // Without load, or for a point that faces nothing, there is nothing to average.
             *pressure = if load > 0.0 && from != to {
                 load * (carried_below(to) - carried_below(from)) / ((to - from) * a)
             } else {
@@ -205,11 +204,11 @@ impl PairContact for HertzPair<'_> {
                 if self.strip_load <= 0.0 || low == high {
                     return PointContact::default();
                 }
-                let inside = |shift: f64| (point.along_mm + shift).clamp(-a, a);
+                let [from, to] = [low, high].map(|shift| (point.along_mm + shift).clamp(-a, a));
                 let nearest_to_centre = 0.0_f64.clamp(point.along_mm + low, point.along_mm + high);
                 PointContact {
                     pressure_mpa: ellipse.pressure_mpa(nearest_to_centre),
-                    contact_fraction: (inside(high) - inside(low)) / (high - low),
+                    contact_fraction: (to - from) / (high - low),
                 }
             })
             .collect()
@@ -229,14 +228,16 @@ impl PairContact for HertzPair<'_> {
         }
         let (lower, upper) = ((self.extent.lower_mm / a).max(-1.0), (self.extent.upper_mm / a).min(1.0));
         let width = (upper - lower) / CELLS_OF_ELLIPSE as f64;
-        let end = |k: usize| carried_below(lower + k as f64 * width);
-        let mean = |k: usize| self.strip_load * (end(k + 1) - end(k)) / (width * a);
-        PressedCell::evenly(lower * a, width * a, (0..CELLS_OF_ELLIPSE).map(mean))
+        let means = (0..CELLS_OF_ELLIPSE).map(|k| {
+            let [below, to_end] = [k, k + 1].map(|k| carried_below(lower + k as f64 * width));
+            self.strip_load * (to_end - below) / (width * a)
+        });
+        PressedCell::evenly(lower * a, width * a, means)
     }
 }
 
 impl HertzPair<'_> {
-    /// The ellipse (load w*, half-width) whose part on both flanks carries `line_load`, by Newton's method.
+    /// Load w* and half-width of the ellipse whose part on both flanks carries `line_load`, by Newton's method.
     fn strip(&self, line_load: f64) -> (f64, f64) {
         let contact = &self.closed_form.flattening.contact;
         let mut whole = line_load;
@@ -260,7 +261,7 @@ impl HertzPair<'_> {
     }
 }
 
-/// Φ(u): part of an ellipse's load below u = x/a.
+/// Φ(u): part of the load of an ellipse below u = x/a.
 fn carried_below(u: f64) -> f64 {
     let u = u.clamp(-1.0, 1.0);
     0.5 + (u * (1.0 - u * u).sqrt() + u.asin()) / PI

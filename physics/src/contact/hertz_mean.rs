@@ -9,7 +9,7 @@
 //!
 //! with v the point's own surface velocity and ζ its specific sliding, all taken with the theoretical contact point at
 //! the flank point. Only points between A and E wear, and the wear jumps with the load where the number of pairs
-//! changes: that is the model's known limit, which integrating the pressure over the strip removes.
+//! changes, unlike on surfaces that integrate the pressure over the strip.
 //!
 //! Source: S. Andersson (1975) and the thesis, section 3.4 and appendix 1 (papers A's comparison and E).
 
@@ -23,7 +23,7 @@ use crate::material::Material;
 /// Hertz's mean pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HertzMean {
-    /// Of each gear.
+    /// Material of each gear.
     pub material: PerGear<Material>,
 }
 
@@ -44,30 +44,27 @@ impl ContactSurface for HertzMean {
     }
 }
 
-/// The points that the theoretical contact point passes while it moves through a cell.
+/// Points that the theoretical contact point passes while it moves through a cell.
 struct PassedPoints {
     first_point: usize,
-    /// |ζ| of each point, times the part of its stretch of flank that is passed.
+    /// |ζ| of each point, times the part of its share of the flank that is passed.
     specific_sliding: Vec<f64>,
 }
 
 impl PassedPoints {
     fn new(flanks: Flanks<'_>, gear: Gear, cell: PositionCell) -> Self {
         let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
-        // A point stands for the stretch of flank halfway to its neighbours.
-        let end_of_share = |i: usize| {
-            let next = grid.coordinate_mm[(i + 1).min(grid.len() - 1)];
-            geometry.position_at_mm(gear, 0.5 * (grid.coordinate_mm[i] + next))
-        };
-        let at = |position| geometry.contact_coordinate_mm(gear, position);
-        let (a, b) = (at(cell.lower_mm), at(cell.upper_mm));
+        let [a, b] = [cell.lower_mm, cell.upper_mm].map(|position| geometry.contact_coordinate_mm(gear, position));
         let first_point = grid.place(a.min(b)).index;
         let last = (grid.place(a.max(b)).index + 1).min(grid.len() - 1);
         let specific_sliding = (first_point..=last)
             .map(|i| {
-                let begin =
-                    if i == 0 { geometry.position_at_mm(gear, grid.coordinate_mm[0]) } else { end_of_share(i - 1) };
-                let end = end_of_share(i);
+                // The share of a point reaches halfway to its neighbours.
+                let [begin, end] = [i.saturating_sub(1), i].map(|i| {
+                    let next = grid.coordinate_mm[(i + 1).min(grid.len() - 1)];
+                    geometry.position_at_mm(gear, 0.5 * (grid.coordinate_mm[i] + next))
+                });
+                let begin = if i == 0 { geometry.position_at_mm(gear, grid.coordinate_mm[0]) } else { begin };
                 let (from, to) = (begin.min(end).max(cell.lower_mm), begin.max(end).min(cell.upper_mm));
                 if from < to { geometry.sliding_mm(from, to) / grid.share_mm(i) } else { 0.0 }
             })

@@ -1,8 +1,8 @@
-//! Contact surfaces: how a tooth pair answers when its flanks are pressed together.
+//! Contact surfaces: load and pressure of a tooth pair whose flanks are pressed together.
 //!
-//! One interface for all models. A [`ContactSurface`] prepares a [`PairContact`] for each tooth pair at each loading
-//! position; the mesh cycle then presses it and reads load and stiffness, and the wear collects pressure
-//! and sliding of each flank point ([`Sweep`]). A contact reads the flank only as *removed material*: modifications and wear alike.
+//! A [`ContactSurface`] prepares a [`PairContact`] for each tooth pair at each loading position; the mesh cycle presses it and reads load and
+//! stiffness, and the wear collects pressure and sliding of each flank point ([`Sweep`]). A contact reads a flank only as *removed material*:
+//! modifications and wear alike.
 //!
 //! | surface | pressure | load against approach |
 //! |---|---|---|
@@ -38,28 +38,28 @@ use flank_pressure::FlankParts;
 /// Two flanks and the points on them.
 #[derive(Clone, Copy)]
 pub struct Flanks<'a> {
-    /// Their geometry, in the normal section: gaps and what is removed are normal to the flanks.
+    /// Geometry in the normal section: gaps and removed material are normal to the flanks.
     pub geometry: NormalSection<'a>,
-    /// Their points.
+    /// Points of each flank.
     pub grid: PerGear<&'a FlankGrid>,
-    /// What of the removed material is no wear but the modification of the profile, but for a constant; none where that is not told
+    /// Part of the removed material that is modification of the profile, but for a constant; none where wear and modification are not told
     /// apart.
     pub modification_mm: Option<PerGear<&'a [f64]>>,
-    /// Whose tip edge may carry load and is mathematically sharp: contact that it cuts off has no pressure of its own.
+    /// Gears whose tip edge may carry load and is sharp: the pressure of a contact that it cuts off is not defined.
     pub sharp_edges: PerGear<bool>,
-    /// The parts that figures of pressure speak of; none where nobody asks for such.
+    /// Zones of the flanks; none where no figures of pressure are wanted.
     pub parts: Option<FlankParts>,
-    /// Whose corner at the form circle, which undercut leaves, may carry load.
+    /// Gears whose corner of undercut, at the form circle, may carry load.
     pub sharp_corners: PerGear<bool>,
 }
 
 impl<'a> Flanks<'a> {
-    /// Flanks that end where their contact does, and along whose lines of contact nothing changes: no tip edge carries load.
+    /// Flanks of a spur section without tip edges under load.
     pub fn new(geometry: &'a dyn ConjugateFlanks, grid: PerGear<&'a FlankGrid>) -> Self {
         Self::in_section(NormalSection::of_spur(geometry), grid)
     }
 
-    /// The same of gears.
+    /// Flanks of gears without tip edges under load.
     pub fn of_gears(pair: &'a GearPair, grid: PerGear<&'a FlankGrid>) -> Self {
         Self::in_section(pair.normal_section(), grid)
     }
@@ -76,27 +76,26 @@ impl<'a> Flanks<'a> {
     }
 }
 
-/// A loading position and the stretch of the path of contact it stands for.
+/// A loading position and the stretch of the path of contact that it represents.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PositionCell {
     /// Theoretical contact point.
     pub position_mm: f64,
-    /// Where the stretch begins.
+    /// Begin of the stretch.
     pub lower_mm: f64,
-    /// Where it ends.
+    /// End of the stretch.
     pub upper_mm: f64,
 }
 
 impl PositionCell {
-    /// Whether the contact moves to both sides of its position while it stands for the stretch: not at A and E, where the stretch ends at the position,
-    /// but for the last bits with which either is calculated.
+    /// Whether the stretch goes to both sides of the position: not at A and E, where it ends at the position but for rounding errors.
     pub(crate) fn goes_both_ways(&self) -> bool {
         let round_off = flank_motion::ROUND_OFF * (self.upper_mm - self.lower_mm);
         self.position_mm - self.lower_mm > round_off && self.upper_mm - self.position_mm > round_off
     }
 }
 
-/// A tooth pair's answer to being pressed together.
+/// Load and stiffness of a tooth pair that is pressed together.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Response {
     /// Load it carries, N per mm of the line of contact: as much as F_bt per mm of face width.
@@ -105,15 +104,15 @@ pub struct Response {
     pub stiffness_n_per_mm2: f64,
 }
 
-/// What consecutive points of one flank wear by while the contact moves through a [`PositionCell`]; the vectors have the
-/// same length. Filled anew for each pair, so that one buffer serves many.
+/// Pressure and sliding of consecutive points of one flank while the contact moves through a [`PositionCell`], in vectors of the same length: a
+/// buffer that is filled anew for each pair.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Sweep {
     /// Index of the first of the points.
     pub first_point: usize,
     /// Pressure on each, averaged over the cell, MPa.
     pub pressure_mpa: Vec<f64>,
-    /// How far each slides against the other flank while it faces it, mm.
+    /// Distance that each slides against the other flank while it faces it, mm.
     pub sliding_mm: Vec<f64>,
 }
 
@@ -127,7 +126,7 @@ impl Sweep {
     }
 }
 
-/// What an observer sees of one point of a [`Sweep`].
+/// Contact of one point of a [`Sweep`].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct PointContact {
     /// Greatest pressure while the contact moves through the cell and the point faces the other flank, MPa.
@@ -136,14 +135,14 @@ pub struct PointContact {
     pub contact_fraction: f64,
 }
 
-/// Where the contact is and how hard it presses.
+/// Extent and greatest pressure of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Footprint {
     /// Greatest pressure, MPa.
     pub peak_pressure_mpa: f64,
     /// Half the extent of the contact strip, mm.
     pub half_width_mm: f64,
-    /// Whether a sharp tip edge cuts the contact off: the pressure then is not defined, and what is found grows with every refinement.
+    /// Whether a sharp edge cuts the contact off: its pressure is then not defined, and grows with every refinement.
     pub at_sharp_edge: bool,
 }
 
@@ -151,21 +150,21 @@ pub struct Footprint {
 /// pinion's tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PressedCell {
-    /// Where it begins, mm.
+    /// Begin, mm.
     pub lower_mm: f64,
-    /// Where it ends, mm.
+    /// End, mm.
     pub upper_mm: f64,
     /// Mean pressure on it, MPa.
     pub pressure_mpa: f64,
 }
 
 impl PressedCell {
-    /// The load on it, N/mm.
+    /// Load on the cell, N/mm.
     pub fn line_load_n_per_mm(&self) -> f64 {
         self.pressure_mpa * (self.upper_mm - self.lower_mm)
     }
 
-    /// The part of it from one place to another; none where there is no such.
+    /// Part of the cell from one place to another; none where it has none there.
     pub(crate) fn within(&self, [from_mm, to_mm]: [f64; 2]) -> Option<Self> {
         let (lower_mm, upper_mm) = (self.lower_mm.max(from_mm), self.upper_mm.min(to_mm));
         (lower_mm < upper_mm).then_some(Self { lower_mm, upper_mm, ..*self })
@@ -173,12 +172,14 @@ impl PressedCell {
 
     /// Evenly spaced cells of `width_mm` from `lower_mm` on.
     pub(crate) fn evenly(lower_mm: f64, width_mm: f64, pressures_mpa: impl Iterator<Item = f64>) -> Vec<Self> {
-        let at = |k: usize| lower_mm + k as f64 * width_mm;
-        let cell = |(k, pressure_mpa)| Self { lower_mm: at(k), upper_mm: at(k + 1), pressure_mpa };
-        pressures_mpa.enumerate().map(cell).collect()
+        let cells = pressures_mpa.enumerate().map(|(k, pressure_mpa)| {
+            let [lower_mm, upper_mm] = [k, k + 1].map(|k| lower_mm + k as f64 * width_mm);
+            Self { lower_mm, upper_mm, pressure_mpa }
+        });
+        cells.collect()
     }
 
-    /// `half_width_mm` to either side of the theoretical contact point under one pressure.
+    /// One cell of `half_width_mm` to either side of the theoretical contact point.
     pub(crate) fn even(half_width_mm: f64, pressure_mpa: f64) -> Vec<Self> {
         vec![Self { lower_mm: -half_width_mm, upper_mm: half_width_mm, pressure_mpa }]
     }
@@ -198,59 +199,58 @@ pub trait PairContact: Send {
     /// Load and stiffness when the flanks are pressed together by `indentation_mm` beyond their first touch.
     fn load_at(&mut self, indentation_mm: f64) -> Response;
 
-    /// Approach of the bodies under a line load beside the indentation, and its derivative by the load: what a model
-    /// whose surface yields too little leaves out.
+    /// Approach of the bodies under a line load beyond the indentation, and its derivative by the load: the part that a model
+    /// whose surface is too stiff leaves out.
     fn further_approach_mm(&self, _line_load_n_per_mm: f64) -> (f64, f64) {
         (0.0, 0.0)
     }
 
-    /// An indentation that should carry at least `line_load_n_per_mm`, to begin an iteration with.
+    /// Indentation that should carry at least `line_load_n_per_mm`, to begin an iteration with.
     fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64;
 
-    /// Whether, at the last indentation, the stretch of flank this contact looks
-    /// at holds all that touches then. If not, [`widen`](Self::widen) it, read and press again.
+    /// Whether the window of this contact holds all that touches at the last indentation. If not, [`widen`](Self::widen) it, set the removed
+    /// material and press again.
     fn window_suffices(&mut self) -> bool {
         true
     }
 
-    /// Looks at a longer stretch of flank.
+    /// Widens the window.
     fn widen(&mut self) {}
 
-    /// How deep flanks that have lost `removed_mm` overlap beside the stretch this contact looks at, at the last indentation, mm; 0 where
-    /// they do so nowhere, and none of contacts that do not look at the real gap.
+    /// Greatest overlap of flanks that have lost `removed_mm` beside the window at the last indentation, mm; 0 where they overlap nowhere, none for
+    /// contacts without the real gap.
     fn overlap_beside_mm(&self, _removed_mm: PerGear<&[f64]>) -> Option<f64> {
         None
     }
 
-    /// Is again as it was when it was made: what it does then depends only on what it reads and how it is pressed from now on, to the
-    /// bit. For contacts that keep something from one wear step to the next.
+    /// Returns to the state in which the contact was made, so that later results are the same bits whatever was pressed before.
     fn reset(&mut self) {}
 
     /// Fills in pressure and sliding of the points of a flank; nothing for a pair prepared without a [`PositionCell`].
     fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep);
 
-    /// Whether the points of a [`Sweep`] run across the contact from one end of its strip to the other, each under its own pressure;
-    /// otherwise they are those that pass the theoretical contact point, and each passes through all of the contact.
+    /// Whether the points of a [`Sweep`] run across the contact from end to end, each under its own pressure;
+    /// otherwise they pass the theoretical contact point, and each passes through all of the contact.
     fn sweeps_across(&self) -> bool {
         true
     }
 
-    /// The contact of each point of that [`Sweep`], for an observer.
+    /// Contact of each point of that [`Sweep`].
     fn contact_of_points(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<PointContact>;
 
     /// Extent and greatest pressure.
     fn footprint(&self) -> Footprint;
 
-    /// The pressure along the contact, cell after cell towards the pinion's tip; their loads are that of the contact.
+    /// Pressure along the contact, cell after cell towards the pinion's tip; the sum of their loads is that of the contact.
     fn pressed_cells(&self) -> Vec<PressedCell>;
 }
 
-/// How long equilibria take, about.
+/// Approximate computing time of equilibria.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// Of a tooth pair, over that on springs.
+    /// Time of a tooth pair over that on springs.
     pub of_equilibrium: f64,
-    /// What one without anything to start from takes more, over one with.
+    /// Time of an equilibrium without a start over that with one.
     pub of_clean_start: f64,
 }
 
@@ -259,16 +259,15 @@ pub trait ContactSurface: Sync {
     /// Prepares a tooth pair with its theoretical contact point at `position_mm`; with a `cell`, its wear is collected.
     fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a>;
 
-    /// Approach of plain involutes under a line load at `position_mm`, away from the tip edges.
+    /// Approach of unmodified involutes under a line load at `position_mm`, away from the tip edges.
     fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64;
 
-    /// Whether a pair touches in the theoretical contact point alone, so that the wear of a contact is that of one place of the flanks; else it
-    /// touches over a strip.
+    /// Whether a pair touches at the theoretical contact point alone, so that a contact wears one place of the flanks, and not a strip.
     fn touches_in_points(&self) -> bool {
         false
     }
 
-    /// How long equilibria take.
+    /// Approximate computing time of equilibria.
     fn effort(&self) -> Effort {
         Effort { of_equilibrium: 1.0, of_clean_start: 4.0 }
     }
@@ -281,10 +280,11 @@ mod tests {
     /// At A and E the stretch ends at the position, whichever of the two the last bit has farther out.
     #[test]
     fn stretches_end_at_a_and_e_but_for_the_last_bit() {
-        let goes = |lower_mm, upper_mm| PositionCell { position_mm: 23.4, lower_mm, upper_mm }.goes_both_ways();
+        let whole = PositionCell { position_mm: 23.4, lower_mm: 22.9, upper_mm: 23.9 };
+        assert!(whole.goes_both_ways());
         for end_mm in [23.4_f64.next_down(), 23.4, 23.4_f64.next_up()] {
-            assert!(!goes(22.9, end_mm) && !goes(end_mm, 23.9));
+            assert!(!PositionCell { upper_mm: end_mm, ..whole }.goes_both_ways());
+            assert!(!PositionCell { lower_mm: end_mm, ..whole }.goes_both_ways());
         }
-        assert!(goes(22.9, 23.9));
     }
 }

@@ -1,9 +1,9 @@
-//! The points of one flank that may touch the other: where they are, how far they move and slide, and while they face the mate.
+//! Points of one flank that may touch the other: places, motion and sliding while they face the mate.
 
 use std::ops::Range;
 
 use super::flank_motion::{edge_under_load, passes_to_ends_mm, shift_to_ends_mm};
-use super::strip::Window;
+use super::strip::ContactWindow;
 use super::{Flanks, PositionCell};
 use crate::gear::{Gear, conjugate::ConjugateFlanks, involute::TangentFramePoint};
 
@@ -12,47 +12,48 @@ use crate::gear::{Gear, conjugate::ConjugateFlanks, involute::TangentFramePoint}
 pub(crate) struct ObservedPoints {
     /// Index of the first point that may touch; the samples begin one before it.
     pub first_point: usize,
-    /// Where the samples lie in the tangent frame.
+    /// Places of the samples in the tangent frame.
     pub at: Vec<TangentFramePoint>,
     /// Sliding of each point (without the ends) while the contact moves through the cell, counted only while the mate
     /// faces it, mm.
     pub sliding_mm: Vec<f64>,
-    /// How far each point moves along the tangent from the cell's position to its lower and to its upper end, mm: near a base circle, neighbours
-    /// differ much in that.
+    /// Distances that each point moves along the tangent from the cell's position to its lower and to its upper end, mm; near a base circle neighbours
+    /// differ much.
     shifts_to_ends_mm: Vec<[f64; 2]>,
-    /// The least of that (at most 0) and the greatest (at least 0).
+    /// Least of these distances (at most 0) and greatest (at least 0).
     least_and_most_mm: [f64; 2],
-    /// Where the flank begins and ends that stands under the pressure, along the tangent, mm; its points feel what presses on their part of it.
+    /// Ends along the tangent, mm, of a flank that stands under the pressure; its points feel the pressure on their part of it.
     standing_within_mm: Option<[f64; 2]>,
-    /// The points that an end of the mate's flank passes within the cell, or that face nothing.
+    /// Points that an end of the mate's flank passes within the cell, or that face nothing.
     partly_exposed: Vec<PartlyExposed>,
 }
 
 /// A point that faces the mate during part of the cell only.
 #[derive(Debug, Clone, Copy)]
 struct PartlyExposed {
-    /// Which one, counted from the first point.
+    /// Index, counted from the first point.
     sample: usize,
-    /// When it begins to face the mate, 0 to 1.
+    /// Part of the cell at which the point begins to face the mate, 0 to 1.
     from: f64,
-    /// When it ends.
+    /// Part of the cell at which it ends to face the mate.
     to: f64,
 }
 
 impl ObservedPoints {
     /// The points of `gear` facing `window` anywhere in `cell`.
-    pub(crate) fn new(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
+    pub(crate) fn new(flanks: Flanks<'_>, gear: Gear, window: ContactWindow, cell: PositionCell) -> Self {
         let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
         let (lower, upper) = match gear {
             Gear::Pinion => (window.lower_mm, window.upper_mm),
             Gear::Wheel => (-window.upper_mm, -window.lower_mm),
         };
-        // The contact moves over the flank within the cell: take in what it passes.
+        // Length of flank that the contact passes within the cell.
         let passed = geometry.rolling_ratio(gear, cell.position_mm) * (cell.upper_mm - cell.lower_mm);
-        let place = |along| grid.place(geometry.at_along(gear, along, cell.position_mm).0).index;
+        let [from, to] = [lower - passed, upper + passed]
+            .map(|along| grid.place(geometry.at_along(gear, along, cell.position_mm).0).index);
         let tip = grid.len() - 1;
-        let first_point = place(lower - passed).max(1);
-        let last = (place(upper + passed) + 1).min(tip).max(first_point);
+        let first_point = from.max(1);
+        let last = (to + 1).min(tip).max(first_point);
 
         let samples = first_point - 1..=(last + 1).min(tip);
         let mut at: Vec<TangentFramePoint> =
@@ -79,10 +80,8 @@ impl ObservedPoints {
         Self { first_point, sliding_mm, partly_exposed, standing_within_mm, at, shifts_to_ends_mm, least_and_most_mm }
             .moving_by(shifts)
     }
-}
 
-impl ObservedPoints {
-    /// The same points, each of which moves by so much.
+    /// Points that each move by these distances.
     fn moving_by(mut self, shifts_to_ends_mm: impl Iterator<Item = [f64; 2]>) -> Self {
         self.shifts_to_ends_mm = shifts_to_ends_mm.collect();
         self.least_and_most_mm = self
@@ -93,9 +92,13 @@ impl ObservedPoints {
         self
     }
 
-    /// The same under a pressure that stands still during the cell, or goes with an edge: where an edge stands, its
-    /// mate passes it all the time.
-    pub(crate) fn under_standing_pressure(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
+    /// The points under a pressure that stands still during the cell, or goes with an edge: the mate passes an edge all the time.
+    pub(crate) fn under_standing_pressure(
+        flanks: Flanks<'_>,
+        gear: Gear,
+        window: ContactWindow,
+        cell: PositionCell,
+    ) -> Self {
         let mut points = Self::new(flanks, gear, window, cell);
         if let Some(edge) = edge_under_load(&flanks.geometry, cell.position_mm) {
             let sliding = flanks.geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
@@ -104,8 +107,9 @@ impl ObservedPoints {
             points.partly_exposed.iter().for_each(|point| points.sliding_mm[point.sample] = 0.0);
             if edge.gear == gear {
                 let (from_mm, to_mm) = flanks.geometry.flank_limits_mm(gear);
-                let along_mm = |end_mm| flanks.geometry.in_tangent_frame(gear, end_mm, cell.position_mm).along_mm;
-                points.standing_within_mm = Some([from_mm, to_mm].map(along_mm));
+                let ends_mm = [from_mm, to_mm]
+                    .map(|end_mm| flanks.geometry.in_tangent_frame(gear, end_mm, cell.position_mm).along_mm);
+                points.standing_within_mm = Some(ends_mm);
             }
             let widest_mm = points.at.windows(2).map(|two| two[1].along_mm - two[0].along_mm).fold(0.0, f64::max);
             let seen = points.first_point..points.first_point + points.sliding_mm.len();
@@ -116,8 +120,8 @@ impl ObservedPoints {
         points
     }
 
-    /// How far each point moves along the tangent from the cell's position to both ends of the part of the cell in which it faces the
-    /// mate; nothing of points that do not.
+    /// Distances that each point moves along the tangent from the cell's position to both ends of the part of the cell in which it faces the
+    /// mate; none for points that never do.
     pub(crate) fn courses_mm(&self) -> Vec<Option<[f64; 2]>> {
         let mut courses: Vec<_> = self.shifts_to_ends_mm().into_iter().map(Some).collect();
         if let Some([from_mm, to_mm]) = self.standing_within_mm {
@@ -136,7 +140,7 @@ impl ObservedPoints {
         courses
     }
 
-    /// How far each point moves along the tangent from the cell's position to the beginning and to the end of the part of
+    /// Distances that each point moves along the tangent from the cell's position to the begin and to the end of the part of
     /// the cell in which it faces the mate.
     pub(crate) fn shifts_to_ends_mm(&self) -> Vec<[f64; 2]> {
         let mut shifts = self.shifts_to_ends_mm.clone();
@@ -147,41 +151,43 @@ impl ObservedPoints {
         shifts
     }
 
-    /// The points, counted from the first, that touch anywhere between `lower_mm` and `upper_mm` (gear's own direction)
-    /// while the contact moves through the cell; a few more at either end do not.
+    /// Range of the points, counted from the first, that touch anywhere between `lower_mm` and `upper_mm` (gear's own direction)
+    /// within the cell, and a few more at either end.
     pub(crate) fn between(&self, lower_mm: f64, upper_mm: f64) -> Range<usize> {
         let [least, most] = self.least_and_most_mm;
         let points = &self.at[1..=self.sliding_mm.len()];
-        let below = |along_mm: f64| points.partition_point(|point| point.along_mm < along_mm);
-        let first = below(lower_mm - most).saturating_sub(1);
-        let end = (below(upper_mm - least) + 1).min(points.len());
+        let [below, within] = [lower_mm - most, upper_mm - least]
+            .map(|along_mm| points.partition_point(|point| point.along_mm < along_mm));
+        let first = below.saturating_sub(1);
+        let end = (within + 1).min(points.len());
         first.min(end)..end
     }
 }
 
-/// How long within a cell a flank point faces a place that exists on the mate.
+/// Part of a cell in which a flank point faces the mate.
 struct Exposure {
     gear: Gear,
     cell: PositionCell,
     own_limits_mm: (f64, f64),
-    /// First and last place of the mate's flank, along the gear's own tangent direction, at both ends of the cell.
+    /// First and last place of the mate's flank, in the gear's own direction of the tangent, at both ends of the cell.
     mate_limits_mm: [[f64; 2]; 2],
 }
 
 impl Exposure {
     fn new(flanks: Flanks<'_>, gear: Gear, cell: PositionCell) -> Self {
         let mate = flanks.geometry.flank_limits_mm(gear.mate());
-        let along = |limit, end| -flanks.geometry.in_tangent_frame(gear.mate(), limit, end).along_mm;
         Self {
             gear,
             cell,
             own_limits_mm: flanks.geometry.flank_limits_mm(gear),
-            mate_limits_mm: [cell.lower_mm, cell.upper_mm].map(|end| [along(mate.1, end), along(mate.0, end)]),
+            mate_limits_mm: [cell.lower_mm, cell.upper_mm].map(|end| {
+                [mate.1, mate.0].map(|limit| -flanks.geometry.in_tangent_frame(gear.mate(), limit, end).along_mm)
+            }),
         }
     }
 
-    /// The part of the cell, from and to in 0..1, during which the point at `coordinate_mm`, at `along_mm` from the cell's
-    /// position, faces the mate: it moves past the mate's ends in a straight line.
+    /// Part of the cell, from and to in 0..1, in which the point at `coordinate_mm`, at `along_mm` at the cell's position, faces the mate: it
+    /// moves past the mate's ends in a straight line.
     fn of(&self, geometry: &dyn ConjugateFlanks, coordinate_mm: f64, along_mm: f64) -> (f64, f64) {
         let tolerance = 1e-9 * self.own_limits_mm.1;
         if !(self.own_limits_mm.0 - tolerance..=self.own_limits_mm.1 + tolerance).contains(&coordinate_mm) {
@@ -202,7 +208,7 @@ impl Exposure {
     }
 }
 
-/// The part of the way from `before` to `after` on which the straight course between them is not negative.
+/// Part of the way from `before` to `after` on which the straight line between them is not negative.
 fn positive_stretch(before: f64, after: f64) -> (f64, f64) {
     match (before >= 0.0, after >= 0.0) {
         (true, true) => (0.0, 1.0),
@@ -219,7 +225,7 @@ mod tests {
     use crate::gear::PerGear;
     use crate::gear::flank::{FlankGrid, PointSpacing};
 
-    /// A window that has grown sees more points; those that it saw before move as they did, also near the base circle of an undercut wheel, where
+    /// A window that has grown has more points; those that it had before move as they did, also near the base circle of an undercut wheel, where
     /// neighbours move by other distances.
     #[test]
     fn prop_points_move_alike_whatever_the_window() {
@@ -234,7 +240,7 @@ mod tests {
             let cell = PositionCell { position_mm, lower_mm, upper_mm };
             for gear in Gear::BOTH {
                 let [first, grown] = [0.1, 0.4].map(|half_length_mm| {
-                    let window = Window::new(flanks, position_mm, half_length_mm);
+                    let window = ContactWindow::new(flanks, position_mm, half_length_mm);
                     ObservedPoints::under_standing_pressure(flanks, gear, window, cell)
                 });
                 let before = first.first_point - grown.first_point;

@@ -1,13 +1,11 @@
 //! The pressure along a contact, from the uniform pressures of its cells.
 //!
-//! The field is a straight line from the centre of one cell to the next, and level in the outer halves of the outermost
-//! cells. Each cell then counts with its whole width, so that the field carries the load of the cells exactly. Its integral
-//! P(x) is kept at the centres; a flank point that moves from x₁ to x₂ feels (P(x₂) − P(x₁))/(x₂ − x₁) on average.
+//! The field is linear from the centre of one cell to the next, and constant in the outer halves of the outermost
+//! cells: it carries the load of the cells exactly. Its integral P(x) is kept at the centres; a flank point that moves from x₁ to x₂ feels (P(x₂) − P(x₁))/(x₂ − x₁) on average.
 //!
-//! Beyond a tip edge under pressure the field is its own mirror image between A and E. While the contact stands for one position the
-//! edge moves to either side of where it is there: what it uncovers on the one side is then what it covers on the other, and the
-//! flank feels the load of the cells on average. At A and E, where the edge only moves away, and before A and after E, where the field
-//! goes with it, there is nothing beyond it.
+//! Between A and E the field is mirrored at a tip edge under pressure: within the cell of a position the edge moves to either side of its place,
+//! uncovers as much on the one side as it covers on the other, and the flank feels the load of the cells on average. At A and E, where the edge only
+//! moves away, and before A and after E, where the field goes with it, there is no pressure beyond it.
 //!
 //! Where a contact ends by itself, pressure begins as √s with the distance s from its end, and the load within s as s^{3/2}.
 //! So P^{2/3} is a straight line there, and its zero, from the loads of the two and of the three outermost cells, is the end
@@ -15,16 +13,16 @@
 
 use super::Footprint;
 
-/// Cells whose loads end a contact.
+/// Number of cells whose loads determine the end of a contact.
 const END_CELLS: usize = 3;
 
 /// Pressure on evenly spaced cells.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct PressureField {
-    /// Where the first cell begins, mm.
+    /// Begin of the first cell, mm.
     lower_mm: f64,
     width_mm: f64,
-    /// Whether the field is its own mirror image beyond an edge.
+    /// Whether the field is mirrored at an edge.
     mirrored: bool,
     pressure_mpa: Vec<f64>,
     /// Load from the beginning to the centre of each cell, N/mm.
@@ -32,12 +30,12 @@ pub(crate) struct PressureField {
 }
 
 impl PressureField {
-    /// Cells of `width_mm` from `lower_mm` on, without pressure so far; `mirrored` beyond an edge under pressure or not.
+    /// Cells of `width_mm` from `lower_mm` on without pressure; `mirrored` at an edge under pressure or not.
     pub(crate) fn new(lower_mm: f64, width_mm: f64, mirrored: bool) -> Self {
         Self { lower_mm, width_mm, mirrored, ..Self::default() }
     }
 
-    /// Exchanges the pressures, through a vector that is filled with one of each cell, two at least.
+    /// Exchanges the pressures: the function fills a vector with that of each cell, two at least.
     pub(crate) fn fill(&mut self, pressure_mpa: impl FnOnce(&mut Vec<f64>)) {
         pressure_mpa(&mut self.pressure_mpa);
         self.load_below.clear();
@@ -76,8 +74,9 @@ impl PressureField {
 
     /// Greatest pressure from one place to another.
     pub(crate) fn greatest_mpa(&self, [from_mm, to_mm]: [f64; 2]) -> f64 {
-        let cells = |x_mm: f64| ((x_mm - self.lower_mm) / self.width_mm - 0.5).max(0.0);
-        let (low, high) = (cells(from_mm.min(to_mm)).ceil() as usize, cells(from_mm.max(to_mm)) as usize);
+        let [low, high] = [from_mm.min(to_mm), from_mm.max(to_mm)]
+            .map(|x_mm| ((x_mm - self.lower_mm) / self.width_mm - 0.5).max(0.0));
+        let (low, high) = (low.ceil() as usize, high as usize);
         let centres = self.pressure_mpa.iter().take(high + 1).skip(low).copied();
         centres.fold(self.at_mpa(from_mm).max(self.at_mpa(to_mm)), f64::max)
     }
@@ -107,7 +106,7 @@ impl PressureField {
         self.load_below[k] + self.width_mm * mean_times_weight
     }
 
-    /// The centre before `x_mm`, and how far beyond it, in cells: 0 to 1, but below 0 before the first and above 1 after the
+    /// Centre before `x_mm`, and the distance from it in cells: 0 to 1, but below 0 before the first and above 1 after the
     /// last centre.
     fn place(&self, x_mm: f64) -> (usize, f64) {
         let from_first = (x_mm - self.lower_mm) / self.width_mm - 0.5;
@@ -118,24 +117,24 @@ impl PressureField {
     /// Outermost places under pressure; both 0 without pressure.
     pub(crate) fn extent_mm(&self) -> (f64, f64) {
         let p = &self.pressure_mpa;
-        let loaded = |pressure: &f64| *pressure > 0.0;
-        let (Some(first), Some(last)) = (p.iter().position(loaded), p.iter().rposition(loaded)) else {
-            return (0.0, 0.0);
-        };
+        let mut loaded = (0..p.len()).filter(|&k| p[k] > 0.0);
+        let Some(first) = loaded.next() else { return (0.0, 0.0) };
+        let last = loaded.next_back().unwrap_or(first);
         // A contact that reaches the outermost cell ends where the surfaces end.
         let before = if first == 0 { 0.0 } else { inset(p[first..=last].iter()) };
         let after = if last + 1 == p.len() { 0.0 } else { inset(p[first..=last].iter().rev()) };
-        let place = |cells: f64| self.lower_mm + cells * self.width_mm;
-        (place(first as f64 + before), place((last + 1) as f64 - after))
+        let [lower, upper] =
+            [first as f64 + before, (last + 1) as f64 - after].map(|cells| self.lower_mm + cells * self.width_mm);
+        (lower, upper)
     }
 
-    /// Greatest pressure, between the cells' centres, and half the extent; a field knows no edges.
+    /// Greatest pressure, between the cells' centres, and half the extent.
     pub(crate) fn footprint(&self) -> Footprint {
         let (lower, upper) = self.extent_mm();
         Footprint { peak_pressure_mpa: self.peak_mpa(), half_width_mm: 0.5 * (upper - lower), at_sharp_edge: false }
     }
 
-    /// The top of the parabola through the greatest pressure and its neighbours, or the pressure itself in the last cell.
+    /// Top of the parabola through the greatest pressure and its neighbours, or the pressure itself in an outermost cell.
     fn peak_mpa(&self) -> f64 {
         let p = &self.pressure_mpa;
         let Some(k) = (0..p.len()).max_by(|&a, &b| p[a].total_cmp(&p[b])) else { return 0.0 };
@@ -148,7 +147,7 @@ impl PressureField {
     }
 }
 
-/// How far into the outermost cell a contact ends, in cells, by the loads of the cells from its end on.
+/// Distance of the end of a contact from the outer end of its outermost cell, in cells, by the loads of the cells from its end on.
 fn inset<'a>(pressures: impl Iterator<Item = &'a f64>) -> f64 {
     let mut load = 0.0;
     let mut powers = [0.0; END_CELLS];
@@ -202,10 +201,10 @@ mod tests {
     /// know it to half of one.
     #[test]
     fn ver_a_contact_ends_between_cells() {
-        let load = |s: f64| s.max(0.0).powf(1.5);
         let pressures = [0, 1, 2, 3, 4, 5].map(|k| {
             let from = -0.3 + 0.1 * f64::from(k) + 0.17;
-            load(from + 0.1) - load(from)
+            let [below, to_end] = [from, from + 0.1].map(|s: f64| s.max(0.0).powf(1.5));
+            to_end - below
         });
         let (lower, upper) = field(&pressures).extent_mm();
         assert!((lower + 0.17).abs() < 1e-3, "{lower}");

@@ -1,8 +1,8 @@
-//! What is asked of the contact surface.
+//! Settings of the contact surface.
 
 use serde::{Deserialize, Serialize};
 
-/// The model of the surfaces in contact, from cheap to true.
+/// Model of the surfaces in contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SurfaceKind {
@@ -22,10 +22,10 @@ pub enum SurfaceKind {
 }
 
 impl SurfaceKind {
-    /// All surfaces, from cheap to true.
+    /// All surfaces, from the simplest to the most exact.
     pub const ALL: [Self; 5] = [Self::HertzMean, Self::Hertz, Self::Winkler, Self::HalfSpace, Self::Fem];
 
-    /// Its name in scenes and results.
+    /// Name in scenes and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Winkler => "winkler",
@@ -37,8 +37,8 @@ impl SurfaceKind {
     }
 }
 
-/// What a Winkler foundation shares with Hertz at the pitch point under the whole load, or, calibrated, with the finite-element
-/// contact everywhere.
+/// Quantity that a Winkler foundation has in common with Hertz's contact at the pitch point under the whole load, or, calibrated, with the
+/// finite-element contact everywhere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MatchCriterion {
@@ -55,7 +55,7 @@ impl MatchCriterion {
     /// All criteria.
     pub const ALL: [Self; 3] = [Self::HalfWidth, Self::PeakPressure, Self::Approach];
 
-    /// Its name in scenes and results.
+    /// Name in scenes and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::HalfWidth => "half-width",
@@ -65,7 +65,7 @@ impl MatchCriterion {
     }
 }
 
-/// Where the stiffness K/H of the elastic foundation comes from.
+/// Source of the stiffness K/H of the Winkler foundation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Foundation {
     /// Given by hand, MPa/mm.
@@ -82,11 +82,10 @@ pub enum Foundation {
 /// The contact settings of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactSettings {
-    /// The surface model.
+    /// Surface.
     pub surface: SurfaceKind,
     /// K/H; read by `winkler` alone.
     pub foundation: Foundation,
-    /// Whether a tip edge is followed into contact before A and after E by the surfaces that know the real gap
-    /// (`winkler`, `half-space`); `fem` always does.
+    /// Whether tip edges are followed into contact before A and after E on `winkler` and `half-space`; on `fem` they always are.
     pub tip_contact: bool,
 }

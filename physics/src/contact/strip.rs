@@ -1,11 +1,11 @@
 //! The stretch of both flanks around the theoretical contact point where they may touch.
 //!
-//! A strip carries samples of the geometric gap in the tangent frame and, for each, where it lies between the points of
+//! A strip has samples of the geometric gap in the tangent frame and, for each, its place between the points of
 //! both flanks, so that the real gap (geometry plus removed material) is one pass over plain arrays.
 //!
-//! These samples are evenly spaced across the contact, with more of them where a modification has a kink, and the load follows from them; pressure and
-//! sliding are observed on the points of the flanks themselves ([`super::observed_points`]). Real ends of a strip, where a flank ends in
-//! its tip edge (or its involute ends at the form circle), are kept exactly: no pressure acts beyond them.
+//! The load follows from these samples, which are evenly spaced across the contact, with more of them where a modification has a kink; pressure and
+//! sliding are observed at the points of the flanks themselves ([`super::observed_points`]). A strip ends exactly where a flank ends, in a tip edge or
+//! at the form circle: no pressure acts beyond.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -15,24 +15,24 @@ use super::{Flanks, PositionCell};
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 use crate::reference::linear_means::add_means;
 
-/// The points of a gear's grid between which its removed material is read.
+/// Points of a gear's grid between which its removed material is interpolated.
 ///
-/// Where the flank ends between two points, only the one within it wears: on the last stretch up to the end, what is removed is what that point has
-/// lost. A straight line to the point beyond would leave a ridge there that carries load and never wears.
+/// Where the flank ends between two points, only the one within it wears: the last stretch up to the end has lost as much as that point. A straight
+/// line to the point beyond would leave a ridge there that carries load and never wears.
 fn points_within(flanks: Flanks<'_>, gear: Gear) -> Range<usize> {
     let coordinate_mm = &flanks.grid[gear].coordinate_mm;
     let limits = flanks.geometry.flank_limits_mm(gear);
     let round_off = ROUND_OFF * limits.1;
     let first = coordinate_mm.partition_point(|&at| at < limits.0 - round_off);
     let end = coordinate_mm.partition_point(|&at| at <= limits.1 + round_off);
-    // Points too far apart for two of them to lie within are taken as they are.
+    // All points where fewer than two lie within.
     if end >= first + 2 { first..end } else { 0..coordinate_mm.len() }
 }
 
 /// Removed material of one flank at samples between its points.
 #[derive(Debug, Clone)]
 pub(super) struct Interpolation {
-    /// Index of the first and the last but one of [`points_within`].
+    /// Indices of the first and of the last but one of [`points_within`].
     within: [usize; 2],
     index: Vec<u32>,
     weight: Vec<f64>,
@@ -59,7 +59,7 @@ impl Interpolation {
         self.index.push(index as u32);
     }
 
-    /// The values at the samples.
+    /// Values at the samples.
     pub(super) fn of<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         self.index.iter().zip(&self.weight).map(|(&i, &weight)| {
             let ends = &values[i as usize..i as usize + 2];
@@ -68,7 +68,7 @@ impl Interpolation {
     }
 }
 
-/// Removed material of one flank at samples: its mean over the stretch that passes each while the contact stands for its position.
+/// Removed material of one flank at samples: mean over the stretch that passes each within a [`PositionCell`].
 #[derive(Debug, Clone, Default)]
 struct PassingMean {
     first: Vec<u32>,
@@ -77,19 +77,18 @@ struct PassingMean {
 }
 
 impl PassingMean {
-    /// At the samples `along_mm` in the gear's own direction of the tangent.
+    /// Means at the samples `along_mm`, in the gear's own direction of the tangent.
     fn new(flanks: Flanks<'_>, gear: Gear, cell: PositionCell, along_mm: impl Iterator<Item = f64>) -> Self {
         let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
-        let coordinate_mm = |along: f64| geometry.at_along(gear, along, cell.position_mm).0;
         let mut passing = Self::default();
         let within = points_within(flanks, gear);
         let points_mm = &grid.coordinate_mm[within.clone()];
-        // Empty again after every sample.
+        // All 0 again after every sample.
         let mut sums = vec![0.0; points_mm.len()];
         for along in along_mm {
-            let at_mm = coordinate_mm(along);
+            let at_mm = geometry.at_along(gear, along, cell.position_mm).0;
             let passes = passes_to_ends_mm(&geometry, gear, at_mm, cell, grid.distance_at_mm(at_mm));
-            let ends = passes.map(|by| coordinate_mm(along - by));
+            let ends = passes.map(|by| geometry.at_along(gear, along - by, cell.position_mm).0);
             let reached = add_means(points_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
             passing.first.push((within.start + reached.start) as u32);
             passing.weights.extend_from_slice(&sums[reached.clone()]);
@@ -109,26 +108,25 @@ impl PassingMean {
     }
 }
 
-/// Extent of the tangent at one position over which both flanks exist, and of the part looked at; mm, positive towards
-/// the pinion's tip.
+/// Part of the tangent at one position in which a contact is looked for; mm from the theoretical contact point, positive towards the pinion's tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Window {
-    /// Lower end of what is looked at.
+pub(crate) struct ContactWindow {
+    /// Lower end.
     pub lower_mm: f64,
     /// Upper end.
     pub upper_mm: f64,
-    /// Where in it unworn flanks are nearest.
+    /// Place where unworn flanks are nearest.
     pub nearest_mm: f64,
-    /// Whether each end is where a flank really ends.
+    /// Whether a flank ends at each end.
     pub ends_are_real: [bool; 2],
-    /// Whether it ends there in a sharp edge that may carry load: the wheel's tip or the pinion's corner of undercut below, the pinion's tip or
-    /// the wheel's corner above.
+    /// Whether a flank ends there in a sharp edge that may carry load: the wheel's tip or the pinion's corner of undercut below, the pinion's tip or
+    /// the wheel's corner of undercut above.
     pub ends_are_sharp: [bool; 2],
 }
 
-impl Window {
-    /// `half_length_mm` to either side of the theoretical contact point, or of the tip edge next to it where the one flank
-    /// ends before it, cut where a flank ends.
+impl ContactWindow {
+    /// A window of `half_length_mm` to either side of the theoretical contact point, or of the edge beside it where one flank
+    /// ends before that point, cut where a flank ends.
     pub(crate) fn new(flanks: Flanks<'_>, position_mm: f64, half_length_mm: f64) -> Self {
         let ((lower, upper), at_tips) = common_extent_mm(&flanks.geometry, position_mm);
         let nearest_mm = nearest_mm(&flanks.geometry, position_mm, (lower, upper));
@@ -146,19 +144,19 @@ impl Window {
         }
     }
 
-    /// Its length.
+    /// Length, mm.
     pub(crate) fn length_mm(&self) -> f64 {
         self.upper_mm - self.lower_mm
     }
 
-    /// Both its ends and the places between `intervals` even parts of it.
+    /// Ends of `intervals` even parts of the window.
     pub(crate) fn evenly_mm(&self, intervals: usize) -> Vec<f64> {
         let spacing_mm = self.length_mm() / intervals as f64;
         (0..=intervals).map(|k| self.lower_mm + k as f64 * spacing_mm).collect()
     }
 
-    /// Both its ends and all places between them that are whole multiples of `spacing_mm` from where unworn flanks are nearest, which a longer window has
-    /// too: what a contact carries is the same in both. And the points of both flanks where a modification has a kink that these places would miss by
+    /// Both ends; all places between them that are whole multiples of `spacing_mm` from where unworn flanks are nearest, so that a contact carries the same
+    /// load in windows of all lengths; and the points of both flanks where a modification has a kink that these places would miss by
     /// `missed_mm` or more: between two places, h apart, a course that turns by κ lies up to κ h/4 beside the straight line.
     pub(crate) fn with_kinks_mm(
         &self,
@@ -167,25 +165,22 @@ impl Window {
         spacing_mm: f64,
         missed_mm: f64,
     ) -> Vec<f64> {
-        let multiple = |end_mm: f64| (end_mm - self.nearest_mm) / spacing_mm;
-        let first = (multiple(self.lower_mm) + SAME_PLACE).floor() as i64 + 1;
-        let last = (multiple(self.upper_mm) - SAME_PLACE).ceil() as i64 - 1;
+        let [lower, upper] = [self.lower_mm, self.upper_mm].map(|end_mm| (end_mm - self.nearest_mm) / spacing_mm);
+        let (first, last) = ((lower + SAME_PLACE).floor() as i64 + 1, (upper - SAME_PLACE).ceil() as i64 - 1);
         let within = (first..=last).map(|k| self.nearest_mm + k as f64 * spacing_mm);
         let mut places_mm: Vec<f64> =
             std::iter::once(self.lower_mm).chain(within).chain(std::iter::once(self.upper_mm)).collect();
         let Some(modification_mm) = flanks.modification_mm else { return places_mm };
         for gear in Gear::BOTH {
-            let (grid, removed_mm) = (flanks.grid[gear], modification_mm[gear]);
-            let place =
-                |end_mm: f64| grid.place(flanks.geometry.at_along(gear, on_tangent(gear, end_mm), position_mm).0).index;
-            let (low, high) = (place(self.lower_mm), place(self.upper_mm));
+            let (geometry, grid, removed_mm) = (flanks.geometry, flanks.grid[gear], modification_mm[gear]);
+            let [low, high] = [self.lower_mm, self.upper_mm]
+                .map(|end_mm| grid.place(geometry.at_along(gear, on_tangent(gear, end_mm), position_mm).0).index);
             let within = low.min(high).max(1)..(low.max(high) + 1).min(grid.len() - 2) + 1;
-            let along_mm =
-                |i: usize| flanks.geometry.in_tangent_frame(gear, grid.coordinate_mm[i], position_mm).along_mm;
             for i in within.filter(|&i| removed_mm[i - 1] != removed_mm[i] || removed_mm[i] != removed_mm[i + 1]) {
-                let at_mm = [i - 1, i, i + 1].map(along_mm);
-                let slope = |k: usize| (removed_mm[i + k] - removed_mm[i + k - 1]) / (at_mm[k + 1] - at_mm[k]);
-                let (turn, place_mm) = ((slope(1) - slope(0)).abs(), on_tangent(gear, at_mm[1]));
+                let at_mm = [i - 1, i, i + 1]
+                    .map(|i| geometry.in_tangent_frame(gear, grid.coordinate_mm[i], position_mm).along_mm);
+                let slopes = [0, 1].map(|k| (removed_mm[i + k] - removed_mm[i + k - 1]) / (at_mm[k + 1] - at_mm[k]));
+                let (turn, place_mm) = ((slopes[1] - slopes[0]).abs(), on_tangent(gear, at_mm[1]));
                 let apart_mm = SAME_PLACE * spacing_mm;
                 let is_within = self.lower_mm + apart_mm < place_mm && place_mm < self.upper_mm - apart_mm;
                 if is_within && 0.25 * turn * spacing_mm >= missed_mm {
@@ -198,22 +193,23 @@ impl Window {
         places_mm
     }
 
-    /// Whether a sharp tip edge cuts off a contact that presses on these of the ends.
+    /// Whether a sharp edge cuts off a contact that presses on these of the ends.
     pub(crate) fn is_sharp_where(&self, pressed: [bool; 2]) -> bool {
         self.ends_are_sharp.iter().zip(pressed).any(|(sharp, pressed)| *sharp && pressed)
     }
 }
 
-/// Where along the tangent both flanks exist, before A and after E beside the theoretical contact point; and whether it is a tip edge that
-/// ends it there, the wheel's below and the pinion's above.
+/// Extent of the tangent over which both flanks exist, before A and after E beside the theoretical contact point; and whether a tip edge
+/// ends it, the wheel's below and the pinion's above.
 pub(super) fn common_extent_mm(geometry: &dyn ConjugateFlanks, position_mm: f64) -> ((f64, f64), [bool; 2]) {
-    let along = |gear: Gear, coordinate| geometry.in_tangent_frame(gear, coordinate, position_mm).along_mm;
-    let (p, w) = (geometry.flank_limits_mm(Gear::Pinion), geometry.flank_limits_mm(Gear::Wheel));
-    // The wheel's tangent coordinate runs the other way. At A and E, where one limit is the contact point itself,
-    // round-off must not put it outside.
-    let round_off = ROUND_OFF * p.1.max(w.1);
-    let [lowers, uppers] =
-        [[along(Gear::Pinion, p.0), -along(Gear::Wheel, w.1)], [along(Gear::Pinion, p.1), -along(Gear::Wheel, w.0)]];
+    // At A and E, where one limit is the contact point itself, rounding errors must not put it outside.
+    let limits = Gear::BOTH.map(|gear| geometry.flank_limits_mm(gear));
+    let round_off = ROUND_OFF * limits[0].1.max(limits[1].1);
+    let [pinion, wheel] = Gear::BOTH.map(|gear| {
+        let (root, tip) = limits[gear as usize];
+        [root, tip].map(|at| on_tangent(gear, geometry.in_tangent_frame(gear, at, position_mm).along_mm))
+    });
+    let (lowers, uppers) = ([pinion[0], wheel[1]], [pinion[1], wheel[0]]);
     let (lower, upper) = (lowers[0].max(lowers[1]), uppers[0].min(uppers[1]));
     let extent = (
         if lower < round_off { lower.min(0.0) } else { lower },
@@ -222,61 +218,57 @@ pub(super) fn common_extent_mm(geometry: &dyn ConjugateFlanks, position_mm: f64)
     (extent, [lowers[1] >= lowers[0], uppers[0] <= uppers[1]])
 }
 
-/// Where within the extent of [`common_extent_mm`] unworn flanks are nearest: at the theoretical contact point, or at the edge beside it where a
+/// Place within the extent of [`common_extent_mm`] where unworn flanks are nearest: the theoretical contact point, or the edge beside it where a
 /// flank has not begun or has ended. Before T1 and after T2 the corner of an undercut flank may lie on the other side of that point.
 pub(super) fn nearest_mm(geometry: &dyn ConjugateFlanks, position_mm: f64, (lower_mm, upper_mm): (f64, f64)) -> f64 {
     match edge_under_load(geometry, position_mm) {
-        Some(edge) => {
-            if edge.is_before {
-                lower_mm
-            } else {
-                upper_mm
-            }
-        }
+        Some(edge) if edge.is_before => lower_mm,
+        Some(_) => upper_mm,
         None => 0.0_f64.min(upper_mm).max(lower_mm),
     }
 }
 
-/// Distance of the points at the theoretical contact point on the flank where they are closer.
+/// Distance of the points at the theoretical contact point, on the flank whose points are closer.
 pub(crate) fn point_distance_mm(flanks: Flanks<'_>, position_mm: f64) -> f64 {
-    let of = |gear: Gear| flanks.grid[gear].distance_at_mm(flanks.geometry.contact_coordinate_mm(gear, position_mm));
-    of(Gear::Pinion).min(of(Gear::Wheel))
+    let [pinion, wheel] = Gear::BOTH
+        .map(|gear| flanks.grid[gear].distance_at_mm(flanks.geometry.contact_coordinate_mm(gear, position_mm)));
+    pinion.min(wheel)
 }
 
-/// Places nearer to each other than this part of the samples' distance are one.
+/// Part of the samples' distance within which two places are one.
 const SAME_PLACE: f64 = 1e-6;
 
 /// Samples across the candidate contact.
 #[derive(Debug, Clone)]
 pub(crate) struct Strip {
-    /// What the samples cover.
-    pub window: Window,
-    /// Where the samples are, mm.
+    /// Window of the samples.
+    pub window: ContactWindow,
+    /// Places of the samples, mm.
     pub along_mm: Vec<f64>,
     /// Geometric gap at each sample, mm.
     pub geometric_gap_mm: Vec<f64>,
-    /// Gap of flanks that have lost nothing, modifications neither, at both ends, mm.
+    /// Gap of unworn flanks without modifications at both ends, mm.
     unmodified_at_ends_mm: [f64; 2],
     removed: Removed,
 }
 
-/// How the removed material is read at the samples.
+/// Removed material at the samples.
 #[derive(Debug, Clone)]
 enum Removed {
-    /// At the place of each.
+    /// Value at the place of each sample.
     Here(PerGear<Interpolation>),
-    /// As it passes each.
+    /// Mean of the material that passes each sample.
     Passing(PerGear<PassingMean>),
 }
 
 impl Strip {
     /// Samples at `along_mm`, in order, the first and the last at the ends of `window`. Where the pressure stands still while the flanks pass
-    /// under it during a cell, `passed_during`, each sample sees the mean wear of what passes it, as all that passes it feels its pressure:
-    /// seen at one place alone, a wave of wear as long as the positions are apart would meet each of them alike, and grow.
+    /// under it during a cell, `passed_during`, each sample has the mean wear of the flank that passes it, all of which feels its pressure:
+    /// with the wear of one place alone, a wave of wear as long as the distance of the positions would meet each of them alike, and grow.
     pub(crate) fn new(
         flanks: Flanks<'_>,
         position_mm: f64,
-        window: Window,
+        window: ContactWindow,
         along_mm: Vec<f64>,
         passed_during: Option<PositionCell>,
     ) -> Self {
@@ -296,7 +288,7 @@ impl Strip {
         };
         let passing = PerGear::from_fn(|gear| {
             let passing = PassingMean::new(flanks, gear, cell, along_mm.iter().map(|&along| on_tangent(gear, along)));
-            // A modification stays what it is at the sample.
+            // A modification counts as at the sample.
             let beside = here[gear].of(modification_mm[gear]).zip(passing.of(modification_mm[gear]));
             geometric_gap_mm.iter_mut().zip(beside).for_each(|(gap, (here, mean))| *gap += here - mean);
             passing
@@ -304,12 +296,12 @@ impl Strip {
         Self { window, along_mm, geometric_gap_mm, unmodified_at_ends_mm, removed: Removed::Passing(passing) }
     }
 
-    /// Distance of samples that are evenly spaced.
+    /// Distance of evenly spaced samples.
     pub(crate) fn spacing_mm(&self) -> f64 {
         self.window.length_mm() / (self.along_mm.len() - 1) as f64
     }
 
-    /// The gap with `removed_mm` of material gone, into `gap_mm`, and its least value.
+    /// Fills `gap_mm` with the gap of flanks that have lost `removed_mm`. Returns the least gap.
     pub(crate) fn gap_mm(&self, removed_mm: PerGear<&[f64]>, gap_mm: &mut Vec<f64>) -> f64 {
         match &self.removed {
             Removed::Here(here) => self.opened_mm(Gear::BOTH.map(|gear| here[gear].of(removed_mm[gear])), gap_mm),
@@ -332,25 +324,24 @@ impl Strip {
         least
     }
 
-    /// Whether flanks pressed together by `approach_mm`, and that have lost at least `removed_mm` wherever they may touch, can touch
-    /// beyond an end of the window that is not real, where their surfaces have sunk by `sunk_mm`: what else is removed only widens the gap. A
-    /// modification at the end itself says nothing of what lies beyond, where a rounding or a relief may not have begun.
+    /// Whether flanks pressed together by `approach_mm`, which have lost at least `removed_mm` wherever they may touch, can touch
+    /// beyond an end of the window where no flank ends and the surfaces have sunk by `sunk_mm`. Modifications do not count: they may differ beyond the
+    /// end.
     pub(crate) fn may_touch_beyond(&self, approach_mm: f64, removed_mm: f64, sunk_mm: [f64; 2]) -> bool {
         let ends = self.unmodified_at_ends_mm.into_iter().zip(sunk_mm).zip(self.window.ends_are_real);
         ends.into_iter().any(|((gap, sunk), real)| !real && gap + sunk + removed_mm < approach_mm)
     }
 }
 
-/// Parts in which the stretch from an end of a window to where a flank ends is looked at.
+/// Number of parts of the stretch from an end of a window to the end of a flank.
 const PARTS_BESIDE: usize = 64;
 
-/// Places along the tangent beside a window, each with the gap of flanks that have lost `removed_mm`, mm: all at which flanks pressed together by
-/// `approach_mm` can touch. Unworn flanks part ever farther with the distance from their contact; where they alone are that far apart, so are all
-/// farther on.
+/// Places along the tangent beside a window at which flanks pressed together by `approach_mm` can touch, each with the gap of flanks that have lost
+/// `removed_mm`, mm. The gap of unworn flanks grows with the distance from their contact: beyond the place where it is `approach_mm` none can touch.
 pub(crate) fn gaps_beside_mm(
     flanks: Flanks<'_>,
     position_mm: f64,
-    window: Window,
+    window: ContactWindow,
     approach_mm: f64,
     removed_mm: PerGear<&[f64]>,
 ) -> Vec<(f64, f64)> {
@@ -381,13 +372,12 @@ pub(crate) fn gaps_beside_mm(
     places
 }
 
-/// Flanks are searched this much farther than parabolas of their relative curvature would touch.
+/// Length of flank that is searched, over that on which parabolas of the relative curvature touch.
 const AMPLE_REACH: f64 = 1.25;
-/// Part of what both flanks have in common along the tangent that is looked at in any case.
+/// Least part of the common extent of both flanks that is searched.
 const LEAST_REACH: f64 = 1e-3;
 
-/// The least that both flanks together have lost wherever they can touch when pressed together by `approach_mm`: as far as they are nearer than
-/// that unworn.
+/// Least loss of both flanks together wherever they can touch when pressed together by `approach_mm`: where the unworn gap is less than that.
 pub(crate) fn least_removed_mm(
     flanks: Flanks<'_>,
     position_mm: f64,
@@ -395,32 +385,35 @@ pub(crate) fn least_removed_mm(
     removed_mm: PerGear<&[f64]>,
 ) -> f64 {
     let ((lowest_mm, highest_mm), _) = common_extent_mm(&flanks.geometry, position_mm);
-    let on_flank = |gear: Gear, along_mm: f64| flanks.geometry.at_along(gear, on_tangent(gear, along_mm), position_mm);
-    let unworn_mm = |along_mm: f64| Gear::BOTH.into_iter().map(|gear| on_flank(gear, along_mm).1).sum::<f64>();
     let centre_mm = nearest_mm(&flanks.geometry, position_mm, (lowest_mm, highest_mm));
     let of_parabola_mm = (2.0 * flanks.geometry.relative_radius_mm(position_mm).max(0.0) * approach_mm).sqrt();
     let first_mm = (AMPLE_REACH * of_parabola_mm).max(LEAST_REACH * (highest_mm - lowest_mm));
-    // Outside A to E flanks part otherwise than the parabola of their contact.
-    let reached_mm = |outwards: f64| {
+    // Outside A to E the gap is not the parabola of the contact.
+    let ends_mm = [-1.0, 1.0].map(|outwards| {
         let mut by_mm = first_mm;
         loop {
             let at_mm = (centre_mm + outwards * by_mm).min(highest_mm).max(lowest_mm);
-            if at_mm == lowest_mm || at_mm == highest_mm || unworn_mm(at_mm) >= approach_mm {
+            if at_mm == lowest_mm || at_mm == highest_mm || unworn_gap_mm(flanks, at_mm, position_mm) >= approach_mm {
                 return at_mm;
             }
             by_mm *= 1.5;
         }
-    };
-    let ends_mm = [reached_mm(-1.0), reached_mm(1.0)];
-    let least = |gear: Gear| {
+    });
+    let [pinion, wheel] = Gear::BOTH.map(|gear| {
         let coordinate_mm = &flanks.grid[gear].coordinate_mm;
-        let at_mm = ends_mm.map(|along_mm| on_flank(gear, along_mm).0);
-        // The next point on either side counts too: what is removed is linear in between.
+        let at_mm = ends_mm.map(|along_mm| flanks.geometry.at_along(gear, on_tangent(gear, along_mm), position_mm).0);
+        // The next point on either side counts too: removed material is linear in between.
         let first = coordinate_mm.partition_point(|&at| at < at_mm[0].min(at_mm[1])).saturating_sub(1);
         let end = (coordinate_mm.partition_point(|&at| at <= at_mm[0].max(at_mm[1])) + 1).min(coordinate_mm.len());
         removed_mm[gear][first.min(end - 1)..end].iter().copied().fold(f64::INFINITY, f64::min)
-    };
-    least(Gear::Pinion) + least(Gear::Wheel)
+    });
+    pinion + wheel
+}
+
+/// Gap of unworn flanks at a place along the tangent.
+fn unworn_gap_mm(flanks: Flanks<'_>, along_mm: f64, position_mm: f64) -> f64 {
+    let gaps = Gear::BOTH.map(|gear| flanks.geometry.at_along(gear, on_tangent(gear, along_mm), position_mm).1);
+    gaps.into_iter().sum()
 }
 
 #[cfg(test)]
@@ -446,7 +439,7 @@ pub(super) mod tests {
         centre_distance_mm: f64,
         teeth_and_shifts: [(u32, f64); 2],
     ) -> GearPair {
-        let gear = |(teeth, profile_shift)| GearSpec {
+        let [pinion, wheel] = teeth_and_shifts.map(|(teeth, profile_shift)| GearSpec {
             teeth,
             profile_shift,
             tip_diameter_mm: None,
@@ -454,7 +447,7 @@ pub(super) mod tests {
             bore_diameter_mm: None,
             modification: Modification::default(),
             shaft: None,
-        };
+        });
         let spec = PairSpec {
             normal_module_mm,
             normal_pressure_angle_rad: 20f64.to_radians(),
@@ -463,13 +456,13 @@ pub(super) mod tests {
             face_width_mm: 30.0,
             rack: BasicRack::default(),
             axis_parallelism: AxisParallelism::default(),
-            gears: PerGear { pinion: gear(teeth_and_shifts[0]), wheel: gear(teeth_and_shifts[1]) },
+            gears: PerGear { pinion, wheel },
         };
         GearPair::new(&spec).expect("the pair of the test exists")
     }
 
-    /// Points beyond the end of a flank never wear. Flanks that have lost the same at all points within are opened by that up to their ends,
-    /// whether their material is read at a place or as it passes.
+    /// Points beyond the end of a flank never wear. Flanks that have lost the same at all points within are opened by as much up to their ends,
+    /// with the material at each sample and with the mean that passes it.
     #[test]
     fn ver_flanks_are_worn_up_to_their_ends() {
         let pair = pair();
@@ -477,15 +470,15 @@ pub(super) mod tests {
         let unmodified = grid.as_ref().map(|grid| vec![0.0; grid.len()]);
         let worn_mm = PerGear::from_fn(|gear| {
             let (from, to) = pair.flank_limits_mm(gear);
-            let depth_mm = |rho: &f64| if (from..=to).contains(rho) { 0.05 } else { 0.0 };
-            grid[gear].coordinate_mm.iter().map(depth_mm).collect::<Vec<f64>>()
+            let rhos_mm = grid[gear].coordinate_mm.iter();
+            rhos_mm.map(|rho| if (from..=to).contains(rho) { 0.05 } else { 0.0 }).collect::<Vec<f64>>()
         });
         let modification_mm = Some(unmodified.as_ref().map(Vec::as_slice));
         let flanks = Flanks { modification_mm, ..Flanks::of_gears(&pair, grid.as_ref()) };
         let mut ends_at_root_form = 0;
         for k in 0..=40 {
             let position_mm = pair.path.start_mm + (pair.path.end_mm - pair.path.start_mm) * f64::from(k) / 40.0;
-            let window = Window::new(flanks, position_mm, f64::INFINITY);
+            let window = ContactWindow::new(flanks, position_mm, f64::INFINITY);
             let (_, at_tips) = common_extent_mm(&flanks.geometry, position_mm);
             ends_at_root_form += at_tips.into_iter().filter(|at_tip| !at_tip).count();
             let cell = PositionCell { position_mm, lower_mm: position_mm - 0.1, upper_mm: position_mm + 0.1 };
@@ -501,8 +494,8 @@ pub(super) mod tests {
         assert!(ends_at_root_form > 10, "{ends_at_root_form}");
     }
 
-    /// Unworn flanks are nowhere nearer than where it is said, by a search of 1000 places: also far before A, where the corner of the undercut pinion has passed the
-    /// theoretical contact point to its other side.
+    /// Unworn flanks are nowhere nearer than at [`nearest_mm`], by a search of 1000 places: also far before A, where the corner of the undercut pinion
+    /// has passed the theoretical contact point.
     #[test]
     fn ver_unworn_flanks_are_nearest_where_they_touch_or_at_their_edge() {
         let pair = pair_of(6.81, 152.02, [(11, -0.06334), (34, -0.1643)]);
@@ -511,22 +504,22 @@ pub(super) mod tests {
             let (from_mm, to_mm) = (pair.path.start_mm - before_mm, pair.path.end_mm + after_mm);
             let position_mm = from_mm + (to_mm - from_mm) * f64::from(k) / 60.0;
             let (extent_mm, _) = common_extent_mm(&pair, position_mm);
-            let gap_mm = |along_mm: f64| -> f64 {
-                Gear::BOTH.map(|gear| pair.at_along(gear, on_tangent(gear, along_mm), position_mm).1).iter().sum()
-            };
             let nearest_mm = nearest_mm(&pair, position_mm, extent_mm);
             beyond += i32::from(nearest_mm < -1e-3);
             for part in 0..=1000 {
                 let along_mm = extent_mm.0 + (extent_mm.1 - extent_mm.0) * f64::from(part) / 1000.0;
-                let deeper_mm = gap_mm(nearest_mm) - gap_mm(along_mm);
+                let [nearest_gap_mm, gap_mm] = [nearest_mm, along_mm].map(|along_mm| -> f64 {
+                    Gear::BOTH.map(|gear| pair.at_along(gear, on_tangent(gear, along_mm), position_mm).1).iter().sum()
+                });
+                let deeper_mm = nearest_gap_mm - gap_mm;
                 assert!(deeper_mm < 1e-9, "{position_mm}: {along_mm} {nearest_mm} {deeper_mm}");
             }
         }
         assert!(beyond > 3, "{beyond}");
     }
 
-    /// Flanks that have lost the less the farther from the line of action, from before A to after E: nothing at which they touch when pressed together has lost
-    /// less than what is said, by a search of 4000 places.
+    /// Flanks that have lost the less the farther from the line of action, from before A to after E: no place at which they touch when pressed together
+    /// has lost less than [`least_removed_mm`], by a search of 4000 places.
     #[test]
     fn ver_what_is_lost_where_flanks_touch_is_found_as_far_as_they_do() {
         // A plastic pair, and a wheel that is undercut, whose flank begins near the base circle.
@@ -537,8 +530,8 @@ pub(super) mod tests {
                 let position_mm = pair.path.start_mm + (pair.path.end_mm - pair.path.start_mm) * f64::from(k) / 40.0;
                 let removed_mm = PerGear::from_fn(|gear| {
                     let here_mm = pair.contact_coordinate_mm(gear, position_mm);
-                    let lost_mm = |at: &f64| 1.0 / (1.0 + (at - here_mm).abs());
-                    grid[gear].coordinate_mm.iter().map(lost_mm).collect::<Vec<f64>>()
+                    let places_mm = grid[gear].coordinate_mm.iter();
+                    places_mm.map(|at| 1.0 / (1.0 + (at - here_mm).abs())).collect::<Vec<f64>>()
                 });
                 let ((lowest_mm, highest_mm), _) = common_extent_mm(&flanks.geometry, position_mm);
                 for approach_mm in [0.005, 0.05, 0.3] {
@@ -565,31 +558,32 @@ pub(super) mod tests {
         }
     }
 
-    /// The pinion's tip on a ridge below the wear of the wheel, beside the line of action: seen as an overlap as long as the window does not reach
-    /// there, and gone once it does.
+    /// The pinion's tip on a ridge below the wear of the wheel, beside the line of action: an overlap beside the window as long as it does not reach
+    /// there, and none once it does.
     #[test]
     fn ver_windows_grow_until_flanks_overlap_nowhere() {
         let pair = pair();
         let grid = PerGear::from_fn(|gear| FlankGrid::new(&pair, gear, 300, PointSpacing::Graded));
         let flanks = Flanks::of_gears(&pair, grid.as_ref());
         let position_mm = 15.5;
-        let whole = Window::new(flanks, position_mm, f64::INFINITY);
+        let whole = ContactWindow::new(flanks, position_mm, f64::INFINITY);
         let ridge_mm =
             *Strip::new(flanks, position_mm, whole, whole.evenly_mm(8), None).geometric_gap_mm.last().unwrap();
         // Rigid flanks would overlap by 0.02 mm on the line of action and by 0.01 mm on the ridge.
         let approach_mm = ridge_mm + 0.01;
         let above_ridge_mm = pair.flank_limits_mm(Gear::Wheel).0 + 0.5;
-        let depth_mm = |rho: &f64| if *rho > above_ridge_mm { ridge_mm - 0.01 } else { 0.0 };
+        let rhos_mm = grid.wheel.coordinate_mm.iter();
         let worn_mm = PerGear {
             pinion: vec![0.0; grid.pinion.len()],
-            wheel: grid.wheel.coordinate_mm.iter().map(depth_mm).collect::<Vec<f64>>(),
+            wheel: rhos_mm.map(|rho| if *rho > above_ridge_mm { ridge_mm - 0.01 } else { 0.0 }).collect::<Vec<f64>>(),
         };
         let worn_mm = worn_mm.as_ref().map(Vec::as_slice);
-        let material = |young_modulus_mpa| Material { young_modulus_mpa, poisson_ratio: 0.35, density_kg_per_m3: 1e3 };
-        let half_space = HalfSpace {
-            material: PerGear { pinion: material(206e3), wheel: material(2.8e3) },
-            expected_line_load_n_per_mm: 20.0,
-        };
+        let material = PerGear { pinion: 206e3, wheel: 2.8e3 }.map(|young_modulus_mpa| Material {
+            young_modulus_mpa,
+            poisson_ratio: 0.35,
+            density_kg_per_m3: 1e3,
+        });
+        let half_space = HalfSpace { material, expected_line_load_n_per_mm: 20.0 };
         let springs =
             Winkler { foundation: WinklerFoundation::Uniform { mpa_per_mm: 500.0 }, expected_line_load_n_per_mm: 20.0 };
         for surface in [&half_space as &dyn ContactSurface, &springs] {

@@ -12,15 +12,15 @@
 //! function of δ.
 //!
 //! A flank point's pressure is averaged over the stretch the contact moves on while it stands for one loading position,
-//! exactly for the parabola that the point's penetration follows: so few positions suffice however narrow the contact,
+//! exactly for the parabola that the point's penetration follows: few positions suffice for the narrowest contact,
 //! and load and wear agree.
 //!
 //! K/H is one constant, or a curve by position and load ([`WinklerFoundation`]): it then is the same for all springs of a contact, and
-//! follows the load of the contact by a power law, which the load of the contact still solves in closed form. A foundation with the
-//! half-width or the peak pressure of elastic bodies yields by a third or half as much as they do; a calibration knows the foundation with
-//! their approach too, and what the one lacks of the other under a contact's load is added to the approach of the gears: flattening
-//! is softer under light load, where a tip edge begins to touch, and no spring of the teeth can stand for that. Where a tip edge does
-//! touch the gap has another curvature, and both follow from half-planes on that gap ([`edge_foundation`](super::edge_foundation)).
+//! follows the load of the contact by a power law, for which the load still has a closed form. A foundation with the
+//! half-width or the peak pressure of elastic bodies approaches by a third or half as much as they do; a calibration has the foundation with
+//! their approach too, and the difference under a contact's load is added to the approach of the gears: flattening
+//! is softer under light load, where a tip edge begins to touch, which no spring of the teeth can represent. Where a tip edge
+//! touches the gap has another curvature, and both foundations follow from half-planes on that gap ([`edge_foundation`](super::edge_foundation)).
 //!
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.3; the thesis, section 3.2.
 
@@ -31,7 +31,7 @@ use super::{
     gap_at_points::GapAtPoints,
     growing_window::{GrowingWindow, Sampled},
     observed_points::ObservedPoints,
-    strip::{Strip, Window, gaps_beside_mm, least_removed_mm, point_distance_mm},
+    strip::{ContactWindow, Strip, gaps_beside_mm, least_removed_mm, point_distance_mm},
     swept_field::SweptField,
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
@@ -39,24 +39,24 @@ use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 /// The springs of a foundation: one K/H everywhere, or a curve of it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WinklerFoundation {
-    /// The same K/H at every position and load.
+    /// One K/H at every position and load.
     Uniform {
         /// K/H, MPa/mm.
         mpa_per_mm: f64,
     },
     /// K/H by position and load.
     Curve {
-        /// What the pressure spreads by.
+        /// Foundation of the pressure.
         pressure: FoundationCurve,
-        /// The foundation with the approach of the elastic bodies.
+        /// Foundation with the approach of the elastic bodies.
         approach: FoundationCurve,
-        /// Where tip edges touch, if they are followed into contact.
+        /// Foundations where tip edges touch, if they are followed into contact.
         edges: Option<EdgeFoundations>,
     },
 }
 
 impl WinklerFoundation {
-    /// The springs at one position that have the approach of the elastic bodies, where the foundation knows them.
+    /// Springs at one position with the approach of the elastic bodies, where a curve has them.
     pub(crate) fn approach_at(&self, position_mm: f64) -> Option<FoundationStiffness> {
         match self {
             Self::Uniform { .. } => None,
@@ -64,7 +64,7 @@ impl WinklerFoundation {
         }
     }
 
-    /// The springs at one position where a tip edge touches, if the foundation knows them.
+    /// Springs at one position where a tip edge touches, if a curve has them.
     pub fn at_edge(&self, position_mm: f64) -> Option<EdgeStiffness> {
         match self {
             Self::Curve { edges: Some(edges), .. } => edges.at(position_mm),
@@ -72,7 +72,7 @@ impl WinklerFoundation {
         }
     }
 
-    /// The springs at one position.
+    /// Springs at one position.
     pub fn at(&self, position_mm: f64) -> FoundationStiffness {
         match self {
             Self::Uniform { mpa_per_mm } => FoundationStiffness::new(*mpa_per_mm, 0.0, 1.0),
@@ -81,12 +81,12 @@ impl WinklerFoundation {
     }
 }
 
-/// The surface: K/H and the load that contacts are expected to carry.
+/// Winkler foundation as a contact surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Winkler {
     /// K/H.
     pub foundation: WinklerFoundation,
-    /// Load that the first window is cut for; a greater one only costs a widening, N/mm.
+    /// Load for which the first window is cut, N/mm; a greater one only costs a widening.
     pub expected_line_load_n_per_mm: f64,
 }
 
@@ -95,13 +95,13 @@ const FIRST_WINDOW: f64 = 1.25;
 /// Distance of the samples in points of the pinion's flank. The load needs less resolution than the wear: its geometric
 /// part is exact to the gap's curvature, and the worn part is smooth over several points.
 const POINTS_PER_SAMPLE: f64 = 2.0;
-/// A kink of a modification is a sample of its own where the others would miss it by this part of the plain contact's indentation.
+/// Part of the plain contact's indentation by which the samples may miss a kink of a modification; otherwise it is a sample of its own.
 const LITTLE_MISSED: f64 = 1e-3;
 /// Fewest intervals between samples.
 const LEAST_INTERVALS: f64 = 8.0;
-/// The same where a tip edge touches over a part of the window.
+/// Fewest intervals between samples where a tip edge touches.
 const LEAST_INTERVALS_AT_EDGE: usize = 200;
-/// Cells of an interval between samples where the pressure itself is asked for.
+/// Cells of pressure in an interval between samples.
 const CELLS_PER_INTERVAL: usize = 4;
 
 impl ContactSurface for Winkler {
@@ -112,14 +112,8 @@ impl ContactSurface for Winkler {
         let edge = self.foundation.at_edge(position_mm);
         let indentation_mm = half_width * half_width / (2.0 * radius_mm);
         let first_half_length_mm = FIRST_WINDOW * half_width;
-        let stretch = ObservedStretch {
-            flanks,
-            position_mm,
-            cell,
-            at_edge: edge.is_some(),
-            indentation_mm,
-            first_half_length_mm,
-        };
+        let stretch =
+            WinklerStretch { flanks, position_mm, cell, at_edge: edge.is_some(), indentation_mm, first_half_length_mm };
         let first_foundation = stiffness.mpa_per_mm(self.expected_line_load_n_per_mm);
         Box::new(WinklerPair {
             stiffness,
@@ -144,17 +138,17 @@ impl ContactSurface for Winkler {
     }
 }
 
-/// The points of each flank that may touch.
-enum Observed {
-    /// With the gap they face.
+/// Points of each flank that may touch.
+enum ObservedFlanks {
+    /// Points with the gap they face.
     Facing(PerGear<(ObservedPoints, GapAtPoints)>),
-    /// Moving through a pressure that stands still: an edge under load stands on one place of its tooth and moves off the other,
+    /// Points that move through a pressure that stands still: an edge under load stands on one place of its tooth and slides over the mate,
     /// so that no gap is a parabola of the position.
     Swept(SweptField),
 }
 
-/// The flanks of a pair at its position.
-struct ObservedStretch<'a> {
+/// Flanks of a pair on the foundation, at a position.
+struct WinklerStretch<'a> {
     flanks: Flanks<'a>,
     position_mm: f64,
     cell: Option<PositionCell>,
@@ -166,29 +160,27 @@ struct ObservedStretch<'a> {
     first_half_length_mm: f64,
 }
 
-impl Sampled for ObservedStretch<'_> {
-    type Samples = (Strip, Option<Observed>);
+impl Sampled for WinklerStretch<'_> {
+    type Samples = (Strip, Option<ObservedFlanks>);
 
     fn sample(&self, half_length_mm: f64) -> Self::Samples {
         let Self { flanks, position_mm, cell, .. } = *self;
         let distance_mm = POINTS_PER_SAMPLE * point_distance_mm(flanks, position_mm);
         if self.at_edge {
-            let window = Window::new(flanks, position_mm, half_length_mm);
-            // Pressure is swept in even cells.
+            let window = ContactWindow::new(flanks, position_mm, half_length_mm);
             let intervals = ((window.length_mm() / distance_mm).ceil() as usize).max(LEAST_INTERVALS_AT_EDGE);
             let strip = Strip::new(flanks, position_mm, window, window.evenly_mm(intervals), cell);
             let swept = SweptField::new(flanks, window, strip.spacing_mm(), cell);
-            return (strip, Some(Observed::Swept(swept)));
+            return (strip, Some(ObservedFlanks::Swept(swept)));
         }
-        // The same spacing in windows of all lengths, which are whole multiples of it.
+        // One spacing in windows of all lengths, which are whole multiples of it.
         let spacing_mm = distance_mm.min(2.0 * self.first_half_length_mm / LEAST_INTERVALS);
         let half_length_mm = (half_length_mm / spacing_mm).ceil() * spacing_mm;
-        let window = Window::new(flanks, position_mm, half_length_mm);
+        let window = ContactWindow::new(flanks, position_mm, half_length_mm);
         let places_mm = window.with_kinks_mm(flanks, position_mm, spacing_mm, LITTLE_MISSED * self.indentation_mm);
-        // Points carry their own wear through the contact.
         let strip = Strip::new(flanks, position_mm, window, places_mm, None);
         let observed = self.cell.map(|cell| {
-            Observed::Facing(PerGear::from_fn(|gear| {
+            ObservedFlanks::Facing(PerGear::from_fn(|gear| {
                 let points = ObservedPoints::new(flanks, gear, window, cell);
                 let gap = GapAtPoints::new(flanks, gear, &points, position_mm);
                 (points, gap)
@@ -201,23 +193,23 @@ impl Sampled for ObservedStretch<'_> {
 /// One tooth pair on the foundation.
 struct WinklerPair<'a> {
     stiffness: FoundationStiffness,
-    /// The springs with the approach of the elastic bodies, where they are known.
+    /// Springs with the approach of the elastic bodies, where known.
     bodies: Option<FoundationStiffness>,
-    /// The springs in place of both where a tip edge touches.
+    /// Springs in place of both where a tip edge touches.
     edge: Option<EdgeStiffness>,
     /// K/H under the last load, MPa/mm.
     foundation: f64,
-    /// The same before any load.
+    /// K/H before any load, MPa/mm.
     first_foundation: f64,
     radius_mm: f64,
-    window: GrowingWindow<ObservedStretch<'a>>,
-    /// Real gap at the strip's samples less the least of them, mm.
+    window: GrowingWindow<WinklerStretch<'a>>,
+    /// Real gap at the samples of the strip less the least of them, mm.
     gap: Vec<f64>,
-    /// The least gap, mm.
+    /// Least gap, mm.
     touch: f64,
-    /// The least that both flanks together have lost where they may touch, mm; 0 where that is little.
+    /// Least loss of both flanks together where they may touch, mm; 0 where it is little.
     removed_everywhere: f64,
-    /// The last indentation, mm.
+    /// Last indentation, mm.
     indentation_mm: f64,
     /// Outermost places in contact at equilibrium, along the tangent.
     extent_mm: (f64, f64),
@@ -226,11 +218,11 @@ struct WinklerPair<'a> {
 impl PairContact for WinklerPair<'_> {
     fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
         let touch = self.window.samples.0.gap_mm(removed_mm, &mut self.gap);
-        // From the first touch on, nothing is lost where a light load meets a deep relief.
+        // Counted from the first touch: a light load on a deep relief keeps its digits.
         self.gap.iter_mut().for_each(|gap| *gap -= touch);
         self.touch = touch;
         // Where much is removed everywhere, as by a helix-slope deviation, the window need not reach as far as that is deep.
-        let ObservedStretch { flanks, position_mm, .. } = self.window.flanks;
+        let WinklerStretch { flanks, position_mm, .. } = self.window.flanks;
         let at_end = self.window.half_length_mm * self.window.half_length_mm / (2.0 * self.radius_mm);
         self.removed_everywhere =
             if touch > 0.25 * at_end { least_removed_mm(flanks, position_mm, touch + at_end, removed_mm) } else { 0.0 };
@@ -242,7 +234,7 @@ impl PairContact for WinklerPair<'_> {
 
     fn load_at(&mut self, indentation_mm: f64) -> Response {
         self.indentation_mm = indentation_mm;
-        // Integrals of the penetration and of the length in contact, which is how fast the former grows.
+        // Integrals of the penetration, and of its derivative, the length in contact.
         let (mut penetration, mut contact) = (0.0, 0.0);
         for (ends, gaps) in self.strip().along_mm.windows(2).zip(self.gap.windows(2)) {
             let length = ends[1] - ends[0];
@@ -282,16 +274,17 @@ impl PairContact for WinklerPair<'_> {
 
     fn window_suffices(&mut self) -> bool {
         self.extent_mm = self.extent_in_contact_mm();
-        if let Some(Observed::Swept(swept)) = &mut self.window.samples.1 {
+        if let Some(ObservedFlanks::Swept(swept)) = &mut self.window.samples.1 {
             let (gap, indentation_mm, foundation) = (&self.gap, self.indentation_mm, self.foundation);
-            let mean =
-                |ends: &[f64]| foundation * mean_positive([indentation_mm - ends[0], indentation_mm - ends[1]]).0;
             swept.field.fill(|pressure| {
                 pressure.clear();
-                pressure.extend(gap.windows(2).map(mean));
+                pressure
+                    .extend(gap.windows(2).map(|ends| {
+                        foundation * mean_positive([indentation_mm - ends[0], indentation_mm - ends[1]]).0
+                    }));
             });
         }
-        // What the curvature raises penetration by may reach into the next cell.
+        // The rise of the penetration by the curvature may reach into the next cell.
         let along_mm = &self.strip().along_mm;
         let raised_mm = [along_mm[1] - along_mm[0], along_mm[along_mm.len() - 1] - along_mm[along_mm.len() - 2]]
             .map(|length_mm| self.raised_mm(length_mm).max(0.0));
@@ -304,7 +297,7 @@ impl PairContact for WinklerPair<'_> {
     }
 
     fn overlap_beside_mm(&self, removed_mm: PerGear<&[f64]>) -> Option<f64> {
-        let ObservedStretch { flanks, position_mm, .. } = self.window.flanks;
+        let WinklerStretch { flanks, position_mm, .. } = self.window.flanks;
         let approach_mm = self.touch + self.indentation_mm;
         let beside = gaps_beside_mm(flanks, position_mm, self.strip().window, approach_mm, removed_mm);
         Some(beside.into_iter().map(|(_, gap)| approach_mm - gap).fold(0.0, f64::max))
@@ -318,10 +311,10 @@ impl PairContact for WinklerPair<'_> {
     fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
         let (points, faced) = match &self.window.samples.1 {
             None => return sweep.begin(0, &[]),
-            Some(Observed::Swept(swept)) => return swept.sweep(gear, sweep),
-            Some(Observed::Facing(facing)) => &facing[gear],
+            Some(ObservedFlanks::Swept(swept)) => return swept.sweep(gear, sweep),
+            Some(ObservedFlanks::Facing(facing)) => &facing[gear],
         };
-        // All points of the window: one between two samples may touch where neither does.
+        // All points of the window: one between two samples may touch where neither sample does.
         sweep.begin(points.first_point, &points.sliding_mm);
         let approach_mm = self.touch + self.indentation_mm;
         for (pressure, faced) in sweep.pressure_mpa.iter_mut().zip(faced.faced(points, gear, removed_mm)) {
@@ -332,8 +325,8 @@ impl PairContact for WinklerPair<'_> {
     fn contact_of_points(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<PointContact> {
         let (points, faced) = match &self.window.samples.1 {
             None => return Vec::new(),
-            Some(Observed::Swept(swept)) => return swept.contact_of_points(gear),
-            Some(Observed::Facing(facing)) => &facing[gear],
+            Some(ObservedFlanks::Swept(swept)) => return swept.contact_of_points(gear),
+            Some(ObservedFlanks::Facing(facing)) => &facing[gear],
         };
         let approach_mm = self.touch + self.indentation_mm;
         faced
@@ -359,21 +352,20 @@ impl PairContact for WinklerPair<'_> {
             let length_mm = places[1] - places[0];
             // Between two samples the gap is a parabola of the contact's curvature through both, and a straight line between its places.
             let sagitta = length_mm * length_mm / (2.0 * self.radius_mm);
-            let penetration = |k: usize| {
-                let part = k as f64 / parts;
-                self.indentation_mm - ends[0] - part * (ends[1] - ends[0]) + sagitta * part * (1.0 - part)
-            };
             let bulge = sagitta / (6.0 * parts * parts);
-            let mean = move |k: usize| mean_positive([penetration(k) + bulge, penetration(k + 1) + bulge]).0;
-            let pressures = (0..CELLS_PER_INTERVAL).map(move |k| self.foundation * mean(k));
+            let penetrations: [f64; CELLS_PER_INTERVAL + 1] = std::array::from_fn(|k| {
+                let part = k as f64 / parts;
+                self.indentation_mm - ends[0] - part * (ends[1] - ends[0]) + sagitta * part * (1.0 - part) + bulge
+            });
+            let pressures = penetrations.windows(2).map(|ends| self.foundation * mean_positive([ends[0], ends[1]]).0);
             PressedCell::evenly(places[0], length_mm / parts, pressures)
         });
         cells.collect()
     }
 }
 
-/// The least of `samples` at `places` of a gap whose curvature between two of them is 1/R, but for what wear takes of it: below the lowest of them the bottom
-/// of the parabola through it and its neighbours, but no lower than with the geometric curvature between two, as where a kink is the lowest.
+/// Least gap of flanks with the relative radius `radius`, from `samples` at `places`: the bottom of the parabola through the lowest sample and its
+/// neighbours, but no lower than with the geometric curvature between two samples, as where a kink is the lowest.
 fn least(places: &[f64], samples: &[f64], radius: f64) -> f64 {
     let Some(k) = (0..samples.len()).min_by(|&a, &b| samples[a].total_cmp(&samples[b])) else { return f64::INFINITY };
     let Some(&[before, lowest, after]) = samples.get(k.wrapping_sub(1)..k + 2) else { return samples[k] };
@@ -384,8 +376,8 @@ fn least(places: &[f64], samples: &[f64], radius: f64) -> f64 {
     }
     let slope = (rises[1] * lengths[0] - rises[0] * lengths[1]) / (lengths[0] + lengths[1]);
     let below = slope * slope * (lengths[0] + lengths[1]) / (4.0 * (rises[0] + rises[1]));
-    let beside = |side: usize| (0.5 * lengths[side] - rises[side] * radius).max(0.0).powi(2) / (2.0 * radius);
-    lowest - below.min(beside(0).max(beside(1)))
+    let beside = [0, 1].map(|side| (0.5 * lengths[side] - rises[side] * radius).max(0.0).powi(2) / (2.0 * radius));
+    lowest - below.min(beside[0].max(beside[1]))
 }
 
 impl WinklerPair<'_> {
@@ -393,24 +385,26 @@ impl WinklerPair<'_> {
         &self.window.samples.0
     }
 
-    /// What the curvature of the gap between two samples adds to the penetration, which the straight line misses, as its mean Δ²/12R.
+    /// Mean rise Δ²/12R of the penetration above the straight line between two samples, by the curvature of the gap.
     fn raised_mm(&self, cell_mm: f64) -> f64 {
         cell_mm * cell_mm / (12.0 * self.radius_mm)
     }
 
     /// Outermost places in contact, found between samples; both 0 without contact.
     fn extent_in_contact_mm(&self) -> (f64, f64) {
-        let u = |k: usize| self.indentation_mm - self.gap[k];
-        let touches = |gap: &f64| *gap < self.indentation_mm;
-        let (Some(first), Some(last)) = (self.gap.iter().position(touches), self.gap.iter().rposition(touches)) else {
-            return (0.0, 0.0);
-        };
-        // The gap passes through the approach between the outermost sample in contact and the next one.
+        let mut in_contact = (0..self.gap.len()).filter(|&k| self.gap[k] < self.indentation_mm);
+        let Some(first) = in_contact.next() else { return (0.0, 0.0) };
+        let last = in_contact.next_back().unwrap_or(first);
         let along_mm = &self.strip().along_mm;
-        let passes =
-            |from: usize, to: usize| along_mm[from] + u(from) / (u(from) - u(to)) * (along_mm[to] - along_mm[from]);
-        let lower_mm = if first > 0 { passes(first, first - 1) } else { along_mm[0] };
-        let upper_mm = if last + 1 < self.gap.len() { passes(last, last + 1) } else { along_mm[last] };
+        let lower_mm = if first > 0 { self.end_between_mm(first, first - 1) } else { along_mm[0] };
+        let upper_mm = if last + 1 < self.gap.len() { self.end_between_mm(last, last + 1) } else { along_mm[last] };
         (lower_mm, upper_mm)
+    }
+
+    /// End of the contact between the outermost sample in contact and the next one, where the gap is as wide as the indentation.
+    fn end_between_mm(&self, inside: usize, outside: usize) -> f64 {
+        let along_mm = &self.strip().along_mm;
+        let [u, beyond] = [inside, outside].map(|k| self.indentation_mm - self.gap[k]);
+        along_mm[inside] + u / (u - beyond) * (along_mm[outside] - along_mm[inside])
     }
 }

@@ -19,9 +19,9 @@ use sprs::{CsMat, TriMat};
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::{Direction, FacingTeeth, Overlap, PlacedTeeth};
 use super::prepared::add_sandwich;
-use crate::fem::active_set::Equilibrium;
-use crate::fem::contact::master_search::LEAST_FACING;
 use crate::gear::{Gear, PerGear};
+use gearwear_fem::active_set::Equilibrium;
+use gearwear_fem::contact::master_search::LEAST_FACING;
 
 /// Part of the transmission error by which nodes may overlap: what straight lines between nodes and probes are off by is less.
 const OVERLOOKED: f64 = 1e-3;

@@ -2,10 +2,10 @@
 
 use super::flank_surface::FlankSurface;
 use super::ring::GearCompliance;
-use crate::fem::elastic::Elastic;
 use crate::gear::{GearPair, PerGear};
 use crate::material::contact_modulus_mpa;
 use crate::reference::hertz_line::HertzLine;
+use gearwear_fem::elastic::Elastic;
 
 /// The pair with both gears condensed.
 pub struct CondensedPair<'a> {

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::condensed_pair::CondensedPair;
 use super::position::{PositionContact, WarmStart};
-use crate::fem::active_set::ActiveSetError;
+use gearwear_fem::active_set::ActiveSetError;
 
 /// Groups that may run at the same time.
 const GROUPS: usize = 8;

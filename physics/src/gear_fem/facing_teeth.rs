@@ -14,9 +14,9 @@ use super::condensed_pair::CondensedPair;
 use super::condensed_pair::hertz_half_width_mm;
 use super::flank_surface::FlankSurface;
 use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
-use crate::fem::contact::mortar::Coupling;
 use crate::gear::flank_edge::{FlankEdge, PathEnd};
 use crate::gear::{Gear, PerGear};
+use gearwear_fem::contact::mortar::Coupling;
 
 /// Rows at an inner end of the window that must stay without load.
 const FREE_ROWS: usize = 3;

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use crate::fem::contact::surface::Surface;
-use crate::fem::problem::Edge;
+use gearwear_fem::contact::surface::Surface;
+use gearwear_fem::problem::Edge;
 use nalgebra::Vector2;
 
 /// The flank of one tooth in the tooth's own frame, from the tip (first edge) to the root (last edge).

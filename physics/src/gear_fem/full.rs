@@ -14,16 +14,16 @@ use super::model::{MeshedGear, element};
 use super::placement::{axis_mm, in_place_mm};
 use super::position::PositionContact;
 use super::ring::Surroundings;
-use crate::fem::active_set::Condensed;
-use crate::fem::contact::{mortar::Coupling, surface::Surface};
-use crate::fem::elastic::{Analysis, Elastic};
-use crate::fem::equilibrium::SolveError;
-use crate::fem::factor::Factor;
-use crate::fem::problem::Edge;
-use crate::fem::solid::Solid;
-use crate::fem::stiffness::Stiffness;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::{ToothMeshError, gear_mesh};
+use gearwear_fem::active_set::Condensed;
+use gearwear_fem::contact::{mortar::Coupling, surface::Surface};
+use gearwear_fem::elastic::{Analysis, Elastic};
+use gearwear_fem::equilibrium::SolveError;
+use gearwear_fem::factor::Factor;
+use gearwear_fem::problem::Edge;
+use gearwear_fem::solid::Solid;
+use gearwear_fem::stiffness::Stiffness;
 
 /// How far from the places loaded in the condensed solution multipliers are put, in units of the loaded half-width.
 const WINDOW: f64 = 3.0;

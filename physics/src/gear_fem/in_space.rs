@@ -22,15 +22,15 @@ use nalgebra::{Rotation2, Vector2, Vector3, Vector6};
 
 use super::ring::{JoinedSectors, Surroundings, ToothForce};
 use super::sector::{Sector, SectorMatrices, symmetric};
-use crate::fem::active_set::ActiveSetError;
-use crate::fem::elastic::{Analysis, Elastic};
-use crate::fem::equilibrium::SolveError;
-use crate::fem::factor::{Factor, FactorError};
-use crate::fem::shape::{Shape, along_edge};
-use crate::fem::solid::{Element, ElementKind, Solid};
-use crate::fem::space::{FoldedHexahedron, Hexahedron, nodal_stresses_mpa, stiffness};
 use crate::gear::tooth::Tooth;
 use crate::gear_mesh::tooth_section::{ExtrudedTooth, ToothSection};
+use gearwear_fem::active_set::ActiveSetError;
+use gearwear_fem::elastic::{Analysis, Elastic};
+use gearwear_fem::equilibrium::SolveError;
+use gearwear_fem::factor::{Factor, FactorError};
+use gearwear_fem::shape::{Shape, along_edge};
+use gearwear_fem::solid::{Element, ElementKind, Solid};
+use gearwear_fem::space::{FoldedHexahedron, Hexahedron, nodal_stresses_mpa, stiffness};
 
 /// Why the teeth of a gear cannot be condensed in space.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

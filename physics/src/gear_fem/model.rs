@@ -4,16 +4,16 @@ use super::condensed_pair::{CondensedPair, hertz_half_width_mm};
 use super::flank_surface::FlankSurface;
 use super::ring::{GearCompliance, Surroundings};
 use super::sector::{CondensedSector, Functional, Sector};
-use crate::fem::active_set::ActiveSetError;
-use crate::fem::elastic::{Analysis, Elastic};
-use crate::fem::equilibrium::SolveError;
-use crate::fem::solid::{Element, ElementKind, Solid};
-use crate::fem::stress::{StressComponent, StressRecovery};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::{Body, BodySettings, SectorSides};
 use crate::gear_mesh::{Cell, FlankChain, ToothMeshError, ToothSector, gear_sector, touching_pairs};
 use crate::material::contact_modulus_mpa;
-use crate::mesh::CellKind;
+use gearwear_fem::active_set::ActiveSetError;
+use gearwear_fem::elastic::{Analysis, Elastic};
+use gearwear_fem::equilibrium::SolveError;
+use gearwear_fem::solid::{Element, ElementKind, Solid};
+use gearwear_fem::stress::{StressComponent, StressRecovery};
+use gearwear_mesh::CellKind;
 
 /// Nodes of one flank whose compliance among three teeth takes [`GB_OF_MOST_NODES`].
 const MOST_FLANK_NODES: usize = 3000;

@@ -19,9 +19,9 @@ use super::facing_teeth::FacingTeeth;
 use super::flank_surface::FlankSurface;
 use super::prepared::Prepared;
 use super::ring::ToothForce;
-use crate::fem::active_set::{ActiveSetError, Equilibrium, Log};
-use crate::fem::contact::zones;
 use crate::gear::{Gear, PerGear};
+use gearwear_fem::active_set::{ActiveSetError, Equilibrium, Log};
+use gearwear_fem::contact::zones;
 
 /// One tooth pair in contact.
 #[derive(Debug, Clone, PartialEq)]

@@ -17,8 +17,8 @@ use super::beside_window::BesideWindow;
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::{Direction, FacingTeeth, Window};
 use super::ring::Between;
-use crate::fem::active_set::{ActiveSetError, Condensed, Equilibrium, Kept, Log};
 use crate::gear::Gear;
+use gearwear_fem::active_set::{ActiveSetError, Condensed, Equilibrium, Kept, Log};
 
 /// Distance between the flanks within which they may come to touch, in units of line load over E*: an approach is some
 /// ten of these.

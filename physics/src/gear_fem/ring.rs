@@ -22,7 +22,7 @@ use faer::linalg::solvers::{DenseSolveCore, Llt, Solve};
 use faer::{Mat, Side};
 
 use super::sector::{CondensedSector, SectorMatrices};
-use crate::fem::active_set::ActiveSetError;
+use gearwear_fem::active_set::ActiveSetError;
 
 /// Forces on the candidates of one tooth: column and N/mm, by increasing column.
 pub(crate) type ToothForce = Vec<(usize, f64)>;

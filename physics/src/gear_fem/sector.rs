@@ -17,11 +17,11 @@
 use faer::Mat;
 use nalgebra::Vector2;
 
-use crate::fem::elastic::{Analysis, Elastic};
-use crate::fem::equilibrium::SolveError;
-use crate::fem::factor::Factor;
-use crate::fem::solid::Solid;
-use crate::fem::stiffness::Stiffness;
+use gearwear_fem::elastic::{Analysis, Elastic};
+use gearwear_fem::equilibrium::SolveError;
+use gearwear_fem::factor::Factor;
+use gearwear_fem::solid::Solid;
+use gearwear_fem::stiffness::Stiffness;
 
 /// What a functional of the displacements of a condensed sector comes to.
 #[derive(Debug, Clone, PartialEq)]

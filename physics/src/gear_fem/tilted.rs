@@ -112,11 +112,11 @@ impl Prepared {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fem::elastic::Elastic;
     use crate::gear::GearPair;
     use crate::gear::modification::Modification;
     use crate::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
     use crate::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
+    use gearwear_fem::elastic::Elastic;
 
     /// FZG type A gears with sharp tips (DIN 51354-1).
     fn fzg_a() -> GearPair {

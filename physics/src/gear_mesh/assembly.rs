@@ -11,7 +11,7 @@ use super::layer::{self, FlankNode, Layer, add};
 use super::outline::Outline;
 use super::spacing::{Part, Side};
 use super::{Cell, FlankChain, GREATEST_MODULES, SectorSettings, ToothMeshError, ToothSector, ToothShape, interior};
-use crate::mesh::quality;
+use gearwear_mesh::quality;
 
 /// Fewest elements on the clamp circle.
 const FEWEST_ON_CLAMP: usize = 2;

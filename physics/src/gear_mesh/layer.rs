@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 use nalgebra::Vector2;
 
 use super::{Cell, spacing::OutlineNode};
-use crate::mesh::CellKind;
+use gearwear_mesh::CellKind;
 
 /// Thickness of a row over that of the one above.
 const THICKENING: f64 = 1.25;

@@ -37,8 +37,8 @@ pub use space_mesh::space_mesh;
 pub use whole_gear::gear_mesh;
 
 use crate::gear::{Gear, GearPair, modification::Modification, tooth::Tooth};
-use crate::mesh::CellKind;
 use cut::Cut;
+use gearwear_mesh::CellKind;
 use outline::Outline;
 use profile::Profile;
 

@@ -18,7 +18,7 @@ use crate::gear::{Gear, GearPair, PerGear, modification::ReliefShape};
 use crate::gear_mesh::settings::{
     BodySettings, DEPTH_HALF_WIDTHS, FILLET_ELEMENTS, MARGIN_HALF_WIDTHS, rounding_element_mm,
 };
-use crate::mesh::{CellBlock, CellKind, Mesh};
+use gearwear_mesh::{CellBlock, CellKind, Mesh};
 
 /// Half-widths of flank above the start of active profile that the mate's tip edge touches, early contact included.
 const TIP_MEETS_HALF_WIDTHS: f64 = 3.0;

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use super::pair_mesh::in_place;
 use super::tooth_section::ExtrudedTooth;
 use crate::gear::{Gear, GearPair, PerGear};
-use crate::mesh::{CellBlock, CellKind, Mesh};
+use gearwear_mesh::{CellBlock, CellKind, Mesh};
 
 /// The reference teeth of `pair` in contact at `position_mm`. Cell sets: each gear; point sets: its working flank, its clamp
 /// circle and both cuts.

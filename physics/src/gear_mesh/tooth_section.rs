@@ -22,7 +22,7 @@ use nalgebra::{Rotation2, Vector2, Vector3};
 use super::settings::{SectionDivisions, SpaceBody, SpaceResolution};
 use crate::gear::half_profile::in_tooth_frame;
 use crate::gear::{Gear, GearPair, PerGear, tooth::Tooth};
-use crate::mesh::{CellBlock, CellKind, Mesh};
+use gearwear_mesh::{CellBlock, CellKind, Mesh};
 
 /// Samples of the outline from which places by length of arc are taken.
 const SAMPLES: usize = 400;

@@ -1,4 +1,4 @@
-//! Thickness of the film of oil in a line contact, isothermal and with as much oil as it takes in.
+//! Thickness of the oil film in a line contact, isothermal and fully flooded.
 //!
 //! ```text
 //! U = η v_Σ / (2 E_r ρ)      G = α E_r      W = w / (E_r ρ)
@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use super::rolling_contact::RollingContact;
 
-/// How the central film is found.
+/// Formula of the central film.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum CentralFilm {
@@ -41,7 +41,7 @@ pub struct FilmParameters {
 }
 
 impl FilmParameters {
-    /// Of a contact of bodies with E_r in an oil of η and α at the temperature of its inlet.
+    /// Parameters of a contact of bodies with E_r, in an oil of η and α at the temperature of the inlet.
     pub fn new(
         contact: &RollingContact,
         reduced_modulus_mpa: f64,

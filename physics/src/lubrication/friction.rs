@@ -32,12 +32,12 @@ use super::rolling_contact::RollingContact;
 use super::settings::{BaseOil, FrictionModel, FrictionTable};
 use crate::reference::linear_means::value_at;
 
-/// No lubricated mesh has more; where sliding stops logarithms do.
+/// Greatest μ of a lubricated mesh; formulas with a logarithm exceed it where sliding stops.
 const GREATEST: f64 = 0.2;
 /// Ra of flanks that are run in over that of new ones, ISO/TS 6336-20.
 const RUN_IN_ROUGHNESS: f64 = 0.6;
 
-/// What mean values are made of.
+/// Conditions that mean values depend on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeanConditions {
     /// F_bt/b, N/mm.
@@ -58,7 +58,7 @@ pub struct MeanConditions {
     pub viscosity_milli_pa_s: f64,
     /// Ra, µm.
     pub ra_um: f64,
-    /// φ_E of the integral temperature: 0 of new flanks, 1 of flanks that are run in.
+    /// φ_E of the integral temperature: 0 for new flanks, 1 for run-in flanks.
     pub relative_run_in: f64,
     /// X_L.
     pub lubricant_factor: f64,
@@ -97,7 +97,7 @@ impl MeanConditions {
         self.with(0.060, self.load_factor * self.tangential_over_base, roughness)
     }
 
-    /// The mean value of `model`; none of one that is local, or given.
+    /// Mean value by `model`; none where the model is local, or μ given.
     pub fn mean(&self, model: FrictionModel) -> Option<f64> {
         match model {
             FrictionModel::Schlenk => Some(self.schlenk()),

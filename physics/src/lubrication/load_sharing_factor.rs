@@ -17,7 +17,7 @@
 
 use super::loss::pairs_in_mesh;
 
-/// What the factor needs of a pair.
+/// Geometry that the factor depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SharingGeometry {
     /// A, B, C, D, E by the pinion's radius of curvature, mm.
@@ -43,8 +43,8 @@ impl SharingGeometry {
     fn spur(&self, position_mm: f64) -> f64 {
         let [a, b, c, d, e] = self.points_mm;
         if !self.is_of_standard() {
-            let in_pitches = |from: f64, to: f64| (to - from) / (e - b);
-            return 1.0 / pairs_in_mesh([in_pitches(c, e), in_pitches(a, c)], in_pitches(c, position_mm));
+            let [after, before, from_pitch_point] = [e - c, c - a, position_mm - c].map(|mm| mm / (e - b));
+            return 1.0 / pairs_in_mesh([after, before], from_pitch_point);
         }
         // Below ε_α = 2 two pairs share the load before B and after D.
         if position_mm < b {

@@ -22,7 +22,7 @@
 use std::f64::consts::PI;
 
 use super::oil::Oil;
-use super::rolling_contact::{Bodies, RollingContact};
+use super::rolling_contact::{RollingBodies, RollingContact};
 
 /// Film and temperature at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +47,7 @@ pub fn bulk_temperature_c(
 /// Flash temperature and film where teeth of θ_M touch with the coefficient of friction μ; none where they carry no load.
 pub fn local_film(
     contact: &RollingContact,
-    bodies: &Bodies,
+    bodies: &RollingBodies,
     oil: &Oil,
     bulk_temperature_c: f64,
     friction_coefficient: f64,
@@ -61,17 +61,16 @@ pub fn local_film(
     let flash_k = 0.5 * PI.sqrt() * friction_coefficient * p * 1e6 * contact.sliding_speed_m_per_s()
         / (b_m.pinion * v.pinion.sqrt() + b_m.wheel * v.wheel.sqrt())
         * (8.0 * rho * p / (1e3 * e_r)).sqrt();
-    let eta = |celsius| oil.viscosity_milli_pa_s(celsius);
-    let alpha = |celsius| oil.pressure_viscosity_per_gpa(celsius);
-    let contact_c = bulk_temperature_c + flash_k;
-    let material = 1e-3 * alpha(bulk_temperature_c) * e_r;
-    let speed = 1e-6 * eta(bulk_temperature_c) * contact.sum_speed_m_per_s() / (2.0 * e_r * rho);
+    let [(eta, alpha), (contact_eta, contact_alpha)] = [bulk_temperature_c, bulk_temperature_c + flash_k]
+        .map(|celsius| (oil.viscosity_milli_pa_s(celsius), oil.pressure_viscosity_per_gpa(celsius)));
+    let material = 1e-3 * alpha * e_r;
+    let speed = 1e-6 * eta * contact.sum_speed_m_per_s() / (2.0 * e_r * rho);
     let load = 2.0 * PI * (p / e_r).powi(2);
-    let at_bulk = alpha(bulk_temperature_c) * eta(bulk_temperature_c);
+    let at_bulk = alpha * eta;
     if at_bulk <= 0.0 {
         return Some(LocalFilm { flash_k, thickness_um: 0.0 });
     }
-    let sliding = alpha(contact_c) * eta(contact_c) / at_bulk;
+    let sliding = contact_alpha * contact_eta / at_bulk;
     let thickness_um = 1600.0 * rho * material.powf(0.6) * speed.powf(0.7) * load.powf(-0.13) * sliding.powf(0.22);
     Some(LocalFilm { flash_k, thickness_um })
 }

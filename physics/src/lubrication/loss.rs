@@ -1,4 +1,4 @@
-//! Ohlendorf's loss factor of a pair, and what it means.
+//! Ohlendorf's loss factor of a pair.
 //!
 //! With x the distance of the contact from C in transverse base pitches and n(x) the number of pairs in mesh, which share the load evenly,
 //!
@@ -55,12 +55,13 @@ fn evenly_shared_sliding(after_and_before: [f64; 2]) -> f64 {
     let whole = (after + before).floor() as u32;
     ends.extend((1..=whole).flat_map(|pitches| [after - f64::from(pitches), f64::from(pitches) - before]));
     ends.sort_by(f64::total_cmp);
-    let part = |two: &[f64]| {
-        let (low, high) = (two[0], two[1]);
-        let middle = 0.5 * (low + high);
-        (high - low) * middle.abs() / pairs_in_mesh(after_and_before, middle)
-    };
-    ends.windows(2).map(part).sum()
+    ends.windows(2)
+        .map(|two| {
+            let (low, high) = (two[0], two[1]);
+            let middle = 0.5 * (low + high);
+            (high - low) * middle.abs() / pairs_in_mesh(after_and_before, middle)
+        })
+        .sum()
 }
 
 #[cfg(test)]

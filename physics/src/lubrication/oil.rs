@@ -14,7 +14,7 @@
 //! Gold et al.           α = s ν^t 10⁻⁹                                                ν in mm²/s
 //! ```
 //!
-//! Far above the temperatures at which oils are used these fits go below nothing (α from about 510 °C on); there is no film then.
+//! Far above the temperatures of use these fits become negative (α from about 510 °C on): there is no film then.
 //!
 //! | base oil | k | n | s | t |
 //! |---|---|---|---|---|
@@ -32,7 +32,7 @@ const ZERO_CELSIUS_K: f64 = 273.15;
 /// Temperature to which the fit of ISO/TS 6336-22 refers, °C.
 const REFERENCE_C: f64 = 38.0;
 
-/// An oil at any temperature.
+/// Properties of an oil at any temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Oil {
     settings: OilSettings,
@@ -57,17 +57,17 @@ fn pressure_constants(base: BaseOil) -> [f64; 4] {
 }
 
 impl Oil {
-    /// The oil of these data; viscosities above 2 mm²/s, that at 100 °C the lower one.
+    /// An oil of these data; viscosities above 2 mm²/s, the one at 100 °C the lower.
     pub fn new(settings: OilSettings) -> Self {
         let constant = walther_constant(settings.fit);
-        let twice = |viscosity: f64| (viscosity + constant).log10().log10();
         let [cold, hot] = [40.0, 100.0].map(|celsius: f64| (celsius + ZERO_CELSIUS_K).log10());
-        let [at_cold, at_hot] = [settings.viscosity_40c_mm2_per_s, settings.viscosity_100c_mm2_per_s].map(twice);
+        let [at_cold, at_hot] = [settings.viscosity_40c_mm2_per_s, settings.viscosity_100c_mm2_per_s]
+            .map(|viscosity| (viscosity + constant).log10().log10());
         let slope = (at_cold - at_hot) / (hot - cold);
         Self { settings, intercept: at_cold + slope * cold, slope }
     }
 
-    /// What it is made of.
+    /// Base oil.
     pub fn base(&self) -> BaseOil {
         self.settings.base
     }
@@ -120,7 +120,7 @@ mod tests {
         }
     }
 
-    /// Flashes at tip edges under load are hotter than any oil: what is left of its film is none, and a number.
+    /// Flashes at tip edges under load are hotter than any oil: its film is 0, and no NaN.
     #[test]
     fn prop_hot_oil_has_no_film() {
         let oil = Oil::new(of_reports());
@@ -151,12 +151,9 @@ mod tests {
     /// GEARpie's report of C14: its oil M32 (A = 9.5259, B = 3.7449 in Walther's equation) has 15.12 mm²/s at 60 °C.
     #[test]
     fn val_walther_between_40_and_100_c() {
-        let walther = |celsius: f64| 10f64.powf(10f64.powf(9.5259 - 3.7449 * (celsius + 273.15).log10())) - 0.7;
-        let oil = Oil::new(OilSettings {
-            viscosity_40c_mm2_per_s: walther(40.0),
-            viscosity_100c_mm2_per_s: walther(100.0),
-            ..of_reports()
-        });
+        let [viscosity_40c_mm2_per_s, viscosity_100c_mm2_per_s] = [40.0, 100.0]
+            .map(|celsius: f64| 10f64.powf(10f64.powf(9.5259 - 3.7449 * (celsius + 273.15).log10())) - 0.7);
+        let oil = Oil::new(OilSettings { viscosity_40c_mm2_per_s, viscosity_100c_mm2_per_s, ..of_reports() });
         assert!((oil.kinematic_viscosity_mm2_per_s(60.0) - 15.12).abs() < 0.005);
     }
 }

@@ -1,4 +1,4 @@
-//! Two surfaces that roll and slide on each other along a line, as films and friction see them.
+//! Two surfaces that roll and slide on each other along a line: the contact of film and friction formulas.
 //!
 //! ```text
 //! E_r = 2 / [(1−ν₁²)/E₁ + (1−ν₂²)/E₂]      v_Σ = v₁ + v₂      v_g = |v₁ − v₂|
@@ -43,15 +43,15 @@ impl RollingContact {
 
 /// The bodies behind the surfaces.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bodies {
+pub struct RollingBodies {
     /// E_r, MPa.
     pub reduced_modulus_mpa: f64,
     /// B_M of each, W·√s/(m²·K).
     pub thermal_contact_w_s05_per_m2_k: PerGear<f64>,
 }
 
-impl Bodies {
-    /// Hertz's pressure of a contact without its own, MPa.
+impl RollingBodies {
+    /// Hertz's greatest pressure under the load of a contact, MPa.
     pub fn peak_pressure_mpa(&self, contact: &RollingContact) -> f64 {
         let radius_mm = contact.relative_radius_mm;
         (self.reduced_modulus_mpa * contact.line_load_n_per_mm / (2.0 * PI * radius_mm)).sqrt()

@@ -1,9 +1,9 @@
-//! A pair of gears at a speed and under a load, with its oil: films and friction wherever its teeth touch.
+//! A pair of gears at a speed and under a load, with its oil: film and friction of every contact of its teeth.
 //!
 //! Each surface runs at ω ρ through the contact. Load and pressure of a film are those of the contact with the factors K_A K_V, as
 //! ISO/TS 6336-22 has it for a contact analysis (Method A); its radius and speeds are the nominal ones, also where flanks are worn, and before A
-//! and after E those of A and E. A contact that is narrower than its load w makes it on the nominal radius ρ_n, as at a tip edge, has the radius of
-//! the cylinders which this load presses onto that width, and Hertz's pressure of it:
+//! and after E those of A and E. A contact narrower than under its load w on the nominal radius ρ_n, as at a tip edge, has the radius of
+//! the cylinders that have this width under that load, and Hertz's pressure:
 //!
 //! ```text
 //! ρ = ρ_n (a/a_n)²    p = κ_p p_H a_n/a    for a < a_n = κ_a a_H    that is, with κ = 1, ρ = π E_r a²/(8 w) and p = 2w/(π a)
@@ -11,7 +11,7 @@
 //!
 //! a is the half-width of the contact, or where that is the greater the one of Hertz's ellipse with its greatest pressure, which at an edge grows
 //! with every refinement, as the width does not. κ_a and κ_p are half-width and pressure of the surface over Hertz's a_H and p_H on the nominal
-//! radius: 1 where the surface is elastic, and what a foundation of springs makes of them. Source: K. L. Johnson, *Contact Mechanics* (1985),
+//! radius: 1 where the surface is elastic, other numbers for a Winkler foundation. Source: K. L. Johnson, *Contact Mechanics* (1985),
 //! section 4.2.
 
 use std::f64::consts::{PI, TAU};
@@ -22,7 +22,7 @@ use super::load_sharing_factor::SharingGeometry;
 use super::local_film::{LocalFilm, bulk_temperature_c, local_film};
 use super::loss;
 use super::oil::Oil;
-use super::rolling_contact::{Bodies, RollingContact};
+use super::rolling_contact::{RollingBodies, RollingContact};
 use super::scuffing::helical_load_factor;
 use super::settings::{FilmRatio, FrictionModel, LubricantSettings, LubricationSettings, Roughness};
 use crate::gear::conjugate::ConjugateFlanks;
@@ -31,13 +31,13 @@ use crate::gear::{GearPair, PerGear};
 /// W per N·mm/s.
 const W_PER_N_MM_PER_S: f64 = 1e-3;
 
-/// Places of the path over which friction is averaged.
+/// Number of places of the path over which friction is averaged.
 const PLACES: usize = 200;
 
-/// Under what a pair runs.
+/// Load, speed and surfaces of a running pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunningConditions {
-    /// Of the pinion, revolutions per minute.
+    /// Speed of the pinion, revolutions per minute.
     pub pinion_speed_rpm: f64,
     /// F_bt/b, N/mm.
     pub line_load_n_per_mm: f64,
@@ -47,12 +47,12 @@ pub struct RunningConditions {
     pub surface: SurfaceOverHertz,
 }
 
-/// A contact surface on a given radius under a load over Hertz's.
+/// Ratios of a contact surface to Hertz's, on the same radius under the same load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfaceOverHertz {
-    /// κ_a, of its half-widths.
+    /// κ_a, of the half-widths.
     pub half_width: f64,
-    /// κ_p, of its greatest pressures.
+    /// κ_p, of the greatest pressures.
     pub pressure: f64,
 }
 
@@ -66,36 +66,36 @@ impl SurfaceOverHertz {
 pub struct RunningPair<'a> {
     /// The gears.
     pub pair: &'a GearPair,
-    /// What is asked.
+    /// Settings of the scene.
     pub settings: &'a LubricationSettings,
     /// ω of each gear, rad/s.
     pub angular_speed_per_s: PerGear<f64>,
     /// F_bt/b, N/mm.
     pub line_load_n_per_mm: f64,
     /// E_r and B_M.
-    pub bodies: Bodies,
+    pub bodies: RollingBodies,
     /// κ_a and κ_p of the contact surface.
     pub surface: SurfaceOverHertz,
-    /// For Method B.
+    /// Load sharing of Method B.
     pub sharing: SharingGeometry,
-    /// None where only friction without oil is asked for.
+    /// Oil; none where the scene has only friction without oil.
     pub oil: Option<OilInMesh>,
 }
 
 /// The oil in the mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OilInMesh {
-    /// What is asked.
+    /// Settings of the scene.
     pub settings: LubricantSettings,
     /// The oil.
     pub oil: Oil,
-    /// For mean values of friction.
+    /// Conditions of mean values of friction.
     pub mean: MeanConditions,
     /// θ_M, °C.
     pub bulk_c: f64,
-    /// Where it comes into the mesh.
+    /// State at the inlet of the mesh.
     at_inlet: OilState,
-    /// As warm as the teeth.
+    /// State at the temperature of the teeth.
     at_teeth: OilState,
 }
 
@@ -108,40 +108,40 @@ struct OilState {
     pressure_viscosity_per_gpa: f64,
 }
 
-/// Flanks as they are made, or as they are after running in.
+/// Finish of the flanks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Finish {
-    /// As made.
+    /// New flanks.
     New,
-    /// Run in.
+    /// Run-in flanks.
     RunIn,
 }
 
-/// Where two teeth touch, and how hard.
+/// A contact of two teeth: place, load and pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadedPlace {
     /// The pinion's radius of curvature, mm.
     pub position_mm: f64,
-    /// N per mm of face width.
+    /// Load, N per mm of face width.
     pub line_load_n_per_mm: f64,
     /// Greatest pressure, MPa.
     pub peak_pressure_mpa: f64,
-    /// Half of its extent, mm.
+    /// Half-width, mm.
     pub half_width_mm: f64,
 }
 
 /// Film of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactFilm {
-    /// In the middle, of the oil as it comes into the mesh, µm.
+    /// Thickness in the middle, with oil as it enters the mesh, µm.
     pub central_um: f64,
-    /// The least of it, µm.
+    /// Least thickness, with oil as it enters the mesh, µm.
     pub least_um: f64,
-    /// Of ISO/TS 6336-22; none without pressure.
+    /// Local film of ISO/TS 6336-22; none without pressure.
     pub local: Option<LocalFilm>,
     /// λ_GF: the local film over the mean Ra.
     pub lambda: Option<f64>,
-    /// The least film of oil as warm as the teeth over √(Rq₁² + Rq₂²).
+    /// Least film with oil at the temperature of the teeth, over √(Rq₁² + Rq₂²).
     pub composite_lambda: f64,
 }
 
@@ -155,7 +155,7 @@ impl<'a> RunningPair<'a> {
             settings,
             angular_speed_per_s: PerGear { pinion, wheel: pinion * pair.wheel_turns_per_pinion_turn() },
             line_load_n_per_mm: conditions.line_load_n_per_mm,
-            bodies: Bodies {
+            bodies: RollingBodies {
                 reduced_modulus_mpa: conditions.reduced_modulus_mpa,
                 thermal_contact_w_s05_per_m2_k: thermal.unwrap_or_default(),
             },
@@ -174,7 +174,6 @@ impl<'a> RunningPair<'a> {
         let oil = Oil::new(settings.oil);
         let at_pitch = self.contact(self.pair.path.pitch_point_mm, 0.0, 0.0);
         let factors = &self.settings.load_factors;
-        let usual = || friction::lubricant_factor(oil.base());
         let mean = MeanConditions {
             line_load_n_per_mm: self.line_load_n_per_mm,
             tangential_over_base: self.pair.spec.transverse_pressure_angle_rad().cos(),
@@ -186,15 +185,14 @@ impl<'a> RunningPair<'a> {
             viscosity_milli_pa_s: oil.viscosity_milli_pa_s(settings.temperature_c),
             ra_um: 0.5 * settings.roughness.map(|roughness| roughness.ra_um).sum(),
             relative_run_in: settings.scuffing.relative_run_in,
-            lubricant_factor: settings.lubricant_factor.unwrap_or_else(usual),
+            lubricant_factor: settings.lubricant_factor.unwrap_or_else(|| friction::lubricant_factor(oil.base())),
         };
         let loss_kw = 1e-3 * self.power_w() * mean.iso_6336_22() * loss::of_pair(self.pair);
         let spec = &self.pair.spec;
-        let of_standard = || {
+        let bulk_c = settings.bulk_temperature_c.unwrap_or_else(|| {
             let supply = settings.supply.factor();
             bulk_temperature_c(settings.temperature_c, loss_kw, spec.centre_distance_mm, spec.face_width_mm, supply)
-        };
-        let bulk_c = settings.bulk_temperature_c.unwrap_or_else(of_standard);
+        });
         let [at_inlet, at_teeth] = [settings.temperature_c, bulk_c].map(|celsius| OilState::of(&oil, celsius));
         OilInMesh { settings, oil, mean, bulk_c, at_inlet, at_teeth }
     }
@@ -206,7 +204,7 @@ impl<'a> RunningPair<'a> {
         W_PER_N_MM_PER_S * force * base_radius * self.angular_speed_per_s.pinion
     }
 
-    /// Surfaces at a place, with the load and pressure there.
+    /// Nominal contact at a place, with the load and pressure there.
     pub fn contact(&self, position_mm: f64, line_load_n_per_mm: f64, peak_pressure_mpa: f64) -> RollingContact {
         RollingContact {
             line_load_n_per_mm,
@@ -218,6 +216,7 @@ impl<'a> RunningPair<'a> {
         }
     }
 
+    /// Contact under `load_factor` times the load, on the radius of its own width where that is narrower than on the nominal radius.
     fn at(&self, place: &LoadedPlace, load_factor: f64) -> RollingContact {
         let path = &self.pair.path;
         let position_mm = place.position_mm.clamp(path.start_mm, path.end_mm);
@@ -268,25 +267,26 @@ impl<'a> RunningPair<'a> {
         }
     }
 
-    /// The mean of μ over the sliding work of the path, with the loads and pressures of Method B where it is local.
+    /// Mean of μ over the sliding work of the path; where μ is local, with the loads and pressures of Method B.
     pub fn mean_friction(&self) -> f64 {
         if let Some(uniform) = self.uniform_friction() {
             return uniform;
         }
-        let at = |position_mm: f64| {
+        let (mut work, mut friction) = (0.0, 0.0);
+        for position_mm in self.pair.path.evenly_mm(PLACES) {
             let line_load_n_per_mm = self.sharing.factor(position_mm) * self.line_load_n_per_mm;
             let contact = self.contact(position_mm, line_load_n_per_mm, 0.0);
             let peak_pressure_mpa = self.bodies.peak_pressure_mpa(&contact);
             let half_width_mm = 2.0 * line_load_n_per_mm / (PI * peak_pressure_mpa);
-            let work = line_load_n_per_mm * contact.sliding_speed_m_per_s();
-            (work, self.friction(&LoadedPlace { position_mm, line_load_n_per_mm, peak_pressure_mpa, half_width_mm }))
-        };
-        let places = self.pair.path.evenly_mm(PLACES).into_iter().map(at);
-        let (work, friction) = places.fold((0.0, 0.0), |(sum, of), (work, mu)| (sum + work, of + work * mu));
+            let work_there = line_load_n_per_mm * contact.sliding_speed_m_per_s();
+            let place = LoadedPlace { position_mm, line_load_n_per_mm, peak_pressure_mpa, half_width_mm };
+            work += work_there;
+            friction += work_there * self.friction(&place);
+        }
         friction / work
     }
 
-    /// The film of a contact between flanks with this coefficient of friction; none without oil or load.
+    /// Film of a contact between flanks with this coefficient of friction; none without oil or load.
     pub fn film(&self, place: &LoadedPlace, friction: f64, finish: Finish) -> Option<ContactFilm> {
         let (oil, contact) = self.lubricated(place)?;
         let film = self.smooth_film(&contact, oil.at_inlet);
@@ -300,7 +300,7 @@ impl<'a> RunningPair<'a> {
         })
     }
 
-    /// The film of a loaded contact over the roughness of flanks that are run in, as a wear law reads it; none without oil or load.
+    /// λ of a loaded contact of run-in flanks, as a wear law reads it; none without oil or load.
     pub(crate) fn film_ratio(&self, place: &LoadedPlace, ratio: FilmRatio) -> Option<f64> {
         let (oil, contact) = self.lubricated(place)?;
         match ratio {

@@ -36,7 +36,7 @@
 //! Sources: ISO/TS 6336-20 and -21 (first ISO/TR 13989-1 and -2:2000), clauses 8 to 11; torques of ISO 14635-1. X_J, X_E and both scuffing
 //! temperatures are held against printed reports of two programs (`validation/printed-scuffing`, `micropitting-method-b`).
 
-/// What both temperatures are made of.
+/// Conditions that both temperatures depend on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScuffingConditions {
     /// E_r, MPa.

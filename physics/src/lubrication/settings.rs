@@ -1,4 +1,4 @@
-//! What is asked of films, friction and losses.
+//! Settings of films, friction and losses.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::film::CentralFilm;
 use crate::gear::PerGear;
 
-/// How viscosity falls with temperature between and beyond the two that are given.
+/// Viscosity over temperature, from the two values that are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ViscosityFit {
@@ -17,7 +17,7 @@ pub enum ViscosityFit {
     Din51563,
 }
 
-/// What an oil is made of.
+/// Base oil.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum BaseOil {
@@ -30,7 +30,7 @@ pub enum BaseOil {
     Polyglycol,
 }
 
-/// How viscosity grows with pressure.
+/// Viscosity over pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PressureViscosityFit {
@@ -54,7 +54,7 @@ pub enum PressureViscosity {
     },
 }
 
-/// How the oil comes into the mesh.
+/// Oil supply of the mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum OilSupply {
@@ -85,9 +85,9 @@ pub struct OilSettings {
     pub viscosity_40c_mm2_per_s: f64,
     /// ν₁₀₀, mm²/s.
     pub viscosity_100c_mm2_per_s: f64,
-    /// Between them.
+    /// Viscosity at other temperatures.
     pub fit: ViscosityFit,
-    /// What it is made of.
+    /// Base oil.
     pub base: BaseOil,
     /// ρ₁₅, kg/m³.
     pub density_15c_kg_per_m3: f64,
@@ -95,24 +95,24 @@ pub struct OilSettings {
     pub pressure_viscosity: PressureViscosity,
 }
 
-/// Oil and what it wets.
+/// Oil, and the flanks that it wets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LubricantSettings {
     /// The oil.
     pub oil: OilSettings,
-    /// Its temperature where it comes into the mesh, °C.
+    /// Temperature of the oil at the inlet of the mesh, °C.
     pub temperature_c: f64,
     /// Temperature of the teeth where it is given, °C; otherwise that of ISO/TS 6336-22.
     pub bulk_temperature_c: Option<f64>,
     /// X_S.
     pub supply: OilSupply,
-    /// How the central film is found.
+    /// Formula of the central film.
     pub central_film: CentralFilm,
     /// X_L where it is given; otherwise that of the base oil by each method.
     pub lubricant_factor: Option<f64>,
-    /// λ_GFP by a test of the oil.
+    /// λ_GFP, from a test of the oil.
     pub permissible_lambda: Option<f64>,
-    /// What scuffing hangs on beyond the oil.
+    /// Scuffing.
     pub scuffing: ScuffingSettings,
     /// Roughness of both flanks.
     pub roughness: PerGear<Roughness>,
@@ -120,14 +120,14 @@ pub struct LubricantSettings {
     pub thermal_contact_w_s05_per_m2_k: PerGear<f64>,
 }
 
-/// What scuffing hangs on beyond the oil.
+/// Settings of scuffing beyond the oil.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScuffingSettings {
     /// Failure load stage of the oil in the FZG test A/8.3/90; none where it is not given.
     pub fzg_load_stage: Option<u32>,
     /// X_W over that of the test gears.
     pub structural_factor: f64,
-    /// φ_E: 0 of new flanks, 1 of flanks that are run in.
+    /// φ_E: 0 for new flanks, 1 for run-in flanks.
     pub relative_run_in: f64,
 }
 
@@ -136,7 +136,7 @@ pub struct ScuffingSettings {
 pub struct Roughness {
     /// Arithmetic mean Ra, µm.
     pub ra_um: f64,
-    /// The same of the flank that is run in, µm.
+    /// Ra of the run-in flank, µm.
     pub run_in_ra_um: f64,
     /// Root mean square Rq, µm.
     pub rq_um: f64,
@@ -169,7 +169,7 @@ pub enum FrictionModel {
 }
 
 impl FrictionModel {
-    /// Its name in scenes and results.
+    /// Name in scenes and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Constant => "constant",
@@ -191,11 +191,11 @@ pub struct FrictionSettings {
     pub model: FrictionModel,
     /// μ of [`FrictionModel::Constant`].
     pub coefficient: Option<f64>,
-    /// Of [`FrictionModel::Table`].
+    /// μ of [`FrictionModel::Table`].
     pub table: Option<FrictionTable>,
 }
 
-/// A measured traction curve: straight between its points, and level beyond them.
+/// A measured traction curve: linear between its points, constant beyond them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrictionTable {
     /// v_g/(v_Σ/2), rising; two at least.
@@ -204,7 +204,7 @@ pub struct FrictionTable {
     pub coefficient: Vec<f64>,
 }
 
-/// Which film over which roughness.
+/// λ: the ratio of a film to a roughness.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum FilmRatio {
     /// λ_GF of ISO/TS 6336-22: its local film over the mean Ra of both flanks.
@@ -215,7 +215,7 @@ pub enum FilmRatio {
     Composite,
 }
 
-/// Factors of ISO 6336-1 by which standards take more load than the nominal one; 1 leaves it.
+/// Load factors of ISO 6336-1; 1 leaves the nominal load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadFactors {
     /// K_A, that of uneven planets included.
@@ -235,13 +235,13 @@ impl LoadFactors {
     }
 }
 
-/// Everything that films, friction and losses need beyond the mesh itself.
+/// Settings of films, friction and losses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LubricationSettings {
-    /// None where only a constant friction is asked for.
+    /// Lubricant; none where the scene has only a constant friction.
     pub lubricant: Option<LubricantSettings>,
-    /// Friction.
+    /// Coefficient of friction.
     pub friction: FrictionSettings,
-    /// Of the standards.
+    /// Load factors of the standards.
     pub load_factors: LoadFactors,
 }

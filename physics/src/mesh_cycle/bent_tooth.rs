@@ -1,4 +1,4 @@
-//! The teeth of a phase whose slices hold each other, in a Newton step.
+//! Teeth of a position as plates, in a Newton step.
 //!
 //! The deflections u of the slices of one tooth follow from all loads on it through the operator K of [`super::slice_coupling`], K v = √q w
 //! with u = √q v. With w the load of a contact, c its tangent stiffness, and h its approach so far, deflection included, one step of
@@ -14,7 +14,7 @@
 use super::slice_coupling::{Factors, SliceCoupling};
 use super::sliced_positions::SliceContact;
 
-/// A contact as a Newton step sees it.
+/// A contact, linearised for a Newton step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactTangent {
     /// w.
@@ -25,10 +25,10 @@ pub struct ContactTangent {
     pub approach_mm: f64,
 }
 
-/// A tooth of a phase.
+/// A tooth at a position.
 #[derive(Debug, Clone)]
 pub struct BentTooth {
-    /// The first of its contacts among those of the phase.
+    /// Number of its first contact among those of the position.
     first: usize,
     /// Slice and √q of each of its contacts.
     contacts: Vec<(usize, f64)>,
@@ -43,39 +43,40 @@ pub struct BentTooth {
 }
 
 impl BentTooth {
-    /// The teeth that `contacts`, tooth by tooth, belong to, not yet bent; each has so many `slices`, and the compliance
-    /// `mm2_per_n` at a contact.
-    pub fn of_phase(contacts: &[SliceContact], slices: usize, mm2_per_n: impl Fn(&SliceContact) -> f64) -> Vec<Self> {
-        let mut first = 0;
-        let of_tooth = |contacts: &[SliceContact]| {
-            let begins = first;
-            first += contacts.len();
-            let zeros = || vec![0.0; slices];
-            Self {
-                first: begins,
-                contacts: contacts.iter().map(|contact| (contact.slice, mm2_per_n(contact).sqrt())).collect(),
-                v: zeros(),
-                diagonal: zeros(),
-                fixed: zeros(),
-                with_approach: zeros(),
+    /// Teeth of `contacts`, tooth by tooth, not yet bent; each has so many `slices`, and the compliance `mm2_per_n` at a contact.
+    pub fn of_contacts(
+        contacts: &[SliceContact],
+        slices: usize,
+        mm2_per_n: impl Fn(&SliceContact) -> f64,
+    ) -> Vec<Self> {
+        let mut teeth: Vec<Self> = Vec::new();
+        for of_tooth in contacts.chunk_by(|a, b| a.tooth == b.tooth) {
+            let zeros = vec![0.0; slices];
+            teeth.push(Self {
+                first: teeth.last().map_or(0, |tooth| tooth.first + tooth.contacts.len()),
+                contacts: of_tooth.iter().map(|contact| (contact.slice, mm2_per_n(contact).sqrt())).collect(),
+                v: zeros.clone(),
+                diagonal: zeros.clone(),
+                fixed: zeros.clone(),
+                with_approach: zeros,
                 factors: Factors::default(),
-            }
-        };
-        contacts.chunk_by(|a, b| a.tooth == b.tooth).map(of_tooth).collect()
+            });
+        }
+        teeth
     }
 
-    /// Is straight again.
+    /// Straightens the tooth.
     pub(crate) fn straighten(&mut self) {
         self.v.fill(0.0);
     }
 
-    /// Each of its contacts, by its number in the phase, with the compliance of the teeth there, mm²/N, and how far they are bent, mm.
+    /// Contacts by their number at the position, with the compliance of the tooth there, mm²/N, and its deflection, mm.
     pub(crate) fn deflections_mm(&self) -> impl Iterator<Item = (usize, f64, f64)> {
         let contacts = self.contacts.iter().enumerate();
         contacts.map(|(k, &(slice, root))| (self.first + k, root * root, root * self.v[slice]))
     }
 
-    /// Prepares Δv as fixed + δ · with_approach, and adds what the contacts carry at δ = 0 and with δ.
+    /// Prepares Δv as fixed + δ · with_approach, and adds the load of the contacts at δ = 0 and its derivative by δ.
     fn linearise(
         &mut self,
         coupling: &SliceCoupling,
@@ -103,16 +104,16 @@ impl BentTooth {
     }
 }
 
-/// Where a Newton step leads.
+/// Result of a Newton step.
 pub struct Bend {
-    /// δ, from where the approaches are, mm.
+    /// δ, counted as the approaches of the contacts, mm.
     pub delta_mm: f64,
-    /// dF/dδ at its beginning, N/mm².
+    /// dF/dδ at the beginning of the step, N/mm².
     pub n_per_mm2: f64,
 }
 
-/// Bends the teeth by a Newton step towards a sum of line loads `line_load`, with the `tangent` of every contact by its number in the
-/// phase; `None`, and nothing bent, where no contact carries.
+/// Bends the teeth by a Newton step towards a sum of line loads `line_load`, with the `tangent` of every contact by its number at the
+/// position; `None`, and nothing bent, where no contact carries.
 pub fn bend(
     teeth: &mut [BentTooth],
     coupling: &SliceCoupling,

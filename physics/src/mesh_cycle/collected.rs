@@ -1,6 +1,6 @@
-//! What the positions of a group collect: wear and work, and the first failure.
+//! Collection of wear, work and the first failure over the positions of a group.
 //!
-//! Groups run independently of each other; what they collected is added in their order, so that sums always run the same way.
+//! Groups run independently of each other; their collections are added in order, so that sums always run the same way.
 
 use super::Work;
 use super::load_sharing::EquilibriumError;
@@ -15,12 +15,12 @@ pub(super) struct Collected {
 }
 
 impl Collected {
-    /// Room for flanks of so many points.
+    /// An empty collection for flanks of so many points.
     pub(super) fn new(points: PerGear<usize>) -> Self {
         Self { depth_mm: points.map(|points| vec![0.0; points]), work: Work::default(), failure: None }
     }
 
-    /// Begins anew.
+    /// Forgets everything.
     pub(super) fn clear(&mut self) {
         for gear in Gear::BOTH {
             self.depth_mm[gear].fill(0.0);
@@ -28,12 +28,12 @@ impl Collected {
         self.keep();
     }
 
-    /// The depths stay as they are, and there is no new work.
+    /// Keeps the depths, and forgets the work.
     pub(super) fn keep(&mut self) {
         (self.work, self.failure) = (Work::default(), None);
     }
 
-    /// Takes the work of a position, or its failure; says whether to go on.
+    /// Takes the work of a position, or its failure. Returns whether to go on.
     pub(super) fn take(&mut self, solved: Result<Work, EquilibriumError>) -> bool {
         match solved {
             Ok(work) => self.work += work,
@@ -42,7 +42,7 @@ impl Collected {
         self.failure.is_none()
     }
 
-    /// The depths of all groups together into `depth_mm`, and the work of one mesh cycle.
+    /// Fills `depth_mm` with the depths of all groups together. Returns the work of one mesh cycle.
     pub(super) fn sum<'a>(
         groups: impl Iterator<Item = &'a Self>,
         depth_mm: &mut PerGear<Vec<f64>>,

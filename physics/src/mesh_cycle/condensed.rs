@@ -2,26 +2,26 @@
 //!
 //! All tooth pairs at a position are in one complementarity problem, coupled through the gear bodies ([`crate::gear_fem`]),
 //! and touch wherever their profiles do, also before A and after E, where a tip edge meets its mate outside the line of
-//! action. As every tooth of a gear wears alike, the positions of one base pitch tell all: the pairs found there, each at its
+//! action. As every tooth of a gear wears alike, one base pitch of positions suffices: the pairs found there, each at its
 //! own place of the path, together are one tooth pair over its whole mesh.
 //!
-//! What wears are the nodes of both flanks: the load of every multiplier reaches those that it faces while the contact moves on
-//! ([`crate::gear_fem::load_transfer`]). Positions are closer together where a tip edge touches, about A and E, for there the contact is
-//! narrow, stands still on the edge and runs along the mate; where the number of pairs changes, about B and D, they are closer by that, for
+//! Wear is that of the nodes of both flanks: the load of every multiplier reaches those that it faces while the contact moves on
+//! ([`crate::gear_fem::load_transfer`]). Positions are closer together where a tip edge touches, about A and E, where the contact is
+//! narrow, stands still on the edge and runs along the mate; and so about B and D, where the number of pairs changes, as
 //! a base pitch leads from A to D and from B to E.
 //!
-//! The couplings of a position are prepared once; from one wear step to the next only the gaps change, and the active set
-//! hardly at all.
+//! The couplings of a position are prepared once; from one wear step to the next only the gaps change, and hardly the active set.
 
 use rayon::prelude::*;
 
 use super::collected::Collected;
-use super::condensed_contact::{ContactPlace, HeatedContactRows, parts_of_rows};
+use super::condensed_contact::{CondensedContactPlace, HeatedContactRows, parts_of_rows};
 use super::load_sharing::EquilibriumError;
-use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Overlap, PositionObservation, Work};
+use super::{
+    CycleObservation, FlankOverlap, GROUPS, GreatestPressure, LostMaterial, MeshCycle, PositionObservation, Work,
+};
 use crate::contact::Footprint;
 use crate::contact::flank_pressure::PressureFigures;
-use crate::fem::active_set::Equilibrium;
 use crate::gear::{Gear, PerGear, flank_zones::FlankZones};
 use crate::gear_fem::condensed_pair::CondensedPair;
 use crate::gear_fem::condensed_pair::hertz_half_width_mm;
@@ -32,61 +32,62 @@ use crate::gear_fem::tilted::Worn;
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::reference::{linear_means::value_at, monotone_cubic::MonotoneCubic};
 use crate::wear::{SlidingRow, WearModel};
+use gearwear_fem::active_set::Equilibrium;
 
-/// How far positions are apart.
+/// Distance of positions.
 #[derive(Clone, Copy)]
 struct Apart {
-    /// In Hertz half-widths at the pitch point: a contact must not move much farther than it is wide.
+    /// Distance in Hertz half-widths at the pitch point: a contact must not move much farther than it is wide.
     half_widths: f64,
     /// Least and greatest distance over that of positions which divide A–E evenly.
     limits: [f64; 2],
 }
 
-/// Away from the tip edges.
+/// Distance away from the tip edges.
 const APART: Apart = Apart { half_widths: 0.5, limits: [0.5, 4.0] };
-/// Where a tip edge touches, and contact is narrower.
+/// Distance where a tip edge touches, and contact is narrower.
 const APART_AT_TIP_EDGES: Apart = Apart { half_widths: 0.15, limits: [0.25, 1.0] };
-/// How far the path is looked at beyond A and E, over how far unworn tip edges reach their mates under the approach at the pitch point.
+/// Length of the path beyond A and E, over the reach of unworn tip edges under the approach at the pitch point.
 const AMPLE_APPROACH: f64 = 1.3;
-/// How far within A–E the tip edge still changes a contact, in Hertz half-widths at the pitch point.
+/// Length within A–E on which the tip edge still changes a contact, in Hertz half-widths at the pitch point.
 const WITHIN_HALF_WIDTHS: f64 = 2.0;
 
-/// By how much of itself the lever of a tooth pair's load may differ from that on the worn flanks, over the part of the load that other
-/// pairs carry: a load share changes by some three times that.
+/// Relative difference of the lever of a tooth pair's load from that on the worn flanks, over the part of the load that other pairs carry, that is
+/// followed: a load share changes by some three times that.
 const LEAST_LEVER_CHANGE: f64 = 1e-3;
-/// By how much, in rad and over the tilt itself, a tip edge under load may have tilted since.
+/// Change of the tilt of a tip edge under load that is followed: rad, and over the tilt itself.
 const LEAST_TILT: (f64, f64) = (0.02, 0.2);
-/// By how much of itself the transmission error may differ from that under which what faces what was found.
+/// Relative change of the transmission error that is followed in the load transfers.
 const LEAST_TURN: f64 = 0.1;
-/// Times that a position is made to follow its tilted flanks before its contact is taken as it is.
+/// Greatest number of times that a position follows its tilted flanks in an evaluation.
 const MOST_TILTS: usize = 3;
 
-/// One position and how its load reaches the nodes.
-struct LoadedPosition {
+/// A position, with the transfer of its load to the nodes.
+struct CondensedPosition {
     prepared: Prepared,
-    /// The part of the path that it stands for.
+    /// Stretch of the path.
     stretch_mm: (f64, f64),
-    /// Of each tooth pair that may touch.
+    /// Load transfer of each tooth pair that may touch.
     transfers: Vec<LoadTransfer>,
-    /// The transmission error under which that is so, mm; 0 as long as there is none.
+    /// Transmission error for which the transfers were found, mm; 0 as long as there is none.
     turned_mm: f64,
-    /// In which of the windows of `prepared` that was found.
+    /// Number of the windows of `prepared` for which they were found.
     windows: usize,
-    /// The tilt of the worn flanks that it is about; new ones if there is none.
+    /// Tilt of the worn flanks for which they were found; none for new flanks.
     about_rad: Option<PerGear<Vec<f64>>>,
     found: Option<Equilibrium>,
 }
 
 /// Positions that collect wear together.
-struct Group {
-    loaded_positions: Vec<LoadedPosition>,
+struct CondensedGroup {
+    loaded_positions: Vec<CondensedPosition>,
     collected: Collected,
-    rows: Rows,
+    rows: ContactRows,
 }
 
 /// Buffers for the rows of one contact.
 #[derive(Default)]
-struct Rows {
+struct ContactRows {
     pressure_mpa: Vec<f64>,
     depth_mm: Vec<f64>,
     heated: HeatedContactRows,
@@ -99,15 +100,15 @@ pub struct CondensedCycle<'a> {
     nodes: PerGear<FlankNodes>,
     /// Nominal radii of the nodes, from root to tip.
     radius_mm: PerGear<Vec<f64>>,
-    groups: Vec<Group>,
+    groups: Vec<CondensedGroup>,
     /// Positions from A to E at which the cycle is observed.
     observation_mm: Vec<f64>,
-    /// The parts of the flanks that figures of pressure speak of.
+    /// Zones of the flanks, for figures of the pressure.
     zones: Option<PerGear<FlankZones>>,
 }
 
 impl<'a> CondensedCycle<'a> {
-    /// Prepares positions as close as `positions` from A to E ask for.
+    /// Prepares positions about as close as `positions` from A to E.
     pub fn new(model: &'a CondensedPair<'a>, positions: usize, line_load_n_per_mm: f64) -> Self {
         let nodes = model.flank_nodes();
         let radius_mm = PerGear::from_fn(|gear| {
@@ -119,20 +120,20 @@ impl<'a> CondensedCycle<'a> {
         let stretches = stretches(model, positions, line_load_n_per_mm);
         let groups = stretches
             .par_chunks(stretches.len().div_ceil(GROUPS))
-            .map(|stretches| Group {
+            .map(|stretches| CondensedGroup {
                 loaded_positions: stretches
                     .iter()
-                    .map(|&stretch| LoadedPosition::new(model, stretch, line_load_n_per_mm, nodes.as_ref()))
+                    .map(|&stretch| CondensedPosition::new(model, stretch, line_load_n_per_mm, nodes.as_ref()))
                     .collect(),
                 collected: Collected::new(nodes.as_ref().map(FlankNodes::len)),
-                rows: Rows::default(),
+                rows: ContactRows::default(),
             })
             .collect();
         let observation_mm = model.pair.path.evenly_mm(positions);
         Self { model, line_load_n_per_mm, nodes, radius_mm, groups, observation_mm, zones: None }
     }
 
-    /// The same with figures of the pressure on these parts of the flanks.
+    /// Adds figures of the pressure by the zones of the flanks.
     pub(crate) fn observing(self, zones: PerGear<FlankZones>) -> Self {
         Self { zones: Some(zones), ..self }
     }
@@ -152,20 +153,19 @@ impl<'a> CondensedCycle<'a> {
         self.loaded_positions().count()
     }
 
-    /// What `at_nodes` of `gear`'s flank is at the nominal radii `radius_mm`: in straight lines between the nodes, as the wear itself is,
-    /// at the tip what it is at the last, and nothing below the first, where the involute ends and their flank with it.
+    /// Values at the nominal radii `radius_mm` from those at the nodes of `gear`'s flank: linear between the nodes, that of the last node
+    /// beyond it, and 0 below the first, where the involute ends.
     pub fn at_radii(&self, gear: Gear, at_nodes: &[f64], radius_mm: impl Iterator<Item = f64>) -> Vec<f64> {
         let nodes = &self.radius_mm[gear];
-        let at = |radius: f64| if radius < nodes[0] { 0.0 } else { value_at(nodes, at_nodes, radius) };
-        radius_mm.map(at).collect()
+        radius_mm.map(|radius| if radius < nodes[0] { 0.0 } else { value_at(nodes, at_nodes, radius) }).collect()
     }
 
-    fn loaded_positions(&self) -> impl Iterator<Item = &LoadedPosition> {
+    fn loaded_positions(&self) -> impl Iterator<Item = &CondensedPosition> {
         self.groups.iter().flat_map(|group| &group.loaded_positions)
     }
 }
 
-/// The stretches of one base pitch that positions stand for: short ones where a tip edge touches.
+/// Stretches of the positions of one base pitch: short ones where a tip edge touches.
 fn stretches(model: &CondensedPair<'_>, positions: usize, line_load_n_per_mm: f64) -> Vec<(f64, f64)> {
     let (pair, path) = (model.pair, &model.pair.path);
     let (start, pitch) = (model.first_position_mm(), path.base_pitch_mm);
@@ -176,7 +176,7 @@ fn stretches(model: &CondensedPair<'_>, positions: usize, line_load_n_per_mm: f6
         .at(path.pitch_point_mm, line_load_n_per_mm, &Default::default())
         .map_or(0.0, |contact| contact.transmission_error_mm);
     let [before, after] = pair.tip_reach_mm(AMPLE_APPROACH * approach);
-    // Both zones, moved by base pitches to where they begin in this one, and cut at its end.
+    // Both stretches at tip edges, moved by base pitches to where they begin in this one, and cut at its end.
     let zones = [(path.start_mm - before, path.start_mm + within), (path.end_mm - within, path.end_mm + after)];
     let mut at_edges: Vec<(f64, f64)> = zones
         .into_iter()
@@ -188,24 +188,20 @@ fn stretches(model: &CondensedPair<'_>, positions: usize, line_load_n_per_mm: f6
         .filter(|(from, to)| to > from)
         .collect();
     at_edges.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let ends = at_edges.into_iter().flat_map(|(from, to)| [(from, APART), (to, APART_AT_TIP_EDGES)]);
     let mut stretches = Vec::new();
     let mut reached = 0.0;
-    let mut divide = |reached: &mut f64, to: f64, Apart { half_widths, limits: [least, most] }: Apart| {
-        let length = to - *reached;
+    for (to, Apart { half_widths, limits: [least, most] }) in ends.chain([(pitch, APART)]) {
+        let length = to - reached;
         if length <= 1e-9 * pitch {
-            return;
+            continue;
         }
         let apart = (half_widths * half_width).clamp(least * even, most * even);
         let count = (length / apart - 1e-9).ceil().max(1.0) as usize;
-        let at = |k: usize| start + *reached + length * k as f64 / count as f64;
-        stretches.extend((0..count).map(|k| (at(k), at(k + 1))));
-        *reached = to;
-    };
-    for (from, to) in at_edges {
-        divide(&mut reached, from, APART);
-        divide(&mut reached, to, APART_AT_TIP_EDGES);
+        let ends = (0..=count).map(|k| start + reached + length * k as f64 / count as f64).collect::<Vec<f64>>();
+        stretches.extend(ends.windows(2).map(|ends| (ends[0], ends[1])));
+        reached = to;
     }
-    divide(&mut reached, pitch, APART);
     stretches
 }
 
@@ -233,17 +229,20 @@ impl MeshCycle for CondensedCycle<'_> {
 
     /// Positions from A to E are between those of the base pitch.
     fn observe(&mut self, _lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
-        let zeros = || PerGear::from_fn(|gear| vec![0.0; self.nodes[gear].len()]);
+        let zeros = PerGear::from_fn(|gear| vec![0.0; self.nodes[gear].len()]);
         let mut observation = CycleObservation {
             positions: self.along_the_path(),
             shares_at_ends: Some(self.shares_at_ends()),
             greatest_pressure: self.greatest_pressure(),
             pressure_figures: self.pressure_figures(),
-            pressure_mpa: zeros(),
-            sliding_mm: zeros(),
+            pressure_mpa: zeros.clone(),
+            sliding_mm: zeros,
             sliding_work_n: None,
             slices: None,
-            deepest_overlap: self.loaded_positions().filter_map(LoadedPosition::overlap).reduce(Overlap::deeper),
+            deepest_overlap: self
+                .loaded_positions()
+                .filter_map(CondensedPosition::overlap)
+                .reduce(FlankOverlap::deeper),
         };
         let mut sliding_work_n = 0.0;
         for loaded in self.loaded_positions() {
@@ -274,10 +273,9 @@ impl MeshCycle for CondensedCycle<'_> {
 }
 
 impl CondensedCycle<'_> {
-    /// Makes the positions follow the flanks as they are where the last evaluation, on the same `lost`, found that the load acts in
-    /// another direction, or on a tip edge worn to another shape, than they were made for. In between they are linear in what is lost,
-    /// and so the rate of wear is smooth within a step. Answers what work that took and what each point wears then; nothing, where
-    /// there is nothing to follow.
+    /// Makes positions anew where the last evaluation, on the same `lost`, found that the load acts in another direction, or on a tip edge worn to
+    /// another shape, than they were made for. In between they are linear in what is lost, and the rate of wear is smooth within a
+    /// step. Fills `depth_mm` with the wear of each point and returns the work; nothing where no position changes.
     pub(crate) fn linearise_anew(
         &mut self,
         lost: LostMaterial<'_>,
@@ -289,10 +287,10 @@ impl CondensedCycle<'_> {
         Ok((work.newton_iterations > 0).then_some(Work { mesh_cycles: 0, equilibria: 0, ..work }))
     }
 
-    /// Lets each group do its part on flanks that have lost `lost`, and collects what they lose.
+    /// Evaluates all groups by `part` on flanks that have lost `lost`, and collects their wear.
     fn evaluate_by(
         &mut self,
-        part: impl Fn(&mut Group, &Step<'_>) + Sync,
+        part: impl Fn(&mut CondensedGroup, &WearEvaluation<'_>) + Sync,
         lost: LostMaterial<'_>,
         wear: &WearModel<'_>,
         depth_mm: &mut PerGear<Vec<f64>>,
@@ -300,12 +298,12 @@ impl CondensedCycle<'_> {
     ) -> Result<Work, EquilibriumError> {
         let tilt_rad = PerGear::from_fn(|gear| self.nodes[gear].tilt_rad(lost.wear_mm[gear]));
         let worn = Worn { depth_mm: lost.wear_mm, tilt_rad: &tilt_rad };
-        let step = Step { model: self.model, worn, nodes: self.nodes.as_ref(), wear, stopped };
+        let step = WearEvaluation { model: self.model, worn, nodes: self.nodes.as_ref(), wear, stopped };
         self.groups.par_iter_mut().for_each(|group| part(group, &step));
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
 
-    /// Of all pairs found in the base pitch.
+    /// Greatest pressure of all pairs found in the base pitch.
     fn greatest_pressure(&self) -> GreatestPressure {
         let mut greatest = GreatestPressure::default();
         for loaded in self.loaded_positions() {
@@ -317,7 +315,7 @@ impl CondensedCycle<'_> {
         greatest
     }
 
-    /// Of all pairs found in the base pitch.
+    /// Figures of the pressure of all pairs found in the base pitch.
     fn pressure_figures(&self) -> PressureFigures {
         let mut figures = PressureFigures::default();
         let Some(zones) = &self.zones else { return figures };
@@ -332,7 +330,7 @@ impl CondensedCycle<'_> {
         figures
     }
 
-    /// Of the pairs found in the base pitch, those that have just come in and those that are about to leave.
+    /// Load shares of the first and the last pair along the path.
     fn shares_at_ends(&self) -> [f64; 2] {
         let mut ends = [(f64::INFINITY, 0.0), (f64::NEG_INFINITY, 0.0)];
         for loaded in self.loaded_positions() {
@@ -380,40 +378,38 @@ impl CondensedCycle<'_> {
         }
         found.sort_by(|a, b| a.position_mm.total_cmp(&b.position_mm));
         let places: Vec<f64> = found.iter().map(|at| at.position_mm).collect();
-        let course = |of: &dyn Fn(&PositionObservation) -> f64| -> Vec<f64> {
-            let values: Vec<f64> = found.iter().map(of).collect();
-            let curve = MonotoneCubic::new(&places, &values);
-            self.observation_mm.iter().map(|&at| curve.at(at)).collect()
-        };
-        let transmission_error = course(&|at| at.transmission_error_mm);
-        let stiffness = course(&|at| at.stiffness_n_per_mm2.unwrap_or_default());
-        let (share, imbalance) = (course(&|at| at.load_share), course(&|at| at.load_imbalance));
-        let (peak, half_width) =
-            (course(&|at| at.footprint.peak_pressure_mpa), course(&|at| at.footprint.half_width_mm));
-        // Between two positions of which one is at a sharp edge, what is in between is too.
-        let at_sharp_edge = |at_mm: f64| {
-            let after = places.partition_point(|&place| place < at_mm);
-            found[after.saturating_sub(1)..(after + 1).min(found.len())].iter().any(|at| at.footprint.at_sharp_edge)
-        };
-        (0..self.observation_mm.len())
-            .map(|k| PositionObservation {
-                position_mm: self.observation_mm[k],
-                transmission_error_mm: transmission_error[k],
-                stiffness_n_per_mm2: Some(stiffness[k]),
-                load_share: share[k],
-                load_imbalance: imbalance[k],
-                footprint: Footprint {
-                    peak_pressure_mpa: peak[k],
-                    half_width_mm: half_width[k],
-                    at_sharp_edge: at_sharp_edge(self.observation_mm[k]),
-                },
-            })
-            .collect()
+        let figures: [fn(&PositionObservation) -> f64; 6] = [
+            |at| at.transmission_error_mm,
+            |at| at.stiffness_n_per_mm2.unwrap_or_default(),
+            |at| at.load_share,
+            |at| at.load_imbalance,
+            |at| at.footprint.peak_pressure_mpa,
+            |at| at.footprint.half_width_mm,
+        ];
+        let values = figures.map(|figure| found.iter().map(figure).collect::<Vec<f64>>());
+        let courses = values.each_ref().map(|values| MonotoneCubic::new(&places, values));
+        let observed = self.observation_mm.iter().map(|&position_mm| {
+            let [transmission_error_mm, stiffness, load_share, load_imbalance, peak_pressure_mpa, half_width_mm] =
+                courses.each_ref().map(|course| course.at(position_mm));
+            // Between two positions of which one is at a sharp edge, all counts as at a sharp edge.
+            let after = places.partition_point(|&place| place < position_mm);
+            let around = &found[after.saturating_sub(1)..(after + 1).min(found.len())];
+            let at_sharp_edge = around.iter().any(|at| at.footprint.at_sharp_edge);
+            PositionObservation {
+                position_mm,
+                transmission_error_mm,
+                stiffness_n_per_mm2: Some(stiffness),
+                load_share,
+                load_imbalance,
+                footprint: Footprint { peak_pressure_mpa, half_width_mm, at_sharp_edge },
+            }
+        });
+        observed.collect()
     }
 }
 
-/// What the evaluation of a wear step is made of.
-struct Step<'a> {
+/// Model, worn flanks and laws of an evaluation.
+struct WearEvaluation<'a> {
     model: &'a CondensedPair<'a>,
     worn: Worn<'a>,
     nodes: PerGear<&'a FlankNodes>,
@@ -421,8 +417,8 @@ struct Step<'a> {
     stopped: &'a (dyn Fn() -> bool + Sync),
 }
 
-impl Group {
-    fn evaluate(&mut self, step: &Step<'_>) {
+impl CondensedGroup {
+    fn evaluate(&mut self, step: &WearEvaluation<'_>) {
         self.collected.clear();
         for loaded in &mut self.loaded_positions {
             let solved = if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { loaded.solve(step) };
@@ -434,7 +430,7 @@ impl Group {
     }
 
     /// Lets the positions follow the tilt of the worn flanks.
-    fn follow_tilt(&mut self, step: &Step<'_>) {
+    fn follow_tilt(&mut self, step: &WearEvaluation<'_>) {
         let followed = self.loaded_positions.iter_mut().try_fold(Work::default(), |mut work, loaded| {
             work += if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { loaded.follow_tilt(step) }?;
             Ok(work)
@@ -451,7 +447,7 @@ impl Group {
     }
 }
 
-impl LoadedPosition {
+impl CondensedPosition {
     fn new(
         model: &CondensedPair<'_>,
         stretch_mm: (f64, f64),
@@ -472,18 +468,18 @@ impl LoadedPosition {
         loaded
     }
 
-    /// The load's way to the nodes of new flanks, in the window as it is now.
+    /// Finds the load transfers to the nodes of new flanks, in the present windows.
     fn observe(&mut self, model: &CondensedPair<'_>, nodes: PerGear<&FlankNodes>) {
         self.transfers = model.load_transfers(&self.prepared, self.stretch_mm, 0.0, nodes, None);
         (self.turned_mm, self.windows, self.about_rad) = (0.0, self.prepared.windows(), None);
     }
 
-    fn overlap(&self) -> Option<Overlap> {
+    fn overlap(&self) -> Option<FlankOverlap> {
         let of_transmission_error = self.prepared.overlap_beside_mm() / self.found.as_ref()?.rigid[0];
-        Some(Overlap { of_transmission_error, position_mm: self.prepared.position_mm })
+        Some(FlankOverlap { of_transmission_error, position_mm: self.prepared.position_mm })
     }
 
-    fn solve(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
+    fn solve(&mut self, step: &WearEvaluation<'_>) -> Result<Work, EquilibriumError> {
         let (is_new, windows) = (self.found.is_none(), self.windows);
         let mut work = self.solve_linearised(step)?;
         if is_new || windows != self.windows {
@@ -492,8 +488,8 @@ impl LoadedPosition {
         Ok(Work { equilibria: 1, ..work })
     }
 
-    /// Follows the tilt of the worn flanks, and finds the contact again as long as that moves it; answers the work that took.
-    fn follow_tilt(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
+    /// Follows the tilt of the worn flanks, and finds the contact again as long as that changes it.
+    fn follow_tilt(&mut self, step: &WearEvaluation<'_>) -> Result<Work, EquilibriumError> {
         let mut work = Work::default();
         for _ in 0..MOST_TILTS {
             if !self.is_tilted_anew(step) {
@@ -504,11 +500,11 @@ impl LoadedPosition {
         Ok(work)
     }
 
-    /// Finds the contact on the flanks as they are, in the directions that the position was made for.
-    fn solve_linearised(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
+    /// Finds the contact on the present flanks, in the directions that the position was made for.
+    fn solve_linearised(&mut self, step: &WearEvaluation<'_>) -> Result<Work, EquilibriumError> {
         let position_mm = self.prepared.position_mm;
         let Self { prepared, stretch_mm, transfers, turned_mm, windows, about_rad, .. } = self;
-        let mut opening = |prepared: &Prepared, gap_mm: &mut [f64]| {
+        let opening = &mut |prepared: &Prepared, gap_mm: &mut [f64]| {
             if *windows != prepared.windows() {
                 *transfers = step.model.load_transfers(prepared, *stretch_mm, *turned_mm, step.nodes, None);
                 (*windows, *about_rad) = (prepared.windows(), None);
@@ -517,8 +513,8 @@ impl LoadedPosition {
                 contact.open_gaps(step.worn.depth_mm, |row| prepared.tilt_rad(row), gap_mm);
             }
         };
-        let depth_mm = |gear: Gear, node: usize| step.worn.depth_mm[gear][step.nodes[gear].place[node]];
-        let solved = step.model.solve(prepared, &mut opening, &depth_mm);
+        let solved =
+            step.model.solve(prepared, opening, &|gear, node| step.worn.depth_mm[gear][step.nodes[gear].place[node]]);
         let found = solved.map_err(|source| EquilibriumError::Contact { position_mm, source })?;
         let newton_iterations = found.log.steps.len() as u64;
         let pair_evaluations = newton_iterations * prepared.tooth_pairs() as u64;
@@ -526,12 +522,12 @@ impl LoadedPosition {
         Ok(Work { newton_iterations, pair_evaluations, ..Work::default() })
     }
 
-    /// Makes the position for its worn flanks where the load acts in another direction, on a tip edge worn to another shape, or under another
-    /// transmission error than it was made for; answers whether that was so.
-    fn is_tilted_anew(&mut self, step: &Step<'_>) -> bool {
+    /// Makes the position anew for its worn flanks where the load acts in another direction, on a tip edge worn to another shape, or under another
+    /// transmission error than it was made for. Returns whether it did.
+    fn is_tilted_anew(&mut self, step: &WearEvaluation<'_>) -> bool {
         let Some(found) = &self.found else { return false };
-        let tilt_rad = |gear: Gear, node: usize| step.worn.tilt_rad[gear][step.nodes[gear].place[node]];
-        let tilt_rad = self.prepared.mean_tilts(&found.force, tilt_rad);
+        let tilt_rad =
+            self.prepared.mean_tilts(&found.force, |gear, node| step.worn.tilt_rad[gear][step.nodes[gear].place[node]]);
         let turns = self.prepared.lever_change(&found.force, &tilt_rad) > LEAST_LEVER_CHANGE;
         if turns {
             step.model.tilt(&mut self.prepared, tilt_rad);
@@ -552,7 +548,7 @@ impl LoadedPosition {
     }
 
     /// Whether a tip edge under load has another shape.
-    fn has_reshaped(&self, step: &Step<'_>, found: &Equilibrium) -> bool {
+    fn has_reshaped(&self, step: &WearEvaluation<'_>, found: &Equilibrium) -> bool {
         self.transfers.iter().any(|contact| {
             let mate = contact.slave.mate();
             let force = &found.force[contact.first_row..contact.first_row + contact.len()];
@@ -565,8 +561,8 @@ impl LoadedPosition {
         })
     }
 
-    /// Adds what the nodes of both flanks lose.
-    fn wear(&self, step: &Step<'_>, rows: &mut Rows, depth_mm: &mut PerGear<Vec<f64>>) {
+    /// Adds the wear of the nodes of both flanks.
+    fn wear(&self, step: &WearEvaluation<'_>, rows: &mut ContactRows, depth_mm: &mut PerGear<Vec<f64>>) {
         let Some(found) = &self.found else { return };
         for contact in &self.transfers {
             let force = &found.force[contact.first_row..contact.first_row + contact.len()];
@@ -575,7 +571,7 @@ impl LoadedPosition {
             }
             rows.pressure_mpa.clear();
             rows.pressure_mpa.extend(force.iter().zip(&contact.weight_mm).map(|(force, weight)| force / weight));
-            let place = ContactPlace { model: step.model, contact, stretch_mm: self.stretch_mm };
+            let place = CondensedContactPlace { model: step.model, contact, stretch_mm: self.stretch_mm };
             let pressed = force.iter().zip(&contact.weight_mm).filter(|(force, _)| **force > 0.0);
             let loaded = LoadedPlace {
                 position_mm: place.position_mm(),

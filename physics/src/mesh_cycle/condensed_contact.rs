@@ -1,4 +1,4 @@
-//! A contact of the condensed pair as laws of wear see it: where it is on the path, and the conditions of its rows in its own heat.
+//! A contact of the condensed pair for laws of wear: its place on the path, and the conditions of its rows in its own heat.
 
 use crate::contact::PressedCell;
 use crate::contact::flank_pressure::ContactParts;
@@ -19,14 +19,14 @@ use crate::wear::{
 
 /// A contact as a source of heat and a place of films.
 #[derive(Clone, Copy)]
-pub(super) struct ContactPlace<'a> {
+pub(super) struct CondensedContactPlace<'a> {
     pub model: &'a CondensedPair<'a>,
     pub contact: &'a LoadTransfer,
     pub stretch_mm: (f64, f64),
 }
 
-impl ContactPlace<'_> {
-    /// On the path; before A and after E, surfaces roll about as fast as there.
+impl CondensedContactPlace<'_> {
+    /// Position on the path; before A and after E that of A and E, where surfaces roll about as fast.
     pub(super) fn position_mm(&self) -> f64 {
         let path = &self.model.pair.path;
         let own_mm = self.stretch_mm.0.midpoint(self.stretch_mm.1) + f64::from(self.contact.pair) * path.base_pitch_mm;
@@ -34,7 +34,7 @@ impl ContactPlace<'_> {
     }
 }
 
-/// A contact under `force` on its rows as cells along it, and where these lie on the flanks, whose nodes have the nominal radii `radius_mm`.
+/// Cells of a contact under `force` on its rows, and the zones of the flanks along it; nodes of the flanks have the nominal radii `radius_mm`.
 ///
 /// Cells reach from the middle of a row to that of the next: multipliers at the corners and in the middle of quadratic elements lie to
 /// opposite sides of the pressure, and together they carry its load.
@@ -49,30 +49,28 @@ pub(super) fn parts_of_rows(
     let mut cells = Vec::with_capacity(order.len() + 1);
     let (mut flank_mm, mut edges_mm) = ([f64::INFINITY, f64::NEG_INFINITY], [f64::NEG_INFINITY, f64::INFINITY]);
     let (mut lower_mm, mut half_row_mm, mut half_force) = (0.0, 0.0, 0.0);
-    let mut end_cell = |to_mm: f64, load: f64| {
-        cells.push(PressedCell { lower_mm, upper_mm: to_mm, pressure_mpa: load / (to_mm - lower_mm) });
-        lower_mm = to_mm;
-    };
     let mut middle_mm = 0.0;
     for i in order {
         let next_half_mm = 0.5 * contact.weight_mm[i];
         middle_mm += half_row_mm + next_half_mm;
-        end_cell(middle_mm, half_force + 0.5 * force[i]);
+        cells.push(cell(lower_mm, middle_mm, half_force + 0.5 * force[i]));
+        lower_mm = middle_mm;
         (half_row_mm, half_force) = (next_half_mm, 0.5 * force[i]);
         let at = PerGear::from_fn(|gear| weighted_mean(contact.means[gear].row(i), radius_mm[gear]));
         if Gear::BOTH.into_iter().all(|gear| zones[gear].at(at[gear]) == FlankZone::Active) {
             flank_mm = [flank_mm[0].min(middle_mm), flank_mm[1].max(middle_mm)];
         }
-        let is_at_tip = |gear: Gear| at[gear] + next_half_mm >= zones[gear].tip_end_radius_mm;
-        if force[i] > 0.0 && is_at_tip(Gear::Wheel) {
+        let [pinion_at_tip, wheel_at_tip] =
+            Gear::BOTH.map(|gear| at[gear] + next_half_mm >= zones[gear].tip_end_radius_mm);
+        if force[i] > 0.0 && wheel_at_tip {
             edges_mm[0] = edges_mm[0].max(middle_mm);
         }
-        if force[i] > 0.0 && is_at_tip(Gear::Pinion) {
+        if force[i] > 0.0 && pinion_at_tip {
             edges_mm[1] = edges_mm[1].min(middle_mm);
         }
     }
     if half_row_mm > 0.0 {
-        end_cell(middle_mm + half_row_mm, half_force);
+        cells.push(cell(lower_mm, middle_mm + half_row_mm, half_force));
     }
     if flank_mm[0] > flank_mm[1] {
         flank_mm = [0.0; 2];
@@ -80,12 +78,17 @@ pub(super) fn parts_of_rows(
     (ContactParts { flank_mm, edges_mm, flank_mean_over_mm: zones.pinion.pressure_length_mm }, cells)
 }
 
-/// Mean of what the nodes of a row have; not a number for a row that faces none.
+/// A cell under a load, N/mm.
+fn cell(lower_mm: f64, upper_mm: f64, load: f64) -> PressedCell {
+    PressedCell { lower_mm, upper_mm, pressure_mpa: load / (upper_mm - lower_mm) }
+}
+
+/// Mean of the values at the nodes of a row; NaN for a row that faces none.
 fn weighted_mean(Weights { first, weights }: Weights<'_>, at_nodes: &[f64]) -> f64 {
     weighted_sum(weights, &at_nodes[first..]) / weights.iter().sum::<f64>()
 }
 
-/// The rows of a contact, whose multipliers stand for stretches of different lengths, as evenly spaced ones and back.
+/// Buffers that bring the rows of a contact, of different lengths, onto evenly spaced ones and back.
 #[derive(Default)]
 pub(super) struct HeatedContactRows {
     even_mpa: Vec<f64>,
@@ -96,16 +99,16 @@ pub(super) struct HeatedContactRows {
 }
 
 impl HeatedContactRows {
-    /// The conditions of each row of a contact under `pressure_mpa`. The strip is as wide as Hertz's ellipse with the same second moment.
+    /// Conditions of each row of a contact under `pressure_mpa`, in a strip as wide as Hertz's ellipse with the same second moment.
     pub(super) fn conditions(
         &mut self,
         heat: &ContactHeat,
-        place: ContactPlace<'_>,
+        place: CondensedContactPlace<'_>,
         gear: Gear,
         pressure_mpa: &[f64],
         friction_coefficient: f64,
     ) -> &[ContactConditions] {
-        let ContactPlace { model, contact, stretch_mm } = place;
+        let CondensedContactPlace { model, contact, stretch_mm } = place;
         let length_mm = stretch_mm.1 - stretch_mm.0;
         let rolling = PerGear::from_fn(|gear| model.pair.rolling_ratio(gear, place.position_mm()));
         let loads = pressure_mpa.iter().zip(&contact.weight_mm).map(|(pressure, weight)| pressure * weight);
@@ -128,11 +131,7 @@ impl HeatedContactRows {
         let greatest = contact.along_mm.iter().copied().fold(0.0, f64::max);
         let count = (2 * contact.len()).max(2);
         let spacing_mm = greatest / (count - 1) as f64;
-        // Along the profile from root to tip, which the wheel's runs the other way.
-        let cell_of = |at: f64| {
-            let at = if gear == Gear::Pinion { at } else { greatest - at };
-            ((at / spacing_mm).round() as usize).min(count - 1)
-        };
+        let even_rows = EvenRows { gear, length_mm: greatest, spacing_mm, count };
         self.even_along_mm.clear();
         self.even_along_mm.extend((0..count).map(|k| k as f64 * spacing_mm));
         for row in [&mut self.even_mpa, &mut self.even_sliding_mm] {
@@ -141,7 +140,7 @@ impl HeatedContactRows {
         }
         for (i, &at) in contact.along_mm.iter().enumerate() {
             let half = 0.5 * contact.weight_mm[i];
-            let (a, b) = (cell_of((at - half).max(0.0)), cell_of((at + half).min(greatest)));
+            let (a, b) = (even_rows.at((at - half).max(0.0)), even_rows.at((at + half).min(greatest)));
             for k in a.min(b)..=a.max(b) {
                 self.even_mpa[k] = pressure_mpa[i];
                 self.even_sliding_mm[k] = contact.sliding_mm[i];
@@ -151,7 +150,23 @@ impl HeatedContactRows {
         let time_s = length_mm / heat.speed_mm_per_s;
         let even = self.row.across_sliding(&heated, points, &self.even_sliding_mm, time_s);
         self.conditions.clear();
-        self.conditions.extend(contact.along_mm.iter().map(|&at| even[cell_of(at)]));
+        self.conditions.extend(contact.along_mm.iter().map(|&at| even[even_rows.at(at)]));
         &self.conditions
+    }
+}
+
+/// Evenly spaced rows of a contact along the profile of a gear, from root to tip.
+struct EvenRows {
+    gear: Gear,
+    length_mm: f64,
+    spacing_mm: f64,
+    count: usize,
+}
+
+impl EvenRows {
+    /// Row nearest to a place along the contact, towards the pinion's tip.
+    fn at(&self, along_mm: f64) -> usize {
+        let at = if self.gear == Gear::Pinion { along_mm } else { self.length_mm - along_mm };
+        ((at / self.spacing_mm).round() as usize).min(self.count - 1)
     }
 }

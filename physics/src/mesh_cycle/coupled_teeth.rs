@@ -1,4 +1,4 @@
-//! The teeth of a phase whose slices act on each other, in a Newton step: as plates ([`super::bent_tooth`]), or all together.
+//! Coupled teeth of a position in a Newton step: each as a plate ([`super::bent_tooth`]), or all together.
 //!
 //! In space, or on a shaft that twists, the contacts of all teeth are coupled by one matrix, u = U w ([`super::influence`]). With w the load of
 //! a contact, c its tangent stiffness, h its approach so far without the deflection, and C the diagonal of the c, a Newton step with all
@@ -15,16 +15,16 @@ use super::bent_tooth::{Bend, BentTooth, ContactTangent, bend};
 use super::influence::Influence;
 use super::slice_coupling::SliceCoupling;
 
-/// The teeth of a phase.
+/// Teeth of a position, with the coupling of their slices.
 pub enum CoupledTeeth {
-    /// Each a plate clamped at its root.
+    /// Each tooth is a plate clamped at its root.
     Plates {
-        /// Each.
+        /// Teeth.
         teeth: Vec<BentTooth>,
-        /// How its slices hold each other.
+        /// Coupling of the slices of a tooth.
         coupling: SliceCoupling,
     },
-    /// All together by one matrix.
+    /// One matrix couples all teeth.
     Together(TeethTogether),
 }
 
@@ -35,14 +35,14 @@ pub struct TeethTogether {
 }
 
 impl TeethTogether {
-    /// Not yet bent.
+    /// Teeth that are not yet bent.
     pub fn new(influence: Influence) -> Self {
         Self { deflection_mm: vec![0.0; influence.of_teeth.len()], influence }
     }
 
     fn bend(&mut self, line_load: f64, tangent: impl Fn(usize) -> ContactTangent) -> Option<Bend> {
         let (count, u) = (self.deflection_mm.len(), &self.influence.mm2_per_n);
-        // Contacts that carry nothing have no part in the step.
+        // Contacts without load do not take part in the step.
         let carrying: Vec<(usize, ContactTangent)> =
             (0..count).map(|k| (k, tangent(k))).filter(|(_, tangent)| tangent.n_per_mm2 > 0.0).collect();
         if carrying.is_empty() {
@@ -57,13 +57,12 @@ impl TeethTogether {
             let ContactTangent { line_load_n_per_mm: w, n_per_mm2: c, approach_mm } = carrying[i].1;
             if j == 0 { (w - c * approach_mm) / root[i] } else { root[i] }
         });
-        // Positive definite but where elements and surface do not agree on what is local: a step is possible there too.
+        // Positive definite unless elements and surface contradict each other locally, where a step is possible too.
         let solved = match Llt::new(matrix.as_ref(), Side::Lower) {
             Ok(factor) => factor.solve(&given),
             Err(_) => PartialPivLu::new(matrix.as_ref()).solve(&given),
         };
-        let sum = |j: usize| (0..n).map(|i| root[i] * solved[(i, j)]).sum::<f64>();
-        let (carried, stiffness) = (sum(0), sum(1));
+        let [carried, stiffness] = [0, 1].map(|j| (0..n).map(|i| root[i] * solved[(i, j)]).sum::<f64>());
         if stiffness <= 0.0 {
             return None;
         }
@@ -77,7 +76,7 @@ impl TeethTogether {
 }
 
 impl CoupledTeeth {
-    /// Is straight again.
+    /// Straightens the teeth.
     pub(crate) fn straighten(&mut self) {
         match self {
             Self::Plates { teeth, .. } => teeth.iter_mut().for_each(BentTooth::straighten),
@@ -85,8 +84,8 @@ impl CoupledTeeth {
         }
     }
 
-    /// Bends the teeth by a Newton step towards a sum of line loads `line_load`, with the `tangent` of every contact by its number in
-    /// the phase; `None`, and nothing bent, where no contact carries.
+    /// Bends the teeth by a Newton step towards a sum of line loads `line_load`, with the `tangent` of every contact by its number at
+    /// the position; `None`, and nothing bent, where no contact carries.
     pub fn bend(&mut self, line_load: f64, tangent: impl Fn(usize) -> ContactTangent) -> Option<Bend> {
         match self {
             Self::Plates { teeth, coupling } => bend(teeth, coupling, line_load, tangent),
@@ -94,8 +93,8 @@ impl CoupledTeeth {
         }
     }
 
-    /// Each contact, by its number in the phase, with the compliance of the teeth there under its own load, mm²/N, and how far they are
-    /// bent, mm.
+    /// Calls `take` for each contact with its number at the position, the compliance of the teeth there under its own load, mm²/N, and their
+    /// deflection, mm.
     pub(crate) fn each_deflection_mm(&self, mut take: impl FnMut(usize, f64, f64)) {
         match self {
             Self::Plates { teeth, .. } => {

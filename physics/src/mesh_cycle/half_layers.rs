@@ -1,36 +1,36 @@
-//! What elements over the face width see of loads on slices, however many there are.
+//! Loads on any number of slices, projected on the elements over the face width.
 //!
-//! Of a load within an element the nodes have their shares, and its deflection is read between them: both depend on where in the element it
-//! lies. Elements are quadratic over the width; their halves are alike by symmetry, and what is finer than a half is not theirs to tell. So loads
+//! A load within an element is shared by its nodes, and its deflection interpolated between them: both depend on its place in the
+//! element. Elements are quadratic over the width, and resolve no more than their halves, which are alike by symmetry. So loads
 //! act on halves of layers, and deflections are those of halves. With z the places of a slice a, cut where halves h end, into pieces p of the
 //! width b_p with their middle at z_p,
 //!
 //! ```text
-//! T_ha = Σ_p b_p/b_a N_h(z_p)       N_h: straight between the middles of halves, and on beyond the outermost; of a piece that is a whole half, 1 there
+//! T_ha = Σ_p b_p/b_a N_h(z_p)       N_h: linear between the middles of halves, and on beyond the outermost; of a piece that is a whole half, 1 there
 //! F_h = Σ_a T_ha F_a                u_a = Σ_h T_ha u_h
 //! ```
 //!
-//! Σ_h T_ha = 1 and Σ_h z_h T_ha = z_a: force and moment are kept, and straight lines are read as they are. The same T both ways keeps
+//! Σ_h T_ha = 1 and Σ_h z_h T_ha = z_a: force and moment are kept, and so are linear deflections. The same T both ways keeps
 //! compliances symmetric.
 //!
-//! With N the quadratic shape functions of the layers, M = ∫ N Nᵀ dz, and m_h the mean of N over a half, the elements see of a load w(z) that is
-//! even in each half the projection S on N, (P w)_g = Σ_h S_gh b_h w_h.
+//! With N the quadratic shape functions of the layers, M = ∫ N Nᵀ dz, and m_h the mean of N over a half, the projection on N of a load w(z) that is
+//! even in each half is (P w)_g = Σ_h S_gh b_h w_h.
 
 use nalgebra::DMatrix;
 
-use crate::fem::quadrature::GAUSS_3;
-use crate::fem::shape::along_edge;
+use gearwear_fem::quadrature::GAUSS_3;
+use gearwear_fem::shape::along_edge;
 
 /// Halves of layers of elements over the face width.
 pub(super) struct HalfLayers {
-    /// Where they end, mm, from z = 0 on.
+    /// Ends of the halves, mm, from z = 0 on.
     ends_mm: Vec<f64>,
     /// S, 1/mm, row by row.
     seen_per_mm: Vec<f64>,
 }
 
 impl HalfLayers {
-    /// Of layers that end at these places.
+    /// Halves of layers that end at these places.
     pub(super) fn new(layer_ends_mm: &[f64]) -> Self {
         let mut ends_mm: Vec<f64> =
             layer_ends_mm.windows(2).flat_map(|ends| [ends[0], ends[0].midpoint(ends[1])]).collect();
@@ -39,7 +39,7 @@ impl HalfLayers {
         Self { ends_mm, seen_per_mm }
     }
 
-    /// How many.
+    /// Number of halves.
     pub(super) fn count(&self) -> usize {
         self.ends_mm.len() - 1
     }
@@ -55,10 +55,10 @@ impl HalfLayers {
         GAUSS_3.map(|(s, weight)| (0.5 * ((from + to) + (to - from) * s), 0.5 * weight))
     }
 
-    /// T of a slice: its parts of halves, in their order.
+    /// T of a slice: its parts of halves, in order.
     pub(super) fn parts(&self, from_mm: f64, to_mm: f64) -> Vec<(usize, f64)> {
         let mut parts = vec![0.0; self.count()];
-        // What is left of rounding makes no piece.
+        // Rounding errors make no piece.
         let round_off = 1e-9 * (to_mm - from_mm);
         for (half, ends) in self.ends_mm.windows(2).enumerate() {
             let (begin, end) = (from_mm.max(ends[0]), to_mm.min(ends[1]));
@@ -78,7 +78,7 @@ impl HalfLayers {
         parts.into_iter().enumerate().filter(|(_, part)| *part != 0.0).collect()
     }
 
-    /// The half whose middle a straight line through two of them comes from at `at_mm`, and the part of the next one, beyond 0 to 1 next to the
+    /// The half before `at_mm` in linear interpolation between the middles of halves, and the weight of the next one, beyond 0 to 1 next to the
     /// end faces.
     fn between(&self, at_mm: f64) -> (usize, f64) {
         let middles = (0..self.count()).filter(|half| self.middle_mm(*half) <= at_mm).count();
@@ -90,34 +90,35 @@ impl HalfLayers {
     /// S g S b between the halves `range`, row by row, with g of each half over the whole width.
     pub(super) fn seen_of(&self, of_halves: &[f64], range: std::ops::Range<usize>) -> Vec<f64> {
         let count = self.count();
-        let row = |half: usize| &self.seen_per_mm[half * count..(half + 1) * count];
-        let width = |half: usize| self.ends_mm[half + 1] - self.ends_mm[half];
-        let weights: Vec<f64> = of_halves.iter().enumerate().map(|(half, value)| value * width(half)).collect();
-        let weighted = |half: usize| -> Vec<f64> { row(half).iter().zip(&weights).map(|(s, g)| s * g).collect() };
-        let product = |own: &[f64], other: usize| own.iter().zip(row(other)).map(|(a, b)| a * b).sum::<f64>();
-        let mut product_of_all = Vec::with_capacity(range.len() * range.len());
+        let rows: Vec<&[f64]> = self.seen_per_mm.chunks_exact(count).collect();
+        let widths = self.ends_mm.windows(2).map(|ends| ends[1] - ends[0]);
+        let weights: Vec<f64> = of_halves.iter().zip(widths).map(|(value, width)| value * width).collect();
+        let mut products = Vec::with_capacity(range.len() * range.len());
         for half in range.clone() {
-            let own = weighted(half);
-            product_of_all.extend(range.clone().map(|other| product(&own, other)));
+            let own: Vec<f64> = rows[half].iter().zip(&weights).map(|(s, g)| s * g).collect();
+            products
+                .extend(rows[range.clone()].iter().map(|row| own.iter().zip(*row).map(|(a, b)| a * b).sum::<f64>()));
         }
-        product_of_all
+        products
     }
+}
+
+/// Quadratic shape functions of a layer at s = −1 … 1, in the order of their nodes.
+fn shape_functions(s: f64) -> [f64; 3] {
+    let ([start, end, middle], _) = along_edge(true, s);
+    [start, middle, end]
 }
 
 /// S between the halves of layers that end at these places.
 fn projection_per_mm(layer_ends_mm: &[f64]) -> Vec<f64> {
     let layers = layer_ends_mm.len() - 1;
     let (nodes, halves) = (2 * layers + 1, 2 * layers);
-    let values = |s: f64| {
-        let ([start, end, middle], _) = along_edge(true, s);
-        [start, middle, end]
-    };
     let mut mass = DMatrix::<f64>::zeros(nodes, nodes);
     let mut means = DMatrix::<f64>::zeros(nodes, halves);
     for layer in 0..layers {
         let length_mm = layer_ends_mm[layer + 1] - layer_ends_mm[layer];
         for (s, weight) in GAUSS_3 {
-            let at = values(s);
+            let at = shape_functions(s);
             for (i, f) in at.iter().enumerate() {
                 for (j, g) in at.iter().enumerate() {
                     mass[(2 * layer + i, 2 * layer + j)] += 0.5 * length_mm * weight * f * g;
@@ -125,7 +126,7 @@ fn projection_per_mm(layer_ends_mm: &[f64]) -> Vec<f64> {
             }
             for half in 0..2 {
                 let within = 0.5 * (s - 1.0) + half as f64;
-                for (i, value) in values(within).into_iter().enumerate() {
+                for (i, value) in shape_functions(within).into_iter().enumerate() {
                     means[(2 * layer + i, 2 * layer + half)] += 0.5 * weight * value;
                 }
             }
@@ -143,7 +144,7 @@ mod tests {
 
     const ENDS_MM: [f64; 6] = [0.0, 1.0, 3.0, 5.0, 7.0, 8.0];
 
-    /// Slices of any number keep force and moment, read straight lines as they are, and are halves where they end with them.
+    /// Slices of any number keep force and moment, and are halves where they end with them.
     #[test]
     fn ver_slices_keep_force_and_moment() {
         let halves = HalfLayers::new(&ENDS_MM);
@@ -162,7 +163,7 @@ mod tests {
         assert_eq!(halves.parts(0.0, 1.0), [(0, 0.5), (1, 0.5)]);
     }
 
-    /// An even load is seen as it is, S b 1 = 1, whatever the lengths of the layers.
+    /// The projection of an even load is the load, S b 1 = 1, whatever the lengths of the layers.
     #[test]
     fn ver_even_loads_are_seen_whole() {
         let halves = HalfLayers::new(&ENDS_MM);
@@ -171,7 +172,7 @@ mod tests {
             let seen: f64 = row.iter().zip(halves.ends_mm.windows(2)).map(|(s, ends)| s * (ends[1] - ends[0])).sum();
             assert!((seen - 1.0).abs() < 1e-12);
         }
-        // P is a projection of what is even in halves, up to what halves do not tell: P g P of g = 1 is no more than P.
+        // P is a projection but for parts finer than a half: P g P of g = 1 is no more than P.
         let squared = halves.seen_of(&vec![1.0; count], 0..count);
         for half in 0..count {
             assert!(squared[half * (count + 1)] <= halves.seen_per_mm[half * (count + 1)] + 1e-12);

@@ -1,18 +1,18 @@
-//! The compliance between all contacts of a phase, u = U w: of thin slices, of plates ([`super::slice_coupling`]) or of teeth in space
-//! ([`super::pair_in_space`]), to which what carries the teeth adds its own ([`crate::gear::shaft`]).
+//! Compliance between all contacts at a position, u = U w: of thin slices, of plates ([`super::slice_coupling`]) or of teeth in space
+//! ([`super::pair_in_space`]), and of the shafts ([`crate::gear::shaft`]).
 
 use super::sliced_positions::SliceContact;
 
-/// What couples the contacts of a phase.
+/// Compliance between the contacts at a position.
 pub struct Influence {
     /// Compliance between all of them by line load, mm²/N, row by row.
     pub mm2_per_n: Vec<f64>,
-    /// What the teeth alone give on the diagonal, mm²/N: in space, their finite elements.
+    /// Diagonal of the teeth alone, mm²/N: in space, that of their finite elements.
     pub of_teeth: Vec<f64>,
 }
 
 impl Influence {
-    /// Of thin slices with the compliance `mm2_per_n` at a contact, that nothing couples.
+    /// Uncoupled thin slices with the compliance `mm2_per_n` at a contact.
     pub(crate) fn of_thin_slices(contacts: &[SliceContact], mm2_per_n: impl Fn(&SliceContact) -> f64) -> Self {
         let count = contacts.len();
         let of_teeth: Vec<f64> = contacts.iter().map(mm2_per_n).collect();

@@ -15,26 +15,25 @@
 //! s_i ← s_i + (δ − s_i − w_i/k_i) / (1 + w_i'/k_i)
 //! ```
 //!
-//! Where Newton does not settle (a gap so rough that rounding decides), both equations are solved by bisection instead,
-//! which their monotony allows.
+//! Where Newton's method does not converge (a gap so rough that rounding errors decide), both equations are solved by bisection, as both are
+//! monotonic.
 
 use super::Work;
 use super::tip_contact::OnLever;
 use crate::contact::{PairContact, Response};
-use crate::fem::active_set::ActiveSetError;
 use crate::gear::{PerGear, normal_section::Obliquity};
+use gearwear_fem::active_set::ActiveSetError;
 
 /// Greatest imbalance, relative to the load, at which an equilibrium is accepted.
 pub const TOLERANCE: f64 = 1e-11;
-/// Greatest imbalance, relative to the load, that a result may have where rounding stands in the way of [`TOLERANCE`].
+/// Greatest imbalance, relative to the load, at which a result is accepted where rounding errors prevent [`TOLERANCE`].
 pub(crate) const GREATEST_IMBALANCE: f64 = 1e-10;
 /// Newton steps before bisection takes over; three to five are usual.
 const NEWTON_LIMIT: u64 = 40;
-
-/// Halvings of an interval: far below any rounding of where it began.
+/// Bisections of an interval: far below any rounding error of its ends.
 const BISECTION_LIMIT: usize = 100;
 
-/// Why there is no equilibrium.
+/// Reason why there is no equilibrium.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum EquilibriumError {
     /// A load or stiffness was not a number.
@@ -48,10 +47,10 @@ pub enum EquilibriumError {
     Contact {
         /// Position of the reference pair.
         position_mm: f64,
-        /// Why.
+        /// Failure of the solver.
         source: ActiveSetError,
     },
-    /// The user wants to stop.
+    /// The user stops the run.
     #[error("interrupted")]
     Interrupted,
     /// Neither Newton's method nor bisection met the tolerance.
@@ -71,11 +70,11 @@ pub enum EquilibriumError {
 
 /// A pair in mesh with its state from one wear step to the next.
 pub struct MeshedPair<'a> {
-    /// Its contact surface.
+    /// Contact of its flanks.
     pub contact: Box<dyn PairContact + 'a>,
-    /// Its answer to the last indentation.
+    /// Response to the last indentation.
     pub response: Response,
-    /// What its bodies approach beside that indentation, and the derivative by the load.
+    /// Approach of the bodies beyond that indentation, and its derivative by the load.
     further: (f64, f64),
     teeth_n_per_mm2: f64,
     /// Lever of the load on the pinion over the base radius.
@@ -84,13 +83,13 @@ pub struct MeshedPair<'a> {
     pub(super) touch_mm: f64,
     /// Approach of the flanks beyond their first touch, mm.
     pub(super) indentation_mm: f64,
-    /// Depths at the last three equilibria, the newest first: the next one starts from their continuation.
+    /// Indentations at the last three equilibria, the newest first: the next iteration starts from their extrapolation.
     history_mm: [Option<f64>; 3],
 }
 
-/// The solution.
+/// Equilibrium of the pairs in mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Equilibrium {
+pub struct PairEquilibrium {
     /// δ.
     pub transmission_error_mm: f64,
     /// dF/dδ of all pairs together, N/mm².
@@ -116,7 +115,8 @@ impl<'a> MeshedPair<'a> {
         }
     }
 
-    /// The same where the load has a lever on the pinion of `ratio` base radii: 1 on the line of action; and where its normal is oblique.
+    /// A pair that has not carried load yet, whose load has a lever on the pinion of `ratio` base radii, 1 on the line of action, and an oblique
+    /// normal.
     pub(crate) fn on_lever(
         contact: Box<dyn PairContact + 'a>,
         teeth_n_per_mm2: f64,
@@ -132,7 +132,7 @@ impl<'a> MeshedPair<'a> {
         Self { lever_ratio: ratio, ..pressed }
     }
 
-    /// What presses the flanks on each other, N per mm of the line of contact; its response is the torque of that over the base radius.
+    /// Normal load of the flanks, N per mm of the line of contact; the load of the response is the torque of this one over the base radius.
     pub(super) fn normal_load_n_per_mm(&self) -> f64 {
         self.response.line_load_n_per_mm / self.lever_ratio
     }
@@ -143,7 +143,7 @@ impl<'a> MeshedPair<'a> {
         self.touch_mm = self.contact.touch_mm();
     }
 
-    /// Is again a pair that has not carried load yet.
+    /// Returns to the state of a pair that has not carried load yet.
     pub(super) fn reset(&mut self) {
         self.contact.reset();
         (self.response, self.further) = (Response::default(), (0.0, 0.0));
@@ -176,11 +176,11 @@ impl<'a> MeshedPair<'a> {
         self.indentation_mm + self.response.line_load_n_per_mm / self.teeth_n_per_mm2 + self.further.0
     }
 
-    /// Presses the pair until it has approached by `whole_mm` beyond its first touch; answers how many evaluations that took.
+    /// Presses the pair until it has approached by `whole_mm` beyond its first touch. Returns the number of evaluations.
     pub(super) fn press_to(&mut self, whole_mm: f64) -> u64 {
         self.load_at(whole_mm);
         let mut evaluations = 1;
-        // Without what is beside the indentation it is all of the approach, and as much less as that is.
+        // The indentation is the whole approach less that of teeth and bodies.
         let beside = self.beyond_touch_mm() - whole_mm;
         let (mut low, mut high) = (whole_mm - beside.max(0.0), whole_mm);
         while self.beyond_touch_mm() < whole_mm && evaluations < 2 + BISECTION_LIMIT as u64 {
@@ -198,7 +198,7 @@ impl<'a> MeshedPair<'a> {
             } else {
                 high = self.indentation_mm;
             }
-            // Newton's step, or half of what is left where that leads beyond it.
+            // Newton's step, or bisection where that leads out of the interval.
             let step = self.indentation_mm + lacks / self.series();
             let next = if step > low && step < high { step } else { low.midpoint(high) };
             if next <= low || next >= high {
@@ -215,12 +215,12 @@ impl<'a> MeshedPair<'a> {
         self.touch_mm + self.beyond_touch_mm()
     }
 
-    /// The least change of indentation that rounding leaves a meaning: that of the parts, which may nearly cancel in their sum.
+    /// Least change of indentation above rounding errors: that of the parts, which may nearly cancel in their sum.
     pub(super) fn least_step_mm(&self) -> f64 {
         8.0 * f64::EPSILON * self.touch_mm.abs().max(self.indentation_mm.abs()).max(self.beyond_touch_mm().abs())
     }
 
-    /// How much more this pair has approached than `other`; without loss where both touch at the same approach.
+    /// Approach of this pair less that of `other`, without loss of digits where both touch at the same approach.
     fn ahead_of(&self, other: &Self) -> f64 {
         (self.touch_mm - other.touch_mm) + (self.beyond_touch_mm() - other.beyond_touch_mm())
     }
@@ -236,13 +236,12 @@ impl<'a> MeshedPair<'a> {
     }
 }
 
-/// Equilibrium, by `balance`, of `pairs` on flanks that have lost `removed_mm` of each; the windows of pairs that turn out to touch
-/// beyond them are widened.
+/// Equilibrium, by `balance`, of `pairs` on flanks that have lost `removed_mm` of each; windows that prove too short are widened.
 pub fn settled<'a, 'r>(
     pairs: &mut [MeshedPair<'a>],
     removed_mm: impl Fn(usize) -> PerGear<&'r [f64]>,
-    mut balance: impl FnMut(&mut [MeshedPair<'a>]) -> Result<Equilibrium, EquilibriumError>,
-) -> Result<(Equilibrium, Work), EquilibriumError> {
+    mut balance: impl FnMut(&mut [MeshedPair<'a>]) -> Result<PairEquilibrium, EquilibriumError>,
+) -> Result<(PairEquilibrium, Work), EquilibriumError> {
     let mut work = Work { equilibria: 1, ..Work::default() };
     for (k, pair) in pairs.iter_mut().enumerate() {
         pair.set_removed(removed_mm(k));
@@ -266,122 +265,127 @@ pub fn settled<'a, 'r>(
     }
 }
 
-/// Finds the equilibrium of `pairs` (at least one) under `line_load` (> 0).
-///
-/// Approaches are reckoned from that of the first pair, so that nothing is lost where a light load meets a deep relief.
-pub fn balance(
-    pairs: &mut [MeshedPair<'_>],
-    line_load: f64,
-    position_mm: f64,
-) -> Result<Equilibrium, EquilibriumError> {
-    let mut evaluations = 0;
-    // What a pair may carry at first sight: of a few pairs all, of many slices twice the mean.
-    let expected = line_load * (2.0 / pairs.len() as f64).min(1.0);
-    for pair in pairs.iter_mut() {
-        let start = pair.start_mm(expected);
-        pair.load_at(start);
-        evaluations += 1;
-    }
-    for iterations in 1..=NEWTON_LIMIT {
+/// A Newton step of all pairs together.
+struct NewtonStep {
+    /// Σ w_i, N/mm.
+    line_load_n_per_mm: f64,
+    /// Σ c_i, N/mm².
+    n_per_mm2: f64,
+    /// δ less the approach of the first pair, mm.
+    beyond_first_mm: f64,
+}
+
+impl NewtonStep {
+    /// Approaches are counted from that of the first pair: a light load on a deep relief keeps its digits.
+    fn new(pairs: &[MeshedPair<'_>], line_load: f64) -> Self {
         let (mut load, mut stiffness, mut ahead) = (0.0, 0.0, 0.0);
-        for pair in pairs.iter() {
+        for pair in pairs {
             let tangent = pair.tangent_n_per_mm2();
             load += pair.response.line_load_n_per_mm;
             stiffness += tangent;
             ahead += tangent * pair.ahead_of(&pairs[0]);
         }
-        if !load.is_finite() {
-            return Err(EquilibriumError::NotFinite { position_mm });
-        }
-        if stiffness <= 0.0 {
-            // No pair touches: begin again from where each would carry the load alone.
-            for pair in pairs.iter_mut() {
-                let ample = pair.contact.ample_indentation_mm(expected);
-                pair.load_at(ample);
-                evaluations += 1;
-            }
-            continue;
-        }
-        // δ less the approach of the first pair, and what each pair lacks of it.
-        let beyond_first = (line_load - load + ahead) / stiffness;
-        let step =
-            |pair: &MeshedPair<'_>, first: &MeshedPair<'_>| (beyond_first - pair.ahead_of(first)) / pair.series();
+        let beyond_first_mm = (line_load - load + ahead) / stiffness;
+        Self { line_load_n_per_mm: load, n_per_mm2: stiffness, beyond_first_mm }
+    }
+
+    /// Change of the indentation of `pair`, mm.
+    fn deeper_mm(&self, pair: &MeshedPair<'_>, first: &MeshedPair<'_>) -> f64 {
+        (self.beyond_first_mm - pair.ahead_of(first)) / pair.series()
+    }
+
+    /// Whether loads balance and no pair would change its load.
+    fn is_settled(&self, pairs: &[MeshedPair<'_>], line_load: f64) -> bool {
         let settled = pairs.iter().all(|pair| {
-            let step = step(pair, &pairs[0]).abs();
+            let step = self.deeper_mm(pair, &pairs[0]).abs();
             step * pair.teeth_n_per_mm2.max(pair.response.stiffness_n_per_mm2) <= TOLERANCE * line_load
                 || step <= pair.least_step_mm().max(pairs[0].least_step_mm())
         });
-        if settled && (load - line_load).abs() <= TOLERANCE * line_load {
-            let transmission_error_mm = pairs[0].whole_approach_mm() + beyond_first;
-            return Ok(Equilibrium {
+        settled && (self.line_load_n_per_mm - line_load).abs() <= TOLERANCE * line_load
+    }
+}
+
+/// Presses each pair to where the iteration starts, where it should carry `expected` N/mm. Returns the number of evaluations.
+pub(super) fn press_to_start(pairs: &mut [MeshedPair<'_>], expected: f64) -> u64 {
+    for pair in pairs.iter_mut() {
+        let start = pair.start_mm(expected);
+        pair.load_at(start);
+    }
+    pairs.len() as u64
+}
+
+/// Presses each pair, where none touches, so deep that it carries at least `expected` N/mm. Returns the number of evaluations.
+pub(super) fn press_amply(pairs: &mut [MeshedPair<'_>], expected: f64) -> u64 {
+    for pair in pairs.iter_mut() {
+        let ample = pair.contact.ample_indentation_mm(expected);
+        pair.load_at(ample);
+    }
+    pairs.len() as u64
+}
+
+/// Finds the equilibrium of `pairs` (at least one) under `line_load` (> 0).
+pub fn balance(
+    pairs: &mut [MeshedPair<'_>],
+    line_load: f64,
+    position_mm: f64,
+) -> Result<PairEquilibrium, EquilibriumError> {
+    // Expected load of a pair: of a few pairs all, of many slices twice the mean.
+    let expected = line_load * (2.0 / pairs.len() as f64).min(1.0);
+    let mut pair_evaluations = press_to_start(pairs, expected);
+    for iterations in 1..=NEWTON_LIMIT {
+        let step = NewtonStep::new(pairs, line_load);
+        if !step.line_load_n_per_mm.is_finite() {
+            return Err(EquilibriumError::NotFinite { position_mm });
+        }
+        if step.n_per_mm2 <= 0.0 {
+            pair_evaluations += press_amply(pairs, expected);
+            continue;
+        }
+        if step.is_settled(pairs, line_load) {
+            let transmission_error_mm = pairs[0].whole_approach_mm() + step.beyond_first_mm;
+            return Ok(PairEquilibrium {
                 transmission_error_mm,
-                n_per_mm2: stiffness,
+                n_per_mm2: step.n_per_mm2,
                 iterations,
-                pair_evaluations: evaluations,
+                pair_evaluations,
             });
         }
         let (first, others) = pairs.split_at_mut(1);
         for pair in others {
-            let deeper = pair.indentation_mm + step(pair, &first[0]);
+            let deeper = pair.indentation_mm + step.deeper_mm(pair, &first[0]);
             pair.load_at(deeper);
         }
-        let deeper = first[0].indentation_mm + beyond_first / first[0].series();
+        let deeper = first[0].indentation_mm + step.beyond_first_mm / first[0].series();
         first[0].load_at(deeper);
-        evaluations += pairs.len() as u64;
+        pair_evaluations += pairs.len() as u64;
     }
-    bisect(pairs, line_load, position_mm, evaluations)
+    bisect(pairs, line_load, position_mm, pair_evaluations)
 }
 
-/// The equilibrium by bisection of δ, and of every indentation within it.
+/// Finds the equilibrium by bisection of δ, and of every indentation within it.
 fn bisect(
     pairs: &mut [MeshedPair<'_>],
     line_load: f64,
     position_mm: f64,
     mut evaluations: u64,
-) -> Result<Equilibrium, EquilibriumError> {
-    let mut total = |pairs: &mut [MeshedPair<'_>], delta: f64| -> f64 {
-        pairs
-            .iter_mut()
-            .map(|pair| {
-                // The teeth take up what the surface does not: the indentation lies between none of δ and all of it.
-                let whole = delta - pair.touch_mm;
-                let (mut low, mut high) = (whole.min(0.0), whole);
-                pair.load_at(high);
-                evaluations += 1;
-                for _ in 0..BISECTION_LIMIT {
-                    let middle = low.midpoint(high);
-                    if middle <= low || middle >= high {
-                        break;
-                    }
-                    pair.load_at(middle);
-                    evaluations += 1;
-                    if pair.beyond_touch_mm() > whole {
-                        high = middle;
-                    } else {
-                        low = middle;
-                    }
-                }
-                pair.response.line_load_n_per_mm
-            })
-            .sum()
-    };
-    let ample = |pair: &MeshedPair<'_>| pair.touch_mm + pair.contact.ample_indentation_mm(line_load);
+) -> Result<PairEquilibrium, EquilibriumError> {
     let mut low = pairs.iter().map(|pair| pair.touch_mm).fold(f64::INFINITY, f64::min);
-    let mut high = pairs.iter().map(ample).fold(low, f64::max);
-    let mut carried = total(pairs, high);
+    let ample = pairs.iter().map(|pair| pair.touch_mm + pair.contact.ample_indentation_mm(line_load));
+    let mut high = ample.fold(low, f64::max);
+    let mut carried = load_at_approach(pairs, high, &mut evaluations);
     for _ in 0..BISECTION_LIMIT {
         if carried >= line_load {
             break;
         }
         high += 2.0 * (high - low) + f64::MIN_POSITIVE;
-        carried = total(pairs, high);
+        carried = load_at_approach(pairs, high, &mut evaluations);
     }
     for _ in 0..BISECTION_LIMIT {
         let middle = low.midpoint(high);
         if (carried - line_load).abs() <= TOLERANCE * line_load || middle <= low || middle >= high {
             break;
         }
-        carried = total(pairs, middle);
+        carried = load_at_approach(pairs, middle, &mut evaluations);
         if carried > line_load {
             high = middle;
         } else {
@@ -389,16 +393,42 @@ fn bisect(
         }
     }
     let residual = (carried / line_load - 1.0).abs();
-    // Bisection ends where neighbouring floating-point numbers do; what rounding leaves then is accepted up to the
-    // imbalance that a result may have.
-    if residual <= GREATEST_IMBALANCE {
-        let transmission_error_mm = low.midpoint(high);
-        return Ok(Equilibrium {
-            transmission_error_mm,
-            n_per_mm2: pairs.iter().map(MeshedPair::tangent_n_per_mm2).sum(),
-            iterations: NEWTON_LIMIT,
-            pair_evaluations: evaluations,
-        });
+    // Bisection ends at neighbouring floating-point numbers.
+    if residual > GREATEST_IMBALANCE {
+        return Err(EquilibriumError::NotConverged { position_mm, residual, evaluations });
     }
-    Err(EquilibriumError::NotConverged { position_mm, residual, evaluations })
+    Ok(PairEquilibrium {
+        transmission_error_mm: low.midpoint(high),
+        n_per_mm2: pairs.iter().map(MeshedPair::tangent_n_per_mm2).sum(),
+        iterations: NEWTON_LIMIT,
+        pair_evaluations: evaluations,
+    })
+}
+
+/// Sum of the loads of all pairs at the approach `delta_mm`, each found by bisection of its indentation.
+fn load_at_approach(pairs: &mut [MeshedPair<'_>], delta_mm: f64, evaluations: &mut u64) -> f64 {
+    pairs
+        .iter_mut()
+        .map(|pair| {
+            // The indentation lies between none of δ and all of it.
+            let whole = delta_mm - pair.touch_mm;
+            let (mut low, mut high) = (whole.min(0.0), whole);
+            pair.load_at(high);
+            *evaluations += 1;
+            for _ in 0..BISECTION_LIMIT {
+                let middle = low.midpoint(high);
+                if middle <= low || middle >= high {
+                    break;
+                }
+                pair.load_at(middle);
+                *evaluations += 1;
+                if pair.beyond_touch_mm() > whole {
+                    high = middle;
+                } else {
+                    low = middle;
+                }
+            }
+            pair.response.line_load_n_per_mm
+        })
+        .sum()
 }

@@ -1,9 +1,9 @@
-//! The mesh cycle: which tooth pairs carry how much, while one pair passes from A to E.
+//! The mesh cycle: load and wear of the tooth pairs while one pair passes from A to E.
 //!
 //! The cycle is cut into loading positions. At each, all pairs in mesh share the load in equilibrium
 //! ([`load_sharing`]); then the pressure of the reference pair sweeps over its flank points and wears them. Positions
-//! are independent of each other, so they are shared out to threads; each fixed group of positions collects its wear by
-//! itself and the groups are added in order: the result does not depend on the number of threads.
+//! are independent of each other and are dealt to threads in fixed groups, whose wear is added in order: the result does not depend on the
+//! number of threads.
 
 pub mod bent_tooth;
 mod collected;
@@ -31,22 +31,22 @@ mod worn_points;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::contact::flank_pressure::{FlankParts, PressureFigures};
+use crate::contact::flank_pressure::PressureFigures;
 use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCell, Sweep};
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, slices::greatest_over_width};
 use crate::wear::WearModel;
 use collected::Collected;
-use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
+use load_sharing::{EquilibriumError, MeshedPair, PairEquilibrium, balance, settled};
 use sliced_mesh::SlicedMesh;
-use worn_points::{ContactPlace, WornPoints};
+use worn_points::{ContactOnPath, WornPoints};
 
-/// Groups of positions that collect wear on their own; fixed, so that sums always run in the same order.
+/// Number of groups of positions that collect wear on their own; fixed, so that sums always run in the same order.
 const GROUPS: usize = 8;
 
-/// A tooth pair in mesh at some position: where it is and how stiff its teeth are.
+/// A tooth pair in mesh: place and stiffness of its teeth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairInMesh {
-    /// Its theoretical contact point.
+    /// Theoretical contact point.
     pub position_mm: f64,
     /// Spring of its teeth, N/mm².
     pub teeth_n_per_mm2: f64,
@@ -57,15 +57,15 @@ pub struct PairInMesh {
 /// One loading position: the reference pair's stretch of the path, and all pairs in mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadingPosition {
-    /// What the position stands for.
+    /// Position and stretch of the path.
     pub cell: PositionCell,
     /// All pairs in mesh, the reference pair first.
     pub pairs: Vec<PairInMesh>,
-    /// Whether it lies between A and E: only then it is a row of what is observed.
+    /// Whether it lies between A and E and is a row of the observation.
     pub on_line_of_action: bool,
 }
 
-/// Counters of work done.
+/// Counts of work done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Work {
     /// Mesh cycles evaluated.
@@ -87,35 +87,35 @@ impl std::ops::AddAssign for Work {
     }
 }
 
-/// The state of one position.
-struct LoadedPosition<'a> {
+/// A loading position on the line of action, with its state.
+struct LineOfActionPosition<'a> {
     cell: PositionCell,
     on_line_of_action: bool,
-    place: ContactPlace<'a>,
-    /// How far the flanks slide on each other there, mm.
+    place: ContactOnPath<'a>,
+    /// Sliding distance of the flanks on each other within the cell, mm.
     sliding_mm: f64,
-    /// The reference pair first.
+    /// Pairs in mesh, the reference pair first.
     pairs: Vec<MeshedPair<'a>>,
-    equilibrium: Equilibrium,
+    equilibrium: PairEquilibrium,
 }
 
 /// Positions that collect wear together.
-struct Group<'a> {
-    loaded_positions: Vec<LoadedPosition<'a>>,
+struct LineOfActionGroup<'a> {
+    loaded_positions: Vec<LineOfActionPosition<'a>>,
     collected: Collected,
     points: WornPoints,
 }
 
 /// All loading positions of a pair, ready to be evaluated on ever newly worn flanks.
 pub struct LineOfActionCycle<'a> {
-    groups: Vec<Group<'a>>,
+    groups: Vec<LineOfActionGroup<'a>>,
     line_load_n_per_mm: f64,
-    /// How far the bodies that all pairs share yield under the whole load, mm.
+    /// Displacement of the bodies that all pairs share, under the whole load, mm.
     bodies_mm: f64,
     flanks: Flanks<'a>,
 }
 
-/// What was observed at one position.
+/// Observation at one position.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PositionObservation {
     /// Theoretical contact point of the reference pair.
@@ -135,13 +135,13 @@ pub struct PositionObservation {
 
 /// The greatest pressure of a mesh cycle, before A and after E included.
 ///
-/// Towards a mathematically sharp tip edge under load the pressure of elastic bodies grows without bound, and what a model finds there is
-/// a matter of its resolution: a contact that such an edge cuts off is kept apart from those whose pressure is defined.
+/// Towards a sharp tip edge under load the pressure of elastic bodies grows without bound, and that of a model with its resolution: contacts that
+/// such an edge cuts off are kept apart from those whose pressure is defined.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct GreatestPressure {
-    /// Of contact whose pressure is defined, MPa.
+    /// Greatest pressure of contacts whose pressure is defined, MPa.
     pub defined_mpa: f64,
-    /// Of contact that a sharp tip edge cuts off, MPa; `None` where there is none.
+    /// Greatest pressure of contacts that a sharp tip edge cuts off, MPa; `None` where there are none.
     pub sharp_edge_mpa: Option<f64>,
 }
 
@@ -155,7 +155,7 @@ impl GreatestPressure {
         }
     }
 
-    /// Takes into account what each of the slices over the face width has, in their order.
+    /// Takes the pressures of all slices over the face width into account, in their order.
     pub(crate) fn note_slices(&mut self, of_slices: &[Self]) {
         let defined_mpa: Vec<f64> = of_slices.iter().map(|slice| slice.defined_mpa).collect();
         self.note(greatest_over_width(&defined_mpa), false);
@@ -168,60 +168,60 @@ impl GreatestPressure {
     }
 }
 
-/// Where flanks overlap beside the contact that was found: nowhere, if all of it was.
+/// Overlap of flanks beside the contact that was found: none if all contact was found.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Overlap {
-    /// How deep, over the transmission error.
+pub struct FlankOverlap {
+    /// Depth over the transmission error.
     pub of_transmission_error: f64,
     /// Theoretical contact point of the pair.
     pub position_mm: f64,
 }
 
-impl Overlap {
-    /// The deeper of two.
+impl FlankOverlap {
+    /// Deeper of two overlaps.
     pub(crate) fn deeper(self, other: Self) -> Self {
         if other.of_transmission_error > self.of_transmission_error { other } else { self }
     }
 }
 
-/// What was observed over a mesh cycle.
+/// Observation of a mesh cycle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CycleObservation {
-    /// At each position, in order.
+    /// Each position, in order.
     pub positions: Vec<PositionObservation>,
     /// Part of the load that a pair carries at the first and at the last position of its mesh, before A and after E where tip edges are followed;
     /// `None` where pairs have slices, or where single points are followed.
     pub shares_at_ends: Option<[f64; 2]>,
     /// Greatest pressure at any position and of any flank point.
     pub greatest_pressure: GreatestPressure,
-    /// Pressure between the tip-edge zones and load of the tip edges; none where the parts of the flanks are not told.
+    /// Pressure between the tip-edge zones and load of the tip edges; none where the zones of the flanks are not known.
     pub pressure_figures: PressureFigures,
     /// Greatest pressure on each flank point, also at sharp tip edges, MPa.
     pub pressure_mpa: PerGear<Vec<f64>>,
-    /// How far each flank point slid while in contact, mm.
+    /// Sliding distance of each flank point while in contact, mm.
     pub sliding_mm: PerGear<Vec<f64>>,
     /// ∫ F ds of a tooth pair over its mesh, also before A and after E: load times sliding distance, which is the volume that a flank loses
-    /// over its wear coefficient. N, that is N·mm per mm of the line of contact; where there are slices, the sum over them. `None` where a model
+    /// over its wear coefficient; N, that is N·mm per mm of the line of contact; with slices, the sum over them. `None` where a model
     /// follows single points.
     pub sliding_work_n: Option<f64>,
     /// The mesh of one tooth slice by slice, where there are slices.
     pub slices: Option<SlicedMesh>,
     /// Deepest overlap of the flanks beside their contacts; `None` where a model does not look at their gap.
-    pub deepest_overlap: Option<Overlap>,
+    pub deepest_overlap: Option<FlankOverlap>,
 }
 
-/// What flanks have lost so far, at their points.
+/// Material that flanks have lost, at their points.
 #[derive(Debug, Clone, Copy)]
 pub struct LostMaterial<'a> {
-    /// By modifications and wear together, mm.
+    /// Modifications and wear together, mm.
     pub removed_mm: PerGear<&'a [f64]>,
-    /// By wear alone, mm.
+    /// Wear alone, mm.
     pub wear_mm: PerGear<&'a [f64]>,
 }
 
 /// A pair in mesh, evaluated over a whole mesh cycle on ever newly worn flanks.
 pub trait MeshCycle {
-    /// Solves every position on flanks that have lost `lost`, and puts into `depth_mm` what each point wears in one mesh.
+    /// Solves every position on flanks that have lost `lost`, and fills `depth_mm` with the wear of each point in one mesh.
     ///
     /// `stopped` is asked at every position whether to give up.
     fn evaluate(
@@ -232,11 +232,10 @@ pub trait MeshCycle {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError>;
 
-    /// Is again as if never evaluated: the next evaluation depends only on what the flanks have lost, to the bit, and not on
-    /// where the last one ended.
+    /// Returns to the state before any evaluation: the next one depends only on what the flanks have lost, to the bit.
     fn reset(&mut self);
 
-    /// What the last evaluation found, on the same `lost`.
+    /// Observation of the last evaluation, on the same `lost`.
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError>;
 }
 
@@ -251,8 +250,8 @@ impl<'a> LineOfActionCycle<'a> {
         let size = positions.len().div_ceil(GROUPS).max(1);
         let groups = positions
             .par_chunks(size)
-            .map(|positions| Group {
-                loaded_positions: positions.iter().map(|p| LoadedPosition::new(flanks, surface, p)).collect(),
+            .map(|positions| LineOfActionGroup {
+                loaded_positions: positions.iter().map(|p| LineOfActionPosition::new(flanks, surface, p)).collect(),
                 collected: Collected::new(flanks.grid.map(|grid| grid.len())),
                 points: WornPoints::default(),
             })
@@ -260,12 +259,12 @@ impl<'a> LineOfActionCycle<'a> {
         Self { groups, line_load_n_per_mm, bodies_mm: 0.0, flanks }
     }
 
-    /// The same with all pairs on gear bodies that yield by `bodies_mm` under the whole load.
+    /// Puts all pairs on gear bodies that yield by `bodies_mm` under the whole load.
     pub(crate) fn on_bodies_that_yield_by(self, bodies_mm: f64) -> Self {
         Self { bodies_mm, ..self }
     }
 
-    fn loaded_positions(&self) -> impl Iterator<Item = &LoadedPosition<'a>> {
+    fn loaded_positions(&self) -> impl Iterator<Item = &LineOfActionPosition<'a>> {
         self.groups.iter().flat_map(|group| &group.loaded_positions)
     }
 }
@@ -291,21 +290,21 @@ impl MeshCycle for LineOfActionCycle<'_> {
 
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
         let removed_mm = lost.removed_mm;
-        let zeros = || removed_mm.map(|flank| vec![0.0; flank.len()]);
-        let share_at = |at: Option<&LoadedPosition<'_>>| at.map_or(0.0, |at| at.load_share(self.line_load_n_per_mm));
+        let zeros = removed_mm.map(|flank| vec![0.0; flank.len()]);
+        let ends = [self.loaded_positions().next(), self.loaded_positions().last()];
         let mut observation = CycleObservation {
             positions: Vec::new(),
-            shares_at_ends: Some([self.loaded_positions().next(), self.loaded_positions().last()].map(share_at)),
+            shares_at_ends: Some(ends.map(|at| at.map_or(0.0, |at| at.load_share(self.line_load_n_per_mm)))),
             greatest_pressure: GreatestPressure::default(),
             pressure_figures: PressureFigures::default(),
-            pressure_mpa: zeros(),
-            sliding_mm: zeros(),
+            pressure_mpa: zeros.clone(),
+            sliding_mm: zeros,
             sliding_work_n: None,
             slices: None,
             deepest_overlap: self
                 .loaded_positions()
                 .filter_map(|at| at.overlap(removed_mm, self.bodies_mm))
-                .reduce(Overlap::deeper),
+                .reduce(FlankOverlap::deeper),
         };
         let mut sliding_work_n = 0.0;
         let mut sweep = Sweep::default();
@@ -329,8 +328,8 @@ impl MeshCycle for LineOfActionCycle<'_> {
     }
 }
 
-/// Raises `pressure_mpa` at the points of a flank to that of `contact`, and adds to `sliding_mm` how far they slid in it; answers
-/// the greatest pressure on any of them.
+/// Raises `pressure_mpa` at the points of a flank to that of `contact`, and adds the sliding distance in it to `sliding_mm`. Returns the greatest
+/// pressure on any of them.
 fn note_contact_of_points(
     contact: &dyn PairContact,
     gear: Gear,
@@ -354,13 +353,12 @@ fn note_contact_of_points(
     most_mpa
 }
 
-/// Figures of a contact's pressure, where the parts of the flanks are told.
+/// Figures of the pressure of a contact, where the zones of the flanks are known.
 fn figures_of(flanks: Flanks<'_>, position_mm: f64, contact: &dyn PairContact) -> PressureFigures {
-    let of_parts = |parts: FlankParts| parts.figures(&flanks.geometry, position_mm, &contact.pressed_cells());
-    flanks.parts.map(of_parts).unwrap_or_default()
+    flanks.parts.map(|parts| parts.figures(&flanks.geometry, position_mm, &contact.pressed_cells())).unwrap_or_default()
 }
 
-impl Group<'_> {
+impl LineOfActionGroup<'_> {
     fn evaluate(
         &mut self,
         removed_mm: PerGear<&[f64]>,
@@ -381,7 +379,7 @@ impl Group<'_> {
     }
 }
 
-impl<'a> LoadedPosition<'a> {
+impl<'a> LineOfActionPosition<'a> {
     fn new(flanks: Flanks<'a>, surface: &dyn ContactSurface, position: &LoadingPosition) -> Self {
         let pairs = position
             .pairs
@@ -394,9 +392,9 @@ impl<'a> LoadedPosition<'a> {
             })
             .collect();
         let (cell, on_line_of_action) = (position.cell, position.on_line_of_action);
-        let place = ContactPlace::new(flanks, cell);
+        let place = ContactOnPath::new(flanks, cell);
         let sliding_mm = flanks.geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
-        Self { cell, on_line_of_action, place, sliding_mm, pairs, equilibrium: Equilibrium::default() }
+        Self { cell, on_line_of_action, place, sliding_mm, pairs, equilibrium: PairEquilibrium::default() }
     }
 
     /// Equilibrium on the flanks as they are now.
@@ -420,16 +418,16 @@ impl<'a> LoadedPosition<'a> {
         }
     }
 
-    /// Of the reference pair.
+    /// Part of the load that the reference pair carries.
     fn load_share(&self, line_load: f64) -> f64 {
         self.pairs[0].response.line_load_n_per_mm / line_load
     }
 
-    /// Of the reference pair.
-    fn overlap(&self, removed_mm: PerGear<&[f64]>, bodies_mm: f64) -> Option<Overlap> {
+    /// Overlap of the flanks of the reference pair.
+    fn overlap(&self, removed_mm: PerGear<&[f64]>, bodies_mm: f64) -> Option<FlankOverlap> {
         let overlap_mm = self.pairs[0].contact.overlap_beside_mm(removed_mm)?;
         let of_transmission_error = overlap_mm / (self.equilibrium.transmission_error_mm + bodies_mm);
-        Some(Overlap { of_transmission_error, position_mm: self.cell.position_mm })
+        Some(FlankOverlap { of_transmission_error, position_mm: self.cell.position_mm })
     }
 }
 
@@ -439,8 +437,7 @@ fn in_series(n_per_mm2: f64, mm2_per_n: f64) -> f64 {
 }
 
 impl CycleObservation {
-    /// Greatest pressure anywhere on either flank, at any position, also before A and after E and at sharp tip edges, MPa: what a wear law
-    /// meets.
+    /// Greatest pressure anywhere on either flank, at any position, also before A and after E and at sharp tip edges, MPa.
     pub fn peak_pressure_mpa(&self) -> f64 {
         let GreatestPressure { defined_mpa, sharp_edge_mpa } = self.greatest_pressure;
         sharp_edge_mpa.map_or(defined_mpa, |sharp| sharp.max(defined_mpa))
@@ -453,7 +450,7 @@ impl CycleObservation {
         })
     }
 
-    /// Greatest pressure with the reference pair at `position_mm`, between the observations on either side, MPa.
+    /// Greatest pressure with the reference pair at `position_mm`, linear between the observations on either side, MPa.
     pub fn peak_pressure_at_mpa(&self, position_mm: f64) -> f64 {
         let after = self.positions.partition_point(|p| p.position_mm <= position_mm).clamp(1, self.positions.len() - 1);
         let (low, high) = (&self.positions[after - 1], &self.positions[after]);
@@ -464,7 +461,9 @@ impl CycleObservation {
 
     /// The observation nearest to `position_mm`.
     pub fn nearest(&self, position_mm: f64) -> Option<&PositionObservation> {
-        let distance = |p: &&PositionObservation| (p.position_mm - position_mm).abs();
-        self.positions.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        self.positions.iter().min_by(|a, b| {
+            let [a, b] = [a, b].map(|at| (at.position_mm - position_mm).abs());
+            a.total_cmp(&b)
+        })
     }
 }

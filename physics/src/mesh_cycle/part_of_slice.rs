@@ -1,7 +1,7 @@
 //! The contact of a slice that the line of contact has entered in part.
 //!
-//! The part f of the width carries its own line load w, under its own pressure and half-width. Loads of slices are counted over
-//! their whole width, and so is what they lose:
+//! The part f of the width carries its own line load w, under its own pressure and half-width. Loads and wear of slices are counted over
+//! their whole width:
 //!
 //! ```text
 //! W = f w          dW/ds = f dw/ds          depth = f k ∫ p ds
@@ -11,14 +11,14 @@ use super::sliced_positions::ContactPart;
 use crate::contact::{Footprint, PairContact, PointContact, PressedCell, Response, Sweep};
 use crate::gear::{Gear, PerGear};
 
-/// The contact of a part of a slice, reckoned over the width of the slice.
+/// Contact of a part of a slice, counted over the width of the slice.
 pub(crate) struct PartOfSlice<'a> {
     contact: Box<dyn PairContact + 'a>,
     part: ContactPart,
 }
 
 impl<'a> PartOfSlice<'a> {
-    /// What `contact` is where only this `part` of the slice has it.
+    /// Contact of this `part` of a slice.
     pub(crate) fn of(contact: Box<dyn PairContact + 'a>, part: ContactPart) -> Box<dyn PairContact + 'a> {
         if part == ContactPart::WHOLE { contact } else { Box::new(PartOfSlice { contact, part }) }
     }

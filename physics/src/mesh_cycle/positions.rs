@@ -1,17 +1,17 @@
-//! Loading positions: where the mesh cycle is evaluated and which pairs are in mesh there.
+//! Loading positions of the mesh cycle, with the pairs in mesh at each.
 //!
-//! Positions divide A–E evenly, both ends included. Each stands for the stretch of the path halfway to its neighbours,
-//! cut where a pair enters or leaves the mesh, so that no stretch spans a jump of the load: the sum over positions is
-//! then of second order in their distance in spite of the jumps.
+//! Positions divide A–E evenly, both ends included. Each represents the stretch of the path halfway to its neighbours,
+//! cut where a pair enters or leaves the mesh, so that no stretch spans a jump of the load and sums over positions are
+//! of second order in their distance.
 //!
 //! Where tip edges are followed into contact, positions go on before A and after E as far as pairs may touch there
-//! ([`super::tip_contact`]), every pair within those bounds may carry load, and none does so suddenly: stretches need no cut.
+//! ([`super::tip_contact`]); every pair within those bounds may carry load, and loads do not jump: stretches need no cut.
 
 use super::{LoadingPosition, PairInMesh};
 use crate::contact::PositionCell;
 use crate::gear::path_of_contact::PathOfContact;
 
-/// Distances along the path are compared to this part of the base pitch.
+/// Part of the base pitch within which two places of the path are the same.
 const SAME_PLACE: f64 = 1e-9;
 
 /// Positions `count` (≥ 2) in number from A to E; `teeth_n_per_mm2` gives the spring of the teeth at a position.
@@ -21,23 +21,24 @@ pub(crate) fn loading_positions<E>(
     mut teeth_n_per_mm2: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<Vec<LoadingPosition>, E> {
     let (start, end, pitch) = (path.start_mm, path.end_mm, path.base_pitch_mm);
-    let at = |j: usize| start + (end - start) * j as f64 / (count - 1) as f64;
     let changes = changes_of_pairs(path);
-    // The zone between changes that holds a position; one that falls on a change belongs to the zone before it.
-    let zone_of = |position: f64| {
-        changes.partition_point(|&change| change < position - SAME_PLACE * pitch).clamp(1, changes.len() - 1)
-    };
+    // Places with the zone between changes that holds each; a place on a change belongs to the zone before it.
+    let places: Vec<(f64, usize)> = (0..count)
+        .map(|j| {
+            let place = start + (end - start) * j as f64 / (count - 1) as f64;
+            let zone = changes.partition_point(|&change| change < place - SAME_PLACE * pitch);
+            (place, zone.clamp(1, changes.len() - 1))
+        })
+        .collect();
     let mut positions = Vec::with_capacity(count);
     let mut lower_mm = start;
-    for j in 0..count {
-        let position_mm = at(j);
-        let zone = zone_of(position_mm);
+    for (j, &(position_mm, zone)) in places.iter().enumerate() {
         let middle_of_zone = changes[zone - 1].midpoint(changes[zone]);
-        let upper_mm = match j + 1 {
-            next if next == count => end,
-            next if zone_of(at(next)) == zone => position_mm.midpoint(at(next)),
+        let upper_mm = match places.get(j + 1) {
+            None => end,
+            Some(&(next, zone_of_next)) if zone_of_next == zone => position_mm.midpoint(next),
             // The stretch ends with the zone; a zone too short to hold a position goes to the one before it.
-            next => changes[zone_of(at(next)) - 1],
+            Some(&(_, zone_of_next)) => changes[zone_of_next - 1],
         };
         let mut pairs = Vec::new();
         for offset in pairs_in_mesh(path, middle_of_zone) {
@@ -99,8 +100,7 @@ fn changes_of_pairs(path: &PathOfContact) -> Vec<f64> {
     changes
 }
 
-/// Which pairs touch when the reference pair is at `position_mm`, by their distance in pitches; the reference pair, 0,
-/// comes first.
+/// Pairs in mesh with the reference pair at `position_mm`, by their distance in pitches; the reference pair, 0, comes first.
 fn pairs_in_mesh(path: &PathOfContact, position_mm: f64) -> impl Iterator<Item = i32> {
     let ahead = ((path.end_mm - position_mm) / path.base_pitch_mm).floor() as i32;
     let behind = ((position_mm - path.start_mm) / path.base_pitch_mm).floor() as i32;
@@ -149,11 +149,11 @@ mod tests {
             }
             // ∫ pairs dξ over A–E: each of them is there for ε p_bt + 0.9 + 1.3.
             let pairs: f64 = rows.iter().map(|p| p.pairs.len() as f64 * spacing).sum();
-            let common = |k: i32| {
+            let commons = (-4..=4).map(|k| {
                 let from = (path.start_mm - 0.9 + 10.0 * f64::from(k)).max(path.start_mm);
                 ((path.end_mm + 1.3 + 10.0 * f64::from(k)).min(path.end_mm) - from).max(0.0)
-            };
-            let expected: f64 = (-4..=4).map(common).sum();
+            });
+            let expected: f64 = commons.sum();
             assert!((pairs / expected - 1.0).abs() < 0.06, "{ratio}: {pairs} {expected}");
         }
     }

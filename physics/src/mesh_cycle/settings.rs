@@ -1,11 +1,11 @@
-//! What is asked of the slices over the face width.
+//! Settings of the slices over the face width.
 
 use serde::{Deserialize, Serialize};
 
 /// Most slices that are coupled each with each: 400 positions then take less than 0.5 GB.
 pub const MOST_SLICES_IN_SPACE: usize = 100;
 
-/// How neighbouring slices of a tooth hold each other.
+/// Coupling of the slices of a tooth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Coupling {
@@ -19,7 +19,7 @@ pub enum Coupling {
 }
 
 impl Coupling {
-    /// Its name in scenes and results.
+    /// Name in scenes and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",
@@ -32,8 +32,8 @@ impl Coupling {
 /// The slices of a pair whose transverse sections differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SliceSettings {
-    /// How many, 1 or more.
+    /// Number, 1 or more.
     pub count: usize,
-    /// How they are coupled.
+    /// Coupling.
     pub coupling: Coupling,
 }

@@ -1,4 +1,4 @@
-//! How the slices of a tooth hold each other: a tooth as a plate that is clamped at its root.
+//! Coupling of the slices of a tooth: the tooth as a plate that is clamped at its root.
 //!
 //! Haines and Ollerton cut a contact into strips and treat each as a plane contact of its own. Here the strips are the slices of
 //! a tooth: contact is plane in each, but they belong to one tooth, and a loaded slice takes its neighbours along. The tooth is
@@ -45,33 +45,32 @@ use crate::material::Material;
 /// Samples of the profile on fillet and flank each.
 const SAMPLES: usize = 400;
 
-/// How slices yield, beside what the transverse section of their pair tells.
+/// Compliance of slices, relative to the transverse section of their pair.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SliceCompliance {
     /// Compliance of the teeth of a slice over that of the section.
     pub teeth: f64,
-    /// What either end face, z = 0 first, adds to it there, in parts of it.
+    /// Part by which it is greater at either end face, z = 0 first.
     pub ends: [f64; 2],
-    /// How much less the teeth resist twisting at either end face: ℓ₁² is divided there by 1 and this. Calibrations of before have none, and
-    /// keep their hash.
+    /// Loss of resistance to twisting at either end face: ℓ₁² is divided there by 1 plus this. Older calibrations have none, and keep their hash.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub end_twist: Option<[f64; 2]>,
-    /// Over which length that decays, mm; where calibrations of before have none, `end_length_mm`.
+    /// Length over which that loss decays, mm; `end_length_mm` in older calibrations, which have none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub end_twist_length_mm: Option<f64>,
-    /// Over which length what end faces add decays, mm.
+    /// Length over which the compliance of end faces decays, mm.
     pub end_length_mm: f64,
-    /// How far a deflection reaches.
+    /// Reach of a deflection along the tooth.
     pub reach: Reach,
-    /// Compliance of what all pairs in mesh share over that of the section.
+    /// Compliance that all pairs in mesh share over that of the section.
     pub bodies: f64,
 }
 
 impl SliceCompliance {
-    /// In closed form. Teeth bend in the normal section: as plates, an oblique one is cos β times as thick and 1/cos β times as
-    /// long, and yields 1/cos⁴ β times as much along the transverse line of action. That is said where `is_oblique`; other stiffness models
-    /// state what slices have.
+    /// Closed form. Teeth bend in the normal section: as plates, an oblique one is cos β times as thick and 1/cos β times as
+    /// long, and yields 1/cos⁴ β times as much along the transverse line of action. That counts where `is_oblique`; other stiffness models
+    /// are of the slices themselves.
     pub fn of_plates(pair: &GearPair, material: &PerGear<Material>, is_oblique: bool) -> Self {
         let teeth = if is_oblique { pair.spec.helix_angle_rad.cos().powi(-4) } else { 1.0 };
         let end_length_mm = pair.spec.transverse_module_mm();
@@ -82,11 +81,11 @@ impl SliceCompliance {
     /// Compliance of the teeth of each slice over that of the section.
     pub fn of_slices(&self, pair: &GearPair, slices: &Slices) -> Vec<f64> {
         let face_width_mm = pair.spec.face_width_mm;
-        let of_slice = |z: &f64| self.teeth * with_ends(self.ends, self.end_length_mm, *z, face_width_mm);
-        slices.width_mm.iter().map(of_slice).collect()
+        let places = slices.width_mm.iter();
+        places.map(|&z_mm| self.teeth * with_ends(self.ends, self.end_length_mm, z_mm, face_width_mm)).collect()
     }
 
-    /// What couples the slices of a tooth.
+    /// Coupling of the slices of a tooth.
     pub fn coupling(&self, slices: &Slices) -> SliceCoupling {
         let (count, slice_width_mm) = (slices.count(), slices.slice_width_mm);
         let mut coupling = SliceCoupling::new(self.reach, count, slice_width_mm);
@@ -101,38 +100,36 @@ impl SliceCompliance {
     }
 }
 
-/// 1 and what either end face, z = 0 first, adds at z, where that decays over a length.
+/// 1 plus the part of either end face, z = 0 first, which decays over a length, at z.
 fn with_ends([first, last]: [f64; 2], length_mm: f64, z_mm: f64, face_width_mm: f64) -> f64 {
-    let fades = |distance_mm: f64| (-distance_mm / length_mm).exp();
-    1.0 + first * fades(z_mm) + last * fades(face_width_mm - z_mm)
+    let [from_first, from_last] = [z_mm, face_width_mm - z_mm].map(|distance_mm| (-distance_mm / length_mm).exp());
+    1.0 + first * from_first + last * from_last
 }
 
-/// How far a deflection reaches along a tooth.
+/// Reach of a deflection along a tooth.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reach {
-    /// ℓ₁², mm²: from twisting.
+    /// ℓ₁² of twisting, mm².
     pub twist_mm2: f64,
-    /// ℓ₂⁴, mm⁴: from bending along the tooth.
+    /// ℓ₂⁴ of bending along the tooth, mm⁴.
     pub bending_mm4: f64,
 }
 
 impl Reach {
-    /// Of a plate of thickness `thickness_mm` at increasing heights `height_mm` above its clamped edge (both have the same
-    /// length), loaded at the height `load_height_mm`; and 1/k of a unit of E: the bending of a slice, dimensionless.
+    /// Reach in a plate of thickness `thickness_mm` at increasing heights `height_mm` above its clamped edge (both of the same
+    /// length), loaded at the height `load_height_mm`; and E/k: the bending of a slice, dimensionless.
     pub fn of_plate(height_mm: &[f64], thickness_mm: &[f64], load_height_mm: f64, poisson_ratio: f64) -> (Self, f64) {
-        // f'' = (y_p − y)/t³ up to the load, zero above; not yet divided by its value at the load.
-        let plate = |t: f64| t.powi(3) / (12.0 * (1.0 - poisson_ratio * poisson_ratio));
-        let curvature = |y: f64, t: f64| (load_height_mm - y).max(0.0) / t.powi(3);
         let (mut slope, mut deflection) = (0.0, 0.0);
         let mut at_load = 0.0;
         let [mut k, mut twist, mut mixed, mut along] = [0.0; 4];
         for (y, t) in height_mm.windows(2).zip(thickness_mm.windows(2)) {
             let dy = y[1] - y[0];
             let middle = [0.5 * (y[0] + y[1]), 0.5 * (t[0] + t[1])];
-            let bend = curvature(middle[0], middle[1]);
+            // f'' = (y_p − y)/t³ up to the load, zero above; not yet divided by f at the load.
+            let bend = (load_height_mm - middle[0]).max(0.0) / middle[1].powi(3);
             let (slope_here, deflection_here) = (slope + 0.5 * dy * bend, deflection + 0.5 * dy * slope);
-            let stiffness = plate(middle[1]);
+            let stiffness = middle[1].powi(3) / (12.0 * (1.0 - poisson_ratio * poisson_ratio));
             k += stiffness * bend * bend * dy;
             twist += stiffness * slope_here * slope_here * dy;
             mixed += stiffness * deflection_here * bend * dy;
@@ -150,7 +147,7 @@ impl Reach {
         (reach, at_load * at_load / k)
     }
 
-    /// Of a tooth loaded where it touches at `rho_mm`, and its bending over line load, 1/MPa.
+    /// Reach in a tooth loaded where it touches at `rho_mm`, and its bending over line load, 1/MPa.
     fn of_tooth(tooth: &Tooth, material: &Material, rho_mm: f64) -> (Self, f64) {
         let profile = half_profile(tooth, SAMPLES);
         let height: Vec<f64> = profile.iter().map(|point| point.y - profile[0].y).collect();
@@ -160,15 +157,14 @@ impl Reach {
         (reach, bending / material.young_modulus_mpa)
     }
 
-    /// Of a pair whose teeth touch in the middle of the path of contact: both teeth's, weighted by their bending.
+    /// Reach in a pair whose teeth touch in the middle of the path of contact: mean of both teeth, weighted by their bending.
     pub fn of_pair(pair: &GearPair, material: &PerGear<Material>) -> Self {
         let middle = pair.path.start_mm.midpoint(pair.path.end_mm);
         let [(pinion, a), (wheel, b)] =
             Gear::BOTH.map(|gear| Self::of_tooth(&pair.teeth[gear], &material[gear], pair.path.rho_mm(gear, middle)));
-        let mean = |of_pinion: f64, of_wheel: f64| (a * of_pinion + b * of_wheel) / (a + b);
         Self {
-            twist_mm2: mean(pinion.twist_mm2, wheel.twist_mm2),
-            bending_mm4: mean(pinion.bending_mm4, wheel.bending_mm4),
+            twist_mm2: (a * pinion.twist_mm2 + b * wheel.twist_mm2) / (a + b),
+            bending_mm4: (a * pinion.bending_mm4 + b * wheel.bending_mm4) / (a + b),
         }
     }
 }
@@ -176,7 +172,7 @@ impl Reach {
 /// The operator on the slices of one tooth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SliceCoupling {
-    /// How far a deflection reaches.
+    /// Reach of a deflection along the tooth.
     pub reach: Reach,
     count: usize,
     /// ℓ₁²/Δz² between each slice and the next.
@@ -186,15 +182,14 @@ pub struct SliceCoupling {
 }
 
 impl SliceCoupling {
-    /// Of slices `slice_width_mm` wide, `count` in number.
+    /// Operator on `count` slices `slice_width_mm` wide.
     pub fn new(reach: Reach, count: usize, slice_width_mm: f64) -> Self {
         let square = slice_width_mm * slice_width_mm;
         let twist = vec![reach.twist_mm2 / square; count.saturating_sub(1)];
         Self { reach, count, twist, bending: reach.bending_mm4 / (square * square) }
     }
 
-    /// The operator on `v`, into `result`; by differences of differences, so that little is lost to rounding where slices are
-    /// thin.
+    /// Applies the operator to `v`, into `result`; by differences of differences, which keep digits where slices are thin.
     pub fn apply(&self, v: &[f64], result: &mut [f64]) {
         result.copy_from_slice(v);
         for i in 1..self.count {
@@ -210,7 +205,7 @@ impl SliceCoupling {
         }
     }
 
-    /// The factors of the operator with `diagonal` (≥ 0) added, into `factors`: nothing is allocated where those were used before.
+    /// Factorises the operator with `diagonal` (≥ 0) added, into `factors`, whose memory is used again.
     pub fn factorise(&self, diagonal: &[f64], factors: &mut Factors) {
         let n = self.count;
         let Factors { per_pivot, first, second } = factors;
@@ -230,7 +225,7 @@ impl SliceCoupling {
         }
     }
 
-    /// What couples `contacts`, tooth by tooth, where the pair has the compliance `mm2_per_n` at a contact.
+    /// Coupling of `contacts`, tooth by tooth, where the pair has the compliance `mm2_per_n` at a contact.
     pub fn influence(&self, contacts: &[SliceContact], mm2_per_n: impl Fn(&SliceContact) -> f64) -> Influence {
         let mut influence = Influence::of_thin_slices(contacts, mm2_per_n);
         let root: Vec<f64> = influence.of_teeth.iter().map(|own| own.sqrt()).collect();

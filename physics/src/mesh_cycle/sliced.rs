@@ -1,29 +1,30 @@
 //! The mesh cycle of a pair whose transverse sections differ: helical, or modified over the face width.
 //!
-//! The face width is cut into slices, each a thin spur pair in its own transverse section. At every phase of one base pitch
-//! ([`super::sliced_positions`]) all slices of all teeth in contact find their equilibrium together, under one approach of the rigid hubs:
+//! The face width is cut into slices, each a thin spur pair in its own transverse section. At every position of one base pitch
+//! ([`super::sliced_positions`]) all slices of all teeth in contact are in equilibrium under one approach of the rigid hubs:
 //!
 //! ```text
 //! Σ w_ki Δz = F                δ = touch_ki + s_ki(w_ki) + u_ki
 //! ```
 //!
-//! with the deflection u of the teeth slice by slice (u = q w: thin independent teeth) or coupled along each tooth
-//! ([`super::slice_coupling`]), or of all teeth together ([`super::pair_in_space`]). Of a slice that the line of contact has entered in part,
-//! w is the load of that part over the width of the slice ([`super::part_of_slice`]). The pressure of every contact sweeps over the points of its own slice and wears them.
+//! with the deflection u of the teeth slice by slice (u = q w: thin independent teeth), coupled along each tooth
+//! ([`super::slice_coupling`]), or of all teeth together ([`super::pair_in_space`]). For a slice that the line of contact has entered in part,
+//! w is the load of that part over the width of the slice ([`super::part_of_slice`]). The pressure of every contact sweeps over the points of its slice
+//! and wears them.
 
 use rayon::prelude::*;
 
 use super::collected::Collected;
 use super::coupled_teeth::CoupledTeeth;
-use super::load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
+use super::load_sharing::{EquilibriumError, MeshedPair, PairEquilibrium, balance, settled};
 use super::part_of_slice::PartOfSlice;
 use super::sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh};
 use super::sliced_positions::{ContactPart, SliceContact, SlicedPosition};
 use super::sliced_sharing::balance_on_teeth;
 use super::sliced_teeth::SlicedTeeth;
-use super::worn_points::{ContactPlace, WornPoints};
+use super::worn_points::{ContactOnPath, WornPoints};
 use super::{
-    CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Overlap, Work, figures_of, in_series,
+    CycleObservation, FlankOverlap, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, figures_of, in_series,
     note_contact_of_points,
 };
 use crate::contact::flank_pressure::PressureFigures;
@@ -32,17 +33,16 @@ use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, path_of_c
 use crate::stiffness::SpringParts;
 use crate::wear::WearModel;
 
-/// The spring of the teeth along the path of contact, evaluated once for all slices.
+/// Compliance of the teeth along the path of contact, evaluated once for all slices.
 pub struct SpringAlongPath {
     start_mm: f64,
     spacing_mm: f64,
-    /// At evenly spaced places.
+    /// Compliance at evenly spaced places.
     parts: Vec<SpringParts>,
 }
 
 impl SpringAlongPath {
-    /// At places as far apart as `count` (≥ 2) from A to E, from the last of them that lies no less than `beyond_mm` before A to the
-    /// first as far after E.
+    /// Compliance at places as far apart as `count` (≥ 2) from A to E, going on at least `beyond_mm` before A and after E.
     pub fn new<E>(
         path: &PathOfContact,
         count: usize,
@@ -52,27 +52,27 @@ impl SpringAlongPath {
         let spacing_mm = (path.end_mm - path.start_mm) / (count - 1) as f64;
         let [before, after] = beyond_mm.map(|beyond| (beyond / spacing_mm).ceil() as usize);
         let start_mm = path.start_mm - before as f64 * spacing_mm;
-        let at = |j: usize| path.start_mm + spacing_mm * (j as f64 - before as f64);
-        let parts = (0..before + count + after).map(at).map(parts).collect::<Result<_, E>>()?;
+        let places = (0..before + count + after).map(|j| path.start_mm + spacing_mm * (j as f64 - before as f64));
+        let parts = places.map(parts).collect::<Result<_, E>>()?;
         Ok(Self { start_mm, spacing_mm, parts })
     }
 
-    /// Compliance with the theoretical contact point at `position_mm`; beyond its places, that there.
+    /// Compliance with the theoretical contact point at `position_mm`; beyond the outermost places, theirs.
     pub fn at(&self, position_mm: f64) -> SpringParts {
         let last = self.parts.len() - 1;
         let place = ((position_mm - self.start_mm) / self.spacing_mm).clamp(0.0, last as f64);
         let before = (place as usize).min(last - 1);
         let weight = place - before as f64;
         let [here, next] = [self.parts[before], self.parts[before + 1]];
-        let between = |here: f64, next: f64| here + weight * (next - here);
+        let (surface, next_surface) = (here.left_by_surface_mm2_per_n, next.left_by_surface_mm2_per_n);
         SpringParts {
-            teeth_mm2_per_n: between(here.teeth_mm2_per_n, next.teeth_mm2_per_n),
-            left_by_surface_mm2_per_n: between(here.left_by_surface_mm2_per_n, next.left_by_surface_mm2_per_n),
+            teeth_mm2_per_n: here.teeth_mm2_per_n + weight * (next.teeth_mm2_per_n - here.teeth_mm2_per_n),
+            left_by_surface_mm2_per_n: surface + weight * (next_surface - surface),
         }
     }
 }
 
-/// How the teeth of a slice yield, and where its load acts.
+/// Compliance of the teeth of a slice, and lever of its load.
 pub(crate) struct SliceSprings<'a> {
     /// The gears.
     pub pair: &'a GearPair,
@@ -82,57 +82,57 @@ pub(crate) struct SliceSprings<'a> {
     pub lever_ratio: &'a (dyn Fn(f64) -> f64 + Sync),
 }
 
-/// The state of one phase.
-struct LoadedPosition<'a> {
+/// A position of the mesh with all slices in contact, and their state.
+struct LoadedSlices<'a> {
     position_mm: f64,
     /// [`SlicedPosition::jump_mm`].
     jump_mm: Option<f64>,
     contacts: Vec<SliceContact>,
     pairs: Vec<MeshedPair<'a>>,
-    /// Of each contact.
-    places: Vec<ContactPlace<'a>>,
-    /// Of each contact: how far its load, counted over the whole slice, slides, mm.
+    /// Place of each contact.
+    places: Vec<ContactOnPath<'a>>,
+    /// Sliding distance of the load of each contact, counted over the whole slice, mm.
     sliding_mm: Vec<f64>,
-    /// The teeth that the contacts belong to, where slices are coupled.
+    /// Teeth of the contacts, where slices are coupled.
     teeth: Option<CoupledTeeth>,
-    equilibrium: Equilibrium,
+    equilibrium: PairEquilibrium,
 }
 
-/// Phases that collect wear together.
-struct Group<'a> {
-    loaded_positions: Vec<LoadedPosition<'a>>,
+/// Positions that collect wear together.
+struct SlicedGroup<'a> {
+    loaded_positions: Vec<LoadedSlices<'a>>,
     collected: Collected,
     points: WornPoints,
 }
 
-/// All phases of a sliced pair, ready to be evaluated on ever newly worn flanks.
+/// All positions of a sliced pair, ready to be evaluated on ever newly worn flanks.
 pub(crate) struct SlicedCycle<'a> {
-    groups: Vec<Group<'a>>,
+    groups: Vec<SlicedGroup<'a>>,
     sliced: &'a SlicedTeeth,
     path: &'a PathOfContact,
     flanks: Flanks<'a>,
-    /// Points of each flank's slice.
+    /// Points of a slice of each flank.
     points: PerGear<usize>,
-    /// Rows from A to E that are observed.
+    /// Number of observed positions from A to E.
     positions: usize,
     line_load_n_per_mm: f64,
-    /// How far the bodies that all pairs share yield under the whole load, mm.
+    /// Displacement of the bodies that all pairs share, under the whole load, mm.
     bodies_mm: f64,
 }
 
-/// What a slice's flanks have lost.
+/// Material that the flanks of a slice have lost.
 fn of_slice(field: PerGear<&[f64]>, points: PerGear<usize>, slice: usize) -> PerGear<&[f64]> {
     PerGear::from_fn(|gear| &field[gear][slice * points[gear]..(slice + 1) * points[gear]])
 }
 
 impl<'a> SlicedCycle<'a> {
-    /// Prepares every contact at every phase; `positions` rows from A to E are observed.
+    /// Prepares every contact at the positions `sliced_positions`; `positions` from A to E are observed.
     #[allow(clippy::too_many_arguments, reason = "each of them is a part of the physics")]
     pub(crate) fn new(
         flanks: Flanks<'a>,
         surface: &dyn ContactSurface,
         sliced: &'a SlicedTeeth,
-        phases: &[SlicedPosition],
+        sliced_positions: &[SlicedPosition],
         springs: &SliceSprings<'_>,
         path: &'a PathOfContact,
         positions: usize,
@@ -140,12 +140,12 @@ impl<'a> SlicedCycle<'a> {
     ) -> Self {
         let points = flanks.grid.map(|grid| grid.len());
         let slices = sliced.slices.count();
-        let groups = phases
-            .par_chunks(phases.len().div_ceil(GROUPS).max(1))
-            .map(|phases| Group {
-                loaded_positions: phases
+        let groups = sliced_positions
+            .par_chunks(sliced_positions.len().div_ceil(GROUPS).max(1))
+            .map(|chunk| SlicedGroup {
+                loaded_positions: chunk
                     .iter()
-                    .map(|phase| LoadedPosition::new(flanks, surface, sliced, phase, springs))
+                    .map(|position| LoadedSlices::new(flanks, surface, sliced, position, springs))
                     .collect(),
                 collected: Collected::new(points.map(|points| slices * points)),
                 points: WornPoints::default(),
@@ -154,12 +154,12 @@ impl<'a> SlicedCycle<'a> {
         Self { groups, sliced, path, flanks, points, positions, line_load_n_per_mm, bodies_mm: 0.0 }
     }
 
-    /// The same on gear bodies that yield by `bodies_mm` under the whole load.
+    /// Puts the pair on gear bodies that yield by `bodies_mm` under the whole load.
     pub(crate) fn on_bodies_that_yield_by(self, bodies_mm: f64) -> Self {
         Self { bodies_mm, ..self }
     }
 
-    /// What all line loads together must be: the mean line load in every slice.
+    /// Sum of all line loads: the mean line load in every slice.
     fn sum_of_line_loads(&self) -> f64 {
         self.line_load_n_per_mm * self.sliced.slices.count() as f64
     }
@@ -190,13 +190,13 @@ impl MeshCycle for SlicedCycle<'_> {
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
         let removed_mm = lost.removed_mm;
         let slices = self.sliced.slices.count();
-        let zeros = || removed_mm.map(|flank| vec![0.0; flank.len()]);
-        let (mut pressure_mpa, mut sliding_mm) = (zeros(), zeros());
+        let mut pressure_mpa = removed_mm.map(|flank| vec![0.0; flank.len()]);
+        let mut sliding_mm = pressure_mpa.clone();
         let mut sweep = Sweep::default();
-        let mut phases = Vec::new();
+        let mut observed = Vec::new();
         let mut greatest_pressure = GreatestPressure::default();
         let mut sliding_work_n = 0.0;
-        let mut deepest_overlap: Option<Overlap> = None;
+        let mut deepest_overlap: Option<FlankOverlap> = None;
         let mut of_slices = vec![GreatestPressure::default(); slices];
         let mut pressure_figures = PressureFigures::default();
         let mut figures_of_slices = vec![PressureFigures::default(); slices];
@@ -205,12 +205,12 @@ impl MeshCycle for SlicedCycle<'_> {
             for ((contact, pair), sliding) in loaded.contacts.iter().zip(&loaded.pairs).zip(&loaded.sliding_mm) {
                 let own = of_slice(removed_mm, self.points, contact.slice);
                 let footprint = pair.contact.footprint();
-                let overlap = pair.contact.overlap_beside_mm(own).map(|overlap_mm| Overlap {
+                let overlap = pair.contact.overlap_beside_mm(own).map(|overlap_mm| FlankOverlap {
                     of_transmission_error: overlap_mm / transmission_error_mm,
                     position_mm: contact.cell.position_mm,
                 });
-                deepest_overlap = deepest_overlap.into_iter().chain(overlap).reduce(Overlap::deeper);
-                // A part of a slice has its pressure where the line of contact ends, and not in the middle of the slice.
+                deepest_overlap = deepest_overlap.into_iter().chain(overlap).reduce(FlankOverlap::deeper);
+                // The pressure of a part of a slice is that at the end of the line of contact, not in the middle of the slice.
                 let is_whole = contact.part == ContactPart::WHOLE;
                 let greatest = if is_whole { &mut of_slices[contact.slice] } else { &mut greatest_pressure };
                 if (self.path.start_mm..=self.path.end_mm).contains(&contact.cell.position_mm) {
@@ -226,9 +226,9 @@ impl MeshCycle for SlicedCycle<'_> {
                 figures.note(figures_of(self.flanks, contact.cell.position_mm, &*pair.contact));
                 sliding_work_n += pair.normal_load_n_per_mm() * sliding;
             }
-            phases.push(loaded.observe(slices, self.line_load_n_per_mm, self.bodies_mm));
+            observed.push(loaded.observe(slices, self.line_load_n_per_mm, self.bodies_mm));
         }
-        let mesh = SlicedMesh::new(&phases, slices, self.path.base_pitch_mm);
+        let mesh = SlicedMesh::new(&observed, slices, self.path.base_pitch_mm);
         let positions = mesh.along_path(self.path, self.positions, self.line_load_n_per_mm);
         greatest_pressure.note_slices(&of_slices);
         pressure_figures.note_slices(&figures_of_slices);
@@ -246,7 +246,7 @@ impl MeshCycle for SlicedCycle<'_> {
     }
 }
 
-impl Group<'_> {
+impl SlicedGroup<'_> {
     fn evaluate(
         &mut self,
         removed_mm: PerGear<&[f64]>,
@@ -272,40 +272,46 @@ impl Group<'_> {
     }
 }
 
-impl<'a> LoadedPosition<'a> {
+impl<'a> LoadedSlices<'a> {
     fn new(
         flanks: Flanks<'a>,
         surface: &dyn ContactSurface,
         sliced: &SlicedTeeth,
-        phase: &SlicedPosition,
+        position: &SlicedPosition,
         springs: &SliceSprings<'_>,
     ) -> Self {
-        let compliance = |contact: &SliceContact| sliced.mm2_per_n(contact, springs.along_path);
-        let teeth = sliced.coupled_teeth(springs.pair, &phase.contacts, compliance);
-        let pairs = phase
-            .contacts
+        let contacts = &position.contacts;
+        let teeth =
+            sliced.coupled_teeth(springs.pair, contacts, |contact| sliced.mm2_per_n(contact, springs.along_path));
+        let pairs = contacts
             .iter()
             .map(|contact| {
                 let position_mm = contact.cell.position_mm;
                 let touching = surface.pair(flanks, position_mm, Some(contact.cell));
                 let touching = PartOfSlice::of(touching, contact.part);
-                // Where slices are coupled the teeth bend beside the pairs, not in them.
-                let teeth = if teeth.is_some() { f64::INFINITY } else { contact.part.of_width / compliance(contact) };
-                MeshedPair::on_lever(touching, teeth, (springs.lever_ratio)(position_mm), flanks.geometry.obliquity)
+                // Coupled teeth are not part of the pair.
+                let teeth_n_per_mm2 = match &teeth {
+                    Some(_) => f64::INFINITY,
+                    None => contact.part.of_width / sliced.mm2_per_n(contact, springs.along_path),
+                };
+                MeshedPair::on_lever(
+                    touching,
+                    teeth_n_per_mm2,
+                    (springs.lever_ratio)(position_mm),
+                    flanks.geometry.obliquity,
+                )
             })
             .collect();
         Self {
-            position_mm: phase.position_mm,
-            jump_mm: phase.jump_mm,
-            contacts: phase.contacts.clone(),
+            position_mm: position.position_mm,
+            jump_mm: position.jump_mm,
+            contacts: contacts.clone(),
             pairs,
-            places: phase
-                .contacts
+            places: contacts
                 .iter()
-                .map(|contact| ContactPlace::new(flanks, contact.cell).of_part(contact.part.of_width))
+                .map(|contact| ContactOnPath::new(flanks, contact.cell).of_part(contact.part.of_width))
                 .collect(),
-            sliding_mm: phase
-                .contacts
+            sliding_mm: contacts
                 .iter()
                 .map(|SliceContact { cell, part, .. }| {
                     let slid_mm = flanks.geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
@@ -313,7 +319,7 @@ impl<'a> LoadedPosition<'a> {
                 })
                 .collect(),
             teeth,
-            equilibrium: Equilibrium::default(),
+            equilibrium: PairEquilibrium::default(),
         }
     }
 
@@ -334,7 +340,7 @@ impl<'a> LoadedPosition<'a> {
         Ok(work)
     }
 
-    /// What is seen under a mean load of `line_load_n_per_mm` over the `slices`.
+    /// Observation under a mean load of `line_load_n_per_mm` over the `slices`.
     fn observe(&self, slices: usize, line_load_n_per_mm: f64, bodies_mm: f64) -> ObservedSlicedPosition {
         let total: f64 = self.pairs.iter().map(|pair| pair.response.line_load_n_per_mm).sum();
         let of_teeth_n_per_mm2 = self.equilibrium.n_per_mm2 / slices as f64;

@@ -1,7 +1,9 @@
-//! What is observed of the mesh of a sliced pair: one tooth, slice by slice, from its first touch to its last.
+//! Observation of the mesh of a sliced pair: one tooth, slice by slice, from its first touch to its last.
 //!
-//! The phases of one base pitch hold all of it: tooth k at a phase is the reference tooth k base pitches later, and the
+//! The positions of one base pitch suffice: tooth k at a position is the reference tooth k base pitches later, and the
 //! transmission error is the same in every base pitch.
+
+use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
@@ -9,22 +11,22 @@ use super::PositionObservation;
 use crate::contact::Footprint;
 use crate::gear::path_of_contact::PathOfContact;
 
-/// A slice in contact, as observed.
+/// Observation of a slice in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ObservedContact {
     /// Base pitches ahead of the reference tooth.
     pub tooth: i32,
-    /// Which slice.
+    /// Slice.
     pub slice: usize,
-    /// Part of its width that is in contact.
+    /// Part of the width of the slice that is in contact.
     pub part_of_width: f64,
-    /// Load, N per mm of its whole width.
+    /// Load, N per mm of the whole width of the slice.
     pub line_load_n_per_mm: f64,
-    /// Its contact.
+    /// Extent and greatest pressure of the contact.
     pub footprint: Footprint,
 }
 
-/// A phase, as observed.
+/// Observation at a position of the mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ObservedSlicedPosition {
     /// Position of the reference tooth in the middle of the face width.
@@ -33,15 +35,15 @@ pub struct ObservedSlicedPosition {
     pub transmission_error_mm: f64,
     /// Change of the mean line load with it, N/mm²; `None` where a model does not give it.
     pub stiffness_n_per_mm2: Option<f64>,
-    /// Sum of all line loads over what it should be, less one.
+    /// Sum of all line loads over the load to be carried, less one.
     pub load_imbalance: f64,
     /// All slices in contact.
     pub contacts: Vec<ObservedContact>,
-    /// Where, between here and the next phase, slices come or go at once; none where all change steadily.
+    /// Place between this position and the next at which slices come or go at once; none where all change steadily.
     pub jump_mm: Option<f64>,
 }
 
-/// The mesh of one tooth, and the base pitch that tells it.
+/// The mesh of one tooth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SlicedMesh {
     /// Slices over the face width.
@@ -50,65 +52,65 @@ pub struct SlicedMesh {
     pub position_mm: Vec<f64>,
     /// Part of the width of each slice that is in contact at each position, position after position; 0 without contact.
     pub part_of_width: Vec<f64>,
-    /// Its load, N per mm of its whole width.
+    /// Load of each slice at each position, N per mm of its whole width.
     pub line_load_n_per_mm: Vec<f64>,
-    /// Its greatest pressure, MPa.
+    /// Greatest pressure of each slice at each position, MPa.
     pub peak_pressure_mpa: Vec<f64>,
-    /// Half the extent of its contact strip, mm.
+    /// Half-width of the contact of each slice at each position, mm.
     pub half_width_mm: Vec<f64>,
-    /// Whether a sharp tip edge cuts its contact off.
+    /// Whether a sharp tip edge cuts off the contact of each slice at each position.
     pub at_sharp_edge: Vec<bool>,
-    /// Transmission error over one base pitch, at evenly spaced phases: the first is that of `first_phase_mm`.
+    /// Transmission error at evenly spaced positions of one base pitch, from `first_position_mm` on.
     pub transmission_error_mm: Vec<f64>,
     /// Mesh stiffness there, N/mm²; empty where a model does not give it.
     pub stiffness_n_per_mm2: Vec<f64>,
-    /// Of each phase: after which part of the way to the next one slices come or go at once; none where all change steadily.
+    /// Part of the way from each of these positions to the next at which slices come or go at once; none where all change steadily.
     pub jumps: Vec<Option<f64>>,
-    /// Position of the tooth at the first phase.
-    pub first_phase_mm: f64,
+    /// Position of the tooth at the first of these positions.
+    pub first_position_mm: f64,
     /// The base pitch.
     pub base_pitch_mm: f64,
-    /// Greatest imbalance of loads at any phase.
+    /// Greatest imbalance of loads at any position.
     pub load_imbalance: f64,
 }
 
-/// The first and the last row with a slice in contact, where the first tooth of the rows is `first_tooth`.
-fn first_and_last(phases: &[ObservedSlicedPosition], first_tooth: i32) -> [usize; 2] {
-    let rows = phases.iter().enumerate().flat_map(|(j, phase)| {
-        phase.contacts.iter().map(move |contact| (contact.tooth - first_tooth) as usize * phases.len() + j)
+/// First and last row with a slice in contact, where the first tooth of the rows is `first_tooth`.
+fn first_and_last(positions: &[ObservedSlicedPosition], first_tooth: i32) -> [usize; 2] {
+    let rows = positions.iter().enumerate().flat_map(|(j, position)| {
+        position.contacts.iter().map(move |contact| (contact.tooth - first_tooth) as usize * positions.len() + j)
     });
     rows.fold([usize::MAX, 0], |[first, last], row| [first.min(row), last.max(row)])
 }
 
 impl SlicedMesh {
-    /// From the phases of one base pitch, in order (at least one).
-    pub fn new(phases: &[ObservedSlicedPosition], slices: usize, base_pitch_mm: f64) -> Self {
-        let count = phases.len();
-        let teeth = || phases.iter().flat_map(|phase| phase.contacts.iter().map(|contact| contact.tooth));
-        let (first, last) = (teeth().min().unwrap_or(0), teeth().max().unwrap_or(0));
+    /// The mesh of the positions of one base pitch, in order (at least one).
+    pub fn new(positions: &[ObservedSlicedPosition], slices: usize, base_pitch_mm: f64) -> Self {
+        let count = positions.len();
+        let teeth = positions.iter().flat_map(|position| &position.contacts).map(|contact| contact.tooth);
+        let (first, last) = (teeth.clone().min().unwrap_or(0), teeth.max().unwrap_or(0));
         let rows = (last - first + 1) as usize * count;
         let spacing = base_pitch_mm / count as f64;
         let position_mm: Vec<f64> = (0..rows)
-            .map(|row| phases[0].position_mm + f64::from(first) * base_pitch_mm + row as f64 * spacing)
+            .map(|row| positions[0].position_mm + f64::from(first) * base_pitch_mm + row as f64 * spacing)
             .collect();
-        let field = || vec![0.0; rows * slices];
+        let zeros = vec![0.0; rows * slices];
         let mut mesh = Self {
             slices,
             position_mm,
-            part_of_width: field(),
-            line_load_n_per_mm: field(),
-            peak_pressure_mpa: field(),
-            half_width_mm: field(),
+            part_of_width: zeros.clone(),
+            line_load_n_per_mm: zeros.clone(),
+            peak_pressure_mpa: zeros.clone(),
+            half_width_mm: zeros,
             at_sharp_edge: vec![false; rows * slices],
-            transmission_error_mm: phases.iter().map(|phase| phase.transmission_error_mm).collect(),
-            stiffness_n_per_mm2: phases.iter().filter_map(|phase| phase.stiffness_n_per_mm2).collect(),
-            jumps: phases.iter().map(|phase| phase.jump_mm.map(|at| (at - phase.position_mm) / spacing)).collect(),
-            first_phase_mm: phases[0].position_mm,
+            transmission_error_mm: positions.iter().map(|at| at.transmission_error_mm).collect(),
+            stiffness_n_per_mm2: positions.iter().filter_map(|at| at.stiffness_n_per_mm2).collect(),
+            jumps: positions.iter().map(|at| at.jump_mm.map(|jump| (jump - at.position_mm) / spacing)).collect(),
+            first_position_mm: positions[0].position_mm,
             base_pitch_mm,
-            load_imbalance: phases.iter().map(|phase| phase.load_imbalance.abs()).fold(0.0, f64::max),
+            load_imbalance: positions.iter().map(|at| at.load_imbalance.abs()).fold(0.0, f64::max),
         };
-        for (j, phase) in phases.iter().enumerate() {
-            for contact in &phase.contacts {
+        for (j, position) in positions.iter().enumerate() {
+            for contact in &position.contacts {
                 let row = (contact.tooth - first) as usize * count + j;
                 let place = row * slices + contact.slice;
                 mesh.part_of_width[place] = contact.part_of_width;
@@ -118,10 +120,10 @@ impl SlicedMesh {
                 mesh.at_sharp_edge[place] = contact.footprint.at_sharp_edge;
             }
         }
-        mesh.between(first_and_last(phases, first))
+        mesh.between(first_and_last(positions, first))
     }
 
-    /// The rows `first` to `last` alone.
+    /// The mesh from row `first` to row `last` alone.
     fn between(mut self, [first, last]: [usize; 2]) -> Self {
         let n = self.slices;
         self.position_mm = self.position_mm[first..=last].to_vec();
@@ -133,23 +135,24 @@ impl SlicedMesh {
         self
     }
 
-    /// The same over the rows of `other` too, another mesh of the pair at the same phases: in what it has no row of, nothing is in contact.
+    /// Extends the mesh by the rows of `other`, another mesh of the pair at the same positions; nothing is in contact in them.
     pub fn with_rows_of(&self, other: &Self) -> Self {
         let spacing = self.base_pitch_mm / self.transmission_error_mm.len() as f64;
-        let rows = |from_mm: f64, to_mm: f64| ((to_mm - from_mm) / spacing).round().max(0.0) as usize;
-        let ends_mm = |mesh: &Self| [mesh.position_mm[0], mesh.position_mm[mesh.position_mm.len() - 1]];
-        let ([first_mm, last_mm], [other_first_mm, other_last_mm]) = (ends_mm(self), ends_mm(other));
-        let (before, after) = (rows(other_first_mm, first_mm), rows(last_mm, other_last_mm));
+        let [[first_mm, last_mm], [other_first_mm, other_last_mm]] =
+            [self, other].map(|mesh| [mesh.position_mm[0], mesh.position_mm[mesh.position_mm.len() - 1]]);
+        let [before, after] = [first_mm - other_first_mm, other_last_mm - last_mm]
+            .map(|length_mm| (length_mm / spacing).round().max(0.0) as usize);
         let down = (1..=before).rev().map(|row| first_mm - row as f64 * spacing);
         let up = (1..=after).map(|row| last_mm + row as f64 * spacing);
-        let extended =
-            |field: &[f64]| [&vec![0.0; before * self.slices], field, &vec![0.0; after * self.slices]].concat();
+        let [part_of_width, line_load_n_per_mm, peak_pressure_mpa, half_width_mm] =
+            [&self.part_of_width, &self.line_load_n_per_mm, &self.peak_pressure_mpa, &self.half_width_mm]
+                .map(|field| [&vec![0.0; before * self.slices][..], field, &vec![0.0; after * self.slices]].concat());
         Self {
             position_mm: down.chain(self.position_mm.iter().copied()).chain(up).collect(),
-            part_of_width: extended(&self.part_of_width),
-            line_load_n_per_mm: extended(&self.line_load_n_per_mm),
-            peak_pressure_mpa: extended(&self.peak_pressure_mpa),
-            half_width_mm: extended(&self.half_width_mm),
+            part_of_width,
+            line_load_n_per_mm,
+            peak_pressure_mpa,
+            half_width_mm,
             at_sharp_edge: [
                 &vec![false; before * self.slices],
                 &*self.at_sharp_edge,
@@ -160,13 +163,13 @@ impl SlicedMesh {
         }
     }
 
-    /// Load of each slice on average over the mesh, all teeth together, N per mm of face width.
+    /// Mean load of each slice over the mesh, all teeth together, N per mm of face width.
     pub(crate) fn mean_line_loads_n_per_mm(&self) -> Vec<f64> {
-        let phases = self.transmission_error_mm.len() as f64;
+        let positions = self.transmission_error_mm.len() as f64;
         let rows = self.line_load_n_per_mm.chunks_exact(self.slices);
         let mut sums = vec![0.0; self.slices];
         for row in rows {
-            sums.iter_mut().zip(row).for_each(|(sum, load)| *sum += load / phases);
+            sums.iter_mut().zip(row).for_each(|(sum, load)| *sum += load / positions);
         }
         sums
     }
@@ -188,20 +191,19 @@ impl SlicedMesh {
         let m = self.transmission_error_mm.len();
         (1..=count)
             .map(|k| {
-                let turn = |j: usize| std::f64::consts::TAU * ((k * j) % m) as f64 / m as f64;
                 let (cosine, sine) =
                     self.transmission_error_mm.iter().enumerate().fold((0.0, 0.0), |(c, s), (j, te)| {
-                        let (sin, cos) = turn(j).sin_cos();
+                        let (sin, cos) = (std::f64::consts::TAU * ((k * j) % m) as f64 / m as f64).sin_cos();
                         (c + te * cos, s + te * sin)
                     });
-                // The last order that the phases tell is its own mirror image.
+                // The last order that the positions resolve is its own mirror image.
                 let share = if 2 * k == m { 1.0 } else { 2.0 };
                 if 2 * k > m { 0.0 } else { share * f64::hypot(cosine, sine) / m as f64 }
             })
             .collect()
     }
 
-    /// Greatest change of the transmission error from one phase to the next, mm.
+    /// Greatest change of the transmission error from one position to the next, mm.
     pub fn greatest_step_mm(&self) -> f64 {
         let errors = &self.transmission_error_mm;
         let next = errors.iter().cycle().skip(1);
@@ -215,48 +217,57 @@ impl SlicedMesh {
     }
 
     fn at(&self, position_mm: f64, line_load_n_per_mm: f64) -> PositionObservation {
-        let phases = self.transmission_error_mm.len();
-        let spacing = self.base_pitch_mm / phases as f64;
-        let first_row = ((self.position_mm[0] - self.first_phase_mm) / spacing).round();
-        let line = self.line_at((position_mm - self.first_phase_mm) / spacing, first_row);
-        let over_phases =
-            |values: &[f64]| line.value(|phase| values[phase.rem_euclid(phases as f64) as usize % phases]);
-        let rows = self.position_mm.len() as f64;
-        let over_rows = |of: &dyn Fn(usize) -> f64| {
-            line.value(|phase| {
-                let row = phase - first_row;
-                if row >= 0.0 && row < rows { of(row as usize) } else { 0.0 }
-            })
-        };
-        let slices = |row: usize| row * self.slices..(row + 1) * self.slices;
-        let greatest = |field: &[f64], row: usize| field[slices(row)].iter().copied().fold(0.0, f64::max);
-        // The greatest pressure of a row is not defined where it is that of a slice at a sharp edge.
-        let is_sharp = |row: usize| {
-            let most = slices(row).max_by(|&a, &b| self.peak_pressure_mpa[a].total_cmp(&self.peak_pressure_mpa[b]));
-            most.is_some_and(|place| self.at_sharp_edge[place])
-        };
-        let sharp = |row: usize| if is_sharp(row) { 1.0 } else { 0.0 };
-        let load = |row: usize| self.line_load_n_per_mm[slices(row)].iter().sum::<f64>() / self.slices as f64;
+        let count = self.transmission_error_mm.len();
+        let spacing = self.base_pitch_mm / count as f64;
+        let first_row = ((self.position_mm[0] - self.first_position_mm) / spacing).round();
+        let line = self.line_at((position_mm - self.first_position_mm) / spacing, first_row);
+        let load = |row: usize| self.line_load_n_per_mm[self.slices_of(row)].iter().sum::<f64>() / self.slices as f64;
         PositionObservation {
             position_mm,
-            transmission_error_mm: over_phases(&self.transmission_error_mm),
-            stiffness_n_per_mm2: (self.stiffness_n_per_mm2.len() == phases)
-                .then(|| over_phases(&self.stiffness_n_per_mm2)),
-            load_share: over_rows(&load) / line_load_n_per_mm,
+            transmission_error_mm: line.in_base_pitch(&self.transmission_error_mm),
+            stiffness_n_per_mm2: (self.stiffness_n_per_mm2.len() == count)
+                .then(|| line.in_base_pitch(&self.stiffness_n_per_mm2)),
+            load_share: self.over_rows(line, first_row, load) / line_load_n_per_mm,
             load_imbalance: self.load_imbalance,
             footprint: Footprint {
-                peak_pressure_mpa: over_rows(&|row| greatest(&self.peak_pressure_mpa, row)),
-                half_width_mm: over_rows(&|row| greatest(&self.half_width_mm, row)),
-                at_sharp_edge: over_rows(&sharp) > 0.0,
+                peak_pressure_mpa: self.over_rows(line, first_row, |row| self.greatest(&self.peak_pressure_mpa, row)),
+                half_width_mm: self.over_rows(line, first_row, |row| self.greatest(&self.half_width_mm, row)),
+                at_sharp_edge: self.over_rows(line, first_row, |row| f64::from(u8::from(self.is_sharp(row)))) > 0.0,
             },
         }
     }
 
-    /// The straight line that holds at `phase`, counted from the first phase on, of a tooth with rows from `first_row` on: between the phases around it, or
-    /// where slices come or go at once between these, level from the one on its side of the jump, so that the jump stays sharp. A tooth that touches from
-    /// a jump to another touches at both.
-    fn line_at(&self, phase: f64, first_row: f64) -> Line {
-        let (before, part) = (phase.floor(), phase - phase.floor());
+    /// Range of the slices of a row.
+    fn slices_of(&self, row: usize) -> Range<usize> {
+        row * self.slices..(row + 1) * self.slices
+    }
+
+    /// Greatest value of a field over the slices of a row.
+    fn greatest(&self, field: &[f64], row: usize) -> f64 {
+        field[self.slices_of(row)].iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Whether the greatest pressure of a row is that of a slice at a sharp edge, and not defined.
+    fn is_sharp(&self, row: usize) -> bool {
+        let slices = self.slices_of(row);
+        let most = slices.max_by(|&a, &b| self.peak_pressure_mpa[a].total_cmp(&self.peak_pressure_mpa[b]));
+        most.is_some_and(|place| self.at_sharp_edge[place])
+    }
+
+    /// Value on `line` of a quantity of rows, the first of which is `first_row`; 0 in other rows.
+    fn over_rows(&self, line: Line, first_row: f64, of_row: impl Fn(usize) -> f64) -> f64 {
+        let rows = self.position_mm.len() as f64;
+        line.value(|index| {
+            let row = index - first_row;
+            if row >= 0.0 && row < rows { of_row(row as usize) } else { 0.0 }
+        })
+    }
+
+    /// The interpolation that holds at `place`, counted in positions from the first one on, of a tooth with rows from `first_row` on: linear between the
+    /// positions around it, or where slices come or go at once between these, constant from the one on its side of the jump, so that the jump stays sharp.
+    /// A tooth that touches from a jump to another touches at both.
+    fn line_at(&self, place: f64, first_row: f64) -> Line {
+        let (before, part) = (place.floor(), place - place.floor());
         let count = self.jumps.len();
         let Some(jump) = self.jumps[before.rem_euclid(count as f64) as usize % count] else {
             return Line { from: before, along: part };
@@ -266,23 +277,28 @@ impl SlicedMesh {
     }
 }
 
-/// Positions are compared to this part of the phases' distance.
+/// Part of the distance of positions within which two places are the same.
 const SAME_PLACE: f64 = 1e-6;
 
-/// A straight line through what is found at a phase and at the next.
+/// Linear interpolation between a position and the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Line {
-    /// The phase.
+    /// Index of the position.
     from: f64,
     /// Part of the way to the next.
     along: f64,
 }
 
 impl Line {
-    /// What `at` the phases comes to on the line.
+    /// Value on the line of a quantity given by the index of the position.
     fn value(&self, at: impl Fn(f64) -> f64) -> f64 {
         let from = at(self.from);
         if self.along == 0.0 { from } else { from + self.along * (at(self.from + 1.0) - from) }
+    }
+
+    /// Value on the line of a quantity with the period of the base pitch.
+    fn in_base_pitch(&self, values: &[f64]) -> f64 {
+        self.value(|index| values[index.rem_euclid(values.len() as f64) as usize % values.len()])
     }
 }
 
@@ -290,9 +306,9 @@ impl Line {
 mod tests {
     use super::*;
 
-    /// A mesh that is in contact from one phase to another, of four in a base pitch of 2 mm, with one slice.
+    /// A mesh that is in contact from one position to another, of four in a base pitch of 2 mm, with one slice.
     fn mesh(first: i32, last: i32) -> SlicedMesh {
-        let phase = |j: i32| {
+        let positions = [0, 1, 2, 3].map(|j: i32| {
             let in_contact = (first..=last).filter(|row| row.rem_euclid(4) == j);
             let contacts = in_contact.map(|row| ObservedContact {
                 tooth: row.div_euclid(4),
@@ -309,8 +325,8 @@ mod tests {
                 load_imbalance: 0.0,
                 contacts: contacts.collect(),
             }
-        };
-        SlicedMesh::new(&[0, 1, 2, 3].map(phase), 1, 2.0)
+        });
+        SlicedMesh::new(&positions, 1, 2.0)
     }
 
     /// Worn teeth touch over other rows than new ones: each mesh gets those of the other, without contact.
@@ -318,8 +334,9 @@ mod tests {
     fn meshes_have_each_others_rows() {
         let (new, worn) = (mesh(-3, 6), mesh(-1, 9));
         let [new, worn] = [new.with_rows_of(&worn), worn.with_rows_of(&new)];
-        let rows = -3..=9;
-        let of = |value: fn(i32) -> f64| rows.clone().map(value).collect::<Vec<_>>();
+        fn of(value: fn(i32) -> f64) -> Vec<f64> {
+            (-3..=9).map(value).collect()
+        }
         assert_eq!((&new.position_mm, &worn.position_mm), (&of(|row| 10.0 + 0.5 * f64::from(row)), &new.position_mm));
         assert_eq!(new.line_load_n_per_mm, of(|row| if row > 6 { 0.0 } else { f64::from(row) }));
         assert_eq!(worn.line_load_n_per_mm, of(|row| if row < -1 { 0.0 } else { f64::from(row) }));

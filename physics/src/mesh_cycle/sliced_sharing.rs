@@ -1,17 +1,17 @@
-//! Equilibrium of all slices in contact whose teeth hold their slices together.
+//! Equilibrium of all slices in contact whose teeth couple their slices.
 //!
-//! As in [`super::load_sharing`], but the teeth are no single springs ([`super::coupled_teeth`]). With t_i the first touch of a contact,
-//! s_i its indentation, f_i what its bodies approach beside that, and u_i the deflection of its tooth,
+//! As in [`super::load_sharing`], but with coupled teeth ([`super::coupled_teeth`]) in place of single springs. With the first touch t_i of a contact,
+//! its indentation s_i, the approach f_i of its bodies beyond that, and the deflection u_i of its tooth,
 //!
 //! ```text
 //! t_i + s_i + f_i(w_i) + u_i = δ          Σ w_i(s_i) = F          c_i = w_i'/(1 + w_i' f_i')
 //! ```
 //!
-//! Only the contacts are nonlinear. Where all are ever steeper with their indentation, Newton converges from any start that carries too
-//! much, as for single springs. Springs that soften under load are not: w ~ U^{1/(1+m)}, and where the first touch is between two samples
-//! of a strip, U grows in proportion to the indentation, so that w is steepest at the first touch. There Newton may go to and fro between
-//! touch and none for ever, and after some steps they are shortened. With a_i = s_i + f_i, in which every w_i grows, and l_i the loads that
-//! the teeth are bent by, the equilibrium is the minimum of a convex function of δ and u:
+//! Only the contacts are nonlinear. Where all steepen with their indentation, Newton's method converges from any start that carries too
+//! much, as for single springs. Springs that soften under load do not: w ~ U^{1/(1+m)}, and where the first touch is between two samples
+//! of a strip, U grows in proportion to the indentation, so that w is steepest at the first touch. There Newton's method may alternate between
+//! touch and none for ever, and its steps are shortened after some of them. With a_i = s_i + f_i, in which every w_i grows, and the loads l_i that
+//! bend the teeth, the equilibrium is the minimum of a convex function of δ and u:
 //!
 //! ```text
 //! Σ ∫ w_i da_i + ½ Σ l_i u_i − F δ        its slope along a step:  Σ (w_i − l_i) Δa_i    where  Σ l_i = F
@@ -21,23 +21,65 @@
 
 use super::bent_tooth::{Bend, ContactTangent};
 use super::coupled_teeth::CoupledTeeth;
-use super::load_sharing::{Equilibrium, EquilibriumError, GREATEST_IMBALANCE, MeshedPair, TOLERANCE};
+use super::load_sharing::{
+    EquilibriumError, GREATEST_IMBALANCE, MeshedPair, PairEquilibrium, TOLERANCE, press_amply, press_to_start,
+};
 
 /// Newton steps before giving up; three to six are usual.
 const NEWTON_LIMIT: u64 = 80;
-/// Steps after which they are shortened where need be.
+/// Steps from which on they are shortened where need be.
 const WHOLE_STEPS: u64 = 12;
-/// How steep the convex function may be where a shortened step ends, over how steeply it falls at the beginning.
+/// Greatest slope of the convex function at the end of a shortened step, over that at its beginning.
 const GREATEST_RISE: f64 = 0.5;
-/// Halvings of a step.
+/// Greatest number of bisections of a step.
 const HALVINGS: usize = 30;
 
-/// Where a step leads: a_i of each contact and the load l_i that its tooth is bent by.
+/// End of a step: a_i of each contact and the load l_i that bends its tooth.
 type Bent = Vec<(f64, f64)>;
 
-/// Approach of a pair beyond `base_mm`, the first touch of any: nothing is lost where a light load meets a deep relief.
+/// A Newton step on the bent teeth.
+struct BentStep {
+    /// First touch of any contact, mm: approaches are counted from it, so that a light load on a deep relief keeps its digits.
+    base_mm: f64,
+    /// δ from there on, mm.
+    delta_mm: f64,
+}
+
+/// Approach of a pair beyond `base_mm`.
 fn approach_mm(pair: &MeshedPair<'_>, base_mm: f64) -> f64 {
     (pair.touch_mm - base_mm) + pair.beyond_touch_mm()
+}
+
+impl BentStep {
+    /// Change of the indentation of a contact where its tooth is bent by `deflection_mm`.
+    fn deeper_mm(&self, pair: &MeshedPair<'_>, deflection_mm: f64) -> f64 {
+        (self.delta_mm - approach_mm(pair, self.base_mm) - deflection_mm) / pair.series()
+    }
+
+    /// Whether no contact would change its load by more than `tolerance`, N/mm; and the greatest change, N/mm.
+    fn settles(&self, pairs: &[MeshedPair<'_>], teeth: &CoupledTeeth, tolerance: f64) -> (bool, f64) {
+        let (mut settled, mut greatest) = (true, 0.0_f64);
+        teeth.each_deflection_mm(|k, mm2_per_n, deflection_mm| {
+            let pair = &pairs[k];
+            let step = self.deeper_mm(pair, deflection_mm).abs();
+            let stiffest = pair.response.stiffness_n_per_mm2.max(1.0 / mm2_per_n);
+            settled &= step * stiffest <= tolerance || step <= pair.least_step_mm();
+            greatest = greatest.max(step * stiffest);
+        });
+        (settled, greatest)
+    }
+
+    /// End of the whole step.
+    fn end(&self, pairs: &[MeshedPair<'_>], teeth: &CoupledTeeth) -> Bent {
+        let mut end = vec![(0.0, 0.0); pairs.len()];
+        teeth.each_deflection_mm(|k, _, deflection_mm| {
+            let pair = &pairs[k];
+            let bent_mm = (self.delta_mm - deflection_mm) - (pair.touch_mm - self.base_mm);
+            let further = pair.tangent_n_per_mm2() * (bent_mm - pair.beyond_touch_mm());
+            end[k] = (bent_mm, pair.response.line_load_n_per_mm + further);
+        });
+        end
+    }
 }
 
 /// Finds the equilibrium of `pairs`, whose own springs are infinitely stiff, on the teeth that they belong to, under the sum of
@@ -47,70 +89,42 @@ pub fn balance_on_teeth(
     teeth: &mut CoupledTeeth,
     line_load: f64,
     position_mm: f64,
-) -> Result<Equilibrium, EquilibriumError> {
-    let mut evaluations = 0;
+) -> Result<PairEquilibrium, EquilibriumError> {
     let base_mm = pairs.iter().map(|pair| pair.touch_mm).fold(f64::INFINITY, f64::min);
     let expected = line_load / pairs.len() as f64;
-    for pair in pairs.iter_mut() {
-        let start = pair.start_mm(expected);
-        pair.load_at(start);
-        evaluations += 1;
-    }
+    let mut evaluations = press_to_start(pairs, expected);
     let mut residual = f64::INFINITY;
     let mut before: Option<Bent> = None;
     for iterations in 1..=NEWTON_LIMIT {
-        // Where rounding stands in the way, what a result may have is accepted.
         let tolerance = if 2 * iterations > NEWTON_LIMIT { GREATEST_IMBALANCE } else { TOLERANCE };
         let load: f64 = pairs.iter().map(|pair| pair.response.line_load_n_per_mm).sum();
         if !load.is_finite() {
             return Err(EquilibriumError::NotFinite { position_mm });
         }
-        let tangent = |k: usize| ContactTangent {
+        let bend = teeth.bend(line_load, |k| ContactTangent {
             line_load_n_per_mm: pairs[k].response.line_load_n_per_mm,
             n_per_mm2: pairs[k].tangent_n_per_mm2(),
             approach_mm: approach_mm(&pairs[k], base_mm),
-        };
-        let Some(Bend { delta_mm, n_per_mm2 }) = teeth.bend(line_load, tangent) else {
-            // No slice touches: begin again from where each would carry its part.
-            for pair in pairs.iter_mut() {
-                let ample = pair.contact.ample_indentation_mm(expected);
-                pair.load_at(ample);
-                evaluations += 1;
-            }
+        });
+        let Some(Bend { delta_mm, n_per_mm2 }) = bend else {
+            evaluations += press_amply(pairs, expected);
             before = None;
             continue;
         };
-        // What the indentation of a contact on the bent teeth lacks.
-        let step = |pair: &MeshedPair<'_>, deflection_mm: f64| {
-            (delta_mm - approach_mm(pair, base_mm) - deflection_mm) / pair.series()
-        };
-        let mut settled = (load - line_load).abs() <= tolerance * line_load;
-        let mut greatest = 0.0_f64;
-        teeth.each_deflection_mm(|k, mm2_per_n, deflection_mm| {
-            let pair = &pairs[k];
-            let step = step(pair, deflection_mm).abs();
-            let stiffest = pair.response.stiffness_n_per_mm2.max(1.0 / mm2_per_n);
-            settled &= step * stiffest <= tolerance * line_load || step <= pair.least_step_mm();
-            greatest = greatest.max(step * stiffest);
-        });
-        if settled {
+        let step = BentStep { base_mm, delta_mm };
+        let (settled, greatest) = step.settles(pairs, teeth, tolerance * line_load);
+        if settled && (load - line_load).abs() <= tolerance * line_load {
             let transmission_error_mm = base_mm + delta_mm;
-            return Ok(Equilibrium { transmission_error_mm, n_per_mm2, iterations, pair_evaluations: evaluations });
+            return Ok(PairEquilibrium { transmission_error_mm, n_per_mm2, iterations, pair_evaluations: evaluations });
         }
         residual = greatest / line_load;
         if iterations >= WHOLE_STEPS {
-            let mut after = vec![(0.0, 0.0); pairs.len()];
-            teeth.each_deflection_mm(|k, _, deflection_mm| {
-                let pair = &pairs[k];
-                let bent_mm = (delta_mm - deflection_mm) - (pair.touch_mm - base_mm);
-                let further = pair.tangent_n_per_mm2() * (bent_mm - pair.beyond_touch_mm());
-                after[k] = (bent_mm, pair.response.line_load_n_per_mm + further);
-            });
+            let after = step.end(pairs, teeth);
             before = Some(shortened(pairs, before.as_ref(), after, &mut evaluations));
             continue;
         }
         teeth.each_deflection_mm(|k, _, deflection_mm| {
-            let deeper = pairs[k].indentation_mm + step(&pairs[k], deflection_mm);
+            let deeper = pairs[k].indentation_mm + step.deeper_mm(&pairs[k], deflection_mm);
             pairs[k].load_at(deeper);
             evaluations += 1;
         });
@@ -118,26 +132,21 @@ pub fn balance_on_teeth(
     Err(EquilibriumError::NotConverged { position_mm, residual, evaluations })
 }
 
-/// Presses every contact to where a step from `before`, where they are, ends on its way to `after`, and gives that place; the whole step
-/// where they are not at any yet.
+/// Presses every contact to the end of a step from `before` towards `after`, shortened where need be, and gives that end; the whole step
+/// without a `before`.
 fn shortened(pairs: &mut [MeshedPair<'_>], before: Option<&Bent>, after: Bent, evaluations: &mut u64) -> Bent {
     let Some(before) = before else {
         press(pairs, &after, evaluations);
         return after;
     };
-    let slope = |pairs: &[MeshedPair<'_>], at: &Bent| -> f64 {
-        let steps = before.iter().zip(&after).map(|((from, _), (to, _))| to - from);
-        let unbalanced = pairs.iter().zip(at).map(|(pair, (_, bent_by))| pair.response.line_load_n_per_mm - bent_by);
-        unbalanced.zip(steps).map(|(load, step)| load * step).sum()
-    };
-    let greatest = GREATEST_RISE * slope(pairs, before).abs();
+    let greatest = GREATEST_RISE * slope(pairs, before, [before, &after]).abs();
     let (mut low, mut high) = (0.0, 1.0);
     let mut part: f64 = 1.0;
     for _ in 0..HALVINGS {
-        let between = |from: f64, to: f64| from + part * (to - from);
-        let at = before.iter().zip(&after).map(|(from, to)| (between(from.0, to.0), between(from.1, to.1))).collect();
+        let steps = before.iter().zip(&after);
+        let at = steps.map(|(from, to)| (from.0 + part * (to.0 - from.0), from.1 + part * (to.1 - from.1))).collect();
         press(pairs, &at, evaluations);
-        let rise = slope(pairs, &at);
+        let rise = slope(pairs, &at, [before, &after]);
         if rise.abs() <= greatest || rise < 0.0 && part == 1.0 {
             return at;
         }
@@ -148,9 +157,16 @@ fn shortened(pairs: &mut [MeshedPair<'_>], before: Option<&Bent>, after: Bent, e
         }
         part = 0.5 * (low + high);
     }
-    // Rounding decides.
+    // Rounding errors decide.
     press(pairs, &after, evaluations);
     after
+}
+
+/// Slope of the convex function `at` a place of the step from one place to the other.
+fn slope(pairs: &[MeshedPair<'_>], at: &Bent, [from, to]: [&Bent; 2]) -> f64 {
+    let steps = from.iter().zip(to).map(|((from, _), (to, _))| to - from);
+    let unbalanced = pairs.iter().zip(at).map(|(pair, (_, bent_by))| pair.response.line_load_n_per_mm - bent_by);
+    unbalanced.zip(steps).map(|(load, step)| load * step).sum()
 }
 
 fn press(pairs: &mut [MeshedPair<'_>], to: &Bent, evaluations: &mut u64) {

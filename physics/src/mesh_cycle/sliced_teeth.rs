@@ -1,4 +1,4 @@
-//! What a wear run of a pair with slices is made of, beside the pair itself.
+//! The slices of a pair over the face width, with the compliance and the coupling of their teeth.
 
 use std::sync::Arc;
 
@@ -13,35 +13,35 @@ use super::sliced_positions::SliceContact;
 use crate::gear::{Gear, GearPair, PerGear, slices::Slices};
 use crate::material::Material;
 
-/// The slices of a pair, and how they hold each other.
+/// Slices of a pair with their coupling.
 #[derive(Clone)]
 pub struct SlicedTeeth {
-    /// As asked for.
+    /// Settings.
     pub settings: SliceSettings,
-    /// Where they are.
+    /// Places over the face width.
     pub slices: Slices,
-    /// How they yield where they are not coupled in space.
+    /// Compliance where they are not coupled in space.
     compliance: SliceCompliance,
     /// Compliance of the teeth of each slice over that of the section.
     softness: Arc<[f64]>,
-    model: Model,
-    /// What the twist of the shafts adds between slices, of whatever tooth, mm²/N, row by row; none where nothing twists.
+    model: SliceModel,
+    /// Compliance by the twist of the shafts between slices of any teeth, mm²/N, row by row; none where nothing twists.
     twist: Option<Arc<[f64]>>,
 }
 
-/// How slices are coupled.
+/// Coupling of slices.
 #[derive(Clone)]
-enum Model {
-    /// Not at all.
+enum SliceModel {
+    /// Thin, independent slices.
     Thin,
-    /// Each tooth is a plate.
+    /// Teeth as plates.
     Plate(SliceCoupling),
-    /// All teeth in space.
+    /// Teeth in space.
     InSpace(Arc<PairInSpace>),
 }
 
 impl SlicedTeeth {
-    /// Of a pair, coupled as `settings` say; `in_space` where that is by teeth in space, which are the same whatever the slices.
+    /// Slices of a pair, coupled by `settings`; `in_space` for coupling by teeth in space, which do not depend on the slices.
     ///
     /// # Panics
     /// Where the coupling is by teeth in space and there are none.
@@ -54,9 +54,9 @@ impl SlicedTeeth {
     ) -> Self {
         let slices = Slices::new(pair, settings.count);
         let model = match settings.coupling {
-            Coupling::None => Model::Thin,
-            Coupling::Slicing => Model::Plate(compliance.coupling(&slices)),
-            Coupling::Fem => Model::InSpace(in_space.expect("the coupling by teeth in space comes with them")),
+            Coupling::None => SliceModel::Thin,
+            Coupling::Slicing => SliceModel::Plate(compliance.coupling(&slices)),
+            Coupling::Fem => SliceModel::InSpace(in_space.expect("the coupling by teeth in space comes with them")),
         };
         let softness = match settings.coupling {
             Coupling::Fem => vec![1.0; settings.count].into(),
@@ -66,7 +66,7 @@ impl SlicedTeeth {
         Self { settings, slices, compliance, softness, model, twist }
     }
 
-    /// Compliance of the teeth at a contact, mm²/N, by that of their section along the path of contact.
+    /// Compliance of the teeth at a contact, mm²/N, from that of their section along the path of contact.
     pub fn mm2_per_n(&self, contact: &SliceContact, section: &SpringAlongPath) -> f64 {
         section.at(contact.cell.position_mm).mm2_per_n(self.softness[contact.slice])
     }
@@ -76,8 +76,8 @@ impl SlicedTeeth {
         self.softness.iter().fold([f64::INFINITY, 0.0], |[least, most], &of| [of.min(least), of.max(most)])
     }
 
-    /// Compliance of the bodies that all pairs in mesh share, where the section's is given, mm²/N; those of teeth in space are part of what
-    /// couples them.
+    /// Compliance of the bodies that all pairs in mesh share, mm²/N, from that of the section; 0 for teeth in space, whose coupling includes
+    /// them.
     pub fn bodies_mm2_per_n(&self, section_mm2_per_n: f64) -> f64 {
         if self.in_space().is_some() { 0.0 } else { self.compliance.bodies * section_mm2_per_n }
     }
@@ -90,27 +90,27 @@ impl SlicedTeeth {
 
     /// Whether the slices of a tooth act on each other.
     pub(crate) fn is_coupled(&self) -> bool {
-        !matches!(self.model, Model::Thin) || self.twist.is_some()
+        !matches!(self.model, SliceModel::Thin) || self.twist.is_some()
     }
 
     /// The teeth in space, where they couple the slices.
     pub fn in_space(&self) -> Option<&Arc<PairInSpace>> {
         match &self.model {
-            Model::InSpace(teeth) => Some(teeth),
-            Model::Thin | Model::Plate(_) => None,
+            SliceModel::InSpace(teeth) => Some(teeth),
+            SliceModel::Thin | SliceModel::Plate(_) => None,
         }
     }
 
-    /// How far a deflection reaches along a tooth that is a plate.
+    /// Reach of a deflection along a tooth as a plate.
     pub fn reach(&self) -> Option<Reach> {
         match &self.model {
-            Model::Plate(coupling) => Some(coupling.reach),
-            Model::Thin | Model::InSpace(_) => None,
+            SliceModel::Plate(coupling) => Some(coupling.reach),
+            SliceModel::Thin | SliceModel::InSpace(_) => None,
         }
     }
 
-    /// The teeth that `contacts`, tooth by tooth, belong to, not yet bent, where the pair has the compliance `mm2_per_n` at a contact;
-    /// none where slices are not coupled.
+    /// Teeth of `contacts`, tooth by tooth, not yet bent, where the pair has the compliance `mm2_per_n` at a contact; none where slices are not
+    /// coupled.
     pub fn coupled_teeth(
         &self,
         pair: &GearPair,
@@ -118,16 +118,16 @@ impl SlicedTeeth {
         mm2_per_n: impl Fn(&SliceContact) -> f64,
     ) -> Option<CoupledTeeth> {
         let mut influence = match (&self.model, &self.twist) {
-            (Model::Thin, None) => return None,
-            (Model::Plate(coupling), None) => {
+            (SliceModel::Thin, None) => return None,
+            (SliceModel::Plate(coupling), None) => {
                 return Some(CoupledTeeth::Plates {
-                    teeth: BentTooth::of_phase(contacts, self.slices.count(), mm2_per_n),
+                    teeth: BentTooth::of_contacts(contacts, self.slices.count(), mm2_per_n),
                     coupling: coupling.clone(),
                 });
             }
-            (Model::Thin, Some(_)) => Influence::of_thin_slices(contacts, mm2_per_n),
-            (Model::Plate(coupling), Some(_)) => coupling.influence(contacts, mm2_per_n),
-            (Model::InSpace(teeth), _) => teeth.influence(pair, &self.slices, contacts, mm2_per_n),
+            (SliceModel::Thin, Some(_)) => Influence::of_thin_slices(contacts, mm2_per_n),
+            (SliceModel::Plate(coupling), Some(_)) => coupling.influence(contacts, mm2_per_n),
+            (SliceModel::InSpace(teeth), _) => teeth.influence(pair, &self.slices, contacts, mm2_per_n),
         };
         if let Some(twist) = &self.twist {
             influence.add(|a, b| twist[contacts[a].slice * self.slices.count() + contacts[b].slice]);
@@ -136,13 +136,12 @@ impl SlicedTeeth {
     }
 }
 
-/// What the twist of both shafts adds between slices, mm²/N, row by row; none where nothing twists.
+/// Compliance by the twist of both shafts between slices, mm²/N, row by row; none where nothing twists.
 fn twist(pair: &GearPair, material: &PerGear<Material>, slices: &Slices) -> Option<Vec<f64>> {
-    let of_gear = |gear: Gear| {
+    let twists = Gear::BOTH.into_iter().filter_map(|gear| {
         let shaft = pair.spec.gears[gear].shaft?;
         let shear_modulus_mpa = material[gear].elastic().shear_modulus_mpa();
         Some(shaft.mm2_per_n(pair.teeth[gear].involute.base_radius_mm, shear_modulus_mpa, slices))
-    };
-    let sum = |a: Vec<f64>, b: Vec<f64>| a.iter().zip(&b).map(|(a, b)| a + b).collect();
-    Gear::BOTH.into_iter().filter_map(of_gear).reduce(sum)
+    });
+    twists.reduce(|pinion, wheel| pinion.iter().zip(&wheel).map(|(a, b)| a + b).collect())
 }

@@ -1,4 +1,4 @@
-//! Contact of a tooth pair at a tip edge, before A and after E ([`GearPair::tip_reach_mm`] says how far).
+//! Contact of a tooth pair at a tip edge, before A and after E (as far as [`GearPair::tip_reach_mm`]).
 //!
 //! Under load the pairs in mesh yield, the gears approach each other by the transmission error δ, and the next pair touches
 //! before its theoretical contact point has reached A: at its mate's tip edge, beside the line of action. After E the same
@@ -36,14 +36,14 @@ pub(crate) fn approach_ratio(pair: &GearPair, position_mm: f64) -> f64 {
     pair.pinion_lever_ratio(&touch) / touch.turned_rad.cos()
 }
 
-/// A contact whose load has another lever on the pinion than r_b1, or whose normal is oblique to the transverse plane: approach and load are
-/// reckoned as the transmission error and the load along the transverse line of action that go with them.
+/// A contact whose load has another lever on the pinion than r_b1, or whose normal is oblique to the transverse plane, with approach and load as
+/// transmission error and load along the transverse line of action.
 pub(crate) struct OnLever<'a> {
     /// The contact along its own normal.
     pub contact: Box<dyn PairContact + 'a>,
-    /// [`approach_ratio`], along the normal ([`crate::gear::normal_section`]): approach over transmission error.
+    /// Approach along the normal ([`crate::gear::normal_section`]) over transmission error, [`approach_ratio`].
     pub approach: f64,
-    /// [`approach_ratio`] alone: load that goes with the torque over load along the line of contact.
+    /// Load by the torque over load along the normal, [`approach_ratio`] without obliquity.
     pub load: f64,
 }
 

@@ -1,7 +1,7 @@
-//! A pair with the wear it has so far: what the steps of a wear run work on.
+//! A pair with its wear: the state that the steps of a wear run change.
 //!
-//! Most models keep what each flank point has lost ([`OnFlankPoints`]); finite elements keep it at the nodes of their flanks
-//! ([`OnFlankNodes`]), the simplified model of helical gears at the contact points themselves ([`super::simplified`]).
+//! Wear is kept at the flank points by most models ([`OnFlankPoints`]), at the nodes of the flanks by finite elements
+//! ([`OnFlankNodes`]), and at the contact points by the simplified model of helical gears ([`super::simplified`]).
 
 use super::CycleObservation;
 use crate::gear::{Gear, PerGear};
@@ -17,21 +17,21 @@ pub struct Snapshot {
     pub revolutions: f64,
     /// Wear depth of each flank point, slice after slice.
     pub wear_mm: PerGear<Vec<f64>>,
-    /// What each flank point loses in the next mesh.
+    /// Depth that each flank point loses in the next mesh.
     pub depth_per_mesh_mm: PerGear<Vec<f64>>,
-    /// Where flanks wear at nodes of finite elements: what these have lost. Flank points lie on the involute, and tell it not where tips are rounded.
+    /// Loss of the nodes where flanks are finite elements: flank points lie on the involute, and do not show the wear of tip roundings.
     pub lost_at_nodes: Option<PerGear<LostArea>>,
-    /// The mesh cycle of the flanks as they are.
+    /// Mesh cycle of the present flanks.
     pub cycle: CycleObservation,
 }
 
 impl Snapshot {
-    /// The greatest wear depth of any flank point of a gear.
+    /// Greatest wear depth of any flank point of a gear.
     pub fn deepest_mm(&self, gear: Gear) -> f64 {
         self.wear_mm[gear].iter().copied().fold(0.0, f64::max)
     }
 
-    /// What each flank point of a gear has lost since the snapshot `before`, slice after slice.
+    /// Wear of each flank point of a gear since the snapshot `before`, slice after slice, mm.
     pub fn lost_since_mm(&self, before: &Self, gear: Gear) -> Vec<f64> {
         self.wear_mm[gear].iter().zip(&before.wear_mm[gear]).map(|(now, before)| now - before).collect()
     }
@@ -40,20 +40,20 @@ impl Snapshot {
 /// ∫ h ds over a flank.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LostArea {
-    /// So far, mm².
+    /// Loss so far, mm².
     pub wear_mm2: f64,
-    /// In the next mesh, mm².
+    /// Loss in the next mesh, mm².
     pub per_mesh_mm2: f64,
 }
 
 /// A pair that wears.
 pub(crate) trait WearingPair {
-    /// Solves one mesh cycle on the flanks as they are, and keeps what they lose in one mesh by `wear`. `stopped` is asked now
+    /// Solves one mesh cycle on the present flanks, and keeps the depth that they lose in one mesh by `wear`. `stopped` is asked now
     /// and then whether to give up.
     fn evaluate(&mut self, wear: &WearModel<'_>, stopped: &(dyn Fn() -> bool + Sync))
     -> Result<Work, EquilibriumError>;
 
-    /// What [`CondensedCycle::linearise_anew`] says, after an evaluation on the same flanks.
+    /// Makes the positions of a [`CondensedCycle`] anew ([`CondensedCycle::linearise_anew`]), after an evaluation on the same flanks.
     fn linearise_anew(
         &mut self,
         _wear: &WearModel<'_>,
@@ -62,24 +62,23 @@ pub(crate) trait WearingPair {
         Ok(None)
     }
 
-    /// Lets the flanks lose that in so many meshes of each gear's teeth.
+    /// Lets the flanks lose that depth in so many meshes of each gear's teeth.
     fn wear_for(&mut self, meshes: PerGear<f64>);
 
-    /// Is again as if never evaluated: the next evaluation finds, to the bit, what that of a pair made anew finds whose flanks have
-    /// lost the same. Otherwise it depends in its last bits on where the last one ended.
+    /// Returns to the state before any evaluation, on the present flanks: the next evaluation finds the same bits as that of a new pair with the same
+    /// wear. Otherwise its last bits depend on where the last one ended.
     fn reset(&mut self);
 
-    /// What each place of the flanks has lost, mm: as many places as [`Self::set_wear_mm`] takes and [`Self::depth_mm`] gives. Flank
-    /// points of most models, but the contact points of some.
+    /// Wear of each place at which the model keeps it, mm: as many places as in [`Self::set_wear_mm`] and [`Self::depth_mm`].
     fn wear_mm(&self) -> PerGear<Vec<f64>>;
 
-    /// What each flank point has lost, slice after slice, mm.
+    /// Wear of each flank point, slice after slice, mm.
     fn wear_at_points_mm(&self) -> PerGear<Vec<f64>>;
 
-    /// Takes the flanks to have lost this.
+    /// Sets the wear of each place, mm.
     fn set_wear_mm(&mut self, wear_mm: &PerGear<Vec<f64>>);
 
-    /// What each place loses in one mesh, as the last evaluation found, mm.
+    /// Depth that each place loses in one mesh by the last evaluation, mm.
     fn depth_mm(&self, depth_mm: &mut PerGear<Vec<f64>>);
 
     /// The state that the last evaluation found.
@@ -98,12 +97,12 @@ pub(crate) struct OnFlankPoints<'a> {
 impl<'a> OnFlankPoints<'a> {
     /// Unworn flanks with their modifications.
     pub(crate) fn new(cycle: Box<dyn MeshCycle + 'a>, modification_mm: &'a PerGear<Vec<f64>>) -> Self {
-        let zeros = || modification_mm.as_ref().map(|flank| vec![0.0; flank.len()]);
-        Self { cycle, modification_mm, removed_mm: modification_mm.clone(), wear_mm: zeros(), depth_mm: zeros() }
+        let wear_mm = modification_mm.as_ref().map(|flank| vec![0.0; flank.len()]);
+        Self { cycle, modification_mm, removed_mm: modification_mm.clone(), depth_mm: wear_mm.clone(), wear_mm }
     }
 }
 
-/// Both fields of what flanks have lost, borrowed.
+/// Removed material and wear, borrowed.
 fn lost<'a>(removed_mm: &'a PerGear<Vec<f64>>, wear_mm: &'a PerGear<Vec<f64>>) -> LostMaterial<'a> {
     LostMaterial { removed_mm: removed_mm.as_ref().map(Vec::as_slice), wear_mm: wear_mm.as_ref().map(Vec::as_slice) }
 }
@@ -166,7 +165,7 @@ impl WearingPair for OnFlankPoints<'_> {
     }
 }
 
-/// Flanks of finite elements, worn at their nodes; flank points are read between them.
+/// Flanks of finite elements, worn at their nodes; values at flank points are interpolated.
 pub(crate) struct OnFlankNodes<'a> {
     cycle: CondensedCycle<'a>,
     /// Nominal radii of the flank points.
@@ -178,12 +177,11 @@ pub(crate) struct OnFlankNodes<'a> {
 impl<'a> OnFlankNodes<'a> {
     /// Unworn flanks with points at the nominal radii `radius_mm`.
     pub(crate) fn new(cycle: CondensedCycle<'a>, radius_mm: PerGear<Vec<f64>>) -> Self {
-        let zeros = || cycle.nodes().map(|nodes| vec![0.0; nodes.len()]);
-        let (wear_mm, depth_mm) = (zeros(), zeros());
-        Self { cycle, radius_mm, wear_mm, depth_mm }
+        let wear_mm = cycle.nodes().map(|nodes| vec![0.0; nodes.len()]);
+        Self { cycle, radius_mm, depth_mm: wear_mm.clone(), wear_mm }
     }
 
-    /// What `at_nodes` is at the flank points.
+    /// Values at the flank points, from those at the nodes.
     fn at_points(&self, at_nodes: &PerGear<Vec<f64>>) -> PerGear<Vec<f64>> {
         PerGear::from_fn(|gear| self.cycle.at_radii(gear, &at_nodes[gear], self.radius_mm[gear].iter().copied()))
     }

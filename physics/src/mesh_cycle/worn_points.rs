@@ -1,28 +1,28 @@
-//! The wear of the flank points in a tooth pair's contact, which is a source of heat and has a film, for wear laws that read them.
+//! Wear of the flank points in a contact of a tooth pair, with the heat and the film of the contact for laws that read them.
 
 use super::load_sharing::MeshedPair;
 use crate::contact::{Flanks, PairContact, PositionCell, Sweep};
 use crate::gear::{Gear, PerGear};
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::reference::hertz_line::PEAK_OVER_MEAN;
-use crate::thermal::{ContactHeat, HeatedStrip, SpeedRatios};
+use crate::thermal::{HeatedStrip, SpeedRatios};
 use crate::wear::{
     ContactConditions, SlidingRow, WearModel,
     heated_row::{HeatedContact, HeatedRow, RowOfPoints},
 };
 
-/// What heat and film need to know of the place of a contact.
+/// Place of a contact on the path, for heat and film.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ContactPlace<'a> {
+pub(super) struct ContactOnPath<'a> {
     position_mm: f64,
     ratios: SpeedRatios,
-    /// Where the points of each flank lie along it, mm.
+    /// Places of the points of each flank along it, mm.
     arc_mm: PerGear<&'a [f64]>,
-    /// Part of the width that is in contact, and carries all of its load.
+    /// Part of the width that is in contact, and carries all of the load.
     part: f64,
 }
 
-/// A contact under its load, and where it is.
+/// A contact that heats the points of both flanks.
 struct HeatedPair<'a> {
     contact: HeatedContact<'a>,
     arc_mm: PerGear<&'a [f64]>,
@@ -30,8 +30,8 @@ struct HeatedPair<'a> {
     across: bool,
 }
 
-impl<'p> ContactPlace<'p> {
-    /// The stretch of the path that a loading position stands for.
+impl<'p> ContactOnPath<'p> {
+    /// Place of a loading position.
     pub(super) fn new(flanks: Flanks<'p>, cell: PositionCell) -> Self {
         Self {
             position_mm: cell.position_mm,
@@ -41,17 +41,17 @@ impl<'p> ContactPlace<'p> {
         }
     }
 
-    /// The same where only this part of the width is in contact.
+    /// The place where only this part of the width is in contact.
     pub(super) fn of_part(self, part: f64) -> Self {
         Self { part, ..self }
     }
 
-    /// A pair that is pressed together here; none where neither law reads what heat does.
+    /// Contact of a pair under load here; none where neither law reads contact conditions.
     fn under<'a>(&self, wear: &WearModel<'a>, pair: &dyn PairContact, loaded: &LoadedPlace) -> Option<HeatedPair<'a>>
     where
         'p: 'a,
     {
-        let heated = |heat: &'a ContactHeat| HeatedPair {
+        wear.heat_of_laws().map(|heat| HeatedPair {
             contact: HeatedContact {
                 heat,
                 strip: HeatedStrip {
@@ -63,13 +63,12 @@ impl<'p> ContactPlace<'p> {
             },
             arc_mm: self.arc_mm,
             across: pair.sweeps_across(),
-        };
-        wear.heat_of_laws().map(heated)
+        })
     }
 }
 
 impl HeatedPair<'_> {
-    /// The conditions of the points of `gear`'s flank in a sweep.
+    /// Conditions of the points of `gear`'s flank in a sweep.
     fn conditions<'r>(&self, row: &'r mut HeatedRow, gear: Gear, sweep: &Sweep) -> &'r [ContactConditions] {
         if self.across {
             let along_mm = &self.arc_mm[gear][sweep.first_point..sweep.first_point + sweep.pressure_mpa.len()];
@@ -89,18 +88,18 @@ pub(super) struct WornPoints {
 }
 
 impl WornPoints {
-    /// Adds what the points of both flanks, which have lost `removed_mm`, wear in the contact of `pair` at `place` to `depth_mm`, where
-    /// they begin at `first`.
+    /// Adds the wear of the points of both flanks, which have lost `removed_mm`, in the contact of `pair` at `place` to `depth_mm`, in which the
+    /// points begin at `first`.
     pub(super) fn wear(
         &mut self,
         wear: &WearModel<'_>,
-        (pair, place): (&MeshedPair<'_>, &ContactPlace<'_>),
+        (pair, place): (&MeshedPair<'_>, &ContactOnPath<'_>),
         removed_mm: PerGear<&[f64]>,
         first: PerGear<usize>,
         depth_mm: &mut PerGear<Vec<f64>>,
     ) {
         let Self { sweep, heated } = self;
-        // A surface whose points feel all of the contact at once has its mean pressure.
+        // A surface whose points pass through all of the contact has its mean pressure.
         let greatest = if pair.contact.sweeps_across() { 1.0 } else { PEAK_OVER_MEAN };
         let loaded = LoadedPlace {
             position_mm: place.position_mm,

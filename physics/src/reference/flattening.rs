@@ -13,7 +13,7 @@
 //! section 5.6, for the stresses on the axis it integrates.
 
 use super::hertz_line::HertzLine;
-use crate::fem::elastic::Elastic;
+use gearwear_fem::elastic::Elastic;
 
 /// One body, a half-plane in plane strain: elastic constants and depth of the reference point.
 #[derive(Debug, Clone, Copy, PartialEq)]

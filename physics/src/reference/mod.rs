@@ -1,10 +1,11 @@
-//! Closed forms, rules of interpolation and statistics with their sources, shared by the code, the tests and the validation.
+//! Closed forms, rules of interpolation, least squares and statistics with their sources, shared by the code, the tests and the validation.
 
 pub mod cantilever;
 pub mod flattening;
 pub(crate) mod half_plane;
 pub mod hertz_line;
 pub mod lame_cylinder;
+pub mod levenberg_marquardt;
 pub mod linear_means;
 pub(crate) mod monotone_cubic;
 pub mod moving_heat_band;

@@ -11,9 +11,9 @@ use serde::{Deserialize, Serialize};
 use super::fem_problem::NodalStress;
 use super::root_stress::RootStressSummary;
 use super::run::{ContactSummary, GeometrySummary, PathPoints, RangeSummary, StageTime, StopReason};
-use crate::fem::solid::Element;
 use crate::gear::PerGear;
-use crate::mesh::quality::MeshQuality;
+use gearwear_fem::solid::Element;
+use gearwear_mesh::quality::MeshQuality;
 
 /// A finished (or interrupted) computation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

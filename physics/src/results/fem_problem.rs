@@ -9,9 +9,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::run::StageTime;
-use crate::fem::problem::{Problem, Stop, ThirdDirection, Work};
-use crate::fem::space;
-use crate::mesh::quality::MeshQuality;
+use gearwear_fem::problem::{Problem, Stop, ThirdDirection, Work};
+use gearwear_fem::space;
+use gearwear_mesh::quality::MeshQuality;
 
 /// A solved problem.
 #[derive(Debug, Clone, PartialEq)]

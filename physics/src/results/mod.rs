@@ -13,6 +13,7 @@ pub mod iso_stiffness;
 pub mod life;
 pub mod lubrication;
 pub mod path_points;
+pub mod provenance;
 pub mod reported_by;
 pub mod root_stress;
 pub mod run;

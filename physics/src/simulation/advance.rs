@@ -12,7 +12,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::settings::{AdaptiveMethod, Stepping};
+use super::settings::Stepping;
 use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::wearing_pair::WearingPair;
 use crate::mesh_cycle::{Work, load_sharing::EquilibriumError};
@@ -135,11 +135,10 @@ impl Stepper {
     ) -> Advanced {
         match self.stepping {
             Stepping::Fixed { revolutions } => self.euler(revolutions, pair, wear, stretch, stopped),
-            Stepping::Adaptive { tolerance_mm, method } => {
+            Stepping::Adaptive { tolerance_mm } => {
                 let (duration, wheel_meshes) = (self.duration, self.wheel_meshes);
-                let steps = self
-                    .adaptive
-                    .get_or_insert_with(|| Box::new(AdaptiveSteps::new(pair, tolerance_mm, method, duration)));
+                let steps =
+                    self.adaptive.get_or_insert_with(|| Box::new(AdaptiveSteps::new(pair, tolerance_mm, duration)));
                 steps.advance(PairRate { pair, wear, stopped, wheel_meshes, work: Work::default() }, stretch)
             }
         }
@@ -177,13 +176,9 @@ pub(super) fn evaluate(
 }
 
 impl AdaptiveSteps {
-    fn new(pair: &dyn WearingPair, tolerance_mm: f64, method: AdaptiveMethod, duration: f64) -> Self {
+    fn new(pair: &dyn WearingPair, tolerance_mm: f64, duration: f64) -> Self {
         let wear_mm = pair.wear_mm();
-        let blocks = Gear::BOTH.map(|gear| wear_mm[gear].len());
-        let integrator = match method {
-            AdaptiveMethod::RungeKuttaChebyshev => Adaptive::chebyshev(tolerance_mm, duration, &blocks),
-            AdaptiveMethod::LinearlyImplicit => Adaptive::linearly_implicit(tolerance_mm, duration, &blocks),
-        };
+        let integrator = Adaptive::new(tolerance_mm, duration, wear_mm.pinion.len() + wear_mm.wheel.len());
         let depth_mm = wear_mm.clone();
         Self { integrator, state: Vec::new(), slope: Vec::new(), wear_mm, depth_mm }
     }

@@ -1,8 +1,5 @@
 //! What is asked of the run: operation and numerical resolution.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use crate::gear::{PerGear, flank::PointSpacing};
 
 /// Wear steps of a run where nothing else is asked for.
@@ -138,17 +135,6 @@ pub(crate) fn first_greatest(loads: impl Iterator<Item = f64>) -> usize {
     loads.enumerate().fold((0, f64::NEG_INFINITY), greater).0
 }
 
-/// How the wear is integrated with an error that is controlled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum AdaptiveMethod {
-    /// Stabilised explicit, of second order: Runge–Kutta–Chebyshev.
-    #[default]
-    RungeKuttaChebyshev,
-    /// Linearly implicit, of second order: a Rosenbrock method with an approximate Jacobian.
-    LinearlyImplicit,
-}
-
 /// Steps of the wear run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stepping {
@@ -157,12 +143,10 @@ pub enum Stepping {
         /// Pinion revolutions a wear step.
         revolutions: f64,
     },
-    /// Steps as long as the error allows.
+    /// Steps of the Runge–Kutta–Chebyshev method, as long as the error allows.
     Adaptive {
         /// Error of the wear depth that is allowed, mm.
         tolerance_mm: f64,
-        /// How.
-        method: AdaptiveMethod,
     },
 }
 
@@ -179,9 +163,7 @@ impl Stepping {
     pub fn coarser(self, by: f64) -> Self {
         match self {
             Stepping::Fixed { revolutions } => Stepping::Fixed { revolutions: by * revolutions },
-            Stepping::Adaptive { tolerance_mm, method } => {
-                Stepping::Adaptive { tolerance_mm: by * tolerance_mm, method }
-            }
+            Stepping::Adaptive { tolerance_mm } => Stepping::Adaptive { tolerance_mm: by * tolerance_mm },
         }
     }
 

@@ -19,8 +19,8 @@
 //! and values with flattening need. Other lines with # are remarks.
 
 use super::curve::{PairCompliance, StandsFor};
-use crate::data_table::{DataTable, DataTableError, missing, not_allowed, positive};
 use crate::gear::path_of_contact::PathOfContact;
+use gearwear_files::data_table::{DataTable, DataTableError, missing, not_allowed, positive};
 
 const POSITION: &str = "position_mm";
 const STIFFNESS: &str = "stiffness_N_per_mm_um";

@@ -1,4 +1,4 @@
-//! The strip of a contact as a band of heat: the rise of both surfaces, at its hottest place or point by point.
+//! The strip of a contact as a band of heat: rise of the temperature of both surfaces, at the hottest place or point by point.
 
 use super::heat_equation::{CELLS, Passage};
 use super::peclet::peclet;
@@ -7,16 +7,16 @@ use super::{ContactHeat, HeatedStrip, enters_at_tip_side, partition, tian_kenned
 use crate::gear::{Gear, PerGear};
 use crate::reference::linear_means::value_at;
 
-/// How the heat is spread over the strip.
+/// Distribution of the heat over the strip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Spread {
-    /// Evenly.
+    /// Even flux.
     Even,
-    /// As Hertz's ellipse.
+    /// Hertz's ellipse.
     Ellipse,
 }
 
-/// What one body gets of the heat.
+/// Heat of one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct HeatedBody {
     /// δ q̄, N/(mm·s).
@@ -26,7 +26,7 @@ struct HeatedBody {
     material: ThermalMaterial,
 }
 
-/// The heated strip of a contact. The rise depends on what heats it; everything else is prepared.
+/// The heated strip of a contact.
 #[derive(Debug, Clone, Copy)]
 pub struct HeatedBand<'a> {
     method: TemperatureMethod,
@@ -37,7 +37,7 @@ pub struct HeatedBand<'a> {
 }
 
 impl<'a> HeatedBand<'a> {
-    /// Of a contact under a line load; without load, width or sliding there is no heat.
+    /// The strip of a contact under a line load; without load, width or sliding there is no heat.
     pub(super) fn new(heat: &'a ContactHeat, method: TemperatureMethod, strip: &HeatedStrip) -> Self {
         let HeatedStrip { ratios, line_load_n_per_mm, half_width_mm, friction_coefficient } = *strip;
         let (settings, speed) = (&heat.settings, heat.speed_mm_per_s);
@@ -68,7 +68,7 @@ impl<'a> HeatedBand<'a> {
         peclet(self.half_width_mm, body.velocity_mm_per_s, body.material.diffusivity_mm2_per_s)
     }
 
-    /// The greatest rise of a gear's surface, K.
+    /// Greatest rise of a gear's surface, K.
     pub fn greatest_rise_k(&self, gear: Gear, spread: Spread) -> f64 {
         let HeatedBody { flux, velocity_mm_per_s, material } = &self.bodies[gear];
         if *flux <= 0.0 {
@@ -95,15 +95,14 @@ impl<'a> HeatedBand<'a> {
         flux / material.conductivity_n_per_s_k * (material.diffusivity_mm2_per_s * passage_s).sqrt()
     }
 
-    /// The rise of `gear`'s surface at consecutive points of its flank, from root to tip at `along_mm`, which are under
-    /// `pressure_mpa`; K. The strip is as wide as the band and lies around the centre of the pressure; `rise_k` is as long as the
-    /// row.
+    /// Fills `rise_k` with the rise of `gear`'s surface, K, at consecutive points of its flank, from root to tip at `along_mm`, under
+    /// `pressure_mpa`. The strip is as wide as the band and lies around the centre of the pressure.
     pub(crate) fn rises_k(&self, gear: Gear, along_mm: &[f64], pressure_mpa: &[f64], rise_k: &mut [f64]) {
         rise_k.fill(0.0);
         let HeatedBody { flux, velocity_mm_per_s, material } = &self.bodies[gear];
         let width = 2.0 * self.half_width_mm;
         let backwards = enters_at_tip_side(gear);
-        let Some(strip) = Strip::under(along_mm, pressure_mpa, width, backwards).filter(|_| *flux > 0.0) else {
+        let Some(strip) = PointsInBand::under(along_mm, pressure_mpa, width, backwards).filter(|_| *flux > 0.0) else {
             return;
         };
         let heated = rise_k.iter_mut().enumerate().zip(pressure_mpa).filter(|(_, pressure)| **pressure > 0.0);
@@ -131,20 +130,20 @@ impl<'a> HeatedBand<'a> {
     }
 }
 
-/// Where a row of points lies in the strip of the contact.
+/// A row of points in the strip of the contact.
 #[derive(Debug, Clone, Copy)]
-struct Strip<'a> {
-    /// Of the points.
+struct PointsInBand<'a> {
+    /// Places of the points.
     along_mm: &'a [f64],
     /// Middle of the strip.
     centre_mm: f64,
     width_mm: f64,
-    /// Whether material enters at the row's end.
+    /// Whether material enters at the end of the row.
     backwards: bool,
 }
 
-impl<'a> Strip<'a> {
-    /// Around the centre of the pressure on a row; none without pressure.
+impl<'a> PointsInBand<'a> {
+    /// A strip around the centre of the pressure on a row; none without pressure.
     fn under(along_mm: &'a [f64], pressure_mpa: &[f64], width_mm: f64, backwards: bool) -> Option<Self> {
         let last = along_mm.len() - 1;
         let (mut sum, mut moment) = (0.0, 0.0);
@@ -156,16 +155,15 @@ impl<'a> Strip<'a> {
         (sum > 0.0).then(|| Self { along_mm, centre_mm: along_mm[0] + moment / sum, width_mm, backwards })
     }
 
-    /// Part of the strip that point k has come through: 0 before it, 1 behind it.
+    /// Part of the strip that point k has passed: 0 before it, 1 behind it.
     fn passed(&self, k: usize) -> f64 {
         let from_centre = (self.along_mm[k] - self.centre_mm) / self.width_mm;
         (0.5 + if self.backwards { -from_centre } else { from_centre }).clamp(0.0, 1.0)
     }
 
-    /// The pressure in the middle of every cell of the passage over their mean: straight lines between the points within the strip,
-    /// and beyond the ends of the row the pressure at its ends.
+    /// Pressure in the middle of every cell of the passage over the mean of all: linear between the points, constant beyond the ends of the row.
     fn cells(&self, pressure_mpa: &[f64]) -> [f64; CELLS] {
-        let at = |cell: usize| {
+        let cells: [f64; CELLS] = std::array::from_fn(|cell| {
             let from_inlet = (cell as f64 + 0.5) / CELLS as f64;
             let from_start = if self.backwards { 1.0 - from_inlet } else { from_inlet };
             let place_mm = self.centre_mm + (from_start - 0.5) * self.width_mm;
@@ -173,14 +171,13 @@ impl<'a> Strip<'a> {
                 [alone] => *alone,
                 row => value_at(self.along_mm, row, place_mm),
             }
-        };
-        let cells: [f64; CELLS] = std::array::from_fn(at);
+        });
         let mean = cells.iter().sum::<f64>() / CELLS as f64;
         if mean > 0.0 { cells.map(|pressure| pressure / mean) } else { [1.0; CELLS] }
     }
 }
 
-/// From the point before to the point after the k-th of a row; beyond its ends it goes on as at them.
+/// Distance from the point before to the point after the k-th of a row, which goes on beyond its ends as at them.
 fn part_mm(along_mm: &[f64], k: usize) -> f64 {
     let last = along_mm.len() - 1;
     let before = if k > 0 { along_mm[k] - along_mm[k - 1] } else { along_mm[1] - along_mm[0] };
@@ -245,23 +242,22 @@ mod tests {
         }
     }
 
-    /// Points that are twice as far apart on one side of the contact as on the other tell of the same strip as even ones.
+    /// Points that are twice as far apart on one side of the contact as on the other find the same strip as even ones.
     #[test]
     fn ver_uneven_rows_feel_the_same_strip() {
         let heat = heat(TemperatureMethod::HeatEquation, HeatVelocity::Surface);
         let band = heat.band(&STRIP);
         let half = STRIP.half_width_mm;
-        let pressure = |along: f64| (1.0 - (along / half).powi(2)).max(0.0).sqrt();
         let even: Vec<f64> = (0..=400).map(|k| 1.2 * half * (f64::from(k) / 200.0 - 1.0)).collect();
         let uneven: Vec<f64> =
             even.iter().enumerate().filter(|(k, at)| **at >= 0.0 || k % 2 == 0).map(|(_, at)| *at).collect();
-        let rises = |along_mm: &[f64]| {
-            let row: Vec<f64> = along_mm.iter().map(|&at| pressure(at)).collect();
+        let [rises, others] = [&even, &uneven].map(|along_mm| {
+            let row: Vec<f64> = along_mm.iter().map(|along| (1.0 - (along / half).powi(2)).max(0.0).sqrt()).collect();
             let mut rise = vec![0.0; row.len()];
             band.rises_k(Gear::Wheel, along_mm, &row, &mut rise);
             [-0.6, -0.3, 0.0, 0.3, 0.6].map(|at| value_at(along_mm, &rise, at * half))
-        };
-        for (one, other) in rises(&even).iter().zip(rises(&uneven)) {
+        });
+        for (one, other) in rises.iter().zip(others) {
             assert!((one / other - 1.0).abs() < 5e-3, "{one} {other}");
         }
     }
@@ -280,7 +276,7 @@ mod tests {
             [(vec![0.0, 1.0, 0.0], 0.9), (vec![2.0], 3.0), (vec![0.0, 1.0, 2.0, 1.5, 0.5, 0.0], 0.24)]
         {
             let along_mm: Vec<f64> = (0..row.len()).map(|k| per_point * k as f64).collect();
-            let cells = Strip::under(&along_mm, &row, 1.0, true).unwrap().cells(&row);
+            let cells = PointsInBand::under(&along_mm, &row, 1.0, true).unwrap().cells(&row);
             assert!((cells.iter().sum::<f64>() / CELLS as f64 - 1.0).abs() < 1e-12, "{row:?}");
         }
     }

@@ -12,11 +12,11 @@
 //!
 //! | method | module | rise along the strip |
 //! |---|---|---|
-//! | transient heat equation | [`heat_equation`] | from the pressure as it is, by finite differences |
-//! | Williams | [`williams`] | as the root of the way from the inlet, under q̄ |
-//! | Tian and Kennedy | [`tian_kennedy`] | its greatest value everywhere, under q̄ |
+//! | transient heat equation | [`heat_equation`] | of the actual pressure, by finite differences |
+//! | Williams | [`williams`] | with the root of the distance from the inlet, under q̄ |
+//! | Tian and Kennedy | [`tian_kennedy`] | greatest value everywhere, under q̄ |
 //!
-//! The shares follow from what the same method gives for an even band. Material enters a strip of the pinion's flank from the side
+//! The shares follow from the rises by the same method for an even band. Material enters a strip of the pinion's flank from the side
 //! of its tip and of the wheel's from that of its root, which is the same side in space.
 //!
 //! Units: mm, N, s, K; a flux in N/(mm·s) is 1000 W/m².
@@ -38,38 +38,38 @@ use settings::{HeatSettings, TemperatureMethod};
 /// Friction heat of a pair in mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactHeat {
-    /// What is asked for.
+    /// Settings of the scene.
     pub settings: HeatSettings,
     /// Speed of the theoretical contact point along the line of action, r_b ω, mm/s.
     pub speed_mm_per_s: f64,
     passage: Passage,
 }
 
-/// How fast the surfaces move at a contact, over the speed of the theoretical contact point along the line of action.
+/// Speeds of the surfaces at a contact over that of the theoretical contact point along the line of action.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SpeedRatios {
-    /// Of the flanks on each other.
+    /// Sliding speed.
     pub sliding: f64,
-    /// Of each gear's surface through the contact.
+    /// Speed of each gear's surface through the contact.
     pub rolling: PerGear<f64>,
 }
 
 /// The strip of a contact as a source of heat.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeatedStrip {
-    /// How fast the surfaces move.
+    /// Speeds of the surfaces.
     pub ratios: SpeedRatios,
     /// Load, N per mm of face width.
     pub line_load_n_per_mm: f64,
-    /// Half its extent.
+    /// Half-width of the contact, mm.
     pub half_width_mm: f64,
     /// μ.
     pub friction_coefficient: f64,
 }
 
 impl SpeedRatios {
-    /// On average while the contact moves along a stretch of the path, so that a sliding distance over the speed is the time it
-    /// takes, also where the flanks stop sliding in between; at the place itself where the stretch has no length.
+    /// Mean ratios over a stretch of the path, so that the sliding distance over the speed is the time that the contact takes, also where sliding
+    /// stops in between; ratios at the place itself where the stretch has no length.
     pub fn over(geometry: &dyn ConjugateFlanks, from_mm: f64, to_mm: f64) -> Self {
         let length = to_mm - from_mm;
         let middle = 0.5 * (from_mm + to_mm);
@@ -89,7 +89,7 @@ impl ContactHeat {
         Self { settings, speed_mm_per_s, passage: Passage::default() }
     }
 
-    /// The heated strip of a contact, by the method that is asked for.
+    /// The heated strip of a contact, by the method of the scene.
     pub fn band(&self, strip: &HeatedStrip) -> HeatedBand<'_> {
         self.band_by(self.settings.method, strip)
     }
@@ -105,7 +105,7 @@ impl ContactHeat {
     }
 }
 
-/// On which side of a row of points, from root to tip, material of `gear` enters the contact.
+/// Whether material of `gear` enters a contact at the tip side of a row of points.
 fn enters_at_tip_side(gear: Gear) -> bool {
     gear == Gear::Pinion
 }

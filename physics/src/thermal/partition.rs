@@ -1,4 +1,4 @@
-//! Which part of the friction heat each body takes.
+//! Partition of the friction heat between both bodies.
 //!
 //! Two surfaces that touch have one temperature. With T₁ and T₂ what each would rise by if it took all of the heat, and rises in
 //! proportion to the heat, both are equally hot where
@@ -12,7 +12,7 @@
 use super::settings::HeatPartition;
 use crate::gear::PerGear;
 
-/// δ of both bodies, from what the greatest rise of each would be with all of the heat.
+/// δ of both bodies, from the greatest rise that each would have with all of the heat.
 pub(crate) fn shares(partition: HeatPartition, rise_with_all: PerGear<f64>) -> PerGear<f64> {
     let sum = rise_with_all.sum();
     match partition {

@@ -1,4 +1,4 @@
-//! What is asked of contact temperatures.
+//! Settings of contact temperatures.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use crate::gear::PerGear;
 /// 0 K in °C.
 pub const ABSOLUTE_ZERO_C: f64 = -273.15;
 
-/// How contact temperatures are found.
+/// Method of contact temperatures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum TemperatureMethod {
@@ -26,7 +26,7 @@ impl TemperatureMethod {
     /// All methods.
     pub const ALL: [Self; 3] = [Self::HeatEquation, Self::Williams, Self::TianKennedy];
 
-    /// Its place in [`Self::ALL`].
+    /// Place in [`Self::ALL`].
     pub fn index(self) -> usize {
         match self {
             Self::HeatEquation => 0,
@@ -35,7 +35,7 @@ impl TemperatureMethod {
         }
     }
 
-    /// As reports name it.
+    /// Name in reports.
     pub fn title(self) -> &'static str {
         match self {
             Self::HeatEquation => "heat equation",
@@ -45,7 +45,7 @@ impl TemperatureMethod {
     }
 }
 
-/// With which velocity heat moves over a body.
+/// Velocity of the heat over a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum HeatVelocity {
@@ -56,18 +56,18 @@ pub enum HeatVelocity {
     Surface,
 }
 
-/// Which part of the friction heat each body takes.
+/// Partition of the friction heat between both bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum HeatPartition {
-    /// Such that both surfaces get equally hot, after Archard and Rowntree.
+    /// Both surfaces get equally hot, after Archard and Rowntree.
     #[default]
     ArchardRowntree,
-    /// Half of it.
+    /// Half to each body.
     Equal,
 }
 
-/// Heat in a body.
+/// Thermal properties of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThermalMaterial {
     /// Conductivity K, W/(m·K), which is N/(s·K).
@@ -79,21 +79,21 @@ pub struct ThermalMaterial {
 /// Friction heat of the contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeatSettings {
-    /// How temperatures are found.
+    /// Method.
     pub method: TemperatureMethod,
-    /// With which velocity heat moves over the bodies.
+    /// Velocity of the heat over the bodies.
     pub velocity: HeatVelocity,
-    /// How both share it.
+    /// Partition between both bodies.
     pub partition: HeatPartition,
     /// μ; none where it is that of the mesh.
     pub friction_coefficient: Option<f64>,
-    /// Temperature of the bodies away from the contact, K; where `tooth` or the mesh is the bulk, that of the surroundings or of the oil, above
-    /// which it is found for each load and speed.
+    /// Temperature of the bodies away from the contact, K; where that is found for each load and speed, by `tooth` or for the mesh, the temperature
+    /// of the surroundings or of the oil.
     pub bulk_temperature_k: f64,
-    /// Whether it is that of the teeth in their oil, θ_M of ISO/TS 6336-22.
+    /// Whether that is the temperature of the teeth in their oil, θ_M of ISO/TS 6336-22.
     pub is_bulk_of_mesh: bool,
     /// Temperature of the teeth of plastic gears, where asked for.
     pub tooth: Option<ToothHeatSettings>,
-    /// Of each gear.
+    /// Material of each gear.
     pub material: PerGear<ThermalMaterial>,
 }

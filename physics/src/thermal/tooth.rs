@@ -21,9 +21,9 @@ use crate::reference::linear_means::value_at;
 
 /// k_θ of flank and root of a plastic gear on a metal one, dry.
 pub const DRY_ON_METAL: ToothCoefficients = ToothCoefficients { flank: 6300.0, root: 895.0 };
-/// The same of two plastic gears.
+/// k_θ of flank and root of two plastic gears, dry.
 pub const DRY_ON_PLASTIC: ToothCoefficients = ToothCoefficients { flank: 9000.0, root: 2148.0 };
-/// The same in oil.
+/// k_θ of flank and root in oil.
 pub const IN_OIL: ToothCoefficients = ToothCoefficients { flank: 0.0, root: 0.0 };
 
 /// k_θ, K·(m/s)^0.75·mm^1.75/W.
@@ -35,7 +35,7 @@ pub struct ToothCoefficients {
     pub root: f64,
 }
 
-/// Where the heat of the teeth goes.
+/// Settings of the temperature of the teeth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToothHeatSettings {
     /// θ_0, °C.
@@ -46,13 +46,13 @@ pub struct ToothHeatSettings {
     pub housing_k_per_w: f64,
     /// ED.
     pub duty_cycle: f64,
-    /// Gears whose temperature it is: the plastic ones where there are any.
+    /// Gears that have this temperature: the plastic ones where there are any.
     pub of: PerGear<bool>,
-    /// Whether contact temperatures are counted from that of the flanks.
+    /// Whether contact temperatures are counted from the temperature of the flanks.
     pub is_bulk: bool,
 }
 
-/// The gear whose teeth get warm.
+/// A gear whose teeth get warm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WarmGear {
     /// z.
@@ -65,29 +65,29 @@ pub struct WarmGear {
     pub normal_module_mm: f64,
 }
 
-/// Something that follows the temperature of the teeth: straight between its points, and level beyond them.
+/// A quantity that depends on the temperature of the teeth: linear between its points, constant beyond them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TemperatureCurve {
-    /// °C, rising; two at least.
+    /// Temperatures, °C, rising; two at least.
     pub temperature_c: Vec<f64>,
-    /// What it is at each.
+    /// Value at each.
     pub value: Vec<f64>,
 }
 
 impl TemperatureCurve {
-    /// What it is at a temperature.
+    /// Value at a temperature.
     pub fn at(&self, temperature_c: f64) -> f64 {
         value_at(&self.temperature_c, &self.value, temperature_c)
     }
 
-    /// Whether a temperature lies between its points.
+    /// Whether a temperature lies between the points.
     pub fn covers(&self, temperature_c: f64) -> bool {
         let [first, .., last] = self.temperature_c.as_slice() else { return false };
         (first..=last).contains(&&temperature_c)
     }
 }
 
-/// Temperatures of its teeth.
+/// Temperatures of the teeth of a gear.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToothTemperatures {
     /// θ of the flank, °C.
@@ -97,20 +97,20 @@ pub struct ToothTemperatures {
 }
 
 impl ToothTemperatures {
-    /// Of flank and root, °C.
+    /// Mean of flank and root, °C.
     pub fn mean_c(&self) -> f64 {
         0.5 * (self.flank_c + self.root_c)
     }
 }
 
 impl ToothHeatSettings {
-    /// Of `gear` where the mesh loses P μ H_V = `loss_w`.
+    /// Temperatures of `gear` where the mesh loses P μ H_V = `loss_w`.
     pub fn temperatures(&self, gear: &WarmGear, loss_w: f64) -> ToothTemperatures {
         let speed = (gear.pitch_velocity_m_per_s * gear.normal_module_mm).powf(0.75);
         let into_air = gear.face_width_mm * f64::from(gear.teeth) * speed;
-        let at = |coefficient: f64| {
+        let [flank_c, root_c] = [self.coefficients.flank, self.coefficients.root].map(|coefficient| {
             self.ambient_c + loss_w * (coefficient / into_air + self.housing_k_per_w) * self.duty_cycle.powf(0.64)
-        };
-        ToothTemperatures { flank_c: at(self.coefficients.flank), root_c: at(self.coefficients.root) }
+        });
+        ToothTemperatures { flank_c, root_c }
     }
 }

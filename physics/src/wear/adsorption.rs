@@ -1,4 +1,4 @@
-//! Wear of what an adsorbed film leaves unprotected.
+//! Wear of the surface that an adsorbed film leaves bare.
 //!
 //! A molecule of the lubricant stays on the surface for the time t₀ exp(E/(R T)); while an asperity slides over its place, the
 //! part α of the contact is bare and wears:
@@ -28,9 +28,9 @@ pub struct AdsorptionConstants {
 /// dh = k_r α p ds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Adsorption {
-    /// k_r: of a bare surface, mm²/N.
+    /// k_r of a bare surface, mm²/N.
     pub coefficient_mm2_per_n: f64,
-    /// Of the film.
+    /// Constants of the film.
     pub constants: AdsorptionConstants,
 }
 
@@ -78,6 +78,11 @@ mod tests {
         assert!((depth[0] / expected - 1.0).abs() < 1e-12, "{} {expected}", depth[0]);
     }
 
+    /// α at a speed and a temperature.
+    fn at(constants: AdsorptionConstants, sliding_speed_mm_per_s: f64, temperature_k: f64) -> f64 {
+        constants.unprotected(ContactConditions { sliding_speed_mm_per_s, temperature_k })
+    }
+
     /// α = 1 − e⁻¹ where a molecule stays as long as an asperity needs for its diameter; all of the surface is bare when hot or
     /// still, none when cold.
     #[test]
@@ -86,9 +91,6 @@ mod tests {
             vibration_time_s: 1e-6,
             heat_of_adsorption_j_per_mol: 0.0,
             ..AdsorptionConstants::TYPICAL
-        };
-        let at = |constants: AdsorptionConstants, sliding_speed_mm_per_s, temperature_k| {
-            constants.unprotected(ContactConditions { sliding_speed_mm_per_s, temperature_k })
         };
         assert!((at(constants, 0.3, 300.0) - (1.0 - (-1.0_f64).exp())).abs() < 1e-15);
         let typical = AdsorptionConstants::TYPICAL;

@@ -1,15 +1,15 @@
-//! The conditions of flank points in a heated contact, in rows that are filled anew for every contact.
+//! Conditions of flank points in a heated contact, in rows that are filled anew for every contact.
 
 use super::ContactConditions;
 use crate::gear::Gear;
 use crate::thermal::{ContactHeat, HeatedStrip, band::Spread};
 
-/// What a heated contact is to the points in it.
+/// A contact heated by friction.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HeatedContact<'a> {
-    /// The heat.
+    /// Friction heat of the pair.
     pub heat: &'a ContactHeat,
-    /// The strip that it heats.
+    /// Heated strip.
     pub strip: HeatedStrip,
 }
 
@@ -22,7 +22,7 @@ impl HeatedContact<'_> {
         ContactConditions { sliding_speed_mm_per_s, temperature_k: self.heat.settings.bulk_temperature_k + rise_k }
     }
 
-    /// The conditions where `gear`'s surface is hottest, with the heat spread in some way.
+    /// Conditions where `gear`'s surface is hottest.
     pub(crate) fn at_hottest(&self, gear: Gear, spread: Spread) -> ContactConditions {
         let band = self.heat.band(&self.strip);
         self.at(band.greatest_rise_k(gear, spread))
@@ -32,11 +32,11 @@ impl HeatedContact<'_> {
 /// Consecutive points of a gear's flank, from root to tip, that run across a contact.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RowOfPoints<'a> {
-    /// Whose they are.
+    /// Gear of the flank.
     pub gear: Gear,
-    /// Where each lies along the flank, rising, mm.
+    /// Place of each along the flank, rising, mm.
     pub along_mm: &'a [f64],
-    /// Pressure on each.
+    /// Pressure on each, MPa.
     pub pressure_mpa: &'a [f64],
 }
 
@@ -48,7 +48,7 @@ pub(crate) struct HeatedRow {
 }
 
 impl HeatedRow {
-    /// Of points across the contact.
+    /// Conditions of points across the contact.
     pub(crate) fn across(&mut self, contact: &HeatedContact<'_>, points: RowOfPoints<'_>) -> &[ContactConditions] {
         self.heat_up(contact, points);
         self.conditions.clear();
@@ -56,7 +56,7 @@ impl HeatedRow {
         &self.conditions
     }
 
-    /// The same where each point slides `sliding_mm` of its own in the same time.
+    /// Conditions of points across the contact that each slide by `sliding_mm` in the time `time_s`.
     pub(crate) fn across_sliding(
         &mut self,
         contact: &HeatedContact<'_>,
@@ -77,7 +77,7 @@ impl HeatedRow {
         band.rises_k(points.gear, points.along_mm, points.pressure_mpa, &mut self.rise_k);
     }
 
-    /// Of `points` of `gear`'s flank that all feel the hottest place of an even contact.
+    /// Conditions of `points` of `gear`'s flank at the hottest place of an evenly heated contact.
     pub(crate) fn even(&mut self, contact: &HeatedContact<'_>, gear: Gear, points: usize) -> &[ContactConditions] {
         self.conditions.clear();
         self.conditions.resize(points, contact.at_hottest(gear, Spread::Even));

@@ -1,4 +1,4 @@
-//! Wear laws: how fast a flank point loses material under pressure and sliding.
+//! Wear laws: loss of material of a flank point under pressure and sliding.
 //!
 //! Every law here has the form of the generalised Archard law with a coefficient of its own,
 //!
@@ -25,7 +25,7 @@ use crate::lubrication::settings::FilmRatio;
 use crate::thermal::ContactHeat;
 use settings::{FilmDependence, LawSettings, SevereTransition, WearSettings};
 
-/// What the chemistry of a flank point knows of the contact.
+/// Conditions of a contact that the chemistry of a flank point depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactConditions {
     /// Sliding speed, mm/s.
@@ -43,51 +43,51 @@ pub trait WearLaw: Sync {
     fn coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64;
 }
 
-/// What consecutive points of a flank feel at one loading position, in rows of the same length.
+/// Pressure, sliding and conditions of consecutive points of a flank at one loading position, in rows of the same length.
 #[derive(Debug, Clone, Copy)]
 pub struct SlidingRow<'a> {
     /// Pressure on each, MPa.
     pub pressure_mpa: &'a [f64],
-    /// How far each slides, mm.
+    /// Sliding distance of each, mm.
     pub sliding_mm: &'a [f64],
-    /// What its chemistry knows, where the law reads it.
+    /// Conditions of each, where the law reads them.
     pub conditions: Option<&'a [ContactConditions]>,
-    /// λ, where the coefficient follows it.
+    /// λ, where the coefficient depends on it.
     pub lambda: Option<Lambda<'a>>,
 }
 
 /// λ of the points of a row.
 #[derive(Debug, Clone, Copy)]
 pub enum Lambda<'a> {
-    /// All are in one contact.
+    /// λ of the one contact that all points are in.
     OfAll(f64),
-    /// Each is in a contact of its own.
+    /// λ of the contact of each point.
     OfEach(&'a [f64]),
 }
 
-/// Wear of a flank by some law, in rows of points: the law itself stays out of the inner loop's way.
+/// Wear of a flank by some law, in rows of points.
 pub trait FlankWear: Sync {
-    /// Adds to each point's depth (mm) what it loses. Rows without conditions are for laws that do not read them.
+    /// Adds the depth, mm, that each point loses. Rows without conditions are for laws that do not read them.
     fn add_depth(&self, row: &SlidingRow<'_>, depth_mm: &mut [f64]);
 
     /// Whether rows must have conditions.
     fn reads_conditions(&self) -> bool;
 
-    /// How the coefficient follows the film, where it does and rows should have λ.
+    /// Dependence of the coefficient on the film; rows should have λ where there is one.
     fn film(&self) -> Option<&FilmDependence>;
 
     /// Depth per pressure and sliding distance of mild wear without a film, mm²/N.
     fn mild_coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64;
 }
 
-/// A law with the factors that go with any.
+/// A law with the factors of severe wear and of the film.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct WithFactors<L> {
     /// The law of mild wear.
     pub law: L,
     /// The transition to severe wear, where there is one.
     pub severe: Option<SevereTransition>,
-    /// How wear follows the film, where it does.
+    /// Dependence on the film, where there is one.
     pub film: Option<FilmDependence>,
 }
 
@@ -98,22 +98,26 @@ impl<L: WearLaw> WithFactors<L> {
         Self { law, severe: None, film: None }
     }
 
-    /// Adds to each point's depth what it loses where the film leaves `thin` of it, by the point's index.
+    /// Adds the depth that each point loses, with the factor `thin` of the film at the point's index.
     fn add(&self, row: &SlidingRow<'_>, depth_mm: &mut [f64], thin: impl Fn(usize) -> f64) {
         let points = row.pressure_mpa.iter().zip(row.sliding_mm);
-        let add = |index: usize, (depth, (&pressure, &sliding)): (&mut f64, (&f64, &f64)), k: f64| {
-            let factor = thin(index) * self.severe.as_ref().map_or(1.0, |severe| severe.factor_at(pressure));
-            *depth += factor * k * pressure * sliding;
-        };
         if L::READS_CONDITIONS {
             let conditions = row.conditions.expect("rows of a law that reads the conditions have them");
-            for (index, (point, own)) in depth_mm.iter_mut().zip(points).zip(conditions).enumerate() {
-                add(index, point, self.law.coefficient_mm2_per_n(Some(*own)));
+            for (index, ((depth, point), own)) in depth_mm.iter_mut().zip(points).zip(conditions).enumerate() {
+                *depth += self.depth_mm(point, self.law.coefficient_mm2_per_n(Some(*own)), thin(index));
             }
         } else {
             let k = self.law.coefficient_mm2_per_n(None);
-            depth_mm.iter_mut().zip(points).enumerate().for_each(|(index, point)| add(index, point, k));
+            for (index, (depth, point)) in depth_mm.iter_mut().zip(points).enumerate() {
+                *depth += self.depth_mm(point, k, thin(index));
+            }
         }
+    }
+
+    /// Depth that a point loses under a pressure over a sliding distance, with the coefficient `k` and the factor `thin` of the film.
+    fn depth_mm(&self, (&pressure, &sliding): (&f64, &f64), k: f64, thin: f64) -> f64 {
+        let factor = thin * self.severe.as_ref().map_or(1.0, |severe| severe.factor_at(pressure));
+        factor * k * pressure * sliding
     }
 }
 
@@ -167,29 +171,29 @@ pub fn of_both(settings: &PerGear<WearSettings>) -> Laws {
     PerGear::from_fn(|gear| of(&settings[gear]))
 }
 
-/// How flanks in mesh wear: each gear by which law, and where its heat and its films come from where a law reads them.
+/// Laws of both gears, with heat and films of the mesh for laws that read them.
 #[derive(Clone, Copy)]
 pub struct WearModel<'a> {
     /// The law of each gear.
     pub laws: PerGear<&'a dyn FlankWear>,
-    /// Friction heat of the contact, where the law or the scene asks for it.
+    /// Friction heat of the contact, where a law reads it or the scene has it.
     pub heat: Option<&'a ContactHeat>,
     /// The pair with its oil, where the scene has any.
     pub running: Option<&'a RunningPair<'a>>,
 }
 
 impl<'a> WearModel<'a> {
-    /// Both gears by these laws, which read neither heat nor film.
+    /// A model of these laws without heat and oil.
     pub fn new(laws: &'a Laws) -> Self {
         Self { laws: laws.as_ref().map(|law| &**law), heat: None, running: None }
     }
 
-    /// Both gears by one law, which reads neither.
+    /// A model of one law for both gears, without heat and oil.
     pub fn cold(law: &'a dyn FlankWear) -> Self {
         Self { laws: PerGear { pinion: law, wheel: law }, heat: None, running: None }
     }
 
-    /// The same in the heat and the oil of the mesh.
+    /// Adds the heat and the oil of the mesh.
     pub fn under(self, heat: Option<&'a ContactHeat>, running: Option<&'a RunningPair<'a>>) -> Self {
         Self { heat, running, ..self }
     }
@@ -202,12 +206,12 @@ impl<'a> WearModel<'a> {
         WearModel::new(laws).under(self.heat, self.running)
     }
 
-    /// The heat, where either law reads what it does to the contact.
+    /// Friction heat, where either law reads contact conditions.
     pub(crate) fn heat_of_laws(&self) -> Option<&'a ContactHeat> {
         Gear::BOTH.into_iter().find_map(|gear| self.heat_of_law(gear))
     }
 
-    /// The heat, where the law of `gear` reads what it does to the contact.
+    /// Friction heat, where the law of `gear` reads contact conditions.
     pub(crate) fn heat_of_law(&self, gear: Gear) -> Option<&'a ContactHeat> {
         self.heat.filter(|_| self.laws[gear].reads_conditions())
     }
@@ -219,8 +223,8 @@ impl<'a> WearModel<'a> {
 
     /// Coefficient of friction that heats a contact: the given one, otherwise that of the mesh.
     pub(crate) fn friction(&self, heat: &ContactHeat, place: &LoadedPlace) -> f64 {
-        let of_mesh = || self.running.map_or(0.0, |running| running.friction(place));
-        heat.settings.friction_coefficient.unwrap_or_else(of_mesh)
+        let given = heat.settings.friction_coefficient;
+        given.unwrap_or_else(|| self.running.map_or(0.0, |running| running.friction(place)))
     }
 
     /// Factor of the film of a contact on the wear of `gear`; none where its law reads no film.
@@ -240,14 +244,14 @@ impl<'a> WearModel<'a> {
         PerGear { pinion, wheel }.map(|lambda| lambda.map(Lambda::OfAll))
     }
 
-    /// Which λ the law of `gear` reads, and of which pair; none where it reads none.
+    /// Films that the law of `gear` reads; none where it reads none.
     pub(crate) fn films_of_law(&self, gear: Gear) -> Option<Films<'a>> {
         let film = self.laws[gear].film()?;
         Some(Films { running: self.running?, ratio: film.ratio })
     }
 }
 
-/// The films that a law reads.
+/// Films of the mesh, with the λ that a law reads.
 #[derive(Clone, Copy)]
 pub(crate) struct Films<'a> {
     running: &'a RunningPair<'a>,

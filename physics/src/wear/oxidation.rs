@@ -1,6 +1,6 @@
 //! Wear of an oxide that grows linearly.
 //!
-//! Iron turns into Fe₂O₃ at the rate A_l exp(−Q_l/(R T)) of oxygen per area; what has grown in a contact is rubbed off in it:
+//! Iron turns into Fe₂O₃ at the rate A_l exp(−Q_l/(R T)) of oxygen per area; the oxide that grows in a contact is rubbed off in it:
 //!
 //! ```text
 //! dh = k_r p · A_l/(v ρ_Fe) · m · exp(−Q_l/(R T)) ds
@@ -19,7 +19,7 @@ const IRON: f64 = 55.845;
 /// M_O₂, g/mol.
 const OXYGEN: f64 = 31.998;
 
-/// How the mass of iron follows from that of oxygen.
+/// Mass of iron per mass of oxygen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MassRatio {
@@ -59,7 +59,7 @@ pub struct OxidationConstants {
 pub struct Oxidation {
     /// k_r: part of the area that is in real contact, over the pressure, mm²/N.
     pub coefficient_mm2_per_n: f64,
-    /// Of the reaction.
+    /// Constants of the reaction.
     pub constants: OxidationConstants,
 }
 

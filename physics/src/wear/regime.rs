@@ -6,17 +6,17 @@
 //! | II | 1e-8 to 1e-6 | boundary lubrication: oxidation, some adhesion |
 //! | III | above 1e-5 | scuffing: adhesion of unprotected asperities |
 //!
-//! The diagram leaves a power of ten between each two of them, which is named as such.
+//! Between two regimes the diagram leaves a power of ten, which has a name of its own here.
 //!
 //! Source: A. W. J. de Gee, A. Begelinger and G. Salomon, *Mixed Lubrication and Lubricated Wear* (11th Leeds–Lyon symposium,
 //! 1985), the diagram of the International Research Group on wear (IRG); the thesis, section 3 and figure 8.
 
 /// 1 mm²/N in mm³/(N·m).
 pub const MM3_PER_NM: f64 = 1e3;
-/// A coefficient that misses a bound by this part of it is on it.
+/// Relative distance from a bound within which a coefficient is on it.
 const ROUND_OFF: f64 = 1e-9;
 
-/// Where a wear coefficient lies in the diagram.
+/// Regime of a wear coefficient in the diagram.
 #[derive(
     Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
 )]
@@ -39,7 +39,7 @@ pub enum Regime {
 }
 
 impl Regime {
-    /// That of a wear coefficient.
+    /// Regime of a wear coefficient.
     pub fn of(coefficient_mm2_per_n: f64) -> Self {
         let k = MM3_PER_NM * coefficient_mm2_per_n;
         match k {
@@ -51,7 +51,7 @@ impl Regime {
         }
     }
 
-    /// As the results name it.
+    /// Name in results.
     pub fn name(self) -> &'static str {
         match self {
             Regime::One => "I",

@@ -1,4 +1,4 @@
-//! What is asked of the wear law.
+//! Settings of the wear laws.
 
 use super::WearLaw;
 use super::adsorption::{Adsorption, AdsorptionConstants};
@@ -24,23 +24,23 @@ impl SevereTransition {
     /// Band over its limit where a scene names none.
     pub const DEFAULT_BAND: f64 = 0.05;
 
-    /// The same transition at `part` of its limit, over a band that is as wide in MPa.
+    /// A transition at `part` of this one's limit, over a band as wide in MPa.
     pub fn with_limit(self, part: f64) -> Self {
         Self { above_mpa: part * self.above_mpa, ..self }
     }
 }
 
-/// How wear fades as the film of oil gets thicker: a factor on the wear coefficient.
+/// Dependence of wear on the oil film: a factor on the wear coefficient.
 ///
 /// Source of the form that [`FilmDependence::priest_taylor`] gives: M. Priest and C. M. Taylor, *Automobile engine tribology – approaching the
 /// surface* (Wear 241, 2000).
 #[derive(Debug, Clone, PartialEq)]
 pub struct FilmDependence {
-    /// Which film over which roughness λ is.
+    /// Definition of λ.
     pub ratio: FilmRatio,
     /// λ, rising; two at least.
     pub lambda: Vec<f64>,
-    /// Factor at each: straight between them, and level beyond.
+    /// Factor at each: linear between them, constant beyond.
     pub factor: Vec<f64>,
 }
 
@@ -56,7 +56,7 @@ impl FilmDependence {
     }
 }
 
-/// Which law, with its own constants.
+/// A law with its own constants.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LawSettings {
     /// The generalised Archard law.
@@ -68,7 +68,7 @@ pub enum LawSettings {
 }
 
 impl LawSettings {
-    /// Its name in scenes and reports.
+    /// Name in scenes and reports.
     pub fn name(&self) -> &'static str {
         match self {
             LawSettings::Archard => "archard",
@@ -77,8 +77,7 @@ impl LawSettings {
         }
     }
 
-    /// Whether its coefficient depends on sliding speed or contact temperature, which come together: the scene then needs a speed, and the plan computes
-    /// temperatures.
+    /// Whether the coefficient depends on sliding speed or contact temperature: the scene then needs a speed, and the plan computes temperatures.
     pub fn reads_temperature(&self) -> bool {
         match self {
             LawSettings::Archard => Archard::READS_CONDITIONS,
@@ -87,7 +86,7 @@ impl LawSettings {
         }
     }
 
-    /// Contact temperatures between which it holds, °C; none where it names no bounds.
+    /// Contact temperatures between which the law holds, °C; none where it has no bounds.
     pub fn valid_temperature_c(&self) -> Option<[f64; 2]> {
         match self {
             LawSettings::Oxidation(_) => Some(VALID_TEMPERATURE_C),
@@ -95,7 +94,7 @@ impl LawSettings {
         }
     }
 
-    /// Names of its constants that have the program's typical value, which is an order of magnitude and not measured.
+    /// Names of the constants that have the program's typical value, which is an order of magnitude and not measured.
     pub fn typical_constants(&self) -> Vec<&'static str> {
         let at_typical: Vec<(&'static str, bool)> = match self {
             LawSettings::Archard => Vec::new(),
@@ -131,13 +130,13 @@ impl LawSettings {
 /// The wear law with its constants.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WearSettings {
-    /// Which law.
+    /// Law.
     pub law: LawSettings,
     /// Wear coefficient: k of the generalised Archard law, k_r of the others, mm²/N (1e-17 m²/N is 1e-11 mm²/N).
     pub coefficient_mm2_per_n: f64,
     /// Mild-to-severe transition, where asked for; [`Self::severe_transition`] is the one that changes wear.
     pub severe: Option<SevereTransition>,
-    /// How it follows the film of oil, where asked for.
+    /// Dependence on the oil film, where asked for.
     pub film: Option<FilmDependence>,
     /// Factor on the coefficient over the temperature of the flanks, where asked for.
     pub warm: Option<TemperatureCurve>,
@@ -156,8 +155,7 @@ impl PerGear<WearSettings> {
         Gear::BOTH.into_iter().any(|gear| self[gear].severe_transition().is_some())
     }
 
-    /// The greatest factor of severe wear of the gears that wear severely somewhere under this maximum pressure, MPa; none where
-    /// neither does.
+    /// Greatest factor of severe wear under this maximum pressure, MPa; none where neither gear wears severely.
     pub fn severe_factor_under(&self, peak_pressure_mpa: f64) -> Option<f64> {
         let wearing = Gear::BOTH.into_iter().map(|gear| &self[gear]).filter(|own| own.coefficient_mm2_per_n > 0.0);
         let severe = wearing
@@ -171,7 +169,7 @@ impl PerGear<WearSettings> {
         self.with_severe(|own| Some(own.with_limit(part))).severe_factor_under(peak_pressure_mpa).is_some()
     }
 
-    /// The same laws with another transition in place of each gear's own.
+    /// Laws with another transition in place of each gear's own.
     pub fn with_severe(&self, of: impl Fn(SevereTransition) -> Option<SevereTransition>) -> Self {
         self.as_ref().map(|own| WearSettings { severe: own.severe.and_then(&of), ..own.clone() })
     }
@@ -202,12 +200,9 @@ mod tests {
     /// A factor of 1 is no severe wear: neither the resolution nor the coefficient depends on it.
     #[test]
     fn ver_a_severe_factor_of_one_is_none() {
-        let with = |factor: f64| {
-            let severe = Some(SevereTransition { above_mpa: 100.0, factor, band_mpa: 5.0 });
-            WearSettings { severe, ..WearSettings::archard(1e-11) }
-        };
         for (factor, is_severe) in [(1.0, false), (0.5, true), (2.0, true)] {
-            let own = with(factor);
+            let severe = Some(SevereTransition { above_mpa: 100.0, factor, band_mpa: 5.0 });
+            let own = WearSettings { severe, ..WearSettings::archard(1e-11) };
             assert_eq!(own.severe_transition().is_some(), is_severe, "{factor}");
             assert_eq!(own.constant_coefficient_mm2_per_n().is_none(), is_severe, "{factor}");
             let both = PerGear { pinion: WearSettings::archard(1e-11), wheel: own };
@@ -219,9 +214,9 @@ mod tests {
     #[test]
     fn ver_priest_and_taylor() {
         let film = FilmDependence::priest_taylor(FilmRatio::Composite);
-        let of = |lambda: f64| if lambda < 0.5 { 1.0 } else { (2.0 / 7.0 * (4.0 - lambda)).max(0.0) };
         for lambda in [0.0, 0.3, 0.5, 1.0, 2.25, 3.9, 4.0, 7.0] {
-            assert!((film.factor_at(lambda) - of(lambda)).abs() < 1e-14, "{lambda}");
+            let expected = if lambda < 0.5 { 1.0 } else { (2.0_f64 / 7.0 * (4.0 - lambda)).max(0.0) };
+            assert!((film.factor_at(lambda) - expected).abs() < 1e-14, "{lambda}");
         }
     }
 }

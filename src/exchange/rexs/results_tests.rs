@@ -7,7 +7,7 @@ use super::results::{RunResults, WearDepths, WithResults, with_results};
 use super::same_loads::Loads;
 use super::{RexsError, VERSIONS, scene};
 use crate::gear::PerGear;
-use crate::scene::Scene;
+use crate::scene::Resolved;
 use crate::studies::evaluate::output::SummaryOutput;
 
 const TWO_STAGES: &str = include_str!("two_stages.rexs");
@@ -15,7 +15,7 @@ const TWO_STAGES: &str = include_str!("two_stages.rexs");
 /// A run of stage 1 under these loads, torque in N·m and speed in 1/min: of every figure there is the number that the test looks for.
 fn run(loads: &[[f64; 2]]) -> RunResults {
     let text = scene(TWO_STAGES, Some(1)).unwrap().text;
-    let pair = Scene::from_toml(&text).unwrap().scene.pair;
+    let pair = Resolved::from_toml(&text).unwrap().scene.pair;
     let phases: Vec<Value> = loads
         .iter()
         .map(|[torque, speed]| {

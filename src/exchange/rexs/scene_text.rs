@@ -51,7 +51,9 @@ pub(super) fn of(
     lubricant(&mut text, document, stage, gears, load)?;
     text.line("\n[wear]");
     text.line("law = \"archard\"");
-    text.line("coefficient_m2_per_N = 1e-18      # ASSUMED: steel with a full film; README has a table with sources");
+    text.line(
+        "coefficient_m2_per_N = 1e-18      # ASSUMED: steel with a full film; docs/materials.md has k with sources",
+    );
     Ok(text.0)
 }
 

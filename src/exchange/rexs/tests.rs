@@ -1,5 +1,6 @@
 use super::{RexsError, scene};
-use crate::scene::{Scene, presets};
+use crate::scene::Resolved;
+use crate::scene::presets;
 
 const TWO_STAGES: &str = include_str!("two_stages.rexs");
 
@@ -17,9 +18,11 @@ fn error(text: &str, stage: Option<usize>) -> String {
 #[test]
 fn ver_a_stage_is_the_pair_of_its_attributes() {
     let found = scene(TWO_STAGES, Some(1)).unwrap();
-    let own = Scene::from_toml(&found.text).unwrap_or_else(|problems| panic!("{problems:?}\n{}", found.text)).scene;
+    let own = Resolved::from_toml(&found.text).unwrap_or_else(|problems| panic!("{problems:?}\n{}", found.text));
+    assert_eq!(own.title(), "FZG & type C");
+    let own = own.scene;
     let preset = presets::find("fzg-c").unwrap().text;
-    let mut expected = Scene::from_toml(preset).unwrap().scene.pair;
+    let mut expected = Resolved::from_toml(preset).unwrap().scene.pair;
     for (own, expected) in
         [(&own.pair.gears.pinion, &mut expected.gears.pinion), (&own.pair.gears.wheel, &mut expected.gears.wheel)]
     {
@@ -27,7 +30,6 @@ fn ver_a_stage_is_the_pair_of_its_attributes() {
         expected.modification.tip_rounding_mm = own.modification.tip_rounding_mm;
     }
     assert_eq!(own.pair, expected);
-    assert_eq!(own.title, "FZG & type C");
     // The case's torque stands before the component's own; a component that the case does not name keeps its own.
     let phases: Vec<(f64, Option<f64>)> =
         own.operation.phases.iter().map(|phase| (phase.pinion_torque_n_mm, phase.pinion_speed_rpm)).collect();
@@ -64,10 +66,10 @@ fn ver_modifications_come_in_their_units() {
         assert!(found.warnings.iter().any(|said| said.contains(warning)), "{warning}: {:?}", found.warnings);
     }
     // What is missing is the torque alone.
-    let problems = Scene::from_toml(&found.text).unwrap_err();
+    let problems = Resolved::from_toml(&found.text).unwrap_err();
     assert!(problems.iter().all(|problem| problem.to_string().contains("pinion_torque_Nm")), "{problems:?}");
     let whole = found.text.replace("# pinion_torque_Nm =", "pinion_torque_Nm = 400.0 #");
-    assert!(Scene::from_toml(&whole).is_ok(), "{whole}");
+    assert!(Resolved::from_toml(&whole).is_ok(), "{whole}");
 }
 
 #[test]

@@ -16,7 +16,7 @@
 use crate::contact::{foundation, hertz, settings::Foundation};
 use crate::gear::conjugate::ConjugateFlanks;
 use crate::gear::{Gear, GearPair};
-use crate::scene::Scene;
+use crate::operation::Scene;
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 

@@ -294,8 +294,9 @@ fn short(length_mm: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Resolved;
     use crate::scene::locate::Locator;
-    use crate::scene::{Scene, presets};
+    use crate::scene::presets;
 
     /// Every geometry error lands at a key of the scene, in the preset's own text and beside a preset.
     #[test]
@@ -360,7 +361,7 @@ mod tests {
             (PairError::TipRoundingTooLarge { gear, radius_mm: 2.7, greatest_mm: 2.6 }, of_pinion("tip_rounding_mm")),
         ];
         let text = presets::PRESETS[0].text;
-        let spec = Scene::from_toml(text).unwrap().scene.pair;
+        let spec = Resolved::from_toml(text).unwrap().scene.pair;
         let findings = Findings::new(Locator::new(text).unwrap());
         let beside_preset = Findings::new(Locator::new("pair.preset = \"fzg-c\"").unwrap());
         for (error, key) in errors {

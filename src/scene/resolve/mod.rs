@@ -26,10 +26,11 @@ use super::problem::{Problem, ProblemKind};
 use super::resolve::settings::Teeth;
 use super::schema::{Node, schema};
 use super::shape::{self, Format};
-use super::{Resolved, Scene, draft, presets, text, unit_slip};
+use super::{Resolved, draft, presets, text, unit_slip};
 use crate::contact::settings::SurfaceKind;
 use crate::gear_mesh::settings::{Body, NO_WEBS};
 use crate::mesh_cycle::settings::Coupling;
+use crate::operation::Scene;
 
 /// Keys that other files have, and what to do with those.
 const OF_OTHER_FILES: &[(&str, &str)] =
@@ -169,7 +170,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     if let (Some(numerics), Some(surface)) = (&numerics, surface) {
         settings::memory(numerics, surface, slices.map_or(1, |slices| slices.count), findings);
     }
-    let title = file.title.get_or_insert_with(|| {
+    file.title.get_or_insert_with(|| {
         // As the file gives it.
         let module = match file.pair.transverse_module_mm {
             Some(transverse) => format!("transverse module {transverse}"),
@@ -177,9 +178,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         };
         format!("Gear pair {}/{}, {module} mm", pair.gears.pinion.teeth, pair.gears.wheel.teeth)
     });
-    let title = title.clone();
     let mut scene = Scene {
-        title,
         pair,
         material: materials.elastic,
         modulus: materials.modulus,

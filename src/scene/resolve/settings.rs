@@ -6,7 +6,7 @@ use crate::mesh_cycle::settings::Coupling;
 use crate::scene::file::{ContactFile, NamedStep, NumericsFile, StepFile, StiffnessFile, StiffnessModel};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
-use crate::simulation::settings::{AdaptiveMethod, Numerics, Stepping};
+use crate::simulation::settings::{Numerics, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
 
 const FLANK_POINTS: u32 = 750;
@@ -182,15 +182,8 @@ fn stepping(file: &mut NumericsFile, duration: f64, adaptive: bool, findings: &m
                 findings.not_allowed("numerics.tolerance_um", number(tolerance_um), allowed);
                 return None;
             }
-            let method = *file.method.get_or_insert_default();
-            if method == AdaptiveMethod::LinearlyImplicit {
-                findings.warnings.push(
-                    "numerics.method = \"linearly-implicit\" is there to be compared with: it damps the wear as a whole, and its \
-                     error is far above numerics.tolerance_um"
-                        .to_owned(),
-                );
-            }
-            Some(Stepping::Adaptive { tolerance_mm: 1e-3 * tolerance_um, method })
+            file.method.get_or_insert_default();
+            Some(Stepping::Adaptive { tolerance_mm: 1e-3 * tolerance_um })
         }
     }
 }

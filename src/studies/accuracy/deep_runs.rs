@@ -20,7 +20,7 @@ use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::observer::{Observer, PartOf};
 use crate::scene::file::StepFile;
 use crate::scene::loaded::LoadedScene;
-use crate::scene::{Problem, Resolved, Scene};
+use crate::scene::{Problem, Resolved};
 use crate::studies::accuracy::record::{DeepRow, DeepRun, DeepRuns};
 
 /// The scene's revolutions times this.
@@ -128,7 +128,7 @@ fn deeper(resolved: &Resolved) -> Result<Resolved, Vec<Problem>> {
     // The end alone: a snapshot shortens the step before it.
     operation.snapshots_revolutions = Some(vec![DEEPER * resolved.scene.operation.pinion_revolutions]);
     file.numerics.get_or_insert_default().step = Some(StepFile::fixed(DEEPER * euler_revolutions(&resolved.scene)));
-    Scene::from_toml(&file.to_toml())
+    Resolved::from_toml(&file.to_toml())
 }
 
 fn larger(of: impl Fn(Gear) -> f64) -> f64 {

@@ -5,9 +5,10 @@
 
 use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
+use crate::operation::Scene;
 use crate::report::html::number::significant;
 use crate::scene::file::{HelicalFile, NumericsFile, StepFile, StiffnessFile, StiffnessModel};
-use crate::scene::{Problem, Resolved, Scene};
+use crate::scene::{Problem, Resolved};
 use crate::studies::accuracy::record::VariantSettings;
 
 /// Fewest points and positions of a setting: the least that a scene may ask for.
@@ -235,7 +236,7 @@ impl Setting {
             step: Some(StepFile::fixed(f64::from(self.coarsening.step) * euler_revolutions(&base.scene))),
             ..NumericsFile::default()
         });
-        Scene::from_toml(&file.to_toml())
+        Resolved::from_toml(&file.to_toml())
     }
 
     /// What the record says of it.

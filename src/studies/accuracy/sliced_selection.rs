@@ -15,7 +15,8 @@ use super::settings::{Coarsening, Setting, Stiffness, Surface};
 use crate::contact::settings::{Foundation, MatchCriterion};
 use crate::gear_mesh::settings::Body;
 use crate::mesh_cycle::settings::{Coupling, MOST_SLICES_IN_SPACE, SliceSettings};
-use crate::scene::{Resolved, Scene};
+use crate::operation::Scene;
+use crate::scene::Resolved;
 
 /// Fewest slices that tell something of the width.
 const LEAST_SLICES: usize = 2;

@@ -12,11 +12,11 @@ use super::selection::{Asked, Companions, Selection, Spacing};
 use super::settings::Setting;
 use super::sliced_comparison;
 use super::timed_run::{Finished, Measured, measure};
+use crate::assessment::calibrate::{self, CalibrateError, Extent};
 use crate::calibration::Calibration;
 use crate::contact::settings::MatchCriterion;
 use crate::gear::{Gear, PerGear};
 use crate::observer::{Observer, PartOf};
-use crate::pipeline::calibrate::{self, CalibrateError, Extent};
 use crate::results::run::StopReason;
 use crate::scene::Resolved;
 use crate::scene::loaded::LoadedScene;
@@ -118,7 +118,7 @@ pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) ->
         recommended_toml: recommended_toml(&recommendations, &selection.settings, resolved),
         calibration_json: made.map(Calibration::to_json),
         calibration_s: calibration.wall_s,
-        title: resolved.scene.title.clone(),
+        title: resolved.title().to_owned(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_hash: resolved.scene_hash(),
         stopped,

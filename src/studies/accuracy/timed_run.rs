@@ -7,11 +7,12 @@ use std::time::Instant;
 
 use super::observed::Observed;
 use super::settings::Setting;
+use crate::assessment::{Done, RunError};
 use crate::gear::PerGear;
 use crate::observer::{Observer, PartOf};
-use crate::pipeline::{self, Done, RunError};
 use crate::plan::StageKind;
 use crate::results::run::{PathPoints, RunRecord, StopReason, Summary};
+use crate::runs;
 use crate::scene::loaded::LoadedScene;
 use crate::studies::accuracy::record::{CALIBRATION_FILE, VariantRecord};
 
@@ -61,7 +62,7 @@ pub(super) fn measure(setting: &Setting, base: &LoadedScene, observer: &PartOf<'
     let mut kept = None;
     let start = Instant::now();
     while record.repeats == 0 || (start.elapsed().as_secs_f64() < LONG_ENOUGH_S && record.repeats < MOST_REPEATS) {
-        let done = match pipeline::run(&scene, observer) {
+        let done = match runs::run(&scene, observer) {
             Ok(Done { record: done, failure: None }) if done.summary.stopped == StopReason::Completed => done,
             Ok(Done { failure: Some(failure), .. }) => return failed(record, failure.to_string()),
             Ok(_) => return None,

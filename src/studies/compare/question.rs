@@ -9,7 +9,8 @@ use crate::gear::{Gear, GearPair, slices::Slices};
 use crate::measurement::file::{HeightFrom, MeasuredFile, Moment, ValueKind};
 use crate::measurement::form::Form;
 use crate::measurement::profile::MeasuredProfile;
-use crate::scene::{Resolved, Scene};
+use crate::operation::Scene;
+use crate::scene::Resolved;
 
 /// Times beyond the end by less than this part are the end.
 const SAME_TIME: f64 = 1e-9;

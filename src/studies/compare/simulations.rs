@@ -19,12 +19,14 @@ use std::f64::consts::LN_2;
 
 use super::question::{Fitted, ProfileQuestion, Question};
 use super::wear_by_coefficient::WearByCoefficient;
+use crate::assessment::RunError;
 use crate::gear::{Gear, PerGear};
 use crate::observer::{Observer, PartOf};
-use crate::pipeline::{self, RunError};
+use crate::operation::Scene;
 use crate::results::run::StopReason;
+use crate::runs;
+use crate::scene::Resolved;
 use crate::scene::loaded::LoadedScene;
-use crate::scene::{Resolved, Scene};
 use crate::simulation::settings::LifeLimits;
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -238,7 +240,7 @@ impl<'a> Simulations<'a> {
         self.observer.stage(&format!("run {}", self.runs));
         let resolved = Resolved { scene, file: self.given.resolved.file.clone(), warnings: Vec::new() };
         let scene = LoadedScene { resolved, ..self.given.clone() };
-        let done = pipeline::run(&scene, &PartOf::whole(self.observer));
+        let done = runs::run(&scene, &PartOf::whole(self.observer));
         if self.observer.interrupted() {
             return Err(CompareError::Interrupted);
         }

@@ -11,9 +11,10 @@
 
 pub(crate) mod output;
 
+use crate::assessment::guarded::guarded;
 use crate::observer::Observer;
-use crate::pipeline::{self, guarded::guarded};
 use crate::results::run::StopReason;
+use crate::runs;
 use crate::scene::draft::{Draft, other_ways_to_say};
 use crate::scene::key::{self, NumberKey, is_key};
 use crate::scene::loaded::{LoadedScene, SceneError};
@@ -186,7 +187,7 @@ impl AskedRows<'_> {
         let mut resolved = self.varied.resolved(exchanged).map_err(|problems| in_words(&problems))?;
         resolved.scene.verify = self.verify;
         self.varied.inputs_belong_to(&resolved)?;
-        let summary = self.varied.carry_out(resolved, within, pipeline::summarise)?;
+        let summary = self.varied.carry_out(resolved, within, runs::summarise)?;
         if summary.stopped == StopReason::Interrupted {
             return Ok(None);
         }

@@ -2,10 +2,11 @@
 
 use toml::Table;
 
+use crate::assessment::RunError;
+use crate::assessment::guarded::guarded;
 use crate::observer::Observer;
-use crate::pipeline::guarded::guarded;
-use crate::pipeline::{self, RunError};
 use crate::results::run::{RunRecord, StopReason};
+use crate::runs;
 use crate::scene::loaded::LoadedScene;
 use crate::studies::varied_scene::one_line;
 
@@ -43,7 +44,7 @@ pub(super) fn carried_out(table: &Table, observer: &dyn Observer) -> Result<RunR
 fn run(table: &Table, observer: &dyn Observer) -> Result<RunRecord, Ended> {
     let refused = |error: &dyn std::fmt::Display| Ended::Refused(one_line(&error.to_string()));
     let scene = LoadedScene::from_toml(&table.to_string()).map_err(|error| refused(&error))?;
-    let done = pipeline::run(&scene, observer).map_err(|error| match &error {
+    let done = runs::run(&scene, observer).map_err(|error| match &error {
         error if error.is_interrupted() => Ended::Interrupted,
         RunError::Simulation(_) if error.stiffness().is_none() => Ended::NotConverged(one_line(&error.to_string())),
         _ => refused(&error),

@@ -2,12 +2,13 @@
 
 use std::time::Instant;
 
+use crate::assessment::guarded::guarded;
 use crate::observer::Observer;
-use crate::pipeline::{self, guarded::guarded};
 use crate::plan::{Plan, StageKind};
 use crate::results::error::TotalError;
 use crate::results::figures;
 use crate::results::run::{StopReason, Summary};
+use crate::runs;
 use crate::scene::draft::Draft;
 use crate::scene::loaded::{LoadedScene, NamedFiles};
 use crate::scene::{Problem, Resolved, short_hash};
@@ -38,7 +39,7 @@ impl Sweep {
         let draft = Draft::parse(&given.given.text)?;
         let resolved = &given.resolved;
         let identity = SweepIdentity {
-            title: resolved.scene.title.clone(),
+            title: resolved.title().to_owned(),
             program_version: env!("CARGO_PKG_VERSION").to_owned(),
             scene_hash: resolved.scene_hash(),
             given_hash: draft.hash(),
@@ -124,7 +125,7 @@ impl Sweep {
     fn run(&self, index: usize, observer: &dyn Observer) -> Result<Summary, String> {
         let resolved = self.scene(index).map_err(|problems| in_words(&problems))?;
         self.varied.inputs_belong_to(&resolved)?;
-        self.varied.carry_out(resolved, observer, pipeline::summarise)
+        self.varied.carry_out(resolved, observer, runs::summarise)
     }
 
     /// The finished row `row`, verified by finite elements; `None` where that was interrupted.
@@ -149,7 +150,7 @@ impl Sweep {
         let plan = Plan::of(&resolved.scene);
         match plan.left_out_because(StageKind::Verification) {
             Some(reason) => Err(reason.to_owned()),
-            None => self.varied.carry_out(resolved, observer, pipeline::summarise).map(|summary| summary.error.total),
+            None => self.varied.carry_out(resolved, observer, runs::summarise).map(|summary| summary.error.total),
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::studies::varied_scene::{linked_keys, missing_phase};
 /// Question to a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UncertaintyQuestion {
-    /// Uncertain keys: `KEY=DISTRIBUTION` (docs/uncertainty.md).
+    /// Uncertain keys: `KEY=DISTRIBUTION` (docs/sweep.md).
     pub uncertain: Vec<String>,
     /// Correlations of their normal scores: `KEY:KEY=R`.
     pub correlation: Vec<String>,

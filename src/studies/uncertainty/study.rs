@@ -16,15 +16,16 @@ use super::design::{Design, Matrix, ScoreCorrelation};
 use super::distribution::Uncertain;
 use super::life::{DepthLimit, Growth};
 use super::record::{Band, FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, SampleRow, UncertaintyRecord};
+use crate::assessment::guarded::guarded;
 use crate::gear::PerGear;
 use crate::observer::Observer;
-use crate::pipeline::{self, guarded::guarded};
 use crate::reference::sobol_indices::indices;
 use crate::reference::statistics::{SHARES, mean, quantile, standard_deviation};
 use crate::report::html::reading::capitalised;
 use crate::results::figures::{self, MainFigure};
 use crate::results::run::StopReason;
 use crate::results::worn_pair::{WearProfile, WornPair};
+use crate::runs;
 use crate::scene::loaded::LoadedScene;
 use crate::studies::evaluate::output::SummaryOutput;
 use crate::studies::spread::spread;
@@ -168,7 +169,7 @@ fn worn<'a>(
         let operation = &mut resolved.scene.operation;
         operation.snapshots_revolutions = moments(operation.pinion_revolutions);
     }
-    varied.carry_out(resolved, observer, pipeline::worn_pair)
+    varied.carry_out(resolved, observer, runs::worn_pair)
 }
 
 /// Each output with the time until which it is known: a life to a limit that is not reached is infinite.
@@ -274,7 +275,7 @@ fn nominal(
         if !question.limits.is_empty() {
             operation.snapshots_revolutions = moments(operation.pinion_revolutions);
         }
-        varied.carry_out(resolved, observer, pipeline::worn_pair)
+        varied.carry_out(resolved, observer, runs::worn_pair)
     });
     let run = run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
     match run {
@@ -302,7 +303,7 @@ fn record(
     }
     let figures = question.outputs.len() + question.limits.len();
     Ok(UncertaintyRecord {
-        title: scene.scene().title.clone(),
+        title: scene.resolved.title().to_owned(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_hash: scene.resolved.scene_hash(),
         uncertain: question.uncertain.clone(),

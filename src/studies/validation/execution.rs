@@ -12,19 +12,20 @@ use super::case_file::{Command, RunSpec};
 use super::members::Member;
 use super::soundness;
 use super::value::Value;
+use crate::assessment::RunError;
+use crate::assessment::calibrate::{self, CalibrateError, Extent};
+use crate::assessment::fem_scene::{self, FemPairError};
+use crate::assessment::guarded::guarded;
 use crate::calibration::Calibration;
+use crate::fem_problem::{self, FemProblemError};
 use crate::gear::Gear;
 use crate::observer::Observer;
-use crate::pipeline::calibrate::{self, CalibrateError, Extent};
-use crate::pipeline::fem_problem::{self, FemProblemError};
-use crate::pipeline::fem_scene::{self, FemPairError};
-use crate::pipeline::guarded::guarded;
-use crate::pipeline::{self, RunError};
 use crate::report;
 use crate::report::csv_table::{self, Column};
 use crate::report::slice_table;
 use crate::report::tables;
 use crate::results::run::StopReason;
+use crate::runs;
 use crate::scene::draft::{self, Draft};
 use crate::scene::fem_problem::FemProblem;
 use crate::scene::loaded::{self, LoadedScene, NamedFiles, SceneText};
@@ -168,7 +169,7 @@ impl Task<'_> {
 
     fn wear_run(&self) -> Result<Executed, Failed> {
         let scene = self.loaded_scene()?;
-        let done = pipeline::run(&scene, self.watch).map_err(|error| match &error {
+        let done = runs::run(&scene, self.watch).map_err(|error| match &error {
             RunError::Pair(_) | RunError::Stiffness(_) | RunError::FiniteElements(_) => refused(error),
             _ => not_converged(error),
         })?;
@@ -220,7 +221,7 @@ impl Task<'_> {
     fn finite_element_pair(&self) -> Result<Executed, Failed> {
         let resolved = self.resolved(self.draft()?)?;
         let asked = fem_scene::Asked { position_mm: self.run.position_mm, full: self.run.full };
-        let done = fem_scene::run(&resolved, asked, self.watch).map_err(|error| match &error {
+        let done = runs::fem_pair(&resolved, asked, self.watch).map_err(|error| match &error {
             FemPairError::Position { .. }
             | FemPairError::Pair(_)
             | FemPairError::Quality { .. }

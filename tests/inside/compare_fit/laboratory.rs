@@ -5,11 +5,11 @@ use std::f64::consts::{PI, TAU};
 use gearwear::gear::{Gear, GearPair, PerGear};
 use gearwear::measurement::file;
 use gearwear::observer::Unwatched;
-use gearwear::pipeline;
 use gearwear::report;
 use gearwear::results::run::{FlankRecord, RunRecord};
+use gearwear::runs;
+use gearwear::scene::Resolved;
 use gearwear::scene::loaded::LoadedScene;
-use gearwear::scene::{Resolved, Scene};
 use gearwear::studies::compare::question::{Asked, FitKind, Question};
 use gearwear::studies::compare::record::CompareRecord;
 use gearwear::studies::compare::run_folder::RunFolder;
@@ -106,8 +106,8 @@ impl Trace {
 
 /// Carries a scene out.
 fn run(scene: &str) -> (Resolved, RunRecord) {
-    let resolved = Scene::from_toml(scene).unwrap_or_else(|problems| panic!("{problems:?}"));
-    let done = pipeline::run(&loaded(&resolved), &Unwatched).unwrap();
+    let resolved = Resolved::from_toml(scene).unwrap_or_else(|problems| panic!("{problems:?}"));
+    let done = runs::run(&loaded(&resolved), &Unwatched).unwrap();
     assert!(done.failure.is_none());
     (resolved, done.record)
 }

@@ -1,13 +1,13 @@
-//! Phases that are worked on one after the other: their contacts in rows, from equilibrium to wear.
+//! Positions that are computed one after the other: their contacts in rows, from equilibrium to wear.
 //!
-//! A contact of the simplified model stays where it is on both flanks, so that nothing is looked up or interpolated in a wear
+//! A contact of the simplified model stays at its place on both flanks, so that nothing is interpolated in a wear
 //! step. With the mean pressure and the sliding distance of [`crate::contact::hertz_mean`],
 //!
 //! ```text
 //! p = w/(2a) = √w / (2 √α)          s = 2 a |ζ| = √w · 2 √α |ζ|          a = √(α w)
 //! ```
 //!
-//! rows of both go to the wear law, and what it answers opens the gap of the flanks before the next equilibrium, along the transverse line of
+//! rows of both go to the wear law, and the depth opens the gap of the flanks before the next equilibrium, along the transverse line of
 //! action by 1/cos β_b of the depth.
 
 use super::closed_form::ContactForms;
@@ -26,7 +26,7 @@ use crate::reference::hertz_line::PEAK_OVER_MEAN;
 use crate::thermal::{HeatedStrip, SpeedRatios, band::Spread};
 use crate::wear::{ContactConditions, Lambda, SlidingRow, WearModel, heated_row::HeatedContact};
 
-/// What a contact's load does to the flanks, over its square root.
+/// Quantities of a contact over the square root of its load.
 #[derive(Debug, Clone, Copy, Default)]
 struct PerRoot {
     /// 1/(2 √α): mean pressure.
@@ -40,26 +40,26 @@ struct PerRoot {
 /// A value for every lane of some packs.
 type Row = Vec<[f64; LANES]>;
 
-/// Some phases in rows.
+/// Contacts of some positions in rows.
 pub(crate) struct Batch {
-    /// Where and what they are.
-    pub phases: Vec<SlicedPosition>,
-    /// Their states.
+    /// Positions with their contacts.
+    pub positions: Vec<SlicedPosition>,
+    /// State of each position.
     pub loaded_positions: Vec<LoadedPosition>,
     packs: Vec<Pack>,
     /// Gap of the unworn flanks along the transverse line of action.
     modification_mm: Vec<Lanes>,
     per_root: Vec<PerRoot>,
-    /// How fast the surfaces move at the contact in each lane.
+    /// Speed ratios of the surfaces at the contact in each lane.
     ratios: Vec<SpeedRatios>,
-    /// The teeth of each phase, where slices are coupled.
+    /// Teeth of each position, where slices are coupled.
     teeth: Vec<CoupledTeeth>,
     common: Common,
-    /// By how much the gap along the transverse line of action opens for a depth normal to the flanks ([`crate::gear::normal_section`]).
+    /// Gap along the transverse line of action over depth normal to the flanks ([`crate::gear::normal_section`]).
     gap_per_depth: f64,
     /// Depth that both flanks have lost at each contact, mm.
     wear_mm: PerGear<Row>,
-    /// Depth that they lose in one mesh, mm.
+    /// Depth that both flanks lose in one mesh at each contact, mm.
     depth_mm: PerGear<Row>,
     tangents: Vec<Tangent>,
     pressure_mpa: Row,
@@ -71,7 +71,7 @@ pub(crate) struct Batch {
     outcome: Result<Work, EquilibriumError>,
 }
 
-/// A contact as it is.
+/// State of a contact.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ContactState {
     /// w, N/mm.
@@ -85,87 +85,99 @@ pub(crate) struct ContactState {
 }
 
 impl Batch {
-    /// Prepares the contacts of `phases`, on flanks modified by `modification_mm` there.
+    /// Prepares the contacts of `positions`, on flanks modified by `modification_mm` there.
     pub(crate) fn new(
-        phases: Vec<SlicedPosition>,
+        positions: Vec<SlicedPosition>,
         forms: &ContactForms<'_>,
         springs: &SlicesInSeries<'_>,
         modification_mm: impl Fn(&SliceContact) -> f64,
     ) -> Self {
-        let path = &springs.pair.path;
-        let packs_of = |phase: &SlicedPosition| phase.contacts.len().div_ceil(LANES);
-        let count: usize = phases.iter().map(packs_of).sum();
+        let count: usize = positions.iter().map(|position| position.contacts.len().div_ceil(LANES)).sum();
         let unused = Pack { rigid: Lanes::splat(1.0), gap_mm: Lanes::splat(UNUSED_GAP_MM), ..Pack::default() };
-        let (mut packs, mut per_root) = (vec![unused; count], vec![PerRoot::default(); count]);
-        let mut ratios = vec![SpeedRatios::default(); LANES * count];
-        let coupled = springs.sliced.is_coupled();
-        let common = Common {
-            log_compliance_mm2_per_n: forms.log_compliance_mm2_per_n(),
-            line_load_n_per_mm: springs.line_load_n_per_mm,
-        };
-        let (mut loaded_positions, mut teeth_of_phases, mut first) = (Vec::with_capacity(phases.len()), Vec::new(), 0);
-        for phase in &phases {
-            let range = first..first + packs_of(phase);
-            let mean = springs.line_load_n_per_mm / phase.contacts.len() as f64;
-            let mut greatest_load_n_per_mm = f64::INFINITY;
-            for (at, contact) in phase.contacts.iter().enumerate() {
-                let (pack, k) = (first + at / LANES, at % LANES);
-                let position = contact.cell.position_mm;
-                let form = forms.at(position);
-                ratios[LANES * first + at] = SpeedRatios::over(springs.pair, position, position);
-                let teeth = if coupled { 0.0 } else { springs.sliced.mm2_per_n(contact, &springs.along_path) };
-                let (row, roots) = (&mut packs[pack], &mut per_root[pack]);
-                row.rigid.0[k] = form.surface_mm2_per_n + teeth;
-                for (series, own) in row.series.iter_mut().zip(form.series) {
-                    series.0[k] = own;
-                }
-                row.gap_mm.0[k] = modification_mm(contact);
-                row.load.0[k] = mean;
-                let half_width = form.square_half_width.sqrt();
-                roots.half_width.0[k] = half_width;
-                roots.pressure.0[k] = 0.5 / half_width;
-                for (sliding, gear) in roots.sliding.iter_mut().zip(Gear::BOTH) {
-                    sliding.0[k] = 2.0 * half_width * path.specific_sliding(gear, position).abs();
-                }
-                greatest_load_n_per_mm = greatest_load_n_per_mm.min(form.greatest_load_n_per_mm);
-            }
-            let compliance = |contact: &SliceContact| springs.sliced.mm2_per_n(contact, &springs.along_path);
-            teeth_of_phases.extend(springs.sliced.coupled_teeth(springs.pair, &phase.contacts, compliance));
-            loaded_positions.push(LoadedPosition {
-                position_mm: phase.position_mm,
-                transmission_error_mm: 0.0,
-                contacts: phase.contacts.len(),
-                greatest_load_n_per_mm,
-                packs: range.clone(),
-            });
-            first = range.end;
-        }
-        let longest = loaded_positions.iter().map(|loaded| loaded.packs.len()).max().unwrap_or(0);
-        let row = |packs: usize| vec![[0.0; LANES]; packs];
-        Self {
-            phases,
-            loaded_positions,
-            modification_mm: packs.iter().map(|pack| pack.gap_mm).collect(),
-            packs,
-            per_root,
-            ratios,
-            teeth: teeth_of_phases,
-            common,
+        let zeros = vec![[0.0; LANES]; count];
+        let mut batch = Self {
+            loaded_positions: Vec::with_capacity(positions.len()),
+            modification_mm: Vec::new(),
+            packs: vec![unused; count],
+            per_root: vec![PerRoot::default(); count],
+            ratios: vec![SpeedRatios::default(); LANES * count],
+            teeth: Vec::new(),
+            common: Common {
+                log_compliance_mm2_per_n: forms.log_compliance_mm2_per_n(),
+                line_load_n_per_mm: springs.line_load_n_per_mm,
+            },
             gap_per_depth: springs.pair.obliquity().transverse_mm(1.0),
-            wear_mm: PerGear::from_fn(|_| row(count)),
-            depth_mm: PerGear::from_fn(|_| row(count)),
-            tangents: vec![Tangent::default(); longest],
-            pressure_mpa: row(longest),
-            sliding_mm: [row(longest), row(longest)],
+            wear_mm: PerGear { pinion: zeros.clone(), wheel: zeros.clone() },
+            depth_mm: PerGear { pinion: zeros.clone(), wheel: zeros },
+            tangents: Vec::new(),
+            pressure_mpa: Vec::new(),
+            sliding_mm: [Vec::new(), Vec::new()],
             conditions: Vec::new(),
             lambda: Vec::new(),
             places: Vec::new(),
             begun: false,
             outcome: Ok(Work::default()),
+            positions: Vec::new(),
+        };
+        for position in &positions {
+            batch.prepare(position, forms, springs, &modification_mm);
         }
+        let longest = batch.loaded_positions.iter().map(|loaded| loaded.packs.len()).max().unwrap_or(0);
+        batch.tangents = vec![Tangent::default(); longest];
+        batch.pressure_mpa = vec![[0.0; LANES]; longest];
+        batch.sliding_mm = [batch.pressure_mpa.clone(), batch.pressure_mpa.clone()];
+        batch.modification_mm = batch.packs.iter().map(|pack| pack.gap_mm).collect();
+        Self { positions, ..batch }
     }
 
-    /// Lets the flanks lose what the last evaluation found for so many `meshes`, finds the new equilibria, and what they lose now.
+    /// Prepares the contacts of the next position in the packs after those of the last one.
+    fn prepare(
+        &mut self,
+        position: &SlicedPosition,
+        forms: &ContactForms<'_>,
+        springs: &SlicesInSeries<'_>,
+        modification_mm: impl Fn(&SliceContact) -> f64,
+    ) {
+        let first = self.loaded_positions.last().map_or(0, |loaded| loaded.packs.end);
+        let contacts = &position.contacts;
+        let mean = springs.line_load_n_per_mm / contacts.len() as f64;
+        let coupled = springs.sliced.is_coupled();
+        let mut greatest_load_n_per_mm = f64::INFINITY;
+        for (at, contact) in contacts.iter().enumerate() {
+            let (pack, k) = (first + at / LANES, at % LANES);
+            let position_mm = contact.cell.position_mm;
+            let form = forms.at(position_mm);
+            self.ratios[LANES * first + at] = SpeedRatios::over(springs.pair, position_mm, position_mm);
+            let teeth = if coupled { 0.0 } else { springs.sliced.mm2_per_n(contact, &springs.along_path) };
+            let (row, roots) = (&mut self.packs[pack], &mut self.per_root[pack]);
+            row.rigid.0[k] = form.surface_mm2_per_n + teeth;
+            for (series, own) in row.series.iter_mut().zip(form.series) {
+                series.0[k] = own;
+            }
+            row.gap_mm.0[k] = modification_mm(contact);
+            row.load.0[k] = mean;
+            let half_width = form.square_half_width.sqrt();
+            roots.half_width.0[k] = half_width;
+            roots.pressure.0[k] = 0.5 / half_width;
+            for (sliding, gear) in roots.sliding.iter_mut().zip(Gear::BOTH) {
+                sliding.0[k] = 2.0 * half_width * springs.pair.path.specific_sliding(gear, position_mm).abs();
+            }
+            greatest_load_n_per_mm = greatest_load_n_per_mm.min(form.greatest_load_n_per_mm);
+        }
+        let teeth = springs
+            .sliced
+            .coupled_teeth(springs.pair, contacts, |contact| springs.sliced.mm2_per_n(contact, &springs.along_path));
+        self.teeth.extend(teeth);
+        self.loaded_positions.push(LoadedPosition {
+            position_mm: position.position_mm,
+            transmission_error_mm: 0.0,
+            contacts: contacts.len(),
+            greatest_load_n_per_mm,
+            packs: first..first + contacts.len().div_ceil(LANES),
+        });
+    }
+
+    /// Wears the flanks for so many `meshes` by the depth of the last evaluation, and finds the new equilibria and the new depth.
     pub(crate) fn evaluate(
         &mut self,
         meshes: PerGear<f64>,
@@ -202,7 +214,7 @@ impl Batch {
         self.outcome.clone()
     }
 
-    /// h ← h + meshes · dh of both flanks, and their gap.
+    /// Wears both flanks at a position, h ← h + meshes · dh, and opens their gap.
     fn wear(&mut self, loaded: usize, meshes: PerGear<f64>) {
         let range = self.loaded_positions[loaded].packs.clone();
         for gear in Gear::BOTH {
@@ -215,7 +227,7 @@ impl Batch {
         }
     }
 
-    /// Newton steps to the equilibrium of a loaded.
+    /// Finds the equilibrium of a position. Returns the number of Newton steps.
     fn balance(&mut self, index: usize, springs: &SlicesInSeries<'_>) -> Result<u64, EquilibriumError> {
         let loaded = &mut self.loaded_positions[index];
         let packs = &mut self.packs[loaded.packs.clone()];
@@ -233,7 +245,7 @@ impl Batch {
             Attempt::Lost(steps) => iterations += steps,
         }
         let gaps = packs.iter().flat_map(|pack| pack.gap_mm.0);
-        let (loads, equilibrium) = springs.balance(&self.phases[index].contacts, gaps, loaded.position_mm)?;
+        let (loads, equilibrium) = springs.balance(&self.positions[index].contacts, gaps, loaded.position_mm)?;
         for (at, load) in loads.into_iter().enumerate() {
             let (pack, k) = (&mut packs[at / LANES], at % LANES);
             pack.load.0[k] = load;
@@ -244,7 +256,7 @@ impl Batch {
         Ok(iterations + equilibrium.iterations)
     }
 
-    /// What both flanks lose in one mesh at the contacts of a loaded.
+    /// Finds the depth that both flanks lose in one mesh at the contacts of a position.
     fn lose(&mut self, index: usize, wear: &WearModel<'_>) {
         let range = self.loaded_positions[index].packs.clone();
         let [sliding_1, sliding_2] = &mut self.sliding_mm;
@@ -258,8 +270,8 @@ impl Batch {
         }
         let pressure = self.pressure_mpa[..range.len()].as_flattened();
         let packs = &self.packs[range.clone()];
-        // Lanes without a contact carry no load, wherever they are.
-        let positions = self.phases[index].contacts.iter().map(|contact| contact.cell.position_mm);
+        // Lanes without a contact carry no load; their place does not matter.
+        let positions = self.positions[index].contacts.iter().map(|contact| contact.cell.position_mm);
         let positions = positions.chain(std::iter::repeat(self.loaded_positions[index].position_mm));
         let loads = packs.iter().flat_map(|pack| pack.loads().0).zip(pressure);
         self.places.clear();
@@ -305,16 +317,16 @@ impl Batch {
         }
     }
 
-    /// Each contact of a loaded with its lane and its state.
+    /// Each contact of a position with its lane and its state.
     pub(crate) fn contacts(&self, index: usize) -> impl Iterator<Item = (&SliceContact, usize, ContactState)> {
         let first = LANES * self.loaded_positions[index].packs.start;
-        self.phases[index].contacts.iter().enumerate().map(move |(at, contact)| {
+        self.positions[index].contacts.iter().enumerate().map(move |(at, contact)| {
             let lane = first + at;
             (contact, lane, self.contact(lane))
         })
     }
 
-    /// Lanes in all, those without a contact included.
+    /// Number of lanes, those without a contact included.
     pub(crate) fn lanes(&self) -> usize {
         LANES * self.packs.len()
     }
@@ -325,7 +337,7 @@ impl Batch {
         wear.iter().zip(depth).map(|(&wear, &depth)| [wear, depth])
     }
 
-    /// Takes both flanks to have lost this in each lane.
+    /// Sets the wear of both flanks in each lane.
     pub(crate) fn set_wear_mm(&mut self, wear_mm: PerGear<&[f64]>) {
         for gear in Gear::BOTH {
             self.wear_mm[gear].as_flattened_mut().copy_from_slice(wear_mm[gear]);
@@ -338,14 +350,14 @@ impl Batch {
         }
     }
 
-    /// Is again as if never evaluated, on the flanks as they are.
+    /// Returns to the state before any evaluation, on the present flanks.
     pub(crate) fn reset(&mut self) {
         for loaded in &mut self.loaded_positions {
             let mean = self.common.line_load_n_per_mm / loaded.contacts as f64;
             loaded.transmission_error_mm = 0.0;
             for (at, pack) in self.packs[loaded.packs.clone()].iter_mut().enumerate() {
-                let used = |lane: usize| at * LANES + lane < loaded.contacts;
-                pack.load = Lanes(std::array::from_fn(|lane| if used(lane) { mean } else { 0.0 }));
+                let loads = std::array::from_fn(|lane| if at * LANES + lane < loaded.contacts { mean } else { 0.0 });
+                pack.load = Lanes(loads);
                 (pack.log_load, pack.correction, pack.change) = Default::default();
             }
         }
@@ -358,7 +370,7 @@ impl Batch {
         [&self.wear_mm, &self.depth_mm].map(|rows| rows[gear].as_flattened()[lane])
     }
 
-    /// The contact in a lane.
+    /// State of the contact in a lane.
     pub(crate) fn contact(&self, lane: usize) -> ContactState {
         let (pack, per_root, k) = (&self.packs[lane / LANES], &self.per_root[lane / LANES], lane % LANES);
         let load = pack.loads().0[k];

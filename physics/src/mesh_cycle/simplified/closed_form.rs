@@ -36,7 +36,7 @@ pub const AMPLE_LOADS: f64 = 3.0;
 /// Places along the path where depths are computed.
 const TABLE: usize = 512;
 
-/// A contact, ready for any load up to `greatest_load_n_per_mm`.
+/// Closed form of a contact for loads up to `greatest_load_n_per_mm`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactForm {
     /// Q without the teeth's q, mm²/N.
@@ -45,11 +45,11 @@ pub struct ContactForm {
     pub series: [f64; 4],
     /// α, mm³/N: half-width squared over load.
     pub square_half_width: f64,
-    /// Load up to which they hold, N/mm.
+    /// Greatest load of the series, N/mm.
     pub greatest_load_n_per_mm: f64,
 }
 
-/// The contacts of a pair of gears.
+/// Closed forms of the contacts of a pair of gears.
 pub struct ContactForms<'a> {
     path: &'a PathOfContact,
     obliquity: Obliquity,
@@ -59,14 +59,14 @@ pub struct ContactForms<'a> {
     contact_modulus_mpa: f64,
     /// r of each gear in every range.
     fits: [[[f64; 5]; RANGES.len()]; 2],
-    /// Load that ranges are chosen for, N/mm.
+    /// Load for which ranges are chosen, N/mm.
     ample_load_n_per_mm: f64,
     /// Σ F ln t, 1/t₁², 1/t₂² at evenly spaced places from A to E.
     table: Vec<[f64; 3]>,
 }
 
 impl<'a> ContactForms<'a> {
-    /// Of a pair under a whole line load.
+    /// Closed forms of a pair under a whole line load.
     pub fn new(pair: &'a GearPair, material: &PerGear<Material>, line_load_n_per_mm: f64) -> Self {
         let constants = Gear::BOTH.map(|gear| material[gear]);
         let obliquity = pair.obliquity();
@@ -93,7 +93,7 @@ impl<'a> ContactForms<'a> {
         self.factor[0] + self.factor[1]
     }
 
-    /// The contact with its theoretical contact point at `position_mm`, from A to E.
+    /// Closed form with the theoretical contact point at `position_mm`, from A to E.
     pub fn at(&self, position_mm: f64) -> ContactForm {
         let [log_depths, inverse_squares @ ..] = self.between(position_mm);
         let whole = self.path.line_of_action_mm;
@@ -105,8 +105,8 @@ impl<'a> ContactForms<'a> {
         for (body, inverse_square) in inverse_squares.into_iter().enumerate() {
             let factor = self.factor[body];
             let x = square_half_width * inverse_square;
-            let holds = |&k: &usize| RANGES[k] >= x * self.ample_load_n_per_mm;
-            let range = (0..RANGES.len() - 1).find(holds).unwrap_or(RANGES.len() - 1);
+            let ample = x * self.ample_load_n_per_mm;
+            let range = RANGES.iter().position(|&range| range >= ample).unwrap_or(RANGES.len() - 1);
             let [constant, coefficients @ ..] = self.fits[body][range];
             surface_mm2_per_n += factor * (LN_2 - to_load - 0.5 * self.poisson[body] + constant);
             let (per_load, mut power) = (x / RANGES[range], factor);
@@ -119,7 +119,7 @@ impl<'a> ContactForms<'a> {
         ContactForm { surface_mm2_per_n, series, square_half_width, greatest_load_n_per_mm }
     }
 
-    /// The cubic through the four nearest places of the table.
+    /// Cubic interpolation between the four nearest places of the table.
     fn between(&self, position_mm: f64) -> [f64; 3] {
         let (start, end) = (self.path.start_mm, self.path.end_mm);
         let place = (position_mm - start) / (end - start) * (TABLE - 1) as f64;
@@ -148,7 +148,7 @@ fn rest(x: f64, kappa: f64) -> f64 {
     (0.5 * less_one).ln_1p() + 0.5 * kappa * less_one / (1.0 + root)
 }
 
-/// The polynomial in x/`range` through `of` at the Chebyshev points of [0, `range`]: Newton's divided differences, multiplied
+/// Polynomial in x/`range` through `of` at the Chebyshev points of [0, `range`]: Newton's divided differences, multiplied
 /// out.
 fn fit(of: impl Fn(f64) -> f64, range: f64) -> [f64; 5] {
     let points: [f64; 5] = std::array::from_fn(|k| 0.5 - 0.5 * ((2 * k + 1) as f64 * PI / 10.0).cos());

@@ -1,13 +1,12 @@
-//! The equilibrium of a phase by the general solver: where the fast one gives up.
+//! Equilibrium of a position by the general solver, where the fast one fails.
 //!
-//! Every contact becomes a [`PairContact`] of the closed form itself, whose gap is given; teeth and their coupling are those of the
-//! general mesh cycle ([`crate::mesh_cycle::sliced`]).
+//! Every contact is a [`PairContact`] of the closed form with a given gap; teeth and their coupling are those of the general mesh cycle ([`crate::mesh_cycle::sliced`]).
 
 use crate::contact::{Footprint, PairContact, PointContact, PressedCell, Response, Sweep, hertz};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::material::Material;
 use crate::mesh_cycle::{
-    load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance},
+    load_sharing::{EquilibriumError, MeshedPair, PairEquilibrium, balance},
     sliced::SpringAlongPath,
     sliced_positions::SliceContact,
     sliced_sharing::balance_on_teeth,
@@ -15,7 +14,7 @@ use crate::mesh_cycle::{
 };
 use crate::reference::flattening::Flattening;
 
-/// A contact whose gap is known.
+/// A contact with a given gap.
 struct GivenGap {
     flattening: Flattening,
     /// Approach along the normal at which the flanks touch.
@@ -56,11 +55,11 @@ impl PairContact for GivenGap {
     }
 }
 
-/// What the general solver is told of a phase beside its gaps.
+/// Slices and teeth of a pair, for the general solver.
 pub(crate) struct SlicesInSeries<'a> {
     /// The gears.
     pub pair: &'a GearPair,
-    /// What they are made of.
+    /// Material of each gear.
     pub material: &'a PerGear<Material>,
     /// Compliance of the teeth.
     pub along_path: SpringAlongPath,
@@ -71,15 +70,15 @@ pub(crate) struct SlicesInSeries<'a> {
 }
 
 impl SlicesInSeries<'_> {
-    /// Line load of every contact with its gap, and the equilibrium.
+    /// Line loads of contacts with these gaps, and their equilibrium.
     pub(crate) fn balance(
         &self,
         contacts: &[SliceContact],
         gap_mm: impl Iterator<Item = f64>,
         position_mm: f64,
-    ) -> Result<(Vec<f64>, Equilibrium), EquilibriumError> {
-        let compliance = |contact: &SliceContact| self.sliced.mm2_per_n(contact, &self.along_path);
-        let mut teeth = self.sliced.coupled_teeth(self.pair, contacts, compliance);
+    ) -> Result<(Vec<f64>, PairEquilibrium), EquilibriumError> {
+        let mut teeth =
+            self.sliced.coupled_teeth(self.pair, contacts, |contact| self.sliced.mm2_per_n(contact, &self.along_path));
         let coupled = teeth.is_some();
         let section = self.pair.normal_section();
         let mut pairs: Vec<MeshedPair<'_>> = contacts
@@ -88,9 +87,10 @@ impl SlicesInSeries<'_> {
             .map(|(contact, gap_mm)| {
                 let gap_mm = section.obliquity.normal_mm(gap_mm);
                 let flattening = hertz::flattening(&section, self.material, contact.cell.position_mm);
-                let teeth = if coupled { f64::INFINITY } else { 1.0 / compliance(contact) };
-                let mut pair =
-                    MeshedPair::on_lever(Box::new(GivenGap { flattening, gap_mm }), teeth, 1.0, section.obliquity);
+                let teeth_n_per_mm2 =
+                    if coupled { f64::INFINITY } else { 1.0 / self.sliced.mm2_per_n(contact, &self.along_path) };
+                let contact = Box::new(GivenGap { flattening, gap_mm });
+                let mut pair = MeshedPair::on_lever(contact, teeth_n_per_mm2, 1.0, section.obliquity);
                 let nothing = PerGear { pinion: &[][..], wheel: &[][..] };
                 pair.set_removed(nothing);
                 pair

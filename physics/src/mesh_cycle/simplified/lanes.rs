@@ -1,11 +1,11 @@
-//! Two numbers that are worked on together: contacts go through the arithmetic side by side.
+//! Two numbers with elementwise arithmetic: contacts are computed side by side.
 //!
-//! Plain arrays with elementwise operators, as wide as the vector registers that every processor of the target has, so that the compiler
-//! makes one instruction of each; of wider ones it makes halves. Comparisons choose without branching.
+//! Arrays as wide as the vector registers that every processor of the target has, so that the compiler makes one instruction of each operator.
+//! Comparisons choose without branching.
 
 use std::ops::{Add, AddAssign, Div, Mul, Sub};
 
-/// How many numbers go together.
+/// Count of numbers in a vector.
 pub(crate) const LANES: usize = 2;
 
 /// Two numbers.
@@ -13,7 +13,7 @@ pub(crate) const LANES: usize = 2;
 pub(crate) struct Lanes(pub [f64; LANES]);
 
 impl Lanes {
-    /// The same number twice.
+    /// Two equal numbers.
     #[inline(always)]
     pub(crate) fn splat(value: f64) -> Self {
         Self([value; LANES])
@@ -50,7 +50,7 @@ impl Lanes {
         self.map(f64::abs)
     }
 
-    /// Its own numbers where `condition` is above zero, those of `other` elsewhere.
+    /// Own numbers where `condition` is above zero, those of `other` elsewhere.
     #[inline(always)]
     pub(crate) fn where_positive(self, condition: Self, other: Self) -> Self {
         let ([a, b], [e, f]) = (self.0, other.0);

@@ -1,4 +1,4 @@
-//! A phase of the mesh: all its contacts in equilibrium, from one wear step to the next.
+//! A position of the mesh: equilibrium of all its contacts, from one wear step to the next.
 //!
 //! ```text
 //! g_m + s_m(w_m) + u_m = δ   for every contact          Σ w_m = F
@@ -8,8 +8,8 @@
 //! with the gap g_m of the flanks at the contact point, worn and modified, the closed form of [`super::closed_form`], and, where slices
 //! are coupled, the deflection u of the teeth ([`CoupledTeeth`]; otherwise their compliance q is part of Q).
 //!
-//! A wear step changes loads by per cents. The next equilibrium is followed from the last three: loads change by e, as in the step
-//! before, and one Newton step corrects what that misses,
+//! A wear step changes loads by per cents. The next equilibrium is followed from the last ones: loads change by e, as in the step
+//! before, and one Newton step corrects them,
 //!
 //! ```text
 //! e = correction + change        z = e/(2w + e)        ln w ← ln w + 2 (z + z³/3 + z⁵/5)        w ← w + e
@@ -17,33 +17,33 @@
 //! correction = c (δ − h)         change ← change + correction
 //! ```
 //!
-//! so that the logarithm costs a division. The sum of the loads w + correction is F, whatever the correction is. What it leaves of the
+//! so that the logarithm costs a division. The sum of the loads w + correction is F, whatever the correction is. The residual of the
 //! other equation is ¼ Φ correction²/w, and c times that in load: with c Φ < 0.6, less than 2e-10 of F in all once no
 //! correction is above [`SETTLED`] of its load. Otherwise another one follows.
 //!
-//! Whatever does not fit that picture (a contact comes or goes, or changes its load by more than [`GREATEST_SHIFT`] allows) is
-//! solved with true logarithms, contacts coming and going ([`LoadedPosition::settle`]).
+//! Where a contact comes or goes, or changes its load by more than [`GREATEST_SHIFT`] allows, the equilibrium is sought
+//! with logarithms ([`LoadedPosition::settle`]).
 
 use super::lanes::{LANES, Lanes};
 use crate::mesh_cycle::bent_tooth::{Bend, ContactTangent};
 use crate::mesh_cycle::coupled_teeth::CoupledTeeth;
 
-/// Correction over load at which an equilibrium that is followed is accepted.
+/// Correction over load at which a followed equilibrium is accepted.
 pub(crate) const SETTLED: f64 = 3e-5;
-/// Greatest z whose series is used: the first term left out is 2 z⁷/7.
+/// Greatest z of the series, whose first omitted term is 2 z⁷/7.
 pub(crate) const GREATEST_SHIFT: f64 = 0.03;
-/// Corrections before an equilibrium is no longer followed but sought.
+/// Most corrections of a followed equilibrium.
 const FOLLOW_LIMIT: u64 = 5;
-/// Newton steps before an equilibrium is no longer sought so.
+/// Most Newton steps of a sought equilibrium.
 const SETTLE_LIMIT: u64 = 60;
-/// correction²/w over F at which an equilibrium that is sought is accepted: what is left is far below 1e-12 of F.
+/// correction²/w over F at which a sought equilibrium is accepted: the error of the loads is far below 1e-12 of F.
 const SOUGHT: f64 = 1e-12;
-/// Part of its load that a contact keeps in a Newton step that would take all of it, though its flanks overlap.
+/// Part of its load that a contact whose flanks overlap keeps in a Newton step that would take all of it.
 const KEPT: f64 = 0.1;
-/// Gap of the lanes that no contact uses: they never touch.
+/// Gap of unused lanes, which never touch.
 pub(crate) const UNUSED_GAP_MM: f64 = 1e300;
 
-/// Contacts side by side: their constants and their state.
+/// Constants and state of contacts side by side.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Pack {
     /// Q, mm²/N.
@@ -54,18 +54,18 @@ pub(crate) struct Pack {
     pub gap_mm: Lanes,
     /// w without the last correction, N/mm; 0 without contact.
     pub load: Lanes,
-    /// ln w of that.
+    /// ln w without the last correction.
     pub log_load: Lanes,
-    /// The last correction, N/mm.
+    /// Last correction, N/mm.
     pub correction: Lanes,
     /// Change of the load in the last wear step, N/mm.
     pub change: Lanes,
 }
 
-/// A Newton step's view of them.
+/// Linearised contacts of a pack.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Tangent {
-    /// h less the approach that is reckoned from, mm.
+    /// h less the approach at the start, mm.
     pub approach_mm: Lanes,
     /// c, N/mm²; 0 without contact.
     pub n_per_mm2: Lanes,
@@ -73,7 +73,7 @@ pub(crate) struct Tangent {
     half_over_load: Lanes,
 }
 
-/// What the contacts of a pair have in common.
+/// Constants of all contacts of a pair.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Common {
     /// Φ, mm²/N.
@@ -82,12 +82,12 @@ pub(crate) struct Common {
     pub line_load_n_per_mm: f64,
 }
 
-/// How an attempt ended.
+/// End of an attempt to find an equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Attempt {
-    /// In equilibrium after so many Newton steps.
+    /// Equilibrium after so many Newton steps.
     Settled(u64),
-    /// Not, after so many.
+    /// No equilibrium after so many Newton steps.
     Lost(u64),
 }
 
@@ -98,7 +98,7 @@ impl Pack {
         self.load + self.correction
     }
 
-    /// y = s/w and s'. Sums are paired so that no long chain of operations waits for the logarithm, which comes last.
+    /// y = s/w and s'. Sums are paired so that few operations wait for the logarithm, which comes last.
     #[inline(always)]
     fn compliance(&self, phi: f64) -> (Lanes, Lanes) {
         let ([a1, a2, a3, a4], w) = (self.series, self.load);
@@ -110,7 +110,45 @@ impl Pack {
         (y, y + (slope - Lanes::splat(0.5 * phi)))
     }
 
-    /// The tangent at the present load.
+    /// Takes the last loads within 0 to `line_load` as a start.
+    fn bound_load(&mut self, line_load: f64) {
+        self.load = self.loads().map(|load| if load.is_finite() { load.clamp(0.0, line_load) } else { 0.0 });
+        (self.correction, self.change) = (Lanes::default(), Lanes::default());
+    }
+
+    /// Adds the last correction to the load.
+    fn take_correction(&mut self) {
+        self.load = self.loads();
+        self.correction = Lanes::default();
+        self.log_load = self.load.map(|load| if load > 0.0 { load.ln() } else { 0.0 });
+    }
+
+    /// Corrects the loads by a Newton step in which the approaches lack `lacks` and the loads change by `change`; `mean` is the mean load of the
+    /// contacts. Returns whether the loads are settled.
+    fn correct(&mut self, lacks: Lanes, change: Lanes, common: &Common, mean: f64) -> bool {
+        let (phi, line_load) = (common.log_compliance_mm2_per_n, common.line_load_n_per_mm);
+        let surface = self.load * self.compliance(phi).0;
+        let mut settled = true;
+        for k in 0..LANES {
+            let (load, lacks, change) = (self.load.0[k], lacks.0[k], change.0[k]);
+            self.correction.0[k] = if load > 0.0 && load + change > 0.0 {
+                settled &= change * change <= SOUGHT * line_load * load;
+                change
+            } else if load > 0.0 {
+                settled = false;
+                let overlaps = lacks + surface.0[k] > 0.0;
+                if overlaps { KEPT * load - load } else { -load }
+            } else if lacks > 0.0 {
+                settled = false;
+                (lacks / (self.rigid.0[k] - 0.5 * phi * mean.ln())).min(line_load)
+            } else {
+                0.0
+            };
+        }
+        settled
+    }
+
+    /// Approach and tangent stiffness at the present load.
     #[inline(always)]
     fn tangent(&self, phi: f64, from_mm: f64) -> (Lanes, Lanes) {
         let (y, slope) = self.compliance(phi);
@@ -119,16 +157,16 @@ impl Pack {
     }
 }
 
-/// Sums over the contacts of a phase.
+/// Sums over the contacts of a position.
 #[derive(Default)]
-struct Sums {
+struct ContactSums {
     load: Lanes,
     stiffness: Lanes,
     /// Σ c h.
     carried: Lanes,
 }
 
-impl Sums {
+impl ContactSums {
     #[inline(always)]
     fn add(&mut self, pack: &Pack, tangent: &Tangent) {
         self.load += pack.load;
@@ -136,24 +174,24 @@ impl Sums {
         self.carried += tangent.n_per_mm2 * tangent.approach_mm;
     }
 
-    /// δ less the approach that is reckoned from.
+    /// δ less the approach at the start.
     fn approach_mm(&self, line_load: f64) -> f64 {
         (line_load - self.load.sum() + self.carried.sum()) / self.stiffness.sum()
     }
 }
 
-/// A phase.
+/// A position of the mesh.
 #[derive(Debug, Clone)]
 pub(crate) struct LoadedPosition {
     /// Position of the reference tooth in the middle of the face width.
     pub position_mm: f64,
     /// δ.
     pub transmission_error_mm: f64,
-    /// How many contacts: they are in the first lanes of its packs.
+    /// Number of contacts, which are in the first lanes of the packs.
     pub contacts: usize,
-    /// Load up to which the closed form is prepared for every contact, N/mm.
+    /// Greatest load of the closed form of every contact, N/mm.
     pub greatest_load_n_per_mm: f64,
-    /// Its packs among those of its batch, the last with unused lanes where they do not fill it.
+    /// Packs among those of the batch, the last with unused lanes where contacts do not fill it.
     pub packs: std::ops::Range<usize>,
 }
 
@@ -169,7 +207,7 @@ impl LoadedPosition {
         let (phi, from_mm) = (common.log_compliance_mm2_per_n, self.transmission_error_mm);
         let mut continued = 1.0;
         for steps in 1..=FOLLOW_LIMIT {
-            let (mut sums, mut shift) = (Sums::default(), Lanes::default());
+            let (mut sums, mut shift) = (ContactSums::default(), Lanes::default());
             for (pack, tangent) in packs.iter_mut().zip(&mut *tangents) {
                 let e = pack.correction + pack.change * continued;
                 let half_over_load =
@@ -213,7 +251,7 @@ impl LoadedPosition {
         Attempt::Lost(FOLLOW_LIMIT)
     }
 
-    /// Seeks the equilibrium from any loads: contacts come where flanks would overlap and go where a load would pull.
+    /// Seeks the equilibrium from any loads: contacts come where flanks would overlap and go where a load would be negative.
     pub(crate) fn settle(
         &mut self,
         packs: &mut [Pack],
@@ -224,22 +262,17 @@ impl LoadedPosition {
         let (phi, line_load) = (common.log_compliance_mm2_per_n, common.line_load_n_per_mm);
         let mean = line_load / self.contacts as f64;
         let from_mm = if self.transmission_error_mm.is_finite() { self.transmission_error_mm } else { 0.0 };
-        for pack in &mut *packs {
-            pack.load = pack.loads().map(|load| if load.is_finite() { load.clamp(0.0, line_load) } else { 0.0 });
-            (pack.correction, pack.change) = (Lanes::default(), Lanes::default());
-        }
+        packs.iter_mut().for_each(|pack| pack.bound_load(line_load));
         for steps in 1..=SETTLE_LIMIT {
-            let mut sums = Sums::default();
+            let mut sums = ContactSums::default();
             for (pack, tangent) in packs.iter_mut().zip(&mut *tangents) {
-                pack.load = pack.loads();
-                pack.correction = Lanes::default();
-                pack.log_load = pack.load.map(|load| if load > 0.0 { load.ln() } else { 0.0 });
+                pack.take_correction();
                 let (approach_mm, n_per_mm2) = pack.tangent(phi, from_mm);
                 *tangent = Tangent { approach_mm, n_per_mm2, half_over_load: Lanes::default() };
                 sums.add(pack, tangent);
             }
             if sums.stiffness.sum() <= 0.0 {
-                // No contact carries: begin again with all of them.
+                // No contact carries load: begin again with all of them.
                 for pack in &mut *packs {
                     pack.correction = pack.gap_mm.map(|gap| if gap < UNUSED_GAP_MM { mean } else { 0.0 });
                 }
@@ -252,23 +285,7 @@ impl LoadedPosition {
             let mut settled = approach_mm.is_finite();
             for (pack, tangent) in packs.iter_mut().zip(&*tangents) {
                 let lacks = Lanes::splat(approach_mm) - tangent.approach_mm;
-                let (surface, change) = (pack.load * pack.compliance(phi).0, tangent.n_per_mm2 * lacks);
-                for k in 0..LANES {
-                    let (load, lacks, change) = (pack.load.0[k], lacks.0[k], change.0[k]);
-                    pack.correction.0[k] = if load > 0.0 && load + change > 0.0 {
-                        settled &= change * change <= SOUGHT * line_load * load;
-                        change
-                    } else if load > 0.0 {
-                        settled = false;
-                        let overlaps = lacks + surface.0[k] > 0.0;
-                        if overlaps { KEPT * load - load } else { -load }
-                    } else if lacks > 0.0 {
-                        settled = false;
-                        (lacks / (pack.rigid.0[k] - 0.5 * phi * mean.ln())).min(line_load)
-                    } else {
-                        0.0
-                    };
-                }
+                settled &= pack.correct(lacks, tangent.n_per_mm2 * lacks, common, mean);
             }
             if settled {
                 self.transmission_error_mm = from_mm + approach_mm;
@@ -281,18 +298,18 @@ impl LoadedPosition {
     }
 }
 
-/// Bends the teeth of a phase whose slices hold each other for the Newton step of `tangents`, adds their deflection to its approaches, and
-/// gives δ; not a number where no contact carries.
+/// Bends the coupled teeth of a position for the Newton step of `tangents`, and adds their deflection to its approaches. Returns δ; NaN where
+/// no contact carries load.
 fn bend(teeth: &mut CoupledTeeth, packs: &[Pack], tangents: &mut [Tangent], line_load: f64) -> f64 {
-    let tangent = |at: usize| {
+    let bend = teeth.bend(line_load, |at| {
         let (pack, lane) = (at / LANES, at % LANES);
         ContactTangent {
             line_load_n_per_mm: packs[pack].load.0[lane],
             n_per_mm2: tangents[pack].n_per_mm2.0[lane],
             approach_mm: tangents[pack].approach_mm.0[lane],
         }
-    };
-    let Some(Bend { delta_mm: approach_mm, .. }) = teeth.bend(line_load, tangent) else { return f64::NAN };
+    });
+    let Some(Bend { delta_mm: approach_mm, .. }) = bend else { return f64::NAN };
     teeth.each_deflection_mm(|at, _, deflection_mm| {
         tangents[at / LANES].approach_mm.0[at % LANES] += deflection_mm;
     });

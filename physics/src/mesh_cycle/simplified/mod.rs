@@ -1,8 +1,7 @@
-//! The simplified model of helical gears, at full speed: wear kept at the contact points themselves.
+//! The simplified model of helical gears: wear kept at the contact points themselves, for speed.
 //!
-//! With Hertz's mean pressure the model is pointwise. Slice i of tooth k at a phase of the mesh ([`crate::mesh_cycle::sliced_positions`]) touches
-//! in the same point of the pinion's flank and of the wheel's in every mesh, so that nothing moves between points: gap, load, and
-//! wear are rows with one entry a contact,
+//! With Hertz's mean pressure the model is pointwise. Slice i of tooth k at a position of the mesh ([`crate::mesh_cycle::sliced_positions`]) touches
+//! at the same point of the pinion's flank and of the wheel's in every mesh: gap, load and wear are rows with one entry for each contact,
 //!
 //! ```text
 //! g = C1 + C2 + h1 + h2         s(w) + g = δ for every contact, Σ w = F         dh = law(p = w/(2a), s = 2a |ζ|)
@@ -15,10 +14,10 @@
 //! | module | what |
 //! |---|---|
 //! | [`closed_form`] | approach of a contact under its load, prepared |
-//! | [`loaded_position`] | equilibrium of a phase from one wear step to the next |
-//! | [`exact`] | the general solver, where that one gives up |
+//! | [`loaded_position`] | equilibrium of a position from one wear step to the next |
+//! | [`exact`] | the general solver, where that one fails |
 //! | [`batch`] | rows of contacts, from equilibrium to wear |
-//! | [`on_flanks`] | what snapshots show at the points of the flanks |
+//! | [`on_flanks`] | interpolation to the points of the flanks, for snapshots |
 //!
 //! Source: S. Andersson (1975) and the thesis, section 3.4 and paper E.
 
@@ -42,7 +41,7 @@ use crate::mesh_cycle::{
     CycleObservation, GreatestPressure, Work,
     load_sharing::EquilibriumError,
     sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh},
-    sliced_positions::{ContactPart, SliceContact, SlicedPosition},
+    sliced_positions::{ContactPart, SlicedPosition},
 };
 use crate::wear::WearModel;
 use batch::Batch;
@@ -50,18 +49,18 @@ use closed_form::ContactForms;
 use exact::SlicesInSeries;
 use on_flanks::{FlankPoints, Knot};
 
-/// Contacts of a batch: enough that handing it to another thread costs nothing beside it, about 0.1 ms.
+/// Contacts of a batch, about 0.1 ms of work: handing it to another thread costs little against that.
 const BATCH: usize = 16_000;
 
-/// The contacts of each slice in the order of the path.
+/// Contacts of each slice in the order of the path.
 fn knots(batches: &[Batch], slices: usize) -> Vec<Vec<Knot>> {
     let mut knots = vec![Vec::new(); slices];
-    let phases = batches
+    let positions = batches
         .iter()
         .enumerate()
         .flat_map(|(number, batch)| (0..batch.loaded_positions.len()).map(move |loaded| (number, batch, loaded)));
-    for (number, batch, loaded) in phases {
-        let jumps = batch.phases[loaded].jumps;
+    for (number, batch, loaded) in positions {
+        let jumps = batch.positions[loaded].jumps;
         for (contact, lane, _) in batch.contacts(loaded) {
             let (position_mm, upper_mm) = (contact.cell.position_mm, contact.cell.upper_mm);
             knots[contact.slice].push(Knot { position_mm, upper_mm, jumps, at: (number, lane) });
@@ -80,22 +79,22 @@ pub(crate) struct SimplifiedPair<'a> {
     batches: Vec<Batch>,
     /// Meshes that the flanks have been through since the last evaluation.
     meshes: PerGear<f64>,
-    /// Rows from A to E that are observed.
+    /// Number of observed positions from A to E.
     positions: usize,
-    /// How far the bodies that all pairs share yield under the whole load, mm.
+    /// Displacement of the bodies that all pairs share, under the whole load, mm.
     bodies_mm: f64,
     flank_points: FlankPoints,
-    /// The contacts of each slice in the order of the path.
+    /// Contacts of each slice in the order of the path.
     knots: Vec<Vec<Knot>>,
     parts: FlankParts,
 }
 
 impl<'a> SimplifiedPair<'a> {
-    /// Unworn flanks with their modifications; `positions` rows from A to E are observed, on gear bodies that yield by `bodies_mm`
-    /// under the whole load.
+    /// Unworn flanks with their modifications in contact at `sliced_positions`; `positions` from A to E are observed, on gear bodies that yield by
+    /// `bodies_mm` under the whole load.
     pub(crate) fn new(
         springs: SlicesInSeries<'a>,
-        mut phases: Vec<SlicedPosition>,
+        mut sliced_positions: Vec<SlicedPosition>,
         grid: PerGear<&'a FlankGrid>,
         modification_mm: &PerGear<Vec<f64>>,
         positions: usize,
@@ -106,24 +105,23 @@ impl<'a> SimplifiedPair<'a> {
         let forms = ContactForms::new(springs.pair, springs.material, line_load);
         let path = &springs.pair.path;
         let plain = Gear::BOTH.iter().all(|&gear| modification_mm[gear].iter().all(|&removed| removed == 0.0));
-        let modified_by = |contact: &SliceContact| {
-            if plain {
-                return 0.0;
-            }
-            let of_gear = |gear: Gear| {
-                let points = grid[gear].len();
-                let own = &modification_mm[gear][contact.slice * points..(contact.slice + 1) * points];
-                grid[gear].value_at(own, path.rho_mm(gear, contact.cell.position_mm))
-            };
-            springs.pair.obliquity().transverse_mm(PerGear::from_fn(of_gear).sum())
-        };
-        let contacts: usize = phases.iter().map(|phase| phase.contacts.len()).sum();
-        let size = phases.len().div_ceil(contacts.div_ceil(BATCH).max(1)).max(1);
+        let contacts: usize = sliced_positions.iter().map(|position| position.contacts.len()).sum();
+        let size = sliced_positions.len().div_ceil(contacts.div_ceil(BATCH).max(1)).max(1);
         let mut batches = Vec::new();
-        while !phases.is_empty() {
-            let rest = phases.split_off(size.min(phases.len()));
-            batches.push(Batch::new(phases, &forms, &springs, modified_by));
-            phases = rest;
+        while !sliced_positions.is_empty() {
+            let rest = sliced_positions.split_off(size.min(sliced_positions.len()));
+            batches.push(Batch::new(sliced_positions, &forms, &springs, |contact| {
+                if plain {
+                    return 0.0;
+                }
+                let of_gears = PerGear::from_fn(|gear| {
+                    let points = grid[gear].len();
+                    let own = &modification_mm[gear][contact.slice * points..(contact.slice + 1) * points];
+                    grid[gear].value_at(own, path.rho_mm(gear, contact.cell.position_mm))
+                });
+                springs.pair.obliquity().transverse_mm(of_gears.sum())
+            }));
+            sliced_positions = rest;
         }
         let meshes = PerGear { pinion: 0.0, wheel: 0.0 };
         let flank_points = FlankPoints::new(springs.pair, grid);
@@ -131,7 +129,7 @@ impl<'a> SimplifiedPair<'a> {
         Self { springs, grid, batches, meshes, positions, bodies_mm, flank_points, knots, parts }
     }
 
-    /// Figures of the pressure of all contacts, parts of slices apart.
+    /// Figures of the pressure of all contacts.
     fn pressure_figures(&self) -> PressureFigures {
         let mut figures = PressureFigures::default();
         let mut of_slices = vec![PressureFigures::default(); self.knots.len()];
@@ -152,7 +150,7 @@ impl<'a> SimplifiedPair<'a> {
     /// The mesh of one tooth.
     fn mesh(&self) -> SlicedMesh {
         let load = self.springs.line_load_n_per_mm;
-        let mut phases = Vec::new();
+        let mut observed = Vec::new();
         for batch in &self.batches {
             for (index, loaded) in batch.loaded_positions.iter().enumerate() {
                 let contacts: Vec<ObservedContact> = batch
@@ -170,17 +168,17 @@ impl<'a> SimplifiedPair<'a> {
                     })
                     .collect();
                 let total: f64 = contacts.iter().map(|contact| contact.line_load_n_per_mm).sum();
-                phases.push(ObservedSlicedPosition {
+                observed.push(ObservedSlicedPosition {
                     position_mm: loaded.position_mm,
                     transmission_error_mm: loaded.transmission_error_mm + self.bodies_mm,
                     stiffness_n_per_mm2: None,
                     load_imbalance: total / load - 1.0,
                     contacts,
-                    jump_mm: batch.phases[index].jump_mm,
+                    jump_mm: batch.positions[index].jump_mm,
                 });
             }
         }
-        SlicedMesh::new(&phases, self.springs.sliced.slices.count(), self.springs.pair.path.base_pitch_mm)
+        SlicedMesh::new(&observed, self.springs.sliced.slices.count(), self.springs.pair.path.base_pitch_mm)
     }
 }
 
@@ -210,7 +208,7 @@ impl WearingPair for SimplifiedPair<'_> {
     }
 
     fn reset(&mut self) {
-        // The gaps are kept up step by step; summed anew they differ in their last bits.
+        // Gaps summed step by step differ in their last bits from gaps of the whole wear.
         let wear_mm = self.wear_mm();
         self.set_wear_mm(&wear_mm);
         self.batches.iter_mut().for_each(Batch::reset);
@@ -218,10 +216,8 @@ impl WearingPair for SimplifiedPair<'_> {
 
     fn wear_mm(&self) -> PerGear<Vec<f64>> {
         PerGear::from_fn(|gear| {
-            let rows = |batch: &Batch| {
-                batch.rows(gear).map(|[wear, depth]| wear + self.meshes[gear] * depth).collect::<Vec<_>>()
-            };
-            self.batches.iter().flat_map(rows).collect()
+            let rows = self.batches.iter().flat_map(|batch| batch.rows(gear));
+            rows.map(|[wear, depth]| wear + self.meshes[gear] * depth).collect()
         })
     }
 
@@ -230,11 +226,8 @@ impl WearingPair for SimplifiedPair<'_> {
             let points = self.grid[gear].len();
             let mut wear_mm = vec![0.0; self.knots.len() * points];
             for (knots, own_mm) in self.knots.iter().zip(wear_mm.chunks_exact_mut(points)) {
-                let worn = |knot: &Knot| {
-                    let [wear, depth] = self.batches[knot.at.0].of_lane(gear, knot.at.1);
-                    [wear + self.meshes[gear] * depth]
-                };
-                let values: Vec<[f64; 1]> = knots.iter().map(worn).collect();
+                let lanes = knots.iter().map(|knot| self.batches[knot.at.0].of_lane(gear, knot.at.1));
+                let values: Vec<[f64; 1]> = lanes.map(|[wear, depth]| [wear + self.meshes[gear] * depth]).collect();
                 self.flank_points.bring(gear, knots, &values, |point, part, [wear]| own_mm[point] = part * wear);
             }
             wear_mm
@@ -262,8 +255,9 @@ impl WearingPair for SimplifiedPair<'_> {
 
     fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {
         let points = self.grid.map(|grid| grid.len());
-        let field = || points.map(|points| vec![0.0; self.knots.len() * points]);
-        let (mut wear_mm, mut depth_mm, mut pressure_mpa, mut sliding_mm) = (field(), field(), field(), field());
+        let zeros = points.map(|points| vec![0.0; self.knots.len() * points]);
+        let [mut wear_mm, mut depth_mm, mut pressure_mpa, mut sliding_mm] =
+            [zeros.clone(), zeros.clone(), zeros.clone(), zeros];
         let mut values: PerGear<Vec<[f64; 4]>> = PerGear::from_fn(|_| Vec::new());
         for (slice, knots) in self.knots.iter().enumerate() {
             for gear in Gear::BOTH {
@@ -292,7 +286,7 @@ impl WearingPair for SimplifiedPair<'_> {
         let line_load = self.springs.line_load_n_per_mm / self.knots.len() as f64;
         let positions = mesh.along_path(&self.springs.pair.path, self.positions, line_load);
         let mut of_slices = vec![GreatestPressure::default(); mesh.slices];
-        // Closed forms know no tip edges.
+        // Closed forms have no tip edges.
         for (place, &pressure) in mesh.peak_pressure_mpa.iter().enumerate() {
             of_slices[place % mesh.slices].note(pressure, false);
         }

@@ -1,4 +1,4 @@
-//! Steps of either method, one after another, as long as the error allows.
+//! Steps of [`RungeKuttaChebyshev`] one after another, each as long as the error allows.
 //!
 //! **What the tolerance means.** It is a depth. The estimated error of a step, at whichever place it is greatest, stays below
 //!
@@ -7,7 +7,7 @@
 //! ```
 //!
 //! which leaves room for several steps whose errors add up where the wear is neutral (its mean over a contact); elsewhere later steps
-//! wear the error down. Measured on the preset fzg-c (`docs/stepping.md`) the error at the end is below the tolerance, unless a rate
+//! wear the error down. Measured on the preset fzg-c (`docs/runs.md`) the error at the end is below the tolerance, unless a rate
 //! jumps. What is estimated is kept with its sign ([`Adaptive::accumulated_error`]), so that a run can say in the end what it came to.
 //!
 //! **What else can happen to a step.** A trial state may have no rate (teeth without equilibrium): the step is shortened. A place
@@ -18,47 +18,39 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Rate, diagonal, greatest,
-    linearly_implicit::LinearlyImplicit,
+    Rate, greatest,
     runge_kutta_chebyshev::{ERROR_FACTOR, MOST_STAGES, RungeKuttaChebyshev, stability_bound, stages_for},
     spectral_radius::SpectralRadius,
-    step_control::{StepControl, Verdict},
+    step_control::{StepControl, StepVerdict},
 };
 
 /// Part of the tolerance that any step may spend.
 const SHARE: f64 = 0.3;
 /// Wear to which the tolerance itself holds, mm; beyond it grows in proportion: the default of 0.05 µm is a thousandth of it.
 pub const SHALLOW_MM: f64 = 0.05;
-/// Probes of the Jacobian over the tolerance.
+/// Height of the probes of the spectral radius over the tolerance.
 const PROBE: f64 = 0.1;
-/// Accepted steps until the spectral radius or the diagonal is estimated anew.
+/// Accepted steps until the spectral radius is estimated anew.
 const RENEWAL: u32 = 20;
 /// Shortest step over the length run since the start.
 const FLOOR: f64 = 1e-5;
-/// The same over the length of the whole run.
+/// Shortest step over the length of the whole run.
 const FLOOR_OF_RUN: f64 = 1e-11;
 /// Steps without a rate at their end are repeated with this part of their length.
 const SHORTER: f64 = 0.25;
 
-/// How a step is taken.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-enum Method {
-    Chebyshev { step: RungeKuttaChebyshev, radius: SpectralRadius },
-    Implicit { step: LinearlyImplicit, diagonal: Vec<f64> },
-}
-
-/// What the steps came to.
+/// Counts of steps and of evaluations of the rate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct StepCounts {
     /// Steps taken.
     pub accepted: u64,
-    /// Trial steps that were not, for their error or for want of a rate.
+    /// Trial steps repeated, for their error or for want of a rate.
     pub rejected: u64,
     /// Steps taken at the shortest length in spite of their error.
     pub at_floor: u64,
     /// Evaluations of the rate in all steps and at their beginnings together.
     pub stages: u64,
-    /// Evaluations that went into the spectral radius, the diagonal or the first length.
+    /// Evaluations for the spectral radius and the length of the first step.
     pub probes: u64,
 }
 
@@ -67,10 +59,10 @@ pub struct StepCounts {
 pub struct Adaptive {
     tolerance: f64,
     duration: f64,
-    blocks: Vec<usize>,
-    method: Method,
+    method: RungeKuttaChebyshev,
+    radius: SpectralRadius,
     control: StepControl,
-    /// Accepted steps since the Jacobian was last probed.
+    /// Accepted steps since the spectral radius was last estimated.
     age: u32,
     /// Length run since the start.
     run: f64,
@@ -85,69 +77,51 @@ pub struct Adaptive {
 }
 
 impl Adaptive {
-    fn new(tolerance: f64, duration: f64, blocks: &[usize], method: Method) -> Self {
+    /// An integrator for a run of the length `duration` with `places` in its state, whose errors stay below `tolerance`.
+    pub fn new(tolerance: f64, duration: f64, places: usize) -> Self {
         Self {
             tolerance,
             duration,
-            blocks: blocks.to_vec(),
-            method,
+            method: RungeKuttaChebyshev::default(),
+            radius: SpectralRadius::default(),
             control: StepControl::default(),
             age: 0,
             run: 0.0,
             counts: StepCounts::default(),
-            accumulated: vec![0.0; blocks.iter().sum()],
+            accumulated: vec![0.0; places],
             end: Vec::new(),
             end_slope: Vec::new(),
             error: Vec::new(),
         }
     }
 
-    /// By Runge–Kutta–Chebyshev, for a run of the length `duration`; the state has `blocks` of these lengths.
-    pub fn chebyshev(tolerance: f64, duration: f64, blocks: &[usize]) -> Self {
-        let method = Method::Chebyshev { step: RungeKuttaChebyshev::default(), radius: SpectralRadius::default() };
-        Self::new(tolerance, duration, blocks, method)
-    }
-
-    /// By the linearly implicit method.
-    pub(crate) fn linearly_implicit(tolerance: f64, duration: f64, blocks: &[usize]) -> Self {
-        let method = Method::Implicit { step: LinearlyImplicit::default(), diagonal: Vec::new() };
-        Self::new(tolerance, duration, blocks, method)
-    }
-
-    /// What the steps came to so far.
+    /// Counts of the steps so far.
     pub fn counts(&self) -> StepCounts {
         self.counts
     }
 
-    /// The estimated errors of all steps together, place by place.
+    /// Sum of the estimated errors of all steps, place by place, mm.
     pub(crate) fn accumulated_error(&self) -> &[f64] {
         &self.accumulated
     }
 
-    /// What a step from `state` may be wrong by, mm.
+    /// Tolerance at the wear `state`, mm.
     fn tolerance_at(&self, state: &[f64]) -> f64 {
-        // The greater of 1 and what is not a number is 1.
+        // max ignores a NaN.
         self.tolerance * (greatest(state) / SHALLOW_MM).max(1.0)
     }
 
-    /// The rate is another one from here on: nothing that was learned holds any longer.
+    /// Forgets what was learned of the rate, which is another one from here on.
     pub(crate) fn start_anew(&mut self) {
         (self.control, self.run, self.age) = (StepControl::default(), 0.0, 0);
-        self.forget_jacobian();
+        self.radius.reset();
     }
 
-    fn forget_jacobian(&mut self) {
-        match &mut self.method {
-            Method::Chebyshev { radius, .. } => radius.reset(),
-            Method::Implicit { diagonal, .. } => diagonal.clear(),
-        }
-    }
-
-    /// Takes one step of at most `room` from `state`, where the rate is `slope`; both are those of its end then, and `rate` was
-    /// last evaluated there and may have been made anew. Answers its length.
+    /// Takes one step of at most `room` from `state`, where the rate is `slope`, and moves both to its end, where `rate` was last evaluated.
+    /// Returns the length of the step.
     ///
     /// # Errors
-    /// Of the rate, where no shorter step mends it.
+    /// Failure of the rate that no shorter step mends.
     pub fn step<R: Rate + ?Sized>(
         &mut self,
         rate: &mut R,
@@ -178,16 +152,16 @@ impl Adaptive {
             let allowed = SHARE * self.tolerance_at(state);
             let error = greatest(&self.error) / allowed;
             let verdict = self.control.judge(length, error, length < planned);
-            if verdict == Verdict::Rejected && !(at_floor && error.is_finite()) {
+            if verdict == StepVerdict::Rejected && !(at_floor && error.is_finite()) {
                 self.counts.rejected += 1;
                 self.renew_unless_fresh();
                 continue;
             }
-            self.counts.at_floor += u64::from(verdict == Verdict::Rejected);
+            self.counts.at_floor += u64::from(verdict == StepVerdict::Rejected);
             self.counts.accepted += 1;
             self.age += 1;
             if self.age >= RENEWAL {
-                self.forget_jacobian();
+                self.radius.reset();
             }
             self.run += length;
             self.accumulated.iter_mut().zip(&self.error).for_each(|(sum, e)| *sum += e);
@@ -198,14 +172,14 @@ impl Adaptive {
         }
     }
 
-    /// After a rejected step: what is known of the Jacobian may be the reason, where it is of an earlier state.
+    /// After a rejected step: has the spectral radius estimated anew where it is that of an earlier state, which may be the reason.
     fn renew_unless_fresh(&mut self) {
         if self.age > 0 {
-            self.forget_jacobian();
+            self.radius.reset();
         }
     }
 
-    /// Tries a step, shortened where it must be: end, rate there, and error.
+    /// Tries a step, shortened where no number of stages is stable: finds its end, the rate there and the error.
     fn attempt<R: Rate + ?Sized>(
         &mut self,
         rate: &mut R,
@@ -215,31 +189,17 @@ impl Adaptive {
     ) -> Result<(), R::Error> {
         let probe = PROBE * self.tolerance_at(state);
         let start = (state, slope);
-        let error_factor = match &mut self.method {
-            Method::Chebyshev { step, radius } => {
-                if radius.value().is_none() {
-                    self.counts.probes += radius.estimate(rate, start, probe)?;
-                    self.age = 0;
-                }
-                let fastest = radius.value().filter(|radius| radius.is_finite()).unwrap_or_default();
-                let stages = stages_for(*length * fastest).unwrap_or_else(|| {
-                    *length = stability_bound(MOST_STAGES) / fastest;
-                    MOST_STAGES
-                });
-                self.counts.stages += stages as u64;
-                step.step(rate, start, *length, stages, &mut self.end)?;
-                ERROR_FACTOR
-            }
-            Method::Implicit { step, diagonal } => {
-                if diagonal.is_empty() {
-                    self.counts.probes += diagonal::estimate(rate, start, &self.blocks, probe, diagonal)?;
-                    self.age = 0;
-                }
-                self.counts.stages += 2;
-                step.step(rate, start, *length, diagonal, &mut self.end)?;
-                1.0
-            }
-        };
+        if self.radius.value().is_none() {
+            self.counts.probes += self.radius.estimate(rate, start, probe)?;
+            self.age = 0;
+        }
+        let fastest = self.radius.value().filter(|radius| radius.is_finite()).unwrap_or_default();
+        let stages = stages_for(*length * fastest).unwrap_or_else(|| {
+            *length = stability_bound(MOST_STAGES) / fastest;
+            MOST_STAGES
+        });
+        self.counts.stages += stages as u64;
+        self.method.step(rate, start, *length, stages, &mut self.end)?;
         self.end.iter_mut().zip(state).for_each(|(end, start)| *end = end.max(*start));
         self.end_slope.resize(state.len(), 0.0);
         rate.evaluate(&self.end, &mut self.end_slope)?;
@@ -247,11 +207,11 @@ impl Adaptive {
         let rates = slope.iter().zip(&self.end_slope);
         let ends = state.iter().zip(&self.end);
         let mean = 0.5 * *length;
-        self.error.extend(ends.zip(rates).map(|((y, end), (f0, f1))| error_factor * (mean * (f0 + f1) - (end - y))));
+        self.error.extend(ends.zip(rates).map(|((y, end), (f0, f1))| ERROR_FACTOR * (mean * (f0 + f1) - (end - y))));
         Ok(())
     }
 
-    /// A length for the first step: half of that after which Euler's method is off by a step's part of the tolerance.
+    /// Length of the first step: half of that after which the error of Euler's method is the part of the tolerance that a step may spend.
     fn first_length<R: Rate + ?Sized>(
         &mut self,
         rate: &mut R,
@@ -276,7 +236,7 @@ impl Adaptive {
     }
 }
 
-/// `planned`, or what is left, or half of it where the rest would be a short step of its own.
+/// Length of a step: `planned`, `room` where that is shorter, or half of `room` where the remainder would be a short step of its own.
 fn fitting(planned: f64, room: f64) -> f64 {
     if planned >= room {
         room

@@ -8,45 +8,40 @@
 //! |---|---|
 //! | [`runge_kutta_chebyshev`] | stabilised explicit method of second order: s evaluations of f reach about 0.65 s² as far as one |
 //! | [`spectral_radius`] | the fastest decay, which tells how many stages that takes |
-//! | [`linearly_implicit`] | Rosenbrock method of second order, whatever the Jacobian it is given |
-//! | [`diagonal`] | the Jacobian it is given here: the local stiffness, measured by a probe |
-//! | [`step_control`] | how long the next step may be |
-//! | [`adaptive`] | one step after another, with either method |
+//! | [`step_control`] | length of the next step |
+//! | [`adaptive`] | steps one after another, within a tolerance |
 //!
-//! Nothing here knows of gears: a [`Rate`] is rows of numbers, in one block or several.
+//! Nothing here knows of gears: a [`Rate`] is a row of numbers.
 //!
-//! **Error of a step.** Both methods know the rate at both ends of a step. The trapezoidal rule with these rates is of second order
-//! too, and what lies between it and the step is of the size of the error,
+//! **Error of a step.** The trapezoidal rule with the rates at both ends of a step is of second order too, and its difference from the step is
+//! of the size of the error,
 //!
 //! ```text
 //! e = c [½ Δn (f(yₙ) + f(yₙ₊₁)) − (yₙ₊₁ − yₙ)]
 //! ```
 //!
-//! with c = 0.8 for Runge–Kutta–Chebyshev (Sommeijer, Shampine and Verwer, equation 2.11). It costs nothing: the rate at the end is
-//! that at the beginning of the next step.
+//! with c = 0.8 (Sommeijer, Shampine and Verwer, equation 2.11). It costs nothing: the rate at the end is that at the beginning of the next step.
 
 pub mod adaptive;
-pub(crate) mod diagonal;
-pub(crate) mod linearly_implicit;
 pub(crate) mod runge_kutta_chebyshev;
 pub(crate) mod spectral_radius;
 pub(crate) mod step_control;
 
-/// f of y' = f(y): how fast each place wears, in mm per revolution, when `state` (mm) is worn off.
+/// f of y' = f(y): wear rate of each place, mm per revolution, at the wear `state`, mm.
 pub trait Rate {
-    /// Why there may be no rate.
+    /// Failure to find a rate.
     type Error;
 
     /// Fills in the rate of each place.
     fn evaluate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Self::Error>;
 
-    /// A step to `state`, where `rate` was just found, is taken: the next one may begin with a rate made anew there, as long as within
-    /// a step it remains one smooth function of the state. Answers the evaluations that took.
+    /// Prepares the step from `state`, where `rate` was just found, and may find the rate anew there: within a step it must remain one smooth
+    /// function of the state. Returns the number of evaluations.
     fn begin_step(&mut self, _state: &[f64], _rate: &mut [f64]) -> Result<u64, Self::Error> {
         Ok(0)
     }
 
-    /// Whether a state nearer to the last good one may have a rate where this failed.
+    /// Whether a state nearer to the last good one may have a rate after this `failure`.
     fn may_succeed_nearer(&self, failure: &Self::Error) -> bool;
 }
 
@@ -55,8 +50,7 @@ pub fn greatest(row: &[f64]) -> f64 {
     row.iter().fold(0.0, |greatest: f64, value| if value.is_nan() { f64::NAN } else { greatest.max(value.abs()) })
 }
 
-/// Pseudo-random numbers in −1…1, the same in every run (G. L. Steele, D. Lea and C. H. Flood's SplitMix64, 2014): a probe
-/// that has a part of every wave.
+/// Pseudo-random numbers in −1…1, the same in every run: SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, 2014).
 struct Noise(u64);
 
 impl Noise {
@@ -71,10 +65,5 @@ impl Noise {
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         let bits = (z ^ (z >> 31)) >> 11;
         2.0 * bits as f64 / (1u64 << 53) as f64 - 1.0
-    }
-
-    /// −1 or 1.
-    fn sign(&mut self) -> f64 {
-        self.next().signum()
     }
 }

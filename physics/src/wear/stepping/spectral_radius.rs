@@ -16,14 +16,14 @@ use serde::{Deserialize, Serialize};
 
 use super::{Noise, Rate, greatest};
 
-/// Iterations until the radius is taken as found.
+/// Greatest number of iterations.
 const MOST_ITERATIONS: usize = 20;
 /// Relative change that ends the iteration.
 const CONVERGED: f64 = 0.05;
-/// On what was found, which approaches the radius from below.
+/// Factor of safety on the estimate, which approaches the radius from below.
 const SAFETY: f64 = 1.2;
 
-/// What is known of the radius.
+/// Estimate of the spectral radius.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct SpectralRadius {
     vector: Vec<f64>,
@@ -35,22 +35,22 @@ fn norm(row: &[f64]) -> f64 {
 }
 
 impl SpectralRadius {
-    /// The radius, with a factor of safety, if it has been estimated.
+    /// Estimate with the factor of safety; none before there is one.
     pub(crate) fn value(&self) -> Option<f64> {
         self.value
     }
 
-    /// The radius as it was found, which approaches the true one from below; 0 where there is none.
+    /// Estimate without the factor of safety, which approaches the radius from below; 0 where there is none.
     pub(crate) fn found(&self) -> f64 {
         self.value.unwrap_or_default() / SAFETY
     }
 
-    /// Takes it for out of date; the vector is kept.
+    /// Drops the estimate; the vector is kept.
     pub(crate) fn reset(&mut self) {
         self.value = None;
     }
 
-    /// Estimates it at `state`, where the rate is `slope`, with probes of the height `probe`. Answers the number of evaluations.
+    /// Estimates the radius at `state`, where the rate is `slope`, with probes of the height `probe`. Returns the number of evaluations.
     pub(crate) fn estimate<R: Rate + ?Sized>(
         &mut self,
         rate: &mut R,
@@ -106,10 +106,9 @@ mod tests {
         type Error = Infallible;
 
         fn evaluate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Infallible> {
-            let at = |i: isize| usize::try_from(i).ok().and_then(|i| state.get(i)).copied().unwrap_or(0.0);
             for (i, rate) in rate.iter_mut().enumerate() {
-                let i = i as isize;
-                *rate = at(i - 1) - 2.0 * at(i) + at(i + 1);
+                let before = i.checked_sub(1).map_or(0.0, |before| state[before]);
+                *rate = before - 2.0 * state[i] + state.get(i + 1).unwrap_or(&0.0);
             }
             Ok(())
         }

@@ -1,4 +1,4 @@
-//! How long the next step may be.
+//! Length of the next step.
 //!
 //! The error of a step of a method of second order grows with the cube of its length. The next step aims at a part of the
 //! tolerance, with the trend of the last two steps in mind (a predictive controller),
@@ -19,47 +19,47 @@ const EXPONENT: f64 = 1.0 / 3.0;
 const SAFETY: f64 = 0.8;
 const LEAST_FACTOR: f64 = 0.1;
 const MOST_FACTOR: f64 = 10.0;
-/// Of the tolerance: smaller errors count as this.
+/// Part of the tolerance as which smaller errors count.
 const NEGLIGIBLE: f64 = 1e-4;
 
-/// What came of a trial step.
+/// Verdict on a trial step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Verdict {
-    /// It is good.
+pub(crate) enum StepVerdict {
+    /// The step is taken.
     Accepted,
-    /// It is to be repeated with a shorter one.
+    /// A shorter step is tried instead.
     Rejected,
 }
 
 /// The controller.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct StepControl {
-    /// Length that the next step should have; none before the first.
+    /// Length of the next step; none before the first.
     next: Option<f64>,
-    /// Length and error over tolerance of the last accepted step, where it was not cut short.
+    /// Length, and error over tolerance, of the last accepted step, where it was not cut short.
     last: Option<(f64, f64)>,
     rejected_before: bool,
 }
 
 impl StepControl {
-    /// Length that the next step should have; none before the first.
+    /// Length of the next step; none before the first.
     pub(crate) fn next(&self) -> Option<f64> {
         self.next
     }
 
-    /// The next step is to have this length: a first guess, or a repetition for reasons beside the error.
+    /// Sets the length of the next step: a first guess, or a repetition for reasons beside the error.
     pub(crate) fn set_next(&mut self, length: f64) {
         (self.next, self.last) = (Some(length), None);
     }
 
-    /// Judges a step of `length` by its error over the tolerance, and plans the next one. A step that was `cut` short of
-    /// what was planned never makes the next one shorter.
-    pub(crate) fn judge(&mut self, length: f64, error: f64, cut: bool) -> Verdict {
+    /// Judges a step of `length` by its error over the tolerance, and plans the next one. A step that was `cut` shorter than
+    /// planned never makes the next one shorter.
+    pub(crate) fn judge(&mut self, length: f64, error: f64, cut: bool) -> StepVerdict {
         if error.is_nan() || error > 1.0 {
             let factor = if error.is_finite() { SAFETY * error.powf(-EXPONENT) } else { LEAST_FACTOR };
             self.next = Some(length * factor.clamp(LEAST_FACTOR, SAFETY));
             (self.last, self.rejected_before) = (None, true);
-            return Verdict::Rejected;
+            return StepVerdict::Rejected;
         }
         let error = error.max(NEGLIGIBLE);
         let mut factor = SAFETY * error.powf(-EXPONENT);
@@ -72,7 +72,7 @@ impl StepControl {
         self.next = Some(if cut { planned.max(self.next.unwrap_or(planned)) } else { planned });
         self.last = (!cut).then_some((length, error));
         self.rejected_before = false;
-        Verdict::Accepted
+        StepVerdict::Accepted
     }
 }
 
@@ -87,7 +87,7 @@ mod tests {
         control.set_next(1e-3);
         for _ in 0..30 {
             let h = control.next().unwrap();
-            assert_eq!(control.judge(h, 7.0 * h.powi(3), false), Verdict::Accepted);
+            assert_eq!(control.judge(h, 7.0 * h.powi(3), false), StepVerdict::Accepted);
         }
         let error = 7.0 * control.next().unwrap().powi(3);
         assert!((0.3..0.9).contains(&error), "{error}");
@@ -98,11 +98,11 @@ mod tests {
     fn rejected_and_cut_steps() {
         let mut control = StepControl::default();
         control.set_next(1.0);
-        assert_eq!(control.judge(1.0, 8.0, false), Verdict::Rejected);
+        assert_eq!(control.judge(1.0, 8.0, false), StepVerdict::Rejected);
         assert!((control.next().unwrap() - 0.4).abs() < 1e-12);
-        assert_eq!(control.judge(0.4, f64::NAN, false), Verdict::Rejected);
+        assert_eq!(control.judge(0.4, f64::NAN, false), StepVerdict::Rejected);
         assert!((control.next().unwrap() - 0.04).abs() < 1e-12);
-        assert_eq!(control.judge(1e-9, 1e-9, true), Verdict::Accepted);
+        assert_eq!(control.judge(1e-9, 1e-9, true), StepVerdict::Accepted);
         assert!((control.next().unwrap() - 0.04).abs() < 1e-12);
     }
 }

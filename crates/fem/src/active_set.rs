@@ -1,0 +1,410 @@
+//! Which multipliers carry load: the complementarity problem of contact, by a primal–dual active set method.
+//!
+//! Condensed onto its n multipliers, a contact of linear elastic bodies reads
+//!
+//! ```text
+//! g = g⁰ + C f + G α ≥ 0,    f ≥ 0,    f_i g_i = 0,    Gᵀ f = q
+//! ```
+//!
+//! f: forces of the multipliers, C their compliance (symmetric, positive definite on any active set), α the amplitudes of
+//! the m rigid motions that no support prevents, q the loads they carry. For a guess A of the active set,
+//!
+//! ```text
+//! S α = −Gᵀ C⁻¹ g⁰ − q,   S = Gᵀ C⁻¹ G,     C f = −g⁰ − G α        all restricted to A
+//! ```
+//!
+//! and the next guess drops every member that pulls and adds every other that overlaps. That is Newton's method for the
+//! nonsmooth equation f = max(0, f − c g), and converges in a few steps from any sensible start; but it may cycle. When
+//! the number of wrong signs has not fallen for a while, one member at a time is exchanged instead (the last wrong one, by
+//! number), which cannot cycle; the full exchange takes over again once the number has fallen.
+//!
+//! Source: M. Hintermüller, K. Ito and K. Kunisch, *SIAM J. Optim.* 13 (2003) 865–888; J. Júdice and F. Pires, *Comput.
+//! Oper. Res.* 21 (1994) 587–596 (block principal pivoting and its backup).
+
+use faer::linalg::solvers::{Llt, Solve};
+use faer::{Mat, MatRef, Side};
+
+/// Full exchanges without a fall of the number of wrong signs before single exchanges take over.
+const PATIENCE: usize = 8;
+/// Exchanges in all before giving up.
+const MOST_ITERATIONS: usize = 2000;
+/// Signs within this part of the greatest force or gap are round-off.
+const ROUND_OFF: f64 = 1e-12;
+/// Motions that the contact resists by less than this part of what it can resist at most are not held. Contact on curved
+/// surfaces of elements resists turning about their centre by 1e-10 or so, which is no resistance.
+const SINGULAR: f64 = 1e-9;
+/// Stiffness of the ground that stands in for what is not held while the active set is still wrong, of the same measure.
+const SOFT_GROUND: f64 = 1e-6;
+
+/// The condensed problem.
+#[derive(Debug, Clone)]
+pub struct Condensed {
+    /// C, mm per N/mm.
+    pub compliance: Mat<f64>,
+    /// g⁰, mm.
+    pub gap_mm: Vec<f64>,
+    /// G: change of the gaps with each free rigid motion.
+    pub rigid: Mat<f64>,
+    /// q: load along each free rigid motion.
+    pub rigid_load: Vec<f64>,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Equilibrium {
+    /// f, N/mm.
+    pub force: Vec<f64>,
+    /// g, mm.
+    pub gap_mm: Vec<f64>,
+    /// α.
+    pub rigid: Vec<f64>,
+    /// S, row by row: how the loads along the rigid motions grow with them while the active set stays as it is.
+    pub resistance: Vec<f64>,
+    /// The active set, to start the next problem from.
+    pub active: Vec<bool>,
+    /// Work and how it went.
+    pub log: Log,
+}
+
+/// How the iteration went.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Log {
+    /// Size of the active set and number of wrong signs, iteration by iteration.
+    pub steps: Vec<(usize, usize)>,
+    /// Members that entered or left, all together.
+    pub changes: usize,
+    /// Times that single exchanges had to take over.
+    pub cycles_broken: usize,
+    /// Active sets factorised.
+    pub factorisations: usize,
+}
+
+impl Log {
+    /// Goes on with `later`, which is empty then.
+    pub fn append(&mut self, later: &mut Log) {
+        let Log { mut steps, changes, cycles_broken, factorisations } = std::mem::take(later);
+        self.steps.append(&mut steps);
+        self.changes += changes;
+        self.cycles_broken += cycles_broken;
+        self.factorisations += factorisations;
+    }
+}
+
+/// Why there is no equilibrium.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ActiveSetError {
+    /// Nothing ever touches.
+    #[error("the surfaces do not touch under this load: the smallest gap is {least_gap_mm:.3e} mm")]
+    NoContact {
+        /// Smallest gap found, mm.
+        least_gap_mm: f64,
+    },
+    /// Contact does not hold the bodies against a rigid motion.
+    #[error("neither supports nor contact hold the bodies against a rigid motion: no equilibrium exists")]
+    Floating {
+        /// One such motion: the amplitude of each free rigid motion of the problem.
+        amplitudes: Vec<f64>,
+    },
+    /// The multipliers are not independent.
+    #[error("the contact compliance is not positive definite at multiplier {index}")]
+    NotPositiveDefinite {
+        /// Which.
+        index: usize,
+    },
+    /// No end within the allowed number of exchanges.
+    #[error("no active set has the right signs after {iterations} exchanges; {wrong} are wrong")]
+    MaxIterations {
+        /// Exchanges made.
+        iterations: usize,
+        /// Wrong signs left.
+        wrong: usize,
+    },
+    /// Numbers that are none.
+    #[error("the contact problem holds numbers that are not finite")]
+    NotFinite,
+}
+
+/// L Lᵀ x = b, for one side and few unknowns, where a blocked solution takes longer to begin than to end.
+fn solve_in_place(factor: &Llt<f64>, b: &mut [f64]) {
+    let l = factor.L();
+    for j in 0..b.len() {
+        let column = column(l, j);
+        b[j] /= column[j];
+        let x = b[j];
+        for (b, l) in b[j + 1..].iter_mut().zip(&column[j + 1..]) {
+            *b -= l * x;
+        }
+    }
+    for j in (0..b.len()).rev() {
+        let column = column(l, j);
+        let below: f64 = column[j + 1..].iter().zip(&b[j + 1..]).map(|(l, x)| l * x).sum();
+        b[j] = (b[j] - below) / column[j];
+    }
+}
+
+/// What solutions with the same compliance and rigid motions share.
+#[derive(Debug, Clone)]
+pub struct Kept {
+    /// See [`Condensed::greatest_resistance`].
+    resistance: Vec<f64>,
+    factored: Option<FactoredSet>,
+}
+
+/// An active set and the Cholesky factor of its compliance.
+#[derive(Debug, Clone)]
+struct FactoredSet {
+    active: Vec<bool>,
+    members: Vec<usize>,
+    factor: Llt<f64>,
+    /// C⁻¹ applied to the columns of G.
+    by_motion: Mat<f64>,
+}
+
+struct Trial {
+    force: Vec<f64>,
+    gap_mm: Vec<f64>,
+    rigid: Vec<f64>,
+    resistance: Vec<f64>,
+    /// A motion that the active set does not hold.
+    loose: Option<Vec<f64>>,
+}
+
+impl Condensed {
+    /// Solves from the active set `start`, or from the first touch.
+    pub fn solve(&self, start: Option<&[bool]>) -> Result<Equilibrium, ActiveSetError> {
+        self.solve_with(start, &mut None)
+    }
+
+    /// As [`Self::solve`], with what an earlier solution with the same compliance and rigid motions has kept: where the active set is
+    /// still the same, nothing is factorised. What this solution has is left there.
+    pub fn solve_with(&self, start: Option<&[bool]>, kept: &mut Option<Kept>) -> Result<Equilibrium, ActiveSetError> {
+        let n = self.gap_mm.len();
+        if self.gap_mm.iter().chain(&self.rigid_load).any(|value| !value.is_finite()) {
+            return Err(ActiveSetError::NotFinite);
+        }
+        let Kept { resistance, factored } = match kept {
+            Some(kept) => kept,
+            None => kept.insert(self.checked()?),
+        };
+        let mut active = match start {
+            Some(start) if start.len() == n && start.contains(&true) => start.to_vec(),
+            _ => self.first_touch()?,
+        };
+        let mut log = Log::default();
+        let (mut fewest, mut patience, mut one_by_one) = (usize::MAX, PATIENCE, false);
+        for _ in 0..MOST_ITERATIONS {
+            let trial = self.trial(&active, resistance, factored, &mut log)?;
+            let wrong = self.wrong(&trial, &active);
+            log.steps.push((active.iter().filter(|a| **a).count(), wrong.len()));
+            if wrong.is_empty() {
+                return self.finished(trial, active, log);
+            }
+            if wrong.len() < fewest {
+                (fewest, patience, one_by_one) = (wrong.len(), PATIENCE, false);
+            } else if patience > 0 {
+                patience -= 1;
+            } else if !one_by_one {
+                one_by_one = true;
+                log.cycles_broken += 1;
+            }
+            let exchanged = if one_by_one { &wrong[wrong.len() - 1..] } else { &wrong[..] };
+            log.changes += exchanged.len();
+            for &i in exchanged {
+                active[i] = !active[i];
+            }
+        }
+        let wrong = log.steps.last().map_or(0, |step| step.1);
+        Err(ActiveSetError::MaxIterations { iterations: MOST_ITERATIONS, wrong })
+    }
+
+    fn finished(&self, trial: Trial, active: Vec<bool>, log: Log) -> Result<Equilibrium, ActiveSetError> {
+        if !active.contains(&true) {
+            let least_gap_mm = trial.gap_mm.iter().copied().fold(f64::INFINITY, f64::min);
+            return Err(ActiveSetError::NoContact { least_gap_mm });
+        }
+        if let Some(amplitudes) = trial.loose {
+            return Err(ActiveSetError::Floating { amplitudes });
+        }
+        let Trial { force, gap_mm, rigid, resistance, .. } = trial;
+        Ok(Equilibrium { force, gap_mm, rigid, resistance, active, log })
+    }
+
+    /// What compliance and rigid motions alone say of every solution.
+    fn checked(&self) -> Result<Kept, ActiveSetError> {
+        if !self.is_finite() {
+            return Err(ActiveSetError::NotFinite);
+        }
+        let resistance = self.greatest_resistance();
+        match self.never_held(&resistance) {
+            Some(amplitudes) => Err(ActiveSetError::Floating { amplitudes }),
+            None => Ok(Kept { resistance, factored: None }),
+        }
+    }
+
+    /// For each rigid motion Σ G_i²/C_ii over all multipliers: the resistance of independent springs, the measure of S.
+    fn greatest_resistance(&self) -> Vec<f64> {
+        let spring = |i: usize, a: usize| self.rigid[(i, a)].powi(2) / self.compliance[(i, i)];
+        (0..self.rigid_load.len()).map(|a| (0..self.gap_mm.len()).map(|i| spring(i, a)).sum()).collect()
+    }
+
+    /// A combination of rigid motions that changes no gap.
+    fn never_held(&self, resistance: &[f64]) -> Option<Vec<f64>> {
+        let m = resistance.len();
+        let greatest = resistance.iter().copied().fold(0.0, f64::max);
+        if let Some(a) = (0..m).find(|&a| resistance[a] <= SINGULAR * SINGULAR * greatest) {
+            return Some((0..m).map(|b| if a == b { 1.0 } else { 0.0 }).collect());
+        }
+        let springs = |a: usize, b: usize| -> f64 {
+            let product = |i| self.rigid[(i, a)] * self.rigid[(i, b)] / self.compliance[(i, i)];
+            (0..self.gap_mm.len()).map(product).sum()
+        };
+        let s = nalgebra::DMatrix::from_fn(m, m, springs);
+        held_motion(&s, &nalgebra::DVector::zeros(m), resistance).1
+    }
+
+    fn is_finite(&self) -> bool {
+        let finite =
+            |matrix: &Mat<f64>| (0..matrix.ncols()).all(|j| column(matrix.as_ref(), j).iter().all(|v| v.is_finite()));
+        finite(&self.compliance) && finite(&self.rigid)
+    }
+
+    /// The multipliers that touch first when the loads move the free bodies.
+    fn first_touch(&self) -> Result<Vec<bool>, ActiveSetError> {
+        let n = self.gap_mm.len();
+        let least_gap_mm = self.gap_mm.iter().copied().fold(f64::INFINITY, f64::min);
+        // Direction in which the loads push: α along −q, for Gᵀ f = q means that contact pushes back by q.
+        let closing: Vec<f64> =
+            (0..n).map(|i| self.rigid_load.iter().enumerate().map(|(k, q)| self.rigid[(i, k)] * q).sum()).collect();
+        let path = |i: usize| self.gap_mm[i].max(0.0) / closing[i];
+        let first = (0..n).filter(|&i| closing[i] > 0.0).map(path).fold(f64::INFINITY, f64::min);
+        let moved: Vec<f64> = match first.is_finite() {
+            true => (0..n).map(|i| self.gap_mm[i] - first * closing[i]).collect(),
+            false => self.gap_mm.clone(),
+        };
+        let scale = moved.iter().chain(&self.gap_mm).fold(0.0_f64, |most, gap| most.max(gap.abs()));
+        let touching: Vec<bool> = moved.iter().map(|gap| *gap <= ROUND_OFF * scale).collect();
+        if touching.contains(&true) { Ok(touching) } else { Err(ActiveSetError::NoContact { least_gap_mm }) }
+    }
+
+    /// Forces and gaps if exactly the `active` multipliers carry load.
+    fn trial(
+        &self,
+        active: &[bool],
+        resistance: &[f64],
+        factored: &mut Option<FactoredSet>,
+        log: &mut Log,
+    ) -> Result<Trial, ActiveSetError> {
+        let kept = factored.take().filter(|kept| kept.active == active);
+        let set = match kept {
+            Some(kept) => kept,
+            None => {
+                log.factorisations += 1;
+                self.factored(active)?
+            }
+        };
+        let FactoredSet { members, factor, by_motion, .. } = &*factored.insert(set);
+        let m = self.rigid_load.len();
+        let mut by_gap: Vec<f64> = members.iter().map(|&member| -self.gap_mm[member]).collect();
+        solve_in_place(factor, &mut by_gap);
+        let product = |a: usize, of: &dyn Fn(usize) -> f64| -> f64 {
+            members.iter().enumerate().map(|(i, &member)| self.rigid[(member, a)] * of(i)).sum()
+        };
+        let s = nalgebra::DMatrix::from_fn(m, m, |a, b| product(a, &|i| by_motion[(i, b)]));
+        let load = nalgebra::DVector::from_fn(m, |a, _| product(a, &|i| by_gap[i]) - self.rigid_load[a]);
+        let (alpha, loose) = held_motion(&s, &load, resistance);
+        let mut force = vec![0.0; active.len()];
+        for (i, &member) in members.iter().enumerate() {
+            force[member] = by_gap[i] - (0..m).map(|a| by_motion[(i, a)] * alpha[a]).sum::<f64>();
+        }
+        let mut gap_mm = self.gap_mm.clone();
+        for &member in members {
+            add_scaled(&mut gap_mm, column(self.compliance.as_ref(), member), force[member]);
+        }
+        for (a, alpha) in alpha.iter().enumerate() {
+            add_scaled(&mut gap_mm, column(self.rigid.as_ref(), a), *alpha);
+        }
+        for &member in members {
+            gap_mm[member] = 0.0;
+        }
+        // S is symmetric: by columns as by rows.
+        Ok(Trial { force, gap_mm, rigid: alpha.iter().copied().collect(), resistance: s.data.into(), loose })
+    }
+
+    /// The compliance of the `active` multipliers, factorised.
+    fn factored(&self, active: &[bool]) -> Result<FactoredSet, ActiveSetError> {
+        let members: Vec<usize> = (0..active.len()).filter(|&i| active[i]).collect();
+        let k = members.len();
+        let mut c = Mat::<f64>::zeros(k, k);
+        for (j, &member) in members.iter().enumerate() {
+            let whole = column(self.compliance.as_ref(), member);
+            // The factor reads the lower triangle alone.
+            for (entry, &i) in column_mut(&mut c, j)[j..].iter_mut().zip(&members[j..]) {
+                *entry = whole[i];
+            }
+        }
+        let factor = Llt::new(c.as_ref(), Side::Lower).map_err(|error| {
+            let faer::linalg::solvers::LltError::NonPositivePivot { index } = error;
+            ActiveSetError::NotPositiveDefinite { index: members[index.min(k - 1)] }
+        })?;
+        let mut by_motion = Mat::from_fn(k, self.rigid_load.len(), |i, a| self.rigid[(members[i], a)]);
+        factor.solve_in_place(by_motion.as_mut());
+        Ok(FactoredSet { active: active.to_vec(), members, factor, by_motion })
+    }
+
+    /// Active multipliers that pull and others that overlap.
+    fn wrong(&self, trial: &Trial, active: &[bool]) -> Vec<usize> {
+        let greatest_force = trial.force.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
+        let greatest_gap = trial.gap_mm.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
+        (0..active.len())
+            .filter(|&i| match active[i] {
+                true => trial.force[i] < -ROUND_OFF * greatest_force,
+                false => trial.gap_mm[i] < -ROUND_OFF * greatest_gap,
+            })
+            .collect()
+    }
+}
+
+/// A column of a matrix that is stored column by column, as all here are.
+fn column(matrix: MatRef<'_, f64>, j: usize) -> &[f64] {
+    matrix.col(j).try_as_col_major().map_or(&[], |column| column.as_slice())
+}
+
+fn column_mut(matrix: &mut Mat<f64>, j: usize) -> &mut [f64] {
+    matrix.col_mut(j).try_as_col_major_mut().map_or(&mut [], |column| column.as_slice_mut())
+}
+
+/// sum ← sum + factor · values
+fn add_scaled(sum: &mut [f64], values: &[f64], factor: f64) {
+    for (sum, value) in sum.iter_mut().zip(values) {
+        *sum += value * factor;
+    }
+}
+
+/// Solves S α = load by eigenvectors, S and α scaled by the greatest `resistance` to each motion; what S does not hold gets
+/// a soft ground instead, and is told.
+fn held_motion(
+    s: &nalgebra::DMatrix<f64>,
+    load: &nalgebra::DVector<f64>,
+    resistance: &[f64],
+) -> (nalgebra::DVector<f64>, Option<Vec<f64>>) {
+    let unit = nalgebra::DVector::from_iterator(load.len(), resistance.iter().map(|r| 1.0 / r.sqrt()));
+    if load.is_empty() {
+        return (unit, None);
+    }
+    // One motion is its own eigenvector.
+    if load.len() == 1 && s[0] * unit[0] * unit[0] > SINGULAR {
+        return (load / s[0], None);
+    }
+    let scaled = nalgebra::DMatrix::from_fn(load.len(), load.len(), |a, b| s[(a, b)] * unit[a] * unit[b]);
+    let eigen = scaled.symmetric_eigen();
+    let weakest = eigen.eigenvalues.imin();
+    let holds = eigen.eigenvalues[weakest] > SINGULAR;
+    let ground = if holds { 0.0 } else { SOFT_GROUND };
+    let mut alpha = eigen.eigenvectors.tr_mul(&load.component_mul(&unit));
+    for (a, value) in alpha.iter_mut().zip(eigen.eigenvalues.iter()) {
+        *a /= value.max(0.0) + ground;
+    }
+    let alpha = (&eigen.eigenvectors * alpha).component_mul(&unit);
+    let loose = || eigen.eigenvectors.column(weakest).component_mul(&unit).iter().copied().collect();
+    (alpha, (!holds).then(loose))
+}

@@ -1,0 +1,198 @@
+//! Which part of which master edge a slave edge faces.
+//!
+//! A slave point x_s(ξ) meets the master along the slave's own normal field n(ξ). The end p of a master edge projects onto
+//! the slave edge where
+//!
+//! ```text
+//! (x_s(ξ) − p) × n(ξ) = 0
+//! ```
+//!
+//! and between the projections of its two ends, the master edge is the one that is met. The left-hand side falls with ξ as
+//! long as normals do not cross between the surfaces, so its signs at the ends of the slave edge tell without any iteration
+//! whether the projection lies on the edge.
+
+use nalgebra::Vector2;
+use parry2d_f64::bounding_volume::Aabb;
+use parry2d_f64::math::Vector;
+use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy};
+
+use super::edge::interpolate;
+use super::edge::{shape, shape_derivative};
+use super::surface::{Surface, SurfaceEdge};
+
+/// Surfaces whose normals differ from opposite by more than this angle's cosine do not face each other.
+pub const LEAST_FACING: f64 = 0.1;
+const PARALLEL: f64 = 1e-12;
+
+/// A stretch of a slave edge that faces one master edge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Segment {
+    /// Which slave edge.
+    pub slave: usize,
+    /// From and to ξ on it.
+    pub from: f64,
+    /// Its end.
+    pub to: f64,
+    /// Which master edge.
+    pub master: usize,
+}
+
+/// Where a slave point meets a master edge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Meeting {
+    /// Place on the master edge.
+    pub eta: f64,
+    /// n · (x_m − x_s), mm: negative where the surfaces overlap.
+    pub gap_mm: f64,
+}
+
+/// The edges of a master surface, sorted in space.
+pub(crate) struct MasterSearch<'a> {
+    /// The master surface.
+    pub master: &'a Surface,
+    boxes: Bvh,
+}
+
+fn cross(a: Vector2<f64>, b: Vector2<f64>) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+fn aabb((low, high): (Vector2<f64>, Vector2<f64>)) -> Aabb {
+    Aabb::new(Vector::new(low.x, low.y), Vector::new(high.x, high.y))
+}
+
+/// Root between −1 and 1 of a function that falls from a positive to a negative value; `f` gives value and derivative.
+/// Newton's method, kept between bounds that close in.
+fn falling_root(f: impl Fn(f64) -> (f64, f64)) -> f64 {
+    let (mut low, mut high, mut xi) = (-1.0, 1.0, 0.0);
+    for _ in 0..60 {
+        let (value, slope) = f(xi);
+        if value > 0.0 {
+            low = xi;
+        } else {
+            high = xi;
+        }
+        let newton = xi - value / slope;
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        let step = next - xi;
+        xi = next;
+        if step.abs() < 1e-14 {
+            break;
+        }
+    }
+    xi
+}
+
+impl<'a> MasterSearch<'a> {
+    /// Sorts the edges of `master`.
+    pub(crate) fn new(master: &'a Surface) -> Self {
+        let boxes: Vec<Aabb> = master.edges.iter().map(|edge| aabb(master.edge_box(edge))).collect();
+        Self { master, boxes: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes) }
+    }
+
+    /// The stretches of slave edge `number` that face the master within `reach_mm` on either side, by increasing ξ and
+    /// without overlap: where several master edges are met, the nearest counts.
+    pub(crate) fn segments(&self, slave: &Surface, number: usize, reach_mm: f64) -> Vec<Segment> {
+        let edge = &slave.edges[number];
+        let mut found: Vec<(f64, Segment)> = self
+            .boxes
+            .intersect_aabb(&aabb(swept_box(slave, edge, reach_mm)))
+            .filter_map(|master| self.segment(slave, edge, number, master as usize, reach_mm))
+            .collect();
+        // The order of the tree must not show in the result.
+        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.master.cmp(&b.1.master)));
+        let mut taken: Vec<Segment> = Vec::with_capacity(found.len());
+        for (_, segment) in found {
+            taken.extend(what_is_free(&taken, segment));
+        }
+        taken.sort_by(|a, b| a.from.total_cmp(&b.from));
+        taken
+    }
+
+    fn segment(
+        &self,
+        slave: &Surface,
+        edge: &SurfaceEdge,
+        number: usize,
+        master: usize,
+        reach_mm: f64,
+    ) -> Option<(f64, Segment)> {
+        let ends = &self.master.edges[master].nodes()[..2];
+        let [a, b] = [ends[0], ends[1]].map(|node| project_onto_slave(slave, edge, self.master.points_mm[node]));
+        let (from, to) = (a.min(b), a.max(b));
+        if to - from < PARALLEL {
+            return None;
+        }
+        let middle = 0.5 * (from + to);
+        let meeting = self.meet(slave, edge, middle, master)?;
+        (meeting.gap_mm.abs() <= reach_mm)
+            .then_some((meeting.gap_mm.abs(), Segment { slave: number, from, to, master }))
+    }
+
+    /// Where the normal at ξ of a slave edge meets a master edge; `None` where that faces away.
+    pub(crate) fn meet(&self, slave: &Surface, edge: &SurfaceEdge, xi: f64, master: usize) -> Option<Meeting> {
+        let (point, _) = slave.point_and_tangent(edge, xi);
+        let (normal, _) = slave.normal_and_derivative(edge, xi);
+        let normal = normal.try_normalize(PARALLEL)?;
+        let master_edge = &self.master.edges[master];
+        // Along the master, which runs the other way, the offset to the right of the normal rises: turned round, it falls.
+        let eta = falling_root_between(|eta| {
+            let (place, tangent) = self.master.point_and_tangent(master_edge, eta);
+            (-cross(place - point, normal), -cross(tangent, normal))
+        });
+        let (place, tangent) = self.master.point_and_tangent(master_edge, eta);
+        let facing = -super::edge::outward(tangent).dot(&normal) / tangent.norm();
+        (facing > LEAST_FACING).then(|| Meeting { eta, gap_mm: (place - point).dot(&normal) })
+    }
+}
+
+/// As [`falling_root`], with the nearer end where there is none.
+fn falling_root_between(f: impl Fn(f64) -> (f64, f64)) -> f64 {
+    if f(-1.0).0 <= 0.0 {
+        -1.0
+    } else if f(1.0).0 >= 0.0 {
+        1.0
+    } else {
+        falling_root(f)
+    }
+}
+
+/// ξ on the slave edge, from −1 to 1, whose normal passes nearest to `point`.
+fn project_onto_slave(slave: &Surface, edge: &SurfaceEdge, point: Vector2<f64>) -> f64 {
+    let corners = slave.corners(edge);
+    let count = edge.nodes().len();
+    falling_root_between(|xi| {
+        let place = interpolate(&shape(count, xi), &corners[..count]);
+        let tangent = interpolate(&shape_derivative(count, xi), &corners[..count]);
+        let (normal, normal_slope) = slave.normal_and_derivative(edge, xi);
+        (cross(place - point, normal), cross(tangent, normal) + cross(place - point, normal_slope))
+    })
+}
+
+/// The box that an edge sweeps when moved by `reach_mm` along its normals, both ways.
+fn swept_box(slave: &Surface, edge: &SurfaceEdge, reach_mm: f64) -> (Vector2<f64>, Vector2<f64>) {
+    let (mut low, mut high) = slave.edge_box(edge);
+    for &node in edge.nodes() {
+        for reach in [-reach_mm, reach_mm] {
+            let point = slave.points_mm[node] + reach * slave.normals[node];
+            low = low.inf(&point);
+            high = high.sup(&point);
+        }
+    }
+    (low, high)
+}
+
+/// What `taken` leaves of a segment.
+fn what_is_free(taken: &[Segment], segment: Segment) -> Vec<Segment> {
+    let mut free = vec![segment];
+    for other in taken {
+        free = free
+            .into_iter()
+            .flat_map(|piece| {
+                [Segment { to: piece.to.min(other.from), ..piece }, Segment { from: piece.from.max(other.to), ..piece }]
+            })
+            .filter(|piece| piece.to - piece.from > PARALLEL)
+            .collect();
+    }
+    free
+}

@@ -1,0 +1,187 @@
+//! The coupling of two surfaces: the gap of every multiplier as a linear function of the displacements.
+//!
+//! ```text
+//! g_i = g_i⁰ + Σ_k B_ik · u_k,     B_ik = (1/w_i) ∫ ψ_i n (N_k^m − N_k^s) dγ,     w_i = ∫ ψ_i dγ
+//! ```
+//!
+//! integrated segment by segment, so that no kink of the integrand falls between integration points. With the force
+//! f_i = w_i λ_i the nodal forces are Bᵀ f.
+
+use nalgebra::Vector2;
+use sprs::{CsMat, TriMat};
+
+use super::dual_basis::{DualBasis, gauss_points};
+use super::edge::shape;
+use super::master_search::{MasterSearch, Segment};
+use super::surface::Surface;
+
+/// Multipliers with less than this part of the weight of a fully faced node are slivers: their share of the pressure goes to
+/// a neighbour, so that a constant pressure is still kept, and what is left over without a neighbour is left out.
+const LEAST_WEIGHT: f64 = 0.05;
+
+/// The coupling of a slave surface with a master surface; a row for every slave node that faces the master.
+///
+/// Columns are `2 · local node + component` of each surface.
+#[derive(Debug, Clone)]
+pub struct Coupling {
+    /// Local slave node of each row.
+    pub nodes: Vec<usize>,
+    /// w_i, mm.
+    pub weight_mm: Vec<f64>,
+    /// g_i⁰, mm.
+    pub gap_mm: Vec<f64>,
+    /// B for displacements of the slave.
+    pub slave: CsMat<f64>,
+    /// B for displacements of the master.
+    pub master: CsMat<f64>,
+}
+
+/// Sums of one multiplier while integrating.
+#[derive(Debug, Clone, Default)]
+struct Row {
+    weight_mm: f64,
+    /// Weight if the master faced all of the node's edges.
+    whole_mm: f64,
+    gap_mm2: f64,
+    slave: Vec<(usize, Vector2<f64>)>,
+    master: Vec<(usize, Vector2<f64>)>,
+}
+
+impl Row {
+    fn is_sliver(&self) -> bool {
+        self.weight_mm <= LEAST_WEIGHT * self.whole_mm
+    }
+
+    fn take(&mut self, other: &Row) {
+        self.weight_mm += other.weight_mm;
+        self.gap_mm2 += other.gap_mm2;
+        for &(node, value) in &other.slave {
+            add(&mut self.slave, node, value);
+        }
+        for &(node, value) in &other.master {
+            add(&mut self.master, node, value);
+        }
+    }
+}
+
+/// Adds the basis function of each sliver to that of the neighbour on its edges with the greatest weight: ψ_k + ψ_sliver.
+fn hand_over_slivers(slave: &Surface, rows: &mut [Row]) {
+    let mut neighbour: Vec<Option<usize>> = vec![None; rows.len()];
+    for edge in &slave.edges {
+        for &node in edge.nodes().iter().filter(|&&node| rows[node].is_sliver() && rows[node].weight_mm > 0.0) {
+            for &other in edge.nodes().iter().filter(|&&other| !rows[other].is_sliver()) {
+                if neighbour[node].is_none_or(|best: usize| rows[other].weight_mm > rows[best].weight_mm) {
+                    neighbour[node] = Some(other);
+                }
+            }
+        }
+    }
+    for (node, neighbour) in neighbour.into_iter().enumerate() {
+        if let Some(neighbour) = neighbour {
+            let sliver = std::mem::take(&mut rows[node]);
+            rows[neighbour].take(&sliver);
+        }
+    }
+}
+
+fn add(entries: &mut Vec<(usize, Vector2<f64>)>, node: usize, value: Vector2<f64>) {
+    match entries.iter_mut().find(|(other, _)| *other == node) {
+        Some((_, sum)) => *sum += value,
+        None => entries.push((node, value)),
+    }
+}
+
+impl Coupling {
+    /// Couples `slave` to `master` where they lie within `reach_mm` of each other, along the slave's normals.
+    pub fn new(slave: &Surface, master: &Surface, reach_mm: f64) -> Self {
+        let facing = MasterSearch::new(master);
+        let mut rows = vec![Row::default(); slave.points_mm.len()];
+        for number in 0..slave.edges.len() {
+            let segments = facing.segments(slave, number, reach_mm);
+            integrate_edge(slave, number, &facing, &segments, &mut rows);
+        }
+        hand_over_slivers(slave, &mut rows);
+        let kept: Vec<(usize, Row)> = rows.into_iter().enumerate().filter(|(_, row)| !row.is_sliver()).collect();
+        Self {
+            nodes: kept.iter().map(|(node, _)| *node).collect(),
+            weight_mm: kept.iter().map(|(_, row)| row.weight_mm).collect(),
+            gap_mm: kept.iter().map(|(_, row)| row.gap_mm2 / row.weight_mm).collect(),
+            slave: operator(&kept, slave.points_mm.len(), |row| &row.slave),
+            master: operator(&kept, master.points_mm.len(), |row| &row.master),
+        }
+    }
+
+    /// Number of multipliers.
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether nothing faces anything.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+}
+
+fn integrate_edge(slave: &Surface, number: usize, facing: &MasterSearch<'_>, segments: &[Segment], rows: &mut [Row]) {
+    let edge = &slave.edges[number];
+    let count = edge.nodes().len();
+    let jacobian = |xi: f64| slave.point_and_tangent(edge, xi).1.norm();
+    let whole = DualBasis::new(count, (-1.0, 1.0), jacobian);
+    for (xi, weight) in gauss_points(-1.0, 1.0) {
+        for (psi, &node) in whole.at(xi).iter().zip(edge.nodes()) {
+            rows[node].whole_mm += weight * jacobian(xi) * psi;
+        }
+    }
+    let (Some(first), Some(last)) = (segments.first(), segments.last()) else { return };
+    let faced: f64 = segments.iter().map(|segment| segment.to - segment.from).sum();
+    // A gap between segments is a hole in the master: its edge is treated as the end of the master is.
+    let unbroken = (last.to - first.from - faced).abs() < 1e-9;
+    let basis = match (first.from, last.to) {
+        (from, to) if unbroken && from == -1.0 && to == 1.0 => whole,
+        (from, to) => DualBasis::new(count, (from, to.min(1.0 - 2e-9).max(from)), jacobian),
+    };
+    for segment in segments {
+        for (from, to) in smooth_stretches(segment, &basis) {
+            for (xi, weight) in gauss_points(from, to) {
+                let Some(meeting) = facing.meet(slave, edge, xi, segment.master) else { continue };
+                let (normal, _) = slave.normal_and_derivative(edge, xi);
+                let Some(normal) = normal.try_normalize(0.0) else { continue };
+                let (psi, weight) = (basis.at(xi), weight * jacobian(xi));
+                let own_shape = shape(count, xi);
+                let master_nodes = facing.master.edges[segment.master].nodes();
+                let mate_shape = shape(master_nodes.len(), meeting.eta);
+                for (psi, &node) in psi.iter().zip(edge.nodes()) {
+                    let (row, weight) = (&mut rows[node], weight * psi);
+                    row.weight_mm += weight;
+                    row.gap_mm2 += weight * meeting.gap_mm;
+                    for (n, &k) in own_shape.iter().zip(edge.nodes()) {
+                        add(&mut row.slave, k, -weight * n * normal);
+                    }
+                    for (n, &k) in mate_shape.iter().zip(master_nodes) {
+                        add(&mut row.master, k, weight * n * normal);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The stretches of a segment over which `basis` is smooth: that of a partly faced edge has a kink at the middle node.
+fn smooth_stretches(segment: &Segment, basis: &DualBasis) -> impl Iterator<Item = (f64, f64)> + use<> {
+    let cut = match basis {
+        DualBasis::Whole { .. } => segment.to,
+        DualBasis::Parts { .. } => 0.0_f64.clamp(segment.from, segment.to),
+    };
+    [(segment.from, cut), (cut, segment.to)].into_iter().filter(|(from, to)| to > from)
+}
+
+fn operator(rows: &[(usize, Row)], nodes: usize, entries: impl Fn(&Row) -> &Vec<(usize, Vector2<f64>)>) -> CsMat<f64> {
+    let mut triplets = TriMat::new((rows.len(), 2 * nodes));
+    for (i, (_, row)) in rows.iter().enumerate() {
+        for (node, value) in entries(row) {
+            triplets.add_triplet(i, 2 * node, value.x / row.weight_mm);
+            triplets.add_triplet(i, 2 * node + 1, value.y / row.weight_mm);
+        }
+    }
+    triplets.to_csr()
+}

@@ -1,0 +1,6 @@
+//! Files of users and of runs: written whole or not at all ([`whole_file`]), known by their content ([`content_hash`]), comma-separated
+//! tables with the line of every fault ([`data_table`]).
+
+pub mod content_hash;
+pub mod data_table;
+pub mod whole_file;

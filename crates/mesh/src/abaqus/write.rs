@@ -1,0 +1,182 @@
+//! Writing Abaqus files.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use super::elements;
+use crate::error::Unwritable;
+use crate::{CellKind, Mesh};
+
+const FORMAT: &str = "an Abaqus file";
+
+/// Element (counted over all cells) and side that a line lies on.
+type Side = (usize, usize);
+
+pub(crate) fn write(mesh: &Mesh) -> Result<Vec<u8>, Unwritable> {
+    check(mesh)?;
+    let surfaces = Surfaces::of(mesh);
+    let mut text = String::from("*HEADING\nmesh\n");
+    nodes(&mut text, mesh);
+    let numbers = write_elements(&mut text, mesh, &surfaces);
+    for (name, set) in &mesh.point_sets {
+        keyword(&mut text, "*NSET, NSET=", name, mesh);
+        list(&mut text, set.iter().map(|node| node + 1));
+    }
+    for (name, lists) in &mesh.cell_sets {
+        match surfaces.sides.get(name) {
+            None => {
+                keyword(&mut text, "*ELSET, ELSET=", name, mesh);
+                list(&mut text, mesh.over_all(lists).filter_map(|cell| numbers[cell]));
+            }
+            Some(sides) => {
+                keyword(&mut text, "*SURFACE, TYPE=ELEMENT, NAME=", name, mesh);
+                for &(cell, side) in sides {
+                    line(&mut text, format_args!("{}, S{}", numbers[cell].unwrap_or(0), side + 1));
+                }
+                if !mesh.point_sets.contains_key(name) {
+                    keyword(&mut text, "*NSET, NSET=", name, mesh);
+                    let cells = mesh.cells.iter().zip(lists);
+                    let mut nodes: Vec<usize> = cells
+                        .flat_map(|(block, list)| {
+                            let per_cell = block.kind.node_count();
+                            list.iter().flat_map(move |cell| &block.nodes[cell * per_cell..(cell + 1) * per_cell])
+                        })
+                        .map(|node| node + 1)
+                        .collect();
+                    nodes.sort_unstable();
+                    nodes.dedup();
+                    list(&mut text, nodes.into_iter());
+                }
+            }
+        }
+    }
+    Ok(text.into_bytes())
+}
+
+fn check(mesh: &Mesh) -> Result<(), Unwritable> {
+    let cannot = |what, name: &str, rule| Err(Unwritable::Data { format: FORMAT, what, name: name.into(), rule });
+    let no_data = "nodes, elements, sets and surfaces; write .vtu or .msh";
+    if let Some(name) = mesh.point_data.keys().next() {
+        return cannot("point data", name, no_data);
+    }
+    if let Some(name) = mesh.cell_data.keys().next() {
+        return cannot("cell data", name, no_data);
+    }
+    if let Some(block) = mesh.cells.iter().find(|block| elements::name(block.kind).is_none()) {
+        return cannot("cells", &format!("{:?}", block.kind), elements::ALLOWED);
+    }
+    let unfit = |name: &&String| name.contains(|c: char| c == '"' || c.is_control());
+    if let Some(name) = mesh.point_sets.keys().chain(mesh.cell_sets.keys()).find(unfit) {
+        let rule = "names have neither quotes nor control characters";
+        return Err(Unwritable::Name { format: FORMAT, name: name.clone(), rule });
+    }
+    Ok(())
+}
+
+/// Sets of line cells that lie on sides of plane elements.
+struct Surfaces {
+    /// Their sides in the order of the lines.
+    sides: BTreeMap<String, Vec<Side>>,
+    /// For every cell whether it is such a line, and need not be an element.
+    is_line: Vec<bool>,
+}
+
+impl Surfaces {
+    fn of(mesh: &Mesh) -> Self {
+        let cells: Vec<(CellKind, &[usize])> =
+            mesh.cells.iter().flat_map(|block| block.iter().map(|nodes| (block.kind, nodes))).collect();
+        let mut sides_by_nodes: BTreeMap<Vec<usize>, Side> = BTreeMap::new();
+        for (number, &(kind, nodes)) in cells.iter().enumerate() {
+            for side in 0..elements::side_count(kind) {
+                let (_, line) = elements::side(kind, nodes, side);
+                sides_by_nodes.entry(unturned(line)).or_insert((number, side));
+            }
+        }
+        let mut sides = BTreeMap::new();
+        let mut is_line = vec![false; cells.len()];
+        for (name, lists) in &mesh.cell_sets {
+            let on_side = |cell: usize| {
+                let (kind, nodes) = cells[cell];
+                (kind.dimension() == 1).then(|| sides_by_nodes.get(&unturned(nodes.to_vec())).copied())?
+            };
+            let found: Option<Vec<Side>> = mesh.over_all(lists).map(on_side).collect();
+            if let Some(found) = found.filter(|found| !found.is_empty()) {
+                mesh.over_all(lists).for_each(|cell| is_line[cell] = true);
+                sides.insert(name.clone(), found);
+            }
+        }
+        // A line that is in another set as well has to be an element there.
+        for (name, lists) in &mesh.cell_sets {
+            if !sides.contains_key(name) {
+                mesh.over_all(lists).for_each(|cell| is_line[cell] = false);
+            }
+        }
+        Self { sides, is_line }
+    }
+}
+
+/// The line's nodes in an order that does not depend on its direction.
+fn unturned(mut line: Vec<usize>) -> Vec<usize> {
+    if line[0] > line[1] {
+        line.swap(0, 1);
+    }
+    line
+}
+
+/// Writing into memory does not fail.
+fn line(text: &mut String, line: impl std::fmt::Display) {
+    let _ = writeln!(text, "{line}");
+}
+
+/// A keyword line that ends in a name of `mesh`, quoted where case, blanks or signs matter.
+fn keyword(text: &mut String, start: &str, name: &str, mesh: &Mesh) {
+    let plain = name.starts_with(|c: char| c.is_ascii_alphabetic())
+        && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+    let mut others = mesh.point_sets.keys().chain(mesh.cell_sets.keys());
+    let alone = others.all(|other| other == name || !other.eq_ignore_ascii_case(name));
+    match plain && alone {
+        true => line(text, format_args!("{start}{name}")),
+        false => line(text, format_args!("{start}\"{name}\"")),
+    }
+}
+
+/// Numbers, sixteen to a line.
+fn list(text: &mut String, numbers: impl Iterator<Item = usize>) {
+    let numbers: Vec<String> = numbers.map(|number| number.to_string()).collect();
+    numbers.chunks(16).for_each(|chunk| line(text, chunk.join(", ")));
+}
+
+fn nodes(text: &mut String, mesh: &Mesh) {
+    line(text, "*NODE");
+    let plane = mesh.points.iter().all(|point| point[2].to_bits() == 0);
+    for (number, [x, y, z]) in (1..).zip(&mesh.points) {
+        match plane {
+            true => line(text, format_args!("{number}, {x:?}, {y:?}")),
+            false => line(text, format_args!("{number}, {x:?}, {y:?}, {z:?}")),
+        }
+    }
+}
+
+/// Writes the elements; returns for every cell the number it has got.
+fn write_elements(text: &mut String, mesh: &Mesh, surfaces: &Surfaces) -> Vec<Option<usize>> {
+    let mut numbers = vec![None; surfaces.is_line.len()];
+    let (mut cell, mut last) = (0, 0);
+    for block in &mesh.cells {
+        let own = cell..cell + block.len();
+        cell = own.end;
+        if !own.is_empty() && own.clone().all(|cell| surfaces.is_line[cell]) {
+            continue;
+        }
+        line(text, format_args!("*ELEMENT, TYPE={}", elements::name(block.kind).unwrap_or_default()));
+        for (cell, nodes) in own.zip(block.iter()).filter(|&(cell, _)| !surfaces.is_line[cell]) {
+            last += 1;
+            numbers[cell] = Some(last);
+            let nodes = elements::reorder(block.kind, nodes);
+            let nodes: Vec<String> = nodes.iter().map(|node| (node + 1).to_string()).collect();
+            // At most sixteen numbers to a line.
+            let lines: Vec<String> = nodes.chunks(15).map(|chunk| chunk.join(", ")).collect();
+            line(text, format_args!("{last}, {}", lines.join(",\n")));
+        }
+    }
+    numbers
+}

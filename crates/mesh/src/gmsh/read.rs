@@ -1,0 +1,387 @@
+//! Reading Gmsh files.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::GmshVersion;
+use super::cell_types;
+use super::content::{Content, RawData};
+use super::keep;
+use super::scanner::{Encoding, Scanner};
+use crate::error::{Fault, Problem};
+use crate::numbering::Numbering;
+use crate::{CellKind, Mesh};
+
+pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
+    let mut file = Scanner::new(bytes);
+    let mut content = Content::default();
+    let mut version = None;
+    while let Some(section) = file.next_section()? {
+        match (section.as_str(), version) {
+            ("MeshFormat", _) => version = Some(mesh_format(&mut file)?),
+            ("PhysicalNames", Some(_)) => physical_names(&mut file, &mut content)?,
+            ("Entities", Some(GmshVersion::V4)) => entities(&mut file, &mut content)?,
+            ("Nodes" | "ParametricNodes", Some(GmshVersion::V2)) => {
+                nodes_2(&mut file, &mut content, section == "ParametricNodes")?;
+            }
+            ("Nodes", Some(GmshVersion::V4)) => nodes_4(&mut file, &mut content)?,
+            ("Elements", Some(GmshVersion::V2)) => elements_2(&mut file, &mut content)?,
+            ("Elements", Some(GmshVersion::V4)) => elements_4(&mut file, &mut content)?,
+            ("NodeData", Some(_)) => {
+                let missing = |number| Problem::NoSuchNode { number };
+                let (name, data) = data(&mut file, content.points.len(), content.nodes.as_ref(), missing)?;
+                content.node_data.insert(name, data);
+            }
+            ("ElementData", Some(_)) => {
+                let missing = |number| Problem::NoSuchElement { number };
+                let (name, data) = data(&mut file, content.cells.len(), content.elements.as_ref(), missing)?;
+                content.element_data.insert(name, data);
+            }
+            (keep::SECTION, Some(_)) => kept(&mut file, &mut content)?,
+            ("PartitionedEntities", _) => {
+                let what = "a mesh divided into partitions".into();
+                return Err(file.fault(Problem::Unsupported { what, allowed: "a mesh saved as a whole".into() }));
+            }
+            ("Nodes" | "Elements", None) => {
+                return Err(file.fault(Problem::unexpected(&section, "`$MeshFormat` first")));
+            }
+            _ => {
+                file.skip_section()?;
+                continue;
+            }
+        }
+        file.end_section()?;
+    }
+    if version.is_none() {
+        return Err(Fault::anywhere("", Problem::Ended { expected: "`$MeshFormat`".into() }));
+    }
+    if content.nodes.is_none() {
+        return Err(Fault::anywhere("", Problem::Ended { expected: "`$Nodes`".into() }));
+    }
+    content.into_mesh(file.allowance)
+}
+
+/// Version (2.0 to 2.2 read alike), encoding and size of numbers.
+fn mesh_format(file: &mut Scanner) -> Result<GmshVersion, Fault> {
+    const EXPECTED: &str = "version (2.2 or 4.1), file type (0 or 1) and data size (4 or 8)";
+    file.encoding = Encoding::Ascii;
+    let line = file.line(EXPECTED)?;
+    let words: Vec<&str> = line.split_ascii_whitespace().collect();
+    let (version, size_bytes) = match words[..] {
+        ["2" | "2.0" | "2.1" | "2.2", _, "8"] => (GmshVersion::V2, 8),
+        ["4.1", _, "8"] => (GmshVersion::V4, 8),
+        ["4.1", _, "4"] => (GmshVersion::V4, 4),
+        [other, _, _] if other.parse::<f64>().is_ok() && !["2", "2.0", "2.1", "2.2", "4.1"].contains(&other) => {
+            let what = format!("version {other} of the format");
+            return Err(file.fault(Problem::Unsupported { what, allowed: "2.2 and 4.1".into() }));
+        }
+        _ => return Err(file.fault(Problem::unexpected(line, EXPECTED))),
+    };
+    match words[1] {
+        "0" => {}
+        "1" => {
+            file.encoding = Encoding::Binary { big_endian: false, size_bytes };
+            match file.int("the number 1, to tell the order of bytes")? {
+                1 => {}
+                0x0100_0000 => file.encoding = Encoding::Binary { big_endian: true, size_bytes },
+                other => return Err(file.fault(Problem::unexpected(&other.to_string(), "the number 1"))),
+            }
+        }
+        _ => return Err(file.fault(Problem::unexpected(line, EXPECTED))),
+    }
+    Ok(version)
+}
+
+/// `dimension tag "name"`, a line each.
+fn physical_names(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
+    const EXPECTED: &str = "dimension, tag and name in quotes, `1 7 \"base\"` for example";
+    let count = file.number_line("the number of names")?;
+    for _ in 0..file.count("names", count, [0, 0, 0])? {
+        let line = file.line(EXPECTED)?;
+        let parsed = line.split_once(char::is_whitespace).and_then(|(dimension, rest)| {
+            let (tag, name) = rest.trim_start().split_once(char::is_whitespace)?;
+            let name = name.trim_start().strip_prefix('"')?.strip_suffix('"')?;
+            let dimension = dimension.parse::<u8>().ok().filter(|&dimension| dimension <= 3)?;
+            Some(((dimension, tag.parse::<i64>().ok()?), name.to_owned()))
+        });
+        match parsed {
+            Some(name) => content.names.push(name),
+            None => return Err(file.fault(Problem::unexpected(line, EXPECTED))),
+        }
+    }
+    Ok(())
+}
+
+/// Version 4.1: the groups of the entities; boxes and boundaries are read over.
+fn entities(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
+    let mut counts = [0; 4];
+    for count in &mut counts {
+        *count = file.size("a number of entities")?;
+    }
+    for (dimension, count) in (0..).zip(counts) {
+        let corners = if dimension == 0 { 3 } else { 6 };
+        for _ in 0..file.count("entities", count, [1, 1, corners])? {
+            let tag = file.int("the tag of an entity")?;
+            for _ in 0..corners {
+                file.real("a corner of the box of an entity")?;
+            }
+            let groups = file.size("the number of groups")?;
+            let groups = file.count("groups", groups, [0, 1, 0])?;
+            // A negative tag says that the entity is turned round in its group.
+            let groups =
+                (0..groups).map(|_| Ok(file.int("the tag of a group")?.abs())).collect::<Result<_, Fault>>()?;
+            content.entities.insert((dimension, tag), groups);
+            if dimension > 0 {
+                let bounds = file.size("the number of bounding entities")?;
+                for _ in 0..file.count("bounding entities", bounds, [0, 1, 0])? {
+                    file.int("the tag of a bounding entity")?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Version 2: number and coordinates, with dimension, entity and parameters if `parametric`.
+fn nodes_2(file: &mut Scanner, content: &mut Content, parametric: bool) -> Result<(), Fault> {
+    let count = file.number_line("the number of nodes")?;
+    let count = file.count("nodes", count, [0, 1, 3])?;
+    let mut numbers = Vec::with_capacity(count);
+    for _ in 0..count {
+        numbers.push(file.positive_int("the number of a node")?);
+        content.points.push(file.point()?);
+        if parametric {
+            let dimension = file.int("the dimension of an entity")?;
+            file.int("the tag of an entity")?;
+            // Gmsh gives one parameter on a curve, two on a surface.
+            for _ in 0..if (1..=2).contains(&dimension) { dimension } else { 0 } {
+                file.real("a parameter")?;
+            }
+        }
+    }
+    number_nodes(file, content, numbers)
+}
+
+/// Version 4.1: nodes by entity, first their numbers, then their coordinates.
+fn nodes_4(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
+    let blocks = file.size("the number of blocks")?;
+    let announced = file.size("the number of nodes")?;
+    file.size("the least number of a node")?;
+    file.size("the greatest number of a node")?;
+    let mut numbers = Vec::new();
+    for _ in 0..file.count("blocks of nodes", blocks, [1, 3, 0])? {
+        let dimension = file.positive_int("the dimension of an entity, 0 to 3")?.min(3);
+        file.int("the tag of an entity")?;
+        let parametric = file.int("whether nodes have parameters, 0 or 1")?;
+        let parameters = if parametric == 0 { 0 } else { dimension };
+        let count = file.size("the number of nodes in the block")?;
+        let count = file.count("nodes in the block", count, [1, 0, 3 + parameters])?;
+        for _ in 0..count {
+            numbers.push(file.size("the number of a node")?);
+        }
+        for _ in 0..count {
+            content.points.push(file.point()?);
+            for _ in 0..parameters {
+                file.real("a parameter")?;
+            }
+        }
+    }
+    check_total(file, "nodes", announced, numbers.len())?;
+    number_nodes(file, content, numbers)
+}
+
+fn number_nodes(file: &Scanner, content: &mut Content, numbers: Vec<u64>) -> Result<(), Fault> {
+    if content.nodes.is_some() {
+        return Err(file.fault(Problem::unexpected("a second section of nodes", "one")));
+    }
+    let pairs = numbers.into_iter().zip(0..).collect();
+    content.nodes = Some(Numbering::new(pairs, "node").map_err(|problem| file.fault(problem))?);
+    Ok(())
+}
+
+fn check_total(file: &Scanner, what: &str, announced: u64, found: usize) -> Result<(), Fault> {
+    if announced == found as u64 {
+        return Ok(());
+    }
+    Err(file.fault(Problem::unexpected(&format!("{found} {what}"), format!("{announced}, as announced"))))
+}
+
+/// Reads the nodes of a cell into `nodes`, as our own numbers in our own order.
+fn cell_nodes(
+    file: &mut Scanner,
+    content: &Content,
+    kind: CellKind,
+    nodes: &mut Vec<usize>,
+    mut number: impl FnMut(&mut Scanner) -> Result<u64, Fault>,
+) -> Result<(), Fault> {
+    nodes.clear();
+    for _ in 0..kind.node_count() {
+        let number = number(file)?;
+        match content.nodes.as_ref().and_then(|numbering| numbering.index(number)) {
+            Some(node) => nodes.push(node),
+            None => return Err(file.fault(Problem::NoSuchNode { number })),
+        }
+    }
+    cell_types::from_gmsh(kind, nodes, &mut Vec::new());
+    Ok(())
+}
+
+fn cell_kind(file: &mut Scanner) -> Result<CellKind, Fault> {
+    let number = file.int("the type of an element")?;
+    cell_types::kind(number).ok_or_else(|| {
+        let what = format!("element type {number}");
+        file.fault(Problem::Unsupported { what, allowed: cell_types::ALLOWED.into() })
+    })
+}
+
+/// What tells a cell of version 2 from another: its entity, kind and nodes.
+type CellIdentity = (i64, CellKind, Vec<usize>);
+
+/// Version 2: a cell is there once for each of its groups.
+fn elements_2(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
+    if content.elements.is_some() {
+        return Err(file.fault(Problem::unexpected("a second section of elements", "one")));
+    }
+    let total = file.number_line("the number of elements")?;
+    let total = file.count("elements", total, [0, 3, 0])?;
+    let copies = content.keep.copies.take();
+    let first_copy = total.saturating_sub(copies.as_ref().map_or(0, Vec::len));
+    let mut originals: BTreeMap<CellIdentity, usize> = BTreeMap::new();
+    let mut joined = BTreeSet::new();
+    let mut numbers = Vec::new();
+    let mut nodes = Vec::new();
+    let mut read = 0;
+    while read < total {
+        let header = match file.encoding {
+            Encoding::Ascii => None,
+            Encoding::Binary { .. } => {
+                let kind = cell_kind(file)?;
+                let count = file.positive_int("the number of elements of this type that follow")?;
+                let tags = file.positive_int("the number of tags")?;
+                Some((kind, file.count("elements that follow", count, [0, 2, 0])?, tags))
+            }
+        };
+        for _ in 0..header.map_or(1, |(_, count, _)| count) {
+            let number = file.positive_int("the number of an element")?;
+            let (kind, tags) = match header {
+                Some((kind, _, tags)) => (kind, tags),
+                None => (cell_kind(file)?, file.positive_int("the number of tags")?),
+            };
+            let (mut group, mut entity) = (0, 0);
+            for tag in 0..file.count("tags", tags, [0, 1, 0])? {
+                let value = file.int("a tag")?;
+                match tag {
+                    0 => group = value.abs(),
+                    1 => entity = value,
+                    _ => {}
+                }
+            }
+            cell_nodes(file, content, kind, &mut nodes, |file| file.positive_int("the number of a node"))?;
+            let original = match &copies {
+                Some(copies) if read >= first_copy => {
+                    let original = copies[read - first_copy];
+                    if original >= content.cells.len() || content.cells.cell(original) != (kind, nodes.as_slice()) {
+                        return Err(file.fault(Problem::unexpected("a new element", "a copy, as `$Gearwear` says")));
+                    }
+                    Some(original)
+                }
+                None if group != 0 => {
+                    let known = originals.get(&(entity, kind, nodes.clone())).copied();
+                    // The same cell in the same group twice is two cells.
+                    known.filter(|&cell| !joined.contains(&(cell, group)))
+                }
+                _ => None,
+            };
+            let cell = original.unwrap_or_else(|| content.cells.push(kind, nodes.iter().copied()));
+            if original.is_none() && group != 0 && copies.is_none() {
+                originals.insert((entity, kind, nodes.clone()), cell);
+            }
+            if group != 0 {
+                file.allow(1)?;
+                content.groups.entry((kind.dimension(), group)).or_default().push(cell);
+                joined.insert((cell, group));
+            }
+            numbers.push((number, cell));
+            read += 1;
+        }
+    }
+    check_total(file, "elements", total as u64, read)?;
+    content.elements = Some(Numbering::new(numbers, "element").map_err(|problem| file.fault(problem))?);
+    Ok(())
+}
+
+/// Version 4.1: cells by entity.
+fn elements_4(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
+    if content.elements.is_some() {
+        return Err(file.fault(Problem::unexpected("a second section of elements", "one")));
+    }
+    let blocks = file.size("the number of blocks")?;
+    let announced = file.size("the number of elements")?;
+    file.size("the least number of an element")?;
+    file.size("the greatest number of an element")?;
+    let mut numbers = Vec::new();
+    let mut nodes = Vec::new();
+    for _ in 0..file.count("blocks of elements", blocks, [1, 3, 0])? {
+        let dimension = file.int("the dimension of an entity")?;
+        let entity = file.int("the tag of an entity")?;
+        let kind = cell_kind(file)?;
+        let count = file.size("the number of elements in the block")?;
+        let count = file.count("elements in the block", count, [1 + kind.node_count() as u64, 0, 0])?;
+        let first = content.cells.len();
+        for _ in 0..count {
+            let number = file.size("the number of an element")?;
+            cell_nodes(file, content, kind, &mut nodes, |file| file.size("the number of a node"))?;
+            numbers.push((number, content.cells.push(kind, nodes.iter().copied())));
+        }
+        for &group in content.entities.get(&(dimension, entity)).into_iter().flatten() {
+            file.allow(count)?;
+            content.groups.entry((kind.dimension(), group)).or_default().extend(first..first + count);
+        }
+    }
+    check_total(file, "elements", announced, numbers.len())?;
+    content.elements = Some(Numbering::new(numbers, "element").map_err(|problem| file.fault(problem))?);
+    Ok(())
+}
+
+/// A data section: lines of tags, then the number of an owner and its values, again and again.
+fn data(
+    file: &mut Scanner,
+    owners: usize,
+    numbers: Option<&Numbering>,
+    missing: fn(u64) -> Problem,
+) -> Result<(String, RawData), Fault> {
+    let mut tags = [Vec::new(), Vec::new(), Vec::new()];
+    for (what, tags) in ["string tags", "real tags", "integer tags"].into_iter().zip(&mut tags) {
+        let count = file.number_line("a number of tags")?;
+        for _ in 0..file.count(what, count, [0, 0, 0])? {
+            tags.push(file.line("a tag")?);
+        }
+    }
+    let [names, _, integers] = tags;
+    let Some(name) = names.first().map(|name| name.trim_matches('"').to_owned()) else {
+        return Err(file.fault(Problem::unexpected("no string tag", "the name of the data")));
+    };
+    let integer = |at: usize| integers.get(at).and_then(|text| text.parse::<u64>().ok());
+    let (Some(components @ 1..=9), Some(count)) = (integer(1), integer(2)) else {
+        let expected = "integer tags: time step, number of components (1 to 9), number of values";
+        return Err(file.fault(Problem::unexpected(&integers.join(" "), expected)));
+    };
+    let count = file.count("values", count, [0, 1, components])?;
+    let components = components as usize;
+    file.allow(owners.saturating_mul(components))?;
+    let mut values = vec![f64::NAN; owners * components];
+    for _ in 0..count {
+        let number = file.positive_int("the number of a node or element")?;
+        let owner = numbers.and_then(|all| all.index(number)).ok_or_else(|| file.fault(missing(number)))?;
+        for value in &mut values[owner * components..(owner + 1) * components] {
+            *value = file.real("a value")?;
+        }
+    }
+    Ok((name, RawData { components, values }))
+}
+
+fn kept(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
+    let line = file.line("one line of JSON")?;
+    content.keep = serde_json::from_str(line)
+        .map_err(|error| file.fault(Problem::unexpected(&error.to_string(), "what gearwear writes here")))?;
+    Ok(())
+}

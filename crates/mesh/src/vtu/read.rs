@@ -1,0 +1,194 @@
+//! Reading VTU files.
+
+use std::collections::BTreeMap;
+
+use super::array::{Decoder, Scalar};
+use super::document::{Array, Document};
+use super::{ALLOWED, BLOCKS, SET, TAG};
+use crate::error::{Fault, Problem};
+use crate::numbering::{Allowance, CellList, OpenSets, close_cell_sets, close_point_sets};
+use crate::{CellKind, DataArray, Mesh, PhysicalTag, Values};
+
+pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
+    let document = Document::parse(bytes)?;
+    let decoder = Decoder::new(&document)?;
+    let mut allowance = Allowance::of(bytes.len());
+    let Some(piece) = &document.piece else {
+        return Err(Fault::anywhere("VTKFile", Problem::Ended { expected: "`<Piece>`".into() }));
+    };
+    let count = |name: &str| {
+        let text = piece.get(name).map_or("", String::as_str);
+        let parsed = text.trim().parse::<usize>();
+        parsed.map_err(|_| Fault::anywhere(format!("Piece {name}"), Problem::unexpected(text, "a number")))
+    };
+    let (point_count, cell_count) = (count("NumberOfPoints")?, count("NumberOfCells")?);
+    let points = points(&decoder, &document, point_count, &mut allowance)?;
+    let mut cells = cells(&decoder, &document, point_count, cell_count, &mut allowance)?;
+    let mut field_data = BTreeMap::new();
+    for array in &document.field_data {
+        if array.name() == BLOCKS {
+            divide(&mut cells, array, &decoder.values(array, None, &mut allowance)?)?;
+        } else if let Some(name) = array.name().strip_prefix(TAG) {
+            field_data.insert(name.to_owned(), physical_tag(array, &decoder.values(array, Some(2), &mut allowance)?)?);
+        }
+    }
+    let (point_data, point_sets) = data(&decoder, &document.point_data, point_count, &mut allowance)?;
+    let (all_cell_data, cell_sets) = data(&decoder, &document.cell_data, cell_count, &mut allowance)?;
+    let cell_sets =
+        close_cell_sets(cell_sets, &cells, &mut allowance).map_err(|limit| Fault::anywhere("CellData", limit))?;
+    let mut cell_data = BTreeMap::new();
+    for (name, array) in all_cell_data {
+        allowance.take(cells.blocks.len()).map_err(|limit| Fault::anywhere("CellData", limit))?;
+        cell_data.insert(name, cells.split(&array));
+    }
+    Ok(Mesh {
+        points,
+        cells: cells.blocks,
+        point_data,
+        cell_data,
+        point_sets: close_point_sets(point_sets),
+        cell_sets,
+        field_data,
+    })
+}
+
+fn points(
+    decoder: &Decoder,
+    document: &Document,
+    count: usize,
+    allowance: &mut Allowance,
+) -> Result<Vec<[f64; 3]>, Fault> {
+    let Some(array) = document.points.first() else {
+        return match count {
+            0 => Ok(Vec::new()),
+            _ => Err(Fault::anywhere("Points", Problem::Ended { expected: "a `DataArray`".into() })),
+        };
+    };
+    let components = array.components()?;
+    if components != 3 {
+        return Err(array.fault(Problem::unexpected(&components.to_string(), "three components")));
+    }
+    let reals = match decoder.values(array, Some(count.saturating_mul(3)), allowance)? {
+        Values::Reals(values) => values,
+        Values::Integers(values) => values.into_iter().map(|value| value as f64).collect(),
+    };
+    if let Some(wrong) = reals.iter().find(|x| !x.is_finite()) {
+        return Err(array.fault(Problem::unexpected(&wrong.to_string(), "coordinates that are finite")));
+    }
+    Ok(reals.as_chunks::<3>().0.to_vec())
+}
+
+fn cells(
+    decoder: &Decoder,
+    document: &Document,
+    points: usize,
+    count: usize,
+    allowance: &mut Allowance,
+) -> Result<CellList, Fault> {
+    let mut cells = CellList::default();
+    if count == 0 {
+        return Ok(cells);
+    }
+    let array = |name: &str| {
+        let found = document.cells.iter().find(|array| array.name() == name);
+        found.ok_or_else(|| Fault::anywhere("Cells", Problem::Ended { expected: format!("a `DataArray` {name:?}") }))
+    };
+    let (types, offsets, connectivity) = (array("types")?, array("offsets")?, array("connectivity")?);
+    let type_numbers = integers(decoder, types, Some(count), allowance)?;
+    let ends = integers(decoder, offsets, Some(count), allowance)?;
+    let total = ends.last().and_then(|&end| usize::try_from(end).ok()).unwrap_or(0);
+    let nodes = integers(decoder, connectivity, Some(total), allowance)?;
+    let mut start = 0;
+    for (&number, &end) in type_numbers.iter().zip(&ends) {
+        let Some(kind) = cell_kind(number) else {
+            let what = format!("cell type {number}");
+            return Err(types.fault(Problem::Unsupported { what, allowed: ALLOWED.into() }));
+        };
+        let own = usize::try_from(end).ok().and_then(|end| nodes.get(start..end));
+        let Some(own) = own.filter(|own| own.len() == kind.node_count()) else {
+            let expected =
+                format!("{}: a cell of type {number} has {} nodes", start + kind.node_count(), kind.node_count());
+            return Err(offsets.fault(Problem::unexpected(&end.to_string(), expected)));
+        };
+        start += own.len();
+        let mut numbers = Vec::with_capacity(own.len());
+        for &node in own {
+            match usize::try_from(node).ok().filter(|&node| node < points) {
+                Some(node) => numbers.push(node),
+                None => {
+                    let expected = format!("a node from 0 to {}", points as i64 - 1);
+                    return Err(connectivity.fault(Problem::unexpected(&node.to_string(), expected)));
+                }
+            }
+        }
+        cells.push(kind, numbers);
+    }
+    Ok(cells)
+}
+
+fn cell_kind(number: i64) -> Option<CellKind> {
+    CellKind::ALL.into_iter().find(|kind| *kind as i64 == number)
+}
+
+fn integers(
+    decoder: &Decoder,
+    array: &Array,
+    count: Option<usize>,
+    allowance: &mut Allowance,
+) -> Result<Vec<i64>, Fault> {
+    match decoder.values(array, count, allowance)? {
+        Values::Integers(values) => Ok(values),
+        Values::Reals(_) => Err(array.fault(Problem::unexpected("floating-point numbers", "integers"))),
+    }
+}
+
+/// Data by name, and the sets among them.
+fn data(
+    decoder: &Decoder,
+    arrays: &[Array],
+    owners: usize,
+    allowance: &mut Allowance,
+) -> Result<(BTreeMap<String, DataArray>, OpenSets), Fault> {
+    let (mut data, mut sets) = (BTreeMap::new(), OpenSets::new());
+    for array in arrays {
+        let components = array.components()?;
+        let values = decoder.values(array, Some(owners.saturating_mul(components)), allowance)?;
+        let set = array.name().strip_prefix(SET).filter(|_| array.scalar() == Ok(Scalar::BYTE) && components == 1);
+        match (set, values) {
+            (Some(name), Values::Integers(values)) if values.iter().all(|value| (0..=1).contains(value)) => {
+                let members = (0..owners).zip(values).filter(|&(_, value)| value == 1).map(|(owner, _)| owner);
+                sets.insert(name.to_owned(), members.collect());
+            }
+            (_, values) => {
+                data.insert(array.name().to_owned(), DataArray { components, values });
+            }
+        }
+    }
+    Ok((data, sets))
+}
+
+fn physical_tag(array: &Array, values: &Values) -> Result<PhysicalTag, Fault> {
+    let found = match values {
+        Values::Integers(values) => values.as_slice(),
+        Values::Reals(_) => &[],
+    };
+    match *found {
+        [tag, dimension @ 0..=3] => Ok(PhysicalTag { tag, dimension: dimension as u8 }),
+        _ => Err(array.fault(Problem::unexpected(&format!("{values:?}"), "tag and dimension, two integers"))),
+    }
+}
+
+fn divide(cells: &mut CellList, array: &Array, values: &Values) -> Result<(), Fault> {
+    let pairs = match values {
+        Values::Integers(values) => values.as_chunks::<2>().0,
+        Values::Reals(_) => &[],
+    };
+    let block = |&[number, length]: &[i64; 2]| -> Option<(CellKind, usize)> {
+        Some((cell_kind(number)?, usize::try_from(length).ok()?))
+    };
+    let divided = pairs.iter().map(block).collect::<Option<Vec<_>>>().is_some_and(|blocks| cells.divide(&blocks));
+    if divided {
+        return Ok(());
+    }
+    Err(array.fault(Problem::unexpected("blocks", "types and numbers of cells that the file's cells make")))
+}

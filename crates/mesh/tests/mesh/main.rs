@@ -1,0 +1,6 @@
+//! Mesh files of every format, written and read back.
+#![allow(unreachable_pub, reason = "test modules are of one crate")]
+
+mod common;
+mod files;
+mod fuzz;

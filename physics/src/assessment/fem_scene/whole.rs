@@ -1,0 +1,51 @@
+//! The whole model without condensation, against the condensed one.
+
+use std::time::Instant;
+
+use super::FemPairError;
+use crate::assessment::UM_PER_MM;
+use crate::gear::{GearPair, PerGear};
+use crate::gear_fem::full;
+use crate::gear_fem::model::MeshedGear;
+use crate::gear_fem::position::PositionContact;
+use crate::results::fem_pair::FullModelSummary;
+use gearwear_fem::elastic::Elastic;
+
+/// What the whole model is made of.
+pub(super) struct WholeModel<'a> {
+    pub pair: &'a GearPair,
+    pub meshed: &'a PerGear<MeshedGear>,
+    pub material: &'a PerGear<Elastic>,
+    pub line_load_n_per_mm: f64,
+}
+
+impl WholeModel<'_> {
+    /// Solves where `condensed` was solved, and compares.
+    pub(super) fn against(&self, condensed: &PositionContact) -> Result<FullModelSummary, FemPairError> {
+        let start = Instant::now();
+        let position_mm = condensed.position_mm;
+        let found = full::solve(self.pair, self.meshed, self.material, self.line_load_n_per_mm, condensed)
+            .map_err(|source| FemPairError::Full { position_mm, source: Box::new(source) })?;
+        // Pairs that the whole model does not load count as such: there is one entry for each pair of the condensed one.
+        let of = |values: &[(i32, f64)], pair: i32| {
+            values.iter().find(|(number, _)| *number == pair).map_or(0.0, |(_, value)| *value)
+        };
+        let (mut load, mut pressure) = (0.0_f64, 0.0_f64);
+        for contact in &condensed.pairs {
+            load = load.max((of(&found.line_load_n_per_mm, contact.pair) - contact.line_load_n_per_mm).abs());
+            let ratio = of(&found.peak_pressure_mpa, contact.pair) / contact.peak_pressure_mpa;
+            pressure = pressure.max((ratio - 1.0).abs());
+        }
+        Ok(FullModelSummary {
+            position_mm,
+            dofs: found.dofs,
+            transmission_error_um: found.transmission_error_mm * UM_PER_MM,
+            transmission_error_difference: found.transmission_error_mm / condensed.transmission_error_mm - 1.0,
+            line_load_difference: load / self.line_load_n_per_mm,
+            peak_pressure_difference: pressure,
+            residual: found.residual,
+            iterations: found.iterations,
+            wall_s: start.elapsed().as_secs_f64(),
+        })
+    }
+}

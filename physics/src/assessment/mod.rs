@@ -1,0 +1,250 @@
+//! Carries out a plan, stage by stage, and hands back the record that reports are written from.
+//!
+//! This is the one way in which the program runs anything; the only clock it reads times the stages.
+
+pub mod calibrate;
+pub mod deformed_teeth;
+mod drawing;
+mod error_estimates;
+pub mod fem_scene;
+pub mod guarded;
+pub mod hertz_comparison;
+mod inputs;
+mod invariants;
+mod left_out_contact;
+mod load_case;
+mod lubrication;
+mod model;
+pub mod pair_mesh;
+mod phases;
+mod prepare;
+mod recording;
+mod root_stress;
+mod run_error;
+mod scuffing;
+mod severe_pressure;
+mod slices;
+mod springs;
+mod stability;
+pub mod stage_clock;
+mod temperature;
+mod verification;
+
+use std::time::Instant;
+
+use crate::contact::hertz;
+use crate::gear::GearPair;
+use crate::observer::Observer;
+use crate::plan::{Plan, StageKind};
+use crate::results::error::ErrorSummary;
+use crate::results::run::{RunRecord, StopReason, Summary};
+use crate::results::worn_pair::WornPair;
+use crate::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
+use crate::simulation::wear_run::{Outcome, reference_phase};
+pub use inputs::RunInputs;
+use model::Model;
+use prepare::{Bodies, Cases, RunSlices};
+use recording::RunFindings;
+pub use run_error::RunError;
+use stage_clock::StageClock;
+use verification::{Means, Verified};
+
+/// What a computation came to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Done<R = RunRecord, E = RunError> {
+    /// Everything that was finished, or what is wanted of it.
+    pub record: R,
+    /// What went wrong where that is not all; none also where the observer interrupted the work, which the record's summary says.
+    pub failure: Option<E>,
+}
+
+impl<R, E> Done<R, E> {
+    /// The record, unless something went wrong.
+    ///
+    /// # Errors
+    /// What went wrong: what was finished by then is lost.
+    pub fn complete(self) -> Result<R, E> {
+        match self.failure {
+            None => Ok(self.record),
+            Some(failure) => Err(failure),
+        }
+    }
+}
+
+/// Micrometres, in which records are written.
+pub const UM_PER_MM: f64 = 1e3;
+
+/// Where a run goes on, and who keeps its checkpoints.
+pub struct Resumption<'a> {
+    /// A checkpoint of this same run; `None`: it begins.
+    pub from: Option<Checkpoint>,
+    /// Gets new ones.
+    pub keeper: &'a dyn Keeper,
+}
+
+impl Resumption<'_> {
+    /// A run from its beginning, of which nothing is kept.
+    pub fn none() -> Self {
+        Self { from: None, keeper: &NothingKept }
+    }
+}
+
+/// Runs the scene of `inputs` as its plan says, from its beginning or from a checkpoint, and keeps new checkpoints. The report is left to
+/// the caller, who knows where it goes.
+///
+/// A run that is interrupted or does not converge gives the record of what it had finished, and its failure in the latter
+/// case.
+///
+/// # Errors
+/// [`RunError`] where nothing was finished.
+pub fn run(inputs: RunInputs<'_>, resumption: Resumption<'_>, observer: &dyn Observer) -> Result<Done, RunError> {
+    let start = Instant::now();
+    let mut done = carry_out(inputs, resumption, observer, |model, found, summary| {
+        recording::record(inputs.provenance, model, found, summary)
+    })?;
+    done.record.summary.wall_s = start.elapsed().as_secs_f64();
+    Ok(done)
+}
+
+/// Main figures of a run; what only a report reads is not made.
+///
+/// # Errors
+/// As [`run`].
+pub fn summarise(inputs: RunInputs<'_>, observer: &dyn Observer) -> Result<Done<Summary>, RunError> {
+    let start = Instant::now();
+    let mut done = carry_out(inputs, Resumption::none(), observer, |_, _, summary| summary)?;
+    done.record.wall_s = start.elapsed().as_secs_f64();
+    Ok(done)
+}
+
+/// Main figures, history and worn profiles of a run, which a study of many runs keeps of each.
+///
+/// # Errors
+/// As [`run`].
+pub fn worn_pair(inputs: RunInputs<'_>, observer: &dyn Observer) -> Result<Done<WornPair>, RunError> {
+    carry_out(inputs, Resumption::none(), observer, recording::worn_pair)
+}
+
+/// Carries out the plan of the scene and hands the outcome to `keep`, with a summary that lacks only the whole wall time.
+fn carry_out<R>(
+    inputs: RunInputs<'_>,
+    resumption: Resumption<'_>,
+    observer: &dyn Observer,
+    keep: impl FnOnce(&Model<'_>, RunFindings<'_>, Summary) -> R,
+) -> Result<Done<R>, RunError> {
+    let (scene, plan) = (inputs.scene, &Plan::of(inputs.scene));
+    let mut stages = StageClock::new(observer);
+
+    let pair = stages.run(StageKind::Geometry.name(), || GearPair::new(&scene.pair))?;
+    let at_pitch = hertz::flattening(&pair.normal_section(), &scene.material, pair.path.pitch_point_mm);
+    let elements = prepare::elements(scene, plan, &pair, &at_pitch, &mut stages);
+    let bodies = Bodies::new(inputs, plan, &pair, elements.as_ref(), &mut stages)?;
+    let cases = Cases::new(inputs, &pair, &bodies, elements.as_ref(), &mut stages)?;
+    let teeth = cases.springs(inputs, plan, &pair, &bodies, &mut stages)?;
+    let in_space = prepare::teeth_in_space(inputs, plan, &pair, &mut stages);
+    let slices = RunSlices::new(inputs, &pair, bodies.stiffness, teeth[0].as_ref(), in_space.as_ref(), &mut stages)?;
+    let conditions = prepare::conditions(scene, &pair);
+    let phases = cases.phases(scene, &bodies, &teeth, slices.of_teeth.as_ref(), &conditions);
+    let model = Model {
+        scene,
+        stiffness: bodies.stiffness,
+        pair: &pair,
+        limits: scene.operation.stop,
+        sliced: slices.of_teeth.as_ref(),
+        teeth: teeth[cases.of_phase[reference_phase(&phases)]].as_ref(),
+        phases,
+        at_pitch,
+        foundations_mpa_per_mm: cases.foundations_mpa_per_mm(),
+    };
+
+    let judged = match plan.has(StageKind::StepBound) {
+        true => stages.run(StageKind::StepBound.name(), || stability::judge(&model, observer)),
+        false => stability::Judged::default(),
+    };
+    let step_over_safe = judged.step_over_safe;
+    let Resumption { from, keeper } = resumption;
+    let outcome = stages.run(StageKind::Simulation.name(), || model.wear_run().run_from(from, keeper, observer))?;
+    let model = model.ending_with(&outcome);
+    let heat = match plan.has(StageKind::ContactTemperature) {
+        true => stages.run(StageKind::ContactTemperature.name(), || temperature::observe(&model, &outcome)),
+        false => None,
+    };
+    let films = films_and_losses(plan, &model, &outcome, &mut stages);
+    let mut error = estimates(plan, &model, &outcome, step_over_safe, &mut stages);
+    let warnings = bodies.warning.iter().chain(&slices.warning).cloned().collect::<Vec<_>>();
+    let means = Means { elements, curve: bodies.told_by_elements(inputs), in_space };
+    let verified = verify(plan, &model, &outcome, means, &mut stages);
+    verified.tell(&mut error);
+
+    let found =
+        RunFindings { outcome: &outcome, heat: heat.as_ref(), lubrication: films.as_ref(), verified: Some(&verified) };
+    let mut summary = recording::summary(inputs.provenance, plan, &model, found, error, judged)?;
+    summary.warnings.extend(warnings);
+    summary.stages = stages.times;
+    let record = keep(&model, found, summary);
+    Ok(Done { record, failure: outcome.failure.map(|failure| RunError::of_run(failure, step_over_safe)) })
+}
+
+/// Errors of the wear, estimated from coarser runs; none of a run that is not complete.
+fn estimates(
+    plan: &Plan,
+    model: &Model<'_>,
+    outcome: &Outcome,
+    step_over_safe: f64,
+    stages: &mut StageClock<'_>,
+) -> ErrorSummary {
+    if !plan.has(StageKind::ErrorEstimates) || !outcome.stop.is_complete() {
+        return ErrorSummary::not_estimated(not_estimated_because(outcome));
+    }
+    let observer = stages.observer;
+    stages.run(StageKind::ErrorEstimates.name(), || error_estimates::estimate(model, outcome, step_over_safe, observer))
+}
+
+/// The verification of a complete run by finite elements, or why there is none.
+fn verify<'a>(
+    plan: &Plan,
+    model: &Model<'a>,
+    outcome: &Outcome,
+    means: Means<'a, '_>,
+    stages: &mut StageClock<'_>,
+) -> Verified {
+    if !outcome.stop.is_complete() {
+        return Verified::none(not_estimated_because(outcome));
+    }
+    match plan.left_out_because(StageKind::Verification) {
+        Some(reason) => Verified::none(reason),
+        None => {
+            let observer = stages.observer;
+            stages.run(StageKind::Verification.name(), || verification::verify(model, outcome, means, observer))
+        }
+    }
+}
+
+/// Films and losses, which are one look at the contacts of the mesh; none where the plan has neither.
+fn films_and_losses(
+    plan: &Plan,
+    model: &Model<'_>,
+    outcome: &Outcome,
+    stages: &mut StageClock<'_>,
+) -> Option<lubrication::Observed> {
+    let seen = match plan.has(StageKind::Film) {
+        true => stages.run(StageKind::Film.name(), || lubrication::look(model, outcome)),
+        false => None,
+    };
+    match plan.has(StageKind::Losses) {
+        true => stages.run(StageKind::Losses.name(), || {
+            let seen = seen.or_else(|| lubrication::look(model, outcome))?;
+            Some(lubrication::sum_up(model, outcome, &seen))
+        }),
+        false => None,
+    }
+}
+
+fn not_estimated_because(outcome: &Outcome) -> &'static str {
+    match outcome.stop {
+        StopReason::Completed | StopReason::LimitReached => "numerics.error_estimate is false",
+        StopReason::Interrupted => "the run was interrupted",
+        StopReason::NotConverged => "the run did not converge",
+        StopReason::WornThrough => "a tooth is worn through",
+    }
+}

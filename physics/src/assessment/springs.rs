@@ -1,0 +1,38 @@
+//! Whether contact surface and stiffness model of a scene go together, asked in closed form before anything is begun.
+
+use super::stage_clock::StageClock;
+use super::{RunError, RunInputs, load_case};
+use crate::contact::settings::SurfaceKind;
+use crate::gear::GearPair;
+use crate::observer::Unwatched;
+use crate::stiffness::{TeethSpring, settings::StiffnessSettings};
+
+impl RunInputs<'_> {
+    /// Whether the springs of a run can be made, where that is known without finite elements of its own.
+    ///
+    /// # Errors
+    /// The same as the run's.
+    pub fn check_springs(self) -> Result<(), RunError> {
+        let scene = self.scene;
+        let curve = match (scene.stiffness, self.calibration) {
+            (StiffnessSettings::Fem, Some(calibration)) => Some(&calibration.pair_compliance),
+            (StiffnessSettings::Fem, None) => return Ok(()),
+            _ => self.stiffness_curve,
+        };
+        if scene.contact.surface == SurfaceKind::Fem {
+            return Ok(());
+        }
+        let pair = GearPair::new(&scene.pair)?;
+        let mut stages = StageClock::new(&Unwatched);
+        for phase in &scene.operation.phases {
+            let (load, material) = (pair.line_load_n_per_mm(phase.pinion_torque_n_mm), scene.material_in(phase));
+            let case = load_case::load_case(self, &pair, material, load, &mut stages)?;
+            let Some(surface) = case.surface.as_deref() else { continue };
+            let spring = TeethSpring::new(scene.stiffness, curve, &pair, &material, surface, load)?;
+            for position_mm in pair.path.evenly_mm(scene.numerics.positions) {
+                spring.own_n_per_mm2(position_mm)?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,90 @@
+//! A gear pair, its operation and how it is modelled, with every choice made: what a plan is decided from and an assessment carried out on.
+//! Types of physics alone: which file says it, and how, is decided above.
+
+mod phase_conditions;
+
+use crate::contact::settings::ContactSettings;
+use crate::gear::{PerGear, spec::PairSpec};
+use crate::gear_mesh::settings::BodySettings;
+use crate::lubrication::settings::LubricationSettings;
+use crate::material::Material;
+use crate::mesh_cycle::settings::SliceSettings;
+use crate::simulation::settings::{Numerics, Operation};
+use crate::stiffness::settings::StiffnessSettings;
+use crate::thermal::settings::HeatSettings;
+use crate::thermal::tooth::TemperatureCurve;
+use crate::wear::settings::WearSettings;
+pub use phase_conditions::mean_friction;
+
+/// A scene with every choice made: what the plan and the pipeline work from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// The gear pair as given.
+    pub pair: PairSpec,
+    /// Material of each gear, its modulus at the temperature of its teeth where it follows that.
+    pub material: PerGear<Material>,
+    /// How Young's modulus of each follows that temperature, MPa; none where it is given.
+    pub modulus: PerGear<Option<TemperatureCurve>>,
+    /// Load, speed, duration.
+    pub operation: Operation,
+    /// Contact surface.
+    pub contact: ContactSettings,
+    /// Calibration file, as named by the scene.
+    pub calibration_file: Option<String>,
+    /// Tooth stiffness.
+    pub stiffness: StiffnessSettings,
+    /// Whether the scene leaves the model of the stiffness open.
+    pub stiffness_by_default: bool,
+    /// Data file of the stiffness, as named by the scene.
+    pub stiffness_curve_file: Option<String>,
+    /// Bodies of finite elements, where any are used.
+    pub fem: BodySettings,
+    /// Elements in the half-width of contact of a wear run on them.
+    pub wear_elements_per_half_width: f64,
+    /// Slices over the face width; none where all sections are alike.
+    pub slices: Option<SliceSettings>,
+    /// Whether the scene leaves their coupling open.
+    pub coupling_by_default: bool,
+    /// Contact temperatures; none where nothing asks for them.
+    pub heat: Option<HeatSettings>,
+    /// Films, friction and losses; none where nothing asks for them.
+    pub lubrication: Option<LubricationSettings>,
+    /// Wear law of each gear.
+    pub wear: PerGear<WearSettings>,
+    /// Resolution.
+    pub numerics: Numerics,
+    /// Whether the run is checked by finite elements.
+    pub verify: bool,
+}
+
+impl Scene {
+    /// Bodies of finite elements that wear.
+    pub fn wear_bodies(&self) -> BodySettings {
+        BodySettings { elements_per_half_width: self.wear_elements_per_half_width, ..self.fem }
+    }
+
+    /// What a command that looks at one load leaves out of a scene with phases under others; none where there are no others.
+    pub fn one_load_warning(&self) -> Option<String> {
+        let own = self.operation.pinion_torque_n_mm;
+        let [least, greatest] = self.operation.torque_range_n_mm();
+        let (least, greatest) = (least.min(own), greatest.max(own));
+        (least < greatest).then(|| {
+            let n_m = 1e-3;
+            format!(
+                "this command looks at operation.pinion_torque_Nm, {} N·m, alone; the phases run under {} to {} N·m",
+                n_m * own,
+                n_m * least,
+                n_m * greatest
+            )
+        })
+    }
+
+    /// What plane finite elements leave out of a pair whose sections differ over the face width; none where they are alike.
+    pub fn plane_section_warning(&self) -> Option<String> {
+        self.slices.is_some().then(|| {
+            "finite elements are plane: they stand for one transverse section per mm of face width, without the helix and \
+             without modifications over the face width"
+                .to_owned()
+        })
+    }
+}

@@ -1,0 +1,112 @@
+//! Nonlinear least squares by Levenberg and Marquardt's method.
+//!
+//! ```text
+//! minimise |r(θ)|²          (JᵀJ + λ diag JᵀJ) δ = −Jᵀr          J = ∂r/∂θ
+//! ```
+//!
+//! λ falls with every step that lessens the sum of squares and grows tenfold with every one that does not. The problem itself finds J and solves
+//! the damped equations, so that it can scale its parameters and keep them within bounds.
+//!
+//! Sources: D. W. Marquardt, *J. SIAM* 11 (1963) 431–441; J. J. Moré, *The Levenberg–Marquardt algorithm*, Lecture Notes in Mathematics 630 (1978)
+//! 105–116.
+
+/// λ of the first step.
+const FIRST_DAMPING: f64 = 1e-3;
+
+/// Residuals r(θ) and their linearisation.
+pub trait LeastSquares {
+    /// Failure to find the residuals.
+    type Error;
+    /// J.
+    type Jacobian;
+
+    /// r(θ).
+    fn residuals(&mut self, theta: &[f64]) -> Result<Vec<f64>, Self::Error>;
+
+    /// J at θ, where the residuals are `residuals`.
+    fn jacobian(&mut self, theta: &[f64], residuals: &[f64]) -> Result<Self::Jacobian, Self::Error>;
+
+    /// θ after a step with λ = `damping`; `None` where no step is determined, or where it is too short to matter.
+    fn damped_step(
+        &self,
+        theta: &[f64],
+        residuals: &[f64],
+        jacobian: &Self::Jacobian,
+        damping: f64,
+    ) -> Option<Vec<f64>>;
+}
+
+/// Settings of the search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LevenbergMarquardt {
+    /// Greatest number of steps.
+    pub most_steps: usize,
+    /// Factor on λ after a step that lessens the sum of squares.
+    pub damping_decrease: f64,
+    /// Least λ.
+    pub least_damping: f64,
+    /// λ from which on no step is tried.
+    pub most_damping: f64,
+    /// Relative decrease of the sum of squares in a step that ends the search.
+    pub settled: f64,
+}
+
+/// End of a search.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Minimum {
+    /// θ.
+    pub theta: Vec<f64>,
+    /// r(θ).
+    pub residuals: Vec<f64>,
+    /// Whether no further step lessens the sum of squares, rather than the steps having run out.
+    pub is_converged: bool,
+}
+
+impl LevenbergMarquardt {
+    /// Searches the least sum of squares from `theta` on.
+    ///
+    /// # Errors
+    /// The first failure to find residuals.
+    pub fn minimise<P: LeastSquares>(&self, problem: &mut P, theta: Vec<f64>) -> Result<Minimum, P::Error> {
+        let residuals = problem.residuals(&theta)?;
+        let mut at = Minimum { theta, residuals, is_converged: false };
+        let mut damping = FIRST_DAMPING;
+        for _ in 0..self.most_steps {
+            let before = sum_of_squares(&at.residuals);
+            let Some(next) = self.descend(problem, &at, &mut damping)? else {
+                return Ok(Minimum { is_converged: true, ..at });
+            };
+            let after = sum_of_squares(&next.residuals);
+            at = Minimum { is_converged: before - after <= self.settled * before, ..next };
+            if at.is_converged {
+                break;
+            }
+        }
+        Ok(at)
+    }
+
+    /// The first step that lessens the sum of squares, with ever greater `damping`; `None` where there is none.
+    fn descend<P: LeastSquares>(
+        &self,
+        problem: &mut P,
+        at: &Minimum,
+        damping: &mut f64,
+    ) -> Result<Option<Minimum>, P::Error> {
+        let jacobian = problem.jacobian(&at.theta, &at.residuals)?;
+        while *damping < self.most_damping {
+            let Some(theta) = problem.damped_step(&at.theta, &at.residuals, &jacobian, *damping) else { break };
+            let residuals = problem.residuals(&theta)?;
+            if sum_of_squares(&residuals) < sum_of_squares(&at.residuals) {
+                *damping = (*damping * self.damping_decrease).max(self.least_damping);
+                return Ok(Some(Minimum { theta, residuals, is_converged: false }));
+            }
+            *damping *= 10.0;
+        }
+        Ok(None)
+    }
+}
+
+/// Sum of squares.
+pub fn sum_of_squares(values: &[f64]) -> f64 {
+    values.iter().map(|value| value * value).sum()
+}

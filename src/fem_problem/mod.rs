@@ -1,0 +1,112 @@
+//! Carries out a finite-element problem of one's own: mesh, problem, solution, stresses, record.
+
+mod in_space;
+mod recording;
+
+use std::borrow::Cow;
+use std::path::Path;
+use std::time::Instant;
+
+use crate::assessment::stage_clock::StageClock;
+use crate::fem::{self, SolveError};
+use crate::mesh::{self, Format, Mesh, MeshFileError};
+use crate::observer::Observer;
+use crate::results::fem_problem::FemRecord;
+use crate::scene::Problem;
+use crate::scene::fem_problem::FemProblem;
+use crate::scene::short_hash;
+
+/// A factor that takes more than this is announced, GB; in space it takes 20 s about there.
+const MUCH_MEMORY_GB: f64 = 0.5;
+
+/// Why a problem was not solved.
+#[derive(Debug, thiserror::Error)]
+pub enum FemProblemError {
+    /// File and mesh disagree, or the mesh cannot be read.
+    #[error("{} problems, the first: {}", .0.len(), .0.first().map(ToString::to_string).unwrap_or_default())]
+    Input(Vec<Problem>),
+    /// The solver failed.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+}
+
+/// Solves `problem`, whose mesh file is named relative to `folder`.
+///
+/// # Errors
+/// Everything that is wrong with problem and mesh, or why the solver failed.
+pub(crate) fn run(problem: &FemProblem, folder: &Path, observer: &dyn Observer) -> Result<FemRecord, FemProblemError> {
+    let unreadable = |reason: String| FemProblemError::Input(problem.mesh_unreadable(&reason));
+    let read = || -> Result<_, FemProblemError> {
+        let path = folder.join(&problem.file.mesh.file);
+        let unreadable = |error: MeshFileError| unreadable(with_causes(&error));
+        let format = Format::of_path(&path).map_err(unreadable)?;
+        let read = std::fs::read(&path).map_err(|source| MeshFileError::Read { path: path.clone(), source });
+        let bytes = read.map_err(unreadable)?;
+        let content = |fault| MeshFileError::Content { path: path.clone(), fault: Box::new(fault) };
+        let mesh = mesh::from_bytes(format, &bytes).map_err(content).map_err(unreadable)?;
+        Ok((Cow::Owned(mesh), short_hash(&bytes)))
+    };
+    solved(problem, read, observer)
+}
+
+/// Solves `problem` on a mesh that is no file; the one that it names is not read.
+///
+/// # Errors
+/// As [`run`].
+pub(crate) fn on_mesh(
+    problem: &FemProblem,
+    mesh: &Mesh,
+    observer: &dyn Observer,
+) -> Result<FemRecord, FemProblemError> {
+    let given = || {
+        let text = mesh::to_bytes(mesh, Format::Json);
+        let text = text.map_err(|error| FemProblemError::Input(problem.mesh_unreadable(&with_causes(&error))))?;
+        Ok((Cow::Borrowed(mesh), short_hash(&text)))
+    };
+    solved(problem, given, observer)
+}
+
+/// Solves `problem` on the mesh that `given` gives with its hash.
+fn solved<'m>(
+    problem: &FemProblem,
+    given: impl FnOnce() -> Result<(Cow<'m, Mesh>, String), FemProblemError>,
+    observer: &dyn Observer,
+) -> Result<FemRecord, FemProblemError> {
+    let start = Instant::now();
+    let mut stages = StageClock::new(observer);
+    let (mesh, mesh_hash) = stages.run("mesh", given)?;
+    let mut record = match problem.file.third_direction().in_plane() {
+        Some(_) => {
+            let posed = stages.run("problem", || problem.on(&mesh)).map_err(FemProblemError::Input)?;
+            let solution = stages.run("solution", || fem::solve(&posed.problem))?;
+            let stress = stages
+                .run("stresses", || recording::nodal_stress(&posed.problem, &solution))
+                .map_err(SolveError::from)?;
+            recording::record(problem, posed, &solution, stress, mesh_hash)
+        }
+        None => {
+            let posed = stages.run("problem", || problem.in_space_on(&mesh)).map_err(FemProblemError::Input)?;
+            let announce = |gb: f64| {
+                if gb > MUCH_MEMORY_GB {
+                    let much = "the factor of the stiffness takes some";
+                    observer
+                        .announcement(&format!("{much} {gb:.1} GB, and a minute or more; fewer elements take less"));
+                }
+            };
+            let solution = stages.run("solution", || fem::space::problem::solve(&posed.problem, &announce))?;
+            let stress = stages
+                .run("stresses", || posed.problem.nodal_stresses_mpa(&solution.displacement_mm))
+                .map_err(SolveError::from)?;
+            in_space::record(problem, posed, &solution, &stress, mesh_hash)
+        }
+    };
+    record.summary.stages = stages.times;
+    record.summary.wall_s = start.elapsed().as_secs_f64();
+    Ok(record)
+}
+
+/// An error with everything that led to it, on one line.
+fn with_causes(error: &dyn std::error::Error) -> String {
+    let chain = std::iter::successors(error.source(), |cause| cause.source());
+    chain.fold(error.to_string(), |text, cause| format!("{text}: {cause}"))
+}

@@ -1,0 +1,125 @@
+//! Runs of a loaded scene: what its record says of the file, and the assessment that is carried out on it.
+
+use crate::assessment::calibrate::{self, CalibrateError, Calibrated, Extent};
+use crate::assessment::fem_scene::{self, Asked, FemPairError};
+use crate::assessment::{self, Done, Resumption, RunError, RunInputs};
+use crate::observer::Observer;
+use crate::plan::Plan;
+use crate::results::fem_pair::FemPairRecord;
+use crate::results::provenance::Provenance;
+use crate::results::reported_by::ReportedBy;
+use crate::results::run::{InputFile, Summary};
+use crate::results::worn_pair::WornPair;
+use crate::scene::file::ReportFile;
+use crate::scene::{Resolved, loaded::LoadedScene};
+
+impl LoadedScene {
+    /// The stages a run of it has, those left out, and why.
+    pub fn plan(&self) -> Plan {
+        Plan::of(self.scene())
+    }
+
+    /// Whether the springs of a run can be made, where that is known without finite elements of its own.
+    ///
+    /// # Errors
+    /// The same as the run's.
+    pub(crate) fn check_springs(&self) -> Result<(), RunError> {
+        self.inputs(&Provenance::default()).check_springs()
+    }
+
+    /// What a run works from, with a record that quotes `provenance`.
+    pub(crate) fn inputs<'a>(&'a self, provenance: &'a Provenance) -> RunInputs<'a> {
+        RunInputs {
+            scene: &self.resolved.scene,
+            calibration: self.files.calibration.as_ref(),
+            stiffness_curve: self.files.stiffness_curve.as_ref(),
+            teeth_in_space: &self.teeth_in_space,
+            provenance,
+        }
+    }
+
+    /// Origin of its records, with the files it names.
+    fn provenance(&self) -> Provenance {
+        let inputs = self.files.as_read.iter();
+        let inputs = inputs.map(|file| InputFile { name: file.name.clone(), bytes: file.bytes.clone() });
+        Provenance { inputs: inputs.collect(), ..provenance(&self.resolved) }
+    }
+}
+
+/// Origin of the records of a scene that names no files.
+fn provenance(resolved: &Resolved) -> Provenance {
+    let report = resolved.file.report.clone();
+    let report = report.map(|ReportFile { author, company, date }| ReportedBy { author, company, date });
+    Provenance {
+        title: resolved.title().to_owned(),
+        report,
+        scene_toml: resolved.to_toml(),
+        scene_hash: resolved.scene_hash(),
+        inputs: Vec::new(),
+        warnings: resolved.warnings.clone(),
+    }
+}
+
+/// Runs `scene` as its plan says, the report apart: that is left to the caller, who knows where it goes.
+///
+/// A run that is interrupted or does not converge gives the record of what it had finished, and its failure in the latter
+/// case.
+///
+/// # Errors
+/// [`RunError`] where nothing was finished.
+pub fn run(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done, RunError> {
+    scene.check_springs()?;
+    run_from(&scene.clone().naming_copies(), Resumption::none(), observer)
+}
+
+/// Runs `scene`, which names the copies of its files, from its beginning or from a checkpoint.
+///
+/// # Errors
+/// As [`run`].
+pub(crate) fn run_from(
+    scene: &LoadedScene,
+    resumption: Resumption<'_>,
+    observer: &dyn Observer,
+) -> Result<Done, RunError> {
+    assessment::run(scene.inputs(&scene.provenance()), resumption, observer)
+}
+
+/// Main figures of a run of `scene`.
+///
+/// # Errors
+/// As [`run`].
+pub(crate) fn summarise(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done<Summary>, RunError> {
+    assessment::summarise(scene.inputs(&scene.provenance()), observer)
+}
+
+/// Main figures, history and worn profiles of a run of `scene`.
+///
+/// # Errors
+/// As [`run`].
+pub(crate) fn worn_pair(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done<WornPair>, RunError> {
+    assessment::worn_pair(scene.inputs(&scene.provenance()), observer)
+}
+
+/// Solves the contact of the scene's pair with plane finite elements.
+///
+/// # Errors
+/// [`FemPairError`] where no position was solved.
+pub(crate) fn fem_pair(
+    resolved: &Resolved,
+    asked: Asked,
+    observer: &dyn Observer,
+) -> Result<Done<FemPairRecord, FemPairError>, FemPairError> {
+    fem_scene::run(&resolved.scene, &provenance(resolved), asked, observer)
+}
+
+/// Calibrates the pair of `scene` with finite elements.
+///
+/// # Errors
+/// [`CalibrateError`]
+pub(crate) fn calibrate(
+    scene: &LoadedScene,
+    extent: Extent,
+    observer: &dyn Observer,
+) -> Result<Calibrated, CalibrateError> {
+    calibrate::run(scene.scene(), extent, &scene.teeth_in_space, observer)
+}
