@@ -13,7 +13,7 @@ pub(crate) enum Control {
     Steps {
         /// What the slider moves, for those who do not see it.
         name: &'static str,
-        steps: Vec<Step>,
+        steps: Vec<SliderStep>,
     },
     /// The pair turning through the mesh.
     Mesh(MeshMotion),
@@ -21,7 +21,7 @@ pub(crate) enum Control {
 
 /// A state of a chart.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct Step {
+pub(crate) struct SliderStep {
     /// Its name beside the slider.
     pub label: String,
     /// The traces that it changes, in the order in which they were added.
@@ -30,7 +30,7 @@ pub(crate) struct Step {
     pub set: Map<String, Value>,
 }
 
-impl Step {
+impl SliderStep {
     /// A state in which each trace is shown or not.
     pub(crate) fn showing(label: String, shown: impl IntoIterator<Item = bool>) -> Self {
         let shown: Vec<bool> = shown.into_iter().collect();

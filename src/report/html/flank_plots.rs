@@ -6,7 +6,7 @@ use super::reading::{Extreme, greatest, place_on_flank, tip_edge_note, yield_not
 use crate::gear::Gear;
 use crate::reference::statistics::extent;
 use crate::report::chart::{Chart, Dash, INK, Trace, gear_colour, gear_colour_at};
-use crate::report::control::{Control, Step};
+use crate::report::control::{Control, SliderStep};
 use crate::results::run::{HistoryRow, RunRecord};
 
 /// At most so many snapshots are drawn, evenly chosen: more curves than that cannot be told apart.
@@ -62,7 +62,7 @@ fn wear_of(record: &RunRecord, gear: Gear, depth_um: f64) -> Chart {
     let all = chart.traces().count();
     let up_to = |last: usize| (0..all).map(move |trace| trace <= last || trace >= curves && last + 1 == curves);
     let steps =
-        drawn.iter().enumerate().map(|(i, &snapshot)| Step::showing(moment(&record.history[snapshot]), up_to(i)));
+        drawn.iter().enumerate().map(|(i, &snapshot)| SliderStep::showing(moment(&record.history[snapshot]), up_to(i)));
     let chart = chart.movable(Control::Steps { name: "time", steps: steps.collect() });
     active.across(chart, gear)
 }

@@ -13,7 +13,7 @@ use crate::report::html::reading::greatest;
 /// Wear is in µm, the flank in mm.
 const MM_PER_UM: f64 = 1e-3;
 
-struct Shown<'a> {
+struct ShownSurface<'a> {
     /// On its button.
     label: &'static str,
     /// At its axis.
@@ -25,7 +25,7 @@ struct Shown<'a> {
     is_depth: bool,
 }
 
-impl Shown<'_> {
+impl ShownSurface<'_> {
     /// Of the axis that it is drawn along.
     fn range(&self) -> [f64; 2] {
         if self.is_depth { [-self.top, 0.0] } else { [0.0, self.top] }
@@ -45,7 +45,7 @@ pub(super) fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Chart {
         ("pressure, new", "pressure, MPa", "MPa", &flank.pressure_new_MPa, pressure, false),
         ("pressure, worn", "pressure, MPa", "MPa", &flank.pressure_worn_MPa, pressure, false),
     ]
-    .map(|(label, axis, unit, values, top, is_depth)| Shown {
+    .map(|(label, axis, unit, values, top, is_depth)| ShownSurface {
         label,
         axis,
         unit,
@@ -87,7 +87,7 @@ pub(super) fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Chart {
 }
 
 /// The surface, drawn on to both end faces with the values of the first and the last slice.
-fn surface(run: SlicedRun<'_>, gear: Gear, shown: &Shown<'_>, visible: bool) -> Trace {
+fn surface(run: SlicedRun<'_>, gear: Gear, shown: &ShownSurface<'_>, visible: bool) -> Trace {
     let flank = &run.record.flanks[gear];
     let face_width = run.record.surface[gear].face_width_mm;
     let raster = SlicedRaster::of_flank(flank, face_width);
@@ -119,10 +119,10 @@ fn scene_axis(title: &str) -> Value {
     json!({ "title": { "text": title, "font": { "size": 12 } }, "gridcolor": "var(--rule)", "zeroline": false })
 }
 
-fn buttons(shown: &[Shown<'_>]) -> Value {
+fn buttons(shown: &[ShownSurface<'_>]) -> Value {
     let button = |chosen: usize| {
         let visible: Vec<bool> = (0..shown.len()).map(|i| i == chosen).collect();
-        let Shown { label, axis, .. } = &shown[chosen];
+        let ShownSurface { label, axis, .. } = &shown[chosen];
         let layout = json!({ "scene.zaxis.title.text": axis, "scene.zaxis.range": shown[chosen].range() });
         json!({ "label": label, "method": "update", "args": [{ "visible": visible }, layout] })
     };
