@@ -308,7 +308,7 @@ pub fn uncertainty(
     threads: usize,
     observer: &dyn Observer,
 ) -> Result<UncertaintyRecord, UncertaintyError> {
-    let question = studies::uncertainty::study::Question::of(scene, question)?;
+    let question = studies::uncertainty::study::SampledQuestion::of(scene, question)?;
     let record = studies::uncertainty::study::run(scene, &question, threads, observer);
     Ok(record.map_err(studies::uncertainty::asked::UncertaintyFault::Study)?)
 }

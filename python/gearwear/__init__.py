@@ -15,6 +15,7 @@ from gearwear.calibration import Calibration
 from gearwear.errors import Finding, GearwearError, NotConverged, RunError, SceneError, WornThrough
 from gearwear.evaluate import evaluate
 from gearwear.fem import FemPair, FemProblem, fem_problem
+from gearwear.figures import Figure, main_figures
 from gearwear.mesh import Mesh
 from gearwear.run import Flank, Run
 from gearwear.scene import Scene
@@ -28,6 +29,7 @@ __all__ = [
     "Calibration",
     "FemPair",
     "FemProblem",
+    "Figure",
     "Finding",
     "Flank",
     "GearwearError",
@@ -47,6 +49,7 @@ __all__ = [
     "compare_runs",
     "evaluate",
     "fem_problem",
+    "main_figures",
     "presets",
     "scene_schema",
     "sweep",

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 from gearwear import _native
+from gearwear.figures import main_figures
 from gearwear.table import Table
 from gearwear.version import refuse_other
 
@@ -24,13 +25,6 @@ if TYPE_CHECKING:
 
 Gear = Literal["pinion", "wheel"]
 
-#: The figures of the summary that a notebook shows, with their names.
-_SHOWN = (
-    ("peak_wear_um", "maximum wear, µm"),
-    ("root_wear_um", "at the root, µm"),
-    ("pitch_wear_um", "at the pitch circle, µm"),
-    ("worn_volume_mm3", "worn off, mm³"),
-)
 #: The plot that a notebook shows first, of equal sections and of slices.
 _PICTURES = ("wear", "wear-pinion")
 
@@ -273,9 +267,11 @@ class Run:
         from html import escape
 
         summary = self.summary
+        of_gears = [figure for figure in main_figures() if figure.in_short_tables and figure.name.startswith("pinion.")]
+        keys = [(figure.name.removeprefix("pinion."), f"{figure.row}, {figure.unit}") for figure in of_gears]
         rows = "".join(
             f"<tr><th style='text-align:left'>{name}</th><td>{summary['pinion'][key]:.4g}</td><td>{summary['wheel'][key]:.4g}</td></tr>"
-            for key, name in _SHOWN
+            for key, name in keys
         )
         figures = self.figures()
         picture = next((figures[name] for name in _PICTURES if name in figures), "")

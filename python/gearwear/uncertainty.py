@@ -10,6 +10,7 @@ from functools import cached_property
 from operator import index
 from typing import TYPE_CHECKING, Any
 
+from gearwear.figures import warn_of_older_names
 from gearwear.scene import Scene
 from gearwear.table import Table
 from gearwear.workers import ProgressArgument, Watched, thread_count
@@ -149,9 +150,11 @@ def uncertainty(
     pairs = [f"{one}:{other}={float(r)!r}" for (one, other), r in (correlation or {}).items()]
     depths = [f"{name}={float(depth)!r}" for name, depth in (limits or {}).items()]
     count = thread_count(threads)
+    kept = list(outputs)
+    warn_of_older_names([*kept, *(limits or {})])
     with Watched(progress) as told:
         return Uncertainty(
-            scene._native.uncertainty(uncertain, pairs, list(outputs), depths, samples, scrambling, count, told)
+            scene._native.uncertainty(uncertain, pairs, kept, depths, samples, scrambling, count, told)
         )
 
 

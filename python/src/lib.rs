@@ -20,6 +20,7 @@ mod watched;
 
 use std::ffi::OsString;
 
+use gearwear::results::figures;
 use pyo3::prelude::*;
 
 /// The program `gearwear` with these arguments, of which the first is its name; its exit status.
@@ -40,7 +41,26 @@ fn scene_schema() -> String {
     gearwear::scene_schema().to_string()
 }
 
-/// The unit that a name ends in; None where it has none.
+/// A main figure: path in the summary, heading, heading for both gears or states, unit, meaning, whether short tables show it.
+type MainFigure = (&'static str, &'static str, String, &'static str, &'static str, bool);
+
+/// The main figures of a run, in the order of tables.
+#[pyfunction]
+fn main_figures() -> Vec<MainFigure> {
+    let of = |figure: &'static figures::MainFigure| -> MainFigure {
+        let family = figure.family;
+        (&figure.name, &figure.heading, family.row(), family.unit, &figure.meaning, family.in_terminal)
+    };
+    figures::all().iter().map(of).collect()
+}
+
+/// What to say of figures that are called by the names that they had in the version before.
+#[pyfunction]
+fn notes_on_figures(names: Vec<String>) -> Vec<String> {
+    figures::notes(names.iter().map(String::as_str))
+}
+
+/// The unit of a main figure, or the one that a name ends in; None where it has none.
 #[pyfunction]
 fn unit_of(name: &str) -> Option<&'static str> {
     gearwear::unit_of(name)
@@ -65,7 +85,7 @@ mod _native {
     #[pymodule_export]
     use super::uncertainty::Uncertainty;
     #[pymodule_export]
-    use super::{presets, program, scene_schema, unit_of};
+    use super::{main_figures, notes_on_figures, presets, program, scene_schema, unit_of};
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");

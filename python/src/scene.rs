@@ -238,7 +238,8 @@ impl Scene {
     ) -> PyResult<Sweep> {
         let question = SweepQuestion { vary, best, subject_to, error_estimate };
         let sweep = py.detach(|| sweep::Sweep::of(&self.loaded, &question));
-        Ok(Sweep { sweep: Arc::new(sweep.map_err(|error| errors::of_sweep(py, &error))?) })
+        let sweep = Arc::new(sweep.map_err(|error| errors::of_sweep(py, &error))?);
+        Ok(Sweep { sweep, notes: question.notes() })
     }
 
     /// Quantiles and Sobol indices of its figures where keys are uncertain.

@@ -16,14 +16,16 @@ use crate::watched::{cores, watched};
 #[pyclass(frozen, module = "gearwear._native")]
 pub(crate) struct Sweep {
     pub(crate) sweep: Arc<sweep::Sweep>,
+    /// What to say of how it was asked for.
+    pub(crate) notes: Vec<String>,
 }
 
 #[pymethods]
 impl Sweep {
-    /// Values that their key does not take.
+    /// Figures that are called by older names, and values that their key does not take.
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.sweep.warnings()
+        self.notes.iter().cloned().chain(self.sweep.warnings()).collect()
     }
 
     /// Begins it, or goes on with it where the folder has rows of it already; without a folder rows are kept in memory alone.

@@ -70,3 +70,16 @@ def test_what_is_wrong_is_named(scene: gearwear.Scene) -> None:
         gearwear.evaluate(scene, TORQUE, [[1.0]], [PEAK])
     with pytest.raises(TypeError, match=f"{TORQUE}: found a value of type"):
         gearwear.evaluate(scene, [TORQUE], [[object()]], [PEAK])
+
+
+def test_figures_are_called_as_in_the_summary(scene: gearwear.Scene) -> None:
+    figures = {figure.name: figure for figure in gearwear.main_figures()}
+    assert (figures[PEAK].unit, figures["worn.transmission_error_um.peak_to_peak"].unit) == ("µm", "µm")
+    assert gearwear.unit_of("worn.transmission_error_um.peak_to_peak") == "µm"
+    new = gearwear.evaluate(scene, [TORQUE], [[200.0]], [PEAK])
+    with pytest.warns(UserWarning, match=f"pinion_peak_wear_um is now called {PEAK}"):
+        old = gearwear.evaluate(scene, [TORQUE], [[200.0]], ["pinion_peak_wear_um"])
+    assert np.array_equal(old, new)
+    with pytest.warns(UserWarning, match=f"pinion_peak_wear_um is now called {PEAK}"):
+        swept = gearwear.sweep(scene, {TORQUE: [200.0]}, best="pinion_peak_wear_um")
+    assert swept.summary["goal"]["figure"] == PEAK

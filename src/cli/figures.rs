@@ -2,20 +2,22 @@
 
 use crate::report::headline;
 use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError};
-use crate::results::run::{HelicalSummary, Summary};
+use crate::results::figures::{FAMILIES, FigureFamily, FigureValues};
+use crate::results::run::Summary;
+
+/// Room for the name of a row.
+const NAME: usize = 44;
 
 pub(super) fn table(summary: &Summary) -> String {
-    let (new, worn) = (&summary.new, &summary.worn);
-    let mut text = [headline(summary), details(summary)].concat();
-    let sharp = [new.sharp_edge_pressure_MPa, worn.sharp_edge_pressure_MPa];
-    if sharp.iter().any(Option::is_some) {
-        let [new, worn] = sharp.map(|pressure| pressure.map_or_else(|| "–".to_owned(), digits));
-        text.push_str(&row("at sharp tip edges (not defined), MPa", [&new, &worn]));
-    }
-    text.push_str(&over_the_width(summary.helical.as_ref()));
-    text.push_str(&verified(&summary.error.total));
-    text.push_str(&estimated_errors(&summary.error));
-    text.push_str(&at_other_limits(&summary.error));
+    let mut text = [
+        headline(summary),
+        details(summary),
+        over_the_width(summary),
+        verified(&summary.error.total),
+        estimated_errors(&summary.error),
+        at_other_limits(&summary.error),
+    ]
+    .concat();
     if let Some(balance) = summary.error.volume_balance {
         text.push_str(&format!("\n  worn volumes of pinion and wheel differ by {} %\n", two_digits(100.0 * balance)));
     }
@@ -28,36 +30,67 @@ pub(super) fn table(summary: &Summary) -> String {
     text
 }
 
+/// The two groups of figures, with the names of their columns.
+const GROUPS: [[&str; 2]; 2] = [["pinion", "wheel"], ["new", "worn"]];
+
+/// Families of a group that the terminal shows: of the gears, or of new and worn flanks.
+fn shown([first, _]: [&str; 2]) -> impl Iterator<Item = &'static FigureFamily> {
+    FAMILIES.iter().filter(move |family| {
+        family.in_terminal
+            && match family.values {
+                FigureValues::Gears(_) => first == "pinion",
+                FigureValues::States(_) => first == "new",
+                FigureValues::Pair(_) => false,
+            }
+    })
+}
+
+/// Rows of some families, without those that the run has no values of.
+fn rows(families: impl Iterator<Item = &'static FigureFamily>, summary: &Summary) -> String {
+    let known = families.filter(|family| family.both(summary).iter().any(Option::is_some));
+    known.map(|family| family_row(family, family.both(summary))).collect()
+}
+
+/// Row of a family; ratios of the gears in per cent.
+fn family_row(family: &FigureFamily, values: [Option<f64>; 2]) -> String {
+    let is_share = family.unit.is_empty() && matches!(family.values, FigureValues::Gears(_));
+    let (unit, factor) = if is_share { ("%", 100.0) } else { (family.unit, 1.0) };
+    let comma = if unit.is_empty() { "" } else { ", " };
+    let [one, other] = values.map(|value| value.map_or_else(|| "–".to_owned(), |value| digits(factor * value)));
+    row(&format!("{}{comma}{unit}", family.row()), [&one, &other])
+}
+
 /// First lines: wear and its uncertainty, flank pressure, transmission error, and advice on the tip edges.
 fn headline(summary: &Summary) -> String {
-    let (new, worn, total) = (&summary.new, &summary.worn, &summary.error.total);
-    let scatter = format!("± {}", headline::scatter_percent());
-    let peaks = [summary.pinion.peak_wear_um, summary.wheel.peak_wear_um];
-    let scatters = peaks.map(|peak_wear_um| if peak_wear_um > 0.0 { scatter.as_str() } else { "–" });
-    let te = [&new.transmission_error_um, &worn.transmission_error_um].map(|te| te.peak_to_peak);
+    let total = &summary.error.total;
     let is_verified = total.peak_wear.pinion.or(total.peak_wear.wheel).is_some();
-    let mut text = [
-        format!("{}\n\n{}", summary.title, row("", ["pinion", "wheel"])),
-        figures("maximum wear, µm", peaks),
-        row("  scatter of k in repeated tests, %", scatters),
-    ]
-    .concat();
-    if is_verified {
-        text.push_str(&errors_of_computation([total.peak_wear.pinion, total.peak_wear.wheel]));
-    }
-    text.push_str(&row("", ["new", "worn"]));
-    text.push_str(&figures("flank pressure, MPa", [new.flank_pressure_MPa, worn.flank_pressure_MPa]));
-    if is_verified {
-        text.push_str(&errors_of_computation([total.flank_pressure.new, total.flank_pressure.worn]));
-    }
-    text.push_str(&figures("transmission error, peak to peak, µm", te));
-    if is_verified {
-        text.push_str(&errors_of_computation([None, total.transmission_error_peak_to_peak]));
+    let mut text = format!("{}\n\n", summary.title);
+    for columns in GROUPS {
+        text.push_str(&row("", columns));
+        for family in shown(columns).filter(|family| family.in_headline) {
+            let values = family.both(summary);
+            text.push_str(&family_row(family, values));
+            if matches!(family.values, FigureValues::Gears(_)) {
+                text.push_str(&scatter(values));
+            }
+            if is_verified {
+                text.push_str(&errors_of_computation(family.both_errors(total)));
+            }
+        }
     }
     if let Some(tips) = headline::tip_edges(summary) {
         text.push_str(&format!("\n  {}\n", tips.replacen(". ", ".\n  ", 1)));
     }
     text
+}
+
+/// Scatter of the wear coefficient where there is wear.
+fn scatter(wear_um: [Option<f64>; 2]) -> String {
+    let [one, other] = wear_um.map(|wear_um| match wear_um {
+        Some(wear_um) if wear_um > 0.0 => format!("± {}", headline::scatter_percent()),
+        _ => "–".to_owned(),
+    });
+    row("  scatter of k in repeated tests, %", [&one, &other])
 }
 
 fn errors_of_computation(errors: [Option<f64>; 2]) -> String {
@@ -66,37 +99,22 @@ fn errors_of_computation(errors: [Option<f64>; 2]) -> String {
     row("  error of the computation, %", [&one, &other])
 }
 
-/// More of the wear of both flanks.
+/// Other figures of both flanks and of the mesh.
 fn details(summary: &Summary) -> String {
-    let (pinion, wheel) = (&summary.pinion, &summary.wheel);
-    [
-        format!("\n{}", row("", ["pinion", "wheel"])),
-        figures("radius of the maximum wear, mm", [pinion.peak_wear_radius_mm, wheel.peak_wear_radius_mm]),
-        figures("wear of the tip edge, µm", [pinion.tip_edge_wear_um, wheel.tip_edge_wear_um]),
-        figures("wear below the active profile, µm", [pinion.below_sap_wear_um, wheel.below_sap_wear_um]),
-        figures("wear near the root, µm", [pinion.root_wear_um, wheel.root_wear_um]),
-        figures("wear at the pitch circle, µm", [pinion.pitch_wear_um, wheel.pitch_wear_um]),
-        figures("worn mass, mg", [pinion.worn_mass_mg, wheel.worn_mass_mg]),
-        row("", ["new", "worn"]),
-        figures("pressure at the pitch point, MPa", [summary.new.pitch_pressure_MPa, summary.worn.pitch_pressure_MPa]),
-    ]
-    .concat()
+    let groups = GROUPS.map(|columns| {
+        let families = shown(columns).filter(|family| !family.in_headline && !family.is_of_slices());
+        format!("{}{}", row("", columns), rows(families, summary))
+    });
+    format!("\n{}", groups.concat())
 }
 
 /// Variation over the face width; nothing where all sections are alike.
-fn over_the_width(helical: Option<&HelicalSummary>) -> String {
-    let Some(helical) = helical else { return String::new() };
-    let wear = [&helical.wear.pinion, &helical.wear.wheel];
-    let orders = [&helical.mesh_orders_new_um, &helical.mesh_orders_worn_um];
-    [
-        figures("face load factor K_Hbeta", [helical.K_Hbeta_new, helical.K_Hbeta_worn]),
-        figures("first mesh order, µm", orders.map(|orders| orders.first().copied().unwrap_or_default())),
-        row("over the face width", ["pinion", "wheel"]),
-        figures("variation of root wear, %", wear.map(|w| 100.0 * w.root_variation)),
-        figures("variation of tip wear, %", wear.map(|w| 100.0 * w.tip_variation)),
-        figures("variation of both together, %", wear.map(|w| 100.0 * w.root_tip_variation)),
-    ]
-    .concat()
+fn over_the_width(summary: &Summary) -> String {
+    if summary.helical.is_none() {
+        return String::new();
+    }
+    let [gears, states] = GROUPS.map(|columns| rows(shown(columns).filter(|family| family.is_of_slices()), summary));
+    format!("{states}{}{gears}", row("over the face width", GROUPS[0]))
 }
 
 /// Difference of the run from finite elements, or why it is not known.
@@ -108,7 +126,7 @@ fn verified(total: &TotalError) -> String {
         row("difference from finite elements", ["pinion", "wheel"]),
         of_both_gears("wear of the tip edge, %", &total.tip_edge_wear),
         of_both_gears("wear over the flank (rms), %", &total.profile),
-        format!("  {:38}{:>12}\n", "pressure between the tip edges (rms), %", in_percent(total.pressure_between_tips)),
+        row("pressure between the tip edges (rms), %", [&in_percent(total.pressure_between_tips), ""]),
     ]
     .concat()
 }
@@ -164,7 +182,7 @@ fn figures(name: &str, values: [f64; 2]) -> String {
 
 /// A line of the table: a name and two values.
 pub(super) fn row(name: &str, values: [&str; 2]) -> String {
-    format!("  {name:38}{:>12}{:>12}\n", values[0], values[1])
+    format!("{}\n", format!("  {name:NAME$}{:>12}{:>12}", values[0], values[1]).trim_end())
 }
 
 /// A figure with four significant digits, or all digits of a large whole one.

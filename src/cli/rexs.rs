@@ -4,11 +4,11 @@ use std::fs;
 use std::path::PathBuf;
 
 use crate::exchange::rexs::mesh_stiffness::MeshStiffness;
-use crate::exchange::rexs::results::{self, RunResults, WearProfile};
+use crate::exchange::rexs::results::{self, RunResults, WearDepths};
 use crate::gear::PerGear;
 use crate::report::ReportError;
 use crate::scene::loaded::LoadedScene;
-use crate::studies::compare::run_folder::{self, RunFolder};
+use crate::studies::compare::run_folder::RunFolder;
 use crate::studies::variants::finished_run::FinishedRun;
 use crate::whole_file;
 
@@ -61,13 +61,13 @@ pub(super) fn run(args: &RexsArgs) -> Result<(), Failure> {
 
 /// Results of the finished run to be written.
 fn read(args: &RexsArgs) -> Result<RunResults, Failure> {
-    let folder = RunFolder::read(&args.run).map_err(InputError::RunFolder)?;
-    let scene = LoadedScene::open(RunFolder::scene_path(&args.run))?;
+    let folder = RunFolder::open(&args.run).map_err(InputError::RunFolder)?;
+    let scene = LoadedScene::open(folder.scene_path())?;
     folder.check_scene(&scene.resolved).map_err(InputError::RunFolder)?;
-    let finished = FinishedRun::read(&args.run, String::new()).map_err(InputError::RunFolder)?;
+    let finished = FinishedRun::of(folder.clone(), String::new()).map_err(InputError::RunFolder)?;
     let cycle = &finished.mesh_cycle;
     Ok(RunResults {
-        summary: run_folder::summary(&args.run).map_err(InputError::RunFolder)?,
+        summary: folder.whole_summary,
         pair: scene.scene().pair.clone(),
         mesh_stiffness: MeshStiffness {
             pinion_rotation_deg: cycle.get("pinion_rotation_deg").to_vec(),
@@ -76,7 +76,7 @@ fn read(args: &RexsArgs) -> Result<RunResults, Failure> {
         },
         wear_profile: PerGear::from_fn(|gear| {
             let (radius_mm, depth_um) = finished.wear_profile(gear);
-            WearProfile { radius_mm, depth_um }
+            WearDepths { radius_mm, depth_um }
         }),
     })
 }

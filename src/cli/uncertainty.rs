@@ -10,7 +10,7 @@ use crate::studies::uncertainty::asked::{UncertaintyFault, UncertaintyQuestion};
 use crate::studies::uncertainty::design::CorrelationError;
 use crate::studies::uncertainty::distribution::FORMS;
 use crate::studies::uncertainty::record::UncertaintyRecord;
-use crate::studies::uncertainty::study::{self, Question, UncertaintyStudyError};
+use crate::studies::uncertainty::study::{self, SampledQuestion, UncertaintyStudyError};
 
 use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError};
@@ -92,7 +92,8 @@ pub(super) fn run(args: &UncertaintyArgs) -> Result<(), Failure> {
         samples: args.samples,
         seed: args.seed,
     };
-    let question = Question::of(&scene, &asked)?;
+    let question = SampledQuestion::of(&scene, &asked)?;
+    asked.notes().iter().for_each(|note| say(&format!("note: {note}")));
     report::writable(&args.out)?;
     let threads = thread_count(args.threads);
     let interrupted = watch_for_interrupt();

@@ -14,7 +14,7 @@ pub(crate) enum Control {
     Steps {
         /// What the slider moves, for those who do not see it.
         name: &'static str,
-        steps: Vec<Step>,
+        steps: Vec<SliderStep>,
     },
     /// The pair turning through the mesh.
     Mesh(MeshMotion),
@@ -22,7 +22,7 @@ pub(crate) enum Control {
 
 /// A state of a chart.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct Step {
+pub(crate) struct SliderStep {
     /// Its name beside the slider.
     pub label: String,
     pub change: Change,

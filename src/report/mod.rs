@@ -146,6 +146,8 @@ pub(crate) fn remove_page(dir: &Path) -> Result<(), ReportError> {
 /// The tables of every run.
 const TABLES: [&str; 5] = ["pinion.csv", "wheel.csv", "history.csv", "profiles.csv", "mesh_cycle.csv"];
 const PAGE: &str = "report.html";
+/// The file of the main figures, written last.
+pub(crate) const SUMMARY: &str = "summary.json";
 const SLICES: &str = "slices.csv";
 const FILM: &str = "film.csv";
 const FLANK: &str = "flank.vtu";
@@ -154,10 +156,10 @@ const SERIES: &str = "flank.pvd";
 /// Writes `summary.json` into `dir`, of a wear run or of finite elements, after everything else.
 pub(crate) fn write_summary(summary: &impl Serialize, dir: &Path) -> Result<PathBuf, ReportError> {
     create_folder(dir)?;
-    place(dir, "summary.json", |out| write_json(out, summary))
+    place(dir, SUMMARY, |out| write_json(out, summary))
 }
 
 /// Takes away the `summary.json` of an earlier run, if there is one: it would vouch for files about to be replaced.
 pub(crate) fn remove_summary(dir: &Path) -> Result<(), ReportError> {
-    remove(dir, "summary.json")
+    remove(dir, SUMMARY)
 }

@@ -12,7 +12,7 @@ const SAME_PLACE: f64 = 1e-9;
 /// outside, in part of their width or at a tip edge.
 #[allow(non_snake_case, reason = "the contract's column names")]
 #[derive(Serialize, JsonSchema)]
-struct Row {
+struct SliceRow {
     /// position of the tooth in the middle of the face width: radius of curvature of the pinion's flank, also before A
     /// and after E
     position_mm: f64,
@@ -43,7 +43,7 @@ pub(crate) fn rows(record: &SliceRecord, path: &PathPoints) -> impl Iterator<Ite
     let rows = record.position_mm.iter().enumerate().flat_map(move |(position, &position_mm)| {
         (0..count).map(move |slice| {
             let place = position * count + slice;
-            Row {
+            SliceRow {
                 position_mm,
                 slice,
                 width_mm: record.width_mm[slice],
@@ -58,7 +58,7 @@ pub(crate) fn rows(record: &SliceRecord, path: &PathPoints) -> impl Iterator<Ite
         })
     });
     let reach = path.A - slack..=path.E + slack;
-    let in_contact = move |row: &Row| {
+    let in_contact = move |row: &SliceRow| {
         reach.contains(&row.slice_position_mm) || row.line_load_new_N_per_mm > 0.0 || row.line_load_worn_N_per_mm > 0.0
     };
     rows.filter(in_contact)

@@ -1,5 +1,7 @@
 //! The unit of a quantity, which its name ends in, in an engineer's words.
 
+use crate::results::figures;
+
 /// What the ends of names say of units, the longer before those that they end with.
 const UNITS: [(&str, &str); 19] = [
     ("_um_per_Mrev", "µm per million revolutions"),
@@ -23,8 +25,11 @@ const UNITS: [(&str, &str); 19] = [
     ("hours", "h"),
 ];
 
-/// The unit that a name ends with, also before `_new` and `_worn`.
+/// The unit of a main figure, or the one that a name ends with, also before `_new` and `_worn`.
 pub fn of(name: &str) -> Option<&'static str> {
+    if let Some(figure) = figures::find(name) {
+        return Some(figure.unit()).filter(|unit| !unit.is_empty());
+    }
     let name = name.strip_suffix("_new").or(name.strip_suffix("_worn")).unwrap_or(name);
     UNITS.into_iter().find(|(end, _)| name.ends_with(end)).map(|(_, unit)| unit)
 }
@@ -45,6 +50,8 @@ mod tests {
             ("mesh_orders_new_um", Some("µm")),
             ("half_width_worn_mm", Some("mm")),
             ("hours", Some("h")),
+            ("worn.transmission_error_um.peak_to_peak", Some("µm")),
+            ("geometry.overlap_ratio", None),
             ("load_share_new", None),
             ("C", None),
         ] {

@@ -11,6 +11,7 @@ use serde_json::Value;
 use super::csv_table::COLUMNS;
 use super::files::{ReportError, place};
 use super::unit;
+use crate::results::figures;
 use crate::results::run::{ReportedBy, Summary};
 
 pub(crate) const WORKBOOK: &str = "results.xlsx";
@@ -103,17 +104,19 @@ fn table(
     Ok(())
 }
 
-/// Every number and word of the summary under its path in `summary.json`.
+/// Every number and word of the summary under its path in `summary.json`, items of lists numbered from 1.
 fn main_figures(sheet: &mut Worksheet, summary: &Value) -> Result<(), XlsxError> {
-    heading(sheet, "summary", &["figure", "value", "unit"])?;
-    sheet.set_column_width(0, 56)?;
-    sheet.set_column_width(1, 24)?;
+    heading(sheet, "summary", &["figure", "value", "unit", "meaning"])?;
+    for (column, width) in [56.0, 24.0, 18.0, 100.0].into_iter().enumerate() {
+        sheet.set_column_width(column as u16, width)?;
+    }
     let mut found = Vec::new();
     for (key, value) in summary.as_object().into_iter().flatten().filter(|(key, _)| !NOT_SHOWN.contains(&key.as_str()))
     {
         flatten(key, unit::of(key), value, &mut found);
     }
     for (row, (path, unit, value)) in (1..).zip(found) {
+        let meaning = figures::find(&path).map_or("", |figure| figure.meaning.as_str());
         sheet.write_string(row, 0, path)?;
         match value {
             Value::Number(number) => cell(sheet, row, 1, &number.to_string())?,
@@ -122,6 +125,7 @@ fn main_figures(sheet: &mut Worksheet, summary: &Value) -> Result<(), XlsxError>
             _ => {}
         }
         sheet.write_string(row, 2, unit.unwrap_or_default())?;
+        sheet.write_string(row, 3, meaning)?;
     }
     Ok(())
 }
@@ -136,12 +140,13 @@ fn flatten<'a>(
     match value {
         Value::Object(parts) => {
             for (key, part) in parts {
-                flatten(&format!("{path}.{key}"), unit::of(key).or(unit), part, found);
+                let path = format!("{path}.{key}");
+                flatten(&path, unit::of(&path).or(unit), part, found);
             }
         }
         Value::Array(parts) => {
             for (number, part) in parts.iter().enumerate() {
-                flatten(&format!("{path}.{number}"), unit, part, found);
+                flatten(&format!("{path}.{}", number + 1), unit, part, found);
             }
         }
         _ => found.push((path.to_owned(), unit.filter(|_| value.is_number()), value)),

@@ -12,7 +12,7 @@ use serde::Deserialize;
 
 use super::file::{self, CheckpointError, CheckpointFile};
 use super::identity::{RunIdentity, between_scenes};
-use crate::report::ReportError;
+use crate::report::{ReportError, SUMMARY};
 use crate::results::run::StopReason;
 use crate::scene::loaded::NamedFile;
 use crate::whole_file;
@@ -21,7 +21,6 @@ use crate::whole_file;
 pub(crate) const SCENE: &str = "scene.toml";
 /// The last checkpoint.
 pub(crate) const CHECKPOINT: &str = "checkpoint.bin";
-const SUMMARY: &str = "summary.json";
 
 /// Contents of the folder of a run.
 #[derive(Debug, PartialEq)]

@@ -1,7 +1,8 @@
-//! The documents of the project say what is so: the tables of keys what the schemas say, the table of rooms what the imports
-//! are, links lead to something, and no document grows beyond its bar.
+//! The documents of the project say what is so: the tables of keys what the schemas say, the table of figures what their catalogue says,
+//! the table of rooms what the imports are, links lead to something, and no document grows beyond its bar.
 #![allow(unreachable_pub, reason = "test modules are of one crate")]
 
+mod figure_table;
 mod key_tables;
 mod links;
 mod rooms;
@@ -18,9 +19,9 @@ fn read(path: &str) -> String {
     fs::read_to_string(in_repository(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// Holds what stands between the marks of `path` against `expected`; with the environment variable `UPDATE_DOCS` set to 1 writes it.
-fn check_generated(path: &str, expected: &str) {
-    let (begin, end) = ("<!-- keys:begin -->\n", "<!-- keys:end -->\n");
+/// Holds what stands between the marks `what` of `path` against `expected`; with the environment variable `UPDATE_DOCS` set to 1 writes it.
+fn check_generated(path: &str, what: &str, expected: &str) {
+    let (begin, end) = (&*format!("<!-- {what}:begin -->\n"), &*format!("<!-- {what}:end -->\n"));
     let text = read(path);
     let (before, rest) = text.split_once(begin).unwrap_or_else(|| panic!("{path}: no {begin}"));
     let (current, after) = rest.split_once(end).unwrap_or_else(|| panic!("{path}: no {end}"));
@@ -40,13 +41,18 @@ fn check_generated(path: &str, expected: &str) {
 fn scene_document_has_every_key() {
     let sources = ["file", "fem_file", "lubrication_file", "wear_file"];
     let sources = sources.map(|name| read(&format!("src/scene/{name}.rs"))).join("\n");
-    check_generated("docs/scene.md", &key_tables::of_schema(gearwear::scene_schema(), &sources));
+    check_generated("docs/scene.md", "keys", &key_tables::of_schema(gearwear::scene_schema(), &sources));
 }
 
 #[test]
 fn problem_document_has_every_key() {
     let source = read("src/scene/fem_problem/file.rs");
-    check_generated("docs/fem-problems.md", &key_tables::of_schema(gearwear::fem_problem_schema(), &source));
+    check_generated("docs/fem-problems.md", "keys", &key_tables::of_schema(gearwear::fem_problem_schema(), &source));
+}
+
+#[test]
+fn outputs_document_has_every_main_figure() {
+    check_generated("docs/outputs.md", "figures", &figure_table::of_catalogue());
 }
 
 #[test]
@@ -73,7 +79,8 @@ fn pages_that_the_repository_names_exist() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// Words as `wc -w` counts them. docs/theory.md has a bar of its own size beside the other pages.
+/// Words as `wc -w` counts them. docs/theory.md has a bar of its own size beside the other pages; the table of figures, which is generated,
+/// is not counted.
 #[test]
 fn documents_stay_short() {
     let words = |text: &str| text.split_whitespace().count();
@@ -82,6 +89,7 @@ fn documents_stay_short() {
     let pages = links::pages(&in_repository("docs"));
     let others = pages.iter().filter(|page| !page.ends_with("theory.md"));
     let words_of_others: usize = others.map(|page| words(&fs::read_to_string(page).expect("a page can be read"))).sum();
+    let words_of_others = words_of_others - words(&figure_table::of_catalogue());
     for (what, size, bar) in [
         ("words of README.md", words(&read("README.md")), 900),
         ("words under Unreleased of CHANGELOG.md", words(unreleased), 600),

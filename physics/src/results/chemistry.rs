@@ -1,4 +1,4 @@
-//! What `summary.json` says of the wear law and of the temperatures of the contact.
+//! Wear law and temperatures of the contact in `summary.json`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -18,13 +18,13 @@ pub struct WearLawSummary {
     pub coefficient_mm3_per_Nm: f64,
     /// Depth of mild wear per pressure and sliding distance on average over a mesh, weighted by the sliding work, new.
     pub effective_coefficient_new_mm3_per_Nm: f64,
-    /// The same, worn.
+    /// Effective coefficient, worn.
     pub effective_coefficient_worn_mm3_per_Nm: f64,
     /// Regime of the IRG transition diagram that the effective coefficient, new, is in.
     pub irg_regime: Regime,
     /// The effective coefficient, new, times the severe factor; `None` without a transition.
     pub severe_coefficient_mm3_per_Nm: Option<f64>,
-    /// Its regime.
+    /// Regime that the severe coefficient is in.
     pub irg_regime_severe: Option<Regime>,
     /// Names of the law's constants that are typical values of the program: orders of magnitude, not measured ones.
     pub typical_constants: Vec<String>,
@@ -32,7 +32,7 @@ pub struct WearLawSummary {
     pub valid_temperature_C: Option<[f64; 2]>,
     /// Part of the sliding work of a mesh that is done outside them, new.
     pub work_outside_validity_new: Option<f64>,
-    /// The same, worn.
+    /// Part of the work outside the validity, worn.
     pub work_outside_validity_worn: Option<f64>,
 }
 
@@ -57,7 +57,7 @@ pub struct TemperatureSummary {
     pub tooth_null_because: Option<PerGear<Option<String>>>,
     /// Maximum rise above it over a mesh, new.
     pub greatest_rise_new_K: f64,
-    /// The same, worn.
+    /// Greatest rise, worn.
     pub greatest_rise_worn_K: f64,
     /// Least Peclet number of either surface where the pair carries load, new.
     pub peclet_min: f64,

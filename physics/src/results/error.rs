@@ -1,4 +1,4 @@
-//! What a run says of its own error: how far it is from the same wear simulation with finite elements, and the estimates of its companions.
+//! Error that a run states of itself: how far it is from the same wear simulation with finite elements, and the estimates of its companions.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -43,7 +43,7 @@ pub struct ErrorNewAndWorn {
 }
 
 impl TotalError {
-    /// It is not known, for this reason.
+    /// An error that is not known, for this reason.
     pub fn none(reason: &str) -> Self {
         Self { how: format!("not verified: {reason}"), ..Self::default() }
     }
@@ -69,7 +69,7 @@ pub struct ErrorSummary {
     /// error either: how well the limit is known is the scene's matter.
     #[serde(default)]
     pub severe_limit: Option<SevereLimit>,
-    /// What the estimates but `severe_limit` cost over what the run itself did, counted in equilibria weighted by their time.
+    /// Cost of the estimates but `severe_limit` over that of the run itself, counted in equilibria weighted by their time.
     pub companions_cost: Option<f64>,
     /// How each was obtained, or why it was not.
     pub how: ErrorSources,

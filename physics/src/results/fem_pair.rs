@@ -18,7 +18,7 @@ use gearwear_mesh::quality::MeshQuality;
 /// A finished (or interrupted) computation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FemPairRecord {
-    /// What `summary.json` holds.
+    /// Content of `summary.json`.
     pub summary: FemPairSummary,
     /// The resolved scene as TOML.
     pub scene_toml: String,
@@ -61,7 +61,7 @@ pub struct FemPairSummary {
     pub geometry: GeometrySummary,
     /// Of Hertz's contact at the pitch point with the whole load.
     pub contact: ContactSummary,
-    /// What was modelled, and how finely.
+    /// Model, and how fine it is.
     pub model: ModelSummary,
     /// The mesh cycle of the unworn pair.
     pub new: FemCycleSummary,
@@ -75,7 +75,7 @@ pub struct FemPairSummary {
     pub checks: ChecksSummary,
     /// The whole model without condensation against the condensed one, position by position; `None` where not asked for.
     pub full: Option<Vec<FullModelSummary>>,
-    /// What the user should know.
+    /// Warnings to the user.
     pub warnings: Vec<String>,
 }
 
@@ -86,7 +86,7 @@ pub struct ModelSummary {
     pub body: String,
     /// Teeth of the sector, where it is one.
     pub sector_teeth: Option<u32>,
-    /// What holds the sides of the sector, where it is one.
+    /// Support of the sides of the sector, where it is one.
     pub sector_sides: Option<String>,
     /// Elements along Hertz's half-width under the whole load.
     pub elements_per_half_width: f64,
@@ -97,7 +97,7 @@ pub struct ModelSummary {
 /// The finite-element model of one gear.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GearModelSummary {
-    /// Where it is held (wheel) or turned (pinion) rigidly.
+    /// Radius where a body is held (wheel) or turned (pinion) rigidly.
     pub clamp_radius_mm: f64,
     /// Degrees of freedom as modelled, supports included.
     pub dofs: usize,
@@ -136,7 +136,7 @@ pub struct FemCycleSummary {
     pub transmission_error_um: RangeSummary,
 }
 
-/// What the reference pair does at A–E.
+/// Load and pressure of the reference pair at A–E.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PathPointsSummary {
     /// Share of the whole load; 0 where it carries none.
@@ -169,11 +169,11 @@ pub struct ChecksSummary {
     pub tooth_ratio: f64,
     /// | |T2/T1| / (z2/z1) − 1 |, greatest.
     pub torque_ratio_error: f64,
-    /// Where it is greatest.
+    /// Position where it is greatest.
     pub torque_ratio_error_position_mm: f64,
-    /// The same where every contact lies on the line of action; `None` where no position is so.
+    /// Error where every contact lies on the line of action; `None` where no position is so.
     pub torque_ratio_error_on_line: Option<f64>,
-    /// What it means.
+    /// Meaning of it.
     pub torque_ratio: String,
     /// |Σ line loads of the pairs / whole line load − 1|.
     pub load_imbalance: f64,
@@ -196,7 +196,7 @@ pub struct FullModelSummary {
     pub dofs: usize,
     /// Loaded transmission error.
     pub transmission_error_um: f64,
-    /// Its difference to the condensed model, relative.
+    /// Difference to the condensed model, relative.
     pub transmission_error_difference: f64,
     /// Maximum difference of a pair's line load, over that of the whole torque.
     pub line_load_difference: f64,
@@ -256,7 +256,7 @@ pub struct FemCycleRow {
 pub struct PressureCurve {
     /// `A` to `E`; `None` where the position was asked for.
     pub point: Option<String>,
-    /// What `mesh_cycle.csv` says of it.
+    /// Row of `mesh_cycle.csv`.
     pub row: FemCycleRow,
     /// Distance from the resultant along the flank towards the pinion's tip, mm.
     pub along_mm: Vec<f64>,

@@ -16,13 +16,13 @@ use gearwear_mesh::quality::MeshQuality;
 /// A solved problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FemRecord {
-    /// What `summary.json` holds.
+    /// Content of `summary.json`.
     pub summary: FemSummary,
     /// The resolved problem as TOML.
     pub problem_toml: String,
     /// Groups of the bodies.
     pub bodies: Vec<String>,
-    /// What was solved, and what was found at its nodes.
+    /// Mesh that was solved, and what was found at its nodes.
     pub solution: FemSolution,
 }
 
@@ -67,9 +67,9 @@ pub struct SpaceSolution {
 /// A support or a load.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BoundaryRow {
-    /// Its group.
+    /// Group of the mesh.
     pub group: String,
-    /// What it does: held, displacement, force.
+    /// Kind: held, displacement, force.
     pub what: &'static str,
     /// Unit of its values.
     pub unit: &'static str,
@@ -115,7 +115,7 @@ pub struct FemSummary {
     pub force_balance: f64,
     /// Work done.
     pub work: Work,
-    /// What was carried out, with its times.
+    /// Stages carried out, with their times.
     pub stages: Vec<StageTime>,
     /// Time from the beginning to the end of the last stage, s.
     pub wall_s: f64,
@@ -123,10 +123,10 @@ pub struct FemSummary {
     pub contact: Vec<ContactSummary>,
     /// Maximum von Mises stress at a node, MPa.
     pub peak_von_mises_MPa: f64,
-    /// What three-dimensional problems have beside.
+    /// Further figures of three-dimensional problems.
     #[serde(flatten)]
     pub in_space: Option<InSpaceSummary>,
-    /// What the user should know.
+    /// Warnings to the user.
     pub warnings: Vec<String>,
 }
 
@@ -137,24 +137,24 @@ pub struct InSpaceSummary {
     pub peak_von_mises_at_mm: [f64; 3],
     /// Maximum displacement of a node, mm.
     pub greatest_displacement_mm: f64,
-    /// Where it is, before deformation, [x, y, z] in mm.
+    /// Place of it, before deformation, [x, y, z] in mm.
     pub greatest_displacement_at_mm: [f64; 3],
 }
 
 /// The mesh of a problem.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeshSummary {
-    /// Its file, as the problem names it.
+    /// File, as the problem names it.
     pub file: String,
     /// First 16 hexadecimal digits of the SHA-256 of that file.
     pub hash: String,
     /// Nodes that belong to a body.
     pub nodes: usize,
-    /// Its worst elements; none in space.
+    /// Worst elements; none in space.
     pub quality: Option<MeshQuality>,
 }
 
-/// What one contact came to.
+/// Figures of one contact.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ContactSummary {
     /// Group of the surface that carries the pressure.

@@ -39,7 +39,7 @@ impl Invariant {
         Self { name: name.to_owned(), violated: false, value: None, bound: None, place: None, how: how.to_owned() }
     }
 
-    /// What is wrong, on one line; `None` where nothing is.
+    /// Violation on one line; `None` where there is none.
     pub fn violation(&self) -> Option<String> {
         let value = self.value.filter(|_| self.violated)?;
         let place = self.place.as_ref().map_or_else(String::new, |place| format!(", {place}"));

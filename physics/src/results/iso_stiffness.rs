@@ -1,4 +1,4 @@
-//! What `summary.json` says of the stiffness by ISO 6336-1.
+//! Stiffness by ISO 6336-1 in `summary.json`.
 
 #![allow(non_snake_case, reason = "names that end in their unit")]
 

@@ -24,7 +24,7 @@ pub struct LifeSummary {
     pub gear: Option<Gear>,
     /// Hours until then; `None` where no limit was reached, or the scene gives no speed.
     pub hours: Option<f64>,
-    /// The same in pinion revolutions.
+    /// Life in pinion revolutions.
     pub revolutions: Option<f64>,
     /// Why there is no life, where no limit was reached.
     pub not_reached: Option<String>,

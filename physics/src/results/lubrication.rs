@@ -1,4 +1,4 @@
-//! What `summary.json` and `film.csv` say of films, friction and losses.
+//! Films, friction and losses in `summary.json` and `film.csv`.
 
 #![allow(non_snake_case, reason = "names that end in their unit, and symbols of the standards")]
 
@@ -30,7 +30,7 @@ pub struct LubricationSummary {
 /// The oil where it comes into the mesh.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OilSummary {
-    /// Its temperature.
+    /// Temperature of the oil.
     pub temperature_C: f64,
     /// ν.
     pub kinematic_viscosity_mm2_per_s: f64,
@@ -62,46 +62,46 @@ pub struct AlongPath {
 pub struct FilmSummary {
     /// In the middle of the contact, new, with the oil as it comes into the mesh.
     pub central_film_new_um: AlongPath,
-    /// The same, worn.
+    /// Central film, worn.
     pub central_film_worn_um: AlongPath,
     /// The least in the contact, new.
     pub minimum_film_new_um: AlongPath,
-    /// The same, worn.
+    /// Minimum film, worn.
     pub minimum_film_worn_um: AlongPath,
     /// The local film of ISO/TS 6336-22 over Ra, λ_GF, new.
     pub lambda_new: AlongPath,
-    /// The same, worn, over the roughness of worn flanks.
+    /// λ, worn, over the roughness of worn flanks.
     pub lambda_worn: AlongPath,
     /// Position of the least λ, new.
     pub least_lambda_new_position_mm: f64,
-    /// The same, worn.
+    /// Position of the least λ, worn.
     pub least_lambda_worn_position_mm: f64,
     /// Safety against micropitting S_λ by Method A, the least λ over that which the oil permits, new; `None` where that is not given.
     #[serde(default)]
     pub micropitting_safety_new: Option<f64>,
-    /// The same, worn.
+    /// Safety, worn.
     #[serde(default)]
     pub micropitting_safety_worn: Option<f64>,
     /// Least λ of the tip-edge zones, new; `None` where they carry no load, or the contact surface does not see tip edges.
     #[serde(default)]
     pub tip_edge_lambda_new: Option<f64>,
-    /// The same, worn.
+    /// Least λ of the tip edges, worn.
     #[serde(default)]
     pub tip_edge_lambda_worn: Option<f64>,
     /// Maximum flash temperature, new, tip edges included.
     pub greatest_flash_new_K: f64,
-    /// The same, worn.
+    /// Greatest flash temperature, worn.
     pub greatest_flash_worn_K: f64,
     /// The least film, of oil as warm as the teeth, over √(Rq₁² + Rq₂²), new.
     #[serde(default)]
     pub composite_lambda_new: Option<AlongPath>,
-    /// The same, worn, over the roughness of flanks that are run in.
+    /// λ over the composite roughness, worn, of flanks that are run in.
     #[serde(default)]
     pub composite_lambda_worn: Option<AlongPath>,
     /// Factor of the film on the wear coefficient of each gear, the mean over the sliding work from A to E, new; `None` where wear does not follow it.
     #[serde(default)]
     pub wear_factor_new: Option<PerGear<f64>>,
-    /// The same, worn.
+    /// Factor, worn.
     #[serde(default)]
     pub wear_factor_worn: Option<PerGear<f64>>,
 }
@@ -218,7 +218,7 @@ pub struct FrictionSummary {
     pub model: String,
     /// Mean over the work of sliding, new.
     pub mean_new: f64,
-    /// The same, worn.
+    /// Mean, worn.
     pub mean_worn: f64,
 }
 
@@ -229,17 +229,17 @@ pub struct LossSummary {
     pub loss_factor_ohlendorf: f64,
     /// H_VL, from the run's own loads, new.
     pub loss_factor_local_new: f64,
-    /// The same, worn.
+    /// Local loss factor, worn.
     pub loss_factor_local_worn: f64,
     /// P, through the pinion.
     pub power_W: f64,
     /// P_VZ, from the run's own loads, new.
     pub mesh_power_loss_new_W: f64,
-    /// The same, worn.
+    /// Mesh power loss, worn.
     pub mesh_power_loss_worn_W: f64,
     /// 1 − P_VZ/P, new; bearings, seals and churning are not in it.
     pub efficiency_new: f64,
-    /// The same, worn.
+    /// Efficiency, worn.
     pub efficiency_worn: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What was found, as plain records in the units of the output files: what reports, tables and tests read.
+//! Plain records of what was found, in the units of the output files: what reports, tables and tests read.
 //!
 //! The records of the studies (accuracy, sweep, compare, validation) are with them in `studies`.
 
@@ -7,6 +7,7 @@ pub(crate) mod drawing;
 pub mod error;
 pub mod fem_pair;
 pub mod fem_problem;
+pub mod figures;
 pub mod invariant;
 pub mod iso_stiffness;
 pub mod life;

@@ -1,12 +1,12 @@
-//! Who reports, and when: what pages state below their title.
+//! Author of a report and its date: what pages state below their title.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Who reports, and when, each as the scene says it.
+/// Author of a report and its date, each as the scene says it.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct ReportedBy {
-    /// Who made the calculation.
+    /// Author of the calculation.
     pub author: Option<String>,
     /// For whom, or where.
     pub company: Option<String>,
@@ -15,13 +15,13 @@ pub struct ReportedBy {
 }
 
 impl ReportedBy {
-    /// As pages state it: what is given, side by side.
+    /// Line on pages: what is given, side by side.
     pub fn line(&self) -> String {
         let Self { author, company, date } = self;
         [author, company, date].into_iter().flatten().map(String::as_str).collect::<Vec<_>>().join(" · ")
     }
 
-    /// The same of the table `[report]` of a scene; empty where it has none.
+    /// Line of the table `[report]` of a scene; empty where it has none.
     pub fn line_of_scene(scene_toml: &str) -> String {
         #[derive(Deserialize)]
         struct Reported {

@@ -1,4 +1,4 @@
-//! What `summary.json` says of the nominal stress at the roots of the teeth by the standards.
+//! Nominal stress at the roots of the teeth by the standards in `summary.json`.
 
 #![allow(non_snake_case, reason = "names that end in their unit, and symbols of the standards")]
 

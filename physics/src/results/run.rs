@@ -21,7 +21,7 @@ use crate::gear::{PerGear, flank_surface::FlankSurface, flank_zones::FlankZones}
 /// A finished (or interrupted) run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunRecord {
-    /// What `summary.json` holds.
+    /// Content of `summary.json`.
     pub summary: Summary,
     /// The resolved scene as TOML; input files have the names of `inputs`.
     pub scene_toml: String,
@@ -46,9 +46,9 @@ pub struct RunRecord {
 /// A file that a scene names.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct InputFile {
-    /// Its name in the folder of the run.
+    /// Name in the folder of the run.
     pub name: String,
-    /// What it holds.
+    /// Content.
     pub bytes: Vec<u8>,
 }
 
@@ -57,7 +57,7 @@ pub struct InputFile {
 pub struct Summary {
     /// The scene's title.
     pub title: String,
-    /// Who reports, and when; null where the scene does not say it.
+    /// Author and date of the report; null where the scene does not say it.
     pub report: Option<ReportedBy>,
     /// Version of the program.
     pub program_version: String,
@@ -119,7 +119,7 @@ pub struct Summary {
     pub error: ErrorSummary,
     /// Work done by the simulation.
     pub work: WorkSummary,
-    /// What the user should know.
+    /// Warnings to the user.
     pub warnings: Vec<String>,
 }
 
@@ -127,11 +127,11 @@ pub struct Summary {
 #[allow(non_snake_case, reason = "the contract's key names")]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PhaseSummary {
-    /// Its number, from 1.
+    /// Number, from 1.
     pub number: usize,
     /// How long it was run; `None` without a speed.
     pub hours: Option<f64>,
-    /// The same in pinion revolutions.
+    /// Duration in pinion revolutions.
     pub revolutions: f64,
     /// Torque on the pinion.
     pub pinion_torque_Nm: f64,
@@ -143,23 +143,23 @@ pub struct PhaseSummary {
     pub foundation_MPa_per_mm: Option<f64>,
     /// Hertz's maximum pressure at the pitch point under the whole load.
     pub hertz_peak_pressure_MPa: f64,
-    /// Its wear coefficient; `None` where each gear has its own.
+    /// Wear coefficient; `None` where each gear has its own.
     pub coefficient_m2_per_N: Option<f64>,
     /// Maximum rise of the contact temperature at its end, by the chosen method; `None` where nobody asks for temperatures.
     pub greatest_rise_K: Option<f64>,
     /// Part of the sliding work at its end that is outside the temperatures for which the wear law holds, where it names some.
     pub work_outside_validity: Option<f64>,
-    /// What the pinion wore off in it.
+    /// Wear of the pinion in it.
     pub pinion: PhaseWear,
-    /// What the wheel wore off in it.
+    /// Wear of the wheel in it.
     pub wheel: PhaseWear,
 }
 
-/// What a gear wore off in a phase.
+/// Wear of a gear in a phase.
 #[allow(non_snake_case, reason = "the contract's key names")]
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PhaseWear {
-    /// Its wear coefficient.
+    /// Wear coefficient of the gear.
     pub coefficient_m2_per_N: f64,
     /// Maximum depth that any place of the active profile lost, the zone of the tip edge apart.
     pub greatest_depth_um: f64,
@@ -298,11 +298,11 @@ pub struct HelicalSummary {
     pub line_of_contact_mm: LineOfContactSummary,
     /// Face load factor K_Hβ: greatest over mean of the slices' loads, averaged over the mesh; new.
     pub K_Hbeta_new: f64,
-    /// The same, worn.
+    /// K_Hβ, worn.
     pub K_Hbeta_worn: f64,
     /// The first five mesh orders of the transmission error: amplitudes, new.
     pub mesh_orders_new_um: Vec<f64>,
-    /// The same, worn.
+    /// Amplitudes of the first five mesh orders, worn.
     pub mesh_orders_worn_um: Vec<f64>,
     /// Wear over the face width of each gear.
     pub wear: PerGear<OverWidthSummary>,
@@ -328,17 +328,17 @@ pub struct OverWidthSummary {
     pub tip_wear_um: Vec<f64>,
     /// Depth lost at the root by each slice in the first mesh of the unworn pair.
     pub root_wear_first_mesh_um: Vec<f64>,
-    /// The same at the tip.
+    /// Depth lost at the tip by each slice in the first mesh of the unworn pair.
     pub tip_wear_first_mesh_um: Vec<f64>,
     /// Maximum less minimum root wear, over its mean.
     pub root_variation: f64,
-    /// The same at the tip.
+    /// Maximum less minimum tip wear, over its mean.
     pub tip_variation: f64,
     /// Of root and tip together: greatest less least over the mean of both zones of all slices.
     pub root_tip_variation: f64,
     /// (first slice − last slice) / (first + last) of the root wear, after the first mesh.
     pub root_asymmetry_first_mesh: f64,
-    /// The same at the end of the run.
+    /// Asymmetry of the root wear at the end of the run.
     pub root_asymmetry: f64,
 }
 
@@ -371,14 +371,14 @@ pub struct StiffnessSummary {
     pub pair_at_pitch_N_per_mm_um: f64,
     /// Tooth spring alone, at C, likewise.
     pub teeth_at_pitch_N_per_mm_um: f64,
-    /// What the split leaves over: relative difference between the surface's and the true flattening's share of the
+    /// Residual of the split: relative difference between the surface's and the true flattening's share of the
     /// pair's approach at C at half the reference load; `None` where the model states no flattening.
     pub split_remainder_at_half_load: Option<f64>,
 }
 
 /// One mesh cycle in figures. Maximum pressures of whole slices leave 1/40 of the face width out at either end face.
 #[allow(non_snake_case, reason = "the contract's key names")]
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct CycleSummary {
     /// Maximum pressure at a single point, the tip edges' roundings and the kinks of linear reliefs included: there it depends on the
     /// resolution. Not of that which a sharp tip edge cuts off.
@@ -412,12 +412,12 @@ pub struct WearBalance {
     /// How far what a flank of the unworn pair loses in one mesh is from its coefficient times load and sliding distance, k ∫ F ds, relative
     /// to that: the gear for which it is farther. `None` where a law does not say so by its coefficient alone, or where no gear wears.
     pub work_new: Option<f64>,
-    /// The same of the worn pair.
+    /// Difference of the worn pair from k ∫ F ds.
     pub work_worn: Option<f64>,
 }
 
 /// Extremes and their difference.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct RangeSummary {
     /// Least value.
     pub min: f64,
@@ -428,7 +428,7 @@ pub struct RangeSummary {
 }
 
 /// Wear of a gear. Maxima over the face width leave 1/40 of it out at either end face, whatever the number of slices.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct WearSummary {
     /// Maximum wear depth on the active profile, the zone of the tip edge apart.
     pub peak_wear_um: f64,
@@ -450,7 +450,7 @@ pub struct WearSummary {
     pub worn_volume_mm3: f64,
     /// Worn off the whole gear: all teeth, whole width.
     pub worn_mass_mg: f64,
-    /// What is left of the normal tooth thickness at the tip cylinder, reliefs and roundings not taken off: `tip_edge_wear_um` is.
+    /// Normal tooth thickness left at the tip cylinder, reliefs and roundings not taken off: `tip_edge_wear_um` is.
     pub normal_tip_thickness_mm: f64,
     /// Mean wear W_m of VDI 2736-2, of an unchanged flank; `None` where neither gear is a plastic, or the wear law is more than a coefficient.
     #[serde(default)]
@@ -501,7 +501,7 @@ pub struct FlankRecord {
     pub sliding_mm_per_mesh: Vec<f64>,
     /// Wear depth at the end of the run.
     pub wear_um: Vec<f64>,
-    /// The same by the finite elements that vouch for it; none where none do. Not a column of its own.
+    /// Wear depth by the finite elements that vouch for it; none where none do. Not a column of its own.
     pub verified_wear_um: Option<Vec<f64>>,
     /// Maximum pressure during one mesh, new.
     pub pressure_new_MPa: Vec<f64>,
@@ -513,7 +513,7 @@ pub struct FlankRecord {
     pub snapshot_pressure_MPa: Vec<Vec<f64>>,
     /// Radii worth marking: start of active profile (A on the pinion, E on the wheel) to tip.
     pub path_point_radius_mm: PathPoints,
-    /// Its parts, of which figures speak.
+    /// Zones of the flank, of which figures speak.
     pub zones: FlankZones,
 }
 
@@ -621,14 +621,14 @@ pub struct SliceRecord {
     pub position_mm: Vec<f64>,
     /// Load of each slice at each position, position after position, N per mm of face width; new.
     pub line_load_new_N_per_mm: Vec<f64>,
-    /// The same, worn.
+    /// Load of each slice at each position, worn.
     pub line_load_worn_N_per_mm: Vec<f64>,
     /// Maximum pressure of each slice at each position, new.
     pub peak_pressure_new_MPa: Vec<f64>,
-    /// The same, worn.
+    /// Maximum pressure of each slice at each position, worn.
     pub peak_pressure_worn_MPa: Vec<f64>,
     /// Whether a sharp tip edge cuts off the contact of each slice at each position, new.
     pub at_sharp_edge_new: Vec<bool>,
-    /// The same, worn.
+    /// Sharp tip edges at each position, worn.
     pub at_sharp_edge_worn: Vec<bool>,
 }

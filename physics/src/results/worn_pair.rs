@@ -1,4 +1,4 @@
-//! What a study of many runs keeps of each: the main figures, how they grew, and the wear over both flanks.
+//! Record that a study of many runs keeps of each: the main figures, how they grew, and the wear over both flanks.
 
 use super::run::{HistoryRow, Summary};
 use crate::gear::PerGear;
@@ -6,7 +6,7 @@ use crate::gear::PerGear;
 /// A run as a study of many keeps it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WornPair {
-    /// Its main figures.
+    /// Main figures.
     pub summary: Summary,
     /// One row per snapshot.
     pub history: Vec<HistoryRow>,

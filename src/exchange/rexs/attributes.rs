@@ -1,11 +1,15 @@
-//! Which figure of a run is which attribute of the format: id, unit and component by the format's database (database.rexs.info), versions 1.4
+//! Attributes of the format for figures of a run: id, unit and component by the format's database (database.rexs.info), versions 1.4
 //! to 2.0. An attribute that belongs to a standard or guideline stands for a figure only where the run computes it by that one.
 //!
 //! What the database has no attribute for stands under an id that begins with `custom_`, then the name of the program, as the specification
 //! has it (spec.rexs.info, versions 1.4 and 1.6, section "Extensibility of the interface").
 
-use super::document::Document;
+use std::borrow::Cow;
+
+use super::document::RexsDocument;
 use super::same_loads::Loads;
+use crate::gear::Gear;
+use crate::results::figures::{self, FigureValues, MainFigure, RexsAttribute, RexsId, STATED_ERRORS};
 
 /// The beginning of ids that are not in the database.
 pub(super) const CUSTOM: &str = "custom_gearwear_";
@@ -23,14 +27,14 @@ pub(super) enum On {
     GearInStage,
 }
 
-/// What a figure is of.
+/// Reach of a figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Of {
     /// The pair, whatever its load.
     Pair,
     /// The load of the reference phase, the greatest.
     Load,
-    /// The same, and proportional to the torque, so that it is known of every load.
+    /// The load of the reference phase, and proportional to the torque, so that the figure is known of every load.
     Torque,
     /// Each phase.
     Phase,
@@ -38,36 +42,28 @@ pub(super) enum Of {
     Life,
 }
 
-/// An attribute of the database, in the versions that have it.
-#[derive(Debug)]
-pub(super) struct Standard {
-    id: &'static str,
-    /// First and last version; they are in order as texts are.
-    versions: [&'static str; 2],
-}
-
 /// An attribute for a figure.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Attribute {
+pub(super) struct AttributeKind {
     pub of: Of,
     pub on: On,
-    /// As the database writes it.
+    /// Unit as the database writes it.
     unit: &'static str,
     /// In the database, in some versions.
-    standard: &'static [Standard],
+    standard: &'static [RexsId],
     /// Behind [`CUSTOM`] in a version without a standard attribute; None where the figure then has none.
     custom: Option<&'static str>,
 }
 
 /// A figure of the summary and its attribute.
-#[derive(Debug)]
-pub(super) struct Figure {
+#[derive(Debug, Clone)]
+pub(super) struct FigureAttribute {
     /// In `summary.json`; `{gear}` is each gear, `{phase}` the number of the phase.
-    pub path: &'static str,
-    pub attribute: Attribute,
+    pub path: Cow<'static, str>,
+    pub attribute: AttributeKind,
 }
 
-impl Figure {
+impl FigureAttribute {
     /// A value of the summary in the unit of the attribute.
     pub(super) fn in_unit(&self, value: f64) -> f64 {
         if self.path.ends_with("_um") && self.attribute.unit == "mm" { 1e-3 * value } else { value }
@@ -82,7 +78,7 @@ pub(super) struct Naming<'a> {
 }
 
 impl<'a> Naming<'a> {
-    pub(super) fn of(document: &'a Document, loads: Loads) -> Self {
+    pub(super) fn of(document: &'a RexsDocument, loads: Loads) -> Self {
         Self { version: &document.version, loads }
     }
 
@@ -96,9 +92,10 @@ impl<'a> Naming<'a> {
     }
 
     /// The id of an attribute; None where this version has none for it.
-    pub(super) fn id(&self, attribute: &Attribute) -> Option<String> {
-        let has = |standard: &&Standard| (standard.versions[0]..=standard.versions[1]).contains(&self.version);
-        let standard = attribute.standard.iter().find(has).map(|standard| standard.id);
+    pub(super) fn id(&self, attribute: &AttributeKind) -> Option<String> {
+        let mut known = attribute.standard.iter();
+        let standard = known.find(|standard| (standard.versions[0]..=standard.versions[1]).contains(&self.version));
+        let standard = standard.map(|standard| standard.id);
         match (standard, self.says_greatest_load(attribute.of)) {
             (Some(id), false) => Some(id.to_owned()),
             (None, false) => attribute.custom.map(|name| format!("{CUSTOM}{name}")),
@@ -107,41 +104,35 @@ impl<'a> Naming<'a> {
     }
 
     /// The unit of an attribute. Stresses are in N / mm^2 up to version 1.7 and in MPa from 2.0 on.
-    pub(super) fn unit(&self, attribute: &Attribute) -> &'static str {
+    pub(super) fn unit(&self, attribute: &AttributeKind) -> &'static str {
         if attribute.unit == "MPa" && self.version < "2.0" { "N / mm^2" } else { attribute.unit }
     }
 }
 
-const LAST: &str = "2.0.0";
-
-const fn always(id: &'static str) -> Standard {
-    Standard { id, versions: ["1.4", LAST] }
+const fn until_1_7(id: &'static str) -> RexsId {
+    RexsId { id, versions: [RexsId::FIRST, "1.7"] }
 }
 
-const fn until_1_7(id: &'static str) -> Standard {
-    Standard { id, versions: ["1.4", "1.7"] }
+const fn since_1_5(id: &'static str) -> RexsId {
+    RexsId { id, versions: ["1.5", RexsId::LAST] }
 }
 
-const fn since_1_5(id: &'static str) -> Standard {
-    Standard { id, versions: ["1.5", LAST] }
+const fn since_1_7(id: &'static str) -> RexsId {
+    RexsId { id, versions: ["1.7", RexsId::LAST] }
 }
 
-const fn since_1_7(id: &'static str) -> Standard {
-    Standard { id, versions: ["1.7", LAST] }
-}
-
-const fn since_2_0(id: &'static str) -> Standard {
-    Standard { id, versions: ["2.0", LAST] }
+const fn since_2_0(id: &'static str) -> RexsId {
+    RexsId { id, versions: ["2.0", RexsId::LAST] }
 }
 
 /// An attribute that is in no version.
-const fn only_custom(of: Of, on: On, unit: &'static str, name: &'static str) -> Attribute {
-    Attribute { of, on, unit, standard: &[], custom: Some(name) }
+const fn only_custom(of: Of, on: On, unit: &'static str, name: &'static str) -> AttributeKind {
+    AttributeKind { of, on, unit, standard: &[], custom: Some(name) }
 }
 
 /// A figure that no version has an attribute for.
-const fn custom(of: Of, on: On, path: &'static str, unit: &'static str, name: &'static str) -> Figure {
-    Figure { path, attribute: only_custom(of, on, unit, name) }
+const fn custom(of: Of, on: On, path: &'static str, unit: &'static str, name: &'static str) -> FigureAttribute {
+    FigureAttribute { path: Cow::Borrowed(path), attribute: only_custom(of, on, unit, name) }
 }
 
 /// A figure that some versions have an attribute for, and others may have none.
@@ -150,14 +141,14 @@ const fn standard(
     on: On,
     path: &'static str,
     unit: &'static str,
-    standard: &'static [Standard],
+    standard: &'static [RexsId],
     custom: Option<&'static str>,
-) -> Figure {
-    Figure { path, attribute: Attribute { of, on, unit, standard, custom } }
+) -> FigureAttribute {
+    FigureAttribute { path: Cow::Borrowed(path), attribute: AttributeKind { of, on, unit, standard, custom } }
 }
 
 /// Mesh stiffness at each position of one pitch, of all pairs in contact over the whole face width.
-pub(super) const MESH_STIFFNESS: Attribute = Attribute {
+pub(super) const MESH_STIFFNESS: AttributeKind = AttributeKind {
     of: Of::Load,
     on: On::Stage,
     unit: "N / mm",
@@ -165,7 +156,7 @@ pub(super) const MESH_STIFFNESS: Attribute = Attribute {
     custom: None,
 };
 /// Rotation of a gear at each of these positions.
-pub(super) const MESH_POSITIONS: Attribute = Attribute {
+pub(super) const MESH_POSITIONS: AttributeKind = AttributeKind {
     of: Of::Load,
     on: On::GearInStage,
     unit: "deg",
@@ -173,41 +164,30 @@ pub(super) const MESH_POSITIONS: Attribute = Attribute {
     custom: None,
 };
 /// Mean over the pitch per mm of face width, new and worn: c_γ as the mean of the slope dF/dδ, not that of ISO 6336-1 Method B.
-pub(super) const MEAN_MESH_STIFFNESS: [Attribute; 2] = [
+pub(super) const MEAN_MESH_STIFFNESS: [AttributeKind; 2] = [
     only_custom(Of::Load, On::Stage, "N / (mm mum)", "mean_mesh_stiffness_new"),
     only_custom(Of::Load, On::Stage, "N / (mm mum)", "mean_mesh_stiffness_worn"),
 ];
 /// Wear depth from root to tip, the maximum over the face width.
-pub(super) const WEAR_DEPTH: Attribute = only_custom(Of::Life, On::GearInStage, "mum", "wear_depth");
+pub(super) const WEAR_DEPTH: AttributeKind = only_custom(Of::Life, On::GearInStage, "mum", "wear_depth");
 /// The diameters at which it stands.
-pub(super) const WEAR_DEPTH_DIAMETERS: Attribute = only_custom(Of::Life, On::GearInStage, "mm", "wear_depth_diameters");
+pub(super) const WEAR_DEPTH_DIAMETERS: AttributeKind =
+    only_custom(Of::Life, On::GearInStage, "mm", "wear_depth_diameters");
 /// Version of the program.
-pub(super) const PROGRAM_VERSION: Attribute = only_custom(Of::Life, On::Stage, "none", "version");
+pub(super) const PROGRAM_VERSION: AttributeKind = only_custom(Of::Life, On::Stage, "none", "version");
 /// Hash of the run's scene.
-pub(super) const SCENE_HASH: Attribute = only_custom(Of::Life, On::Stage, "none", "scene_hash");
+pub(super) const SCENE_HASH: AttributeKind = only_custom(Of::Life, On::Stage, "none", "scene_hash");
 
-/// All figures that are one number, in the order in which they are written.
-pub(super) static FIGURES: &[Figure] = &[
+/// Under what the run was, which is written first.
+static OF_OPERATION: [FigureAttribute; 4] = [
     custom(Of::Life, On::Stage, "hours", "h", "running_time"),
     custom(Of::Life, On::Stage, "revolutions", "none", "pinion_revolutions"),
     custom(Of::Load, On::Stage, "phases.{phase}.pinion_torque_Nm", "N m", "pinion_torque"),
     custom(Of::Load, On::Stage, "phases.{phase}.pinion_speed_rpm", "1 / min", "pinion_speed"),
-    custom(Of::Load, On::Stage, "contact.line_load_N_per_mm", "N / mm", "line_load"),
-    custom(Of::Load, On::Stage, "contact.hertz_peak_pressure_MPa", "MPa", "hertzian_pressure_at_pitch_point"),
-    custom(Of::Load, On::Stage, "new.flank_pressure_MPa", "MPa", "flank_pressure_new"),
-    custom(Of::Load, On::Stage, "worn.flank_pressure_MPa", "MPa", "flank_pressure_worn"),
-    custom(Of::Load, On::Stage, "new.tip_edge_line_load_N_per_mm", "N / mm", "tip_edge_line_load_new"),
-    custom(Of::Load, On::Stage, "worn.tip_edge_line_load_N_per_mm", "N / mm", "tip_edge_line_load_worn"),
-    custom(Of::Load, On::Stage, "new.tip_edge_mean_pressure_MPa", "MPa", "tip_edge_mean_pressure_new"),
-    custom(Of::Load, On::Stage, "worn.tip_edge_mean_pressure_MPa", "MPa", "tip_edge_mean_pressure_worn"),
-    custom(Of::Load, On::Stage, "new.transmission_error_um.peak_to_peak", "mum", "peak_to_peak_transmission_error_new"),
-    custom(
-        Of::Load,
-        On::Stage,
-        "worn.transmission_error_um.peak_to_peak",
-        "mum",
-        "peak_to_peak_transmission_error_worn",
-    ),
+];
+
+/// Attributes beside those of main figures: phases, films, root stress and temperatures, and such as differ from version to version.
+static OTHERS: &[FigureAttribute] = &[
     standard(
         Of::Load,
         On::Stage,
@@ -315,28 +295,14 @@ pub(super) static FIGURES: &[Figure] = &[
     custom(Of::Phase, On::Stage, "phases.{phase}.line_load_N_per_mm", "N / mm", "line_load"),
     custom(Of::Phase, On::Stage, "phases.{phase}.hertz_peak_pressure_MPa", "MPa", "hertzian_pressure_at_pitch_point"),
     custom(Of::Phase, On::Stage, "phases.{phase}.greatest_rise_K", "K", "maximum_contact_temperature_rise"),
-    standard(Of::Load, On::Gear, "lubrication.oil.bulk_temperature_C", "C", &[always("bulk_temperature")], None),
-    custom(Of::Life, On::GearInStage, "{gear}.peak_wear_um", "mum", "maximum_wear_depth"),
-    custom(Of::Life, On::GearInStage, "error.total.peak_wear.{gear}", "none", "maximum_wear_depth_relative_error"),
-    custom(Of::Life, On::GearInStage, "{gear}.tip_edge_wear_um", "mum", "maximum_wear_depth_tip_edge"),
-    custom(
-        Of::Life,
-        On::GearInStage,
-        "{gear}.below_sap_wear_um",
-        "mum",
-        "maximum_wear_depth_below_start_of_active_profile",
-    ),
-    custom(Of::Life, On::GearInStage, "{gear}.root_wear_um", "mum", "maximum_wear_depth_root"),
-    custom(Of::Life, On::GearInStage, "{gear}.pitch_wear_um", "mum", "wear_depth_at_pitch_diameter"),
     standard(
-        Of::Life,
-        On::GearInStage,
-        "{gear}.vdi_2736_mean_wear_um",
-        "mm",
-        &[always("averaged_linear_wear_vdi_2736_2014")],
+        Of::Load,
+        On::Gear,
+        "lubrication.oil.bulk_temperature_C",
+        "C",
+        &[RexsId::always("bulk_temperature")],
         None,
     ),
-    custom(Of::Life, On::GearInStage, "{gear}.worn_mass_mg", "mg", "wear_mass"),
     custom(Of::Phase, On::GearInStage, "phases.{phase}.{gear}.greatest_depth_um", "mum", "maximum_wear_depth"),
     custom(Of::Phase, On::GearInStage, "phases.{phase}.{gear}.tip_edge_depth_um", "mum", "maximum_wear_depth_tip_edge"),
     custom(
@@ -445,7 +411,48 @@ pub(super) static FIGURES: &[Figure] = &[
         On::GearInStage,
         "temperature.tooth.{gear}.root_C",
         "C",
-        &[always("root_temperature_vdi_2736_2014")],
+        &[RexsId::always("root_temperature_vdi_2736_2014")],
         None,
     ),
 ];
+
+/// All figures that are one number, in the order in which they are written.
+pub(super) fn figures() -> impl Iterator<Item = FigureAttribute> {
+    let main = figures::all().iter().flat_map(of_main_figure);
+    OF_OPERATION.iter().cloned().chain(main).chain(OTHERS.iter().cloned())
+}
+
+/// The attributes that the catalogue of main figures names: of a figure, and of the errors that are stated of it. Both gears' are one.
+fn of_main_figure(figure: &'static MainFigure) -> Vec<FigureAttribute> {
+    let family = figure.family;
+    let (of, on, path) = match family.values {
+        FigureValues::Gears(_) => (Of::Life, On::GearInStage, family.path),
+        FigureValues::Pair(_) | FigureValues::States(_) => (Of::Load, On::Stage, figure.name.as_str()),
+    };
+    if figure.gear() == Some(Gear::Wheel) {
+        return Vec::new();
+    }
+    let own = match family.rexs {
+        Some(RexsAttribute::Own(_)) => Some(custom(of, on, path, unit(family.unit), &figure.own_attribute)),
+        Some(RexsAttribute::Database { ids, unit }) => Some(standard(of, on, path, unit, ids, None)),
+        None => None,
+    };
+    let has_own = own.is_some();
+    let errors = STATED_ERRORS.iter().filter(|error| figure.error_paths().any(|path| path == error.name));
+    let errors = errors.filter(|error| has_own && !error.rexs.is_empty());
+    let of_errors = errors.map(|error| FigureAttribute {
+        path: Cow::Owned(error.name.replace("pinion", "{gear}")),
+        attribute: only_custom(of, on, "none", error.rexs),
+    });
+    own.into_iter().chain(of_errors).collect()
+}
+
+/// A unit as the database writes it.
+fn unit(unit: &'static str) -> &'static str {
+    match unit {
+        "" => "none",
+        "µm" => "mum",
+        "N/mm" => "N / mm",
+        other => other,
+    }
+}

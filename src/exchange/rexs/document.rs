@@ -6,18 +6,18 @@ use quick_xml::{Reader, XmlVersion};
 use super::{RexsError, VERSIONS};
 
 #[derive(Debug, Default)]
-pub(super) struct Document {
+pub(super) struct RexsDocument {
     pub version: String,
     /// Name and version of the program that wrote the file.
     pub application: String,
-    pub components: Vec<Component>,
-    pub relations: Vec<Relation>,
-    /// What each load case says of components, in the order of the file.
-    pub load_cases: Vec<Vec<Component>>,
+    pub components: Vec<RexsComponent>,
+    pub relations: Vec<RexsRelation>,
+    /// Components as each load case has them, in the order of the file.
+    pub load_cases: Vec<Vec<RexsComponent>>,
 }
 
 #[derive(Debug, Clone)]
-pub(super) struct Component {
+pub(super) struct RexsComponent {
     pub id: String,
     /// Type, as `cylindrical_gear`.
     pub kind: String,
@@ -31,14 +31,14 @@ pub(super) struct Component {
 struct Attribute {
     id: String,
     unit: String,
-    /// Its scalar; that of arrays and matrices is empty.
+    /// Scalar; that of arrays and matrices is empty.
     text: String,
     line: usize,
 }
 
 /// Components that belong together, by their roles.
 #[derive(Debug, Default)]
-pub(super) struct Relation {
+pub(super) struct RexsRelation {
     pub kind: String,
     /// Role and id.
     pub members: Vec<(String, String)>,
@@ -63,8 +63,8 @@ pub(super) const NM: Units = &[("Nm", 1.0)];
 pub(super) const RPM: Units = &[("1/min", 1.0)];
 pub(super) const HOURS: Units = &[("h", 1.0)];
 
-impl Component {
-    /// As messages name it.
+impl RexsComponent {
+    /// Name in messages.
     pub(super) fn label(&self) -> String {
         let name = if self.name.is_empty() { &self.kind } else { &self.name };
         format!("{name} (id {})", self.id)
@@ -110,29 +110,30 @@ impl Component {
         RexsError::Missing { line: self.line, component: self.label(), attribute }
     }
 
-    /// That the value of an attribute will not do.
+    /// Error that the value of an attribute will not do.
     pub(super) fn wrong(&self, id: &str, found: String, allowed: String) -> RexsError {
         let line = self.attribute(id).map_or(self.line, |attribute| attribute.line);
         RexsError::Value { line, component: self.label(), attribute: id.to_owned(), found, allowed }
     }
 }
 
-impl Relation {
+impl RexsRelation {
     /// The id of the member in this role.
     pub(super) fn member(&self, role: &str) -> Option<&str> {
         self.members.iter().find(|(member, _)| member == role).map(|(_, id)| id.as_str())
     }
 }
 
-impl Document {
-    pub(super) fn component(&self, id: &str) -> Option<&Component> {
+impl RexsDocument {
+    pub(super) fn component(&self, id: &str) -> Option<&RexsComponent> {
         self.components.iter().find(|component| component.id == id)
     }
 
     /// The first relation of `kind` in which each `(role, id)` of `members` stands.
-    pub(super) fn relation(&self, kind: &str, members: &[(&str, &str)]) -> Option<&Relation> {
-        let has = |relation: &Relation| members.iter().all(|(role, id)| relation.member(role) == Some(id));
-        self.relations.iter().find(|relation| relation.kind == kind && has(relation))
+    pub(super) fn relation(&self, kind: &str, members: &[(&str, &str)]) -> Option<&RexsRelation> {
+        self.relations.iter().find(|relation| {
+            relation.kind == kind && members.iter().all(|(role, id)| relation.member(role) == Some(id))
+        })
     }
 
     /// The members in role `wanted` of the relations of `kind` in which `id` has `role`.
@@ -141,7 +142,7 @@ impl Document {
         kind: &'a str,
         (role, id): (&'a str, &'a str),
         wanted: &'a str,
-    ) -> impl Iterator<Item = &'a Component> {
+    ) -> impl Iterator<Item = &'a RexsComponent> {
         self.relations
             .iter()
             .filter(move |relation| relation.kind == kind && relation.member(role) == Some(id))
@@ -149,17 +150,17 @@ impl Document {
     }
 
     /// The shaft that carries a gear.
-    pub(super) fn shaft_of<'a>(&'a self, gear: &'a Component) -> Option<&'a Component> {
+    pub(super) fn shaft_of<'a>(&'a self, gear: &'a RexsComponent) -> Option<&'a RexsComponent> {
         self.related("assembly", ("part", &gear.id), "assembly").find(|component| component.kind == "shaft")
     }
 
     /// The material that a component refers to.
-    pub(super) fn material_of<'a>(&'a self, component: &'a Component) -> Option<&'a Component> {
+    pub(super) fn material_of<'a>(&'a self, component: &'a RexsComponent) -> Option<&'a RexsComponent> {
         self.related("reference", ("origin", &component.id), "referenced").find(|found| found.kind == "material")
     }
 
-    /// What the first load case that speaks of it, or the component itself, says in words.
-    pub(super) fn word<'a>(&'a self, component: &'a Component, id: &str) -> Option<&'a str> {
+    /// Word that the first load case that speaks of it, or the component itself, has.
+    pub(super) fn word<'a>(&'a self, component: &'a RexsComponent, id: &str) -> Option<&'a str> {
         let cases = self.load_cases.iter().flatten().filter(|said| said.id == component.id);
         cases.chain([component]).find_map(|said| said.text(id))
     }
@@ -171,7 +172,7 @@ impl Document {
         let mut reader = Reader::from_str(text);
         let mut lines = Lines::of(text);
         let mut path: Vec<String> = Vec::new();
-        let mut document = Document::default();
+        let mut document = RexsDocument::default();
         let mut model_seen = false;
         loop {
             let line = lines.at(reader.buffer_position());
@@ -219,7 +220,7 @@ impl Document {
                 self.application =
                     format!("{} {}", value("applicationId")?, value("applicationVersion")?).trim().to_owned();
             }
-            "relation" => self.relations.push(Relation { kind: value("type")?, members: Vec::new() }),
+            "relation" => self.relations.push(RexsRelation { kind: value("type")?, members: Vec::new() }),
             "ref" => {
                 let member = (value("role")?, value("id")?);
                 if let Some(relation) = self.relations.last_mut() {
@@ -228,7 +229,7 @@ impl Document {
             }
             "load_case" => self.load_cases.push(Vec::new()),
             "component" => {
-                let component = Component {
+                let component = RexsComponent {
                     id: value("id")?,
                     kind: value("type")?,
                     name: value("name")?,
@@ -251,11 +252,10 @@ impl Document {
     }
 
     /// Where components within the elements `path` belong; None of sums over the load spectrum, which nothing reads.
-    fn components_of(&mut self, path: &[String]) -> Option<&mut Vec<Component>> {
-        let within = |name: &str| path.iter().any(|element| element == name);
-        if within("accumulation") {
+    fn components_of(&mut self, path: &[String]) -> Option<&mut Vec<RexsComponent>> {
+        if path.iter().any(|element| element == "accumulation") {
             None
-        } else if within("load_case") {
+        } else if path.iter().any(|element| element == "load_case") {
             self.load_cases.last_mut()
         } else {
             Some(&mut self.components)
@@ -269,18 +269,22 @@ impl Document {
 
 /// An attribute of an element on `line`; empty where it is not there.
 pub(super) fn xml_attribute(tag: &BytesStart, name: &str, line: usize) -> Result<String, RexsError> {
-    let wrong = |error: String| RexsError::NoXml { line, found: format!("an attribute that cannot be read ({error})") };
-    match tag.try_get_attribute(name).map_err(|error| wrong(error.to_string()))? {
+    match tag.try_get_attribute(name).map_err(|error| unreadable_attribute(line, error))? {
         None => Ok(String::new()),
         Some(found) => {
-            let value = found.normalized_value(XmlVersion::Implicit1_0).map_err(|error| wrong(error.to_string()))?;
+            let value =
+                found.normalized_value(XmlVersion::Implicit1_0).map_err(|error| unreadable_attribute(line, error))?;
             // Names stand in remarks, which end with their line.
             Ok(value.chars().map(|c| if c.is_control() { ' ' } else { c }).collect())
         }
     }
 }
 
-/// What a file is that is no XML, by how it begins.
+fn unreadable_attribute(line: usize, error: impl std::fmt::Display) -> RexsError {
+    RexsError::NoXml { line, found: format!("an attribute that cannot be read ({error})") }
+}
+
+/// Kind of a file that is no XML, by how it begins.
 fn other_form(text: &str) -> Option<&'static str> {
     let text = text.trim_start_matches('\u{feff}').trim_start();
     if text.is_empty() {

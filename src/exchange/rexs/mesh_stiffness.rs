@@ -13,7 +13,7 @@ pub(crate) struct MeshStiffness {
     pub pinion_rotation_deg: Vec<f64>,
     /// dF/dδ of all pairs in contact per mm of face width, no number where the model does not give it.
     pub new_N_per_mm_um: Vec<f64>,
-    /// The same of the worn pair.
+    /// Mesh stiffness of the worn pair.
     pub worn_N_per_mm_um: Vec<f64>,
 }
 

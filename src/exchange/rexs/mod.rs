@@ -25,15 +25,15 @@ mod results_tests;
 #[cfg(test)]
 mod tests;
 
-use document::Document;
-use stage::Stage;
+use document::RexsDocument;
+use stage::RexsStage;
 
-/// What a file gives.
+/// Scene from a file.
 #[derive(Debug)]
 pub(crate) struct FromRexs {
     /// The scene file.
     pub text: String,
-    /// What of the stage a scene cannot say, or what was left out and why.
+    /// Parts of the stage that a scene cannot say, or that were left out, and why.
     pub warnings: Vec<String>,
 }
 
@@ -43,9 +43,9 @@ pub(crate) struct FromRexs {
 ///
 /// No REXS, a version that is not known, no such stage, or attributes that make no pair of external cylindrical gears.
 pub(crate) fn scene(text: &str, number: Option<usize>) -> Result<FromRexs, RexsError> {
-    let document = Document::parse(text)?;
+    let document = RexsDocument::parse(text)?;
     let mut warnings = Vec::new();
-    let stage = Stage::find(&document, number)?;
+    let stage = RexsStage::find(&document, number)?;
     let gears = stage.gears(&document, &mut warnings)?;
     let load = load::of(&document, &gears.pinion, &mut warnings)?;
     let text = scene_text::of(&document, &stage, &gears, &load, &mut warnings)?;

@@ -1,20 +1,20 @@
 //! Modifications of a flank, as far as a scene has them.
 
 use super::RexsError;
-use super::document::{Component, Document, MM, MM_AS_UM};
+use super::document::{MM, MM_AS_UM, RexsComponent, RexsDocument};
 
-/// What lies on one flank.
+/// Modifications of one flank.
 #[derive(Debug, Default)]
 pub(super) struct Modifications {
-    pub tip_relief: Option<Relief>,
-    pub root_relief: Option<Relief>,
-    pub end_relief: Option<EndRelief>,
+    pub tip_relief: Option<RexsRelief>,
+    pub root_relief: Option<RexsRelief>,
+    pub end_relief: Option<RexsEndRelief>,
     pub profile_crowning_um: Option<f64>,
     pub lead_crowning_um: Option<f64>,
 }
 
 #[derive(Debug)]
-pub(super) struct Relief {
+pub(super) struct RexsRelief {
     pub amount_um: f64,
     pub start: ReliefStart,
     pub parabolic: bool,
@@ -27,7 +27,7 @@ pub(super) enum ReliefStart {
 }
 
 #[derive(Debug, PartialEq)]
-pub(super) struct EndRelief {
+pub(super) struct RexsEndRelief {
     pub amount_um: f64,
     pub length_mm: f64,
     pub parabolic: bool,
@@ -51,10 +51,10 @@ const PLACES: [&str; 14] = [
     "helix_highest_point",
 ];
 
-/// Those of the components that any relation joins with the flank.
+/// The modifications of the components that any relation joins with the flank.
 pub(super) fn of(
-    document: &Document,
-    flank: &Component,
+    document: &RexsDocument,
+    flank: &RexsComponent,
     gear: &str,
     warnings: &mut Vec<String>,
 ) -> Result<Modifications, RexsError> {
@@ -69,51 +69,7 @@ pub(super) fn of(
                 part.label()
             ));
         }
-        match part.kind.as_str() {
-            "tip_relief" => {
-                found.tip_relief = relief(
-                    part,
-                    ["tip_relief_depth", "tip_relief_datum_diameter", "tip_relief_datum_length"],
-                    warnings,
-                )?
-            }
-            "root_relief" => {
-                found.root_relief = relief(
-                    part,
-                    ["root_relief_depth", "root_relief_datum_diameter", "root_relief_datum_length"],
-                    warnings,
-                )?;
-            }
-            "end_relief_datum_face" => {
-                let names = ["end_relief_depth_datum_face", "end_relief_length_datum_face"];
-                ends[0] = end_relief(part, names, warnings)?;
-            }
-            "end_relief_non_datum_face" => {
-                let names = ["end_relief_depth_non_datum_face", "end_relief_length_non_datum_face"];
-                ends[1] = end_relief(part, names, warnings)?;
-            }
-            "profile_crowning" => {
-                found.profile_crowning_um =
-                    crowning(part, ["profile_crowning_at_root", "profile_crowning_at_tip"], warnings)?;
-            }
-            "helix_crowning" => {
-                let ends = ["helix_crowning_amount_datum_face", "helix_crowning_amount_non_datum_face"];
-                found.lead_crowning_um = crowning(part, ends, warnings)?;
-            }
-            "helix_slope"
-            | "profile_slope"
-            | "triangular_tip_relief"
-            | "triangular_root_relief"
-            | "topographical_modification" => {
-                let instead = if part.kind == "helix_slope" {
-                    "; give helix_slope_deviation_um with the sign of the scene"
-                } else {
-                    ""
-                };
-                warnings.push(format!("{gear}: {} is left out{instead}", part.label()));
-            }
-            _ => {}
-        }
+        add(part, gear, &mut found, &mut ends, warnings)?;
     }
     found.end_relief = match ends {
         [Some(one), Some(other)] if one == other => Some(one),
@@ -128,12 +84,57 @@ pub(super) fn of(
     Ok(found)
 }
 
+/// Adds the modification of a component: to `found`, or an end relief to that of the datum face and of the other.
+fn add(
+    part: &RexsComponent,
+    gear: &str,
+    found: &mut Modifications,
+    ends: &mut [Option<RexsEndRelief>; 2],
+    warnings: &mut Vec<String>,
+) -> Result<(), RexsError> {
+    match part.kind.as_str() {
+        "tip_relief" => {
+            let names = ["tip_relief_depth", "tip_relief_datum_diameter", "tip_relief_datum_length"];
+            found.tip_relief = relief(part, names, warnings)?;
+        }
+        "root_relief" => {
+            let names = ["root_relief_depth", "root_relief_datum_diameter", "root_relief_datum_length"];
+            found.root_relief = relief(part, names, warnings)?;
+        }
+        "end_relief_datum_face" => {
+            let names = ["end_relief_depth_datum_face", "end_relief_length_datum_face"];
+            ends[0] = end_relief(part, names, warnings)?;
+        }
+        "end_relief_non_datum_face" => {
+            let names = ["end_relief_depth_non_datum_face", "end_relief_length_non_datum_face"];
+            ends[1] = end_relief(part, names, warnings)?;
+        }
+        "profile_crowning" => {
+            let names = ["profile_crowning_at_root", "profile_crowning_at_tip"];
+            found.profile_crowning_um = crowning(part, names, warnings)?;
+        }
+        "helix_crowning" => {
+            let names = ["helix_crowning_amount_datum_face", "helix_crowning_amount_non_datum_face"];
+            found.lead_crowning_um = crowning(part, names, warnings)?;
+        }
+        "helix_slope" => warnings.push(format!(
+            "{gear}: {} is left out; give helix_slope_deviation_um with the sign of the scene",
+            part.label()
+        )),
+        "profile_slope" | "triangular_tip_relief" | "triangular_root_relief" | "topographical_modification" => {
+            warnings.push(format!("{gear}: {} is left out", part.label()));
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
 /// A relief by the names of its depth, of the diameter and of the length where it begins; None where nothing is removed.
 fn relief(
-    part: &Component,
+    part: &RexsComponent,
     [depth, diameter, length]: [&'static str; 3],
     warnings: &mut Vec<String>,
-) -> Result<Option<Relief>, RexsError> {
+) -> Result<Option<RexsRelief>, RexsError> {
     let amount_um = part.needed(depth, MM_AS_UM)?;
     if amount_um == 0.0 {
         return Ok(None);
@@ -142,24 +143,28 @@ fn relief(
         Some(diameter_mm) => ReliefStart::Diameter(diameter_mm),
         None => ReliefStart::RollLength(part.needed(length, MM)?),
     };
-    Ok(Some(Relief { amount_um, start, parabolic: parabolic(part, warnings) }))
+    Ok(Some(RexsRelief { amount_um, start, parabolic: parabolic(part, warnings) }))
 }
 
 /// An end relief by the names of its depth and length; None where nothing is removed.
 fn end_relief(
-    part: &Component,
+    part: &RexsComponent,
     [depth, length]: [&'static str; 2],
     warnings: &mut Vec<String>,
-) -> Result<Option<EndRelief>, RexsError> {
+) -> Result<Option<RexsEndRelief>, RexsError> {
     let amount_um = part.needed(depth, MM_AS_UM)?;
     if amount_um == 0.0 {
         return Ok(None);
     }
-    Ok(Some(EndRelief { amount_um, length_mm: part.needed(length, MM)?, parabolic: parabolic(part, warnings) }))
+    Ok(Some(RexsEndRelief { amount_um, length_mm: part.needed(length, MM)?, parabolic: parabolic(part, warnings) }))
 }
 
 /// The height of a crowning that is given at both ends.
-fn crowning(part: &Component, ends: [&'static str; 2], warnings: &mut Vec<String>) -> Result<Option<f64>, RexsError> {
+fn crowning(
+    part: &RexsComponent,
+    ends: [&'static str; 2],
+    warnings: &mut Vec<String>,
+) -> Result<Option<f64>, RexsError> {
     let [one_um, other_um] = [part.number(ends[0], MM_AS_UM)?, part.number(ends[1], MM_AS_UM)?];
     let height_um = match (one_um, other_um) {
         (Some(one_um), Some(other_um)) => {
@@ -176,7 +181,7 @@ fn crowning(part: &Component, ends: [&'static str; 2], warnings: &mut Vec<String
     Ok(Some(height_um).filter(|&height_um| height_um != 0.0))
 }
 
-fn parabolic(part: &Component, warnings: &mut Vec<String>) -> bool {
+fn parabolic(part: &RexsComponent, warnings: &mut Vec<String>) -> bool {
     match part.text("shape_of_relief") {
         Some("parabolic") => true,
         Some("linear") | None => false,

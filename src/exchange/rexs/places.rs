@@ -14,19 +14,19 @@ use super::document::{Lines, xml_attribute};
 /// Elements whose places are kept.
 const KEPT: [&str; 8] =
     ["relations", "relation", "components", "component", "attribute", "load_spectrum", "load_case", "accumulation"];
-/// What children stand deeper than their parent, where none shows how deep.
+/// Indent of children below their parent, where none shows how deep.
 const STEP: &str = "  ";
 const BYTE_ORDER_MARK: char = '\u{feff}';
 
 /// An element. Nodes of [`Places`] are named by their index.
 #[derive(Debug)]
-struct Node {
+struct ElementNode {
     name: &'static str,
     id: String,
     line: usize,
-    /// Its tag; of an element without content all of it.
+    /// Tag; of an element without content all of it.
     tag: Range<usize>,
-    /// Its closing tag; empty of an element without content.
+    /// Closing tag; empty of an element without content.
     end: Range<usize>,
     /// The innermost element around it that is kept.
     parent: Option<usize>,
@@ -37,11 +37,11 @@ struct Node {
 pub(super) struct NewElement {
     name: &'static str,
     attributes: Vec<(&'static str, String)>,
-    content: Content,
+    content: ElementContent,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-enum Content {
+enum ElementContent {
     /// On the line of the tags.
     Markup(String),
     Children(Vec<NewElement>),
@@ -50,13 +50,13 @@ enum Content {
 impl NewElement {
     /// An element with others in it.
     pub(super) fn new(name: &'static str, attributes: Vec<(&'static str, String)>, children: Vec<NewElement>) -> Self {
-        Self { name, attributes, content: Content::Children(children) }
+        Self { name, attributes, content: ElementContent::Children(children) }
     }
 
     /// An attribute of a component. `markup` is what stands between its tags.
     pub(super) fn attribute(id: String, unit: &str, markup: String) -> Self {
         let attributes = vec![("id", id), ("unit", unit.to_owned())];
-        Self { name: "attribute", attributes, content: Content::Markup(markup) }
+        Self { name: "attribute", attributes, content: ElementContent::Markup(markup) }
     }
 
     /// The value of its XML attribute `id`.
@@ -71,9 +71,9 @@ impl NewElement {
             into.push_str(&format!(" {name}=\"{}\"", escape(value)));
         }
         match &self.content {
-            Content::Children(children) if children.is_empty() => into.push_str("/>"),
-            Content::Markup(markup) => into.push_str(&format!(">{markup}</{}>", self.name)),
-            Content::Children(children) => {
+            ElementContent::Children(children) if children.is_empty() => into.push_str("/>"),
+            ElementContent::Markup(markup) => into.push_str(&format!(">{markup}</{}>", self.name)),
+            ElementContent::Children(children) => {
                 into.push('>');
                 let inner = if line_end.is_empty() { String::new() } else { format!("{indent}{STEP}") };
                 for child in children {
@@ -91,9 +91,9 @@ impl NewElement {
 #[derive(Debug)]
 pub(super) struct Places<'a> {
     text: &'a str,
-    nodes: Vec<Node>,
+    nodes: Vec<ElementNode>,
     changes: Vec<(Range<usize>, String)>,
-    /// What is to stand behind the last child of a node.
+    /// Elements to stand behind the last child of a node.
     additions: Vec<(usize, Vec<NewElement>)>,
 }
 
@@ -104,7 +104,7 @@ impl<'a> Places<'a> {
         let skipped = text.len() - unmarked.len();
         let mut reader = Reader::from_str(unmarked);
         let mut lines = Lines::of(unmarked);
-        let mut nodes: Vec<Node> = Vec::new();
+        let mut nodes: Vec<ElementNode> = Vec::new();
         // Of every open element its node, if it is kept.
         let mut open: Vec<Option<usize>> = Vec::new();
         let byte = |position: u64| usize::try_from(position).unwrap_or(usize::MAX).min(unmarked.len());
@@ -118,7 +118,7 @@ impl<'a> Places<'a> {
                 };
                 let end = tag.end..tag.end;
                 let parent = open.iter().rev().find_map(|node| *node);
-                nodes.push(Node { name, id: xml_attribute(element, "id", line)?, line, tag, end, parent });
+                nodes.push(ElementNode { name, id: xml_attribute(element, "id", line)?, line, tag, end, parent });
                 Ok(Some(nodes.len() - 1))
             };
             match event {
@@ -153,8 +153,8 @@ impl<'a> Places<'a> {
 
     /// The first element of a name.
     pub(super) fn first(&self, name: &'static str) -> Result<usize, RexsError> {
-        let missing = || RexsError::NoXml { line: 1, found: format!("no element <{name}>") };
-        self.named(name).next().ok_or_else(missing)
+        let first = self.named(name).next();
+        first.ok_or_else(|| RexsError::NoXml { line: 1, found: format!("no element <{name}>") })
     }
 
     /// The load spectrum with its load cases and, where it has one, its accumulation; None where the file has none.
@@ -253,10 +253,9 @@ impl<'a> Places<'a> {
         let mut children = (0..self.nodes.len()).filter(|&child| self.nodes[child].parent == Some(node));
         let first = children.next();
         let last = children.next_back().or(first);
-        let is_on_line = |at: usize| self.text[..at].trim_end_matches([' ', '\t']).ends_with('\n');
         let indent = match first.map(|child| self.nodes[child].tag.start) {
             _ if line_end.is_empty() => String::new(),
-            Some(at) if is_on_line(at) => self.indent(at).to_owned(),
+            Some(at) if self.text[..at].trim_end_matches([' ', '\t']).ends_with('\n') => self.indent(at).to_owned(),
             _ => format!("{own}{STEP}"),
         };
         let mut text = String::new();

@@ -19,34 +19,34 @@ use quick_xml::escape::escape;
 use serde_json::Value;
 
 use super::RexsError;
-use super::attributes::{self, Attribute, CUSTOM, FIGURES, Figure, Naming, Of, On};
-use super::document::{Component, Document};
+use super::attributes::{self, AttributeKind, CUSTOM, FigureAttribute, Naming, Of, On};
+use super::document::{RexsComponent, RexsDocument};
 use super::load;
 use super::mesh_stiffness::MeshStiffness;
 use super::places::{LoadSpectrum, NewElement, Places};
 use super::same_loads::Loads;
 use super::same_pair;
 use super::scene_text::rounded;
-use super::stage::{Gears, Stage};
+use super::stage::{Gears, RexsStage};
 use crate::gear::spec::PairSpec;
 use crate::gear::{Gear, PerGear};
-use crate::studies::evaluate::output::Output;
+use crate::studies::evaluate::output::SummaryOutput;
 
 const GEAR_IN_STAGE: &str = "cylindrical_stage_gear_data";
 
-/// What of a finished run is written.
+/// Results of a finished run that are written.
 #[derive(Debug, Clone)]
 pub(crate) struct RunResults {
     /// `summary.json`.
     pub summary: Value,
     pub pair: PairSpec,
     pub mesh_stiffness: MeshStiffness,
-    pub wear_profile: PerGear<WearProfile>,
+    pub wear_profile: PerGear<WearDepths>,
 }
 
 /// Wear depth of a flank from root to tip.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct WearProfile {
+pub(crate) struct WearDepths {
     pub radius_mm: Vec<f64>,
     /// Maximum over the face width.
     pub depth_um: Vec<f64>,
@@ -61,14 +61,14 @@ pub(crate) struct WithResults {
     pub stage: String,
     /// Attributes that are in the format's database.
     pub standard: usize,
-    /// Those that are not.
+    /// Attributes that are not.
     pub custom: usize,
     pub warnings: Vec<String>,
 }
 
 /// A part of the file that says something of components.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Section {
+enum FileSection {
     Model,
     /// By its place among the load cases.
     LoadCase(usize),
@@ -90,7 +90,7 @@ struct Target {
 /// An attribute and where it is to stand.
 #[derive(Debug)]
 struct Placed {
-    section: Section,
+    section: FileSection,
     /// Index of its target.
     target: usize,
     attribute: NewElement,
@@ -102,13 +102,13 @@ struct Placed {
 ///
 /// As for [`super::scene`]; a run of another pair, and more than one load spectrum.
 pub(crate) fn with_results(text: &str, number: Option<usize>, run: &RunResults) -> Result<WithResults, RexsError> {
-    let document = Document::parse(text)?;
+    let document = RexsDocument::parse(text)?;
     let mut places = Places::of(text)?;
     let spectrum = places.load_spectrum()?.filter(|spectrum| !spectrum.cases.is_empty());
     if spectrum.as_ref().map_or(0, |spectrum| spectrum.cases.len()) != document.load_cases.len() {
         return Err(RexsError::NoXml { line: 1, found: "a load_case outside <load_spectrum>".to_owned() });
     }
-    let stage = Stage::find(&document, number)?;
+    let stage = RexsStage::find(&document, number)?;
     // What a scene cannot say of the stage was told when it was made.
     let gears = stage.gears(&document, &mut Vec::new())?;
     same_pair::check(&stage, &gears, &run.pair)?;
@@ -146,9 +146,9 @@ pub(crate) fn with_results(text: &str, number: Option<usize>, run: &RunResults) 
 }
 
 /// The stage, its gears, and what is of each gear in it.
-fn targets(stage: &Stage, gears: &Gears, places: &Places) -> Vec<Target> {
+fn targets(stage: &RexsStage, gears: &Gears, places: &Places) -> Vec<Target> {
     let target =
-        |on, gear, known: &Component, kind| Target { on, gear, id: known.id.clone(), kind, line: Some(known.line) };
+        |on, gear, known: &RexsComponent, kind| Target { on, gear, id: known.id.clone(), kind, line: Some(known.line) };
     let mut targets = vec![target(On::Stage, None, stage.component, "cylindrical_stage")];
     let mut taken = BTreeSet::new();
     for (gear, data) in [(Gear::Pinion, &gears.pinion), (Gear::Wheel, &gears.wheel)] {
@@ -177,46 +177,62 @@ struct Writer<'a> {
 impl Writer<'_> {
     /// All attributes that the run has a value for.
     fn placed(&self) -> Vec<Placed> {
-        let text = |key: &str| self.run.summary[key].as_str().map(|text| escape(text).into_owned());
         let mut placed = Vec::new();
-        placed.extend(text("program_version").and_then(|text| self.place(&attributes::PROGRAM_VERSION, None, text)));
-        placed.extend(text("scene_hash").and_then(|text| self.place(&attributes::SCENE_HASH, None, text)));
-        for figure in FIGURES {
-            self.figure(figure, &mut placed);
+        for (key, attribute) in
+            [("program_version", &attributes::PROGRAM_VERSION), ("scene_hash", &attributes::SCENE_HASH)]
+        {
+            let text = self.run.summary[key].as_str().map(|text| escape(text).into_owned());
+            placed.extend(text.and_then(|text| self.place(attribute, None, text)));
+        }
+        for figure in attributes::figures() {
+            self.figure(&figure, &mut placed);
         }
         self.mesh_stiffness(&mut placed);
         self.wear_profiles(&mut placed);
         placed
     }
 
-    fn figure(&self, figure: &Figure, placed: &mut Vec<Placed>) {
-        let Figure { path, attribute } = figure;
-        for of_target in self.targets.iter().filter(|target| target.on == attribute.on) {
-            let number = |path: &str, phase: u64| {
-                let gear = of_target.gear.map_or("", Gear::name);
-                let path = path.replace("{gear}", gear).replace("{phase}", &phase.to_string());
-                Output::find(&path).ok()?.of(&self.run.summary)
-            };
-            let reference = self.run.summary["reference_phase"].as_u64().unwrap_or(1);
-            let of_phase = |phase: u64| match attribute.of {
-                Of::Torque => {
-                    let torque = |phase| number("phases.{phase}.pinion_torque_Nm", phase);
-                    Some(number(path, phase)? * (torque(phase)? / torque(reference)?))
-                }
-                _ => number(path, phase),
-            };
-            let place = |value| self.place(attribute, of_target.gear, rounded(figure.in_unit(value)));
-            if matches!(attribute.of, Of::Phase | Of::Torque) && self.loads == Loads::PhaseForEach {
+    fn figure(&self, figure: &FigureAttribute, placed: &mut Vec<Placed>) {
+        let of = figure.attribute.of;
+        for gear in self.targets.iter().filter(|target| target.on == figure.attribute.on).map(|target| target.gear) {
+            if matches!(of, Of::Phase | Of::Torque) && self.loads == Loads::PhaseForEach {
                 // All load cases have as many attributes: each has it, or none.
-                let values: Option<Vec<f64>> = (1..=self.load_cases).map(of_phase).collect();
+                let values: Option<Vec<f64>> =
+                    (1..=self.load_cases).map(|phase| self.of_phase(figure, gear, phase)).collect();
                 for (case, value) in values.into_iter().flatten().enumerate() {
-                    let section = Section::LoadCase(case);
-                    placed.extend(place(value).map(|place| Placed { section, ..place }));
+                    let section = FileSection::LoadCase(case);
+                    placed.extend(self.place_number(figure, gear, value).map(|place| Placed { section, ..place }));
                 }
-            } else if attribute.of != Of::Phase {
-                placed.extend(number(path, reference).and_then(place));
+            } else if of != Of::Phase {
+                let value = self.number(&figure.path, gear, self.reference_phase());
+                placed.extend(value.and_then(|value| self.place_number(figure, gear, value)));
             }
         }
+    }
+
+    fn reference_phase(&self) -> u64 {
+        self.run.summary["reference_phase"].as_u64().unwrap_or(1)
+    }
+
+    /// The number at a path of the summary, of a gear and phase where the path names them.
+    fn number(&self, path: &str, gear: Option<Gear>, phase: u64) -> Option<f64> {
+        let path = path.replace("{gear}", gear.map_or("", Gear::name)).replace("{phase}", &phase.to_string());
+        SummaryOutput::find(&path).ok()?.of(&self.run.summary)
+    }
+
+    /// A figure under the load of a phase.
+    fn of_phase(&self, figure: &FigureAttribute, gear: Option<Gear>, phase: u64) -> Option<f64> {
+        let value = self.number(&figure.path, gear, phase);
+        if figure.attribute.of != Of::Torque {
+            return value;
+        }
+        let [of_phase, of_reference] =
+            [phase, self.reference_phase()].map(|phase| self.number("phases.{phase}.pinion_torque_Nm", None, phase));
+        Some(value? * (of_phase? / of_reference?))
+    }
+
+    fn place_number(&self, figure: &FigureAttribute, gear: Option<Gear>, value: f64) -> Option<Placed> {
+        self.place(&figure.attribute, gear, rounded(figure.in_unit(value)))
     }
 
     fn mesh_stiffness(&self, placed: &mut Vec<Placed>) {
@@ -238,7 +254,7 @@ impl Writer<'_> {
 
     fn wear_profiles(&self, placed: &mut Vec<Placed>) {
         for gear in Gear::BOTH {
-            let WearProfile { radius_mm, depth_um } = &self.run.wear_profile[gear];
+            let WearDepths { radius_mm, depth_um } = &self.run.wear_profile[gear];
             let is_known = !depth_um.is_empty() && radius_mm.len() == depth_um.len();
             if is_known && radius_mm.iter().chain(depth_um).all(|value| value.is_finite()) {
                 let diameters = array(radius_mm.iter().map(|radius_mm| 2.0 * radius_mm));
@@ -249,7 +265,7 @@ impl Writer<'_> {
     }
 
     /// An attribute with what stands between its tags; None where this version of the format has none.
-    fn place(&self, attribute: &Attribute, gear: Option<Gear>, markup: String) -> Option<Placed> {
+    fn place(&self, attribute: &AttributeKind, gear: Option<Gear>, markup: String) -> Option<Placed> {
         let target = self.targets.iter().position(|target| target.on == attribute.on && target.gear == gear)?;
         let id = self.naming.id(attribute)?;
         let section = self.section(attribute.of);
@@ -257,11 +273,11 @@ impl Writer<'_> {
     }
 
     /// Where figures that are the same for all load cases stand.
-    fn section(&self, of: Of) -> Section {
+    fn section(&self, of: Of) -> FileSection {
         match (self.has_spectrum, of) {
-            (false, _) | (true, Of::Pair) => Section::Model,
-            (true, Of::Load | Of::Torque) if self.loads == Loads::One => Section::LoadCase(0),
-            (true, _) => Section::Accumulation,
+            (false, _) | (true, Of::Pair) => FileSection::Model,
+            (true, Of::Load | Of::Torque) if self.loads == Loads::One => FileSection::LoadCase(0),
+            (true, _) => FileSection::Accumulation,
         }
     }
 }
@@ -272,28 +288,32 @@ fn array(values: impl IntoIterator<Item = f64>) -> String {
 }
 
 /// The components that the file lacks, each with the relation that names its gear and stage.
-fn add_gear_data(places: &mut Places, stage: &Stage, gears: &Gears, targets: &[Target]) -> Result<(), RexsError> {
+fn add_gear_data(places: &mut Places, stage: &RexsStage, gears: &Gears, targets: &[Target]) -> Result<(), RexsError> {
     let mut taken = BTreeSet::new();
     let mut relations = Vec::new();
     for target in targets.iter().filter(|target| target.line.is_none()) {
         let gear = if target.gear == Some(Gear::Wheel) { &gears.wheel } else { &gears.pinion };
         let id = places.free_id("relation", &taken);
         taken.insert(id.clone());
-        let member = |id: &str, role: &str| {
-            NewElement::new("ref", vec![("id", id.to_owned()), ("role", role.to_owned())], Vec::new())
-        };
-        let members = vec![
-            member(&stage.component.id, "stage"),
-            member(&gear.component.id, "gear"),
-            member(&target.id, "stage_gear_data"),
-        ];
-        relations.push(NewElement::new("relation", vec![("id", id), ("type", "stage_gear_data".to_owned())], members));
+        let members = [(&stage.component.id, "stage"), (&gear.component.id, "gear"), (&target.id, "stage_gear_data")];
+        let members = members
+            .map(|(id, role)| NewElement::new("ref", vec![("id", id.clone()), ("role", role.to_owned())], Vec::new()));
+        relations.push(NewElement::new(
+            "relation",
+            vec![("id", id), ("type", "stage_gear_data".to_owned())],
+            members.into(),
+        ));
     }
     if !relations.is_empty() {
         let node = places.first("relations")?;
         places.add(node, relations);
     }
     Ok(())
+}
+
+/// Whether an attribute of this id is among them.
+fn has(placed: &[&Placed], id: &str) -> bool {
+    placed.iter().any(|placed| placed.attribute.id() == id)
 }
 
 /// Puts all attributes in place. What an earlier run left under custom ids goes, and from the model what the load spectrum now says.
@@ -303,10 +323,11 @@ fn put(
     targets: &[Target],
     placed: &[Placed],
 ) -> Result<(), RexsError> {
-    let mut sections = vec![(Section::Model, Some(places.first("components")?))];
+    let mut sections = vec![(FileSection::Model, Some(places.first("components")?))];
     if let Some(spectrum) = spectrum {
-        sections.extend(spectrum.cases.iter().enumerate().map(|(case, node)| (Section::LoadCase(case), Some(*node))));
-        sections.push((Section::Accumulation, spectrum.accumulation));
+        sections
+            .extend(spectrum.cases.iter().enumerate().map(|(case, node)| (FileSection::LoadCase(case), Some(*node))));
+        sections.push((FileSection::Accumulation, spectrum.accumulation));
     }
     for (section, node) in sections {
         let mut new = Vec::new();
@@ -315,16 +336,15 @@ fn put(
             let (here, elsewhere): (Vec<&Placed>, Vec<&Placed>) =
                 of_target.partition(|placed| placed.section == section);
             let attributes: Vec<NewElement> = here.iter().map(|placed| placed.attribute.clone()).collect();
-            let is_written = |id: &str| here.iter().any(|placed| placed.attribute.id() == id);
-            let is_moved = |id: &str| elsewhere.iter().any(|placed| placed.attribute.id() == id);
             if let Some(component) = node.and_then(|node| places.component(node, &target.id)) {
                 places.take_out_attributes(component, |id| {
-                    !is_written(id) && (id.starts_with(CUSTOM) || section == Section::Model && is_moved(id))
+                    let is_moved = section == FileSection::Model && has(&elsewhere, id);
+                    !has(&here, id) && (id.starts_with(CUSTOM) || is_moved)
                 });
                 places.set_attributes(component, attributes);
-            } else if let (Section::Model, Some(line)) = (section, target.line) {
+            } else if let (FileSection::Model, Some(line)) = (section, target.line) {
                 return Err(RexsError::NoXml { line, found: "a component outside <components>".to_owned() });
-            } else if !attributes.is_empty() || section == Section::Model {
+            } else if !attributes.is_empty() || section == FileSection::Model {
                 let xml = vec![("id", target.id.clone()), ("type", target.kind.to_owned())];
                 new.push(NewElement::new("component", xml, attributes));
             }

@@ -1,14 +1,14 @@
 use serde_json::{Value, json};
 
-use super::attributes::{CUSTOM, FIGURES, Naming, Of};
-use super::document::Document;
+use super::attributes::{CUSTOM, Naming, Of, figures};
+use super::document::RexsDocument;
 use super::mesh_stiffness::MeshStiffness;
-use super::results::{RunResults, WearProfile, WithResults, with_results};
+use super::results::{RunResults, WearDepths, WithResults, with_results};
 use super::same_loads::Loads;
 use super::{RexsError, VERSIONS, scene};
 use crate::gear::PerGear;
 use crate::scene::Resolved;
-use crate::studies::evaluate::output::Output;
+use crate::studies::evaluate::output::SummaryOutput;
 
 const TWO_STAGES: &str = include_str!("two_stages.rexs");
 
@@ -34,7 +34,7 @@ fn run(loads: &[[f64; 2]]) -> RunResults {
         "pinion": { "peak_wear_um": 4.5 }, "wheel": { "peak_wear_um": 3.5 },
         "root_stress": { "pinion": { "iso_6336_3": section, "vdi_2736": section }, "wheel": { "iso_6336_3": null } },
     });
-    let wear_profile = WearProfile { radius_mm: vec![35.0, 41.25], depth_um: vec![0.0, 4.5] };
+    let wear_profile = WearDepths { radius_mm: vec![35.0, 41.25], depth_um: vec![0.0, 4.5] };
     RunResults {
         summary,
         pair,
@@ -53,7 +53,7 @@ const OF_THE_FILE: [[f64; 2]; 2] = [[302.0, 1500.0], [100.0, 750.0]];
 fn written(text: &str, run: &RunResults) -> WithResults {
     let with = with_results(text, Some(1), run).unwrap();
     // The file is still one of the format, for our reader and for another, and the same run changes it no more.
-    Document::parse(&with.text).unwrap();
+    RexsDocument::parse(&with.text).unwrap();
     roxmltree::Document::parse(&with.text).unwrap();
     assert_eq!(with_results(&with.text, Some(1), run).unwrap().text, with.text);
     with
@@ -130,7 +130,7 @@ fn results_without_load_spectrum_stand_in_the_model() {
     for (component, wear, gear, relation) in [("5", "4.5", "11", "19"), ("6", "3.5", "12", "20")] {
         let id = "custom_gearwear_maximum_wear_depth";
         assert_eq!(attribute(&with.text, MODEL, component, id), value("mum", wear));
-        let document = Document::parse(&with.text).unwrap();
+        let document = RexsDocument::parse(&with.text).unwrap();
         let related = document.relation("stage_gear_data", &[("stage", "10"), ("gear", gear)]).unwrap();
         assert_eq!(related.member("stage_gear_data"), Some(component));
         assert!(with.text.contains(&format!("<relation id=\"{relation}\" type=\"stage_gear_data\">")));
@@ -140,9 +140,8 @@ fn results_without_load_spectrum_stand_in_the_model() {
     assert_eq!((depth.1.as_str(), diameters.1.as_str()), ("0.04.5", "70.082.5"));
 }
 
-/// Figures of films, friction, scuffing and of VDI 2736 in the unit of their attribute; W_m is in mm, and each figure has its own number.
-#[test]
-fn ver_figures_of_films_and_wear_stand_in_their_unit() {
+/// A run of a lubricated pair, of which the pinion is a plastic: each figure has its own number.
+fn lubricated() -> RunResults {
     let mut run = run(&[[100.0, 1500.0]]);
     let path = |value: f64| json!({ "min": value, "max": 900.0, "mean": 901.0 });
     run.summary["lubrication"] = json!({
@@ -168,6 +167,13 @@ fn ver_figures_of_films_and_wear_stand_in_their_unit() {
         "tooth": { "pinion": null, "wheel": { "flank_C": 61.5, "root_C": 41.5 } },
     });
     run.summary["pinion"]["vdi_2736_mean_wear_um"] = json!(12.5);
+    run
+}
+
+/// Figures of films, friction, scuffing and of VDI 2736 in the unit of their attribute; W_m is in mm.
+#[test]
+fn ver_figures_of_films_and_wear_stand_in_their_unit() {
+    let run = lubricated();
     let with = written(&without_load_spectrum(), &run);
     for (id, unit, text) in [
         ("degree_of_tooth_loss_vdi_2736_2014", "none", "0.195"),
@@ -311,16 +317,16 @@ fn val_attributes_are_those_of_the_version() {
 /// Every figure is there in the summary, and every id keeps to the naming convention of the format: a–z, 0–9 and _.
 #[test]
 fn every_figure_has_a_number_and_a_name() {
-    for figure in FIGURES {
+    for figure in figures() {
         let path = figure.path.replace("{gear}", "wheel").replace("{phase}", "1");
-        assert!(Output::find(&path).is_ok(), "{path}");
+        assert!(SummaryOutput::find(&path).is_ok(), "{path}");
         for version in VERSIONS {
             let text = TWO_STAGES.replace("version=\"1.4\"", &format!("version=\"{version}\""));
-            let document = Document::parse(&text).unwrap();
+            let document = RexsDocument::parse(&text).unwrap();
             for loads in [Loads::One, Loads::PhaseForEach, Loads::Different] {
                 let id = Naming::of(&document, loads).id(&figure.attribute);
-                let is_named = |id: &String| id.bytes().all(|b| matches!(b, b'a'..=b'z' | b'0'..=b'9' | b'_'));
-                assert!(id.iter().all(is_named), "{id:?}");
+                let mut letters = id.iter().flat_map(|id| id.bytes());
+                assert!(letters.all(|b| matches!(b, b'a'..=b'z' | b'0'..=b'9' | b'_')), "{id:?}");
                 let is_of_one = loads == Loads::One || figure.attribute.of != Of::Load;
                 assert!(is_of_one || id.is_none_or(|id| id.starts_with("custom_gearwear_greatest_load_")), "{path}");
             }
@@ -332,14 +338,14 @@ fn every_figure_has_a_number_and_a_name() {
 #[test]
 fn the_document_has_every_figure() {
     let page = include_str!("../../../docs/rexs.md");
-    let has = |name: &str| assert!(page.contains(&format!("`{name}`")), "docs/rexs.md: no {name}");
-    for figure in FIGURES {
-        has(figure.path);
+    for figure in figures() {
+        let mut names = vec![figure.path.to_string()];
         for version in VERSIONS {
             let text = TWO_STAGES.replace("version=\"1.4\"", &format!("version=\"{version}\""));
-            let id = Naming::of(&Document::parse(&text).unwrap(), Loads::One).id(&figure.attribute);
-            id.iter().for_each(|id| has(id.strip_prefix(CUSTOM).unwrap_or(id)));
+            let id = Naming::of(&RexsDocument::parse(&text).unwrap(), Loads::One).id(&figure.attribute);
+            names.extend(id.map(|id| id.strip_prefix(CUSTOM).unwrap_or(&id).to_owned()));
         }
+        names.iter().for_each(|name| assert!(page.contains(&format!("`{name}`")), "docs/rexs.md: no {name}"));
     }
 }
 

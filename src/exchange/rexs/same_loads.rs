@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::document::Document;
+use super::document::RexsDocument;
 use super::load::Load;
 
 /// Loads this close to each other, relatively, are the same: scenes from REXS have twelve digits.
@@ -18,16 +18,16 @@ pub(super) enum Loads {
     Different,
 }
 
+/// Whether two values agree; what one of them leaves open does not contradict the other.
+fn same(given: Option<f64>, run: Option<f64>) -> bool {
+    given.zip(run).is_none_or(|(given, run)| (given / run - 1.0).abs() <= SAME)
+}
+
 impl Loads {
     /// Compares torque and speed of the pinion, as far as the file says them, with the phases of a run's summary.
-    pub(super) fn of(document: &Document, load: &Load, summary: &Value) -> Self {
+    pub(super) fn of(document: &RexsDocument, load: &Load, summary: &Value) -> Self {
         let given = document.load_cases.len().max(1);
         let phases = summary["phases"].as_array().map_or(&[][..], Vec::as_slice);
-        let same = |given: Option<f64>, run: Option<f64>| match (given, run) {
-            (Some(given), Some(run)) => (given / run - 1.0).abs() <= SAME,
-            // What one of them leaves open does not contradict the other.
-            _ => true,
-        };
         let agree = load.cases.len() == given
             && phases.len() == given
             && load.cases.iter().zip(phases).all(|(case, phase)| {

@@ -1,7 +1,7 @@
 //! Whether a run is of the pair that a file describes.
 
 use super::RexsError;
-use super::stage::{Gears, Stage};
+use super::stage::{Gears, RexsStage};
 use crate::gear::Gear;
 use crate::gear::spec::PairSpec;
 
@@ -12,7 +12,7 @@ const SAME: f64 = 1e-6;
 ///
 /// # Errors
 /// [`RexsError::OtherPair`], with the first that is another.
-pub(super) fn check(stage: &Stage, gears: &Gears, run: &PairSpec) -> Result<(), RexsError> {
+pub(super) fn check(stage: &RexsStage, gears: &Gears, run: &PairSpec) -> Result<(), RexsError> {
     let of_gears = [(Gear::Pinion, &gears.pinion), (Gear::Wheel, &gears.wheel)];
     let teeth = of_gears.map(|(gear, data)| {
         (format!("teeth of the {}", gear.name()), f64::from(run.gears[gear].teeth), f64::from(data.teeth))

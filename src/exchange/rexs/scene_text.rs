@@ -3,18 +3,18 @@
 use std::fmt::Write;
 
 use super::RexsError;
-use super::document::{CELSIUS, Component, Document, GPA, J_PER_KGK, KG_PER_M3, MM2_PER_S, NONE, W_PER_MK};
+use super::document::{CELSIUS, GPA, J_PER_KGK, KG_PER_M3, MM2_PER_S, NONE, RexsDocument, W_PER_MK};
 use super::load::Load;
-use super::modifications::{EndRelief, Relief, ReliefStart};
-use super::stage::{GearData, Gears, Stage};
+use super::modifications::{ReliefStart, RexsEndRelief, RexsRelief};
+use super::stage::{GearData, Gears, RexsStage};
 
 /// Hours and revolutions of a life that the file does not give.
 const ASSUMED_HOURS: f64 = 1000.0;
 const ASSUMED_REVOLUTIONS: f64 = 1e6;
 
 pub(super) fn of(
-    document: &Document,
-    stage: &Stage,
+    document: &RexsDocument,
+    stage: &RexsStage,
     gears: &Gears,
     load: &Load,
     warnings: &mut Vec<String>,
@@ -57,6 +57,15 @@ pub(super) fn of(
     Ok(text.0)
 }
 
+/// The table of a relief in a scene.
+fn relief(relief: &RexsRelief) -> String {
+    let start = match relief.start {
+        ReliefStart::Diameter(diameter_mm) => format!("begins_at_diameter_mm = {}", rounded(diameter_mm)),
+        ReliefStart::RollLength(length_mm) => format!("length_mm = {}", rounded(length_mm)),
+    };
+    format!("{{ amount_um = {}, {start}{} }}", rounded(relief.amount_um), shape(relief.parabolic))
+}
+
 fn gear(text: &mut Text, table: &str, data: &GearData) {
     text.line(format!("\n[pair.{table}]{}", if table == "pinion" { "                     # drives" } else { "" }));
     text.line(format!("# {}", data.component.label()));
@@ -78,20 +87,13 @@ fn gear(text: &mut Text, table: &str, data: &GearData) {
         text.number("roughness_Ra_um", roughness_um, "");
     }
     let modifications = &data.modifications;
-    let relief = |relief: &Relief| {
-        let start = match relief.start {
-            ReliefStart::Diameter(diameter_mm) => format!("begins_at_diameter_mm = {}", rounded(diameter_mm)),
-            ReliefStart::RollLength(length_mm) => format!("length_mm = {}", rounded(length_mm)),
-        };
-        format!("{{ amount_um = {}, {start}{} }}", rounded(relief.amount_um), shape(relief.parabolic))
-    };
     if let Some(tip) = &modifications.tip_relief {
         text.line(format!("tip_relief = {}", relief(tip)));
     }
     if let Some(root) = &modifications.root_relief {
         text.line(format!("root_relief = {}", relief(root)));
     }
-    if let Some(EndRelief { amount_um, length_mm, parabolic }) = &modifications.end_relief {
+    if let Some(RexsEndRelief { amount_um, length_mm, parabolic }) = &modifications.end_relief {
         let (amount, length) = (rounded(*amount_um), rounded(*length_mm));
         text.line(format!("end_relief = {{ amount_um = {amount}, length_mm = {length}{} }}", shape(*parabolic)));
     }
@@ -104,9 +106,10 @@ fn gear(text: &mut Text, table: &str, data: &GearData) {
 }
 
 /// The material that a reference names of the gear, or of the shaft that carries it.
-fn material(text: &mut Text, document: &Document, table: &str, data: &GearData) -> Result<(), RexsError> {
-    let of_shaft = || document.material_of(document.shaft_of(data.component)?);
-    let Some(material) = document.material_of(data.component).or_else(of_shaft) else { return Ok(()) };
+fn material(text: &mut Text, document: &RexsDocument, table: &str, data: &GearData) -> Result<(), RexsError> {
+    let own = document.material_of(data.component);
+    let material = own.or_else(|| document.material_of(document.shaft_of(data.component)?));
+    let Some(material) = material else { return Ok(()) };
     let modulus_GPa = material.number("elastic_modulus", GPA)?;
     let ratio = material.number("poisson_ratio", NONE)?;
     let density = material.number("density", KG_PER_M3)?;
@@ -163,7 +166,13 @@ fn operation(text: &mut Text, load: &Load, warnings: &mut Vec<String>) {
 }
 
 /// The oil, where the file gives all that films need; otherwise as remarks.
-fn lubricant(text: &mut Text, document: &Document, stage: &Stage, gears: &Gears, load: &Load) -> Result<(), RexsError> {
+fn lubricant(
+    text: &mut Text,
+    document: &RexsDocument,
+    stage: &RexsStage,
+    gears: &Gears,
+    load: &Load,
+) -> Result<(), RexsError> {
     let Some(oil) = document.components.iter().find(|component| component.kind == "lubricant") else { return Ok(()) };
     let viscosities = (
         oil.number("viscosity_at_40_degree_celsius", MM2_PER_S)?,
@@ -171,8 +180,8 @@ fn lubricant(text: &mut Text, document: &Document, stage: &Stage, gears: &Gears,
     );
     let (Some(at_40C), Some(at_100C)) = viscosities else { return Ok(()) };
     let said = document.load_cases.iter().flatten().chain(&document.components);
-    let in_place = |component: &&Component| component.id == stage.component.id || component.kind == "gear_casing";
-    let mut temperature = said.filter(in_place).map(|component| component.number("temperature_lubricant", CELSIUS));
+    let in_place = said.filter(|said| said.id == stage.component.id || said.kind == "gear_casing");
+    let mut temperature = in_place.map(|component| component.number("temperature_lubricant", CELSIUS));
     let temperature_C = temperature.find_map(Result::transpose).transpose()?;
     let speeds = load.cases.iter().all(|case| case.speed_rpm.is_some());
     let rough = gears.pinion.roughness_Ra_um.is_some() && gears.wheel.roughness_Ra_um.is_some();

@@ -1,14 +1,14 @@
 //! The two gears of a cylindrical stage.
 
 use super::RexsError;
-use super::document::{Component, DEG, Document, MM, NONE, UM};
+use super::document::{DEG, MM, NONE, RexsComponent, RexsDocument, UM};
 use super::modifications::{self, Modifications};
 
 /// A stage and its gears, as the file numbers them.
 #[derive(Debug)]
-pub(super) struct Stage<'a> {
-    pub component: &'a Component,
-    gears: [&'a Component; 2],
+pub(super) struct RexsStage<'a> {
+    pub component: &'a RexsComponent,
+    gears: [&'a RexsComponent; 2],
 }
 
 /// The pair, each figure common to both gears decided.
@@ -27,9 +27,9 @@ pub(super) struct Gears<'a> {
 /// One gear with its working flank.
 #[derive(Debug)]
 pub(super) struct GearData<'a> {
-    pub component: &'a Component,
-    /// What the stage says of this gear, where it does.
-    pub in_stage: Option<&'a Component>,
+    pub component: &'a RexsComponent,
+    /// Data of this gear in the stage, where the file has them.
+    pub in_stage: Option<&'a RexsComponent>,
     pub teeth: u32,
     pub profile_shift: f64,
     pub tip_diameter_mm: Option<f64>,
@@ -39,18 +39,18 @@ pub(super) struct GearData<'a> {
     pub modifications: Modifications,
 }
 
-impl<'a> Stage<'a> {
+impl<'a> RexsStage<'a> {
     /// The `number`-th stage of two cylindrical gears, from 1; the only one without a number.
-    pub(super) fn find(document: &'a Document, number: Option<usize>) -> Result<Self, RexsError> {
-        let of_kind = |id: Option<&str>, kind: &str| document.component(id?).filter(|component| component.kind == kind);
-        let stages: Vec<Stage> = document
+    pub(super) fn find(document: &'a RexsDocument, number: Option<usize>) -> Result<Self, RexsError> {
+        let stages: Vec<RexsStage> = document
             .components
             .iter()
             .filter(|component| component.kind == "cylindrical_stage")
             .filter_map(|component| {
                 let relation = document.relation("stage", &[("stage", &component.id)])?;
-                let gear = |role| of_kind(relation.member(role), "cylindrical_gear");
-                Some(Stage { component, gears: [gear("gear_1")?, gear("gear_2")?] })
+                let [first, second] = ["gear_1", "gear_2"].map(|role| document.component(relation.member(role)?));
+                let gears = [first?, second?];
+                gears.iter().all(|gear| gear.kind == "cylindrical_gear").then_some(RexsStage { component, gears })
             })
             .collect();
         let index = match number {
@@ -61,26 +61,27 @@ impl<'a> Stage<'a> {
         match index {
             Some(index) => Ok(stages.into_iter().nth(index).expect("the index is that of a stage")),
             None => {
-                let name = |(index, stage): (usize, &Stage)| {
-                    let teeth =
-                        stage.gears.map(|gear| gear.text("number_of_teeth").unwrap_or("?").to_owned()).join("/");
+                let names = stages.iter().enumerate().map(|(index, stage)| {
+                    let teeth = stage.gears.map(|gear| gear.text("number_of_teeth").unwrap_or("?")).join("/");
                     format!("{} ({}, {teeth} teeth)", index + 1, stage.component.label())
-                };
-                Err(RexsError::Stage { asked: number, stages: stages.iter().enumerate().map(name).collect() })
+                });
+                Err(RexsError::Stage { asked: number, stages: names.collect() })
             }
         }
     }
 
+    /// What the stage says of one of its gears, where it does.
+    fn data_of(&self, document: &'a RexsDocument, gear: &RexsComponent) -> Option<&'a RexsComponent> {
+        let relation = document.relation("stage_gear_data", &[("stage", &self.component.id), ("gear", &gear.id)])?;
+        document.component(relation.member("stage_gear_data")?)
+    }
+
     /// Both gears; the driving one is the pinion, gear_1 where the file does not say.
-    pub(super) fn gears(&self, document: &'a Document, warnings: &mut Vec<String>) -> Result<Gears<'a>, RexsError> {
-        let in_stage = |gear: &Component| {
-            let relation =
-                document.relation("stage_gear_data", &[("stage", &self.component.id), ("gear", &gear.id)])?;
-            document.component(relation.member("stage_gear_data")?)
-        };
-        let drives = |gear: &Component| Some(document.word(in_stage(gear)?, "is_driving_gear")? == "true");
+    pub(super) fn gears(&self, document: &'a RexsDocument, warnings: &mut Vec<String>) -> Result<Gears<'a>, RexsError> {
         let [first, second] = self.gears;
-        let (pinion, wheel) = match (drives(first), drives(second)) {
+        let [first_drives, second_drives] =
+            self.gears.map(|gear| Some(document.word(self.data_of(document, gear)?, "is_driving_gear")? == "true"));
+        let (pinion, wheel) = match (first_drives, second_drives) {
             (Some(false), _) | (None, Some(true)) => (second, first),
             (Some(true), _) | (None, Some(false)) => (first, second),
             (None, None) => {
@@ -88,26 +89,27 @@ impl<'a> Stage<'a> {
                 (first, second)
             }
         };
-        let pinion_flank = working_flank(document, pinion, in_stage(pinion), warnings)?;
-        let wheel_flank = working_flank(document, wheel, in_stage(wheel), warnings)?;
+        let pinion_flank = working_flank(document, pinion, self.data_of(document, pinion), warnings)?;
+        let wheel_flank = working_flank(document, wheel, self.data_of(document, wheel), warnings)?;
 
         let normal_module_mm = same(pinion, wheel, "normal_module", |gear| gear.needed("normal_module", MM))?;
         let pressure_angle_deg = same(pinion_flank, wheel_flank, "normal_pressure_angle", |flank| {
             flank.needed("normal_pressure_angle", DEG)
         })?;
-        let helix = |gear: &Component| Ok(gear.number("helix_angle_reference_diameter", DEG)?.unwrap_or(0.0));
-        let helix_angle_deg: f64 = helix(pinion)?;
-        if (helix_angle_deg + helix(wheel)?).abs() > 1e-6 {
+        let [helix_angle_deg, of_wheel_deg] =
+            [pinion, wheel].map(|gear| gear.number("helix_angle_reference_diameter", DEG));
+        let (helix_angle_deg, of_wheel_deg) = (helix_angle_deg?.unwrap_or(0.0), of_wheel_deg?.unwrap_or(0.0));
+        if (helix_angle_deg + of_wheel_deg).abs() > 1e-6 {
             let allowed = format!("{} for external gears on parallel axes", 0.0 - helix_angle_deg);
-            return Err(wheel.wrong("helix_angle_reference_diameter", helix(wheel)?.to_string(), allowed));
+            return Err(wheel.wrong("helix_angle_reference_diameter", of_wheel_deg.to_string(), allowed));
         }
         let face_width_mm = match self.component.number("common_face_width", MM)? {
             Some(width) => width,
             None => pinion.needed("face_width", MM)?.min(wheel.needed("face_width", MM)?),
         };
-        let section = Section { normal_module_mm, pressure_angle_deg, helix_angle_deg };
-        let pinion = section.gear(document, pinion, in_stage(pinion), pinion_flank, warnings)?;
-        let wheel = section.gear(document, wheel, in_stage(wheel), wheel_flank, warnings)?;
+        let section = NormalSectionData { normal_module_mm, pressure_angle_deg, helix_angle_deg };
+        let pinion = section.gear(document, pinion, self.data_of(document, pinion), pinion_flank, warnings)?;
+        let wheel = section.gear(document, wheel, self.data_of(document, wheel), wheel_flank, warnings)?;
         let dedendum_factor = match (
             section.dedendum_factor(&pinion, pinion_flank)?,
             section.dedendum_factor(&wheel, wheel_flank)?,
@@ -133,20 +135,20 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// What both gears share of the normal section.
-struct Section {
+/// Data of the normal section that both gears share.
+struct NormalSectionData {
     normal_module_mm: f64,
     pressure_angle_deg: f64,
     helix_angle_deg: f64,
 }
 
-impl Section {
+impl NormalSectionData {
     fn gear<'a>(
         &self,
-        document: &Document,
-        gear: &'a Component,
-        in_stage: Option<&'a Component>,
-        flank: &Component,
+        document: &RexsDocument,
+        gear: &'a RexsComponent,
+        in_stage: Option<&'a RexsComponent>,
+        flank: &RexsComponent,
         warnings: &mut Vec<String>,
     ) -> Result<GearData<'a>, RexsError> {
         let number = gear.needed("number_of_teeth", NONE)?;
@@ -183,7 +185,7 @@ impl Section {
         })
     }
 
-    fn profile_shift(&self, flank: &Component) -> Result<f64, RexsError> {
+    fn profile_shift(&self, flank: &RexsComponent) -> Result<f64, RexsError> {
         match flank.number("addendum_modification_coefficient", NONE)? {
             Some(factor) => Ok(factor),
             None => match flank.number("addendum_modification", MM)? {
@@ -204,8 +206,8 @@ impl Section {
     /// (ISO 21771).
     fn thickness_allowance_um(
         &self,
-        gear: &Component,
-        flank: &Component,
+        gear: &RexsComponent,
+        flank: &RexsComponent,
         shift: f64,
     ) -> Result<Option<f64>, RexsError> {
         let angle = self.pressure_angle_deg.to_radians();
@@ -218,7 +220,7 @@ impl Section {
     }
 
     /// h_fP* of the rack whose root circle is the file's: d_f = d + 2 m_n (x_E − h_fP*).
-    fn dedendum_factor(&self, gear: &GearData, flank: &Component) -> Result<Option<f64>, RexsError> {
+    fn dedendum_factor(&self, gear: &GearData, flank: &RexsComponent) -> Result<Option<f64>, RexsError> {
         let Some(root_mm) = gear.component.number("root_diameter", MM)? else { return Ok(None) };
         let shift =
             flank.number("addendum_modification_coefficient_after_finishing", NONE)?.unwrap_or(gear.profile_shift);
@@ -234,30 +236,27 @@ impl Section {
 
 /// The flank that is loaded; the left one where the file does not say.
 fn working_flank<'a>(
-    document: &'a Document,
-    gear: &Component,
-    in_stage: Option<&Component>,
+    document: &'a RexsDocument,
+    gear: &RexsComponent,
+    in_stage: Option<&RexsComponent>,
     warnings: &mut Vec<String>,
-) -> Result<&'a Component, RexsError> {
+) -> Result<&'a RexsComponent, RexsError> {
     let relation = document.relation("flank", &[("gear", &gear.id)]);
-    let flank = |role| document.component(relation?.member(role)?);
+    let [left, right] = ["left", "right"].map(|role| document.component(relation?.member(role)?));
     let said = in_stage.and_then(|data| document.word(data, "loaded_tooth_flank"));
-    if said.is_none() && flank("left").is_some() && flank("right").is_some() {
+    if said.is_none() && left.is_some() && right.is_some() {
         warnings.push(format!("{}: the file does not say which flank is loaded: the left one is taken", gear.label()));
     }
-    let role = if said == Some("right") { "right" } else { "left" };
-    flank(role)
-        .or_else(|| flank("left"))
-        .or_else(|| flank("right"))
-        .ok_or_else(|| gear.missing("a relation to its flanks"))
+    let loaded = if said == Some("right") { right.or(left) } else { left.or(right) };
+    loaded.ok_or_else(|| gear.missing("a relation to its flanks"))
 }
 
 /// A figure that both must have alike.
 fn same(
-    one: &Component,
-    other: &Component,
+    one: &RexsComponent,
+    other: &RexsComponent,
     id: &'static str,
-    of: impl Fn(&Component) -> Result<f64, RexsError>,
+    of: impl Fn(&RexsComponent) -> Result<f64, RexsError>,
 ) -> Result<f64, RexsError> {
     let (value, second) = (of(one)?, of(other)?);
     if (value - second).abs() <= 1e-9 * value.abs() {

@@ -3,10 +3,12 @@
 use maud::{Markup, html};
 
 use super::number::{change, fixed, percent, significant, to_digits};
+use super::reading::capitalised;
 use super::table::{Cell, cells, line, list, row, table, whole};
 use super::{film_table, law_table, page, root_stress_table, sliced};
 use crate::results::error::{ErrorSummary, SevereLimit, WearAtLimit};
-use crate::results::run::{GearSummary, PhaseSummary, PhaseWear, RunRecord, Summary, WearSummary};
+use crate::results::figures::{FAMILIES, FigureFamily, FigureValues, STATED_ERRORS};
+use crate::results::run::{GearSummary, PhaseSummary, PhaseWear, RunRecord, Summary};
 
 /// Phases that are shown one by one.
 const MOST_PHASES: usize = 60;
@@ -33,60 +35,42 @@ fn figures(record: &RunRecord) -> Markup {
     ])
 }
 
+/// Families on the page whose values are the `wanted`, with heading and values; none of those that the run has no values of.
+fn shown(
+    s: &Summary,
+    wanted: fn(&FigureValues) -> bool,
+) -> impl Iterator<Item = (&'static FigureFamily, String, [Option<f64>; 2])> {
+    let families = FAMILIES.iter().filter(move |family| family.on_page && wanted(&family.values));
+    families
+        .map(|family| (family, capitalised(&family.row()), family.both(s)))
+        .filter(|(_, _, values)| values.iter().any(Option::is_some))
+}
+
 fn new_and_worn(s: &Summary) -> Markup {
-    let compare = |label, unit, new: f64, worn: f64| row(label, unit, cells![new, worn, change(new, worn)]);
-    let (new, worn) = (&s.new, &s.worn);
-    let (te_new, te_worn) = (&new.transmission_error_um, &worn.transmission_error_um);
-    let tip_load = [new.tip_edge_line_load_N_per_mm, worn.tip_edge_line_load_N_per_mm];
-    let tip_mean = [new.tip_edge_mean_pressure_MPa, worn.tip_edge_mean_pressure_MPa];
-    let mut rows = vec![compare("Flank pressure", "MPa", new.flank_pressure_MPa, worn.flank_pressure_MPa)];
-    if tip_load.iter().any(|load| *load > 0.0) {
-        rows.push(compare("Line load of a tip edge", "N/mm", tip_load[0], tip_load[1]));
-        rows.push(compare("Pressure of a tip edge, mean over 0.04 mm", "MPa", tip_mean[0], tip_mean[1]));
+    let mut rows = Vec::new();
+    for (family, label, [new, worn]) in shown(s, |values| matches!(values, FigureValues::States(_))) {
+        let changed = match (new, worn) {
+            // No tip edge carries anything.
+            (Some(0.0), Some(0.0)) => continue,
+            (Some(new), Some(worn)) if family.caveat.is_empty() => change(new, worn),
+            _ => String::new(),
+        };
+        rows.push(row(label, family.unit, cells![new, worn, changed]));
+        if family.path == "{state}.pitch_pressure_MPa" {
+            let [new, worn] = over_hertz(s).map(|ratio| fixed(ratio, 3));
+            rows.push(row("Over Hertz’s with the whole load", "", cells![new, worn, ""]));
+        }
     }
-    let at_a_point = "Maximum pressure at a point (not converged)";
-    rows.push(row(at_a_point, "MPa", cells![new.peak_pressure_MPa, worn.peak_pressure_MPa, ""]));
-    let sharp = [new.sharp_edge_pressure_MPa, worn.sharp_edge_pressure_MPa];
-    if sharp.iter().any(Option::is_some) {
-        rows.push(row("At sharp tip edges (not defined)", "MPa", cells![sharp[0], sharp[1], ""]));
-    }
-    let [over_new, over_worn] = over_hertz(s);
-    rows.extend([
-        compare("Pressure at the pitch point C", "MPa", new.pitch_pressure_MPa, worn.pitch_pressure_MPa),
-        row("Over Hertz’s with the whole load", "", cells![fixed(over_new, 3), fixed(over_worn, 3), ""]),
-        compare("Transmission error, peak to peak", "µm", te_new.peak_to_peak, te_worn.peak_to_peak),
-        compare("Transmission error, minimum", "µm", te_new.min, te_worn.min),
-        compare("Transmission error, maximum", "µm", te_new.max, te_worn.max),
-        // What one flank of a contact loses the other does too: what differs is error.
-        row(
-            "Volumes worn off both flanks in one mesh, difference",
-            "",
-            cells![s.wear_balance.new.map(percent), s.wear_balance.worn.map(percent), ""],
-        ),
-    ]);
+    // What one flank of a contact loses the other does too: what differs is error.
+    let balance = [s.wear_balance.new, s.wear_balance.worn].map(|share| share.map(percent));
+    let [new, worn] = balance;
+    rows.push(row("Volumes worn off both flanks in one mesh, difference", "", cells![new, worn, ""]));
     table("Mesh cycle", &["new", "worn", "change"], rows)
 }
 
 fn wear(s: &Summary) -> Markup {
-    let both = |label, unit, value: fn(&WearSummary) -> f64| row(label, unit, [&s.pinion, &s.wheel].map(value));
-    let mut rows = vec![
-        both("Maximum wear, active profile", "µm", |w| w.peak_wear_um),
-        both("Radius of the maximum wear", "mm", |w| w.peak_wear_radius_mm),
-        both("Maximum wear, tip edge", "µm", |w| w.tip_edge_wear_um),
-        both("Maximum wear, below the active profile", "µm", |w| w.below_sap_wear_um),
-        both("Maximum wear, root zone", "µm", |w| w.root_wear_um),
-        both("At the pitch circle", "µm", |w| w.pitch_wear_um),
-        both("Volume, whole gear", "mm³", |w| w.worn_volume_mm3),
-        both("Mass, whole gear", "mg", |w| w.worn_mass_mg),
-        both("Normal tooth thickness at the tip, worn", "mm", |w| w.normal_tip_thickness_mm),
-    ];
-    let gears = [&s.pinion, &s.wheel];
-    if let [Some(pinion), Some(wheel)] = gears.map(|w| w.vdi_2736_mean_wear_um) {
-        rows.push(row("Mean wear W_m, VDI 2736-2", "µm", [pinion, wheel]));
-        let ratios = gears.map(|w| w.peak_over_vdi_2736_mean_wear.map_or("–".to_owned(), |ratio| fixed(ratio, 2)));
-        rows.push(row("Maximum wear over W_m", "", ratios));
-    }
-    table("Wear", &["pinion", "wheel"], rows)
+    let rows = shown(s, |values| matches!(values, FigureValues::Gears(_)));
+    table("Wear", &["pinion", "wheel"], rows.map(|(family, label, values)| row(label, family.unit, values)))
 }
 
 /// The pressure at C, new and worn, over Hertz's of unmodified involutes under the whole load.
@@ -274,24 +258,19 @@ fn both_gears(phase: &PhaseSummary, depth_um: fn(&PhaseWear) -> f64) -> String {
 
 /// The error estimates, each with how it was obtained.
 pub(crate) fn errors(error: &ErrorSummary) -> Markup {
-    let (total, how, above) = (&error.total, &error.how, "as above");
-    let rows = [
-        ("Finite elements: pinion’s maximum wear", total.peak_wear.pinion, &*total.how),
-        ("Finite elements: wheel’s maximum wear", total.peak_wear.wheel, above),
-        ("Finite elements: wear of the pinion’s tip edge", total.tip_edge_wear.pinion, above),
-        ("Finite elements: wear of the wheel’s tip edge", total.tip_edge_wear.wheel, above),
-        ("Finite elements: pinion’s wear over the flank", total.profile.pinion, above),
-        ("Finite elements: wheel’s wear over the flank", total.profile.wheel, above),
-        ("Finite elements: transmission error", total.transmission_error_peak_to_peak, above),
-        ("Finite elements: pressure between the tip edges, worn", total.pressure_between_tips, above),
-        ("Finite elements: flank pressure, new", total.flank_pressure.new, above),
-        ("Finite elements: flank pressure, worn", total.flank_pressure.worn, above),
+    let how = &error.how;
+    let by_elements = STATED_ERRORS.iter().enumerate().map(|(at, stated)| {
+        let how = if at == 0 { &*error.total.how } else { "as above" };
+        (format!("Finite elements: {}", stated.title), (stated.of)(&error.total), how)
+    });
+    let estimates = [
         ("Points and positions", error.discretisation, &*how.discretisation),
         ("Wear step", error.wear_step, &*how.wear_step),
         ("Worn volumes of pinion and wheel, difference", error.volume_balance, &*how.volume_balance),
         ("Abrupt against smoothed transition to severe wear", error.severe_switch, &*how.severe_switch),
     ]
-    .map(|(label, estimate, how)| {
+    .map(|(label, estimate, how)| (label.to_owned(), estimate, how));
+    let rows = by_elements.chain(estimates).map(|(label, estimate, how)| {
         let estimate = estimate.map_or_else(|| "not estimated".into(), |e| significant(e * 100.0, 2) + "\u{202f}%");
         line([label.into(), estimate.into(), Cell::sentence(how)])
     });

@@ -6,7 +6,7 @@ use super::reading::{Extreme, greatest, place_on_flank, tip_edge_note, yield_not
 use crate::gear::Gear;
 use crate::reference::statistics::extent;
 use crate::report::chart::{Chart, Dash, INK, Trace, gear_colour, gear_colour_at};
-use crate::report::control::{Change, Control, Step};
+use crate::report::control::{Change, Control, SliderStep};
 use crate::results::run::{HistoryRow, RunRecord};
 
 /// At most so many snapshots are drawn, evenly chosen: more curves than that cannot be told apart.
@@ -60,7 +60,7 @@ fn wear_of(record: &RunRecord, gear: Gear, depth_um: f64) -> Chart {
     // Up to each snapshot; what finite elements say, at the end.
     let all = chart.traces.len();
     let up_to = |last: usize| (0..all).map(move |trace| trace <= last || trace >= curves && last + 1 == curves);
-    let steps = drawn.iter().enumerate().map(|(i, &snapshot)| Step {
+    let steps = drawn.iter().enumerate().map(|(i, &snapshot)| SliderStep {
         label: moment(&record.history[snapshot]),
         change: Change::Shown(up_to(i).collect()),
     });

@@ -5,6 +5,9 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::report::html::reading::capitalised;
+use crate::results::figures;
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ComparedQuantity {
@@ -53,6 +56,11 @@ impl fmt::Display for ComparedQuantity {
     }
 }
 
+/// Heading of a main figure.
+fn heading(name: &str) -> String {
+    figures::find(name).map_or_else(|| name.to_owned(), |figure| capitalised(&figure.heading))
+}
+
 impl ComparedQuantity {
     /// All of them, in the order of the tables; the last three are of pairs with slices, half-width is of the others.
     pub(crate) const ALL: [Self; 17] = [
@@ -76,25 +84,25 @@ impl ComparedQuantity {
     ];
 
     /// Title for readers.
-    pub(crate) fn title(self) -> &'static str {
+    pub(crate) fn title(self) -> String {
         match self {
-            Self::WearProfile => "Wear profile, both gears",
-            Self::PinionWearProfile => "Wear profile, pinion",
-            Self::WheelWearProfile => "Wear profile, wheel",
-            Self::PinionPeakWear => "Maximum wear, pinion",
-            Self::WheelPeakWear => "Maximum wear, wheel",
-            Self::PinionTipEdgeWear => "Maximum wear, pinion’s tip edge",
-            Self::WheelTipEdgeWear => "Maximum wear, wheel’s tip edge",
-            Self::PeakPressure => "Maximum pressure at a point, new",
-            Self::FlankPressure => "Flank pressure, new",
-            Self::HalfWidth => "Half-width in single contact, new",
-            Self::TransmissionError => "Transmission error, new",
-            Self::TransmissionErrorPeakToPeak => "Transmission error peak to peak, new",
-            Self::WornTransmissionError => "Transmission error, worn",
-            Self::WornTransmissionErrorPeakToPeak => "Transmission error peak to peak, worn",
-            Self::RootWear => "Root wear over the face width, both gears",
-            Self::FaceLoadFactor => "Face load factor K_Hβ, new",
-            Self::WornFaceLoadFactor => "Face load factor K_Hβ, worn",
+            Self::WearProfile => "Wear profile, both gears".to_owned(),
+            Self::PinionWearProfile => "Wear profile, pinion".to_owned(),
+            Self::WheelWearProfile => "Wear profile, wheel".to_owned(),
+            Self::PinionPeakWear => heading("pinion.peak_wear_um"),
+            Self::WheelPeakWear => heading("wheel.peak_wear_um"),
+            Self::PinionTipEdgeWear => heading("pinion.tip_edge_wear_um"),
+            Self::WheelTipEdgeWear => heading("wheel.tip_edge_wear_um"),
+            Self::PeakPressure => heading("new.peak_pressure_MPa"),
+            Self::FlankPressure => heading("new.flank_pressure_MPa"),
+            Self::HalfWidth => "Half-width in single contact, new".to_owned(),
+            Self::TransmissionError => "Transmission error, new".to_owned(),
+            Self::TransmissionErrorPeakToPeak => heading("new.transmission_error_um.peak_to_peak"),
+            Self::WornTransmissionError => "Transmission error, worn".to_owned(),
+            Self::WornTransmissionErrorPeakToPeak => heading("worn.transmission_error_um.peak_to_peak"),
+            Self::RootWear => "Root wear over the face width, both gears".to_owned(),
+            Self::FaceLoadFactor => heading("helical.K_Hbeta_new"),
+            Self::WornFaceLoadFactor => heading("helical.K_Hbeta_worn"),
         }
     }
 

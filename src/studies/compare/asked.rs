@@ -36,8 +36,8 @@ pub(crate) struct PreparedComparison {
 impl PreparedComparison {
     /// Of the finished run in the folder `run` with the profiles in the texts `measured`.
     pub(crate) fn open(run: &Path, measured: &[SceneText], asked: &CompareOptions) -> Result<Self, CompareFault> {
-        let folder = RunFolder::read(run)?;
-        let scene = LoadedScene::open(RunFolder::scene_path(run))?;
+        let folder = RunFolder::with_snapshots(run)?;
+        let scene = LoadedScene::open(folder.scene_path())?;
         let resolved = &scene.resolved;
         folder.check_scene(resolved)?;
         let mut files = Vec::with_capacity(measured.len());

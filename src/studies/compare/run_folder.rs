@@ -1,20 +1,23 @@
-//! Files of a finished run that a comparison reads: `summary.json` and `profiles.csv`.
+//! Folder of a finished run: `summary.json`, `scene.toml` and the tables. The one reader for all that go on with a finished run.
 //!
-//! `scene.toml` lies beside them; its SHA-256 is the summary's scene hash, so that a scene changed after the run is noticed.
+//! The SHA-256 of `scene.toml` is the summary's scene hash, so that a scene changed after the run is noticed.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use serde::de::DeserializeOwned;
+use serde_json::Value;
 
 use crate::gear::{Gear, PerGear};
+use crate::report::SUMMARY;
+use crate::results::run::ReportedBy;
+use crate::resume::folder::SCENE;
 use crate::scene::Resolved;
+use crate::studies::evaluate::output::SummaryOutput;
 
-const SUMMARY: &str = "summary.json";
 const PROFILES: &str = "profiles.csv";
-const SCENE: &str = "scene.toml";
 /// Relative difference up to which times are equal: hours and revolutions round differently.
 const SAME_TIME: f64 = 1e-9;
 
@@ -41,10 +44,24 @@ pub(crate) enum RunFolderError {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(crate) struct RunFolderSummary {
     pub title: String,
+    pub program_version: String,
+    pub scene_hash: String,
+    /// Who reports, and when; none where the scene does not say it.
+    pub report: Option<ReportedBy>,
     /// How long the run was, in pinion revolutions.
     pub revolutions: f64,
-    program_version: String,
-    scene_hash: String,
+    stopped: String,
+}
+
+/// Columns of numbers by name; an empty field is no number.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct NumberColumns(BTreeMap<String, Vec<f64>>);
+
+impl NumberColumns {
+    /// Values of a column; none where the file lacks it.
+    pub(crate) fn get(&self, name: &str) -> &[f64] {
+        self.0.get(name).map_or(&[], Vec::as_slice)
+    }
 }
 
 /// Fields read from a row of the profiles.
@@ -55,32 +72,57 @@ struct KeptProfileRow {
     revolutions: f64,
 }
 
-/// Wear of both flanks at a snapshot.
+/// Wear of both flanks at a snapshot, of each point slice after slice.
 #[derive(Debug, Clone, PartialEq)]
 struct FlankSnapshot {
     revolutions: f64,
     wear_um: PerGear<Vec<f64>>,
 }
 
+/// The folder of a finished run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RunFolder {
     path: PathBuf,
     pub summary: RunFolderSummary,
+    /// All of `summary.json`.
+    pub whole_summary: Value,
+    scene_toml: String,
+    /// None where they were not asked for.
     snapshots: Vec<FlankSnapshot>,
 }
 
 impl RunFolder {
-    pub(crate) fn scene_path(folder: &Path) -> PathBuf {
-        folder.join(SCENE)
+    /// Reads summary and scene of a finished run; tables are read when they are asked for.
+    pub(crate) fn open(folder: &Path) -> Result<Self, RunFolderError> {
+        let path = folder.join(SUMMARY);
+        let text = read(&path)?;
+        let damaged = |error: serde_json::Error| {
+            RunFolderError::damaged(&path, error.line() as u64, error, "what gearwear run writes")
+        };
+        let summary: RunFolderSummary = serde_json::from_str(&text).map_err(damaged)?;
+        if !matches!(summary.stopped.as_str(), "completed" | "limit-reached") {
+            return Err(RunFolderError::Unfinished { path, found: summary.stopped });
+        }
+        let whole_summary = serde_json::from_str(&text).map_err(damaged)?;
+        // The scene is resolved elsewhere, with better messages; here it must only exist.
+        let scene_toml = read(&folder.join(SCENE))?;
+        Ok(Self { path: folder.to_owned(), summary, whole_summary, scene_toml, snapshots: Vec::new() })
     }
 
-    /// Reads the folder of a finished run.
-    pub(crate) fn read(folder: &Path) -> Result<Self, RunFolderError> {
-        let summary = summary(folder)?;
+    /// Folder with the wear at the snapshots.
+    pub(crate) fn with_snapshots(folder: &Path) -> Result<Self, RunFolderError> {
+        let opened = Self::open(folder)?;
         let snapshots = snapshots(&folder.join(PROFILES))?;
-        // The scene is resolved elsewhere, with better messages; here it must only exist.
-        read(&folder.join(SCENE))?;
-        Ok(Self { path: folder.to_owned(), summary, snapshots })
+        Ok(Self { snapshots, ..opened })
+    }
+
+    pub(crate) fn scene_path(&self) -> PathBuf {
+        self.path.join(SCENE)
+    }
+
+    /// Number at a path in the summary; none where the run did not compute it.
+    pub(crate) fn number(&self, path: &str) -> Option<f64> {
+        SummaryOutput::find(path).ok()?.of(&self.whole_summary)
     }
 
     /// Checks that `resolved`, from the folder's scene, is the scene of the run.
@@ -92,14 +134,41 @@ impl RunFolder {
         if found == self.summary.scene_hash {
             return Ok(());
         }
-        let path = Self::scene_path(&self.path);
-        Err(RunFolderError::OtherScene { path, found, allowed: self.summary.scene_hash.clone() })
+        Err(RunFolderError::OtherScene { path: self.scene_path(), found, allowed: self.summary.scene_hash.clone() })
     }
 
     /// Says that the run was made by another version of the program, if it was.
     pub(crate) fn version_warning(&self) -> Option<String> {
         let (own, its) = (env!("CARGO_PKG_VERSION"), &self.summary.program_version);
         (its != own).then(|| format!("the run was made by gearwear {its}; its scene is run again by {own}"))
+    }
+
+    /// Keys of the scene, such as `pair.face_width_mm`, with their values as written.
+    pub(crate) fn scene_keys(&self) -> Result<BTreeMap<String, String>, RunFolderError> {
+        let table: toml::Table = self.scene_toml.parse().map_err(|error: toml::de::Error| {
+            let before = error.span().map_or(0, |span| span.start).min(self.scene_toml.len());
+            let line = self.scene_toml.as_bytes()[..before].iter().filter(|&&byte| byte == b'\n').count() as u64 + 1;
+            RunFolderError::damaged(&self.scene_path(), line, error.message(), THIS_VERSION)
+        })?;
+        let mut keys = BTreeMap::new();
+        flatten("", &toml::Value::Table(table), &mut keys);
+        Ok(keys)
+    }
+
+    /// The numbers of a table, such as `mesh_cycle.csv`.
+    pub(crate) fn table(&self, file: &str) -> Result<NumberColumns, RunFolderError> {
+        let path = self.path.join(file);
+        let text = read(&path)?;
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let refused = |error: csv::Error| RunFolderError::damaged(&path, line_of(&error), error, THIS_VERSION);
+        let names: Vec<String> = reader.headers().map_err(refused)?.iter().map(str::to_owned).collect();
+        let mut values: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
+        for row in reader.records() {
+            let row = row.map_err(refused)?;
+            // A word, such as true, is no number.
+            values.iter_mut().zip(&row).for_each(|(column, field)| column.push(field.parse().unwrap_or(f64::NAN)));
+        }
+        Ok(NumberColumns(names.into_iter().zip(values).collect()))
     }
 
     /// Wear depth of each point of a flank, slice after slice, at the snapshot after `revolutions`, if there is one.
@@ -110,30 +179,20 @@ impl RunFolder {
     }
 }
 
-/// Fields of `S` from the summary of a finished run.
-pub(crate) fn summary<S: DeserializeOwned>(folder: &Path) -> Result<S, RunFolderError> {
-    #[derive(Deserialize)]
-    struct StoppedSummary<S> {
-        stopped: String,
-        #[serde(flatten)]
-        rest: S,
-    }
-    let path = folder.join(SUMMARY);
-    let ended: StoppedSummary<S> = serde_json::from_str(&read(&path)?).map_err(|error| RunFolderError::Damaged {
-        path: path.clone(),
-        line: error.line() as u64,
-        found: error.to_string(),
-        allowed: "what gearwear run writes".to_owned(),
-    })?;
-    if matches!(ended.stopped.as_str(), "completed" | "limit-reached") {
-        Ok(ended.rest)
-    } else {
-        Err(RunFolderError::Unfinished { path, found: ended.stopped })
+const THIS_VERSION: &str = "what this version of gearwear run writes";
+
+impl RunFolderError {
+    fn damaged(path: &Path, line: u64, found: impl ToString, allowed: &str) -> Self {
+        Self::Damaged { path: path.to_owned(), line, found: found.to_string(), allowed: allowed.to_owned() }
     }
 }
 
+fn line_of(error: &csv::Error) -> u64 {
+    error.position().map_or(0, csv::Position::line)
+}
+
 /// The text of a file of a run.
-pub(crate) fn read(path: &Path) -> Result<String, RunFolderError> {
+fn read(path: &Path) -> Result<String, RunFolderError> {
     fs::read_to_string(path).map_err(|reason| RunFolderError::Unreadable { path: path.to_owned(), reason })
 }
 
@@ -143,12 +202,8 @@ fn snapshots(path: &Path) -> Result<Vec<FlankSnapshot>, RunFolderError> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let mut snapshots: Vec<FlankSnapshot> = Vec::new();
     for row in reader.deserialize::<KeptProfileRow>() {
-        let row = row.map_err(|error| RunFolderError::Damaged {
-            path: path.to_owned(),
-            line: error.position().map_or(0, csv::Position::line),
-            found: error.to_string(),
-            allowed: "the columns gear, wear_um and revolutions as gearwear run writes them".to_owned(),
-        })?;
+        let allowed = "the columns gear, wear_um and revolutions as gearwear run writes them";
+        let row = row.map_err(|error| RunFolderError::damaged(path, line_of(&error), error, allowed))?;
         if snapshots.last().is_none_or(|last| last.revolutions != row.revolutions) {
             let wear_um = PerGear { pinion: Vec::new(), wheel: Vec::new() };
             snapshots.push(FlankSnapshot { revolutions: row.revolutions, wear_um });
@@ -158,4 +213,19 @@ fn snapshots(path: &Path) -> Result<Vec<FlankSnapshot>, RunFolderError> {
         }
     }
     Ok(snapshots)
+}
+
+/// Every key below `value` with its value.
+fn flatten(key: &str, value: &toml::Value, into: &mut BTreeMap<String, String>) {
+    match value {
+        toml::Value::Table(table) => {
+            for (name, value) in table {
+                let key = if key.is_empty() { name.clone() } else { format!("{key}.{name}") };
+                flatten(&key, value, into);
+            }
+        }
+        other => {
+            into.insert(key.to_owned(), other.to_string());
+        }
+    }
 }

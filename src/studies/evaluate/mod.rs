@@ -20,9 +20,9 @@ use crate::scene::key::{self, NumberKey, is_key};
 use crate::scene::loaded::{LoadedScene, SceneError};
 use crate::studies::spread::spread;
 use crate::studies::varied_scene::{VariedScene, in_words, linked_keys, missing_phase, one_line};
-use output::{Output, OutputError};
+use output::{OutputError, SummaryOutput};
 
-/// What came of each row.
+/// Outcome of each row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Evaluation {
     /// The outputs of each row, in their order; NaN where there is none.
@@ -31,21 +31,21 @@ pub struct Evaluation {
     pub reasons: Vec<Option<String>>,
 }
 
-/// What is wrong with what is to be evaluated; a row that cannot be run is none of it.
+/// Fault of the question; a row that cannot be run is none.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum EvaluateError {
     /// No scene has the key.
     #[error("unknown key {key}; allowed: a key of the scene, such as pair.face_width_mm{}", did_you_mean(.nearest))]
     UnknownKey {
-        /// As given.
+        /// Key as given.
         key: String,
-        /// What was probably meant.
+        /// Key that was probably meant.
         nearest: Option<String>,
     },
     /// A phase that the scene does not have.
     #[error("found {key}; allowed: a phase that the scene has, numbered from 1")]
     NoPhase {
-        /// As given.
+        /// Key as given.
         key: String,
     },
     /// A key twice, or two that say the same in different ways.
@@ -59,15 +59,15 @@ pub enum EvaluateError {
     /// No summary has the output.
     #[error("unknown output {output}; allowed: the path of a number in summary.json, such as pinion.peak_wear_um{}", did_you_mean(.nearest))]
     UnknownOutput {
-        /// As given.
+        /// Output as given.
         output: String,
-        /// What was probably meant.
+        /// Output that was probably meant.
         nearest: Option<String>,
     },
     /// A row of another length than the keys.
     #[error("row {row}: found {found} values; allowed: {expected}, one for each key")]
     RowLength {
-        /// Its number, from 0.
+        /// Number of the row, from 0.
         row: usize,
         /// How many it has.
         found: usize,
@@ -77,7 +77,7 @@ pub enum EvaluateError {
     /// A value that is no number.
     #[error("row {row}, {key}: found {found}; allowed: a finite number")]
     NotFinite {
-        /// Its number, from 0.
+        /// Number of the row, from 0.
         row: usize,
         /// Whose value.
         key: String,
@@ -120,30 +120,20 @@ pub fn evaluate(
     observer: &dyn Observer,
 ) -> Result<Evaluation, EvaluateError> {
     let keys: Vec<&str> = keys.iter().map(AsRef::as_ref).collect();
-    let outputs: Vec<Output> = outputs.iter().map(|path| Output::find(path.as_ref())).collect::<Result<_, _>>()?;
+    let outputs: Vec<SummaryOutput> =
+        outputs.iter().map(|path| SummaryOutput::find(path.as_ref())).collect::<Result<_, _>>()?;
     let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
     check_keys(&keys, &draft)?;
     check_rows(&keys, rows)?;
-    let whole: Vec<bool> = keys.iter().map(|key| takes_whole_numbers(key)).collect();
-    let of_error = outputs.iter().any(Output::is_of_error);
+    let of_error = outputs.iter().any(SummaryOutput::is_of_error);
     let varied = VariedScene::new(scene, of_error && scene.scene().numerics.error_estimate);
     let varied = varied.map_err(|problems| scene.given.refused(problems))?;
+    let whole = keys.iter().map(|key| takes_whole_numbers(key)).collect();
+    let verify = of_error && scene.scene().verify;
+    let asked = AskedRows { varied, keys, whole, outputs, verify };
 
-    let run = |row: &[toml::Value], within: &dyn Observer| -> Result<Option<Vec<f64>>, String> {
-        let values = row.iter().zip(&whole).map(|(value, &whole)| if whole { as_whole(value) } else { value.clone() });
-        let resolved = varied.resolved(keys.iter().copied().zip(values)).map_err(|problems| in_words(&problems));
-        let mut resolved = resolved?;
-        resolved.scene.verify = of_error && scene.scene().verify;
-        varied.inputs_belong_to(&resolved)?;
-        let summary = varied.carry_out(resolved, within, runs::summarise)?;
-        if summary.stopped == StopReason::Interrupted {
-            return Ok(None);
-        }
-        let summary = serde_json::to_value(&summary).map_err(|error| error.to_string())?;
-        Ok(Some(outputs.iter().map(|output| output.of(&summary).unwrap_or(f64::NAN)).collect()))
-    };
     let mut found = Evaluation {
-        values: vec![vec![f64::NAN; outputs.len()]; rows.len()],
+        values: vec![vec![f64::NAN; asked.outputs.len()]; rows.len()],
         reasons: vec![Some("interrupted".to_owned()); rows.len()],
     };
     let mut done = 0;
@@ -152,22 +142,13 @@ pub fn evaluate(
         &tasks,
         threads.max(1),
         observer,
-        |&row, within| {
-            let run = guarded(|| run(&rows[row], within));
-            match run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}"))) {
-                Ok(values) => values.map(|values| (row, Ok(values))),
-                Err(_) if within.interrupted() => None,
-                Err(reason) => Some((row, Err(one_line(&reason)))),
-            }
-        },
+        |&row, within| Some((row, asked.carry_out(&rows[row], within)?)),
         |(row, result)| {
             done += 1;
             observer.counted(done, rows.len(), "rows", "");
             match result {
                 Ok(values) => {
-                    found.reasons[row] = outputs.iter().zip(&values).find_map(|(output, value)| {
-                        (!value.is_finite()).then(|| format!("{}: the run has no such figure", output.path))
-                    });
+                    found.reasons[row] = asked.without_number(&values);
                     found.values[row] = values;
                 }
                 Err(reason) => found.reasons[row] = Some(reason),
@@ -178,14 +159,57 @@ pub fn evaluate(
     Ok(found)
 }
 
+/// Question that all rows share.
+struct AskedRows<'a> {
+    varied: VariedScene,
+    keys: Vec<&'a str>,
+    /// Whether each key takes whole numbers alone.
+    whole: Vec<bool>,
+    outputs: Vec<SummaryOutput>,
+    verify: bool,
+}
+
+impl AskedRows<'_> {
+    /// The outputs of a row, NaN where the run has none, or on one line why there are none; `None` where the run was interrupted.
+    fn carry_out(&self, row: &[toml::Value], within: &dyn Observer) -> Option<Result<Vec<f64>, String>> {
+        match guarded(|| self.outputs_of(row, within)) {
+            Ok(Ok(values)) => values.map(Ok),
+            Ok(Err(_)) | Err(_) if within.interrupted() => None,
+            Ok(Err(reason)) => Some(Err(one_line(&reason))),
+            Err(said) => Some(Err(one_line(&format!("a defect of the program: {said}")))),
+        }
+    }
+
+    fn outputs_of(&self, row: &[toml::Value], within: &dyn Observer) -> Result<Option<Vec<f64>>, String> {
+        let values = row.iter().zip(&self.whole);
+        let values = values.map(|(value, &whole)| if whole { as_whole(value) } else { value.clone() });
+        let exchanged = self.keys.iter().copied().zip(values);
+        let mut resolved = self.varied.resolved(exchanged).map_err(|problems| in_words(&problems))?;
+        resolved.scene.verify = self.verify;
+        self.varied.inputs_belong_to(&resolved)?;
+        let summary = self.varied.carry_out(resolved, within, runs::summarise)?;
+        if summary.stopped == StopReason::Interrupted {
+            return Ok(None);
+        }
+        let summary = serde_json::to_value(&summary).map_err(|error| error.to_string())?;
+        Ok(Some(self.outputs.iter().map(|output| output.of(&summary).unwrap_or(f64::NAN)).collect()))
+    }
+
+    /// The first output of a row that is no number; `None` where all are.
+    fn without_number(&self, values: &[f64]) -> Option<String> {
+        let (output, _) = self.outputs.iter().zip(values).find(|(_, value)| !value.is_finite())?;
+        Some(format!("{}: the run has no such figure", output.path))
+    }
+}
+
 fn check_keys(keys: &[&str], draft: &Draft) -> Result<(), EvaluateError> {
     let mut before: Vec<String> = Vec::new();
     for key in keys.iter().flat_map(|key| linked_keys(key)) {
         if !is_key(&key) {
             return Err(EvaluateError::UnknownKey { nearest: key::nearest_key(&key), key });
         }
-        let same = |other: &&String| **other == key || other_ways_to_say(&key).contains(other);
-        if let Some(other) = before.iter().find(same) {
+        let ways = other_ways_to_say(&key);
+        if let Some(other) = before.iter().find(|other| **other == key || ways.contains(other)) {
             return Err(EvaluateError::SaidTwice { key: other.clone(), other: key });
         }
         before.push(key);
@@ -198,8 +222,8 @@ fn check_rows(keys: &[&str], rows: &[Vec<toml::Value>]) -> Result<(), EvaluateEr
         if values.len() != keys.len() {
             return Err(EvaluateError::RowLength { row, found: values.len(), expected: keys.len() });
         }
-        let not_finite = |value: &toml::Value| value.as_float().filter(|value| !value.is_finite());
-        if let Some((key, found)) = keys.iter().zip(values).find_map(|(key, value)| Some((key, not_finite(value)?))) {
+        let mut numbers = keys.iter().zip(values).filter_map(|(key, value)| Some((key, value.as_float()?)));
+        if let Some((key, found)) = numbers.find(|(_, value)| !value.is_finite()) {
             return Err(EvaluateError::NotFinite { row, key: (*key).to_owned(), found });
         }
     }

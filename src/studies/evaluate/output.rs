@@ -1,17 +1,19 @@
-//! An output of a run by its path in `summary.json`: `pinion.peak_wear_um`; items of lists are numbered from 1.
+//! An output of a run by its path in `summary.json`: `pinion.peak_wear_um`; items of lists are numbered from 1. Names that main figures had in the
+//! version before are read too.
 
 use std::sync::OnceLock;
 
 use serde_json::Value;
 
+use crate::results::figures;
 use crate::results::run::Summary;
 use crate::scene::key::{is_number, nearest_path};
 use crate::scene::schema::{Node, schema_of};
 
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Output {
+pub(crate) struct SummaryOutput {
     pub path: String,
-    /// The same as a JSON pointer.
+    /// Path as a JSON pointer.
     pointer: String,
 }
 
@@ -19,7 +21,7 @@ pub(crate) struct Output {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct OutputError {
     pub output: String,
-    /// What was probably meant.
+    /// Path that was probably meant.
     pub nearest: Option<String>,
 }
 
@@ -28,9 +30,10 @@ fn schema() -> &'static Value {
     SCHEMA.get_or_init(schema_of::<Summary>)
 }
 
-impl Output {
+impl SummaryOutput {
     /// The number at `path`.
     pub(crate) fn find(path: &str) -> Result<Self, OutputError> {
+        let path = figures::name_now(path).unwrap_or(path);
         let root = Node::root(schema());
         let mut pointer = String::new();
         let mut node = Some(root);
@@ -51,13 +54,13 @@ impl Output {
         self.path.starts_with("error.")
     }
 
-    /// Where it is the life to a limit: what a run that comes to none says of it, how long it was.
+    /// Duration of a run that comes to no limit, where the output is the life to a limit.
     pub(crate) fn at_least(&self, summary: &Value) -> Option<f64> {
         let time = self.path.strip_prefix("life.").filter(|time| matches!(*time, "hours" | "revolutions"))?;
         summary["life"].is_object().then(|| summary[time].as_f64())?
     }
 
-    /// Its value in the summary; none where the run does not compute it.
+    /// Value in the summary; none where the run does not compute it.
     pub(crate) fn of(&self, summary: &Value) -> Option<f64> {
         summary.pointer(&self.pointer)?.as_f64()
     }
@@ -79,16 +82,24 @@ mod tests {
             "phases.2.wheel.worn_volume_mm3",
             "temperature.greatest_rise_new_K",
         ] {
-            assert!(Output::find(path).is_ok(), "{path}");
+            assert!(SummaryOutput::find(path).is_ok(), "{path}");
         }
-        let phase = Output::find("phases.2.wheel.worn_volume_mm3").unwrap();
+        let phase = SummaryOutput::find("phases.2.wheel.worn_volume_mm3").unwrap();
         let summary = serde_json::json!({ "phases": [null, { "wheel": { "worn_volume_mm3": 1.5 } }] });
         assert_eq!((phase.of(&summary), phase.of(&serde_json::json!({}))), (Some(1.5), None));
+        assert_eq!(
+            SummaryOutput::find("pinion_peak_wear_um").map(|output| output.path),
+            Ok("pinion.peak_wear_um".to_owned())
+        );
         for path in ["peak_wear_um", "pinion.peak_ware_um"] {
-            assert_eq!(Output::find(path).unwrap_err().nearest.as_deref(), Some("pinion.peak_wear_um"));
+            assert_eq!(SummaryOutput::find(path).unwrap_err().nearest.as_deref(), Some("pinion.peak_wear_um"));
+        }
+        // All main figures but the one that sweeps alone know are in the summary.
+        for figure in figures::all().iter().filter(|figure| figure.name != figures::PEAK_WEAR_OF_EITHER) {
+            assert!(SummaryOutput::find(&figure.name).is_ok(), "{}", figure.name);
         }
         for path in ["title", "phases.0.hours", "pinion", ""] {
-            assert!(Output::find(path).is_err(), "{path}");
+            assert!(SummaryOutput::find(path).is_err(), "{path}");
         }
     }
 }

@@ -4,10 +4,10 @@ use std::io;
 
 use super::axis::{self, AxisError};
 use super::combination::Sweep;
-use super::figures::name_now;
 use super::goal::{Goal, GoalError};
 use super::journal::JournalError;
 use crate::report::ReportError;
+use crate::results::figures;
 use crate::scene::draft::Draft;
 use crate::scene::loaded::{LoadedScene, SceneError};
 
@@ -29,11 +29,7 @@ impl SweepQuestion {
     /// Notes on figures that are named as in the previous version.
     pub fn notes(&self) -> Vec<String> {
         let of_limits = self.subject_to.iter().map(|limit| limit.split(['<', '>']).next().unwrap_or_default().trim());
-        let asked = self.best.iter().map(String::as_str).chain(of_limits);
-        let former = asked.filter_map(|name| Some((name, name_now(name)?)));
-        former
-            .map(|(name, now)| format!("{name} is now called {now}; the next version does not know the older name"))
-            .collect()
+        figures::notes(self.best.iter().map(String::as_str).chain(of_limits))
     }
 }
 
@@ -66,15 +62,8 @@ impl SweepError {
 
     /// Error of the system, where a file cannot be read or written.
     pub fn of_system(&self) -> Option<io::ErrorKind> {
-        let kept = |error: &JournalError| match error {
-            JournalError::Open { source, .. }
-            | JournalError::Write { source, .. }
-            | JournalError::Lost { source, .. } => Some(source.kind()),
-            JournalError::InUse { .. } => Some(io::ErrorKind::WouldBlock),
-            _ => None,
-        };
         match &self.0 {
-            SweepFault::Journal(error) => kept(error),
+            SweepFault::Journal(error) => error.of_system(),
             SweepFault::Report(ReportError::NotAFolder { .. }) => Some(io::ErrorKind::NotADirectory),
             SweepFault::Report(ReportError::CreateFolder { source, .. } | ReportError::WriteFile { source, .. }) => {
                 Some(source.kind())

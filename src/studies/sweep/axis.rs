@@ -7,7 +7,7 @@ use crate::scene::decimal_comma;
 use crate::scene::draft::{Draft, other_ways_to_say};
 use crate::scene::key::{self, KeyError, NumberKey};
 use crate::scene::problem::number;
-use crate::studies::sweep::record::{Spacing, SweepAxis};
+use crate::studies::sweep::record::{AxisSpacing, SweepAxis};
 use crate::studies::varied_scene::{linked_keys, missing_phase};
 
 /// Greatest number of values of one key.
@@ -112,8 +112,8 @@ pub(crate) fn parse(given: &str) -> Result<SweepAxis, AxisError> {
     let parts: Vec<&str> = values.split(':').map(str::trim).collect();
     let axis = match parts[..] {
         [list] if !list.is_empty() => listed(key, list, whole)?,
-        [from, to, count] => range(key, [from, to], count, Spacing::Even, whole)?,
-        [from, to, count, "log"] => range(key, [from, to], count, Spacing::Logarithmic, whole)?,
+        [from, to, count] => range(key, [from, to], count, AxisSpacing::Even, whole)?,
+        [from, to, count, "log"] => range(key, [from, to], count, AxisSpacing::Logarithmic, whole)?,
         _ => return Err(AxisError::Form { given: given.to_owned() }),
     };
     let values = axis.values();
@@ -141,7 +141,7 @@ fn listed(key: String, list: &str, whole: bool) -> Result<SweepAxis, AxisError> 
         return Err(AxisError::NotRising { key, before: two[0], value: two[1] });
     }
     let (from, to) = (values[0], values[values.len() - 1]);
-    Ok(SweepAxis { key, from, to, count: values.len(), whole, spacing: Spacing::Listed(values) })
+    Ok(SweepAxis { key, from, to, count: values.len(), whole, spacing: AxisSpacing::Listed(values) })
 }
 
 /// Words one by one, of which every linked key takes each.
@@ -158,7 +158,7 @@ fn words(key: String, list: &str, choices: &[Vec<&str>]) -> Result<SweepAxis, Ax
         words.push(word.to_owned());
     }
     let count = words.len();
-    Ok(SweepAxis { key, from: 0.0, to: (count - 1) as f64, count, whole: false, spacing: Spacing::Words(words) })
+    Ok(SweepAxis { key, from: 0.0, to: (count - 1) as f64, count, whole: false, spacing: AxisSpacing::Words(words) })
 }
 
 /// Values between two ends.
@@ -166,7 +166,7 @@ fn range(
     key: String,
     [from, to]: [&str; 2],
     count: &str,
-    spacing: Spacing,
+    spacing: AxisSpacing,
     whole: bool,
 ) -> Result<SweepAxis, AxisError> {
     let (from, to) = (parsed(&key, "FROM", from)?, parsed(&key, "TO", to)?);
@@ -174,7 +174,7 @@ fn range(
     let Some(count) = counted else { return Err(AxisError::Count { key, found: count.to_owned() }) };
     match (count, from == to) {
         _ if from > to => Err(AxisError::Reversed { key, from, to }),
-        _ if spacing == Spacing::Logarithmic && from <= 0.0 => Err(AxisError::NoRatio { key, from, to }),
+        _ if spacing == AxisSpacing::Logarithmic && from <= 0.0 => Err(AxisError::NoRatio { key, from, to }),
         (1, false) => Err(AxisError::OneValue { key, from, to }),
         (2.., true) => Err(AxisError::SameEnds { key, from, count }),
         _ => Ok(SweepAxis { key, from, to, count, whole, spacing }),

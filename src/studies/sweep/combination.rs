@@ -6,15 +6,15 @@ use crate::assessment::guarded::guarded;
 use crate::observer::Observer;
 use crate::plan::{Plan, StageKind};
 use crate::results::error::TotalError;
+use crate::results::figures;
 use crate::results::run::{StopReason, Summary};
 use crate::runs;
 use crate::scene::draft::Draft;
 use crate::scene::loaded::{LoadedScene, NamedFiles};
 use crate::scene::{Problem, Resolved, short_hash};
-use crate::studies::sweep::figures::FIGURES;
 use crate::studies::sweep::goal::Goal;
 use crate::studies::sweep::record::{SweepAxis, SweepIdentity, SweepRow};
-use crate::studies::sweep::study::Task;
+use crate::studies::sweep::study::SweepTask;
 use crate::studies::sweep::verification::Chosen;
 use crate::studies::varied_scene::{VariedScene, in_words, one_line};
 
@@ -47,7 +47,7 @@ impl Sweep {
             error_estimate,
             verify: resolved.scene.verify && (draft.gives("numerics.verify") || goal.is_some()),
             axes,
-            figures: FIGURES.iter().map(|figure| figure.name.to_owned()).collect(),
+            figures: figures::in_sweeps().iter().map(|figure| figure.name.clone()).collect(),
             goal,
         };
         Ok(Self { identity, varied: VariedScene::new(given, error_estimate)? })
@@ -90,7 +90,10 @@ impl Sweep {
         let row = match run {
             Ok(summary) if summary.stopped == StopReason::Interrupted => return None,
             Ok(summary) => SweepRow {
-                figures: FIGURES.iter().map(|f| (f.of)(&summary).filter(|value| value.is_finite())).collect(),
+                figures: figures::in_sweeps()
+                    .iter()
+                    .map(|f| f.value(&summary).filter(|value| value.is_finite()))
+                    .collect(),
                 warnings: Some(summary.warnings.len()),
                 simulation_s: simulation_s(&summary),
                 ..self.empty(index)
@@ -102,15 +105,15 @@ impl Sweep {
     }
 
     fn empty(&self, index: usize) -> SweepRow {
-        let (values, figures) = (self.identity.values(index), vec![None; FIGURES.len()]);
+        let (values, figures) = (self.identity.values(index), vec![None; figures::in_sweeps().len()]);
         SweepRow { index, values, figures, ..SweepRow::default() }
     }
 
     /// Does `task`; `None` where it was interrupted.
-    pub(crate) fn row_of(&self, task: &Task, observer: &dyn Observer) -> Option<SweepRow> {
+    pub(crate) fn row_of(&self, task: &SweepTask, observer: &dyn Observer) -> Option<SweepRow> {
         match task {
-            Task::Run(index) => self.row(*index, observer),
-            Task::Verify { row, chosen } => self.verified(row, *chosen, observer),
+            SweepTask::Run(index) => self.row(*index, observer),
+            SweepTask::Verify { row, chosen } => self.verified(row, *chosen, observer),
         }
     }
 

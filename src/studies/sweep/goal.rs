@@ -12,9 +12,8 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::figures::{FIGURES, PEAK_WEAR, SweepFigure};
 use super::record::{SweepIdentity, SweepRow};
-use crate::results::error::TotalError;
+use crate::results::figures::{self, MainFigure};
 use crate::scene::nearest::nearest;
 use crate::scene::problem::number;
 
@@ -23,12 +22,12 @@ use crate::scene::problem::number;
 pub(crate) struct Goal {
     /// Name of its column.
     pub figure: String,
-    pub limits: Vec<Limit>,
+    pub limits: Vec<FigureLimit>,
 }
 
 /// Limit of a figure.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Limit {
+pub(crate) struct FigureLimit {
     /// Name of its column.
     pub figure: String,
     /// Whether the value is an upper limit; else a lower one.
@@ -45,7 +44,7 @@ pub(crate) enum GoalError {
     Form { given: String },
 }
 
-impl FromStr for Limit {
+impl FromStr for FigureLimit {
     type Err = GoalError;
 
     fn from_str(given: &str) -> Result<Self, GoalError> {
@@ -55,26 +54,32 @@ impl FromStr for Limit {
             Some((figure.trim(), sign == "<=", value))
         });
         let (figure, at_most, value) = read.ok_or_else(|| GoalError::Form { given: given.to_owned() })?;
-        Ok(Self { figure: known(figure)?.name.to_owned(), at_most, value })
+        Ok(Self { figure: known(figure)?.name.clone(), at_most, value })
     }
 }
 
-impl Limit {
+impl FigureLimit {
+    /// Whether `row` has the figure and keeps to the limit.
     fn is_kept_by(&self, row: &SweepRow) -> bool {
-        let value = SweepFigure::find(&self.figure).and_then(|figure| row.figure(figure));
+        let value = column(&self.figure).and_then(|figure| row.figure(figure));
         value.is_some_and(|value| if self.at_most { value <= self.value } else { value >= self.value })
     }
 }
 
-impl fmt::Display for Limit {
+impl fmt::Display for FigureLimit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} {} {}", self.figure, if self.at_most { "≤" } else { "≥" }, number(self.value))
     }
 }
 
-fn known(name: &str) -> Result<&'static SweepFigure, GoalError> {
-    let names: Vec<&'static str> = FIGURES.iter().map(|figure| figure.name).collect();
-    SweepFigure::find(name).ok_or_else(|| GoalError::Unknown { name: name.to_owned(), meant: nearest(name, &names) })
+/// The column of this name, or of this name in the version before.
+fn column(name: &str) -> Option<&'static MainFigure> {
+    figures::find(name).filter(|figure| figures::in_sweeps().contains(figure))
+}
+
+fn known(name: &str) -> Result<&'static MainFigure, GoalError> {
+    let names: Vec<&'static str> = figures::in_sweeps().iter().map(|figure| figure.name.as_str()).collect();
+    column(name).ok_or_else(|| GoalError::Unknown { name: name.to_owned(), meant: nearest(name, &names) })
 }
 
 impl Goal {
@@ -82,13 +87,13 @@ impl Goal {
     ///
     /// # Errors
     /// A name that no column has.
-    pub(crate) fn new(name: &str, limits: Vec<Limit>) -> Result<Self, GoalError> {
-        Ok(Self { figure: known(name)?.name.to_owned(), limits })
+    pub(crate) fn new(name: &str, limits: Vec<FigureLimit>) -> Result<Self, GoalError> {
+        Ok(Self { figure: known(name)?.name.clone(), limits })
     }
 
-    pub(crate) fn figure(&self) -> &'static SweepFigure {
+    pub(crate) fn figure(&self) -> &'static MainFigure {
         // The journal of another version may name a figure that no longer exists.
-        SweepFigure::find(&self.figure).unwrap_or(&PEAK_WEAR)
+        column(&self.figure).unwrap_or_else(figures::peak_wear_of_either)
     }
 
     /// Whether `row` has the figure and is within all limits.
@@ -110,8 +115,8 @@ impl Goal {
         let allowed: Vec<(&SweepRow, f64)> =
             rows.iter().filter(|row| self.allows(row)).filter_map(|row| Some((row, row.figure(figure)?))).collect();
         let &(best, value) = allowed.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
-        let claims = allowed.iter().filter_map(|(row, _)| claim(&self.figure, &row.verification.as_ref()?.total));
-        let own = best.verification.as_ref().and_then(|of| claim(&self.figure, &of.total));
+        let claims = allowed.iter().filter_map(|(row, _)| figure.error(&row.verification.as_ref()?.total));
+        let own = best.verification.as_ref().and_then(|of| figure.error(&of.total));
         // The row's own error and those of the verified ones beside it: the greatest.
         let error = own.map(|own| claims.fold(own, f64::max));
         let plateau: Option<Vec<usize>> = error.map(|e| {
@@ -121,7 +126,7 @@ impl Goal {
         let why_no_error = match (error, &best.verification) {
             (Some(_), _) => None,
             (None, None) => Some("the best combination is not verified by finite elements".to_owned()),
-            (None, Some(of)) if claim_of(&self.figure).is_none() => {
+            (None, Some(of)) if figure.error_paths().next().is_none() => {
                 Some(format!("the verification states no error of {} ({})", self.figure, of.total.how))
             }
             (None, Some(of)) => Some(of.total.how.clone()),
@@ -179,33 +184,11 @@ pub(crate) struct Optimum {
     pub plateau_keys: Option<Vec<String>>,
 }
 
-type Claimed = fn(&TotalError) -> Option<f64>;
-
-/// Claim of a verification about the figure of this name.
-fn claim_of(figure: &str) -> Option<Claimed> {
-    Some(match figure {
-        "peak_wear_um" => |total| Some(total.peak_wear.pinion?.max(total.peak_wear.wheel?)),
-        "pinion.peak_wear_um" => |total| total.peak_wear.pinion,
-        "wheel.peak_wear_um" => |total| total.peak_wear.wheel,
-        "pinion.tip_edge_wear_um" => |total| total.tip_edge_wear.pinion,
-        "wheel.tip_edge_wear_um" => |total| total.tip_edge_wear.wheel,
-        "new.flank_pressure_MPa" => |total| total.flank_pressure.new,
-        "worn.flank_pressure_MPa" => |total| total.flank_pressure.worn,
-        "new.transmission_error_um.peak_to_peak" | "worn.transmission_error_um.peak_to_peak" => {
-            |total| total.transmission_error_peak_to_peak
-        }
-        _ => return None,
-    })
-}
-
-fn claim(figure: &str, total: &TotalError) -> Option<f64> {
-    claim_of(figure).and_then(|of| of(total))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::studies::sweep::record::{Spacing, SweepAxis};
+    use crate::results::error::TotalError;
+    use crate::studies::sweep::record::{AxisSpacing, SweepAxis};
     use crate::studies::sweep::verification::{Chosen, RowVerification};
 
     fn rows(wear: &[f64]) -> (SweepIdentity, Vec<SweepRow>) {
@@ -215,11 +198,11 @@ mod tests {
             to: (wear.len() - 1) as f64,
             count: wear.len(),
             whole: false,
-            spacing: Spacing::Even,
+            spacing: AxisSpacing::Even,
         };
         let identity = SweepIdentity { axes: vec![axis], ..SweepIdentity::default() };
         let rows = wear.iter().enumerate().map(|(index, &wear)| {
-            let is_wear = FIGURES.iter().map(|figure| figure.name == "pinion.peak_wear_um");
+            let is_wear = figures::in_sweeps().iter().map(|figure| figure.name == "pinion.peak_wear_um");
             let figures = is_wear.map(|is_wear| Some(if is_wear { wear } else { index as f64 })).collect();
             SweepRow { index, values: identity.values(index), figures, ..SweepRow::default() }
         });
@@ -254,7 +237,7 @@ mod tests {
         let unknown = Goal::new("pinion_peak_wear", Vec::new()).unwrap_err().to_string();
         assert!(unknown.contains("did you mean pinion.peak_wear_um?"), "{unknown}");
         for given in ["wheel.peak_wear_um<8", "wheel.peak_wear_um<=", "wheel.peak_wear_um<=eight"] {
-            assert!(given.parse::<Limit>().unwrap_err().to_string().contains("FIGURE<=VALUE"), "{given}");
+            assert!(given.parse::<FigureLimit>().unwrap_err().to_string().contains("FIGURE<=VALUE"), "{given}");
         }
     }
 }

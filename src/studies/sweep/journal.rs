@@ -85,6 +85,17 @@ pub(crate) enum JournalError {
     Lost { path: PathBuf, source: io::Error },
 }
 
+impl JournalError {
+    /// Kind of the system's error, where a file cannot be read or written.
+    pub(crate) fn of_system(&self) -> Option<io::ErrorKind> {
+        match self {
+            Self::Open { source, .. } | Self::Write { source, .. } | Self::Lost { source, .. } => Some(source.kind()),
+            Self::InUse { .. } => Some(io::ErrorKind::WouldBlock),
+            _ => None,
+        }
+    }
+}
+
 /// Reads the journal in `folder` without holding it.
 ///
 /// # Errors

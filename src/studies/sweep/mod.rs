@@ -19,7 +19,6 @@
 pub(crate) mod asked;
 pub(crate) mod axis;
 pub(crate) mod combination;
-pub(crate) mod figures;
 pub(crate) mod goal;
 pub(crate) mod journal;
 pub(crate) mod merge;

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::figures::{FIGURES, SweepFigure};
 use super::goal::{Goal, Optimum};
 use super::verification::{Chosen, RowVerification, SweepVerification};
 use crate::results::error::TotalError;
+use crate::results::figures::{self, MainFigure};
 use crate::scene::problem::number;
 
 /// Significant digits of a value between the ends of a range.
@@ -14,7 +14,7 @@ const DIGITS: i32 = 12;
 /// How the values of a key are spaced.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Spacing {
+pub(crate) enum AxisSpacing {
     /// Evenly, both ends included.
     #[default]
     Even,
@@ -26,7 +26,7 @@ pub(crate) enum Spacing {
     Words(Vec<String>),
 }
 
-impl Spacing {
+impl AxisSpacing {
     fn is_even(&self) -> bool {
         *self == Self::Even
     }
@@ -42,8 +42,8 @@ pub(crate) struct SweepAxis {
     pub count: usize,
     /// Whether the key takes whole numbers.
     pub whole: bool,
-    #[serde(default, skip_serializing_if = "Spacing::is_even")]
-    pub spacing: Spacing,
+    #[serde(default, skip_serializing_if = "AxisSpacing::is_even")]
+    pub spacing: AxisSpacing,
 }
 
 impl SweepAxis {
@@ -58,13 +58,13 @@ impl SweepAxis {
         let last = self.count.saturating_sub(1);
         if self.words().is_some() {
             index as f64
-        } else if let Spacing::Listed(values) = &self.spacing {
+        } else if let AxisSpacing::Listed(values) = &self.spacing {
             values[index.min(last)]
         } else if index == 0 {
             self.from
         } else if index >= last {
             self.to
-        } else if self.spacing == Spacing::Logarithmic {
+        } else if self.spacing == AxisSpacing::Logarithmic {
             let between = self.from * (self.to / self.from).powf(index as f64 / last as f64);
             format!("{between:.*e}", (DIGITS - 1) as usize).parse().unwrap_or(between)
         } else {
@@ -84,10 +84,10 @@ impl SweepAxis {
     pub(crate) fn as_given(&self) -> String {
         let range = format!("{}:{}:{}", number(self.from), number(self.to), self.count);
         let values = match &self.spacing {
-            Spacing::Even => range,
-            Spacing::Logarithmic => format!("{range}:log"),
-            Spacing::Listed(values) => values.iter().map(|value| number(*value)).collect::<Vec<_>>().join(","),
-            Spacing::Words(words) => words.join(","),
+            AxisSpacing::Even => range,
+            AxisSpacing::Logarithmic => format!("{range}:log"),
+            AxisSpacing::Listed(values) => values.iter().map(|value| number(*value)).collect::<Vec<_>>().join(","),
+            AxisSpacing::Words(words) => words.join(","),
         };
         format!("{}={values}", self.key)
     }
@@ -95,7 +95,7 @@ impl SweepAxis {
     /// The words, where the key takes words.
     pub(crate) fn words(&self) -> Option<&[String]> {
         match &self.spacing {
-            Spacing::Words(words) => Some(words),
+            AxisSpacing::Words(words) => Some(words),
             _ => None,
         }
     }
@@ -261,7 +261,7 @@ pub(crate) struct SweepRow {
     pub values: Vec<f64>,
     /// Reason why there are no figures, on one line; `None` where the run was completed.
     pub error: Option<String>,
-    /// The figures, in the order of [`FIGURES`]; `None` where the scene does not have one.
+    /// The figures, in the order of the columns; `None` where the scene does not have one.
     pub figures: Vec<Option<f64>>,
     pub warnings: Option<usize>,
     /// Wall time of the wear run alone, s.
@@ -274,8 +274,8 @@ pub(crate) struct SweepRow {
 }
 
 impl SweepRow {
-    pub(crate) fn figure(&self, figure: &SweepFigure) -> Option<f64> {
-        let at = FIGURES.iter().position(|known| known.name == figure.name)?;
+    pub(crate) fn figure(&self, figure: &MainFigure) -> Option<f64> {
+        let at = figures::in_sweeps().iter().position(|known| *known == figure)?;
         self.figures.get(at).copied().flatten()
     }
 
@@ -342,7 +342,7 @@ pub(crate) struct BestCombination {
 
 impl SweepRecord {
     /// Row with the least value of `figure`, the first of equal ones.
-    pub(crate) fn least(&self, figure: &SweepFigure) -> Option<(&SweepRow, f64)> {
+    pub(crate) fn least(&self, figure: &MainFigure) -> Option<(&SweepRow, f64)> {
         let valued = self.rows.iter().filter_map(|row| Some((row, row.figure(figure)?)));
         valued.min_by(|a, b| a.1.total_cmp(&b.1))
     }
@@ -370,12 +370,12 @@ impl SweepRecord {
             combinations: self.identity.combinations(),
             ok: self.rows.len() - failed,
             failed,
-            best: FIGURES
+            best: figures::in_sweeps()
                 .iter()
-                .filter(|figure| figure.less_is_better)
+                .filter(|figure| figure.family.less_is_better)
                 .filter_map(|figure| {
                     let (row, value) = self.least(figure)?;
-                    Some(BestCombination { figure: figure.name, value, index: row.index, values: row.values.clone() })
+                    Some(BestCombination { figure: &figure.name, value, index: row.index, values: row.values.clone() })
                 })
                 .collect(),
             optimum: self.optimum(),
@@ -392,7 +392,7 @@ mod tests {
     use super::*;
 
     fn axis(key: &str, from: f64, to: f64, count: usize) -> SweepAxis {
-        SweepAxis { key: key.to_owned(), from, to, count, whole: false, spacing: Spacing::Even }
+        SweepAxis { key: key.to_owned(), from, to, count, whole: false, spacing: AxisSpacing::Even }
     }
 
     /// Ends are as given; values between them are rounded.

@@ -47,7 +47,7 @@ impl<F: FnMut(&SweepRow)> RowKeeper<'_, F> {
 /// Something to do of a sweep: what one thread, wherever it is, does from beginning to end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Task {
+pub(crate) enum SweepTask {
     /// A combination is to be run.
     Run(usize),
     /// A finished row is to be verified.
@@ -56,15 +56,15 @@ pub(crate) enum Task {
 
 /// Tasks that can be done now: the missing combinations of `shard`; where none is missing, of a whole sweep that asks for it, the chosen rows
 /// that are not verified yet.
-pub(crate) fn tasks(sweep: &Sweep, shard: Option<Shard>, rows: &BTreeMap<usize, SweepRow>) -> Vec<Task> {
+pub(crate) fn tasks(sweep: &Sweep, shard: Option<Shard>, rows: &BTreeMap<usize, SweepRow>) -> Vec<SweepTask> {
     let all = part(sweep.identity.combinations(), shard);
-    let missing: Vec<Task> = all.filter(|index| !rows.contains_key(index)).map(Task::Run).collect();
+    let missing: Vec<SweepTask> = all.filter(|index| !rows.contains_key(index)).map(SweepTask::Run).collect();
     if !missing.is_empty() || !sweep.identity.verify || shard.is_some() {
         return missing;
     }
     let open = chosen(&sweep.identity, rows.values()).into_iter().filter_map(|(index, chosen)| {
         let row = rows.get(&index).filter(|row| row.verification.is_none())?;
-        Some(Task::Verify { row: Box::new(row.clone()), chosen })
+        Some(SweepTask::Verify { row: Box::new(row.clone()), chosen })
     });
     open.collect()
 }
@@ -85,11 +85,11 @@ pub(crate) fn run(
         let tasks = tasks(sweep, shard, rows);
         let (things, total, mut failed) = match tasks.first() {
             None => return Ok(SpreadOutcome::Completed),
-            Some(Task::Run(_)) => {
+            Some(SweepTask::Run(_)) => {
                 let failed = rows.values().filter(|row| row.error.is_some()).count();
                 ("combinations", part(sweep.identity.combinations(), shard).count(), failed)
             }
-            Some(Task::Verify { .. }) => ("verified", chosen(&sweep.identity, rows.values()).len(), 0),
+            Some(SweepTask::Verify { .. }) => ("verified", chosen(&sweep.identity, rows.values()).len(), 0),
         };
         let mut done = total - tasks.len();
         observer.counted(done, total, things, &with_failed(failed));

@@ -15,7 +15,7 @@ use super::combination::Sweep;
 use super::journal::{Journal, JournalError};
 use super::record::{Shard, SweepRecord};
 use super::report;
-use super::study::{self, Task};
+use super::study::{self, SweepTask};
 use crate::observer::Observer;
 use crate::report::columns::Table;
 use crate::report::writable;
@@ -143,16 +143,16 @@ impl Sweep {
     /// A text that is no task.
     pub fn lost(&self, task: &str, reason: &str) -> Result<String, SweepError> {
         Ok(text_of(&match self.read(task)? {
-            Task::Run(index) => self.failed(index, reason),
-            Task::Verify { row, chosen } => row.verified(chosen, TotalError::none(&one_line(reason)), 0.0),
+            SweepTask::Run(index) => self.failed(index, reason),
+            SweepTask::Verify { row, chosen } => row.verified(chosen, TotalError::none(&one_line(reason)), 0.0),
         })?)
     }
 
-    fn read(&self, text: &str) -> Result<Task, SweepFault> {
-        let task: Task = serde_json::from_str(text).map_err(foreign)?;
+    fn read(&self, text: &str) -> Result<SweepTask, SweepFault> {
+        let task: SweepTask = serde_json::from_str(text).map_err(foreign)?;
         let index = match &task {
-            Task::Run(index) => *index,
-            Task::Verify { row, .. } => row.index,
+            SweepTask::Run(index) => *index,
+            SweepTask::Verify { row, .. } => row.index,
         };
         if index < self.identity.combinations() {
             return Ok(task);

@@ -19,14 +19,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-use super::figures::{PEAK_WEAR, SweepFigure};
 use super::goal::Goal;
 use super::record::{SweepIdentity, SweepRow};
 use crate::results::error::TotalError;
+use crate::results::figures::{self, MainFigure, STATED_ERRORS};
 
 /// Figure by which rows are ranked: that of the goal, else the wear.
-pub(crate) fn objective(identity: &SweepIdentity) -> &'static SweepFigure {
-    identity.goal.as_ref().map_or(&PEAK_WEAR, Goal::figure)
+pub(crate) fn objective(identity: &SweepIdentity) -> &'static MainFigure {
+    identity.goal.as_ref().map_or_else(figures::peak_wear_of_either, Goal::figure)
 }
 
 /// Number of best rows that are verified: the best, and two more to tell whether it is best by more than its error.
@@ -66,40 +66,9 @@ pub(crate) struct RowVerification {
 
 impl RowVerification {
     pub(crate) fn has_answer(&self) -> bool {
-        CLAIMS.iter().any(|claim| (claim.of)(&self.total).is_some())
+        STATED_ERRORS.iter().any(|claim| (claim.of)(&self.total).is_some())
     }
 }
-
-/// Relative error given by a verification.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Claim {
-    /// Path in the summary of a run, which is the name of the column.
-    pub name: &'static str,
-    pub title: &'static str,
-    pub of: fn(&TotalError) -> Option<f64>,
-}
-
-const fn claim(name: &'static str, title: &'static str, of: fn(&TotalError) -> Option<f64>) -> Claim {
-    Claim { name, title, of }
-}
-
-/// All claims, in the order of the columns.
-pub(crate) const CLAIMS: [Claim; 10] = [
-    claim("error.total.peak_wear.pinion", "maximum wear of the pinion", |total| total.peak_wear.pinion),
-    claim("error.total.peak_wear.wheel", "maximum wear of the wheel", |total| total.peak_wear.wheel),
-    claim("error.total.tip_edge_wear.pinion", "wear of the pinion’s tip edge", |total| total.tip_edge_wear.pinion),
-    claim("error.total.tip_edge_wear.wheel", "wear of the wheel’s tip edge", |total| total.tip_edge_wear.wheel),
-    claim("error.total.profile.pinion", "wear over the pinion’s flank (rms)", |total| total.profile.pinion),
-    claim("error.total.profile.wheel", "wear over the wheel’s flank (rms)", |total| total.profile.wheel),
-    claim("error.total.transmission_error_peak_to_peak", "transmission error, peak to peak", |total| {
-        total.transmission_error_peak_to_peak
-    }),
-    claim("error.total.pressure_between_tips", "pressure between the tip edges (rms)", |total| {
-        total.pressure_between_tips
-    }),
-    claim("error.total.flank_pressure.new", "flank pressure, new", |total| total.flank_pressure.new),
-    claim("error.total.flank_pressure.worn", "flank pressure, worn", |total| total.flank_pressure.worn),
-];
 
 /// The corners of the box that is swept, at most [`MOST_CORNERS`], by index.
 pub(crate) fn corners(identity: &SweepIdentity) -> BTreeSet<usize> {
@@ -129,7 +98,7 @@ pub(crate) fn intention(identity: &SweepIdentity) -> String {
     let best = MOST_BEST.min(identity.combinations());
     let corners = if taken < all { format!("{taken} of the {all} corners") } else { format!("the corners ({taken})") };
     let most = (best + taken).min(identity.combinations());
-    let by = identity.goal.as_ref().map_or_else(|| PEAK_WEAR.name.to_owned(), Goal::in_words);
+    let by = identity.goal.as_ref().map_or_else(|| figures::PEAK_WEAR_OF_EITHER.to_owned(), Goal::in_words);
     format!("the best ({best}, by {by}) and {corners} of what is varied, at most {most} combinations")
 }
 
@@ -207,11 +176,12 @@ impl<'a> SweepVerification<'a> {
             .iter()
             .filter_map(|row| {
                 let verification = row.verification.as_ref()?;
-                let (peak_wear_um, objective) = (row.figure(&PEAK_WEAR), row.figure(objective(identity)));
+                let (peak_wear_um, objective) =
+                    (row.figure(figures::peak_wear_of_either()), row.figure(objective(identity)));
                 Some(VerifiedRow { index: row.index, values: &row.values, peak_wear_um, objective, verification })
             })
             .collect();
-        let worst = CLAIMS.iter().filter_map(|claim| {
+        let worst = STATED_ERRORS.iter().filter_map(|claim| {
             let stated = rows.iter().filter_map(|row| Some((row, (claim.of)(&row.verification.total)?)));
             let (row, value) = stated.reduce(|worst, other| if other.1 > worst.1 { other } else { worst })?;
             let (index, values) = (row.index, row.values.to_vec());
@@ -246,12 +216,17 @@ impl<'a> SweepVerification<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::studies::sweep::figures::FIGURES;
-    use crate::studies::sweep::record::{Spacing, SweepAxis};
+    use crate::studies::sweep::record::{AxisSpacing, SweepAxis};
 
     fn identity(counts: &[usize]) -> SweepIdentity {
-        let axis =
-            |&count| SweepAxis { key: "k".to_owned(), from: 0.0, to: 1.0, count, whole: false, spacing: Spacing::Even };
+        let axis = |&count| SweepAxis {
+            key: "k".to_owned(),
+            from: 0.0,
+            to: 1.0,
+            count,
+            whole: false,
+            spacing: AxisSpacing::Even,
+        };
         SweepIdentity { verify: true, axes: counts.iter().map(axis).collect(), ..SweepIdentity::default() }
     }
 
@@ -260,7 +235,7 @@ mod tests {
         SweepRow {
             index,
             error: wear.is_none().then(|| "no".to_owned()),
-            figures: vec![wear; FIGURES.len()],
+            figures: vec![wear; figures::in_sweeps().len()],
             ..SweepRow::default()
         }
     }

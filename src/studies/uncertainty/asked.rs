@@ -3,20 +3,12 @@
 use super::design::{self, CorrelationError, MOST_FACTORS, MOST_SAMPLES};
 use super::distribution::{self, UncertainError};
 use super::life::LimitError;
-use super::study::{Question, UncertaintyStudyError};
+use super::study::{SampledQuestion, UncertaintyStudyError};
+use crate::results::figures;
 use crate::scene::draft::Draft;
 use crate::scene::loaded::{LoadedScene, SceneError};
-use crate::studies::evaluate::output::{Output, OutputError};
+use crate::studies::evaluate::output::{OutputError, SummaryOutput};
 use crate::studies::varied_scene::{linked_keys, missing_phase};
-
-/// Figures that are kept where none are asked for.
-const DEFAULT_OUTPUTS: [&str; 5] = [
-    "pinion.peak_wear_um",
-    "wheel.peak_wear_um",
-    "pinion.tip_edge_wear_um",
-    "wheel.tip_edge_wear_um",
-    "worn.transmission_error_um.peak_to_peak",
-];
 
 /// Question of a study of uncertainty.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +25,14 @@ pub struct UncertaintyQuestion {
     pub samples: usize,
     /// Seed of the scrambling of the sequence.
     pub seed: u32,
+}
+
+impl UncertaintyQuestion {
+    /// Notes on figures that are asked for by the name that they had in the version before.
+    pub fn notes(&self) -> Vec<String> {
+        let of_limits = self.limits.iter().map(|limit| limit.split('=').next().unwrap_or_default());
+        figures::notes(self.outputs.iter().map(String::as_str).chain(of_limits).map(str::trim))
+    }
 }
 
 /// Error of a study of uncertainty.
@@ -78,13 +78,13 @@ impl UncertaintyError {
     }
 }
 
-impl Question {
+impl SampledQuestion {
     /// Question `asked`, resolved for `scene`.
     pub(crate) fn of(scene: &LoadedScene, asked: &UncertaintyQuestion) -> Result<Self, UncertaintyFault> {
         let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
         let resolved: toml::Table = scene.to_toml().parse().unwrap_or_default();
-        let own = |key: &str| number_at(&resolved, key);
-        let uncertain = distribution::parse_all(asked.uncertain.iter().map(String::as_str), own)?;
+        let given = asked.uncertain.iter().map(String::as_str);
+        let uncertain = distribution::parse_all(given, |key| number_at(&resolved, key))?;
         if let Some(key) = missing_phase(uncertain.iter().flat_map(|one| linked_keys(&one.key)), &draft) {
             return Err(UncertainError::NoPhase { key }.into());
         }
@@ -99,10 +99,10 @@ impl Question {
         let correlation = design::correlation(&keys, &asked.correlation)?;
         let limits = asked.limits.iter().map(|text| text.parse()).collect::<Result<_, LimitError>>()?;
         let outputs: Vec<&str> = match asked.outputs.as_slice() {
-            [] => DEFAULT_OUTPUTS.to_vec(),
+            [] => figures::default_outputs().iter().map(|figure| &*figure.name).collect(),
             given => given.iter().map(|path| path.trim()).collect(),
         };
-        let outputs = outputs.into_iter().map(Output::find).collect::<Result<_, _>>()?;
+        let outputs = outputs.into_iter().map(SummaryOutput::find).collect::<Result<_, _>>()?;
         Ok(Self { uncertain, correlation, outputs, limits, samples: asked.samples, seed: asked.seed })
     }
 }

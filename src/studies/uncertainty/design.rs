@@ -60,7 +60,7 @@ pub(crate) enum CorrelationError {
 
 /// Correlation of the normal scores of the uncertain keys.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Correlation {
+pub(crate) struct ScoreCorrelation {
     /// R.
     pub matrix: DMatrix<f64>,
     /// L of R = L Lᵀ.
@@ -68,7 +68,7 @@ pub(crate) struct Correlation {
 }
 
 /// Correlation of `keys` as `given`; none where nothing is correlated.
-pub(crate) fn correlation(keys: &[&str], given: &[String]) -> Result<Option<Correlation>, CorrelationError> {
+pub(crate) fn correlation(keys: &[&str], given: &[String]) -> Result<Option<ScoreCorrelation>, CorrelationError> {
     if given.is_empty() {
         return Ok(None);
     }
@@ -88,7 +88,7 @@ pub(crate) fn correlation(keys: &[&str], given: &[String]) -> Result<Option<Corr
         matrix[(j, i)] = value;
     }
     let lower = matrix.clone().cholesky().ok_or(CorrelationError::NotPositiveDefinite)?.l();
-    Ok(Some(Correlation { matrix, lower }))
+    Ok(Some(ScoreCorrelation { matrix, lower }))
 }
 
 fn place(keys: &[&str], key: &str) -> Result<usize, CorrelationError> {
@@ -142,7 +142,7 @@ mod tests {
     #[test]
     fn ver_correlated_factors_have_their_correlation() {
         let given = ["a:b=0.8".to_owned()];
-        let Correlation { lower, .. } = correlation(&["a", "b"], &given).unwrap().unwrap();
+        let ScoreCorrelation { lower, .. } = correlation(&["a", "b"], &given).unwrap().unwrap();
         let design = Design { factors: 3, seed: 1, correlation: Some(lower) };
         let samples: Vec<Vec<f64>> = (0..4096).map(|n| design.sample(n, Matrix::A)).collect();
         for (other, expected, within) in [(1, 0.8, 0.01), (2, 0.0, 0.02)] {

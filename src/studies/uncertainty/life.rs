@@ -7,20 +7,18 @@ use std::str::FromStr;
 
 use serde::Serialize;
 
+use crate::results::figures::{self, MainFigure};
 use crate::results::run::HistoryRow;
 use crate::scene::nearest::nearest;
 
-/// Depth in the history by its path in the summary.
-type Depth = (&'static str, fn(&HistoryRow) -> f64);
+/// Main figures that are depths of a history.
+fn depths() -> impl Iterator<Item = &'static MainFigure> {
+    figures::all().iter().filter(|figure| figure.depth_of_history().is_some())
+}
 
-const DEPTHS: [Depth; 6] = [
-    ("pinion.peak_wear_um", |row| row.pinion_peak_wear_um),
-    ("wheel.peak_wear_um", |row| row.wheel_peak_wear_um),
-    ("pinion.tip_edge_wear_um", |row| row.pinion_tip_edge_wear_um),
-    ("wheel.tip_edge_wear_um", |row| row.wheel_tip_edge_wear_um),
-    ("pinion.root_wear_um", |row| row.pinion_root_wear_um),
-    ("pinion.pitch_wear_um", |row| row.pinion_pitch_wear_um),
-];
+fn names() -> Vec<&'static str> {
+    depths().map(|figure| figure.name.as_str()).collect()
+}
 
 /// A depth that ends the life.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -33,7 +31,7 @@ pub(crate) struct DepthLimit {
 pub(crate) enum LimitError {
     #[error("found {given:?}; allowed: FIGURE=VALUE with a value above 0, such as pinion.peak_wear_um=10")]
     Form { given: String },
-    #[error("unknown figure {name}; allowed: {}{}", DEPTHS.map(|depth| depth.0).join(", "), meant.map_or_else(String::new, |meant| format!("; did you mean {meant}?")))]
+    #[error("unknown figure {name}; allowed: {}{}", names().join(", "), meant.map_or_else(String::new, |meant| format!("; did you mean {meant}?")))]
     Unknown { name: String, meant: Option<&'static str> },
 }
 
@@ -41,16 +39,14 @@ impl FromStr for DepthLimit {
     type Err = LimitError;
 
     fn from_str(given: &str) -> Result<Self, LimitError> {
-        let read = given.split_once('=').and_then(|(name, value)| {
-            let depth_um: f64 = value.trim().parse().ok()?;
-            Some((name.trim(), depth_um)).filter(|_| depth_um.is_finite() && depth_um > 0.0)
+        let parts = given.split_once('=').and_then(|(name, value)| {
+            Some((name.trim(), value.trim().parse().ok().filter(|depth: &f64| depth.is_finite() && *depth > 0.0)?))
         });
-        let (name, depth_um) = read.ok_or_else(|| LimitError::Form { given: given.to_owned() })?;
-        let known = DEPTHS.map(|depth| depth.0);
-        match known.into_iter().find(|known| *known == name) {
-            Some(output) => Ok(Self { output, depth_um }),
-            None => Err(LimitError::Unknown { name: name.to_owned(), meant: nearest(name, &known) }),
-        }
+        let (name, depth_um) = parts.ok_or_else(|| LimitError::Form { given: given.to_owned() })?;
+        let figure = figures::find(name).filter(|figure| figure.depth_of_history().is_some());
+        let figure =
+            figure.ok_or_else(|| LimitError::Unknown { name: name.to_owned(), meant: nearest(name, &names()) })?;
+        Ok(Self { output: &figure.name, depth_um })
     }
 }
 
@@ -60,7 +56,7 @@ pub(crate) type Growth = Vec<(f64, f64)>;
 impl DepthLimit {
     /// Growth of the depth over the history.
     pub(crate) fn growth(&self, history: &[HistoryRow]) -> Growth {
-        let Some((_, of)) = DEPTHS.iter().find(|depth| depth.0 == self.output) else { return Growth::new() };
+        let Some(of) = figures::find(self.output).and_then(MainFigure::depth_of_history) else { return Growth::new() };
         history.iter().map(|row| (row.hours.unwrap_or(row.revolutions), of(row))).collect()
     }
 
@@ -92,6 +88,15 @@ mod tests {
         assert_eq!(limit.life(&growth, 1.0), (2.5, 2.5));
         assert_eq!(limit.life(&growth, 5.0), (0.5, 0.5));
         assert_eq!(limit.life(&growth, 0.5), (f64::INFINITY, 3.0));
+    }
+
+    #[test]
+    fn depths_of_the_history_are_called_as_in_the_summary() {
+        for name in ["wheel.below_sap_wear_um", "pinion.root_wear_um", "pinion_root_wear_um"] {
+            let limit: DepthLimit = format!("{name}=1").parse().unwrap();
+            assert_eq!(limit.output, name.replace("pinion_", "pinion."));
+        }
+        assert!("wheel.root_wear_um=1".parse::<DepthLimit>().is_err(), "no history has it");
     }
 
     #[test]

@@ -12,7 +12,7 @@
 
 use std::time::Instant;
 
-use super::design::{Correlation, Design, Matrix};
+use super::design::{Design, Matrix, ScoreCorrelation};
 use super::distribution::Uncertain;
 use super::life::{DepthLimit, Growth};
 use super::record::{Band, FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, SampleRow, UncertaintyRecord};
@@ -21,14 +21,15 @@ use crate::gear::PerGear;
 use crate::observer::Observer;
 use crate::reference::sobol_indices::indices;
 use crate::reference::statistics::{SHARES, mean, quantile, standard_deviation};
+use crate::report::html::reading::capitalised;
+use crate::results::figures::{self, MainFigure};
 use crate::results::run::StopReason;
 use crate::results::worn_pair::{WearProfile, WornPair};
 use crate::runs;
 use crate::scene::Resolved;
 use crate::scene::loaded::LoadedScene;
-use crate::studies::evaluate::output::Output;
+use crate::studies::evaluate::output::SummaryOutput;
 use crate::studies::spread::spread;
-use crate::studies::variants::record::described;
 use crate::studies::varied_scene::{VariedScene, in_words, one_line};
 
 /// Number of moments of a history, evenly over the duration.
@@ -40,11 +41,11 @@ pub(crate) const FEWEST_SAMPLES: usize = 8;
 
 /// Question, resolved.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Question {
+pub(crate) struct SampledQuestion {
     pub uncertain: Vec<Uncertain>,
     /// How the keys are correlated, if they are.
-    pub correlation: Option<Correlation>,
-    pub outputs: Vec<Output>,
+    pub correlation: Option<ScoreCorrelation>,
+    pub outputs: Vec<SummaryOutput>,
     pub limits: Vec<DepthLimit>,
     /// Points of the sequence.
     pub samples: usize,
@@ -74,7 +75,7 @@ type Row = Result<Ran, String>;
 
 /// Inputs of the samples.
 struct Samples<'a> {
-    question: &'a Question,
+    question: &'a SampledQuestion,
     varied: &'a VariedScene,
     nominal: &'a WornPair,
     places: &'a PerGear<Vec<f64>>,
@@ -202,7 +203,7 @@ fn take_moments(resolved: &mut Resolved) {
 }
 
 /// Each output with the time until which it is known: a life to a limit that is not reached is infinite.
-fn outputs_of(question: &Question, found: &WornPair) -> Result<Vec<(f64, f64)>, String> {
+fn outputs_of(question: &SampledQuestion, found: &WornPair) -> Result<Vec<(f64, f64)>, String> {
     let summary = serde_json::to_value(&found.summary).map_err(|error| error.to_string())?;
     let outputs = question.outputs.iter().map(|output| match (output.of(&summary), output.at_least(&summary)) {
         (None, Some(at_least)) => (f64::INFINITY, at_least),
@@ -240,7 +241,7 @@ fn places(profile: &WearProfile) -> Vec<f64> {
 /// Runs the study; where it is interrupted, of the points that were finished.
 pub(crate) fn run(
     scene: &LoadedScene,
-    question: &Question,
+    question: &SampledQuestion,
     threads: usize,
     observer: &dyn Observer,
 ) -> Result<UncertaintyRecord, UncertaintyStudyError> {
@@ -250,8 +251,8 @@ pub(crate) fn run(
     let nominal = nominal(scene, &varied, question, observer)?;
     let total = &nominal.summary.error.total;
     let paths = question.outputs.iter().map(|output| output.path.as_str());
-    let paths = paths.chain(question.limits.iter().map(|limit| limit.output));
-    let errors: Vec<Option<f64>> = paths.map(|path| described(path).and_then(|known| (known.error)(total))).collect();
+    let known = paths.chain(question.limits.iter().map(|limit| limit.output)).map(figures::find);
+    let errors: Vec<Option<f64>> = known.map(|figure| figure?.error(total)).collect();
     let factors = question.uncertain.len() + usize::from(errors.iter().any(Option::is_some));
     let places = PerGear::from_fn(|gear| places(&nominal.flanks[gear]));
     let correlation = question.correlation.as_ref().map(|correlation| correlation.lower.clone());
@@ -290,7 +291,7 @@ pub(crate) fn run(
 fn nominal(
     scene: &LoadedScene,
     varied: &VariedScene,
-    question: &Question,
+    question: &SampledQuestion,
     observer: &dyn Observer,
 ) -> Result<WornPair, UncertaintyStudyError> {
     observer.stage("the scene as given");
@@ -357,6 +358,19 @@ fn record(
     })
 }
 
+/// Name, meaning and unit of a figure, or of the life to a limit.
+fn named(samples: &Samples<'_>, figure: usize) -> [String; 3] {
+    let outputs = &samples.question.outputs;
+    let limit = figure.checked_sub(outputs.len()).map(|number| &samples.question.limits[number]);
+    let name = limit.map_or_else(|| outputs[figure].path.as_str(), |limit| limit.output);
+    let known = figures::find(name);
+    let heading = known.map_or_else(|| name.to_owned(), |known| capitalised(&known.heading));
+    let Some(limit) = limit else { return [name.to_owned(), heading, known.map_or("", MainFigure::unit).to_owned()] };
+    let unit = if samples.nominal.summary.hours.is_some() { "h" } else { "revolutions" };
+    let depth_um = limit.depth_um;
+    [format!("life.{name}={depth_um}"), format!("Life until {depth_um} µm: {heading}"), unit.to_owned()]
+}
+
 fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> OutputRecord {
     let question = samples.question;
     let limit = figure.checked_sub(question.outputs.len()).map(|number| &question.limits[number]);
@@ -373,7 +387,7 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
     let [p05, p25, p50, p75, p95] =
         SHARES.map(|share| quantile(&sorted, share).filter(|value| censored == 0 || *value <= until));
     let complete = censored == 0 && !sorted.is_empty();
-    let (output, meaning, unit) = naming(samples, figure);
+    let [output, meaning, unit] = named(samples, figure);
     let is_life = limit.is_some() || output.starts_with("life.");
     let nominal = match limit {
         None => outputs_of(question, samples.nominal).ok().map(|values| values[figure].0),
@@ -387,7 +401,7 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
     OutputRecord {
         output,
         meaning,
-        unit: unit.to_owned(),
+        unit,
         nominal: nominal.filter(|value| value.is_finite()),
         model_error: samples.errors[figure],
         samples: sorted.len(),
@@ -399,20 +413,6 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
         indices: found.ok(),
         sorted,
     }
-}
-
-/// Path, description and unit of a figure.
-fn naming(samples: &Samples<'_>, figure: usize) -> (String, String, &'static str) {
-    let question = samples.question;
-    if let Some(output) = question.outputs.get(figure) {
-        let (name, known) = (&output.path, described(&output.path));
-        let meaning = known.map_or_else(|| name.clone(), |known| known.meaning.to_owned());
-        return (name.clone(), meaning, known.map_or("", |known| known.unit));
-    }
-    let DepthLimit { output: name, depth_um } = &question.limits[figure - question.outputs.len()];
-    let meaning = described(name).map_or(*name, |known| known.meaning);
-    let unit = if samples.nominal.summary.hours.is_some() { "h" } else { "revolutions" };
-    (format!("life.{name}={depth_um}"), format!("Life until {depth_um} µm: {meaning}"), unit)
 }
 
 /// Indices of a figure, over the points all of whose runs have it.

@@ -3,9 +3,10 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::finished_run::{FinishedRun, RunSummary};
+use super::finished_run::FinishedRun;
 use crate::reference::steel_yield;
-use crate::results::error::TotalError;
+use crate::report::html::reading::capitalised;
+use crate::results::figures::{self, MainFigure};
 
 /// A comparison of runs, each with the first.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -59,181 +60,11 @@ pub(crate) struct VariantRow {
 }
 
 impl VariantRow {
-    /// What it is, with its unit.
+    /// Meaning and unit.
     pub(crate) fn named(&self) -> String {
         if self.unit.is_empty() { self.meaning.clone() } else { format!("{}, {}", self.meaning, self.unit) }
     }
 }
-
-/// A figure that runs are compared by.
-pub(crate) struct Figure {
-    path: &'static str,
-    pub meaning: &'static str,
-    pub unit: &'static str,
-    value: Value,
-    pub error: Error,
-}
-
-/// What the figure at this path in `summary.json` is; none where it is none that runs are compared by.
-pub(crate) fn described(path: &str) -> Option<&'static Figure> {
-    FIGURES.iter().find(|figure| figure.path == path)
-}
-
-type Value = fn(&RunSummary) -> Option<f64>;
-/// Of the errors that a run states, the one of the figure; none where it states none.
-pub(crate) type Error = fn(&TotalError) -> Option<f64>;
-
-impl Figure {
-    const fn of(path: &'static str, meaning: &'static str, unit: &'static str, value: Value, error: Error) -> Self {
-        Self { path, meaning, unit, value, error }
-    }
-}
-
-static FIGURES: [Figure; 23] = [
-    Figure::of(
-        "pinion.peak_wear_um",
-        "Maximum wear of the pinion, active profile",
-        "µm",
-        |s| s.pinion.peak_wear_um,
-        |e| e.peak_wear.pinion,
-    ),
-    Figure::of(
-        "wheel.peak_wear_um",
-        "Maximum wear of the wheel, active profile",
-        "µm",
-        |s| s.wheel.peak_wear_um,
-        |e| e.peak_wear.wheel,
-    ),
-    Figure::of(
-        "pinion.tip_edge_wear_um",
-        "Maximum wear of the pinion, tip edge",
-        "µm",
-        |s| s.pinion.tip_edge_wear_um,
-        |e| e.tip_edge_wear.pinion,
-    ),
-    Figure::of(
-        "wheel.tip_edge_wear_um",
-        "Maximum wear of the wheel, tip edge",
-        "µm",
-        |s| s.wheel.tip_edge_wear_um,
-        |e| e.tip_edge_wear.wheel,
-    ),
-    Figure::of(
-        "pinion.below_sap_wear_um",
-        "Maximum wear of the pinion, below the active profile",
-        "µm",
-        |s| s.pinion.below_sap_wear_um,
-        |_| None,
-    ),
-    Figure::of(
-        "wheel.below_sap_wear_um",
-        "Maximum wear of the wheel, below the active profile",
-        "µm",
-        |s| s.wheel.below_sap_wear_um,
-        |_| None,
-    ),
-    Figure::of(
-        "worn.transmission_error_um.peak_to_peak",
-        "Transmission error, peak to peak, worn",
-        "µm",
-        |s| s.worn.transmission_error_um.peak_to_peak,
-        |e| e.transmission_error_peak_to_peak,
-    ),
-    Figure::of(
-        "new.transmission_error_um.peak_to_peak",
-        "Transmission error, peak to peak, new",
-        "µm",
-        |s| s.new.transmission_error_um.peak_to_peak,
-        |_| None,
-    ),
-    Figure::of(
-        "worn.flank_pressure_MPa",
-        "Flank pressure, worn",
-        "MPa",
-        |s| s.worn.flank_pressure_MPa,
-        |e| e.flank_pressure.worn,
-    ),
-    Figure::of(
-        "new.flank_pressure_MPa",
-        "Flank pressure, new",
-        "MPa",
-        |s| s.new.flank_pressure_MPa,
-        |e| e.flank_pressure.new,
-    ),
-    Figure::of(
-        "worn.tip_edge_line_load_N_per_mm",
-        "Line load of a tip edge, worn",
-        "N/mm",
-        |s| s.worn.tip_edge_line_load_N_per_mm,
-        |_| None,
-    ),
-    Figure::of(
-        "new.tip_edge_line_load_N_per_mm",
-        "Line load of a tip edge, new",
-        "N/mm",
-        |s| s.new.tip_edge_line_load_N_per_mm,
-        |_| None,
-    ),
-    Figure::of(
-        "worn.tip_edge_mean_pressure_MPa",
-        "Pressure of a tip edge over 0.04 mm, worn",
-        "MPa",
-        |s| s.worn.tip_edge_mean_pressure_MPa,
-        |_| None,
-    ),
-    Figure::of(
-        "new.tip_edge_mean_pressure_MPa",
-        "Pressure of a tip edge over 0.04 mm, new",
-        "MPa",
-        |s| s.new.tip_edge_mean_pressure_MPa,
-        |_| None,
-    ),
-    Figure::of(
-        "worn.peak_pressure_MPa",
-        "Maximum pressure at a point, worn",
-        "MPa",
-        |s| s.worn.peak_pressure_MPa,
-        |_| None,
-    ),
-    Figure::of(
-        "new.peak_pressure_MPa",
-        "Maximum pressure at a point, new",
-        "MPa",
-        |s| s.new.peak_pressure_MPa,
-        |_| None,
-    ),
-    Figure::of("pinion.worn_volume_mm3", "Worn volume of the pinion", "mm³", |s| s.pinion.worn_volume_mm3, |_| None),
-    Figure::of("wheel.worn_volume_mm3", "Worn volume of the wheel", "mm³", |s| s.wheel.worn_volume_mm3, |_| None),
-    Figure::of(
-        "helical.K_Hbeta_new",
-        "Face load factor, new",
-        "",
-        |s| s.helical.as_ref().and_then(|face| face.K_Hbeta_new),
-        |_| None,
-    ),
-    Figure::of(
-        "helical.K_Hbeta_worn",
-        "Face load factor, worn",
-        "",
-        |s| s.helical.as_ref().and_then(|face| face.K_Hbeta_worn),
-        |_| None,
-    ),
-    Figure::of(
-        "error.volume_balance",
-        "Difference of the worn volumes of pinion and wheel",
-        "",
-        |s| s.error.volume_balance,
-        |_| None,
-    ),
-    Figure::of("life.hours", "Life", "h", |s| s.life.as_ref().and_then(|life| life.hours), |_| None),
-    Figure::of(
-        "life.revolutions",
-        "Life",
-        "pinion revolutions",
-        |s| s.life.as_ref().and_then(|life| life.revolutions),
-        |_| None,
-    ),
-];
 
 /// Durations and loads this close, relatively, are the same.
 const SAME: f64 = 1e-9;
@@ -241,20 +72,20 @@ const SAME: f64 = 1e-9;
 impl VariantsRecord {
     /// Of `runs` (two at least), each compared with the first.
     pub(crate) fn new(runs: &[FinishedRun]) -> Self {
-        let rows: Vec<VariantRow> = FIGURES
+        let rows: Vec<VariantRow> = figures::compared()
             .iter()
-            .filter(|figure| runs.iter().any(|run| (figure.value)(&run.summary).is_some()))
+            .filter(|figure| runs.iter().any(|run| run.figure(figure).is_some()))
             .flat_map(|figure| runs.iter().map(move |run| row(figure, &runs[0], run)))
             .collect();
-        let variant = |run: &FinishedRun| Variant {
+        let variants = runs.iter().map(|run| Variant {
             name: run.name.clone(),
             title: run.summary.title.clone(),
             scene_hash: run.summary.scene_hash.clone(),
-        };
+        });
         Self {
             program_version: env!("CARGO_PKG_VERSION").to_owned(),
             answer: answer(&rows, &runs[0].name),
-            runs: runs.iter().map(variant).collect(),
+            runs: variants.collect(),
             keys: varied_keys(runs),
             warnings: warnings(runs),
             rows,
@@ -267,16 +98,15 @@ impl VariantsRecord {
     }
 }
 
-fn row(figure: &Figure, first: &FinishedRun, run: &FinishedRun) -> VariantRow {
-    let of = |run: &FinishedRun| ((figure.value)(&run.summary), (figure.error)(&run.summary.error.total));
-    let ((base, base_error), (value, error)) = (of(first), of(run));
+fn row(figure: &MainFigure, first: &FinishedRun, run: &FinishedRun) -> VariantRow {
+    let [(base, base_error), (value, error)] = [first, run].map(|run| (run.figure(figure), run.error(figure)));
     let compared = if run.name == first.name { None } else { base.filter(|base| *base != 0.0).zip(value) };
     let difference = compared.map(|(base, value)| value / base - 1.0);
     let errors_together = compared.and_then(|(base, value)| Some(base_error? + error? * (value / base).abs()));
     VariantRow {
-        figure: figure.path.to_owned(),
-        meaning: figure.meaning.to_owned(),
-        unit: figure.unit.to_owned(),
+        figure: figure.name.clone(),
+        meaning: capitalised(&figure.heading),
+        unit: figure.unit().to_owned(),
         run: run.name.clone(),
         value,
         error,
@@ -286,7 +116,7 @@ fn row(figure: &Figure, first: &FinishedRun, run: &FinishedRun) -> VariantRow {
     }
 }
 
-/// What the maximum wear of both gears says of each variant.
+/// Difference of the maximum wear of both gears of each variant, in words.
 fn answer(rows: &[VariantRow], first: &str) -> String {
     let mut sentences = Vec::new();
     for row in rows.iter().filter(|row| row.figure.ends_with(".peak_wear_um")) {
@@ -315,38 +145,43 @@ fn varied_keys(runs: &[FinishedRun]) -> Vec<VariedKey> {
     let mut keys: Vec<&String> = runs.iter().flat_map(|run| run.scene.keys()).collect();
     keys.sort();
     keys.dedup();
-    let values =
-        |key: &String| runs.iter().map(|run| run.scene.get(key).cloned().unwrap_or_default()).collect::<Vec<_>>();
-    let varied = |key: &String| {
-        let values = values(key);
-        values.iter().any(|value| *value != values[0]).then(|| VariedKey { key: key.clone(), values })
-    };
-    keys.into_iter().filter_map(varied).collect()
+    let said = keys.into_iter().map(|key| {
+        let values = runs.iter().map(|run| run.scene.get(key).cloned().unwrap_or_default()).collect();
+        VariedKey { key: key.clone(), values }
+    });
+    said.filter(|varied| varied.values.iter().any(|value| *value != varied.values[0])).collect()
+}
+
+/// Line load under which new and worn pair are stated, N/mm.
+fn line_load(run: &FinishedRun) -> f64 {
+    run.number("contact.line_load_N_per_mm").unwrap_or(f64::NAN)
+}
+
+/// Whether two values are not the same, nearly.
+fn differ(one: f64, other: f64) -> bool {
+    (one / other - 1.0).abs() > SAME
 }
 
 fn warnings(runs: &[FinishedRun]) -> Vec<String> {
     let first = &runs[0];
-    let differs = |run: &FinishedRun, of: fn(&FinishedRun) -> f64| (of(run) / of(first) - 1.0).abs() > SAME;
-    let (duration, load) =
-        (|run: &FinishedRun| run.summary.revolutions, |run: &FinishedRun| run.summary.contact.line_load_N_per_mm);
-    let durations = runs.iter().filter(|run| differs(run, duration)).map(|run| {
+    let durations = runs.iter().filter(|run| differ(run.summary.revolutions, first.summary.revolutions)).map(|run| {
         format!(
             "{} runs {:.4e} pinion revolutions, {} {:.4e}: wear of different durations is compared",
             run.name, run.summary.revolutions, first.name, first.summary.revolutions
         )
     });
-    let loads = runs.iter().filter(|run| differs(run, load)).map(|run| {
+    let loads = runs.iter().filter(|run| differ(line_load(run), line_load(first))).map(|run| {
         format!(
             "pressure, load share and transmission error of {} are under {:.1} N/mm, those of {} under {:.1} N/mm: they differ by the \
              load too",
             run.name,
-            load(run),
+            line_load(run),
             first.name,
-            load(first)
+            line_load(first)
         )
     });
     let pressures = runs.iter().filter_map(|run| {
-        let (new, worn) = (run.summary.new.flank_pressure_MPa, run.summary.worn.flank_pressure_MPa);
+        let [new, worn] = ["new.flank_pressure_MPa", "worn.flank_pressure_MPa"].map(|path| run.number(path));
         let (pressure_mpa, when) = if worn > new { (worn?, "worn") } else { (new?, "new") };
         steel_yield::warning(pressure_mpa, &format!("{}, {when}", run.name))
     });

@@ -48,7 +48,7 @@ impl Laboratory {
         let pair = GearPair::new(&resolved.scene.pair).unwrap();
         let flanks = run(truth).1.flanks;
         let traces = PerGear::from_fn(|gear| Trace::new(&pair, gear, &flanks[gear]));
-        let folder = RunFolder::read(folder.path()).unwrap();
+        let folder = RunFolder::with_snapshots(folder.path()).unwrap();
         Self { folder, scene: loaded(&resolved), pair, traces }
     }
 

@@ -47,19 +47,11 @@ pub fn interrupted() -> RunRecord {
     s.worn = s.new.clone();
     for wear in [&mut s.pinion, &mut s.wheel] {
         *wear = WearSummary {
-            peak_wear_um: 0.0,
             peak_wear_radius_mm: wear.peak_wear_radius_mm,
-            tip_edge_wear_um: 0.0,
             tip_edge_wear_radius_mm: wear.tip_edge_wear_radius_mm,
-            below_sap_wear_um: 0.0,
             below_sap_wear_radius_mm: wear.below_sap_wear_radius_mm,
-            root_wear_um: 0.0,
-            pitch_wear_um: 0.0,
-            worn_volume_mm3: 0.0,
-            worn_mass_mg: 0.0,
             normal_tip_thickness_mm: wear.normal_tip_thickness_mm,
-            vdi_2736_mean_wear_um: None,
-            peak_over_vdi_2736_mean_wear: None,
+            ..WearSummary::default()
         };
     }
     record
@@ -237,13 +229,13 @@ fn summary() -> Summary {
     };
     let cycle = |peak, te_min, te_max| CycleSummary {
         peak_pressure_MPa: peak,
-        sharp_edge_pressure_MPa: None,
         flank_pressure_MPa: 0.98 * peak,
         tip_edge_line_load_N_per_mm: 260.0,
         tip_edge_mean_pressure_MPa: 3000.0,
         pitch_pressure_MPa: 1655.8,
         load_imbalance: 1e-12,
         transmission_error_um: RangeSummary { min: te_min, max: te_max, peak_to_peak: te_max - te_min },
+        ..CycleSummary::default()
     };
     let worn = |gear, at: f64| WearSummary {
         peak_wear_um: wear(gear, at, 127.75),
@@ -257,8 +249,7 @@ fn summary() -> Summary {
         worn_volume_mm3: 4.87,
         worn_mass_mg: 38.1,
         normal_tip_thickness_mm: [2.1, 2.3][gear as usize],
-        vdi_2736_mean_wear_um: None,
-        peak_over_vdi_2736_mean_wear: None,
+        ..WearSummary::default()
     };
     let stage = |name: &str, wall_s| StageTime { name: name.into(), wall_s };
     Summary {

@@ -7,7 +7,7 @@ use super::raster::SlicedRaster;
 use super::sliced_run::{SlicedRun, slice_name};
 use crate::gear::Gear;
 use crate::report::chart::{Chart, Dash, Label, Trace};
-use crate::report::control::{Change, Control, Step};
+use crate::report::control::{Change, Control, SliderStep};
 use crate::report::html::active_flank::ActiveFlank;
 use crate::report::html::flank_plots::{drawn_snapshots, moment};
 use crate::report::html::number::{figure, significant};
@@ -19,7 +19,7 @@ const LINES_OF_CONTACT: usize = 7;
 /// Pieces of a drawn line of contact.
 const PIECES: usize = 24;
 
-struct Quantity<'a> {
+struct MappedQuantity<'a> {
     id: &'static str,
     /// What stands before and after the name of the flank.
     title: [&'static str; 2],
@@ -34,8 +34,9 @@ struct Quantity<'a> {
 pub(super) fn all(run: SlicedRun<'_>, gear: Gear) -> Vec<Chart> {
     let flank = &run.record.flanks[gear];
     let top = |field: &[f64]| greatest(field).map_or(0.0, |peak| peak.value);
-    let draw =
-        |id, title, unit, values, top, reading| map(run, gear, Quantity { id, title, unit, values, top, reading });
+    let draw = |id, title, unit, values, top, reading| {
+        map(run, gear, MappedQuantity { id, title, unit, values, top, reading })
+    };
     let (wear, sliding) = (&flank.wear_um, &flank.sliding_mm_per_mesh);
     let (new, worn) = (&flank.pressure_new_MPa, &flank.pressure_worn_MPa);
     let pressure_top = top(new).max(top(worn));
@@ -63,7 +64,7 @@ fn over_time(run: SlicedRun<'_>, gear: Gear) -> Control {
     let steps = drawn_snapshots(history.len()).into_iter().map(|snapshot| {
         let wear = &flank.snapshot_wear_um[snapshot];
         let cells = raster.rows(|point, slice| wear[slice * points + point]);
-        Step { label: moment(&history[snapshot]), change: Change::Cells(cells) }
+        SliderStep { label: moment(&history[snapshot]), change: Change::Cells(cells) }
     });
     Control::Steps { name: "time", steps: steps.collect() }
 }
@@ -75,7 +76,7 @@ fn on_active_flank(flank: &FlankRecord, field: &[f64]) -> Vec<f64> {
     field.iter().enumerate().map(|(place, &value)| if shown(place) { value } else { f64::NAN }).collect()
 }
 
-fn map(run: SlicedRun<'_>, gear: Gear, quantity: Quantity<'_>) -> Chart {
+fn map(run: SlicedRun<'_>, gear: Gear, quantity: MappedQuantity<'_>) -> Chart {
     let flank = &run.record.flanks[gear];
     let raster = SlicedRaster::of_flank(flank, run.record.surface[gear].face_width_mm);
     let points = flank.radius_mm.len();

@@ -11,7 +11,7 @@ use crate::report::html::reading::greatest;
 /// Wear is in µm, the flank in mm.
 const MM_PER_UM: f64 = 1e-3;
 
-struct Quantity<'a> {
+struct ShownSurface<'a> {
     /// On its button.
     label: &'static str,
     /// At its axis.
@@ -36,7 +36,7 @@ pub(super) fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Chart {
         ("pressure, new", "pressure, MPa", "MPa", &flank.pressure_new_MPa, pressure, false),
         ("pressure, worn", "pressure, MPa", "MPa", &flank.pressure_worn_MPa, pressure, false),
     ]
-    .map(|(label, title, unit, values, top, is_depth)| Quantity {
+    .map(|(label, title, unit, values, top, is_depth)| ShownSurface {
         label,
         title,
         unit,
@@ -65,7 +65,7 @@ pub(super) fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Chart {
 }
 
 /// The surface, drawn on to both end faces with the values of the first and the last slice.
-fn surface(run: SlicedRun<'_>, gear: Gear, shown: &Quantity<'_>, is_first: bool) -> Trace {
+fn surface(run: SlicedRun<'_>, gear: Gear, shown: &ShownSurface<'_>, is_first: bool) -> Trace {
     let flank = &run.record.flanks[gear];
     let face_width = run.record.surface[gear].face_width_mm;
     let raster = SlicedRaster::of_flank(flank, face_width);

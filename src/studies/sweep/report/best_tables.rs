@@ -7,10 +7,10 @@ use super::section_plane::range;
 use crate::report::html::number::{count, given, significant};
 use crate::report::html::reading::capitalised;
 use crate::report::html::table::{Cell, NONE, cells, line, list};
-use crate::studies::sweep::figures::FIGURES;
+use crate::results::figures::{self, STATED_ERRORS};
 use crate::studies::sweep::goal::Optimum;
 use crate::studies::sweep::record::{SweepAxis, SweepRecord, SweepRow};
-use crate::studies::sweep::verification::{CLAIMS, SweepVerification, objective};
+use crate::studies::sweep::verification::{SweepVerification, objective};
 
 /// Greatest number of combinations without a result on the page; all are in the table.
 const MOST_LISTED: usize = 20;
@@ -34,10 +34,10 @@ pub(super) fn shown_value(axis: &SweepAxis, value: f64) -> String {
 /// For each figure the range over all combinations, and where it is least.
 pub(super) fn best(record: &SweepRecord) -> Markup {
     let columns = cells!["figure", "minimum", "maximum", "unit"].into_iter().chain(keys(record));
-    let rows = FIGURES.iter().filter_map(|figure| {
+    let rows = figures::in_sweeps().iter().filter_map(|figure| {
         let (least, greatest) = range(record, figure)?;
-        let cells = cells![capitalised(figure.title), least, greatest, figure.unit].into_iter();
-        let best = record.least(figure).filter(|_| figure.less_is_better && least < greatest);
+        let cells = cells![capitalised(&figure.heading), least, greatest, figure.unit()].into_iter();
+        let best = record.least(figure).filter(|_| figure.family.less_is_better && least < greatest);
         Some(match best {
             Some((row, _)) => line(cells.chain(values(record, &row.values))),
             None => line(cells.chain(record.identity.axes.iter().map(|_| NONE.into()))),
@@ -51,7 +51,7 @@ pub(super) fn optimum(optimum: &Optimum) -> Markup {
     let figure = optimum.goal.figure();
     html! {
         p {
-            "Objective: the lowest " (optimum.goal.in_words()) ". It is " b { (significant(optimum.value, 4)) " " (figure.unit) }
+            "Objective: the lowest " (optimum.goal.in_words()) ". It is " b { (significant(optimum.value, 4)) " " (figure.unit()) }
             " in combination " (optimum.index) "; "
             (count(optimum.within_limits as u64)) " combinations satisfy the constraints. "
             @match (&optimum.error, &optimum.plateau, &optimum.plateau_keys) {
@@ -76,15 +76,15 @@ pub(super) fn within(claim: f64) -> String {
 
 /// Errors of each verified combination, the greatest of all below them, and the reasons of those without a result.
 pub(super) fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> Markup {
-    let claims = CLAIMS.iter().map(|claim| claim.title.into());
+    let claims = STATED_ERRORS.iter().map(|claim| claim.title.into());
     let columns = cells!["combination", "chosen as"].into_iter().chain(keys(record));
     let columns = columns.chain([objective(&record.identity).with_unit().into()]).chain(claims);
     let rows = verification.rows.iter().map(|row| {
-        let claims = CLAIMS.iter().map(|claim| Cell::from((claim.of)(&row.verification.total).map(within)));
+        let claims = STATED_ERRORS.iter().map(|claim| Cell::from((claim.of)(&row.verification.total).map(within)));
         let name = cells![row.index.to_string(), row.verification.chosen.name()].into_iter();
         line(name.chain(values(record, row.values)).chain([row.objective.into()]).chain(claims))
     });
-    let worst = CLAIMS.iter().map(|claim| {
+    let worst = STATED_ERRORS.iter().map(|claim| {
         let worst = verification.worst.iter().find(|worst| worst.claim == claim.name);
         Cell::from(worst.map(|worst| within(worst.value)))
     });

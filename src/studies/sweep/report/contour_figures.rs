@@ -5,13 +5,13 @@ use super::section_plane::{self, ShownAxis, range};
 use crate::report::chart::{Chart, ColourScale, Drawn, Field, MUTED, Rows, Trace, padded};
 use crate::report::html::number::{figure as shown_number, plotted};
 use crate::report::html::reading::capitalised;
-use crate::studies::sweep::figures::SweepFigure;
-use crate::studies::sweep::record::{Spacing, SweepRecord, SweepRow};
+use crate::results::figures::MainFigure;
+use crate::studies::sweep::record::{AxisSpacing, SweepRecord, SweepRow};
 
 /// The plot of `figure` over the keys `x` and `y`; further keys stay at the values where the figure is least.
 pub(super) fn contour(
     record: &SweepRecord,
-    figure: &SweepFigure,
+    figure: &MainFigure,
     x: &ShownAxis<'_>,
     y: &ShownAxis<'_>,
 ) -> Option<Chart> {
@@ -21,7 +21,7 @@ pub(super) fn contour(
         .iter()
         .map(|&j| x.shown.iter().map(|&i| section_plane::row(record, best, &[(x, i), (y, j)])).collect())
         .collect();
-    let mut chart = Chart::new(id("contour", figure), capitalised(figure.title))
+    let mut chart = Chart::new(id("contour", figure), capitalised(&figure.heading))
         .height(460)
         .read_nearest()
         .x(&x.axis.title())
@@ -37,10 +37,10 @@ pub(super) fn contour(
     if let Some(words) = y.axis.words() {
         chart = chart.y_ticks(numbered(words));
     }
-    if x.axis.spacing == Spacing::Logarithmic {
+    if x.axis.spacing == AxisSpacing::Logarithmic {
         chart = chart.x_logarithmic();
     }
-    if y.axis.spacing == Spacing::Logarithmic {
+    if y.axis.spacing == AxisSpacing::Logarithmic {
         chart = chart.y_logarithmic();
     }
     let failed = rows.iter().flatten().flatten().filter_map(|row| Some((row, row.error.clone()?)));
@@ -50,11 +50,11 @@ pub(super) fn contour(
         chart = chart.add(Trace::points("no result", along_x, along_y, (MUTED, "x", 6)).hover_texts(errors));
     }
     let least_at = Trace::points("minimum", [best.values[x.at]], [best.values[y.at]], ("#ff5a36", "star", 15));
-    Some(chart.add(least_at.hover(format!("minimum: {} {}<extra></extra>", shown_number(least), figure.unit))))
+    Some(chart.add(least_at.hover(format!("minimum: {} {}<extra></extra>", shown_number(least), figure.unit()))))
 }
 
 /// Contours of a figure, from a row of combinations for each value of `y`.
-fn contours(figure: &SweepFigure, x: &ShownAxis<'_>, y: &ShownAxis<'_>, rows: &[Vec<Option<&SweepRow>>]) -> Trace {
+fn contours(figure: &MainFigure, x: &ShownAxis<'_>, y: &ShownAxis<'_>, rows: &[Vec<Option<&SweepRow>>]) -> Trace {
     let values: Rows = rows
         .iter()
         .map(|rows| {
@@ -62,9 +62,9 @@ fn contours(figure: &SweepFigure, x: &ShownAxis<'_>, y: &ShownAxis<'_>, rows: &[
             figures.map(|value| value.map_or(f64::NAN, plotted)).collect()
         })
         .collect();
-    let unit = figure.unit;
+    let unit = figure.unit();
     let field = Field { x: x.values(), y: y.values(), values, scale: ColourScale::of(unit) };
-    Trace::new(Drawn::Contours(field), figure.title).unlisted().hover(format!(
+    Trace::new(Drawn::Contours(field), figure.heading.as_str()).unlisted().hover(format!(
         "{}: %{{x}}<br>{}: %{{y}}<br>%{{z:.5~g}} {unit}<extra></extra>",
         x.axis.title(),
         y.axis.title()
@@ -80,17 +80,17 @@ pub(super) fn numbered(words: &[String]) -> impl Iterator<Item = (f64, String)> 
 fn ends(of: &ShownAxis<'_>) -> [f64; 2] {
     let (from, to) = (of.axis.from, of.axis.to);
     match of.axis.spacing {
-        Spacing::Logarithmic => padded(from.log10(), to.log10()).map(|exponent| 10f64.powf(exponent)),
-        Spacing::Even | Spacing::Listed(_) | Spacing::Words(_) => padded(from, to),
+        AxisSpacing::Logarithmic => padded(from.log10(), to.log10()).map(|exponent| 10f64.powf(exponent)),
+        AxisSpacing::Even | AxisSpacing::Listed(_) | AxisSpacing::Words(_) => padded(from, to),
     }
 }
 
-pub(super) fn id(kind: &str, figure: &SweepFigure) -> String {
+pub(super) fn id(kind: &str, figure: &MainFigure) -> String {
     format!("{kind}-{}", figure.name.to_lowercase().replace(['_', '.'], "-"))
 }
 
 /// Sentence with the least and greatest value of the figure and where it is least.
-pub(super) fn reading(record: &SweepRecord, figure: &SweepFigure, best: &SweepRow, shown: &[&ShownAxis<'_>]) -> String {
+pub(super) fn reading(record: &SweepRecord, figure: &MainFigure, best: &SweepRow, shown: &[&ShownAxis<'_>]) -> String {
     let Some((least, greatest)) = range(record, figure) else { return String::new() };
     let axes = &record.identity.axes;
     let values: Vec<String> = axes
@@ -101,7 +101,7 @@ pub(super) fn reading(record: &SweepRecord, figure: &SweepFigure, best: &SweepRo
     let places: Vec<&str> = shown.iter().map(|axis| values[axis.at].as_str()).collect();
     let others = (0..axes.len()).filter(|&at| axes[at].count > 1 && shown.iter().all(|axis| axis.at != at));
     let others: Vec<&str> = others.map(|at| values[at].as_str()).collect();
-    let unit = if figure.unit.is_empty() { String::new() } else { format!(" {}", figure.unit) };
+    let unit = if figure.unit().is_empty() { String::new() } else { format!(" {}", figure.unit()) };
     let mut text = format!(
         "Minimum {}{unit} at {}, maximum {}{unit} of all combinations: {}.",
         shown_number(least),

@@ -11,8 +11,8 @@ use crate::reference::steel_yield;
 use crate::report::chart::Chart;
 use crate::report::html::number::{count, figure as shown_number, given, significant};
 use crate::report::html::page::{Page, Plots, section, sources_list};
+use crate::results::figures::{self, MainFigure};
 use crate::results::run::ReportedBy;
-use crate::studies::sweep::figures::{FIGURES, SweepFigure};
 use crate::studies::sweep::journal;
 use crate::studies::sweep::record::SweepRecord;
 use crate::studies::sweep::verification::SweepVerification;
@@ -56,8 +56,8 @@ pub(super) fn page(record: &SweepRecord) -> String {
 }
 
 /// Figures to minimise that are not constant.
-fn shown(record: &SweepRecord) -> impl Iterator<Item = &'static SweepFigure> + '_ {
-    FIGURES.iter().filter(|figure| figure.less_is_better && differs(record, figure))
+fn shown(record: &SweepRecord) -> impl Iterator<Item = &'static MainFigure> + '_ {
+    figures::in_sweeps().iter().copied().filter(|figure| figure.family.less_is_better && differs(record, figure))
 }
 
 fn figures(record: &SweepRecord) -> Vec<Chart> {
@@ -72,7 +72,7 @@ fn figures(record: &SweepRecord) -> Vec<Chart> {
 fn pressure_warning(record: &SweepRecord) -> Option<String> {
     let pressures = [("new.flank_pressure_MPa", "new"), ("worn.flank_pressure_MPa", "worn")].into_iter().flat_map(
         |(name, when)| {
-            let figure = SweepFigure::find(name);
+            let figure = figures::find(name);
             record.rows.iter().filter_map(move |row| Some((row.figure(figure?)?, when, row.index)))
         },
     );
@@ -103,7 +103,7 @@ fn answer(record: &SweepRecord) -> String {
     let mut text =
         format!("{} combinations of {}{without}.", count(identity.combinations() as u64), keys.join(" and "));
     for (figure, row, least) in shown(record)
-        .filter(|figure| HEADLINES.contains(&figure.name))
+        .filter(|figure| HEADLINES.contains(&figure.name.as_str()))
         .filter_map(|figure| record.least(figure).map(|(row, least)| (figure, row, least)))
     {
         let place: Vec<String> = identity
@@ -113,11 +113,11 @@ fn answer(record: &SweepRecord) -> String {
             .map(|(axis, &value)| axis.name_and_value(&shown_value(axis, value)))
             .collect();
         text.push_str(&format!(
-            " The {} is lowest, {}{}{}, at {}.",
-            figure.title,
+            " Lowest {}: {}{}{}, at {}.",
+            figure.heading,
             shown_number(least),
-            if figure.unit.is_empty() { "" } else { " " },
-            figure.unit,
+            if figure.unit().is_empty() { "" } else { " " },
+            figure.unit(),
             place.join(" and ")
         ));
     }

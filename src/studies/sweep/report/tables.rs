@@ -5,9 +5,8 @@ use std::io::{self, Write};
 
 use crate::report::columns::{Cell, Table, of_cells};
 use crate::report::csv_table::{Column, table_of};
-use crate::studies::sweep::figures::FIGURES;
+use crate::results::figures::{self, STATED_ERRORS};
 use crate::studies::sweep::record::{SweepRecord, SweepRow};
-use crate::studies::sweep::verification::CLAIMS;
 
 pub(crate) struct SweepColumn {
     pub name: String,
@@ -52,8 +51,8 @@ pub(crate) fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
     columns.push(SweepColumn::new("status", "ok, or failed: then the figures are empty and error says why", |row| {
         Cell::Text(Some(if row.error.is_none() { "ok" } else { "failed" }.into()))
     }));
-    for figure in FIGURES {
-        columns.push(SweepColumn::new(figure.name, figure.meaning, |row| Cell::Number(row.figure(figure))));
+    for figure in figures::in_sweeps() {
+        columns.push(SweepColumn::new(&figure.name, &figure.meaning, |row| Cell::Number(row.figure(figure))));
     }
     let all_of_it = "wall time of the whole combination, its verification apart";
     let why = "why finite elements verified this row: best, corner, or best and corner; empty: nothing verified it";
@@ -70,7 +69,7 @@ pub(crate) fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
             Cell::Text(row.verification.as_ref().map(|of| of.chosen.name().into()))
         }),
     ]);
-    for claim in CLAIMS {
+    for claim in STATED_ERRORS {
         let meaning = format!(
             "{}: relative difference from the same wear simulation with finite elements, their own uncertainty added; as in summary.json of a run; \
              empty where not verified",

@@ -52,8 +52,11 @@ pub(crate) fn table(record: &UncertaintyRecord) -> Table {
     of_cells("samples", columns(record), rows(record))
 }
 
+fn column(name: &str, meaning: String) -> Column {
+    (name.to_owned(), meaning)
+}
+
 fn columns(record: &UncertaintyRecord) -> Vec<Column> {
-    let column = |name: &str, meaning: String| (name.to_owned(), meaning);
     let mut columns = vec![
         column("point", "number of the point of the Sobol sequence, from 0".to_owned()),
         column("matrix", "A and B: independent samples; a key: A with this key from B".to_owned()),

@@ -30,10 +30,8 @@ fn stroke(place: usize, count: usize) -> (String, f64, Dash) {
 fn wear(runs: &[FinishedRun], gear: Gear) -> Chart {
     let profiles: Vec<(Vec<f64>, Vec<f64>)> = runs.iter().map(|run| run.wear_profile(gear)).collect();
     // The flank below the first point that wears is empty.
-    let worn = |(radii, wear): &(Vec<f64>, Vec<f64>)| -> Vec<f64> {
-        radii.iter().zip(wear).filter(|(_, wear)| **wear > 0.0).map(|(radius, _)| *radius).collect()
-    };
-    let [low, high] = extent(profiles.iter().flat_map(worn));
+    let points = profiles.iter().flat_map(|(radii, wear)| radii.iter().zip(wear));
+    let [low, high] = extent(points.filter(|(_, wear)| **wear > 0.0).map(|(radius, _)| *radius));
     let deepest = profiles.iter().flat_map(|(_, wear)| wear.iter().copied()).fold(0.0, f64::max);
     let words = runs.iter().zip(&profiles).filter_map(|(run, (radii, wear))| {
         let at = greatest(wear)?;
@@ -59,10 +57,9 @@ fn wear(runs: &[FinishedRun], gear: Gear) -> Chart {
 }
 
 fn over_mesh(runs: &[FinishedRun], id: &str, title: &str, axis: &str, column: &str) -> Chart {
-    let values = |run: &FinishedRun| run.mesh_cycle.get(column).to_vec();
     let [low, high] = extent(runs.iter().flat_map(|run| run.mesh_cycle.get("position_mm").iter().copied()));
     let words = runs.iter().filter_map(|run| {
-        let most = greatest(&values(run))?.value;
+        let most = greatest(run.mesh_cycle.get(column))?.value;
         Some(format!("{} {}", run.name, figure(most)))
     });
     let words: Vec<String> = words.collect();
@@ -78,7 +75,13 @@ fn over_mesh(runs: &[FinishedRun], id: &str, title: &str, axis: &str, column: &s
         .y(axis);
     for (place, run) in runs.iter().enumerate() {
         let positions = run.mesh_cycle.get("position_mm").to_vec();
-        chart = chart.line(&run.name, positions, values(run), stroke(place, runs.len()), "%{y:.4g}");
+        chart = chart.line(
+            &run.name,
+            positions,
+            run.mesh_cycle.get(column).to_vec(),
+            stroke(place, runs.len()),
+            "%{y:.4g}",
+        );
     }
     chart
 }

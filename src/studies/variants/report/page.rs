@@ -82,7 +82,9 @@ fn keys(record: &VariantsRecord, names: &[&str]) -> Markup {
         return html! { p { "Their scenes are the same." } };
     }
     let columns = ["key"].into_iter().chain(names.iter().copied());
-    let value = |text: &String| if text.is_empty() { NONE.to_owned() } else { text.clone() };
-    let rows = record.keys.iter().map(|key| line([key.key.clone()].into_iter().chain(key.values.iter().map(value))));
+    let rows = record.keys.iter().map(|key| {
+        let values = key.values.iter().map(|text| if text.is_empty() { NONE } else { text.as_str() });
+        line([key.key.as_str()].into_iter().chain(values))
+    });
     list("Keys", columns, rows)
 }
