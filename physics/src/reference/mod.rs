@@ -1,4 +1,4 @@
-//! Closed forms, rules of interpolation and statistics with their sources, shared by the code, the tests and the validation.
+//! Closed forms, interpolation and statistics with their sources, shared by code, tests and validation.
 
 pub mod cantilever;
 pub mod flattening;
