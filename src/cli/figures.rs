@@ -71,7 +71,7 @@ fn details(summary: &Summary) -> String {
         figures("radius of the maximum wear, mm", [pinion.peak_wear_radius_mm, wheel.peak_wear_radius_mm]),
         figures("wear of the tip edge, µm", [pinion.tip_edge_wear_um, wheel.tip_edge_wear_um]),
         figures("wear below the active profile, µm", [pinion.below_sap_wear_um, wheel.below_sap_wear_um]),
-        figures("wear near the root, µm", [pinion.root_wear_um, wheel.root_wear_um]),
+        figures("wear of the root zone, µm", [pinion.root_wear_um, wheel.root_wear_um]),
         figures("wear at the pitch circle, µm", [pinion.pitch_wear_um, wheel.pitch_wear_um]),
         figures("worn mass, mg", [pinion.worn_mass_mg, wheel.worn_mass_mg]),
         row("", ["new", "worn"]),

@@ -6,7 +6,7 @@ mod wear_reference;
 use std::time::Instant;
 
 use crate::calibration::bodies::Setup;
-use crate::calibration::identity::Identity;
+use crate::calibration::identity::CalibrationIdentity;
 use crate::calibration::single_contact::SingleContact;
 use crate::calibration::slice_fit::SliceFit;
 use crate::calibration::tooth_stiffness::LoadedPair;
@@ -136,7 +136,7 @@ pub(crate) fn run(
     let mut calibration = Calibration {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         hash: String::new(),
-        belongs_to: Identity::of(&pair, &scene.material, &scene.fem),
+        belongs_to: CalibrationIdentity::of(&pair, &scene.material, &scene.fem),
         elements_per_half_width: scene.fem.elements_per_half_width,
         line_load_n_per_mm: w,
         path_points_mm,

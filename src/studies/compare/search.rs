@@ -20,7 +20,7 @@ use super::simulations::{Change, CompareError, Simulations};
 use super::unknown::Unknown;
 use crate::gear::{Gear, PerGear};
 use crate::measurement::fit::{FitStop, Parameter, broyden_update, gauss_newton_step, least_squares};
-use crate::measurement::interval::{ProfilePart, Uncertainty, uncertainty};
+use crate::measurement::interval::{FitUncertainty, ProfilePart, uncertainty};
 
 /// Least factor on the wear coefficient.
 const LEAST_FACTOR: f64 = 1e-3;
@@ -48,7 +48,7 @@ pub(super) struct FittedCoefficients {
     /// Which is to blame, where one is.
     pub blamed: Option<Unknown>,
     /// What the residuals say; `None` where nothing was fitted or too few points count.
-    pub uncertainty: Option<Uncertainty>,
+    pub uncertainty: Option<FitUncertainty>,
     /// Wear depth of the flank points of each profile.
     pub wear_um: Vec<Vec<f64>>,
     /// The last step in standard deviations, where exact runs still ask for one.
