@@ -1,22 +1,24 @@
-//! Zones of a flank for figures of wear.
+//! Zones of a flank, for figures of wear and pressure, in these terms:
 //!
 //! ```text
-//! base circle … SAP       below the start of active profile: reached by strips of contact, and by the mate's tip edge before A or after E
-//! SAP … tip edge zone     active profile; its first 2 mm of radius are the root
-//! tip edge zone           from  l = min(3 a_C, 0.15 m)  below the tip edge, or below the beginning of its rounding, to the tip circle
+//! below the active profile    base circle … SAP: strips of contact reach it, and the mate's tip edge before A or after E
+//! active profile              SAP … tip-edge zone
+//! tip-edge zone               from  l = min(3 a_C, 0.15 m)  below the tip edge, or below where its rounding begins, to the tip circle
+//! root zone                   first 2 mm of radius above the SAP
+//! tip zone                    last 2 mm of radius below the tip circle
 //! ```
 //!
-//! l is measured along the flank; a_C is Hertz's half-width at the pitch point under the whole load, m the normal module. Contact at the tip
-//! edge ends there, and its pressure and wear depend on the rounding and the resolution of the edge.
-//! The active profile more than three half-widths from it is not affected, and has separate figures.
+//! l is measured along the flank; a_C is Hertz's half-width at the pitch point under the whole load, m the normal module. Contact that
+//! reaches the tip edge is cut off there, and its pressure and wear depend on the edge: on its rounding, and its resolution.
+//! Three half-widths from it the active profile is free of that, and has figures of its own.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Gear, GearPair, PerGear, removed_material::tip_rounding_length_mm};
 
-/// Radial height of the root zone above the start of active profile (SAP), mm.
+/// Height of the root zone in radius, from the start of active profile (SAP) upward, mm.
 const ROOT_MM: f64 = 2.0;
-/// Radial height of the tip zone below the tip circle, mm.
+/// Height of the tip zone in radius, from the tip circle downward, mm.
 const TIP_MM: f64 = 2.0;
 /// Length of the tip-edge zone below the edge or its rounding, in Hertz half-widths at the pitch point.
 const TIP_EDGE_HALF_WIDTHS: f64 = 3.0;
@@ -28,11 +30,11 @@ const PRESSURE_LENGTH: (f64, f64) = (0.4, 0.04);
 /// Zone of a flank.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FlankZone {
-    /// Below the start of active profile.
+    /// Below the active profile.
     BelowActive,
-    /// Between the start of active profile and the tip-edge zone.
+    /// Active profile.
     Active,
-    /// At the tip edge.
+    /// Tip-edge zone.
     TipEdge,
 }
 
@@ -89,12 +91,12 @@ impl FlankZones {
         }
     }
 
-    /// Whether a radius is in the root zone, the first 2 mm above the start of active profile.
+    /// Whether a radius is in the root zone.
     pub fn is_root(&self, radius_mm: f64) -> bool {
         (self.active_start_radius_mm..=self.active_start_radius_mm + ROOT_MM).contains(&radius_mm)
     }
 
-    /// Whether a radius is in the tip zone, the last 2 mm below the tip circle.
+    /// Whether a radius is in the tip zone.
     pub fn is_tip(&self, radius_mm: f64) -> bool {
         radius_mm >= self.tip_radius_mm - TIP_MM
     }
