@@ -57,7 +57,7 @@ fn family_row(family: &FigureFamily, values: [Option<f64>; 2]) -> String {
     let (unit, factor) = if is_share { ("%", 100.0) } else { (family.unit, 1.0) };
     let comma = if unit.is_empty() { "" } else { ", " };
     let [one, other] = values.map(|value| value.map_or_else(|| "–".to_owned(), |value| digits(factor * value)));
-    row(&format!("{}{comma}{unit}", family.row()), [&one, &other])
+    main_row(&format!("{}{comma}{unit}", family.row()), [&one, &other])
 }
 
 /// What is asked first: wear and how far it is known, flank pressure, transmission error, and what to do about the tip edges.
@@ -66,7 +66,7 @@ fn headline(summary: &Summary) -> String {
     let is_verified = total.peak_wear.pinion.or(total.peak_wear.wheel).is_some();
     let mut text = format!("{}\n\n", summary.title);
     for columns in GROUPS {
-        text.push_str(&row("", columns));
+        text.push_str(&main_row("", columns));
         for family in shown(columns).filter(|family| family.in_headline) {
             let values = family.both(summary);
             text.push_str(&family_row(family, values));
@@ -75,14 +75,14 @@ fn headline(summary: &Summary) -> String {
                     Some(wear) if wear > 0.0 => format!("± {}", headline::scatter_percent()),
                     _ => "–".to_owned(),
                 });
-                text.push_str(&row("  scatter of k in repeated tests, %", [&one, &other]));
+                text.push_str(&main_row("  scatter of k in repeated tests, %", [&one, &other]));
             }
             if is_verified {
                 let [one, other] = family.both_errors(total).map(|error| match error {
                     Some(error) => format!("± {}", two_digits(100.0 * error)),
                     None => "–".to_owned(),
                 });
-                text.push_str(&row("  error of the computation, %", [&one, &other]));
+                text.push_str(&main_row("  error of the computation, %", [&one, &other]));
             }
         }
     }
@@ -96,7 +96,7 @@ fn headline(summary: &Summary) -> String {
 fn details(summary: &Summary) -> String {
     let of_group = |columns: [&str; 2]| {
         let families = shown(columns).filter(|family| !family.in_headline && !family.is_of_slices());
-        format!("{}{}", row("", columns), rows(families, summary))
+        format!("{}{}", main_row("", columns), rows(families, summary))
     };
     format!("\n{}", GROUPS.map(of_group).concat())
 }
@@ -107,21 +107,21 @@ fn over_the_width(summary: &Summary) -> String {
         return String::new();
     }
     let [gears, states] = GROUPS.map(|columns| rows(shown(columns).filter(|family| family.is_of_slices()), summary));
-    format!("{states}{}{gears}", row("over the face width", GROUPS[0]))
+    format!("{states}{}{gears}", main_row("over the face width", GROUPS[0]))
 }
 
 /// How far the run is from finite elements, or why that is not known.
 fn verified(total: &TotalError) -> String {
     let within = |error: Option<f64>| error.map_or_else(|| "–".to_owned(), |error| two_digits(100.0 * error));
-    let both = |name, errors: &ErrorPerGear| row(name, [&within(errors.pinion), &within(errors.wheel)]);
+    let both = |name, errors: &ErrorPerGear| main_row(name, [&within(errors.pinion), &within(errors.wheel)]);
     if total.peak_wear.pinion.or(total.peak_wear.wheel).is_none() {
         return format!("\n  {}\n", total.how);
     }
     [
-        row("difference from finite elements", ["pinion", "wheel"]),
+        main_row("difference from finite elements", ["pinion", "wheel"]),
         both("wear of the tip edge, %", &total.tip_edge_wear),
         both("wear over the flank (rms), %", &total.profile),
-        row("pressure between the tip edges (rms), %", [&within(total.pressure_between_tips), ""]),
+        main_row("pressure between the tip edges (rms), %", [&within(total.pressure_between_tips), ""]),
     ]
     .concat()
 }
@@ -148,7 +148,7 @@ fn at_other_limits(error: &ErrorSummary) -> String {
     let Some(limit) = &error.severe_limit else { return String::new() };
     let peaks = |at: &WearAtLimit| [at.pinion.peak_wear_um, at.wheel.peak_wear_um];
     [
-        format!("\n{}", row("maximum wear, µm, with", ["pinion", "wheel"])),
+        format!("\n{}", main_row("maximum wear, µm, with", ["pinion", "wheel"])),
         figures("a limit of severe wear 10 % lower", peaks(&limit.low)),
         figures("a limit of severe wear 10 % higher", peaks(&limit.high)),
     ]
@@ -164,12 +164,17 @@ pub(super) fn two_digits(value: f64) -> String {
 
 fn figures(name: &str, values: [f64; 2]) -> String {
     let [one, other] = values.map(digits);
-    row(name, [&one, &other])
+    main_row(name, [&one, &other])
 }
 
-/// A line of the table: a name and two values.
-pub(super) fn row(name: &str, values: [&str; 2]) -> String {
+/// A line of the run's table: a name and two values.
+fn main_row(name: &str, values: [&str; 2]) -> String {
     format!("{}\n", format!("  {name:NAME$}{:>12}{:>12}", values[0], values[1]).trim_end())
+}
+
+/// A line of other commands' tables: a shorter name and two values.
+pub(super) fn row(name: &str, values: [&str; 2]) -> String {
+    format!("  {name:38}{:>12}{:>12}\n", values[0], values[1])
 }
 
 /// A figure with four significant digits, or all digits of a large whole one.
