@@ -45,6 +45,7 @@ fn line_load_primitive(body: &HalfPlane, x_mm: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::reference::{flattening::Flattening, hertz_line::HertzLine};
+    use gearwear_fem::elastic::Analysis;
     use gearwear_fem::elastic::Elastic;
 
     const BODIES: [HalfPlane; 2] = [
