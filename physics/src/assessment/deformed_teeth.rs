@@ -8,7 +8,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::pair_mesh::{PairMeshError, SpaceMesh, in_space_at, on_path_mm};
-use super::{Model, Resumption, RunInputs, UM_PER_MM, carry_out};
+use super::{Resumption, RunInputs, RunModel, UM_PER_MM, carry_out};
 use crate::contact::PositionCell;
 use crate::contact::settings::SurfaceKind;
 use crate::gear::{Gear, GearPair, PerGear};
@@ -99,8 +99,8 @@ impl Observer for UnwornFlanks<'_> {
 }
 
 /// The teeth at the phase of `mesh` next to `position_mm`.
-fn deformed(model: &Model<'_>, mesh: &SlicedMesh, position_mm: f64) -> Result<DeformedTeeth, PairMeshError> {
-    let Model { scene, pair, sliced, .. } = *model;
+fn deformed(model: &RunModel<'_>, mesh: &SlicedMesh, position_mm: f64) -> Result<DeformedTeeth, PairMeshError> {
+    let RunModel { scene, pair, sliced, .. } = *model;
     let sliced = sliced.expect("the scene has slices");
     let in_space_teeth = sliced.in_space().expect("they are coupled in space");
     let phases = mesh.transmission_error_mm.len();

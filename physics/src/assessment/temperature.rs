@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::Model;
+use super::RunModel;
 use crate::contact::settings::SurfaceKind;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::mesh_cycle::wearing_pair::Snapshot;
@@ -47,7 +47,7 @@ pub(super) fn in_phase(scene: &Scene, pair: &GearPair, phase: &Phase) -> Option<
 }
 
 /// What the user should know of the material of warm teeth: what does not follow their temperature, and what does only in part.
-pub(super) fn tooth_warnings(model: &Model<'_>, summary: Option<&TemperatureSummary>) -> Vec<String> {
+pub(super) fn tooth_warnings(model: &RunModel<'_>, summary: Option<&TemperatureSummary>) -> Vec<String> {
     let Some(teeth) = summary.and_then(|summary| summary.tooth) else { return Vec::new() };
     let scene = model.scene;
     let phases = || scene.operation.phases.iter();
@@ -114,14 +114,14 @@ pub(super) struct ObservedHeat {
 }
 
 /// Looks at both; none where nobody asks for temperatures.
-pub(super) fn observe(model: &Model<'_>, outcome: &Outcome) -> Option<ObservedHeat> {
+pub(super) fn observe(model: &RunModel<'_>, outcome: &Outcome) -> Option<ObservedHeat> {
     let of = |snapshot| observe_at(model, outcome, snapshot, outcome.reference_phase);
     Some(ObservedHeat { new: of(&outcome.new)?, worn: of(&outcome.worn)? })
 }
 
 /// Looks at a snapshot under the speed and load of a phase.
 pub(super) fn observe_at(
-    model: &Model<'_>,
+    model: &RunModel<'_>,
     outcome: &Outcome,
     snapshot: &Snapshot,
     phase: usize,
@@ -147,7 +147,7 @@ pub(super) fn observe_at(
 }
 
 /// What the summary says of the temperatures.
-pub(super) fn summary(model: &Model<'_>, observed: &ObservedHeat) -> Option<TemperatureSummary> {
+pub(super) fn summary(model: &RunModel<'_>, observed: &ObservedHeat) -> Option<TemperatureSummary> {
     let phase = reference_phase(&model.phases);
     let (settings, running) = (model.phases[phase].wear.heat?.settings, model.phases[phase].wear.running);
     let teeth = model.scene.teeth_in(model.pair, &model.scene.operation.phases[phase]);
@@ -186,19 +186,19 @@ pub(super) fn summary(model: &Model<'_>, observed: &ObservedHeat) -> Option<Temp
 }
 
 /// What the summary says of the wear law of both gears; none where each has its own.
-pub(super) fn law(model: &Model<'_>, observed: Option<&ObservedHeat>) -> Option<WearLawSummary> {
+pub(super) fn law(model: &RunModel<'_>, observed: Option<&ObservedHeat>) -> Option<WearLawSummary> {
     let own = model.scene.wear_in(&model.scene.operation.phases[reference_phase(&model.phases)]);
     own.are_alike().then(|| law_over(model, Gear::Pinion, observed, |heat| &heat.both))
 }
 
 /// What it says of the wear law of each gear.
-pub(super) fn law_of_gear(model: &Model<'_>, observed: Option<&ObservedHeat>) -> PerGear<WearLawSummary> {
+pub(super) fn law_of_gear(model: &RunModel<'_>, observed: Option<&ObservedHeat>) -> PerGear<WearLawSummary> {
     PerGear::from_fn(|gear| law_over(model, gear, observed, |heat| &heat.of[gear]))
 }
 
 /// The law of `gear` over the flanks that `over` chooses.
 fn law_over(
-    model: &Model<'_>,
+    model: &RunModel<'_>,
     gear: Gear,
     observed: Option<&ObservedHeat>,
     over: impl Fn(&LawInHeat) -> &LawOverMesh,

@@ -14,7 +14,7 @@ mod severe_limit;
 mod severe_switch;
 mod wear_runs;
 
-use super::Model;
+use super::RunModel;
 use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::observer::Observer;
@@ -46,7 +46,7 @@ impl Estimate {
 /// Estimates the errors of the peak wear in `outcome`: of the gear for which they are larger. A companion that fails leaves its estimate out, never the
 /// result of the run. `step_over_safe` is the run's step over the longest safe one, 0 where there is no limit.
 pub(super) fn estimate(
-    model: &Model<'_>,
+    model: &RunModel<'_>,
     outcome: &Outcome,
     step_over_safe: f64,
     observer: &dyn Observer,
@@ -80,7 +80,7 @@ pub(super) fn estimate(
 }
 
 /// Of a run with slices, half as many; as many where so few would leave positions without contact.
-fn coarse_slices(model: &Model<'_>) -> Option<SlicedTeeth> {
+fn coarse_slices(model: &RunModel<'_>) -> Option<SlicedTeeth> {
     let fine = model.sliced?;
     let count = fine.settings.count.div_ceil(2);
     let between = 1.0 - 1.0 / count as f64;
@@ -89,7 +89,7 @@ fn coarse_slices(model: &Model<'_>) -> Option<SlicedTeeth> {
 }
 
 /// Greatest wear depth of each gear's flank.
-fn peak_wear_of_both_mm(model: &Model<'_>, outcome: &Outcome) -> PerGear<f64> {
+fn peak_wear_of_both_mm(model: &RunModel<'_>, outcome: &Outcome) -> PerGear<f64> {
     PerGear::from_fn(|gear| WearFigures::at(model.pair, gear, outcome, &outcome.worn).peak_mm)
 }
 

@@ -5,7 +5,7 @@
 //! of 0.9 and 1.1 of the scene's: by the same wear simulation twice more, alike in everything but the limit. Fewer points or positions would not do, for with
 //! fewer positions the transition is coarser, by as much as these limits differ.
 
-use crate::assessment::{Model, UM_PER_MM};
+use crate::assessment::{RunModel, UM_PER_MM};
 use crate::gear::Gear;
 use crate::observer::{Observer, PartOf};
 use crate::results::error::{SevereLimit, WearAtLimit, WearOfGearAtLimit};
@@ -20,13 +20,13 @@ const APART: f64 = 0.1;
 const HANGS: f64 = 2.0;
 
 /// Whether any wear of the run is severe, or would be with limits of `part` of the scene's.
-fn is_severe_with(model: &Model<'_>, outcome: &Outcome, part: f64) -> bool {
+fn is_severe_with(model: &RunModel<'_>, outcome: &Outcome, part: f64) -> bool {
     let mut states = outcome.snapshots.iter().chain([&outcome.new]);
     states.any(|state| model.scene.wear.is_severe_under(state.cycle.peak_pressure_mpa(), part))
 }
 
 /// The wear of the run with limits of `part` of the scene's; where it does not come to its end, why.
-fn with_limit(model: &Model<'_>, part: f64, observer: &dyn Observer) -> Result<WearAtLimit, String> {
+fn with_limit(model: &RunModel<'_>, part: f64, observer: &dyn Observer) -> Result<WearAtLimit, String> {
     let scene = model.scene;
     let other = |own: SevereTransition| Some(own.with_limit(part));
     let laws_in = |phase: &Phase| wear::of_both(&scene.wear_in(phase).with_severe(other));
@@ -54,13 +54,17 @@ fn with_limit(model: &Model<'_>, part: f64, observer: &dyn Observer) -> Result<W
 }
 
 /// The greatest wear of a gear and that at its pitch circle.
-fn wear_of(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> WearOfGearAtLimit {
+fn wear_of(model: &RunModel<'_>, outcome: &Outcome, gear: Gear) -> WearOfGearAtLimit {
     let own = WearFigures::at(model.pair, gear, outcome, &outcome.worn);
     WearOfGearAtLimit { peak_wear_um: UM_PER_MM * own.peak_mm, pitch_wear_um: UM_PER_MM * own.pitch_mm }
 }
 
 /// The wear with limits a tenth lower and higher, and how it was obtained; none where nothing is severe, and then why.
-pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, observer: &dyn Observer) -> (Option<SevereLimit>, String) {
+pub(super) fn estimate(
+    model: &RunModel<'_>,
+    outcome: &Outcome,
+    observer: &dyn Observer,
+) -> (Option<SevereLimit>, String) {
     let scene = model.scene;
     let none = |reason: &str| (None, format!("not estimated: {reason}"));
     if !scene.wear.may_be_severe() {

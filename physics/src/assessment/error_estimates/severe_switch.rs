@@ -13,7 +13,7 @@
 //! tell the swing of the steps and not the switch.
 
 use super::{Estimate, LEAST_POINTS, peak_wear_of_both_mm};
-use crate::assessment::Model;
+use crate::assessment::RunModel;
 use crate::gear::{Gear, PerGear};
 use crate::observer::{Observer, PartOf};
 use crate::simulation::settings::{Numerics, Phase, Stepping};
@@ -29,13 +29,18 @@ const POSITIONS_SPACINGS: [usize; 2] = [2, 4];
 const LEAST_STEPS: f64 = 40.0;
 
 /// Whether any wear of the run is severe.
-pub(super) fn is_severe_anywhere(model: &Model<'_>, outcome: &Outcome) -> bool {
+pub(super) fn is_severe_anywhere(model: &RunModel<'_>, outcome: &Outcome) -> bool {
     let mut states = outcome.snapshots.iter().chain([&outcome.new]);
     states.any(|state| model.scene.wear.severe_factor_under(state.cycle.peak_pressure_mpa()).is_some())
 }
 
 /// The estimate and its cost over that of the run, within `budget`.
-pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observer: &dyn Observer) -> (Estimate, f64) {
+pub(super) fn estimate(
+    model: &RunModel<'_>,
+    outcome: &Outcome,
+    budget: f64,
+    observer: &dyn Observer,
+) -> (Estimate, f64) {
     let scene = model.scene;
     if !scene.wear.may_be_severe() {
         return (Estimate::none("the scene has no transition to severe wear"), 0.0);

@@ -28,7 +28,7 @@
 //! Source: L. F. Richardson (1911); P. J. Roache, *Verification and Validation in Computational Science* (1998).
 
 use super::{Estimate, LEAST_POINTS, peak_wear_of_both_mm, severe_switch};
-use crate::assessment::Model;
+use crate::assessment::RunModel;
 use crate::contact::settings::SurfaceKind;
 use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
@@ -58,7 +58,7 @@ struct Coarser {
 
 /// Runs companions of one run.
 struct Companions<'a> {
-    model: &'a Model<'a>,
+    model: &'a RunModel<'a>,
     observer: &'a dyn Observer,
     /// Half of the slices, of a run that has some.
     coarse_slices: Option<&'a SlicedTeeth>,
@@ -159,7 +159,7 @@ impl<'a> Companions<'a> {
 
 /// Estimates from coarser runs.
 pub(super) fn estimate<'a>(
-    model: &'a Model<'a>,
+    model: &'a RunModel<'a>,
     outcome: &Outcome,
     coarse_slices: Option<&'a SlicedTeeth>,
     step_over_safe: f64,
