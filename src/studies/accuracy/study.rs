@@ -12,7 +12,7 @@ use super::selection::{Asked, Companions, Selection, Spacing};
 use super::settings::Setting;
 use super::sliced_comparison;
 use super::timed_run::{Finished, Measured, measure};
-use crate::assessment::calibrate::{self, CalibrateError, Extent};
+use crate::assessment::calibrate::{self, CalibrateError, CalibrationExtent};
 use crate::calibration::Calibration;
 use crate::contact::settings::MatchCriterion;
 use crate::gear::{Gear, PerGear};
@@ -154,8 +154,12 @@ fn calibration(given: &LoadedScene, observer: &dyn Observer) -> Result<Calibrate
         return Ok(Calibrated { made: Some(own.clone()), wall_s: None, why_none: String::new() });
     }
     observer.stage("calibration");
-    match calibrate::run(given.scene(), Extent::FastModel, &given.teeth_in_space, &PartOf::new(observer, 0, usize::MAX))
-    {
+    match calibrate::run(
+        given.scene(),
+        CalibrationExtent::FastModel,
+        &given.teeth_in_space,
+        &PartOf::new(observer, 0, usize::MAX),
+    ) {
         Ok(done) => Ok(Calibrated { made: Some(done.calibration), wall_s: Some(done.wall_s), why_none: String::new() }),
         Err(CalibrateError::Interrupted) => Err(AccuracyError::Interrupted),
         Err(error) => Ok(Calibrated { made: None, wall_s: None, why_none: format!("no calibration: {error}") }),
