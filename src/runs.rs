@@ -27,7 +27,7 @@ impl LoadedScene {
         self.inputs(&Provenance::default()).check_springs()
     }
 
-    /// What a run works from, with a record that quotes `provenance`.
+    /// Inputs of a run whose record quotes `provenance`.
     pub(crate) fn inputs<'a>(&'a self, provenance: &'a Provenance) -> RunInputs<'a> {
         RunInputs {
             scene: &self.resolved.scene,
