@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::plan::{Plan, Stage};
+use crate::plan::{Plan, PlannedStage};
 use clap::ValueEnum;
 
 use crate::scene::loaded::LoadedScene;
@@ -40,7 +40,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 fn text(title: &str, plan: &Plan) -> String {
     let width = plan.stages.iter().chain(&plan.left_out).map(|stage| stage.kind.name().len()).max().unwrap_or(0);
-    let lines = |stages: &[Stage]| -> String {
+    let lines = |stages: &[PlannedStage]| -> String {
         stages.iter().map(|stage| format!("  {:width$}  {}\n", stage.kind.name(), stage.reason)).collect()
     };
     format!("{title}\n\nStages\n{}\nLeft out\n{}", lines(&plan.stages), lines(&plan.left_out))

@@ -70,17 +70,22 @@ pub fn deformed_teeth(
     // Under the one load of a scene in phases too.
     let torque = scene.operation.pinion_torque_n_mm;
     scene.operation = Operation::steady(torque, None, 1.0, vec![1.0]);
-    carry_out(RunInputs { scene: &scene, ..inputs }, Resumption::none(), &UnwornFlanks(observer), |model, found, _| {
-        let mesh = found.outcome.new.cycle.slices.as_ref().expect("the scene has slices");
-        deformed(model, mesh, position_mm)
-    })?
+    carry_out(
+        RunInputs { scene: &scene, ..inputs },
+        Resumption::none(),
+        &UnwornFlanksOnly(observer),
+        |model, found, _| {
+            let mesh = found.outcome.new.cycle.slices.as_ref().expect("the scene has slices");
+            deformed(model, mesh, position_mm)
+        },
+    )?
     .complete()?
 }
 
 /// Ends a run as soon as it has looked at its unworn flanks.
-struct UnwornFlanks<'a>(&'a dyn Observer);
+struct UnwornFlanksOnly<'a>(&'a dyn Observer);
 
-impl Observer for UnwornFlanks<'_> {
+impl Observer for UnwornFlanksOnly<'_> {
     fn stage(&self, name: &str) {
         self.0.stage(name);
     }

@@ -53,7 +53,7 @@ const POINTS_IN_HALF_WIDTH: f64 = 2.0;
 /// Greatest part of the transmission error by which worn flanks are nearer: a contact's window that has grown has other cells (found: 3e-4
 /// on four of 2500 random scenes, on foundations that are coarsely sampled).
 const MOST_NEARER: f64 = 1e-3;
-/// The same of finite elements, whose worn sharp edges begin to carry between two nodes (found: 0.4 %).
+/// Greatest part by which worn flanks are nearer on finite elements, whose worn sharp edges begin to carry between two nodes (found: 0.4 %).
 const MOST_NEARER_OF_ELEMENTS: f64 = 0.01;
 /// Steeper than the gap of a single tip edge: slices and pairs come in together, and their stiffness varies.
 const STEEPER: f64 = 3.0;
@@ -63,7 +63,7 @@ const LEAST_JUMP: f64 = 0.03;
 /// Samples below which nothing is said of jumps.
 const FEWEST_SAMPLES: usize = 8;
 
-/// All of them, in the order of the table above.
+/// Invariants of a run, in the order of the table above.
 pub(super) fn of_run(model: &RunModel<'_>, outcome: &Outcome, balance: &WearBalance) -> Vec<Invariant> {
     let states = [("new", &outcome.new), ("worn", &outcome.worn)];
     let is_resolved = are_resolved(model, outcome);
@@ -89,7 +89,7 @@ pub(super) fn of_run(model: &RunModel<'_>, outcome: &Outcome, balance: &WearBala
     ]
 }
 
-/// What is violated, as warnings.
+/// Warnings of violated invariants.
 pub(super) fn warnings(invariants: &[Invariant]) -> impl Iterator<Item = String> {
     invariants
         .iter()

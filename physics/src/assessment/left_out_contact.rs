@@ -20,13 +20,13 @@ pub(super) fn warning(model: &RunModel<'_>, outcome: &Outcome) -> Option<String>
     outside_path(model, outcome)
 }
 
-/// How far the bodies that all pairs share yield.
+/// Deflection of the bodies that all pairs in mesh share, mm.
 fn bodies_mm(model: &RunModel<'_>) -> f64 {
     let of_load = |teeth| mesh_contact::bodies_mm2_per_n(teeth, model.sliced) * model.reference().line_load_n_per_mm;
     model.teeth.map_or(0.0, of_load)
 }
 
-/// How far a run follows tip edges before A and after E, and by how much the flanks of loaded teeth would overlap there, new or worn; none where it cannot.
+/// Range before A and after E in which a run follows tip edges, and overlap of the flanks of loaded teeth at its ends, new or worn, mm; none without a range.
 fn overlaps_at_range_mm(model: &RunModel<'_>, outcome: &Outcome) -> Option<[[f64; 2]; 2]> {
     let reference = model.reference();
     let range_mm = reference.contact.range_mm(model.pair, reference.line_load_n_per_mm).ok()?;
@@ -41,7 +41,7 @@ pub(super) fn is_beyond_range(model: &RunModel<'_>, outcome: &Outcome, least_mm:
         .is_some_and(|[_, overlaps]| overlaps.iter().any(|&overlap| overlap >= least_mm))
 }
 
-/// Of a run that follows tip edges: where it does not follow them far enough.
+/// Warning of a run that follows tip edges, but not far enough.
 fn beyond_range(model: &RunModel<'_>, outcome: &Outcome) -> Option<String> {
     let [range_mm, overlaps_mm] = overlaps_at_range_mm(model, outcome)?;
     let states = [&outcome.new, &outcome.worn];
@@ -75,7 +75,7 @@ fn beyond_range(model: &RunModel<'_>, outcome: &Outcome) -> Option<String> {
     })
 }
 
-/// Of a run that does not follow tip edges.
+/// Warning of a run that does not follow tip edges.
 fn outside_path(model: &RunModel<'_>, outcome: &Outcome) -> Option<String> {
     let contact = model.scene.contact;
     model.teeth?;

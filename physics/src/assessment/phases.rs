@@ -1,4 +1,4 @@
-//! The phases of a run in figures: under what each of them ran, and what it wore off.
+//! Summary of each phase of a run: its conditions and its wear.
 
 use super::temperature;
 use super::{RunModel, UM_PER_MM};
@@ -54,7 +54,7 @@ pub(super) fn summaries(model: &RunModel<'_>, outcome: &Outcome) -> Vec<PhaseSum
     summaries
 }
 
-/// What a gear lost from one state to another.
+/// Wear of a gear from one state to another.
 fn wear(
     model: &RunModel<'_>,
     outcome: &Outcome,

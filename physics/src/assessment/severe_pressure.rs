@@ -1,4 +1,4 @@
-//! Whether the pressure by which severe wear is decided is that of elastic contact.
+//! Check that the pressure which decides on severe wear is that of elastic contact.
 //!
 //! A Winkler foundation under line load w carries p₀ = 3w/(4a) over a³ = 3wR/(2 K/H), elastic bodies Hertz's 2w/(π a_H): with K/H matched on
 //! the half-width its pressure is 3π/8 = 1.178 of that. The mean pressure of `hertz-mean` is π/4 of it.

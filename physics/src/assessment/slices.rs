@@ -45,7 +45,7 @@ pub(super) fn warning(model: &RunModel<'_>, outcome: &Outcome) -> Option<String>
     })
 }
 
-/// The pair slice by slice in figures; none where all sections are alike.
+/// Figures of the pair slice by slice; none where all sections are alike.
 pub(super) fn summary(model: &RunModel<'_>, outcome: &Outcome) -> Option<HelicalSummary> {
     let [new, worn] = meshes(outcome)?;
     let sliced = model.sliced?;

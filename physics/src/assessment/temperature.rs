@@ -1,4 +1,4 @@
-//! The temperatures of the new and the worn pair and of their teeth, and what is said of them and of the wear law.
+//! Temperatures of the new and the worn pair and of their teeth, with the warnings of these and of the wear law.
 
 use std::f64::consts::TAU;
 
@@ -19,7 +19,7 @@ use crate::thermal::settings::{ABSOLUTE_ZERO_C, TemperatureMethod};
 use crate::thermal::tooth::{TemperatureCurve, ToothTemperatures};
 use crate::wear::regime::{MM3_PER_NM, Regime};
 
-/// By how much Young's moduli of phases may differ without a word.
+/// Relative difference of Young's moduli of phases up to which it is not warned of.
 const NEGLIGIBLE_CHANGE: f64 = 0.02;
 
 /// Why a metal gear beside a plastic one has no temperature of its teeth.
@@ -28,7 +28,7 @@ const OF_PLASTIC_ALONE: &str = "VDI 2736-2 has the temperature of the plastic ge
 /// Above the melting point of any plastic that gears are made of, °C: that of PEEK is 343.
 const HOTTEST_PLASTIC_C: f64 = 350.0;
 
-/// Friction heat of a phase; none where nobody asks for temperatures.
+/// Friction heat of a phase; none of a scene without temperatures.
 pub(super) fn in_phase(scene: &Scene, pair: &GearPair, phase: &Phase) -> Option<ContactHeat> {
     let mut settings = scene.heat?;
     let pinion_per_s = TAU * phase.pinion_speed_rpm? / 60.0;
@@ -46,7 +46,7 @@ pub(super) fn in_phase(scene: &Scene, pair: &GearPair, phase: &Phase) -> Option<
     Some(ContactHeat::new(settings, pair.path.involute.pinion.base_radius_mm * pinion_per_s))
 }
 
-/// What the user should know of the material of warm teeth: what does not follow their temperature, and what does only in part.
+/// Warnings of the material of warm teeth: constants that do not follow their temperature, or only in part.
 pub(super) fn tooth_warnings(model: &RunModel<'_>, summary: Option<&TemperatureSummary>) -> Vec<String> {
     let Some(teeth) = summary.and_then(|summary| summary.tooth) else { return Vec::new() };
     let scene = model.scene;
@@ -113,13 +113,13 @@ pub(super) struct ObservedHeat {
     pub worn: HeatObservation,
 }
 
-/// Looks at both; none where nobody asks for temperatures.
+/// Observes both pairs; none of a scene without temperatures.
 pub(super) fn observe(model: &RunModel<'_>, outcome: &Outcome) -> Option<ObservedHeat> {
     let of = |snapshot| observe_at(model, outcome, snapshot, outcome.reference_phase);
     Some(ObservedHeat { new: of(&outcome.new)?, worn: of(&outcome.worn)? })
 }
 
-/// Looks at a snapshot under the speed and load of a phase.
+/// Observes a snapshot under the speed and load of a phase.
 pub(super) fn observe_at(
     model: &RunModel<'_>,
     outcome: &Outcome,
@@ -146,7 +146,7 @@ pub(super) fn observe_at(
     Some(observer.observe(&snapshot.cycle))
 }
 
-/// What the summary says of the temperatures.
+/// Temperatures of the summary.
 pub(super) fn summary(model: &RunModel<'_>, observed: &ObservedHeat) -> Option<TemperatureSummary> {
     let phase = reference_phase(&model.phases);
     let (settings, running) = (model.phases[phase].wear.heat?.settings, model.phases[phase].wear.running);
@@ -185,13 +185,13 @@ pub(super) fn summary(model: &RunModel<'_>, observed: &ObservedHeat) -> Option<T
     })
 }
 
-/// What the summary says of the wear law of both gears; none where each has its own.
+/// Wear law of both gears in the summary; none where each has its own.
 pub(super) fn law(model: &RunModel<'_>, observed: Option<&ObservedHeat>) -> Option<WearLawSummary> {
     let own = model.scene.wear_in(&model.scene.operation.phases[reference_phase(&model.phases)]);
     own.are_alike().then(|| law_over(model, Gear::Pinion, observed, |heat| &heat.both))
 }
 
-/// What it says of the wear law of each gear.
+/// Wear law of each gear in the summary.
 pub(super) fn law_of_gear(model: &RunModel<'_>, observed: Option<&ObservedHeat>) -> PerGear<WearLawSummary> {
     PerGear::from_fn(|gear| law_over(model, gear, observed, |heat| &heat.of[gear]))
 }
@@ -228,7 +228,7 @@ fn law_over(
     }
 }
 
-/// What the user should know of the law of both gears, or of that of each.
+/// Warnings of the wear law of both gears, or of that of each.
 pub(super) fn all_warnings(both: Option<&WearLawSummary>, of_gear: &PerGear<WearLawSummary>) -> Vec<String> {
     match both {
         Some(law) => warnings("wear", law),
@@ -238,7 +238,7 @@ pub(super) fn all_warnings(both: Option<&WearLawSummary>, of_gear: &PerGear<Wear
     }
 }
 
-/// What the user should know of the law: constants that nobody measured, and work where it does not hold.
+/// Warnings of a wear law: typical constants, and work outside its temperatures.
 fn warnings(table: &str, law: &WearLawSummary) -> Vec<String> {
     let mut warnings = Vec::new();
     if !law.typical_constants.is_empty() {

@@ -45,7 +45,7 @@ pub struct WearFigures {
     pub active_start_mm: f64,
     /// ∫ h ds over the flank, on average over the face width, mm²: worn volume per mm of face width.
     pub area_mm2: f64,
-    /// The same of each slice by itself.
+    /// Figures of each slice by itself.
     pub slices: Vec<SliceFigures>,
 }
 
@@ -71,7 +71,7 @@ pub struct SliceFigures {
 }
 
 impl SliceFigures {
-    /// Of `wear_mm` at the points of one slice of `gear`'s flank, which are at `radius_mm`.
+    /// Figures of `wear_mm` at the points of one slice of `gear`'s flank, which are at `radius_mm`.
     fn new(
         pair: &GearPair,
         gear: Gear,
@@ -102,7 +102,7 @@ impl SliceFigures {
 }
 
 impl WearFigures {
-    /// Of `wear_mm` at the points of `gear`'s flank, slice after slice (at least one).
+    /// Figures of `wear_mm` at the points of `gear`'s flank, slice after slice (at least one).
     pub fn new(pair: &GearPair, gear: Gear, grid: &FlankGrid, zones: &FlankZones, wear_mm: &[f64]) -> Self {
         let involute = pair.teeth[gear].involute;
         let radius_mm: Vec<f64> = grid.coordinate_mm.iter().map(|&rho| involute.radius_mm(rho)).collect();
@@ -130,7 +130,7 @@ impl WearFigures {
         }
     }
 
-    /// Of a gear's flank at a snapshot of a run.
+    /// Figures of a gear's flank at a snapshot of a run.
     pub fn at(pair: &GearPair, gear: Gear, outcome: &Outcome, snapshot: &Snapshot) -> Self {
         let of_points = Self::new(pair, gear, &outcome.grid[gear], &outcome.zones[gear], &snapshot.wear_mm[gear]);
         match &snapshot.lost_at_nodes {
@@ -140,7 +140,7 @@ impl WearFigures {
     }
 }
 
-/// How uneven values over the face width are: greatest less least, over the mean; 0 where all are 0.
+/// Variation of values over the face width: greatest less least, over the mean; 0 where all are 0.
 pub fn variation(values: impl Iterator<Item = f64> + Clone) -> f64 {
     let (low, high) = values.clone().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
     let count = values.clone().count() as f64;

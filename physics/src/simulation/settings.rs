@@ -1,4 +1,4 @@
-//! What is asked of the run: operation and numerical resolution.
+//! Settings of a wear run: operation and numerical resolution.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -8,7 +8,7 @@ use crate::gear::{PerGear, flank::PointSpacing};
 /// Wear steps of a run where nothing else is asked for.
 const STEPS: f64 = 150.0;
 
-/// A stretch of the run under constant load and speed.
+/// Phase of the load spectrum, under constant load and speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Phase {
     /// Torque on the pinion, N·mm.
@@ -25,7 +25,7 @@ pub struct Phase {
     pub end_revolutions: f64,
 }
 
-/// Limits that end the life of the pair; a run ends at the first it reaches.
+/// Limits of the service life; a run ends at the first it reaches.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LifeLimits {
     /// Greatest wear depth on the active profile of either gear, mm.
@@ -35,7 +35,7 @@ pub struct LifeLimits {
 }
 
 impl LifeLimits {
-    /// Whether there is any.
+    /// Whether there is any limit.
     pub fn are_set(&self) -> bool {
         self.wear_mm.is_some() || self.tip_thickness_mm.is_some()
     }
@@ -49,19 +49,19 @@ pub struct Operation {
     pub pinion_torque_n_mm: f64,
     /// Speed of the pinion, 1/min, where given; of a run in phases, that of phases which name none.
     pub pinion_speed_rpm: Option<f64>,
-    /// How long the pair runs, in revolutions of the pinion.
+    /// Duration of the run, in revolutions of the pinion.
     pub pinion_revolutions: f64,
     /// When the state is kept, in revolutions of the pinion: increasing, the last is the end of the run. The ends of phases are
     /// among them.
     pub snapshots_revolutions: Vec<f64>,
     /// The phases of the run, one at least; the last ends with the run.
     pub phases: Vec<Phase>,
-    /// What ends the run before its time.
+    /// Limits that end the run early.
     pub stop: LifeLimits,
 }
 
 impl Operation {
-    /// The same load and speed from beginning to end.
+    /// Operation under one load and speed.
     pub fn steady(
         pinion_torque_n_mm: f64,
         pinion_speed_rpm: Option<f64>,
@@ -138,7 +138,7 @@ pub(crate) fn first_greatest(loads: impl Iterator<Item = f64>) -> usize {
     loads.enumerate().fold((0, f64::NEG_INFINITY), greater).0
 }
 
-/// How the wear is integrated with an error that is controlled.
+/// Method of integration with error control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum AdaptiveMethod {
@@ -161,7 +161,7 @@ pub enum Stepping {
     Adaptive {
         /// Error of the wear depth that is allowed, mm.
         tolerance_mm: f64,
-        /// How.
+        /// Method of integration.
         method: AdaptiveMethod,
     },
 }
@@ -196,7 +196,7 @@ impl Stepping {
 pub struct Numerics {
     /// Intervals of the flank between base circle (point 0) and tip circle (point `flank_points`).
     pub flank_points: usize,
-    /// How these are spaced.
+    /// Spacing of the flank points.
     pub point_spacing: PointSpacing,
     /// Loading positions from A to E, evenly along the path of contact, both ends included.
     pub positions: usize,

@@ -157,7 +157,7 @@ struct RunState {
 
 /// End of a phase.
 enum PhaseEnd {
-    /// Its last revolution was reached.
+    /// Last revolution of the phase reached.
     Reached,
     /// The whole run ended or was interrupted.
     Stopped,

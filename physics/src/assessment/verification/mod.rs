@@ -122,7 +122,7 @@ impl Extrapolation {
     const NONE: Self = Self { wear: 1.0, transmission_error: 1.0 };
 }
 
-/// The same wear simulation on finite elements.
+/// Wear simulation on finite elements that a run is compared with.
 struct ReferenceRun {
     outcome: Outcome,
     uncertainty: ReferenceUncertainty,
