@@ -251,8 +251,8 @@ impl LoadedScene {
 
     /// The files it names, as they were read.
     pub fn input_files(&self) -> Vec<InputFile> {
-        let of = |file: &NamedFile| InputFile { name: file.name.clone(), bytes: file.bytes.clone() };
-        self.files.as_read.iter().map(of).collect()
+        let files = self.files.as_read.iter();
+        files.map(|file| InputFile { name: file.name.clone(), bytes: file.bytes.clone() }).collect()
     }
 
     /// Scene in the terms of physics.

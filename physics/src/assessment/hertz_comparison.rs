@@ -127,8 +127,8 @@ fn material<'a>(problem: &'a Problem, edges: &[Edge], patch: ContactPatch) -> Op
         edge.ends.iter().map(|&node| (points[node as usize] - patch.centre_mm).norm_squared()).sum::<f64>()
     };
     let nearest = edges.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-    let behind = |nodes: &[u32]| nearest.ends.iter().all(|end| nodes.contains(end));
-    let element = problem.solid.elements.iter().find(|element| behind(element.nodes()))?;
+    let mut elements = problem.solid.elements.iter();
+    let element = elements.find(|element| nearest.ends.iter().all(|end| element.nodes().contains(end)))?;
     problem.materials.get(usize::from(element.material))
 }
 

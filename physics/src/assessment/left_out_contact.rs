@@ -22,8 +22,8 @@ pub(super) fn warning(model: &RunModel<'_>, outcome: &Outcome) -> Option<String>
 
 /// Deflection of the bodies that all pairs in mesh share, mm.
 fn bodies_mm(model: &RunModel<'_>) -> f64 {
-    let of_load = |teeth| mesh_contact::bodies_mm2_per_n(teeth, model.sliced) * model.reference().line_load_n_per_mm;
-    model.teeth.map_or(0.0, of_load)
+    let load = model.reference().line_load_n_per_mm;
+    model.teeth.map_or(0.0, |teeth| mesh_contact::bodies_mm2_per_n(teeth, model.sliced) * load)
 }
 
 /// Range before A and after E in which a run follows tip edges, and overlap of the flanks of loaded teeth at its ends, new or worn, mm; none without a range.

@@ -164,6 +164,5 @@ impl Scene {
 
 /// μ of the heat: as given, or the mean of the mesh.
 pub fn mean_friction(settings: &HeatSettings, running: Option<&RunningPair<'_>>) -> f64 {
-    let of_mesh = || running.map_or(0.0, RunningPair::mean_friction);
-    settings.friction_coefficient.unwrap_or_else(of_mesh)
+    settings.friction_coefficient.unwrap_or_else(|| running.map_or(0.0, RunningPair::mean_friction))
 }

@@ -37,12 +37,11 @@ pub struct Checkpoint {
 impl Checkpoint {
     /// Whether the rows of its snapshots are `points` long, so that they can be those of a run with such flanks.
     pub(super) fn fits(&self, points: PerGear<usize>) -> bool {
-        let fits = |row: &PerGear<Vec<f64>>| row.as_ref().map(Vec::len) == points;
         !self.states.is_empty()
             && self.states.iter().all(|state| {
                 let cycle = &state.cycle;
                 let rows = [&state.wear_mm, &state.depth_per_mesh_mm, &cycle.pressure_mpa, &cycle.sliding_mm];
-                rows.into_iter().all(fits)
+                rows.into_iter().all(|row| row.as_ref().map(Vec::len) == points)
             })
     }
 }

@@ -106,8 +106,9 @@ impl WearFigures {
     pub fn new(pair: &GearPair, gear: Gear, grid: &FlankGrid, zones: &FlankZones, wear_mm: &[f64]) -> Self {
         let involute = pair.teeth[gear].involute;
         let radius_mm: Vec<f64> = grid.coordinate_mm.iter().map(|&rho| involute.radius_mm(rho)).collect();
-        let of_slice = |slice| SliceFigures::new(pair, gear, grid, zones, &radius_mm, slice);
-        let slices: Vec<_> = wear_mm.chunks_exact(grid.len()).map(of_slice).collect();
+        let slices = wear_mm.chunks_exact(grid.len());
+        let slices: Vec<_> =
+            slices.map(|slice| SliceFigures::new(pair, gear, grid, zones, &radius_mm, slice)).collect();
         let mean = |of: fn(&SliceFigures) -> f64| slices.iter().map(of).sum::<f64>() / slices.len() as f64;
         let values = |of: &dyn Fn(&SliceFigures) -> f64| slices.iter().map(of).collect::<Vec<f64>>();
         let deepest = |of: fn(&SliceFigures) -> Deepest| {
@@ -153,11 +154,13 @@ pub fn wear_profile(pair: &GearPair, outcome: &Outcome, gear: Gear) -> WearProfi
     let involute = pair.teeth[gear].involute;
     let rho = &outcome.grid[gear].coordinate_mm;
     let wear_mm = &outcome.worn.wear_mm[gear];
-    let over_width = |point: usize| wear_mm.iter().skip(point).step_by(rho.len()).copied().collect::<Vec<f64>>();
-    let greatest = |point: usize| greatest_over_width(&over_width(point));
+    let wear_um = (0..rho.len()).map(|point| {
+        let over_width: Vec<f64> = wear_mm.iter().skip(point).step_by(rho.len()).copied().collect();
+        greatest_over_width(&over_width) * 1e3
+    });
     WearProfile {
         radius_mm: rho.iter().map(|&rho| involute.radius_mm(rho)).collect(),
-        wear_um: (0..rho.len()).map(|point| greatest(point) * 1e3).collect(),
+        wear_um: wear_um.collect(),
         active_mm: [pair.active_start_radius_mm(gear), pair.teeth[gear].tip_radius_mm],
     }
 }

@@ -99,35 +99,35 @@ pub fn run(
     kept: &KeptInSpace,
     observer: &dyn Observer,
 ) -> Result<Calibrated, CalibrateError> {
-    use CalibrationStage as Stage;
     let start = Instant::now();
     let mut stages = Stages(StageClock::new(observer));
-    let pair = stages.run(Stage::Geometry, || GearPair::new(&scene.pair))?;
+    let pair = stages.run(CalibrationStage::Geometry, || GearPair::new(&scene.pair))?;
     let setup = setup(scene, &pair);
     let w = setup.line_load_n_per_mm;
-    let meshed = stages.run(Stage::Meshing, || setup.meshed())?;
+    let meshed = stages.run(CalibrationStage::Meshing, || setup.meshed())?;
     if let Some(warning) = much_memory(&meshed, BODIES_AT_ONCE).map_err(CalibrationError::from)? {
         observer.announcement(&warning);
     }
-    let condensed = stages.run(Stage::Condensation, || setup.condensed(&meshed))?;
+    let condensed = stages.run(CalibrationStage::Condensation, || setup.condensed(&meshed))?;
     let loaded = LoadedPair::new(&condensed, &scene.material);
-    let deflection = stages.run(Stage::ToothStiffness, || loaded.along_the_path(STIFFNESS_POSITIONS, w))?;
-    let single_contact = stages.run(Stage::Foundation, || on_plain_flanks(&setup, &condensed, &loaded))?;
+    let deflection = stages.run(CalibrationStage::ToothStiffness, || loaded.along_the_path(STIFFNESS_POSITIONS, w))?;
+    let single_contact = stages.run(CalibrationStage::Foundation, || on_plain_flanks(&setup, &condensed, &loaded))?;
     let (foundation, foundation_fit) = foundation_fit::all(&single_contact, w, (pair.path.start_mm, pair.path.end_mm));
     let (mut convergence, mut rim_depth, mut neighbours, mut family) = Default::default();
     if extent == CalibrationExtent::Whole {
-        convergence = stages.run(Stage::Convergence, || setup.convergence())?;
-        rim_depth = stages.run(Stage::RimDepth, || setup.rim_depths())?;
-        neighbours = stages.run(Stage::Neighbours, || setup.neighbours())?;
-        family = stages.run(Stage::ToothFamily, || tooth_family::family(&setup))?;
+        convergence = stages.run(CalibrationStage::Convergence, || setup.convergence())?;
+        rim_depth = stages.run(CalibrationStage::RimDepth, || setup.rim_depths())?;
+        neighbours = stages.run(CalibrationStage::Neighbours, || setup.neighbours())?;
+        family = stages.run(CalibrationStage::ToothFamily, || tooth_family::family(&setup))?;
     }
     let pair_compliance = loaded.curve(&deflection, w);
     let slices = match scene.slices.is_some() && scene.fem.body == Body::Ring {
-        true => stages.run(Stage::Slices, || slices(scene, &pair, kept, (&pair_compliance, w), observer))?,
+        true => stages.run(CalibrationStage::Slices, || slices(scene, &pair, kept, (&pair_compliance, w), observer))?,
         false => None,
     };
-    let wear_reference =
-        stages.run(Stage::WearReference, || wear_reference::references(&condensed, w, &|| observer.interrupted()))?;
+    let wear_reference = stages.run(CalibrationStage::WearReference, || {
+        wear_reference::references(&condensed, w, &|| observer.interrupted())
+    })?;
     let path_points_mm = pair.path.points_mm();
     let mut calibration = Calibration {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
