@@ -128,18 +128,17 @@ pub fn run(
     let wear_reference = stages.run(CalibrationStage::WearReference, || {
         wear_reference::references(&condensed, w, &|| observer.interrupted())
     })?;
-    let path_points_mm = pair.path.points_mm();
     let mut calibration = Calibration {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         hash: String::new(),
         belongs_to: Identity::of(&pair, &scene.material, &scene.fem),
         elements_per_half_width: scene.fem.elements_per_half_width,
         line_load_n_per_mm: w,
-        path_points_mm,
+        path_points_mm: pair.path.points_mm(),
         pair_compliance,
         foundation,
         foundation_fit,
-        deflection_at_points: path_points_mm.map(|position_mm| loaded.deflection(position_mm, w)),
+        deflection_at_points: pair.path.points_mm().map(|position_mm| loaded.deflection(position_mm, w)),
         iso6336_n_per_mm_um: 1e-3 * iso6336::single_stiffness_n_per_mm2(&scene.pair, &scene.material, w),
         courses: stiffness_variation::courses(&pair, &deflection),
         deflection,
