@@ -39,7 +39,7 @@ pub(super) struct LubricationFindings {
 
 /// Contact of the run at one position, of one slice.
 #[derive(Clone, Copy)]
-struct ObservedContact {
+struct LubricatedContact {
     position_mm: f64,
     slice: usize,
     width_mm: f64,
@@ -60,7 +60,7 @@ struct FilmState {
     film: Option<ContactFilm>,
 }
 
-impl ObservedContact {
+impl LubricatedContact {
     fn loaded(&self, which: usize) -> LoadedPlace {
         LoadedPlace {
             position_mm: self.position_mm,
@@ -119,7 +119,7 @@ fn method_b(running: &RunningPair<'_>, oil: &OilInMesh) -> MethodBSummary {
 }
 
 /// All contacts of the run's mesh, new and worn; of a pair without slices, those within the line of action.
-fn contacts(model: &RunModel<'_>, outcome: &Outcome) -> Vec<ObservedContact> {
+fn contacts(model: &RunModel<'_>, outcome: &Outcome) -> Vec<LubricatedContact> {
     // The simplified surface reports its mean pressure as the greatest.
     let greatest = if model.scene.contact.surface == SurfaceKind::HertzMean { PEAK_OVER_MEAN } else { 1.0 };
     match slices::meshes(outcome) {
@@ -129,13 +129,13 @@ fn contacts(model: &RunModel<'_>, outcome: &Outcome) -> Vec<ObservedContact> {
 }
 
 /// Contacts of a pair without slices at the positions of its mesh cycle.
-fn contacts_of_pair(model: &RunModel<'_>, outcome: &Outcome, greatest: f64) -> Vec<ObservedContact> {
+fn contacts_of_pair(model: &RunModel<'_>, outcome: &Outcome, greatest: f64) -> Vec<LubricatedContact> {
     let (new, worn) = (&outcome.new.cycle.positions, &outcome.worn.cycle.positions);
     let whole = model.reference().line_load_n_per_mm;
     let last = new.len().saturating_sub(1);
     let pairs = new.iter().zip(worn).enumerate();
     pairs
-        .map(|(k, (one, other))| ObservedContact {
+        .map(|(k, (one, other))| LubricatedContact {
             position_mm: one.position_mm,
             slice: 0,
             width_mm: 0.5 * model.pair.spec.face_width_mm,
@@ -154,7 +154,7 @@ fn contacts_of_slices(
     outcome: &Outcome,
     meshes: &[SlicedMesh; 2],
     greatest: f64,
-) -> Vec<ObservedContact> {
+) -> Vec<LubricatedContact> {
     let [new, worn] = meshes;
     let length_mm = new.base_pitch_mm / new.transmission_error_mm.len() as f64;
     let tip_contact = model.scene.contact.tip_contact;
@@ -167,7 +167,7 @@ fn contacts_of_slices(
                 continue;
             }
             let middle_mm = position_mm + outcome.slices.ahead_mm[slice];
-            contacts.push(ObservedContact {
+            contacts.push(LubricatedContact {
                 // A slice may be in contact where its middle is not.
                 position_mm: if tip_contact { middle_mm } else { model.pair.path.folded_mm(middle_mm) },
                 slice,
@@ -234,14 +234,14 @@ impl SlidingWork {
 /// Contacts of a run with their films.
 pub(super) struct ObservedContacts<'a> {
     running: &'a RunningPair<'a>,
-    places: Vec<ObservedContact>,
+    places: Vec<LubricatedContact>,
     /// New and worn state of each contact.
     states: Vec<[Option<FilmState>; 2]>,
 }
 
 impl ObservedContacts<'_> {
     /// Whether a contact lies between A and E.
-    fn is_on_path(&self, place: &ObservedContact) -> bool {
+    fn is_on_path(&self, place: &LubricatedContact) -> bool {
         let path = &self.running.pair.path;
         (path.start_mm..=path.end_mm).contains(&place.position_mm)
     }
@@ -301,7 +301,7 @@ pub(super) fn warning(summary: &LubricationSummary) -> Option<String> {
     })
 }
 
-fn row(running: &RunningPair<'_>, place: &ObservedContact, states: &[Option<FilmState>; 2]) -> FilmRow {
+fn row(running: &RunningPair<'_>, place: &LubricatedContact, states: &[Option<FilmState>; 2]) -> FilmRow {
     let surfaces = running.contact(place.position_mm, 0.0, 0.0);
     let films = states.map(|state| state?.film);
     let [central_film_new_um, central_film_worn_um] = films.map(|film| Some(film?.central_um));
@@ -356,7 +356,7 @@ fn oil_summary(in_mesh: &OilInMesh) -> OilSummary {
 type Value = fn(&FilmRow) -> Option<f64>;
 
 /// Whether contacts are between the tip-edge zones of both gears: all, where tip edges are not followed.
-fn between_tip_edges(model: &RunModel<'_>) -> impl Fn(&ObservedContact) -> bool {
+fn between_tip_edges(model: &RunModel<'_>) -> impl Fn(&LubricatedContact) -> bool {
     let contact = &model.scene.contact;
     let sees_edges = contact.tip_contact || contact.surface == SurfaceKind::Fem;
     let (path, zones) = (&model.pair.path, model.zones());

@@ -88,7 +88,7 @@ pub struct HeatObserver<'a> {
 
 /// A contact seen from outside.
 #[derive(Debug, Clone, Copy)]
-struct HeatedContact {
+struct ContactAsHeated {
     position_mm: f64,
     line_load_n_per_mm: f64,
     half_width_mm: f64,
@@ -155,7 +155,7 @@ impl HeatObserver<'_> {
         let last = places.len().saturating_sub(1);
         let seen = |(k, at): (usize, &crate::mesh_cycle::PositionObservation)| {
             let length_mm = 0.5 * (places[(k + 1).min(last)] - places[k.saturating_sub(1)]);
-            let contact = HeatedContact {
+            let contact = ContactAsHeated {
                 position_mm: at.position_mm,
                 line_load_n_per_mm: at.load_share * self.line_load_n_per_mm,
                 half_width_mm: at.footprint.half_width_mm,
@@ -185,7 +185,7 @@ impl HeatObserver<'_> {
                     }
                     let within = |at: f64| at.clamp(self.pair.path.start_mm, self.pair.path.end_mm);
                     let middle_mm = position_mm + ahead;
-                    let contact = HeatedContact {
+                    let contact = ContactAsHeated {
                         position_mm: if part < 1.0 { within(middle_mm) } else { middle_mm },
                         line_load_n_per_mm: mesh.line_load_n_per_mm[place] / part,
                         half_width_mm: mesh.half_width_mm[place],
@@ -205,7 +205,7 @@ impl HeatObserver<'_> {
         cycle.positions.iter().filter_map(|at| nearest(at.position_mm)).collect()
     }
 
-    fn band(&self, method: TemperatureMethod, contact: &HeatedContact) -> HeatedBand<'_> {
+    fn band(&self, method: TemperatureMethod, contact: &ContactAsHeated) -> HeatedBand<'_> {
         let (line_load_n_per_mm, half_width_mm) = (contact.line_load_n_per_mm, contact.half_width_mm);
         let mean_mpa = if half_width_mm > 0.0 { line_load_n_per_mm / (2.0 * half_width_mm) } else { 0.0 };
         let place = LoadedPlace {
@@ -223,7 +223,7 @@ impl HeatObserver<'_> {
         self.heat.band_by(method, &strip)
     }
 
-    fn at(&self, contact: &HeatedContact) -> HeatAtPosition {
+    fn at(&self, contact: &ContactAsHeated) -> HeatAtPosition {
         let greatest = |method| {
             let band = self.band(method, contact);
             Gear::BOTH.map(|gear| band.greatest_rise_k(gear, self.spread)).into_iter().fold(0.0, f64::max)
@@ -238,7 +238,7 @@ impl HeatObserver<'_> {
     }
 
     /// Adds the work of a contact, on both flanks, and what it wears.
-    fn weigh(&self, contact: &HeatedContact, sums: &mut MeshSums) {
+    fn weigh(&self, contact: &ContactAsHeated, sums: &mut MeshSums) {
         if contact.line_load_n_per_mm <= 0.0 {
             return;
         }

@@ -1,7 +1,7 @@
 //! Displacement and stress of the teeth that may touch, at their places in the mesh.
 //!
 //! Each tooth's displacement follows from the forces on its flank and from those of its cuts, in the tooth's own frame; the
-//! pinion besides turns by δ/r_b1, which closes the flanks. PlacedTeeth side by side share the nodes of the cut between them.
+//! pinion besides turns by δ/r_b1, which closes the flanks. TeethInMesh side by side share the nodes of the cut between them.
 
 use nalgebra::{Rotation2, Vector2};
 
@@ -19,7 +19,7 @@ use gearwear_fem::stress::StressRecovery;
 
 /// Nodes and elements of both gears' teeth at their places, with the displacement of each node.
 #[derive(Default)]
-struct PlacedTeeth {
+struct TeethInMesh {
     solid: Solid,
     pair_of_element: Vec<i32>,
     displacement_mm: Vec<Vector2<f64>>,
@@ -32,7 +32,7 @@ pub(super) fn solution(
     material: &PerGear<Elastic>,
     found: &PositionContact,
 ) -> Result<PairSolution, ElementError> {
-    let mut teeth = PlacedTeeth::default();
+    let mut teeth = TeethInMesh::default();
     let mut contacts = Vec::new();
     for (gear, material) in Gear::BOTH.into_iter().zip(0..) {
         let numbers = teeth.add(model, &meshed[gear], material, found);
@@ -61,7 +61,7 @@ pub(super) fn solution(
     })
 }
 
-impl PlacedTeeth {
+impl TeethInMesh {
     /// Adds the fine teeth of a gear, clockwise to anticlockwise; returns for each the numbers of its sector's nodes here.
     fn add(
         &mut self,
@@ -137,7 +137,7 @@ fn rigid(model: &CondensedPair<'_>, gear: Gear, point_mm: Vector2<f64>, transmis
 /// Contact of each pair, where its resultant acts on the deformed pinion.
 fn contact_places(
     model: &CondensedPair<'_>,
-    teeth: &PlacedTeeth,
+    teeth: &TeethInMesh,
     numbers: &[Vec<u32>],
     found: &PositionContact,
 ) -> Vec<ContactPlace> {
@@ -158,7 +158,7 @@ fn contact_places(
 /// Point of action of a pair's resultant on the deformed pinion, mm; none without load.
 fn resultant_mm(
     model: &CondensedPair<'_>,
-    teeth: &PlacedTeeth,
+    teeth: &TeethInMesh,
     numbers: &[Vec<u32>],
     found: &PositionContact,
     pair: i32,

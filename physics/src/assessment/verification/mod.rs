@@ -258,7 +258,7 @@ pub(super) fn verify<'a>(
         Some(_) => in_space::reference_run(model, outcome, models, observer),
     });
     match reference {
-        Ok(Ok(reference)) => Comparison::new(model, outcome, &reference).verified(),
+        Ok(Ok(reference)) => RunComparison::new(model, outcome, &reference).verified(),
         Ok(Err(reason)) | Err(reason) => Verified::failed(&reason),
     }
 }
@@ -353,7 +353,7 @@ fn simulate(
 }
 
 /// A completed run beside its reference run.
-struct Comparison<'a> {
+struct RunComparison<'a> {
     model: &'a RunModel<'a>,
     run: &'a Outcome,
     reference: &'a ReferenceRun,
@@ -363,7 +363,7 @@ struct Comparison<'a> {
     reference_wear: PerGear<WearFigures>,
 }
 
-impl<'a> Comparison<'a> {
+impl<'a> RunComparison<'a> {
     fn new(model: &'a RunModel<'_>, run: &'a Outcome, reference: &'a ReferenceRun) -> Self {
         let [wear, reference_wear] = [run, &reference.outcome]
             .map(|outcome| PerGear::from_fn(|gear| WearFigures::at(model.pair, gear, outcome, &outcome.worn)));
