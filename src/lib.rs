@@ -220,7 +220,7 @@ use scene::fem_problem::FemProblem;
 /// # Errors
 /// [`CalibrateError`]
 pub fn calibrate(scene: &LoadedScene, observer: &dyn Observer) -> Result<Calibrated, CalibrateError> {
-    runs::calibrate(scene, assessment::calibrate::Extent::Whole, observer)
+    runs::calibrate(scene, assessment::calibrate::CalibrationExtent::Whole, observer)
 }
 
 /// Solves the contact of the scene's pair with plane finite elements: at the position `position_mm` of the path of contact (radius of
@@ -233,7 +233,7 @@ pub fn fem_pair(
     position_mm: Option<f64>,
     observer: &dyn Observer,
 ) -> Result<Done<FemPairRecord, FemPairError>, FemPairError> {
-    runs::fem_pair(&scene.resolved, assessment::fem_scene::Asked { position_mm, full: false }, observer)
+    runs::fem_pair(&scene.resolved, assessment::fem_scene::FemPairRequest { position_mm, full: false }, observer)
 }
 
 /// Solves a problem of finite elements on a mesh of one's own, plane with contact or three-dimensional without: `problem_toml` is the text of a problem file

@@ -1,7 +1,7 @@
 //! Runs of a loaded scene: what its record says of the file, and the assessment that is carried out on it.
 
-use crate::assessment::calibrate::{self, CalibrateError, Calibrated, Extent};
-use crate::assessment::fem_scene::{self, Asked, FemPairError};
+use crate::assessment::calibrate::{self, CalibrateError, Calibrated, CalibrationExtent};
+use crate::assessment::fem_scene::{self, FemPairError, FemPairRequest};
 use crate::assessment::{self, Done, Resumption, RunError, RunInputs};
 use crate::observer::Observer;
 use crate::plan::Plan;
@@ -27,7 +27,7 @@ impl LoadedScene {
         self.inputs(&Provenance::default()).check_springs()
     }
 
-    /// What a run works from, with a record that quotes `provenance`.
+    /// Inputs of a run whose record quotes `provenance`.
     pub(crate) fn inputs<'a>(&'a self, provenance: &'a Provenance) -> RunInputs<'a> {
         RunInputs {
             scene: &self.resolved.scene,
@@ -106,10 +106,10 @@ pub(crate) fn worn_pair(scene: &LoadedScene, observer: &dyn Observer) -> Result<
 /// [`FemPairError`] where no position was solved.
 pub(crate) fn fem_pair(
     resolved: &Resolved,
-    asked: Asked,
+    request: FemPairRequest,
     observer: &dyn Observer,
 ) -> Result<Done<FemPairRecord, FemPairError>, FemPairError> {
-    fem_scene::run(&resolved.scene, &provenance(resolved), asked, observer)
+    fem_scene::run(&resolved.scene, &provenance(resolved), request, observer)
 }
 
 /// Calibrates the pair of `scene` with finite elements.
@@ -118,7 +118,7 @@ pub(crate) fn fem_pair(
 /// [`CalibrateError`]
 pub(crate) fn calibrate(
     scene: &LoadedScene,
-    extent: Extent,
+    extent: CalibrationExtent,
     observer: &dyn Observer,
 ) -> Result<Calibrated, CalibrateError> {
     calibrate::run(scene.scene(), extent, &scene.teeth_in_space, observer)

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use crate::assessment::calibrate::{self, CalibrateError, Calibrated, Extent};
+use crate::assessment::calibrate::{self, CalibrateError, Calibrated, CalibrationExtent};
 use crate::contact::settings::MatchCriterion;
 use crate::mesh_cycle::pair_in_space::KeptInSpace;
 use crate::observer::Observer;
@@ -44,7 +44,7 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     let pool = pool(args.threads)?;
     let progress = Progress::new(args.quiet, watch_for_interrupt());
     let done = pool.install(|| -> Result<Calibrated, Failure> {
-        let done = calibrate::run(&resolved.scene, Extent::Whole, &KeptInSpace::default(), &progress)
+        let done = calibrate::run(&resolved.scene, CalibrationExtent::Whole, &KeptInSpace::default(), &progress)
             .map_err(|error| refused(error, &text))?;
         progress.stage(CalibrationStage::Report.name());
         let byline = ReportedBy::line_of_scene(&resolved.to_toml());

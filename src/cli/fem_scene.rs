@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use crate::assessment::Done;
-use crate::assessment::fem_scene::{Asked, FemPairError};
+use crate::assessment::fem_scene::{FemPairError, FemPairRequest};
 use crate::observer::Observer;
 use crate::plan::fem_pair::FemPairStage;
 use crate::report;
@@ -30,7 +30,7 @@ pub(super) fn run(args: &FemArgs, text: SceneText) -> Result<(), Failure> {
     let pool = pool(args.threads)?;
     let interrupted = watch_for_interrupt();
     let progress = Progress::new(args.quiet, Arc::clone(&interrupted));
-    let asked = Asked { position_mm: args.position, full: args.full };
+    let asked = FemPairRequest { position_mm: args.position, full: args.full };
     let done = pool.install(|| -> Result<Done<FemPairRecord, FemPairError>, Failure> {
         let mut done = runs::fem_pair(resolved, asked, &progress).map_err(|error| refused(error, &text))?;
         if done.record.summary.positions > 0 {

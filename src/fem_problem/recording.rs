@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 
 use crate::assessment::UM_PER_MM;
-use crate::assessment::hertz_comparison::{self, Patch};
+use crate::assessment::hertz_comparison::{self, ContactPatch};
 use crate::fem::element::ElementError;
 use crate::fem::problem::{ContactPair, ContactState, Problem, Solution};
 use crate::fem::stress::{self, StressRecovery};
@@ -84,7 +84,7 @@ pub(super) fn mesh_summary(
     MeshSummary { file: problem.file.mesh.file.clone(), hash, nodes, quality }
 }
 
-/// What is to be said where external forces and reactions do not balance.
+/// Warning where external forces and reactions do not balance.
 pub(super) fn out_of_balance(force_balance: f64) -> Option<String> {
     let balanced = force_balance <= BALANCED;
     (!balanced).then(|| format!("external forces and reactions are out of balance by {force_balance:.1e}, relatively"))
@@ -160,7 +160,7 @@ fn contact(
         distance(a).total_cmp(&distance(b))
     });
     let middle = middle.map_or(state.centre_mm, |row| Vector2::new(row.x_mm, row.y_mm));
-    let patch = Patch {
+    let patch = ContactPatch {
         centre_mm: middle,
         half_width_mm: state.half_width_mm,
         force_n_per_mm: state.force_n_per_mm,
@@ -182,7 +182,7 @@ fn contact(
 }
 
 /// Half-width over the mean length of the slave's edges that it covers.
-fn elements_per_half_width(problem: &Problem, pair: &ContactPair, patch: Patch) -> Option<f64> {
+fn elements_per_half_width(problem: &Problem, pair: &ContactPair, patch: ContactPatch) -> Option<f64> {
     let at = |node: u32| problem.solid.points_mm[node as usize];
     let lengths: Vec<f64> = pair
         .slave

@@ -4,134 +4,25 @@
 //! one: it comes into being where they are read, or is a variant of one that has them.
 
 use std::ffi::OsStr;
-use std::fmt;
-use std::fs;
-use std::io::{self, Read};
 use std::path::Path;
 use std::sync::Arc;
 
 use super::draft::Draft;
 use super::key::is_key;
+pub(crate) use super::named_files::{CALIBRATION, CURVE, NamedFile, NamedFiles};
+use super::named_files::{calibration, of_another_pair, stiffness_curve, warnings};
+use super::scene_text::folder_of;
+pub use super::scene_text::{LoadError, SceneError, SceneText};
 use super::{Problem, ProblemKind, Resolved, presets};
-use crate::calibration::{Calibration, identity::CalibrationIdentity};
-use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
-use crate::gear::GearPair;
-use crate::mesh_cycle::{pair_in_space::KeptInSpace, settings::Coupling};
+use crate::calibration::Calibration;
+use crate::mesh_cycle::pair_in_space::KeptInSpace;
 use crate::operation::Scene;
 use crate::results::run::InputFile;
-use crate::stiffness::curve::PairCompliance;
-use crate::stiffness::curve_file::{self, CurveFileError};
-use crate::stiffness::settings::StiffnessSettings;
 
-/// The key that names a calibration.
-pub(crate) const CALIBRATION: &str = "contact.calibration";
-/// The key that names a curve of tooth stiffness.
-pub(crate) const CURVE: &str = "stiffness.curve";
 /// The folder of a run's input files within its own.
 const INPUTS: &str = "inputs";
-/// What the name of a changed text ends in.
+/// Ending of the name of a changed text.
 const CHANGED: &str = " as changed";
-/// Part of a load that counts as within a range.
-const ROUNDING: f64 = 1e-9;
-
-/// The text of a scene file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SceneText {
-    /// Name of the file, as messages give it.
-    pub name: String,
-    /// Its text.
-    pub text: String,
-}
-
-/// What is wrong with a scene file, with the text it stands in.
-#[derive(Clone, PartialEq, thiserror::Error)]
-#[error("{}", self.in_words())]
-pub struct SceneError {
-    /// The file.
-    pub given: SceneText,
-    /// At least one.
-    pub problems: Vec<Problem>,
-}
-
-/// As its display: a program that returns it from `main` shows the problems, not the whole file.
-impl fmt::Debug for SceneError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.in_words())
-    }
-}
-
-impl SceneError {
-    /// The line of the text, from 1, where `problem` begins.
-    pub fn line_of(&self, problem: &Problem) -> usize {
-        let text = self.given.text.as_bytes();
-        let begin = problem.span.as_ref().map_or(0, |span| span.start).min(text.len());
-        text[..begin].iter().filter(|&&byte| byte == b'\n').count() + 1
-    }
-
-    fn in_words(&self) -> String {
-        let name = &self.given.name;
-        let help = |problem: &Problem| problem.help.as_ref().map_or_else(String::new, |help| format!(" ({help})"));
-        let of = |problem: &Problem| format!("{name}, line {}: {problem}{}", self.line_of(problem), help(problem));
-        self.problems.iter().map(of).collect::<Vec<_>>().join("\n")
-    }
-}
-
-/// Why a scene could not be opened.
-#[derive(Debug, thiserror::Error)]
-pub enum LoadError {
-    /// The file cannot be read.
-    #[error("{name} cannot be read: {reason}")]
-    Unreadable {
-        /// Name of the file.
-        name: String,
-        /// The system's reason.
-        reason: io::Error,
-    },
-    /// The file is no text.
-    #[error("{name} is not UTF-8 text: byte {byte}, line {line}")]
-    NotUtf8 {
-        /// Name of the file.
-        name: String,
-        /// Offset of the first byte that is no text.
-        byte: usize,
-        /// Its line.
-        line: usize,
-    },
-    /// The scene is wrong, or names a file that is not what it should be.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// The curve of tooth stiffness that the scene names cannot be read as one.
-    #[error("{name}: {error}")]
-    Curve {
-        /// Name of the file.
-        name: String,
-        /// What is wrong with it.
-        error: CurveFileError,
-    },
-}
-
-/// A file that a scene names.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct NamedFile {
-    /// The key that names it, such as `contact.calibration`.
-    pub key: &'static str,
-    /// Its name, as the scene gives it.
-    pub name: String,
-    /// What it holds.
-    pub bytes: Vec<u8>,
-}
-
-/// The files a scene names, read.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct NamedFiles {
-    /// `contact.calibration`.
-    pub calibration: Option<Calibration>,
-    /// `stiffness.curve`.
-    pub stiffness_curve: Option<PairCompliance>,
-    /// The same as they were read.
-    pub as_read: Vec<NamedFile>,
-}
-
 /// A scene, checked and with every default filled in, and every file it names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadedScene {
@@ -204,7 +95,7 @@ impl LoadedScene {
         }
     }
 
-    /// The same scene with `value` for `key`, such as `"pair.face_width_mm"`, as if the file said so: a file that it names then lies in
+    /// Scene with `value` for `key`, such as `"pair.face_width_mm"`, as if the file said so: a file that it names then lies in
     /// the same folder. Errors name lines of the changed text.
     ///
     /// # Errors
@@ -213,11 +104,11 @@ impl LoadedScene {
         self.changed(|draft| draft.set(key, value), &self.files.as_read)
     }
 
-    /// The same scene with all these keys changed together, so that those that need one another need no order: with a value as
+    /// Scene with all these keys changed together, so that those that need one another need no order: with a value as
     /// [`Self::with`] gives it, without one as [`Self::without`] takes it away.
     ///
     /// # Errors
-    /// As theirs.
+    /// As of [`Self::with`] and [`Self::without`].
     pub fn with_all(
         &self,
         changes: impl IntoIterator<Item = (String, Option<toml::Value>)>,
@@ -235,7 +126,7 @@ impl LoadedScene {
         self.changed(change, &self.files.as_read)
     }
 
-    /// The same scene without `key`, as if the file left it out.
+    /// Scene without `key`, as if the file left it out.
     ///
     /// # Errors
     /// A key that no scene has; what is wrong with the scene then.
@@ -254,7 +145,7 @@ impl LoadedScene {
         Self::reading(resolved, given, folder.into(), &[])
     }
 
-    /// The same where files that are `known` need not be read.
+    /// The resolved scene of `given` with the files it names; those that are `known` need not be read.
     fn reading(
         resolved: Resolved,
         given: SceneText,
@@ -312,7 +203,7 @@ impl LoadedScene {
         self
     }
 
-    /// Another scene with the files of this one.
+    /// Scene of other values with the files of this one.
     ///
     /// # Errors
     /// A file that the other scene needs and this one does not have.
@@ -321,7 +212,7 @@ impl LoadedScene {
         Ok(Self { resolved, ..self.clone() })
     }
 
-    /// The same scene with this calibration, as if the file named it.
+    /// Scene with this calibration, as if the file named it.
     ///
     /// # Errors
     /// A calibration of another pair.
@@ -342,7 +233,7 @@ impl LoadedScene {
         Ok(Self { teeth_in_space: self.teeth_in_space.clone(), ..changed })
     }
 
-    /// The same with a calibration made for it, whether it asks for one or not.
+    /// Scene with a calibration made for it, whether it asks for one or not.
     pub(crate) fn calibrated(&self, calibration: Calibration) -> Self {
         let files = NamedFiles { calibration: Some(calibration), ..(*self.files).clone() };
         Self { files: Arc::new(files), ..self.clone() }
@@ -360,16 +251,16 @@ impl LoadedScene {
 
     /// The files it names, as they were read.
     pub fn input_files(&self) -> Vec<InputFile> {
-        let of = |file: &NamedFile| InputFile { name: file.name.clone(), bytes: file.bytes.clone() };
-        self.files.as_read.iter().map(of).collect()
+        let files = self.files.as_read.iter();
+        files.map(|file| InputFile { name: file.name.clone(), bytes: file.bytes.clone() }).collect()
     }
 
-    /// What it asks for.
+    /// Scene in the terms of physics.
     pub(crate) fn scene(&self) -> &Scene {
         &self.resolved.scene
     }
 
-    /// What the user should know about it: likely slips of unit, settings that are not used.
+    /// Warnings: likely slips of unit, settings that are not used.
     pub fn warnings(&self) -> &[String] {
         &self.resolved.warnings
     }
@@ -378,171 +269,4 @@ impl LoadedScene {
     pub fn to_toml(&self) -> String {
         self.resolved.to_toml()
     }
-}
-
-impl SceneText {
-    /// Reads the text at `path` (`-`: standard input).
-    pub(crate) fn read(path: &Path) -> Result<Self, LoadError> {
-        let (name, bytes) = if path == Path::new("-") {
-            let mut bytes = Vec::new();
-            ("standard input".to_owned(), io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes))
-        } else {
-            (path.display().to_string(), fs::read(path))
-        };
-        let bytes = bytes.map_err(|reason| LoadError::Unreadable { name: name.clone(), reason })?;
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let byte = error.utf8_error().valid_up_to();
-            let line = error.as_bytes()[..byte].iter().filter(|&&b| b == b'\n').count() + 1;
-            LoadError::NotUtf8 { name: name.clone(), byte, line }
-        })?;
-        Ok(Self { name, text })
-    }
-
-    /// Resolves the scene it holds; the files it names stay unread.
-    pub(crate) fn resolve(&self) -> Result<Resolved, SceneError> {
-        Resolved::from_toml(&self.text).map_err(|problems| self.refused(problems))
-    }
-
-    /// What is wrong with it.
-    pub(crate) fn refused(&self, problems: Vec<Problem>) -> SceneError {
-        SceneError { given: self.clone(), problems }
-    }
-}
-
-impl NamedFiles {
-    /// In what the pair of the calibration differs from that of `resolved`; empty where there is none, or none differs.
-    pub(crate) fn foreign_to(&self, resolved: &Resolved) -> Vec<String> {
-        self.calibration.as_ref().map_or_else(Vec::new, |calibration| foreign(calibration, resolved))
-    }
-
-    /// Whether they are all that `scene`, of the file with this text, needs.
-    fn complete(&self, text: &str, scene: &Scene) -> Result<(), Box<Problem>> {
-        if let (SurfaceKind::Winkler, Foundation::Calibrated(criterion)) =
-            (scene.contact.surface, scene.contact.foundation)
-        {
-            let has = |criterion| self.calibration.as_ref().is_some_and(|c| c.foundation.contains_key(criterion));
-            if let Some(lacking) = [&criterion, &MatchCriterion::Approach].into_iter().find(|one| !has(one)) {
-                let found = match self.calibration {
-                    None => "no file".to_owned(),
-                    Some(_) => format!("one without K/H for the {}", lacking.name()),
-                };
-                return Err(
-                    Problem::of_named_file(text, CALIBRATION, found, CALIBRATION_ALLOWED, MAKE_CALIBRATION).into()
-                );
-            }
-        }
-        if let StiffnessSettings::Simon | StiffnessSettings::WangCheng = scene.stiffness
-            && self.stiffness_curve.is_none()
-        {
-            return Err(Problem::of_named_file(text, CURVE, "no file".to_owned(), CURVE_ALLOWED, CURVE_HELP).into());
-        }
-        Ok(())
-    }
-}
-
-/// The folder that files named in the scene at `path` lie in.
-pub(crate) fn folder_of(path: &Path) -> &Path {
-    if path == Path::new("-") { Path::new("") } else { path.parent().unwrap_or(Path::new("")) }
-}
-
-const CALIBRATION_ALLOWED: &str = "a file that gearwear calibrate wrote for this pair";
-const MAKE_CALIBRATION: &str = "gearwear calibrate SCENE --out FILE makes one";
-const CURVE_ALLOWED: &str = "a data file (CSV) of the stiffness along the path of contact";
-const CURVE_HELP: &str = "the file lies beside the scene; gearwear schema says what stands in it";
-
-/// The text of the file `name` that `key` names: one that is `known`, or as it lies in `folder`. An error says what is wrong with it.
-fn text_of(folder: &Path, known: &[NamedFile], key: &str, name: &str) -> Result<String, String> {
-    let bytes = match known.iter().find(|file| file.key == key && file.name == name) {
-        Some(file) => file.bytes.clone(),
-        None => fs::read(folder.join(name)).map_err(|reason| format!("which cannot be read: {reason}"))?,
-    };
-    String::from_utf8(bytes)
-        .map_err(|error| format!("which is not UTF-8 text: byte {}", error.utf8_error().valid_up_to()))
-}
-
-/// The calibration that the scene names, and its file.
-fn calibration(
-    folder: &Path,
-    known: &[NamedFile],
-    given: &SceneText,
-    resolved: &Resolved,
-) -> Result<Option<(Calibration, NamedFile)>, LoadError> {
-    let Some(name) = resolved.scene.calibration_file.clone() else { return Ok(None) };
-    let refused = |what: String, help: &str| {
-        let found = format!("{name:?}, {what}");
-        given.refused(vec![Problem::of_named_file(&given.text, CALIBRATION, found, CALIBRATION_ALLOWED, help)])
-    };
-    let text = text_of(folder, known, CALIBRATION, &name).map_err(|what| refused(what, MAKE_CALIBRATION))?;
-    let calibration = Calibration::from_json(&text)
-        .map_err(|error| refused(format!("which is no calibration: {error}"), "calibrate anew"))?;
-    Ok(Some((calibration, NamedFile { key: CALIBRATION, name, bytes: text.into_bytes() })))
-}
-
-fn of_another_pair(text: &str, name: &str, differences: &[String]) -> Problem {
-    let found = format!("{name:?}, which belongs to another pair: {}", differences.join("; "));
-    let help = "calibrate this scene, or name the calibration that belongs to it";
-    Problem::of_named_file(text, CALIBRATION, found, CALIBRATION_ALLOWED, help)
-}
-
-/// In what the pair of `calibration` differs from that of the scene. Bodies of finite elements count where the scene says
-/// what they are.
-fn foreign(calibration: &Calibration, resolved: &Resolved) -> Vec<String> {
-    match GearPair::new(&resolved.scene.pair) {
-        Ok(pair) => {
-            let own = CalibrationIdentity::of(&pair, &resolved.scene.material, &resolved.scene.fem);
-            calibration.belongs_to.differences(&own, resolved.file.fem.is_some())
-        }
-        Err(error) => vec![error.to_string()],
-    }
-}
-
-fn warnings(name: &str, calibration: &Calibration, scene: &Scene) -> Vec<String> {
-    let mut warnings = Vec::new();
-    let version = env!("CARGO_PKG_VERSION");
-    if calibration.program_version != version {
-        let made = &calibration.program_version;
-        warnings.push(format!("{CALIBRATION}: {name} was made by gearwear {made}, this is {version}"));
-    }
-    let (least, greatest) = calibration.fitted_loads_n_per_mm();
-    let Ok(pair) = GearPair::new(&scene.pair) else { return warnings };
-    let plates = scene.slices.is_some_and(|slices| slices.coupling != Coupling::Fem);
-    if plates && scene.stiffness == StiffnessSettings::Fem && calibration.slices.is_none_or(|fit| !fit.is_of(&pair)) {
-        warnings.push(format!(
-            "{CALIBRATION}: {name} has no slices of this helix angle and face width: their compliance is that of plate theory, in closed form"
-        ));
-    }
-    let loads = scene.operation.phases.iter().map(|phase| pair.line_load_n_per_mm(phase.pinion_torque_n_mm));
-    let is_outside = |load: &f64| *load < least * (1.0 - ROUNDING) || *load > greatest * (1.0 + ROUNDING);
-    if let Some(load) = loads.into_iter().find(is_outside) {
-        warnings.push(format!(
-            "{CALIBRATION}: the line load of {load:.1} N/mm lies outside the loads that {name} was fitted on, {least:.1} to \
-             {greatest:.1} N/mm"
-        ));
-    }
-    warnings
-}
-
-/// The curve of tooth stiffness that the scene names, where its stiffness model has one, and its file.
-fn stiffness_curve(
-    folder: &Path,
-    known: &[NamedFile],
-    given: &SceneText,
-    resolved: &Resolved,
-) -> Result<Option<(PairCompliance, NamedFile)>, LoadError> {
-    let scene = &resolved.scene;
-    let (StiffnessSettings::Simon | StiffnessSettings::WangCheng, Some(name)) =
-        (scene.stiffness, &scene.stiffness_curve_file)
-    else {
-        return Ok(None);
-    };
-    let refused = |what: String| {
-        let found = format!("{name:?}, {what}");
-        given.refused(vec![Problem::of_named_file(&given.text, CURVE, found, CURVE_ALLOWED, CURVE_HELP)])
-    };
-    let text = text_of(folder, known, CURVE, name).map_err(refused)?;
-    // The pair was checked when the scene was resolved.
-    let pair = GearPair::new(&scene.pair).map_err(|error| refused(format!("but {error}")))?;
-    let curve = curve_file::parse(&text, &pair.path)
-        .map_err(|error| LoadError::Curve { name: folder.join(name).display().to_string(), error })?;
-    Ok(Some((curve, NamedFile { key: CURVE, name: name.clone(), bytes: text.into_bytes() })))
 }

@@ -12,11 +12,13 @@ pub(crate) mod loaded;
 mod locate;
 pub(crate) mod lubrication_file;
 pub(crate) mod material_presets;
+mod named_files;
 pub(crate) mod nearest;
 mod outside_model;
 pub(crate) mod presets;
 pub(crate) mod problem;
 mod resolve;
+mod scene_text;
 pub(crate) mod schema;
 mod shape;
 mod text;
@@ -29,12 +31,12 @@ use crate::operation::Scene;
 pub(crate) use file::SceneFile;
 pub use problem::{Problem, ProblemKind};
 
-/// A scene, the file that says all of it, and what the user should know about it.
+/// Scene with every default filled in, as values and as a file, with its warnings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolved {
-    /// What the program works from.
+    /// Scene in the terms of physics.
     pub scene: Scene,
-    /// The same as a file, every default filled in and without a preset. Resolving it gives the same scene, bit for bit.
+    /// Scene as a file, every default filled in and without a preset. Resolving it gives the same scene, bit for bit.
     pub file: SceneFile,
     /// Likely slips of unit and settings that are not used.
     pub warnings: Vec<String>,

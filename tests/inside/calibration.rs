@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-use gearwear::assessment::calibrate::{self, Extent};
+use gearwear::assessment::calibrate::{self, CalibrationExtent};
 use gearwear::calibration::bodies::Setup;
 use gearwear::calibration::identity::CalibrationIdentity;
 use gearwear::calibration::single_contact::{Purpose, SingleContact, TouchFigures};
@@ -63,7 +63,9 @@ fn fzg_c_scene(elements_per_half_width: f64) -> Scene {
 fn calibration() -> &'static Calibration {
     static CALIBRATION: OnceLock<Calibration> = OnceLock::new();
     CALIBRATION.get_or_init(|| {
-        calibrate::run(&fzg_c_scene(6.0), Extent::Whole, &KeptInSpace::default(), &Unwatched).unwrap().calibration
+        calibrate::run(&fzg_c_scene(6.0), CalibrationExtent::Whole, &KeptInSpace::default(), &Unwatched)
+            .unwrap()
+            .calibration
     })
 }
 
@@ -457,7 +459,7 @@ fn relieved_flanks_have_the_foundation_of_plain_ones() {
         scene.pair.gears[gear].modification.tip_relief = Some(relief);
     }
     let calibration =
-        calibrate::run(&scene, Extent::FastModel, &KeptInSpace::default(), &Unwatched).unwrap().calibration;
+        calibrate::run(&scene, CalibrationExtent::FastModel, &KeptInSpace::default(), &Unwatched).unwrap().calibration;
     assert!(Calibration::from_json(&calibration.to_json()).is_ok());
     for criterion in [MatchCriterion::HalfWidth, MatchCriterion::PeakPressure] {
         let held_out = &calibration.foundation_fit[&criterion].held_out;

@@ -280,7 +280,11 @@ fn val_the_interval_of_the_limit_is_that_of_other_limits() {
     }
     let ratio = limit.low.pinion.pitch_wear_um / limit.high.pinion.pitch_wear_um;
     let ratio = ratio.max(limit.low.wheel.pitch_wear_um / limit.high.wheel.pitch_wear_um);
-    assert_eq!(own.warnings.iter().any(|warning| warning.contains("hangs on the limit")), ratio > 2.0, "{ratio}");
+    assert_eq!(
+        own.warnings.iter().any(|warning| warning.contains("is sensitive to the limit")),
+        ratio > 2.0,
+        "{ratio}"
+    );
     let far = limited(9e4, true);
     assert_eq!(far.error.severe_limit, None);
     assert!(far.error.how.severe_limit.contains("no pressure comes near"), "{:?}", far.error.how);

@@ -397,7 +397,7 @@ fn a_loaded_scene_has_its_files() {
 /// and the folder of its run is complete.
 #[test]
 fn a_changed_scene_is_as_if_the_file_said_so() {
-    use gearwear::assessment::calibrate::{self, Extent};
+    use gearwear::assessment::calibrate::{self, CalibrationExtent};
 
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str, text: &str| {
@@ -418,9 +418,10 @@ fn a_changed_scene_is_as_if_the_file_said_so() {
 
     // Coarse elements: the fewer, the faster.
     let coarse = scene.with("fem.elements_per_half_width", 3.0).unwrap();
-    let made = calibrate::run(coarse.scene(), Extent::FastModel, &coarse.teeth_in_space, &gearwear::Unwatched)
-        .unwrap()
-        .calibration;
+    let made =
+        calibrate::run(coarse.scene(), CalibrationExtent::FastModel, &coarse.teeth_in_space, &gearwear::Unwatched)
+            .unwrap()
+            .calibration;
     file("other.json", "{}");
     file("same.json", &made.to_json());
     let calibrated = scene.with_calibration(made.clone()).unwrap();

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use gearwear::assessment::RunError;
-use gearwear::assessment::calibrate::{self, Extent};
+use gearwear::assessment::calibrate::{self, CalibrationExtent};
 use gearwear::fem::elastic::Elastic;
 use gearwear::fem::quadrature::GAUSS_3;
 use gearwear::gear::shaft::{EndFace, Shaft};
@@ -502,8 +502,9 @@ fn val_slices_know_their_error() {
 
 /// `scene` with slices as plates that its calibration tells, and in space.
 fn as_plates_and_in_space(scene: &LoadedScene) -> [RunRecord; 2] {
-    let calibrated =
-        calibrate::run(scene.scene(), Extent::FastModel, &scene.teeth_in_space, &Unwatched).unwrap().calibration;
+    let calibrated = calibrate::run(scene.scene(), CalibrationExtent::FastModel, &scene.teeth_in_space, &Unwatched)
+        .unwrap()
+        .calibration;
     let fit = calibrated.slices.expect("a pair with slices");
     let ends = fit.compliance.ends.into_iter().chain(fit.compliance.end_twist.unwrap());
     assert!(fit.residual < 0.1 && fit.compliance.teeth > 1.1 && ends.into_iter().all(|end| end > 0.0), "{fit:?}");

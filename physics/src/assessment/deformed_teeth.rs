@@ -8,7 +8,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::pair_mesh::{PairMeshError, SpaceMesh, in_space_at, on_path_mm};
-use super::{Model, Resumption, RunInputs, UM_PER_MM, carry_out};
+use super::{Resumption, RunInputs, RunModel, UM_PER_MM, carry_out};
 use crate::contact::PositionCell;
 use crate::contact::settings::SurfaceKind;
 use crate::gear::{Gear, GearPair, PerGear};
@@ -70,17 +70,22 @@ pub fn deformed_teeth(
     // Under the one load of a scene in phases too.
     let torque = scene.operation.pinion_torque_n_mm;
     scene.operation = Operation::steady(torque, None, 1.0, vec![1.0]);
-    carry_out(RunInputs { scene: &scene, ..inputs }, Resumption::none(), &UnwornFlanks(observer), |model, found, _| {
-        let mesh = found.outcome.new.cycle.slices.as_ref().expect("the scene has slices");
-        deformed(model, mesh, position_mm)
-    })?
+    carry_out(
+        RunInputs { scene: &scene, ..inputs },
+        Resumption::none(),
+        &UnwornFlanksOnly(observer),
+        |model, found, _| {
+            let mesh = found.outcome.new.cycle.slices.as_ref().expect("the scene has slices");
+            deformed(model, mesh, position_mm)
+        },
+    )?
     .complete()?
 }
 
 /// Ends a run as soon as it has looked at its unworn flanks.
-struct UnwornFlanks<'a>(&'a dyn Observer);
+struct UnwornFlanksOnly<'a>(&'a dyn Observer);
 
-impl Observer for UnwornFlanks<'_> {
+impl Observer for UnwornFlanksOnly<'_> {
     fn stage(&self, name: &str) {
         self.0.stage(name);
     }
@@ -99,8 +104,8 @@ impl Observer for UnwornFlanks<'_> {
 }
 
 /// The teeth at the phase of `mesh` next to `position_mm`.
-fn deformed(model: &Model<'_>, mesh: &SlicedMesh, position_mm: f64) -> Result<DeformedTeeth, PairMeshError> {
-    let Model { scene, pair, sliced, .. } = *model;
+fn deformed(model: &RunModel<'_>, mesh: &SlicedMesh, position_mm: f64) -> Result<DeformedTeeth, PairMeshError> {
+    let RunModel { scene, pair, sliced, .. } = *model;
     let sliced = sliced.expect("the scene has slices");
     let in_space_teeth = sliced.in_space().expect("they are coupled in space");
     let phases = mesh.transmission_error_mm.len();

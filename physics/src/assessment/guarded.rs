@@ -1,8 +1,8 @@
-//! Work of which a defect must not take the rest along: one row of a sweep, one run of a validation case.
+//! Containment of panics in work whose failure must not end the rest: one row of a sweep, one run of a validation case.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What `work` comes to; a panic of it is said in words.
+/// Result of `work`, or the message of its panic.
 pub fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
         let text = panic.downcast_ref::<&str>().copied();

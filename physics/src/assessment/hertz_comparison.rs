@@ -23,9 +23,9 @@ const REACH: f64 = 2.0;
 /// Deviation from the fitted arc, relative to its height over that reach, up to which a surface is round.
 const ROUND: f64 = 0.02;
 
-/// Where a contact is and what it carries.
+/// Place, size and load of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Patch {
+pub struct ContactPatch {
     /// The middle of the contact, mm.
     pub centre_mm: Vector2<f64>,
     /// Half-width a, mm.
@@ -45,7 +45,7 @@ struct Arc {
 }
 
 /// Hertz's contact of the same force and curvature, where there is one.
-pub fn hertz(problem: &Problem, pair: &ContactPair, patch: Patch) -> Option<HertzSummary> {
+pub fn hertz(problem: &Problem, pair: &ContactPair, patch: ContactPatch) -> Option<HertzSummary> {
     let force = patch.force_n_per_mm.norm();
     if !(patch.half_width_mm > 0.0 && force > 0.0) {
         return None;
@@ -73,7 +73,7 @@ pub fn hertz(problem: &Problem, pair: &ContactPair, patch: Patch) -> Option<Hert
 }
 
 /// The arc through the nodes of the edges within reach of the contact; `None` where they are no arc.
-fn arc(problem: &Problem, edges: &[Edge], patch: Patch) -> Option<Arc> {
+fn arc(problem: &Problem, edges: &[Edge], patch: ContactPatch) -> Option<Arc> {
     let h_axis = patch.force_n_per_mm.normalize();
     let s_axis = Vector2::new(h_axis.y, -h_axis.x);
     let reach_mm = REACH * patch.half_width_mm;
@@ -114,21 +114,21 @@ fn arc(problem: &Problem, edges: &[Edge], patch: Patch) -> Option<Arc> {
 }
 
 /// E* of the bodies behind both surfaces, MPa.
-fn contact_modulus_mpa(problem: &Problem, pair: &ContactPair, patch: Patch) -> Option<f64> {
+fn contact_modulus_mpa(problem: &Problem, pair: &ContactPair, patch: ContactPatch) -> Option<f64> {
     let slave = material(problem, &pair.slave, patch)?;
     let master = material(problem, &pair.master, patch)?;
     Some(problem.analysis.contact_modulus_mpa([*slave, *master]))
 }
 
 /// The material behind the edge nearest to the contact.
-fn material<'a>(problem: &'a Problem, edges: &[Edge], patch: Patch) -> Option<&'a Elastic> {
+fn material<'a>(problem: &'a Problem, edges: &[Edge], patch: ContactPatch) -> Option<&'a Elastic> {
     let points = &problem.solid.points_mm;
     let distance = |edge: &&Edge| {
         edge.ends.iter().map(|&node| (points[node as usize] - patch.centre_mm).norm_squared()).sum::<f64>()
     };
     let nearest = edges.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-    let behind = |nodes: &[u32]| nearest.ends.iter().all(|end| nodes.contains(end));
-    let element = problem.solid.elements.iter().find(|element| behind(element.nodes()))?;
+    let mut elements = problem.solid.elements.iter();
+    let element = elements.find(|element| nearest.ends.iter().all(|end| element.nodes().contains(end)))?;
     problem.materials.get(usize::from(element.material))
 }
 
@@ -161,8 +161,8 @@ mod tests {
         (Problem { solid, materials, ..Problem::default() }, pair)
     }
 
-    fn patch(force: [f64; 2], half_model: bool) -> Patch {
-        Patch {
+    fn patch(force: [f64; 2], half_model: bool) -> ContactPatch {
+        ContactPatch {
             centre_mm: Vector2::new(3.0, 4.0),
             half_width_mm: 6.0,
             force_n_per_mm: Vector2::from(force),

@@ -1,4 +1,4 @@
-//! What a run works from.
+//! Inputs of a run.
 
 use crate::calibration::Calibration;
 use crate::mesh_cycle::pair_in_space::KeptInSpace;
@@ -6,16 +6,16 @@ use crate::operation::Scene;
 use crate::results::provenance::Provenance;
 use crate::stiffness::curve::PairCompliance;
 
-/// What a run works from: the scene, curves that others have found, and what its record says of its origin.
+/// Inputs of a run: the scene, its calibration and stiffness curve, and the origin that its record quotes.
 #[derive(Debug, Clone, Copy)]
 pub struct RunInputs<'a> {
-    /// Pair, operation and models.
+    /// Gear pair, operation and choice of models.
     pub scene: &'a Scene,
-    /// Calibration by finite elements that the scene asks for; none where it has none.
+    /// Finite-element calibration named by the scene.
     pub calibration: Option<&'a Calibration>,
-    /// Curve of tooth stiffness that the scene asks for; none where it has none.
+    /// Curve of tooth stiffness named by the scene.
     pub stiffness_curve: Option<&'a PairCompliance>,
-    /// Three-dimensional teeth that an earlier run of the same pair has condensed.
+    /// Three-dimensional finite elements of the teeth, kept from an earlier run of the same pair.
     pub teeth_in_space: &'a KeptInSpace,
     /// Origin of the scene.
     pub provenance: &'a Provenance,

@@ -32,7 +32,7 @@
 //! cut off at A and E, or teeth touch farther outside than tip edges are followed, jumps are the model's, and nothing is said.
 
 use super::left_out_contact::is_beyond_range;
-use super::{Model, UM_PER_MM};
+use super::{RunModel, UM_PER_MM};
 use crate::contact::settings::SurfaceKind;
 use crate::gear::Gear;
 use crate::mesh_cycle::sliced_mesh::SlicedMesh;
@@ -53,7 +53,7 @@ const POINTS_IN_HALF_WIDTH: f64 = 2.0;
 /// Greatest part of the transmission error by which worn flanks are nearer: a contact's window that has grown has other cells (found: 3e-4
 /// on four of 2500 random scenes, on foundations that are coarsely sampled).
 const MOST_NEARER: f64 = 1e-3;
-/// The same of finite elements, whose worn sharp edges begin to carry between two nodes (found: 0.4 %).
+/// Greatest part by which worn flanks are nearer on finite elements, whose worn sharp edges begin to carry between two nodes (found: 0.4 %).
 const MOST_NEARER_OF_ELEMENTS: f64 = 0.01;
 /// Steeper than the gap of a single tip edge: slices and pairs come in together, and their stiffness varies.
 const STEEPER: f64 = 3.0;
@@ -63,8 +63,8 @@ const LEAST_JUMP: f64 = 0.03;
 /// Samples below which nothing is said of jumps.
 const FEWEST_SAMPLES: usize = 8;
 
-/// All of them, in the order of the table above.
-pub(super) fn of_run(model: &Model<'_>, outcome: &Outcome, balance: &WearBalance) -> Vec<Invariant> {
+/// Invariants of a run, in the order of the table above.
+pub(super) fn of_run(model: &RunModel<'_>, outcome: &Outcome, balance: &WearBalance) -> Vec<Invariant> {
     let states = [("new", &outcome.new), ("worn", &outcome.worn)];
     let is_resolved = are_resolved(model, outcome);
     // Transitions, films and temperatures differ at single points of both flanks: only a coefficient that is one says how volumes compare.
@@ -89,7 +89,7 @@ pub(super) fn of_run(model: &Model<'_>, outcome: &Outcome, balance: &WearBalance
     ]
 }
 
-/// What is violated, as warnings.
+/// Warnings of violated invariants.
 pub(super) fn warnings(invariants: &[Invariant]) -> impl Iterator<Item = String> {
     invariants
         .iter()
@@ -137,7 +137,7 @@ fn overlap_nowhere(states: &[(&str, &Snapshot); 2]) -> Invariant {
 /// Whether Hertz's contact at C is at least as wide as positions are apart, and its half-width [`POINTS_IN_HALF_WIDTH`] times as wide as flank points of
 /// either gear are. Loads of positions farther apart do not tell what relief and tip edges make of them between: with 24 positions, 2.5 to 3.1 half-widths
 /// apart, volumes are up to 26 % off the work of sliding, with 48 up to 13 %, with 96 up to 5 %.
-fn are_resolved(model: &Model<'_>, outcome: &Outcome) -> bool {
+fn are_resolved(model: &RunModel<'_>, outcome: &Outcome) -> bool {
     let half_width_mm = model.at_pitch.contact.loaded(model.reference().line_load_n_per_mm).half_width_mm;
     let [first, second, ..] = &outcome.new.cycle.positions[..] else { return false };
     if second.position_mm - first.position_mm > 2.0 * half_width_mm {
@@ -178,7 +178,7 @@ fn rises(states: &[(&str, &Snapshot); 2]) -> Invariant {
 }
 
 /// Worn flanks against new ones under the same load.
-fn nearer(model: &Model<'_>, outcome: &Outcome) -> Invariant {
+fn nearer(model: &RunModel<'_>, outcome: &Outcome) -> Invariant {
     let name = "wear-raises-transmission-error";
     let (new, worn) = (&outcome.new.cycle.positions, &outcome.worn.cycle.positions);
     if !outcome.stop.is_complete() || new.len() != worn.len() {
@@ -195,7 +195,7 @@ fn nearer(model: &Model<'_>, outcome: &Outcome) -> Invariant {
 }
 
 /// Why loads of the model jump, if they do: it does not follow tip edges into contact, or not as far as they touch.
-fn jumps_by_itself(model: &Model<'_>, outcome: &Outcome) -> Option<&'static str> {
+fn jumps_by_itself(model: &RunModel<'_>, outcome: &Outcome) -> Option<&'static str> {
     let contact = model.scene.contact;
     let follows = match contact.surface {
         SurfaceKind::Fem => true,
@@ -214,7 +214,7 @@ fn jumps_by_itself(model: &Model<'_>, outcome: &Outcome) -> Option<&'static str>
 }
 
 /// The steepest that the transmission error is, mm of it per mm of the path.
-fn steepest(model: &Model<'_>, outcome: &Outcome, state: &Snapshot) -> f64 {
+fn steepest(model: &RunModel<'_>, outcome: &Outcome, state: &Snapshot) -> f64 {
     let pair = model.pair;
     let (_, most_mm) = state.cycle.transmission_error_mm();
     let reach_mm = pair.tip_reach_mm(most_mm);
@@ -255,7 +255,7 @@ fn greatest_jump(samples: &[f64], is_cycle: bool) -> Option<(f64, usize)> {
     inside.map(jump).max_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-fn continuous_error(model: &Model<'_>, outcome: &Outcome, states: &[(&str, &Snapshot); 2]) -> Invariant {
+fn continuous_error(model: &RunModel<'_>, outcome: &Outcome, states: &[(&str, &Snapshot); 2]) -> Invariant {
     let name = "transmission-error-continuous";
     if let Some(why) = jumps_by_itself(model, outcome) {
         return Invariant::not_judged(name, why);
@@ -296,7 +296,7 @@ fn spacing_mm(mesh: &SlicedMesh) -> f64 {
 }
 
 /// Load over mean load: of the pair, or of each slice of it.
-fn continuous_load(model: &Model<'_>, outcome: &Outcome, states: &[(&str, &Snapshot); 2]) -> Invariant {
+fn continuous_load(model: &RunModel<'_>, outcome: &Outcome, states: &[(&str, &Snapshot); 2]) -> Invariant {
     let name = "load-share-continuous";
     if let Some(why) = jumps_by_itself(model, outcome) {
         return Invariant::not_judged(name, why);

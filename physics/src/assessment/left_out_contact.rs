@@ -1,6 +1,6 @@
 //! The warning of contact before A and after E that a run leaves out.
 
-use super::{Model, UM_PER_MM};
+use super::{RunModel, UM_PER_MM};
 use crate::contact::settings::SurfaceKind;
 use crate::simulation::left_out_contact::overlaps_mm;
 use crate::simulation::mesh_contact;
@@ -13,21 +13,21 @@ const LEAST_MM: f64 = 5e-5;
 const LEAST_SHARE: f64 = 0.005;
 
 /// Warns of the contact before A and after E that the run leaves out, if there is any.
-pub(super) fn warning(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
+pub(super) fn warning(model: &RunModel<'_>, outcome: &Outcome) -> Option<String> {
     if model.scene.contact.surface == SurfaceKind::Fem || model.scene.contact.tip_contact {
         return beyond_range(model, outcome);
     }
     outside_path(model, outcome)
 }
 
-/// How far the bodies that all pairs share yield.
-fn bodies_mm(model: &Model<'_>) -> f64 {
-    let of_load = |teeth| mesh_contact::bodies_mm2_per_n(teeth, model.sliced) * model.reference().line_load_n_per_mm;
-    model.teeth.map_or(0.0, of_load)
+/// Deflection of the bodies that all pairs in mesh share, mm.
+fn bodies_mm(model: &RunModel<'_>) -> f64 {
+    let load = model.reference().line_load_n_per_mm;
+    model.teeth.map_or(0.0, |teeth| mesh_contact::bodies_mm2_per_n(teeth, model.sliced) * load)
 }
 
-/// How far a run follows tip edges before A and after E, and by how much the flanks of loaded teeth would overlap there, new or worn; none where it cannot.
-fn overlaps_at_range_mm(model: &Model<'_>, outcome: &Outcome) -> Option<[[f64; 2]; 2]> {
+/// Range before A and after E in which a run follows tip edges, and overlap of the flanks of loaded teeth at its ends, new or worn, mm; none without a range.
+fn overlaps_at_range_mm(model: &RunModel<'_>, outcome: &Outcome) -> Option<[[f64; 2]; 2]> {
     let reference = model.reference();
     let range_mm = reference.contact.range_mm(model.pair, reference.line_load_n_per_mm).ok()?;
     let [new, worn] =
@@ -36,13 +36,13 @@ fn overlaps_at_range_mm(model: &Model<'_>, outcome: &Outcome) -> Option<[[f64; 2
 }
 
 /// Whether teeth overlap by more than `least_mm` where a run that follows tip edges follows them no farther, so that loads jump there.
-pub(super) fn is_beyond_range(model: &Model<'_>, outcome: &Outcome, least_mm: f64) -> bool {
+pub(super) fn is_beyond_range(model: &RunModel<'_>, outcome: &Outcome, least_mm: f64) -> bool {
     overlaps_at_range_mm(model, outcome)
         .is_some_and(|[_, overlaps]| overlaps.iter().any(|&overlap| overlap >= least_mm))
 }
 
-/// Of a run that follows tip edges: where it does not follow them far enough.
-fn beyond_range(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
+/// Warning of a run that follows tip edges, but not far enough.
+fn beyond_range(model: &RunModel<'_>, outcome: &Outcome) -> Option<String> {
     let [range_mm, overlaps_mm] = overlaps_at_range_mm(model, outcome)?;
     let states = [&outcome.new, &outcome.worn];
     let farthest_mm = model.pair.farthest_touch_mm();
@@ -75,8 +75,8 @@ fn beyond_range(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
     })
 }
 
-/// Of a run that does not follow tip edges.
-fn outside_path(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
+/// Warning of a run that does not follow tip edges.
+fn outside_path(model: &RunModel<'_>, outcome: &Outcome) -> Option<String> {
     let contact = model.scene.contact;
     model.teeth?;
     let [new, worn] =

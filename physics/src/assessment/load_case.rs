@@ -1,4 +1,4 @@
-//! How the gears touch in a phase, under its load and of its material.
+//! Contact of the gears under the load and with the material of a phase.
 
 use super::stage_clock::StageClock;
 use super::{RunError, RunInputs};
@@ -15,60 +15,110 @@ use crate::contact::{
 use crate::gear::{GearPair, PerGear};
 use crate::gear_fem::condensed_pair::CondensedPair;
 use crate::material::Material;
+use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::operation::Scene;
 use crate::plan::StageKind;
-use crate::stiffness::curve::PairCompliance;
+use crate::simulation::mesh_contact::MeshContact;
+use crate::stiffness::{StiffnessError, TeethSpring, curve::PairCompliance, settings::StiffnessSettings};
 
-/// How the gears touch under one load, of one material.
-pub(super) struct LoadCase<'a> {
+/// Contact of the gears under one load, with one material.
+pub(super) struct ContactCase<'a> {
     pub line_load_n_per_mm: f64,
     pub material: PerGear<Material>,
-    /// Stiffness along the path of contact; none where it is that of the run.
+    /// Stiffness along the path of contact, where it differs from that of the run.
     pub curve: Option<PairCompliance>,
-    /// Finite elements that wear; none where there are none, or those of the run.
+    /// Wearing finite elements, where they differ from those of the run.
     pub elements: Option<CondensedPair<'a>>,
     pub foundation_mpa_per_mm: Option<f64>,
-    /// None with finite elements.
+    /// Contact surface of the springs on the line of action; none with finite elements.
     pub surface: Option<Box<dyn ContactSurface>>,
 }
 
+impl<'a> ContactCase<'a> {
+    /// Spring of the teeth on the case's own curve, or on `curve` of the run; none with finite elements.
+    pub(super) fn spring<'s>(
+        &'s self,
+        stiffness: StiffnessSettings,
+        curve: Option<&'s PairCompliance>,
+        pair: &'s GearPair,
+    ) -> Result<Option<TeethSpring<'s>>, StiffnessError> {
+        let Some(surface) = self.surface.as_deref() else { return Ok(None) };
+        let curve = self.curve.as_ref().or(curve);
+        TeethSpring::new(stiffness, curve, pair, &self.material, surface, self.line_load_n_per_mm).map(Some)
+    }
+
+    /// Elastic model of the mesh with these springs and slices, on the case's own wearing elements or `worn` of the run.
+    pub(super) fn mesh_contact<'s>(
+        &'s self,
+        scene: &'s Scene,
+        worn: Option<&'s CondensedPair<'a>>,
+        teeth: Option<&'s TeethSpring<'s>>,
+        sliced: Option<&'s SlicedTeeth>,
+    ) -> MeshContact<'s> {
+        if let Some(elements) = self.elements.as_ref().or(worn) {
+            return MeshContact::FiniteElements(elements);
+        }
+        let (Some(surface), Some(teeth)) = (self.surface.as_deref(), teeth) else {
+            unreachable!("every surface but fem has springs")
+        };
+        match (scene.contact.surface, sliced) {
+            (SurfaceKind::HertzMean, Some(sliced)) => {
+                MeshContact::Simplified { material: &scene.material, teeth, sliced }
+            }
+            _ => MeshContact::LineOfAction { surface, teeth, tip_contact: scene.contact.tip_contact, sliced },
+        }
+    }
+}
+
 /// Prepares the contact of gears of `material` under one load, with stiffness and elements of the run.
-pub(super) fn load_case<'a>(
+pub(super) fn contact_case<'a>(
     inputs: RunInputs<'_>,
     pair: &GearPair,
     material: PerGear<Material>,
     line_load_n_per_mm: f64,
     stages: &mut StageClock<'_>,
-) -> Result<LoadCase<'a>, RunError> {
+) -> Result<ContactCase<'a>, RunError> {
     let scene = inputs.scene;
-    let foundation = match (scene.contact.surface, scene.contact.foundation, inputs.calibration) {
-        (SurfaceKind::Winkler, Foundation::Given { foundation_mpa_per_mm }, _) => {
-            Some(WinklerFoundation::Uniform { mpa_per_mm: foundation_mpa_per_mm })
-        }
-        (SurfaceKind::Winkler, Foundation::Calibrated(criterion), Some(calibration)) => {
-            let curve = |criterion| calibration.foundation[&criterion].in_normal_section(pair.obliquity());
-            let approach = curve(MatchCriterion::Approach);
-            let edges = scene
-                .contact
-                .tip_contact
-                .then(|| EdgeFoundations::new(pair, &material, line_load_n_per_mm, criterion, &approach));
-            Some(WinklerFoundation::Curve { pressure: curve(criterion), approach, edges })
-        }
-        (SurfaceKind::Winkler, Foundation::Calibrated(_), None) => unreachable!("a loaded scene has its calibration"),
-        (SurfaceKind::Winkler, Foundation::Matched(criterion), _) => {
-            let at_pitch = hertz::flattening(&pair.normal_section(), &material, pair.path.pitch_point_mm);
-            let matched = || matched_mpa_per_mm(criterion, &at_pitch, line_load_n_per_mm);
-            Some(WinklerFoundation::Uniform { mpa_per_mm: stages.run(StageKind::ContactMatch.name(), matched) })
-        }
-        _ => None,
-    };
+    let foundation = foundation(inputs, pair, &material, line_load_n_per_mm, stages);
     let springs_at_pitch = foundation.as_ref().map(|foundation| foundation.at(pair.path.pitch_point_mm));
     let foundation_mpa_per_mm = springs_at_pitch.map(|springs| springs.mpa_per_mm(line_load_n_per_mm));
     let surface = surface(scene, material, foundation, line_load_n_per_mm);
-    Ok(LoadCase { line_load_n_per_mm, material, curve: None, elements: None, foundation_mpa_per_mm, surface })
+    Ok(ContactCase { line_load_n_per_mm, material, curve: None, elements: None, foundation_mpa_per_mm, surface })
 }
 
-/// The surface of the springs on the line of action; none with finite elements, which are no springs.
+/// K/H of a Winkler foundation; none of other surfaces.
+fn foundation(
+    RunInputs { scene, calibration, .. }: RunInputs<'_>,
+    pair: &GearPair,
+    material: &PerGear<Material>,
+    line_load_n_per_mm: f64,
+    stages: &mut StageClock<'_>,
+) -> Option<WinklerFoundation> {
+    if scene.contact.surface != SurfaceKind::Winkler {
+        return None;
+    }
+    Some(match scene.contact.foundation {
+        Foundation::Given { foundation_mpa_per_mm } => WinklerFoundation::Uniform { mpa_per_mm: foundation_mpa_per_mm },
+        Foundation::Calibrated(criterion) => {
+            let calibrated = &calibration.expect("a loaded scene has its calibration").foundation;
+            let approach = calibrated[&MatchCriterion::Approach].in_normal_section(pair.obliquity());
+            let edges = scene
+                .contact
+                .tip_contact
+                .then(|| EdgeFoundations::new(pair, material, line_load_n_per_mm, criterion, &approach));
+            let pressure = calibrated[&criterion].in_normal_section(pair.obliquity());
+            WinklerFoundation::Curve { pressure, approach, edges }
+        }
+        Foundation::Matched(criterion) => {
+            let at_pitch = hertz::flattening(&pair.normal_section(), material, pair.path.pitch_point_mm);
+            let mpa_per_mm = stages
+                .run(StageKind::ContactMatch.name(), || matched_mpa_per_mm(criterion, &at_pitch, line_load_n_per_mm));
+            WinklerFoundation::Uniform { mpa_per_mm }
+        }
+    })
+}
+
+/// Contact surface of the springs on the line of action; none with finite elements.
 fn surface(
     scene: &Scene,
     material: PerGear<Material>,

@@ -13,7 +13,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Model, scuffing, slices};
+use super::{RunModel, scuffing, slices};
 use crate::contact::settings::SurfaceKind;
 use crate::gear::{Gear, PerGear, flank_zones::FlankZone};
 use crate::lubrication::local_film::local_film;
@@ -27,23 +27,23 @@ use crate::results::lubrication::{
 };
 use crate::simulation::wear_run::Outcome;
 
-/// Why figures that need the standards' load sharing factor are missing.
+/// Reason why figures with the standards' load sharing factor are missing.
 pub(super) const NO_SHARING_FACTOR: &str =
     "the standards have a load sharing factor for transverse contact ratios below 2 alone";
 
-/// What is found, as the record has it.
-pub(super) struct Observed {
+/// Summary and rows of the record.
+pub(super) struct LubricationFindings {
     pub summary: LubricationSummary,
     pub rows: Vec<FilmRow>,
 }
 
-/// A contact of the run.
+/// Contact of the run at one position, of one slice.
 #[derive(Clone, Copy)]
-struct Place {
+struct LubricatedContact {
     position_mm: f64,
     slice: usize,
     width_mm: f64,
-    /// Length of the path that it stands for.
+    /// Length of the path of contact that it represents.
     length_mm: f64,
     /// Part of the width of its slice that is in contact.
     part_of_width: f64,
@@ -53,14 +53,14 @@ struct Place {
     half_width_mm: [f64; 2],
 }
 
-/// One contact, new or worn.
+/// Film and friction of a contact, new or worn.
 #[derive(Clone, Copy)]
-struct State {
+struct FilmState {
     friction: f64,
     film: Option<ContactFilm>,
 }
 
-impl Place {
+impl LubricatedContact {
     fn loaded(&self, which: usize) -> LoadedPlace {
         LoadedPlace {
             position_mm: self.position_mm,
@@ -70,12 +70,12 @@ impl Place {
         }
     }
 
-    /// What is there in the new (0) or worn (1) pair; none without load.
-    fn state(&self, running: &RunningPair<'_>, which: usize) -> Option<State> {
+    /// Film and friction in the new (0) or worn (1) pair; none without load.
+    fn film_state(&self, running: &RunningPair<'_>, which: usize) -> Option<FilmState> {
         let loaded = self.loaded(which);
         (loaded.line_load_n_per_mm > 0.0).then(|| {
             let friction = running.friction(&loaded);
-            State { friction, film: running.film(&loaded, friction, [Finish::New, Finish::RunIn][which]) }
+            FilmState { friction, film: running.film(&loaded, friction, [Finish::New, Finish::RunIn][which]) }
         })
     }
 }
@@ -119,90 +119,99 @@ fn method_b(running: &RunningPair<'_>, oil: &OilInMesh) -> MethodBSummary {
 }
 
 /// All contacts of the run's mesh, new and worn; of a pair without slices, those within the line of action.
-fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
-    let (new, worn) = (&outcome.new.cycle, &outcome.worn.cycle);
-    // The simplified surface has the mean pressure for the greatest.
+fn contacts(model: &RunModel<'_>, outcome: &Outcome) -> Vec<LubricatedContact> {
+    // The simplified surface reports its mean pressure as the greatest.
     let greatest = if model.scene.contact.surface == SurfaceKind::HertzMean { PEAK_OVER_MEAN } else { 1.0 };
-    let whole = model.reference().line_load_n_per_mm;
-    let middle_mm = 0.5 * model.pair.spec.face_width_mm;
-    let Some(meshes) = slices::meshes(outcome) else {
-        let last = new.positions.len().saturating_sub(1);
-        let at = |k: usize| new.positions[k].position_mm;
-        return new
-            .positions
-            .iter()
-            .zip(&worn.positions)
-            .enumerate()
-            .map(|(k, (new, worn))| Place {
-                position_mm: new.position_mm,
-                slice: 0,
-                width_mm: middle_mm,
-                length_mm: 0.5 * (at((k + 1).min(last)) - at(k.saturating_sub(1))),
-                part_of_width: 1.0,
-                load_n_per_mm: [new.load_share * whole, worn.load_share * whole],
-                pressure_mpa: [new, worn].map(|seen| greatest * seen.footprint.peak_pressure_mpa),
-                half_width_mm: [new, worn].map(|seen| seen.footprint.half_width_mm),
-            })
-            .collect();
-    };
-    let [new_slices, _] = &meshes;
-    let count = new_slices.slices;
-    let spacing = new_slices.base_pitch_mm / new_slices.transmission_error_mm.len() as f64;
-    let cells = new_slices.position_mm.iter().enumerate();
-    let path = &model.pair.path;
-    let touches_beyond = model.scene.contact.tip_contact;
-    let meshes = &meshes;
-    let all = cells.flat_map(|(row, &position_mm)| {
-        (0..count).map(move |slice| {
-            let cell = row * count + slice;
-            let of = |field: fn(&SlicedMesh) -> &Vec<f64>| meshes.each_ref().map(|mesh| field(mesh)[cell]);
-            let middle_mm = position_mm + outcome.slices.ahead_mm[slice];
-            Place {
-                // The part of a slice whose middle is not in contact is.
-                position_mm: if touches_beyond { middle_mm } else { path.folded_mm(middle_mm) },
-                slice,
-                width_mm: outcome.slices.width_mm[slice],
-                length_mm: spacing,
-                part_of_width: of(|mesh| &mesh.part_of_width).into_iter().fold(0.0, f64::max),
-                load_n_per_mm: of(|mesh| &mesh.line_load_n_per_mm),
-                pressure_mpa: of(|mesh| &mesh.peak_pressure_mpa).map(|mean| greatest * mean),
-                half_width_mm: of(|mesh| &mesh.half_width_mm),
-            }
-        })
-    });
-    all.filter(|place| place.part_of_width > 0.0).collect()
+    match slices::meshes(outcome) {
+        Some(meshes) => contacts_of_slices(model, outcome, &meshes, greatest),
+        None => contacts_of_pair(model, outcome, greatest),
+    }
 }
 
-/// Sums over the path.
+/// Contacts of a pair without slices at the positions of its mesh cycle.
+fn contacts_of_pair(model: &RunModel<'_>, outcome: &Outcome, greatest: f64) -> Vec<LubricatedContact> {
+    let (new, worn) = (&outcome.new.cycle.positions, &outcome.worn.cycle.positions);
+    let whole = model.reference().line_load_n_per_mm;
+    let last = new.len().saturating_sub(1);
+    let pairs = new.iter().zip(worn).enumerate();
+    pairs
+        .map(|(k, (one, other))| LubricatedContact {
+            position_mm: one.position_mm,
+            slice: 0,
+            width_mm: 0.5 * model.pair.spec.face_width_mm,
+            length_mm: 0.5 * (new[(k + 1).min(last)].position_mm - new[k.saturating_sub(1)].position_mm),
+            part_of_width: 1.0,
+            load_n_per_mm: [one.load_share * whole, other.load_share * whole],
+            pressure_mpa: [one, other].map(|state| greatest * state.footprint.peak_pressure_mpa),
+            half_width_mm: [one, other].map(|state| state.footprint.half_width_mm),
+        })
+        .collect()
+}
+
+/// Contacts of all slices of one tooth, from the new and the worn mesh.
+fn contacts_of_slices(
+    model: &RunModel<'_>,
+    outcome: &Outcome,
+    meshes: &[SlicedMesh; 2],
+    greatest: f64,
+) -> Vec<LubricatedContact> {
+    let [new, worn] = meshes;
+    let length_mm = new.base_pitch_mm / new.transmission_error_mm.len() as f64;
+    let tip_contact = model.scene.contact.tip_contact;
+    let mut contacts = Vec::new();
+    for (row, &position_mm) in new.position_mm.iter().enumerate() {
+        for slice in 0..new.slices {
+            let cell = row * new.slices + slice;
+            let part_of_width = f64::max(0.0, new.part_of_width[cell]).max(worn.part_of_width[cell]);
+            if part_of_width <= 0.0 {
+                continue;
+            }
+            let middle_mm = position_mm + outcome.slices.ahead_mm[slice];
+            contacts.push(LubricatedContact {
+                // A slice may be in contact where its middle is not.
+                position_mm: if tip_contact { middle_mm } else { model.pair.path.folded_mm(middle_mm) },
+                slice,
+                width_mm: outcome.slices.width_mm[slice],
+                length_mm,
+                part_of_width,
+                load_n_per_mm: meshes.each_ref().map(|mesh| mesh.line_load_n_per_mm[cell]),
+                pressure_mpa: meshes.each_ref().map(|mesh| greatest * mesh.peak_pressure_mpa[cell]),
+                half_width_mm: meshes.each_ref().map(|mesh| mesh.half_width_mm[cell]),
+            });
+        }
+    }
+    contacts
+}
+
+/// Power of the sliding, summed over the path of contact.
 #[derive(Default)]
-struct Work {
+struct SlidingWork {
     sliding_w: f64,
     friction_w: f64,
-    /// Sliding between A and E.
+    /// Sliding power between A and E.
     on_path_w: f64,
-    /// Sliding of each gear there that counts as wearing under its films; none where its law reads none.
+    /// Part of it that wears each gear under its films; none where its law reads none.
     wearing_w: PerGear<Option<f64>>,
 }
 
-impl Work {
-    /// Of the new (0) or worn (1) pair.
-    fn over(model: &Model<'_>, seen: &Seen<'_>, slice_width_mm: f64, which: usize) -> Self {
+impl SlidingWork {
+    /// Power in the new (0) or worn (1) pair.
+    fn over(model: &RunModel<'_>, contacts: &ObservedContacts<'_>, slice_width_mm: f64, which: usize) -> Self {
         let mut work = Self::default();
         let obliquity = model.pair.obliquity();
-        for (place, states) in seen.places.iter().zip(&seen.states) {
-            let sliding_m_per_s = seen.running.contact(place.position_mm, 0.0, 0.0).sliding_speed_m_per_s();
+        for (place, states) in contacts.places.iter().zip(&contacts.states) {
+            let sliding_m_per_s = contacts.running.contact(place.position_mm, 0.0, 0.0).sliding_speed_m_per_s();
             let force_n = obliquity.normal_force(place.load_n_per_mm[which]) * slice_width_mm;
             let power_w = force_n * sliding_m_per_s * place.length_mm / model.pair.path.base_pitch_mm;
             work.sliding_w += power_w;
             let Some(state) = states[which] else { continue };
             work.friction_w += power_w * state.friction;
-            if !seen.is_on_path(place) {
+            if !contacts.is_on_path(place) {
                 continue;
             }
             work.on_path_w += power_w;
             for gear in Gear::BOTH {
-                let wear = &model.reference().wear;
-                if let Some(factor) = wear.film_factor(gear, &place.loaded(which)) {
+                if let Some(factor) = model.reference().wear.film_factor(gear, &place.loaded(which)) {
                     *work.wearing_w[gear].get_or_insert(0.0) += power_w * factor;
                 }
             }
@@ -222,62 +231,62 @@ impl Work {
     }
 }
 
-/// What is seen of the contacts of a run.
-pub(super) struct Seen<'a> {
+/// Contacts of a run with their films.
+pub(super) struct ObservedContacts<'a> {
     running: &'a RunningPair<'a>,
-    places: Vec<Place>,
-    /// New and worn at each place.
-    states: Vec<[Option<State>; 2]>,
+    places: Vec<LubricatedContact>,
+    /// New and worn state of each contact.
+    states: Vec<[Option<FilmState>; 2]>,
 }
 
-impl Seen<'_> {
-    /// Whether a place lies between A and E.
-    fn is_on_path(&self, place: &Place) -> bool {
+impl ObservedContacts<'_> {
+    /// Whether a contact lies between A and E.
+    fn is_on_path(&self, place: &LubricatedContact) -> bool {
         let path = &self.running.pair.path;
         (path.start_mm..=path.end_mm).contains(&place.position_mm)
     }
 }
 
-/// Looks at both states of a run; none where nobody asks.
-pub(super) fn look<'a>(model: &Model<'a>, outcome: &Outcome) -> Option<Seen<'a>> {
+/// Observes the new and the worn pair; none of a scene without films and losses.
+pub(super) fn observe<'a>(model: &RunModel<'a>, outcome: &Outcome) -> Option<ObservedContacts<'a>> {
     let running = model.phases[outcome.reference_phase].wear.running?;
-    let places = places(model, outcome);
-    let states = places.iter().map(|place| [0, 1].map(|which| place.state(running, which))).collect();
-    Some(Seen { running, places, states })
+    let places = contacts(model, outcome);
+    let states = places.iter().map(|place| [0, 1].map(|which| place.film_state(running, which))).collect();
+    Some(ObservedContacts { running, places, states })
 }
 
-/// Sums up what was seen.
-pub(super) fn sum_up(model: &Model<'_>, outcome: &Outcome, seen: &Seen<'_>) -> Observed {
-    let Seen { running, places, states } = seen;
+/// Sums up the films, friction and losses of all contacts.
+pub(super) fn sum_up(model: &RunModel<'_>, outcome: &Outcome, contacts: &ObservedContacts<'_>) -> LubricationFindings {
+    let ObservedContacts { running, places, states } = contacts;
     let oil = running.oil.as_ref();
     let has_factor = running.sharing.is_of_standard();
     let slices = outcome.slices.count().max(1) as f64;
     let width_mm = model.pair.spec.face_width_mm / slices;
-    let work = [0, 1].map(|which| Work::over(model, seen, width_mm, which));
-    let wear_factors = work.each_ref().map(Work::wear_factors);
+    let work = [0, 1].map(|which| SlidingWork::over(model, contacts, width_mm, which));
     let rows: Vec<FilmRow> = places.iter().zip(states).map(|(place, states)| row(running, place, states)).collect();
     let is_between = between_tip_edges(model);
-    let (on_path, at_tip_edges) = rows
-        .iter()
-        .zip(places)
-        .map(|(row, place)| (row, place, is_between(place)))
-        .partition::<Vec<_>, _>(|(_, place, between)| *between && seen.is_on_path(place));
-    let between: Vec<RowOfPath<'_>> = on_path.into_iter().map(|(row, place, _)| (row, place.length_mm)).collect();
-    let at_tip_edges: Vec<&FilmRow> =
-        at_tip_edges.into_iter().filter(|(.., between)| !between).map(|(row, ..)| row).collect();
+    let placed = rows.iter().zip(places);
+    let films = FilmRows {
+        between: placed
+            .clone()
+            .filter(|(_, place)| is_between(place) && contacts.is_on_path(place))
+            .map(|(row, place)| (row, place.length_mm))
+            .collect(),
+        at_tip_edges: placed.filter(|(_, place)| !is_between(place)).map(|(row, _)| row).collect(),
+    };
     let summary = LubricationSummary {
         oil: oil.map(oil_summary),
-        film: oil.and_then(|oil| film_summary(&between, &at_tip_edges, oil.settings.permissible_lambda, wear_factors)),
+        film: oil.and_then(|oil| films.summary(oil.settings.permissible_lambda, &work)),
         method_b: oil.filter(|_| has_factor).map(|oil| method_b(running, oil)),
         method_b_null_because: oil.filter(|_| !has_factor).map(|_| NO_SHARING_FACTOR.to_owned()),
         scuffing: oil.map(|oil| scuffing::summary(running, oil, &model.scene.material)),
         friction: friction_summary(running, &work),
         losses: losses(running, &work),
     };
-    Observed { summary, rows }
+    LubricationFindings { summary, rows }
 }
 
-/// What the user should know of the films: where contact is too hot for what is known of the oil.
+/// Warns where the contact is too hot for the fits of the oil.
 pub(super) fn warning(summary: &LubricationSummary) -> Option<String> {
     let film = summary.film.as_ref()?;
     let states = [("new", film.lambda_new.min), ("worn", film.lambda_worn.min)];
@@ -292,19 +301,18 @@ pub(super) fn warning(summary: &LubricationSummary) -> Option<String> {
     })
 }
 
-fn row(running: &RunningPair<'_>, place: &Place, states: &[Option<State>; 2]) -> FilmRow {
+fn row(running: &RunningPair<'_>, place: &LubricatedContact, states: &[Option<FilmState>; 2]) -> FilmRow {
     let surfaces = running.contact(place.position_mm, 0.0, 0.0);
-    let of = |value: fn(&ContactFilm) -> Option<f64>| {
-        states.map(|state| state.and_then(|state| state.film).as_ref().and_then(value))
-    };
-    let [central_film_new_um, central_film_worn_um] = of(|film| Some(film.central_um));
-    let [minimum_film_new_um, minimum_film_worn_um] = of(|film| Some(film.least_um));
-    let [local_film_new_um, local_film_worn_um] = of(|film| film.local.map(|local| local.thickness_um));
-    let [lambda_new, lambda_worn] = of(|film| film.lambda);
-    let [composite_lambda_new, composite_lambda_worn] = of(|film| Some(film.composite_lambda));
-    let [flash_new_k, flash_worn_k] = of(|film| film.local.map(|local| local.flash_k));
+    let films = states.map(|state| state?.film);
+    let [central_film_new_um, central_film_worn_um] = films.map(|film| Some(film?.central_um));
+    let [minimum_film_new_um, minimum_film_worn_um] = films.map(|film| Some(film?.least_um));
+    let [local_film_new_um, local_film_worn_um] = films.map(|film| Some(film?.local?.thickness_um));
+    let [lambda_new, lambda_worn] = films.map(|film| film?.lambda);
+    let [composite_lambda_new, composite_lambda_worn] = films.map(|film| Some(film?.composite_lambda));
+    let [flash_new_k, flash_worn_k] = films.map(|film| Some(film?.local?.flash_k));
     let [friction_new, friction_worn] = states.map(|state| state.map(|state| state.friction));
-    let normal_force = |transverse| running.pair.obliquity().normal_force(transverse);
+    let [normal_new, normal_worn] =
+        place.load_n_per_mm.map(|transverse| running.pair.obliquity().normal_force(transverse));
     FilmRow {
         position_mm: place.position_mm,
         slice: place.slice,
@@ -312,8 +320,8 @@ fn row(running: &RunningPair<'_>, place: &Place, states: &[Option<State>; 2]) ->
         relative_radius_mm: surfaces.relative_radius_mm,
         sum_speed_m_per_s: surfaces.sum_speed_m_per_s(),
         sliding_speed_m_per_s: surfaces.sliding_speed_m_per_s(),
-        line_load_new_N_per_mm: normal_force(place.load_n_per_mm[0]),
-        line_load_worn_N_per_mm: normal_force(place.load_n_per_mm[1]),
+        line_load_new_N_per_mm: normal_new,
+        line_load_worn_N_per_mm: normal_worn,
         central_film_new_um,
         central_film_worn_um,
         minimum_film_new_um,
@@ -344,80 +352,94 @@ fn oil_summary(in_mesh: &OilInMesh) -> OilSummary {
     }
 }
 
-/// A row between A and E and between the tip-edge zones, and the length of the path that it stands for, mm.
-type RowOfPath<'a> = (&'a FilmRow, f64);
-
+/// Value of a column of the film rows.
 type Value = fn(&FilmRow) -> Option<f64>;
 
-/// Which places are between the tip-edge zones of both gears: all, where the surface sees no tip edges.
-fn between_tip_edges(model: &Model<'_>) -> impl Fn(&Place) -> bool {
+/// Whether contacts are between the tip-edge zones of both gears: all, where tip edges are not followed.
+fn between_tip_edges(model: &RunModel<'_>) -> impl Fn(&LubricatedContact) -> bool {
     let contact = &model.scene.contact;
     let sees_edges = contact.tip_contact || contact.surface == SurfaceKind::Fem;
     let (path, zones) = (&model.pair.path, model.zones());
     move |place| {
-        let is_edge = |gear: Gear| {
+        let is_at_edge = Gear::BOTH.into_iter().any(|gear| {
             let radius_mm = path.involute[gear].base_radius_mm.hypot(path.rho_mm(gear, place.position_mm));
             zones[gear].at(radius_mm) == FlankZone::TipEdge
-        };
-        !(sees_edges && Gear::BOTH.into_iter().any(is_edge))
+        });
+        !(sees_edges && is_at_edge)
     }
 }
 
-/// Extremes and mean of a column, where it has values.
-fn along_path(rows: &[RowOfPath<'_>], value: Value) -> Option<AlongPath> {
-    let values = || rows.iter().filter_map(|(row, length_mm)| Some((value(row)?, *length_mm)));
-    let (total, length) = values().fold((0.0, 0.0), |(sum, length), (value, part)| (sum + value * part, length + part));
-    let extremes =
-        values().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (value, _)| (low.min(value), high.max(value)));
-    (length > 0.0).then(|| AlongPath { min: extremes.0, max: extremes.1, mean: total / length })
+/// Film rows by their place on the flanks.
+struct FilmRows<'a> {
+    /// Rows between A and E and between the tip-edge zones, with the length of the path of contact that each represents, mm.
+    between: Vec<(&'a FilmRow, f64)>,
+    /// Rows within a tip-edge zone.
+    at_tip_edges: Vec<&'a FilmRow>,
 }
 
-/// Of the rows between A and E and between the tip-edge zones, `rows`, and of those at tip edges.
-fn film_summary(
-    rows: &[RowOfPath<'_>],
-    at_tip_edges: &[&FilmRow],
-    permissible_lambda: Option<f64>,
-    [wear_factor_new, wear_factor_worn]: [Option<PerGear<f64>>; 2],
-) -> Option<FilmSummary> {
-    let along = |value: Value| along_path(rows, value);
-    let place_of_least = |value: Value| {
-        let least = rows.iter().map(|(row, _)| *row).filter(|row| value(row).is_some());
-        let least = least.min_by(|one, two| value(one).partial_cmp(&value(two)).unwrap_or(std::cmp::Ordering::Equal));
+impl FilmRows<'_> {
+    /// Extremes and mean of a column between the tip edges, where it has values.
+    fn along_path(&self, value: Value) -> Option<AlongPath> {
+        let (mut total, mut length, mut min, mut max) = (0.0, 0.0, f64::INFINITY, f64::NEG_INFINITY);
+        for (value, part) in self.between.iter().filter_map(|(row, length_mm)| Some((value(row)?, *length_mm))) {
+            (total, length) = (total + value * part, length + part);
+            (min, max) = (f64::min(min, value), f64::max(max, value));
+        }
+        (length > 0.0).then(|| AlongPath { min, max, mean: total / length })
+    }
+
+    /// Position of the least value of a column between the tip edges, mm.
+    fn position_of_least_mm(&self, value: Value) -> Option<f64> {
+        let valued = self.between.iter().map(|(row, _)| *row).filter(|row| value(row).is_some());
+        let least = valued.min_by(|one, two| value(one).partial_cmp(&value(two)).unwrap_or(std::cmp::Ordering::Equal));
         least.map(|row| row.position_mm)
-    };
-    let (lambda_new, lambda_worn) = (along(|row| row.lambda_new)?, along(|row| row.lambda_worn)?);
-    let all = || rows.iter().map(|(row, _)| *row).chain(at_tip_edges.iter().copied());
-    let greatest = |value: Value| all().filter_map(value).fold(0.0, f64::max);
-    let least_of_edges = |value: Value| at_tip_edges.iter().copied().filter_map(value).reduce(f64::min);
-    let safety = |lambda: AlongPath| permissible_lambda.map(|permissible| lambda.min / permissible);
-    Some(FilmSummary {
-        central_film_new_um: along(|row| row.central_film_new_um)?,
-        central_film_worn_um: along(|row| row.central_film_worn_um)?,
-        minimum_film_new_um: along(|row| row.minimum_film_new_um)?,
-        minimum_film_worn_um: along(|row| row.minimum_film_worn_um)?,
-        lambda_new,
-        lambda_worn,
-        least_lambda_new_position_mm: place_of_least(|row| row.lambda_new)?,
-        least_lambda_worn_position_mm: place_of_least(|row| row.lambda_worn)?,
-        micropitting_safety_new: safety(lambda_new),
-        micropitting_safety_worn: safety(lambda_worn),
-        tip_edge_lambda_new: least_of_edges(|row| row.lambda_new),
-        tip_edge_lambda_worn: least_of_edges(|row| row.lambda_worn),
-        greatest_flash_new_K: greatest(|row| row.flash_new_K),
-        greatest_flash_worn_K: greatest(|row| row.flash_worn_K),
-        composite_lambda_new: along(|row| row.composite_lambda_new),
-        composite_lambda_worn: along(|row| row.composite_lambda_worn),
-        wear_factor_new,
-        wear_factor_worn,
-    })
+    }
+
+    /// Greatest value of a column, tip edges included; 0 without any.
+    fn greatest(&self, value: Value) -> f64 {
+        let all = self.between.iter().map(|(row, _)| *row).chain(self.at_tip_edges.iter().copied());
+        all.filter_map(value).fold(0.0, f64::max)
+    }
+
+    /// Least value of a column at tip edges.
+    fn least_at_tip_edges(&self, value: Value) -> Option<f64> {
+        self.at_tip_edges.iter().copied().filter_map(value).reduce(f64::min)
+    }
+
+    /// Summary of the films; none without λ anywhere between the tip edges.
+    fn summary(&self, permissible_lambda: Option<f64>, work: &[SlidingWork; 2]) -> Option<FilmSummary> {
+        let [wear_factor_new, wear_factor_worn] = work.each_ref().map(SlidingWork::wear_factors);
+        let lambda_new = self.along_path(|row| row.lambda_new)?;
+        let lambda_worn = self.along_path(|row| row.lambda_worn)?;
+        Some(FilmSummary {
+            central_film_new_um: self.along_path(|row| row.central_film_new_um)?,
+            central_film_worn_um: self.along_path(|row| row.central_film_worn_um)?,
+            minimum_film_new_um: self.along_path(|row| row.minimum_film_new_um)?,
+            minimum_film_worn_um: self.along_path(|row| row.minimum_film_worn_um)?,
+            lambda_new,
+            lambda_worn,
+            least_lambda_new_position_mm: self.position_of_least_mm(|row| row.lambda_new)?,
+            least_lambda_worn_position_mm: self.position_of_least_mm(|row| row.lambda_worn)?,
+            micropitting_safety_new: permissible_lambda.map(|permissible| lambda_new.min / permissible),
+            micropitting_safety_worn: permissible_lambda.map(|permissible| lambda_worn.min / permissible),
+            tip_edge_lambda_new: self.least_at_tip_edges(|row| row.lambda_new),
+            tip_edge_lambda_worn: self.least_at_tip_edges(|row| row.lambda_worn),
+            greatest_flash_new_K: self.greatest(|row| row.flash_new_K),
+            greatest_flash_worn_K: self.greatest(|row| row.flash_worn_K),
+            composite_lambda_new: self.along_path(|row| row.composite_lambda_new),
+            composite_lambda_worn: self.along_path(|row| row.composite_lambda_worn),
+            wear_factor_new,
+            wear_factor_worn,
+        })
+    }
 }
 
-fn friction_summary(running: &RunningPair<'_>, work: &[Work; 2]) -> FrictionSummary {
-    let [mean_new, mean_worn] = work.each_ref().map(Work::mean_friction);
+fn friction_summary(running: &RunningPair<'_>, work: &[SlidingWork; 2]) -> FrictionSummary {
+    let [mean_new, mean_worn] = work.each_ref().map(SlidingWork::mean_friction);
     FrictionSummary { model: running.settings.friction.model.name().to_owned(), mean_new, mean_worn }
 }
 
-fn losses(running: &RunningPair<'_>, [new, worn]: &[Work; 2]) -> LossSummary {
+fn losses(running: &RunningPair<'_>, [new, worn]: &[SlidingWork; 2]) -> LossSummary {
     let power = running.power_w();
     LossSummary {
         loss_factor_ohlendorf: loss::of_pair(running.pair),

@@ -37,24 +37,25 @@ use crate::gear::GearPair;
 use crate::observer::Observer;
 use crate::plan::{Plan, StageKind};
 use crate::results::error::ErrorSummary;
+use crate::results::provenance::Provenance;
 use crate::results::run::{RunRecord, StopReason, Summary};
 use crate::results::worn_pair::WornPair;
 use crate::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
 use crate::simulation::wear_run::{Outcome, reference_phase};
 pub use inputs::RunInputs;
-use model::Model;
-use prepare::{Bodies, Cases, RunSlices};
+use model::RunModel;
+use prepare::{ContactCases, RunSlices, ToothElasticity};
 use recording::RunFindings;
 pub use run_error::RunError;
 use stage_clock::StageClock;
-use verification::{Means, Verified};
+use verification::{VerificationModels, Verified};
 
-/// What a computation came to.
+/// Result of a computation, with the failure that ended it early.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Done<R = RunRecord, E = RunError> {
-    /// Everything that was finished, or what is wanted of it.
+    /// Record of everything that was finished.
     pub record: R,
-    /// What went wrong where that is not all; none also where the observer interrupted the work, which the record's summary says.
+    /// Failure that ended the computation early; none where it was completed or interrupted (the record's summary says which).
     pub failure: Option<E>,
 }
 
@@ -62,7 +63,7 @@ impl<R, E> Done<R, E> {
     /// The record, unless something went wrong.
     ///
     /// # Errors
-    /// What went wrong: what was finished by then is lost.
+    /// The failure; what was finished by then is lost.
     pub fn complete(self) -> Result<R, E> {
         match self.failure {
             None => Ok(self.record),
@@ -71,14 +72,14 @@ impl<R, E> Done<R, E> {
     }
 }
 
-/// Micrometres, in which records are written.
+/// Micrometres per millimetre: records are written in µm.
 pub const UM_PER_MM: f64 = 1e3;
 
-/// Where a run goes on, and who keeps its checkpoints.
+/// Checkpoint that a run goes on from, and the keeper of new ones.
 pub struct Resumption<'a> {
-    /// A checkpoint of this same run; `None`: it begins.
+    /// Checkpoint of this same run; `None`: from the beginning.
     pub from: Option<Checkpoint>,
-    /// Gets new ones.
+    /// Receives new checkpoints.
     pub keeper: &'a dyn Keeper,
 }
 
@@ -130,7 +131,7 @@ fn carry_out<R>(
     inputs: RunInputs<'_>,
     resumption: Resumption<'_>,
     observer: &dyn Observer,
-    keep: impl FnOnce(&Model<'_>, RunFindings<'_>, Summary) -> R,
+    keep: impl FnOnce(&RunModel<'_>, RunFindings<'_>, Summary) -> R,
 ) -> Result<Done<R>, RunError> {
     let (scene, plan) = (inputs.scene, &Plan::of(inputs.scene));
     let mut stages = StageClock::new(observer);
@@ -138,16 +139,17 @@ fn carry_out<R>(
     let pair = stages.run(StageKind::Geometry.name(), || GearPair::new(&scene.pair))?;
     let at_pitch = hertz::flattening(&pair.normal_section(), &scene.material, pair.path.pitch_point_mm);
     let elements = prepare::elements(scene, plan, &pair, &at_pitch, &mut stages);
-    let bodies = Bodies::new(inputs, plan, &pair, elements.as_ref(), &mut stages)?;
-    let cases = Cases::new(inputs, &pair, &bodies, elements.as_ref(), &mut stages)?;
-    let teeth = cases.springs(inputs, plan, &pair, &bodies, &mut stages)?;
+    let elasticity = ToothElasticity::new(inputs, plan, &pair, elements.as_ref(), &mut stages)?;
+    let cases = ContactCases::new(inputs, &pair, &elasticity, elements.as_ref(), &mut stages)?;
+    let teeth = cases.springs(inputs, plan, &pair, &elasticity, &mut stages)?;
     let in_space = prepare::teeth_in_space(inputs, plan, &pair, &mut stages);
-    let slices = RunSlices::new(inputs, &pair, bodies.stiffness, teeth[0].as_ref(), in_space.as_ref(), &mut stages)?;
+    let slices =
+        RunSlices::new(inputs, &pair, elasticity.stiffness, teeth[0].as_ref(), in_space.as_ref(), &mut stages)?;
     let conditions = prepare::conditions(scene, &pair);
-    let phases = cases.phases(scene, &bodies, &teeth, slices.of_teeth.as_ref(), &conditions);
-    let model = Model {
+    let phases = cases.phases(scene, &elasticity, &teeth, slices.of_teeth.as_ref(), &conditions);
+    let model = RunModel {
         scene,
-        stiffness: bodies.stiffness,
+        stiffness: elasticity.stiffness,
         pair: &pair,
         limits: scene.operation.stop,
         sliced: slices.of_teeth.as_ref(),
@@ -156,39 +158,62 @@ fn carry_out<R>(
         at_pitch,
         foundations_mpa_per_mm: cases.foundations_mpa_per_mm(),
     };
+    let verification = VerificationModels { elements, curve: elasticity.curve_by_elements(inputs), in_space };
+    let warnings = elasticity.warning.iter().chain(&slices.warning).cloned().collect();
+    let prepared = PreparedRun { provenance: inputs.provenance, plan, model, verification, warnings };
+    prepared.assess(resumption, stages, keep)
+}
 
-    let judged = match plan.has(StageKind::StepBound) {
-        true => stages.run(StageKind::StepBound.name(), || stability::judge(&model, observer)),
-        false => stability::Judged::default(),
-    };
-    let step_over_safe = judged.step_over_safe;
-    let Resumption { from, keeper } = resumption;
-    let outcome = stages.run(StageKind::Simulation.name(), || model.wear_run().run_from(from, keeper, observer))?;
-    let model = model.ending_with(&outcome);
-    let heat = match plan.has(StageKind::ContactTemperature) {
-        true => stages.run(StageKind::ContactTemperature.name(), || temperature::observe(&model, &outcome)),
-        false => None,
-    };
-    let films = films_and_losses(plan, &model, &outcome, &mut stages);
-    let mut error = estimates(plan, &model, &outcome, step_over_safe, &mut stages);
-    let warnings = bodies.warning.iter().chain(&slices.warning).cloned().collect::<Vec<_>>();
-    let means = Means { elements, curve: bodies.told_by_elements(inputs), in_space };
-    let verified = verify(plan, &model, &outcome, means, &mut stages);
-    verified.tell(&mut error);
+/// A run whose first wear step can be taken.
+struct PreparedRun<'a, 'b> {
+    provenance: &'b Provenance,
+    plan: &'b Plan,
+    model: RunModel<'a>,
+    verification: VerificationModels<'a, 'b>,
+    /// Warnings of the preparation.
+    warnings: Vec<String>,
+}
 
-    let found =
-        RunFindings { outcome: &outcome, heat: heat.as_ref(), lubrication: films.as_ref(), verified: Some(&verified) };
-    let mut summary = recording::summary(inputs.provenance, plan, &model, found, error, judged)?;
-    summary.warnings.extend(warnings);
-    summary.stages = stages.times;
-    let record = keep(&model, found, summary);
-    Ok(Done { record, failure: outcome.failure.map(|failure| RunError::of_run(failure, step_over_safe)) })
+impl PreparedRun<'_, '_> {
+    /// Simulates the wear, observes the new and the worn pair, estimates and verifies the errors, and hands all of it to `keep`.
+    fn assess<R>(
+        self,
+        Resumption { from, keeper }: Resumption<'_>,
+        mut stages: StageClock<'_>,
+        keep: impl FnOnce(&RunModel<'_>, RunFindings<'_>, Summary) -> R,
+    ) -> Result<Done<R>, RunError> {
+        let Self { provenance, plan, model, verification, warnings } = self;
+        let observer = stages.observer;
+        let judged = stages.planned(plan, StageKind::StepBound, || stability::judge(&model, observer));
+        let judged = judged.unwrap_or_default();
+        let step_over_safe = judged.step_over_safe;
+        let outcome = stages.run(StageKind::Simulation.name(), || model.wear_run().run_from(from, keeper, observer))?;
+        let model = model.ending_with(&outcome);
+        let heat = stages.planned(plan, StageKind::ContactTemperature, || temperature::observe(&model, &outcome));
+        let heat = heat.flatten();
+        let films = films_and_losses(plan, &model, &outcome, &mut stages);
+        let mut error = estimates(plan, &model, &outcome, step_over_safe, &mut stages);
+        let verified = verify(plan, &model, &outcome, verification, &mut stages);
+        verified.tell(&mut error);
+
+        let found = RunFindings {
+            outcome: &outcome,
+            heat: heat.as_ref(),
+            lubrication: films.as_ref(),
+            verified: Some(&verified),
+        };
+        let mut summary = recording::summary(provenance, plan, &model, found, error, judged)?;
+        summary.warnings.extend(warnings);
+        summary.stages = stages.times;
+        let record = keep(&model, found, summary);
+        Ok(Done { record, failure: outcome.failure.map(|failure| RunError::of_run(failure, step_over_safe)) })
+    }
 }
 
 /// Errors of the wear, estimated from coarser runs; none of a run that is not complete.
 fn estimates(
     plan: &Plan,
-    model: &Model<'_>,
+    model: &RunModel<'_>,
     outcome: &Outcome,
     step_over_safe: f64,
     stages: &mut StageClock<'_>,
@@ -203,9 +228,9 @@ fn estimates(
 /// The verification of a complete run by finite elements, or why there is none.
 fn verify<'a>(
     plan: &Plan,
-    model: &Model<'a>,
+    model: &RunModel<'a>,
     outcome: &Outcome,
-    means: Means<'a, '_>,
+    models: VerificationModels<'a, '_>,
     stages: &mut StageClock<'_>,
 ) -> Verified {
     if !outcome.stop.is_complete() {
@@ -215,29 +240,24 @@ fn verify<'a>(
         Some(reason) => Verified::none(reason),
         None => {
             let observer = stages.observer;
-            stages.run(StageKind::Verification.name(), || verification::verify(model, outcome, means, observer))
+            stages.run(StageKind::Verification.name(), || verification::verify(model, outcome, models, observer))
         }
     }
 }
 
-/// Films and losses, which are one look at the contacts of the mesh; none where the plan has neither.
+/// Films and losses, from one observation of the contacts of the mesh; none where the plan has neither.
 fn films_and_losses(
     plan: &Plan,
-    model: &Model<'_>,
+    model: &RunModel<'_>,
     outcome: &Outcome,
     stages: &mut StageClock<'_>,
-) -> Option<lubrication::Observed> {
-    let seen = match plan.has(StageKind::Film) {
-        true => stages.run(StageKind::Film.name(), || lubrication::look(model, outcome)),
-        false => None,
-    };
-    match plan.has(StageKind::Losses) {
-        true => stages.run(StageKind::Losses.name(), || {
-            let seen = seen.or_else(|| lubrication::look(model, outcome))?;
-            Some(lubrication::sum_up(model, outcome, &seen))
-        }),
-        false => None,
-    }
+) -> Option<lubrication::LubricationFindings> {
+    let contacts = stages.planned(plan, StageKind::Film, || lubrication::observe(model, outcome)).flatten();
+    let findings = stages.planned(plan, StageKind::Losses, || {
+        let contacts = contacts.or_else(|| lubrication::observe(model, outcome))?;
+        Some(lubrication::sum_up(model, outcome, &contacts))
+    });
+    findings.flatten()
 }
 
 fn not_estimated_because(outcome: &Outcome) -> &'static str {

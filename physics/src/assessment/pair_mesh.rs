@@ -12,12 +12,12 @@ use crate::operation::Scene;
 use gearwear_mesh::quality::{self, MeshQuality, QualityError};
 use gearwear_mesh::{CellKind, Mesh};
 
-/// A mesh and what it was made with.
+/// Mesh of a pair with its resolution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairMesh {
     /// The mesh, see [`gear_mesh::pair_mesh`].
     pub mesh: Mesh,
-    /// How well shaped its cells are.
+    /// Quality of its cells.
     pub quality: MeshQuality,
     /// Where the reference pair touches: radius of curvature of the pinion, mm.
     pub position_mm: f64,
@@ -33,7 +33,7 @@ pub struct PairMesh {
     pub fine_teeth: Vec<i32>,
 }
 
-/// Why there is no mesh.
+/// Failure of a mesh.
 #[derive(Debug, thiserror::Error)]
 pub enum PairMeshError {
     /// The pair cannot exist.
@@ -42,22 +42,22 @@ pub enum PairMeshError {
     /// The reference pair does not touch there.
     #[error("position {position_mm} mm is not on the path of contact: allowed are {from_mm:.4} (A) to {to_mm:.4} (E)")]
     Position {
-        /// As given.
+        /// Position asked for.
         position_mm: f64,
-        /// A.
+        /// Position of A.
         from_mm: f64,
-        /// E.
+        /// Position of E.
         to_mm: f64,
     },
     /// A tooth cannot be meshed.
     #[error(transparent)]
     Tooth(#[from] ToothMeshError),
-    /// The mesh is no good.
+    /// The mesh has unfit cells.
     #[error("{source}")]
     Quality {
-        /// Whose, where each has its own.
+        /// Gear of the mesh, where each has its own.
         gear: Option<Gear>,
-        /// Why.
+        /// Fault of the mesh.
         source: QualityError,
     },
     /// The equilibrium that loads the teeth, or what it is made with.
@@ -76,7 +76,7 @@ impl From<PairInSpaceError> for PairMeshError {
 pub struct SpaceMesh {
     /// The mesh.
     pub mesh: Mesh,
-    /// How well shaped the quadrilaterals of both sections are.
+    /// Quality of the quadrilaterals of both sections.
     pub quality: PerGear<MeshQuality>,
     /// Elements over the face width.
     pub layers: usize,
@@ -91,7 +91,7 @@ pub fn in_space(scene: &Scene, position_mm: Option<f64>) -> Result<SpaceMesh, Pa
     in_space_at(scene, &pair, position_mm)
 }
 
-/// The same of its `pair` at a position, be it on the path of contact or beyond.
+/// Meshes one pitch of each gear of `pair` in space at a position on the path of contact or beyond.
 pub(super) fn in_space_at(scene: &Scene, pair: &GearPair, position_mm: f64) -> Result<SpaceMesh, PairMeshError> {
     let resolution = SpaceResolution { slices: scene.slices.map(|slices| slices.count), ..SpaceResolution::USUAL };
     let bodies = scene.fem.in_space();

@@ -1,7 +1,7 @@
-//! The phases of a run in figures: under what each of them ran, and what it wore off.
+//! Summary of each phase of a run: its conditions and its wear.
 
 use super::temperature;
-use super::{Model, UM_PER_MM};
+use super::{RunModel, UM_PER_MM};
 use crate::contact::hertz;
 use crate::gear::Gear;
 use crate::mesh_cycle::wearing_pair::Snapshot;
@@ -13,7 +13,7 @@ use crate::simulation::wear_run::Outcome;
 const MM2_PER_N: f64 = 1e6;
 
 /// Every phase that the run came to; the last may not be finished.
-pub(super) fn summaries(model: &Model<'_>, outcome: &Outcome) -> Vec<PhaseSummary> {
+pub(super) fn summaries(model: &RunModel<'_>, outcome: &Outcome) -> Vec<PhaseSummary> {
     let operation = &model.scene.operation;
     let reached = outcome.worn.revolutions;
     let (mut begin, mut before) = (0.0, &outcome.new);
@@ -54,9 +54,9 @@ pub(super) fn summaries(model: &Model<'_>, outcome: &Outcome) -> Vec<PhaseSummar
     summaries
 }
 
-/// What a gear lost from one state to another.
+/// Wear of a gear from one state to another.
 fn wear(
-    model: &Model<'_>,
+    model: &RunModel<'_>,
     outcome: &Outcome,
     (gear, coefficient_m2_per_n): (Gear, f64),
     [before, after]: [&Snapshot; 2],
@@ -77,6 +77,6 @@ fn wear(
 }
 
 /// Number of the phase that `snapshot` was taken in, from 1; at the end of a phase, that one.
-pub(super) fn number_at(model: &Model<'_>, snapshot: &Snapshot) -> usize {
+pub(super) fn number_at(model: &RunModel<'_>, snapshot: &Snapshot) -> usize {
     model.scene.operation.phase_at(snapshot.revolutions) + 1
 }

@@ -1,10 +1,10 @@
-//! What a run is prepared from: bodies, contact under each load, springs of the teeth, slices, conditions of the phases. Each borrows from those before.
+//! Preparation of a run: elasticity of the teeth, contact under each load, springs, slices, conditions of the phases. Each borrows from those before.
 
 use std::sync::Arc;
 
 use super::calibrate;
 use super::inputs::RunInputs;
-use super::load_case::{LoadCase, load_case};
+use super::load_case::{ContactCase, contact_case};
 use super::run_error::RunError;
 use super::stage_clock::StageClock;
 use super::temperature;
@@ -23,21 +23,20 @@ use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::operation::Scene;
 use crate::plan::{MUCH_OF_SLICES_GB, Plan, StageKind, memory_in_space_gb, memory_of_slices_gb};
 use crate::reference::flattening::Flattening;
-use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::wear_run::RunPhase;
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
 use crate::thermal::ContactHeat;
 use crate::wear::{self, Laws, WearModel};
 
-/// Part of the greatest load whose contact is still resolved by the elements that wear: half as wide as that of the whole. Phases under
-/// less load see fewer elements, and wear little.
+/// Least load, over the greatest of all phases, whose contact the wearing elements are meshed for: half as wide as that of the greatest. Phases
+/// under less load have fewer elements in contact, and little wear.
 const LEAST_MESHED_LOAD: f64 = 0.25;
 
-/// What teeth in space take more than this is said before, GB.
+/// Memory of three-dimensional finite elements above which it is announced, GB.
 const MUCH_IN_SPACE_GB: f64 = 0.8;
 
-/// The finite elements of the stiffness and of the verification, which one model serves; none where the plan has neither, or the elements wear.
+/// Plane finite elements for both stiffness and verification; none where the plan has neither, or where the elements themselves wear.
 pub(super) fn elements<'a>(
     scene: &Scene,
     plan: &Plan,
@@ -45,25 +44,26 @@ pub(super) fn elements<'a>(
     at_pitch: &Flattening,
     stages: &mut StageClock<'_>,
 ) -> Option<Result<Elements<'a>, ModelError>> {
+    if scene.contact.surface == SurfaceKind::Fem {
+        return None;
+    }
     let observer = stages.observer;
-    (plan.has(StageKind::FiniteElementModel) && scene.contact.surface != SurfaceKind::Fem).then(|| {
-        stages.run(StageKind::FiniteElementModel.name(), || verification::elements(scene, pair, at_pitch, observer))
-    })
+    stages.planned(plan, StageKind::FiniteElementModel, || verification::elements(scene, pair, at_pitch, observer))
 }
 
-/// The stiffness of the teeth, and the finite elements that wear.
-pub(super) struct Bodies<'a> {
-    /// The model of the teeth's stiffness that is used.
+/// Stiffness of the teeth, and the wearing finite elements of `contact.surface = "fem"`.
+pub(super) struct ToothElasticity<'a> {
+    /// Stiffness model in use.
     pub stiffness: StiffnessSettings,
-    /// The stiffness along the path of contact, where the run computes it.
+    /// Stiffness along the path of contact, where the run itself computes it.
     computed: Option<PairCompliance>,
-    /// Why the stiffness is not the one that the scene leaves open.
+    /// Reason why the stiffness model is not the default one.
     pub warning: Option<String>,
-    /// One mesh whose nodes all phases wear; none of other surfaces.
+    /// Finite elements whose flank nodes wear in all phases; none of other surfaces.
     worn: Option<CondensedPair<'a>>,
 }
 
-impl<'a> Bodies<'a> {
+impl<'a> ToothElasticity<'a> {
     pub(super) fn new(
         inputs: RunInputs<'_>,
         plan: &Plan,
@@ -77,22 +77,23 @@ impl<'a> Bodies<'a> {
         let worn = (scene.contact.surface == SurfaceKind::Fem).then(|| {
             let [least, greatest] = scene.operation.torque_range_n_mm().map(|torque| pair.line_load_n_per_mm(torque));
             let load = least.max(LEAST_MESHED_LOAD * greatest);
-            let condensed = || verification::condensed(scene, pair, load, &scene.wear_bodies(), observer);
-            stages.run(StageKind::FiniteElementModel.name(), condensed)
+            stages.run(StageKind::FiniteElementModel.name(), || {
+                verification::condensed(scene, pair, load, &scene.wear_bodies(), observer)
+            })
         });
         Ok(Self { stiffness, computed, warning, worn: worn.transpose()? })
     }
 
-    /// The curve of the stiffness model that is used, of the scene's own material.
+    /// Curve of the stiffness model in use, for the scene's own material.
     fn curve<'c>(&'c self, inputs: RunInputs<'c>) -> Option<&'c PairCompliance> {
         match self.stiffness {
-            StiffnessSettings::Fem => self.told_by_elements(inputs),
+            StiffnessSettings::Fem => self.curve_by_elements(inputs),
             _ => inputs.stiffness_curve,
         }
     }
 
-    /// The stiffness along the path of contact that finite elements have told: of the calibration file, or of the run.
-    pub(super) fn told_by_elements<'c>(&'c self, inputs: RunInputs<'c>) -> Option<&'c PairCompliance> {
+    /// Stiffness along the path of contact by finite elements: of the calibration file, or of the run.
+    pub(super) fn curve_by_elements<'c>(&'c self, inputs: RunInputs<'c>) -> Option<&'c PairCompliance> {
         inputs.calibration.map(|calibration| &calibration.pair_compliance).or(self.computed.as_ref())
     }
 }
@@ -100,27 +101,29 @@ impl<'a> Bodies<'a> {
 /// Law, contact temperatures and lubricated mesh of a phase.
 pub(super) type Conditions<'a> = (Laws, Option<ContactHeat>, Option<RunningPair<'a>>);
 
-/// What holds in each phase.
+/// Conditions of each phase.
 pub(super) fn conditions<'a>(scene: &'a Scene, pair: &'a GearPair) -> Vec<Conditions<'a>> {
-    let in_phase = |phase| {
-        let heat = temperature::in_phase(scene, pair, phase);
-        (wear::of_both(&scene.wear_in(phase)), heat, scene.running_in(pair, phase))
-    };
-    scene.operation.phases.iter().map(in_phase).collect()
+    let phases = scene.operation.phases.iter();
+    phases
+        .map(|phase| {
+            let heat = temperature::in_phase(scene, pair, phase);
+            (wear::of_both(&scene.wear_in(phase)), heat, scene.running_in(pair, phase))
+        })
+        .collect()
 }
 
-/// The contact of the gears in each phase: phases under the same load and as warm share a case.
-pub(super) struct Cases<'a> {
-    all: Vec<LoadCase<'a>>,
-    /// The case of each phase.
+/// Contact of the gears in each phase; phases under the same load and with the same materials share a case.
+pub(super) struct ContactCases<'a> {
+    all: Vec<ContactCase<'a>>,
+    /// Index of the case of each phase.
     pub of_phase: Vec<usize>,
 }
 
-impl<'a> Cases<'a> {
+impl<'a> ContactCases<'a> {
     pub(super) fn new(
         inputs: RunInputs<'_>,
         pair: &'a GearPair,
-        bodies: &Bodies<'a>,
+        elasticity: &ToothElasticity<'a>,
         elements: Option<&Result<Elements<'a>, ModelError>>,
         stages: &mut StageClock<'_>,
     ) -> Result<Self, RunError> {
@@ -128,50 +131,46 @@ impl<'a> Cases<'a> {
         let mut cases = Self { all: Vec::new(), of_phase: Vec::with_capacity(scene.operation.phases.len()) };
         for phase in &scene.operation.phases {
             let (load, material) = (pair.line_load_n_per_mm(phase.pinion_torque_n_mm), scene.material_in(phase));
-            let is_known =
-                |case: &LoadCase<'_>| case.line_load_n_per_mm.total_cmp(&load).is_eq() && case.material == material;
-            let known = cases.all.iter().position(is_known);
+            let known = cases
+                .all
+                .iter()
+                .position(|case| case.line_load_n_per_mm.total_cmp(&load).is_eq() && case.material == material);
             cases.of_phase.push(known.unwrap_or(cases.all.len()));
-            if known.is_none() {
-                let mut case = load_case(inputs, pair, material, load, stages)?;
-                if material != scene.material {
-                    case.elements =
-                        bodies.worn.as_ref().map(|elements| verification::of_material(elements, scene, &material));
-                    if let (Some(Ok(elements)), Some(_)) = (elements, &bodies.computed) {
-                        let line_load_n_per_mm = load.max(elements.line_load_n_per_mm);
-                        let curve = || {
-                            let softer = verification::of_material(&elements.condensed, scene, &material);
-                            calibration::pair_compliance(&softer, &material, line_load_n_per_mm)
-                        };
-                        case.curve = Some(stages.run(StageKind::FiniteElementCalibration.name(), curve)?);
-                    }
-                }
-                cases.all.push(case);
+            if known.is_some() {
+                continue;
             }
+            let mut case = contact_case(inputs, pair, material, load, stages)?;
+            if material != scene.material {
+                let worn = elasticity.worn.as_ref();
+                case.elements = worn.map(|elements| verification::of_material(elements, scene, &material));
+                if let (Some(Ok(elements)), Some(_)) = (elements, &elasticity.computed) {
+                    let line_load_n_per_mm = load.max(elements.line_load_n_per_mm);
+                    let curve = stages.run(StageKind::FiniteElementCalibration.name(), || {
+                        let softer = verification::of_material(&elements.condensed, scene, &material);
+                        calibration::pair_compliance(&softer, &material, line_load_n_per_mm)
+                    });
+                    case.curve = Some(curve?);
+                }
+            }
+            cases.all.push(case);
         }
         Ok(cases)
     }
 
-    /// The springs of the teeth of each case; none with finite elements.
+    /// Springs of the teeth of each case; none with finite elements.
     pub(super) fn springs<'s>(
         &'s self,
         inputs: RunInputs<'s>,
         plan: &Plan,
         pair: &'s GearPair,
-        bodies: &'s Bodies<'_>,
+        elasticity: &'s ToothElasticity<'_>,
         stages: &mut StageClock<'_>,
     ) -> Result<Vec<Option<TeethSpring<'s>>>, StiffnessError> {
-        let of_all = bodies.curve(inputs);
-        let spring = |case: &'s LoadCase<'_>| {
-            let LoadCase { surface, line_load_n_per_mm, material, curve, .. } = case;
-            let curve = curve.as_ref().or(of_all);
-            let spring = |on| TeethSpring::new(bodies.stiffness, curve, pair, material, on, *line_load_n_per_mm);
-            surface.as_deref().map(spring).transpose()
-        };
-        let springs = || self.all.iter().map(spring).collect();
+        let curve = elasticity.curve(inputs);
+        let springs = self.all.iter().map(|case| case.spring(elasticity.stiffness, curve, pair));
         match plan.has(StageKind::ToothStiffness) {
-            true => stages.run(StageKind::ToothStiffness.name(), springs),
-            false => springs(),
+            true => stages.run(StageKind::ToothStiffness.name(), || springs.collect()),
+            false => springs.collect(),
         }
     }
 
@@ -180,35 +179,19 @@ impl<'a> Cases<'a> {
         self.of_phase.iter().map(|&case| self.all[case].foundation_mpa_per_mm).collect()
     }
 
-    /// The phases of the run.
+    /// Phases of the run.
     pub(super) fn phases<'s>(
         &'s self,
         scene: &'s Scene,
-        bodies: &'s Bodies<'_>,
+        elasticity: &'s ToothElasticity<'_>,
         teeth: &'s [Option<TeethSpring<'s>>],
         sliced: Option<&'s SlicedTeeth>,
         conditions: &'s [Conditions<'s>],
     ) -> Vec<RunPhase<'s>> {
-        let contact = |case: usize| {
-            let elements = self.all[case].elements.as_ref().or(bodies.worn.as_ref());
-            match (elements, self.all[case].surface.as_deref(), &teeth[case]) {
-                (Some(model), ..) => MeshContact::FiniteElements(model),
-                (None, Some(surface), Some(teeth)) => match (scene.contact.surface, sliced) {
-                    (SurfaceKind::HertzMean, Some(sliced)) => {
-                        MeshContact::Simplified { material: &scene.material, teeth, sliced }
-                    }
-                    _ => {
-                        let tip_contact = scene.contact.tip_contact;
-                        MeshContact::LineOfAction { surface, teeth, tip_contact, sliced }
-                    }
-                },
-                (None, ..) => unreachable!("every surface but fem has springs"),
-            }
-        };
         let phases = scene.operation.phases.iter().zip(&self.of_phase).zip(conditions);
         phases
             .map(|((phase, &case), (laws, heat, running))| RunPhase {
-                contact: contact(case),
+                contact: self.all[case].mesh_contact(scene, elasticity.worn.as_ref(), teeth[case].as_ref(), sliced),
                 wear: WearModel::new(laws).under(heat.as_ref(), running.as_ref()),
                 line_load_n_per_mm: self.all[case].line_load_n_per_mm,
                 end_revolutions: phase.end_revolutions,
@@ -217,10 +200,10 @@ impl<'a> Cases<'a> {
     }
 }
 
-/// Teeth condensed in space, or why they cannot be.
+/// Condensed three-dimensional finite elements of the teeth, or the reason why there are none.
 pub(super) type InSpace = Result<Arc<PairInSpace>, PairInSpaceError>;
 
-/// The teeth in space that couple slices; none where the plan has none.
+/// Three-dimensional finite elements that couple the slices; none where the plan has none.
 pub(super) fn teeth_in_space(
     inputs: RunInputs<'_>,
     plan: &Plan,
@@ -234,7 +217,7 @@ pub(super) fn teeth_in_space(
     let gb = memory_in_space_gb(scene);
     if gb > MUCH_IN_SPACE_GB {
         stages.observer.announcement(&format!(
-            "the teeth in space take some {gb:.1} GB, and a minute or more; a smaller pair.face_width_mm, fewer helical.slices, \
+            "three-dimensional finite elements of the teeth take some {gb:.1} GB, and a minute or more; a smaller pair.face_width_mm, fewer helical.slices, \
              numerics.positions or loads of operation.phases, or numerics.verify = false take less"
         ));
     }
@@ -246,11 +229,11 @@ pub(super) fn teeth_in_space(
     }))
 }
 
-/// The slices over the face width.
+/// Slices over the face width.
 pub(super) struct RunSlices {
-    /// None where all sections are alike.
+    /// Slices with their coupling; none where all sections are alike.
     pub of_teeth: Option<SlicedTeeth>,
-    /// Why their coupling is not the one that the scene leaves open.
+    /// Reason why their coupling is not the default one.
     pub warning: Option<String>,
 }
 
@@ -275,15 +258,16 @@ impl RunSlices {
         let of_teeth = slices.map(|settings| {
             let coupling = in_space.and_then(|teeth| teeth.as_ref().ok()).cloned();
             let compliance = slice_compliance(inputs, pair, teeth);
-            let sliced = || SlicedTeeth::new(pair, &scene.material, settings, compliance, coupling);
-            stages.run(StageKind::HelicalSlices.name(), sliced)
+            stages.run(StageKind::HelicalSlices.name(), || {
+                SlicedTeeth::new(pair, &scene.material, settings, compliance, coupling)
+            })
         });
         Ok(Self { of_teeth, warning })
     }
 }
 
-/// The stiffness model of a run, and the curve that it makes for itself on `elements`. Where these cannot be had and the scene does not
-/// ask for them by name, it is Weber and Banaschek's, with a warning.
+/// Stiffness model of a run, and its curve computed on `elements`. Where these cannot be made and the scene does not name
+/// them, Weber and Banaschek's model with a warning.
 fn own_stiffness(
     inputs: RunInputs<'_>,
     plan: &Plan,
@@ -306,9 +290,9 @@ fn own_stiffness(
     });
     match curve {
         Ok(curve) => Ok((scene.stiffness, Some(curve), None)),
-        Err(error) if scene.stiffness_by_default && !asks_for_space(scene) => {
+        Err(error) if scene.stiffness_by_default && !names_fem_coupling(scene) => {
             let warning = format!(
-                "stiffness.model: Weber and Banaschek's, as finite elements, the default, cannot be had for this pair: {error}"
+                "stiffness.model: Weber and Banaschek's, as finite elements, the default, cannot be made for this pair: {error}"
             );
             Ok((StiffnessSettings::WeberBanaschek, None, Some(warning)))
         }
@@ -316,7 +300,7 @@ fn own_stiffness(
     }
 }
 
-/// How slices yield that are not coupled in space: as the calibration of this very pair found, otherwise in closed form.
+/// Compliance of slices coupled as plates: fitted in the calibration of this same pair, otherwise in closed form.
 fn slice_compliance(inputs: RunInputs<'_>, pair: &GearPair, teeth: Option<&TeethSpring<'_>>) -> SliceCompliance {
     let states_the_section = teeth.is_some_and(TeethSpring::states_the_section);
     let fitted = inputs.calibration.and_then(|calibration| calibration.slices);
@@ -326,13 +310,13 @@ fn slice_compliance(inputs: RunInputs<'_>, pair: &GearPair, teeth: Option<&Teeth
     }
 }
 
-/// Whether the scene asks for slices coupled in space by name, which need the stiffness of plane finite elements.
-fn asks_for_space(scene: &Scene) -> bool {
+/// Whether the scene itself names `helical.coupling = "fem"`, which needs the stiffness of plane finite elements.
+fn names_fem_coupling(scene: &Scene) -> bool {
     !scene.coupling_by_default && scene.slices.is_some_and(|slices| slices.coupling == Coupling::Fem)
 }
 
-/// The slices of a run. Where they are coupled in space, that cannot be had, and the scene does not ask for it by name, they are coupled
-/// as plates, with a warning.
+/// Slices of a run. Where three-dimensional finite elements cannot be made and the scene does not name them, slices are coupled as plates,
+/// with a warning.
 fn own_slices(
     scene: &Scene,
     stiffness: StiffnessSettings,
@@ -342,14 +326,14 @@ fn own_slices(
         return Ok((scene.slices, None));
     };
     let reason = match in_space {
-        Some(Err(error)) if asks_for_space(scene) => return Err(error.clone().into()),
+        Some(Err(error)) if names_fem_coupling(scene) => return Err(error.clone().into()),
         Some(Err(error)) => error.to_string(),
-        // By default too, or the run would have ended there.
-        _ if stiffness != StiffnessSettings::Fem => "there are no plane ones".to_owned(),
+        // Stiffness by default too: a scene that names it has failed before.
+        _ if stiffness != StiffnessSettings::Fem => "there are no plane finite elements".to_owned(),
         _ => return Ok((Some(settings), None)),
     };
     let warning = format!(
-        "helical.coupling: \"slicing\", as three-dimensional finite elements, the default, cannot be had for this pair: {reason}"
+        "helical.coupling: \"slicing\", as three-dimensional finite elements, the default, cannot be made for this pair: {reason}"
     );
     Ok((Some(SliceSettings { coupling: Coupling::Slicing, ..settings }), Some(warning)))
 }

@@ -1,9 +1,9 @@
-//! From what a run found, in the program's units, to the record, in those of the output files.
+//! Record of a run: from its outcome in the program's units to the units of the output files.
 
-use super::lubrication::{self, Observed};
+use super::lubrication::{self, LubricationFindings};
 use super::temperature::{self, ObservedHeat};
 use super::{
-    Model, RunError, UM_PER_MM, drawing, error_estimates, invariants, left_out_contact, phases, root_stress,
+    RunError, RunModel, UM_PER_MM, drawing, error_estimates, invariants, left_out_contact, phases, root_stress,
     severe_pressure, slices, stability::Judged, verification::Verified,
 };
 use crate::contact::flank_pressure::{PressureFigures, TIP_EDGE_MEAN_OVER_MM};
@@ -28,22 +28,22 @@ use crate::thermal::settings::TemperatureMethod;
 use crate::wear::settings::WearSettings;
 use crate::wear::vdi_2736::{SteadyWear, mean_wear_mm};
 
-/// Pitch point index of the contract: on a flank of this many points.
+/// Flank points that the pitch point index of the output counts in.
 const INDEX_POINTS: f64 = 750.0;
-/// Difference of the volumes that both flanks of a contact lose, over the greater, that is worth a warning.
+/// Relative difference of the volumes that both flanks of a contact lose, above which it is warned of.
 const IMBALANCE: f64 = 0.02;
 
-/// What a run found, and what was seen of its temperatures.
+/// Outcome of a run with the observations of it.
 #[derive(Clone, Copy)]
 pub(super) struct RunFindings<'a> {
     pub outcome: &'a Outcome,
     pub heat: Option<&'a ObservedHeat>,
-    pub lubrication: Option<&'a Observed>,
+    pub lubrication: Option<&'a LubricationFindings>,
     pub verified: Option<&'a Verified>,
 }
 
 /// The record of a run.
-pub(super) fn record(from: &Provenance, model: &Model<'_>, found: RunFindings<'_>, summary: Summary) -> RunRecord {
+pub(super) fn record(from: &Provenance, model: &RunModel<'_>, found: RunFindings<'_>, summary: Summary) -> RunRecord {
     let outcome = found.outcome;
     RunRecord {
         summary,
@@ -59,8 +59,8 @@ pub(super) fn record(from: &Provenance, model: &Model<'_>, found: RunFindings<'_
     }
 }
 
-/// The main figures, the history and the wear over both flanks.
-pub(super) fn worn_pair(model: &Model<'_>, found: RunFindings<'_>, summary: Summary) -> WornPair {
+/// Main figures, history and wear over both flanks.
+pub(super) fn worn_pair(model: &RunModel<'_>, found: RunFindings<'_>, summary: Summary) -> WornPair {
     let outcome = found.outcome;
     WornPair {
         summary,
@@ -69,53 +69,32 @@ pub(super) fn worn_pair(model: &Model<'_>, found: RunFindings<'_>, summary: Summ
     }
 }
 
-/// The main figures of a run, without the times of its stages.
+/// Main figures of a run, without the times of its stages.
 pub(super) fn summary(
     from: &Provenance,
     plan: &Plan,
-    model: &Model<'_>,
+    model: &RunModel<'_>,
     found: RunFindings<'_>,
     mut error: ErrorSummary,
     judged: Judged,
 ) -> Result<Summary, RunError> {
     let (scene, pair) = (model.scene, model.pair);
     let outcome = found.outcome;
-    let wear = temperature::law(model, found.heat);
-    let wear_of_gear = temperature::law_of_gear(model, found.heat);
-    let mut warnings = from.warnings.clone();
-    warnings.extend(temperature::all_warnings(wear.as_ref(), &wear_of_gear));
-    let temperature = found.heat.and_then(|heat| temperature::summary(model, heat));
-    warnings.extend(temperature::tooth_warnings(model, temperature.as_ref()));
-    warnings.extend(found.lubrication.and_then(|films| lubrication::warning(&films.summary)));
-    warnings.extend(judged.warnings);
-    warnings.extend(sharp_edge_warning(pair, outcome));
-    warnings.extend(left_out_contact::warning(model, outcome));
-    warnings.extend(deep_wear_warning(pair, outcome));
-    warnings.extend(pressure_warning(model, outcome));
-    warnings.extend(severe_pressure::warning(model, outcome));
     let wear_balance = balance(model, outcome);
     let worn = PerGear::from_fn(|gear| wear_figures(model, outcome, gear));
     (error.volume_balance, error.how.volume_balance) = volume_balance(model, &worn);
-    warnings.extend(imbalance_warning(&wear_balance, error.volume_balance));
-    let invariants = invariants::of_run(model, outcome, &wear_balance);
-    warnings.extend(invariants::warnings(&invariants));
-    warnings.extend(slices::warning(model, outcome));
-    warnings.extend(error_estimates::warnings(&error));
-    warnings.extend(found.verified.and_then(|verified| verified.warning.clone()));
-    let reached = outcome.worn.revolutions;
-    Ok(Summary {
+    let left_out = plan.left_out.iter();
+    let mut summary = Summary {
         title: from.title.clone(),
         report: from.report.clone(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_hash: from.scene_hash.clone(),
         stopped: outcome.stop,
-        hours: scene.operation.hours(reached),
-        revolutions: reached,
+        hours: scene.operation.hours(outcome.worn.revolutions),
+        revolutions: outcome.worn.revolutions,
         life: life(model, outcome, &worn),
         stages: Vec::new(),
-        left_out: plan
-            .left_out
-            .iter()
+        left_out: left_out
             .map(|stage| StageLeftOut { name: stage.kind.name().to_owned(), reason: stage.reason.clone() })
             .collect(),
         wall_s: 0.0,
@@ -127,37 +106,65 @@ pub(super) fn summary(
         stiffness: stiffness(model)?,
         stiffness_iso_6336_1: Some(stiffness_iso_6336_1(model)),
         root_stress: root_stress::summary(pair, model.reference().line_load_n_per_mm),
-        wear,
-        wear_of_gear,
-        temperature,
-        lubrication: found.lubrication.map(|observed| observed.summary.clone()),
+        wear: temperature::law(model, found.heat),
+        wear_of_gear: temperature::law_of_gear(model, found.heat),
+        temperature: found.heat.and_then(|heat| temperature::summary(model, heat)),
+        lubrication: found.lubrication.map(|findings| findings.summary.clone()),
         new: cycle(pair, &outcome.new.cycle),
         worn: cycle(pair, &outcome.worn.cycle),
         pinion: worn.pinion,
         wheel: worn.wheel,
+        invariants: invariants::of_run(model, outcome, &wear_balance),
         wear_balance,
-        invariants,
         error,
-        work: WorkSummary {
-            wear_steps: outcome.steps.accepted,
-            rejected_steps: outcome.steps.rejected,
-            stages: outcome.steps.stages,
-            jacobian_probes: outcome.steps.probes,
-            stability_probes: judged.evaluations,
-            mesh_cycles: outcome.work.mesh_cycles,
-            equilibria: outcome.work.equilibria,
-            newton_iterations: outcome.work.newton_iterations,
-            pair_evaluations: outcome.work.pair_evaluations,
-        },
-        warnings,
-    })
+        work: work(outcome, judged.evaluations),
+        warnings: from.warnings.clone(),
+    };
+    let found = warnings(model, found, judged, &summary);
+    summary.warnings.extend(found);
+    Ok(summary)
 }
 
-/// The unit k that the volume a flank loses in this phase is measured in, so that both flanks lose the same.
+/// Counts of the work of a run, after the mesh cycles of the step bound.
+fn work(outcome: &Outcome, stability_probes: u64) -> WorkSummary {
+    WorkSummary {
+        wear_steps: outcome.steps.accepted,
+        rejected_steps: outcome.steps.rejected,
+        stages: outcome.steps.stages,
+        jacobian_probes: outcome.steps.probes,
+        stability_probes,
+        mesh_cycles: outcome.work.mesh_cycles,
+        equilibria: outcome.work.equilibria,
+        newton_iterations: outcome.work.newton_iterations,
+        pair_evaluations: outcome.work.pair_evaluations,
+    }
+}
+
+/// Warnings of a run beside those of its scene, from its findings and its figures.
+fn warnings(model: &RunModel<'_>, found: RunFindings<'_>, judged: Judged, figures: &Summary) -> Vec<String> {
+    let (pair, outcome) = (model.pair, found.outcome);
+    let mut warnings = temperature::all_warnings(figures.wear.as_ref(), &figures.wear_of_gear);
+    warnings.extend(temperature::tooth_warnings(model, figures.temperature.as_ref()));
+    warnings.extend(figures.lubrication.as_ref().and_then(lubrication::warning));
+    warnings.extend(judged.warnings);
+    warnings.extend(sharp_edge_warning(pair, outcome));
+    warnings.extend(left_out_contact::warning(model, outcome));
+    warnings.extend(deep_wear_warning(pair, outcome));
+    warnings.extend(pressure_warning(model, outcome));
+    warnings.extend(severe_pressure::warning(model, outcome));
+    warnings.extend(imbalance_warning(&figures.wear_balance, figures.error.volume_balance));
+    warnings.extend(invariants::warnings(&figures.invariants));
+    warnings.extend(slices::warning(model, outcome));
+    warnings.extend(error_estimates::warnings(&figures.error));
+    warnings.extend(found.verified.and_then(|verified| verified.warning.clone()));
+    warnings
+}
+
+/// Wear coefficients k in a phase, over which both flanks lose the same volume V/k, or 1 where both are alike.
 ///
 /// # Errors
-/// Why the wear laws do not tell it from the coefficients alone.
-fn unit_of_volume(model: &Model<'_>, phase: usize) -> Result<PerGear<f64>, String> {
+/// Reason why the volumes do not follow from the coefficients alone.
+fn unit_of_volume(model: &RunModel<'_>, phase: usize) -> Result<PerGear<f64>, String> {
     let own = model.scene.wear_in(&model.scene.operation.phases[phase]);
     let coefficients = own.as_ref().map(|own| own.coefficient_mm2_per_n);
     if let Some(gear) = Gear::BOTH.into_iter().find(|&gear| coefficients[gear] <= 0.0) {
@@ -170,20 +177,21 @@ fn unit_of_volume(model: &Model<'_>, phase: usize) -> Result<PerGear<f64>, Strin
     Ok(if own.are_alike() { PerGear { pinion: 1.0, wheel: 1.0 } } else { coefficients })
 }
 
-/// How far the volumes that both flanks lose are from what the wear laws say, where these tell it from the coefficients alone.
-fn balance(model: &Model<'_>, outcome: &Outcome) -> WearBalance {
+/// Relative differences of the volumes that the flanks lose in one mesh from each other and from k ∫ F ds.
+fn balance(model: &RunModel<'_>, outcome: &Outcome) -> WearBalance {
     let [work_new, work_worn] = [&outcome.new, &outcome.worn].map(|snapshot| beside_work(model, outcome, snapshot));
     let against_work = WearBalance { work_new, work_worn, ..WearBalance::default() };
     match unit_of_volume(model, outcome.reference_phase) {
         Err(reason) => WearBalance { not_compared: Some(reason), ..against_work },
         Ok(unit) => {
-            let [new, worn] = [&outcome.new, &outcome.worn].map(|snapshot| Some(imbalance(outcome, snapshot, unit)));
+            let [new, worn] = [&outcome.new, &outcome.worn]
+                .map(|snapshot| relative_difference(lost_in_a_mesh_mm2(outcome, snapshot), unit).or(Some(0.0)));
             WearBalance { new, worn, ..against_work }
         }
     }
 }
 
-/// What a flank loses in one mesh per mm of face width, mm², slices added up.
+/// Volume that a flank loses in one mesh per mm of face width, mm², slices added up.
 fn lost_in_a_mesh_mm2(outcome: &Outcome, snapshot: &Snapshot) -> PerGear<f64> {
     PerGear::from_fn(|gear| {
         if let Some(lost) = &snapshot.lost_at_nodes {
@@ -195,29 +203,27 @@ fn lost_in_a_mesh_mm2(outcome: &Outcome, snapshot: &Snapshot) -> PerGear<f64> {
 }
 
 /// |V / (k ∫ F ds) − 1| of the gear for which it is greater; none where a law has more than its coefficient k, or neither gear wears.
-fn beside_work(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> Option<f64> {
+fn beside_work(model: &RunModel<'_>, outcome: &Outcome, snapshot: &Snapshot) -> Option<f64> {
     let own = model.scene.wear_in(&model.scene.operation.phases[outcome.reference_phase]);
     let work_n = snapshot.cycle.sliding_work_n.filter(|work| *work > 0.0)?;
     let lost = lost_in_a_mesh_mm2(outcome, snapshot);
-    let beside = |gear: Gear| {
+    let [pinion, wheel] = Gear::BOTH.map(|gear| {
         let expected = own[gear].constant_coefficient_mm2_per_n()? * work_n;
         Some(if expected > 0.0 { (lost[gear] / expected - 1.0).abs() } else { 0.0 })
-    };
-    let (pinion, wheel) = (beside(Gear::Pinion)?, beside(Gear::Wheel)?);
-    Gear::BOTH.iter().any(|&gear| own[gear].coefficient_mm2_per_n > 0.0).then(|| pinion.max(wheel))
+    });
+    let greater = pinion?.max(wheel?);
+    Gear::BOTH.iter().any(|&gear| own[gear].coefficient_mm2_per_n > 0.0).then_some(greater)
 }
 
-/// |V₁/k₁ − V₂/k₂| over the greater, V: what a flank loses in one mesh per mm of face width, k: the unit it is measured in.
-fn imbalance(outcome: &Outcome, snapshot: &Snapshot, unit: PerGear<f64>) -> f64 {
-    let lost = lost_in_a_mesh_mm2(outcome, snapshot);
-    let lost = PerGear::from_fn(|gear| lost[gear] / unit[gear]);
+/// |V₁/k₁ − V₂/k₂| over the greater; none where nothing is lost.
+fn relative_difference(volume: PerGear<f64>, unit: PerGear<f64>) -> Option<f64> {
+    let lost = PerGear::from_fn(|gear| volume[gear] / unit[gear]);
     let greater = lost.pinion.max(lost.wheel);
-    if greater > 0.0 { (lost.pinion - lost.wheel).abs() / greater } else { 0.0 }
+    (greater > 0.0).then(|| (lost.pinion - lost.wheel).abs() / greater)
 }
 
-/// |V₁/k₁ − V₂/k₂| over the greater, V: what all teeth of a gear lose in the whole run, k: the unit it is measured in; with how it was
-/// obtained, or why it was not.
-fn volume_balance(model: &Model<'_>, worn: &PerGear<WearSummary>) -> (Option<f64>, String) {
+/// [`relative_difference`] of the volumes that all teeth of each gear lose in the whole run, with how it was obtained, or why it was not.
+fn volume_balance(model: &RunModel<'_>, worn: &PerGear<WearSummary>) -> (Option<f64>, String) {
     let phases = 0..model.scene.operation.phases.len();
     let unit = match phases.map(|phase| unit_of_volume(model, phase)).collect::<Result<Vec<_>, _>>() {
         Err(reason) => return (None, reason),
@@ -226,9 +232,7 @@ fn volume_balance(model: &Model<'_>, worn: &PerGear<WearSummary>) -> (Option<f64
             _ => return (None, "the ratio of the wear coefficients is not the same in all phases".to_owned()),
         },
     };
-    let lost = PerGear::from_fn(|gear| worn[gear].worn_volume_mm3 / unit[gear]);
-    let greater = lost.pinion.max(lost.wheel);
-    let balance = (greater > 0.0).then(|| (lost.pinion - lost.wheel).abs() / greater);
+    let balance = relative_difference(worn.as_ref().map(|worn| worn.worn_volume_mm3), unit);
     let how = "worn volumes of the whole gears over their wear coefficients, which are the same where contact and wear are resolved";
     (balance, how.to_owned())
 }
@@ -292,7 +296,7 @@ pub(super) fn geometry(pair: &GearPair) -> GeometrySummary {
     }
 }
 
-fn contact(model: &Model<'_>, outcome: &Outcome) -> ContactSummary {
+fn contact(model: &RunModel<'_>, outcome: &Outcome) -> ContactSummary {
     let at_pitch = model.at_pitch.contact.loaded(model.reference().line_load_n_per_mm);
     ContactSummary {
         surface: model.scene.contact.surface.name().to_owned(),
@@ -304,7 +308,7 @@ fn contact(model: &Model<'_>, outcome: &Outcome) -> ContactSummary {
 }
 
 /// c', c_γα and c_γβ of the pair under the load of the reference phase.
-fn stiffness_iso_6336_1(model: &Model<'_>) -> IsoStiffnessSummary {
+fn stiffness_iso_6336_1(model: &RunModel<'_>) -> IsoStiffnessSummary {
     let (scene, pair) = (model.scene, model.pair);
     let load = model.reference().line_load_n_per_mm;
     let single = iso6336::single_stiffness_n_per_mm2(&scene.pair, &scene.material, load) / UM_PER_MM;
@@ -316,8 +320,8 @@ fn stiffness_iso_6336_1(model: &Model<'_>) -> IsoStiffnessSummary {
     }
 }
 
-/// Of the springs of the teeth, where there are any.
-fn stiffness(model: &Model<'_>) -> Result<Option<StiffnessSummary>, RunError> {
+/// Stiffness of the springs of the teeth; none with finite elements.
+fn stiffness(model: &RunModel<'_>) -> Result<Option<StiffnessSummary>, RunError> {
     let Some(teeth) = model.teeth else { return Ok(None) };
     let at = model.pair.path.pitch_point_mm;
     Ok(Some(StiffnessSummary {
@@ -347,7 +351,7 @@ fn cycle(pair: &GearPair, cycle: &CycleObservation) -> CycleSummary {
     }
 }
 
-fn wear_figures(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> WearSummary {
+fn wear_figures(model: &RunModel<'_>, outcome: &Outcome, gear: Gear) -> WearSummary {
     let (scene, pair) = (model.scene, model.pair);
     let figures = WearFigures::at(pair, gear, outcome, &outcome.worn);
     let volume_mm3 = pair.over_all_flanks(gear, figures.area_mm2);
@@ -371,7 +375,7 @@ fn wear_figures(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> WearSummary
 }
 
 /// W_m of VDI 2736-2 after what has been run; none where neither gear is a plastic, or the law is more than a coefficient.
-fn vdi_2736_mean_wear_mm(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> Option<f64> {
+fn vdi_2736_mean_wear_mm(model: &RunModel<'_>, outcome: &Outcome, gear: Gear) -> Option<f64> {
     let scene = model.scene;
     Gear::BOTH.into_iter().any(|gear| scene.material[gear].is_plastic()).then_some(())?;
     let mut begin = 0.0;
@@ -389,8 +393,8 @@ fn vdi_2736_mean_wear_mm(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> Op
     Some(mean_wear_mm(model.pair, gear, stretches?.into_iter()))
 }
 
-/// The life to the limits of the scene, where it has any.
-fn life(model: &Model<'_>, outcome: &Outcome, worn: &PerGear<WearSummary>) -> Option<LifeSummary> {
+/// Service life to the limits of the scene, where it has any.
+fn life(model: &RunModel<'_>, outcome: &Outcome, worn: &PerGear<WearSummary>) -> Option<LifeSummary> {
     let operation = &model.scene.operation;
     let stop = operation.stop;
     if !stop.are_set() {
@@ -420,10 +424,14 @@ fn life(model: &Model<'_>, outcome: &Outcome, worn: &PerGear<WearSummary>) -> Op
     })
 }
 
-fn flank(model: &Model<'_>, RunFindings { outcome, verified, .. }: RunFindings<'_>, gear: Gear) -> FlankRecord {
+/// Depths in µm.
+fn in_um(mm: &[f64]) -> Vec<f64> {
+    mm.iter().map(|value| value * UM_PER_MM).collect()
+}
+
+fn flank(model: &RunModel<'_>, RunFindings { outcome, verified, .. }: RunFindings<'_>, gear: Gear) -> FlankRecord {
     let pair = model.pair;
     let involute = pair.teeth[gear].involute;
-    let um = |values: &[f64]| values.iter().map(|value| value * UM_PER_MM).collect::<Vec<_>>();
     let rho = &outcome.grid[gear].coordinate_mm;
     // Along the transverse line of action, as drawings have them.
     let normal_mm = outcome.modification_mm[gear].iter();
@@ -432,20 +440,20 @@ fn flank(model: &Model<'_>, RunFindings { outcome, verified, .. }: RunFindings<'
         radius_mm: rho.iter().map(|&rho| involute.radius_mm(rho)).collect(),
         roll_angle_deg: rho.iter().map(|&rho| involute.roll_angle_rad(rho).to_degrees()).collect(),
         width_mm: outcome.slices.width_mm.clone(),
-        removed_um: um(&drawn_mm),
+        removed_um: in_um(&drawn_mm),
         sliding_mm_per_mesh: outcome.new.cycle.sliding_mm[gear].clone(),
-        wear_um: um(&outcome.worn.wear_mm[gear]),
-        verified_wear_um: verified.and_then(|verified| verified.wear_mm.as_ref()).map(|wear_mm| um(&wear_mm[gear])),
+        wear_um: in_um(&outcome.worn.wear_mm[gear]),
+        verified_wear_um: verified.and_then(|verified| verified.wear_mm.as_ref()).map(|wear_mm| in_um(&wear_mm[gear])),
         pressure_new_MPa: outcome.new.cycle.pressure_mpa[gear].clone(),
         pressure_worn_MPa: outcome.worn.cycle.pressure_mpa[gear].clone(),
-        snapshot_wear_um: outcome.snapshots.iter().map(|snapshot| um(&snapshot.wear_mm[gear])).collect(),
+        snapshot_wear_um: outcome.snapshots.iter().map(|snapshot| in_um(&snapshot.wear_mm[gear])).collect(),
         snapshot_pressure_MPa: outcome.snapshots.iter().map(|s| s.cycle.pressure_mpa[gear].clone()).collect(),
         path_point_radius_mm: path_points(pair.path.points_mm().map(|position| pair.radius_at_mm(gear, position))),
         zones: outcome.zones[gear],
     }
 }
 
-fn history_row(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> HistoryRow {
+fn history_row(model: &RunModel<'_>, outcome: &Outcome, snapshot: &Snapshot) -> HistoryRow {
     let pair = model.pair;
     let pinion = WearFigures::at(pair, Gear::Pinion, outcome, snapshot);
     let wheel = WearFigures::at(pair, Gear::Wheel, outcome, snapshot);
@@ -474,14 +482,13 @@ fn history_row(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> His
     }
 }
 
-fn mesh_cycle(model: &Model<'_>, RunFindings { outcome, heat, .. }: RunFindings<'_>) -> Vec<MeshCycleRow> {
+fn mesh_cycle(model: &RunModel<'_>, RunFindings { outcome, heat, .. }: RunFindings<'_>) -> Vec<MeshCycleRow> {
     let positions = outcome.new.cycle.positions.iter().zip(&outcome.worn.cycle.positions);
-    let rise = |k: usize, method: TemperatureMethod| heat.map(|heat| heat.new.positions[k].rise_k[method.index()]);
     let (path, base_radius_mm) = (&model.pair.path, model.pair.teeth.pinion.involute.base_radius_mm);
-    let peclet = |k: usize, gear: Gear| heat.map(|heat| heat.new.positions[k].peclet[gear]);
     positions
         .enumerate()
-        .map(|(k, (new, worn))| MeshCycleRow {
+        .map(|(k, (new, worn))| (heat.map(|heat| &heat.new.positions[k]), new, worn))
+        .map(|(heat, new, worn)| MeshCycleRow {
             position_mm: new.position_mm,
             load_share_new: new.load_share,
             load_share_worn: worn.load_share,
@@ -490,13 +497,13 @@ fn mesh_cycle(model: &Model<'_>, RunFindings { outcome, heat, .. }: RunFindings<
             half_width_mm: new.footprint.half_width_mm,
             transmission_error_new_um: new.transmission_error_mm * UM_PER_MM,
             transmission_error_worn_um: worn.transmission_error_mm * UM_PER_MM,
-            temperature_rise_K: model.scene.heat.and_then(|settings| rise(k, settings.method)),
+            temperature_rise_K: model.scene.heat.and_then(|settings| Some(heat?.rise_k[settings.method.index()])),
             half_width_worn_mm: worn.footprint.half_width_mm,
-            temperature_rise_heat_equation_K: rise(k, TemperatureMethod::HeatEquation),
-            temperature_rise_williams_K: rise(k, TemperatureMethod::Williams),
-            temperature_rise_tian_kennedy_K: rise(k, TemperatureMethod::TianKennedy),
-            peclet_pinion: peclet(k, Gear::Pinion),
-            peclet_wheel: peclet(k, Gear::Wheel),
+            temperature_rise_heat_equation_K: heat.map(|heat| heat.rise_k[TemperatureMethod::HeatEquation.index()]),
+            temperature_rise_williams_K: heat.map(|heat| heat.rise_k[TemperatureMethod::Williams.index()]),
+            temperature_rise_tian_kennedy_K: heat.map(|heat| heat.rise_k[TemperatureMethod::TianKennedy.index()]),
+            peclet_pinion: heat.map(|heat| heat.peclet.pinion),
+            peclet_wheel: heat.map(|heat| heat.peclet.wheel),
             at_sharp_edge_new: new.footprint.at_sharp_edge,
             at_sharp_edge_worn: worn.footprint.at_sharp_edge,
             pinion_rotation_deg: ((new.position_mm - path.pitch_point_mm) / base_radius_mm).to_degrees(),
@@ -506,7 +513,7 @@ fn mesh_cycle(model: &Model<'_>, RunFindings { outcome, heat, .. }: RunFindings<
         .collect()
 }
 
-/// Warns where a mathematically sharp edge carries load at any moment that is kept.
+/// Warns where a mathematically sharp edge carries load in any kept state.
 fn sharp_edge_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
     let mut states = [&outcome.new].into_iter().chain(&outcome.snapshots);
     let is_loaded = states.any(|state| state.cycle.greatest_pressure.sharp_edge_mpa.is_some());
@@ -520,7 +527,7 @@ fn sharp_edge_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
     })
 }
 
-/// The mathematically sharp edges of a pair in words: of tips, and those that undercut leaves.
+/// Names of the mathematically sharp edges of a pair: of tips, and those that undercut leaves.
 pub(super) fn sharp_edges(pair: &GearPair) -> String {
     let tips = Gear::BOTH.into_iter().filter(|&gear| pair.spec.is_tip_sharp(gear));
     let corners = Gear::BOTH.into_iter().filter(|&gear| pair.undercut_corners()[gear]);
@@ -529,9 +536,8 @@ pub(super) fn sharp_edges(pair: &GearPair) -> String {
     tips.chain(corners).collect::<Vec<_>>().join(", ")
 }
 
-/// Warns where steel would flow under the pressure of the new or worn pair, of the flanks or of a tip edge; not of plastics, which have other
-/// limits.
-fn pressure_warning(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
+/// Warns where steel would yield under the pressure of flanks or tip edges, new or worn; not of plastics, which have other limits.
+fn pressure_warning(model: &RunModel<'_>, outcome: &Outcome) -> Option<String> {
     if Gear::BOTH.into_iter().any(|gear| model.scene.material[gear].is_plastic()) {
         return None;
     }
@@ -545,7 +551,7 @@ fn pressure_warning(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
     steel_yield::warning(pressure_mpa, &place)
 }
 
-/// Warns where so much is worn that the nominal tooth no longer stands for the worn one.
+/// Warns where the wear is too deep for the stiffness and path of contact of the unworn tooth to hold.
 fn deep_wear_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
     let deepest = Gear::BOTH.map(|gear| outcome.worn.deepest_mm(gear)).into_iter().fold(0.0, f64::max);
     (deepest > SMALL_WEAR_MODULES * pair.spec.normal_module_mm).then(|| {

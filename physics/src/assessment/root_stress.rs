@@ -4,7 +4,7 @@ use crate::gear::{Gear, GearPair, PerGear};
 use crate::results::root_stress::{RootSectionSummary, RootStressSummary};
 use crate::root_stress::{LoadedAt, section};
 
-/// Of both gears under this line load at the base circle.
+/// Nominal root stress of both gears under this line load at the base circle.
 pub(super) fn summary(pair: &GearPair, line_load_n_per_mm: f64) -> PerGear<RootStressSummary> {
     let tangential = line_load_n_per_mm * pair.spec.transverse_pressure_angle_rad().cos();
     let of = |gear: Gear, at: LoadedAt| {

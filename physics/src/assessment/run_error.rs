@@ -1,4 +1,4 @@
-//! Why a run could not be made, or ended before its time.
+//! Failures of a run.
 
 use crate::calibration::CalibrationError;
 use crate::gear::PairError;
@@ -8,7 +8,7 @@ use crate::mesh_cycle::pair_in_space::PairInSpaceError;
 use crate::simulation::wear_run::SimulationError;
 use crate::stiffness::StiffnessError;
 
-/// Why a plan could not be carried out.
+/// Failure of a run.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RunError {
     /// The pair cannot exist.
@@ -37,7 +37,7 @@ pub enum RunError {
     UnstableSteps {
         /// Step over the longest stable one.
         step_over_safe: f64,
-        /// What the solver says of it.
+        /// Failure of the solver.
         source: SimulationError,
     },
 }

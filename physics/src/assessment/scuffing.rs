@@ -17,7 +17,7 @@ use crate::stiffness::iso6336::{mesh_over_single, single_stiffness_n_per_mm2};
 const PLACES: usize = 400;
 /// Part of the mean flash temperature by which teeth are warmer than the oil, ISO/TS 6336-20.
 const MEAN_FLASH_TO_BULK: f64 = 0.47;
-/// The same of the integral flash temperature, ISO/TS 6336-21.
+/// Part of the integral flash temperature by which teeth are warmer than the oil, ISO/TS 6336-21.
 const INTEGRAL_FLASH_TO_BULK: f64 = 0.7;
 /// C₂ of the integral temperature.
 const INTEGRAL_WEIGHT: f64 = 1.5;
@@ -35,7 +35,7 @@ struct Scuffing<'a> {
     effective_um: f64,
 }
 
-/// By ISO/TS 6336-20; none of a contact ratio of 2 and above.
+/// Flash temperatures by ISO/TS 6336-20, for contact ratios below 2.
 struct Flash {
     friction: f64,
     mean_k: f64,
@@ -44,7 +44,7 @@ struct Flash {
     points: Vec<FlashPoint>,
 }
 
-/// By ISO/TS 6336-21.
+/// Integral temperature by ISO/TS 6336-21.
 struct Integral {
     friction: f64,
     flash_k: f64,

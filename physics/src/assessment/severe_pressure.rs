@@ -1,11 +1,11 @@
-//! Whether the pressure by which severe wear is decided is that of elastic contact.
+//! Check that the pressure which decides on severe wear is that of elastic contact.
 //!
 //! A Winkler foundation under line load w carries p₀ = 3w/(4a) over a³ = 3wR/(2 K/H), elastic bodies Hertz's 2w/(π a_H): with K/H matched on
 //! the half-width its pressure is 3π/8 = 1.178 of that. The mean pressure of `hertz-mean` is π/4 of it.
 
 use std::f64::consts::FRAC_PI_4;
 
-use super::Model;
+use super::RunModel;
 use crate::contact::{foundation, settings::SurfaceKind};
 use crate::simulation::wear_run::Outcome;
 
@@ -13,7 +13,7 @@ use crate::simulation::wear_run::Outcome;
 const LITTLE: f64 = 0.02;
 
 /// Pressure of the surface at the pitch point under the greatest load, over Hertz's; none where the surface is elastic.
-fn over_elastic(model: &Model<'_>, outcome: &Outcome) -> Option<f64> {
+fn over_elastic(model: &RunModel<'_>, outcome: &Outcome) -> Option<f64> {
     let line_load = model.reference().line_load_n_per_mm;
     let hertz = model.at_pitch.contact.loaded(line_load);
     match model.scene.contact.surface {
@@ -29,7 +29,7 @@ fn over_elastic(model: &Model<'_>, outcome: &Outcome) -> Option<f64> {
 }
 
 /// Warns where wear is severe, or would be under the elastic pressure, and the surface has another one.
-pub(super) fn warning(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
+pub(super) fn warning(model: &RunModel<'_>, outcome: &Outcome) -> Option<String> {
     let ratio = over_elastic(model, outcome).filter(|ratio| (ratio - 1.0).abs() > LITTLE)?;
     let greatest_mpa = [&outcome.new]
         .into_iter()

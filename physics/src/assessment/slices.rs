@@ -1,6 +1,6 @@
 //! The record of a pair slice by slice.
 
-use super::{Model, UM_PER_MM};
+use super::{RunModel, UM_PER_MM};
 use crate::contact::settings::SurfaceKind;
 use crate::gear::spec::AxisParallelism;
 use crate::gear::{Gear, GearPair, PerGear, lines_of_contact::LinesOfContact};
@@ -23,7 +23,7 @@ const TELLING_STEP: f64 = 0.25;
 
 /// Warns where the transmission error varies by little more than the steps of slices that enter and leave: those of the simplified model do so
 /// all at once.
-pub(super) fn warning(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
+pub(super) fn warning(model: &RunModel<'_>, outcome: &Outcome) -> Option<String> {
     let [new, _] = meshes(outcome)?;
     if model.scene.contact.surface != SurfaceKind::HertzMean {
         return None;
@@ -45,8 +45,8 @@ pub(super) fn warning(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
     })
 }
 
-/// The pair slice by slice in figures; none where all sections are alike.
-pub(super) fn summary(model: &Model<'_>, outcome: &Outcome) -> Option<HelicalSummary> {
+/// Figures of the pair slice by slice; none where all sections are alike.
+pub(super) fn summary(model: &RunModel<'_>, outcome: &Outcome) -> Option<HelicalSummary> {
     let [new, worn] = meshes(outcome)?;
     let sliced = model.sliced?;
     let um = |mm: Vec<f64>| mm.into_iter().map(|value| value * UM_PER_MM).collect();
@@ -70,7 +70,7 @@ pub(super) fn summary(model: &Model<'_>, outcome: &Outcome) -> Option<HelicalSum
     })
 }
 
-fn shaft_twist_mm(model: &Model<'_>, gear: Gear) -> Option<f64> {
+fn shaft_twist_mm(model: &RunModel<'_>, gear: Gear) -> Option<f64> {
     let shaft = model.pair.spec.gears[gear].shaft?;
     let (base_radius_mm, material) = (model.pair.teeth[gear].involute.base_radius_mm, model.scene.material[gear]);
     let shear_modulus_mpa = material.elastic().shear_modulus_mpa();
@@ -83,7 +83,7 @@ fn line_of_contact(pair: &GearPair) -> LineOfContactSummary {
     LineOfContactSummary { min: least_mm, max: greatest_mm, mean: mean_mm }
 }
 
-fn over_width(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> OverWidthSummary {
+fn over_width(model: &RunModel<'_>, outcome: &Outcome, gear: Gear) -> OverWidthSummary {
     let worn = WearFigures::at(model.pair, gear, outcome, &outcome.worn).slices;
     let first = WearFigures::new(
         model.pair,

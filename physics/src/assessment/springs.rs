@@ -1,14 +1,14 @@
-//! Whether contact surface and stiffness model of a scene go together, asked in closed form before anything is begun.
+//! Check that contact surface and stiffness model of a scene are compatible, in closed form and before any work.
 
 use super::stage_clock::StageClock;
 use super::{RunError, RunInputs, load_case};
 use crate::contact::settings::SurfaceKind;
 use crate::gear::GearPair;
 use crate::observer::Unwatched;
-use crate::stiffness::{TeethSpring, settings::StiffnessSettings};
+use crate::stiffness::settings::StiffnessSettings;
 
 impl RunInputs<'_> {
-    /// Whether the springs of a run can be made, where that is known without finite elements of its own.
+    /// Checks that every spring of the run has a positive compliance, where that is known without finite elements of the run itself.
     ///
     /// # Errors
     /// The same as the run's.
@@ -26,9 +26,8 @@ impl RunInputs<'_> {
         let mut stages = StageClock::new(&Unwatched);
         for phase in &scene.operation.phases {
             let (load, material) = (pair.line_load_n_per_mm(phase.pinion_torque_n_mm), scene.material_in(phase));
-            let case = load_case::load_case(self, &pair, material, load, &mut stages)?;
-            let Some(surface) = case.surface.as_deref() else { continue };
-            let spring = TeethSpring::new(scene.stiffness, curve, &pair, &material, surface, load)?;
+            let case = load_case::contact_case(self, &pair, material, load, &mut stages)?;
+            let Some(spring) = case.spring(scene.stiffness, curve, &pair)? else { continue };
             for position_mm in pair.path.evenly_mm(scene.numerics.positions) {
                 spring.own_n_per_mm2(position_mm)?;
             }

@@ -1,6 +1,6 @@
-//! Whether Euler's steps are short enough, asked before the first of them.
+//! Stability of Euler's wear steps, judged before the first of them.
 
-use super::Model;
+use super::RunModel;
 use crate::gear::PerGear;
 use crate::material::Material;
 use crate::observer::Observer;
@@ -9,40 +9,40 @@ use crate::simulation::stability::StepBound;
 use crate::simulation::wear_run::RunPhase;
 use crate::wear;
 
-/// What is said of the steps, and the mesh cycles that it took to know.
+/// Judgement of the wear steps, and the mesh cycles evaluated for it.
 #[derive(Default)]
 pub(super) struct Judged {
     pub warnings: Vec<String>,
     pub evaluations: u64,
-    /// The step over the longest safe one, of the phase where that is most; 0 where there is no limit.
+    /// Wear step over the longest stable one, greatest of all phases; 0 without a limit.
     pub step_over_safe: f64,
 }
 
-/// What the bound on the steps of a phase depends on.
+/// Conditions of a phase that its longest stable step depends on.
 #[derive(Clone, Copy, PartialEq)]
-struct Conditions {
+struct StepConditions {
     line_load_n_per_mm: f64,
     pinion_speed_rpm: Option<f64>,
     coefficient_mm2_per_n: PerGear<f64>,
     material: PerGear<Material>,
 }
 
-/// Warns of each phase whose steps are too long for Euler's method, and names the longest that are not. Tells `observer` at once.
-/// Phases of the same load, speed and wear coefficient have the same bound.
-pub(super) fn judge(model: &Model<'_>, observer: &dyn Observer) -> Judged {
+/// Warns of each phase whose steps are too long for Euler's method, with the longest stable one; `observer` is told at once.
+/// Phases of the same load, speed, wear coefficient and material share one evaluation.
+pub(super) fn judge(model: &RunModel<'_>, observer: &dyn Observer) -> Judged {
     let scene = model.scene;
     let Stepping::Fixed { revolutions: step } = scene.numerics.stepping else { return Judged::default() };
     let mut judged = Judged::default();
     let mut begin = 0.0;
-    let mut measured: Vec<(Conditions, StepBound)> = Vec::new();
+    let mut measured: Vec<(StepConditions, StepBound)> = Vec::new();
     for (index, (phase, asked)) in model.phases.iter().zip(&scene.operation.phases).enumerate() {
         let step = step.min(phase.end_revolutions - begin);
         begin = phase.end_revolutions;
         let own = scene.wear_in(asked);
-        // The transition counts as a factor: its jump has no rate of its own.
+        // Severe wear enters as a factor below: the jump of a transition has no rate.
         let mild = wear::of_both(&own.with_severe(|_| None));
         let phase = RunPhase { wear: phase.wear.with_laws(&mild), ..*phase };
-        let conditions = Conditions {
+        let conditions = StepConditions {
             line_load_n_per_mm: phase.line_load_n_per_mm,
             pinion_speed_rpm: asked.pinion_speed_rpm,
             coefficient_mm2_per_n: own.as_ref().map(|own| own.coefficient_mm2_per_n),
@@ -51,9 +51,9 @@ pub(super) fn judge(model: &Model<'_>, observer: &dyn Observer) -> Judged {
         let bound = match measured.iter().find(|(before, _)| *before == conditions) {
             Some(&(_, bound)) => bound,
             None => {
-                let stopped = || observer.gives_up();
-                // Where the unworn pair has no equilibrium, the run says so.
-                let Ok(bound) = model.wear_run().step_bound(&phase, own.may_be_severe(), &stopped) else {
+                // A pair without equilibrium is reported by the run itself.
+                let run = model.wear_run();
+                let Ok(bound) = run.step_bound(&phase, own.may_be_severe(), &|| observer.gives_up()) else {
                     continue;
                 };
                 judged.evaluations += bound.evaluations;

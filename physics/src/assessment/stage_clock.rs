@@ -1,11 +1,12 @@
-//! Times the stages of a computation and tells its observer of them.
+//! Clock of the stages of a computation, which its observer is told of.
 
 use std::time::Instant;
 
 use crate::observer::Observer;
+use crate::plan::{Plan, StageKind};
 use crate::results::run::StageTime;
 
-/// The stages so far, with their times.
+/// Stages carried out so far, with their times.
 pub struct StageClock<'a> {
     /// Told of each stage.
     pub observer: &'a dyn Observer,
@@ -14,7 +15,7 @@ pub struct StageClock<'a> {
 }
 
 impl<'a> StageClock<'a> {
-    /// No stage yet.
+    /// Clock before the first stage.
     pub fn new(observer: &'a dyn Observer) -> Self {
         Self { observer, times: Vec::new() }
     }
@@ -26,5 +27,10 @@ impl<'a> StageClock<'a> {
         let result = work();
         self.times.push(StageTime { name: name.to_owned(), wall_s: start.elapsed().as_secs_f64() });
         result
+    }
+
+    /// Carries out a stage that `plan` has; none where it does not.
+    pub(super) fn planned<T>(&mut self, plan: &Plan, stage: StageKind, work: impl FnOnce() -> T) -> Option<T> {
+        plan.has(stage).then(|| self.run(stage.name(), work))
     }
 }

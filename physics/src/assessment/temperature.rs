@@ -1,8 +1,8 @@
-//! The temperatures of the new and the worn pair and of their teeth, and what is said of them and of the wear law.
+//! Temperatures of the new and the worn pair and of their teeth, with the warnings of these and of the wear law.
 
 use std::f64::consts::TAU;
 
-use super::Model;
+use super::RunModel;
 use crate::contact::settings::SurfaceKind;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::mesh_cycle::wearing_pair::Snapshot;
@@ -20,7 +20,7 @@ use crate::thermal::tooth::{TemperatureCurve, ToothTemperatures};
 use crate::wear::LocalContact;
 use crate::wear::regime::{MM3_PER_NM, Regime};
 
-/// By how much Young's moduli of phases may differ without a word.
+/// Relative difference of Young's moduli of phases up to which it is not warned of.
 const NEGLIGIBLE_CHANGE: f64 = 0.02;
 
 /// Why a metal gear beside a plastic one has no temperature of its teeth.
@@ -29,7 +29,7 @@ const OF_PLASTIC_ALONE: &str = "VDI 2736-2 has the temperature of the plastic ge
 /// Above the melting point of any plastic that gears are made of, °C: that of PEEK is 343.
 const HOTTEST_PLASTIC_C: f64 = 350.0;
 
-/// Friction heat of a phase; none where nobody asks for temperatures.
+/// Friction heat of a phase; none of a scene without temperatures.
 pub(super) fn in_phase(scene: &Scene, pair: &GearPair, phase: &Phase) -> Option<ContactHeat> {
     let mut settings = scene.heat?;
     let pinion_per_s = TAU * phase.pinion_speed_rpm? / 60.0;
@@ -47,8 +47,8 @@ pub(super) fn in_phase(scene: &Scene, pair: &GearPair, phase: &Phase) -> Option<
     Some(ContactHeat::new(settings, pair.path.involute.pinion.base_radius_mm * pinion_per_s))
 }
 
-/// What the user should know of the material of warm teeth: what does not follow their temperature, and what does only in part.
-pub(super) fn tooth_warnings(model: &Model<'_>, summary: Option<&TemperatureSummary>) -> Vec<String> {
+/// Warnings of the material of warm teeth: constants that do not follow their temperature, or only in part.
+pub(super) fn tooth_warnings(model: &RunModel<'_>, summary: Option<&TemperatureSummary>) -> Vec<String> {
     let Some(teeth) = summary.and_then(|summary| summary.tooth) else { return Vec::new() };
     let scene = model.scene;
     let phases = || scene.operation.phases.iter();
@@ -114,15 +114,15 @@ pub(super) struct ObservedHeat {
     pub worn: HeatObservation,
 }
 
-/// Looks at both; none where nobody asks for temperatures.
-pub(super) fn observe(model: &Model<'_>, outcome: &Outcome) -> Option<ObservedHeat> {
+/// Observes both pairs; none of a scene without temperatures.
+pub(super) fn observe(model: &RunModel<'_>, outcome: &Outcome) -> Option<ObservedHeat> {
     let of = |snapshot| observe_at(model, outcome, snapshot, outcome.reference_phase);
     Some(ObservedHeat { new: of(&outcome.new)?, worn: of(&outcome.worn)? })
 }
 
-/// Looks at a snapshot under the speed and load of a phase.
+/// Observes a snapshot under the speed and load of a phase.
 pub(super) fn observe_at(
-    model: &Model<'_>,
+    model: &RunModel<'_>,
     outcome: &Outcome,
     snapshot: &Snapshot,
     phase: usize,
@@ -147,8 +147,8 @@ pub(super) fn observe_at(
     Some(observer.observe(&snapshot.cycle))
 }
 
-/// What the summary says of the temperatures.
-pub(super) fn summary(model: &Model<'_>, observed: &ObservedHeat) -> Option<TemperatureSummary> {
+/// Temperatures of the summary.
+pub(super) fn summary(model: &RunModel<'_>, observed: &ObservedHeat) -> Option<TemperatureSummary> {
     let phase = reference_phase(&model.phases);
     let (settings, running) = (model.phases[phase].wear.heat?.settings, model.phases[phase].wear.running);
     let teeth = model.scene.teeth_in(model.pair, &model.scene.operation.phases[phase]);
@@ -186,20 +186,20 @@ pub(super) fn summary(model: &Model<'_>, observed: &ObservedHeat) -> Option<Temp
     })
 }
 
-/// What the summary says of the wear law of both gears; none where each has its own.
-pub(super) fn law(model: &Model<'_>, observed: Option<&ObservedHeat>) -> Option<WearLawSummary> {
+/// Wear law of both gears in the summary; none where each has its own.
+pub(super) fn law(model: &RunModel<'_>, observed: Option<&ObservedHeat>) -> Option<WearLawSummary> {
     let own = model.scene.wear_in(&model.scene.operation.phases[reference_phase(&model.phases)]);
     own.are_alike().then(|| law_over(model, Gear::Pinion, observed, |heat| &heat.both))
 }
 
-/// What it says of the wear law of each gear.
-pub(super) fn law_of_gear(model: &Model<'_>, observed: Option<&ObservedHeat>) -> PerGear<WearLawSummary> {
+/// Wear law of each gear in the summary.
+pub(super) fn law_of_gear(model: &RunModel<'_>, observed: Option<&ObservedHeat>) -> PerGear<WearLawSummary> {
     PerGear::from_fn(|gear| law_over(model, gear, observed, |heat| &heat.of[gear]))
 }
 
 /// The law of `gear` over the flanks that `over` chooses.
 fn law_over(
-    model: &Model<'_>,
+    model: &RunModel<'_>,
     gear: Gear,
     observed: Option<&ObservedHeat>,
     over: impl Fn(&LawInHeat) -> &LawOverMesh,
@@ -233,7 +233,7 @@ fn law_over(
     }
 }
 
-/// What the user should know of the law of both gears, or of that of each.
+/// Warnings of the wear law of both gears, or of that of each.
 pub(super) fn all_warnings(both: Option<&WearLawSummary>, of_gear: &PerGear<WearLawSummary>) -> Vec<String> {
     match both {
         Some(law) => warnings("wear", law),
@@ -243,7 +243,7 @@ pub(super) fn all_warnings(both: Option<&WearLawSummary>, of_gear: &PerGear<Wear
     }
 }
 
-/// What the user should know of the law: constants that nobody measured, and work where it does not hold.
+/// Warnings of a wear law: typical constants, and work outside its temperatures.
 fn warnings(table: &str, law: &WearLawSummary) -> Vec<String> {
     let mut warnings = Vec::new();
     if !law.typical_constants.is_empty() {

@@ -23,7 +23,7 @@ pub struct Scene {
     pub pair: PairSpec,
     /// Material of each gear, its modulus at the temperature of its teeth where it follows that.
     pub material: PerGear<Material>,
-    /// How Young's modulus of each follows that temperature, MPa; none where it is given.
+    /// Young's modulus of each as a curve of that temperature, MPa; none where it is constant.
     pub modulus: PerGear<Option<TemperatureCurve>>,
     /// Load, speed, duration.
     pub operation: Operation,
@@ -63,7 +63,7 @@ impl Scene {
         BodySettings { elements_per_half_width: self.wear_elements_per_half_width, ..self.fem }
     }
 
-    /// What a command that looks at one load leaves out of a scene with phases under others; none where there are no others.
+    /// Warning of a command under one load alone that a scene has phases under others.
     pub fn one_load_warning(&self) -> Option<String> {
         let own = self.operation.pinion_torque_n_mm;
         let [least, greatest] = self.operation.torque_range_n_mm();
@@ -79,7 +79,7 @@ impl Scene {
         })
     }
 
-    /// What plane finite elements leave out of a pair whose sections differ over the face width; none where they are alike.
+    /// Warning of plane finite elements that the sections of a pair differ over the face width.
     pub fn plane_section_warning(&self) -> Option<String> {
         self.slices.is_some().then(|| {
             "finite elements are plane: they stand for one transverse section per mm of face width, without the helix and \

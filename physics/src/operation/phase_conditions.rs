@@ -1,4 +1,4 @@
-//! What holds in a phase of the operation: its lubricated mesh, its warm teeth, its wear laws.
+//! Conditions of a phase of the operation: its lubricated mesh, its warm teeth, its wear laws.
 //!
 //! Where the scene has [`ToothHeatSettings`](crate::thermal::tooth::ToothHeatSettings), teeth are as warm as VDI 2736-2 says. The wear coefficient of a gear may
 //! follow the temperature of its flanks in each phase, its Young's modulus the mean of flank and root. A pair with slices, and one with a calibration file, has
@@ -77,7 +77,7 @@ impl Scene {
         self.teeth_under(pair, phase, mean_friction(&self.heat?, running.as_ref()))
     }
 
-    /// The same under this coefficient of friction.
+    /// Temperatures of the teeth under this coefficient of friction.
     fn teeth_under(&self, pair: &GearPair, phase: &Phase, friction: f64) -> Option<PerGear<Option<ToothTemperatures>>> {
         let tooth = self.heat?.tooth?;
         let pinion_per_s = TAU * phase.pinion_speed_rpm? / 60.0;
@@ -103,7 +103,7 @@ impl Scene {
         })
     }
 
-    /// What of the material and of wear follows the temperature of the teeth is as they have it. Where the geometry has no pair, nothing is.
+    /// Sets the constants of material and wear that follow the temperature of the teeth; none where the geometry has no pair.
     pub fn warm_up(&mut self) {
         let follows_modulus = Gear::BOTH.into_iter().any(|gear| self.modulus[gear].is_some());
         let follows = follows_modulus || Gear::BOTH.into_iter().any(|gear| self.wear[gear].warm.is_some());
@@ -164,6 +164,5 @@ impl Scene {
 
 /// μ of the heat: as given, or the mean of the mesh.
 pub fn mean_friction(settings: &HeatSettings, running: Option<&RunningPair<'_>>) -> f64 {
-    let of_mesh = || running.map_or(0.0, RunningPair::mean_friction);
-    settings.friction_coefficient.unwrap_or_else(of_mesh)
+    settings.friction_coefficient.unwrap_or_else(|| running.map_or(0.0, RunningPair::mean_friction))
 }

@@ -30,7 +30,7 @@ pub enum CalibrationStage {
 }
 
 impl CalibrationStage {
-    /// Its name on the terminal.
+    /// Name on the terminal.
     pub fn name(self) -> &'static str {
         match self {
             Self::Geometry => "geometry",

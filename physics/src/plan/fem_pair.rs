@@ -22,7 +22,7 @@ pub enum FemPairStage {
 }
 
 impl FemPairStage {
-    /// Its name in `summary.json` and on the terminal.
+    /// Name in `summary.json` and on the terminal.
     pub fn name(self) -> &'static str {
         match self {
             FemPairStage::Geometry => "geometry",

@@ -35,7 +35,7 @@ pub enum StageKind {
     TeethInSpace,
     /// Slices over the face width.
     HelicalSlices,
-    /// How long a wear step of Euler's method may be.
+    /// Longest stable wear step of Euler's method.
     StepBound,
     /// The wear run.
     Simulation,
@@ -47,7 +47,7 @@ pub enum StageKind {
     Losses,
     /// Coarser companion runs.
     ErrorEstimates,
-    /// The same wear simulation on finite elements.
+    /// Wear simulation on finite elements, as a verification.
     Verification,
     /// The output folder.
     Report,
@@ -73,7 +73,7 @@ impl StageKind {
         StageKind::Report,
     ];
 
-    /// Its name in `summary.json` and on the terminal.
+    /// Name in `summary.json` and on the terminal.
     pub fn name(self) -> &'static str {
         match self {
             StageKind::Geometry => "geometry",
@@ -103,21 +103,21 @@ impl Serialize for StageKind {
 
 /// A stage with the reason why it is in the plan, or why it is not.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Stage {
-    /// Which stage.
+pub struct PlannedStage {
+    /// Kind of stage.
     #[serde(rename = "name")]
     pub kind: StageKind,
     /// Why.
     pub reason: String,
 }
 
-/// What is to be done, and what is not.
+/// Stages of a run, and those left out.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Plan {
     /// The stages the scene needs, in order.
-    pub stages: Vec<Stage>,
+    pub stages: Vec<PlannedStage>,
     /// The stages it does not need.
-    pub left_out: Vec<Stage>,
+    pub left_out: Vec<PlannedStage>,
 }
 
 impl Plan {
@@ -126,8 +126,8 @@ impl Plan {
         let (mut stages, mut left_out) = (Vec::new(), Vec::new());
         for kind in StageKind::ALL {
             match decide(kind, scene) {
-                Ok(reason) => stages.push(Stage { kind, reason }),
-                Err(reason) => left_out.push(Stage { kind, reason }),
+                Ok(reason) => stages.push(PlannedStage { kind, reason }),
+                Err(reason) => left_out.push(PlannedStage { kind, reason }),
             }
         }
         Self { stages, left_out }
@@ -182,7 +182,7 @@ fn calibration(scene: &Scene) -> Result<String, String> {
     }
 }
 
-/// Finite elements vouch for the answer, where they can.
+/// Verification by finite elements, where they can be made.
 fn verification(scene: &Scene) -> Result<String, String> {
     if !scene.verify {
         return Err("numerics.verify is false: the error against finite elements is unknown".to_owned());
@@ -196,7 +196,7 @@ fn verification(scene: &Scene) -> Result<String, String> {
     })
 }
 
-/// The same where sections differ over the face width.
+/// Verification where sections differ over the face width.
 fn verification_in_space(scene: &Scene, slices: SliceSettings) -> Result<String, String> {
     if scene.fem.body != Body::Ring {
         return Err("fem.body is \"sector\": three-dimensional teeth need whole rings".to_owned());
@@ -213,7 +213,7 @@ fn verification_in_space(scene: &Scene, slices: SliceSettings) -> Result<String,
     ))
 }
 
-/// Whether a run with slices is itself of the kind that vouches for others.
+/// Whether a run with slices is itself of the kind that others are verified by.
 pub fn is_finest_in_space(scene: &Scene) -> bool {
     let coupling = scene.slices.map(|slices| slices.coupling);
     scene.contact.surface == SurfaceKind::HalfSpace && scene.contact.tip_contact && coupling == Some(Coupling::Fem)
@@ -311,7 +311,7 @@ fn tooth_stiffness(scene: &Scene) -> Result<String, String> {
     }
 }
 
-/// How many loads the phases of `scene` have.
+/// Number of different loads of the phases of `scene`.
 fn loads(scene: &Scene) -> f64 {
     let phases = &scene.operation.phases;
     let is_first = |(at, phase): &(usize, &Phase)| {
@@ -320,7 +320,7 @@ fn loads(scene: &Scene) -> f64 {
     phases.iter().enumerate().filter(is_first).count() as f64
 }
 
-/// Memory that the teeth in space of `scene` take, GB: their sectors, and for each of its loads the matrices that couple its slices.
+/// Memory of the three-dimensional finite elements of `scene`, GB: their sectors, and for each of its loads the matrices that couple its slices.
 pub fn memory_in_space_gb(scene: &Scene) -> f64 {
     let loads = loads(scene);
     let count = scene.slices.map_or(1, |slices| slices.count);

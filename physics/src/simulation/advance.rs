@@ -1,14 +1,14 @@
 //! From one evaluated state of a wearing pair to the next.
 //!
-//! Euler's method, the thesis's, takes what one evaluation found to hold for the whole step. Each pinion tooth meshes once per
+//! Euler's method, that of the thesis, keeps the depth per mesh of one evaluation for the whole step. Each pinion tooth meshes once per
 //! pinion turn, each wheel tooth z1/z2 times:
 //!
 //! ```text
 //! h1 ← h1 + Δn · dh1          h2 ← h2 + Δn · (z1/z2) · dh2
 //! ```
 //!
-//! Steps are shortened to end where a stretch does. Adaptive steps ([`crate::wear::stepping`]) see the rows of both gears as one
-//! state, in depth per pinion revolution.
+//! The last step of an interval is shortened to its end. Adaptive steps ([`crate::wear::stepping`]) integrate the wear of both gears as one
+//! row of numbers, in depth per pinion revolution.
 
 use serde::{Deserialize, Serialize};
 
@@ -23,45 +23,44 @@ use crate::wear::stepping::{
     spectral_radius::SpectralRadius,
 };
 
-/// A remainder of a step shorter than this part of it is not worth a step of its own.
+/// Part of a step below which a remainder joins the step before it.
 const NEGLIGIBLE_STEP: f64 = 1e-9;
 
-/// Where a step begins, and where it ends at the latest, in pinion revolutions.
+/// Interval of a wear step, in pinion revolutions.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Stretch {
-    /// The pair is evaluated here.
+pub(crate) struct StepInterval {
+    /// Beginning, where the pair is evaluated.
     pub from: f64,
-    /// Greater than `from`.
+    /// Latest end, greater than `from`.
     pub limit: f64,
-    /// Whether the pair must forget where it was ([`WearingPair::reset`]) before its evaluation at the end of the step: a run may go
-    /// on from there another time.
+    /// Whether the pair is reset ([`WearingPair::reset`]) before its evaluation at the end of the step, from which a run may be resumed.
     pub clean_start: bool,
 }
 
-/// What came of a step.
+/// Result of a wear step.
 #[derive(Debug)]
 pub struct Advanced {
-    /// Where the pair is now.
+    /// Pinion revolutions reached.
     pub revolutions: f64,
-    /// Its evaluation there, with the work of the whole step.
+    /// Evaluation there, with the work of the whole step.
     pub evaluated: Result<Work, EquilibriumError>,
 }
 
-/// What a [`Stepper`] knows beside what it is made of.
+/// State of a [`Stepper`], for checkpoints.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct StepperState {
     euler_steps: u64,
     adaptive: Option<Adaptive>,
 }
 
-/// Takes wear steps.
+/// Integrator of the wear in time.
 pub(crate) struct Stepper {
     stepping: Stepping,
     duration: f64,
     /// Turns of the wheel per turn of the pinion.
     wheel_meshes: f64,
     euler_steps: u64,
-    /// Of adaptive steps, from the first on.
+    /// Integrator of adaptive steps, from the first on.
     adaptive: Option<Box<AdaptiveSteps>>,
 }
 
@@ -75,19 +74,19 @@ struct AdaptiveSteps {
 }
 
 impl Stepper {
-    /// Steps as asked for in a run of `duration` pinion revolutions.
+    /// Stepper of a run of `duration` pinion revolutions.
     pub(crate) fn new(stepping: Stepping, duration: f64, wheel_meshes: f64) -> Self {
         Self { stepping, duration, wheel_meshes, euler_steps: 0, adaptive: None }
     }
 
-    /// Load, speed or law are others from here on.
+    /// Forgets the step length: load, speed or law change here.
     pub(crate) fn begin_phase(&mut self) {
         if let Some(steps) = &mut self.adaptive {
             steps.integrator.start_anew();
         }
     }
 
-    /// What the steps came to so far.
+    /// Counts of the steps so far.
     pub(crate) fn counts(&self) -> StepCounts {
         match &self.adaptive {
             Some(steps) => steps.integrator.counts(),
@@ -95,24 +94,24 @@ impl Stepper {
         }
     }
 
-    /// Of adaptive steps: the estimated error of each gear's wear at the place where it is greatest, mm.
+    /// Estimated error of adaptive steps in each gear's wear where that is greatest, mm.
     pub(crate) fn error_mm(&self) -> Option<PerGear<f64>> {
         let steps = self.adaptive.as_ref()?;
         let places = steps.wear_mm.pinion.len();
         let (wear, error) = (steps.state.split_at(places), steps.integrator.accumulated_error().split_at(places));
-        let deepest = |wear: &[f64], error: &[f64]| {
+        let [pinion, wheel] = [(wear.0, error.0), (wear.1, error.1)].map(|(wear, error)| {
             wear.iter().zip(error).max_by(|a, b| a.0.total_cmp(b.0)).map_or(0.0, |(_, error)| error.abs())
-        };
-        Some(PerGear { pinion: deepest(wear.0, error.0), wheel: deepest(wear.1, error.1) })
+        });
+        Some(PerGear { pinion, wheel })
     }
 
-    /// What it knows after the last step.
+    /// State after the last step.
     pub(crate) fn state(&self) -> StepperState {
         let adaptive = self.adaptive.as_ref().map(|steps| steps.integrator.clone());
         StepperState { euler_steps: self.euler_steps, adaptive }
     }
 
-    /// Goes on from there with a pair that has lost `wear_mm`; refuses a state of other rows.
+    /// Restores a state, with the wear `wear_mm`; false where the state has other places.
     pub(crate) fn resume(&mut self, state: StepperState, wear_mm: &PerGear<Vec<f64>>) -> bool {
         self.euler_steps = state.euler_steps;
         let places = wear_mm.as_ref().map(Vec::len).sum();
@@ -125,21 +124,21 @@ impl Stepper {
         fits
     }
 
-    /// Takes `pair`, which is evaluated where `stretch` begins, one step on, and evaluates it there.
+    /// Takes `pair`, which is evaluated at the beginning of `interval`, one step on, and evaluates it there.
     pub(crate) fn advance(
         &mut self,
         pair: &mut dyn WearingPair,
         wear: &WearModel<'_>,
-        stretch: Stretch,
+        interval: StepInterval,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Advanced {
         match self.stepping {
-            Stepping::Fixed { revolutions } => self.euler(revolutions, pair, wear, stretch, stopped),
+            Stepping::Fixed { revolutions } => self.euler(revolutions, pair, wear, interval, stopped),
             Stepping::Adaptive { tolerance_mm } => {
                 let (duration, wheel_meshes) = (self.duration, self.wheel_meshes);
                 let steps =
                     self.adaptive.get_or_insert_with(|| Box::new(AdaptiveSteps::new(pair, tolerance_mm, duration)));
-                steps.advance(PairRate { pair, wear, stopped, wheel_meshes, work: Work::default() }, stretch)
+                steps.advance(PairRate { pair, wear, stopped, wheel_meshes, work: Work::default() }, interval)
             }
         }
     }
@@ -149,22 +148,22 @@ impl Stepper {
         step: f64,
         pair: &mut dyn WearingPair,
         wear: &WearModel<'_>,
-        stretch: Stretch,
+        interval: StepInterval,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Advanced {
-        let arrives = stretch.from + step * (1.0 + NEGLIGIBLE_STEP) >= stretch.limit;
-        let step = if arrives { stretch.limit - stretch.from } else { step };
+        let arrives = interval.from + step * (1.0 + NEGLIGIBLE_STEP) >= interval.limit;
+        let step = if arrives { interval.limit - interval.from } else { step };
         pair.wear_for(PerGear { pinion: step, wheel: step * self.wheel_meshes });
         self.euler_steps += 1;
-        let revolutions = if arrives { stretch.limit } else { stretch.from + step };
-        if stretch.clean_start {
+        let revolutions = if arrives { interval.limit } else { interval.from + step };
+        if interval.clean_start {
             pair.reset();
         }
         Advanced { revolutions, evaluated: evaluate(pair, wear, stopped) }
     }
 }
 
-/// Evaluates `pair` where a step of Euler's method or the run ends.
+/// Evaluates `pair` at the end of a step of Euler's method or of the run.
 pub(super) fn evaluate(
     pair: &mut dyn WearingPair,
     wear: &WearModel<'_>,
@@ -183,22 +182,22 @@ impl AdaptiveSteps {
         Self { integrator, state: Vec::new(), slope: Vec::new(), wear_mm, depth_mm }
     }
 
-    fn advance(&mut self, rate: PairRate<'_>, stretch: Stretch) -> Advanced {
+    fn advance(&mut self, rate: PairRate<'_>, interval: StepInterval) -> Advanced {
         self.wear_mm = rate.pair.wear_mm();
         self.state.clear();
         self.state.extend(Gear::BOTH.iter().flat_map(|&gear| &self.wear_mm[gear]));
         self.slope.resize(self.state.len(), 0.0);
         rate.read_slope(&mut self.depth_mm, &mut self.slope);
-        let clean_start = stretch.clean_start;
+        let clean_start = interval.clean_start;
         let mut pair = OnRows { rate, wear_mm: &mut self.wear_mm, depth_mm: &mut self.depth_mm, clean_start };
-        let room = stretch.limit - stretch.from;
+        let room = interval.limit - interval.from;
         match self.integrator.step(&mut pair, &mut self.state, &mut self.slope, room) {
             Ok(length) => {
                 let arrives = length >= room;
-                let revolutions = if arrives { stretch.limit } else { stretch.from + length };
+                let revolutions = if arrives { interval.limit } else { interval.from + length };
                 Advanced { revolutions, evaluated: Ok(pair.rate.work) }
             }
-            Err(failure) => Advanced { revolutions: stretch.from, evaluated: Err(failure) },
+            Err(failure) => Advanced { revolutions: interval.from, evaluated: Err(failure) },
         }
     }
 }
@@ -236,7 +235,7 @@ struct PairRate<'a> {
 }
 
 impl PairRate<'_> {
-    /// What the pair lost in its last evaluation, per pinion revolution.
+    /// Depth of the last evaluation, per pinion revolution.
     fn read_slope(&self, depth_mm: &mut PerGear<Vec<f64>>, slope: &mut [f64]) {
         self.pair.depth_mm(depth_mm);
         let (pinion, wheel) = slope.split_at_mut(depth_mm.pinion.len());
@@ -245,7 +244,7 @@ impl PairRate<'_> {
     }
 }
 
-/// The same as rows of numbers.
+/// Wear of both gears as one row of numbers.
 struct OnRows<'a, 'b> {
     rate: PairRate<'a>,
     wear_mm: &'b mut PerGear<Vec<f64>>,

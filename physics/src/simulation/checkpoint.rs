@@ -1,4 +1,4 @@
-//! What a wear run needs to go on later as if it had never stopped, to the bit.
+//! Checkpoint of a wear run, from which it goes on to the same bits as if it had never stopped.
 //!
 //! Equilibria are sought from the last ones, so that the state of a run is more than what its flanks have lost: starts, windows that
 //! were widened, sets of contact that were found. All of that changes results in their last bits only, but it changes them. So a
@@ -20,11 +20,11 @@ use crate::mesh_cycle::wearing_pair::Snapshot;
 /// A run at a clean start: evaluated, and what was due there kept.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
-    /// Which phase it is in, from 0.
+    /// Index of its phase, from 0.
     pub phase: usize,
-    /// How far it has come, in pinion revolutions.
+    /// Pinion revolutions reached.
     pub revolutions: f64,
-    /// What each place of the flanks has lost, mm.
+    /// Wear depth at each place of the flanks, mm.
     pub wear_mm: PerGear<Vec<f64>>,
     /// State of the step control.
     pub stepper: StepperState,
@@ -37,17 +37,16 @@ pub struct Checkpoint {
 impl Checkpoint {
     /// Whether the rows of its snapshots are `points` long, so that they can be those of a run with such flanks.
     pub(super) fn fits(&self, points: PerGear<usize>) -> bool {
-        let fits = |row: &PerGear<Vec<f64>>| row.as_ref().map(Vec::len) == points;
         !self.states.is_empty()
             && self.states.iter().all(|state| {
                 let cycle = &state.cycle;
                 let rows = [&state.wear_mm, &state.depth_per_mesh_mm, &cycle.pressure_mpa, &cycle.sliding_mm];
-                rows.into_iter().all(fits)
+                rows.into_iter().all(|row| row.as_ref().map(Vec::len) == points)
             })
     }
 }
 
-/// Takes checkpoints somewhere safe.
+/// Keeper of checkpoints.
 pub trait Keeper: Sync {
     /// Whether it is time for one.
     fn is_due(&self) -> bool;
@@ -56,7 +55,7 @@ pub trait Keeper: Sync {
     fn keep(&self, checkpoint: &Checkpoint);
 }
 
-/// Nothing is kept.
+/// Keeper that keeps nothing.
 pub struct NothingKept;
 
 impl Keeper for NothingKept {

@@ -45,7 +45,7 @@ pub struct WearFigures {
     pub active_start_mm: f64,
     /// ∫ h ds over the flank, on average over the face width, mm²: worn volume per mm of face width.
     pub area_mm2: f64,
-    /// The same of each slice by itself.
+    /// Figures of each slice by itself.
     pub slices: Vec<SliceFigures>,
 }
 
@@ -71,7 +71,7 @@ pub struct SliceFigures {
 }
 
 impl SliceFigures {
-    /// Of `wear_mm` at the points of one slice of `gear`'s flank, which are at `radius_mm`.
+    /// Figures of `wear_mm` at the points of one slice of `gear`'s flank, which are at `radius_mm`.
     fn new(
         pair: &GearPair,
         gear: Gear,
@@ -102,12 +102,13 @@ impl SliceFigures {
 }
 
 impl WearFigures {
-    /// Of `wear_mm` at the points of `gear`'s flank, slice after slice (at least one).
+    /// Figures of `wear_mm` at the points of `gear`'s flank, slice after slice (at least one).
     pub fn new(pair: &GearPair, gear: Gear, grid: &FlankGrid, zones: &FlankZones, wear_mm: &[f64]) -> Self {
         let involute = pair.teeth[gear].involute;
         let radius_mm: Vec<f64> = grid.coordinate_mm.iter().map(|&rho| involute.radius_mm(rho)).collect();
-        let of_slice = |slice| SliceFigures::new(pair, gear, grid, zones, &radius_mm, slice);
-        let slices: Vec<_> = wear_mm.chunks_exact(grid.len()).map(of_slice).collect();
+        let slices = wear_mm.chunks_exact(grid.len());
+        let slices: Vec<_> =
+            slices.map(|slice| SliceFigures::new(pair, gear, grid, zones, &radius_mm, slice)).collect();
         let mean = |of: fn(&SliceFigures) -> f64| slices.iter().map(of).sum::<f64>() / slices.len() as f64;
         let values = |of: &dyn Fn(&SliceFigures) -> f64| slices.iter().map(of).collect::<Vec<f64>>();
         let deepest = |of: fn(&SliceFigures) -> Deepest| {
@@ -130,7 +131,7 @@ impl WearFigures {
         }
     }
 
-    /// Of a gear's flank at a snapshot of a run.
+    /// Figures of a gear's flank at a snapshot of a run.
     pub fn at(pair: &GearPair, gear: Gear, outcome: &Outcome, snapshot: &Snapshot) -> Self {
         let of_points = Self::new(pair, gear, &outcome.grid[gear], &outcome.zones[gear], &snapshot.wear_mm[gear]);
         match &snapshot.lost_at_nodes {
@@ -140,7 +141,7 @@ impl WearFigures {
     }
 }
 
-/// How uneven values over the face width are: greatest less least, over the mean; 0 where all are 0.
+/// Variation of values over the face width: greatest less least, over the mean; 0 where all are 0.
 pub fn variation(values: impl Iterator<Item = f64> + Clone) -> f64 {
     let (low, high) = values.clone().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
     let count = values.clone().count() as f64;
@@ -153,11 +154,13 @@ pub fn wear_profile(pair: &GearPair, outcome: &Outcome, gear: Gear) -> WearProfi
     let involute = pair.teeth[gear].involute;
     let rho = &outcome.grid[gear].coordinate_mm;
     let wear_mm = &outcome.worn.wear_mm[gear];
-    let over_width = |point: usize| wear_mm.iter().skip(point).step_by(rho.len()).copied().collect::<Vec<f64>>();
-    let greatest = |point: usize| greatest_over_width(&over_width(point));
+    let wear_um = (0..rho.len()).map(|point| {
+        let over_width: Vec<f64> = wear_mm.iter().skip(point).step_by(rho.len()).copied().collect();
+        greatest_over_width(&over_width) * 1e3
+    });
     WearProfile {
         radius_mm: rho.iter().map(|&rho| involute.radius_mm(rho)).collect(),
-        wear_um: (0..rho.len()).map(|point| greatest(point) * 1e3).collect(),
+        wear_um: wear_um.collect(),
         active_mm: [pair.active_start_radius_mm(gear), pair.teeth[gear].tip_radius_mm],
     }
 }

@@ -1,4 +1,4 @@
-//! What friction heat does over a mesh: temperature rises by every method, Peclet numbers, and how a wear law fares in it.
+//! Friction heat over a mesh: temperature rises by every method, Peclet numbers, and the wear law at these temperatures.
 //!
 //! Seen from outside, from load and half-width of every contact, as reports need it: the strip is taken to be heated evenly or as by
 //! Hertz's ellipse, whatever its worn pressure is. The wear itself reads the pressures as they are ([`crate::wear::heated_row`]).
@@ -58,7 +58,7 @@ pub struct LawInHeat {
     pub greatest_rate_mm3_per_n: PerGear<f64>,
 }
 
-/// What a wear law comes to over a mesh.
+/// Means of a wear law over a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LawOverMesh {
     /// k̄ of mild wear, mm²/N.
@@ -67,7 +67,7 @@ pub struct LawOverMesh {
     pub work_outside_validity: Option<f64>,
 }
 
-/// What is observed, and how.
+/// Observer of the friction heat of a mesh cycle.
 #[derive(Clone, Copy)]
 pub struct HeatObserver<'a> {
     /// The gears.
@@ -78,17 +78,17 @@ pub struct HeatObserver<'a> {
     pub wear: WearModel<'a>,
     /// Temperatures between which it holds, K.
     pub valid_k: PerGear<Option<[f64; 2]>>,
-    /// How the heat is spread over a contact.
+    /// Distribution of the heat over a contact.
     pub spread: Spread,
     /// Whole load, N per mm of face width.
     pub line_load_n_per_mm: f64,
-    /// How far the theoretical contact point of each slice is ahead of the tooth's position.
+    /// Distance of the theoretical contact point of each slice ahead of the tooth's position, mm.
     pub ahead_mm: &'a [f64],
 }
 
 /// A contact seen from outside.
 #[derive(Debug, Clone, Copy)]
-struct Seen {
+struct ContactAsHeated {
     position_mm: f64,
     line_load_n_per_mm: f64,
     half_width_mm: f64,
@@ -98,7 +98,7 @@ struct Seen {
 
 /// Sums over the contacts of a mesh.
 #[derive(Debug, Clone, Copy, Default)]
-struct Sums {
+struct MeshSums {
     both: WorkSums,
     of: PerGear<WorkSums>,
     greatest_rate: PerGear<f64>,
@@ -122,7 +122,7 @@ impl WorkSums {
         }
     }
 
-    /// What the law comes to, which may name bounds of its temperature.
+    /// Means of the law, which may have bounds of its temperature.
     fn law(&self, is_bounded: bool) -> LawOverMesh {
         let part = |of: f64| if self.work > 0.0 { of / self.work } else { 0.0 };
         LawOverMesh {
@@ -135,7 +135,7 @@ impl WorkSums {
 impl HeatObserver<'_> {
     /// Looks at a cycle.
     pub fn observe(&self, cycle: &CycleObservation) -> HeatObservation {
-        let mut sums = Sums::default();
+        let mut sums = MeshSums::default();
         let positions = match &cycle.slices {
             Some(mesh) => self.sliced(mesh, cycle, &mut sums),
             None => self.whole(cycle, &mut sums),
@@ -150,12 +150,12 @@ impl HeatObserver<'_> {
     }
 
     /// The reference pair at every position.
-    fn whole(&self, cycle: &CycleObservation, sums: &mut Sums) -> Vec<HeatAtPosition> {
+    fn whole(&self, cycle: &CycleObservation, sums: &mut MeshSums) -> Vec<HeatAtPosition> {
         let places: Vec<f64> = cycle.positions.iter().map(|at| at.position_mm).collect();
         let last = places.len().saturating_sub(1);
         let seen = |(k, at): (usize, &crate::mesh_cycle::PositionObservation)| {
             let length_mm = 0.5 * (places[(k + 1).min(last)] - places[k.saturating_sub(1)]);
-            let contact = Seen {
+            let contact = ContactAsHeated {
                 position_mm: at.position_mm,
                 line_load_n_per_mm: at.load_share * self.line_load_n_per_mm,
                 half_width_mm: at.footprint.half_width_mm,
@@ -168,7 +168,7 @@ impl HeatObserver<'_> {
     }
 
     /// The hottest slice of a tooth at every position, between the phases of the mesh.
-    fn sliced(&self, mesh: &SlicedMesh, cycle: &CycleObservation, sums: &mut Sums) -> Vec<HeatAtPosition> {
+    fn sliced(&self, mesh: &SlicedMesh, cycle: &CycleObservation, sums: &mut MeshSums) -> Vec<HeatAtPosition> {
         let spacing = mesh.base_pitch_mm / mesh.transmission_error_mm.len() as f64;
         let rows: Vec<HeatAtPosition> = mesh
             .position_mm
@@ -185,7 +185,7 @@ impl HeatObserver<'_> {
                     }
                     let within = |at: f64| at.clamp(self.pair.path.start_mm, self.pair.path.end_mm);
                     let middle_mm = position_mm + ahead;
-                    let contact = Seen {
+                    let contact = ContactAsHeated {
                         position_mm: if part < 1.0 { within(middle_mm) } else { middle_mm },
                         line_load_n_per_mm: mesh.line_load_n_per_mm[place] / part,
                         half_width_mm: mesh.half_width_mm[place],
@@ -205,7 +205,7 @@ impl HeatObserver<'_> {
         cycle.positions.iter().filter_map(|at| nearest(at.position_mm)).collect()
     }
 
-    fn band(&self, method: TemperatureMethod, contact: &Seen) -> HeatedBand<'_> {
+    fn band(&self, method: TemperatureMethod, contact: &ContactAsHeated) -> HeatedBand<'_> {
         let (line_load_n_per_mm, half_width_mm) = (contact.line_load_n_per_mm, contact.half_width_mm);
         let mean_mpa = if half_width_mm > 0.0 { line_load_n_per_mm / (2.0 * half_width_mm) } else { 0.0 };
         let place = LoadedPlace {
@@ -223,7 +223,7 @@ impl HeatObserver<'_> {
         self.heat.band_by(method, &strip)
     }
 
-    fn at(&self, contact: &Seen) -> HeatAtPosition {
+    fn at(&self, contact: &ContactAsHeated) -> HeatAtPosition {
         let greatest = |method| {
             let band = self.band(method, contact);
             Gear::BOTH.map(|gear| band.greatest_rise_k(gear, self.spread)).into_iter().fold(0.0, f64::max)
@@ -238,7 +238,7 @@ impl HeatObserver<'_> {
     }
 
     /// Adds the work of a contact, on both flanks, and what it wears.
-    fn weigh(&self, contact: &Seen, sums: &mut Sums) {
+    fn weigh(&self, contact: &ContactAsHeated, sums: &mut MeshSums) {
         if contact.line_load_n_per_mm <= 0.0 {
             return;
         }

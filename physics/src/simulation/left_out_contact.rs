@@ -56,7 +56,7 @@ pub fn overlaps_mm(
         .fold([f64::NEG_INFINITY; 2], |most, of| [most[0].max(of[0]), most[1].max(of[1])])
 }
 
-/// How far the flanks of a slice are apart with the theoretical contact point at an end of the path.
+/// Distance of the flanks of a slice with the theoretical contact point at an end of the path, mm.
 fn separation_mm(pair: &GearPair, outcome: &Outcome, state: &Snapshot, slice: usize, end: PathEnd, end_mm: f64) -> f64 {
     let touch = pair.touch(end_mm);
     let edge = pair.edge(end);

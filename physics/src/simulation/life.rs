@@ -1,4 +1,4 @@
-//! Limits that end the life of a pair, and the moment of a run when one of them is reached.
+//! Limits of the service life of a pair, and the moment of a run when one of them is reached.
 //!
 //! ```text
 //! wear             h_max            ≥ limit       greatest wear depth on the active profile of either gear
@@ -35,9 +35,9 @@ const HALVINGS: u32 = 52;
 /// The limit that a run came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LimitReached {
-    /// Which.
+    /// Kind of limit.
     pub limit: LifeLimit,
-    /// Of which gear.
+    /// Gear that reached it.
     pub gear: Gear,
 }
 
@@ -83,7 +83,7 @@ pub(super) struct LimitWithin {
 }
 
 impl StepBeginning {
-    /// Of `pair`, which is evaluated.
+    /// State of `pair`, which is evaluated.
     pub(super) fn of(pair: &dyn WearingPair, revolutions: f64) -> Self {
         let wear_mm = pair.wear_mm();
         let mut depth_mm = wear_mm.clone();

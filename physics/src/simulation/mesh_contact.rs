@@ -24,9 +24,9 @@ use crate::stiffness::{SpringParts, StiffnessError, TeethSpring};
 pub enum MeshContact<'a> {
     /// Each tooth pair a spring of its teeth in series with its contact surface, on the theoretical line of action.
     LineOfAction {
-        /// How the flanks touch.
+        /// Contact surface of the flanks.
         surface: &'a dyn ContactSurface,
-        /// How the teeth yield.
+        /// Springs of the teeth.
         teeth: &'a TeethSpring<'a>,
         /// Whether tip edges are followed into contact before A and after E.
         tip_contact: bool,
@@ -35,9 +35,9 @@ pub enum MeshContact<'a> {
     },
     /// Slices with Hertz's mean pressure, whose wear is kept at their contact points.
     Simplified {
-        /// Of each gear.
+        /// Material of each gear.
         material: &'a PerGear<Material>,
-        /// How the teeth yield.
+        /// Springs of the teeth.
         teeth: &'a TeethSpring<'a>,
         /// The slices over the face width.
         sliced: &'a SlicedTeeth,
@@ -64,7 +64,7 @@ pub fn bodies_mm2_per_n(teeth: &TeethSpring<'_>, sliced: Option<&SlicedTeeth>) -
     sliced.map_or(of_section, |sliced| sliced.bodies_mm2_per_n(of_section))
 }
 
-/// The spring of the section of a slice beside its surface: of teeth in space, that of the whole section.
+/// Spring of the section of a slice beside its surface: of three-dimensional teeth, that of the whole section.
 ///
 /// # Errors
 /// [`StiffnessError::SurfaceTooSoft`] also where the section's spring is positive and a slice's is not.
@@ -84,7 +84,7 @@ fn slice_spring(
     }
 }
 
-/// How far before A and after E tip edges are followed on the line of action, mm of path.
+/// Range before A and after E in which tip edges are followed on the line of action, mm of path.
 fn tip_range_mm(
     pair: &GearPair,
     surface: &dyn ContactSurface,
@@ -133,7 +133,7 @@ impl MeshContact<'_> {
         (EFFORT_BETWEEN_CLEAN_STARTS / of_evaluation).max(effort.of_clean_start / SHARE_OF_CLEAN_STARTS) as u64
     }
 
-    /// How far before A and after E contact of `pair` is looked for, mm of path: nowhere where tip edges are not followed.
+    /// Range before A and after E in which contact of `pair` is looked for, mm of path: 0 where tip edges are not followed.
     pub fn range_mm(&self, pair: &GearPair, line_load_n_per_mm: f64) -> Result<[f64; 2], StiffnessError> {
         match self {
             MeshContact::LineOfAction { surface, teeth, tip_contact: true, sliced } => {

@@ -1,11 +1,11 @@
-//! What is asked of the run: operation and numerical resolution.
+//! Settings of a wear run: operation and numerical resolution.
 
 use crate::gear::{PerGear, flank::PointSpacing};
 
 /// Wear steps of a run where nothing else is asked for.
 const STEPS: f64 = 150.0;
 
-/// A stretch of the run under constant load and speed.
+/// Phase of the load spectrum, under constant load and speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Phase {
     /// Torque on the pinion, N·mm.
@@ -22,7 +22,7 @@ pub struct Phase {
     pub end_revolutions: f64,
 }
 
-/// Limits that end the life of the pair; a run ends at the first it reaches.
+/// Limits of the service life; a run ends at the first it reaches.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LifeLimits {
     /// Greatest wear depth on the active profile of either gear, mm.
@@ -32,7 +32,7 @@ pub struct LifeLimits {
 }
 
 impl LifeLimits {
-    /// Whether there is any.
+    /// Whether there is any limit.
     pub fn are_set(&self) -> bool {
         self.wear_mm.is_some() || self.tip_thickness_mm.is_some()
     }
@@ -46,19 +46,19 @@ pub struct Operation {
     pub pinion_torque_n_mm: f64,
     /// Speed of the pinion, 1/min, where given; of a run in phases, that of phases which name none.
     pub pinion_speed_rpm: Option<f64>,
-    /// How long the pair runs, in revolutions of the pinion.
+    /// Duration of the run, in revolutions of the pinion.
     pub pinion_revolutions: f64,
     /// When the state is kept, in revolutions of the pinion: increasing, the last is the end of the run. The ends of phases are
     /// among them.
     pub snapshots_revolutions: Vec<f64>,
     /// The phases of the run, one at least; the last ends with the run.
     pub phases: Vec<Phase>,
-    /// What ends the run before its time.
+    /// Limits that end the run early.
     pub stop: LifeLimits,
 }
 
 impl Operation {
-    /// The same load and speed from beginning to end.
+    /// Operation under one load and speed.
     pub fn steady(
         pinion_torque_n_mm: f64,
         pinion_speed_rpm: Option<f64>,
@@ -178,7 +178,7 @@ impl Stepping {
 pub struct Numerics {
     /// Intervals of the flank between base circle (point 0) and tip circle (point `flank_points`).
     pub flank_points: usize,
-    /// How these are spaced.
+    /// Spacing of the flank points.
     pub point_spacing: PointSpacing,
     /// Loading positions from A to E, evenly along the path of contact, both ends included.
     pub positions: usize,

@@ -1,4 +1,4 @@
-//! How long a wear step of Euler's method may be.
+//! Longest stable wear step of Euler's method.
 //!
 //! A wave of wear on both flanks, of the height e₁ + e₂, raises the pressure by K (e₁ + e₂) and wears down at the rate
 //! k K (s₁ + s₂ z1/z2)(e₁ + e₂) per pinion revolution: the sum over both gears, s being how far a point slides in one mesh while it
@@ -20,7 +20,7 @@ use super::wear_run::{RunPhase, SimulationError, WearRun};
 /// The product of step and rate that Euler's method is stable up to.
 const STABLE: f64 = 2.0;
 
-/// What bounds the wear steps of a phase.
+/// Bound of the wear steps of a phase.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepBound {
     /// Longest stable step of Euler's method, pinion revolutions; infinite where nothing bounds it.

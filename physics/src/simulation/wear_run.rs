@@ -1,12 +1,12 @@
 //! The wear run: from the unworn pair through all phases of its operation.
 //!
 //! One evaluation of the mesh cycle on the flanks as they are gives the depth each point loses per mesh; [`super::advance`] takes
-//! the flanks from there to where they are evaluated next. Snapshots and ends of phases are hit exactly. A phase begins with the
-//! flanks that the one before has worn. Where a limit ends the life of the pair ([`super::life`]), the run ends there.
+//! the flanks from there to their next evaluation. Snapshots and ends of phases are hit exactly. A phase begins with the
+//! flanks that the one before has worn. Where a limit ends the service life of the pair ([`super::life`]), the run ends there.
 //!
 //! Source: the thesis, equation 12 (single-point observation, section 3.3).
 
-use super::advance::{self, Stepper, Stretch};
+use super::advance::{self, StepInterval, Stepper};
 use super::checkpoint::{Checkpoint, Keeper, NothingKept};
 use super::life::{LimitReached, LimitsOfPair, StepBeginning};
 use super::mesh_contact::{LoadedMesh, MeshContact};
@@ -23,11 +23,11 @@ use crate::results::run::StopReason;
 use crate::stiffness::StiffnessError;
 use crate::wear::{WearModel, stepping::adaptive::StepCounts};
 
-/// Up to this part of the module, wear on the stiffness of unworn teeth was measured to be within 6 % of that by finite elements, and that stiffness
-/// within 3 % of the worn tooth's (`docs/materials.md`).
+/// Wear depth in modules up to which wear with the stiffness of unworn teeth is within 6 % of that by finite elements, and that stiffness
+/// within 3 % of the worn tooth's, as measured (`docs/materials.md`).
 pub const SMALL_WEAR_MODULES: f64 = 0.2;
 
-/// Why a wear run could not go on.
+/// Failure of a wear run.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SimulationError {
     /// Stiffness model and contact surface do not go together.
@@ -36,9 +36,9 @@ pub enum SimulationError {
     /// The tooth pairs found no equilibrium.
     #[error("after {revolutions:.4e} pinion revolutions: {source}")]
     Equilibrium {
-        /// How far the run had come.
+        /// Pinion revolutions reached.
         revolutions: f64,
-        /// What happened.
+        /// Failure of the equilibrium.
         source: EquilibriumError,
     },
     /// More is worn off than there is.
@@ -48,80 +48,80 @@ pub enum SimulationError {
         gear.name()
     )]
     WornThrough {
-        /// How far the run had come.
+        /// Pinion revolutions reached.
         revolutions: f64,
-        /// Whose flank.
+        /// Gear of the flank.
         gear: Gear,
-        /// Its wear where there is least left.
+        /// Wear depth where least of the tooth is left, mm.
         depth_mm: f64,
         /// Transverse thickness of its unworn teeth there, at least half a module.
         thickness_mm: f64,
     },
-    /// A checkpoint with other rows or phases than the run has.
+    /// Checkpoint with other flank points or phases than the run has.
     #[error("the checkpoint is not of this run")]
     OtherRun,
 }
 
-/// A stretch of the run under constant load and speed.
+/// Phase of the run under constant load and speed.
 #[derive(Clone, Copy)]
 pub struct RunPhase<'a> {
-    /// How the gears touch and yield.
+    /// Elastic model of the mesh.
     pub contact: MeshContact<'a>,
-    /// How they wear.
+    /// Wear laws and their conditions.
     pub wear: WearModel<'a>,
-    /// Whole load, N per mm of face width.
+    /// Total line load, N per mm of face width.
     pub line_load_n_per_mm: f64,
-    /// When it ends, in pinion revolutions from the beginning of the run.
+    /// End of the phase, in pinion revolutions from the beginning of the run.
     pub end_revolutions: f64,
 }
 
-/// Everything a run is made of.
+/// Wear run of a gear pair.
 #[derive(Clone, Copy)]
 pub struct WearRun<'a> {
-    /// The gears.
+    /// Gear pair.
     pub pair: &'a GearPair,
-    /// The parts of each flank that figures of its wear speak of.
+    /// Zones of each flank, by which its wear is summarised.
     pub zones: PerGear<FlankZones>,
-    /// What they go through: one phase at least.
+    /// Load spectrum: one phase at least.
     pub phases: &'a [RunPhase<'a>],
-    /// When the state is kept, in pinion revolutions; the end of the run is always kept.
+    /// Pinion revolutions at which the state is kept; that at the end of the run is always kept.
     pub snapshots_revolutions: &'a [f64],
-    /// What ends it before its time.
+    /// Limits that end the run early.
     pub limits: LifeLimits,
-    /// How finely.
+    /// Resolution.
     pub numerics: Numerics,
 }
 
-/// What a run found.
+/// Outcome of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    /// Why it ended.
+    /// Reason why the run ended.
     pub stop: StopReason,
-    /// The limit that ended it.
+    /// Limit that ended the run.
     pub limit_reached: Option<LimitReached>,
-    /// What went wrong where it did not converge.
+    /// Failure of a run that did not converge.
     pub failure: Option<SimulationError>,
-    /// The points of each flank, the same in every slice.
+    /// Points of each flank, the same in every slice.
     pub grid: PerGear<FlankGrid>,
-    /// The parts of each flank that figures of its wear speak of.
+    /// Zones of each flank, by which its wear is summarised.
     pub zones: PerGear<FlankZones>,
-    /// The slices over the face width: one where all sections are alike.
+    /// Slices over the face width: one where all sections are alike.
     pub slices: Slices,
-    /// Material removed by the modifications, slice after slice as all fields of a flank.
+    /// Material removed by the modifications, mm, slice after slice as all fields of a flank.
     pub modification_mm: PerGear<Vec<f64>>,
-    /// The unworn pair, under the greatest load of any phase.
+    /// Unworn pair under the greatest load of any phase.
     pub new: Snapshot,
-    /// The pair at each snapshot reached, in order; where the run was interrupted, also at that moment.
+    /// Pair at each snapshot reached, in order; where the run was interrupted, also at that moment.
     pub snapshots: Vec<Snapshot>,
-    /// The pair when the run ended: the last of the snapshots, but under the load that `new` is under.
+    /// Pair at the end of the run, as in the last snapshot, but under the load of `new`.
     pub worn: Snapshot,
-    /// Index of the phase of that load. Where the worn pair finds no equilibrium under it, `worn` is under that of its own phase.
+    /// Index of the phase of that load. Where the worn pair finds no equilibrium under it, `worn` is under the load of its own phase.
     pub reference_phase: usize,
-    /// Wear steps taken, and what else came of them.
+    /// Counts of the wear steps.
     pub steps: StepCounts,
-    /// Of adaptive steps: the estimated error of each gear's wear at the place where it is greatest, mm.
+    /// Estimated error of adaptive steps in each gear's wear where that is greatest, mm.
     pub step_error_mm: Option<PerGear<f64>>,
-    /// Work done in all.
+    /// Total work.
     pub work: Work,
 }
 
@@ -130,42 +130,42 @@ pub(super) struct UnwornFlanks {
     pub grid: PerGear<FlankGrid>,
     pub slices: Slices,
     pub modification_mm: PerGear<Vec<f64>>,
-    /// Wear that is as deep as the tooth is thick, at every point of the grid.
+    /// Thickness of the tooth at every point of the grid, mm.
     thickness_mm: PerGear<Vec<f64>>,
 }
 
-/// A run on its way.
+/// State of an unfinished run.
 struct RunState {
-    /// Number of its phase.
+    /// Index of the current phase.
     phase: usize,
     revolutions: f64,
     stepper: Stepper,
     work: Work,
-    /// The unworn pair first, then each snapshot.
+    /// Unworn pair, then each snapshot.
     states: Vec<Snapshot>,
-    /// What the flanks have lost, where they are not new.
+    /// Wear depth at the beginning of the phase; none of new flanks.
     wear_mm: Option<PerGear<Vec<f64>>>,
-    /// What they had lost, place by place, at the last of the states; none before the first and after a checkpoint.
+    /// Wear depth at the last of the states; none before the first and after a checkpoint.
     wear_of_last_state_mm: Option<PerGear<Vec<f64>>>,
-    /// How many of the snapshots asked for were due so far.
+    /// Number of snapshots due so far.
     passed: usize,
-    /// The limit that it has come to.
+    /// Limit reached.
     limit_reached: Option<LimitReached>,
-    /// Whether it goes on from a checkpoint: its state is evaluated once more, but its work and its snapshot are already there.
+    /// Whether the run goes on from a checkpoint, whose state is evaluated once more without counting its work and snapshot again.
     is_repeated: bool,
 }
 
-/// How a phase ended.
+/// End of a phase.
 enum PhaseEnd {
-    /// Where it should.
+    /// Last revolution of the phase reached.
     Reached,
-    /// The whole run ended there, or was interrupted.
+    /// The whole run ended or was interrupted.
     Stopped,
-    /// In failure, after something was finished.
+    /// A failure, after something was finished.
     Failed(SimulationError),
 }
 
-/// Whoever looks on while a run runs.
+/// Keeper of checkpoints and observer of a run.
 #[derive(Clone, Copy)]
 struct Attendants<'a> {
     keeper: &'a dyn Keeper,
@@ -173,12 +173,12 @@ struct Attendants<'a> {
 }
 
 impl WearRun<'_> {
-    /// Runs the whole duration, or until interrupted.
+    /// Runs the whole duration, or until a limit or an interrupt.
     pub fn run(&self, progress: &dyn Observer) -> Result<Outcome, SimulationError> {
         self.run_from(None, &NothingKept, progress)
     }
 
-    /// The same from a checkpoint of this same run on, to the same bits; `keeper` gets new ones.
+    /// Runs from the beginning or from a checkpoint of this same run on, to the same bits; `keeper` receives new checkpoints.
     pub fn run_from(
         &self,
         checkpoint: Option<Checkpoint>,
@@ -237,40 +237,47 @@ impl WearRun<'_> {
         })
     }
 
-    /// The first and the last of the states under the load of the reference phase, where that finds an equilibrium.
+    /// First and last of the states under the load of the reference phase, where that finds an equilibrium.
     fn new_and_worn(&self, run_state: &mut RunState, flanks: &UnwornFlanks) -> Result<[Snapshot; 2], SimulationError> {
         let reference = reference_phase(self.phases);
         let last_phase = run_state.phase.min(self.phases.len() - 1);
         let last_wear_mm = run_state.wear_of_last_state_mm.take();
         let RunState { states, work, .. } = run_state;
-        let mut under_reference = |own: &Snapshot, phase: usize, wear_mm: Option<&PerGear<Vec<f64>>>| {
-            if phase == reference {
-                return Ok(own.clone());
-            }
-            let mut pair = self.wearing_pair(&self.phases[reference], flanks)?;
-            if let Some(wear_mm) =
-                wear_mm.filter(|wear_mm| wear_mm.as_ref().map(Vec::len) == pair.wear_mm().map(|row| row.len()))
-            {
-                pair.set_wear_mm(wear_mm);
-            }
-            let evaluated = pair.evaluate(&self.phases[reference].wear, &|| false);
-            let state = evaluated.and_then(|done| {
-                *work += done;
-                pair.snapshot(own.revolutions)
-            });
-            Ok::<_, SimulationError>(state.unwrap_or_else(|_| own.clone()))
-        };
         let (first, last) = (&states[0], &states[states.len() - 1]);
-        let new = under_reference(first, 0, None)?;
-        let worn = match (states.len(), last_wear_mm) {
-            (1, _) => new.clone(),
-            (_, None) => last.clone(),
-            (_, Some(wear_mm)) => under_reference(last, last_phase, Some(&wear_mm))?,
+        let new = match reference {
+            0 => first.clone(),
+            _ => self.under_reference(flanks, first, None, work)?,
+        };
+        let worn = match last_wear_mm {
+            _ if states.len() == 1 => new.clone(),
+            Some(wear_mm) if last_phase != reference => self.under_reference(flanks, last, Some(&wear_mm), work)?,
+            _ => last.clone(),
         };
         Ok([new, worn])
     }
 
-    /// The flanks as they are made, in these slices.
+    /// The state `own`, with `wear_mm`, under the load of the reference phase; `own` itself where there is no equilibrium under it.
+    fn under_reference(
+        &self,
+        flanks: &UnwornFlanks,
+        own: &Snapshot,
+        wear_mm: Option<&PerGear<Vec<f64>>>,
+        work: &mut Work,
+    ) -> Result<Snapshot, SimulationError> {
+        let phase = &self.phases[reference_phase(self.phases)];
+        let mut pair = self.wearing_pair(phase, flanks)?;
+        if let Some(wear_mm) = wear_mm.filter(|wear_mm| fits(&*pair, wear_mm)) {
+            pair.set_wear_mm(wear_mm);
+        }
+        let evaluated = pair.evaluate(&phase.wear, &|| false);
+        let state = evaluated.and_then(|done| {
+            *work += done;
+            pair.snapshot(own.revolutions)
+        });
+        Ok(state.unwrap_or_else(|_| own.clone()))
+    }
+
+    /// Unworn flanks in these slices.
     pub(super) fn unworn_flanks(&self, slices: Slices) -> UnwornFlanks {
         let grid = PerGear::from_fn(|gear| {
             FlankGrid::new(self.pair, gear, self.numerics.flank_points, self.numerics.point_spacing)
@@ -280,7 +287,7 @@ impl WearRun<'_> {
         UnwornFlanks { grid, slices, modification_mm, thickness_mm }
     }
 
-    /// The pair under the load of `phase`.
+    /// Pair under the load of `phase`.
     pub(super) fn wearing_pair<'b>(
         &'b self,
         phase: &RunPhase<'b>,
@@ -296,7 +303,7 @@ impl WearRun<'_> {
         Ok(mesh.wearing_pair(Flanks::of_gears(self.pair, flanks.grid.as_ref()), &flanks.modification_mm)?)
     }
 
-    /// A run that has not begun.
+    /// State before the first step.
     fn beginning(&self) -> RunState {
         RunState {
             phase: 0,
@@ -316,7 +323,7 @@ impl WearRun<'_> {
         }
     }
 
-    /// A run that goes on.
+    /// State at a checkpoint.
     fn resumed(&self, from: Checkpoint) -> Result<RunState, SimulationError> {
         let mut run_state = RunState {
             phase: from.phase,
@@ -339,20 +346,20 @@ impl WearRun<'_> {
         self.phases.last().map_or(0.0, |phase| phase.end_revolutions)
     }
 
-    /// The first snapshot that is asked for after the first `passed` of them; the last is the end of the run.
+    /// Pinion revolutions of the snapshot number `passed`, from 0; the last is the end of the run.
     fn due(&self, passed: usize) -> Option<f64> {
         let end = self.end_revolutions();
         self.snapshots_revolutions.iter().copied().chain([end]).nth(passed)
     }
 
-    /// Passes over the snapshots that are reached.
+    /// Counts the snapshots that are reached.
     fn pass_due(&self, run_state: &mut RunState) {
         while self.due(run_state.passed).is_some_and(|next| next <= run_state.revolutions) {
             run_state.passed += 1;
         }
     }
 
-    /// What is wrong where `pair`, which is evaluated, has lost the thickness of a tooth, or will have with one more mesh.
+    /// Failure of `pair`, which is evaluated, where a tooth is worn through, or will be with one more mesh.
     fn worn_through(
         pair: &dyn WearingPair,
         thickness_mm: &PerGear<Vec<f64>>,
@@ -388,7 +395,7 @@ impl WearRun<'_> {
         let phase = &self.phases[run_state.phase];
         let stopped: &(dyn Fn() -> bool + Sync) = &|| progress.gives_up();
         if let Some(wear_mm) = &run_state.wear_mm {
-            if wear_mm.as_ref().map(Vec::len) != pair.wear_mm().map(|row| row.len()) {
+            if !fits(pair, wear_mm) {
                 return Err(SimulationError::OtherRun);
             }
             pair.set_wear_mm(wear_mm);
@@ -399,88 +406,124 @@ impl WearRun<'_> {
         } else {
             run_state.stepper.begin_phase();
         }
-        // A phase begins with a pair made anew, which is a clean start.
+        // The pair of a phase is made anew, which is a clean start.
         let (mut is_clean, mut cleaned_at) = (true, 0);
         let clean_after = phase.contact.evaluations_between_clean_starts(self.numerics.positions);
         loop {
-            let revolutions = run_state.revolutions;
-            let is_due = self.due(run_state.passed).is_some_and(|next| revolutions >= next);
-            let interrupted = progress.interrupted();
-            let ends = run_state.limit_reached.is_some();
-            let worn_through =
-                evaluated.is_ok().then(|| Self::worn_through(pair, &flanks.thickness_mm, revolutions)).flatten();
-            let keep = run_state.states.is_empty() || (worn_through.is_none() && (is_due || interrupted || ends));
-            let state = evaluated.and_then(|done| {
-                run_state.work += done;
-                keep.then(|| pair.snapshot(revolutions)).transpose()
-            });
-            match state {
-                Ok(Some(state)) => {
-                    run_state.states.push(state);
-                    run_state.wear_of_last_state_mm = Some(pair.wear_mm());
-                }
-                Ok(None) => {}
-                // Before anything is finished there is nothing to keep.
-                Err(source) if run_state.states.is_empty() => {
-                    return Err(SimulationError::Equilibrium { revolutions, source });
-                }
-                Err(EquilibriumError::Interrupted) => return Ok(PhaseEnd::Stopped),
-                Err(source) => return Ok(PhaseEnd::Failed(SimulationError::Equilibrium { revolutions, source })),
-            }
-            if let Some(worn_through) = worn_through {
-                return Ok(PhaseEnd::Failed(worn_through));
-            }
-            self.pass_due(run_state);
-            progress.progress(revolutions, self.end_revolutions());
-            let Some(next) = self.due(run_state.passed).filter(|_| !interrupted && !ends) else {
-                return Ok(PhaseEnd::Stopped);
-            };
-            if revolutions >= phase.end_revolutions {
-                return Ok(PhaseEnd::Reached);
+            if let Some(end) = self.arrive(run_state, pair, flanks, evaluated, progress)? {
+                return Ok(end);
             }
             if is_clean {
                 cleaned_at = run_state.work.mesh_cycles;
-                if revolutions > 0.0 && keeper.is_due() {
+                if run_state.revolutions > 0.0 && keeper.is_due() {
                     keeper.keep(&run_state.checkpoint(pair.wear_mm()));
                 }
             }
             is_clean = run_state.work.mesh_cycles - cleaned_at >= clean_after;
-            let limit = next.min(phase.end_revolutions);
-            let stretch = Stretch { from: revolutions, limit, clean_start: is_clean };
-            let beginning = self.limits.are_set().then(|| StepBeginning::of(pair, revolutions));
-            let advanced = run_state.stepper.advance(pair, &phase.wear, stretch, stopped);
-            (run_state.revolutions, evaluated) = (advanced.revolutions, advanced.evaluated);
-            // A step that was taken may have passed a limit, even if there is no equilibrium at its end.
-            let is_taken = run_state.revolutions > revolutions && evaluated != Err(EquilibriumError::Interrupted);
-            if let Some(beginning) = beginning.filter(|_| is_taken) {
-                let smooth = matches!(self.numerics.stepping, Stepping::Adaptive { .. });
-                let limits =
-                    LimitsOfPair { limits: self.limits, pair: self.pair, grid: &flanks.grid, zones: &self.zones };
-                if let Some(within) = beginning.limit_within(&limits, pair, run_state.revolutions, smooth) {
-                    run_state.work += evaluated.unwrap_or_default();
-                    run_state.revolutions = within.revolutions;
-                    evaluated = advance::evaluate(pair, &phase.wear, stopped);
-                    run_state.limit_reached = evaluated.is_ok().then_some(within.reached);
-                }
-            }
+            let limit =
+                self.due(run_state.passed).map_or(phase.end_revolutions, |next| next.min(phase.end_revolutions));
+            let interval = StepInterval { from: run_state.revolutions, limit, clean_start: is_clean };
+            evaluated = self.step(run_state, pair, flanks, interval, stopped);
         }
     }
+
+    /// Counts the work of the evaluated state and keeps the state where that is due; the end of the phase where it is reached.
+    ///
+    /// # Errors
+    /// No equilibrium of the unworn pair.
+    fn arrive(
+        &self,
+        run_state: &mut RunState,
+        pair: &mut dyn WearingPair,
+        flanks: &UnwornFlanks,
+        evaluated: Result<Work, EquilibriumError>,
+        progress: &dyn Observer,
+    ) -> Result<Option<PhaseEnd>, SimulationError> {
+        let revolutions = run_state.revolutions;
+        let is_due = self.due(run_state.passed).is_some_and(|next| revolutions >= next);
+        let ends = progress.interrupted() || run_state.limit_reached.is_some();
+        let worn_through =
+            evaluated.is_ok().then(|| Self::worn_through(pair, &flanks.thickness_mm, revolutions)).flatten();
+        let keep = run_state.states.is_empty() || (worn_through.is_none() && (is_due || ends));
+        let state = evaluated.and_then(|done| {
+            run_state.work += done;
+            keep.then(|| pair.snapshot(revolutions)).transpose()
+        });
+        match state {
+            Ok(Some(state)) => {
+                run_state.states.push(state);
+                run_state.wear_of_last_state_mm = Some(pair.wear_mm());
+            }
+            Ok(None) => {}
+            // Before anything is finished there is nothing to keep.
+            Err(source) if run_state.states.is_empty() => {
+                return Err(SimulationError::Equilibrium { revolutions, source });
+            }
+            Err(EquilibriumError::Interrupted) => return Ok(Some(PhaseEnd::Stopped)),
+            Err(source) => return Ok(Some(PhaseEnd::Failed(SimulationError::Equilibrium { revolutions, source }))),
+        }
+        if let Some(worn_through) = worn_through {
+            return Ok(Some(PhaseEnd::Failed(worn_through)));
+        }
+        self.pass_due(run_state);
+        progress.progress(revolutions, self.end_revolutions());
+        if ends || self.due(run_state.passed).is_none() {
+            return Ok(Some(PhaseEnd::Stopped));
+        }
+        let is_reached = revolutions >= self.phases[run_state.phase].end_revolutions;
+        Ok(is_reached.then_some(PhaseEnd::Reached))
+    }
+
+    /// Takes one wear step within `interval`, up to the first limit that it passes, and evaluates the pair there.
+    fn step(
+        &self,
+        run_state: &mut RunState,
+        pair: &mut dyn WearingPair,
+        flanks: &UnwornFlanks,
+        interval: StepInterval,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        let wear = &self.phases[run_state.phase].wear;
+        let beginning = self.limits.are_set().then(|| StepBeginning::of(pair, interval.from));
+        let advanced = run_state.stepper.advance(pair, wear, interval, stopped);
+        let evaluated = advanced.evaluated;
+        run_state.revolutions = advanced.revolutions;
+        // A step that was taken may have passed a limit, even if there is no equilibrium at its end.
+        let is_taken = run_state.revolutions > interval.from && evaluated != Err(EquilibriumError::Interrupted);
+        let Some(beginning) = beginning.filter(|_| is_taken) else { return evaluated };
+        let smooth = matches!(self.numerics.stepping, Stepping::Adaptive { .. });
+        let limits = LimitsOfPair { limits: self.limits, pair: self.pair, grid: &flanks.grid, zones: &self.zones };
+        let Some(within) = beginning.limit_within(&limits, pair, run_state.revolutions, smooth) else {
+            return evaluated;
+        };
+        run_state.work += evaluated.unwrap_or_default();
+        run_state.revolutions = within.revolutions;
+        let evaluated = advance::evaluate(pair, wear, stopped);
+        run_state.limit_reached = evaluated.is_ok().then_some(within.reached);
+        evaluated
+    }
+}
+
+/// Whether `wear_mm` has a value for every place of `pair`.
+fn fits(pair: &dyn WearingPair, wear_mm: &PerGear<Vec<f64>>) -> bool {
+    wear_mm.as_ref().map(Vec::len) == pair.wear_mm().map(|row| row.len())
 }
 
 /// Transverse thickness of a tooth at every point of its flank; near a pointed tip half a module.
 fn thickness_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid) -> Vec<f64> {
     let tooth = &pair.teeth[gear];
-    let at = |&rho: &f64| tooth.thickness_mm(tooth.involute.radius_mm(rho)).max(0.5 * pair.spec.normal_module_mm);
-    grid.coordinate_mm.iter().map(at).collect()
+    let least_mm = 0.5 * pair.spec.normal_module_mm;
+    let rho_mm = grid.coordinate_mm.iter();
+    rho_mm.map(|&rho| tooth.thickness_mm(tooth.involute.radius_mm(rho)).max(least_mm)).collect()
 }
 
-/// Index of the phase of the greatest load, the first of equals: what is said of the new and of the worn pair is under that load.
+/// Index of the phase of the greatest load, the first of equals: figures of the new and of the worn pair are under that load.
 pub fn reference_phase(phases: &[RunPhase<'_>]) -> usize {
     first_greatest(phases.iter().map(|phase| phase.line_load_n_per_mm))
 }
 
 impl RunState {
-    /// The run as it is, on flanks that have lost `wear_mm`.
+    /// Checkpoint of the run with the wear `wear_mm`.
     fn checkpoint(&self, wear_mm: PerGear<Vec<f64>>) -> Checkpoint {
         Checkpoint {
             phase: self.phase,

@@ -12,7 +12,7 @@ use super::selection::{AccuracyOptions, CompanionRuns, RefinedSpacing, Selection
 use super::settings::Setting;
 use super::sliced_comparison;
 use super::timed_run::{Finished, MeasuredSetting, measure};
-use crate::assessment::calibrate::{self, CalibrateError, Extent};
+use crate::assessment::calibrate::{self, CalibrateError, CalibrationExtent};
 use crate::calibration::Calibration;
 use crate::contact::settings::MatchCriterion;
 use crate::gear::{Gear, PerGear};
@@ -179,12 +179,12 @@ fn calibration(given: &LoadedScene, observer: &dyn Observer) -> Result<Calibrati
     }
     observer.stage("calibration");
     let watch = PartOf::new(observer, 0, usize::MAX);
-    let (made, wall_s, why_none) = match calibrate::run(given.scene(), Extent::FastModel, &given.teeth_in_space, &watch)
-    {
-        Ok(done) => (Some(done.calibration), Some(done.wall_s), String::new()),
-        Err(CalibrateError::Interrupted) => return Err(AccuracyError::Interrupted),
-        Err(error) => (None, None, format!("no calibration: {error}")),
-    };
+    let (made, wall_s, why_none) =
+        match calibrate::run(given.scene(), CalibrationExtent::FastModel, &given.teeth_in_space, &watch) {
+            Ok(done) => (Some(done.calibration), Some(done.wall_s), String::new()),
+            Err(CalibrateError::Interrupted) => return Err(AccuracyError::Interrupted),
+            Err(error) => (None, None, format!("no calibration: {error}")),
+        };
     Ok(CalibrationOfRuns { made, wall_s, why_none })
 }
 

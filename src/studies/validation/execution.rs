@@ -13,7 +13,7 @@ use super::members::Member;
 use super::soundness;
 use super::value::Value;
 use crate::assessment::RunError;
-use crate::assessment::calibrate::{self, CalibrateError, Extent};
+use crate::assessment::calibrate::{self, CalibrateError, CalibrationExtent};
 use crate::assessment::fem_scene::{self, FemPairError};
 use crate::assessment::guarded::guarded;
 use crate::calibration::Calibration;
@@ -221,7 +221,7 @@ impl MemberRun<'_> {
 
     fn finite_element_pair(&self) -> Result<Executed, Failed> {
         let resolved = self.resolved(self.draft()?)?;
-        let asked = fem_scene::Asked { position_mm: self.run.position_mm, full: self.run.full };
+        let asked = fem_scene::FemPairRequest { position_mm: self.run.position_mm, full: self.run.full };
         let done = runs::fem_pair(&resolved, asked, self.watch).map_err(|error| match &error {
             FemPairError::Position { .. }
             | FemPairError::Pair(_)
@@ -275,7 +275,7 @@ impl MemberRun<'_> {
 
     fn calibrated(&self) -> Result<Executed, Failed> {
         let resolved = self.resolved(self.draft()?)?;
-        let extent = if self.run.full { Extent::Whole } else { Extent::FastModel };
+        let extent = if self.run.full { CalibrationExtent::Whole } else { CalibrationExtent::FastModel };
         let done =
             calibrate::run(&resolved.scene, extent, &Default::default(), self.watch).map_err(|error| match &error {
                 CalibrateError::Pair(_) => refused(error),

@@ -1,5 +1,4 @@
-//! Carries out a calibration: finite elements of the scene's pair, and all that the fast model and the reader take from
-//! them ([`crate::calibration`]).
+//! Calibration of the scene's pair: its finite elements, and the curves and tables derived from them ([`crate::calibration`]).
 
 mod wear_reference;
 
@@ -28,47 +27,47 @@ use crate::plan::calibration::CalibrationStage;
 use crate::results::run::StageTime;
 use crate::stiffness::{StiffnessError, curve::PairCompliance, iso6336};
 
-/// The memory of a calibration at its peak over that of its own pair of bodies: finer meshes and other rims stand beside it. 1.3 to 1.7 on FZG type
-/// C with tip roundings of 0.1 and 0.001 mm.
+/// Peak memory of a calibration over that of the pair's own bodies: finer meshes and other rims are held beside them. 1.3 to 1.7 on FZG type C with
+/// tip roundings of 0.1 and 0.001 mm.
 const BODIES_AT_ONCE: f64 = 1.7;
 
-/// Why there is no calibration.
+/// Failure of a calibration.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CalibrateError {
     /// The pair cannot exist.
     #[error(transparent)]
     Pair(#[from] PairError),
-    /// Finite elements gave none.
+    /// The finite elements failed.
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
-    /// The flattening of the surfaces alone is more than the whole pair yields.
+    /// The flattening of the surfaces alone exceeds the deflection of the whole pair.
     #[error(transparent)]
     Stiffness(#[from] StiffnessError),
     /// The mesh cycle of unworn flanks has no equilibrium.
     #[error("mesh cycle under {line_load_n_per_mm:.2} N/mm: {source}")]
     Cycle {
-        /// w.
+        /// Line load w, N/mm.
         line_load_n_per_mm: f64,
-        /// Why.
+        /// Failure of the equilibrium.
         source: EquilibriumError,
     },
-    /// The user stopped it.
+    /// Interrupted by the user.
     #[error("interrupted")]
     Interrupted,
 }
 
-/// A calibration and how it came about.
+/// Calibration with the times of its stages.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Calibrated {
-    /// The calibration, hash filled in.
+    /// Calibration with its hash.
     pub calibration: Calibration,
-    /// Stages with their times.
+    /// Wall time of each stage.
     pub stages: Vec<StageTime>,
-    /// All of them together, s.
+    /// Wall time of the whole calibration, s.
     pub wall_s: f64,
 }
 
-/// Listens to the observer between the stages.
+/// Stages, between which an interrupt is heard.
 struct Stages<'a>(StageClock<'a>);
 
 impl Stages<'_> {
@@ -84,65 +83,62 @@ impl Stages<'_> {
     }
 }
 
-/// How much of a calibration is wanted.
+/// Extent of a calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extent {
-    /// All of it.
+pub enum CalibrationExtent {
+    /// Everything, with the tables of other bodies and other teeth.
     Whole,
-    /// What the fast model reads; the tables of other bodies and other teeth stay empty.
+    /// Curves of the fast model alone.
     FastModel,
 }
 
-/// Calibrates the pair of `scene`, with teeth in space that are `kept` where they are its own. The files are left to the caller.
+/// Calibrates the pair of `scene`; three-dimensional finite elements are `kept` for other runs of the same pair. The files are left to the caller.
 pub fn run(
     scene: &Scene,
-    extent: Extent,
+    extent: CalibrationExtent,
     kept: &KeptInSpace,
     observer: &dyn Observer,
 ) -> Result<Calibrated, CalibrateError> {
-    use CalibrationStage as Stage;
     let start = Instant::now();
     let mut stages = Stages(StageClock::new(observer));
-    let pair = stages.run(Stage::Geometry, || GearPair::new(&scene.pair))?;
+    let pair = stages.run(CalibrationStage::Geometry, || GearPair::new(&scene.pair))?;
     let setup = setup(scene, &pair);
     let w = setup.line_load_n_per_mm;
-    let meshed = stages.run(Stage::Meshing, || setup.meshed())?;
+    let meshed = stages.run(CalibrationStage::Meshing, || setup.meshed())?;
     if let Some(warning) = much_memory(&meshed, BODIES_AT_ONCE).map_err(CalibrationError::from)? {
         observer.announcement(&warning);
     }
-    let condensed = stages.run(Stage::Condensation, || setup.condensed(&meshed))?;
+    let condensed = stages.run(CalibrationStage::Condensation, || setup.condensed(&meshed))?;
     let loaded = LoadedPair::new(&condensed, &scene.material);
-    let deflection = stages.run(Stage::ToothStiffness, || loaded.along_the_path(STIFFNESS_POSITIONS, w))?;
-    let path_points_mm = pair.path.points_mm();
-    let single_contact = stages.run(Stage::Foundation, || on_plain_flanks(&setup, &condensed, &loaded))?;
-    let ends_mm = (pair.path.start_mm, pair.path.end_mm);
-    let (foundation, foundation_fit) = foundation_fit::all(&single_contact, w, ends_mm);
+    let deflection = stages.run(CalibrationStage::ToothStiffness, || loaded.along_the_path(STIFFNESS_POSITIONS, w))?;
+    let single_contact = stages.run(CalibrationStage::Foundation, || on_plain_flanks(&setup, &condensed, &loaded))?;
+    let (foundation, foundation_fit) = foundation_fit::all(&single_contact, w, (pair.path.start_mm, pair.path.end_mm));
     let (mut convergence, mut rim_depth, mut neighbours, mut family) = Default::default();
-    if extent == Extent::Whole {
-        convergence = stages.run(Stage::Convergence, || setup.convergence())?;
-        rim_depth = stages.run(Stage::RimDepth, || setup.rim_depths())?;
-        neighbours = stages.run(Stage::Neighbours, || setup.neighbours())?;
-        family = stages.run(Stage::ToothFamily, || tooth_family::family(&setup))?;
+    if extent == CalibrationExtent::Whole {
+        convergence = stages.run(CalibrationStage::Convergence, || setup.convergence())?;
+        rim_depth = stages.run(CalibrationStage::RimDepth, || setup.rim_depths())?;
+        neighbours = stages.run(CalibrationStage::Neighbours, || setup.neighbours())?;
+        family = stages.run(CalibrationStage::ToothFamily, || tooth_family::family(&setup))?;
     }
     let pair_compliance = loaded.curve(&deflection, w);
-    let in_slices = scene.slices.is_some() && scene.fem.body == Body::Ring;
-    let slices = match in_slices {
-        true => stages.run(Stage::Slices, || slices(scene, &pair, kept, (&pair_compliance, w), observer))?,
+    let slices = match scene.slices.is_some() && scene.fem.body == Body::Ring {
+        true => stages.run(CalibrationStage::Slices, || slices(scene, &pair, kept, (&pair_compliance, w), observer))?,
         false => None,
     };
-    let stopped = || observer.interrupted();
-    let wear_reference = stages.run(Stage::WearReference, || wear_reference::references(&condensed, w, &stopped))?;
+    let wear_reference = stages.run(CalibrationStage::WearReference, || {
+        wear_reference::references(&condensed, w, &|| observer.interrupted())
+    })?;
     let mut calibration = Calibration {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         hash: String::new(),
         belongs_to: CalibrationIdentity::of(&pair, &scene.material, &scene.fem),
         elements_per_half_width: scene.fem.elements_per_half_width,
         line_load_n_per_mm: w,
-        path_points_mm,
+        path_points_mm: pair.path.points_mm(),
         pair_compliance,
         foundation,
         foundation_fit,
-        deflection_at_points: path_points_mm.map(|position_mm| loaded.deflection(position_mm, w)),
+        deflection_at_points: pair.path.points_mm().map(|position_mm| loaded.deflection(position_mm, w)),
         iso6336_n_per_mm_um: 1e-3 * iso6336::single_stiffness_n_per_mm2(&scene.pair, &scene.material, w),
         courses: stiffness_variation::courses(&pair, &deflection),
         deflection,
@@ -158,7 +154,7 @@ pub fn run(
     Ok(Calibrated { calibration, stages: stages.0.times, wall_s: start.elapsed().as_secs_f64() })
 }
 
-/// How the slices of the pair yield together; none, with a warning, where its teeth cannot be had in space.
+/// Compliance of coupled slices; none, with a warning, where three-dimensional finite elements of the teeth cannot be made.
 fn slices(
     scene: &Scene,
     pair: &GearPair,
@@ -171,7 +167,7 @@ fn slices(
         Ok(in_space) => slice_fit::fit(pair, &scene.material, &in_space, curve, line_load_n_per_mm).map(Some),
         Err(error) => {
             observer.warning(&format!(
-                "{}: the teeth cannot be had in space ({error}), so that the calibration says nothing of slices",
+                "{}: three-dimensional finite elements of the teeth cannot be made ({error}), so that the calibration has no compliance of slices",
                 error.scene_key()
             ));
             Ok(None)
@@ -179,8 +175,8 @@ fn slices(
     }
 }
 
-/// The pair alone in contact, without relief and crowning: K/H belongs to the curvature of the involute, and a relief changes
-/// that where it begins. Tip roundings stay: they end the flank.
+/// Contact of a single pair without relief and crowning: K/H belongs to the curvature of the involute, which a relief changes
+/// where it begins. Tip roundings stay: they end the flank.
 fn on_plain_flanks(
     setup: &Setup<'_>,
     condensed: &CondensedPair<'_>,
@@ -201,7 +197,7 @@ fn on_plain_flanks(
     Ok(single_contact::solve(&condensed, &LoadedPair::new(&condensed, &setup.material), w)?)
 }
 
-/// The scene's pair with what finite elements need to know of it.
+/// Setup of the scene's pair for plane finite elements.
 pub(super) fn setup<'a>(scene: &Scene, pair: &'a GearPair) -> Setup<'a> {
     let line_load_n_per_mm = pair.line_load_n_per_mm(scene.operation.pinion_torque_n_mm);
     Setup { pair, material: scene.material, bodies: scene.fem, line_load_n_per_mm }

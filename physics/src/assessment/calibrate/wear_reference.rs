@@ -1,4 +1,4 @@
-//! One mesh of unworn flanks on the finite-element contact.
+//! Wear of unworn flanks in one mesh by finite-element contact.
 
 use super::CalibrateError;
 use crate::calibration::wear_reference::{FLANK_POINTS, LOADS, POSITIONS, ReferenceDepth, WearReference};
@@ -12,35 +12,40 @@ use crate::mesh_cycle::load_sharing::EquilibriumError;
 use crate::mesh_cycle::{LostMaterial, MeshCycle};
 use crate::wear::{self, WearModel, settings::WearSettings};
 
-/// The references of all loads, each a multiple of `line_load_n_per_mm`.
+/// Wear references of all loads, each a multiple of `line_load_n_per_mm`.
 pub(super) fn references(
     condensed: &CondensedPair<'_>,
     line_load_n_per_mm: f64,
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Result<Vec<WearReference>, CalibrateError> {
+    LOADS.into_iter().map(|load| reference(condensed, load * line_load_n_per_mm, stopped)).collect()
+}
+
+/// Wear reference of one load.
+fn reference(
+    condensed: &CondensedPair<'_>,
+    line_load_n_per_mm: f64,
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Result<WearReference, CalibrateError> {
     let pair = condensed.pair;
-    // Wear per coefficient: that of the coefficient 1.
+    // Wear per coefficient is the wear by a coefficient of 1.
     let law = wear::of(&WearSettings::archard(1.0));
-    let one = |load: f64| {
-        let load = load * line_load_n_per_mm;
-        let mut cycle = CondensedCycle::new(condensed, POSITIONS, load);
-        let mut depth = cycle.nodes().map(|nodes| vec![0.0; nodes.len()]);
-        let unworn = depth.clone();
-        let zeros = unworn.as_ref().map(Vec::as_slice);
-        let lost = LostMaterial { removed_mm: zeros, wear_mm: zeros };
-        match cycle.evaluate(lost, &WearModel::cold(law.as_ref()), &mut depth, stopped) {
-            Ok(_) => {}
-            Err(EquilibriumError::Interrupted) => return Err(CalibrateError::Interrupted),
-            Err(source) => return Err(CalibrateError::Cycle { line_load_n_per_mm: load, source }),
-        }
-        let flanks = PerGear::from_fn(|gear: Gear| {
-            let grid = FlankGrid::new(pair, gear, FLANK_POINTS, PointSpacing::Even);
-            let radius_mm: Vec<f64> =
-                grid.coordinate_mm.iter().map(|&rho| pair.teeth[gear].involute.radius_mm(rho)).collect();
-            let depth_per_coefficient_n_per_mm = cycle.at_radii(gear, &depth[gear], radius_mm.iter().copied());
-            ReferenceDepth { radius_mm, depth_per_coefficient_n_per_mm }
-        });
-        Ok(WearReference { line_load_n_per_mm: load, flanks })
-    };
-    LOADS.into_iter().map(one).collect()
+    let mut cycle = CondensedCycle::new(condensed, POSITIONS, line_load_n_per_mm);
+    let mut depth = cycle.nodes().map(|nodes| vec![0.0; nodes.len()]);
+    let unworn = depth.clone();
+    let zeros = unworn.as_ref().map(Vec::as_slice);
+    let lost = LostMaterial { removed_mm: zeros, wear_mm: zeros };
+    match cycle.evaluate(lost, &WearModel::cold(law.as_ref()), &mut depth, stopped) {
+        Ok(_) => {}
+        Err(EquilibriumError::Interrupted) => return Err(CalibrateError::Interrupted),
+        Err(source) => return Err(CalibrateError::Cycle { line_load_n_per_mm, source }),
+    }
+    let flanks = PerGear::from_fn(|gear: Gear| {
+        let grid = FlankGrid::new(pair, gear, FLANK_POINTS, PointSpacing::Even);
+        let radius_mm: Vec<f64> =
+            grid.coordinate_mm.iter().map(|&rho| pair.teeth[gear].involute.radius_mm(rho)).collect();
+        let depth_per_coefficient_n_per_mm = cycle.at_radii(gear, &depth[gear], radius_mm.iter().copied());
+        ReferenceDepth { radius_mm, depth_per_coefficient_n_per_mm }
+    });
+    Ok(WearReference { line_load_n_per_mm, flanks })
 }

@@ -1,52 +1,53 @@
-//! How far the peak wear is from the truth, from companions that cost at most half of the run itself.
+//! Errors of the peak wear, estimated from companion runs that cost at most half of the run itself.
 //!
 //! | estimate | companions | module |
 //! |---|---|---|
 //! | wear step, discretisation | coarser wear runs | [`wear_runs`] |
 //! | wear step of adaptive runs | none: their own steps estimate it | [`wear_runs`] |
-//! | severe switch: hard or over a band | two short wear runs | [`severe_switch`] |
-//! | limits of severe wear a tenth lower and higher | two wear runs as long, beyond that half, which is said before | [`severe_limit`] |
+//! | transition to severe wear: abrupt or over a band | two short wear runs | [`severe_switch`] |
+//! | limits of severe wear a tenth lower and higher | two wear runs as long, beyond that half and announced | [`severe_limit`] |
 //!
-//! What the contact surface and the stiffness of the teeth make is told by the same wear simulation with finite elements
-//! ([`super::verification`]). Cost is counted in equilibria of the run itself.
+//! The error of contact surface and tooth stiffness is that against the same wear simulation with finite elements ([`super::verification`]). Cost is
+//! counted in equilibria of the run itself.
 
 mod severe_limit;
 mod severe_switch;
 mod wear_runs;
 
-use super::Model;
+use super::RunModel;
 use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::observer::Observer;
 use crate::results::error::{ErrorSources, ErrorSummary};
 use crate::simulation::figures::WearFigures;
-use crate::simulation::wear_run::Outcome;
+use crate::simulation::wear_run::{Outcome, RunPhase, SimulationError, WearRun};
+use crate::wear::{self, Laws, settings::SevereTransition};
 
-/// Fewest points and positions of a companion: with fewer nothing can be learned.
+/// Fewest flank points and positions of a companion run.
 const LEAST_POINTS: usize = 20;
-/// Cost of all companions over that of the run, at the most.
+/// Greatest cost of all companions over that of the run.
 const BUDGET: f64 = 0.5;
-/// Estimates above this part of the peak wear are warned of.
+/// Relative error of the peak wear above which it is warned of.
 const ALARMING: f64 = 0.02;
-/// The same for the difference to finite elements, which no refinement can mend.
+/// Relative difference to finite elements, which no refinement reduces, above which it is warned of.
 const ALARMING_MODEL: f64 = 0.1;
 
-/// An estimate with its source; no value where there is none, and then the source says why.
-struct Estimate {
+/// Relative error with its source; without a value, the source is the reason.
+struct ErrorEstimate {
     relative: Option<f64>,
     how: String,
 }
 
-impl Estimate {
+impl ErrorEstimate {
     fn none(reason: &str) -> Self {
         Self { relative: None, how: format!("not estimated: {reason}") }
     }
 }
 
-/// Estimates the errors of the peak wear in `outcome`: of the gear for which they are larger. A companion that fails leaves its estimate out, never the
-/// result of the run. `step_over_safe` is the run's step over the longest safe one, 0 where there is no limit.
+/// Estimates the errors of the peak wear in `outcome`, the larger of both gears. A companion that fails leaves its estimate out, never the
+/// result of the run. `step_over_safe` is the run's wear step over the longest stable one, 0 without a limit.
 pub(super) fn estimate(
-    model: &Model<'_>,
+    model: &RunModel<'_>,
     outcome: &Outcome,
     step_over_safe: f64,
     observer: &dyn Observer,
@@ -79,8 +80,8 @@ pub(super) fn estimate(
     }
 }
 
-/// Of a run with slices, half as many; as many where so few would leave positions without contact.
-fn coarse_slices(model: &Model<'_>) -> Option<SlicedTeeth> {
+/// Half of the slices of a run; all of them where half would leave positions without contact. None of a run without slices.
+fn coarse_slices(model: &RunModel<'_>) -> Option<SlicedTeeth> {
     let fine = model.sliced?;
     let count = fine.settings.count.div_ceil(2);
     let between = 1.0 - 1.0 / count as f64;
@@ -88,12 +89,36 @@ fn coarse_slices(model: &Model<'_>) -> Option<SlicedTeeth> {
     Some(if covers { fine.with_count(model.pair, &model.scene.material, count) } else { fine.clone() })
 }
 
+/// Wear of the run with other wear laws, the severe transition of each exchanged by `transition`.
+fn run_with_transition(
+    run: WearRun<'_>,
+    model: &RunModel<'_>,
+    transition: impl Fn(SevereTransition) -> SevereTransition,
+    observer: &dyn Observer,
+) -> Result<Outcome, SimulationError> {
+    let scene = model.scene;
+    let phases = scene.operation.phases.iter();
+    let laws: Vec<Laws> =
+        phases.map(|phase| wear::of_both(&scene.wear_in(phase).with_severe(|own| Some(transition(own))))).collect();
+    let phases = model.phases.iter().zip(&laws);
+    let phases: Vec<RunPhase<'_>> =
+        phases.map(|(phase, laws)| RunPhase { wear: phase.wear.with_laws(laws), ..*phase }).collect();
+    WearRun { phases: &phases, ..run }.run(observer)
+}
+
+/// Larger of both gears' differences |one − other| over `reference`; 0 of a gear whose reference does not wear.
+fn greatest_difference(one: PerGear<f64>, other: PerGear<f64>, reference: PerGear<f64>) -> f64 {
+    let [pinion, wheel] = Gear::BOTH
+        .map(|gear| if reference[gear] > 0.0 { (one[gear] - other[gear]).abs() / reference[gear] } else { 0.0 });
+    pinion.max(wheel)
+}
+
 /// Greatest wear depth of each gear's flank.
-fn peak_wear_of_both_mm(model: &Model<'_>, outcome: &Outcome) -> PerGear<f64> {
+fn peak_wear_of_both_mm(model: &RunModel<'_>, outcome: &Outcome) -> PerGear<f64> {
     PerGear::from_fn(|gear| WearFigures::at(model.pair, gear, outcome, &outcome.worn).peak_mm)
 }
 
-/// Warns where an estimate says that the maximum wear is far from converged, or the surface far from true.
+/// Warns where the maximum wear is far from converged, or far from that by finite elements.
 pub(super) fn warnings(error: &ErrorSummary) -> Vec<String> {
     let causes =
         [("numerics.flank_points and numerics.positions", error.discretisation), ("numerics.step", error.wear_step)];

@@ -15,65 +15,65 @@
 //! difference happens to change its sign, it is the larger of the pinion's and the wheel's.
 //!
 //! Adaptive steps estimate their own error: what they have accumulated where the wear is greatest. They need no companion for it,
-//! and as their companions may have the same steps, a quarter of the points and positions tells the discretisation by itself,
+//! and as their companions may have the same steps, a quarter of the points and positions gives the discretisation by itself,
 //!
 //! ```text
 //! discretisation   |h(N) − h(N/4)| / (4ᵖ − 1) / h
 //! ```
 //!
-//! with the same tolerance. On finite elements, whose nodes wear, only the positions are fewer; what their size makes is in the
+//! with the same tolerance. On finite elements, whose nodes wear, only the positions are fewer; the error of the element size is in the
 //! verification on another mesh. Where wear is severe there is no such estimate: with fewer
-//! positions the switch is coarser, and adaptive steps take several times the work.
+//! positions the transition is coarser, and adaptive steps take several times the work.
 //!
 //! Source: L. F. Richardson (1911); P. J. Roache, *Verification and Validation in Computational Science* (1998).
 
-use super::{Estimate, LEAST_POINTS, peak_wear_of_both_mm, severe_switch};
-use crate::assessment::Model;
+use super::{ErrorEstimate, LEAST_POINTS, greatest_difference, peak_wear_of_both_mm, severe_switch};
+use crate::assessment::RunModel;
 use crate::contact::settings::SurfaceKind;
-use crate::gear::{Gear, PerGear};
+use crate::gear::PerGear;
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::observer::{Observer, PartOf};
 use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::settings::Numerics;
 use crate::simulation::wear_run::{Outcome, RunPhase, SimulationError, WearRun};
 
-/// Least ratio of two wear steps of which anything is learned.
+/// Least ratio of two wear steps for an estimate.
 const LEAST_STEP_RATIO: f64 = 1.5;
 
-/// What the wear runs say, and their cost over that of the run.
+/// Estimates from wear runs, with the cost of these over that of the run.
 pub(super) struct FromRuns {
-    pub discretisation: Estimate,
-    pub wear_step: Estimate,
+    pub discretisation: ErrorEstimate,
+    pub wear_step: ErrorEstimate,
     pub cost: f64,
 }
 
-/// A coarser run in comparison to the run itself.
+/// Coarsening of a companion run.
 #[derive(Clone, Copy)]
 struct Coarser {
-    /// Points and positions are divided by this.
+    /// Divisor of flank points and positions.
     spacing: usize,
-    /// The wear step is multiplied by this.
+    /// Factor of the wear step.
     step: f64,
 }
 
-/// Runs companions of one run.
-struct Companions<'a> {
-    model: &'a Model<'a>,
+/// Companion runs of one run.
+struct CompanionRuns<'a> {
+    model: &'a RunModel<'a>,
     observer: &'a dyn Observer,
-    /// Half of the slices, of a run that has some.
+    /// Half of the slices of a run with slices.
     coarse_slices: Option<&'a SlicedTeeth>,
-    /// The run's step over the longest safe one.
+    /// Wear step of the run over the longest stable one.
     step_over_safe: f64,
-    /// Of the run itself.
+    /// Peak wear of the run itself, mm.
     peaks_mm: PerGear<f64>,
-    /// Cost so far, in equilibria of the run itself.
+    /// Equilibria of the companions so far.
     cost: f64,
 }
 
 /// Relative error of the peak wear with how it was obtained, or why it was not.
 type Difference = Result<(f64, String), String>;
 
-impl<'a> Companions<'a> {
+impl<'a> CompanionRuns<'a> {
     fn numerics(&self, Coarser { spacing, step }: Coarser) -> Numerics {
         let fine = self.model.scene.numerics;
         Numerics {
@@ -84,7 +84,7 @@ impl<'a> Companions<'a> {
         }
     }
 
-    /// Whether so few points and positions can still say something.
+    /// Whether enough points and positions are left.
     fn allow(&self, spacing: usize) -> bool {
         let fine = self.model.scene.numerics;
         fine.flank_points.min(fine.positions) / spacing >= LEAST_POINTS
@@ -108,7 +108,7 @@ impl<'a> Companions<'a> {
         self.model.scene.contact.surface == SurfaceKind::HertzMean || self.model.sliced.is_some()
     }
 
-    /// "750 and 375 flank points, 400 and 200 positions, 20 and 10 slices".
+    /// Resolutions in words: "750 and 375 flank points, 400 and 200 positions, 20 and 10 slices".
     fn spacings(&self) -> String {
         let (fine, half) = (self.model.scene.numerics, self.numerics(Coarser { spacing: 2, step: 1.0 }));
         let slices = self.model.sliced.zip(self.coarse_slices).map_or_else(String::new, |(fine, half)| {
@@ -120,17 +120,15 @@ impl<'a> Companions<'a> {
         )
     }
 
-    /// The larger of both gears' differences of the peak wear, over that of the run.
+    /// Larger of both gears' differences of the peak wear, over that of the run.
     fn relative(&self, one: PerGear<f64>, other: PerGear<f64>) -> f64 {
-        let of = |gear: Gear| {
-            let difference = (one[gear] - other[gear]).abs();
-            // Where nothing wears there is nothing to be wrong about.
-            if self.peaks_mm[gear] > 0.0 { difference / self.peaks_mm[gear] } else { 0.0 }
-        };
-        of(Gear::Pinion).max(of(Gear::Wheel))
+        greatest_difference(one, other, self.peaks_mm)
     }
 
-    /// The peak wear of both gears by a coarser run; where it does not come to its end, why. Companions from `begin` on are still to come, as a share of all their work.
+    /// Peak wear of both gears by a coarser run, whose work is that from `begin` to `end` of all companions.
+    ///
+    /// # Errors
+    /// Reason why it is not completed.
     fn peaks_mm(&mut self, coarser: Coarser, (begin, end): (f64, f64)) -> Result<PerGear<f64>, String> {
         if !self.allow(coarser.spacing) {
             return Err("too few flank points or positions to leave some out".to_owned());
@@ -142,35 +140,44 @@ impl<'a> Companions<'a> {
             ));
         }
         let numerics = self.numerics(coarser);
-        let of_phase =
-            |phase: &RunPhase<'a>| RunPhase { contact: self.with_spacing(phase.contact, coarser.spacing), ..*phase };
-        let phases: Vec<RunPhase<'_>> = self.model.phases.iter().map(of_phase).collect();
+        let phases = self.model.phases.iter();
+        let phases: Vec<RunPhase<'_>> = phases
+            .map(|phase| RunPhase { contact: self.with_spacing(phase.contact, coarser.spacing), ..*phase })
+            .collect();
         let run = WearRun { phases: &phases, numerics, snapshots_revolutions: &[], ..self.model.wear_run() };
-        let failed = |error: SimulationError| format!("a coarser run failed: {error}");
         let part = PartOf { observer: self.observer, before: begin, share: end - begin, of: 1.0 };
-        let outcome = run.run(&part).map_err(failed)?;
+        let outcome = run.run(&part).map_err(|error| failed(&error))?;
         self.cost += outcome.work.equilibria as f64;
-        match outcome.failure.clone() {
+        match &outcome.failure {
             Some(error) => Err(failed(error)),
             None => Ok(peak_wear_of_both_mm(self.model, &outcome)),
         }
     }
 }
 
+fn failed(error: &SimulationError) -> String {
+    format!("a coarser run failed: {error}")
+}
+
+impl From<Difference> for ErrorEstimate {
+    fn from(difference: Difference) -> Self {
+        match difference {
+            Ok((relative, how)) => Self { relative: Some(relative), how },
+            Err(reason) => Self::none(&reason),
+        }
+    }
+}
+
 /// Estimates from coarser runs.
 pub(super) fn estimate<'a>(
-    model: &'a Model<'a>,
+    model: &'a RunModel<'a>,
     outcome: &Outcome,
     coarse_slices: Option<&'a SlicedTeeth>,
     step_over_safe: f64,
     observer: &'a dyn Observer,
 ) -> FromRuns {
     let peaks_mm = peak_wear_of_both_mm(model, outcome);
-    let mut companions = Companions { model, observer, coarse_slices, step_over_safe, peaks_mm, cost: 0.0 };
-    let estimate = |difference: Difference| match difference {
-        Ok((relative, how)) => Estimate { relative: Some(relative), how },
-        Err(reason) => Estimate::none(&reason),
-    };
+    let mut companions = CompanionRuns { model, observer, coarse_slices, step_over_safe, peaks_mm, cost: 0.0 };
     let embedded = outcome.step_error_mm.map(|error_mm| of_the_steps(&companions, error_mm));
     let [discretisation, wear_step] = match embedded {
         Some(embedded) => {
@@ -191,27 +198,25 @@ pub(super) fn estimate<'a>(
         None => from_fixed_steps(&mut companions, peaks_mm),
     };
     FromRuns {
-        discretisation: estimate(discretisation),
-        wear_step: estimate(wear_step),
+        discretisation: discretisation.into(),
+        wear_step: wear_step.into(),
         cost: companions.cost / outcome.work.equilibria as f64,
     }
 }
 
-/// Wear step of adaptive steps, from what they estimated.
-fn of_the_steps(companions: &Companions<'_>, error_mm: PerGear<f64>) -> (f64, String) {
-    let of =
-        |gear: Gear| if companions.peaks_mm[gear] > 0.0 { error_mm[gear] / companions.peaks_mm[gear] } else { 0.0 };
+/// Error of the wear step of adaptive steps, as they estimated it themselves.
+fn of_the_steps(companions: &CompanionRuns<'_>, error_mm: PerGear<f64>) -> (f64, String) {
     (
-        of(Gear::Pinion).max(of(Gear::Wheel)),
+        companions.relative(error_mm, PerGear::default()),
         "sum of the estimated errors of all adaptive steps where the wear is greatest".to_owned(),
     )
 }
 
-/// Discretisation and wear step of Euler's method.
-fn from_fixed_steps(companions: &mut Companions<'_>, reference: PerGear<f64>) -> [Difference; 2] {
+/// Errors of the discretisation and of the wear step of Euler's method.
+fn from_fixed_steps(companions: &mut CompanionRuns<'_>, reference: PerGear<f64>) -> [Difference; 2] {
     let surface = companions.model.scene.contact.surface;
     let longest = if surface == SurfaceKind::HalfSpace || surface == SurfaceKind::Fem { 4.0 } else { 8.0 };
-    // Four times as long is dearer, but within the budget too.
+    // Where steps eight times as long are unstable, four times as long are dearer but within the budget too.
     let step = if longest * companions.step_over_safe > 1.0 { 4.0 } else { longest };
     let stepped = companions.peaks_mm(Coarser { spacing: 1, step }, (0.0, 0.5));
     let discretisation = stepped.clone().and_then(|stepped| {

@@ -1,7 +1,7 @@
-//! Displacement and stress of the teeth that may touch, in place.
+//! Displacement and stress of the teeth that may touch, at their places in the mesh.
 //!
 //! Each tooth's displacement follows from the forces on its flank and from those of its cuts, in the tooth's own frame; the
-//! pinion besides turns by δ/r_b1, which closes the flanks. Teeth side by side share the nodes of the cut between them.
+//! pinion besides turns by δ/r_b1, which closes the flanks. TeethInMesh side by side share the nodes of the cut between them.
 
 use nalgebra::{Rotation2, Vector2};
 
@@ -17,22 +17,22 @@ use gearwear_fem::element::ElementError;
 use gearwear_fem::solid::{Element, Solid};
 use gearwear_fem::stress::StressRecovery;
 
-/// Nodes and elements of both gears' teeth as they gather, with the displacement of each node.
+/// Nodes and elements of both gears' teeth at their places, with the displacement of each node.
 #[derive(Default)]
-struct Teeth {
+struct TeethInMesh {
     solid: Solid,
     pair_of_element: Vec<i32>,
     displacement_mm: Vec<Vector2<f64>>,
 }
 
-/// The solution at the position of `found`.
+/// Solution at the position of `found`.
 pub(super) fn solution(
     model: &CondensedPair<'_>,
     meshed: &PerGear<MeshedGear>,
     material: &PerGear<Elastic>,
     found: &PositionContact,
 ) -> Result<PairSolution, ElementError> {
-    let mut teeth = Teeth::default();
+    let mut teeth = TeethInMesh::default();
     let mut contacts = Vec::new();
     for (gear, material) in Gear::BOTH.into_iter().zip(0..) {
         let numbers = teeth.add(model, &meshed[gear], material, found);
@@ -61,7 +61,7 @@ pub(super) fn solution(
     })
 }
 
-impl Teeth {
+impl TeethInMesh {
     /// Adds the fine teeth of a gear, clockwise to anticlockwise; returns for each the numbers of its sector's nodes here.
     fn add(
         &mut self,
@@ -113,7 +113,7 @@ impl Teeth {
     }
 }
 
-/// Which pair a fine tooth belongs to, counted from clockwise to anticlockwise: the pair ahead is the next anticlockwise
+/// Number of the pair of a fine tooth, teeth counted from clockwise to anticlockwise: the pair ahead is the next anticlockwise
 /// tooth of the pinion, and the next clockwise one of the wheel.
 fn pair_of_tooth(gear: Gear, tooth: usize, teeth: usize) -> i32 {
     let from_middle = tooth as i32 - (teeth / 2) as i32;
@@ -134,37 +134,44 @@ fn rigid(model: &CondensedPair<'_>, gear: Gear, point_mm: Vector2<f64>, transmis
     }
 }
 
-/// Where the resultant of each pair acts on the pinion, deformed.
+/// Contact of each pair, where its resultant acts on the deformed pinion.
 fn contact_places(
     model: &CondensedPair<'_>,
-    teeth: &Teeth,
+    teeth: &TeethInMesh,
     numbers: &[Vec<u32>],
     found: &PositionContact,
 ) -> Vec<ContactPlace> {
-    let compliance = &model.gears.pinion;
-    let place = |pair: i32| -> Option<Vector2<f64>> {
-        let tooth = usize::try_from(pair + (compliance.teeth() / 2) as i32).ok()?;
-        let candidates = &compliance.sector.sector.candidates;
-        let (mut sum, mut moment) = (0.0, Vector2::zeros());
-        for force in found.forces.pinion.get(tooth)?.chunk_by(|a, b| a.0 / 2 == b.0 / 2) {
-            let number = numbers.get(tooth)?[candidates[force[0].0 / 2] as usize] as usize;
-            let size = force.iter().fold(0.0_f64, |size, (_, f)| size.hypot(*f));
-            sum += size;
-            moment += size * (teeth.solid.points_mm[number] + teeth.displacement_mm[number]);
-        }
-        (sum > 0.0).then(|| moment / sum)
-    };
-    found
-        .pairs
-        .iter()
+    let contacts = found.pairs.iter();
+    contacts
         .filter_map(|contact| {
             Some(ContactPlace {
                 pair: contact.pair,
-                at_mm: place(contact.pair)?.into(),
+                at_mm: resultant_mm(model, teeth, numbers, found, contact.pair)?.into(),
                 half_width_mm: contact.half_width_mm,
                 peak_pressure_MPa: contact.peak_pressure_mpa,
                 at_sharp_edge: contact.at_sharp_edge,
             })
         })
         .collect()
+}
+
+/// Point of action of a pair's resultant on the deformed pinion, mm; none without load.
+fn resultant_mm(
+    model: &CondensedPair<'_>,
+    teeth: &TeethInMesh,
+    numbers: &[Vec<u32>],
+    found: &PositionContact,
+    pair: i32,
+) -> Option<Vector2<f64>> {
+    let compliance = &model.gears.pinion;
+    let tooth = usize::try_from(pair + (compliance.teeth() / 2) as i32).ok()?;
+    let candidates = &compliance.sector.sector.candidates;
+    let (mut sum, mut moment) = (0.0, Vector2::zeros());
+    for force in found.forces.pinion.get(tooth)?.chunk_by(|a, b| a.0 / 2 == b.0 / 2) {
+        let number = numbers.get(tooth)?[candidates[force[0].0 / 2] as usize] as usize;
+        let size = force.iter().fold(0.0_f64, |size, (_, f)| size.hypot(*f));
+        sum += size;
+        moment += size * (teeth.solid.points_mm[number] + teeth.displacement_mm[number]);
+    }
+    (sum > 0.0).then(|| moment / sum)
 }

@@ -1,8 +1,7 @@
-//! Carries out finite-element contact of a scene's gear pair: mesh, condense, solve the positions, record.
+//! Finite-element contact of a scene's gear pair: mesh, condense, solve the positions, record.
 //!
 //! Each gear is factorised and condensed once; a position then is a small contact problem ([`crate::gear_fem`]). The
-//! positions are solved in batches of fixed size, so that progress is told and an interrupt heard between them without
-//! any effect on the results.
+//! positions are solved in batches of fixed size, between which progress is reported and an interrupt heard, without effect on the results.
 
 mod field;
 mod recording;
@@ -10,7 +9,8 @@ mod whole;
 
 use std::time::Instant;
 
-use self::whole::WholeModel;
+use recording::RecordSource;
+use whole::WholeModel;
 
 use crate::assessment::Done;
 use crate::assessment::stage_clock::StageClock;
@@ -31,10 +31,10 @@ use crate::results::run::StopReason;
 use gearwear_fem::element::ElementError;
 use gearwear_mesh::quality::QualityError;
 
-/// Positions solved before the observer is asked again.
+/// Positions solved between two questions to the observer.
 const BATCH: usize = 64;
 
-/// Why there is no result, or not the whole.
+/// Failure of a finite-element contact.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FemPairError {
     /// The pair cannot exist.
@@ -43,11 +43,11 @@ pub enum FemPairError {
     /// The position asked for lies outside the path of contact.
     #[error("position {given_mm} mm lies outside the path of contact, from A at {from_mm:.4} to E at {to_mm:.4} mm")]
     Position {
-        /// As asked for.
+        /// Position asked for.
         given_mm: f64,
-        /// A.
+        /// Position of A.
         from_mm: f64,
-        /// E.
+        /// Position of E.
         to_mm: f64,
     },
     /// A gear cannot be modelled.
@@ -56,9 +56,9 @@ pub enum FemPairError {
     /// A mesh came out unfit.
     #[error("{}: {source}", gear.name())]
     Quality {
-        /// Whose.
+        /// Gear of the mesh.
         gear: Gear,
-        /// Why.
+        /// Fault of the mesh.
         source: QualityError,
     },
     /// The contact at a position was not found.
@@ -67,9 +67,9 @@ pub enum FemPairError {
     /// The whole model has no solution.
     #[error("whole model at position {position_mm:.4} mm: {source}")]
     Full {
-        /// Where.
+        /// Position on the path of contact.
         position_mm: f64,
-        /// Why.
+        /// Failure of the solver.
         source: Box<FullError>,
     },
     /// Stresses cannot be computed.
@@ -77,46 +77,46 @@ pub enum FemPairError {
     Stress(#[from] ElementError),
 }
 
-/// What is asked beside the scene.
+/// Question to the model of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Asked {
-    /// The one position to solve; `None`: the mesh cycle.
+pub struct FemPairRequest {
+    /// Position to solve, mm; `None`: the mesh cycle.
     pub position_mm: Option<f64>,
-    /// Whether to solve the whole model without condensation too, at that position or at A–E.
+    /// Whether to solve the whole model without condensation too, at that position or at A to E.
     pub full: bool,
 }
 
-/// What was solved.
+/// Solved positions.
 struct Solved {
-    /// The positions, in order.
+    /// Contacts at the positions, in order.
     positions: Vec<PositionContact>,
-    /// A–E; none where one position was asked for.
+    /// Contacts at A to E; none where one position was asked for.
     points: Option<[PositionContact; 5]>,
     full: Option<Vec<FullModelSummary>>,
     stop: StopReason,
 }
 
-/// Solves what is asked. The report is left to the caller, who knows where
-/// it goes.
+/// Solves the contact. The report is left to the caller, who knows where it goes.
 ///
-/// What is interrupted or does not converge gives the record of what was finished, and the failure in the latter case.
+/// A run that is interrupted or does not converge gives the record of what it had finished, and its failure in the latter case.
+///
+/// # Errors
+/// [`FemPairError`] where no position was solved.
 pub fn run(
     scene: &Scene,
     provenance: &Provenance,
-    asked: Asked,
+    request: FemPairRequest,
     observer: &dyn Observer,
 ) -> Result<Done<FemPairRecord, FemPairError>, FemPairError> {
     let start = Instant::now();
     let mut stages = StageClock::new(observer);
 
     let pair = stages.run(FemPairStage::Geometry.name(), || GearPair::new(&scene.pair))?;
-    let path = &pair.path;
-    let position_mm = asked.position_mm.map(|given_mm| on_path(path, given_mm)).transpose()?;
+    let position_mm = request.position_mm.map(|given_mm| on_path(&pair.path, given_mm)).transpose()?;
     let line_load_n_per_mm = pair.line_load_n_per_mm(scene.operation.pinion_torque_n_mm);
     let material = scene.material.map(Material::elastic);
     let meshed = stages.run(FemPairStage::Meshing.name(), || {
-        let mesh = |gear| MeshedGear::new(&pair, gear, &material, line_load_n_per_mm, &scene.fem);
-        PerGear::try_in_parallel(mesh)
+        PerGear::try_in_parallel(|gear| MeshedGear::new(&pair, gear, &material, line_load_n_per_mm, &scene.fem))
     })?;
     if let Some(warning) = much_memory(&meshed, 1.0)? {
         observer.announcement(&warning);
@@ -125,72 +125,51 @@ pub fn run(
         PerGear::try_in_parallel(|gear| meshed[gear].condense(&pair, material[gear]))
     })?;
     let model = CondensedPair::new(&pair, &material, gears);
+    let source = RecordSource { scene, provenance, model: &model, meshed: &meshed, line_load_n_per_mm, position_mm };
 
-    let positions_mm = match position_mm {
-        Some(position_mm) => vec![position_mm],
-        None => path.evenly_mm(scene.numerics.positions),
-    };
-    let (positions, mut failure) =
-        stages.run(FemPairStage::Cycle.name(), || solve(&model, &positions_mm, line_load_n_per_mm, observer));
-    let mut stop = match (&failure, positions.len() == positions_mm.len()) {
-        (Some(_), _) => StopReason::NotConverged,
-        (None, true) => StopReason::Completed,
-        (None, false) => StopReason::Interrupted,
-    };
-    if let (Some(error), true) = (&failure, positions.is_empty()) {
-        return Err(error.clone());
-    }
-    let mut points = None;
-    if stop == StopReason::Completed && position_mm.is_none() {
-        match stages.run(FemPairStage::PathPoints.name(), || cycle(&model, &path.points_mm(), line_load_n_per_mm)) {
-            Ok(found) => points = <[PositionContact; 5]>::try_from(found).ok(),
-            Err(error) => {
-                failure = Some(error.into());
-                stop = StopReason::NotConverged;
-            }
+    let (mut solved, mut failure) = solve(&source, &mut stages)?;
+    if solved.stop == StopReason::Completed && position_mm.is_none() {
+        match stages.run(FemPairStage::PathPoints.name(), || cycle(&model, &pair.path.points_mm(), line_load_n_per_mm))
+        {
+            Ok(found) => solved.points = <[PositionContact; 5]>::try_from(found).ok(),
+            Err(error) => (failure, solved.stop) = (Some(error.into()), StopReason::NotConverged),
         }
     }
-    let mut full = None;
-    if asked.full && stop == StopReason::Completed {
-        let at: &[PositionContact] = points.as_ref().map_or(&positions, |points| points);
+    if request.full && solved.stop == StopReason::Completed {
+        let at: &[PositionContact] = solved.points.as_ref().map_or(&solved.positions, |points| points);
         let whole = WholeModel { pair: &pair, meshed: &meshed, material: &material, line_load_n_per_mm };
-        full = Some(stages.run(FemPairStage::FullModel.name(), || {
+        let full = stages.run(FemPairStage::FullModel.name(), || {
             at.iter().map(|condensed| whole.against(condensed)).collect::<Result<Vec<_>, _>>()
-        })?);
+        });
+        solved.full = Some(full?);
     }
-    let shown = match &points {
-        Some([_, _, at_c, ..]) => Some(at_c),
-        None => positions.first().filter(|_| position_mm.is_some()),
-    };
-    let solution = match shown {
-        Some(found) => {
-            Some(stages.run(FemPairStage::Stresses.name(), || field::solution(&model, &meshed, &material, found))?)
-        }
-        None => None,
-    };
-    let solved = Solved { positions, points, full, stop };
-    let parts = recording::Parts {
-        scene,
-        provenance,
-        bodies: &scene.fem,
-        model: &model,
-        meshed: &meshed,
-        line_load_n_per_mm,
-        position_mm,
-    };
-    let mut record = recording::record(parts, &solved, solution)?;
-    record.summary.wall_per_position_s = stages
-        .times
-        .iter()
-        .find(|stage| stage.name == FemPairStage::Cycle.name())
-        .filter(|_| !solved.positions.is_empty())
-        .map(|stage| stage.wall_s / solved.positions.len() as f64);
+    let solution = solved
+        .shown(position_mm)
+        .map(|shown| stages.run(FemPairStage::Stresses.name(), || field::solution(&model, &meshed, &material, shown)));
+    let mut record = recording::record(source, &solved, solution.transpose()?)?;
+    record.summary.wall_per_position_s = wall_per_position_s(&stages, solved.positions.len());
     record.summary.stages = stages.times;
     record.summary.wall_s = start.elapsed().as_secs_f64();
     Ok(Done { record, failure })
 }
 
-/// A position on the path of contact. Its ends are printed with four decimals and may be given as printed.
+impl Solved {
+    /// Contact whose displacements and stresses are shown: at C, or at the one position asked for.
+    fn shown(&self, position_mm: Option<f64>) -> Option<&PositionContact> {
+        match &self.points {
+            Some([_, _, at_c, ..]) => Some(at_c),
+            None => self.positions.first().filter(|_| position_mm.is_some()),
+        }
+    }
+}
+
+/// Mean wall time of a position of the mesh cycle, s; none without positions.
+fn wall_per_position_s(stages: &StageClock<'_>, positions: usize) -> Option<f64> {
+    let cycle = stages.times.iter().find(|stage| stage.name == FemPairStage::Cycle.name())?;
+    (positions > 0).then(|| cycle.wall_s / positions as f64)
+}
+
+/// Position on the path of contact, whose ends are printed with four decimals and may be given as printed.
 fn on_path(path: &PathOfContact, given_mm: f64) -> Result<f64, FemPairError> {
     const ROUNDING_MM: f64 = 1e-4;
     let (from_mm, to_mm) = (path.start_mm, path.end_mm);
@@ -201,23 +180,38 @@ fn on_path(path: &PathOfContact, given_mm: f64) -> Result<f64, FemPairError> {
     }
 }
 
-/// The positions batch by batch, until one fails or the user interrupts.
+/// Solves the position asked for or those of the mesh cycle, batch by batch until one fails or the user interrupts.
+///
+/// # Errors
+/// Failure before any position was solved.
 fn solve(
-    model: &CondensedPair<'_>,
-    positions_mm: &[f64],
-    line_load_n_per_mm: f64,
-    observer: &dyn Observer,
-) -> (Vec<PositionContact>, Option<FemPairError>) {
-    let mut solved = Vec::with_capacity(positions_mm.len());
-    for batch in positions_mm.chunks(BATCH) {
-        if observer.interrupted() {
-            break;
+    source: &RecordSource<'_>,
+    stages: &mut StageClock<'_>,
+) -> Result<(Solved, Option<FemPairError>), FemPairError> {
+    let observer = stages.observer;
+    let positions_mm = match source.position_mm {
+        Some(position_mm) => vec![position_mm],
+        None => source.model.pair.path.evenly_mm(source.scene.numerics.positions),
+    };
+    let mut positions = Vec::with_capacity(positions_mm.len());
+    let failure = stages.run(FemPairStage::Cycle.name(), || {
+        for batch in positions_mm.chunks(BATCH) {
+            if observer.interrupted() {
+                break;
+            }
+            match cycle(source.model, batch, source.line_load_n_per_mm) {
+                Ok(found) => positions.extend(found),
+                Err(error) => return Some(FemPairError::from(error)),
+            }
+            observer.progress(positions.len() as f64, positions_mm.len() as f64);
         }
-        match cycle(model, batch, line_load_n_per_mm) {
-            Ok(found) => solved.extend(found),
-            Err(error) => return (solved, Some(error.into())),
-        }
-        observer.progress(solved.len() as f64, positions_mm.len() as f64);
-    }
-    (solved, None)
+        None
+    });
+    let stop = match &failure {
+        Some(error) if positions.is_empty() => return Err(error.clone()),
+        Some(_) => StopReason::NotConverged,
+        None if positions.len() == positions_mm.len() => StopReason::Completed,
+        None => StopReason::Interrupted,
+    };
+    Ok((Solved { positions, points: None, full: None, stop }, failure))
 }

@@ -1,4 +1,4 @@
-//! From what the positions came to, in the program's units, to the record, in those of the output files.
+//! Record of a finite-element contact: from the program's units to those of the output files.
 
 use super::{FemPairError, Solved};
 use crate::assessment::UM_PER_MM;
@@ -10,8 +10,7 @@ use crate::gear_fem::condensed_pair::CondensedPair;
 use crate::gear_fem::model::{MeshedGear, solid};
 use crate::gear_fem::position::{PositionContact, ToothPairContact};
 use crate::gear_fem::ring::Surroundings;
-use crate::gear_mesh::ToothSector;
-use crate::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides, default_clamp};
+use crate::gear_mesh::settings::{Body, NO_WEBS, SectorSides, default_clamp};
 use crate::operation::Scene;
 use crate::reference::hertz_line::LineContact;
 use crate::reference::steel_yield;
@@ -21,67 +20,51 @@ use crate::results::fem_pair::{
 };
 use crate::results::path_points::among;
 use crate::results::provenance::Provenance;
-use crate::results::run::{ContactSummary, PathPoints, RangeSummary};
+use crate::results::run::{ContactSummary, RangeSummary};
 use gearwear_mesh::quality::{self, MeshQuality};
 use gearwear_mesh::{CellBlock, CellKind, Mesh};
 
-/// What the torque ratio says.
+/// Explanation of the torque ratio in the summary.
 const TORQUE_RATIO: &str = "|T2/T1| is z2/z1 where all force acts along the line of action. Forces act on the flanks as they \
      are before deformation, along the normals of one of them: under load the resultant lies some hundredths of a millimetre \
      beside the theoretical contact point, and its arm differs by less than a thousandth; where a pair touches before A or \
      after E, at a tip edge, it is more, and there the instantaneous ratio does differ, as the transmission error changes \
      with rotation";
 
-/// What a record is made from, the solution apart.
-pub(super) struct Parts<'a> {
+/// Source of a record: the scene with its condensed model.
+pub(super) struct RecordSource<'a> {
     pub scene: &'a Scene,
     pub provenance: &'a Provenance,
-    pub bodies: &'a BodySettings,
     pub model: &'a CondensedPair<'a>,
     pub meshed: &'a PerGear<MeshedGear>,
     pub line_load_n_per_mm: f64,
     pub position_mm: Option<f64>,
 }
 
-/// The record, without the times of its stages.
+/// Record without the times of its stages.
 pub(super) fn record(
-    parts: Parts<'_>,
+    source: RecordSource<'_>,
     solved: &Solved,
     solution: Option<PairSolution>,
 ) -> Result<FemPairRecord, FemPairError> {
-    let (from, pair) = (parts.provenance, parts.model.pair);
-    let mesh_cycle: Vec<FemCycleRow> = solved.positions.iter().flat_map(|at| parts.rows(at)).collect();
-    let pressure: Vec<PressureCurve> = match &solved.points {
-        Some(points) => {
-            let named = ["A", "B", "C", "D", "E"].into_iter().zip(points);
-            named.flat_map(|(name, at)| parts.curves(Some(name), at)).collect()
-        }
-        None if parts.position_mm.is_some() => solved.positions.iter().flat_map(|at| parts.curves(None, at)).collect(),
-        None => Vec::new(),
-    };
-    let at_pitch = parts.hertz(pair.path.pitch_point_mm, parts.line_load_n_per_mm);
-    let gears = PerGear { pinion: parts.gear_model(Gear::Pinion)?, wheel: parts.gear_model(Gear::Wheel)? };
-    let (sector_teeth, sector_sides) = match parts.bodies.body {
-        Body::Ring => (None, None),
-        Body::Sector { teeth, sides } => {
-            let sides = if sides == SectorSides::Clamped { "clamped" } else { "free" };
-            (Some(teeth), Some(sides.to_owned()))
-        }
-    };
-    let new = parts.cycle(solved, &mesh_cycle);
-    let mut warnings = parts.provenance.warnings.clone();
-    warnings.extend(parts.scene.plane_section_warning());
-    warnings.extend(parts.scene.one_load_warning());
-    warnings.extend(parts.warnings(&new));
+    let (from, pair) = (source.provenance, source.model.pair);
+    let mesh_cycle: Vec<FemCycleRow> = solved.positions.iter().flat_map(|at| source.rows(at)).collect();
+    let at_pitch = source.hertz(pair.path.pitch_point_mm, source.line_load_n_per_mm);
+    let model = source.model_summary()?;
+    let new = source.cycle(solved, &mesh_cycle);
+    let mut warnings = from.warnings.clone();
+    warnings.extend(source.scene.plane_section_warning());
+    warnings.extend(source.scene.one_load_warning());
+    warnings.extend(source.warnings(&new));
     let summary = FemPairSummary {
         title: from.title.clone(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_hash: from.scene_hash.clone(),
         stopped: solved.stop,
-        position_mm: parts.position_mm,
+        position_mm: source.position_mm,
         positions: solved.positions.len(),
-        dofs: gears.pinion.dofs + gears.wheel.dofs,
-        elements: gears.pinion.elements + gears.wheel.elements,
+        dofs: model.gears.pinion.dofs + model.gears.wheel.dofs,
+        elements: model.gears.pinion.elements + model.gears.wheel.elements,
         iterations: solved.positions.iter().map(|at| at.log.steps.len()).sum(),
         stages: Vec::new(),
         wall_s: 0.0,
@@ -89,37 +72,63 @@ pub(super) fn record(
         geometry: geometry(pair),
         contact: ContactSummary {
             surface: "fem".to_owned(),
-            line_load_N_per_mm: parts.line_load_n_per_mm,
+            line_load_N_per_mm: source.line_load_n_per_mm,
             foundation_MPa_per_mm: None,
             hertz_half_width_mm: at_pitch.half_width_mm,
             hertz_peak_pressure_MPa: at_pitch.peak_pressure_mpa,
         },
-        model: ModelSummary {
-            body: if sector_teeth.is_some() { "sector" } else { "ring" }.to_owned(),
-            sector_teeth,
-            sector_sides,
-            elements_per_half_width: parts.bodies.elements_per_half_width,
-            gears,
-        },
+        model,
         new,
-        points: solved.points.as_ref().map(|points| parts.points(points)),
-        root: PerGear::from_fn(|gear| Parts::root(gear, &solved.positions)),
-        root_stress: root_stress::summary(pair, parts.line_load_n_per_mm),
-        checks: parts.checks(&solved.positions),
+        points: solved.points.as_ref().map(|points| source.points(points)),
+        root: PerGear::from_fn(|gear| root(gear, &solved.positions)),
+        root_stress: root_stress::summary(pair, source.line_load_n_per_mm),
+        checks: source.checks(&solved.positions),
         full: solved.full.clone(),
         warnings,
     };
+    let pressure = source.pressure(solved);
     Ok(FemPairRecord { summary, scene_toml: from.scene_toml.clone(), mesh_cycle, pressure, solution })
 }
 
-impl Parts<'_> {
-    /// z2/z1.
+impl RecordSource<'_> {
+    fn model_summary(&self) -> Result<ModelSummary, FemPairError> {
+        let (body, sector_teeth, sector_sides) = match self.scene.fem.body {
+            Body::Ring => ("ring", None, None),
+            Body::Sector { teeth, sides } => {
+                let sides = if sides == SectorSides::Clamped { "clamped" } else { "free" };
+                ("sector", Some(teeth), Some(sides.to_owned()))
+            }
+        };
+        Ok(ModelSummary {
+            body: body.to_owned(),
+            sector_teeth,
+            sector_sides,
+            elements_per_half_width: self.scene.fem.elements_per_half_width,
+            gears: PerGear { pinion: self.gear_model(Gear::Pinion)?, wheel: self.gear_model(Gear::Wheel)? },
+        })
+    }
+
+    /// Pressure curves at A to E, or at the one position asked for.
+    fn pressure(&self, solved: &Solved) -> Vec<PressureCurve> {
+        match &solved.points {
+            Some(points) => {
+                let named = ["A", "B", "C", "D", "E"].into_iter().zip(points);
+                named.flat_map(|(name, at)| self.curves(Some(name), at)).collect()
+            }
+            None if self.position_mm.is_some() => {
+                solved.positions.iter().flat_map(|at| self.curves(None, at)).collect()
+            }
+            None => Vec::new(),
+        }
+    }
+
+    /// Gear ratio z2/z1.
     fn tooth_ratio(&self) -> f64 {
         let teeth = &self.model.pair.teeth;
         f64::from(teeth.wheel.teeth) / f64::from(teeth.pinion.teeth)
     }
 
-    /// Hertz's contact at `position_mm` of a pair's own, taken at A or E where it lies outside.
+    /// Hertz's contact at a pair's own position, at A or E where that lies outside.
     fn hertz(&self, position_mm: f64, line_load_n_per_mm: f64) -> LineContact {
         let path = &self.model.pair.path;
         let position_mm = position_mm.clamp(path.start_mm, path.end_mm);
@@ -176,12 +185,11 @@ impl Parts<'_> {
             Surroundings::Ring { coarse } => coarse,
             Surroundings::FreeSector { coarse } | Surroundings::ClampedSector { coarse } => 2 * coarse,
         };
-        let cells = |sector: &ToothSector| sector.cells.len();
         Ok(GearModelSummary {
-            clamp_radius_mm: self.bodies.clamp_radius_mm[gear],
+            clamp_radius_mm: self.scene.fem.clamp_radius_mm[gear],
             dofs: meshed.dofs(),
-            elements: meshed.fine_teeth as usize * cells(&meshed.fine)
-                + coarse * meshed.coarse.as_ref().map_or(0, cells),
+            elements: meshed.fine_teeth as usize * meshed.fine.cells.len()
+                + coarse * meshed.coarse.as_ref().map_or(0, |sector| sector.cells.len()),
             resolved_teeth: meshed.fine_teeth,
             resolved_tooth_dofs: meshed.fine.dofs(),
             candidates: self.model.flanks[gear].surface.points_mm.len(),
@@ -190,11 +198,10 @@ impl Parts<'_> {
     }
 
     fn cycle(&self, solved: &Solved, rows: &[FemCycleRow]) -> FemCycleSummary {
-        let greatest = |sharp: bool| {
-            let rows = rows.iter().filter(move |row| row.at_sharp_edge == sharp);
+        let [peak, sharp] = [false, true].map(|sharp| {
+            let rows = rows.iter().filter(|row| row.at_sharp_edge == sharp);
             rows.reduce(|most, row| if row.peak_pressure_MPa > most.peak_pressure_MPa { row } else { most })
-        };
-        let (peak, sharp) = (greatest(false), greatest(true));
+        });
         let at_c = solved.points.as_ref().and_then(|[_, _, at_c, ..]| {
             let contact = at_c.pairs.iter().find(|contact| contact.pair == 0)?;
             Some(self.row(at_c, contact))
@@ -217,41 +224,20 @@ impl Parts<'_> {
     }
 
     fn points(&self, points: &[PositionContact; 5]) -> PathPointsSummary {
-        let of = |value: &dyn Fn(&FemCycleRow) -> f64| -> PathPoints {
-            path_points(points.each_ref().map(|at| {
-                let reference = at.pairs.iter().find(|contact| contact.pair == 0);
-                reference.map_or(0.0, |contact| value(&self.row(at, contact)))
-            }))
-        };
+        let rows = points.each_ref().map(|at| {
+            let reference = at.pairs.iter().find(|contact| contact.pair == 0);
+            reference.map(|contact| self.row(at, contact))
+        });
+        let rows = rows.each_ref().map(Option::as_ref);
         PathPointsSummary {
-            load_share: of(&|row| row.load_share),
-            peak_pressure_MPa: of(&|row| row.peak_pressure_MPa),
-            hertz_pressure_MPa: of(&|row| row.hertz_pressure_MPa),
+            load_share: path_points(rows.map(|row| row.map_or(0.0, |row| row.load_share))),
+            peak_pressure_MPa: path_points(rows.map(|row| row.map_or(0.0, |row| row.peak_pressure_MPa))),
+            hertz_pressure_MPa: path_points(rows.map(|row| row.map_or(0.0, |row| row.hertz_pressure_MPa))),
             transmission_error_um: path_points(points.each_ref().map(|at| at.transmission_error_mm * UM_PER_MM)),
         }
     }
 
-    fn root(gear: Gear, positions: &[PositionContact]) -> Option<RootSummary> {
-        let first = positions.first()?;
-        let (mut tension, mut compression) = (first, first);
-        for at in positions {
-            if at.root[gear].working_side_mpa > tension.root[gear].working_side_mpa {
-                tension = at;
-            }
-            if at.root[gear].back_side_mpa < compression.root[gear].back_side_mpa {
-                compression = at;
-            }
-        }
-        Some(RootSummary {
-            tension_MPa: tension.root[gear].working_side_mpa,
-            tension_position_mm: tension.position_mm,
-            compression_MPa: compression.root[gear].back_side_mpa,
-            compression_position_mm: compression.position_mm,
-        })
-    }
-
     fn checks(&self, positions: &[PositionContact]) -> ChecksSummary {
-        let greatest = |of: &dyn Fn(&PositionContact) -> f64| positions.iter().map(of).fold(0.0, f64::max);
         let mut worst = (0.0, f64::NAN);
         let mut on_line: Option<f64> = None;
         for at in positions {
@@ -270,8 +256,8 @@ impl Parts<'_> {
             torque_ratio_error_position_mm: worst.1,
             torque_ratio_error_on_line: on_line,
             torque_ratio: TORQUE_RATIO.to_owned(),
-            load_imbalance: greatest(&|at| at.load_balance),
-            max_penetration_um: greatest(&|at| at.max_penetration_mm) * UM_PER_MM,
+            load_imbalance: positions.iter().map(|at| at.load_balance).fold(0.0, f64::max),
+            max_penetration_um: positions.iter().map(|at| at.max_penetration_mm).fold(0.0, f64::max) * UM_PER_MM,
             iterations_per_position: iterations as f64 / positions.len() as f64,
             most_iterations: positions.iter().map(|at| at.log.steps.len()).max().unwrap_or(0),
             cycles_broken: positions.iter().map(|at| at.log.cycles_broken).sum(),
@@ -288,20 +274,19 @@ impl Parts<'_> {
                 sharp_edges(self.model.pair)
             ));
         }
-        let is_default = |gear: Gear| {
-            let root_mm = self.model.pair.teeth[gear].root_radius_mm;
-            default_clamp(root_mm, self.model.pair.spec.transverse_module_mm()).radius_mm
-                == self.bodies.clamp_radius_mm[gear]
-        };
-        if Gear::BOTH.into_iter().any(is_default) {
-            let radii = self.bodies.clamp_radius_mm;
+        let radii = self.scene.fem.clamp_radius_mm;
+        let module_mm = self.model.pair.spec.transverse_module_mm();
+        if Gear::BOTH
+            .into_iter()
+            .any(|gear| default_clamp(self.model.pair.teeth[gear].root_radius_mm, module_mm).radius_mm == radii[gear])
+        {
             warnings.push(format!(
                 "the bodies are held at {:.2} mm (pinion) and {:.2} mm (wheel), by default 2.5 modules below the root circle: \
                  transmission error and root stress depend on it; fem.clamp_radius_mm says where rim or bore are",
                 radii.pinion, radii.wheel
             ));
         }
-        if self.bodies.web != NO_WEBS {
+        if self.scene.fem.web != NO_WEBS {
             warnings.push("fem.web: plane elements do not see it, their bodies are as wide as the teeth".to_owned());
         }
         if let Some(pressure_mpa) = new.peak_pressure_MPa {
@@ -314,14 +299,33 @@ impl Parts<'_> {
     }
 }
 
-/// Whether a pair touches on the line of action: between A and E, away from tip edges, on flanks as the involute makes
-/// them.
+/// Greatest tension and compression of the root of a gear over the positions.
+fn root(gear: Gear, positions: &[PositionContact]) -> Option<RootSummary> {
+    let first = positions.first()?;
+    let (mut tension, mut compression) = (first, first);
+    for at in positions {
+        if at.root[gear].working_side_mpa > tension.root[gear].working_side_mpa {
+            tension = at;
+        }
+        if at.root[gear].back_side_mpa < compression.root[gear].back_side_mpa {
+            compression = at;
+        }
+    }
+    Some(RootSummary {
+        tension_MPa: tension.root[gear].working_side_mpa,
+        tension_position_mm: tension.position_mm,
+        compression_MPa: compression.root[gear].back_side_mpa,
+        compression_position_mm: compression.position_mm,
+    })
+}
+
+/// Whether a pair touches on the line of action: between A and E and away from sharp edges.
 fn is_on_line(pair: &GearPair, at: &PositionContact, contact: &ToothPairContact) -> bool {
     let own_mm = at.position_mm + f64::from(contact.pair) * pair.path.base_pitch_mm;
     (pair.path.start_mm..=pair.path.end_mm).contains(&own_mm) && !contact.at_sharp_edge
 }
 
-/// The worst elements of a gear's sectors.
+/// Quality of all elements of a gear's sectors.
 fn worst(meshed: &MeshedGear) -> Result<MeshQuality, quality::QualityError> {
     let mut all = Mesh::default();
     for sector in std::iter::once(&meshed.fine).chain(&meshed.coarse) {

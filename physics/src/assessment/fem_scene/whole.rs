@@ -1,4 +1,4 @@
-//! The whole model without condensation, against the condensed one.
+//! Comparison of the condensed model with the whole model without condensation.
 
 use std::time::Instant;
 
@@ -11,7 +11,7 @@ use crate::gear_fem::position::PositionContact;
 use crate::results::fem_pair::FullModelSummary;
 use gearwear_fem::elastic::Elastic;
 
-/// What the whole model is made of.
+/// Whole model of both gears.
 pub(super) struct WholeModel<'a> {
     pub pair: &'a GearPair,
     pub meshed: &'a PerGear<MeshedGear>,
@@ -20,20 +20,16 @@ pub(super) struct WholeModel<'a> {
 }
 
 impl WholeModel<'_> {
-    /// Solves where `condensed` was solved, and compares.
+    /// Solves at the position of `condensed`, and compares.
     pub(super) fn against(&self, condensed: &PositionContact) -> Result<FullModelSummary, FemPairError> {
         let start = Instant::now();
         let position_mm = condensed.position_mm;
         let found = full::solve(self.pair, self.meshed, self.material, self.line_load_n_per_mm, condensed)
             .map_err(|source| FemPairError::Full { position_mm, source: Box::new(source) })?;
-        // Pairs that the whole model does not load count as such: there is one entry for each pair of the condensed one.
-        let of = |values: &[(i32, f64)], pair: i32| {
-            values.iter().find(|(number, _)| *number == pair).map_or(0.0, |(_, value)| *value)
-        };
         let (mut load, mut pressure) = (0.0_f64, 0.0_f64);
         for contact in &condensed.pairs {
-            load = load.max((of(&found.line_load_n_per_mm, contact.pair) - contact.line_load_n_per_mm).abs());
-            let ratio = of(&found.peak_pressure_mpa, contact.pair) / contact.peak_pressure_mpa;
+            load = load.max((value_of(&found.line_load_n_per_mm, contact.pair) - contact.line_load_n_per_mm).abs());
+            let ratio = value_of(&found.peak_pressure_mpa, contact.pair) / contact.peak_pressure_mpa;
             pressure = pressure.max((ratio - 1.0).abs());
         }
         Ok(FullModelSummary {
@@ -48,4 +44,9 @@ impl WholeModel<'_> {
             wall_s: start.elapsed().as_secs_f64(),
         })
     }
+}
+
+/// Value of a pair in the whole model; 0 where that does not load it.
+fn value_of(values: &[(i32, f64)], pair: i32) -> f64 {
+    values.iter().find(|(number, _)| *number == pair).map_or(0.0, |(_, value)| *value)
 }

@@ -1,11 +1,11 @@
-//! The same life on finite elements: how far the run is from what vouches for it.
+//! Verification of a run by the same wear simulation on finite elements.
 //!
 //! Both gears are meshed with few elements and condensed, and the same operation wears their flanks by the same law in adaptive steps.
-//! Wear handed over conservatively ([`crate::gear_fem::load_transfer`]) needs no more: on the pairs of the case `verified-pairs` this life is within
-//! its stated uncertainty of one on elements, positions and steps four times as fine (docs/accuracy.md). The whole life is run and not a part of it, for worn
-//! flanks that fit one surface do not fit another, and what a short run says of a long one swings with its steps.
+//! Conservative transfer of the wear ([`crate::gear_fem::load_transfer`]) needs no more: on the pairs of the case `verified-pairs` this reference run
+//! is within its stated uncertainty of one on elements, positions and steps four times as fine (docs/accuracy.md). The whole duration is simulated:
+//! worn flanks that fit one surface do not fit another, and the difference over a short run swings with its steps.
 //!
-//! With h the run's wear, h_f that of the finite elements and u their own uncertainty,
+//! With h the run's wear, h_f that of the reference run and u the uncertainty of the latter,
 //!
 //! ```text
 //! profile       √(∫ (h − h_f)² ds / ∫ h_f² ds) + u        of a flank
@@ -15,17 +15,17 @@
 //! flank pressure      |p − p_f| / p_f + u                 of the greatest between the tip-edge zones, on new and on worn flanks
 //! ```
 //!
-//! A run on finite elements is held against a finer mesh of them; a run with slices against another in space ([`in_space`]).
+//! A run on finite elements is compared with one on a finer mesh; a run with slices with one on three-dimensional finite elements ([`in_space`]).
 
 mod in_space;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::Model;
+use super::RunModel;
 use super::guarded::guarded;
 use crate::contact::settings::SurfaceKind;
-use crate::gear::{Gear, GearPair, PerGear, flank_zones::FlankZone};
+use crate::gear::{Gear, GearPair, PerGear, flank::FlankGrid, flank_zones::FlankZone};
 use crate::gear_fem::{condensed_pair::CondensedPair, model::ModelError};
 use crate::gear_mesh::settings::{BodySettings, rounding_element_mm};
 use crate::material::Material;
@@ -40,7 +40,7 @@ use crate::results::error::{ErrorNewAndWorn, ErrorPerGear, ErrorSummary, TotalEr
 use crate::results::run::StopReason;
 use crate::simulation::figures::WearFigures;
 use crate::simulation::mesh_contact::MeshContact;
-use crate::simulation::settings::{Numerics, Phase, Stepping};
+use crate::simulation::settings::{Numerics, Stepping};
 use crate::simulation::wear_run::{Outcome, RunPhase, WearRun};
 use crate::stiffness::curve::PairCompliance;
 use crate::wear::stepping::adaptive::SHALLOW_MM;
@@ -49,28 +49,28 @@ use crate::wear::stepping::adaptive::SHALLOW_MM;
 const LEAST_HALF_WIDTH_MODULES: f64 = 0.015;
 /// Positions from A to E.
 const POSITIONS: usize = 400;
-/// Error of the wear depth allowed, over the greatest depth.
+/// Tolerance of the wear depth over the greatest depth.
 const TOLERANCE: f64 = 0.03;
-/// Least tolerance, mm: less is no wear.
+/// Least tolerance of the wear depth, mm.
 const LEAST_TOLERANCE_MM: f64 = 1e-9;
-/// Most wear steps: an ordinary life takes some fifteen, one with severe wear or of great depth some hundreds.
+/// Most wear steps: ordinary runs take some fifteen, runs with severe wear or of great depth some hundreds.
 const MOST_STEPS: u64 = 2000;
 /// Half-widths of contact at the pitch point from A and E within which the tip edges shape the pressure.
 const NEAR_TIP_EDGES: f64 = 3.0;
 
-/// A life's own uncertainty, relative.
-struct Uncertainty {
+/// Relative uncertainties of a reference run.
+struct ReferenceUncertainty {
     profile: f64,
     peak: f64,
     tip_edge: f64,
     transmission_error: f64,
     pressure: f64,
-    /// Of the greatest pressure between the tip-edge zones, on new and on worn flanks.
+    /// Greatest pressure between the tip-edge zones, on new and on worn flanks.
     flank_pressure: [f64; 2],
 }
 
-/// Of plane finite elements. Tip edges have a contact narrower than what the elements are meshed for, and worn ones the end of the wear in it.
-const OF_ELEMENTS: Uncertainty = Uncertainty {
+/// Uncertainty of plane finite elements. Contacts at tip edges are narrower than the elements are meshed for, and contain the end of the wear.
+const OF_ELEMENTS: ReferenceUncertainty = ReferenceUncertainty {
     profile: 0.006,
     peak: 0.006,
     tip_edge: 0.015,
@@ -78,84 +78,90 @@ const OF_ELEMENTS: Uncertainty = Uncertainty {
     pressure: 0.02,
     flank_pressure: [0.01, 0.01],
 };
-/// Of the wear of a tip edge that is hardly worn in, over how far an element of its rounding bulges beyond its chord, over the depth: on a contact
-/// narrower than the element, where the wear is has the length of the element.
+/// Uncertainty of the wear of a hardly worn tip edge, per bulge of an element of its rounding beyond its chord, over the depth: a contact narrower than
+/// the element is placed to within the length of the element.
 const OF_BULGE: f64 = 0.01;
-/// Where that is more, which is where the depth is less than ten times the bulge, the elements of roundings are refined …
+/// Uncertainty of the tip-edge wear above which the elements of roundings are refined: the depth is less than ten times the bulge.
 const HARDLY_WORN: f64 = 0.001;
-/// … so many times.
+/// Refinement of the elements of hardly worn roundings.
 const ON_HARDLY_WORN_EDGES: f64 = 3.0;
-/// That at most.
+/// Greatest uncertainty of the wear of a tip edge.
 const MOST_OF_TIP_EDGE: f64 = 0.2;
-/// Of the profile and the peak wear where wear is severe: what elements twice as fine find differs by that on nine of ten random pairs.
+/// Uncertainty of profile and peak wear under severe wear: difference to elements twice as fine on nine of ten random pairs.
 const SEVERE: f64 = 0.02;
 
-impl Uncertainty {
-    /// Where wear may be severe.
+impl ReferenceUncertainty {
+    /// Uncertainty under severe wear.
     fn severe(self) -> Self {
         let Self { profile, peak, tip_edge, .. } = self;
         Self { profile: profile.max(SEVERE), peak: peak.max(SEVERE), tip_edge: tip_edge.max(SEVERE), ..self }
     }
 }
 
-/// What the verification of a run is made with.
-pub(super) struct Means<'a, 'b> {
+/// Finite-element models at hand for a verification.
+pub(super) struct VerificationModels<'a, 'b> {
     /// Plane finite elements of the pair.
     pub elements: Option<Result<Elements<'a>, ModelError>>,
-    /// Stiffness along the path of contact that finite elements have told already.
+    /// Stiffness along the path of contact by plane finite elements, where it is known already.
     pub curve: Option<&'b PairCompliance>,
-    /// The teeth in space, of a run with slices.
+    /// Three-dimensional finite elements of the teeth, of a run with slices.
     pub in_space: Option<Result<Arc<PairInSpace>, PairInSpaceError>>,
 }
 
-/// How many times a difference is what the run leaves: more than 1 where the life has slices as the run has.
+/// Factors from a difference to the error of the run by Richardson extrapolation; above 1 where the reference run has slices as the run has.
 #[derive(Debug, Clone, Copy)]
-struct Beyond {
-    /// Of wear of the active profile.
+struct Extrapolation {
+    /// Factor of the wear of the active profile.
     wear: f64,
-    /// Of the transmission error.
+    /// Factor of the transmission error.
     transmission_error: f64,
 }
 
-impl Beyond {
-    /// The difference is the error.
+impl Extrapolation {
+    /// The difference itself is the error.
     const NONE: Self = Self { wear: 1.0, transmission_error: 1.0 };
 }
 
-/// The same life on what vouches for the run.
-struct Life {
+/// Wear simulation on finite elements that a run is compared with.
+struct ReferenceRun {
     outcome: Outcome,
-    own: Uncertainty,
-    /// How the bodies were meshed, of plane finite elements.
+    uncertainty: ReferenceUncertainty,
+    /// Mesh settings of plane finite elements.
     bodies: Option<BodySettings>,
-    /// How many times differences to it are what the run leaves.
-    beyond: Beyond,
-    /// What the flank points of the run have lost there.
+    /// Factors of the differences to it.
+    extrapolation: Extrapolation,
+    /// Wear depth at the flank points of the verified run, mm.
     wear_mm: PerGear<Vec<f64>>,
-    /// What it was.
+    /// Description of its finite elements.
     on: String,
 }
 
-/// What the finite elements say.
+/// Errors of a run against finite elements.
 #[derive(Default)]
 pub(super) struct Verified {
-    /// How far the run is from them.
+    /// Error of each quantity, with how it was obtained.
     pub total: TotalError,
-    /// What the contact surface and the stiffness of the teeth make of the greatest wear.
+    /// Part of contact surface and tooth stiffness in the error of the maximum wear.
     surface_model: Option<f64>,
-    /// What the flank points have lost on them; none where there is no answer.
+    /// Wear depth at the flank points by finite elements, mm; none of a run that is not verified.
     pub wear_mm: Option<PerGear<Vec<f64>>>,
-    /// Where the user must know that nothing vouches for the answer.
+    /// Warning that the run is not verified.
     pub warning: Option<String>,
 }
 
 impl Verified {
-    /// There is no answer, for this reason.
+    /// A run that is not verified, for this reason.
     pub(super) fn none(reason: &str) -> Self {
         Self { total: TotalError::none(reason), ..Self::default() }
     }
 
-    /// Puts what is known into the errors of the run.
+    /// A run whose verification failed, which is warned of.
+    fn failed(reason: &str) -> Self {
+        let warning = Some(format!("not verified by finite elements: {reason}"));
+        Self { warning, ..Self::none(reason) }
+    }
+
+    /// Enters the errors into those of the run.
     pub(super) fn tell(&self, error: &mut ErrorSummary) {
         error.total = self.total.clone();
         error.surface_model = self.surface_model;
@@ -165,15 +171,9 @@ impl Verified {
             None => self.total.how.clone(),
         };
     }
-
-    /// The same where that is worth a warning.
-    pub(super) fn warned(reason: &str) -> Self {
-        let warning = Some(format!("not verified by finite elements: {reason}"));
-        Self { warning, ..Self::none(reason) }
-    }
 }
 
-/// Hears an interrupt, and stops a life that takes too many steps.
+/// Observer that also stops a reference run of too many wear steps.
 struct Bounded<'a> {
     observer: &'a dyn Observer,
     steps: AtomicU64,
@@ -198,11 +198,11 @@ impl Observer for Bounded<'_> {
     }
 }
 
-/// Finite elements of the pair, and what they were meshed for.
+/// Plane finite elements of the pair, with the load that they are meshed for.
 pub(super) struct Elements<'a> {
-    /// Both gears.
+    /// Condensed model of both gears.
     pub condensed: CondensedPair<'a>,
-    /// The load whose half-width of contact they resolve, N/mm.
+    /// Load whose half-width of contact the elements resolve, N/mm.
     pub line_load_n_per_mm: f64,
     /// Half-width of contact at the pitch point under the scene's greatest load, mm, and the least that is meshed.
     half_width_mm: (f64, f64),
@@ -233,11 +233,11 @@ pub(super) fn condensed<'a>(
     bodies: &BodySettings,
     observer: &dyn Observer,
 ) -> Result<CondensedPair<'a>, ModelError> {
-    let announce = |much: &str| observer.announcement(much);
-    CondensedPair::build(pair, &scene.material.map(Material::elastic), line_load_n_per_mm, bodies, &announce)
+    let material = scene.material.map(Material::elastic);
+    CondensedPair::build(pair, &material, line_load_n_per_mm, bodies, &|much| observer.announcement(much))
 }
 
-/// The elements of the scene's gears, of a material that is softer or stiffer than the scene's.
+/// Elements of the scene's gears with other Young's moduli.
 pub(super) fn of_material<'a>(
     elements: &CondensedPair<'a>,
     scene: &Scene,
@@ -246,31 +246,35 @@ pub(super) fn of_material<'a>(
     elements.with_moduli(&scene.material.map(Material::elastic), &own.map(Material::elastic))
 }
 
-/// Verifies the completed run `outcome`. Whatever happens to the finite elements never costs the run its result.
+/// Verifies the completed run `outcome`. A failure of the finite elements never costs the run its result.
 pub(super) fn verify<'a>(
-    model: &Model<'a>,
+    model: &RunModel<'a>,
     outcome: &Outcome,
-    means: Means<'a, '_>,
+    models: VerificationModels<'a, '_>,
     observer: &dyn Observer,
 ) -> Verified {
-    let life = || match model.sliced {
-        None => on_elements(model, outcome, means.elements, observer),
-        Some(_) => in_space::life(model, outcome, means, observer),
-    };
-    match guarded(life) {
-        Ok(Ok(life)) => compared(model, outcome, &life),
-        Ok(Err(reason)) | Err(reason) => Verified::warned(&reason),
+    let reference = guarded(|| match model.sliced {
+        None => on_elements(model, outcome, models.elements, observer),
+        Some(_) => in_space::reference_run(model, outcome, models, observer),
+    });
+    match reference {
+        Ok(Ok(reference)) => RunComparison::new(model, outcome, &reference).verified(),
+        Ok(Err(reason)) | Err(reason) => Verified::failed(&reason),
     }
 }
 
-/// The life on plane finite elements, others than the run's own; where it does not come to its end, why.
+/// Reference run on plane finite elements other than the run's own.
+///
+/// # Errors
+/// Reason why it is not completed.
 fn on_elements<'a>(
-    model: &Model<'a>,
+    model: &RunModel<'a>,
     outcome: &Outcome,
     elements: Option<Result<Elements<'a>, ModelError>>,
     observer: &dyn Observer,
-) -> Result<Life, String> {
-    let mut bodies = model.scene.wear_bodies();
+) -> Result<ReferenceRun, String> {
+    let scene = model.scene;
+    let mut bodies = scene.wear_bodies();
     if elements.is_none() {
         bodies.elements_per_half_width += 1.0;
     }
@@ -281,7 +285,6 @@ fn on_elements<'a>(
     if hardly_worn {
         bodies.rounding_refinement = ON_HARDLY_WORN_EDGES;
     }
-    let mesh = |line_load_n_per_mm: f64| condensed(model.scene, model.pair, line_load_n_per_mm, &bodies, observer);
     let elements = match elements {
         Some(Ok(Elements { half_width_mm: (half_width, least), .. })) if half_width < least => {
             return Err(format!(
@@ -289,147 +292,190 @@ fn on_elements<'a>(
                  at least {least:.2e} mm is wanted, for narrower contact takes too many elements"
             ));
         }
-        Some(Ok(elements)) if hardly_worn => mesh(elements.line_load_n_per_mm),
+        Some(Ok(elements)) if hardly_worn => {
+            condensed(scene, model.pair, elements.line_load_n_per_mm, &bodies, observer)
+        }
         Some(elements) => elements.map(|elements| elements.condensed),
-        None => mesh(model.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max)),
+        None => {
+            let greatest = model.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max);
+            condensed(scene, model.pair, greatest, &bodies, observer)
+        }
     };
     let elements = elements.map_err(|error| error.to_string())?;
-    let scene = model.scene;
-    let warmed = |phase: &Phase| {
-        let own = scene.material_in(phase);
-        (own != scene.material).then(|| of_material(&elements, scene, &own))
-    };
-    let warm: Vec<Option<CondensedPair<'_>>> = scene.operation.phases.iter().map(warmed).collect();
+    let phases = scene.operation.phases.iter();
+    let warm: Vec<Option<CondensedPair<'_>>> = phases
+        .map(|phase| scene.material_in(phase))
+        .map(|own| (own != scene.material).then(|| of_material(&elements, scene, &own)))
+        .collect();
     let contacts = warm.iter().map(|own| MeshContact::FiniteElements(own.as_ref().unwrap_or(&elements))).collect();
-    let life = life(model, outcome, contacts, POSITIONS, observer)?;
-    let own = if wears_severely(model, &life) { OF_ELEMENTS.severe() } else { OF_ELEMENTS };
-    Ok(Life {
-        wear_mm: life.worn.wear_mm.clone(),
-        outcome: life,
-        own,
+    let reference = simulate(model, outcome, contacts, POSITIONS, observer)?;
+    let uncertainty = if wears_severely(model, &reference) { OF_ELEMENTS.severe() } else { OF_ELEMENTS };
+    Ok(ReferenceRun {
+        wear_mm: reference.worn.wear_mm.clone(),
+        outcome: reference,
+        uncertainty,
         bodies: Some(bodies),
-        beyond: Beyond::NONE,
+        extrapolation: Extrapolation::NONE,
         on: if hardly_worn { "finite elements, short on tip roundings" } else { "finite elements" }.to_owned(),
     })
 }
 
-/// The life with these contacts in the phases of the run; where it does not come to its end, why.
-fn life(
-    model: &Model<'_>,
+/// Simulates the wear with these contacts in the phases of the run.
+///
+/// # Errors
+/// Reason why the simulation is not completed.
+fn simulate(
+    model: &RunModel<'_>,
     outcome: &Outcome,
     contacts: Vec<MeshContact<'_>>,
     positions: usize,
     observer: &dyn Observer,
 ) -> Result<Outcome, String> {
-    let scene = model.scene;
     let phases: Vec<RunPhase<'_>> =
         model.phases.iter().zip(contacts).map(|(phase, contact)| RunPhase { contact, ..*phase }).collect();
-    let deepest = |gear: Gear| outcome.worn.deepest_mm(gear);
-    let deepest_mm = deepest(Gear::Pinion).max(deepest(Gear::Wheel));
-    // Beyond it grows with the wear by itself.
+    let deepest_mm = outcome.worn.deepest_mm(Gear::Pinion).max(outcome.worn.deepest_mm(Gear::Wheel));
+    // Above SHALLOW_MM the integrator's own tolerance grows with the wear.
     let tolerance_mm = (TOLERANCE * deepest_mm.min(SHALLOW_MM)).max(LEAST_TOLERANCE_MM);
     let stepping = Stepping::Adaptive { tolerance_mm };
-    let numerics = Numerics { positions, stepping, ..scene.numerics };
+    let numerics = Numerics { positions, stepping, ..model.scene.numerics };
     let run = WearRun { phases: &phases, numerics, snapshots_revolutions: &[], ..model.wear_run() };
     let bounded = Bounded { observer, steps: AtomicU64::new(0) };
-    let life = run.run(&bounded).map_err(|error| error.to_string())?;
-    match (life.stop, &life.failure) {
-        (StopReason::Completed, _) => Ok(life),
+    let reference = run.run(&bounded).map_err(|error| error.to_string())?;
+    match (reference.stop, &reference.failure) {
+        (StopReason::Completed, _) => Ok(reference),
         (_, Some(failure)) => Err(failure.to_string()),
         _ if observer.interrupted() => Err("interrupted".to_owned()),
         _ => Err(format!(
             "after {MOST_STEPS} wear steps the finite elements had reached {:.0} % of the duration",
-            100.0 * life.worn.revolutions / model.duration()
+            100.0 * reference.worn.revolutions / model.duration()
         )),
     }
 }
 
-/// How far the run is from the finite elements.
-fn compared(
-    model: &Model<'_>,
-    run: &Outcome,
-    Life { outcome: life, own: of_life, bodies, beyond, wear_mm, on }: &Life,
-) -> Verified {
-    let per_gear = |of: &dyn Fn(Gear) -> Option<f64>| ErrorPerGear { pinion: of(Gear::Pinion), wheel: of(Gear::Wheel) };
-    let profile = per_gear(&|gear| {
-        let (own, truth, grid) = (&run.worn.wear_mm[gear], &wear_mm[gear], &run.grid[gear]);
-        let square = |of: &dyn Fn(usize) -> f64| {
-            let squares: Vec<f64> = (0..own.len()).map(|i| of(i).powi(2)).collect();
-            squares.chunks_exact(grid.len()).map(|slice| grid.integral(slice)).sum::<f64>()
-        };
-        let involute = model.pair.teeth[gear].involute;
-        let counts = |&rho_mm: &f64| match run.zones[gear].at(involute.radius_mm(rho_mm)) {
-            FlankZone::Active => beyond.wear,
-            FlankZone::BelowActive | FlankZone::TipEdge => 1.0,
-        };
-        let counts: Vec<f64> = grid.coordinate_mm.iter().map(counts).collect();
-        let whole = square(&|i| truth[i]);
-        let off = |i: usize| counts[i % counts.len()] * (own[i] - truth[i]);
-        (whole > 0.0).then(|| (square(&off) / whole).sqrt() + of_life.profile)
-    });
-    let figures =
-        |outcome: &Outcome| PerGear::from_fn(|gear| WearFigures::at(model.pair, gear, outcome, &outcome.worn));
-    let (own, truth) = (figures(run), figures(life));
-    let off = |gear: Gear| relative(own[gear].peak_mm, truth[gear].peak_mm);
-    let peak_wear = per_gear(&|gear| off(gear).map(|off| beyond.wear * off + of_life.peak));
-    let of_tip_edge = PerGear::from_fn(|gear| {
-        let depth_mm = truth[gear].tip_edge.depth_mm;
-        let of_edge = |bodies: &BodySettings| of_hardly_worn_edge(model.pair, gear, bodies, depth_mm);
-        bodies.as_ref().map_or(0.0, of_edge).max(of_life.tip_edge)
-    });
-    let tip_edge_wear = per_gear(&|gear| {
-        let off = relative(own[gear].tip_edge.depth_mm, truth[gear].tip_edge.depth_mm);
-        off.map(|off| off + of_tip_edge[gear])
-    });
-    let surface_model = match model.scene.contact.surface {
-        SurfaceKind::Fem => None,
-        _ if is_finest_in_space(model.scene) => None,
-        _ => Gear::BOTH.into_iter().filter_map(off).reduce(f64::max),
-    };
-    let peak_to_peak = |outcome: &Outcome| {
-        let (low, high) = outcome.worn.cycle.transmission_error_mm();
-        high - low
-    };
-    let total = TotalError {
-        profile,
-        peak_wear,
-        tip_edge_wear,
-        transmission_error_peak_to_peak: relative(peak_to_peak(run), peak_to_peak(life))
-            .map(|off| beyond.transmission_error * off + of_life.transmission_error),
-        pressure_between_tips: pressure(model, &run.worn.cycle, &life.worn.cycle).map(|off| off + of_life.pressure),
-        flank_pressure: ErrorNewAndWorn {
-            new: flank_pressure([&run.new, &life.new]).map(|off| off + of_life.flank_pressure[0]),
-            worn: flank_pressure([&run.worn, &life.worn]).map(|off| off + of_life.flank_pressure[1]),
-        },
-        how: [how(life, of_life, &of_tip_edge, on), without_wear(&own)].concat(),
-    };
-    Verified { total, surface_model, wear_mm: Some(wear_mm.clone()), warning: None }
+/// A completed run beside its reference run.
+struct RunComparison<'a> {
+    model: &'a RunModel<'a>,
+    run: &'a Outcome,
+    reference: &'a ReferenceRun,
+    /// Wear of the run.
+    wear: PerGear<WearFigures>,
+    /// Wear of the reference run.
+    reference_wear: PerGear<WearFigures>,
 }
 
-/// How a life vouches for a run, with its own uncertainty of the wear of each tip edge.
-fn how(life: &Outcome, of_life: &Uncertainty, of_tip_edge: &PerGear<f64>, on: &str) -> String {
-    format!(
-        "the same wear simulation with {on} ({} positions in a base pitch, {} wear steps, {} mesh cycles); their own uncertainty is added: \
+impl<'a> RunComparison<'a> {
+    fn new(model: &'a RunModel<'_>, run: &'a Outcome, reference: &'a ReferenceRun) -> Self {
+        let [wear, reference_wear] = [run, &reference.outcome]
+            .map(|outcome| PerGear::from_fn(|gear| WearFigures::at(model.pair, gear, outcome, &outcome.worn)));
+        Self { model, run, reference, wear, reference_wear }
+    }
+
+    /// Errors of the run.
+    fn verified(&self) -> Verified {
+        let ReferenceRun { outcome, uncertainty, extrapolation, wear_mm, .. } = self.reference;
+        let surface_model = match self.model.scene.contact.surface {
+            SurfaceKind::Fem => None,
+            _ if is_finest_in_space(self.model.scene) => None,
+            _ => Gear::BOTH.into_iter().filter_map(|gear| self.peak_difference(gear)).reduce(f64::max),
+        };
+        let [new, worn] = uncertainty.flank_pressure;
+        let total = TotalError {
+            profile: per_gear(|gear| self.profile(gear)),
+            peak_wear: per_gear(|gear| {
+                self.peak_difference(gear).map(|off| extrapolation.wear * off + uncertainty.peak)
+            }),
+            tip_edge_wear: per_gear(|gear| self.tip_edge_wear(gear)),
+            transmission_error_peak_to_peak: relative(peak_to_peak_mm(self.run), peak_to_peak_mm(outcome))
+                .map(|off| extrapolation.transmission_error * off + uncertainty.transmission_error),
+            pressure_between_tips: pressure(self.model, &self.run.worn.cycle, &outcome.worn.cycle)
+                .map(|off| off + uncertainty.pressure),
+            flank_pressure: ErrorNewAndWorn {
+                new: flank_pressure([&self.run.new, &outcome.new]).map(|off| off + new),
+                worn: flank_pressure([&self.run.worn, &outcome.worn]).map(|off| off + worn),
+            },
+            how: [self.how(), without_wear(&self.wear)].concat(),
+        };
+        Verified { total, surface_model, wear_mm: Some(wear_mm.clone()), warning: None }
+    }
+
+    /// Error of the wear over the whole flank of a gear; none where the reference does not wear.
+    fn profile(&self, gear: Gear) -> Option<f64> {
+        let (own, truth, grid) = (&self.run.worn.wear_mm[gear], &self.reference.wear_mm[gear], &self.run.grid[gear]);
+        let involute = self.model.pair.teeth[gear].involute;
+        let rho_mm = grid.coordinate_mm.iter();
+        let factors: Vec<f64> = rho_mm
+            .map(|&rho_mm| match self.run.zones[gear].at(involute.radius_mm(rho_mm)) {
+                FlankZone::Active => self.reference.extrapolation.wear,
+                FlankZone::BelowActive | FlankZone::TipEdge => 1.0,
+            })
+            .collect();
+        let off =
+            own.iter().zip(truth).zip(factors.iter().cycle()).map(|((own, truth), factor)| factor * (own - truth));
+        let whole = integral_of_squares(grid, truth.iter().copied());
+        (whole > 0.0).then(|| (integral_of_squares(grid, off) / whole).sqrt() + self.reference.uncertainty.profile)
+    }
+
+    /// Relative difference of the greatest wear of the active profile.
+    fn peak_difference(&self, gear: Gear) -> Option<f64> {
+        relative(self.wear[gear].peak_mm, self.reference_wear[gear].peak_mm)
+    }
+
+    /// Error of the greatest wear of the tip edge.
+    fn tip_edge_wear(&self, gear: Gear) -> Option<f64> {
+        let off = relative(self.wear[gear].tip_edge.depth_mm, self.reference_wear[gear].tip_edge.depth_mm);
+        off.map(|off| off + self.tip_edge_uncertainty(gear))
+    }
+
+    /// Uncertainty of the reference run at the tip edge.
+    fn tip_edge_uncertainty(&self, gear: Gear) -> f64 {
+        let depth_mm = self.reference_wear[gear].tip_edge.depth_mm;
+        let bodies = self.reference.bodies.as_ref();
+        let of_elements = bodies.map_or(0.0, |bodies| of_hardly_worn_edge(self.model.pair, gear, bodies, depth_mm));
+        of_elements.max(self.reference.uncertainty.tip_edge)
+    }
+
+    /// Description of the reference run with its uncertainties.
+    fn how(&self) -> String {
+        let ReferenceRun { outcome, uncertainty, on, .. } = self.reference;
+        format!(
+            "the same wear simulation with {on} ({} positions in a base pitch, {} wear steps, {} mesh cycles); their own uncertainty is added: \
              {} % of the profile, {} % of the maximum wear, {:.2} and {:.2} % of that of the tip edges, and of the flank pressure {} % new and {} % worn",
-        life.work.equilibria / life.work.mesh_cycles.max(1),
-        life.steps.accepted,
-        life.work.mesh_cycles,
-        100.0 * of_life.profile,
-        100.0 * of_life.peak,
-        100.0 * of_tip_edge.pinion,
-        100.0 * of_tip_edge.wheel,
-        100.0 * of_life.flank_pressure[0],
-        100.0 * of_life.flank_pressure[1],
-    )
+            outcome.work.equilibria / outcome.work.mesh_cycles.max(1),
+            outcome.steps.accepted,
+            outcome.work.mesh_cycles,
+            100.0 * uncertainty.profile,
+            100.0 * uncertainty.peak,
+            100.0 * self.tip_edge_uncertainty(Gear::Pinion),
+            100.0 * self.tip_edge_uncertainty(Gear::Wheel),
+            100.0 * uncertainty.flank_pressure[0],
+            100.0 * uncertainty.flank_pressure[1],
+        )
+    }
 }
 
-/// Why a gear has no error of its wear.
+fn per_gear(error: impl Fn(Gear) -> Option<f64>) -> ErrorPerGear {
+    ErrorPerGear { pinion: error(Gear::Pinion), wheel: error(Gear::Wheel) }
+}
+
+/// ∫ v² ds of values at the points of a flank, slices added up.
+fn integral_of_squares(grid: &FlankGrid, values: impl Iterator<Item = f64>) -> f64 {
+    let squares: Vec<f64> = values.map(|value| value.powi(2)).collect();
+    squares.chunks_exact(grid.len()).map(|slice| grid.integral(slice)).sum::<f64>()
+}
+
+/// Peak-to-peak transmission error of the worn pair, mm.
+fn peak_to_peak_mm(outcome: &Outcome) -> f64 {
+    let (low, high) = outcome.worn.cycle.transmission_error_mm();
+    high - low
+}
+
+/// Sentence for each gear that has no error because it does not wear.
 fn without_wear(figures: &PerGear<WearFigures>) -> String {
     let still = Gear::BOTH.into_iter().filter(|gear| figures[*gear].peak_mm <= 0.0);
     still.map(|gear| format!("; the {} does not wear, so that its wear has no error", gear.name())).collect()
 }
 
-/// What the length of the elements leaves open of the wear of a rounded tip edge that has lost `depth_mm`.
+/// Uncertainty by the length of the elements of the wear of a rounded tip edge that is `depth_mm` deep.
 fn of_hardly_worn_edge(pair: &GearPair, gear: Gear, bodies: &BodySettings, depth_mm: f64) -> f64 {
     let rounding_mm = pair.spec.tip_rounding_mm(gear);
     if rounding_mm <= 0.0 || depth_mm <= 0.0 {
@@ -441,22 +487,22 @@ fn of_hardly_worn_edge(pair: &GearPair, gear: Gear, bodies: &BodySettings, depth
     (OF_BULGE * bulge_mm / depth_mm).min(MOST_OF_TIP_EDGE)
 }
 
-/// Whether the pressure reaches a transition to severe wear at any moment that is kept.
-fn wears_severely(model: &Model<'_>, life: &Outcome) -> bool {
-    let states = [&life.new].into_iter().chain(&life.snapshots);
+/// Whether the pressure reaches a transition to severe wear in any kept state of `reference`.
+fn wears_severely(model: &RunModel<'_>, reference: &Outcome) -> bool {
+    let states = [&reference.new].into_iter().chain(&reference.snapshots);
     let greatest_mpa = states.map(|state| state.cycle.peak_pressure_mpa()).fold(0.0, f64::max);
     let mut transitions = Gear::BOTH.into_iter().filter_map(|gear| model.scene.wear[gear].severe_transition());
     transitions.any(|severe| greatest_mpa > severe.above_mpa - 0.5 * severe.band_mpa)
 }
 
-/// |own − truth|/truth; none where there is nothing to be wrong about.
+/// |own − truth|/truth; none where the truth is 0.
 fn relative(own: f64, truth: f64) -> Option<f64> {
     (truth > 0.0).then(|| (own - truth).abs() / truth)
 }
 
-/// What is observed between the tip edges.
+/// Observations at the positions between the tip edges.
 fn between_tip_edges<'a>(
-    model: &Model<'_>,
+    model: &RunModel<'_>,
     cycle: &'a CycleObservation,
 ) -> impl Iterator<Item = &'a PositionObservation> + use<'a> {
     let path = &model.pair.path;
@@ -465,14 +511,14 @@ fn between_tip_edges<'a>(
     cycle.positions.iter().filter(move |at| between.contains(&at.position_mm))
 }
 
-/// How far a run's greatest pressure between the tip-edge zones is from a life's.
-fn flank_pressure(run_and_life: [&Snapshot; 2]) -> Option<f64> {
-    let [own, truth] = run_and_life.map(|state| state.cycle.pressure_figures.flank_mpa);
+/// Relative difference of the greatest pressures between the tip-edge zones.
+fn flank_pressure(run_and_reference: [&Snapshot; 2]) -> Option<f64> {
+    let [own, truth] = run_and_reference.map(|state| state.cycle.pressure_figures.flank_mpa);
     relative(own, truth)
 }
 
-/// The difference of the greatest pressures between the tip edges.
-fn pressure(model: &Model<'_>, own: &CycleObservation, truth: &CycleObservation) -> Option<f64> {
+/// Root mean square relative difference of the greatest pressures at positions between the tip edges.
+fn pressure(model: &RunModel<'_>, own: &CycleObservation, truth: &CycleObservation) -> Option<f64> {
     let (mut sum, mut count) = (0.0, 0.0);
     for at in between_tip_edges(model, own) {
         let reference = truth.peak_pressure_at_mpa(at.position_mm);
