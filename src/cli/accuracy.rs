@@ -7,18 +7,18 @@ use std::sync::Arc;
 use crate::report;
 use crate::results::run::StopReason;
 use crate::scene::loaded::LoadedScene;
-use crate::studies::accuracy::record::{AccuracyRecord, Quantity, VariantRecord};
-use crate::studies::accuracy::selection::Asked;
+use crate::studies::accuracy::record::{AccuracyRecord, ComparedQuantity, VariantRecord};
+use crate::studies::accuracy::selection::AccuracyOptions;
 use crate::studies::accuracy::study::{self, AccuracyError};
 
 use super::failure::Failure;
-use super::figures::digits;
+use super::figures::{digits, or_dash};
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
 use super::{print, say, warn};
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct AccuracyArgs {
     /// The scene file; - reads standard input
     scene: PathBuf,
     /// The folder for the results; files of an earlier comparison are replaced
@@ -45,13 +45,13 @@ fn per_cent(text: &str) -> Result<f64, String> {
     }
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &AccuracyArgs) -> Result<(), Failure> {
     let scene = LoadedScene::open(&args.scene)?;
     warn(scene.warnings());
     report::writable(&args.out)?;
     let pool = pool(args.threads)?;
     let progress = Progress::new(args.quiet, Arc::clone(&watch_for_interrupt()));
-    let asked = Asked { within: args.within / 100.0, quick: args.quick };
+    let asked = AccuracyOptions { within: args.within / 100.0, quick: args.quick };
     let done = pool.install(|| study::run(&scene, asked, &progress));
     progress.finish();
     let record = done.map_err(|error| match error {
@@ -73,44 +73,55 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Err(Failure::Interrupted)
 }
 
+fn in_percent(error: f64) -> String {
+    format!("{} %", digits(100.0 * error))
+}
+
+/// Error of a run in `quantity`.
+fn error(run: &VariantRecord, quantity: ComparedQuantity) -> Option<String> {
+    run.errors.get(&quantity).map(|error| in_percent(error.relative))
+}
+
 /// The front of the wear profile and the recommendations, for the terminal.
 fn table(record: &AccuracyRecord) -> String {
-    let per_cent = |error: f64| format!("{} %", digits(100.0 * error));
     let mut text = format!("{}\n\nreference: {}\n\n", record.title, record.reference.how);
     if let Some(open) = &record.reference.does_not_tell {
         text.push_str(&format!("{open}\n\n"));
     }
     let names = record.variants.iter().map(|variant| variant.name.chars().count());
     let width = names.max().unwrap_or(0).max(60);
-    let line = |name: &str, cells: [&str; 4]| {
-        format!("  {name:width$}{:>10}{:>12}{:>12}{:>12}\n", cells[0], cells[1], cells[2], cells[3])
-    };
-    text.push_str(&line("Pareto front of the wear profile", ["time, s", "profile", "pressure", "trans. err"]));
-    let error = |v: &VariantRecord, quantity| v.errors.get(&quantity).map(|error| error.relative);
-    let mut front: Vec<&VariantRecord> =
-        record.variants.iter().filter(|v| v.errors.get(&Quantity::WearProfile).is_some_and(|e| e.on_front)).collect();
+    text.push_str(&format!(
+        "  {:width$}{:>10}{:>12}{:>12}{:>12}\n",
+        "Pareto front of the wear profile", "time, s", "profile", "pressure", "trans. err"
+    ));
+    let mut front: Vec<&VariantRecord> = record
+        .variants
+        .iter()
+        .filter(|v| v.errors.get(&ComparedQuantity::WearProfile).is_some_and(|e| e.on_front))
+        .collect();
     front.sort_by(|a, b| a.simulation_s.unwrap_or(0.0).total_cmp(&b.simulation_s.unwrap_or(0.0)));
     for variant in front {
-        let cells = [Quantity::WearProfile, Quantity::FlankPressure, Quantity::TransmissionError]
-            .map(|quantity| error(variant, quantity).map_or_else(|| "–".to_owned(), per_cent));
-        let wall_s = variant.simulation_s.map_or_else(|| "–".to_owned(), digits);
-        text.push_str(&line(&variant.name, [&wall_s, &cells[0], &cells[1], &cells[2]]));
+        let [profile, pressure, error] =
+            [ComparedQuantity::WearProfile, ComparedQuantity::FlankPressure, ComparedQuantity::TransmissionError]
+                .map(|quantity| error(variant, quantity).unwrap_or_else(|| "–".to_owned()));
+        let (name, wall_s) = (&variant.name, or_dash(variant.simulation_s));
+        text.push_str(&format!("  {name:width$}{wall_s:>10}{profile:>12}{pressure:>12}{error:>12}\n"));
     }
     if !record.recommendations.is_empty() {
-        text.push_str(&format!("\nfastest within {}\n", per_cent(record.within)));
+        text.push_str(&format!("\nfastest within {}\n", in_percent(record.within)));
     }
     for r in &record.recommendations {
         let Some(variant) = record.variants.get(r.variant) else { continue };
-        let found = error(variant, r.quantity).map_or_else(String::new, per_cent);
+        let found = error(variant, r.quantity).unwrap_or_default();
         let none = if r.is_within { "" } else { "none; closest: " };
         let wall_s = variant.simulation_s.map_or_else(String::new, |s| format!(", {} s", digits(s)));
         text.push_str(&format!("  {:44}{none}{} ({found}{wall_s})\n", r.quantity.title(), variant.name));
     }
     if !record.not_ranked.is_empty() {
-        text.push_str(&format!("\nnot ranked: the reference is more uncertain than {}\n", per_cent(record.within)));
+        text.push_str(&format!("\nnot ranked: the reference is more uncertain than {}\n", in_percent(record.within)));
     }
     for not in &record.not_ranked {
-        let uncertain = per_cent(not.uncertainty);
+        let uncertain = in_percent(not.uncertainty);
         text.push_str(&format!("  {:44}{uncertain}; to converge: {}\n", not.quantity.title(), not.remedy));
     }
     let failed: Vec<&VariantRecord> = record.variants.iter().filter(|v| v.failure.is_some()).collect();

@@ -1,4 +1,4 @@
-//! Where a run begins: in a fresh folder, or where an earlier run of the same scene was broken off.
+//! Start of a run: in a new folder, or from the checkpoint of an interrupted run of the same scene.
 
 use std::fs;
 use std::io;
@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 
 use crate::report;
 use crate::resume::file::{self, CheckpointFile};
-use crate::resume::folder::{self, Contents};
-use crate::resume::identity::Identity;
+use crate::resume::folder::{self, FolderContents};
+use crate::resume::identity::RunIdentity;
 use crate::scene::loaded::LoadedScene;
 use crate::simulation::checkpoint::{Checkpoint, Keeper};
 
@@ -18,35 +18,35 @@ use super::{run, say};
 
 /// Least time between two checkpoints.
 const LEAST_INTERVAL: Duration = Duration::from_millis(250);
-/// Least time between two checkpoints over what writing the last one took.
+/// Least time between two checkpoints over the time of writing the last one.
 const INTERVAL_OVER_WRITING: u32 = 20;
 
 pub(super) struct BegunRun {
-    /// Its scene, with input files as they lie in the folder.
+    /// Scene, with input files as they lie in the folder.
     pub scene: LoadedScene,
-    /// Its folder, which holds the scene and the input files.
+    /// Folder, which holds the scene and the input files.
     pub out: PathBuf,
-    pub identity: Identity,
-    /// Where it goes on from; `None`: from the beginning.
+    pub identity: RunIdentity,
+    /// Checkpoint to continue from; `None`: from the beginning.
     pub from: Option<Checkpoint>,
-    /// What its beginning made.
+    /// Folder made at the beginning.
     pub made: Option<MadeFolder>,
 }
 
-/// A folder in which a run was begun anew.
+/// Folder of a new run.
 pub(super) struct MadeFolder {
     out: PathBuf,
     files: Vec<String>,
-    /// Whether it was not there before.
+    /// Whether the folder is new.
     is_new: bool,
 }
 
 impl MadeFolder {
-    /// Takes away what the beginning of a run that its scene does not allow has put there. What cannot be taken away stays.
+    /// Removes the files of a run that its scene does not allow. What cannot be removed stays.
     pub(super) fn abandon(&self) {
         folder::abandon(&self.out, &self.files);
         if self.is_new {
-            // Where something else lies in it, it stays.
+            // A folder with other files stays.
             let _ = fs::remove_dir(&self.out);
         }
     }
@@ -60,7 +60,7 @@ pub(super) fn begin(scene: &Path, out: &Path) -> Result<BegunRun, Failure> {
     begin_anew(scene, identity, out)
 }
 
-/// Goes on with the run in the folder `out`: that of `scene`, or, without one, of the scene that lies there. None where it is complete.
+/// Continues the run in the folder `out`: that of `scene`, or else of the scene in the folder. `None` where it is complete.
 pub(super) fn resume(scene: Option<&Path>, out: &Path) -> Result<Option<BegunRun>, Failure> {
     let own = out.join(folder::SCENE);
     if scene.is_none() && !own.exists() {
@@ -71,24 +71,24 @@ pub(super) fn resume(scene: Option<&Path>, out: &Path) -> Result<Option<BegunRun
     let contents = folder::contents(out, &identity, &scene.resolved.scene_hash())
         .map_err(|error| InputError::Resume(Box::new(error)))?;
     match contents {
-        Contents::Nothing | Contents::Begun => begin_anew(scene, identity, out).map(Some),
-        Contents::Checkpoint(found) => {
+        FolderContents::Nothing | FolderContents::Begun => begin_anew(scene, identity, out).map(Some),
+        FolderContents::Checkpoint(found) => {
             let CheckpointFile { warnings, checkpoint, .. } = *found;
             scene.resolved.warnings = warnings;
             Ok(Some(BegunRun { scene, out: out.to_owned(), identity, from: Some(checkpoint), made: None }))
         }
-        Contents::Ended(stopped) if stopped.is_complete() => Ok(None),
-        Contents::Ended(_) => Err(InputError::NothingLeft { folder: out.display().to_string() }.into()),
+        FolderContents::Ended(stopped) if stopped.is_complete() => Ok(None),
+        FolderContents::Ended(_) => Err(InputError::NothingLeft { folder: out.display().to_string() }.into()),
     }
 }
 
-fn named_as_copied(scene: LoadedScene) -> (LoadedScene, Identity) {
+fn named_as_copied(scene: LoadedScene) -> (LoadedScene, RunIdentity) {
     let scene = scene.naming_copies();
-    let identity = Identity::new(scene.resolved.to_toml(), &scene.files.as_read);
+    let identity = RunIdentity::new(scene.resolved.to_toml(), &scene.files.as_read);
     (scene, identity)
 }
 
-fn begin_anew(scene: LoadedScene, identity: Identity, out: &Path) -> Result<BegunRun, Failure> {
+fn begin_anew(scene: LoadedScene, identity: RunIdentity, out: &Path) -> Result<BegunRun, Failure> {
     let is_new = !out.exists();
     report::create_folder(out)?;
     folder::begin(out, &identity, &scene.files.as_read)?;
@@ -97,19 +97,18 @@ fn begin_anew(scene: LoadedScene, identity: Identity, out: &Path) -> Result<Begu
     Ok(BegunRun { scene, out: out.to_owned(), identity, from: None, made })
 }
 
-/// Writes checkpoints into the folder of a run, so rarely that it costs nothing. That a checkpoint cannot be written is no reason to
-/// end a run.
+/// Writes checkpoints into the folder of a run, seldom enough to cost no time. A checkpoint that cannot be written does not end the run.
 pub(super) struct FolderKeeper<'a> {
     path: PathBuf,
-    identity: &'a Identity,
+    identity: &'a RunIdentity,
     warnings: &'a [String],
     due: Mutex<Instant>,
     failure: Mutex<Option<io::Error>>,
 }
 
 impl<'a> FolderKeeper<'a> {
-    /// For the run `identity` in the folder `out`, whose user was told `warnings`.
-    pub(super) fn new(out: &Path, identity: &'a Identity, warnings: &'a [String]) -> Self {
+    /// Keeper for the run `identity` in the folder `out`, whose user was given `warnings`.
+    pub(super) fn new(out: &Path, identity: &'a RunIdentity, warnings: &'a [String]) -> Self {
         let due = Mutex::new(Instant::now() + LEAST_INTERVAL);
         Self { path: out.join(folder::CHECKPOINT), identity, warnings, due, failure: Mutex::new(None) }
     }

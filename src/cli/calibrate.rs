@@ -19,7 +19,7 @@ use super::run::{pool, watch_for_interrupt};
 use super::{figures, print, say, warn};
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct CalibrateArgs {
     /// The scene file; - reads standard input
     scene: PathBuf,
     /// The calibration file, JSON; a page of the same name with the ending .html is written beside it
@@ -33,8 +33,8 @@ pub(super) struct Args {
     quiet: bool,
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    // A calibration that the scene names may not be there yet: it is about to be made.
+pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
+    // The calibration file that the scene names may not exist yet: this command writes it.
     let text = SceneText::read(&args.scene)?;
     let resolved = &text.resolve()?;
     warn(&resolved.warnings);
@@ -65,23 +65,21 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether the files can be written, before any work.
+/// Checks that the files can be written, before any work.
 fn check_out(out: &Path) -> Result<(), Failure> {
-    let refused = |what| InputError::CalibrationOut { name: out.display().to_string(), what };
-    if out.is_dir() {
-        return Err(refused("which is a folder").into());
-    }
-    if out.file_name().is_none() {
-        return Err(refused("which names no file").into());
-    }
-    if out == report::calibration::page_beside(out) {
-        return Err(refused("whose ending is that of the page beside it").into());
-    }
-    report::writable(report::calibration::folder(out))?;
-    Ok(())
+    let what = if out.is_dir() {
+        "which is a folder"
+    } else if out.file_name().is_none() {
+        "which names no file"
+    } else if out == report::calibration::page_beside(out) {
+        "whose ending is that of the page beside it"
+    } else {
+        return Ok(report::writable(report::calibration::folder(out))?);
+    };
+    Err(InputError::CalibrationOut { name: out.display().to_string(), what }.into())
 }
 
-/// A failure, told apart by who is to blame: the input, at its place, or the solver.
+/// Failure of the input, at its place, or of the solver.
 fn refused(error: CalibrateError, text: &SceneText) -> Failure {
     if let Some(scene) = error.in_the_scene(text) {
         return scene.into();

@@ -10,13 +10,13 @@ use crate::measurement::fit::FitStop;
 use crate::measurement::form::Form;
 use crate::report;
 use crate::scene::loaded::SceneText;
-use crate::studies::compare::asked::{CompareFault, Prepared};
-use crate::studies::compare::question::{Asked, FitKind};
-use crate::studies::compare::record::{CompareFigures, CompareRecord, Correlation, Estimate};
+use crate::studies::compare::asked::{CompareFault, PreparedComparison};
+use crate::studies::compare::question::{CompareOptions, FitKind};
+use crate::studies::compare::record::{CoefficientCorrelation, CompareFigures, CompareRecord, FittedValue};
 use crate::studies::compare::study::CompareError;
 
 use super::failure::{Failure, InputError};
-use super::figures::digits;
+use super::figures::{digits, or_dash};
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
 use super::variants::{self, MOST_RUNS, Variants, is_run};
@@ -25,7 +25,7 @@ use super::{print, say, warn};
 /// Longest shift along the flank, where nothing else is asked, mm.
 const SHIFT_WITHIN_MM: f64 = 0.1;
 
-/// What a measured file looks like.
+/// Description of a measured file.
 const FILE_HELP: &str = "\
 The measured file is CSV. Lines that begin with # come first and say what is measured:
   # gear = pinion                        or wheel
@@ -39,7 +39,7 @@ where material is gone) or wear_um or wear_mm (rises there); then a row for each
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = FILE_HELP)]
-pub(super) struct Args {
+pub(super) struct CompareArgs {
     /// The folder of a finished `gearwear run`; beside other runs a scene too, which is run first
     run: PathBuf,
     /// The measured profile, a CSV file (- reads standard input), or two, of pinion and wheel; or one to five more runs, to be
@@ -53,7 +53,7 @@ pub(super) struct Args {
     /// wear depths
     #[arg(long, value_enum)]
     form: Option<Form>,
-    /// What is fitted; default: k, and each with two profiles
+    /// Coefficients to fit; default: k, and each with two profiles
     #[arg(long, value_enum)]
     fit: Option<FitKind>,
     /// How far a profile may be shifted along the flank to where it fits best; 0: not at all
@@ -82,7 +82,7 @@ fn length(text: &str) -> Result<f64, String> {
     }
 }
 
-impl Args {
+impl CompareArgs {
     /// The runs to be shown side by side; none where there are measured profiles.
     fn variants(&self) -> Result<Option<Variants<'_>>, InputError> {
         let Some(path) = self.with.iter().find(|path| !is_run(path)) else {
@@ -97,16 +97,18 @@ impl Args {
 
     /// Where the results go.
     fn out(&self) -> PathBuf {
-        let name = |path: &PathBuf| {
+        if let Some(out) = &self.out {
+            return out.clone();
+        }
+        let stems = self.with.iter().map(|path| {
             let stem = path.file_stem().filter(|stem| *stem != "-").unwrap_or("measured".as_ref());
             stem.to_string_lossy().into_owned()
-        };
-        let names: Vec<String> = self.with.iter().map(name).collect();
-        self.out.clone().unwrap_or_else(|| self.run.join("compare").join(names.join("-")))
+        });
+        self.run.join("compare").join(stems.collect::<Vec<_>>().join("-"))
     }
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &CompareArgs) -> Result<(), Failure> {
     if let Some(variants) = args.variants()? {
         return match (args.gear, args.form) {
             (Some(_), _) => Err(InputError::OnlyForMeasured { option: "--gear" }.into()),
@@ -115,8 +117,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         };
     }
     let texts = args.with.iter().map(|path| SceneText::read(path)).collect::<Result<Vec<_>, _>>()?;
-    let asked = Asked { gear: args.gear, form: args.form, fit: args.fit, shift_within_mm: args.shift_within };
-    let prepared = Prepared::open(&args.run, &texts, &asked)?;
+    let asked = CompareOptions { gear: args.gear, form: args.form, fit: args.fit, shift_within_mm: args.shift_within };
+    let prepared = PreparedComparison::open(&args.run, &texts, &asked)?;
     let out = args.out();
     report::writable(&out)?;
 
@@ -158,16 +160,15 @@ impl From<CompareFault> for Failure {
 /// One of the figures of a profile, where it has it.
 type Figure = fn(&CompareFigures) -> Option<f64>;
 
-/// What was found, for the terminal.
-fn table(record: &CompareRecord) -> String {
-    let (fit, profiles) = (&record.fit, &record.profiles);
-    let several = profiles.len() > 1;
-    let line = |name: &str, cells: &[String]| {
-        let cells: String = cells.iter().map(|cell| format!("{cell:>12}")).collect();
-        format!("  {name:44}{cells}\n")
-    };
-    let known = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), digits);
-    let mut estimates: Vec<(String, &Estimate)> = Vec::new();
+fn line(name: &str, cells: &[String]) -> String {
+    let cells: String = cells.iter().map(|cell| format!("{cell:>12}")).collect();
+    format!("  {name:44}{cells}\n")
+}
+
+/// Fitted values with their names.
+fn estimates(record: &CompareRecord) -> Vec<(String, &FittedValue)> {
+    let (fit, several) = (&record.fit, record.profiles.len() > 1);
+    let mut estimates: Vec<(String, &FittedValue)> = Vec::new();
     for own in &fit.coefficients {
         let whose = own.gear.filter(|_| several).map_or_else(String::new, |gear| format!(" of the {}", gear.name()));
         estimates.push((format!("wear coefficient k{whose}, m²/N"), &own.coefficient_m2_per_N));
@@ -175,16 +176,24 @@ fn table(record: &CompareRecord) -> String {
     estimates
         .extend(fit.coefficient_ratio.iter().map(|ratio| ("k of the pinion over that of the wheel".to_owned(), ratio)));
     estimates.extend(fit.severe_factor.iter().map(|severe| ("factor of severe wear".to_owned(), severe)));
-    for of in profiles {
+    for of in &record.profiles {
         let whose = if several { format!(" of the {}", of.gear.name()) } else { String::new() };
         estimates.extend(of.shift_mm.iter().map(|shift| (format!("shift{whose} towards the tip, mm"), shift)));
     }
+    estimates
+}
+
+/// Findings for the terminal.
+fn table(record: &CompareRecord) -> String {
+    let (fit, profiles) = (&record.fit, &record.profiles);
+    let several = profiles.len() > 1;
+    let estimates = estimates(record);
     let mut text = format!("{}\n\n", record.headline());
     if !estimates.is_empty() {
         text.push_str(&line("", &["run", "fitted", "95 % from", "to"].map(str::to_owned)));
     }
     for (name, e) in estimates {
-        text.push_str(&line(&name, &[digits(e.of_run), digits(e.value), known(e.low), known(e.high)]));
+        text.push_str(&line(&name, &[digits(e.of_run), digits(e.value), or_dash(e.low), or_dash(e.high)]));
     }
     if let Some(correlation) = &fit.correlation {
         text.push_str(&correlations(correlation));
@@ -201,7 +210,7 @@ fn table(record: &CompareRecord) -> String {
         ("  after the fit", |f| Some(f.difference_um)),
     ];
     for (name, value) in figures {
-        text.push_str(&line(name, &profiles.iter().map(|of| known(value(&of.figures))).collect::<Vec<_>>()));
+        text.push_str(&line(name, &profiles.iter().map(|of| or_dash(value(&of.figures))).collect::<Vec<_>>()));
     }
     let runs = if fit.runs == 1 { "run" } else { "runs" };
     let mut forms: Vec<&str> = profiles.iter().map(|of| of.form.as_str()).collect();
@@ -216,7 +225,7 @@ fn table(record: &CompareRecord) -> String {
 }
 
 /// The correlation coefficient of each pair of fitted values, a line for each.
-fn correlations(correlation: &Correlation) -> String {
+fn correlations(correlation: &CoefficientCorrelation) -> String {
     let (parameters, matrix) = (&correlation.parameters, &correlation.matrix);
     let mut text = String::new();
     for i in 0..parameters.len() {

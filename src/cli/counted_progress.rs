@@ -1,4 +1,4 @@
-//! Tells the user how far a number of runs is: a bar on a terminal, a line now and then elsewhere, each with the remaining time.
+//! Progress of a number of runs: a bar on a terminal, else a line from time to time, with the remaining time.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
@@ -12,24 +12,24 @@ use super::say;
 /// Time between two lines of the log.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
 
-/// What the log remembers.
-struct Log {
+/// State of the log.
+struct ProgressLog {
     counted: Option<Counted>,
     last: Instant,
 }
 
-/// What is being counted.
+/// Things being counted.
 struct Counted {
     things: &'static str,
-    /// When the first of this start was begun.
+    /// Start of the first run of this command.
     start: Instant,
-    /// How many there were before.
+    /// Number of runs finished by earlier commands.
     before: usize,
 }
 
-/// Watches the runs for the user, who may interrupt them.
+/// Observer of runs that shows progress and hears interrupts.
 pub(super) struct CountedProgress {
-    display: Display<Log>,
+    display: Display<ProgressLog>,
     interrupted: Arc<AtomicBool>,
     /// Announcements made so far.
     announced: Mutex<Vec<String>>,
@@ -38,7 +38,7 @@ pub(super) struct CountedProgress {
 impl CountedProgress {
     /// A bar on a terminal, a log elsewhere, nothing where `quiet`; `interrupted` is set when the user wants to stop.
     pub(super) fn new(quiet: bool, interrupted: Arc<AtomicBool>) -> Self {
-        let log = Log { counted: None, last: Instant::now() };
+        let log = ProgressLog { counted: None, last: Instant::now() };
         Self { display: Display::new(quiet, log), interrupted, announced: Mutex::default() }
     }
 
@@ -69,7 +69,7 @@ impl Observer for CountedProgress {
             }
             Display::Bar(bar) => {
                 if bar.length() != Some(total as u64) || (done as u64) < bar.position() {
-                    // Something else is counted from here on, and runs of an earlier start took no time of this one.
+                    // Another count begins here; runs of an earlier command took no time of this one.
                     bar.set_length(total as u64);
                     bar.set_position(done as u64);
                     bar.reset_eta();
@@ -84,11 +84,7 @@ impl Observer for CountedProgress {
         let Ok(mut announced) = self.announced.lock() else { return };
         if announced.iter().all(|other| other != text) {
             announced.push(text.to_owned());
-            let say = || say(&format!("warning: {text}"));
-            match &self.display {
-                Display::Bar(bar) => bar.suspend(say),
-                Display::Log(_) | Display::Quiet => say(),
-            }
+            self.display.warn(text);
         }
     }
 

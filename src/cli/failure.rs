@@ -1,4 +1,4 @@
-//! Why a command did not do what was asked, and the exit status that says so.
+//! Failures of commands and their exit statuses.
 
 use std::io;
 use std::path::PathBuf;
@@ -30,16 +30,16 @@ use crate::studies::uncertainty::asked::UncertaintyFault;
 use crate::studies::validation::library::LibraryError;
 use miette::{Diagnostic, LabeledSpan, MietteDiagnostic, NamedSource, Report};
 
-/// Problems of one file that are shown; the rest is counted.
+/// Greatest number of problems of a file that are shown.
 const MOST_SHOWN: usize = 20;
 
-/// Why a command ended without its result.
+/// Failure of a command.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Failure {
     /// The scene or problem file is wrong.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// Something else about the command is wrong.
+    /// Any other wrong input.
     #[error(transparent)]
     Input(#[from] InputError),
     #[error(transparent)]
@@ -48,12 +48,12 @@ pub(super) enum Failure {
     Solve(#[from] SolveError),
     #[error(transparent)]
     FemPair(FemPairError),
-    /// There is no reference to compare models with.
+    /// No reference for the comparison of models.
     #[error(transparent)]
     Accuracy(AccuracyError),
     #[error(transparent)]
     Calibrate(CalibrateError),
-    /// A measured profile does not give what was to be fitted to it; the comparison is written.
+    /// The fit did not converge; the comparison is written.
     #[error("the fit failed: {why}")]
     NotFitted { why: String },
     /// No combination of a sweep has a result; its rows are written.
@@ -71,15 +71,15 @@ pub(super) enum Failure {
     /// Random scenes that contradict statements which hold for every scene; the report is written.
     #[error("{count} of the statements on random scenes are violated: {names}")]
     InvariantsViolated { count: usize, names: String },
-    /// The user interrupted the run; it was said what is kept.
+    /// The user interrupted the command; what is kept was printed.
     #[error("interrupted")]
     Interrupted,
-    /// Nobody reads what the command prints.
+    /// The standard output was closed.
     #[error("the output was closed")]
     Closed,
 }
 
-/// What can be wrong with a command beside the scene's content.
+/// Failures of a command beside the scene's content.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 pub(super) enum InputError {
     #[error(transparent)]
@@ -247,7 +247,7 @@ impl From<SweepError> for Failure {
     }
 }
 
-/// What to do about a file that cannot be opened as a scene.
+/// Remedy for a file that cannot be opened as a scene.
 fn load_help(error: &LoadError) -> &'static str {
     match error {
         LoadError::NotUtf8 { .. } => "save the file as UTF-8",
@@ -260,7 +260,7 @@ fn load_help(error: &LoadError) -> &'static str {
     }
 }
 
-/// What to do about a run that cannot go on.
+/// Remedy for a run that cannot go on.
 fn resume_help(error: &FolderError) -> &'static str {
     match error {
         FolderError::OtherRun { .. } => "resume it with its own scene and files, or choose another folder with --out",
@@ -273,7 +273,7 @@ fn resume_help(error: &FolderError) -> &'static str {
     }
 }
 
-/// What to do about rows that cannot be kept.
+/// Remedy for rows that cannot be kept.
 fn journal_help(error: &JournalError) -> &'static str {
     match error {
         JournalError::OtherSweep { .. } | JournalError::Damaged { .. } | JournalError::Foreign { .. } => {
@@ -286,7 +286,7 @@ fn journal_help(error: &JournalError) -> &'static str {
     }
 }
 
-/// What to do about shards that do not make a sweep.
+/// Remedy for shards that do not make a sweep.
 fn merge_help(error: &MergeError) -> String {
     match error {
         MergeError::Journal(error) => journal_help(error).to_owned(),
@@ -301,7 +301,7 @@ fn merge_help(error: &MergeError) -> String {
     }
 }
 
-/// An error with everything that led to it, on one line.
+/// Error with its causes, on one line.
 fn causes(error: &dyn std::error::Error) -> String {
     let chain = std::iter::successors(error.source(), |cause| cause.source());
     chain.fold(error.to_string(), |text, cause| format!("{text}: {cause}"))
@@ -333,7 +333,7 @@ impl Failure {
     }
 }
 
-/// Says every problem of a scene, at its place in the text.
+/// Prints every problem of a scene with its place in the text.
 fn print_problems(SceneError { given, problems }: SceneError) {
     let count = problems.len();
     let source = Arc::new(NamedSource::new(&given.name, given.text));
@@ -359,7 +359,7 @@ fn label(problem: &Problem) -> Option<LabeledSpan> {
     problem.span.clone().map(|span| LabeledSpan::new_primary_with_span(Some(text), span))
 }
 
-/// The failure that a mesh which cannot be made is: at its key or its option.
+/// Failure of a mesh at its key or option.
 pub(super) fn no_mesh(error: PairMeshError, text: &SceneText) -> Failure {
     let refused = error.in_the_scene(text);
     match error {
@@ -397,15 +397,13 @@ mod tests {
         (problems[0].key.clone(), &SCENE[problems[0].span.clone().unwrap()])
     }
 
-    /// Errors that no valid scene is known to cause have a place all the same.
+    /// Errors that no known scene causes have a key too.
     #[test]
     fn every_refusal_of_a_model_has_its_key_and_place() {
-        let quality = |gear| PairMeshError::Quality { gear, source: QualityError::NoPlaneCells };
-        assert_eq!(
-            place(no_mesh(quality(Some(Gear::Wheel)), &text())),
-            ("fem.clamp_radius_mm.wheel".to_owned(), "37.9")
-        );
-        let (key, at) = place(no_mesh(quality(None), &text()));
+        let [of_wheel, of_pair] = [Some(Gear::Wheel), None]
+            .map(|gear| no_mesh(PairMeshError::Quality { gear, source: QualityError::NoPlaneCells }, &text()));
+        assert_eq!(place(of_wheel), ("fem.clamp_radius_mm.wheel".to_owned(), "37.9"));
+        let (key, at) = place(of_pair);
         assert!(key == "fem.clamp_radius_mm" && at.contains("pinion = 19.9"), "{key} {at}");
         let condense =
             ModelError::Condense { gear: Gear::Pinion, source: SolveError::Factor(FactorError::OutOfMemory) };

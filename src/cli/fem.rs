@@ -10,7 +10,6 @@ use crate::report;
 use crate::report::ReportError;
 use crate::results::fem_problem::{FemRecord, FemSummary};
 use crate::results::run::StageTime;
-use crate::scene::Problem;
 use crate::scene::fem_problem::FemProblem;
 use crate::scene::loaded::SceneText;
 
@@ -19,7 +18,7 @@ use super::progress::Progress;
 use super::{fem_scene, figures, print, warn};
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct FemArgs {
     /// The file, TOML: a problem with its own [mesh], or a scene with a [pair]; - reads standard input
     file: PathBuf,
     /// The folder for the results; files of an earlier run are replaced
@@ -40,8 +39,8 @@ pub(super) struct Args {
     pub quiet: bool,
 }
 
-impl Args {
-    /// An option given that only a gear pair has.
+impl FemArgs {
+    /// Option that is given but applies to gear pairs only.
     fn of_a_pair(&self) -> Option<&'static str> {
         match self {
             Self { position: Some(_), .. } => Some("--position"),
@@ -52,9 +51,9 @@ impl Args {
     }
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &FemArgs) -> Result<(), Failure> {
     let text = SceneText::read(&args.file)?;
-    // Text that is no TOML is refused, with its place, by whoever reads it next.
+    // Text that is not TOML is refused by the reader that follows.
     let Ok(table) = text.text.parse::<toml::Table>() else {
         return if args.of_a_pair().is_some() { fem_scene::run(args, text) } else { problem(args, text) };
     };
@@ -69,15 +68,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// A problem with its own mesh.
-fn problem(args: &Args, text: SceneText) -> Result<(), Failure> {
-    let refused = |problems: Vec<Problem>| Failure::from(text.refused(problems));
-    let problem = FemProblem::from_toml(&text.text).map_err(refused)?;
+fn problem(args: &FemArgs, text: SceneText) -> Result<(), Failure> {
+    let problem = FemProblem::from_toml(&text.text).map_err(|problems| text.refused(problems))?;
     report::writable(&args.out)?;
     report::remove_summary(&args.out)?;
     let folder = args.file.parent().unwrap_or(Path::new(""));
     let progress = Progress::new(args.quiet, Arc::default());
     let record = fem_problem::run(&problem, folder, &progress).map_err(|error| match error {
-        FemProblemError::Input(problems) => refused(problems),
+        FemProblemError::Input(problems) => text.refused(problems).into(),
         FemProblemError::Solve(error) => Failure::Solve(error),
     });
     progress.finish();

@@ -18,12 +18,12 @@ use crate::scene::blame::SceneFault;
 use crate::scene::loaded::SceneText;
 
 use super::failure::{Failure, InputError};
-use super::fem::Args;
+use super::fem::FemArgs;
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
 use super::{figures, print, say, warn};
 
-pub(super) fn run(args: &Args, text: SceneText) -> Result<(), Failure> {
+pub(super) fn run(args: &FemArgs, text: SceneText) -> Result<(), Failure> {
     let resolved = &text.resolve()?;
     warn(&resolved.warnings);
     report::writable(&args.out)?;
@@ -62,7 +62,7 @@ pub(super) fn run(args: &Args, text: SceneText) -> Result<(), Failure> {
     }
 }
 
-/// A failure, told apart by who is to blame: the input, at its place, or the solver.
+/// Failure of the input, at its place, or of the solver.
 fn refused(error: FemPairError, text: &SceneText) -> Failure {
     if let Some(scene) = error.in_the_scene(text) {
         return scene.into();
@@ -79,7 +79,7 @@ fn refused(error: FemPairError, text: &SceneText) -> Failure {
 fn write(record: &mut FemPairRecord, out: &Path, progress: &Progress) -> Result<(), ReportError> {
     progress.stage(FemPairStage::Report.name());
     let start = Instant::now();
-    // Files of an earlier run are about to be replaced; its summary must not vouch for a mixture.
+    // Files of an earlier run are about to be replaced: its summary would not be theirs.
     report::remove_summary(out)?;
     report::fem_pair::write_data_and_page(record, out)?;
     let wall_s = start.elapsed().as_secs_f64();
@@ -91,17 +91,18 @@ fn write(record: &mut FemPairRecord, out: &Path, progress: &Progress) -> Result<
 /// The main figures, for the terminal.
 fn table(summary: &FemPairSummary) -> String {
     let (new, te) = (&summary.new, &summary.new.transmission_error_um);
-    let or_none = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), figures::digits);
+    let pressure = ("maximum pressure, MPa", figures::or_dash(new.peak_pressure_MPa));
+    let rows = match summary.position_mm {
+        Some(_) => vec![pressure, ("transmission error, µm", figures::digits(te.max))],
+        None => vec![
+            pressure,
+            ("  its tooth pair at, mm", figures::or_dash(new.peak_pressure_pair_position_mm)),
+            ("transmission error, minimum, µm", figures::digits(te.min)),
+            ("transmission error, maximum, µm", figures::digits(te.max)),
+        ],
+    };
     let mut text = format!("{}\n\n", summary.title);
-    let mut one = |name: &str, value: &str| text.push_str(&figures::row(name, [value, ""]));
-    one("maximum pressure, MPa", &or_none(new.peak_pressure_MPa));
-    if summary.position_mm.is_some() {
-        one("transmission error, µm", &figures::digits(te.max));
-    } else {
-        one("  its tooth pair at, mm", &or_none(new.peak_pressure_pair_position_mm));
-        one("transmission error, minimum, µm", &figures::digits(te.min));
-        one("transmission error, maximum, µm", &figures::digits(te.max));
-    }
+    text.extend(rows.iter().map(|(name, value)| figures::row(name, [value, ""])));
     text.push_str(&figures::row("", ["pinion", "wheel"]));
     if let (Some(pinion), Some(wheel)) = (&summary.root.pinion, &summary.root.wheel) {
         for (name, values) in [

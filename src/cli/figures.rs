@@ -1,7 +1,7 @@
 //! The main figures of a run, as a table for the terminal.
 
 use crate::report::headline;
-use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError, WearAtLimit};
+use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError};
 use crate::results::figures::{FAMILIES, FigureFamily, FigureValues};
 use crate::results::run::Summary;
 
@@ -45,13 +45,13 @@ fn shown([first, _]: [&str; 2]) -> impl Iterator<Item = &'static FigureFamily> {
     })
 }
 
-/// The rows of some families; nothing of those that the run has no values of.
+/// Rows of some families, without those that the run has no values of.
 fn rows(families: impl Iterator<Item = &'static FigureFamily>, summary: &Summary) -> String {
     let known = families.filter(|family| family.both(summary).iter().any(Option::is_some));
     known.map(|family| family_row(family, family.both(summary))).collect()
 }
 
-/// The row of a family; ratios of the gears in per cent.
+/// Row of a family; ratios of the gears in per cent.
 fn family_row(family: &FigureFamily, values: [Option<f64>; 2]) -> String {
     let is_share = family.unit.is_empty() && matches!(family.values, FigureValues::Gears(_));
     let (unit, factor) = if is_share { ("%", 100.0) } else { (family.unit, 1.0) };
@@ -60,7 +60,7 @@ fn family_row(family: &FigureFamily, values: [Option<f64>; 2]) -> String {
     main_row(&format!("{}{comma}{unit}", family.row()), [&one, &other])
 }
 
-/// What is asked first: wear and how far it is known, flank pressure, transmission error, and what to do about the tip edges.
+/// First lines: wear and its uncertainty, flank pressure, transmission error, and advice on the tip edges.
 fn headline(summary: &Summary) -> String {
     let total = &summary.error.total;
     let is_verified = total.peak_wear.pinion.or(total.peak_wear.wheel).is_some();
@@ -71,18 +71,10 @@ fn headline(summary: &Summary) -> String {
             let values = family.both(summary);
             text.push_str(&family_row(family, values));
             if matches!(family.values, FigureValues::Gears(_)) {
-                let [one, other] = values.map(|wear| match wear {
-                    Some(wear) if wear > 0.0 => format!("± {}", headline::scatter_percent()),
-                    _ => "–".to_owned(),
-                });
-                text.push_str(&main_row("  scatter of k in repeated tests, %", [&one, &other]));
+                text.push_str(&scatter(values));
             }
             if is_verified {
-                let [one, other] = family.both_errors(total).map(|error| match error {
-                    Some(error) => format!("± {}", two_digits(100.0 * error)),
-                    None => "–".to_owned(),
-                });
-                text.push_str(&main_row("  error of the computation, %", [&one, &other]));
+                text.push_str(&errors_of_computation(family.both_errors(total)));
             }
         }
     }
@@ -92,16 +84,31 @@ fn headline(summary: &Summary) -> String {
     text
 }
 
-/// The other figures of both flanks and of the mesh.
-fn details(summary: &Summary) -> String {
-    let of_group = |columns: [&str; 2]| {
-        let families = shown(columns).filter(|family| !family.in_headline && !family.is_of_slices());
-        format!("{}{}", main_row("", columns), rows(families, summary))
-    };
-    format!("\n{}", GROUPS.map(of_group).concat())
+/// Scatter of the wear coefficient where there is wear.
+fn scatter(wear_um: [Option<f64>; 2]) -> String {
+    let [one, other] = wear_um.map(|wear_um| match wear_um {
+        Some(wear_um) if wear_um > 0.0 => format!("± {}", headline::scatter_percent()),
+        _ => "–".to_owned(),
+    });
+    main_row("  scatter of k in repeated tests, %", [&one, &other])
 }
 
-/// What the slices tell; nothing where all sections are alike.
+fn errors_of_computation(errors: [Option<f64>; 2]) -> String {
+    let [one, other] =
+        errors.map(|error| error.map_or_else(|| "–".to_owned(), |error| format!("± {}", two_digits(100.0 * error))));
+    main_row("  error of the computation, %", [&one, &other])
+}
+
+/// Other figures of both flanks and of the mesh.
+fn details(summary: &Summary) -> String {
+    let groups = GROUPS.map(|columns| {
+        let families = shown(columns).filter(|family| !family.in_headline && !family.is_of_slices());
+        format!("{}{}", main_row("", columns), rows(families, summary))
+    });
+    format!("\n{}", groups.concat())
+}
+
+/// Variation over the face width; nothing where all sections are alike.
 fn over_the_width(summary: &Summary) -> String {
     if summary.helical.is_none() {
         return String::new();
@@ -110,20 +117,26 @@ fn over_the_width(summary: &Summary) -> String {
     format!("{states}{}{gears}", main_row("over the face width", GROUPS[0]))
 }
 
-/// How far the run is from finite elements, or why that is not known.
+/// Difference of the run from finite elements, or why it is not known.
 fn verified(total: &TotalError) -> String {
-    let within = |error: Option<f64>| error.map_or_else(|| "–".to_owned(), |error| two_digits(100.0 * error));
-    let both = |name, errors: &ErrorPerGear| main_row(name, [&within(errors.pinion), &within(errors.wheel)]);
     if total.peak_wear.pinion.or(total.peak_wear.wheel).is_none() {
         return format!("\n  {}\n", total.how);
     }
     [
         main_row("difference from finite elements", ["pinion", "wheel"]),
-        both("wear of the tip edge, %", &total.tip_edge_wear),
-        both("wear over the flank (rms), %", &total.profile),
-        main_row("pressure between the tip edges (rms), %", [&within(total.pressure_between_tips), ""]),
+        of_both_gears("wear of the tip edge, %", &total.tip_edge_wear),
+        of_both_gears("wear over the flank (rms), %", &total.profile),
+        main_row("pressure between the tip edges (rms), %", [&in_percent(total.pressure_between_tips), ""]),
     ]
     .concat()
+}
+
+fn of_both_gears(name: &str, errors: &ErrorPerGear) -> String {
+    main_row(name, [&in_percent(errors.pinion), &in_percent(errors.wheel)])
+}
+
+fn in_percent(error: Option<f64>) -> String {
+    error.map_or_else(|| "–".to_owned(), |error| two_digits(100.0 * error))
 }
 
 /// The error estimates of the maximum wear; nothing where none was made.
@@ -146,16 +159,16 @@ fn estimated_errors(error: &ErrorSummary) -> String {
 /// The maximum wear with limits of severe wear a tenth lower and higher; nothing where it is not known.
 fn at_other_limits(error: &ErrorSummary) -> String {
     let Some(limit) = &error.severe_limit else { return String::new() };
-    let peaks = |at: &WearAtLimit| [at.pinion.peak_wear_um, at.wheel.peak_wear_um];
+    let [low, high] = [&limit.low, &limit.high].map(|at| [at.pinion.peak_wear_um, at.wheel.peak_wear_um]);
     [
         format!("\n{}", main_row("maximum wear, µm, with", ["pinion", "wheel"])),
-        figures("a limit of severe wear 10 % lower", peaks(&limit.low)),
-        figures("a limit of severe wear 10 % higher", peaks(&limit.high)),
+        figures("a limit of severe wear 10 % lower", low),
+        figures("a limit of severe wear 10 % higher", high),
     ]
     .concat()
 }
 
-/// An estimate with two significant digits: more it does not have.
+/// Estimate with two significant digits.
 pub(super) fn two_digits(value: f64) -> String {
     let magnitude = value.abs();
     let decimals = if magnitude > 0.0 { (1 - magnitude.log10().floor() as i32).clamp(0, 4) as usize } else { 0 };
@@ -167,12 +180,12 @@ fn figures(name: &str, values: [f64; 2]) -> String {
     main_row(name, [&one, &other])
 }
 
-/// A line of the run's table: a name and two values.
+/// Line of the run's table: a name and two values.
 fn main_row(name: &str, values: [&str; 2]) -> String {
     format!("{}\n", format!("  {name:NAME$}{:>12}{:>12}", values[0], values[1]).trim_end())
 }
 
-/// A line of other commands' tables: a shorter name and two values.
+/// Line of other commands' tables: a shorter name and two values.
 pub(super) fn row(name: &str, values: [&str; 2]) -> String {
     format!("  {name:38}{:>12}{:>12}\n", values[0], values[1])
 }
@@ -185,6 +198,11 @@ pub(super) fn digits(value: f64) -> String {
     }
     let decimals = if magnitude == 0.0 { 0 } else { (3 - magnitude.log10().floor() as i32).max(0) as usize };
     format!("{value:.decimals$}")
+}
+
+/// A figure, or a dash where there is none.
+pub(super) fn or_dash(value: Option<f64>) -> String {
+    value.map_or_else(|| "–".to_owned(), digits)
 }
 
 #[cfg(test)]

@@ -10,19 +10,19 @@ use super::failure::{Failure, InputError};
 use super::{print, warn};
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct InitArgs {
     /// The scene to print
     #[arg(default_value = presets::PRESETS[0].name, help = format!("The scene to print: {}", presets::names().join(", ")))]
     preset: String,
     /// Make the scene from a cylindrical stage of a gear unit in REXS (versions 1.4 to 2.0, XML)
     #[arg(long, value_name = "FILE", conflicts_with = "preset")]
     from: Option<PathBuf>,
-    /// Which cylindrical stage of the file, from 1; may be left out where there is one
+    /// Number of the cylindrical stage in the file, from 1; may be left out where there is one
     #[arg(long, value_name = "N", requires = "from")]
     stage: Option<usize>,
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &InitArgs) -> Result<(), Failure> {
     if let Some(file) = &args.from {
         return from_rexs(file, args.stage);
     }

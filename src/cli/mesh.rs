@@ -1,6 +1,5 @@
 //! `gearwear mesh`: the finite-element mesh of the tooth pair.
 
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -8,7 +7,6 @@ use crate::assessment::deformed_teeth::deformed_teeth;
 use crate::assessment::pair_mesh::{self, PairMesh, SpaceMesh};
 use crate::gear::Gear;
 use crate::gear_mesh::settings::{Body, SectorSides};
-use crate::mesh::quality::Worst;
 use crate::mesh::{self, CellKind, Format};
 use crate::results::provenance::Provenance;
 use crate::scene::Resolved;
@@ -19,7 +17,7 @@ use super::progress::Progress;
 use super::{print, warn};
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct MeshArgs {
     /// The scene file; - reads standard input
     scene: PathBuf,
     /// The mesh file; its ending says the format
@@ -36,8 +34,8 @@ pub(super) struct Args {
     loaded: bool,
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    // Whether the ending is one of a mesh file is known before the work.
+pub(super) fn run(args: &MeshArgs) -> Result<(), Failure> {
+    // The file ending is checked before the work.
     let format = Format::of_path(&args.out).map_err(InputError::MeshFile)?;
     if args.loaded {
         return loaded(args, format);
@@ -58,7 +56,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// The teeth in space under load.
-fn loaded(args: &Args, format: Format) -> Result<(), Failure> {
+fn loaded(args: &MeshArgs, format: Format) -> Result<(), Failure> {
     let scene = LoadedScene::open(&args.scene)?;
     warn(scene.warnings());
     let progress = Progress::new(false, Arc::default());
@@ -67,15 +65,12 @@ fn loaded(args: &Args, format: Format) -> Result<(), Failure> {
     let deformed = deformed.map_err(|error| no_mesh(error, &scene.given))?;
     mesh::write_as(&deformed.space.mesh, &args.out, format).map_err(InputError::MeshFile)?;
     let mut text = text_in_space(&scene.resolved, &deformed.space, &args.out);
-    let mut line = |name: &str, value: String| {
-        let _ = writeln!(text, "{name:20}{value}");
-    };
     let share = 100.0 * deformed.load_n / deformed.whole_load_n;
-    line("load", format!("{:.0} N, {share:.1} % of it on these teeth", deformed.whole_load_n));
-    line("transmission error", format!("{:.2} µm", deformed.transmission_error_um));
+    text += &line("load", format!("{:.0} N, {share:.1} % of it on these teeth", deformed.whole_load_n));
+    text += &line("transmission error", format!("{:.2} µm", deformed.transmission_error_um));
     for gear in Gear::BOTH {
         let (u, stress) = (deformed.greatest_displacement_um[gear], deformed.greatest_von_mises_mpa[gear]);
-        line(
+        text += &line(
             &format!("{} tooth", gear.name()),
             format!("displacement up to {u:.2} µm, von Mises stress up to {stress:.0} MPa"),
         );
@@ -83,35 +78,33 @@ fn loaded(args: &Args, format: Format) -> Result<(), Failure> {
     print(&text)
 }
 
-/// What was built in space.
+fn line(name: &str, value: String) -> String {
+    format!("{name:20}{value}\n")
+}
+
+/// Description of a mesh in space.
 fn text_in_space(resolved: &Resolved, built: &SpaceMesh, out: &Path) -> String {
     let scene = &resolved.scene;
     let mut text = format!("{}\n\n", resolved.title());
-    let mut line = |name: &str, value: String| {
-        let _ = writeln!(text, "{name:20}{value}");
-    };
-    line("bodies", format!("one pitch of each gear, {} elements over the face width", built.layers));
-    line("position", format!("{:.4} mm in the middle of the face width", built.position_mm));
+    text += &line("bodies", format!("one pitch of each gear, {} elements over the face width", built.layers));
+    text += &line("position", format!("{:.4} mm in the middle of the face width", built.position_mm));
     let nodes = built.mesh.points.len();
-    line("nodes", format!("{nodes}, {} degrees of freedom", 3 * nodes));
+    text += &line("nodes", format!("{nodes}, {} degrees of freedom", 3 * nodes));
     let cells: usize = built.mesh.cells.iter().map(|block| block.len()).sum();
-    line("cells", format!("{cells} twenty-node hexahedra"));
+    text += &line("cells", format!("{cells} twenty-node hexahedra"));
     for gear in Gear::BOTH {
-        line(&format!("{} clamp", gear.name()), format!("radius {:.4} mm", scene.fem.clamp_radius_mm[gear]));
+        text += &line(&format!("{} clamp", gear.name()), format!("radius {:.4} mm", scene.fem.clamp_radius_mm[gear]));
         let worst = &built.quality[gear].scaled_jacobian;
-        line(&format!("{} section", gear.name()), format!("minimum scaled Jacobian {:.3}", worst.value));
+        text += &line(&format!("{} section", gear.name()), format!("minimum scaled Jacobian {:.3}", worst.value));
     }
-    line("mesh", out.display().to_string());
+    text += &line("mesh", out.display().to_string());
     text
 }
 
-/// What was built.
+/// Description of a plane mesh.
 fn described(resolved: &Resolved, built: &PairMesh, out: &Path) -> String {
     let scene = &resolved.scene;
     let mut text = format!("{}\n\n", resolved.title());
-    let mut line = |name: &str, value: String| {
-        let _ = writeln!(text, "{name:20}{value}");
-    };
     let body = match scene.fem.body {
         Body::Ring => "whole rings".to_owned(),
         Body::Sector { teeth, sides } => {
@@ -123,13 +116,13 @@ fn described(resolved: &Resolved, built: &PairMesh, out: &Path) -> String {
         }
     };
     let fine: Vec<String> = built.fine_teeth.iter().map(|index| index.to_string()).collect();
-    line("bodies", format!("{body}; teeth {} resolved", fine.join(", ")));
-    line("position", format!("{:.4} mm", built.position_mm));
+    text += &line("bodies", format!("{body}; teeth {} resolved", fine.join(", ")));
+    text += &line("position", format!("{:.4} mm", built.position_mm));
     for gear in Gear::BOTH {
         let radius = scene.fem.clamp_radius_mm[gear];
-        line(&format!("{} clamp", gear.name()), format!("radius {radius:.4} mm"));
+        text += &line(&format!("{} clamp", gear.name()), format!("radius {radius:.4} mm"));
     }
-    line(
+    text += &line(
         "flank elements",
         format!(
             "{:.5} mm at the pitch point, {} in Hertz's half-width of {:.4} mm",
@@ -138,14 +131,16 @@ fn described(resolved: &Resolved, built: &PairMesh, out: &Path) -> String {
     );
     let nodes = built.mesh.points.len();
     let (triangles, quads) = (built.count(CellKind::Triangle6), built.count(CellKind::Quad8));
-    line("nodes", format!("{nodes}, {} degrees of freedom", 2 * nodes));
-    line("cells", format!("{} ({triangles} six-node triangles, {quads} eight-node quadrilaterals)", triangles + quads));
+    text += &line("nodes", format!("{nodes}, {} degrees of freedom", 2 * nodes));
+    text += &line(
+        "cells",
+        format!("{} ({triangles} six-node triangles, {quads} eight-node quadrilaterals)", triangles + quads),
+    );
     for gear in Gear::BOTH {
         let (fine, coarse) = (built.fine_dofs[gear], built.coarse_dofs[gear]);
-        line(&format!("{} tooth", gear.name()), format!("{fine} degrees of freedom resolved, {coarse} not"));
+        text += &line(&format!("{} tooth", gear.name()), format!("{fine} degrees of freedom resolved, {coarse} not"));
     }
     let quality = &built.quality;
-    let at = |worst: &Worst| format!("at ({:.3}, {:.3}) mm", worst.at_mm[0], worst.at_mm[1]);
     for (name, worst, unit) in [
         ("minimum angle", &quality.least_angle_deg, "°"),
         ("maximum angle", &quality.greatest_angle_deg, "°"),
@@ -153,8 +148,8 @@ fn described(resolved: &Resolved, built: &PairMesh, out: &Path) -> String {
         ("Jacobian ratio", &quality.jacobian_ratio, ""),
         ("aspect ratio", &quality.aspect_ratio, ""),
     ] {
-        line(name, format!("{:.3}{unit} {}", worst.value, at(worst)));
+        text += &line(name, format!("{:.3}{unit} at ({:.3}, {:.3}) mm", worst.value, worst.at_mm[0], worst.at_mm[1]));
     }
-    line("mesh", out.display().to_string());
+    text += &line("mesh", out.display().to_string());
     text
 }

@@ -1,4 +1,4 @@
-//! The commands, one file each, and what they share: reading scenes, saying what is wrong, exit statuses.
+//! The commands, one file each, and what they share: reading scenes, printing errors, exit statuses.
 
 mod accuracy;
 mod begun_run;
@@ -46,33 +46,33 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Print a commented scene to start from
-    Init(init::Args),
+    Init(init::InitArgs),
     /// Show the stages a scene needs, those left out, and why; runs nothing
-    Plan(plan::Args),
+    Plan(plan::PlanArgs),
     /// Write the finite-element mesh of the tooth pair
-    Mesh(mesh::Args),
+    Mesh(mesh::MeshArgs),
     /// Run the wear simulation of a scene
-    Run(run::Args),
+    Run(run::RunArgs),
     /// Solve elastic contact with finite elements: of a gear pair, or on a mesh of one's own
-    Fem(fem::Args),
+    Fem(fem::FemArgs),
     /// Draw error against run time of every model that fits a scene, and recommend the cheapest below a wanted error
-    Accuracy(accuracy::Args),
+    Accuracy(accuracy::AccuracyArgs),
     /// Run a scene for all combinations of varied keys: restartable, in shards on a cluster, with contour plots
-    Sweep(sweep::Args),
-    /// Run a scene for samples of uncertain keys: quantiles of its figures, and which key is to blame (Sobol indices)
-    Uncertainty(uncertainty::Args),
+    Sweep(sweep::SweepArgs),
+    /// Run a scene for samples of uncertain keys: quantiles of its figures, and how much each key contributes (Sobol indices)
+    Uncertainty(uncertainty::UncertaintyArgs),
     /// Calibrate the fast model: tooth stiffness and K/H from finite elements, against Hertz
-    Calibrate(calibrate::Args),
+    Calibrate(calibrate::CalibrateArgs),
     /// Compare measured flank profiles with a finished run, and fit the wear coefficients to them
-    Compare(compare::Args),
+    Compare(compare::CompareArgs),
     /// Write the results of a finished run into the REXS file that its scene came from
-    Rexs(rexs::Args),
+    Rexs(rexs::RexsArgs),
     /// Run the validation suite: every claim against its reference, with error, run time and work
-    Validate(validate::Args),
+    Validate(validate::ValidateArgs),
     /// Print the JSON schema of the scene: every key with its meaning, unit, range and default
-    Schema(schema::Args),
+    Schema(schema::SchemaArgs),
     /// Print completions for a shell
-    Completions(completions::Args),
+    Completions(completions::CompletionsArgs),
 }
 
 /// Runs the command the user typed.
@@ -85,7 +85,7 @@ pub fn with_arguments(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(error) => {
-            // Help and version are told this way too. Where nobody can hear it, that is no reason to fail otherwise.
+            // Help and version are errors of clap too. A closed output is no failure.
             let _ = error.print();
             return u8::try_from(error.exit_code()).unwrap_or(WRONG_INPUT);
         }
@@ -122,14 +122,14 @@ pub fn with_arguments(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// Prints warnings; they go where errors go, so that results can be piped.
+/// Prints warnings on standard error, so that results can be piped.
 fn warn(warnings: &[String]) {
     for warning in warnings {
         say(&format!("warning: {warning}"));
     }
 }
 
-/// Says something on standard error; where nobody can hear it, that is no reason to fail.
+/// Prints a line on standard error; a closed stream is no failure.
 fn say(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");
 }

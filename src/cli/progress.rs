@@ -1,4 +1,4 @@
-//! Tells the user how far a run is: a bar with the remaining time on a terminal, one line a stage elsewhere.
+//! Progress of a run: a bar with the remaining time on a terminal, else one line a stage.
 
 use std::io::IsTerminal;
 use std::sync::Arc;
@@ -9,10 +9,10 @@ use std::time::{Duration, Instant};
 use crate::observer::Observer;
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// How long an interrupted run may take to finish its wear step.
+/// Time that an interrupted run has to finish its wear step.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Parts of the bar: so many that a long run moves it between any two looks, from which it tells what is left.
+/// Length of the bar: fine enough that each look at a long run sees it move, as its estimate of the remaining time needs.
 const PARTS: u64 = 1_000_000;
 
 /// How progress is shown: a bar on a terminal, elsewhere a log, which remembers something.
@@ -30,37 +30,46 @@ impl<L> Display<L> {
             (false, false) => Display::Log(Mutex::new(log)),
         }
     }
+
+    /// Prints a warning, beside the bar where there is one.
+    pub(super) fn warn(&self, text: &str) {
+        let warning = format!("warning: {text}");
+        match self {
+            Display::Bar(bar) => bar.suspend(|| super::say(&warning)),
+            Display::Log(_) | Display::Quiet => super::say(&warning),
+        }
+    }
 }
 
-/// A stage takes this long before how long it takes in all is judged by.
+/// Time of a stage before its total time is estimated, s.
 const JUDGED_AFTER_S: f64 = 2.0;
-/// What takes longer is said, s.
+/// Time after which a stage is announced, s.
 const LONG_S: f64 = 20.0;
-/// It is said again after this long, s, and then half as long again each time.
+/// Time until it is announced again, s; half as long again each time.
 const SAID_AGAIN_AFTER_S: f64 = 20.0;
-/// Part of the time so far by which what is left is judged: work slows down and speeds up as flanks wear.
+/// Latest part of the time so far from which the rest is estimated: the pace changes as flanks wear.
 const JUDGED_BY: f64 = 0.5;
-/// Moments at which progress is remembered, at the most.
+/// Greatest number of recorded moments of progress.
 const MOST_MARKS: usize = 64;
 
-/// The stage that was begun last.
+/// Current stage.
 struct Begun {
     name: String,
     start: Instant,
-    /// How much of it was finished, and how long after its start that was told, s.
+    /// Finished part and time since the start, s, at each recorded moment.
     marks: Vec<(f64, f64)>,
-    /// When it is said how long it takes, s after its start.
+    /// Time of the next announcement, s after the start.
     say_at_s: f64,
 }
 
-/// Watches a run for the user, who may interrupt it.
+/// Observer of a run that shows progress and hears interrupts.
 pub(super) struct Progress {
     display: Display<Option<Begun>>,
     interrupted: Arc<AtomicBool>,
     start: Instant,
     /// When the interrupt was first noticed.
     first_heard: OnceLock<Instant>,
-    /// Warnings given so far.
+    /// Warnings printed so far.
     told: Mutex<Vec<String>>,
 }
 
@@ -76,7 +85,7 @@ impl Progress {
         }
     }
 
-    /// Those of `warnings` that have not been given during the run.
+    /// Warnings among `warnings` that were not printed during the run.
     pub(super) fn not_yet_told(&self, warnings: &[String]) -> Vec<String> {
         let told = self.told.lock().map(|told| told.clone()).unwrap_or_default();
         warnings.iter().filter(|warning| !told.contains(warning)).cloned().collect()
@@ -133,11 +142,7 @@ impl Observer for Progress {
             }
             told.push(text.to_owned());
         }
-        let say = || super::say(&format!("warning: {text}"));
-        match &self.display {
-            Display::Bar(bar) => bar.suspend(say),
-            Display::Log(_) | Display::Quiet => say(),
-        }
+        self.display.warn(text);
     }
 
     fn interrupted(&self) -> bool {
@@ -158,7 +163,7 @@ fn bar() -> ProgressBar {
     bar
 }
 
-/// Logs the stage that ends, with its time, and remembers the next.
+/// Logs the stage that ends, with its time, and starts the next.
 fn log_end(stage: &Mutex<Option<Begun>>, next: Option<Begun>) {
     let Ok(mut stage) = stage.lock() else { return };
     if let Some(Begun { name, start, .. }) = std::mem::replace(&mut *stage, next) {
@@ -166,8 +171,8 @@ fn log_end(stage: &Mutex<Option<Begun>>, next: Option<Begun>) {
     }
 }
 
-/// Says of a stage, of which the part `done` is finished, what it takes more where the command, begun at `command`, takes long with it; and again now and
-/// then, for the pace changes.
+/// Announces the remaining time of a stage of which the part `done` is finished, where the command, begun at `command`, takes long; repeated from
+/// time to time, as the pace changes.
 fn log_long(stage: &Mutex<Option<Begun>>, done: f64, command: Instant) {
     let Ok(mut stage) = stage.lock() else { return };
     let Some(begun) = stage.as_mut() else { return };
@@ -182,7 +187,7 @@ fn log_long(stage: &Mutex<Option<Begun>>, done: f64, command: Instant) {
     }
 }
 
-/// Remembers how much is finished when; where the moments become many, evenly over the time so far.
+/// Records a moment of progress; where there are too many, they are thinned evenly over the time so far.
 fn mark(marks: &mut Vec<(f64, f64)>, now: (f64, f64)) {
     if marks.len() >= MOST_MARKS {
         let apart_s = 2.0 * now.1 / MOST_MARKS as f64;
@@ -196,7 +201,7 @@ fn mark(marks: &mut Vec<(f64, f64)>, now: (f64, f64)) {
     marks.push(now);
 }
 
-/// What is left takes as long for each part as what was finished of late took; `None` where nothing was.
+/// Time left, s, at the pace of the parts finished last; `None` where none was.
 fn left_s(marks: &[(f64, f64)]) -> Option<f64> {
     let &(done, now_s) = marks.last()?;
     let late = marks.iter().rev().find(|(_, at_s)| *at_s <= (1.0 - JUDGED_BY) * now_s).or(marks.first())?;
@@ -208,7 +213,7 @@ fn left_s(marks: &[(f64, f64)]) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// A run that is four times as fast from its middle on; closed form.
+    /// A run that is four times as fast from its middle on.
     #[test]
     fn what_is_left_follows_from_what_was_finished_of_late() {
         let mut marks = Vec::new();

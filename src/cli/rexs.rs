@@ -16,13 +16,13 @@ use super::failure::{Failure, InputError};
 use super::{print, warn};
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct RexsArgs {
     /// The folder of a finished `gearwear run`
     run: PathBuf,
     /// The gear unit in REXS (versions 1.4 to 2.0, XML) that the run's scene came from; it is left as it is
     #[arg(long, value_name = "FILE")]
     into: PathBuf,
-    /// Which cylindrical stage of the file, from 1; may be left out where there is one
+    /// Number of the cylindrical stage in the file, from 1; may be left out where there is one
     #[arg(long, value_name = "N")]
     stage: Option<usize>,
     /// The file to be written: all that FILE holds, with the results as attributes of the stage and its gears
@@ -33,7 +33,7 @@ pub(super) struct Args {
     quiet: bool,
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &RexsArgs) -> Result<(), Failure> {
     let run = read(args)?;
     let name = args.into.display().to_string();
     let bytes = fs::read(&args.into).map_err(|reason| InputError::Unreadable { name: name.clone(), reason })?;
@@ -59,20 +59,20 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     ))
 }
 
-/// What is written of the finished run.
-fn read(args: &Args) -> Result<RunResults, Failure> {
+/// Results of the finished run to be written.
+fn read(args: &RexsArgs) -> Result<RunResults, Failure> {
     let folder = RunFolder::open(&args.run).map_err(InputError::RunFolder)?;
     let scene = LoadedScene::open(folder.scene_path())?;
     folder.check_scene(&scene.resolved).map_err(InputError::RunFolder)?;
     let finished = FinishedRun::of(folder.clone(), String::new()).map_err(InputError::RunFolder)?;
-    let column = |name: &str| finished.mesh_cycle.get(name).to_vec();
+    let cycle = &finished.mesh_cycle;
     Ok(RunResults {
         summary: folder.whole_summary,
         pair: scene.scene().pair.clone(),
         mesh_stiffness: MeshStiffness {
-            pinion_rotation_deg: column("pinion_rotation_deg"),
-            new_N_per_mm_um: column("mesh_stiffness_new_N_per_mm_um"),
-            worn_N_per_mm_um: column("mesh_stiffness_worn_N_per_mm_um"),
+            pinion_rotation_deg: cycle.get("pinion_rotation_deg").to_vec(),
+            new_N_per_mm_um: cycle.get("mesh_stiffness_new_N_per_mm_um").to_vec(),
+            worn_N_per_mm_um: cycle.get("mesh_stiffness_worn_N_per_mm_um").to_vec(),
         },
         wear_profile: PerGear::from_fn(|gear| {
             let (radius_mm, depth_um) = finished.wear_profile(gear);

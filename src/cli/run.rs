@@ -28,7 +28,7 @@ use super::{figures, print, say, warn};
 const INTERRUPTED: i32 = 130;
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct RunArgs {
     /// The scene file; - reads standard input. May be left out with --resume
     #[arg(required_unless_present = "resume")]
     scene: Option<PathBuf>,
@@ -58,7 +58,7 @@ pub(super) struct Args {
     quiet: bool,
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     let pool = pool(args.threads)?;
     if let Some(figures) = &args.figures {
         report::writable(figures)?;
@@ -84,7 +84,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
     let interrupted = watch_for_interrupt();
     let progress = Progress::new(args.quiet, Arc::clone(&interrupted));
-    // The summary's presence says that everything else in the folder is complete and of the same run.
+    // The summary is written last: where it exists, the folder is complete and of one run.
     report::remove_summary(&out)?;
     let keeper = FolderKeeper::new(&out, &identity, &resolved.warnings);
     let done = pool.install(|| -> Result<Done, Failure> {
@@ -107,15 +107,26 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         other => other,
     })?;
     warn(&progress.not_yet_told(&record.summary.warnings[resolved.warnings.len()..]));
+    finish(args, &record, failure, &resolved.scene.operation, &out)
+}
+
+/// Prints the main figures, or what is kept of a run that ended early; the failure of the run, if any.
+fn finish(
+    args: &RunArgs,
+    record: &RunRecord,
+    failure: Option<RunError>,
+    operation: &Operation,
+    out: &Path,
+) -> Result<(), Failure> {
     if !args.quiet {
         let (name, path) = match args.no_report {
-            true => ("results", out.clone()),
+            true => ("results", out.to_owned()),
             false => ("report", out.join("report.html")),
         };
         print(&format!("{}{name}: {}\n", figures::table(&record.summary), path.display()))?;
     }
     if !record.summary.stopped.is_complete() {
-        say_what_is_kept(&record, &resolved.scene.operation, &out);
+        say_what_is_kept(record, operation, out);
     }
     match failure {
         Some(failure) => Err(Failure::Run(failure)),
@@ -127,12 +138,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// Puts a failure that the scene is to blame for at its key.
+/// Failure of a run, at the key of the scene that causes it, if one does.
 pub(super) fn in_the_scene(error: RunError, scene: &LoadedScene) -> Failure {
     error.in_the_scene(&scene.given).map_or(Failure::Run(error), Failure::Scene)
 }
 
-/// A failure of a run of which nothing was finished. Of a run that its scene does not allow nothing stays.
+/// Failure of a run of which nothing was finished; the folder made for a scene that allows no run is removed.
 fn refused(error: RunError, scene: &LoadedScene, made: Option<&MadeFolder>) -> Failure {
     let failure = in_the_scene(error, scene);
     if let (Failure::Scene(_), Some(made)) = (&failure, made) {
@@ -142,7 +153,7 @@ fn refused(error: RunError, scene: &LoadedScene, made: Option<&MadeFolder>) -> F
 }
 
 /// The last stage: the output folder. Its own time is in the summary, which is therefore written last.
-fn write(record: &mut RunRecord, out: &Path, args: &Args, progress: &Progress) -> Result<(), ReportError> {
+fn write(record: &mut RunRecord, out: &Path, args: &RunArgs, progress: &Progress) -> Result<(), ReportError> {
     progress.stage(StageKind::Report.name());
     let start = Instant::now();
     report::write_data(record, out)?;
@@ -167,13 +178,13 @@ fn write(record: &mut RunRecord, out: &Path, args: &Args, progress: &Progress) -
     report::write_summary(&record.summary, out).map(drop)
 }
 
-/// As many threads as asked for; default: all cores. More than cores only wait for each other.
+/// Number of threads: as asked for, at most all cores, which is the default.
 pub(super) fn thread_count(asked: Option<NonZeroUsize>) -> usize {
     let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
     asked.map_or(cores, NonZeroUsize::get).min(cores)
 }
 
-/// A pool of so many threads.
+/// Pool of the threads asked for.
 pub(super) fn pool(asked: Option<NonZeroUsize>) -> Result<rayon::ThreadPool, InputError> {
     Ok(rayon::ThreadPoolBuilder::new().num_threads(thread_count(asked)).build()?)
 }

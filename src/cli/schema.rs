@@ -6,13 +6,13 @@ use super::failure::Failure;
 use super::print;
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct SchemaArgs {
     /// The schema of a finite-element problem with its own mesh instead
     #[arg(long)]
     problem: bool,
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &SchemaArgs) -> Result<(), Failure> {
     let schema = if args.problem { fem_problem::schema() } else { schema() };
     print(&format!("{schema:#}\n"))
 }

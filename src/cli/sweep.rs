@@ -27,16 +27,16 @@ use super::{print, say, warn};
 
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
-pub(super) struct Args {
+pub(super) struct SweepArgs {
     #[command(flatten)]
-    run: Option<RunArgs>,
+    run: Option<SweepRunArgs>,
     #[command(subcommand)]
-    part: Option<Part>,
+    part: Option<SweepSubcommand>,
 }
 
 /// A sweep to run.
 #[derive(Debug, clap::Args)]
-pub(super) struct RunArgs {
+pub(super) struct SweepRunArgs {
     /// The scene file; - reads standard input
     #[arg(required = true)]
     scene: PathBuf,
@@ -70,7 +70,7 @@ pub(super) struct RunArgs {
 }
 
 #[derive(Debug, clap::Subcommand)]
-enum Part {
+enum SweepSubcommand {
     /// Make one sweep from the folders of its shards
     Merge(MergeArgs),
 }
@@ -99,15 +99,15 @@ fn shard(text: &str) -> Result<Shard, String> {
     }
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &SweepArgs) -> Result<(), Failure> {
     match (&args.part, &args.run) {
-        (Some(Part::Merge(args)), _) => merge_shards(args),
+        (Some(SweepSubcommand::Merge(args)), _) => merge_shards(args),
         (None, Some(args)) => run_sweep(args),
         (None, None) => Err(InputError::Vary(AxisError::Form { given: String::new() }).into()),
     }
 }
 
-fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
+fn run_sweep(args: &SweepRunArgs) -> Result<(), Failure> {
     let scene = LoadedScene::open(&args.scene)?;
     warn(scene.warnings());
     let question = SweepQuestion {
@@ -143,8 +143,8 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
     finish(&unfinished.finish()?, &args.out, args.quiet)
 }
 
-/// What is about to be run.
-fn begun(sweep: &Sweep, args: &RunArgs, total: usize, finished: usize) -> String {
+/// Description of the sweep about to be run.
+fn begun(sweep: &Sweep, args: &SweepRunArgs, total: usize, finished: usize) -> String {
     let part = args.shard.map_or_else(String::new, |shard| {
         format!(", shard {}/{} of {}", shard.number, shard.of, sweep.identity.combinations())
     });
@@ -167,8 +167,9 @@ fn begun(sweep: &Sweep, args: &RunArgs, total: usize, finished: usize) -> String
 }
 
 fn merge_shards(args: &MergeArgs) -> Result<(), Failure> {
-    let same = |folder: &PathBuf| matches!((folder.canonicalize(), args.out.canonicalize()), (Ok(a), Ok(b)) if a == b);
-    if let Some(folder) = args.folders.iter().find(|folder| same(folder)) {
+    let out = args.out.canonicalize().ok();
+    let mut folders = args.folders.iter();
+    if let Some(folder) = folders.find(|folder| out.is_some() && folder.canonicalize().ok() == out) {
         return Err(InputError::MergeIntoShard { name: folder.display().to_string() }.into());
     }
     let start = Instant::now();
@@ -191,7 +192,7 @@ fn merge_shards(args: &MergeArgs) -> Result<(), Failure> {
     finish(&record, &args.out, args.quiet)
 }
 
-/// Rows that stand in `out` already must be those of this sweep: they are about to be replaced.
+/// Checks that rows in `out` are of this sweep, as they will be replaced.
 fn not_another_sweep(whole: &JournalContents, out: &Path) -> Result<(), JournalError> {
     let differences = match journal::read(out) {
         Ok(found) => found.identity.differences(&whole.identity),
@@ -206,19 +207,21 @@ fn not_another_sweep(whole: &JournalContents, out: &Path) -> Result<(), JournalE
 
 /// The scene of the sweep, from the first folder that has it.
 fn scene_of(whole: &JournalContents, folders: &[PathBuf]) -> Result<String, InputError> {
-    let of_sweep = |text: &String| Draft::parse(text).is_ok_and(|draft| draft.hash() == whole.identity.given_hash);
-    let read = |folder: &PathBuf| fs::read_to_string(folder.join(crate::studies::sweep::report::SCENE)).ok();
-    folders.iter().filter_map(read).find(of_sweep).ok_or(InputError::MergeWithoutScene)
+    let scenes = folders.iter().map(|folder| folder.join(crate::studies::sweep::report::SCENE));
+    let mut texts = scenes.filter_map(|scene| fs::read_to_string(scene).ok());
+    texts
+        .find(|text| Draft::parse(text).is_ok_and(|draft| draft.hash() == whole.identity.given_hash))
+        .ok_or(InputError::MergeWithoutScene)
 }
 
-/// Says what came out.
+/// Prints the result.
 fn finish(record: &SweepRecord, out: &Path, quiet: bool) -> Result<(), Failure> {
     if !quiet {
         print(&table(record, out))?;
     }
     let first_error = record.rows.iter().find_map(|row| row.error.clone());
     match first_error {
-        // A shard may well lie where nothing can be built.
+        // All combinations of a shard may be invalid scenes.
         Some(error) if record.shard.is_none() && record.failed() == record.rows.len() => {
             Err(Failure::NoCombination { count: record.rows.len(), error })
         }
@@ -262,7 +265,7 @@ fn table(record: &SweepRecord, out: &Path) -> String {
     text
 }
 
-/// The combination asked for, and those that are as good within the error, for the terminal.
+/// Optimum, and the combinations that equal it within the error, for the terminal.
 fn found(record: &SweepRecord, optimum: &Optimum) -> String {
     let place = record.identity.in_words(optimum.index);
     let mut text = format!("\nleast {}: {} at {place}\n", optimum.goal.in_words(), digits(optimum.value));
@@ -282,7 +285,7 @@ fn found(record: &SweepRecord, optimum: &Optimum) -> String {
     text
 }
 
-/// What finite elements say of the chosen rows, for the terminal.
+/// Verification of the chosen rows by finite elements, for the terminal.
 fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> String {
     let SweepVerification { intention, chosen, verified, unanswered, open, .. } = verification;
     let mut text = format!("\nverified by finite elements: {verified} of {chosen} chosen\n  {intention}\n");

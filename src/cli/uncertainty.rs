@@ -10,16 +10,16 @@ use crate::studies::uncertainty::asked::{UncertaintyFault, UncertaintyQuestion};
 use crate::studies::uncertainty::design::CorrelationError;
 use crate::studies::uncertainty::distribution::FORMS;
 use crate::studies::uncertainty::record::UncertaintyRecord;
-use crate::studies::uncertainty::study::{self, SampledQuestion, SamplingError};
+use crate::studies::uncertainty::study::{self, SampledQuestion, UncertaintyStudyError};
 
 use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError};
-use super::figures::digits;
+use super::figures::{digits, or_dash};
 use super::run::{thread_count, watch_for_interrupt};
 use super::{print, say, warn};
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct UncertaintyArgs {
     /// The scene file; - reads standard input
     scene: PathBuf,
     /// A key of the scene, and its distribution: normal:MEAN:SD, lognormal:MEDIAN:FACTOR (68 % of the values lie from MEDIAN/FACTOR to
@@ -55,7 +55,7 @@ pub(super) struct Args {
 }
 
 impl UncertaintyFault {
-    /// The option that it is about.
+    /// Option that caused the error.
     pub(super) fn option(&self) -> &'static str {
         match self {
             Self::Uncertain(_) | Self::Count { .. } => "--uncertain: ",
@@ -67,7 +67,7 @@ impl UncertaintyFault {
         }
     }
 
-    /// What to do about it.
+    /// Remedy.
     pub(super) fn help(&self) -> String {
         match self {
             Self::Output(_) => "summary.json of a run has all of them".to_owned(),
@@ -81,7 +81,7 @@ impl UncertaintyFault {
     }
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &UncertaintyArgs) -> Result<(), Failure> {
     let scene = LoadedScene::open(&args.scene)?;
     warn(scene.warnings());
     let asked = UncertaintyQuestion {
@@ -120,11 +120,11 @@ impl From<UncertaintyFault> for Failure {
     fn from(fault: UncertaintyFault) -> Self {
         match fault {
             UncertaintyFault::Scene(error) => Failure::Scene(error),
-            UncertaintyFault::Study(error @ SamplingError::Interrupted) => {
+            UncertaintyFault::Study(error @ UncertaintyStudyError::Interrupted) => {
                 say(&format!("{error}: nothing to write"));
                 Failure::Interrupted
             }
-            UncertaintyFault::Study(SamplingError::AllFailed { runs, first }) => {
+            UncertaintyFault::Study(UncertaintyStudyError::AllFailed { runs, first }) => {
                 Failure::NoSample { count: runs, error: first }
             }
             wrong => InputError::Uncertainty(wrong).into(),
@@ -134,7 +134,6 @@ impl From<UncertaintyFault> for Failure {
 
 /// Quantiles and indices, for the terminal.
 fn table(record: &UncertaintyRecord, out: &Path) -> String {
-    let cell = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), digits);
     let mut text = format!(
         "{}\n\n{} points, {} runs, {} failed, in {} s\n\n  {:42}{:>12}{:>12}{:>12}{:>12}\n",
         record.title,
@@ -150,8 +149,7 @@ fn table(record: &UncertaintyRecord, out: &Path) -> String {
     );
     for output in &record.outputs {
         let [p05, _, p50, _, p95] = output.quantiles.all();
-        let cells = [output.nominal, p05, p50, p95].map(cell);
-        let [given, low, middle, high] = &cells;
+        let [given, low, middle, high] = [output.nominal, p05, p50, p95].map(or_dash);
         text.push_str(&format!("  {:42}{given:>12}{low:>12}{middle:>12}{high:>12} {}\n", output.output, output.unit));
         if let Some(censored) = output.censored.filter(|&part| part > 0.0) {
             let part = digits(100.0 * censored);

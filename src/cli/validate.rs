@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use crate::report;
 use crate::studies::invariants;
-use crate::studies::invariants::study::{self, Asked, INVARIANTS};
+use crate::studies::invariants::study::{self, INVARIANTS, SceneRange};
 use crate::studies::validation::library::{self, Library};
 use crate::studies::validation::record::{Tier, ValidationRecord};
 use crate::studies::validation::{self, against};
@@ -18,7 +18,7 @@ use super::run::{thread_count, watch_for_interrupt};
 use super::{print, say};
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct ValidateArgs {
     /// Cases: names of built-in ones, or folders with a case.toml; default: all built-in cases of the tier. The word invariants
     /// alone: random scenes, held against statements that are true of every scene
     #[arg(value_name = "CASE")]
@@ -61,7 +61,7 @@ fn tier(text: &str) -> Result<Tier, String> {
     found.ok_or_else(|| format!("allowed: {}", Tier::ALL.map(Tier::name).join(", ")))
 }
 
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &ValidateArgs) -> Result<(), Failure> {
     if let Some(folder) = &args.export {
         report::create_folder(folder)?;
         library::export(folder).map_err(InputError::ValidationCase)?;
@@ -108,14 +108,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// Random scenes, held against statements that are true of every scene.
-fn random_scenes(args: &Args) -> Result<(), Failure> {
+fn random_scenes(args: &ValidateArgs) -> Result<(), Failure> {
     if args.list || args.against.is_some() {
         let option = if args.list { "--list" } else { "--against" };
         return Err(InputError::NotForInvariants { option }.into());
     }
     let Some(out) = &args.out else { unreachable!("clap demands it") };
-    let of_tier = Asked::of_tier(args.tier);
-    let asked = Asked {
+    let of_tier = SceneRange::of_tier(args.tier);
+    let asked = SceneRange {
         seed: args.seed.unwrap_or(of_tier.seed),
         first: args.first.unwrap_or(of_tier.first),
         count: args.count.map_or(of_tier.count, NonZeroU64::get),

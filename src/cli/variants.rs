@@ -1,5 +1,6 @@
 //! `gearwear compare RUN RUN …`: finished runs, or scenes that are run first, side by side.
 
+use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -14,7 +15,7 @@ use crate::studies::variants::finished_run::FinishedRun;
 use crate::studies::variants::record::{VariantRow, VariantsRecord};
 
 use super::failure::{Failure, InputError};
-use super::figures::digits;
+use super::figures::{digits, or_dash};
 use super::progress::Progress;
 use super::run::{in_the_scene, pool, watch_for_interrupt};
 use super::{print, warn};
@@ -22,7 +23,7 @@ use super::{print, warn};
 /// Most runs side by side.
 pub(super) const MOST_RUNS: usize = 6;
 
-/// What is compared, and how.
+/// Runs to compare, and how.
 pub(super) struct Variants<'a> {
     /// Folders of runs, or scenes.
     pub runs: Vec<&'a Path>,
@@ -67,7 +68,7 @@ pub(super) fn run(asked: &Variants<'_>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Carries out a scene into a folder of its own.
+/// Runs a scene into its own folder.
 fn run_scene(
     path: &Path,
     folder: &Path,
@@ -86,50 +87,49 @@ fn run_scene(
     }
 }
 
-/// The runs by the last part of their paths that tells them apart.
+/// Names of the runs: the shortest last parts of their paths that differ.
 fn names(paths: &[&Path]) -> Vec<String> {
-    let parts = |path: &Path, count: usize| -> String {
-        let path = if is_scene(path) { path.with_extension("") } else { path.to_owned() };
-        let all: Vec<String> = path
-            .components()
-            .filter(|part| matches!(part, std::path::Component::Normal(_)))
-            .map(|part| part.as_os_str().to_string_lossy().into_owned())
-            .collect();
-        all[all.len().saturating_sub(count)..].join("-")
-    };
-    let distinct = |names: &[String]| {
-        let mut sorted = names.to_vec();
-        sorted.sort();
-        sorted.dedup();
-        sorted.len() == names.len() && names.iter().all(|name| !name.is_empty())
-    };
-    let by_parts = |count: usize| paths.iter().map(|path| parts(path, count)).collect::<Vec<_>>();
-    let found = (1..=4).map(by_parts).find(|names| distinct(names));
-    found.unwrap_or_else(|| (1..=paths.len()).map(|number| format!("run-{number}")).collect())
+    for parts in 1..=4 {
+        let names: Vec<String> = paths.iter().map(|path| last_parts(path, parts)).collect();
+        let distinct: BTreeSet<&String> = names.iter().filter(|name| !name.is_empty()).collect();
+        if distinct.len() == names.len() {
+            return names;
+        }
+    }
+    (1..=paths.len()).map(|number| format!("run-{number}")).collect()
 }
 
-/// What was found, for the terminal.
-fn table(record: &VariantsRecord) -> String {
-    let mut text = String::new();
-    let line = |name: &str, cells: Vec<String>| {
-        let cells: String = cells.iter().map(|cell| format!("{cell:>22}")).collect();
-        format!("  {name:57}{cells}\n")
+/// The last `count` parts of a path, joined by hyphens; of a scene without its ending.
+fn last_parts(path: &Path, count: usize) -> String {
+    let path = if is_scene(path) { path.with_extension("") } else { path.to_owned() };
+    let all: Vec<String> = path
+        .components()
+        .filter(|part| matches!(part, std::path::Component::Normal(_)))
+        .map(|part| part.as_os_str().to_string_lossy().into_owned())
+        .collect();
+    all[all.len().saturating_sub(count)..].join("-")
+}
+
+fn line(name: &str, cells: impl Iterator<Item = String>) -> String {
+    let cells: String = cells.map(|cell| format!("{cell:>22}")).collect();
+    format!("  {name:57}{cells}\n")
+}
+
+fn cell(row: &VariantRow) -> String {
+    let (Some(value), Some(difference)) = (row.value, row.difference) else { return or_dash(row.value) };
+    let sign = match row.significant {
+        Some(true) => "",
+        Some(false) => " ≈",
+        None => " ?",
     };
-    text.push_str(&line("", record.runs.iter().map(|run| run.name.clone()).collect()));
+    format!("{} ({:+.1} %{sign})", digits(value), 100.0 * difference)
+}
+
+/// Findings for the terminal.
+fn table(record: &VariantsRecord) -> String {
+    let mut text = line("", record.runs.iter().map(|run| run.name.clone()));
     for of_runs in record.figures() {
-        let cell = |row: &VariantRow| match (row.value, row.difference) {
-            (None, _) => "–".to_owned(),
-            (Some(value), None) => digits(value),
-            (Some(value), Some(difference)) => {
-                let sign = match row.significant {
-                    Some(true) => "",
-                    Some(false) => " ≈",
-                    None => " ?",
-                };
-                format!("{} ({:+.1} %{sign})", digits(value), 100.0 * difference)
-            }
-        };
-        text.push_str(&line(&of_runs[0].named(), of_runs.iter().map(cell).collect()));
+        text.push_str(&line(&of_runs[0].named(), of_runs.iter().map(cell)));
     }
     text.push_str("\n  ≈ within the errors of both runs together, ? errors not known\n\n");
     format!("{text}{}\n", record.answer.replace(". The", ".\nThe"))
@@ -141,10 +141,13 @@ mod tests {
 
     #[test]
     fn runs_are_named_by_what_tells_them_apart() {
-        let names = |paths: &[&str]| names(&paths.iter().map(Path::new).collect::<Vec<_>>());
-        assert_eq!(names(&["out/plain", "out/relief"]), ["plain", "relief"]);
-        assert_eq!(names(&["a/out", "b/out/"]), ["a-out", "b-out"]);
-        assert_eq!(names(&["plain.toml", "relief.toml"]), ["plain", "relief"]);
-        assert_eq!(names(&["out", "out"]), ["run-1", "run-2"]);
+        for (paths, expected) in [
+            (["out/plain", "out/relief"], ["plain", "relief"]),
+            (["a/out", "b/out/"], ["a-out", "b-out"]),
+            (["plain.toml", "relief.toml"], ["plain", "relief"]),
+            (["out", "out"], ["run-1", "run-2"]),
+        ] {
+            assert_eq!(names(&paths.map(Path::new)), expected);
+        }
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::{Vector3, Vector6};
 
 use super::recording::{mesh_summary, out_of_balance};
 use crate::fem::problem::Stop;
-use crate::fem::space::problem::{Problem, Solution};
+use crate::fem::space::problem::{SpaceEquilibrium, SpaceProblem};
 use crate::fem::stress::von_mises_mpa;
 use crate::results::fem_problem::{BoundaryRow, FemRecord, FemSolution, FemSummary, InSpaceSummary, SpaceSolution};
 use crate::scene::fem_problem::{Component, FemProblem, FemProblemFile, Posed};
@@ -12,8 +12,8 @@ use crate::scene::fem_problem::{Component, FemProblem, FemProblemFile, Posed};
 /// The record of a solution, without the times of its stages.
 pub(super) fn record(
     problem: &FemProblem,
-    posed: Posed<Problem>,
-    solution: &Solution,
+    posed: Posed<SpaceProblem>,
+    solution: &SpaceEquilibrium,
     stress_mpa: &[Vector6<f64>],
     mesh_hash: String,
 ) -> FemRecord {

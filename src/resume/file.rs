@@ -15,12 +15,12 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::identity::Identity;
+use super::identity::RunIdentity;
 use crate::content_hash::sha256;
 use crate::simulation::checkpoint::Checkpoint;
 use crate::whole_file;
 
-/// Changes with the content of the file.
+/// Version of the format, raised with every change of the content.
 const FORMAT: u32 = 4;
 const MAGIC: &str = "gearwear checkpoint ";
 const PROGRAM_VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -29,30 +29,30 @@ const PROGRAM_VERSION: &str = env!("CARGO_PKG_VERSION");
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(crate) struct CheckpointFile {
     /// Scene and input files.
-    pub identity: Identity,
-    /// What the user was told of the scene when the run began.
+    pub identity: RunIdentity,
+    /// Warnings given when the run began.
     pub warnings: Vec<String>,
-    /// How far it has come.
+    /// State of the run.
     pub checkpoint: Checkpoint,
 }
 
-/// The same to be written.
+/// File to be written.
 #[derive(Serialize)]
-struct Body<'a> {
-    identity: &'a Identity,
+struct CheckpointBody<'a> {
+    identity: &'a RunIdentity,
     warnings: &'a [String],
     checkpoint: &'a Checkpoint,
 }
 
 #[derive(Serialize, Deserialize)]
-struct Header {
+struct CheckpointHeader {
     format: u32,
     program_version: String,
     body_bytes: usize,
     body_sha256: String,
 }
 
-/// Why a file is no checkpoint to go on from.
+/// Error of a checkpoint file.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum CheckpointError {
     /// The system cannot read it.
@@ -61,39 +61,44 @@ pub(crate) enum CheckpointError {
     /// Another file, or one whose first line was damaged.
     #[error("its first line is not that of a checkpoint")]
     NoCheckpoint,
-    /// Written in another way.
+    /// Written in another format.
     #[error(
         "it has format {found} (gearwear {program_version}), this program, {PROGRAM_VERSION}, reads format {FORMAT}"
     )]
     OtherFormat {
-        /// Its format.
+        /// Format of the file.
         found: u32,
         /// The version that wrote it.
         program_version: String,
     },
-    /// Written by another version, whose bits may be others.
+    /// Written by another version, whose results may differ in their last bits.
     #[error("it was written by gearwear {found}, this is {PROGRAM_VERSION}")]
     OtherVersion {
         /// The version that wrote it.
         found: String,
     },
-    /// Not as long as it says.
+    /// Shorter or longer than its first line states.
     #[error("it is incomplete: {found} bytes where its first line says {said}")]
     Torn {
-        /// Bytes there are.
+        /// Length of the file's body, bytes.
         found: usize,
-        /// Bytes there should be.
+        /// Length stated in the first line, bytes.
         said: usize,
     },
-    /// Not what was written.
+    /// Damaged content.
     #[error("it is damaged: its content has another SHA-256 than its first line says")]
     Damaged,
 }
 
-/// Writes a checkpoint of the run `identity` in the place of the one before, whole or not at all.
-pub(crate) fn write(path: &Path, identity: &Identity, warnings: &[String], checkpoint: &Checkpoint) -> io::Result<()> {
-    let body = postcard::to_stdvec(&Body { identity, warnings, checkpoint }).map_err(io::Error::other)?;
-    let header = Header {
+/// Replaces the checkpoint by one of the run `identity`, atomically.
+pub(crate) fn write(
+    path: &Path,
+    identity: &RunIdentity,
+    warnings: &[String],
+    checkpoint: &Checkpoint,
+) -> io::Result<()> {
+    let body = postcard::to_stdvec(&CheckpointBody { identity, warnings, checkpoint }).map_err(io::Error::other)?;
+    let header = CheckpointHeader {
         format: FORMAT,
         program_version: PROGRAM_VERSION.to_owned(),
         body_bytes: body.len(),
@@ -121,10 +126,10 @@ fn parse(bytes: &[u8]) -> Result<CheckpointFile, CheckpointError> {
     let end = bytes.iter().position(|&byte| byte == b'\n').ok_or(CheckpointError::NoCheckpoint)?;
     let line = std::str::from_utf8(&bytes[..end]).ok().and_then(|line| line.strip_prefix(MAGIC));
     let line = line.ok_or(CheckpointError::NoCheckpoint)?;
-    let header: Header = serde_json::from_str(line).map_err(|_| CheckpointError::NoCheckpoint)?;
+    let header: CheckpointHeader = serde_json::from_str(line).map_err(|_| CheckpointError::NoCheckpoint)?;
     let body = &bytes[end + 1..];
     if header.format != FORMAT {
-        let Header { format: found, program_version, .. } = header;
+        let CheckpointHeader { format: found, program_version, .. } = header;
         return Err(CheckpointError::OtherFormat { found, program_version });
     }
     if header.program_version != PROGRAM_VERSION {
@@ -147,7 +152,7 @@ mod tests {
     use crate::simulation::advance::StepperState;
 
     fn written() -> (Vec<u8>, CheckpointFile) {
-        let identity = Identity::new("title = \"x\"\n".to_owned(), &[]);
+        let identity = RunIdentity::new("title = \"x\"\n".to_owned(), &[]);
         // Numbers that text would round, and those that no text format has.
         let wear_mm = PerGear { pinion: vec![0.1 + 0.2, f64::MIN_POSITIVE / 3.0], wheel: vec![-0.0, f64::INFINITY] };
         let checkpoint = Checkpoint {
@@ -190,16 +195,19 @@ mod tests {
     fn another_version_or_format_is_named() {
         let (bytes, _) = written();
         let line_end = bytes.iter().position(|&byte| byte == b'\n').unwrap();
-        let with = |from: &str, to: &str| {
-            let line = std::str::from_utf8(&bytes[..line_end]).unwrap();
-            assert!(line.contains(from), "{line}");
-            let edited = [line.replace(from, to).as_bytes(), &bytes[line_end..]].concat();
-            parse(&edited).unwrap_err().to_string()
-        };
-        let version = format!("\"program_version\":\"{PROGRAM_VERSION}\"");
-        let other = with(&version, "\"program_version\":\"99.0.0\"");
-        assert_eq!(other, format!("it was written by gearwear 99.0.0, this is {PROGRAM_VERSION}"));
-        let format = format!("\"format\":{FORMAT}");
-        assert!(with(&format, "\"format\":99").contains("format 99"));
+        let line = std::str::from_utf8(&bytes[..line_end]).unwrap();
+        for (from, to, said) in [
+            (
+                format!("\"program_version\":\"{PROGRAM_VERSION}\""),
+                "\"program_version\":\"99.0.0\"",
+                format!("it was written by gearwear 99.0.0, this is {PROGRAM_VERSION}"),
+            ),
+            (format!("\"format\":{FORMAT}"), "\"format\":99", "format 99".to_owned()),
+        ] {
+            assert!(line.contains(&from), "{line}");
+            let edited = [line.replace(&from, to).as_bytes(), &bytes[line_end..]].concat();
+            let message = parse(&edited).unwrap_err().to_string();
+            assert!(message.contains(&said), "{message}");
+        }
     }
 }

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use super::file::{self, CheckpointError, CheckpointFile};
-use super::identity::{Identity, between_scenes};
+use super::identity::{RunIdentity, between_scenes};
 use crate::report::{ReportError, SUMMARY};
 use crate::results::run::StopReason;
 use crate::scene::loaded::NamedFile;
@@ -22,36 +22,36 @@ pub(crate) const SCENE: &str = "scene.toml";
 /// The last checkpoint.
 pub(crate) const CHECKPOINT: &str = "checkpoint.bin";
 
-/// What a folder holds of a run.
+/// Contents of the folder of a run.
 #[derive(Debug, PartialEq)]
-pub(crate) enum Contents {
-    /// Nothing that was begun.
+pub(crate) enum FolderContents {
+    /// No run.
     Nothing,
-    /// A run that began, and has no checkpoint yet.
+    /// A run without a checkpoint yet.
     Begun,
-    /// A run that can go on.
+    /// A run that can be continued.
     Checkpoint(Box<CheckpointFile>),
-    /// A run that has ended, in whatever way.
+    /// A run that has ended.
     Ended(StopReason),
 }
 
-/// Why a folder cannot be gone on with.
+/// Reason why the run in a folder cannot be continued.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum FolderError {
-    /// Not a checkpoint to go on from.
+    /// An unusable checkpoint.
     #[error("{}: {source}", path.display())]
     Checkpoint {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Fault of the file.
         source: CheckpointError,
     },
     /// The run of another scene, or of other input files.
     #[error("{} holds the run of another scene: {}", path.display(), differences.join("; "))]
     OtherRun {
-        /// The file that says so.
+        /// File of the other run.
         path: PathBuf,
-        /// What differs, there and here.
+        /// Differences, there and here.
         differences: Vec<String>,
     },
     /// The system cannot read a file.
@@ -59,13 +59,13 @@ pub(crate) enum FolderError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
 }
 
-/// Begins the run of `identity` in `dir`, which exists, with copies of its input files: what an earlier run could go on from is gone.
-pub(crate) fn begin(dir: &Path, identity: &Identity, files: &[NamedFile]) -> Result<(), ReportError> {
+/// Begins the run of `identity` in the existing folder `dir`, with copies of its input files; the checkpoint of an earlier run is removed first.
+pub(crate) fn begin(dir: &Path, identity: &RunIdentity, files: &[NamedFile]) -> Result<(), ReportError> {
     remove_checkpoint(dir)?;
     files.iter().try_for_each(|file| place(dir, &file.name, &file.bytes))?;
     place(dir, SCENE, identity.scene_toml.as_bytes())
@@ -80,18 +80,18 @@ pub(crate) fn place(dir: &Path, name: &str, bytes: &[u8]) -> Result<(), ReportEr
         .map_err(|source| ReportError::WriteFile { path, source })
 }
 
-/// Takes away what [`begin`] has put into `dir`, with input files of these names; what cannot be taken away stays.
+/// Removes the files that [`begin`] put into `dir`, with input files of these names; what cannot be removed stays.
 pub(crate) fn abandon(dir: &Path, files: &[String]) {
     for path in files.iter().map(String::as_str).chain([SCENE]).map(|name| dir.join(name)) {
         let _ = fs::remove_file(&path);
         if let Some(folder) = path.parent().filter(|folder| *folder != dir) {
-            // Goes once it is empty.
+            // Removed if empty.
             let _ = fs::remove_dir(folder);
         }
     }
 }
 
-/// Takes away the checkpoint in `dir`, if there is one.
+/// Removes the checkpoint in `dir`, if there is one.
 pub(crate) fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
     let path = dir.join(CHECKPOINT);
     match fs::remove_file(&path) {
@@ -100,27 +100,30 @@ pub(crate) fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
     }
 }
 
-/// What `dir` holds of the run of `identity` with the scene hash `scene_hash`.
-pub(crate) fn contents(dir: &Path, identity: &Identity, scene_hash: &str) -> Result<Contents, FolderError> {
-    let Some(scene_toml) = read(&dir.join(SCENE))? else { return Ok(Contents::Nothing) };
-    let other_run = |path: PathBuf, differences: Vec<String>| match differences.is_empty() {
-        true => Ok(()),
-        false => Err(FolderError::OtherRun { path, differences }),
-    };
-    other_run(dir.join(SCENE), between_scenes(&scene_toml, &identity.scene_toml))?;
+/// Contents of `dir`, of the run of `identity` with the scene hash `scene_hash`.
+pub(crate) fn contents(dir: &Path, identity: &RunIdentity, scene_hash: &str) -> Result<FolderContents, FolderError> {
+    let Some(scene_toml) = read(&dir.join(SCENE))? else { return Ok(FolderContents::Nothing) };
+    refuse_other_run(&dir.join(SCENE), between_scenes(&scene_toml, &identity.scene_toml))?;
     if let Some(stopped) = read(&dir.join(SUMMARY))?.and_then(|text| stopped(&text, scene_hash))
         && stopped != StopReason::Interrupted
     {
-        return Ok(Contents::Ended(stopped));
+        return Ok(FolderContents::Ended(stopped));
     }
     let path = dir.join(CHECKPOINT);
     match file::read(&path) {
-        Ok(None) => Ok(Contents::Begun),
+        Ok(None) => Ok(FolderContents::Begun),
         Ok(Some(found)) => {
-            other_run(path, found.identity.differences(identity))?;
-            Ok(Contents::Checkpoint(Box::new(found)))
+            refuse_other_run(&path, found.identity.differences(identity))?;
+            Ok(FolderContents::Checkpoint(Box::new(found)))
         }
         Err(source) => Err(FolderError::Checkpoint { path, source }),
+    }
+}
+
+fn refuse_other_run(path: &Path, differences: Vec<String>) -> Result<(), FolderError> {
+    match differences.is_empty() {
+        true => Ok(()),
+        false => Err(FolderError::OtherRun { path: path.to_owned(), differences }),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Which run a checkpoint is of: the resolved scene, and the contents of the files it names.
+//! Identity of the run of a checkpoint: the resolved scene, and the contents of the files it names.
 
 use std::collections::BTreeMap;
 
@@ -8,28 +8,28 @@ use toml::{Table, Value};
 use crate::content_hash::sha256;
 use crate::scene::loaded::NamedFile;
 
-/// What a run is made from.
+/// Inputs of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Identity {
+pub(crate) struct RunIdentity {
     /// The resolved scene.
     pub scene_toml: String,
     /// SHA-256 of the file that each key of the scene names.
     pub inputs: BTreeMap<String, String>,
 }
 
-impl Identity {
+impl RunIdentity {
     /// Of a run of the resolved scene `scene_toml` with `files`.
     pub(crate) fn new(scene_toml: String, files: &[NamedFile]) -> Self {
         Self { scene_toml, inputs: files.iter().map(|file| (file.key.to_owned(), sha256(&file.bytes))).collect() }
     }
 
-    /// What differs here from `asked`: each key with both values.
+    /// Differences from `asked`: each key with both values.
     pub(crate) fn differences(&self, asked: &Self) -> Vec<String> {
         let mut differences = between_scenes(&self.scene_toml, &asked.scene_toml);
         let keys: std::collections::BTreeSet<_> = self.inputs.keys().chain(asked.inputs.keys()).collect();
         for key in keys {
             let [there, here] = [self, asked].map(|identity| identity.inputs.get(key));
-            // A file that only one of them has differs in the scene's key already.
+            // A file that only one of them names already differs in its key.
             if let (Some(there), Some(here)) = (there, here)
                 && there != here
             {
@@ -45,27 +45,29 @@ pub(crate) fn between_scenes(there: &str, here: &str) -> Vec<String> {
     if there == here {
         return Vec::new();
     }
-    let keys = |text: &str| {
-        let mut keys = BTreeMap::new();
-        if let Ok(table) = text.parse::<Table>() {
-            flatten("", &Value::Table(table), &mut keys);
-        }
-        keys
-    };
-    let (there, here) = (keys(there), keys(here));
+    let [there, here] = [there, here].map(values);
     let all: std::collections::BTreeSet<_> = there.keys().chain(here.keys()).collect();
-    let value = |keys: &BTreeMap<String, String>, key: &str| keys.get(key).cloned().unwrap_or("nothing".to_owned());
-    let differences: Vec<String> = all
-        .into_iter()
-        .filter(|key| there.get(*key) != here.get(*key))
-        .map(|key| format!("{key}: {} there, {} here", value(&there, key), value(&here, key)))
-        .collect();
+    let mut differences = Vec::new();
+    for key in all {
+        let [there, here] = [&there, &here].map(|values| values.get(key).map_or("nothing", String::as_str));
+        if there != here {
+            differences.push(format!("{key}: {there} there, {here} here"));
+        }
+    }
     if differences.is_empty() { vec!["the text of the scene".to_owned()] } else { differences }
+}
+
+/// Values of a scene by the paths of their keys.
+fn values(scene: &str) -> BTreeMap<String, String> {
+    let mut values = BTreeMap::new();
+    if let Ok(table) = scene.parse::<Table>() {
+        flatten("", &Value::Table(table), &mut values);
+    }
+    values
 }
 
 /// Every value below `path` with the path of its key.
 fn flatten(path: &str, value: &Value, keys: &mut BTreeMap<String, String>) {
-    let tables = |list: &Vec<Value>| !list.is_empty() && list.iter().all(Value::is_table);
     match value {
         Value::Table(table) => {
             for (key, value) in table {
@@ -73,7 +75,7 @@ fn flatten(path: &str, value: &Value, keys: &mut BTreeMap<String, String>) {
                 flatten(&path, value, keys);
             }
         }
-        Value::Array(list) if tables(list) => {
+        Value::Array(list) if !list.is_empty() && list.iter().all(Value::is_table) => {
             for (index, value) in list.iter().enumerate() {
                 flatten(&format!("{path}[{index}]"), value, keys);
             }
@@ -88,9 +90,9 @@ fn flatten(path: &str, value: &Value, keys: &mut BTreeMap<String, String>) {
 mod tests {
     use super::*;
 
-    fn identity(scene_toml: &str, bytes: &[u8]) -> Identity {
+    fn identity(scene_toml: &str, bytes: &[u8]) -> RunIdentity {
         let file = NamedFile { key: "stiffness.curve", name: "c.csv".to_owned(), bytes: bytes.to_vec() };
-        Identity::new(scene_toml.to_owned(), &[file])
+        RunIdentity::new(scene_toml.to_owned(), &[file])
     }
 
     #[test]

@@ -21,22 +21,27 @@ struct DecimalComma {
 /// there.
 pub(super) fn problems(text: &str, at: usize) -> Vec<Problem> {
     let found = find(text);
-    let line_of = |byte: usize| text.as_bytes()[..byte.min(text.len())].iter().filter(|&&byte| byte == b'\n').count();
-    if !found.iter().any(|comma| line_of(comma.span.start) == line_of(at)) {
+    let line = line_of(text, at);
+    if !found.iter().any(|comma| line_of(text, comma.span.start) == line) {
         return Vec::new();
     }
-    let problem = |DecimalComma { key, span }: DecimalComma| Problem {
+    let problems = found.into_iter().map(|DecimalComma { key, span }| Problem {
         kind: ProblemKind::NotAllowed,
         key,
         found: text[span.clone()].to_owned(),
         allowed: "a decimal point, not a comma".to_owned(),
         help: mended(&text[span.clone()]).map(|number| format!("write {number}")),
         span: Some(span),
-    };
-    found.into_iter().map(problem).collect()
+    });
+    problems.collect()
 }
 
-/// The same number with a decimal point, where `text` is a number with a decimal comma.
+/// Number of lines that end before this byte.
+fn line_of(text: &str, byte: usize) -> usize {
+    text.as_bytes()[..byte.min(text.len())].iter().filter(|&&byte| byte == b'\n').count()
+}
+
+/// Number with a decimal point, where `text` is a number with a decimal comma.
 pub(super) fn mended(text: &str) -> Option<String> {
     let text = text.trim();
     (number_with_comma(text.as_bytes()) == Some(text.len())).then(|| text.replace(',', "."))
@@ -74,7 +79,7 @@ fn path_of_table(header: &str, before: &mut Vec<String>) -> String {
     format!("{name}[{index}]")
 }
 
-/// Looks for `key = 30,5` in a line, also within `{ … }`.
+/// Finds `key = 30,5` in a line, also within `{ … }`.
 fn find_in_line(line: &str, begin: usize, table: &str, found: &mut Vec<DecimalComma>) {
     let bytes = line.as_bytes();
     let (mut quote, mut outer, mut word) = (None, String::new(), String::new());
@@ -105,19 +110,22 @@ fn find_in_line(line: &str, begin: usize, table: &str, found: &mut Vec<DecimalCo
 
 /// Length of a number with a decimal comma at the beginning of `bytes`.
 fn number_with_comma(bytes: &[u8]) -> Option<usize> {
-    let digits = |from: usize| bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
     let sign = usize::from(matches!(bytes.first(), Some(b'+' | b'-')));
-    let comma = sign + digits(sign);
-    if comma == sign || bytes.get(comma) != Some(&b',') || digits(comma + 1) == 0 {
+    let comma = sign + leading_digits(&bytes[sign..]);
+    if comma == sign || bytes.get(comma) != Some(&b',') || leading_digits(&bytes[comma + 1..]) == 0 {
         return None;
     }
-    let end = comma + 1 + digits(comma + 1);
+    let end = comma + 1 + leading_digits(&bytes[comma + 1..]);
     let exponent = match bytes.get(end) {
         Some(b'e' | b'E') => 1 + usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-'))),
         _ => return Some(end),
     };
-    let power = bytes.get(end + exponent..).map_or(0, |_| digits(end + exponent));
+    let power = bytes.get(end + exponent..).map_or(0, leading_digits);
     Some(if power == 0 { end } else { end + exponent + power })
+}
+
+fn leading_digits(bytes: &[u8]) -> usize {
+    bytes.iter().take_while(|byte| byte.is_ascii_digit()).count()
 }
 
 #[cfg(test)]

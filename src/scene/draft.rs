@@ -1,4 +1,4 @@
-//! A scene file whose values may be exchanged before it is resolved: what the combinations of a sweep are made of.
+//! A scene file whose values can be changed before it is resolved, as for the combinations of a sweep.
 //!
 //! The text is read once. A value that is exchanged stands where the user would have written it, so that everything
 //! the file leaves open is chosen anew for each combination: a tip diameter that follows from the rack, say.
@@ -10,7 +10,7 @@ use super::locate::{Locator, join};
 use super::problem::Problem;
 use super::{Resolved, resolve, short_hash, text};
 
-/// Keys that say the same thing in different ways: giving one takes the others away.
+/// Alternative keys: setting one removes the others.
 const SAME_THING: [&[&str]; 8] = [
     &["pair.normal_module_mm", "pair.transverse_module_mm"],
     &["pair.pressure_angle_deg", "pair.transverse_pressure_angle_deg"],
@@ -22,17 +22,17 @@ const SAME_THING: [&[&str]; 8] = [
     &["lubricant.pressure_viscosity", "lubricant.pressure_viscosity_per_GPa"],
 ];
 
-/// The same of `pair.pinion` and `pair.wheel`.
+/// Alternative keys of `pair.pinion` and `pair.wheel`.
 const SAME_THING_OF_GEAR: [&[&str]; 3] = [
     &["tip_relief.length_mm", "tip_relief.begins_at_diameter_mm", "tip_relief.begins_at_roll_angle_deg"],
     &["root_relief.length_mm", "root_relief.begins_at_diameter_mm", "root_relief.begins_at_roll_angle_deg"],
     &["helix_slope_deviation_um", "helix_slope_class"],
 ];
 
-/// The same of `wear.pinion` and `wear.wheel`.
+/// Alternative keys of `wear.pinion` and `wear.wheel`.
 const SAME_THING_OF_WEAR: [&[&str]; 1] = [&["coefficient_m2_per_N", "coefficient_mm3_per_Nm"]];
 
-/// The other keys that say what `key` says.
+/// Alternative keys of `key`.
 pub(crate) fn other_ways_to_say(key: &str) -> Vec<String> {
     let tables: [(&str, &[&[&str]]); 5] = [
         ("pair.pinion.", &SAME_THING_OF_GEAR),
@@ -49,14 +49,14 @@ pub(crate) fn other_ways_to_say(key: &str) -> Vec<String> {
 
 /// The paths of all values of `table`, which stands at `path`, that are no tables.
 pub(crate) fn keys_of(table: &Table, path: &str) -> Vec<String> {
-    let below = |(name, value): (&String, &Value)| match value {
+    let keys = table.iter().flat_map(|(name, value)| match value {
         Value::Table(table) => keys_of(table, &join(path, name)),
         _ => vec![join(path, name)],
-    };
-    table.iter().flat_map(below).collect()
+    });
+    keys.collect()
 }
 
-/// Takes the key at the path `key` of `table` away, if it is there. Items of lists are numbered from 1.
+/// Removes the key at the path `key` of `table`. Items of lists are numbered from 1.
 pub(crate) fn remove(mut table: &mut Table, key: &str) {
     let mut parts = key.split('.').rev();
     let Some(name) = parts.next() else { return };
@@ -73,8 +73,7 @@ pub(crate) fn remove(mut table: &mut Table, key: &str) {
     table.remove(name);
 }
 
-/// Gives the key at the path `key` of `table` this value. Items of lists are numbered from 1; where the list has no such item, nothing
-/// is given.
+/// Sets the key at the path `key` of `table`. Items of lists are numbered from 1; an item that the list does not have is not added.
 pub(crate) fn set(table: &mut Table, key: &str, value: impl Into<Value>) {
     let (tables, name) = key.rsplit_once('.').map_or((None, key), |(tables, name)| (Some(tables), name));
     let mut table = table;
@@ -92,7 +91,7 @@ pub(crate) fn set(table: &mut Table, key: &str, value: impl Into<Value>) {
             return;
         }
         if !below.is_table() {
-            // Resolving says that the key takes no table.
+            // Resolving reports that the key takes no table.
             *below = Value::Table(Table::new());
         }
         table = below.as_table_mut().expect("it is a table now");
@@ -120,7 +119,7 @@ impl Draft {
         Ok(Self { table, locator: findings.into_locator() })
     }
 
-    /// Gives the key at the path `key` this value, and takes away the keys that say the same in another way.
+    /// Sets the key at the path `key`, and removes its alternative keys.
     pub(crate) fn set(&mut self, key: &str, value: impl Into<Value>) {
         for other in other_ways_to_say(key) {
             self.remove(&other);
@@ -132,19 +131,21 @@ impl Draft {
     pub(crate) fn gives(&self, key: &str) -> bool {
         let mut parts = key.split('.');
         let first = parts.next().and_then(|part| self.table.get(part));
-        let below = |value: &'_ Value, part: &str| match (value.as_array(), part.parse::<usize>()) {
-            (Some(list), Ok(number)) => list.get(number.checked_sub(1)?).cloned(),
-            _ => value.get(part).cloned(),
-        };
-        parts.try_fold(first.cloned(), |value, part| value.map(|value| below(&value, part))).flatten().is_some()
+        let found = first.and_then(|first| {
+            parts.try_fold(first, |value, part| match (value.as_array(), part.parse::<usize>()) {
+                (Some(list), Ok(number)) => list.get(number.checked_sub(1)?),
+                _ => value.get(part),
+            })
+        });
+        found.is_some()
     }
 
-    /// Takes the key at the path `key` away, if it is there.
+    /// Removes the key at the path `key`.
     pub(crate) fn remove(&mut self, key: &str) {
         remove(&mut self.table, key);
     }
 
-    /// Resolves what it says now.
+    /// Resolves the draft.
     ///
     /// # Errors
     /// Everything that is wrong with it, at the places of the text it was read from.
@@ -152,12 +153,12 @@ impl Draft {
         resolve::resolve_table(self.table.clone(), Findings::new(self.locator.clone()))
     }
 
-    /// What it says now, as text.
+    /// Scene as text, with the changes made.
     pub(crate) fn to_toml(&self) -> String {
         self.table.to_string()
     }
 
-    /// First 16 hexadecimal digits of the SHA-256 of what it says; layout and comments of the text do not matter.
+    /// First 16 hexadecimal digits of the SHA-256 of the content, independent of layout and comments.
     pub(crate) fn hash(&self) -> String {
         short_hash(self.table.to_string().as_bytes())
     }

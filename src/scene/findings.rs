@@ -1,4 +1,4 @@
-//! Collects what is wrong with a scene file, so that everything is said at once.
+//! Collection of the problems of a scene file, all reported at once.
 
 use std::collections::BTreeSet;
 
@@ -11,16 +11,16 @@ pub(super) struct Findings {
     locator: Locator,
     /// Problems, in the order found.
     pub problems: Vec<Problem>,
-    /// What the user should know although the scene is valid.
+    /// Warnings about a scene that is valid.
     pub warnings: Vec<String>,
-    /// Keys already complained about: what follows from them is not reported again.
+    /// Keys with a reported problem: what follows from them is not reported again.
     spoiled: BTreeSet<String>,
-    /// Whether the last complaint was reported, so that help for it is wanted.
+    /// Whether the last problem was added, and takes help.
     reported: bool,
 }
 
 impl Findings {
-    /// Nothing found yet in the file that `locator` describes.
+    /// Empty findings for the file that `locator` describes.
     pub(super) fn new(locator: Locator) -> Self {
         Self { locator, ..Self::default() }
     }
@@ -41,12 +41,12 @@ impl Findings {
         self.locator.key(key).is_some()
     }
 
-    /// Marks `key` as complained about.
+    /// Marks `key` as reported.
     pub(super) fn spoil(&mut self, key: &str) {
         self.spoiled.insert(key.to_owned());
     }
 
-    /// A problem with the value of `key`, unless that key was complained about before.
+    /// Adds a problem with the value of `key`, unless that key was reported before.
     pub(super) fn problem(
         &mut self,
         kind: ProblemKind,
@@ -74,7 +74,7 @@ impl Findings {
         });
     }
 
-    /// The value of `key` is not among what is `allowed`.
+    /// Adds the problem that the value of `key` is not `allowed`.
     pub(super) fn not_allowed(&mut self, key: &str, found: impl Into<String>, allowed: impl Into<String>) {
         self.problem(ProblemKind::NotAllowed, key, found, allowed);
     }
@@ -91,12 +91,11 @@ impl Findings {
         }
     }
 
-    /// One of `keys` must be given and none is.
+    /// Adds the problem that none of `keys` is given.
     pub(super) fn missing(&mut self, keys: &[&str], allowed: &str) {
-        let spoiled = |key: &&str| {
+        self.reported = !keys.iter().any(|key| {
             self.spoiled.iter().any(|s| s == key || key.strip_prefix(s).is_some_and(|k| k.starts_with('.')))
-        };
-        self.reported = !keys.iter().any(spoiled);
+        });
         if self.reported {
             self.problem(ProblemKind::Missing, keys[0], "nothing", allowed);
             if let [_, others @ ..] = keys
@@ -107,7 +106,7 @@ impl Findings {
         }
     }
 
-    /// Complains if more than one of `keys` is given. Returns whether that is so.
+    /// Adds a problem if more than one of `keys` is given; returns whether that is so.
     pub(super) fn said_twice(&mut self, keys: &[(&str, bool)]) -> bool {
         let given: Vec<&str> = keys.iter().filter(|(_, given)| *given).map(|(key, _)| *key).collect();
         if given.len() < 2 {

@@ -10,34 +10,33 @@ pub(crate) struct NumberKey {
     node: Node<'static>,
 }
 
-/// Why a path is not that of a number.
+/// Error of a path that is not that of a number.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum KeyError {
     /// No scene has the key.
     #[error("unknown key {key}; allowed: a key of the scene that takes a number, such as pair.face_width_mm")]
     Unknown {
-        /// As given.
+        /// Key as given.
         key: String,
-        /// What was probably meant.
+        /// Key that was probably meant.
         nearest: Option<String>,
     },
-    /// The key takes something else.
+    /// The key does not take a number.
     #[error("{key} takes {takes}; allowed: a key that takes a number, such as pair.face_width_mm")]
     NotANumber {
-        /// As given.
+        /// Key as given.
         key: String,
-        /// What it takes.
+        /// Values that it takes.
         takes: String,
     },
 }
 
-/// What the key at this path takes; none where no scene has it. Items of lists are numbered from 1.
+/// Node of the schema at this path; none where no scene has it. Items of lists are numbered from 1.
 fn node_at(path: &str) -> Option<Node<'static>> {
-    let below = |node: Node<'static>, name: &str| match name.parse::<usize>() {
+    path.split('.').try_fold(Node::root(schema()), |node, name| match name.parse::<usize>() {
         Ok(1..) => node.items(),
         _ => node.child(name),
-    };
-    path.split('.').try_fold(Node::root(schema()), below)
+    })
 }
 
 /// The words that the key at `path` takes, "true" and "false" where it is said so; none where it takes no words.
@@ -71,17 +70,17 @@ impl NumberKey {
         }
     }
 
-    /// Whether it takes whole numbers only.
+    /// Whether the key takes whole numbers only.
     pub(crate) fn whole(&self) -> bool {
         self.node.type_name() == "integer"
     }
 
-    /// Whether `value` lies within what it takes.
+    /// Whether the key allows `value`.
     pub(crate) fn holds(&self, value: f64) -> bool {
         self.node.holds(value) && !(self.whole() && value.fract() != 0.0)
     }
 
-    /// What it takes, in words.
+    /// Values that it takes, in words.
     pub(crate) fn allowed(&self) -> String {
         self.node.allowed()
     }

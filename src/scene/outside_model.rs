@@ -1,11 +1,11 @@
-//! What a file asks for that the model does not hold, and units that it does not take, in words of the field.
+//! Keys and units of other programs that the model does not have, with messages in words of the field.
 
 use super::problem::number;
 
 /// 1 lbf·in in N·m.
 const NEWTON_METRES_IN_POUND_INCH: f64 = 0.112_984_829;
 
-/// Why the model does not hold a value of `key` that lies outside its range.
+/// Reason why a value of `key` outside its range is not modelled.
 pub(super) fn reason(key: &str, value: f64) -> Option<&'static str> {
     match key {
         "pair.pinion.teeth" | "pair.wheel.teeth" if value < 0.0 => Some(
@@ -20,7 +20,7 @@ pub(super) fn reason(key: &str, value: f64) -> Option<&'static str> {
     }
 }
 
-/// Why the model does not hold what a key of this name would say.
+/// Reason why the model has no key of this name.
 pub(super) fn reason_of_key(name: &str) -> Option<&'static str> {
     match name {
         "shaft_angle_deg" | "axis_angle_deg" | "crossing_angle_deg" => Some(
@@ -42,21 +42,17 @@ pub(super) struct Converted {
     pub sentence: String,
 }
 
-/// What a value of inches or pounds is in the units of a scene.
+/// Value given in inches or pounds, in the units of a scene.
 pub(super) fn converted(name: &str, value: Option<f64>) -> Option<Converted> {
-    let said = |target: String, in_scene: Option<f64>, by: &str| {
-        let equals = in_scene.map(|x| format!(" = {}", number(six_digits(x)))).unwrap_or_default();
-        let sentence = format!("write {target}{equals}: {by}");
-        Converted { name: target, sentence }
+    let module = match name {
+        "diametral_pitch" | "normal_diametral_pitch" | "DP" => Some("normal_module_mm"),
+        "transverse_diametral_pitch" => Some("transverse_module_mm"),
+        _ => None,
     };
-    let pitch = |target: &str| {
+    if let Some(module) = module {
         let module_mm = value.filter(|&pitch| pitch > 0.0).map(|pitch| 25.4 / pitch);
-        Some(said(target.to_owned(), module_mm, "module in mm = 25.4/diametral pitch (m = 25.4/DP)"))
-    };
-    match name {
-        "diametral_pitch" | "normal_diametral_pitch" | "DP" => return pitch("normal_module_mm"),
-        "transverse_diametral_pitch" => return pitch("transverse_module_mm"),
-        _ => {}
+        let by = "module in mm = 25.4/diametral pitch (m = 25.4/DP)";
+        return Some(Converted::new(module.to_owned(), module_mm, by));
     }
     let units = [
         (&["_in", "_inch", "_inches"][..], "_mm", 25.4, "1 in = 25.4 mm"),
@@ -76,16 +72,24 @@ pub(super) fn converted(name: &str, value: Option<f64>) -> Option<Converted> {
         (&["_ksi"][..], "_MPa", 6.894_757, "1 ksi = 6.89476 MPa"),
         (&["_Mpsi", "_Msi"][..], "_GPa", 6.894_757, "10⁶ psi = 6.89476 GPa"),
     ];
-    // The longest ending counts: `_lb_in` is no length.
+    // The longest suffix counts: `_lb_in` is not a length.
     let endings =
         units.iter().flat_map(|(endings, unit, factor, by)| endings.iter().map(move |e| (*e, *unit, *factor, *by)));
     let (ending, unit, factor, by) =
         endings.filter(|(ending, ..)| name.ends_with(ending)).max_by_key(|(ending, ..)| ending.len())?;
     let target = format!("{}{unit}", &name[..name.len() - ending.len()]);
-    Some(said(target, value.map(|value| factor * value), by))
+    Some(Converted::new(target, value.map(|value| factor * value), by))
 }
 
-/// Without digits that the conversion does not have.
+impl Converted {
+    fn new(name: String, in_scene: Option<f64>, by: &str) -> Self {
+        let equals = in_scene.map(|x| format!(" = {}", number(six_digits(x)))).unwrap_or_default();
+        let sentence = format!("write {name}{equals}: {by}");
+        Self { name, sentence }
+    }
+}
+
+/// Value with six significant digits.
 fn six_digits(x: f64) -> f64 {
     format!("{x:.5e}").parse().unwrap_or(x)
 }

@@ -8,7 +8,7 @@
 /// A scene of the library.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Preset {
-    /// Its name, as in `pair.preset`.
+    /// Name, as in `pair.preset`.
     pub name: &'static str,
     /// The commented scene file.
     pub text: &'static str,

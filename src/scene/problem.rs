@@ -1,4 +1,4 @@
-//! What is wrong with a scene file, where, and what to do about it.
+//! Problems of a scene file: where they are, and what to do about them.
 
 use std::fmt;
 use std::ops::Range;
@@ -27,33 +27,33 @@ pub enum ProblemKind {
     Missing,
     /// Two keys that say the same thing.
     SaidTwice,
-    /// Something of the scene format that this version does not have.
+    /// A feature that this version does not have.
     NotAvailable,
-    /// Values that are allowed one by one, but make no gear pair.
+    /// Values that are allowed individually, but do not make a gear pair.
     Geometry(PairError),
-    /// Values that are allowed one by one, but make no tooth stiffness.
+    /// Values that are allowed individually, but do not make a tooth stiffness.
     Stiffness(StiffnessError),
 }
 
-/// One thing that is wrong with a scene file.
+/// A problem of a scene file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
-    /// Its nature.
+    /// Kind of problem.
     pub kind: ProblemKind,
     /// Path of the key, such as `pair.pinion.teeth`; empty where the file as a whole is meant.
     pub key: String,
-    /// What the file says.
+    /// Value in the file.
     pub found: String,
-    /// What it may say.
+    /// Values allowed.
     pub allowed: String,
-    /// What to do about it.
+    /// Remedy.
     pub help: Option<String>,
-    /// Where it says it, in bytes from the beginning of the file.
+    /// Place in the file, in bytes from its beginning.
     pub span: Option<Range<usize>>,
 }
 
 impl Problem {
-    /// The contact surface of the scene in `text` leaves nothing for the teeth of its stiffness model.
+    /// Problem: the contact surface leaves nothing for the teeth of the stiffness model.
     pub(crate) fn of_stiffness(text: &str, error: &StiffnessError) -> Self {
         let locator = Locator::new(text).unwrap_or_default();
         let by_hand = "contact.foundation_MPa_per_mm";
@@ -71,7 +71,7 @@ impl Problem {
         }
     }
 
-    /// The sectors of the scene in `text` have fewer than the `least` teeth that touch.
+    /// Problem: the sectors have fewer than the `least` teeth that touch.
     pub(crate) fn of_sector_teeth(text: &str, teeth: u32, least: u32) -> Self {
         let key = "fem.sector_teeth";
         let span = Locator::new(text).unwrap_or_default().nearest(key);
@@ -85,51 +85,50 @@ impl Problem {
         }
     }
 
-    /// A tooth of the scene in `text` cannot be meshed, of `gear` where one of them alone is to blame.
+    /// Problem: a tooth cannot be meshed, of `gear` where only one cannot.
     pub(crate) fn of_tooth_mesh(text: &str, gear: Option<Gear>, error: &ToothMeshError) -> Self {
-        let below = |table: &str, key: &str| {
-            let gear = gear.map(|gear| format!(".{}", gear.name())).unwrap_or_default();
-            if table == "pair" { format!("pair{gear}{key}") } else { format!("{table}{gear}") }
-        };
+        let of_gear = gear.map_or_else(|| "pair".to_owned(), |gear| format!("pair.{}", gear.name()));
         let (key, allowed) = match error {
-            ToothMeshError::ClampRadius { .. } => (below("fem.clamp_radius_mm", ""), "a circle below the teeth"),
+            ToothMeshError::ClampRadius { .. } => (clamp_key(gear), "a circle below the teeth"),
             ToothMeshError::SectorTeeth { .. } => ("fem.sector_teeth".to_owned(), "an odd number, at most all teeth"),
             ToothMeshError::NotPositive { .. }
             | ToothMeshError::ElementLength { .. }
             | ToothMeshError::TooFine { .. } => return Self::of_elements(text, error.to_string()),
-            ToothMeshError::ReliefBeyondCurvature { .. } => (below("pair", ".root_relief"), "less relief at the root"),
-            ToothMeshError::PointedTip { .. } => (below("pair", ".tip_relief"), "relief that leaves a tip land"),
+            ToothMeshError::ReliefBeyondCurvature { .. } => {
+                (format!("{of_gear}.root_relief"), "less relief at the root")
+            }
+            ToothMeshError::PointedTip { .. } => (format!("{of_gear}.tip_relief"), "relief that leaves a tip land"),
             ToothMeshError::TipRounding { .. } => {
-                (below("pair", ".tip_rounding_mm"), "a rounding that fits on the tip")
+                (format!("{of_gear}.tip_rounding_mm"), "a rounding that fits on the tip")
             }
             ToothMeshError::CrossedOutline { .. } | ToothMeshError::Inverted { .. } => {
-                (below("pair", ""), "a tooth with a body between its flanks")
+                (of_gear, "a tooth with a body between its flanks")
             }
         };
         Self::of_body(text, key, format!("a pair that cannot be meshed ({error})"), allowed, BODIES_HELP)
     }
 
-    /// The elements of the scene in `text` are too many, or none; `found` says so.
+    /// Problem: too many elements, or none; `found` is the message.
     pub(crate) fn of_elements(text: &str, found: String) -> Self {
         let (key, allowed) = ("fem.elements_per_half_width".to_owned(), "another number");
         let help = "elements grow with the load and shrink with this number";
         Self::of_body(text, key, format!("a pair that cannot be meshed ({found})"), allowed, help)
     }
 
-    /// The mesh of `gear`, or of both, is no good.
+    /// Problem: the mesh of `gear`, or of both, has poor quality.
     pub(crate) fn of_mesh_quality(text: &str, gear: Option<Gear>, error: &QualityError) -> Self {
         let found = format!("a pair that cannot be meshed ({error})");
         Self::of_body(text, clamp_key(gear), found, "a body whose section can be meshed", BODIES_HELP)
     }
 
-    /// The finite elements of `gear` have no solution.
+    /// Problem: the finite elements of `gear` have no solution.
     pub(crate) fn of_condensation(text: &str, gear: Gear, error: &SolveError) -> Self {
         let found = format!("a body that cannot be condensed ({error})");
         let allowed = "a body that its clamp holds";
         Self::of_body(text, clamp_key(Some(gear)), found, allowed, BODIES_HELP)
     }
 
-    /// The load of the scene in `text` asks for a strip of contact that the flanks do not have; `None` for errors of the solver.
+    /// Problem: the load needs a wider strip of contact than the flanks have; `None` for errors of the solver.
     pub(crate) fn of_contact_strip(text: &str, error: &CalibrationError) -> Option<Self> {
         if !matches!(error, CalibrationError::OffTheFlank { .. } | CalibrationError::NoClearPosition { .. }) {
             return None;
@@ -142,7 +141,7 @@ impl Problem {
         Some(Self::of_body(text, key.to_owned(), found, "a load whose strip of contact lies on the flanks", help))
     }
 
-    /// The pair of the scene in `text` that a command makes of it cannot exist.
+    /// Problem: the pair is impossible.
     pub(crate) fn of_pair(text: &str, error: &PairError) -> Self {
         let help = "without modifications, as calibrate takes the pair, other limits hold";
         Self::of_body(text, "pair".to_owned(), format!("a pair that cannot exist ({error})"), "other gears", help)
@@ -159,7 +158,7 @@ impl Problem {
         }
     }
 
-    /// The teeth of the scene in `text` cannot be had in space: its face width asks for too many of them, or its body cannot be meshed.
+    /// Problem: the gears cannot be meshed in three dimensions, for the number of teeth or the body.
     pub(crate) fn of_teeth_in_space(text: &str, error: &PairInSpaceError) -> Self {
         let key = error.scene_key();
         let allowed = match error {
@@ -170,13 +169,13 @@ impl Problem {
             kind: ProblemKind::NotAllowed,
             span: Some(Locator::new(text).unwrap_or_default().nearest(&key)),
             key,
-            found: format!("a pair whose teeth cannot be had in space ({error})"),
+            found: format!("a pair that cannot be meshed in three dimensions ({error})"),
             allowed: allowed.to_owned(),
             help: Some("helical.coupling = \"slicing\" couples them by plate theory".to_owned()),
         }
     }
 
-    /// The file that `key` of the scene in `text` names is not what it should be: `found` says how, after its name.
+    /// Problem: the file that `key` names is invalid; `found` says how, after its name.
     pub(crate) fn of_named_file(text: &str, key: &str, found: String, allowed: &str, help: &str) -> Self {
         Self {
             kind: ProblemKind::NotAllowed,
@@ -200,11 +199,10 @@ impl Problem {
     }
 }
 
-/// What decides whether a body can be meshed.
-const BODIES_HELP: &str =
-    "what the gears and their modifications are decides, and fem.clamp_radius_mm where their bodies end";
+/// Remedy for bodies that cannot be meshed.
+const BODIES_HELP: &str = "change the teeth or their modifications in [pair], or fem.clamp_radius_mm, the radius at which the bodies are held";
 
-/// The key that says where the body of `gear` ends, or of both.
+/// Key of the radius at which the body of `gear` is held, or of both.
 fn clamp_key(gear: Option<Gear>) -> String {
     gear.map_or_else(|| "fem.clamp_radius_mm".to_owned(), |gear| format!("fem.clamp_radius_mm.{}", gear.name()))
 }
@@ -229,13 +227,13 @@ impl fmt::Display for Problem {
 
 impl std::error::Error for Problem {}
 
-/// A number as one would write it into the file: `4`, `0.0045`, `1e-17`.
+/// Number in its shortest form, as in a file: `4`, `0.0045`, `1e-17`.
 pub(crate) fn number(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
 }
 
-/// A value of the file in an engineer's words.
+/// Value of the file in a message.
 pub(crate) fn words(value: &toml::Value) -> String {
     match value {
         toml::Value::String(text) => format!("the text {text:?}"),

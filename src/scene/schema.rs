@@ -53,7 +53,7 @@ impl Transform for WithoutNull {
     }
 }
 
-/// What a key takes, read from its node of the schema.
+/// Values that a key takes, read from its node of the schema.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Node<'a>(&'a Value);
 
@@ -63,13 +63,13 @@ impl<'a> Node<'a> {
         Node(schema)
     }
 
-    /// What this key takes of `value`'s kind, where it takes a table as well as a word.
+    /// Schema of `value`'s kind, where the key takes a table as well as a word.
     pub(super) fn variant(self, value: &toml::Value) -> Node<'a> {
         let kind = if value.is_str() { "string" } else { "object" };
         self.variants().find(|variant| variant.type_name() == kind).unwrap_or(self)
     }
 
-    /// What this key takes, where that is of several kinds.
+    /// Alternatives, where values of several kinds are taken.
     fn variants(self) -> impl Iterator<Item = Node<'a>> {
         self.0.get("anyOf").and_then(Value::as_array).into_iter().flatten().map(Node)
     }
@@ -97,15 +97,15 @@ impl<'a> Node<'a> {
         strings(self.0.get("required"))
     }
 
-    /// What each item of this list is.
+    /// Schema of each item of a list.
     pub(crate) fn items(&self) -> Option<Node<'a>> {
         self.0.get("items").map(Node)
     }
 
     /// How many items this list must have, if that is fixed.
     pub(super) fn length(&self) -> Option<usize> {
-        let count = |name: &str| self.0.get(name).and_then(Value::as_u64).and_then(|n| usize::try_from(n).ok());
-        count("minItems").filter(|_| count("minItems") == count("maxItems"))
+        let [least, most] = ["minItems", "maxItems"].map(|name| self.0.get(name).and_then(Value::as_u64));
+        least.filter(|_| least == most).and_then(|length| usize::try_from(length).ok())
     }
 
     /// `object`, `array`, `number`, `integer`, `boolean` or `string`.
@@ -137,7 +137,7 @@ impl<'a> Node<'a> {
             && self.bound("exclusiveMaximum").is_none_or(|limit| value < limit)
     }
 
-    /// What is allowed, in an engineer's words.
+    /// Allowed values, in words.
     pub(super) fn allowed(&self) -> String {
         let variants: Vec<String> = self.variants().map(|variant| variant.allowed()).collect();
         if !variants.is_empty() {

@@ -13,21 +13,21 @@ use super::outside_model;
 use super::problem::{ProblemKind, number, words};
 use super::schema::Node;
 
-/// What a file may hold.
+/// Keys and tables that a file may hold.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Format {
-    /// Its schema.
+pub(super) struct FileShape {
+    /// Schema of the file.
     pub root: Node<'static>,
     /// Keys of other files, each with what to do instead.
     pub of_other_files: &'static [(&'static str, &'static str)],
 }
 
 /// The part of `table` that has the right shape; the rest is reported.
-pub(super) fn check(format: Format, table: &Table, findings: &mut Findings) -> Table {
+pub(super) fn check(format: FileShape, table: &Table, findings: &mut Findings) -> Table {
     check_table(format, format.root, table, "", findings)
 }
 
-fn check_table(format: Format, node: Node<'_>, table: &Table, path: &str, findings: &mut Findings) -> Table {
+fn check_table(format: FileShape, node: Node<'_>, table: &Table, path: &str, findings: &mut Findings) -> Table {
     let mut sound = Table::new();
     for (name, value) in table {
         let key = join(path, name);
@@ -45,7 +45,7 @@ fn check_table(format: Format, node: Node<'_>, table: &Table, path: &str, findin
         if !table.contains_key(name) {
             findings.missing(&[&join(path, name)], &child.allowed());
         }
-        // Reported; something must stand there so that the rest of the file can be checked further.
+        // The key is reported; a stand-in lets the rest of the file be checked.
         sound.entry(name).or_insert_with(|| stand_in(child));
     }
     sound
@@ -56,8 +56,9 @@ fn stand_in(node: Node<'_>) -> Value {
     match (node.type_name(), node.choices().first()) {
         (_, Some(&choice)) => Value::String(choice.to_owned()),
         ("object", _) => {
-            let of = |name: &str| node.child(name).map(|child| (name.to_owned(), stand_in(child)));
-            Value::Table(node.required().into_iter().filter_map(of).collect())
+            let required = node.required().into_iter();
+            let table = required.filter_map(|name| Some((name.to_owned(), stand_in(node.child(name)?))));
+            Value::Table(table.collect())
         }
         ("array", _) => Value::Array(Vec::new()),
         ("string", _) => Value::String(String::new()),
@@ -66,7 +67,7 @@ fn stand_in(node: Node<'_>) -> Value {
     }
 }
 
-fn check_value(format: Format, node: Node<'_>, value: &Value, key: &str, findings: &mut Findings) -> Option<Value> {
+fn check_value(format: FileShape, node: Node<'_>, value: &Value, key: &str, findings: &mut Findings) -> Option<Value> {
     let node = node.variant(value);
     match (node.type_name(), value) {
         ("object", Value::Table(table)) => Some(Value::Table(check_table(format, node, table, key, findings))),
@@ -90,7 +91,13 @@ fn check_value(format: Format, node: Node<'_>, value: &Value, key: &str, finding
     }
 }
 
-fn check_items(format: Format, node: Node<'_>, items: &[Value], key: &str, findings: &mut Findings) -> Option<Value> {
+fn check_items(
+    format: FileShape,
+    node: Node<'_>,
+    items: &[Value],
+    key: &str,
+    findings: &mut Findings,
+) -> Option<Value> {
     let item_node = node.items()?;
     if node.length().is_some_and(|length| length != items.len()) {
         findings.problem(ProblemKind::WrongType, key, format!("a list of {}", items.len()), node.allowed());
@@ -133,7 +140,7 @@ fn check_number(node: Node<'_>, x: f64, value: &Value, key: &str, findings: &mut
 }
 
 fn unknown_key(
-    format: Format,
+    format: FileShape,
     node: Node<'_>,
     (name, value): (&str, &Value),
     key: &str,

@@ -10,8 +10,8 @@ use super::problem::{Problem, ProblemKind};
 
 /// The file as a table, and findings that know where each key stands.
 pub(super) fn parse(text: &str) -> Result<(Table, Findings), Vec<Problem>> {
-    let read = || -> Result<(Table, Locator), toml::de::Error> { Ok((text.parse()?, Locator::new(text)?)) };
-    let (table, locator) = read().map_err(|error| syntax(&error, text))?;
+    let table = text.parse().map_err(|error| syntax(&error, text))?;
+    let locator = Locator::new(text).map_err(|error| syntax(&error, text))?;
     Ok((table, Findings::new(locator)))
 }
 
@@ -37,7 +37,7 @@ pub(super) fn typed<F: DeserializeOwned>(sound: Table, findings: &mut Findings) 
     match serde_path_to_error::deserialize(Value::Table(sound)) {
         Ok(file) => Some(file),
         Err(error) => {
-            // The shape was checked against the schema of this same structure; should the two differ, this tells.
+            // The table was checked against the schema of this structure; an error here shows that the two differ.
             let key = error.path().to_string();
             let found = error.into_inner().message().to_owned();
             findings.problem(ProblemKind::WrongType, &key, found, "what gearwear schema says");

@@ -1,4 +1,4 @@
-//! Values that were likely meant in another unit: m for mm, N·mm for N·m, MPa for GPa.
+//! Values probably given in another unit: m for mm, N·mm for N·m, MPa for GPa.
 //!
 //! A value is suspected only where it is far outside what gears have *and* a plain change of unit brings it back.
 //! Lengths are judged against the module, torque against the tooth load it makes. A suspicion is a warning, never an
@@ -13,11 +13,11 @@ use super::problem::number;
 pub(super) struct UnitSlip {
     /// Path of the key.
     pub key: String,
-    /// As given.
+    /// Value as given.
     pub value: f64,
-    /// What was likely meant, in the unit of the key.
+    /// Value likely meant, in the unit of the key.
     pub meant: f64,
-    /// Which units were likely confused.
+    /// Units that were likely confused.
     pub units: &'static str,
 }
 
@@ -41,12 +41,12 @@ const MICROMETRES: Conversion = (1e-3, "µm given for mm");
 const MILLIMETRES: Conversion = (1e3, "mm given for µm");
 const METRES_FOR_MICROMETRES: Conversion = (1e6, "m given for µm");
 
-/// A tooth load over width and module beyond this is no load of a gear, MPa; ISO 6336 rates a few hundred at most.
+/// Greatest plausible tooth load over width and module, MPa; ISO 6336 rates a few hundred at most.
 const GREATEST_TOOTH_LOAD_MPA: f64 = 5000.0;
 
 /// All suspicions in a scene, its preset expanded.
 pub(super) fn find(scene: &Table) -> Vec<UnitSlip> {
-    let mut search = Search { scene, slips: Vec::new() };
+    let mut search = SlipSearch { scene, slips: Vec::new() };
     search.lengths();
     search.angles();
     search.operation();
@@ -84,12 +84,12 @@ fn as_number(value: &Value) -> Option<f64> {
     }
 }
 
-struct Search<'a> {
+struct SlipSearch<'a> {
     scene: &'a Table,
     slips: Vec<UnitSlip>,
 }
 
-impl Search<'_> {
+impl SlipSearch<'_> {
     /// The number at `key`, if there is one.
     fn get(&self, key: &str) -> Option<f64> {
         let (path, last) = key.rsplit_once('.')?;
@@ -116,10 +116,11 @@ impl Search<'_> {
 
     /// The module in mm, as given or as it was likely meant.
     fn module_mm(&self) -> Option<f64> {
-        let meant = |key: &str| self.slips.iter().find(|slip| slip.key == key).map(|slip| slip.meant);
-        let key =
-            ["pair.normal_module_mm", "pair.transverse_module_mm"].into_iter().find(|key| self.get(key).is_some())?;
-        meant(key).or(self.get(key))
+        let (key, given) = ["pair.normal_module_mm", "pair.transverse_module_mm"]
+            .into_iter()
+            .find_map(|key| Some((key, self.get(key)?)))?;
+        let slip = self.slips.iter().find(|slip| slip.key == key);
+        Some(slip.map_or(given, |slip| slip.meant))
     }
 
     fn lengths(&mut self) {
@@ -143,45 +144,48 @@ impl Search<'_> {
         let width = [0.05 * module, 1000.0 * module];
         self.judge("pair.face_width_mm", width, [module, 100.0 * module], &[METRES, MICROMETRES]);
         for (gear, teeth) in ["pinion", "wheel"].into_iter().zip(teeth) {
-            if let Some(z) = teeth {
-                let (credible, usual) = ([0.05 * z * module, 20.0 * z * module], [0.5 * z * module, 2.0 * z * module]);
-                for key in ["tip_diameter_mm", "tip_relief.begins_at_diameter_mm", "root_relief.begins_at_diameter_mm"]
-                {
-                    self.judge(&format!("pair.{gear}.{key}"), credible, usual, &[METRES, MICROMETRES]);
-                }
-                for key in ["bore_diameter_mm", "shaft.diameter_mm"] {
-                    self.judge(&format!("pair.{gear}.{key}"), [0.02 * module, 20.0 * z * module], usual, &[METRES]);
-                }
-                let (credible, usual) = ([0.01 * z * module, 2.0 * z * module], [0.1 * z * module, 0.6 * z * module]);
-                self.judge(&format!("fem.clamp_radius_mm.{gear}"), credible, usual, &[METRES, MICROMETRES]);
-                for key in ["thickness_mm", "rim_thickness_mm"] {
-                    let (credible, usual) = ([0.02 * module, 20.0 * z * module], [0.5 * module, 20.0 * module]);
-                    self.judge(&format!("fem.web.{gear}.{key}"), credible, usual, &[METRES, MICROMETRES]);
-                }
+            if let Some(teeth) = teeth {
+                self.diameters(gear, teeth, module);
             }
-            // A relief of some millionths of the module does nothing; one of the whole module leaves no tooth.
-            let (credible, usual) = ([0.02 * module, 1e3 * module], [0.1 * module, 50.0 * module]);
-            for key in [
-                "tip_relief.amount_um",
-                "root_relief.amount_um",
-                "end_relief.amount_um",
-                "profile_crowning_um",
-                "lead_crowning_um",
-            ] {
-                let key = format!("pair.{gear}.{key}");
-                if self.get(&key) != Some(0.0) {
-                    self.judge(&key, credible, usual, &[MILLIMETRES, METRES_FOR_MICROMETRES]);
-                }
+            self.modifications(gear, module);
+        }
+    }
+
+    /// Diameters of a gear with `z` teeth, and its web.
+    fn diameters(&mut self, gear: &str, z: f64, module: f64) {
+        let (credible, usual) = ([0.05 * z * module, 20.0 * z * module], [0.5 * z * module, 2.0 * z * module]);
+        for key in ["tip_diameter_mm", "tip_relief.begins_at_diameter_mm", "root_relief.begins_at_diameter_mm"] {
+            self.judge(&format!("pair.{gear}.{key}"), credible, usual, &[METRES, MICROMETRES]);
+        }
+        for key in ["bore_diameter_mm", "shaft.diameter_mm"] {
+            self.judge(&format!("pair.{gear}.{key}"), [0.02 * module, 20.0 * z * module], usual, &[METRES]);
+        }
+        let (credible, usual) = ([0.01 * z * module, 2.0 * z * module], [0.1 * z * module, 0.6 * z * module]);
+        self.judge(&format!("fem.clamp_radius_mm.{gear}"), credible, usual, &[METRES, MICROMETRES]);
+        for key in ["thickness_mm", "rim_thickness_mm"] {
+            let (credible, usual) = ([0.02 * module, 20.0 * z * module], [0.5 * module, 20.0 * module]);
+            self.judge(&format!("fem.web.{gear}.{key}"), credible, usual, &[METRES, MICROMETRES]);
+        }
+    }
+
+    fn modifications(&mut self, gear: &str, module: f64) {
+        // A relief of some millionths of the module has no effect; one of the whole module leaves no tooth.
+        let (credible, usual) = ([0.02 * module, 1e3 * module], [0.1 * module, 50.0 * module]);
+        for key in [
+            "tip_relief.amount_um",
+            "root_relief.amount_um",
+            "end_relief.amount_um",
+            "profile_crowning_um",
+            "lead_crowning_um",
+        ] {
+            let key = format!("pair.{gear}.{key}");
+            if self.get(&key) != Some(0.0) {
+                self.judge(&key, credible, usual, &[MILLIMETRES, METRES_FOR_MICROMETRES]);
             }
-            for key in ["tip_relief.length_mm", "root_relief.length_mm"] {
-                let credible = [0.01 * module, 20.0 * module];
-                self.judge(
-                    &format!("pair.{gear}.{key}"),
-                    credible,
-                    [0.05 * module, 5.0 * module],
-                    &[METRES, MICROMETRES],
-                );
-            }
+        }
+        let (credible, usual) = ([0.01 * module, 20.0 * module], [0.05 * module, 5.0 * module]);
+        for key in ["tip_relief.length_mm", "root_relief.length_mm"] {
+            self.judge(&format!("pair.{gear}.{key}"), credible, usual, &[METRES, MICROMETRES]);
         }
     }
 
@@ -298,9 +302,9 @@ impl Search<'_> {
     fn wear(&mut self, table: &str, path: &[&str]) {
         let both = self.scene.get("wear");
         let own = path.iter().fold(both, |at, name| at.and_then(|at| at.get(name)));
-        let law = |at: Option<&Value>| at.and_then(|at| at.get("law")).and_then(Value::as_str).map(str::to_owned);
+        let law = [own, both].into_iter().flatten().find_map(|table| table.get("law")?.as_str());
         // The coefficients k_r of the other laws have other sizes.
-        if law(own).or_else(|| law(both)).as_deref() == Some("archard") {
+        if law == Some("archard") {
             let conversions = [(1e-6, "mm²/N given for m²/N"), (1e-9, "mm³/(N·m) given for m²/N")];
             self.judge(&format!("{table}.coefficient_m2_per_N"), [0.0, 1e-12], [1e-22, 3e-16], &conversions);
             let conversions = [(1e9, "m²/N given for mm³/(N·m)"), (1e3, "mm²/N given for mm³/(N·m)")];

@@ -9,11 +9,11 @@ use serde::Serialize;
 
 use super::accuracy::selection;
 use super::accuracy::study::AccuracyError;
-use super::compare::asked::{CompareFault, Prepared};
+use super::compare::asked::{CompareFault, PreparedComparison};
 use super::compare::question;
 use super::compare::run_folder::RunFolderError;
 use super::compare::study::CompareError;
-use super::invariants::study::{Asked, INVARIANTS};
+use super::invariants::study::{INVARIANTS, SceneRange};
 use super::validation::library::{Library, LibraryError};
 use super::validation::record::Tier;
 use super::variants::finished_run::FinishedRun;
@@ -26,7 +26,7 @@ use crate::scene::loaded::{LoadError, LoadedScene, SceneText};
 
 type Write = dyn Fn(&Path) -> Result<(), ReportError> + Send + Sync;
 
-/// What a study found.
+/// Findings of a study.
 pub struct Study {
     json: String,
     write: Box<Write>,
@@ -55,7 +55,7 @@ impl Study {
     }
 }
 
-/// Why a study came to nothing.
+/// Error of a study.
 #[derive(Debug, thiserror::Error)]
 #[error(transparent)]
 pub struct StudyError(#[from] StudyFault);
@@ -87,7 +87,7 @@ enum StudyFault {
 }
 
 impl StudyError {
-    /// What is wrong with a file, if that is it.
+    /// Fault of a file, if that is the reason.
     pub fn in_loading(&self) -> Option<&LoadError> {
         if let StudyFault::Compare(CompareFault::Load(error)) = &self.0 { Some(error) } else { None }
     }
@@ -98,7 +98,8 @@ impl StudyError {
     }
 }
 
-/// The error of every model that fits the scene against its run time, as `gearwear accuracy`: `within` is the relative error that recommendations stay
+/// The error of every model that fits the scene against its run time, as `gearwear accuracy`: `within` is the relative error that
+/// recommendations stay
 /// within, `quick` leaves the scene's own resolution out.
 ///
 /// # Errors
@@ -107,19 +108,19 @@ pub fn accuracy(scene: &LoadedScene, within: f64, quick: bool, observer: &dyn Ob
     if !(within > 0.0 && within <= 1.0) {
         return Err(StudyFault::Within { found: within }.into());
     }
-    let record =
-        accuracy::study::run(scene, selection::Asked { within, quick }, observer).map_err(StudyFault::Accuracy)?;
+    let record = accuracy::study::run(scene, selection::AccuracyOptions { within, quick }, observer)
+        .map_err(StudyFault::Accuracy)?;
     Study::new(record, |record, folder| accuracy::report::write(record, folder).map(drop))
 }
 
-/// What is asked of a comparison with measured profiles, in the words of the command line.
+/// Options of a comparison with measured profiles, in the words of the command line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CompareQuestion {
-    /// Which gear; `None`: as the file says.
+    /// Measured gear; `None`: as the file says.
     pub gear: Option<String>,
-    /// What is taken for the form: cubic, involute or none; `None`: cubic of heights, none of wear depths.
+    /// Form to remove: cubic, involute or none; `None`: cubic of heights, none of wear depths.
     pub form: Option<String>,
-    /// What is fitted: none, k, each, severe or both; `None`: k of one profile, each of two.
+    /// Coefficients to fit: none, k, each, severe or both; `None`: k of one profile, each of two.
     pub fit: Option<String>,
     /// How far a profile may be shifted along the flank, mm; 0: not at all.
     pub shift_within_mm: f64,
@@ -143,7 +144,7 @@ pub fn compare(
     if !(question.shift_within_mm >= 0.0 && question.shift_within_mm.is_finite()) {
         return Err(StudyFault::Shift { found: question.shift_within_mm }.into());
     }
-    let asked = question::Asked {
+    let asked = question::CompareOptions {
         gear: gear.transpose()?,
         form: question.form.as_deref().map(|name| one_of("form", name)).transpose()?,
         fit: question.fit.as_deref().map(|name| one_of("fit", name)).transpose()?,
@@ -154,16 +155,17 @@ pub fn compare(
     }
     let texts = measured.iter().map(|path| SceneText::read(path)).collect::<Result<Vec<_>, _>>();
     let texts = texts.map_err(|error| StudyFault::Compare(error.into()))?;
-    let prepared = Prepared::open(run, &texts, &asked).map_err(StudyFault::Compare)?;
+    let prepared = PreparedComparison::open(run, &texts, &asked).map_err(StudyFault::Compare)?;
     let record = prepared.carry_out(observer).map_err(StudyFault::Comparison)?;
     Study::new(record, compare::report::write)
 }
 
 /// One of the words that an option takes.
 fn one_of<E: ValueEnum>(key: &'static str, name: &str) -> Result<E, StudyFault> {
-    let words = E::value_variants().iter().filter_map(ValueEnum::to_possible_value);
-    let allowed = || words.map(|word| word.get_name().to_owned()).collect::<Vec<_>>().join(", ");
-    E::from_str(name, false).map_err(|_| word(key, name, allowed()))
+    E::from_str(name, false).map_err(|_| {
+        let words = E::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+        word(key, name, words.map(|word| word.get_name().to_owned()).collect::<Vec<_>>().join(", "))
+    })
 }
 
 fn word(key: &'static str, found: &str, allowed: String) -> StudyFault {
@@ -178,8 +180,8 @@ pub fn compare_runs(runs: &[(PathBuf, String)]) -> Result<Study, StudyError> {
     if runs.len() < 2 {
         return Err(StudyFault::TooFewRuns { found: runs.len() }.into());
     }
-    let read = |(folder, name): &(PathBuf, String)| FinishedRun::read(folder, name.clone());
-    let runs = runs.iter().map(read).collect::<Result<Vec<_>, _>>().map_err(StudyFault::RunFolder)?;
+    let runs: Result<Vec<_>, _> = runs.iter().map(|(folder, name)| FinishedRun::read(folder, name.clone())).collect();
+    let runs = runs.map_err(StudyFault::RunFolder)?;
     Study::new(VariantsRecord::new(&runs), move |record, folder| variants::report::write(record, &runs, folder))
 }
 
@@ -200,7 +202,7 @@ pub fn validate(
     });
     let tier = tier.transpose()?;
     if cases == [INVARIANTS] {
-        let record = invariants::study::run(Asked::of_tier(tier), threads, observer);
+        let record = invariants::study::run(SceneRange::of_tier(tier), threads, observer);
         return Study::new(record, invariants::report::write);
     }
     let library = Library::open(cases).map_err(StudyFault::Library)?;

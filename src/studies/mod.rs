@@ -1,4 +1,4 @@
-//! Questions that take many runs: each with its record and its report in one place.
+//! Studies of many runs, each with its record and report.
 
 #[cfg(feature = "program")]
 pub(crate) mod accuracy;

@@ -1,7 +1,7 @@
 //! Many runs on several threads, one run a thread.
 //!
-//! A run is done by one thread from beginning to end: with many runs that loses nothing to waiting, and what one comes to depends
-//! neither on the number of threads nor on the order in which they finish.
+//! Each run is done by one thread. With many runs no thread waits, and results depend neither on the number of threads nor on the order in which runs
+//! finish.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -10,12 +10,12 @@ use std::thread;
 use crate::observer::Observer;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Ended {
+pub(crate) enum SpreadOutcome {
     Completed,
     Interrupted,
 }
 
-/// A run among others: it stops when all do.
+/// Observer of one run: the run stops when the study does.
 struct Within<'a> {
     observer: &'a dyn Observer,
     stopped: &'a AtomicBool,
@@ -31,15 +31,15 @@ impl Observer for Within<'_> {
     }
 }
 
-/// Does `work` for each of `tasks` on `threads` threads and hands what it comes to to `keep`, one at a time in the order in which they
-/// are finished. `work` gives nothing where it was interrupted; where `keep` says no, all of it stops.
+/// Calls `work` for each of `tasks` on `threads` threads and passes each result to `keep`, one at a time, in the order of completion. `work` gives
+/// `None` where it was interrupted; where `keep` returns false, everything stops.
 pub(crate) fn spread<T: Sync, R>(
     tasks: &[T],
     threads: usize,
     observer: &dyn Observer,
     work: impl Fn(&T, &dyn Observer) -> Option<R> + Sync,
     keep: impl FnMut(R) -> bool + Send,
-) -> Ended {
+) -> SpreadOutcome {
     let next = AtomicUsize::new(0);
     let stopped = AtomicBool::new(false);
     let kept = Mutex::new((0, keep));
@@ -62,15 +62,14 @@ pub(crate) fn spread<T: Sync, R>(
     thread::scope(|scope| {
         for _ in 0..threads.min(tasks.len()) {
             scope.spawn(|| {
-                // What is parallel in it runs on this thread alone. Without a pool of its own it would use the program's, which gives
-                // the same results.
+                // Parallel parts of a run stay on this thread; the global pool would give the same results.
                 let _own = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
                 take();
             });
         }
     });
     let (count, _) = kept.into_inner().unwrap_or_else(PoisonError::into_inner);
-    if count == tasks.len() { Ended::Completed } else { Ended::Interrupted }
+    if count == tasks.len() { SpreadOutcome::Completed } else { SpreadOutcome::Interrupted }
 }
 
 #[cfg(test)]
@@ -94,7 +93,10 @@ mod tests {
                 },
             );
             found.sort_unstable();
-            assert_eq!((ended, found), (Ended::Completed, tasks.iter().map(|task| task * task).collect::<Vec<_>>()));
+            assert_eq!(
+                (ended, found),
+                (SpreadOutcome::Completed, tasks.iter().map(|task| task * task).collect::<Vec<_>>())
+            );
             let mut count = 0;
             let ended = spread(
                 &tasks,
@@ -106,7 +108,7 @@ mod tests {
                     count < 5
                 },
             );
-            assert_eq!((ended, count), (Ended::Interrupted, 5));
+            assert_eq!((ended, count), (SpreadOutcome::Interrupted, 5));
         }
     }
 }

@@ -1,7 +1,6 @@
-//! A scene with some values exchanged, resolved anew for each of many runs.
+//! A scene whose values are changed and which is resolved again for each of many runs.
 //!
-//! The text is read once. What the file leaves open is chosen anew each time; the files that it names, and teeth in space that a run
-//! of it has condensed, are shared.
+//! The text is read once. Defaults are chosen again each time; the named files and the condensed teeth in three dimensions are shared.
 
 use crate::assessment::{Done, RunError};
 use crate::gear::spec::PairSpec;
@@ -10,21 +9,19 @@ use crate::scene::draft::Draft;
 use crate::scene::loaded::LoadedScene;
 use crate::scene::{Problem, Resolved};
 
-/// The paths that one with alternatives stands for: `a.{b,c}.d` for `a.b.d` and `a.c.d`.
+/// Paths of a key with alternatives: `a.b.d` and `a.c.d` for `a.{b,c}.d`.
 pub(crate) fn linked_keys(key: &str) -> Vec<String> {
     let Some((before, rest)) = key.split_once('{') else { return vec![key.to_owned()] };
     let Some((alternatives, after)) = rest.split_once('}') else { return vec![key.to_owned()] };
-    let each = |name: &str| linked_keys(&format!("{before}{}{after}", name.trim()));
-    alternatives.split(',').flat_map(each).collect()
+    alternatives.split(',').flat_map(|name| linked_keys(&format!("{before}{}{after}", name.trim()))).collect()
 }
 
 /// The first of `keys` that names a phase of the operation which `scene` does not have.
 pub(crate) fn missing_phase(keys: impl IntoIterator<Item = String>, scene: &Draft) -> Option<String> {
-    let has_phase = |key: &String| {
+    keys.into_iter().find(|key| {
         let number = key.strip_prefix("operation.phases.").and_then(|rest| rest.split('.').next());
-        number.is_none_or(|number| scene.gives(&format!("operation.phases.{number}")))
-    };
-    keys.into_iter().find(|key| !has_phase(key))
+        number.is_some_and(|number| !scene.gives(&format!("operation.phases.{number}")))
+    })
 }
 
 #[derive(Debug, Clone)]
@@ -36,7 +33,7 @@ pub(crate) struct VariedScene {
 }
 
 impl VariedScene {
-    /// Of the scene `given`, of whose runs only the end is kept: without snapshots.
+    /// Scene of runs of which only the end is kept, from `given` without snapshots.
     pub(crate) fn new(given: &LoadedScene, error_estimate: bool) -> Result<Self, Vec<Problem>> {
         let mut draft = Draft::parse(&given.given.text)?;
         draft.remove("operation.snapshots_h");
@@ -50,7 +47,7 @@ impl VariedScene {
         &self.given.given.text
     }
 
-    /// The scene with these values for these keys, which is not verified; keys with alternatives stand for all of them.
+    /// Scene with these values, not verified; a key with alternatives sets all of them.
     pub(crate) fn resolved<'a>(
         &self,
         values: impl IntoIterator<Item = (&'a str, toml::Value)>,
@@ -84,7 +81,7 @@ impl VariedScene {
         }
     }
 
-    /// Runs `resolved` with `run`; whatever goes wrong is said.
+    /// Runs `resolved` with `run`; any error, a panic included, is returned as text.
     pub(crate) fn carry_out<R>(
         &self,
         resolved: Resolved,

@@ -1,22 +1,22 @@
-//! Which multipliers carry load: the complementarity problem of contact, by a primal–dual active set method.
+//! Complementarity problem of contact, solved by a primal–dual active set method.
 //!
-//! Condensed onto its n multipliers, a contact of linear elastic bodies reads
+//! Condensed onto its n multipliers, a contact of linear elastic bodies is
 //!
 //! ```text
 //! g = g⁰ + C f + G α ≥ 0,    f ≥ 0,    f_i g_i = 0,    Gᵀ f = q
 //! ```
 //!
 //! f: forces of the multipliers, C their compliance (symmetric, positive definite on any active set), α the amplitudes of
-//! the m rigid motions that no support prevents, q the loads they carry. For a guess A of the active set,
+//! the m free rigid motions, q the loads along them. For an estimate A of the active set,
 //!
 //! ```text
 //! S α = −Gᵀ C⁻¹ g⁰ − q,   S = Gᵀ C⁻¹ G,     C f = −g⁰ − G α        all restricted to A
 //! ```
 //!
-//! and the next guess drops every member that pulls and adds every other that overlaps. That is Newton's method for the
-//! nonsmooth equation f = max(0, f − c g), and converges in a few steps from any sensible start; but it may cycle. When
-//! the number of wrong signs has not fallen for a while, one member at a time is exchanged instead (the last wrong one, by
-//! number), which cannot cycle; the full exchange takes over again once the number has fallen.
+//! and the next estimate drops every member in tension and adds every other that penetrates. That is Newton's method for the
+//! nonsmooth equation f = max(0, f − c g), which converges in a few steps from a sensible start but may cycle. When
+//! the number of wrong signs has not fallen for some steps, one member at a time is exchanged (the last wrong one, by
+//! number), which cannot cycle, until the number has fallen.
 //!
 //! Source: M. Hintermüller, K. Ito and K. Kunisch, *SIAM J. Optim.* 13 (2003) 865–888; J. Júdice and F. Pires, *Comput.
 //! Oper. Res.* 21 (1994) 587–596 (block principal pivoting and its backup).
@@ -24,65 +24,65 @@
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, MatRef, Side};
 
-/// Full exchanges without a fall of the number of wrong signs before single exchanges take over.
+/// Number of full exchanges without fewer wrong signs before single exchanges.
 const PATIENCE: usize = 8;
-/// Exchanges in all before giving up.
+/// Greatest number of exchanges.
 const MOST_ITERATIONS: usize = 2000;
-/// Signs within this part of the greatest force or gap are round-off.
+/// Round-off over the greatest force or gap.
 const ROUND_OFF: f64 = 1e-12;
-/// Motions that the contact resists by less than this part of what it can resist at most are not held. Contact on curved
-/// surfaces of elements resists turning about their centre by 1e-10 or so, which is no resistance.
+/// Relative resistance of the contact below which a motion is not held. Contact on curved
+/// surfaces of elements resists rotation about their centre by about 1e-10, which is round-off.
 const SINGULAR: f64 = 1e-9;
-/// Stiffness of the ground that stands in for what is not held while the active set is still wrong, of the same measure.
+/// Relative stiffness of an elastic foundation for motions that an intermediate active set does not hold.
 const SOFT_GROUND: f64 = 1e-6;
 
-/// The condensed problem.
+/// Condensed contact problem.
 #[derive(Debug, Clone)]
 pub struct Condensed {
-    /// C, mm per N/mm.
+    /// Compliance C, mm per N/mm.
     pub compliance: Mat<f64>,
-    /// g⁰, mm.
+    /// Initial gaps g⁰, mm.
     pub gap_mm: Vec<f64>,
-    /// G: change of the gaps with each free rigid motion.
+    /// Change G of the gaps per free rigid motion.
     pub rigid: Mat<f64>,
-    /// q: load along each free rigid motion.
+    /// Load q along each free rigid motion.
     pub rigid_load: Vec<f64>,
 }
 
-/// What was found.
+/// Solution of a condensed contact problem.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Equilibrium {
-    /// f, N/mm.
+pub struct ContactEquilibrium {
+    /// Forces f, N/mm.
     pub force: Vec<f64>,
-    /// g, mm.
+    /// Gaps g, mm.
     pub gap_mm: Vec<f64>,
-    /// α.
+    /// Amplitudes α of the rigid motions.
     pub rigid: Vec<f64>,
-    /// S, row by row: how the loads along the rigid motions grow with them while the active set stays as it is.
+    /// Stiffness S against the rigid motions with this active set, row by row.
     pub resistance: Vec<f64>,
-    /// The active set, to start the next problem from.
+    /// Active set, from which the next problem can start.
     pub active: Vec<bool>,
-    /// Work and how it went.
-    pub log: Log,
+    /// Iterations.
+    pub log: ActiveSetLog,
 }
 
-/// How the iteration went.
+/// Counts of the active set iteration.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Log {
-    /// Size of the active set and number of wrong signs, iteration by iteration.
+pub struct ActiveSetLog {
+    /// Size of the active set and number of wrong signs of each iteration.
     pub steps: Vec<(usize, usize)>,
-    /// Members that entered or left, all together.
+    /// Number of members that entered or left in all iterations.
     pub changes: usize,
-    /// Times that single exchanges had to take over.
+    /// Number of changes to single exchanges.
     pub cycles_broken: usize,
-    /// Active sets factorised.
+    /// Number of active sets factorised.
     pub factorisations: usize,
 }
 
-impl Log {
-    /// Goes on with `later`, which is empty then.
-    pub fn append(&mut self, later: &mut Log) {
-        let Log { mut steps, changes, cycles_broken, factorisations } = std::mem::take(later);
+impl ActiveSetLog {
+    /// Appends `later`, which is empty then.
+    pub fn append(&mut self, later: &mut ActiveSetLog) {
+        let ActiveSetLog { mut steps, changes, cycles_broken, factorisations } = std::mem::take(later);
         self.steps.append(&mut steps);
         self.changes += changes;
         self.cycles_broken += cycles_broken;
@@ -90,10 +90,10 @@ impl Log {
     }
 }
 
-/// Why there is no equilibrium.
+/// Reason why there is no equilibrium.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ActiveSetError {
-    /// Nothing ever touches.
+    /// The surfaces never touch.
     #[error("the surfaces do not touch under this load: the smallest gap is {least_gap_mm:.3e} mm")]
     NoContact {
         /// Smallest gap found, mm.
@@ -102,29 +102,29 @@ pub enum ActiveSetError {
     /// Contact does not hold the bodies against a rigid motion.
     #[error("neither supports nor contact hold the bodies against a rigid motion: no equilibrium exists")]
     Floating {
-        /// One such motion: the amplitude of each free rigid motion of the problem.
+        /// Free motion, as an amplitude of each rigid motion of the problem.
         amplitudes: Vec<f64>,
     },
     /// The multipliers are not independent.
     #[error("the contact compliance is not positive definite at multiplier {index}")]
     NotPositiveDefinite {
-        /// Which.
+        /// Number of the multiplier.
         index: usize,
     },
-    /// No end within the allowed number of exchanges.
-    #[error("no active set has the right signs after {iterations} exchanges; {wrong} are wrong")]
+    /// The greatest number of iterations is reached.
+    #[error("the contact has not converged in {iterations} iterations: {wrong} nodes still pull or penetrate")]
     MaxIterations {
-        /// Exchanges made.
+        /// Number of iterations.
         iterations: usize,
-        /// Wrong signs left.
+        /// Number of wrong signs.
         wrong: usize,
     },
-    /// Numbers that are none.
+    /// Inputs are infinite or not a number.
     #[error("the contact problem holds numbers that are not finite")]
     NotFinite,
 }
 
-/// L Lᵀ x = b, for one side and few unknowns, where a blocked solution takes longer to begin than to end.
+/// Solves L Lᵀ x = b in place; faster than a blocked solution for one right-hand side and few unknowns.
 fn solve_in_place(factor: &Llt<f64>, b: &mut [f64]) {
     let l = factor.L();
     for j in 0..b.len() {
@@ -142,47 +142,52 @@ fn solve_in_place(factor: &Llt<f64>, b: &mut [f64]) {
     }
 }
 
-/// What solutions with the same compliance and rigid motions share.
+/// Results that solutions with the same compliance and rigid motions share.
 #[derive(Debug, Clone)]
-pub struct Kept {
-    /// See [`Condensed::greatest_resistance`].
+pub struct ReusableFactor {
+    /// Resistance of independent springs, [`Condensed::springs`], to each rigid motion.
     resistance: Vec<f64>,
     factored: Option<FactoredSet>,
 }
 
-/// An active set and the Cholesky factor of its compliance.
+/// Active set and the Cholesky factor of its compliance.
 #[derive(Debug, Clone)]
 struct FactoredSet {
     active: Vec<bool>,
     members: Vec<usize>,
     factor: Llt<f64>,
-    /// C⁻¹ applied to the columns of G.
+    /// Product C⁻¹ G.
     by_motion: Mat<f64>,
 }
 
+/// Solution of one active set.
 struct Trial {
     force: Vec<f64>,
     gap_mm: Vec<f64>,
     rigid: Vec<f64>,
     resistance: Vec<f64>,
-    /// A motion that the active set does not hold.
+    /// Motion that the active set does not hold.
     loose: Option<Vec<f64>>,
 }
 
 impl Condensed {
     /// Solves from the active set `start`, or from the first touch.
-    pub fn solve(&self, start: Option<&[bool]>) -> Result<Equilibrium, ActiveSetError> {
+    pub fn solve(&self, start: Option<&[bool]>) -> Result<ContactEquilibrium, ActiveSetError> {
         self.solve_with(start, &mut None)
     }
 
-    /// As [`Self::solve`], with what an earlier solution with the same compliance and rigid motions has kept: where the active set is
-    /// still the same, nothing is factorised. What this solution has is left there.
-    pub fn solve_with(&self, start: Option<&[bool]>, kept: &mut Option<Kept>) -> Result<Equilibrium, ActiveSetError> {
+    /// Solves as [`Self::solve`] does, reusing the factor of an earlier solution with the same compliance and rigid motions where the active
+    /// set is the same; `kept` is updated.
+    pub fn solve_with(
+        &self,
+        start: Option<&[bool]>,
+        kept: &mut Option<ReusableFactor>,
+    ) -> Result<ContactEquilibrium, ActiveSetError> {
         let n = self.gap_mm.len();
         if self.gap_mm.iter().chain(&self.rigid_load).any(|value| !value.is_finite()) {
             return Err(ActiveSetError::NotFinite);
         }
-        let Kept { resistance, factored } = match kept {
+        let ReusableFactor { resistance, factored } = match kept {
             Some(kept) => kept,
             None => kept.insert(self.checked()?),
         };
@@ -190,7 +195,7 @@ impl Condensed {
             Some(start) if start.len() == n && start.contains(&true) => start.to_vec(),
             _ => self.first_touch()?,
         };
-        let mut log = Log::default();
+        let mut log = ActiveSetLog::default();
         let (mut fewest, mut patience, mut one_by_one) = (usize::MAX, PATIENCE, false);
         for _ in 0..MOST_ITERATIONS {
             let trial = self.trial(&active, resistance, factored, &mut log)?;
@@ -217,7 +222,12 @@ impl Condensed {
         Err(ActiveSetError::MaxIterations { iterations: MOST_ITERATIONS, wrong })
     }
 
-    fn finished(&self, trial: Trial, active: Vec<bool>, log: Log) -> Result<Equilibrium, ActiveSetError> {
+    fn finished(
+        &self,
+        trial: Trial,
+        active: Vec<bool>,
+        log: ActiveSetLog,
+    ) -> Result<ContactEquilibrium, ActiveSetError> {
         if !active.contains(&true) {
             let least_gap_mm = trial.gap_mm.iter().copied().fold(f64::INFINITY, f64::min);
             return Err(ActiveSetError::NoContact { least_gap_mm });
@@ -226,57 +236,50 @@ impl Condensed {
             return Err(ActiveSetError::Floating { amplitudes });
         }
         let Trial { force, gap_mm, rigid, resistance, .. } = trial;
-        Ok(Equilibrium { force, gap_mm, rigid, resistance, active, log })
+        Ok(ContactEquilibrium { force, gap_mm, rigid, resistance, active, log })
     }
 
-    /// What compliance and rigid motions alone say of every solution.
-    fn checked(&self) -> Result<Kept, ActiveSetError> {
-        if !self.is_finite() {
+    /// Checks compliance and rigid motions, which are the same for all solutions.
+    fn checked(&self) -> Result<ReusableFactor, ActiveSetError> {
+        let is_finite = [&self.compliance, &self.rigid].into_iter().all(|matrix| {
+            (0..matrix.ncols()).all(|j| column(matrix.as_ref(), j).iter().all(|value| value.is_finite()))
+        });
+        if !is_finite {
             return Err(ActiveSetError::NotFinite);
         }
-        let resistance = self.greatest_resistance();
+        let resistance: Vec<f64> = (0..self.rigid_load.len()).map(|a| self.springs(a, a)).collect();
         match self.never_held(&resistance) {
             Some(amplitudes) => Err(ActiveSetError::Floating { amplitudes }),
-            None => Ok(Kept { resistance, factored: None }),
+            None => Ok(ReusableFactor { resistance, factored: None }),
         }
     }
 
-    /// For each rigid motion Σ G_i²/C_ii over all multipliers: the resistance of independent springs, the measure of S.
-    fn greatest_resistance(&self) -> Vec<f64> {
-        let spring = |i: usize, a: usize| self.rigid[(i, a)].powi(2) / self.compliance[(i, i)];
-        (0..self.rigid_load.len()).map(|a| (0..self.gap_mm.len()).map(|i| spring(i, a)).sum()).collect()
+    /// Stiffness Σ G_ia G_ib/C_ii of independent springs at all multipliers against two rigid motions, the measure of S.
+    fn springs(&self, a: usize, b: usize) -> f64 {
+        let springs = (0..self.gap_mm.len()).map(|i| self.rigid[(i, a)] * self.rigid[(i, b)] / self.compliance[(i, i)]);
+        springs.sum()
     }
 
-    /// A combination of rigid motions that changes no gap.
+    /// Combination of rigid motions that changes no gap.
     fn never_held(&self, resistance: &[f64]) -> Option<Vec<f64>> {
         let m = resistance.len();
         let greatest = resistance.iter().copied().fold(0.0, f64::max);
         if let Some(a) = (0..m).find(|&a| resistance[a] <= SINGULAR * SINGULAR * greatest) {
             return Some((0..m).map(|b| if a == b { 1.0 } else { 0.0 }).collect());
         }
-        let springs = |a: usize, b: usize| -> f64 {
-            let product = |i| self.rigid[(i, a)] * self.rigid[(i, b)] / self.compliance[(i, i)];
-            (0..self.gap_mm.len()).map(product).sum()
-        };
-        let s = nalgebra::DMatrix::from_fn(m, m, springs);
+        let s = nalgebra::DMatrix::from_fn(m, m, |a, b| self.springs(a, b));
         held_motion(&s, &nalgebra::DVector::zeros(m), resistance).1
     }
 
-    fn is_finite(&self) -> bool {
-        let finite =
-            |matrix: &Mat<f64>| (0..matrix.ncols()).all(|j| column(matrix.as_ref(), j).iter().all(|v| v.is_finite()));
-        finite(&self.compliance) && finite(&self.rigid)
-    }
-
-    /// The multipliers that touch first when the loads move the free bodies.
+    /// Multipliers that touch first when the loads move the free bodies.
     fn first_touch(&self) -> Result<Vec<bool>, ActiveSetError> {
         let n = self.gap_mm.len();
         let least_gap_mm = self.gap_mm.iter().copied().fold(f64::INFINITY, f64::min);
-        // Direction in which the loads push: α along −q, for Gᵀ f = q means that contact pushes back by q.
+        // The loads move along −q, as Gᵀ f = q is the reaction of the contact.
         let closing: Vec<f64> =
             (0..n).map(|i| self.rigid_load.iter().enumerate().map(|(k, q)| self.rigid[(i, k)] * q).sum()).collect();
-        let path = |i: usize| self.gap_mm[i].max(0.0) / closing[i];
-        let first = (0..n).filter(|&i| closing[i] > 0.0).map(path).fold(f64::INFINITY, f64::min);
+        let paths = closing.iter().zip(&self.gap_mm).filter(|(closing, _)| **closing > 0.0);
+        let first = paths.map(|(closing, gap)| gap.max(0.0) / closing).fold(f64::INFINITY, f64::min);
         let moved: Vec<f64> = match first.is_finite() {
             true => (0..n).map(|i| self.gap_mm[i] - first * closing[i]).collect(),
             false => self.gap_mm.clone(),
@@ -286,13 +289,13 @@ impl Condensed {
         if touching.contains(&true) { Ok(touching) } else { Err(ActiveSetError::NoContact { least_gap_mm }) }
     }
 
-    /// Forces and gaps if exactly the `active` multipliers carry load.
+    /// Forces and gaps if the `active` multipliers carry the load.
     fn trial(
         &self,
         active: &[bool],
         resistance: &[f64],
         factored: &mut Option<FactoredSet>,
-        log: &mut Log,
+        log: &mut ActiveSetLog,
     ) -> Result<Trial, ActiveSetError> {
         let kept = factored.take().filter(|kept| kept.active == active);
         let set = match kept {
@@ -306,11 +309,8 @@ impl Condensed {
         let m = self.rigid_load.len();
         let mut by_gap: Vec<f64> = members.iter().map(|&member| -self.gap_mm[member]).collect();
         solve_in_place(factor, &mut by_gap);
-        let product = |a: usize, of: &dyn Fn(usize) -> f64| -> f64 {
-            members.iter().enumerate().map(|(i, &member)| self.rigid[(member, a)] * of(i)).sum()
-        };
-        let s = nalgebra::DMatrix::from_fn(m, m, |a, b| product(a, &|i| by_motion[(i, b)]));
-        let load = nalgebra::DVector::from_fn(m, |a, _| product(a, &|i| by_gap[i]) - self.rigid_load[a]);
+        let s = nalgebra::DMatrix::from_fn(m, m, |a, b| self.along_motion(a, members, column(by_motion.as_ref(), b)));
+        let load = nalgebra::DVector::from_fn(m, |a, _| self.along_motion(a, members, &by_gap) - self.rigid_load[a]);
         let (alpha, loose) = held_motion(&s, &load, resistance);
         let mut force = vec![0.0; active.len()];
         for (i, &member) in members.iter().enumerate() {
@@ -326,18 +326,23 @@ impl Condensed {
         for &member in members {
             gap_mm[member] = 0.0;
         }
-        // S is symmetric: by columns as by rows.
+        // S is symmetric, so that columns are rows.
         Ok(Trial { force, gap_mm, rigid: alpha.iter().copied().collect(), resistance: s.data.into(), loose })
     }
 
-    /// The compliance of the `active` multipliers, factorised.
+    /// Product of column `a` of G with forces of `members`.
+    fn along_motion(&self, a: usize, members: &[usize], force: &[f64]) -> f64 {
+        members.iter().zip(force).map(|(&member, force)| self.rigid[(member, a)] * force).sum()
+    }
+
+    /// Factorised compliance of the `active` multipliers.
     fn factored(&self, active: &[bool]) -> Result<FactoredSet, ActiveSetError> {
         let members: Vec<usize> = (0..active.len()).filter(|&i| active[i]).collect();
         let k = members.len();
         let mut c = Mat::<f64>::zeros(k, k);
         for (j, &member) in members.iter().enumerate() {
             let whole = column(self.compliance.as_ref(), member);
-            // The factor reads the lower triangle alone.
+            // Only the lower triangle is read.
             for (entry, &i) in column_mut(&mut c, j)[j..].iter_mut().zip(&members[j..]) {
                 *entry = whole[i];
             }
@@ -351,7 +356,7 @@ impl Condensed {
         Ok(FactoredSet { active: active.to_vec(), members, factor, by_motion })
     }
 
-    /// Active multipliers that pull and others that overlap.
+    /// Active multipliers in tension and others that penetrate.
     fn wrong(&self, trial: &Trial, active: &[bool]) -> Vec<usize> {
         let greatest_force = trial.force.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
         let greatest_gap = trial.gap_mm.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
@@ -364,7 +369,7 @@ impl Condensed {
     }
 }
 
-/// A column of a matrix that is stored column by column, as all here are.
+/// Column of a matrix, all of which are stored by columns.
 fn column(matrix: MatRef<'_, f64>, j: usize) -> &[f64] {
     matrix.col(j).try_as_col_major().map_or(&[], |column| column.as_slice())
 }
@@ -373,15 +378,15 @@ fn column_mut(matrix: &mut Mat<f64>, j: usize) -> &mut [f64] {
     matrix.col_mut(j).try_as_col_major_mut().map_or(&mut [], |column| column.as_slice_mut())
 }
 
-/// sum ← sum + factor · values
+/// Adds factor · values to `sum`.
 fn add_scaled(sum: &mut [f64], values: &[f64], factor: f64) {
     for (sum, value) in sum.iter_mut().zip(values) {
         *sum += value * factor;
     }
 }
 
-/// Solves S α = load by eigenvectors, S and α scaled by the greatest `resistance` to each motion; what S does not hold gets
-/// a soft ground instead, and is told.
+/// Solves S α = load by eigenvectors, S and α scaled by the greatest `resistance` to each motion. A motion that S does not hold is
+/// returned and supported by a soft foundation.
 fn held_motion(
     s: &nalgebra::DMatrix<f64>,
     load: &nalgebra::DVector<f64>,
@@ -405,6 +410,5 @@ fn held_motion(
         *a /= value.max(0.0) + ground;
     }
     let alpha = (&eigen.eigenvectors * alpha).component_mul(&unit);
-    let loose = || eigen.eigenvectors.column(weakest).component_mul(&unit).iter().copied().collect();
-    (alpha, (!holds).then(loose))
+    (alpha, (!holds).then(|| eigen.eigenvectors.column(weakest).component_mul(&unit).iter().copied().collect()))
 }

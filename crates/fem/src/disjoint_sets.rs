@@ -1,4 +1,4 @@
-//! Which members are connected, from the pairs that are.
+//! Connected components by union of pairs.
 
 /// Sets that are joined pair by pair.
 pub struct DisjointSets {
@@ -6,12 +6,12 @@ pub struct DisjointSets {
 }
 
 impl DisjointSets {
-    /// `count` members, each in a set of its own.
+    /// Sets of one member each.
     pub fn new(count: usize) -> Self {
         Self { parent: (0..count as u32).collect() }
     }
 
-    /// The lowest member of the set that `of` is in.
+    /// Lowest member of the set of `of`.
     pub fn root(&mut self, mut of: u32) -> u32 {
         while self.parent[of as usize] != of {
             let above = self.parent[self.parent[of as usize] as usize];
@@ -21,13 +21,13 @@ impl DisjointSets {
         of
     }
 
-    /// Makes one set of those of both members.
+    /// Joins the sets of both members.
     pub fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.root(a), self.root(b));
         self.parent[a.max(b) as usize] = a.min(b);
     }
 
-    /// The set of each member, numbered in the order of their lowest members, and how many there are.
+    /// Number of the set of each member, in the order of lowest members, and the number of sets.
     pub fn numbered(mut self) -> (Vec<u32>, usize) {
         let mut number = vec![0; self.parent.len()];
         let mut count = 0;

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 use nalgebra::Matrix3;
 
-/// What the direction across the plane does.
+/// Assumption about the direction across the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Analysis {
     /// No strain across the plane: a long body, a wide gear.
@@ -31,17 +31,17 @@ impl Analysis {
     }
 }
 
-/// An isotropic material.
+/// Isotropic elastic material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Elastic {
-    /// E > 0, MPa.
+    /// Young's modulus E > 0, MPa.
     pub young_modulus_mpa: f64,
-    /// ν, −1 < ν < 0.5.
+    /// Poisson's ratio ν, −1 < ν < 0.5.
     pub poisson_ratio: f64,
 }
 
 impl Elastic {
-    /// D with σ = D ε for σ = (σ_x, σ_y, τ_xy) and ε = (ε_x, ε_y, γ_xy), MPa.
+    /// Elasticity matrix D with σ = D ε for σ = (σ_x, σ_y, τ_xy) and ε = (ε_x, ε_y, γ_xy), MPa.
     pub fn stiffness_mpa(&self, analysis: Analysis) -> Matrix3<f64> {
         let (e, nu) = (self.young_modulus_mpa, self.poisson_ratio);
         match analysis {
@@ -55,7 +55,7 @@ impl Elastic {
         }
     }
 
-    /// How far a half-plane yields to pressure on it, but for lengths: (1 − ν²)/E in plane strain, 1/E in plane stress, 1/MPa.
+    /// Surface compliance, 1/MPa: (1 − ν²)/E in plane strain, 1/E in plane stress.
     pub fn surface_compliance_per_mpa(&self, analysis: Analysis) -> f64 {
         match analysis {
             Analysis::PlaneStrain => (1.0 - self.poisson_ratio.powi(2)) / self.young_modulus_mpa,
@@ -63,28 +63,28 @@ impl Elastic {
         }
     }
 
-    /// 2 (1 − ν²)/(π E), mm²/N: the factor of a half-plane's displacements under a line load, in plane strain.
+    /// Factor 2 (1 − ν²)/(π E) of a half-plane's displacements under a line load in plane strain, mm²/N.
     pub fn half_plane_mm2_per_n(&self) -> f64 {
         2.0 / PI * self.surface_compliance_per_mpa(Analysis::PlaneStrain)
     }
 
-    /// κ = E/(3 (1 − 2ν)), MPa.
+    /// Bulk modulus κ = E/(3 (1 − 2ν)), MPa.
     pub fn bulk_modulus_mpa(&self) -> f64 {
         self.young_modulus_mpa / (3.0 * (1.0 - 2.0 * self.poisson_ratio))
     }
 
-    /// μ = E/(2 (1 + ν)), MPa.
+    /// Shear modulus μ = E/(2 (1 + ν)), MPa.
     pub fn shear_modulus_mpa(&self) -> f64 {
         0.5 * self.young_modulus_mpa / (1.0 + self.poisson_ratio)
     }
 
-    /// The plane-strain D less its volumetric part κ m mᵀ, m = (1, 1, 0), MPa.
+    /// Deviatoric part of D in plane strain, D − κ m mᵀ with m = (1, 1, 0), MPa.
     pub fn deviatoric_mpa(&self) -> Matrix3<f64> {
         let mu = self.shear_modulus_mpa();
         Matrix3::new(4.0, -2.0, 0.0, -2.0, 4.0, 0.0, 0.0, 0.0, 3.0) * (mu / 3.0)
     }
 
-    /// σ_z from the stresses in the plane, MPa.
+    /// Stress σ_z from the stresses in the plane, MPa.
     pub fn across_mpa(&self, analysis: Analysis, sigma_x_mpa: f64, sigma_y_mpa: f64) -> f64 {
         match analysis {
             Analysis::PlaneStrain => self.poisson_ratio * (sigma_x_mpa + sigma_y_mpa),

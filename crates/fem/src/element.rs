@@ -1,4 +1,4 @@
-//! Stiffness of one isoparametric element, and what is wrong with an element that has none.
+//! Stiffness of one isoparametric element.
 //!
 //! For an isotropic material with σ = λ' tr ε I + 2 μ ε in the plane (λ' = λ for plane strain, 2λμ/(λ + 2μ) for plane
 //! stress) the stiffness between nodes a and b is
@@ -7,7 +7,7 @@
 //! G_ab = ∫ ∇Nₐ ⊗ ∇N_b dA            K_ab = λ' G_ab + μ G_abᵀ + μ tr(G_ab) I
 //! ```
 //!
-//! so that the loop over integration points gathers four sums per pair of nodes, and the material enters once, after it.
+//! so that the loop over integration points sums four products per pair of nodes, and the material enters once, after it.
 //! This is ∫ Bₐᵀ D B_b dA written out (Zienkiewicz, Taylor and Zhu 2005, section 2.3), at a third of the operations.
 //!
 //! An element must not be folded: J > 0 at every integration point, and J ≥ 0 at its nodes, where zero is allowed
@@ -16,16 +16,16 @@
 use nalgebra::{Matrix3, Vector2};
 
 use super::quadrature::{Rule, rule};
-use super::shape::{MOST_NODES, Shape};
+use super::shape::MOST_NODES;
 use super::solid::ElementKind;
 
-/// Most degrees of freedom that an element has.
+/// Greatest number of degrees of freedom of an element.
 pub(crate) const MOST_DOFS: usize = 2 * MOST_NODES;
 
-/// Least J relative to the square of the element's size that counts as an area.
+/// Least determinant J over the square of the element's size.
 const LEAST_DETERMINANT: f64 = 1e-10;
 
-/// Why a stiffness cannot be assembled.
+/// Reason why a stiffness cannot be assembled.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ElementError {
     /// The element is folded, turned inside out, or has no area.
@@ -34,63 +34,63 @@ pub enum ElementError {
         .at_mm.x, .at_mm.y
     )]
     Distorted {
-        /// Its number, from 0.
+        /// Number of the element, from 0.
         element: usize,
-        /// What it is.
+        /// Kind of the element.
         kind: ElementKind,
-        /// Where in the plane, mm.
+        /// Point in the plane, mm.
         at_mm: Vector2<f64>,
         /// Determinant of ∂x/∂ξ there, mm².
         determinant_mm2: f64,
     },
-    /// The element names a node that is not there.
+    /// The element refers to a node that does not exist.
     #[error("element {element} has node {node}, but there are only {nodes}")]
     NoSuchNode {
-        /// Its number, from 0.
+        /// Number of the element, from 0.
         element: usize,
-        /// The node it names.
+        /// Number of the node.
         node: u32,
-        /// How many there are.
+        /// Number of nodes.
         nodes: usize,
     },
-    /// The element names a material that is not there.
+    /// The element refers to a material that does not exist.
     #[error("element {element} is of material {material}, but there are only {materials}")]
     NoSuchMaterial {
-        /// Its number, from 0.
+        /// Number of the element, from 0.
         element: usize,
-        /// The material it names.
+        /// Number of the material.
         material: u16,
-        /// How many there are.
+        /// Number of materials.
         materials: usize,
     },
-    /// The material is not a stable elastic solid that displacements alone can describe.
+    /// The material is unstable or incompressible.
     #[error(
         "material {material}: Young's modulus {young_modulus_mpa} MPa must be positive and Poisson's ratio {poisson_ratio} \
          above -1 and below 0.5"
     )]
     Material {
-        /// Its number, from 0.
+        /// Number of the material, from 0.
         material: usize,
-        /// E, MPa.
+        /// Young's modulus E, MPa.
         young_modulus_mpa: f64,
-        /// ν.
+        /// Poisson's ratio ν.
         poisson_ratio: f64,
     },
 }
 
-/// A place where an element is folded.
+/// Point at which an element is folded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Fold {
-    /// Where, mm.
+    /// Point, mm.
     pub at_mm: Vector2<f64>,
-    /// J, mm².
+    /// Determinant J, mm².
     pub determinant_mm2: f64,
 }
 
-/// A symmetric element matrix over the degrees of freedom `2 · local node + component`; both halves are filled.
+/// Symmetric element matrix over the degrees of freedom `2 · local node + component`; both halves are filled.
 pub(super) type ElementMatrix = [[f64; MOST_DOFS]; MOST_DOFS];
 
-/// Σ over the rule of ∇Nₐ ⊗ ∇N_b, rows and columns by node and component, a ≤ b.
+/// Integrals ∫ ∇Nₐ ⊗ ∇N_b dA, rows and columns by node and component, a ≤ b.
 fn gradient_products<const N: usize>(
     rule: &Rule,
     nodes_mm: &[Vector2<f64>],
@@ -118,6 +118,7 @@ fn gradient_products<const N: usize>(
     Ok(products)
 }
 
+/// Stiffness of an element with `N` nodes and the Lamé constants (λ', μ).
 fn fill<const N: usize>(
     rule: &Rule,
     nodes_mm: &[Vector2<f64>],
@@ -162,7 +163,7 @@ pub(super) fn stiffness_n_per_mm2(
     }
 }
 
-/// Looks for a fold at the nodes, which the integration points may miss.
+/// Checks for folds at the nodes, which the integration points may miss.
 pub(super) fn check_nodes(kind: ElementKind, nodes_mm: &[Vector2<f64>]) -> Result<(), Fold> {
     let least_mm2 = least_determinant_mm2(nodes_mm);
     for shape in &rule(kind).nodes {
@@ -178,11 +179,11 @@ pub(super) fn check_nodes(kind: ElementKind, nodes_mm: &[Vector2<f64>]) -> Resul
 /// Whether an element with these nodes has a stiffness: an area at every integration point, and no fold at its nodes.
 pub fn is_sound(kind: ElementKind, nodes_mm: &[Vector2<f64>]) -> bool {
     let least_mm2 = least_determinant_mm2(nodes_mm);
-    let has_area = |shape: &Shape| shape.jacobian(nodes_mm).determinant() > least_mm2;
-    check_nodes(kind, nodes_mm).is_ok() && rule(kind).points.iter().all(|point| has_area(&point.shape))
+    check_nodes(kind, nodes_mm).is_ok()
+        && rule(kind).points.iter().all(|point| point.shape.jacobian(nodes_mm).determinant() > least_mm2)
 }
 
-/// The least determinant that counts as an area for an element of this size.
+/// Least determinant of an element of this size, mm².
 pub(super) fn least_determinant_mm2(nodes_mm: &[Vector2<f64>]) -> f64 {
     let mut low = nodes_mm[0];
     let mut high = nodes_mm[0];

@@ -1,5 +1,5 @@
-//! The bilinear quadrilateral with enhanced assumed strain: four further strain modes inside the element, so that it
-//! neither locks as ν → ½ nor stiffens in bending.
+//! Bilinear quadrilateral with enhanced assumed strain: four additional strain modes inside the element, so that it
+//! neither locks as ν → ½ nor is too stiff in bending.
 //!
 //! The strain is that of the displacements plus modes that are incompatible between elements,
 //!
@@ -7,8 +7,8 @@
 //! ε = B u + M̃ α        M̃ = (J₀/J) T₀ M(ξ)        M: ε_ξξ = ξ,  ε_ηη = η,  γ_ξη = ξ,  γ_ξη = η
 //! ```
 //!
-//! T₀ carries covariant components on the reference cell to the plane with the Jacobian J₀ at the centre,
-//! ε = J₀⁻ᵀ E J₀⁻¹. With it ∫ M̃ dA = 0, so that constant stresses do no work on the modes and the patch test holds on any
+//! T₀ transforms covariant components on the reference cell to the plane with the Jacobian J₀ at the centre,
+//! ε = J₀⁻ᵀ E J₀⁻¹. Then ∫ M̃ dA = 0, so that constant stresses do no work on the modes and the patch test is satisfied on any
 //! quadrilateral. The modes are eliminated inside the element:
 //!
 //! ```text
@@ -25,29 +25,26 @@ use super::quadrature::rule;
 use super::shape::Shape;
 use super::solid::ElementKind;
 
-/// An element with its enhanced modes expressed through the displacements of its nodes.
+/// Element with its enhanced modes as functions of the displacements of its nodes.
 #[derive(Debug, Clone)]
 pub(super) struct EnhancedQuad {
     nodes_mm: [Vector2<f64>; 4],
-    /// J₀⁻¹ and J₀ at the centre.
+    /// Inverse and determinant of J₀ at the centre.
     centre: (Matrix2<f64>, f64),
-    /// −K_αα⁻¹ K_αu.
+    /// Modes per displacement, −K_αα⁻¹ K_αu.
     modes: SMatrix<f64, 4, 8>,
     stiffness: SMatrix<f64, 8, 8>,
 }
 
 impl EnhancedQuad {
-    /// The element on four nodes of a material with stiffness D.
+    /// Element on four nodes of a material with elasticity matrix D.
     pub(super) fn new(nodes_mm: &[Vector2<f64>], d_mpa: &Matrix3<f64>) -> Result<Self, Fold> {
         let least_mm2 = least_determinant_mm2(nodes_mm);
         let middle = Shape::at(ElementKind::Quad4, [0.0, 0.0]);
         let jacobian = middle.jacobian(nodes_mm);
         let determinant_mm2 = jacobian.determinant();
-        let fold = |shape: &Shape, determinant_mm2| Fold { at_mm: shape.point(nodes_mm), determinant_mm2 };
-        let inverse = match jacobian.try_inverse() {
-            Some(inverse) if determinant_mm2 > least_mm2 => inverse,
-            _ => return Err(fold(&middle, determinant_mm2)),
-        };
+        let fold_at_centre = Fold { at_mm: middle.point(nodes_mm), determinant_mm2 };
+        let inverse = jacobian.try_inverse().filter(|_| determinant_mm2 > least_mm2).ok_or(fold_at_centre)?;
         let mut element = Self {
             nodes_mm: [nodes_mm[0], nodes_mm[1], nodes_mm[2], nodes_mm[3]],
             centre: (inverse, determinant_mm2),
@@ -59,7 +56,7 @@ impl EnhancedQuad {
         for point in &rule(ElementKind::Quad4).points {
             let (b, determinant) = element.displacement_part(&point.shape);
             if determinant.is_nan() || determinant <= least_mm2 {
-                return Err(fold(&point.shape, determinant));
+                return Err(Fold { at_mm: point.shape.point(nodes_mm), determinant_mm2: determinant });
             }
             let m = element.enhanced_part(point.at, determinant);
             let weighted = d_mpa * (point.weight * determinant);
@@ -69,15 +66,15 @@ impl EnhancedQuad {
             inside += m.transpose() * (weighted * m);
         }
         // K_αα is positive definite wherever J > 0: the modes are independent and D is positive definite.
-        let factor = inside.cholesky().ok_or_else(|| fold(&middle, determinant_mm2))?;
+        let factor = inside.cholesky().ok_or(fold_at_centre)?;
         element.modes = -factor.solve(&coupling);
         element.stiffness += coupling.transpose() * element.modes;
         Ok(element)
     }
 
-    /// Writes the condensed stiffness.
+    /// Writes the condensed stiffness to `out`.
     pub(super) fn write_stiffness(&self, out: &mut ElementMatrix) {
-        // Condensation is symmetric but for rounding: the lower half counts.
+        // The condensed stiffness is symmetric but for rounding: the lower half is used.
         for (i, row) in out.iter_mut().enumerate().take(8) {
             for (k, value) in row.iter_mut().enumerate().take(8) {
                 *value = self.stiffness[(i.max(k), i.min(k))];
@@ -85,13 +82,13 @@ impl EnhancedQuad {
         }
     }
 
-    /// (ε_x, ε_y, γ_xy) at (ξ, η) as a linear function of the displacements of the nodes.
+    /// Strain (ε_x, ε_y, γ_xy) at (ξ, η) per displacement of the nodes, 1/mm.
     pub(super) fn strain_matrix(&self, at: [f64; 2]) -> SMatrix<f64, 3, 8> {
         let (b, determinant) = self.displacement_part(&Shape::at(ElementKind::Quad4, at));
         b + self.enhanced_part(at, determinant) * self.modes
     }
 
-    /// B and J.
+    /// Matrix B and determinant J.
     fn displacement_part(&self, shape: &Shape) -> (SMatrix<f64, 3, 8>, f64) {
         let (gradients, determinant) = shape.gradients(&self.nodes_mm);
         let mut b = SMatrix::<f64, 3, 8>::zeros();
@@ -104,19 +101,19 @@ impl EnhancedQuad {
         (b, determinant)
     }
 
-    /// M̃, one column for each mode.
+    /// Matrix M̃, one column for each mode.
     fn enhanced_part(&self, [xi, eta]: [f64; 2], determinant: f64) -> SMatrix<f64, 3, 4> {
         let (inverse, centre_determinant) = &self.centre;
         let scale = centre_determinant / determinant;
-        let mode = |covariant: Matrix2<f64>| {
+        let covariant = [
+            Matrix2::new(xi, 0.0, 0.0, 0.0),
+            Matrix2::new(0.0, 0.0, 0.0, eta),
+            Matrix2::new(0.0, 0.5 * xi, 0.5 * xi, 0.0),
+            Matrix2::new(0.0, 0.5 * eta, 0.5 * eta, 0.0),
+        ];
+        SMatrix::from_columns(&covariant.map(|covariant| {
             let strain = inverse.transpose() * covariant * inverse * scale;
             Vector3::new(strain.m11, strain.m22, strain.m12 + strain.m21)
-        };
-        SMatrix::from_columns(&[
-            mode(Matrix2::new(xi, 0.0, 0.0, 0.0)),
-            mode(Matrix2::new(0.0, 0.0, 0.0, eta)),
-            mode(Matrix2::new(0.0, 0.5 * xi, 0.5 * xi, 0.0)),
-            mode(Matrix2::new(0.0, 0.5 * eta, 0.5 * eta, 0.0)),
-        ])
+        }))
     }
 }

@@ -1,4 +1,4 @@
-//! The equilibrium of elastic bodies in contact.
+//! Equilibrium of elastic bodies in contact.
 //!
 //! ```text
 //! K u = F + Bᵀ f,        g = g⁰ + B u,        0 ≤ f ⟂ g ≥ 0
@@ -11,12 +11,13 @@
 //! g = (g⁰ + B K⁻¹ F) + (B K⁻¹ Bᵀ) f + (B R) α,        (B R)ᵀ f = −Rᵀ F
 //! ```
 //!
-//! a small dense problem for [`super::active_set`]. Loads may therefore push a body that nothing holds until it touches.
+//! a small dense problem for [`super::active_set`]. Loads may therefore move a body without supports until it touches.
 
+use nalgebra::Vector2;
 use sprs::{CsMat, TriMat};
 
-use super::active_set::{ActiveSetError, Condensed, Equilibrium};
-use super::contact::mortar::Coupling;
+use super::active_set::{ActiveSetError, Condensed};
+use super::contact::mortar::MortarCoupling;
 use super::contact::overlap::{Moved, largest_overlap_mm};
 use super::contact::surface::Surface;
 use super::contact::zones;
@@ -27,13 +28,13 @@ use super::rigid_body::{RigidMotion, describe, free_motions};
 use super::space::FoldedHexahedron;
 use super::stiffness::Stiffness;
 
-/// Why a problem has no solution.
+/// Reason why a problem has no solution.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SolveError {
-    /// An element is no element.
+    /// An element or a material is invalid.
     #[error(transparent)]
     Element(#[from] ElementError),
-    /// A hexahedron is none.
+    /// A hexahedron is inverted or degenerate.
     #[error(transparent)]
     Hexahedron(#[from] FoldedHexahedron),
     /// The stiffness matrix cannot be factorised.
@@ -42,22 +43,22 @@ pub enum SolveError {
     /// The contact has no equilibrium.
     #[error(transparent)]
     Contact(#[from] ActiveSetError),
-    /// Nothing holds a body, and no contact is there to do so.
+    /// A body is held neither by supports nor by contact.
     #[error("{motion}; neither a support nor a contact holds it")]
     Floating {
-        /// What moves.
+        /// Description of the motion.
         motion: String,
     },
 }
 
-/// A contact of the problem with its surfaces and their coupling.
+/// Contact of the problem with its surfaces and their coupling.
 struct Interface {
     slave: Surface,
     master: Surface,
-    coupling: Coupling,
-    /// How far apart they may lie, mm.
+    coupling: MortarCoupling,
+    /// Greatest distance of facing surfaces, mm.
     reach_mm: f64,
-    /// Rows of this contact among all multipliers.
+    /// First row of this contact among all multipliers.
     first_row: usize,
 }
 
@@ -99,8 +100,7 @@ pub fn solve(problem: &Problem) -> Result<Solution, SolveError> {
         if work.cycles_broken > 0 {
             stop = Stop::ConvergedAfterCycle;
         }
-        let Equilibrium { force, rigid, .. } = found;
-        (force, rigid)
+        (found.force, found.rigid)
     };
 
     let contact_forces = transpose_times(&coupling, &force, solid.dofs());
@@ -120,6 +120,7 @@ pub fn solve(problem: &Problem) -> Result<Solution, SolveError> {
     Ok(Solution { displacement_mm, contacts, stop, work, residual: balance.residual, force_balance: balance.forces })
 }
 
+/// The error with free motions described.
 fn name_the_motion(error: ActiveSetError, motions: &[RigidMotion]) -> SolveError {
     match error {
         ActiveSetError::Floating { amplitudes } => SolveError::Floating { motion: describe(motions, &amplitudes) },
@@ -136,7 +137,7 @@ fn interfaces(problem: &Problem) -> Vec<Interface> {
             let slave = Surface::new(&pair.slave, &problem.solid.points_mm);
             let master = Surface::new(&pair.master, &problem.solid.points_mm);
             let reach_mm = slave.extent_mm() + master.extent_mm();
-            let coupling = Coupling::new(&slave, &master, reach_mm);
+            let coupling = MortarCoupling::new(&slave, &master, reach_mm);
             let interface = Interface { slave, master, coupling, reach_mm, first_row };
             first_row += interface.coupling.len();
             interface
@@ -144,7 +145,7 @@ fn interfaces(problem: &Problem) -> Vec<Interface> {
         .collect()
 }
 
-/// B of all contacts: a row a multiplier, a column a degree of freedom of the mesh.
+/// Coupling matrix B of all contacts, with a row for each multiplier and a column for each degree of freedom of the mesh.
 fn global_operator(interfaces: &[Interface], dofs: usize) -> CsMat<f64> {
     let rows = interfaces.iter().map(|interface| interface.coupling.len()).sum();
     let mut triplets = TriMat::new((rows, dofs));
@@ -160,6 +161,7 @@ fn global_operator(interfaces: &[Interface], dofs: usize) -> CsMat<f64> {
     triplets.to_csr()
 }
 
+/// Contact problem condensed onto the multipliers.
 fn condensed(
     problem: &Problem,
     interfaces: &[Interface],
@@ -173,17 +175,16 @@ fn condensed(
     let rigid_columns: Vec<Vec<f64>> = motions.iter().map(|motion| motion_field(problem, motion)).collect();
     let gap_mm = interfaces.iter().flat_map(|interface| interface.coupling.gap_mm.iter().copied());
     let moved = times(coupling, free_displacement_mm);
+    let products: Vec<Vec<f64>> = rigid_columns.iter().map(|field| times(coupling, field)).collect();
     Condensed {
         compliance: factor.compliance(&columns),
         gap_mm: gap_mm.zip(moved).map(|(gap, moved)| gap + moved).collect(),
-        rigid: {
-            let products: Vec<Vec<f64>> = rigid_columns.iter().map(|field| times(coupling, field)).collect();
-            faer::Mat::from_fn(coupling.rows(), motions.len(), |i, k| products[k][i])
-        },
+        rigid: faer::Mat::from_fn(coupling.rows(), motions.len(), |i, k| products[k][i]),
         rigid_load: rigid_columns.iter().map(|field| -dot(field, &problem.forces_n_per_mm)).collect(),
     }
 }
 
+/// Displacements of all degrees of freedom per amplitude of a rigid motion.
 fn motion_field(problem: &Problem, motion: &RigidMotion) -> Vec<f64> {
     let mut field = vec![0.0; problem.solid.dofs()];
     for &node in &motion.nodes {
@@ -194,7 +195,7 @@ fn motion_field(problem: &Problem, motion: &RigidMotion) -> Vec<f64> {
     field
 }
 
-/// External and contact forces, less what the given displacements take.
+/// External and contact forces less those of the given displacements.
 fn loaded(problem: &Problem, stiffness: &Stiffness, contact_forces: &[f64]) -> Vec<f64> {
     let mut load = problem.forces_n_per_mm.clone();
     for (load, force) in load.iter_mut().zip(contact_forces) {
@@ -216,10 +217,15 @@ fn set_held(problem: &Problem, displacement_mm: &mut [f64]) {
     }
 }
 
-/// How well forces balance.
+/// Relative errors of equilibrium.
 struct Balance {
     residual: f64,
     forces: f64,
+}
+
+/// `value` over `scale`, 0 where both are 0.
+pub(super) fn relative(value: f64, scale: f64) -> f64 {
+    if scale > 0.0 { value / scale } else { 0.0 }
 }
 
 impl Balance {
@@ -244,7 +250,6 @@ impl Balance {
             sum[dof % 2] += external;
             sum_of_sizes += external.abs();
         }
-        let relative = |value: f64, scale: f64| if scale > 0.0 { value / scale } else { 0.0 };
         Self {
             residual: relative(unbalanced, greatest),
             forces: relative(sum[0].abs().max(sum[1].abs()), sum_of_sizes),
@@ -252,6 +257,7 @@ impl Balance {
     }
 }
 
+/// Contact of one interface in the solution.
 fn state(
     problem: &Problem,
     interface: &Interface,
@@ -275,9 +281,9 @@ fn state(
     for path in slave.paths() {
         let along = slave.along_mm(&path);
         let values: Vec<f64> = path.iter().map(|&node| pressure[node]).collect();
-        let on_symmetry = |at_end: bool, node: usize| at_end && held_along(problem, slave, node);
+        let on_symmetry = [path[0], path[path.len() - 1]].map(|node| held_along(problem, slave, node));
         for zone in zones::zones(&along, &values) {
-            let half = on_symmetry(zone.at_end.0, path[0]) || on_symmetry(zone.at_end.1, path[path.len() - 1]);
+            let half = zone.at_end.0 && on_symmetry[0] || zone.at_end.1 && on_symmetry[1];
             contact_width_mm += zone.width_mm();
             half_width_mm = half_width_mm.max(if half { zone.width_mm() } else { 0.5 * zone.width_mm() });
         }
@@ -299,25 +305,21 @@ fn state(
     }
 }
 
+/// Greatest penetration of the deformed surfaces, mm.
 fn overlap_mm(interface: &Interface, displacement_mm: &[f64]) -> f64 {
-    let of = |surface: &Surface| -> Vec<nalgebra::Vector2<f64>> {
-        let at = |&node: &u32| 2 * node as usize;
-        surface
-            .mesh_nodes
-            .iter()
-            .map(at)
-            .map(|x| nalgebra::Vector2::from_column_slice(&displacement_mm[x..x + 2]))
-            .collect()
-    };
-    let (slave, master) = (&interface.slave, &interface.master);
+    let surfaces = [&interface.slave, &interface.master];
+    let [slave, master] = surfaces.map(|surface| -> Vec<Vector2<f64>> {
+        let dofs = surface.mesh_nodes.iter().map(|&node| 2 * node as usize);
+        dofs.map(|dof| Vector2::from_column_slice(&displacement_mm[dof..dof + 2])).collect()
+    });
     largest_overlap_mm(
-        Moved { surface: slave, displacement_mm: &of(slave) },
-        Moved { surface: master, displacement_mm: &of(master) },
+        Moved { surface: surfaces[0], displacement_mm: &slave },
+        Moved { surface: surfaces[1], displacement_mm: &master },
         interface.reach_mm,
     )
 }
 
-/// Whether supports hold a surface's end along the surface: it lies on a line of symmetry.
+/// Whether supports hold an end of a surface in its own direction, as on a line of symmetry.
 fn held_along(problem: &Problem, surface: &Surface, node: usize) -> bool {
     let normal = surface.normals[node];
     let along = if normal.x.abs() > normal.y.abs() { 1 } else { 0 };
@@ -325,21 +327,20 @@ fn held_along(problem: &Problem, surface: &Surface, node: usize) -> bool {
     problem.held.iter().any(|support| support.dof == dof)
 }
 
-/// Force on the slave and the point of the surface where it acts.
+/// Force on the slave and its point of action on the surface.
 struct Resultant {
-    force: nalgebra::Vector2<f64>,
-    centre_mm: nalgebra::Vector2<f64>,
+    force: Vector2<f64>,
+    centre_mm: Vector2<f64>,
 }
 
 impl Resultant {
-    fn of(slave: &Surface, coupling: &Coupling, force: &[f64]) -> Self {
+    fn of(slave: &Surface, coupling: &MortarCoupling, force: &[f64]) -> Self {
         let nodal = transpose_times(&coupling.slave, force, 2 * slave.points_mm.len());
-        let resultant: nalgebra::Vector2<f64> =
-            nodal.chunks_exact(2).map(|pair| nalgebra::Vector2::new(pair[0], pair[1])).sum();
+        let resultant: Vector2<f64> = nodal.chunks_exact(2).map(|pair| Vector2::new(pair[0], pair[1])).sum();
         let total: f64 = force.iter().sum();
-        let weighted: nalgebra::Vector2<f64> =
+        let weighted: Vector2<f64> =
             coupling.nodes.iter().zip(force).map(|(&node, f)| *f * slave.points_mm[node]).sum();
-        let centre_mm = if total > 0.0 { weighted / total } else { nalgebra::Vector2::repeat(f64::NAN) };
+        let centre_mm = if total > 0.0 { weighted / total } else { Vector2::repeat(f64::NAN) };
         Self { force: resultant, centre_mm }
     }
 }

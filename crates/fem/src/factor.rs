@@ -1,15 +1,15 @@
 //! Sparse Cholesky factorisation of a supported stiffness.
 //!
-//! With the held degrees of freedom h struck out, the free ones f obey
+//! Without the held degrees of freedom h, the free ones f satisfy
 //!
 //! ```text
 //! K_ff u_f = F_f − K_fh u_h          K_ff = Pᵀ L Lᵀ P
 //! ```
 //!
-//! P is the approximate-minimum-degree ordering, L is kept by faer as dense blocks of columns (supernodes). Everything
-//! runs on one thread, so that the bits of a solution never depend on the machine.
+//! P is the approximate-minimum-degree ordering, L is stored by faer as dense blocks of columns (supernodes). Everything
+//! runs on one thread, so that solutions are the same bit for bit on every machine.
 //!
-//! Nodes that no element has are struck out too: their displacement stays zero.
+//! Nodes without elements are left out too; their displacement is zero.
 //!
 //! Source: Y. Chen, T. A. Davis, W. W. Hager and S. Rajamanickam, *ACM Transactions on Mathematical Software* 35 (2008)
 //! article 22 (supernodal Cholesky); the implementation is faer's.
@@ -28,14 +28,14 @@ use super::node_matrix::NodeMatrix;
 use super::stiffness::Stiffness;
 use super::support::Loose;
 
-/// Right-hand sides that go through the factor together: enough to use each block of L while it is in the cache, few enough
-/// that their own rows stay there too.
+/// Number of right-hand sides solved together: enough to reuse each block of L in the cache, few enough
+/// for their own rows to stay there too.
 const COLUMNS_AT_ONCE: usize = 32;
 
-/// Mark of a degree of freedom that is not solved for.
+/// Mark of a held degree of freedom.
 pub(super) const HELD: u32 = u32::MAX;
 
-/// Why a stiffness cannot be factorised.
+/// Reason why a stiffness cannot be factorised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum FactorError {
     /// A body can move without strain.
@@ -43,43 +43,43 @@ pub enum FactorError {
         "the body with node {node} can move as a rigid body: {held} fixed degrees of freedom do not prevent translation or rotation"
     )]
     Unsupported {
-        /// The lowest of the body's nodes.
+        /// Lowest node of the body.
         node: u32,
-        /// How many of the body's degrees of freedom are held.
+        /// Number of held degrees of freedom of the body.
         held: usize,
     },
-    /// A pivot is not positive: the stiffness holds values that are not finite, or is far too badly scaled.
+    /// A pivot is not positive: the stiffness has values that are not finite, or is badly scaled.
     #[error("the stiffness is not positive definite at degree of freedom {dof} (node {node})")]
     NotPositive {
-        /// The degree of freedom whose pivot fails.
+        /// Degree of freedom of the pivot.
         dof: usize,
-        /// Its node.
+        /// Node of the degree of freedom.
         node: usize,
     },
-    /// The analysis does not fit into memory.
-    #[error("the factorisation needs more memory than there is")]
+    /// The factorisation does not fit into memory.
+    #[error("the factorisation needs more memory than there is; a coarser mesh needs less")]
     OutOfMemory,
 }
 
-/// A factorised stiffness with its supports.
+/// Factorised stiffness with its supports.
 pub struct Factor {
     /// Place of each degree of freedom in the order of elimination, or [`HELD`].
     place_of_dof: Vec<u32>,
-    /// The degree of freedom at each place.
+    /// Degree of freedom at each place.
     dof_of_place: Vec<u32>,
     symbolic: SymbolicCholesky<u32>,
     values: Vec<f64>,
 }
 
-/// K_ff, lower triangle, by columns.
+/// Lower triangle of K_ff by columns.
 struct Reduced {
     columns: Vec<u32>,
     rows: Vec<u32>,
     values: Vec<f64>,
 }
 
-/// A stiffness analysed for its factorisation: what that takes is known, and nothing of it taken yet.
-pub struct Analysis {
+/// Symbolic factorisation of a stiffness, whose memory is known before the numeric one.
+pub struct SymbolicFactor {
     reduced: Reduced,
     dofs: usize,
     per_node: usize,
@@ -87,8 +87,8 @@ pub struct Analysis {
     symbolic: SymbolicCholesky<u32>,
 }
 
-impl Analysis {
-    /// Analyses `matrix` without the degrees of freedom that `is_held`; what is left must be held.
+impl SymbolicFactor {
+    /// Symbolic factorisation of `matrix` without the degrees of freedom that `is_held`, which must prevent all rigid motions.
     pub fn new(matrix: &NodeMatrix, is_held: impl Fn(usize) -> bool) -> Result<Self, FactorError> {
         let dofs = matrix.dofs();
         let mut free_of_dof = vec![HELD; dofs];
@@ -110,13 +110,13 @@ impl Analysis {
         Ok(Self { reduced, dofs, per_node: matrix.per_node(), dof_of_free, symbolic })
     }
 
-    /// Memory that the factor takes, GB.
+    /// Memory of the factor, GB.
     pub(crate) fn factor_gb(&self) -> f64 {
         const BYTES: f64 = size_of::<f64>() as f64;
         1e-9 * BYTES * self.symbolic.len_val() as f64
     }
 
-    /// The factor.
+    /// Numeric factorisation.
     pub fn factorised(self) -> Result<Factor, FactorError> {
         let Self { reduced, dofs, per_node, dof_of_free, symbolic } = self;
         let matrix = reduced.matrix();
@@ -146,7 +146,7 @@ impl Analysis {
 }
 
 impl Factor {
-    /// Factorises `stiffness` with the degrees of freedom struck out whose displacement is given (`held[dof]`).
+    /// Factorises `stiffness` without the degrees of freedom whose displacement is given (`held[dof]`).
     ///
     /// # Panics
     /// Where `held` does not have an entry for each degree of freedom.
@@ -159,13 +159,13 @@ impl Factor {
         Self::of_held(stiffness.matrix(), |dof| held[dof] || !parts.has(dof / 2))
     }
 
-    /// Factorises `matrix` without the degrees of freedom that `is_held`; what is left must be held.
+    /// Factorises `matrix` without the degrees of freedom that `is_held`, which must prevent all rigid motions.
     pub fn of_held(matrix: &NodeMatrix, is_held: impl Fn(usize) -> bool) -> Result<Self, FactorError> {
-        Analysis::new(matrix, is_held)?.factorised()
+        SymbolicFactor::new(matrix, is_held)?.factorised()
     }
 
-    /// Solves K u = F in place for `columns` right-hand sides, one after the other in `x`, each with an entry for every
-    /// degree of freedom: forces in (those on held ones are ignored), displacements out (zero on held ones).
+    /// Solves K u = F in place for `columns` consecutive right-hand sides in `x`, each with an entry for every
+    /// degree of freedom: forces in (ignored on held ones), displacements out (zero on held ones).
     ///
     /// # Panics
     /// Where `x` is not as long as `columns` times the degrees of freedom.
@@ -198,7 +198,7 @@ impl Factor {
         }
     }
 
-    /// Subtracts K_fh u_h from the forces: what given displacements of held degrees of freedom, (dof, mm), do to the others.
+    /// Subtracts K_fh u_h of given displacements (dof, mm) of held degrees of freedom from the forces.
     pub fn subtract_held(&self, stiffness: &NodeMatrix, held_mm: &[(u32, f64)], force_n_per_mm: &mut [f64]) {
         let mut displacement_mm = vec![0.0; self.dofs()];
         for (dof, value) in held_mm {
@@ -224,11 +224,11 @@ impl Factor {
         &self.place_of_dof
     }
 
-    /// The pattern of L.
+    /// Pattern of L.
     pub(super) fn supernodes(&self) -> &SymbolicSupernodalCholesky<u32> {
         match self.symbolic.raw() {
             SymbolicCholeskyRaw::Supernodal(supernodes) => supernodes,
-            SymbolicCholeskyRaw::Simplicial(_) => unreachable!("the analysis was told to make supernodes"),
+            SymbolicCholeskyRaw::Simplicial(_) => unreachable!("the symbolic factorisation is supernodal"),
         }
     }
 }

@@ -1,85 +1,91 @@
-//! A nodal field within a window, as pictures show it: sampled on a raster of small squares, each element as linear triangles between its nodes;
+//! Nodal field within a window for plots, sampled on a raster of small squares with each element as linear triangles between its nodes,
 //! and the sides of the elements there.
 
 use super::solid::{Element, ElementKind};
 
-/// Squares of a raster.
+/// Number of squares of a raster.
 const SQUARES: f64 = 60_000.0;
-/// Elements and where their nodes are shown.
+
+/// Elements with the plotted coordinates of their nodes.
 #[derive(Debug, Clone, Copy)]
 pub struct Bodies<'a> {
-    /// Where the nodes are shown, mm.
+    /// Coordinates of the nodes, mm.
     pub points_mm: &'a [[f64; 2]],
-    /// The elements.
+    /// Elements.
     pub elements: &'a [Element],
 }
 
-/// What a picture shows.
+/// Plotted range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Window {
-    /// x from and to, mm.
+    /// Range of x, mm.
     pub x_mm: [f64; 2],
-    /// y from and to, mm.
+    /// Range of y, mm.
     pub y_mm: [f64; 2],
 }
 
+/// Least and greatest coordinate of points along an axis.
+fn range(points: &[[f64; 2]], axis: usize) -> [f64; 2] {
+    points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| [low.min(p[axis]), high.max(p[axis])])
+}
+
 impl Window {
-    /// Around all `points_mm`, with a little room.
+    /// Window around all `points_mm`, with a margin.
     pub fn around(points_mm: &[[f64; 2]]) -> Self {
         let [x_mm, y_mm] = [0, 1].map(|axis| {
-            let along = || points_mm.iter().map(|p| p[axis]);
-            let (low, high) = (along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max));
+            let [low, high] = range(points_mm, axis);
             let room = 0.02 * (high - low).abs();
             [low - room, high + room]
         });
         Self { x_mm, y_mm }
     }
 
-    /// `half_height_mm` above and below `centre_mm`, and `width_over_height` times as much to either side.
+    /// Window from `half_height_mm` below `centre_mm` to the same above, and `width_over_height` times as wide.
     pub fn about(centre_mm: [f64; 2], half_height_mm: f64, width_over_height: f64) -> Self {
         let [x, y] = centre_mm;
         let half_width_mm = width_over_height * half_height_mm;
         Self { x_mm: [x - half_width_mm, x + half_width_mm], y_mm: [y - half_height_mm, y + half_height_mm] }
     }
 
-    /// The part of it that lies within `other`; itself where that is nothing.
+    /// Intersection with `other`, along each axis that has one.
     pub fn within(self, other: Self) -> Self {
-        let common =
-            |[a, b]: [f64; 2], [c, d]: [f64; 2]| if a.max(c) < b.min(d) { [a.max(c), b.min(d)] } else { [a, b] };
-        Self { x_mm: common(self.x_mm, other.x_mm), y_mm: common(self.y_mm, other.y_mm) }
+        let [x_mm, y_mm] = [(self.x_mm, other.x_mm), (self.y_mm, other.y_mm)]
+            .map(|([a, b], [c, d])| if a.max(c) < b.min(d) { [a.max(c), b.min(d)] } else { [a, b] });
+        Self { x_mm, y_mm }
     }
 
-    /// Its width.
+    /// Width, mm.
     pub fn width_mm(&self) -> f64 {
         self.x_mm[1] - self.x_mm[0]
     }
 
-    /// Its height.
+    /// Height, mm.
     pub fn height_mm(&self) -> f64 {
         self.y_mm[1] - self.y_mm[0]
     }
 
-    /// Whether any part of the box around `points` lies inside.
+    /// Whether the box around `points` and the window intersect.
     fn meets(&self, points: &[[f64; 2]]) -> bool {
-        let beside = |axis: usize, [from, to]: [f64; 2]| {
-            points.iter().all(|p| p[axis] < from) || points.iter().all(|p| p[axis] > to)
-        };
-        !beside(0, self.x_mm) && !beside(1, self.y_mm)
+        [self.x_mm, self.y_mm].into_iter().enumerate().all(|(axis, [from, to])| {
+            let [low, high] = range(points, axis);
+            low <= to && high >= from
+        })
     }
 }
 
-/// The greatest of the `values` at nodes within `reach_mm` of a place, along x and along y.
+/// Greatest of the `values` at nodes within `reach_mm` of a point along x and y; at least 0.
 pub fn greatest_near(bodies: Bodies<'_>, values: &[f64], centre_mm: [f64; 2], reach_mm: f64) -> f64 {
-    let near = |p: &[f64; 2]| (0..2).all(|axis| (p[axis] - centre_mm[axis]).abs() <= reach_mm);
-    bodies.points_mm.iter().zip(values).filter(|(p, _)| near(p)).map(|(_, value)| *value).fold(0.0, f64::max)
+    let near = (bodies.points_mm.iter().zip(values))
+        .filter(|(p, _)| (0..2).all(|axis| (p[axis] - centre_mm[axis]).abs() <= reach_mm));
+    near.map(|(_, value)| *value).fold(0.0, f64::max)
 }
 
-/// The nodes where they are after `displacement_mm`.
+/// Coordinates of the nodes after deformation.
 pub fn deformed(points_mm: impl Iterator<Item = [f64; 2]>, displacement_mm: &[[f64; 2]]) -> Vec<[f64; 2]> {
     points_mm.zip(displacement_mm).map(|(p, u)| [p[0] + u[0], p[1] + u[1]]).collect()
 }
 
-/// The sides of the elements within `window`, each once: those of one element only, and all others. A side is a row of nodes that runs from one
+/// Sides of the elements within `window`, each once: first those of one element only, then all others. Nodes of a side run from one
 /// end over the middle node, if there is one, to the other.
 pub fn sides(bodies: Bodies<'_>, window: Window) -> (Vec<Vec<u32>>, Vec<Vec<u32>>) {
     let mut all: Vec<([u32; 2], Vec<u32>)> = Vec::new();
@@ -100,6 +106,7 @@ pub fn sides(bodies: Bodies<'_>, window: Window) -> (Vec<Vec<u32>>, Vec<Vec<u32>
     (outline, inner)
 }
 
+/// Sides of an element.
 fn ring(element: &Element) -> Vec<Vec<u32>> {
     let nodes = element.nodes();
     let n = match element.kind {
@@ -114,7 +121,7 @@ fn ring(element: &Element) -> Vec<Vec<u32>> {
         .collect()
 }
 
-/// The linear triangles that stand for an element, by its own node numbers.
+/// Linear triangles between the nodes of an element, by local node numbers.
 fn triangles(kind: ElementKind) -> &'static [[usize; 3]] {
     match kind {
         ElementKind::Triangle3 => &[[0, 1, 2]],
@@ -125,26 +132,25 @@ fn triangles(kind: ElementKind) -> &'static [[usize; 3]] {
     }
 }
 
-/// Values on squares; none outside the bodies.
+/// Values on squares; `None` outside the bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Raster {
     /// Centres of the squares from left to right.
     pub x_mm: Vec<f64>,
     /// Centres of the squares from below.
     pub y_mm: Vec<f64>,
-    /// Row by row from below.
+    /// Values by rows from below.
     pub values: Vec<Vec<Option<f64>>>,
 }
 
 impl Raster {
-    /// Samples the values `nodal` at the nodes.
+    /// Samples the nodal values `nodal`.
     pub fn sample(bodies: Bodies<'_>, nodal: &[f64], window: Window) -> Self {
         let side_mm = (window.width_mm() * window.height_mm() / SQUARES).sqrt();
-        let centres = |[from, to]: [f64; 2]| -> Vec<f64> {
+        let [x_mm, y_mm]: [Vec<f64>; 2] = [window.x_mm, window.y_mm].map(|[from, to]| {
             let count = ((to - from) / side_mm).round().max(1.0) as usize;
             (0..count).map(|i| from + (i as f64 + 0.5) * (to - from) / count as f64).collect()
-        };
-        let (x_mm, y_mm) = (centres(window.x_mm), centres(window.y_mm));
+        });
         let mut values = vec![vec![None; x_mm.len()]; y_mm.len()];
         for element in bodies.elements {
             let nodes = element.nodes();
@@ -161,26 +167,24 @@ impl Raster {
     }
 }
 
-/// Writes a linear triangle's values at the centres that lie in it.
+/// Writes the values of a linear triangle at the centres within it.
 fn fill(values: &mut [Vec<Option<f64>>], x_mm: &[f64], y_mm: &[f64], points: [[f64; 2]; 3], at_corners: [f64; 3]) {
     let [a, b, c] = points;
     let doubled_area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
     if doubled_area == 0.0 {
         return;
     }
-    let within = |centres: &[f64], axis: usize| {
-        let low = points.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
-        let high = points.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
+    let [columns, rows] = [(x_mm, 0), (y_mm, 1)].map(|(centres, axis)| {
+        let [low, high] = range(&points, axis);
         centres.partition_point(|&x| x < low)..centres.partition_point(|&x| x <= high)
-    };
-    let columns = within(x_mm, 0);
-    for row in within(y_mm, 1) {
+    });
+    for row in rows {
         for column in columns.clone() {
             let (x, y) = (x_mm[column] - a[0], y_mm[row] - a[1]);
             let second = (x * (c[1] - a[1]) - (c[0] - a[0]) * y) / doubled_area;
             let third = ((b[0] - a[0]) * y - x * (b[1] - a[1])) / doubled_area;
             let share = [1.0 - second - third, second, third];
-            // A centre on a side belongs to both triangles; round-off must not leave it to neither.
+            // The tolerance assigns centres on a side to a triangle despite round-off.
             if share.iter().all(|&share| share >= -1e-9) {
                 values[row][column] = Some(share.iter().zip(at_corners).map(|(share, value)| share * value).sum());
             }
@@ -233,7 +237,7 @@ mod tests {
         }
     }
 
-    /// Two quadrilaterals side by side: six sides outside, one between them.
+    /// Two neighbouring quadrilaterals: six sides outside, one between them.
     #[test]
     fn a_side_of_two_elements_is_drawn_once() {
         let points = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [0.0, 1.0]];

@@ -9,6 +9,7 @@ mod enhanced_quad;
 pub mod equilibrium;
 pub mod factor;
 pub mod field_raster;
+mod incidence;
 pub mod loads;
 pub mod locate;
 pub mod nodal_fields;

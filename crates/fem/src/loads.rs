@@ -1,12 +1,12 @@
-//! Nodal forces that do the same work as distributed ones.
+//! Work-equivalent nodal forces of distributed loads.
 //!
 //! ```text
 //! Fₐ = ∫ Nₐ t ds over edges        Fₐ = ∫ Nₐ f dA over elements
 //! ```
 //!
-//! t is the traction in MPa on the surface as it lies, curved where its edges are; f the force per volume in N/mm³. Edges
-//! have the body on their left, so the outward normal is the tangent turned right, and a pressure p is t = −p n. Forces are
-//! N per mm of thickness and are added to what is there.
+//! t is the traction in MPa on the surface of straight or curved edges; f the force per volume in N/mm³. Edges
+//! have the body on their left, so the outward normal is the tangent turned right, and a pressure p is t = −p n. Forces in
+//! N per mm of thickness are added to given ones.
 //!
 //! Source: O. C. Zienkiewicz, R. L. Taylor and J. Z. Zhu, *The Finite Element Method: Its Basis and Fundamentals* (2005),
 //! section 2.3.
@@ -19,26 +19,27 @@ use super::quadrature::load_rule;
 use super::shape::along_edge;
 use super::solid::Solid;
 
-/// One point of integration on an edge.
-struct EdgePoint {
+/// Point of integration on an edge.
+struct EdgeIntegrationPoint {
     at_mm: Vector2<f64>,
-    /// Tangent times the length that the point stands for, mm.
+    /// Tangent times the weighted length of the point, mm.
     tangent_mm: Vector2<f64>,
-    /// Shape functions: of the ends, of the middle.
+    /// Shape functions of the ends and the middle.
     shape: [f64; 3],
 }
 
 /// Points of integration of an edge: four, exact for polynomials of degree 7 in the parameter.
-fn edge_points<'a>(solid: &'a Solid, edge: &'a Edge) -> impl Iterator<Item = EdgePoint> + 'a {
+fn edge_points<'a>(solid: &'a Solid, edge: &'a Edge) -> impl Iterator<Item = EdgeIntegrationPoint> + 'a {
     let nodes_mm = edge_nodes(edge).map(|node| solid.points_mm[node as usize]);
     GAUSS_4.iter().map(move |(s, weight)| {
         let (shape, slope) = along_edge(edge.middle.is_some(), *s);
-        let sum = |factors: [f64; 3]| nodes_mm.iter().zip(factors).map(|(x, f)| x * f).sum::<Vector2<f64>>();
-        EdgePoint { at_mm: sum(shape), tangent_mm: sum(slope) * *weight, shape }
+        let [at_mm, tangent_mm] =
+            [shape, slope].map(|factors| nodes_mm.iter().zip(factors).map(|(x, f)| x * f).sum::<Vector2<f64>>());
+        EdgeIntegrationPoint { at_mm, tangent_mm: tangent_mm * *weight, shape }
     })
 }
 
-/// Its ends and its middle; a linear edge repeats an end, where its third shape function is zero.
+/// Ends and middle of an edge; a linear edge repeats an end, with a third shape function of zero.
 fn edge_nodes(edge: &Edge) -> [u32; 3] {
     [edge.ends[0], edge.ends[1], edge.middle.unwrap_or(edge.ends[0])]
 }
@@ -60,7 +61,7 @@ pub fn add_traction(
 ) {
     assert_eq!(forces_n_per_mm.len(), solid.dofs(), "one force for each degree of freedom");
     for edge in edges {
-        for EdgePoint { at_mm, tangent_mm, shape } in edge_points(solid, edge) {
+        for EdgeIntegrationPoint { at_mm, tangent_mm, shape } in edge_points(solid, edge) {
             let length_mm = tangent_mm.norm();
             let normal = Vector2::new(tangent_mm.y, -tangent_mm.x) / length_mm;
             let force = traction_mpa(at_mm, normal) * length_mm;

@@ -1,16 +1,16 @@
-//! Which element holds a point, and where in it.
+//! Search for the element that contains a point.
 //!
 //! The map x(ξ, η) of a curved element is inverted by Newton's method from the middle of its reference cell; boxes around
-//! the elements, widened for the bulge of curved sides, leave few to try.
+//! the elements, widened for the bulge of curved sides, exclude most of them.
 
 use nalgebra::Vector2;
 
 use super::shape::Shape;
 use super::solid::{Element, ElementKind, Solid};
 
-/// How far outside an element a point may lie and still count as in it, in units of the reference cell.
+/// Tolerance for points on the boundary of an element, in units of the reference cell.
 const TOLERANCE: f64 = 1e-9;
-/// Newton steps; a handful is enough for sides as little curved as a flank's.
+/// Greatest number of Newton steps; about five are enough for slightly curved sides.
 const MOST_STEPS: usize = 25;
 
 /// A point within an element.
@@ -18,11 +18,11 @@ const MOST_STEPS: usize = 25;
 pub struct ElementPoint {
     /// Number of the element.
     pub element: usize,
-    /// Its nodes with the values of their shape functions at the point.
+    /// Nodes with the values of their shape functions at the point.
     pub weights: Vec<(u32, f64)>,
 }
 
-/// The first element of `solid` that holds `point_mm`; `None` outside all of them.
+/// First element of `solid` that contains `point_mm`; `None` outside all of them.
 pub fn locate(solid: &Solid, point_mm: Vector2<f64>) -> Option<ElementPoint> {
     solid.elements.iter().enumerate().find_map(|(number, element)| {
         let shape = within(solid, element, point_mm)?;
@@ -31,15 +31,14 @@ pub fn locate(solid: &Solid, point_mm: Vector2<f64>) -> Option<ElementPoint> {
     })
 }
 
-/// The shape functions at the point, where the element holds it.
+/// Shape functions at the point, where the element contains it.
 fn within(solid: &Solid, element: &Element, point_mm: Vector2<f64>) -> Option<Shape> {
     let nodes_mm: Vec<Vector2<f64>> = element.nodes().iter().map(|&node| solid.points_mm[node as usize]).collect();
     let low = nodes_mm.iter().fold(nodes_mm[0], |low, p| low.inf(p));
     let high = nodes_mm.iter().fold(nodes_mm[0], |high, p| high.sup(p));
     let size_mm = (high - low).norm();
     let bulge = 0.1 * size_mm;
-    let outside = |value: f64, low: f64, high: f64| value < low - bulge || value > high + bulge;
-    if outside(point_mm.x, low.x, high.x) || outside(point_mm.y, low.y, high.y) {
+    if (0..2).any(|i| point_mm[i] < low[i] - bulge || point_mm[i] > high[i] + bulge) {
         return None;
     }
     let triangle = matches!(element.kind, ElementKind::Triangle3 | ElementKind::Triangle6);
@@ -65,7 +64,7 @@ fn within(solid: &Solid, element: &Element, point_mm: Vector2<f64>) -> Option<Sh
 mod tests {
     use super::*;
 
-    /// Two elements side by side, one of them with a curved side: any point inside comes back as itself.
+    /// Neighbouring elements, one with a curved side: the located point is the given one.
     #[test]
     fn ver_a_located_point_is_its_shape_functions_times_nodes() {
         let points_mm = [

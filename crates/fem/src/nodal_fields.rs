@@ -1,4 +1,4 @@
-//! Displacement and stress at the nodes of a mesh, as data of its points under the names that every file has.
+//! Displacement and stress at the nodes of a mesh as its point data, with the names of the output files.
 
 use gearwear_mesh::Mesh;
 

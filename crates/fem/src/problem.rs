@@ -1,4 +1,4 @@
-//! A static problem of elastic bodies in contact, and what its solution is.
+//! Static problem of elastic bodies in contact, and its solution.
 
 use nalgebra::Vector2;
 use schemars::JsonSchema;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::elastic::{Analysis, Elastic};
 use super::solid::Solid;
 
-/// What the third direction does.
+/// Assumption about the third direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ThirdDirection {
@@ -16,21 +16,21 @@ pub enum ThirdDirection {
     PlaneStrain,
     /// No stress across the plane: a thin sheet.
     PlaneStress,
-    /// Bodies of hexahedra in space, without contact.
+    /// Three-dimensional bodies of hexahedra, without contact.
     ThreeDimensional,
 }
 
-/// One edge of an element on the surface of a body, the body on its left; linear (two nodes) or quadratic (ends, middle).
+/// Edge of an element on the surface of a body, the body on its left; linear (two nodes) or quadratic (ends, middle).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Edge {
     /// First and last node.
     pub ends: [u32; 2],
-    /// The middle node of a quadratic edge.
+    /// Middle node of a quadratic edge.
     pub middle: Option<u32>,
 }
 
 impl ThirdDirection {
-    /// The analysis in the plane; `None` in space.
+    /// Plane analysis; `None` in three dimensions.
     pub fn in_plane(self) -> Option<Analysis> {
         match self {
             Self::PlaneStrain => Some(Analysis::PlaneStrain),
@@ -39,27 +39,27 @@ impl ThirdDirection {
         }
     }
 
-    /// Directions in which a node moves.
+    /// Number of degrees of freedom of a node.
     pub fn directions(self) -> usize {
         if self == Self::ThreeDimensional { 3 } else { 2 }
     }
 }
 
-/// Two surfaces that may touch; the slave carries the multipliers.
+/// Two surfaces that may touch; the slave has the multipliers.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ContactPair {
-    /// Edges that carry the contact pressure: the finer or softer surface.
+    /// Edges with the contact pressure, the finer or softer surface.
     pub slave: Vec<Edge>,
-    /// Edges they may touch.
+    /// Edges that these may touch.
     pub master: Vec<Edge>,
 }
 
-/// A degree of freedom with a given displacement.
+/// Degree of freedom with a given displacement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Held {
-    /// d · node + component, with d = 2 in the plane and 3 in space.
+    /// Degree of freedom `d · node + component`, with d = 2 or 3 dimensions.
     pub dof: u32,
-    /// Its displacement, mm.
+    /// Given displacement, mm.
     pub displacement_mm: f64,
 }
 
@@ -68,9 +68,9 @@ pub struct Held {
 pub struct Problem {
     /// Plane strain or plane stress.
     pub analysis: Analysis,
-    /// The bodies.
+    /// Elastic bodies.
     pub solid: Solid,
-    /// Their materials, as numbered by the elements.
+    /// Materials, as numbered by the elements.
     pub materials: Vec<Elastic>,
     /// Supports and given displacements; no degree of freedom twice.
     pub held: Vec<Held>,
@@ -80,45 +80,45 @@ pub struct Problem {
     pub contacts: Vec<ContactPair>,
 }
 
-/// One node of a slave surface in the solution.
+/// Node of a slave surface in the solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactNode {
-    /// Its number.
+    /// Number of the node.
     pub node: u32,
-    /// Where it lies before deformation, mm.
+    /// Coordinates before deformation, mm.
     pub at_mm: Vector2<f64>,
-    /// Weighted gap of its multiplier, mm; NaN where it faces nothing.
+    /// Weighted gap of the multiplier, mm; NaN where the node does not face the master.
     pub gap_mm: f64,
-    /// Contact pressure, MPa: the multiplier.
+    /// Contact pressure, the multiplier, MPa.
     pub pressure_mpa: f64,
 }
 
-/// What one pair of surfaces came to.
+/// Contact of one pair of surfaces in the solution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactState {
-    /// The slave's nodes in the order of its surface.
+    /// Nodes of the slave in the order of its surface.
     pub nodes: Vec<ContactNode>,
     /// Resultant of the pressure on the slave, N/mm.
     pub force_n_per_mm: Vector2<f64>,
     /// Greatest pressure, MPa.
     pub peak_pressure_mpa: f64,
-    /// Length of surface under pressure, mm; the sum where there are several zones.
+    /// Length of surface under pressure, mm; the sum of several zones.
     pub contact_width_mm: f64,
-    /// Half-width a of the widest zone: half its length, or all of it where it ends on a symmetry line.
+    /// Half-width a of the widest zone: half its length, or its whole length where it ends on a symmetry line.
     pub half_width_mm: f64,
-    /// Where the resultant acts on the surface, mm.
+    /// Point of action of the resultant on the surface, mm.
     pub centre_mm: Vector2<f64>,
-    /// Largest overlap of the deformed surfaces at an integration point, mm: it falls with the size of the elements.
+    /// Greatest penetration of the deformed surfaces at an integration point, mm; it falls with the size of the elements.
     pub max_penetration_mm: f64,
 }
 
-/// Why the solver stopped.
+/// Reason why the solver stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stop {
     /// Every multiplier and every gap has the right sign.
     Converged,
-    /// The same, after a cycle of active sets was broken.
+    /// Converged after a cycle of active sets was broken.
     ConvergedAfterCycle,
 }
 
@@ -127,28 +127,28 @@ pub enum Stop {
 pub struct Work {
     /// Active-set iterations.
     pub iterations: usize,
-    /// Nodes that entered or left the active set, all iterations together.
+    /// Nodes that entered or left the active set in all iterations.
     pub active_set_changes: usize,
     /// Cycles of the active set that were broken.
     pub cycles_broken: usize,
     /// Sparse factorisations.
     pub factorisations: usize,
-    /// Right-hand sides solved for.
+    /// Right-hand sides.
     pub right_hand_sides: usize,
 }
 
-/// The solution.
+/// Solution of a problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
     /// Displacement of every degree of freedom, mm.
     pub displacement_mm: Vec<f64>,
-    /// One for each pair of surfaces.
+    /// Contacts, one for each pair of surfaces.
     pub contacts: Vec<ContactState>,
-    /// Why it stopped.
+    /// Reason why the solver stopped.
     pub stop: Stop,
     /// Work done.
     pub work: Work,
-    /// Largest unbalanced nodal force over the largest force that acts.
+    /// Largest unbalanced nodal force over the largest nodal force.
     pub residual: f64,
     /// Unbalance of all external forces, reactions included, over the largest of them.
     pub force_balance: f64,

@@ -1,17 +1,16 @@
-//! Projected volume strain: the cure of the quadratic elements for locking in plane strain.
+//! Quadratic elements with projected volume strain, which do not lock in plane strain.
 //!
-//! Integrated in full, a quadratic element asks for more incompressibility than its displacements can give once its sides
-//! are curved or it is a quadrilateral: at ν = 0.4999 coarse meshes are an order too stiff. Its volume strain θ = tr B u is
-//! therefore replaced, inside the element, by the linear function of x and y nearest to it,
+//! Fully integrated, quadrilaterals and elements with curved sides have more volume constraints than their displacements
+//! can satisfy: at ν = 0.4999 coarse meshes are an order too stiff. The volume strain θ = tr B u is
+//! therefore replaced, inside the element, by its least-squares approximation linear in x and y,
 //!
 //! ```text
 //! θ̄ = pᵀ M⁻¹ Q u        p = (1, x, y)        M = ∫ p pᵀ dA        Q = ∫ p tr B dA
 //! K = ∫ Bᵀ D_dev B dA + κ Qᵀ M⁻¹ Q
 //! ```
 //!
-//! with κ = λ + 2μ/3, which is the mixed element with a linear pressure of its own (Q2/P1), pressure eliminated. Linear in
-//! x and y, not in ξ and η: only so does it keep its order on distorted quadrilaterals. A straight triangle has a linear θ
-//! anyhow and stays as it is.
+//! with κ = λ + 2μ/3, which is the mixed element with a discontinuous linear pressure (Q2/P1), pressure eliminated. Functions linear in
+//! x and y, not in ξ and η, keep the order on distorted quadrilaterals. The θ of a straight triangle is linear and does not change.
 //!
 //! Source: J. C. Nagtegaal, D. M. Parks and J. R. Rice, *Computer Methods in Applied Mechanics and Engineering* 4 (1974)
 //! 153–177 (the cause); T. J. R. Hughes, *International Journal for Numerical Methods in Engineering* 15 (1980) 1413–1418
@@ -23,20 +22,20 @@ use super::element::{ElementMatrix, Fold, MOST_DOFS, least_determinant_mm2};
 use super::quadrature::rule;
 use super::solid::ElementKind;
 
-/// θ̄ of one element as a function of the displacements of its nodes.
+/// Projected volume strain θ̄ of one element as a function of the displacements of its nodes.
 #[derive(Debug, Clone)]
 pub(super) struct ProjectedVolume {
-    /// Origin and size of the coordinates in p, which are made dimensionless.
+    /// Origin and unit of the coordinates in p.
     centre_mm: Vector2<f64>,
     size_mm: f64,
-    /// Q, 1/mm times mm².
+    /// Moments Q, 1/mm times mm².
     moments: SMatrix<f64, 3, MOST_DOFS>,
-    /// M⁻¹ Q.
+    /// Projection M⁻¹ Q.
     projected: SMatrix<f64, 3, MOST_DOFS>,
 }
 
 impl ProjectedVolume {
-    /// Whether a kind of element takes this cure in plane strain.
+    /// Whether a kind of element has a projected volume strain in plane strain.
     pub(super) fn serves(kind: ElementKind) -> bool {
         matches!(kind, ElementKind::Triangle6 | ElementKind::Quad8 | ElementKind::Quad9)
     }
@@ -64,7 +63,7 @@ impl ProjectedVolume {
                 }
             }
         }
-        // M is positive definite: its points do not lie on one line where J > 0 at all of them.
+        // M is positive definite: where J > 0 at all points they are not collinear.
         let factor = mass.cholesky().ok_or(Fold { at_mm: centre_mm, determinant_mm2: 0.0 })?;
         volume.projected = factor.solve(&volume.moments);
         Ok(volume)
@@ -72,7 +71,7 @@ impl ProjectedVolume {
 
     /// Adds κ Qᵀ M⁻¹ Q to the stiffness of the element.
     pub(super) fn add_stiffness(&self, bulk_modulus_mpa: f64, dofs: usize, out: &mut ElementMatrix) {
-        // Qᵀ M⁻¹ Q is symmetric but for rounding: the lower half counts.
+        // Qᵀ M⁻¹ Q is symmetric but for rounding: the lower half is used.
         for (i, row) in out.iter_mut().enumerate().take(dofs) {
             for (k, value) in row.iter_mut().enumerate().take(dofs) {
                 let (low, high) = (i.min(k), i.max(k));
@@ -81,7 +80,7 @@ impl ProjectedVolume {
         }
     }
 
-    /// θ̄ at a point of the element as a row over the displacements of its nodes, 1/mm.
+    /// Row of θ̄ at a point of the element over the displacements of its nodes, 1/mm.
     pub(super) fn row(&self, at_mm: Vector2<f64>) -> SVector<f64, MOST_DOFS> {
         self.projected.transpose() * self.basis(at_mm)
     }

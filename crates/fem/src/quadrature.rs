@@ -18,23 +18,23 @@ use std::sync::LazyLock;
 use super::shape::{Shape, reference_nodes};
 use super::solid::ElementKind;
 
-/// One point of a rule.
+/// Point of a rule.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IntegrationPoint {
-    /// (ξ, η).
+    /// Coordinates (ξ, η).
     pub at: [f64; 2],
-    /// Its weight; the weights add up to the area of the reference cell.
+    /// Weight; the weights of a rule add up to the area of the reference cell.
     pub weight: f64,
-    /// Shape functions there.
+    /// Shape functions at the point.
     pub shape: Shape,
 }
 
-/// What an element needs to be integrated.
+/// Integration rule of a kind of element.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rule {
     /// Points of the rule.
     pub points: Vec<IntegrationPoint>,
-    /// Shape functions at the nodes of the element, where its shape is checked too.
+    /// Shape functions at the nodes of the element, where the Jacobian is checked too.
     pub nodes: Vec<Shape>,
 }
 
@@ -53,7 +53,7 @@ pub(crate) const GAUSS_4: [(f64, f64); 4] = [
     (0.861_136_311_594_052_6, 0.347_854_845_137_453_86),
 ];
 
-/// The rule of an element.
+/// Integration rule of an element.
 pub fn rule(kind: ElementKind) -> &'static Rule {
     static TRIANGLE3: LazyLock<Rule> =
         LazyLock::new(|| Rule::new(ElementKind::Triangle3, &[([1.0 / 3.0, 1.0 / 3.0], 0.5)]));
@@ -70,7 +70,7 @@ pub fn rule(kind: ElementKind) -> &'static Rule {
     }
 }
 
-/// A rule for loads, which need not be constant on an element: at least degree 5 for every kind.
+/// Integration rule for loads, which may vary over an element: at least degree 5 for every kind.
 pub fn load_rule(kind: ElementKind) -> &'static Rule {
     static TRIANGLE3: LazyLock<Rule> = LazyLock::new(|| Rule::new(ElementKind::Triangle3, &radon()));
     static QUAD4: LazyLock<Rule> = LazyLock::new(|| Rule::new(ElementKind::Quad4, &product(&GAUSS_3)));
@@ -83,11 +83,8 @@ pub fn load_rule(kind: ElementKind) -> &'static Rule {
 
 impl Rule {
     fn new(kind: ElementKind, points: &[([f64; 2], f64)]) -> Self {
-        let point = |&(at, weight): &([f64; 2], f64)| IntegrationPoint { at, weight, shape: Shape::at(kind, at) };
-        Self {
-            points: points.iter().map(point).collect(),
-            nodes: reference_nodes(kind).iter().map(|at| Shape::at(kind, *at)).collect(),
-        }
+        let points = points.iter().map(|&(at, weight)| IntegrationPoint { at, weight, shape: Shape::at(kind, at) });
+        Self { points: points.collect(), nodes: reference_nodes(kind).iter().map(|at| Shape::at(kind, *at)).collect() }
     }
 }
 
@@ -112,13 +109,17 @@ fn radon() -> Vec<([f64; 2], f64)> {
 mod tests {
     use super::*;
 
+    fn factorial(n: i32) -> f64 {
+        (1..=n).map(f64::from).product()
+    }
+
+    fn integral(kind: ElementKind, p: i32, q: i32) -> f64 {
+        rule(kind).points.iter().map(|point| point.weight * point.at[0].powi(p) * point.at[1].powi(q)).sum()
+    }
+
     /// ∫ ξᵖ ηᵠ over the triangle is p! q!/(p + q + 2)!, over the square 4/((p + 1)(q + 1)) for even p and q.
     #[test]
     fn ver_rules_integrate_their_degree() {
-        let factorial = |n: i32| (1..=n).map(f64::from).product::<f64>();
-        let integral = |kind, p: i32, q: i32| -> f64 {
-            rule(kind).points.iter().map(|point| point.weight * point.at[0].powi(p) * point.at[1].powi(q)).sum()
-        };
         for (kind, degree) in [(ElementKind::Triangle3, 1), (ElementKind::Triangle6, 5)] {
             for p in 0..=degree {
                 for q in 0..=degree - p {

@@ -1,10 +1,10 @@
 //! Rigid motions that no support prevents.
 //!
-//! A plane body moves rigidly in three ways, u(x) = t + ω ẑ × (x − c)/L, with c its centre and L its size, so that all
-//! three amplitudes are lengths. Supports prevent those that would move a held degree of freedom; what is left is found as
-//! the null space of the held components. Such a body has no unique answer to its loads: it is anchored at as many degrees
-//! of freedom as motions are left, and the motions join the contact problem as unknowns of their own, with the balance of
-//! the loads along each as equation. In equilibrium the anchors carry nothing.
+//! A plane body has three rigid motions u(x) = t + ω ẑ × (x − c)/L, with c its centre and L its size, so that all
+//! three amplitudes are lengths. Supports prevent those that would move a held degree of freedom; the free ones are
+//! the null space of the held components. A body with free motions is anchored at as many degrees
+//! of freedom, and its motions are unknowns of the contact problem, with the balance of
+//! the loads along each as equation. In equilibrium the anchors carry no force.
 //!
 //! Source: C. Farhat and F.-X. Roux, *Int. J. Numer. Meth. Eng.* 32 (1991) 1205–1227 (floating subdomains).
 
@@ -15,44 +15,66 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use super::disjoint_sets::DisjointSets;
 use super::solid::Solid;
 
-/// Motions whose held components are below this part of the others' are free.
+/// Relative size of held components below which a motion is free.
 const FREE: f64 = 1e-10;
+
+/// Centre c and size L of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct BodyFrame {
+    centre_mm: Vector2<f64>,
+    size_mm: f64,
+}
+
+impl BodyFrame {
+    /// Mean of the body's nodes and their greatest distance from it.
+    pub(super) fn new(points_mm: &[Vector2<f64>], nodes: &[u32]) -> Self {
+        let points = nodes.iter().map(|&node| points_mm[node as usize]);
+        let centre_mm = points.clone().sum::<Vector2<f64>>() / nodes.len() as f64;
+        let size_mm = points.map(|point| (point - centre_mm).norm()).fold(0.0, f64::max);
+        Self { centre_mm, size_mm }
+    }
+
+    /// Displacement component of a point per amplitude of both translations and of the rotation.
+    pub(super) fn row(&self, point_mm: Vector2<f64>, component: usize) -> Vector3<f64> {
+        let arm = (point_mm - self.centre_mm) / self.size_mm;
+        if component == 0 { Vector3::new(1.0, 0.0, -arm.y) } else { Vector3::new(0.0, 1.0, arm.x) }
+    }
+}
 
 /// One free rigid motion of one body.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RigidMotion {
-    /// The body's nodes.
+    /// Nodes of the body.
     pub nodes: Vec<u32>,
-    centre_mm: Vector2<f64>,
-    size_mm: f64,
-    /// Both translations and the rotation.
+    frame: BodyFrame,
+    /// Amplitudes of both translations and the rotation.
     amplitude: Vector3<f64>,
-    /// The degree of freedom that anchors it.
+    /// Degree of freedom that anchors the motion.
     pub anchor: u32,
 }
 
 impl RigidMotion {
     /// Displacement per amplitude at a point of the body.
     pub(crate) fn at(&self, point_mm: Vector2<f64>) -> Vector2<f64> {
-        let arm = (point_mm - self.centre_mm) / self.size_mm;
+        let arm = (point_mm - self.frame.centre_mm) / self.frame.size_mm;
         Vector2::new(self.amplitude.x - self.amplitude.z * arm.y, self.amplitude.y + self.amplitude.z * arm.x)
     }
 }
 
-/// In words: which body moves how with these amplitudes of the `motions`; of several bodies, the one that moves most.
+/// Description of the motion with these amplitudes of `motions`; of several bodies, of the one that moves most.
 pub(crate) fn describe(motions: &[RigidMotion], amplitudes: &[f64]) -> String {
-    let sum_of = |body: &[u32]| -> Vector3<f64> {
-        let own = motions.iter().zip(amplitudes).filter(|(motion, _)| motion.nodes == body);
-        own.map(|(motion, amplitude)| *amplitude * motion.amplitude).sum()
-    };
-    let moving = motions.iter().map(|motion| (motion, sum_of(&motion.nodes)));
-    let Some((body, amplitude)) = moving.max_by(|a, b| a.1.norm().total_cmp(&b.1.norm())) else {
+    let moving = motions.iter().map(|motion| {
+        let own = motions.iter().zip(amplitudes).filter(|(other, _)| other.nodes == motion.nodes);
+        let sum: Vector3<f64> = own.map(|(other, amplitude)| *amplitude * other.amplitude).sum();
+        (motion.frame, sum)
+    });
+    let Some((frame, amplitude)) = moving.max_by(|a, b| a.1.norm().total_cmp(&b.1.norm())) else {
         return "nothing moves freely".to_owned();
     };
-    let (x, y) = (body.centre_mm.x, body.centre_mm.y);
+    let (x, y) = (frame.centre_mm.x, frame.centre_mm.y);
     let shift = Vector2::new(amplitude.x, amplitude.y);
-    // A motion t + ω ẑ × r/L turns about the point r = L ẑ × t/ω, and is a shift where that is far away.
-    let arm = body.size_mm * Vector2::new(-shift.y, shift.x) / amplitude.z;
+    // A motion t + ω ẑ × r/L is a rotation about r = L ẑ × t/ω, or a translation where that is far away.
+    let arm = frame.size_mm * Vector2::new(-shift.y, shift.x) / amplitude.z;
     if amplitude.z.abs() > 1e-3 * shift.norm() {
         format!("the body around ({x:.4}, {y:.4}) mm turns freely about ({:.4}, {:.4}) mm", x + arm.x, y + arm.y)
     } else {
@@ -61,7 +83,7 @@ pub(crate) fn describe(motions: &[RigidMotion], amplitudes: &[f64]) -> String {
     }
 }
 
-/// The nodes of each body: those connected through elements, by increasing number.
+/// Nodes of each body, connected through elements, by increasing number.
 pub(crate) fn bodies(solid: &Solid) -> Vec<Vec<u32>> {
     let mut sets = DisjointSets::new(solid.points_mm.len());
     let mut used = vec![false; solid.points_mm.len()];
@@ -78,49 +100,38 @@ pub(crate) fn bodies(solid: &Solid) -> Vec<Vec<u32>> {
     groups.into_values().collect()
 }
 
-/// The free rigid motions of all bodies of `solid` with the degrees of freedom `held`.
+/// Free rigid motions of all bodies of `solid` with the degrees of freedom `held`.
 pub(crate) fn free_motions(solid: &Solid, held: &[bool]) -> Vec<RigidMotion> {
     bodies(solid).into_iter().flat_map(|nodes| free_motions_of(solid, nodes, held)).collect()
 }
 
 fn free_motions_of(solid: &Solid, nodes: Vec<u32>, held: &[bool]) -> Vec<RigidMotion> {
-    let point = |node: u32| solid.points_mm[node as usize];
-    let centre_mm = nodes.iter().map(|&node| point(node)).sum::<Vector2<f64>>() / nodes.len() as f64;
-    let size_mm = nodes.iter().map(|&node| (point(node) - centre_mm).norm()).fold(0.0, f64::max);
-    let row = |node: u32, component: usize| {
-        let arm = (point(node) - centre_mm) / size_mm;
-        if component == 0 { Vector3::new(1.0, 0.0, -arm.y) } else { Vector3::new(0.0, 1.0, arm.x) }
-    };
+    let frame = BodyFrame::new(&solid.points_mm, &nodes);
+    let dofs = nodes.iter().flat_map(|node| [2 * node, 2 * node + 1]);
+    let (held, free): (Vec<_>, Vec<_>) = dofs
+        .map(|dof| (dof, frame.row(solid.points_mm[dof as usize / 2], dof as usize % 2)))
+        .partition(|(dof, _)| held[*dof as usize]);
     let mut gram = Matrix3::zeros();
-    let components = || nodes.iter().flat_map(|&node| [(node, 0), (node, 1)]);
-    for (node, component) in components() {
-        if held[2 * node as usize + component] {
-            let row = row(node, component);
-            gram += row * row.transpose();
-        }
+    for (_, row) in &held {
+        gram += row * row.transpose();
     }
     let eigen = gram.symmetric_eigen();
     let scale = eigen.eigenvalues.amax().max(1.0);
     let mut motions: Vec<Vector3<f64>> =
         (0..3).filter(|&k| eigen.eigenvalues[k] <= FREE * scale).map(|k| eigen.eigenvectors.column(k).into()).collect();
-    // Anchor each motion where it moves most among those still free, and take that movement out of the others.
+    // Each motion is anchored at the free degree of freedom that it moves most, whose movement is removed from the others.
     let mut anchored = Vec::with_capacity(motions.len());
     for k in 0..motions.len() {
         let own = motions[k];
-        let anchor = components()
-            .filter(|&(node, component)| !held[2 * node as usize + component])
-            .max_by(|a, b| row(a.0, a.1).dot(&own).abs().total_cmp(&row(b.0, b.1).dot(&own).abs()));
-        let Some((node, component)) = anchor else { break };
-        let pivot = row(node, component).dot(&own);
+        let anchor = free.iter().max_by(|(_, a), (_, b)| a.dot(&own).abs().total_cmp(&b.dot(&own).abs()));
+        let Some((anchor, row)) = anchor else { break };
+        let pivot = row.dot(&own);
         for other in motions.iter_mut().skip(k + 1) {
-            *other -= own * (row(node, component).dot(other) / pivot);
+            *other -= own * (row.dot(other) / pivot);
         }
-        anchored.push((own, 2 * node + component as u32));
+        anchored.push(RigidMotion { nodes: nodes.clone(), frame, amplitude: own, anchor: *anchor });
     }
     anchored
-        .into_iter()
-        .map(|(amplitude, anchor)| RigidMotion { nodes: nodes.clone(), centre_mm, size_mm, amplitude, anchor })
-        .collect()
 }
 
 #[cfg(test)]

@@ -14,15 +14,15 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::solid::ElementKind;
 
-/// Most nodes that an element has.
+/// Greatest number of nodes of an element.
 pub(crate) const MOST_NODES: usize = 9;
 
 /// Shape functions and their derivatives at one point of the reference cell; entries beyond the element's nodes are zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shape {
-    /// Nₐ.
+    /// Values Nₐ.
     pub values: [f64; MOST_NODES],
-    /// ∂Nₐ/∂ξ and ∂Nₐ/∂η.
+    /// Derivatives ∂Nₐ/∂ξ and ∂Nₐ/∂η.
     pub slopes: [[f64; 2]; MOST_NODES],
 }
 
@@ -33,7 +33,7 @@ const QUAD_NODES: [[f64; 2]; 9] =
 /// Nodes of the triangles on the reference cell.
 const TRIANGLE_NODES: [[f64; 2]; 6] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
 
-/// Where the nodes of an element lie on its reference cell.
+/// Coordinates of the nodes of an element on its reference cell.
 pub(crate) fn reference_nodes(kind: ElementKind) -> &'static [[f64; 2]] {
     match kind {
         ElementKind::Triangle3 => &TRIANGLE_NODES[..3],
@@ -116,12 +116,12 @@ impl Shape {
         self.slopes[node] = slope;
     }
 
-    /// x = Σ Nₐ xₐ.
+    /// Point x = Σ Nₐ xₐ.
     pub fn point(&self, corners_mm: &[Vector2<f64>]) -> Vector2<f64> {
         corners_mm.iter().zip(&self.values).map(|(x, n)| x * *n).sum()
     }
 
-    /// J with J_ik = ∂x_i/∂ξ_k.
+    /// Jacobian J_ik = ∂x_i/∂ξ_k.
     pub fn jacobian(&self, nodes_mm: &[Vector2<f64>]) -> Matrix2<f64> {
         let mut j = [[0.0; 2]; 2];
         for (x, d) in nodes_mm.iter().zip(&self.slopes) {
@@ -133,8 +133,7 @@ impl Shape {
         Matrix2::new(j[0][0], j[0][1], j[1][0], j[1][1])
     }
 
-    /// ∇Nₐ in the plane, 1/mm, with the determinant of J, mm². The determinant is given whatever it is; the gradients are
-    /// of use only where it is positive.
+    /// Gradients ∇Nₐ, 1/mm, and the determinant of J, mm²; the gradients are valid where it is positive.
     pub fn gradients(&self, nodes_mm: &[Vector2<f64>]) -> ([[f64; 2]; MOST_NODES], f64) {
         let j = self.jacobian(nodes_mm);
         let determinant = j.m11 * j.m22 - j.m12 * j.m21;
@@ -147,12 +146,12 @@ impl Shape {
     }
 }
 
-/// The quadratic Lagrange polynomial of the node at −1, 0 or 1, and its derivative.
+/// Quadratic Lagrange polynomial of the node at −1, 0 or 1, and its derivative.
 fn quadratic(node: f64, x: f64) -> (f64, f64) {
     if node == 0.0 { (1.0 - x * x, -2.0 * x) } else { (0.5 * x * (x + node), x + 0.5 * node) }
 }
 
-/// Shape functions along an edge, s from −1 to 1: of the ends and, on a quadratic edge, of the middle; and d/ds of them.
+/// Shape functions of the ends and, on a quadratic edge, of the middle at s from −1 to 1, and their derivatives d/ds.
 pub fn along_edge(quadratic_edge: bool, s: f64) -> ([f64; 3], [f64; 3]) {
     if quadratic_edge {
         ([0.5 * s * (s - 1.0), 0.5 * s * (s + 1.0), 1.0 - s * s], [s - 0.5, s + 0.5, -2.0 * s])

@@ -1,15 +1,13 @@
-//! The plane elastic bodies of a mesh: nodes and elements with their materials.
+//! Plane elastic bodies: nodes and elements with their materials.
 //!
 //! Degrees of freedom are numbered `2 · node + component`, component 0 along x and 1 along y.
-
-use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use gearwear_mesh::{CellBlock, CellKind, DataArray, Mesh, Values};
 
-/// A plane element; nodes are corners first, anticlockwise, then the middles of the sides in the same order.
+/// Kind of plane element; nodes are the corners anticlockwise, then the middles of the sides in the same order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum ElementKind {
     /// Linear triangle.
@@ -24,18 +22,18 @@ pub enum ElementKind {
     Quad9,
 }
 
-/// One element.
+/// Plane element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Element {
-    /// What it is.
+    /// Kind of the element.
     pub kind: ElementKind,
-    /// Its nodes; the first [`ElementKind::node_count`] count.
+    /// Nodes, of which the first [`ElementKind::node_count`] are used.
     nodes: [u32; 9],
-    /// Which material of the analysis.
+    /// Number of the material.
     pub material: u16,
 }
 
-/// Bodies in the plane; those that share no node move independently.
+/// Plane elastic bodies; those that share no node move independently.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Solid {
     /// Nodes, mm.
@@ -45,7 +43,7 @@ pub struct Solid {
 }
 
 impl ElementKind {
-    /// The kind of cell that such an element is in a mesh.
+    /// Kind of cell in a mesh.
     pub fn cell_kind(self) -> CellKind {
         match self {
             ElementKind::Triangle3 => CellKind::Triangle,
@@ -56,7 +54,7 @@ impl ElementKind {
         }
     }
 
-    /// Nodes of an element.
+    /// Number of nodes.
     pub fn node_count(self) -> usize {
         match self {
             ElementKind::Triangle3 => 3,
@@ -69,36 +67,36 @@ impl ElementKind {
 }
 
 impl Element {
-    /// An element of `kind` on `nodes` ([`ElementKind::node_count`] of them).
+    /// Element of `kind` on its [`ElementKind::node_count`] nodes.
     pub fn new(kind: ElementKind, nodes: &[u32], material: u16) -> Self {
         let mut own = [0; 9];
         own[..kind.node_count()].copy_from_slice(nodes);
         Self { kind, nodes: own, material }
     }
 
-    /// Its nodes.
+    /// Nodes, corners first.
     pub fn nodes(&self) -> &[u32] {
         &self.nodes[..self.kind.node_count()]
     }
 }
 
+/// Adds a block of cells to a mesh, with the number of their body as cell data `body`.
+pub(super) fn add_body(mesh: &mut Mesh, block: CellBlock, body: u16) {
+    let values = Values::Integers(vec![i64::from(body); block.len()]);
+    mesh.cell_data.entry("body".to_owned()).or_default().push(DataArray { components: 1, values });
+    mesh.cells.push(block);
+}
+
 impl Solid {
-    /// The bodies as a mesh: blocks of one kind of element and one material each, in the order of the elements, with the
+    /// Bodies as a mesh: blocks of one kind of element and one material each, in the order of the elements, with the
     /// material as cell data `body`.
     pub fn to_mesh(&self) -> Mesh {
-        let blocks = || self.elements.chunk_by(|a, b| (a.kind, a.material) == (b.kind, b.material));
-        let nodes =
-            |block: &[Element]| block.iter().flat_map(|e| e.nodes().iter().map(|&node| node as usize)).collect();
-        let body = |block: &[Element]| Values::Integers(vec![i64::from(block[0].material); block.len()]);
-        Mesh {
-            points: self.points_mm.iter().map(|p| [p.x, p.y, 0.0]).collect(),
-            cells: blocks().map(|block| CellBlock { kind: block[0].kind.cell_kind(), nodes: nodes(block) }).collect(),
-            cell_data: BTreeMap::from([(
-                "body".to_owned(),
-                blocks().map(|block| DataArray { components: 1, values: body(block) }).collect(),
-            )]),
-            ..Mesh::default()
+        let mut mesh = Mesh { points: self.points_mm.iter().map(|p| [p.x, p.y, 0.0]).collect(), ..Mesh::default() };
+        for block in self.elements.chunk_by(|a, b| (a.kind, a.material) == (b.kind, b.material)) {
+            let nodes = block.iter().flat_map(Element::nodes).map(|&node| node as usize).collect();
+            add_body(&mut mesh, CellBlock { kind: block[0].kind.cell_kind(), nodes }, block[0].material);
         }
+        mesh
     }
 
     /// Number of degrees of freedom, supports included.

@@ -1,16 +1,14 @@
-//! The assembled stiffness of a solid.
+//! Assembled stiffness of a solid.
 //!
-//! Nodes couple where they share an element (or, for linear triangles in plane strain, a patch of `nodal_triangle`), in blocks of
-//! 2 × 2 ([`NodeMatrix`]).
-//!
-//! Elements are added in their order, so the bits of K depend on nothing else.
+//! Nodes are coupled where they share an element (or, for linear triangles in plane strain, a patch of `nodal_triangle`), in blocks of
+//! 2 × 2 ([`NodeMatrix`]). Elements are added in order, so that K is the same bit for bit.
 
 use nalgebra::Vector2;
 
 use super::elastic::{Analysis, Elastic};
 use super::element::{ElementError, ElementMatrix, Fold, MOST_DOFS, check_nodes, stiffness_n_per_mm2};
 use super::enhanced_quad::EnhancedQuad;
-use super::nodal_triangle::{Patch, patches};
+use super::nodal_triangle::{NodePatch, patches};
 use super::node_matrix::NodeMatrix;
 use super::projected_volume::ProjectedVolume;
 use super::shape::MOST_NODES;
@@ -20,7 +18,7 @@ use super::support::RigidParts;
 /// Degrees of freedom of a node.
 const PER_NODE: usize = 2;
 
-/// The stiffness matrix of a solid, N/mm per mm of thickness.
+/// Stiffness matrix of a solid, N/mm per mm of thickness.
 #[derive(Debug, Clone)]
 pub struct Stiffness {
     matrix: NodeMatrix,
@@ -29,28 +27,29 @@ pub struct Stiffness {
 }
 
 impl Stiffness {
-    /// Assembles the stiffness of `solid`, whose elements name `materials` by their place.
+    /// Assembles the stiffness of `solid`, whose elements refer to `materials` by number.
     pub fn new(solid: &Solid, materials: &[Elastic], analysis: Analysis) -> Result<Self, ElementError> {
         check_references(solid, materials)?;
         let patches = averaged_patches(solid, analysis);
-        let groups = || solid.elements.iter().map(|e| e.nodes()).chain(patches.iter().map(|p| p.nodes.as_slice()));
-        let matrix = NodeMatrix::new(PER_NODE, solid.points_mm.len(), groups);
+        let matrix = NodeMatrix::new(PER_NODE, solid.points_mm.len(), || {
+            solid.elements.iter().map(|e| e.nodes()).chain(patches.iter().map(|p| p.nodes.as_slice()))
+        });
         let mut stiffness = Self { matrix, analysis, parts: RigidParts::new(solid) };
         stiffness.assemble(solid, materials, &patches)?;
         Ok(stiffness)
     }
 
-    /// The matrix itself.
+    /// Sparse matrix K.
     pub fn matrix(&self) -> &NodeMatrix {
         &self.matrix
     }
 
-    /// What can move as a rigid body.
+    /// Parts that can move as rigid bodies.
     pub(super) fn parts(&self) -> &RigidParts {
         &self.parts
     }
 
-    fn assemble(&mut self, solid: &Solid, materials: &[Elastic], patches: &[Patch]) -> Result<(), ElementError> {
+    fn assemble(&mut self, solid: &Solid, materials: &[Elastic], patches: &[NodePatch]) -> Result<(), ElementError> {
         let d_mpa: Vec<_> = materials.iter().map(|material| material.stiffness_mpa(self.analysis)).collect();
         let plane_strain = self.analysis == Analysis::PlaneStrain;
         let mut entries: ElementMatrix = [[0.0; MOST_DOFS]; MOST_DOFS];
@@ -104,15 +103,15 @@ impl Stiffness {
     }
 }
 
-/// The patches of linear triangles where their volume strain is averaged.
-fn averaged_patches(solid: &Solid, analysis: Analysis) -> Vec<Patch> {
+/// Patches of linear triangles whose volume strain is averaged, which is in plane strain.
+pub(super) fn averaged_patches(solid: &Solid, analysis: Analysis) -> Vec<NodePatch> {
     match analysis {
         Analysis::PlaneStrain => patches(solid),
         Analysis::PlaneStress => Vec::new(),
     }
 }
 
-/// Every node and material that an element names must be there, and every material be stable.
+/// Checks that all nodes and materials of elements exist, and that materials are stable.
 pub(super) fn check_references(solid: &Solid, materials: &[Elastic]) -> Result<(), ElementError> {
     for (number, material) in materials.iter().enumerate() {
         let Elastic { young_modulus_mpa, poisson_ratio } = *material;

@@ -1,20 +1,18 @@
 //! Stresses at the nodes.
 //!
-//! Inside an element stresses are best at certain points: the 2 × 2 Gauss points of quadrilaterals, three points of the
-//! quadratic triangle, the middle of the linear one. From there they are carried to the nodes by the (bi)linear function
-//! through them, and the values of the elements around a node are averaged, those of one material only: across an
-//! interface stresses may jump.
+//! Stresses are sampled at the optimal points of an element: the 2 × 2 Gauss points of quadrilaterals, three points of the
+//! quadratic triangle, the middle of the linear one. They are extrapolated to the nodes by the (bi)linear function
+//! through them, and averaged over the elements of one material around a node, as stresses may jump across an
+//! interface.
 //!
 //! ```text
 //! σ(node) = 1/n Σₑ Σ_g w_g(node) σ_g        σ_g = D B_g uₑ
 //! ```
 //!
-//! The stress is the one that the elements work with: of the bilinear quadrilateral with its enhanced strain
-//! (`enhanced_quad`); in plane strain of the quadratic elements with their projected volume strain
-//! (`projected_volume`), of linear triangles with the mean volume strain around the node
-//! (`nodal_triangle`). All of this is linear in the
-//! displacements, so that a stress is also a row of coefficients: solving for that row as a load (K λ = row) gives the
-//! stress under every load F as λ · F, without solving for the load.
+//! Strains are those of the element formulation: enhanced in the bilinear quadrilateral (`enhanced_quad`); in plane strain with the
+//! projected volume strain of quadratic elements (`projected_volume`) and the mean volume strain around the node of linear triangles
+//! (`nodal_triangle`). A stress is linear in the displacements, a row of coefficients: solving for that row as a load (K λ = row) gives the
+//! stress under every load F as λ · F.
 //!
 //! Source: J. Barlow, *International Journal for Numerical Methods in Engineering* 10 (1976) 243–251 (optimal points);
 //! E. Hinton and J. S. Campbell, same journal 8 (1974) 461–480 (extrapolation and averaging).
@@ -24,30 +22,30 @@ use nalgebra::{Matrix3, Matrix4x3, SMatrix, Vector2, Vector4};
 use super::elastic::{Analysis, Elastic};
 use super::element::{ElementError, Fold, MOST_DOFS};
 use super::enhanced_quad::EnhancedQuad;
-use super::nodal_triangle::{Patch, patches};
+use super::nodal_triangle::NodePatch;
 use super::projected_volume::ProjectedVolume;
 use super::quadrature::GAUSS_2;
 use super::shape::Shape;
 use super::solid::{ElementKind, Solid};
-use super::stiffness::check_references;
+use super::stiffness::{averaged_patches, check_references};
 
-/// A component of stress in the plane of the bodies or across it.
+/// Component of stress in the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StressComponent {
-    /// σ_x.
+    /// Normal stress σ_x.
     X,
-    /// σ_y.
+    /// Normal stress σ_y.
     Y,
-    /// τ_xy.
+    /// Shear stress τ_xy.
     Xy,
 }
 
-/// The stress at a node, in the elements of one material.
+/// Stress at a node, in the elements of one material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NodalStress {
-    /// The node.
+    /// Number of the node.
     pub node: u32,
-    /// The material.
+    /// Number of the material.
     pub material: u16,
     /// σ_x, MPa.
     pub sigma_x_mpa: f64,
@@ -60,19 +58,19 @@ pub struct NodalStress {
 }
 
 impl NodalStress {
-    /// σ_v, MPa.
+    /// Von Mises stress, MPa.
     pub fn von_mises_mpa(&self) -> f64 {
         von_mises_mpa([self.sigma_x_mpa, self.sigma_y_mpa, self.sigma_z_mpa, self.tau_xy_mpa, 0.0, 0.0])
     }
 }
 
-/// σ_v = √(½ [(σ_x − σ_y)² + (σ_y − σ_z)² + (σ_z − σ_x)²] + 3 (τ_xy² + τ_yz² + τ_zx²)) of (x, y, z, xy, yz, zx), MPa.
+/// Von Mises stress √(½ [(σ_x − σ_y)² + (σ_y − σ_z)² + (σ_z − σ_x)²] + 3 (τ_xy² + τ_yz² + τ_zx²)) of (x, y, z, xy, yz, zx), MPa.
 pub fn von_mises_mpa([x, y, z, xy, yz, zx]: [f64; 6]) -> f64 {
     let squares = (x - y).powi(2) + (y - z).powi(2) + (z - x).powi(2);
     (0.5 * squares + 3.0 * (xy.powi(2) + yz.powi(2) + zx.powi(2))).sqrt()
 }
 
-/// Recovers stresses from displacements of one solid.
+/// Recovery of nodal stresses from displacements of one solid.
 pub struct StressRecovery<'a> {
     solid: &'a Solid,
     materials: &'a [Elastic],
@@ -80,14 +78,14 @@ pub struct StressRecovery<'a> {
     /// (node, material, element, place of the node in the element), in rising order.
     around: Vec<(u32, u16, u32, u8)>,
     /// Patches of averaged triangles, by node and material.
-    patches: Vec<Patch>,
+    patches: Vec<NodePatch>,
 }
 
-/// (σ_x, σ_y, τ_xy, σ_z) at one point of an element from the displacements of its nodes, MPa/mm.
+/// Stress (σ_x, σ_y, τ_xy, σ_z) at one point of an element per displacement of its nodes, MPa/mm.
 type StressMatrix = SMatrix<f64, 4, MOST_DOFS>;
 
 impl<'a> StressRecovery<'a> {
-    /// For the elements of `solid`, which name `materials` by their place.
+    /// Recovery for `solid`, whose elements refer to `materials` by number.
     pub fn new(solid: &'a Solid, materials: &'a [Elastic], analysis: Analysis) -> Result<Self, ElementError> {
         check_references(solid, materials)?;
         let mut around = Vec::new();
@@ -95,7 +93,7 @@ impl<'a> StressRecovery<'a> {
             around.extend((0..).zip(element.nodes()).map(|(a, node)| (*node, element.material, number, a)));
         }
         around.sort_unstable();
-        let patches = if analysis == Analysis::PlaneStrain { patches(solid) } else { Vec::new() };
+        let patches = averaged_patches(solid, analysis);
         Ok(Self { solid, materials, analysis, around, patches })
     }
 
@@ -105,7 +103,7 @@ impl<'a> StressRecovery<'a> {
     /// Where there is not one displacement for each degree of freedom.
     pub fn nodal_stresses(&self, displacement_mm: &[f64]) -> Result<Vec<NodalStress>, ElementError> {
         assert_eq!(displacement_mm.len(), self.solid.dofs(), "one displacement for each degree of freedom");
-        // Per element and node: the extrapolated stress.
+        // Extrapolated stress by element and node.
         let mut of_elements: Vec<[Vector4<f64>; 9]> = Vec::with_capacity(self.solid.elements.len());
         for (number, element) in self.solid.elements.iter().enumerate() {
             let mut u = SMatrix::<f64, MOST_DOFS, 1>::zeros();
@@ -168,8 +166,7 @@ impl<'a> StressRecovery<'a> {
         Ok(row.chunk_by(|p, q| p.0 == q.0).map(|same| (same[0].0, same.iter().map(|entry| entry.1).sum())).collect())
     }
 
-    /// Where averaged triangles meet at a node: the mean volume strain as a row, and κ times the fraction of the elements
-    /// there that take it.
+    /// Mean volume strain of averaged triangles around a node as a row, and κ times the fraction of triangles among the elements there.
     fn volume_row(&self, group: &[(u32, u16, u32, u8)]) -> Option<(Vec<(u32, f64)>, f64)> {
         let (node, material, ..) = *group.first()?;
         let found = self.patches.binary_search_by_key(&(node, material), |patch| (patch.node, patch.material));
@@ -181,7 +178,7 @@ impl<'a> StressRecovery<'a> {
         Some((dofs.zip(row.into_iter().flatten()).collect(), weight_mpa))
     }
 
-    /// The stress at the sample points of an element; of averaged triangles its deviatoric part.
+    /// Stress at the sample points of an element; of averaged triangles the deviatoric part.
     fn sample_stresses(&self, number: usize) -> Result<Vec<StressMatrix>, ElementError> {
         let element = &self.solid.elements[number];
         let kind = element.kind;
@@ -195,12 +192,12 @@ impl<'a> StressRecovery<'a> {
             let d = material.stiffness_mpa(self.analysis);
             let quad = EnhancedQuad::new(&nodes_mm, &d).map_err(distorted)?;
             let law = law(&d, self.analysis);
-            let stress = |at: &[f64; 2]| {
+            let stresses = points.iter().map(|at| {
                 let mut stress = StressMatrix::zeros();
                 stress.fixed_view_mut::<4, 8>(0, 0).copy_from(&(law * quad.strain_matrix(*at)));
                 stress
-            };
-            return Ok(points.iter().map(stress).collect());
+            });
+            return Ok(stresses.collect());
         }
         let plane_strain = self.analysis == Analysis::PlaneStrain;
         let volume = if plane_strain && ProjectedVolume::serves(kind) {
@@ -210,7 +207,7 @@ impl<'a> StressRecovery<'a> {
         };
         let d = if plane_strain { material.deviatoric_mpa() } else { material.stiffness_mpa(self.analysis) };
         let law = law(&d, self.analysis);
-        let stress = |at: &[f64; 2]| {
+        let stresses = points.iter().map(|at| {
             let shape = Shape::at(kind, *at);
             let (gradients, determinant_mm2) = shape.gradients(&nodes_mm);
             let at_mm = shape.point(&nodes_mm);
@@ -229,15 +226,15 @@ impl<'a> StressRecovery<'a> {
                 stress += VOLUME * volume.row(at_mm).transpose() * material.bulk_modulus_mpa();
             }
             Ok(stress)
-        };
-        points.iter().map(stress).collect()
+        });
+        stresses.collect()
     }
 }
 
-/// Where a volume strain acts: σ_x, σ_y and σ_z.
+/// Stress components of a volume strain: σ_x, σ_y and σ_z.
 const VOLUME: Vector4<f64> = Vector4::new(1.0, 1.0, 0.0, 1.0);
 
-/// D with a row for σ_z. Plane strain: σ_z = λ (ε_x + ε_y), where λ = D₁₂, of a deviatoric D too.
+/// Elasticity matrix D with a row for σ_z: λ (ε_x + ε_y) in plane strain, with λ = D₁₂ also for a deviatoric D.
 fn law(d_mpa: &Matrix3<f64>, analysis: Analysis) -> Matrix4x3<f64> {
     let across = if analysis == Analysis::PlaneStrain { d_mpa.m12 } else { 0.0 };
     let mut law = Matrix4x3::zeros();
@@ -247,10 +244,10 @@ fn law(d_mpa: &Matrix3<f64>, analysis: Analysis) -> Matrix4x3<f64> {
     law
 }
 
-/// 1/√3.
+/// Gauss abscissa 1/√3.
 const GAUSS: f64 = GAUSS_2[1].0;
 
-/// Where stresses are best, in the order of the corners.
+/// Optimal points for stresses, in the order of the corners.
 fn sample_points(kind: ElementKind) -> &'static [[f64; 2]] {
     match kind {
         ElementKind::Triangle3 => &[[1.0 / 3.0, 1.0 / 3.0]],
@@ -261,7 +258,7 @@ fn sample_points(kind: ElementKind) -> &'static [[f64; 2]] {
     }
 }
 
-/// Weights of the sample points for the value at a node: the linear shape functions of the cell whose corners they are.
+/// Weights of the sample points for the value at a node: linear shape functions of the cell whose corners they are.
 fn to_node(kind: ElementKind, node: usize) -> [f64; 4] {
     let [xi, eta] = super::shape::reference_nodes(kind)[node];
     let shape = match kind {

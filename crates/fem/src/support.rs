@@ -1,35 +1,37 @@
-//! Whether every body is held: rigid motions that the supports leave free.
+//! Check for rigid motions that the supports leave free.
 //!
-//! A stiffness factorises only where no part of the solid can move without strain. Rounding decides whether a factorisation
-//! notices that, so it is found beforehand. Elements that share an edge are one *part*; a part moves rigidly in three ways,
+//! A stiffness can be factorised only where no part of the solid can move without strain. As rounding may hide that in a
+//! factorisation, it is checked before. Elements that share an edge are one *part*; a part has three rigid motions,
 //!
 //! ```text
 //! u = c_x − ω (y − y₀),    v = c_y + ω (x − x₀)
 //! ```
 //!
-//! A held degree of freedom fixes one combination of them, and a node at which parts touch like a hinge equates two
-//! combinations of each. The solid is held when these conditions leave no motion: when the sum of their squares is positive
-//! definite over the motions of all parts that hang together.
+//! A held degree of freedom fixes one combination of them, and a node that parts share as a hinge equates two
+//! combinations of each. The solid is held where these conditions leave no motion: where the sum of their squares is positive
+//! definite over the motions of all connected parts.
 
-use nalgebra::{DMatrix, Vector2};
+use nalgebra::{DMatrix, Vector2, Vector3};
 
 use super::disjoint_sets::DisjointSets;
+use super::incidence::Incidence;
+use super::rigid_body::BodyFrame;
 use super::solid::{ElementKind, Solid};
 
-/// Least eigenvalue of the sum of squares, relative to the greatest, that counts as held. With lengths relative to the size
-/// of the part it is of the order of the squared fraction of the part that its supports span.
+/// Least ratio of the least to the greatest eigenvalue of the sum of squares. With lengths relative to the size
+/// of the part the ratio is of the order of the squared fraction of the part that its supports span.
 const LEAST_HOLD: f64 = 1e-13;
 
-/// The parts of a solid, and the hinges between them.
+/// Parts of a solid, and the hinges between them.
 #[derive(Debug, Clone)]
 pub(super) struct RigidParts {
     points_mm: Vec<Vector2<f64>>,
-    /// For each node the parts it belongs to, in rising order; most have one, hinges more, loose nodes none.
+    /// Parts of each node.
     parts_of_node: Vec<NodeParts>,
     count: usize,
 }
 
-/// Parts of one node.
+/// Parts that a node belongs to, in rising order.
 #[derive(Debug, Clone, PartialEq)]
 enum NodeParts {
     None,
@@ -37,12 +39,12 @@ enum NodeParts {
     Hinge(Vec<u32>),
 }
 
-/// A body that can move without strain.
+/// Body that can move without strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Loose {
-    /// The lowest of its nodes.
+    /// Lowest node.
     pub node: u32,
-    /// Held degrees of freedom that it has nevertheless.
+    /// Number of held degrees of freedom.
     pub held: usize,
 }
 
@@ -50,13 +52,12 @@ impl RigidParts {
     pub(super) fn new(solid: &Solid) -> Self {
         let nodes = solid.points_mm.len();
         let mut sets = DisjointSets::new(solid.elements.len());
-        let (start, around) = elements_around_nodes(solid);
-        let of = |node: u32| &around[start[node as usize]..start[node as usize + 1]];
+        let around = Incidence::new(nodes, || solid.elements.iter().map(|element| element.nodes()));
         for (number, element) in (0..).zip(&solid.elements) {
             let corners = corners(element.kind);
             for a in 0..corners {
                 let (p, q) = (element.nodes()[a], element.nodes()[(a + 1) % corners]);
-                for other in of(p).iter().filter(|other| **other < number) {
+                for other in around.of(p as usize).iter().filter(|other| **other < number) {
                     if solid.elements[*other as usize].nodes().contains(&q) {
                         sets.join(number, *other);
                     }
@@ -64,9 +65,9 @@ impl RigidParts {
             }
         }
         let (part, count) = sets.numbered();
-        let parts_of_node = (0..nodes as u32)
+        let parts_of_node = (0..nodes)
             .map(|node| {
-                let mut parts: Vec<u32> = of(node).iter().map(|element| part[*element as usize]).collect();
+                let mut parts: Vec<u32> = around.of(node).iter().map(|element| part[*element as usize]).collect();
                 parts.sort_unstable();
                 parts.dedup();
                 match parts.as_slice() {
@@ -79,14 +80,14 @@ impl RigidParts {
         Self { points_mm: solid.points_mm.clone(), parts_of_node, count }
     }
 
-    /// Whether any element has the node.
+    /// Whether the node belongs to an element.
     pub(super) fn has(&self, node: usize) -> bool {
         self.parts_of_node[node] != NodeParts::None
     }
 
-    /// The first body that `held` (one entry for each degree of freedom) does not hold.
+    /// First body, by its lowest node, that `held` (one entry for each degree of freedom) does not hold.
     pub(super) fn loose(&self, held: &[bool]) -> Option<Loose> {
-        // Bodies: parts joined by hinges.
+        // Bodies are parts joined by hinges.
         let mut sets = DisjointSets::new(self.count);
         for parts in &self.parts_of_node {
             if let NodeParts::Hinge(parts) = parts {
@@ -108,57 +109,57 @@ impl RigidParts {
                 NodeParts::Hinge(parts) => nodes_of_body[body[parts[0] as usize] as usize].push(node),
             }
         }
-        let mut loose: Vec<Loose> = parts_of_body
-            .iter()
-            .zip(&nodes_of_body)
-            .filter_map(|(parts, nodes)| self.loose_body(parts, nodes, held))
-            .collect();
-        loose.sort_by_key(|loose| loose.node);
-        loose.first().copied()
+        let bodies = parts_of_body.iter().zip(&nodes_of_body);
+        bodies.filter_map(|(parts, nodes)| self.loose_body(parts, nodes, held)).min_by_key(|loose| loose.node)
     }
 
-    /// Whether one body is loose; `parts` and `nodes` in rising order.
+    /// Body of these `parts` and `nodes`, in rising order, where it is loose.
     fn loose_body(&self, parts: &[u32], nodes: &[u32], held: &[bool]) -> Option<Loose> {
-        let at = |node: u32| self.points_mm[node as usize];
-        let centre = nodes.iter().map(|node| at(*node)).sum::<Vector2<f64>>() / nodes.len() as f64;
-        let size = nodes.iter().map(|node| (at(*node) - centre).norm()).fold(0.0, f64::max);
-        let place = |part: u32| 3 * parts.partition_point(|other| *other < part);
-        let motion = |node: u32, component: usize| {
-            let arm = (at(node) - centre) / size;
-            if component == 0 { [1.0, 0.0, -arm.y] } else { [0.0, 1.0, arm.x] }
-        };
-        let mut squares = DMatrix::<f64>::zeros(3 * parts.len(), 3 * parts.len());
-        let mut fix = |condition: &[(usize, f64)]| {
-            for (i, f) in condition {
-                for (k, g) in condition {
-                    squares[(*i, *k)] += f * g;
-                }
-            }
-        };
-        let entries = |part: u32, row: [f64; 3], sign: f64| [0, 1, 2].map(|i| (place(part) + i, sign * row[i]));
+        let frame = BodyFrame::new(&self.points_mm, nodes);
+        let mut conditions = Conditions { parts, squares: DMatrix::zeros(3 * parts.len(), 3 * parts.len()) };
         let mut fixed = 0;
         for node in nodes {
             for component in 0..2 {
-                let row = motion(*node, component);
+                let row = frame.row(self.points_mm[*node as usize], component);
                 let first = match &self.parts_of_node[*node as usize] {
                     NodeParts::None => continue,
                     NodeParts::One(part) => *part,
                     NodeParts::Hinge(parts) => {
                         for pair in parts.windows(2) {
-                            fix(&[entries(pair[0], row, 1.0), entries(pair[1], row, -1.0)].concat());
+                            conditions.add(&[(pair[0], 1.0), (pair[1], -1.0)], row);
                         }
                         parts[0]
                     }
                 };
                 if held[2 * *node as usize + component] {
                     fixed += 1;
-                    fix(&entries(first, row, 1.0));
+                    conditions.add(&[(first, 1.0)], row);
                 }
             }
         }
+        let squares = conditions.squares;
         let eigenvalues = squares.symmetric_eigenvalues();
         let held_fast = eigenvalues.min() > LEAST_HOLD * eigenvalues.max();
         if held_fast { None } else { Some(Loose { node: nodes[0], held: fixed }) }
+    }
+}
+
+/// Sum of squares of the conditions on the motions of a body's parts.
+struct Conditions<'a> {
+    parts: &'a [u32],
+    squares: DMatrix<f64>,
+}
+
+impl Conditions<'_> {
+    /// Adds the condition that the combinations `row` of the motions of parts, with signs, add up to zero.
+    fn add(&mut self, parts: &[(u32, f64)], row: Vector3<f64>) {
+        for (p, f) in parts {
+            for (q, g) in parts {
+                let [p, q] = [p, q].map(|part| 3 * self.parts.partition_point(|other| other < part));
+                let mut block = self.squares.fixed_view_mut::<3, 3>(p, q);
+                block += (*f * row) * (*g * row).transpose();
+            }
+        }
     }
 }
 
@@ -167,25 +168,4 @@ fn corners(kind: ElementKind) -> usize {
         ElementKind::Triangle3 | ElementKind::Triangle6 => 3,
         ElementKind::Quad4 | ElementKind::Quad8 | ElementKind::Quad9 => 4,
     }
-}
-
-/// For each node where its elements start, and the elements.
-fn elements_around_nodes(solid: &Solid) -> (Vec<usize>, Vec<u32>) {
-    let nodes = solid.points_mm.len();
-    let mut start = vec![0usize; nodes + 1];
-    for node in solid.elements.iter().flat_map(|element| element.nodes()) {
-        start[*node as usize + 1] += 1;
-    }
-    for node in 0..nodes {
-        start[node + 1] += start[node];
-    }
-    let mut next = start.clone();
-    let mut around = vec![0; start[nodes]];
-    for (number, element) in (0..).zip(&solid.elements) {
-        for node in element.nodes() {
-            around[next[*node as usize]] = number;
-            next[*node as usize] += 1;
-        }
-    }
-    (start, around)
 }

@@ -1,14 +1,14 @@
-//! The kinds of cells, under meshio's names.
+//! Kinds of cells, with the names of meshio.
 
 use serde::{Deserialize, Serialize};
 
-/// A kind of cell with VTK's number for it (`vtkCellType.h`). Nodes, as in VTK: corners first, anticlockwise in the plane, then the
+/// Kind of cell with its number in VTK (`vtkCellType.h`). Nodes as in VTK: corners, anticlockwise in the plane, then the
 /// middles of the sides in the same order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[repr(u8)]
 pub enum CellKind {
-    /// A point.
+    /// Point.
     Vertex = 1,
     /// Line of two nodes.
     Line = 3,
@@ -66,7 +66,7 @@ impl CellKind {
         CellKind::Pyramid13,
     ];
 
-    /// Nodes of a cell.
+    /// Number of nodes.
     pub fn node_count(self) -> usize {
         match self {
             CellKind::Vertex => 1,
@@ -85,7 +85,7 @@ impl CellKind {
         }
     }
 
-    /// 0 for a point to 3 for a solid.
+    /// Dimension, from 0 for a point to 3 for a solid.
     pub fn dimension(self) -> u8 {
         match self {
             CellKind::Vertex => 0,

@@ -1,108 +1,108 @@
-//! Whether the parts of a mesh fit together.
+//! Check of the consistency of a mesh.
 
 use super::{DataArray, Mesh, Values};
 
-/// A contradiction within a mesh. Nodes, cells and blocks count from 0.
+/// Inconsistency of a mesh. Nodes, cells and blocks count from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Inconsistency {
     /// A coordinate is infinite or not a number.
     #[error("node {node} (counted from 0) has a coordinate that is not finite")]
     NotFinite {
-        /// The node.
+        /// Number of the node.
         node: usize,
     },
-    /// A block's nodes do not come out even.
+    /// The number of nodes of a block is not a multiple of that of a cell.
     #[error("block {block} of cells ends within a cell: it lists {nodes} nodes, {per_cell} for each cell")]
     PartCell {
-        /// The block.
+        /// Number of the block.
         block: usize,
-        /// Nodes listed.
+        /// Number of nodes listed.
         nodes: usize,
-        /// Nodes of a cell of its kind.
+        /// Number of nodes of a cell.
         per_cell: usize,
     },
-    /// A cell or a set refers to a node that is not there.
+    /// A cell or a set refers to a node that does not exist.
     #[error("{owner} refers to node {node} (counted from 0) of {nodes}")]
     NoSuchNode {
-        /// Which cell or set.
+        /// Cell or set.
         owner: String,
-        /// The node.
+        /// Number of the node.
         node: usize,
-        /// Nodes of the mesh.
+        /// Number of nodes of the mesh.
         nodes: usize,
     },
-    /// A set refers to a cell that is not there.
+    /// A set refers to a cell that does not exist.
     #[error("set {set:?} refers to cell {cell} of block {block} (counted from 0), which has {cells}")]
     NoSuchCell {
-        /// The set.
+        /// Name of the set.
         set: String,
-        /// The block.
+        /// Number of the block.
         block: usize,
-        /// The cell.
+        /// Number of the cell.
         cell: usize,
-        /// Cells of the block.
+        /// Number of cells of the block.
         cells: usize,
     },
-    /// Not one list for each block of cells.
+    /// There is not one list for each block of cells.
     #[error("{what} {name:?} has {lists} lists for {blocks} blocks of cells")]
     Blocks {
         /// Set or data.
         what: &'static str,
-        /// Its name.
+        /// Name of the set or data.
         name: String,
-        /// Lists given.
+        /// Number of lists.
         lists: usize,
-        /// Blocks of the mesh.
+        /// Number of blocks.
         blocks: usize,
     },
-    /// A data array of the wrong length.
+    /// A data array has the wrong length.
     #[error("data {name:?} has {values} values for {owners} of {components} components")]
     DataLength {
-        /// Its name.
+        /// Name of the data.
         name: String,
-        /// Values given.
+        /// Number of values.
         values: usize,
-        /// Nodes, or cells of the block.
+        /// Number of nodes, or of cells of the block.
         owners: usize,
-        /// Components said to be given.
+        /// Number of components.
         components: usize,
     },
     /// Two arrays of the same data differ in their components or type.
     #[error("data {name:?} changes its type or its number of components from block to block")]
     DataKind {
-        /// Its name.
+        /// Name of the data.
         name: String,
     },
-    /// A set that is not in ascending order or names something twice.
+    /// A set is not in ascending order, or has repetitions.
     #[error("set {name:?} is not in ascending order without repetition")]
     NotAscending {
-        /// Its name.
+        /// Name of the set.
         name: String,
     },
-    /// Two names with the same tag, or a dimension above 3.
+    /// Two names have the same tag.
     #[error("names {first:?} and {second:?} have the same tag {tag} of dimension {dimension}")]
     TagTwice {
-        /// One name.
+        /// First name.
         first: String,
-        /// The other name.
+        /// Second name.
         second: String,
-        /// The tag.
+        /// Tag of both.
         tag: i64,
-        /// Its dimension.
+        /// Dimension of the tag.
         dimension: u8,
     },
-    /// A dimension above 3.
+    /// A dimension is above 3.
     #[error("the tag of {name:?} has dimension {dimension}; allowed: 0 to 3")]
     Dimension {
-        /// The name.
+        /// Name of the tag.
         name: String,
-        /// The dimension.
+        /// Dimension of the tag.
         dimension: u8,
     },
 }
 
 impl DataArray {
-    /// How many numbers there are.
+    /// Number of values.
     pub fn value_count(&self) -> usize {
         match &self.values {
             Values::Integers(values) => values.len(),
@@ -126,9 +126,8 @@ impl DataArray {
 }
 
 impl Mesh {
-    /// Checks that the mesh does not contradict itself: coordinates are finite, every node and cell referred to exists, data
-    /// have the length they should have, sets are ascending, tags differ. Every mesh that is read has passed this; every mesh
-    /// to be written must.
+    /// Checks the consistency of the mesh: finite coordinates, existing nodes and cells, lengths of data, ascending sets and
+    /// different tags. Every mesh is checked when it is read or written.
     pub fn check(&self) -> Result<(), Inconsistency> {
         self.check_cells()?;
         self.check_data()?;

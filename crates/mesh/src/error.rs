@@ -1,4 +1,4 @@
-//! What can be wrong with a mesh file: where, what was found, what is allowed.
+//! Errors of mesh files, with the place, what was found and what is allowed.
 
 use std::fmt;
 use std::io;
@@ -6,167 +6,167 @@ use std::path::PathBuf;
 
 use super::check::Inconsistency;
 
-/// Why a mesh file could not be read or written.
+/// Reason why a mesh file cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum MeshFileError {
-    /// The system does not give the file.
+    /// The file cannot be read.
     #[error("cannot read {}", path.display())]
     Read {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
-    /// The system does not take the file.
+    /// The file cannot be written.
     #[error("cannot write {}", path.display())]
     Write {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
-    /// The name does not say which format.
+    /// The file name has no ending of a known format.
     #[error("{}: a mesh file ends in {allowed}", path.display())]
     Extension {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The endings known.
+        /// Known endings.
         allowed: &'static str,
     },
-    /// What the file holds is wrong.
+    /// The content of the file is wrong.
     #[error("{}: {fault}", path.display())]
     Content {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What is wrong, and where.
-        fault: Box<Fault>,
+        /// Fault with its place.
+        fault: Box<FileFault>,
     },
-    /// The format cannot hold the mesh.
+    /// The format cannot represent the mesh.
     #[error("{}: {reason}", path.display())]
     CannotHold {
-        /// The file that was to be written.
+        /// Path of the file.
         path: PathBuf,
-        /// What does not fit.
+        /// Part of the mesh that cannot be represented.
         reason: Box<Unwritable>,
     },
 }
 
-/// Something wrong in the content of a mesh file.
+/// Fault in the content of a mesh file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub struct Fault {
-    /// Where in the file; `None` where no single place is at fault.
+pub struct FileFault {
+    /// Place in the file; `None` for the file as a whole.
     pub place: Option<FilePosition>,
-    /// Section or element of the file, as the file calls it; empty where there is none.
+    /// Name of the section or element in the file, or empty.
     pub section: String,
-    /// What is wrong.
-    pub problem: Problem,
+    /// Kind of fault.
+    pub problem: FileProblem,
 }
 
-/// A place in a file.
+/// Place in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FilePosition {
-    /// A line, counted from 1.
+    /// Line, counted from 1.
     Line(usize),
-    /// An offset in bytes, counted from 0.
+    /// Offset in bytes, counted from 0.
     Byte(usize),
 }
 
-/// What is wrong at that place.
+/// Kind of fault in a mesh file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum Problem {
-    /// Something else stands there than may stand there.
+pub enum FileProblem {
+    /// The content differs from what is allowed.
     #[error("found {found}, expected {expected}")]
     Unexpected {
-        /// What stands there.
+        /// Content of the file.
         found: String,
-        /// What may stand there.
+        /// Allowed content.
         expected: String,
     },
     /// The file ends too early.
     #[error("the file ends where {expected} should follow")]
     Ended {
-        /// What is missing.
+        /// Missing content.
         expected: String,
     },
-    /// A count that the rest of the file cannot hold.
+    /// A count exceeds what the rest of the file can hold.
     #[error("{count} {what} announced, but the rest of the file holds at most {possible}")]
     Count {
-        /// What is counted.
+        /// Name of the counted items.
         what: &'static str,
-        /// The count in the file.
+        /// Count in the file.
         count: u64,
-        /// How many there can be.
+        /// Greatest possible count.
         possible: u64,
     },
-    /// The mesh would take far more memory than the file is long.
+    /// The mesh would need far more memory than the length of the file.
     #[error("sets and data of this file would come to more than {limit} entries ({LARGEST_EXPANSION} for each byte)")]
     TooLarge {
-        /// How many entries are allowed for a file of this length.
+        /// Number of entries allowed for a file of this length.
         limit: u64,
     },
-    /// A node that is not in the file, or not yet.
+    /// A node is not in the file, or not yet.
     #[error("node {number} does not exist; nodes must come before what refers to them")]
     NoSuchNode {
-        /// Its number in the file.
+        /// Number in the file.
         number: u64,
     },
-    /// An element that is not in the file, or not yet.
+    /// An element is not in the file, or not yet.
     #[error("element {number} does not exist")]
     NoSuchElement {
-        /// Its number in the file.
+        /// Number in the file.
         number: u64,
     },
-    /// A number given to two nodes or two elements.
+    /// Two nodes or two elements have the same number.
     #[error("{what} {number} is there twice")]
     Twice {
         /// Node or element.
         what: &'static str,
-        /// Its number in the file.
+        /// Number in the file.
         number: u64,
     },
-    /// Something valid that is not read here.
+    /// The content is valid but not supported.
     #[error("{what} is not supported; allowed: {allowed}")]
     Unsupported {
-        /// What it is.
+        /// Content of the file.
         what: String,
-        /// What can be used instead.
+        /// Supported alternatives.
         allowed: String,
     },
-    /// The parts do not make a mesh.
+    /// The content is not a consistent mesh.
     #[error(transparent)]
     Mesh(#[from] Inconsistency),
 }
 
-/// Most entries of sets and data per byte of file: a bound on memory, far above what meshes need. A set or a data array may
-/// be given in a few bytes for the whole mesh, so that without it a short file could ask for any amount.
+/// Greatest number of entries of sets and data per byte of file, far above what meshes need. As a set or a data array may
+/// be given in a few bytes for the whole mesh, a short file could otherwise need any amount of memory.
 pub const LARGEST_EXPANSION: u64 = 100;
 
-/// Why a format cannot hold a mesh.
+/// Reason why a format cannot represent a mesh.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Unwritable {
-    /// The mesh contradicts itself.
+    /// The mesh is inconsistent.
     #[error(transparent)]
     Mesh(#[from] Inconsistency),
-    /// A name has characters that the format has no way to write.
+    /// A name has characters that the format does not allow.
     #[error("{format} cannot hold the name {name:?}: {rule}")]
     Name {
-        /// The format.
+        /// Format.
         format: &'static str,
-        /// The name.
+        /// Name in the mesh.
         name: String,
-        /// What names may be.
+        /// Rule for names.
         rule: &'static str,
     },
-    /// Data the format has no place for.
+    /// The format has no place for some data.
     #[error("{format} cannot hold the {what} {name:?}: {rule}")]
     Data {
-        /// The format.
+        /// Format.
         format: &'static str,
-        /// What it is.
+        /// Kind of data.
         what: &'static str,
-        /// Its name.
+        /// Name of the data.
         name: String,
-        /// What can be held.
+        /// Data that the format can represent.
         rule: &'static str,
     },
 }
@@ -180,7 +180,7 @@ impl fmt::Display for FilePosition {
     }
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for FileFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(place) = self.place {
             write!(f, "{place}: ")?;
@@ -192,21 +192,38 @@ impl fmt::Display for Fault {
     }
 }
 
-impl Fault {
-    /// A fault of the file as a whole.
-    pub(super) fn anywhere(section: impl Into<String>, problem: impl Into<Problem>) -> Self {
+impl Unwritable {
+    /// Data that a format has no place for.
+    pub(super) fn data(format: &'static str, what: &'static str, name: &str, rule: &'static str) -> Self {
+        Self::Data { format, what, name: name.to_owned(), rule }
+    }
+}
+
+impl FileFault {
+    /// Fault of the file as a whole.
+    pub(super) fn anywhere(section: impl Into<String>, problem: impl Into<FileProblem>) -> Self {
         Self { place: None, section: section.into(), problem: problem.into() }
     }
 }
 
-impl Problem {
-    /// Something else than expected; long findings are cut.
+impl FileProblem {
+    /// Unexpected content, shortened if it is long.
     pub(super) fn unexpected(found: &str, expected: impl Into<String>) -> Self {
         const SHOWN: usize = 40;
         let mut shown: String = found.chars().take(SHOWN).collect();
         if found.chars().nth(SHOWN).is_some() {
             shown.push('…');
         }
-        Problem::Unexpected { found: format!("{shown:?}"), expected: expected.into() }
+        FileProblem::Unexpected { found: format!("{shown:?}"), expected: expected.into() }
+    }
+
+    /// Missing node of a file.
+    pub(super) fn no_such_node(number: u64) -> Self {
+        FileProblem::NoSuchNode { number }
+    }
+
+    /// Missing element of a file.
+    pub(super) fn no_such_element(number: u64) -> Self {
+        FileProblem::NoSuchElement { number }
     }
 }

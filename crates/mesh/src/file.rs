@@ -1,29 +1,29 @@
-//! Mesh files: which format a file name means, reading and writing.
+//! Reading and writing of mesh files, in the format of their ending.
 //!
 //! | ending | format | module |
 //! |---|---|---|
 //! | `.msh` | Gmsh 2.2 and 4.1, ASCII and binary | [`super::gmsh`] |
 //! | `.vtu` | VTK unstructured grid | [`super::vtu`] |
 //! | `.inp` | Abaqus (CalculiX) input | [`super::abaqus`] |
-//! | `.json` | the mesh itself | `json` |
+//! | `.json` | JSON of [`Mesh`] | `json` |
 //!
-//! What is read passes [`Mesh::check`]. Files come from anywhere: no content makes a reader panic, no count in a file is
-//! believed before it is checked against the bytes that are left, and sets and data, which can be given in a few bytes for a
-//! whole mesh, may come to [`super::error::LARGEST_EXPANSION`] entries for each byte of the file and no more.
+//! Every mesh read passes [`Mesh::check`]. Files may be hostile: no content makes a reader panic, counts are
+//! checked against the rest of the file, and sets and data, which can be given in a few bytes for a
+//! whole mesh, have at most [`super::error::LARGEST_EXPANSION`] entries for each byte of the file.
 
 use std::fs;
 use std::path::Path;
 
-use super::error::{Fault, MeshFileError, Unwritable};
+use super::error::{FileFault, MeshFileError, Unwritable};
 use super::gmsh::{self, GmshStyle};
 use super::vtu::{self, VtuEncoding};
 use super::{Mesh, abaqus, json};
 use gearwear_files::whole_file;
 
-/// The endings of mesh files.
+/// Endings of mesh files.
 pub(crate) const ALLOWED_ENDINGS: &str = ".msh (Gmsh 2.2 or 4.1), .vtu (VTK), .inp (Abaqus) or .json";
 
-/// A mesh format. The choices inside matter for writing alone: a file says itself how it is written.
+/// Mesh format; its options apply to writing only.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     /// Gmsh.
@@ -32,12 +32,12 @@ pub enum Format {
     Vtu(VtuEncoding),
     /// Abaqus input.
     Abaqus,
-    /// The serde form of [`Mesh`].
+    /// Serde form of [`Mesh`].
     Json,
 }
 
 impl Format {
-    /// The format that the ending of `path` means, in its usual style; upper or lower case.
+    /// Format of the ending of `path`, upper or lower case, with default options.
     pub fn of_path(path: &Path) -> Result<Self, MeshFileError> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
         match ending.as_deref() {
@@ -58,13 +58,13 @@ pub fn read(path: impl AsRef<Path>) -> Result<Mesh, MeshFileError> {
     from_bytes(format, &bytes).map_err(|fault| MeshFileError::Content { path: path.into(), fault: Box::new(fault) })
 }
 
-/// Writes `mesh` to `path` in the usual style of the format of its ending; the file is there whole or not at all.
+/// Writes `mesh` to `path` in the format of its ending, completely or not at all.
 pub fn write(mesh: &Mesh, path: impl AsRef<Path>) -> Result<(), MeshFileError> {
     let format = Format::of_path(path.as_ref())?;
     write_as(mesh, path, format)
 }
 
-/// Writes `mesh` to `path` as `format`, whatever its name; the file is there whole or not at all.
+/// Writes `mesh` to `path` in `format`, completely or not at all.
 pub fn write_as(mesh: &Mesh, path: impl AsRef<Path>, format: Format) -> Result<(), MeshFileError> {
     let path = path.as_ref();
     let bytes = to_bytes(mesh, format)
@@ -74,18 +74,18 @@ pub fn write_as(mesh: &Mesh, path: impl AsRef<Path>, format: Format) -> Result<(
 }
 
 /// Reads a mesh from the content of a file.
-pub fn from_bytes(format: Format, bytes: &[u8]) -> Result<Mesh, Fault> {
+pub fn from_bytes(format: Format, bytes: &[u8]) -> Result<Mesh, FileFault> {
     let mesh = match format {
         Format::Gmsh(_) => gmsh::read(bytes),
         Format::Vtu(_) => vtu::read(bytes),
         Format::Abaqus => abaqus::read(bytes),
         Format::Json => json::read(bytes),
     }?;
-    mesh.check().map_err(|inconsistency| Fault::anywhere("", inconsistency))?;
+    mesh.check().map_err(|inconsistency| FileFault::anywhere("", inconsistency))?;
     Ok(mesh)
 }
 
-/// The content of the file that holds `mesh`.
+/// Content of a file with `mesh`.
 pub fn to_bytes(mesh: &Mesh, format: Format) -> Result<Vec<u8>, Unwritable> {
     mesh.check()?;
     match format {

@@ -1,4 +1,4 @@
-//! Meshes as JSON: the serde form of [`Mesh`], field by field.
+//! Meshes as JSON, the serde form of [`Mesh`].
 //!
 //! ```json
 //! {"points": [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], "cells": [{"type": "line", "nodes": [0, 1]}],
@@ -7,29 +7,28 @@
 //!  "point_sets": {"fixed": [0]}, "cell_sets": {"edge": [[0]]}, "field_data": {"edge": {"tag": 3, "dimension": 1}}}
 //! ```
 //!
-//! JSON has no word for numbers that are not finite; in data they are the strings `"nan"`, `"inf"` and `"-inf"`. Numbers are
-//! the shortest decimals that read back as the same bits.
+//! Numbers that are not finite are the strings `"nan"`, `"inf"` and `"-inf"`, others the shortest decimals that read back as the same bits.
 
 use super::Mesh;
-use super::error::{Fault, FilePosition, Problem};
+use super::error::{FileFault, FilePosition, FileProblem};
 
 /// Reads a mesh from JSON.
-pub(super) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
-    serde_json::from_slice(bytes).map_err(|error| Fault {
+pub(super) fn read(bytes: &[u8]) -> Result<Mesh, FileFault> {
+    serde_json::from_slice(bytes).map_err(|error| FileFault {
         place: Some(FilePosition::Line(error.line())),
         section: "JSON".into(),
-        problem: Problem::unexpected(&error.to_string(), "a mesh with `points`, `cells`, …"),
+        problem: FileProblem::unexpected(&error.to_string(), "a mesh with `points`, `cells`, …"),
     })
 }
 
-/// The mesh as JSON, ending in a line break.
+/// JSON of a mesh, with a line break at the end.
 pub(super) fn write(mesh: &Mesh) -> Vec<u8> {
     let mut text = serde_json::to_vec(mesh).expect("numbers, lists and maps keyed by strings always serialise");
     text.push(b'\n');
     text
 }
 
-/// Reals whose non-finite values are strings.
+/// Serde form of reals whose non-finite values are strings.
 pub(super) mod reals {
     use std::borrow::Cow;
 
@@ -42,7 +41,7 @@ pub(super) mod reals {
         Named(Cow<'a, str>),
     }
 
-    /// Serialises finite numbers as they are and others by name.
+    /// Serialises finite numbers as numbers and others by name.
     pub(crate) fn serialize<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(values.iter().map(|&value| match value {
             value if value.is_finite() => Real::Finite(value),
@@ -51,10 +50,9 @@ pub(super) mod reals {
         }))
     }
 
-    /// The inverse of [`serialize`].
+    /// Inverse of [`serialize`].
     pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
-        let values = Vec::<Real>::deserialize(deserializer)?;
-        let number = |value| match value {
+        let values = Vec::<Real>::deserialize(deserializer)?.into_iter().map(|value| match value {
             Real::Finite(value) => Ok(value),
             Real::Named(name) => match name.as_ref() {
                 "nan" => Ok(f64::NAN),
@@ -62,7 +60,7 @@ pub(super) mod reals {
                 "-inf" => Ok(f64::NEG_INFINITY),
                 _ => Err(serde::de::Error::custom(format!("`{name}` is not a number, \"nan\", \"inf\" or \"-inf\""))),
             },
-        };
-        values.into_iter().map(number).collect()
+        });
+        values.collect()
     }
 }

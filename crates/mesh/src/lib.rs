@@ -1,9 +1,9 @@
-//! Finite-element meshes as plain data, shaped like those of Python's meshio: points, cells by type, data at points and
+//! Finite-element meshes as plain data, structured like those of Python's meshio: points, cells by type, data at points and
 //! cells, named sets.
 //!
-//! A mesh says nothing of materials or loads. Coordinates are in mm. Node numbers count from 0. Everything is kept in the
-//! order read, names included, so that reading what was written gives the same mesh bit for bit. Sets are ascending and
-//! name nothing twice ([`Mesh::check`]).
+//! A mesh has no materials or loads. Coordinates are in mm. Node numbers count from 0. Order and names of a file are
+//! kept, so that a mesh that is written and read is the same bit for bit. Sets are ascending without repetition
+//! ([`Mesh::check`]).
 //!
 //! [`read`] and [`write()`] take files of the formats that [`mod@file`] lists.
 
@@ -26,13 +26,13 @@ pub use cell_kind::CellKind;
 pub use error::MeshFileError;
 pub use file::{Format, from_bytes, read, to_bytes, write, write_as};
 
-/// A mesh.
+/// Finite-element mesh.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mesh {
     /// Coordinates of the nodes, mm; plane meshes have z = 0.
     pub points: Vec<[f64; 3]>,
-    /// The cells, in blocks of one kind each.
+    /// Cells in blocks of one kind each.
     pub cells: Vec<CellBlock>,
     /// Values at the nodes, by name.
     #[serde(default)]
@@ -43,7 +43,7 @@ pub struct Mesh {
     /// Named sets of nodes.
     #[serde(default)]
     pub point_sets: BTreeMap<String, Vec<usize>>,
-    /// Named sets of cells: for each block of [`Self::cells`] the numbers of its cells within the block.
+    /// Named sets of cells: numbers within the block for each block of [`Self::cells`].
     #[serde(default)]
     pub cell_sets: BTreeMap<String, Vec<Vec<usize>>>,
     /// Tag and dimension of the named sets that come from physical groups.
@@ -54,23 +54,23 @@ pub struct Mesh {
 /// Cells of one kind.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CellBlock {
-    /// What they are.
+    /// Kind of the cells.
     #[serde(rename = "type")]
     pub kind: CellKind,
-    /// Node numbers, [`CellKind::node_count`] for each cell, one cell after the other.
+    /// Node numbers cell by cell, [`CellKind::node_count`] each.
     pub nodes: Vec<usize>,
 }
 
 /// Numbers at nodes or cells.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DataArray {
-    /// Numbers for each node or cell: 1 a scalar, 2 or 3 a vector …
+    /// Number of components: 1 for a scalar, 2 or 3 for a vector …
     pub components: usize,
-    /// The numbers.
+    /// Values of all components, owner by owner.
     pub values: Values,
 }
 
-/// Numbers with their type, so that integers stay integers.
+/// Numbers with their type.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Values {
@@ -80,22 +80,22 @@ pub enum Values {
     Reals(#[serde(with = "json::reals")] Vec<f64>),
 }
 
-/// The tag of a physical group, unique within its dimension.
+/// Tag of a physical group, unique within its dimension.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PhysicalTag {
-    /// Its number.
+    /// Number of the group.
     pub tag: i64,
-    /// 0 points, 1 lines, 2 surfaces, 3 volumes.
+    /// Dimension: 0 points, 1 lines, 2 surfaces, 3 volumes.
     pub dimension: u8,
 }
 
 impl Mesh {
-    /// Adds numbers at the points, so many `components` of each.
+    /// Adds point data of `components` numbers each.
     pub fn add_point_data(&mut self, name: &str, components: usize, values: Vec<f64>) {
         self.point_data.insert(name.to_owned(), DataArray { components, values: Values::Reals(values) });
     }
 
-    /// Cells counted over all blocks, from `lists` of their numbers within each.
+    /// Numbers over all blocks of cells given by `lists` of their numbers within each block.
     fn over_all<'m>(&'m self, lists: &'m [Vec<usize>]) -> impl Iterator<Item = usize> + 'm {
         let mut start = 0;
         self.cells.iter().zip(lists).flat_map(move |(block, list)| {
@@ -107,7 +107,7 @@ impl Mesh {
 }
 
 impl CellBlock {
-    /// The cells' nodes, cell by cell.
+    /// Nodes of each cell.
     pub fn iter(&self) -> std::slice::ChunksExact<'_, usize> {
         self.nodes.chunks_exact(self.kind.node_count())
     }
@@ -117,7 +117,7 @@ impl CellBlock {
         self.nodes.len() / self.kind.node_count()
     }
 
-    /// Whether there are none.
+    /// Whether there are no cells.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }

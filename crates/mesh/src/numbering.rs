@@ -1,34 +1,33 @@
-//! What the readers share: the numbers that files give to nodes and elements, the allowance of entries, sets under
-//! construction.
+//! Numbers of nodes and elements in files, the bound on entries, and blocks and sets under construction, for all readers.
 
 use std::collections::BTreeMap;
 
-use super::error::{LARGEST_EXPANSION, Problem};
+use super::error::{FileProblem, LARGEST_EXPANSION};
 use super::{CellBlock, CellKind, DataArray, Values};
 
-/// Numbers of a file, in any order and with any gaps, to our own that count from 0.
+/// Map from the numbers of a file, in any order and with gaps, to indices from 0.
 #[derive(Debug, Default)]
 pub(super) struct Numbering {
-    /// (number in the file, our own), ascending.
+    /// Pairs (number in the file, index), ascending.
     pairs: Vec<(u64, usize)>,
 }
 
 impl Numbering {
-    /// From pairs in any order; no number may occur twice.
-    pub(super) fn new(mut pairs: Vec<(u64, usize)>, what: &'static str) -> Result<Self, Problem> {
+    /// Numbering of pairs in any order; no number may occur twice.
+    pub(super) fn new(mut pairs: Vec<(u64, usize)>, what: &'static str) -> Result<Self, FileProblem> {
         if !pairs.is_sorted() {
             pairs.sort_unstable();
         }
         match pairs.windows(2).find(|pair| pair[0].0 == pair[1].0) {
-            Some(pair) => Err(Problem::Twice { what, number: pair[0].0 }),
+            Some(pair) => Err(FileProblem::Twice { what, number: pair[0].0 }),
             None => Ok(Self { pairs }),
         }
     }
 
-    /// Our own number of what the file calls `number`.
+    /// Index of `number` of the file.
     pub(super) fn index(&self, number: u64) -> Option<usize> {
         let (first, _) = *self.pairs.first()?;
-        // Numbers without gaps are the rule: then the place is known at once.
+        // Without gaps, which is usual, the place follows from the number.
         let guess = usize::try_from(number.checked_sub(first)?).ok()?;
         if let Some(&(found, index)) = self.pairs.get(guess)
             && found == number
@@ -39,7 +38,7 @@ impl Numbering {
         Some(self.pairs[at].1)
     }
 
-    /// Those within `first ..= last`, ascending in the file's numbers.
+    /// Pairs with numbers in `first ..= last`, ascending.
     pub(super) fn range(&self, first: u64, last: u64) -> &[(u64, usize)] {
         let from = self.pairs.partition_point(|pair| pair.0 < first);
         let to = self.pairs.partition_point(|pair| pair.0 <= last);
@@ -47,7 +46,7 @@ impl Numbering {
     }
 }
 
-/// How many more entries of sets and data a file may ask for.
+/// Number of entries of sets and data that a file may still have.
 #[derive(Debug)]
 pub(super) struct Allowance {
     left: u64,
@@ -55,21 +54,21 @@ pub(super) struct Allowance {
 }
 
 impl Allowance {
-    /// For a file of `bytes`; small files get by in any case.
+    /// Allowance for a file of so many `bytes`, with a minimum for small files.
     pub(super) fn of(bytes: usize) -> Self {
         const LEAST: u64 = 10_000;
         let limit = (bytes as u64).saturating_mul(LARGEST_EXPANSION).max(LEAST);
         Self { left: limit, limit }
     }
 
-    /// Takes `entries` off, if they are still allowed.
-    pub(super) fn take(&mut self, entries: usize) -> Result<(), Problem> {
-        self.left = self.left.checked_sub(entries as u64).ok_or(Problem::TooLarge { limit: self.limit })?;
+    /// Subtracts `entries`, if they are still allowed.
+    pub(super) fn take(&mut self, entries: usize) -> Result<(), FileProblem> {
+        self.left = self.left.checked_sub(entries as u64).ok_or(FileProblem::TooLarge { limit: self.limit })?;
         Ok(())
     }
 }
 
-/// Blocks of cells while a file is read: cells in the order of the file, a new block wherever the kind changes.
+/// Blocks of cells under construction, in the order of the file, with a new block wherever the kind changes.
 #[derive(Debug, Default)]
 pub(super) struct CellList {
     pub blocks: Vec<CellBlock>,
@@ -83,7 +82,7 @@ impl CellList {
         self.count
     }
 
-    /// Begins a new block, also where the kind stays.
+    /// Begins a new block, also of the same kind.
     pub(super) fn begin(&mut self, kind: CellKind) {
         self.starts.push(self.count);
         self.blocks.push(CellBlock { kind, nodes: Vec::new() });
@@ -109,8 +108,8 @@ impl CellList {
         (kind, &self.blocks[block].nodes[within * per_cell..(within + 1) * per_cell])
     }
 
-    /// Divides the cells into blocks of the kinds and lengths given, empty ones included; false, and nothing done, if the
-    /// cells do not come out so.
+    /// Divides the cells into blocks of given kinds and lengths, empty ones included; does nothing and returns false if the
+    /// cells do not match.
     pub(super) fn divide(&mut self, lengths: &[(CellKind, usize)]) -> bool {
         let total = lengths.iter().try_fold(0_usize, |sum, &(_, length)| sum.checked_add(length));
         if total != Some(self.count) {
@@ -131,26 +130,26 @@ impl CellList {
         true
     }
 
-    /// The data of all cells, block by block.
+    /// Data of all cells, divided into blocks.
     pub(super) fn split(&self, array: &DataArray) -> Vec<DataArray> {
         let components = array.components;
-        let part = |(block, &start): (&CellBlock, &usize)| {
+        let parts = self.blocks.iter().zip(&self.starts).map(|(block, &start)| {
             let range = start * components..(start + block.len()) * components;
             let values = match &array.values {
                 Values::Integers(values) => Values::Integers(values[range].to_vec()),
                 Values::Reals(values) => Values::Reals(values[range].to_vec()),
             };
             DataArray { components, values }
-        };
-        self.blocks.iter().zip(&self.starts).map(part).collect()
+        });
+        parts.collect()
     }
 
-    /// Cells numbered over all blocks, in any order, as ascending lists for each block.
+    /// Ascending lists for each block of cells that are numbered over all blocks in any order.
     pub(super) fn by_block(
         &self,
         mut cells: Vec<usize>,
         allowance: &mut Allowance,
-    ) -> Result<Vec<Vec<usize>>, Problem> {
+    ) -> Result<Vec<Vec<usize>>, FileProblem> {
         allowance.take(self.blocks.len())?;
         cells.sort_unstable();
         cells.dedup();
@@ -165,17 +164,16 @@ impl CellList {
     }
 }
 
-/// Sets under construction, by name, each the numbers of its nodes or cells in any order.
+/// Sets under construction by name, with the numbers of nodes or cells in any order.
 pub(super) type OpenSets = BTreeMap<String, Vec<usize>>;
 
-/// Node sets in their final form: ascending, nothing twice.
-pub(super) fn close_point_sets(sets: OpenSets) -> BTreeMap<String, Vec<usize>> {
-    let close = |(name, mut set): (String, Vec<usize>)| {
+/// Node sets in their final form, ascending without repetition.
+pub(super) fn close_point_sets(mut sets: OpenSets) -> BTreeMap<String, Vec<usize>> {
+    for set in sets.values_mut() {
         set.sort_unstable();
         set.dedup();
-        (name, set)
-    };
-    sets.into_iter().map(close).collect()
+    }
+    sets
 }
 
 /// Cell sets in their final form.
@@ -183,6 +181,6 @@ pub(super) fn close_cell_sets(
     sets: OpenSets,
     cells: &CellList,
     allowance: &mut Allowance,
-) -> Result<BTreeMap<String, Vec<Vec<usize>>>, Problem> {
+) -> Result<BTreeMap<String, Vec<Vec<usize>>>, FileProblem> {
     sets.into_iter().map(|(name, set)| Ok((name, cells.by_block(set, allowance)?))).collect()
 }

@@ -1,4 +1,4 @@
-//! How well shaped the plane cells of a mesh are.
+//! Shape quality of the plane cells of a mesh.
 //!
 //! The map x(ξ, η) = Σ N_k(ξ, η) x_k of a cell has the Jacobian determinant J = det ∂x/∂(ξ, η). From J and the tangents
 //! ∂x/∂ξ, ∂x/∂η at the corners and at the integration points follow
@@ -10,7 +10,7 @@
 //!                   longest over shortest distance of opposite sides' middles (quadrilateral)
 //! ```
 //!
-//! Angles are those of the true, curved sides at the corners.
+//! Angles are those between the curved sides at the corners.
 //!
 //! Source: P. Knupp et al., *The Verdict geometric quality library*, Sandia report SAND2007-1751; integration points of
 //! the rules used by the elements: three points in six-node triangles, 3 × 3 Gauss points in quadratic quadrilaterals.
@@ -23,11 +23,11 @@ use super::{CellKind, Mesh};
 /// Quality of one cell.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CellQuality {
-    /// Least over greatest Jacobian determinant; not positive where the cell is inverted.
+    /// Ratio of the least to the greatest Jacobian determinant; not positive where the cell is inverted.
     pub jacobian_ratio: f64,
     /// Least sine of a corner's angle, over that of the ideal cell.
     pub scaled_jacobian: f64,
-    /// 1 is ideal.
+    /// Aspect ratio, ideally 1.
     pub aspect_ratio: f64,
     /// Least angle at a corner.
     pub least_angle_deg: f64,
@@ -35,10 +35,10 @@ pub struct CellQuality {
     pub greatest_angle_deg: f64,
 }
 
-/// The worst value of a measure, and where.
+/// Worst value of a measure and its cell.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Worst {
-    /// The value.
+    /// Worst value.
     pub value: f64,
     /// Block of the mesh and number of the cell in it.
     pub cell: [usize; 2],
@@ -49,7 +49,7 @@ pub struct Worst {
 /// Quality of all plane cells of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MeshQuality {
-    /// Plane cells.
+    /// Number of plane cells.
     pub cells: usize,
     /// Least Jacobian ratio.
     pub jacobian_ratio: Worst,
@@ -63,24 +63,24 @@ pub struct MeshQuality {
     pub greatest_angle_deg: Worst,
 }
 
-/// What is wrong with a mesh.
+/// Error of a mesh without quality.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum QualityError {
-    /// A cell turns inside out, or its nodes run clockwise.
+    /// A cell is folded, or its nodes run clockwise.
     #[error(
         "cell {} of block {} near ({:.4}, {:.4}) mm is inverted: its Jacobian ratio is {:.3}",
         .0.cell[1], .0.cell[0], .0.at_mm[0], .0.at_mm[1], .0.value
     )]
     Inverted(Worst),
-    /// There is nothing to judge.
+    /// There are no plane cells.
     #[error("the mesh has no plane cells")]
     NoPlaneCells,
 }
 
-/// The quality of all plane cells of `mesh`.
+/// Quality of all plane cells of `mesh`.
 ///
 /// # Errors
-/// [`QualityError`]: the worst inverted cell, or that there are no plane cells.
+/// [`QualityError`] for the worst inverted cell, or where there are no plane cells.
 pub fn of_mesh(mesh: &Mesh) -> Result<MeshQuality, QualityError> {
     let mut all = Vec::new();
     let mut nodes = Vec::with_capacity(9);
@@ -94,25 +94,32 @@ pub fn of_mesh(mesh: &Mesh) -> Result<MeshQuality, QualityError> {
             all.push((quality, [block, number], centre));
         }
     }
-    let worst = |of: fn(&CellQuality) -> f64, is_worse: fn(f64, f64) -> bool| {
-        let each = all.iter().map(|(quality, cell, at)| Worst { value: of(quality), cell: *cell, at_mm: (*at).into() });
-        let worst = each.reduce(|worst, other| if is_worse(other.value, worst.value) { other } else { worst });
-        worst.ok_or(QualityError::NoPlaneCells)
-    };
-    let least = |of| worst(of, |a, b| a < b);
-    let greatest = |of| worst(of, |a, b| a > b);
     let summary = MeshQuality {
         cells: all.len(),
-        jacobian_ratio: least(|quality| quality.jacobian_ratio)?,
-        scaled_jacobian: least(|quality| quality.scaled_jacobian)?,
-        aspect_ratio: greatest(|quality| quality.aspect_ratio)?,
-        least_angle_deg: least(|quality| quality.least_angle_deg)?,
-        greatest_angle_deg: greatest(|quality| quality.greatest_angle_deg)?,
+        jacobian_ratio: worst(&all, |quality| quality.jacobian_ratio, f64::lt)?,
+        scaled_jacobian: worst(&all, |quality| quality.scaled_jacobian, f64::lt)?,
+        aspect_ratio: worst(&all, |quality| quality.aspect_ratio, f64::gt)?,
+        least_angle_deg: worst(&all, |quality| quality.least_angle_deg, f64::lt)?,
+        greatest_angle_deg: worst(&all, |quality| quality.greatest_angle_deg, f64::gt)?,
     };
     if summary.jacobian_ratio.value > 0.0 { Ok(summary) } else { Err(QualityError::Inverted(summary.jacobian_ratio)) }
 }
 
-/// The quality of a cell with `nodes`; `None` where it is no plane cell.
+/// Quality, number and centre of a cell.
+type Judged = (CellQuality, [usize; 2], Vector2<f64>);
+
+/// First cell with the worst value of a measure.
+fn worst(
+    cells: &[Judged],
+    measure: fn(&CellQuality) -> f64,
+    is_worse: fn(&f64, &f64) -> bool,
+) -> Result<Worst, QualityError> {
+    let each = cells.iter().map(|(of, cell, at)| Worst { value: measure(of), cell: *cell, at_mm: (*at).into() });
+    let worst = each.reduce(|worst, other| if is_worse(&other.value, &worst.value) { other } else { worst });
+    worst.ok_or(QualityError::NoPlaneCells)
+}
+
+/// Quality of a cell with `nodes`; `None` for other than plane cells.
 pub fn of_cell(kind: CellKind, nodes: &[Vector2<f64>]) -> Option<CellQuality> {
     let places = places(kind)?;
     let corners = corner_count(kind);
@@ -132,7 +139,7 @@ pub fn of_cell(kind: CellKind, nodes: &[Vector2<f64>]) -> Option<CellQuality> {
         if number < corners {
             let [next, last] = corner_tangents(corners, number, d_xi, d_eta);
             let (cross, dot) = (next.perp(&last), next.dot(&last));
-            // A corner folded over counts from 180° up.
+            // Angles of folded corners are above 180°.
             let angle = cross.atan2(dot).to_degrees();
             let angle = if angle < 0.0 { angle + 360.0 } else { angle };
             let ideal = if corners == 3 { 0.75f64.sqrt() } else { 1.0 };
@@ -142,7 +149,7 @@ pub fn of_cell(kind: CellKind, nodes: &[Vector2<f64>]) -> Option<CellQuality> {
             quality.greatest_angle_deg = quality.greatest_angle_deg.max(angle);
         }
     }
-    // Where all determinants are negative their ratio would look healthy.
+    // The ratio of negative determinants is positive.
     quality.jacobian_ratio = if greatest > 0.0 { least / greatest } else { f64::NEG_INFINITY };
     Some(quality)
 }
@@ -151,11 +158,11 @@ fn corner_count(kind: CellKind) -> usize {
     if matches!(kind, CellKind::Triangle | CellKind::Triangle6) { 3 } else { 4 }
 }
 
-/// Corners first, then the integration points.
+/// Corners, then integration points on the reference cell.
 fn places(kind: CellKind) -> Option<&'static [[f64; 2]]> {
-    /// √(3/5), of the three-point Gauss rule.
+    /// Abscissa √(3/5) of the three-point Gauss rule.
     const G: f64 = 0.774_596_669_241_483_4;
-    /// 1/√3, of the two-point Gauss rule.
+    /// Abscissa 1/√3 of the two-point Gauss rule.
     const H: f64 = 0.577_350_269_189_625_8;
     const S: f64 = 1.0 / 6.0;
     const T: f64 = 2.0 / 3.0;
@@ -183,7 +190,7 @@ fn places(kind: CellKind) -> Option<&'static [[f64; 2]]> {
     }
 }
 
-/// ∂x/∂ξ and ∂x/∂η.
+/// Tangents ∂x/∂ξ and ∂x/∂η.
 fn tangents(kind: CellKind, nodes: &[Vector2<f64>], place: [f64; 2]) -> [Vector2<f64>; 2] {
     let mut sums = [Vector2::zeros(), Vector2::zeros()];
     for (k, node) in nodes.iter().enumerate() {
@@ -194,9 +201,9 @@ fn tangents(kind: CellKind, nodes: &[Vector2<f64>], place: [f64; 2]) -> [Vector2
     sums
 }
 
-/// ∂N_k/∂ξ and ∂N_k/∂η.
+/// Derivatives ∂N_k/∂ξ and ∂N_k/∂η.
 fn shape_derivatives(kind: CellKind, k: usize, [xi, eta]: [f64; 2]) -> [f64; 2] {
-    /// Places of the nodes of a quadrilateral.
+    /// Nodes of a quadrilateral on the reference cell.
     const QUAD: [[f64; 2]; 9] = [
         [-1.0, -1.0],
         [1.0, -1.0],
@@ -247,7 +254,7 @@ fn shape_derivatives(kind: CellKind, k: usize, [xi, eta]: [f64; 2]) -> [f64; 2] 
     }
 }
 
-/// The quadratic through −1, 0, 1 that is 1 at `node`.
+/// Quadratic Lagrange polynomial of the node at −1, 0 or 1.
 fn lagrange(node: f64, x: f64) -> f64 {
     if node == 0.0 { 1.0 - x * x } else { 0.5 * x * (x + node) }
 }
@@ -256,7 +263,7 @@ fn lagrange_slope(node: f64, x: f64) -> f64 {
     if node == 0.0 { -2.0 * x } else { x + 0.5 * node }
 }
 
-/// From a corner along the side to the next corner and along the side to the one before.
+/// Tangents from a corner along the sides to the next and to the previous corner.
 fn corner_tangents(corners: usize, corner: usize, d_xi: Vector2<f64>, d_eta: Vector2<f64>) -> [Vector2<f64>; 2] {
     match (corners, corner) {
         (3, 0) => [d_xi, d_eta],
@@ -277,8 +284,8 @@ fn triangle_aspect(nodes: &[Vector2<f64>]) -> f64 {
 }
 
 fn quad_aspect(nodes: &[Vector2<f64>]) -> f64 {
-    let middle = |a: usize, b: usize| 0.5 * (nodes[a] + nodes[b]);
-    let across = [(middle(0, 1) - middle(2, 3)).norm(), (middle(1, 2) - middle(3, 0)).norm()];
+    let [a, b, c, d] = [0, 1, 2, 3].map(|k| 0.5 * (nodes[k] + nodes[(k + 1) % 4]));
+    let across = [(a - c).norm(), (b - d).norm()];
     across[0].max(across[1]) / across[0].min(across[1])
 }
 

@@ -20,7 +20,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::Vector2;
 
 use crate::gear::tooth::{LoadLine, Tooth};
-use crate::gear_fem::flank_surface::FlankSurface;
+use crate::gear_fem::flank_surface::MeshedFlank;
 use crate::gear_fem::ring::{GearCompliance, ToothForce};
 use crate::gear_fem::sector::{Answer, Functional};
 use gearwear_fem::locate::locate;
@@ -29,7 +29,7 @@ use gearwear_fem::locate::locate;
 const SAMPLES: usize = 240;
 
 /// An edge of the mesh on the flank.
-struct FlankEdge {
+struct InvoluteEdge {
     /// Arc length of the involute from the base circle at the end nearer the root, the middle and the end nearer the tip.
     arc_mm: [f64; 3],
     /// Local nodes there.
@@ -40,16 +40,16 @@ struct FlankEdge {
 pub struct LoadedTooth<'a> {
     tooth: &'a Tooth,
     body: &'a GearCompliance,
-    flank: &'a FlankSurface,
+    flank: &'a MeshedFlank,
     /// From root to tip, the involute part of the resolved flank.
-    edges: Vec<FlankEdge>,
+    edges: Vec<InvoluteEdge>,
     /// Index of each local flank node among the gear's candidates.
     candidate: Vec<Option<usize>>,
 }
 
 impl<'a> LoadedTooth<'a> {
     /// The flank of a gear with teeth as `tooth`.
-    pub fn new(tooth: &'a Tooth, body: &'a GearCompliance, flank: &'a FlankSurface) -> Self {
+    pub fn new(tooth: &'a Tooth, body: &'a GearCompliance, flank: &'a MeshedFlank) -> Self {
         let candidates = &body.sector.sector.candidates;
         let candidate =
             flank.surface.mesh_nodes.iter().map(|node| candidates.iter().position(|own| own == node)).collect();
@@ -165,14 +165,14 @@ pub struct Inside {
 }
 
 /// Least and greatest ρ at which an ellipse of half-width `half_width_mm` lies wholly on the resolved involute of `flank`.
-pub(crate) fn limits_mm(tooth: &Tooth, flank: &FlankSurface, half_width_mm: f64) -> Option<(f64, f64)> {
+pub(crate) fn limits_mm(tooth: &Tooth, flank: &MeshedFlank, half_width_mm: f64) -> Option<(f64, f64)> {
     let edges = flank_edges(tooth, flank);
     let (low, high) = (edges.first()?.arc_mm[0] + half_width_mm, edges.last()?.arc_mm[2] - half_width_mm);
     (low < high).then(|| (tooth.involute.rho_at_arc_mm(low), tooth.involute.rho_at_arc_mm(high)))
 }
 
 /// Nodes of the mesh under an ellipse around ρ: the candidates of such a load.
-pub(crate) fn nodes_under(tooth: &Tooth, flank: &FlankSurface, rho_mm: f64, half_width_mm: f64) -> Vec<u32> {
+pub(crate) fn nodes_under(tooth: &Tooth, flank: &MeshedFlank, rho_mm: f64, half_width_mm: f64) -> Vec<u32> {
     let centre_mm = tooth.involute.arc_mm(rho_mm);
     let mut nodes: Vec<u32> = flank_edges(tooth, flank)
         .iter()
@@ -185,7 +185,7 @@ pub(crate) fn nodes_under(tooth: &Tooth, flank: &FlankSurface, rho_mm: f64, half
 }
 
 /// Edges of the involute part of a flank, from root to tip.
-fn flank_edges(tooth: &Tooth, flank: &FlankSurface) -> Vec<FlankEdge> {
+fn flank_edges(tooth: &Tooth, flank: &MeshedFlank) -> Vec<InvoluteEdge> {
     flank
         .surface
         .edges
@@ -198,12 +198,12 @@ fn flank_edges(tooth: &Tooth, flank: &FlankSurface) -> Vec<FlankEdge> {
             nodes
                 .iter()
                 .all(|&node| flank.rho_mm[node].is_finite())
-                .then(|| FlankEdge { arc_mm: nodes.map(|node| tooth.involute.arc_mm(flank.rho_mm[node])), nodes })
+                .then(|| InvoluteEdge { arc_mm: nodes.map(|node| tooth.involute.arc_mm(flank.rho_mm[node])), nodes })
         })
         .collect()
 }
 
-impl FlankEdge {
+impl InvoluteEdge {
     /// Shape functions of the nodes at an arc length within the edge.
     fn weights(&self, arc_mm: f64) -> [f64; 3] {
         let [low, middle, high] = self.arc_mm;

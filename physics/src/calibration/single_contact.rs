@@ -30,7 +30,7 @@ use crate::contact::settings::MatchCriterion;
 use crate::gear::conjugate::ConjugateFlanks;
 use crate::gear::{Gear, PerGear};
 use crate::gear_fem::condensed_pair::CondensedPair;
-use crate::gear_fem::flank_surface::FlankSurface;
+use crate::gear_fem::flank_surface::MeshedFlank;
 use crate::gear_fem::position::{PositionContact, WarmStart};
 use crate::gear_fem::ring::ToothForce;
 
@@ -198,7 +198,7 @@ fn at_all_loads(
 }
 
 /// Half-width of the ellipse with the second moment of the forces on a flank.
-fn half_width_mm(flank: &FlankSurface, force: &ToothForce) -> f64 {
+fn half_width_mm(flank: &MeshedFlank, force: &ToothForce) -> f64 {
     let (mut sum, mut first, mut second) = (0.0, 0.0, 0.0);
     let origin_mm = force.first().map_or(0.0, |(column, _)| flank.from_tip_mm[column / 2]);
     for node in force.chunk_by(|a, b| a.0 / 2 == b.0 / 2) {

@@ -26,7 +26,7 @@ use super::tooth_stiffness::evenly;
 use crate::gear::modification::Modification;
 use crate::gear::spec::{GearSpec, PairSpec};
 use crate::gear::{Gear, tooth::Tooth};
-use crate::gear_fem::flank_surface::FlankSurface;
+use crate::gear_fem::flank_surface::MeshedFlank;
 use crate::gear_fem::model::{ModelError, sector};
 use crate::gear_fem::ring::{GearCompliance, Surroundings, ToothForce};
 use crate::gear_mesh::settings::default_clamp;
@@ -107,7 +107,7 @@ fn member(setup: &Setup<'_>, teeth: u32) -> Result<Option<FamilyMember>, Calibra
     };
     let [Ok(fine), Ok(coarse)] = [true, false].map(|fine| mesh(&shape, fine)) else { return Ok(None) };
     let (chain, rho_mm) = fine.working_flank.resolved_nodes();
-    let flank = FlankSurface::new(chain, rho_mm, &fine.points_mm, true);
+    let flank = MeshedFlank::new(chain, rho_mm, &fine.points_mm, true);
     let body = ring(setup, &tooth, &fine, &coarse, flank.surface.mesh_nodes.clone())?;
     let loaded = LoadedTooth::new(&tooth, &body, &flank);
     let Some((low, high)) = limits_mm(&tooth, &flank, 0.0) else { return Ok(None) };

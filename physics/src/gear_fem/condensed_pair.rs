@@ -1,41 +1,41 @@
-//! A gear pair whose gears are condensed onto the flanks that may touch.
+//! Gear pair whose gears are condensed onto the flanks that may touch.
 
-use super::flank_surface::FlankSurface;
+use super::flank_surface::MeshedFlank;
 use super::ring::GearCompliance;
 use crate::gear::{GearPair, PerGear};
 use crate::material::contact_modulus_mpa;
 use crate::reference::hertz_line::HertzLine;
 use gearwear_fem::elastic::Elastic;
 
-/// The pair with both gears condensed.
+/// Gear pair with both gears condensed.
 pub struct CondensedPair<'a> {
     /// Geometry.
     pub pair: &'a GearPair,
     /// Both gears.
     pub gears: PerGear<GearCompliance>,
-    /// Their working flanks.
-    pub flanks: PerGear<FlankSurface>,
-    /// E*, MPa.
+    /// Working flanks of both gears.
+    pub flanks: PerGear<MeshedFlank>,
+    /// Contact modulus E*, MPa.
     pub contact_modulus_mpa: f64,
 }
 
 impl CondensedPair<'_> {
-    /// Where the base pitch that stands for the whole mesh begins: half of it before the middle of A–E, so that the loads stay as near to the
-    /// middle tooth as they can, which matters to a sector.
+    /// Beginning of the base pitch that represents the mesh cycle: half of it before the middle of A–E, so that the loads stay as near to the
+    /// middle tooth of a sector as possible.
     pub fn first_position_mm(&self) -> f64 {
         let path = &self.pair.path;
         path.start_mm.midpoint(path.end_mm) - 0.5 * path.base_pitch_mm
     }
 
-    /// How far before A and after E contact is found in that base pitch, mm of path: as far as tip circles reach each other, or as there are
-    /// fine teeth for it.
+    /// Range before A and after E in which contact is found in that base pitch, mm of path: limited by the tip circles and by the number of
+    /// fine teeth.
     pub fn range_mm(&self) -> [f64; 2] {
         let (path, beside) = (&self.pair.path, (self.gears.pinion.teeth().min(self.gears.wheel.teeth()) / 2) as f64);
         let of_teeth_mm = (beside + 0.5 - 0.5 * path.contact_ratio()) * path.base_pitch_mm;
         self.pair.farthest_touch_mm().map(|farthest_mm| farthest_mm.min(of_teeth_mm))
     }
 
-    /// The same elements of gears with other Young's moduli; Poisson's ratios stay.
+    /// Pair with other Young's moduli and the same Poisson's ratios, by scaling.
     pub fn with_moduli(&self, condensed: &PerGear<Elastic>, own: &PerGear<Elastic>) -> Self {
         let softness = PerGear::from_fn(|gear| condensed[gear].young_modulus_mpa / own[gear].young_modulus_mpa);
         Self {
@@ -47,7 +47,7 @@ impl CondensedPair<'_> {
     }
 }
 
-/// Hertz half-width under the whole load at `position_mm`, taken at A or E where it lies outside.
+/// Hertz half-width under the whole load at `position_mm`, before A and after E that at A and E.
 pub fn hertz_half_width_mm(
     pair: &GearPair,
     contact_modulus_mpa: f64,

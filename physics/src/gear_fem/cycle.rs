@@ -1,4 +1,4 @@
-//! The contact over many positions.
+//! Contact of the pair over many positions.
 //!
 //! Positions are dealt into a fixed number of groups that run independently; within a group each position starts from the
 //! active set of the one before, moved along the flank. Results do not depend on the number of threads.
@@ -12,13 +12,13 @@ use gearwear_fem::active_set::ActiveSetError;
 /// Groups that may run at the same time.
 const GROUPS: usize = 8;
 
-/// Where a cycle failed, and why.
+/// Position at which a cycle failed, and the reason.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("at position {position_mm:.4} mm: {source}")]
 pub struct CycleError {
-    /// ξ.
+    /// Position ξ, mm.
     pub position_mm: f64,
-    /// The reason.
+    /// Reason.
     pub source: ActiveSetError,
 }
 

@@ -1,4 +1,4 @@
-//! The working flank of a meshed tooth as a contact surface, with its coordinate along the profile.
+//! Working flank of a meshed tooth as a contact surface, with a coordinate along the profile.
 
 use std::ops::Range;
 
@@ -6,10 +6,10 @@ use gearwear_fem::contact::surface::Surface;
 use gearwear_fem::problem::Edge;
 use nalgebra::Vector2;
 
-/// The flank of one tooth in the tooth's own frame, from the tip (first edge) to the root (last edge).
+/// Flank of one tooth in the tooth's own frame, from the tip (first edge) to the root (last edge).
 #[derive(Debug, Clone)]
-pub struct FlankSurface {
-    /// The surface; its local node numbers are the places of the candidates.
+pub struct MeshedFlank {
+    /// Contact surface; its local node numbers are those of the candidates.
     pub surface: Surface,
     /// Distance of each local node from the tip end along the profile, mm.
     pub from_tip_mm: Vec<f64>,
@@ -19,16 +19,12 @@ pub struct FlankSurface {
     pub sharp: bool,
 }
 
-impl FlankSurface {
-    /// The flank along `chain` (ends and middles of edges alternately, from root to tip) with ρ at each of its nodes.
+impl MeshedFlank {
+    /// Flank along `chain` (ends and middles of edges alternately, from root to tip) with ρ at each of its nodes.
     pub fn new(chain: &[u32], rho_mm: &[f64], points_mm: &[Vector2<f64>], sharp: bool) -> Self {
         let surface = Surface::new(&edges(chain), points_mm);
-        let place_in_chain = |node: u32| chain.iter().position(|&other| other == node);
-        let rho_mm = surface
-            .mesh_nodes
-            .iter()
-            .map(|&node| place_in_chain(node).map_or(f64::NAN, |place| rho_mm[place]))
-            .collect();
+        let places = surface.mesh_nodes.iter().map(|node| chain.iter().position(|other| other == node));
+        let rho_mm = places.map(|place| place.map_or(f64::NAN, |place| rho_mm[place])).collect();
         let path: Vec<usize> = surface.paths().into_iter().next().unwrap_or_default();
         let along = surface.along_mm(&path);
         let mut from_tip_mm = vec![0.0; surface.points_mm.len()];
@@ -48,7 +44,7 @@ impl FlankSurface {
         self.surface.edges.last().map_or(0, |edge| edge.nodes()[1])
     }
 
-    /// Local numbers of the nodes in their order.
+    /// Local numbers of the nodes from tip to root.
     pub(crate) fn tip_to_root(&self) -> impl Iterator<Item = usize> {
         let before_ends = self.surface.edges.iter().flat_map(|edge| {
             let nodes = edge.nodes();
@@ -61,7 +57,7 @@ impl FlankSurface {
     pub(crate) fn distance_to_tip_mm(&self, rho_mm: f64) -> f64 {
         let mut nearest = (f64::INFINITY, 0.0);
         for (&own, &along) in self.rho_mm.iter().zip(&self.from_tip_mm) {
-            // NaN on a rounding: never nearer.
+            // NaN on a rounding is never nearer.
             if (own - rho_mm).abs() < nearest.0 {
                 nearest = ((own - rho_mm).abs(), along);
             }
@@ -69,7 +65,7 @@ impl FlankSurface {
         nearest.1
     }
 
-    /// The edges that reach into the stretch from `from_mm` to `to_mm` from the tip end; at least one.
+    /// Edges that overlap the stretch from `from_mm` to `to_mm` from the tip end; at least one.
     pub(crate) fn edges_between(&self, from_mm: f64, to_mm: f64) -> Range<usize> {
         let edges = &self.surface.edges;
         let first = edges.partition_point(|edge| self.from_tip_mm[edge.nodes()[1]] <= from_mm);
@@ -79,7 +75,7 @@ impl FlankSurface {
     }
 }
 
-/// The edges along `chain` (from root to tip), from tip to root: the tooth of a flank at x < 0 then lies on their left.
+/// Edges from tip to root along `chain` (from root to tip); the tooth of a flank at x < 0 lies on their left.
 pub(crate) fn edges(chain: &[u32]) -> Vec<Edge> {
     (0..chain.len() / 2)
         .rev()

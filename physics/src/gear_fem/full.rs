@@ -1,13 +1,11 @@
-//! The pair without condensation: both whole gears as one finite-element model, as a check on the condensed one.
+//! Finite-element model of both whole gears without condensation, as a check on the condensed one.
 //!
 //! All sectors are placed and joined node by node, the whole stiffness matrix is factorised, and contact is coupled in the
-//! common frame. Nothing is shared with the condensed solution but elements, mortar and active set; both must agree to
-//! round-off.
+//! common frame. Only elements, mortar and active set are shared with the condensed solution; both agree to round-off.
 
 use std::collections::BTreeMap;
 
 use faer::Mat;
-use nalgebra::Vector2;
 
 use super::flank_surface::edges;
 use super::model::{MeshedGear, element};
@@ -17,7 +15,7 @@ use super::ring::Surroundings;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::{ToothMeshError, gear_mesh};
 use gearwear_fem::active_set::Condensed;
-use gearwear_fem::contact::{mortar::Coupling, surface::Surface};
+use gearwear_fem::contact::{mortar::MortarCoupling, surface::Surface};
 use gearwear_fem::elastic::{Analysis, Elastic};
 use gearwear_fem::equilibrium::SolveError;
 use gearwear_fem::factor::Factor;
@@ -25,13 +23,13 @@ use gearwear_fem::problem::Edge;
 use gearwear_fem::solid::Solid;
 use gearwear_fem::stiffness::Stiffness;
 
-/// How far from the places loaded in the condensed solution multipliers are put, in units of the loaded half-width.
+/// Extent of the multipliers around the contact of the condensed solution, in half-widths.
 const WINDOW: f64 = 3.0;
 
-/// Why the whole model has no answer.
+/// Reason why the whole model has no solution.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FullError {
-    /// The sectors do not make a gear.
+    /// The sectors cannot be joined to a gear.
     #[error(transparent)]
     Mesh(#[from] ToothMeshError),
     /// The whole model has no equilibrium.
@@ -39,12 +37,12 @@ pub enum FullError {
     Solve(#[from] SolveError),
 }
 
-/// The whole model's answer.
+/// Solution of the whole model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FullContact {
     /// Degrees of freedom of both gears.
     pub dofs: usize,
-    /// δ, mm.
+    /// Transmission error δ, mm.
     pub transmission_error_mm: f64,
     /// Number and line load of each pair, N/mm.
     pub line_load_n_per_mm: Vec<(i32, f64)>,
@@ -56,17 +54,17 @@ pub struct FullContact {
     pub iterations: usize,
 }
 
-/// Both gears in one.
-struct Whole {
+/// Mesh of both gears.
+struct WholePair {
     solid: Solid,
     held: Vec<bool>,
-    /// Edges of the fine teeth's working flanks, from the tip, by the number of the tooth pair.
+    /// Edges of the fine teeth's working flanks from tip to root, by the number of the tooth pair.
     flanks: PerGear<BTreeMap<i32, Vec<Edge>>>,
-    /// The pinion's nodes come before it.
+    /// First node of the wheel, after those of the pinion.
     first_wheel_node: u32,
 }
 
-impl Whole {
+impl WholePair {
     fn new(pair: &GearPair, meshed: &PerGear<MeshedGear>, position_mm: f64) -> Result<Self, ToothMeshError> {
         let mut whole =
             Self { solid: Solid::default(), held: Vec::new(), flanks: PerGear::default(), first_wheel_node: 0 };
@@ -92,10 +90,9 @@ impl Whole {
         let sectors = [&meshed.fine, meshed.coarse.as_ref().unwrap_or(&meshed.fine)];
         let mesh = gear_mesh(gear, pair.teeth[gear].teeth, meshed.settings.body, &fine, sectors)?;
         let offset = self.solid.points_mm.len() as u32;
-        let shifted = |nodes: &[u32]| nodes.iter().map(|node| node + offset).collect::<Vec<u32>>();
         let placed = mesh.points_mm.iter().map(|&point| in_place_mm(pair, gear, position_mm, 0, point));
         self.solid.points_mm.extend(placed);
-        let elements = mesh.cells.iter().map(|cell| element(cell, &shifted(cell.nodes()), material));
+        let elements = mesh.cells.iter().map(|cell| element(cell, &shifted(cell.nodes(), offset), material));
         self.solid.elements.extend(elements);
 
         self.held.resize(self.solid.dofs(), false);
@@ -109,14 +106,19 @@ impl Whole {
             self.held[dof + 1] = true;
         }
         for tooth in mesh.teeth.iter().filter(|tooth| tooth.fine) {
-            let chain = shifted(tooth.working_flank.resolved_nodes().0);
+            let chain = shifted(tooth.working_flank.resolved_nodes().0, offset);
             self.flanks[gear].insert(tooth.index, edges(&chain));
         }
         Ok(())
     }
 }
 
-/// Solves the whole model where `condensed` was solved, under the same load.
+/// Node numbers increased by `offset`.
+fn shifted(nodes: &[u32], offset: u32) -> Vec<u32> {
+    nodes.iter().map(|node| node + offset).collect()
+}
+
+/// Solves the whole model at the position of `condensed`, under the same load.
 pub fn solve(
     pair: &GearPair,
     meshed: &PerGear<MeshedGear>,
@@ -124,12 +126,12 @@ pub fn solve(
     line_load_n_per_mm: f64,
     condensed: &PositionContact,
 ) -> Result<FullContact, FullError> {
-    let whole = Whole::new(pair, meshed, condensed.position_mm)?;
+    let whole = WholePair::new(pair, meshed, condensed.position_mm)?;
     Ok(equilibrium(&whole, pair, material, line_load_n_per_mm, condensed)?)
 }
 
 fn equilibrium(
-    whole: &Whole,
+    whole: &WholePair,
     pair: &GearPair,
     material: &PerGear<Elastic>,
     line_load_n_per_mm: f64,
@@ -140,10 +142,11 @@ fn equilibrium(
     let factor = Factor::new(&stiffness, &whole.held)?;
     let interfaces = whole.interfaces(pair, condensed);
 
-    let columns: Vec<Vec<(u32, f64)>> = interfaces.iter().flat_map(Interface::columns).collect();
-    let rotation = |dof: u32| whole.rotation(pair, dof);
-    let rigid: Vec<f64> =
-        columns.iter().map(|column| column.iter().map(|&(dof, value)| value * rotation(dof)).sum()).collect();
+    let columns: Vec<Vec<(u32, f64)>> = interfaces.iter().flat_map(CoupledPair::columns).collect();
+    let rigid: Vec<f64> = columns
+        .iter()
+        .map(|column| column.iter().map(|&(dof, value)| value * whole.rotation(pair, dof)).sum())
+        .collect();
     let problem = Condensed {
         compliance: factor.compliance(&columns),
         gap_mm: interfaces.iter().flat_map(|interface| interface.coupling.gap_mm.iter().copied()).collect(),
@@ -185,39 +188,39 @@ fn equilibrium(
     Ok(contact)
 }
 
-/// One tooth pair of the whole model.
-struct Interface {
+/// Coupled tooth pair of the whole model.
+struct CoupledPair {
     pair: i32,
     slave: Surface,
     master: Surface,
-    coupling: Coupling,
+    coupling: MortarCoupling,
 }
 
-impl Whole {
-    /// The pairs in contact in the condensed solution, coupled around the places loaded there.
-    fn interfaces(&self, pair: &GearPair, condensed: &PositionContact) -> Vec<Interface> {
+impl WholePair {
+    /// Tooth pairs in contact in the condensed solution, coupled around their contact there.
+    fn interfaces(&self, pair: &GearPair, condensed: &PositionContact) -> Vec<CoupledPair> {
         condensed
             .pairs
             .iter()
             .map(|contact| {
-                let surface = |gear: Gear| Surface::new(&self.flanks[gear][&contact.pair], &self.solid.points_mm);
-                let (slave, master) = (surface(contact.slave), surface(contact.slave.mate()));
-                let radius = |point: &Vector2<f64>| (point - axis_mm(pair, Gear::Pinion)).norm();
+                let [slave, master] = [contact.slave, contact.slave.mate()]
+                    .map(|gear| Surface::new(&self.flanks[gear][&contact.pair], &self.solid.points_mm));
                 let reach_mm = WINDOW * contact.half_width_mm;
-                let near = |edge: usize| {
-                    let node = slave.edges[edge].nodes()[0];
-                    (radius(&slave.points_mm[node]) - contact.pinion_radius_mm).abs() < reach_mm
-                };
-                let window: Vec<usize> = (0..slave.edges.len()).filter(|&edge| near(edge)).collect();
-                let (first, last) = (window.first().copied().unwrap_or(0), window.last().map_or(0, |edge| edge + 1));
+                let mut window = (0..slave.edges.len()).filter(|&edge| {
+                    let point = slave.points_mm[slave.edges[edge].nodes()[0]];
+                    let radius_mm = (point - axis_mm(pair, Gear::Pinion)).norm();
+                    (radius_mm - contact.pinion_radius_mm).abs() < reach_mm
+                });
+                let (first, last) =
+                    window.next().map_or((0, 0), |first| (first, window.next_back().unwrap_or(first) + 1));
                 let slave = slave.part(first..last);
-                let coupling = Coupling::new(&slave, &master, reach_mm);
-                Interface { pair: contact.pair, slave, master, coupling }
+                let coupling = MortarCoupling::new(&slave, &master, reach_mm);
+                CoupledPair { pair: contact.pair, slave, master, coupling }
             })
             .collect()
     }
 
-    /// Displacement of a degree of freedom per transmission error: the pinion turns, the wheel does not.
+    /// Displacement of a degree of freedom per transmission error, by which the pinion turns.
     fn rotation(&self, pair: &GearPair, dof: u32) -> f64 {
         let point = self.solid.points_mm[dof as usize / 2];
         let r_b = pair.path.involute.pinion.base_radius_mm;
@@ -233,16 +236,15 @@ impl Whole {
     }
 }
 
-impl Interface {
-    /// Rows of B by the mesh's degrees of freedom.
+impl CoupledPair {
+    /// Rows of the coupling matrix B by the mesh's degrees of freedom.
     fn columns(&self) -> Vec<Vec<(u32, f64)>> {
-        let side = |row: sprs::CsVecView<'_, f64>, surface: &Surface| -> Vec<(u32, f64)> {
-            row.iter().map(|(column, value)| (2 * surface.mesh_nodes[column / 2] + column as u32 % 2, *value)).collect()
-        };
         let (slave, master) = (self.coupling.slave.outer_iterator(), self.coupling.master.outer_iterator());
-        slave
-            .zip(master)
-            .map(|(own, mate)| side(own, &self.slave).into_iter().chain(side(mate, &self.master)).collect())
-            .collect()
+        slave.zip(master).map(|(own, mate)| [by_dof(own, &self.slave), by_dof(mate, &self.master)].concat()).collect()
     }
+}
+
+/// Row of B on one surface by the mesh's degrees of freedom.
+fn by_dof(row: sprs::CsVecView<'_, f64>, surface: &Surface) -> Vec<(u32, f64)> {
+    row.iter().map(|(column, value)| (2 * surface.mesh_nodes[column / 2] + column as u32 % 2, *value)).collect()
 }

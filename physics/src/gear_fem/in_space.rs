@@ -1,21 +1,22 @@
-//! The teeth of a gear in space, condensed onto the loads along their lines of contact.
+//! Three-dimensional model of the teeth of a gear, condensed onto the loads along their lines of contact.
 //!
-//! One pitch of the gear over its whole face width is condensed onto the nodes of its working flank, each with the one force that
-//! contact without friction exerts on it, and onto its cuts; the sectors join to the ring as in the plane (`gear_fem::ring`). A line
-//! load of 1 N in all along a piece of a line of contact is the row r of forces at the nodes around it, and
+//! One pitch of the gear over its whole face width is condensed onto the nodes of its working flank, each with the force of
+//! frictionless contact as its one degree of freedom, and onto its cuts; sectors are joined to the ring as in two dimensions
+//! (`gear_fem::ring`). With r the nodal forces of a total load of 1 N along a segment of a line of contact,
 //!
 //! ```text
 //! u_a = r_aᵀ C_pq r_b · F_b
 //! ```
 //!
-//! is how far a piece a of tooth p yields, on average over its length and along the transverse line of action, under the force F_b on
-//! piece b of tooth q. Forces are counted by their transverse component: the flank's normal carries tan β_b times as much along
-//! the axis, so that displacements along it are those of the transverse line of action.
+//! is the deflection of segment a of tooth p, the mean over its length along the transverse line of action, under the force F_b on
+//! segment b of tooth q. Forces are transverse components: the flank's normal has tan β_b times as much along
+//! the axis, so that displacements along it are those along the transverse line of action.
 //!
-//! The elements are coarse. What they make of the neighbourhood of a load is the same as in the plane: the same section with the same
-//! elements in plane strain ([`PlaneSection`]) tells it, and it is exchanged there for what is known of it.
+//! The elements are coarse: the local deflection near a load is that of the elements, the same as in plane strain. The same section with
+//! the same elements in plane strain ([`PlaneSection`]) gives it, and there it is replaced by a closed form.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use faer::Mat;
 use nalgebra::{Rotation2, Vector2, Vector3, Vector6};
@@ -28,11 +29,12 @@ use gearwear_fem::active_set::ActiveSetError;
 use gearwear_fem::elastic::{Analysis, Elastic};
 use gearwear_fem::equilibrium::SolveError;
 use gearwear_fem::factor::{Factor, FactorError};
+use gearwear_fem::node_matrix::NodeMatrix;
 use gearwear_fem::shape::{Shape, along_edge};
 use gearwear_fem::solid::{Element, ElementKind, Solid};
 use gearwear_fem::space::{FoldedHexahedron, Hexahedron, nodal_stresses_mpa, stiffness};
 
-/// Why the teeth of a gear cannot be condensed in space.
+/// Reason why the three-dimensional teeth of a gear cannot be condensed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SpaceError {
     /// The mesh has an element without volume.
@@ -41,7 +43,7 @@ pub enum SpaceError {
     /// The stiffness cannot be factorised.
     #[error(transparent)]
     Factor(#[from] FactorError),
-    /// The section in the plane.
+    /// The section in plane strain cannot be solved.
     #[error(transparent)]
     Plane(#[from] SolveError),
     /// The sectors cannot be joined.
@@ -49,39 +51,44 @@ pub enum SpaceError {
     Join(#[from] ActiveSetError),
 }
 
-/// Forces at nodes of a working flank, by their place there, as parts of the load.
+/// Nodes of a working flank, counted along it, and their fractions of a load.
 pub type FlankForces = Vec<(u32, f64)>;
 
-/// The teeth of a gear in space.
+/// Three-dimensional model of the teeth of a gear.
 pub struct TeethInSpace {
     mesh: ExtrudedTooth,
-    /// Place of each node among those of the flank, by place over the face width and node along the flank.
+    /// Number of each node among those of the flank, by place over the face width and along the flank.
     places: Vec<Vec<Option<u32>>>,
-    /// C of a tooth on itself, on its neighbour, and so on.
+    /// Compliance C_pq by distance: of a tooth under its own load, under that of its neighbour, and so on.
     by_distance: Vec<Mat<f64>>,
 }
 
-/// A tooth under load, by the nodes of its mesh.
+/// Displacement and stress of a loaded tooth at the nodes of its mesh.
 pub struct DeformedTooth {
     /// Displacement against the clamp circle, mm.
     pub displacement_mm: Vec<Vector3<f64>>,
-    /// x, y, z, xy, yz, zx, MPa.
+    /// Stress components x, y, z, xy, yz, zx, MPa.
     pub stress_mpa: Vec<Vector6<f64>>,
 }
 
-/// The section of a gear in plane strain on the elements that the teeth in space have.
+/// Section of a gear in plane strain with the elements of the three-dimensional tooth model.
 pub struct PlaneSection {
     section: ToothSection,
     /// Compliance of the flank's nodes, mm per N/mm.
     compliance: Mat<f64>,
-    /// Load at each node of the flank by component.
+    /// Direction of the load at each node of the flank.
     directions: Vec<Vector2<f64>>,
 }
 
-/// The direction of a load on the working flank (x < 0) at a radius, in the tooth's frame.
+/// Direction of a load on the working flank (x < 0) at a radius, in the tooth's frame.
 fn load_direction(tooth: &Tooth, radius_mm: f64) -> Vector2<f64> {
     let load_angle = tooth.load_line(tooth.involute.curvature_radius_mm(radius_mm)).load_angle_rad;
     Vector2::new(load_angle.cos(), -load_angle.sin())
+}
+
+/// `nodes` without those that are held.
+fn free_of(nodes: &[u32], is_held: impl Fn(&u32) -> bool) -> Vec<u32> {
+    nodes.iter().copied().filter(|node| !is_held(node)).collect()
 }
 
 /// Radii of the nodes of a flank.
@@ -91,16 +98,13 @@ fn flank_radii_mm(section: &ToothSection) -> impl Iterator<Item = f64> {
 }
 
 impl PlaneSection {
-    /// Of a gear with such teeth.
+    /// Condensed section of a gear with teeth of this shape.
     pub fn new(tooth: &Tooth, section: &ToothSection, material: Elastic) -> Result<Self, SpaceError> {
-        let element = |nodes: &[u32; 8]| Element::new(ElementKind::Quad8, nodes, 0);
-        let solid =
-            Solid { points_mm: section.points_mm.clone(), elements: section.quads.iter().map(element).collect() };
-        let free = |cut: &Vec<u32>| cut.iter().copied().filter(|node| !section.clamp.contains(node)).collect();
+        let elements = section.quads.iter().map(|nodes| Element::new(ElementKind::Quad8, nodes, 0)).collect();
         let sector = Sector {
-            solid,
+            solid: Solid { points_mm: section.points_mm.clone(), elements },
             clamp: section.clamp.clone(),
-            cuts: section.cuts.each_ref().map(free),
+            cuts: section.cuts.each_ref().map(|cut| free_of(cut, |node| section.clamp.contains(node))),
             half_angle_rad: std::f64::consts::PI / f64::from(tooth.teeth),
             candidates: section.flank.clone(),
             probes: Vec::new(),
@@ -113,7 +117,7 @@ impl PlaneSection {
         Ok(Self { section: section.clone(), compliance, directions })
     }
 
-    /// Compliance of a tooth under a line load at a radius of its flank, where it acts and along it, mm²/N.
+    /// Compliance of a tooth under a line load at a radius of its flank: displacement of the point of action along the load, mm²/N.
     pub fn mm2_per_n(&self, radius_mm: f64) -> f64 {
         let (first, s) = self.section.on_flank(radius_mm);
         let ([start, end, middle], _) = along_edge(true, s);
@@ -133,12 +137,12 @@ impl PlaneSection {
     }
 }
 
-/// What surrounds the first `teeth` of a ring of `all`.
+/// Surroundings of `teeth` neighbouring teeth in a ring of `all`.
 fn ring(all: u32, teeth: usize) -> Surroundings {
     Surroundings::Ring { coarse: all as usize - teeth }
 }
 
-/// So many `teeth` among others like them.
+/// Joins `teeth` loaded teeth with others of the same mesh.
 fn joined(
     matrices: &SectorMatrices,
     teeth: usize,
@@ -148,19 +152,19 @@ fn joined(
 }
 
 impl TeethInSpace {
-    /// Condenses the teeth of a gear, `teeth` of which (at most all of them) may be loaded together.
+    /// Condenses the teeth of a gear, of which `teeth` may be loaded together.
     pub fn new(tooth: &Tooth, mesh: ExtrudedTooth, material: Elastic, teeth: usize) -> Result<Self, SpaceError> {
         let matrices = SectorInSpace::new(tooth, &mesh, material, false)?.matrices;
         Self::joined(mesh, &matrices, teeth, ring(tooth.teeth, teeth))
     }
 
-    /// The same in plane strain: the end faces stay in their planes.
+    /// Condenses one tooth in plane strain: without axial displacement of the end faces.
     pub fn in_plane_strain(tooth: &Tooth, mesh: ExtrudedTooth, material: Elastic) -> Result<Self, SpaceError> {
         let matrices = SectorInSpace::new(tooth, &mesh, material, true)?.matrices;
         Self::joined(mesh, &matrices, 1, ring(tooth.teeth, 1))
     }
 
-    /// Two teeth in a row with `beside` more on either side, its outer cuts held.
+    /// Condenses two neighbouring teeth with `beside` more on either side, the outer cuts held.
     pub fn in_a_row(tooth: &Tooth, mesh: ExtrudedTooth, material: Elastic, beside: usize) -> Result<Self, SpaceError> {
         let matrices = SectorInSpace::new(tooth, &mesh, material, false)?.matrices;
         Self::joined(mesh, &matrices, 2, Surroundings::ClampedSector { coarse: beside })
@@ -172,20 +176,20 @@ impl TeethInSpace {
         teeth: usize,
         surroundings: Surroundings,
     ) -> Result<Self, SpaceError> {
-        let mut next = 0..;
-        let mut places_at =
-            |k: usize| mesh.section.flank.iter().map(|node| mesh.node(*node, k).and_then(|_| next.next())).collect();
-        let places = (0..mesh.z_mm.len()).map(&mut places_at).collect();
+        let (mut next, mut places) = (0.., Vec::with_capacity(mesh.z_mm.len()));
+        for k in 0..mesh.z_mm.len() {
+            places.push(mesh.section.flank.iter().map(|node| mesh.node(*node, k).and_then(|_| next.next())).collect());
+        }
         let joined = joined(matrices, teeth, surroundings)?;
         Ok(Self { by_distance: joined.blocks(matrices, 0, 0..=teeth - 1).collect(), mesh, places })
     }
 
-    /// Where elements over the face width end, from z = 0 on.
+    /// Ends of the layers of elements over the face width, from z = 0 on.
     pub fn layer_ends_mm(&self) -> Vec<f64> {
         self.mesh.layer_ends_mm()
     }
 
-    /// Loads at points of the working flank, each its radius, its place over the face width and its part of the whole.
+    /// Nodal forces of loads at points of the working flank, each given by radius, z and fraction of the whole load.
     pub fn load(&self, points: impl IntoIterator<Item = (f64, f64, f64)>) -> FlankForces {
         let mut forces = FlankForces::new();
         points.into_iter().for_each(|(radius_mm, z_mm, part)| self.add_load(radius_mm, z_mm, part, &mut forces));
@@ -206,18 +210,18 @@ impl TeethInSpace {
         }
     }
 
-    /// Displacement of all nodes of a tooth of gear `tooth`, mm, and the stress there (x, y, z, xy, yz, zx), MPa, in its own frame under loads,
-    /// N, on it and on teeth so many pitches anticlockwise of it.
+    /// Displacement and stress of a tooth in its own frame under `loads`: for each loaded tooth its distance in pitches anticlockwise, the load
+    /// in N and the nodal forces.
     ///
-    /// The sector is condensed anew: what this takes in memory is not kept for runs that do not ask.
+    /// The sector is condensed again, so that its factor need not be kept in memory.
     pub fn deformed(
         &self,
         tooth: &Tooth,
         material: Elastic,
         loads: &[(i32, f64, FlankForces)],
     ) -> Result<DeformedTooth, SpaceError> {
-        let pitches = || loads.iter().map(|(pitches, ..)| *pitches).chain([0]);
-        let (first, last) = (pitches().min().unwrap_or(0), pitches().max().unwrap_or(0));
+        let first = loads.iter().map(|(pitches, ..)| *pitches).fold(0, i32::min);
+        let last = loads.iter().map(|(pitches, ..)| *pitches).fold(0, i32::max);
         let teeth = (last - first + 1) as usize;
         let mut forces: Vec<ToothForce> = vec![Vec::new(); teeth];
         for (pitches, load_n, parts) in loads {
@@ -234,7 +238,7 @@ impl TeethInSpace {
         Ok(DeformedTooth { displacement_mm, stress_mpa })
     }
 
-    /// How far a load `of` on one tooth yields under the load `under` on a tooth so many pitches anticlockwise of it (clockwise where
+    /// Deflection at the load `of` on one tooth under the load `under` on a tooth `pitches` anticlockwise of it (clockwise where
     /// negative), mm/N.
     pub fn mm_per_n(&self, of: &FlankForces, under: &FlankForces, pitches: i32) -> f64 {
         let block = &self.by_distance[pitches.unsigned_abs() as usize];
@@ -248,104 +252,117 @@ impl TeethInSpace {
 /// One sector of a gear, factorised with its cuts held, and condensed onto the loads on its working flank and onto its cuts.
 struct SectorInSpace {
     factor: Factor,
-    /// Forces by degree of freedom: under the load of 1 N at each node of the flank, and what holds the inner nodes against each
-    /// displacement of the cuts.
+    /// Forces by degree of freedom: of a load of 1 N at each node of the flank, then K_ib, the forces on inner nodes per displacement of the
+    /// cuts.
     columns: Vec<Vec<(u32, f64)>>,
-    /// Displacements of the cuts: at each of their nodes along the radius, around and along the axis.
-    of_cuts: Vec<(u32, Vector3<f64>)>,
+    cuts: CutDisplacements,
     matrices: SectorMatrices,
 }
 
-impl SectorInSpace {
-    /// The end faces are free, or stay in their planes.
-    fn new(tooth: &Tooth, mesh: &ExtrudedTooth, material: Elastic, ends_stay: bool) -> Result<Self, SpaceError> {
-        let matrix = stiffness(&mesh.points_mm, || elements(mesh, &material))?;
-        let mut held = vec![false; mesh.points_mm.len()];
-        let clamp = mesh.over(&mesh.section.clamp);
-        clamp.iter().for_each(|node| held[*node as usize] = true);
-        let cut_nodes: Vec<u32> = mesh
-            .section
-            .cuts
-            .iter()
-            .flat_map(|cut| mesh.over(cut).into_iter().filter(|node| !held[*node as usize]).collect::<Vec<_>>())
-            .collect();
-        cut_nodes.iter().for_each(|node| held[*node as usize] = true);
-        let ends = [0, mesh.z_mm.len() - 1].map(|k| mesh.z_mm[k]);
-        let stays = |dof: usize| ends_stay && dof % 3 == 2 && ends.contains(&mesh.points_mm[dof / 3].z);
-        let factor = Factor::of_held(&matrix, |dof| held[dof / 3] || stays(dof))?;
+/// Unit displacements of the cuts: radial, circumferential and axial at each of their nodes.
+struct CutDisplacements {
+    nodes: Vec<u32>,
+    units: Vec<(u32, Vector3<f64>)>,
+    /// Unit displacements of each node.
+    of_node: BTreeMap<u32, Range<usize>>,
+}
 
-        let mut columns = flank_forces(tooth, mesh);
-        let loads = columns.len();
-        let mut of_cuts: Vec<(u32, Vector3<f64>)> = Vec::new();
-        // For each node of a cut which displacements are its own.
-        let mut of_node = BTreeMap::new();
-        for node in &cut_nodes {
-            let first = of_cuts.len();
-            let radial = mesh.points_mm[*node as usize].xy().normalize();
-            of_cuts.push((*node, Vector3::new(radial.x, radial.y, 0.0)));
-            of_cuts.push((*node, Vector3::new(-radial.y, radial.x, 0.0)));
-            if !stays(3 * *node as usize + 2) {
-                of_cuts.push((*node, Vector3::z()));
+impl CutDisplacements {
+    /// Unit displacements of `nodes`; only those for which `moves_axially` move along the axis.
+    fn new(mesh: &ExtrudedTooth, nodes: Vec<u32>, moves_axially: impl Fn(u32) -> bool) -> Self {
+        let (mut units, mut of_node) = (Vec::new(), BTreeMap::new());
+        for &node in &nodes {
+            let first = units.len();
+            let radial = mesh.points_mm[node as usize].xy().normalize();
+            units.push((node, Vector3::new(radial.x, radial.y, 0.0)));
+            units.push((node, Vector3::new(-radial.y, radial.x, 0.0)));
+            if moves_axially(node) {
+                units.push((node, Vector3::z()));
             }
-            of_node.insert(*node, first..of_cuts.len());
+            of_node.insert(node, first..units.len());
         }
-        let cuts = of_cuts.len();
-        let cut_dofs: Vec<u32> = cut_nodes.iter().flat_map(|node| [0, 1, 2].map(|k| 3 * node + k)).collect();
-        let entries = matrix.columns(&cut_dofs);
-        let mut own = Mat::<f64>::zeros(cuts, cuts);
-        for (place, node) in cut_nodes.iter().enumerate() {
-            for column in of_node[node].clone() {
-                let (_, direction) = of_cuts[column];
+        Self { nodes, units, of_node }
+    }
+
+    /// K_bb, and the columns of K_ib on nodes that are not `held`.
+    fn stiffness(&self, matrix: &NodeMatrix, held: &[bool]) -> (Mat<f64>, Vec<Vec<(u32, f64)>>) {
+        let dofs: Vec<u32> = self.nodes.iter().flat_map(|node| [0, 1, 2].map(|k| 3 * node + k)).collect();
+        let entries = matrix.columns(&dofs);
+        let mut own = Mat::<f64>::zeros(self.units.len(), self.units.len());
+        let mut columns = Vec::with_capacity(self.units.len());
+        for (place, node) in self.nodes.iter().enumerate() {
+            for column in self.of_node[node].clone() {
+                let (_, direction) = self.units[column];
                 let mut inside = Vec::new();
                 for (k, part) in direction.iter().enumerate().filter(|(_, part)| **part != 0.0) {
                     for &(dof, value) in &entries[3 * place + k] {
-                        match of_node.get(&(dof / 3)) {
-                            Some(rows) => {
-                                for row in rows.clone() {
-                                    own[(row, column)] += of_cuts[row].1[dof as usize % 3] * value * part;
-                                }
+                        if let Some(rows) = self.of_node.get(&(dof / 3)) {
+                            for row in rows.clone() {
+                                own[(row, column)] += self.units[row].1[dof as usize % 3] * value * part;
                             }
-                            None if !held[dof as usize / 3] => inside.push((dof, part * value)),
-                            None => {}
+                        } else if !held[dof as usize / 3] {
+                            inside.push((dof, part * value));
                         }
                     }
                 }
                 columns.push(inside);
             }
         }
+        (own, columns)
+    }
+}
+
+impl SectorInSpace {
+    /// Condenses a sector with free end faces or, in plane strain, without axial displacement of these.
+    fn new(tooth: &Tooth, mesh: &ExtrudedTooth, material: Elastic, plane_strain: bool) -> Result<Self, SpaceError> {
+        let matrix = stiffness(&mesh.points_mm, || elements(mesh, &material))?;
+        let mut held = vec![false; mesh.points_mm.len()];
+        let clamp = mesh.over(&mesh.section.clamp);
+        clamp.iter().for_each(|node| held[*node as usize] = true);
+        let cut_nodes: Vec<u32> =
+            mesh.section.cuts.iter().flat_map(|cut| free_of(&mesh.over(cut), |node| held[*node as usize])).collect();
+        cut_nodes.iter().for_each(|node| held[*node as usize] = true);
+        let ends = [0, mesh.z_mm.len() - 1].map(|k| mesh.z_mm[k]);
+        let stays = |node: usize| plane_strain && ends.contains(&mesh.points_mm[node].z);
+        let factor = Factor::of_held(&matrix, |dof| held[dof / 3] || dof % 3 == 2 && stays(dof / 3))?;
+
+        let mut columns = flank_forces(tooth, mesh);
+        let loads = columns.len();
+        let cuts = CutDisplacements::new(mesh, cut_nodes, |node| !stays(node as usize));
+        let (own, of_cuts) = cuts.stiffness(&matrix, &held);
+        columns.extend(of_cuts);
         let all = factor.compliance(&columns);
         let matrices = SectorMatrices {
             compliance: all.get(..loads, ..loads).to_owned(),
-            carried: Mat::from_fn(loads, cuts, |i, j| -all[(i, loads + j)]),
+            carried: Mat::from_fn(loads, cuts.units.len(), |i, j| -all[(i, loads + j)]),
             cut_stiffness: symmetric(&(own - all.get(loads.., loads..))),
         };
-        Ok(Self { factor, columns, of_cuts, matrices })
+        Ok(Self { factor, columns, cuts, matrices })
     }
 
-    /// Displacement of every degree of freedom under loads on its flank and displacements of its cuts, mm.
+    /// Displacement of every degree of freedom under loads on the flank and displacements of the cuts, mm.
     fn displacement_mm(&self, loads: &[(usize, f64)], cuts_mm: &[f64]) -> Vec<f64> {
         let mut u = vec![0.0; self.factor.dofs()];
-        let mut add = |column: usize, part: f64| {
+        let of_loads = self.columns.len() - self.cuts.units.len();
+        let of_cuts = cuts_mm.iter().enumerate().map(|(k, cut)| (of_loads + k, -cut));
+        for (column, part) in loads.iter().copied().chain(of_cuts) {
             self.columns[column].iter().for_each(|(dof, force)| u[*dof as usize] += part * force);
-        };
-        loads.iter().for_each(|(node, load)| add(*node, *load));
-        let of_loads = self.columns.len() - self.of_cuts.len();
-        cuts_mm.iter().enumerate().for_each(|(k, cut)| add(of_loads + k, -cut));
+        }
         self.factor.solve(1, &mut u);
-        for ((node, direction), cut) in self.of_cuts.iter().zip(cuts_mm) {
+        for ((node, direction), cut) in self.cuts.units.iter().zip(cuts_mm) {
             (0..3).for_each(|k| u[3 * *node as usize + k] += cut * direction[k]);
         }
         u
     }
 }
 
-/// The elements of a sector.
+/// Elements of a sector.
 fn elements<'a>(mesh: &'a ExtrudedTooth, material: &'a Elastic) -> impl Iterator<Item = Hexahedron<'a>> {
     mesh.hexahedra.iter().map(move |nodes| Hexahedron { nodes, material })
 }
 
-/// The force at each node of the working flank whose transverse component is 1 N: along the flank's normal, which carries no load along
-/// the helix, F · (ẑ × x θ' + ẑ) = 0.
+/// Force at each node of the working flank with a transverse component of 1 N, along the flank's normal: perpendicular to the helix,
+/// F · (ẑ × x θ' + ẑ) = 0.
 pub fn flank_forces(tooth: &Tooth, mesh: &ExtrudedTooth) -> Vec<Vec<(u32, f64)>> {
     let mut forces = Vec::new();
     for k in 0..mesh.z_mm.len() {

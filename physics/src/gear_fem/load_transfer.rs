@@ -1,40 +1,39 @@
-//! How the load of a contact reaches the nodes of both flanks, and how what these have lost reaches the contact.
+//! Transfer of wear from the multipliers of a contact to the nodes of both flanks, and of worn depths to the gaps.
 //!
-//! Each multiplier stands for a stretch of the slave's flank, as long as its weight; along the slave's normals it faces a stretch of
-//! the master. While the theoretical contact point passes the stretch of path that a position stands for, the contact moves
-//! along both flanks, and both stretches with it. What the multiplier wears is spread evenly over them, and the gap that it sees
+//! Each multiplier represents a stretch of the slave's flank, as long as its weight, and the stretch of the master that faces it along the slave's
+//! normals. While the theoretical contact point passes the stretch of path that a position represents, the contact moves
+//! along both flanks, and both stretches with it. The wear of the multiplier is spread evenly over them, and its gap
 //! is opened by the mean depth on them:
 //!
 //! ```text
 //! h_k ← h_k + M_ik d_i w_i / W_k          g_i ← g_i + Σ_k M_ik h_k / (n_k · n_i)
 //! ```
 //!
-//! d_i: depth that the wear law gives for the pressure f_i/w_i and the sliding of the multiplier; n: normals, the factor being that
-//! of a surface seen askew. Both flanks lose what the contact gives, whatever the nodes, the multipliers or the positions, and as
-//! one rule is the transpose of the other, wear levels out what it can see: waves of wear decay or stay as they are, and none grows.
+//! d_i: depth of the wear law for the pressure f_i/w_i and the sliding of the multiplier; n: normals of oblique surfaces. Both flanks lose
+//! the volume worn in the contact, whatever the nodes, multipliers or positions, and as
+//! one rule is the transpose of the other, waves of wear decay or stay, and none grows.
 //!
-//! Under load flanks also move along each other. The coupling is that of nodes which face each other in the places of the unloaded
+//! Under load the flanks also move along each other. The coupling is that of nodes which face each other on the unloaded
 //! teeth; a gap along the slave's normals, opened by displacements of both, is to first order that of the *master's* material
-//! there, for where the gap has a slope, what moves the master along it moves the contact with it. The slave's material
-//! that has come there lies off by how far both have moved along each other. From there to the tip of the slave that is
+//! there, as the contact moves with the master where the gap has a slope. The slave's material
+//! there is offset by the relative movement of both along the flank, towards the tip of the slave
 //!
 //! ```text
 //! t = ± ½ δ (tan α_s − tan α_m)        tan α = ρ/r_b of slave and master; + where the pinion is the slave
 //! ```
 //!
-//! for both flanks go about their axes, the pinion's by the transmission error δ less what its tooth bends back, the wheel's by what its tooth is
-//! bent on: both must meet, and half of δ is taken for either. By as much the pitch point is passed earlier,
+//! as both flanks turn about their axes, the pinion's by the transmission error δ less its tooth's deflection, the wheel's by its tooth's
+//! deflection; half of δ is taken for either. The pitch point is passed earlier by the same amount,
 //!
 //! ```text
 //! (x − C) · n ← (x − C) · n + ½ δ
 //! ```
 //!
-//! Without the two, the same gear would wear by some δ (0.03 mm) of roll length farther down its root where it is driven than where it drives:
-//! were the wheel turned back instead of the pinion turned on, the same teeth in the same places would be called a position further on by δ. On the slave's
-//! sharp tip edge, which stays where it is, it is the master's material that lies off by t.
+//! Without these two terms the same gear would wear by some δ (0.03 mm) of roll length farther down its root as the driven than as the driving one.
+//! At the slave's sharp tip edge, which does not move, the master's material is offset by t.
 //!
-//! All this is about the flanks as they are new, or about worn ones ([`super::tilted`]): then n_k · n_i is that of the worn flank, and what
-//! the gaps differ by from the rule at that wear is added to them. A tip edge whose wear tilts it by a tenth touches elsewhere on its
+//! The rule is linearised about new flanks, or about worn ones ([`super::tilted`]): then n_k · n_i is that of the worn flank, and the gaps'
+//! difference from the rule at that wear is added to them. A tip edge that wear has tilted by a tenth touches elsewhere on its
 //! rounding, where the rule for new flanks is off by a hundredth of the depth.
 //!
 //! Both flanks slide on each other at
@@ -43,8 +42,10 @@
 //! ds/dξ = (1/r_b1 + 1/r_b2) |(x − C) · n|
 //! ```
 //!
-//! with C the pitch point and n the slave's normal: on the line of action (x − C)·n = ξ − ξ_C, and outside it, where a tip
-//! edge touches early, it is the true relative velocity of the bodies along the tangent.
+//! with C the pitch point and n the slave's normal: on the line of action (x − C)·n = ξ − ξ_C; outside it, where a tip
+//! edge touches early, it is the relative velocity of the bodies along the tangent.
+
+use std::collections::BTreeMap;
 
 use nalgebra::{Rotation2, Vector2};
 
@@ -52,50 +53,50 @@ use super::condensed_pair::CondensedPair;
 use super::facing_teeth::FacingTeeth;
 use super::flank_nodes::{FlankNodes, Weights};
 use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
-use super::prepared::Prepared;
+use super::prepared::PreparedPosition;
 use super::tilted::Worn;
 use crate::gear::{Gear, PerGear};
 use crate::reference::linear_means::weighted_sum;
 
-/// Most parts into which the movement of a contact is divided.
+/// Greatest number of parts into which the movement of a contact is divided.
 const MOST_PARTS: usize = 24;
-/// Least cosine between the normals of two flanks in contact that is reckoned with.
+/// Lower bound of the cosine between the normals of two flanks in contact.
 const LEAST_COSINE: f64 = 0.3;
 
-/// One tooth pair's contact at a position.
+/// Transfer between the multipliers of one tooth pair at a position and the nodes of its flanks.
 #[derive(Debug, Clone)]
 pub(crate) struct LoadTransfer {
-    /// Base pitches by which the pair is ahead of the reference pair.
+    /// Number of the pair: base pitches ahead of the reference pair.
     pub pair: i32,
-    /// The gear whose flank has the multipliers.
+    /// Gear whose flank has the multipliers.
     pub slave: Gear,
-    /// Its first row among the multipliers of the position.
+    /// First row of the pair among the multipliers of the position.
     pub first_row: usize,
-    /// w_i of each row, mm.
+    /// Weight w_i of each row, mm.
     pub weight_mm: Vec<f64>,
-    /// How far the flanks slide on each other at each row, mm.
+    /// Sliding distance of each row, mm.
     pub sliding_mm: Vec<f64>,
     /// Distance of each row along the profile from the first one, towards the pinion's tip, mm.
     pub along_mm: Vec<f64>,
-    /// M for each gear.
-    pub means: PerGear<Means>,
-    /// What the gap of each row differs by from the rule at the wear that it is about, mm.
+    /// Matrix M for each gear.
+    pub means: PerGear<StretchMeans>,
+    /// Difference of each row's gap from the linear rule at the wear about which it is linearised, mm.
     beyond_rule_mm: Vec<f64>,
-    /// How far the slave's material lies off what the rows faced in the places of the unloaded teeth, towards its tip, mm.
+    /// Offset t of the slave's material under load, towards its tip, mm.
     slave_off_mm: f64,
 }
 
 /// M_ik of one flank: row by row, consecutive nodes.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Means {
+pub(crate) struct StretchMeans {
     first: Vec<usize>,
     ends: Vec<usize>,
     weights: Vec<f64>,
-    /// 1/(n_k · n_i) of each row.
+    /// Factor 1/(n_k · n_i) of each row.
     askew: Vec<f64>,
 }
 
-impl Means {
+impl StretchMeans {
     fn push(&mut self, reached: std::ops::Range<usize>, sums: &mut [f64], askew: f64) {
         self.first.push(reached.start);
         self.weights.extend_from_slice(&sums[reached.clone()]);
@@ -104,14 +105,14 @@ impl Means {
         self.askew.push(askew);
     }
 
-    /// M_ik of row `i`.
+    /// Weights M_ik of row `i`.
     #[inline]
     pub(crate) fn row(&self, i: usize) -> Weights<'_> {
         let begin = if i > 0 { self.ends[i - 1] } else { 0 };
         Weights { first: self.first[i], weights: &self.weights[begin..self.ends[i]] }
     }
 
-    /// How far depths at the nodes open the gap of row `i`, mm.
+    /// Opening of the gap of row `i` by depths at the nodes, mm.
     fn opening_mm(&self, i: usize, depth_mm: &[f64]) -> f64 {
         let Weights { first, weights } = self.row(i);
         self.askew[i] * weighted_sum(weights, &depth_mm[first..])
@@ -124,17 +125,17 @@ impl LoadTransfer {
         self.weight_mm.len()
     }
 
-    /// Adds to the gaps of the position's rows what flanks that have lost `depth_mm` at their nodes open them by. Where the coupling is
-    /// that of flanks tilted by `tilt_rad` at a row ([`super::tilted`]), it opens them by what material of the slave is off along that tilt already.
+    /// Opens the gaps of the position's rows by the wear `depth_mm` at the nodes. A coupling of flanks tilted by `tilt_rad` at a row
+    /// ([`super::tilted`]) contains the opening by the slave's offset along that tilt already.
     pub(crate) fn open_gaps(&self, depth_mm: PerGear<&[f64]>, tilt_rad: impl Fn(usize) -> f64, gap_mm: &mut [f64]) {
         for (i, gap) in gap_mm[self.first_row..self.first_row + self.len()].iter_mut().enumerate() {
-            let opening_mm = |gear: Gear| self.means[gear].opening_mm(i, depth_mm[gear]);
+            let [pinion_mm, wheel_mm] = Gear::BOTH.map(|gear| self.means[gear].opening_mm(i, depth_mm[gear]));
             let by_tilt_mm = tilt_rad(self.first_row + i) * self.slave_off_mm;
-            *gap += opening_mm(Gear::Pinion) + opening_mm(Gear::Wheel) + self.beyond_rule_mm[i] - by_tilt_mm;
+            *gap += pinion_mm + wheel_mm + self.beyond_rule_mm[i] - by_tilt_mm;
         }
     }
 
-    /// Means over a load of `force` on the rows of what each node of `gear` is; 0 without load.
+    /// StretchMeans of nodal values of `gear`, weighted by the load `force` on the rows; 0 without load.
     pub(crate) fn mean_on<const N: usize>(
         &self,
         gear: Gear,
@@ -153,7 +154,7 @@ impl LoadTransfer {
         if whole > 0.0 { sums.map(|sum| sum / whole) } else { sums }
     }
 
-    /// Adds to the depths at the nodes of a flank what the rows lose: `depth_mm` each.
+    /// Adds the wear of the rows, `depth_mm` each, to the depths at the nodes of a flank.
     pub(crate) fn wear_nodes(&self, gear: Gear, nodes: &FlankNodes, depth_mm: &[f64], sums_mm: &mut [f64]) {
         for (i, (depth, weight)) in depth_mm.iter().zip(&self.weight_mm).enumerate() {
             if *depth == 0.0 {
@@ -169,44 +170,46 @@ impl LoadTransfer {
     }
 }
 
-/// What a slave's node meets on the master.
+/// Point of the master on the normal of a slave's node.
 #[derive(Debug, Clone, Copy)]
 struct Foot {
     /// Distance from the master's root end, mm.
     along_mm: f64,
-    /// Across the gap, mm.
+    /// Gap along the normal, mm.
     gap_mm: f64,
-    /// n · −n_m; on a worn flank over that of its normal with the new one's.
+    /// Cosine n · −n_m; on a worn flank over that of its normal with the new one's.
     cosine: f64,
 }
 
-/// A position, what it stands for, and how far the pinion has turned on there under load.
+/// Feet of the slave's nodes by their number on its flank.
+type Feet = BTreeMap<usize, Foot>;
+
+/// Stretch of path that a position represents.
 #[derive(Debug, Clone, Copy)]
 struct Passing {
     position_mm: f64,
-    /// Part of the path.
     stretch_mm: (f64, f64),
     /// Transmission error.
     turned_mm: f64,
 }
 
 impl CondensedPair<'_> {
-    /// The nodes of both working flanks.
+    /// Nodes of both working flanks.
     pub(crate) fn flank_nodes(&self) -> PerGear<FlankNodes> {
         self.flanks.as_ref().map(FlankNodes::new)
     }
 
-    /// Radius of the nominal flank point that each local node of a gear's flank stands for, mm.
+    /// Radius of the nominal flank point of each local node of a gear's flank, mm.
     pub fn nominal_radius_mm(&self, gear: Gear) -> Vec<f64> {
         let points = self.flanks[gear].surface.points_mm.iter();
         points.map(|&point| self.pair.teeth[gear].nominal_radius_mm(point)).collect()
     }
 
-    /// How each tooth pair that may touch at a position hands its load over, with the position standing for the path from
-    /// `stretch_mm.0` to `stretch_mm.1`, under the transmission error `turned_mm`; about the `worn` flanks where there are such.
+    /// Load transfer of each tooth pair that may touch at a position, which represents the path from
+    /// `stretch_mm.0` to `stretch_mm.1`, under the transmission error `turned_mm`; linearised about `worn` flanks where given.
     pub(crate) fn load_transfers(
         &self,
-        prepared: &Prepared,
+        prepared: &PreparedPosition,
         stretch_mm: (f64, f64),
         turned_mm: f64,
         nodes: PerGear<&FlankNodes>,
@@ -228,15 +231,10 @@ impl CondensedPair<'_> {
         let (own, mate) = (nodes[slave], nodes[slave.mate()]);
         let feet = self.feet(position_mm, facing, nodes, worn);
         let beyond_rule_mm = match worn {
-            Some(Worn { depth_mm, .. }) => {
+            Some(worn) => {
                 let unworn = self.feet(position_mm, facing, nodes, None);
-                let beyond = |node: &usize| {
-                    let place = own.place[*node];
-                    let (Some(from), Some(to)) = (unworn.get(&place), feet.get(&place)) else { return 0.0 };
-                    let mates_mm = mate.depth_at_mm(to.along_mm, depth_mm[slave.mate()]);
-                    to.gap_mm - from.gap_mm - depth_mm[slave][place] - mates_mm / to.cosine.max(LEAST_COSINE)
-                };
-                facing.coupling.nodes.iter().map(beyond).collect()
+                let places = facing.coupling.nodes.iter().map(|node| own.place[*node]);
+                places.map(|place| beyond_rule_mm(place, slave, mate, worn, (&unworn, &feet))).collect()
             }
             None => vec![0.0; facing.coupling.len()],
         };
@@ -244,7 +242,7 @@ impl CondensedPair<'_> {
         let mut moves = PerGear::from_fn(|gear| self.contact_moves_mm(position_mm, stretch_mm, facing.pair, gear));
         moves[moved].iter_mut().for_each(|end| *end += off_mm);
         let mut sums = PerGear::from_fn(|gear| vec![0.0; nodes[gear].len()]);
-        let mut means: PerGear<Means> = PerGear::default();
+        let mut means: PerGear<StretchMeans> = PerGear::default();
         let (mut sliding_mm, mut along_mm) = (Vec::new(), Vec::new());
         let towards_pinion_tip = if slave == Gear::Pinion { 1.0 } else { -1.0 };
         let turn_per_mm = self.pair.path.relative_turn_per_mm();
@@ -276,131 +274,162 @@ impl CondensedPair<'_> {
         }
     }
 
-    /// (x − C)·n at a node of the slave, n away from the pinion, mm.
+    /// Lever (x − C)·n at a node of the slave, n away from the pinion, mm.
     fn lever_mm(&self, position_mm: f64, facing: &FacingTeeth, node: usize) -> f64 {
         let (slave, surface) = (facing.slave, &self.flanks[facing.slave].surface);
         let in_place = in_place_mm(self.pair, slave, position_mm, facing.pair, surface.points_mm[node]);
         let pitch_point = Vector2::new(0.0, self.pair.working_pitch_radius_mm(Gear::Pinion));
         let angle_rad = tooth_angle_rad(self.pair, slave, position_mm, facing.pair);
         let along_normal = (in_place - pitch_point).dot(&(Rotation2::new(angle_rad) * surface.normals[node]));
-        // The pinion's normal looks along the line of action, the wheel's against it.
+        // The pinion's normal points along the line of action, the wheel's against it.
         if slave == Gear::Pinion { along_normal } else { -along_normal }
     }
 
-    /// Where the slave's nodes in the window meet the master, by their place on the slave's flank; `worn` or new.
+    /// Feet of the slave's nodes in the window on the master, by their number on the slave's flank; of `worn` flanks or new ones.
     fn feet(
         &self,
         position_mm: f64,
         facing: &FacingTeeth,
         nodes: PerGear<&FlankNodes>,
         worn: Option<Worn<'_>>,
-    ) -> std::collections::BTreeMap<usize, Foot> {
+    ) -> Feet {
         let (slave, master) = (facing.slave, facing.slave.mate());
-        let angle_rad = |gear| tooth_angle_rad(self.pair, gear, position_mm, facing.pair);
-        let turn = Rotation2::new(angle_rad(master) - angle_rad(slave));
-        let to_slave = Rotation2::new(-angle_rad(slave));
+        let angle_rad = PerGear::from_fn(|gear| tooth_angle_rad(self.pair, gear, position_mm, facing.pair));
+        let turn = Rotation2::new(angle_rad[master] - angle_rad[slave]);
+        let to_slave = Rotation2::new(-angle_rad[slave]);
         let moved = to_slave * (axis_mm(self.pair, master) - axis_mm(self.pair, slave));
-        let of_window = |gear: Gear| {
-            let edges = &self.flanks[gear].surface.edges[facing.edges[gear].clone()];
-            let mut window: Vec<usize> = edges.iter().flat_map(|edge| edge.nodes().iter().copied()).collect();
-            window.sort_by_key(|&node| nodes[gear].place[node]);
-            window.dedup();
-            window
-        };
-        let (own, mate) = (&self.flanks[slave].surface, &self.flanks[master].surface);
-        let depth_mm = |gear: Gear, place: usize| worn.map_or(0.0, |worn| worn.depth_mm[gear][place]);
-        let mates: Vec<_> = of_window(master)
+        let masters: Vec<MasterNode> = self
+            .nodes_in_window(facing, nodes, master)
             .into_iter()
             .map(|node| {
-                let (place, normal) = (nodes[master].place[node], mate.normals[node]);
-                let along_mm = nodes[master].along_mm[place];
-                let point = mate.points_mm[node] - depth_mm(master, place) * normal;
-                // As long as 1/(n · n_worn).
+                let place = nodes[master].place[node];
+                let (point, normal) = self.worn_node_mm(master, node, place, worn);
+                // Of length 1/(n · n_worn).
                 let slope = worn.map_or(0.0, |worn| worn.tilt_rad[master][place]);
                 let worn_normal = normal + slope * Vector2::new(normal.y, -normal.x);
-                (turn * point + moved, turn * worn_normal, along_mm)
+                let along_mm = nodes[master].along_mm[place];
+                MasterNode { point_mm: turn * point + moved, normal: turn * worn_normal, along_mm }
             })
             .collect();
-        let mut feet = std::collections::BTreeMap::new();
-        for node in of_window(slave) {
-            let (place, normal) = (nodes[slave].place[node], own.normals[node]);
-            let point = own.points_mm[node] - depth_mm(slave, place) * normal;
-            let beside = |k: usize| (mates[k].0 - point).perp(&normal);
-            let mut nearest: Option<Foot> = None;
-            let mut before = beside(0);
-            for k in 0..mates.len() - 1 {
-                let after = beside(k + 1);
-                if (before <= 0.0) != (after <= 0.0) {
-                    let t = before / (before - after);
-                    let ((x0, n0, s0), (x1, n1, s1)) = (mates[k], mates[k + 1]);
-                    let gap_mm = (x0 + t * (x1 - x0) - point).dot(&normal);
-                    let length = n0.norm() + t * (n1.norm() - n0.norm());
-                    let cosine = -(n0 + t * (n1 - n0)).normalize().dot(&normal) * length;
-                    if cosine > 0.0 && nearest.is_none_or(|foot: Foot| gap_mm.abs() < foot.gap_mm.abs()) {
-                        nearest = Some(Foot { along_mm: s0 + t * (s1 - s0), gap_mm, cosine });
-                    }
-                }
-                before = after;
-            }
-            feet.extend(nearest.map(|foot| (place, foot)));
+        let mut feet = Feet::new();
+        for node in self.nodes_in_window(facing, nodes, slave) {
+            let place = nodes[slave].place[node];
+            let (point, normal) = self.worn_node_mm(slave, node, place, worn);
+            feet.extend(foot(&masters, point, normal).map(|foot| (place, foot)));
         }
         feet
     }
 
-    /// How far material of one of the flanks, and of which, lies off what faced its mate's in the places of the unloaded teeth, towards its
-    /// tip, mm.
+    /// Local nodes of a gear's flank in the window, from root to tip.
+    fn nodes_in_window(&self, facing: &FacingTeeth, nodes: PerGear<&FlankNodes>, gear: Gear) -> Vec<usize> {
+        let edges = &self.flanks[gear].surface.edges[facing.edges[gear].clone()];
+        let mut window: Vec<usize> = edges.iter().flat_map(|edge| edge.nodes().iter().copied()).collect();
+        window.sort_by_key(|&node| nodes[gear].place[node]);
+        window.dedup();
+        window
+    }
+
+    /// Worn place of a local node and its normal on the new flank.
+    fn worn_node_mm(
+        &self,
+        gear: Gear,
+        node: usize,
+        place: usize,
+        worn: Option<Worn<'_>>,
+    ) -> (Vector2<f64>, Vector2<f64>) {
+        let (surface, depth_mm) = (&self.flanks[gear].surface, worn.map_or(0.0, |worn| worn.depth_mm[gear][place]));
+        (surface.points_mm[node] - depth_mm * surface.normals[node], surface.normals[node])
+    }
+
+    /// Gear whose material is offset along its flank under load, and the offset t towards its tip, mm.
     fn off_mm(&self, passing: Passing, facing: &FacingTeeth) -> (Gear, f64) {
         let (path, slave) = (&self.pair.path, facing.slave);
         let own_mm = passing.position_mm + f64::from(facing.pair) * path.base_pitch_mm;
-        let slope = |gear: Gear| path.rho_mm(gear, own_mm) / path.involute[gear].base_radius_mm;
+        let slope = PerGear::from_fn(|gear| path.rho_mm(gear, own_mm) / path.involute[gear].base_radius_mm);
         let sign = if slave == Gear::Pinion { 0.5 } else { -0.5 };
-        let off_mm = sign * passing.turned_mm * (slope(slave) - slope(slave.mate()));
-        // The two flanks run against each other.
+        let off_mm = sign * passing.turned_mm * (slope[slave] - slope[slave.mate()]);
         (if self.is_on_tip_edge(slave, own_mm) { slave.mate() } else { slave }, off_mm)
     }
 
-    /// Whether a gear touches with its tip edge, with the theoretical contact point of its pair at `own_mm`.
+    /// Whether a gear touches with its tip edge where the theoretical contact point of its pair is at `own_mm`.
     fn is_on_tip_edge(&self, gear: Gear, own_mm: f64) -> bool {
         self.pair.path.rho_mm(gear, own_mm) > self.involute_end_mm(gear)
     }
 
-    /// How far the contact of a tooth pair moves along `gear`'s flank while the theoretical contact point passes `stretch_mm`, mm: to
-    /// the root's side and to the tip's side of where it is at `position_mm`.
+    /// Movement of the contact of a tooth pair along `gear`'s flank while the theoretical contact point passes `stretch_mm`, mm: towards
+    /// root (negative) and tip from its place at `position_mm`.
     fn contact_moves_mm(&self, position_mm: f64, stretch_mm: (f64, f64), pair: i32, gear: Gear) -> [f64; 2] {
         let path = &self.pair.path;
-        let involute = path.involute[gear];
         let ahead_mm = f64::from(pair) * path.base_pitch_mm;
         let own_mm = position_mm + ahead_mm;
         let edge = self.edge_passed(own_mm);
-        let arc = |at_mm: f64| match edge {
-            Some(edge) if edge.gear != gear => involute.arc_mm(self.rho_at_edge_mm(edge, at_mm, pair)),
-            _ => involute.arc_mm(path.rho_mm(gear, at_mm + ahead_mm)),
-        };
-        // On its own edge the contact stands still.
+        // The contact does not move on the gear's own edge.
         let on_corner = edge.is_some_and(|edge| edge.gear == gear && edge.at_root);
         if on_corner || self.is_on_tip_edge(gear, own_mm) {
             return [0.0, 0.0];
         }
-        let here = arc(position_mm);
-        let (a, b) = (arc(stretch_mm.0) - here, arc(stretch_mm.1) - here);
+        let [here, first, last] = [position_mm, stretch_mm.0, stretch_mm.1].map(|at_mm| {
+            let rho_mm = match edge {
+                Some(edge) if edge.gear != gear => self.rho_at_edge_mm(edge, at_mm, pair),
+                _ => path.rho_mm(gear, at_mm + ahead_mm),
+            };
+            path.involute[gear].arc_mm(rho_mm)
+        });
+        let (a, b) = (first - here, last - here);
         [a.min(b), a.max(b)]
     }
 
-    /// ρ where the involute of a gear's flank ends: at its tip circle or where the rounding begins.
+    /// ρ where the involute of a gear's flank ends, at its tip circle or where the rounding begins.
     fn involute_end_mm(&self, gear: Gear) -> f64 {
-        // NaN on a rounding: never greater.
+        // NaN on a rounding is never greater.
         self.flanks[gear].rho_mm.iter().copied().fold(0.0, f64::max)
     }
 }
 
-/// Adds the means over `stretch_mm` while it moves by `moves_mm` to either side; answers the nodes that they reach.
+/// Difference of a row's gap on worn flanks from that of the linear rule, by its feet on unworn and on worn flanks, mm.
+fn beyond_rule_mm(place: usize, slave: Gear, mate: &FlankNodes, worn: Worn<'_>, feet: (&Feet, &Feet)) -> f64 {
+    let (Some(unworn), Some(foot)) = (feet.0.get(&place), feet.1.get(&place)) else { return 0.0 };
+    let mates_mm = mate.depth_at_mm(foot.along_mm, worn.depth_mm[slave.mate()]);
+    foot.gap_mm - unworn.gap_mm - worn.depth_mm[slave][place] - mates_mm / foot.cosine.max(LEAST_COSINE)
+}
+
+/// Node of the master in the frame of the slave's tooth.
+struct MasterNode {
+    point_mm: Vector2<f64>,
+    normal: Vector2<f64>,
+    along_mm: f64,
+}
+
+/// Nearest foot of `point` along its `normal` on the line through the nodes of the master.
+fn foot(masters: &[MasterNode], point: Vector2<f64>, normal: Vector2<f64>) -> Option<Foot> {
+    let mut nearest: Option<Foot> = None;
+    let mut after = (masters.first()?.point_mm - point).perp(&normal);
+    for nodes in masters.windows(2) {
+        let [a, b] = [&nodes[0], &nodes[1]];
+        let before = after;
+        after = (b.point_mm - point).perp(&normal);
+        if (before <= 0.0) == (after <= 0.0) {
+            continue;
+        }
+        let t = before / (before - after);
+        let gap_mm = (a.point_mm + t * (b.point_mm - a.point_mm) - point).dot(&normal);
+        let length = a.normal.norm() + t * (b.normal.norm() - a.normal.norm());
+        let cosine = -(a.normal + t * (b.normal - a.normal)).normalize().dot(&normal) * length;
+        if cosine > 0.0 && nearest.is_none_or(|foot: Foot| gap_mm.abs() < foot.gap_mm.abs()) {
+            nearest = Some(Foot { along_mm: a.along_mm + t * (b.along_mm - a.along_mm), gap_mm, cosine });
+        }
+    }
+    nearest
+}
+
+/// Adds the means over `stretch_mm` while it moves by `moves_mm` to either side; returns the range of nodes with weight.
 fn spread(nodes: &FlankNodes, stretch_mm: [f64; 2], moves_mm: [f64; 2], sums: &mut [f64]) -> std::ops::Range<usize> {
     let (length, way) = (stretch_mm[1] - stretch_mm[0], moves_mm[1] - moves_mm[0]);
     let parts = ((2.0 * way / length.max(1e-9)).ceil()).clamp(1.0, MOST_PARTS as f64) as usize;
     let mut reached: Option<std::ops::Range<usize>> = None;
     for part in 0..parts {
         let moved = moves_mm[0] + way * (part as f64 + 0.5) / parts as f64;
-        // The last parts of a long way are as long as the way between them.
+        // Parts of a long way are widened until they join.
         let wider = 0.5 * (way / parts as f64 - length).max(0.0);
         let stretch = [stretch_mm[0] + moved - wider, stretch_mm[1] + moved + wider];
         let range = nodes.add_means(stretch, 1.0 / parts as f64, sums);
@@ -412,38 +441,31 @@ fn spread(nodes: &FlankNodes, stretch_mm: [f64; 2], moves_mm: [f64; 2], sums: &m
     reached.unwrap_or(0..0)
 }
 
-/// The stretch of the master that `loaded_mm` of the slave, around its node at `place`, faces.
-fn faced_mm(
-    own: &FlankNodes,
-    feet: &std::collections::BTreeMap<usize, Foot>,
-    place: usize,
-    loaded_mm: [f64; 2],
-) -> [f64; 2] {
-    // FacingTeeth flanks run against each other at equal lengths, but for their curvature.
-    let foot = |(&k, foot): (&usize, &Foot)| (own.along_mm[k], foot.along_mm);
-    let is_beside = |(k, _): &(&usize, &Foot)| place.abs_diff(**k) == 1;
-    let (next_before, next_after) = (feet.range(..place).next_back(), feet.range(place + 1..).next());
-    let (before, after) = (next_before.filter(is_beside).map(foot), next_after.filter(is_beside).map(foot));
-    // Beyond the end of the master: as far from the nearest foot.
-    let nearest = || match (next_before, next_after) {
+/// Stretch of the master that faces `loaded_mm` of the slave around its node at `place`.
+fn faced_mm(own: &FlankNodes, feet: &Feet, place: usize, loaded_mm: [f64; 2]) -> [f64; 2] {
+    let (before, after) = (feet.range(..place).next_back(), feet.range(place + 1..).next());
+    // Beyond the end of the master, extrapolation from the nearest foot.
+    let nearest = match (before, after) {
         (Some(before), Some(after)) => Some(if place - before.0 <= after.0 - place { before } else { after }),
-        (before, after) => before.or(after),
+        _ => before.or(after),
     };
-    let here = feet.get_key_value(&place).or_else(nearest).map(foot);
-    let Some((at, met)) = here else { return [0.0; 2] };
-    let slope = |other: Option<(f64, f64)>| match other {
-        Some((other_at, other_met)) if other_at != at => (other_met - met) / (other_at - at),
-        _ => -1.0,
-    };
-    let down = slope(before.or(after));
-    let up = slope(after.or(before));
+    let Some((&here, foot)) = feet.get_key_value(&place).or(nearest) else { return [0.0; 2] };
+    let (at, met) = (own.along_mm[here], foot.along_mm);
+    let [before, after] = [before, after].map(|beside| {
+        let (&k, foot) = beside.filter(|(k, _)| place.abs_diff(**k) == 1)?;
+        // The flanks run in opposite directions: −1 but for their curvature.
+        Some(if own.along_mm[k] == at { -1.0 } else { (foot.along_mm - met) / (own.along_mm[k] - at) })
+    });
+    let (down, up) = (before.or(after).unwrap_or(-1.0), after.or(before).unwrap_or(-1.0));
     let ends = [met + (loaded_mm[0] - at) * down, met + (loaded_mm[1] - at) * up];
     [ends[0].min(ends[1]), ends[0].max(ends[1])]
 }
 
-/// ∫ |(x − C) · n| dξ over the stretch, on which the lever changes as ξ does, mm².
+/// ∫ |(x − C) · n| dξ over the stretch, along which the lever changes as ξ does, mm².
 fn slid_mm(lever_mm: f64, position_mm: f64, stretch_mm: (f64, f64)) -> f64 {
-    let at = |end: f64| lever_mm + end - position_mm;
-    let half_square = |x: f64| 0.5 * x * x.abs();
-    half_square(at(stretch_mm.1)) - half_square(at(stretch_mm.0))
+    let [first, last] = [stretch_mm.0, stretch_mm.1].map(|end| {
+        let x = lever_mm + end - position_mm;
+        0.5 * x * x.abs()
+    });
+    last - first
 }

@@ -1,4 +1,4 @@
-//! Finite-element contact of a gear pair: each gear condensed once, every position a small contact problem.
+//! Finite-element contact of a gear pair: each gear is condensed once, and every position is a small contact problem.
 
 mod beside_window;
 pub mod condensed_pair;

@@ -1,79 +1,82 @@
-//! From a gear pair to its condensed finite-element model, in two steps: mesh, condense.
+//! Condensed finite-element model of a gear pair: the gears are meshed, then condensed.
 
 use super::condensed_pair::{CondensedPair, hertz_half_width_mm};
-use super::flank_surface::FlankSurface;
+use super::flank_surface::MeshedFlank;
 use super::ring::{GearCompliance, Surroundings};
-use super::sector::{CondensedSector, Functional, Sector};
+use super::sector::{Functional, Sector};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::{Body, BodySettings, SectorSides};
-use crate::gear_mesh::{Cell, FlankChain, ToothMeshError, ToothSector, gear_sector, touching_pairs};
+use crate::gear_mesh::{FlankChain, ToothElement, ToothMeshError, ToothSector, gear_sector, touching_pairs};
 use crate::material::contact_modulus_mpa;
-use gearwear_fem::active_set::ActiveSetError;
 use gearwear_fem::elastic::{Analysis, Elastic};
 use gearwear_fem::equilibrium::SolveError;
 use gearwear_fem::solid::{Element, ElementKind, Solid};
 use gearwear_fem::stress::{StressComponent, StressRecovery};
 use gearwear_mesh::CellKind;
 
-/// Nodes of one flank whose compliance among three teeth takes [`GB_OF_MOST_NODES`].
+/// Greatest number of nodes of one flank; their compliance among three teeth takes [`GB_OF_MOST_NODES`].
 const MOST_FLANK_NODES: usize = 3000;
-/// Measured on FZG type C with 10 and 14 elements in a half-width and tip roundings of 0.001 to 0.3 mm, both gears together 0.44 to 1.38 GB:
-/// within 10 % in proportion to the squares of their nodes.
+/// Memory of one gear with the most nodes, GB, quadratic in the number of nodes. Measured on FZG type C with 10 and 14 elements in a half-width and
+/// tip roundings of 0.001 to 0.3 mm, both gears together 0.44 to 1.38 GB: within 10 %.
 const GB_OF_MOST_NODES: f64 = 2.3;
-/// What takes more than this is said before it begins, GB; with a wear run or a mesh cycle on them, 20 s are reached about there.
+/// Memory above which a condensation is announced, GB; a wear run or a mesh cycle on it takes 20 s.
 const MUCH_MEMORY_GB: f64 = 0.8;
-/// More than this is not begun, GB: both gears at the most of nodes.
+/// Memory above which a condensation is refused, GB: both gears with the most nodes.
 const MOST_MEMORY_GB: f64 = 2.0 * GB_OF_MOST_NODES;
 
-/// Why there is no model.
+/// Reason why there is no model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ModelError {
     /// A tooth cannot be meshed.
     #[error("{}: {source}", gear.name())]
     Mesh {
-        /// Whose.
+        /// Gear.
         gear: Gear,
-        /// Why.
+        /// Reason.
         source: Box<ToothMeshError>,
     },
     /// A gear cannot be condensed.
     #[error("{}: {source}", gear.name())]
     Condense {
-        /// Whose.
+        /// Gear.
         gear: Gear,
-        /// Why.
+        /// Reason.
         source: SolveError,
     },
-    /// The compliance of its flanks would fill the memory.
-    #[error("{}: the resolved flank has {nodes} nodes, more than the {most} whose compliance a computer holds", gear.name())]
+    /// The compliance of the flanks needs too much memory.
+    #[error(
+        "{}: the working flank has {nodes} nodes, more than the {most} whose compliance memory is allowed for; fewer fem.elements_per_half_width or a \
+         larger tip_rounding_mm give fewer nodes",
+        gear.name()
+    )]
     TooFine {
-        /// Whose.
+        /// Gear.
         gear: Gear,
-        /// Nodes of one flank.
+        /// Number of nodes of one flank.
         nodes: usize,
-        /// So many are possible.
+        /// Greatest number.
         most: usize,
     },
-    /// The sector is too small.
-    #[error("{}: {teeth} teeth are fewer than the {least} that touch over the mesh cycle", gear.name())]
+    /// The sector has too few teeth.
+    #[error("{}: a sector of {teeth} teeth has fewer than the {least} that touch over the mesh cycle; give at least {least}", gear.name())]
     TooFewTeeth {
-        /// Whose.
+        /// Gear.
         gear: Gear,
-        /// Given.
+        /// Given number of teeth.
         teeth: u32,
-        /// Needed.
+        /// Least number of teeth.
         least: u32,
     },
 }
 
-/// What is to be said before both gears are condensed, where that takes much; `bodies`: how often as much as one pair it takes at its peak.
+/// Announcement before both gears are condensed, where that takes much memory; `bodies`: peak memory over that of one pair.
 ///
 /// # Errors
-/// [`ModelError::TooFine`] where it takes more than a computer is to be expected to have.
+/// [`ModelError::TooFine`] above the memory allowed for.
 pub fn much_memory(meshed: &PerGear<MeshedGear>, bodies: f64) -> Result<Option<String>, ModelError> {
     let nodes = meshed.as_ref().map(|meshed| meshed.flank().surface.mesh_nodes.len());
-    let share = |nodes: usize| (nodes as f64 / MOST_FLANK_NODES as f64).powi(2);
-    let gb = bodies * GB_OF_MOST_NODES * (share(nodes.pinion) + share(nodes.wheel));
+    let share = nodes.map(|nodes| (nodes as f64 / MOST_FLANK_NODES as f64).powi(2));
+    let gb = bodies * GB_OF_MOST_NODES * share.sum();
     if gb > MOST_MEMORY_GB {
         let gear = if nodes.pinion > nodes.wheel { Gear::Pinion } else { Gear::Wheel };
         let most = (MOST_FLANK_NODES as f64 * bodies.recip().sqrt()) as usize;
@@ -88,22 +91,22 @@ pub fn much_memory(meshed: &PerGear<MeshedGear>, bodies: f64) -> Result<Option<S
     }))
 }
 
-/// One gear, meshed.
+/// Meshed sectors of one gear.
 #[derive(Debug, Clone)]
 pub struct MeshedGear {
-    /// Which.
+    /// Pinion or wheel.
     pub gear: Gear,
-    /// A tooth that may touch.
+    /// Sector of a tooth that may touch.
     pub fine: ToothSector,
-    /// Any other tooth; none where all are fine.
+    /// Sector of any other tooth; `None` where all are fine.
     pub coarse: Option<ToothSector>,
-    /// How many teeth may touch.
+    /// Number of fine teeth.
     pub fine_teeth: u32,
-    /// What surrounds them.
+    /// Surroundings of the fine teeth.
     pub surroundings: Surroundings,
     /// Whether the tip edge is sharp.
     pub sharp: bool,
-    /// What it was meshed with.
+    /// Settings of the mesh.
     pub settings: BodySettings,
 }
 
@@ -122,7 +125,7 @@ impl MeshedGear {
         Self::with_fine_teeth(fine_teeth, pair, gear, material, line_load_n_per_mm, settings)
     }
 
-    /// Meshes a gear of which the tooth in the middle alone is loaded.
+    /// Meshes a gear of which only the middle tooth is loaded.
     pub(crate) fn with_one_fine_tooth(
         pair: &GearPair,
         gear: Gear,
@@ -144,7 +147,7 @@ impl MeshedGear {
         let teeth = pair.teeth[gear].teeth;
         let surroundings = match settings.body {
             Body::Ring => Surroundings::Ring { coarse: (teeth - fine_teeth) as usize },
-            // A sector of all teeth has no cut left.
+            // A sector of all teeth has no cuts.
             Body::Sector { teeth: all, .. } if all == teeth => {
                 Surroundings::Ring { coarse: (teeth - fine_teeth) as usize }
             }
@@ -162,14 +165,13 @@ impl MeshedGear {
         let contact_modulus_mpa = contact_modulus_mpa(*material);
         let half_width_mm =
             |position_mm: f64| hertz_half_width_mm(pair, contact_modulus_mpa, line_load_n_per_mm, position_mm);
-        let mesh = |fine: bool| {
-            gear_sector(pair, gear, fine, settings, &half_width_mm)
-                .map_err(|source| ModelError::Mesh { gear, source: Box::new(source) })
-        };
+        let failed = |source| ModelError::Mesh { gear, source: Box::new(source) };
+        let fine = gear_sector(pair, gear, true, settings, &half_width_mm).map_err(failed)?;
+        let coarse = (surroundings.coarse() > 0).then(|| gear_sector(pair, gear, false, settings, &half_width_mm));
         Ok(Self {
             gear,
-            fine: mesh(true)?,
-            coarse: if surroundings.coarse() > 0 { Some(mesh(false)?) } else { None },
+            fine,
+            coarse: coarse.transpose().map_err(failed)?,
             fine_teeth,
             surroundings,
             sharp: pair.spec.is_tip_sharp(gear),
@@ -181,24 +183,20 @@ impl MeshedGear {
     pub fn dofs(&self) -> usize {
         let rows = if matches!(self.surroundings, Surroundings::Ring { .. }) { 1 } else { 2 };
         let coarse = rows * self.surroundings.coarse();
-        let own = |sector: &ToothSector| sector.dofs() - 2 * sector.left_cut.len();
-        self.fine_teeth as usize * own(&self.fine) + coarse * self.coarse.as_ref().map_or(0, own)
+        self.fine_teeth as usize * dofs_without_cut(&self.fine)
+            + coarse * self.coarse.as_ref().map_or(0, dofs_without_cut)
     }
 
-    /// Nodes of both fillets, the working side's first.
-    fn fillets(&self) -> [&[u32]; 2] {
-        [&self.fine.working_fillet, &self.fine.back_fillet]
-    }
-
-    /// The stress along the surface at each node of both fillets, σ_t = t · σ t.
+    /// Stress along the surface at each node of both fillets, the working side's first, σ_t = t · σ t.
     fn fillet_probes(&self, solid: &Solid, material: Elastic) -> Result<Vec<Functional>, SolveError> {
         let materials = [material];
         let recovery = StressRecovery::new(solid, &materials, Analysis::PlaneStrain)?;
         let mut probes = Vec::new();
-        for fillet in self.fillets() {
+        for fillet in [&self.fine.working_fillet, &self.fine.back_fillet] {
             for (k, &node) in fillet.iter().enumerate() {
-                let at = |k: usize| solid.points_mm[fillet[k] as usize];
-                let t = (at((k + 1).min(fillet.len() - 1)) - at(k.saturating_sub(1))).normalize();
+                let [before, after] = [k.saturating_sub(1), (k + 1).min(fillet.len() - 1)];
+                let t =
+                    (solid.points_mm[fillet[after] as usize] - solid.points_mm[fillet[before] as usize]).normalize();
                 let mut probe = Functional::new();
                 for (component, factor) in [
                     (StressComponent::X, t.x * t.x),
@@ -215,7 +213,7 @@ impl MeshedGear {
     }
 
     /// Condenses the gear onto the nodes of its working flanks, with the stresses at its fillets.
-    pub fn condense(&self, pair: &GearPair, material: Elastic) -> Result<(GearCompliance, FlankSurface), ModelError> {
+    pub fn condense(&self, pair: &GearPair, material: Elastic) -> Result<(GearCompliance, MeshedFlank), ModelError> {
         self.condense_with(pair, material, true)
     }
 
@@ -224,7 +222,7 @@ impl MeshedGear {
         pair: &GearPair,
         material: Elastic,
         stresses: bool,
-    ) -> Result<(GearCompliance, FlankSurface), ModelError> {
+    ) -> Result<(GearCompliance, MeshedFlank), ModelError> {
         let flank = self.flank();
         let nodes = flank.surface.mesh_nodes.len();
         if nodes > MOST_FLANK_NODES {
@@ -238,7 +236,7 @@ impl MeshedGear {
         Ok((self.joined(pair, fine, material)?, flank))
     }
 
-    /// Condenses the gear onto `nodes` of its working flank alone, without stresses: for loads that are known.
+    /// Condenses the gear onto `nodes` of its working flank alone, without stresses, for known loads.
     pub(crate) fn condense_onto(
         &self,
         pair: &GearPair,
@@ -248,25 +246,19 @@ impl MeshedGear {
         self.joined(pair, sector(&self.fine, half_angle_rad(pair, self.gear), nodes), material)
     }
 
-    /// The working flank as a contact surface, down to where the involute ends: what lies below the resolved part touches a mate that
-    /// has worn deeply.
-    pub fn flank(&self) -> FlankSurface {
+    /// Working flank as a contact surface, down to the end of the involute: the part below the resolved one touches a deeply worn mate.
+    pub fn flank(&self) -> MeshedFlank {
         let FlankChain { nodes, rho_mm, .. } = &self.fine.working_flank;
-        FlankSurface::new(nodes, rho_mm, &self.fine.points_mm, self.sharp)
+        MeshedFlank::new(nodes, rho_mm, &self.fine.points_mm, self.sharp)
     }
 
     fn joined(&self, pair: &GearPair, fine: Sector, material: Elastic) -> Result<GearCompliance, ModelError> {
-        let failed = |source: SolveError| self.failed(source);
-        let fine = condense(fine, material).map_err(failed)?;
-        let coarse = match &self.coarse {
-            Some(coarse) => {
-                let coarse = sector(coarse, half_angle_rad(pair, self.gear), Vec::new());
-                Some(condense(coarse, material).map_err(failed)?)
-            }
-            None => None,
-        };
+        let coarse = self.coarse.as_ref().map(|coarse| sector(coarse, half_angle_rad(pair, self.gear), Vec::new()));
+        let condense =
+            |sector: Sector| sector.condense(material, Analysis::PlaneStrain).map_err(|source| self.failed(source));
+        let (fine, coarse) = (condense(fine)?, coarse.map(condense).transpose()?);
         let joined = GearCompliance::new(fine, coarse.as_ref(), self.fine_teeth as usize, self.surroundings);
-        joined.map_err(|error: ActiveSetError| failed(error.into()))
+        joined.map_err(|error| self.failed(error.into()))
     }
 
     fn failed(&self, source: SolveError) -> ModelError {
@@ -274,23 +266,24 @@ impl MeshedGear {
     }
 }
 
+/// Degrees of freedom of a sector without those of one cut, which it shares with its neighbour.
+fn dofs_without_cut(sector: &ToothSector) -> usize {
+    sector.dofs() - 2 * sector.left_cut.len()
+}
+
 /// Half a pitch of a gear.
 fn half_angle_rad(pair: &GearPair, gear: Gear) -> f64 {
     std::f64::consts::PI / f64::from(pair.teeth[gear].teeth)
 }
 
-fn condense(sector: Sector, material: Elastic) -> Result<CondensedSector, SolveError> {
-    sector.condense(material, Analysis::PlaneStrain)
-}
-
-/// The finite-element form of a meshed sector; forces may act on the nodes `candidates`.
+/// Finite-element model of a meshed sector; forces may act on the nodes `candidates`.
 pub fn sector(mesh: &ToothSector, half_angle_rad: f64, candidates: Vec<u32>) -> Sector {
     let clamped: std::collections::BTreeSet<u32> = mesh.clamp.iter().copied().collect();
-    let free = |cut: &[u32]| cut.iter().copied().filter(|node| !clamped.contains(node)).collect::<Vec<u32>>();
+    let cuts = [&mesh.right_cut, &mesh.left_cut];
     Sector {
         solid: solid(mesh),
         clamp: mesh.clamp.clone(),
-        cuts: [free(&mesh.right_cut), free(&mesh.left_cut)],
+        cuts: cuts.map(|cut| cut.iter().copied().filter(|node| !clamped.contains(node)).collect()),
         half_angle_rad,
         candidates,
         probes: Vec::new(),
@@ -298,7 +291,7 @@ pub fn sector(mesh: &ToothSector, half_angle_rad: f64, candidates: Vec<u32>) -> 
     }
 }
 
-/// A sector's elements for the solver.
+/// Nodes and elements of a sector.
 pub fn solid(mesh: &ToothSector) -> Solid {
     Solid {
         points_mm: mesh.points_mm.clone(),
@@ -306,15 +299,15 @@ pub fn solid(mesh: &ToothSector) -> Solid {
     }
 }
 
-/// The element of a mesh's cell on `nodes`.
-pub fn element(cell: &Cell, nodes: &[u32], material: u16) -> Element {
+/// Finite element of a cell on `nodes`.
+pub fn element(cell: &ToothElement, nodes: &[u32], material: u16) -> Element {
     let kind = if cell.kind == CellKind::Quad8 { ElementKind::Quad8 } else { ElementKind::Triangle6 };
     Element::new(kind, nodes, material)
 }
 
 impl<'a> CondensedPair<'a> {
-    /// Meshes and condenses both gears of `pair` for contact under `line_load_n_per_mm`, at the same time where there are
-    /// threads for it; without stresses. `announce` is told before that begins where it takes much.
+    /// Meshes and condenses both gears of `pair` for contact under `line_load_n_per_mm`, in parallel, without stresses. Much memory is
+    /// announced before.
     pub fn build(
         pair: &'a GearPair,
         material: &PerGear<Elastic>,
@@ -327,16 +320,12 @@ impl<'a> CondensedPair<'a> {
         if let Some(much) = much_memory(&meshed, 1.0)? {
             announce(&much);
         }
-        let condensed = |gear: Gear| meshed[gear].condense_with(pair, material[gear], false);
-        Ok(Self::new(pair, material, PerGear::try_in_parallel(condensed)?))
+        let gears = PerGear::try_in_parallel(|gear| meshed[gear].condense_with(pair, material[gear], false))?;
+        Ok(Self::new(pair, material, gears))
     }
 
     /// Joins both condensed gears.
-    pub fn new(
-        pair: &'a GearPair,
-        material: &PerGear<Elastic>,
-        gears: PerGear<(GearCompliance, FlankSurface)>,
-    ) -> Self {
+    pub fn new(pair: &'a GearPair, material: &PerGear<Elastic>, gears: PerGear<(GearCompliance, MeshedFlank)>) -> Self {
         let (pinion, pinion_flank) = gears.pinion;
         let (wheel, wheel_flank) = gears.wheel;
         Self {

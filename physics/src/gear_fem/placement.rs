@@ -1,4 +1,4 @@
-//! Where the teeth stand at a position.
+//! Places of the teeth at a position.
 //!
 //! The pinion's axis is the origin and the wheel's lies on +y at the centre distance. With the theoretical contact point of
 //! the reference pair at ξ (ρ1 = ξ, ρ2 = T1T2 − ξ), tooth j stands at the angle, from +y anticlockwise,
@@ -26,7 +26,7 @@ pub fn tooth_angle_rad(pair: &GearPair, gear: Gear, position_mm: f64, tooth: i32
     }
 }
 
-/// A gear's axis.
+/// Axis of a gear.
 pub fn axis_mm(pair: &GearPair, gear: Gear) -> Vector2<f64> {
     match gear {
         Gear::Pinion => Vector2::zeros(),
@@ -34,7 +34,7 @@ pub fn axis_mm(pair: &GearPair, gear: Gear) -> Vector2<f64> {
     }
 }
 
-/// Where a point of tooth `tooth` lies at `position_mm`, given in the tooth's own frame.
+/// Place at `position_mm` of a point given in the own frame of tooth `tooth`.
 pub fn in_place_mm(pair: &GearPair, gear: Gear, position_mm: f64, tooth: i32, point_mm: Vector2<f64>) -> Vector2<f64> {
     Rotation2::new(tooth_angle_rad(pair, gear, position_mm, tooth)) * point_mm + axis_mm(pair, gear)
 }

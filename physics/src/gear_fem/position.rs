@@ -1,4 +1,4 @@
-//! The contact of the pair at one position.
+//! Contact of the pair at one position.
 //!
 //! Every tooth pair that may touch is coupled by mortar on the true profiles in their true places; the multipliers of all
 //! pairs, and the pinion's rotation as one more unknown, form one small complementarity problem:
@@ -8,79 +8,80 @@
 //! ```
 //!
 //! C₁, C₂: compliances of the gears on their candidate nodes; δ: transmission error, the pinion's rotation times its base
-//! radius; w: torque over base radius and face width. The wheel is held at its clamp circle, the pinion turned at its own.
+//! radius; w: torque over base radius and face width. The wheel is held and the pinion turned at its clamp circle.
 
 use std::collections::BTreeMap;
 
+use nalgebra::Vector2;
 use sprs::CsMat;
 
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::FacingTeeth;
-use super::flank_surface::FlankSurface;
-use super::prepared::Prepared;
+use super::flank_surface::MeshedFlank;
+use super::prepared::PreparedPosition;
 use super::ring::ToothForce;
 use crate::gear::{Gear, PerGear};
-use gearwear_fem::active_set::{ActiveSetError, Equilibrium, Log};
+use gearwear_fem::active_set::{ActiveSetError, ActiveSetLog, ContactEquilibrium};
 use gearwear_fem::contact::zones;
 
 /// One tooth pair in contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToothPairContact {
-    /// 0 the reference pair, +1 the one a base pitch ahead, −1 the one behind.
+    /// Number of the pair: 0 the reference pair, +1 a base pitch ahead, −1 behind.
     pub pair: i32,
-    /// Its share of the torque over base radius and face width, N/mm.
+    /// Line load, its torque over base radius and face width, N/mm.
     pub line_load_n_per_mm: f64,
     /// Greatest pressure, MPa.
     pub peak_pressure_mpa: f64,
     /// Half the length of flank under pressure, mm.
     pub half_width_mm: f64,
-    /// Radius on the pinion where the pressure's resultant acts, mm.
+    /// Radius on the pinion of the pressure's resultant, mm.
     pub pinion_radius_mm: f64,
-    /// The gear whose flank carries the multipliers.
+    /// Gear whose flank has the multipliers.
     pub slave: Gear,
-    /// Whether a sharp tip edge carries pressure: its peak then is singular.
+    /// Whether a sharp tip edge carries pressure, whose peak is singular.
     pub at_sharp_edge: bool,
-    /// Pressure along the flank: distance from the resultant towards the pinion's tip in mm, MPa.
+    /// Pressure along the flank, MPa, by the distance from the resultant towards the pinion's tip, mm.
     pub pressure: Vec<(f64, f64)>,
 }
 
-/// Stress along the surface of a tooth's fillets, which is the principal stress there, MPa.
+/// Principal stress along the surface of a tooth's fillets, MPa.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct RootStress {
-    /// Greatest at the fillet below the working flank: tension.
+    /// Greatest tension at the fillet below the working flank.
     pub working_side_mpa: f64,
-    /// Least at the other fillet: compression.
+    /// Greatest compression at the other fillet, negative.
     pub back_side_mpa: f64,
 }
 
-/// The pair at one position.
+/// Contact of the pair at one position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PositionContact {
-    /// ξ.
+    /// Position ξ, mm.
     pub position_mm: f64,
     /// Pairs in contact, by increasing number.
     pub pairs: Vec<ToothPairContact>,
-    /// δ, mm.
+    /// Transmission error δ, mm.
     pub transmission_error_mm: f64,
-    /// |T2/T1| over z2/z1, less 1.
+    /// Error of the torque ratio, |T2/T1| over z2/z1 less 1.
     pub torque_ratio_error: f64,
-    /// |Σ line loads / w − 1|.
+    /// Error of the load balance, |Σ line loads / w − 1|.
     pub load_balance: f64,
-    /// Largest overlap left at a multiplier, mm.
+    /// Largest penetration at a multiplier, mm.
     pub max_penetration_mm: f64,
     /// Forces on each fine tooth, in its own frame.
     pub forces: PerGear<Vec<ToothForce>>,
     /// Stresses at the fillets of the reference pair's teeth.
     pub root: PerGear<RootStress>,
     /// Iterations of the active set.
-    pub log: Log,
+    pub log: ActiveSetLog,
     /// Number of multipliers.
     pub multipliers: usize,
     /// Active parts of the flank, to start the next position from.
     pub warm: WarmStart,
 }
 
-/// Where each pair was loaded: its number and the stretch from the expected contact towards the pinion's tip, mm.
+/// Loaded stretch of each pair, by its number: both ends from the expected contact towards the pinion's tip, mm.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct WarmStart(Vec<(i32, f64, f64)>);
 
@@ -95,7 +96,7 @@ impl<'a> CondensedPair<'a> {
         self.solve_from(self.prepare(position_mm, line_load_n_per_mm), warm)
     }
 
-    /// Solves as [`Self::at`] does, but with the reference pair alone in contact: it carries the whole load.
+    /// Solves as [`Self::at`] does, but with the reference pair alone, which carries the whole load.
     pub fn at_alone(
         &self,
         position_mm: f64,
@@ -105,14 +106,14 @@ impl<'a> CondensedPair<'a> {
         self.solve_from(self.prepare_alone(position_mm, line_load_n_per_mm), warm)
     }
 
-    fn solve_from(&self, mut prepared: Prepared, warm: &WarmStart) -> Result<PositionContact, ActiveSetError> {
+    fn solve_from(&self, mut prepared: PreparedPosition, warm: &WarmStart) -> Result<PositionContact, ActiveSetError> {
         prepared.active = start(&prepared.facings, &self.flanks, warm);
         let found = self.solve(&mut prepared, &mut |_, _| {}, &|_, _| 0.0)?;
         Ok(self.read(&prepared, found))
     }
 
     /// Each tooth pair in contact.
-    pub fn tooth_pairs(&self, prepared: &Prepared, found: &Equilibrium) -> Vec<ToothPairContact> {
+    pub fn tooth_pairs(&self, prepared: &PreparedPosition, found: &ContactEquilibrium) -> Vec<ToothPairContact> {
         let loaded = prepared.facings.iter().filter_map(|facing| {
             let force = &found.force[facing.first_row..facing.first_row + facing.coupling.len()];
             force.iter().any(|f| *f > 0.0).then(|| self.tooth_pair(prepared, facing, force).0)
@@ -121,8 +122,8 @@ impl<'a> CondensedPair<'a> {
     }
 
     /// The figures of a solution.
-    pub fn read(&self, prepared: &Prepared, found: Equilibrium) -> PositionContact {
-        let Prepared { position_mm, ref facings, .. } = *prepared;
+    pub fn read(&self, prepared: &PreparedPosition, found: ContactEquilibrium) -> PositionContact {
+        let PreparedPosition { position_mm, ref facings, .. } = *prepared;
         let line_load_n_per_mm = prepared.line_load_n_per_mm();
         let mut forces = self.gears.as_ref().map(|gear| vec![ToothForce::new(); gear.teeth()]);
         let mut pairs = Vec::new();
@@ -141,14 +142,7 @@ impl<'a> CondensedPair<'a> {
         }
         let torque = PerGear::from_fn(|gear| {
             let points = &self.flanks[gear].surface.points_mm;
-            let moment = |tooth: &ToothForce| -> f64 {
-                let arm = |column: usize| {
-                    let x = points[column / 2];
-                    if column.is_multiple_of(2) { -x.y } else { x.x }
-                };
-                tooth.iter().map(|&(column, f)| arm(column) * f).sum()
-            };
-            forces[gear].iter().map(moment).sum::<f64>()
+            forces[gear].iter().map(|tooth| moment(points, tooth)).sum::<f64>()
         });
         let ratio = f64::from(self.pair.teeth.wheel.teeth) / f64::from(self.pair.teeth.pinion.teeth);
         let total: f64 = pairs.iter().map(|pair| pair.line_load_n_per_mm).sum();
@@ -177,22 +171,23 @@ impl<'a> CondensedPair<'a> {
         }
     }
 
-    /// One pair's figures and the loaded stretch, from the expected contact towards the pinion's tip.
-    fn tooth_pair(&self, prepared: &Prepared, facing: &FacingTeeth, force: &[f64]) -> (ToothPairContact, (f64, f64)) {
+    /// Figures of one pair and its loaded stretch, from the expected contact towards the pinion's tip.
+    fn tooth_pair(
+        &self,
+        prepared: &PreparedPosition,
+        facing: &FacingTeeth,
+        force: &[f64],
+    ) -> (ToothPairContact, (f64, f64)) {
         let (flank, coupling) = (&self.flanks[facing.slave], &facing.coupling);
         let mut rows: Vec<usize> = (0..coupling.len()).collect();
-        let place = |row: usize| facing.towards_pinion_tip_mm(flank, coupling.nodes[row]);
-        rows.sort_by(|&a, &b| place(a).total_cmp(&place(b)));
-        let along: Vec<f64> = rows.iter().map(|&row| place(row)).collect();
+        let place: Vec<f64> = coupling.nodes.iter().map(|&node| facing.towards_pinion_tip_mm(flank, node)).collect();
+        rows.sort_by(|&a, &b| place[a].total_cmp(&place[b]));
+        let along: Vec<f64> = rows.iter().map(|&row| place[row]).collect();
         let pressure: Vec<f64> = rows.iter().map(|&row| (force[row] / coupling.weight_mm[row]).max(0.0)).collect();
         let zones = zones::zones(&along, &pressure);
         let half_width_mm = zones.iter().map(|zone| 0.5 * zone.width_mm()).fold(0.0, f64::max);
-        let total: f64 = force.iter().sum();
-        let mean = |of: &dyn Fn(usize) -> f64| -> f64 {
-            force.iter().enumerate().map(|(row, f)| f * of(row)).sum::<f64>() / total
-        };
-        let centre_mm = mean(&place);
-        let radius = |row: usize| (flank.surface.points_mm[coupling.nodes[row]] - facing.pinion_axis_mm).norm();
+        let radii = coupling.nodes.iter().map(|&node| (flank.surface.points_mm[node] - facing.pinion_axis_mm).norm());
+        let centre_mm = weighted_mean(force, place.iter().copied());
         let stretch = zones.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), zone| {
             (low.min(zone.from_mm), high.max(zone.to_mm))
         });
@@ -201,7 +196,7 @@ impl<'a> CondensedPair<'a> {
             line_load_n_per_mm: prepared.carried_n_per_mm(facing.first_row, force),
             peak_pressure_mpa: pressure.iter().copied().fold(0.0, f64::max),
             half_width_mm,
-            pinion_radius_mm: mean(&radius),
+            pinion_radius_mm: weighted_mean(force, radii),
             slave: facing.slave,
             at_sharp_edge: self.is_at_sharp_edge(facing, force),
             pressure: along.iter().zip(&pressure).map(|(along, p)| (along - centre_mm, *p)).collect(),
@@ -212,17 +207,34 @@ impl<'a> CondensedPair<'a> {
     fn is_at_sharp_edge(&self, facing: &FacingTeeth, force: &[f64]) -> bool {
         Gear::BOTH.into_iter().any(|gear| {
             let (operator, flank) = (&facing.operator[gear], &self.flanks[gear]);
-            let loads = |node: usize| {
-                let at = |row: sprs::CsVecView<'_, f64>| row.iter().any(|(column, b)| column / 2 == node && *b != 0.0);
-                operator.outer_iterator().zip(force).any(|(row, f)| *f > 0.0 && at(row))
-            };
-            (flank.sharp && loads(flank.tip_node())) || (self.pair.teeth[gear].undercut && loads(flank.root_node()))
+            flank.sharp && is_loaded(operator, force, flank.tip_node())
+                || self.pair.teeth[gear].undercut && is_loaded(operator, force, flank.root_node())
         })
     }
 }
 
-/// The active set expected from the position before.
-fn start(facings: &[FacingTeeth], flanks: &PerGear<FlankSurface>, warm: &WarmStart) -> Option<Vec<bool>> {
+/// Whether `force` on the rows of a coupling matrix loads a node.
+fn is_loaded(operator: &CsMat<f64>, force: &[f64], node: usize) -> bool {
+    let mut loaded = operator.outer_iterator().zip(force).filter(|(_, f)| **f > 0.0);
+    loaded.any(|(row, _)| row.iter().any(|(column, b)| column / 2 == node && *b != 0.0))
+}
+
+/// Moment of forces on the nodes `points` of a tooth about the gear's axis.
+fn moment(points: &[Vector2<f64>], forces: &ToothForce) -> f64 {
+    let moments = forces.iter().map(|&(column, f)| {
+        let x = points[column / 2];
+        (if column.is_multiple_of(2) { -x.y } else { x.x }) * f
+    });
+    moments.sum()
+}
+
+/// Mean of `values`, weighted by `force`.
+fn weighted_mean(force: &[f64], values: impl Iterator<Item = f64>) -> f64 {
+    force.iter().zip(values).map(|(f, value)| f * value).sum::<f64>() / force.iter().sum::<f64>()
+}
+
+/// Active set expected from the previous position.
+fn start(facings: &[FacingTeeth], flanks: &PerGear<MeshedFlank>, warm: &WarmStart) -> Option<Vec<bool>> {
     if warm.0.is_empty() {
         return None;
     }
@@ -237,7 +249,7 @@ fn start(facings: &[FacingTeeth], flanks: &PerGear<FlankSurface>, warm: &WarmSta
     Some(active)
 }
 
-/// Bᵀ f.
+/// Nodal forces Bᵀ f.
 fn transpose_times(operator: &CsMat<f64>, force: &[f64]) -> ToothForce {
     let mut sums = BTreeMap::new();
     for (row, f) in operator.outer_iterator().zip(force) {

@@ -1,66 +1,65 @@
-//! A position ready to be solved on ever newly worn flanks.
+//! Position prepared for repeated solution on flanks as they wear.
 //!
-//! The couplings and the compliance between all multipliers depend on where the gears stand and not on what their flanks have
-//! lost: wear h along the normals of both flanks' nodes only opens the gaps,
+//! The couplings and the compliance between all multipliers depend on the position of the gears and not on wear:
+//! wear h along the normals of both flanks' nodes only opens the gaps,
 //!
 //! ```text
 //! g⁰(h) = g⁰ − B₁ (n₁ h₁) − B₂ (n₂ h₂)
 //! ```
 //!
-//! as a displacement of the nodes into their bodies would. So a position is prepared once and solved many times; where wear has tilted
-//! the flanks so far that the direction of the load matters, it is corrected for that ([`super::tilted`]).
+//! as a displacement of the nodes into their bodies would. A position is prepared once and solved many times; where wear has tilted
+//! the flanks so far that the direction of the load matters, it is corrected for the tilt ([`super::tilted`]).
 
 use faer::Mat;
 use sprs::CsMat;
 
 use super::beside_window::BesideWindow;
 use super::condensed_pair::CondensedPair;
-use super::facing_teeth::{Direction, FacingTeeth, Window};
+use super::facing_teeth::{Direction, FacingTeeth, SearchWindow};
 use super::ring::Between;
 use crate::gear::Gear;
-use gearwear_fem::active_set::{ActiveSetError, Condensed, Equilibrium, Kept, Log};
+use gearwear_fem::active_set::{ActiveSetError, ActiveSetLog, Condensed, ContactEquilibrium, ReusableFactor};
 
-/// Distance between the flanks within which they may come to touch, in units of line load over E*: an approach is some
-/// ten of these.
+/// Greatest gap with multipliers in the first window, in units of line load over E*; approaches are about ten units.
 const FIRST_REACH: f64 = 25.0;
-/// Part of the reach that the approach may use up: what lies farther apart may touch then.
+/// Ratio of the approach to the reach beyond which greater gaps may close.
 const REACH_USED: f64 = 0.8;
-/// Half-widths on either side of the expected contact in which multipliers are looked for first.
+/// Half-widths of the first window on either side of the expected contact.
 const FIRST_WINDOW: f64 = 1.4;
-/// How much wider each further window is.
+/// Ratio of widths of successive windows.
 const WIDER: f64 = 1.6;
-/// How much farther across the gap each further window reaches.
+/// Ratio of reaches across the gap of successive windows.
 const FARTHER: f64 = 3.0;
-/// Looks before giving up.
+/// Greatest number of windows.
 const MOST_WINDOWS: usize = 8;
 
-/// A position with its couplings and compliance.
-pub struct Prepared {
-    /// ξ.
+/// Position with its couplings and compliance.
+pub struct PreparedPosition {
+    /// Position ξ, mm.
     pub position_mm: f64,
-    window: Window,
+    window: SearchWindow,
     pub(super) facings: Vec<FacingTeeth>,
-    /// Of each tooth pair.
+    /// Nodes beside the window of each tooth pair.
     beside: Vec<BesideWindow>,
     pub(super) condensed: Condensed,
-    /// Change of each row's place along the flank, from root to tip, per transmission error.
+    /// Displacement of each row along the flank, from root to tip, per transmission error.
     pub(super) along_rotation: Vec<f64>,
     pub(super) sideways: Option<Sideways>,
-    /// Of the flanks at each row; empty: not at all.
+    /// Tilt of the flanks at each row; empty without tilt.
     pub(super) tilt_rad: Vec<f64>,
     unworn_gap_mm: Vec<f64>,
-    /// Where the next solution starts.
+    /// Active set that the next solution starts from.
     pub(super) active: Option<Vec<bool>>,
-    pub(super) kept: Option<Kept>,
+    pub(super) kept: Option<ReusableFactor>,
     /// Number of the window, from 1.
     windows: usize,
 }
 
-/// A position along the flanks ([`super::tilted`]), and as it was before it was tilted.
+/// Compliance along the flanks ([`super::tilted`]), and the matrices without tilt.
 pub(super) struct Sideways {
-    /// B⊥ C Bᵀ.
+    /// Matrix B⊥ C Bᵀ.
     pub compliance: Mat<f64>,
-    /// B⊥ C B⊥ᵀ.
+    /// Matrix B⊥ C B⊥ᵀ.
     pub along: Mat<f64>,
     pub level_compliance: Mat<f64>,
     pub level_rigid: Mat<f64>,
@@ -68,22 +67,22 @@ pub(super) struct Sideways {
 
 impl<'a> CondensedPair<'a> {
     /// Prepares the contact at `position_mm` under `line_load_n_per_mm`.
-    pub fn prepare(&self, position_mm: f64, line_load_n_per_mm: f64) -> Prepared {
+    pub fn prepare(&self, position_mm: f64, line_load_n_per_mm: f64) -> PreparedPosition {
         self.prepare_among((self.gears.pinion.teeth() / 2) as i32, position_mm, line_load_n_per_mm)
     }
 
-    /// The same with the reference pair alone.
-    pub(crate) fn prepare_alone(&self, position_mm: f64, line_load_n_per_mm: f64) -> Prepared {
+    /// Prepares the contact of the reference pair alone.
+    pub(crate) fn prepare_alone(&self, position_mm: f64, line_load_n_per_mm: f64) -> PreparedPosition {
         self.prepare_among(0, position_mm, line_load_n_per_mm)
     }
 
-    fn prepare_among(&self, beside: i32, position_mm: f64, line_load_n_per_mm: f64) -> Prepared {
+    fn prepare_among(&self, beside: i32, position_mm: f64, line_load_n_per_mm: f64) -> PreparedPosition {
         self.observe(position_mm, self.first_window(beside, line_load_n_per_mm))
     }
 
-    /// Where contact is looked for first.
-    fn first_window(&self, beside: i32, line_load_n_per_mm: f64) -> Window {
-        Window {
+    /// Window around the expected contact.
+    fn first_window(&self, beside: i32, line_load_n_per_mm: f64) -> SearchWindow {
+        SearchWindow {
             beside,
             line_load_n_per_mm,
             half_widths: FIRST_WINDOW,
@@ -92,14 +91,14 @@ impl<'a> CondensedPair<'a> {
         }
     }
 
-    fn observe(&self, position_mm: f64, window: Window) -> Prepared {
+    fn observe(&self, position_mm: f64, window: SearchWindow) -> PreparedPosition {
         let placed = self.placed_teeth(position_mm, &window);
         let facings = self.facings(&placed, &window);
         let beside = placed.iter().map(|placed| self.beside_window(placed, window.reach_mm)).collect();
         let condensed = self.condensed(&facings, window.line_load_n_per_mm);
         let along_rotation =
             facings.iter().flat_map(|facing| self.by_rotation(facing, Direction::AlongFlank)).collect();
-        Prepared {
+        PreparedPosition {
             position_mm,
             window,
             unworn_gap_mm: condensed.gap_mm.clone(),
@@ -115,23 +114,23 @@ impl<'a> CondensedPair<'a> {
         }
     }
 
-    /// Solves a prepared position, in a wider window where contact comes close to the end of the first or the flanks overlap beside it.
-    /// `opening` adds to the gaps of the unworn flanks what these are opened by: each time anew where the window is wider, and so has other
-    /// multipliers; `depth_mm` is what the local nodes of a gear's flank have lost.
+    /// Solves a prepared position, in wider windows where contact comes close to the end of the first or the flanks overlap beside it.
+    /// `opening` adds the opening by wear to the gaps of the unworn flanks, once for the multipliers of each window;
+    /// `depth_mm` is the wear at the local nodes of a gear's flank.
     pub fn solve(
         &self,
-        prepared: &mut Prepared,
-        opening: &mut dyn FnMut(&Prepared, &mut [f64]),
+        prepared: &mut PreparedPosition,
+        opening: &mut dyn FnMut(&PreparedPosition, &mut [f64]),
         depth_mm: &dyn Fn(Gear, usize) -> f64,
-    ) -> Result<Equilibrium, ActiveSetError> {
-        let mut log = Log::default();
+    ) -> Result<ContactEquilibrium, ActiveSetError> {
+        let mut log = ActiveSetLog::default();
         for attempt in 1..=MOST_WINDOWS {
             prepared.open_gaps(opening);
             let last = attempt == MOST_WINDOWS;
             let wider = match prepared.condensed.solve_with(prepared.active.as_deref(), &mut prepared.kept) {
                 Ok(mut found) => {
                     log.append(&mut found.log);
-                    // What overlaps beside the last window is left, and told.
+                    // Overlaps beside the last window remain, and are reported.
                     let wider = match prepared.is_cramped(&found) && !last {
                         true => Some(prepared.window.wider()),
                         false => self.window_over_overlaps(prepared, &found, depth_mm).filter(|_| !last),
@@ -139,7 +138,7 @@ impl<'a> CondensedPair<'a> {
                     prepared.active = Some(found.active.clone());
                     match wider {
                         Some(wider) => wider,
-                        None => return Ok(Equilibrium { log, ..found }),
+                        None => return Ok(ContactEquilibrium { log, ..found }),
                     }
                 }
                 Err(error) if last || !prepared.misses_contact(&error) => return Err(error),
@@ -150,15 +149,15 @@ impl<'a> CondensedPair<'a> {
         unreachable!("the last attempt returns")
     }
 
-    /// Where flanks far relieved or worn touch beside the window of `found`.
+    /// Window that includes all overlaps of relieved or worn flanks beside that of `found`; `None` without overlaps.
     fn window_over_overlaps(
         &self,
-        prepared: &mut Prepared,
-        found: &Equilibrium,
+        prepared: &mut PreparedPosition,
+        found: &ContactEquilibrium,
         depth_mm: &dyn Fn(Gear, usize) -> f64,
-    ) -> Option<Window> {
-        let Prepared { window, facings, beside, .. } = prepared;
-        let mut wider: Option<Window> = None;
+    ) -> Option<SearchWindow> {
+        let PreparedPosition { window, facings, beside, .. } = prepared;
+        let mut wider: Option<SearchWindow> = None;
         for beside in beside {
             if let Some(overlap) = self.overlap(beside, facings, found, depth_mm) {
                 wider.get_or_insert_with(|| window.clone()).reach_to(overlap);
@@ -167,18 +166,17 @@ impl<'a> CondensedPair<'a> {
         wider
     }
 
-    /// Makes a prepared position as if it had never been solved, and its wear never seen: it starts from no contact, in a window no
-    /// wider than at first.
-    pub fn reset(&self, prepared: &mut Prepared) {
+    /// Resets a prepared position to its state before any solution: without contact and tilt, with its first window.
+    pub fn reset(&self, prepared: &mut PreparedPosition) {
         if prepared.windows > 1 {
-            let Window { beside, line_load_n_per_mm, .. } = prepared.window;
+            let SearchWindow { beside, line_load_n_per_mm, .. } = prepared.window;
             *prepared = self.observe(prepared.position_mm, self.first_window(beside, line_load_n_per_mm));
         } else {
             prepared.level();
         }
     }
 
-    fn widen(&self, prepared: &mut Prepared, window: Window) {
+    fn widen(&self, prepared: &mut PreparedPosition, window: SearchWindow) {
         let mut next = self.observe(prepared.position_mm, window);
         next.active = prepared.active.as_ref().map(|active| carried_over(&prepared.facings, active, &next.facings));
         next.windows = prepared.windows + 1;
@@ -204,7 +202,7 @@ impl<'a> CondensedPair<'a> {
         Condensed { compliance, gap_mm, rigid, rigid_load: vec![-line_load_n_per_mm] }
     }
 
-    /// Adds L C Lᵀ of a gear on and below the diagonal to `sum`, `operators` being L of each tooth pair.
+    /// Adds L C Lᵀ of a gear to `sum` on and below the diagonal, with `operators` L of each tooth pair.
     pub(super) fn add_symmetric_sandwich(
         &self,
         sum: &mut Mat<f64>,
@@ -222,15 +220,15 @@ impl<'a> CondensedPair<'a> {
     }
 }
 
-impl Window {
+impl SearchWindow {
     fn wider(&self) -> Self {
         let Self { half_widths, reach_mm, .. } = *self;
         Self { half_widths: WIDER * half_widths, reach_mm: FARTHER * reach_mm, ..self.clone() }
     }
 }
 
-impl Prepared {
-    /// Is again as if its flanks had never been tilted, and never been solved.
+impl PreparedPosition {
+    /// Resets tilt and active set.
     fn level(&mut self) {
         (self.active, self.kept) = (None, None);
         if let Some(Sideways { level_compliance, level_rigid, .. }) = &self.sideways {
@@ -240,22 +238,22 @@ impl Prepared {
         }
     }
 
-    /// What part of the line load `force` on the multipliers from `first_row` on carries, with the lever that it has, N/mm.
+    /// Line load that `force` on the multipliers from `first_row` on carries, with its lever, N/mm.
     pub(super) fn carried_n_per_mm(&self, first_row: usize, force: &[f64]) -> f64 {
         force.iter().enumerate().map(|(k, f)| -f * self.condensed.rigid[(first_row + k, 0)]).sum()
     }
 
-    /// w.
+    /// Line load w, N/mm.
     pub fn line_load_n_per_mm(&self) -> f64 {
         self.window.line_load_n_per_mm
     }
 
-    /// Number of the window, from 1: each is wider than the one before.
+    /// Number of the window, from 1.
     pub fn windows(&self) -> usize {
         self.windows
     }
 
-    /// How deep the flanks overlap beside the window of the last solution, mm.
+    /// Greatest overlap of the flanks beside the window of the last solution, mm.
     pub(crate) fn overlap_beside_mm(&self) -> f64 {
         self.beside.iter().map(BesideWindow::deepest_mm).fold(0.0, f64::max)
     }
@@ -265,39 +263,39 @@ impl Prepared {
         self.facings.len()
     }
 
-    /// The gaps of the unworn flanks with what `opening` adds.
-    fn open_gaps(&mut self, opening: &mut dyn FnMut(&Prepared, &mut [f64])) {
+    /// Sets the gaps to those of the unworn flanks with `opening` added.
+    fn open_gaps(&mut self, opening: &mut dyn FnMut(&PreparedPosition, &mut [f64])) {
         let mut gap_mm = std::mem::take(&mut self.condensed.gap_mm);
         gap_mm.copy_from_slice(&self.unworn_gap_mm);
         opening(self, &mut gap_mm);
         self.condensed.gap_mm = gap_mm;
     }
 
-    /// Whether contact failed for want of anything near enough to touch.
+    /// Whether contact failed because no gap is small enough to close.
     fn misses_contact(&self, error: &ActiveSetError) -> bool {
         matches!(error, ActiveSetError::NoContact { .. }) || self.unworn_gap_mm.is_empty()
     }
 
-    /// Whether contact may reach beyond what is looked at.
-    fn is_cramped(&self, found: &Equilibrium) -> bool {
+    /// Whether contact may extend beyond the window.
+    fn is_cramped(&self, found: &ContactEquilibrium) -> bool {
         found.rigid[0] > REACH_USED * self.window.reach_mm
             || self.facings.iter().any(|facing| facing.is_cramped(&found.force))
     }
 }
 
-/// The active set of `before` on the rows of `after`.
+/// Active set of `before` on the rows of `after`.
 fn carried_over(before: &[FacingTeeth], active: &[bool], after: &[FacingTeeth]) -> Vec<bool> {
-    let was_active = |pair: i32, node: usize| {
+    let rows = after.iter().flat_map(|facing| facing.coupling.nodes.iter().map(|&node| (facing.pair, node)));
+    let was_active = rows.map(|(pair, node)| {
         before.iter().filter(|facing| facing.pair == pair).any(|facing| {
             let row = facing.coupling.nodes.iter().position(|&other| other == node);
             row.is_some_and(|row| active[facing.first_row + row])
         })
-    };
-    let rows = after.iter().flat_map(|facing| facing.coupling.nodes.iter().map(|&node| (facing.pair, node)));
-    rows.map(|(pair, node)| was_active(pair, node)).collect()
+    });
+    was_active.collect()
 }
 
-/// Has above the diagonal what lies below it.
+/// Copies the entries below the diagonal to above it.
 pub(super) fn mirror_below(matrix: &mut Mat<f64>) {
     for i in 0..matrix.nrows() {
         for j in i + 1..matrix.ncols() {
@@ -306,7 +304,7 @@ pub(super) fn mirror_below(matrix: &mut Mat<f64>) {
     }
 }
 
-/// Adds `left · Cᵀ · rightᵀ`, or the `half` of it on and below the diagonal, at `places` of `sum`; `compliance` is C, a row for a
+/// Adds `left · Cᵀ · rightᵀ`, or with `half` its entries on and below the diagonal, at `places` of `sum`; `compliance` is C, with a row for each
 /// column of `right`.
 pub(super) fn add_sandwich(
     sum: &mut Mat<f64>,
@@ -318,7 +316,7 @@ pub(super) fn add_sandwich(
 ) {
     let (left_columns, left_place) = used_columns(left);
     let (right_columns, right_place) = used_columns(right);
-    // Each entry of C is read once, into columns that lie together, and so are those of the right.
+    // Entries of C are gathered once into contiguous columns, as are those of the right.
     let width = right_columns.len();
     let gathered = compliance.gathered(&right_columns, &left_columns);
     let right_entries: Vec<(usize, f64)> =
@@ -341,7 +339,7 @@ pub(super) fn add_sandwich(
     }
 }
 
-/// The columns that hold anything, and the place of each among them.
+/// Columns with entries, and the place of each among them.
 fn used_columns(operator: &CsMat<f64>) -> (Vec<usize>, Vec<usize>) {
     let mut used = operator.indices().to_vec();
     used.sort_unstable();

@@ -1,7 +1,7 @@
-//! A gear body joined from condensed sectors.
+//! Gear body joined from condensed sectors.
 //!
-//! The teeth that may touch are fine sectors, side by side; all others are coarse ones, and only their stiffness on the
-//! two outer cuts of the fine group matters. Sectors in a row join by elimination of the cut between them:
+//! The teeth that may touch are fine sectors, side by side; all others are coarse ones, of which only the stiffness on the
+//! two outer cuts of the fine group matters. Neighbouring sectors are joined by elimination of the cut between them:
 //!
 //! ```text
 //! [A_ll A_lm; A_ml A_mm + B_mm, B_mr; B_rm B_rr]   →   minus  (·_m) (A_mm + B_mm)⁻¹ (·_m)ᵀ
@@ -14,7 +14,7 @@
 //! C_pq = δ_pq C + Ψ F_pq Ψᵀ
 //! ```
 //!
-//! exactly what the whole gear's finite-element model gives, at the cost of one fine and one coarse sector.
+//! exactly as in the finite-element model of the whole gear, at the cost of one fine and one coarse sector.
 
 use std::sync::Arc;
 
@@ -27,20 +27,20 @@ use gearwear_fem::active_set::ActiveSetError;
 /// Forces on the candidates of one tooth: column and N/mm, by increasing column.
 pub(crate) type ToothForce = Vec<(usize, f64)>;
 
-/// What bounds the fine group.
+/// Surroundings of the fine group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Surroundings {
-    /// All other teeth of the gear: `coarse` of them close the ring.
+    /// All other teeth of the gear, which close the ring.
     Ring {
         /// Number of coarse teeth.
         coarse: usize,
     },
-    /// `coarse` more teeth on either side, with free outer sides.
+    /// More teeth on either side, with free outer sides.
     FreeSector {
         /// Number of coarse teeth on each side.
         coarse: usize,
     },
-    /// The same with the outer sides held.
+    /// More teeth on either side, with the outer sides held.
     ClampedSector {
         /// Number of coarse teeth on each side.
         coarse: usize,
@@ -56,15 +56,15 @@ impl Surroundings {
     }
 }
 
-/// Sectors side by side, from clockwise to anticlockwise, in what surrounds them.
+/// Neighbouring sectors, from clockwise to anticlockwise, joined to their surroundings.
 pub(crate) struct JoinedSectors {
-    /// F: displacements of the group's cuts per force on them.
+    /// Compliance F of the group's cuts.
     cut_compliance: Mat<f64>,
     cut_dofs: usize,
 }
 
 impl JoinedSectors {
-    /// Joins `teeth` sectors with what surrounds them; the cut stiffness of a `coarse` one is needed where that has teeth.
+    /// Joins `teeth` sectors with their surroundings; the cut stiffness of a `coarse` sector is needed where these have teeth.
     pub(crate) fn new(
         fine: &SectorMatrices,
         coarse: Option<&Mat<f64>>,
@@ -73,28 +73,26 @@ impl JoinedSectors {
     ) -> Result<Self, ActiveSetError> {
         let n = fine.cut_stiffness.nrows() / 2;
         let cuts = Cuts::new(teeth, surroundings);
-        let mut joined = Mat::<f64>::zeros(n * cuts.unknown, n * cuts.unknown);
-        let mut add = |block: &Mat<f64>, at: &[usize]| {
-            let place = |k: usize| cuts.unknowns[at[k / n]].map(|cut| n * cut + k % n);
-            add_block(&mut joined, block, place);
-        };
-        for tooth in 0..teeth {
-            add(&fine.cut_stiffness, &[tooth, tooth + 1]);
-        }
+        let mut blocks: Vec<(Mat<f64>, Vec<usize>)> =
+            (0..teeth).map(|tooth| (fine.cut_stiffness.clone(), vec![tooth, tooth + 1])).collect();
         if let (Some(coarse), count @ 1..) = (coarse, surroundings.coarse()) {
             let chain = chain(coarse, count)?;
             match surroundings {
                 // The chain's clockwise cut is the group's anticlockwise one.
-                Surroundings::Ring { .. } => add(&chain, &[teeth, 0]),
+                Surroundings::Ring { .. } => blocks.push((chain, vec![teeth, 0])),
                 Surroundings::FreeSector { .. } => {
-                    add(&eliminated(&chain, 0, n)?, &[0]);
-                    add(&eliminated(&chain, n, n)?, &[teeth]);
+                    blocks.push((eliminated(&chain, 0, n)?, vec![0]));
+                    blocks.push((eliminated(&chain, n, n)?, vec![teeth]));
                 }
                 Surroundings::ClampedSector { .. } => {
-                    add(&chain.get(n.., n..).to_owned(), &[0]);
-                    add(&chain.get(..n, ..n).to_owned(), &[teeth]);
+                    blocks.push((chain.get(n.., n..).to_owned(), vec![0]));
+                    blocks.push((chain.get(..n, ..n).to_owned(), vec![teeth]));
                 }
             }
+        }
+        let mut joined = Mat::<f64>::zeros(n * cuts.unknown, n * cuts.unknown);
+        for (block, at) in &blocks {
+            add_block(&mut joined, block, |k| cuts.unknowns[at[k / n]].map(|cut| n * cut + k % n));
         }
         let inverse = factor(&joined)?.inverse();
         let cut_compliance =
@@ -105,7 +103,7 @@ impl JoinedSectors {
         Ok(Self { cut_compliance, cut_dofs: n })
     }
 
-    /// C_pq for all q of `others`: displacements of the candidates of sector p per force on those of sector q.
+    /// Compliances C_pq for all q of `others`: displacements of the candidates of sector p per force on those of sector q.
     pub(crate) fn blocks(
         &self,
         fine: &SectorMatrices,
@@ -123,7 +121,7 @@ impl JoinedSectors {
         })
     }
 
-    /// Displacements of both cuts of sector `p` under candidate forces on all of them.
+    /// Displacements of both cuts of sector `p` under candidate forces on all sectors.
     pub(crate) fn cut_displacement_mm(&self, fine: &SectorMatrices, p: usize, forces: &[ToothForce]) -> Vec<f64> {
         let n = self.cut_dofs;
         let mut load = vec![0.0; self.cut_compliance.nrows()];
@@ -140,22 +138,22 @@ impl JoinedSectors {
     }
 }
 
-/// A gear as contact sees it: compliance between the candidate nodes of its fine teeth.
+/// Compliance of a gear between the candidate nodes of its fine teeth.
 #[derive(Clone)]
 pub struct GearCompliance {
-    /// The fine sector; all fine teeth are alike. Its displacements are those of the modulus that it was condensed with.
+    /// Sector of all fine teeth, with the modulus of its condensation.
     pub sector: Arc<CondensedSector>,
     teeth: usize,
     /// C_pq for q ≤ p, row by row.
     blocks: Arc<[Mat<f64>]>,
     joined: Arc<JoinedSectors>,
-    /// Young's modulus that it was condensed with over its own.
+    /// Young's modulus of the condensed sector over that of the gear.
     softness: f64,
 }
 
 impl GearCompliance {
-    /// Joins `teeth` fine sectors, from clockwise to anticlockwise, with what surrounds them; `coarse` is needed where that
-    /// has teeth.
+    /// Joins `teeth` fine sectors, from clockwise to anticlockwise, with their surroundings; `coarse` is needed where these
+    /// have teeth.
     pub fn new(
         fine: CondensedSector,
         coarse: Option<&CondensedSector>,
@@ -168,12 +166,12 @@ impl GearCompliance {
         Ok(Self { sector: Arc::new(fine), teeth, blocks, joined: Arc::new(joined), softness: 1.0 })
     }
 
-    /// The same gear of a material `by` times as soft, with the same Poisson's ratio: every displacement under the same forces is that much greater.
+    /// Gear of a material `by` times as soft, with the same Poisson's ratio: every displacement under the same forces is `by` times as great.
     pub fn softened(&self, by: f64) -> Self {
         Self { softness: by * self.softness, ..self.clone() }
     }
 
-    /// By how much its displacements are greater than those of its sector.
+    /// Ratio of displacements to those of the condensed sector.
     pub fn softness(&self) -> f64 {
         self.softness
     }
@@ -183,13 +181,13 @@ impl GearCompliance {
         self.teeth
     }
 
-    /// Displacement of candidate column `row` of tooth `p` per force on candidate column `column` of tooth `q`.
+    /// Compliance C_pq: displacements of the candidate columns of tooth `p` per force on those of tooth `q`.
     pub fn between(&self, p: usize, q: usize) -> Between<'_> {
         let (low, high) = (p.min(q), p.max(q));
         Between { block: &self.blocks[high * (high + 1) / 2 + low], turned: q > p, softness: self.softness }
     }
 
-    /// Displacements of both cuts of tooth `p` under candidate forces on the fine teeth, as the sector was condensed, mm.
+    /// Displacements of both cuts of tooth `p` under candidate forces on the fine teeth, with the modulus of the condensation, mm.
     pub fn cut_displacement_mm(&self, p: usize, forces: &[ToothForce]) -> Vec<f64> {
         self.joined.cut_displacement_mm(&self.sector.matrices, p, forces)
     }
@@ -207,7 +205,7 @@ impl GearCompliance {
     }
 }
 
-/// A view of C_pq.
+/// View of C_pq.
 #[derive(Clone, Copy)]
 pub struct Between<'a> {
     block: &'a Mat<f64>,
@@ -216,11 +214,11 @@ pub struct Between<'a> {
 }
 
 impl Between<'_> {
-    /// The entries of `rows` × `columns`, column by column.
+    /// Entries of `rows` × `columns`, column by column.
     pub(crate) fn gathered(&self, rows: &[usize], columns: &[usize]) -> Vec<f64> {
         let height = rows.len();
         let mut entries = vec![0.0; height * columns.len()];
-        // Along the block's own columns, whichever way they run.
+        // Memory is read along the columns of the stored block.
         if self.turned {
             for (i, &row) in rows.iter().enumerate() {
                 let stored = self.block.col(row);
@@ -243,8 +241,7 @@ impl Between<'_> {
     }
 }
 
-/// Which cuts of the fine group are unknowns: in a ring without coarse teeth the last is the first again, clamped ones
-/// are none.
+/// Unknowns of the fine group's cuts: in a ring without coarse teeth the last cut is the first, and clamped ones have none.
 struct Cuts {
     unknowns: Vec<Option<usize>>,
     unknown: usize,
@@ -257,14 +254,15 @@ impl Cuts {
                 Self { unknowns: (0..=teeth).map(|cut| Some(cut % teeth)).collect(), unknown: teeth }
             }
             Surroundings::ClampedSector { coarse: 0 } => {
-                let inner = |cut: usize| (cut > 0 && cut < teeth).then(|| cut - 1);
-                Self { unknowns: (0..=teeth).map(inner).collect(), unknown: teeth - 1 }
+                let inner = (0..=teeth).map(|cut| (cut > 0 && cut < teeth).then(|| cut - 1));
+                Self { unknowns: inner.collect(), unknown: teeth - 1 }
             }
             _ => Self { unknowns: (0..=teeth).map(Some).collect(), unknown: teeth + 1 },
         }
     }
 }
 
+/// Adds `block` to `sum` at the unknowns `place` of its rows and columns.
 fn add_block(sum: &mut Mat<f64>, block: &Mat<f64>, place: impl Fn(usize) -> Option<usize>) {
     for j in 0..block.ncols() {
         for i in 0..block.nrows() {
@@ -275,16 +273,18 @@ fn add_block(sum: &mut Mat<f64>, block: &Mat<f64>, place: impl Fn(usize) -> Opti
     }
 }
 
-/// A row of `count` (≥ 1) sectors with cut stiffness `one`, on its two outer cuts: rows of 1, 2, 4 … of them, joined as the binary digits
-/// of the number say.
+/// Stiffness of two neighbouring sectors or rows on their outer cuts.
+fn beside(first: &Mat<f64>, second: &Mat<f64>) -> Result<Mat<f64>, ActiveSetError> {
+    let n = first.nrows() / 2;
+    let mut three = Mat::zeros(3 * n, 3 * n);
+    add_block(&mut three, first, Some);
+    add_block(&mut three, second, |k| Some(n + k));
+    eliminated(&three, n, n)
+}
+
+/// Stiffness of a row of `count` (≥ 1) sectors with cut stiffness `one` on its two outer cuts: rows of 1, 2, 4 … sectors are joined by the
+/// binary digits of the number.
 fn chain(one: &Mat<f64>, count: usize) -> Result<Mat<f64>, ActiveSetError> {
-    let n = one.nrows() / 2;
-    let beside = |first: &Mat<f64>, second: &Mat<f64>| {
-        let mut three = Mat::zeros(3 * n, 3 * n);
-        add_block(&mut three, first, Some);
-        add_block(&mut three, second, |k| Some(n + k));
-        eliminated(&three, n, n)
-    };
     let mut row: Option<Mat<f64>> = None;
     let mut power = one.clone();
     for digit in 0..=count.ilog2() {
@@ -301,7 +301,7 @@ fn chain(one: &Mat<f64>, count: usize) -> Result<Mat<f64>, ActiveSetError> {
     Ok(row.unwrap_or(power))
 }
 
-/// `stiffness` without the `count` free unknowns from `first` on.
+/// Schur complement of `stiffness` without the `count` free unknowns from `first` on.
 fn eliminated(stiffness: &Mat<f64>, first: usize, count: usize) -> Result<Mat<f64>, ActiveSetError> {
     let kept: Vec<usize> = (0..stiffness.nrows()).filter(|k| !(first..first + count).contains(k)).collect();
     let inner = stiffness.get(first..first + count, first..first + count).to_owned();

@@ -1,4 +1,4 @@
-//! One tooth with its part of the body, condensed onto what the outside can touch.
+//! One tooth with its part of the body, condensed onto its flank and cuts.
 //!
 //! A sector is one pitch of a gear between two radial cuts through the middles of neighbouring spaces. Held at the clamp
 //! circle, its displacement follows from the forces f_c on the candidate nodes of its flank and the displacements u_b of
@@ -9,10 +9,10 @@
 //! f_b = S u_b − Ψᵀ f_c         S = K_bb − K_bi K_ii⁻¹ K_ib
 //! ```
 //!
-//! and any stress that is a linear functional σ = pᵀ u of it likewise. K is factorised once for all of these. Cut
-//! displacements are radial and circumferential components, so that a sector turned by a pitch is the same sector.
+//! and likewise any stress, a linear functional σ = pᵀ u of it. K is factorised once for all of these. Cut
+//! displacements are radial and circumferential components, so that a sector turned by a pitch has the same matrices.
 //!
-//! Source: R. J. Guyan, *AIAA J.* 3 (1965) 380 (static condensation); exact here, for nothing is dynamic.
+//! Source: R. J. Guyan, *AIAA J.* 3 (1965) 380 (static condensation); exact in statics.
 
 use faer::Mat;
 use nalgebra::Vector2;
@@ -23,16 +23,16 @@ use gearwear_fem::factor::Factor;
 use gearwear_fem::solid::Solid;
 use gearwear_fem::stiffness::Stiffness;
 
-/// What a functional of the displacements of a condensed sector comes to.
+/// Value of a functional of the displacements of a condensed sector.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
-    /// Per force on each candidate column.
+    /// Value per force on each candidate column.
     pub by_force: Vec<f64>,
-    /// Per displacement of each cut column.
+    /// Value per displacement of each cut column.
     pub by_cut: Vec<f64>,
 }
 
-/// A sparse linear functional of the displacements: degrees of freedom with their coefficients.
+/// Sparse linear functional of the displacements: degrees of freedom with their coefficients.
 pub(crate) type Functional = Vec<(u32, f64)>;
 
 /// One sector before condensation; the tooth's centre line is +y, the gear's axis the origin.
@@ -44,35 +44,35 @@ pub struct Sector {
     pub clamp: Vec<u32>,
     /// Nodes of the clockwise (x > 0) and of the anticlockwise (x < 0) cut, by increasing radius, without clamped ones.
     pub cuts: [Vec<u32>; 2],
-    /// Half a pitch.
+    /// Half the pitch angle.
     pub half_angle_rad: f64,
     /// Nodes that contact forces may act on.
     pub candidates: Vec<u32>,
-    /// Stresses wanted, MPa per mm.
+    /// Stresses at given points as functionals, MPa per mm.
     pub probes: Vec<Functional>,
-    /// How many of them, the first ones, lie on the side of the working flank.
+    /// Number of probes, the first ones, on the side of the working flank.
     pub working_side_probes: usize,
 }
 
-/// What a condensed sector is to those beside it: the matrices of the equations above.
+/// Matrices of a condensed sector, as in the equations above.
 #[derive(Debug, Clone)]
 pub struct SectorMatrices {
-    /// C.
+    /// Compliance C of the candidates with the cuts held.
     pub compliance: Mat<f64>,
-    /// Ψ at the candidates.
+    /// Displacements Ψ of the candidates per displacement of the cuts.
     pub carried: Mat<f64>,
-    /// S: of the clockwise cut, then of the anticlockwise one.
+    /// Stiffness S of the clockwise, then of the anticlockwise cut.
     pub cut_stiffness: Mat<f64>,
 }
 
-/// A condensed sector. Candidate columns are `2 · place in candidates + component`, cut columns `2 · place + component`
+/// Condensed sector. Candidate columns are `2 · place in candidates + component`, cut columns `2 · place + component`
 /// (radial, circumferential) of the clockwise cut, then of the anticlockwise one.
 pub struct CondensedSector {
-    /// The sector itself.
+    /// Sector before condensation.
     pub sector: Sector,
     stiffness: Stiffness,
     factor: Factor,
-    /// C in mm per N/mm, Ψ at the candidates, S in N/mm per mm.
+    /// Matrices C in mm per N/mm, Ψ and S in N/mm per mm.
     pub matrices: SectorMatrices,
     /// Stress of each probe per force on each candidate.
     pub probe_by_force: Mat<f64>,
@@ -97,7 +97,7 @@ impl Sector {
     /// Condenses the sector.
     ///
     /// # Errors
-    /// Elements that are none, bodies that are not held.
+    /// Degenerate elements and bodies that are not held.
     pub fn condense(self, material: Elastic, analysis: Analysis) -> Result<CondensedSector, SolveError> {
         let dofs = self.solid.dofs();
         let mut held = vec![false; dofs];
@@ -110,13 +110,15 @@ impl Sector {
 
         let directions = self.cut_directions();
         let cuts = directions.len();
-        // Two directions of each node, and as many degrees of freedom.
         let cut_dofs: Vec<u32> = directions.iter().step_by(2).flat_map(|(node, _)| [2 * node, 2 * node + 1]).collect();
         let held_columns = stiffness.matrix().columns(&cut_dofs);
-        let along = |a: usize| [(a - a % 2, directions[a].1.x), (a - a % 2 + 1, directions[a].1.y)];
+        // Each cut column in the two degrees of freedom of its node.
+        let along: Vec<[(usize, f64); 2]> = (directions.iter().enumerate())
+            .map(|(a, (_, direction))| [(a - a % 2, direction.x), (a - a % 2 + 1, direction.y)])
+            .collect();
         let mut moved = vec![0.0; dofs * cuts];
-        for (a, column) in moved.chunks_exact_mut(dofs).enumerate() {
-            for (held, part) in along(a) {
+        for (along, column) in along.iter().zip(moved.chunks_exact_mut(dofs)) {
+            for &(held, part) in along {
                 held_columns[held].iter().for_each(|(dof, value)| column[*dof as usize] -= part * value);
             }
         }
@@ -126,23 +128,24 @@ impl Sector {
                 column[dof as usize] += value;
             }
         }
-        let candidate_dof = |c: usize| 2 * self.candidates[c / 2] as usize + c % 2;
-        let candidates = 2 * self.candidates.len();
-        let carried = Mat::from_fn(candidates, cuts, |c, b| moved[b * dofs + candidate_dof(c)]);
+        let candidate_dofs: Vec<u32> = self.candidates.iter().flat_map(|node| [2 * node, 2 * node + 1]).collect();
+        let candidates = candidate_dofs.len();
+        let carried = Mat::from_fn(candidates, cuts, |c, b| moved[b * dofs + candidate_dofs[c] as usize]);
         let probe_by_cut = Mat::from_fn(self.probes.len(), cuts, |p, b| {
             self.probes[p].iter().map(|&(dof, value)| value * moved[b * dofs + dof as usize]).sum()
         });
         let mut cut_stiffness = Mat::zeros(cuts, cuts);
         for (b, column) in moved.chunks_exact(dofs).enumerate() {
-            let force =
-                |row: &Vec<(u32, f64)>| -> f64 { row.iter().map(|(dof, value)| value * column[*dof as usize]).sum() };
-            let force: Vec<f64> = held_columns.iter().map(force).collect();
-            for a in 0..cuts {
-                cut_stiffness[(a, b)] = along(a).iter().map(|&(held, part)| part * force[held]).sum();
+            let force: Vec<f64> = held_columns
+                .iter()
+                .map(|row| row.iter().map(|(dof, value)| value * column[*dof as usize]).sum())
+                .collect();
+            for (a, along) in along.iter().enumerate() {
+                cut_stiffness[(a, b)] = along.iter().map(|&(held, part)| part * force[held]).sum();
             }
         }
         let columns: Vec<Functional> =
-            (0..candidates).map(|c| vec![(candidate_dof(c) as u32, 1.0)]).chain(self.probes.iter().cloned()).collect();
+            candidate_dofs.iter().map(|dof| vec![(*dof, 1.0)]).chain(self.probes.iter().cloned()).collect();
         let all = factor.compliance(&columns);
         let compliance = all.get(..candidates, ..candidates).to_owned();
         let probe_by_force = all.get(candidates.., ..candidates).to_owned();
@@ -157,12 +160,12 @@ impl Sector {
     }
 }
 
-/// A displacement of one node as held degrees of freedom.
+/// Displacement of one node by degree of freedom.
 fn given(node: u32, displacement: Vector2<f64>) -> [(u32, f64); 2] {
     [(2 * node, displacement.x), (2 * node + 1, displacement.y)]
 }
 
-/// Without the round-off that sets a matrix apart from its transpose.
+/// Symmetric part of a matrix, which differs from its transpose by round-off.
 pub(super) fn symmetric(matrix: &Mat<f64>) -> Mat<f64> {
     Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| 0.5 * (matrix[(i, j)] + matrix[(j, i)]))
 }
@@ -171,7 +174,7 @@ impl CondensedSector {
     /// Displacement of every node of the sector under forces on the candidates and displacements of the cuts, mm.
     pub fn displacement_mm(&self, candidate_force: &[(usize, f64)], cut_mm: &[f64]) -> Vec<f64> {
         let mut field = vec![0.0; self.sector.solid.dofs()];
-        // Directions come in pairs, radial and circumferential, of one node each.
+        // Radial and circumferential directions of each node.
         let held: Vec<(u32, f64)> = self
             .sector
             .cut_directions()
@@ -190,8 +193,8 @@ impl CondensedSector {
         field
     }
 
-    /// How a functional p of the displacements answers to forces on the candidates and displacements of the cuts. With
-    /// λ = K_ii⁻¹ p_i it is λ_c and p_b − K_bi λ: one solution, whatever the number of forces.
+    /// Value of a functional p of the displacements per force on the candidates and displacement of the cuts, λ_c and p_b − K_bi λ
+    /// with λ = K_ii⁻¹ p_i: one solution, whatever the number of forces.
     pub fn answer(&self, functional: &Functional) -> Answer {
         let mut lambda = vec![0.0; self.sector.solid.dofs()];
         for &(dof, value) in functional {

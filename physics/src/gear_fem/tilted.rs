@@ -1,15 +1,15 @@
-//! Flanks that wear has tilted.
+//! Contact of flanks that wear has tilted.
 //!
-//! Wear h turns a flank by θ = dh/ds, s from root to tip, and with it the direction in which the flanks press on each other: the lever of
-//! the load on the gears, and where the teeth give way to. With B⊥ the coupling along the flank where B is that across it,
+//! Wear h turns a flank by θ = dh/ds, s from root to tip, and with it the direction of the load: its lever on the gears, and the direction of
+//! the deflection. With B⊥ the coupling along the flank and B that across it,
 //!
 //! ```text
 //! B(θ) = B + Θ B⊥      B(θ) C B(θ)ᵀ = B C Bᵀ + Θ B⊥ C Bᵀ + (Θ B⊥ C Bᵀ)ᵀ + Θ B⊥ C B⊥ᵀ Θ      B(θ) r = B r + Θ B⊥ r
 //! ```
 //!
-//! Θ is the same for all multipliers of a contact, the mean of the tilt under its load: the flanks in contact have one
-//! direction, whatever waves of wear there are in it. A tooth pair that touches in two places, on the line of action and on a ridge, has a
-//! direction in each. B⊥ C Bᵀ and B⊥ C B⊥ᵀ are found once for a position, and only where the tilt matters.
+//! Θ is the same for all multipliers of a contact, the mean of the tilt under its load, whatever waves of wear there are in it. A tooth pair
+//! that touches in two places, on the line of action and on a ridge, has a tilt in each. B⊥ C Bᵀ and B⊥ C B⊥ᵀ are calculated once for a
+//! position, and only where the tilt matters.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -18,22 +18,22 @@ use nalgebra::Rotation2;
 use sprs::CsMat;
 
 use super::condensed_pair::CondensedPair;
-use super::facing_teeth::{FacingTeeth, turned};
-use super::prepared::{Prepared, Sideways, add_sandwich, mirror_below};
+use super::facing_teeth::turned;
+use super::prepared::{PreparedPosition, Sideways, add_sandwich, mirror_below};
 use crate::gear::{Gear, PerGear};
 
-/// What flanks have lost and how that tilts them.
+/// Wear of both flanks.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Worn<'a> {
-    /// Depth at the nodes, from root to tip, mm.
+    /// Depth h at the nodes, from root to tip, mm.
     pub depth_mm: PerGear<&'a [f64]>,
-    /// dh/ds there, rad.
+    /// Tilt dh/ds at the nodes, rad.
     pub tilt_rad: &'a PerGear<Vec<f64>>,
 }
 
 impl CondensedPair<'_> {
-    /// Takes the flanks at each multiplier to be tilted by `tilt_rad`; contact goes on from where it is.
-    pub fn tilt(&self, prepared: &mut Prepared, tilt_rad: Vec<f64>) {
+    /// Sets the tilt of the flanks at each multiplier; the active set stays.
+    pub fn tilt(&self, prepared: &mut PreparedPosition, tilt_rad: Vec<f64>) {
         if prepared.sideways.is_none() {
             prepared.sideways = Some(self.sideways(prepared));
         }
@@ -51,12 +51,12 @@ impl CondensedPair<'_> {
         (prepared.tilt_rad, prepared.kept) = (tilt_rad, None);
     }
 
-    fn sideways(&self, prepared: &Prepared) -> Sideways {
+    fn sideways(&self, prepared: &PreparedPosition) -> Sideways {
         let rows = prepared.along_rotation.len();
         let (mut compliance, mut along) = (Mat::zeros(rows, rows), Mat::zeros(rows, rows));
         for gear in Gear::BOTH {
-            let turned = |facing: &FacingTeeth| turned(&facing.operator[gear], Rotation2::new(-FRAC_PI_2));
-            let sideways: Vec<CsMat<f64>> = prepared.facings.iter().map(turned).collect();
+            let operators = prepared.facings.iter().map(|facing| &facing.operator[gear]);
+            let sideways: Vec<CsMat<f64>> = operators.map(|b| turned(b, Rotation2::new(-FRAC_PI_2))).collect();
             self.add_symmetric_sandwich(&mut along, &prepared.facings, gear, &sideways.iter().collect::<Vec<_>>());
             for (facing, own) in prepared.facings.iter().zip(&sideways) {
                 for other in &prepared.facings {
@@ -76,13 +76,13 @@ impl CondensedPair<'_> {
     }
 }
 
-impl Prepared {
-    /// By how much the flanks are tilted at a multiplier.
+impl PreparedPosition {
+    /// Tilt of the flanks at a multiplier, rad.
     pub(crate) fn tilt_rad(&self, row: usize) -> f64 {
         self.tilt_rad.get(row).copied().unwrap_or(0.0)
     }
 
-    /// How far the flank is tilted at each multiplier under `force`, where it is tilted by `tilt_rad` at the local nodes of a gear.
+    /// Mean tilt at each multiplier under `force`, from `tilt_rad` at the local nodes of a gear's flank, rad.
     pub fn mean_tilts(&self, force: &[f64], tilt_rad: impl Fn(Gear, usize) -> f64) -> Vec<f64> {
         let mut of_rows = vec![0.0; force.len()];
         for facing in &self.facings {
@@ -91,18 +91,18 @@ impl Prepared {
         of_rows
     }
 
-    /// How much the levers of the tooth pairs' loads change on the pinion under `force` where the flanks tilt to `tilt_rad` at the
-    /// multipliers, each over itself and times the part of the load that the others carry: where one pair carries all, nothing changes but its lever.
+    /// Greatest relative change of the levers on the pinion of the tooth pairs' loads `force` where the flanks tilt to `tilt_rad` at the
+    /// multipliers, times the fraction of the load on the other pairs: with one loaded pair a tilt changes no load.
     pub fn lever_change(&self, force: &[f64], tilt_rad: &[f64]) -> f64 {
-        let of_pair = |facing: &FacingTeeth| {
+        let mut pairs: Vec<(f64, f64)> = Vec::with_capacity(self.facings.len());
+        for facing in &self.facings {
             let (mut own, mut change) = (0.0, 0.0);
             for row in facing.first_row..facing.first_row + facing.coupling.len() {
                 own -= force[row] * self.condensed.rigid[(row, 0)];
                 change -= force[row] * (tilt_rad[row] - self.tilt_rad(row)) * self.along_rotation[row];
             }
-            (own, change)
-        };
-        let pairs: Vec<(f64, f64)> = self.facings.iter().map(of_pair).collect();
+            pairs.push((own, change));
+        }
         let whole: f64 = pairs.iter().map(|(own, _)| own).sum();
         let loaded = pairs.iter().filter(|(own, _)| *own > 0.0);
         loaded.map(|(own, change)| (change / own).abs() * (1.0 - own / whole)).fold(0.0, f64::max)
@@ -120,7 +120,7 @@ mod tests {
 
     /// FZG type A gears with sharp tips (DIN 51354-1).
     fn fzg_a() -> GearPair {
-        let gear = |teeth, profile_shift| GearSpec {
+        let gears = PerGear { pinion: (16, 0.8635), wheel: (24, -0.5103) }.map(|(teeth, profile_shift)| GearSpec {
             teeth,
             profile_shift,
             tip_diameter_mm: None,
@@ -128,7 +128,7 @@ mod tests {
             bore_diameter_mm: None,
             modification: Modification::default(),
             shaft: None,
-        };
+        });
         let spec = PairSpec {
             normal_module_mm: 4.5,
             normal_pressure_angle_rad: 20f64.to_radians(),
@@ -137,12 +137,12 @@ mod tests {
             face_width_mm: 20.0,
             rack: BasicRack::default(),
             axis_parallelism: AxisParallelism::default(),
-            gears: PerGear { pinion: gear(16, 0.8635), wheel: gear(24, -0.5103) },
+            gears,
         };
         GearPair::new(&spec).expect("the pair of the test exists")
     }
 
-    /// What tilting makes of the compliance is B(θ) C B(θ)ᵀ of the tilted coupling itself.
+    /// Tilting gives the compliance B(θ) C B(θ)ᵀ of the tilted coupling.
     #[test]
     fn the_compliance_is_that_of_the_tilted_coupling() {
         let pair = fzg_a();
@@ -165,15 +165,15 @@ mod tests {
         model.tilt(&mut prepared, tilt_rad.clone());
         let mut expected = Mat::zeros(tilt_rad.len(), tilt_rad.len());
         for gear in Gear::BOTH {
-            let tilted = |facing: &FacingTeeth| {
+            let tilted = prepared.facings.iter().map(|facing| {
                 let across = &facing.operator[gear];
                 let mut along = turned(across, Rotation2::new(-FRAC_PI_2));
                 for (row, mut entries) in along.outer_iterator_mut().enumerate() {
                     entries.iter_mut().for_each(|(_, value)| *value *= tilt_rad[facing.first_row + row]);
                 }
                 across + &along
-            };
-            let operators: Vec<CsMat<f64>> = prepared.facings.iter().map(tilted).collect();
+            });
+            let operators: Vec<CsMat<f64>> = tilted.collect();
             let operators: Vec<&CsMat<f64>> = operators.iter().collect();
             model.add_symmetric_sandwich(&mut expected, &prepared.facings, gear, &operators);
         }

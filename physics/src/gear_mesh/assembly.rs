@@ -1,4 +1,4 @@
-//! Puts a sector together: outline, cuts and clamp circle around it, the structured layer, triangles for the rest.
+//! Assembly of a sector: outline, cuts and clamp circle around it, the structured layer, triangles elsewhere.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -9,17 +9,19 @@ use nalgebra::Vector2;
 use super::cut::Cut;
 use super::layer::{self, FlankNode, Layer, add};
 use super::outline::Outline;
-use super::spacing::{Part, Side};
-use super::{Cell, FlankChain, GREATEST_MODULES, SectorSettings, ToothMeshError, ToothSector, ToothShape, interior};
+use super::spacing::{OutlinePart, ToothSide};
+use super::{
+    FlankChain, GREATEST_MODULES, SectorSettings, ToothElement, ToothMeshError, ToothSector, ToothShape, interior,
+};
 use gearwear_mesh::quality;
 
 /// Fewest elements on the clamp circle.
 const FEWEST_ON_CLAMP: usize = 2;
 
-/// An edge on the way round the triangles: end, middle, end.
+/// Edge of the boundary of the triangles: end, middle, end.
 type Edge = [u32; 3];
 
-/// Builds the sector.
+/// Meshes the sector within `outline` and its cuts.
 pub(super) fn assemble(
     shape: &ToothShape,
     settings: &SectorSettings,
@@ -33,31 +35,11 @@ pub(super) fn assemble(
     let [right_cut, left_cut] = ends.map(|(side, top)| cut_nodes(cut, side * half_pitch_rad, top, &mut points_mm));
     let clamp = clamp_nodes(cut, half_pitch_rad, left_cut[0], right_cut[0], &mut points_mm);
 
-    let flank = outline.part(Side::Left, Part::Flank);
-    let flank_nodes = working_flank(shape, outline, flank.clone());
-    let layer = match (&settings.flank, outline.resolved_from_rho_mm) {
-        (Some(resolution), Some(from_rho_mm)) => {
-            let rho_mm: Vec<f64> = flank_nodes.iter().map(|node| node.rho_mm).collect();
-            let first = first_resolved(&rho_mm, from_rho_mm);
-            let depth = resolution.depth_half_widths * resolution.elements_per_half_width;
-            let mut layer = layer::build(&flank_nodes[first..], depth, &mut points_mm);
-            layer.covers = layer.covers.start + first..layer.covers.end + first;
-            layer
-        }
-        _ => Layer::default(),
-    };
+    let flank = outline.part(ToothSide::Left, OutlinePart::Flank);
+    let layer = layer_under(&working_flank(shape, outline, flank.clone()), settings, outline, &mut points_mm);
 
     let mut loop_edges: Vec<Edge> = edges(&right_cut);
-    let all: Vec<u32> = (0..outline.nodes.len() as u32).collect();
-    if layer.border.is_empty() {
-        loop_edges.extend(edges(&all));
-    } else {
-        // The flank's own row counts from the root, the outline from the tip.
-        let (from, to) = (flank.end - layer.covers.end, flank.end - 1 - layer.covers.start);
-        loop_edges.extend(edges(&all[..=from]));
-        loop_edges.extend_from_slice(&layer.border);
-        loop_edges.extend(edges(&all[to..]));
-    }
+    loop_edges.extend(outline_edges(outline, &flank, &layer));
     loop_edges.extend(edges(&reversed(&left_cut)));
     loop_edges.extend(edges(&clamp));
 
@@ -66,22 +48,61 @@ pub(super) fn assemble(
     cells.extend(triangles(&loop_edges, settings.growth(), greatest_mm, &mut points_mm)?);
     refuse_inverted(&points_mm, &cells)?;
 
-    let chain = |side, part| outline.part(side, part).map(|k| k as u32).collect::<Vec<u32>>();
-    let from_root = |side, part| if side == Side::Left { reversed(&chain(side, part)) } else { chain(side, part) };
+    let [working_fillet, back_fillet] = both_from_root(outline, OutlinePart::Fillet);
+    let [working_root_arc, back_root_arc] = both_from_root(outline, OutlinePart::RootArc);
     Ok(ToothSector {
         points_mm,
         cells,
-        working_flank: flank_chain(outline, Side::Left),
-        back_flank: flank_chain(outline, Side::Right),
-        working_fillet: from_root(Side::Left, Part::Fillet),
-        back_fillet: from_root(Side::Right, Part::Fillet),
-        working_root_arc: from_root(Side::Left, Part::RootArc),
-        back_root_arc: from_root(Side::Right, Part::RootArc),
-        tip_land: reversed(&chain(Side::Right, Part::Land)),
+        working_flank: flank_chain(outline, ToothSide::Left),
+        back_flank: flank_chain(outline, ToothSide::Right),
+        working_fillet,
+        back_fillet,
+        working_root_arc,
+        back_root_arc,
+        tip_land: reversed(&chain(outline, ToothSide::Right, OutlinePart::Land)),
         left_cut,
         right_cut,
         clamp,
     })
+}
+
+/// Structured layer under the resolved part of the working flank; empty on a coarse sector.
+fn layer_under(
+    flank: &[FlankNode],
+    settings: &SectorSettings,
+    outline: &Outline,
+    points_mm: &mut Vec<Vector2<f64>>,
+) -> Layer {
+    let (Some(resolution), Some(from_rho_mm)) = (&settings.flank, outline.resolved_from_rho_mm) else {
+        return Layer::default();
+    };
+    let rho_mm: Vec<f64> = flank.iter().map(|node| node.rho_mm).collect();
+    let first = first_resolved(&rho_mm, from_rho_mm);
+    let depth = resolution.depth_half_widths * resolution.elements_per_half_width;
+    let mut layer = layer::build(&flank[first..], depth, points_mm);
+    layer.covers = layer.covers.start + first..layer.covers.end + first;
+    layer
+}
+
+/// Edges along the outline, below the layer where there is one.
+fn outline_edges(outline: &Outline, flank: &Range<usize>, layer: &Layer) -> Vec<Edge> {
+    let all: Vec<u32> = (0..outline.nodes.len() as u32).collect();
+    if layer.border.is_empty() {
+        return edges(&all);
+    }
+    // The layer counts nodes from the root, the outline from the tip.
+    let (from, to) = (flank.end - layer.covers.end, flank.end - 1 - layer.covers.start);
+    [edges(&all[..=from]), layer.border.clone(), edges(&all[to..])].concat()
+}
+
+/// Nodes of a part on one side in the order of the outline.
+fn chain(outline: &Outline, side: ToothSide, part: OutlinePart) -> Vec<u32> {
+    outline.part(side, part).map(|k| k as u32).collect()
+}
+
+/// Nodes of a part on the working and on the other side, each from the root up.
+fn both_from_root(outline: &Outline, part: OutlinePart) -> [Vec<u32>; 2] {
+    [reversed(&chain(outline, ToothSide::Left, part)), chain(outline, ToothSide::Right, part)]
 }
 
 fn reversed(nodes: &[u32]) -> Vec<u32> {
@@ -130,17 +151,17 @@ fn working_flank(shape: &ToothShape, outline: &Outline, flank: Range<usize>) -> 
 }
 
 /// Flank and rounding of a side, from root to tip.
-fn flank_chain(outline: &Outline, side: Side) -> FlankChain {
-    let (flank, rounding) = (outline.part(side, Part::Flank), outline.part(side, Part::Rounding));
+fn flank_chain(outline: &Outline, side: ToothSide) -> FlankChain {
+    let (flank, rounding) = (outline.part(side, OutlinePart::Flank), outline.part(side, OutlinePart::Rounding));
     let involute = 0..flank.len();
     // Flank and rounding share the node between them.
     let numbers: Vec<usize> = match side {
-        Side::Right => flank.chain(rounding.skip(1)).collect(),
-        Side::Left => flank.rev().chain(rounding.rev().skip(1)).collect(),
+        ToothSide::Right => flank.chain(rounding.skip(1)).collect(),
+        ToothSide::Left => flank.rev().chain(rounding.rev().skip(1)).collect(),
     };
     let rho_mm: Vec<f64> = numbers.iter().map(|&k| outline.rho_mm[k]).collect();
     let resolved = match outline.resolved_from_rho_mm {
-        Some(from) if side == Side::Left => first_resolved(&rho_mm, from)..numbers.len(),
+        Some(from) if side == ToothSide::Left => first_resolved(&rho_mm, from)..numbers.len(),
         _ => 0..0,
     };
     FlankChain { nodes: numbers.into_iter().map(|k| k as u32).collect(), rho_mm, involute, resolved }
@@ -151,37 +172,36 @@ fn first_resolved(rho_mm: &[f64], from_rho_mm: f64) -> usize {
     2 * rho_mm.iter().step_by(2).position(|&rho| rho >= from_rho_mm * (1.0 - 1e-12)).unwrap_or(0)
 }
 
-/// Six-node triangles inside the loop; boundary edges keep their middle nodes, other middles lie halfway.
+/// Six-node triangles inside a loop of edges, which keep their middle nodes; other middles lie halfway between corners.
 fn triangles(
     loop_edges: &[Edge],
     growth: f64,
     greatest_mm: f64,
     points_mm: &mut Vec<Vector2<f64>>,
-) -> Result<Vec<Cell>, ToothMeshError> {
+) -> Result<Vec<ToothElement>, ToothMeshError> {
     let ring: Vec<Vector2<f64>> = loop_edges.iter().map(|edge| points_mm[edge[0] as usize]).collect();
     let filling = interior::fill(&ring, growth, greatest_mm)?;
     let mut ids: Vec<u32> = loop_edges.iter().map(|edge| edge[0]).collect();
     ids.extend(filling.points_mm[ring.len()..].iter().map(|&point| add(points_mm, point)));
-    let key = |a: u32, b: u32| (a.min(b), a.max(b));
-    let mut middles: BTreeMap<(u32, u32), u32> = loop_edges.iter().map(|&[a, middle, b]| (key(a, b), middle)).collect();
+    let mut middles: BTreeMap<[u32; 2], u32> =
+        loop_edges.iter().map(|&[a, middle, b]| ([a.min(b), a.max(b)], middle)).collect();
     Ok(filling
         .triangles
         .iter()
         .map(|triangle| {
-            let [a, b, c] = triangle.map(|k| ids[k]);
-            let mut middle = |a: u32, b: u32| {
-                *middles.entry(key(a, b)).or_insert_with(|| {
+            let corners @ [a, b, c] = triangle.map(|k| ids[k]);
+            let between = [[a, b], [b, c], [c, a]].map(|[a, b]| {
+                *middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
                     let point = 0.5 * (points_mm[a as usize] + points_mm[b as usize]);
                     add(points_mm, point)
                 })
-            };
-            let between = [middle(a, b), middle(b, c), middle(c, a)];
-            Cell::triangle([a, b, c], between)
+            });
+            ToothElement::triangle(corners, between)
         })
         .collect())
 }
 
-fn refuse_inverted(points_mm: &[Vector2<f64>], cells: &[Cell]) -> Result<(), ToothMeshError> {
+fn refuse_inverted(points_mm: &[Vector2<f64>], cells: &[ToothElement]) -> Result<(), ToothMeshError> {
     let mut nodes = Vec::with_capacity(8);
     for (number, cell) in cells.iter().enumerate() {
         nodes.clear();

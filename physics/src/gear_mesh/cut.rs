@@ -6,7 +6,7 @@
 use super::{GREATEST_MODULES, ToothMeshError, ToothShape};
 use crate::gear_mesh::settings::greatest_clamp_mm;
 
-/// Rate of growth along the cut.
+/// Rate of growth g along the cut.
 const GROWTH: f64 = 0.2;
 /// Fewest elements along the cut.
 const FEWEST: usize = 4;
@@ -20,8 +20,44 @@ pub(super) struct Cut {
     pub lowest_mm: f64,
 }
 
+/// Wanted element lengths below the root circle: h_0, growing to h_max, then constant.
+struct Lengths {
+    first_mm: f64,
+    longest_mm: f64,
+}
+
+impl Lengths {
+    /// Depth down to which elements grow.
+    fn grown_mm(&self) -> f64 {
+        (self.longest_mm - self.first_mm) / GROWTH
+    }
+
+    /// Number of elements that grow.
+    fn grown(&self) -> f64 {
+        (self.longest_mm / self.first_mm).ln() / GROWTH
+    }
+
+    /// Elements down to a depth: ln(1 + g d/h_0)/g while they grow, then evenly.
+    fn elements(&self, depth_mm: f64) -> f64 {
+        if depth_mm <= self.grown_mm() {
+            (GROWTH * depth_mm / self.first_mm).ln_1p() / GROWTH
+        } else {
+            self.grown() + (depth_mm - self.grown_mm()) / self.longest_mm
+        }
+    }
+
+    /// Depth of a number of elements, the inverse.
+    fn depth_mm(&self, elements: f64) -> f64 {
+        if elements <= self.grown() {
+            self.first_mm * (GROWTH * elements).exp_m1() / GROWTH
+        } else {
+            self.grown_mm() + (elements - self.grown()) * self.longest_mm
+        }
+    }
+}
+
 impl Cut {
-    /// The cut of a gear clamped at `clamp_radius_mm`, whose first element is to be about `first_mm` long.
+    /// Cut of a gear clamped at `clamp_radius_mm`, whose element at the root circle is to be about `first_mm` long.
     pub(super) fn new(shape: &ToothShape, clamp_radius_mm: f64, first_mm: f64) -> Result<Self, ToothMeshError> {
         let root_mm = shape.tooth.root_radius_mm;
         let greatest_mm = greatest_clamp_mm(root_mm, shape.normal_module_mm);
@@ -30,27 +66,12 @@ impl Cut {
         }
         let depth_mm = root_mm - clamp_radius_mm;
         let longest_mm = (GREATEST_MODULES * shape.normal_module_mm).max(first_mm);
-        // Elements down to a depth: ln(1 + g d/h_0)/g while they grow, then evenly.
-        let grown_mm = (longest_mm - first_mm) / GROWTH;
-        let grown = (longest_mm / first_mm).ln() / GROWTH;
-        let elements = |depth: f64| {
-            if depth <= grown_mm {
-                (GROWTH * depth / first_mm).ln_1p() / GROWTH
-            } else {
-                grown + (depth - grown_mm) / longest_mm
-            }
-        };
-        let depth = |elements: f64| {
-            if elements <= grown {
-                first_mm * (GROWTH * elements).exp_m1() / GROWTH
-            } else {
-                grown_mm + (elements - grown) * longest_mm
-            }
-        };
-        let whole = elements(depth_mm);
+        let lengths = Lengths { first_mm, longest_mm };
+        let whole = lengths.elements(depth_mm);
         let count = (whole.ceil() as usize).max(FEWEST);
-        let ends: Vec<f64> =
-            (0..=count).map(|k| root_mm - depth_mm.min(depth(whole * (count - k) as f64 / count as f64))).collect();
+        let ends: Vec<f64> = (0..=count)
+            .map(|k| root_mm - depth_mm.min(lengths.depth_mm(whole * (count - k) as f64 / count as f64)))
+            .collect();
         let lowest_mm = ends[1] - ends[0];
         let mut radius_mm = Vec::with_capacity(2 * count + 1);
         for k in 0..count {

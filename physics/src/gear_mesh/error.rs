@@ -1,86 +1,90 @@
-//! Why a tooth cannot be meshed.
+//! Reasons why a tooth cannot be meshed.
 
-/// What stands in the way of a mesh; lengths in mm.
+/// Reason why a tooth cannot be meshed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ToothMeshError {
-    /// The clamp circle leaves no body below the teeth, or is none.
+    /// The clamp radius is not positive or leaves no body below the teeth.
     #[error(
         "clamp radius {clamp_radius_mm:.4} mm: it must be above 0 and at most {greatest_mm:.4} mm, below the teeth"
     )]
     ClampRadius {
-        /// As given.
+        /// Given radius.
         clamp_radius_mm: f64,
-        /// Largest possible.
+        /// Greatest possible radius.
         greatest_mm: f64,
     },
-    /// A length or count the mesh is to have is not positive and finite.
+    /// A setting of the mesh is not positive and finite.
     #[error("{what} is {value}: it must be a positive number")]
     NotPositive {
-        /// What was asked for.
+        /// Name of the setting.
         what: &'static str,
-        /// As given.
+        /// Given value.
         value: f64,
     },
-    /// The elements asked for on the flank are no lengths, or shorter than can be meshed.
+    /// The element length on the flank is not finite, or too short to be meshed.
     #[error(
-        "elements of {value_mm} mm are asked for where the flank's radius of curvature is {rho_mm:.4} mm: at least {least_mm:.2e} mm"
+        "elements of {value_mm} mm on the flank where its radius of curvature is {rho_mm:.4} mm: they must be at least {least_mm:.2e} mm long; fewer elements per half-width are longer"
     )]
     ElementLength {
-        /// As asked for.
+        /// Wanted length.
         value_mm: f64,
-        /// Where.
+        /// Radius of curvature of the flank there.
         rho_mm: f64,
-        /// Shortest allowed.
+        /// Shortest allowed length.
         least_mm: f64,
     },
-    /// The resolution asked for needs more nodes than is reasonable.
-    #[error("the outline needs {elements} elements, more than the {greatest} a tooth may have")]
+    /// The outline needs too many elements.
+    #[error(
+        "the outline of a tooth needs {elements} elements, more than {greatest}: take fewer elements per half-width"
+    )]
     TooFine {
-        /// Along the whole outline.
+        /// Number along the whole outline.
         elements: usize,
-        /// What is allowed.
+        /// Greatest number allowed.
         greatest: usize,
     },
-    /// The removed material reaches beyond the flank's centre of curvature where the involute begins.
-    #[error("{removed_mm:.4} mm are removed where the involute begins with radius of curvature {rho_mm:.4} mm")]
+    /// The modification at the root form circle is more than half the involute's radius of curvature.
+    #[error(
+        "{removed_mm:.4} mm are removed from the flank where the involute begins: less than half of its radius of curvature there, {rho_mm:.4} mm, can be meshed"
+    )]
     ReliefBeyondCurvature {
-        /// Removed there.
+        /// Material removed at the root form circle.
         removed_mm: f64,
-        /// ρ of the root form circle.
+        /// ρ at the root form circle.
         rho_mm: f64,
     },
-    /// Relieved flanks leave no tip land.
+    /// The relieved flanks leave no tip land.
     #[error("the relieved flanks meet below the tip circle of radius {tip_radius_mm:.4} mm")]
     PointedTip {
-        /// r_a.
+        /// Tip radius r_a.
         tip_radius_mm: f64,
     },
     /// No circle of the rounding's radius fits between flank and tip circle, or the roundings of both sides overlap.
     #[error("a tip rounding of radius {radius_mm:.4} mm does not fit between the relieved flanks and the tip circle")]
     TipRounding {
-        /// As given.
+        /// Radius of the rounding.
         radius_mm: f64,
     },
-    /// Pieces of the outline cross, so that there is no body between them.
+    /// The outline crosses itself.
     #[error("the outline crosses itself near ({:.4}, {:.4}) mm", .at_mm[0], .at_mm[1])]
     CrossedOutline {
-        /// Where, the tooth's centre line on +y.
+        /// Point near the crossing, the tooth's centre line on +y.
         at_mm: [f64; 2],
     },
-    /// An element came out inverted.
+    /// An element is inverted.
     #[error("element {cell} near ({:.4}, {:.4}) mm is inverted", .at_mm[0], .at_mm[1])]
     Inverted {
-        /// Its number.
+        /// Number of the element.
         cell: usize,
-        /// Its first node, the tooth's centre line on +y.
+        /// First node of the element, the tooth's centre line on +y.
         at_mm: [f64; 2],
     },
-    /// A sector cannot be cut from the gear as asked.
+    /// The sector's number of teeth is even, or more than the gear has.
     #[error("a sector of {sector_teeth} teeth of {teeth}: it must be an odd number, at most that of the gear")]
     SectorTeeth {
-        /// As given.
+        /// Teeth of the sector.
         sector_teeth: u32,
-        /// z.
+        /// Teeth of the gear.
         teeth: u32,
     },
 }

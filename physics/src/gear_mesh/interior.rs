@@ -1,10 +1,10 @@
-//! Triangles that fill a closed boundary, whose edges are kept as they are.
+//! Triangulation inside a closed boundary, whose edges are kept.
 //!
-//! Points are packed as a front that moves in from the boundary, smallest first: every point offers six places around
-//! itself, a wanted edge length away, and a place is taken where no point is nearer than a part of that length. Where the
-//! boundary is even this gives nearly equilateral triangles. The points are joined by the constrained Delaunay
-//! triangulation, gaps are filled at the centres of circumcircles that are too large, and points are moved to the middle
-//! of their neighbours where that improves the worst triangle around them. All of it is in a fixed order: the same
+//! Points are packed by an advancing front from the boundary inwards, shortest lengths first: every point offers six places around
+//! itself, a wanted edge length away, and a place is taken where no point is nearer than a fraction of that length. Where
+//! boundary edges are even, triangles are nearly equilateral. The points are joined by the constrained Delaunay
+//! triangulation, gaps are filled at the centres of circumcircles that are too large, and points are moved to the mean
+//! of their neighbours where that improves the worst triangle around them. The order is fixed: the same
 //! boundary gives the same triangles, bit for bit.
 //!
 //! Sources: J. R. Shewchuk, *Delaunay refinement algorithms for triangular mesh generation*, Computational Geometry 22
@@ -22,23 +22,23 @@ use super::{ToothMeshError, neighbours::Neighbours, size_field::SizeField};
 
 /// Places per unit that points of the boundary are rounded to: 2³².
 const PLACES: f64 = 4_294_967_296.0;
-/// Nearest distance of packed points, as a part of the wanted length.
+/// Least distance of packed points over the wanted length.
 const NEAREST: f64 = 0.75;
-/// Nearest distance of a packed point to an edge of the boundary: a little below the height of an equilateral triangle.
+/// Least distance of a packed point from an edge of the boundary over the wanted length: a little below the height of an equilateral triangle.
 const NEAREST_TO_EDGE: f64 = 0.6;
 /// Circumradius over wanted length beyond which a gap is filled; 1/√3 in an equilateral triangle.
 const GAP: f64 = 0.8;
-/// Triangulations with gaps filled and points moved.
+/// Rounds of filling gaps, triangulating and moving points.
 const ROUNDS: usize = 5;
-/// Sweeps of moving points in each.
+/// Sweeps of moving points in each round.
 const SWEEPS: usize = 2;
-/// Triangles better than this need not be improved when a point moves.
+/// Quality above which a triangle may become worse when a point moves.
 const GOOD: f64 = 0.9;
 
-/// What fills a boundary.
+/// Triangles inside a boundary.
 #[derive(Debug)]
 pub(super) struct Filling {
-    /// The boundary's points, then the new ones.
+    /// Points of the boundary, then the new ones.
     pub points_mm: Vec<Vector2<f64>>,
     /// Corners, anticlockwise.
     pub triangles: Vec<[usize; 3]>,
@@ -46,9 +46,9 @@ pub(super) struct Filling {
 
 /// Fills the closed boundary through `ring`, anticlockwise, with lengths up to `greatest_mm`.
 pub(super) fn fill(ring: &[Vector2<f64>], growth: f64, greatest_mm: f64) -> Result<Filling, ToothMeshError> {
-    // In units of the greatest length and without the last digits, so that ties fall alike in any system of units.
-    let place = |x: f64| (x / greatest_mm * PLACES).round() / PLACES;
-    let dimensionless: Vec<Vector2<f64>> = ring.iter().map(|point| point.map(place)).collect();
+    // In units of the greatest length and without the last digits, so that ties are broken alike in any system of units.
+    let dimensionless: Vec<Vector2<f64>> =
+        ring.iter().map(|point| point.map(|x| (x / greatest_mm * PLACES).round() / PLACES)).collect();
     let mut filling = fill_dimensionless(&dimensionless, growth).map_err(|error| match error {
         ToothMeshError::CrossedOutline { at_mm: at } => {
             ToothMeshError::CrossedOutline { at_mm: at.map(|x| x * greatest_mm) }
@@ -77,12 +77,12 @@ fn fill_dimensionless(ring: &[Vector2<f64>], growth: f64) -> Result<Filling, Too
     Ok(Filling { points_mm, triangles })
 }
 
-/// A point of the front; the one with the smallest length goes first, the older of two equal ones.
+/// Point of the advancing front, ordered by length, then by age.
 #[derive(Debug, PartialEq)]
 struct Front {
     length_mm: f64,
     number: usize,
-    /// Where it was offered from.
+    /// Point that offered the place.
     from: Vector2<f64>,
 }
 
@@ -110,6 +110,16 @@ impl Boundary<'_> {
         [self.ring[k], self.ring[(k + 1) % self.ring.len()]]
     }
 
+    fn edge_length(&self, k: usize) -> f64 {
+        let [a, b] = self.edge(k);
+        (b - a).norm()
+    }
+
+    /// Error for an outline that crosses itself at point `k` of the boundary.
+    fn crossed(&self, k: usize) -> ToothMeshError {
+        ToothMeshError::CrossedOutline { at_mm: self.ring[k % self.ring.len()].into() }
+    }
+
     /// Whether `point` lies inside, at least `distance_mm` from every edge.
     fn holds(&self, point: Vector2<f64>, distance_mm: f64) -> bool {
         let least = distance_mm * distance_mm;
@@ -128,7 +138,7 @@ impl Boundary<'_> {
         inside
     }
 
-    /// The ring's points and those packed inside.
+    /// Points of the boundary and those packed inside.
     fn pack(&self) -> Vec<Vector2<f64>> {
         let mut packing = Packing {
             boundary: self,
@@ -140,8 +150,7 @@ impl Boundary<'_> {
             packing.taken.add(point, self.field.at_mm(point));
         }
         let mut edges: Vec<usize> = (0..self.ring.len()).collect();
-        let length = |k: &usize| (self.edge(*k)[1] - self.edge(*k)[0]).norm();
-        edges.sort_by(|a, b| length(a).total_cmp(&length(b)).then(a.cmp(b)));
+        edges.sort_by(|a, b| self.edge_length(*a).total_cmp(&self.edge_length(*b)).then(a.cmp(b)));
         for k in edges {
             let [a, b] = self.edge(k);
             let inward = Vector2::new(a.y - b.y, b.x - a.x).normalize();
@@ -153,7 +162,7 @@ impl Boundary<'_> {
             let back = (front.from - at).normalize();
             for sixth in 0..6 {
                 let direction = Rotation2::new(f64::from(sixth) * FRAC_PI_3) * back;
-                // The mean of the lengths at both ends, to first order.
+                // Mean of the wanted lengths at both ends, to first order.
                 let near = at + front.length_mm * direction;
                 let distance = 0.5 * (front.length_mm + self.field.at_mm(near));
                 packing.offer(at + distance * direction, at);
@@ -167,26 +176,25 @@ impl Boundary<'_> {
         let vertices = points_mm.iter().map(|p| Point2::new(p.x, p.y)).collect();
         let n = self.ring.len();
         let edges = (0..n).map(|k| [k, (k + 1) % n]).collect();
-        let crossed = |k: usize| ToothMeshError::CrossedOutline { at_mm: self.ring[k % n].into() };
         let mut conflict = None;
         let cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(vertices, edges, |edge| {
             conflict = conflict.or(Some(edge[0]));
         })
-        .map_err(|_| crossed(0))?;
+        .map_err(|_| self.crossed(0))?;
         if let Some(k) = conflict {
-            return Err(crossed(k));
+            return Err(self.crossed(k));
         }
         if cdt.num_vertices() != points_mm.len() {
-            // Two points in one place: the outline touches itself.
+            // Coinciding points: the outline touches itself.
             let twin = (0..n).find(|&k| self.ring[..k].contains(&self.ring[k])).unwrap_or(0);
-            return Err(crossed(twin));
+            return Err(self.crossed(twin));
         }
-        // The boundary has the body on its left; from there to every triangle not behind a boundary edge.
+        // Flood fill from the left of the boundary edges, where the body is.
         let mut inside = vec![false; cdt.num_all_faces()];
         let mut pending = Vec::new();
         for k in 0..n {
             let ends = [k, (k + 1) % n].map(FixedVertexHandle::from_index);
-            let edge = cdt.get_edge_from_neighbors(ends[0], ends[1]).ok_or_else(|| crossed(k))?;
+            let edge = cdt.get_edge_from_neighbors(ends[0], ends[1]).ok_or_else(|| self.crossed(k))?;
             pending.extend(edge.face().as_inner());
         }
         while let Some(face) = pending.pop() {
@@ -199,7 +207,7 @@ impl Boundary<'_> {
         Ok(inner.map(|face| face.vertices().map(|vertex| vertex.index())).collect())
     }
 
-    /// Adds points where the circumcircle of a triangle leaves too much room.
+    /// Adds points at the centres of circumcircles that are too large.
     fn fill_gaps(&self, points_mm: &mut Vec<Vector2<f64>>, triangles: &[[usize; 3]]) {
         let mut taken = Neighbours::default();
         for &point in points_mm.iter() {
@@ -219,7 +227,7 @@ impl Boundary<'_> {
         }
     }
 
-    /// Moves inner points to the middle of their neighbours where that makes the worst triangle around them better.
+    /// Moves inner points to the mean of their neighbours where that improves the worst triangle around them.
     fn smooth(&self, points_mm: &mut [Vector2<f64>], triangles: &[[usize; 3]]) {
         let around = Around::of(points_mm.len(), triangles);
         for _ in 0..SWEEPS {
@@ -228,15 +236,12 @@ impl Boundary<'_> {
                 if star.is_empty() {
                     continue;
                 }
-                let worst = |points: &[Vector2<f64>]| {
-                    star.iter().map(|&t| quality(triangles[t].map(|k| points[k]))).fold(f64::INFINITY, f64::min)
-                };
-                let (old, before) = (points_mm[point], worst(points_mm));
+                let (old, before) = (points_mm[point], worst_quality(star, triangles, points_mm));
                 // Every neighbour is a corner of two triangles of the star.
                 let sum = star.iter().flat_map(|&t| triangles[t]).filter(|&k| k != point);
                 let sum: Vector2<f64> = sum.map(|k| points_mm[k]).sum();
                 points_mm[point] = sum / (2 * star.len()) as f64;
-                if worst(points_mm) < before.min(GOOD) {
+                if worst_quality(star, triangles, points_mm) < before.min(GOOD) {
                     points_mm[point] = old;
                 }
             }
@@ -253,7 +258,7 @@ struct Packing<'a> {
 }
 
 impl Packing<'_> {
-    /// Takes `place`, offered by a point at `from`, if there is room.
+    /// Adds `place`, offered by the point at `from`, where there is room.
     fn offer(&mut self, place: Vector2<f64>, from: Vector2<f64>) {
         let length_mm = self.boundary.field.at_mm(place);
         if self.taken.crowds(place, length_mm, NEAREST) || !self.boundary.holds(place, NEAREST_TO_EDGE * length_mm) {
@@ -296,14 +301,19 @@ impl Around {
     }
 }
 
-/// 4√3 area / Σ length²: 1 for the equilateral triangle, 0 for a flat one, negative for an inverted one.
+/// Least quality of the triangles numbered in `star`.
+fn worst_quality(star: &[usize], triangles: &[[usize; 3]], points: &[Vector2<f64>]) -> f64 {
+    star.iter().map(|&t| quality(triangles[t].map(|k| points[k]))).fold(f64::INFINITY, f64::min)
+}
+
+/// Quality of a triangle, 4√3 area / Σ length²: 1 for the equilateral triangle, 0 for a flat one, negative for an inverted one.
 fn quality([a, b, c]: [Vector2<f64>; 3]) -> f64 {
     let (ab, bc, ca) = (b - a, c - b, a - c);
     let lengths = ab.norm_squared() + bc.norm_squared() + ca.norm_squared();
     2.0 * 3f64.sqrt() * ab.perp(&(c - a)) / lengths
 }
 
-/// Centre and radius.
+/// Centre and radius of the circumcircle; `None` for a flat triangle.
 fn circumcircle(a: Vector2<f64>, b: Vector2<f64>, c: Vector2<f64>) -> Option<(Vector2<f64>, f64)> {
     let (u, v) = (b - a, c - a);
     let twice = 2.0 * u.perp(&v);

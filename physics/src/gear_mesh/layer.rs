@@ -1,4 +1,4 @@
-//! The layer of structured elements under the working flank.
+//! Layer of structured elements under the working flank.
 //!
 //! Columns stand on the elements of the flank, along the involute's normals; depths are multiples of the local element
 //! length h, so that the layer keeps its shape where h changes along the flank. Rows thicken by a factor of 1.25 each;
@@ -10,34 +10,34 @@
 //!  below   C ───────────────── D
 //! ```
 //!
-//! The layer covers the part of the flank where it fits: not deeper than a part of the tooth's thickness or of the
-//! flank's radius of curvature, and where h does not change so fast that the rows would slant.
+//! The layer covers the part of the flank where it is thinner than a fraction of the tooth's thickness and of the
+//! flank's radius of curvature, and where h changes slowly enough for the rows not to slant.
 
 use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 
-use super::{Cell, spacing::OutlineNode};
+use super::{ToothElement, spacing::OutlineNode};
 use gearwear_mesh::CellKind;
 
-/// Thickness of a row over that of the one above.
+/// Ratio of thicknesses of neighbouring rows.
 const THICKENING: f64 = 1.25;
-/// Columns are joined where a row would be this much thicker than wide.
+/// Ratio of thickness to width of a row beyond which columns are joined.
 const THICKEST_OVER_WIDTH: f64 = 1.5;
-/// Most of the tooth's thickness that the layer may take.
+/// Greatest depth over the tooth's thickness.
 const PART_OF_THICKNESS: f64 = 0.3;
-/// Most of the flank's radius of curvature, at whose centre the normals meet.
+/// Greatest depth over the flank's radius of curvature, at whose centre the normals meet.
 const PART_OF_CURVATURE: f64 = 0.4;
 /// Steepest slant of the lowest row against the flank.
 const STEEPEST: f64 = 0.3;
 /// Passes of the running mean over element lengths.
 const SMOOTHINGS: usize = 8;
-/// Elements at the ends of the fine flank left to triangles, which fit the corners.
+/// Elements at both ends of the fine flank with triangles below, which fit the corners.
 const LEFT_TO_CORNERS: usize = 5;
 
 /// A row of the layer; depths in units of the local element length.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Row {
+struct LayerRow {
     depth: [f64; 2],
     /// Flank elements a column covers above the row.
     width: usize,
@@ -46,11 +46,11 @@ struct Row {
 }
 
 /// Rows down to at least `depth` element lengths.
-fn rows(depth: f64) -> Vec<Row> {
+fn rows(depth: f64) -> Vec<LayerRow> {
     let (mut rows, mut top, mut thickness, mut width) = (Vec::new(), 0.0, 1.0, 1);
     while top < depth {
         let joins = thickness >= THICKEST_OVER_WIDTH * width as f64;
-        rows.push(Row { depth: [top, top + thickness], width, joins });
+        rows.push(LayerRow { depth: [top, top + thickness], width, joins });
         top += thickness;
         thickness *= THICKENING;
         width *= if joins { 2 } else { 1 };
@@ -58,30 +58,30 @@ fn rows(depth: f64) -> Vec<Row> {
     rows
 }
 
-/// The layer under a flank.
+/// Layer under a flank.
 #[derive(Debug, Default)]
 pub(super) struct Layer {
-    pub cells: Vec<Cell>,
-    /// Where it begins and ends on the flank, node numbers of the flank's row; empty range: there is no layer.
+    pub cells: Vec<ToothElement>,
+    /// Covered nodes of the flank, counted along it; empty without a layer.
     pub covers: std::ops::Range<usize>,
-    /// Its edges inside the tooth (end, middle, end), from the flank at the tip down, along the lowest row and up to the
-    /// flank at the root: the body beyond it on their left.
+    /// Edges inside the tooth (end, middle, end), from the flank at the tip down, along the lowest row and up to the
+    /// flank at the root, the rest of the body on their left.
     pub border: Vec<[u32; 3]>,
 }
 
-/// A node of the flank that the layer stands on.
+/// Node of the flank above the layer.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FlankNode {
     pub id: u32,
     pub node: OutlineNode,
-    /// Into the tooth, unit length.
+    /// Unit normal into the tooth.
     pub inward: Vector2<f64>,
     /// Radius of curvature of the flank, mm.
     pub rho_mm: f64,
 }
 
-/// Builds the layer under `flank` (ends and middles of its elements alternately, from root to tip), about
-/// `depth_elements` element lengths deep; new nodes are added to `points_mm`.
+/// Layer under `flank` (ends and middles of its elements alternately, from root to tip), about `depth_elements` element lengths deep; new
+/// nodes are added to `points_mm`.
 pub(super) fn build(flank: &[FlankNode], depth_elements: f64, points_mm: &mut Vec<Vector2<f64>>) -> Layer {
     let rows = rows(depth_elements);
     let Some(lowest) = rows.last() else { return Layer::default() };
@@ -91,7 +91,7 @@ pub(super) fn build(flank: &[FlankNode], depth_elements: f64, points_mm: &mut Ve
     if columns < 4 * joined {
         return Layer::default();
     }
-    // What the trimming takes is taken at the root, where the flank is least loaded.
+    // Surplus elements are left out at the root, where the flank is least loaded.
     let first = last - columns;
     let flank = &flank[2 * first..=2 * last];
     let mut grid = Grid { flank, length_mm: smoothed_lengths_mm(flank), nodes: BTreeMap::new(), points_mm };
@@ -110,8 +110,8 @@ pub(super) fn build(flank: &[FlankNode], depth_elements: f64, points_mm: &mut Ve
     Layer { cells, covers: 2 * first..2 * last + 1, border }
 }
 
-/// Element lengths at the nodes of the flank without kinks, which would bend the rows: a running mean over the ends of
-/// elements, and halfway between them in the middles.
+/// Smoothed element lengths at the nodes of the flank, whose kinks would bend the rows: a running mean at ends of elements, the mean
+/// of both ends in middles.
 fn smoothed_lengths_mm(flank: &[FlankNode]) -> Vec<f64> {
     let mut ends: Vec<f64> = flank.iter().step_by(2).map(|at| at.node.length_mm).collect();
     for _ in 0..SMOOTHINGS {
@@ -126,20 +126,9 @@ fn smoothed_lengths_mm(flank: &[FlankNode]) -> Vec<f64> {
 /// First and last end of a flank element between which the layer fits.
 fn where_it_fits(flank: &[FlankNode], depth: f64) -> (usize, usize) {
     let count = flank.len() / 2;
-    let fits = |k: usize| {
-        let at = &flank[2 * k];
-        let depth_mm = depth * at.node.length_mm;
-        let slant = |other: &FlankNode| {
-            let along = (other.node.point_mm - at.node.point_mm).norm();
-            depth * (other.node.length_mm - at.node.length_mm).abs() <= STEEPEST * along
-        };
-        depth_mm <= PART_OF_THICKNESS * 2.0 * at.node.point_mm.x.abs()
-            && depth_mm <= PART_OF_CURVATURE * at.rho_mm
-            && flank.get(2 * k + 2).is_none_or(slant)
-    };
     let (mut best, mut start) = ((0, 0), None);
     for k in LEFT_TO_CORNERS..count.saturating_sub(LEFT_TO_CORNERS) {
-        if fits(k) {
+        if fits(&flank[2 * k], flank.get(2 * k + 2), depth) {
             let first = *start.get_or_insert(k);
             if k - first > best.1 - best.0 {
                 best = (first, k);
@@ -151,10 +140,21 @@ fn where_it_fits(flank: &[FlankNode], depth: f64) -> (usize, usize) {
     best
 }
 
-/// Nodes of the layer by place: half columns along the flank, half rows into the depth.
+/// Whether a layer of `depth` element lengths is thin enough at the end of a flank element, and level enough to the next end.
+fn fits(at: &FlankNode, next: Option<&FlankNode>, depth: f64) -> bool {
+    let depth_mm = depth * at.node.length_mm;
+    depth_mm <= PART_OF_THICKNESS * 2.0 * at.node.point_mm.x.abs()
+        && depth_mm <= PART_OF_CURVATURE * at.rho_mm
+        && next.is_none_or(|next| {
+            let along = (next.node.point_mm - at.node.point_mm).norm();
+            depth * (next.node.length_mm - at.node.length_mm).abs() <= STEEPEST * along
+        })
+}
+
+/// Nodes of the layer by half columns along the flank and half rows into the depth.
 struct Grid<'a> {
     flank: &'a [FlankNode],
-    /// Unit of the depths at each of its nodes.
+    /// Unit of depth at each node of the flank.
     length_mm: Vec<f64>,
     nodes: BTreeMap<(usize, usize), u32>,
     points_mm: &'a mut Vec<Vector2<f64>>,
@@ -162,7 +162,7 @@ struct Grid<'a> {
 
 impl Grid<'_> {
     /// The node at half column `i` and half row `j`.
-    fn node(&mut self, rows: &[Row], i: usize, j: usize) -> u32 {
+    fn node(&mut self, rows: &[LayerRow], i: usize, j: usize) -> u32 {
         let at = &self.flank[i];
         if j == 0 {
             return at.id;
@@ -175,7 +175,8 @@ impl Grid<'_> {
         })
     }
 
-    fn quad(&mut self, rows: &[Row], row: usize, i: usize, width: usize) -> Cell {
+    /// Quadrilateral of `row` from half column `i` on.
+    fn quad(&mut self, rows: &[LayerRow], row: usize, i: usize, width: usize) -> ToothElement {
         let (top, bottom, last) = (2 * row, 2 * row + 2, i + 2 * width);
         let corners = [(i, top), (i, bottom), (last, bottom), (last, top)];
         let middles = [(i, top + 1), (i + width, bottom), (last, top + 1), (i + width, top)];
@@ -183,32 +184,35 @@ impl Grid<'_> {
         for (node, place) in nodes.iter_mut().zip(corners.into_iter().chain(middles)) {
             *node = self.node(rows, place.0, place.1);
         }
-        Cell { kind: CellKind::Quad8, nodes }
+        ToothElement { kind: CellKind::Quad8, nodes }
     }
 
-    fn join(&mut self, rows: &[Row], row: usize, i: usize, width: usize) -> [Cell; 3] {
+    /// Three triangles of `row` from half column `i` on, which join two columns.
+    fn join(&mut self, rows: &[LayerRow], row: usize, i: usize, width: usize) -> [ToothElement; 3] {
         let (top, bottom) = (2 * row, 2 * row + 2);
         let (middle, last) = (i + 2 * width, i + 4 * width);
-        let mut at = |i, j| self.node(rows, i, j);
-        let (a, m, b) = (at(i, top), at(middle, top), at(last, top));
-        let (c, d) = (at(i, bottom), at(last, bottom));
-        let (am, mb, cd) = (at(i + width, top), at(middle + width, top), at(middle, bottom));
-        let (ac, bd) = (at(i, top + 1), at(last, top + 1));
+        let [a, m, b] = [i, middle, last].map(|i| self.node(rows, i, top));
+        let [c, d] = [i, last].map(|i| self.node(rows, i, bottom));
+        let [am, mb] = [i + width, middle + width].map(|i| self.node(rows, i, top));
+        let cd = self.node(rows, middle, bottom);
+        let [ac, bd] = [i, last].map(|i| self.node(rows, i, top + 1));
         let mc = self.between(m, c);
         let md = self.between(m, d);
         [
-            Cell::triangle([a, c, m], [ac, mc, am]),
-            Cell::triangle([m, c, d], [mc, cd, md]),
-            Cell::triangle([m, d, b], [md, bd, mb]),
+            ToothElement::triangle([a, c, m], [ac, mc, am]),
+            ToothElement::triangle([m, c, d], [mc, cd, md]),
+            ToothElement::triangle([m, d, b], [md, bd, mb]),
         ]
     }
 
+    /// New node halfway between two.
     fn between(&mut self, a: u32, b: u32) -> u32 {
         let point = 0.5 * (self.points_mm[a as usize] + self.points_mm[b as usize]);
         add(self.points_mm, point)
     }
 
-    fn border(&mut self, rows: &[Row], columns: usize, joined: usize) -> Vec<[u32; 3]> {
+    /// [`Layer::border`].
+    fn border(&mut self, rows: &[LayerRow], columns: usize, joined: usize) -> Vec<[u32; 3]> {
         let (tip, lowest) = (2 * columns, 2 * rows.len());
         let mut border = Vec::new();
         for j in (0..lowest).step_by(2) {

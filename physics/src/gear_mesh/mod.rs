@@ -1,4 +1,4 @@
-//! One pitch of a gear as a finite-element mesh: the sector between the cuts through the middles of the two spaces
+//! Finite-element mesh of one pitch of a gear: the sector between the cuts through the middles of the two spaces
 //! beside a tooth, from the outline down to the circle where the body is clamped.
 //!
 //! Frame: the gear's axis at the origin, the tooth's centre line on +y. The working flank is the anticlockwise one
@@ -45,7 +45,7 @@ use profile::Profile;
 /// Rate at which element lengths grow along the outline and into the body of a fine sector: neighbours differ by a
 /// factor of about 1.3.
 const GROWTH: f64 = 0.25;
-/// The same for a coarse sector.
+/// Growth rate of a coarse sector.
 const COARSE_GROWTH: f64 = 0.4;
 /// Longest element, in modules.
 const GREATEST_MODULES: f64 = 0.5;
@@ -62,14 +62,14 @@ pub struct ToothShape<'a> {
     pub modification: &'a Modification,
     /// ρ of the start of active profile, mm.
     pub active_start_rho_mm: f64,
-    /// m_n.
+    /// Normal module m_n, mm.
     pub normal_module_mm: f64,
 }
 
 /// How a sector is meshed.
 #[derive(Clone, Copy)]
 pub struct SectorSettings<'a> {
-    /// Where the body is clamped: the inner radius of the mesh.
+    /// Inner radius of the mesh, where the body is clamped.
     pub clamp_radius_mm: f64,
     /// Elements along each fillet of a fine sector.
     pub fillet_elements: u32,
@@ -86,7 +86,7 @@ pub struct FlankResolution<'a> {
     pub elements_per_half_width: f64,
     /// [`BodySettings::rounding_refinement`](settings::BodySettings::rounding_refinement).
     pub rounding_refinement: f64,
-    /// Length of flank by which the resolved part begins below the start of active profile, mm.
+    /// Arc length below the start of active profile at which the resolved part begins, mm.
     pub margin_mm: f64,
     /// Depth of the structured layer in half-widths.
     pub depth_half_widths: f64,
@@ -94,10 +94,10 @@ pub struct FlankResolution<'a> {
 
 /// One element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Cell {
+pub struct ToothElement {
     /// [`CellKind::Triangle6`] or [`CellKind::Quad8`].
     pub kind: CellKind,
-    /// Its nodes; the first [`CellKind::node_count`] count.
+    /// Nodes, of which the first [`CellKind::node_count`] are used.
     nodes: [u32; 8],
 }
 
@@ -120,7 +120,7 @@ pub struct ToothSector {
     /// Nodes, mm.
     pub points_mm: Vec<Vector2<f64>>,
     /// Elements.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<ToothElement>,
     /// The flank that touches the mate, x < 0.
     pub working_flank: FlankChain,
     /// The other flank.
@@ -135,7 +135,7 @@ pub struct ToothSector {
     pub back_root_arc: Vec<u32>,
     /// Tip land, from the working flank to the other; empty where the roundings meet.
     pub tip_land: Vec<u32>,
-    /// Cut on the working flank's side by increasing radius; node for node the other one, turned by a pitch.
+    /// Cut on the working flank's side by increasing radius: node for node the right cut turned by a pitch.
     pub left_cut: Vec<u32>,
     /// Cut on the other side by increasing radius.
     pub right_cut: Vec<u32>,
@@ -149,13 +149,13 @@ impl SectorSettings<'_> {
     }
 }
 
-impl Cell {
+impl ToothElement {
     fn triangle(corners: [u32; 3], middles: [u32; 3]) -> Self {
         let ([a, b, c], [ab, bc, ca]) = (corners, middles);
         Self { kind: CellKind::Triangle6, nodes: [a, b, c, ab, bc, ca, 0, 0] }
     }
 
-    /// The same cell on nodes numbered anew.
+    /// The cell with node `k` renumbered to `ids[k]`.
     fn renumbered(&self, ids: &[u32]) -> Self {
         let mut nodes = [0; 8];
         for (new, &old) in nodes.iter_mut().zip(self.nodes()) {
@@ -164,7 +164,7 @@ impl Cell {
         Self { kind: self.kind, nodes }
     }
 
-    /// Its nodes.
+    /// Nodes, corners first.
     pub fn nodes(&self) -> &[u32] {
         &self.nodes[..self.kind.node_count()]
     }
@@ -202,7 +202,7 @@ impl<'a> ToothShape<'a> {
 /// [`ToothMeshError`] where the clamp circle, the resolution or the shape of the tooth leave no mesh.
 pub fn sector(shape: &ToothShape, settings: &SectorSettings) -> Result<ToothSector, ToothMeshError> {
     check(settings)?;
-    // A coarse tooth touches nothing, the rounding of its tip edges would only cost nodes.
+    // A coarse tooth is never in contact: a rounded tip edge would only add nodes.
     let rounding_mm = if settings.flank.is_none() { 0.0 } else { shape.modification.tip_rounding_mm };
     let profile = Profile::new(shape.tooth, shape.modification, shape.active_start_rho_mm)?.rounded(rounding_mm)?;
     let outline = Outline::new(shape, settings, &profile)?;

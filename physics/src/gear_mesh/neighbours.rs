@@ -1,10 +1,10 @@
-//! Points with a length each, found again by place: one grid of squares for every power of two of the lengths.
+//! Search for points near a place, each with its element length: one grid of squares for every power of two of the lengths.
 
 use std::collections::HashMap;
 
 use nalgebra::Vector2;
 
-/// Greatest ratio of lengths of two points that can come near each other: lengths change slowly with place.
+/// Greatest difference of level of two points near each other: lengths change slowly with place.
 const FACTOR_LEVELS: i32 = 2;
 
 /// Level, column and row of a square.
@@ -12,21 +12,19 @@ type Square = (i32, i64, i64);
 /// A point and its length.
 type Placed = (Vector2<f64>, f64);
 
-/// The points.
+/// Points by square.
 #[derive(Debug, Default)]
 pub(super) struct Neighbours {
-    /// Only ever looked up by key, so that no result depends on the order of the map.
+    /// Looked up by key alone, so that no result depends on the order of the map.
     squares: HashMap<Square, Vec<Placed>>,
 }
 
-/// Powers of two far beyond any length of a mesh, so that arithmetic with levels cannot overflow.
-const LEVELS: std::ops::RangeInclusive<f64> = -100.0..=100.0;
-
+/// Power of two below a length; bounded, so that arithmetic with levels cannot overflow.
 fn level(length_mm: f64) -> i32 {
-    length_mm.log2().floor().clamp(*LEVELS.start(), *LEVELS.end()) as i32
+    length_mm.log2().floor().clamp(-100.0, 100.0) as i32
 }
 
-/// The square of `point` on a level, whose squares are as wide as its longest length.
+/// Column or row of the square at a coordinate: squares of a level are as wide as its longest length.
 fn square(level: i32, coordinate: f64) -> i64 {
     (coordinate / 2f64.powi(level + 1)).floor() as i64
 }
@@ -41,7 +39,7 @@ impl Neighbours {
             .push((point, length_mm));
     }
 
-    /// Whether a point of `length_mm` at `point` would be nearer to another than `part` (below 1) of their mean length.
+    /// Whether `point`, of element length `length_mm`, is nearer to another than `part` (below 1) of their mean length.
     pub(super) fn crowds(&self, point: Vector2<f64>, length_mm: f64, part: f64) -> bool {
         let own = level(length_mm);
         (own - FACTOR_LEVELS..=own + FACTOR_LEVELS).any(|level| {

@@ -1,20 +1,20 @@
-//! The nodes of a sector's outline: which element lengths are wanted where, and the nodes that follow.
+//! Nodes of a sector's outline, from the element lengths wanted along it.
 //!
-//! Wanted lengths: on the working flank of a fine sector the local half-width of contact over the elements in it, on the
-//! other flank and on coarse ones a part of the module; on a fillet its arc over a number of elements, less where it is
-//! sharply curved; on a rounding a part of its radius; never more than a part of the tooth's thickness. Everything else
-//! follows from the rate of growth.
+//! Wanted lengths: on the working flank of a fine sector the local half-width of contact over the number of elements in it, on
+//! flanks that are not resolved a fraction of the module; on a fillet its arc over a number of elements, less where it is
+//! sharply curved; on a rounding a fraction of its radius; never more than a fraction of the tooth's thickness. Between these
+//! lengths change at the rate of growth.
 
 use std::ops::Range;
 
 use super::profile::{Piece, Profile};
-use super::spacing::{OutlineNode, OutlinePoint, Part, Run, Side, limit_growth};
+use super::spacing::{OutlineNode, OutlinePart, OutlinePoint, OutlineRun, ToothSide, limit_growth};
 use super::{FlankResolution, GREATEST_MODULES, GROWTH, LEAST_MODULES, SectorSettings, ToothMeshError, ToothShape};
 use crate::gear_mesh::settings::rounding_element_mm;
 
 /// Longest element of a flank that is not resolved, in modules.
 const FLANK_MODULES: f64 = 0.3;
-/// Elements of a fillet that is not resolved.
+/// Elements along a fillet of a coarse sector.
 const COARSE_FILLET_ELEMENTS: f64 = 5.0;
 /// Longest element of a fillet over its radius of curvature; shortest in modules, at a sharp corner of the rack.
 const FILLET_OVER_CURVATURE: f64 = 0.4;
@@ -25,7 +25,7 @@ const ROUNDING_OVER_RADIUS: [f64; 2] = [0.25, 0.6];
 const OVER_THICKNESS: f64 = 0.5;
 /// Longest element at the cuts, in modules.
 const AT_CUT_MODULES: f64 = 0.12;
-/// A root arc shorter than this part of a fillet's element is meshed together with it; so are kinks near other nodes.
+/// Fraction of an element below which a root arc is meshed together with the fillet, and a kink with the nearest node.
 const NEGLIGIBLE: f64 = 0.4;
 /// Most elements of an outline.
 const MOST_ELEMENTS: f64 = 20_000.0;
@@ -36,8 +36,8 @@ const SAMPLES: usize = 300;
 pub(super) struct Outline {
     /// Ends and middles of elements alternately.
     pub nodes: Vec<OutlineNode>,
-    /// The runs in order, with their nodes; neighbours share one.
-    pub runs: Vec<(Side, Part, Range<usize>)>,
+    /// Runs in order, with their nodes; neighbours share one.
+    pub runs: Vec<(ToothSide, OutlinePart, Range<usize>)>,
     /// Longest element where the outline meets the cuts; depends on the gear alone.
     pub at_cut_mm: f64,
     /// Radius of curvature of the involute at the nodes of both flanks, NaN elsewhere.
@@ -47,19 +47,19 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    /// The nodes for `settings`.
+    /// Nodes for `settings`.
     pub(super) fn new(
         shape: &ToothShape,
         settings: &SectorSettings,
         profile: &Profile,
     ) -> Result<Self, ToothMeshError> {
         let wanted = Wanted::new(shape, settings, profile)?;
-        let right = wanted.half(profile, Side::Right);
-        let left = wanted.half(profile, Side::Left);
+        let right = wanted.half(profile, ToothSide::Right);
+        let left = wanted.half(profile, ToothSide::Left);
         let mut runs = right;
         if profile.land_rad() * shape.tooth.tip_radius_mm > LEAST_MODULES * shape.normal_module_mm {
-            let halves = [(Side::Right, Piece::Land, [0.0, 1.0]), (Side::Left, Piece::Land, [1.0, 0.0])];
-            runs.push(Run::new(profile, Part::Land, &halves, SAMPLES));
+            let halves = [(ToothSide::Right, Piece::Land, [0.0, 1.0]), (ToothSide::Left, Piece::Land, [1.0, 0.0])];
+            runs.push(OutlineRun::new(profile, OutlinePart::Land, &halves, SAMPLES));
         }
         runs.extend(left.into_iter().rev());
         for run in &mut runs {
@@ -67,7 +67,7 @@ impl Outline {
         }
         limit_growth(&mut runs, settings.growth(), wanted.at_cut_mm);
 
-        let elements: f64 = runs.iter().map(Run::elements).sum();
+        let elements: f64 = runs.iter().map(OutlineRun::elements).sum();
         if elements.is_nan() || elements > MOST_ELEMENTS {
             return Err(ToothMeshError::TooFine { elements: elements as usize, greatest: MOST_ELEMENTS as usize });
         }
@@ -85,10 +85,10 @@ impl Outline {
             outline.runs.push((run.side, run.part, first..outline.nodes.len()));
         }
         outline.rho_mm = vec![f64::NAN; outline.nodes.len()];
-        for side in [Side::Right, Side::Left] {
-            for k in outline.part(side, Part::Flank) {
+        for side in [ToothSide::Right, ToothSide::Left] {
+            for k in outline.part(side, OutlinePart::Flank) {
                 let OutlinePoint { piece, u, .. } = outline.nodes[k].place;
-                // The flank's end nodes may have been placed by its neighbours.
+                // End nodes of the flank may belong to the neighbouring pieces.
                 outline.rho_mm[k] = match piece {
                     Piece::Flank => profile.rho_mm(u),
                     Piece::RootArc | Piece::Fillet => profile.rho_mm(0.0),
@@ -99,8 +99,8 @@ impl Outline {
         Ok(outline)
     }
 
-    /// The nodes of a part on a side, neighbouring runs together; empty where there is none.
-    pub(super) fn part(&self, side: Side, part: Part) -> Range<usize> {
+    /// Nodes of a part on a side, neighbouring runs together; empty where there is none.
+    pub(super) fn part(&self, side: ToothSide, part: OutlinePart) -> Range<usize> {
         let mut of_part = self.runs.iter().filter(|run| run.0 == side && run.1 == part).map(|run| run.2.clone());
         match of_part.next() {
             Some(first) => first.start..of_part.next_back().map_or(first.end, |last| last.end),
@@ -109,14 +109,15 @@ impl Outline {
     }
 }
 
-/// The part of the working flank that is resolved.
-struct Resolved<'a> {
+/// Resolved part of the working flank.
+struct ResolvedFlank<'a> {
     flank: FlankResolution<'a>,
     from_rho_mm: f64,
     tip_rho_mm: f64,
 }
 
-impl Resolved<'_> {
+impl ResolvedFlank<'_> {
+    /// Wanted element length.
     fn element_mm(&self, rho_mm: f64) -> f64 {
         (self.flank.half_width_mm)(rho_mm) / self.flank.elements_per_half_width
     }
@@ -128,15 +129,17 @@ struct Wanted<'a> {
     fillet_mm: f64,
     at_cut_mm: f64,
     root_arc_mm: f64,
-    resolved: Option<Resolved<'a>>,
+    resolved: Option<ResolvedFlank<'a>>,
 }
 
 impl<'a> Wanted<'a> {
     fn new(shape: &ToothShape, settings: &SectorSettings<'a>, profile: &Profile) -> Result<Self, ToothMeshError> {
         let (tooth, module_mm) = (shape.tooth, shape.normal_module_mm);
-        let arc_mm = Run::new(profile, Part::Fillet, &[(Side::Right, Piece::Fillet, [0.0, 1.0])], SAMPLES).arc_mm();
+        let arc_mm =
+            OutlineRun::new(profile, OutlinePart::Fillet, &[(ToothSide::Right, Piece::Fillet, [0.0, 1.0])], SAMPLES)
+                .arc_mm();
         let root_arc_mm = profile.root_arc_rad() * tooth.root_radius_mm;
-        // The cuts are those of a fine sector on coarse ones too.
+        // Coarse sectors have the cuts of fine ones.
         let fine_mm = arc_mm / f64::from(settings.fillet_elements);
         let at_cut_mm = (AT_CUT_MODULES * module_mm).min(fine_mm + GROWTH * root_arc_mm);
         let mut wanted = Self { module_mm, fillet_mm: fine_mm, at_cut_mm, root_arc_mm, resolved: None };
@@ -146,10 +149,10 @@ impl<'a> Wanted<'a> {
         };
         let start = shape.active_start_rho_mm;
         let margin_mm = flank.margin_mm.max(0.0);
-        // In arc length s = ρ²/(2 r_b) below the start of active profile.
+        // Arc length of the involute: s = ρ²/(2 r_b).
         let square = start * start - 2.0 * tooth.involute.base_radius_mm * margin_mm;
         let from_rho_mm = square.max(0.0).sqrt().max(tooth.root_form_rho_mm());
-        let resolved = Resolved { flank, from_rho_mm, tip_rho_mm: tooth.tip_rho_mm() };
+        let resolved = ResolvedFlank { flank, from_rho_mm, tip_rho_mm: tooth.tip_rho_mm() };
         let least_mm = LEAST_MODULES * module_mm;
         for k in 0..=SAMPLES {
             let rho = from_rho_mm + (profile.flank_end_rho_mm() - from_rho_mm) * k as f64 / SAMPLES as f64;
@@ -162,45 +165,45 @@ impl<'a> Wanted<'a> {
         Ok(wanted)
     }
 
-    /// The runs of one side, in the direction of the outline on the right side and against it on the left; the
-    /// stretches themselves run with the outline.
-    fn half(&self, profile: &Profile, side: Side) -> Vec<Run> {
-        let mut runs = Vec::new();
-        let mut add = |part: Part, stretches: &[(Piece, [f64; 2])]| {
-            let directed: Vec<_> = match side {
-                Side::Right => stretches.iter().map(|&(piece, ends)| (side, piece, ends)).collect(),
-                Side::Left => stretches.iter().rev().map(|&(piece, [a, b])| (side, piece, [b, a])).collect(),
-            };
-            runs.push(Run::new(profile, part, &directed, SAMPLES));
-        };
+    /// Runs of one side from root to tip; each follows the direction of the outline.
+    fn half(&self, profile: &Profile, side: ToothSide) -> Vec<OutlineRun> {
         let whole = [0.0, 1.0];
-        if self.root_arc_mm >= NEGLIGIBLE * self.fillet_mm {
-            add(Part::RootArc, &[(Piece::RootArc, whole)]);
-            add(Part::Fillet, &[(Piece::Fillet, whole)]);
+        let mut parts = if self.root_arc_mm >= NEGLIGIBLE * self.fillet_mm {
+            vec![
+                (OutlinePart::RootArc, vec![(Piece::RootArc, whole)]),
+                (OutlinePart::Fillet, vec![(Piece::Fillet, whole)]),
+            ]
         } else {
-            add(Part::Fillet, &[(Piece::RootArc, whole), (Piece::Fillet, whole)]);
-        }
+            vec![(OutlinePart::Fillet, vec![(Piece::RootArc, whole), (Piece::Fillet, whole)])]
+        };
         for ends in self.flank_breaks(profile, side).windows(2) {
-            add(Part::Flank, &[(Piece::Flank, [ends[0], ends[1]])]);
+            parts.push((OutlinePart::Flank, vec![(Piece::Flank, [ends[0], ends[1]])]));
         }
         if profile.rounding_mm() > 0.0 {
-            add(Part::Rounding, &[(Piece::Rounding, whole)]);
+            parts.push((OutlinePart::Rounding, vec![(Piece::Rounding, whole)]));
         }
-        runs
+        let runs = parts.into_iter().map(|(part, stretches)| {
+            let directed: Vec<_> = match side {
+                ToothSide::Right => stretches.iter().map(|&(piece, ends)| (side, piece, ends)).collect(),
+                ToothSide::Left => stretches.iter().rev().map(|&(piece, [a, b])| (side, piece, [b, a])).collect(),
+            };
+            OutlineRun::new(profile, part, &directed, SAMPLES)
+        });
+        runs.collect()
     }
 
-    /// Where the flank must have a node, as its parameter, increasing.
-    fn flank_breaks(&self, profile: &Profile, side: Side) -> Vec<f64> {
+    /// Parameters of the flank where there must be a node, increasing.
+    fn flank_breaks(&self, profile: &Profile, side: ToothSide) -> Vec<f64> {
         let mut breaks = vec![0.0];
-        if let (Some(resolved), Side::Left) = (&self.resolved, side) {
+        if let (Some(resolved), ToothSide::Left) = (&self.resolved, side) {
             let mut rhos = profile.kinks_rho_mm();
             rhos.push(resolved.from_rho_mm);
             rhos.sort_by(f64::total_cmp);
-            let at_mm = |u: f64| profile.point_mm(Piece::Flank, u);
             for rho in rhos {
                 let (u, near_mm) = (profile.at_rho(rho), NEGLIGIBLE * resolved.element_mm(rho));
                 let before = breaks.last().copied().unwrap_or(0.0);
-                if (at_mm(u) - at_mm(before)).norm() > near_mm && (at_mm(1.0) - at_mm(u)).norm() > near_mm {
+                let [point, before, end] = [u, before, 1.0].map(|u| profile.point_mm(Piece::Flank, u));
+                if (point - before).norm() > near_mm && (end - point).norm() > near_mm {
                     breaks.push(u);
                 }
             }
@@ -209,27 +212,27 @@ impl<'a> Wanted<'a> {
         breaks
     }
 
-    /// Asks for the lengths on `run`.
-    fn apply(&self, profile: &Profile, run: &mut Run) {
+    /// Limits the element lengths of `run`.
+    fn apply(&self, profile: &Profile, run: &mut OutlineRun) {
         let (module, least) = (self.module_mm, LEAST_MODULES * self.module_mm);
-        let resolved = self.resolved.as_ref().filter(|_| run.side == Side::Left);
+        let resolved = self.resolved.as_ref().filter(|_| run.side == ToothSide::Left);
         run.want(|_, _| GREATEST_MODULES * module);
         match run.part {
-            Part::RootArc => {}
-            Part::Fillet => {
+            OutlinePart::RootArc => {}
+            OutlinePart::Fillet => {
                 run.want(|_, _| self.fillet_mm);
                 run.follow_curvature(FILLET_OVER_CURVATURE, LEAST_FILLET_MODULES * module);
             }
-            Part::Flank => run.want(|place, point| {
+            OutlinePart::Flank => run.want(|place, point| {
                 let rho = profile.rho_mm(place.u);
                 let thickness = (2.0 * point.x.abs()).max(least / OVER_THICKNESS);
                 let open = (FLANK_MODULES * module).min(OVER_THICKNESS * thickness);
-                // The break at the beginning of the resolved part belongs to it, on both of its sides.
+                // The node at the beginning of the resolved part belongs to it for the runs on both sides.
                 resolved
                     .filter(|resolved| rho >= resolved.from_rho_mm * (1.0 - 1e-12))
                     .map_or(open, |resolved| resolved.element_mm(rho).min(open))
             }),
-            Part::Rounding => {
+            OutlinePart::Rounding => {
                 let [fine, open] = ROUNDING_OVER_RADIUS.map(|part| (part * profile.rounding_mm()).max(least));
                 let wanted = resolved.map_or(open, |resolved| {
                     let FlankResolution { elements_per_half_width, rounding_refinement, .. } = resolved.flank;
@@ -238,7 +241,7 @@ impl<'a> Wanted<'a> {
                 });
                 run.want(|_, _| wanted);
             }
-            Part::Land => {
+            OutlinePart::Land => {
                 let wanted = (OVER_THICKNESS * run.arc_mm()).max(least);
                 run.want(|_, _| wanted);
             }

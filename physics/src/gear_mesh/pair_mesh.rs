@@ -1,4 +1,4 @@
-//! Both gears of a pair as one mesh, placed in contact.
+//! Mesh of both gears of a pair, placed in contact.
 //!
 //! The pinion's axis is the origin and the wheel's lies at (0, a); the pinion turns anticlockwise. At position ξ (radius
 //! of curvature of the pinion at the theoretical contact point) the plain involutes of the reference teeth touch:
@@ -8,7 +8,9 @@
 //! wheel  turned by −ψ₂(r_w2) − (ξ − C)/r_b2, then by half a turn about its axis
 //! ```
 //!
-//! ψ being half the tooth's angle on the working pitch circle. Modified flanks leave the gap of what is removed there.
+//! ψ being half the tooth's angle on the working pitch circle. Between modified flanks there is a gap of the material removed there.
+
+use std::ops::Range;
 
 use nalgebra::{Rotation2, Vector2};
 
@@ -20,19 +22,19 @@ use crate::gear_mesh::settings::{
 };
 use gearwear_mesh::{CellBlock, CellKind, Mesh};
 
-/// Half-widths of flank above the start of active profile that the mate's tip edge touches, early contact included.
+/// Arc of flank above the start of active profile that the mate's tip edge touches, early contact included, in half-widths.
 const TIP_MEETS_HALF_WIDTHS: f64 = 3.0;
-/// Length of the elements where a linear relief begins, on either flank, over that elsewhere.
+/// Element length where a linear relief begins, on either flank, over that elsewhere.
 const AT_KINK: f64 = 1.0 / 3.0;
-/// Half-widths from there over which they grow to that: as slowly as the layer of quadrilaterals bears.
+/// Distance over which elements grow from there to the usual length, in half-widths: slow enough for the layer of quadrilaterals.
 const KINK_REACHES_HALF_WIDTHS: f64 = 3.0;
 
 /// The sectors of both gears.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairSectors {
-    /// With the working flank resolved.
+    /// Sectors with the working flank resolved.
     pub fine: PerGear<ToothSector>,
-    /// Without.
+    /// Sectors without.
     pub coarse: PerGear<ToothSector>,
 }
 
@@ -42,18 +44,14 @@ pub fn pair_sectors(
     settings: &BodySettings,
     half_width_mm: &dyn Fn(f64) -> f64,
 ) -> Result<PairSectors, ToothMeshError> {
-    let both = |fine| -> Result<PerGear<ToothSector>, ToothMeshError> {
-        Ok(PerGear {
-            pinion: gear_sector(pair, Gear::Pinion, fine, settings, half_width_mm)?,
-            wheel: gear_sector(pair, Gear::Wheel, fine, settings, half_width_mm)?,
-        })
-    };
-    Ok(PairSectors { fine: both(true)?, coarse: both(false)? })
+    let of = |gear, fine| gear_sector(pair, gear, fine, settings, half_width_mm);
+    Ok(PairSectors {
+        fine: PerGear { pinion: of(Gear::Pinion, true)?, wheel: of(Gear::Wheel, true)? },
+        coarse: PerGear { pinion: of(Gear::Pinion, false)?, wheel: of(Gear::Wheel, false)? },
+    })
 }
 
-/// Meshes one tooth of `gear`, fine or coarse, as [`pair_sectors`] does. Where the mate's rounded tip edge touches a fine
-/// one, about the start of active profile, elements are as short as on that rounding; where a linear relief begins, and on the mate's flank
-/// where that meets it, they are a third as long as elsewhere, for the pressure rises there over a small part of the half-width.
+/// Meshes one tooth of `gear`, fine or coarse, as [`pair_sectors`] does.
 pub fn gear_sector(
     pair: &GearPair,
     gear: Gear,
@@ -61,41 +59,12 @@ pub fn gear_sector(
     settings: &BodySettings,
     half_width_mm: &dyn Fn(f64) -> f64,
 ) -> Result<ToothSector, ToothMeshError> {
-    let involute = pair.path.involute[gear];
-    let start_rho = pair.active_start_rho_mm(gear);
-    let on_flank = |rho_mm: f64| {
-        // The other gear's radius of curvature gives the position, and the other way round.
-        let position_mm = pair.path.rho_mm(gear, rho_mm);
-        half_width_mm(position_mm.clamp(pair.path.start_mm, pair.path.end_mm))
-    };
-    let met_by_tip_mm = involute.arc_mm(start_rho) + TIP_MEETS_HALF_WIDTHS * on_flank(start_rho);
-    let rounding_mm = pair.spec.gears[gear.mate()].modification.tip_rounding_mm;
-    // Elements on a very small rounding would be shorter than any may be.
-    let least_mm = 2.0 * LEAST_MODULES * pair.spec.normal_module_mm * settings.elements_per_half_width;
-    // Where contact begins near the base circle of an undercut pinion the half-width falls to nothing.
-    let floor_mm = least_mm.min(half_width_mm(pair.path.pitch_point_mm.clamp(pair.path.start_mm, pair.path.end_mm)));
-    let at_tip_mm = rounding_element_mm(rounding_mm, 1.0, settings.rounding_refinement).max(least_mm);
-    let met_from_mm = involute.arc_mm(start_rho) - MARGIN_HALF_WIDTHS * at_tip_mm;
-    let kinks_mm: Vec<f64> = Gear::BOTH
-        .into_iter()
-        .flat_map(|of| pair.begins_of_reliefs(of).map(move |(rho_mm, shape)| (of, rho_mm, shape)))
-        .filter(|&(_, _, shape)| shape == ReliefShape::Linear)
-        .map(|(of, rho_mm, _)| pair.path.rho_mm(gear, pair.path.rho_mm(of, rho_mm)))
-        .map(|rho_mm| involute.arc_mm(rho_mm.max(0.0)))
-        .collect();
-    let by_rho = |rho_mm: f64| {
-        let (arc_mm, half_width_mm) = (involute.arc_mm(rho_mm), on_flank(rho_mm));
-        let at_tip = rounding_mm > 0.0 && (met_from_mm..met_by_tip_mm).contains(&arc_mm);
-        let away_mm = kinks_mm.iter().map(|kink_mm| (arc_mm - kink_mm).abs()).fold(f64::INFINITY, f64::min);
-        let of_tip_mm = if at_tip { at_tip_mm } else { f64::INFINITY };
-        let of_kink = (AT_KINK + (1.0 - AT_KINK) * away_mm / (KINK_REACHES_HALF_WIDTHS * half_width_mm)).min(1.0);
-        (of_kink * half_width_mm).min(of_tip_mm).max(floor_mm)
-    };
+    let resolved = ResolvedHalfWidth::new(pair, gear, settings, half_width_mm);
     let flank = FlankResolution {
-        half_width_mm: &by_rho,
+        half_width_mm: &|rho_mm| resolved.at_rho(rho_mm),
         elements_per_half_width: settings.elements_per_half_width,
         rounding_refinement: settings.rounding_refinement,
-        margin_mm: MARGIN_HALF_WIDTHS * on_flank(start_rho),
+        margin_mm: MARGIN_HALF_WIDTHS * resolved.of_contact_mm(pair.active_start_rho_mm(gear)),
         depth_half_widths: DEPTH_HALF_WIDTHS,
     };
     let settings = SectorSettings {
@@ -106,8 +75,73 @@ pub fn gear_sector(
     sector(&ToothShape::of(pair, gear), &settings)
 }
 
-/// Numbers of the tooth pairs that may touch while the reference pair runs from A to E: 0 that pair itself, +1 the one a
-/// base pitch ahead, −1 the one behind …; under a load that closes gaps of tip edges up to `reach_mm` before A and after E
+/// Half-width that elements of a working flank resolve: that of the contact, shortened where the mate's rounded tip edge touches, about the
+/// start of active profile, to that on the rounding, and to a third where a linear relief of either gear begins, as the pressure rises
+/// there over a small part of the half-width.
+struct ResolvedHalfWidth<'a> {
+    pair: &'a GearPair,
+    gear: Gear,
+    half_width_mm: &'a dyn Fn(f64) -> f64,
+    /// Arc of flank that the mate's rounded tip edge touches; empty without a rounding.
+    tip_arc_mm: Range<f64>,
+    /// Half-width on the mate's rounding.
+    at_tip_mm: f64,
+    /// Arc lengths where linear reliefs begin.
+    kinks_mm: Vec<f64>,
+    /// Least half-width: near the base circle of an undercut pinion that of the contact falls to nothing.
+    floor_mm: f64,
+}
+
+impl<'a> ResolvedHalfWidth<'a> {
+    fn new(pair: &'a GearPair, gear: Gear, settings: &BodySettings, half_width_mm: &'a dyn Fn(f64) -> f64) -> Self {
+        let path = &pair.path;
+        let rounding_mm = pair.spec.gears[gear.mate()].modification.tip_rounding_mm;
+        // Elements on a very small rounding would be shorter than any may be.
+        let least_mm = 2.0 * LEAST_MODULES * pair.spec.normal_module_mm * settings.elements_per_half_width;
+        let kinks_mm = Gear::BOTH
+            .into_iter()
+            .flat_map(|of| pair.begins_of_reliefs(of).map(move |(rho_mm, shape)| (of, rho_mm, shape)))
+            .filter(|&(_, _, shape)| shape == ReliefShape::Linear)
+            .map(|(of, rho_mm, _)| path.rho_mm(gear, path.rho_mm(of, rho_mm)))
+            .map(|rho_mm| path.involute[gear].arc_mm(rho_mm.max(0.0)))
+            .collect();
+        let mut resolved = Self {
+            pair,
+            gear,
+            half_width_mm,
+            tip_arc_mm: 0.0..0.0,
+            at_tip_mm: rounding_element_mm(rounding_mm, 1.0, settings.rounding_refinement).max(least_mm),
+            kinks_mm,
+            floor_mm: least_mm.min(half_width_mm(path.pitch_point_mm.clamp(path.start_mm, path.end_mm))),
+        };
+        if rounding_mm > 0.0 {
+            let start_rho = pair.active_start_rho_mm(gear);
+            let start_mm = path.involute[gear].arc_mm(start_rho);
+            resolved.tip_arc_mm = start_mm - MARGIN_HALF_WIDTHS * resolved.at_tip_mm
+                ..start_mm + TIP_MEETS_HALF_WIDTHS * resolved.of_contact_mm(start_rho);
+        }
+        resolved
+    }
+
+    /// Half-width of the contact by the flank's radius of curvature.
+    fn of_contact_mm(&self, rho_mm: f64) -> f64 {
+        // Radii of curvature of pinion and wheel add up to the same length: `rho_mm` of a gear's ρ is the position.
+        let position_mm = self.pair.path.rho_mm(self.gear, rho_mm);
+        (self.half_width_mm)(position_mm.clamp(self.pair.path.start_mm, self.pair.path.end_mm))
+    }
+
+    /// Resolved half-width by the flank's radius of curvature.
+    fn at_rho(&self, rho_mm: f64) -> f64 {
+        let (arc_mm, half_width_mm) = (self.pair.path.involute[self.gear].arc_mm(rho_mm), self.of_contact_mm(rho_mm));
+        let away_mm = self.kinks_mm.iter().map(|kink_mm| (arc_mm - kink_mm).abs()).fold(f64::INFINITY, f64::min);
+        let of_tip_mm = if self.tip_arc_mm.contains(&arc_mm) { self.at_tip_mm } else { f64::INFINITY };
+        let of_kink = (AT_KINK + (1.0 - AT_KINK) * away_mm / (KINK_REACHES_HALF_WIDTHS * half_width_mm)).min(1.0);
+        (of_kink * half_width_mm).min(of_tip_mm).max(self.floor_mm)
+    }
+}
+
+/// Numbers of the tooth pairs that may touch while the reference pair runs from A to E: 0 the reference pair, +1 the pair a
+/// base pitch ahead, −1 the pair behind … Tip edges touch up to `reach_mm` before A and after E under load
 /// ([`GearPair::ample_tip_reach_mm`]).
 pub fn touching_pairs(pair: &GearPair, reach_mm: [f64; 2]) -> Vec<i32> {
     let early = reach_mm[0].max(reach_mm[1]) / pair.path.base_pitch_mm;
@@ -126,7 +160,7 @@ pub fn turn_rad(pair: &GearPair, gear: Gear, position_mm: f64) -> f64 {
     }
 }
 
-/// A point of a gear's own frame, in the frame of the pair with the reference pair in contact at `position_mm`.
+/// Map from a gear's own frame to that of the pair with the reference pair in contact at `position_mm`.
 pub fn in_place(pair: &GearPair, gear: Gear, position_mm: f64) -> impl Fn(Vector2<f64>) -> Vector2<f64> {
     let turn = Rotation2::new(turn_rad(pair, gear, position_mm));
     let centre_distance_mm = pair.spec.centre_distance_mm;
@@ -134,7 +168,7 @@ pub fn in_place(pair: &GearPair, gear: Gear, position_mm: f64) -> impl Fn(Vector
         let turned = turn * point;
         match gear {
             Gear::Pinion => turned,
-            // The wheel looks down on the pinion.
+            // Half a turn about the wheel's axis.
             Gear::Wheel => Vector2::new(-turned.x, centre_distance_mm - turned.y),
         }
     }
@@ -155,13 +189,12 @@ pub fn pair_mesh(
     for gear in Gear::BOTH {
         let of_gear = [&sectors.fine[gear], &sectors.coarse[gear]];
         let mesh = gear_mesh(gear, pair.teeth[gear].teeth, settings.body, fine, of_gear)?;
-        let place = in_place(pair, gear, position_mm);
-        blocks.add(gear, &mesh, place);
+        blocks.add(gear, &mesh, in_place(pair, gear, position_mm));
     }
     Ok(blocks.mesh)
 }
 
-/// Where each block of the mesh stands.
+// Numbers of the blocks of the mesh.
 const TRIANGLES: usize = 0;
 const QUADS: usize = 1;
 const LINES: usize = 2;
@@ -172,8 +205,8 @@ struct Blocks {
 
 impl Default for Blocks {
     fn default() -> Self {
-        let block = |kind| CellBlock { kind, nodes: Vec::new() };
-        let cells = [CellKind::Triangle6, CellKind::Quad8, CellKind::Line3].map(block).to_vec();
+        let kinds = [CellKind::Triangle6, CellKind::Quad8, CellKind::Line3];
+        let cells = kinds.map(|kind| CellBlock { kind, nodes: Vec::new() }).to_vec();
         Self { mesh: Mesh { cells, ..Mesh::default() } }
     }
 }
@@ -200,12 +233,12 @@ impl Blocks {
     }
 
     fn add_surfaces(&mut self, name: &str, tooth: &ToothNodes, offset: usize) {
-        let set = |part: &str| format!("{name}-{part}");
         let own_flank = match tooth.index {
-            0 => set("flank-0"),
-            index => set(&format!("flank{index:+}")),
+            0 => format!("{name}-flank-0"),
+            index => format!("{name}-flank{index:+}"),
         };
-        let (flanks, fillets, roots) = (set("flanks"), set("fillets"), set("roots"));
+        let [flanks, fillets, roots, tips, clamp] =
+            ["flanks", "fillets", "roots", "tips", "clamp"].map(|part| format!("{name}-{part}"));
         let working: &[&str] = if tooth.fine { &[&flanks, &own_flank] } else { &[&flanks] };
         self.lines(working, &tooth.working_flank.nodes, Along::Against, offset);
         self.lines(&[&flanks], &tooth.back_flank.nodes, Along::Chain, offset);
@@ -213,11 +246,11 @@ impl Blocks {
             self.lines(&[set], on_working_side, Along::Against, offset);
             self.lines(&[set], on_other_side, Along::Chain, offset);
         }
-        self.lines(&[&set("tips")], &tooth.tip_land, Along::Against, offset);
-        self.lines(&[&set("clamp")], &tooth.clamp, Along::Chain, offset);
+        self.lines(&[&tips], &tooth.tip_land, Along::Against, offset);
+        self.lines(&[&clamp], &tooth.clamp, Along::Chain, offset);
     }
 
-    /// The edges of a chain, all in `sets`.
+    /// Adds the edges of a chain to the mesh and to all `sets`.
     fn lines(&mut self, sets: &[&str], chain: &[u32], along: Along, offset: usize) {
         for edge in chain.windows(3).step_by(2) {
             let (first, last) = match along {
@@ -232,12 +265,14 @@ impl Blocks {
         }
     }
 
+    /// Adds an element to a block and to `set`.
     fn push(&mut self, set: &str, block: usize, nodes: &[u32], offset: usize) {
         let number = self.mesh.cells[block].len();
         self.mesh.cells[block].nodes.extend(nodes.iter().map(|&node| node as usize + offset));
         self.name(set, block, number);
     }
 
+    /// Adds cell `number` of a block to `set`.
     fn name(&mut self, set: &str, block: usize, number: usize) {
         let blocks = self.mesh.cells.len();
         let cells = self.mesh.cell_sets.entry(set.to_owned()).or_insert_with(|| vec![Vec::new(); blocks]);
@@ -245,11 +280,11 @@ impl Blocks {
     }
 }
 
-/// Direction of lines on a chain.
+/// Direction of lines along a chain, the body on their left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Along {
-    /// That of the chain, the body on its left.
+    /// Direction of the chain.
     Chain,
-    /// The opposite one.
+    /// Opposite direction.
     Against,
 }

@@ -1,6 +1,6 @@
-//! The outline of one tooth as exact curves, from the cut in the middle of a space to the tip.
+//! Exact curves of the outline of one tooth, from the cut in the middle of a space to the tip.
 //!
-//! The half with x > 0, the tooth's centre line on +y; the other half is its mirror image. Angles θ run clockwise from
+//! Half with x > 0, the tooth's centre line on +y; the other half is its mirror image. Angles θ run clockwise from
 //! the centre line. From root to tip the pieces are the arc of the root circle, the root trochoid, the flank and the
 //! rounding of the tip edge:
 //!
@@ -10,8 +10,8 @@
 //! rounding   |P − r_k N| = r_a − r_k       N: outward normal of the relieved flank; the circle touches both
 //! ```
 //!
-//! Where material is removed down to the end of the involute the fillet follows: it is shifted along the flank's normal
-//! there, by an amount that fades to nothing, smoothly, on the root circle.
+//! Where material is removed at the end of the involute, the fillet is shifted there by the same amount along the flank's normal, fading
+//! smoothly to nothing on the root circle.
 //!
 //! Source: the string construction of the involute, ISO 21771 section 4; [`crate::gear::removed_material`].
 
@@ -22,7 +22,7 @@ use nalgebra::Vector2;
 use super::ToothMeshError;
 use crate::gear::{modification::Modification, removed_material::removed_mm, tooth::Tooth};
 
-/// Which curve.
+/// Curve of the outline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Piece {
     /// Arc of the root circle, from the cut.
@@ -42,7 +42,7 @@ pub(super) enum Piece {
 struct Rounding {
     centre_mm: Vector2<f64>,
     radius_mm: f64,
-    /// Direction from the centre to where it leaves the flank, anticlockwise from +x.
+    /// Direction from the centre to the end of the flank, anticlockwise from +x.
     first_rad: f64,
     sweep_rad: f64,
 }
@@ -61,17 +61,17 @@ pub(super) struct Profile<'a> {
 }
 
 impl<'a> Profile<'a> {
-    /// The curves of `tooth` with `modification`, its active profile beginning at `active_start_rho_mm`.
+    /// Curves of `tooth` with `modification`, its active profile beginning at `active_start_rho_mm`.
     pub(super) fn new(
         tooth: &'a Tooth,
         modification: &Modification,
         active_start_rho_mm: f64,
     ) -> Result<Self, ToothMeshError> {
-        // The rounding is a circle of its own here, not material removed from the flank.
+        // The rounding is a separate circle here, not material removed from the flank.
         let modification = Modification { tip_rounding_mm: 0.0, ..*modification };
         let mut profile =
             Self { tooth, modification, active_start_rho_mm, flank_end_rho_mm: 0.0, rounding: None, land_rad: 0.0 };
-        // Beyond the tip circle of the plain involute the removed material stays what it is there.
+        // Beyond the tip circle of the plain involute the removed material is constant.
         profile.flank_end_rho_mm = tooth.tip_rho_mm() + profile.removed_mm(tooth.tip_rho_mm());
         let (form_rho, removed) = (tooth.root_form_rho_mm(), profile.removed_mm(tooth.root_form_rho_mm()));
         if removed > 0.5 * form_rho && removed > 0.0 {
@@ -85,21 +85,19 @@ impl<'a> Profile<'a> {
         Ok(profile)
     }
 
-    /// The same with its tip edge rounded.
+    /// The profile with its tip edge rounded.
     pub(super) fn rounded(mut self, radius_mm: f64) -> Result<Self, ToothMeshError> {
         if radius_mm <= 0.0 {
             return Ok(self);
         }
         let error = ToothMeshError::TipRounding { radius_mm };
-        let tip = self.tooth.tip_radius_mm;
-        let outside = |rho: f64| (self.flank_mm(rho) - radius_mm * self.normal(rho)).norm() - (tip - radius_mm);
         let (mut low, mut high) = (self.active_start_rho_mm, self.flank_end_rho_mm);
-        if outside(low) >= 0.0 || outside(high) <= 0.0 {
+        if self.beyond_tip_mm(low, radius_mm) >= 0.0 || self.beyond_tip_mm(high, radius_mm) <= 0.0 {
             return Err(error);
         }
         for _ in 0..80 {
             let middle = 0.5 * (low + high);
-            if outside(middle) > 0.0 {
+            if self.beyond_tip_mm(middle, radius_mm) > 0.0 {
                 high = middle;
             } else {
                 low = middle;
@@ -118,7 +116,12 @@ impl<'a> Profile<'a> {
         Ok(self)
     }
 
-    /// The point of `piece` at `u`, from 0 at its root end to 1.
+    /// Distance by which a circle tangent to the flank at ρ from inside reaches beyond the tip circle, mm.
+    fn beyond_tip_mm(&self, rho_mm: f64, radius_mm: f64) -> f64 {
+        (self.flank_mm(rho_mm) - radius_mm * self.normal(rho_mm)).norm() - (self.tooth.tip_radius_mm - radius_mm)
+    }
+
+    /// Point of `piece` at `u`, from 0 at its root end to 1.
     pub(super) fn point_mm(&self, piece: Piece, u: f64) -> Vector2<f64> {
         match piece {
             Piece::RootArc => {
@@ -148,7 +151,7 @@ impl<'a> Profile<'a> {
         (first * first + u * (last - first) * (last + first)).max(0.0).sqrt()
     }
 
-    /// The inverse of [`Self::rho_mm`].
+    /// Parameter of the flank at a radius of curvature; inverse of [`Self::rho_mm`].
     pub(super) fn at_rho(&self, rho_mm: f64) -> f64 {
         let (first, last) = (self.tooth.root_form_rho_mm(), self.flank_end_rho_mm);
         ((rho_mm - first) * (rho_mm + first) / ((last - first) * (last + first))).clamp(0.0, 1.0)
@@ -198,7 +201,7 @@ impl<'a> Profile<'a> {
         removed_mm(&self.modification, self.tooth, self.active_start_rho_mm, rho_mm)
     }
 
-    /// θ_T: where the string leaves the base circle.
+    /// Angle θ_T at which the string leaves the base circle.
     fn string_rad(&self, rho_mm: f64) -> f64 {
         self.tooth.base_half_angle_rad - rho_mm / self.tooth.involute.base_radius_mm
     }
@@ -221,7 +224,7 @@ impl<'a> Profile<'a> {
     fn fillet_mm(&self, u: f64) -> Vector2<f64> {
         let t = FRAC_PI_2 + (self.tooth.fillet_end_angle_rad - FRAC_PI_2) * u;
         let in_space = self.tooth.trochoid.point_mm(t);
-        // From the centre line of the space, anticlockwise to that of the tooth.
+        // Anticlockwise from the centre line of the space to that of the tooth.
         let theta = PI / f64::from(self.tooth.teeth) - in_space.x.atan2(in_space.y);
         let point = in_space.norm() * Vector2::new(theta.sin(), theta.cos());
         let form_rho = self.tooth.root_form_rho_mm();

@@ -1,4 +1,4 @@
-//! How the gear bodies are meshed, as plain data.
+//! Settings of the meshes of gear bodies.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +6,7 @@ use crate::gear::{PerGear, spec::PairSpec};
 
 /// Elements along each fillet of a tooth that is resolved.
 pub(crate) const FILLET_ELEMENTS: u32 = 24;
-/// Half-widths of contact below the start of active profile where the resolved part of a flank begins.
+/// Arc of flank that is resolved below the start of active profile, in half-widths of contact.
 pub(crate) const MARGIN_HALF_WIDTHS: f64 = 3.0;
 /// Depth of the structured layer under a flank, in half-widths of contact.
 pub(crate) const DEPTH_HALF_WIDTHS: f64 = 1.0;
@@ -14,58 +14,58 @@ pub(crate) const DEPTH_HALF_WIDTHS: f64 = 1.0;
 /// Half-width of contact on a rounded tip edge over its radius, for the length of elements there.
 const ROUNDING_HALF_WIDTH: f64 = 0.3;
 
-/// Length of the elements on a tip rounding, where these are no shorter than any may be, mm; divided by `refinement`
-/// ([`BodySettings::rounding_refinement`]).
+/// Element length on a tip rounding, mm, with a refinement ([`BodySettings::rounding_refinement`]).
 pub fn rounding_element_mm(rounding_mm: f64, elements_per_half_width: f64, refinement: f64) -> f64 {
     ROUNDING_HALF_WIDTH * rounding_mm / (elements_per_half_width * refinement)
 }
 
-/// Depth of the body below the root circle, in normal modules, where nothing else is given.
+/// Default depth of the body below the root circle, in transverse modules.
 const BODY_MODULES: f64 = 2.5;
-/// Least clamp radius that leaves, over the root radius; what is taken where it leaves less.
+/// Least default clamp radius over the root radius.
 const LEAST_OVER_ROOT: f64 = 0.2;
+/// Clamp radius over the root radius of smaller gears.
 const SMALL_OVER_ROOT: f64 = 0.4;
 
 /// The bodies of a gear pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodySettings {
-    /// How much of each gear.
+    /// Part of each gear that is meshed.
     pub body: Body,
-    /// Where each body is held or turned rigidly: its rim or bore.
+    /// Radius at which each body is held or turned rigidly: rim or bore.
     pub clamp_radius_mm: PerGear<f64>,
-    /// Webs that carry rims, in space only: plane elements are as wide as the teeth.
+    /// Webs that carry rims, in three dimensions only: plane elements are as wide as the teeth.
     pub web: PerGear<Option<Web>>,
     /// Elements in the local half-width of contact under the whole load.
     pub elements_per_half_width: f64,
-    /// Elements on tip roundings, and where these touch the mate, over those in as long a contact elsewhere: 1; more for tip edges that are hardly worn in,
+    /// Factor of refinement on tip roundings and where these touch the mate: 1; more for tip edges that are hardly worn in,
     /// whose contact is narrower.
     pub rounding_refinement: f64,
 }
 
 impl BodySettings {
-    /// The bodies of teeth in space.
+    /// Bodies of the three-dimensional tooth model.
     pub fn in_space(&self) -> PerGear<SpaceBody> {
         PerGear::from_fn(|gear| SpaceBody { clamp_radius_mm: self.clamp_radius_mm[gear], web: self.web[gear] })
     }
 }
 
-/// A body of teeth in space, from its outline to where it is held.
+/// Body of the three-dimensional tooth model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpaceBody {
-    /// Where it is held.
+    /// Radius at which the body is held.
     pub clamp_radius_mm: f64,
-    /// What carries its rim; none: it is a disc as wide as the teeth.
+    /// Web that carries the rim; `None` for a disc as wide as the teeth.
     pub web: Option<Web>,
 }
 
-/// A web that carries a rim as wide as the teeth.
+/// Web that carries a rim as wide as the teeth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Web {
-    /// b_s, at most the face width.
+    /// Web thickness b_s, at most the face width.
     pub thickness_mm: f64,
-    /// s_R, from the root circle to where the web begins.
+    /// Rim thickness s_R below the root circle.
     pub rim_thickness_mm: f64,
-    /// Its middle from that of the face width, positive towards greater z.
+    /// Offset of the middle of the web from that of the face width, positive towards greater z.
     pub offset_mm: f64,
 }
 
@@ -73,70 +73,69 @@ pub struct Web {
 pub const NO_WEBS: PerGear<Option<Web>> = PerGear { pinion: None, wheel: None };
 
 impl Web {
-    /// Where it begins and ends over a face width, from z = 0 on.
+    /// Faces of the web over a face width, from z = 0 on.
     pub fn from_to_mm(&self, face_width_mm: f64) -> [f64; 2] {
         [-0.5, 0.5].map(|side| 0.5 * face_width_mm + self.offset_mm + side * self.thickness_mm)
     }
 }
 
-/// How much of a gear is meshed.
+/// Part of a gear that is meshed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Body {
-    /// All teeth; the ones that touch are resolved.
+    /// All teeth; those that touch are resolved.
     Ring,
     /// Some teeth, centred on the one in mesh.
     Sector {
-        /// Odd.
+        /// Number of teeth, odd.
         teeth: u32,
-        /// What holds the cuts.
+        /// Support of the cuts.
         sides: SectorSides,
     },
 }
 
-/// What holds the cut sides of a sector.
+/// Support of the cut sides of a sector.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SectorSides {
-    /// Nothing.
+    /// No support.
     #[default]
     Free,
-    /// They move with the clamp circle.
+    /// Rigid with the clamp circle.
     Clamped,
 }
 
-/// Body that must be left below the root circle, in normal modules.
+/// Least depth of the body below the root circle, in normal modules.
 const LEAST_BODY_MODULES: f64 = 0.1;
 
-/// Greatest clamp radius of a gear: a tenth of a module below its root circle.
+/// Greatest clamp radius of a gear, a tenth of a module below its root circle.
 pub fn greatest_clamp_mm(root_radius_mm: f64, normal_module_mm: f64) -> f64 {
     root_radius_mm - LEAST_BODY_MODULES * normal_module_mm
 }
 
-/// Least thickness of a rim on a web, in normal modules: the rows of elements between the fillets sag into a thinner one.
+/// Least thickness of a rim on a web, in normal modules: rows of elements between the fillets would sag through a thinner one.
 const LEAST_RIM_MODULES: f64 = 0.25;
 
-/// Least and greatest thickness of a rim on a web that leaves as much below it as a body must have below its root circle; where they cross, there
-/// is room for none.
+/// Least and greatest thickness of a rim on a web, below which the least depth of a body is left; where they cross, there is no room for a web.
 pub fn rim_thickness_limits_mm(root_radius_mm: f64, clamp_radius_mm: f64, normal_module_mm: f64) -> [f64; 2] {
     let left_mm = greatest_clamp_mm(root_radius_mm, normal_module_mm) - clamp_radius_mm;
     [LEAST_RIM_MODULES * normal_module_mm, left_mm]
 }
 
-/// Least thickness of a web along the axis: a tenth of a module.
+/// Least thickness of a web along the axis, a tenth of a module.
 pub fn least_web_mm(normal_module_mm: f64) -> f64 {
     LEAST_BODY_MODULES * normal_module_mm
 }
 
-/// A clamp radius chosen where none is given.
+/// Default clamp radius of a gear.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DefaultClamp {
-    /// The radius.
+    /// Clamp radius.
     pub radius_mm: f64,
     /// Whether the gear is too small for the usual depth of 2.5 modules below the root circle.
     pub small_gear: bool,
 }
 
-/// The clamp radius of a gear where none is given: the root radius less 2.5 transverse modules, so that pairs of the same transverse section
+/// Default clamp radius of a gear: the root radius less 2.5 transverse modules, so that pairs of the same transverse section
 /// have the same bodies, or 0.4 of the root radius where that would leave less than 0.2 of it.
 pub fn default_clamp(root_radius_mm: f64, transverse_module_mm: f64) -> DefaultClamp {
     let radius_mm = root_radius_mm - BODY_MODULES * transverse_module_mm;
@@ -147,7 +146,7 @@ pub fn default_clamp(root_radius_mm: f64, transverse_module_mm: f64) -> DefaultC
     }
 }
 
-/// Elements along each side of the grids.
+/// Numbers of elements of a tooth section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SectionDivisions {
     /// Across the tooth.
@@ -162,21 +161,21 @@ pub struct SectionDivisions {
     pub radial: usize,
 }
 
-/// How finely teeth are meshed in space.
+/// Resolution of the three-dimensional tooth model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpaceResolution {
-    /// Elements of the section.
+    /// Elements of the transverse section.
     pub section: SectionDivisions,
     /// Length of an element over the face width, in normal modules.
     pub layer_modules: f64,
-    /// Least and greatest number of them.
+    /// Least and greatest number of elements over the face width.
     pub layers: [usize; 2],
-    /// Slices over the face width that elements end with; none: elements are as long as each other.
+    /// Number of slices over the face width, with whose ends those of elements coincide; `None` for even elements.
     pub slices: Option<usize>,
 }
 
 impl SpaceResolution {
-    /// What is enough for the compliance of a tooth beside its local flattening.
+    /// Resolution that is enough for the compliance of a tooth beside the local contact flattening.
     pub const USUAL: Self = Self {
         section: SectionDivisions { across: 6, fillet: 2, flank: 8, land: 1, radial: 3 },
         layer_modules: 0.32,
@@ -184,31 +183,31 @@ impl SpaceResolution {
         slices: None,
     };
 
-    /// The same for a pair in so many slices.
+    /// Usual resolution for a pair in `count` slices.
     pub fn of_slices(count: usize) -> Self {
         Self { slices: Some(count), ..Self::USUAL }
     }
 
-    /// Memory that condensing the sectors of both gears of `pair` takes, GB: measured on the preset `helical` at 8 to 90 mm, where it grows with
-    /// the square of the nodes on flank and cuts.
+    /// Memory for condensing the sectors of both gears of `pair`, GB: measured on the preset `helical` at 8 to 90 mm, quadratic in
+    /// the number of nodes on flank and cuts.
     pub fn memory_gb(&self, pair: &PairSpec, bodies: &PerGear<SpaceBody>) -> f64 {
         let layers = (self.layer_ends_mm(pair, bodies).len() - 1) as f64;
         0.2 + 0.0018 * layers * layers
     }
 
-    /// Where elements over the face width of `pair` end, from z = 0 on: those at both end faces are divided, for there a load is left to itself over
-    /// a distance that is short against a module, and those that a face of a web cuts.
+    /// Ends of elements over the face width of `pair`, from z = 0 on. Elements at both end faces, near which the compliance changes over less than
+    /// a module, and those that a face of a web cuts are divided.
     pub fn layer_ends_mm(&self, pair: &PairSpec, bodies: &PerGear<SpaceBody>) -> Vec<f64> {
         let even = self.even_layers(pair);
-        let at = |place: f64| pair.face_width_mm * place / even as f64;
-        let mut ends: Vec<f64> = (0..=even).map(|k| at(k as f64)).collect();
+        let mut places: Vec<f64> = (0..=even).map(|k| k as f64).collect();
         if let Some(slices) = self.slices {
-            // Slices in a layer: whole ones are left at the end face where there are some.
+            // A layer of several slices is divided between two of them.
             let in_layer = slices / even;
             let first = if in_layer > 1 { (in_layer / 2) as f64 / in_layer as f64 } else { 0.5 };
-            ends.insert(1, at(first));
-            ends.insert(even + 1, at(even as f64 - first));
+            places.insert(1, first);
+            places.insert(even + 1, even as f64 - first);
         }
+        let mut ends: Vec<f64> = places.into_iter().map(|place| pair.face_width_mm * place / even as f64).collect();
         let webs = [bodies.pinion.web, bodies.wheel.web].into_iter().flatten();
         for face_mm in webs.flat_map(|web| web.from_to_mm(pair.face_width_mm)) {
             if ends.iter().all(|end| (end - face_mm).abs() > SAME_PLACE * pair.face_width_mm) {
@@ -218,10 +217,10 @@ impl SpaceResolution {
         ends
     }
 
-    /// Elements as long as each other over the face width of `pair`, before those at its end faces are divided.
+    /// Number of even elements over the face width of `pair`, before those at its end faces are divided.
     ///
-    /// As many slices lie in each of them, or as many of them in each slice: what elements see of the load of a slice depends on where in an
-    /// element it lies, and where that differs from slice to slice, so do their loads. Two slices in an element are resolved, and an element may
+    /// Each has the same number of slices, or each slice the same number of elements: the work of a slice's load on an element depends on its
+    /// place in the element, and would otherwise differ from slice to slice. Two slices in an element are resolved, and an element may
     /// be a quarter longer.
     pub fn even_layers(&self, pair: &PairSpec) -> usize {
         let [least, most] = self.layers;
@@ -229,15 +228,17 @@ impl SpaceResolution {
         let wanted = wanted.clamp(least, most);
         let Some(slices) = self.slices else { return wanted };
         let ideal = (0.8 * wanted as f64).max(0.5 * slices as f64).min(most as f64);
-        let over = |layers: &usize| (*layers as f64 / ideal).ln().abs();
         let aligned = (least..=most).filter(|layers| slices % layers == 0 || layers % slices == 0);
-        let nearest = aligned.min_by(|a, b| over(a).total_cmp(&over(b))).filter(|layers| over(layers) < MOST_OFF.ln());
-        nearest.unwrap_or(wanted)
+        let nearest = aligned
+            .map(|layers| (layers, (layers as f64 / ideal).ln().abs()))
+            .min_by(|(_, a), (_, b)| a.total_cmp(b))
+            .filter(|(_, off)| *off < MOST_OFF.ln());
+        nearest.map_or(wanted, |(layers, _)| layers)
     }
 }
 
-/// Places over the face width that are no farther apart are one, in face widths.
+/// Least distance of two ends of elements, in face widths.
 const SAME_PLACE: f64 = 1e-6;
 
-/// Elements over the face width that end with slices are at most so many times as many, or as few, as are wanted.
+/// Greatest ratio, either way, of the number of elements aligned with slices to the wanted one.
 const MOST_OFF: f64 = 1.8;

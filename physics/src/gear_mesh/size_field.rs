@@ -1,4 +1,4 @@
-//! The wanted edge length inside a body, from the edges of its boundary.
+//! Wanted edge length inside a body, from the edges of its boundary.
 //!
 //! ```text
 //! h(x) = min over boundary nodes b of  h_b + g |x − x_b|,   at most h_max
@@ -10,7 +10,7 @@
 
 use nalgebra::Vector2;
 
-/// The field.
+/// Field of wanted edge lengths.
 #[derive(Debug, Clone)]
 pub(super) struct SizeField {
     nodes: Vec<(Vector2<f64>, f64)>,
@@ -19,11 +19,11 @@ pub(super) struct SizeField {
 }
 
 impl SizeField {
-    /// The field of a closed boundary, its nodes in order.
+    /// Field of a closed boundary, its nodes in order.
     pub(super) fn of_boundary(ring: &[Vector2<f64>], growth: f64, greatest_mm: f64) -> Self {
         let n = ring.len();
-        let edge = |k: usize| (ring[(k + 1) % n] - ring[k % n]).norm();
-        let nodes = (0..n).map(|k| (ring[k], 0.5 * (edge(k) + edge(k + n - 1)))).collect();
+        let edges: Vec<f64> = (0..n).map(|k| (ring[(k + 1) % n] - ring[k]).norm()).collect();
+        let nodes = (0..n).map(|k| (ring[k], 0.5 * (edges[k] + edges[(k + n - 1) % n]))).collect();
         Self { nodes, growth, greatest_mm }
     }
 

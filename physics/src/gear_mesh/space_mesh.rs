@@ -1,7 +1,6 @@
 //! One pitch of each gear over the face width as one mesh, placed in contact.
 //!
-//! Place and frame are those of [`super::pair_mesh`] in the middle of the face width; the axes are along z, and the face width is from
-//! z = 0 on.
+//! Frame: that of [`super::pair_mesh`] in the middle of the face width, the axes along z; the face width begins at z = 0.
 
 use std::collections::BTreeMap;
 
@@ -21,22 +20,21 @@ pub fn space_mesh(pair: &GearPair, teeth: &PerGear<ExtrudedTooth>, position_mm: 
             let placed = place(point.xy());
             [placed.x, placed.y, point.z]
         }));
-        let numbered = |nodes: Vec<u32>| nodes.into_iter().map(|node| first + node as usize).collect::<Vec<_>>();
         let [right, left] = &tooth.section.cuts;
         for (set, nodes) in
             [("flank", &tooth.section.flank), ("clamp", &tooth.section.clamp), ("right_cut", right), ("left_cut", left)]
         {
-            let mut nodes = numbered(tooth.over(nodes));
+            let mut nodes: Vec<usize> = tooth.over(nodes).into_iter().map(|node| first + node as usize).collect();
             nodes.sort_unstable();
             mesh.point_sets.insert(format!("{name}_{set}"), nodes);
         }
-        let nodes = numbered(tooth.hexahedra.iter().flatten().copied().collect());
+        let nodes = tooth.hexahedra.iter().flatten().map(|node| first + *node as usize).collect();
         mesh.cells.push(CellBlock { kind: CellKind::Hexahedron20, nodes });
     }
-    let all = |block: usize| (0..mesh.cells[block].len()).collect::<Vec<_>>();
+    let [pinion, wheel] = [0, 1].map(|block| (0..mesh.cells[block].len()).collect());
     mesh.cell_sets = BTreeMap::from([
-        (Gear::Pinion.name().to_owned(), vec![all(0), Vec::new()]),
-        (Gear::Wheel.name().to_owned(), vec![Vec::new(), all(1)]),
+        (Gear::Pinion.name().to_owned(), vec![pinion, Vec::new()]),
+        (Gear::Wheel.name().to_owned(), vec![Vec::new(), wheel]),
     ]);
     mesh
 }

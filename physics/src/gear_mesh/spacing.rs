@@ -1,7 +1,7 @@
-//! Where the nodes of the outline lie: the wanted element lengths, smoothed, and runs divided accordingly.
+//! Division of the outline into elements of wanted, smoothed lengths.
 //!
-//! A run is a stretch of outline between two nodes that must exist (a corner, a change of curve, a kink). Along it the
-//! wanted length h(s) is sampled; lengths of neighbouring elements stay within a factor because h may only grow at a
+//! A run is a stretch of outline between two required nodes (a corner, a change of curve, a kink). Along it the
+//! wanted length h(s) is sampled; lengths of neighbouring elements stay within a factor because h grows at a
 //! limited rate g along the outline,
 //!
 //! ```text
@@ -14,27 +14,27 @@ use nalgebra::Vector2;
 
 use super::profile::{Piece, Profile};
 
-/// Which side of the tooth; the working flank is on the left, anticlockwise.
+/// ToothSide of the tooth; the working flank is on the left, anticlockwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
+pub(super) enum ToothSide {
     /// x > 0.
     Right,
     /// x < 0.
     Left,
 }
 
-/// A place of the outline.
+/// Point of the outline by its parameter.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OutlinePoint {
-    pub side: Side,
+    pub side: ToothSide,
     pub piece: Piece,
     /// Parameter of the piece.
     pub u: f64,
 }
 
-/// What a run is part of.
+/// OutlinePart of the outline that a run belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum OutlinePart {
     RootArc,
     Fillet,
     Flank,
@@ -52,41 +52,40 @@ struct Sample {
     length_mm: f64,
 }
 
-/// A stretch of outline between two nodes.
+/// Stretch of outline between two required nodes.
 #[derive(Debug, Clone)]
-pub(super) struct Run {
-    pub side: Side,
-    pub part: Part,
+pub(super) struct OutlineRun {
+    pub side: ToothSide,
+    pub part: OutlinePart,
     samples: Vec<Sample>,
 }
 
-/// A node of the outline.
+/// Node of the outline.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OutlineNode {
     pub place: OutlinePoint,
     pub point_mm: Vector2<f64>,
-    /// Element length wanted there.
+    /// Wanted element length.
     pub length_mm: f64,
 }
 
 impl Profile<'_> {
-    /// The point at `place`.
+    /// Coordinates of `place`.
     pub(super) fn at_mm(&self, place: OutlinePoint) -> Vector2<f64> {
         let point = self.point_mm(place.piece, place.u);
         match place.side {
-            Side::Right => point,
-            Side::Left => Vector2::new(-point.x, point.y),
+            ToothSide::Right => point,
+            ToothSide::Left => Vector2::new(-point.x, point.y),
         }
     }
 }
 
-impl Run {
-    /// The run through `stretches` of the outline, each a piece on a side with its first and last parameter, sampled
-    /// with `per_stretch` intervals.
+impl OutlineRun {
+    /// OutlineRun through `stretches`, each a piece on a side with its first and last parameter, sampled with `per_stretch` intervals each.
     pub(super) fn new(
         profile: &Profile,
-        part: Part,
-        stretches: &[(Side, Piece, [f64; 2])],
+        part: OutlinePart,
+        stretches: &[(ToothSide, Piece, [f64; 2])],
         per_stretch: usize,
     ) -> Self {
         let mut samples: Vec<Sample> = Vec::with_capacity(stretches.len() * (per_stretch + 1));
@@ -99,7 +98,7 @@ impl Run {
                 samples.push(Sample { place, point_mm, s_mm, length_mm: f64::INFINITY });
             }
         }
-        let side = stretches.first().map_or(Side::Right, |stretch| stretch.0);
+        let side = stretches.first().map_or(ToothSide::Right, |stretch| stretch.0);
         Self { side, part, samples }
     }
 
@@ -108,14 +107,14 @@ impl Run {
         self.samples.last().map_or(0.0, |sample| sample.s_mm)
     }
 
-    /// Lowers the wanted length to what `wanted` gives for a place and its point.
+    /// Limits the wanted length by `wanted`, a function of place and point.
     pub(super) fn want(&mut self, wanted: impl Fn(OutlinePoint, Vector2<f64>) -> f64) {
         for sample in &mut self.samples {
             sample.length_mm = sample.length_mm.min(wanted(sample.place, sample.point_mm));
         }
     }
 
-    /// Lowers the wanted length to `factor` times the radius of curvature, but not below `least_mm`.
+    /// Limits the wanted length by `factor` times the radius of curvature, but not below `least_mm`.
     pub(super) fn follow_curvature(&mut self, factor: f64, least_mm: f64) {
         for k in 1..self.samples.len().saturating_sub(1) {
             let (before, after) = (
@@ -124,7 +123,7 @@ impl Run {
             );
             let (short, long) = (before.norm().min(after.norm()), before.norm().max(after.norm()));
             if short < 0.1 * long {
-                // Two samples at the joint of two curves.
+                // Coinciding samples at the joint of two curves.
                 continue;
             }
             let turn = before.perp(&after).atan2(before.dot(&after)).abs();
@@ -136,7 +135,7 @@ impl Run {
         }
     }
 
-    /// ∫ ds/h up to each sample, exact for a length that is linear in between: Δs ln(h_b/h_a) / (h_b − h_a).
+    /// ∫ ds/h up to each sample, exact for a piecewise linear length: Δs ln(h_b/h_a) / (h_b − h_a).
     fn integrated(&self) -> Vec<f64> {
         let mut sum = 0.0;
         let mut elements = vec![0.0];
@@ -150,12 +149,12 @@ impl Run {
         elements
     }
 
-    /// Elements wanted, not yet a whole number.
+    /// Wanted number of elements, not rounded.
     pub(super) fn elements(&self) -> f64 {
         self.integrated().last().copied().unwrap_or(0.0)
     }
 
-    /// Nodes of the run: ends of elements and the middles between them, alternately.
+    /// Nodes of the run, ends and middles of elements alternately.
     pub(super) fn divide(&self, profile: &Profile) -> Vec<OutlineNode> {
         let elements = self.integrated();
         let sum = self.elements();
@@ -170,7 +169,7 @@ impl Run {
             let step = elements[k + 1] - elements[k];
             let part = if step > 0.0 { ((target - elements[k]) / step).clamp(0.0, 1.0) } else { 0.0 };
             let (a, b) = (&self.samples[k], &self.samples[k + 1]);
-            // The inverse of the integral: h grows by the same factor over equal parts of the elements.
+            // Inverse of the integral: h grows by equal factors over equal fractions of an element.
             let growth = (b.length_mm - a.length_mm) / a.length_mm;
             let weight = if growth.abs() < 1e-6 { part } else { (part * growth.ln_1p()).exp_m1() / growth };
             ends.push(a.s_mm + weight * (b.s_mm - a.s_mm));
@@ -190,34 +189,32 @@ impl Run {
         nodes
     }
 
-    /// The node at arc length `s_mm`, in the interval after sample `k`.
+    /// Node at arc length `s_mm`, in the interval after sample `k`.
     fn node(&self, profile: &Profile, k: usize, s_mm: f64) -> OutlineNode {
         let (a, b) = (&self.samples[k], &self.samples[k + 1]);
         let interval = b.s_mm - a.s_mm;
         let weight = if interval > 0.0 { ((s_mm - a.s_mm) / interval).clamp(0.0, 1.0) } else { 0.0 };
-        let between = |from: f64, to: f64| from + weight * (to - from);
-        // Where two curves meet there are two samples at one place; no node falls between them.
-        let place = if weight < 1.0 { OutlinePoint { u: between(a.place.u, b.place.u), ..a.place } } else { b.place };
-        OutlineNode { place, point_mm: profile.at_mm(place), length_mm: between(a.length_mm, b.length_mm) }
+        // Two samples coincide where two curves meet; no node falls between them.
+        let u = a.place.u + weight * (b.place.u - a.place.u);
+        let place = if weight < 1.0 { OutlinePoint { u, ..a.place } } else { b.place };
+        let length_mm = a.length_mm + weight * (b.length_mm - a.length_mm);
+        OutlineNode { place, point_mm: profile.at_mm(place), length_mm }
     }
 }
 
-/// Limits how fast the wanted length grows along the whole outline, whose ends may not exceed `at_ends_mm`.
-pub(super) fn limit_growth(runs: &mut [Run], growth: f64, at_ends_mm: f64) {
-    let mut sweep = |backwards: bool| {
-        let (mut length_mm, mut before): (f64, Option<Vector2<f64>>) = (at_ends_mm, None);
-        let mut step = |sample: &mut Sample| {
-            let distance = before.map_or(0.0, |point| (sample.point_mm - point).norm());
-            length_mm = (length_mm + growth * distance).min(sample.length_mm);
-            sample.length_mm = length_mm;
-            before = Some(sample.point_mm);
-        };
-        if backwards {
-            runs.iter_mut().rev().flat_map(|run| run.samples.iter_mut().rev()).for_each(&mut step);
-        } else {
-            runs.iter_mut().flat_map(|run| run.samples.iter_mut()).for_each(&mut step);
-        }
-    };
-    sweep(false);
-    sweep(true);
+/// Limits the growth of the wanted length along the whole outline, whose ends may not exceed `at_ends_mm`.
+pub(super) fn limit_growth(runs: &mut [OutlineRun], growth: f64, at_ends_mm: f64) {
+    limit_growth_along(runs.iter_mut().flat_map(|run| run.samples.iter_mut()), growth, at_ends_mm);
+    limit_growth_along(runs.iter_mut().rev().flat_map(|run| run.samples.iter_mut().rev()), growth, at_ends_mm);
+}
+
+/// Limits the growth of the wanted length in the order of `samples`, the first of which may not exceed `first_mm`.
+fn limit_growth_along<'a>(samples: impl Iterator<Item = &'a mut Sample>, growth: f64, first_mm: f64) {
+    let (mut length_mm, mut before): (f64, Option<Vector2<f64>>) = (first_mm, None);
+    for sample in samples {
+        let distance = before.map_or(0.0, |point| (sample.point_mm - point).norm());
+        length_mm = (length_mm + growth * distance).min(sample.length_mm);
+        sample.length_mm = length_mm;
+        before = Some(sample.point_mm);
+    }
 }

@@ -19,16 +19,17 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use nalgebra::{Rotation2, Vector2, Vector3};
 
+use super::layer::add;
 use super::settings::{SectionDivisions, SpaceBody, SpaceResolution};
 use crate::gear::half_profile::in_tooth_frame;
 use crate::gear::{Gear, GearPair, PerGear, tooth::Tooth};
 use gearwear_mesh::{CellBlock, CellKind, Mesh};
 
-/// Samples of the outline from which places by length of arc are taken.
+/// Samples of the outline, for points by arc length.
 const SAMPLES: usize = 400;
-/// Slope, at its ends, of the line between the middles of the fillets: three elements meet there at much the same angle.
+/// Slope, at its ends, of the line between the middles of the fillets: the three elements that meet there have similar angles.
 const SAG: f64 = 0.27;
-/// Each element towards the clamp circle over the one before.
+/// Ratio of lengths of neighbouring elements towards the clamp circle.
 const RADIAL_GROWTH: f64 = 1.5;
 /// Most rows of elements of a web.
 const MOST_WEB_ROWS: usize = 5;
@@ -40,7 +41,7 @@ pub struct ToothSection {
     pub points_mm: Vec<Vector2<f64>>,
     /// Serendipity quadrilaterals: corners anticlockwise, then the middles of the sides.
     pub quads: Vec<[u32; 8]>,
-    /// How many of them, the first ones, are as wide as the teeth; the others belong to the web.
+    /// Number of quadrilaterals, the first ones, that are as wide as the teeth; the others belong to the web.
     pub full_width_quads: usize,
     /// Nodes of the working flank from the end of the fillet to the tip circle, ends and middles of elements alternately.
     pub flank: Vec<u32>,
@@ -57,7 +58,7 @@ pub struct ToothSection {
 pub struct ExtrudedTooth {
     /// The section at z = 0 before it is turned.
     pub section: ToothSection,
-    /// Places of the layers' ends and middles alternately, from z = 0 to the face width.
+    /// Ends and middles of the layers alternately, from z = 0 to the face width.
     pub z_mm: Vec<f64>,
     /// Turn of the section per mm, rad/mm.
     pub twist_rad_per_mm: f64,
@@ -66,12 +67,12 @@ pub struct ExtrudedTooth {
     /// Hexahedra in the order of VTK: corners of the lower face, of the upper one, middles of the lower edges, of the upper ones, of those
     /// between.
     pub hexahedra: Vec<[u32; 20]>,
-    /// For each end and middle of a layer the node above each node of the section; middles have corners only, and outside the web there is none
-    /// of its.
+    /// Node above each node of the section, for each end and middle of a layer. `None` at middles of sides in the middle of a layer, and at
+    /// nodes of the web outside it.
     nodes: Vec<Vec<Option<u32>>>,
 }
 
-/// Points by length of arc.
+/// Points of a chain by arc length.
 struct Polyline {
     points: Vec<Vector2<f64>>,
     along_mm: Vec<f64>,
@@ -86,7 +87,7 @@ impl Polyline {
         Self { points, along_mm }
     }
 
-    /// At this part of its length.
+    /// Point at a fraction of the length.
     fn at(&self, part: f64) -> Vector2<f64> {
         let last = self.points.len() - 1;
         let at_mm = part * self.along_mm[last];
@@ -107,7 +108,6 @@ struct HalfOutline<'a> {
 
 impl<'a> HalfOutline<'a> {
     fn new(tooth: &'a Tooth) -> Self {
-        let sample = |k: usize| k as f64 / SAMPLES as f64;
         let fillet: Vec<Vector2<f64>> = (0..=SAMPLES)
             .map(|k| {
                 let t = FRAC_PI_2 + (tooth.fillet_end_angle_rad - FRAC_PI_2) * sample(k);
@@ -118,12 +118,14 @@ impl<'a> HalfOutline<'a> {
         let begins = fillet[0].x.atan2(fillet[0].y);
         let mut outline: Vec<Vector2<f64>> = Vec::with_capacity(2 * SAMPLES);
         if (at_cut - begins) * root_mm > 1e-6 * root_mm {
-            let angle = |k: usize| at_cut + (begins - at_cut) * sample(k);
-            outline.extend((0..SAMPLES).map(|k| root_mm * Vector2::new(angle(k).sin(), angle(k).cos())));
+            outline.extend((0..SAMPLES).map(|k| {
+                let angle = at_cut + (begins - at_cut) * sample(k);
+                root_mm * Vector2::new(angle.sin(), angle.cos())
+            }));
         }
         outline.extend(fillet);
-        let steep = |two: &[Vector2<f64>]| (two[1].y - two[0].y).atan2(two[0].x - two[1].x) >= FRAC_PI_4;
-        let middle = outline.windows(2).position(steep).unwrap_or(outline.len() / 2).clamp(2, outline.len() - 3);
+        let steep = outline.windows(2).position(|two| (two[1].y - two[0].y).atan2(two[0].x - two[1].x) >= FRAC_PI_4);
+        let middle = steep.unwrap_or(outline.len() / 2).clamp(2, outline.len() - 3);
         Self {
             tooth,
             upper: Polyline::new(outline[middle..].to_vec()),
@@ -131,136 +133,176 @@ impl<'a> HalfOutline<'a> {
         }
     }
 
-    /// At this radius of the flank.
+    /// Point of the flank.
     fn flank(&self, radius_mm: f64) -> Vector2<f64> {
         let half_angle = self.tooth.half_angle_rad(radius_mm);
         radius_mm * Vector2::new(half_angle.sin(), half_angle.cos())
     }
 }
 
-/// Part of the way from the outline that a row, ends and middles of elements alternately, is at, where elements grow towards the other end.
-fn depth(row: usize, elements: usize) -> f64 {
-    let step = |k: usize| RADIAL_GROWTH.powi(k as i32);
-    let before: f64 = (0..row / 2).map(step).sum();
-    let whole: f64 = (0..elements).map(step).sum();
-    (before + if row % 2 == 1 { 0.5 * step(row / 2) } else { 0.0 }) / whole
+/// Fraction of the outline's sampling range at sample `k`.
+fn sample(k: usize) -> f64 {
+    k as f64 / SAMPLES as f64
 }
 
-/// Rows of elements of a web of such a depth, about as long as the last of the rim's `radial` ones.
+/// Relative depth below the outline of a row of nodes, ends and middles of growing elements alternately.
+fn depth(row: usize, elements: usize) -> f64 {
+    let before: f64 = (0..row / 2).map(growth).sum();
+    let whole: f64 = (0..elements).map(growth).sum();
+    (before + if row % 2 == 1 { 0.5 * growth(row / 2) } else { 0.0 }) / whole
+}
+
+/// Length of an element over that of the first one.
+fn growth(element: usize) -> f64 {
+    RADIAL_GROWTH.powi(element as i32)
+}
+
+/// Rows of elements of a web `depth_mm` deep, about as long as the last of the rim's `radial` ones.
 fn web_rows(rim_thickness_mm: f64, depth_mm: f64, radial: usize) -> usize {
     let last_mm = rim_thickness_mm * (1.0 - depth(2 * radial - 2, radial));
     ((depth_mm / last_mm).round() as usize).clamp(1, MOST_WEB_ROWS)
 }
 
-impl ToothSection {
-    /// Of a tooth on its body.
-    pub fn new(tooth: &Tooth, body: SpaceBody, divisions: SectionDivisions) -> Self {
-        let SectionDivisions { across, fillet, flank, land, radial } = divisions;
-        // Where the rows that are as wide as the teeth end, and how many are below.
-        let (rim_radius_mm, web_rows) = match body.web {
-            None => (body.clamp_radius_mm, 0),
+/// Places of the nodes of the two grids.
+struct Grids<'a> {
+    outline: HalfOutline<'a>,
+    divisions: SectionDivisions,
+    clamp_radius_mm: f64,
+    /// Inner radius of the rows that are as wide as the teeth.
+    rim_radius_mm: f64,
+    /// Rows of elements of the web.
+    web_rows: usize,
+}
+
+impl<'a> Grids<'a> {
+    fn new(tooth: &'a Tooth, body: SpaceBody, divisions: SectionDivisions) -> Self {
+        let SpaceBody { clamp_radius_mm, web } = body;
+        let (rim_radius_mm, web_rows) = match web {
+            None => (clamp_radius_mm, 0),
             Some(web) => {
                 let rim_radius_mm = tooth.root_radius_mm - web.rim_thickness_mm;
-                (rim_radius_mm, web_rows(web.rim_thickness_mm, rim_radius_mm - body.clamp_radius_mm, radial))
+                let rows = web_rows(web.rim_thickness_mm, rim_radius_mm - clamp_radius_mm, divisions.radial);
+                (rim_radius_mm, rows)
             }
         };
-        let outline = HalfOutline::new(tooth);
-        let flank_radius_mm = [tooth.root_form_radius_mm, tooth.tip_radius_mm];
-        let (columns, rim_rows) = (2 * (2 * land + across), 2 * radial);
-        let rows = rim_rows + 2 * web_rows;
-        let tooth_rows = 2 * (fillet + flank);
-        let tip = outline.flank(tooth.tip_radius_mm);
+        Self { outline: HalfOutline::new(tooth), divisions, clamp_radius_mm, rim_radius_mm, web_rows }
+    }
+
+    /// Last column of the body's grid.
+    fn columns(&self) -> usize {
+        2 * (2 * self.divisions.land + self.divisions.across)
+    }
+
+    /// Last row of the body's grid.
+    fn rows(&self) -> usize {
+        2 * (self.divisions.radial + self.web_rows)
+    }
+
+    /// Last row of the tooth's grid.
+    fn tooth_rows(&self) -> usize {
+        2 * (self.divisions.fillet + self.divisions.flank)
+    }
+
+    /// Point of the tooth's grid: `i` from the working side, `j` from the middle of the fillet.
+    fn in_tooth(&self, i: usize, j: usize) -> Vector2<f64> {
+        let (SectionDivisions { across, fillet, flank, .. }, tooth) = (self.divisions, self.outline.tooth);
+        let edge = if j <= 2 * fillet {
+            self.outline.upper.at(j as f64 / (2 * fillet) as f64)
+        } else {
+            let part = (j - 2 * fillet) as f64 / (2 * flank) as f64;
+            self.outline.flank(tooth.root_form_radius_mm + part * (tooth.tip_radius_mm - tooth.root_form_radius_mm))
+        };
+        let s = i as f64 / across as f64 - 1.0;
+        let x = edge.x * s;
+        if j == self.tooth_rows() {
+            return Vector2::new(x, (tooth.tip_radius_mm.powi(2) - x * x).sqrt());
+        }
+        let tip = self.outline.flank(tooth.tip_radius_mm);
         let tip_bulge = (tooth.tip_radius_mm - tip.y) / tip.x;
-        // The tooth's grid: i from the working side, j from the middle of the fillet.
-        let in_tooth = |i: usize, j: usize| {
-            let edge = if j <= 2 * fillet {
-                outline.upper.at(j as f64 / (2 * fillet) as f64)
-            } else {
-                let part = (j - 2 * fillet) as f64 / (2 * flank) as f64;
-                outline.flank(flank_radius_mm[0] + part * (flank_radius_mm[1] - flank_radius_mm[0]))
-            };
-            let s = i as f64 / across as f64 - 1.0;
-            let bulge = -0.5 * SAG + (tip_bulge + 0.5 * SAG) * j as f64 / tooth_rows as f64;
-            let x = edge.x * s;
-            if j == tooth_rows {
-                Vector2::new(x, (tooth.tip_radius_mm.powi(2) - x * x).sqrt())
-            } else {
-                Vector2::new(x, edge.y + bulge * edge.x * (1.0 - s * s))
-            }
+        let bulge = -0.5 * SAG + (tip_bulge + 0.5 * SAG) * j as f64 / self.tooth_rows() as f64;
+        Vector2::new(x, edge.y + bulge * edge.x * (1.0 - s * s))
+    }
+
+    /// Point of the body's grid: `i` from the cut on the working side, `j` from the outline.
+    fn in_body(&self, i: usize, j: usize) -> Vector2<f64> {
+        let SectionDivisions { across, land, radial, .. } = self.divisions;
+        let (beside, columns, rim_rows) = (2 * land, self.columns(), 2 * radial);
+        let middle = self.outline.lower.at(1.0);
+        let (at_cut, at_middle) = (PI / f64::from(self.outline.tooth.teeth), middle.x.atan2(middle.y));
+        let (top, angle) = if i < beside || i > columns - beside {
+            let from_cut = i.min(columns - i) as f64 / beside as f64;
+            let side = if i < beside { -1.0 } else { 1.0 };
+            let point = self.outline.lower.at(from_cut);
+            (Vector2::new(side * point.x, point.y), side * (at_cut + from_cut * (at_middle - at_cut)))
+        } else {
+            let k = i - beside;
+            (self.in_tooth(k, 0), at_middle * (k as f64 / across as f64 - 1.0))
         };
-        let middle = outline.lower.at(1.0);
-        let (at_cut, at_middle) = (PI / f64::from(tooth.teeth), middle.x.atan2(middle.y));
-        let in_web = |j: usize| (j - rim_rows) as f64 / (rows - rim_rows) as f64;
-        // The body's grid: i from the working side's cut, j from the outline.
-        let in_body = |i: usize, j: usize| {
-            let beside = 2 * land;
-            let (top, angle) = if i < beside || i > columns - beside {
-                let from_cut = i.min(columns - i) as f64 / beside as f64;
-                let side = if i < beside { -1.0 } else { 1.0 };
-                let point = outline.lower.at(from_cut);
-                (Vector2::new(side * point.x, point.y), side * (at_cut + from_cut * (at_middle - at_cut)))
-            } else {
-                let k = i - beside;
-                (in_tooth(k, 0), at_middle * (k as f64 / across as f64 - 1.0))
-            };
-            let outward = Vector2::new(angle.sin(), angle.cos());
-            match j <= rim_rows {
-                true => top.lerp(&(rim_radius_mm * outward), depth(j, radial)),
-                false => (rim_radius_mm + in_web(j) * (body.clamp_radius_mm - rim_radius_mm)) * outward,
-            }
-        };
+        let outward = Vector2::new(angle.sin(), angle.cos());
+        if j <= rim_rows {
+            return top.lerp(&(self.rim_radius_mm * outward), depth(j, radial));
+        }
+        let in_web = (j - rim_rows) as f64 / (self.rows() - rim_rows) as f64;
+        (self.rim_radius_mm + in_web * (self.clamp_radius_mm - self.rim_radius_mm)) * outward
+    }
+}
+
+/// Numbers of the nodes of row `j`, which are added to `points_mm`; `u32::MAX` in the middles of quadrilaterals, which are no nodes.
+fn add_row(
+    points_mm: &mut Vec<Vector2<f64>>,
+    last_column: usize,
+    j: usize,
+    point: impl Fn(usize, usize) -> Vector2<f64>,
+) -> Vec<u32> {
+    (0..=last_column)
+        .map(|i| if i.is_multiple_of(2) || j.is_multiple_of(2) { add(points_mm, point(i, j)) } else { u32::MAX })
+        .collect()
+}
+
+/// Quadrilaterals of a grid whose rows go upwards or downwards.
+fn quads(grid: &[Vec<u32>], upwards: bool) -> Vec<[u32; 8]> {
+    let mut quads = Vec::new();
+    for rows in grid.windows(3).step_by(2) {
+        let middle = &rows[1];
+        let (low, high) = if upwards { (&rows[0], &rows[2]) } else { (&rows[2], &rows[0]) };
+        for i in (0..middle.len() - 1).step_by(2) {
+            let [a, b, c, d] = [low[i], low[i + 2], high[i + 2], high[i]];
+            quads.push([a, b, c, d, low[i + 1], middle[i + 2], high[i + 1], middle[i]]);
+        }
+    }
+    quads
+}
+
+impl ToothSection {
+    /// Section of a tooth on its body.
+    pub fn new(tooth: &Tooth, body: SpaceBody, divisions: SectionDivisions) -> Self {
+        let SectionDivisions { across, fillet, land, .. } = divisions;
+        let grids = Grids::new(tooth, body, divisions);
+        let (columns, rows) = (grids.columns(), grids.rows());
         let mut points_mm = Vec::new();
-        let mut number = |points: Vec<Vec<Option<Vector2<f64>>>>| -> Vec<Vec<u32>> {
-            let mut of_point = |point: Option<Vector2<f64>>| {
-                point.map_or(u32::MAX, |point| {
-                    points_mm.push(point);
-                    points_mm.len() as u32 - 1
-                })
-            };
-            points.into_iter().map(|row| row.into_iter().map(&mut of_point).collect()).collect()
-        };
-        // Middles of quadrilaterals are no nodes.
-        let is_node = |i: usize, j: usize| i.is_multiple_of(2) || j.is_multiple_of(2);
-        let body_grid =
-            number((0..=rows).map(|j| (0..=columns).map(|i| is_node(i, j).then(|| in_body(i, j))).collect()).collect());
+        let body_grid: Vec<Vec<u32>> =
+            (0..=rows).map(|j| add_row(&mut points_mm, columns, j, |i, j| grids.in_body(i, j))).collect();
         let mut tooth_grid = vec![body_grid[0][2 * land..=columns - 2 * land].to_vec()];
-        tooth_grid.extend(number(
-            (1..=tooth_rows)
-                .map(|j| (0..=2 * across).map(|i| is_node(i, j).then(|| in_tooth(i, j))).collect())
-                .collect(),
-        ));
-        let mut quads = Vec::new();
-        // Of two grids whose rows go up and down.
-        let mut add = |grid: &[Vec<u32>], up: bool| {
-            for j in (0..grid.len() - 1).step_by(2) {
-                let (low, high) = if up { (j, j + 2) } else { (j + 2, j) };
-                for i in (0..grid[0].len() - 1).step_by(2) {
-                    let at = |di: usize, row: usize| grid[row][i + di];
-                    quads.push([
-                        at(0, low),
-                        at(2, low),
-                        at(2, high),
-                        at(0, high),
-                        at(1, low),
-                        at(2, j + 1),
-                        at(1, high),
-                        at(0, j + 1),
-                    ]);
-                }
-            }
-        };
-        add(&tooth_grid, true);
-        add(&body_grid, false);
-        let cut = |i: usize| body_grid.iter().rev().map(|row| row[i]).collect();
+        for j in 1..=grids.tooth_rows() {
+            tooth_grid.push(add_row(&mut points_mm, 2 * across, j, |i, j| grids.in_tooth(i, j)));
+        }
+        let mut quads_of_both = quads(&tooth_grid, true);
+        quads_of_both.extend(quads(&body_grid, false));
         Self {
             flank: tooth_grid[2 * fillet..].iter().map(|row| row[0]).collect(),
-            cuts: [cut(columns), cut(0)],
+            cuts: [columns, 0].map(|i| body_grid.iter().rev().map(|row| row[i]).collect()),
             clamp: body_grid[rows].clone(),
-            full_width_quads: quads.len() - web_rows * columns / 2,
-            quads,
+            full_width_quads: quads_of_both.len() - grids.web_rows * columns / 2,
+            quads: quads_of_both,
             points_mm,
-            flank_radius_mm,
+            flank_radius_mm: [tooth.root_form_radius_mm, tooth.tip_radius_mm],
         }
+    }
+
+    /// Quadrilaterals of the body at `z_mm`, whose web is in the range `web_mm`; all without a web.
+    fn quads_at(&self, z_mm: f64, web_mm: Option<[f64; 2]>) -> &[[u32; 8]] {
+        let in_web = web_mm.is_none_or(|[from, to]| (from..to).contains(&z_mm));
+        &self.quads[..if in_web { self.quads.len() } else { self.full_width_quads }]
     }
 
     /// The section as a plane mesh.
@@ -273,8 +315,7 @@ impl ToothSection {
         }
     }
 
-    /// Where a radius of the flank lies among its nodes: the first node of the element, and ξ in it from −1 to 1; outside, in the
-    /// element at that end.
+    /// Place of a radius among the nodes of the flank: the first node of its element and ξ in it from −1 to 1; beyond the flank, the nearest end.
     pub fn on_flank(&self, radius_mm: f64) -> (usize, f64) {
         let [first, last] = self.flank_radius_mm;
         let elements = self.flank.len() / 2;
@@ -284,8 +325,21 @@ impl ToothSection {
     }
 }
 
+/// Hexahedron over `quad` in a layer: `nodes` of the section at the lower end, the middle and the upper end of the layer.
+fn hexahedron(quad: &[u32; 8], nodes: &[Vec<Option<u32>>]) -> [u32; 20] {
+    let mut hexahedron = [0; 20];
+    for a in 0..4 {
+        for (first, end) in [(0, &nodes[0]), (4, &nodes[2])] {
+            hexahedron[first + a] = end[quad[a] as usize].unwrap_or_default();
+            hexahedron[8 + first + a] = end[quad[4 + a] as usize].unwrap_or_default();
+        }
+        hexahedron[16 + a] = nodes[1][quad[a] as usize].unwrap_or_default();
+    }
+    hexahedron
+}
+
 impl ExtrudedTooth {
-    /// One pitch of a gear of `pair` over its face width. Elements of both gears end at the same places over it.
+    /// One pitch of a gear of `pair` over its face width. Layers of both gears end at the same z.
     pub fn of_gear(pair: &GearPair, gear: Gear, bodies: &PerGear<SpaceBody>, resolution: &SpaceResolution) -> Self {
         let tooth = &pair.teeth[gear];
         // Forward on the path of contact, where slices at small z are, is anticlockwise for the pinion.
@@ -304,12 +358,12 @@ impl ExtrudedTooth {
         self.z_mm.len() / 2
     }
 
-    /// Where elements over the face width end, from z = 0 on.
+    /// Ends of the layers over the face width, from z = 0 on.
     pub fn layer_ends_mm(&self) -> Vec<f64> {
         self.z_mm.iter().copied().step_by(2).collect()
     }
 
-    /// Where a place over the face width lies in its element: which, and ζ in it from −1 to 1.
+    /// Layer at `z_mm` and ζ in it from −1 to 1.
     pub(crate) fn across_width(&self, z_mm: f64) -> (usize, f64) {
         let ends_before = self.z_mm.iter().step_by(2).filter(|end| **end <= z_mm).count();
         let layer = ends_before.clamp(1, self.layers()) - 1;
@@ -317,18 +371,14 @@ impl ExtrudedTooth {
         (layer, 2.0 * (z_mm - from) / (to - from) - 1.0)
     }
 
-    /// `section` over the face width in layers that end at these places, from z = 0 on; its web is from one place to another.
+    /// `section` over the face width in layers that end at `layer_ends_mm`, from z = 0 on, with its web in the range `web_mm`.
     fn new(section: ToothSection, layer_ends_mm: &[f64], web_mm: Option<[f64; 2]>, twist_rad_per_mm: f64) -> Self {
         let (layers, face_width_mm) = (layer_ends_mm.len() - 1, layer_ends_mm[layer_ends_mm.len() - 1]);
-        let end = |k: usize| layer_ends_mm[k / 2];
-        let z_mm: Vec<f64> = (0..=2 * layers).map(|k| end(k).midpoint(end(k + 1))).collect();
-        let quads_of = |layer: usize| {
-            let in_web = web_mm.is_none_or(|[from, to]| (from..to).contains(&z_mm[2 * layer + 1]));
-            &section.quads[..if in_web { section.quads.len() } else { section.full_width_quads }]
-        };
+        let z_mm: Vec<f64> =
+            (0..=2 * layers).map(|k| layer_ends_mm[k / 2].midpoint(layer_ends_mm[k.div_ceil(2)])).collect();
         let mut is_node = vec![vec![false; section.points_mm.len()]; z_mm.len()];
         for layer in 0..layers {
-            for quad in quads_of(layer) {
+            for quad in section.quads_at(z_mm[2 * layer + 1], web_mm) {
                 for (k, of_quad) in [(2 * layer, &quad[..]), (2 * layer + 1, &quad[..4]), (2 * layer + 2, &quad[..])] {
                     of_quad.iter().for_each(|node| is_node[k][*node as usize] = true);
                 }
@@ -338,46 +388,33 @@ impl ExtrudedTooth {
         let mut nodes = Vec::with_capacity(z_mm.len());
         for (z, is_node) in z_mm.iter().zip(&is_node) {
             let turn = Rotation2::new(twist_rad_per_mm * (z - 0.5 * face_width_mm));
-            let mut of_node = |(point, is_node): (&Vector2<f64>, &bool)| {
-                is_node.then(|| {
+            let mut at_place = Vec::with_capacity(is_node.len());
+            for (point, is_node) in section.points_mm.iter().zip(is_node) {
+                at_place.push(is_node.then(|| {
                     let point = turn * point;
                     points_mm.push(Vector3::new(point.x, point.y, *z));
                     points_mm.len() as u32 - 1
-                })
-            };
-            nodes.push(section.points_mm.iter().zip(is_node).map(&mut of_node).collect::<Vec<_>>());
+                }));
+            }
+            nodes.push(at_place);
         }
-        let at = |k: usize, node: u32| nodes[k][node as usize].unwrap_or_default();
         let mut hexahedra = Vec::new();
         for layer in 0..layers {
-            for quad in quads_of(layer) {
-                let mut hexahedron = [0; 20];
-                for (first, k) in [(0, 2 * layer), (4, 2 * layer + 2)] {
-                    for a in 0..4 {
-                        hexahedron[first + a] = at(k, quad[a]);
-                        hexahedron[8 + first + a] = at(k, quad[4 + a]);
-                    }
-                }
-                for a in 0..4 {
-                    hexahedron[16 + a] = at(2 * layer + 1, quad[a]);
-                }
-                hexahedra.push(hexahedron);
-            }
+            let quads = section.quads_at(z_mm[2 * layer + 1], web_mm);
+            hexahedra.extend(quads.iter().map(|quad| hexahedron(quad, &nodes[2 * layer..=2 * layer + 2])));
         }
         Self { section, z_mm, twist_rad_per_mm, points_mm, hexahedra, nodes }
     }
 
-    /// Turn of the section at an end or a middle of a layer; none in the middle of the face width.
+    /// Turn of the section at an end or a middle of a layer; 0 in the middle of the face width.
     pub(crate) fn turn_rad(&self, place: usize) -> f64 {
         self.twist_rad_per_mm * (self.z_mm[place] - 0.5 * self.z_mm[self.z_mm.len() - 1])
     }
 
     /// The nodes over `section_nodes`, end by end and middle by middle of the layers.
     pub fn over(&self, section_nodes: &[u32]) -> Vec<u32> {
-        let of_place = |nodes: &'_ Vec<Option<u32>>| -> Vec<u32> {
-            section_nodes.iter().filter_map(|node| nodes[*node as usize]).collect()
-        };
-        self.nodes.iter().flat_map(of_place).collect()
+        let over_all = self.nodes.iter().flat_map(|nodes| section_nodes.iter().map(|node| nodes[*node as usize]));
+        over_all.flatten().collect()
     }
 
     /// The node over a node of the section at an end (even) or a middle of a layer, where there is one.

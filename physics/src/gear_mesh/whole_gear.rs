@@ -1,13 +1,13 @@
-//! A whole gear, or a sector of several teeth, put together from the sectors of single teeth.
+//! Mesh of a whole gear, or of a sector of several teeth, from the sectors of single teeth.
 //!
-//! Sectors are turned by multiples of the pitch; where two of them meet they share the nodes of the cut. Tooth 0 stays on
-//! +y; teeth are numbered in the sense in which the gear turns, which differs between pinion and wheel.
+//! Sectors are turned by multiples of the pitch; neighbours share the nodes of the cut. Tooth 0 stays on
+//! +y; teeth are numbered in the sense of rotation of the gear, which differs between pinion and wheel.
 
 use std::f64::consts::PI;
 
 use nalgebra::{Rotation2, Vector2};
 
-use super::{Cell, FlankChain, ToothMeshError, ToothSector};
+use super::{FlankChain, ToothElement, ToothMeshError, ToothSector};
 use crate::gear::Gear;
 use crate::gear_mesh::settings::Body;
 
@@ -17,7 +17,7 @@ pub struct GearMesh {
     /// Nodes, mm.
     pub points_mm: Vec<Vector2<f64>>,
     /// Elements, tooth by tooth.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<ToothElement>,
     /// The teeth, anticlockwise.
     pub teeth: Vec<ToothNodes>,
     /// Cut sides of a sector by increasing radius, the clockwise one first; empty for a ring.
@@ -27,7 +27,7 @@ pub struct GearMesh {
 /// One tooth of a gear: chains of nodes in the orders of [`ToothSector`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToothNodes {
-    /// 0: the tooth of the reference pair, +1 the one ahead, −1 the one behind …
+    /// Number of the tooth: 0 in the reference pair, +1 ahead of it, −1 behind it …
     pub index: i32,
     /// Whether its working flank is resolved.
     pub fine: bool,
@@ -41,11 +41,11 @@ pub struct ToothNodes {
     pub root_arcs: [Vec<u32>; 2],
     /// Tip land.
     pub tip_land: Vec<u32>,
-    /// Its part of the clamp circle, clockwise.
+    /// Part of the clamp circle below it, clockwise.
     pub clamp: Vec<u32>,
 }
 
-/// Which way teeth are counted: the pinion turns anticlockwise, the wheel clockwise, each in its own frame.
+/// Sense of rotation in the gear's own frame: the pinion turns anticlockwise (+1), the wheel clockwise (−1).
 fn sense(gear: Gear) -> i32 {
     match gear {
         Gear::Pinion => 1,
@@ -67,7 +67,7 @@ pub fn gear_mesh(
     let (count, closed) = match body {
         Body::Ring => (teeth, true),
         Body::Sector { teeth: sector_teeth, .. } if sector_teeth % 2 == 1 && sector_teeth <= teeth => {
-            // A sector of all teeth has no cut left.
+            // A sector of all teeth has no cuts.
             (sector_teeth, sector_teeth == teeth)
         }
         Body::Sector { teeth: sector_teeth, .. } => return Err(ToothMeshError::SectorTeeth { sector_teeth, teeth }),
@@ -76,7 +76,7 @@ pub fn gear_mesh(
     let mut mesh = GearMesh::default();
     let (mut first_cut, mut last_cut): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
     for place in 0..count {
-        // Anticlockwise steps of a pitch from the tooth on +y.
+        // Pitches anticlockwise from the tooth on +y.
         let steps = place as i32 - (count as i32 - 1) / 2;
         let index = sense(gear) * steps;
         let is_fine = fine.contains(&index);
@@ -102,6 +102,7 @@ pub fn gear_mesh(
     Ok(mesh)
 }
 
+/// Takes the nodes of a neighbour's cut for those of the own one.
 fn share(shared: &mut [Option<u32>], own: &[u32], of_neighbour: &[u32]) {
     for (&own, &other) in own.iter().zip(of_neighbour) {
         shared[own as usize] = Some(other);
@@ -126,19 +127,23 @@ impl GearMesh {
     }
 }
 
+impl FlankChain {
+    fn renumbered(&self, ids: &[u32]) -> Self {
+        Self { nodes: renumbered(&self.nodes, ids), ..self.clone() }
+    }
+}
+
 impl ToothNodes {
     fn new(index: i32, fine: bool, sector: &ToothSector, ids: &[u32]) -> Self {
-        let of = |nodes: &[u32]| renumbered(nodes, ids);
-        let flank = |chain: &FlankChain| FlankChain { nodes: of(&chain.nodes), ..chain.clone() };
         Self {
             index,
             fine,
-            working_flank: flank(&sector.working_flank),
-            back_flank: flank(&sector.back_flank),
-            fillets: [of(&sector.working_fillet), of(&sector.back_fillet)],
-            root_arcs: [of(&sector.working_root_arc), of(&sector.back_root_arc)],
-            tip_land: of(&sector.tip_land),
-            clamp: of(&sector.clamp),
+            working_flank: sector.working_flank.renumbered(ids),
+            back_flank: sector.back_flank.renumbered(ids),
+            fillets: [&sector.working_fillet, &sector.back_fillet].map(|nodes| renumbered(nodes, ids)),
+            root_arcs: [&sector.working_root_arc, &sector.back_root_arc].map(|nodes| renumbered(nodes, ids)),
+            tip_land: renumbered(&sector.tip_land, ids),
+            clamp: renumbered(&sector.clamp, ids),
         }
     }
 }

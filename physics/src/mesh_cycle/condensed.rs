@@ -27,12 +27,12 @@ use crate::gear_fem::condensed_pair::CondensedPair;
 use crate::gear_fem::condensed_pair::hertz_half_width_mm;
 use crate::gear_fem::flank_nodes::{FlankNodes, Weights};
 use crate::gear_fem::load_transfer::LoadTransfer;
-use crate::gear_fem::prepared::Prepared;
+use crate::gear_fem::prepared::PreparedPosition;
 use crate::gear_fem::tilted::Worn;
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::reference::{linear_means::value_at, monotone_cubic::MonotoneCubic};
 use crate::wear::{SlidingRow, WearModel};
-use gearwear_fem::active_set::Equilibrium;
+use gearwear_fem::active_set::ContactEquilibrium;
 
 /// Distance of positions.
 #[derive(Clone, Copy)]
@@ -64,7 +64,7 @@ const MOST_TILTS: usize = 3;
 
 /// A position, with the transfer of its load to the nodes.
 struct CondensedPosition {
-    prepared: Prepared,
+    prepared: PreparedPosition,
     /// Stretch of the path.
     stretch_mm: (f64, f64),
     /// Load transfer of each tooth pair that may touch.
@@ -75,7 +75,7 @@ struct CondensedPosition {
     windows: usize,
     /// Tilt of the worn flanks for which they were found; none for new flanks.
     about_rad: Option<PerGear<Vec<f64>>>,
-    found: Option<Equilibrium>,
+    found: Option<ContactEquilibrium>,
 }
 
 /// Positions that collect wear together.
@@ -504,7 +504,7 @@ impl CondensedPosition {
     fn solve_linearised(&mut self, step: &WearEvaluation<'_>) -> Result<Work, EquilibriumError> {
         let position_mm = self.prepared.position_mm;
         let Self { prepared, stretch_mm, transfers, turned_mm, windows, about_rad, .. } = self;
-        let opening = &mut |prepared: &Prepared, gap_mm: &mut [f64]| {
+        let opening = &mut |prepared: &PreparedPosition, gap_mm: &mut [f64]| {
             if *windows != prepared.windows() {
                 *transfers = step.model.load_transfers(prepared, *stretch_mm, *turned_mm, step.nodes, None);
                 (*windows, *about_rad) = (prepared.windows(), None);
@@ -548,7 +548,7 @@ impl CondensedPosition {
     }
 
     /// Whether a tip edge under load has another shape.
-    fn has_reshaped(&self, step: &WearEvaluation<'_>, found: &Equilibrium) -> bool {
+    fn has_reshaped(&self, step: &WearEvaluation<'_>, found: &ContactEquilibrium) -> bool {
         self.transfers.iter().any(|contact| {
             let mate = contact.slave.mate();
             let force = &found.force[contact.first_row..contact.first_row + contact.len()];

@@ -52,7 +52,7 @@ pub struct PlaneSolution {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpaceSolution {
     /// Bodies, supports and loads as the solver took them.
-    pub problem: space::problem::Problem,
+    pub problem: space::problem::SpaceProblem,
     /// The tables of supports and loads, in the order of the problem.
     pub boundary: Vec<BoundaryRow>,
     /// Displacement [x, y, z] of every node, mm.

@@ -6,9 +6,9 @@ use nalgebra::Vector2;
 
 use super::file::FemProblemFile;
 use super::groups::Groups;
-use super::meshed_groups::Bodies;
-use super::owned_cells::{BodyNodes, OwnedCell, owned_cells};
-use super::sides::{Side, Sides, corners};
+use super::meshed_groups::MeshedBodies;
+use super::owned_cells::{BodyNodes, owned_cells};
+use super::sides::{BodySide, Sides, corners};
 use crate::fem::elastic::Elastic;
 use crate::fem::element;
 use crate::fem::loads::add_spread_force;
@@ -19,7 +19,7 @@ use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 
 const MPA_PER_GPA: f64 = 1e3;
-/// A node may lie this far from the plane z = 0, relative to the mesh's extent: what writing decimals leaves.
+/// Tolerance of z = 0 relative to the mesh's extent, for the rounding of decimals.
 const FLAT: f64 = 1e-9;
 
 /// The bodies of a plane problem.
@@ -33,7 +33,7 @@ pub(super) struct PlaneBodies {
 
 impl PlaneBodies {
     /// The side of an element along the line on these nodes of the mesh (ends, middle).
-    pub(super) fn line_side(&self, line: &[usize]) -> Option<&Side> {
+    pub(super) fn line_side(&self, line: &[usize]) -> Option<&BodySide> {
         let ends = [self.nodes.node(*line.first()?)?, self.nodes.node(*line.get(1)?)?];
         let side = self.sides.find(ends)?;
         match line.get(2) {
@@ -43,7 +43,7 @@ impl PlaneBodies {
     }
 }
 
-impl Bodies for PlaneBodies {
+impl MeshedBodies for PlaneBodies {
     const DIRECTIONS: usize = 2;
     const CARRIER: &'static str = "lines";
     const PART: &'static str = "side";
@@ -72,11 +72,11 @@ impl Bodies for PlaneBodies {
 
 /// Materials, numbered as the bodies.
 pub(super) fn materials(file: &FemProblemFile) -> Vec<Elastic> {
-    let material = |body: &super::BodyFile| Elastic {
+    let materials = file.body.iter().map(|body| Elastic {
         young_modulus_mpa: body.young_modulus_GPa * MPA_PER_GPA,
         poisson_ratio: body.poisson_ratio,
-    };
-    file.body.iter().map(material).collect()
+    });
+    materials.collect()
 }
 
 /// The elements of all bodies; `None` where there are none or some cannot be used.
@@ -92,10 +92,10 @@ pub(super) fn mesh_bodies(
     if findings.problems.len() > before {
         return None;
     }
-    let element = |cell: OwnedCell| element_kind(cell.kind).map(|kind| Element::new(kind, &cell.nodes, cell.body));
+    let elements = cells.iter().filter_map(|cell| Some(Element::new(element_kind(cell.kind)?, &cell.nodes, cell.body)));
     let mut solid = Solid {
         points_mm: nodes.points_mm.iter().map(|&[x, y, _]| Vector2::new(x, y)).collect(),
-        elements: cells.into_iter().filter_map(element).collect(),
+        elements: elements.collect(),
     };
     check_plane(mesh, &nodes, findings);
     turn(file, &mut solid, findings);
@@ -139,14 +139,15 @@ fn element_kind(kind: CellKind) -> Option<ElementKind> {
 
 fn check_plane(mesh: &Mesh, nodes: &BodyNodes, findings: &mut Findings) {
     let extent = nodes.points_mm.iter().fold(0.0, |extent: f64, p| extent.max(p[0].abs()).max(p[1].abs()));
-    let off = |(node, point): &(usize, &[f64; 3])| nodes.node(*node).is_some() && point[2].abs() > FLAT * extent;
-    if let Some((node, [x, y, z])) = mesh.points.iter().enumerate().find(off) {
+    let mut points = mesh.points.iter().enumerate();
+    let off = points.find(|(node, point)| nodes.node(*node).is_some() && point[2].abs() > FLAT * extent);
+    if let Some((node, [x, y, z])) = off {
         let found = format!("node {} at x = {}, y = {}, z = {}", node + 1, number(*x), number(*y), number(*z));
         findings.not_allowed("mesh.file", found, "a mesh in the plane z = 0");
     }
 }
 
-/// Turns clockwise elements; refuses what is no element either way round.
+/// Reverses clockwise elements; refuses those that are invalid in both directions.
 fn turn(file: &FemProblemFile, solid: &mut Solid, findings: &mut Findings) {
     let bodies = file.body.len();
     let (mut clockwise, mut all) = (vec![0_usize; bodies], vec![0_usize; bodies]);
@@ -186,12 +187,12 @@ fn turn(file: &FemProblemFile, solid: &mut Solid, findings: &mut Findings) {
 
 /// Twice the signed area of the polygon of the corners.
 fn doubled_area_mm2(points_mm: &[Vector2<f64>], element: &Element) -> f64 {
-    let corners = &element.nodes()[..corners(element.kind)];
-    let at = |i: usize| points_mm[corners[i % corners.len()] as usize];
-    (1..corners.len() - 1).map(|i| (at(i) - at(0)).perp(&(at(i + 1) - at(0)))).sum()
+    let corners = element.nodes()[..corners(element.kind)].iter().map(|&node| points_mm[node as usize]);
+    let corners: Vec<Vector2<f64>> = corners.collect();
+    corners[1..].windows(2).map(|two| (two[0] - corners[0]).perp(&(two[1] - corners[0]))).sum()
 }
 
-/// The same element the other way round, from the same first corner.
+/// Element the other way round, from the same first corner.
 fn reversed(element: &Element) -> Element {
     let nodes = element.nodes();
     let n = corners(element.kind);

@@ -145,7 +145,7 @@ impl LoadFile {
 }
 
 impl FemProblemFile {
-    /// What the third direction does.
+    /// State of stress or strain in the third direction.
     pub(crate) fn third_direction(&self) -> ThirdDirection {
         self.analysis.unwrap_or_default()
     }

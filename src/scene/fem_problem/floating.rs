@@ -1,4 +1,4 @@
-//! Bodies that nothing can hold: refused before the solver meets a singular matrix.
+//! Bodies that are not held: refused before the solver meets a singular matrix.
 //!
 //! A piece of the solid that shares no node with the rest can move rigidly in three ways: along x, along y, and turning
 //! about its centre c, scaled with its size L. With q those amplitudes for all pieces, every held degree of freedom and,
@@ -21,11 +21,11 @@ use crate::fem::problem::{Edge, Problem};
 use crate::fem::solid::Solid;
 use crate::scene::findings::Findings;
 
-/// A motion counts as free where the sum of its squared equations is this small beside the largest.
+/// Ratio of the sum of squared equations to the greatest, below which a motion is free.
 const FREE: f64 = 1e-10;
-/// Pieces that hang together by contacts, beyond which the check is left to the solver.
+/// Greatest number of connected pieces that are checked; above it the check is left to the solver.
 const MOST_PIECES: usize = 100;
-/// Ways in which a piece can move.
+/// Degrees of freedom of a piece.
 const WAYS: usize = 3;
 
 /// Pieces of the solid that share no node.
@@ -41,7 +41,7 @@ struct Pieces {
 /// Coefficients of one equation: those of each piece that takes part.
 type Equation = Vec<(usize, [f64; WAYS])>;
 
-/// Refuses bodies that can move whatever the contacts do.
+/// Refuses bodies that can move even with all contacts closed.
 pub(super) fn check(problem: &Problem, solid: &Solid, findings: &mut Findings) {
     let pieces = Pieces::of(solid);
     let mut equations: Vec<Equation> = Vec::new();
@@ -58,10 +58,10 @@ pub(super) fn check(problem: &Problem, solid: &Solid, findings: &mut Findings) {
             let at = middle(edge, solid);
             let [a, b] = edge.ends.map(|node| solid.points_mm[node as usize]);
             let normal = Vector2::new(b.y - a.y, a.x - b.x).normalize();
-            let distance = |to: &&(Vector2<f64>, usize)| (to.0 - at).norm_squared();
-            let Some((_, other)) = master.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))) else { continue };
+            let distances = master.iter().map(|(to, piece)| ((to - at).norm_squared(), *piece));
+            let Some((_, other)) = distances.min_by(|(a, _), (b, _)| a.total_cmp(b)) else { continue };
             let own = pieces.of_node[edge.ends[0] as usize];
-            equations.push(vec![(own, pieces.motion(own, at, normal)), (*other, pieces.motion(*other, at, -normal))]);
+            equations.push(vec![(own, pieces.motion(own, at, normal)), (other, pieces.motion(other, at, -normal))]);
         }
     }
     for (members, own) in pieces.clusters(&equations) {
@@ -71,7 +71,7 @@ pub(super) fn check(problem: &Problem, solid: &Solid, findings: &mut Findings) {
     }
 }
 
-/// The motions of pieces that hang together.
+/// Motions of connected pieces.
 fn check_cluster(pieces: &Pieces, members: &[usize], equations: &[&Equation], alone: bool, findings: &mut Findings) {
     let place: BTreeMap<usize, usize> = members.iter().enumerate().map(|(i, &piece)| (piece, WAYS * i)).collect();
     let mut gram = DMatrix::<f64>::zeros(WAYS * members.len(), WAYS * members.len());
@@ -96,16 +96,13 @@ fn check_cluster(pieces: &Pieces, members: &[usize], equations: &[&Equation], al
     };
     let mut piece = members[0];
     for &other in members {
-        // Beyond round-off, so that of equals the first is named.
+        // Tolerance for round-off, so that of equal ones the first is named.
         if part(other) > part(piece) * (1.0 + 1e-6) {
             piece = other;
         }
     }
     let motion = match free.as_slice() {
-        [only] => {
-            let way = |way: usize| eigen.eigenvectors[(place[&piece] + way, *only)];
-            pieces.in_words(piece, [way(0), way(1), way(2)])
-        }
+        [only] => pieces.in_words(piece, [0, 1, 2].map(|way| eigen.eigenvectors[(place[&piece] + way, *only)])),
         several if several.len() == WAYS && equations.is_empty() => "nothing holds".to_owned(),
         several => format!("can move in {} ways that nothing resists", several.len()),
     };
@@ -154,7 +151,7 @@ impl Pieces {
         [direction.x, direction.y, arm.perp(&direction)]
     }
 
-    /// Pieces that equations tie together, each with its equations.
+    /// Connected pieces, with their equations.
     fn clusters<'e>(&self, equations: &'e [Equation]) -> Vec<(Vec<usize>, Vec<&'e Equation>)> {
         let mut sets = DisjointSets::new(self.body.len());
         for pair in equations.iter().flat_map(|equation| equation.windows(2)) {

@@ -21,15 +21,15 @@ use crate::fem::disjoint_sets::DisjointSets;
 use crate::fem::problem::Held;
 use crate::scene::findings::Findings;
 
-/// A motion counts as free where the sum of its squared equations is this small beside the largest.
+/// Ratio of the sum of squared equations to the greatest, below which a motion is free.
 const FREE: f64 = 1e-10;
-/// Parts that hang together, beyond which the check is left to the solver.
+/// Greatest number of connected parts that are checked; above it the check is left to the solver.
 const MOST_PARTS: usize = 100;
-/// Ways in which a part can move.
+/// Degrees of freedom of a part.
 const WAYS: usize = 6;
 
 /// Elements joined by faces.
-struct Parts {
+struct JoinedParts {
     /// For each node the parts it belongs to, in rising order.
     of_node: Vec<Vec<u32>>,
     /// The body of each.
@@ -38,7 +38,7 @@ struct Parts {
     size_mm: Vec<f64>,
 }
 
-/// Parts that hang together, with the coefficients of the equations that hold them.
+/// Connected parts, with the coefficients of the equations that hold them.
 #[derive(Default)]
 struct Cluster {
     members: Vec<u32>,
@@ -47,7 +47,7 @@ struct Cluster {
 
 /// Refuses bodies that can move.
 pub(super) fn check(bodies: &SpaceBodies, held: &[Held], findings: &mut Findings) {
-    let parts = Parts::of(bodies);
+    let parts = JoinedParts::of(bodies);
     for cluster in parts.clusters(bodies, held) {
         if cluster.members.len() <= MOST_PARTS {
             check_cluster(&parts, &cluster, findings);
@@ -55,13 +55,13 @@ pub(super) fn check(bodies: &SpaceBodies, held: &[Held], findings: &mut Findings
     }
 }
 
-fn check_cluster(parts: &Parts, Cluster { members, equations }: &Cluster, findings: &mut Findings) {
+fn check_cluster(parts: &JoinedParts, Cluster { members, equations }: &Cluster, findings: &mut Findings) {
     let first_of: BTreeMap<u32, usize> = members.iter().enumerate().map(|(i, &part)| (part, WAYS * i)).collect();
     let mut gram = DMatrix::<f64>::zeros(WAYS * members.len(), WAYS * members.len());
     for equation in equations {
-        let entries = || equation.iter().flat_map(|(part, motion)| (first_of[part]..).zip(*motion));
-        for (i, a) in entries() {
-            entries().for_each(|(k, b)| gram[(i, k)] += a * b);
+        let entries = equation.iter().flat_map(|(part, motion)| (first_of[part]..).zip(*motion));
+        for (i, a) in entries.clone() {
+            entries.clone().for_each(|(k, b)| gram[(i, k)] += a * b);
         }
     }
     let eigen = SymmetricEigen::new(gram);
@@ -71,7 +71,7 @@ fn check_cluster(parts: &Parts, Cluster { members, equations }: &Cluster, findin
         let rows = first_of[&part]..first_of[&part] + WAYS;
         free.iter().flat_map(|&i| rows.clone().map(move |row| (row, i))).map(|at| eigen.eigenvectors[at].powi(2)).sum()
     };
-    // Beyond round-off, so that of equals the first is named.
+    // Tolerance for round-off, so that of equal ones the first is named.
     let most = members.iter().copied().reduce(|a, b| if share(b) > share(a) * (1.0 + 1e-6) { b } else { a });
     let (Some(part), false) = (most, free.is_empty()) else { return };
     let motion = match free.as_slice() {
@@ -84,7 +84,7 @@ fn check_cluster(parts: &Parts, Cluster { members, equations }: &Cluster, findin
     findings.help("hold it in one more direction with [[fixed]], or on a plane of symmetry");
 }
 
-impl Parts {
+impl JoinedParts {
     fn of(bodies: &SpaceBodies) -> Self {
         let solid = &bodies.solid;
         let mut sets = DisjointSets::new(solid.elements.len());
@@ -127,22 +127,21 @@ impl Parts {
         let (cluster, count) = sets.numbered();
         let mut clusters: Vec<Cluster> = (0..count).map(|_| Cluster::default()).collect();
         (0..).zip(&cluster).for_each(|(part, &of)| clusters[of as usize].members.push(part));
-        let mut add = |equation: Vec<(u32, [f64; WAYS])>| {
-            clusters[cluster[equation[0].0 as usize] as usize].equations.push(equation);
-        };
-        let along = |k: usize| Vector3::ith(k, 1.0);
         for (parts, at_mm) in self.of_node.iter().zip(&bodies.solid.points_mm) {
             for pair in parts.windows(2) {
                 for k in 0..3 {
-                    let [one, other] = [(pair[0], along(k)), (pair[1], -along(k))];
-                    add([one, other].map(|(part, e)| (part, self.motion(part, at_mm, e))).to_vec());
+                    let along = Vector3::ith(k, 1.0);
+                    let equation =
+                        [(pair[0], along), (pair[1], -along)].map(|(part, e)| (part, self.motion(part, at_mm, e)));
+                    clusters[cluster[pair[0] as usize] as usize].equations.push(equation.to_vec());
                 }
             }
         }
         for held in held {
             let (node, component) = ((held.dof / 3) as usize, (held.dof % 3) as usize);
             let part = self.of_node[node][0];
-            add(vec![(part, self.motion(part, &bodies.solid.points_mm[node], along(component)))]);
+            let motion = self.motion(part, &bodies.solid.points_mm[node], Vector3::ith(component, 1.0));
+            clusters[cluster[part as usize] as usize].equations.push(vec![(part, motion)]);
         }
         clusters
     }

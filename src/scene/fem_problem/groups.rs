@@ -1,4 +1,4 @@
-//! The named groups of a mesh: what cells and nodes a name stands for, and what to say where it stands for none.
+//! Named groups of a mesh: their cells and nodes, and the message where a name is unknown.
 
 use std::collections::BTreeMap;
 
@@ -6,31 +6,31 @@ use crate::mesh::{CellKind, Mesh};
 use crate::scene::findings::Findings;
 use crate::scene::nearest::nearest;
 
-/// Groups named in a message; the rest is counted.
+/// Greatest number of groups named in a message.
 const MOST_NAMED: usize = 20;
 
 /// A cell of the mesh: its block, and its number within the block.
 pub(super) type CellRef = (usize, usize);
 
-/// What a name stands for.
+/// Cells and nodes of a group.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Group {
-    /// Its cells by dimension: points, lines, surfaces, volumes.
+pub(super) struct NamedGroup {
+    /// Cells by dimension: points, lines, surfaces, volumes.
     pub cells: [Vec<CellRef>; 4],
-    /// Its nodes, where it is a set of nodes.
+    /// Nodes, where it is a set of nodes.
     pub nodes: Vec<usize>,
 }
 
 /// All groups of a mesh.
 pub(super) struct Groups<'a> {
     mesh: &'a Mesh,
-    by_name: BTreeMap<&'a str, Group>,
+    by_name: BTreeMap<&'a str, NamedGroup>,
 }
 
 impl<'a> Groups<'a> {
     /// Collects the groups of `mesh`.
     pub(super) fn new(mesh: &'a Mesh) -> Self {
-        let mut by_name: BTreeMap<&str, Group> = BTreeMap::new();
+        let mut by_name: BTreeMap<&str, NamedGroup> = BTreeMap::new();
         for (name, blocks) in &mesh.cell_sets {
             let group = by_name.entry(name).or_default();
             for (block, numbers) in blocks.iter().enumerate() {
@@ -46,7 +46,7 @@ impl<'a> Groups<'a> {
     }
 
     /// The group that the value of `key` names; reported where there is none.
-    pub(super) fn find(&self, name: &str, key: &str, findings: &mut Findings) -> Option<&Group> {
+    pub(super) fn find(&self, name: &str, key: &str, findings: &mut Findings) -> Option<&NamedGroup> {
         let found = self.by_name.get(name);
         if found.is_none() {
             let names: Vec<&str> = self.by_name.keys().copied().collect();
@@ -80,8 +80,8 @@ impl<'a> Groups<'a> {
     }
 }
 
-impl Group {
-    /// What it holds: `20 lines`, `1 point and 3 nodes`.
+impl NamedGroup {
+    /// Contents in words: `20 lines`, `1 point and 3 nodes`.
     pub(super) fn in_words(&self) -> String {
         let kinds = ["point", "line", "surface", "volume"];
         let cells = kinds.iter().zip(&self.cells).map(|(kind, cells)| (*kind, cells.len()));

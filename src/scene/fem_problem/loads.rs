@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::file::{Component, FemProblemFile, LoadFile};
-use super::meshed_groups::{Bodies, MeshedGroups};
+use super::meshed_groups::{MeshedBodies, MeshedGroups};
 use crate::fem::problem::Held;
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
@@ -15,7 +15,11 @@ struct Given<'a, B> {
 }
 
 /// All supports and given displacements, no degree of freedom twice.
-pub(super) fn held(file: &FemProblemFile, place: MeshedGroups<'_, impl Bodies>, findings: &mut Findings) -> Vec<Held> {
+pub(super) fn held(
+    file: &FemProblemFile,
+    place: MeshedGroups<'_, impl MeshedBodies>,
+    findings: &mut Findings,
+) -> Vec<Held> {
     let mut given = Given { by_dof: BTreeMap::new(), place };
     for (i, fixed) in file.fixed.iter().enumerate() {
         let nodes = place.nodes(&fixed.group, &format!("fixed[{i}].group"), findings);
@@ -31,8 +35,8 @@ pub(super) fn held(file: &FemProblemFile, place: MeshedGroups<'_, impl Bodies>, 
     given.by_dof.into_iter().map(|(dof, (displacement_mm, _))| Held { dof, displacement_mm }).collect()
 }
 
-impl<B: Bodies> Given<'_, B> {
-    /// Gives the nodes of `table` their displacement; reported where another table gives another one.
+impl<B: MeshedBodies> Given<'_, B> {
+    /// Adds the displacement of the nodes of `table`; reports a different one from another table.
     fn add(
         &mut self,
         nodes: &[u32],
@@ -69,12 +73,12 @@ impl<B: Bodies> Given<'_, B> {
 }
 
 /// The degree of freedom of a node along `component`.
-fn dof<B: Bodies>(node: u32, component: Component) -> u32 {
+fn dof<B: MeshedBodies>(node: u32, component: Component) -> u32 {
     B::DIRECTIONS as u32 * node + component.index() as u32
 }
 
 /// Nodal forces of all loads, one for each degree of freedom: N/mm in the plane, N in space.
-pub(super) fn forces<B: Bodies>(
+pub(super) fn forces<B: MeshedBodies>(
     file: &FemProblemFile,
     place: MeshedGroups<'_, B>,
     held: &[Held],
@@ -100,7 +104,7 @@ pub(super) fn forces<B: Bodies>(
     forces
 }
 
-/// A force on a held node goes straight into the support: an error where all of it does, else worth knowing.
+/// Reports forces on held nodes, which go into the support: an error where all of the force does, else a warning.
 fn say_what_is_lost(
     load: &LoadFile,
     table: &str,
@@ -123,7 +127,7 @@ fn say_what_is_lost(
 }
 
 /// The share of the force that each node of the load's group takes; together 1.
-fn shares<B: Bodies>(
+fn shares<B: MeshedBodies>(
     load: &LoadFile,
     key: &str,
     place: MeshedGroups<'_, B>,

@@ -9,17 +9,17 @@ use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 
 /// The bodies of a problem, as supports and loads see them.
-pub(super) trait Bodies {
+pub(super) trait MeshedBodies {
     /// Directions in which a node moves.
     const DIRECTIONS: usize;
     /// The cells over which a force is spread: `lines`.
     const CARRIER: &'static str;
-    /// What such a cell is of an element: its `side`.
+    /// Name of such a cell in relation to an element: its `side`.
     const PART: &'static str;
     /// The cells that are: `lines along the elements of a body`.
     const PARTS: &'static str;
 
-    /// Their nodes.
+    /// Nodes of the bodies.
     fn nodes(&self) -> &BodyNodes;
 
     /// The middle nodes that quadratic elements have along a cell on these nodes of the mesh, which may be linear.
@@ -30,7 +30,7 @@ pub(super) trait Bodies {
     fn spread<'m>(&self, cells: impl Iterator<Item = &'m [usize]>) -> Option<BTreeMap<u32, f64>>;
 }
 
-/// Groups and bodies: where the other tables of a problem look.
+/// Groups and bodies of a problem.
 pub(super) struct MeshedGroups<'a, B> {
     /// The groups.
     pub groups: &'a Groups<'a>,
@@ -38,7 +38,7 @@ pub(super) struct MeshedGroups<'a, B> {
     pub bodies: &'a B,
 }
 
-impl<B: Bodies> MeshedGroups<'_, B> {
+impl<B: MeshedBodies> MeshedGroups<'_, B> {
     /// The nodes of bodies in the group that `key` names, in increasing order; reported where there are none, or where the
     /// name stands for cells of several dimensions, of which one was meant.
     pub(super) fn nodes(&self, name: &str, key: &str, findings: &mut Findings) -> Vec<u32> {
@@ -48,11 +48,11 @@ impl<B: Bodies> MeshedGroups<'_, B> {
             findings.not_allowed(key, found, "a group of points, of lines or of surfaces, not of both");
             return Vec::new();
         }
-        let node = |node: &usize| self.bodies.nodes().node(*node);
-        let mut nodes: BTreeSet<u32> = group.nodes.iter().filter_map(node).collect();
+        let numbers = self.bodies.nodes();
+        let mut nodes: BTreeSet<u32> = group.nodes.iter().filter_map(|&node| numbers.node(node)).collect();
         for &cell in group.cells.iter().flatten() {
             let (_, own) = self.groups.cell(cell);
-            nodes.extend(own.iter().filter_map(node));
+            nodes.extend(own.iter().filter_map(|&node| numbers.node(node)));
             // A line of two nodes along a quadratic element holds the middle node too.
             nodes.extend(self.bodies.middles(own));
         }

@@ -1,11 +1,11 @@
 //! A finite-element problem of one's own: the file, its checks, and what it asks of its mesh.
 //!
-//! A problem file is checked twice. [`FemProblem::from_toml`] reads it by itself: names, types, ranges, and what keys say
-//! about each other. [`FemProblem::on`] then looks for its groups in the mesh and makes of both what the solver takes
+//! A problem file is checked twice. [`FemProblem::from_toml`] reads it by itself: names, types, ranges, and what keys say about
+//! each other. [`FemProblem::on`] then looks for its groups in the mesh and makes of both what the solver takes
 //! ([`crate::fem::problem::Problem`]), [`FemProblem::in_space_on`] of three-dimensional problems
-//! ([`crate::fem::space::problem::Problem`]), after checks that need both: elements that belong to no body or to two, contact
-//! edges inside a body, supports that contradict each other, bodies that nothing holds.
-//! Each step reports all that is wrong, at its key.
+//! ([`crate::fem::space::problem::SpaceProblem`]), after checks that need both: elements that belong to no body or to two, contact
+//! edges inside a body, supports that contradict each other, bodies that nothing holds. Each step reports all that is wrong, at
+//! its key.
 
 mod bodies;
 mod file;
@@ -27,14 +27,14 @@ use serde_json::Value;
 use super::findings::Findings;
 use super::problem::{Problem, ProblemKind, number};
 use super::schema::{Node, schema_of};
-use super::shape::{self, Format};
+use super::shape::{self, FileShape};
 use super::{short_hash, text, unit_slip};
 use crate::fem;
 use crate::fem::problem::ThirdDirection;
 use crate::mesh::Mesh;
-use meshed_groups::Bodies;
+use meshed_groups::MeshedBodies;
 
-pub(crate) use file::{BodyFile, Component, FemProblemFile, LoadFile};
+pub(crate) use file::{Component, FemProblemFile, LoadFile};
 
 /// The JSON schema of a problem file.
 pub fn schema() -> &'static Value {
@@ -42,10 +42,10 @@ pub fn schema() -> &'static Value {
     SCHEMA.get_or_init(schema_of::<FemProblemFile>)
 }
 
-/// A problem file without its mesh: sound as far as that goes, every default filled in.
+/// A problem file without its mesh, checked, every default filled in.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FemProblem {
-    /// What it says.
+    /// Contents of the file.
     pub file: FemProblemFile,
     /// Likely slips of unit.
     pub warnings: Vec<String>,
@@ -60,7 +60,7 @@ pub(crate) struct Posed<P> {
     pub problem: P,
     /// Groups of the bodies, numbered as the elements' materials are.
     pub bodies: Vec<String>,
-    /// What the user should know although the problem can be solved.
+    /// Warnings.
     pub warnings: Vec<String>,
 }
 
@@ -68,7 +68,7 @@ impl FemProblem {
     /// Reads the text of a problem file, without its mesh.
     pub(crate) fn from_toml(text: &str) -> Result<Self, Vec<Problem>> {
         let (table, mut findings) = text::parse(text)?;
-        let format = Format { root: Node::root(schema()), of_other_files: &[] };
+        let format = FileShape { root: Node::root(schema()), of_other_files: &[] };
         let sound = shape::check(format, &table, &mut findings);
         let file = text::typed::<FemProblemFile>(sound, &mut findings);
         match file.filter(|_| findings.problems.is_empty()) {
@@ -89,7 +89,7 @@ impl FemProblem {
     }
 
     /// A three-dimensional problem on its mesh.
-    pub(crate) fn in_space_on(&self, mesh: &Mesh) -> Result<Posed<fem::space::problem::Problem>, Vec<Problem>> {
+    pub(crate) fn in_space_on(&self, mesh: &Mesh) -> Result<Posed<fem::space::problem::SpaceProblem>, Vec<Problem>> {
         self.posed(|findings| pose_in_space(&self.file, mesh, findings))
     }
 
@@ -228,7 +228,7 @@ fn components(given: &mut Option<Vec<Component>>, third: ThirdDirection, key: &s
     }
 }
 
-/// Everything on the mesh; `None` where a body is in doubt, without which nothing else can be checked.
+/// Problem on the mesh; `None` where a body is faulty, without which nothing else can be checked.
 fn pose(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) -> Option<fem::problem::Problem> {
     let groups = groups::Groups::new(mesh);
     let bodies = bodies::mesh_bodies(file, mesh, &groups, findings)?;
@@ -249,8 +249,12 @@ fn pose(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) -> Option<f
     Some(problem)
 }
 
-/// The same in space.
-fn pose_in_space(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) -> Option<fem::space::problem::Problem> {
+/// Problem in space.
+fn pose_in_space(
+    file: &FemProblemFile,
+    mesh: &Mesh,
+    findings: &mut Findings,
+) -> Option<fem::space::problem::SpaceProblem> {
     let groups = groups::Groups::new(mesh);
     let bodies = space_bodies::mesh_bodies(file, mesh, &groups, findings)?;
     let place = meshed_groups::MeshedGroups { groups: &groups, bodies: &bodies };
@@ -260,5 +264,5 @@ fn pose_in_space(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) ->
     if findings.problems.is_empty() {
         floating_in_space::check(&bodies, &held, findings);
     }
-    Some(fem::space::problem::Problem { materials: bodies::materials(file), solid: bodies.solid, held, forces_n })
+    Some(fem::space::problem::SpaceProblem { materials: bodies::materials(file), solid: bodies.solid, held, forces_n })
 }

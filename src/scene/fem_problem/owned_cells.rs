@@ -2,17 +2,17 @@
 //! body.
 
 use super::file::FemProblemFile;
-use super::groups::{CellRef, Groups};
+use super::groups::Groups;
 use crate::mesh::{CellKind, Mesh};
 use crate::scene::findings::Findings;
 
 /// A cell of a body.
 pub(super) struct OwnedCell {
-    /// What it is.
+    /// Kind of cell.
     pub kind: CellKind,
-    /// Its nodes, as the bodies number them.
+    /// Nodes, as the bodies number them.
     pub nodes: Vec<u32>,
-    /// Its body.
+    /// Body of the cell.
     pub body: u16,
 }
 
@@ -31,7 +31,7 @@ impl BodyNodes {
     }
 }
 
-/// The cells of `dimension` that bodies take, with their nodes; what is wrong with them is reported. `allowed` says what bodies are of.
+/// Cells of `dimension` that belong to bodies, with their nodes; errors are reported. `allowed` names the cells that bodies may have.
 pub(super) fn owned_cells(
     file: &FemProblemFile,
     mesh: &Mesh,
@@ -109,13 +109,11 @@ fn warn_of_leftovers(mesh: &Mesh, owners: &[Vec<Option<u16>>], dimension: u8, fi
 }
 
 fn number_nodes(mesh: &Mesh, groups: &Groups<'_>, owners: &[Vec<Option<u16>>]) -> (Vec<OwnedCell>, BodyNodes) {
-    let owned = || {
-        owners.iter().enumerate().flat_map(|(block, cells)| {
-            cells.iter().enumerate().filter_map(move |(cell, owner)| owner.map(|body| ((block, cell), body)))
-        })
-    };
+    let owned = owners.iter().enumerate().flat_map(|(block, cells)| {
+        cells.iter().enumerate().filter_map(move |(cell, owner)| owner.map(|body| ((block, cell), body)))
+    });
     let mut used = vec![false; mesh.points.len()];
-    for (cell, _) in owned() {
+    for (cell, _) in owned.clone() {
         for &node in groups.cell(cell).1 {
             used[node] = true;
         }
@@ -131,10 +129,9 @@ fn number_nodes(mesh: &Mesh, groups: &Groups<'_>, owners: &[Vec<Option<u16>>]) -
             })
         })
         .collect();
-    let cell = |(cell, body): (CellRef, u16)| {
+    let cells = owned.map(|(cell, body)| {
         let (kind, nodes) = groups.cell(cell);
         OwnedCell { kind, nodes: nodes.iter().filter_map(|&node| number[node]).collect(), body }
-    };
-    let cells = owned().map(cell).collect();
-    (cells, BodyNodes { number, points_mm })
+    });
+    (cells.collect(), BodyNodes { number, points_mm })
 }

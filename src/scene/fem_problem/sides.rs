@@ -7,7 +7,7 @@ use crate::fem::solid::{Element, ElementKind, Solid};
 
 /// A side that one or two elements have in common.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Side {
+pub(super) struct BodySide {
     /// Along the first of them, which lies on its left.
     pub edge: Edge,
     /// The elements.
@@ -18,13 +18,13 @@ pub(super) struct Side {
 
 /// All sides of a solid, by their ends.
 pub(super) struct Sides {
-    by_ends: BTreeMap<[u32; 2], Side>,
+    by_ends: BTreeMap<[u32; 2], BodySide>,
 }
 
 impl Sides {
     /// Collects the sides of all elements.
     pub(super) fn of(solid: &Solid) -> Self {
-        let mut by_ends: BTreeMap<[u32; 2], Side> = BTreeMap::new();
+        let mut by_ends: BTreeMap<[u32; 2], BodySide> = BTreeMap::new();
         for (number, element) in solid.elements.iter().enumerate() {
             for edge in edges(element) {
                 by_ends
@@ -33,24 +33,24 @@ impl Sides {
                         side.elements[1].get_or_insert(number);
                         side.count += 1;
                     })
-                    .or_insert(Side { edge, elements: [Some(number), None], count: 1 });
+                    .or_insert(BodySide { edge, elements: [Some(number), None], count: 1 });
             }
         }
         Self { by_ends }
     }
 
     /// The side between two nodes, in either order.
-    pub(super) fn find(&self, ends: [u32; 2]) -> Option<&Side> {
+    pub(super) fn find(&self, ends: [u32; 2]) -> Option<&BodySide> {
         self.by_ends.get(&sorted(ends))
     }
 
     /// The sides of one element only, in the order of their nodes: the surface.
-    pub(super) fn surface(&self) -> impl Iterator<Item = &Side> {
+    pub(super) fn surface(&self) -> impl Iterator<Item = &BodySide> {
         self.by_ends.values().filter(|side| side.is_on_surface())
     }
 }
 
-impl Side {
+impl BodySide {
     /// Whether no second element lies behind it.
     pub(super) fn is_on_surface(&self) -> bool {
         self.count == 1

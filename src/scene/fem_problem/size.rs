@@ -1,4 +1,4 @@
-//! Loads that cannot be meant: bodies strained a hundred times over, or moved by a hundred times their own size.
+//! Implausible loads: strains above 100, or displacements above 100 times the size of the body.
 //!
 //! Strains are taken to be small. A force F on bodies of extent L and Young's modulus E strains them by about
 //!
@@ -12,16 +12,16 @@ use super::file::{FemProblemFile, LoadFile};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 
-/// Mean strain, or displacement over extent, beyond which nothing is meant.
+/// Greatest plausible mean strain, or displacement over extent.
 const GREATEST_MEANT: f64 = 100.0;
-/// What yields to a breath, MPa: below it Young's modulus is to blame, not the force.
+/// Least plausible Young's modulus, MPa: below it the modulus is the likely error, not the force.
 const SOFTEST_MPA: f64 = 1e-6;
 
-/// Refuses forces and displacements that cannot be meant on bodies with these nodes.
+/// Refuses implausible forces and displacements of bodies with these nodes.
 pub(super) fn check(file: &FemProblemFile, points_mm: &[[f64; 3]], findings: &mut Findings) {
     let extent_mm = extent_mm(points_mm);
-    let modulus_mpa = |body: usize| 1e3 * file.body[body].young_modulus_GPa;
-    let Some(softest) = (0..file.body.len()).min_by(|&a, &b| modulus_mpa(a).total_cmp(&modulus_mpa(b))) else { return };
+    let moduli_mpa = file.body.iter().map(|body| 1e3 * body.young_modulus_GPa).enumerate();
+    let Some((softest, modulus_mpa)) = moduli_mpa.min_by(|(_, a), (_, b)| a.total_cmp(b)) else { return };
     for (i, load) in file.load.iter().enumerate() {
         if let Some(moved) = load.displacement_mm.as_deref().map(length)
             && moved > GREATEST_MEANT * extent_mm
@@ -31,17 +31,17 @@ pub(super) fn check(file: &FemProblemFile, points_mm: &[[f64; 3]], findings: &mu
             findings.not_allowed(&format!("load[{i}].displacement_mm"), found, allowed);
         }
         let Some((key, force)) = load.force() else { continue };
-        let carrying = modulus_mpa(softest) * carrying(load, extent_mm);
+        let carrying = modulus_mpa * carrying(load, extent_mm);
         let strain = length(force) / carrying;
         if strain <= GREATEST_MEANT {
             continue;
         }
-        if modulus_mpa(softest) < SOFTEST_MPA {
+        if modulus_mpa < SOFTEST_MPA {
             let found = format!(
                 "{}, which the force of load[{i}] strains by about {strain:.1e}",
                 number(file.body[softest].young_modulus_GPa)
             );
-            let least_gpa = 1e-3 * modulus_mpa(softest) * strain / GREATEST_MEANT;
+            let least_gpa = 1e-3 * modulus_mpa * strain / GREATEST_MEANT;
             findings.not_allowed(
                 &format!("body[{softest}].young_modulus_GPa"),
                 found,
@@ -56,7 +56,7 @@ pub(super) fn check(file: &FemProblemFile, points_mm: &[[f64; 3]], findings: &mu
     }
 }
 
-/// L in the plane, L² in space.
+/// Loaded cross-section: L in the plane, L² in space.
 fn carrying(load: &LoadFile, extent_mm: f64) -> f64 {
     if load.force_N.is_some() { extent_mm * extent_mm } else { extent_mm }
 }
@@ -67,9 +67,9 @@ fn length(vector: &[f64]) -> f64 {
 
 /// The greatest extent along an axis.
 fn extent_mm(points_mm: &[[f64; 3]]) -> f64 {
-    let along = |axis: usize| {
-        let values = || points_mm.iter().map(|point| point[axis]);
-        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
-    };
-    (0..3).map(along).fold(0.0, f64::max)
+    let extents = (0..3).map(|axis| {
+        let values = points_mm.iter().map(|point| point[axis]);
+        values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
+    });
+    extents.fold(0.0, f64::max)
 }

@@ -8,21 +8,21 @@ use nalgebra::Vector3;
 use super::bodies::in_words;
 use super::file::FemProblemFile;
 use super::groups::Groups;
-use super::meshed_groups::{Bodies, place};
+use super::meshed_groups::{MeshedBodies, place};
 use super::owned_cells::{BodyNodes, owned_cells};
 use crate::fem::space::hexahedron::{HexahedronKind, edges, faces, is_sound};
 use crate::fem::space::loads::spread_shares;
-use crate::fem::space::problem::{Element, Solid};
+use crate::fem::space::problem::{SpaceElement, SpaceSolid};
 use crate::mesh::Mesh;
 use crate::scene::findings::Findings;
 
-/// What bodies in space are of.
+/// Cells allowed in bodies in space.
 const ALLOWED: &str = "hexahedra of 8 or 20 nodes";
 
 /// The bodies of a problem in space.
 pub(super) struct SpaceBodies {
     /// Nodes and elements.
-    pub solid: Solid,
+    pub solid: SpaceSolid,
     /// The elements around each face, which is known by its corners.
     pub faces: BTreeMap<[u32; 4], Vec<u32>>,
     /// The middle of each edge, which is known by its ends; none where elements of eight nodes have it.
@@ -43,9 +43,9 @@ pub(super) fn mesh_bodies(
     if findings.problems.len() > before {
         return None;
     }
-    let solid = Solid {
+    let solid = SpaceSolid {
         points_mm: nodes.points_mm.iter().map(|&point| point.into()).collect(),
-        elements: cells.into_iter().map(|cell| Element { nodes: cell.nodes, body: cell.body }).collect(),
+        elements: cells.into_iter().map(|cell| SpaceElement { nodes: cell.nodes, body: cell.body }).collect(),
     };
     check_elements(file, &solid, findings);
     let mut bodies = SpaceBodies { solid, faces: BTreeMap::new(), middles: BTreeMap::new(), nodes };
@@ -68,7 +68,7 @@ fn check_cells(file: &FemProblemFile, groups: &Groups<'_>, findings: &mut Findin
 }
 
 /// Refuses elements without volume somewhere.
-fn check_elements(file: &FemProblemFile, solid: &Solid, findings: &mut Findings) {
+fn check_elements(file: &FemProblemFile, solid: &SpaceSolid, findings: &mut Findings) {
     for (i, body) in file.body.iter().enumerate() {
         let folded: Vec<Vector3<f64>> = solid
             .elements
@@ -129,7 +129,7 @@ fn sorted<const N: usize>(mut nodes: [u32; N]) -> [u32; N] {
     nodes
 }
 
-impl Bodies for SpaceBodies {
+impl MeshedBodies for SpaceBodies {
     const DIRECTIONS: usize = 3;
     const CARRIER: &'static str = "quadrilaterals";
     const PART: &'static str = "face";

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::bodies::PlaneBodies;
 use super::file::FemProblemFile;
-use super::meshed_groups::{Bodies, MeshedGroups};
-use super::sides::Side;
+use super::meshed_groups::{MeshedBodies, MeshedGroups};
+use super::sides::BodySide;
 use crate::fem::problem::{ContactPair, Edge};
 use crate::scene::findings::Findings;
 
@@ -21,8 +21,9 @@ pub(super) fn contacts(
         let (slave_key, master_key) = (format!("contact[{i}].slave"), format!("contact[{i}].master"));
         let slave = surface(&contact.slave, &slave_key, place, findings);
         let master = surface(&contact.master, &master_key, place, findings);
-        let nodes = |edges: &[Edge]| edges.iter().flat_map(|edge| edge.ends).collect::<BTreeSet<u32>>();
-        let common = nodes(&slave).intersection(&nodes(&master)).count();
+        let [of_slave, of_master] =
+            [&slave, &master].map(|edges| edges.iter().flat_map(|edge| edge.ends).collect::<BTreeSet<u32>>());
+        let common = of_slave.intersection(&of_master).count();
         if common > 0 {
             let found = format!("{:?}, which shares {common} nodes with the slave {:?}", contact.master, contact.slave);
             let allowed = "a surface without nodes of the slave: bodies that may slide or part have nodes of their own";
@@ -46,8 +47,9 @@ fn surface(name: &str, key: &str, place: MeshedGroups<'_, PlaneBodies>, findings
     let lines = &group.cells[1];
     if lines.is_empty() {
         let held: BTreeSet<u32> = group.nodes.iter().filter_map(|&node| place.bodies.nodes().node(node)).collect();
-        let inside = |edge: &Edge| edge.ends.iter().chain(&edge.middle).all(|node| held.contains(node));
-        let edges: Vec<Edge> = place.bodies.sides.surface().map(|side| side.edge).filter(inside).collect();
+        let edges = place.bodies.sides.surface().map(|side| side.edge);
+        let edges: Vec<Edge> =
+            edges.filter(|edge| edge.ends.iter().chain(&edge.middle).all(|node| held.contains(node))).collect();
         if edges.is_empty() {
             let found = format!("{name:?}, which holds {}", group.in_words());
             let allowed = "a group of lines, or a set of nodes that holds whole edges of a surface";
@@ -80,9 +82,8 @@ fn surface(name: &str, key: &str, place: MeshedGroups<'_, PlaneBodies>, findings
 }
 
 /// Inside which body a side lies, or between which two.
-fn where_inside(side: &Side, place: MeshedGroups<'_, PlaneBodies>) -> String {
-    let body = |element: Option<usize>| element.map(|number| place.bodies.solid.elements[number].material);
-    match side.elements.map(body) {
+fn where_inside(side: &BodySide, place: MeshedGroups<'_, PlaneBodies>) -> String {
+    match side.elements.map(|element| element.map(|number| place.bodies.solid.elements[number].material)) {
         [Some(one), Some(other)] if one != other => "between bodies that are joined there".to_owned(),
         _ => "inside a body".to_owned(),
     }

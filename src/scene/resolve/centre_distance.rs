@@ -1,4 +1,4 @@
-//! The centre distance, as given or from the backlash it is to leave.
+//! The centre distance, as given or from the backlash.
 
 use super::pair::PRESET;
 use crate::gear::backlash::{Backlash, TeethTooThin};
@@ -7,19 +7,19 @@ use crate::scene::file::PairFile;
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 
-/// The keys that say it, one of which is given.
+/// Alternative keys, one of which is given.
 pub(super) const KEYS: [&str; 3] = ["pair.centre_distance_mm", "pair.backlash_um", "pair.normal_backlash_um"];
 
 const UM: f64 = 1e-3;
 
-/// How the file gives it.
+/// Centre distance as the file gives it.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum CentreDistance {
     Given { centre_distance_mm: f64 },
     Leaves { key: &'static str, backlash: Backlash },
 }
 
-/// How the file gives it; `None` where it does not, or twice.
+/// Centre distance as the file gives it; `None` where it does not, or twice.
 pub(super) fn given(file: &PairFile, findings: &mut Findings) -> Option<CentreDistance> {
     let [centre, circumferential, normal] = KEYS;
     match (file.centre_distance_mm, file.backlash_um, file.normal_backlash_um) {

@@ -20,38 +20,37 @@ use crate::operation::Scene;
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 
-/// Half-width over relative radius beyond which strains are no longer small.
+/// Greatest half-width over relative radius with small strains.
 const GREATEST_SMALL: f64 = 0.1;
-/// Half-width over relative radius beyond which nothing is meant: 5 under 10⁷ N·m on FZG type C, 13 with rubber of 1 MPa.
+/// Greatest plausible half-width over relative radius: it is 5 under 10⁷ N·m on FZG type C, 13 with rubber of 1 MPa.
 const GREATEST_MEANT: f64 = 100.0;
-/// Half-width below which nothing is meant, mm: an atom.
+/// Least plausible half-width, mm: the size of an atom.
 const LEAST_MEANT_MM: f64 = 1e-7;
-/// What steel gears are like: Young's modulus in MPa, line load in N/mm, face width in modules. The key furthest from it is to blame.
+/// Usual values of steel gears: Young's modulus in MPa, line load in N/mm, face width in modules. The key furthest from them is the likely error.
 const USUAL: (f64, f64, f64) = (206e3, 500.0, 10.0);
 
-/// Another key than the torque is to blame where its value is that many times the usual one, or as small.
+/// Ratio to the usual value, or its inverse, from which a key other than the torque is reported as the cause.
 const CLEARLY_OFF: f64 = 1e3;
 
 /// Half the width of a contact of the scene, and what decides it.
 struct Contact {
     /// The key that the user changes.
     key: String,
-    /// Its value, as the file gives it.
+    /// Value, as the file gives it.
     value: f64,
-    /// In words.
+    /// Name in messages.
     name: &'static str,
     half_width_mm: f64,
 }
 
-/// Refuses contacts of `pair` at the pitch point whose size cannot be meant, and warns of those that are not narrow: of loads, and of
-/// foundations given by hand.
+/// Refuses contacts of `pair` at the pitch point of implausible size, and warns of those that are not narrow: of loads, and of foundations given by
+/// hand.
 pub(super) fn check(scene: &Scene, pair: &GearPair, findings: &mut Findings) {
     let radius_mm = pair.normal_section().relative_radius_mm(pair.path.pitch_point_mm);
     let contacts = contacts(scene, pair, findings);
-    let meant = |contact: &Contact| {
-        contact.half_width_mm >= LEAST_MEANT_MM && contact.half_width_mm <= GREATEST_MEANT * radius_mm
-    };
-    if let Some(Contact { key, value, name, half_width_mm }) = contacts.iter().find(|contact| !meant(contact)) {
+    let meant_mm = LEAST_MEANT_MM..=GREATEST_MEANT * radius_mm;
+    let outside = contacts.iter().find(|contact| !meant_mm.contains(&contact.half_width_mm));
+    if let Some(Contact { key, value, name, half_width_mm }) = outside {
         let found = format!(
             "{}, with which half the width of {name} at the pitch point is {half_width_mm:.3e} mm",
             number(*value)
@@ -82,15 +81,13 @@ fn contacts(scene: &Scene, pair: &GearPair, findings: &Findings) -> Vec<Contact>
     let pitch_point_mm = pair.path.pitch_point_mm;
     let flattening = hertz::flattening(&pair.normal_section(), &scene.material, pitch_point_mm);
     let [least_n_mm, greatest_n_mm] = scene.operation.torque_range_n_mm();
-    let of_hertz = |torque_n_mm: f64| {
-        let (key, value) = to_blame(scene, pair, torque_n_mm, findings);
+    let torques = [Some(greatest_n_mm), Some(least_n_mm).filter(|least| *least < greatest_n_mm)];
+    let of_hertz = torques.into_iter().flatten().map(|torque_n_mm| {
+        let (key, value) = most_unusual(scene, pair, torque_n_mm, findings);
         let half_width_mm = flattening.contact.loaded(pair.line_load_n_per_mm(torque_n_mm)).half_width_mm;
         Contact { key, value, name: "Hertz's contact", half_width_mm }
-    };
-    let mut contacts = vec![of_hertz(greatest_n_mm)];
-    if least_n_mm < greatest_n_mm {
-        contacts.push(of_hertz(least_n_mm));
-    }
+    });
+    let mut contacts: Vec<Contact> = of_hertz.collect();
     if let Foundation::Given { foundation_mpa_per_mm } = scene.contact.foundation {
         let radius_mm = pair.normal_section().relative_radius_mm(pitch_point_mm);
         contacts.push(Contact {
@@ -108,7 +105,7 @@ fn contacts(scene: &Scene, pair: &GearPair, findings: &Findings) -> Vec<Contact>
 }
 
 /// The key, with its value, by which Hertz's contact under a torque differs most from that of usual steel gears.
-fn to_blame(scene: &Scene, pair: &GearPair, torque_n_mm: f64, findings: &Findings) -> (String, f64) {
+fn most_unusual(scene: &Scene, pair: &GearPair, torque_n_mm: f64, findings: &Findings) -> (String, f64) {
     let (modulus_mpa, line_load_n_per_mm, modules) = USUAL;
     let usual_width_mm = modules * scene.pair.normal_module_mm;
     let width_mm = scene.pair.face_width_mm;
@@ -128,10 +125,10 @@ fn to_blame(scene: &Scene, pair: &GearPair, torque_n_mm: f64, findings: &Finding
         let key = if findings.is_in_file(&own) { own } else { "material.young_modulus_GPa".to_owned() };
         keys.push((key, own_mpa / 1e3, own_mpa / modulus_mpa));
     }
-    let off = |ratio: f64| ratio.ln().abs();
     let first = keys.swap_remove(0);
     let furthest = keys.into_iter().fold(first, |furthest, other| {
-        if off(other.2) > off(furthest.2).max(CLEARLY_OFF.ln()) { other } else { furthest }
+        let [off, others] = [furthest.2, other.2].map(|ratio| ratio.ln().abs());
+        if others > off.max(CLEARLY_OFF.ln()) { other } else { furthest }
     });
     (furthest.0, furthest.1)
 }
@@ -141,13 +138,15 @@ mod tests {
     use crate::scene::draft::Draft;
     use crate::scene::presets;
 
+    /// Warnings of strains that are not small.
     fn warnings(key: &str, value: f64) -> Vec<String> {
         let mut draft = Draft::parse(presets::find("fzg-c").unwrap().text).unwrap();
         if key == "contact.foundation_MPa_per_mm" {
             draft.remove("contact.match");
         }
         draft.set(key, value);
-        draft.resolve().unwrap().warnings
+        let warnings = draft.resolve().unwrap().warnings.into_iter();
+        warnings.filter(|warning| warning.contains("strains are not small")).collect()
     }
 
     /// fzg-c: a = 0.2452 mm under 302 N·m and R = 8.382 mm, so that a = R/10 at 302 (0.8382/0.2452)² = 3529 N·m, or with
@@ -159,12 +158,8 @@ mod tests {
             ("material.young_modulus_GPa", 17.8, 17.4, "operation.pinion_torque_Nm"),
             ("contact.foundation_MPa_per_mm", 13_700.0, 13_500.0, "contact.foundation_MPa_per_mm"),
         ] {
-            let about_strains = |value| {
-                let all = warnings(key, value);
-                all.into_iter().filter(|warning| warning.contains("strains are not small")).collect::<Vec<_>>()
-            };
-            assert_eq!(about_strains(narrow), Vec::<String>::new(), "{key}");
-            let said = about_strains(wide);
+            assert_eq!(warnings(key, narrow), Vec::<String>::new(), "{key}");
+            let said = warnings(key, wide);
             assert!(said.len() == 1 && said[0].starts_with(named), "{said:?}");
         }
     }

@@ -10,11 +10,11 @@ use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 
 const ELEMENTS_PER_HALF_WIDTH: f64 = 10.0;
-/// In a wear run: 3 and 8 give the same maximum wear within half a per cent (docs/accuracy.md).
+/// Elements in a wear run: 3 and 8 give the same maximum wear within half a per cent (docs/accuracy.md).
 const WEAR_ELEMENTS_PER_HALF_WIDTH: f64 = 3.0;
-/// The same with severe wear, which depends on where the pressure passes a limit: 3 and 8 differ by 3 %, 5 and 8 by 1 to 2 %.
+/// Elements with severe wear, which depends on where the pressure passes a limit: 3 and 8 differ by 3 %, 5 and 8 by 1 to 2 %.
 const SEVERE_WEAR_ELEMENTS_PER_HALF_WIDTH: f64 = 5.0;
-/// Fewer elements in a half-width than this leave several per cent of error in the pressure.
+/// Number of elements in a half-width below which the pressure has an error of several per cent.
 const FEW_ELEMENTS: f64 = 8.0;
 const SECTOR_TEETH: u32 = 3;
 
@@ -31,7 +31,7 @@ fn given(file: &mut FemFile, pair: &PairSpec, findings: &mut Findings) -> Option
     let radii = file.clamp_radius_mm.get_or_insert_default();
     let clamp_radius_mm = clamp_radii(radii, pair, findings);
     let web = webs(file.web.as_mut(), pair, clamp_radius_mm, findings);
-    // What it is by default depends on the command: left open, it stays open.
+    // The default depends on the command and is not written into the file.
     let elements_per_half_width = file.elements_per_half_width.unwrap_or(ELEMENTS_PER_HALF_WIDTH);
     if elements_per_half_width < FEW_ELEMENTS {
         findings.warnings.push(format!(
@@ -55,12 +55,10 @@ fn webs(
     findings: &mut Findings,
 ) -> Option<PerGear<Option<Web>>> {
     let Some(WebsFile { pinion, wheel }) = file else { return Some(NO_WEBS) };
-    let clamp_mm = |gear| clamp_radius_mm.map(|radius_mm| radius_mm[gear]);
-    let mut of_gear = |file: &mut Option<WebFile>, gear| match file {
-        Some(file) => web(file, gear, pair, clamp_mm(gear), findings).map(Some),
+    let [pinion, wheel] = [(pinion, Gear::Pinion), (wheel, Gear::Wheel)].map(|(file, gear)| match file {
+        Some(file) => web(file, gear, pair, clamp_radius_mm.map(|radius_mm| radius_mm[gear]), findings).map(Some),
         None => Some(None),
-    };
-    let (pinion, wheel) = (of_gear(pinion, Gear::Pinion), of_gear(wheel, Gear::Wheel));
+    });
     Some(PerGear { pinion: pinion?, wheel: wheel? })
 }
 
@@ -71,7 +69,7 @@ fn web(
     clamp_radius_mm: Option<f64>,
     findings: &mut Findings,
 ) -> Option<Web> {
-    let key = |name: &str| format!("fem.web.{}.{name}", gear.name());
+    let table = format!("fem.web.{}", gear.name());
     let offset_mm = *file.offset_mm.get_or_insert(0.0);
     let web = Web { thickness_mm: file.thickness_mm, rim_thickness_mm: file.rim_thickness_mm, offset_mm };
     let (root_mm, width_mm) = (pair.root_radius_mm(gear), pair.face_width_mm);
@@ -88,20 +86,20 @@ fn web(
         let allowed = format!(
             "a thickness of {least_mm:.4} to {greatest_mm:.4} mm, between the root circle ({root_mm:.4} mm) and fem.clamp_radius_mm"
         );
-        findings.not_allowed(&key("rim_thickness_mm"), number(web.rim_thickness_mm), allowed);
+        findings.not_allowed(&format!("{table}.rim_thickness_mm"), number(web.rim_thickness_mm), allowed);
         return None;
     }
     let least_mm = least_web_mm(pair.normal_module_mm);
     if !(least_mm..=width_mm).contains(&web.thickness_mm) {
         let allowed =
             format!("{least_mm:.4} to {} mm, from a tenth of a module to at most the face width", number(width_mm));
-        findings.not_allowed(&key("thickness_mm"), number(web.thickness_mm), allowed);
+        findings.not_allowed(&format!("{table}.thickness_mm"), number(web.thickness_mm), allowed);
         return None;
     }
     let most_mm = 0.5 * (width_mm - web.thickness_mm);
     if offset_mm.abs() > most_mm {
         let allowed = format!("−{most_mm:.4} to {most_mm:.4}: within the face width");
-        findings.not_allowed(&key("offset_mm"), number(offset_mm), allowed);
+        findings.not_allowed(&format!("{table}.offset_mm"), number(offset_mm), allowed);
         return None;
     }
     Some(web)

@@ -1,4 +1,4 @@
-//! Puts what is wrong with the gear pair at the key that can mend it.
+//! Reports errors of the gear pair at the key to change.
 
 use super::centre_distance;
 use crate::gear::pair::GearPair;
@@ -8,7 +8,7 @@ use crate::mesh_cycle::settings::SliceSettings;
 use crate::scene::findings::Findings;
 use crate::scene::problem::{ProblemKind, number};
 
-/// Where a geometry error belongs, and what to do about it.
+/// Key of a geometry error, and its remedy.
 struct Cause {
     key: String,
     found: String,
@@ -34,10 +34,10 @@ pub(super) fn check(spec: &PairSpec, slices: Option<SliceSettings>, findings: &m
     }
 }
 
-/// More teeth than this do not lie side by side over a face width.
+/// Greatest number of teeth side by side over a face width.
 const GREATEST_OVERLAP: f64 = 1000.0;
 
-/// The middles of the outermost slices are (n − 1)/n of the face width apart, and so much of the overlap they have.
+/// Checks the slices: the middles of the outermost ones are (n − 1)/n of the face width apart, and have that part of the overlap.
 fn check_slices(pair: &GearPair, count: usize, findings: &mut Findings) {
     let (contact_ratio, overlap_ratio) = (pair.path.contact_ratio(), pair.overlap_ratio());
     if overlap_ratio > GREATEST_OVERLAP {
@@ -55,18 +55,18 @@ fn check_slices(pair: &GearPair, count: usize, findings: &mut Findings) {
     }
 }
 
-/// Says which key of a file has made an error of the geometry.
-struct Place<'a> {
+/// Finder of the key that causes an error of the geometry.
+struct ErrorPlace<'a> {
     spec: &'a PairSpec,
     findings: &'a Findings,
-    /// A factor as the file gives it over one of the normal module: factors of the file are of the module that it gives.
+    /// Ratio of a factor in the file, of the module given there, to the factor of the normal module.
     factor_scale: f64,
 }
 
 fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
     let is_transverse = findings.is_in_file("pair.transverse_module_mm");
     let factor_scale = if is_transverse { 1.0 / spec.helix_angle_rad.cos() } else { 1.0 };
-    let place = Place { spec, findings, factor_scale };
+    let place = ErrorPlace { spec, findings, factor_scale };
     match *error {
         PairError::NoMesh { least_mm, .. } => {
             place.centre_distance(least_mm, "check centre distance, module and numbers of teeth")
@@ -78,19 +78,16 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
         PairError::ContactRatioBelowOne { contact_ratio, overlap_ratio } => {
             place.contact_ratio(contact_ratio, overlap_ratio)
         }
-        PairError::PointedTooth { gear, tip_diameter_mm, pointed_diameter_mm, .. } => Cause {
-            key: place.tip_key(gear),
-            found: tip_found(gear, tip_diameter_mm),
-            allowed: format!("a tip diameter below {} mm, where the flanks meet", at_most(pointed_diameter_mm)),
-            help: format!("give {} or a smaller profile shift", key_of(gear, "tip_diameter_mm")),
-        },
-        PairError::TipBelowForm { gear, tip_diameter_mm, form_diameter_mm } => Cause {
-            key: place.tip_key(gear),
-            found: tip_found(gear, tip_diameter_mm),
-            allowed: format!("a tip diameter above the form circle, {} mm", at_least(form_diameter_mm)),
-            help: "a larger centre distance leaves more of a tip that follows from the rack, less profile shift of its mate too"
-                .to_owned(),
-        },
+        PairError::PointedTooth { gear, tip_diameter_mm, pointed_diameter_mm, .. } => place.tip(
+            (gear, tip_diameter_mm),
+            format!("a tip diameter below {} mm, where the flanks meet", at_most(pointed_diameter_mm)),
+            &format!("give {} or a smaller profile shift", key_of(gear, "tip_diameter_mm")),
+        ),
+        PairError::TipBelowForm { gear, tip_diameter_mm, form_diameter_mm } => place.tip(
+            (gear, tip_diameter_mm),
+            format!("a tip diameter above the form circle, {} mm", at_least(form_diameter_mm)),
+            "a larger centre distance leaves more of a tip that follows from the rack, less profile shift of its mate too",
+        ),
         PairError::Interference { gear, greatest_tip_diameter_mm, .. } => {
             place.interference(gear, greatest_tip_diameter_mm)
         }
@@ -105,12 +102,7 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
             (spec.rack.fillet_radius_factor, greatest),
             "or a smaller pair.basic_rack.dedendum_factor",
         ),
-        PairError::NoTooth { gear } => Cause {
-            key: key_of(gear, "profile_shift"),
-            found: of_file(spec.gears[gear].profile_shift, factor_scale),
-            allowed: "a profile shift that leaves a flank above the base circle".to_owned(),
-            help: format!("a larger profile shift or more teeth on the {}", gear.name()),
-        },
+        PairError::NoTooth { gear } => place.no_tooth(gear),
         PairError::BoreTooLarge { gear, bore_diameter_mm, root_diameter_mm } => Cause {
             key: key_of(gear, "bore_diameter_mm"),
             found: number(bore_diameter_mm),
@@ -123,18 +115,8 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
         PairError::ModificationTooDeep { gear, modification, amount_mm, greatest_mm } => {
             place.too_deep(gear, modification, amount_mm, greatest_mm)
         }
-        PairError::AxesTooFarFromParallel { slope_mm, greatest_mm } => Cause {
-            key: "pair.axis_parallelism".to_owned(),
-            found: format!("a helix slope of {:.0} µm over the face width", 1e3 * slope_mm),
-            allowed: format!("at most {} µm, a quarter of the module", at_most(1e3 * greatest_mm)),
-            help: "deviations are in µm, over over_length_mm where that is given".to_owned(),
-        },
-        PairError::TipRoundingTooLarge { gear, radius_mm, greatest_mm } => Cause {
-            key: key_of(gear, "tip_rounding_mm"),
-            found: number(radius_mm),
-            allowed: format!("at most {} mm", at_most(greatest_mm)),
-            help: "the roundings of both flanks must fit on the tip, and leave some active flank".to_owned(),
-        },
+        PairError::AxesTooFarFromParallel { slope_mm, greatest_mm } => axes(slope_mm, greatest_mm),
+        PairError::TipRoundingTooLarge { gear, radius_mm, greatest_mm } => tip_rounding(gear, radius_mm, greatest_mm),
     }
 }
 
@@ -144,6 +126,24 @@ fn key_of(gear: Gear, name: &str) -> String {
 
 fn tip_found(gear: Gear, tip_mm: f64) -> String {
     format!("tip diameter {} of the {}", short(tip_mm), gear.name())
+}
+
+fn tip_rounding(gear: Gear, radius_mm: f64, greatest_mm: f64) -> Cause {
+    Cause {
+        key: key_of(gear, "tip_rounding_mm"),
+        found: number(radius_mm),
+        allowed: format!("at most {} mm", at_most(greatest_mm)),
+        help: "the roundings of both flanks must fit on the tip, and leave some active flank".to_owned(),
+    }
+}
+
+fn axes(slope_mm: f64, greatest_mm: f64) -> Cause {
+    Cause {
+        key: "pair.axis_parallelism".to_owned(),
+        found: format!("a helix slope of {:.0} µm over the face width", 1e3 * slope_mm),
+        allowed: format!("at most {} µm, a quarter of the module", at_most(1e3 * greatest_mm)),
+        help: "deviations are in µm, over over_length_mm where that is given".to_owned(),
+    }
 }
 
 fn too_long(gear: Gear, modification: &str, length_mm: f64, available_mm: f64) -> Cause {
@@ -159,15 +159,15 @@ fn too_long(gear: Gear, modification: &str, length_mm: f64, available_mm: f64) -
     }
 }
 
-impl Place<'_> {
-    /// The tip is mended where the file gives it; otherwise the profile shift decides.
+impl ErrorPlace<'_> {
+    /// Key of the tip, where the file gives it, else of the profile shift.
     fn tip_key(&self, gear: Gear) -> String {
         let tip = key_of(gear, "tip_diameter_mm");
         let is_given = self.spec.gears[gear].tip_diameter_mm.is_some() && self.findings.is_in_file(&tip);
         if is_given { tip } else { key_of(gear, "profile_shift") }
     }
 
-    /// The key of the centre distance and what it says; where that follows from the backlash, the backlash mends it.
+    /// Key and meaning of the centre distance; the backlash where it follows from that.
     fn centre(&self) -> (&'static str, String) {
         let key = centre_distance::KEYS.into_iter().find(|key| self.findings.is_in_file(key));
         match key.unwrap_or("pair.centre_distance_mm") {
@@ -230,6 +230,19 @@ impl Place<'_> {
         }
     }
 
+    fn tip(&self, (gear, tip_diameter_mm): (Gear, f64), allowed: String, help: &str) -> Cause {
+        Cause { key: self.tip_key(gear), found: tip_found(gear, tip_diameter_mm), allowed, help: help.to_owned() }
+    }
+
+    fn no_tooth(&self, gear: Gear) -> Cause {
+        Cause {
+            key: key_of(gear, "profile_shift"),
+            found: of_file(self.spec.gears[gear].profile_shift, self.factor_scale),
+            allowed: "a profile shift that leaves a flank above the base circle".to_owned(),
+            help: format!("a larger profile shift or more teeth on the {}", gear.name()),
+        }
+    }
+
     fn tip_clearance(&self, gear: Gear, clearance_mm: f64) -> Cause {
         Cause {
             key: self.tip_key(gear),
@@ -281,12 +294,12 @@ fn at_least(limit: f64) -> f64 {
     (limit * 1e4).ceil() / 1e4
 }
 
-/// A factor of the normal module as the file has it, without the digits of the conversion.
+/// Factor of the normal module in terms of the file, without the digits of the conversion.
 fn of_file(factor: f64, factor_scale: f64) -> String {
     number((factor / factor_scale * 1e10).round() / 1e10)
 }
 
-/// A derived length without the digits of its rounding.
+/// Derived length without rounding errors.
 fn short(length_mm: f64) -> String {
     format!("{} mm", (length_mm * 1e4).round() / 1e4)
 }
@@ -298,73 +311,64 @@ mod tests {
     use crate::scene::locate::Locator;
     use crate::scene::presets;
 
+    /// Errors of the pair and of its teeth, with the key of each.
+    fn errors_of_pair() -> Vec<(PairError, &'static str)> {
+        let gear = Gear::Pinion;
+        let tip = "pair.pinion.tip_diameter_mm";
+        let pointed = (-0.1, 92.0, 91.0);
+        let (tip_thickness_mm, tip_diameter_mm, pointed_diameter_mm) = pointed;
+        vec![
+            (PairError::NoMesh { centre_distance_mm: 80.0, least_mm: 84.5723 }, "pair.centre_distance_mm"),
+            (
+                PairError::NegativeBacklash { backlash_mm: -0.4, centre_distance_mm: 91.0, least_mm: 91.5 },
+                "pair.centre_distance_mm",
+            ),
+            (PairError::ContactRatioBelowOne { contact_ratio: 0.75, overlap_ratio: 0.0 }, "pair.centre_distance_mm"),
+            (PairError::PointedTooth { gear, tip_thickness_mm, tip_diameter_mm, pointed_diameter_mm }, tip),
+            (PairError::Interference { gear: Gear::Wheel, overlap_mm: 0.1, greatest_tip_diameter_mm: 82.0 }, tip),
+            (PairError::TipBelowForm { gear, tip_diameter_mm: 67.0, form_diameter_mm: 67.7 }, tip),
+            (PairError::NoTipClearance { gear, clearance_mm: -0.5 }, tip),
+            (PairError::RackPointed { greatest_dedendum_factor: 1.1216 }, "pair.basic_rack.dedendum_factor"),
+            (PairError::RackTipPointed { greatest: 0.47 }, "pair.basic_rack.fillet_radius_factor"),
+            (PairError::NoTooth { gear }, "pair.pinion.profile_shift"),
+            (
+                PairError::BoreTooLarge { gear, bore_diameter_mm: 70.0, root_diameter_mm: 62.386 },
+                "pair.pinion.bore_diameter_mm",
+            ),
+            (PairError::AxesTooFarFromParallel { slope_mm: 2.0, greatest_mm: 1.1 }, "pair.axis_parallelism"),
+        ]
+    }
+
+    /// Errors of modifications, with the key of each.
+    fn errors_of_modifications() -> Vec<(PairError, &'static str)> {
+        let gear = Gear::Pinion;
+        let [relief, crowning] = ["tip relief", "profile crowning"];
+        let (length_mm, available_mm, amount_mm, greatest_mm) = (30.0, 19.1, 2.0, 1.1);
+        vec![
+            (
+                PairError::ModificationTooLong { gear, modification: relief, length_mm, available_mm },
+                "pair.pinion.tip_relief.length_mm",
+            ),
+            (
+                PairError::ModificationTooDeep { gear, modification: crowning, amount_mm, greatest_mm },
+                "pair.pinion.profile_crowning_um",
+            ),
+            (
+                PairError::ModificationTooDeep { gear, modification: relief, amount_mm, greatest_mm },
+                "pair.pinion.tip_relief.amount_um",
+            ),
+            (PairError::TipRoundingTooLarge { gear, radius_mm: 2.7, greatest_mm: 2.6 }, "pair.pinion.tip_rounding_mm"),
+        ]
+    }
+
     /// Every geometry error lands at a key of the scene, in the preset's own text and beside a preset.
     #[test]
     fn every_error_has_its_key() {
-        let (gear, of_pinion) = (Gear::Pinion, |name: &str| format!("pair.pinion.{name}"));
-        let centre = "pair.centre_distance_mm".to_owned();
-        let errors = [
-            (PairError::NoMesh { centre_distance_mm: 80.0, least_mm: 84.5723 }, centre.clone()),
-            (
-                PairError::NegativeBacklash { backlash_mm: -0.4, centre_distance_mm: 91.0, least_mm: 91.5 },
-                centre.clone(),
-            ),
-            (PairError::ContactRatioBelowOne { contact_ratio: 0.75, overlap_ratio: 0.0 }, centre),
-            (
-                PairError::PointedTooth {
-                    gear,
-                    tip_thickness_mm: -0.1,
-                    tip_diameter_mm: 92.0,
-                    pointed_diameter_mm: 91.0,
-                },
-                of_pinion("tip_diameter_mm"),
-            ),
-            (
-                PairError::Interference { gear: Gear::Wheel, overlap_mm: 0.1, greatest_tip_diameter_mm: 82.0 },
-                of_pinion("tip_diameter_mm"),
-            ),
-            (
-                PairError::TipBelowForm { gear, tip_diameter_mm: 67.0, form_diameter_mm: 67.7 },
-                of_pinion("tip_diameter_mm"),
-            ),
-            (PairError::NoTipClearance { gear, clearance_mm: -0.5 }, of_pinion("tip_diameter_mm")),
-            (PairError::RackPointed { greatest_dedendum_factor: 1.1216 }, "pair.basic_rack.dedendum_factor".to_owned()),
-            (PairError::RackTipPointed { greatest: 0.47 }, "pair.basic_rack.fillet_radius_factor".to_owned()),
-            (PairError::NoTooth { gear }, of_pinion("profile_shift")),
-            (
-                PairError::BoreTooLarge { gear, bore_diameter_mm: 70.0, root_diameter_mm: 62.386 },
-                of_pinion("bore_diameter_mm"),
-            ),
-            (
-                PairError::ModificationTooLong {
-                    gear,
-                    modification: "tip relief",
-                    length_mm: 30.0,
-                    available_mm: 19.1,
-                },
-                of_pinion("tip_relief.length_mm"),
-            ),
-            (
-                PairError::ModificationTooDeep {
-                    gear,
-                    modification: "profile crowning",
-                    amount_mm: 2.0,
-                    greatest_mm: 1.1,
-                },
-                of_pinion("profile_crowning_um"),
-            ),
-            (
-                PairError::ModificationTooDeep { gear, modification: "tip relief", amount_mm: 2.0, greatest_mm: 1.1 },
-                of_pinion("tip_relief.amount_um"),
-            ),
-            (PairError::AxesTooFarFromParallel { slope_mm: 2.0, greatest_mm: 1.1 }, "pair.axis_parallelism".to_owned()),
-            (PairError::TipRoundingTooLarge { gear, radius_mm: 2.7, greatest_mm: 2.6 }, of_pinion("tip_rounding_mm")),
-        ];
         let text = presets::PRESETS[0].text;
         let spec = Resolved::from_toml(text).unwrap().scene.pair;
         let findings = Findings::new(Locator::new(text).unwrap());
         let beside_preset = Findings::new(Locator::new("pair.preset = \"fzg-c\"").unwrap());
-        for (error, key) in errors {
+        for (error, key) in errors_of_pair().into_iter().chain(errors_of_modifications()) {
             assert_eq!(place(&error, &spec, &findings).key, key);
             let mended = if let PairError::Interference { .. } = error { "wheel" } else { "pinion" };
             let key = key.replace("pinion.tip_diameter_mm", &format!("{mended}.profile_shift"));

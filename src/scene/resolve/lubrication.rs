@@ -30,10 +30,10 @@ const CLASSES: [(u32, f64); 13] = [
 ];
 /// Rq over Ra of heights that are spread normally, √(π/2).
 const RQ_OVER_RA: f64 = 1.253_314_137_315_5;
-/// Where the roughness term of Benedict and Kelley's friction has its pole, µm.
+/// Pole of the roughness term of Benedict and Kelley's friction, µm.
 const ROUGHEST_OF_BENEDICT_KELLEY_UM: f64 = 1.27;
 
-/// Chooses what the tables leave open; `Some(None)` where nobody asks for films or losses.
+/// Chooses what the tables leave open; `Some(None)` where neither films nor losses are needed.
 pub(super) fn choose(
     file: &mut SceneFile,
     material: Option<PerGear<ThermalMaterial>>,
@@ -146,43 +146,14 @@ fn lubricant(
     material: Option<PerGear<ThermalMaterial>>,
     findings: &mut Findings,
 ) -> Option<LubricantSettings> {
-    let viscosities = viscosities(file, findings);
-    let base = *file.base.get_or_insert_default();
-    let usual_density = match base {
-        BaseOil::Mineral => 890.0,
-        BaseOil::Polyalphaolefin => 850.0,
-        BaseOil::Polyglycol => 1050.0,
-    };
-    let density_15c_kg_per_m3 = *file.density_15C_kg_per_m3.get_or_insert(usual_density);
-    let fit_and_value = [
-        ("lubricant.pressure_viscosity", file.pressure_viscosity.is_some()),
-        ("lubricant.pressure_viscosity_per_GPa", file.pressure_viscosity_per_GPa.is_some()),
-    ];
-    let twice = findings.said_twice(&fit_and_value);
-    let pressure_viscosity = match file.pressure_viscosity_per_GPa {
-        Some(per_gpa) => PressureViscosity::Given { per_gpa },
-        None => PressureViscosity::Fit(*file.pressure_viscosity.get_or_insert_default()),
-    };
+    let oil = oil(file, findings);
     if file.temperature_C.is_none() {
         findings.missing(&["lubricant.temperature_C"], "a number from -60 to 250");
     }
-    let fit = *file.viscosity_fit.get_or_insert_default();
     let supply = *file.supply.get_or_insert_default();
     let central_film = *file.central_film.get_or_insert_default();
     let roughness = PerGear::from_fn(|gear| roughness(pair, gear, findings));
-    let ([viscosity_40c_mm2_per_s, viscosity_100c_mm2_per_s], temperature_c, material) =
-        (viscosities?, file.temperature_C?, material?);
-    if twice {
-        return None;
-    }
-    let oil = OilSettings {
-        viscosity_40c_mm2_per_s,
-        viscosity_100c_mm2_per_s,
-        fit,
-        base,
-        density_15c_kg_per_m3,
-        pressure_viscosity,
-    };
+    let (oil, temperature_c, material) = (oil?, file.temperature_C?, material?);
     Some(LubricantSettings {
         oil,
         temperature_c,
@@ -200,6 +171,36 @@ fn lubricant(
         // λ/√κ is √(λ ρ c).
         thermal_contact_w_s05_per_m2_k: material
             .map(|heat| heat.conductivity_n_per_s_k / (1e-6 * heat.diffusivity_mm2_per_s).sqrt()),
+    })
+}
+
+fn oil(file: &mut LubricantFile, findings: &mut Findings) -> Option<OilSettings> {
+    let viscosities = viscosities(file, findings);
+    let base = *file.base.get_or_insert_default();
+    let usual_density = match base {
+        BaseOil::Mineral => 890.0,
+        BaseOil::Polyalphaolefin => 850.0,
+        BaseOil::Polyglycol => 1050.0,
+    };
+    let density_15c_kg_per_m3 = *file.density_15C_kg_per_m3.get_or_insert(usual_density);
+    let fit_and_value = [
+        ("lubricant.pressure_viscosity", file.pressure_viscosity.is_some()),
+        ("lubricant.pressure_viscosity_per_GPa", file.pressure_viscosity_per_GPa.is_some()),
+    ];
+    let twice = findings.said_twice(&fit_and_value);
+    let pressure_viscosity = match file.pressure_viscosity_per_GPa {
+        Some(per_gpa) => PressureViscosity::Given { per_gpa },
+        None => PressureViscosity::Fit(*file.pressure_viscosity.get_or_insert_default()),
+    };
+    let fit = *file.viscosity_fit.get_or_insert_default();
+    let [viscosity_40c_mm2_per_s, viscosity_100c_mm2_per_s] = viscosities.filter(|_| !twice)?;
+    Some(OilSettings {
+        viscosity_40c_mm2_per_s,
+        viscosity_100c_mm2_per_s,
+        fit,
+        base,
+        density_15c_kg_per_m3,
+        pressure_viscosity,
     })
 }
 

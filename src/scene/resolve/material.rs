@@ -1,4 +1,4 @@
-//! Material of each gear: how it deforms and conducts heat.
+//! Material of each gear: elastic and thermal.
 
 use super::temperature;
 use crate::gear::{Gear, PerGear};
@@ -14,11 +14,11 @@ const ROOM_C: f64 = 23.0;
 
 /// The materials of both gears.
 pub(super) struct Materials {
-    /// How they deform, for now as at room temperature.
+    /// Elastic materials, at first at room temperature.
     pub elastic: PerGear<Material>,
-    /// How they conduct heat.
+    /// Thermal materials.
     pub thermal: PerGear<ThermalMaterial>,
-    /// How Young's modulus follows the temperature of the teeth, MPa; none where it is given.
+    /// Young's modulus over the temperature of the teeth, MPa; `None` where it is a constant.
     pub modulus: PerGear<Option<TemperatureCurve>>,
 }
 
@@ -38,58 +38,25 @@ pub(super) fn choose(
         thermal_conductivity_W_per_mK: given.thermal_conductivity_W_per_mK,
         thermal_diffusivity_m2_per_s: given.thermal_diffusivity_m2_per_s,
     };
-    let mut sound = true;
-    for (gear, of_gear) in [("pinion", &given.pinion), ("wheel", &given.wheel)] {
-        let Some(own) = of_gear else { continue };
-        let keys = ["material.preset".to_owned(), format!("material.{gear}.preset")];
-        sound &= !findings.said_twice(&[(&keys[0], both.preset.is_some()), (&keys[1], own.preset.is_some())]);
-        for (name, common, own) in [
-            ("young_modulus_GPa", both.young_modulus_GPa, own.young_modulus_GPa),
-            ("poisson_ratio", both.poisson_ratio, own.poisson_ratio),
-            ("density_kg_per_m3", both.density_kg_per_m3, own.density_kg_per_m3),
-            ("thermal_conductivity_W_per_mK", both.thermal_conductivity_W_per_mK, own.thermal_conductivity_W_per_mK),
-            ("thermal_diffusivity_m2_per_s", both.thermal_diffusivity_m2_per_s, own.thermal_diffusivity_m2_per_s),
-        ] {
-            let keys = [format!("material.{name}"), format!("material.{gear}.{name}")];
-            sound &= !findings.said_twice(&[(&keys[0], common.is_some()), (&keys[1], own.is_some())]);
-        }
-        let curves = [both.young_modulus_curve.is_some(), own.young_modulus_curve.is_some()];
-        let keys = ["material.young_modulus_curve".to_owned(), format!("material.{gear}.young_modulus_curve")];
-        sound &= !findings.said_twice(&[(&keys[0], curves[0]), (&keys[1], curves[1])]);
-    }
-    for (table, of) in [
-        ("material", Some(&both)),
-        ("material.pinion", given.pinion.as_ref()),
-        ("material.wheel", given.wheel.as_ref()),
-    ] {
-        let Some(of) = of else { continue };
-        let keys = ["young_modulus_GPa", "young_modulus_curve"].map(|name| format!("{table}.{name}"));
-        let said = [of.young_modulus_GPa.is_some(), of.young_modulus_curve.is_some()];
-        sound &= !findings.said_twice(&[(&keys[0], said[0]), (&keys[1], said[1])]);
-    }
-    let keys = PerGear::from_fn(|gear| {
-        let is_own = match gear {
-            Gear::Pinion => &given.pinion,
-            Gear::Wheel => &given.wheel,
+    let sound = is_said_once(&both, [given.pinion.as_ref(), given.wheel.as_ref()], findings);
+    let of_gears = [(Gear::Pinion, given.pinion), (Gear::Wheel, given.wheel)].map(|(gear, own)| {
+        let table = match &own {
+            Some(own) if own.young_modulus_curve.is_some() => format!("material.{}", gear.name()),
+            _ => "material".to_owned(),
         };
-        let is_own = is_own.as_ref().is_some_and(|own| own.young_modulus_curve.is_some());
-        if is_own {
-            format!("material.{}.young_modulus_curve", gear.name())
-        } else {
-            "material.young_modulus_curve".to_owned()
-        }
+        let own = over(own.unwrap_or_default(), &both);
+        let preset = own.preset.unwrap_or(MaterialPreset::Steel).properties();
+        let whole = over(own, &preset);
+        let curve = match &whole.young_modulus_curve {
+            None => Some(None),
+            Some(curve) => {
+                let key = format!("{table}.young_modulus_curve");
+                modulus_curve(curve, &key, has_tooth_temperature, findings).map(Some)
+            }
+        };
+        (whole, curve)
     });
-    let whole = |own: Option<GearMaterialFile>| {
-        let given = over(own.unwrap_or_default(), &both);
-        let below = given.preset.unwrap_or(MaterialPreset::Steel).properties();
-        over(given, &below)
-    };
-    let (pinion, wheel) = (whole(given.pinion), whole(given.wheel));
-    let curve = |file: &GearMaterialFile, key: &str, findings: &mut Findings| match &file.young_modulus_curve {
-        None => Some(None),
-        Some(curve) => modulus_curve(curve, key, has_tooth_temperature, findings).map(Some),
-    };
-    let [of_pinion, of_wheel] = [curve(&pinion, &keys.pinion, findings), curve(&wheel, &keys.wheel, findings)];
+    let [(pinion, of_pinion), (wheel, of_wheel)] = of_gears;
     let curves = PerGear { pinion: of_pinion?, wheel: of_wheel? };
     let chosen = PerGear {
         pinion: properties(&pinion, curves.pinion.as_ref())?,
@@ -103,10 +70,43 @@ pub(super) fn choose(
     })
 }
 
+/// Whether no constant is given twice: for both gears and for one of them, or as a value and as a curve.
+fn is_said_once(both: &GearMaterialFile, own: [Option<&GearMaterialFile>; 2], findings: &mut Findings) -> bool {
+    let mut sound = true;
+    for (gear, own) in ["pinion", "wheel"].into_iter().zip(own) {
+        let Some(own) = own else { continue };
+        for ((name, of_both), (_, of_own)) in given_constants(both).into_iter().zip(given_constants(own)) {
+            let keys = [format!("material.{name}"), format!("material.{gear}.{name}")];
+            sound &= !findings.said_twice(&[(&keys[0], of_both), (&keys[1], of_own)]);
+        }
+    }
+    let tables = ["material", "material.pinion", "material.wheel"];
+    for (table, of) in tables.into_iter().zip([Some(both), own[0], own[1]]) {
+        let Some(of) = of else { continue };
+        let keys = ["young_modulus_GPa", "young_modulus_curve"].map(|name| format!("{table}.{name}"));
+        let said = [of.young_modulus_GPa.is_some(), of.young_modulus_curve.is_some()];
+        sound &= !findings.said_twice(&[(&keys[0], said[0]), (&keys[1], said[1])]);
+    }
+    sound
+}
+
+/// Names of the constants, and whether each is given.
+fn given_constants(of: &GearMaterialFile) -> [(&'static str, bool); 7] {
+    [
+        ("preset", of.preset.is_some()),
+        ("young_modulus_GPa", of.young_modulus_GPa.is_some()),
+        ("poisson_ratio", of.poisson_ratio.is_some()),
+        ("density_kg_per_m3", of.density_kg_per_m3.is_some()),
+        ("thermal_conductivity_W_per_mK", of.thermal_conductivity_W_per_mK.is_some()),
+        ("thermal_diffusivity_m2_per_s", of.thermal_diffusivity_m2_per_s.is_some()),
+        ("young_modulus_curve", of.young_modulus_curve.is_some()),
+    ]
+}
+
 fn over(above: GearMaterialFile, below: &GearMaterialFile) -> GearMaterialFile {
     GearMaterialFile {
         preset: above.preset.or(below.preset),
-        // One stands for the other.
+        // Young's modulus is a constant or a curve: giving one replaces the other.
         young_modulus_GPa: above
             .young_modulus_GPa
             .or(below.young_modulus_GPa.filter(|_| above.young_modulus_curve.is_none())),
@@ -120,7 +120,7 @@ fn over(above: GearMaterialFile, below: &GearMaterialFile) -> GearMaterialFile {
     }
 }
 
-/// E over temperature, MPa.
+/// Young's modulus over temperature, MPa.
 fn modulus_curve(
     file: &ModulusCurveFile,
     key: &str,

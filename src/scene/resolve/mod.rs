@@ -20,19 +20,21 @@ mod wear;
 
 use toml::{Table, Value};
 
-use super::file::SceneFile;
+use super::file::{NumericsFile, PairFile, SceneFile};
 use super::findings::Findings;
 use super::problem::{Problem, ProblemKind};
-use super::resolve::settings::Teeth;
+use super::resolve::settings::StiffnessInputs;
 use super::schema::{Node, schema};
-use super::shape::{self, Format};
+use super::shape::{self, FileShape};
 use super::{Resolved, draft, presets, text, unit_slip};
-use crate::contact::settings::SurfaceKind;
-use crate::gear_mesh::settings::{Body, NO_WEBS};
-use crate::mesh_cycle::settings::Coupling;
+use crate::contact::settings::{ContactSettings, SurfaceKind};
+use crate::gear::spec::PairSpec;
+use crate::gear_mesh::settings::{Body, BodySettings, NO_WEBS};
+use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::operation::Scene;
+use crate::simulation::settings::{Numerics, Operation};
 
-/// Keys that other files have, and what to do with those.
+/// Keys of other files, each with the command that reads them.
 const OF_OTHER_FILES: &[(&str, &str)] =
     &[("mesh", "a gear pair, [pair]; gearwear fem runs a problem with a mesh of its own")];
 
@@ -42,11 +44,11 @@ pub(super) fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
     resolve_table(table, findings)
 }
 
-/// Resolves a scene file that was read before; `findings` know where its keys stand.
+/// Resolves a parsed scene file; `findings` know where its keys stand.
 pub(super) fn resolve_table(table: Table, mut findings: Findings) -> Result<Resolved, Vec<Problem>> {
-    let format = Format { root: Node::root(schema()), of_other_files: OF_OTHER_FILES };
+    let format = FileShape { root: Node::root(schema()), of_other_files: OF_OTHER_FILES };
     let sound = with_preset(shape::check(format, &table, &mut findings));
-    // A value outside its range is a suspect too, so the slips are looked for in the file as it is.
+    // Slips of unit are looked for in the file as it is, since they may exceed the allowed range.
     let slips = unit_slip::find(&with_preset(table));
 
     let resolved = text::typed::<SceneFile>(sound, &mut findings).and_then(|file| choose(file, &mut findings));
@@ -84,13 +86,13 @@ pub(super) fn resolve_table(table: Table, mut findings: Findings) -> Result<Reso
     }
 }
 
-/// The scene with its preset, if any, put below what the file itself says.
+/// Scene with the values of its preset, if any, where the file has none.
 fn with_preset(mut scene: Table) -> Table {
     let Some(Value::Table(pair)) = scene.get_mut("pair") else { return scene };
     let preset = pair.get("preset").and_then(Value::as_str).and_then(presets::find);
     if let Some(preset) = preset {
         pair.remove("preset");
-        // What the file says in another way replaces the preset's, whichever way that is.
+        // Keys of the file also replace alternative keys of the preset.
         let mut below = Table::from_iter([("pair".to_owned(), Value::Table(preset.pair()))]);
         for key in draft::keys_of(pair, "pair") {
             for other in draft::other_ways_to_say(&key) {
@@ -103,7 +105,7 @@ fn with_preset(mut scene: Table) -> Table {
     scene
 }
 
-/// Adds what `above` does not say itself.
+/// Adds the keys of `below` that `above` does not have.
 fn lay_below(above: &mut Table, below: Table) {
     for (key, value) in below {
         match (above.get_mut(&key), value) {
@@ -114,6 +116,54 @@ fn lay_below(above: &mut Table, below: Table) {
             (Some(_), _) => {}
         }
     }
+}
+
+/// Refuses bodies that do not fit the coupling of the slices, and warns of webs that the run does not use.
+fn check_bodies(
+    fem: Option<BodySettings>,
+    slices: Option<SliceSettings>,
+    is_calibrated: bool,
+    findings: &mut Findings,
+) {
+    let in_space = slices.is_some_and(|slices| slices.coupling == Coupling::Fem);
+    if in_space && fem.is_some_and(|fem| fem.body != Body::Ring) {
+        findings.not_allowed("fem.body", "\"sector\" with helical.coupling = \"fem\"", "\"ring\"");
+    }
+    if fem.is_some_and(|fem| fem.web != NO_WEBS) && !in_space && !is_calibrated {
+        findings.warnings.push(
+            "fem.web: the wear simulation does not see it; helical.coupling = \"fem\" and calibrations of such a pair do"
+                .to_owned(),
+        );
+    }
+}
+
+fn choose_numerics(
+    file: &mut Option<NumericsFile>,
+    contact: Option<ContactSettings>,
+    slices: Option<SliceSettings>,
+    is_severe: bool,
+    operation: &Operation,
+    findings: &mut Findings,
+) -> Option<Numerics> {
+    let surface = contact.map(|contact| contact.surface);
+    let finely_resolved = matches!(surface, Some(SurfaceKind::Fem | SurfaceKind::HalfSpace));
+    // The life may be a small part of the duration.
+    let adaptive = finely_resolved || is_severe || operation.stop.are_set();
+    let tip_contact = contact.is_some_and(|contact| contact.tip_contact);
+    let numerics = settings::numerics(file, operation.pinion_revolutions, adaptive, tip_contact, findings);
+    if let (Some(numerics), Some(surface)) = (&numerics, surface) {
+        settings::memory(numerics, surface, slices.map_or(1, |slices| slices.count), findings);
+    }
+    numerics
+}
+
+/// Title of a scene that gives none, with the module as the file gives it.
+fn default_title(file: &PairFile, pair: &PairSpec) -> String {
+    let module = match file.transverse_module_mm {
+        Some(transverse) => format!("transverse module {transverse}"),
+        None => format!("module {}", pair.normal_module_mm),
+    };
+    format!("Gear pair {}/{}, {module} mm", pair.gears.pinion.teeth, pair.gears.wheel.teeth)
 }
 
 /// Makes every choice the file leaves open, and writes it into the file.
@@ -127,13 +177,13 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let surface = contact.map(|contact| contact.surface);
     let slices = pair.as_ref().and_then(|pair| slices::choose(&mut file, pair, surface, findings));
     let coupling_by_default = file.helical.as_ref().is_none_or(|helical| helical.coupling.is_none());
-    let teeth =
-        Teeth { surface, calibrated: calibration_file.is_some(), coupling: slices.map(|slices| slices.coupling) };
-    let stiffness = settings::stiffness(&mut file.stiffness, teeth, findings);
+    let coupling = slices.map(|slices| slices.coupling);
+    let inputs = StiffnessInputs { surface, calibrated: calibration_file.is_some(), coupling };
+    let stiffness = settings::stiffness(&mut file.stiffness, inputs, findings);
     let stiffness_by_default = file.stiffness.as_ref().is_none_or(|stiffness| stiffness.model.is_none());
     let stiffness_curve_file = file.stiffness.as_ref().and_then(|stiffness| stiffness.curve.clone());
-    let given = wear::Given { has_oil: file.lubricant.is_some(), has_tooth_temperature };
-    let wear = wear::choose(&mut file.wear, given, findings);
+    let inputs = wear::LawInputs { has_oil: file.lubricant.is_some(), has_tooth_temperature };
+    let wear = wear::choose(&mut file.wear, inputs, findings);
     if let (Some(operation), Some(wear)) = (&operation, &wear) {
         wear::check_phases(&file.operation, operation, wear, findings);
     }
@@ -145,39 +195,15 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     }
     let lubrication = lubrication::choose(&mut file, thermal, findings);
     let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
-    let in_space = slices.is_some_and(|slices| slices.coupling == Coupling::Fem);
-    if in_space && fem.is_some_and(|fem| fem.body != Body::Ring) {
-        findings.not_allowed("fem.body", "\"sector\" with helical.coupling = \"fem\"", "\"ring\"");
-    }
-    if fem.is_some_and(|fem| fem.web != NO_WEBS) && !in_space && calibration_file.is_none() {
-        findings.warnings.push(
-            "fem.web: the wear simulation does not see it; helical.coupling = \"fem\" and calibrations of such a pair do"
-                .to_owned(),
-        );
-    }
+    check_bodies(fem, slices, calibration_file.is_some(), findings);
     let (pair, operation, materials) = (pair?, operation?, materials?);
-    let finely_resolved = matches!(surface, Some(SurfaceKind::Fem | SurfaceKind::HalfSpace));
     let is_severe = wear.as_ref().is_some_and(|wear| wear.may_be_severe());
-    // A life may end within a small part of the duration.
-    let adaptive = finely_resolved || is_severe || operation.stop.are_set();
-    let tip_contact = contact.is_some_and(|contact| contact.tip_contact);
-    let numerics =
-        settings::numerics(&mut file.numerics, operation.pinion_revolutions, adaptive, tip_contact, findings);
+    let numerics = choose_numerics(&mut file.numerics, contact, slices, is_severe, &operation, findings);
     let verify = *file.numerics.get_or_insert_default().verify.get_or_insert(true);
     if !verify {
         findings.warnings.push("numerics.verify is false: the error against finite elements is unknown".to_owned());
     }
-    if let (Some(numerics), Some(surface)) = (&numerics, surface) {
-        settings::memory(numerics, surface, slices.map_or(1, |slices| slices.count), findings);
-    }
-    file.title.get_or_insert_with(|| {
-        // As the file gives it.
-        let module = match file.pair.transverse_module_mm {
-            Some(transverse) => format!("transverse module {transverse}"),
-            None => format!("module {}", pair.normal_module_mm),
-        };
-        format!("Gear pair {}/{}, {module} mm", pair.gears.pinion.teeth, pair.gears.wheel.teeth)
-    });
+    file.title.get_or_insert_with(|| default_title(&file.pair, &pair));
     let mut scene = Scene {
         pair,
         material: materials.elastic,

@@ -25,13 +25,13 @@ enum FlankEnd {
     Root,
 }
 
-/// Gives both gears of `spec`, which has all else, their modifications; `None` where one is contradictory.
+/// Sets the modifications of both gears of `spec`; `None` where one is contradictory.
 pub(super) fn choose(file: &mut PairFile, spec: &mut PairSpec, findings: &mut Findings) -> Option<()> {
     let begins =
         |relief: &ReliefFile| relief.begins_at_diameter_mm.is_some() || relief.begins_at_roll_angle_deg.is_some();
     let gears = [&file.pinion, &file.wheel].into_iter().flatten();
     let is_needed = gears.flat_map(|gear| [&gear.tip_relief, &gear.root_relief]).flatten().any(begins);
-    // Where this is no pair, it is said later why, and no relief has a place.
+    // An impossible pair is reported later; reliefs then have no position.
     let pair = is_needed.then(|| GearPair::new(spec).ok()).flatten();
     let [pinion, wheel] = [(&mut file.pinion, Gear::Pinion), (&mut file.wheel, Gear::Wheel)]
         .map(|(file, gear)| of_gear(file.get_or_insert_default(), gear, spec, pair.as_ref(), findings));
@@ -47,20 +47,20 @@ fn of_gear(
     pair: Option<&GearPair>,
     findings: &mut Findings,
 ) -> Option<Modification> {
-    let key = |name: &str| format!("pair.{}.{name}", gear.name());
-    let relief = |file: &mut Option<ReliefFile>, name: &str, end: FlankEnd, findings: &mut Findings| match file {
-        Some(file) => relief(file, &key(name), gear, end, pair, findings),
-        None => Some(None),
-    };
-    let tip_relief = relief(&mut file.tip_relief, "tip_relief", FlankEnd::Tip, findings);
-    let root_relief = relief(&mut file.root_relief, "root_relief", FlankEnd::Root, findings);
+    let table = format!("pair.{}", gear.name());
+    let [tip_relief, root_relief] =
+        [(&mut file.tip_relief, "tip_relief", FlankEnd::Tip), (&mut file.root_relief, "root_relief", FlankEnd::Root)]
+            .map(|(file, name, end)| match file {
+                Some(file) => relief(file, &format!("{table}.{name}"), gear, end, pair, findings),
+                None => Some(None),
+            });
     let helix_slope_um = helix_slope_um(file, gear, spec, findings);
     let tip_rounding_mm = *file.tip_rounding_mm.get_or_insert(0.0);
     let least_mm = LEAST_ROUNDING_MODULES * spec.normal_module_mm;
     if tip_rounding_mm > 0.0 && tip_rounding_mm < least_mm {
         findings.warnings.push(format!(
-            "{}: {} mm is less than {} mm, a thousandth of the module, and as rough as a ground surface: the tip edge counts as sharp",
-            key("tip_rounding_mm"),
+            "{table}.tip_rounding_mm: {} mm is less than {} mm, a thousandth of the module, and as rough as a ground surface: the tip edge \
+             counts as sharp",
             number(tip_rounding_mm),
             number((least_mm * 1e7).round() / 1e7),
         ));

@@ -7,10 +7,10 @@ use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 use crate::simulation::settings::{LifeLimits, Operation, Phase};
 
-/// Snapshots this close to the end of the run, relatively, are the end: hours and revolutions round differently.
+/// Relative tolerance of snapshots at the end of the run: hours and revolutions round differently.
 const SAME_TIME: f64 = 1e-9;
 
-/// Default snapshots halve the duration this many times.
+/// Number of default snapshots, each at half the duration of the next.
 const HALVINGS: i32 = 6;
 
 /// Chooses what `[operation]` leaves open.
@@ -24,7 +24,7 @@ pub(super) fn choose(file: &mut OperationFile, findings: &mut Findings) -> Optio
         findings.missing(&["operation.pinion_torque_Nm"], allowed);
     }
     let of_whole = Phase {
-        // What else is wrong is found with any load.
+        // Any load serves to find the other problems.
         pinion_torque_n_mm: 1e3 * file.pinion_torque_Nm.unwrap_or(1.0),
         pinion_speed_rpm: file.pinion_speed_rpm,
         coefficient_mm2_per_n: PerGear::default(),
@@ -62,8 +62,7 @@ pub(super) fn choose(file: &mut OperationFile, findings: &mut Findings) -> Optio
     operation.snapshots_revolutions = snapshots(file, &operation, findings)?;
     for phase in &operation.phases {
         let end = phase.end_revolutions;
-        let is_end = |&other: &f64| (other / end - 1.0).abs() <= SAME_TIME;
-        match operation.snapshots_revolutions.iter().position(is_end) {
+        match operation.snapshots_revolutions.iter().position(|other| (other / end - 1.0).abs() <= SAME_TIME) {
             // Hours and revolutions round differently: the end of the phase is meant.
             Some(index) => operation.snapshots_revolutions[index] = end,
             None => operation.snapshots_revolutions.push(end),
@@ -84,7 +83,7 @@ pub(super) fn check_stop(stop: &LifeLimits, pair: &GearPair, findings: &mut Find
     }
 }
 
-/// A duration said in one of two ways, in revolutions of the pinion.
+/// Duration given by one of two keys, in revolutions of the pinion.
 fn duration(
     keys: [&str; 2],
     hours: Option<f64>,
@@ -126,20 +125,16 @@ fn phases(given: &[PhaseFile], of_whole: Phase, findings: &mut Findings) -> Opti
     }
     let (mut phases, mut end_revolutions) = (Vec::with_capacity(given.len()), 0.0);
     for (index, phase) in given.iter().enumerate() {
-        let key = |name: &str| format!("operation.phases[{index}].{name}");
+        let table = format!("operation.phases[{index}]");
         let pinion_speed_rpm = phase.pinion_speed_rpm.or(of_whole.pinion_speed_rpm);
-        let durations = [key("hours"), key("pinion_revolutions")];
+        let durations = ["hours", "pinion_revolutions"].map(|name| format!("{table}.{name}"));
         let [hours, revolutions] = durations.each_ref().map(String::as_str);
         end_revolutions +=
             duration([hours, revolutions], phase.hours, phase.pinion_revolutions, pinion_speed_rpm, findings)?;
-        let mut coefficient = |table: &str, in_m2: Option<f64>, in_mm3: Option<f64>| {
-            let keys = ["coefficient_m2_per_N", "coefficient_mm3_per_Nm"].map(|name| key(&format!("{table}{name}")));
-            coefficient_mm2_per_n(keys.each_ref().map(String::as_str), in_m2, in_mm3, findings)
-        };
-        let of_both = coefficient("", phase.coefficient_m2_per_N, phase.coefficient_mm3_per_Nm)?;
-        let [pinion, wheel] = [("pinion.", &phase.pinion), ("wheel.", &phase.wheel)].map(|(table, own)| {
+        let of_both = coefficient(&table, phase.coefficient_m2_per_N, phase.coefficient_mm3_per_Nm, findings)?;
+        let [pinion, wheel] = [("pinion", &phase.pinion), ("wheel", &phase.wheel)].map(|(gear, own)| {
             let GearPhaseFile { coefficient_m2_per_N, coefficient_mm3_per_Nm } = own.clone().unwrap_or_default();
-            coefficient(table, coefficient_m2_per_N, coefficient_mm3_per_Nm)
+            coefficient(&format!("{table}.{gear}"), coefficient_m2_per_N, coefficient_mm3_per_Nm, findings)
         });
         let coefficient_mm2_per_n = PerGear { pinion: pinion?.or(of_both), wheel: wheel?.or(of_both) };
         phases.push(Phase {
@@ -154,6 +149,12 @@ fn phases(given: &[PhaseFile], of_whole: Phase, findings: &mut Findings) -> Opti
     Some(phases)
 }
 
+/// Coefficient given in `table`, mm²/N; `Some(None)` where it gives none.
+fn coefficient(table: &str, in_m2: Option<f64>, in_mm3: Option<f64>, findings: &mut Findings) -> Option<Option<f64>> {
+    let keys = ["coefficient_m2_per_N", "coefficient_mm3_per_Nm"].map(|name| format!("{table}.{name}"));
+    coefficient_mm2_per_n(keys.each_ref().map(String::as_str), in_m2, in_mm3, findings)
+}
+
 /// Checks that the duration of the whole, where it is given, is that of its phases.
 fn add_up(file: &OperationFile, phases: &[Phase], findings: &mut Findings) -> Option<()> {
     let keys = ["operation.hours", "operation.pinion_revolutions"];
@@ -161,30 +162,27 @@ fn add_up(file: &OperationFile, phases: &[Phase], findings: &mut Findings) -> Op
         return None;
     }
     let end = phases.last()?.end_revolutions;
-    let check = |key: &str, given: f64, sum: f64, findings: &mut Findings| {
-        if (given / sum - 1.0).abs() <= SAME_TIME {
-            return Some(());
-        }
-        let allowed = format!("{}, the sum of operation.phases", number(sum));
-        findings.not_allowed(key, number(given), allowed);
-        findings.help(format!("{key} may be left out where there are phases"));
-        None
-    };
-    match (file.hours, file.pinion_revolutions) {
+    let (key, given, sum) = match (file.hours, file.pinion_revolutions) {
         (Some(hours), _) => {
             let whole = Operation { phases: phases.to_vec(), ..Operation::steady(0.0, None, end, Vec::new()) };
             let Some(sum) = whole.hours(end) else {
                 speed_needed(keys[0], findings);
                 return None;
             };
-            check(keys[0], hours, sum, findings)
+            (keys[0], hours, sum)
         }
-        (_, Some(revolutions)) => check(keys[1], revolutions, end, findings),
-        _ => Some(()),
+        (_, Some(revolutions)) => (keys[1], revolutions, end),
+        _ => return Some(()),
+    };
+    if (given / sum - 1.0).abs() <= SAME_TIME {
+        return Some(());
     }
+    findings.not_allowed(key, number(given), format!("{}, the sum of operation.phases", number(sum)));
+    findings.help(format!("{key} may be left out where there are phases"));
+    None
 }
 
-/// When the state is kept, in revolutions of the pinion, the end of the run included.
+/// Snapshots in revolutions of the pinion, the end of the run included.
 fn snapshots(file: &mut OperationFile, operation: &Operation, findings: &mut Findings) -> Option<Vec<f64>> {
     let keys = ["operation.snapshots_h", "operation.snapshots_revolutions"];
     let duration = operation.pinion_revolutions;
@@ -196,7 +194,6 @@ fn snapshots(file: &mut OperationFile, operation: &Operation, findings: &mut Fin
         (Some(_), None) => true,
         (None, Some(_)) => false,
         (None, None) => {
-            let halvings = |whole: f64| (0..=HALVINGS).rev().map(|n| whole * 0.5_f64.powi(n)).collect::<Vec<_>>();
             // In hours of different speeds the halves would be none of the revolutions.
             match file.hours.filter(|_| file.phases.is_none()) {
                 Some(hours) => file.snapshots_h = Some(halvings(hours)),
@@ -239,6 +236,11 @@ fn snapshots(file: &mut OperationFile, operation: &Operation, findings: &mut Fin
         snapshots.push(duration);
     }
     Some(snapshots)
+}
+
+/// Times that halve `whole` again and again, rising.
+fn halvings(whole: f64) -> Vec<f64> {
+    (0..=HALVINGS).rev().map(|n| whole * 0.5_f64.powi(n)).collect()
 }
 
 fn speed_needed(key: &str, findings: &mut Findings) {

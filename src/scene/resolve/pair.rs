@@ -120,10 +120,11 @@ fn rack(
 }
 
 fn gear(file: &mut GearFile, which: Gear, factor_scale: f64, findings: &mut Findings) -> Option<GearSpec> {
-    let key = |name: &str| format!("pair.{}.{name}", which.name());
-    let teeth = required(file.teeth, &key("teeth"), "a whole number at least 5 and at most 10000", findings);
-    let shift =
-        required(file.profile_shift, &key("profile_shift"), "a number at least -5 and at most 5 (0: none)", findings);
+    let table = format!("pair.{}", which.name());
+    let teeth =
+        required(file.teeth, &format!("{table}.teeth"), "a whole number at least 5 and at most 10000", findings);
+    let shift_key = format!("{table}.profile_shift");
+    let shift = required(file.profile_shift, &shift_key, "a number at least -5 and at most 5 (0: none)", findings);
     Some(GearSpec {
         teeth: teeth?,
         profile_shift: factor_scale * shift?,
@@ -132,7 +133,7 @@ fn gear(file: &mut GearFile, which: Gear, factor_scale: f64, findings: &mut Find
         bore_diameter_mm: file.bore_diameter_mm,
         // Chosen where the whole pair is known.
         modification: Modification::default(),
-        shaft: file.shaft.as_mut().and_then(|file| shaft(file, &key("shaft"), findings)),
+        shaft: file.shaft.as_mut().and_then(|file| shaft(file, &format!("{table}.shaft"), findings)),
     })
 }
 

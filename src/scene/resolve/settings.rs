@@ -13,11 +13,11 @@ const FLANK_POINTS: u32 = 750;
 const POSITIONS: u32 = 400;
 /// Error of the wear depth that adaptive steps may make, µm.
 const TOLERANCE_UM: f64 = 0.05;
-/// Smaller errors than an atom are lost in the rounding of equilibria, and steps for them never end.
+/// Least tolerance, µm: below the size of an atom the rounding of equilibria dominates, and steps become infinitely short.
 const LEAST_TOLERANCE_UM: f64 = 1e-4;
-/// What the memory of a machine holds: 300 000 take about 10 MB.
+/// Greatest product of points and positions, limited by memory: 300 000 take about 10 MB.
 const MOST_POINTS_TIMES_POSITIONS: usize = 100_000_000;
-/// More wear steps than this never end.
+/// Greatest number of wear steps in an acceptable time.
 const MOST_STEPS: f64 = 1e7;
 
 /// Chooses the contact surface: elastic half-planes, unless something is given that only a Winkler foundation reads.
@@ -35,7 +35,7 @@ pub(super) fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -
         return None;
     }
     let calibrated = file.calibration.is_some();
-    // Finite elements touch wherever they touch; Hertz's closed forms hold where the theoretical contact point lies.
+    // Finite elements find the contact anywhere; Hertz's closed forms hold at the theoretical contact point.
     let tip_contact = match surface {
         SurfaceKind::Winkler | SurfaceKind::HalfSpace => *file.tip_contact.get_or_insert(true),
         SurfaceKind::Fem => true,
@@ -68,21 +68,21 @@ pub(super) fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -
     Some(ContactSettings { surface, foundation, tip_contact })
 }
 
-/// What the choice of a stiffness model depends on.
+/// Inputs of the choice of a stiffness model.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Teeth {
-    /// How the flanks touch.
+pub(super) struct StiffnessInputs {
+    /// Contact surface.
     pub surface: Option<SurfaceKind>,
     /// Whether a calibration is given.
     pub calibrated: bool,
-    /// How slices over the face width are coupled, where there are any.
+    /// Coupling of the slices over the face width, where there are any.
     pub coupling: Option<Coupling>,
 }
 
 /// Chooses the tooth stiffness.
 pub(super) fn stiffness(
     file: &mut Option<StiffnessFile>,
-    Teeth { surface, calibrated, coupling }: Teeth,
+    StiffnessInputs { surface, calibrated, coupling }: StiffnessInputs,
     findings: &mut Findings,
 ) -> Option<StiffnessSettings> {
     let key = "stiffness.pair_N_per_mm_um";
@@ -91,10 +91,10 @@ pub(super) fn stiffness(
         findings.unused("stiffness.model", "the finite elements of the surface \"fem\" bend their own teeth");
     }
     let model = match (surface, calibrated) {
-        // Nothing reads it: what the user leaves out stays out.
+        // The key is not read: left out, it stays so.
         (Some(SurfaceKind::Fem), _) => file.model.unwrap_or_default(),
         (_, true) => *file.model.get_or_insert(StiffnessModel::Fem),
-        // Left open, it is another where finite elements cannot be had: it stays open.
+        // The default differs where finite elements are not possible, and is not written into the file.
         _ => file.model.unwrap_or(StiffnessModel::Fem),
     };
     if coupling == Some(Coupling::Fem) && model != StiffnessModel::Fem {
@@ -188,7 +188,7 @@ fn stepping(file: &mut NumericsFile, duration: f64, adaptive: bool, findings: &m
     }
 }
 
-/// Refuses a resolution that no memory holds. The simplified surface keeps a place and not a strip of flank at each contact.
+/// Refuses a resolution that needs too much memory. The simplified surface stores a position instead of a strip of the flank for each contact.
 pub(super) fn memory(numerics: &Numerics, surface: SurfaceKind, slices: usize, findings: &mut Findings) {
     let (points, positions) = (numerics.flank_points, numerics.positions);
     let a_position =

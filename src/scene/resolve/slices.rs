@@ -40,7 +40,7 @@ pub(super) fn choose(
     }
     let file = file.get_or_insert_default();
     let count = *file.slices.get_or_insert(SLICES);
-    // What is right where it can be had. Left open, it is another where teeth in space cannot be meshed: it stays open.
+    // The default differs where the gears cannot be meshed in three dimensions, and is not written into the file.
     let in_space = count as usize <= MOST_SLICES_IN_SPACE
         && stiffness.is_none_or(|model| model == StiffnessModel::Fem)
         && body != Some(BodyKind::Sector);

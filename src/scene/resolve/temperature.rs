@@ -4,7 +4,7 @@ use super::curve;
 use super::material::Materials;
 use crate::gear::{Gear, PerGear};
 use crate::material::Material;
-use crate::scene::file::{OperationFile, PhaseFile, SceneFile};
+use crate::scene::file::{OperationFile, SceneFile};
 use crate::scene::findings::Findings;
 use crate::scene::wear_file::{ToothLubrication, ToothTemperatureFile, WearFile};
 use crate::thermal::settings::{ABSOLUTE_ZERO_C, HeatSettings};
@@ -16,7 +16,7 @@ use crate::wear::settings::{LawSettings, WearSettings};
 const FRICTION_COEFFICIENT: f64 = 0.1;
 const BULK_TEMPERATURE_C: f64 = 90.0;
 
-/// Chooses what `[temperature]` leaves open; `Some(None)` where nobody asks for temperatures.
+/// Chooses what `[temperature]` leaves open; `Some(None)` where temperatures are not needed.
 pub(super) fn choose(
     file: &mut SceneFile,
     materials: Option<&Materials>,
@@ -108,7 +108,7 @@ pub(super) fn with_tooth_temperature(material: &PerGear<Material>) -> PerGear<bo
     if plastic.pinion || plastic.wheel { plastic } else { PerGear { pinion: true, wheel: true } }
 }
 
-/// Refuses what is to follow the temperature of teeth that have none.
+/// Refuses dependence on the tooth temperature where there is none.
 pub(super) fn check_followers(
     file: &WearFile,
     materials: &Materials,
@@ -116,10 +116,7 @@ pub(super) fn check_followers(
     findings: &mut Findings,
 ) {
     let has_temperature = with_tooth_temperature(&materials.elastic);
-    let own_wear = |gear: Gear| match gear {
-        Gear::Pinion => file.pinion.as_ref(),
-        Gear::Wheel => file.wheel.as_ref(),
-    };
+    let own_wear = PerGear { pinion: file.pinion.as_ref(), wheel: file.wheel.as_ref() };
     for gear in Gear::BOTH.into_iter().filter(|&gear| !has_temperature[gear]) {
         let (name, mate) = (gear.name(), gear.mate().name());
         let found = format!(
@@ -132,7 +129,7 @@ pub(super) fn check_followers(
                 format!("material.{name}.young_modulus_GPa"),
             );
         }
-        if own_wear(gear).is_some_and(|own| own.warm.is_some()) {
+        if own_wear[gear].is_some_and(|own| own.warm.is_some()) {
             findings.not_allowed(&format!("wear.{name}.warm"), found, format!("wear.{mate}.warm"));
         } else if wear[gear].warm.is_some() && wear[gear].coefficient_mm2_per_n > 0.0 {
             findings.warnings.push(format!(
@@ -199,6 +196,7 @@ pub(super) fn tooth_curve(
 
 /// Whether every phase has a speed.
 pub(super) fn speed_is_given(operation: &OperationFile) -> bool {
-    let of_phases = |phases: &Vec<PhaseFile>| phases.iter().all(|phase| phase.pinion_speed_rpm.is_some());
-    operation.pinion_speed_rpm.is_some() || operation.phases.as_ref().is_some_and(of_phases)
+    let phases = operation.phases.as_ref();
+    operation.pinion_speed_rpm.is_some()
+        || phases.is_some_and(|phases| phases.iter().all(|phase| phase.pinion_speed_rpm.is_some()))
 }

@@ -1,4 +1,8 @@
-//! The wear law of each gear and its constants: what `[wear]` says holds for both, unless a gear's own table says otherwise.
+//! The wear law of each gear and its constants: `[wear]` holds for both gears unless a gear's own table overrides it.
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use toml::Table;
 
 use super::{curve, temperature};
 use crate::gear::{Gear, PerGear};
@@ -24,14 +28,14 @@ const ARRHENIUS_CONSTANT_KG_PER_M2S: f64 = 1e3;
 const ACTIVATION_ENERGY_KJ_PER_MOL: f64 = 100.0;
 const IRON_KG_PER_M3: f64 = 7870.0;
 
-/// The two ways to say a coefficient.
+/// Alternative keys of the coefficient.
 const COEFFICIENTS: [&str; 2] = ["coefficient_m2_per_N", "coefficient_mm3_per_Nm"];
 /// The names of the laws.
 const LAWS: &str = "\"archard\", \"adsorption\" or \"oxidation\"";
 
-/// What laws may read that other tables of the scene give.
+/// Inputs of wear laws from other tables of the scene.
 #[derive(Clone, Copy)]
-pub(super) struct Given {
+pub(super) struct LawInputs {
     /// `[lubricant]`.
     pub has_oil: bool,
     /// `[temperature.tooth]`.
@@ -39,7 +43,7 @@ pub(super) struct Given {
 }
 
 /// Chooses the wear law of each gear.
-pub(super) fn choose(file: &mut WearFile, given: Given, findings: &mut Findings) -> Option<PerGear<WearSettings>> {
+pub(super) fn choose(file: &mut WearFile, given: LawInputs, findings: &mut Findings) -> Option<PerGear<WearSettings>> {
     let keys = COEFFICIENTS.map(|name| format!("wear.{name}"));
     let keys = keys.each_ref().map(String::as_str);
     let of_both = coefficient_mm2_per_n(keys, file.coefficient_m2_per_N, file.coefficient_mm3_per_Nm, findings)?;
@@ -56,14 +60,12 @@ pub(super) fn choose(file: &mut WearFile, given: Given, findings: &mut Findings)
             Gear::Pinion => &file.pinion,
             Gear::Wheel => &file.wheel,
         };
-        let key = |name: &str, is_own: bool| match is_own {
-            true => format!("wear.{}.{name}", gear.name()),
-            false => format!("wear.{name}"),
-        };
-        let is_own = |given: fn(&GearWearFile) -> bool| own.as_ref().is_some_and(given);
-        let film_key = key("film", is_own(|own| own.film.is_some()));
+        let [film_key, warm_key] = [
+            ("film", own.as_ref().is_some_and(|own| own.film.is_some())),
+            ("warm", own.as_ref().is_some_and(|own| own.warm.is_some())),
+        ]
+        .map(|(name, is_own)| if is_own { format!("wear.{}.{name}", gear.name()) } else { format!("wear.{name}") });
         let film = film(&film_key, &mut wholes[gear].film, given.has_oil, findings);
-        let warm_key = key("warm", is_own(|own| own.warm.is_some()));
         let warm = match &wholes[gear].warm {
             None => Some(None),
             Some(WarmFile { temperature_C, factor }) => {
@@ -91,7 +93,7 @@ pub(super) fn choose(file: &mut WearFile, given: Given, findings: &mut Findings)
     Some(settings)
 }
 
-/// What `[wear]` and the table of `gear` say of it together; constants of its own law only.
+/// Law of `gear` from `[wear]` and its own table together; constants of its own law only.
 fn whole(file: &WearFile, gear: Gear) -> GearWearFile {
     let own = match gear {
         Gear::Pinion => &file.pinion,
@@ -103,23 +105,6 @@ fn whole(file: &WearFile, gear: Gear) -> GearWearFile {
         true => [own.coefficient_m2_per_N, own.coefficient_mm3_per_Nm],
         false => [file.coefficient_m2_per_N, file.coefficient_mm3_per_Nm],
     };
-    let adsorption = || {
-        let (own, both) = (own.adsorption.unwrap_or_default(), file.adsorption.clone().unwrap_or_default());
-        AdsorptionFile {
-            molecule_diameter_nm: own.molecule_diameter_nm.or(both.molecule_diameter_nm),
-            vibration_time_ps: own.vibration_time_ps.or(both.vibration_time_ps),
-            heat_of_adsorption_kJ_per_mol: own.heat_of_adsorption_kJ_per_mol.or(both.heat_of_adsorption_kJ_per_mol),
-        }
-    };
-    let oxidation = || {
-        let (own, both) = (own.oxidation.unwrap_or_default(), file.oxidation.clone().unwrap_or_default());
-        OxidationFile {
-            arrhenius_constant_kg_per_m2s: own.arrhenius_constant_kg_per_m2s.or(both.arrhenius_constant_kg_per_m2s),
-            activation_energy_kJ_per_mol: own.activation_energy_kJ_per_mol.or(both.activation_energy_kJ_per_mol),
-            density_kg_per_m3: own.density_kg_per_m3.or(both.density_kg_per_m3),
-            mass_ratio: own.mass_ratio.or(both.mass_ratio),
-        }
-    };
     GearWearFile {
         law,
         coefficient_m2_per_N: coefficients[0],
@@ -127,9 +112,18 @@ fn whole(file: &WearFile, gear: Gear) -> GearWearFile {
         severe: own.severe.or(file.severe.clone()),
         film: own.film.or(file.film.clone()),
         warm: own.warm.or(file.warm.clone()),
-        adsorption: (law == Some(WearLaw::Adsorption)).then(adsorption),
-        oxidation: (law == Some(WearLaw::Oxidation)).then(oxidation),
+        adsorption: (law == Some(WearLaw::Adsorption)).then(|| overlaid(own.adsorption, &file.adsorption)),
+        oxidation: (law == Some(WearLaw::Oxidation)).then(|| overlaid(own.oxidation, &file.oxidation)),
     }
+}
+
+/// Constants of a law of one gear: each key of `own`, otherwise of `both`.
+fn overlaid<T: Clone + Default + Serialize + DeserializeOwned>(own: Option<T>, both: &Option<T>) -> T {
+    let Some(own) = own else { return both.clone().unwrap_or_default() };
+    let table = |of: &T| Table::try_from(of).expect("constants are a table");
+    let mut keys = both.as_ref().map(table).unwrap_or_default();
+    keys.extend(table(&own));
+    keys.try_into().expect("their keys are known")
 }
 
 fn gives_coefficient(of: &GearWearFile) -> bool {
@@ -163,7 +157,7 @@ fn of_gear(file: &mut GearWearFile, gear: Gear, findings: &mut Findings) -> Opti
     Some(WearSettings { law, coefficient_mm2_per_n, severe, film: None, warm: None })
 }
 
-/// How wear follows the film by the table `key`; `Some(None)` where not at all.
+/// Dependence of wear on the film in the table `key`; `Some(None)` where there is none.
 fn film(
     key: &str,
     file: &mut Option<FilmFile>,
@@ -209,7 +203,11 @@ fn film(
 
 /// Warns of constants of laws by which no gear that they are given for wears.
 fn warn_of_unused(file: &WearFile, wholes: &PerGear<GearWearFile>, findings: &mut Findings) {
-    let mut check = |table: &str, used: &[Gear], adsorption: bool, oxidation: bool| {
+    let own = [(&[Gear::Pinion][..], "wear.pinion", &file.pinion), (&[Gear::Wheel], "wear.wheel", &file.wheel)].map(
+        |(used, table, own)| Some((used, table, own.as_ref()?.adsorption.is_some(), own.as_ref()?.oxidation.is_some())),
+    );
+    let both = (&Gear::BOTH[..], "wear", file.adsorption.is_some(), file.oxidation.is_some());
+    for (used, table, adsorption, oxidation) in [Some(both)].into_iter().chain(own).flatten() {
         for (law, name, given) in
             [(WearLaw::Adsorption, "adsorption", adsorption), (WearLaw::Oxidation, "oxidation", oxidation)]
         {
@@ -217,17 +215,10 @@ fn warn_of_unused(file: &WearFile, wholes: &PerGear<GearWearFile>, findings: &mu
                 findings.warnings.push(format!("[{table}.{name}] is not used: only {table}.law = \"{name}\" reads it"));
             }
         }
-    };
-    check("wear", &Gear::BOTH, file.adsorption.is_some(), file.oxidation.is_some());
-    for (gear, own) in [(Gear::Pinion, &file.pinion), (Gear::Wheel, &file.wheel)] {
-        if let Some(own) = own {
-            let table = format!("wear.{}", gear.name());
-            check(&table, &[gear], own.adsorption.is_some(), own.oxidation.is_some());
-        }
     }
 }
 
-/// Checks what phases say of the coefficients against the law of each gear.
+/// Checks the coefficients of phases against the law of each gear.
 pub(super) fn check_phases(
     file: &OperationFile,
     operation: &Operation,
@@ -236,7 +227,7 @@ pub(super) fn check_phases(
 ) {
     let differ = wear.pinion.coefficient_mm2_per_n != wear.wheel.coefficient_mm2_per_n;
     for (index, (given, phase)) in file.phases.iter().flatten().zip(&operation.phases).enumerate() {
-        let key = |in_mm3: bool| format!("operation.phases[{index}].{}", COEFFICIENTS[usize::from(in_mm3)]);
+        let [in_m2, in_mm3] = COEFFICIENTS.map(|name| format!("operation.phases[{index}].{name}"));
         let own = [&given.pinion, &given.wheel].map(|gear| {
             gear.as_ref().is_some_and(|own| own.coefficient_m2_per_N.or(own.coefficient_mm3_per_Nm).is_some())
         });
@@ -246,17 +237,19 @@ pub(super) fn check_phases(
         {
             let allowed =
                 "one for each gear, in its pinion and wheel, since those of [wear.pinion] and [wear.wheel] differ";
-            findings.not_allowed(&key(given.coefficient_m2_per_N.is_none()), number(found), allowed);
+            let key = if given.coefficient_m2_per_N.is_none() { &in_mm3 } else { &in_m2 };
+            findings.not_allowed(key, number(found), allowed);
         }
-        let nothing = |gear: Gear| phase.coefficient_mm2_per_n[gear].unwrap_or(wear[gear].coefficient_mm2_per_n) <= 0.0;
-        if nothing(Gear::Pinion) && nothing(Gear::Wheel) {
+        let coefficients =
+            Gear::BOTH.map(|gear| phase.coefficient_mm2_per_n[gear].unwrap_or(wear[gear].coefficient_mm2_per_n));
+        if coefficients.iter().all(|&coefficient| coefficient <= 0.0) {
             let allowed = "a number greater than 0 for one gear at least";
-            findings.not_allowed(&key(false), "0 for both gears", allowed);
+            findings.not_allowed(&in_m2, "0 for both gears", allowed);
         }
     }
 }
 
-/// A coefficient said in one of two units; `Some(None)` where in neither.
+/// Coefficient in one of two units; `Some(None)` where it is not given.
 pub(super) fn coefficient_mm2_per_n(
     keys: [&str; 2],
     m2_per_n: Option<f64>,

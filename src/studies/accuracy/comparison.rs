@@ -5,27 +5,50 @@
 //! are differences of two runs of the same resolution.
 
 use super::measure::profile_error;
-use super::observed::Observed;
-use super::settings::{Setting, Stiffness, Surface};
+use super::observed::ObservedRun;
+use super::settings::{Setting, StiffnessSetting, SurfaceSetting};
 use crate::gear::PerGear;
 use crate::scene::Resolved;
 use crate::scene::file::StiffnessModel;
-use crate::studies::accuracy::record::{Comparison, ComparisonRow};
+use crate::studies::accuracy::record::{ComparisonRow, SettingComparison};
 
 /// A run to compare.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Run<'a> {
+pub(crate) struct ComparedRun<'a> {
     pub setting: &'a Setting,
-    /// Its curves, at the reference's coordinates.
-    pub observed: &'a Observed,
+    /// Curves of the run, at the reference's coordinates.
+    pub observed: &'a ObservedRun,
     /// Wall time of the wear run.
     pub simulation_s: f64,
 }
 
+impl ComparedRun<'_> {
+    fn stiffness_model(&self) -> Option<StiffnessModel> {
+        self.setting.stiffness.as_ref().and_then(|stiffness| stiffness.file.model)
+    }
+
+    fn stiffness_title(&self) -> String {
+        self.setting.stiffness.as_ref().map_or_else(String::new, StiffnessSetting::title)
+    }
+
+    fn is_fem(&self) -> bool {
+        matches!(self.setting.surface, SurfaceSetting::Fem { .. })
+    }
+
+    /// Rank of the tooth stiffness, the most accurate highest.
+    fn stiffness_rank(&self) -> u8 {
+        match self.stiffness_model() {
+            Some(StiffnessModel::Fem) => 2,
+            Some(StiffnessModel::WeberBanaschek) => 1,
+            _ => 0,
+        }
+    }
+}
+
 /// Tooth stiffnesses on the scene's surface, and contact surfaces with the best stiffness there is, where all sections are alike.
-pub(crate) fn comparisons(resolved: &Resolved, runs: &[Run<'_>]) -> Vec<Comparison> {
+pub(crate) fn comparisons(resolved: &Resolved, runs: &[ComparedRun<'_>]) -> Vec<SettingComparison> {
     let Some(finest) = runs.iter().map(|run| run.setting.coarsening.spacing).min() else { return Vec::new() };
-    let even: Vec<Run<'_>> = runs
+    let even: Vec<ComparedRun<'_>> = runs
         .iter()
         .copied()
         .filter(|run| run.setting.coarsening.spacing == finest && run.setting.coarsening.step == finest)
@@ -34,52 +57,57 @@ pub(crate) fn comparisons(resolved: &Resolved, runs: &[Run<'_>]) -> Vec<Comparis
 }
 
 /// All stiffnesses on one surface; none where only one was run.
-pub(super) fn stiffnesses(resolved: &Resolved, runs: &[Run<'_>]) -> Option<Comparison> {
-    let surface = Surface::of_scene(resolved);
-    let on_it: Vec<Run<'_>> = runs.iter().copied().filter(|run| run.setting.surface == surface).collect();
-    let model = |run: &Run<'_>| run.setting.stiffness.as_ref().and_then(|stiffness| stiffness.file.model);
-    let with = |wanted| on_it.iter().copied().find(|run| model(run) == Some(wanted));
-    let baseline = with(StiffnessModel::Fem).or_else(|| with(StiffnessModel::WeberBanaschek))?;
-    let name = |run: &Run<'_>| run.setting.stiffness.as_ref().map_or_else(String::new, Stiffness::title);
+pub(super) fn stiffnesses(resolved: &Resolved, runs: &[ComparedRun<'_>]) -> Option<SettingComparison> {
+    let surface = SurfaceSetting::of_scene(resolved);
+    let on_it: Vec<ComparedRun<'_>> = runs.iter().copied().filter(|run| run.setting.surface == surface).collect();
+    let baseline = [StiffnessModel::Fem, StiffnessModel::WeberBanaschek]
+        .into_iter()
+        .find_map(|wanted| on_it.iter().find(|run| run.stiffness_model() == Some(wanted)))?;
     let rows: Vec<ComparisonRow> = on_it
         .iter()
-        .filter(|run| run.setting.tip_contact == baseline.setting.tip_contact && name(run) != name(&baseline))
-        .map(|run| row(name(run), run, &baseline))
+        .filter(|run| run.setting.tip_contact == baseline.setting.tip_contact)
+        .filter(|run| run.stiffness_title() != baseline.stiffness_title())
+        .map(|run| row(run.stiffness_title(), run, baseline))
         .collect();
-    table("Tooth stiffness", format!("contact: {}", surface.name()), &name(&baseline), rows)
+    table("Tooth stiffness", format!("contact: {}", surface.name()), &baseline.stiffness_title(), rows)
 }
 
 /// None where nothing is to be compared.
-pub(super) fn table(title: &str, common: String, baseline: &str, rows: Vec<ComparisonRow>) -> Option<Comparison> {
-    (!rows.is_empty()).then(|| Comparison { title: title.to_owned(), common, baseline: baseline.to_owned(), rows })
+pub(super) fn table(
+    title: &str,
+    common: String,
+    baseline: &str,
+    rows: Vec<ComparisonRow>,
+) -> Option<SettingComparison> {
+    (!rows.is_empty()).then(|| SettingComparison {
+        title: title.to_owned(),
+        common,
+        baseline: baseline.to_owned(),
+        rows,
+    })
 }
 
 /// All surfaces with one stiffness against finite elements; none where there are none.
-fn surfaces(runs: &[Run<'_>]) -> Option<Comparison> {
-    let is_fem = |run: &&Run<'_>| matches!(run.setting.surface, Surface::Fem { .. });
-    let baseline = runs.iter().find(is_fem)?;
-    let rank = |run: &Run<'_>| match run.setting.stiffness.as_ref().and_then(|stiffness| stiffness.file.model) {
-        Some(StiffnessModel::Fem) => 2,
-        Some(StiffnessModel::WeberBanaschek) => 1,
-        _ => 0,
-    };
-    let best = runs.iter().map(rank).max()?;
-    let others: Vec<&Run<'_>> = runs.iter().filter(|run| !is_fem(run) && rank(run) == best).collect();
+fn surfaces(runs: &[ComparedRun<'_>]) -> Option<SettingComparison> {
+    let baseline = runs.iter().find(|run| run.is_fem())?;
+    let best = runs.iter().map(ComparedRun::stiffness_rank).max()?;
+    let others: Vec<&ComparedRun<'_>> =
+        runs.iter().filter(|run| !run.is_fem() && run.stiffness_rank() == best).collect();
     let stiffness = others.iter().find_map(|run| run.setting.stiffness.as_ref())?;
     let rows = others.iter().map(|run| row(run.setting.surface_name(), run, baseline)).collect();
     let common = format!("{} on the line of action", stiffness.title());
     table("Contact surface", common, &baseline.setting.surface.name(), rows)
 }
 
-pub(super) fn row(name: String, run: &Run<'_>, baseline: &Run<'_>) -> ComparisonRow {
+pub(super) fn row(name: String, run: &ComparedRun<'_>, baseline: &ComparedRun<'_>) -> ComparisonRow {
     ComparisonRow {
         name,
         wear_profile: PerGear::from_fn(|gear| {
             profile_error(&run.observed.flanks[gear], &baseline.observed.flanks[gear])
         }),
         peak_wear: PerGear::from_fn(|gear| {
-            let peak = |run: &Run<'_>| run.observed.flanks[gear].peak_wear_um();
-            if peak(run) == peak(baseline) { 0.0 } else { peak(run) / peak(baseline) - 1.0 }
+            let [peak, of_baseline] = [run, baseline].map(|run| run.observed.flanks[gear].peak_wear_um());
+            if peak == of_baseline { 0.0 } else { peak / of_baseline - 1.0 }
         }),
         simulation_s: run.simulation_s,
     }

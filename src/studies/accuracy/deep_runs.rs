@@ -11,8 +11,8 @@
 //! change it by far more. A run is called stable where both gears' greatest depths change by less than [`STABLE_WITHIN`].
 
 use super::measure::{profile_error, ratio, relative_difference};
-use super::observed::{Observed, ObservedFlank};
-use super::settings::{Coarsening, Setting, Surface, coupling_name, euler_revolutions};
+use super::observed::{ObservedFlank, ObservedRun};
+use super::settings::{Coarsening, Setting, SurfaceSetting, coupling_name, euler_revolutions};
 use super::timed_run::{Finished, measure};
 use crate::contact::settings::{Foundation, MatchCriterion};
 use crate::gear::{Gear, PerGear};
@@ -22,25 +22,26 @@ use crate::scene::file::StepFile;
 use crate::scene::loaded::LoadedScene;
 use crate::scene::{Problem, Resolved};
 use crate::studies::accuracy::record::{DeepRow, DeepRun, DeepRuns};
+use crate::studies::varied_scene::in_words;
 
-/// The scene's revolutions times this.
+/// Factor on the scene's revolutions.
 const DEEPER: f64 = 10.0;
-/// The number of wear steps over this.
+/// Divisor of the scene's number of wear steps.
 const FEWER_STEPS: u32 = 10;
-/// Beyond this change of the greatest depth a run has oscillated.
+/// Greatest relative change of the greatest depth of a stable run.
 const STABLE_WITHIN: f64 = 0.1;
-/// Least ratio of the numbers of steps of which anything is learned.
+/// Least ratio of the numbers of steps for a judgement of stability.
 const LEAST_STEP_RATIO: f64 = 2.0;
-/// The models, the baseline first.
-const MODELS: [(Surface, Coupling); 5] = [
-    (Surface::HalfSpace, Coupling::Slicing),
-    (Surface::Winkler(Foundation::Matched(MatchCriterion::HalfWidth)), Coupling::Slicing),
-    (Surface::Hertz, Coupling::Slicing),
-    (Surface::HertzMean, Coupling::Slicing),
-    (Surface::HertzMean, Coupling::None),
+/// Models that are run, the baseline first.
+const MODELS: [(SurfaceSetting, Coupling); 5] = [
+    (SurfaceSetting::HalfSpace, Coupling::Slicing),
+    (SurfaceSetting::Winkler(Foundation::Matched(MatchCriterion::HalfWidth)), Coupling::Slicing),
+    (SurfaceSetting::Hertz, Coupling::Slicing),
+    (SurfaceSetting::HertzMean, Coupling::Slicing),
+    (SurfaceSetting::HertzMean, Coupling::None),
 ];
 
-/// How many runs the comparison has.
+/// Number of runs of the comparison.
 pub(super) const RUNS: usize = 2 * MODELS.len();
 
 /// Runs the models that `like`, a setting with slices, stands beside; `first` of `count` runs are done. `None` without slices, or
@@ -55,47 +56,42 @@ pub(super) fn run(
     let slices = given.scene().slices?;
     let deeper = deeper(&given.resolved).map(|resolved| LoadedScene { resolved, ..given.clone() });
     let mut rows = Vec::new();
-    let mut baseline: Option<Observed> = None;
+    let mut baseline: Option<ObservedRun> = None;
     for (index, (surface, coupling)) in MODELS.into_iter().enumerate() {
         let slices = Some(SliceSettings { coupling, ..slices });
         let model = Setting { surface, tip_contact: surface.may_follow_tip(), slices, ..like.clone() };
-        let name = format!("{} · {}", model.surface_name(), coupling_name(coupling));
-        let mut row = DeepRow { name, ..DeepRow::default() };
+        let mut row = DeepRow::of(format!("{} · {}", model.surface_name(), coupling_name(coupling)));
         let base = match &deeper {
             Ok(base) => base,
             Err(problems) => {
-                row.failure = Some(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "));
-                rows.push(row);
+                rows.push(DeepRow { failure: Some(in_words(problems)), ..row });
                 continue;
             }
         };
-        let mut ran = Vec::new();
+        let mut usual = None;
         for (number, step) in [1, FEWER_STEPS].into_iter().enumerate() {
             let number = first + 2 * index + number;
             observer.run_of(number, count, &format!("{DEEPER} times the revolutions: {}, steps {step}", row.name));
-            let coarsening = Coarsening { spacing: like.coarsening.spacing, step };
-            let setting = Setting { coarsening, ..model.clone() };
+            let setting = Setting { coarsening: Coarsening { step, ..like.coarsening }, ..model.clone() };
             let measured = measure(&setting, base, &PartOf::new(observer, number, count))?;
             row.failure = row.failure.or(measured.record.failure);
-            ran.push(measured.finished.zip(measured.record.simulation_s));
+            let finished = measured.finished.zip(measured.record.simulation_s);
+            let deep_run = finished.as_ref().map(|(run, simulation_s)| deep_run(run, *simulation_s));
+            if step == 1 {
+                row.usual = deep_run;
+                usual = finished.map(|(run, _)| run.observed);
+            } else {
+                row.fewer_steps = deep_run;
+            }
         }
-        let [usual, fewer] = [0, 1].map(|k| ran.get(k).and_then(Option::as_ref));
-        row.usual = usual.map(deep_run);
-        row.fewer_steps = fewer.map(deep_run);
-        row.wear_profile = usual.zip(baseline.as_ref()).map(|((own, _), baseline)| {
-            let own = own.observed.at_coordinates_of(baseline);
+        row.wear_profile = usual.as_ref().zip(baseline.as_ref()).map(|(own, baseline)| {
+            let own = own.at_coordinates_of(baseline);
             larger(|gear| profile_error(&own.flanks[gear], &baseline.flanks[gear]))
         });
         if index == 0 {
-            baseline = usual.map(|(run, _)| run.observed.clone());
+            baseline = usual;
         }
-        if let (Some(usual), Some(fewer)) = (&row.usual, &row.fewer_steps)
-            && usual.wear_steps as f64 >= LEAST_STEP_RATIO * fewer.wear_steps as f64
-        {
-            let change = larger(|gear| relative_difference(fewer.peak_wear_um[gear], usual.peak_wear_um[gear]));
-            row.peak_wear_change = Some(change);
-            row.stable = Some(change <= STABLE_WITHIN);
-        }
+        judge_stability(&mut row);
         rows.push(row);
     }
     let stiffness = like.stiffness.as_ref().map_or("", |stiffness| &stiffness.name);
@@ -109,6 +105,17 @@ pub(super) fn run(
         stable_within: STABLE_WITHIN,
         rows,
     })
+}
+
+/// Judges the stability by the change of the greatest depths, where the numbers of steps differ by at least [`LEAST_STEP_RATIO`].
+fn judge_stability(row: &mut DeepRow) {
+    if let (Some(usual), Some(fewer)) = (&row.usual, &row.fewer_steps)
+        && usual.wear_steps as f64 >= LEAST_STEP_RATIO * fewer.wear_steps as f64
+    {
+        let change = larger(|gear| relative_difference(fewer.peak_wear_um[gear], usual.peak_wear_um[gear]));
+        row.peak_wear_change = Some(change);
+        row.stable = Some(change <= STABLE_WITHIN);
+    }
 }
 
 /// The scene run to a greater depth with the same number of wear steps.
@@ -125,7 +132,7 @@ fn deeper(resolved: &Resolved) -> Result<Resolved, Vec<Problem>> {
         }
     }
     operation.snapshots_h = None;
-    // The end alone: a snapshot shortens the step before it.
+    // Only the end of the run is a snapshot: any other shortens the step before it.
     operation.snapshots_revolutions = Some(vec![DEEPER * resolved.scene.operation.pinion_revolutions]);
     file.numerics.get_or_insert_default().step = Some(StepFile::fixed(DEEPER * euler_revolutions(&resolved.scene)));
     Resolved::from_toml(&file.to_toml())
@@ -135,11 +142,11 @@ fn larger(of: impl Fn(Gear) -> f64) -> f64 {
     of(Gear::Pinion).max(of(Gear::Wheel))
 }
 
-fn deep_run((finished, simulation_s): &(Finished, f64)) -> DeepRun {
+fn deep_run(finished: &Finished, simulation_s: f64) -> DeepRun {
     let flanks = &finished.observed.flanks;
     DeepRun {
         wear_steps: finished.summary.work.wear_steps,
-        simulation_s: *simulation_s,
+        simulation_s,
         peak_wear_um: PerGear::from_fn(|gear| flanks[gear].peak_wear_um()),
         roughness: PerGear::from_fn(|gear| roughness(&flanks[gear])),
         warned: finished.summary.warnings.iter().any(|warning| warning.starts_with("numerics.step")),
@@ -149,10 +156,9 @@ fn deep_run((finished, simulation_s): &(Finished, f64)) -> DeepRun {
 /// ‖h − S h‖/‖h‖ where S averages each point with its neighbours on the same slice, (1/4, 1/2, 1/4): of a depth that alternates
 /// from point to point nothing is left by S.
 fn roughness(flank: &ObservedFlank) -> f64 {
-    let square = |value: f64| value * value;
-    let jumps = |slice: &[f64]| -> f64 { slice.windows(3).map(|h| square(0.5 * h[1] - 0.25 * (h[0] + h[2]))).sum() };
-    let (jumps, size) = flank.slices().fold((0.0, 0.0), |(jumping, size), slice| {
-        (jumping + jumps(slice), size + slice.iter().map(|&h| square(h)).sum::<f64>())
+    let (jumps, size) = flank.slices().fold((0.0, 0.0), |(jumps, size), slice| {
+        let differences = slice.windows(3).map(|h| 0.5 * h[1] - 0.25 * (h[0] + h[2]));
+        (jumps + differences.map(|d| d * d).sum::<f64>(), size + slice.iter().map(|h| h * h).sum::<f64>())
     });
     ratio(jumps.sqrt(), size.sqrt())
 }
@@ -165,11 +171,11 @@ mod tests {
     /// On a depth of 3 an alternation of 1 leaves ‖±1‖/‖3 ± 1‖ = √(1/10) but for the two ends; a straight profile leaves nothing.
     #[test]
     fn ver_the_roughness_of_an_alternating_profile() {
-        let flank = |wear_um: Vec<f64>| ObservedFlank {
+        let mut flank = ObservedFlank {
             radius_mm: vec![0.0; 1000],
             arc_mm: vec![0.0; 1000],
             width_mm: vec![1.0, 2.0],
-            wear_um,
+            wear_um: (0..2000).map(|i| 3.0 + if i % 2 == 0 { 1.0 } else { -1.0 }).collect(),
             zones: FlankZones {
                 active_start_radius_mm: 0.0,
                 tip_edge_radius_mm: f64::INFINITY,
@@ -178,9 +184,8 @@ mod tests {
                 pressure_length_mm: 0.04,
             },
         };
-        let alternating = (0..2000).map(|i| 3.0 + if i % 2 == 0 { 1.0 } else { -1.0 }).collect();
-        assert!((roughness(&flank(alternating)) - f64::sqrt(0.1 * 998.0 / 1000.0)).abs() < 1e-14);
-        let straight = (0..2000).map(|i| f64::from(i % 1000)).collect();
-        assert!(roughness(&flank(straight)) < 1e-14);
+        assert!((roughness(&flank) - f64::sqrt(0.1 * 998.0 / 1000.0)).abs() < 1e-14);
+        flank.wear_um = (0..2000).map(|i| f64::from(i % 1000)).collect();
+        assert!(roughness(&flank) < 1e-14);
     }
 }

@@ -3,42 +3,44 @@
 //! A run is on the front where no other run is both at least as fast and at least as accurate, and better in one of the
 //! two. Errors below the reference's own uncertainty cannot be told apart and count as equal to it.
 
-/// A run as the front sees it.
+/// Run time and error of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Point {
+pub(crate) struct FrontPoint {
     /// Run time.
     pub wall_s: f64,
     /// Relative error.
     pub error: f64,
 }
 
-/// Whether each of `points` is on the front, with errors below `uncertainty` told apart no more.
-pub(crate) fn on_front(points: &[Point], uncertainty: f64) -> Vec<bool> {
-    let error = |point: &Point| point.error.max(uncertainty);
-    let comparable = |point: &Point| point.wall_s.is_finite() && point.error.is_finite();
-    points
-        .iter()
-        .enumerate()
-        .map(|(i, point)| {
-            let beaten_by = |(j, other): (usize, &Point)| {
-                let no_worse = other.wall_s <= point.wall_s && error(other) <= error(point);
-                let better = other.wall_s < point.wall_s || error(other) < error(point);
-                // Of equals, the first stands for all.
-                comparable(other) && no_worse && (better || j < i)
-            };
-            comparable(point) && !points.iter().enumerate().any(beaten_by)
-        })
-        .collect()
+impl FrontPoint {
+    fn is_comparable(&self) -> bool {
+        self.wall_s.is_finite() && self.error.is_finite()
+    }
+}
+
+/// Whether each of `points` is on the front; errors below `uncertainty` count as equal.
+pub(crate) fn on_front(points: &[FrontPoint], uncertainty: f64) -> Vec<bool> {
+    let others = points.iter().enumerate().filter(|(_, other)| other.is_comparable());
+    let on_front = points.iter().enumerate().map(|(i, point)| {
+        let beaten = others.clone().any(|(j, other)| {
+            let (own, others) = (point.error.max(uncertainty), other.error.max(uncertainty));
+            let no_worse = other.wall_s <= point.wall_s && others <= own;
+            let better = other.wall_s < point.wall_s || others < own;
+            // Of equal points only the first is on the front.
+            no_worse && (better || j < i)
+        });
+        point.is_comparable() && !beaten
+    });
+    on_front.collect()
 }
 
 /// The fastest of `points` whose error is within `wanted`, else the one with the least error; and whether it is within.
-pub(crate) fn cheapest_within(points: &[Point], wanted: f64) -> Option<(usize, bool)> {
-    let comparable = || points.iter().enumerate().filter(|(_, p)| p.wall_s.is_finite() && p.error.is_finite());
-    let fastest =
-        comparable().filter(|(_, p)| p.error <= wanted).min_by(|(_, a), (_, b)| a.wall_s.total_cmp(&b.wall_s));
-    match fastest {
+pub(crate) fn cheapest_within(points: &[FrontPoint], wanted: f64) -> Option<(usize, bool)> {
+    let all = points.iter().enumerate().filter(|(_, point)| point.is_comparable());
+    let within = all.clone().filter(|(_, point)| point.error <= wanted);
+    match within.min_by(|(_, a), (_, b)| a.wall_s.total_cmp(&b.wall_s)) {
         Some((index, _)) => Some((index, true)),
-        None => comparable().min_by(|(_, a), (_, b)| a.error.total_cmp(&b.error)).map(|(index, _)| (index, false)),
+        None => all.min_by(|(_, a), (_, b)| a.error.total_cmp(&b.error)).map(|(index, _)| (index, false)),
     }
 }
 
@@ -47,8 +49,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn points(of: &[(f64, f64)]) -> Vec<Point> {
-        of.iter().map(|&(wall_s, error)| Point { wall_s, error }).collect()
+    fn points(of: &[(f64, f64)]) -> Vec<FrontPoint> {
+        of.iter().map(|&(wall_s, error)| FrontPoint { wall_s, error }).collect()
     }
 
     /// By hand: the second is beaten by the first (faster and better), the fourth by the third (as good, faster); the last

@@ -16,11 +16,11 @@
 
 use std::collections::BTreeMap;
 
-use super::observed::{Observed, ObservedCycle, ObservedFlank};
+use super::observed::{ObservedCycle, ObservedFlank, ObservedRun};
 use super::over_width::OverWidth;
-use crate::gear::{Gear, PerGear};
+use crate::gear::PerGear;
 use crate::results::run::PathPoints;
-use crate::studies::accuracy::record::Quantity;
+use crate::studies::accuracy::record::ComparedQuantity;
 
 /// Length of the path of contact at a sharp tip edge without a comparable pressure, in half-widths of Hertz at the pitch
 /// point.
@@ -29,93 +29,98 @@ pub(crate) const EDGE_HALF_WIDTHS: f64 = 3.0;
 /// Where on the path of contact the quantities are compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Windows {
-    /// From A to E less what a sharp tip edge spoils.
+    /// A to E without the neighbourhood of sharp tip edges.
     pub pressure_mm: [f64; 2],
-    /// From A to E less what any tip edge takes part in.
+    /// A to E without the neighbourhood of all tip edges.
     pub flank_mm: [f64; 2],
-    /// Where one pair carries the load alone.
+    /// Single contact, B to D.
     pub single_contact_mm: [f64; 2],
 }
 
 impl Windows {
-    /// For a pair with these points A–E and sharp tip edges; `half_width_mm` is Hertz's at the pitch point.
+    /// Windows of a pair with these points A–E and sharp tip edges; `half_width_mm` is Hertz's at the pitch point.
     pub(crate) fn new(points: &PathPoints, sharp: PerGear<bool>, half_width_mm: f64) -> Self {
-        let spoilt = |sharp: bool| if sharp { EDGE_HALF_WIDTHS * half_width_mm } else { 0.0 };
+        let edge_mm = EDGE_HALF_WIDTHS * half_width_mm;
+        let [at_a, at_e] = [sharp.wheel, sharp.pinion].map(|sharp| if sharp { edge_mm } else { 0.0 });
         let single = if points.B < points.D { [points.B, points.D] } else { [points.A, points.E] };
         Self {
-            // At A the wheel's tip is in contact, at E the pinion's.
-            pressure_mm: [points.A + spoilt(sharp.wheel), points.E - spoilt(sharp.pinion)],
-            flank_mm: [points.A + spoilt(true), points.E - spoilt(true)],
+            pressure_mm: [points.A + at_a, points.E - at_e],
+            flank_mm: [points.A + edge_mm, points.E - edge_mm],
             single_contact_mm: single,
         }
     }
 }
 
 /// Errors of `observed`, at the coordinates of `reference`, in every quantity.
-pub(crate) fn errors(observed: &Observed, reference: &Observed, windows: &Windows) -> BTreeMap<Quantity, f64> {
-    let profile = PerGear::from_fn(|gear| profile_error(&observed.flanks[gear], &reference.flanks[gear]));
-    let peak =
-        |gear: Gear| relative_difference(observed.flanks[gear].peak_wear_um(), reference.flanks[gear].peak_wear_um());
-    let tip_edge = |gear: Gear| {
-        relative_difference(observed.flanks[gear].tip_edge_wear_um(), reference.flanks[gear].tip_edge_wear_um())
-    };
-    let over_path = |curve: fn(&ObservedCycle) -> &[f64]| {
-        relative_l2(&reference.cycle.position_mm, curve(&observed.cycle), curve(&reference.cycle))
-    };
-    let between = |curve: fn(&ObservedCycle) -> &[f64]| {
-        relative_difference(peak_to_peak(curve(&observed.cycle)), peak_to_peak(curve(&reference.cycle)))
-    };
-    let greatest_in = |window_mm: [f64; 2]| {
-        relative_difference(greatest_within(&observed.cycle, window_mm), greatest_within(&reference.cycle, window_mm))
-    };
-    let half_width = || {
-        let [x, own, other] =
-            [&reference.cycle.position_mm, &observed.cycle.half_width_mm, &reference.cycle.half_width_mm]
-                .map(|values| within(&reference.cycle.position_mm, values, windows.single_contact_mm));
-        relative_l2(&x, &own, &other)
-    };
+pub(crate) fn errors(
+    observed: &ObservedRun,
+    reference: &ObservedRun,
+    windows: &Windows,
+) -> BTreeMap<ComparedQuantity, f64> {
+    let flanks = PerGear::from_fn(|gear| [&observed.flanks[gear], &reference.flanks[gear]]);
+    let profile = PerGear::from_fn(|gear| profile_error(flanks[gear][0], flanks[gear][1]));
+    let peak = PerGear::from_fn(|gear| flanks[gear].map(ObservedFlank::peak_wear_um));
+    let tip_edge = PerGear::from_fn(|gear| flanks[gear].map(ObservedFlank::tip_edge_wear_um));
+    let cycles = [&observed.cycle, &reference.cycle];
+    let x = &reference.cycle.position_mm;
+    let new = cycles.map(|cycle| &cycle.transmission_error_um[..]);
+    let worn = cycles.map(|cycle| &cycle.worn_transmission_error_um[..]);
     let mut errors = BTreeMap::from([
-        (Quantity::WearProfile, profile.pinion.max(profile.wheel)),
-        (Quantity::PinionWearProfile, profile.pinion),
-        (Quantity::WheelWearProfile, profile.wheel),
-        (Quantity::PinionPeakWear, peak(Gear::Pinion)),
-        (Quantity::WheelPeakWear, peak(Gear::Wheel)),
-        (Quantity::PinionTipEdgeWear, tip_edge(Gear::Pinion)),
-        (Quantity::WheelTipEdgeWear, tip_edge(Gear::Wheel)),
-        (Quantity::PeakPressure, greatest_in(windows.pressure_mm)),
-        (Quantity::FlankPressure, greatest_in(windows.flank_mm)),
-        (Quantity::TransmissionError, over_path(|c| &c.transmission_error_um)),
-        (Quantity::TransmissionErrorPeakToPeak, between(|c| &c.transmission_error_um)),
-        (Quantity::WornTransmissionError, over_path(|c| &c.worn_transmission_error_um)),
-        (Quantity::WornTransmissionErrorPeakToPeak, between(|c| &c.worn_transmission_error_um)),
+        (ComparedQuantity::WearProfile, profile.pinion.max(profile.wheel)),
+        (ComparedQuantity::PinionWearProfile, profile.pinion),
+        (ComparedQuantity::WheelWearProfile, profile.wheel),
+        (ComparedQuantity::PinionPeakWear, difference_of(peak.pinion)),
+        (ComparedQuantity::WheelPeakWear, difference_of(peak.wheel)),
+        (ComparedQuantity::PinionTipEdgeWear, difference_of(tip_edge.pinion)),
+        (ComparedQuantity::WheelTipEdgeWear, difference_of(tip_edge.wheel)),
+        (
+            ComparedQuantity::PeakPressure,
+            difference_of(cycles.map(|cycle| greatest_within(cycle, windows.pressure_mm))),
+        ),
+        (ComparedQuantity::FlankPressure, difference_of(cycles.map(|cycle| greatest_within(cycle, windows.flank_mm)))),
+        (ComparedQuantity::TransmissionError, relative_l2(x, new[0], new[1])),
+        (ComparedQuantity::TransmissionErrorPeakToPeak, difference_of(new.map(peak_to_peak))),
+        (ComparedQuantity::WornTransmissionError, relative_l2(x, worn[0], worn[1])),
+        (ComparedQuantity::WornTransmissionErrorPeakToPeak, difference_of(worn.map(peak_to_peak))),
     ]);
     match (&observed.over_width, &reference.over_width) {
         (Some(own), Some(of_reference)) => errors.extend(errors_over_width(own, of_reference)),
-        // Where slices of one tooth enter while others leave, no pair ever carries the load alone.
-        _ => errors.extend([(Quantity::HalfWidth, half_width())]),
+        // Where the slices of one pair enter while others leave, there is no single contact.
+        _ => {
+            let [own, other] = cycles.map(|cycle| within(x, &cycle.half_width_mm, windows.single_contact_mm));
+            let half_width = relative_l2(&within(x, x, windows.single_contact_mm), &own, &other);
+            errors.extend([(ComparedQuantity::HalfWidth, half_width)]);
+        }
     }
     errors
 }
 
+/// Relative difference of the first value from the second.
+fn difference_of([value, reference]: [f64; 2]) -> f64 {
+    relative_difference(value, reference)
+}
+
 /// Errors over the face width, at the same places.
-fn errors_over_width(own: &OverWidth, reference: &OverWidth) -> [(Quantity, f64); 3] {
-    let root = |gear: Gear| relative_l2(&reference.width_mm, &own.root_wear_um[gear], &reference.root_wear_um[gear]);
-    let figure = |of: fn(&OverWidth) -> f64| relative_difference(of(own), of(reference));
+fn errors_over_width(own: &OverWidth, reference: &OverWidth) -> [(ComparedQuantity, f64); 3] {
+    let root = PerGear::from_fn(|gear| {
+        relative_l2(&reference.width_mm, &own.root_wear_um[gear], &reference.root_wear_um[gear])
+    });
+    let both = [own, reference];
     [
-        (Quantity::RootWear, root(Gear::Pinion).max(root(Gear::Wheel))),
-        (Quantity::FaceLoadFactor, figure(|o| o.face_load_factor)),
-        (Quantity::WornFaceLoadFactor, figure(|o| o.worn_face_load_factor)),
+        (ComparedQuantity::RootWear, root.pinion.max(root.wheel)),
+        (ComparedQuantity::FaceLoadFactor, difference_of(both.map(|of| of.face_load_factor))),
+        (ComparedQuantity::WornFaceLoadFactor, difference_of(both.map(|of| of.worn_face_load_factor))),
     ]
 }
 
 /// Relative L2 error of the depth over the whole flank; both at the same points and widths. Slices are as wide as each other.
 pub(crate) fn profile_error(observed: &ObservedFlank, reference: &ObservedFlank) -> f64 {
-    let arc = &reference.arc_mm;
-    let over_flank = |square: &dyn Fn(&[f64], &[f64]) -> f64| -> f64 {
-        observed.slices().zip(reference.slices()).map(|(own, there)| square(own, there)).sum()
-    };
-    let difference = over_flank(&|own, there| integral(arc, |i| (own[i] - there[i]).powi(2)));
-    ratio(difference.sqrt(), over_flank(&|_, there| integral(arc, |i| there[i].powi(2))).sqrt())
+    let (mut difference, mut size) = (0.0, 0.0);
+    for (own, there) in observed.slices().zip(reference.slices()) {
+        difference += integral(&reference.arc_mm, |i| (own[i] - there[i]).powi(2));
+        size += integral(&reference.arc_mm, |i| there[i].powi(2));
+    }
+    ratio(difference.sqrt(), size.sqrt())
 }
 
 /// Greatest pressure away from sharp tip edges.
@@ -127,7 +132,7 @@ fn greatest_within(cycle: &ObservedCycle, window_mm: [f64; 2]) -> f64 {
     within(&cycle.position_mm, &cycle.peak_pressure_mpa, window_mm).into_iter().fold(0.0, f64::max)
 }
 
-/// Greatest less least value.
+/// Peak-to-peak value.
 pub(crate) fn peak_to_peak(values: &[f64]) -> f64 {
     let (low, high) =
         values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &y| (low.min(y), high.max(y)));
@@ -150,7 +155,7 @@ fn integral(x: &[f64], value: impl Fn(usize) -> f64) -> f64 {
     (1..x.len()).map(|i| 0.5 * (x[i] - x[i - 1]) * (value(i - 1) + value(i))).sum()
 }
 
-/// `difference` over `size`, where nothing over nothing is nothing.
+/// `difference` over `size`; 0 where both are 0.
 pub(crate) fn ratio(difference: f64, size: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / size }
 }

@@ -1,14 +1,14 @@
 //! The curves of a run that errors are measured on, and how they are brought onto common coordinates.
 
 use super::over_width::{OverWidth, depths_at_widths, interpolated, pressure_along_path_mpa};
+use crate::gear::PerGear;
 use crate::gear::flank_zones::{FlankZone, FlankZones};
 use crate::gear::slices::greatest_over_width;
-use crate::gear::{Gear, PerGear};
 use crate::results::run::{FlankRecord, RunRecord};
 
-/// What errors are measured on.
+/// Curves and figures that errors are measured on.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Observed {
+pub(crate) struct ObservedRun {
     pub flanks: PerGear<ObservedFlank>,
     pub cycle: ObservedCycle,
     /// Over the face width; none where all sections are alike.
@@ -26,7 +26,7 @@ pub(crate) struct ObservedFlank {
     pub width_mm: Vec<f64>,
     /// Wear depth, slice after slice.
     pub wear_um: Vec<f64>,
-    /// Its parts.
+    /// Zones of the flank.
     pub zones: FlankZones,
 }
 
@@ -45,16 +45,14 @@ pub(crate) struct ObservedCycle {
     pub worn_transmission_error_um: Vec<f64>,
 }
 
-impl Observed {
+impl ObservedRun {
     /// The curves of a run.
     pub(crate) fn of(record: &RunRecord) -> Self {
-        let column = |value: fn(&crate::results::run::MeshCycleRow) -> f64| {
-            record.mesh_cycle.iter().map(value).collect::<Vec<f64>>()
-        };
-        let position_mm = column(|row| row.position_mm);
+        let rows = &record.mesh_cycle;
+        let position_mm: Vec<f64> = rows.iter().map(|row| row.position_mm).collect();
         let peak_pressure_mpa = match &record.slices {
             Some(slices) => pressure_along_path_mpa(slices, &position_mm),
-            None => column(|row| row.peak_pressure_new_MPa),
+            None => rows.iter().map(|row| row.peak_pressure_new_MPa).collect(),
         };
         Self {
             flanks: PerGear::from_fn(|gear| ObservedFlank::of(&record.flanks[gear])),
@@ -62,22 +60,21 @@ impl Observed {
             cycle: ObservedCycle {
                 position_mm,
                 peak_pressure_mpa,
-                half_width_mm: column(|row| row.half_width_mm),
-                transmission_error_um: column(|row| row.transmission_error_new_um),
-                worn_transmission_error_um: column(|row| row.transmission_error_worn_um),
+                half_width_mm: rows.iter().map(|row| row.half_width_mm).collect(),
+                transmission_error_um: rows.iter().map(|row| row.transmission_error_new_um).collect(),
+                worn_transmission_error_um: rows.iter().map(|row| row.transmission_error_worn_um).collect(),
             },
         }
     }
 
-    /// The same curves at the coordinates of `other`, linear in between.
+    /// Curves at the coordinates of `other`, linear in between.
     pub(crate) fn at_coordinates_of(&self, other: &Self) -> Self {
-        let flank = |gear: Gear| {
-            let (own, common) = (&self.flanks[gear], &other.flanks[gear]);
-            ObservedFlank { wear_um: own.wear_at(&common.radius_mm, &common.width_mm), ..common.clone() }
-        };
         let (own, at) = (&self.cycle, &other.cycle.position_mm);
         Self {
-            flanks: PerGear::from_fn(flank),
+            flanks: PerGear::from_fn(|gear| {
+                let (own, common) = (&self.flanks[gear], &other.flanks[gear]);
+                ObservedFlank { wear_um: own.wear_at(&common.radius_mm, &common.width_mm), ..common.clone() }
+            }),
             over_width: self.over_width.as_ref().map(|own| own.at_widths(&other.flanks.pinion.width_mm)),
             cycle: ObservedCycle::of(at.clone(), |curve| interpolated(&own.position_mm, curve(own), at)),
         }
@@ -85,30 +82,32 @@ impl Observed {
 
     /// self + factor · (fine − coarse), value by value; all three at the same coordinates.
     pub(crate) fn corrected(&self, factor: f64, fine: &Self, coarse: &Self) -> Self {
-        let corrected = |own: &[f64], fine: &[f64], coarse: &[f64]| -> Vec<f64> {
-            own.iter().zip(fine.iter().zip(coarse)).map(|(x, (f, c))| x + factor * (f - c)).collect()
-        };
         Self {
             flanks: PerGear::from_fn(|gear| {
-                let wear = |of: &Self| of.flanks[gear].wear_um.clone();
-                ObservedFlank {
-                    // Wear is never negative, also where a correction would have it so.
-                    wear_um: corrected(&wear(self), &wear(fine), &wear(coarse))
-                        .into_iter()
-                        .map(|depth| depth.max(0.0))
-                        .collect(),
-                    ..self.flanks[gear].clone()
-                }
+                let [own, fine, coarse] = [self, fine, coarse].map(|of| &of.flanks[gear].wear_um[..]);
+                // Wear is never negative, also where a correction would have it so.
+                let wear_um = corrected(factor, own, fine, coarse).map(|depth| depth.max(0.0)).collect();
+                ObservedFlank { wear_um, ..self.flanks[gear].clone() }
             }),
             over_width: match (&self.over_width, &fine.over_width, &coarse.over_width) {
                 (Some(own), Some(fine), Some(coarse)) => Some(own.corrected(factor, fine, coarse)),
                 _ => self.over_width.clone(),
             },
             cycle: ObservedCycle::of(self.cycle.position_mm.clone(), |curve| {
-                corrected(curve(&self.cycle), curve(&fine.cycle), curve(&coarse.cycle))
+                corrected(factor, curve(&self.cycle), curve(&fine.cycle), curve(&coarse.cycle)).collect()
             }),
         }
     }
+}
+
+/// own + factor · (fine − coarse), value by value.
+pub(super) fn corrected<'a>(
+    factor: f64,
+    own: &'a [f64],
+    fine: &'a [f64],
+    coarse: &'a [f64],
+) -> impl Iterator<Item = f64> + 'a {
+    own.iter().zip(fine.iter().zip(coarse)).map(move |(x, (f, c))| x + factor * (f - c))
 }
 
 impl ObservedCycle {
@@ -127,13 +126,13 @@ impl ObservedCycle {
 impl ObservedFlank {
     fn of(flank: &FlankRecord) -> Self {
         // r = r_b √(1 + φ²) and s = r_b φ²/2 with the roll angle φ.
-        let arc = |(radius, roll_deg): (&f64, &f64)| {
+        let arcs = flank.radius_mm.iter().zip(&flank.roll_angle_deg).map(|(radius, roll_deg)| {
             let roll = roll_deg.to_radians();
             0.5 * roll * roll * radius / (1.0 + roll * roll).sqrt()
-        };
+        });
         Self {
             radius_mm: flank.radius_mm.clone(),
-            arc_mm: flank.radius_mm.iter().zip(&flank.roll_angle_deg).map(arc).collect(),
+            arc_mm: arcs.collect(),
             width_mm: flank.width_mm.clone(),
             wear_um: flank.wear_um.clone(),
             zones: flank.zones,
@@ -151,11 +150,11 @@ impl ObservedFlank {
     }
 
     fn greatest_wear_um(&self, zone: FlankZone) -> f64 {
-        let of_slice = |slice: &[f64]| {
+        let of_slices = self.slices().map(|slice| {
             let points = slice.iter().zip(&self.radius_mm).filter(|(_, radius)| self.zones.at(**radius) == zone);
             points.map(|(depth, _)| *depth).fold(0.0, f64::max)
-        };
-        greatest_over_width(&self.slices().map(of_slice).collect::<Vec<f64>>())
+        });
+        greatest_over_width(&of_slices.collect::<Vec<f64>>())
     }
 
     /// The slices one after the other.

@@ -1,11 +1,12 @@
-//! What is observed over the face width of a pair with slices, and how different numbers of slices are brought together.
+//! Fields over the face width of a pair with slices, and how different numbers of slices are brought together.
 //!
 //! The value of a slice stands at its middle, z_i = (i + 1/2) b/m. Between the middles a field is linear in z; over the outer
 //! half of the first and the last slice it goes on as straight lines, since a slice does not know where on it the tooth ends:
 //! holding the values there would leave an error of first order in the slices' width at both ends of the tooth. Depths are
 //! never negative.
 
-use crate::gear::{Gear, PerGear};
+use super::observed::corrected;
+use crate::gear::PerGear;
 use crate::reference::linear_means::value_at;
 use crate::results::run::{RunRecord, SliceRecord};
 
@@ -17,7 +18,7 @@ pub(crate) struct OverWidth {
     pub root_wear_um: PerGear<Vec<f64>>,
     /// Face load factor K_Hβ, new.
     pub face_load_factor: f64,
-    /// The same, worn.
+    /// Face load factor, worn.
     pub worn_face_load_factor: f64,
 }
 
@@ -33,29 +34,27 @@ impl OverWidth {
         })
     }
 
-    /// The same curves at other places over the face width.
+    /// Curves at other places over the face width.
     pub(crate) fn at_widths(&self, width_mm: &[f64]) -> Self {
-        let there = |gear: Gear| {
+        let root_wear_um = PerGear::from_fn(|gear| {
             let own: Vec<&[f64]> = self.root_wear_um[gear].chunks_exact(1).collect();
             depths_at_widths(&self.width_mm, &own, width_mm)
-        };
-        Self { width_mm: width_mm.to_vec(), root_wear_um: PerGear::from_fn(there), ..*self }
+        });
+        Self { width_mm: width_mm.to_vec(), root_wear_um, ..*self }
     }
 
     /// self + factor · (fine − coarse), value by value; all three at the same places.
     pub(crate) fn corrected(&self, factor: f64, fine: &Self, coarse: &Self) -> Self {
-        let corrected = |own: f64, fine: f64, coarse: f64| own + factor * (fine - coarse);
-        let root = |gear: Gear| {
-            let (fine, coarse) = (&fine.root_wear_um[gear], &coarse.root_wear_um[gear]);
-            let pairs = fine.iter().zip(coarse);
-            self.root_wear_um[gear].iter().zip(pairs).map(|(x, (f, c))| corrected(*x, *f, *c).max(0.0)).collect()
-        };
-        let of = |figure: fn(&Self) -> f64| corrected(figure(self), figure(fine), figure(coarse));
+        let new = fine.face_load_factor - coarse.face_load_factor;
+        let worn = fine.worn_face_load_factor - coarse.worn_face_load_factor;
         Self {
             width_mm: self.width_mm.clone(),
-            root_wear_um: PerGear::from_fn(root),
-            face_load_factor: of(|o| o.face_load_factor),
-            worn_face_load_factor: of(|o| o.worn_face_load_factor),
+            root_wear_um: PerGear::from_fn(|gear| {
+                let [own, fine, coarse] = [self, fine, coarse].map(|of| &of.root_wear_um[gear][..]);
+                corrected(factor, own, fine, coarse).map(|depth| depth.max(0.0)).collect()
+            }),
+            face_load_factor: self.face_load_factor + factor * new,
+            worn_face_load_factor: self.worn_face_load_factor + factor * worn,
         }
     }
 }
@@ -63,14 +62,14 @@ impl OverWidth {
 /// Depths of slices at increasing `width_mm` (`slices`: one row of points each, all of the same length), at other widths, row
 /// after row; one slice stands for all widths.
 pub(crate) fn depths_at_widths(width_mm: &[f64], slices: &[&[f64]], at_mm: &[f64]) -> Vec<f64> {
-    let there = |&place: &f64| {
+    let depths = at_mm.iter().flat_map(|&place| {
         let (before, after, weight) = neighbours(width_mm, place);
         slices[before].iter().zip(slices[after]).map(move |(a, b)| (a + weight * (b - a)).max(0.0))
-    };
-    at_mm.iter().flat_map(there).collect()
+    });
+    depths.collect()
 }
 
-/// The two places that a straight line through `at` is drawn by, and how far along it lies.
+/// The two neighbouring places for the linear interpolation at `at`, and its weight.
 fn neighbours(places: &[f64], at: f64) -> (usize, usize, f64) {
     if places.len() < 2 {
         return (0, 0, 0.0);

@@ -1,4 +1,4 @@
-//! What errors are measured of when models are compared.
+//! Quantities whose errors are compared.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ use crate::results::figures;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub(crate) enum Quantity {
+pub(crate) enum ComparedQuantity {
     /// relative L2 error of the depth over the whole flank, the larger of both gears'
     WearProfile,
     /// relative L2 error of the depth over the pinion's flank
@@ -49,8 +49,8 @@ pub(crate) enum Quantity {
     WornFaceLoadFactor,
 }
 
-/// Its name in results.
-impl fmt::Display for Quantity {
+/// Name in results.
+impl fmt::Display for ComparedQuantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.serialize(f)
     }
@@ -61,7 +61,7 @@ fn heading(name: &str) -> String {
     figures::find(name).map_or_else(|| name.to_owned(), |figure| capitalised(&figure.heading))
 }
 
-impl Quantity {
+impl ComparedQuantity {
     /// All of them, in the order of the tables; the last three are of pairs with slices, half-width is of the others.
     pub(crate) const ALL: [Self; 17] = [
         Self::WearProfile,
@@ -83,7 +83,7 @@ impl Quantity {
         Self::WornFaceLoadFactor,
     ];
 
-    /// What it is, for people.
+    /// Title for readers.
     pub(crate) fn title(self) -> String {
         match self {
             Self::WearProfile => "Wear profile, both gears".to_owned(),

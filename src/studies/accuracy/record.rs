@@ -1,4 +1,4 @@
-//! What the comparison of models by error and run time leaves behind, as plain data in the units of the output files.
+//! Record of the comparison of models by error and run time, in the units of the output files.
 //!
 //! Field names are the key names of `accuracy.json`.
 
@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-pub(crate) use super::quantity::Quantity;
+pub(crate) use super::quantity::ComparedQuantity;
 use crate::gear::PerGear;
 use crate::results::run::{PathPoints, StopReason, WorkSummary};
 
@@ -30,9 +30,9 @@ pub(crate) struct AccuracyRecord {
     pub calibration_s: Option<f64>,
     /// Threads that every run could use.
     pub threads: usize,
-    /// The relative error that the recommendations ask for.
+    /// Relative error that the recommendations stay within.
     pub within: f64,
-    /// What the others are measured against.
+    /// Reference that the others are measured against.
     pub reference: ReferenceRecord,
     /// Every run, in the order of the work.
     pub variants: Vec<VariantRecord>,
@@ -41,7 +41,7 @@ pub(crate) struct AccuracyRecord {
     pub recommendations: Vec<Recommendation>,
     /// The quantities in which the reference is too uncertain for a ranking.
     pub not_ranked: Vec<NotRanked>,
-    pub comparisons: Vec<Comparison>,
+    pub comparisons: Vec<SettingComparison>,
     /// Runs to a greater depth; `None` where the scene has no slices.
     pub deep_runs: Option<DeepRuns>,
     pub warnings: Vec<String>,
@@ -63,19 +63,19 @@ impl AccuracyRecord {
     }
 
     /// The run recommended for `quantity`: whether it is within the error wanted, the run, its error and its run time, s.
-    pub(crate) fn recommended(&self, quantity: Quantity) -> Option<(bool, &VariantRecord, f64, f64)> {
+    pub(crate) fn recommended(&self, quantity: ComparedQuantity) -> Option<(bool, &VariantRecord, f64, f64)> {
         let chosen = self.recommendations.iter().find(|r| r.quantity == quantity)?;
         let variant = self.variants.get(chosen.variant)?;
         Some((chosen.is_within, variant, variant.errors.get(&quantity)?.relative, variant.simulation_s?))
     }
 
     /// Why no run is ranked by `quantity`, where none is.
-    pub(crate) fn not_ranked(&self, quantity: Quantity) -> Option<&NotRanked> {
+    pub(crate) fn not_ranked(&self, quantity: ComparedQuantity) -> Option<&NotRanked> {
         self.not_ranked.iter().find(|one| one.quantity == quantity)
     }
 
     /// Whether any run has an error of `quantity`.
-    pub(crate) fn measures(&self, quantity: Quantity) -> bool {
+    pub(crate) fn measures(&self, quantity: ComparedQuantity) -> bool {
         self.variants.iter().any(|variant| variant.errors.contains_key(&quantity))
     }
 }
@@ -84,10 +84,10 @@ impl AccuracyRecord {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct ReferenceRecord {
     pub how: String,
-    /// What the errors against it do not tell; `None` where it is a finite-element solution of the whole pair.
+    /// Limits of the reference that errors against it do not show; `None` where it is a finite-element solution of the whole pair.
     pub does_not_tell: Option<String>,
-    /// What remains uncertain of each quantity, relative: errors below this are not told apart.
-    pub uncertainty: BTreeMap<Quantity, f64>,
+    /// Relative uncertainty of each quantity of the reference: errors below it are not told apart.
+    pub uncertainty: BTreeMap<ComparedQuantity, f64>,
     /// The runs it was extrapolated from; indices of `variants`.
     pub runs: Vec<usize>,
     /// Greatest wear depth of each gear, µm.
@@ -134,7 +134,7 @@ impl ReferenceFlank {
 /// A run: what it was made of, what it took, and how far it is from the reference.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct VariantRecord {
-    /// What it is called in tables and plots.
+    /// Name in tables and plots.
     pub name: String,
     pub settings: VariantSettings,
     /// Wall time of the wear run alone, s: the least of the repeats.
@@ -146,7 +146,7 @@ pub(crate) struct VariantRecord {
     pub work: Option<WorkSummary>,
     /// Greatest wear depth of each gear, µm.
     pub peak_wear_um: Option<PerGear<f64>>,
-    pub errors: BTreeMap<Quantity, MeasuredError>,
+    pub errors: BTreeMap<ComparedQuantity, MeasuredError>,
     /// Why there is no result, where there is none.
     pub failure: Option<String>,
     /// Whether the reference was extrapolated from it.
@@ -162,7 +162,7 @@ pub(crate) struct VariantRecord {
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct VariantSettings {
     pub surface: String,
-    /// What K/H shares with Hertz or the calibration; `None` where the surface has no K/H.
+    /// Quantity in which K/H matches Hertz or the calibration; `None` where the surface has no K/H.
     #[serde(rename = "match")]
     pub match_criterion: Option<String>,
     /// Whether K/H is the calibration's, for every position and load.
@@ -183,7 +183,7 @@ pub(crate) struct VariantSettings {
     pub step_revolutions: f64,
     /// The scene's numbers of flank points and positions over these.
     pub spacing_coarsening: u32,
-    /// This wear step over the scene's.
+    /// Ratio of the wear step to the scene's.
     pub step_coarsening: u32,
 }
 
@@ -204,29 +204,29 @@ pub(crate) struct LeftOut {
 /// The cheapest setting whose error is within the one wanted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Recommendation {
-    pub quantity: Quantity,
+    pub quantity: ComparedQuantity,
     /// Index of the run in `variants`; the one with the least error where none is within.
     pub variant: usize,
     /// Whether its error is within the one wanted.
     pub is_within: bool,
 }
 
-/// A quantity of which the reference is more uncertain than the error wanted: no run is ranked or recommended by it.
+/// A quantity whose reference is more uncertain than the error asked for: runs are not ranked by it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct NotRanked {
-    pub quantity: Quantity,
+    pub quantity: ComparedQuantity,
     /// Of the reference, relative.
     pub uncertainty: f64,
-    /// What would make the reference more certain, the greatest part of the uncertainty first.
+    /// Change of the scene that reduces the uncertainty, its largest part first.
     pub remedy: String,
 }
 
 /// Runs that differ in one respect only.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct Comparison {
-    /// What they differ in.
+pub(crate) struct SettingComparison {
+    /// Setting that differs between them.
     pub title: String,
-    /// What they have in common.
+    /// Settings in common.
     pub common: String,
     /// Name of the run that the others are compared with.
     pub baseline: String,
@@ -250,13 +250,13 @@ pub(crate) struct ComparisonRow {
 /// oscillates from step to step then finds other depths, one that does not hardly notices.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct DeepRuns {
-    /// What they have in common.
+    /// Settings in common.
     pub common: String,
-    /// The scene's revolutions times this.
+    /// Factor on the scene's revolutions.
     pub revolutions_factor: f64,
     /// The run that the profiles are compared with.
     pub baseline: String,
-    /// Beyond this change of the greatest depth with the wear step a run is said to be unstable.
+    /// Greatest relative change of the greatest depth of a stable run.
     pub stable_within: f64,
     pub rows: Vec<DeepRow>,
 }
@@ -272,10 +272,17 @@ pub(crate) struct DeepRow {
     pub wear_profile: Option<f64>,
     /// Relative change of the greatest depth by the longer steps, the larger of both gears'.
     pub peak_wear_change: Option<f64>,
-    /// Whether that is within what stable runs change.
+    /// Whether that is within the limit of stable runs.
     pub stable: Option<bool>,
     /// Why there is no result, where there is none.
     pub failure: Option<String>,
+}
+
+impl DeepRow {
+    /// A model that has not run yet.
+    pub(crate) fn of(name: String) -> Self {
+        Self { name, ..Self::default() }
+    }
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]

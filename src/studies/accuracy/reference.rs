@@ -7,9 +7,8 @@
 //! ```
 //!
 //! The correction is made value by value over the flanks and the path of contact, once for each kind of spacing: size of
-//! elements and spacing of points and positions (second order), length of the wear step and width of the slices (first
-//! order). The differences
-//! are taken at a coarser level of the other spacings, which changes a correction by a correction of it only.
+//! elements and spacing of points and positions (second order), length of the wear step and width of the slices (first order).
+//! The differences are taken at a coarser level of the other spacings, which changes a correction by a correction of it only.
 //!
 //! What remains uncertain is stated as the size of the whole correction: the error of the finest run itself, measured
 //! against the reference. It is an upper bound as long as the corrections have the right sign and magnitude.
@@ -19,16 +18,16 @@
 use std::collections::BTreeMap;
 
 use super::measure::{Windows, errors};
-use super::observed::Observed;
-use crate::studies::accuracy::record::Quantity;
+use super::observed::ObservedRun;
+use crate::studies::accuracy::record::ComparedQuantity;
 
 /// Two runs that differ in one spacing only.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Correction<'a> {
     /// With the spacing h.
-    pub fine: &'a Observed,
+    pub fine: &'a ObservedRun,
     /// With the spacing r h.
-    pub coarse: &'a Observed,
+    pub coarse: &'a ObservedRun,
     /// r, above 1.
     pub ratio: f64,
     /// p.
@@ -38,17 +37,17 @@ pub(crate) struct Correction<'a> {
 /// The reference with what remains uncertain of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Reference {
-    /// Its curves.
-    pub observed: Observed,
+    /// Curves of the reference.
+    pub observed: ObservedRun,
     /// Relative uncertainty of each quantity.
-    pub uncertainty: BTreeMap<Quantity, f64>,
-    /// What each correction alone changes of every quantity, relative.
-    pub parts: Vec<BTreeMap<Quantity, f64>>,
+    pub uncertainty: BTreeMap<ComparedQuantity, f64>,
+    /// Relative change of every quantity by each correction alone.
+    pub parts: Vec<BTreeMap<ComparedQuantity, f64>>,
 }
 
 impl Reference {
     /// `finest` with all `corrections`, at the coordinates of `finest`.
-    pub(crate) fn extrapolated(finest: &Observed, corrections: &[Correction<'_>], windows: &Windows) -> Self {
+    pub(crate) fn extrapolated(finest: &ObservedRun, corrections: &[Correction<'_>], windows: &Windows) -> Self {
         let mut observed = finest.clone();
         let mut parts = Vec::with_capacity(corrections.len());
         for correction in corrections {
@@ -72,7 +71,7 @@ mod tests {
     use crate::studies::accuracy::observed::{ObservedCycle, ObservedFlank};
 
     /// A run whose curves are off from y = 3 + x by `error`(x).
-    fn off_by(points: usize, error: impl Fn(f64) -> f64) -> Observed {
+    fn off_by(points: usize, error: impl Fn(f64) -> f64) -> ObservedRun {
         let x: Vec<f64> = (0..=points).map(|i| i as f64 / points as f64).collect();
         let y: Vec<f64> = x.iter().map(|&x| 3.0 + x + error(x)).collect();
         let flank = ObservedFlank {
@@ -88,7 +87,7 @@ mod tests {
                 pressure_length_mm: 0.04,
             },
         };
-        Observed {
+        ObservedRun {
             flanks: PerGear { pinion: flank.clone(), wheel: flank },
             over_width: None,
             cycle: ObservedCycle {
@@ -121,9 +120,9 @@ mod tests {
             assert!((y - 3.0 - x).abs() < 1e-13, "{y} at {x}");
         }
         // At x = 1 the finest run has 4.04 in place of 4.
-        assert!((found.uncertainty[&Quantity::PeakPressure] - 0.01).abs() < 1e-12);
+        assert!((found.uncertainty[&ComparedQuantity::PeakPressure] - 0.01).abs() < 1e-12);
         // 0.02 of 4.04 by the step, then 0.02 of 4.02 by the elements.
-        let parts: Vec<f64> = found.parts.iter().map(|part| part[&Quantity::PeakPressure]).collect();
+        let parts: Vec<f64> = found.parts.iter().map(|part| part[&ComparedQuantity::PeakPressure]).collect();
         assert!((parts[0] - 0.02 / 4.02).abs() < 1e-12 && (parts[1] - 0.02 / 4.0).abs() < 1e-12, "{parts:?}");
     }
 }

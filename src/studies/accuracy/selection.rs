@@ -1,6 +1,6 @@
-//! Which settings are run, in which order, and which are not, with the reason.
+//! Selection of the settings that are run, their order, and the reason for those left out.
 //!
-//! Not every combination tells something. The plan is
+//! Not every combination is run, but
 //!
 //! * the finite-element surface on meshes of three sizes, each at every resolution of points, positions and steps; the
 //!   finest and some companions of it make the reference and come first;
@@ -10,7 +10,7 @@
 //!
 //! A scene with slices over the face width has another plan: `sliced_selection`.
 
-use super::settings::{Coarsening, Setting, Stiffness, Surface};
+use super::settings::{Coarsening, Setting, StiffnessSetting, SurfaceSetting};
 use super::sliced_selection;
 use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use crate::scene::Resolved;
@@ -23,13 +23,13 @@ const USUAL_STIFFNESS_N_PER_MM_UM: f64 = 20.0;
 const COARSER_MESHES: [f64; 2] = [0.6, 0.4];
 /// Fewest elements in a half-width.
 const LEAST_ELEMENTS: f64 = 2.0;
-/// How much longer the wear steps of the reference's companions are. On a fine mesh Euler's steps are bounded by short
-/// waves of wear; much longer ones would not be of the order that is extrapolated with.
+/// Factor on the wear step of the companions of the reference. On a fine mesh short waves of wear limit Euler's step; much longer steps would not
+/// show the order of convergence that the extrapolation assumes.
 pub(super) const COMPANION_STEP: u32 = 2;
 
-/// What is asked of the comparison beside the scene.
+/// Options of the comparison beside the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Asked {
+pub(crate) struct AccuracyOptions {
     /// The relative error that recommendations stay within.
     pub within: f64,
     /// Whether to leave the finest resolution out.
@@ -38,15 +38,15 @@ pub(crate) struct Asked {
 
 /// Two runs of the reference that differ in one spacing; indices of the settings.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Companions {
+pub(crate) struct CompanionRuns {
     pub fine: usize,
     pub coarse: usize,
-    pub spacing: Spacing,
+    pub spacing: RefinedSpacing,
 }
 
-/// What differs between two companions.
+/// Setting that differs between two companions.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Spacing {
+pub(crate) enum RefinedSpacing {
     /// The size of elements, by this ratio.
     Elements(f64),
     /// The spacing of flank points and positions, by this ratio.
@@ -57,8 +57,8 @@ pub(crate) enum Spacing {
     Step,
 }
 
-impl Spacing {
-    /// What in the scene makes it less.
+impl RefinedSpacing {
+    /// Change of the scene that reduces the difference.
     pub(crate) fn remedy(self) -> &'static str {
         match self {
             Self::Elements(_) => "more fem.elements_per_half_width",
@@ -71,17 +71,21 @@ impl Spacing {
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Selection {
-    /// Every setting, in the order of the work; the first is the finest.
+    /// Every setting, in the order of the runs; the first is the finest.
     pub settings: Vec<Setting>,
-    /// From which of them the reference is extrapolated, beside the first.
-    pub companions: Vec<Companions>,
+    /// Settings from which, with the first, the reference is extrapolated.
+    pub companions: Vec<CompanionRuns>,
     pub left_out: Vec<LeftOut>,
 }
 
 impl Selection {
-    /// The settings that fit the scene; `calibrated` says for which criteria there is a calibration, empty where there is
-    /// none, for `no_calibration`'s reason.
-    pub(crate) fn new(resolved: &Resolved, asked: Asked, calibrated: &[MatchCriterion], no_calibration: &str) -> Self {
+    /// Settings that fit the scene. `calibrated` holds the criteria with a calibrated K/H; where it is empty, `no_calibration` is the reason.
+    pub(crate) fn new(
+        resolved: &Resolved,
+        asked: AccuracyOptions,
+        calibrated: &[MatchCriterion],
+        no_calibration: &str,
+    ) -> Self {
         let scene = &resolved.scene;
         let finest = if asked.quick { 2 } else { 1 };
         let mut levels = vec![finest];
@@ -112,7 +116,7 @@ impl Selection {
         selection
     }
 
-    /// The finest setting with half of its points and positions, where it was run with that.
+    /// Finest setting with half of its points and positions, where that was run.
     pub(crate) fn second_resolution(&self) -> Setting {
         let finest = &self.settings[0];
         let by = 2 * finest.coarsening.spacing;
@@ -134,13 +138,6 @@ impl Selection {
 
     /// The reference with its companions, then the finite elements of other sizes.
     fn finite_elements(&mut self, elements: f64, levels: &[u32]) {
-        let fem = |elements_per_half_width: f64, coarsening: Coarsening| Setting {
-            surface: Surface::Fem { elements_per_half_width },
-            tip_contact: false,
-            stiffness: None,
-            slices: None,
-            coarsening,
-        };
         let mut meshes = vec![elements];
         for share in COARSER_MESHES {
             let coarser = (elements * share).round();
@@ -155,28 +152,32 @@ impl Selection {
         }
         let finest = levels[0];
         let long_steps = Coarsening { spacing: finest, step: COMPANION_STEP * finest };
-        self.add(fem(elements, Coarsening::even(finest)));
-        let long = self.add(fem(elements, long_steps));
-        self.companions.push(Companions { fine: 0, coarse: long, spacing: Spacing::Step });
+        self.add(Setting::fem(elements, Coarsening::even(finest)));
+        let long = self.add(Setting::fem(elements, long_steps));
+        self.companions.push(CompanionRuns { fine: 0, coarse: long, spacing: RefinedSpacing::Step });
         if let Some(&coarser) = meshes.get(1) {
-            let coarse = self.add(fem(coarser, long_steps));
-            self.companions.push(Companions { fine: long, coarse, spacing: Spacing::Elements(elements / coarser) });
+            let coarse = self.add(Setting::fem(coarser, long_steps));
+            self.companions.push(CompanionRuns {
+                fine: long,
+                coarse,
+                spacing: RefinedSpacing::Elements(elements / coarser),
+            });
         }
         let cheapest = meshes.get(1).copied().unwrap_or(elements);
         if let Some(&wider) = levels.get(1) {
-            let fine = self.add(fem(cheapest, long_steps));
-            let coarse = self.add(fem(cheapest, Coarsening { spacing: wider, ..long_steps }));
+            let fine = self.add(Setting::fem(cheapest, long_steps));
+            let coarse = self.add(Setting::fem(cheapest, Coarsening { spacing: wider, ..long_steps }));
             let ratio = f64::from(wider) / f64::from(finest);
-            self.companions.push(Companions { fine, coarse, spacing: Spacing::Points(ratio) });
+            self.companions.push(CompanionRuns { fine, coarse, spacing: RefinedSpacing::Points(ratio) });
         }
         for mesh in meshes {
             for &by in levels {
-                self.add(fem(mesh, Coarsening::even(by)));
+                self.add(Setting::fem(mesh, Coarsening::even(by)));
             }
         }
     }
 
-    /// Everything on the theoretical line of action.
+    /// Adds the settings whose contact is on the theoretical line of action.
     fn line_of_action(
         &mut self,
         resolved: &Resolved,
@@ -194,17 +195,17 @@ impl Selection {
                     if by != finest && !tried.contains(&stiffness.name) {
                         continue;
                     }
-                    let setting = |tip_contact| Setting {
+                    let tip_contact = follows_tip(surface, has_calibration);
+                    let setting = Setting {
                         surface,
                         tip_contact,
                         stiffness: Some(stiffness.clone()),
                         slices: None,
                         coarsening: Coarsening::even(by),
                     };
-                    let follows = follows_tip(surface, has_calibration);
-                    self.add(setting(follows));
+                    self.add(setting.clone());
                     if surface.may_follow_tip() && by == finest && stiffness.name == *best {
-                        self.add(setting(!follows));
+                        self.add(Setting { tip_contact: !tip_contact, ..setting });
                     }
                 }
             }
@@ -223,7 +224,7 @@ impl Selection {
         }
     }
 
-    /// What no scene is run with.
+    /// Records the settings that are left out for every scene.
     fn leave_out_of_all(&mut self, resolved: &Resolved, calibrated: &[MatchCriterion], no_calibration: &str) {
         let own = resolved.file.stiffness.as_ref().and_then(|stiffness| stiffness.model);
         for (model, name) in [(StiffnessModel::Simon, "simon"), (StiffnessModel::WangCheng, "wang-cheng")] {
@@ -238,28 +239,28 @@ impl Selection {
     }
 }
 
-/// The stiffnesses that fit a scene.
+/// Stiffness models that fit a scene.
 pub(super) struct Stiffnesses {
-    pub all: Vec<Stiffness>,
-    /// Names of those that more than one resolution is tried with, the best last.
+    pub all: Vec<StiffnessSetting>,
+    /// Names of those tried at several resolutions, the best last.
     pub tried: Vec<String>,
 }
 
 impl Stiffnesses {
     fn new(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Self {
         let has_calibration = !calibrated.is_empty();
-        let own = (resolved.scene.contact.surface != SurfaceKind::Fem).then(|| Stiffness::of_scene(resolved));
+        let own = (resolved.scene.contact.surface != SurfaceKind::Fem).then(|| StiffnessSetting::of_scene(resolved));
         let own = own.filter(|own| has_calibration || own.file.model != Some(StiffnessModel::Fem));
-        let of_fem = has_calibration.then(|| Stiffness::of_model(StiffnessModel::Fem, "fem"));
+        let of_fem = has_calibration.then(|| StiffnessSetting::of_model(StiffnessModel::Fem, "fem"));
         let own_is_constant = own.as_ref().is_some_and(|own| own.file.model == Some(StiffnessModel::Constant));
-        let usual = (!own_is_constant).then(|| Stiffness::constant(USUAL_STIFFNESS_N_PER_MM_UM));
-        let weber_banaschek = Stiffness::of_model(StiffnessModel::WeberBanaschek, "weber-banaschek");
+        let usual = (!own_is_constant).then(|| StiffnessSetting::constant(USUAL_STIFFNESS_N_PER_MM_UM));
+        let weber_banaschek = StiffnessSetting::of_model(StiffnessModel::WeberBanaschek, "weber-banaschek");
         let mut tried: Vec<String> = own.iter().chain(&of_fem).map(|stiffness| stiffness.name.clone()).collect();
         if tried.is_empty() {
             tried.push(weber_banaschek.name.clone());
         }
-        let closed_forms = [weber_banaschek, Stiffness::of_model(StiffnessModel::Iso6336, "iso6336")];
-        let mut all: Vec<Stiffness> = Vec::new();
+        let closed_forms = [weber_banaschek, StiffnessSetting::of_model(StiffnessModel::Iso6336, "iso6336")];
+        let mut all: Vec<StiffnessSetting> = Vec::new();
         for stiffness in own.into_iter().chain(of_fem).chain(closed_forms).chain(usual) {
             if all.iter().all(|other| other.name != stiffness.name) {
                 all.push(stiffness);
@@ -268,29 +269,29 @@ impl Stiffnesses {
         Self { all, tried }
     }
 
-    /// The one that tip edges are tried with: that of finite elements where there is one.
-    pub(super) fn best(&self) -> &Stiffness {
+    /// Stiffness with which tip contact is tried: that of finite elements where there is one.
+    pub(super) fn best(&self) -> &StiffnessSetting {
         let name = self.tried.last();
         self.all.iter().find(|stiffness| Some(&stiffness.name) == name).unwrap_or(&self.all[0])
     }
 }
 
-/// The surfaces on the line of action, from cheap to true.
-pub(super) fn surfaces(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Vec<Surface> {
-    let mut surfaces = vec![Surface::HertzMean, Surface::Hertz];
+/// Surfaces on the line of action, from the fastest to the most accurate.
+pub(super) fn surfaces(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Vec<SurfaceSetting> {
+    let mut surfaces = vec![SurfaceSetting::HertzMean, SurfaceSetting::Hertz];
     let own = resolved.scene.contact.foundation;
-    surfaces.extend(matches!(own, Foundation::Given { .. }).then_some(Surface::Winkler(own)));
-    surfaces.extend(MatchCriterion::ALL.map(|criterion| Surface::Winkler(Foundation::Matched(criterion))));
-    surfaces.extend(calibrated.iter().map(|&criterion| Surface::Winkler(Foundation::Calibrated(criterion))));
-    surfaces.push(Surface::HalfSpace);
+    surfaces.extend(matches!(own, Foundation::Given { .. }).then_some(SurfaceSetting::Winkler(own)));
+    surfaces.extend(MatchCriterion::ALL.map(|criterion| SurfaceSetting::Winkler(Foundation::Matched(criterion))));
+    surfaces.extend(calibrated.iter().map(|&criterion| SurfaceSetting::Winkler(Foundation::Calibrated(criterion))));
+    surfaces.push(SurfaceSetting::HalfSpace);
     surfaces
 }
 
-/// Whether a surface follows tip edges where nothing else is tried: the calibrated and the true ones do.
-fn follows_tip(surface: Surface, has_calibration: bool) -> bool {
+/// Whether a surface is run with tip contact alone: the calibrated and the most accurate ones are.
+fn follows_tip(surface: SurfaceSetting, has_calibration: bool) -> bool {
     match surface {
-        Surface::Winkler(Foundation::Calibrated(_)) => true,
-        Surface::HalfSpace => has_calibration,
+        SurfaceSetting::Winkler(Foundation::Calibrated(_)) => true,
+        SurfaceSetting::HalfSpace => has_calibration,
         _ => false,
     }
 }

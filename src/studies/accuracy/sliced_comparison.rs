@@ -7,24 +7,25 @@
 //! | contact surface | the surface, all of them coupled | `half-space`, tip edges followed |
 //! | tooth stiffness | the stiffness, on the scene's surface | that of finite elements |
 
-use super::comparison::{Run, row, stiffnesses, table};
-use super::settings::{Setting, Stiffness, Surface, coupling_name};
+use super::comparison::{ComparedRun, row, stiffnesses, table};
+use super::settings::{Setting, StiffnessSetting, SurfaceSetting, coupling_name};
 use super::sliced_selection::{slices_of_any_stiffness, truest};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::scene::Resolved;
-use crate::studies::accuracy::record::Comparison;
+use crate::studies::accuracy::record::SettingComparison;
 
 /// All tables that have rows.
-pub(super) fn comparisons(resolved: &Resolved, own: SliceSettings, runs: &[Run<'_>]) -> Vec<Comparison> {
+pub(super) fn comparisons(resolved: &Resolved, own: SliceSettings, runs: &[ComparedRun<'_>]) -> Vec<SettingComparison> {
     let on_own_slices = runs.iter().copied().filter(|run| run.setting.slices.is_some_and(|s| s.count == own.count));
-    let even: Vec<Run<'_>> =
+    let even: Vec<ComparedRun<'_>> =
         on_own_slices.filter(|run| run.setting.coarsening.spacing == run.setting.coarsening.step).collect();
     let Some(finest) = even.iter().map(|run| run.setting.coarsening.spacing).min() else { return Vec::new() };
-    let at =
-        |by: u32| -> Vec<Run<'_>> { even.iter().copied().filter(|run| run.setting.coarsening.spacing == by).collect() };
+    let at = |by: u32| -> Vec<ComparedRun<'_>> {
+        even.iter().copied().filter(|run| run.setting.coarsening.spacing == by).collect()
+    };
     let runs = at(finest);
     // Stiffnesses are tried at the second resolution where there is one.
-    let scenes_own: Vec<Run<'_>> = [2 * finest, finest]
+    let scenes_own: Vec<ComparedRun<'_>> = [2 * finest, finest]
         .into_iter()
         .map(|by| {
             let slices = Some(slices_of_any_stiffness(own));
@@ -43,19 +44,23 @@ pub(super) fn comparisons(resolved: &Resolved, own: SliceSettings, runs: &[Run<'
     .collect()
 }
 
-/// The run that differs from `run` in what `change` does to its setting only.
-fn counterpart<'a>(runs: &[Run<'a>], run: &Run<'_>, change: impl Fn(&mut Setting)) -> Option<Run<'a>> {
+/// The run whose setting is that of `run` after `change`.
+fn counterpart<'a>(
+    runs: &[ComparedRun<'a>],
+    run: &ComparedRun<'_>,
+    change: impl Fn(&mut Setting),
+) -> Option<ComparedRun<'a>> {
     let mut wanted = run.setting.clone();
     change(&mut wanted);
     runs.iter().copied().find(|other| *other.setting == wanted)
 }
 
-fn coupling_of(run: &Run<'_>) -> Coupling {
+fn coupling_of(run: &ComparedRun<'_>) -> Coupling {
     run.setting.slices.map_or(Coupling::None, |slices| slices.coupling)
 }
 
-/// Every surface against itself with the truest coupling.
-fn coupling(runs: &[Run<'_>], slices: usize, truest: Coupling) -> Option<Comparison> {
+/// Every surface against itself with the most accurate coupling.
+fn coupling(runs: &[ComparedRun<'_>], slices: usize, truest: Coupling) -> Option<SettingComparison> {
     let rows = runs
         .iter()
         .filter(|run| coupling_of(run) != truest)
@@ -72,12 +77,12 @@ fn coupling(runs: &[Run<'_>], slices: usize, truest: Coupling) -> Option<Compari
 }
 
 /// The simplified model against the distributed pressure it stands for.
-fn simplified(runs: &[Run<'_>], slices: usize) -> Option<Comparison> {
+fn simplified(runs: &[ComparedRun<'_>], slices: usize) -> Option<SettingComparison> {
     let rows = runs
         .iter()
-        .filter(|run| run.setting.surface == Surface::HertzMean)
+        .filter(|run| run.setting.surface == SurfaceSetting::HertzMean)
         .filter_map(|run| {
-            let hertz = counterpart(runs, run, |setting| setting.surface = Surface::Hertz)?;
+            let hertz = counterpart(runs, run, |setting| setting.surface = SurfaceSetting::Hertz)?;
             Some(row(format!("mean pressure, {}", coupling_name(coupling_of(run))), run, &hertz))
         })
         .collect();
@@ -90,17 +95,19 @@ fn simplified(runs: &[Run<'_>], slices: usize) -> Option<Comparison> {
 }
 
 /// All coupled surfaces against elastic half-planes.
-fn surfaces(runs: &[Run<'_>], slices: usize) -> Option<Comparison> {
-    let coupled: Vec<&Run<'_>> = runs.iter().filter(|run| coupling_of(run) == Coupling::Slicing).collect();
-    let baseline =
-        coupled.iter().find(|run| run.setting.surface == Surface::HalfSpace && run.setting.tip_contact).copied()?;
+fn surfaces(runs: &[ComparedRun<'_>], slices: usize) -> Option<SettingComparison> {
+    let coupled: Vec<&ComparedRun<'_>> = runs.iter().filter(|run| coupling_of(run) == Coupling::Slicing).collect();
+    let baseline = coupled
+        .iter()
+        .find(|run| run.setting.surface == SurfaceSetting::HalfSpace && run.setting.tip_contact)
+        .copied()?;
     let stiffness = &baseline.setting.stiffness;
     let rows = coupled
         .iter()
         .filter(|run| run.setting.stiffness == *stiffness && run.setting != baseline.setting)
         .map(|run| row(run.setting.surface_name(), run, baseline))
         .collect();
-    let teeth = stiffness.as_ref().map_or_else(String::new, Stiffness::title);
+    let teeth = stiffness.as_ref().map_or_else(String::new, StiffnessSetting::title);
     let common = format!("{slices} slices, {}, {teeth}", coupling_name(Coupling::Slicing));
     table("Contact surface", common, &baseline.setting.surface_name(), rows)
 }

@@ -1,8 +1,8 @@
-//! Which settings are run where sections differ over the face width.
+//! Selection of the settings that are run where sections differ over the face width.
 //!
-//! Plane finite elements are no solution of such a pair. The truest model there is takes their place, elastic half-planes whose slices are
-//! coupled by three-dimensional finite elements of both gears, tip edges followed, on twice the scene's slices; where teeth cannot be had
-//! in space, or so many slices not be coupled there, the slices are coupled by plate theory. The plan is
+//! Plane finite elements are no solution of such a pair. The reference is therefore elastic half-planes whose slices are coupled
+//! by three-dimensional finite elements of both gears, with tip contact, on twice the scene's slices; where the gears cannot be
+//! meshed in space, or not with so many slices, the slices are coupled by plate theory. The plan is
 //!
 //! * the reference and its companions: steps twice as long, half of the slices, half of the points and positions;
 //! * the surfaces that stand for the others, coupled in space, at the finest resolution;
@@ -10,23 +10,23 @@
 //! * other numbers of slices with the surfaces that stand for the others, at the second resolution;
 //! * other tooth stiffnesses on the scene's own surface, and tip edges that are not followed.
 
-use super::selection::{COMPANION_STEP, Companions, Selection, Spacing, Stiffnesses, surfaces};
-use super::settings::{Coarsening, Setting, Stiffness, Surface};
+use super::selection::{COMPANION_STEP, CompanionRuns, RefinedSpacing, Selection, Stiffnesses, surfaces};
+use super::settings::{Coarsening, Setting, StiffnessSetting, SurfaceSetting};
 use crate::contact::settings::{Foundation, MatchCriterion};
 use crate::gear_mesh::settings::Body;
 use crate::mesh_cycle::settings::{Coupling, MOST_SLICES_IN_SPACE, SliceSettings};
 use crate::operation::Scene;
 use crate::scene::Resolved;
 
-/// Fewest slices that tell something of the width.
+/// Least number of slices worth comparing.
 const LEAST_SLICES: usize = 2;
-/// The K/H that stands for the others.
+/// Criterion of the K/H whose Winkler foundation is tried at every resolution and coupling.
 const CRITERION: MatchCriterion = MatchCriterion::HalfWidth;
-const MATCHED: Surface = Surface::Winkler(Foundation::Matched(CRITERION));
-/// Of every surface, the truer one first.
+const MATCHED: SurfaceSetting = SurfaceSetting::Winkler(Foundation::Matched(CRITERION));
+/// Couplings tried with every surface, the more accurate one first.
 const COUPLINGS: [Coupling; 2] = [Coupling::Slicing, Coupling::None];
 
-/// The coupling of the reference to a scene with so many slices: in space where its teeth can be had there.
+/// Coupling of the reference with this many slices: three-dimensional finite elements where they can be meshed, else plate theory.
 pub(super) fn truest(scene: &Scene, slices: usize) -> Coupling {
     match scene.fem.body == Body::Ring && slices <= MOST_SLICES_IN_SPACE {
         true => Coupling::Fem,
@@ -34,7 +34,7 @@ pub(super) fn truest(scene: &Scene, slices: usize) -> Coupling {
     }
 }
 
-/// Most slices that the reference may have.
+/// Greatest number of slices of the reference.
 fn most_slices(coupling: Coupling) -> usize {
     match coupling {
         Coupling::Fem => MOST_SLICES_IN_SPACE,
@@ -42,7 +42,7 @@ fn most_slices(coupling: Coupling) -> usize {
     }
 }
 
-/// The slices that stiffnesses are compared on, of a scene that has `own`: in space there is one alone.
+/// Slices on which the stiffness models are compared: a single one where the coupling is three-dimensional.
 pub(super) fn slices_of_any_stiffness(own: SliceSettings) -> SliceSettings {
     match own.coupling {
         Coupling::Fem => SliceSettings { coupling: Coupling::Slicing, ..own },
@@ -77,7 +77,7 @@ pub(super) fn add(
         }
     }
     for count in other_counts(selection, own.count) {
-        for surface in [Surface::HertzMean, Surface::Hertz, MATCHED, Surface::HalfSpace] {
+        for surface in [SurfaceSetting::HertzMean, SurfaceSetting::Hertz, MATCHED, SurfaceSetting::HalfSpace] {
             for coupling in COUPLINGS {
                 selection.add(setting(surface, best, SliceSettings { count, coupling }, Coarsening::even(second)));
             }
@@ -85,10 +85,10 @@ pub(super) fn add(
     }
     for stiffness in &stiffnesses.all {
         let slices = slices_of_any_stiffness(own);
-        selection.add(setting(Surface::of_scene(resolved), stiffness, slices, Coarsening::even(second)));
+        selection.add(setting(SurfaceSetting::of_scene(resolved), stiffness, slices, Coarsening::even(second)));
     }
     let coupled = SliceSettings { coupling: Coupling::Slicing, ..own };
-    for (surface, by) in [(MATCHED, finest), (Surface::HalfSpace, second)] {
+    for (surface, by) in [(MATCHED, finest), (SurfaceSetting::HalfSpace, second)] {
         let followed = setting(surface, best, coupled, Coarsening::even(by));
         selection.add(Setting { tip_contact: false, ..followed });
     }
@@ -96,30 +96,28 @@ pub(super) fn add(
 }
 
 /// The reference, first of all, with its companions.
-fn reference(selection: &mut Selection, own: SliceSettings, levels: &[u32], stiffness: &Stiffness) {
+fn reference(selection: &mut Selection, own: SliceSettings, levels: &[u32], stiffness: &StiffnessSetting) {
     let (finest, slices) = (levels[0], own.count);
-    let of = |count: usize, coarsening: Coarsening| {
-        let slices = SliceSettings { count, ..own };
-        setting(Surface::HalfSpace, stiffness, slices, coarsening)
-    };
     let long_steps = Coarsening { spacing: finest, step: COMPANION_STEP * finest };
     let most = (2 * slices).min(most_slices(own.coupling));
-    selection.add(of(most, Coarsening::even(finest)));
-    let long = selection.add(of(most, long_steps));
-    selection.companions.push(Companions { fine: 0, coarse: long, spacing: Spacing::Step });
-    let wide = selection.add(of(slices, long_steps));
+    let many = SliceSettings { count: most, ..own };
+    selection.add(setting(SurfaceSetting::HalfSpace, stiffness, many, Coarsening::even(finest)));
+    let long = selection.add(setting(SurfaceSetting::HalfSpace, stiffness, many, long_steps));
+    selection.companions.push(CompanionRuns { fine: 0, coarse: long, spacing: RefinedSpacing::Step });
+    let wide = selection.add(setting(SurfaceSetting::HalfSpace, stiffness, own, long_steps));
     if most > slices {
         let ratio = most as f64 / slices as f64;
-        selection.companions.push(Companions { fine: long, coarse: wide, spacing: Spacing::Slices(ratio) });
+        selection.companions.push(CompanionRuns { fine: long, coarse: wide, spacing: RefinedSpacing::Slices(ratio) });
     }
     if let Some(&wider) = levels.get(1) {
-        let coarse = selection.add(of(slices, Coarsening { spacing: wider, ..long_steps }));
+        let coarser = Coarsening { spacing: wider, ..long_steps };
+        let coarse = selection.add(setting(SurfaceSetting::HalfSpace, stiffness, own, coarser));
         let ratio = f64::from(wider) / f64::from(finest);
-        selection.companions.push(Companions { fine: wide, coarse, spacing: Spacing::Points(ratio) });
+        selection.companions.push(CompanionRuns { fine: wide, coarse, spacing: RefinedSpacing::Points(ratio) });
     }
 }
 
-/// A quarter, half and twice the scene's slices, as far as these are slices at all.
+/// A quarter, half and twice the scene's number of slices, where at least [`LEAST_SLICES`].
 fn other_counts(selection: &mut Selection, own: usize) -> Vec<usize> {
     let mut counts: Vec<usize> = Vec::new();
     for (count, name) in
@@ -134,7 +132,12 @@ fn other_counts(selection: &mut Selection, own: usize) -> Vec<usize> {
     counts
 }
 
-fn setting(surface: Surface, stiffness: &Stiffness, slices: SliceSettings, coarsening: Coarsening) -> Setting {
+fn setting(
+    surface: SurfaceSetting,
+    stiffness: &StiffnessSetting,
+    slices: SliceSettings,
+    coarsening: Coarsening,
+) -> Setting {
     Setting {
         surface,
         tip_contact: surface.may_follow_tip(),
@@ -145,9 +148,11 @@ fn setting(surface: Surface, stiffness: &Stiffness, slices: SliceSettings, coars
 }
 
 /// Whether a surface is tried at every resolution and coupling: of the Winkler foundations, those matched on half-width.
-fn stands_for_others(surface: Surface) -> bool {
+fn stands_for_others(surface: SurfaceSetting) -> bool {
     match surface {
-        Surface::Winkler(Foundation::Matched(criterion) | Foundation::Calibrated(criterion)) => criterion == CRITERION,
+        SurfaceSetting::Winkler(Foundation::Matched(criterion) | Foundation::Calibrated(criterion)) => {
+            criterion == CRITERION
+        }
         _ => true,
     }
 }

@@ -2,16 +2,16 @@
 
 use std::time::Instant;
 
-use super::comparison::{self, Run};
+use super::comparison::{self, ComparedRun};
 use super::deep_runs;
-use super::front::{Point, cheapest_within, on_front};
+use super::front::{FrontPoint, cheapest_within, on_front};
 use super::measure::{Windows, errors, peak_pressure_mpa, peak_to_peak};
-use super::observed::Observed;
+use super::observed::ObservedRun;
 use super::reference::{Correction, Reference};
-use super::selection::{Asked, Companions, Selection, Spacing};
+use super::selection::{AccuracyOptions, CompanionRuns, RefinedSpacing, Selection};
 use super::settings::Setting;
 use super::sliced_comparison;
-use super::timed_run::{Finished, Measured, measure};
+use super::timed_run::{Finished, MeasuredSetting, measure};
 use crate::assessment::calibrate::{self, CalibrateError, Extent};
 use crate::calibration::Calibration;
 use crate::contact::settings::MatchCriterion;
@@ -22,16 +22,16 @@ use crate::scene::Resolved;
 use crate::scene::loaded::LoadedScene;
 use crate::simulation::settings::LifeLimits;
 use crate::studies::accuracy::record::{
-    AccuracyRecord, CALIBRATION_FILE, MeasuredError, NotRanked, Quantity, Recommendation, ReferenceFlank,
+    AccuracyRecord, CALIBRATION_FILE, ComparedQuantity, MeasuredError, NotRanked, Recommendation, ReferenceFlank,
     ReferenceRecord, VariantRecord,
 };
 
-/// Least ratio of the wear steps taken of which anything is learned.
+/// Least ratio of the numbers of wear steps for an extrapolation.
 const LEAST_STEP_RATIO: f64 = 1.2;
-/// What a reference on half-planes leaves open.
-const DOES_NOT_TELL: &str = "The teeth of the reference are three-dimensional finite elements, or plates where these cannot be had; contact \
-                             itself is plane in every slice, on half-planes. The errors are those of the contact surface, of the coupling of \
-                             slices and of the resolution; what half-planes themselves leave out at tip edges and end faces they do not tell.";
+/// Limits of a reference on elastic half-planes.
+const DOES_NOT_TELL: &str = "The teeth of the reference are three-dimensional finite elements, or plates where the gears cannot be meshed in \
+                             space; contact itself is plane in every slice, on half-planes. The errors are those of the contact surface, of \
+                             the coupling of slices and of the resolution, not that of half-planes at tip edges and end faces.";
 
 /// Why there is nothing to compare.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -49,79 +49,48 @@ pub(crate) enum AccuracyError {
 ///
 /// # Errors
 /// [`AccuracyError`] where the reference is not finished.
-pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) -> Result<AccuracyRecord, AccuracyError> {
+pub(crate) fn run(
+    given: &LoadedScene,
+    asked: AccuracyOptions,
+    observer: &dyn Observer,
+) -> Result<AccuracyRecord, AccuracyError> {
     let start = Instant::now();
-    let calibration = calibration(given, observer)?;
-    let mut given = calibration.made.map_or_else(|| given.clone(), |made| given.calibrated(made));
-    if given.resolved.file.operation.stop.take().is_some() {
-        given.resolved.scene.operation.stop = LifeLimits::default();
-        let warning =
-            "operation.stop is left out: all models run the whole duration, so that their wear can be compared";
-        given.resolved.warnings.push(warning.to_owned());
-    }
-    let given = &given;
+    let CalibrationOfRuns { made, wall_s: calibration_s, why_none } = calibration(given, observer)?;
+    let mut given = made.map_or_else(|| given.clone(), |made| given.calibrated(made));
+    leave_out_stop(&mut given.resolved);
     let (resolved, made) = (&given.resolved, given.files.calibration.as_ref());
     let calibrated: Vec<MatchCriterion> = made.map_or_else(Vec::new, |made| made.foundation.keys().copied().collect());
-    let selection = Selection::new(resolved, asked, &calibrated, &calibration.why_none);
+    let selection = Selection::new(resolved, asked, &calibrated, &why_none);
     let settings = selection.settings.len();
     let count = settings + if resolved.scene.slices.is_some() { deep_runs::RUNS } else { 0 };
-    let mut measured: Vec<Measured> = Vec::with_capacity(settings);
-    for (number, setting) in selection.settings.iter().enumerate() {
-        observer.run_of(number, count, &setting.name());
-        match measure(setting, given, &PartOf::new(observer, number, count)) {
-            Some(one) => measured.push(one),
-            None => break,
-        }
-    }
+    let measured = measure_all(&selection.settings, &given, observer, count);
     let all_measured = measured.len() == settings;
-    let deep = || deep_runs::run(given, &selection.second_resolution(), observer, settings, count);
-    let deep_runs = all_measured.then(deep).flatten();
+    let second = selection.second_resolution();
+    let deep_runs = all_measured.then(|| deep_runs::run(&given, &second, observer, settings, count)).flatten();
     let is_complete = all_measured && deep_runs.is_some() == resolved.scene.slices.is_some();
-    let stopped = if is_complete { StopReason::Completed } else { StopReason::Interrupted };
     let windows = windows(resolved, &measured)?;
     let (reference, runs, spacings) = reference(&selection, &measured, &windows)?;
     let not_ranked = not_ranked(&reference, &spacings, asked.within);
-    let at_reference: Vec<Option<Observed>> = measured
+    let at_reference: Vec<Option<ObservedRun>> = measured
         .iter()
         .map(|one| one.finished.as_ref().map(|run| run.observed.at_coordinates_of(&reference.observed)))
         .collect();
     let mut variants: Vec<VariantRecord> = measured.iter().map(|one| one.record.clone()).collect();
-    for &index in &runs {
-        variants[index].part_of_reference = true;
-    }
+    runs.iter().for_each(|&index| variants[index].part_of_reference = true);
     add_errors(&mut variants, &at_reference, &reference, &windows);
-    for quantity in Quantity::ALL.into_iter().filter(|&q| not_ranked.iter().all(|one| one.quantity != q)) {
-        mark_front(&mut variants, quantity, reference.uncertainty.get(&quantity).copied().unwrap_or(0.0));
-    }
-    let finest = selection.settings[0].coarsening;
-    for ((variant, observed), setting) in variants.iter_mut().zip(&at_reference).zip(&selection.settings) {
-        // The reference's own slices would show the same curves once more.
-        let own_slices = setting.slices.map(|s| s.count) == resolved.scene.slices.map(|s| s.count);
-        if setting.coarsening == finest && own_slices {
-            variant.wear_um = observed.as_ref().map(|o| PerGear::from_fn(|gear| o.flanks[gear].wear_um.clone()));
-            let over_width = observed.as_ref().and_then(|o| o.over_width.as_ref());
-            variant.root_wear_um = over_width.map(|o| o.root_wear_um.clone());
-        }
-    }
-    let compared: Vec<Run<'_>> = selection
-        .settings
-        .iter()
-        .zip(&at_reference)
-        .zip(&variants)
-        .filter_map(|((setting, observed), variant)| {
-            Some(Run { setting, observed: observed.as_ref()?, simulation_s: variant.simulation_s? })
-        })
-        .collect();
+    mark_fronts(&mut variants, &reference, &not_ranked);
+    keep_shown_curves(&mut variants, &at_reference, &selection.settings, resolved);
+    let compared = compared(&selection.settings, &at_reference, &variants);
     let mut recommendations = recommendations(&variants, asked.within);
     recommendations.retain(|one| not_ranked.iter().all(|not| not.quantity != one.quantity));
     Ok(AccuracyRecord {
         recommended_toml: recommended_toml(&recommendations, &selection.settings, resolved),
         calibration_json: made.map(Calibration::to_json),
-        calibration_s: calibration.wall_s,
+        calibration_s,
         title: resolved.title().to_owned(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_hash: resolved.scene_hash(),
-        stopped,
+        stopped: if is_complete { StopReason::Completed } else { StopReason::Interrupted },
         threads: rayon::current_num_threads(),
         within: asked.within,
         recommendations,
@@ -140,38 +109,95 @@ pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) ->
     })
 }
 
-/// The calibration that the runs read.
-struct Calibrated {
+/// Runs with a result, to be compared with each other.
+fn compared<'a>(
+    settings: &'a [Setting],
+    at: &'a [Option<ObservedRun>],
+    variants: &[VariantRecord],
+) -> Vec<ComparedRun<'a>> {
+    let all = settings.iter().zip(at).zip(variants);
+    let runs = all.filter_map(|((setting, observed), variant)| {
+        Some(ComparedRun { setting, observed: observed.as_ref()?, simulation_s: variant.simulation_s? })
+    });
+    runs.collect()
+}
+
+/// Removes limits that end a run early: wear is compared after the whole duration.
+fn leave_out_stop(resolved: &mut Resolved) {
+    if resolved.file.operation.stop.take().is_some() {
+        resolved.scene.operation.stop = LifeLimits::default();
+        let warning =
+            "operation.stop is left out: all models run the whole duration, so that their wear can be compared";
+        resolved.warnings.push(warning.to_owned());
+    }
+}
+
+/// Runs the settings one after the other, up to an interrupt; `count` is the number of all runs, for the observer.
+fn measure_all(
+    settings: &[Setting],
+    given: &LoadedScene,
+    observer: &dyn Observer,
+    count: usize,
+) -> Vec<MeasuredSetting> {
+    let runs = settings.iter().enumerate().map_while(|(number, setting)| {
+        observer.run_of(number, count, &setting.name());
+        measure(setting, given, &PartOf::new(observer, number, count))
+    });
+    runs.collect()
+}
+
+/// Keeps the curves of runs of the finest resolution on the scene's own slices; the reference's would show them once more.
+fn keep_shown_curves(
+    variants: &mut [VariantRecord],
+    at_reference: &[Option<ObservedRun>],
+    settings: &[Setting],
+    resolved: &Resolved,
+) {
+    let finest = settings[0].coarsening;
+    for ((variant, observed), setting) in variants.iter_mut().zip(at_reference).zip(settings) {
+        let own_slices = setting.slices.map(|s| s.count) == resolved.scene.slices.map(|s| s.count);
+        if setting.coarsening == finest && own_slices {
+            variant.wear_um = observed.as_ref().map(|o| PerGear::from_fn(|gear| o.flanks[gear].wear_um.clone()));
+            let over_width = observed.as_ref().and_then(|o| o.over_width.as_ref());
+            variant.root_wear_um = over_width.map(|o| o.root_wear_um.clone());
+        }
+    }
+}
+
+/// Calibration that the runs read.
+struct CalibrationOfRuns {
     made: Option<Calibration>,
     wall_s: Option<f64>,
-    /// Why there is none.
+    /// Reason where there is none.
     why_none: String,
 }
 
-/// The scene's own, or one made now.
-fn calibration(given: &LoadedScene, observer: &dyn Observer) -> Result<Calibrated, AccuracyError> {
+/// The scene's own calibration, or one made now.
+fn calibration(given: &LoadedScene, observer: &dyn Observer) -> Result<CalibrationOfRuns, AccuracyError> {
     if let Some(own) = &given.files.calibration {
-        return Ok(Calibrated { made: Some(own.clone()), wall_s: None, why_none: String::new() });
+        return Ok(CalibrationOfRuns { made: Some(own.clone()), wall_s: None, why_none: String::new() });
     }
     observer.stage("calibration");
-    match calibrate::run(given.scene(), Extent::FastModel, &given.teeth_in_space, &PartOf::new(observer, 0, usize::MAX))
+    let watch = PartOf::new(observer, 0, usize::MAX);
+    let (made, wall_s, why_none) = match calibrate::run(given.scene(), Extent::FastModel, &given.teeth_in_space, &watch)
     {
-        Ok(done) => Ok(Calibrated { made: Some(done.calibration), wall_s: Some(done.wall_s), why_none: String::new() }),
-        Err(CalibrateError::Interrupted) => Err(AccuracyError::Interrupted),
-        Err(error) => Ok(Calibrated { made: None, wall_s: None, why_none: format!("no calibration: {error}") }),
-    }
+        Ok(done) => (Some(done.calibration), Some(done.wall_s), String::new()),
+        Err(CalibrateError::Interrupted) => return Err(AccuracyError::Interrupted),
+        Err(error) => (None, None, format!("no calibration: {error}")),
+    };
+    Ok(CalibrationOfRuns { made, wall_s, why_none })
 }
 
 /// The scene of the recommended run of the wear profile, with errors estimated again.
 fn recommended_toml(recommendations: &[Recommendation], settings: &[Setting], resolved: &Resolved) -> Option<String> {
-    let chosen = recommendations.iter().find(|r| r.quantity == Quantity::WearProfile)?;
+    let chosen = recommendations.iter().find(|r| r.quantity == ComparedQuantity::WearProfile)?;
     let mut file = settings.get(chosen.variant)?.scene(resolved, Some(CALIBRATION_FILE)).ok()?.file;
     file.numerics.get_or_insert_default().error_estimate = Some(true);
     Some(file.to_toml())
 }
 
-/// A run of the reference, which must be there.
-fn finished(measured: &[Measured], index: usize) -> Result<&Finished, AccuracyError> {
+/// Result of a run that the reference needs.
+fn finished(measured: &[MeasuredSetting], index: usize) -> Result<&Finished, AccuracyError> {
     let one = measured.get(index).ok_or(AccuracyError::Interrupted)?;
     one.finished.as_ref().ok_or_else(|| AccuracyError::Reference {
         name: one.record.name.clone(),
@@ -179,7 +205,7 @@ fn finished(measured: &[Measured], index: usize) -> Result<&Finished, AccuracyEr
     })
 }
 
-fn windows(resolved: &Resolved, measured: &[Measured]) -> Result<Windows, AccuracyError> {
+fn windows(resolved: &Resolved, measured: &[MeasuredSetting]) -> Result<Windows, AccuracyError> {
     let summary = &finished(measured, 0)?.summary;
     let sharp = PerGear::from_fn(|gear| resolved.scene.pair.is_tip_sharp(gear));
     Ok(Windows::new(&summary.geometry.curvature_radius_mm, sharp, summary.contact.hertz_half_width_mm))
@@ -188,19 +214,19 @@ fn windows(resolved: &Resolved, measured: &[Measured]) -> Result<Windows, Accura
 /// The reference, the indices of the runs it was made from, and what each of its corrections is for.
 fn reference(
     selection: &Selection,
-    measured: &[Measured],
+    measured: &[MeasuredSetting],
     windows: &Windows,
-) -> Result<(Reference, Vec<usize>, Vec<Spacing>), AccuracyError> {
+) -> Result<(Reference, Vec<usize>, Vec<RefinedSpacing>), AccuracyError> {
     let finest = &finished(measured, 0)?.observed;
     let (mut corrections, mut spacings) = (Vec::new(), Vec::new());
     let mut runs = vec![0];
-    for &Companions { fine, coarse, spacing } in &selection.companions {
+    for &CompanionRuns { fine, coarse, spacing } in &selection.companions {
         let (fine_run, coarse_run) = (finished(measured, fine)?, finished(measured, coarse)?);
-        let steps = |run: &Finished| run.summary.work.wear_steps as f64;
+        let [fine_steps, coarse_steps] = [fine_run, coarse_run].map(|run| run.summary.work.wear_steps as f64);
         let (ratio, order) = match spacing {
-            Spacing::Elements(ratio) | Spacing::Points(ratio) => (ratio, 2),
-            Spacing::Slices(ratio) => (ratio, 1),
-            Spacing::Step => (steps(fine_run) / steps(coarse_run), 1),
+            RefinedSpacing::Elements(ratio) | RefinedSpacing::Points(ratio) => (ratio, 2),
+            RefinedSpacing::Slices(ratio) => (ratio, 1),
+            RefinedSpacing::Step => (fine_steps / coarse_steps, 1),
         };
         runs.extend([fine, coarse]);
         if ratio >= LEAST_STEP_RATIO {
@@ -213,26 +239,29 @@ fn reference(
     Ok((Reference::extrapolated(finest, &corrections, windows), runs, spacings))
 }
 
-/// The quantities of which `reference` is more uncertain than the error wanted.
-fn not_ranked(reference: &Reference, spacings: &[Spacing], within: f64) -> Vec<NotRanked> {
-    let of = |(&quantity, &uncertainty): (&Quantity, &f64)| {
-        if uncertainty <= within {
-            return None;
-        }
-        let part = |index: usize| reference.parts[index].get(&quantity).copied().unwrap_or(0.0);
-        let mut by: Vec<usize> = (0..spacings.len()).collect();
-        by.sort_by(|&a, &b| part(b).total_cmp(&part(a)));
-        let greatest = by.first().map_or(0.0, |&index| part(index));
-        // What is less than a third of the greatest part would not help.
-        by.retain(|&index| part(index) > 0.0 && 3.0 * part(index) >= greatest);
-        let remedies: Vec<&str> = by.iter().map(|&index| spacings[index].remedy()).collect();
-        Some(NotRanked { quantity, uncertainty, remedy: remedies.join("; ") })
-    };
-    reference.uncertainty.iter().filter_map(of).collect()
+/// Quantities of which `reference` is more uncertain than the error wanted.
+fn not_ranked(reference: &Reference, spacings: &[RefinedSpacing], within: f64) -> Vec<NotRanked> {
+    let uncertain = reference.uncertainty.iter().filter(|(_, uncertainty)| **uncertainty > within);
+    let not_ranked = uncertain.map(|(&quantity, &uncertainty)| {
+        let remedy = remedies(reference, spacings, quantity);
+        NotRanked { quantity, uncertainty, remedy }
+    });
+    not_ranked.collect()
+}
+
+/// Remedies for the corrections that contribute most to the uncertainty of `quantity`, the greatest first.
+fn remedies(reference: &Reference, spacings: &[RefinedSpacing], quantity: ComparedQuantity) -> String {
+    let parts = reference.parts.iter().map(|part| part.get(&quantity).copied().unwrap_or(0.0));
+    let mut parts: Vec<(f64, RefinedSpacing)> = parts.zip(spacings.iter().copied()).collect();
+    parts.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    let greatest = parts.first().map_or(0.0, |(part, _)| *part);
+    // Reducing a part below a third of the greatest would not help.
+    let remedies = parts.iter().filter(|(part, _)| *part > 0.0 && 3.0 * part >= greatest);
+    remedies.map(|(_, spacing)| spacing.remedy()).collect::<Vec<_>>().join("; ")
 }
 
 /// Measures every run against the reference.
-fn add_errors(variants: &mut [VariantRecord], at: &[Option<Observed>], reference: &Reference, windows: &Windows) {
+fn add_errors(variants: &mut [VariantRecord], at: &[Option<ObservedRun>], reference: &Reference, windows: &Windows) {
     for (variant, observed) in variants.iter_mut().zip(at) {
         let all = observed.as_ref().map(|observed| errors(observed, &reference.observed, windows));
         let measured = all.into_iter().flatten().filter(|(_, relative)| !relative.is_nan());
@@ -241,8 +270,15 @@ fn add_errors(variants: &mut [VariantRecord], at: &[Option<Observed>], reference
     }
 }
 
+/// Marks the runs on the Pareto front of each ranked quantity.
+fn mark_fronts(variants: &mut [VariantRecord], reference: &Reference, not_ranked: &[NotRanked]) {
+    for quantity in ComparedQuantity::ALL.into_iter().filter(|&q| not_ranked.iter().all(|one| one.quantity != q)) {
+        mark_front(variants, quantity, reference.uncertainty.get(&quantity).copied().unwrap_or(0.0));
+    }
+}
+
 /// Marks the runs on the Pareto front of `quantity`.
-fn mark_front(variants: &mut [VariantRecord], quantity: Quantity, uncertainty: f64) {
+fn mark_front(variants: &mut [VariantRecord], quantity: ComparedQuantity, uncertainty: f64) {
     let front = on_front(&points(variants, quantity), uncertainty);
     for (variant, on_front) in variants.iter_mut().zip(front) {
         variant.errors.entry(quantity).and_modify(|error| error.on_front = on_front);
@@ -250,25 +286,25 @@ fn mark_front(variants: &mut [VariantRecord], quantity: Quantity, uncertainty: f
 }
 
 /// Run time and error of every run; not a number where it has none.
-fn points(variants: &[VariantRecord], quantity: Quantity) -> Vec<Point> {
-    let point = |variant: &VariantRecord| Point {
+fn points(variants: &[VariantRecord], quantity: ComparedQuantity) -> Vec<FrontPoint> {
+    let points = variants.iter().map(|variant| FrontPoint {
         wall_s: variant.simulation_s.unwrap_or(f64::NAN),
         error: variant.errors.get(&quantity).map_or(f64::NAN, |error| error.relative),
-    };
-    variants.iter().map(point).collect()
+    });
+    points.collect()
 }
 
 fn recommendations(variants: &[VariantRecord], within: f64) -> Vec<Recommendation> {
-    let of = |quantity| {
+    let all = ComparedQuantity::ALL.into_iter().filter_map(|quantity| {
         let (variant, is_within) = cheapest_within(&points(variants, quantity), within)?;
         Some(Recommendation { quantity, variant, is_within })
-    };
-    Quantity::ALL.into_iter().filter_map(of).collect()
+    });
+    all.collect()
 }
 
 fn reference_record(
     selection: &Selection,
-    measured: &[Measured],
+    measured: &[MeasuredSetting],
     reference: Reference,
     runs: Vec<usize>,
     windows: &Windows,
@@ -277,10 +313,12 @@ fn reference_record(
         .companions
         .iter()
         .map(|companions| match companions.spacing {
-            Spacing::Elements(ratio) => format!("size of elements, second order, ratio {ratio:.3}"),
-            Spacing::Points(ratio) => format!("spacing of flank points and positions, second order, ratio {ratio}"),
-            Spacing::Slices(ratio) => format!("width of the slices, first order, ratio {ratio}"),
-            Spacing::Step => "length of the wear step, first order".to_owned(),
+            RefinedSpacing::Elements(ratio) => format!("size of elements, second order, ratio {ratio:.3}"),
+            RefinedSpacing::Points(ratio) => {
+                format!("spacing of flank points and positions, second order, ratio {ratio}")
+            }
+            RefinedSpacing::Slices(ratio) => format!("width of the slices, first order, ratio {ratio}"),
+            RefinedSpacing::Step => "length of the wear step, first order".to_owned(),
         })
         .collect();
     let how = format!(

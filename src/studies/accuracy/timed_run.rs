@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 
-use super::observed::Observed;
+use super::observed::ObservedRun;
 use super::settings::Setting;
 use crate::assessment::{Done, RunError};
 use crate::gear::PerGear;
@@ -15,59 +15,62 @@ use crate::results::run::{PathPoints, RunRecord, StopReason, Summary};
 use crate::runs;
 use crate::scene::loaded::LoadedScene;
 use crate::studies::accuracy::record::{CALIBRATION_FILE, VariantRecord};
+use crate::studies::varied_scene::in_words;
 
-/// Runs are repeated until they have taken this long, all that comes before the simulation included; the least time counts.
+/// Total time of the repeats of a run, preparation included; the least time counts.
 const LONG_ENOUGH_S: f64 = 0.2;
-/// Repeats at the most.
+/// Greatest number of repeats.
 const MOST_REPEATS: u32 = 20;
 
-/// What one setting came to.
-pub(super) struct Measured {
+/// Outcome of one setting.
+pub(super) struct MeasuredSetting {
     pub record: VariantRecord,
     pub finished: Option<Finished>,
 }
 
-/// What is kept of a run: far less than its record, of which there would be a hundred.
+impl MeasuredSetting {
+    fn failed(record: VariantRecord, failure: String) -> Self {
+        Self { record: VariantRecord { failure: Some(failure), ..record }, finished: None }
+    }
+}
+
+/// Part of a run that is kept for the comparison; a hundred whole records would need too much memory.
 pub(super) struct Finished {
-    pub observed: Observed,
+    pub observed: ObservedRun,
     pub summary: Summary,
     /// Radii of the points A–E.
     pub path_point_radius_mm: PerGear<PathPoints>,
 }
 
 /// Runs one setting, a short one several times; `None` where the user interrupted it.
-pub(super) fn measure(setting: &Setting, base: &LoadedScene, observer: &PartOf<'_>) -> Option<Measured> {
+pub(super) fn measure(setting: &Setting, base: &LoadedScene, observer: &PartOf<'_>) -> Option<MeasuredSetting> {
     if observer.interrupted() {
         return None;
     }
     let mut record =
         VariantRecord { name: setting.name(), settings: setting.record(base.scene()), ..VariantRecord::default() };
-    let failed = |record: VariantRecord, failure: String| {
-        Some(Measured { record: VariantRecord { failure: Some(failure), ..record }, finished: None })
-    };
     let mut resolved = match setting.scene(&base.resolved, Some(CALIBRATION_FILE)) {
         Ok(resolved) => resolved,
-        Err(problems) => {
-            let all: Vec<String> = problems.iter().map(ToString::to_string).collect();
-            return failed(record, all.join("; "));
-        }
+        Err(problems) => return Some(MeasuredSetting::failed(record, in_words(&problems))),
     };
-    // It is held against a reference of its own.
+    // The comparison has its own reference.
     resolved.scene.verify = false;
     record.settings = setting.record(&resolved.scene);
     let scene = match base.variant(resolved) {
         Ok(scene) => scene,
-        Err(problem) => return failed(record, problem.to_string()),
+        Err(problem) => return Some(MeasuredSetting::failed(record, problem.to_string())),
     };
     let mut kept = None;
     let start = Instant::now();
     while record.repeats == 0 || (start.elapsed().as_secs_f64() < LONG_ENOUGH_S && record.repeats < MOST_REPEATS) {
         let done = match runs::run(&scene, observer) {
             Ok(Done { record: done, failure: None }) if done.summary.stopped == StopReason::Completed => done,
-            Ok(Done { failure: Some(failure), .. }) => return failed(record, failure.to_string()),
+            Ok(Done { failure: Some(failure), .. }) => {
+                return Some(MeasuredSetting::failed(record, failure.to_string()));
+            }
             Ok(_) => return None,
             Err(_) if observer.interrupted() => return None,
-            Err(failure) => return failed(record, RunError::to_string(&failure)),
+            Err(failure) => return Some(MeasuredSetting::failed(record, RunError::to_string(&failure))),
         };
         let (simulation_s, setup_s) = times(&done);
         record.repeats += 1;
@@ -80,11 +83,11 @@ pub(super) fn measure(setting: &Setting, base: &LoadedScene, observer: &PartOf<'
     record.peak_wear_um =
         Some(PerGear { pinion: run.summary.pinion.peak_wear_um, wheel: run.summary.wheel.peak_wear_um });
     let finished = Finished {
-        observed: Observed::of(&run),
+        observed: ObservedRun::of(&run),
         path_point_radius_mm: PerGear::from_fn(|gear| run.flanks[gear].path_point_radius_mm),
         summary: run.summary,
     };
-    Some(Measured { record, finished: Some(finished) })
+    Some(MeasuredSetting { record, finished: Some(finished) })
 }
 
 /// Wall times of the wear run and of everything before it, s.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::question::{Asked, Question, Refused};
+use super::question::{CompareOptions, ComparisonQuestion, Refused};
 use super::record::CompareRecord;
 use super::run_folder::{RunFolder, RunFolderError};
 use super::study::{self, CompareError};
@@ -12,7 +12,7 @@ use crate::measurement::file;
 use crate::observer::Observer;
 use crate::scene::loaded::{LoadError, LoadedScene, SceneText};
 
-/// What keeps profiles from being compared.
+/// Why profiles cannot be compared.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum CompareFault {
     #[error(transparent)]
@@ -27,27 +27,26 @@ pub(crate) enum CompareFault {
 
 /// A comparison that can be carried out.
 #[derive(Debug)]
-pub(crate) struct Prepared {
+pub(crate) struct PreparedComparison {
     folder: RunFolder,
     scene: LoadedScene,
-    question: Question,
+    question: ComparisonQuestion,
 }
 
-impl Prepared {
+impl PreparedComparison {
     /// Of the finished run in the folder `run` with the profiles in the texts `measured`.
-    pub(crate) fn open(run: &Path, measured: &[SceneText], asked: &Asked) -> Result<Self, CompareFault> {
+    pub(crate) fn open(run: &Path, measured: &[SceneText], asked: &CompareOptions) -> Result<Self, CompareFault> {
         let folder = RunFolder::with_snapshots(run)?;
         let scene = LoadedScene::open(folder.scene_path())?;
         let resolved = &scene.resolved;
         folder.check_scene(resolved)?;
-        let parsed = |text: &SceneText| {
-            let file = file::parse(&text.text);
-            file.map(|file| (text.name.clone(), file))
-                .map_err(|error| Refused { name: text.name.clone(), error: error.into() })
-        };
-        let files = measured.iter().map(parsed).collect::<Result<Vec<_>, _>>()?;
+        let mut files = Vec::with_capacity(measured.len());
+        for SceneText { name, text } in measured {
+            let file = file::parse(text).map_err(|error| Refused { name: name.clone(), error: error.into() })?;
+            files.push((name.clone(), file));
+        }
         let pair = GearPair::new(&resolved.scene.pair)?;
-        let question = Question::new(asked, &files, &folder, resolved, &pair)?;
+        let question = ComparisonQuestion::new(asked, &files, &folder, resolved, &pair)?;
         Ok(Self { folder, scene, question })
     }
 

@@ -12,10 +12,10 @@ use crate::gear::{GearPair, flank::FlankGrid};
 use crate::measurement::form::FormRemoval;
 use crate::simulation::settings::Numerics;
 
-/// Shifts tried to begin with, to either side.
+/// Number of shifts tried on either side for the start of a search.
 const SHIFTS_TRIED: i32 = 15;
 
-/// Measured heights, and what is compared with them.
+/// Measured heights and the flank they are compared on.
 pub(super) struct Comparison<'a> {
     pub of: &'a ProfileQuestion,
     pair: &'a GearPair,
@@ -26,12 +26,12 @@ pub(super) struct Comparison<'a> {
     pub measured_um: Vec<f64>,
 }
 
-/// Deeper than this, in modules, no model vouches for the wear, and runs soon wear teeth through.
+/// Greatest wear depth of a search, in modules: beyond it no model is valid, and runs soon wear teeth through.
 const DEEPEST_MODULES: f64 = 0.3;
-/// What greatest factor a search has at least, and at most.
+/// Bounds of the upper end of a search for a factor.
 const GREATEST_FACTOR: [f64; 2] = [4.0, 1e3];
 
-/// Where a search begins.
+/// Start of a search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Beginning {
     /// d.
@@ -40,8 +40,12 @@ pub(super) struct Beginning {
     pub factor: f64,
 }
 
+fn dot(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).map(|(x, y)| x * y).sum()
+}
+
 impl<'a> Comparison<'a> {
-    /// Of a profile with wear at the flank points of a run.
+    /// Comparison of a profile with wear at the flank points of a run.
     pub(super) fn new(of: &'a ProfileQuestion, pair: &'a GearPair, numerics: &Numerics) -> Self {
         let Numerics { flank_points, point_spacing, .. } = *numerics;
         let grid_arc_mm = FlankGrid::new(pair, of.profile.gear, flank_points, point_spacing).arc_mm;
@@ -51,12 +55,12 @@ impl<'a> Comparison<'a> {
         Self { of, pair, removal, grid_arc_mm, measured_um }
     }
 
-    /// How many flank points a wear profile has.
+    /// Number of flank points of a wear profile.
     pub(super) fn flank_points(&self) -> usize {
         self.grid_arc_mm.len()
     }
 
-    /// The greatest factor on wear of `wear_um` that is searched.
+    /// Upper end of the search for the factor on `wear_um`.
     pub(super) fn greatest_factor(&self, wear_um: &[f64]) -> f64 {
         let deepest_mm = 1e-3 * wear_um.iter().copied().fold(0.0, f64::max);
         let [least, most] = GREATEST_FACTOR;
@@ -66,12 +70,12 @@ impl<'a> Comparison<'a> {
     /// Wear depth at the measured points, shifted.
     pub(super) fn wear_at_points_um(&self, wear_um: &[f64], shift_mm: f64) -> Vec<f64> {
         let grid = &self.grid_arc_mm;
-        let at = |&arc: &f64| {
+        let wear = self.of.profile.arc_mm.iter().map(|arc| {
             let after = grid.partition_point(|&s| s <= arc + shift_mm).clamp(1, grid.len() - 1);
             let t = ((arc + shift_mm - grid[after - 1]) / (grid[after] - grid[after - 1])).clamp(0.0, 1.0);
             wear_um[after - 1] + t * (wear_um[after] - wear_um[after - 1])
-        };
-        self.of.profile.arc_mm.iter().map(at).collect()
+        });
+        wear.collect()
     }
 
     /// P (z₀ − h): the simulated profile, form removed.
@@ -96,14 +100,13 @@ impl<'a> Comparison<'a> {
         let mut best = (f64::INFINITY, 0.0, 1.0);
         for step in -tried..=tried {
             let shift = within_mm * f64::from(step) / f64::from(tried.max(1));
-            // r = a + κ b: with nothing worn, and what the wear adds.
+            // r = a + κ b: a without wear, b the contribution of the wear.
             let (a, whole) = (self.residuals_um(&nothing, shift), self.residuals_um(wear_um, shift));
             let b: Vec<f64> = whole.iter().zip(&a).map(|(w, a)| w - a).collect();
-            let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
             let factor = factors.map_or(1.0, |[least, most]| (-dot(&a, &b) / dot(&b, &b)).clamp(least, most));
             let factor = if factor.is_finite() { factor } else { 1.0 };
             let square = dot(&a, &a) + 2.0 * factor * dot(&a, &b) + factor * factor * dot(&b, &b);
-            // Of equals, the least shift.
+            // Of equal sums of squares the least shift is taken.
             if square < best.0 * (1.0 - 1e-12) || square <= best.0 && shift.abs() < f64::abs(best.1) {
                 best = (square, shift, factor);
             }

@@ -7,7 +7,7 @@
 //!
 //! | module | what it does |
 //! |---|---|
-//! | [`run_folder`] | the folder of a finished run, read: for all who go on with one |
+//! | [`run_folder`] | reader of the folder of a finished run |
 //! | [`asked`] | a comparison as it is asked for: run and measured files read |
 //! | [`question`] | what is asked, checked against the run and the measured files |
 //! | `simulations` | runs of the scene with other coefficients |

@@ -1,4 +1,4 @@
-//! What is asked of a comparison, checked against the run and the measured files before anything is computed.
+//! Question of a comparison, checked against the run and the measured files before anything is computed.
 
 use std::path::Path;
 
@@ -12,14 +12,14 @@ use crate::measurement::profile::MeasuredProfile;
 use crate::operation::Scene;
 use crate::scene::Resolved;
 
-/// Times beyond the end by less than this part are the end.
+/// Relative tolerance on the end of the run.
 const SAME_TIME: f64 = 1e-9;
-/// Points that a fit needs beyond the values it finds.
+/// Least degrees of freedom of a fit.
 const SPARE_POINTS: usize = 2;
 /// Most profiles that are fitted together: one of each gear.
 pub(crate) const MOST_PROFILES: usize = 2;
 
-/// What is fitted: the values of `--fit`.
+/// Coefficients to fit: the values of `--fit`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum FitKind {
     /// Nothing but the place along the flank.
@@ -35,7 +35,7 @@ pub(crate) enum FitKind {
 }
 
 impl FitKind {
-    /// What is fitted to this many profiles where nothing else is asked.
+    /// Default for this number of profiles.
     fn of(profiles: usize) -> Self {
         if profiles > 1 { FitKind::Each } else { FitKind::K }
     }
@@ -48,7 +48,7 @@ impl FitKind {
         matches!(self, FitKind::Severe | FitKind::Both)
     }
 
-    /// Its name on the command line.
+    /// Name on the command line.
     fn name(self) -> &'static str {
         match self {
             FitKind::None => "none",
@@ -60,38 +60,38 @@ impl FitKind {
     }
 }
 
-/// Whose constants of wear are fitted.
+/// Gears whose coefficients are fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Fitted {
-    /// Those of both gears, by one factor.
+pub(crate) enum FittedGears {
+    /// Coefficients of both gears, by one factor.
     Together,
-    /// Those of the measured gear alone, whose law is not that of its mate.
+    /// Coefficients of the measured gear alone, whose law is not that of its mate.
     Alone(Gear),
-    /// Those of both gears, each by a factor of its own.
+    /// Coefficients of both gears, each by a factor of its own.
     Each,
 }
 
-impl Fitted {
-    /// Whether those of `gear` are.
+impl FittedGears {
+    /// Whether coefficients of `gear` are fitted.
     pub(crate) fn has(self, gear: Gear) -> bool {
-        self != Fitted::Alone(gear.mate())
+        self != FittedGears::Alone(gear.mate())
     }
 }
 
-/// What the user asks beside the files.
+/// Options beside the files.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Asked {
-    /// Which gear; `None`: as the file says.
+pub(crate) struct CompareOptions {
+    /// Measured gear; `None`: as the file says.
     pub gear: Option<Gear>,
-    /// What is taken for the form; `None`: a cubic of heights, nothing of wear depths.
+    /// Form to remove; `None`: a cubic of heights, nothing of wear depths.
     pub form: Option<Form>,
-    /// What is fitted; `None`: the wear coefficient of each measured gear.
+    /// Coefficients to fit; `None`: the wear coefficient of each measured gear.
     pub fit: Option<FitKind>,
     /// How far a profile may be shifted along the flank, mm; 0: not at all.
     pub shift_within_mm: f64,
 }
 
-/// What does not fit together.
+/// Inconsistent inputs.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum QuestionError {
     #[error(transparent)]
@@ -110,7 +110,7 @@ pub(crate) enum QuestionError {
     Width { line: usize, found: f64, face_width_mm: f64 },
     #[error("found {found} points; allowed: at least {least}, for {needs}")]
     TooFewPoints { found: usize, least: usize, needs: String },
-    /// The curvature of a tooth taken for wear.
+    /// A form removal that leaves the curvature of the tooth, which would count as wear.
     #[error(
         "--form: found none with heights from a line; allowed: cubic or involute, which take the tooth's curvature away"
     )]
@@ -150,11 +150,11 @@ pub(crate) struct Refused {
 pub(crate) struct ProfileQuestion {
     /// Name of its file.
     pub measured: String,
-    /// What was measured, on its flank.
+    /// Measured profile, on its flank.
     pub profile: MeasuredProfile,
-    /// When, in pinion revolutions.
+    /// Time of the measurement, in pinion revolutions.
     pub revolutions: f64,
-    /// Where over the face width; `None` where all sections are alike.
+    /// Place over the face width; `None` where all sections are alike.
     pub width_mm: Option<f64>,
     /// Standard deviation of a height, as the file says.
     pub uncertainty_um: Option<f64>,
@@ -165,22 +165,22 @@ pub(crate) struct ProfileQuestion {
 
 /// A comparison that can be made.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Question {
-    /// One, or that of the pinion and that of the wheel.
+pub(crate) struct ComparisonQuestion {
+    /// One profile, or one of each gear.
     pub profiles: Vec<ProfileQuestion>,
     pub fit: FitKind,
-    pub fitted: Fitted,
+    pub fitted: FittedGears,
     /// How far a profile may be shifted along the flank, mm.
     pub shift_within_mm: f64,
 }
 
-impl Question {
-    /// Checks what is asked of the run in `folder`, whose scene is `resolved`, and of its `pair`, with files by their names.
+impl ComparisonQuestion {
+    /// Checks the options and files against the run in `folder`, whose scene is `resolved` and whose pair is `pair`; files go by their names.
     ///
     /// # Errors
     /// The first thing that does not fit together.
     pub(crate) fn new(
-        asked: &Asked,
+        asked: &CompareOptions,
         files: &[(String, MeasuredFile)],
         folder: &RunFolder,
         resolved: &Resolved,
@@ -190,27 +190,26 @@ impl Question {
         let fit = asked.fit.unwrap_or(FitKind::of(files.len()));
         let mut profiles: Vec<ProfileQuestion> = Vec::new();
         for (name, file) in files {
-            let refused = |error| Refused { name: name.clone(), error };
-            if files.len() > MOST_PROFILES {
-                return Err(refused(QuestionError::TooManyProfiles { found: files.len() }));
-            }
-            if files.len() > 1 && asked.gear.is_some() {
-                return Err(refused(QuestionError::GearOfTwo));
-            }
-            let of_file = ProfileQuestion::new(name, file, asked, fit, (folder, resolved, pair)).map_err(refused)?;
-            let gear = of_file.profile.gear;
-            if let Some(first) = profiles.iter().find(|first| first.profile.gear == gear) {
-                let first = first.measured.clone();
-                return Err(refused(QuestionError::SameGear { gear: gear.name(), first }));
-            }
-            check_fit(fit, gear, files.len(), scene).map_err(refused)?;
-            profiles.push(of_file);
+            let of_file = match (files.len(), asked.gear) {
+                (found, _) if found > MOST_PROFILES => Err(QuestionError::TooManyProfiles { found }),
+                (2.., Some(_)) => Err(QuestionError::GearOfTwo),
+                _ => ProfileQuestion::new(name, file, asked, fit, (folder, resolved, pair)),
+            };
+            let of_file = of_file.and_then(|of_file| {
+                let gear = of_file.profile.gear;
+                if let Some(first) = profiles.iter().find(|first| first.profile.gear == gear) {
+                    return Err(QuestionError::SameGear { gear: gear.name(), first: first.measured.clone() });
+                }
+                check_fit(fit, gear, files.len(), scene)?;
+                Ok(of_file)
+            });
+            profiles.push(of_file.map_err(|error| Refused { name: name.clone(), error })?);
         }
         profiles.sort_by_key(|of| of.profile.gear);
         let fitted = match &profiles[..] {
-            _ if fit == FitKind::Each => Fitted::Each,
-            [one] if !is_of_both(scene) => Fitted::Alone(one.profile.gear),
-            _ => Fitted::Together,
+            _ if fit == FitKind::Each => FittedGears::Each,
+            [one] if !is_of_both(scene) => FittedGears::Alone(one.profile.gear),
+            _ => FittedGears::Together,
         };
         Ok(Self { profiles, fit, fitted, shift_within_mm: asked.shift_within_mm })
     }
@@ -227,11 +226,11 @@ impl Question {
 }
 
 impl ProfileQuestion {
-    /// What `file` says, and what is asked of it.
+    /// Question about `file`, with the user's options.
     fn new(
         name: &str,
         file: &MeasuredFile,
-        asked: &Asked,
+        asked: &CompareOptions,
         fit: FitKind,
         (folder, resolved, pair): (&RunFolder, &Resolved, &GearPair),
     ) -> Result<Self, QuestionError> {
@@ -302,9 +301,9 @@ fn revolutions(file: &MeasuredFile, end: f64, resolved: &Resolved) -> Result<f64
         Moment::End => return Ok(end),
         Moment::Revolutions(given) => (given, "revolutions", given, end),
         Moment::Hours(hours) => {
-            let no_speed = || QuestionError::NoSpeed { line, hours };
-            let at = operation.revolutions_after(hours).ok_or_else(no_speed)?;
-            (at, "hours", hours, operation.hours(end).ok_or_else(no_speed)?)
+            let both = operation.revolutions_after(hours).zip(operation.hours(end));
+            let (at, end_hours) = both.ok_or(QuestionError::NoSpeed { line, hours })?;
+            (at, "hours", hours, end_hours)
         }
     };
     if revolutions > end * (1.0 + SAME_TIME) {

@@ -1,4 +1,4 @@
-//! What a comparison of measured profiles with a run leaves behind, as plain data: what its reports read.
+//! Record of a comparison of measured profiles with a run: what its reports read.
 
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
@@ -39,16 +39,16 @@ pub(crate) struct ProfileRecord {
     pub width_mm: Option<f64>,
     /// When it was measured; `None` where the scene gives no speed.
     pub hours: Option<f64>,
-    /// The same in pinion revolutions.
+    /// Time in pinion revolutions.
     pub revolutions: f64,
-    /// What was taken for the form: `cubic`, `involute`, `none`.
+    /// Form removed: `cubic`, `involute`, `none`.
     pub form: String,
     /// Shift of the measured profile towards the tip; `None` where none was allowed.
-    pub shift_mm: Option<Estimate>,
+    pub shift_mm: Option<FittedValue>,
     pub points: usize,
     /// Points that count, given the autocorrelation of the residuals; `None` where too few do for an interval.
     pub effective_points: Option<f64>,
-    /// Those less the values fitted, form included.
+    /// Independent points less the values fitted, form included.
     pub degrees_of_freedom: Option<f64>,
     pub figures: CompareFigures,
     /// Radii of the points A–E on the gear.
@@ -60,7 +60,7 @@ pub(crate) struct ProfileRecord {
 
 /// A fitted value with its interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub(crate) struct Estimate {
+pub(crate) struct FittedValue {
     pub value: f64,
     /// Lower end of the 95 % interval; `None` where the residuals give none.
     pub low: Option<f64>,
@@ -76,34 +76,34 @@ pub(crate) struct Coefficient {
     /// Whose it is; `None`: one law, which both gears wear by.
     pub gear: Option<Gear>,
     /// Factor on the wear coefficients of the scene.
-    pub factor: Estimate,
+    pub factor: FittedValue,
     /// The wear coefficient of the scene's law times that factor.
-    pub coefficient_m2_per_N: Estimate,
+    pub coefficient_m2_per_N: FittedValue,
 }
 
 /// Correlation coefficients of the fitted values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct Correlation {
+pub(crate) struct CoefficientCorrelation {
     /// Of the logarithms of coefficients and factors, and of shifts.
     pub parameters: Vec<Unknown>,
     /// Row by row.
     pub matrix: Vec<Vec<f64>>,
 }
 
-/// What was fitted, and how.
+/// Fitted coefficients, and how they were found.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FitRecord {
     pub stopped: FitStop,
-    /// What is to blame where it did not converge.
+    /// Coefficient that kept the search from converging.
     pub blamed: Option<Unknown>,
     /// Of each gear that has its own; empty where none was fitted.
     pub coefficients: Vec<Coefficient>,
     /// The coefficient of the pinion over that of the wheel, where each was fitted.
-    pub coefficient_ratio: Option<Estimate>,
+    pub coefficient_ratio: Option<FittedValue>,
     /// Factor of severe wear; `None` where it was not fitted.
-    pub severe_factor: Option<Estimate>,
+    pub severe_factor: Option<FittedValue>,
     /// `None` where there is no interval, or less than two values were fitted.
-    pub correlation: Option<Correlation>,
+    pub correlation: Option<CoefficientCorrelation>,
     /// Runs of the scene it took.
     pub runs: u64,
     pub mesh_cycles: u64,
@@ -119,9 +119,10 @@ impl FitRecord {
 
     /// The correlation coefficient of the wear coefficients of both gears, where each was fitted.
     pub(crate) fn coefficient_correlation(&self) -> Option<f64> {
-        let Correlation { parameters, matrix } = self.correlation.as_ref()?;
-        let index = |gear| parameters.iter().position(|&own| own == Unknown::Coefficient(Some(gear)));
-        Some(matrix[index(Gear::Pinion)?][index(Gear::Wheel)?])
+        let CoefficientCorrelation { parameters, matrix } = self.correlation.as_ref()?;
+        let [pinion, wheel] =
+            Gear::BOTH.map(|gear| parameters.iter().position(|&own| own == Unknown::Coefficient(Some(gear))));
+        Some(matrix[pinion?][wheel?])
     }
 }
 
@@ -130,7 +131,7 @@ impl FitRecord {
 pub(crate) struct CompareFigures {
     /// Arithmetic mean deviation of the measured profile (of one trace; Sa where it stands for an area).
     pub mean_deviation_um: f64,
-    /// That of the simulated profile.
+    /// Mean deviation of the simulated profile.
     pub simulated_mean_deviation_um: f64,
     /// Ra of the measured profile after a Gaussian filter; `None` where it is too short or its points too far apart.
     pub roughness_um: Option<f64>,
@@ -138,7 +139,7 @@ pub(crate) struct CompareFigures {
     pub cutoff_mm: f64,
     /// Root mean square of measured less simulated, as the run has it (its place along the flank fitted, where allowed).
     pub as_run_difference_um: f64,
-    /// The same after the fit.
+    /// Difference after the fit.
     pub difference_um: f64,
     /// Greatest absolute difference after the fit.
     pub greatest_difference_um: f64,
@@ -171,7 +172,7 @@ pub(crate) struct CompareRow {
     pub gear: Gear,
 }
 
-/// As `compare.json` has it: what there is of each profile stands at the top for the first of them, and in `profiles` for all.
+/// Serialised as in `compare.json`: the first profile at the top, and all of them in `profiles`.
 impl Serialize for CompareRecord {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]
@@ -218,10 +219,10 @@ impl Serialize for CompareRecord {
 struct WrittenFit<'a> {
     stopped: FitStop,
     blamed: Option<String>,
-    coefficient_factor: Option<Estimate>,
-    coefficient_m2_per_N: Option<Estimate>,
-    severe_factor: Option<Estimate>,
-    shift_mm: Option<Estimate>,
+    coefficient_factor: Option<FittedValue>,
+    coefficient_m2_per_N: Option<FittedValue>,
+    severe_factor: Option<FittedValue>,
+    shift_mm: Option<FittedValue>,
     points: usize,
     effective_points: Option<f64>,
     degrees_of_freedom: Option<f64>,
@@ -229,8 +230,8 @@ struct WrittenFit<'a> {
     mesh_cycles: u64,
     how: &'a str,
     coefficients: &'a [Coefficient],
-    coefficient_ratio: Option<Estimate>,
-    correlation: Option<&'a Correlation>,
+    coefficient_ratio: Option<FittedValue>,
+    correlation: Option<&'a CoefficientCorrelation>,
 }
 
 impl<'a> WrittenFit<'a> {

@@ -1,4 +1,4 @@
-//! The folder of a finished run, read: `summary.json`, `scene.toml` and the tables. All who go on with a finished run read it here.
+//! Folder of a finished run: `summary.json`, `scene.toml` and the tables. The one reader for all that go on with a finished run.
 //!
 //! The SHA-256 of `scene.toml` is the summary's scene hash, so that a scene changed after the run is noticed.
 
@@ -18,10 +18,10 @@ use crate::scene::Resolved;
 use crate::studies::evaluate::output::SummaryOutput;
 
 const PROFILES: &str = "profiles.csv";
-/// Times this close to each other, relatively, are the same: hours and revolutions round differently.
+/// Relative difference up to which times are equal: hours and revolutions round differently.
 const SAME_TIME: f64 = 1e-9;
 
-/// What is wrong with the folder of a run.
+/// Faults of the folder of a run.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum RunFolderError {
     #[error("{} cannot be read: {reason}; allowed: the folder of a finished gearwear run", path.display())]
@@ -33,16 +33,16 @@ pub(crate) enum RunFolderError {
     #[error("{}: line {line}: found {found}; allowed: {allowed}", path.display())]
     Damaged {
         path: PathBuf,
-        /// Its line, from 1.
+        /// Line, from 1.
         line: u64,
         found: String,
         allowed: String,
     },
 }
 
-/// What the summary of any finished run says of it.
+/// Fields read from the summary.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(crate) struct FinishedSummary {
+pub(crate) struct RunFolderSummary {
     pub title: String,
     pub program_version: String,
     pub scene_hash: String,
@@ -58,15 +58,15 @@ pub(crate) struct FinishedSummary {
 pub(crate) struct NumberColumns(BTreeMap<String, Vec<f64>>);
 
 impl NumberColumns {
-    /// The values of a column; none where the file lacks it.
+    /// Values of a column; none where the file lacks it.
     pub(crate) fn get(&self, name: &str) -> &[f64] {
         self.0.get(name).map_or(&[], Vec::as_slice)
     }
 }
 
-/// Row of the profiles.
+/// Fields read from a row of the profiles.
 #[derive(Debug, Clone, Copy, Deserialize)]
-struct WornPoint {
+struct KeptProfileRow {
     gear: Gear,
     wear_um: f64,
     revolutions: f64,
@@ -74,7 +74,7 @@ struct WornPoint {
 
 /// Wear of both flanks at a snapshot, of each point slice after slice.
 #[derive(Debug, Clone, PartialEq)]
-struct WearSnapshot {
+struct FlankSnapshot {
     revolutions: f64,
     wear_um: PerGear<Vec<f64>>,
 }
@@ -83,12 +83,12 @@ struct WearSnapshot {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RunFolder {
     path: PathBuf,
-    pub summary: FinishedSummary,
+    pub summary: RunFolderSummary,
     /// All of `summary.json`.
     pub whole_summary: Value,
     scene_toml: String,
     /// None where they were not asked for.
-    snapshots: Vec<WearSnapshot>,
+    snapshots: Vec<FlankSnapshot>,
 }
 
 impl RunFolder {
@@ -99,17 +99,17 @@ impl RunFolder {
         let damaged = |error: serde_json::Error| {
             RunFolderError::damaged(&path, error.line() as u64, error, "what gearwear run writes")
         };
-        let summary: FinishedSummary = serde_json::from_str(&text).map_err(damaged)?;
+        let summary: RunFolderSummary = serde_json::from_str(&text).map_err(damaged)?;
         if !matches!(summary.stopped.as_str(), "completed" | "limit-reached") {
             return Err(RunFolderError::Unfinished { path, found: summary.stopped });
         }
         let whole_summary = serde_json::from_str(&text).map_err(damaged)?;
-        // The scene is resolved by others, who say better what is wrong with it; that it is there belongs here.
+        // The scene is resolved elsewhere, with better messages; here it must only exist.
         let scene_toml = read(&folder.join(SCENE))?;
         Ok(Self { path: folder.to_owned(), summary, whole_summary, scene_toml, snapshots: Vec::new() })
     }
 
-    /// The same with the wear at the snapshots.
+    /// Folder with the wear at the snapshots.
     pub(crate) fn with_snapshots(folder: &Path) -> Result<Self, RunFolderError> {
         let opened = Self::open(folder)?;
         let snapshots = snapshots(&folder.join(PROFILES))?;
@@ -143,7 +143,7 @@ impl RunFolder {
         (its != own).then(|| format!("the run was made by gearwear {its}; its scene is run again by {own}"))
     }
 
-    /// The keys of the scene, `pair.face_width_mm`, with their values as they stand there.
+    /// Keys of the scene, such as `pair.face_width_mm`, with their values as written.
     pub(crate) fn scene_keys(&self) -> Result<BTreeMap<String, String>, RunFolderError> {
         let table: toml::Table = self.scene_toml.parse().map_err(|error: toml::de::Error| {
             let before = error.span().map_or(0, |span| span.start).min(self.scene_toml.len());
@@ -173,8 +173,9 @@ impl RunFolder {
 
     /// Wear depth of each point of a flank, slice after slice, at the snapshot after `revolutions`, if there is one.
     pub(crate) fn wear_um(&self, gear: Gear, revolutions: f64) -> Option<&[f64]> {
-        let same = |snapshot: &&WearSnapshot| (snapshot.revolutions / revolutions - 1.0).abs() <= SAME_TIME;
-        self.snapshots.iter().find(same).map(|snapshot| snapshot.wear_um[gear].as_slice())
+        let mut snapshots = self.snapshots.iter();
+        let found = snapshots.find(|snapshot| (snapshot.revolutions / revolutions - 1.0).abs() <= SAME_TIME);
+        found.map(|snapshot| snapshot.wear_um[gear].as_slice())
     }
 }
 
@@ -196,16 +197,16 @@ fn read(path: &Path) -> Result<String, RunFolderError> {
 }
 
 /// The wear in `profiles.csv`.
-fn snapshots(path: &Path) -> Result<Vec<WearSnapshot>, RunFolderError> {
+fn snapshots(path: &Path) -> Result<Vec<FlankSnapshot>, RunFolderError> {
     let text = read(path)?;
     let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let mut snapshots: Vec<WearSnapshot> = Vec::new();
-    for row in reader.deserialize::<WornPoint>() {
+    let mut snapshots: Vec<FlankSnapshot> = Vec::new();
+    for row in reader.deserialize::<KeptProfileRow>() {
         let allowed = "the columns gear, wear_um and revolutions as gearwear run writes them";
         let row = row.map_err(|error| RunFolderError::damaged(path, line_of(&error), error, allowed))?;
         if snapshots.last().is_none_or(|last| last.revolutions != row.revolutions) {
             let wear_um = PerGear { pinion: Vec::new(), wheel: Vec::new() };
-            snapshots.push(WearSnapshot { revolutions: row.revolutions, wear_um });
+            snapshots.push(FlankSnapshot { revolutions: row.revolutions, wear_um });
         }
         if let Some(snapshot) = snapshots.last_mut() {
             snapshot.wear_um[row.gear].push(row.wear_um);

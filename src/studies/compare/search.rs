@@ -4,54 +4,54 @@
 //! χ² = Σ w_p² |r_p|²,          r_p = P [z − z₀(s + d_p) + h(s + d_p; κ k, C)]
 //! ```
 //!
-//! with the residuals r_p of each profile ([`Comparison`]) and as parameters, where they are asked for, ln κ and ln C, the logarithms of
-//! the factor on the wear coefficient, or of one on that of each gear, and of the factor of severe wear, and the shift d_p of each profile
-//! along its flank. Of several profiles each has the weight w_p = 1/(σ_p √τ_p), with the standard deviation of the residuals that it has when
-//! it is fitted alone, and how many neighbouring points say what one says ([`crate::measurement::interval`]): what the model does not
-//! describe of a profile lessens its weight, what it does not share with the other one does not. χ² is least over profiles interpolated between runs ([`Simulations::about`]); then runs with just the parameters found
-//! take the place of the interpolation, and Gauss–Newton steps on their residuals go on until they no longer matter. The result is that
-//! of the exact runs, the best of them; the derivatives are those of the interpolation, mended by what each exact run says of the last step. Where wear does not change smoothly with the coefficient (an
-//! abrupt transition to severe wear, wear steps beyond the stable one), exact runs scatter: steps of up to half a standard deviation are
-//! then left, and reported.
+//! with the residuals r_p of each profile ([`Comparison`]). Parameters, where they are fitted: ln κ, the logarithm of the factor on the wear
+//! coefficient (one for each gear where both are fitted); ln C, that of the factor of severe wear; d_p, the shift of each profile along its flank. Of
+//! several profiles each has the weight w_p = 1/(σ_p √τ_p), with the standard deviation σ_p of its residuals when it is fitted alone and the number
+//! τ_p of neighbouring points that are correlated ([`crate::measurement::interval`]). χ² is minimised over profiles interpolated between runs
+//! ([`Simulations::about`]), then by Gauss–Newton steps on the residuals of exact runs until convergence. The result is the best exact run; the
+//! derivatives are those of the interpolation, updated after each exact run (Broyden). Where wear is not a smooth function of the coefficient (an
+//! abrupt transition to severe wear, wear steps beyond the stable one), exact runs scatter: steps of up to half a standard deviation then remain, and
+//! are reported.
 
 use super::comparison::{Beginning, Comparison};
-use super::question::{FitKind, Fitted, Question};
-use super::simulations::{Change, CompareError, Simulations};
+use super::question::{ComparisonQuestion, FitKind, FittedGears};
+use super::simulations::{CoefficientChange, CompareError, Simulations};
+use super::study::root_mean_square;
 use super::unknown::Unknown;
 use crate::gear::{Gear, PerGear};
 use crate::measurement::fit::{FitStop, Parameter, broyden_update, gauss_newton_step, least_squares};
-use crate::measurement::interval::{ProfilePart, Uncertainty, uncertainty};
+use crate::measurement::interval::{FitUncertainty, ProfilePart, uncertainty};
 
 /// Least factor on the wear coefficient.
 const LEAST_FACTOR: f64 = 1e-3;
 /// Greatest factor of severe wear; the least is 1.
 const MOST_SEVERE: f64 = 1e4;
-/// Differences of logarithms.
+/// Width of the finite differences of logarithms.
 const LOG_WIDTH: f64 = 0.02;
-/// Differences of the shift, mm.
+/// Width of the finite differences of the shift, mm.
 const SHIFT_WIDTH_MM: f64 = 5e-3;
-/// A step shorter than this part of a parameter's standard deviation no longer matters.
+/// Step, in standard deviations of a parameter, below which the search has converged.
 const NEGLIGIBLE: f64 = 0.02;
-/// One shorter than this part of it is left where exact runs go on to scatter.
+/// Step, in standard deviations, that is accepted where the scatter of exact runs prevents a shorter one.
 const TOLERABLE: f64 = 0.5;
-/// Nor does one shorter than this part of the width of its differences.
+/// Step, in widths of the finite differences, below which the search has converged.
 const SMALL_STEP: f64 = 5e-3;
-/// Most exact runs at the end.
+/// Greatest number of exact runs at the end.
 const MOST_EXACT_RUNS: usize = 6;
-/// Least scatter that weights are made of, µm.
+/// Least scatter of a profile for its weight, µm.
 const LEAST_SCATTER_UM: f64 = 1e-6;
-/// What the search found.
+/// Result of the search.
 pub(super) struct FittedCoefficients {
     pub unknowns: Vec<Unknown>,
     parameters: Vec<f64>,
     pub stop: FitStop,
-    /// Which is to blame, where one is.
+    /// Coefficient that kept the search from converging.
     pub blamed: Option<Unknown>,
-    /// What the residuals say; `None` where nothing was fitted or too few points count.
-    pub uncertainty: Option<Uncertainty>,
+    /// Uncertainty from the residuals; `None` where nothing was fitted or too few points count.
+    pub uncertainty: Option<FitUncertainty>,
     /// Wear depth of the flank points of each profile.
     pub wear_um: Vec<Vec<f64>>,
-    /// The last step in standard deviations, where exact runs still ask for one.
+    /// Last step in standard deviations, where it is above the limit of convergence.
     pub unsettled: Option<f64>,
 }
 
@@ -66,7 +66,7 @@ impl FittedCoefficients {
         Some((self.parameters[index], self.uncertainty.as_ref().map(|u| u.half_widths[index])))
     }
 
-    /// One parameter less another, and half the width of the interval of that.
+    /// Difference of two parameters and half the width of its interval.
     pub(super) fn difference(&self, one: Unknown, other: Unknown) -> Option<(f64, Option<f64>)> {
         let (i, j) = (self.index(one)?, self.index(other)?);
         let half_width = self.uncertainty.as_ref().map(|u| u.half_width_of_difference(i, j));
@@ -74,21 +74,21 @@ impl FittedCoefficients {
     }
 }
 
-/// Wear of the flank points of each profile under some parameters.
+/// Function that gives the wear of the flank points of each profile for some parameters.
 type Wear<'a, S> = dyn FnMut(&S, &[f64]) -> Result<Vec<Vec<f64>>, CompareError> + 'a;
 
 /// Measured profiles, and how their parameters are found.
-pub(super) struct Search<'a> {
-    question: &'a Question,
+pub(super) struct CoefficientSearch<'a> {
+    question: &'a ComparisonQuestion,
     comparisons: &'a [Comparison<'a>],
     unknowns: Vec<Unknown>,
     /// w_p.
     weights: Vec<f64>,
 }
 
-impl<'a> Search<'a> {
-    /// Of what `question` asks, with a comparison for each of its profiles.
-    pub(super) fn new(question: &'a Question, comparisons: &'a [Comparison<'a>]) -> Self {
+impl<'a> CoefficientSearch<'a> {
+    /// Search for the parameters of `question`, with a comparison for each of its profiles.
+    pub(super) fn new(question: &'a ComparisonQuestion, comparisons: &'a [Comparison<'a>]) -> Self {
         let mut unknowns = Vec::new();
         match question.fit {
             FitKind::Each => unknowns.extend(Gear::BOTH.map(|gear| Unknown::Coefficient(Some(gear)))),
@@ -104,7 +104,7 @@ impl<'a> Search<'a> {
         Self { question, comparisons, unknowns, weights: vec![1.0; comparisons.len()] }
     }
 
-    /// The parameters that fit best, beginning with the run's own wear.
+    /// Parameters of the best fit, starting from the run's own wear.
     pub(super) fn run(
         mut self,
         as_run_um: &[Vec<f64>],
@@ -113,10 +113,10 @@ impl<'a> Search<'a> {
         let fit = self.question.fit;
         let most: Vec<f64> =
             self.comparisons.iter().zip(as_run_um).map(|(one, wear)| one.greatest_factor(wear)).collect();
-        let begin = |((one, wear), &most): ((&Comparison<'_>, &Vec<f64>), &f64)| {
+        let begun = self.comparisons.iter().zip(as_run_um).zip(&most).map(|((one, wear), &most)| {
             one.begin(wear, self.question.shift_within_mm, fit.coefficient().then_some([LEAST_FACTOR, most]))
-        };
-        let begun: Vec<Beginning> = self.comparisons.iter().zip(as_run_um).zip(&most).map(begin).collect();
+        });
+        let begun: Vec<Beginning> = begun.collect();
         let mut parameters = self.parameters(&begun, &most, simulations.severe_factor());
         let needs_runs = fit.coefficient() || fit.severe();
         let mut wear = |search: &Self, theta: &[f64]| match needs_runs {
@@ -140,38 +140,37 @@ impl<'a> Search<'a> {
         if needs_runs {
             self.settle(&mut found, &parameters, fitted.jacobian, simulations)?;
         }
-        // Beside the best value that was searched no interval means anything.
+        // A value at the end of its range has no interval.
         found.uncertainty = found.uncertainty.filter(|_| found.stop == FitStop::Converged);
         Ok(found)
     }
 
-    /// The unknowns as parameters that begin where each profile alone would.
+    /// The unknowns as parameters, each starting where its profile alone fits best.
     fn parameters(&self, begun: &[Beginning], most: &[f64], severe_factor: f64) -> Vec<Parameter> {
         let within = self.question.shift_within_mm;
-        let of_gear = |gear: Option<Gear>| {
-            let profiles = self.comparisons.iter().zip(begun.iter().zip(most));
-            let own = profiles.filter(move |(one, _)| gear.is_none_or(|gear| one.of.profile.gear == gear));
-            own.map(|(_, begun)| begun)
-        };
-        let parameter = |unknown: &Unknown| match *unknown {
-            Unknown::Coefficient(gear) => {
-                let count = of_gear(gear).count() as f64;
-                let start = of_gear(gear).map(|(begun, _)| begun.factor.ln()).sum::<f64>() / count;
-                let greatest = of_gear(gear).map(|(_, most)| most.ln()).fold(f64::INFINITY, f64::min);
-                Parameter { start: start.min(greatest), least: LEAST_FACTOR.ln(), greatest, width: LOG_WIDTH }
+        let parameters = self.unknowns.iter().map(|&unknown| {
+            let own = self.comparisons.iter().zip(begun.iter().zip(most));
+            let own = own.filter(|(one, _)| unknown.is_of(one.of.profile.gear)).map(|(_, begun)| begun);
+            match unknown {
+                Unknown::Coefficient(_) => {
+                    let count = own.clone().count() as f64;
+                    let start = own.clone().map(|(begun, _)| begun.factor.ln()).sum::<f64>() / count;
+                    let greatest = own.map(|(_, most)| most.ln()).fold(f64::INFINITY, f64::min);
+                    Parameter { start: start.min(greatest), least: LEAST_FACTOR.ln(), greatest, width: LOG_WIDTH }
+                }
+                Unknown::Severe => {
+                    Parameter { start: severe_factor.ln(), least: 0.0, greatest: MOST_SEVERE.ln(), width: LOG_WIDTH }
+                }
+                Unknown::Shift(_) => {
+                    let start = own.map(|(begun, _)| begun.shift_mm).sum();
+                    Parameter { start, least: -within, greatest: within, width: SHIFT_WIDTH_MM }
+                }
             }
-            Unknown::Severe => {
-                Parameter { start: severe_factor.ln(), least: 0.0, greatest: MOST_SEVERE.ln(), width: LOG_WIDTH }
-            }
-            Unknown::Shift(gear) => {
-                let start = of_gear(gear).map(|(begun, _)| begun.shift_mm).sum();
-                Parameter { start, least: -within, greatest: within, width: SHIFT_WIDTH_MM }
-            }
-        };
-        self.unknowns.iter().map(parameter).collect()
+        });
+        parameters.collect()
     }
 
-    /// Gives each profile its weight: fitted alone, from where `parameters` begin, which then begin there.
+    /// Weighs each profile by the scatter of its own fit, which begins at `parameters`; these then start from its result.
     fn weigh(&mut self, parameters: &mut [Parameter], wear: &mut Wear<'_, Self>) -> Result<(), CompareError> {
         let begun: Vec<f64> = parameters.iter().map(|parameter| parameter.start).collect();
         for (index, part) in self.parts().into_iter().enumerate() {
@@ -186,9 +185,10 @@ impl<'a> Search<'a> {
             let of_own: Vec<Parameter> = own.iter().map(|&i| parameters[i]).collect();
             let alone = least_squares::<CompareError>(&of_own, &mut residuals)?;
             let found = uncertainty(&alone.jacobian, &alone.residuals, &[part]);
-            let root_mean_square =
-                || (alone.residuals.iter().map(|r| r * r).sum::<f64>() / alone.residuals.len() as f64).sqrt();
-            let deviation = found.map_or_else(root_mean_square, |found| found.scatter[0].deviation);
+            let deviation = match found {
+                Some(found) => found.scatter[0].deviation,
+                None => root_mean_square(alone.residuals.iter().copied()),
+            };
             self.weights[index] = deviation.max(LEAST_SCATTER_UM).recip();
             for (&i, &value) in own.iter().zip(&alone.parameters) {
                 if self.unknowns[i] == Unknown::Coefficient(Some(one.of.profile.gear)) {
@@ -199,7 +199,7 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// Gauss–Newton steps on the residuals of exact runs, until they no longer matter.
+    /// Gauss–Newton steps on the residuals of exact runs until convergence.
     fn settle(
         &self,
         found: &mut FittedCoefficients,
@@ -231,7 +231,7 @@ impl<'a> Search<'a> {
                 (found.wear_um, found.uncertainty) = (wear_um, uncertainty);
             }
             let Some(step) = step else { break };
-            // Steps in standard deviations; those that are nothing beside the differences count for nothing.
+            // Steps in standard deviations; those below [`SMALL_STEP`] count as 0.
             last_step = (0..step.len())
                 .filter(|&i| step[i].abs() > SMALL_STEP * parameters[i].width)
                 .map(|i| step[i].abs() / deviations.as_ref().map_or(0.0, |all| all[i]))
@@ -260,25 +260,25 @@ impl<'a> Search<'a> {
         all
     }
 
-    /// How the residuals of all profiles are made up.
+    /// The part of each profile in the residuals.
     fn parts(&self) -> Vec<ProfilePart> {
-        let part =
-            |one: &Comparison<'_>| ProfilePart { points: one.measured_um.len(), also_fitted: one.of.form.parameters() };
-        self.comparisons.iter().map(part).collect()
+        self.comparisons
+            .iter()
+            .map(|one| ProfilePart { points: one.measured_um.len(), also_fitted: one.of.form.parameters() })
+            .collect()
     }
 
-    /// The change of the scene that the parameters stand for.
-    fn change(&self, theta: &[f64]) -> Change {
-        let factor = |gear: Gear| {
-            let of_gear = match self.question.fitted {
-                Fitted::Each => Some(gear),
-                fitted if fitted.has(gear) => None,
-                _ => return 1.0,
-            };
-            self.value(Unknown::Coefficient(of_gear), theta).map_or(1.0, f64::exp)
-        };
-        Change {
-            coefficient_factor: PerGear::from_fn(factor),
+    /// Change of the scene for these parameters.
+    fn change(&self, theta: &[f64]) -> CoefficientChange {
+        CoefficientChange {
+            coefficient_factor: PerGear::from_fn(|gear| {
+                let of_gear = match self.question.fitted {
+                    FittedGears::Each => Some(gear),
+                    fitted if fitted.has(gear) => None,
+                    _ => return 1.0,
+                };
+                self.value(Unknown::Coefficient(of_gear), theta).map_or(1.0, f64::exp)
+            }),
             severe_factor: self.value(Unknown::Severe, theta).map(f64::exp),
         }
     }

@@ -17,7 +17,7 @@
 
 use std::f64::consts::LN_2;
 
-use super::question::{Fitted, ProfileQuestion, Question};
+use super::question::{ComparisonQuestion, FittedGears};
 use super::wear_by_coefficient::WearByCoefficient;
 use crate::assessment::RunError;
 use crate::gear::{Gear, PerGear};
@@ -39,41 +39,40 @@ pub(crate) enum CompareError {
 
 /// Snapshots of the run that holds all coefficients, at squares of even steps: dense where little is worn.
 const SNAPSHOTS: u32 = 40;
-/// The same where each is a run of its own.
+/// Number of simulations where each is a run of its own.
 const SEPARATE_RUNS: u32 = 6;
-/// Longer runs have no more wear steps than one of this factor.
+/// Factor on the duration up to which the number of wear steps rises with it.
 const AS_FINE_UP_TO: f64 = 4.0;
-/// A curve reaches this much further than the factor it is made for.
+/// Factor by which a curve reaches beyond the factor asked for.
 const AHEAD: f64 = 2.0;
-/// Factors of severe wear, or ratios of the coefficients, whose curves are computed are this far apart, as a logarithm; between them it is
-/// interpolated.
+/// Logarithmic spacing of the factors of severe wear, or ratios of the coefficients, for which curves are computed; between them it is interpolated.
 const STEP: f64 = LN_2;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Change {
+pub(super) struct CoefficientChange {
     /// On the wear coefficient of each gear.
     pub coefficient_factor: PerGear<f64>,
     /// The factor of severe wear; `None`: the scene's.
     pub severe_factor: Option<f64>,
 }
 
-impl Change {
+impl CoefficientChange {
     pub(super) const NOTHING: Self =
         Self { coefficient_factor: PerGear { pinion: 1.0, wheel: 1.0 }, severe_factor: None };
 }
 
-/// Wear for all factors on the wear coefficients, at one factor of severe wear and one ratio of the coefficients.
+/// Wear as a function of the factor on the wear coefficients, at one factor of severe wear and one ratio of the coefficients.
 struct Course {
-    /// The scene's own factor of severe wear, or ratio of the wheel's coefficient to the pinion's, times 2ⁿ.
+    /// Number of the curve: its factor of severe wear, or ratio of the wheel's coefficient to the pinion's, is the scene's times 2ⁿ.
     n: i32,
-    /// The greatest factor it knows.
+    /// Greatest factor of the curve.
     reach: f64,
-    /// Profile by profile.
+    /// Wear of each profile.
     wear: Vec<WearByCoefficient>,
 }
 
 /// Wear of the flank points of each profile.
-struct Snapshot {
+struct ProfileSnapshot {
     revolutions: f64,
     wear_um: Vec<Vec<f64>>,
 }
@@ -81,7 +80,7 @@ struct Snapshot {
 /// Runs of one scene until the profiles were measured.
 pub(super) struct Simulations<'a> {
     given: &'a LoadedScene,
-    question: &'a Question,
+    question: &'a ComparisonQuestion,
     /// The scene, ending when the last profile was measured, without error estimates.
     until_measured: Scene,
     observer: &'a dyn Observer,
@@ -92,8 +91,8 @@ pub(super) struct Simulations<'a> {
 }
 
 impl<'a> Simulations<'a> {
-    /// Runs of `given`, of which wear is wanted where and when the profiles of `question` were measured.
-    pub(super) fn new(given: &'a LoadedScene, question: &'a Question, observer: &'a dyn Observer) -> Self {
+    /// Runs of `given` up to the time of each profile of `question`.
+    pub(super) fn new(given: &'a LoadedScene, question: &'a ComparisonQuestion, observer: &'a dyn Observer) -> Self {
         let last = question.last_revolutions();
         let mut scene = given.resolved.scene.clone();
         (scene.numerics.error_estimate, scene.verify) = (false, false);
@@ -104,7 +103,7 @@ impl<'a> Simulations<'a> {
         }
         operation.pinion_revolutions = last;
         operation.stop = LifeLimits::default();
-        // Those of the scene stay: steps end at them.
+        // Snapshots of the scene are kept: steps end at them.
         let snapshots = &mut operation.snapshots_revolutions;
         snapshots.retain(|&at| at < last);
         snapshots.extend(question.profiles.iter().map(|of| of.revolutions));
@@ -120,25 +119,25 @@ impl<'a> Simulations<'a> {
     }
 
     /// Wear of the flank points of each profile, by a run with just this change, µm.
-    pub(super) fn exactly(&mut self, change: Change) -> Result<Vec<Vec<f64>>, CompareError> {
+    pub(super) fn exactly(&mut self, change: CoefficientChange) -> Result<Vec<Vec<f64>>, CompareError> {
         let snapshots = self.run(self.changed(change))?;
-        let measured = |(index, of): (usize, &ProfileQuestion)| {
-            let away = |snapshot: &&Snapshot| (snapshot.revolutions - of.revolutions).abs();
-            let nearest = snapshots.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
-            nearest.map(|snapshot| snapshot.wear_um[index].clone()).unwrap_or_default()
-        };
-        Ok(self.question.profiles.iter().enumerate().map(measured).collect())
+        let measured = self.question.profiles.iter().enumerate().map(|(index, of)| {
+            let away = snapshots.iter().map(|snapshot| ((snapshot.revolutions - of.revolutions).abs(), snapshot));
+            let nearest = away.min_by(|(a, _), (b, _)| a.total_cmp(b));
+            nearest.map(|(_, snapshot)| snapshot.wear_um[index].clone()).unwrap_or_default()
+        });
+        Ok(measured.collect())
     }
 
-    /// The same, interpolated between profiles that are computed where they are first needed.
-    pub(super) fn about(&mut self, change: Change) -> Result<Vec<Vec<f64>>, CompareError> {
+    /// Wear profiles interpolated between computed ones, which are computed when first needed.
+    pub(super) fn about(&mut self, change: CoefficientChange) -> Result<Vec<Vec<f64>>, CompareError> {
         let profiles = &self.question.profiles;
         let mut sums = vec![Vec::new(); profiles.len()];
         for (n, weight) in self.courses_around(change) {
-            // The course's own coefficients, and how far along it those of the change lie for each gear.
+            // Coefficients of the course at factor 1, and the factor of the change on it for each gear.
             let once = self.on_course(n, 1.0).coefficient_factor;
-            let own = |gear: Gear| change.coefficient_factor[gear] / once[gear];
-            let factors: Vec<f64> = profiles.iter().map(|of| own(of.profile.gear)).collect();
+            let own = PerGear::from_fn(|gear| change.coefficient_factor[gear] / once[gear]);
+            let factors: Vec<f64> = profiles.iter().map(|of| own[of.profile.gear]).collect();
             let course = self.course(n, factors.iter().copied().fold(0.0, f64::max))?;
             for (sum, (wear, factor)) in sums.iter_mut().zip(course.wear.iter().zip(factors)) {
                 let wear = wear.at(factor);
@@ -150,10 +149,10 @@ impl<'a> Simulations<'a> {
     }
 
     /// The courses that a change lies between, with their weights.
-    fn courses_around(&self, change: Change) -> Vec<(i32, f64)> {
+    fn courses_around(&self, change: CoefficientChange) -> Vec<(i32, f64)> {
         let ratio = change.coefficient_factor.wheel / change.coefficient_factor.pinion;
         match (self.question.fitted, change.severe_factor) {
-            (Fitted::Each, _) => {
+            (FittedGears::Each, _) => {
                 let place = ratio.ln() / STEP;
                 lagrange(place, place.round() as i32 - 1, 3)
             }
@@ -166,16 +165,16 @@ impl<'a> Simulations<'a> {
     }
 
     /// The change of the course `n` at a factor.
-    fn on_course(&self, n: i32, factor: f64) -> Change {
-        let times = |by: f64| (by * f64::from(n) * STEP).exp();
+    fn on_course(&self, n: i32, factor: f64) -> CoefficientChange {
+        let [less, more, whole] = [-0.5, 0.5, 1.0].map(|by| (by * f64::from(n) * STEP).exp());
         match self.question.fitted {
-            Fitted::Each => Change {
-                coefficient_factor: PerGear { pinion: factor * times(-0.5), wheel: factor * times(0.5) },
+            FittedGears::Each => CoefficientChange {
+                coefficient_factor: PerGear { pinion: factor * less, wheel: factor * more },
                 severe_factor: None,
             },
-            fitted => Change {
+            fitted => CoefficientChange {
                 coefficient_factor: PerGear::from_fn(|gear| if fitted.has(gear) { factor } else { 1.0 }),
-                severe_factor: (n != 0).then(|| self.severe_factor() * times(1.0)),
+                severe_factor: (n != 0).then(|| self.severe_factor() * whole),
             },
         }
     }
@@ -200,12 +199,11 @@ impl<'a> Simulations<'a> {
     }
 
     fn compute(&mut self, n: i32, reach: f64) -> Result<Course, CompareError> {
-        let squares = |count: u32| (1..=count).map(move |i| reach * (f64::from(i) / f64::from(count)).powi(2));
         let profiles = &self.question.profiles;
-        // The factor that each snapshot stands for, profile by profile, and the wear.
+        // Factor of each snapshot and its wear, profile by profile.
         let mut rows: Vec<(Vec<f64>, Vec<Vec<f64>>)> = Vec::new();
         if self.until_measured.operation.phases.len() > 1 || !self.scales_with_time() {
-            for factor in squares(SEPARATE_RUNS) {
+            for factor in squares(reach, SEPARATE_RUNS) {
                 rows.push((vec![factor; profiles.len()], self.exactly(self.on_course(n, factor))?));
             }
         } else {
@@ -214,9 +212,9 @@ impl<'a> Simulations<'a> {
             let operation = &mut scene.operation;
             operation.pinion_revolutions = reach * duration;
             operation.phases.iter_mut().for_each(|phase| phase.end_revolutions = reach * duration);
-            operation.snapshots_revolutions = squares(SNAPSHOTS).map(|factor| factor * duration).collect();
+            operation.snapshots_revolutions = squares(reach, SNAPSHOTS).map(|factor| factor * duration).collect();
             scene.numerics.stepping = scene.numerics.stepping.coarser((reach / AS_FINE_UP_TO).max(1.0));
-            for Snapshot { revolutions, wear_um } in self.run(scene)? {
+            for ProfileSnapshot { revolutions, wear_um } in self.run(scene)? {
                 rows.push((profiles.iter().map(|of| revolutions / of.revolutions).collect(), wear_um));
             }
         }
@@ -225,17 +223,18 @@ impl<'a> Simulations<'a> {
         Ok(Course { n, reach, wear: (0..profiles.len()).map(of_profile).collect() })
     }
 
-    /// Whether a longer run holds the wear of greater coefficients: where both change in the same way, or the mate does not wear.
+    /// Whether wear of greater coefficients equals that of a longer run: the coefficients of both gears change alike, or the mate does not wear.
     fn scales_with_time(&self) -> bool {
         let scene = &self.until_measured;
-        let rests = |gear: Gear| {
-            scene.operation.phases.iter().all(|phase| scene.wear_in(phase)[gear].coefficient_mm2_per_n <= 0.0)
-        };
-        Gear::BOTH.into_iter().all(|gear| self.question.fitted.has(gear) || rests(gear))
+        Gear::BOTH.into_iter().all(|gear| {
+            let mut phases = scene.operation.phases.iter();
+            self.question.fitted.has(gear)
+                || phases.all(|phase| scene.wear_in(phase)[gear].coefficient_mm2_per_n <= 0.0)
+        })
     }
 
-    /// Carries a scene out: the wear of each profile's flank points at each snapshot.
-    fn run(&mut self, scene: Scene) -> Result<Vec<Snapshot>, CompareError> {
+    /// Runs a scene; the wear of each profile's flank points at each snapshot.
+    fn run(&mut self, scene: Scene) -> Result<Vec<ProfileSnapshot>, CompareError> {
         self.runs += 1;
         self.observer.stage(&format!("run {}", self.runs));
         let resolved = Resolved { scene, file: self.given.resolved.file.clone(), warnings: Vec::new() };
@@ -253,21 +252,20 @@ impl<'a> Simulations<'a> {
         }
         self.mesh_cycles += done.record.summary.work.mesh_cycles;
         let record = &done.record;
-        let at_snapshot = |index: usize, of: &ProfileQuestion| {
-            let flank = &record.flanks[of.profile.gear];
-            over_width(&flank.snapshot_wear_um[index], &flank.width_mm, flank.radius_mm.len(), of.width_mm)
-        };
         let profiles = &self.question.profiles;
-        let snapshot = |index: usize| Snapshot {
-            revolutions: record.history[index].revolutions,
-            wear_um: profiles.iter().map(|of| at_snapshot(index, of)).collect(),
-        };
         let kept = profiles.iter().map(|of| record.flanks[of.profile.gear].snapshot_wear_um.len()).min();
-        Ok((0..kept.unwrap_or(0).min(record.history.len())).map(snapshot).collect())
+        let snapshots = record.history.iter().take(kept.unwrap_or(0)).enumerate().map(|(index, row)| {
+            let wear_um = profiles.iter().map(|of| {
+                let flank = &record.flanks[of.profile.gear];
+                over_width(&flank.snapshot_wear_um[index], &flank.width_mm, flank.radius_mm.len(), of.width_mm)
+            });
+            ProfileSnapshot { revolutions: row.revolutions, wear_um: wear_um.collect() }
+        });
+        Ok(snapshots.collect())
     }
 
     /// The scene with a change.
-    fn changed(&self, change: Change) -> Scene {
+    fn changed(&self, change: CoefficientChange) -> Scene {
         let mut scene = self.until_measured.clone();
         for gear in Gear::BOTH {
             let factor = change.coefficient_factor[gear];
@@ -286,8 +284,7 @@ impl<'a> Simulations<'a> {
     }
 }
 
-/// The row of `points` at `width_mm` out of rows in slices at `slices_mm`: between their middles by straight lines, outside them
-/// that of the outermost.
+/// Wear at `width_mm`, linear between the middles of the slices at `slices_mm`; beyond them that of the outermost slice.
 pub(super) fn over_width(wear_um: &[f64], slices_mm: &[f64], points: usize, width_mm: Option<f64>) -> Vec<f64> {
     let rows: Vec<&[f64]> = wear_um.chunks_exact(points.max(1)).collect();
     let (Some(width), true) = (width_mm, rows.len() > 1) else {
@@ -299,12 +296,17 @@ pub(super) fn over_width(wear_um: &[f64], slices_mm: &[f64], points: usize, widt
     rows[after - 1].iter().zip(rows[after]).map(|(a, b)| a + t * (b - a)).collect()
 }
 
-/// Lagrange's polynomial through so many courses from `first` on: their weights at `place`.
+/// Weights at `place` of Lagrange's polynomial through `count` courses from `first` on.
 fn lagrange(place: f64, first: i32, count: i32) -> Vec<(i32, f64)> {
     let nodes = first..first + count;
-    let weight = |n: i32| {
+    let weights = nodes.clone().map(|n| {
         let others = nodes.clone().filter(|&other| other != n).map(f64::from);
-        others.map(|other| (place - other) / (f64::from(n) - other)).product()
-    };
-    nodes.clone().map(|n| (n, weight(n))).collect()
+        (n, others.map(|other| (place - other) / (f64::from(n) - other)).product())
+    });
+    weights.collect()
+}
+
+/// Factors up to `reach`, evenly in their square roots.
+fn squares(reach: f64, count: u32) -> impl Iterator<Item = f64> {
+    (1..=count).map(move |i| reach * (f64::from(i) / f64::from(count)).powi(2))
 }

@@ -1,17 +1,18 @@
 //! A comparison from beginning to end.
 
 use super::comparison::Comparison;
-use super::question::{Fitted, ProfileQuestion, Question, is_of_both};
+use super::question::{ComparisonQuestion, FittedGears, ProfileQuestion, is_of_both};
 use super::record::{
-    Coefficient, CompareFigures, CompareRecord, CompareRow, Correlation, Estimate, FitRecord, ProfileRecord,
+    Coefficient, CoefficientCorrelation, CompareFigures, CompareRecord, CompareRow, FitRecord, FittedValue,
+    ProfileRecord,
 };
 use super::run_folder::RunFolder;
-use super::search::{FittedCoefficients, Search};
+use super::search::{CoefficientSearch, FittedCoefficients};
 pub(crate) use super::simulations::CompareError;
-use super::simulations::{Change, Simulations, over_width};
+use super::simulations::{CoefficientChange, Simulations, over_width};
 use super::unknown::Unknown;
 use crate::assessment::RunError;
-use crate::gear::{Gear, GearPair, slices::Slices};
+use crate::gear::{Gear, GearPair, PerGear, slices::Slices};
 use crate::measurement::fit::FitStop;
 use crate::measurement::interval::CONFIDENCE;
 use crate::measurement::roughness::{CUTOFF_MM, mean_deviation, roughness};
@@ -22,12 +23,12 @@ use crate::scene::loaded::LoadedScene;
 
 /// mm²/N to m²/N.
 const M2_PER_MM2: f64 = 1e-6;
-/// Residuals this many times the uncertainty of the heights say that the simulation does not describe the profile.
+/// Ratio of residuals to the uncertainty of the heights above which the simulation does not describe the profile.
 const NOT_DESCRIBED: f64 = 2.0;
 
-/// Compares what was measured with the run in `folder`, whose scene is `given`.
+/// Compares the measured profiles with the run in `folder`, whose scene is `given`.
 pub(crate) fn run(
-    question: &Question,
+    question: &ComparisonQuestion,
     folder: &RunFolder,
     given: &LoadedScene,
     observer: &dyn Observer,
@@ -35,21 +36,21 @@ pub(crate) fn run(
     let resolved = &given.resolved;
     let scene = &resolved.scene;
     let pair = &GearPair::new(&scene.pair).map_err(RunError::from)?;
-    let compared = |of| Comparison::new(of, pair, &scene.numerics);
-    let comparisons: Vec<Comparison<'_>> = question.profiles.iter().map(compared).collect();
+    let comparisons: Vec<Comparison<'_>> =
+        question.profiles.iter().map(|of| Comparison::new(of, pair, &scene.numerics)).collect();
     let mut simulations = Simulations::new(given, question, observer);
     let kept: Option<Vec<_>> = comparisons.iter().map(|one| as_kept(one, pair)).collect();
     let as_run_um = match kept {
         Some(kept) => kept,
-        None => simulations.exactly(Change::NOTHING)?,
+        None => simulations.exactly(CoefficientChange::NOTHING)?,
     };
-    let found = Search::new(question, &comparisons).run(&as_run_um, &mut simulations)?;
+    let found = CoefficientSearch::new(question, &comparisons).run(&as_run_um, &mut simulations)?;
 
-    let profile = |index: usize| {
-        let rows = rows(question, pair, &comparisons[index], [&found.wear_um[index], &as_run_um[index]], &found);
+    let profiles = comparisons.iter().enumerate().map(|(index, comparison)| {
+        let rows = rows(question, pair, comparison, [&found.wear_um[index], &as_run_um[index]], &found);
         profile(question, resolved, pair, (index, rows), &found)
-    };
-    let profiles: Vec<ProfileRecord> = (0..comparisons.len()).map(profile).collect();
+    });
+    let profiles: Vec<ProfileRecord> = profiles.collect();
     let fit = fit(question, resolved, &found, &profiles, &simulations);
     let warnings = folder.version_warning().into_iter().chain(warnings(&fit, &profiles, found.unsettled)).collect();
     Ok(CompareRecord {
@@ -63,7 +64,7 @@ pub(crate) fn run(
     })
 }
 
-/// Wear that the run kept of the time when a profile was measured.
+/// Wear that the run recorded at the time of the measurement.
 fn as_kept(comparison: &Comparison<'_>, pair: &GearPair) -> Option<Vec<f64>> {
     let (of, points) = (comparison.of, comparison.flank_points());
     let wear_um = of.as_run_um.as_ref()?;
@@ -72,7 +73,7 @@ fn as_kept(comparison: &Comparison<'_>, pair: &GearPair) -> Option<Vec<f64>> {
 }
 
 fn rows(
-    question: &Question,
+    question: &ComparisonQuestion,
     pair: &GearPair,
     comparison: &Comparison<'_>,
     [wear_um, as_run_um]: [&[f64]; 2],
@@ -105,7 +106,7 @@ fn rows(
 }
 
 fn profile(
-    question: &Question,
+    question: &ComparisonQuestion,
     resolved: &Resolved,
     pair: &GearPair,
     (index, rows): (usize, Vec<CompareRow>),
@@ -122,7 +123,7 @@ fn profile(
         hours: resolved.scene.operation.hours(of.revolutions),
         revolutions: of.revolutions,
         form: of.form.name().to_owned(),
-        shift_mm: found.of(question.shift_of(gear)).map(|(value, half)| Estimate {
+        shift_mm: found.of(question.shift_of(gear)).map(|(value, half)| FittedValue {
             value,
             low: half.map(|h| value - h),
             high: half.map(|h| value + h),
@@ -138,20 +139,15 @@ fn profile(
 }
 
 fn fit(
-    question: &Question,
+    question: &ComparisonQuestion,
     resolved: &Resolved,
     found: &FittedCoefficients,
     profiles: &[ProfileRecord],
     simulations: &Simulations<'_>,
 ) -> FitRecord {
-    // Of a logarithm and half the width of its interval.
-    let estimate = |(value, half): (f64, Option<f64>), of_run: f64, unit: f64| {
-        let at = |by: f64| unit * (value + by).exp();
-        Estimate { value: at(0.0), low: half.map(|h| at(-h)), high: half.map(at), of_run }
-    };
-    let coefficient = |gear: Gear| M2_PER_MM2 * resolved.scene.wear[gear].coefficient_mm2_per_n;
-    let ratio = coefficient(Gear::Pinion) / coefficient(Gear::Wheel);
-    let of_ratio = |[one, other]: [Unknown; 2]| Some(estimate(found.difference(one, other)?, ratio, ratio));
+    let coefficient = PerGear::from_fn(|gear| M2_PER_MM2 * resolved.scene.wear[gear].coefficient_mm2_per_n);
+    let ratio = coefficient.pinion / coefficient.wheel;
+    let [pinion, wheel] = Gear::BOTH.map(|gear| Unknown::Coefficient(Some(gear)));
     let parameters = &found.unknowns;
     FitRecord {
         stopped: found.stop,
@@ -160,38 +156,48 @@ fn fit(
             .into_iter()
             .filter_map(|(unknown, gear)| {
                 let logarithm = found.of(unknown)?;
-                let of_run = coefficient(gear.unwrap_or(profiles[0].gear));
+                let of_run = coefficient[gear.unwrap_or(profiles[0].gear)];
                 let (factor, value) = (estimate(logarithm, 1.0, 1.0), estimate(logarithm, of_run, of_run));
                 Some(Coefficient { gear, factor, coefficient_m2_per_N: value })
             })
             .collect(),
-        coefficient_ratio: of_ratio(Gear::BOTH.map(|gear| Unknown::Coefficient(Some(gear)))),
+        coefficient_ratio: found.difference(pinion, wheel).map(|logarithm| estimate(logarithm, ratio, ratio)),
         severe_factor: found.of(Unknown::Severe).map(|log| estimate(log, simulations.severe_factor(), 1.0)),
         correlation: found
             .uncertainty
             .as_ref()
             .filter(|_| parameters.len() > 1)
-            .map(|u| Correlation { parameters: parameters.clone(), matrix: u.correlation.clone() }),
+            .map(|u| CoefficientCorrelation { parameters: parameters.clone(), matrix: u.correlation.clone() }),
         runs: simulations.runs,
         mesh_cycles: simulations.mesh_cycles,
         how: how(question, found, profiles),
     }
 }
 
-/// The unknowns that stand for a wear coefficient, and whose it is: both gears' where they wear by one law.
-fn whose(question: &Question, resolved: &Resolved) -> Vec<(Unknown, Option<Gear>)> {
+/// `unit` times the number of a logarithm, given with half the width of its interval.
+fn estimate((value, half): (f64, Option<f64>), of_run: f64, unit: f64) -> FittedValue {
+    let [value, low, high] = [Some(0.0), half.map(|half| -half), half].map(|by| by.map(|by| unit * (value + by).exp()));
+    FittedValue { value: value.unwrap_or(f64::NAN), low, high, of_run }
+}
+
+/// Unknown wear coefficients, each with its gear; `None` for both where they have one law.
+fn whose(question: &ComparisonQuestion, resolved: &Resolved) -> Vec<(Unknown, Option<Gear>)> {
     match question.fitted {
-        Fitted::Each => Gear::BOTH.map(|gear| (Unknown::Coefficient(Some(gear)), Some(gear))).into(),
-        Fitted::Alone(gear) => vec![(Unknown::Coefficient(None), Some(gear))],
-        Fitted::Together if is_of_both(&resolved.scene) => vec![(Unknown::Coefficient(None), None)],
-        Fitted::Together => Gear::BOTH.map(|gear| (Unknown::Coefficient(None), Some(gear))).into(),
+        FittedGears::Each => Gear::BOTH.map(|gear| (Unknown::Coefficient(Some(gear)), Some(gear))).into(),
+        FittedGears::Alone(gear) => vec![(Unknown::Coefficient(None), Some(gear))],
+        FittedGears::Together if is_of_both(&resolved.scene) => vec![(Unknown::Coefficient(None), None)],
+        FittedGears::Together => Gear::BOTH.map(|gear| (Unknown::Coefficient(None), Some(gear))).into(),
     }
 }
 
+/// Effective number of points: "20 of 150 points".
+fn counted(of: &ProfileRecord) -> Option<String> {
+    Some(format!("{:.0} of {} points", of.effective_points?, of.points))
+}
+
 /// How the intervals were obtained, or why there are none.
-fn how(question: &Question, found: &FittedCoefficients, profiles: &[ProfileRecord]) -> String {
+fn how(question: &ComparisonQuestion, found: &FittedCoefficients, profiles: &[ProfileRecord]) -> String {
     let confidence = 100.0 * CONFIDENCE;
-    let counted = |of: &ProfileRecord| Some(format!("{:.0} of {} points", of.effective_points?, of.points));
     let how = match profiles {
         _ if found.unknowns.is_empty() => "nothing was fitted".to_owned(),
         _ if found.uncertainty.is_none() => {
@@ -215,7 +221,7 @@ fn how(question: &Question, found: &FittedCoefficients, profiles: &[ProfileRecor
         }
     };
     match question.fitted {
-        Fitted::Alone(gear) if question.fit.coefficient() => format!(
+        FittedGears::Alone(gear) if question.fit.coefficient() => format!(
             "{how}; the gears wear by different laws: what is fitted is that of the {} alone, and that of the {} is as in the run",
             gear.name(),
             gear.mate().name()
@@ -226,21 +232,25 @@ fn how(question: &Question, found: &FittedCoefficients, profiles: &[ProfileRecor
 
 fn figures(of: &ProfileQuestion, rows: &[CompareRow]) -> CompareFigures {
     let arc = &of.profile.arc_mm;
-    let column = |value: fn(&CompareRow) -> f64| rows.iter().map(value).collect::<Vec<f64>>();
-    let rms = |values: &[f64]| (values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64).sqrt();
-    let measured = column(|row| row.measured_um);
+    let measured: Vec<f64> = rows.iter().map(|row| row.measured_um).collect();
+    let simulated: Vec<f64> = rows.iter().map(|row| row.simulated_um).collect();
     let worst = rows.iter().max_by(|a, b| a.difference_um.abs().total_cmp(&b.difference_um.abs()));
     CompareFigures {
         mean_deviation_um: mean_deviation(arc, &measured),
-        simulated_mean_deviation_um: mean_deviation(arc, &column(|row| row.simulated_um)),
+        simulated_mean_deviation_um: mean_deviation(arc, &simulated),
         roughness_um: roughness(arc, &measured, CUTOFF_MM),
         cutoff_mm: CUTOFF_MM,
-        as_run_difference_um: rms(&column(|row| row.measured_um - row.as_run_um)),
-        difference_um: rms(&column(|row| row.difference_um)),
+        as_run_difference_um: root_mean_square(rows.iter().map(|row| row.measured_um - row.as_run_um)),
+        difference_um: root_mean_square(rows.iter().map(|row| row.difference_um)),
         greatest_difference_um: worst.map_or(0.0, |row| row.difference_um.abs()),
         greatest_difference_radius_mm: worst.map_or(0.0, |row| row.radius_mm),
         uncertainty_um: of.uncertainty_um,
     }
+}
+
+pub(super) fn root_mean_square(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len() as f64;
+    (values.map(|v| v * v).sum::<f64>() / count).sqrt()
 }
 
 fn warnings(fit: &FitRecord, profiles: &[ProfileRecord], unsettled: Option<f64>) -> Vec<String> {
@@ -275,7 +285,7 @@ fn warnings(fit: &FitRecord, profiles: &[ProfileRecord], unsettled: Option<f64>)
     warnings
 }
 
-/// What to say of a profile whose residuals its uncertainty does not explain, with its gear where there are others.
+/// Warning about a profile whose residuals its uncertainty does not explain, with its gear where there are others.
 fn not_described(of: &ProfileRecord, name_gear: bool) -> Option<String> {
     let difference_um = of.figures.difference_um;
     let uncertainty_um = of.figures.uncertainty_um.filter(|u| difference_um > NOT_DESCRIBED * u)?;

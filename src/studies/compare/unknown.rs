@@ -1,4 +1,4 @@
-//! What a comparison fits, by name.
+//! Coefficients that a comparison can fit, by name.
 
 use serde::{Serialize, Serializer};
 
@@ -16,7 +16,7 @@ pub(crate) enum Unknown {
 }
 
 impl Unknown {
-    /// What it is called in a sentence.
+    /// Name in a sentence.
     pub(crate) fn name(self) -> String {
         match self {
             Unknown::Coefficient(None) => "the wear coefficient".to_owned(),
@@ -27,7 +27,7 @@ impl Unknown {
         }
     }
 
-    /// Whether it says something of the profile of `gear`.
+    /// Whether the profile of `gear` depends on it.
     pub(super) fn is_of(self, gear: Gear) -> bool {
         match self {
             Unknown::Coefficient(own) | Unknown::Shift(own) => own.is_none_or(|own| own == gear),
@@ -35,7 +35,7 @@ impl Unknown {
         }
     }
 
-    /// Its short name, which results have.
+    /// Short name in results.
     pub(crate) fn key(self) -> String {
         let (name, gear) = match self {
             Unknown::Coefficient(gear) => ("k", gear),

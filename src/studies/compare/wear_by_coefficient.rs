@@ -33,11 +33,12 @@ impl WearByCoefficient {
         let [one, other] = [before, after].map(|index| self.slope_weights(index));
         (0..self.wear_um[before].len())
             .map(|point| {
-                let slope = |rows: &[(usize, f64)]| rows.iter().map(|&(i, w)| w * self.wear_um[i][point]).sum::<f64>();
+                let [slope, other_slope] =
+                    [&one, &other].map(|rows| rows.iter().map(|&(i, w)| w * self.wear_um[i][point]).sum::<f64>());
                 weights[0] * self.wear_um[before][point]
                     + weights[1] * self.wear_um[after][point]
-                    + weights[2] * slope(&one)
-                    + weights[3] * slope(&other)
+                    + weights[2] * slope
+                    + weights[3] * other_slope
             })
             .collect()
     }
@@ -47,16 +48,18 @@ impl WearByCoefficient {
     fn slope_weights(&self, index: usize) -> Vec<(usize, f64)> {
         let f = &self.factors;
         let last = f.len() - 1;
-        let secant = |i: usize, weight: f64| {
-            let width = f[i + 1] - f[i];
-            [(i, -weight / width), (i + 1, weight / width)]
-        };
         if index == 0 || index == last {
-            return secant(index.min(last - 1), 1.0).to_vec();
+            return self.secant(index.min(last - 1), 1.0).to_vec();
         }
         let (left, right) = (f[index] - f[index - 1], f[index + 1] - f[index]);
         let [a, b] = [right, left].map(|width| width / (left + right));
-        [secant(index - 1, a), secant(index, b)].concat()
+        [self.secant(index - 1, a), self.secant(index, b)].concat()
+    }
+
+    /// `weight` times the slope of the straight line from profile `i` to the next, as weights of both.
+    fn secant(&self, i: usize, weight: f64) -> [(usize, f64); 2] {
+        let width = self.factors[i + 1] - self.factors[i];
+        [(i, -weight / width), (i + 1, weight / width)]
     }
 }
 
@@ -67,7 +70,9 @@ mod tests {
     /// Parabolas inside are exact, and the given profiles are met.
     #[test]
     fn ver_it_meets_its_profiles_and_parabolas_between_them() {
-        let parabola = |f: f64| vec![3.0 * f - 0.5 * f * f, f];
+        fn parabola(f: f64) -> Vec<f64> {
+            vec![3.0 * f - 0.5 * f * f, f]
+        }
         let course = WearByCoefficient::new([0.3, 0.5, 1.1, 2.0].map(|f| (f, parabola(f))));
         assert_eq!((course.at(0.0), course.at(1.1)), (vec![0.0, 0.0], parabola(1.1)));
         for factor in [0.31, 0.4, 0.7, 1.0] {

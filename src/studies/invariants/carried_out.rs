@@ -10,14 +10,14 @@ use crate::runs;
 use crate::scene::loaded::LoadedScene;
 use crate::studies::varied_scene::one_line;
 
-/// How a scene ends that does not run to its end.
+/// Outcome of a scene that does not run to its end.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Ended {
-    /// With a message of what is wrong with it.
+    /// Refused with a message.
     Refused(String),
-    /// A tooth is worn through, and the run says so.
+    /// A tooth is worn through.
     WornThrough,
-    /// The solver gave up.
+    /// The solver did not converge.
     NotConverged(String),
     /// A defect of the program.
     Panicked(String),
@@ -26,7 +26,7 @@ pub(crate) enum Ended {
 }
 
 impl Ended {
-    /// What is wrong with the program, where anything is.
+    /// Defect of the program that the run shows, if any.
     pub(super) fn defect(&self) -> Option<String> {
         match self {
             Ended::NotConverged(said) => Some(format!("did not converge: {said}")),
@@ -36,24 +36,27 @@ impl Ended {
     }
 }
 
-/// Runs the scene; only one that comes to its end has a record.
+/// Runs the scene; only a run that comes to its end has a record.
 pub(super) fn carried_out(table: &Table, observer: &dyn Observer) -> Result<RunRecord, Ended> {
     guarded(|| run(table, observer)).unwrap_or_else(|said| Err(Ended::Panicked(one_line(&said))))
 }
 
+fn refused(error: impl ToString) -> Ended {
+    Ended::Refused(one_line(&error.to_string()))
+}
+
 fn run(table: &Table, observer: &dyn Observer) -> Result<RunRecord, Ended> {
-    let refused = |error: &dyn std::fmt::Display| Ended::Refused(one_line(&error.to_string()));
-    let scene = LoadedScene::from_toml(&table.to_string()).map_err(|error| refused(&error))?;
+    let scene = LoadedScene::from_toml(&table.to_string()).map_err(refused)?;
     let done = runs::run(&scene, observer).map_err(|error| match &error {
         error if error.is_interrupted() => Ended::Interrupted,
         RunError::Simulation(_) if error.stiffness().is_none() => Ended::NotConverged(one_line(&error.to_string())),
-        _ => refused(&error),
+        _ => refused(error),
     })?;
     match (done.record.summary.stopped, done.failure) {
         (StopReason::Completed | StopReason::LimitReached, None) => Ok(done.record),
         (StopReason::WornThrough, _) => Err(Ended::WornThrough),
         (StopReason::Interrupted, _) => Err(Ended::Interrupted),
-        (_, Some(unstable @ RunError::UnstableSteps { .. })) => Err(refused(&unstable)),
+        (_, Some(unstable @ RunError::UnstableSteps { .. })) => Err(refused(unstable)),
         (_, failure) => {
             Err(Ended::NotConverged(failure.map_or_else(String::new, |failure| one_line(&failure.to_string()))))
         }

@@ -5,12 +5,12 @@ use serde_json::Value;
 
 use crate::gear::{Gear, PerGear};
 use crate::reference::linear_means::value_at;
-use crate::results::run::{FlankRecord, MeshCycleRow, RunRecord};
+use crate::results::run::{FlankRecord, MeshCycleRow, RunRecord, Summary};
 
 /// A difference with what is allowed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Measured {
-    /// What is compared.
+    /// Name of the figure compared.
     pub figure: String,
     /// Difference, relative to the greatest value of the figure.
     pub value: f64,
@@ -22,7 +22,7 @@ impl Measured {
         Self { figure: figure.into(), value, bound }
     }
 
-    /// How much of what is allowed the difference is; a difference that is no number is more than anything.
+    /// Difference over its bound; infinite where it is not a number.
     pub(super) fn used(&self) -> f64 {
         if self.value.is_nan() { f64::INFINITY } else { self.value / self.bound }
     }
@@ -41,7 +41,7 @@ pub(super) struct Follows {
     pub area: f64,
     /// The gears have changed places, and the mesh runs from E to A.
     pub exchanged: bool,
-    /// What is at a position of the one run may be at another in the other run, as far from it as the transmission error is great.
+    /// Whether values at a position of one run may be at another in the other run, at most one transmission error away.
     pub lags: bool,
     /// The face width runs the other way.
     pub mirrored: bool,
@@ -61,7 +61,7 @@ impl Default for Follows {
     }
 }
 
-/// Relative differences that are allowed.
+/// Bounds of relative differences.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bounds {
     /// Of wear depth at any point.
@@ -72,9 +72,9 @@ pub(super) struct Bounds {
     pub pressure: f64,
     /// Of transmission error and load share at any position.
     pub cycle: f64,
-    /// Least of each of what is worn, where the two runs take as many adaptive steps, whose lengths differ.
+    /// Least bound of worn figures, where both runs take the same number of adaptive steps, whose lengths differ.
     pub least_of_worn: f64,
-    /// What adaptive steps promise of the depth at any point, µm, where the two runs may take others.
+    /// Tolerance of adaptive steps on the depth at any point, µm, where the two runs may take other steps.
     pub tolerance_um: Option<f64>,
 }
 
@@ -83,28 +83,32 @@ impl Bounds {
         Self { wear: bound, volume: bound, pressure: bound, cycle: bound, least_of_worn: 0.0, tolerance_um: None }
     }
 
-    /// Those of what is worn, beside `record`. The promise of adaptive steps opens the gap of both flanks and so moves the transmission error, and the
-    /// load shares by as much of themselves; it says nothing of the pressure at a point where contact begins.
+    /// Bounds on worn figures, beside `record`. The tolerance of adaptive steps opens the gap of both flanks and so moves the
+    /// transmission error, and the load shares by as much of themselves; it bounds no pressure at a point where contact begins.
     fn of_worn(self, record: &RunRecord) -> Self {
         let Some(tolerance_um) = self.tolerance_um else {
-            let at_least = |bound: f64| bound.max(self.least_of_worn);
             let Self { wear, volume, pressure, cycle, .. } = self;
-            let [wear, volume, pressure, cycle] = [wear, volume, pressure, cycle].map(at_least);
+            let [wear, volume, pressure, cycle] =
+                [wear, volume, pressure, cycle].map(|bound| bound.max(self.least_of_worn));
             return Self { wear, volume, pressure, cycle, ..self };
         };
-        let over = |whole: f64| if whole > 0.0 { tolerance_um / whole } else { 0.0 };
-        let flanks = || Gear::BOTH.into_iter().map(|gear| &record.flanks[gear].wear_um);
-        let greatest = |row: &Vec<f64>| row.iter().copied().fold(0.0, f64::max);
-        let mean = |row: &Vec<f64>| row.iter().sum::<f64>() / row.len() as f64;
-        let error = record.mesh_cycle.iter().map(|row| row.transmission_error_worn_um.abs()).fold(0.0, f64::max);
-        Self {
-            wear: flanks().map(|row| over(greatest(row))).fold(self.wear, f64::max),
-            volume: flanks().map(|row| over(mean(row))).fold(self.volume, f64::max),
-            pressure: f64::INFINITY,
-            cycle: self.cycle.max(2.0 * over(error)),
-            ..self
+        let mut bounds = Self { pressure: f64::INFINITY, ..self };
+        for gear in Gear::BOTH {
+            let wear_um = &record.flanks[gear].wear_um;
+            let greatest = wear_um.iter().copied().fold(0.0, f64::max);
+            let mean = wear_um.iter().sum::<f64>() / wear_um.len() as f64;
+            bounds.wear = bounds.wear.max(share_of(tolerance_um, greatest));
+            bounds.volume = bounds.volume.max(share_of(tolerance_um, mean));
         }
+        let error = record.mesh_cycle.iter().map(|row| row.transmission_error_worn_um.abs()).fold(0.0, f64::max);
+        bounds.cycle = bounds.cycle.max(2.0 * share_of(tolerance_um, error));
+        bounds
     }
+}
+
+/// `part` over `whole`; 0 where there is no whole.
+fn share_of(part: f64, whole: f64) -> f64 {
+    if whole > 0.0 { part / whole } else { 0.0 }
 }
 
 /// All figures that two runs have in common.
@@ -120,10 +124,8 @@ pub(super) fn compare(first: &RunRecord, other: &RunRecord, follows: &Follows, b
         let pressure_mpa = follows.ordered(mine, &other_flank.pressure_worn_MPa);
         let worn = difference(&mine.pressure_worn_MPa, &pressure_mpa, follows.pressure);
         found.push(Measured::new(format!("pressure on the worn {name}"), worn, of_worn.pressure));
-        let volume = |record: &RunRecord, gear: Gear| {
-            [if gear == Gear::Pinion { &record.summary.pinion } else { &record.summary.wheel }.worn_volume_mm3]
-        };
-        let volumes = difference(&volume(first, gear), &volume(other, theirs), depth * follows.area);
+        let [mine, others] = [(first, gear), (other, theirs)].map(|(of, gear)| worn_volume_mm3(&of.summary, gear));
+        let volumes = difference(&[mine], &[others], depth * follows.area);
         found.push(Measured::new(format!("worn volume of the {name}"), volumes, of_worn.volume));
     }
     let error: ColumnOfCycle = |row| row.transmission_error_worn_um;
@@ -131,18 +133,25 @@ pub(super) fn compare(first: &RunRecord, other: &RunRecord, follows: &Follows, b
     found
 }
 
-/// The figures of the new pairs: no step of wear is in them.
+pub(super) fn worn_volume_mm3(summary: &Summary, gear: Gear) -> f64 {
+    match gear {
+        Gear::Pinion => summary.pinion.worn_volume_mm3,
+        Gear::Wheel => summary.wheel.worn_volume_mm3,
+    }
+}
+
+/// Figures of the new pair, which depend on no wear step.
 pub(super) fn compare_new(first: &RunRecord, other: &RunRecord, follows: &Follows, bounds: Bounds) -> Vec<Measured> {
-    let of_gear = |gear: Gear| {
+    let pressures = Gear::BOTH.map(|gear| {
         let theirs = if follows.exchanged { gear.mate() } else { gear };
         let mine = &first.flanks[gear];
         let pressure_mpa = follows.ordered(mine, &other.flanks[theirs].pressure_new_MPa);
         let new = difference(&mine.pressure_new_MPa, &pressure_mpa, follows.pressure);
         Measured::new(format!("pressure on the new {}", gear.name()), new, bounds.pressure)
-    };
+    });
     let error: ColumnOfCycle = |row| row.transmission_error_new_um;
     let cycles = cycles(first, other, follows, ("new", error, |row| row.load_share_new), bounds.cycle);
-    Gear::BOTH.into_iter().map(of_gear).chain(cycles).collect()
+    pressures.into_iter().chain(cycles).collect()
 }
 
 /// A column of the mesh cycle.
@@ -183,17 +192,17 @@ type Course = (Vec<f64>, Vec<f64>);
 
 /// A column with its period before the first and after the last position, if it has one.
 fn repeated(position_mm: &[f64], column: &[f64], period_mm: Option<f64>) -> Course {
-    let moved = |by_mm: f64| position_mm.iter().map(move |at| at + by_mm).zip(column.iter().copied());
+    let own = position_mm.iter().copied().zip(column.iter().copied());
     let (Some(period_mm), Some(&first), Some(&last)) = (period_mm, position_mm.first(), position_mm.last()) else {
-        return moved(0.0).unzip();
+        return own.unzip();
     };
-    let before = moved(-period_mm).filter(|(at, _)| *at < first);
-    let after = moved(period_mm).filter(|(at, _)| *at > last);
-    before.chain(moved(0.0)).chain(after).unzip()
+    let before = own.clone().map(|(at, value)| (at - period_mm, value)).filter(|(at, _)| *at < first);
+    let after = own.clone().map(|(at, value)| (at + period_mm, value)).filter(|(at, _)| *at > last);
+    before.chain(own).chain(after).unzip()
 }
 
-/// `factor` times `mine`, a column at the positions `position_mm`, with what is left of the difference of `theirs` from what that is anywhere within
-/// `lag_mm` by its course `around`; none where that reaches beyond the course.
+/// For each position, the value of `mine` times `factor` plus the remaining difference to `theirs`, where `theirs` may be any value of the course
+/// `around` within `lag_mm`; `None` where that reaches beyond the course.
 fn nearest(
     position_mm: &[f64],
     lag_mm: f64,
@@ -202,43 +211,41 @@ fn nearest(
     theirs: &[f64],
 ) -> Vec<f64> {
     let (places_mm, values) = around;
-    let within = |at: f64| {
-        let between = places_mm.iter().zip(values).filter(move |(place, _)| (*place - at).abs() < lag_mm);
-        let ends = [at - lag_mm, at + lag_mm].map(|end| value_at(places_mm, values, end));
-        between.map(|(_, &value)| value).chain(ends).map(|value| factor * value)
-    };
     let (Some(&first), Some(&last)) = (places_mm.first(), places_mm.last()) else { return theirs.to_vec() };
-    let of = |((&at, &own), &their): ((&f64, &f64), &f64)| {
+    let left = position_mm.iter().zip(mine).zip(theirs).map(|((&at, &own), &their)| {
         if at - lag_mm < first || at + lag_mm > last {
             return factor * own;
         }
-        let (least, most) = within(at).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        let between = places_mm.iter().zip(values).filter(|(place, _)| (*place - at).abs() < lag_mm);
+        let ends = [at - lag_mm, at + lag_mm].map(|end| value_at(places_mm, values, end));
+        let within = between.map(|(_, &value)| value).chain(ends).map(|value| factor * value);
+        let (least, most) = within.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
         factor * own + their - their.max(least).min(most)
-    };
-    position_mm.iter().zip(mine).zip(theirs).map(of).collect()
+    });
+    left.collect()
 }
 
-/// Greatest |theirs − factor · mine| over the greatest of `factor · mine`; columns of different lengths differ wholly.
+/// Greatest |theirs − factor · mine| over the greatest of both; infinite where the lengths differ.
 pub(super) fn difference(mine: &[f64], theirs: &[f64], factor: f64) -> f64 {
     if mine.len() != theirs.len() {
         return f64::INFINITY;
     }
-    let pairs = || mine.iter().map(|x| factor * x).zip(theirs);
-    let greatest = pairs().map(|(x, y)| x.abs().max(y.abs())).fold(0.0, f64::max);
-    let apart = pairs()
+    let pairs = mine.iter().map(|x| factor * x).zip(theirs);
+    let greatest = pairs.clone().map(|(x, y)| x.abs().max(y.abs())).fold(0.0, f64::max);
+    let apart = pairs
         .map(|(x, y)| (x - y).abs())
         .fold(0.0, |most, next| if next.is_nan() { next } else { f64::max(most, next) });
     if greatest > 0.0 { apart / greatest } else { apart }
 }
 
-/// Slices in the order of the face width turned round.
+/// Column with its slices in reverse order.
 fn mirrored(column: &[f64], slices: usize) -> Vec<f64> {
     let points = (column.len() / slices.max(1)).max(1);
     column.chunks(points).rev().flatten().copied().collect()
 }
 
-/// The greatest relative difference of any number of two summaries, with its path. Times, hashes, counts of work and what `besides` begins with are
-/// left out; texts and numbers that one of the two lacks differ wholly.
+/// Greatest relative difference of the numbers of two summaries, with its path. Times, hashes, work counts and paths that begin with one of `besides`
+/// are left out; differing texts and numbers that one summary lacks count as infinite.
 pub(super) fn summaries(first: &impl Serialize, other: &impl Serialize, besides: &[&str]) -> (f64, String) {
     let mut worst = (0.0, String::new());
     if let (Ok(first), Ok(other)) = (serde_json::to_value(first), serde_json::to_value(other)) {
@@ -247,11 +254,11 @@ pub(super) fn summaries(first: &impl Serialize, other: &impl Serialize, besides:
     worst
 }
 
-/// Differences that are relative already: of what is alike, they are rounding.
+/// Figures that are relative differences themselves: where runs are alike they are rounding.
 const RELATIVE: [&str; 5] =
     ["load_imbalance", "split_remainder_at_half_load", "variation", "asymmetry", "asymmetry_first_mesh"];
 
-/// What differs between runs that are alike.
+/// Figures that differ between runs that are alike.
 const NOT_COMPARED: [&str; 10] =
     ["stages", "wall_s", "scene_hash", "title", "work", "warnings", "left_out", "report", "invariants", "error"];
 
@@ -271,7 +278,7 @@ fn walk(first: &Value, other: &Value, path: &str, besides: &[&str], worst: &mut 
             for (index, (mine, theirs)) in mine.iter().zip(theirs).enumerate() {
                 let path = format!("{path}.{}", index + 1);
                 match (mine.as_f64(), theirs.as_f64(), greatest) {
-                    // Numbers of a row are of one kind: the least of them may be rounding of the greatest.
+                    // Numbers of a row have the same unit: differences are relative to the greatest of them.
                     (Some(mine), Some(theirs), Some(greatest)) if mine != theirs => {
                         note((mine - theirs).abs() / greatest, &path, worst);
                     }
@@ -317,17 +324,18 @@ mod tests {
     fn what_lags_is_held_against_what_is_near() {
         // Within 0.5 mm of each position the column takes 0…0.5, 0.5…2, 2…3 and 3.
         let (position_mm, mine) = ([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 3.0, 3.0]);
-        let held = |period_mm: Option<f64>, theirs: [f64; 4]| {
-            let around = repeated(&position_mm, &mine, period_mm);
-            nearest(&position_mm, 0.5, (&mine, &around), 1.0, &theirs)
-        };
-        assert_eq!(held(None, [0.5, 0.5, 2.0, 3.0]), [0.0, 1.0, 3.0, 3.0]);
-        // What it is beyond both ends nobody knows.
-        assert_eq!(held(None, [1.0, 2.5, 1.0, 3.5]), [0.0, 1.5, 2.0, 3.0]);
         // A period of 2.5 has 0 half a millimetre after 2, and 3 half a millimetre before 0: between these and the ends are 0…1.5 and 1.5…3.
         assert_eq!(repeated(&position_mm, &mine, Some(2.5)).0, [-2.5, -1.5, -0.5, 0.0, 1.0, 2.0, 3.0, 3.5, 4.5, 5.5]);
-        assert_eq!(held(Some(2.5), [1.0, 0.5, 2.0, 1.0]), [0.0, 1.0, 3.0, 3.0]);
-        assert_eq!(held(Some(2.5), [3.5, 2.5, 1.0, 0.5]), [0.5, 1.5, 2.0, 2.5]);
+        for (period_mm, theirs, left) in [
+            (None, [0.5, 0.5, 2.0, 3.0], [0.0, 1.0, 3.0, 3.0]),
+            // Beyond both ends the column is not known.
+            (None, [1.0, 2.5, 1.0, 3.5], [0.0, 1.5, 2.0, 3.0]),
+            (Some(2.5), [1.0, 0.5, 2.0, 1.0], [0.0, 1.0, 3.0, 3.0]),
+            (Some(2.5), [3.5, 2.5, 1.0, 0.5], [0.5, 1.5, 2.0, 2.5]),
+        ] {
+            let around = repeated(&position_mm, &mine, period_mm);
+            assert_eq!(nearest(&position_mm, 0.5, (&mine, &around), 1.0, &theirs), left);
+        }
     }
 
     #[test]

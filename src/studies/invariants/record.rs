@@ -1,4 +1,4 @@
-//! What came of random scenes, as plain data.
+//! Record of random scenes and the statements held against them.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -64,7 +64,7 @@ pub(crate) struct Violation {
     /// Number of the scene.
     pub scene: u64,
     pub statement: String,
-    /// What deviates, or what was said.
+    /// Figure that deviates, or the message.
     pub figure: String,
     pub value: Option<f64>,
     pub bound: Option<f64>,

@@ -9,28 +9,28 @@ use crate::results::run::RunRecord;
 
 /// A relation of the suite.
 #[derive(Clone, Copy)]
-pub(crate) struct Relation {
+pub(crate) struct SceneRelation {
     pub name: &'static str,
-    /// What must be so, in a sentence.
+    /// Statement in a sentence.
     pub states: &'static str,
     /// Why the bound is what it is.
     pub bound: &'static str,
-    /// Whether so few scenes can be held against it that each is.
+    /// Whether it applies to so few scenes that it is tested on each of them.
     pub is_rare: bool,
-    pub check: fn(&Subject<'_>) -> Verdict,
+    pub check: fn(&Subject<'_>) -> RelationOutcome,
 }
 
 /// A scene that has run.
 pub(crate) struct Subject<'a> {
     pub table: &'a Table,
     pub record: &'a RunRecord,
-    /// Runs another one.
+    /// Runs another scene.
     pub run: &'a dyn Fn(&Table) -> Result<RunRecord, Ended>,
 }
 
-/// What a relation came to on a scene.
-pub(crate) enum Verdict {
-    /// It says nothing of such a scene.
+/// Outcome of a relation on a scene.
+pub(crate) enum RelationOutcome {
+    /// The relation does not apply to the scene.
     NotOfThisScene,
     /// The other scene did not run to its end.
     Ended { scene: Table, how: Ended },
@@ -43,21 +43,21 @@ pub(super) const POINTS: &str = "numerics.flank_points";
 pub(super) const POSITIONS: &str = "numerics.positions";
 const STEP: &str = "numerics.step.revolutions";
 
-/// Points or positions over those of the scene, where its own are too few for its contacts.
+/// Refinement of points or positions where the scene's own are too few for its contacts.
 const FINER: f64 = 4.0;
-/// The same where these are too few as well, as for contacts near a base circle (seed 7, 1232: what a flank loses is 56 % off what load and sliding ask for
-/// at 96 positions, 25 % at 192, 10 % at 384, 4 % at 768).
+/// Further refinement where these are too few as well, as for contacts near a base circle (seed 7, 1232: the worn volume is 56 % off what load and
+/// sliding give at 96 positions, 25 % at 192, 10 % at 384, 4 % at 768).
 const FINEST: f64 = 16.0;
 
-impl Verdict {
+impl RelationOutcome {
     fn is_beyond(&self) -> bool {
         self.figures().iter().any(|figure| figure.used() > 1.0)
     }
 
     fn figures(&self) -> &[Measured] {
         match self {
-            Verdict::Measured { figures, .. } => figures,
-            Verdict::NotOfThisScene | Verdict::Ended { .. } => &[],
+            RelationOutcome::Measured { figures, .. } => figures,
+            RelationOutcome::NotOfThisScene | RelationOutcome::Ended { .. } => &[],
         }
     }
 
@@ -68,8 +68,8 @@ impl Verdict {
     }
 }
 
-/// The scene with so many times the numbers at `keys`, where it has them; with steps of wear for twice as many flank points, where they are of a fixed length:
-/// what is stable is as long as points are apart.
+/// The scene with `by` times the numbers at `keys`, where it has them. Wear steps of a fixed length are divided by twice that where the flank points
+/// are among them: the stable step is proportional to their spacing.
 fn finer(table: &Table, keys: &[&str], by: f64) -> Table {
     let mut finer = table.clone();
     for key in keys {
@@ -85,14 +85,14 @@ fn finer(table: &Table, keys: &[&str], by: f64) -> Table {
 }
 
 impl Subject<'_> {
-    /// Runs the scene `other` and judges its record; without a figure nothing is said of the scene.
-    pub(super) fn beside(&self, other: Table, judge: impl FnOnce(&RunRecord) -> Vec<Measured>) -> Verdict {
+    /// Runs the scene `other` and judges its record; without figures the relation does not apply.
+    pub(super) fn beside(&self, other: Table, judge: impl FnOnce(&RunRecord) -> Vec<Measured>) -> RelationOutcome {
         match (self.run)(&other) {
             Ok(record) => match judge(&record) {
-                figures if figures.is_empty() => Verdict::NotOfThisScene,
-                figures => Verdict::Measured { figures, scene: other },
+                figures if figures.is_empty() => RelationOutcome::NotOfThisScene,
+                figures => RelationOutcome::Measured { figures, scene: other },
             },
-            Err(how) => Verdict::Ended { scene: other, how },
+            Err(how) => RelationOutcome::Ended { scene: other, how },
         }
     }
 
@@ -107,27 +107,27 @@ impl Subject<'_> {
         one: Table,
         other: Table,
         judge: impl FnOnce(&RunRecord, &RunRecord) -> Vec<Measured>,
-    ) -> Verdict {
+    ) -> RelationOutcome {
         match (self.run)(&one) {
             Ok(first) => self.beside(other, |second| judge(&first, second)),
-            Err(how) => Verdict::Ended { scene: one, how },
+            Err(how) => RelationOutcome::Ended { scene: one, how },
         }
     }
 
-    /// Runs what `other` makes of the scene and judges both; where they are beyond a bound, `keys` may be too small numbers for the scene's contacts, and
-    /// both at four times the numbers are what is judged, or at sixteen times where these are beyond it too.
+    /// Runs the scene that `other` makes of this one and judges both. Where a bound is exceeded, the numbers at `keys` may be too small for the
+    /// contacts: both scenes are then judged at four times the numbers, and at sixteen times where a bound is exceeded there too.
     pub(super) fn refined(
         &self,
         keys: &[&str],
         other: impl Fn(&Table) -> Table,
         judge: impl Fn(&RunRecord, &RunRecord) -> Vec<Measured>,
-    ) -> Verdict {
+    ) -> RelationOutcome {
         let mut verdict = self.beside(other(self.table), |record| judge(self.record, record));
         for by in [FINER, FINEST] {
             if verdict.is_beyond() {
                 let finer = finer(self.table, keys, by);
                 let of_finer = self.two(finer.clone(), other(&finer), &judge);
-                // A run that says nothing of what is beyond acquits of nothing.
+                // The finer run counts only where it has every figure that exceeds its bound.
                 if of_finer.says_of_all_beyond(&verdict) {
                     verdict = of_finer;
                 }

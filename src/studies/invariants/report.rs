@@ -5,7 +5,7 @@ use std::path::Path;
 
 use maud::{Markup, html};
 
-use super::record::{InvariantsRecord, StatementRow, Violation};
+use super::record::{InvariantsRecord, Violation};
 use crate::report::csv_table::{self, CsvFiles, Provenance};
 use crate::report::files::{ReportError, create_folder, place, remove, write_json};
 use crate::report::html::number::significant;
@@ -61,7 +61,7 @@ fn answer(record: &InvariantsRecord) -> String {
     )
 }
 
-/// What the terminal shows.
+/// Text for the terminal.
 pub(crate) fn terminal(record: &InvariantsRecord) -> String {
     let mut text = format!(
         "{:34} {:>6} {:>8} {:>10} {:>10}  {}\n",
@@ -109,7 +109,7 @@ fn page(record: &InvariantsRecord) -> String {
 }
 
 fn statements(record: &InvariantsRecord) -> Markup {
-    let row = |row: &StatementRow| {
+    let rows = record.statements.iter().map(|row| {
         let scene = row.worst_scene.map(|scene| scene.to_string());
         line([
             Cell::from(row.statement.as_str()),
@@ -122,10 +122,10 @@ fn statements(record: &InvariantsRecord) -> Markup {
             Cell::sentence(row.states.as_str()),
             Cell::sentence(row.reason.as_str()),
         ])
-    };
+    });
     let columns =
         ["", "scenes", "violated", "worst", "allowed", "scene", "figure or place", "states", "why so much is allowed"];
-    list("Statements", columns, record.statements.iter().map(row))
+    list("Statements", columns, rows)
 }
 
 fn refusals(record: &InvariantsRecord) -> Markup {

@@ -32,14 +32,22 @@ struct Sizes {
     is_plastic: bool,
 }
 
-/// What load and wear are aimed at.
+/// Tables of wear laws, of both gears most often.
+const WEAR_TABLES: [&str; 4] = ["wear", "wear", "wear.pinion", "wear.wheel"];
+
+/// E/(1 − ν²), MPa.
+fn plane_modulus_mpa(modulus_gpa: f64, poisson: f64) -> f64 {
+    1e3 * modulus_gpa / (1.0 - poisson * poisson)
+}
+
+/// Target of load and wear.
 struct Aim {
     line_load_n_per_mm: f64,
     torque_nm: f64,
     hertz_mpa: f64,
     revolutions: f64,
     depth_mm: f64,
-    /// The coefficient that gives this depth, m²/N.
+    /// Coefficient that gives the depth, m²/N.
     coefficient: f64,
 }
 
@@ -82,7 +90,7 @@ impl Draw {
         four_digits(from + (to - from) * self.random.f64())
     }
 
-    /// The same evenly in the logarithm.
+    /// Number evenly distributed in the logarithm.
     fn logarithmic(&mut self, from: f64, to: f64) -> f64 {
         four_digits((from.ln() + (to / from).ln() * self.random.f64()).exp())
     }
@@ -171,7 +179,7 @@ impl Draw {
                 self.set(&of("tip_rounding_mm"), rounding);
             }
         }
-        // Over the face width: these ask for slices.
+        // Modifications over the face width, which need slices.
         if !self.chance(if sizes.helix_rad == 0.0 { 0.08 } else { 0.4 }) {
             return;
         }
@@ -206,22 +214,21 @@ impl Draw {
     }
 
     fn material(&mut self, sizes: &mut Sizes) {
-        let plane = |modulus_gpa: f64, poisson: f64| 1e3 * modulus_gpa / (1.0 - poisson * poisson);
-        let mut of_gear = [plane(STEEL_GPA, 0.3); 2];
+        let mut of_gear = [plane_modulus_mpa(STEEL_GPA, 0.3); 2];
         match self.random.u8(0..10) {
             0..=3 => {}
             4 | 5 => {
                 let (modulus, poisson) = (self.logarithmic(70.0, 220.0), self.between(0.2, 0.35));
                 self.set("material.young_modulus_GPa", modulus);
                 self.set("material.poisson_ratio", poisson);
-                of_gear = [plane(modulus, poisson); 2];
+                of_gear = [plane_modulus_mpa(modulus, poisson); 2];
             }
             6 => {
                 for (gear, of_gear) in ["pinion", "wheel"].into_iter().zip(&mut of_gear) {
                     let (modulus, poisson) = (self.logarithmic(70.0, 220.0), self.between(0.2, 0.35));
                     self.set(&format!("material.{gear}.young_modulus_GPa"), modulus);
                     self.set(&format!("material.{gear}.poisson_ratio"), poisson);
-                    *of_gear = plane(modulus, poisson);
+                    *of_gear = plane_modulus_mpa(modulus, poisson);
                 }
             }
             _ => {
@@ -235,7 +242,7 @@ impl Draw {
                     self.set(&format!("material.{gear}.preset"), name);
                     self.set(&format!("material.{gear}.young_modulus_GPa"), modulus);
                     self.set(&format!("material.{gear}.poisson_ratio"), poisson);
-                    *of_gear = plane(modulus, poisson);
+                    *of_gear = plane_modulus_mpa(modulus, poisson);
                 }
             }
         }
@@ -257,7 +264,7 @@ impl Draw {
             hertz_mpa: (line_load_n_per_mm * sizes.modulus_mpa / (PI * relative_radius_mm)).sqrt(),
             revolutions,
             depth_mm,
-            // A flank slides over its mate by some third of the contact's width.
+            // A flank slides over its mate by about a third of the contact's width.
             coefficient: four_digits(1e-6 * depth_mm / (0.3 * line_load_n_per_mm * revolutions)),
         }
     }
@@ -419,9 +426,8 @@ impl Draw {
             let own = if self.chance(0.3) { 0.0 } else { four_digits(coefficient * self.between(0.2, 3.0)) };
             self.set(&format!("wear.{gear}.coefficient_m2_per_N"), own);
         }
-        let whose = |draw: &mut Self| draw.pick(&["wear", "wear", "wear.pinion", "wear.wheel"]);
         if self.chance(0.15) {
-            let whose = whose(self);
+            let whose = self.pick(&WEAR_TABLES);
             let above = four_digits(aim.hertz_mpa * self.between(0.7, 1.3));
             self.set(&format!("{whose}.severe.above_MPa"), above);
             let factor = self.logarithmic(2.0, 100.0);
@@ -430,7 +436,7 @@ impl Draw {
             self.set(&format!("{whose}.severe.band_MPa"), band);
         }
         if has_oil && self.chance(0.4) {
-            let whose = whose(self);
+            let whose = self.pick(&WEAR_TABLES);
             let ratio = self.pick(&["composite", "iso-6336-22"]);
             self.set(&format!("{whose}.film.ratio"), ratio);
             if self.chance(0.5) {

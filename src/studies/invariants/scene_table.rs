@@ -86,8 +86,7 @@ mod tests {
     fn units_scale_and_gears_change_places_in_lists_too() {
         let text = "[a]\nx_mm = 2\ny_um = [1.0, 2.0]\n[a.pinion]\nteeth = 16\n[[p]]\nx_mm = 3.0\n[p.wheel]\nk = 1.0\n";
         let table: Table = text.parse().unwrap();
-        let by = |key: &str| if key.ends_with("_mm") { 10.0 } else { 1.0 };
-        let scaled = scaled(&table, &by);
+        let scaled = scaled(&table, &|key| if key.ends_with("_mm") { 10.0 } else { 1.0 });
         assert_eq!((number(&scaled, "a.x_mm"), number(&scaled, "a.pinion.teeth")), (Some(20.0), Some(16.0)));
         assert_eq!(value(&scaled, "p").unwrap()[0]["x_mm"].as_float(), Some(30.0));
         let mut exchanged = table.clone();

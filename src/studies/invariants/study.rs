@@ -9,7 +9,7 @@ use toml::Table;
 use super::carried_out::{Ended, carried_out};
 use super::comparison::Measured;
 use super::record::{InvariantsRecord, Refusal, StatementRow, Violation};
-use super::relation::{Relation, Subject, Verdict};
+use super::relation::{RelationOutcome, SceneRelation, Subject};
 use super::{relations, scene_generator};
 use crate::observer::Observer;
 use crate::results::invariant::Invariant;
@@ -17,33 +17,33 @@ use crate::studies::spread::spread;
 use crate::studies::validation::record::Tier;
 use crate::studies::validation::soundness;
 
-/// Of the relations, one in so many is tried on a scene.
+/// A scene is tested against every fourth relation.
 const STRIDE: u64 = 4;
-/// Statement of the scenes themselves.
+/// Name of the statement that a scene runs or is refused.
 const RUNS: &str = "runs or is refused";
-/// Statement of what every record is.
+/// Name of the statement that a record is sound.
 const SOUND: &str = "sound";
 
 /// The word among cases of the validation suite that stands for random scenes.
 pub(crate) const INVARIANTS: &str = "invariants";
 
-/// Which scenes.
+/// Range of scenes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Asked {
+pub(crate) struct SceneRange {
     pub seed: u64,
     /// Number of the first.
     pub first: u64,
     pub count: u64,
 }
 
-impl Asked {
-    /// As many as belong to a tier of the validation suite, of the first seed.
+impl SceneRange {
+    /// Range of a tier of the validation suite, of the first seed.
     pub(crate) fn of_tier(tier: Option<Tier>) -> Self {
         Self { seed: 1, first: 0, count: if tier == Some(Tier::Smoke) { 100 } else { 1000 } }
     }
 }
 
-/// What came of one scene.
+/// Findings on one scene.
 struct OfScene {
     index: u64,
     ended: Option<Ended>,
@@ -59,14 +59,14 @@ struct Finding {
     reason: String,
     /// The worst of its figures; none where the other scene gave none.
     worst: Option<Measured>,
-    /// What is wrong beside figures.
+    /// Defect of the program beside figures.
     defect: Option<String>,
     text: String,
     other: Option<String>,
 }
 
-/// Carries the study out on so many threads; the record is the same for any number of them, but for times.
-pub(crate) fn run(asked: Asked, threads: usize, observer: &dyn Observer) -> InvariantsRecord {
+/// Runs the study on `threads` threads; but for times, the record does not depend on their number.
+pub(crate) fn run(asked: SceneRange, threads: usize, observer: &dyn Observer) -> InvariantsRecord {
     let start = Instant::now();
     let relations = relations::all();
     let tasks: Vec<u64> = (asked.first..asked.first + asked.count).collect();
@@ -86,8 +86,8 @@ pub(crate) fn run(asked: Asked, threads: usize, observer: &dyn Observer) -> Inva
         threads,
         wall_s: 0.0,
     };
-    let mut rows = Rows::of(&relations);
-    // Scenes that came before one of a lower number: the record takes them in their order, and keeps none.
+    let mut rows = StatementRows::of(&relations);
+    // Scenes finished before one of a lower number: the record takes them in order.
     let mut early: BTreeMap<u64, OfScene> = BTreeMap::new();
     let mut next = asked.first;
     spread(
@@ -113,8 +113,8 @@ pub(crate) fn run(asked: Asked, threads: usize, observer: &dyn Observer) -> Inva
     record
 }
 
-/// One scene with all that is held against it; none where it was interrupted.
-fn of_scene(seed: u64, index: u64, relations: &[Relation], observer: &dyn Observer) -> Option<OfScene> {
+/// Findings on one scene; `None` where it was interrupted.
+fn of_scene(seed: u64, index: u64, relations: &[SceneRelation], observer: &dyn Observer) -> Option<OfScene> {
     let table = scene_generator::scene(seed, index);
     let runs = Cell::new(1);
     let mut scene = OfScene { index, ended: None, runs: 1, found: Vec::new() };
@@ -138,8 +138,8 @@ fn of_scene(seed: u64, index: u64, relations: &[Relation], observer: &dyn Observ
                 .filter(|(k, relation)| relation.is_rare || (index + *k as u64).is_multiple_of(STRIDE));
             for (_, relation) in tried {
                 match (relation.check)(&subject) {
-                    Verdict::NotOfThisScene => {}
-                    Verdict::Ended { how: Ended::Interrupted, .. } => return None,
+                    RelationOutcome::NotOfThisScene => {}
+                    RelationOutcome::Ended { how: Ended::Interrupted, .. } => return None,
                     verdict => scene.found.extend(Finding::of_relation(relation, &table, verdict)),
                 }
             }
@@ -149,15 +149,16 @@ fn of_scene(seed: u64, index: u64, relations: &[Relation], observer: &dyn Observ
     Some(scene)
 }
 
+fn measured(invariant: &Invariant) -> Option<Measured> {
+    let place = invariant.place.clone().unwrap_or_default();
+    Some(Measured::new(place, invariant.value?, invariant.bound?))
+}
+
 /// The statements that hold for every run by itself. Of too few points and positions for its contacts a run says that they are: its volumes are held
 /// against those of a finer run. None where that was interrupted.
 fn own_invariants(subject: &Subject<'_>) -> Option<Vec<Finding>> {
     let (table, record) = (subject.table, subject.record);
     let mut found = vec![Finding::of_run(SOUND, table, None, soundness::fault(record))];
-    let measured = |invariant: &Invariant| {
-        let place = invariant.place.clone().unwrap_or_default();
-        Some(Measured::new(place, invariant.value?, invariant.bound?))
-    };
     for invariant in &record.summary.invariants {
         let Some(mut value) = measured(invariant) else { continue };
         if invariant.name.starts_with("volume") && is_violated(&value) {
@@ -192,11 +193,11 @@ impl Finding {
         }
     }
 
-    fn of_relation(relation: &Relation, table: &Table, verdict: Verdict) -> Option<Self> {
+    fn of_relation(relation: &SceneRelation, table: &Table, verdict: RelationOutcome) -> Option<Self> {
         let (other, worst, defect) = match verdict {
-            Verdict::NotOfThisScene => return None,
-            Verdict::Ended { scene, how } => (scene, None, how.defect()),
-            Verdict::Measured { scene, figures } => {
+            RelationOutcome::NotOfThisScene => return None,
+            RelationOutcome::Ended { scene, how } => (scene, None, how.defect()),
+            RelationOutcome::Measured { scene, figures } => {
                 (scene, figures.into_iter().max_by(|a, b| a.used().total_cmp(&b.used())), None)
             }
         };
@@ -217,11 +218,11 @@ fn is_violated(measured: &Measured) -> bool {
 }
 
 /// The rows of all statements, in the order in which they were first found.
-struct Rows(Vec<StatementRow>);
+struct StatementRows(Vec<StatementRow>);
 
-impl Rows {
-    /// With a row for each relation, whether any scene comes to it or not.
-    fn of(relations: &[Relation]) -> Self {
+impl StatementRows {
+    /// Rows of `relations`, also of those that no scene comes to.
+    fn of(relations: &[SceneRelation]) -> Self {
         let mut rows = Self(Vec::new());
         for relation in relations {
             rows.row(relation.name, "relation", relation.states, relation.bound);
@@ -252,7 +253,7 @@ impl Rows {
 }
 
 /// Adds a scene to the record.
-fn take(scene: OfScene, record: &mut InvariantsRecord, rows: &mut Rows) {
+fn take(scene: OfScene, record: &mut InvariantsRecord, rows: &mut StatementRows) {
     record.runs += scene.runs;
     match &scene.ended {
         None => record.ran += 1,
@@ -307,22 +308,21 @@ mod tests {
     use super::*;
     use crate::observer::Unwatched;
 
-    /// The same scenes on one and two threads, and the record of the whole is that of its parts.
+    /// Scenes give the same on one and two threads, and the record of the whole is that of its parts.
     #[test]
     fn threads_and_parts_change_nothing() {
-        let asked = Asked { seed: 5, first: 0, count: 6 };
-        let of = |first, count, threads| run(Asked { first, count, ..asked }, threads, &Unwatched);
-        let (one, two) = (of(0, 6, 1), of(0, 6, 2));
+        let asked = SceneRange { seed: 5, first: 0, count: 6 };
+        let (one, two) = (run(asked, 1, &Unwatched), run(asked, 2, &Unwatched));
         assert_eq!(
             (&one.statements, one.ran, one.refused, one.runs),
             (&two.statements, two.ran, two.refused, two.runs)
         );
-        let (early, late) = (of(0, 3, 1), of(3, 3, 1));
+        let [early, late] = [0, 3].map(|first| run(SceneRange { first, count: 3, ..asked }, 1, &Unwatched));
         assert_eq!((one.ran, one.runs), (early.ran + late.ran, early.runs + late.runs));
         assert!(one.ran > 0);
     }
 
-    /// What broke a statement once, and statements that asked too much.
+    /// Scenes that once violated a statement, or whose bound was once too narrow.
     #[test]
     fn reg_scenes_that_broke_a_statement_hold() {
         for (seed, first, broke) in [
@@ -354,7 +354,7 @@ mod tests {
             (41, 1877, "asked too much: rounding of a mesh order beside orders a million times as great"),
             (19, 14364, "asked too much: adaptive steps through severe wear on springs that sampled the gap elsewhere"),
         ] {
-            let record = run(Asked { seed, first, count: 1 }, 1, &Unwatched);
+            let record = run(SceneRange { seed, first, count: 1 }, 1, &Unwatched);
             assert_eq!((record.ran, &record.violations[..]), (1, &[][..]), "{seed} {first}: {broke}");
         }
     }

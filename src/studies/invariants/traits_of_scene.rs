@@ -1,4 +1,4 @@
-//! What relations ask of a scene before they say anything of it.
+//! Properties of a scene that relations depend on.
 
 use toml::{Table, Value};
 
@@ -40,10 +40,12 @@ pub(super) fn has_one_coefficient(table: &Table) -> bool {
 /// Whether sections differ over the face width, so that the run has slices.
 pub(super) fn is_sliced(table: &Table) -> bool {
     let over_width = ["lead_crowning_um", "helix_slope_deviation_um", "end_relief", "shaft"];
-    let of_gear = |gear: &str| over_width.iter().any(|key| gives(table, &format!("pair.{gear}.{key}")));
     number(table, "pair.helix_angle_deg").is_some_and(|angle| angle != 0.0)
         || gives(table, "pair.axis_parallelism")
-        || ["pinion", "wheel"].into_iter().any(of_gear)
+        || ["pinion", "wheel"].into_iter().any(|gear| {
+            let mut keys = over_width.iter();
+            keys.any(|key| gives(table, &format!("pair.{gear}.{key}")))
+        })
 }
 
 pub(super) fn is_on(table: &Table, surface: &str) -> bool {
@@ -83,7 +85,7 @@ pub(super) fn has_large_strains(record: &RunRecord) -> bool {
     record.summary.warnings.iter().any(|warning| warning.contains("strains are not small"))
 }
 
-/// Whether the stiffness model has a size of its own: c' of ISO 6336 falls with the line load below 100 N/mm.
+/// Whether the stiffness model is not similar: c' of ISO 6336 falls with the line load below 100 N/mm.
 pub(super) fn has_a_size(table: &Table, record: &RunRecord) -> bool {
     let loads = record.summary.phases.iter().map(|phase| phase.line_load_N_per_mm);
     word(table, "stiffness.model") == Some("iso6336") && loads.fold(f64::INFINITY, f64::min) < 100.0

@@ -1,4 +1,4 @@
-//! A sweep as it is asked for, in the same words on the command line and in Python, and what can be wrong with it.
+//! Question of a sweep, the same on the command line and in Python, and its errors.
 
 use std::io;
 
@@ -11,29 +11,29 @@ use crate::results::figures;
 use crate::scene::draft::Draft;
 use crate::scene::loaded::{LoadedScene, SceneError};
 
-/// Question to a scene.
+/// Question of a sweep.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SweepQuestion {
     /// Keys and their values: `KEY=FROM:TO:COUNT`, the same with `:log` for equal ratios, or `KEY=VALUE,VALUE,…` of rising numbers or of
     /// words. The first changes slowest.
     pub vary: Vec<String>,
-    /// The figure that is to be least, a column of `sweep.csv`: its path in `summary.json`.
+    /// Figure to minimise, a column of `sweep.csv`: its path in `summary.json`.
     pub best: Option<String>,
-    /// Limits that the best keeps to: `FIGURE<=VALUE` or `FIGURE>=VALUE`.
+    /// Limits of the optimum: `FIGURE<=VALUE` or `FIGURE>=VALUE`.
     pub subject_to: Vec<String>,
     /// Whether the errors of each combination are estimated.
     pub error_estimate: bool,
 }
 
 impl SweepQuestion {
-    /// Notes on figures that are asked for by the name that they had in the version before.
+    /// Notes on figures that are named as in the previous version.
     pub fn notes(&self) -> Vec<String> {
         let of_limits = self.subject_to.iter().map(|limit| limit.split(['<', '>']).next().unwrap_or_default().trim());
         figures::notes(self.best.iter().map(String::as_str).chain(of_limits))
     }
 }
 
-/// Why a sweep cannot be run or its rows not be kept.
+/// Error of a sweep or of its journal.
 #[derive(Debug, thiserror::Error)]
 #[error(transparent)]
 pub struct SweepError(#[from] pub(crate) SweepFault);
@@ -55,12 +55,12 @@ pub(crate) enum SweepFault {
 }
 
 impl SweepError {
-    /// Fault of the scene itself, if that is it.
+    /// Error of the scene, if that is the reason.
     pub fn in_the_scene(&self) -> Option<&SceneError> {
         if let SweepFault::Scene(error) = &self.0 { Some(error) } else { None }
     }
 
-    /// Reason of the system, where a file cannot be read or written.
+    /// Error of the system, where a file cannot be read or written.
     pub fn of_system(&self) -> Option<io::ErrorKind> {
         match &self.0 {
             SweepFault::Journal(error) => error.of_system(),
@@ -92,7 +92,7 @@ impl Sweep {
         Ok(sweep.map_err(|problems| scene.given.refused(problems))?)
     }
 
-    /// Warnings to the user: values that their key does not take.
+    /// Warnings: values that their key does not take.
     pub fn warnings(&self) -> Vec<String> {
         self.identity.axes.iter().filter_map(axis::partly_not_allowed).collect()
     }

@@ -6,21 +6,22 @@ use std::str::FromStr;
 use crate::scene::decimal_comma;
 use crate::scene::draft::{Draft, other_ways_to_say};
 use crate::scene::key::{self, KeyError, NumberKey};
-use crate::studies::sweep::record::{AxisSpacing, SweepAxis, plain};
+use crate::scene::problem::number;
+use crate::studies::sweep::record::{AxisSpacing, SweepAxis};
 use crate::studies::varied_scene::{linked_keys, missing_phase};
 
-/// Values of one key.
+/// Greatest number of values of one key.
 pub(crate) const MOST_VALUES: usize = 100_000;
-/// Combinations of a sweep.
+/// Greatest number of combinations of a sweep.
 pub(crate) const MOST_COMBINATIONS: usize = 1_000_000;
 
 const FORM: &str =
     "KEY=FROM:TO:COUNT, such as pair.face_width_mm=10:30:21, with :log for equal ratios, or KEY=VALUE,VALUE,…";
 
-/// Fault of a key that is to be varied.
+/// Errors of a varied key.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum AxisError {
-    /// Not of one of the forms.
+    /// None of the forms.
     #[error("found {given:?}; allowed: {FORM}")]
     Form { given: String },
     #[error(transparent)]
@@ -29,19 +30,19 @@ pub(crate) enum AxisError {
     NotANumber { key: String, end: &'static str, found: String },
     #[error("{key}: found {found:?} as COUNT; allowed: a whole number from 1 to {MOST_VALUES}")]
     Count { key: String, found: String },
-    #[error("{key}: found the range {from}:{to}, which is reversed; allowed: FROM below TO", from = plain(*.from), to = plain(*.to))]
+    #[error("{key}: found the range {from}:{to}, which is reversed; allowed: FROM below TO", from = number(*.from), to = number(*.to))]
     Reversed { key: String, from: f64, to: f64 },
-    /// One value, but two ends.
-    #[error("{key}: found 1 value for the range {from}:{to}; allowed: a COUNT of at least 2, or {from}:{from}:1", from = plain(*.from), to = plain(*.to))]
+    /// One value for two ends.
+    #[error("{key}: found 1 value for the range {from}:{to}; allowed: a COUNT of at least 2, or {from}:{from}:1", from = number(*.from), to = number(*.to))]
     OneValue { key: String, from: f64, to: f64 },
-    /// Several values, but one end.
-    #[error("{key}: found {count} values for the range {from}:{from}; allowed: {from}:{from}:1, or FROM below TO", from = plain(*.from))]
+    /// Several values for equal ends.
+    #[error("{key}: found {count} values for the range {from}:{from}; allowed: {from}:{from}:1, or FROM below TO", from = number(*.from))]
     SameEnds { key: String, from: f64, count: usize },
-    /// Ratios of numbers of which one is not positive.
-    #[error("{key}: found the range {from}:{to} by equal ratios; allowed: FROM above 0", from = plain(*.from), to = plain(*.to))]
+    /// Equal ratios between numbers that are not both positive.
+    #[error("{key}: found the range {from}:{to} by equal ratios; allowed: FROM above 0", from = number(*.from), to = number(*.to))]
     NoRatio { key: String, from: f64, to: f64 },
-    /// A list that falls or repeats a value.
-    #[error("{key}: found {value} after {before}; allowed: rising values", value = plain(*.value), before = plain(*.before))]
+    /// A list that is not rising.
+    #[error("{key}: found {value} after {before}; allowed: rising values", value = number(*.value), before = number(*.before))]
     NotRising { key: String, before: f64, value: f64 },
     /// None of the words that the key takes.
     #[error("{key}: found {found:?}; allowed: a list of {allowed}")]
@@ -51,18 +52,18 @@ pub(crate) enum AxisError {
     /// A phase that the scene does not have.
     #[error("found {key}; allowed: a phase that the scene has, numbered from 1")]
     NoPhase { key: String },
-    /// Alternatives of a key without an end.
+    /// Unclosed braces.
     #[error("found {key:?}; allowed: alternatives in braces, such as pair.{{pinion,wheel}}.tip_rounding_mm")]
     Braces { key: String },
-    /// A value between whole numbers for a key that takes only those.
+    /// A fractional value of a key that takes whole numbers.
     #[error("{key}: found the value {value}; allowed: whole numbers, so choose a COUNT that steps over whole numbers")]
     NotWhole {
         key: String,
         /// The first such value.
         value: f64,
     },
-    /// No value is one that the key takes.
-    #[error("{key}: found {from} to {to}; allowed: {allowed}", from = plain(*.from), to = plain(*.to))]
+    /// No value is allowed for the key.
+    #[error("{key}: found {from} to {to}; allowed: {allowed}", from = number(*.from), to = number(*.to))]
     NotAllowed { key: String, from: f64, to: f64, allowed: String },
     #[error("found {key} twice; allowed: each key once")]
     Twice { key: String },
@@ -71,20 +72,20 @@ pub(crate) enum AxisError {
     /// More combinations than can be kept.
     #[error("found {count} combinations; allowed: at most {MOST_COMBINATIONS}")]
     TooMany {
-        /// How many, in words where they cannot be counted.
+        /// Their number, in words where it overflows.
         count: String,
     },
 }
 
 impl AxisError {
-    /// Remedy, where the message does not say it.
+    /// Remedy, where the message does not give it.
     pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::Key(KeyError::Unknown { nearest: Some(nearest), .. }) => Some(format!("did you mean {nearest}?")),
             Self::Key(_) => Some("gearwear schema prints all keys with their ranges".to_owned()),
             Self::NotANumber { found, .. } | Self::Count { found, .. } => decimal_comma::help(found),
             Self::NotRising { before, value, .. } if before.fract() == 0.0 && value.fract() == 0.0 => {
-                let (before, value) = (plain(*before), plain(*value));
+                let (before, value) = (number(*before), number(*value));
                 Some(format!("commas separate values; decimal point, not comma: {before}.{value}"))
             }
             _ => None,
@@ -92,17 +93,11 @@ impl AxisError {
     }
 }
 
-impl AxisError {
-    fn form(given: &str) -> Self {
-        Self::Form { given: given.to_owned() }
-    }
-}
-
-/// Reads a key with its values and checks them against what the key takes.
+/// Reads a key with its values and checks that the key allows them.
 ///
-/// A range that lies partly outside what the key takes is kept: those combinations become rows with their error.
+/// A range that the key allows only partly is kept: the other combinations become rows with an error.
 pub(crate) fn parse(given: &str) -> Result<SweepAxis, AxisError> {
-    let (key, values) = given.split_once('=').ok_or_else(|| AxisError::form(given))?;
+    let Some((key, values)) = given.split_once('=') else { return Err(AxisError::Form { given: given.to_owned() }) };
     let key = key.trim().to_owned();
     let keys = linked_keys(&key);
     if keys.iter().any(|key| key.contains(['{', '}'])) {
@@ -119,7 +114,7 @@ pub(crate) fn parse(given: &str) -> Result<SweepAxis, AxisError> {
         [list] if !list.is_empty() => listed(key, list, whole)?,
         [from, to, count] => range(key, [from, to], count, AxisSpacing::Even, whole)?,
         [from, to, count, "log"] => range(key, [from, to], count, AxisSpacing::Logarithmic, whole)?,
-        _ => return Err(AxisError::form(given)),
+        _ => return Err(AxisError::Form { given: given.to_owned() }),
     };
     let values = axis.values();
     if let Some(&value) = values.iter().find(|value| axis.whole && value.fract() != 0.0) {
@@ -134,14 +129,14 @@ pub(crate) fn parse(given: &str) -> Result<SweepAxis, AxisError> {
     }
 }
 
-fn number(key: &str, end: &'static str, text: &str) -> Result<f64, AxisError> {
+fn parsed(key: &str, end: &'static str, text: &str) -> Result<f64, AxisError> {
     let value = f64::from_str(text).ok().filter(|value| value.is_finite());
     value.ok_or_else(|| AxisError::NotANumber { key: key.to_owned(), end, found: text.to_owned() })
 }
 
 /// Values one by one.
 fn listed(key: String, list: &str, whole: bool) -> Result<SweepAxis, AxisError> {
-    let values = list.split(',').map(|value| number(&key, "a value", value.trim())).collect::<Result<Vec<f64>, _>>()?;
+    let values = list.split(',').map(|value| parsed(&key, "a value", value.trim())).collect::<Result<Vec<f64>, _>>()?;
     if let Some(two) = values.windows(2).find(|two| two[1] <= two[0]) {
         return Err(AxisError::NotRising { key, before: two[0], value: two[1] });
     }
@@ -174,7 +169,7 @@ fn range(
     spacing: AxisSpacing,
     whole: bool,
 ) -> Result<SweepAxis, AxisError> {
-    let (from, to) = (number(&key, "FROM", from)?, number(&key, "TO", to)?);
+    let (from, to) = (parsed(&key, "FROM", from)?, parsed(&key, "TO", to)?);
     let counted = count.parse::<usize>().ok().filter(|count| (1..=MOST_VALUES).contains(count));
     let Some(count) = counted else { return Err(AxisError::Count { key, found: count.to_owned() }) };
     match (count, from == to) {
@@ -186,7 +181,7 @@ fn range(
     }
 }
 
-/// Reads all of them and checks that they go together.
+/// Reads all axes and checks that they go together.
 pub(crate) fn parse_all<'a>(given: impl IntoIterator<Item = &'a str>) -> Result<Vec<SweepAxis>, AxisError> {
     let mut axes: Vec<SweepAxis> = Vec::new();
     for given in given {
@@ -217,7 +212,7 @@ pub(crate) fn check_phases(axes: &[SweepAxis], scene: &Draft) -> Result<(), Axis
     missing.map_or(Ok(()), |key| Err(AxisError::NoPhase { key }))
 }
 
-/// Values of `axis` that the key does not take, in words; `None` where it takes all.
+/// Values of `axis` that the key does not allow, in words; `None` where it allows all.
 pub(crate) fn partly_not_allowed(axis: &SweepAxis) -> Option<String> {
     if axis.words().is_some() {
         return None;
@@ -244,7 +239,6 @@ mod tests {
         let teeth = parse(" pair.pinion.teeth = 16 : 20 : 3 ").unwrap();
         assert_eq!((teeth.values(), teeth.whole), (vec![16.0, 18.0, 20.0], true));
         assert_eq!(parse("wear.coefficient_m2_per_N=1e-18:1e-18:1").unwrap().values(), [1e-18]);
-        // A range that is partly bad is a sweep with some bad rows.
         let widths = parse("pair.face_width_mm=-10:10:3").unwrap();
         assert!(partly_not_allowed(&widths).unwrap().contains("2 of 3"));
         assert_eq!(partly_not_allowed(&axis), None);

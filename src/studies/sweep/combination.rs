@@ -1,4 +1,4 @@
-//! The scene of a combination, and the row it comes to.
+//! The scene of a combination, and its row.
 
 use std::time::Instant;
 
@@ -65,7 +65,7 @@ impl Sweep {
             let value = match axis.word(value) {
                 Some(truth @ ("true" | "false")) => toml::Value::Boolean(truth == "true"),
                 Some(word) => toml::Value::String(word.to_owned()),
-                // Whole numbers were checked to be whole; a cast keeps any that are of a size that a scene allows.
+                // The values were checked to be whole; the cast keeps any that a scene allows.
                 None if axis.whole => toml::Value::Integer(value as i64),
                 None => toml::Value::Float(value),
             };
@@ -73,14 +73,14 @@ impl Sweep {
         }))
     }
 
-    /// Where not a single combination makes a scene, what is wrong with the first.
+    /// Problems of the first combination, where no combination is a valid scene.
     pub(crate) fn unbuildable(&self) -> Option<String> {
         let first = self.scene(0).err()?;
         let all = (1..self.identity.combinations()).all(|index| self.scene(index).is_err());
         all.then(|| in_words(&first))
     }
 
-    /// Runs combination `index`; `None` where it was interrupted.
+    /// Runs combination `index`; `None` where it was interrupted. Any error, a panic included, becomes the error of the row.
     ///
     /// Whatever goes wrong with it is its row's error, a defect of the program included.
     fn row(&self, index: usize, observer: &dyn Observer) -> Option<SweepRow> {
@@ -117,7 +117,7 @@ impl Sweep {
         }
     }
 
-    /// The row of combination `index`, which has no figures for this reason.
+    /// The row of combination `index` with an error and no figures.
     pub(crate) fn failed(&self, index: usize, reason: &str) -> SweepRow {
         SweepRow { error: Some(one_line(reason)), ..self.empty(index) }
     }
@@ -128,7 +128,8 @@ impl Sweep {
         self.varied.carry_out(resolved, observer, runs::summarise)
     }
 
-    /// The finished row `row`, verified by finite elements; `None` where that was interrupted.
+    /// The row `row` verified by finite elements; `None` where that was interrupted. Its run is repeated with the same result: the best rows are
+    /// known only at the end, and keeping the state of every run would take much memory.
     ///
     /// Its run is done again and comes to the same bits: which rows are the best is known when all are there, and what a verification
     /// starts from would be much to keep of each until then.
@@ -155,7 +156,7 @@ impl Sweep {
     }
 }
 
-/// Of the files that a scene names; empty where it names none.
+/// Hash of the files that a scene names; empty where it names none.
 fn hash_of(files: &NamedFiles) -> String {
     let calibration = files.calibration.as_ref().map(|calibration| calibration.to_json());
     let curve = files.stiffness_curve.as_ref().map(|curve| format!("{curve:?}"));

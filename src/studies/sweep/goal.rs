@@ -1,4 +1,4 @@
-//! Goal of a sweep: the combination where a figure is least, among those that keep to some limits.
+//! Goal of a sweep: the combination where a figure is least, among those within some limits.
 //!
 //! An optimum is only as good as the error of the figure: every combination that is not worse by more than that belongs to it. With the
 //! relative error e of the least value y and of another one, z, which is taken to be as great, z is not known to be worse where
@@ -12,11 +12,12 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::record::{SweepIdentity, SweepRow, plain};
+use super::record::{SweepIdentity, SweepRow};
 use crate::results::figures::{self, MainFigure};
 use crate::scene::nearest::nearest;
+use crate::scene::problem::number;
 
-/// The figure that is to be least, and the limits of others.
+/// Figure to minimise, and limits of other figures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Goal {
     /// Name of its column.
@@ -24,17 +25,17 @@ pub(crate) struct Goal {
     pub limits: Vec<FigureLimit>,
 }
 
-/// A figure that must not pass a value.
+/// Limit of a figure.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct FigureLimit {
     /// Name of its column.
     pub figure: String,
-    /// Whether the value is the most that it may be; else the least.
+    /// Whether the value is an upper limit; else a lower one.
     pub at_most: bool,
     pub value: f64,
 }
 
-/// Fault of a goal.
+/// Faults of a goal.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum GoalError {
     #[error("unknown figure {name}; allowed: a column of sweep.csv such as pinion.peak_wear_um{}", meant.as_ref().map_or_else(String::new, |meant| format!("; did you mean {meant}?")))]
@@ -47,13 +48,13 @@ impl FromStr for FigureLimit {
     type Err = GoalError;
 
     fn from_str(given: &str) -> Result<Self, GoalError> {
-        let parts = ["<=", ">="].into_iter().find_map(|sign| Some((sign == "<=", given.split_once(sign)?)));
-        let parsed = parts.and_then(|(at_most, (figure, value))| {
+        let split = ["<=", ">="].into_iter().find_map(|sign| Some((given.split_once(sign)?, sign)));
+        let read = split.and_then(|((figure, value), sign)| {
             let value = value.trim().parse::<f64>().ok().filter(|value| value.is_finite())?;
-            Some((figure, value, at_most))
+            Some((figure.trim(), sign == "<=", value))
         });
-        let (figure, value, at_most) = parsed.ok_or_else(|| GoalError::Form { given: given.to_owned() })?;
-        Ok(Self { figure: known(figure.trim())?.name.clone(), at_most, value })
+        let (figure, at_most, value) = read.ok_or_else(|| GoalError::Form { given: given.to_owned() })?;
+        Ok(Self { figure: known(figure)?.name.clone(), at_most, value })
     }
 }
 
@@ -67,7 +68,7 @@ impl FigureLimit {
 
 impl fmt::Display for FigureLimit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {} {}", self.figure, if self.at_most { "≤" } else { "≥" }, plain(self.value))
+        write!(f, "{} {} {}", self.figure, if self.at_most { "≤" } else { "≥" }, number(self.value))
     }
 }
 
@@ -82,7 +83,7 @@ fn known(name: &str) -> Result<&'static MainFigure, GoalError> {
 }
 
 impl Goal {
-    /// The least of the figure `name` within `limits`.
+    /// Goal of the least figure `name` within `limits`.
     ///
     /// # Errors
     /// A name that no column has.
@@ -91,11 +92,11 @@ impl Goal {
     }
 
     pub(crate) fn figure(&self) -> &'static MainFigure {
-        // A journal of another version may name one that is gone.
+        // The journal of another version may name a figure that no longer exists.
         column(&self.figure).unwrap_or_else(figures::peak_wear_of_either)
     }
 
-    /// Whether `row` has the figure and keeps to all limits.
+    /// Whether `row` has the figure and is within all limits.
     pub(crate) fn allows(&self, row: &SweepRow) -> bool {
         row.error.is_none()
             && row.figure(self.figure()).is_some()
@@ -108,7 +109,7 @@ impl Goal {
         if limits.is_empty() { self.figure.clone() } else { format!("{}, with {}", self.figure, limits.join(" and ")) }
     }
 
-    /// The optimum among `rows`; `None` where none keeps to the limits.
+    /// Optimum among `rows`; `None` where no row is within the limits.
     pub(crate) fn optimum(&self, identity: &SweepIdentity, rows: &[SweepRow]) -> Option<Optimum> {
         let figure = self.figure();
         let allowed: Vec<(&SweepRow, f64)> =
@@ -140,21 +141,21 @@ impl Goal {
             why_no_error,
             plateau_keys: plateau
                 .as_ref()
-                .map(|plateau| (0..identity.axes.len()).map(|at| values_among(identity, at, plateau)).collect()),
+                .map(|plateau| (0..identity.axes.len()).map(|at| values_among(identity, plateau, at)).collect()),
             plateau,
         })
     }
 }
 
-/// Values of the axis `at` among some combinations, in words.
-fn values_among(identity: &SweepIdentity, at: usize, combinations: &[usize]) -> String {
+/// Values of axis number `at` among these combinations: `KEY from FIRST to LAST`, or `KEY = VALUE, VALUE`.
+fn values_among(identity: &SweepIdentity, combinations: &[usize], at: usize) -> String {
     let axis = &identity.axes[at];
     let mut places: Vec<usize> = combinations.iter().map(|&index| identity.digits(index)[at]).collect();
     places.sort_unstable();
     places.dedup();
     match (axis.words(), places.first(), places.last()) {
         (None, Some(&first), Some(&last)) if places.len() > 2 && places.len() == last - first + 1 => {
-            format!("{} from {} to {}", axis.key, plain(axis.value(first)), plain(axis.value(last)))
+            format!("{} from {} to {}", axis.key, number(axis.value(first)), number(axis.value(last)))
         }
         _ => {
             let said: Vec<String> = places.iter().map(|&place| axis.said(axis.value(place))).collect();
@@ -168,16 +169,16 @@ fn values_among(identity: &SweepIdentity, at: usize, combinations: &[usize]) -> 
 pub(crate) struct Optimum {
     #[serde(flatten)]
     pub goal: Goal,
-    /// Combinations that keep to the limits.
+    /// Number of combinations within the limits.
     pub within_limits: usize,
     pub index: usize,
     pub values: Vec<f64>,
     pub value: f64,
     /// Relative error of the figure: the greatest that a verified combination states.
     pub error: Option<f64>,
-    /// Why there is none.
+    /// Reason where it is not known.
     pub why_no_error: Option<String>,
-    /// The combinations that are not known to be worse, itself among them; null where the error is not known.
+    /// Combinations that are not known to be worse, the best included; null where the error is not known.
     pub plateau: Option<Vec<usize>>,
     /// Values of each key among them.
     pub plateau_keys: Option<Vec<String>>,
@@ -200,13 +201,12 @@ mod tests {
             spacing: AxisSpacing::Even,
         };
         let identity = SweepIdentity { axes: vec![axis], ..SweepIdentity::default() };
-        let row = |(index, &wear): (usize, &f64)| {
-            let of =
-                |figure: &&MainFigure| Some(if figure.name == "pinion.peak_wear_um" { wear } else { index as f64 });
-            let figures = figures::in_sweeps().iter().map(of).collect();
+        let rows = wear.iter().enumerate().map(|(index, &wear)| {
+            let is_wear = figures::in_sweeps().iter().map(|figure| figure.name == "pinion.peak_wear_um");
+            let figures = is_wear.map(|is_wear| Some(if is_wear { wear } else { index as f64 })).collect();
             SweepRow { index, values: identity.values(index), figures, ..SweepRow::default() }
-        };
-        let rows = wear.iter().enumerate().map(row).collect();
+        });
+        let rows = rows.collect();
         (identity, rows)
     }
 

@@ -1,14 +1,12 @@
 //! The rows finished so far, on disk: `rows.jsonl`, one JSON object per line, the first of which says whose rows they are.
 //!
-//! A line is written with one call as soon as its combination is finished. A row that is verified stands there once more, and
-//! the later line counts. Whatever ends the program, what is lost is at most
-//! the combinations that were running; a last line that was cut short is dropped when the journal is opened again. While a
-//! sweep runs it holds a lock on the file, so that a second start in the same folder is refused, where the file system
-//! has locks.
+//! A line is written with one call as soon as its combination is finished. A verified row is written again, and the later line counts. A program that
+//! ends early loses at most the combinations that were running; an incomplete last line is dropped when the journal is opened again. A running sweep
+//! locks the file, so that a second start in the same folder is refused, where the file system has locks.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -19,7 +17,7 @@ use crate::whole_file;
 /// Name of the journal in the folder of a sweep.
 pub(crate) const FILE_NAME: &str = "rows.jsonl";
 
-/// Content of a journal: its first line and, one line each, the rows.
+/// Contents of a journal: its first line and, one line each, the rows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct JournalContents {
     pub identity: SweepIdentity,
@@ -31,7 +29,7 @@ pub(crate) struct JournalContents {
 }
 
 impl JournalContents {
-    /// The row in a line; an error says why it is none of this sweep.
+    /// Row in a line; the error is the reason why it does not belong to this sweep.
     pub(crate) fn row(&self, line: &str) -> Result<SweepRow, String> {
         let row: SweepRow = serde_json::from_str(line).map_err(|error| error.to_string())?;
         if row.index >= self.identity.combinations() || row.figures.len() != self.identity.figures.len() {
@@ -43,12 +41,12 @@ impl JournalContents {
 
 #[derive(Debug)]
 pub(crate) struct Journal {
-    /// Place where it is kept; `None`: in memory alone.
+    /// Path and file; `None`: kept in memory alone.
     kept: Option<(PathBuf, File)>,
     pub contents: JournalContents,
 }
 
-/// Reason why rows cannot be read or kept.
+/// Error of reading or writing rows.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum JournalError {
     #[error("{} holds no sweep: there is no {FILE_NAME} in it", folder.display())]
@@ -76,11 +74,11 @@ pub(crate) enum JournalError {
         kept: usize,
         source: io::Error,
     },
-    /// The folder was taken away while the sweep ran; the rows were written anew.
+    /// The folder was removed while the sweep ran; the rows were written again.
     #[error("{} was removed while the sweep ran; its {kept} finished rows were written there anew", path.display())]
     Removed {
         path: PathBuf,
-        /// Rows that were written anew.
+        /// Rows that were written again.
         kept: usize,
     },
     #[error("{} was removed while the sweep ran, and cannot be written anew: {source}", path.display())]
@@ -88,11 +86,6 @@ pub(crate) enum JournalError {
 }
 
 impl JournalError {
-    /// Fault in a line, counted from 0.
-    fn damaged(path: &Path, line: usize, found: String) -> Self {
-        Self::Damaged { path: path.to_owned(), line: line + 1, found }
-    }
-
     /// Kind of the system's error, where a file cannot be read or written.
     pub(crate) fn of_system(&self) -> Option<io::ErrorKind> {
         match self {
@@ -127,19 +120,36 @@ fn whole_lines(text: &str) -> &str {
 
 /// The contents of a journal's whole lines; `None` where there is none.
 fn parse(path: &Path, text: &str) -> Result<Option<JournalContents>, JournalError> {
-    let mut lines = text.lines().enumerate();
-    let Some((_, first)) = lines.next() else { return Ok(None) };
-    let contents = serde_json::from_str(first);
-    let mut contents: JournalContents = contents.map_err(|error| JournalError::damaged(path, 0, error.to_string()))?;
-    for (line, text) in lines {
-        let row = contents.row(text).map_err(|found| JournalError::damaged(path, line, found))?;
-        contents.rows.insert(row.index, row);
+    let mut contents: Option<JournalContents> = None;
+    for (number, line) in text.lines().enumerate() {
+        let read = match &mut contents {
+            None => serde_json::from_str(line).map(|first| contents = Some(first)).map_err(|error| error.to_string()),
+            Some(contents) => contents.row(line).map(|row| drop(contents.rows.insert(row.index, row))),
+        };
+        read.map_err(|found| JournalError::Damaged { path: path.to_owned(), line: number + 1, found })?;
     }
-    Ok(Some(contents))
+    Ok(contents)
+}
+
+fn cannot_open(path: &Path, source: io::Error) -> JournalError {
+    JournalError::Open { path: path.to_owned(), source }
+}
+
+/// Opens the file of a journal, or creates it.
+fn opened(folder: &Path, path: &Path) -> io::Result<File> {
+    fs::create_dir_all(folder)?;
+    OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)
+}
+
+/// Cuts the file after its whole lines, and writes the first line of a journal that is `new`.
+fn begin_at(file: &mut File, length: usize, new: Option<&JournalContents>) -> io::Result<()> {
+    file.set_len(length as u64)?;
+    file.seek(SeekFrom::End(0))?;
+    new.map_or(Ok(()), |contents| file.write_all(&line_of(contents)?))
 }
 
 impl Journal {
-    /// A journal that is not kept.
+    /// Journal kept in memory only.
     pub(crate) fn in_memory(identity: &SweepIdentity, shard: Option<Shard>) -> Self {
         Self { kept: None, contents: JournalContents { identity: identity.clone(), shard, rows: BTreeMap::new() } }
     }
@@ -150,16 +160,12 @@ impl Journal {
     /// [`JournalError`] where it cannot be written, is written by another program now, or is another sweep's.
     pub(crate) fn open(folder: &Path, identity: &SweepIdentity, shard: Option<Shard>) -> Result<Self, JournalError> {
         let path = folder.join(FILE_NAME);
-        let at = |source| JournalError::Open { path: path.clone(), source };
-        fs::create_dir_all(folder).map_err(at)?;
-        let mut file =
-            OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path).map_err(at)?;
-        // A file system without locks is no reason not to run.
+        let mut file = opened(folder, &path).map_err(|source| cannot_open(&path, source))?;
+        // A file system without locks does not prevent a sweep.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(JournalError::InUse { path });
         }
-        let mut text = String::new();
-        file.read_to_string(&mut text).map_err(at)?;
+        let text = io::read_to_string(&file).map_err(|source| cannot_open(&path, source))?;
         let text = whole_lines(&text);
         let Self { contents: new, .. } = Self::in_memory(identity, shard);
         let found = parse(&path, text)?;
@@ -167,11 +173,8 @@ impl Journal {
         if !differences.is_empty() {
             return Err(JournalError::OtherSweep { path, differences });
         }
-        file.set_len(text.len() as u64).map_err(at)?;
-        file.seek(SeekFrom::End(0)).map_err(at)?;
-        if found.is_none() {
-            file.write_all(&line_of(&new).map_err(at)?).map_err(at)?;
-        }
+        let begun = begin_at(&mut file, text.len(), found.is_none().then_some(&new));
+        begun.map_err(|source| cannot_open(&path, source))?;
         Ok(Self { kept: Some((path, file)), contents: found.unwrap_or(new) })
     }
 
@@ -186,11 +189,10 @@ impl Journal {
             return Ok(());
         };
         let kept = rows.len();
-        let failed = |path: &Path, source| JournalError::Write { path: path.to_owned(), kept, source };
-        let line = line_of(&row).map_err(|source| failed(path, source))?;
+        let line = line_of(&row).map_err(|source| JournalError::Write { path: path.clone(), kept, source })?;
         let index = row.index;
         let before = rows.insert(index, row);
-        // A file that was unlinked could still be written to, for nobody.
+        // Writing to an unlinked file would succeed and be lost.
         if !path.exists() {
             return Err(write_anew(path, &self.contents));
         }
@@ -199,7 +201,7 @@ impl Journal {
                 Some(row) => rows.insert(index, row),
                 None => rows.remove(&index),
             };
-            return Err(failed(path, source));
+            return Err(JournalError::Write { path: path.clone(), kept, source });
         }
         Ok(())
     }
@@ -229,14 +231,12 @@ fn line_of(item: &impl Serialize) -> io::Result<Vec<u8>> {
     Ok(line)
 }
 
-/// Differences between the journal and the sweep that is to be run, there and here.
+/// Differences between the sweep of the journal and the one to be run, each with both values, the journal's first.
 fn differences(found: &JournalContents, wanted: &JournalContents) -> Vec<String> {
     let mut differences = found.identity.differences(&wanted.identity);
     if found.shard != wanted.shard {
-        let [there, here] = [found.shard, wanted.shard].map(|shard| match shard {
-            None => "all of it".to_owned(),
-            Some(Shard { number, of }) => format!("shard {number}/{of}"),
-        });
+        let [there, here] = [found.shard, wanted.shard]
+            .map(|shard| shard.map_or_else(|| "all of it".to_owned(), |s| format!("shard {}/{}", s.number, s.of)));
         differences.push(format!("the part that is run: {there} and {here}"));
     }
     differences

@@ -1,4 +1,4 @@
-//! One sweep from parts of it that were run elsewhere.
+//! Merges shards of a sweep.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use super::journal::{self, JournalContents, JournalError};
 use crate::studies::sweep::record::SweepRow;
 
-/// Missing combinations that are named.
+/// Greatest number of missing combinations named in a message.
 const MOST_NAMED: usize = 5;
 
-/// Why parts do not make a sweep.
+/// Errors of a merge.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum MergeError {
     #[error(transparent)]
@@ -17,7 +17,7 @@ pub(crate) enum MergeError {
     #[error("{} and {} are not parts of one sweep: {}", first.display(), other.display(), differences.join("; "))]
     OtherSweep {
         first: PathBuf,
-        /// The one that does not belong to it.
+        /// The folder of another sweep.
         other: PathBuf,
         /// Differences, in the first and in the other.
         differences: Vec<String>,

@@ -1,4 +1,4 @@
-//! Everything a sweep leaves behind, as plain data in the units of the output files: what its reports read.
+//! Record of a sweep in the units of the output files, which its reports are written from.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,8 +6,9 @@ use super::goal::{Goal, Optimum};
 use super::verification::{Chosen, RowVerification, SweepVerification};
 use crate::results::error::TotalError;
 use crate::results::figures::{self, MainFigure};
+use crate::scene::problem::number;
 
-/// Digits of a value between the ends of a range.
+/// Significant digits of a value between the ends of a range.
 const DIGITS: i32 = 12;
 
 /// How the values of a key are spaced.
@@ -19,7 +20,7 @@ pub(crate) enum AxisSpacing {
     Even,
     /// By equal ratios, both ends included.
     Logarithmic,
-    /// Listed, rising.
+    /// Listed values, rising.
     Listed(Vec<f64>),
     /// Words as they are listed; the values are their places, from 0.
     Words(Vec<String>),
@@ -79,13 +80,13 @@ impl SweepAxis {
         (0..self.count).map(|index| self.value(index)).collect()
     }
 
-    /// Text as the user may write it: `pair.face_width_mm=10:30:21`.
+    /// Axis as the user may write it: `pair.face_width_mm=10:30:21`.
     pub(crate) fn as_given(&self) -> String {
-        let (from, to, count) = (plain(self.from), plain(self.to), self.count);
+        let range = format!("{}:{}:{}", number(self.from), number(self.to), self.count);
         let values = match &self.spacing {
-            AxisSpacing::Even => format!("{from}:{to}:{count}"),
-            AxisSpacing::Logarithmic => format!("{from}:{to}:{count}:log"),
-            AxisSpacing::Listed(values) => values.iter().map(|value| plain(*value)).collect::<Vec<_>>().join(","),
+            AxisSpacing::Even => range,
+            AxisSpacing::Logarithmic => format!("{range}:log"),
+            AxisSpacing::Listed(values) => values.iter().map(|value| number(*value)).collect::<Vec<_>>().join(","),
             AxisSpacing::Words(words) => words.join(","),
         };
         format!("{}={values}", self.key)
@@ -104,18 +105,18 @@ impl SweepAxis {
         self.words()?.get(value as usize).map(String::as_str)
     }
 
-    /// A value as one would write it.
+    /// Value as text: a word, or a number in its shortest form.
     pub(crate) fn said(&self, value: f64) -> String {
-        self.word(value).map_or_else(|| plain(value), str::to_owned)
+        self.word(value).map_or_else(|| number(value), str::to_owned)
     }
 
-    /// For an axis of a plot, with the unit that ends the name of the key: `tip relief, amount, pinion and wheel, µm`.
+    /// Title of an axis of a plot, with the unit that ends the name of the key: `tip relief, amount, pinion and wheel, µm`.
     pub(crate) fn title(&self) -> String {
         let (name, unit) = self.name_and_unit();
         unit.map_or_else(|| name.clone(), |unit| format!("{name}, {unit}"))
     }
 
-    /// Title in two parts.
+    /// Name and unit apart.
     pub(crate) fn name_and_unit(&self) -> (String, Option<&'static str>) {
         let mut parts: Vec<String> = self.key.split('.').skip(1).map(|part| part.replace('_', " ")).collect();
         let Some(last) = parts.pop() else { return (self.key.clone(), None) };
@@ -137,10 +138,10 @@ impl SweepAxis {
     }
 }
 
-/// Names of keys that need that of their section before them.
+/// Last parts of keys that are clear only with the name of their section.
 const SAY_NOTHING_ALONE: [&str; 4] = ["coefficient", "surface", "model", "law"];
 
-/// How names of keys end, and the unit that it stands for.
+/// Suffixes of keys and their units.
 const UNITS: [(&str, &str); 20] = [
     (" N per mm um", "N/(mm·µm)"),
     (" MPa per mm", "MPa/mm"),
@@ -164,13 +165,7 @@ const UNITS: [(&str, &str); 20] = [
     (" K", "K"),
 ];
 
-/// A number as one would write it: `10`, `0.5`, `1e-17`.
-pub(crate) fn plain(value: f64) -> String {
-    let text = format!("{value:?}");
-    text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
-}
-
-/// A part of a sweep that is run by itself: every `of`-th combination, beginning with `number`.
+/// A shard: every `of`-th combination, beginning with `number`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Shard {
     /// Number of the part, from 1.
@@ -178,25 +173,25 @@ pub(crate) struct Shard {
     pub of: usize,
 }
 
-/// Identity of a sweep: rows of two sweeps may stand in one table where all of this is the same.
+/// Identity of a sweep: rows of sweeps with equal identities can be merged.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct SweepIdentity {
     pub title: String,
     pub program_version: String,
     /// First 16 hexadecimal digits of the SHA-256 of the scene as given, resolved.
     pub scene_hash: String,
-    /// Hash of what the file itself says: what it leaves open is chosen anew for each combination.
+    /// Hash of the scene file as given: what it leaves open is chosen anew for each combination.
     pub given_hash: String,
     /// Hash of the calibration and the stiffness curve that the scene names; empty where it names none.
     pub inputs_hash: String,
     pub error_estimate: bool,
-    /// Whether the scene asks by name for the verification, which the best rows and the corners then get.
+    /// Whether the scene sets `verify = true`: the best rows and the corners are then verified.
     pub verify: bool,
     /// Varied keys; the first changes slowest.
     pub axes: Vec<SweepAxis>,
     /// Names of the figures of a row, in order.
     pub figures: Vec<String>,
-    /// Goal; rows do not depend on it, so that it may be another one at the next start.
+    /// Figure to minimise; rows do not depend on it, so it may change at a restart.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub goal: Option<Goal>,
 }
@@ -206,7 +201,7 @@ impl SweepIdentity {
         self.axes.iter().map(|axis| axis.count).product()
     }
 
-    /// Number of the value of each axis in combination `index`, in the order of the axes.
+    /// Index of each axis's value in combination `index`, in the order of the axes.
     pub(crate) fn digits(&self, index: usize) -> Vec<usize> {
         let mut rest = index;
         let mut digits = vec![0; self.axes.len()];
@@ -230,23 +225,10 @@ impl SweepIdentity {
         said.join(", ")
     }
 
-    fn axes_in_words(&self) -> String {
-        self.axes.iter().map(SweepAxis::as_given).collect::<Vec<_>>().join(" ")
-    }
-
-    /// Differences to `other`, in words; empty where both are one sweep.
+    /// Differences from `other`, in words; empty where both are one sweep.
     pub(crate) fn differences(&self, other: &Self) -> Vec<String> {
-        let all = [
-            ("program version", self.program_version.clone(), other.program_version.clone()),
-            ("what is varied", self.axes_in_words(), other.axes_in_words()),
-            ("scene", self.given_hash.clone(), other.given_hash.clone()),
-            ("the resolved scene", self.scene_hash.clone(), other.scene_hash.clone()),
-            ("files that the scene names", self.inputs_hash.clone(), other.inputs_hash.clone()),
-            ("errors estimated", yes_or_no(self.error_estimate), yes_or_no(other.error_estimate)),
-            ("figures of a row", self.figures.join(" "), other.figures.join(" ")),
-        ];
         let mut differences: Vec<String> = Vec::new();
-        for (what, mine, theirs) in all {
+        for ((what, mine), (_, theirs)) in self.said().into_iter().zip(other.said()) {
             // The resolved scene differs wherever the scene does.
             let said_before = what == "the resolved scene" && self.given_hash != other.given_hash;
             if mine != theirs && !said_before {
@@ -255,19 +237,29 @@ impl SweepIdentity {
         }
         differences
     }
+
+    /// Parts of the identity with their names.
+    fn said(&self) -> [(&'static str, String); 7] {
+        let axes: Vec<String> = self.axes.iter().map(SweepAxis::as_given).collect();
+        [
+            ("program version", self.program_version.clone()),
+            ("what is varied", axes.join(" ")),
+            ("scene", self.given_hash.clone()),
+            ("the resolved scene", self.scene_hash.clone()),
+            ("files that the scene names", self.inputs_hash.clone()),
+            ("errors estimated", if self.error_estimate { "yes" } else { "no" }.to_owned()),
+            ("figures of a row", self.figures.join(" ")),
+        ]
+    }
 }
 
-fn yes_or_no(is: bool) -> String {
-    if is { "yes" } else { "no" }.to_owned()
-}
-
-/// Outcome of one combination.
+/// Result of one combination.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct SweepRow {
     /// Number of the combination, from 0.
     pub index: usize,
     pub values: Vec<f64>,
-    /// Why there are no figures, on one line; `None` where the run was completed.
+    /// Reason why there are no figures, on one line; `None` where the run was completed.
     pub error: Option<String>,
     /// The figures, in the order of the columns; `None` where the scene does not have one.
     pub figures: Vec<Option<f64>>,
@@ -276,7 +268,7 @@ pub(crate) struct SweepRow {
     pub simulation_s: Option<f64>,
     /// Wall time of the whole combination, its verification apart, s.
     pub wall_s: f64,
-    /// Verification by finite elements; `None` where it is not verified.
+    /// Verification by finite elements; `None` where the row is not verified.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verification: Option<RowVerification>,
 }
@@ -311,9 +303,9 @@ pub struct SweepRecord {
     pub(crate) scene_toml: String,
     /// One row per combination, in the order of the combinations.
     pub(crate) rows: Vec<SweepRow>,
-    /// Threads it was run on; 0 where others ran it: other processes or machines, or parts that were merged.
+    /// Number of threads; 0 where the rows come from elsewhere: other processes or machines, or merged shards.
     pub(crate) threads: usize,
-    /// Wall time since the command was started, s: rows of an earlier start are not in it.
+    /// Wall time since the start of the command, s, without rows of earlier starts.
     pub(crate) wall_s: f64,
 }
 
@@ -329,7 +321,7 @@ pub(crate) struct SweepSummary<'a> {
     pub failed: usize,
     /// The best combination by each figure that has a best.
     pub best: Vec<BestCombination>,
-    /// The combination that is asked for; null where none is asked for or none keeps to the limits.
+    /// Optimum; null without a goal or where no combination is within the limits.
     pub optimum: Option<Optimum>,
     /// Verification of the best rows and the corners by finite elements; null where the scene does not ask for it, and in a shard, which
     /// does not know the best of all rows.
@@ -349,7 +341,7 @@ pub(crate) struct BestCombination {
 }
 
 impl SweepRecord {
-    /// The row with the least value of `figure`, the first of equals.
+    /// Row with the least value of `figure`, the first of equal ones.
     pub(crate) fn least(&self, figure: &MainFigure) -> Option<(&SweepRow, f64)> {
         let valued = self.rows.iter().filter_map(|row| Some((row, row.figure(figure)?)));
         valued.min_by(|a, b| a.1.total_cmp(&b.1))
@@ -359,7 +351,7 @@ impl SweepRecord {
         self.rows.iter().filter(|row| row.error.is_some()).count()
     }
 
-    /// The combination that is asked for; `None` where none is, or where no combination keeps to the limits.
+    /// Optimum; `None` without a goal or where no combination is within the limits.
     pub(crate) fn optimum(&self) -> Option<Optimum> {
         self.identity.goal.as_ref()?.optimum(&self.identity, &self.rows)
     }
@@ -403,7 +395,7 @@ mod tests {
         SweepAxis { key: key.to_owned(), from, to, count, whole: false, spacing: AxisSpacing::Even }
     }
 
-    /// Ends are as given, and the values between them as one would write them.
+    /// Ends are as given; values between them are rounded.
     #[test]
     fn ver_values_are_evenly_spaced() {
         assert_eq!(axis("k", 0.1, 0.7, 7).values(), [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]);
@@ -415,7 +407,7 @@ mod tests {
         assert_eq!(axis("k", 0.0, 3e15, 4).values(), [0.0, 1e15, 2e15, 3e15]);
     }
 
-    /// Titles of keys, without their section, and their units.
+    /// Names of keys without their section, and units.
     #[test]
     fn axes_have_titles_with_units() {
         for (key, title) in [
@@ -440,6 +432,6 @@ mod tests {
         let all: Vec<Vec<f64>> = (0..6).map(|index| identity.values(index)).collect();
         assert_eq!(all, [[0.0, 5.0], [0.0, 6.0], [0.0, 7.0], [1.0, 5.0], [1.0, 6.0], [1.0, 7.0]]);
         assert_eq!(identity.in_words(4), "a = 1, b = 6");
-        assert_eq!([10.0, -0.25, 1e-17].map(plain), ["10", "-0.25", "1e-17"]);
+        assert_eq!([10.0, -0.25, 1e-17].map(number), ["10", "-0.25", "1e-17"]);
     }
 }

@@ -1,4 +1,4 @@
-//! Tasks that are left of a sweep, and the way to do them on all threads, one combination a thread.
+//! Tasks left of a sweep, and their execution on all threads, one combination a thread.
 //!
 //! A combination is run by one thread from beginning to end: with many combinations that loses nothing to waiting, and a row
 //! depends neither on the number of threads nor on the order in which they finish. Where the sweep is verified, the same is done once
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::combination::Sweep;
 use super::journal::{Journal, JournalError};
 use crate::observer::Observer;
-use crate::studies::spread::{Ended, spread};
+use crate::studies::spread::{SpreadOutcome, spread};
 use crate::studies::sweep::record::{Shard, SweepRow};
 use crate::studies::sweep::verification::{Chosen, chosen};
 
@@ -21,15 +21,15 @@ pub(crate) fn part(combinations: usize, shard: Option<Shard>) -> impl Iterator<I
     (first..combinations).step_by(step)
 }
 
-/// Keeper of the rows.
-struct KeptRows<'a, F> {
+/// Journal that rows are kept in.
+struct RowKeeper<'a, F> {
     journal: &'a mut Journal,
     tell: F,
     /// Why no row can be kept any more.
     error: Option<JournalError>,
 }
 
-impl<F: FnMut(&SweepRow)> KeptRows<'_, F> {
+impl<F: FnMut(&SweepRow)> RowKeeper<'_, F> {
     /// Keeps a finished row, if rows can still be kept: what follows a line that was not written whole could not be read again.
     fn keep(&mut self, row: SweepRow) -> bool {
         if self.error.is_some() {
@@ -62,11 +62,11 @@ pub(crate) fn tasks(sweep: &Sweep, shard: Option<Shard>, rows: &BTreeMap<usize, 
     if !missing.is_empty() || !sweep.identity.verify || shard.is_some() {
         return missing;
     }
-    let open = |(index, chosen): (usize, Chosen)| {
+    let open = chosen(&sweep.identity, rows.values()).into_iter().filter_map(|(index, chosen)| {
         let row = rows.get(&index).filter(|row| row.verification.is_none())?;
         Some(SweepTask::Verify { row: Box::new(row.clone()), chosen })
-    };
-    chosen(&sweep.identity, rows.values()).into_iter().filter_map(open).collect()
+    });
+    open.collect()
 }
 
 /// Does what is left of `shard`, whose finished rows `journal` holds, on `threads` threads.
@@ -79,12 +79,12 @@ pub(crate) fn run(
     journal: &mut Journal,
     threads: usize,
     observer: &dyn Observer,
-) -> Result<Ended, JournalError> {
+) -> Result<SpreadOutcome, JournalError> {
     loop {
         let rows = &journal.contents.rows;
         let tasks = tasks(sweep, shard, rows);
         let (things, total, mut failed) = match tasks.first() {
-            None => return Ok(Ended::Completed),
+            None => return Ok(SpreadOutcome::Completed),
             Some(SweepTask::Run(_)) => {
                 let failed = rows.values().filter(|row| row.error.is_some()).count();
                 ("combinations", part(sweep.identity.combinations(), shard).count(), failed)
@@ -98,12 +98,12 @@ pub(crate) fn run(
             failed += usize::from(row.error.is_some());
             observer.counted(done, total, things, &with_failed(failed));
         };
-        let mut kept = KeptRows { journal, tell, error: None };
+        let mut kept = RowKeeper { journal, tell, error: None };
         let ended = spread(&tasks, threads, observer, |task, within| sweep.row_of(task, within), |row| kept.keep(row));
         if let Some(error) = kept.error {
             return Err(error);
         }
-        if ended == Ended::Interrupted {
+        if ended == SpreadOutcome::Interrupted {
             return Ok(ended);
         }
     }
@@ -120,8 +120,8 @@ mod tests {
     /// The parts of a sweep are disjoint, and together all of it.
     #[test]
     fn shards_take_turns() {
-        let of = |number| part(10, Some(Shard { number, of: 4 })).collect::<Vec<_>>();
-        assert_eq!([of(1), of(2), of(3), of(4)], [vec![0, 4, 8], vec![1, 5, 9], vec![2, 6], vec![3, 7]]);
+        let parts = [1, 2, 3, 4].map(|number| part(10, Some(Shard { number, of: 4 })).collect::<Vec<_>>());
+        assert_eq!(parts, [vec![0, 4, 8], vec![1, 5, 9], vec![2, 6], vec![3, 7]]);
         assert_eq!(part(3, None).collect::<Vec<_>>(), [0, 1, 2]);
         assert_eq!(part(2, Some(Shard { number: 3, of: 3 })).count(), 0);
     }

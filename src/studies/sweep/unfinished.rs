@@ -1,4 +1,4 @@
-//! A sweep under way: what is left to do, and where the rows are kept, whoever runs them.
+//! A sweep in progress: the open tasks and the finished rows, whoever runs them.
 //!
 //! [`UnfinishedSweep::run`] runs what is left on the threads of this process. Engines that spread work over processes and machines take it
 //! piece by piece: [`UnfinishedSweep::tasks`] says what is left, one text each; [`Sweep::carry_out`] does a task wherever it is, and comes
@@ -20,7 +20,7 @@ use crate::observer::Observer;
 use crate::report::columns::Table;
 use crate::report::writable;
 use crate::results::error::TotalError;
-use crate::studies::spread::Ended;
+use crate::studies::spread::SpreadOutcome;
 use crate::studies::varied_scene::one_line;
 
 /// A sweep with the rows that are finished.
@@ -31,12 +31,12 @@ pub struct UnfinishedSweep {
     journal: Journal,
     folder: Option<PathBuf>,
     begun: Instant,
-    /// Threads of the last start; 0 where others ran its rows.
+    /// Number of threads of the last start; 0 where the rows come from elsewhere.
     threads: usize,
 }
 
 impl UnfinishedSweep {
-    /// Begins `sweep`, or goes on with it where `folder` has rows of it already; without a folder the rows are kept in memory alone.
+    /// Begins `sweep`, or continues it where `folder` has rows of it; without a folder the rows are kept in memory only.
     ///
     /// # Errors
     /// A sweep of which no combination makes a scene, or a folder with the rows of another one, or that cannot be written.
@@ -44,7 +44,7 @@ impl UnfinishedSweep {
         Self::begin_part(sweep, folder, None).map_err(SweepError)
     }
 
-    /// Begins a part of it.
+    /// Begins a part of a sweep.
     pub(crate) fn begin_part(sweep: &Sweep, folder: Option<&Path>, shard: Option<Shard>) -> Result<Self, SweepFault> {
         if let Some(problems) = sweep.unbuildable() {
             return Err(SweepFault::NothingToVary(problems));
@@ -62,23 +62,23 @@ impl UnfinishedSweep {
         Ok(Self { sweep: sweep.clone(), shard, journal, folder: folder.map(Path::to_owned), begun, threads: 0 })
     }
 
-    /// How many combinations it has, of the part that is run.
+    /// Number of combinations of the sweep or shard.
     pub fn combinations(&self) -> usize {
         study::part(self.sweep.identity.combinations(), self.shard).count()
     }
 
-    /// How many of them have their row.
+    /// Number of finished combinations.
     pub fn finished(&self) -> usize {
         self.journal.contents.rows.len()
     }
 
-    /// How many of these are verified by finite elements.
+    /// Number of rows verified by finite elements.
     pub fn verified(&self) -> usize {
         self.journal.contents.rows.values().filter(|row| row.verification.is_some()).count()
     }
 
-    /// Tasks that can be done now, one text each: the combinations that are missing; where none is, the rows that finite elements are to verify. None: it
-    /// is finished.
+    /// Tasks that can be done now, one text each: the missing combinations, then the rows to be verified by finite elements. Empty where the sweep is
+    /// finished.
     ///
     /// # Errors
     /// None of a sweep whose rows have finite values.
@@ -87,7 +87,7 @@ impl UnfinishedSweep {
         Ok(tasks.iter().map(text_of).collect::<Result<_, _>>()?)
     }
 
-    /// Keeps what a task came to: the line that [`Sweep::carry_out`] or [`Sweep::lost`] gave.
+    /// Adds the result of a task: the line that [`Sweep::carry_out`] or [`Sweep::lost`] returned.
     ///
     /// # Errors
     /// A line that is no row of this sweep; a journal that cannot be written.
@@ -96,17 +96,17 @@ impl UnfinishedSweep {
         self.journal.append(row).map_err(|error| SweepFault::Journal(error).into())
     }
 
-    /// Does all that is left in this process, on `threads` threads; false where it was interrupted.
+    /// Runs all open tasks in this process on `threads` threads; false where it was interrupted.
     ///
     /// # Errors
     /// A row that cannot be kept; the rows before it are.
     pub fn run(&mut self, threads: usize, observer: &dyn Observer) -> Result<bool, SweepError> {
         self.threads = threads;
         let ended = study::run(&self.sweep, self.shard, &mut self.journal, threads, observer);
-        Ok(ended.map_err(SweepFault::Journal)? == Ended::Completed)
+        Ok(ended.map_err(SweepFault::Journal)? == SpreadOutcome::Completed)
     }
 
-    /// The finished sweep, whose files are written where it has a folder.
+    /// Finishes the sweep and writes its files, where it has a folder.
     ///
     /// # Errors
     /// A file that cannot be written.
@@ -127,8 +127,8 @@ impl UnfinishedSweep {
 }
 
 impl Sweep {
-    /// Does `task`, wherever this is; the line of the journal that it comes to, or none where it was interrupted. Whatever goes wrong with the
-    /// combination is its row's error.
+    /// Runs `task` in any process; returns its line of the journal, or `None` where it was interrupted. Any error of the combination becomes the
+    /// error of its row.
     ///
     /// # Errors
     /// A text that is no task.
@@ -137,7 +137,7 @@ impl Sweep {
         Ok(row.map(|row| text_of(&row)).transpose()?)
     }
 
-    /// The line of a task that came to nothing, for this reason: whoever ran it died.
+    /// Line of a task without a result for `reason`, such as the death of its process.
     ///
     /// # Errors
     /// A text that is no task.

@@ -24,19 +24,18 @@ use super::record::{SweepIdentity, SweepRow};
 use crate::results::error::TotalError;
 use crate::results::figures::{self, MainFigure, STATED_ERRORS};
 
-/// The figure by which rows are best: that of the goal; of a sweep without one wear, which the program is about.
+/// Figure by which rows are ranked: that of the goal, else the wear.
 pub(crate) fn objective(identity: &SweepIdentity) -> &'static MainFigure {
     identity.goal.as_ref().map_or_else(figures::peak_wear_of_either, Goal::figure)
 }
 
-/// Best rows that are verified: the least is one that somebody will use, and two more tell whether it is least by more than its
-/// error.
+/// Number of best rows that are verified: the best, and two more to tell whether it is best by more than its error.
 pub(crate) const MOST_BEST: usize = 3;
-/// Corners that are verified: all of four keys, which take about half a minute on one thread; each key more would double it.
+/// Number of corners that are verified: all of four keys, which take about half a minute on one thread; each further key would double that.
 pub(crate) const MOST_CORNERS: usize = 16;
 
-/// Of each varied key, in which corners it is at its last value; four digits, as there are 16 corners. Those of three digits come
-/// before the others: with up to eight keys any three have all eight triples of their ends.
+/// Corners in which each varied key is at its last value, as masks of four bits for 16 corners. Those of three bits come before the others: with up
+/// to eight keys any three have all eight combinations of their ends.
 const MASKS: [usize; 15] = [1, 2, 4, 8, 7, 11, 13, 14, 15, 3, 5, 6, 9, 10, 12];
 
 /// Why a row is verified.
@@ -60,7 +59,7 @@ impl Chosen {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct RowVerification {
     pub chosen: Chosen,
-    /// How far it is from them, or why that is not known.
+    /// Errors against finite elements, or the reason why they are not known.
     pub total: TotalError,
     pub wall_s: f64,
 }
@@ -93,7 +92,7 @@ fn all_corners(identity: &SweepIdentity) -> usize {
     identity.axes.iter().map(|axis| axis.count.min(2)).product()
 }
 
-/// Rows that will be verified and why, in words, before any row is known.
+/// Description of the verification, before any row is known.
 pub(crate) fn intention(identity: &SweepIdentity) -> String {
     let (all, taken) = (all_corners(identity), corner_count(identity));
     let best = MOST_BEST.min(identity.combinations());
@@ -103,7 +102,7 @@ pub(crate) fn intention(identity: &SweepIdentity) -> String {
     format!("the best ({best}, by {by}) and {corners} of what is varied, at most {most} combinations")
 }
 
-/// Rows among `rows` that are to be verified: the best and the corners, of those that have figures.
+/// Rows of `rows` to be verified: the best and the corners, of those that have figures.
 pub(crate) fn chosen<'a>(
     identity: &SweepIdentity,
     rows: impl Iterator<Item = &'a SweepRow>,
@@ -126,17 +125,17 @@ pub(crate) fn chosen<'a>(
     chosen
 }
 
-/// Verification of a sweep, over its rows.
+/// Summary of the verification of a sweep, over its rows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct SweepVerification<'a> {
-    /// Rows that were chosen and why, in words.
+    /// Rows chosen, and why.
     pub intention: String,
     /// Rows that were chosen: fewer than intended where the best are corners or a corner has no figures.
     pub chosen: usize,
     pub verified: usize,
-    /// Count without an answer, for the reason in their `total.how`.
+    /// Rows without a result; the reason is in their `total.how`.
     pub unanswered: usize,
-    /// Count not verified yet: of merged shards, none of which knows the best of all rows.
+    /// Number of rows not verified yet: of merged shards, none of which knows the best of all rows.
     pub open: usize,
     /// The greatest of each claim over the verified rows.
     pub worst: Vec<WorstClaim>,
@@ -152,7 +151,7 @@ pub(crate) struct VerifiedRow<'a> {
     pub values: &'a [f64],
     /// The greatest wear of both gears.
     pub peak_wear_um: Option<f64>,
-    /// The figure by which rows are best.
+    /// Value of the figure by which rows are ranked.
     pub objective: Option<f64>,
     #[serde(flatten)]
     pub verification: &'a RowVerification,
@@ -164,7 +163,7 @@ pub(crate) struct WorstClaim {
     #[serde(skip)]
     pub title: &'static str,
     pub value: f64,
-    /// Combination that it is of, the first of equals.
+    /// Combination it is of, the first of equals.
     pub index: usize,
     pub values: Vec<f64>,
 }
@@ -207,7 +206,7 @@ impl<'a> SweepVerification<'a> {
         peaks.flat_map(|peak| [peak.pinion, peak.wheel]).flatten().reduce(f64::max)
     }
 
-    /// Why the first row without an answer has none.
+    /// Reason of the first row without a result.
     pub(crate) fn first_reason(&self) -> Option<&'a str> {
         let unanswered = self.rows.iter().find(|row| !row.verification.has_answer());
         unanswered.map(|row| row.verification.total.how.as_str())
@@ -290,13 +289,10 @@ mod tests {
     fn the_worst_claims_are_over_the_verified_rows() {
         let identity = identity(&[4]);
         let mut rows: Vec<SweepRow> = (0..4).map(|index| row(index, Some(index as f64))).collect();
-        let verified = |peak: Option<f64>| {
+        for (row, peak) in rows.iter_mut().zip([Some(0.01), Some(0.03), None]) {
             let mut total = TotalError::none("the contact is too narrow");
             total.peak_wear.wheel = peak;
-            Some(RowVerification { chosen: Chosen::default(), total, wall_s: 1.0 })
-        };
-        for (row, peak) in rows.iter_mut().zip([Some(0.01), Some(0.03), None]) {
-            row.verification = verified(peak);
+            row.verification = Some(RowVerification { chosen: Chosen::default(), total, wall_s: 1.0 });
         }
         let found = SweepVerification::of(&identity, &rows);
         assert_eq!((found.chosen, found.verified, found.unanswered, found.open), (4, 2, 1, 1));

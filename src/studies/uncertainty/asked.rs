@@ -1,16 +1,16 @@
-//! A study as it is asked for, in the same words on the command line and in Python, and what can be wrong with it.
+//! Question of a study, the same on the command line and in Python, and its errors.
 
 use super::design::{self, CorrelationError, MOST_FACTORS, MOST_SAMPLES};
 use super::distribution::{self, UncertainError};
 use super::life::LimitError;
-use super::study::{SampledQuestion, SamplingError};
+use super::study::{SampledQuestion, UncertaintyStudyError};
 use crate::results::figures;
 use crate::scene::draft::Draft;
 use crate::scene::loaded::{LoadedScene, SceneError};
 use crate::studies::evaluate::output::{OutputError, SummaryOutput};
 use crate::studies::varied_scene::{linked_keys, missing_phase};
 
-/// Question to a scene.
+/// Question of a study of uncertainty.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UncertaintyQuestion {
     /// Uncertain keys: `KEY=DISTRIBUTION` (docs/sweep.md).
@@ -19,11 +19,11 @@ pub struct UncertaintyQuestion {
     pub correlation: Vec<String>,
     /// Figures to keep, as paths in `summary.json`; empty: the greatest wear and tip-edge wear of both gears and the transmission error, worn.
     pub outputs: Vec<String>,
-    /// Depths of wear that end a life: `FIGURE=VALUE`.
+    /// Limits of the wear depth that end the life: `FIGURE=VALUE`.
     pub limits: Vec<String>,
     /// Points of the Sobol sequence, best a power of two; each takes two runs and one more for every uncertain key.
     pub samples: usize,
-    /// Another seed scrambles the sequence in another way.
+    /// Seed of the scrambling of the sequence.
     pub seed: u32,
 }
 
@@ -35,7 +35,7 @@ impl UncertaintyQuestion {
     }
 }
 
-/// Why a study of uncertainty came to nothing.
+/// Error of a study of uncertainty.
 #[derive(Debug, thiserror::Error)]
 #[error(transparent)]
 pub struct UncertaintyError(#[from] pub(crate) UncertaintyFault);
@@ -57,7 +57,7 @@ pub(crate) enum UncertaintyFault {
     #[error("found {found} samples; allowed: a whole number from 2 to {MOST_SAMPLES}")]
     Samples { found: usize },
     #[error(transparent)]
-    Study(#[from] SamplingError),
+    Study(#[from] UncertaintyStudyError),
 }
 
 impl From<OutputError> for UncertaintyFault {
@@ -67,7 +67,7 @@ impl From<OutputError> for UncertaintyFault {
 }
 
 impl UncertaintyError {
-    /// Fault of the scene itself, if that is it.
+    /// Fault of the scene itself, if that is the reason.
     pub fn in_the_scene(&self) -> Option<&SceneError> {
         if let UncertaintyFault::Scene(error) = &self.0 { Some(error) } else { None }
     }
@@ -79,7 +79,7 @@ impl UncertaintyError {
 }
 
 impl SampledQuestion {
-    /// Meaning of `asked` for `scene`.
+    /// Question `asked`, resolved for `scene`.
     pub(crate) fn of(scene: &LoadedScene, asked: &UncertaintyQuestion) -> Result<Self, UncertaintyFault> {
         let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
         let resolved: toml::Table = scene.to_toml().parse().unwrap_or_default();

@@ -20,9 +20,9 @@ use nalgebra::DMatrix;
 
 use super::distribution::{normal_quantile, normal_share};
 
-/// Points of the sequence.
+/// Greatest number of points of the sequence.
 pub(crate) const MOST_SAMPLES: usize = 1 << 16;
-/// Half of its dimensions.
+/// Greatest number of factors: half of the dimensions of the sequence.
 pub(crate) const MOST_FACTORS: usize = sobol_burley::NUM_DIMENSIONS as usize / 2;
 const HALF_A_BIT: f64 = 1.0 / (1 << 25) as f64;
 
@@ -31,7 +31,7 @@ const HALF_A_BIT: f64 = 1.0 / (1 << 25) as f64;
 pub(crate) enum Matrix {
     A,
     B,
-    /// A with this factor from B.
+    /// Sample A with this factor taken from B.
     Mixed(usize),
 }
 
@@ -39,22 +39,11 @@ pub(crate) enum Matrix {
 pub(crate) struct Design {
     pub factors: usize,
     pub seed: u32,
-    /// L, of the first factors; the others are independent.
+    /// Lower triangular matrix L of the first factors; the others are independent.
     pub correlation: Option<DMatrix<f64>>,
 }
 
-impl Matrix {
-    /// Whether the sample has this factor from B.
-    fn is_from_b(self, factor: usize) -> bool {
-        match self {
-            Self::A => false,
-            Self::B => true,
-            Self::Mixed(mixed) => factor == mixed,
-        }
-    }
-}
-
-/// Fault of correlations.
+/// Faults of correlations.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum CorrelationError {
     #[error(
@@ -69,7 +58,7 @@ pub(crate) enum CorrelationError {
     NotPositiveDefinite,
 }
 
-/// How the normal scores of uncertain keys are correlated.
+/// Correlation of the normal scores of the uncertain keys.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ScoreCorrelation {
     /// R.
@@ -78,31 +67,20 @@ pub(crate) struct ScoreCorrelation {
     pub lower: DMatrix<f64>,
 }
 
-/// Two keys and their correlation in `KEY:KEY=R`.
-fn parts(text: &str) -> Option<(&str, &str, f64)> {
-    let (pair, value) = text.rsplit_once('=')?;
-    let (key, other) = pair.split_once(':')?;
-    let value: f64 = value.trim().parse().ok().filter(|value: &f64| value.abs() < 1.0)?;
-    Some((key.trim(), other.trim(), value))
-}
-
-fn place(keys: &[&str], key: &str) -> Result<usize, CorrelationError> {
-    let place = keys.iter().position(|known| *known == key);
-    place.ok_or_else(|| CorrelationError::Key { key: key.to_owned(), known: keys.join(", ") })
-}
-
-/// The correlation of `keys` that `given` makes; none where nothing is correlated.
+/// Correlation of `keys` as `given`; none where nothing is correlated.
 pub(crate) fn correlation(keys: &[&str], given: &[String]) -> Result<Option<ScoreCorrelation>, CorrelationError> {
     if given.is_empty() {
         return Ok(None);
     }
     let mut matrix = DMatrix::identity(keys.len(), keys.len());
     for text in given {
-        let (key, other, value) = parts(text).ok_or_else(|| CorrelationError::Form { given: text.clone() })?;
+        let read = text.rsplit_once('=').and_then(|(pair, value)| {
+            let (key, other) = pair.split_once(':')?;
+            let value: f64 = value.trim().parse().ok()?;
+            Some((key.trim(), other.trim(), value)).filter(|(key, other, value)| value.abs() < 1.0 && key != other)
+        });
+        let (key, other, value) = read.ok_or_else(|| CorrelationError::Form { given: text.clone() })?;
         let (i, j) = (place(keys, key)?, place(keys, other)?);
-        if i == j {
-            return Err(CorrelationError::Form { given: text.clone() });
-        }
         if matrix[(i, j)] != 0.0 {
             return Err(CorrelationError::Twice { key: key.to_owned(), other: other.to_owned() });
         }
@@ -113,14 +91,22 @@ pub(crate) fn correlation(keys: &[&str], given: &[String]) -> Result<Option<Scor
     Ok(Some(ScoreCorrelation { matrix, lower }))
 }
 
+fn place(keys: &[&str], key: &str) -> Result<usize, CorrelationError> {
+    let place = keys.iter().position(|known| *known == key);
+    place.ok_or_else(|| CorrelationError::Key { key: key.to_owned(), known: keys.join(", ") })
+}
+
 impl Design {
     /// The factors of a sample of the point `number`, each between 0 and 1.
     pub(crate) fn sample(&self, number: usize, matrix: Matrix) -> Vec<f64> {
-        let at =
-            |dimension: usize| f64::from(sobol_burley::sample(number as u32, dimension as u32, self.seed)) + HALF_A_BIT;
-        let places =
-            (0..self.factors).map(|factor| if matrix.is_from_b(factor) { self.factors + factor } else { factor });
-        let mut u: Vec<f64> = places.map(at).collect();
+        let dimensions = (0..self.factors).map(|factor| match matrix {
+            Matrix::A => factor,
+            Matrix::Mixed(mixed) if factor != mixed => factor,
+            Matrix::B | Matrix::Mixed(_) => self.factors + factor,
+        });
+        let mut u: Vec<f64> = dimensions
+            .map(|dimension| f64::from(sobol_burley::sample(number as u32, dimension as u32, self.seed)) + HALF_A_BIT)
+            .collect();
         if let Some(lower) = &self.correlation {
             let z: Vec<f64> = u.iter().take(lower.nrows()).map(|&u| normal_quantile(u)).collect();
             for (row, u) in u.iter_mut().enumerate().take(lower.nrows()) {
@@ -159,22 +145,25 @@ mod tests {
         let ScoreCorrelation { lower, .. } = correlation(&["a", "b"], &given).unwrap().unwrap();
         let design = Design { factors: 3, seed: 1, correlation: Some(lower) };
         let samples: Vec<Vec<f64>> = (0..4096).map(|n| design.sample(n, Matrix::A)).collect();
-        let product = |i: usize, j: usize| {
-            let products = samples[..4096].iter().map(|sample| normal_quantile(sample[i]) * normal_quantile(sample[j]));
-            products.sum::<f64>() / 4096.0
-        };
-        assert!((product(0, 1) - 0.8).abs() < 0.01 && product(0, 2).abs() < 0.02, "{}", product(0, 1));
+        for (other, expected, within) in [(1, 0.8, 0.01), (2, 0.0, 0.02)] {
+            let products = samples.iter().map(|u| normal_quantile(u[0]) * normal_quantile(u[other]));
+            let found = products.sum::<f64>() / 4096.0;
+            assert!((found - expected).abs() < within, "{found}");
+        }
     }
 
     #[test]
     fn contradictions_are_refused() {
-        let refused = |given: &[&str]| {
+        for (given, said) in [
+            (&["a:b=0.9", "b:c=0.9", "a:c=-0.9"][..], "not positive definite"),
+            (&["a:d=0.9"], "a, b, c"),
+            (&["a:b=1.5"], "KEY:KEY=R"),
+            (&["a:a=0.5"], "KEY:KEY=R"),
+            (&["a:b=0.5", "b:a=0.5"], "twice"),
+        ] {
             let given: Vec<String> = given.iter().map(|text| (*text).to_owned()).collect();
-            correlation(&["a", "b", "c"], &given).unwrap_err().to_string()
-        };
-        assert!(refused(&["a:b=0.9", "b:c=0.9", "a:c=-0.9"]).contains("not positive definite"));
-        assert!(refused(&["a:d=0.9"]).contains("a, b, c"));
-        assert!(refused(&["a:b=1.5"]).contains("KEY:KEY=R") && refused(&["a:a=0.5"]).contains("KEY:KEY=R"));
-        assert!(refused(&["a:b=0.5", "b:a=0.5"]).contains("twice"));
+            let message = correlation(&["a", "b", "c"], &given).unwrap_err().to_string();
+            assert!(message.contains(said), "{message}");
+        }
     }
 }

@@ -20,17 +20,17 @@ use crate::studies::varied_scene::linked_keys;
 pub(crate) const FORMS: &str = "normal:MEAN:SD, lognormal:MEDIAN:FACTOR, uniform:LOW:HIGH, triangular:LOW:MODE:HIGH, ±40%, normal:10%, \
      lognormal:FACTOR";
 
-/// Fault of a key that is to be uncertain.
+/// Faults of an uncertain key.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum UncertainError {
     #[error("found {given:?}; allowed: KEY=DISTRIBUTION, with one of {FORMS}")]
     Form { given: String },
     #[error(transparent)]
     Key(#[from] KeyError),
-    /// Whole numbers have no such distribution.
+    /// A key that takes whole numbers has no distribution.
     #[error("{key} takes whole numbers; allowed: a key that takes any number")]
     Whole { key: String },
-    /// A part of a value that the scene does not have, or of two that differ.
+    /// A distribution relative to a value that the scene does not have, or to two that differ.
     #[error("{key}: found {given}, a part of the scene's own value, {found}; allowed: one of {FORMS}")]
     NoValue { key: String, given: String, found: &'static str },
     #[error("{key}: found {given}; allowed: {allowed}")]
@@ -54,7 +54,7 @@ pub(crate) enum Distribution {
 pub(crate) struct Uncertain {
     /// Path of the key, or of several that have the same value: `pair.{pinion,wheel}.tip_rounding_mm`.
     pub key: String,
-    /// Text of the user.
+    /// Text as the user wrote it.
     pub given: String,
     #[serde(flatten)]
     pub distribution: Distribution,
@@ -71,6 +71,23 @@ pub(crate) fn normal_share(z: f64) -> f64 {
 }
 
 impl Distribution {
+    /// Requirement that the parameters do not fulfil.
+    fn missing(&self) -> Option<&'static str> {
+        match *self {
+            Self::Normal { standard_deviation, .. } if standard_deviation <= 0.0 => {
+                Some("a standard deviation above 0")
+            }
+            Self::Lognormal { median, factor } if median <= 0.0 || factor <= 1.0 => {
+                Some("a median above 0 and a factor above 1")
+            }
+            Self::Uniform { low, high } if low >= high => Some("LOW below HIGH"),
+            Self::Triangular { low, mode, high } if !(low <= mode && mode <= high && low < high) => {
+                Some("LOW, MODE and HIGH that rise")
+            }
+            _ => None,
+        }
+    }
+
     /// The value below which a share 0 < `u` < 1 of all lies.
     pub(crate) fn quantile(&self, u: f64) -> f64 {
         match *self {
@@ -97,7 +114,9 @@ fn share(text: &str) -> Option<f64> {
 
 /// Reads one uncertain key; `own` is the scene's own value of a key.
 pub(crate) fn parse(given: &str, own: impl Fn(&str) -> Option<f64>) -> Result<Uncertain, UncertainError> {
-    let (key, text) = given.split_once('=').ok_or_else(|| UncertainError::form(given))?;
+    let Some((key, text)) = given.split_once('=') else {
+        return Err(UncertainError::Form { given: given.to_owned() });
+    };
     let (key, text) = (key.trim().to_owned(), text.trim());
     let keys = linked_keys(&key);
     for one in &keys {
@@ -106,71 +125,58 @@ pub(crate) fn parse(given: &str, own: impl Fn(&str) -> Option<f64>) -> Result<Un
         }
     }
     let values: Vec<Option<f64>> = keys.iter().map(|key| own(key)).collect();
-    let own =
-        own_value(&values).map_err(|found| UncertainError::NoValue { key: key.clone(), given: text.to_owned(), found });
-    let within = text.strip_prefix('±').or_else(|| text.strip_prefix("+-"));
-    let (name, rest) = text.split_once(':').unwrap_or((text, ""));
-    let numbers: Option<Vec<f64>> =
-        rest.split(':').map(|part| part.trim().parse().ok().filter(|value: &f64| value.is_finite())).collect();
-    let distribution = match (within, name.trim(), numbers.as_deref()) {
-        (Some(part), ..) => {
-            let (value, part) = (own?, share(part).ok_or_else(|| UncertainError::form(given))?);
-            let (one, other) = (value * (1.0 - part), value * (1.0 + part));
-            Distribution::Uniform { low: one.min(other), high: one.max(other) }
-        }
-        (_, "normal", None) => {
-            let (part, value) = (share(rest).ok_or_else(|| UncertainError::form(given))?, own?);
-            Distribution::Normal { mean: value, standard_deviation: part * value.abs() }
-        }
-        (_, "normal", Some(&[mean, standard_deviation])) => Distribution::Normal { mean, standard_deviation },
-        (_, "lognormal", Some(&[factor])) => Distribution::Lognormal { median: own?, factor },
-        (_, "lognormal", Some(&[median, factor])) => Distribution::Lognormal { median, factor },
-        (_, "uniform", Some(&[low, high])) => Distribution::Uniform { low, high },
-        (_, "triangular", Some(&[low, mode, high])) => Distribution::Triangular { low, mode, high },
-        _ => return Err(UncertainError::form(given)),
+    let own = match values[0] {
+        None => Err("which it does not have"),
+        Some(_) if values.iter().any(|value| *value != values[0]) => Err("which is not the same for both"),
+        Some(0.0) => Err("which is 0"),
+        Some(value) => Ok(value),
     };
-    match distribution.allowed_parameters() {
+    let distribution = match read(text, own.ok()) {
+        Some(Ok(distribution)) => distribution,
+        Some(Err(NeedsOwnValue)) => {
+            let found = own.err().unwrap_or_default();
+            return Err(UncertainError::NoValue { key, given: text.to_owned(), found });
+        }
+        None => return Err(UncertainError::Form { given: given.to_owned() }),
+    };
+    match distribution.missing() {
         Some(allowed) => Err(UncertainError::Parameters { key, given: text.to_owned(), allowed }),
         None => Ok(Uncertain { key, given: text.to_owned(), distribution }),
     }
 }
 
-/// The scene's value of keys that have one in common, or what is found instead.
-fn own_value(values: &[Option<f64>]) -> Result<f64, &'static str> {
-    match values[0] {
-        None => Err("which it does not have"),
-        Some(_) if values.iter().any(|value| *value != values[0]) => Err("which is not the same for both"),
-        Some(0.0) => Err("which is 0"),
-        Some(value) => Ok(value),
-    }
-}
+/// Error of a distribution about the scene's value where the scene has none.
+struct NeedsOwnValue;
 
-impl UncertainError {
-    fn form(given: &str) -> Self {
-        Self::Form { given: given.to_owned() }
-    }
-}
-
-impl Distribution {
-    /// Parameters that are allowed, where these are not.
-    fn allowed_parameters(&self) -> Option<&'static str> {
-        match *self {
-            Self::Normal { standard_deviation, .. } if standard_deviation <= 0.0 => {
-                Some("a standard deviation above 0")
-            }
-            Self::Lognormal { median, factor } if median <= 0.0 || factor <= 1.0 => {
-                Some("a median above 0 and a factor above 1")
-            }
-            Self::Uniform { low, high } if low >= high => Some("LOW below HIGH"),
-            Self::Triangular { low, mode, high } if !(low <= mode && mode <= high && low < high) => {
-                Some("LOW, MODE and HIGH that rise")
-            }
-            _ => None,
+/// Distribution of one of the forms; `own` is the scene's own value. `None` where `text` has none of the forms.
+fn read(text: &str, own: Option<f64>) -> Option<Result<Distribution, NeedsOwnValue>> {
+    let within = text.strip_prefix('±').or_else(|| text.strip_prefix("+-"));
+    let (name, rest) = text.split_once(':').unwrap_or((text, ""));
+    let numbers: Option<Vec<f64>> =
+        rest.split(':').map(|part| part.trim().parse().ok().filter(|value: &f64| value.is_finite())).collect();
+    let about_own = match (within, name.trim(), numbers.as_deref()) {
+        (Some(part), ..) => {
+            let part = share(part)?;
+            own.map(|value| {
+                let (one, other) = (value * (1.0 - part), value * (1.0 + part));
+                Distribution::Uniform { low: one.min(other), high: one.max(other) }
+            })
         }
-    }
+        (_, "normal", None) => {
+            let part = share(rest)?;
+            own.map(|value| Distribution::Normal { mean: value, standard_deviation: part * value.abs() })
+        }
+        (_, "lognormal", Some(&[factor])) => own.map(|median| Distribution::Lognormal { median, factor }),
+        (_, "normal", Some(&[mean, standard_deviation])) => Some(Distribution::Normal { mean, standard_deviation }),
+        (_, "lognormal", Some(&[median, factor])) => Some(Distribution::Lognormal { median, factor }),
+        (_, "uniform", Some(&[low, high])) => Some(Distribution::Uniform { low, high }),
+        (_, "triangular", Some(&[low, mode, high])) => Some(Distribution::Triangular { low, mode, high }),
+        _ => return None,
+    };
+    Some(about_own.ok_or(NeedsOwnValue))
 }
 
-/// Reads all of them and checks that they go together.
+/// Reads all uncertain keys and checks that they go together.
 pub(crate) fn parse_all<'a>(
     given: impl IntoIterator<Item = &'a str>,
     own: impl Fn(&str) -> Option<f64>,
@@ -180,8 +186,8 @@ pub(crate) fn parse_all<'a>(
     for given in given {
         let uncertain = parse(given, &own)?;
         for key in linked_keys(&uncertain.key) {
-            let ways = other_ways_to_say(&key);
-            if let Some(other) = before.iter().find(|other| **other == key || ways.contains(other)) {
+            let alternatives = other_ways_to_say(&key);
+            if let Some(other) = before.iter().find(|other| **other == key || alternatives.contains(other)) {
                 return Err(UncertainError::SaidTwice { key: other.clone(), other: key });
             }
             before.push(key);
@@ -195,10 +201,9 @@ pub(crate) fn parse_all<'a>(
 mod tests {
     use super::*;
 
-    fn read(given: &str) -> Result<Distribution, String> {
-        parse(given, |key| (key == "pair.face_width_mm").then_some(20.0))
-            .map(|uncertain| uncertain.distribution)
-            .map_err(|error| error.to_string())
+    fn read_key(given: &str) -> Result<Distribution, String> {
+        let uncertain = parse(given, |key| (key == "pair.face_width_mm").then_some(20.0));
+        uncertain.map(|uncertain| uncertain.distribution).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -213,7 +218,7 @@ mod tests {
             ("+-5 %", Distribution::Uniform { low: 19.0, high: 21.0 }),
             ("triangular:19:20:22", Distribution::Triangular { low: 19.0, mode: 20.0, high: 22.0 }),
         ] {
-            assert_eq!(read(&format!("pair.face_width_mm={given}")), Ok(expected), "{given}");
+            assert_eq!(read_key(&format!("pair.face_width_mm={given}")), Ok(expected), "{given}");
         }
     }
 
@@ -229,7 +234,7 @@ mod tests {
             ("pair.face_width_mm=gamma:1:2", "triangular:LOW:MODE:HIGH"),
             ("operation.pinion_torque_Nm=±10%", "which it does not have"),
         ] {
-            assert!(read(given).unwrap_err().contains(part), "{given}: {:?}", read(given));
+            assert!(read_key(given).unwrap_err().contains(part), "{given}: {:?}", read_key(given));
         }
         let twice = parse_all(["operation.hours=uniform:1:2", "operation.pinion_revolutions=uniform:1:2"], |_| None);
         assert!(matches!(twice, Err(UncertainError::SaidTwice { .. })));
@@ -239,13 +244,17 @@ mod tests {
     #[test]
     fn ver_quantiles_are_those_of_the_distributions() {
         let phi = normal_share(1.0);
-        let near = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-7, "{found} for {expected}");
-        near(Distribution::Normal { mean: 3.0, standard_deviation: 2.0 }.quantile(phi), 5.0);
-        near(Distribution::Lognormal { median: 3.0, factor: 1.5 }.quantile(phi), 4.5);
-        near(Distribution::Lognormal { median: 3.0, factor: 1.5 }.quantile(0.5), 3.0);
-        near(Distribution::Uniform { low: 3.0, high: 5.0 }.quantile(0.25), 3.5);
-        near(Distribution::Triangular { low: 0.0, mode: 1.0, high: 4.0 }.quantile(0.25), 1.0);
-        // F(x) = 1 − (4 − x)²/12 = 0.75 at x = 4 − √3.
-        near(Distribution::Triangular { low: 0.0, mode: 1.0, high: 4.0 }.quantile(0.75), 4.0 - 3.0_f64.sqrt());
+        for (distribution, share, expected) in [
+            (Distribution::Normal { mean: 3.0, standard_deviation: 2.0 }, phi, 5.0),
+            (Distribution::Lognormal { median: 3.0, factor: 1.5 }, phi, 4.5),
+            (Distribution::Lognormal { median: 3.0, factor: 1.5 }, 0.5, 3.0),
+            (Distribution::Uniform { low: 3.0, high: 5.0 }, 0.25, 3.5),
+            (Distribution::Triangular { low: 0.0, mode: 1.0, high: 4.0 }, 0.25, 1.0),
+            // F(x) = 1 − (4 − x)²/12 = 0.75 at x = 4 − √3.
+            (Distribution::Triangular { low: 0.0, mode: 1.0, high: 4.0 }, 0.75, 4.0 - 3.0_f64.sqrt()),
+        ] {
+            let found = distribution.quantile(share);
+            assert!((found - expected).abs() < 1e-7, "{found} for {expected}");
+        }
     }
 }

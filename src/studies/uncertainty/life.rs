@@ -1,4 +1,4 @@
-//! Life: when a depth of wear comes to a limit, read off the history of the run.
+//! Life: the time at which a depth of wear reaches a limit, read off the history of the run.
 //!
 //! Between the moments of the history the depth is taken to grow evenly, from 0 at the beginning. A run that does not come to the limit
 //! says only that its life is longer than its duration: it is censored.
@@ -54,13 +54,13 @@ impl FromStr for DepthLimit {
 pub(crate) type Growth = Vec<(f64, f64)>;
 
 impl DepthLimit {
-    /// How the depth grew.
+    /// Growth of the depth over the history.
     pub(crate) fn growth(&self, history: &[HistoryRow]) -> Growth {
         let Some(of) = figures::find(self.output).and_then(MainFigure::depth_of_history) else { return Growth::new() };
         history.iter().map(|row| (row.hours.unwrap_or(row.revolutions), of(row))).collect()
     }
 
-    /// When the depth, `times` as great, comes to the limit; infinite where it does not, with the time until which that is known.
+    /// Life: when `times` times the depth reaches the limit; infinite where it does not, with the time up to which that is known.
     pub(crate) fn life(&self, growth: &Growth, times: f64) -> (f64, f64) {
         let (mut time, mut depth) = (0.0, 0.0);
         for &(next_time, next_depth) in growth {

@@ -1,7 +1,7 @@
 //! Uncertainty: what a run's figures are worth where some of its keys are known only as distributions.
 //!
-//! The scene is run for samples of its uncertain keys. Quantiles say how far the figures scatter, Sobol indices which key is to blame. The
-//! fast model's own error, as finite elements find it on the scene as given, is one more uncertain factor.
+//! The scene is run for samples of its uncertain keys. Quantiles give the scatter of the figures, Sobol indices the contribution of each key to it.
+//! The error of the fast model, as found by finite elements on the scene as given, is one more uncertain factor.
 //!
 //! | module | what it does |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! Everything a study of uncertainty leaves behind, as plain data: `uncertainty.json`, and what the other files are written from.
+//! Record of a study of uncertainty: `uncertainty.json`, and the source of the other files.
 
 use serde::Serialize;
 
@@ -8,7 +8,7 @@ use crate::gear::PerGear;
 use crate::reference::sobol_indices::Index;
 use crate::report::columns::Table;
 
-/// How the factor that stands for the error of the fast model is called.
+/// Name of the factor for the error of the fast model.
 pub(crate) const MODEL_ERROR: &str = "error of the fast model";
 
 /// A finished study, or one that was interrupted, of the points that were finished.
@@ -20,7 +20,7 @@ pub struct UncertaintyRecord {
     pub(crate) scene_hash: String,
     pub(crate) uncertain: Vec<Uncertain>,
     pub(crate) limits: Vec<DepthLimit>,
-    /// Of the normal scores of the uncertain keys, in their order; null where they are independent.
+    /// Correlation of the normal scores of the uncertain keys, in their order; null where they are independent.
     pub(crate) correlation: Option<Vec<Vec<f64>>>,
     pub(crate) seed: u32,
     /// Points of the Sobol sequence that were asked for.
@@ -32,7 +32,7 @@ pub struct UncertaintyRecord {
     pub(crate) failed: usize,
     /// Why the first of them failed.
     pub(crate) first_failure: Option<String>,
-    /// How the error of the fast model was found, or why it was not.
+    /// Source of the error of the fast model, or the reason why it is not known.
     pub(crate) model_error_how: String,
     pub(crate) outputs: Vec<OutputRecord>,
     /// Wear over the active flanks.
@@ -69,13 +69,13 @@ pub(crate) struct OutputRecord {
     pub output: String,
     pub meaning: String,
     pub unit: String,
-    /// Of the scene as given.
+    /// Value of the scene as given.
     pub nominal: Option<f64>,
     /// Relative error that finite elements find of it there, within which it is varied evenly; null where it is not known.
     pub model_error: Option<f64>,
     /// Samples that have it.
     pub samples: usize,
-    /// Part of them whose life is longer than their duration; null of what is no life.
+    /// Part of the samples whose life is longer than their duration; null for figures other than lives.
     pub censored: Option<f64>,
     pub mean: Option<f64>,
     pub standard_deviation: Option<f64>,
@@ -104,14 +104,14 @@ impl Quantiles {
     }
 }
 
-/// Effect of a factor on a figure.
+/// Sensitivity of a figure to a factor.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct FactorIndices {
     /// The key, or [`MODEL_ERROR`].
     pub factor: String,
     /// Part of the variance that it explains alone.
     pub first: Index,
-    /// Part of the variance with all its interactions.
+    /// Index with all interactions.
     pub total: Index,
 }
 
@@ -120,9 +120,9 @@ pub(crate) struct FactorIndices {
 pub(crate) struct Band {
     /// Places on the flank of the scene as given.
     pub radius_mm: Vec<f64>,
-    /// There.
+    /// Wear depth of the scene as given.
     pub nominal_um: Vec<f64>,
-    /// Below which 5, 25, 50, 75 and 95 % of the samples lie.
+    /// Quantiles of 5, 25, 50, 75 and 95 %.
     pub quantiles_um: [Vec<f64>; 5],
 }
 
@@ -133,9 +133,9 @@ pub(crate) struct SampleRow {
     pub point: usize,
     /// `A`, `B`, or the key that an A has from B.
     pub matrix: String,
-    /// Of the uncertain keys.
+    /// Values of the uncertain keys.
     pub values: Vec<f64>,
-    /// Where the error of the fast model lies within its bounds, -1 to 1; none where it is not known.
+    /// Error of the fast model as a share of its bound, -1 to 1; `None` where it is not known.
     pub model_error: Option<f64>,
     /// The figures, and after them the lives.
     pub outputs: Vec<Option<f64>>,

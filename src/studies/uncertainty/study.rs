@@ -1,4 +1,4 @@
-//! Runs the samples on all threads, and makes figures of them.
+//! Runs the samples on all threads and evaluates them.
 //!
 //! The scene as given is run first: its wear gives the places of the bands, and its verification by finite elements the relative errors
 //! e of the fast model. With a factor u of its own, between 0 and 1, the error is part of the samples without further runs:
@@ -26,19 +26,20 @@ use crate::results::figures::{self, MainFigure};
 use crate::results::run::StopReason;
 use crate::results::worn_pair::{WearProfile, WornPair};
 use crate::runs;
+use crate::scene::Resolved;
 use crate::scene::loaded::LoadedScene;
 use crate::studies::evaluate::output::SummaryOutput;
 use crate::studies::spread::spread;
 use crate::studies::varied_scene::{VariedScene, in_words, one_line};
 
-/// Moments of a history, evenly over the duration.
+/// Number of moments of a history, evenly over the duration.
 const MOMENTS: usize = 20;
-/// Places of a band over the flank at most.
+/// Greatest number of places of a band over the flank.
 const PLACES: usize = 160;
-/// Finished points that a study which was interrupted can still speak of.
+/// Least number of finished points for the results of an interrupted study.
 pub(crate) const FEWEST_SAMPLES: usize = 8;
 
-/// Question, checked.
+/// Question, resolved.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SampledQuestion {
     pub uncertain: Vec<Uncertain>,
@@ -52,7 +53,7 @@ pub(crate) struct SampledQuestion {
 }
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub(crate) enum SamplingError {
+pub(crate) enum UncertaintyStudyError {
     #[error("the scene as given cannot be run: {0}")]
     Nominal(String),
     #[error("none of {runs} samples has a result; the first says: {first}")]
@@ -61,18 +62,18 @@ pub(crate) enum SamplingError {
     Interrupted,
 }
 
-/// Figures kept of a run.
+/// Part of a run that is kept.
 struct Ran {
     /// Each with the time until which it is known, where it is a life.
     outputs: Vec<(f64, f64)>,
     growths: Vec<Growth>,
-    /// At the places of the bands; of samples of A and B alone.
+    /// Wear at the places of the bands, for samples A and B only.
     wear_um: Option<PerGear<Vec<f32>>>,
 }
 
 type Row = Result<Ran, String>;
 
-/// The samples with everything that they are made of.
+/// Inputs of the samples.
 struct Samples<'a> {
     question: &'a SampledQuestion,
     varied: &'a VariedScene,
@@ -84,7 +85,7 @@ struct Samples<'a> {
 }
 
 impl Samples<'_> {
-    /// The runs that a point takes.
+    /// Runs of a point.
     fn matrices(&self) -> Vec<Matrix> {
         let mixed = match self.question.correlation {
             None => self.question.uncertain.len(),
@@ -126,19 +127,6 @@ impl Samples<'_> {
         })
     }
 
-    /// A figure of a sample among the `runs` of a point, with the time until which it is known; `None` where the run has none.
-    fn value(&self, runs: &[Row], point: usize, matrix: Matrix, figure: usize) -> Option<(f64, f64)> {
-        let row = match matrix {
-            Matrix::A => 0,
-            Matrix::B => 1,
-            Matrix::Mixed(factor) if factor < self.question.uncertain.len() => 2 + factor,
-            // Of the error of the model there are no runs: A's stand for them.
-            Matrix::Mixed(_) => 0,
-        };
-        let ran = runs.get(row)?.as_ref().ok()?;
-        Some(self.figures(ran, point, matrix)[figure]).filter(|(value, _)| !value.is_nan())
-    }
-
     /// 1 + e (2 u − 1) of each output and limit.
     fn times(&self, point: usize, matrix: Matrix) -> (Option<f64>, Vec<f64>) {
         let u = self.has_model_error().then(|| self.design.sample(point, matrix)[self.design.factors - 1]);
@@ -154,6 +142,42 @@ impl Samples<'_> {
         let limits = self.question.limits.iter().zip(&ran.growths).zip(of_limits);
         outputs.chain(limits.map(|((limit, growth), times)| limit.life(growth, *times))).collect()
     }
+
+    /// Figure number `figure` of a sample, and until when it is known; `None` where its run has none.
+    fn figure(&self, rows: &[&[Row]], point: usize, matrix: Matrix, figure: usize) -> Option<(f64, f64)> {
+        let row = match matrix {
+            Matrix::B => 1,
+            Matrix::Mixed(factor) if factor < self.question.uncertain.len() => 2 + factor,
+            // The error of the model takes no runs of its own: those of A stand for them.
+            Matrix::A | Matrix::Mixed(_) => 0,
+        };
+        let ran = rows[point].get(row)?.as_ref().ok()?;
+        Some(self.figures(ran, point, matrix)[figure]).filter(|(value, _)| !value.is_nan())
+    }
+}
+
+impl Samples<'_> {
+    fn row(&self, point: usize, matrix: Matrix, row: &Row) -> SampleRow {
+        let question = self.question;
+        SampleRow {
+            point,
+            matrix: match matrix {
+                Matrix::A => "A".to_owned(),
+                Matrix::B => "B".to_owned(),
+                Matrix::Mixed(factor) => question.uncertain[factor].key.clone(),
+            },
+            values: self.values(point, matrix),
+            model_error: self.times(point, matrix).0,
+            outputs: match row {
+                Ok(ran) => {
+                    let figures = self.figures(ran, point, matrix);
+                    figures.into_iter().map(|(value, _)| Some(value).filter(|value| value.is_finite())).collect()
+                }
+                Err(_) => vec![None; question.outputs.len() + question.limits.len()],
+            },
+            error: row.as_ref().err().cloned(),
+        }
+    }
 }
 
 /// Runs the scene with these values.
@@ -166,25 +190,26 @@ fn worn<'a>(
     let mut resolved = varied.resolved(values).map_err(|problems| in_words(&problems))?;
     varied.inputs_belong_to(&resolved)?;
     if with_history {
-        let operation = &mut resolved.scene.operation;
-        operation.snapshots_revolutions = moments(operation.pinion_revolutions);
+        take_moments(&mut resolved);
     }
     varied.carry_out(resolved, observer, runs::worn_pair)
+}
+
+/// Sets [`MOMENTS`] moments of the history, evenly over the duration.
+fn take_moments(resolved: &mut Resolved) {
+    let operation = &mut resolved.scene.operation;
+    let moments = (1..=MOMENTS).map(|number| operation.pinion_revolutions * number as f64 / MOMENTS as f64);
+    operation.snapshots_revolutions = moments.collect();
 }
 
 /// Each output with the time until which it is known: a life to a limit that is not reached is infinite.
 fn outputs_of(question: &SampledQuestion, found: &WornPair) -> Result<Vec<(f64, f64)>, String> {
     let summary = serde_json::to_value(&found.summary).map_err(|error| error.to_string())?;
-    let known = question.outputs.iter().map(|output| match (output.of(&summary), output.at_least(&summary)) {
+    let outputs = question.outputs.iter().map(|output| match (output.of(&summary), output.at_least(&summary)) {
         (None, Some(at_least)) => (f64::INFINITY, at_least),
         (value, _) => (value.unwrap_or(f64::NAN), value.unwrap_or(f64::NAN)),
     });
-    Ok(known.collect())
-}
-
-/// Moments at which a run's depth is kept for lives, in pinion revolutions.
-fn moments(revolutions: f64) -> Vec<f64> {
-    (1..=MOMENTS).map(|number| revolutions * number as f64 / MOMENTS as f64).collect()
+    Ok(outputs.collect())
 }
 
 /// Wear at these radii, even between the points; 0 outside them.
@@ -192,16 +217,17 @@ fn at(profile: &WearProfile, radii: &[f64]) -> Vec<f32> {
     let (radius, wear) = (&profile.radius_mm, &profile.wear_um);
     let values = radii.iter().map(|&r| {
         let above = radius.partition_point(|&point| point < r);
-        match (above.checked_sub(1), radius.get(above)) {
+        let value = match (above.checked_sub(1), radius.get(above)) {
             (Some(below), Some(&high)) => {
                 let part = (r - radius[below]) / (high - radius[below]);
                 wear[below] + part * (wear[above] - wear[below])
             }
             (None, Some(&high)) if high == r => wear[above],
             _ => 0.0,
-        }
+        };
+        value as f32
     });
-    values.map(|value| value as f32).collect()
+    values.collect()
 }
 
 /// Places of a band: points of the active profile, thinned.
@@ -218,9 +244,10 @@ pub(crate) fn run(
     question: &SampledQuestion,
     threads: usize,
     observer: &dyn Observer,
-) -> Result<UncertaintyRecord, SamplingError> {
+) -> Result<UncertaintyRecord, UncertaintyStudyError> {
     let start = Instant::now();
-    let varied = VariedScene::new(scene, false).map_err(|problems| SamplingError::Nominal(in_words(&problems)))?;
+    let varied =
+        VariedScene::new(scene, false).map_err(|problems| UncertaintyStudyError::Nominal(in_words(&problems)))?;
     let nominal = nominal(scene, &varied, question, observer)?;
     let total = &nominal.summary.error.total;
     let paths = question.outputs.iter().map(|output| output.path.as_str());
@@ -254,7 +281,7 @@ pub(crate) fn run(
     let whole: Vec<Row> = rows.into_iter().map_while(|row| row).collect();
     let points = whole.len() / matrices.len();
     if points < question.samples.min(FEWEST_SAMPLES) {
-        return Err(SamplingError::Interrupted);
+        return Err(UncertaintyStudyError::Interrupted);
     }
     let rows: Vec<&[Row]> = whole.chunks_exact(matrices.len()).collect();
     record(scene, &samples, &matrices, &rows, threads, start)
@@ -266,23 +293,22 @@ fn nominal(
     varied: &VariedScene,
     question: &SampledQuestion,
     observer: &dyn Observer,
-) -> Result<WornPair, SamplingError> {
+) -> Result<WornPair, UncertaintyStudyError> {
     observer.stage("the scene as given");
     let run = guarded(|| -> Result<WornPair, String> {
         let mut resolved = varied.resolved([]).map_err(|problems| in_words(&problems))?;
         resolved.scene.verify = scene.scene().verify;
-        let operation = &mut resolved.scene.operation;
         if !question.limits.is_empty() {
-            operation.snapshots_revolutions = moments(operation.pinion_revolutions);
+            take_moments(&mut resolved);
         }
         varied.carry_out(resolved, observer, runs::worn_pair)
     });
     let run = run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
     match run {
-        Ok(found) if found.summary.stopped == StopReason::Interrupted => Err(SamplingError::Interrupted),
+        Ok(found) if found.summary.stopped == StopReason::Interrupted => Err(UncertaintyStudyError::Interrupted),
         Ok(found) => Ok(found),
-        Err(_) if observer.interrupted() => Err(SamplingError::Interrupted),
-        Err(error) => Err(SamplingError::Nominal(one_line(&error))),
+        Err(_) if observer.interrupted() => Err(UncertaintyStudyError::Interrupted),
+        Err(error) => Err(UncertaintyStudyError::Nominal(one_line(&error))),
     }
 }
 
@@ -293,13 +319,13 @@ fn record(
     rows: &[&[Row]],
     threads: usize,
     start: Instant,
-) -> Result<UncertaintyRecord, SamplingError> {
+) -> Result<UncertaintyRecord, UncertaintyStudyError> {
     let question = samples.question;
-    let all = rows.iter().flat_map(|row| row.iter());
-    let (runs, failed) = (all.clone().count(), all.clone().filter(|row| row.is_err()).count());
-    let first_failure = all.clone().find_map(|row| row.as_ref().err().cloned());
+    let mut failures = rows.iter().flat_map(|row| row.iter()).filter_map(|row| row.as_ref().err());
+    let (runs, failed) = (rows.iter().map(|row| row.len()).sum(), failures.clone().count());
+    let first_failure = failures.next().cloned();
     if let (true, Some(first)) = (failed == runs, &first_failure) {
-        return Err(SamplingError::AllFailed { runs, first: first.clone() });
+        return Err(UncertaintyStudyError::AllFailed { runs, first: first.clone() });
     }
     let figures = question.outputs.len() + question.limits.len();
     Ok(UncertaintyRecord {
@@ -348,13 +374,14 @@ fn named(samples: &Samples<'_>, figure: usize) -> [String; 3] {
 fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> OutputRecord {
     let question = samples.question;
     let limit = figure.checked_sub(question.outputs.len()).map(|number| &question.limits[number]);
-    let value = |point: usize, matrix: Matrix| samples.value(rows[point], point, matrix, figure);
-    let both = (0..rows.len()).flat_map(|point| [value(point, Matrix::A), value(point, Matrix::B)]);
-    let known: Vec<(f64, f64)> = both.flatten().collect();
+    let known: Vec<(f64, f64)> = (0..rows.len())
+        .flat_map(|point| [Matrix::A, Matrix::B].map(|matrix| samples.figure(rows, point, matrix, figure)))
+        .flatten()
+        .collect();
     let mut sorted: Vec<f64> = known.iter().map(|known| known.0).collect();
     sorted.sort_by(f64::total_cmp);
     let censored = known.iter().filter(|(value, _)| value.is_infinite());
-    // A life that is known to be longer than t says nothing of quantiles above t.
+    // A life known only to be longer than t gives no quantiles above t.
     let until = censored.clone().map(|known| known.1).fold(f64::INFINITY, f64::min);
     let censored = censored.count();
     let [p05, p25, p50, p75, p95] =
@@ -369,7 +396,7 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
     let found = match (&question.correlation, censored) {
         (Some(_), _) => Err("the keys are correlated: no part of the variance belongs to one of them".to_owned()),
         (None, 1..) => Err("some lives are longer than their duration".to_owned()),
-        (None, 0) => factor_indices(samples, rows.len(), figure, value),
+        (None, 0) => factor_indices(samples, rows, figure),
     };
     OutputRecord {
         output,
@@ -388,23 +415,19 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
     }
 }
 
-/// The indices of a figure, over the points all of whose runs have it.
-fn factor_indices(
-    samples: &Samples<'_>,
-    points: usize,
-    figure: usize,
-    value: impl Fn(usize, Matrix) -> Option<(f64, f64)>,
-) -> Result<Vec<FactorIndices>, String> {
+/// Indices of a figure, over the points all of whose runs have it.
+fn factor_indices(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Result<Vec<FactorIndices>, String> {
     let factors = samples.design.factors;
     let (mut a, mut b) = (Vec::new(), Vec::new());
     let mut mixed = vec![Vec::new(); factors];
-    for point in 0..points {
-        let of = |matrix| value(point, matrix).map(|known| known.0);
-        let of_mixed: Option<Vec<f64>> = (0..factors).map(|factor| of(Matrix::Mixed(factor))).collect();
-        if let (Some(of_a), Some(of_b), Some(of_mixed)) = (of(Matrix::A), of(Matrix::B), of_mixed) {
-            a.push(of_a);
-            b.push(of_b);
-            mixed.iter_mut().zip(of_mixed).for_each(|(all, value)| all.push(value));
+    for point in 0..rows.len() {
+        let matrices = [Matrix::A, Matrix::B].into_iter().chain((0..factors).map(Matrix::Mixed));
+        let values: Option<Vec<f64>> =
+            matrices.map(|matrix| Some(samples.figure(rows, point, matrix, figure)?.0)).collect();
+        if let Some([of_a, of_b, of_mixed @ ..]) = values.as_deref() {
+            a.push(*of_a);
+            b.push(*of_b);
+            mixed.iter_mut().zip(of_mixed).for_each(|(all, value)| all.push(*value));
         }
     }
     let seed = u64::from(samples.question.seed).wrapping_add(figure as u64);
@@ -431,30 +454,9 @@ fn band(places: &[f64], nominal: &WearProfile, wear: &[&[f32]]) -> Band {
 }
 
 fn sample_rows(samples: &Samples<'_>, matrices: &[Matrix], rows: &[&[Row]]) -> Vec<SampleRow> {
-    let points = rows.iter().enumerate();
-    let runs =
-        points.flat_map(|(point, row)| matrices.iter().zip(*row).map(move |(&matrix, row)| (point, matrix, row)));
-    runs.map(|(point, matrix, row)| sample_row(samples, point, matrix, row)).collect()
-}
-
-fn sample_row(samples: &Samples<'_>, point: usize, matrix: Matrix, row: &Row) -> SampleRow {
-    let question = samples.question;
-    SampleRow {
-        point,
-        matrix: match matrix {
-            Matrix::A => "A".to_owned(),
-            Matrix::B => "B".to_owned(),
-            Matrix::Mixed(factor) => question.uncertain[factor].key.clone(),
-        },
-        values: samples.values(point, matrix),
-        model_error: samples.times(point, matrix).0,
-        outputs: match row {
-            Ok(ran) => {
-                let figures = samples.figures(ran, point, matrix);
-                figures.into_iter().map(|(value, _)| Some(value).filter(|value| value.is_finite())).collect()
-            }
-            Err(_) => vec![None; question.outputs.len() + question.limits.len()],
-        },
-        error: row.as_ref().err().cloned(),
+    let mut sample_rows = Vec::new();
+    for (point, row) in rows.iter().enumerate() {
+        sample_rows.extend(matrices.iter().zip(*row).map(|(&matrix, row)| samples.row(point, matrix, row)));
     }
+    sample_rows
 }

@@ -1,32 +1,28 @@
-//! What became of the suite since an earlier run of it.
+//! Changes of the suite since an earlier run of it.
 //!
 //! Compared are verdicts, errors and counts of work, each with a threshold that rounding on another machine stays below:
 //! a share of a tolerance by 0.05 of the tolerance, a number that is held against a bound by 1 % of itself, a count by 1 %.
 //! Wall times are never compared: they say as much of the machine as of the program.
 
 use crate::studies::validation::record::{
-    CaseRecord, Change, Changes, Criterion, QuantityRecord, StabilityPoint, Standing, State, ValidationRecord,
+    CaseRecord, Change, Changes, ComparedState, Criterion, QuantityRecord, Standing, ValidationRecord,
 };
 
-/// A share of a tolerance has changed from this difference on.
+/// Least change of a share of a tolerance that is reported.
 const SHARE: f64 = 0.05;
-/// A number compared with a bound, or a count of work, has changed from this relative difference on.
+/// Least relative change of a number with a bound, or of a work count, that is reported.
 const RELATIVE: f64 = 0.01;
-/// Below this share of its bound a number is as good as zero, and its relative change says nothing.
+/// Share of its bound below which a number counts as zero and its relative change is not reported.
 const NOTHING: f64 = 1e-6;
 
-/// What changed from `old` to `new`. A case that only one of them has is named, not judged: a suite may be run in part.
+/// Changes from `old` to `new`. A case that only one of them has is named, not judged: a suite may be run in part.
 pub(crate) fn changes(old: &ValidationRecord, new: &ValidationRecord) -> Changes {
-    let missing_in = |other: &ValidationRecord, record: &ValidationRecord| {
-        let names = record.cases.iter().map(|case| &case.name);
-        names.filter(|name| other.cases.iter().all(|case| case.name != **name)).cloned().collect()
-    };
     let mut found = Changes {
         against_version: old.program_version.clone(),
         worse: Vec::new(),
         better: Vec::new(),
-        added: missing_in(old, new),
-        gone: missing_in(new, old),
+        added: names_missing_in(old, new),
+        gone: names_missing_in(new, old),
     };
     for case in &new.cases {
         if let Some(earlier) = old.cases.iter().find(|earlier| earlier.name == case.name) {
@@ -36,81 +32,107 @@ pub(crate) fn changes(old: &ValidationRecord, new: &ValidationRecord) -> Changes
     found
 }
 
+/// Names of the cases of `record` that `other` does not have.
+fn names_missing_in(other: &ValidationRecord, record: &ValidationRecord) -> Vec<String> {
+    let names = record.cases.iter().map(|case| &case.name);
+    names.filter(|name| other.cases.iter().all(|case| case.name != **name)).cloned().collect()
+}
+
 impl Changes {
-    fn add(&mut self, is_worse: bool, case: &CaseRecord, what: &str, before: State, now: State) {
+    fn add(&mut self, is_worse: bool, case: &CaseRecord, what: &str, before: ComparedState, now: ComparedState) {
         let change = Change { case: case.name.clone(), what: what.to_owned(), before, now };
         if is_worse { &mut self.worse } else { &mut self.better }.push(change);
     }
 
     fn compare(&mut self, before: &CaseRecord, now: &CaseRecord) {
         if before.failure.is_some() != now.failure.is_some() {
-            let ran = |case: &CaseRecord| State::Ran(case.failure.is_none());
-            self.add(now.failure.is_some(), now, "verdict", ran(before), ran(now));
+            let [ran_before, ran_now] = [before, now].map(|case| ComparedState::Ran(case.failure.is_none()));
+            self.add(now.failure.is_some(), now, "verdict", ran_before, ran_now);
         }
         for quantity in &now.quantities {
             match before.quantities.iter().find(|earlier| earlier.name == quantity.name) {
                 Some(earlier) => self.compare_quantity(now, earlier, quantity),
-                // A quantity that is new is no change of the program, unless it fails.
+                // A new quantity is reported only where it fails.
                 None if !quantity.as_expected() => {
-                    self.add(true, now, &quantity.name, State::Absent, State::Stands(quantity.standing));
+                    self.add(
+                        true,
+                        now,
+                        &quantity.name,
+                        ComparedState::Absent,
+                        ComparedState::Stands(quantity.standing),
+                    );
                 }
                 None => {}
             }
         }
-        // A check that is gone, where the case ran, is a check lost.
+        // A quantity that is gone although the case ran is reported.
         if now.failure.is_none() {
             for earlier in &before.quantities {
                 if now.quantities.iter().all(|quantity| quantity.name != earlier.name) {
-                    self.add(true, now, &earlier.name, State::Stands(earlier.standing), State::Absent);
+                    self.add(true, now, &earlier.name, ComparedState::Stands(earlier.standing), ComparedState::Absent);
                 }
             }
         }
         // Each value of a parameter that both tried: whether it ended as expected.
         for point in &now.stability {
-            let same = |p: &&StabilityPoint| p.parameter == point.parameter && p.setting == point.setting;
-            let Some(earlier) = before.stability.iter().find(same) else { continue };
+            let mut tried = before.stability.iter();
+            let Some(earlier) = tried.find(|p| p.parameter == point.parameter && p.setting == point.setting) else {
+                continue;
+            };
             let (was, is) = (earlier.outcome == earlier.expected, point.outcome == point.expected);
             if was != is {
                 let what = format!("{}: {}", point.parameter, point.setting);
-                self.add(was, now, &what, State::Ended(earlier.outcome), State::Ended(point.outcome));
+                self.add(was, now, &what, ComparedState::Ended(earlier.outcome), ComparedState::Ended(point.outcome));
             }
         }
         for (name, &count) in &now.work {
             let Some(&earlier) = before.work.get(name) else { continue };
             if count.abs_diff(earlier) as f64 > RELATIVE * earlier as f64 {
-                self.add(count > earlier, now, name, State::Counted(earlier), State::Counted(count));
+                self.add(count > earlier, now, name, ComparedState::Counted(earlier), ComparedState::Counted(count));
             }
         }
     }
 
     fn compare_quantity(&mut self, case: &CaseRecord, before: &QuantityRecord, now: &QuantityRecord) {
-        let mut add = |is_worse, what: &str, before, now| self.add(is_worse, case, what, before, now);
         if before.standing != now.standing {
             let is_worse = rank(now.standing) < rank(before.standing);
-            add(is_worse, &now.name, State::Stands(before.standing), State::Stands(now.standing));
+            self.add(
+                is_worse,
+                case,
+                &now.name,
+                ComparedState::Stands(before.standing),
+                ComparedState::Stands(now.standing),
+            );
         } else if let Some(is_worse) = limit_moved(before.criterion, now.criterion) {
-            // A share of another tolerance says nothing: what is compared is the error, in the tolerance as it was.
+            // Shares of different tolerances are not comparable: the error is compared, in units of the old tolerance.
             let what = format!("{}: what it is compared with", now.name);
-            add(is_worse, &what, State::Against(before.criterion), State::Against(now.criterion));
+            self.add(
+                is_worse,
+                case,
+                &what,
+                ComparedState::Against(before.criterion),
+                ComparedState::Against(now.criterion),
+            );
             if let (Some(earlier), Some(error), Criterion::Near { tolerance, .. }) =
                 (before.error, now.error, before.criterion)
                 && (error - earlier).abs() > SHARE * tolerance
             {
-                let errs = |error: f64| State::Errs(error, now.unit.clone());
-                add(error > earlier, &now.name, errs(earlier), errs(error));
+                let [before, after] = [earlier, error].map(|error| ComparedState::Errs(error, now.unit.clone()));
+                self.add(error > earlier, case, &now.name, before, after);
             }
         } else if let (Some(earlier), Some(share), false) = (before.share, now.share, now.counts_work) {
             if (share - earlier).abs() > SHARE {
-                add(share > earlier, &now.name, State::Uses(earlier), State::Uses(share));
+                self.add(share > earlier, case, &now.name, ComparedState::Uses(earlier), ComparedState::Uses(share));
             }
         } else if let Some(is_worse) = nearer_to_bound(before, now) {
-            let is = |quantity: &QuantityRecord| State::Is(quantity.value, quantity.unit.clone());
-            add(is_worse, &now.name, is(before), is(now));
+            let [earlier, later] =
+                [before, now].map(|quantity| ComparedState::Is(quantity.value, quantity.unit.clone()));
+            self.add(is_worse, case, &now.name, earlier, later);
         }
     }
 }
 
-/// The higher, the better.
+/// Rank of an outcome: the higher, the better.
 fn rank(standing: Standing) -> u8 {
     match standing {
         Standing::Fails => 0,
@@ -121,7 +143,6 @@ fn rank(standing: Standing) -> u8 {
 
 /// Where a quantity is compared with something else than before: whether that is worse, looser or another reference.
 fn limit_moved(before: Criterion, now: Criterion) -> Option<bool> {
-    let differs = |before: f64, now: f64, scale: f64| (now - before).abs() > RELATIVE * scale.abs();
     let (moved, looser) = match (before, now) {
         (Criterion::Near { reference: r0, tolerance: t0 }, Criterion::Near { reference: r1, tolerance: t1 }) => {
             let another = differs(r0, r1, t0);
@@ -138,29 +159,30 @@ fn limit_moved(before: Criterion, now: Criterion) -> Option<bool> {
     moved.then_some(looser)
 }
 
-/// Whether a number without a tolerance went the worse way, seen from its bound; `None` where it did not move, or has no bound.
+fn differs(before: f64, now: f64, scale: f64) -> bool {
+    (now - before).abs() > RELATIVE * scale.abs()
+}
+
+/// Whether a number without a tolerance moved towards its bound; `None` where it did not move or has no bound.
 fn nearer_to_bound(before: &QuantityRecord, now: &QuantityRecord) -> Option<bool> {
     let (earlier, value) = (before.value?, now.value?);
-    let moved = |bound: f64| (value - earlier).abs() > RELATIVE * earlier.abs().max(NOTHING * bound.abs());
-    let (moved, worse) = match now.criterion {
-        Criterion::AtMost { bound } => (moved(bound), value > earlier),
-        Criterion::AtLeast { bound } => (moved(bound), value < earlier),
+    let (scale, is_worse) = match now.criterion {
+        Criterion::AtMost { bound } => (bound, value > earlier),
+        Criterion::AtLeast { bound } => (bound, value < earlier),
         Criterion::Between { low, high } => {
-            let room = |value: f64| (value - low).min(high - value);
-            (moved(high - low), room(value) < room(earlier))
+            let [room, room_before] = [value, earlier].map(|value| (value - low).min(high - value));
+            (high - low, room < room_before)
         }
-        Criterion::Near { reference, .. } => {
-            (moved(reference), (value - reference).abs() > (earlier - reference).abs())
-        }
+        Criterion::Near { reference, .. } => (reference, (value - reference).abs() > (earlier - reference).abs()),
         Criterion::True | Criterion::Reported => return None,
     };
-    moved.then_some(worse)
+    ((value - earlier).abs() > RELATIVE * earlier.abs().max(NOTHING * scale.abs())).then_some(is_worse)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::studies::validation::record::RunOutcome;
+    use crate::studies::validation::record::{RunOutcome, StabilityPoint};
     use std::collections::BTreeMap;
 
     fn quantity(criterion: Criterion, value: f64, share: Option<f64>) -> QuantityRecord {
@@ -221,12 +243,11 @@ mod tests {
 
     #[test]
     fn a_looser_tolerance_is_worse_whatever_share_of_it_is_used() {
-        let held = |tolerance: f64, error: f64| {
-            let mut quantity =
-                quantity(Criterion::Near { reference: 1.0, tolerance }, 1.0 + error, Some(error / tolerance));
-            quantity.error = Some(error);
-            case("a", vec![quantity])
-        };
+        fn held(tolerance: f64, error: f64) -> CaseRecord {
+            let criterion = Criterion::Near { reference: 1.0, tolerance };
+            let quantity = quantity(criterion, 1.0 + error, Some(error / tolerance));
+            case("a", vec![QuantityRecord { error: Some(error), ..quantity }])
+        }
         let limit = "q: what it is compared with".to_owned();
         assert_eq!(between(held(1.0, 0.5), held(10.0, 0.9)), [vec![limit.clone(), "q".to_owned()], vec![]]);
         assert_eq!(between(held(1.0, 0.5), held(10.0, 0.5)), [vec![limit.clone()], vec![]]);
@@ -241,12 +262,11 @@ mod tests {
 
     #[test]
     fn a_count_with_a_bound_is_judged_as_a_count() {
-        let gate = |value, share| {
-            let mut case = case("a", vec![quantity(Criterion::AtMost { bound: 1000.0 }, value, Some(share))]);
-            case.quantities[0].counts_work = true;
-            case
-        };
-        assert_eq!(between(gate(500.0, 0.5), gate(520.0, 0.52)), [vec!["q".to_owned()], vec![]]);
+        let [before, now] = [500.0, 520.0].map(|count| {
+            let gate = quantity(Criterion::AtMost { bound: 1000.0 }, count, Some(count / 1000.0));
+            case("a", vec![QuantityRecord { counts_work: true, ..gate }])
+        });
+        assert_eq!(between(before, now), [vec!["q".to_owned()], vec![]]);
     }
 
     #[test]
@@ -272,12 +292,9 @@ mod tests {
 
     #[test]
     fn work_counts_from_one_per_cent_on_and_wall_time_never() {
-        let with = |count, wall_s| {
-            let mut case = near(0.2);
-            case.work.insert("equilibria".to_owned(), count);
-            case.wall_s = wall_s;
-            case
-        };
+        fn with(count: u64, wall_s: f64) -> CaseRecord {
+            CaseRecord { work: BTreeMap::from([("equilibria".to_owned(), count)]), wall_s, ..near(0.2) }
+        }
         assert_eq!(between(with(1000, 1.0), with(1010, 900.0)), SAME);
         assert_eq!(between(with(1000, 1.0), with(1011, 1.0)), [vec!["equilibria".to_owned()], vec![]]);
         assert_eq!(between(with(1000, 1.0), with(900, 1.0)), [vec![], vec!["equilibria".to_owned()]]);
@@ -287,18 +304,17 @@ mod tests {
 
     #[test]
     fn a_value_of_a_parameter_that_fails_now_is_worse() {
-        let with = |outcome| {
-            let mut case = near(0.2);
-            case.stability.push(StabilityPoint {
+        fn with(outcome: RunOutcome) -> CaseRecord {
+            let point = StabilityPoint {
                 parameter: "torque, N·m".to_owned(),
                 value: 1e7,
                 setting: "1e7".to_owned(),
                 outcome,
                 expected: RunOutcome::Sound,
                 said: None,
-            });
-            case
-        };
+            };
+            CaseRecord { stability: vec![point], ..near(0.2) }
+        }
         let what = "torque, N·m: 1e7".to_owned();
         assert_eq!(between(with(RunOutcome::Sound), with(RunOutcome::Panicked)), [vec![what.clone()], vec![]]);
         assert_eq!(between(with(RunOutcome::Refused), with(RunOutcome::Sound)), [vec![], vec![what]]);

@@ -24,7 +24,7 @@ pub(crate) struct CaseFile {
     /// The targets it speaks to, such as `S1`.
     #[serde(default)]
     pub targets: Vec<String>,
-    /// What the source says, in the project's own words.
+    /// Statement of the source, in the project's own words.
     pub says: Option<String>,
     /// Estimates it rests on.
     #[serde(default)]
@@ -50,10 +50,10 @@ pub(crate) struct CaseFile {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RunSpec {
-    /// By which expressions know it.
+    /// Name in expressions.
     pub name: String,
     #[serde(default)]
-    pub command: Command,
+    pub command: CaseCommand,
     /// A preset, or a file beside the case; with `invariants` the word `random`.
     pub scene: String,
     /// With `fem` of a gear pair: the one position; without it the mesh cycle.
@@ -77,13 +77,13 @@ pub(crate) struct RunSpec {
     pub each: Vec<MemberSpec>,
     /// Members drawn from ranges.
     pub sample: Option<SampleSpec>,
-    /// How it must end, members of `each` that say otherwise apart.
+    /// Expected outcome, unless a member of `each` has its own.
     #[serde(default)]
     pub expect: RunOutcome,
-    /// Other ways in which members may end, where nobody can say beforehand which of them are refused.
+    /// Further accepted outcomes, where it is not known beforehand which members are refused.
     #[serde(default)]
     pub accept: Vec<RunOutcome>,
-    /// Of a family: expressions for every member, in which `run` is the member; each becomes a column of the family.
+    /// Expressions for every member of a family, in which `run` is the member; each becomes a column of the family.
     #[serde(default)]
     pub take: BTreeMap<String, String>,
 }
@@ -97,7 +97,7 @@ impl RunSpec {
 /// The command that does the same from a terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Command {
+pub(crate) enum CaseCommand {
     /// The wear simulation.
     #[default]
     Run,
@@ -105,7 +105,7 @@ pub(crate) enum Command {
     Fem,
     /// K/H and tooth stiffness from finite elements.
     Calibrate,
-    /// Random scenes, held against statements that are true of every scene: `set` has `seed`, `first` and `count`.
+    /// Random scenes tested against statements that are true of every scene: `set` has `seed`, `first` and `count`.
     Invariants,
 }
 
@@ -116,15 +116,15 @@ pub(crate) struct VarySpec {
     pub key: OneOrMore,
     /// The column of its values in the family; default: the last part of the first key.
     pub name: Option<String>,
-    /// Its values …
+    /// List of values, or a range:
     pub values: Option<Vec<toml::Value>>,
-    /// … or from this number …
+    /// First value of a range.
     pub from: Option<f64>,
-    /// … to this one …
+    /// Last value of the range.
     pub to: Option<f64>,
-    /// … so many.
+    /// Number of values of the range.
     pub count: Option<usize>,
-    /// Evenly in the logarithm.
+    /// Even spacing of the logarithms.
     #[serde(default)]
     pub log: bool,
 }
@@ -148,9 +148,9 @@ impl OneOrMore {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MemberSpec {
-    /// What it is called in plots and messages; default: what it sets.
+    /// Name in plots and messages; default: the keys it sets.
     pub label: Option<String>,
-    /// Its place on an axis: the column `value` of the family.
+    /// Place on an axis: the column `value` of the family.
     pub value: Option<f64>,
     /// Keys and values beside those of the run.
     #[serde(default)]
@@ -167,7 +167,7 @@ pub(crate) struct MemberSpec {
 #[serde(deny_unknown_fields)]
 pub(crate) struct SampleSpec {
     pub count: usize,
-    /// Another number draws others.
+    /// Seed.
     #[serde(default)]
     pub seed: usize,
     pub of: Vec<VarySpec>,
@@ -177,12 +177,12 @@ pub(crate) struct SampleSpec {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DataSpec {
-    /// By which expressions know it.
+    /// Name in expressions.
     pub name: String,
     pub file: String,
     /// The columns that it must have.
     pub columns: Vec<String>,
-    /// Why it may be missing, and what is then not known; without this it must be there.
+    /// Consequence of a missing file, where it may be missing.
     pub missing: Option<String>,
 }
 
@@ -200,10 +200,10 @@ pub(crate) enum Formula {
     Expression(String),
 }
 
-/// How far from a reference, or how uncertain one is.
+/// Tolerance or uncertainty of a reference.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub(crate) enum Extent {
+pub(crate) enum ToleranceSize {
     /// A share of the reference.
     Relative(Formula),
     /// In the quantity's unit.
@@ -219,26 +219,26 @@ pub(crate) struct QuantitySpec {
     #[serde(default)]
     pub unit: String,
     pub value: Option<Formula>,
-    /// The reference it must be near.
+    /// Reference.
     pub near: Option<Formula>,
-    /// How near.
-    pub within: Option<Extent>,
-    /// Its least value.
+    /// Tolerance.
+    pub within: Option<ToleranceSize>,
+    /// Lower bound.
     pub at_least: Option<Formula>,
-    /// Its greatest value; with `at_least`, both hold.
+    /// Upper bound; with `at_least`, both hold.
     pub at_most: Option<Formula>,
     /// `true`: the expression is a statement that must be true.
     pub is_true: Option<bool>,
     /// Where reference or bound come from.
     #[serde(default)]
     pub source: String,
-    /// Of the reference.
-    pub uncertainty: Option<Extent>,
-    /// What the spacing of the computation contributes.
-    pub discretisation: Option<Extent>,
+    /// Uncertainty of the reference.
+    pub uncertainty: Option<ToleranceSize>,
+    /// Contribution of the computation's resolution.
+    pub discretisation: Option<ToleranceSize>,
     /// Why the tolerance or bound is what it is.
     pub because: Option<String>,
-    /// `fails`: known not to hold.
+    /// Expected outcome; `fails`: known not to hold.
     pub stands: Option<Standing>,
     /// Why it is known not to hold, or why it cannot be compared.
     pub remark: Option<String>,
@@ -252,7 +252,7 @@ pub(crate) struct QuantitySpec {
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlotSpec {
     pub title: String,
-    /// What one sees, in a sentence.
+    /// Description of what the plot shows, in a sentence.
     pub reading: String,
     /// Title of the abscissa, unit included.
     pub x: String,
@@ -274,7 +274,7 @@ pub(crate) struct PlotSpec {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CurveSpec {
-    /// Its name; with `each`, before the member's own.
+    /// Name; with `each`, before the member's own.
     #[serde(default)]
     pub name: String,
     /// Expression for the abscissae.
@@ -308,12 +308,12 @@ pub(crate) struct WorkPrecisionSpec {
     pub family: String,
     /// The column of the family that names the curves.
     pub series: String,
-    /// What else is said of them, such as `with tip edges`.
+    /// Addition to their names, such as `with tip edges`.
     #[serde(default)]
     pub name: String,
     /// Expression for the relative error of a member, `run`.
     pub error: String,
-    /// What is counted, as in the summary's `work`.
+    /// Work count, as in the summary's `work`.
     pub counted: String,
 }
 
@@ -324,6 +324,6 @@ pub(crate) struct StabilitySpec {
     pub family: String,
     /// The parameter, unit included.
     pub parameter: String,
-    /// Its column in the family.
+    /// Column in the family.
     pub value: String,
 }

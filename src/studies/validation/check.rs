@@ -1,19 +1,19 @@
-//! What a case file must be beyond its shape: names that are known and used once, criteria that say one thing, sources.
+//! Checks of a case file beyond its shape: names that are known and used once, one criterion for each quantity, sources.
 
 use std::collections::BTreeSet;
 
-use super::case_file::{CaseFile, Command, QuantitySpec, RunSpec, VarySpec};
+use super::case_file::{CaseCommand, CaseFile, QuantitySpec, RunSpec, VarySpec};
 use super::expression::Evaluator;
 use crate::studies::validation::record::{RunOutcome, Standing};
 
 /// Greatest number of members of a family.
 pub(super) const MOST_MEMBERS: usize = 10_000;
 
-/// What is wrong with a case.
+/// Error in a case file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{kind} {name:?}: found {found}; allowed: {allowed}")]
 pub(super) struct CaseFault {
-    /// Run, quantity or another part of the file; its name is looked for in the file.
+    /// Kind of the part of the file, such as run or quantity.
     kind: &'static str,
     name: String,
     found: String,
@@ -21,14 +21,14 @@ pub(super) struct CaseFault {
 }
 
 impl CaseFault {
-    /// The line of `text` that names what is wrong, from 1.
+    /// Line of `text` with the faulty name, from 1.
     pub(super) fn line(&self, text: &str) -> usize {
         let quoted = format!("\"{}\"", self.name);
         text.lines().position(|line| line.contains(&quoted)).map_or(1, |line| line + 1)
     }
 }
 
-/// The first of `faults` that is one: whether it is, what is found and what is allowed.
+/// Returns the first of `faults` that applies; each is a condition, what is found and what is allowed.
 fn first<const N: usize>(kind: &'static str, name: &str, faults: [(bool, &str, &str); N]) -> Result<(), CaseFault> {
     let first = faults.into_iter().find(|(is_fault, ..)| *is_fault);
     first.map_or(Ok(()), |(_, found, allowed)| Err(fault(kind, name, found, allowed)))
@@ -38,7 +38,7 @@ fn fault(kind: &'static str, name: &str, found: impl Into<String>, allowed: impl
     CaseFault { kind, name: name.to_owned(), found: found.into(), allowed: allowed.into() }
 }
 
-/// The first thing that is wrong with a case.
+/// Returns the first error of a case file.
 pub(super) fn check(case: &CaseFile) -> Result<(), CaseFault> {
     let mut names = BTreeSet::from(["run"]);
     let all = case.run.iter().map(|run| run.name.as_str()).chain(case.data.iter().map(|data| data.name.as_str()));
@@ -76,11 +76,10 @@ pub(super) fn check(case: &CaseFile) -> Result<(), CaseFault> {
 }
 
 fn check_run(run: &RunSpec, case: &CaseFile) -> Result<(), CaseFault> {
-    let wrong = |found: &str, allowed: &str| Err(fault("run", &run.name, found, allowed));
     let ways = [!run.vary.is_empty(), !run.each.is_empty(), run.sample.is_some()];
     let more_ways = ways.iter().filter(|&&way| way).count() > 1;
     let no_family = !run.is_family() && !run.take.is_empty();
-    let (no_fem, is_run) = (run.command != Command::Fem, run.command == Command::Run);
+    let (no_fem, is_run) = (run.command != CaseCommand::Fem, run.command == CaseCommand::Run);
     let defect = run.accept.iter().any(|outcome| matches!(outcome, RunOutcome::Unsound | RunOutcome::Panicked));
     let accepted = "accept of \"sound\", \"refused\", \"not-converged\" and \"worn-through\" alone";
     let faults = [
@@ -97,33 +96,32 @@ fn check_run(run: &RunSpec, case: &CaseFile) -> Result<(), CaseFault> {
     let members = run.vary.iter().map(VarySpec::count).try_fold(1usize, usize::checked_mul);
     let members = members.map(|members| run.sample.as_ref().map_or(members, |sample| sample.count));
     if members.is_none_or(|members| members > MOST_MEMBERS || members == 0) {
-        return wrong("no members, or more than can be kept", "1 to 10000 members");
+        return Err(fault("run", &run.name, "no members, or more than 10000", "1 to 10000 members"));
     }
     if let Some(name) = &run.calibration {
-        let made = |other: &RunSpec| other.name == *name && other.command == Command::Calibrate && !other.is_family();
-        if !case.run.iter().any(made) || run.command == Command::Calibrate {
-            return wrong(&format!("calibration = {name:?}"), "the name of a single run with command = \"calibrate\"");
+        let made = case.run.iter().find(|other| other.name == *name);
+        let is_calibration = made.is_some_and(|made| made.command == CaseCommand::Calibrate && !made.is_family());
+        if !is_calibration || run.command == CaseCommand::Calibrate {
+            let allowed = "the name of a single run with command = \"calibrate\"";
+            return Err(fault("run", &run.name, format!("calibration = {name:?}"), allowed));
         }
     }
     Ok(())
 }
 
 fn check_varied(varied: &VarySpec) -> Result<(), (String, &'static str)> {
-    let key = || varied.key.all().first().cloned().unwrap_or_default();
-    if varied.key.all().is_empty() {
-        return Err(("no key".to_owned(), "at least one"));
-    }
+    let Some(key) = varied.key.all().first() else { return Err(("no key".to_owned(), "at least one")) };
     match (&varied.values, varied.from, varied.to) {
         (Some(values), None, None) if !values.is_empty() => Ok(()),
         (None, Some(from), Some(to)) if !varied.log || (from > 0.0 && to > 0.0) => Ok(()),
-        (None, Some(_), Some(_)) => Err((format!("{}: ends not above 0 with log", key()), "ends above 0")),
-        _ => Err((format!("{}: neither values nor from and to, or both", key()), "values = […], or from and to")),
+        (None, Some(_), Some(_)) => Err((format!("{key}: ends not above 0 with log"), "ends above 0")),
+        _ => Err((format!("{key}: neither values nor from and to, or both"), "values = […], or from and to")),
     }
 }
 
 fn check_quantity(quantity: &QuantitySpec, case: &CaseFile) -> Result<(), CaseFault> {
-    let blank = |text: &Option<String>| text.as_ref().is_some_and(|text| text.trim().is_empty());
-    let unreasoned = blank(&quantity.because) || blank(&quantity.remark);
+    let reasons = [&quantity.because, &quantity.remark];
+    let unreasoned = reasons.into_iter().flatten().any(|text| text.trim().is_empty());
     let bounded = quantity.at_least.is_some() || quantity.at_most.is_some();
     let criteria = [quantity.near.is_some(), bounded, quantity.is_true.is_some()];
     let several = criteria.iter().filter(|&&given| given).count() > 1;
@@ -131,8 +129,8 @@ fn check_quantity(quantity: &QuantitySpec, case: &CaseFile) -> Result<(), CaseFa
     let cannot = quantity.stands == Some(Standing::CannotBeCompared);
     let stands = cannot || quantity.stands == Some(Standing::Fails);
     let foreign = quantity.target.as_ref().filter(|target| !case.targets.contains(target));
-    let is_optional = |name: &str| case.data.iter().any(|data| data.name == name && data.missing.is_some());
-    let unknown = quantity.needs.as_ref().filter(|name| !is_optional(name));
+    let mut optional = case.data.iter().filter(|data| data.missing.is_some());
+    let unknown = quantity.needs.as_ref().filter(|name| optional.all(|data| data.name != **name));
     let statement = "is_true = true, with ! before a statement that must not be true";
     let faults = [
         (quantity.is_true == Some(false), "is_true = false", statement),

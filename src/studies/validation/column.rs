@@ -67,10 +67,10 @@ fn not_empty(x: &[f64]) -> Result<&[f64], ColumnError> {
     if x.is_empty() { Err(ColumnError::Empty) } else { Ok(x) }
 }
 
-/// A figure that a number that is none spoils.
-fn fold(x: &[f64], f: impl Fn(f64, f64) -> f64) -> Result<f64, ColumnError> {
-    let spoilt = |a: f64, b: f64| if a.is_nan() || b.is_nan() { f64::NAN } else { f(a, b) };
-    Ok(not_empty(x)?.iter().copied().reduce(spoilt).unwrap_or(f64::NAN))
+/// Reduction of a column by `f`; NaN where any value is.
+fn fold(x: &[f64], f: fn(f64, f64) -> f64) -> Result<f64, ColumnError> {
+    let of_two = not_empty(x)?.iter().copied().reduce(|a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { f(a, b) });
+    Ok(of_two.unwrap_or(f64::NAN))
 }
 
 fn sum(x: &[f64]) -> f64 {
@@ -141,20 +141,22 @@ fn relative_l2(y: &[f64], reference: &[f64]) -> Result<f64, ColumnError> {
     Ok(norm(&zip(y, reference, |y, r| y - r)?) / norm(reference))
 }
 
-/// Of two lists of columns, such as one profile for each member of two families: a number for each.
+/// Number for each pair of columns of two lists, such as one profile for each member of two families.
 fn relative_l2_of_each(rows: &[Value], references: &[Value]) -> Result<Arc<[f64]>, ColumnError> {
     same_count(rows, references)?;
-    let of_two = |(row, reference): (&Value, &Value)| match (row, reference) {
-        (Value::Column(row), Value::Column(reference)) => relative_l2(row, reference),
-        // A member that did not run has no profile.
-        _ => Ok(f64::NAN),
-    };
-    rows.iter().zip(references).map(of_two).collect()
+    rows.iter()
+        .zip(references)
+        .map(|both| match both {
+            (Value::Column(row), Value::Column(reference)) => relative_l2(row, reference),
+            // A member without results has no profile.
+            _ => Ok(f64::NAN),
+        })
+        .collect()
 }
 
 fn same_count(rows: &[Value], others: &[Value]) -> Result<(), ColumnError> {
-    let same = rows.len() == others.len();
-    if same { Ok(()) } else { Err(ColumnError::ListLengths(rows.len(), others.len())) }
+    let (one, other) = (rows.len(), others.len());
+    if one == other { Ok(()) } else { Err(ColumnError::ListLengths(one, other)) }
 }
 
 fn relative_l2_over(x: &[f64], y: &[f64], reference: &[f64]) -> Result<f64, ColumnError> {
@@ -162,23 +164,27 @@ fn relative_l2_over(x: &[f64], y: &[f64], reference: &[f64]) -> Result<f64, Colu
     Ok((integral(x, &off)? / integral(x, &map(reference, |r| r * r))?).sqrt())
 }
 
-/// Of three lists of columns: a number for each.
+/// Number for each three columns of three lists.
 fn relative_l2_over_each(places: &[Value], rows: &[Value], references: &[Value]) -> Result<Arc<[f64]>, ColumnError> {
     same_count(places, rows)?;
     same_count(rows, references)?;
-    let of_three = |((x, row), reference): ((&Value, &Value), &Value)| match (x, row, reference) {
-        (Value::Column(x), Value::Column(row), Value::Column(reference)) => relative_l2_over(x, row, reference),
-        _ => Ok(f64::NAN),
-    };
-    places.iter().zip(rows).zip(references).map(of_three).collect()
+    places
+        .iter()
+        .zip(rows)
+        .zip(references)
+        .map(|three| match three {
+            ((Value::Column(x), Value::Column(row)), Value::Column(reference)) => relative_l2_over(x, row, reference),
+            _ => Ok(f64::NAN),
+        })
+        .collect()
 }
 
 fn relative_max(y: &[f64], reference: &[f64]) -> Result<f64, ColumnError> {
-    let greatest = |x: &[f64]| fold(x, f64::max);
-    Ok(greatest(&zip(y, reference, |y, r| (y - r).abs())?)? / greatest(&map(reference, f64::abs))?)
+    let differences = zip(y, reference, |y, r| (y - r).abs())?;
+    Ok(fold(&differences, f64::max)? / fold(&map(reference, f64::abs), f64::max)?)
 }
 
-/// Of those whose truth is above a level, the share whose claim over truth lies from low to high; 0 where none is.
+/// Share of the claims within low to high times their truth, of those whose truth is above a level; 0 where none is.
 fn share_within(claim: &[f64], truth: &[f64], above: f64, low: f64, high: f64) -> Result<f64, ColumnError> {
     same_length(claim, truth)?;
     let judged = claim.iter().zip(truth).filter(|(_, truth)| **truth > above);
@@ -193,15 +199,17 @@ fn local_maxima(y: &[f64]) -> usize {
 }
 
 fn column(items: &[Value]) -> Result<Arc<[f64]>, ColumnError> {
-    let number = |item: &Value| if let Value::Number(number) = item { Some(*number) } else { None };
-    items.iter().map(number).collect::<Option<_>>().ok_or(ColumnError::NotNumbers)
+    items
+        .iter()
+        .map(|item| if let Value::Number(number) = item { Ok(*number) } else { Err(ColumnError::NotNumbers) })
+        .collect()
 }
 
 fn count(x: &[f64], counted: impl Fn(f64) -> bool) -> Value {
     Value::Number(x.iter().filter(|&&x| counted(x)).count() as f64)
 }
 
-/// Functions of a number, or of each point of a column.
+/// Function of a number, or of each point of a column.
 fn point_by_point(name: &str) -> Option<fn(f64) -> f64> {
     Some(match name {
         "abs" => f64::abs,
@@ -225,7 +233,7 @@ fn point_by_point(name: &str) -> Option<fn(f64) -> f64> {
     })
 }
 
-/// How much is in a column, a list or a text.
+/// Number of points of a column, items of a list or characters of a text.
 pub(crate) fn length(of: &Value) -> Option<Value> {
     let length = match of {
         Value::Column(x) => x.len(),
@@ -273,7 +281,7 @@ pub(crate) fn operate(sign: &str, left: &Value, right: &Value) -> Result<Option<
     }))
 }
 
-/// The value of a function; none where there is no such function of these.
+/// Value of a function; none where there is no such function of these.
 pub(crate) fn call(name: &str, arguments: &[Value]) -> Result<Option<Value>, ColumnError> {
     use Value::{Column, List, Number, Text, Truth};
     if let ([of], Some(f)) = (arguments, point_by_point(name)) {
@@ -283,7 +291,7 @@ pub(crate) fn call(name: &str, arguments: &[Value]) -> Result<Option<Value>, Col
             _ => None,
         });
     }
-    Ok(Some(match (name, arguments) {
+    let found = match (name, arguments) {
         ("PI", []) => Number(consts::PI),
         ("E", []) => Number(consts::E),
         ("max", [Number(a), Number(b)]) => Number(if a >= b { *a } else { *b }),
@@ -297,7 +305,18 @@ pub(crate) fn call(name: &str, arguments: &[Value]) -> Result<Option<Value>, Col
         // A list without items.
         ("contains", [Column(x), Text(_)]) if x.is_empty() => Truth(false),
         ("len", [of]) => return Ok(length(of)),
+        _ => match figure(name, arguments)? {
+            None => return curve_function(name, arguments),
+            found => return Ok(found),
+        },
+    };
+    Ok(Some(found))
+}
 
+/// Value of a function of one column.
+fn figure(name: &str, arguments: &[Value]) -> Result<Option<Value>, ColumnError> {
+    use Value::{Column, List, Number, Truth};
+    Ok(Some(match (name, arguments) {
         ("column", [List(items)]) => Column(column(items)?),
         ("column", [Column(x)]) => Column(x.clone()),
         ("first", [Column(x)]) => Number(not_empty(x)?[0]),
@@ -314,7 +333,14 @@ pub(crate) fn call(name: &str, arguments: &[Value]) -> Result<Option<Value>, Col
         ("local_maxima", [Column(y)]) => Number(local_maxima(y) as f64),
         ("count_above", [Column(x), Number(level)]) => count(x, |x| x > *level),
         ("count_below", [Column(x), Number(level)]) => count(x, |x| x < *level),
+        _ => return Ok(None),
+    }))
+}
 
+/// Value of a function of several columns.
+fn curve_function(name: &str, arguments: &[Value]) -> Result<Option<Value>, ColumnError> {
+    use Value::{Column, List, Number};
+    Ok(Some(match (name, arguments) {
         ("at", [Column(x), Column(y), Number(place)]) => Number(at(x, y, *place)?),
         ("resample", [Column(x), Column(y), Column(places)]) => {
             Column(places.iter().map(|&place| at(x, y, place)).collect::<Result<_, _>>()?)

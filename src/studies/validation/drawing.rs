@@ -1,8 +1,8 @@
-//! What a case draws: plots, error against cost, outcomes over a range.
+//! Plots of a case, error against cost, outcomes over a range.
 
 use std::collections::BTreeMap;
 
-use super::case_file::{CurveSpec, PlotSpec, StabilitySpec, WorkPrecisionSpec};
+use super::case_file::{CurveSpec, LineSpec, PlotSpec, StabilitySpec, WorkPrecisionSpec};
 use super::execution::Executed;
 use super::expression::{Evaluator, ExpressionError};
 use super::judge::number;
@@ -13,21 +13,21 @@ use crate::studies::validation::record::{
     CasePlot, CurveStyle, PlotCurve, RunOutcome, StabilityPoint, WorkPrecisionPoint,
 };
 
-/// The members of a family that left something behind.
+/// Members of a family that have results.
 fn finished(family: &Members) -> impl Iterator<Item = (&Member, &Executed)> {
     family.ended().filter(|(_, run)| run.outcome == RunOutcome::Sound)
 }
 
-/// A plot; `families` finds one by its name.
-pub(crate) fn plot<'a>(
+/// Plot of a case; `families` holds the runs by name, `absent` the files of numbers that are missing.
+pub(crate) fn plot(
     spec: &PlotSpec,
     absent: &BTreeMap<&str, &str>,
-    families: &impl Fn(&str) -> Option<&'a Members>,
+    families: &BTreeMap<&str, &Members>,
     e: &mut Evaluator,
 ) -> Result<CasePlot, ExpressionError> {
     let mut curves = Vec::new();
     for of in spec.curve.iter().filter(|of| of.needs.as_deref().is_none_or(|name| !absent.contains_key(name))) {
-        match of.each.as_deref().and_then(families) {
+        match of.each.as_deref().and_then(|name| families.get(name)) {
             None => curves.push(curve(of, of.name.clone(), e)?),
             Some(family) => {
                 for (member, run) in finished(family) {
@@ -37,20 +37,21 @@ pub(crate) fn plot<'a>(
             }
         }
     }
-    let mut lines = |specs: &[super::case_file::LineSpec]| {
-        specs.iter().map(|line| Ok((line.name.clone(), number(&line.at, e)?))).collect::<Result<Vec<_>, _>>()
-    };
     Ok(CasePlot {
         title: spec.title.clone(),
         reading: spec.reading.clone(),
-        levels: lines(&spec.level)?,
-        marks: lines(&spec.mark)?,
+        levels: lines(&spec.level, e)?,
+        marks: lines(&spec.mark, e)?,
         x: spec.x.clone(),
         y: spec.y.clone(),
         log_x: spec.log_x,
         log_y: spec.log_y,
         curves,
     })
+}
+
+fn lines(specs: &[LineSpec], e: &mut Evaluator) -> Result<Vec<(String, f64)>, ExpressionError> {
+    specs.iter().map(|line| Ok((line.name.clone(), number(&line.at, e)?))).collect()
 }
 
 fn curve(of: &CurveSpec, name: String, e: &mut Evaluator) -> Result<PlotCurve, ExpressionError> {
@@ -99,23 +100,24 @@ pub(crate) fn work_precision(
 /// # Errors
 /// In words: a member without a number for it.
 pub(crate) fn stability(spec: &StabilitySpec, family: &Members) -> Result<Vec<StabilityPoint>, String> {
-    let point = |(member, run): (&Member, &Executed)| {
-        let Some(&Value::Number(value)) =
-            member.value(&spec.value).filter(|v| matches!(v, Value::Number(x) if x.is_finite()))
-        else {
-            let (parameter, name) = (&spec.parameter, &spec.value);
-            return Err(format!("stability over {parameter}: {name} of a member is no number; allowed: numbers"));
-        };
-        Ok(StabilityPoint {
-            parameter: spec.parameter.clone(),
-            value,
-            setting: member.label.clone(),
-            outcome: run.outcome,
-            expected: if member.may_end(run.outcome) { run.outcome } else { member.expected },
-            said: run.said.clone(),
-        })
+    family.ended().map(|(member, run)| stability_point(spec, member, run)).collect()
+}
+
+fn stability_point(spec: &StabilitySpec, member: &Member, run: &Executed) -> Result<StabilityPoint, String> {
+    let Some(&Value::Number(value)) =
+        member.value(&spec.value).filter(|v| matches!(v, Value::Number(x) if x.is_finite()))
+    else {
+        let (parameter, name) = (&spec.parameter, &spec.value);
+        return Err(format!("stability over {parameter}: {name} of a member is no number; allowed: numbers"));
     };
-    family.ended().map(point).collect()
+    Ok(StabilityPoint {
+        parameter: spec.parameter.clone(),
+        value,
+        setting: member.label.clone(),
+        outcome: run.outcome,
+        expected: if member.may_end(run.outcome) { run.outcome } else { member.expected },
+        said: run.said.clone(),
+    })
 }
 
 fn in_words(value: &Value) -> String {

@@ -1,4 +1,4 @@
-//! One run of a case, carried out as its command would, and read back as its output files would be.
+//! One run of a case: done as by its command, and read as from its output files.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use super::case_file::{Command, RunSpec};
+use super::case_file::{CaseCommand, RunSpec};
 use super::members::Member;
 use super::soundness;
 use super::value::Value;
@@ -30,16 +30,17 @@ use crate::scene::draft::{self, Draft};
 use crate::scene::fem_problem::FemProblem;
 use crate::scene::loaded::{self, LoadedScene, NamedFiles, SceneText};
 use crate::scene::{Problem, Resolved, presets};
-use crate::studies::invariants::study::{self, Asked};
+use crate::studies::invariants::study::{self, SceneRange};
 use crate::studies::validation::record::RunOutcome;
+use crate::studies::varied_scene::in_words;
 
-/// What a run came to.
+/// Result of a run.
 #[derive(Debug, Clone)]
 pub(crate) struct Executed {
     pub outcome: RunOutcome,
-    /// What it said, where that is not sound.
+    /// Message of the program, or the reason why the run is not sound.
     pub said: Option<String>,
-    /// What it left behind: a group, empty where nothing was finished.
+    /// Results as a group, empty where nothing was finished.
     pub value: Value,
     /// The calibration, of a run that makes one.
     pub calibration: Option<Calibration>,
@@ -49,7 +50,7 @@ pub(crate) struct Executed {
 }
 
 impl Executed {
-    /// A run that left `value` behind, and why it did not come to its end or cannot be sound.
+    /// Run with results, and the reason where it did not complete or is not sound.
     fn of(value: Value, work: BTreeMap<String, u64>, failure: Option<Failed>, fault: Option<String>) -> Self {
         let fault = fault.map(|fault| Failed(RunOutcome::Unsound, fault));
         let (outcome, said) = match failure.or(fault) {
@@ -59,13 +60,13 @@ impl Executed {
         Self { outcome, said, value, calibration: None, wall_s: 0.0, work }
     }
 
-    /// A run that has nothing to show.
+    /// Run without results.
     fn without_result(outcome: RunOutcome, said: String) -> Self {
         let value = Value::group::<&str>([]);
         Self { outcome, said: Some(said), value, calibration: None, wall_s: 0.0, work: BTreeMap::new() }
     }
 
-    /// As expressions see it.
+    /// Value for expressions.
     pub(crate) fn as_value(&self) -> Value {
         let mut group = self.value.clone();
         group.add("outcome", Value::Text(self.outcome.name()));
@@ -77,35 +78,35 @@ impl Executed {
     }
 }
 
-/// Why a run has nothing to show: how it ended, and what was said.
+/// Outcome of a run without results, and its message.
 struct Failed(RunOutcome, String);
 
-/// The input is wrong.
+/// Refusal of the input.
 fn refused(error: impl ToString) -> Failed {
     Failed(RunOutcome::Refused, error.to_string())
 }
 
-/// The solver says so.
+/// Failure of the solver.
 fn not_converged(error: impl ToString) -> Failed {
     Failed(RunOutcome::NotConverged, error.to_string())
 }
 
 fn wrong(problems: Vec<Problem>) -> Failed {
-    refused(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))
+    refused(in_words(&problems))
 }
 
-/// One member of a run.
-pub(crate) struct Task<'a> {
+/// One member of a run to carry out.
+pub(crate) struct MemberRun<'a> {
     pub run: &'a RunSpec,
     pub member: &'a Member,
-    /// In which the files of the case lie.
+    /// Folder of the case.
     pub folder: &'a Path,
     /// The calibration that the run names, where it was made.
     pub calibration: Option<&'a Calibration>,
     pub watch: &'a dyn Observer,
 }
 
-impl Task<'_> {
+impl MemberRun<'_> {
     pub(crate) fn execute(&self) -> Executed {
         if let (Some(name), None) = (&self.run.calibration, self.calibration) {
             let said = format!("the calibration of {name:?} was not made");
@@ -113,10 +114,10 @@ impl Task<'_> {
         }
         let start = Instant::now();
         let done = guarded(|| match self.run.command {
-            Command::Run => self.wear_run(),
-            Command::Fem => self.finite_elements(),
-            Command::Calibrate => self.calibrated(),
-            Command::Invariants => self.random_scenes(),
+            CaseCommand::Run => self.wear_run(),
+            CaseCommand::Fem => self.finite_elements(),
+            CaseCommand::Calibrate => self.calibrated(),
+            CaseCommand::Invariants => self.random_scenes(),
         });
         let executed = match done {
             Err(said) => Executed::without_result(RunOutcome::Panicked, said),
@@ -150,7 +151,7 @@ impl Task<'_> {
 
     fn resolved(&self, draft: Draft) -> Result<Resolved, Failed> {
         let mut resolved = draft.resolve().map_err(wrong)?;
-        // A case holds a run against a reference of its own; one that is about verification asks for it.
+        // Cases have references of their own: a run is verified only where the case sets `verify`.
         resolved.scene.verify &= self.member.set.iter().any(|(key, _)| key == "numerics.verify");
         Ok(resolved)
     }
@@ -242,15 +243,11 @@ impl Task<'_> {
 
     /// Random scenes: their record, and a group `statements` with a group for each of them, by its name with `_` for spaces and hyphens.
     fn random_scenes(&self) -> Result<Executed, Failed> {
-        let whole = |key: &str| {
-            let given =
-                self.member.set.iter().rev().find(|(name, _)| name == key).and_then(|(_, value)| value.as_integer());
-            let number = given.and_then(|number| u64::try_from(number).ok());
-            number.ok_or_else(|| {
-                refused(format!("{key}: allowed in set of a run of invariants: a whole number, 0 or more"))
-            })
+        let asked = SceneRange {
+            seed: self.whole_number("seed")?,
+            first: self.whole_number("first")?,
+            count: self.whole_number("count")?,
         };
-        let asked = Asked { seed: whole("seed")?, first: whole("first")?, count: whole("count")? };
         let record = study::run(asked, 1, self.watch);
         if record.drawn < record.count {
             return Err(not_converged("interrupted"));
@@ -269,6 +266,13 @@ impl Task<'_> {
         Ok(Executed::of(value, work, None, fault))
     }
 
+    fn whole_number(&self, key: &str) -> Result<u64, Failed> {
+        let given = self.member.set.iter().rev().find(|(name, _)| name == key);
+        let number = given.and_then(|(_, value)| value.as_integer()).and_then(|number| u64::try_from(number).ok());
+        number
+            .ok_or_else(|| refused(format!("{key}: allowed in set of a run of invariants: a whole number, 0 or more")))
+    }
+
     fn calibrated(&self) -> Result<Executed, Failed> {
         let resolved = self.resolved(self.draft()?)?;
         let extent = if self.run.full { Extent::Whole } else { Extent::FastModel };
@@ -285,29 +289,31 @@ impl Task<'_> {
     }
 }
 
-/// The tree of anything that can be written as JSON.
+/// Value of anything that serialises to JSON.
 fn tree(summary: &impl Serialize) -> Result<Value, Failed> {
     serde_json::to_value(summary).map(Value::of_json).map_err(not_converged)
 }
 
-/// Whole numbers of a group, as counts of work.
+/// Numbers of a group as work counts.
 fn counts(value: &Value) -> BTreeMap<String, u64> {
     let Value::Group(entries) = value else { return BTreeMap::new() };
-    let count = |(name, value): (&String, &Value)| match value {
-        Value::Number(number) if *number >= 0.0 => Some((name.clone(), *number as u64)),
-        _ => None,
-    };
-    entries.iter().filter_map(count).collect()
+    entries
+        .iter()
+        .filter_map(|(name, value)| match value {
+            Value::Number(number) if *number >= 0.0 => Some((name.clone(), *number as u64)),
+            _ => None,
+        })
+        .collect()
 }
 
-/// The table that `write` writes.
+/// Columns of the table that `write` writes.
 fn table(write: impl FnOnce(&mut dyn Write) -> io::Result<Vec<Column>>) -> Result<Value, Failed> {
     let mut bytes = Vec::new();
     write(&mut bytes).map_err(not_converged)?;
     Value::of_csv(&bytes).map_err(not_converged)
 }
 
-/// Why a run has not converged, or was left before its end.
+/// Reason why a run did not converge or was stopped.
 fn failure(failure: Option<impl ToString>, stop: StopReason) -> Option<Failed> {
     let (outcome, said) = match stop {
         StopReason::Completed | StopReason::LimitReached => return failure.map(not_converged),

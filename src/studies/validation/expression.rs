@@ -6,10 +6,10 @@
 //! `summary.unworn`. The functions are those of [`super::column`] and [`super::profile`].
 
 use super::column;
-use super::syntax::{self, Node, SyntaxError, Term};
+use super::syntax::{self, Term, TermNode};
 use super::value::Value;
 
-/// Items of a list that an expression makes, lists in it included; columns of results may be longer.
+/// Greatest number of items of a list made by an expression, nested lists included; columns of results may be longer.
 const MOST_ITEMS: usize = 100_000;
 
 /// Why an expression has no value.
@@ -18,20 +18,20 @@ const MOST_ITEMS: usize = 100_000;
 pub(crate) struct ExpressionError {
     /// The expression.
     pub expression: String,
-    /// What is wrong with it.
+    /// Reason.
     pub reason: String,
 }
 
 /// Why a term has no value.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub(crate) enum Fault {
+pub(crate) enum TermFault {
     #[error("found `{0}`, which stands for nothing")]
     UnknownName(String),
     #[error("found no `{name}` in {of}")]
     NoMember { name: String, of: &'static str },
     #[error("a {what} of {length} {part}s has no {part} {index}")]
     NoItem { what: &'static str, part: &'static str, length: usize, index: f64 },
-    /// An operator or function for other things.
+    /// An operator or function that does not take these operands.
     #[error("found {0}, which there is not")]
     NoFunction(String),
     #[error("found a list too large; allowed: {MOST_ITEMS} items, those of lists in it included")]
@@ -47,12 +47,12 @@ pub(crate) struct Evaluator {
 }
 
 impl Evaluator {
-    /// Lets `name` stand for `value` from now on.
+    /// Defines `name` as `value`.
     pub(crate) fn name(&mut self, name: &str, value: &Value) {
         self.names.push((name.to_owned(), value.clone()));
     }
 
-    /// Carries out `work` with `name` standing for `value` only there.
+    /// Calls `work` with `name` defined as `value` during the call.
     pub(crate) fn with<T>(&mut self, name: &str, value: &Value, work: impl FnOnce(&mut Self) -> T) -> T {
         let before = self.names.len();
         self.name(name, value);
@@ -61,19 +61,20 @@ impl Evaluator {
         done
     }
 
-    /// Whether `name` can stand for something: words of the language cannot.
+    /// Whether `name` may be defined: words of the language may not.
     pub(crate) fn can_name(name: &str) -> bool {
         syntax::parse(name).is_ok_and(|node| matches!(node.term, Term::Name(_)))
     }
 
     /// The value of an expression.
     pub(crate) fn value(&self, expression: &str) -> Result<Value, ExpressionError> {
-        let error = |reason: String| ExpressionError { expression: expression.to_owned(), reason };
-        let node = syntax::parse(expression).map_err(|wrong: SyntaxError| error(wrong.to_string()))?;
-        self.evaluate(&node).map_err(|(fault, place)| error(format!("{fault} (character {place})")))
+        let found = syntax::parse(expression)
+            .map_err(|wrong| wrong.to_string())
+            .and_then(|node| self.evaluate(&node).map_err(|(fault, place)| format!("{fault} (character {place})")));
+        found.map_err(|reason| ExpressionError { expression: expression.to_owned(), reason })
     }
 
-    /// The same, which must be a number; a truth is 1 or 0.
+    /// Value of an expression that must be a number; a truth is 1 or 0.
     pub(crate) fn number(&self, expression: &str) -> Result<f64, ExpressionError> {
         match self.value(expression)? {
             Value::Number(number) => Ok(number),
@@ -82,7 +83,7 @@ impl Evaluator {
         }
     }
 
-    /// The same, which must be a column.
+    /// Value of an expression that must be a column.
     pub(crate) fn column(&self, expression: &str) -> Result<Vec<f64>, ExpressionError> {
         match self.value(expression)? {
             Value::Column(numbers) => Ok(numbers.to_vec()),
@@ -90,48 +91,50 @@ impl Evaluator {
         }
     }
 
-    /// The value of a term, or why it has none and the place of the term to blame.
-    fn evaluate(&self, node: &Node) -> Result<Value, (Fault, usize)> {
-        let blame = |fault: Fault| (fault, node.place);
+    /// Value of a term, or why it has none and the place of the fault.
+    fn evaluate(&self, node: &TermNode) -> Result<Value, (TermFault, usize)> {
+        let at = node.place;
         Ok(match &node.term {
             Term::Number(number) => Value::Number(*number),
             Term::Truth(truth) => Value::Truth(*truth),
             Term::Text(text) => Value::Text(text.clone()),
             Term::Name(name) => {
                 let named = self.names.iter().rev().find(|(known, _)| known == name);
-                named.map(|(_, value)| value.clone()).ok_or_else(|| blame(Fault::UnknownName(name.clone())))?
+                named.map(|(_, value)| value.clone()).ok_or_else(|| (TermFault::UnknownName(name.clone()), at))?
             }
             Term::List(items) => {
                 let list = Value::List(items.iter().map(|item| self.evaluate(item)).collect::<Result<_, _>>()?);
                 if items_of(&list) > MOST_ITEMS {
-                    return Err(blame(Fault::TooLarge));
+                    return Err((TermFault::TooLarge, at));
                 }
                 list
             }
             Term::Minus(of) => match self.evaluate(of)? {
                 Value::Number(number) => Value::Number(-number),
                 Value::Column(x) => Value::column(x.iter().map(|x| -x)),
-                other => return Err(blame(no_function("-", &[other]))),
+                other => return Err((no_function("-", &[other]), at)),
             },
             Term::Not(of) => Value::Truth(!self.truth(of)?),
             Term::Both(terms) => Value::Truth(self.truth(&terms[0])? && self.truth(&terms[1])?),
             Term::Either(terms) => Value::Truth(self.truth(&terms[0])? || self.truth(&terms[1])?),
             Term::Binary(sign, terms) => {
                 let terms = [self.evaluate(&terms[0])?, self.evaluate(&terms[1])?];
-                let found = column::operate(sign, &terms[0], &terms[1]).map_err(|error| blame(error.into()))?;
-                found.ok_or_else(|| blame(no_function(sign, &terms)))?
+                let found = column::operate(sign, &terms[0], &terms[1]).map_err(|error| (error.into(), at))?;
+                found.ok_or_else(|| (no_function(sign, &terms), at))?
             }
-            Term::Member(of, name) => member(&self.evaluate(of)?, name).map_err(blame)?,
-            Term::Index(terms) => item(self.evaluate(&terms[0])?, self.evaluate(&terms[1])?).map_err(blame)?,
+            Term::Member(of, name) => member(&self.evaluate(of)?, name).map_err(|fault| (fault, at))?,
+            Term::Index(terms) => {
+                item(self.evaluate(&terms[0])?, self.evaluate(&terms[1])?).map_err(|fault| (fault, at))?
+            }
             Term::Call(name, arguments) => {
                 let arguments: Vec<_> = arguments.iter().map(|node| self.evaluate(node)).collect::<Result<_, _>>()?;
-                let found = column::call(name, &arguments).map_err(|error| blame(error.into()))?;
-                found.ok_or_else(|| blame(no_function(name, &arguments)))?
+                let found = column::call(name, &arguments).map_err(|error| (error.into(), at))?;
+                found.ok_or_else(|| (no_function(name, &arguments), at))?
             }
         })
     }
 
-    fn truth(&self, node: &Node) -> Result<bool, (Fault, usize)> {
+    fn truth(&self, node: &TermNode) -> Result<bool, (TermFault, usize)> {
         match self.evaluate(node)? {
             Value::Truth(truth) => Ok(truth),
             other => Err((no_function("a statement", &[other]), node.place)),
@@ -139,19 +142,19 @@ impl Evaluator {
     }
 }
 
-/// What has the name `name` in `of`.
-fn member(of: &Value, name: &str) -> Result<Value, Fault> {
+/// Member of `of` with the name `name`.
+fn member(of: &Value, name: &str) -> Result<Value, TermFault> {
     let found = match of {
         Value::Group(entries) if name == "unworn" && !entries.contains_key(name) => entries.get("new").cloned(),
         Value::Group(entries) => entries.get(name).cloned(),
         other if name == "len" => column::length(other),
         _ => None,
     };
-    found.ok_or_else(|| Fault::NoMember { name: name.to_owned(), of: kind(of) })
+    found.ok_or_else(|| TermFault::NoMember { name: name.to_owned(), of: kind(of) })
 }
 
 /// The item of a column or list with an index, or what a group has under a text.
-fn item(of: Value, index: Value) -> Result<Value, Fault> {
+fn item(of: Value, index: Value) -> Result<Value, TermFault> {
     match (&of, &index) {
         (_, Value::Text(name)) => member(&of, name),
         (Value::Column(x), Value::Number(index)) => Ok(Value::Number(x[place("column", "point", x.len(), *index)?])),
@@ -160,10 +163,10 @@ fn item(of: Value, index: Value) -> Result<Value, Fault> {
     }
 }
 
-fn place(what: &'static str, part: &'static str, length: usize, index: f64) -> Result<usize, Fault> {
+fn place(what: &'static str, part: &'static str, length: usize, index: f64) -> Result<usize, TermFault> {
     let from_start = if index < 0.0 { index + length as f64 } else { index };
     let is_there = from_start.fract() == 0.0 && (0.0..length as f64).contains(&from_start);
-    if is_there { Ok(from_start as usize) } else { Err(Fault::NoItem { what, part, length, index }) }
+    if is_there { Ok(from_start as usize) } else { Err(TermFault::NoItem { what, part, length, index }) }
 }
 
 /// Items of a list, those of lists in it included.
@@ -175,9 +178,9 @@ fn items_of(value: &Value) -> usize {
     }
 }
 
-fn no_function(name: &str, of: &[Value]) -> Fault {
+fn no_function(name: &str, of: &[Value]) -> TermFault {
     let kinds: Vec<&str> = of.iter().map(kind).collect();
-    Fault::NoFunction(format!("`{name}` of ({})", kinds.join(", ")))
+    TermFault::NoFunction(format!("`{name}` of ({})", kinds.join(", ")))
 }
 
 fn unfit(expression: &str, found: &Value, allowed: &str) -> ExpressionError {
@@ -276,7 +279,6 @@ mod tests {
         }
     }
 
-    /// A chain of definitions, each a list of the one before twice.
     #[test]
     fn lists_are_not_made_too_large() {
         let mut e = evaluator();

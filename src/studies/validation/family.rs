@@ -1,4 +1,4 @@
-//! A family of runs as expressions see it: one column for each key varied, for each figure taken, and for how members ended.
+//! A family of runs in expressions: one column for each varied key, each figure, and the outcomes.
 
 use std::collections::BTreeMap;
 
@@ -8,24 +8,23 @@ use super::schedule::Members;
 use super::value::Value;
 use crate::studies::validation::record::RunOutcome;
 
-/// A group with the columns of the family; `take` gives the expressions for every member, which it knows as `run`.
+/// Group with the columns of the family; `take` gives expressions for every member, which they know as `run`.
 ///
 /// # Errors
-/// An expression that has no value for a member that ended sound.
+/// Fails where an expression has no value for a member that ended sound.
 pub(super) fn columns(
     family: &Members,
     take: &BTreeMap<String, String>,
     e: &mut Evaluator,
 ) -> Result<Value, ExpressionError> {
     let executed: Vec<&Executed> = family.ended().map(|(_, run)| run).collect();
-    let numbers = |of: fn(&Executed) -> f64| Value::column(executed.iter().map(|run| of(run)));
-    let texts = |of: fn(&Executed) -> String| Value::List(executed.iter().map(|run| Value::Text(of(run))).collect());
+    let messages = executed.iter().map(|run| Value::Text(run.said.clone().unwrap_or_default()));
     let mut group = Value::group([
         ("count", Value::Number(executed.len() as f64)),
-        ("wall_s", numbers(|run| run.wall_s)),
-        ("sound", numbers(|run| f64::from(run.outcome == RunOutcome::Sound))),
-        ("outcome", texts(|run| run.outcome.name())),
-        ("message", texts(|run| run.said.clone().unwrap_or_default())),
+        ("wall_s", Value::column(executed.iter().map(|run| run.wall_s))),
+        ("sound", Value::column(executed.iter().map(|run| f64::from(run.outcome == RunOutcome::Sound)))),
+        ("outcome", Value::List(executed.iter().map(|run| Value::Text(run.outcome.name())).collect())),
+        ("message", Value::List(messages.collect())),
         ("work", work(&executed)),
     ]);
     for (place, (name, _)) in family.members.first().iter().flat_map(|member| &member.values).enumerate() {
@@ -33,7 +32,7 @@ pub(super) fn columns(
     }
     let mut taken: Vec<Vec<Value>> = vec![Vec::with_capacity(executed.len()); take.len()];
     for run in &executed {
-        // A member is laid out for the expressions once, whatever is taken of it.
+        // Each member is converted to a value once, for all its expressions.
         e.with("run", &run.as_value(), |e| -> Result<(), ExpressionError> {
             for (column, expression) in taken.iter_mut().zip(take.values()) {
                 column.push(match e.value(expression) {
@@ -50,24 +49,24 @@ pub(super) fn columns(
     Ok(group)
 }
 
-/// What was counted by all members, each as a column.
+/// Work counts of all members, each as a column.
 fn work(executed: &[&Executed]) -> Value {
     let Some(counted) = executed.iter().find(|run| !run.work.is_empty()) else { return Value::group::<&str>([]) };
-    let count = |run: &Executed, name: &str| run.work.get(name).map_or(f64::NAN, |&count| count as f64);
-    Value::group(
-        counted.work.keys().map(|name| (name.clone(), Value::column(executed.iter().map(|run| count(run, name))))),
-    )
+    Value::group(counted.work.keys().map(|name| {
+        let counts = executed.iter().map(|run| run.work.get(name).map_or(f64::NAN, |&count| count as f64));
+        (name.clone(), Value::column(counts))
+    }))
 }
 
-/// Values one after another: a column where they are numbers or truths.
+/// Column of values that are numbers or truths; list of others.
 fn in_a_row(values: Vec<Value>) -> Value {
-    let number = |value: &Value| match value {
-        Value::Number(number) => Some(*number),
-        Value::Truth(truth) => Some(f64::from(*truth)),
-        _ => None,
-    };
-    match values.iter().map(number).collect::<Option<Vec<f64>>>() {
-        Some(numbers) => Value::column(numbers),
-        None => Value::List(values.into()),
-    }
+    let numbers: Option<Vec<f64>> = values
+        .iter()
+        .map(|value| match value {
+            Value::Number(number) => Some(*number),
+            Value::Truth(truth) => Some(f64::from(*truth)),
+            _ => None,
+        })
+        .collect();
+    numbers.map_or_else(|| Value::List(values.into()), Value::column)
 }

@@ -1,11 +1,11 @@
-//! Holds the quantities of a case against what they must be.
+//! Judges the quantities of a case.
 //!
 //! A tolerance is honest where it is no wider than the reference is uncertain plus what the spacing of the computation
 //! contributes; a wider one must come with a sentence that says why, or the case does not count.
 
 use std::collections::BTreeMap;
 
-use super::case_file::{Extent, Formula, QuantitySpec};
+use super::case_file::{Formula, QuantitySpec, ToleranceSize};
 use super::expression::{Evaluator, ExpressionError};
 use super::schedule::Members;
 use crate::studies::validation::record::{Criterion, QuantityRecord, RunOutcome, Standing};
@@ -13,7 +13,7 @@ use crate::studies::validation::record::{Criterion, QuantityRecord, RunOutcome, 
 /// Rounding of a sum of allowances.
 const ROUNDING: f64 = 1e-9;
 
-/// Why a quantity could not be judged.
+/// Error of a judgement.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum JudgeError {
     #[error(transparent)]
@@ -29,7 +29,7 @@ pub(crate) enum JudgeError {
     TooWide { tolerance: f64, allowed: f64 },
 }
 
-/// Judges one quantity; `absent` holds the names of the files of numbers that are not there, with what is then not known.
+/// Judges one quantity; `absent` holds the names of missing files of numbers, each with the consequence.
 pub(crate) fn judge(
     spec: &QuantitySpec,
     absent: &BTreeMap<&str, &str>,
@@ -52,57 +52,9 @@ pub(crate) fn judge(
     }
     let Some(value) = spec.value.as_ref().map(|formula| number(formula, e)).transpose()? else { return Ok(record) };
     record.value = Some(value).filter(|value| value.is_finite());
-    let finite = |what: &'static str, found: Option<f64>| match found {
-        Some(found) if !found.is_finite() => Err(JudgeError::NotFinite { what, found }),
-        found => Ok(found),
-    };
-    let mut of = |what: &'static str, formula: &Option<Formula>| {
-        finite(what, formula.as_ref().map(|f| number(f, e)).transpose()?)
-    };
-    let near = of("near", &spec.near)?;
-    let (at_least, at_most) = (of("at_least", &spec.at_least)?, of("at_most", &spec.at_most)?);
-    let holds = match (near, &spec.within, at_least, at_most) {
-        (Some(reference), Some(within), ..) => {
-            let scale = reference.abs();
-            let mut of = |what: &'static str, extent: Option<&Extent>| {
-                finite(what, extent.map(|x| size(x, scale, e)).transpose()?)
-            };
-            let tolerance = of("within", Some(within))?.unwrap_or_default();
-            record.uncertainty = of("uncertainty", spec.uncertainty.as_ref())?;
-            record.discretisation = of("discretisation", spec.discretisation.as_ref())?;
-            let allowed = record.uncertainty.unwrap_or_default() + record.discretisation.unwrap_or_default();
-            if tolerance > allowed * (1.0 + ROUNDING) && spec.because.is_none() {
-                return Err(JudgeError::TooWide { tolerance, allowed });
-            }
-            let error = (value - reference).abs();
-            record.criterion = Criterion::Near { reference, tolerance };
-            record.error = Some(error).filter(|error| error.is_finite());
-            record.relative_error = Some(error / scale).filter(|relative| relative.is_finite());
-            record.share = Some(error / tolerance).filter(|share| share.is_finite());
-            Some(error <= tolerance)
-        }
-        (_, _, Some(low), Some(high)) => {
-            record.criterion = Criterion::Between { low, high };
-            Some(value >= low && value <= high)
-        }
-        (_, _, Some(bound), None) => {
-            record.criterion = Criterion::AtLeast { bound };
-            Some(value >= bound)
-        }
-        (_, _, None, Some(bound)) => {
-            record.criterion = Criterion::AtMost { bound };
-            // How much of a bound is used says something where zero is perfect.
-            record.share = Some(value / bound).filter(|share| bound > 0.0 && *share >= 0.0);
-            Some(value <= bound)
-        }
-        _ if spec.is_true.is_some() => {
-            record.criterion = Criterion::True;
-            Some(value == 1.0)
-        }
-        _ => None,
-    };
+    let holds = compare(&mut record, value, spec, e)?;
     record.standing = match (record.value, holds) {
-        // No number fulfils nothing; where a failure is expected it is not that failure either.
+        // A quantity without a number cannot be judged, even where a failure is expected.
         (None, _) if expected == Standing::Fails => Standing::CannotBeCompared,
         (None, _) | (_, Some(false)) => Standing::Fails,
         (_, Some(true)) => Standing::Holds,
@@ -114,7 +66,46 @@ pub(crate) fn judge(
     Ok(record)
 }
 
-/// That every member of a run ended as it should.
+/// Whether `value` fulfils the criterion of `spec`, which is entered in the record with the errors; `None` without a criterion.
+fn compare(
+    record: &mut QuantityRecord,
+    value: f64,
+    spec: &QuantitySpec,
+    e: &mut Evaluator,
+) -> Result<Option<bool>, JudgeError> {
+    let near = finite("near", spec.near.as_ref(), e)?;
+    let at_least = finite("at_least", spec.at_least.as_ref(), e)?;
+    let at_most = finite("at_most", spec.at_most.as_ref(), e)?;
+    let (criterion, holds) = match (near, &spec.within, at_least, at_most) {
+        (Some(reference), Some(within), ..) => {
+            let tolerance = size("within", Some(within), reference, e)?.unwrap_or_default();
+            record.uncertainty = size("uncertainty", spec.uncertainty.as_ref(), reference, e)?;
+            record.discretisation = size("discretisation", spec.discretisation.as_ref(), reference, e)?;
+            let allowed = record.uncertainty.unwrap_or_default() + record.discretisation.unwrap_or_default();
+            if tolerance > allowed * (1.0 + ROUNDING) && spec.because.is_none() {
+                return Err(JudgeError::TooWide { tolerance, allowed });
+            }
+            let error = (value - reference).abs();
+            record.error = Some(error).filter(|error| error.is_finite());
+            record.relative_error = Some(error / reference.abs()).filter(|relative| relative.is_finite());
+            record.share = Some(error / tolerance).filter(|share| share.is_finite());
+            (Criterion::Near { reference, tolerance }, error <= tolerance)
+        }
+        (_, _, Some(low), Some(high)) => (Criterion::Between { low, high }, value >= low && value <= high),
+        (_, _, Some(bound), None) => (Criterion::AtLeast { bound }, value >= bound),
+        (_, _, None, Some(bound)) => {
+            // The share of an upper bound is meaningful where the best value is zero.
+            record.share = Some(value / bound).filter(|share| bound > 0.0 && *share >= 0.0);
+            (Criterion::AtMost { bound }, value <= bound)
+        }
+        _ if spec.is_true.is_some() => (Criterion::True, value == 1.0),
+        _ => return Ok(None),
+    };
+    record.criterion = criterion;
+    Ok(Some(holds))
+}
+
+/// Quantity that holds where every member of a run ended as expected.
 pub(crate) fn endings(run: &str, family: &Members) -> QuantityRecord {
     let as_expected = family.ended().filter(|(member, run)| member.may_end(run.outcome)).count();
     let (count, all) = (as_expected as f64, family.members.len() as f64);
@@ -126,7 +117,7 @@ pub(crate) fn endings(run: &str, family: &Members) -> QuantityRecord {
         (_, 0) => format!("{run}: members that end sound"),
         _ => format!("{run}: members that end as they should, {refusals} of them not with a result"),
     };
-    // Refusals that are accepted beside results prove nothing where there is no result.
+    // Accepted refusals count only where some member has a result.
     let any_result = !may_be_refused || family.ended().any(|(_, run)| run.outcome == RunOutcome::Sound);
     let standing = if as_expected == family.members.len() && any_result { Standing::Holds } else { Standing::Fails };
     QuantityRecord {
@@ -141,7 +132,7 @@ pub(crate) fn endings(run: &str, family: &Members) -> QuantityRecord {
     }
 }
 
-/// What the first member that did not end as it should has said.
+/// Message of the first member that did not end as expected.
 fn first_surprise(family: &Members) -> Option<String> {
     let (member, run) = family.ended().find(|(member, run)| !member.may_end(run.outcome))?;
     let said = run.said.as_deref().unwrap_or("nothing");
@@ -156,9 +147,26 @@ pub(crate) fn number(formula: &Formula, e: &mut Evaluator) -> Result<f64, Expres
     }
 }
 
-fn size(extent: &Extent, scale: f64, e: &mut Evaluator) -> Result<f64, ExpressionError> {
-    match extent {
-        Extent::Relative(share) => Ok(number(share, e)? * scale),
-        Extent::Absolute(size) => number(size, e),
-    }
+/// Value of a formula, which must be finite.
+fn finite(what: &'static str, formula: Option<&Formula>, e: &mut Evaluator) -> Result<Option<f64>, JudgeError> {
+    formula.map(|formula| checked(what, number(formula, e)?)).transpose()
+}
+
+/// Tolerance in the quantity's unit, which must be finite.
+fn size(
+    what: &'static str,
+    extent: Option<&ToleranceSize>,
+    reference: f64,
+    e: &mut Evaluator,
+) -> Result<Option<f64>, JudgeError> {
+    let Some(extent) = extent else { return Ok(None) };
+    let size = match extent {
+        ToleranceSize::Relative(share) => number(share, e)? * reference.abs(),
+        ToleranceSize::Absolute(size) => number(size, e)?,
+    };
+    checked(what, size).map(Some)
+}
+
+fn checked(what: &'static str, found: f64) -> Result<f64, JudgeError> {
+    if found.is_finite() { Ok(found) } else { Err(JudgeError::NotFinite { what, found }) }
 }

@@ -11,14 +11,14 @@ use super::case_file::CaseFile;
 use super::record::Tier;
 use crate::whole_file::TemporaryFolder;
 
-/// The cases of this version, with everything that they read.
+/// Built-in cases with their files.
 static CASES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/validation");
 /// Finite-element meshes that cases read.
 static MESHES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/meshes");
-/// The file that makes a folder a case.
+/// File of a case in its folder.
 const CASE_FILE: &str = "case.toml";
 
-/// Why there is no such case.
+/// Error of finding cases.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum LibraryError {
     #[error(
@@ -33,10 +33,10 @@ pub(crate) enum LibraryError {
     /// None of the cases asked for belongs to the tier asked for.
     #[error("found no case of the tier {tier} among those named; allowed: cases of that tier, or none named")]
     NoCaseOfTier { tier: &'static str },
-    /// Two cases of one name: reports and later comparisons could not tell them apart.
+    /// Two cases of the same name, which reports could not distinguish.
     #[error("found two cases called {name:?}; allowed: each name once")]
     Twice { name: String },
-    /// What is there already is not written over: it may have been changed.
+    /// Existing files are not overwritten: they may have been changed.
     #[error("found {} there already; allowed: a folder without it", path.display())]
     Exists { path: PathBuf },
     #[error("cannot write the built-in cases to {}: {reason}", folder.display())]
@@ -45,7 +45,7 @@ pub(crate) enum LibraryError {
 
 /// A case with its place on disk.
 #[derive(Debug, Clone)]
-pub(crate) struct Case {
+pub(crate) struct ValidationCase {
     /// Name of its folder.
     pub name: String,
     pub folder: PathBuf,
@@ -55,13 +55,13 @@ pub(crate) struct Case {
 /// Cases, and the folder that keeps the built-in ones as long as they are needed.
 #[derive(Debug)]
 pub(crate) struct Library {
-    pub cases: Vec<Case>,
+    pub cases: Vec<ValidationCase>,
     _built_in: Option<TemporaryFolder>,
 }
 
 pub(crate) fn names() -> Vec<&'static str> {
-    let has_case = |dir: &&Dir<'static>| dir.contains(dir.path().join(CASE_FILE));
-    CASES.dirs().filter(has_case).filter_map(|dir| dir.path().to_str()).collect()
+    let cases = CASES.dirs().filter(|dir| dir.contains(dir.path().join(CASE_FILE)));
+    cases.filter_map(|dir| dir.path().to_str()).collect()
 }
 
 /// Lays the built-in cases out in `folder`: `validation/` with one folder a case, and `meshes/` beside it.
@@ -80,8 +80,16 @@ pub(crate) fn export(folder: &Path) -> Result<(), LibraryError> {
     Ok(())
 }
 
+/// Temporary folder with the built-in cases.
+fn exported() -> Result<TemporaryFolder, LibraryError> {
+    let folder = TemporaryFolder::new();
+    let folder = folder.map_err(|reason| LibraryError::Export { folder: std::env::temp_dir(), reason })?;
+    export(folder.path())?;
+    Ok(folder)
+}
+
 impl Library {
-    /// The tier that is run: the one `asked` for. The whole suite, `all` of it, is run to the full one; cases that are named, whatever theirs is.
+    /// Tier that is run: `asked` if given, else the full tier of the whole suite (`all`) and no limit for named cases.
     pub(crate) fn tier(&self, asked: Option<Tier>, all: bool) -> Result<Option<Tier>, LibraryError> {
         let tier = asked.or(all.then_some(Tier::Full));
         match tier {
@@ -95,28 +103,26 @@ impl Library {
     /// The cases asked for, each by its name or by the folder it lies in; none asked for: all built-in ones.
     pub(crate) fn open(asked: &[String]) -> Result<Self, LibraryError> {
         let names = names();
-        // A name of the program's own is that case; `./NAME` is a folder.
-        let is_folder =
-            |asked: &&String| !names.contains(&asked.as_str()) && Path::new(asked).join(CASE_FILE).is_file();
-        let is_known = |asked: &&String| is_folder(asked) || names.contains(&asked.as_str());
-        if let Some(found) = asked.iter().find(|asked| !is_known(asked)) {
-            let nearest = crate::scene::nearest::nearest(found, &names);
-            return Err(LibraryError::Unknown { found: found.clone(), nearest });
-        }
         let all: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
         let asked = if asked.is_empty() { &all } else { asked };
-        let mut built_in = None;
-        if asked.iter().any(|asked| !is_folder(&asked)) {
-            let folder = TemporaryFolder::new()
-                .map_err(|reason| LibraryError::Export { folder: std::env::temp_dir(), reason })?;
-            export(folder.path())?;
-            built_in = Some(folder);
+        let mut built_in: Option<TemporaryFolder> = None;
+        let mut folders = Vec::with_capacity(asked.len());
+        // A built-in name is that case; `./NAME` is a folder.
+        for asked in asked {
+            if names.contains(&asked.as_str()) {
+                let folder = match &built_in {
+                    Some(folder) => folder,
+                    None => built_in.insert(exported()?),
+                };
+                folders.push(folder.path().join("validation").join(asked));
+            } else if Path::new(asked).join(CASE_FILE).is_file() {
+                folders.push(PathBuf::from(asked));
+            } else {
+                let nearest = crate::scene::nearest::nearest(asked, &names);
+                return Err(LibraryError::Unknown { found: asked.clone(), nearest });
+            }
         }
-        let place = |asked: &String| match &built_in {
-            Some(folder) if !is_folder(&asked) => folder.path().join("validation").join(asked),
-            _ => PathBuf::from(asked),
-        };
-        let cases = asked.iter().map(|asked| read(&place(asked))).collect::<Result<Vec<Case>, _>>()?;
+        let cases = folders.iter().map(|folder| read(folder)).collect::<Result<Vec<ValidationCase>, _>>()?;
         let mut taken = BTreeSet::new();
         if let Some(twice) = cases.iter().find(|case| !taken.insert(case.name.as_str())) {
             return Err(LibraryError::Twice { name: twice.name.clone() });
@@ -125,7 +131,7 @@ impl Library {
     }
 }
 
-fn read(folder: &Path) -> Result<Case, LibraryError> {
+fn read(folder: &Path) -> Result<ValidationCase, LibraryError> {
     let path = folder.join(CASE_FILE);
     let text = fs::read_to_string(&path).map_err(|reason| LibraryError::Unreadable { path: path.clone(), reason })?;
     let file: CaseFile = toml::from_str(&text).map_err(|error| {
@@ -140,7 +146,7 @@ fn read(folder: &Path) -> Result<Case, LibraryError> {
     // A folder given as `.` has a name all the same.
     let whole = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
     let name = whole.file_name().map_or_else(|| "case".to_owned(), |name| name.to_string_lossy().into_owned());
-    Ok(Case { name, folder: folder.to_owned(), file })
+    Ok(ValidationCase { name, folder: folder.to_owned(), file })
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
-//! The members of a family of runs: which keys each exchanges, and what it is called.
+//! Members of a family of runs: the keys that each sets, and its label.
 
 use super::case_file::{MemberSpec, RunSpec, SampleSpec, VarySpec};
 use super::value::Value;
+use crate::report::html::number::to_digits;
 use crate::studies::validation::record::RunOutcome;
 
 /// One run of a family, or a run that is alone.
@@ -15,19 +16,19 @@ pub(crate) struct Member {
     pub label: String,
     /// Columns of the family with this member's value.
     pub values: Vec<(String, Value)>,
-    /// How it must end.
+    /// Expected outcome.
     pub expected: RunOutcome,
-    /// Other ways in which it may end.
+    /// Further accepted outcomes.
     pub accepted: Vec<RunOutcome>,
 }
 
 impl Member {
-    /// Whether it may end so.
+    /// Whether `outcome` is one that the case expects or accepts.
     pub(crate) fn may_end(&self, outcome: RunOutcome) -> bool {
         outcome == self.expected || self.accepted.contains(&outcome)
     }
 
-    /// Its value in a column of the family.
+    /// Value in a column of the family.
     pub(super) fn value(&self, column: &str) -> Option<&Value> {
         self.values.iter().find(|(name, _)| name == column).map(|(_, value)| value)
     }
@@ -49,7 +50,7 @@ pub(super) fn members(run: &RunSpec) -> Vec<Member> {
     if !run.each.is_empty() {
         return run.each.iter().map(|member| one_by_one(&alone, member)).collect();
     }
-    // The last key runs fastest.
+    // The last key changes fastest.
     run.vary.iter().fold(vec![alone], |members, varied| {
         let values = varied.all();
         members.iter().flat_map(|member| values.iter().map(|value| with(member, varied, value.clone()))).collect()
@@ -62,8 +63,10 @@ impl VarySpec {
     }
 
     fn all(&self) -> Vec<toml::Value> {
-        let at = |index| self.between(index as f64 / (self.count().max(2) - 1) as f64);
-        self.values.clone().unwrap_or_else(|| (0..self.count()).map(at).collect())
+        self.values.clone().unwrap_or_else(|| {
+            let intervals = (self.count().max(2) - 1) as f64;
+            (0..self.count()).map(|index| self.between(index as f64 / intervals)).collect()
+        })
     }
 
     /// The number at `share` of the range.
@@ -103,19 +106,20 @@ fn with(member: &Member, varied: &VarySpec, value: toml::Value) -> Member {
 
 /// The number with four digits, for labels.
 fn short(number: f64) -> String {
-    let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
-    format!("{rounded:?}")
+    format!("{:?}", to_digits(number, 4))
 }
 
 fn one_by_one(alone: &Member, spec: &MemberSpec) -> Member {
     let own: Vec<(String, toml::Value)> = spec.set.iter().map(|(key, value)| (key.clone(), value.clone())).collect();
-    let in_words = || own.iter().map(|(key, value)| format!("{key} = {value}")).collect::<Vec<_>>().join(", ");
-    let label = spec.label.clone().unwrap_or_else(in_words);
+    let label = spec.label.clone().unwrap_or_else(|| {
+        let changed: Vec<String> = own.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+        changed.join(", ")
+    });
     Member {
         values: vec![("value".to_owned(), Value::Number(spec.value.unwrap_or(f64::NAN)))],
         unset: [alone.unset.clone(), spec.unset.clone()].concat(),
         expected: spec.expect.unwrap_or(alone.expected),
-        // A member that says how it ends ends so.
+        // A member with its own expected outcome accepts no other.
         accepted: if spec.expect.is_some() { Vec::new() } else { alone.accepted.clone() },
         set: [alone.set.clone(), own].concat(),
         label,
@@ -168,10 +172,13 @@ mod tests {
         assert_eq!((listed[1].label.as_str(), listed[1].expected), ("b", RunOutcome::Sound));
 
         let either = members(&run("accept = [\"refused\"]\n[[each]]\nset = { k = 1 }\n[[each]]\nexpect = \"sound\"\n"));
-        let may_end = |outcome| either.iter().map(|member| member.may_end(outcome)).collect::<Vec<_>>();
-        assert_eq!(may_end(RunOutcome::Sound), [true, true]);
-        assert_eq!(may_end(RunOutcome::Refused), [true, false]);
-        assert_eq!(may_end(RunOutcome::Panicked), [false, false]);
+        for (outcome, may_end) in [
+            (RunOutcome::Sound, [true, true]),
+            (RunOutcome::Refused, [true, false]),
+            (RunOutcome::Panicked, [false, false]),
+        ] {
+            assert_eq!([either[0].may_end(outcome), either[1].may_end(outcome)], may_end);
+        }
 
         let sampled = members(&run(
             "[sample]\ncount = 200\nof = [{ key = \"m\", from = 1, to = 3 }, { key = \"s\", values = [\"a\", \"b\"] }]\n",

@@ -1,4 +1,4 @@
-//! The validation suite: every claim of the program, held against its reference, with what it costs.
+//! The validation suite: every claim of the program compared with its reference, with its cost.
 //!
 //! A case is a folder of data with a file `case.toml` ([`case_file`]); adding one adds no code. [`library`] finds cases, built in or
 //! on disk; [`schedule`] hands their runs to the threads; [`execution`] carries each out through the pipeline and reads it back
@@ -27,21 +27,30 @@ pub(crate) mod syntax;
 mod value;
 
 use std::collections::BTreeMap;
+use std::error::Error;
 use std::time::Instant;
 
 use crate::observer::Observer;
 use crate::studies::validation::record::{CaseRecord, CaseRun, RunOutcome, Tier, ValidationRecord, written};
 use expression::Evaluator;
-use library::Case;
+use library::ValidationCase;
 use schedule::Members;
 
-/// Carries out those of `cases` that belong to `tier` (all of them where there is none), on so many threads.
-pub(crate) fn run(cases: &[Case], tier: Option<Tier>, threads: usize, observer: &dyn Observer) -> ValidationRecord {
+/// Carries out the cases of `tier` (all of them where there is none) on `threads` threads.
+pub(crate) fn run(
+    cases: &[ValidationCase],
+    tier: Option<Tier>,
+    threads: usize,
+    observer: &dyn Observer,
+) -> ValidationRecord {
     let start = Instant::now();
-    let chosen: Vec<&Case> = cases.iter().filter(|case| tier.is_none_or(|tier| case.file.tier <= tier)).collect();
+    let chosen: Vec<&ValidationCase> =
+        cases.iter().filter(|case| tier.is_none_or(|tier| case.file.tier <= tier)).collect();
     let executed = schedule::carry_out(&chosen, threads, observer);
-    let whole = |runs: &[Members]| runs.iter().all(|run| run.executed.iter().all(Option::is_some));
-    let (finished, left_out): (Vec<_>, Vec<_>) = chosen.iter().zip(&executed).partition(|(_, runs)| whole(runs));
+    let (finished, left_out): (Vec<_>, Vec<_>) = chosen
+        .iter()
+        .zip(&executed)
+        .partition(|(_, runs)| runs.iter().all(|run| run.executed.iter().all(Option::is_some)));
     let mut cases: Vec<CaseRecord> = finished.into_iter().map(|(case, runs)| record(case, runs)).collect();
     cases.sort_by(|a, b| (&a.group, &a.name).cmp(&(&b.group, &b.name)));
     ValidationRecord {
@@ -54,8 +63,8 @@ pub(crate) fn run(cases: &[Case], tier: Option<Tier>, threads: usize, observer: 
     }
 }
 
-/// The case with everything judged.
-fn record(case: &Case, runs: &[Members]) -> CaseRecord {
+/// Record of a case with everything judged.
+fn record(case: &ValidationCase, runs: &[Members]) -> CaseRecord {
     let file = &case.file;
     let runs_of_case: Vec<CaseRun> = file.run.iter().zip(runs).map(|(spec, family)| of_run(spec, family)).collect();
     let mut record = CaseRecord {
@@ -74,17 +83,17 @@ fn record(case: &Case, runs: &[Members]) -> CaseRecord {
         quantities: file.run.iter().zip(runs).map(|(spec, family)| judge::endings(&spec.name, family)).collect(),
         ..CaseRecord::default()
     };
-    record.failure = fill(&mut record, case, runs).err();
+    record.failure = fill(&mut record, case, runs).err().map(|error| error.to_string());
     record
 }
 
-/// Judges and draws; what keeps it from that is said in words.
-fn fill(record: &mut CaseRecord, case: &Case, runs: &[Members]) -> Result<(), String> {
+/// Judges the quantities of a case and makes its plots.
+fn fill(record: &mut CaseRecord, case: &ValidationCase, runs: &[Members]) -> Result<(), Box<dyn Error>> {
     let file = &case.file;
-    // Outcomes come first: they are worth knowing of a case that fails.
-    let of_family = |name: &str| file.run.iter().position(|run| run.name == name).map(|index| &runs[index]);
+    let by_name: BTreeMap<&str, &Members> = file.run.iter().map(|spec| spec.name.as_str()).zip(runs).collect();
+    // Outcomes come first, so that a failed case has them.
     for spec in &file.stability {
-        if let Some(family) = of_family(&spec.family) {
+        if let Some(family) = by_name.get(spec.family.as_str()) {
             record.stability.extend(drawing::stability(spec, family)?);
         }
     }
@@ -98,7 +107,6 @@ fn fill(record: &mut CaseRecord, case: &Case, runs: &[Members]) -> Result<(), St
             }
         }
     }
-    let said = |error: expression::ExpressionError| error.to_string();
     let (families, single): (Vec<_>, Vec<_>) = file.run.iter().zip(runs).partition(|(spec, _)| spec.is_family());
     for (spec, members) in single {
         if let [Some(executed)] = members.executed.as_slice() {
@@ -106,11 +114,11 @@ fn fill(record: &mut CaseRecord, case: &Case, runs: &[Members]) -> Result<(), St
         }
     }
     for (spec, members) in families {
-        let columns = family::columns(members, &spec.take, &mut e).map_err(said)?;
+        let columns = family::columns(members, &spec.take, &mut e)?;
         e.name(&spec.name, &columns);
     }
     for definition in &file.define {
-        let value = e.value(&definition.value).map_err(said)?;
+        let value = e.value(&definition.value)?;
         e.name(&definition.name, &value);
     }
     for spec in &file.quantity {
@@ -118,12 +126,12 @@ fn fill(record: &mut CaseRecord, case: &Case, runs: &[Members]) -> Result<(), St
         record.quantities.push(judged.map_err(|error| format!("{}: {error}", spec.name))?);
     }
     for spec in &file.work_precision {
-        if let Some(family) = of_family(&spec.family) {
-            record.work_precision.extend(drawing::work_precision(spec, family, &mut e).map_err(said)?);
+        if let Some(family) = by_name.get(spec.family.as_str()) {
+            record.work_precision.extend(drawing::work_precision(spec, family, &mut e)?);
         }
     }
     for spec in &file.plot {
-        record.plots.push(drawing::plot(spec, &absent, &of_family, &mut e).map_err(said)?);
+        record.plots.push(drawing::plot(spec, &absent, &by_name, &mut e)?);
     }
     Ok(())
 }
@@ -144,7 +152,7 @@ fn of_run(spec: &case_file::RunSpec, family: &Members) -> CaseRun {
     }
 }
 
-/// Counts of work, added by their names.
+/// Work counts, added by their names.
 fn together<'a>(counts: impl Iterator<Item = &'a BTreeMap<String, u64>>) -> BTreeMap<String, u64> {
     let mut all = BTreeMap::new();
     for (name, count) in counts.flatten() {

@@ -14,7 +14,7 @@ use crate::measurement::form::{Form, FormRemoval};
 use crate::measurement::roughness;
 use crate::reference::separate_peaks::separate_peaks;
 
-/// The value of a function of profiles; none where there is no such function of these.
+/// Value of a function of profiles; none where there is no such function of these.
 pub(crate) fn call(name: &str, arguments: &[Value]) -> Result<Option<Value>, ColumnError> {
     use Value::{Column, Number};
     Ok(Some(match (name, arguments) {
@@ -55,9 +55,8 @@ mod tests {
     fn evaluator() -> Evaluator {
         let mut evaluator = Evaluator::default();
         let x: Vec<f64> = (0..401).map(|i| 0.01 * f64::from(i)).collect();
-        let wave = |x: f64| (10.0 * std::f64::consts::PI * x).sin();
         evaluator.name("x", &Value::column(x.iter().copied()));
-        evaluator.name("wave", &Value::column(x.iter().map(|&x| wave(x))));
+        evaluator.name("wave", &Value::column(x.iter().map(|&x| (10.0 * std::f64::consts::PI * x).sin())));
         evaluator.name("cubic", &Value::column(x.iter().map(|&x| 3.0 - x + 0.5 * x.powi(3))));
         evaluator.name("at", &Value::column([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
         evaluator.name("depth", &Value::column([9.0, 5.0, 8.0, 7.5, 7.9, 3.0, 4.0]));

@@ -1,5 +1,4 @@
-//! What the validation suite came to: the plain data that its reports are written from, and that a later run is compared
-//! with.
+//! Record of the validation suite: the plain data that its reports are written from, and that a later run is compared with.
 //!
 //! Two judgements stand side by side. A quantity *holds* or does not, against its reference or bound: that is physics, and
 //! it is computed. A case *passes* where every quantity stands as the case file says it does: that is what the exit status
@@ -40,7 +39,7 @@ pub(crate) enum Tier {
     Smoke,
     /// Below fifteen minutes on two cores: for every release.
     Full,
-    /// As long as it takes.
+    /// No limit.
     Long,
 }
 
@@ -48,7 +47,7 @@ impl Tier {
     /// All of them, shortest first.
     pub(crate) const ALL: [Self; 3] = [Self::Smoke, Self::Full, Self::Long];
 
-    /// As the user writes it.
+    /// Name on the command line.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Smoke => "smoke",
@@ -58,18 +57,18 @@ impl Tier {
     }
 }
 
-/// What a case shows (after ASME V&V 10).
+/// Purpose of a case (after ASME V&V 10).
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum CaseKind {
     /// The equations are solved right: against closed forms and orders of convergence.
     #[default]
     CodeVerification,
-    /// This solution is resolved: against finer ones.
+    /// A solution is resolved: against finer ones.
     SolutionVerification,
     /// The right equations are solved: against a standard, a publication, another program, a measurement.
     Validation,
-    /// It has not changed: against our own earlier result.
+    /// A result has not changed: against our own earlier one.
     Regression,
 }
 
@@ -86,28 +85,28 @@ pub(crate) struct CaseRecord {
     pub title: String,
     /// The group it is shown in, such as `FZG test gears`.
     pub group: String,
-    /// The targets it speaks to, such as `S1`; may be none.
+    /// Targets, such as `S1`; may be empty.
     pub targets: Vec<String>,
-    /// One sentence: what must be so.
+    /// Requirement, one sentence.
     pub requirement: String,
     pub kind: CaseKind,
     /// The first tier that holds it.
     pub tier: Tier,
-    /// What the source of the requirement says, in our own words, where there is something to compare by eye.
+    /// Statement of the source in our own words, where there is something to compare by eye.
     pub says: Option<String>,
-    /// The estimates it rests on, such as a torque that no text gives.
+    /// Estimates in its inputs, such as a torque that no source gives.
     pub rests_on: Vec<String>,
     pub runs: Vec<CaseRun>,
-    /// What was computed and judged.
+    /// Quantities computed and judged.
     pub quantities: Vec<QuantityRecord>,
     /// Error against cost, of the cases that ask for it.
     pub work_precision: Vec<WorkPrecisionPoint>,
     /// Outcomes over a range of a parameter, of the cases that ask for it.
     pub stability: Vec<StabilityPoint>,
-    /// What is drawn; not kept as JSON.
+    /// Plots; not kept as JSON.
     #[serde(skip)]
     pub plots: Vec<CasePlot>,
-    /// Why it could not be carried out to its end: a failure, never a skip.
+    /// Reason why the case could not be completed: a failure, never a skip.
     pub failure: Option<String>,
     /// Wall time of its runs together: on several threads the suite takes less.
     pub wall_s: f64,
@@ -116,20 +115,20 @@ pub(crate) struct CaseRecord {
 }
 
 impl CaseRecord {
-    /// Whether everything stands as the case says.
+    /// Whether every outcome is as expected.
     pub(crate) fn passed(&self) -> bool {
         self.failure.is_none() && self.quantities.iter().all(QuantityRecord::as_expected)
     }
 
-    /// The quantities that speak to a target: those that name it, or else those that name none.
+    /// Quantities of a target: those that name it, or else those without a target.
     pub(crate) fn speaking_to(&self, target: &str) -> Vec<&QuantityRecord> {
-        let named = |name: Option<&str>| self.quantities.iter().filter(|q| q.target.as_deref() == name).collect();
-        let own: Vec<&QuantityRecord> = named(Some(target));
-        if own.is_empty() { named(None) } else { own }
+        let has_own = self.quantities.iter().any(|quantity| quantity.target.as_deref() == Some(target));
+        let wanted = has_own.then_some(target);
+        self.quantities.iter().filter(|quantity| quantity.target.as_deref() == wanted).collect()
     }
 }
 
-/// What a comparison says.
+/// Outcome of a comparison.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Standing {
@@ -177,7 +176,7 @@ pub(crate) enum RunOutcome {
 }
 
 impl RunOutcome {
-    /// As case files, expressions and style sheets write it.
+    /// Name in case files, expressions and style sheets.
     pub(crate) fn name(self) -> String {
         written(self)
     }
@@ -194,13 +193,13 @@ impl RunOutcome {
     }
 }
 
-/// A number with what it is compared with.
+/// A number with its reference or bound.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct QuantityRecord {
     pub name: String,
-    /// The one target of its case that it speaks to; `None`: all of them.
+    /// Target of the quantity; `None`: all of its case.
     pub target: Option<String>,
-    /// Its unit; empty for a ratio.
+    /// Unit; empty for a ratio.
     pub unit: String,
     /// The number; `None` where it could not be computed.
     pub value: Option<f64>,
@@ -209,19 +208,19 @@ pub(crate) struct QuantityRecord {
     pub source: String,
     /// Uncertainty of the reference, in the quantity's unit.
     pub uncertainty: Option<f64>,
-    /// What the spacing of the computation contributes, in the quantity's unit.
+    /// Contribution of the computation's resolution, in the quantity's unit.
     pub discretisation: Option<f64>,
     /// Why the tolerance or the bound is what it is.
     pub because: Option<String>,
     /// |value − reference|, in the quantity's unit.
     pub error: Option<f64>,
-    /// The same over |reference|.
+    /// Error over |reference|.
     pub relative_error: Option<f64>,
     /// Share of the tolerance that the error uses: at most 1 where it holds.
     pub share: Option<f64>,
-    /// What the comparison says.
+    /// Outcome of the comparison.
     pub standing: Standing,
-    /// What the case says that it should.
+    /// Outcome that the case expects.
     pub expected: Standing,
     /// Why it is not expected to hold, or what is missing to compare it.
     pub remark: Option<String>,
@@ -235,13 +234,13 @@ impl QuantityRecord {
         Self { name: name.to_owned(), expected: Standing::Holds, ..Self::default() }
     }
 
-    /// Whether it stands as the case says.
+    /// Whether the outcome is as expected.
     pub(crate) fn as_expected(&self) -> bool {
         self.standing == self.expected
     }
 }
 
-/// What a quantity is compared with.
+/// Reference or bound of a quantity.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "is")]
 pub(crate) enum Criterion {
@@ -268,7 +267,7 @@ pub(crate) enum Criterion {
     Reported,
 }
 
-/// A setting of a scene: what it costs and how far off it is.
+/// A setting of a scene with its error and cost.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct WorkPrecisionPoint {
     /// The curve it belongs to, such as the contact surface.
@@ -283,25 +282,25 @@ pub(crate) struct WorkPrecisionPoint {
     pub counted: String,
 }
 
-/// How the program behaves at one value of a parameter.
+/// Outcome at one value of a parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct StabilityPoint {
     /// The parameter, unit included.
     pub parameter: String,
-    /// Its value, to be placed on an axis.
+    /// Value on an axis.
     pub value: f64,
     /// The value as text, with whatever goes with it.
     pub setting: String,
     pub outcome: RunOutcome,
     pub expected: RunOutcome,
-    /// What the program said, where it refused or did not converge, or what is unsound.
+    /// Message of the program, where it refused or did not converge, or what is unsound.
     pub said: Option<String>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CasePlot {
     pub title: String,
-    /// What one sees, in a sentence.
+    /// Description of what the plot shows, in a sentence.
     pub reading: String,
     /// Title of the abscissa, unit included.
     pub x: String,
@@ -342,37 +341,37 @@ pub(crate) enum CurveStyle {
     Band,
 }
 
-/// What became of the suite since an earlier run of it.
+/// Changes of the suite since an earlier run of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Changes {
     /// Version of the program that made the earlier record.
     pub against_version: String,
-    /// What got worse: a verdict, an error, work.
+    /// Changes for the worse: of a verdict, an error, work.
     pub worse: Vec<Change>,
     pub better: Vec<Change>,
     /// Cases that only the new record has.
     pub added: Vec<String>,
-    /// Cases that only the old record has.
+    /// Names of cases that only the old record has.
     pub gone: Vec<String>,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Change {
     pub case: String,
-    /// What of it: the name of a quantity or of what is counted, or `verdict`.
+    /// Name of a quantity or of a work count, or `verdict`.
     pub what: String,
-    pub before: State,
-    pub now: State,
+    pub before: ComparedState,
+    pub now: ComparedState,
 }
 
-/// What is compared of two records.
+/// Property that is compared between two records.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum State {
+pub(crate) enum ComparedState {
     /// Whether the case could be carried out.
     Ran(bool),
     Absent,
-    /// What the comparison says.
+    /// Outcome of a comparison.
     Stands(Standing),
     Ended(RunOutcome),
     /// The share of its tolerance that a quantity uses.

@@ -1,12 +1,12 @@
-//! Hands the runs of all cases to the threads. Each run has one thread of its own, so that its wall time is its own; results never
-//! depend on which thread took it.
+//! Distribution of the runs of all cases over threads. Each run has one thread, so that its wall time is meaningful; results do not depend on the
+//! thread.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use super::case_file::Command;
-use super::execution::{Executed, Task};
-use super::library::Case;
+use super::case_file::{CaseCommand, RunSpec};
+use super::execution::{Executed, MemberRun};
+use super::library::ValidationCase;
 use super::members::{Member, members};
 use crate::calibration::Calibration;
 use crate::observer::{Observer, PartOf};
@@ -15,12 +15,17 @@ use crate::observer::{Observer, PartOf};
 #[derive(Debug)]
 pub(crate) struct Members {
     pub members: Vec<Member>,
-    /// What each came to; `None` where the suite was interrupted before.
+    /// Result of each; `None` where the suite was interrupted before.
     pub executed: Vec<Option<Executed>>,
 }
 
 impl Members {
-    /// Those that ended, each with what it came to.
+    fn not_yet_run(run: &RunSpec) -> Self {
+        let members = members(run);
+        Self { executed: vec![None; members.len()], members }
+    }
+
+    /// Members that ended, each with its result.
     pub(super) fn ended(&self) -> impl Iterator<Item = (&Member, &Executed)> {
         self.members.iter().zip(&self.executed).filter_map(|(member, executed)| Some((member, executed.as_ref()?)))
     }
@@ -35,17 +40,9 @@ struct Job {
 }
 
 /// Carries out all runs of `cases` on `threads` threads: for each case, each of its runs.
-pub(crate) fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer) -> Vec<Vec<Members>> {
-    let mut all: Vec<Vec<Members>> = cases
-        .iter()
-        .map(|case| {
-            let of_run = |run| {
-                let members = members(run);
-                Members { executed: vec![None; members.len()], members }
-            };
-            case.file.run.iter().map(of_run).collect()
-        })
-        .collect();
+pub(crate) fn carry_out(cases: &[&ValidationCase], threads: usize, observer: &dyn Observer) -> Vec<Vec<Members>> {
+    let mut all: Vec<Vec<Members>> =
+        cases.iter().map(|case| case.file.run.iter().map(Members::not_yet_run).collect()).collect();
     let mut jobs: Vec<Job> = Vec::new();
     for (case, runs) in all.iter().enumerate() {
         for (run, family) in runs.iter().enumerate() {
@@ -53,14 +50,14 @@ pub(crate) fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer
         }
     }
     let total = jobs.len();
-    let reads_calibration = |job: &Job| cases[job.case].file.run[job.run].calibration.is_some();
-    let (after, mut first): (Vec<Job>, Vec<Job>) = jobs.into_iter().partition(reads_calibration);
-    // Long ones first, so that no thread is left with one at the end.
+    let (after, mut first): (Vec<Job>, Vec<Job>) =
+        jobs.into_iter().partition(|job| cases[job.case].file.run[job.run].calibration.is_some());
+    // Long runs first, so that none is left to the end.
     first.sort_by_key(|job| match cases[job.case].file.run[job.run].command {
-        Command::Invariants => 0,
-        Command::Calibrate => 1,
-        Command::Fem => 2,
-        Command::Run => 3,
+        CaseCommand::Invariants => 0,
+        CaseCommand::Calibrate => 1,
+        CaseCommand::Fem => 2,
+        CaseCommand::Run => 3,
     });
     let done = AtomicUsize::new(0);
     for jobs in [first, after] {
@@ -72,7 +69,8 @@ pub(crate) fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer
             let spec = &case.file.run[job.run];
             let calibration = spec.calibration.as_ref().and_then(|name| made_by(case, &all[job.case], name));
             let member = &family.members[job.member];
-            let task = Task { run: spec, member, folder: &case.folder, calibration, watch: &PartOf::whole(observer) };
+            let task =
+                MemberRun { run: spec, member, folder: &case.folder, calibration, watch: &PartOf::whole(observer) };
             let executed = task.execute();
             observer.counted(
                 done.fetch_add(1, Ordering::Relaxed) + 1,
@@ -80,7 +78,7 @@ pub(crate) fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer
                 "runs",
                 &format!(", the last of {}", case.name),
             );
-            // What was running when the user stopped it is not its result.
+            // A run that was interrupted has no result.
             (!observer.interrupted()).then_some(executed)
         });
         for (job, executed) in jobs.iter().zip(executed) {
@@ -91,22 +89,19 @@ pub(crate) fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer
 }
 
 /// The calibration that the run called `name` of the case made.
-fn made_by<'a>(case: &Case, runs: &'a [Members], name: &str) -> Option<&'a Calibration> {
+fn made_by<'a>(case: &ValidationCase, runs: &'a [Members], name: &str) -> Option<&'a Calibration> {
     let index = case.file.run.iter().position(|run| run.name == name)?;
     runs[index].executed.first()?.as_ref()?.calibration.as_ref()
 }
 
-/// Does `work` for every job on so many threads, each with a pool of one thread for whatever runs in parallel inside;
-/// results in the order of the jobs.
+/// Calls `work` for every job on `threads` threads, each with a pool of one thread; results in the order of the jobs.
 fn spread<T: Send>(jobs: &[Job], threads: usize, work: impl Fn(&Job) -> T + Sync) -> Vec<T> {
     let next = AtomicUsize::new(0);
     let results: Mutex<Vec<(usize, T)>> = Mutex::new(Vec::with_capacity(jobs.len()));
-    let take = || {
-        let index = next.fetch_add(1, Ordering::Relaxed);
-        jobs.get(index).map(|job| (index, job))
-    };
     let hand_out = || {
-        while let Some((index, job)) = take() {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(job) = jobs.get(index) else { return };
             let done = work(job);
             results.lock().unwrap_or_else(PoisonError::into_inner).push((index, done));
         }
@@ -115,7 +110,7 @@ fn spread<T: Send>(jobs: &[Job], threads: usize, work: impl Fn(&Job) -> T + Sync
         for _ in 0..threads.clamp(1, jobs.len().max(1)) {
             scope.spawn(|| match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
                 Ok(pool) => pool.install(hand_out),
-                // Without a pool of its own a run shares the program's: slower to time, the same results.
+                // Without its own pool a run uses the global one: its time is less reliable, its results are the same.
                 Err(_) => hand_out(),
             });
         }

@@ -1,4 +1,4 @@
-//! What must be so of every wear run, whatever its scene: numbers that are numbers, no negative wear or pressure, forces in
+//! Conditions of every wear run, whatever its scene: finite numbers, no negative wear or pressure, forces in
 //! equilibrium at every position.
 
 use crate::gear::{Gear, PerGear};
@@ -7,31 +7,30 @@ use crate::results::run::{CycleSummary, FlankRecord, RunRecord};
 /// Greatest relative difference between the loads of the pairs together and the load to carry.
 pub(super) const MOST_IMBALANCE: f64 = 1e-6;
 
-/// The first thing about the run that cannot be; `None` where all is well.
+/// First violated condition; `None` where the run is sound.
 pub(crate) fn fault(record: &RunRecord) -> Option<String> {
-    let summary = &record.summary;
-    let imbalance = |(when, cycle): (&str, &CycleSummary)| {
-        // Written so that a number that is none is a fault too.
-        let balanced = cycle.load_imbalance <= MOST_IMBALANCE;
-        (!balanced)
-            .then(|| format!("{when}: loads of the pairs differ from the load by {:e} of it", cycle.load_imbalance))
-    };
-    let cycles = [("new", &summary.new), ("worn", &summary.worn)];
-    cycles
-        .into_iter()
-        .find_map(imbalance)
+    of_equilibria("new", &record.summary.new)
+        .or_else(|| of_equilibria("worn", &record.summary.worn))
         .or_else(|| Gear::BOTH.into_iter().find_map(|gear| of_flank(gear, &record.flanks)))
         .or_else(|| of_cycle(record))
         .or_else(|| of_history(record))
 }
 
-/// The first of `numbers` that is none or negative.
+fn of_equilibria(when: &str, cycle: &CycleSummary) -> Option<String> {
+    let imbalance = cycle.load_imbalance;
+    // NaN is a fault too.
+    let balanced = imbalance <= MOST_IMBALANCE;
+    (!balanced)
+        .then(|| format!("{when}: loads of the tooth pairs differ from the transmitted load by {imbalance:e} of it"))
+}
+
+/// The first of `numbers` that is not finite or negative.
 fn negative(name: &str, numbers: &[f64]) -> Option<String> {
     let index = numbers.iter().position(|x| !(x.is_finite() && *x >= 0.0))?;
     Some(format!("{name}: {} at point {index}", numbers[index]))
 }
 
-/// The first of `numbers` that is none.
+/// The first of `numbers` that is not finite.
 fn not_finite(name: &str, numbers: impl IntoIterator<Item = f64>) -> Option<String> {
     let (index, found) = numbers.into_iter().enumerate().find(|(_, x)| !x.is_finite())?;
     Some(format!("{name}: {found} at point {index}"))
@@ -46,17 +45,18 @@ fn of_flank(gear: Gear, flanks: &PerGear<FlankRecord>) -> Option<String> {
         ("sliding", &flank.sliding_mm_per_mesh),
     ];
     columns.into_iter().find_map(|(what, column)| negative(&format!("{name} {what}"), column)).or_else(|| {
-        let grows = |two: &[Vec<f64>]| two[0].iter().zip(&two[1]).all(|(before, after)| after >= before);
-        let snapshot = flank.snapshot_wear_um.windows(2).position(|two| !grows(two))?;
+        let mut changes = flank.snapshot_wear_um.windows(2);
+        let snapshot = changes.position(|two| !two[0].iter().zip(&two[1]).all(|(before, after)| after >= before))?;
         Some(format!("{name} wear becomes less after snapshot {}", snapshot + 1))
     })
 }
 
 fn of_cycle(record: &RunRecord) -> Option<String> {
     let rows = &record.mesh_cycle;
-    let shares = |of: fn(&crate::results::run::MeshCycleRow) -> f64| rows.iter().map(of).collect::<Vec<_>>();
-    negative("load share, new", &shares(|row| row.load_share_new))
-        .or_else(|| negative("load share, worn", &shares(|row| row.load_share_worn)))
+    let shares_new: Vec<f64> = rows.iter().map(|row| row.load_share_new).collect();
+    let shares_worn: Vec<f64> = rows.iter().map(|row| row.load_share_worn).collect();
+    negative("load share, new", &shares_new)
+        .or_else(|| negative("load share, worn", &shares_worn))
         .or_else(|| not_finite("transmission error, new", rows.iter().map(|row| row.transmission_error_new_um)))
         .or_else(|| not_finite("transmission error, worn", rows.iter().map(|row| row.transmission_error_worn_um)))
 }

@@ -11,14 +11,14 @@
 //! A sign binds tighter than a power: `-2 ** 2` is 4. `x.f(y)` is `f(x, y)`. Operator precedence is climbed as Pratt does (Top
 //! down operator precedence, 1973): each operator has a strength, and a term extends to the right over all that are stronger.
 
-/// Depth of nested terms: far more than any expression needs, so that none exhausts the stack.
+/// Greatest depth of nested terms, against exhaustion of the stack.
 const MOST_DEPTH: usize = 128;
 
 /// Signs, the longer ones first.
 const SIGNS: [&str; 21] =
     ["**", "==", "!=", "<=", ">=", "&&", "||", "+", "-", "*", "/", "%", "<", ">", "!", "(", ")", "[", "]", ",", "."];
 
-/// Why a text is no expression.
+/// Syntax error.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum SyntaxError {
     #[error("found {found} at character {place}; allowed: {allowed}")]
@@ -29,12 +29,12 @@ pub(crate) enum SyntaxError {
 
 /// A term, and the character of the expression at which it stands, from 1.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Node {
+pub(crate) struct TermNode {
     pub term: Term,
     pub place: usize,
 }
 
-/// What an expression is made of.
+/// Kind of a term, with its parts.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Term {
     Number(f64),
@@ -42,27 +42,27 @@ pub(crate) enum Term {
     Text(String),
     Name(String),
     /// `[a, b]`
-    List(Vec<Node>),
+    List(Vec<TermNode>),
     /// `-a`
-    Minus(Box<Node>),
+    Minus(Box<TermNode>),
     /// `!a`
-    Not(Box<Node>),
+    Not(Box<TermNode>),
     /// `a && b`, `a || b`: the second term has a value only where the first one does not decide.
-    Both(Box<[Node; 2]>),
+    Both(Box<[TermNode; 2]>),
     /// See [`Term::Both`].
-    Either(Box<[Node; 2]>),
+    Either(Box<[TermNode; 2]>),
     /// Any other operator between two terms.
-    Binary(&'static str, Box<[Node; 2]>),
+    Binary(&'static str, Box<[TermNode; 2]>),
     /// `a.name`
-    Member(Box<Node>, String),
+    Member(Box<TermNode>, String),
     /// `a[b]`
-    Index(Box<[Node; 2]>),
+    Index(Box<[TermNode; 2]>),
     /// `function(a, b)`
-    Call(String, Vec<Node>),
+    Call(String, Vec<TermNode>),
 }
 
 /// The tree of an expression.
-pub(crate) fn parse(expression: &str) -> Result<Node, SyntaxError> {
+pub(crate) fn parse(expression: &str) -> Result<TermNode, SyntaxError> {
     let mut parser = Parser { tokens: tokens(expression)?, next: 0, end: expression.chars().count() + 1 };
     let whole = parser.expression(0, 0)?;
     if parser.peek().is_some() { Err(parser.unexpected("an operator or the end")) } else { Ok(whole) }
@@ -77,8 +77,6 @@ enum Token {
 }
 
 fn tokens(expression: &str) -> Result<Vec<(Token, usize)>, SyntaxError> {
-    let unexpected =
-        |found: &str, place, allowed| SyntaxError::Unexpected { found: format!("`{found}`"), place, allowed };
     let mut tokens = Vec::new();
     let (mut rest, mut place) = (expression, 1);
     while let Some(first) = rest.chars().next() {
@@ -110,20 +108,29 @@ fn tokens(expression: &str) -> Result<Vec<(Token, usize)>, SyntaxError> {
     Ok(tokens)
 }
 
+fn unexpected(found: &str, place: usize, allowed: &'static str) -> SyntaxError {
+    SyntaxError::Unexpected { found: format!("`{found}`"), place, allowed }
+}
+
 /// Bytes of the number at the beginning: digits, a fraction, an exponent.
 fn length_of_number(text: &str) -> usize {
-    let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
-    let mut length = digits(0);
-    if text[length..].starts_with('.') && digits(length + 1) > 0 {
-        length += 1 + digits(length + 1);
+    let mut length = leading_digits(text);
+    if let Some(fraction) = text[length..].strip_prefix('.')
+        && leading_digits(fraction) > 0
+    {
+        length += 1 + leading_digits(fraction);
     }
-    if text[length..].starts_with(['e', 'E']) {
-        let sign = usize::from(text[length + 1..].starts_with(['+', '-']));
-        if digits(length + 1 + sign) > 0 {
-            length += 1 + sign + digits(length + 1 + sign);
+    if let Some(exponent) = text[length..].strip_prefix(['e', 'E']) {
+        let sign = usize::from(exponent.starts_with(['+', '-']));
+        if leading_digits(&exponent[sign..]) > 0 {
+            length += 1 + sign + leading_digits(&exponent[sign..]);
         }
     }
     length
+}
+
+fn leading_digits(text: &str) -> usize {
+    text.bytes().take_while(u8::is_ascii_digit).count()
 }
 
 /// The text in quotes at the beginning and its bytes with them; `\` takes the next character as it is.
@@ -180,7 +187,7 @@ impl Parser {
         SyntaxError::Unexpected { found, place: self.place(), allowed }
     }
 
-    /// Takes `sign` if it comes next.
+    /// Consumes `sign` if it comes next.
     fn takes(&mut self, sign: &str) -> bool {
         let found = matches!(self.peek(), Some(Token::Sign(next)) if *next == sign);
         self.next += usize::from(found);
@@ -192,9 +199,9 @@ impl Parser {
     }
 
     /// A term with all operators behind it that are at least as strong as `least`.
-    fn expression(&mut self, least: u8, depth: usize) -> Result<Node, SyntaxError> {
+    fn expression(&mut self, least: u8, depth: usize) -> Result<TermNode, SyntaxError> {
         let mut left = self.term(depth)?;
-        // Every link of a chain makes the tree one deeper.
+        // Every link of a chain deepens the tree by one.
         let mut depth = depth;
         while let Some(Token::Sign(sign)) = self.peek() {
             let (sign, place) = (*sign, self.place());
@@ -210,21 +217,21 @@ impl Parser {
                 "||" => Term::Either(both),
                 sign => Term::Binary(sign, both),
             };
-            left = Node { term, place };
+            left = TermNode { term, place };
         }
         Ok(left)
     }
 
-    fn term(&mut self, depth: usize) -> Result<Node, SyntaxError> {
+    fn term(&mut self, depth: usize) -> Result<TermNode, SyntaxError> {
         let place = self.place();
         if depth >= MOST_DEPTH {
             return Err(SyntaxError::TooDeep { place });
         }
         if self.takes("-") {
-            return Ok(Node { term: Term::Minus(Box::new(self.term(depth + 1)?)), place });
+            return Ok(TermNode { term: Term::Minus(Box::new(self.term(depth + 1)?)), place });
         }
         if self.takes("!") {
-            return Ok(Node { term: Term::Not(Box::new(self.term(depth + 1)?)), place });
+            return Ok(TermNode { term: Term::Not(Box::new(self.term(depth + 1)?)), place });
         }
         let mut operand = self.operand(depth)?;
         for depth in depth + 1.. {
@@ -249,12 +256,12 @@ impl Parser {
             } else {
                 return Ok(operand);
             };
-            operand = Node { term, place };
+            operand = TermNode { term, place };
         }
         Ok(operand)
     }
 
-    fn operand(&mut self, depth: usize) -> Result<Node, SyntaxError> {
+    fn operand(&mut self, depth: usize) -> Result<TermNode, SyntaxError> {
         let place = self.place();
         let Some(token) = self.peek().cloned() else { return Err(self.unexpected("a term")) };
         if token == Token::Sign("(") {
@@ -275,11 +282,11 @@ impl Parser {
             Token::Name(name) => Term::Name(name),
             Token::Sign(_) => Term::List(self.list("]", depth + 1)?),
         };
-        Ok(Node { term, place })
+        Ok(TermNode { term, place })
     }
 
     /// Expressions between commas, up to the bracket that closes them.
-    fn list(&mut self, close: &'static str, depth: usize) -> Result<Vec<Node>, SyntaxError> {
+    fn list(&mut self, close: &'static str, depth: usize) -> Result<Vec<TermNode>, SyntaxError> {
         let mut items = Vec::new();
         while !self.takes(close) {
             if !items.is_empty() {
@@ -315,7 +322,7 @@ mod tests {
         }
     }
 
-    /// The stack bears neither brackets nor chains without end.
+    /// Nested brackets and chains are limited, against exhaustion of the stack.
     #[test]
     fn depth_has_a_limit() {
         for deep in

@@ -1,4 +1,4 @@
-//! What a run left behind, as a tree of names: groups, numbers, texts, and columns of numbers.
+//! Results of a run as a tree of names: groups, numbers, texts, and columns of numbers.
 //!
 //! The names are those of the output files, since the tree is read from them: `summary.json` as JSON, the tables as CSV. An
 //! expression of a case thus says what a user would look up in the files of `gearwear run`.
@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// A node of the tree; what is in it is shared by its copies.
+/// Node of the tree; copies share its contents.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Value {
     /// A number; NaN where the output has none.
@@ -32,7 +32,7 @@ impl Value {
         Self::Group(Arc::new(entries.into_iter().map(|(name, value)| (name.into(), value)).collect()))
     }
 
-    /// Adds a name to a group; nothing else has names.
+    /// Adds a name to a group; other values are left as they are.
     pub(crate) fn add(&mut self, name: &str, value: Value) {
         if let Self::Group(entries) = self {
             Arc::make_mut(entries).insert(name.to_owned(), value);
@@ -69,13 +69,7 @@ impl Value {
     }
 
     fn of_fields(fields: Vec<String>) -> Self {
-        let number = |field: &String| match field.as_str() {
-            "" => Some(f64::NAN),
-            "true" => Some(1.0),
-            "false" => Some(0.0),
-            text => text.parse().ok(),
-        };
-        match fields.iter().map(number).collect::<Option<Arc<[f64]>>>() {
+        match fields.iter().map(|field| number_of_field(field)).collect::<Option<Arc<[f64]>>>() {
             Some(numbers) => Self::Column(numbers),
             None => Self::List(fields.into_iter().map(Self::Text).collect()),
         }
@@ -89,6 +83,16 @@ impl Value {
             toml::Value::String(text) => Self::Text(text.clone()),
             other => Self::Text(other.to_string()),
         }
+    }
+}
+
+/// Number of a cell; NaN where it is empty, 1 or 0 of a truth value.
+fn number_of_field(field: &str) -> Option<f64> {
+    match field {
+        "" => Some(f64::NAN),
+        "true" => Some(1.0),
+        "false" => Some(0.0),
+        text => text.parse().ok(),
     }
 }
 

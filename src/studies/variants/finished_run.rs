@@ -8,14 +8,14 @@ use serde::Deserialize;
 use crate::gear::{Gear, PerGear};
 use crate::results::error::TotalError;
 use crate::results::figures::MainFigure;
-use crate::studies::compare::run_folder::{FinishedSummary, NumberColumns, RunFolder, RunFolderError};
+use crate::studies::compare::run_folder::{NumberColumns, RunFolder, RunFolderError, RunFolderSummary};
 
 /// A finished run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FinishedRun {
     /// Name among the others: that of its folder.
     pub name: String,
-    pub summary: FinishedSummary,
+    pub summary: RunFolderSummary,
     folder: RunFolder,
     /// Errors that it states of itself.
     total: TotalError,

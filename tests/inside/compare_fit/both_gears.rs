@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use gearwear::measurement::fit::FitStop;
 use gearwear::measurement::form::Form;
-use gearwear::studies::compare::question::{Asked, FitKind};
+use gearwear::studies::compare::question::{CompareOptions, FitKind};
 use gearwear::studies::compare::record::CompareRecord;
 
 use super::laboratory::{Laboratory, Noise, POINTS, asked};
@@ -30,7 +30,7 @@ static SHORT: LazyLock<Laboratory> = LazyLock::new(|| {
 });
 
 /// What both noiseless traces say.
-fn without_noise(of: &Laboratory, ask: &Asked) -> CompareRecord {
+fn without_noise(of: &Laboratory, ask: &CompareOptions) -> CompareRecord {
     let texts = [&of.traces.pinion, &of.traces.wheel].map(|trace| trace.file(&trace.heights(&[0.0; POINTS])));
     of.compare_all(&texts.each_ref().map(String::as_str), ask)
 }
@@ -46,7 +46,7 @@ fn errors(record: &CompareRecord) -> [f64; 2] {
 fn ver_both_coefficients_come_back_without_noise() {
     let of = Laboratory::new(&with(127.75, [1e-17; 2]), &with(127.75, TRUE_K));
     for form in [Form::None, Form::Cubic] {
-        let record = without_noise(&of, &Asked { form: Some(form), fit: None, ..asked(FitKind::Each) });
+        let record = without_noise(&of, &CompareOptions { form: Some(form), fit: None, ..asked(FitKind::Each) });
         println!("{form:?}: {:?} by {} runs, {} cycles", errors(&record), record.fit.runs, record.fit.mesh_cycles);
         assert_eq!(record.fit.stopped, FitStop::Converged);
         assert!(errors(&record).iter().all(|error| error.abs() < 5e-4), "{form:?}: {:?}", record.fit);
@@ -71,7 +71,7 @@ fn ver_intervals_and_correlations_where_one_flank_tells_of_the_other() {
         text.replace("flank_points = 200", "flank_points = 100").replace("positions = 60", "positions = 40")
     };
     let of = Laboratory::new(&coarse([1e-17; 2]), &coarse(TRUE_K));
-    let ask = Asked { form: Some(Form::Involute), ..asked(FitKind::Each) };
+    let ask = CompareOptions { form: Some(Form::Involute), ..asked(FitKind::Each) };
     let stated = many_measurements(&of, &ask, [0.1, 2.0]);
     assert!(stated[0][1] < -0.2 && stated[1][2] < -0.3, "{stated:?}");
 }
@@ -79,8 +79,8 @@ fn ver_intervals_and_correlations_where_one_flank_tells_of_the_other() {
 /// What `ask` says of traces with so many times the noise of 5 %, again and again: the 95 % intervals of both coefficients and of their
 /// ratio hold the true values for 34 to 40 of 40 seeds (fewer in one of 300 such samples), and the stated correlations of all four fitted
 /// values, which are given back, are those of the values fitted, within three of the standard deviations (1 − ρ²)/√n of a sample correlation.
-fn many_measurements(of: &Laboratory, ask: &Asked, times: [f64; 2]) -> [[f64; 4]; 4] {
-    let ask = &Asked { shift_within_mm: 0.5, ..*ask };
+fn many_measurements(of: &Laboratory, ask: &CompareOptions, times: [f64; 2]) -> [[f64; 4]; 4] {
+    let ask = &CompareOptions { shift_within_mm: 0.5, ..*ask };
     let mut held = [0; 3];
     let mut fitted: [Vec<f64>; 4] = Default::default();
     let mut stated = [[0.0; 4]; 4];

@@ -10,7 +10,7 @@ use gearwear::results::run::{FlankRecord, RunRecord};
 use gearwear::runs;
 use gearwear::scene::Resolved;
 use gearwear::scene::loaded::LoadedScene;
-use gearwear::studies::compare::question::{Asked, FitKind, Question};
+use gearwear::studies::compare::question::{CompareOptions, ComparisonQuestion, FitKind};
 use gearwear::studies::compare::record::CompareRecord;
 use gearwear::studies::compare::run_folder::RunFolder;
 use gearwear::studies::compare::study;
@@ -58,14 +58,14 @@ impl Laboratory {
     }
 
     /// What the comparison of a file with the run says.
-    pub fn compare(&self, text: &str, asked: &Asked) -> CompareRecord {
+    pub fn compare(&self, text: &str, asked: &CompareOptions) -> CompareRecord {
         self.compare_all(&[text], asked)
     }
 
     /// What the comparison of some files with the run says.
-    pub fn compare_all(&self, texts: &[&str], asked: &Asked) -> CompareRecord {
+    pub fn compare_all(&self, texts: &[&str], asked: &CompareOptions) -> CompareRecord {
         let files: Vec<_> = texts.iter().map(|text| ("trace.csv".to_owned(), file::parse(text).unwrap())).collect();
-        let question = Question::new(asked, &files, &self.folder, &self.scene.resolved, &self.pair).unwrap();
+        let question = ComparisonQuestion::new(asked, &files, &self.folder, &self.scene.resolved, &self.pair).unwrap();
         study::run(&question, &self.folder, &self.scene, &Unwatched).unwrap()
     }
 }
@@ -119,8 +119,8 @@ fn interpolated(x: &[f64], y: &[f64], at: f64) -> f64 {
 }
 
 /// What is asked where a test says nothing else: k of heights, no shift.
-pub fn asked(fit: FitKind) -> Asked {
-    Asked { gear: None, form: None, fit: Some(fit), shift_within_mm: 0.0 }
+pub fn asked(fit: FitKind) -> CompareOptions {
+    CompareOptions { gear: None, form: None, fit: Some(fit), shift_within_mm: 0.0 }
 }
 
 /// Normal numbers of mean 0 and deviation 1 by Box and Muller, from xorshift64* (Vigna 2016).

@@ -7,8 +7,8 @@ use std::sync::LazyLock;
 
 use gearwear::measurement::fit::FitStop;
 use gearwear::measurement::form::Form;
-use gearwear::studies::compare::question::{Asked, FitKind};
-use gearwear::studies::compare::record::{CompareRecord, Estimate};
+use gearwear::studies::compare::question::{CompareOptions, FitKind};
+use gearwear::studies::compare::record::{CompareRecord, FittedValue};
 use laboratory::{Laboratory, Noise, POINTS, asked, wave};
 
 /// fzg-c at coarse resolution, with a wear coefficient and a severe factor above 1600 MPa.
@@ -37,12 +37,12 @@ static SHORT: LazyLock<Laboratory> = LazyLock::new(|| {
 });
 
 /// The coefficient that was fitted.
-fn k_of(record: &CompareRecord) -> Estimate {
+fn k_of(record: &CompareRecord) -> FittedValue {
     record.fit.coefficients[0].coefficient_m2_per_N
 }
 
 /// How many of the seeds have the true coefficient in their interval, by what `noise` makes of each and with `more` added.
-fn covered(of: &Laboratory, ask: &Asked, more: &[f64], noise: impl Fn(&mut Noise) -> Vec<f64>) -> usize {
+fn covered(of: &Laboratory, ask: &CompareOptions, more: &[f64], noise: impl Fn(&mut Noise) -> Vec<f64>) -> usize {
     (0..SEEDS)
         .filter(|&seed| {
             let mut z = of.traces.pinion.heights(&noise(&mut Noise::new(seed)));
@@ -60,7 +60,7 @@ fn covered(of: &Laboratory, ask: &Asked, more: &[f64], noise: impl Fn(&mut Noise
 fn ver_the_coefficient_comes_back_without_noise() {
     let of = &*LABORATORY;
     for form in [Form::None, Form::Involute, Form::Cubic] {
-        let ask = Asked { form: Some(form), ..asked(FitKind::K) };
+        let ask = CompareOptions { form: Some(form), ..asked(FitKind::K) };
         let record = of.compare(&of.traces.pinion.file(&of.traces.pinion.heights(&[0.0; POINTS])), &ask);
         let k = k_of(&record);
         println!("{form:?}: {:e} by {} runs, {} cycles", k.value, record.fit.runs, record.fit.mesh_cycles);
@@ -100,7 +100,7 @@ fn ver_the_own_coefficient_of_the_measured_gear_comes_back() {
 fn ver_the_interval_covers_as_often_as_it_says_white_noise() {
     let of = &*SHORT;
     for form in [Form::None, Form::Cubic] {
-        let ask = Asked { form: Some(form), ..asked(FitKind::K) };
+        let ask = CompareOptions { form: Some(form), ..asked(FitKind::K) };
         let count = covered(of, &ask, &[0.0; POINTS], |noise| noise.white(POINTS));
         println!("{form:?}: {count} of {SEEDS}");
         assert!((44..=50).contains(&count), "{form:?}: {count}");
@@ -113,7 +113,7 @@ fn ver_form_and_shift_are_taken_out() {
     let of = &*SHORT;
     let form: Vec<f64> =
         of.traces.pinion.arc_mm.iter().map(|s| 100.0 + 200.0 * s - 60.0 * s * s + 4.0 * s.powi(3)).collect();
-    let ask = Asked { shift_within_mm: 0.1, ..asked(FitKind::K) };
+    let ask = CompareOptions { shift_within_mm: 0.1, ..asked(FitKind::K) };
     let count = covered(of, &ask, &form, |noise| noise.white(POINTS));
     println!("{count} of {SEEDS}");
     assert!((44..=50).contains(&count), "{count}");
@@ -226,7 +226,7 @@ fn ver_heights_from_a_line_tell_the_same() {
         .collect();
     let text = of.traces.pinion.file(&heights).replace("# gear = pinion\n", "# gear = pinion\n# height_from = line\n");
     for form in [Form::Involute, Form::Cubic] {
-        let ask = Asked { form: Some(form), ..asked(FitKind::K) };
+        let ask = CompareOptions { form: Some(form), ..asked(FitKind::K) };
         let k = k_of(&of.compare(&text, &ask));
         assert!((k.value / TRUE_K - 1.0).abs() < 1e-3, "{form:?}: {k:?}");
     }

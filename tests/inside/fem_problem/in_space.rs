@@ -150,7 +150,7 @@ fn bodies_may_be_held_everywhere() {
     assert!(record.summary.peak_von_mises_MPa < 1e-9, "{}", record.summary.peak_von_mises_MPa);
 }
 
-fn posed(text: &str, mesh: &Mesh) -> gearwear::fem::space::problem::Problem {
+fn posed(text: &str, mesh: &Mesh) -> gearwear::fem::space::problem::SpaceProblem {
     let posed =
         FemProblem::from_toml(text).unwrap().in_space_on(mesh).unwrap_or_else(|problems| panic!("{problems:?}"));
     posed.problem

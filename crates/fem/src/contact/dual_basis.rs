@@ -6,10 +6,10 @@
 //! ∫ ψ_i φ_j dγ = δ_ij ∫ φ_j dγ        ψ = A φ,   A = diag(∫φ_j) M⁻¹,   M_ij = ∫ φ_i φ_j dγ
 //! ```
 //!
-//! so Σ ψ_i = 1 (a constant pressure is kept exactly), and the weighted gap of a node is its own gap wherever the gap is
+//! so Σ ψ_i = 1 (a constant pressure is represented exactly), and the weighted gap of a node is its own gap wherever the gap is
 //! in the span of φ. Where the master faces the whole edge, φ are the edge's shape functions. Where it faces a part only,
-//! φ are hat functions on the half-edges, restricted to that part: their integrals are positive whatever the part,
-//! which those of a quadratic shape function are not.
+//! φ are hat functions on the half-edges, restricted to that part: their integrals are positive over any part,
+//! unlike those of a quadratic shape function.
 //!
 //! Source: B. Wohlmuth, *SIAM J. Numer. Anal.* 38 (2000) 989–1012; T. Cichosz and M. Bischoff, *Comput. Methods Appl.
 //! Mech. Eng.* 200 (2011) 1317–1332 (partly covered edges).
@@ -18,7 +18,7 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use super::edge::{MOST_NODES, shape};
 
-/// Gauss points over an interval: exact to degree 11, far above what curved edges need.
+/// Gauss points over an interval, exact to degree 11, more than curved edges need.
 pub(crate) const GAUSS: [(f64, f64); 6] = [
     (-0.932_469_514_203_152, 0.171_324_492_379_170_3),
     (-0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
@@ -28,7 +28,7 @@ pub(crate) const GAUSS: [(f64, f64); 6] = [
     (0.932_469_514_203_152, 0.171_324_492_379_170_3),
 ];
 
-/// Least part of an interval of hats that is worth a pressure.
+/// Least fraction of an interval between nodes that has a pressure.
 const LEAST_COVERED: f64 = 0.01;
 
 /// Points and weights of the interval from `a` to `b`.
@@ -37,19 +37,19 @@ pub(crate) fn gauss_points(a: f64, b: f64) -> impl Iterator<Item = (f64, f64)> {
     GAUSS.into_iter().map(move |(x, w)| (middle + half * x, half * w))
 }
 
-/// The dual basis of one edge.
+/// Dual basis of one edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum DualBasis {
-    /// ψ = A N over the whole edge.
+    /// Basis ψ = A N over the whole edge.
     Whole {
         /// Number of nodes, 2 or 3.
         nodes: usize,
-        /// A.
+        /// Matrix A.
         transform: Matrix3<f64>,
     },
     /// Dual of the hats on each interval between nodes.
     Parts {
-        /// The intervals that are faced.
+        /// Intervals that face the master.
         parts: [Option<HatPart>; 2],
     },
 }
@@ -57,25 +57,26 @@ pub(crate) enum DualBasis {
 /// Dual of two hats over one interval between neighbouring nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct HatPart {
-    /// Local numbers of the nodes at its ends.
+    /// Local numbers of the nodes at the ends.
     nodes: [usize; 2],
-    /// Their places ξ.
+    /// Coordinates ξ of these nodes.
     places: [f64; 2],
     transform: Matrix2<f64>,
 }
 
 impl DualBasis {
-    /// The basis of an edge with `nodes` nodes of which ξ in `covered` is faced; `jacobian` is dγ/dξ.
+    /// Basis of an edge with `nodes` nodes that faces the master for ξ in `covered`; `jacobian` is dγ/dξ.
     pub(crate) fn new(nodes: usize, covered: (f64, f64), jacobian: impl Fn(f64) -> f64) -> Self {
         const WHOLE: f64 = 1.0 - 1e-9;
         if covered.0 <= -WHOLE && covered.1 >= WHOLE {
             return Self::whole(nodes, jacobian);
         }
-        let part = |locals, places| HatPart::new(locals, places, covered, &jacobian);
-        let parts = match nodes {
-            2 => [part([0, 1], [-1.0, 1.0]), None],
-            _ => [part([0, 2], [-1.0, 0.0]), part([2, 1], [0.0, 1.0])],
+        let intervals = match nodes {
+            2 => [Some(([0, 1], [-1.0, 1.0])), None],
+            _ => [Some(([0, 2], [-1.0, 0.0])), Some(([2, 1], [0.0, 1.0]))],
         };
+        let parts = intervals
+            .map(|interval| interval.and_then(|(nodes, places)| HatPart::new(nodes, places, covered, &jacobian)));
         Self::Parts { parts }
     }
 
@@ -90,12 +91,12 @@ impl DualBasis {
         if nodes == 2 {
             mass[(2, 2)] = 1.0;
         }
-        // The mass matrix of a non-degenerate edge is positive definite; a degenerate one carries nothing.
+        // The mass matrix of a non-degenerate edge is positive definite; a degenerate one has no pressure.
         let inverse = mass.try_inverse().unwrap_or_else(Matrix3::zeros);
         Self::Whole { nodes, transform: Matrix3::from_diagonal(&sums) * inverse }
     }
 
-    /// ψ at ξ; zero where nothing is faced.
+    /// Values ψ at ξ; zero where the edge does not face the master.
     pub(crate) fn at(&self, xi: f64) -> [f64; MOST_NODES] {
         match self {
             Self::Whole { nodes, transform } => (transform * Vector3::from(shape(*nodes, xi))).into(),

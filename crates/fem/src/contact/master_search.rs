@@ -1,54 +1,53 @@
-//! Which part of which master edge a slave edge faces.
+//! Search for the parts of a slave edge that face each master edge.
 //!
-//! A slave point x_s(ξ) meets the master along the slave's own normal field n(ξ). The end p of a master edge projects onto
-//! the slave edge where
+//! A slave point x_s(ξ) is projected onto the master along the slave's normal field n(ξ). The end p of a master edge is the projection of
+//! the point of the slave edge where
 //!
 //! ```text
 //! (x_s(ξ) − p) × n(ξ) = 0
 //! ```
 //!
-//! and between the projections of its two ends, the master edge is the one that is met. The left-hand side falls with ξ as
-//! long as normals do not cross between the surfaces, so its signs at the ends of the slave edge tell without any iteration
-//! whether the projection lies on the edge.
+//! and the slave edge faces the master edge between these points of its two ends. The left-hand side falls with ξ as
+//! long as normals do not cross between the surfaces, so its signs at the ends of the slave edge show without iteration
+//! whether such a point lies on the edge.
 
 use nalgebra::Vector2;
 use parry2d_f64::bounding_volume::Aabb;
 use parry2d_f64::math::Vector;
 use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy};
 
-use super::edge::interpolate;
-use super::edge::{shape, shape_derivative};
 use super::surface::{Surface, SurfaceEdge};
 
-/// Surfaces whose normals differ from opposite by more than this angle's cosine do not face each other.
+/// Least cosine between a normal and the opposite of the other for surfaces that face each other.
 pub const LEAST_FACING: f64 = 0.1;
+/// Least length in ξ, and least norm of a normal.
 const PARALLEL: f64 = 1e-12;
 
-/// A stretch of a slave edge that faces one master edge.
+/// Stretch of a slave edge that faces one master edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Segment {
-    /// Which slave edge.
+pub(crate) struct FacingSegment {
+    /// Number of the slave edge.
     pub slave: usize,
-    /// From and to ξ on it.
+    /// Beginning ξ on the slave edge.
     pub from: f64,
-    /// Its end.
+    /// End ξ on the slave edge.
     pub to: f64,
-    /// Which master edge.
+    /// Number of the master edge.
     pub master: usize,
 }
 
-/// Where a slave point meets a master edge.
+/// Projection of a slave point onto a master edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Meeting {
-    /// Place on the master edge.
+    /// Coordinate η on the master edge.
     pub eta: f64,
-    /// n · (x_m − x_s), mm: negative where the surfaces overlap.
+    /// Gap n · (x_m − x_s), mm, negative where the surfaces penetrate.
     pub gap_mm: f64,
 }
 
-/// The edges of a master surface, sorted in space.
+/// Edges of a master surface with a bounding volume hierarchy.
 pub(crate) struct MasterSearch<'a> {
-    /// The master surface.
+    /// Master surface.
     pub master: &'a Surface,
     boxes: Bvh,
 }
@@ -61,8 +60,8 @@ fn aabb((low, high): (Vector2<f64>, Vector2<f64>)) -> Aabb {
     Aabb::new(Vector::new(low.x, low.y), Vector::new(high.x, high.y))
 }
 
-/// Root between −1 and 1 of a function that falls from a positive to a negative value; `f` gives value and derivative.
-/// Newton's method, kept between bounds that close in.
+/// Root between −1 and 1 of a function that falls from a positive to a negative value, by Newton's method with
+/// bisection; `f` gives value and derivative.
 fn falling_root(f: impl Fn(f64) -> (f64, f64)) -> f64 {
     let (mut low, mut high, mut xi) = (-1.0, 1.0, 0.0);
     for _ in 0..60 {
@@ -84,24 +83,24 @@ fn falling_root(f: impl Fn(f64) -> (f64, f64)) -> f64 {
 }
 
 impl<'a> MasterSearch<'a> {
-    /// Sorts the edges of `master`.
+    /// Search among the edges of `master`.
     pub(crate) fn new(master: &'a Surface) -> Self {
         let boxes: Vec<Aabb> = master.edges.iter().map(|edge| aabb(master.edge_box(edge))).collect();
         Self { master, boxes: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes) }
     }
 
-    /// The stretches of slave edge `number` that face the master within `reach_mm` on either side, by increasing ξ and
-    /// without overlap: where several master edges are met, the nearest counts.
-    pub(crate) fn segments(&self, slave: &Surface, number: usize, reach_mm: f64) -> Vec<Segment> {
+    /// Stretches of slave edge `number` that face the master within `reach_mm` on either side, by increasing ξ and
+    /// without overlap: of several master edges the nearest is taken.
+    pub(crate) fn segments(&self, slave: &Surface, number: usize, reach_mm: f64) -> Vec<FacingSegment> {
         let edge = &slave.edges[number];
-        let mut found: Vec<(f64, Segment)> = self
+        let mut found: Vec<(f64, FacingSegment)> = self
             .boxes
             .intersect_aabb(&aabb(swept_box(slave, edge, reach_mm)))
             .filter_map(|master| self.segment(slave, edge, number, master as usize, reach_mm))
             .collect();
-        // The order of the tree must not show in the result.
+        // The result does not depend on the order of the tree.
         found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.master.cmp(&b.1.master)));
-        let mut taken: Vec<Segment> = Vec::with_capacity(found.len());
+        let mut taken: Vec<FacingSegment> = Vec::with_capacity(found.len());
         for (_, segment) in found {
             taken.extend(what_is_free(&taken, segment));
         }
@@ -116,7 +115,7 @@ impl<'a> MasterSearch<'a> {
         number: usize,
         master: usize,
         reach_mm: f64,
-    ) -> Option<(f64, Segment)> {
+    ) -> Option<(f64, FacingSegment)> {
         let ends = &self.master.edges[master].nodes()[..2];
         let [a, b] = [ends[0], ends[1]].map(|node| project_onto_slave(slave, edge, self.master.points_mm[node]));
         let (from, to) = (a.min(b), a.max(b));
@@ -126,16 +125,16 @@ impl<'a> MasterSearch<'a> {
         let middle = 0.5 * (from + to);
         let meeting = self.meet(slave, edge, middle, master)?;
         (meeting.gap_mm.abs() <= reach_mm)
-            .then_some((meeting.gap_mm.abs(), Segment { slave: number, from, to, master }))
+            .then_some((meeting.gap_mm.abs(), FacingSegment { slave: number, from, to, master }))
     }
 
-    /// Where the normal at ξ of a slave edge meets a master edge; `None` where that faces away.
+    /// Projection along the normal at ξ of a slave edge onto a master edge; `None` where that faces away.
     pub(crate) fn meet(&self, slave: &Surface, edge: &SurfaceEdge, xi: f64, master: usize) -> Option<Meeting> {
         let (point, _) = slave.point_and_tangent(edge, xi);
         let (normal, _) = slave.normal_and_derivative(edge, xi);
         let normal = normal.try_normalize(PARALLEL)?;
         let master_edge = &self.master.edges[master];
-        // Along the master, which runs the other way, the offset to the right of the normal rises: turned round, it falls.
+        // The offset to the right of the normal rises along the master, which runs the other way; its opposite falls.
         let eta = falling_root_between(|eta| {
             let (place, tangent) = self.master.point_and_tangent(master_edge, eta);
             (-cross(place - point, normal), -cross(tangent, normal))
@@ -146,7 +145,7 @@ impl<'a> MasterSearch<'a> {
     }
 }
 
-/// As [`falling_root`], with the nearer end where there is none.
+/// [`falling_root`], or the nearer end where there is none.
 fn falling_root_between(f: impl Fn(f64) -> (f64, f64)) -> f64 {
     if f(-1.0).0 <= 0.0 {
         -1.0
@@ -157,19 +156,16 @@ fn falling_root_between(f: impl Fn(f64) -> (f64, f64)) -> f64 {
     }
 }
 
-/// ξ on the slave edge, from −1 to 1, whose normal passes nearest to `point`.
+/// Coordinate ξ on the slave edge, from −1 to 1, whose normal passes nearest to `point`.
 fn project_onto_slave(slave: &Surface, edge: &SurfaceEdge, point: Vector2<f64>) -> f64 {
-    let corners = slave.corners(edge);
-    let count = edge.nodes().len();
     falling_root_between(|xi| {
-        let place = interpolate(&shape(count, xi), &corners[..count]);
-        let tangent = interpolate(&shape_derivative(count, xi), &corners[..count]);
+        let (place, tangent) = slave.point_and_tangent(edge, xi);
         let (normal, normal_slope) = slave.normal_and_derivative(edge, xi);
         (cross(place - point, normal), cross(tangent, normal) + cross(place - point, normal_slope))
     })
 }
 
-/// The box that an edge sweeps when moved by `reach_mm` along its normals, both ways.
+/// Box that an edge sweeps when moved by `reach_mm` along its normals, both ways.
 fn swept_box(slave: &Surface, edge: &SurfaceEdge, reach_mm: f64) -> (Vector2<f64>, Vector2<f64>) {
     let (mut low, mut high) = slave.edge_box(edge);
     for &node in edge.nodes() {
@@ -182,14 +178,17 @@ fn swept_box(slave: &Surface, edge: &SurfaceEdge, reach_mm: f64) -> (Vector2<f64
     (low, high)
 }
 
-/// What `taken` leaves of a segment.
-fn what_is_free(taken: &[Segment], segment: Segment) -> Vec<Segment> {
+/// Parts of a segment outside `taken` ones.
+fn what_is_free(taken: &[FacingSegment], segment: FacingSegment) -> Vec<FacingSegment> {
     let mut free = vec![segment];
     for other in taken {
         free = free
             .into_iter()
             .flat_map(|piece| {
-                [Segment { to: piece.to.min(other.from), ..piece }, Segment { from: piece.from.max(other.to), ..piece }]
+                [
+                    FacingSegment { to: piece.to.min(other.from), ..piece },
+                    FacingSegment { from: piece.from.max(other.to), ..piece },
+                ]
             })
             .filter(|piece| piece.to - piece.from > PARALLEL)
             .collect();

@@ -1,7 +1,7 @@
-//! Contact of meshed surfaces: frictionless, segment to segment, with dual mortar multipliers.
+//! Frictionless segment-to-segment contact of meshed surfaces with dual mortar multipliers.
 //!
-//! The pressure lives on the slave surface, λ(ξ) = Σ ψ_i λ_i. With n the outward normal of the slave and x_m(ξ) the
-//! master's point met along n, the gap is g = n · (x_m − x_s), and each multiplier asks for
+//! The pressure is defined on the slave surface, λ(ξ) = Σ ψ_i λ_i. With n the outward normal of the slave and x_m(ξ) the
+//! projection along n onto the master, the gap is g = n · (x_m − x_s), and each multiplier satisfies
 //!
 //! ```text
 //! g_i = ∫ ψ_i g dγ / w_i ≥ 0,    λ_i ≥ 0,    λ_i g_i = 0,      w_i = ∫ ψ_i dγ

@@ -1,4 +1,4 @@
-//! The coupling of two surfaces: the gap of every multiplier as a linear function of the displacements.
+//! Coupling of two surfaces: the gap of every multiplier as a linear function of the displacements.
 //!
 //! ```text
 //! g_i = g_i⁰ + Σ_k B_ik · u_k,     B_ik = (1/w_i) ∫ ψ_i n (N_k^m − N_k^s) dγ,     w_i = ∫ ψ_i dγ
@@ -12,33 +12,33 @@ use sprs::{CsMat, TriMat};
 
 use super::dual_basis::{DualBasis, gauss_points};
 use super::edge::shape;
-use super::master_search::{MasterSearch, Segment};
+use super::master_search::{FacingSegment, MasterSearch};
 use super::surface::Surface;
 
-/// Multipliers with less than this part of the weight of a fully faced node are slivers: their share of the pressure goes to
-/// a neighbour, so that a constant pressure is still kept, and what is left over without a neighbour is left out.
+/// Weight over that of a fully faced node below which a multiplier is a sliver: its basis function is added to that of
+/// a neighbour, so that a constant pressure is still represented; without a neighbour it is left out.
 const LEAST_WEIGHT: f64 = 0.05;
 
-/// The coupling of a slave surface with a master surface; a row for every slave node that faces the master.
+/// Coupling of a slave surface with a master surface; a row for every slave node that faces the master.
 ///
 /// Columns are `2 · local node + component` of each surface.
 #[derive(Debug, Clone)]
-pub struct Coupling {
+pub struct MortarCoupling {
     /// Local slave node of each row.
     pub nodes: Vec<usize>,
-    /// w_i, mm.
+    /// Weights w_i, mm.
     pub weight_mm: Vec<f64>,
-    /// g_i⁰, mm.
+    /// Initial gaps g_i⁰, mm.
     pub gap_mm: Vec<f64>,
-    /// B for displacements of the slave.
+    /// Matrix B for displacements of the slave.
     pub slave: CsMat<f64>,
-    /// B for displacements of the master.
+    /// Matrix B for displacements of the master.
     pub master: CsMat<f64>,
 }
 
-/// Sums of one multiplier while integrating.
+/// Integrals of one multiplier.
 #[derive(Debug, Clone, Default)]
-struct Row {
+struct MultiplierSums {
     weight_mm: f64,
     /// Weight if the master faced all of the node's edges.
     whole_mm: f64,
@@ -47,12 +47,13 @@ struct Row {
     master: Vec<(usize, Vector2<f64>)>,
 }
 
-impl Row {
+impl MultiplierSums {
     fn is_sliver(&self) -> bool {
         self.weight_mm <= LEAST_WEIGHT * self.whole_mm
     }
 
-    fn take(&mut self, other: &Row) {
+    /// Adds the integrals of another multiplier.
+    fn take(&mut self, other: &MultiplierSums) {
         self.weight_mm += other.weight_mm;
         self.gap_mm2 += other.gap_mm2;
         for &(node, value) in &other.slave {
@@ -64,8 +65,8 @@ impl Row {
     }
 }
 
-/// Adds the basis function of each sliver to that of the neighbour on its edges with the greatest weight: ψ_k + ψ_sliver.
-fn hand_over_slivers(slave: &Surface, rows: &mut [Row]) {
+/// Adds the basis function of each sliver to that of the neighbour with the greatest weight.
+fn hand_over_slivers(slave: &Surface, rows: &mut [MultiplierSums]) {
     let mut neighbour: Vec<Option<usize>> = vec![None; rows.len()];
     for edge in &slave.edges {
         for &node in edge.nodes().iter().filter(|&&node| rows[node].is_sliver() && rows[node].weight_mm > 0.0) {
@@ -84,6 +85,7 @@ fn hand_over_slivers(slave: &Surface, rows: &mut [Row]) {
     }
 }
 
+/// Adds `value` to the entry of `node`.
 fn add(entries: &mut Vec<(usize, Vector2<f64>)>, node: usize, value: Vector2<f64>) {
     match entries.iter_mut().find(|(other, _)| *other == node) {
         Some((_, sum)) => *sum += value,
@@ -91,17 +93,18 @@ fn add(entries: &mut Vec<(usize, Vector2<f64>)>, node: usize, value: Vector2<f64
     }
 }
 
-impl Coupling {
-    /// Couples `slave` to `master` where they lie within `reach_mm` of each other, along the slave's normals.
+impl MortarCoupling {
+    /// Couples `slave` to `master` where their distance along the slave's normals is at most `reach_mm`.
     pub fn new(slave: &Surface, master: &Surface, reach_mm: f64) -> Self {
         let facing = MasterSearch::new(master);
-        let mut rows = vec![Row::default(); slave.points_mm.len()];
+        let mut rows = vec![MultiplierSums::default(); slave.points_mm.len()];
         for number in 0..slave.edges.len() {
             let segments = facing.segments(slave, number, reach_mm);
             integrate_edge(slave, number, &facing, &segments, &mut rows);
         }
         hand_over_slivers(slave, &mut rows);
-        let kept: Vec<(usize, Row)> = rows.into_iter().enumerate().filter(|(_, row)| !row.is_sliver()).collect();
+        let kept: Vec<(usize, MultiplierSums)> =
+            rows.into_iter().enumerate().filter(|(_, row)| !row.is_sliver()).collect();
         Self {
             nodes: kept.iter().map(|(node, _)| *node).collect(),
             weight_mm: kept.iter().map(|(_, row)| row.weight_mm).collect(),
@@ -116,13 +119,20 @@ impl Coupling {
         self.nodes.len()
     }
 
-    /// Whether nothing faces anything.
+    /// Whether no node of the slave faces the master.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 }
 
-fn integrate_edge(slave: &Surface, number: usize, facing: &MasterSearch<'_>, segments: &[Segment], rows: &mut [Row]) {
+/// Adds the integrals over one slave edge.
+fn integrate_edge(
+    slave: &Surface,
+    number: usize,
+    facing: &MasterSearch<'_>,
+    segments: &[FacingSegment],
+    rows: &mut [MultiplierSums],
+) {
     let edge = &slave.edges[number];
     let count = edge.nodes().len();
     let jacobian = |xi: f64| slave.point_and_tangent(edge, xi).1.norm();
@@ -134,7 +144,7 @@ fn integrate_edge(slave: &Surface, number: usize, facing: &MasterSearch<'_>, seg
     }
     let (Some(first), Some(last)) = (segments.first(), segments.last()) else { return };
     let faced: f64 = segments.iter().map(|segment| segment.to - segment.from).sum();
-    // A gap between segments is a hole in the master: its edge is treated as the end of the master is.
+    // Between segments with a distance the master has a hole, which is treated as its end is.
     let unbroken = (last.to - first.from - faced).abs() < 1e-9;
     let basis = match (first.from, last.to) {
         (from, to) if unbroken && from == -1.0 && to == 1.0 => whole,
@@ -166,8 +176,8 @@ fn integrate_edge(slave: &Surface, number: usize, facing: &MasterSearch<'_>, seg
     }
 }
 
-/// The stretches of a segment over which `basis` is smooth: that of a partly faced edge has a kink at the middle node.
-fn smooth_stretches(segment: &Segment, basis: &DualBasis) -> impl Iterator<Item = (f64, f64)> + use<> {
+/// Parts of a segment over which `basis` is smooth: on a partly faced edge it has a kink at the middle node.
+fn smooth_stretches(segment: &FacingSegment, basis: &DualBasis) -> impl Iterator<Item = (f64, f64)> + use<> {
     let cut = match basis {
         DualBasis::Whole { .. } => segment.to,
         DualBasis::Parts { .. } => 0.0_f64.clamp(segment.from, segment.to),
@@ -175,7 +185,12 @@ fn smooth_stretches(segment: &Segment, basis: &DualBasis) -> impl Iterator<Item 
     [(segment.from, cut), (cut, segment.to)].into_iter().filter(|(from, to)| to > from)
 }
 
-fn operator(rows: &[(usize, Row)], nodes: usize, entries: impl Fn(&Row) -> &Vec<(usize, Vector2<f64>)>) -> CsMat<f64> {
+/// Sparse matrix B on one surface.
+fn operator(
+    rows: &[(usize, MultiplierSums)],
+    nodes: usize,
+    entries: impl Fn(&MultiplierSums) -> &Vec<(usize, Vector2<f64>)>,
+) -> CsMat<f64> {
     let mut triplets = TriMat::new((rows.len(), 2 * nodes));
     for (i, (_, row)) in rows.iter().enumerate() {
         for (node, value) in entries(row) {

@@ -1,14 +1,13 @@
-//! How far two surfaces that touch run into each other, point by point.
+//! Pointwise penetration of two surfaces in contact.
 //!
-//! A multiplier closes the gap on the average that it weights. Between the nodes the deformed surfaces still cross by a
-//! little, because neither can follow the other exactly: at the integration points ξ_q the linearised gap
+//! A multiplier closes the weighted mean of the gap. At the integration points ξ_q the linearised gap
 //!
 //! ```text
 //! g(ξ_q) = g⁰(ξ_q) + n · (u_m(η_q) − u_s(ξ_q))
 //! ```
 //!
-//! is not zero but swings around it. Its most negative value is an honest measure of the discretisation, and falls with the
-//! size of the elements; round-off alone would be the measure of the solver.
+//! varies around zero. The most negative value measures the error of discretisation, and falls with the
+//! size of the elements.
 
 use nalgebra::Vector2;
 
@@ -17,12 +16,12 @@ use super::edge::{interpolate, shape};
 use super::master_search::MasterSearch;
 use super::surface::Surface;
 
-/// A surface with the displacements of its local nodes, mm.
+/// Surface with the displacements of its local nodes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Moved<'a> {
-    /// Before deformation.
+    /// Surface before deformation.
     pub surface: &'a Surface,
-    /// One for each local node.
+    /// Displacement of each local node, mm.
     pub displacement_mm: &'a [Vector2<f64>],
 }
 
@@ -36,7 +35,7 @@ impl Moved<'_> {
     }
 }
 
-/// The largest overlap of `slave` and `master` at the integration points, mm; zero where they nowhere overlap. Surfaces
+/// Greatest penetration of `slave` and `master` at the integration points, mm, or zero. Surfaces
 /// farther apart than `reach_mm` do not face each other.
 pub(crate) fn largest_overlap_mm(slave: Moved<'_>, master: Moved<'_>, reach_mm: f64) -> f64 {
     let facing = MasterSearch::new(master.surface);

@@ -1,6 +1,6 @@
-//! A surface of edges with a continuous field of normals.
+//! Surface of edges with a continuous field of normals.
 //!
-//! Nodes are numbered locally, 0 … n−1, in the order in which the edges name them. The unit normal of a node is the mean
+//! Nodes are numbered locally, 0 … n−1, in the order of their first edges. The unit normal of a node is the mean
 //! of its edges' normals there; between nodes it is interpolated and normalised.
 
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use nalgebra::Vector2;
 use super::edge::{MOST_NODES, interpolate, node_place, outward, shape, shape_derivative};
 use crate::problem::Edge;
 
-/// One edge by local node numbers.
+/// Edge by local node numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SurfaceEdge {
     nodes: [usize; MOST_NODES],
@@ -20,25 +20,25 @@ pub struct SurfaceEdge {
 /// Surface of a body, or part of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
-    /// The mesh's number of each local node.
+    /// Number in the mesh of each local node.
     pub mesh_nodes: Vec<u32>,
-    /// Their places, mm.
+    /// Coordinates of the nodes, mm.
     pub points_mm: Vec<Vector2<f64>>,
-    /// Outward unit normals.
+    /// Outward unit normals at the nodes.
     pub normals: Vec<Vector2<f64>>,
-    /// The edges, body on their left.
+    /// Edges, body on their left.
     pub edges: Vec<SurfaceEdge>,
 }
 
 impl SurfaceEdge {
-    /// Local numbers of its nodes: ends, middle.
+    /// Local numbers of the nodes: ends, middle.
     pub fn nodes(&self) -> &[usize] {
         &self.nodes[..self.count]
     }
 }
 
 impl Surface {
-    /// The surface of `edges` with the nodes at `points_mm`.
+    /// Surface of `edges` with nodes at `points_mm`.
     pub fn new(edges: &[Edge], points_mm: &[Vector2<f64>]) -> Self {
         let mut local = BTreeMap::new();
         let mut mesh_nodes = Vec::new();
@@ -61,7 +61,7 @@ impl Surface {
         surface
     }
 
-    /// The surface turned and moved as a rigid body: `place` moves points, `turn` directions.
+    /// Surface moved as a rigid body: `place` maps points, `turn` directions.
     pub fn placed(
         &self,
         place: impl Fn(Vector2<f64>) -> Vector2<f64>,
@@ -75,7 +75,7 @@ impl Surface {
         }
     }
 
-    /// Its edges `edges` alone; nodes keep their numbers and normals.
+    /// Surface of some of the edges alone; nodes keep their numbers and normals.
     pub fn part(&self, edges: std::ops::Range<usize>) -> Self {
         Self { edges: self.edges[edges].to_vec(), ..self.clone() }
     }
@@ -88,12 +88,12 @@ impl Surface {
                 sums[node] += outward(tangent).normalize();
             }
         }
-        // Edges back to back (a crack, a sheet without thickness) leave no direction: such a node faces nothing.
+        // Opposite edges (a crack, a sheet without thickness) have no mean normal: such a node faces nothing.
         sums.into_iter().map(|sum| sum.try_normalize(1e-9).unwrap_or_else(Vector2::zeros)).collect()
     }
 
-    /// Coordinates of an edge's nodes; the first `count` count.
-    pub fn corners(&self, edge: &SurfaceEdge) -> [Vector2<f64>; MOST_NODES] {
+    /// Coordinates of an edge's nodes, of which the first `count` are used.
+    fn corners(&self, edge: &SurfaceEdge) -> [Vector2<f64>; MOST_NODES] {
         edge.nodes.map(|node| self.points_mm[node])
     }
 
@@ -131,7 +131,7 @@ impl Surface {
         (high - low).norm()
     }
 
-    /// The nodes in the order of the surface, one path for each connected part; a closed one begins at its first edge.
+    /// Nodes in the order of the surface, one path for each connected part; a closed one begins at its first edge.
     pub fn paths(&self) -> Vec<Vec<usize>> {
         let mut leaving = vec![None; self.points_mm.len()];
         let mut entered = vec![false; self.points_mm.len()];
@@ -141,7 +141,7 @@ impl Surface {
         }
         let mut walked = vec![false; self.edges.len()];
         let mut paths = Vec::new();
-        // Open parts first, from their beginnings, then what is left: closed ones.
+        // Open parts from their beginnings, then closed ones.
         let open = (0..self.edges.len()).filter(|&number| !entered[self.edges[number].nodes[0]]);
         for start in open.chain(0..self.edges.len()) {
             let mut path = Vec::new();

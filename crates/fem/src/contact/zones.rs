@@ -1,38 +1,37 @@
-//! Where on a surface the pressure is, and how far it reaches.
+//! Zones of pressure on a surface.
 //!
-//! Along the nodes of a surface a zone is a run of nodes under pressure. Its end lies between the last node under pressure
-//! and the first without, where p² falls to zero: against a smooth edge of contact the pressure goes with the square root
-//! of the distance, so p² is smooth there and a parabola in Hertz's contact. It is fitted to the nodes next to the last
-//! (whose own multiplier stands for a partly loaded stretch), and is exact for Hertz's ellipse. Against a sharp edge,
-//! where p² rises outwards, the zone reaches to the first node without pressure. Where the zone reaches the end of the
-//! surface, that is its end.
+//! A zone is a run of nodes under pressure along a surface. It ends between the last node under pressure
+//! and the first without, where p² falls to zero: at a smooth edge of contact the pressure is proportional to the square root
+//! of the distance, so p² is smooth there and a parabola in Hertz's contact. The parabola is fitted to the nodes before the last
+//! (whose own multiplier represents a partly loaded stretch), and is exact for Hertz's ellipse. At a sharp edge,
+//! where p² rises outwards, the zone ends at the first node without pressure, and at the end of the surface it ends there.
 
 use nalgebra::{Matrix3, Vector3};
 
-/// Nodes that the parabola is fitted to at most: enough to even out the middle and end nodes of quadratic edges.
+/// Greatest number of nodes to which the parabola is fitted: enough to average middle and end nodes of quadratic edges.
 const MOST_SAMPLES: usize = 6;
 
-/// One run of nodes under pressure.
+/// Run of nodes under pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Zone {
     /// First and last node under pressure.
     pub nodes: (usize, usize),
-    /// From, along the surface, mm.
+    /// Beginning along the surface, mm.
     pub from_mm: f64,
-    /// To, mm.
+    /// End along the surface, mm.
     pub to_mm: f64,
-    /// Whether it begins and ends at the surface's own ends.
+    /// Whether it begins and ends at the ends of the surface.
     pub at_end: (bool, bool),
 }
 
 impl Zone {
-    /// Its length, mm.
+    /// Length, mm.
     pub fn width_mm(&self) -> f64 {
         self.to_mm - self.from_mm
     }
 }
 
-/// The zones of pressure `pressure` at nodes at `along_mm`, both in the order of the surface.
+/// Zones of `pressure` at nodes at `along_mm`, both in the order of the surface.
 pub fn zones(along_mm: &[f64], pressure: &[f64]) -> Vec<Zone> {
     let n = pressure.len();
     let mut zones = Vec::new();
@@ -58,41 +57,43 @@ pub fn zones(along_mm: &[f64], pressure: &[f64]) -> Vec<Zone> {
     zones
 }
 
-/// Where the pressure ends beyond node `end` in the direction `step`; `other` is the zone's other end.
+/// End of the pressure beyond node `end` in the direction `step`; `other` is the zone's other end.
 fn edge_mm(along_mm: &[f64], pressure: &[f64], end: usize, other: usize, step: isize) -> f64 {
-    let inward = |k: usize| end.wrapping_add_signed(-step * k as isize);
     let beyond = along_mm[end.wrapping_add_signed(step)];
-    let inside = end.abs_diff(other);
-    if inside == 0 {
+    // Nodes from the end inwards.
+    let inwards: Vec<usize> =
+        (0..=end.abs_diff(other).min(MOST_SAMPLES)).map(|k| end.wrapping_add_signed(-step * k as isize)).collect();
+    if inwards.len() == 1 {
         return 0.5 * (along_mm[end] + beyond);
     }
-    // Outward distance from the node next to the last, and p².
-    let origin = if inside == 1 { end } else { inward(1) };
-    let outward = (beyond - along_mm[origin]).signum();
-    let sample = |k: usize| (outward * (along_mm[inward(k)] - along_mm[origin]), pressure[inward(k)].powi(2));
-    let root = match inside {
-        1 => line_root([sample(0), sample(1)]),
-        2 => line_root([sample(1), sample(2)]),
+    // Outward distance from the node before the last, and p².
+    let origin_mm = along_mm[inwards[if inwards.len() == 2 { 0 } else { 1 }]];
+    let outward = (beyond - origin_mm).signum();
+    let samples: Vec<(f64, f64)> =
+        inwards.iter().map(|&node| (outward * (along_mm[node] - origin_mm), pressure[node].powi(2))).collect();
+    let root = match samples[..] {
+        [first, second] => line_root([first, second]),
+        [_, first, second] => line_root([first, second]),
         _ => {
-            // In units of the distance to the next node, for the sake of the fit.
-            let unit = (along_mm[origin] - along_mm[inward(2)]).abs();
-            let samples = (1..=inside.min(MOST_SAMPLES)).map(|k| (sample(k).0 / unit, sample(k).1));
-            parabola_root(samples).map(|t| t * unit).or_else(|| line_root([sample(1), sample(2)]))
+            // In units of the distance to the next node, for the condition of the fit.
+            let unit = (origin_mm - along_mm[inwards[2]]).abs();
+            let root = parabola_root(samples[1..].iter().map(|(t, q)| (t / unit, *q)));
+            root.map(|t| t * unit).or_else(|| line_root([samples[1], samples[2]]))
         }
     };
-    // The last node's own share begins halfway to the node before it.
-    let nearest = if inside == 1 { along_mm[end] } else { 0.5 * (along_mm[end] + along_mm[inward(1)]) };
-    let extrapolated = root.map_or(beyond, |t| along_mm[origin] + outward * t);
+    // The stretch of the last node begins halfway to the node before it.
+    let nearest = if inwards.len() == 2 { along_mm[end] } else { 0.5 * (along_mm[end] + origin_mm) };
+    let extrapolated = root.map_or(beyond, |t| origin_mm + outward * t);
     extrapolated.clamp(nearest.min(beyond), nearest.max(beyond))
 }
 
-/// Where the line through two samples (t, q), the first at t = 0 with q > 0, falls to zero.
+/// Zero of the line through two samples (t, q), the first at t = 0 with q > 0.
 fn line_root([(_, q0), (t1, q1)]: [(f64, f64); 2]) -> Option<f64> {
     let slope = (q1 - q0) / t1;
     (slope < 0.0).then(|| -q0 / slope)
 }
 
-/// Where the parabola that fits the samples (t, q) best falls to zero beyond t = 0.
+/// Zero beyond t = 0 of the least-squares parabola through the samples (t, q).
 fn parabola_root(samples: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
     let (mut gram, mut side) = (Matrix3::zeros(), Vector3::zeros());
     for (t, q) in samples {
@@ -102,7 +103,7 @@ fn parabola_root(samples: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
     }
     let fit = gram.cholesky()?.solve(&side);
     let (a, b, c) = (fit.x, fit.y, fit.z);
-    // a + b t + c t² = 0, written so that nothing cancels.
+    // Root of a + b t + c t² without cancellation.
     let discriminant = b * b - 4.0 * a * c;
     let below = discriminant.max(0.0).sqrt() - b;
     (a > 0.0 && discriminant >= 0.0 && below > 0.0).then(|| 2.0 * a / below)

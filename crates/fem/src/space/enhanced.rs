@@ -1,14 +1,14 @@
-//! The trilinear hexahedron with enhanced assumed strain: twelve further strain modes inside the element, so that it neither locks as
-//! ν → ½ nor stiffens in bending.
+//! Trilinear hexahedron with enhanced assumed strain: twelve additional strain modes inside the element, so that it neither locks as
+//! ν → ½ nor is too stiff in bending.
 //!
-//! As in the plane (`fem::enhanced_quad`), the strain is that of the displacements plus modes that are incompatible between elements,
+//! As in two dimensions (`fem::enhanced_quad`), the strain is that of the displacements plus modes that are incompatible between elements,
 //!
 //! ```text
 //! ε = B u + M̃ α        M̃ = (J₀/J) T₀ M(ξ)        M: ε_ξξ = ξ,  γ_ξη = ξ,  γ_ξη = η,  and likewise around;  θ = ξη, ηζ, ζξ
 //! ```
 //!
-//! the last three an equal strain in all directions, which the bilinear part of the displacements' volume strain needs where the volume
-//! is to stay. The modes have no mean, so that the patch test holds on any hexahedron, and are eliminated inside the element.
+//! the last three an equal strain in all directions, which balances the bilinear part of the displacements' volume strain in incompressible
+//! deformation. The modes have zero mean, so that the patch test is satisfied on any hexahedron, and are eliminated inside the element.
 //!
 //! Source: J. C. Simo and M. S. Rifai, *International Journal for Numerical Methods in Engineering* 29 (1990) 1595–1638 (nine modes);
 //! J. C. Simo, F. Armero and R. L. Taylor, *Computer Methods in Applied Mechanics and Engineering* 110 (1993) 359–386 (the last three).
@@ -16,30 +16,30 @@
 use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3, Vector6};
 
 use super::Folded;
-use super::hexahedron::{HexahedronKind, Shape};
+use super::hexahedron::{HexahedronKind, HexahedronShape};
 use crate::elastic::Elastic;
 
-/// Enhanced modes.
+/// Number of enhanced modes.
 const MODES: usize = 12;
 /// Degrees of freedom of the nodes.
 const DOFS: usize = 24;
 
-/// An element with its enhanced modes expressed through the displacements of its nodes.
+/// Element with its enhanced modes as functions of the displacements of its nodes.
 #[derive(Debug, Clone)]
 pub(super) struct EnhancedHexahedron<'a> {
     nodes_mm: &'a [Vector3<f64>],
-    /// J₀⁻¹ and J₀ at the centre.
+    /// Inverse and determinant of J₀ at the centre.
     centre: (Matrix3<f64>, f64),
-    /// −K_αα⁻¹ K_αu.
+    /// Modes per displacement, −K_αα⁻¹ K_αu.
     modes: SMatrix<f64, MODES, DOFS>,
-    /// K, N/mm.
+    /// Condensed stiffness K, N/mm.
     pub stiffness: SMatrix<f64, DOFS, DOFS>,
 }
 
 impl<'a> EnhancedHexahedron<'a> {
-    /// The element on eight nodes.
+    /// Element on eight nodes.
     pub(super) fn new(nodes_mm: &'a [Vector3<f64>], material: &Elastic) -> Result<Self, Folded> {
-        let jacobian = Shape::at(HexahedronKind::Eight, [0.0; 3]).jacobian(nodes_mm);
+        let jacobian = HexahedronShape::at(HexahedronKind::Eight, [0.0; 3]).jacobian(nodes_mm);
         let determinant = jacobian.determinant();
         let inverse = jacobian.try_inverse().filter(|_| determinant > 0.0).ok_or(Folded(determinant))?;
         let mut element =
@@ -73,13 +73,13 @@ impl<'a> EnhancedHexahedron<'a> {
         material: &Elastic,
         displacement_mm: &SMatrix<f64, DOFS, 1>,
     ) -> Vector6<f64> {
-        let (b, determinant) = self.displacement_part(&Shape::at(HexahedronKind::Eight, at));
+        let (b, determinant) = self.displacement_part(&HexahedronShape::at(HexahedronKind::Eight, at));
         let strain = b + self.enhanced_part(at, determinant) * self.modes;
         material.stiffness_in_space_mpa() * (strain * displacement_mm)
     }
 
-    /// B and J.
-    fn displacement_part(&self, shape: &Shape) -> (SMatrix<f64, 6, DOFS>, f64) {
+    /// Matrix B and determinant J.
+    fn displacement_part(&self, shape: &HexahedronShape) -> (SMatrix<f64, 6, DOFS>, f64) {
         let (gradients, determinant) = shape.gradients(self.nodes_mm);
         let mut b = SMatrix::<f64, 6, DOFS>::zeros();
         for (a, gradient) in gradients.iter().take(8).enumerate() {
@@ -88,44 +88,33 @@ impl<'a> EnhancedHexahedron<'a> {
         (b, determinant)
     }
 
-    /// M̃, one column for each mode.
-    fn enhanced_part(&self, [xi, eta, zeta]: [f64; 3], determinant: f64) -> SMatrix<f64, 6, MODES> {
+    /// Matrix M̃, one column for each mode.
+    fn enhanced_part(&self, at: [f64; 3], determinant: f64) -> SMatrix<f64, 6, MODES> {
         let (inverse, centre_determinant) = &self.centre;
         let scale = centre_determinant / determinant;
-        let mut m = SMatrix::<f64, 6, MODES>::zeros();
-        let mut column = 0;
-        let mut add = |strain: Matrix3<f64>| {
-            let engineering = Vector6::new(
-                strain.m11,
-                strain.m22,
-                strain.m33,
-                strain.m12 + strain.m21,
-                strain.m23 + strain.m32,
-                strain.m31 + strain.m13,
-            );
-            m.set_column(column, &(engineering * scale));
-            column += 1;
-        };
-        let at = [xi, eta, zeta];
-        for k in 0..3 {
+        let modes = [0, 1, 2].map(|k| {
             let next = (k + 1) % 3;
-            let covariant = |i: usize, j: usize, value: f64| {
+            let [normal, first, second] = [(k, at[k]), (next, at[k]), (next, at[next])].map(|(j, value)| {
                 let mut e = Matrix3::zeros();
-                e[(i, j)] += 0.5 * value;
-                e[(j, i)] += 0.5 * value;
+                e[(k, j)] += 0.5 * value;
+                e[(j, k)] += 0.5 * value;
                 inverse.transpose() * e * inverse
-            };
-            add(covariant(k, k, at[k]));
-            add(covariant(k, next, at[k]));
-            add(covariant(k, next, at[next]));
-            add(Matrix3::identity() * (at[k] * at[next]));
-        }
-        m
+            });
+            [normal, first, second, Matrix3::identity() * (at[k] * at[next])]
+        });
+        let columns: Vec<Vector6<f64>> =
+            modes.as_flattened().iter().map(|strain| engineering_strain(strain) * scale).collect();
+        SMatrix::from_columns(&columns)
     }
 }
 
+/// Components (x, y, z, xy, yz, zx) of a strain tensor with engineering shear strains.
+fn engineering_strain(e: &Matrix3<f64>) -> Vector6<f64> {
+    Vector6::new(e.m11, e.m22, e.m33, e.m12 + e.m21, e.m23 + e.m32, e.m31 + e.m13)
+}
+
 impl Elastic {
-    /// D for (x, y, z, xy, yz, zx) with engineering shear strains, MPa.
+    /// Elasticity matrix D for (x, y, z, xy, yz, zx) with engineering shear strains, MPa.
     fn stiffness_in_space_mpa(&self) -> Matrix6<f64> {
         let mu = self.shear_modulus_mpa();
         let lambda = self.bulk_modulus_mpa() - 2.0 / 3.0 * mu;

@@ -1,4 +1,4 @@
-//! A force spread evenly over faces of hexahedra: the share that each of their nodes takes,
+//! Work-equivalent nodal shares of a force spread evenly over faces of hexahedra,
 //!
 //! ```text
 //! sₐ = ∫ Nₐ dA/∫ dA        dA = |∂x/∂ξ × ∂x/∂η| dξ dη
@@ -17,16 +17,18 @@ use nalgebra::Vector3;
 use crate::quadrature::rule;
 use crate::solid::ElementKind;
 
-/// The share of each node of `faces` (four corners, or corners and middles), none of which is given twice.
+/// Share of each node of distinct `faces` (four corners, or corners and middles).
 pub fn spread_shares<'a>(points_mm: &[Vector3<f64>], faces: impl Iterator<Item = &'a [u32]>) -> BTreeMap<u32, f64> {
     let mut shares: BTreeMap<u32, f64> = BTreeMap::new();
     let mut whole_mm2 = 0.0;
     for nodes in faces {
         let kind = if nodes.len() == 4 { ElementKind::Quad4 } else { ElementKind::Quad8 };
         for point in &rule(kind).points {
-            let slopes = |k: usize| nodes.iter().zip(point.shape.slopes).map(move |(node, slope)| (*node, slope[k]));
-            let tangent = |k| slopes(k).map(|(node, s)| points_mm[node as usize] * s).sum::<Vector3<f64>>();
-            let area_mm2 = point.weight * tangent(0).cross(&tangent(1)).norm();
+            let [along_xi, along_eta] = [0, 1].map(|k| {
+                let slopes = nodes.iter().zip(point.shape.slopes);
+                slopes.map(|(node, slope)| points_mm[*node as usize] * slope[k]).sum::<Vector3<f64>>()
+            });
+            let area_mm2 = point.weight * along_xi.cross(&along_eta).norm();
             whole_mm2 += area_mm2;
             for (node, value) in nodes.iter().zip(point.shape.values) {
                 *shares.entry(*node).or_default() += value * area_mm2;

@@ -1,5 +1,5 @@
-//! Finite elements in space: hexahedra of eight and of twenty nodes, the stiffness of a solid of them, and its stresses; `problem`: bodies with supports
-//! and loads, and their equilibrium.
+//! Three-dimensional finite elements: hexahedra of eight and of twenty nodes, assembled stiffness and nodal stresses; `problem`: bodies with
+//! supports and loads, and their equilibrium.
 
 mod enhanced;
 pub mod hexahedron;
@@ -13,26 +13,26 @@ use super::elastic::Elastic;
 use super::node_matrix::NodeMatrix;
 use super::quadrature::GAUSS_2;
 use enhanced::EnhancedHexahedron;
-use hexahedron::{HexahedronKind, MOST_NODES, Shape};
+use hexahedron::{HexahedronKind, HexahedronShape, MOST_NODES};
 
 /// Degrees of freedom of a node.
 pub(crate) const PER_NODE: usize = 3;
-/// Most degrees of freedom of an element.
+/// Greatest number of degrees of freedom of an element.
 const MOST_DOFS: usize = PER_NODE * MOST_NODES;
-/// 1/√3.
+/// Gauss abscissa 1/√3.
 const GAUSS: f64 = GAUSS_2[1].0;
 
-/// An element that has no volume somewhere.
+/// Error for an element whose Jacobian determinant is not positive everywhere.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("hexahedron {element} is folded: Jacobian determinant {determinant_mm3:.3e} mm³")]
+#[error("hexahedron {element} is inverted or degenerate: Jacobian determinant {determinant_mm3:.3e} mm³")]
 pub struct FoldedHexahedron {
-    /// Its number, from 0.
+    /// Number of the element, from 0.
     pub element: usize,
     /// Determinant of ∂x/∂ξ, mm³.
     pub determinant_mm3: f64,
 }
 
-/// The determinant of the Jacobian where it is not positive, mm³.
+/// Jacobian determinant that is not positive, mm³.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Folded(f64);
 
@@ -42,12 +42,12 @@ impl Folded {
     }
 }
 
-/// An element: eight or twenty nodes in the order of VTK, and what it is made of.
+/// Hexahedron of eight or twenty nodes with its material.
 #[derive(Debug, Clone, Copy)]
 pub struct Hexahedron<'a> {
-    /// Its nodes.
+    /// Nodes in the order of VTK.
     pub nodes: &'a [u32],
-    /// Its material.
+    /// Material.
     pub material: &'a Elastic,
 }
 
@@ -64,7 +64,7 @@ impl Hexahedron<'_> {
     }
 }
 
-/// The stiffness of `elements`, N/mm.
+/// Assembled stiffness of `elements`, N/mm.
 pub fn stiffness<'a, E: Iterator<Item = Hexahedron<'a>>>(
     points_mm: &[Vector3<f64>],
     elements: impl Fn() -> E,
@@ -83,9 +83,10 @@ pub fn stiffness<'a, E: Iterator<Item = Hexahedron<'a>>>(
         for (a, i) in element.nodes.iter().enumerate() {
             for (b, j) in element.nodes.iter().enumerate() {
                 if i >= j {
-                    // Symmetric but for rounding: of two halves the same one is taken.
-                    let entry = |r: usize, c: usize| entries[((3 * a + r).max(3 * b + c), (3 * a + r).min(3 * b + c))];
-                    matrix.add(*i, *j, [0, 1, 2].map(|r| [0, 1, 2].map(|c| entry(r, c))));
+                    // Symmetric but for rounding: always the lower half is used.
+                    let block = [0, 1, 2]
+                        .map(|r| [0, 1, 2].map(|c| entries[((3 * a + r).max(3 * b + c), (3 * a + r).min(3 * b + c))]));
+                    matrix.add(*i, *j, block);
                 }
             }
         }
@@ -93,12 +94,12 @@ pub fn stiffness<'a, E: Iterator<Item = Hexahedron<'a>>>(
     Ok(matrix)
 }
 
-/// Stresses (x, y, z, xy, yz, zx) at all nodes under `displacement_mm`, MPa: from 2 × 2 × 2 points of each element, where they are best,
-/// carried to its nodes by the trilinear function through them, and averaged over the elements around a node (`fem::stress` has the
-/// sources).
+/// Stresses (x, y, z, xy, yz, zx) at all nodes under `displacement_mm`, MPa: sampled at the 2 × 2 × 2 optimal points of each element,
+/// extrapolated to its nodes by the trilinear function through them, and averaged over the elements around a node (sources in
+/// `fem::stress`).
 ///
 /// # Errors
-/// An element that is none; the stiffness has found it before.
+/// Inverted or degenerate elements, which the stiffness has refused before.
 pub fn nodal_stresses_mpa<'a>(
     points_mm: &[Vector3<f64>],
     elements: impl Iterator<Item = Hexahedron<'a>>,
@@ -123,7 +124,7 @@ pub fn nodal_stresses_mpa<'a>(
         }
         .map_err(|folded| folded.of(number))?;
         for (node, at) in element.nodes.iter().zip(element.kind().reference_nodes()) {
-            let weights = Shape::at(HexahedronKind::Eight, at.map(|x| x / GAUSS)).values;
+            let weights = HexahedronShape::at(HexahedronKind::Eight, at.map(|x| x / GAUSS)).values;
             let (sum, count) = &mut sums[*node as usize];
             *sum += sampled.iter().zip(weights).map(|(stress, weight)| stress * weight).sum::<Vector6<f64>>();
             *count += 1;
@@ -132,7 +133,7 @@ pub fn nodal_stresses_mpa<'a>(
     Ok(sums.into_iter().map(|(sum, count)| sum / f64::from(count.max(1))).collect())
 }
 
-/// ε = Bₐ uₐ for (x, y, z, xy, yz, zx) with engineering shear strains.
+/// Block Bₐ of the strain ε = Bₐ uₐ for (x, y, z, xy, yz, zx) with engineering shear strains.
 fn strain_block(gradient: &Vector3<f64>) -> SMatrix<f64, 6, 3> {
     let (x, y, z) = (gradient.x, gradient.y, gradient.z);
     SMatrix::<f64, 6, 3>::from_row_slice(&[x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z, y, x, 0.0, 0.0, z, y, z, 0.0, x])

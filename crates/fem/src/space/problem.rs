@@ -1,13 +1,11 @@
-//! A static problem of elastic bodies in space, and its equilibrium.
+//! Three-dimensional static problem of elastic bodies, and its equilibrium.
 //!
 //! ```text
 //! K u = F        u given where a node is held
 //! ```
 //!
-//! Bodies are of hexahedra; those that share nodes are joined. Forces are in N. The forces that supports exert are what the held
-//! degrees of freedom lack: r = K u − F. With them all forces and their moments about the middle of the solid add up to nothing.
-
-use std::collections::BTreeMap;
+//! Bodies are of hexahedra; those that share nodes are joined. Forces are in N. Reactions at held degrees of freedom are
+//! r = K u − F; with them all forces and their moments about the middle of the solid add up to zero.
 
 use nalgebra::{Vector3, Vector6};
 
@@ -15,35 +13,37 @@ use super::hexahedron::HexahedronKind;
 use super::{FoldedHexahedron, Hexahedron, PER_NODE, nodal_stresses_mpa, stiffness};
 use crate::SolveError;
 use crate::elastic::Elastic;
-use crate::factor::Analysis;
+use crate::equilibrium::relative;
+use crate::factor::SymbolicFactor;
 use crate::node_matrix::NodeMatrix;
 use crate::problem::{Held, Work};
-use gearwear_mesh::{CellBlock, DataArray, Mesh, Values};
+use crate::solid::add_body;
+use gearwear_mesh::{CellBlock, Mesh};
 
-/// A hexahedron of a solid: eight or twenty nodes in the order of VTK.
+/// Hexahedron of a solid.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Element {
-    /// Its nodes.
+pub struct SpaceElement {
+    /// Eight or twenty nodes in the order of VTK.
     pub nodes: Vec<u32>,
-    /// Number of its body, which is that of its material.
+    /// Number of the body, and of its material.
     pub body: u16,
 }
 
-/// Elastic bodies in space.
+/// Three-dimensional elastic bodies.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Solid {
+pub struct SpaceSolid {
     /// Nodes, mm.
     pub points_mm: Vec<Vector3<f64>>,
     /// Elements.
-    pub elements: Vec<Element>,
+    pub elements: Vec<SpaceElement>,
 }
 
 /// Bodies, supports and loads.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Problem {
-    /// The bodies.
-    pub solid: Solid,
-    /// Their materials, in the order of the bodies.
+pub struct SpaceProblem {
+    /// Elastic bodies.
+    pub solid: SpaceSolid,
+    /// Materials, in the order of the bodies.
     pub materials: Vec<Elastic>,
     /// Supports and given displacements; no degree of freedom twice.
     pub held: Vec<Held>,
@@ -51,68 +51,60 @@ pub struct Problem {
     pub forces_n: Vec<f64>,
 }
 
-/// The solution.
+/// Solution of a problem.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Solution {
+pub struct SpaceEquilibrium {
     /// Displacement of every degree of freedom, mm.
     pub displacement_mm: Vec<f64>,
     /// Work done.
     pub work: Work,
-    /// Largest unbalanced nodal force over the largest force that acts.
+    /// Largest unbalanced nodal force over the largest nodal force.
     pub residual: f64,
     /// Unbalance of all external forces, reactions included, over their sum, or of their moments over that times the size of the
     /// solid, whichever is greater.
     pub force_balance: f64,
 }
 
-impl Solid {
+impl SpaceSolid {
     /// Number of degrees of freedom, supports included.
     pub fn dofs(&self) -> usize {
         PER_NODE * self.points_mm.len()
     }
 
-    /// The bodies as a mesh: blocks of one kind of element and one body each, in the order of the elements, with the body as cell data.
+    /// Bodies as a mesh: blocks of one kind of element and one body each, in the order of the elements, with the body as cell data.
     pub fn to_mesh(&self) -> Mesh {
-        let blocks = || self.elements.chunk_by(|a, b| (a.nodes.len(), a.body) == (b.nodes.len(), b.body));
-        let cells = |block: &[Element]| CellBlock {
-            kind: HexahedronKind::with_nodes(block[0].nodes.len()).cell_kind(),
-            nodes: block.iter().flat_map(|element| &element.nodes).map(|&node| node as usize).collect(),
-        };
-        let body = |block: &[Element]| DataArray {
-            components: 1,
-            values: Values::Integers(vec![i64::from(block[0].body); block.len()]),
-        };
-        Mesh {
-            points: self.points_mm.iter().map(|&point| point.into()).collect(),
-            cells: blocks().map(cells).collect(),
-            cell_data: BTreeMap::from([("body".to_owned(), blocks().map(body).collect())]),
-            ..Mesh::default()
+        let mut mesh = Mesh { points: self.points_mm.iter().map(|&point| point.into()).collect(), ..Mesh::default() };
+        for block in self.elements.chunk_by(|a, b| (a.nodes.len(), a.body) == (b.nodes.len(), b.body)) {
+            let kind = HexahedronKind::with_nodes(block[0].nodes.len()).cell_kind();
+            let nodes = block.iter().flat_map(|element| &element.nodes).map(|&node| node as usize).collect();
+            add_body(&mut mesh, CellBlock { kind, nodes }, block[0].body);
         }
+        mesh
     }
 }
 
-impl Problem {
+impl SpaceProblem {
     fn hexahedra(&self) -> impl Iterator<Item = Hexahedron<'_>> {
-        let of = |element: &Element| usize::from(element.body);
         self.solid
             .elements
             .iter()
-            .map(move |element| Hexahedron { nodes: &element.nodes, material: &self.materials[of(element)] })
+            .map(|element| Hexahedron { nodes: &element.nodes, material: &self.materials[usize::from(element.body)] })
     }
 
-    /// Stress (x, y, z, xy, yz, zx) of every node, MPa: the mean over the elements of its body, and over bodies that are joined there.
+    /// Stress (x, y, z, xy, yz, zx) of every node, MPa: the mean over the elements of a body, and over bodies that are joined there.
     ///
     /// # Errors
-    /// An element that is none; the solver has found it before.
+    /// Inverted or degenerate elements, which the solver has refused before.
     pub fn nodal_stresses_mpa(&self, displacement_mm: &[f64]) -> Result<Vec<Vector6<f64>>, FoldedHexahedron> {
         let nodes = self.solid.points_mm.len();
         let mut sums = vec![(Vector6::zeros(), 0_u32); nodes];
         for body in 0..self.materials.len() {
-            let own = || self.solid.elements.iter().zip(self.hexahedra()).filter(|(e, _)| usize::from(e.body) == body);
-            let hexahedra = own().map(|(_, hexahedron)| hexahedron);
-            let stresses = nodal_stresses_mpa(&self.solid.points_mm, hexahedra, displacement_mm)?;
+            let bodies = self.solid.elements.iter().map(|element| usize::from(element.body));
+            let own: Vec<Hexahedron<'_>> =
+                self.hexahedra().zip(bodies).filter(|(_, of)| *of == body).map(|(element, _)| element).collect();
             let mut is_own = vec![false; nodes];
-            own().flat_map(|(element, _)| &element.nodes).for_each(|&node| is_own[node as usize] = true);
+            own.iter().flat_map(|element| element.nodes).for_each(|&node| is_own[node as usize] = true);
+            let stresses = nodal_stresses_mpa(&self.solid.points_mm, own.into_iter(), displacement_mm)?;
             for ((sum, count), (stress, _)) in
                 sums.iter_mut().zip(stresses.into_iter().zip(is_own)).filter(|(_, (_, is_own))| *is_own)
             {
@@ -124,14 +116,14 @@ impl Problem {
     }
 }
 
-/// Finds the equilibrium of `problem`, whose supports hold every body; `announce` is told what the factor takes, GB, before it is made.
-pub fn solve(problem: &Problem, announce: &dyn Fn(f64)) -> Result<Solution, SolveError> {
+/// Finds the equilibrium of `problem`, whose supports hold every body; `announce` is given the memory of the factor, GB, before the factorisation.
+pub fn solve(problem: &SpaceProblem, announce: &dyn Fn(f64)) -> Result<SpaceEquilibrium, SolveError> {
     let matrix = stiffness(&problem.solid.points_mm, || problem.hexahedra())?;
     let mut is_held = vec![false; problem.solid.dofs()];
     problem.held.iter().for_each(|held| is_held[held.dof as usize] = true);
-    let analysis = Analysis::new(&matrix, |dof| is_held[dof])?;
-    announce(analysis.factor_gb());
-    let factor = analysis.factorised()?;
+    let symbolic = SymbolicFactor::new(&matrix, |dof| is_held[dof])?;
+    announce(symbolic.factor_gb());
+    let factor = symbolic.factorised()?;
     let given: Vec<(u32, f64)> = problem.held.iter().map(|held| (held.dof, held.displacement_mm)).collect();
     let mut displacement_mm = problem.forces_n.clone();
     factor.subtract_held(&matrix, &given, &mut displacement_mm);
@@ -139,11 +131,11 @@ pub fn solve(problem: &Problem, announce: &dyn Fn(f64)) -> Result<Solution, Solv
     given.iter().for_each(|(dof, value)| displacement_mm[*dof as usize] = *value);
     let [residual, force_balance] = balance(problem, &matrix, &displacement_mm, &is_held);
     let work = Work { iterations: 1, factorisations: 1, right_hand_sides: 1, ..Work::default() };
-    Ok(Solution { displacement_mm, work, residual, force_balance })
+    Ok(SpaceEquilibrium { displacement_mm, work, residual, force_balance })
 }
 
-/// Residual and unbalance of external forces, both relative.
-fn balance(problem: &Problem, matrix: &NodeMatrix, displacement_mm: &[f64], is_held: &[bool]) -> [f64; 2] {
+/// Relative residual and relative unbalance of external forces.
+fn balance(problem: &SpaceProblem, matrix: &NodeMatrix, displacement_mm: &[f64], is_held: &[bool]) -> [f64; 2] {
     let inner = matrix.multiply(displacement_mm);
     let points = &problem.solid.points_mm;
     let centre = points.iter().sum::<Vector3<f64>>() / points.len() as f64;
@@ -165,7 +157,6 @@ fn balance(problem: &Problem, matrix: &NodeMatrix, displacement_mm: &[f64], is_h
         moment += (point - centre).cross(&external);
         sum_of_sizes += external.norm();
     }
-    let relative = |value: f64, scale: f64| if scale > 0.0 { value / scale } else { 0.0 };
     let unbalance = f64::max(force.norm(), moment.norm() / size_mm);
     [relative(unbalanced, greatest), relative(unbalance, sum_of_sizes)]
 }

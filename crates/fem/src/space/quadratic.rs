@@ -1,16 +1,16 @@
-//! The hexahedron of twenty nodes: the plane quadratic elements (`fem::element`) with one direction more, and with the same cure for
-//! locking (`fem::projected_volume`): the volume strain is replaced by the linear function of x, y and z nearest to it.
+//! Hexahedron of twenty nodes, the three-dimensional form of the plane quadratic elements (`fem::element`), with the same projected volume strain
+//! against locking (`fem::projected_volume`): its least-squares approximation linear in x, y and z.
 
 use nalgebra::{Matrix3, Matrix4, SMatrix, SVector, Vector3, Vector4, Vector6};
 
 use super::Folded;
-use super::hexahedron::{HexahedronKind, MOST_NODES, Shape};
+use super::hexahedron::{HexahedronKind, HexahedronShape, MOST_NODES};
 use crate::elastic::Elastic;
 
 /// Degrees of freedom of the nodes.
 const DOFS: usize = 3 * MOST_NODES;
 
-/// The linear function nearest to the volume strain of an element: its values at the nodes of a local basis 1, x, y, z.
+/// Projection of the volume strain of an element onto the local basis 1, x, y, z.
 struct VolumeStrain {
     centre_mm: Vector3<f64>,
     size_mm: f64,
@@ -30,7 +30,7 @@ impl VolumeStrain {
         Vector4::new(1.0, arm.x, arm.y, arm.z)
     }
 
-    /// Adds a point that stands for `volume_mm3`.
+    /// Adds an integration point with weight `volume_mm3`.
     fn add(&mut self, at_mm: Vector3<f64>, gradients: &[Vector3<f64>; MOST_NODES], volume_mm3: f64) {
         let basis = self.basis(at_mm);
         self.mass += basis * basis.transpose() * volume_mm3;
@@ -44,15 +44,15 @@ impl VolumeStrain {
         }
     }
 
-    /// Coefficients of the function by the displacements.
+    /// Coefficients of the projection per displacement.
     fn projected(&self) -> Result<SMatrix<f64, 4, DOFS>, Folded> {
-        // The mass of 1, x, y and z is positive definite: the points do not lie in a plane where J > 0 at all of them.
+        // The mass matrix is positive definite: where J > 0 at all points they are not coplanar.
         Ok(self.mass.cholesky().ok_or(Folded(0.0))?.solve(&self.moments))
     }
 }
 
-/// ∇Nₐ and J at a point, where the element is not folded.
-fn gradients(shape: &Shape, nodes_mm: &[Vector3<f64>]) -> Result<([Vector3<f64>; MOST_NODES], f64), Folded> {
+/// Gradients ∇Nₐ and determinant J at a point.
+fn gradients(shape: &HexahedronShape, nodes_mm: &[Vector3<f64>]) -> Result<([Vector3<f64>; MOST_NODES], f64), Folded> {
     let (gradients, determinant) = shape.gradients(nodes_mm);
     if determinant.is_nan() || determinant <= 0.0 { Err(Folded(determinant)) } else { Ok((gradients, determinant)) }
 }
@@ -102,8 +102,8 @@ pub(super) fn stresses_mpa(
         volume_strain.add(point.shape.point(nodes_mm), &gradients, point.weight * determinant);
     }
     let theta = volume_strain.projected()? * displacement_mm;
-    let stress = |at: &[f64; 3]| {
-        let shape = Shape::at(HexahedronKind::Twenty, *at);
+    let stresses = points.iter().map(|at| {
+        let shape = HexahedronShape::at(HexahedronKind::Twenty, *at);
         let (gradients, _) = gradients(&shape, nodes_mm)?;
         let strain: Vector6<f64> = gradients
             .iter()
@@ -116,6 +116,6 @@ pub(super) fn stresses_mpa(
             material.bulk_modulus_mpa() * volume_strain.basis(shape.point(nodes_mm)).dot(&theta),
         );
         Ok(Vector6::from_fn(|k, _| if k < 3 { 2.0 * mu * (strain[k] - mean) + pressure } else { mu * strain[k] }))
-    };
-    points.iter().map(stress).collect()
+    });
+    stresses.collect()
 }

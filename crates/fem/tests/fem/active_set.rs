@@ -1,7 +1,7 @@
 //! The complementarity problem alone: it ends, breaks its cycles, and every condition holds.
 
 use faer::Mat;
-use gearwear_fem::active_set::{Condensed, Equilibrium};
+use gearwear_fem::active_set::{Condensed, ContactEquilibrium};
 use proptest::prelude::*;
 
 /// C = A Aᵀ + shift·I for A with n rows and `columns` columns, given row by row.
@@ -13,7 +13,7 @@ fn compliance(a: &[f64], (n, columns): (usize, usize), shift: f64) -> Mat<f64> {
 }
 
 /// Largest violation of g = g⁰ + C f + G α ≥ 0, f ≥ 0, f g = 0 and Gᵀ f = q, relative to the greatest of each.
-fn violation(problem: &Condensed, found: &Equilibrium) -> f64 {
+fn violation(problem: &Condensed, found: &ContactEquilibrium) -> f64 {
     let n = problem.gap_mm.len();
     let gap: Vec<f64> = (0..n)
         .map(|i| {

@@ -3,7 +3,7 @@
 use gearwear_fem::elastic::Elastic;
 use gearwear_fem::factor::Factor;
 use gearwear_fem::node_matrix::NodeMatrix;
-use gearwear_fem::space::hexahedron::{HexahedronKind, Shape};
+use gearwear_fem::space::hexahedron::{HexahedronKind, HexahedronShape};
 use gearwear_fem::space::{Hexahedron, nodal_stresses_mpa, stiffness};
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3, Vector6};
 
@@ -98,18 +98,18 @@ fn ver_shape_functions_are_one_at_their_node_and_their_slopes_are_derivatives() 
     const H: f64 = 1e-5;
     for kind in KINDS {
         for (a, at) in kind.reference_nodes().iter().enumerate() {
-            for (b, value) in Shape::at(kind, *at).values.iter().enumerate() {
+            for (b, value) in HexahedronShape::at(kind, *at).values.iter().enumerate() {
                 assert_eq!(*value, f64::from(u8::from(a == b)), "{kind:?} {a} {b}");
             }
         }
         let at = [0.21, 0.34, -0.47];
-        let shape = Shape::at(kind, at);
+        let shape = HexahedronShape::at(kind, at);
         assert_close("sum", shape.values.iter().sum::<f64>(), 1.0, 1e-14);
         for k in 0..3 {
             let (mut ahead, mut behind) = (at, at);
             ahead[k] += H;
             behind[k] -= H;
-            let (ahead, behind) = (Shape::at(kind, ahead), Shape::at(kind, behind));
+            let (ahead, behind) = (HexahedronShape::at(kind, ahead), HexahedronShape::at(kind, behind));
             for (a, slope) in shape.slopes.iter().enumerate() {
                 let difference = (ahead.values[a] - behind.values[a]) / (2.0 * H);
                 assert!((difference - slope[k]).abs() < 1e-9, "{kind:?} {a} {k}");

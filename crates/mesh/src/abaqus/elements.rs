@@ -1,10 +1,10 @@
-//! Abaqus's names for kinds of cells, and the sides of plane elements.
+//! Abaqus names of kinds of cells, and sides of plane elements.
 
 use std::borrow::Cow;
 
 use crate::CellKind;
 
-/// Names that we write, and their kinds.
+/// Kinds of cells and the names written for them.
 const WRITTEN: [(CellKind, &str); 16] = [
     (CellKind::Vertex, "MASS"),
     (CellKind::Line, "T2D2"),
@@ -21,16 +21,15 @@ const WRITTEN: [(CellKind, &str); 16] = [
     (CellKind::Wedge, "C3D6"),
     (CellKind::Wedge15, "C3D15"),
     (CellKind::Pyramid, "C3D5"),
-    // Not an element of Abaqus, but what its series of names leads to.
+    // Not an element of Abaqus, but a continuation of its names.
     (CellKind::Pyramid13, "C3D13"),
 ];
 
-/// What is allowed, for messages.
+/// Allowed element types, for messages.
 pub(super) const ALLOWED: &str = "MASS, trusses and beams (T2D2, T3D3, B21 …), plane elements (CPE, CPS, CPEG, CAX, M3D, R3D, S \
                            with 3, 4, 6, 8 or 9 nodes) and solids (C3D4 to C3D20)";
 
-/// The kind that Abaqus calls `name`, in any case; letters behind the number of nodes (reduced integration, hybrid, …) say
-/// nothing of the mesh.
+/// Kind of cell of an element type, in any case; letters after the number of nodes (reduced integration, hybrid, …) are ignored.
 pub(super) fn kind(name: &str) -> Option<CellKind> {
     let name = name.trim().to_ascii_uppercase();
     if name == "MASS" {
@@ -69,17 +68,17 @@ pub(super) fn kind(name: &str) -> Option<CellKind> {
     }
 }
 
-/// Whether what follows the number of nodes is a variant of the element: `R`, `RH`, `I`, `T`, `MT`, `5` of `S9R5` …
+/// Whether the text after the number of nodes is a variant of the element: `R`, `RH`, `I`, `T`, `MT`, `5` of `S9R5` …
 fn is_variant(rest: &str) -> bool {
     rest.is_empty() || rest.starts_with(|c: char| c.is_ascii_uppercase())
 }
 
-/// Abaqus's name for a kind, if it has one.
+/// Element type of a kind of cell, if there is one.
 pub(super) fn name(kind: CellKind) -> Option<&'static str> {
     WRITTEN.iter().find(|&&(own, _)| own == kind).map(|&(_, name)| name)
 }
 
-/// Abaqus's order of the nodes from ours or back: only a quadratic line has another, its middle node second.
+/// Nodes in the order of Abaqus from that of the mesh, or back: only a quadratic line differs, with its middle node second.
 pub(super) fn reorder<T: Copy>(kind: CellKind, nodes: &[T]) -> Cow<'_, [T]> {
     match (kind, nodes) {
         (CellKind::Line3, &[a, b, c]) => Cow::Owned(vec![a, c, b]),
@@ -96,7 +95,7 @@ pub(super) fn side_count(kind: CellKind) -> usize {
     }
 }
 
-/// Side `side` (from 0; Abaqus's `S1` is 0) of a plane element with `nodes`: kind and nodes of the line, element on its left.
+/// Kind and nodes of the line on a side (from 0, which is `S1`) of a plane element with `nodes`, the element on its left.
 pub(super) fn side(kind: CellKind, nodes: &[usize], side: usize) -> (CellKind, Vec<usize>) {
     let corners = side_count(kind);
     let mut line = vec![nodes[side], nodes[(side + 1) % corners]];

@@ -1,32 +1,32 @@
 //! Lines of an Abaqus file: keywords with their parameters, and data.
 
-use crate::error::{Fault, FilePosition, Problem};
+use crate::error::{FileFault, FilePosition, FileProblem};
 
-/// A keyword line with its data lines.
+/// Keyword line with its data lines.
 #[derive(Debug)]
 pub(super) struct Keyword<'a> {
-    /// The keyword in capitals, single blanks between words, without the star.
+    /// Keyword in capitals with single blanks between words, without the star.
     pub name: String,
-    /// Parameters: name in capitals, value.
+    /// Parameters, with names in capitals.
     pub parameters: Vec<(String, Option<Name>)>,
-    /// Its line, from 1.
+    /// Line number, from 1.
     pub line: usize,
-    /// Data: line number and text, comments left out.
+    /// Line numbers and texts of data, without comments.
     pub data: Vec<(usize, &'a str)>,
 }
 
-/// A name of a set or surface.
+/// Name of a set or surface.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Name {
     pub text: String,
-    /// Whether it was in quotes, and case counts.
+    /// Whether the name is in quotes, and case-sensitive.
     pub quoted: bool,
 }
 
 impl Keyword<'_> {
-    /// A fault in `line` of this keyword's.
-    pub(super) fn fault(&self, line: usize, problem: Problem) -> Fault {
-        Fault { place: Some(FilePosition::Line(line)), section: format!("*{}", self.name), problem }
+    /// Fault in a `line` of the keyword.
+    pub(super) fn fault(&self, line: usize, problem: FileProblem) -> FileFault {
+        FileFault { place: Some(FilePosition::Line(line)), section: format!("*{}", self.name), problem }
     }
 
     pub(super) fn has(&self, name: &str) -> bool {
@@ -37,22 +37,22 @@ impl Keyword<'_> {
         self.parameters.iter().find(|(own, _)| own == name)?.1.as_ref()
     }
 
-    /// The value of a parameter that must be there.
-    pub(super) fn required(&self, name: &str) -> Result<&Name, Fault> {
-        self.value(name).ok_or_else(|| self.fault(self.line, Problem::Ended { expected: format!("{name}=…") }))
+    /// Value of a required parameter.
+    pub(super) fn required(&self, name: &str) -> Result<&Name, FileFault> {
+        self.value(name).ok_or_else(|| self.fault(self.line, FileProblem::Ended { expected: format!("{name}=…") }))
     }
 
-    pub(super) fn refuse_input(&self, allowed: &str) -> Result<(), Fault> {
+    pub(super) fn refuse_input(&self, allowed: &str) -> Result<(), FileFault> {
         if self.has("INPUT") { Err(self.unsupported("INPUT=", allowed)) } else { Ok(()) }
     }
 
-    pub(super) fn unsupported(&self, what: impl Into<String>, allowed: &str) -> Fault {
-        self.fault(self.line, Problem::Unsupported { what: what.into(), allowed: allowed.into() })
+    pub(super) fn unsupported(&self, what: impl Into<String>, allowed: &str) -> FileFault {
+        self.fault(self.line, FileProblem::Unsupported { what: what.into(), allowed: allowed.into() })
     }
 }
 
 /// All keywords of a file in order.
-pub(super) fn keywords(text: &str) -> Result<Vec<Keyword<'_>>, Fault> {
+pub(super) fn keywords(text: &str) -> Result<Vec<Keyword<'_>>, FileFault> {
     let mut keywords: Vec<Keyword> = Vec::new();
     let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim_start().starts_with("**"));
     while let Some((number, line)) = lines.next() {
@@ -70,8 +70,8 @@ pub(super) fn keywords(text: &str) -> Result<Vec<Keyword<'_>>, Fault> {
             match keywords.last_mut() {
                 Some(keyword) => keyword.data.push((number, line)),
                 None => {
-                    let problem = Problem::unexpected(line, "a keyword, `*NODE` for example");
-                    return Err(Fault { place: Some(FilePosition::Line(number)), section: String::new(), problem });
+                    let problem = FileProblem::unexpected(line, "a keyword, `*NODE` for example");
+                    return Err(FileFault { place: Some(FilePosition::Line(number)), section: String::new(), problem });
                 }
             }
         }
@@ -83,16 +83,15 @@ fn keyword<'a>(line: &str, number: usize) -> Keyword<'a> {
     let mut fields = split(line).into_iter();
     let name = fields.next().unwrap_or_default();
     let name = name.split_ascii_whitespace().collect::<Vec<_>>().join(" ").to_ascii_uppercase();
-    let parameter = |field: &str| match field.split_once('=') {
+    let parameters = fields.filter(|field| !field.trim().is_empty()).map(|field| match field.split_once('=') {
         Some((name, value)) => (name.trim().to_ascii_uppercase(), Some(Name::parse(value))),
         None => (field.trim().to_ascii_uppercase(), None),
-    };
-    let parameters = fields.filter(|field| !field.trim().is_empty()).map(parameter).collect();
-    Keyword { name, parameters, line: number, data: Vec::new() }
+    });
+    Keyword { name, parameters: parameters.collect(), line: number, data: Vec::new() }
 }
 
 impl Name {
-    /// From the file's text, with or without quotes.
+    /// Name from text of the file, with or without quotes.
     pub(super) fn parse(text: &str) -> Self {
         let text = text.trim();
         match text.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')) {
@@ -102,7 +101,7 @@ impl Name {
     }
 }
 
-/// Fields of a line, parted by commas outside quotes.
+/// Fields of a line, separated by commas outside quotes.
 pub(super) fn split(line: &str) -> Vec<&str> {
     let mut quoted = false;
     line.split(|c: char| {

@@ -1,15 +1,15 @@
-//! Reading Abaqus files.
+//! Reading of Abaqus files.
 
 use std::collections::BTreeMap;
 
 use super::elements;
 use super::keywords::{Keyword, Name, keywords, split};
 use super::sets::{Sets, Targets, members, refer};
-use crate::error::{Fault, FilePosition, Problem};
+use crate::error::{FileFault, FilePosition, FileProblem};
 use crate::numbering::{Allowance, CellList, Numbering, close_cell_sets, close_point_sets};
 use crate::{CellKind, Mesh};
 
-/// Keywords that bring or make nodes or elements in ways that are not read: skipping them would lose part of the mesh.
+/// Keywords that include or generate nodes or elements, without which part of the mesh would be missing.
 const REFUSED: [&str; 12] = [
     "INCLUDE",
     "NGEN",
@@ -25,11 +25,11 @@ const REFUSED: [&str; 12] = [
     "SYMMETRIC MODEL GENERATION",
 ];
 
-/// A side of an element as a line: its kind and nodes.
+/// Kind and nodes of a line on a side of an element.
 type Line = (CellKind, Vec<usize>);
 
 #[derive(Debug, Default)]
-struct Content {
+struct AbaqusContent {
     points: Vec<[f64; 3]>,
     node_numbers: Vec<(u64, usize)>,
     cells: CellList,
@@ -38,22 +38,22 @@ struct Content {
     elements: Numbering,
     node_sets: Sets,
     element_sets: Sets,
-    /// Sides of a surface by its name: kind and nodes of the lines.
+    /// Lines of each surface.
     surfaces: Vec<(Name, Vec<Line>)>,
     instance: Option<String>,
 }
 
-pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, FileFault> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let line = 1 + bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count();
-        let problem = Problem::unexpected("other bytes", "text in UTF-8");
-        Fault { place: Some(FilePosition::Line(line)), section: String::new(), problem }
+        let problem = FileProblem::unexpected("other bytes", "text in UTF-8");
+        FileFault { place: Some(FilePosition::Line(line)), section: String::new(), problem }
     })?;
     let keywords = keywords(text)?;
     let mut allowance = Allowance::of(bytes.len());
-    let mut content = Content::default();
+    let mut content = AbaqusContent::default();
     content.check_parts(&keywords)?;
-    // Sets and surfaces may come before the elements they name: nodes first, then elements, then what refers to them.
+    // Sets and surfaces may come before the elements they refer to, so that nodes are read first, then elements, then these.
     for keyword in &keywords {
         if keyword.name == "NODE" {
             content.read_nodes(keyword)?;
@@ -62,12 +62,12 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
         }
     }
     content.nodes = Numbering::new(std::mem::take(&mut content.node_numbers), "node")
-        .map_err(|problem| Fault::anywhere("*NODE", problem))?;
+        .map_err(|problem| FileFault::anywhere("*NODE", problem))?;
     for keyword in keywords.iter().filter(|keyword| keyword.name == "ELEMENT") {
         content.read_elements(keyword)?;
     }
     content.elements = Numbering::new(std::mem::take(&mut content.element_numbers), "element")
-        .map_err(|problem| Fault::anywhere("*ELEMENT", problem))?;
+        .map_err(|problem| FileFault::anywhere("*ELEMENT", problem))?;
     for keyword in &keywords {
         match keyword.name.as_str() {
             "NSET" => content.read_node_set(keyword, &mut allowance)?,
@@ -79,9 +79,9 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
     content.into_mesh(&mut allowance)
 }
 
-impl Content {
-    /// One part at most, in at most one instance that stays in its place.
-    fn check_parts(&mut self, keywords: &[Keyword]) -> Result<(), Fault> {
+impl AbaqusContent {
+    /// Refuses more than one part and more than one untransformed instance.
+    fn check_parts(&mut self, keywords: &[Keyword]) -> Result<(), FileFault> {
         let mut part = false;
         for keyword in keywords {
             match keyword.name.as_str() {
@@ -100,7 +100,7 @@ impl Content {
         Ok(())
     }
 
-    fn read_nodes(&mut self, keyword: &Keyword) -> Result<(), Fault> {
+    fn read_nodes(&mut self, keyword: &Keyword) -> Result<(), FileFault> {
         keyword.refuse_input("nodes in this file")?;
         if keyword.value("SYSTEM").is_some_and(|system| !system.text.eq_ignore_ascii_case("R")) {
             return Err(keyword.unsupported("a cylindrical or spherical system", "SYSTEM=R"));
@@ -109,7 +109,7 @@ impl Content {
         for &(line, text) in &keyword.data {
             let fields: Vec<&str> = split(text).into_iter().map(str::trim).collect();
             let wrong =
-                || keyword.fault(line, Problem::unexpected(text, "a node's number and up to three coordinates"));
+                || keyword.fault(line, FileProblem::unexpected(text, "a node's number and up to three coordinates"));
             let number = fields[0].parse::<u64>().map_err(|_| wrong())?;
             let mut point = [0.0; 3];
             // Direction cosines of a normal may follow the coordinates.
@@ -126,7 +126,7 @@ impl Content {
         Ok(())
     }
 
-    fn read_elements(&mut self, keyword: &Keyword) -> Result<(), Fault> {
+    fn read_elements(&mut self, keyword: &Keyword) -> Result<(), FileFault> {
         keyword.refuse_input("elements in this file")?;
         let type_name = &keyword.required("TYPE")?.text;
         let kind = elements::kind(type_name)
@@ -140,11 +140,11 @@ impl Content {
             kind.node_count()
         );
         for &(line, text) in &keyword.data {
-            let wrong = || keyword.fault(line, Problem::unexpected(text, expected.clone()));
+            let wrong = || keyword.fault(line, FileProblem::unexpected(text, expected.clone()));
             for (place, field) in split(text).into_iter().map(str::trim).filter(|field| !field.is_empty()).enumerate() {
                 let number: u64 = field.parse().map_err(|_| wrong())?;
                 if numbers.len() == self.cells.len() - first {
-                    // Each element begins on a line of its own.
+                    // Each element begins on a new line.
                     if place > 0 {
                         return Err(wrong());
                     }
@@ -152,7 +152,7 @@ impl Content {
                     continue;
                 }
                 let node = self.nodes.index(number);
-                nodes.push(node.ok_or_else(|| keyword.fault(line, Problem::NoSuchNode { number }))?);
+                nodes.push(node.ok_or_else(|| keyword.fault(line, FileProblem::NoSuchNode { number }))?);
                 if nodes.len() == kind.node_count() {
                     self.cells.push(kind, elements::reorder(kind, &nodes).iter().copied());
                     nodes.clear();
@@ -163,7 +163,7 @@ impl Content {
             }
         }
         if numbers.len() != self.cells.len() - first {
-            return Err(keyword.fault(keyword.line, Problem::Ended { expected }));
+            return Err(keyword.fault(keyword.line, FileProblem::Ended { expected }));
         }
         if let Some(name) = keyword.value("ELSET") {
             let members = first..self.cells.len();
@@ -174,21 +174,19 @@ impl Content {
     }
 
     fn node_targets(&self) -> Targets<'_> {
-        let missing = |number| Problem::NoSuchNode { number };
-        Targets { numbering: &self.nodes, missing, instance: self.instance.as_deref() }
+        Targets { numbering: &self.nodes, missing: FileProblem::no_such_node, instance: self.instance.as_deref() }
     }
 
     fn element_targets(&self) -> Targets<'_> {
-        let missing = |number| Problem::NoSuchElement { number };
-        Targets { numbering: &self.elements, missing, instance: self.instance.as_deref() }
+        Targets { numbering: &self.elements, missing: FileProblem::no_such_element, instance: self.instance.as_deref() }
     }
 
-    fn read_node_set(&mut self, keyword: &Keyword, allowance: &mut Allowance) -> Result<(), Fault> {
+    fn read_node_set(&mut self, keyword: &Keyword, allowance: &mut Allowance) -> Result<(), FileFault> {
         keyword.refuse_input("sets in this file")?;
         let mut found = members(keyword, &self.node_sets, &self.node_targets(), allowance)?;
         if let Some(elements) = keyword.value("ELSET") {
             let Some(cells) = self.element_sets.find(elements) else {
-                let problem = Problem::unexpected(&elements.text, "the name of an element set defined before");
+                let problem = FileProblem::unexpected(&elements.text, "the name of an element set defined before");
                 return Err(keyword.fault(keyword.line, problem));
             };
             for &cell in cells {
@@ -201,14 +199,14 @@ impl Content {
         Ok(())
     }
 
-    fn read_element_set(&mut self, keyword: &Keyword, allowance: &mut Allowance) -> Result<(), Fault> {
+    fn read_element_set(&mut self, keyword: &Keyword, allowance: &mut Allowance) -> Result<(), FileFault> {
         keyword.refuse_input("sets in this file")?;
         let mut found = members(keyword, &self.element_sets, &self.element_targets(), allowance)?;
         self.element_sets.open(keyword.required("ELSET")?).append(&mut found);
         Ok(())
     }
 
-    fn read_surface(&mut self, keyword: &Keyword, allowance: &mut Allowance) -> Result<(), Fault> {
+    fn read_surface(&mut self, keyword: &Keyword, allowance: &mut Allowance) -> Result<(), FileFault> {
         let name = keyword.required("NAME")?;
         match keyword.value("TYPE").map(|value| value.text.to_ascii_uppercase()).as_deref() {
             None | Some("ELEMENT") => {}
@@ -242,7 +240,7 @@ impl Content {
                     _ => {
                         let what = format!("side {face:?} of an element with {} nodes", nodes.len());
                         let allowed = "sides S1 to S3 or S4 of plane elements".into();
-                        return Err(keyword.fault(line, Problem::Unsupported { what, allowed }));
+                        return Err(keyword.fault(line, FileProblem::Unsupported { what, allowed }));
                     }
                 }
             }
@@ -251,8 +249,8 @@ impl Content {
         Ok(())
     }
 
-    fn into_mesh(mut self, allowance: &mut Allowance) -> Result<Mesh, Fault> {
-        // Several definitions of one surface add up; each surface has blocks of its own.
+    fn into_mesh(mut self, allowance: &mut Allowance) -> Result<Mesh, FileFault> {
+        // Several definitions of one surface are joined; each surface has separate blocks.
         let mut surfaces: BTreeMap<String, Vec<Line>> = BTreeMap::new();
         let mut names = Vec::new();
         for (name, lines) in self.surfaces {
@@ -277,7 +275,7 @@ impl Content {
             }
         }
         let cell_sets = close_cell_sets(self.element_sets.members, &self.cells, allowance)
-            .map_err(|limit| Fault::anywhere("*ELSET", limit))?;
+            .map_err(|limit| FileFault::anywhere("*ELSET", limit))?;
         Ok(Mesh {
             points: self.points,
             cells: self.cells.blocks,
@@ -288,7 +286,7 @@ impl Content {
     }
 }
 
-/// A finite number, with `D` for the exponent too, as Fortran writes it.
+/// Finite number, whose exponent may be marked by `D` as in Fortran.
 fn real(text: &str) -> Option<f64> {
     let value: f64 = text.parse().or_else(|_| text.replace(['d', 'D'], "e").parse()).ok()?;
     value.is_finite().then_some(value)

@@ -3,21 +3,20 @@
 use std::collections::BTreeMap;
 
 use super::keywords::{Keyword, Name, split};
-use crate::error::{Fault, Problem};
+use crate::error::{FileFault, FileProblem};
 use crate::numbering::{Allowance, Numbering, OpenSets};
 
 /// Sets of nodes, or of elements, under construction.
 #[derive(Debug, Default)]
 pub(super) struct Sets {
-    /// Members by name, in the spelling that came first.
+    /// Members by name in its first spelling.
     pub members: OpenSets,
-    /// Spelling that came first by the name in capitals.
+    /// First spelling by the name in capitals.
     spelling: BTreeMap<String, String>,
 }
 
 impl Sets {
-    /// The spelling under which a set of this name is kept, whether it exists or not. An unquoted name is the same in
-    /// capitals and small letters.
+    /// First spelling of a name, whether the set exists or not; unquoted names are case-insensitive.
     pub(super) fn key(&self, name: &Name) -> String {
         if name.quoted || self.members.contains_key(&name.text) {
             return name.text.clone();
@@ -25,7 +24,7 @@ impl Sets {
         self.spelling.get(&name.text.to_ascii_uppercase()).unwrap_or(&name.text).clone()
     }
 
-    /// The set of this name, which is made if it does not exist.
+    /// Set of this name, which is created if it does not exist.
     pub(super) fn open(&mut self, name: &Name) -> &mut Vec<usize> {
         let key = self.key(name);
         if !name.quoted {
@@ -39,22 +38,22 @@ impl Sets {
     }
 }
 
-/// What set definitions refer to.
+/// Nodes or elements that set definitions refer to.
 pub(super) struct Targets<'a> {
     pub numbering: &'a Numbering,
-    /// What to say of a number that is not there.
-    pub missing: fn(u64) -> Problem,
-    /// The instance whose name may stand in front of names and numbers.
+    /// Error for a missing number.
+    pub missing: fn(u64) -> FileProblem,
+    /// Instance whose name may be a prefix of names and numbers.
     pub instance: Option<&'a str>,
 }
 
-/// Members that the data lines of a `*NSET` or `*ELSET` name.
+/// Members in the data lines of `*NSET` or `*ELSET`.
 pub(super) fn members(
     keyword: &Keyword,
     sets: &Sets,
     targets: &Targets,
     allowance: &mut Allowance,
-) -> Result<Vec<usize>, Fault> {
+) -> Result<Vec<usize>, FileFault> {
     let mut members = Vec::new();
     for &(line, text) in &keyword.data {
         let fields = split(text).into_iter().map(str::trim).filter(|field| !field.is_empty());
@@ -63,7 +62,7 @@ pub(super) fn members(
             let (first, last, step) = match numbers[..] {
                 [Some(first), Some(last)] => (first, last, 1),
                 [Some(first), Some(last), Some(step @ 1..)] => (first, last, step),
-                _ => return Err(keyword.fault(line, Problem::unexpected(text, "first, last, step"))),
+                _ => return Err(keyword.fault(line, FileProblem::unexpected(text, "first, last, step"))),
             };
             let range = targets.numbering.range(first, last);
             allowance.take(range.len()).map_err(|limit| keyword.fault(line, limit))?;
@@ -77,14 +76,14 @@ pub(super) fn members(
     Ok(members)
 }
 
-/// Adds what one field refers to, a number or a set, to `members`.
+/// Adds the number or the set in one field to `members`.
 pub(super) fn refer(
     field: &str,
     sets: &Sets,
     targets: &Targets,
     allowance: &mut Allowance,
     members: &mut Vec<usize>,
-) -> Result<(), Problem> {
+) -> Result<(), FileProblem> {
     let field = without_instance(field, targets.instance);
     if let Ok(number) = field.parse() {
         allowance.take(1)?;
@@ -97,11 +96,11 @@ pub(super) fn refer(
             members.extend(other);
             Ok(())
         }
-        None => Err(Problem::unexpected(field, "a number or the name of a set defined before")),
+        None => Err(FileProblem::unexpected(field, "a number or the name of a set defined before")),
     }
 }
 
-/// `field` without `instance.` in front of it.
+/// `field` without the prefix `instance.`.
 fn without_instance<'f>(field: &'f str, instance: Option<&str>) -> &'f str {
     let stripped = instance.and_then(|instance| {
         let (prefix, rest) = field.split_at_checked(instance.len())?;

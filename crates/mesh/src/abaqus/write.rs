@@ -1,4 +1,4 @@
-//! Writing Abaqus files.
+//! Writing of Abaqus files.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -9,7 +9,7 @@ use crate::{CellKind, Mesh};
 
 const FORMAT: &str = "an Abaqus file";
 
-/// Element (counted over all cells) and side that a line lies on.
+/// Element (counted over all cells) and side of a line.
 type Side = (usize, usize);
 
 pub(crate) fn write(mesh: &Mesh) -> Result<Vec<u8>, Unwritable> {
@@ -54,30 +54,29 @@ pub(crate) fn write(mesh: &Mesh) -> Result<Vec<u8>, Unwritable> {
 }
 
 fn check(mesh: &Mesh) -> Result<(), Unwritable> {
-    let cannot = |what, name: &str, rule| Err(Unwritable::Data { format: FORMAT, what, name: name.into(), rule });
     let no_data = "nodes, elements, sets and surfaces; write .vtu or .msh";
     if let Some(name) = mesh.point_data.keys().next() {
-        return cannot("point data", name, no_data);
+        return Err(Unwritable::data(FORMAT, "point data", name, no_data));
     }
     if let Some(name) = mesh.cell_data.keys().next() {
-        return cannot("cell data", name, no_data);
+        return Err(Unwritable::data(FORMAT, "cell data", name, no_data));
     }
     if let Some(block) = mesh.cells.iter().find(|block| elements::name(block.kind).is_none()) {
-        return cannot("cells", &format!("{:?}", block.kind), elements::ALLOWED);
+        return Err(Unwritable::data(FORMAT, "cells", &format!("{:?}", block.kind), elements::ALLOWED));
     }
-    let unfit = |name: &&String| name.contains(|c: char| c == '"' || c.is_control());
-    if let Some(name) = mesh.point_sets.keys().chain(mesh.cell_sets.keys()).find(unfit) {
+    let mut names = mesh.point_sets.keys().chain(mesh.cell_sets.keys());
+    if let Some(name) = names.find(|name| name.contains(|c: char| c == '"' || c.is_control())) {
         let rule = "names have neither quotes nor control characters";
         return Err(Unwritable::Name { format: FORMAT, name: name.clone(), rule });
     }
     Ok(())
 }
 
-/// Sets of line cells that lie on sides of plane elements.
+/// Sets of line cells on sides of plane elements.
 struct Surfaces {
-    /// Their sides in the order of the lines.
+    /// Sides of each set in the order of the lines.
     sides: BTreeMap<String, Vec<Side>>,
-    /// For every cell whether it is such a line, and need not be an element.
+    /// Whether each cell is such a line, which is not written as an element.
     is_line: Vec<bool>,
 }
 
@@ -95,17 +94,17 @@ impl Surfaces {
         let mut sides = BTreeMap::new();
         let mut is_line = vec![false; cells.len()];
         for (name, lists) in &mesh.cell_sets {
-            let on_side = |cell: usize| {
+            let on_sides = mesh.over_all(lists).map(|cell| {
                 let (kind, nodes) = cells[cell];
                 (kind.dimension() == 1).then(|| sides_by_nodes.get(&unturned(nodes.to_vec())).copied())?
-            };
-            let found: Option<Vec<Side>> = mesh.over_all(lists).map(on_side).collect();
+            });
+            let found: Option<Vec<Side>> = on_sides.collect();
             if let Some(found) = found.filter(|found| !found.is_empty()) {
                 mesh.over_all(lists).for_each(|cell| is_line[cell] = true);
                 sides.insert(name.clone(), found);
             }
         }
-        // A line that is in another set as well has to be an element there.
+        // A line in another set as well is written as an element.
         for (name, lists) in &mesh.cell_sets {
             if !sides.contains_key(name) {
                 mesh.over_all(lists).for_each(|cell| is_line[cell] = false);
@@ -115,7 +114,7 @@ impl Surfaces {
     }
 }
 
-/// The line's nodes in an order that does not depend on its direction.
+/// Nodes of a line in an order that does not depend on its direction.
 fn unturned(mut line: Vec<usize>) -> Vec<usize> {
     if line[0] > line[1] {
         line.swap(0, 1);
@@ -123,12 +122,12 @@ fn unturned(mut line: Vec<usize>) -> Vec<usize> {
     line
 }
 
-/// Writing into memory does not fail.
+/// Writes a line; writing into memory does not fail.
 fn line(text: &mut String, line: impl std::fmt::Display) {
     let _ = writeln!(text, "{line}");
 }
 
-/// A keyword line that ends in a name of `mesh`, quoted where case, blanks or signs matter.
+/// Writes a keyword line that ends in a name of `mesh`, in quotes where case, blanks or signs matter.
 fn keyword(text: &mut String, start: &str, name: &str, mesh: &Mesh) {
     let plain = name.starts_with(|c: char| c.is_ascii_alphabetic())
         && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
@@ -140,7 +139,7 @@ fn keyword(text: &mut String, start: &str, name: &str, mesh: &Mesh) {
     }
 }
 
-/// Numbers, sixteen to a line.
+/// Writes numbers, sixteen to a line.
 fn list(text: &mut String, numbers: impl Iterator<Item = usize>) {
     let numbers: Vec<String> = numbers.map(|number| number.to_string()).collect();
     numbers.chunks(16).for_each(|chunk| line(text, chunk.join(", ")));
@@ -157,7 +156,7 @@ fn nodes(text: &mut String, mesh: &Mesh) {
     }
 }
 
-/// Writes the elements; returns for every cell the number it has got.
+/// Writes the elements; returns the number of every cell.
 fn write_elements(text: &mut String, mesh: &Mesh, surfaces: &Surfaces) -> Vec<Option<usize>> {
     let mut numbers = vec![None; surfaces.is_line.len()];
     let (mut cell, mut last) = (0, 0);
@@ -173,7 +172,7 @@ fn write_elements(text: &mut String, mesh: &Mesh, surfaces: &Surfaces) -> Vec<Op
             numbers[cell] = Some(last);
             let nodes = elements::reorder(block.kind, nodes);
             let nodes: Vec<String> = nodes.iter().map(|node| (node + 1).to_string()).collect();
-            // At most sixteen numbers to a line.
+            // At most sixteen numbers on a line.
             let lines: Vec<String> = nodes.chunks(15).map(|chunk| chunk.join(", ")).collect();
             line(text, format_args!("{last}, {}", lines.join(",\n")));
         }

@@ -1,8 +1,8 @@
-//! Gmsh's numbers for kinds of cells, and its order of their nodes.
+//! Gmsh element types of kinds of cells, and the order of their nodes.
 
 use crate::CellKind;
 
-/// Kinds of cells with Gmsh's number for them.
+/// Kinds of cells and their Gmsh element types.
 const TYPES: [(CellKind, u8); 17] = [
     (CellKind::Line, 1),
     (CellKind::Triangle, 2),
@@ -23,24 +23,24 @@ const TYPES: [(CellKind, u8); 17] = [
     (CellKind::Pyramid13, 19),
 ];
 
-/// What is allowed, for messages.
+/// Allowed element types, for messages.
 pub(super) const ALLOWED: &str = "points, lines, triangles, quadrilaterals, tetrahedra, hexahedra, wedges and pyramids, linear or \
                            quadratic (Gmsh's types 1 to 12 and 15 to 19)";
 
-/// The kind that Gmsh calls `number`.
+/// Kind of cell of element type `number`.
 pub(super) fn kind(number: i64) -> Option<CellKind> {
     TYPES.iter().find(|&&(_, own)| i64::from(own) == number).map(|&(kind, _)| kind)
 }
 
-/// Gmsh's number for a kind.
+/// Element type of a kind of cell.
 pub(super) fn number(kind: CellKind) -> u8 {
     TYPES.iter().find(|&&(own, _)| own == kind).map_or(0, |&(_, number)| number)
 }
 
-/// Where our node `i` stands in Gmsh's list, for kinds whose order differs; all others agree.
+/// Place of node `i` in the order of Gmsh, for kinds whose order differs.
 ///
-/// Gmsh lists the edges of solids in the order of their lowest nodes, VTK (and meshio, and we) goes round the bottom, round
-/// the top, then up.
+/// Gmsh orders the edges of solids by their lowest nodes, VTK (and meshio and this library) around the bottom, around
+/// the top, then upwards.
 pub(super) fn order(kind: CellKind) -> Option<&'static [usize]> {
     match kind {
         CellKind::Tetra10 => Some(&[0, 1, 2, 3, 4, 5, 6, 7, 9, 8]),

@@ -1,9 +1,9 @@
-//! The content of a Gmsh file, gathered section by section, and the mesh it makes.
+//! Content of a Gmsh file, read section by section, and the mesh made of it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::keep::{DataForm, Keep, SECTION};
-use crate::error::{Fault, Problem};
+use crate::error::{FileFault, FileProblem};
 use crate::numbering::{Allowance, CellList, Numbering, OpenSets, close_cell_sets, close_point_sets};
 use crate::{DataArray, Mesh, PhysicalTag, Values};
 
@@ -11,16 +11,16 @@ use crate::{DataArray, Mesh, PhysicalTag, Values};
 pub(super) type GroupKey = (u8, i64);
 
 #[derive(Debug, Default)]
-pub(super) struct Content {
+pub(super) struct GmshContent {
     /// Names of physical groups in the order of the file.
     pub names: Vec<(GroupKey, String)>,
-    /// Version 4.1: the groups of each entity, by its dimension and tag.
+    /// Groups of each entity of version 4.1, by dimension and tag.
     pub entities: BTreeMap<(i64, i64), Vec<i64>>,
     pub points: Vec<[f64; 3]>,
-    /// Numbers of the nodes, once they are read.
+    /// Numbers of the nodes, after `$Nodes`.
     pub nodes: Option<Numbering>,
     pub cells: CellList,
-    /// Numbers of the cells, once they are read; several may mean the same.
+    /// Numbers of the cells, after `$Elements`; several may refer to the same cell.
     pub elements: Option<Numbering>,
     pub groups: BTreeMap<GroupKey, Vec<usize>>,
     pub node_data: BTreeMap<String, RawData>,
@@ -31,35 +31,33 @@ pub(super) struct Content {
 /// Data at all nodes or cells.
 #[derive(Debug)]
 pub(super) struct RawData {
-    /// Components in the file.
+    /// Number of components in the file.
     pub components: usize,
-    /// Values, NaN where the file gives none.
+    /// Values, NaN where the file has none.
     pub values: Vec<f64>,
 }
 
-/// What a group is called by its dimension, where its tag alone does not tell.
+/// Suffixes of groups by dimension, where several have the same tag.
 const DIMENSION_NAMES: [&str; 4] = ["points", "lines", "surfaces", "volumes"];
 
-impl Content {
-    pub(super) fn into_mesh(mut self, mut allowance: Allowance) -> Result<Mesh, Fault> {
+impl GmshContent {
+    pub(super) fn into_mesh(mut self, mut allowance: Allowance) -> Result<Mesh, FileFault> {
         let (cell_sets, field_data) = self.named_sets();
-        let kept = |problem: Problem| Fault::anywhere(format!("${SECTION}"), problem);
         if let Some(blocks) = &self.keep.blocks
             && !self.cells.divide(blocks)
         {
-            return Err(kept(Problem::unexpected("blocks", "blocks that the cells of `$Elements` make")));
+            return Err(in_keep(FileProblem::unexpected("blocks", "kinds and numbers of the cells of `$Elements`")));
         }
-        let allowed = |problem: Problem| Fault::anywhere("$Elements", problem);
-        let cell_sets = close_cell_sets(cell_sets, &self.cells, &mut allowance).map_err(allowed)?;
+        let cell_sets = close_cell_sets(cell_sets, &self.cells, &mut allowance).map_err(in_elements)?;
         let point_data = self.node_data.into_iter().map(|(name, data)| {
             let form = self.keep.point_data.get(&name);
-            Ok((name, data.take_form(form).map_err(kept)?))
+            Ok((name, data.take_form(form).map_err(in_keep)?))
         });
-        let point_data = point_data.collect::<Result<_, Fault>>()?;
+        let point_data = point_data.collect::<Result<_, FileFault>>()?;
         let mut cell_data = BTreeMap::new();
         for (name, data) in self.element_data {
-            allowance.take(self.cells.blocks.len()).map_err(allowed)?;
-            let array = data.take_form(self.keep.cell_data.get(&name)).map_err(kept)?;
+            allowance.take(self.cells.blocks.len()).map_err(in_elements)?;
+            let array = data.take_form(self.keep.cell_data.get(&name)).map_err(in_keep)?;
             cell_data.insert(name, self.cells.split(&array));
         }
         Ok(Mesh {
@@ -73,7 +71,7 @@ impl Content {
         })
     }
 
-    /// Sets under their names with their tags; of several groups of one name the first in the file gives the tag.
+    /// Sets and tags by name; of several groups of one name the first in the file has the tag.
     fn named_sets(&mut self) -> (OpenSets, BTreeMap<String, PhysicalTag>) {
         let (mut sets, mut tags) = (OpenSets::new(), BTreeMap::new());
         let mut named = BTreeSet::new();
@@ -99,25 +97,35 @@ impl Content {
     }
 }
 
+/// Fault of the section `$Gearwear`.
+fn in_keep(problem: FileProblem) -> FileFault {
+    FileFault::anywhere(format!("${SECTION}"), problem)
+}
+
+/// Fault of the section `$Elements`.
+fn in_elements(problem: FileProblem) -> FileFault {
+    FileFault::anywhere("$Elements", problem)
+}
+
 impl RawData {
-    /// In the form that the mesh had.
-    fn take_form(self, form: Option<&DataForm>) -> Result<DataArray, Problem> {
+    /// Data in the form that the written mesh had.
+    fn take_form(self, form: Option<&DataForm>) -> Result<DataArray, FileProblem> {
         let Some(&DataForm { components, integers }) = form else {
             return Ok(DataArray { components: self.components, values: Values::Reals(self.values) });
         };
         if components == 0 || components > self.components {
             let expected = format!("1 to {} components", self.components);
-            return Err(Problem::unexpected(&components.to_string(), expected));
+            return Err(FileProblem::unexpected(&components.to_string(), expected));
         }
         let kept = self.values.chunks_exact(self.components).flat_map(|values| &values[..components]).copied();
         let values = if integers {
-            let integer = |value: f64| match value {
+            let integers = kept.map(|value| match value {
                 value if value.fract() == 0.0 && value.abs() <= super::write::LARGEST_INTEGER as f64 => {
                     Ok(value as i64)
                 }
-                value => Err(Problem::unexpected(&value.to_string(), "an integer")),
-            };
-            Values::Integers(kept.map(integer).collect::<Result<_, _>>()?)
+                value => Err(FileProblem::unexpected(&value.to_string(), "an integer")),
+            });
+            Values::Integers(integers.collect::<Result<_, _>>()?)
         } else {
             Values::Reals(kept.collect())
         };

@@ -1,4 +1,4 @@
-//! The section `$Gearwear`: what a mesh has and Gmsh has no place for.
+//! Section `$Gearwear` with the parts of a mesh that Gmsh has no place for.
 
 use std::collections::BTreeMap;
 
@@ -8,25 +8,25 @@ use crate::CellKind;
 
 pub(super) const SECTION: &str = "Gearwear";
 
-/// Its content. What is left out is as Gmsh has it.
+/// Content of the section. Parts left out are as in the other sections.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct Keep {
-    /// Kind and number of cells of each block, where blocks are not just runs of one kind.
+    /// Kind and number of cells of each block, where blocks are not runs of one kind.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blocks: Option<Vec<(CellKind, usize)>>,
-    /// Node sets; nodes by their place in the file, from 0.
+    /// Node sets, with nodes by their index in the file.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub point_sets: BTreeMap<String, Vec<usize>>,
-    /// Cell sets that have no tag of their own.
+    /// Cell sets without a tag.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub untagged: Vec<String>,
-    /// Type of node data, where it is not real numbers of 1, 3 or 9 components.
+    /// Form of node data other than real numbers of 1, 3 or 9 components.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub point_data: BTreeMap<String, DataForm>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub cell_data: BTreeMap<String, DataForm>,
-    /// Version 2.2: the last elements are copies, for their further groups, of these cells (numbers from 0).
+    /// Cells (from 0) of which the last elements of version 2.2 are copies for further groups.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub copies: Option<Vec<usize>>,
 }
@@ -34,7 +34,7 @@ pub(super) struct Keep {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct DataForm {
-    /// Components in the mesh; Gmsh's are filled up with zeros.
+    /// Number of components in the mesh; in the file they are padded with zeros.
     pub components: usize,
     pub integers: bool,
 }

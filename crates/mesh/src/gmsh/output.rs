@@ -1,22 +1,22 @@
-//! Values on their way into a Gmsh file, as text or as bytes.
+//! Output of values to a Gmsh file, as text or as bytes.
 
 use std::io::Write;
 
 use super::GmshEncoding;
 
 #[derive(Debug)]
-pub(super) struct Output {
+pub(super) struct GmshOutput {
     pub bytes: Vec<u8>,
-    /// Whether numbers are bytes.
+    /// Whether numbers are binary.
     pub binary: bool,
 }
 
-impl Output {
+impl GmshOutput {
     pub(super) fn new(encoding: GmshEncoding) -> Self {
         Self { bytes: Vec::new(), binary: encoding == GmshEncoding::Binary }
     }
 
-    /// A line of text, in binary files too.
+    /// Writes a line of text, in binary files too.
     pub(super) fn line(&mut self, line: impl std::fmt::Display) {
         // Writing into memory does not fail.
         let _ = writeln!(self.bytes, "{line}");
@@ -33,7 +33,7 @@ impl Output {
         let _ = write!(self.bytes, "{text}");
     }
 
-    /// An `int`; the writer has checked that there are no more nodes, cells and tags than it can count.
+    /// Writes an `int`; the numbers of nodes, cells and tags have been checked to fit.
     pub(super) fn int(&mut self, value: i64) {
         self.number(value, &(value as i32).to_le_bytes());
     }
@@ -42,19 +42,19 @@ impl Output {
         self.number(value, &(value as u64).to_le_bytes());
     }
 
-    /// A `double`; as text the shortest decimal that reads back as the same bits.
+    /// Writes a `double`, as text the shortest decimal that reads back as the same bits.
     pub(super) fn real(&mut self, value: f64) {
         self.number(format_args!("{value:?}"), &value.to_le_bytes());
     }
 
-    /// The end of a line of numbers, where they are text.
+    /// Ends a line of numbers as text.
     pub(super) fn end_line(&mut self) {
         if !self.binary {
             self.bytes.push(b'\n');
         }
     }
 
-    /// The end of a section of numbers: in a binary file too it closes on a line of its own.
+    /// Ends a section of numbers on a new line, in a binary file too.
     pub(super) fn end_section(&mut self, section: &str) {
         if self.binary {
             self.bytes.push(b'\n');

@@ -1,19 +1,19 @@
-//! Reading Gmsh files.
+//! Reading of Gmsh files.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::GmshVersion;
 use super::cell_types;
-use super::content::{Content, RawData};
+use super::content::{GmshContent, RawData};
 use super::keep;
 use super::scanner::{Encoding, Scanner};
-use crate::error::{Fault, Problem};
-use crate::numbering::Numbering;
+use crate::error::{FileFault, FileProblem};
+use crate::numbering::{CellList, Numbering};
 use crate::{CellKind, Mesh};
 
-pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, FileFault> {
     let mut file = Scanner::new(bytes);
-    let mut content = Content::default();
+    let mut content = GmshContent::default();
     let mut version = None;
     while let Some(section) = file.next_section()? {
         match (section.as_str(), version) {
@@ -27,22 +27,22 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
             ("Elements", Some(GmshVersion::V2)) => elements_2(&mut file, &mut content)?,
             ("Elements", Some(GmshVersion::V4)) => elements_4(&mut file, &mut content)?,
             ("NodeData", Some(_)) => {
-                let missing = |number| Problem::NoSuchNode { number };
-                let (name, data) = data(&mut file, content.points.len(), content.nodes.as_ref(), missing)?;
+                let (name, data) =
+                    data(&mut file, content.points.len(), content.nodes.as_ref(), FileProblem::no_such_node)?;
                 content.node_data.insert(name, data);
             }
             ("ElementData", Some(_)) => {
-                let missing = |number| Problem::NoSuchElement { number };
-                let (name, data) = data(&mut file, content.cells.len(), content.elements.as_ref(), missing)?;
+                let (name, data) =
+                    data(&mut file, content.cells.len(), content.elements.as_ref(), FileProblem::no_such_element)?;
                 content.element_data.insert(name, data);
             }
             (keep::SECTION, Some(_)) => kept(&mut file, &mut content)?,
             ("PartitionedEntities", _) => {
                 let what = "a mesh divided into partitions".into();
-                return Err(file.fault(Problem::Unsupported { what, allowed: "a mesh saved as a whole".into() }));
+                return Err(file.fault(FileProblem::Unsupported { what, allowed: "a mesh saved as a whole".into() }));
             }
             ("Nodes" | "Elements", None) => {
-                return Err(file.fault(Problem::unexpected(&section, "`$MeshFormat` first")));
+                return Err(file.fault(FileProblem::unexpected(&section, "`$MeshFormat` first")));
             }
             _ => {
                 file.skip_section()?;
@@ -52,16 +52,16 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
         file.end_section()?;
     }
     if version.is_none() {
-        return Err(Fault::anywhere("", Problem::Ended { expected: "`$MeshFormat`".into() }));
+        return Err(FileFault::anywhere("", FileProblem::Ended { expected: "`$MeshFormat`".into() }));
     }
     if content.nodes.is_none() {
-        return Err(Fault::anywhere("", Problem::Ended { expected: "`$Nodes`".into() }));
+        return Err(FileFault::anywhere("", FileProblem::Ended { expected: "`$Nodes`".into() }));
     }
     content.into_mesh(file.allowance)
 }
 
-/// Version (2.0 to 2.2 read alike), encoding and size of numbers.
-fn mesh_format(file: &mut Scanner) -> Result<GmshVersion, Fault> {
+/// Reads version (2.0 to 2.2 alike), encoding and size of numbers.
+fn mesh_format(file: &mut Scanner) -> Result<GmshVersion, FileFault> {
     const EXPECTED: &str = "version (2.2 or 4.1), file type (0 or 1) and data size (4 or 8)";
     file.encoding = Encoding::Ascii;
     let line = file.line(EXPECTED)?;
@@ -72,9 +72,9 @@ fn mesh_format(file: &mut Scanner) -> Result<GmshVersion, Fault> {
         ["4.1", _, "4"] => (GmshVersion::V4, 4),
         [other, _, _] if other.parse::<f64>().is_ok() && !["2", "2.0", "2.1", "2.2", "4.1"].contains(&other) => {
             let what = format!("version {other} of the format");
-            return Err(file.fault(Problem::Unsupported { what, allowed: "2.2 and 4.1".into() }));
+            return Err(file.fault(FileProblem::Unsupported { what, allowed: "2.2 and 4.1".into() }));
         }
-        _ => return Err(file.fault(Problem::unexpected(line, EXPECTED))),
+        _ => return Err(file.fault(FileProblem::unexpected(line, EXPECTED))),
     };
     match words[1] {
         "0" => {}
@@ -83,16 +83,16 @@ fn mesh_format(file: &mut Scanner) -> Result<GmshVersion, Fault> {
             match file.int("the number 1, to tell the order of bytes")? {
                 1 => {}
                 0x0100_0000 => file.encoding = Encoding::Binary { big_endian: true, size_bytes },
-                other => return Err(file.fault(Problem::unexpected(&other.to_string(), "the number 1"))),
+                other => return Err(file.fault(FileProblem::unexpected(&other.to_string(), "the number 1"))),
             }
         }
-        _ => return Err(file.fault(Problem::unexpected(line, EXPECTED))),
+        _ => return Err(file.fault(FileProblem::unexpected(line, EXPECTED))),
     }
     Ok(version)
 }
 
-/// `dimension tag "name"`, a line each.
-fn physical_names(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
+/// Reads lines `dimension tag "name"`.
+fn physical_names(file: &mut Scanner, content: &mut GmshContent) -> Result<(), FileFault> {
     const EXPECTED: &str = "dimension, tag and name in quotes, `1 7 \"base\"` for example";
     let count = file.number_line("the number of names")?;
     for _ in 0..file.count("names", count, [0, 0, 0])? {
@@ -105,14 +105,14 @@ fn physical_names(file: &mut Scanner, content: &mut Content) -> Result<(), Fault
         });
         match parsed {
             Some(name) => content.names.push(name),
-            None => return Err(file.fault(Problem::unexpected(line, EXPECTED))),
+            None => return Err(file.fault(FileProblem::unexpected(line, EXPECTED))),
         }
     }
     Ok(())
 }
 
-/// Version 4.1: the groups of the entities; boxes and boundaries are read over.
-fn entities(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
+/// Reads the groups of the entities of version 4.1; boxes and boundaries are skipped.
+fn entities(file: &mut Scanner, content: &mut GmshContent) -> Result<(), FileFault> {
     let mut counts = [0; 4];
     for count in &mut counts {
         *count = file.size("a number of entities")?;
@@ -126,9 +126,9 @@ fn entities(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
             }
             let groups = file.size("the number of groups")?;
             let groups = file.count("groups", groups, [0, 1, 0])?;
-            // A negative tag says that the entity is turned round in its group.
+            // A negative tag means reversed orientation of the entity in its group.
             let groups =
-                (0..groups).map(|_| Ok(file.int("the tag of a group")?.abs())).collect::<Result<_, Fault>>()?;
+                (0..groups).map(|_| Ok(file.int("the tag of a group")?.abs())).collect::<Result<_, FileFault>>()?;
             content.entities.insert((dimension, tag), groups);
             if dimension > 0 {
                 let bounds = file.size("the number of bounding entities")?;
@@ -141,8 +141,8 @@ fn entities(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Version 2: number and coordinates, with dimension, entity and parameters if `parametric`.
-fn nodes_2(file: &mut Scanner, content: &mut Content, parametric: bool) -> Result<(), Fault> {
+/// Reads the nodes of version 2: number and coordinates, with dimension, entity and parameters if `parametric`.
+fn nodes_2(file: &mut Scanner, content: &mut GmshContent, parametric: bool) -> Result<(), FileFault> {
     let count = file.number_line("the number of nodes")?;
     let count = file.count("nodes", count, [0, 1, 3])?;
     let mut numbers = Vec::with_capacity(count);
@@ -152,7 +152,7 @@ fn nodes_2(file: &mut Scanner, content: &mut Content, parametric: bool) -> Resul
         if parametric {
             let dimension = file.int("the dimension of an entity")?;
             file.int("the tag of an entity")?;
-            // Gmsh gives one parameter on a curve, two on a surface.
+            // One parameter on a curve, two on a surface.
             for _ in 0..if (1..=2).contains(&dimension) { dimension } else { 0 } {
                 file.real("a parameter")?;
             }
@@ -161,8 +161,8 @@ fn nodes_2(file: &mut Scanner, content: &mut Content, parametric: bool) -> Resul
     number_nodes(file, content, numbers)
 }
 
-/// Version 4.1: nodes by entity, first their numbers, then their coordinates.
-fn nodes_4(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
+/// Reads the nodes of version 4.1 by entity, first numbers, then coordinates.
+fn nodes_4(file: &mut Scanner, content: &mut GmshContent) -> Result<(), FileFault> {
     let blocks = file.size("the number of blocks")?;
     let announced = file.size("the number of nodes")?;
     file.size("the least number of a node")?;
@@ -189,68 +189,131 @@ fn nodes_4(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
     number_nodes(file, content, numbers)
 }
 
-fn number_nodes(file: &Scanner, content: &mut Content, numbers: Vec<u64>) -> Result<(), Fault> {
+fn number_nodes(file: &Scanner, content: &mut GmshContent, numbers: Vec<u64>) -> Result<(), FileFault> {
     if content.nodes.is_some() {
-        return Err(file.fault(Problem::unexpected("a second section of nodes", "one")));
+        return Err(file.fault(FileProblem::unexpected("a second section of nodes", "one")));
     }
     let pairs = numbers.into_iter().zip(0..).collect();
     content.nodes = Some(Numbering::new(pairs, "node").map_err(|problem| file.fault(problem))?);
     Ok(())
 }
 
-fn check_total(file: &Scanner, what: &str, announced: u64, found: usize) -> Result<(), Fault> {
+fn check_total(file: &Scanner, what: &str, announced: u64, found: usize) -> Result<(), FileFault> {
     if announced == found as u64 {
         return Ok(());
     }
-    Err(file.fault(Problem::unexpected(&format!("{found} {what}"), format!("{announced}, as announced"))))
+    Err(file.fault(FileProblem::unexpected(&format!("{found} {what}"), format!("{announced}, as announced"))))
 }
 
-/// Reads the nodes of a cell into `nodes`, as our own numbers in our own order.
+/// Reads the nodes of a cell into `nodes`, as indices in the order of the mesh.
 fn cell_nodes(
     file: &mut Scanner,
-    content: &Content,
+    content: &GmshContent,
     kind: CellKind,
     nodes: &mut Vec<usize>,
-    mut number: impl FnMut(&mut Scanner) -> Result<u64, Fault>,
-) -> Result<(), Fault> {
+    mut number: impl FnMut(&mut Scanner) -> Result<u64, FileFault>,
+) -> Result<(), FileFault> {
     nodes.clear();
     for _ in 0..kind.node_count() {
         let number = number(file)?;
         match content.nodes.as_ref().and_then(|numbering| numbering.index(number)) {
             Some(node) => nodes.push(node),
-            None => return Err(file.fault(Problem::NoSuchNode { number })),
+            None => return Err(file.fault(FileProblem::NoSuchNode { number })),
         }
     }
     cell_types::from_gmsh(kind, nodes, &mut Vec::new());
     Ok(())
 }
 
-fn cell_kind(file: &mut Scanner) -> Result<CellKind, Fault> {
+fn cell_kind(file: &mut Scanner) -> Result<CellKind, FileFault> {
     let number = file.int("the type of an element")?;
     cell_types::kind(number).ok_or_else(|| {
         let what = format!("element type {number}");
-        file.fault(Problem::Unsupported { what, allowed: cell_types::ALLOWED.into() })
+        file.fault(FileProblem::Unsupported { what, allowed: cell_types::ALLOWED.into() })
     })
 }
 
-/// What tells a cell of version 2 from another: its entity, kind and nodes.
+/// Entity, kind and nodes, which identify a cell of version 2.
 type CellIdentity = (i64, CellKind, Vec<usize>);
 
-/// Version 2: a cell is there once for each of its groups.
-fn elements_2(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
+/// Cells of version 2, which are written once for each of their groups.
+#[derive(Default)]
+struct Copies {
+    /// Originals of the last elements, from the section `$Gearwear`.
+    kept: Option<Vec<usize>>,
+    /// Number of elements before these.
+    first: usize,
+    originals: BTreeMap<CellIdentity, usize>,
+    /// Cells with their groups.
+    joined: BTreeSet<(usize, i64)>,
+}
+
+impl Copies {
+    /// Cell of element `number` in a `group`, which is added unless the element is a copy.
+    fn cell(
+        &mut self,
+        cells: &mut CellList,
+        number: usize,
+        identity: CellIdentity,
+        group: i64,
+    ) -> Result<usize, FileProblem> {
+        let (kind, nodes) = (identity.1, identity.2.as_slice());
+        let cell = match &self.kept {
+            Some(kept) if number >= self.first => {
+                let original = kept[number - self.first];
+                if original >= cells.len() || cells.cell(original) != (kind, nodes) {
+                    return Err(FileProblem::unexpected("a new element", "a copy, as `$Gearwear` says"));
+                }
+                original
+            }
+            None if group != 0 => {
+                // The same cell in the same group twice is two cells.
+                let known = self.originals.get(&identity).copied();
+                match known.filter(|&cell| !self.joined.contains(&(cell, group))) {
+                    Some(cell) => cell,
+                    None => {
+                        let cell = cells.push(kind, nodes.iter().copied());
+                        self.originals.insert(identity, cell);
+                        cell
+                    }
+                }
+            }
+            _ => cells.push(kind, nodes.iter().copied()),
+        };
+        if group != 0 {
+            self.joined.insert((cell, group));
+        }
+        Ok(cell)
+    }
+}
+
+/// Physical group and entity of an element of version 2, the first two of its `tags`.
+fn group_and_entity(file: &mut Scanner, tags: u64) -> Result<(i64, i64), FileFault> {
+    let (mut group, mut entity) = (0, 0);
+    for tag in 0..file.count("tags", tags, [0, 1, 0])? {
+        let value = file.int("a tag")?;
+        match tag {
+            0 => group = value.abs(),
+            1 => entity = value,
+            _ => {}
+        }
+    }
+    Ok((group, entity))
+}
+
+/// Reads the elements of version 2.
+fn elements_2(file: &mut Scanner, content: &mut GmshContent) -> Result<(), FileFault> {
     if content.elements.is_some() {
-        return Err(file.fault(Problem::unexpected("a second section of elements", "one")));
+        return Err(file.fault(FileProblem::unexpected("a second section of elements", "one")));
     }
     let total = file.number_line("the number of elements")?;
     let total = file.count("elements", total, [0, 3, 0])?;
-    let copies = content.keep.copies.take();
-    let first_copy = total.saturating_sub(copies.as_ref().map_or(0, Vec::len));
-    let mut originals: BTreeMap<CellIdentity, usize> = BTreeMap::new();
-    let mut joined = BTreeSet::new();
+    let kept = content.keep.copies.take();
+    let first = total.saturating_sub(kept.as_ref().map_or(0, Vec::len));
+    let mut copies = Copies { kept, first, ..Copies::default() };
     let mut numbers = Vec::new();
     let mut nodes = Vec::new();
-    let mut read = 0;
-    while read < total {
+    while numbers.len() < total {
         let header = match file.encoding {
             Encoding::Ascii => None,
             Encoding::Binary { .. } => {
@@ -266,53 +329,27 @@ fn elements_2(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
                 Some((kind, _, tags)) => (kind, tags),
                 None => (cell_kind(file)?, file.positive_int("the number of tags")?),
             };
-            let (mut group, mut entity) = (0, 0);
-            for tag in 0..file.count("tags", tags, [0, 1, 0])? {
-                let value = file.int("a tag")?;
-                match tag {
-                    0 => group = value.abs(),
-                    1 => entity = value,
-                    _ => {}
-                }
-            }
+            let (group, entity) = group_and_entity(file, tags)?;
             cell_nodes(file, content, kind, &mut nodes, |file| file.positive_int("the number of a node"))?;
-            let original = match &copies {
-                Some(copies) if read >= first_copy => {
-                    let original = copies[read - first_copy];
-                    if original >= content.cells.len() || content.cells.cell(original) != (kind, nodes.as_slice()) {
-                        return Err(file.fault(Problem::unexpected("a new element", "a copy, as `$Gearwear` says")));
-                    }
-                    Some(original)
-                }
-                None if group != 0 => {
-                    let known = originals.get(&(entity, kind, nodes.clone())).copied();
-                    // The same cell in the same group twice is two cells.
-                    known.filter(|&cell| !joined.contains(&(cell, group)))
-                }
-                _ => None,
-            };
-            let cell = original.unwrap_or_else(|| content.cells.push(kind, nodes.iter().copied()));
-            if original.is_none() && group != 0 && copies.is_none() {
-                originals.insert((entity, kind, nodes.clone()), cell);
-            }
+            let cell = copies
+                .cell(&mut content.cells, numbers.len(), (entity, kind, nodes.clone()), group)
+                .map_err(|problem| file.fault(problem))?;
             if group != 0 {
                 file.allow(1)?;
                 content.groups.entry((kind.dimension(), group)).or_default().push(cell);
-                joined.insert((cell, group));
             }
             numbers.push((number, cell));
-            read += 1;
         }
     }
-    check_total(file, "elements", total as u64, read)?;
+    check_total(file, "elements", total as u64, numbers.len())?;
     content.elements = Some(Numbering::new(numbers, "element").map_err(|problem| file.fault(problem))?);
     Ok(())
 }
 
-/// Version 4.1: cells by entity.
-fn elements_4(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
+/// Reads the elements of version 4.1 by entity.
+fn elements_4(file: &mut Scanner, content: &mut GmshContent) -> Result<(), FileFault> {
     if content.elements.is_some() {
-        return Err(file.fault(Problem::unexpected("a second section of elements", "one")));
+        return Err(file.fault(FileProblem::unexpected("a second section of elements", "one")));
     }
     let blocks = file.size("the number of blocks")?;
     let announced = file.size("the number of elements")?;
@@ -342,13 +379,13 @@ fn elements_4(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
     Ok(())
 }
 
-/// A data section: lines of tags, then the number of an owner and its values, again and again.
+/// Reads a data section: lines of tags, then the number and the values of each owner.
 fn data(
     file: &mut Scanner,
     owners: usize,
     numbers: Option<&Numbering>,
-    missing: fn(u64) -> Problem,
-) -> Result<(String, RawData), Fault> {
+    missing: fn(u64) -> FileProblem,
+) -> Result<(String, RawData), FileFault> {
     let mut tags = [Vec::new(), Vec::new(), Vec::new()];
     for (what, tags) in ["string tags", "real tags", "integer tags"].into_iter().zip(&mut tags) {
         let count = file.number_line("a number of tags")?;
@@ -358,12 +395,12 @@ fn data(
     }
     let [names, _, integers] = tags;
     let Some(name) = names.first().map(|name| name.trim_matches('"').to_owned()) else {
-        return Err(file.fault(Problem::unexpected("no string tag", "the name of the data")));
+        return Err(file.fault(FileProblem::unexpected("no string tag", "the name of the data")));
     };
-    let integer = |at: usize| integers.get(at).and_then(|text| text.parse::<u64>().ok());
-    let (Some(components @ 1..=9), Some(count)) = (integer(1), integer(2)) else {
+    let [components, count] = [1, 2].map(|at| integers.get(at).and_then(|text| text.parse::<u64>().ok()));
+    let (Some(components @ 1..=9), Some(count)) = (components, count) else {
         let expected = "integer tags: time step, number of components (1 to 9), number of values";
-        return Err(file.fault(Problem::unexpected(&integers.join(" "), expected)));
+        return Err(file.fault(FileProblem::unexpected(&integers.join(" "), expected)));
     };
     let count = file.count("values", count, [0, 1, components])?;
     let components = components as usize;
@@ -379,9 +416,9 @@ fn data(
     Ok((name, RawData { components, values }))
 }
 
-fn kept(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
+fn kept(file: &mut Scanner, content: &mut GmshContent) -> Result<(), FileFault> {
     let line = file.line("one line of JSON")?;
     content.keep = serde_json::from_str(line)
-        .map_err(|error| file.fault(Problem::unexpected(&error.to_string(), "what gearwear writes here")))?;
+        .map_err(|error| file.fault(FileProblem::unexpected(&error.to_string(), "what gearwear writes here")))?;
     Ok(())
 }

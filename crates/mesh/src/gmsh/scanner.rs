@@ -1,6 +1,6 @@
-//! Reading values off a Gmsh file, ASCII or binary, never past its end.
+//! Scanner of the values of a Gmsh file, ASCII or binary, with checks for its end.
 
-use crate::error::{Fault, FilePosition, Problem};
+use crate::error::{FileFault, FilePosition, FileProblem};
 use crate::numbering::Allowance;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,17 +13,17 @@ pub(super) enum Encoding {
     },
 }
 
-/// A place in the file, and what follows it.
+/// Scanner at a place in the file.
 #[derive(Debug)]
 pub(super) struct Scanner<'a> {
     bytes: &'a [u8],
     at: usize,
-    /// Where the value read last began.
+    /// Beginning of the last value.
     before: usize,
     section: String,
-    /// How numbers stand from here on.
+    /// Encoding of the following numbers.
     pub encoding: Encoding,
-    /// What sets and data may still take.
+    /// Remaining number of entries of sets and data.
     pub allowance: Allowance,
 }
 
@@ -33,24 +33,24 @@ impl<'a> Scanner<'a> {
         Self { bytes, at: 0, before: 0, section: String::new(), encoding: Encoding::Ascii, allowance }
     }
 
-    /// A fault at the value read last.
-    pub(super) fn fault(&self, problem: impl Into<Problem>) -> Fault {
+    /// Fault at the last value.
+    pub(super) fn fault(&self, problem: impl Into<FileProblem>) -> FileFault {
         let place = match self.encoding {
             Encoding::Ascii => {
                 FilePosition::Line(1 + self.bytes[..self.before].iter().filter(|&&byte| byte == b'\n').count())
             }
             Encoding::Binary { .. } => FilePosition::Byte(self.before),
         };
-        Fault { place: Some(place), section: self.section.clone(), problem: problem.into() }
+        FileFault { place: Some(place), section: self.section.clone(), problem: problem.into() }
     }
 
-    fn ended(&mut self, expected: &str) -> Fault {
+    fn ended(&mut self, expected: &str) -> FileFault {
         self.before = self.bytes.len();
-        self.fault(Problem::Ended { expected: expected.into() })
+        self.fault(FileProblem::Ended { expected: expected.into() })
     }
 
-    fn unexpected(&self, found: &[u8], expected: &str) -> Fault {
-        self.fault(Problem::unexpected(&String::from_utf8_lossy(found), expected))
+    fn unexpected(&self, found: &[u8], expected: &str) -> FileFault {
+        self.fault(FileProblem::unexpected(&String::from_utf8_lossy(found), expected))
     }
 
     fn skip_space(&mut self) {
@@ -58,8 +58,8 @@ impl<'a> Scanner<'a> {
         self.at += rest.iter().position(|byte| !byte.is_ascii_whitespace()).unwrap_or(rest.len());
     }
 
-    /// The next section's name, without the dollar sign; `None` at the end of the file.
-    pub(super) fn next_section(&mut self) -> Result<Option<String>, Fault> {
+    /// Name of the next section without the dollar sign; `None` at the end of the file.
+    pub(super) fn next_section(&mut self) -> Result<Option<String>, FileFault> {
         self.section.clear();
         self.skip_space();
         if self.at == self.bytes.len() {
@@ -75,8 +75,8 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// The line that closes the section.
-    pub(super) fn end_section(&mut self) -> Result<(), Fault> {
+    /// Reads the line that closes the section.
+    pub(super) fn end_section(&mut self) -> Result<(), FileFault> {
         let expected = format!("$End{}", self.section.trim_start_matches('$'));
         self.skip_space();
         let line = self.line(&expected)?;
@@ -86,10 +86,10 @@ impl<'a> Scanner<'a> {
         Ok(())
     }
 
-    /// Goes on behind the line that closes the section, whatever comes before it.
-    pub(super) fn skip_section(&mut self) -> Result<(), Fault> {
+    /// Skips the rest of the section with the line that closes it.
+    pub(super) fn skip_section(&mut self) -> Result<(), FileFault> {
         let end = format!("$End{}", self.section.trim_start_matches('$'));
-        // `at` stands behind a line break, so that a section without content ends right here.
+        // `at` is after a line break, where a section without content ends.
         let mut from = self.at.saturating_sub(1);
         while let Some(found) = self.bytes[from..].windows(end.len()).position(|window| window == end.as_bytes()) {
             let (start, after) = (from + found, from + found + end.len());
@@ -103,8 +103,8 @@ impl<'a> Scanner<'a> {
         Err(self.ended(&end))
     }
 
-    /// The rest of the line, trimmed, as text; a line break must not be missing unless the file ends.
-    pub(super) fn line(&mut self, expected: &str) -> Result<&'a str, Fault> {
+    /// Rest of the line as trimmed text.
+    pub(super) fn line(&mut self, expected: &str) -> Result<&'a str, FileFault> {
         if self.at == self.bytes.len() {
             return Err(self.ended(expected));
         }
@@ -118,13 +118,13 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// A line that holds one number as text, in binary files too.
-    pub(super) fn number_line<T: std::str::FromStr>(&mut self, expected: &str) -> Result<T, Fault> {
+    /// Number on a line of text, in binary files too.
+    pub(super) fn number_line<T: std::str::FromStr>(&mut self, expected: &str) -> Result<T, FileFault> {
         let line = self.line(expected)?;
         line.parse().map_err(|_| self.unexpected(line.as_bytes(), expected))
     }
 
-    fn token<T: std::str::FromStr>(&mut self, expected: &str) -> Result<T, Fault> {
+    fn token<T: std::str::FromStr>(&mut self, expected: &str) -> Result<T, FileFault> {
         self.skip_space();
         if self.at == self.bytes.len() {
             return Err(self.ended(expected));
@@ -137,7 +137,7 @@ impl<'a> Scanner<'a> {
         parsed.ok_or_else(|| self.unexpected(token, expected))
     }
 
-    fn raw<const N: usize>(&mut self, expected: &str, big_endian: bool) -> Result<[u8; N], Fault> {
+    fn raw<const N: usize>(&mut self, expected: &str, big_endian: bool) -> Result<[u8; N], FileFault> {
         let Some(bytes) = self.bytes[self.at..].first_chunk::<N>() else {
             return Err(self.ended(expected));
         };
@@ -150,20 +150,20 @@ impl<'a> Scanner<'a> {
         Ok(bytes)
     }
 
-    pub(super) fn int(&mut self, expected: &str) -> Result<i64, Fault> {
+    pub(super) fn int(&mut self, expected: &str) -> Result<i64, FileFault> {
         match self.encoding {
             Encoding::Ascii => self.token(expected),
             Encoding::Binary { big_endian, .. } => Ok(i32::from_le_bytes(self.raw(expected, big_endian)?).into()),
         }
     }
 
-    /// An `int` that numbers or counts something.
-    pub(super) fn positive_int(&mut self, expected: &str) -> Result<u64, Fault> {
+    /// Nonnegative `int`.
+    pub(super) fn positive_int(&mut self, expected: &str) -> Result<u64, FileFault> {
         let value = self.int(expected)?;
         u64::try_from(value).map_err(|_| self.unexpected(value.to_string().as_bytes(), expected))
     }
 
-    pub(super) fn size(&mut self, expected: &str) -> Result<u64, Fault> {
+    pub(super) fn size(&mut self, expected: &str) -> Result<u64, FileFault> {
         match self.encoding {
             Encoding::Ascii => self.token(expected),
             Encoding::Binary { big_endian, size_bytes: 4 } => {
@@ -173,15 +173,15 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    pub(super) fn real(&mut self, expected: &str) -> Result<f64, Fault> {
+    pub(super) fn real(&mut self, expected: &str) -> Result<f64, FileFault> {
         match self.encoding {
             Encoding::Ascii => self.token(expected),
             Encoding::Binary { big_endian, .. } => Ok(f64::from_le_bytes(self.raw(expected, big_endian)?)),
         }
     }
 
-    /// Three coordinates, all finite.
-    pub(super) fn point(&mut self) -> Result<[f64; 3], Fault> {
+    /// Three finite coordinates.
+    pub(super) fn point(&mut self) -> Result<[f64; 3], FileFault> {
         let mut point = [0.0; 3];
         for x in &mut point {
             *x = self.real("a coordinate")?;
@@ -192,24 +192,29 @@ impl<'a> Scanner<'a> {
         Ok(point)
     }
 
-    /// `count` as a length, if the rest of the file can hold so many, each of at least `sizes`, `ints` and `reals` values.
-    pub(super) fn count(&self, what: &'static str, count: u64, [sizes, ints, reals]: [u64; 3]) -> Result<usize, Fault> {
+    /// Checked `count` of items that have at least `sizes`, `ints` and `reals` values each in the rest of the file.
+    pub(super) fn count(
+        &self,
+        what: &'static str,
+        count: u64,
+        [sizes, ints, reals]: [u64; 3],
+    ) -> Result<usize, FileFault> {
         let bytes_each = match self.encoding {
-            // One figure and what parts it from the next.
+            // One digit and a separator.
             Encoding::Ascii => 2 * (sizes + ints + reals),
             Encoding::Binary { size_bytes, .. } => sizes * size_bytes as u64 + 4 * ints + 8 * reals,
         };
         let rest = (self.bytes.len() - self.at) as u64;
-        // The last figure of a file needs nothing behind it.
+        // The last digit of a file needs no separator.
         let possible = (rest + 1) / bytes_each.max(1);
         if count > possible {
-            return Err(self.fault(Problem::Count { what, count, possible }));
+            return Err(self.fault(FileProblem::Count { what, count, possible }));
         }
-        // No more than the bytes of the file, which are in memory.
+        // At most the number of bytes of the file.
         Ok(count as usize)
     }
 
-    pub(super) fn allow(&mut self, entries: usize) -> Result<(), Fault> {
+    pub(super) fn allow(&mut self, entries: usize) -> Result<(), FileFault> {
         self.allowance.take(entries).map_err(|problem| self.fault(problem))
     }
 }

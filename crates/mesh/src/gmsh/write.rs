@@ -1,15 +1,16 @@
-//! Writing Gmsh files.
+//! Writing of Gmsh files.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::keep::{self, DataForm, Keep};
-use super::output::Output;
-use super::write_cells::{Entities, Group, write_elements_2, write_elements_4, write_entities};
+use super::output::GmshOutput;
+use super::write_cells::{Entities, PhysicalGroup, write_elements_2, write_elements_4, write_entities};
 use super::{GmshEncoding, GmshStyle, GmshVersion};
 use crate::error::Unwritable;
 use crate::{DataArray, Mesh, PhysicalTag, Values};
 
-/// Integers beyond this do not all have a `double` of their own, and Gmsh's data are doubles.
+/// Largest integer up to which all have an exact `double`, the type of data in Gmsh.
 pub(super) const LARGEST_INTEGER: i64 = 1 << 53;
 
 const FORMAT: &str = "a Gmsh file";
@@ -18,7 +19,7 @@ pub(crate) fn write(mesh: &Mesh, style: GmshStyle) -> Result<Vec<u8>, Unwritable
     check(mesh)?;
     let groups = groups(mesh);
     let entities = Entities::new(mesh, &groups);
-    let mut out = Output::new(style.encoding);
+    let mut out = GmshOutput::new(style.encoding);
     mesh_format(&mut out, style);
     if !groups.is_empty() {
         out.line("$PhysicalNames");
@@ -53,15 +54,14 @@ pub(crate) fn write(mesh: &Mesh, style: GmshStyle) -> Result<Vec<u8>, Unwritable
     Ok(out.bytes)
 }
 
-/// Whether Gmsh can hold the mesh.
+/// Checks that the format can represent the mesh.
 fn check(mesh: &Mesh) -> Result<(), Unwritable> {
-    let cannot = |what, name: &str, rule| Err(Unwritable::Data { format: FORMAT, what, name: name.into(), rule });
     let cells: usize = mesh.cells.iter().map(|block| block.len()).sum();
     for (what, count) in [("number of nodes", mesh.points.len()), ("number of cells", cells)] {
-        // Every further group of a cell may make a copy of it.
+        // Every further group of a cell may need a copy of it.
         let sets = mesh.cell_sets.len().max(1);
         if count.checked_mul(sets).is_none_or(|count| count >= i32::MAX as usize) {
-            return cannot(what, &count.to_string(), "numbers are ints of four bytes");
+            return Err(Unwritable::data(FORMAT, what, &count.to_string(), "numbers are ints of four bytes"));
         }
     }
     let named_data = mesh.point_data.keys().chain(mesh.cell_data.keys());
@@ -73,32 +73,33 @@ fn check(mesh: &Mesh) -> Result<(), Unwritable> {
     }
     for (name, tag) in &mesh.field_data {
         if !(1..=i64::from(i32::MAX)).contains(&tag.tag) {
-            return cannot("tag of", name, "tags are from 1 to 2147483647");
+            return Err(Unwritable::data(FORMAT, "tag of", name, "tags are from 1 to 2147483647"));
         }
     }
     let cell_arrays = mesh.cell_data.iter().flat_map(|(name, arrays)| arrays.iter().map(move |array| (name, array)));
     for (name, array) in mesh.point_data.iter().chain(cell_arrays) {
         if array.components > 9 {
-            return cannot("data", name, "at most nine components");
+            return Err(Unwritable::data(FORMAT, "data", name, "at most nine components"));
         }
         if let Values::Integers(values) = &array.values
             && values.iter().any(|value| value.unsigned_abs() > LARGEST_INTEGER.unsigned_abs())
         {
-            return cannot("integer data", name, "data are doubles, which hold integers up to 2^53");
+            let rule = "data are doubles, which hold integers up to 2^53";
+            return Err(Unwritable::data(FORMAT, "integer data", name, rule));
         }
     }
     Ok(())
 }
 
-/// The physical groups: of each set the one that carries its tag first, then those of its cells of other dimensions.
-fn groups(mesh: &Mesh) -> Vec<Group<'_>> {
+/// Physical groups: for each set the group with its tag, then groups for its cells of other dimensions.
+fn groups(mesh: &Mesh) -> Vec<PhysicalGroup<'_>> {
     let mut taken: BTreeMap<(u8, i64), ()> =
         mesh.field_data.values().map(|tag| ((tag.dimension, tag.tag), ())).collect();
     let mut groups = Vec::new();
     let names = mesh.cell_sets.keys().chain(mesh.field_data.keys().filter(|&name| !mesh.cell_sets.contains_key(name)));
     for name in names {
         let own = mesh.field_data.get(name).copied();
-        groups.extend(own.map(|tag| Group { name, tag }));
+        groups.extend(own.map(|tag| PhysicalGroup { name, tag }));
         let mut dimensions: Vec<u8> = mesh.cell_sets.get(name).map_or_else(Vec::new, |lists| {
             let filled = lists.iter().zip(&mesh.cells).filter(|(list, _)| !list.is_empty());
             filled.map(|(_, block)| block.kind.dimension()).collect()
@@ -116,33 +117,36 @@ fn groups(mesh: &Mesh) -> Vec<Group<'_>> {
             let tag =
                 own.map(|own| own.tag).filter(|&tag| !taken.contains_key(&(dimension, tag))).unwrap_or(first_free);
             taken.insert((dimension, tag), ());
-            groups.push(Group { name, tag: PhysicalTag { tag, dimension } });
+            groups.push(PhysicalGroup { name, tag: PhysicalTag { tag, dimension } });
         }
     }
     groups
 }
 
-/// What Gmsh has no place for.
+/// Parts of the mesh that Gmsh has no place for.
 fn kept(mesh: &Mesh, version: GmshVersion, entities: &Entities) -> Keep {
     let blocks: Vec<_> = mesh.cells.iter().map(|block| (block.kind, block.len())).collect();
     let runs = blocks.windows(2).all(|pair| pair[0].0 != pair[1].0) && blocks.iter().all(|&(_, length)| length > 0);
-    let form = |name: &String, array: &DataArray| {
-        let form = DataForm { components: array.components, integers: matches!(array.values, Values::Integers(_)) };
-        let plain = !form.integers && form.components == filled_up(form.components);
-        (!plain).then(|| (name.clone(), form))
-    };
     let copies = entities.copies();
     Keep {
         blocks: (!runs).then_some(blocks),
         point_sets: mesh.point_sets.clone(),
         untagged: mesh.cell_sets.keys().filter(|&name| !mesh.field_data.contains_key(name)).cloned().collect(),
-        point_data: mesh.point_data.iter().filter_map(|(name, array)| form(name, array)).collect(),
-        cell_data: mesh.cell_data.iter().filter_map(|(name, arrays)| form(name, arrays.first()?)).collect(),
+        point_data: mesh.point_data.iter().filter_map(|(name, array)| Some((name.clone(), form(array)?))).collect(),
+        cell_data: (mesh.cell_data.iter())
+            .filter_map(|(name, arrays)| Some((name.clone(), form(arrays.first()?)?)))
+            .collect(),
         copies: (version == GmshVersion::V2 && !copies.is_empty()).then_some(copies),
     }
 }
 
-fn mesh_format(out: &mut Output, style: GmshStyle) {
+/// Form of data other than real numbers of 1, 3 or 9 components.
+fn form(array: &DataArray) -> Option<DataForm> {
+    let form = DataForm { components: array.components, integers: matches!(array.values, Values::Integers(_)) };
+    (form.integers || form.components != filled_up(form.components)).then_some(form)
+}
+
+fn mesh_format(out: &mut GmshOutput, style: GmshStyle) {
     let version = match style.version {
         GmshVersion::V2 => "2.2",
         GmshVersion::V4 => "4.1",
@@ -155,7 +159,7 @@ fn mesh_format(out: &mut Output, style: GmshStyle) {
     out.end_section("MeshFormat");
 }
 
-fn nodes_2(out: &mut Output, mesh: &Mesh) {
+fn nodes_2(out: &mut GmshOutput, mesh: &Mesh) {
     out.line("$Nodes");
     out.line(mesh.points.len());
     for (number, point) in (1..).zip(&mesh.points) {
@@ -166,8 +170,8 @@ fn nodes_2(out: &mut Output, mesh: &Mesh) {
     out.end_section("Nodes");
 }
 
-/// All nodes in one block, on an entity of the highest dimension there is: their order matters more than where they lie.
-fn nodes_4(out: &mut Output, mesh: &Mesh, entities: &Entities) {
+/// Writes all nodes in one block, in their order, on an entity of the highest dimension.
+fn nodes_4(out: &mut GmshOutput, mesh: &Mesh, entities: &Entities) {
     let count = mesh.points.len();
     out.line("$Nodes");
     for value in [usize::from(count > 0), count, usize::from(count > 0), count] {
@@ -192,7 +196,7 @@ fn nodes_4(out: &mut Output, mesh: &Mesh, entities: &Entities) {
     out.end_section("Nodes");
 }
 
-/// Components that Gmsh knows: scalars, vectors, tensors.
+/// Number of components of the smallest Gmsh type: scalar, vector or tensor.
 fn filled_up(components: usize) -> usize {
     match components {
         0 | 1 => 1,
@@ -201,23 +205,20 @@ fn filled_up(components: usize) -> usize {
     }
 }
 
-fn data(out: &mut Output, section: &str, name: &str, components: usize, arrays: &[DataArray]) {
+fn data(out: &mut GmshOutput, section: &str, name: &str, components: usize, arrays: &[DataArray]) {
     let count: usize = arrays.iter().map(|array| array.value_count() / components).sum();
     let written = filled_up(components);
     out.line(format_args!("${section}\n1\n\"{name}\"\n1\n0.0\n3\n0\n{written}\n{count}"));
-    let mut owner = 0;
-    let mut row = |values: &mut dyn Iterator<Item = f64>| {
-        owner += 1;
-        out.int(owner);
-        values.chain(std::iter::repeat(0.0)).take(written).for_each(|value| out.real(value));
-        out.end_line();
-    };
+    let mut owners = 1..;
     for array in arrays {
-        match &array.values {
-            Values::Integers(values) => {
-                values.chunks(components).for_each(|values| row(&mut values.iter().map(|&value| value as f64)));
-            }
-            Values::Reals(values) => values.chunks(components).for_each(|values| row(&mut values.iter().copied())),
+        let reals = match &array.values {
+            Values::Integers(values) => Cow::Owned(values.iter().map(|&value| value as f64).collect()),
+            Values::Reals(values) => Cow::Borrowed(values),
+        };
+        for (values, owner) in reals.chunks(components).zip(&mut owners) {
+            out.int(owner);
+            values.iter().copied().chain(std::iter::repeat(0.0)).take(written).for_each(|value| out.real(value));
+            out.end_line();
         }
     }
     out.end_section(section);

@@ -1,30 +1,30 @@
-//! Cells of a Gmsh file: entities made of the groups they share, and the elements themselves.
+//! Cells of a Gmsh file: entities for each combination of groups, and elements.
 
 use std::collections::BTreeMap;
 
 use super::cell_types;
-use super::output::Output;
+use super::output::GmshOutput;
 use crate::{CellKind, Mesh, PhysicalTag};
 
-/// A physical group to be written.
+/// Physical group to be written.
 #[derive(Debug, Clone)]
-pub(super) struct Group<'a> {
+pub(super) struct PhysicalGroup<'a> {
     pub name: &'a str,
     pub tag: PhysicalTag,
 }
 
-/// Cells divided by dimension and by the groups they are in; each division is an entity for Gmsh.
+/// Cells divided into entities by dimension and by the groups they are in.
 #[derive(Debug)]
 pub(super) struct Entities {
-    /// For each dimension the groups (places in the list of groups) of its entities; entity `i` has tag `i + 1`.
+    /// Groups (indices of the list of groups) of the entities of each dimension; entity `i` has tag `i + 1`.
     by_dimension: [Vec<Vec<usize>>; 4],
-    /// For each cell its entity within its dimension.
+    /// Entity within its dimension of each cell.
     of_cell: Vec<usize>,
     dimensions: Vec<u8>,
 }
 
 impl Entities {
-    pub(super) fn new(mesh: &Mesh, groups: &[Group]) -> Self {
+    pub(super) fn new(mesh: &Mesh, groups: &[PhysicalGroup]) -> Self {
         let dimensions: Vec<u8> =
             mesh.cells.iter().flat_map(|block| std::iter::repeat_n(block.kind.dimension(), block.len())).collect();
         let mut groups_of_cell: Vec<Vec<usize>> = vec![Vec::new(); dimensions.len()];
@@ -51,7 +51,7 @@ impl Entities {
         Self { by_dimension, of_cell, dimensions }
     }
 
-    /// The highest dimension of a cell; 0 if there are none.
+    /// Highest dimension of a cell; 0 without cells.
     pub(super) fn highest_dimension(&self) -> u8 {
         self.dimensions.iter().copied().max().unwrap_or(0)
     }
@@ -60,15 +60,15 @@ impl Entities {
         &self.by_dimension[usize::from(self.dimensions[cell])][self.of_cell[cell]]
     }
 
-    /// Version 2: the cells to be written again, once for each group after their first.
+    /// Cells that version 2 writes again, once for each group after their first.
     pub(super) fn copies(&self) -> Vec<usize> {
-        let again = |cell| std::iter::repeat_n(cell, self.groups(cell).len().saturating_sub(1));
-        (0..self.of_cell.len()).flat_map(again).collect()
+        let cells = 0..self.of_cell.len();
+        cells.flat_map(|cell| std::iter::repeat_n(cell, self.groups(cell).len().saturating_sub(1))).collect()
     }
 }
 
-/// The section `$Entities` of version 4.1.
-pub(super) fn write_entities(out: &mut Output, mesh: &Mesh, groups: &[Group], entities: &Entities) {
+/// Writes the section `$Entities` of version 4.1.
+pub(super) fn write_entities(out: &mut GmshOutput, mesh: &Mesh, groups: &[PhysicalGroup], entities: &Entities) {
     if entities.of_cell.is_empty() {
         return;
     }
@@ -95,7 +95,7 @@ pub(super) fn write_entities(out: &mut Output, mesh: &Mesh, groups: &[Group], en
     out.end_section("Entities");
 }
 
-/// The least box round the nodes of each entity.
+/// Bounding box of the nodes of each entity.
 fn boxes(mesh: &Mesh, entities: &Entities) -> [Vec<[[f64; 3]; 2]>; 4] {
     let mut boxes =
         entities.by_dimension.each_ref().map(|own| vec![[[f64::INFINITY; 3], [-f64::INFINITY; 3]]; own.len()]);
@@ -112,8 +112,8 @@ fn boxes(mesh: &Mesh, entities: &Entities) -> [Vec<[[f64; 3]; 2]>; 4] {
     boxes
 }
 
-/// Elements of version 4.1: a block for each run of cells of one kind and entity.
-pub(super) fn write_elements_4(out: &mut Output, mesh: &Mesh, entities: &Entities) {
+/// Writes the elements of version 4.1, a block for each run of cells of one kind and entity.
+pub(super) fn write_elements_4(out: &mut GmshOutput, mesh: &Mesh, entities: &Entities) {
     let cells: Vec<(CellKind, &[usize])> =
         mesh.cells.iter().flat_map(|block| block.iter().map(|nodes| (block.kind, nodes))).collect();
     let numbered: Vec<usize> = (0..cells.len()).collect();
@@ -144,8 +144,8 @@ pub(super) fn write_elements_4(out: &mut Output, mesh: &Mesh, entities: &Entitie
     out.end_section("Elements");
 }
 
-/// Elements of version 2.2: every cell with its first group, then the copies for further groups.
-pub(super) fn write_elements_2(out: &mut Output, mesh: &Mesh, groups: &[Group], entities: &Entities) {
+/// Writes the elements of version 2.2: every cell with its first group, then the copies for further groups.
+pub(super) fn write_elements_2(out: &mut GmshOutput, mesh: &Mesh, groups: &[PhysicalGroup], entities: &Entities) {
     let cells: Vec<(CellKind, &[usize])> =
         mesh.cells.iter().flat_map(|block| block.iter().map(|nodes| (block.kind, nodes))).collect();
     let mut elements: Vec<(usize, Option<usize>)> =

@@ -1,27 +1,27 @@
-//! Reading VTU files.
+//! Reading of VTU files.
 
 use std::collections::BTreeMap;
 
-use super::array::{Decoder, Scalar};
-use super::document::{Array, Document};
+use super::array::{Decoder, ScalarType};
+use super::document::{Array, VtuDocument};
 use super::{ALLOWED, BLOCKS, SET, TAG};
-use crate::error::{Fault, Problem};
+use crate::error::{FileFault, FileProblem};
 use crate::numbering::{Allowance, CellList, OpenSets, close_cell_sets, close_point_sets};
 use crate::{CellKind, DataArray, Mesh, PhysicalTag, Values};
 
-pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
-    let document = Document::parse(bytes)?;
+pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, FileFault> {
+    let document = VtuDocument::parse(bytes)?;
     let decoder = Decoder::new(&document)?;
     let mut allowance = Allowance::of(bytes.len());
     let Some(piece) = &document.piece else {
-        return Err(Fault::anywhere("VTKFile", Problem::Ended { expected: "`<Piece>`".into() }));
+        return Err(FileFault::anywhere("VTKFile", FileProblem::Ended { expected: "`<Piece>`".into() }));
     };
-    let count = |name: &str| {
+    let [point_count, cell_count] = ["NumberOfPoints", "NumberOfCells"].map(|name| {
         let text = piece.get(name).map_or("", String::as_str);
         let parsed = text.trim().parse::<usize>();
-        parsed.map_err(|_| Fault::anywhere(format!("Piece {name}"), Problem::unexpected(text, "a number")))
-    };
-    let (point_count, cell_count) = (count("NumberOfPoints")?, count("NumberOfCells")?);
+        parsed.map_err(|_| FileFault::anywhere(format!("Piece {name}"), FileProblem::unexpected(text, "a number")))
+    });
+    let (point_count, cell_count) = (point_count?, cell_count?);
     let points = points(&decoder, &document, point_count, &mut allowance)?;
     let mut cells = cells(&decoder, &document, point_count, cell_count, &mut allowance)?;
     let mut field_data = BTreeMap::new();
@@ -35,10 +35,10 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
     let (point_data, point_sets) = data(&decoder, &document.point_data, point_count, &mut allowance)?;
     let (all_cell_data, cell_sets) = data(&decoder, &document.cell_data, cell_count, &mut allowance)?;
     let cell_sets =
-        close_cell_sets(cell_sets, &cells, &mut allowance).map_err(|limit| Fault::anywhere("CellData", limit))?;
+        close_cell_sets(cell_sets, &cells, &mut allowance).map_err(|limit| FileFault::anywhere("CellData", limit))?;
     let mut cell_data = BTreeMap::new();
     for (name, array) in all_cell_data {
-        allowance.take(cells.blocks.len()).map_err(|limit| Fault::anywhere("CellData", limit))?;
+        allowance.take(cells.blocks.len()).map_err(|limit| FileFault::anywhere("CellData", limit))?;
         cell_data.insert(name, cells.split(&array));
     }
     Ok(Mesh {
@@ -54,46 +54,48 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
 
 fn points(
     decoder: &Decoder,
-    document: &Document,
+    document: &VtuDocument,
     count: usize,
     allowance: &mut Allowance,
-) -> Result<Vec<[f64; 3]>, Fault> {
+) -> Result<Vec<[f64; 3]>, FileFault> {
     let Some(array) = document.points.first() else {
         return match count {
             0 => Ok(Vec::new()),
-            _ => Err(Fault::anywhere("Points", Problem::Ended { expected: "a `DataArray`".into() })),
+            _ => Err(FileFault::anywhere("Points", FileProblem::Ended { expected: "a `DataArray`".into() })),
         };
     };
     let components = array.components()?;
     if components != 3 {
-        return Err(array.fault(Problem::unexpected(&components.to_string(), "three components")));
+        return Err(array.fault(FileProblem::unexpected(&components.to_string(), "three components")));
     }
     let reals = match decoder.values(array, Some(count.saturating_mul(3)), allowance)? {
         Values::Reals(values) => values,
         Values::Integers(values) => values.into_iter().map(|value| value as f64).collect(),
     };
     if let Some(wrong) = reals.iter().find(|x| !x.is_finite()) {
-        return Err(array.fault(Problem::unexpected(&wrong.to_string(), "coordinates that are finite")));
+        return Err(array.fault(FileProblem::unexpected(&wrong.to_string(), "coordinates that are finite")));
     }
     Ok(reals.as_chunks::<3>().0.to_vec())
 }
 
 fn cells(
     decoder: &Decoder,
-    document: &Document,
+    document: &VtuDocument,
     points: usize,
     count: usize,
     allowance: &mut Allowance,
-) -> Result<CellList, Fault> {
+) -> Result<CellList, FileFault> {
     let mut cells = CellList::default();
     if count == 0 {
         return Ok(cells);
     }
-    let array = |name: &str| {
+    let [types, offsets, connectivity] = ["types", "offsets", "connectivity"].map(|name| {
         let found = document.cells.iter().find(|array| array.name() == name);
-        found.ok_or_else(|| Fault::anywhere("Cells", Problem::Ended { expected: format!("a `DataArray` {name:?}") }))
-    };
-    let (types, offsets, connectivity) = (array("types")?, array("offsets")?, array("connectivity")?);
+        found.ok_or_else(|| {
+            FileFault::anywhere("Cells", FileProblem::Ended { expected: format!("a `DataArray` {name:?}") })
+        })
+    });
+    let (types, offsets, connectivity) = (types?, offsets?, connectivity?);
     let type_numbers = integers(decoder, types, Some(count), allowance)?;
     let ends = integers(decoder, offsets, Some(count), allowance)?;
     let total = ends.last().and_then(|&end| usize::try_from(end).ok()).unwrap_or(0);
@@ -102,13 +104,13 @@ fn cells(
     for (&number, &end) in type_numbers.iter().zip(&ends) {
         let Some(kind) = cell_kind(number) else {
             let what = format!("cell type {number}");
-            return Err(types.fault(Problem::Unsupported { what, allowed: ALLOWED.into() }));
+            return Err(types.fault(FileProblem::Unsupported { what, allowed: ALLOWED.into() }));
         };
         let own = usize::try_from(end).ok().and_then(|end| nodes.get(start..end));
         let Some(own) = own.filter(|own| own.len() == kind.node_count()) else {
             let expected =
                 format!("{}: a cell of type {number} has {} nodes", start + kind.node_count(), kind.node_count());
-            return Err(offsets.fault(Problem::unexpected(&end.to_string(), expected)));
+            return Err(offsets.fault(FileProblem::unexpected(&end.to_string(), expected)));
         };
         start += own.len();
         let mut numbers = Vec::with_capacity(own.len());
@@ -117,7 +119,7 @@ fn cells(
                 Some(node) => numbers.push(node),
                 None => {
                     let expected = format!("a node from 0 to {}", points as i64 - 1);
-                    return Err(connectivity.fault(Problem::unexpected(&node.to_string(), expected)));
+                    return Err(connectivity.fault(FileProblem::unexpected(&node.to_string(), expected)));
                 }
             }
         }
@@ -135,25 +137,25 @@ fn integers(
     array: &Array,
     count: Option<usize>,
     allowance: &mut Allowance,
-) -> Result<Vec<i64>, Fault> {
+) -> Result<Vec<i64>, FileFault> {
     match decoder.values(array, count, allowance)? {
         Values::Integers(values) => Ok(values),
-        Values::Reals(_) => Err(array.fault(Problem::unexpected("floating-point numbers", "integers"))),
+        Values::Reals(_) => Err(array.fault(FileProblem::unexpected("floating-point numbers", "integers"))),
     }
 }
 
-/// Data by name, and the sets among them.
+/// Data and sets by name.
 fn data(
     decoder: &Decoder,
     arrays: &[Array],
     owners: usize,
     allowance: &mut Allowance,
-) -> Result<(BTreeMap<String, DataArray>, OpenSets), Fault> {
+) -> Result<(BTreeMap<String, DataArray>, OpenSets), FileFault> {
     let (mut data, mut sets) = (BTreeMap::new(), OpenSets::new());
     for array in arrays {
         let components = array.components()?;
         let values = decoder.values(array, Some(owners.saturating_mul(components)), allowance)?;
-        let set = array.name().strip_prefix(SET).filter(|_| array.scalar() == Ok(Scalar::BYTE) && components == 1);
+        let set = array.name().strip_prefix(SET).filter(|_| array.scalar() == Ok(ScalarType::BYTE) && components == 1);
         match (set, values) {
             (Some(name), Values::Integers(values)) if values.iter().all(|value| (0..=1).contains(value)) => {
                 let members = (0..owners).zip(values).filter(|&(_, value)| value == 1).map(|(owner, _)| owner);
@@ -167,28 +169,25 @@ fn data(
     Ok((data, sets))
 }
 
-fn physical_tag(array: &Array, values: &Values) -> Result<PhysicalTag, Fault> {
+fn physical_tag(array: &Array, values: &Values) -> Result<PhysicalTag, FileFault> {
     let found = match values {
         Values::Integers(values) => values.as_slice(),
         Values::Reals(_) => &[],
     };
     match *found {
         [tag, dimension @ 0..=3] => Ok(PhysicalTag { tag, dimension: dimension as u8 }),
-        _ => Err(array.fault(Problem::unexpected(&format!("{values:?}"), "tag and dimension, two integers"))),
+        _ => Err(array.fault(FileProblem::unexpected(&format!("{values:?}"), "tag and dimension, two integers"))),
     }
 }
 
-fn divide(cells: &mut CellList, array: &Array, values: &Values) -> Result<(), Fault> {
+fn divide(cells: &mut CellList, array: &Array, values: &Values) -> Result<(), FileFault> {
     let pairs = match values {
         Values::Integers(values) => values.as_chunks::<2>().0,
         Values::Reals(_) => &[],
     };
-    let block = |&[number, length]: &[i64; 2]| -> Option<(CellKind, usize)> {
-        Some((cell_kind(number)?, usize::try_from(length).ok()?))
-    };
-    let divided = pairs.iter().map(block).collect::<Option<Vec<_>>>().is_some_and(|blocks| cells.divide(&blocks));
-    if divided {
+    let blocks = pairs.iter().map(|&[number, length]| Some((cell_kind(number)?, usize::try_from(length).ok()?)));
+    if blocks.collect::<Option<Vec<_>>>().is_some_and(|blocks| cells.divide(&blocks)) {
         return Ok(());
     }
-    Err(array.fault(Problem::unexpected("blocks", "types and numbers of cells that the file's cells make")))
+    Err(array.fault(FileProblem::unexpected("blocks", "types and numbers of the file's cells in their order")))
 }

@@ -1,4 +1,4 @@
-//! Writing VTU files.
+//! Writing of VTU files.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -17,7 +17,7 @@ const FORMAT: &str = "a VTU file";
 
 pub(crate) fn write(mesh: &Mesh, encoding: VtuEncoding) -> Result<Vec<u8>, Unwritable> {
     check_names(mesh)?;
-    let mut out = Output { text: String::new(), encoding };
+    let mut out = VtuOutput { text: String::new(), encoding };
     let compressor = match encoding {
         VtuEncoding::Zlib => " compressor=\"vtkZLibDataCompressor\"",
         VtuEncoding::Base64 | VtuEncoding::Ascii => "",
@@ -62,12 +62,11 @@ pub(crate) fn write(mesh: &Mesh, encoding: VtuEncoding) -> Result<Vec<u8>, Unwri
     Ok(out.text.into_bytes())
 }
 
-/// XML 1.0 has no way to write most control characters.
+/// Refuses names with control characters that XML 1.0 does not allow.
 fn check_names(mesh: &Mesh) -> Result<(), Unwritable> {
     let data = mesh.point_data.keys().chain(mesh.cell_data.keys());
     let sets = mesh.point_sets.keys().chain(mesh.cell_sets.keys()).chain(mesh.field_data.keys());
-    let impossible = |c: char| (c < ' ' && !matches!(c, '\t' | '\n' | '\r')) || matches!(c, '\u{FFFE}' | '\u{FFFF}');
-    match data.chain(sets).find(|name| name.contains(impossible)) {
+    match data.chain(sets).find(|name| name.contains(is_impossible)) {
         Some(name) => {
             let rule = "names have no control characters other than tabs and line breaks";
             Err(Unwritable::Name { format: FORMAT, name: name.clone(), rule })
@@ -76,7 +75,12 @@ fn check_names(mesh: &Mesh) -> Result<(), Unwritable> {
     }
 }
 
-fn field_data(out: &mut Output, mesh: &Mesh) {
+/// Whether XML 1.0 has no way to write a character.
+fn is_impossible(c: char) -> bool {
+    (c < ' ' && !matches!(c, '\t' | '\n' | '\r')) || matches!(c, '\u{FFFE}' | '\u{FFFF}')
+}
+
+fn field_data(out: &mut VtuOutput, mesh: &Mesh) {
     let runs = mesh.cells.windows(2).all(|pair| pair[0].kind != pair[1].kind);
     let plain = runs && mesh.cells.iter().all(|block| !block.is_empty());
     if plain && mesh.field_data.is_empty() {
@@ -94,7 +98,7 @@ fn field_data(out: &mut Output, mesh: &Mesh) {
     out.line("</FieldData>");
 }
 
-/// A value of one of the types that are written.
+/// Value of one of the written types.
 #[derive(Debug, Clone, Copy)]
 enum Number {
     Real(f64),
@@ -103,12 +107,12 @@ enum Number {
 }
 
 #[derive(Debug)]
-struct Output {
+struct VtuOutput {
     text: String,
     encoding: VtuEncoding,
 }
 
-impl Output {
+impl VtuOutput {
     fn line(&mut self, line: impl std::fmt::Display) {
         // Writing into memory does not fail.
         let _ = writeln!(self.text, "{line}");
@@ -146,7 +150,7 @@ impl Output {
     ) {
         let name = escape(name).replace('\n', "&#10;").replace('\r', "&#13;").replace('\t', "&#9;");
         let tuples = tuples.map_or_else(String::new, |tuples| format!(" NumberOfTuples=\"{tuples}\""));
-        // One component goes without saying; meshio makes columns of scalars that say it.
+        // One component is the default; meshio makes columns of scalars where it is given.
         let together = match components {
             1 => String::new(),
             components => format!(" NumberOfComponents=\"{components}\""),
@@ -197,7 +201,7 @@ impl Output {
     }
 }
 
-/// Bytes compressed at a time: VTK's usual block.
+/// Bytes of a compressed block, as usual in VTK.
 const BLOCK_BYTES: usize = 1 << 15;
 
 fn compress(block: &[u8]) -> Vec<u8> {

@@ -4,7 +4,7 @@
 //! memory are bounded by what `mesh::file` promises: every entry that is stored was paid for by bytes of the file or by the
 //! allowance of `LARGEST_EXPANSION` entries for each byte, so what is read must stay below that.
 
-use gearwear_mesh::error::{LARGEST_EXPANSION, Problem};
+use gearwear_mesh::error::{FileProblem, LARGEST_EXPANSION};
 use gearwear_mesh::{DataArray, Format, Mesh, from_bytes, to_bytes};
 use proptest::prelude::*;
 
@@ -176,5 +176,5 @@ fn sets_far_larger_than_the_file_are_refused() {
     (0..5000).for_each(|set| text.push_str(&format!("*NSET,NSET=s{set},GENERATE\n1,5000\n")));
     // 25 million members in some 200 kB.
     let fault = from_bytes(Format::Abaqus, text.as_bytes()).expect_err("more than 100 members for each byte");
-    assert!(matches!(fault.problem, Problem::TooLarge { .. }), "{fault}");
+    assert!(matches!(fault.problem, FileProblem::TooLarge { .. }), "{fault}");
 }

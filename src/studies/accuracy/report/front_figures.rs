@@ -1,18 +1,17 @@
 //! Error against run time, one plot for each quantity, with its Pareto front.
 //!
-//! Colours and shapes are the surfaces; of pairs with slices, full marks are slices coupled by plate theory, those with a dot in space, open ones uncoupled.
-
-use serde_json::json;
+//! Colours and shapes are the surfaces; of pairs with slices, full marks are slices coupled by plate theory, those with a dot in
+//! space, open ones uncoupled.
 
 use crate::reference::statistics::extent;
 use crate::report::chart::{Chart, Dash, MUTED, Trace};
 use crate::report::html::number::{percent, significant};
-use crate::studies::accuracy::record::{AccuracyRecord, Quantity, VariantRecord, VariantSettings};
+use crate::studies::accuracy::record::{AccuracyRecord, ComparedQuantity, VariantRecord, VariantSettings};
 
-/// Errors below this are drawn at it: a logarithmic axis knows no zero.
+/// Least error shown; smaller ones are drawn here, on the logarithmic axis.
 const LEAST_SHOWN: f64 = 1e-5;
 
-/// Marks of the error axis: a whole decade and its third, as in engineering plots.
+/// Ticks of the error axis: 1 and 3 of each decade.
 const TICKS: [f64; 12] = [1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0];
 const TICK_TEXTS: [&str; 12] =
     ["0.001 %", "0.003 %", "0.01 %", "0.03 %", "0.1 %", "0.3 %", "1 %", "3 %", "10 %", "30 %", "100 %", "300 %"];
@@ -38,52 +37,48 @@ const COUPLINGS: [(Option<&str>, &str, &str); 4] = [
 ];
 
 pub(super) fn all(record: &AccuracyRecord) -> Vec<Chart> {
-    Quantity::ALL.into_iter().filter(|q| record.measures(*q)).map(|quantity| front(record, quantity)).collect()
+    ComparedQuantity::ALL.into_iter().filter(|q| record.measures(*q)).map(|quantity| front(record, quantity)).collect()
 }
 
-fn front(record: &AccuracyRecord, quantity: Quantity) -> Chart {
-    let runs = || {
-        record.variants.iter().filter_map(|v| {
-            let error = v.errors.get(&quantity).filter(|error| error.relative.is_finite())?;
-            Some((v, v.simulation_s?, error.relative, error.on_front))
-        })
-    };
+fn front(record: &AccuracyRecord, quantity: ComparedQuantity) -> Chart {
+    let runs = record.variants.iter().filter_map(|v| {
+        let error = v.errors.get(&quantity).filter(|error| error.relative.is_finite())?;
+        Some((v, v.simulation_s?, error.relative, error.on_front))
+    });
     let uncertainty = record.reference.uncertainty.get(&quantity).copied().unwrap_or(0.0);
     let id = format!("front-{}", quantity.to_string().to_lowercase().replace('_', "-"));
     let mut chart = Chart::new(id, quantity.title())
-        .wide_if(quantity == Quantity::WearProfile)
+        .wide_if(quantity == ComparedQuantity::WearProfile)
         .height(430)
         .read_nearest()
         .x("wall time of the wear run, s")
         .x_logarithmic()
         .y("relative error")
         .y_logarithmic()
-        .y_set("tickvals", TICKS.to_vec())
-        .y_set("ticktext", TICK_TEXTS.to_vec())
+        .y_ticks(TICKS.into_iter().zip(TICK_TEXTS))
         .reading(reading(record, quantity, uncertainty));
     let mut on_front: Vec<(f64, f64)> =
-        runs().filter(|run| run.3).map(|(_, wall_s, error, _)| (wall_s, shown(error))).collect();
+        runs.clone().filter(|run| run.3).map(|(_, wall_s, error, _)| (wall_s, shown(error))).collect();
     on_front.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (wall_s, errors): (Vec<f64>, Vec<f64>) = on_front.into_iter().unzip();
     chart = chart.add(Trace::line("Pareto front", wall_s, errors, (MUTED, 8.0, Dash::Solid)).opacity(0.35).silent());
     for (kind, colour, symbol, holds) in KINDS {
         for (coupling, how, open) in COUPLINGS {
-            let is_shown = |v: &VariantRecord| holds(&v.settings) && v.settings.coupling.as_deref() == coupling;
-            let of_kind: Vec<_> = runs().filter(|(v, ..)| is_shown(v)).collect();
+            let of_coupling = runs.clone().filter(|(v, ..)| v.settings.coupling.as_deref() == coupling);
+            let of_kind: Vec<_> = of_coupling.filter(|(v, ..)| holds(&v.settings)).collect();
             if of_kind.is_empty() {
                 continue;
             }
             let text = of_kind
                 .iter()
                 .map(|(v, wall_s, error, _)| format!("{}: {}, {} s", v.name, percent(*error), significant(*wall_s, 3)));
-            let sizes: Vec<usize> = of_kind.iter().map(|(v, ..)| size(v)).collect();
+            let sizes = of_kind.iter().map(|(v, ..)| size(v)).collect();
             let (x, y) = (of_kind.iter().map(|run| run.1), of_kind.iter().map(|run| shown(run.2)));
-            let points = Trace::points(format!("{kind}{how}"), x, y, (colour, "", 0));
-            let marker = json!({ "color": colour, "symbol": format!("{symbol}{open}"), "size": sizes });
-            chart = chart.add(points.set("marker", marker).hover_texts(text.collect()));
+            let points = Trace::points(format!("{kind}{how}"), x, y, (colour, &format!("{symbol}{open}"), 0));
+            chart = chart.add(points.sizes(sizes).hover_texts(text.collect()));
         }
     }
-    let ends = extent(runs().map(|run| run.1));
+    let ends = extent(runs.map(|run| run.1));
     for (name, level, dash) in
         [("error wanted", record.within, Dash::Dashed), ("the reference’s own uncertainty", uncertainty, Dash::Dot)]
     {
@@ -98,16 +93,16 @@ fn shown(error: f64) -> f64 {
     error.max(LEAST_SHOWN)
 }
 
-/// The finer, the larger.
-fn size(variant: &VariantRecord) -> usize {
+/// Size of the mark: the finer the run, the larger.
+fn size(variant: &VariantRecord) -> f64 {
     match variant.settings.spacing_coarsening.max(variant.settings.step_coarsening) {
-        1 => 13,
-        2 => 10,
-        _ => 7,
+        1 => 13.0,
+        2 => 10.0,
+        _ => 7.0,
     }
 }
 
-fn reading(record: &AccuracyRecord, quantity: Quantity, uncertainty: f64) -> String {
+fn reading(record: &AccuracyRecord, quantity: ComparedQuantity, uncertainty: f64) -> String {
     let found = record.recommended(quantity).map_or_else(String::new, |(is_within, variant, error, wall_s)| {
         let within = percent(record.within);
         let found = format!("{}: {} in {} s.", variant.name, percent(error), significant(wall_s, 3));

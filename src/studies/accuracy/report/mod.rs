@@ -24,6 +24,9 @@ use crate::studies::accuracy::record::{AccuracyRecord, CALIBRATION_FILE, OVER_WI
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "accuracy.json";
 const RECOMMENDED: &str = "recommended.toml";
+const SCENE: &str = "scene.toml";
+const RUNS: &str = "accuracy.csv";
+const PROFILES: &str = "wear_profiles.csv";
 
 /// Writes all files of `record` into `dir`, which is made if need be; returns their paths in the order written.
 pub(crate) fn write(record: &AccuracyRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
@@ -34,15 +37,15 @@ pub(crate) fn write(record: &AccuracyRecord, dir: &Path) -> Result<Vec<PathBuf>,
     remove(dir, OVER_WIDTH_FILE)?;
     let provenance = Provenance::of_scene(&record.program_version, &record.scene_hash);
     let mut csv = CsvFiles::new(dir, provenance);
-    let mut written = vec![place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?];
+    let mut written = vec![place(dir, SCENE, |out| out.write_all(record.scene_toml.as_bytes()))?];
     for (name, text) in [(CALIBRATION_FILE, &record.calibration_json), (RECOMMENDED, &record.recommended_toml)] {
         if let Some(text) = text {
             written.push(place(dir, name, |out| out.write_all(text.as_bytes()))?);
         }
     }
     written.extend([
-        csv.place("accuracy.csv", |out| tables::runs(out, record))?,
-        csv.place("wear_profiles.csv", |out| tables::profiles(out, record))?,
+        csv.place(RUNS, |out| tables::runs(out, record))?,
+        csv.place(PROFILES, |out| tables::profiles(out, record))?,
     ]);
     if record.has_slices() {
         written.push(csv.place(OVER_WIDTH_FILE, |out| tables::over_width(out, record))?);

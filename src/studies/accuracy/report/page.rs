@@ -2,21 +2,21 @@
 
 use maud::{Markup, html};
 
-use super::{front_figures, profile_figures, run_tables};
+use super::{LAST, PROFILES, RECOMMENDED, RUNS, SCENE, front_figures, profile_figures, run_tables};
 use crate::report::html::number::{percent, significant};
 use crate::report::html::page::{Page, Plots, section, sources_list};
 use crate::results::run::{ReportedBy, StopReason};
-use crate::studies::accuracy::record::{AccuracyRecord, CALIBRATION_FILE, OVER_WIDTH_FILE, Quantity};
+use crate::studies::accuracy::record::{AccuracyRecord, CALIBRATION_FILE, ComparedQuantity, OVER_WIDTH_FILE};
 
 /// The data files named in the page, which lie beside it.
 const DATA_FILES: [(&str, &str); 7] = [
-    ("accuracy.json", "everything: the reference, every run with its errors, the recommendations"),
-    ("accuracy.csv", "one row per run: settings, times, work, errors, fronts"),
-    ("wear_profiles.csv", "wear over both flanks, reference and runs of the finest resolution"),
+    (LAST, "everything: the reference, every run with its errors, the recommendations"),
+    (RUNS, "one row per run: settings, times, work, errors, fronts"),
+    (PROFILES, "wear over both flanks, reference and runs of the finest resolution"),
     (OVER_WIDTH_FILE, "root wear over the face width, reference and runs of the finest resolution"),
-    ("scene.toml", "the resolved scene"),
-    ("recommended.toml", "the scene of the recommended run of the wear profile"),
-    ("calibration.json", "the calibration that the runs read"),
+    (SCENE, "the resolved scene"),
+    (RECOMMENDED, "the scene of the recommended run of the wear profile"),
+    (CALIBRATION_FILE, "the calibration that the runs read"),
 ];
 
 pub(super) fn page(record: &AccuracyRecord) -> String {
@@ -66,17 +66,18 @@ fn reference(record: &AccuracyRecord) -> Markup {
 
 /// The files that are there.
 fn data_files(record: &AccuracyRecord) -> Vec<(&'static str, &'static str)> {
-    let missing = |name: &str| {
-        name == OVER_WIDTH_FILE && !record.has_slices()
-            || name == CALIBRATION_FILE && record.calibration_json.is_none()
-            || name == "recommended.toml" && record.recommended_toml.is_none()
-    };
-    DATA_FILES.into_iter().filter(|(name, _)| !missing(name)).collect()
+    let written = DATA_FILES.into_iter().filter(|&(name, _)| match name {
+        OVER_WIDTH_FILE => record.has_slices(),
+        CALIBRATION_FILE => record.calibration_json.is_some(),
+        RECOMMENDED => record.recommended_toml.is_some(),
+        _ => true,
+    });
+    written.collect()
 }
 
-/// What to use, in a sentence or two.
+/// Recommendation, in a sentence or two.
 fn answer(record: &AccuracyRecord) -> String {
-    if let Some(not) = record.not_ranked(Quantity::WearProfile) {
+    if let Some(not) = record.not_ranked(ComparedQuantity::WearProfile) {
         return format!(
             "No ranking by wear profile, and no recommendation: the reference itself is uncertain by {}, more than the {} wanted. \
              To converge, it needs: {}.",
@@ -85,7 +86,7 @@ fn answer(record: &AccuracyRecord) -> String {
             not.remedy
         );
     }
-    let Some((is_within, variant, error, wall_s)) = record.recommended(Quantity::WearProfile) else {
+    let Some((is_within, variant, error, wall_s)) = record.recommended(ComparedQuantity::WearProfile) else {
         return "No run could be compared with the reference.".to_owned();
     };
     let reference = record.variants.first().and_then(|finest| finest.simulation_s);

@@ -9,13 +9,12 @@ use crate::report::chart::{Chart, Dash, INK, Trace, padded};
 use crate::report::html::number::{figure, percent, significant};
 use crate::report::html::reading::greatest;
 use crate::results::path_points::among;
-use crate::results::run::PathPoints;
-use crate::studies::accuracy::record::{AccuracyRecord, Quantity, ReferenceFlank, VariantRecord};
+use crate::studies::accuracy::record::{AccuracyRecord, ComparedQuantity, ReferenceFlank, VariantRecord};
 
-/// Stiffnesses to show the surfaces with, the best first.
+/// Stiffness models with which the surfaces are shown, the best first.
 const BEST_STIFFNESS: [&str; 2] = ["fem", "weber-banaschek"];
 
-/// How a surface is drawn: its colour, its dash, and whether to begin with or only when the reader asks for it.
+/// Style of a surface: colour, dash, and whether it is visible before the reader selects it.
 type SurfaceStyle = (&'static str, Dash, bool);
 
 /// Profiles and differences of both gears.
@@ -31,18 +30,12 @@ pub(super) fn all(record: &AccuracyRecord) -> Vec<Chart> {
         .collect()
 }
 
-/// The runs of the finest resolution with the best stiffness there is, and the finest finite elements.
+/// Runs of the finest resolution with the best available stiffness, and the finest finite elements.
 fn shown(record: &AccuracyRecord) -> Vec<&VariantRecord> {
-    let finest = |v: &&VariantRecord| v.wear_um.is_some();
-    let with =
-        |name: &str| record.variants.iter().filter(finest).any(|v| v.settings.stiffness.as_deref() == Some(name));
-    let best = BEST_STIFFNESS.into_iter().find(|name| with(name));
-    record
-        .variants
-        .iter()
-        .filter(finest)
-        .filter(|v| v.settings.stiffness.is_none() || v.settings.stiffness.as_deref() == best)
-        .collect()
+    let finest = record.variants.iter().filter(|v| v.wear_um.is_some());
+    let stiffnesses: Vec<&str> = finest.clone().filter_map(|v| v.settings.stiffness.as_deref()).collect();
+    let best = BEST_STIFFNESS.into_iter().find(|name| stiffnesses.contains(name));
+    finest.filter(|v| v.settings.stiffness.is_none() || v.settings.stiffness.as_deref() == best).collect()
 }
 
 fn style(variant: &VariantRecord) -> SurfaceStyle {
@@ -93,7 +86,7 @@ fn middle(reference: &ReferenceFlank) -> usize {
     reference.width_mm.len() / 2
 }
 
-/// What a heading adds for that slice.
+/// Addition to a heading: the place of the slice over the face width.
 fn where_over_width(reference: &ReferenceFlank) -> String {
     match reference.width_mm.len() {
         0 | 1 => String::new(),
@@ -134,30 +127,31 @@ fn of_reference(along: &[f64], wear: &[f64]) -> Trace {
     line.opacity(0.35).hover("%{y:.3f} µm")
 }
 
+/// Greatest difference of a run from the reference, and where on the flank it is.
+fn greatest_difference(variant: &VariantRecord, reference: &ReferenceFlank, gear: Gear) -> Option<String> {
+    let wear = reference.slice(&variant.wear_um.as_ref()?[gear], middle(reference));
+    let there = reference.slice(&reference.wear_um, middle(reference));
+    let off: Vec<f64> = wear.iter().zip(there).map(|(a, b)| (a - b).abs()).collect();
+    let at = greatest(&off)?;
+    let radius = reference.radius_mm[at.index];
+    Some(format!(
+        "{} by {} µm at {} mm ({})",
+        surface(variant),
+        figure(at.value),
+        significant(radius, 4),
+        among(&reference.path_point_radius_mm.as_ref()?.named(), radius)
+    ))
+}
+
 fn differences(record: &AccuracyRecord, shown: &[&VariantRecord], gear: Gear) -> Chart {
     let reference = &record.reference.flanks[gear];
-    let places = reference.path_point_radius_mm.as_ref().map(PathPoints::named);
-    let worst = |variant: &VariantRecord| {
-        let wear = reference.slice(&variant.wear_um.as_ref()?[gear], middle(reference));
-        let there = reference.slice(&reference.wear_um, middle(reference));
-        let off: Vec<f64> = wear.iter().zip(there).map(|(a, b)| (a - b).abs()).collect();
-        let at = greatest(&off)?;
-        let radius = reference.radius_mm[at.index];
-        Some(format!(
-            "{} by {} µm at {} mm ({})",
-            surface(variant),
-            figure(at.value),
-            significant(radius, 4),
-            among(places.as_ref()?, radius)
-        ))
-    };
-    let at_once: Vec<String> =
-        shown.iter().filter(|v| v.settings.surface != "fem" && style(v).2).filter_map(|v| worst(v)).collect();
+    let drawn = shown.iter().filter(|v| v.settings.surface != "fem" && style(v).2);
+    let worst: Vec<String> = drawn.filter_map(|v| greatest_difference(v, reference, gear)).collect();
     let title = format!("Error of each surface along the {}’s flank{}", gear.name(), where_over_width(reference));
     let chart = Chart::new(format!("differences-{}", gear.name()), title)
         .y("wear depth less the reference’s, µm")
         .add_all(of_runs(shown, reference, gear, |wear, there| wear - there))
-        .reading(format!("Furthest from the reference: {}.", at_once.join("; ")));
+        .reading(format!("Furthest from the reference: {}.", worst.join("; ")));
     over_flank(chart, reference, gear)
 }
 
@@ -196,7 +190,7 @@ fn of_run(variant: &VariantRecord, along: &[f64], values: impl Iterator<Item = f
     line.at_once(at_once).hover("%{y:.3f} µm")
 }
 
-/// What `value` makes of each run's wear and the reference's.
+/// Curves of `value`, a function of each run's wear and the reference's.
 fn of_runs(shown: &[&VariantRecord], reference: &ReferenceFlank, gear: Gear, value: fn(f64, f64) -> f64) -> Vec<Trace> {
     let runs = shown.iter().filter_map(|variant| {
         let wear = &variant.wear_um.as_ref()?[gear];
@@ -216,9 +210,9 @@ fn over_flank(chart: Chart, reference: &ReferenceFlank, gear: Gear) -> Chart {
     chart.x_range(range).x_format(".3f").mark_path_points(points)
 }
 
-fn profile_of(gear: Gear) -> Quantity {
+fn profile_of(gear: Gear) -> ComparedQuantity {
     match gear {
-        Gear::Pinion => Quantity::PinionWearProfile,
-        Gear::Wheel => Quantity::WheelWearProfile,
+        Gear::Pinion => ComparedQuantity::PinionWearProfile,
+        Gear::Wheel => ComparedQuantity::WheelWearProfile,
     }
 }

@@ -4,20 +4,20 @@ use maud::{Markup, html};
 
 use crate::report::html::number::{count, fixed, percent, significant};
 use crate::report::html::table::{Cell, cells, line, list};
-use crate::studies::accuracy::record::{AccuracyRecord, Comparison, DeepRun, Quantity, VariantRecord};
+use crate::studies::accuracy::record::{AccuracyRecord, ComparedQuantity, DeepRun, SettingComparison, VariantRecord};
 
 /// The quantities with a column of their own in the table of all runs, where they are measured.
-const SHOWN: [(Quantity, &str); 10] = [
-    (Quantity::WearProfile, "wear profile"),
-    (Quantity::PinionPeakWear, "maximum wear, pinion"),
-    (Quantity::PinionTipEdgeWear, "its tip edge"),
-    (Quantity::FlankPressure, "flank pressure"),
-    (Quantity::PeakPressure, "maximum at a point"),
-    (Quantity::HalfWidth, "half-width"),
-    (Quantity::TransmissionError, "transmission error"),
-    (Quantity::WornTransmissionError, "the same, worn"),
-    (Quantity::RootWear, "root wear"),
-    (Quantity::WornFaceLoadFactor, "K_Hβ, worn"),
+const SHOWN: [(ComparedQuantity, &str); 10] = [
+    (ComparedQuantity::WearProfile, "wear profile"),
+    (ComparedQuantity::PinionPeakWear, "maximum wear, pinion"),
+    (ComparedQuantity::PinionTipEdgeWear, "its tip edge"),
+    (ComparedQuantity::FlankPressure, "flank pressure"),
+    (ComparedQuantity::PeakPressure, "maximum at a point"),
+    (ComparedQuantity::HalfWidth, "half-width"),
+    (ComparedQuantity::TransmissionError, "transmission error"),
+    (ComparedQuantity::WornTransmissionError, "the same, worn"),
+    (ComparedQuantity::RootWear, "root wear"),
+    (ComparedQuantity::WornFaceLoadFactor, "K_Hβ, worn"),
 ];
 
 /// The cheapest setting for each quantity.
@@ -41,7 +41,7 @@ pub(super) fn recommendations(record: &AccuracyRecord) -> Markup {
     }
 }
 
-/// The quantities without a ranking, and what would give them one.
+/// Quantities without a ranking, and the remedy.
 fn not_ranked(record: &AccuracyRecord) -> Markup {
     if record.not_ranked.is_empty() {
         return Markup::default();
@@ -61,17 +61,21 @@ fn not_ranked(record: &AccuracyRecord) -> Markup {
     )
 }
 
+fn profile_error(run: &VariantRecord) -> f64 {
+    run.errors.get(&ComparedQuantity::WearProfile).map_or(f64::INFINITY, |error| error.relative)
+}
+
 /// Every run, the most accurate wear profile first, those without a result last.
 pub(super) fn runs(record: &AccuracyRecord) -> Markup {
     let mut sorted: Vec<&VariantRecord> = record.variants.iter().collect();
-    let error = |v: &VariantRecord| v.errors.get(&Quantity::WearProfile).map_or(f64::INFINITY, |e| e.relative);
-    sorted.sort_by(|a, b| error(a).total_cmp(&error(b)));
-    let shown: Vec<(Quantity, &str)> = SHOWN.into_iter().filter(|&(quantity, _)| record.measures(quantity)).collect();
+    sorted.sort_by(|a, b| profile_error(a).total_cmp(&profile_error(b)));
+    let shown: Vec<(ComparedQuantity, &str)> =
+        SHOWN.into_iter().filter(|&(quantity, _)| record.measures(quantity)).collect();
     let columns = ["run", "time, s", "set-up, s", "equilibria"].into_iter().chain(shown.iter().map(|&(_, name)| name));
     let rows = sorted.into_iter().map(|v| {
         let errors = shown.iter().map(|(quantity, _)| {
-            let mark = |on_front: bool| if on_front { " ●" } else { "" };
-            Cell::from(v.errors.get(quantity).map(|error| percent(error.relative) + mark(error.on_front)))
+            let error = v.errors.get(quantity);
+            Cell::from(error.map(|error| percent(error.relative) + if error.on_front { " ●" } else { "" }))
         });
         let run = cells![
             named(&v.name, &v.failure),
@@ -85,7 +89,7 @@ pub(super) fn runs(record: &AccuracyRecord) -> Markup {
 }
 
 /// Runs that differ in one respect only.
-pub(super) fn comparison(of: &Comparison) -> Markup {
+pub(super) fn comparison(of: &SettingComparison) -> Markup {
     let columns = ["profile, pinion", "profile, wheel", "maximum wear, pinion", "maximum wear, wheel", "time, s"];
     let rows = of.rows.iter().map(|row| {
         line(cells![
@@ -118,35 +122,41 @@ pub(super) fn deep_runs(record: &AccuracyRecord) -> Markup {
         "stable",
     ];
     let rows = deep.rows.iter().map(|row| {
-        let of = |run: &Option<DeepRun>, cell: fn(&DeepRun) -> String| run.as_ref().map(cell);
-        let rough = |run: &DeepRun| percent(run.roughness.pinion.max(run.roughness.wheel));
-        let steps = |run: &DeepRun| format!("{}{}", run.wear_steps, if run.warned { " (warned)" } else { "" });
-        let time = |run: &DeepRun| seconds(run.simulation_s);
-        let deepest = |run: &DeepRun| {
-            format!("{} / {}", significant(run.peak_wear_um.pinion, 3), significant(run.peak_wear_um.wheel, 3))
-        };
+        let (usual, fewer_steps) = (row.usual.as_ref(), row.fewer_steps.as_ref());
         line(cells![
             named(&row.name, &row.failure),
-            of(&row.usual, deepest),
+            usual.map(peak_wear),
             row.wear_profile.map(percent),
-            of(&row.usual, rough),
-            of(&row.usual, steps),
-            of(&row.usual, time),
-            of(&row.fewer_steps, steps),
-            of(&row.fewer_steps, time),
+            usual.map(roughness),
+            usual.map(steps),
+            usual.map(|run| seconds(run.simulation_s)),
+            fewer_steps.map(steps),
+            fewer_steps.map(|run| seconds(run.simulation_s)),
             row.peak_wear_change.map(percent),
-            of(&row.fewer_steps, rough),
+            fewer_steps.map(roughness),
             row.stable.map(|stable| if stable { "yes" } else { "no" }.to_owned()),
         ])
     });
     let caption = format!(
         "To a greater depth: {}. Profile: difference from {}. Stable: with the fewer, longer wear steps the maximum wear of \
-         neither gear changes by more than {}. Roughness: what of the depth jumps from point to point",
+         neither gear changes by more than {}. Roughness: part of the depth that alternates from point to point",
         deep.common,
         deep.baseline,
         percent(deep.stable_within)
     );
     list(caption, columns, rows)
+}
+
+fn peak_wear(run: &DeepRun) -> String {
+    format!("{} / {}", significant(run.peak_wear_um.pinion, 3), significant(run.peak_wear_um.wheel, 3))
+}
+
+fn roughness(run: &DeepRun) -> String {
+    percent(run.roughness.pinion.max(run.roughness.wheel))
+}
+
+fn steps(run: &DeepRun) -> String {
+    format!("{}{}", run.wear_steps, if run.warned { " (warned)" } else { "" })
 }
 
 pub(super) fn left_out(record: &AccuracyRecord) -> Markup {

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::gear::{Gear, PerGear};
 use crate::report::csv_table::{Column, table, table_of, variants};
-use crate::studies::accuracy::record::{AccuracyRecord, Quantity, ReferenceFlank, VariantRecord};
+use crate::studies::accuracy::record::{AccuracyRecord, ComparedQuantity, ReferenceFlank, VariantRecord};
 
 #[derive(Serialize, JsonSchema)]
 struct OverWidthRow<'a> {
@@ -25,7 +25,7 @@ struct OverWidthRow<'a> {
 }
 
 #[derive(Serialize, JsonSchema)]
-struct ProfileRow<'a> {
+struct WearProfileRow<'a> {
     /// of the run; reference for the reference
     name: &'a str,
     /// pinion or wheel
@@ -89,12 +89,12 @@ fn text(value: Option<impl ToString>) -> Option<String> {
 
 pub(crate) fn runs(out: &mut dyn Write, record: &AccuracyRecord) -> io::Result<Vec<Column>> {
     let mut columns = RUN_COLUMNS.map(|(name, meaning, _)| (name.to_owned(), meaning.to_owned())).to_vec();
-    for (name, meaning) in variants::<Quantity>() {
+    for (name, meaning) in variants::<ComparedQuantity>() {
         let on_front = "whether no faster run has a smaller one".to_owned();
         columns.extend([(format!("{name}_error"), meaning), (format!("{name}_on_front"), on_front)]);
     }
     let rows = record.variants.iter().map(|variant| {
-        let errors = Quantity::ALL.map(|quantity| variant.errors.get(&quantity));
+        let errors = ComparedQuantity::ALL.map(|quantity| variant.errors.get(&quantity));
         let cells = errors.map(|error| (text(error.map(|error| error.relative)), error.map(|error| error.on_front)));
         (RUN_COLUMNS.map(|(_, _, cell)| cell(variant)), cells)
     });
@@ -107,7 +107,7 @@ pub(crate) fn profiles(out: &mut dyn Write, record: &AccuracyRecord) -> io::Resu
         let flank = &record.reference.flanks[gear];
         flank.shown_slices().into_iter().flat_map(move |slice| {
             let values = flank.slice(wear_um, slice).iter().zip(flank.slice(&flank.wear_um, slice));
-            flank.radius_mm.iter().zip(values).map(move |(&radius_mm, (&wear_um, &reference))| ProfileRow {
+            flank.radius_mm.iter().zip(values).map(move |(&radius_mm, (&wear_um, &reference))| WearProfileRow {
                 name,
                 gear,
                 radius_mm,
@@ -150,7 +150,7 @@ mod tests {
     /// The columns of errors stand in the order of the quantities.
     #[test]
     fn quantities_are_named_as_their_errors_are_written() {
-        let names: Vec<String> = variants::<Quantity>().into_iter().map(|(name, _)| name).collect();
-        assert_eq!(names, Quantity::ALL.map(|quantity| quantity.to_string()));
+        let names: Vec<String> = variants::<ComparedQuantity>().into_iter().map(|(name, _)| name).collect();
+        assert_eq!(names, ComparedQuantity::ALL.map(|quantity| quantity.to_string()));
     }
 }

@@ -10,7 +10,7 @@ use crate::report::chart::{Chart, Dash, MUTED, NEW, Trace, WORN, padded};
 use crate::report::html::number::{figure, fixed, significant};
 use crate::report::html::reading::greatest;
 use crate::results::path_points::among;
-use crate::studies::compare::record::{CompareRecord, CompareRow, Estimate, ProfileRecord};
+use crate::studies::compare::record::{CompareRecord, CompareRow, FittedValue, ProfileRecord};
 
 const MEASURED: &str = "var(--wheel)";
 const SIMULATED: &str = "var(--pinion)";
@@ -19,32 +19,29 @@ const ELLIPSE_POINTS: usize = 120;
 
 /// The plots of each profile.
 pub(super) fn of_profiles(record: &CompareRecord) -> Vec<Chart> {
-    let of_profile = |of: &ProfileRecord| {
-        let shown = Shown { of, is_fitted: record.fit.is_of_wear(), is_alone: record.profiles.len() == 1 };
+    let charts = record.profiles.iter().flat_map(|of| {
+        let shown = ShownProfile { of, is_fitted: record.fit.is_of_wear(), is_alone: record.profiles.len() == 1 };
         [shown.profiles(), shown.depths(), shown.differences()].map(|chart| shown.over_radius(chart))
-    };
-    record.profiles.iter().flat_map(of_profile).collect()
+    });
+    charts.collect()
 }
 
 /// The coefficients of both gears, where each was fitted: the ellipse whose extents are their intervals.
 pub(super) fn coefficients(record: &CompareRecord) -> Option<Chart> {
     let fit = &record.fit;
     let correlation = fit.coefficient_correlation()?;
-    let of_gear = |gear| fit.coefficients.iter().find(|own| own.gear == Some(gear)).map(|own| own.coefficient_m2_per_N);
-    let (pinion, wheel) = (of_gear(Gear::Pinion)?, of_gear(Gear::Wheel)?);
-    // Logarithms, which are what is fitted, and half the widths of their intervals.
-    let logarithm = |of: Estimate| Some((of.value.ln(), 0.5 * (of.high?.ln() - of.low?.ln())));
+    let [pinion, wheel] = Gear::BOTH.map(|gear| fit.coefficients.iter().find(|own| own.gear == Some(gear)));
+    let (pinion, wheel) = (pinion?.coefficient_m2_per_N, wheel?.coefficient_m2_per_N);
     let ((x, half_x), (y, half_y)) = (logarithm(pinion)?, logarithm(wheel)?);
     let across = (1.0 - correlation * correlation).max(0.0).sqrt();
-    let turns = || (0..=ELLIPSE_POINTS).map(|i| TAU * i as f64 / ELLIPSE_POINTS as f64);
-    let ellipse_x: Vec<f64> = turns().map(|turn| (x + half_x * turn.cos()).exp()).collect();
-    let along_y = |turn: f64| correlation * turn.cos() + across * turn.sin();
-    let ellipse_y: Vec<f64> = turns().map(|turn| (y + half_y * along_y(turn)).exp()).collect();
-    let range = |ellipse: &[f64], of_run: f64| {
-        let [low, high] = extent(ellipse.iter().copied().chain([of_run]));
+    let turns = (0..=ELLIPSE_POINTS).map(|i| TAU * i as f64 / ELLIPSE_POINTS as f64);
+    let ellipse_x: Vec<f64> = turns.clone().map(|turn| (x + half_x * turn.cos()).exp()).collect();
+    let along_y = turns.map(|turn| correlation * turn.cos() + across * turn.sin());
+    let ellipse_y: Vec<f64> = along_y.map(|along| (y + half_y * along).exp()).collect();
+    let [range_x, range_y] = [(&ellipse_x, pinion), (&ellipse_y, wheel)].map(|(ellipse, estimate)| {
+        let [low, high] = extent(ellipse.iter().copied().chain([estimate.of_run]));
         padded(low, high)
-    };
-    let (range_x, range_y) = (range(&ellipse_x, pinion.of_run), range(&ellipse_y, wheel.of_run));
+    });
     let ratio = fit.coefficient_ratio.as_ref().map_or_else(String::new, |ratio| {
         format!(
             " The coefficient of the pinion is {} times that of the wheel{}.",
@@ -57,27 +54,33 @@ pub(super) fn coefficients(record: &CompareRecord) -> Option<Chart> {
         fixed(correlation, 2)
     );
     let hover = "pinion %{x:.4e}, wheel %{y:.4e} m²/N";
-    let point = |name, [x, y]: [f64; 2], sign| Trace::points(name, [x], [y], sign).hover(hover);
+    let fitted = Trace::points("fitted", [pinion.value], [wheel.value], (WORN, "cross", 9));
+    let of_run = Trace::points("run", [pinion.of_run], [wheel.of_run], (NEW, "circle", 8));
     let chart = Chart::new("coefficients", "Wear coefficients of pinion and wheel").height(460).read_nearest();
     let chart = chart.x("k of the pinion, m²/N").x_range(range_x).y("k of the wheel, m²/N").y_range(range_y);
     Some(
         chart
             .reading(reading)
             .line("95 %", ellipse_x, ellipse_y, (WORN, 1.4, Dash::Solid), hover)
-            .add(point("fitted", [pinion.value, wheel.value], (WORN, "cross", 9)))
-            .add(point("run", [pinion.of_run, wheel.of_run], (NEW, "circle", 8))),
+            .add(fitted.hover(hover))
+            .add(of_run.hover(hover)),
     )
 }
 
+/// Logarithm, which is what is fitted, and half the width of its interval.
+fn logarithm(of: FittedValue) -> Option<(f64, f64)> {
+    Some((of.value.ln(), 0.5 * (of.high?.ln() - of.low?.ln())))
+}
+
 /// A profile with what its plots need to know of the others.
-struct Shown<'a> {
+struct ShownProfile<'a> {
     of: &'a ProfileRecord,
     /// Whether there is another simulated profile beside that of the run as it is.
     is_fitted: bool,
     is_alone: bool,
 }
 
-impl Shown<'_> {
+impl ShownProfile<'_> {
     /// A plot that the other profile has too.
     fn chart(&self, id: &str, title: &str) -> Chart {
         let gear = self.of.gear.name();
@@ -193,7 +196,7 @@ impl Shown<'_> {
             for (name, value) in [("uncertainty of a height", uncertainty), ("", -uncertainty)] {
                 let radius = self.of.rows.iter().map(|row| row.radius_mm);
                 let level = Trace::line(name, radius, self.of.rows.iter().map(|_| value), (MUTED, 1.0, Dash::Dashed));
-                chart = chart.add(level.set("showlegend", !name.is_empty()).hover("%{y:.3f} µm"));
+                chart = chart.add(level.listed(!name.is_empty()).hover("%{y:.3f} µm"));
             }
         }
         let differences = self.column(|row| row.difference_um);

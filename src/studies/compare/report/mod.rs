@@ -17,6 +17,7 @@ use crate::studies::compare::record::{CompareRecord, CompareRow};
 
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "compare.json";
+const POINTS: &str = "compare.csv";
 
 /// Writes all files of `record` into `dir`, which is made if need be.
 pub(crate) fn write(record: &CompareRecord, dir: &Path) -> Result<(), ReportError> {
@@ -25,7 +26,7 @@ pub(crate) fn write(record: &CompareRecord, dir: &Path) -> Result<(), ReportErro
     let provenance = Provenance::of_scene(&record.program_version, &record.scene_hash);
     let mut csv = CsvFiles::new(dir, provenance);
     let rows: Vec<CompareRow> = record.profiles.iter().flat_map(|of| &of.rows).copied().collect();
-    csv.place("compare.csv", |out| table(out, &rows))?;
+    csv.place(POINTS, |out| table(out, &rows))?;
     csv.finish()?;
     place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?;
     place(dir, LAST, |out| write_json(out, record)).map(drop)

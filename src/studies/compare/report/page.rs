@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::figures;
+use super::{LAST, POINTS, figures};
 use crate::gear::Gear;
 use crate::measurement::fit::FitStop;
 use crate::report::html::number::{figure, fixed, given, hours, revolutions, significant};
@@ -10,13 +10,11 @@ use crate::report::html::page::{Page, Plots, section, sources_list};
 use crate::report::html::reading::capitalised;
 use crate::report::html::table::{Cell, NONE, line, list, row, table};
 use crate::results::run::ReportedBy;
-use crate::studies::compare::record::{CompareRecord, Correlation, Estimate, ProfileRecord};
+use crate::studies::compare::record::{CoefficientCorrelation, CompareRecord, FittedValue, ProfileRecord};
 use crate::studies::compare::unknown::Unknown;
 
-const DATA_FILES: [(&str, &str); 2] = [
-    ("compare.json", "the figures and what was fitted"),
-    ("compare.csv", "measured and simulated profile, point by point"),
-];
+const DATA_FILES: [(&str, &str); 2] =
+    [(LAST, "the figures and what was fitted"), (POINTS, "measured and simulated profile, point by point")];
 
 pub(super) fn page(record: &CompareRecord) -> String {
     let sources = sources_list(&DATA_FILES, "The resolved scene of the run", &record.scene_toml);
@@ -43,11 +41,15 @@ pub(super) fn page(record: &CompareRecord) -> String {
     .html()
 }
 
-fn answer(record: &CompareRecord) -> String {
-    let when = |of: &ProfileRecord| match of.hours {
+/// Time when a profile was measured.
+fn when(of: &ProfileRecord) -> String {
+    match of.hours {
         Some(time) => format!("{} h", hours(time)),
         None => format!("{} pinion revolutions", revolutions(of.revolutions)),
-    };
+    }
+}
+
+fn answer(record: &CompareRecord) -> String {
     let (fit, profiles) = (&record.fit, &record.profiles);
     let (whose, are_many) = match &profiles[..] {
         [one] => (format!("The {}’s profile after {}", one.gear.name(), when(one)), false),
@@ -58,13 +60,15 @@ fn answer(record: &CompareRecord) -> String {
             (format!("The profiles of {} after {}", gears.join(" and "), times.join(" and ")), true)
         }
     };
-    let verb = |one: &'static str, many: &'static str| if are_many { many } else { one };
+    let [was, does, it, differs, simulated, residual, fitted] = match are_many {
+        false => ["was", "does", "it", "differs", "one", "the residual is", "is fitted"],
+        true => ["were", "do", "them", "differ", "ones", "the residuals are", "are fitted"],
+    };
     match fit.stopped {
         FitStop::MaxIterations | FitStop::NotFinite => {
-            return format!("{whose} {} compared, but the fit did not converge.", verb("was", "were"));
+            return format!("{whose} {was} compared, but the fit did not converge.");
         }
         FitStop::AtBound | FitStop::Undetermined if !matches!(fit.blamed, Some(Unknown::Shift(_))) => {
-            let (does, it) = (verb("does", "do"), verb("it", "them"));
             return format!("{whose} {does} not give what was to be fitted to {it}.");
         }
         _ => {}
@@ -72,8 +76,7 @@ fn answer(record: &CompareRecord) -> String {
     let differences: Vec<String> = profiles.iter().map(|of| figure(of.figures.difference_um)).collect();
     let difference = differences.join(" and ");
     if !fit.is_of_wear() {
-        let (differs, one) = (verb("differs", "differ"), verb("one", "ones"));
-        return format!("{whose} {differs} from the simulated {one} by {difference} µm (root mean square).");
+        return format!("{whose} {differs} from the simulated {simulated} by {difference} µm (root mean square).");
     }
     let mut found: Vec<String> = Vec::new();
     for own in &fit.coefficients {
@@ -84,8 +87,6 @@ fn answer(record: &CompareRecord) -> String {
     let correlated = fit.coefficient_correlation().map_or_else(String::new, |correlation| {
         format!(" The correlation coefficient of both coefficients is {}.", fixed(correlation, 2))
     });
-    let residual = verb("the residual is", "the residuals are");
-    let fitted = verb("is fitted", "are fitted");
     format!(
         "{whose} {fitted} best by {}; {residual} {difference} µm (root mean square).{correlated}",
         found.join(" and ")
@@ -93,12 +94,12 @@ fn answer(record: &CompareRecord) -> String {
 }
 
 /// "a wear coefficient of …, 95 % interval … to …".
-fn of_estimate(what: &str, estimate: &Estimate) -> String {
+fn of_estimate(what: &str, estimate: &FittedValue) -> String {
     format!("{what} of {}{}", significant(estimate.value, 3), interval(estimate))
 }
 
 /// ", 95 % interval … to …".
-pub(super) fn interval(estimate: &Estimate) -> String {
+pub(super) fn interval(estimate: &FittedValue) -> String {
     match (estimate.low, estimate.high) {
         (Some(low), Some(high)) => {
             format!(", 95 % interval {} to {}", significant(low, 3), significant(high, 3))
@@ -107,24 +108,27 @@ pub(super) fn interval(estimate: &Estimate) -> String {
     }
 }
 
+fn estimated(name: String, unit: &str, e: &FittedValue) -> Markup {
+    let [low, high] = [e.low, e.high].map(|end| end.map_or_else(|| NONE.to_owned(), |end| significant(end, 4)));
+    row(name, unit, [significant(e.of_run, 4), significant(e.value, 4), low, high])
+}
+
+fn of_gear(what: &str, gear: Option<Gear>) -> String {
+    gear.map_or_else(|| what.to_owned(), |gear| format!("{what} of the {}", gear.name()))
+}
+
 /// The tables, and the plot of the coefficients.
 fn tables(record: &CompareRecord, correlated: Option<Markup>) -> Markup {
     let (fit, profiles) = (&record.fit, &record.profiles);
-    let estimated = |name: String, unit: &str, e: &Estimate| {
-        let end = |value: Option<f64>| value.map_or_else(|| NONE.to_owned(), |value| significant(value, 4));
-        row(name, unit, [significant(e.of_run, 4), significant(e.value, 4), end(e.low), end(e.high)])
-    };
     let several = profiles.len() > 1;
-    let of = |what: &str, gear: Option<Gear>| match gear.filter(|_| several) {
-        Some(gear) => format!("{what} of the {}", gear.name()),
-        None => what.to_owned(),
-    };
     let mut fitted = Vec::new();
     for own in &fit.coefficients {
-        fitted.push(estimated(of("wear coefficient k", own.gear), "m²/N", &own.coefficient_m2_per_N));
+        let name = of_gear("wear coefficient k", own.gear.filter(|_| several));
+        fitted.push(estimated(name, "m²/N", &own.coefficient_m2_per_N));
     }
     for own in &fit.coefficients {
-        fitted.push(estimated(of("factor on the scene’s coefficients", own.gear), "", &own.factor));
+        let name = of_gear("factor on the scene’s coefficients", own.gear.filter(|_| several));
+        fitted.push(estimated(name, "", &own.factor));
     }
     let ratio = fit.coefficient_ratio.iter();
     fitted
@@ -137,14 +141,14 @@ fn tables(record: &CompareRecord, correlated: Option<Markup>) -> Markup {
         };
         fitted.extend(profile.shift_mm.iter().map(|shift| estimated(name.clone(), "mm", shift)));
     }
-    let figures = |value: fn(&ProfileRecord) -> Option<f64>| profiles.iter().map(value).collect::<Vec<_>>();
-    let cutoff = given(profiles[0].figures.cutoff_mm);
+    let figures = profiles.iter().map(|of| &of.figures);
+    let roughness = format!("Ra, cutoff {} mm, measured", given(profiles[0].figures.cutoff_mm));
     let of_profiles = [
-        row("arithmetic mean deviation, measured", "µm", figures(|of| Some(of.figures.mean_deviation_um))),
-        row("the same, simulated", "µm", figures(|of| Some(of.figures.simulated_mean_deviation_um))),
-        row(format!("Ra, cutoff {cutoff} mm, measured"), "µm", figures(|of| of.figures.roughness_um)),
-        row("difference as run, root mean square", "µm", figures(|of| Some(of.figures.as_run_difference_um))),
-        row("difference after the fit", "µm", figures(|of| Some(of.figures.difference_um))),
+        row("arithmetic mean deviation, measured", "µm", figures.clone().map(|of| of.mean_deviation_um)),
+        row("the same, simulated", "µm", figures.clone().map(|of| of.simulated_mean_deviation_um)),
+        row(roughness, "µm", figures.clone().map(|of| of.roughness_um)),
+        row("difference as run, root mean square", "µm", figures.clone().map(|of| of.as_run_difference_um)),
+        row("difference after the fit", "µm", figures.map(|of| of.difference_um)),
     ];
     let names: Vec<&str> = profiles.iter().map(|of| if several { of.gear.name() } else { "" }).collect();
     let mut forms: Vec<&str> = profiles.iter().map(|of| of.form.as_str()).collect();
@@ -162,14 +166,15 @@ fn tables(record: &CompareRecord, correlated: Option<Markup>) -> Markup {
     }
 }
 
-/// Each pair of fitted values once.
-fn correlations(correlation: &Correlation) -> Markup {
+/// Rows of the correlations, each pair of fitted values once.
+fn correlations(correlation: &CoefficientCorrelation) -> Markup {
     let names: Vec<String> = correlation.parameters.iter().map(|unknown| unknown.name()).collect();
     let count = names.len();
     let columns = [String::new()].into_iter().chain(names[..count - 1].iter().cloned());
     let rows = (1..count).map(|i| {
-        let known = |j: usize| if j < i { fixed(correlation.matrix[i][j], 2) } else { String::new() };
-        line([capitalised(&names[i])].into_iter().chain((0..count - 1).map(known)).map(Cell::from))
+        let known = correlation.matrix[i][..i].iter().map(|r| fixed(*r, 2));
+        let cells = known.chain((i..count - 1).map(|_| String::new()));
+        line([capitalised(&names[i])].into_iter().chain(cells).map(Cell::from))
     });
     list("Correlation coefficients of the fitted values", columns, rows)
 }

@@ -4,15 +4,15 @@ use toml::{Table, Value};
 
 use super::{ROUNDING, SOLVED};
 use crate::studies::invariants::comparison::{Bounds, Follows, compare, compare_new};
-use crate::studies::invariants::relation::{POSITIONS, Relation, Subject, Verdict};
+use crate::studies::invariants::relation::{POSITIONS, RelationOutcome, SceneRelation, Subject};
 use crate::studies::invariants::scene_table::{exchange_gears, number, scaled, with, word};
 use crate::studies::invariants::traits_of_scene::{
     follows_tip_edges, has_heat_or_oil, has_large_strains, is_hard_severe, is_on, is_severe, is_sliced,
     takes_stable_steps, tolerance_of_steps_um, touches_beyond_range,
 };
 
-pub(super) const RELATIONS: &[Relation] = &[
-    Relation {
+pub(super) const RELATIONS: &[SceneRelation] = &[
+    SceneRelation {
         name: "roles exchanged",
         states: "A mesh without friction runs backwards as it runs forwards: driven by the other gear, each gear wears as before.",
         bound: "without slices, from A to E: a stretch of the path too short to hold a position goes to the one before it, seen from E to another, 0.2 % of \
@@ -22,7 +22,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         is_rare: false,
         check: roles,
     },
-    Relation {
+    SceneRelation {
         name: "face width turned round",
         states: "With helix angle, slopes, shaft ends and axes turned round, wear over the face width is turned round.",
         bound: "solver tolerance; worn by adaptive steps numerics.tolerance_um",
@@ -31,36 +31,54 @@ pub(super) const RELATIONS: &[Relation] = &[
     },
 ];
 
-fn roles(subject: &Subject<'_>) -> Verdict {
+fn roles(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
-    // Where loads jump at the end of the range of tip edges, each run has the jump where its own driving gear has it. Where strains are large, so is the
-    // difference of the levers that tip edges have on either gear.
+    // Where loads jump at the end of the range of tip edges, the place of the jump depends on which gear drives. Where strains are large, so is the
+    // difference between the lever arms of tip edges on the two gears.
     if touches_beyond_range(subject.record) || has_large_strains(subject.record) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
-    // Heat and oil know which gear drives: approach and recess, and the ratio of speeds within a phase.
+    // Heat and oil depend on which gear drives: approach and recess, and the ratio of speeds within a phase.
     if has_heat_or_oil(table) || is_severe(table) || is_on(table, "fem") || !takes_stable_steps(subject.record) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let (Some(z1), Some(z2)) = (number(table, "pair.pinion.teeth"), number(table, "pair.wheel.teeth")) else {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     };
     // With as many teeth ISO 6336 takes the driving gear for its gear 1.
     if z1 == z2 && word(table, "stiffness.model") == Some("iso6336") {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
-    let backwards = |table: &Table| {
-        let u = z2 / z1;
-        let mut other = scaled(table, &|key| match key {
-            "pinion_torque_Nm" => u,
-            "pinion_speed_rpm" | "pinion_revolutions" | "revolutions" | "snapshots_revolutions" => 1.0 / u,
-            // Backwards, the slice that was the first to enter is the last.
-            "helix_angle_deg" => -1.0,
-            _ => 1.0,
-        });
-        exchange_gears(&mut other);
-        other
-    };
+    // Positions are those of the driving gear; the driven one lags by the transmission error, and the tip edges of the two runs differ by as much.
+    // With lever arms r_b1 both runs agree within 1e-14, with those of edges 2.4 mm outside within 0.80 of the lag (seed 19, 6456).
+    let lags = follows_tip_edges(table);
+    let follows = Follows { exchanged: true, lags, ..Follows::default() };
+    let bounds = bounds_of_roles(table);
+    subject.refined(
+        &[POSITIONS],
+        |table| backwards(table, z2 / z1),
+        |one, other| match takes_stable_steps(one) && takes_stable_steps(other) {
+            true => compare(one, other, &follows, bounds),
+            // More positions need shorter wear steps; the new pair needs none.
+            false => compare_new(one, other, &follows, bounds),
+        },
+    )
+}
+
+/// The scene with its gears exchanged; `u` is the gear ratio.
+fn backwards(table: &Table, u: f64) -> Table {
+    let mut other = scaled(table, &|key| match key {
+        "pinion_torque_Nm" => u,
+        "pinion_speed_rpm" | "pinion_revolutions" | "revolutions" | "snapshots_revolutions" => 1.0 / u,
+        // In reverse, the slice that entered first enters last.
+        "helix_angle_deg" => -1.0,
+        _ => 1.0,
+    });
+    exchange_gears(&mut other);
+    other
+}
+
+fn bounds_of_roles(table: &Table) -> Bounds {
     // Points in another order: adaptive steps take their probes as noise by the number of a point.
     let tolerance_um = tolerance_of_steps_um(table);
     let no_point = Bounds {
@@ -71,35 +89,23 @@ fn roles(subject: &Subject<'_>) -> Verdict {
         tolerance_um,
         ..Bounds::all(0.0)
     };
-    let bounds = match (is_sliced(table), follows_tip_edges(table)) {
-        // Positions of slices lie over one base pitch, which does not look the same from both ends, and a slice of a few that comes in moves
-        // the transmission error by its share.
+    match (is_sliced(table), follows_tip_edges(table)) {
+        // A slice enters with a jump, and a position at the jump may be on either side of it.
+        (true, _) if is_on(table, "hertz-mean") => Bounds { cycle: f64::INFINITY, ..no_point },
+        // Positions of a pair with slices lie over one base pitch, which differ between the directions; where there are few slices, one that enters
+        // moves the transmission error by its share.
         (true, _) => Bounds { cycle: 0.15, ..no_point },
         (false, true) => no_point,
         (false, false) => {
             Bounds { wear: 0.02, volume: 2e-3, pressure: 0.2, cycle: 1e-3, tolerance_um, ..Bounds::all(0.0) }
         }
-    };
-    let bounds = match (is_on(table, "hertz-mean"), is_sliced(table)) {
-        // A slice comes in all at once: a position at the jump is on one side of it or on the other.
-        (true, true) => Bounds { cycle: f64::INFINITY, ..bounds },
-        _ => bounds,
-    };
-    // Positions are those of the driving gear, behind which the driven one stays by the transmission error: so far apart are the two runs' tip edges. With
-    // levers of r_b1 alone both runs are alike within 1e-14, where those of edges 2.4 mm outside are 0.80 of it (seed 19, 6456).
-    let lags = follows_tip_edges(table);
-    let follows = Follows { exchanged: true, lags, ..Follows::default() };
-    subject.refined(&[POSITIONS], backwards, |one, other| match takes_stable_steps(one) && takes_stable_steps(other) {
-        true => compare(one, other, &follows, bounds),
-        // More positions ask for shorter steps, the new pair for none.
-        false => compare_new(one, other, &follows, bounds),
-    })
+    }
 }
 
-fn mirror(subject: &Subject<'_>) -> Verdict {
+fn mirror(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     if !is_sliced(table) || is_hard_severe(table) || !takes_stable_steps(subject.record) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let mut other = scaled(table, &|key| match key {
         "helix_angle_deg" | "helix_slope_deviation_um" | "in_plane_um" | "out_of_plane_um" => -1.0,

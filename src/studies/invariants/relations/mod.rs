@@ -8,10 +8,10 @@ mod similarity;
 mod superposition;
 mod time;
 
-use super::relation::Relation;
+use super::relation::SceneRelation;
 
 /// All relations, in the order in which they are reported.
-pub(crate) fn all() -> Vec<Relation> {
+pub(crate) fn all() -> Vec<SceneRelation> {
     [
         exchange::RELATIONS,
         similarity::RELATIONS,

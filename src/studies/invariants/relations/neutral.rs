@@ -6,71 +6,71 @@ use super::ROUNDING;
 use super::resolution::volumes_and_error;
 use crate::results::run::RunRecord;
 use crate::studies::invariants::comparison::{Bounds, Follows, Measured, compare, summaries};
-use crate::studies::invariants::relation::{POSITIONS, Relation, Subject, Verdict};
+use crate::studies::invariants::relation::{POSITIONS, RelationOutcome, SceneRelation, Subject};
 use crate::studies::invariants::scene_table::{gives, number, value, with};
 use crate::studies::invariants::traits_of_scene::{
     follows_tip_edges, has_finite_elements, has_heat_or_oil, has_one_coefficient, is_severe, is_sliced,
     takes_stable_steps,
 };
 
-pub(super) const RELATIONS: &[Relation] = &[
-    Relation {
+pub(super) const RELATIONS: &[SceneRelation] = &[
+    SceneRelation {
         name: "resolved scene again",
         states: "The resolved scene that a run writes gives the same run.",
         bound: "none: the same bits",
         is_rare: false,
         check: resolved_again,
     },
-    Relation {
+    SceneRelation {
         name: "neutral film",
         states: "A factor of 1 at every film changes nothing.",
         bound: "rounding",
         is_rare: true,
         check: neutral_film,
     },
-    Relation {
+    SceneRelation {
         name: "neutral temperature factor",
         states: "A factor of 1 at every temperature of the teeth, and a modulus that does not depend on it, change nothing.",
         bound: "rounding",
         is_rare: true,
         check: neutral_warm,
     },
-    Relation {
+    SceneRelation {
         name: "neutral severe wear",
         states: "Severe wear with a factor of 1 changes nothing.",
         bound: "rounding",
         is_rare: false,
         check: neutral_severe,
     },
-    Relation {
+    SceneRelation {
         name: "law of each gear",
         states: "A law written for each gear, with the coefficient of both, changes nothing.",
         bound: "rounding",
         is_rare: false,
         check: law_of_each_gear,
     },
-    Relation {
+    SceneRelation {
         name: "half of the pinion by a factor",
         states: "A factor of ½ on the pinion at every film is half of its wear coefficient.",
         bound: "rounding",
         is_rare: true,
         check: half_of_pinion,
     },
-    Relation {
+    SceneRelation {
         name: "half of the wheel by a factor",
         states: "A factor of ½ on the wheel at every film or temperature is half of its wear coefficient.",
         bound: "rounding",
         is_rare: true,
         check: half_of_wheel,
     },
-    Relation {
+    SceneRelation {
         name: "half by severe wear",
         states: "Severe wear at any pressure with a factor of ½ on one gear is half of its wear coefficient.",
         bound: "rounding",
         is_rare: false,
         check: half_severe,
     },
-    Relation {
+    SceneRelation {
         name: "slices of a spur pair",
         states: "A pair without slices is any of its slices: a lead crowning of a millionth of a micrometre changes nothing.",
         bound: "positions of slices lie over one base pitch, others than those from A to E: 15 % of the volume, 5 % of the transmission error; \
@@ -80,10 +80,10 @@ pub(super) const RELATIONS: &[Relation] = &[
     },
 ];
 
-/// What other positions make of the least and the greatest transmission error.
+/// Relative effect of other positions on the least and the greatest transmission error.
 const OF_POSITIONS: f64 = 0.05;
 
-/// Everything of two runs that are to be the same.
+/// Differences of all figures of two runs that must be the same.
 fn alike(one: &RunRecord, other: &RunRecord, bound: f64, besides: &[&str]) -> Vec<Measured> {
     let (value, path) = summaries(&one.summary, &other.summary, besides);
     let mut found = compare(one, other, &Follows::default(), Bounds::all(bound));
@@ -91,8 +91,8 @@ fn alike(one: &RunRecord, other: &RunRecord, bound: f64, besides: &[&str]) -> Ve
     found
 }
 
-fn resolved_again(subject: &Subject<'_>) -> Verdict {
-    let Ok(other) = subject.record.scene_toml.parse::<Table>() else { return Verdict::NotOfThisScene };
+fn resolved_again(subject: &Subject<'_>) -> RelationOutcome {
+    let Ok(other) = subject.record.scene_toml.parse::<Table>() else { return RelationOutcome::NotOfThisScene };
     subject.beside(other, |record| alike(subject.record, record, f64::MIN_POSITIVE, &[]))
 }
 
@@ -100,12 +100,12 @@ fn numbers<const N: usize>(of: [f64; N]) -> Value {
     Value::Array(of.map(Value::Float).into())
 }
 
-fn neutral_film(subject: &Subject<'_>) -> Verdict {
+fn neutral_film(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     if !gives(table, "lubricant")
         || ["wear", "wear.pinion", "wear.wheel"].iter().any(|of| gives(table, &format!("{of}.film")))
     {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let other = with(table, "wear.film.lambda", numbers([0.0, 1000.0]));
     let other = with(&other, "wear.film.factor", numbers([1.0, 1.0]));
@@ -119,11 +119,11 @@ fn neutral_film(subject: &Subject<'_>) -> Verdict {
     })
 }
 
-fn neutral_warm(subject: &Subject<'_>) -> Verdict {
+fn neutral_warm(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     let has_factor = ["wear", "wear.pinion", "wear.wheel"].iter().any(|of| gives(table, &format!("{of}.warm")));
     if !gives(table, "temperature.tooth") || has_factor {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let mut other = with(table, "wear.warm.temperature_C", numbers([0.0, 200.0]));
     other = with(&other, "wear.warm.factor", numbers([1.0, 1.0]));
@@ -143,11 +143,11 @@ fn neutral_warm(subject: &Subject<'_>) -> Verdict {
     subject.beside(other, |record| alike(subject.record, record, ROUNDING, &["wear", "temperature"]))
 }
 
-fn neutral_severe(subject: &Subject<'_>) -> Verdict {
+fn neutral_severe(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     let has_severe = ["wear", "wear.pinion", "wear.wheel"].iter().any(|of| gives(table, &format!("{of}.severe")));
     if has_severe {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let above = 0.5 * subject.record.summary.contact.hertz_peak_pressure_MPa;
     let mut other = with(table, "wear.severe.above_MPa", above);
@@ -163,10 +163,10 @@ fn neutral_severe(subject: &Subject<'_>) -> Verdict {
     })
 }
 
-fn law_of_each_gear(subject: &Subject<'_>) -> Verdict {
+fn law_of_each_gear(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     if !has_one_coefficient(table) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let mut other = table.clone();
     for (key, of_both) in [
@@ -183,36 +183,35 @@ fn law_of_each_gear(subject: &Subject<'_>) -> Verdict {
     subject.beside(other, |record| alike(subject.record, record, ROUNDING, &["wear", "phases", "error"]))
 }
 
-fn half_of_pinion(subject: &Subject<'_>) -> Verdict {
+fn half_of_pinion(subject: &Subject<'_>) -> RelationOutcome {
     half(subject, "pinion")
 }
 
-fn half_of_wheel(subject: &Subject<'_>) -> Verdict {
+fn half_of_wheel(subject: &Subject<'_>) -> RelationOutcome {
     half(subject, "wheel")
 }
 
-/// The same half said in two ways: by a factor over film or temperature, and by the coefficient.
-fn half(subject: &Subject<'_>, gear: &str) -> Verdict {
+/// Halves the wear in two ways: by a factor over film or temperature, and by the coefficient.
+fn half(subject: &Subject<'_>, gear: &str) -> RelationOutcome {
     let table = subject.table;
-    let has = |key: &str| gives(table, &format!("wear.{key}"));
     let own = format!("wear.{gear}");
-    let by_factor = if gives(table, "lubricant") && !has("film") {
+    let by_factor = if gives(table, "lubricant") && !gives(table, "wear.film") {
         let scene = with(table, &format!("{own}.film.lambda"), numbers([0.0, 1000.0]));
         with(&scene, &format!("{own}.film.factor"), numbers([0.5, 0.5]))
-    } else if gear == "wheel" && gives(table, "temperature.tooth") && !has("warm") {
+    } else if gear == "wheel" && gives(table, "temperature.tooth") && !gives(table, "wear.warm") {
         let scene = with(table, &format!("{own}.warm.temperature_C"), numbers([0.0, 200.0]));
         with(&scene, &format!("{own}.warm.factor"), numbers([0.5, 0.5]))
     } else {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     };
     against_half(subject, table, &own, by_factor)
 }
 
-/// By the severe factor of a wear that is severe at any pressure.
-fn half_severe(subject: &Subject<'_>) -> Verdict {
+/// Halves the wear by the severe factor, where wear is severe at any pressure.
+fn half_severe(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     if is_severe(table) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     // Severe wear has finer elements by default.
     let table = &match has_finite_elements(table) {
@@ -226,24 +225,29 @@ fn half_severe(subject: &Subject<'_>) -> Verdict {
 }
 
 /// The scene `by_factor` against `table` with half of the coefficient in the table `own` of a gear's law.
-fn against_half(subject: &Subject<'_>, table: &Table, own: &str, by_factor: Table) -> Verdict {
+fn against_half(subject: &Subject<'_>, table: &Table, own: &str, by_factor: Table) -> RelationOutcome {
     let keys = ["coefficient_m2_per_N", "coefficient_mm3_per_Nm"];
     let given = keys.into_iter().find_map(|key| Some((key, number(table, &format!("wear.{key}"))?)));
-    let Some((key, coefficient)) = given.filter(|_| has_one_coefficient(table)) else { return Verdict::NotOfThisScene };
+    let Some((key, coefficient)) = given.filter(|_| has_one_coefficient(table)) else {
+        return RelationOutcome::NotOfThisScene;
+    };
     let by_coefficient = with(table, &format!("{own}.{key}"), 0.5 * coefficient);
     subject.two(by_coefficient, by_factor, |one, other| {
         compare(one, other, &Follows::default(), Bounds::all(1e2 * ROUNDING))
     })
 }
 
-fn slices(subject: &Subject<'_>) -> Verdict {
+fn slices(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
-    // What contact jumps at A and E is a matter of where positions lie, and the simplified model is another.
+    // Jumps of the contact at A and E depend on the positions, and the simplified model is another model.
     let is_another =
         has_finite_elements(table) || is_severe(table) || has_heat_or_oil(table) || !follows_tip_edges(table);
     if is_sliced(table) || is_another || !takes_stable_steps(subject.record) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
-    let sliced = |table: &Table| with(table, "pair.pinion.lead_crowning_um", 1e-6);
-    subject.refined(&[POSITIONS], sliced, |one, other| volumes_and_error(one, other, OF_POSITIONS))
+    subject.refined(
+        &[POSITIONS],
+        |table| with(table, "pair.pinion.lead_crowning_um", 1e-6),
+        |one, other| volumes_and_error(one, other, OF_POSITIONS),
+    )
 }

@@ -1,16 +1,14 @@
-//! Finer resolutions come to the same.
-
-use toml::Table;
+//! Finer resolutions give the same result.
 
 use crate::gear::Gear;
-use crate::results::run::{RunRecord, Summary};
-use crate::studies::invariants::comparison::{Measured, difference};
-use crate::studies::invariants::relation::{POINTS, POSITIONS, Relation, Subject, Verdict};
+use crate::results::run::RunRecord;
+use crate::studies::invariants::comparison::{Measured, difference, worn_volume_mm3};
+use crate::studies::invariants::relation::{POINTS, POSITIONS, RelationOutcome, SceneRelation, Subject};
 use crate::studies::invariants::scene_table::{gives, number, with};
 use crate::studies::invariants::traits_of_scene::{follows_tip_edges, has_heat_or_oil, is_severe, takes_stable_steps};
 
-pub(super) const RELATIONS: &[Relation] = &[
-    Relation {
+pub(super) const RELATIONS: &[SceneRelation] = &[
+    SceneRelation {
         name: "finer flanks",
         states: "Twice the flank points come to the same worn volumes and transmission error.",
         bound: "60 to 120 points of a flank, some three in a contact: 15 % of the volume, 3 % of the transmission error; where they are too few, four or \
@@ -18,7 +16,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         is_rare: false,
         check: finer_points,
     },
-    Relation {
+    SceneRelation {
         name: "finer positions",
         states: "Twice the positions come to the same worn volumes and transmission error.",
         bound: "24 to 160 positions, of second order where loads change steadily: 15 % of the volume, 15 % of the transmission error; where \
@@ -30,41 +28,40 @@ pub(super) const RELATIONS: &[Relation] = &[
 
 const OF_VOLUME: f64 = 0.15;
 
-fn finer_points(subject: &Subject<'_>) -> Verdict {
+fn finer_points(subject: &Subject<'_>) -> RelationOutcome {
     finer(subject, POINTS, 2.0, 0.03)
 }
 
-fn finer_positions(subject: &Subject<'_>) -> Verdict {
-    // Both ends stay positions, and each lies halfway between two.
+fn finer_positions(subject: &Subject<'_>) -> RelationOutcome {
+    // Both ends remain positions, and the new positions lie halfway between the old ones.
     finer(subject, POSITIONS, 2.0, 0.15)
 }
 
-fn finer(subject: &Subject<'_>, key: &str, by: f64, of_error: f64) -> Verdict {
+fn finer(subject: &Subject<'_>, key: &str, by: f64, of_error: f64) -> RelationOutcome {
     let table = subject.table;
-    // What wear makes of temperatures and limits of pressure is no matter of one resolution.
-    // Where contact is cut off, what the rounding of a tip removes there is that of the nearest flank points.
+    // Temperatures and pressure limits make wear depend on further resolutions. Where contact is cut off, the rounding of a tip removes the wear of
+    // the nearest flank points only.
     if !follows_tip_edges(table) || is_severe(table) || has_heat_or_oil(table) || !takes_stable_steps(subject.record) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     if !gives(table, key) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
-    let finer = |table: &Table| with(table, key, (by * number(table, key).unwrap_or_default()) as i64);
-    subject.refined(&[key], finer, |one, other| volumes_and_error(one, other, of_error))
+    subject.refined(
+        &[key],
+        |table| with(table, key, (by * number(table, key).unwrap_or_default()) as i64),
+        |one, other| volumes_and_error(one, other, of_error),
+    )
 }
 
 /// Worn volumes and transmission error; no volumes where a run takes steps that are too long for it: twice the points halve the stable one.
 pub(super) fn volumes_and_error(first: &RunRecord, other: &RunRecord, of_error: f64) -> Vec<Measured> {
-    let of = |summary: &Summary, gear: Gear| match gear {
-        Gear::Pinion => summary.pinion.worn_volume_mm3,
-        Gear::Wheel => summary.wheel.worn_volume_mm3,
-    };
     let is_stable = takes_stable_steps(first) && takes_stable_steps(other);
     let worn = Gear::BOTH.into_iter().filter(|_| is_stable);
     let mut found: Vec<Measured> = worn
         .map(|gear| {
-            let value = difference(&[of(&first.summary, gear)], &[of(&other.summary, gear)], 1.0);
-            Measured::new(format!("worn volume of the {}", gear.name()), value, OF_VOLUME)
+            let [mine, theirs] = [first, other].map(|record| worn_volume_mm3(&record.summary, gear));
+            Measured::new(format!("worn volume of the {}", gear.name()), difference(&[mine], &[theirs], 1.0), OF_VOLUME)
         })
         .collect();
     let [mine, theirs] = [first, other].map(|record| record.summary.new.transmission_error_um);

@@ -5,22 +5,22 @@ use toml::Table;
 use crate::gear::PerGear;
 use crate::results::run::RunRecord;
 use crate::studies::invariants::comparison::{Bounds, Follows, compare};
-use crate::studies::invariants::relation::{Relation, Subject, Verdict};
+use crate::studies::invariants::relation::{RelationOutcome, SceneRelation, Subject};
 use crate::studies::invariants::scene_table::{gives, scaled};
 use crate::studies::invariants::traits_of_scene::{
     has_a_size, has_finite_elements, has_heat_or_oil, is_hard_severe, is_sliced, takes_stable_steps,
     tolerance_of_steps_um,
 };
 
-/// What steps make of the tolerance of the equilibria.
+/// Relative effect of the tolerance of the equilibria, amplified by steps.
 const BOUNDS: Bounds = Bounds { volume: 1e-5, cycle: 1e-5, ..Bounds::all(1e-4) };
-/// No power of two, so that digits change.
+/// Factor on sizes: no power of two, so that the digits change.
 const SIZE: f64 = 1.7;
 const MODULUS: f64 = 1.9;
 const WIDTH: f64 = 1.3;
 
-pub(super) const RELATIONS: &[Relation] = &[
-    Relation {
+pub(super) const RELATIONS: &[SceneRelation] = &[
+    SceneRelation {
         name: "size",
         states: "All lengths times s and the torque times s³: the same pressures, s times the wear depth, s³ times the volume.",
         bound: "equilibria solved to 1e-10 of the load, which steps amplify: 1e-4 at a point, 1e-5 of volume and transmission error; \
@@ -28,7 +28,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         is_rare: false,
         check: size,
     },
-    Relation {
+    SceneRelation {
         name: "modulus and torque",
         states: "Young's moduli, torque and limits of pressure times c, wear coefficients over c: c times the pressure, the same deformation and wear.",
         bound: "equilibria solved to 1e-10 of the load, which steps amplify: 1e-4 at a point, 1e-5 of volume and transmission error; \
@@ -36,7 +36,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         is_rare: false,
         check: modulus,
     },
-    Relation {
+    SceneRelation {
         name: "face width",
         states: "Face width and torque of a pair without slices times c: the same in every section, c times the volume.",
         bound: "equilibria solved to 1e-10 of the load, which steps amplify: 1e-4 at a point, 1e-5 of volume and transmission error; \
@@ -46,32 +46,34 @@ pub(super) const RELATIONS: &[Relation] = &[
     },
 ];
 
-/// Worn by as many adaptive steps, whose lengths follow the last bits of an estimate: seed 7, 6202 has 0.16 % of the depth, 5546 0.07 % of the pressure.
+/// Relative differences at the same number of adaptive steps, whose lengths depend on the last bits of an error estimate: seed 7, scene 6202 has 0.16
+/// % of the depth, 5546 0.07 % of the pressure.
 const OF_STEP_LENGTHS: f64 = 1e-2;
 
-/// Adaptive steps are chosen by the stiffness of the rate, whose estimate ends at a threshold: the last bits may decide on other steps, of which one more or
-/// less moves the depth by a part of what they promise.
+/// Bounds with adaptive steps. Their length follows from an estimate of the stiffness of the rate with a threshold, so that the last bits may change
+/// the steps; one step more or less changes the depth by a part of the tolerance.
 fn bounds(subject: &Subject<'_>, other: &RunRecord) -> Bounds {
-    let steps = |record: &RunRecord| (record.summary.work.wear_steps, record.summary.work.rejected_steps);
+    let [mine, theirs] = [subject.record, other].map(|record| &record.summary.work);
+    let same_steps = mine.wear_steps == theirs.wear_steps && mine.rejected_steps == theirs.rejected_steps;
     match tolerance_of_steps_um(subject.table) {
-        Some(_) if steps(subject.record) == steps(other) => Bounds { least_of_worn: OF_STEP_LENGTHS, ..BOUNDS },
+        Some(_) if same_steps => Bounds { least_of_worn: OF_STEP_LENGTHS, ..BOUNDS },
         tolerance_um => Bounds { tolerance_um, ..BOUNDS },
     }
 }
 
-fn size(subject: &Subject<'_>) -> Verdict {
+fn size(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     if has_heat_or_oil(table)
         || is_hard_severe(table)
         || !takes_stable_steps(subject.record)
         || has_a_size(table, subject.record)
     {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let other = scaled(table, &|key| match key {
         "pinion_torque_Nm" => SIZE.powi(3),
         "foundation_MPa_per_mm" => 1.0 / SIZE,
-        // N/mm for every µm: as great at any size.
+        // N/mm per µm does not depend on the size.
         "pair_N_per_mm_um" => 1.0,
         key if key.ends_with("_mm") || key.ends_with("_um") => SIZE,
         _ => 1.0,
@@ -81,16 +83,16 @@ fn size(subject: &Subject<'_>) -> Verdict {
     subject.beside(other, |record| compare(subject.record, record, &follows, bounds(subject, record)))
 }
 
-fn modulus(subject: &Subject<'_>) -> Verdict {
+fn modulus(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
-    // What a preset of materials or a default gives cannot be raised.
+    // Values from a preset of materials or a default cannot be scaled.
     if has_heat_or_oil(table)
         || is_hard_severe(table)
         || !says_its_moduli(table)
         || !takes_stable_steps(subject.record)
         || has_a_size(table, subject.record)
     {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let other = scaled(table, &|key| match key {
         "young_modulus_GPa"
@@ -112,7 +114,7 @@ fn says_its_moduli(table: &Table) -> bool {
         || ["pinion", "wheel"].iter().all(|gear| gives(table, &format!("material.{gear}.young_modulus_GPa")))
 }
 
-fn width(subject: &Subject<'_>) -> Verdict {
+fn width(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     if is_sliced(table)
         || has_heat_or_oil(table)
@@ -120,7 +122,7 @@ fn width(subject: &Subject<'_>) -> Verdict {
         || is_hard_severe(table)
         || !takes_stable_steps(subject.record)
     {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let other = scaled(table, &|key| match key {
         "face_width_mm" | "pinion_torque_Nm" => WIDTH,

@@ -5,27 +5,27 @@ use toml::{Table, Value};
 use crate::gear::{Gear, PerGear};
 use crate::results::run::RunRecord;
 use crate::studies::invariants::comparison::{Bounds, Follows, Measured, compare, difference};
-use crate::studies::invariants::relation::{Relation, Subject, Verdict};
+use crate::studies::invariants::relation::{RelationOutcome, SceneRelation, Subject};
 use crate::studies::invariants::scene_table::{number, phases, scaled, with};
 use crate::studies::invariants::traits_of_scene::{
     has_finite_elements, has_fixed_steps, has_one_coefficient, is_sliced,
 };
 
-/// Coefficients are divided by so much: wear of at most 2e-3 modules becomes 2e-12 modules, which changes contact by as much of itself.
+/// Factor on the wear coefficients: wear of at most 2e-3 modules becomes 2e-12 modules, whose relative effect on contact is as small.
 const SMALL: f64 = 1e-9;
-/// What is left of the effect of wear on contact: a depth of 2e-12 modules, up to a hundred times as deep where wear is severe, beside an approach
+/// Remaining effect of wear on contact: a depth of 2e-12 modules, up to a hundred times as deep where wear is severe, beside an approach
 /// of 1e-4 modules and more; and ten times that where a severe rate rises over a band of a few hundredths of the pressure.
 const FEEDBACK: f64 = 2e-5;
 
-pub(super) const RELATIONS: &[Relation] = &[
-    Relation {
+pub(super) const RELATIONS: &[SceneRelation] = &[
+    SceneRelation {
         name: "phases add up",
         states: "Wear so small that it changes no contact: that of a load spectrum is the sum of what each phase wears by itself.",
         bound: "effect of the wear left on the contact, 2e-5",
         is_rare: true,
         check: phases_add_up,
     },
-    Relation {
+    SceneRelation {
         name: "coefficient of one gear",
         states: "Twice the coefficient of the wheel alone, wear being that small: twice its wear, and the pinion's as before.",
         bound: "effect of the wear left on the contact, 2e-5",
@@ -34,7 +34,7 @@ pub(super) const RELATIONS: &[Relation] = &[
     },
 ];
 
-/// The scene with wear that changes nothing.
+/// The scene with wear too small to change the contact.
 fn hardly_worn(table: &Table) -> Table {
     scaled(table, &|key| match key {
         "coefficient_m2_per_N" | "coefficient_mm3_per_Nm" => SMALL,
@@ -42,15 +42,15 @@ fn hardly_worn(table: &Table) -> Table {
     })
 }
 
-fn phases_add_up(subject: &Subject<'_>) -> Verdict {
+fn phases_add_up(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     // Finite elements are as fine as the greatest load of all phases asks.
     let Some(all) = phases(table).filter(|_| has_fixed_steps(table) && !has_finite_elements(table)) else {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     };
     // Slices are as stiff in all phases as in that of the greatest load.
     if is_sliced(table) && number(table, "temperature.tooth.ambient_temperature_C").is_some() {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let whole = hardly_worn(table);
     let mut alone: Vec<RunRecord> = Vec::new();
@@ -58,19 +58,19 @@ fn phases_add_up(subject: &Subject<'_>) -> Verdict {
         let scene = only(&whole, phase);
         match (subject.run)(&scene) {
             Ok(record) => alone.push(record),
-            Err(how) => return Verdict::Ended { scene, how },
+            Err(how) => return RelationOutcome::Ended { scene, how },
         }
     }
     subject.beside(whole, |together| {
-        let of = |gear: Gear| {
+        let of_gears = Gear::BOTH.map(|gear| {
             let mut sum = vec![0.0; together.flanks[gear].wear_um.len()];
             for record in &alone {
                 sum.iter_mut().zip(&record.flanks[gear].wear_um).for_each(|(sum, wear)| *sum += wear);
             }
             let value = difference(&sum, &together.flanks[gear].wear_um, 1.0);
             Measured::new(format!("wear of the {}", gear.name()), value, FEEDBACK)
-        };
-        Gear::BOTH.map(of).into()
+        });
+        of_gears.into()
     })
 }
 
@@ -81,14 +81,14 @@ fn only(table: &Table, phase: &Value) -> Table {
     with(&scene, "operation.snapshots_revolutions", Value::Array(vec![Value::Float(duration)]))
 }
 
-fn of_one_gear(subject: &Subject<'_>) -> Verdict {
+fn of_one_gear(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     if !has_fixed_steps(table) || !has_one_coefficient(table) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let keys = ["coefficient_m2_per_N", "coefficient_mm3_per_Nm"];
     let given = keys.into_iter().find_map(|key| Some((key, number(table, &format!("wear.{key}"))?)));
-    let Some((key, coefficient)) = given else { return Verdict::NotOfThisScene };
+    let Some((key, coefficient)) = given else { return RelationOutcome::NotOfThisScene };
     let one = hardly_worn(table);
     let other = with(&one, &format!("wear.wheel.{key}"), 2.0 * SMALL * coefficient);
     let follows = Follows { depth: PerGear { pinion: 1.0, wheel: 2.0 }, ..Follows::default() };

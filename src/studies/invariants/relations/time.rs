@@ -4,7 +4,7 @@ use toml::Value;
 
 use super::ROUNDING;
 use crate::studies::invariants::comparison::{Bounds, Follows, Measured, compare, summaries};
-use crate::studies::invariants::relation::{Relation, Subject, Verdict};
+use crate::studies::invariants::relation::{RelationOutcome, SceneRelation, Subject};
 use crate::studies::invariants::scene_table::{phases, scaled, value, with};
 use crate::studies::invariants::traits_of_scene::{
     has_fixed_steps, has_heat_or_oil, is_hard_severe, takes_stable_steps,
@@ -12,15 +12,15 @@ use crate::studies::invariants::traits_of_scene::{
 
 const FASTER: f64 = 3.7;
 
-pub(super) const RELATIONS: &[Relation] = &[
-    Relation {
+pub(super) const RELATIONS: &[SceneRelation] = &[
+    SceneRelation {
         name: "coefficient and duration",
         states: "Wear coefficients times c and the duration over c: the same wear.",
         bound: "rounding, in steps of the same number",
         is_rare: false,
         check: faster,
     },
-    Relation {
+    SceneRelation {
         name: "phases cut in two",
         states: "The last phase cut into two halves of the same load, at the end of a step: the same wear.",
         bound: "each phase begins with contact windows of its own, and a window that has grown has other cells: 0.2 % of the volume, 2 % of the wear \
@@ -28,7 +28,7 @@ pub(super) const RELATIONS: &[Relation] = &[
         is_rare: false,
         check: cut_in_two,
     },
-    Relation {
+    SceneRelation {
         name: "speed that nothing reads",
         states: "Without heat and oil, a run over given revolutions does not depend on the speed.",
         bound: "none: the same bits",
@@ -37,10 +37,10 @@ pub(super) const RELATIONS: &[Relation] = &[
     },
 ];
 
-fn faster(subject: &Subject<'_>) -> Verdict {
+fn faster(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     if !has_fixed_steps(table) || is_hard_severe(table) || !takes_stable_steps(subject.record) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let other = scaled(table, &|key| match key {
         "coefficient_m2_per_N" | "coefficient_mm3_per_Nm" => FASTER,
@@ -50,10 +50,10 @@ fn faster(subject: &Subject<'_>) -> Verdict {
     subject.beside(other, |record| compare(subject.record, record, &Follows::default(), Bounds::all(1e2 * ROUNDING)))
 }
 
-fn cut_in_two(subject: &Subject<'_>) -> Verdict {
+fn cut_in_two(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     if !has_fixed_steps(table) || is_hard_severe(table) || !takes_stable_steps(subject.record) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let mut all = match phases(table) {
         Some(phases) => phases.clone(),
@@ -63,9 +63,9 @@ fn cut_in_two(subject: &Subject<'_>) -> Verdict {
             phase.map(Value::Table).into_iter().collect()
         }
     };
-    let Some(Value::Table(mut last)) = all.pop() else { return Verdict::NotOfThisScene };
+    let Some(Value::Table(mut last)) = all.pop() else { return RelationOutcome::NotOfThisScene };
     let Some(duration) = last.get("pinion_revolutions").and_then(Value::as_float) else {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     };
     last.insert("pinion_revolutions".to_owned(), Value::Float(0.5 * duration));
     all.extend([Value::Table(last.clone()), Value::Table(last)]);
@@ -74,10 +74,10 @@ fn cut_in_two(subject: &Subject<'_>) -> Verdict {
     subject.beside(other, |record| compare(subject.record, record, &Follows::default(), bounds))
 }
 
-fn speed(subject: &Subject<'_>) -> Verdict {
+fn speed(subject: &Subject<'_>) -> RelationOutcome {
     let table = subject.table;
     if has_heat_or_oil(table) {
-        return Verdict::NotOfThisScene;
+        return RelationOutcome::NotOfThisScene;
     }
     let other = scaled(table, &|key| if key == "pinion_speed_rpm" { 2.3 } else { 1.0 });
     subject.beside(other, |record| {

@@ -12,12 +12,13 @@ use crate::studies::sweep::goal::Optimum;
 use crate::studies::sweep::record::{SweepAxis, SweepRecord, SweepRow};
 use crate::studies::sweep::verification::{SweepVerification, objective};
 
-/// Combinations without a result that the page lists; all are in the table.
+/// Greatest number of combinations without a result on the page; all are in the table.
 const MOST_LISTED: usize = 20;
 /// The varied keys as columns. A long one may go on in another line after each of its dots.
 fn keys(record: &SweepRecord) -> impl Iterator<Item = Cell> + '_ {
     record.identity.axes.iter().map(|axis| {
-        html! { @for (i, part) in axis.key.split('.').enumerate() { @if i > 0 { "." (PreEscaped("<wbr>")) } (part) } }.into()
+        let parts = axis.key.split('.').enumerate();
+        html! { @for (i, part) in parts { @if i > 0 { "." (PreEscaped("<wbr>")) } (part) } }.into()
     })
 }
 
@@ -45,13 +46,13 @@ pub(super) fn best(record: &SweepRecord) -> Markup {
     list("Each figure over all combinations, and where its minimum is", columns, rows)
 }
 
-/// The combination asked for, and those that are as good within the error.
+/// Optimum, and the combinations that equal it within the error.
 pub(super) fn optimum(optimum: &Optimum) -> Markup {
     let figure = optimum.goal.figure();
-    let least = format!("{} {}", significant(optimum.value, 4), figure.unit());
     html! {
         p {
-            "Objective: the lowest " (optimum.goal.in_words()) ". It is " b { (least) } " in combination " (optimum.index) "; "
+            "Objective: the lowest " (optimum.goal.in_words()) ". It is " b { (significant(optimum.value, 4)) " " (figure.unit()) }
+            " in combination " (optimum.index) "; "
             (count(optimum.within_limits as u64)) " combinations satisfy the constraints. "
             @match (&optimum.error, &optimum.plateau, &optimum.plateau_keys) {
                 (Some(error), Some(plateau), Some(keys)) => {
@@ -68,12 +69,12 @@ pub(super) fn optimum(optimum: &Optimum) -> Markup {
     }
 }
 
-/// A claim as a percentage: more than two digits it does not have.
+/// An error as a percentage with two digits.
 pub(super) fn within(claim: f64) -> String {
     significant(100.0 * claim, 2) + "\u{202f}%"
 }
 
-/// The claims of each verified combination, the worst of all below them, and the reasons of those without an answer.
+/// Errors of each verified combination, the greatest of all below them, and the reasons of those without a result.
 pub(super) fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> Markup {
     let claims = STATED_ERRORS.iter().map(|claim| claim.title.into());
     let columns = cells!["combination", "chosen as"].into_iter().chain(keys(record));
@@ -101,17 +102,17 @@ pub(super) fn verified(record: &SweepRecord, verification: &SweepVerification<'_
     }
 }
 
-/// A table of combinations, number and values, with the reason why something is missing of each.
+/// Table of combinations, number and values, with the reason of what is missing.
 fn without<'a>(
     record: &SweepRecord,
     caption: String,
     rows: impl Iterator<Item = (usize, &'a [f64], &'a str)>,
 ) -> Markup {
     let columns = ["combination".into()].into_iter().chain(keys(record)).chain([Cell::sentence("error")]);
-    let lines = rows.map(|(index, at, reason)| {
+    let rows = rows.map(|(index, at, reason)| {
         line([index.to_string().into()].into_iter().chain(values(record, at)).chain([Cell::sentence(reason)]))
     });
-    html! { div.errors { (list(caption, columns, lines)) } }
+    html! { div.errors { (list(caption, columns, rows)) } }
 }
 
 /// The combinations without a result; empty where all have one.

@@ -29,6 +29,7 @@ use crate::studies::sweep::record::SweepRecord;
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "sweep.json";
 pub(crate) const SCENE: &str = "scene.toml";
+const COMBINATIONS: &str = "sweep.csv";
 const PARQUET: &str = "sweep.parquet";
 
 /// Prepares `dir` for a sweep: its scene is written, and what an earlier sweep said of all its rows is taken away.
@@ -44,7 +45,7 @@ pub(crate) fn write(record: &SweepRecord, dir: &Path) -> Result<(), ReportError>
     remove(dir, PARQUET)?;
     let provenance = Provenance::of_scene(&record.identity.program_version, &record.identity.scene_hash);
     let mut csv = CsvFiles::new(dir, provenance);
-    csv.place("sweep.csv", |out| tables::rows(out, record))?;
+    csv.place(COMBINATIONS, |out| tables::rows(out, record))?;
     csv.finish()?;
     if record.shard.is_none() {
         #[cfg(feature = "parquet")]

@@ -2,28 +2,31 @@
 
 use maud::{Markup, html};
 
+#[cfg(feature = "parquet")]
+use super::PARQUET;
 use super::best_tables::shown_value;
 use super::section_plane::{differs, varied};
-use super::{best_tables, contour_figures, line_figures};
+use super::{COMBINATIONS, LAST, SCENE, best_tables, contour_figures, line_figures};
 use crate::reference::steel_yield;
 use crate::report::chart::Chart;
 use crate::report::html::number::{count, figure as shown_number, given, significant};
 use crate::report::html::page::{Page, Plots, section, sources_list};
 use crate::results::figures::{self, MainFigure};
 use crate::results::run::ReportedBy;
+use crate::studies::sweep::journal;
 use crate::studies::sweep::record::SweepRecord;
 use crate::studies::sweep::verification::SweepVerification;
 
 const DATA_FILES: &[(&str, &str)] = &[
-    ("sweep.csv", "one row per combination: varied values, figures, times, errors, verification"),
+    (COMBINATIONS, "one row per combination: varied values, figures, times, errors, verification"),
     #[cfg(feature = "parquet")]
-    ("sweep.parquet", "the same table as Parquet"),
-    ("sweep.json", "the sweep, its counts and the best combinations"),
-    ("rows.jsonl", "the rows as they were finished; a restart reads it"),
-    ("scene.toml", "the scene as given"),
+    (PARQUET, "the same table as Parquet"),
+    (LAST, "the sweep, its counts and the best combinations"),
+    (journal::FILE_NAME, "the rows as they were finished; a restart reads it"),
+    (SCENE, "the scene as given"),
 ];
 
-/// Figures whose least value is said at the top of the page, where there is one.
+/// Figures whose least value is given at the top of the page, where there is one.
 const HEADLINES: [&str; 2] = ["helical.wear.pinion.root_tip_variation", "pinion.peak_wear_um"];
 
 pub(super) fn page(record: &SweepRecord) -> String {
@@ -52,7 +55,7 @@ pub(super) fn page(record: &SweepRecord) -> String {
     .html()
 }
 
-/// The figures that one wants to be small and that are not the same everywhere.
+/// Figures to minimise that are not constant.
 fn shown(record: &SweepRecord) -> impl Iterator<Item = &'static MainFigure> + '_ {
     figures::in_sweeps().iter().copied().filter(|figure| figure.family.less_is_better && differs(record, figure))
 }
@@ -123,12 +126,12 @@ fn answer(record: &SweepRecord) -> String {
     {
         text.push_str(&format!(" No combination has {}.", goal.in_words()));
     }
-    text.push_str(&vouched(record));
+    text.push_str(&verification_sentence(record));
     text
 }
 
-/// How far finite elements vouch for the sweep, in a sentence.
-fn vouched(record: &SweepRecord) -> String {
+/// Result of the verification by finite elements, in a sentence.
+fn verification_sentence(record: &SweepRecord) -> String {
     let Some(verification) = record.verification() else {
         return " None of them is verified by finite elements.".to_owned();
     };

@@ -25,11 +25,10 @@ pub(crate) fn bytes(record: &SweepRecord) -> Result<Vec<u8>, ParquetError> {
     let fields = columns.iter().zip(&kinds).map(|(column, &kind)| field(&column.name, kind));
     let schema = Type::group_type_builder("sweep").with_fields(fields.collect::<Result<_, _>>()?).build()?;
     let mut about = vec![
-        KeyValue::new("gearwear_version".to_owned(), record.identity.program_version.clone()),
-        KeyValue::new("scene_hash".to_owned(), record.identity.scene_hash.clone()),
+        metadata("gearwear_version", &record.identity.program_version),
+        metadata("scene_hash", &record.identity.scene_hash),
     ];
-    let meanings = columns.iter();
-    about.extend(meanings.map(|column| KeyValue::new(format!("column:{}", column.name), column.meaning.clone())));
+    about.extend(columns.iter().map(|column| metadata(&format!("column:{}", column.name), &column.meaning)));
     let properties = WriterProperties::builder().set_key_value_metadata(Some(about)).build();
 
     let mut file = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
@@ -59,7 +58,11 @@ pub(crate) fn bytes(record: &SweepRecord) -> Result<Vec<u8>, ParquetError> {
     file.into_inner()
 }
 
-/// Kind of the cells of a column; a table without rows has numbers.
+fn metadata(key: &str, value: &str) -> KeyValue {
+    KeyValue::new(key.to_owned(), value.to_owned())
+}
+
+/// Type of a column's cells; a table without rows has numbers.
 fn kind(column: &SweepColumn, record: &SweepRecord) -> PhysicalType {
     match record.rows.first().map(|row| column.cell(row)) {
         Some(Cell::Whole(_)) => PhysicalType::INT64,

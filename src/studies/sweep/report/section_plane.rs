@@ -1,9 +1,9 @@
-//! The combinations that a plot shows: along one key or over two, with the others at their best.
+//! Combinations of a plot: along one key or over two, with the other keys at their best.
 
 use crate::results::figures::MainFigure;
 use crate::studies::sweep::record::{SweepAxis, SweepRecord, SweepRow};
 
-/// Values of a key that a plot shows at the most: beyond, a screen has no points for them.
+/// Greatest number of values of a key in a plot: more exceed the pixels of a screen.
 const MOST_SHOWN: usize = 200;
 
 /// A varied key of a plot.

@@ -1,15 +1,13 @@
 //! The plots of a study of uncertainty: distributions, indices, wear over both flanks.
 
-use serde_json::json;
-
 use crate::gear::Gear;
 use crate::reference::sobol_indices::Index;
 use crate::reference::statistics::extent;
-use crate::report::chart::{Chart, Dash, INK, Trace, TraceKind, gear_colour, padded};
+use crate::report::chart::{BarPlaces, Bars, Chart, Dash, Drawn, INK, Trace, gear_colour, padded};
 use crate::report::html::number::{figure, percent};
 use crate::studies::uncertainty::record::{FactorIndices, OutputRecord, UncertaintyRecord};
 
-/// Bars of a distribution.
+/// Number of bars of a distribution.
 const BARS: usize = 30;
 
 pub(super) fn all(record: &UncertaintyRecord) -> Vec<Chart> {
@@ -20,13 +18,13 @@ pub(super) fn all(record: &UncertaintyRecord) -> Vec<Chart> {
     indices.chain(distributions).chain(bands).collect()
 }
 
-/// At its axis: of a life, whose limit stands in the title of the plot, only that it is one.
+/// Title of the axis; the limit of a life stands in the title of the plot.
 fn with_unit(output: &OutputRecord) -> String {
     let name = if output.censored.is_some() { "life" } else { &output.meaning };
     if output.unit.is_empty() { name.to_owned() } else { format!("{name}, {}", output.unit) }
 }
 
-/// Where the samples lie, as parts of all between equal steps.
+/// Histogram of the samples as parts of all.
 fn distribution(number: usize, output: &OutputRecord) -> Option<Chart> {
     let finite: Vec<f64> = output.sorted.iter().copied().filter(|value| value.is_finite()).collect();
     let (low, high) = (*finite.first()?, *finite.last()?);
@@ -38,11 +36,7 @@ fn distribution(number: usize, output: &OutputRecord) -> Option<Chart> {
     finite.iter().for_each(|value| counts[(((value - low) / width) as usize).min(BARS - 1)] += 1);
     let middles: Vec<f64> = (0..BARS).map(|bar| low + (bar as f64 + 0.5) * width).collect();
     let parts: Vec<f64> = counts.iter().map(|&count| 100.0 * count as f64 / output.sorted.len() as f64).collect();
-    let bars = Trace::new(TraceKind::Bar, "samples")
-        .set("x", middles)
-        .set("y", parts)
-        .set("width", width)
-        .set("marker", json!({ "color": "var(--pinion)" }))
+    let bars = Trace::bars("samples", BarPlaces::At { middles, width }, parts, "var(--pinion)")
         .hover("%{x:.4~g}: %{y:.2f} %<extra></extra>")
         .unlisted();
     let [p05, _, p50, _, p95] = output.quantiles.all();
@@ -71,7 +65,7 @@ fn distribution(number: usize, output: &OutputRecord) -> Option<Chart> {
     )
 }
 
-/// Part of the variance that each factor explains, with intervals.
+/// Share of the variance that each factor explains, with intervals.
 fn indices(number: usize, output: &OutputRecord) -> Option<Chart> {
     let indices = output.indices.as_ref()?;
     let most = indices.iter().max_by(|a, b| a.total.value.total_cmp(&b.total.value))?;
@@ -81,7 +75,6 @@ fn indices(number: usize, output: &OutputRecord) -> Option<Chart> {
             .height(150 + 56 * indices.len())
             .x("part of the variance")
             .y("")
-            .set("barmode", "group")
             .add(bars(indices, "total", "var(--wheel)", |one| one.total))
             .add(bars(indices, "first order", "var(--pinion)", |one| one.first))
             .reading(format!(
@@ -93,24 +86,32 @@ fn indices(number: usize, output: &OutputRecord) -> Option<Chart> {
     )
 }
 
-/// Bars of one of the indices of each factor, with its interval; the first factor stands at the top.
+/// Bars of one kind of index with their intervals, the first factor at the top.
 fn bars(indices: &[FactorIndices], name: &str, colour: &str, of: fn(&FactorIndices) -> Index) -> Trace {
     let factors: Vec<String> = indices.iter().rev().map(|one| wrapped(&one.factor)).collect();
-    let of: Vec<Index> = indices.iter().rev().map(of).collect();
-    let above: Vec<f64> = of.iter().map(|index| index.high - index.value).collect();
-    let below: Vec<f64> = of.iter().map(|index| index.value - index.low).collect();
-    Trace::new(TraceKind::Bar, name)
-        .set("orientation", "h")
-        .set("y", factors)
-        .set("x", of.iter().map(|index| index.value).collect::<Vec<_>>())
-        .set("error_x", json!({ "type": "data", "symmetric": false, "array": above, "arrayminus": below, "thickness": 1, "color": INK }))
-        .set("marker", json!({ "color": colour }))
-        .hover("%{x:.3f}")
+    let shown: Vec<Index> = indices.iter().rev().map(of).collect();
+    let above: Vec<f64> = shown.iter().map(|index| index.high - index.value).collect();
+    let below: Vec<f64> = shown.iter().map(|index| index.value - index.low).collect();
+    let bars = Bars {
+        places: BarPlaces::Named(factors),
+        length: shown.iter().map(|index| index.value).collect(),
+        colour: colour.to_owned(),
+        is_horizontal: true,
+        interval: Some([below, above]),
+    };
+    Trace::new(Drawn::Bars(bars), name).hover("%{x:.3f}")
 }
 
-/// A key on lines of its parts, so that the plot keeps its room.
+/// Key with a line break after each part, to keep the plot wide.
 fn wrapped(key: &str) -> String {
-    key.rsplit_once('.').map_or_else(|| key.to_owned(), |(tables, name)| format!("{tables}.<br>{name}"))
+    key.rsplit_once('.').map_or_else(|| key.to_owned(), |(tables, name)| format!("{tables}.\n{name}"))
+}
+
+/// Outline of the area between two curves.
+fn area(name: &str, radius: &[f64], [below, above]: [&Vec<f64>; 2]) -> Trace {
+    let x = radius.iter().chain(radius.iter().rev()).copied();
+    let y = below.iter().chain(above.iter().rev()).copied();
+    Trace::line(name, x, y, ("rgba(0,0,0,0)", 0.0, Dash::Solid))
 }
 
 /// Quantiles of wear over a flank.
@@ -123,11 +124,7 @@ fn band(record: &UncertaintyRecord, gear: Gear) -> Option<Chart> {
     }
     let radius = &band.radius_mm;
     let [low, high] = extent(radius.iter().copied());
-    let area = |name: &str, below: &[f64], above: &[f64], opacity: f64| {
-        let x = radius.iter().chain(radius.iter().rev()).copied();
-        let y = below.iter().chain(above.iter().rev()).copied();
-        Trace::line(name, x, y, ("rgba(0,0,0,0)", 0.0, Dash::Solid)).filled(gear_colour(gear)).opacity(opacity)
-    };
+    let [x, median, nominal] = [radius, p50, &band.nominal_um].map(|values| values.iter().copied());
     Some(
         Chart::new(format!("band-{}", gear.name()), format!("Wear over the flank of the {}", gear.name()))
             .wide()
@@ -137,10 +134,10 @@ fn band(record: &UncertaintyRecord, gear: Gear) -> Option<Chart> {
             .x_format(".3f")
             .y("wear depth, µm")
             .y_down_to(deepest)
-            .add(area("5 to 95 %", p05, p95, 0.16))
-            .add(area("25 to 75 %", p25, p75, 0.28))
-            .line("median", radius.iter().copied(), p50.clone(), (gear_colour(gear), 2.2, Dash::Solid), "%{y:.3f} µm")
-            .line("scene as given", radius.iter().copied(), band.nominal_um.clone(), (INK, 1.4, Dash::Dashed), "%{y:.3f} µm")
+            .add(area("5 to 95 %", radius, [p05, p95]).filled(gear_colour(gear)).opacity(0.16))
+            .add(area("25 to 75 %", radius, [p25, p75]).filled(gear_colour(gear)).opacity(0.28))
+            .line("median", x.clone(), median, (gear_colour(gear), 2.2, Dash::Solid), "%{y:.3f} µm")
+            .line("scene as given", x, nominal, (INK, 1.4, Dash::Dashed), "%{y:.3f} µm")
             .reading(format!(
                 "Quantiles of the samples at each radius, maximum over the face width; at the deepest place 95 % of them have worn less than {} µm. The error \
                  of the fast model is not in them.",

@@ -22,8 +22,10 @@ use crate::report::files::{ReportError, create_folder, place, remove, write_json
 
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "uncertainty.json";
+const SAMPLES: &str = "samples.csv";
+const SCENE: &str = "scene.toml";
 
-/// Takes away what an earlier study in `dir` said, which is made if need be.
+/// Creates `dir` or removes the results of an earlier study there.
 pub(crate) fn begin(dir: &Path) -> Result<(), ReportError> {
     create_folder(dir)?;
     remove(dir, LAST)
@@ -32,10 +34,10 @@ pub(crate) fn begin(dir: &Path) -> Result<(), ReportError> {
 /// Writes all files of `record` into `dir`.
 pub(crate) fn write(record: &UncertaintyRecord, dir: &Path) -> Result<(), ReportError> {
     begin(dir)?;
-    place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?;
+    place(dir, SCENE, |out| out.write_all(record.scene_toml.as_bytes()))?;
     let provenance = Provenance::of_scene(&record.program_version, &record.scene_hash);
     let mut csv = CsvFiles::new(dir, provenance);
-    csv.place("samples.csv", |out| samples(out, record))?;
+    csv.place(SAMPLES, |out| samples(out, record))?;
     csv.finish()?;
     place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?;
     place(dir, LAST, |out| write_json(out, record)).map(drop)

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::figures;
+use super::{LAST, SAMPLES, SCENE, figures};
 use crate::reference::sobol_indices::Index;
 use crate::report::html::number::{count, figure, fixed, percent, significant};
 use crate::report::html::page::{Page, Plots, note, section, sources_list};
@@ -10,9 +10,9 @@ use crate::report::html::table::{Cell, NONE, cells, line, list};
 use crate::studies::uncertainty::record::UncertaintyRecord;
 
 const DATA_FILES: &[(&str, &str)] = &[
-    ("samples.csv", "one row per run: values of the keys, figures, errors"),
-    ("uncertainty.json", "distributions, quantiles, indices, bands"),
-    ("scene.toml", "the scene as given"),
+    (SAMPLES, "one row per run: values of the keys, figures, errors"),
+    (LAST, "distributions, quantiles, indices, bands"),
+    (SCENE, "the scene as given"),
 ];
 
 pub(super) fn page(record: &UncertaintyRecord) -> String {
@@ -91,6 +91,8 @@ fn uncertain(record: &UncertaintyRecord) -> Markup {
 fn quantiles(record: &UncertaintyRecord) -> Markup {
     let rows = record.outputs.iter().map(|output| {
         let [p05, p25, p50, p75, p95] = output.quantiles.all();
+        let [model_error, longer] =
+            [output.model_error, output.censored].map(|share| share.map_or_else(|| NONE.to_owned(), percent));
         line(cells![
             output.meaning.as_str(),
             output.nominal,
@@ -101,8 +103,8 @@ fn quantiles(record: &UncertaintyRecord) -> Markup {
             p95,
             output.mean,
             output.standard_deviation,
-            output.model_error.map(percent),
-            output.censored.map(percent),
+            model_error,
+            longer,
             output.unit.as_str(),
         ])
     });
@@ -128,12 +130,8 @@ fn indices(record: &UncertaintyRecord) -> Markup {
         (Some(indices), _) => indices
             .iter()
             .map(|one| {
-                line(cells![
-                    output.meaning.as_str(),
-                    one.factor.as_str(),
-                    with_interval(&one.first),
-                    with_interval(&one.total)
-                ])
+                let [first, total] = [&one.first, &one.total].map(with_interval);
+                line(cells![output.meaning.as_str(), one.factor.as_str(), first, total])
             })
             .collect(),
         (None, because) => {

@@ -1,4 +1,4 @@
-//! A case in full: what must be so, what was found, what it rests on, what it cost, and its plots.
+//! Section of a case: requirement, results, estimates, cost and plots.
 
 use maud::{Markup, html};
 
@@ -10,7 +10,7 @@ use super::words::{self, NONE, time};
 use crate::report::html::number::count;
 use crate::report::html::page::Plots;
 use crate::report::html::table::{cells, line};
-use crate::studies::validation::record::{CaseRecord, CaseRun, QuantityRecord, RunOutcome};
+use crate::studies::validation::record::{CaseRecord, CaseRun, QuantityRecord};
 
 /// The section, open from the start where something is not as expected.
 pub(super) fn html(case: &CaseRecord, plots: &Plots) -> Markup {
@@ -33,16 +33,15 @@ pub(super) fn html(case: &CaseRecord, plots: &Plots) -> Markup {
 }
 
 fn facts(case: &CaseRecord) -> Markup {
-    let some = |text: String| Some(text).filter(|text| !text.is_empty());
     let facts = [
-        ("What the source says", case.says.clone()),
-        ("Rests on estimates", some(case.rests_on.join("; "))),
-        ("Speaks to", some(case.targets.join(", "))),
-        ("Kind", Some(format!("{}; {} tier; group {}", case.kind.title(), case.tier.name(), case.group))),
+        ("What the source says", case.says.clone().unwrap_or_default()),
+        ("Rests on estimates", case.rests_on.join("; ")),
+        ("Speaks to", case.targets.join(", ")),
+        ("Kind", format!("{}; {} tier; group {}", case.kind.title(), case.tier.name(), case.group)),
     ];
     html! {
         p.requirement { (case.requirement) }
-        dl.facts { @for (name, text) in facts { @if let Some(text) = text { dt { (name) } dd { (text) } } } }
+        dl.facts { @for (name, text) in facts { @if !text.is_empty() { dt { (name) } dd { (text) } } } }
     }
 }
 
@@ -58,7 +57,7 @@ fn quantities(case: &CaseRecord) -> Markup {
             margin_bar(words::used(quantity)),
         ])
     });
-    // Why something is not expected to hold, or what is missing: not hidden, it is what readers must know.
+    // Reasons of expected failures and missing references are always visible.
     let remarks = case.quantities.iter().filter_map(|quantity| {
         let remark = quantity.remark.as_ref()?;
         Some(html! { (badge(Verdict::of_quantity(quantity))) " " (quantity.name) ": " (remark) })
@@ -77,12 +76,15 @@ fn quantities(case: &CaseRecord) -> Markup {
     }
 }
 
-/// Where the reference comes from, how sure it is and why the tolerance is what it is.
+/// Source and uncertainty of the reference and the reason for the tolerance.
 fn reasons(quantity: &QuantityRecord) -> Option<String> {
-    let with_unit = |value: f64| format!("{} {}", words::rough(value), quantity.unit).trim_end().to_owned();
     let mut said = vec![quantity.source.clone()];
-    said.extend(quantity.uncertainty.map(|value| format!("uncertainty of the reference {}", with_unit(value))));
-    said.extend(quantity.discretisation.map(|value| format!("the computation’s own resolution {}", with_unit(value))));
+    for (what, value) in [
+        ("uncertainty of the reference", quantity.uncertainty),
+        ("the computation’s own resolution", quantity.discretisation),
+    ] {
+        said.extend(value.map(|value| format!("{what} {} {}", words::rough(value), quantity.unit)));
+    }
     said.extend(quantity.because.clone());
     let said: Vec<&str> =
         said.iter().map(|text| text.trim().trim_end_matches('.')).filter(|text| !text.is_empty()).collect();
@@ -97,10 +99,9 @@ fn runs(case: &CaseRecord) -> Markup {
 }
 
 fn outcomes(run: &CaseRun) -> String {
-    let of_one = |(outcome, number): (&RunOutcome, &usize)| {
+    joined(run.outcomes.iter().map(|(outcome, number)| {
         if run.members == 1 { outcome.title().to_owned() } else { format!("{number} {}", outcome.title()) }
-    };
-    joined(run.outcomes.iter().map(of_one))
+    }))
 }
 
 fn work(run: &CaseRun) -> String {

@@ -82,7 +82,7 @@ fn non_success(kind: NonSuccessKind, message: &str) -> TestCaseStatus {
     status
 }
 
-/// Nothing where a time is no time.
+/// Duration; zero where `wall_s` is not a valid time.
 fn duration(wall_s: f64) -> Duration {
     Duration::try_from_secs_f64(wall_s).unwrap_or_default()
 }

@@ -8,10 +8,10 @@ use super::verdict::Verdict;
 use super::words::{self, counted, time};
 use crate::studies::validation::record::{CaseRecord, Change, Changes, ValidationRecord};
 
-/// Bytes that one of the six tables may have: together they stay below 45 000.
+/// Greatest size of each of the six tables in bytes: together below 45 000.
 const TABLE_LIMIT: usize = 7_000;
 
-/// Letters that one cell may have: a message of many lines belongs in the page.
+/// Greatest number of characters of a cell: longer messages are on the page.
 const CELL_LIMIT: usize = 600;
 
 pub(super) fn text(record: &ValidationRecord, changes: Option<&Changes>) -> String {
@@ -81,14 +81,20 @@ fn estimates(record: &ValidationRecord) -> String {
 }
 
 fn all_cases(record: &ValidationRecord) -> String {
-    let row = |case: &CaseRecord| {
-        let share = words::share(words::tightest(case.quantities.iter()).map(|(_, share)| share));
-        let [group, name] = [&case.group, &case.name].map(String::clone);
-        vec![signed(Verdict::of_case(case)), group, name, share, words::main_work(case), time(case.wall_s)]
-    };
-    let rows: Vec<Vec<String>> = record.cases.iter().map(row).collect();
+    let rows: Vec<Vec<String>> = record.cases.iter().map(case_row).collect();
     let columns = ["", "group", "case", "of tolerance", "work", "time"];
     folded(&format!("What each of {} cost", counted(rows.len(), "case", "cases")), &columns, &rows)
+}
+
+fn case_row(case: &CaseRecord) -> Vec<String> {
+    let share = words::share(words::tightest(case.quantities.iter()).map(|(_, share)| share));
+    let [group, name] = [&case.group, &case.name].map(String::clone);
+    vec![signed(Verdict::of_case(case)), group, name, share, words::main_work(case), time(case.wall_s)]
+}
+
+fn change_rows(changes: &[Change]) -> Vec<Vec<String>> {
+    let cells = changes.iter().map(|c| [c.case.clone(), c.what.clone(), words::state(&c.before), words::state(&c.now)]);
+    cells.map(Vec::from).collect()
 }
 
 fn changed(changes: &Changes) -> String {
@@ -96,14 +102,12 @@ fn changed(changes: &Changes) -> String {
     if changes.worse.is_empty() && changes.better.is_empty() && changes.added.is_empty() && changes.gone.is_empty() {
         return format!("{against}: nothing changed beyond the noise.\n\n");
     }
-    let row = |c: &Change| vec![c.case.clone(), c.what.clone(), words::state(&c.before), words::state(&c.now)];
-    let rows = |changes: &[Change]| changes.iter().map(row).collect::<Vec<_>>();
     let columns = ["case", "what", "before", "now"];
     let mut text = format!("{against}: {} worse, {} better.\n\n", changes.worse.len(), changes.better.len());
     if !changes.worse.is_empty() {
-        text.push_str(&format!("### Got worse\n\n{}\n", table(&columns, &rows(&changes.worse))));
+        text.push_str(&format!("### Got worse\n\n{}\n", table(&columns, &change_rows(&changes.worse))));
     }
-    text.push_str(&folded("What got better", &columns, &rows(&changes.better)));
+    text.push_str(&folded("What got better", &columns, &change_rows(&changes.better)));
     for (heading, names) in [("New cases", &changes.added), ("Cases that are gone", &changes.gone)] {
         if !names.is_empty() {
             text.push_str(&format!("{heading}: {}.\n\n", escape(&shortened(&names.join(", "), CELL_LIMIT))));
@@ -120,7 +124,7 @@ fn folded(heading: &str, columns: &[&str], rows: &[Vec<String>]) -> String {
     format!("<details>\n<summary>{heading}</summary>\n\n{}\n</details>\n\n", table(columns, rows))
 }
 
-/// A Markdown table of as many rows as there is room for.
+/// Markdown table with as many rows as fit into [`TABLE_LIMIT`].
 fn table(columns: &[&str], rows: &[Vec<String>]) -> String {
     let mut text = format!("| {} |\n|{}\n", columns.join(" | "), " --- |".repeat(columns.len()));
     for (written, row) in rows.iter().enumerate() {
@@ -147,7 +151,7 @@ fn shortened(text: &str, most: usize) -> String {
     }
 }
 
-/// Text that Markdown takes for nothing but text, and that stays in its cell.
+/// Text escaped for a table cell of Markdown.
 fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
@@ -156,7 +160,7 @@ fn escape(text: &str) -> String {
             '<' => escaped.push_str("&lt;"),
             '>' => escaped.push_str("&gt;"),
             '&' => escaped.push_str("&amp;"),
-            // Nobody is to be called into a conversation by a message.
+            // `@` would notify a user.
             '@' => escaped.push_str("&#64;"),
             '|' | '\\' | '`' | '*' | '_' | '[' | ']' | '#' | '~' => {
                 escaped.push('\\');

@@ -36,6 +36,9 @@ use serde::Serialize;
 
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "validation.json";
+const JUNIT: &str = "junit.xml";
+const SUMMARY: &str = "summary.md";
+const WORK_PRECISION: &str = "work_precision.json";
 
 /// Writes all files of `record` into `dir`, which is made if need be; returns their paths in the order written.
 pub(crate) fn write(
@@ -47,9 +50,9 @@ pub(crate) fn write(
     remove(dir, LAST)?;
     Ok(vec![
         place(dir, "report.html", |out| out.write_all(page::page(record, changes).as_bytes()))?,
-        place(dir, "junit.xml", |out| junit::write(out, record))?,
-        place(dir, "summary.md", |out| out.write_all(markdown::text(record, changes).as_bytes()))?,
-        place(dir, "work_precision.json", |out| write_json(out, &work_precision(record)))?,
+        place(dir, JUNIT, |out| junit::write(out, record))?,
+        place(dir, SUMMARY, |out| out.write_all(markdown::text(record, changes).as_bytes()))?,
+        place(dir, WORK_PRECISION, |out| write_json(out, &work_precision(record)))?,
         place(dir, LAST, |out| write_json(out, record))?,
     ])
 }
@@ -60,15 +63,16 @@ fn work_precision(record: &ValidationRecord) -> impl Serialize {
     struct File<'a> {
         program_version: &'a str,
         threads: usize,
-        cases: Vec<Case<'a>>,
+        cases: Vec<CasePoints<'a>>,
     }
     #[derive(Serialize)]
-    struct Case<'a> {
+    struct CasePoints<'a> {
         case: &'a str,
         title: &'a str,
         points: &'a [WorkPrecisionPoint],
     }
     let cases = record.cases.iter().filter(|case| !case.work_precision.is_empty());
-    let cases = cases.map(|case| Case { case: &case.name, title: &case.title, points: &case.work_precision }).collect();
+    let cases =
+        cases.map(|case| CasePoints { case: &case.name, title: &case.title, points: &case.work_precision }).collect();
     File { program_version: &record.program_version, threads: record.threads, cases }
 }

@@ -44,18 +44,17 @@ fn case_row(case: &CaseRecord) -> Markup {
     html! { tr data-verdict=(verdict.class()) data-group=(case.group) { (inner(cells)) } }
 }
 
-/// What a reader should know beside the verdict: targets, estimates, what of the case does not hold or cannot be compared.
+/// Marks beside the verdict: targets, estimates, quantities that do not hold or cannot be compared.
 fn marks(case: &CaseRecord) -> Markup {
     let mut marks: Vec<Markup> = case.targets.iter().map(|target| html! { b { (target) } }).collect();
     if !case.rests_on.is_empty() {
         marks.push(html! { "estimate" });
     }
-    let of = |wanted| case.quantities.iter().filter(|quantity| Verdict::of_quantity(quantity) == wanted).count();
-    for (verdict, one, many) in [
+    for (wanted, one, many) in [
         (Verdict::KnownNot, "does not hold", "do not hold"),
         (Verdict::CannotBeCompared, "not comparable", "not comparable"),
     ] {
-        match of(verdict) {
+        match case.quantities.iter().filter(|quantity| Verdict::of_quantity(quantity) == wanted).count() {
             0 => {}
             number => marks.push(html! { (counted(number, one, many)) }),
         }
@@ -65,15 +64,16 @@ fn marks(case: &CaseRecord) -> Markup {
 
 /// Choices by verdict and group; shown by the script that serves them.
 fn controls(record: &ValidationRecord) -> Markup {
-    let of = |wanted: Verdict| record.cases.iter().filter(|case| Verdict::of_case(case) == wanted).count();
+    let verdicts: Vec<Verdict> = record.cases.iter().map(Verdict::of_case).collect();
+    let counts = Verdict::ALL.map(|wanted| (wanted, verdicts.iter().filter(|verdict| **verdict == wanted).count()));
     html! {
         form.filter #filter hidden {
             fieldset {
                 legend { "Show" }
-                @for verdict in Verdict::ALL.into_iter().filter(|verdict| of(*verdict) > 0) {
+                @for (verdict, cases) in counts.into_iter().filter(|(_, cases)| *cases > 0) {
                     label {
                         input type="checkbox" value=(verdict.class()) checked;
-                        " " (badge(verdict)) " (" (of(verdict)) ")"
+                        " " (badge(verdict)) " (" (cases) ")"
                     }
                     " "
                 }

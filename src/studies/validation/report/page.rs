@@ -10,17 +10,19 @@ use super::markup::{badge, items, link, scrolling};
 use super::totals::{self, Totals};
 use super::verdict::Verdict;
 use super::words::{self, time};
-use super::{case_section, overview, stability_map, targets_table, work_precision_figures};
+use super::{
+    JUNIT, LAST, SUMMARY, WORK_PRECISION, case_section, overview, stability_map, targets_table, work_precision_figures,
+};
 use crate::report::html::page::{Page, Plots, files_list, note, section};
 use crate::report::html::table::{cells, line};
 use crate::studies::validation::record::{Change, Changes, ValidationRecord};
 
 /// The data files named in the page, which lie beside it.
 const DATA_FILES: &[(&str, &str)] = &[
-    ("validation.json", "the whole record but the plots: what a later run is compared with"),
-    ("work_precision.json", "error against cost of every setting"),
-    ("junit.xml", "a test for each quantity, for services that collect test results"),
-    ("summary.md", "the summary for a comment"),
+    (LAST, "the whole record but the plots: what a later run is compared with"),
+    (WORK_PRECISION, "error against cost of every setting"),
+    (JUNIT, "a test for each quantity, for services that collect test results"),
+    (SUMMARY, "the summary for a comment"),
 ];
 
 pub(super) fn page(record: &ValidationRecord, changes: Option<&Changes>) -> String {
@@ -54,13 +56,19 @@ pub(super) fn page(record: &ValidationRecord, changes: Option<&Changes>) -> Stri
     .html_with(include_str!("validation.css"), include_str!("validation.js"))
 }
 
+/// `class` where there is something to look at.
+fn alarm(number: usize, class: &'static str) -> &'static str {
+    if number > 0 { class } else { "quiet" }
+}
+
+/// Class, number and words of a count.
+fn tile<'a>(class: &'a str, number: usize, one: &'a str, many: &'a str) -> (&'a str, String, &'a str) {
+    (class, number.to_string(), if number == 1 { one } else { many })
+}
+
 fn tiles(record: &ValidationRecord) -> Markup {
     let t = Totals::of(record);
-    let alarm = |number: usize, class: &'static str| if number > 0 { class } else { "quiet" };
     let wrong = t.missed + t.could_not_run;
-    let tile = |class, number: usize, one: &'static str, many: &'static str| {
-        (class, number.to_string(), if number == 1 { one } else { many })
-    };
     let (known_not, open) = (t.known_not, t.cannot_be_compared);
     let threads = format!("on {}", words::counted(record.threads, "thread", "threads"));
     let all_well = if wrong == 0 { "holds" } else { "" };
@@ -91,13 +99,14 @@ fn not_as_expected(record: &ValidationRecord) -> Markup {
     items(Some("wrong"), cases)
 }
 
+fn change_row(word: &'static str, change: &Change) -> Markup {
+    let (before, now) = (words::state(&change.before), words::state(&change.now));
+    line(cells![word, &*change.case, &*change.what, before, now])
+}
+
 fn changed(changes: &Changes) -> Markup {
-    let row = |word: &'static str, change: &Change| {
-        let (before, now) = (words::state(&change.before), words::state(&change.now));
-        line(cells![word, &*change.case, &*change.what, before, now])
-    };
-    let worse = changes.worse.iter().map(|change| row("↓ worse", change));
-    let rows: Vec<Markup> = worse.chain(changes.better.iter().map(|change| row("↑ better", change))).collect();
+    let worse = changes.worse.iter().map(|change| change_row("↓ worse", change));
+    let rows: Vec<Markup> = worse.chain(changes.better.iter().map(|change| change_row("↑ better", change))).collect();
     html! {
         p { "Against a run of version " (changes.against_version) "." }
         @if rows.is_empty() {

@@ -12,7 +12,7 @@ use super::markup::{items, link};
 use super::words::as_written;
 use crate::studies::validation::record::{CaseRecord, RunOutcome, StabilityPoint, ValidationRecord};
 
-/// How many times the least value the greatest must be for a logarithmic axis.
+/// Least ratio of the greatest to the least value for a logarithmic axis.
 const LOGARITHMIC_FROM: f64 = 10.0;
 
 /// The sign of each outcome.
@@ -37,8 +37,8 @@ pub(super) fn of_case(case: &CaseRecord) -> Markup {
 
 /// A row for each parameter of the cases, named by `name`.
 fn map<'a>(cases: impl Iterator<Item = &'a CaseRecord> + Clone, name: impl Fn(&CaseRecord, &str) -> Markup) -> Markup {
-    let of_case = |case| by_parameter(case).into_iter().map(move |(parameter, points)| (case, parameter, points));
-    let mut rows = cases.clone().flat_map(of_case).peekable();
+    let rows = cases.clone().flat_map(|case| by_parameter(case).into_iter().map(move |row| (case, row)));
+    let mut rows = rows.peekable();
     if rows.peek().is_none() {
         return Markup::default();
     }
@@ -49,7 +49,7 @@ fn map<'a>(cases: impl Iterator<Item = &'a CaseRecord> + Clone, name: impl Fn(&C
             @for (outcome, sign) in SIGNS { span { b class=(outcome.name()) { (sign) } " " (outcome.title()) } " " }
             span { b.ring { "○" } " not as expected" }
         }
-        div.stability { @for (case, parameter, points) in rows { (row(name(case, parameter), &points)) } }
+        div.stability { @for (case, (parameter, points)) in rows { (row(name(case, parameter), &points)) } }
         @if unexpected.peek().is_some() {
             p { "Not as expected:" }
             (items(None, unexpected.map(|point| html! { (point.parameter) ": " (said(point)) })))
@@ -73,17 +73,15 @@ fn row(name: Markup, points: &[&StabilityPoint]) -> Markup {
     let (Some(first), Some(last)) = (points.first(), points.last()) else { return Markup::default() };
     let (low, high) = (first.value, last.value);
     let logarithmic = low > 0.0 && high / low > LOGARITHMIC_FROM;
-    let place = |value: f64| {
-        let share = if logarithmic { (value / low).ln() / (high / low).ln() } else { (value - low) / (high - low) };
-        if share.is_finite() { 100.0 * share } else { 50.0 }
-    };
     let axis = if low == high {
         as_written(low)
     } else {
         format!("{} to {}{}", as_written(low), as_written(high), if logarithmic { ", logarithmic" } else { "" })
     };
     let marks = points.iter().map(|point| {
-        let place = format!("left:{:.2}%", place(point.value));
+        let value = point.value;
+        let share = if logarithmic { (value / low).ln() / (high / low).ln() } else { (value - low) / (high - low) };
+        let place = format!("left:{:.2}%", if share.is_finite() { 100.0 * share } else { 50.0 });
         html! {
             span class={ "mark " (point.outcome.name()) @if point.outcome != point.expected { " ring" } } style=(place) {
                 @for (outcome, sign) in SIGNS { @if outcome == point.outcome { (sign) } }

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use crate::studies::validation;
-use crate::studies::validation::library::Case;
+use crate::studies::validation::library::ValidationCase;
 use crate::studies::validation::record::{
-    CaseRecord, CaseRun, Change, Changes, RunOutcome, StabilityPoint, State, Tier, ValidationRecord, WorkPrecisionPoint,
+    CaseRecord, CaseRun, Change, Changes, ComparedState, RunOutcome, StabilityPoint, Tier, ValidationRecord,
+    WorkPrecisionPoint,
 };
 
 /// A plot with every style of curve.
@@ -66,7 +67,7 @@ fn case(name: &str, group: &str, targets: &[&str], rest: &str) -> CaseRecord {
          says = 'The source says that the wear is greatest near the root.'\n{rest}"
     );
     let file = toml::from_str(&text).unwrap();
-    let mut case = validation::record(&Case { name: name.to_owned(), folder: "".into(), file }, &[]);
+    let mut case = validation::record(&ValidationCase { name: name.to_owned(), folder: "".into(), file }, &[]);
     assert_eq!(case.failure, None);
     for quantity in &mut case.quantities {
         quantity.source = "K. L. Johnson, Contact Mechanics (1985), eq. (4.45)".to_owned();
@@ -94,10 +95,13 @@ fn near(value: f64) -> String {
     )
 }
 
+fn holds(name: &str) -> String {
+    format!("[[quantity]]\nname = '{name}'\nvalue = 1\nis_true = true\n")
+}
+
 /// Every verdict, every kind of criterion, and points of both further kinds.
 pub(super) fn record() -> ValidationRecord {
     let gate = "[[quantity]]\nname = 'Newton iterations'\nvalue = 412\nat_most = 450\nwork = true\n";
-    let holds = |name: &str| format!("[[quantity]]\nname = '{name}'\nvalue = 1\nis_true = true\n");
     let hertz = case("hertz-cylinders", "Contact", &[], &(near(1300.0) + gate + &holds("symmetric")));
     let fzg = case("fzg-root-wear", "FZG test", &["D1", "D2", "D3"], &(FZG.to_owned() + PLOT));
     let missed = case("pitch-point", "Geometry", &["S1"], &(near(1400.0) + PLOT));
@@ -174,8 +178,8 @@ pub(super) fn changes() -> Changes {
         |what: &str, before, now| Change { case: "hertz-cylinders".to_owned(), what: what.to_owned(), before, now };
     Changes {
         against_version: "0.0.9".to_owned(),
-        worse: vec![change("equilibria", State::Counted(1000), State::Counted(1200))],
-        better: vec![change("maximum pressure", State::Uses(0.8), State::Uses(0.38))],
+        worse: vec![change("equilibria", ComparedState::Counted(1000), ComparedState::Counted(1200))],
+        better: vec![change("maximum pressure", ComparedState::Uses(0.8), ComparedState::Uses(0.38))],
         added: vec!["thin-teeth".to_owned()],
         gone: vec!["thick-teeth".to_owned()],
     }

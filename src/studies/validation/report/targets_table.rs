@@ -37,7 +37,7 @@ const TARGETS: [(&str, &str); 24] = [
     ("H6", "the simplified model wears deeper without instability, and faster"),
 ];
 
-/// The table, and the targets that no case of this run speaks to; empty where no case speaks to any target.
+/// Table of the targets, and the targets without a case in this run; empty where there is none with a case.
 pub(super) fn html(record: &ValidationRecord) -> Markup {
     if record.cases.iter().all(|case| case.targets.is_empty()) {
         return Markup::default();
@@ -75,14 +75,13 @@ fn row(id: &str, words: &str, cases: &[&CaseRecord], verdict: Markup) -> Markup 
     ])
 }
 
-/// What becomes of a target: the most urgent of its cases, with how many of its quantities hold where not all do; `None`
-/// where no case speaks to it.
+/// Verdict of a target: the most urgent of its cases, with the number of quantities that hold where not all do; `None` without a case.
 fn verdict(id: &str, cases: &[&CaseRecord]) -> Option<Markup> {
-    let of_case = |case: &&CaseRecord| match case.failure {
+    let of_cases = cases.iter().map(|case| match case.failure {
         Some(_) => Verdict::CouldNotRun,
         None => Verdict::of_quantities(&case.speaking_to(id)),
-    };
-    let worst = cases.iter().map(of_case).min()?;
+    });
+    let worst = of_cases.min()?;
     let all = cases.iter().flat_map(|case| case.speaking_to(id)).map(Verdict::of_quantity);
     let compared: Vec<Verdict> = all.filter(|verdict| *verdict != Verdict::Reported).collect();
     let hold = compared.iter().filter(|verdict| matches!(verdict, Verdict::Holds | Verdict::NowHolds)).count();

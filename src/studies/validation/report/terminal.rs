@@ -8,11 +8,11 @@ use super::verdict::Verdict;
 use super::words::{self, time};
 use crate::studies::validation::record::{CaseRecord, Changes, ValidationRecord};
 
-/// From this many columns on the table has the group and the quantity that comes closest to its bound.
+/// Least width of a table with the group and the quantity closest to its bound.
 const WITH_QUANTITY: u16 = 90;
-/// From this many columns on it has the work too.
+/// Least width of a table that has the work too.
 const WITH_WORK: u16 = 125;
-/// Letters of a quantity's name: a line is to stay one.
+/// Greatest length of a quantity's name, so that it fits on a line.
 const NAME: usize = 36;
 
 /// A line a case, the details of whatever is not as expected, and the totals; cells wrap at `width` columns.
@@ -49,15 +49,11 @@ fn cases(record: &ValidationRecord, width: Option<u16>) -> String {
     format!("{}\n", table.trim_fmt())
 }
 
-/// The cells for which there is room.
+/// Cells that fit into the width.
 fn shown(width: Option<u16>, cells: [String; 7]) -> Vec<String> {
-    let has_room = |least: u16| width.is_none_or(|width| width >= least);
-    let is_shown = |column: usize| match column {
-        1 | 4 => has_room(WITH_QUANTITY),
-        5 => has_room(WITH_WORK),
-        _ => true,
-    };
-    cells.into_iter().enumerate().filter(|&(column, _)| is_shown(column)).map(|(_, cell)| cell).collect()
+    const LEAST_WIDTH: [u16; 7] = [0, WITH_QUANTITY, 0, 0, WITH_QUANTITY, WITH_WORK, 0];
+    let shown = cells.into_iter().zip(LEAST_WIDTH).filter(|&(_, least)| width.is_none_or(|width| width >= least));
+    shown.map(|(cell, _)| cell).collect()
 }
 
 fn shortened(name: &str) -> String {

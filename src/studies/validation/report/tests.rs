@@ -1,4 +1,4 @@
-//! What every file must hold, on a record with everything in it.
+//! Contents of every file, on a record with everything in it.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -11,21 +11,21 @@ use super::markup::anchor;
 use super::synthetic::{changes, record, repeated};
 use super::words::as_written;
 use super::{junit, markdown, page, terminal, words, write};
-use crate::studies::validation::record::{CaseRecord, Criterion, ValidationRecord};
+use crate::studies::validation::record::{Criterion, ValidationRecord};
 
-/// An element of the JUnit file.
-struct Element {
+/// Element of the JUnit file.
+struct XmlElement {
     name: String,
     attributes: BTreeMap<String, String>,
 }
 
-impl Element {
+impl XmlElement {
     fn get(&self, key: &str) -> &str {
         self.attributes.get(key).map_or("", String::as_str)
     }
 }
 
-fn junit_elements(record: &ValidationRecord) -> Vec<Element> {
+fn junit_elements(record: &ValidationRecord) -> Vec<XmlElement> {
     let mut xml = Vec::new();
     junit::write(&mut xml, record).unwrap();
     let mut reader = Reader::from_reader(xml.as_slice());
@@ -38,7 +38,7 @@ fn junit_elements(record: &ValidationRecord) -> Vec<Element> {
                     let value = quick_xml::escape::unescape(&attribute.value).unwrap().into_owned();
                     (attribute.key.as_ref().to_owned(), value)
                 });
-                elements.push(Element { name: start.name().as_ref().to_owned(), attributes: attributes.collect() });
+                elements.push(XmlElement { name: start.name().as_ref().to_owned(), attributes: attributes.collect() });
             }
             Event::Eof => return elements,
             _ => {}
@@ -49,7 +49,7 @@ fn junit_elements(record: &ValidationRecord) -> Vec<Element> {
 
 fn html() -> String {
     let page = page::page(&record(), Some(&changes()));
-    // Without plotly.js, which holds any word there is.
+    // Without the scripts.
     let scripts = page.rfind("</footer>").unwrap();
     page[..scripts].to_owned()
 }
@@ -58,7 +58,7 @@ fn html() -> String {
 fn junit_has_a_suite_for_each_case_and_a_test_for_each_quantity() {
     let record = record();
     let elements = junit_elements(&record);
-    let suites: Vec<&Element> = elements.iter().filter(|element| element.name == "testsuite").collect();
+    let suites: Vec<&XmlElement> = elements.iter().filter(|element| element.name == "testsuite").collect();
     assert_eq!(suites.len(), record.cases.len());
     for (suite, case) in suites.iter().zip(&record.cases) {
         assert_eq!(suite.get("name"), case.name);
@@ -86,8 +86,9 @@ fn junit_counts_what_failed_and_says_why() {
 #[test]
 fn junit_carries_time_and_work_as_properties() {
     let elements = junit_elements(&record());
-    let of = |name: &str| elements.iter().filter(|e| e.name == "property" && e.get("name") == name).count();
-    assert_eq!((of("wall_s"), of("work: equilibria")), (8, 8));
+    for name in ["wall_s", "work: equilibria"] {
+        assert_eq!(elements.iter().filter(|e| e.name == "property" && e.get("name") == name).count(), 8, "{name}");
+    }
 }
 
 #[test]
@@ -177,10 +178,10 @@ fn the_terminal_keeps_to_its_width() {
 #[test]
 fn the_page_has_each_case_once_and_opens_those_that_failed() {
     let page = html();
-    let id = |case: &CaseRecord| format!("id=\"{}\"", anchor(case));
     for case in &record().cases {
-        assert_eq!(page.matches(&id(case)).count(), 1, "{}", case.name);
-        let section = &page[page.find(&id(case)).unwrap()..];
+        let id = format!("id=\"{}\"", anchor(case));
+        assert_eq!(page.matches(&id).count(), 1, "{}", case.name);
+        let section = &page[page.find(&id).unwrap()..];
         let opening = &section[..section.find('>').unwrap()];
         assert_eq!(opening.ends_with(" open"), !case.passed(), "{}", case.name);
     }

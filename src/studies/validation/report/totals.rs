@@ -1,17 +1,17 @@
-//! How many cases and quantities came out in which way.
+//! Counts of cases and quantities by verdict.
 
 use super::verdict::Verdict;
 use super::words::{counted, time};
-use crate::studies::validation::record::{CaseRecord, ValidationRecord};
+use crate::studies::validation::record::ValidationRecord;
 
 /// The counts that every report begins with.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Totals {
     /// Cases carried out or tried.
     pub(super) cases: usize,
     /// Cases that are as expected.
     pub(super) passed: usize,
-    /// Those of them with a statement that is known not to hold.
+    /// Number of cases with a statement that is known not to hold.
     pub(super) deviating: usize,
     /// Cases with a quantity that is not as expected.
     pub(super) missed: usize,
@@ -29,27 +29,28 @@ pub(super) struct Totals {
 
 impl Totals {
     pub(super) fn of(record: &ValidationRecord) -> Self {
-        let cases = |wanted: &dyn Fn(&CaseRecord) -> bool| record.cases.iter().filter(|case| wanted(case)).count();
-        let quantities = |wanted: &dyn Fn(Verdict) -> bool| {
-            let all = record.cases.iter().flat_map(|case| &case.quantities);
-            all.map(Verdict::of_quantity).filter(|&verdict| wanted(verdict)).count()
-        };
-        Self {
-            cases: record.cases.len(),
-            passed: cases(&CaseRecord::passed),
-            deviating: cases(&|case| {
-                let known_not = |quantity| Verdict::of_quantity(quantity) == Verdict::KnownNot;
-                case.passed() && case.quantities.iter().any(known_not)
-            }),
-            missed: cases(&|case| case.failure.is_none() && !case.passed()),
-            could_not_run: cases(&|case| case.failure.is_some()),
-            on_estimates: cases(&|case| !case.rests_on.is_empty()),
-            quantities: quantities(&|_| true),
-            hold: quantities(&|verdict| matches!(verdict, Verdict::Holds | Verdict::NowHolds)),
-            known_not: quantities(&|verdict| verdict == Verdict::KnownNot),
-            cannot_be_compared: quantities(&|verdict| verdict == Verdict::CannotBeCompared),
-            reported: quantities(&|verdict| verdict == Verdict::Reported),
+        let mut totals = Self::default();
+        for case in &record.cases {
+            let verdicts: Vec<Verdict> = case.quantities.iter().map(Verdict::of_quantity).collect();
+            let passed = case.passed();
+            totals.cases += 1;
+            totals.passed += usize::from(passed);
+            totals.deviating += usize::from(passed && verdicts.contains(&Verdict::KnownNot));
+            totals.missed += usize::from(case.failure.is_none() && !passed);
+            totals.could_not_run += usize::from(case.failure.is_some());
+            totals.on_estimates += usize::from(!case.rests_on.is_empty());
+            totals.quantities += verdicts.len();
+            for verdict in verdicts {
+                match verdict {
+                    Verdict::Holds | Verdict::NowHolds => totals.hold += 1,
+                    Verdict::KnownNot => totals.known_not += 1,
+                    Verdict::CannotBeCompared => totals.cannot_be_compared += 1,
+                    Verdict::Reported => totals.reported += 1,
+                    Verdict::CouldNotRun | Verdict::Missed => {}
+                }
+            }
         }
+        totals
     }
 }
 
@@ -83,7 +84,7 @@ pub(super) fn sentence(record: &ValidationRecord) -> String {
     )
 }
 
-/// Counts with what they are of; those of nothing are left out.
+/// Counts with their names, without those that are 0.
 fn listed(counts: &[(usize, &str)]) -> String {
     let some = counts.iter().filter(|(count, _)| *count > 0);
     some.map(|(count, what)| format!("{count} {what}")).collect::<Vec<_>>().join(", ")

@@ -1,24 +1,24 @@
-//! In which of a few ways a case or a quantity came out, with the word and the sign that each is shown with.
+//! Verdict of a case or a quantity, with its word and sign.
 //!
 //! The record keeps apart what *holds* (physics) and what is *as expected* (the exit status). Readers need one word for
 //! both: a statement that does not hold and is not expected to is no news, the same one holding all of a sudden is.
 
 use crate::studies::validation::record::{CaseRecord, Criterion, QuantityRecord, Standing};
 
-/// How a case or a quantity came out, the most urgent first.
+/// Verdict of a case or a quantity, the most urgent first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Verdict {
     /// The case could not be carried out to its end.
     CouldNotRun,
-    /// It should hold, or be comparable, and does not or is not.
+    /// Does not hold, or cannot be compared, against expectation.
     Missed,
-    /// It was not expected to hold and does.
+    /// Holds against expectation.
     NowHolds,
-    /// It does not hold, as the case says.
+    /// Does not hold, as the case says.
     KnownNot,
     /// There is nothing to compare with, as the case says.
     CannotBeCompared,
-    /// It holds, as it should.
+    /// Holds, as expected.
     Holds,
     /// A number that nothing is compared with.
     Reported,
@@ -37,7 +37,7 @@ impl Verdict {
     ];
 
     pub(super) fn of_quantity(quantity: &QuantityRecord) -> Self {
-        // Nothing is missing to compare the number: nobody asked for a comparison.
+        // Reported only: no comparison was asked for.
         let is_only_reported =
             quantity.criterion == Criterion::Reported && quantity.value.is_some() && quantity.remark.is_none();
         match (quantity.as_expected(), quantity.standing) {
@@ -50,7 +50,7 @@ impl Verdict {
         }
     }
 
-    /// That of a case: the most urgent of its quantities.
+    /// Verdict of a case: the most urgent of its quantities.
     pub(super) fn of_case(case: &CaseRecord) -> Self {
         if case.failure.is_some() {
             return Self::CouldNotRun;
@@ -58,16 +58,12 @@ impl Verdict {
         Self::of_quantities(&case.quantities.iter().collect::<Vec<_>>())
     }
 
-    /// That of several quantities: the most urgent of theirs.
+    /// Verdict of several quantities: the most urgent of theirs.
     pub(super) fn of_quantities(quantities: &[&QuantityRecord]) -> Self {
-        let each = || quantities.iter().map(|quantity| Self::of_quantity(quantity));
-        let worst = each().min().unwrap_or(Self::Reported);
-        // What cannot be compared beside something that holds is a mark on the whole, not what became of it.
-        if worst == Self::CannotBeCompared && each().any(|verdict| verdict == Self::Holds) {
-            Self::Holds
-        } else {
-            worst
-        }
+        let each: Vec<Self> = quantities.iter().map(|quantity| Self::of_quantity(quantity)).collect();
+        let worst = each.iter().min().copied().unwrap_or(Self::Reported);
+        // A quantity that cannot be compared does not decide the verdict of a case with one that holds.
+        if worst == Self::CannotBeCompared && each.contains(&Self::Holds) { Self::Holds } else { worst }
     }
 
     pub(super) fn word(self) -> &'static str {
@@ -79,7 +75,7 @@ impl Verdict {
         self.shown()[1]
     }
 
-    /// Its name in the page's style sheet and script.
+    /// Name in the page's style sheet and script.
     pub(super) fn class(self) -> &'static str {
         self.shown()[2]
     }

@@ -1,10 +1,10 @@
-//! What the reports say of a quantity, in plain text: its value, what it is held against, how far off it is and why.
+//! Texts of a quantity: its value, its criterion, its error and the reasons.
 
 use super::verdict::Verdict;
-use crate::report::html::number::{count, figure, given, percent, significant};
-use crate::studies::validation::record::{CaseRecord, Criterion, QuantityRecord, Standing, State};
+use crate::report::html::number::{count, figure, given, percent, significant, to_digits};
+use crate::studies::validation::record::{CaseRecord, ComparedState, Criterion, QuantityRecord, Standing};
 
-/// Stands where there is no number.
+/// Placeholder of a missing number.
 pub(super) const NONE: &str = "–";
 
 /// The value with its unit; a statement's in words.
@@ -17,23 +17,23 @@ pub(super) fn value(quantity: &QuantityRecord) -> String {
     }
 }
 
-/// Four digits or so; whole numbers keep all of theirs.
+/// Number with three or four digits; whole numbers with all.
 fn digits(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e6 { given(value) } else { figure(value) }
 }
 
-/// As many digits as it takes to see a tenth of the tolerance.
+/// Number with digits down to a tenth of the tolerance.
 fn resolved(value: f64, tolerance: f64) -> String {
     let needed = (10.0 * value / tolerance).abs().log10().ceil();
     if needed > 4.0 && needed < 12.0 { significant(value, needed as usize) } else { digits(value) }
 }
 
-/// Two digits, which is what is known of an uncertainty.
+/// Uncertainty with two digits.
 pub(super) fn rough(value: f64) -> String {
-    as_written(format!("{value:.1e}").parse().unwrap_or(value))
+    as_written(to_digits(value, 2))
 }
 
-/// A bound or a setting as a person writes it: no digits that say nothing, powers of ten as such.
+/// Bound or setting in its shortest form, with powers of ten.
 pub(super) fn as_written(value: f64) -> String {
     let text = given(value);
     match text.split_once('\u{2009}') {
@@ -52,7 +52,7 @@ fn with_unit(text: &str, unit: &str) -> String {
     if unit.is_empty() { text.to_owned() } else { format!("{text} {unit}") }
 }
 
-/// What it is compared with, with the unit.
+/// Criterion with its unit.
 pub(super) fn criterion(quantity: &QuantityRecord) -> String {
     match quantity.criterion {
         Criterion::True | Criterion::Reported => limit(quantity.criterion),
@@ -76,22 +76,24 @@ fn limit(criterion: Criterion) -> String {
 }
 
 /// One side of a change.
-pub(super) fn state(state: &State) -> String {
+pub(super) fn state(state: &ComparedState) -> String {
     match state {
-        State::Ran(true) => "ran".to_owned(),
-        State::Ran(false) => "could not run".to_owned(),
-        State::Absent => "not there".to_owned(),
-        State::Stands(standing) => standing.title(),
-        State::Ended(outcome) => outcome.title().to_owned(),
-        State::Uses(used) => format!("{} of the tolerance", share(Some(*used))),
-        State::Is(value, unit) => value.map_or_else(|| NONE.to_owned(), |value| with_unit(&digits(value), unit)),
-        State::Errs(error, unit) => format!("an error of {}", with_unit(&significant(*error, 2), unit)),
-        State::Against(criterion) => limit(*criterion),
-        State::Counted(number) => count(*number),
+        ComparedState::Ran(true) => "ran".to_owned(),
+        ComparedState::Ran(false) => "could not run".to_owned(),
+        ComparedState::Absent => "not there".to_owned(),
+        ComparedState::Stands(standing) => standing.title(),
+        ComparedState::Ended(outcome) => outcome.title().to_owned(),
+        ComparedState::Uses(used) => format!("{} of the tolerance", share(Some(*used))),
+        ComparedState::Is(value, unit) => {
+            value.map_or_else(|| NONE.to_owned(), |value| with_unit(&digits(value), unit))
+        }
+        ComparedState::Errs(error, unit) => format!("an error of {}", with_unit(&significant(*error, 2), unit)),
+        ComparedState::Against(criterion) => limit(*criterion),
+        ComparedState::Counted(number) => count(*number),
     }
 }
 
-/// How far it is from its reference: relative where that makes sense.
+/// Error of a quantity: relative where that makes sense.
 pub(super) fn error(quantity: &QuantityRecord) -> String {
     match (quantity.relative_error, quantity.error) {
         (Some(relative), _) if relative.is_finite() => percent(relative),
@@ -110,7 +112,7 @@ pub(super) fn share(share: Option<f64>) -> String {
     }
 }
 
-/// Everything about a quantity that is not as it should be, in a line.
+/// Line about a quantity that is not as expected.
 pub(super) fn deviation(quantity: &QuantityRecord) -> String {
     let mut text = match (quantity.value, quantity.criterion) {
         (None, _) => "could not be computed".to_owned(),
@@ -129,52 +131,52 @@ pub(super) fn deviation(quantity: &QuantityRecord) -> String {
     text
 }
 
-/// The share of its tolerance or bound that a quantity uses: 1 is where it stops to hold.
+/// Share of the tolerance or bound that a quantity uses; above 1 it does not hold.
 ///
 /// Beside the record's own shares, of references and of upper bounds: of a lower bound as bound ÷ value, of a range by the way
 /// from its middle.
 pub(super) fn used(quantity: &QuantityRecord) -> Option<f64> {
-    let of_bound = |value: f64| match quantity.criterion {
-        Criterion::AtLeast { bound } if bound > 0.0 && value > 0.0 => Some(bound / value),
-        Criterion::Between { low, high } if low < high => Some((2.0 * value - low - high).abs() / (high - low)),
-        _ => None,
-    };
-    // Of a number of things one more or less is no margin.
-    let counts_things = |limit: f64| {
-        quantity.unit.is_empty() && limit.fract() == 0.0 && quantity.value.is_some_and(|value| value.fract() == 0.0)
-    };
+    // Counts have no margin.
     if let Criterion::AtLeast { bound } | Criterion::AtMost { bound } = quantity.criterion
-        && counts_things(bound)
+        && quantity.unit.is_empty()
+        && bound.fract() == 0.0
+        && quantity.value.is_some_and(|value| value.fract() == 0.0)
         && !quantity.counts_work
     {
         return None;
     }
-    quantity.share.or_else(|| quantity.value.and_then(of_bound)).filter(|share| share.is_finite())
+    let share = match (quantity.share, quantity.value, quantity.criterion) {
+        (None, Some(value), Criterion::AtLeast { bound }) if bound > 0.0 && value > 0.0 => Some(bound / value),
+        (None, Some(value), Criterion::Between { low, high }) if low < high => {
+            Some((2.0 * value - low - high).abs() / (high - low))
+        }
+        (share, ..) => share,
+    };
+    share.filter(|share| share.is_finite())
 }
 
-/// The quantity that uses most of its tolerance, and how much: of those that are missed, if there are any. Counts of work are
-/// kept close to what they are, and say nothing of accuracy: they are named only where one is missed.
+/// Quantity that uses most of its tolerance, and the share: of those that are missed, if any. Work counts are named only where one is missed, since
+/// their bounds are close to their values.
 pub(super) fn tightest<'a>(
     quantities: impl Iterator<Item = &'a QuantityRecord> + Clone,
 ) -> Option<(&'a QuantityRecord, f64)> {
-    let among = |wanted: Verdict| {
+    [Verdict::Missed, Verdict::Holds].into_iter().find_map(|wanted| {
         quantities
             .clone()
             .filter(|quantity| Verdict::of_quantity(quantity) == wanted)
             .filter(|quantity| wanted == Verdict::Missed || !quantity.counts_work)
             .filter_map(|quantity| Some((quantity, used(quantity)?)))
             .reduce(|most, next| if next.1 > most.1 { next } else { most })
-    };
-    among(Verdict::Missed).or_else(|| among(Verdict::Holds))
+    })
 }
 
-/// The greatest of the work counts: what the time went into.
+/// Greatest of the work counts.
 pub(super) fn main_work(case: &CaseRecord) -> String {
     let most = case.work.iter().reduce(|most, next| if next.1 > most.1 { next } else { most });
     most.map_or_else(|| NONE.to_owned(), |(name, &counted)| format!("{} {}", count(counted), counted_thing(name)))
 }
 
-/// What was counted, as words.
+/// Name of a work count as words.
 pub(super) fn counted_thing(name: &str) -> String {
     name.replace('_', " ")
 }

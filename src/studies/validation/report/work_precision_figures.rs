@@ -7,7 +7,7 @@ use crate::report::chart::{Chart, Dash, Trace};
 use crate::report::html::number::{count, percent};
 use crate::studies::validation::record::{CaseRecord, ValidationRecord, WorkPrecisionPoint};
 
-/// Errors below this are drawn at it: a logarithmic axis knows no zero.
+/// Least error shown; smaller ones are drawn here, on the logarithmic axis.
 const LEAST_SHOWN: f64 = 1e-12;
 
 /// One figure for each case that has such points.
