@@ -90,20 +90,20 @@ fn scatter(wear_um: [Option<f64>; 2]) -> String {
         Some(wear_um) if wear_um > 0.0 => format!("± {}", headline::scatter_percent()),
         _ => "–".to_owned(),
     });
-    row("  scatter of k in repeated tests, %", [&one, &other])
+    main_row("  scatter of k in repeated tests, %", [&one, &other])
 }
 
 fn errors_of_computation(errors: [Option<f64>; 2]) -> String {
     let [one, other] =
         errors.map(|error| error.map_or_else(|| "–".to_owned(), |error| format!("± {}", two_digits(100.0 * error))));
-    row("  error of the computation, %", [&one, &other])
+    main_row("  error of the computation, %", [&one, &other])
 }
 
 /// Other figures of both flanks and of the mesh.
 fn details(summary: &Summary) -> String {
     let groups = GROUPS.map(|columns| {
         let families = shown(columns).filter(|family| !family.in_headline && !family.is_of_slices());
-        format!("{}{}", row("", columns), rows(families, summary))
+        format!("{}{}", main_row("", columns), rows(families, summary))
     });
     format!("\n{}", groups.concat())
 }
@@ -123,16 +123,16 @@ fn verified(total: &TotalError) -> String {
         return format!("\n  {}\n", total.how);
     }
     [
-        row("difference from finite elements", ["pinion", "wheel"]),
+        main_row("difference from finite elements", ["pinion", "wheel"]),
         of_both_gears("wear of the tip edge, %", &total.tip_edge_wear),
         of_both_gears("wear over the flank (rms), %", &total.profile),
-        row("pressure between the tip edges (rms), %", [&in_percent(total.pressure_between_tips), ""]),
+        main_row("pressure between the tip edges (rms), %", [&in_percent(total.pressure_between_tips), ""]),
     ]
     .concat()
 }
 
 fn of_both_gears(name: &str, errors: &ErrorPerGear) -> String {
-    row(name, [&in_percent(errors.pinion), &in_percent(errors.wheel)])
+    main_row(name, [&in_percent(errors.pinion), &in_percent(errors.wheel)])
 }
 
 fn in_percent(error: Option<f64>) -> String {
@@ -161,7 +161,7 @@ fn at_other_limits(error: &ErrorSummary) -> String {
     let Some(limit) = &error.severe_limit else { return String::new() };
     let [low, high] = [&limit.low, &limit.high].map(|at| [at.pinion.peak_wear_um, at.wheel.peak_wear_um]);
     [
-        format!("\n{}", row("maximum wear, µm, with", ["pinion", "wheel"])),
+        format!("\n{}", main_row("maximum wear, µm, with", ["pinion", "wheel"])),
         figures("a limit of severe wear 10 % lower", low),
         figures("a limit of severe wear 10 % higher", high),
     ]
@@ -180,7 +180,12 @@ fn figures(name: &str, values: [f64; 2]) -> String {
     row(name, [&one, &other])
 }
 
-/// A line of the table: a name and two values.
+/// Line of the run's table: a name and two values.
+fn main_row(name: &str, values: [&str; 2]) -> String {
+    format!("{}\n", format!("  {name:NAME$}{:>12}{:>12}", values[0], values[1]).trim_end())
+}
+
+/// Line of other commands' tables: a shorter name and two values.
 pub(super) fn row(name: &str, values: [&str; 2]) -> String {
     format!("{}\n", format!("  {name:NAME$}{:>12}{:>12}", values[0], values[1]).trim_end())
 }
