@@ -139,7 +139,6 @@ pub use gear::{Gear, PerGear, flank_surface::FlankSurface, flank_zones::FlankZon
 pub use observer::{Observer, Unwatched};
 pub use plan::Plan;
 pub use report::columns;
-#[cfg(feature = "program")]
 pub use report::figure::Figure;
 pub use report::files::ReportError;
 pub use report::unit::of as unit_of;
@@ -324,7 +323,6 @@ pub fn write_uncertainty(record: &UncertaintyRecord, folder: &Path) -> Result<()
 }
 
 /// The plots of the page of a run as drawings, SVG; surfaces in space are left out.
-#[cfg(feature = "program")]
 pub fn figures(run: &RunRecord) -> Vec<Figure> {
     report::figures(run)
 }

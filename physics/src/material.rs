@@ -1,4 +1,4 @@
-//! Materials of gears: linear elastic and isotropic.
+//! Linear elastic, isotropic materials of gears.
 
 use gearwear_fem::elastic::Analysis;
 pub use gearwear_fem::elastic::Elastic;
@@ -14,22 +14,22 @@ pub struct Material {
     pub density_kg_per_m3: f64,
 }
 
-/// Metals are stiffer, plastics softer, those filled with glass too, MPa.
+/// Young's modulus above that of all plastics, glass-filled ones included, and below that of metals, MPa.
 const STIFFEST_PLASTIC_MPA: f64 = 25e3;
 
 impl Material {
-    /// Whether it is so soft that it must be a plastic.
+    /// Whether the material is a plastic, by its Young's modulus.
     pub fn is_plastic(self) -> bool {
         self.young_modulus_mpa < STIFFEST_PLASTIC_MPA
     }
 
-    /// The elastic constants alone.
+    /// Elastic constants.
     pub fn elastic(self) -> Elastic {
         Elastic { young_modulus_mpa: self.young_modulus_mpa, poisson_ratio: self.poisson_ratio }
     }
 }
 
-/// Contact modulus E* of two gears, which are in plane strain, MPa.
+/// Contact modulus E* of two gears in plane strain, MPa.
 pub fn contact_modulus_mpa(bodies: impl Into<[Elastic; 2]>) -> f64 {
     Analysis::PlaneStrain.contact_modulus_mpa(bodies.into())
 }

@@ -1,64 +1,64 @@
-//! Who watches the work, and may stop it.
+//! Progress and interruption of the work.
 
-/// Told how far the work has come; says whether to go on. Everything may be left out: [`Unwatched`] does.
+/// Receiver of progress and warnings, which may also interrupt the work. All methods have defaults, as [`Unwatched`] uses them.
 pub trait Observer: Sync {
-    /// The next stage begins.
+    /// Beginning of the next stage.
     fn stage(&self, _name: &str) {}
 
-    /// The run `number` (from 0) of `count` begins; [`Self::progress`] counts all of them together.
+    /// Beginning of run `number` (from 0) of `count`; [`Self::progress`] counts all of them together.
     fn run_of(&self, _number: usize, _count: usize, _name: &str) {}
 
-    /// `done` of `total` of the stage is finished, in a unit of its own: pinion revolutions, positions, runs.
+    /// Progress of the stage, `done` of `total` in the unit of the stage: pinion revolutions, positions, runs.
     fn progress(&self, _done: f64, _total: f64) {}
 
-    /// `done` of `total` `things` are finished; `beside` is what else is to be said.
+    /// Progress in numbers of `things`, with further text `beside`.
     fn counted(&self, _done: usize, _total: usize, _things: &'static str, _beside: &str) {}
 
-    /// Something the user should know before the work is done; the results say it too.
+    /// Warning during the work, which the results contain too.
     fn warning(&self, _text: &str) {}
 
-    /// What begins now takes much time or memory; unlike other warnings said of the parts of a study too, the same once.
+    /// Announcement of work that needs much time or memory; unlike other warnings, parts of a study give it too, each text once.
     fn announcement(&self, text: &str) {
         self.warning(text);
     }
 
-    /// Whether the user wants it to stop: it does where what is finished can be kept.
+    /// Whether the user interrupts: the work stops where results so far can be kept.
     fn interrupted(&self) -> bool {
         false
     }
 
-    /// Whether the user has waited for that long enough: it then stops at once.
+    /// Whether the user interrupts again: the work stops at once.
     fn gives_up(&self) -> bool {
         self.interrupted()
     }
 }
 
-/// Nobody watches, nobody interrupts.
+/// Observer that ignores progress and does not interrupt.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Unwatched;
 
 impl Observer for Unwatched {}
 
-/// One run of several: hears an interrupt, and its progress counts as a part of all.
+/// Observer of one run of several, whose progress is a part of the whole.
 #[derive(Clone, Copy)]
 pub struct PartOf<'a> {
-    /// Of all the runs.
+    /// Observer of all runs.
     pub observer: &'a dyn Observer,
-    /// What was finished before it, in the unit of `of`.
+    /// Progress before this run, in the unit of `of`.
     pub before: f64,
-    /// Its own share, in the unit of `of`.
+    /// Share of this run, in the unit of `of`.
     pub share: f64,
-    /// All of it, in runs or whatever the caller counts.
+    /// Total, in runs or another unit of the caller.
     pub of: f64,
 }
 
 impl<'a> PartOf<'a> {
-    /// The run `number` (from 0) of `count`.
+    /// Observer of run `number` (from 0) of `count`.
     pub fn new(observer: &'a dyn Observer, number: usize, count: usize) -> Self {
         Self { observer, before: number as f64, share: 1.0, of: count as f64 }
     }
 
-    /// The only one whose progress counts.
+    /// Observer of the only run.
     pub fn whole(observer: &'a dyn Observer) -> Self {
         Self::new(observer, 0, 1)
     }

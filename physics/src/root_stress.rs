@@ -1,7 +1,7 @@
-//! Nominal stress at the root of a tooth by the standards, without a contact analysis: ISO 6336-3 Method B and VDI 2736-2.
+//! Nominal tooth root stress of ISO 6336-3 Method B and VDI 2736-2, without a contact analysis.
 //!
-//! The spur gear of the normal section has z_n = z/(cos² β_b cos β) teeth, and ε_αn = ε_α/cos² β_b. Where a tangent at 30° to the middle
-//! line of its tooth touches the fillet that the rack cuts, with the generating profile shift x_E and lengths in m_n,
+//! The spur gear of the normal section has z_n = z/(cos² β_b cos β) teeth, and ε_αn = ε_α/cos² β_b. At the point of the generated fillet with a
+//! tangent at 30° to the middle line of the tooth, with the generating profile shift x_E and lengths in m_n,
 //!
 //! ```text
 //! G = ρ_fP − h_fP + x_E     E = π/4 − h_fP tan α_n − (1 − sin α_n) ρ_fP/cos α_n
@@ -24,8 +24,8 @@
 //! VDI 2736-2   σ_F  = F_t/(b m_n) Y_Fa Y_Sa Y_β (0.25 + 0.75/ε_αn)     K_F = 1
 //! ```
 //!
-//! No load factors, no thin rims, no grinding notch; undercut only as far as the rack's rounding cuts it. Y_S holds for 1 ≤ q_s < 8. From
-//! ε_αn = 2 on no single pair carries the load, and there is none of ISO 6336-3.
+//! Without load factors, thin rims and grinding notches; undercut is included as far as the rack's rounding generates it. Y_S holds for
+//! 1 ≤ q_s < 8. From ε_αn = 2 on there is no single pair contact, and no stress of ISO 6336-3.
 //!
 //! Sources: ISO 6336-3:2006, clauses 5 to 8, Method B (the edition of 2019 has one more factor f_ε); VDI 2736-2:2014, root stress.
 
@@ -34,48 +34,48 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, FRAC_PI_4, FRAC_PI_6, PI};
 use crate::gear::involute::inv;
 use crate::gear::{Gear, GearPair};
 
-/// Steps of Newton's method for θ, which takes four or five.
+/// Steps of Newton's method for θ, of which four or five are needed.
 const STEPS: usize = 50;
 
-/// Where a tooth carries the whole load.
+/// Point at which a tooth carries the whole load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LoadedAt {
-    /// At the outer point of single pair contact.
+    /// Outer point of single pair contact.
     SinglePairContact,
-    /// At the tip.
+    /// Tip.
     Tip,
 }
 
-/// The critical section of a tooth under that load.
+/// Critical section of a tooth under that load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RootSection {
-    /// h_F, mm.
+    /// Bending moment arm h_F, mm.
     pub moment_arm_mm: f64,
-    /// s_Fn, mm.
+    /// Chord s_Fn, mm.
     pub thickness_mm: f64,
-    /// ρ_F, mm.
+    /// Fillet radius ρ_F, mm.
     pub fillet_radius_mm: f64,
-    /// α_Fe, rad.
+    /// Load angle α_Fe, rad.
     pub load_angle_rad: f64,
-    /// Y_F.
+    /// Form factor Y_F.
     pub form_factor: f64,
-    /// Y_S.
+    /// Stress correction factor Y_S.
     pub stress_correction_factor: f64,
-    /// The nominal stress under 1 N/mm of circumferential load F_t/b at the reference circle, MPa.
+    /// Nominal stress under 1 N/mm of circumferential load F_t/b at the reference circle, MPa.
     pub stress_per_load_per_mm: f64,
 }
 
-/// ε_αn.
+/// Virtual contact ratio ε_αn.
 fn virtual_contact_ratio(pair: &GearPair) -> f64 {
     pair.path.contact_ratio() / pair.base_helix_angle_rad().cos().powi(2)
 }
 
-/// Y_β.
+/// Helix angle factor Y_β.
 fn helix_factor(pair: &GearPair) -> f64 {
     1.0 - pair.overlap_ratio().min(1.0) * pair.spec.helix_angle_rad.abs().to_degrees().min(30.0) / 120.0
 }
 
-/// The critical section of `gear`; `None` where the formulas do not hold.
+/// Critical section of `gear`; `None` where the formulas do not hold.
 pub fn section(pair: &GearPair, gear: Gear, at: LoadedAt) -> Option<RootSection> {
     let spec = &pair.spec;
     let (m_n, alpha) = (spec.normal_module_mm, spec.normal_pressure_angle_rad);

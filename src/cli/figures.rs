@@ -57,7 +57,7 @@ fn family_row(family: &FigureFamily, values: [Option<f64>; 2]) -> String {
     let (unit, factor) = if is_share { ("%", 100.0) } else { (family.unit, 1.0) };
     let comma = if unit.is_empty() { "" } else { ", " };
     let [one, other] = values.map(|value| value.map_or_else(|| "–".to_owned(), |value| digits(factor * value)));
-    row(&format!("{}{comma}{unit}", family.row()), [&one, &other])
+    main_row(&format!("{}{comma}{unit}", family.row()), [&one, &other])
 }
 
 /// First lines: wear and its uncertainty, flank pressure, transmission error, and advice on the tip edges.
@@ -66,7 +66,7 @@ fn headline(summary: &Summary) -> String {
     let is_verified = total.peak_wear.pinion.or(total.peak_wear.wheel).is_some();
     let mut text = format!("{}\n\n", summary.title);
     for columns in GROUPS {
-        text.push_str(&row("", columns));
+        text.push_str(&main_row("", columns));
         for family in shown(columns).filter(|family| family.in_headline) {
             let values = family.both(summary);
             text.push_str(&family_row(family, values));
@@ -90,20 +90,20 @@ fn scatter(wear_um: [Option<f64>; 2]) -> String {
         Some(wear_um) if wear_um > 0.0 => format!("± {}", headline::scatter_percent()),
         _ => "–".to_owned(),
     });
-    row("  scatter of k in repeated tests, %", [&one, &other])
+    main_row("  scatter of k in repeated tests, %", [&one, &other])
 }
 
 fn errors_of_computation(errors: [Option<f64>; 2]) -> String {
     let [one, other] =
         errors.map(|error| error.map_or_else(|| "–".to_owned(), |error| format!("± {}", two_digits(100.0 * error))));
-    row("  error of the computation, %", [&one, &other])
+    main_row("  error of the computation, %", [&one, &other])
 }
 
 /// Other figures of both flanks and of the mesh.
 fn details(summary: &Summary) -> String {
     let groups = GROUPS.map(|columns| {
         let families = shown(columns).filter(|family| !family.in_headline && !family.is_of_slices());
-        format!("{}{}", row("", columns), rows(families, summary))
+        format!("{}{}", main_row("", columns), rows(families, summary))
     });
     format!("\n{}", groups.concat())
 }
@@ -114,7 +114,7 @@ fn over_the_width(summary: &Summary) -> String {
         return String::new();
     }
     let [gears, states] = GROUPS.map(|columns| rows(shown(columns).filter(|family| family.is_of_slices()), summary));
-    format!("{states}{}{gears}", row("over the face width", GROUPS[0]))
+    format!("{states}{}{gears}", main_row("over the face width", GROUPS[0]))
 }
 
 /// Difference of the run from finite elements, or why it is not known.
@@ -123,16 +123,16 @@ fn verified(total: &TotalError) -> String {
         return format!("\n  {}\n", total.how);
     }
     [
-        row("difference from finite elements", ["pinion", "wheel"]),
+        main_row("difference from finite elements", ["pinion", "wheel"]),
         of_both_gears("wear of the tip edge, %", &total.tip_edge_wear),
         of_both_gears("wear over the flank (rms), %", &total.profile),
-        row("pressure between the tip edges (rms), %", [&in_percent(total.pressure_between_tips), ""]),
+        main_row("pressure between the tip edges (rms), %", [&in_percent(total.pressure_between_tips), ""]),
     ]
     .concat()
 }
 
 fn of_both_gears(name: &str, errors: &ErrorPerGear) -> String {
-    row(name, [&in_percent(errors.pinion), &in_percent(errors.wheel)])
+    main_row(name, [&in_percent(errors.pinion), &in_percent(errors.wheel)])
 }
 
 fn in_percent(error: Option<f64>) -> String {
@@ -161,7 +161,7 @@ fn at_other_limits(error: &ErrorSummary) -> String {
     let Some(limit) = &error.severe_limit else { return String::new() };
     let [low, high] = [&limit.low, &limit.high].map(|at| [at.pinion.peak_wear_um, at.wheel.peak_wear_um]);
     [
-        format!("\n{}", row("maximum wear, µm, with", ["pinion", "wheel"])),
+        format!("\n{}", main_row("maximum wear, µm, with", ["pinion", "wheel"])),
         figures("a limit of severe wear 10 % lower", low),
         figures("a limit of severe wear 10 % higher", high),
     ]
@@ -177,12 +177,17 @@ pub(super) fn two_digits(value: f64) -> String {
 
 fn figures(name: &str, values: [f64; 2]) -> String {
     let [one, other] = values.map(digits);
-    row(name, [&one, &other])
+    main_row(name, [&one, &other])
 }
 
-/// A line of the table: a name and two values.
-pub(super) fn row(name: &str, values: [&str; 2]) -> String {
+/// Line of the run's table: a name and two values.
+fn main_row(name: &str, values: [&str; 2]) -> String {
     format!("{}\n", format!("  {name:NAME$}{:>12}{:>12}", values[0], values[1]).trim_end())
+}
+
+/// Line of other commands' tables: a shorter name and two values.
+pub(super) fn row(name: &str, values: [&str; 2]) -> String {
+    format!("  {name:38}{:>12}{:>12}\n", values[0], values[1])
 }
 
 /// A figure with four significant digits, or all digits of a large whole one.

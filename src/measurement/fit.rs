@@ -55,7 +55,7 @@ pub(crate) enum FitStop {
 
 /// Result of a fit.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Fitted {
+pub(crate) struct FittedParameters {
     /// θ.
     pub parameters: Vec<f64>,
     /// r(θ).
@@ -110,7 +110,10 @@ impl<E> LeastSquares for BoundedResiduals<'_, '_, E> {
 }
 
 /// Finds the parameters with the least sum of squares of `residuals`.
-pub(crate) fn least_squares<E>(parameters: &[Parameter], residuals: &mut Residuals<'_, E>) -> Result<Fitted, E> {
+pub(crate) fn least_squares<E>(
+    parameters: &[Parameter],
+    residuals: &mut Residuals<'_, E>,
+) -> Result<FittedParameters, E> {
     let start = parameters.iter().map(|p| p.start.clamp(p.least, p.greatest)).collect();
     let mut problem = BoundedResiduals { parameters, residuals };
     let Minimum { theta, residuals, is_converged } = SEARCH.minimise(&mut problem, start)?;
@@ -127,7 +130,7 @@ pub(crate) fn least_squares<E>(parameters: &[Parameter], residuals: &mut Residua
         _ if is_converged => (FitStop::Converged, None),
         _ => (FitStop::MaxIterations, None),
     };
-    Ok(Fitted { parameters: theta, residuals, jacobian, stop, blamed })
+    Ok(FittedParameters { parameters: theta, residuals, jacobian, stop, blamed })
 }
 
 /// The undamped step −(JᵀJ)⁻¹Jᵀr; `None` where the parameters are not determined.
@@ -183,7 +186,8 @@ fn newton_step(jacobian: &[Vec<f64>], residuals: &[f64], damping: f64) -> Option
     Some(step.iter().zip(&scales).map(|(value, scale)| value / scale).collect())
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+/// Σ a b.
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
@@ -196,7 +200,7 @@ mod tests {
         Parameter { start, least: -10.0, greatest: 10.0, width: 1e-3 }
     }
 
-    fn fit(parameters: &[Parameter], mut of: impl FnMut(&[f64]) -> Vec<f64>) -> Fitted {
+    fn fit(parameters: &[Parameter], mut of: impl FnMut(&[f64]) -> Vec<f64>) -> FittedParameters {
         let Ok(fitted) = least_squares::<Infallible>(parameters, &mut |theta| Ok(of(theta)));
         fitted
     }

@@ -16,6 +16,8 @@
 //! The columns are Legendre's polynomials on the length of the profile, orthonormalised twice: well conditioned for any number of
 //! points.
 
+use super::fit::dot;
+
 /// Form of a profile: the values of `--form`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Form {
@@ -83,10 +85,6 @@ impl FormRemoval {
             take_out(column, values);
         }
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Takes the part along the unit vector `column` out of `values`.

@@ -1,4 +1,4 @@
-//! Uncertainty of the parameters of a fit, from its residuals.
+//! FitUncertainty of the parameters of a fit, from its residuals.
 //!
 //! Neighbouring points of a stylus trace are not independent: the tip is wider than their distance, and what the model does
 //! not describe is smooth. With ρ_k the autocorrelation of the residuals of a profile at a distance of k points,
@@ -34,7 +34,7 @@ use std::ops::Range;
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::fit::inverse_normal_matrix;
+use super::fit::{dot, inverse_normal_matrix};
 
 /// Probability that the interval holds.
 pub(crate) const CONFIDENCE: f64 = 0.95;
@@ -61,9 +61,9 @@ pub(crate) struct Scatter {
     pub deviation: f64,
 }
 
-/// Uncertainty of fitted parameters.
+/// FitUncertainty of fitted parameters.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Uncertainty {
+pub(crate) struct FitUncertainty {
     /// Scatter of each profile.
     pub scatter: Vec<Scatter>,
     /// Half the width of each parameter's interval.
@@ -74,7 +74,7 @@ pub(crate) struct Uncertainty {
     pub correlation: Vec<Vec<f64>>,
 }
 
-impl Uncertainty {
+impl FitUncertainty {
     /// Half the width of the interval of θ_i − θ_j, with the fewer degrees of freedom of both.
     pub(crate) fn half_width_of_difference(&self, i: usize, j: usize) -> f64 {
         let [a, b] = [i, j].map(|index| self.deviations[index]);
@@ -84,9 +84,9 @@ impl Uncertainty {
     }
 }
 
-/// Uncertainty from `residuals` with the columns `jacobian`, profile after profile as in `parts`; `None` where too few points of a profile
+/// FitUncertainty from `residuals` with the columns `jacobian`, profile after profile as in `parts`; `None` where too few points of a profile
 /// count for an interval, or parameters are not determined.
-pub(crate) fn uncertainty(jacobian: &[Vec<f64>], residuals: &[f64], parts: &[ProfilePart]) -> Option<Uncertainty> {
+pub(crate) fn uncertainty(jacobian: &[Vec<f64>], residuals: &[f64], parts: &[ProfilePart]) -> Option<FitUncertainty> {
     let count = jacobian.len();
     let inverse = inverse_normal_matrix(jacobian)?;
     // J N, column by column: the part of each residual in each parameter.
@@ -122,7 +122,7 @@ pub(crate) fn uncertainty(jacobian: &[Vec<f64>], residuals: &[f64], parts: &[Pro
         let covariance: f64 = covariances(&influence[i], &influence[j], &rows, &scatter).iter().sum();
         correlation[i][j] = covariance / (deviations[i] * deviations[j]);
     }
-    Some(Uncertainty { scatter, half_widths, deviations, correlation })
+    Some(FitUncertainty { scatter, half_widths, deviations, correlation })
 }
 
 /// Part of each profile in the covariance of the parameters with these `influence`s.
@@ -159,10 +159,6 @@ fn degrees_of_freedom(variances: &[f64], scatter: &[Scatter]) -> f64 {
     let whole: f64 = variances.iter().sum();
     let parts = variances.iter().zip(scatter).map(|(v, s)| (v / whole).powi(2) / s.degrees_of_freedom);
     parts.sum::<f64>().recip()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Autocorrelation of residuals at a distance of `k` points, over their sum of `squares`.
@@ -211,8 +207,8 @@ mod tests {
         (0..count).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect()
     }
 
-    /// Uncertainty where all residuals are of one profile.
-    fn of_one(jacobian: &[Vec<f64>], residuals: &[f64], also_fitted: usize) -> Option<Uncertainty> {
+    /// FitUncertainty where all residuals are of one profile.
+    fn of_one(jacobian: &[Vec<f64>], residuals: &[f64], also_fitted: usize) -> Option<FitUncertainty> {
         uncertainty(jacobian, residuals, &[ProfilePart { points: residuals.len(), also_fitted }])
     }
 

@@ -1,16 +1,14 @@
-//! Charts: what is drawn, in the words of plotly.js, which draws them in the page; as files they are drawn by `figure`.
+//! Charts: what is drawn, as data. `figure` draws them, in pages and in files.
 //!
-//! A [`Chart`] is built line by line; what has no method of its own is set under plotly's name, as plotly's reference has it,
-//! <https://plotly.com/javascript/reference/>. Which bundle of the script goes into a page follows from its traces (`plot_script`).
+//! A [`Chart`] is built line by line. Numbers are in the unit that the axis names; what is no number is a gap.
 //!
-//! Colours are tokens, `var(--name)` or `mix(--from,--to,share)`. The page's script replaces them by the custom properties
-//! of `page.css` in force, so that one place holds the palette and charts follow the light, dark or printed page.
-
-use serde::Serialize;
-use serde_json::{Map, Value, json};
+//! Colours are tokens, `var(--name)` or `mix(--from,--to,share)`, of the custom properties of `page.css`: one place holds the palette, and
+//! charts follow the light, dark or printed page.
 
 use super::control::Control;
-use super::html::number::plotted;
+pub(crate) use super::trace::{
+    BarPlaces, Bars, ColourScale, Curve, Dash, Drawn, Field, Line, Rows, Shown, Signs, Surface, Trace, View,
+};
 use crate::gear::Gear;
 use crate::results::run::PathPoints;
 
@@ -22,9 +20,6 @@ pub(crate) const MUTED: &str = "var(--muted)";
 pub(crate) const PATH: &str = "var(--path)";
 /// Outlines and the answer that others are compared with.
 pub(crate) const INK: &str = "var(--ink)";
-const RULE: &str = "var(--rule)";
-const PAPER: &str = "var(--paper)";
-const NOTHING: &str = "rgba(0,0,0,0)";
 
 pub(crate) fn gear_colour(gear: Gear) -> &'static str {
     match gear {
@@ -50,167 +45,49 @@ pub(crate) fn colour_between_gears(share: f64) -> String {
     format!("mix(--pinion,--wheel,{share:.3})")
 }
 
-/// How a line is dashed, in plotly's words.
-#[derive(Debug, Clone, Copy, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum Dash {
-    Solid,
-    #[serde(rename = "dash")]
-    Dashed,
-    Dot,
-    #[serde(rename = "dashdot")]
-    Mixed,
+/// An axis: its words, range and ticks.
+#[derive(Debug, Clone)]
+pub(crate) struct Axis {
+    /// Unit included.
+    pub title: String,
+    /// Values at its beginning and its end; otherwise they follow from the traces.
+    pub range: Option<[f64; 2]>,
+    pub is_logarithmic: bool,
+    pub has_grid: bool,
+    /// How its values are read at a point, a format of d3.
+    pub format: Option<&'static str>,
+    /// Values with their words, where they are not those of round numbers.
+    pub ticks: Vec<(f64, String)>,
 }
 
-/// plotly's types of traces that charts use.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum TraceKind {
-    /// Lines and points.
-    Scatter,
-    Bar,
-    HeatMap,
-    Contour,
-    Surface,
-}
-
-impl TraceKind {
-    /// As plotly calls it.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Scatter => "scatter",
-            Self::Bar => "bar",
-            Self::HeatMap => "heatmap",
-            Self::Contour => "contour",
-            Self::Surface => "surface",
+impl Axis {
+    pub(crate) fn new() -> Self {
+        Self {
+            title: String::new(),
+            range: None,
+            is_logarithmic: false,
+            has_grid: true,
+            format: None,
+            ticks: Vec::new(),
         }
     }
 }
 
-/// One of the things that a chart shows.
+/// A vertical line with its name above it.
 #[derive(Debug, Clone)]
-pub(crate) struct Trace {
-    pub kind: TraceKind,
-    attributes: Map<String, Value>,
+pub(crate) struct Mark {
+    pub name: String,
+    pub x: f64,
+    pub is_strong: bool,
 }
 
-/// Numbers rounded to what a chart needs; what is none, or no number, is a gap.
-fn rounded(values: impl IntoIterator<Item = impl Into<Option<f64>>>) -> Value {
-    values.into_iter().map(|value| value.into().map(plotted)).collect()
-}
-
-impl Trace {
-    pub(crate) fn new(kind: TraceKind, name: impl Into<String>) -> Self {
-        Self::of_kind(kind).set("name", name.into())
-    }
-
-    fn of_kind(kind: TraceKind) -> Self {
-        Self { kind, attributes: Map::new() }.set("type", kind.name())
-    }
-
-    /// An attribute under plotly's name; null where it is not set.
-    pub(crate) fn get(&self, key: &str) -> &Value {
-        self.attributes.get(key).unwrap_or(&Value::Null)
-    }
-
-    /// Sets an attribute under plotly's name.
-    pub(crate) fn set(mut self, key: &str, value: impl Into<Value>) -> Self {
-        self.attributes.insert(key.to_owned(), value.into());
-        self
-    }
-
-    /// A line through points, of a colour, a width in pixels and a dash.
-    pub(crate) fn line(
-        name: impl Into<String>,
-        x: impl IntoIterator<Item = impl Into<Option<f64>>>,
-        y: impl IntoIterator<Item = impl Into<Option<f64>>>,
-        (colour, width_px, dash): (impl Into<String>, f64, Dash),
-    ) -> Self {
-        let points = Self::new(TraceKind::Scatter, name).set("x", rounded(x)).set("y", rounded(y));
-        // Through all its points: plotly would leave some out, which puts corners into smooth curves.
-        let line = json!({ "color": colour.into(), "width": width_px, "dash": dash, "simplify": false });
-        points.set("mode", "lines").set("line", line)
-    }
-
-    /// Points, each a sign of plotly's symbols.
-    pub(crate) fn points(
-        name: impl Into<String>,
-        x: impl IntoIterator<Item = impl Into<Option<f64>>>,
-        y: impl IntoIterator<Item = impl Into<Option<f64>>>,
-        (colour, symbol, size_px): (&str, &str, i32),
-    ) -> Self {
-        let points = Self::new(TraceKind::Scatter, name).set("x", rounded(x)).set("y", rounded(y));
-        points.set("mode", "markers").set("marker", json!({ "color": colour, "symbol": symbol, "size": size_px }))
-    }
-
-    /// Colours over cells.
-    pub(crate) fn heat_map(unit: &str, x: &[f64], y: &[f64], z: impl Into<Value>) -> Self {
-        let edges = |edges: &[f64]| rounded(edges.iter().copied());
-        Self::of_kind(TraceKind::HeatMap).set("x", edges(x)).set("y", edges(y)).set("z", z).colour_bar(unit)
-    }
-
-    /// Colours for values, with their scale beside the chart.
-    pub(crate) fn colour_bar(self, unit: &str) -> Self {
-        // With empty lines below, so that the unit stands clear of a number at the very top.
-        let title = json!({ "text": format!("{unit}<br>\u{a0}<br>\u{a0}"), "font": { "size": 12 } });
-        let bar = json!({
-            "title": title,
-            "thickness": 12,
-            "exponentformat": "power",
-            "minexponent": LARGEST_PLAIN_EXPONENT,
-        });
-        self.set("colorscale", "Viridis").set("colorbar", bar)
-    }
-
-    /// The scale of colours farther out, as part of the chart's width.
-    pub(crate) fn colour_bar_at(mut self, x: f64) -> Self {
-        self.attributes["colorbar"]["x"] = x.into();
-        self
-    }
-
-    /// The signs of a line's points too.
-    pub(crate) fn with_points(self, symbol: &str, size_px: i32) -> Self {
-        let colour = self.attributes["line"]["color"].clone();
-        let marker = json!({ "color": colour, "symbol": symbol, "size": size_px });
-        self.set("mode", "lines+markers").set("marker", marker)
-    }
-
-    /// An area instead of a line.
-    pub(crate) fn filled(self, colour: impl Into<String>) -> Self {
-        self.set("fill", "toself").set("fillcolor", colour.into()).silent()
-    }
-
-    /// What is read at a point, as a template of plotly's.
-    pub(crate) fn hover(self, template: impl Into<String>) -> Self {
-        self.set("hovertemplate", template.into())
-    }
-
-    /// A text of its own to be read at each point.
-    pub(crate) fn hover_texts(self, texts: Vec<String>) -> Self {
-        self.set("hovertext", texts).hover("%{hovertext}<extra></extra>")
-    }
-
-    /// Nothing is read at its points.
-    pub(crate) fn silent(self) -> Self {
-        self.set("hoverinfo", "skip")
-    }
-
-    pub(crate) fn unlisted(self) -> Self {
-        self.set("showlegend", false)
-    }
-
-    /// Shown and hidden with the others of the group.
-    pub(crate) fn group(self, name: &str) -> Self {
-        self.set("legendgroup", name)
-    }
-
-    /// Drawn from the beginning, or not before its entry in the legend is chosen.
-    pub(crate) fn at_once(self, at_once: bool) -> Self {
-        self.set("visible", if at_once { json!(true) } else { json!("legendonly") })
-    }
-
-    pub(crate) fn opacity(self, opacity: f64) -> Self {
-        self.set("opacity", opacity)
-    }
+/// A name beside something.
+#[derive(Debug, Clone)]
+pub(crate) enum Label {
+    /// At the right of the plot, at this height.
+    Beside { name: String, y: f64 },
+    /// Just above a point.
+    Above { name: String, at: [f64; 2] },
 }
 
 /// A chart with its words.
@@ -223,32 +100,44 @@ pub(crate) struct Chart {
     pub reading: String,
     /// Over the whole width of the page, or beside the next one where there is room.
     pub is_wide: bool,
+    pub height_px: usize,
     /// What the reader may move.
     pub control: Option<Control>,
-    traces: Vec<Trace>,
-    layout: Value,
+    pub x: Axis,
+    pub y: Axis,
+    /// A length is the same on both axes.
+    pub is_to_scale: bool,
+    /// The reader drags the drawing, rather than a frame to be enlarged.
+    pub is_dragged: bool,
+    /// Traces are named below it.
+    pub has_legend: bool,
+    /// The nearest point is read, not all above one another.
+    pub reads_nearest: bool,
+    pub marks: Vec<Mark>,
+    pub labels: Vec<Label>,
+    pub traces: Vec<Trace>,
 }
 
 impl Chart {
-    /// An empty chart. Its width and the legend's height follow from the room there is, in the page's script.
+    /// An empty chart. Its width follows from the room there is.
     pub(crate) fn new(id: impl Into<String>, title: impl Into<String>) -> Self {
-        let layout = json!({
-            "height": 380,
-            "paper_bgcolor": PAPER,
-            "plot_bgcolor": PAPER,
-            "font": { "family": "system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif", "size": 13, "color": INK },
-            "margin": { "l": 56, "r": 12, "t": 28, "b": 48 },
-            "separators": ".\u{202f}",
-            "hovermode": "x unified",
-            "hoverlabel": { "bgcolor": PAPER, "bordercolor": RULE },
-            "modebar": { "bgcolor": NOTHING, "color": MUTED, "activecolor": INK },
-            "showlegend": true,
-            "legend": {
-                "orientation": "h", "x": 0.0, "xanchor": "left", "itemwidth": 34, "bgcolor": NOTHING, "font": { "size": 12 },
-            },
-        });
-        let (id, title) = (id.into(), title.into());
-        Self { id, title, reading: String::new(), is_wide: false, control: None, traces: Vec::new(), layout }
+        Self {
+            id: id.into(),
+            title: title.into(),
+            reading: String::new(),
+            is_wide: false,
+            height_px: 380,
+            control: None,
+            x: Axis::new(),
+            y: Axis::new(),
+            is_to_scale: false,
+            is_dragged: false,
+            has_legend: true,
+            reads_nearest: false,
+            marks: Vec::new(),
+            labels: Vec::new(),
+            traces: Vec::new(),
+        }
     }
 
     pub(crate) fn reading(mut self, text: impl Into<String>) -> Self {
@@ -273,54 +162,55 @@ impl Chart {
         self
     }
 
-    /// Sets an attribute of the layout under plotly's name.
-    pub(crate) fn set(mut self, key: &str, value: impl Into<Value>) -> Self {
-        self.layout[key] = value.into();
+    pub(crate) fn height(mut self, px: usize) -> Self {
+        self.height_px = px;
         self
     }
 
-    pub(crate) fn height(self, px: usize) -> Self {
-        self.set("height", px)
+    /// A length is the same on both axes.
+    pub(crate) fn drawn_to_scale(mut self) -> Self {
+        self.is_to_scale = true;
+        self
+    }
+
+    /// The reader drags the drawing, rather than a frame to be enlarged.
+    pub(crate) fn dragged(mut self) -> Self {
+        self.is_dragged = true;
+        self
     }
 
     /// Whether traces are named below it.
-    pub(crate) fn legend(self, is_shown: bool) -> Self {
-        self.set("showlegend", is_shown)
+    pub(crate) fn legend(mut self, is_shown: bool) -> Self {
+        self.has_legend = is_shown;
+        self
     }
 
     /// The nearest point is read, not all above one another.
-    pub(crate) fn read_nearest(self) -> Self {
-        self.set("hovermode", "closest")
+    pub(crate) fn read_nearest(mut self) -> Self {
+        self.reads_nearest = true;
+        self
     }
 
     /// Names the axis across, unit included.
-    pub(crate) fn x(self, title: &str) -> Self {
-        self.set("xaxis", axis(title))
+    pub(crate) fn x(mut self, title: &str) -> Self {
+        self.x.title = title.to_owned();
+        self
     }
 
     /// Names the axis upwards, unit included.
-    pub(crate) fn y(self, title: &str) -> Self {
-        self.set("yaxis", axis(title))
-    }
-
-    /// Sets an attribute of the axis across under plotly's name.
-    pub(crate) fn x_set(mut self, key: &str, value: impl Into<Value>) -> Self {
-        self.layout["xaxis"][key] = value.into();
+    pub(crate) fn y(mut self, title: &str) -> Self {
+        self.y.title = title.to_owned();
         self
     }
 
-    /// Sets an attribute of the axis upwards under plotly's name.
-    pub(crate) fn y_set(mut self, key: &str, value: impl Into<Value>) -> Self {
-        self.layout["yaxis"][key] = value.into();
+    pub(crate) fn x_range(mut self, range: [f64; 2]) -> Self {
+        self.x.range = Some(range);
         self
     }
 
-    pub(crate) fn x_range(self, range: [f64; 2]) -> Self {
-        self.x_set("range", range.to_vec())
-    }
-
-    pub(crate) fn y_range(self, range: [f64; 2]) -> Self {
-        self.y_set("range", range.to_vec())
+    pub(crate) fn y_range(mut self, range: [f64; 2]) -> Self {
+        self.y.range = Some(range);
+        self
     }
 
     /// The axis upwards from 0 to somewhat above `greatest`.
@@ -335,21 +225,36 @@ impl Chart {
     }
 
     /// How places across are read, a format of d3.
-    pub(crate) fn x_format(self, format: &str) -> Self {
-        self.x_set("hoverformat", format)
+    pub(crate) fn x_format(mut self, format: &'static str) -> Self {
+        self.x.format = Some(format);
+        self
     }
 
-    /// Powers of ten written as such, across.
-    pub(crate) fn x_logarithmic(self) -> Self {
-        self.x_set("type", "log")
+    /// Powers of ten evenly spaced, across.
+    pub(crate) fn x_logarithmic(mut self) -> Self {
+        self.x.is_logarithmic = true;
+        self
     }
 
-    pub(crate) fn y_logarithmic(self) -> Self {
-        self.y_set("type", "log")
+    pub(crate) fn y_logarithmic(mut self) -> Self {
+        self.y.is_logarithmic = true;
+        self
     }
 
-    pub(crate) fn without_grid(self) -> Self {
-        self.x_set("showgrid", false).y_set("showgrid", false)
+    /// Values across with words of their own.
+    pub(crate) fn x_ticks(mut self, ticks: impl IntoIterator<Item = (f64, impl Into<String>)>) -> Self {
+        self.x.ticks = ticks.into_iter().map(|(value, word)| (value, word.into())).collect();
+        self
+    }
+
+    pub(crate) fn y_ticks(mut self, ticks: impl IntoIterator<Item = (f64, impl Into<String>)>) -> Self {
+        self.y.ticks = ticks.into_iter().map(|(value, word)| (value, word.into())).collect();
+        self
+    }
+
+    pub(crate) fn without_grid(mut self) -> Self {
+        (self.x.has_grid, self.y.has_grid) = (false, false);
+        self
     }
 
     /// The axis across as the path of contact, with its points.
@@ -360,15 +265,6 @@ impl Chart {
     pub(crate) fn add(mut self, trace: Trace) -> Self {
         self.traces.push(trace);
         self
-    }
-
-    /// Everything but its traces, in plotly's words.
-    pub(crate) fn layout(&self) -> &Value {
-        &self.layout
-    }
-
-    pub(crate) fn traces(&self) -> impl Iterator<Item = &Trace> {
-        self.traces.iter()
     }
 
     /// Draws all of `traces`, one over the other.
@@ -391,13 +287,8 @@ impl Chart {
     /// Draws a quantity new (dashed, grey) and worn (full) against `x`.
     pub(crate) fn new_and_worn(self, x: &[f64], new: Vec<f64>, worn: Vec<f64>, hover: &str) -> Self {
         let x = || x.iter().copied();
-        self.line("new", x(), new, (NEW, 2.0, Dash::Dashed), hover).line(
-            "worn",
-            x(),
-            worn,
-            (WORN, 2.2, Dash::Solid),
-            hover,
-        )
+        let chart = self.line("new", x(), new, (NEW, 2.0, Dash::Dashed), hover);
+        chart.line("worn", x(), worn, (WORN, 2.2, Dash::Solid), hover)
     }
 
     /// A vertical line with its letter at each of the points A–E; the pitch point C is the stronger one.
@@ -406,75 +297,16 @@ impl Chart {
     }
 
     /// A vertical line with its name at each place; that of the name `strongest` is the stronger one.
-    pub(crate) fn mark(self, places: impl IntoIterator<Item = (impl Into<String>, f64)>, strongest: &str) -> Self {
-        // On a logarithmic axis plotly takes the place of a line as it is and that of its name as a logarithm.
-        let is_logarithmic = self.layout["xaxis"]["type"] == "log";
-        let (mut lines, mut names) = (Vec::new(), Vec::new());
-        for (name, x) in places {
-            if !x.is_finite() || is_logarithmic && x <= 0.0 {
-                continue;
-            }
-            let name = name.into();
-            let (width, dash) = if name == strongest { (1.4, "dashdot") } else { (1.0, "dot") };
-            lines.push(json!({
-                "type": "line", "layer": "below", "xref": "x", "yref": "paper", "x0": x, "x1": x, "y0": 0.0, "y1": 1.0,
-                "line": { "color": MUTED, "width": width, "dash": dash },
-            }));
-            let at = if is_logarithmic { x.log10() } else { x };
-            names.push(label(name, json!({ "xref": "x", "yref": "paper", "x": at, "y": 1.0, "yanchor": "bottom" })));
-        }
-        self.set("shapes", lines).set("annotations", names)
+    pub(crate) fn mark(mut self, places: impl IntoIterator<Item = (impl Into<String>, f64)>, strongest: &str) -> Self {
+        let marks = places.into_iter().map(|(name, x)| (name.into(), x));
+        self.marks = marks.map(|(name, x)| Mark { is_strong: name == strongest, name, x }).collect();
+        self
     }
 
-    /// As plotly.js takes it; a number that is none is `null`, a gap.
-    pub(crate) fn to_json(&self) -> String {
-        #[derive(Serialize)]
-        struct Whole<'a> {
-            data: Vec<&'a Map<String, Value>>,
-            layout: &'a Value,
-            config: Value,
-            #[serde(skip_serializing_if = "Option::is_none")]
-            control: Option<&'a Control>,
-        }
-        let config = json!({
-            "typesetMath": false,
-            "displaylogo": false,
-            "displayModeBar": "hover",
-            "doubleClick": "reset+autosize",
-            "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d", "toggleSpikelines"],
-        });
-        let data = self.traces.iter().map(|trace| &trace.attributes).collect();
-        let whole = Whole { data, layout: &self.layout, config, control: self.control.as_ref() };
-        serde_json::to_string(&whole).expect("numbers and texts are JSON")
+    pub(crate) fn label(mut self, labels: impl IntoIterator<Item = Label>) -> Self {
+        self.labels.extend(labels);
+        self
     }
-}
-
-/// A name over a chart, at `place`.
-pub(crate) fn label(name: impl Into<String>, place: Value) -> Value {
-    let mut label = json!({ "showarrow": false, "text": name.into(), "font": { "size": 12, "color": MUTED } });
-    if let (Value::Object(label), Value::Object(place)) = (&mut label, place) {
-        label.extend(place);
-    }
-    label
-}
-
-/// Numbers at an axis are written out up to this power of ten: 10000, not 10k.
-const LARGEST_PLAIN_EXPONENT: i32 = 5;
-
-fn axis(title: &str) -> Value {
-    json!({
-        "title": { "text": title, "font": { "size": 13 } },
-        "automargin": true,
-        "gridcolor": "var(--grid)",
-        "zeroline": false,
-        "showline": true,
-        "linecolor": RULE,
-        "ticks": "outside",
-        "tickcolor": RULE,
-        "ticklen": 4,
-        "exponentformat": "power",
-        "minexponent": LARGEST_PLAIN_EXPONENT,
-    })
 }
 
 /// Range from 0 to somewhat above `greatest`; from 0 to 1 where nothing is above zero.
@@ -486,27 +318,4 @@ pub(crate) fn from_zero(greatest: f64) -> [f64; 2] {
 pub(crate) fn padded(low: f64, high: f64) -> [f64; 2] {
     let pad = 0.025 * (high - low).abs();
     [low - pad, high + pad]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn charts_are_in_the_words_of_the_script() {
-        let dots = Trace::points("dots", [1.0, f64::NAN], [0.5, 2.0], (PATH, "circle-open", 5)).at_once(false);
-        let chart =
-            Chart::new("id", "title").x("x, mm").x_logarithmic().add(dots).mark([("low", -1.0), ("high", 10.0)], "");
-        let json: Value = serde_json::from_str(&chart.to_json()).unwrap();
-        let trace = json!({ "type": "scatter", "name": "dots", "x": [1.0, null], "y": [0.5, 2.0], "mode": "markers",
-            "visible": "legendonly", "marker": { "size": 5, "symbol": "circle-open", "color": PATH } });
-        assert_eq!(json["data"][0], trace);
-        assert_eq!(json["layout"]["xaxis"]["title"]["text"], "x, mm");
-        assert_eq!(json["layout"]["shapes"].as_array().unwrap().len(), 1);
-        assert_eq!(
-            (&json["layout"]["shapes"][0]["x0"], &json["layout"]["annotations"][0]["x"]),
-            (&json!(10.0), &json!(1.0))
-        );
-        assert_eq!(json["config"]["doubleClick"], "reset+autosize");
-    }
 }

@@ -3,7 +3,8 @@
 //! The page's script carries it out (`page.js`); figures in files show the chart as it is first drawn.
 
 use serde::Serialize;
-use serde_json::{Map, Value, json};
+
+use super::chart::Rows;
 
 /// A slider below a chart.
 #[derive(Debug, Clone, Serialize)]
@@ -24,24 +25,17 @@ pub(crate) enum Control {
 pub(crate) struct SliderStep {
     /// Its name beside the slider.
     pub label: String,
-    /// The traces that it changes, in the order in which they were added.
-    pub traces: Vec<usize>,
-    /// Attributes under plotly's names, each with one value for each of these traces.
-    pub set: Map<String, Value>,
+    pub change: Change,
 }
 
-impl SliderStep {
-    /// A state in which each trace is shown or not.
-    pub(crate) fn showing(label: String, shown: impl IntoIterator<Item = bool>) -> Self {
-        let shown: Vec<bool> = shown.into_iter().collect();
-        Self { label, traces: (0..shown.len()).collect(), set: Map::from_iter([("visible".to_owned(), json!(shown))]) }
-    }
-
-    /// A state in which the first trace has other colours over its cells.
-    pub(crate) fn cells(label: String, z: impl Into<Value>) -> Self {
-        let values = Value::Array(vec![z.into()]);
-        Self { label, traces: vec![0], set: Map::from_iter([("z".to_owned(), values)]) }
-    }
+/// What a state has of its own.
+#[derive(Debug, Clone, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Change {
+    /// Whether each trace is shown.
+    Shown(Vec<bool>),
+    /// Values over the cells of the first trace.
+    Cells(Rows),
 }
 
 /// Two gears that turn about their axes while their contact moves along the path of contact.

@@ -12,7 +12,7 @@
 //! | `scene.toml` | the resolved scene, byte for byte, so that its SHA-256 begins with the scene hash |
 //! | `report.html` | [`html`] |
 //! | `results.xlsx`, where asked for | [`workbook`], from the CSV files |
-//! | figures in a folder of their own, where asked for | [`figure`], from the plots of the page |
+//! | figures in a folder of their own, where asked for | [`figure`], which draws the plots of the page too |
 //!
 //! `summary.json` comes last, so that its presence says the others are complete.
 
@@ -23,16 +23,15 @@ pub(crate) mod control;
 pub(crate) mod csv_table;
 pub(crate) mod fem;
 pub(crate) mod fem_pair;
-#[cfg(feature = "program")]
 pub(crate) mod figure;
 pub(crate) mod files;
 pub(crate) mod flank_mesh;
 pub(crate) mod headline;
 pub(crate) mod html;
-mod plot_script;
 mod pressure_plot;
 pub(crate) mod slice_table;
 pub(crate) mod tables;
+mod trace;
 pub(crate) mod unit;
 mod vtu_file;
 #[cfg(feature = "program")]
@@ -94,7 +93,6 @@ pub(crate) fn write_figures(record: &RunRecord, dir: &Path) -> Result<Vec<PathBu
 }
 
 /// The plots of the page of `record`, drawn.
-#[cfg(feature = "program")]
 pub(crate) fn figures(record: &RunRecord) -> Vec<figure::Figure> {
     figure::drawn(&html::run_page::charts(record)).collect()
 }

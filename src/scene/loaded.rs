@@ -13,7 +13,7 @@ use std::sync::Arc;
 use super::draft::Draft;
 use super::key::is_key;
 use super::{Problem, ProblemKind, Resolved, presets};
-use crate::calibration::{Calibration, identity::Identity};
+use crate::calibration::{Calibration, identity::CalibrationIdentity};
 use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use crate::gear::GearPair;
 use crate::mesh_cycle::{pair_in_space::KeptInSpace, settings::Coupling};
@@ -489,7 +489,7 @@ fn of_another_pair(text: &str, name: &str, differences: &[String]) -> Problem {
 fn foreign(calibration: &Calibration, resolved: &Resolved) -> Vec<String> {
     match GearPair::new(&resolved.scene.pair) {
         Ok(pair) => {
-            let own = Identity::of(&pair, &resolved.scene.material, &resolved.scene.fem);
+            let own = CalibrationIdentity::of(&pair, &resolved.scene.material, &resolved.scene.fem);
             calibration.belongs_to.differences(&own, resolved.file.fem.is_some())
         }
         Err(error) => vec![error.to_string()],

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use gearwear::assessment::calibrate::{self, Extent};
 use gearwear::calibration::bodies::Setup;
-use gearwear::calibration::identity::Identity;
+use gearwear::calibration::identity::CalibrationIdentity;
 use gearwear::calibration::single_contact::{Purpose, SingleContact, TouchFigures};
 use gearwear::calibration::stiffness_variation::VariationOf;
 use gearwear::calibration::tooth_stiffness::LoadedPair;
@@ -377,7 +377,7 @@ fn differences_are_told_by_the_keys_of_the_scene() {
             elements_per_half_width: 4.0,
             rounding_refinement: 1.0,
         };
-        Identity::of(&GearPair::new(spec).unwrap(), &steel(), &bodies)
+        CalibrationIdentity::of(&GearPair::new(spec).unwrap(), &steel(), &bodies)
     };
     let own = identity(&fzg_c(), 20.0);
     assert_eq!(own.differences(&own, true), Vec::<String>::new());

@@ -9,9 +9,9 @@ opened at 1280 and 390 px, light and dark, and printed. Pictures (PNG, PDF) go t
 - writes an error to the console,
 - is wider than the window,
 - has labels of one axis, or of one plot, that overlap,
-- has a curve that is drawn outside its plot area (not clipped to it),
+- has a curve that is not clipped to its plot area,
 - has an axis whose title does not fit beside it,
-- has a plot whose data go beyond the range of its axis, where the plot script would cut them off without a word,
+- has a plot whose data go beyond the range of its axis, where they would be cut off without a word,
 - has a slider that does not change what is said beside it.
 
 Only some: --only run-spur --only sweep-2d.
@@ -89,53 +89,35 @@ LOOK = r"""() => {
             const box = t.getBoundingClientRect();
             const style = getComputedStyle(t);
             return box.width > 0 && t.textContent.trim() && style.visibility !== "hidden" && +style.opacity > 0.05 &&
-                !t.closest(".hoverlayer,.modebar,[transform*='rotate'],defs") && !/rotate\((?!0)/.test(t.getAttribute("transform") || "");
+                !t.closest("[transform*='rotate'],defs") && !/rotate\((?!0)/.test(t.getAttribute("transform") || "");
         });
-        // A text of several lines takes the room of those that say something.
-        const lines = texts.map(text => [...text.querySelectorAll("tspan.line")].filter(line => line.textContent.trim()));
-        const boxes = texts.map((text, i) => (lines[i].length ? lines[i] : [text]).map(line => line.getBoundingClientRect()));
+        const boxes = texts.map(text => text.getBoundingClientRect());
         for (let i = 0; i < texts.length; i++) for (let j = i + 1; j < texts.length; j++) {
-            if (boxes[i].some(a => boxes[j].some(b => over(a, b)))) {
+            if (over(boxes[i], boxes[j])) {
                 wrong.push(`labels overlap in “${name(svg)}”: “${texts[i].textContent}” and “${texts[j].textContent}”`);
             }
         }
     }
-    for (const plot of document.querySelectorAll(".js-plotly-plot .cartesianlayer .plot")) {
-        // Plotly clips curves to their plot area; without the clip a curve that leaves it is drawn over the axes.
-        const areas = plot.closest("svg").querySelectorAll(".bglayer .bg, .nsewdrag");
-        for (const path of plot.querySelectorAll(".scatterlayer path.js-line")) {
-            if (path.closest("[clip-path]:not([clip-path='none'])")) continue;
-            const box = path.getBoundingClientRect();
-            const inside = [...areas].some(area => {
-                const a = area.getBoundingClientRect();
-                return box.left >= a.left - 2 && box.right <= a.right + 2 && box.top >= a.top - 2 && box.bottom <= a.bottom + 2;
+    for (const plot of document.querySelectorAll(".plot")) {
+        // A curve that leaves the plot without being clipped is drawn over the axes.
+        for (const trace of plot.querySelectorAll(".trace")) {
+            if (!trace.closest("[clip-path]")) wrong.push(`a trace is not clipped in “${name(plot)}”`);
+        }
+        const data = JSON.parse(document.getElementById(plot.id + "-data").textContent);
+        data.traces.forEach((trace, i, all) => trace.x ??= all[i - 1].x);
+        // A drawing to scale shows a part on purpose.
+        for (const trace of data.is_to_scale ? [] : data.traces) {
+            if (!trace.is_shown || trace.values || trace.hover === null) continue;
+            const place = (axis, value) => axis.is_logarithmic ? Math.log10(value) : value;
+            const [[left, right], [low, high]] = [data.x, data.y].map(axis => [...axis.range].sort((a, b) => a - b));
+            const cut = trace.y.find((value, i) => {
+                const [x, y] = [place(data.x, trace.x[i]), place(data.y, value)];
+                return x >= left && x <= right && value !== null && (y < low - 0.002 * (high - low) || y > high + 0.002 * (high - low));
             });
-            if (areas.length && !inside) wrong.push(`a curve leaves its plot area in “${name(plot)}”`);
+            if (cut !== undefined) wrong.push(`“${trace.name}” is cut off in “${name(plot)}”: ${cut} outside ${data.y.range}`);
         }
-    }
-    for (const plot of document.querySelectorAll(".js-plotly-plot")) {
-        const full = plot._fullLayout;
-        if (!full || !full.xaxis || !full.yaxis) continue;
-        for (const trace of plot._fullData || []) {
-            const [x, y] = [full["xaxis" + (trace.xaxis || "x").slice(1)], full["yaxis" + (trace.yaxis || "y").slice(1)]];
-            // A drawing to scale shows a part on purpose.
-            if (trace.type !== "scatter" || trace.visible !== true || !x || !y || x.scaleanchor || y.scaleanchor) continue;
-            const place = (axis, value) => axis.type === "log" ? Math.log10(value) : axis.d2l ? axis.d2l(value) : value;
-            const reach = axis => { const [a, b] = axis.range.map(Number); return [Math.min(a, b), Math.max(a, b), Math.abs(b - a)]; };
-            const [[left, right], [low, high, height]] = [reach(x), reach(y)];
-            for (let i = 0; i < (trace.y || []).length; i++) {
-                const [px, py] = [place(x, trace.x[i]), place(y, trace.y[i])];
-                if (!(px >= left && px <= right) || !Number.isFinite(py)) continue;
-                if (py < low - 0.002 * height || py > high + 0.002 * height) {
-                    wrong.push(`“${trace.name}” is cut off in “${name(plot)}”: ${trace.y[i]} outside ${y.range}`);
-                    break;
-                }
-            }
-        }
-    }
-    for (const plot of document.querySelectorAll(".js-plotly-plot")) {
         const room = plot.getBoundingClientRect();
-        for (const title of plot.querySelectorAll(".xtitle, .ytitle")) {
+        for (const title of plot.querySelectorAll(".titles text")) {
             const box = title.getBoundingClientRect();
             const out = box.left < room.left - 1 || box.right > room.right + 1 || box.top < room.top - 1 || box.bottom > room.bottom + 1;
             if (box.width > 0 && out) wrong.push(`the title of an axis is cut off in “${name(plot)}”: ${title.textContent}`);

@@ -1,4 +1,4 @@
-//! What tells two contents apart.
+//! Hashes of contents.
 
 /// SHA-256 of `bytes`, as 64 hexadecimal digits.
 pub fn sha256(bytes: &[u8]) -> String {
@@ -9,7 +9,7 @@ pub fn sha256(bytes: &[u8]) -> String {
 mod tests {
     use super::sha256;
 
-    /// FIPS 180-4's example of one block, "abc", and the digest of no bytes; NIST, *Cryptographic Standards and Guidelines: Examples with
+    /// Example of FIPS 180-4 with one block, "abc", and the digest of no bytes; NIST, *Cryptographic Standards and Guidelines: Examples with
     /// Intermediate Values*.
     #[test]
     fn val_examples_of_the_standard() {

@@ -1,49 +1,48 @@
-//! Tables that users bring: comma-separated values under a line of column names, and lines `# key = value` that say more of them.
+//! Tables of users: comma-separated values under a line of column names, with further data in lines `# key = value`.
 //!
-//! Other lines that begin with `#` are remarks, and empty lines are nothing. What the keys and columns mean is the reader's matter; what
-//! is wrong is said with its line, what was found and what is allowed.
+//! Other lines that begin with `#` are remarks, and empty lines are ignored. Errors tell the line, what was found and what is allowed.
 
-/// What is wrong with a table.
+/// Error in a table.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DataTableError {
-    /// A value, or a header, that is not allowed.
+    /// A value or a header is not allowed.
     #[error("line {line}: {column}: found {found}; allowed: {allowed}")]
     NotAllowed {
         /// Line of the file, from 1.
         line: usize,
         /// Column, or key of a header line.
         column: String,
-        /// What stands there.
+        /// Text of the file.
         found: String,
-        /// What may stand there.
+        /// Allowed values.
         allowed: String,
     },
-    /// Something that must be there is not.
+    /// A required line or key is missing.
     #[error("{what} is missing; allowed: {allowed}")]
     Missing {
-        /// What.
+        /// Name of the missing part.
         what: String,
-        /// How it looks.
+        /// Allowed form.
         allowed: String,
     },
 }
 
-/// Fields of a line, with its number from 1.
+/// Number of a line, from 1, and its fields.
 pub type Line<'a> = (usize, Vec<&'a str>);
 
-/// A table, cut into fields.
+/// Table divided into fields.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DataTable<'a> {
     /// Line, key and value of each `# key = value`.
     pub keys: Vec<(usize, &'a str, &'a str)>,
     /// Names of the columns.
     pub names: Line<'a>,
-    /// The rows below.
+    /// Rows below the names.
     pub rows: Vec<Line<'a>>,
 }
 
 impl<'a> DataTable<'a> {
-    /// Cuts up `text`; without a line of column names it is refused, and told `names_allowed`.
+    /// Divides `text` into fields; an error names the columns of `names_allowed` where the line of column names is missing.
     pub fn read(text: &'a str, names_allowed: impl FnOnce() -> String) -> Result<Self, DataTableError> {
         let (mut keys, mut rows) = (Vec::new(), Vec::new());
         for (line, content) in (1..).zip(text.trim_start_matches('\u{feff}').lines().map(str::trim)) {
@@ -61,7 +60,7 @@ impl<'a> DataTable<'a> {
     }
 }
 
-/// A finite number.
+/// Finite number in a field.
 pub fn finite(line: usize, column: &str, text: &str) -> Result<f64, DataTableError> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
@@ -69,7 +68,7 @@ pub fn finite(line: usize, column: &str, text: &str) -> Result<f64, DataTableErr
     }
 }
 
-/// A finite number greater than 0.
+/// Finite number greater than 0 in a field.
 pub fn positive(line: usize, column: &str, text: &str) -> Result<f64, DataTableError> {
     match text.parse::<f64>() {
         Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
@@ -81,12 +80,12 @@ fn or_nothing(text: &str) -> &str {
     if text.is_empty() { "nothing" } else { text }
 }
 
-/// A value that is not allowed.
+/// Error for a value that is not allowed.
 pub fn not_allowed(line: usize, column: &str, found: impl ToString, allowed: String) -> DataTableError {
     DataTableError::NotAllowed { line, column: column.to_owned(), found: found.to_string(), allowed }
 }
 
-/// Something that is missing.
+/// Error for a missing line or key.
 pub fn missing(what: &str, allowed: String) -> DataTableError {
     DataTableError::Missing { what: what.to_owned(), allowed }
 }

@@ -1,10 +1,10 @@
-//! Files that are there whole or not at all: written under a temporary name in the same folder, then renamed.
+//! Atomically written files: written under a temporary name in the same folder, then renamed.
 //!
-//! A process that is killed leaves its temporary file behind, and the next one that writes into the folder takes it away. What is
-//! still being written is locked by whoever writes it, and a lock ends with its process, however that ends: a leftover is what can be
-//! locked. Between making a file and locking it, another process may take it for a leftover; so it is looked for again once it is locked,
-//! and made anew where it is gone. On a file system without locks nothing is taken away. Temporary folders do the same with a
-//! file in them.
+//! A process that is killed leaves its temporary file behind, which the next one that writes into the folder removes. Files being written are
+//! locked by their process until it ends, so that leftovers are those that can be
+//! locked. Between creation and locking, another process may remove a file as a leftover; its existence is therefore checked after locking,
+//! and it is created again where it was removed. On a file system without locks nothing is removed. Temporary folders contain a
+//! file that is locked in the same way.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -12,15 +12,16 @@ use std::path::Path;
 
 use tempfile::{NamedTempFile, TempDir};
 
-/// Of temporary files; [`RANDOM`] letters and digits follow.
+/// Prefix of temporary files, followed by [`RANDOM`] letters and digits.
 const PREFIX: &str = ".gearwear-";
-/// Of temporary folders.
+/// Prefix of temporary folders.
 const FOLDER_PREFIX: &str = "gearwear-validation-";
+/// Number of random letters and digits.
 const RANDOM: usize = 6;
-/// The file that is locked in a temporary folder.
+/// Locked file in a temporary folder.
 const LOCK: &str = ".in-use";
 
-/// Writes `path` with `fill`; on an error, whatever stood there before still does.
+/// Writes `path` with `fill`; after an error its previous content is unchanged.
 pub fn write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut file = temporary(folder)?;
@@ -33,7 +34,7 @@ pub fn write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -
     Ok(())
 }
 
-/// A temporary file in `folder` with the permissions of an ordinary new file (the umask applies). Leftovers there are gone.
+/// Temporary file in `folder` with the permissions of an ordinary new file (the umask applies); leftovers there are removed.
 pub fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
     for name in temporary_names(folder, PREFIX) {
         let path = folder.join(name);
@@ -56,7 +57,7 @@ pub fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
     }
 }
 
-/// A folder that is gone when this is dropped, and where its process was killed, with the next such folder.
+/// Temporary folder that is removed on drop, or, after its process was killed, when the next such folder is created.
 #[derive(Debug)]
 pub struct TemporaryFolder {
     folder: TempDir,
@@ -64,7 +65,7 @@ pub struct TemporaryFolder {
 }
 
 impl TemporaryFolder {
-    /// Makes one in the system's folder for temporary files.
+    /// Creates a folder in the system's folder for temporary files.
     pub fn new() -> io::Result<Self> {
         let all = std::env::temp_dir();
         for name in temporary_names(&all, FOLDER_PREFIX) {
@@ -89,21 +90,24 @@ impl TemporaryFolder {
         }
     }
 
-    /// Where it stands.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
 }
 
-/// The names in `folder` that are made of `prefix` and what is random.
+/// Names in `folder` with `prefix` and random characters.
 fn temporary_names(folder: &Path, prefix: &str) -> Vec<String> {
-    let is_random = |rest: &str| rest.len() == RANDOM && rest.bytes().all(|byte| byte.is_ascii_alphanumeric());
-    let names =
-        fs::read_dir(folder).into_iter().flatten().flatten().filter_map(|entry| entry.file_name().into_string().ok());
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
     names.filter(|name| name.strip_prefix(prefix).is_some_and(is_random)).collect()
 }
 
-/// The file at `path`, locked until it is dropped; `None` where a process writes it.
+fn is_random(rest: &str) -> bool {
+    rest.len() == RANDOM && rest.bytes().all(|byte| byte.is_ascii_alphanumeric())
+}
+
+/// File at `path`, locked until it is dropped; `None` where a process writes it.
 fn left_over(path: &Path) -> Option<File> {
     let file = fs::OpenOptions::new().write(true).open(path).ok()?;
     file.try_lock().is_ok().then_some(file)

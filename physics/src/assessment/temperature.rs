@@ -17,6 +17,7 @@ use crate::thermal::ContactHeat;
 use crate::thermal::band::Spread;
 use crate::thermal::settings::{ABSOLUTE_ZERO_C, TemperatureMethod};
 use crate::thermal::tooth::{TemperatureCurve, ToothTemperatures};
+use crate::wear::LocalContact;
 use crate::wear::regime::{MM3_PER_NM, Regime};
 
 /// By how much Young's moduli of phases may differ without a word.
@@ -206,7 +207,11 @@ fn law_over(
     let wear = &model.scene.wear[gear];
     let mild = |of: Option<&HeatObservation>| match of {
         Some(heat) => over(&heat.law).mean_coefficient_mm2_per_n,
-        None => model.reference().wear.laws[gear].mild_coefficient_mm2_per_n(None),
+        None => {
+            let hertz = model.at_pitch.contact.loaded(model.reference().line_load_n_per_mm);
+            let at = LocalContact { pressure_mpa: hertz.peak_pressure_mpa, conditions: None, lambda: None };
+            model.reference().wear.laws[gear].mild_coefficient_mm2_per_n(&at)
+        }
     };
     let new = mild(observed.map(|heat| &heat.new));
     let worn = mild(observed.map(|heat| &heat.worn));

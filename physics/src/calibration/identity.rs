@@ -1,4 +1,4 @@
-//! Identity of a calibration: every number that shapes the section of the pair, its material, and the radii at which its bodies are held.
+//! CalibrationIdentity of a calibration: every number that shapes the section of the pair, its material, and the radii at which its bodies are held.
 //!
 //! Names and units are those of the scene's keys, so that messages can name a difference. The face width is
 //! not among them, as everything is per mm of it, nor is the helix angle by itself: pairs of one transverse section share their calibrations.
@@ -22,7 +22,7 @@ pub(super) fn same(a: f64, b: f64) -> bool {
 /// Pair, material and bodies that a calibration belongs to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Identity {
+pub struct CalibrationIdentity {
     /// Geometry of the pair.
     pub pair: PairIdentity,
     /// Material of each gear.
@@ -137,8 +137,8 @@ pub struct WebIdentity {
     pub offset_mm: f64,
 }
 
-impl Identity {
-    /// Identity of a pair with its material and bodies.
+impl CalibrationIdentity {
+    /// CalibrationIdentity of a pair with its material and bodies.
     pub fn of(pair: &GearPair, material: &PerGear<Material>, bodies: &BodySettings) -> Self {
         let spec = &pair.spec;
         let (body, sector_teeth, sector_sides) = match bodies.body {
@@ -174,7 +174,7 @@ impl Identity {
     }
 
     /// Differences of `scene`, as `key: calibration …, scene …`; the bodies are compared where `bodies_too`.
-    pub fn differences(&self, scene: &Identity, bodies_too: bool) -> Vec<String> {
+    pub fn differences(&self, scene: &CalibrationIdentity, bodies_too: bool) -> Vec<String> {
         let mut found = Vec::new();
         let (own, other) = match self.pair.helix_angle_deg == scene.pair.helix_angle_deg {
             true => (json(&self.pair), json(&scene.pair)),

@@ -29,7 +29,7 @@ use gearwear_fem::locate::locate;
 const SAMPLES: usize = 240;
 
 /// An edge of the mesh on the flank.
-struct FlankEdge {
+struct InvoluteEdge {
     /// Arc length of the involute from the base circle at the end nearer the root, the middle and the end nearer the tip.
     arc_mm: [f64; 3],
     /// Local nodes there.
@@ -42,7 +42,7 @@ pub struct LoadedTooth<'a> {
     body: &'a GearCompliance,
     flank: &'a MeshedFlank,
     /// From root to tip, the involute part of the resolved flank.
-    edges: Vec<FlankEdge>,
+    edges: Vec<InvoluteEdge>,
     /// Index of each local flank node among the gear's candidates.
     candidate: Vec<Option<usize>>,
 }
@@ -185,7 +185,7 @@ pub(crate) fn nodes_under(tooth: &Tooth, flank: &MeshedFlank, rho_mm: f64, half_
 }
 
 /// Edges of the involute part of a flank, from root to tip.
-fn flank_edges(tooth: &Tooth, flank: &MeshedFlank) -> Vec<FlankEdge> {
+fn flank_edges(tooth: &Tooth, flank: &MeshedFlank) -> Vec<InvoluteEdge> {
     flank
         .surface
         .edges
@@ -198,12 +198,12 @@ fn flank_edges(tooth: &Tooth, flank: &MeshedFlank) -> Vec<FlankEdge> {
             nodes
                 .iter()
                 .all(|&node| flank.rho_mm[node].is_finite())
-                .then(|| FlankEdge { arc_mm: nodes.map(|node| tooth.involute.arc_mm(flank.rho_mm[node])), nodes })
+                .then(|| InvoluteEdge { arc_mm: nodes.map(|node| tooth.involute.arc_mm(flank.rho_mm[node])), nodes })
         })
         .collect()
 }
 
-impl FlankEdge {
+impl InvoluteEdge {
     /// Shape functions of the nodes at an arc length within the edge.
     fn weights(&self, arc_mm: f64) -> [f64; 3] {
         let [low, middle, high] = self.arc_mm;

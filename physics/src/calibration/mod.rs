@@ -33,7 +33,7 @@ use serde::{Deserialize, Serialize};
 
 use self::bodies::{NeighbourRow, ResolutionRow, RimRow};
 use self::foundation_fit::FoundationFit;
-use self::identity::Identity;
+use self::identity::CalibrationIdentity;
 use self::single_contact::SingleContact;
 use self::slice_fit::SliceFit;
 use self::stiffness_variation::StiffnessVariation;
@@ -93,7 +93,7 @@ pub struct Calibration {
     /// SHA-256 of everything else (as the file is written, without it).
     pub hash: String,
     /// Pair, material and bodies.
-    pub belongs_to: Identity,
+    pub belongs_to: CalibrationIdentity,
     /// Elements per half-width of contact of the mesh it was made with.
     pub elements_per_half_width: f64,
     /// The scene's whole line load: that of the stiffness curve, and the unit of the loads of K/H, N/mm.

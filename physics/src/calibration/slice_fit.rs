@@ -92,7 +92,7 @@ struct LineOfContact {
 }
 
 /// Loads of all contacts at a position, and their deflection.
-struct LoadCase {
+struct SliceLoadCase {
     n_per_mm: DVector<f64>,
     deflection_mm: DVector<f64>,
     /// Residuals that a difference in deflection makes; on aligned axes, first those of the loads.
@@ -103,7 +103,7 @@ struct LoadCase {
 /// Lines of contact and load cases at a position of the mesh.
 struct FitPosition {
     lines: Vec<LineOfContact>,
-    cases: Vec<LoadCase>,
+    cases: Vec<SliceLoadCase>,
 }
 
 /// Load cases of the teeth in space, and the parameters that are fitted to them.
@@ -195,7 +195,12 @@ impl FitPosition {
 }
 
 /// Loads of the approaches, aligned ones first, with a mean of 1 N/mm; then each line by itself.
-fn load_cases(lines: &[LineOfContact], influence: &DMatrix<f64>, flattening: &[f64], tilt: &[f64]) -> Vec<LoadCase> {
+fn load_cases(
+    lines: &[LineOfContact],
+    influence: &DMatrix<f64>,
+    flattening: &[f64],
+    tilt: &[f64],
+) -> Vec<SliceLoadCase> {
     let count = flattening.len();
     let mut cases = Vec::new();
     let whole = influence + DMatrix::from_diagonal(&DVector::from_column_slice(flattening));
@@ -209,7 +214,12 @@ fn load_cases(lines: &[LineOfContact], influence: &DMatrix<f64>, flattening: &[f
             let n_per_mm = &inverse * mm;
             let mut reads = (weight * &of_loads).insert_row(count, 0.0);
             reads.set_row(count, &(even.transpose() * (weight * APPROACH_WEIGHT / count as f64)));
-            cases.push(LoadCase { deflection_mm: influence * &n_per_mm, n_per_mm, reads, is_aligned: slope == 0.0 });
+            cases.push(SliceLoadCase {
+                deflection_mm: influence * &n_per_mm,
+                n_per_mm,
+                reads,
+                is_aligned: slope == 0.0,
+            });
         }
     }
     cases.extend(lines.iter().map(|line| {
@@ -217,7 +227,7 @@ fn load_cases(lines: &[LineOfContact], influence: &DMatrix<f64>, flattening: &[f
         let n_per_mm = DVector::from_fn(count, |k, _| f64::from(u8::from(loaded.contains(&k))));
         let deflection_mm = influence * &n_per_mm;
         let reads = DMatrix::from_diagonal_element(count, count, SINGLE_LINE_WEIGHT / deflection_mm.norm());
-        LoadCase { n_per_mm, deflection_mm, reads, is_aligned: false }
+        SliceLoadCase { n_per_mm, deflection_mm, reads, is_aligned: false }
     }));
     cases
 }
@@ -249,7 +259,7 @@ impl SliceLoads<'_> {
         let bodies = compliance.bodies * self.shared_mm2_per_n / count as f64;
         let mut residuals: Vec<f64> = x.iter().map(|part| CLOSED_FORM_WEIGHT * part).collect();
         for FitPosition { lines, cases } in &self.positions {
-            for LoadCase { n_per_mm, deflection_mm, reads, .. } in cases {
+            for SliceLoadCase { n_per_mm, deflection_mm, reads, .. } in cases {
                 let mut differs_mm = deflection_mm.map(|mm| bodies * n_per_mm.sum() - mm);
                 for line in lines {
                     let roots: Vec<f64> = line
@@ -277,7 +287,7 @@ impl SliceLoads<'_> {
     fn rms_of_aligned_loads(&self, residuals: Vec<f64>) -> f64 {
         let residuals = DVector::from_vec(residuals);
         let (mut first, mut square, mut count) = (UNKNOWNS, 0.0, 0);
-        for LoadCase { n_per_mm, reads, is_aligned, .. } in self.positions.iter().flat_map(|at| &at.cases) {
+        for SliceLoadCase { n_per_mm, reads, is_aligned, .. } in self.positions.iter().flat_map(|at| &at.cases) {
             if *is_aligned {
                 square += residuals.rows(first, n_per_mm.len()).norm_squared();
                 count += n_per_mm.len();

@@ -1,21 +1,21 @@
-//! The centre distance that leaves a given backlash.
+//! Centre distance for a given backlash.
 //!
-//! What the teeth leave of the pitch on the working circles is the circumferential backlash, transverse; perpendicular to the flanks it is
-//! the normal backlash:
+//! The transverse circumferential backlash j_wt is the pitch on the working circles less both tooth thicknesses; perpendicular to the flanks it is
+//! the normal backlash j_bn:
 //!
 //! ```text
 //! j_wt = (2a/Z) (Z inv α_wt − Σ z ψ_b + π)      cos α_wt = (r_b1 + r_b2)/a,  Z = z1 + z2
 //! j_bn = j_wt cos α_wt cos β_b
 //! ```
 //!
-//! with ψ_b half the angle of a tooth at its base circle, thickness allowance included. Without backlash and without allowances that is
+//! with ψ_b half the angle of a tooth at its base circle, thickness allowance included. Without backlash and allowances
 //!
 //! ```text
 //! inv α_wt = inv α_t + 2 tan α_n (x1 + x2)/(z1 + z2)
 //! ```
 //!
-//! The normal backlash gives inv α_wt at once, because a cos α_wt is known; the circumferential one is found by bisection in α_wt, with
-//! which it grows.
+//! The normal backlash gives inv α_wt directly, as a cos α_wt is known; for the circumferential one, which increases with α_wt, the angle is found
+//! by bisection.
 //!
 //! Source: ISO 21771, sections 5.2 (working pressure angle) and 5.5 (backlash).
 
@@ -24,24 +24,24 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use super::involute::{inv, inverse_inv};
 use super::{Gear, PerGear, spec::PairSpec};
 
-/// Backlash as a drawing gives it.
+/// Backlash as given on a drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Backlash {
-    /// j_wt: along the working circles, in the transverse section, mm.
+    /// Circumferential backlash j_wt along the working circles, in the transverse section, mm.
     Circumferential(f64),
-    /// j_bn: the shortest distance between the rear flanks, mm.
+    /// Normal backlash j_bn, the shortest distance between the rear flanks, mm.
     Normal(f64),
 }
 
-/// Teeth so thin that they have more backlash at any centre distance.
+/// Error for thin teeth with more backlash at any centre distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TeethTooThin {
-    /// The least backlash, of the kind asked for, mm.
+    /// Least backlash of the given kind, mm.
     pub least_mm: f64,
 }
 
 impl PairSpec {
-    /// The centre distance that leaves this backlash, mm; the one that is given does not matter.
+    /// Centre distance for a backlash, mm, independent of the given centre distance.
     pub fn centre_distance_with_mm(&self, backlash: Backlash) -> Result<f64, TeethTooThin> {
         let teeth = self.gears.as_ref().map(|gear| f64::from(gear.teeth));
         let alpha_t = self.transverse_pressure_angle_rad();
@@ -60,18 +60,18 @@ impl PairSpec {
                 inverse_inv(involute)
             }
             Backlash::Circumferential(transverse_mm) => {
-                let left_mm = |alpha: f64| 2.0 * base_radii_mm / alpha.cos() * (inv(alpha) - filled);
-                if left_mm(0.0) >= transverse_mm {
-                    return Err(TeethTooThin { least_mm: left_mm(0.0) });
+                let backlash_mm = |alpha: f64| 2.0 * base_radii_mm / alpha.cos() * (inv(alpha) - filled);
+                if backlash_mm(0.0) >= transverse_mm {
+                    return Err(TeethTooThin { least_mm: backlash_mm(0.0) });
                 }
-                bisect(|alpha| left_mm(alpha) - transverse_mm, [0.0, FRAC_PI_2])
+                bisect(|alpha| backlash_mm(alpha) - transverse_mm, [0.0, FRAC_PI_2])
             }
         };
         Ok(base_radii_mm / angle.cos())
     }
 }
 
-/// Where `rising` changes its sign, to the last bit.
+/// Zero of an increasing function, to the last bit.
 fn bisect(rising: impl Fn(f64) -> f64, [mut below, mut above]: [f64; 2]) -> f64 {
     loop {
         let middle = 0.5 * (below + above);

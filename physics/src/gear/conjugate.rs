@@ -1,10 +1,10 @@
-//! What a contact model needs to know of two flanks that roll and slide on each other.
+//! Conjugate flanks in rolling and sliding contact, as contact models use them.
 //!
-//! A *position* is a place of the theoretical contact point on its path; a *coordinate* is a place on one flank. Gears
-//! use the pinion's radius of curvature for the one and each flank's own radius of curvature for the other
-//! ([`GearPair`]); a pair of discs would use arc lengths. In the tangent frame of a position, `along` runs on the common
-//! tangent towards growing coordinate and `drop` is the distance of the surface behind the tangent: the gap between the
-//! flanks at a place of the tangent is the sum of both drops, exact for any distance.
+//! A *position* is that of the theoretical contact point on its path; a *coordinate* is that of a point on one flank. For gears
+//! these are the pinion's radius of curvature and each flank's own radius of curvature
+//! ([`GearPair`]). In the tangent frame of a position, `along` is measured on the common
+//! tangent towards increasing coordinate and `drop` is the distance of the surface behind the tangent: the gap between the
+//! flanks is the sum of both drops, exact at any distance.
 
 use super::{Gear, GearPair, involute::TangentFramePoint};
 
@@ -16,25 +16,25 @@ pub trait ConjugateFlanks: Sync {
     /// Position at which a flank point is the theoretical contact point.
     fn position_at_mm(&self, gear: Gear, coordinate_mm: f64) -> f64;
 
-    /// Where a flank point lies in the tangent frame of `position_mm`.
+    /// Flank point in the tangent frame of `position_mm`.
     fn in_tangent_frame(&self, gear: Gear, coordinate_mm: f64, position_mm: f64) -> TangentFramePoint;
 
-    /// The flank point at `along_mm` in the tangent frame of `position_mm`: its coordinate and its drop.
+    /// Coordinate and drop of the flank point at `along_mm` in the tangent frame of `position_mm`.
     fn at_along(&self, gear: Gear, along_mm: f64, position_mm: f64) -> (f64, f64);
 
-    /// First and last coordinate of a gear's flank: beyond them there is no surface to carry pressure.
+    /// First and last coordinate of a gear's flank.
     fn flank_limits_mm(&self, gear: Gear) -> (f64, f64);
 
     /// Radius of curvature of a gear's flank at the theoretical contact point.
     fn curvature_radius_mm(&self, gear: Gear, position_mm: f64) -> f64;
 
-    /// Speed at which the contact point moves over a gear's flank, per speed of the position.
+    /// Ratio of the speed of the contact point over a gear's flank to that of the position.
     fn rolling_ratio(&self, gear: Gear, position_mm: f64) -> f64;
 
-    /// Distance the flanks slide on each other while the contact moves from one position to another: ∫ |v_s| dt.
+    /// Sliding distance ∫ |v_s| dt while the contact moves from one position to another.
     fn sliding_mm(&self, from_mm: f64, to_mm: f64) -> f64;
 
-    /// Depth from the flank to the tooth's centre line along the normal of the contact.
+    /// Distance from the flank to the tooth's centre line along the normal of the contact.
     fn depth_mm(&self, gear: Gear, position_mm: f64) -> f64;
 
     /// Relative radius of curvature R: 1/R = 1/ρ1 + 1/ρ2.
@@ -50,7 +50,7 @@ impl ConjugateFlanks for GearPair {
     }
 
     fn position_at_mm(&self, gear: Gear, coordinate_mm: f64) -> f64 {
-        // ρ1 + ρ2 = T1T2 reads the same both ways.
+        // The relation ρ1 + ρ2 = T1T2 is symmetric.
         self.path.rho_mm(gear, coordinate_mm)
     }
 
@@ -77,8 +77,8 @@ impl ConjugateFlanks for GearPair {
 
     fn sliding_mm(&self, from_mm: f64, to_mm: f64) -> f64 {
         // ∫ |ξ − C| dξ = ½ (ξ − C) |ξ − C|
-        let primitive = |x: f64| 0.5 * (x - self.path.pitch_point_mm) * self.path.sliding_ratio(x);
-        primitive(to_mm) - primitive(from_mm)
+        let [to, from] = [to_mm, from_mm].map(|x| 0.5 * (x - self.path.pitch_point_mm) * self.path.sliding_ratio(x));
+        to - from
     }
 
     fn depth_mm(&self, gear: Gear, position_mm: f64) -> f64 {

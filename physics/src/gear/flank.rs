@@ -1,13 +1,13 @@
-//! The flank as a row of points: single-point observation.
+//! Row of points on a flank, for single-point observation.
 //!
-//! Points lie between the base circle (0) and the tip circle (`flank_points`), where [`PointSpacing`] puts them. Whatever varies over
-//! the flank (removed material, pressure, sliding) is a slice with one value a point, linear in between.
+//! Points lie between the base circle (0) and the tip circle (`flank_points`) with a [`PointSpacing`]. Quantities over
+//! the flank (removed material, pressure, sliding) have one value for each point and are linear between them.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Gear, GearPair, graded_spacing};
 
-/// How the points of a flank are spaced between base and tip circle.
+/// Spacing of the points of a flank between base and tip circle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PointSpacing {
@@ -17,26 +17,26 @@ pub enum PointSpacing {
     Graded,
 }
 
-/// The points of one flank.
+/// Points of one flank.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlankGrid {
-    /// Coordinate of each point, increasing: the radius of curvature ρ on a gear.
+    /// Increasing coordinate of each point, on a gear the radius of curvature ρ.
     pub coordinate_mm: Vec<f64>,
     /// Arc length of each point along the flank.
     pub arc_mm: Vec<f64>,
 }
 
-/// A place between two points.
+/// Place between two points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GridPosition {
-    /// The point before it.
+    /// Number of the point before.
     pub index: usize,
-    /// Weight of the point after it, 0 to 1.
+    /// Weight of the point after, 0 to 1.
     pub weight: f64,
 }
 
 impl FlankGrid {
-    /// `flank_points` intervals on a gear's flank: `flank_points + 1` points.
+    /// Grid of `flank_points + 1` points on a gear's flank.
     pub fn new(pair: &GearPair, gear: Gear, flank_points: usize, spacing: PointSpacing) -> Self {
         match spacing {
             PointSpacing::Even => Self::evenly_in_radius(pair, gear, flank_points),
@@ -53,8 +53,9 @@ impl FlankGrid {
     fn evenly_in_radius(pair: &GearPair, gear: Gear, flank_points: usize) -> Self {
         let (involute, tip) = (pair.teeth[gear].involute, pair.teeth[gear].tip_radius_mm);
         let base = involute.base_radius_mm;
-        let radius = |i: usize| base + (tip - base) * i as f64 / flank_points as f64;
-        let coordinate_mm: Vec<f64> = (0..=flank_points).map(|i| involute.curvature_radius_mm(radius(i))).collect();
+        let coordinate_mm: Vec<f64> = (0..=flank_points)
+            .map(|i| involute.curvature_radius_mm(base + (tip - base) * i as f64 / flank_points as f64))
+            .collect();
         let arc_mm = coordinate_mm.iter().map(|&rho| involute.arc_mm(rho)).collect();
         Self { coordinate_mm, arc_mm }
     }
@@ -64,13 +65,13 @@ impl FlankGrid {
         self.coordinate_mm.len()
     }
 
-    /// Where `coordinate_mm` falls; beyond the ends, the end itself.
+    /// Place of `coordinate_mm`; beyond the ends, the end.
     pub fn place(&self, coordinate_mm: f64) -> GridPosition {
         let after = self.coordinate_mm.partition_point(|&c| c <= coordinate_mm).clamp(1, self.len() - 1);
         self.place_between(after - 1, coordinate_mm)
     }
 
-    /// As [`Self::place`], for a coordinate not far from the point `index`.
+    /// [`Self::place`] of a coordinate near the point `index`.
     pub(crate) fn place_near(&self, mut index: usize, coordinate_mm: f64) -> GridPosition {
         while index + 2 < self.len() && self.coordinate_mm[index + 1] <= coordinate_mm {
             index += 1;
@@ -86,25 +87,25 @@ impl FlankGrid {
         GridPosition { index, weight: ((coordinate_mm - low) / (high - low)).clamp(0.0, 1.0) }
     }
 
-    /// Value at `coordinate_mm` of something given at the points.
+    /// Value at `coordinate_mm`, interpolated between the points.
     pub fn value_at(&self, values: &[f64], coordinate_mm: f64) -> f64 {
         let GridPosition { index, weight } = self.place(coordinate_mm);
         values[index] + weight * (values[index + 1] - values[index])
     }
 
-    /// Distance of the two points along the flank between which `coordinate_mm` falls.
+    /// Distance along the flank of the two points around `coordinate_mm`.
     pub fn distance_at_mm(&self, coordinate_mm: f64) -> f64 {
         let GridPosition { index, .. } = self.place(coordinate_mm);
         self.arc_mm[index + 1] - self.arc_mm[index]
     }
 
-    /// Length of flank that point `i` stands for: from halfway to the point before to halfway to the point after.
+    /// Length of flank that point `i` represents, from halfway to the point before to halfway to the point after.
     pub fn share_mm(&self, i: usize) -> f64 {
         let last = self.len() - 1;
         0.5 * (self.arc_mm[(i + 1).min(last)] - self.arc_mm[i.saturating_sub(1)])
     }
 
-    /// ∫ values ds over the flank.
+    /// Integral ∫ values ds over the flank.
     pub fn integral(&self, values: &[f64]) -> f64 {
         values.iter().enumerate().map(|(i, value)| value * self.share_mm(i)).sum()
     }

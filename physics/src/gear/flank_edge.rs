@@ -1,23 +1,23 @@
-//! The edge in which the path of contact ends on either side.
+//! Edges at both ends of the path of contact.
 //!
-//! A flank reaches from its form circle to its tip circle. Contact begins at A with the tip edge of the wheel, unless the pinion's involute
-//! begins above where that edge would touch it, as undercut teeth have it; then it begins at the form circle of the pinion:
+//! A flank extends from its form circle to its tip circle. Contact begins at A with the tip edge of the wheel, unless the pinion's involute
+//! begins above the contact with that edge, as on undercut teeth; then it begins at the form circle of the pinion:
 //!
 //! ```text
 //! A = max(T1T2 − ρ_a2, ρ_Ff1)        E = min(ρ_a1, T1T2 − ρ_Ff2)
 //! ```
 //!
-//! Where the rack undercuts a tooth, fillet and involute meet in a corner, and that is an edge like the one of a tip that is not rounded.
+//! On an undercut tooth fillet and involute meet in a corner, which is a sharp edge like that of a tip without rounding.
 //!
-//! Source: ISO 21771, section 5.4 (start of active profile: the larger of form circle and the circle that the mate's tip meets).
+//! Source: ISO 21771, section 5.4 (start of active profile: the larger of form circle and circle of the contact with the mate's tip).
 
 use super::{Gear, GearPair, PerGear, spec::PairSpec};
 
-/// Least tip rounding, in normal modules: a smaller one is as rough as a ground surface, and the edge counts as sharp.
+/// Least tip rounding, in normal modules; smaller ones are of the size of roughness, and the edge counts as sharp.
 pub const LEAST_ROUNDING_MODULES: f64 = 1e-3;
 
 impl PairSpec {
-    /// Radius of the rounding of the tip edge of `gear`, mm; 0 where the edge counts as sharp, that is below 10⁻³ normal modules.
+    /// Radius of the rounding of the tip edge of `gear`, mm; 0 below 10⁻³ normal modules, where the edge counts as sharp.
     pub fn tip_rounding_mm(&self, gear: Gear) -> f64 {
         let given_mm = self.gears[gear].modification.tip_rounding_mm;
         if given_mm < LEAST_ROUNDING_MODULES * self.normal_module_mm { 0.0 } else { given_mm }
@@ -29,35 +29,35 @@ impl PairSpec {
     }
 }
 
-/// An end of the path of contact.
+/// End of the path of contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PathEnd {
-    /// A.
+    /// Point A.
     Start,
-    /// E.
+    /// Point E.
     End,
 }
 
-/// The edge of a flank in which the path of contact ends.
+/// Edge of a flank at an end of the path of contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlankEdge {
-    /// Gear whose edge it is.
+    /// Gear with the edge.
     pub gear: Gear,
-    /// Whether it is at the form circle, not at the tip.
+    /// Whether the edge is at the form circle instead of the tip.
     pub at_root: bool,
-    /// Radius of curvature of the flank there, mm; where the rounding begins, of a rounded tip.
+    /// Radius of curvature of the flank at the edge, or at the beginning of its rounding, mm.
     pub rho_mm: f64,
-    /// Radius of its rounding, mm.
+    /// Radius of the rounding, mm.
     pub rounding_mm: f64,
-    /// Whether pressure has no bound there: a tip without rounding, or the corner that undercut leaves.
+    /// Whether the pressure is singular: at a tip without rounding, or a corner of undercut.
     pub is_sharp: bool,
 }
 
 impl PathEnd {
-    /// Both, in the order of the path.
+    /// Both ends, in the order of the path.
     pub const BOTH: [Self; 2] = [Self::Start, Self::End];
 
-    /// Gear whose addendum is in contact there.
+    /// Gear whose addendum is in contact at this end.
     pub fn addendum_of(self) -> Gear {
         match self {
             Self::Start => Gear::Wheel,
@@ -67,7 +67,7 @@ impl PathEnd {
 }
 
 impl GearPair {
-    /// The edge in which the path ends.
+    /// Edge at an end of the path.
     pub fn edge(&self, end: PathEnd) -> FlankEdge {
         let tip_of = end.addendum_of();
         let root_of = tip_of.mate();
@@ -85,19 +85,19 @@ impl GearPair {
         }
     }
 
-    /// Place of the theoretical contact point from which on, outwards, the edge touches, mm.
+    /// Position of the theoretical contact point beyond which the edge touches, mm.
     pub fn edge_position_mm(&self, end: PathEnd) -> f64 {
         let edge = self.edge(end);
         self.path.rho_mm(edge.gear, edge.rho_mm)
     }
 
-    /// Whether the root end of each flank is a corner that undercut leaves.
+    /// Whether the root end of each flank is a corner of undercut.
     pub fn undercut_corners(&self) -> PerGear<bool> {
         self.teeth.as_ref().map(|tooth| tooth.undercut)
     }
 
-    /// Radius where the active profile of a gear ends towards its tip, r_Na, mm: the tip circle, or below it where its mate's form circle
-    /// ends the contact.
+    /// Radius r_Na of the end of the active profile towards the tip, mm: at the tip circle, or below it where the contact ends at the mate's form
+    /// circle.
     pub fn active_end_radius_mm(&self, gear: Gear) -> f64 {
         let end_mm = match gear {
             Gear::Pinion => self.path.end_mm,

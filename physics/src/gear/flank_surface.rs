@@ -1,4 +1,4 @@
-//! The working flank of a tooth in space, in its place in mesh.
+//! Three-dimensional working flank of a tooth in mesh.
 //!
 //! Frame: the pinion's axis is z, the wheel's is parallel to it through (0, a); z runs from 0 to the face width b. The pinion
 //! turns anticlockwise about z, the wheel clockwise, and the line of action runs from T1 to T2:
@@ -7,9 +7,9 @@
 //! T1 = r_b1 (sin α_wt, cos α_wt)        T2 = (0, a) − r_b2 (sin α_wt, cos α_wt)
 //! ```
 //!
-//! A section at z is an involute: a string of length ρ unwound anticlockwise from the base circle. Where its tooth touches the
-//! mate, the string lies on the line of action, at the polar angle θ_T of T1 or T2; every other point of the section has its
-//! string turned on by its own length,
+//! A section at z is an involute: a string of length ρ unwound anticlockwise from the base circle. At the contact with
+//! the mate the string lies on the line of action, at the polar angle θ_T of T1 or T2; the string of every other point is turned by its
+//! difference in length,
 //!
 //! ```text
 //! P(ρ, z) = axis + r_b e_r(θ) + ρ e_t(θ)        θ = θ_T − (ρ − ρ_c(z)) / r_b        θ_T1 = π/2 − α_wt,  θ_T2 = −π/2 − α_wt
@@ -28,22 +28,22 @@ use serde::{Deserialize, Serialize};
 
 use super::{Gear, GearPair};
 
-/// The working flank of one gear's tooth.
+/// Working flank of a tooth of one gear.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FlankSurface {
-    /// Which gear's.
+    /// Gear of the tooth.
     pub gear: Gear,
-    /// r_b.
+    /// Base radius r_b.
     pub base_radius_mm: f64,
-    /// tan β_b.
+    /// Tangent of the base helix angle β_b.
     pub base_helix_tangent: f64,
-    /// b.
+    /// Face width b.
     pub face_width_mm: f64,
-    /// y of the gear's axis: 0 or a.
+    /// Coordinate y of the gear's axis, 0 or a.
     pub axis_y_mm: f64,
-    /// θ_T, where the line of action touches the base circle.
+    /// Polar angle θ_T at which the line of action touches the base circle.
     pub tangent_point_rad: f64,
-    /// T1T2.
+    /// Length T1T2.
     pub line_of_action_mm: f64,
 }
 
@@ -54,7 +54,7 @@ fn unit_vectors(angle_rad: f64) -> [[f64; 2]; 2] {
 }
 
 impl FlankSurface {
-    /// That of `gear`.
+    /// Working flank of `gear`.
     pub fn new(pair: &GearPair, gear: Gear) -> Self {
         let (axis_y_mm, below) = match gear {
             Gear::Pinion => (0.0, FRAC_PI_2),
@@ -71,7 +71,7 @@ impl FlankSurface {
         }
     }
 
-    /// ρ_c: radius of curvature of this flank on the line of contact at the place `width_mm`, with the tooth at `position_mm` in
+    /// Radius of curvature ρ_c of this flank on the line of contact at z = `width_mm`, with the tooth at `position_mm` in
     /// the middle of the face width.
     pub fn contact_rho_mm(&self, position_mm: f64, width_mm: f64) -> f64 {
         let pinion = position_mm + (0.5 * self.face_width_mm - width_mm) * self.base_helix_tangent;
@@ -81,25 +81,25 @@ impl FlankSurface {
         }
     }
 
-    /// Polar angle at which the string of the point touches the base circle.
+    /// Polar angle at which the string of a point touches the base circle.
     fn string_rad(&self, rho_mm: f64, width_mm: f64, position_mm: f64) -> f64 {
         self.tangent_point_rad - (rho_mm - self.contact_rho_mm(position_mm, width_mm)) / self.base_radius_mm
     }
 
-    /// The point with radius of curvature `rho_mm` at the place `width_mm`, with the tooth at `position_mm`.
+    /// Point with radius of curvature `rho_mm` at z = `width_mm`, with the tooth at `position_mm`.
     pub fn point_mm(&self, rho_mm: f64, width_mm: f64, position_mm: f64) -> [f64; 3] {
         let [radial, tangential] = unit_vectors(self.string_rad(rho_mm, width_mm, position_mm));
         let [x, y] = [0, 1].map(|axis| self.base_radius_mm * radial[axis] + rho_mm * tangential[axis]);
         [x, self.axis_y_mm + y, width_mm]
     }
 
-    /// Unit normal of the transverse section there, out of the tooth: the direction in which wear and modifications count.
+    /// Unit normal of the transverse section at that point, out of the tooth, along which wear and modifications are measured.
     pub fn transverse_normal(&self, rho_mm: f64, width_mm: f64, position_mm: f64) -> [f64; 3] {
         let [_, [x, y]] = unit_vectors(self.string_rad(rho_mm, width_mm, position_mm));
         [x, y, 0.0]
     }
 
-    /// Radius of curvature of the point at `radius_mm`.
+    /// Radius of curvature at `radius_mm`.
     pub fn rho_mm(&self, radius_mm: f64) -> f64 {
         super::involute::Involute { base_radius_mm: self.base_radius_mm }.curvature_radius_mm(radius_mm)
     }

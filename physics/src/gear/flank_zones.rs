@@ -1,85 +1,86 @@
-//! Which part of a flank a place belongs to: what figures of wear speak of.
+//! Zones of a flank, for figures of wear and pressure, in these terms:
 //!
 //! ```text
-//! base circle … SAP       below the start of active profile: strips of contact reach it, and the mate's tip edge before A or after E
-//! SAP … tip edge zone     active profile; its first 2 mm of radius are the root
-//! tip edge zone           from  l = min(3 a_C, 0.15 m)  below the tip edge, or below where its rounding begins, to the tip circle
+//! below the active profile    base circle … SAP: strips of contact reach it, and the mate's tip edge before A or after E
+//! active profile              SAP … tip-edge zone
+//! tip-edge zone               from  l = min(3 a_C, 0.15 m)  below the tip edge, or below where its rounding begins, to the tip circle
+//! root zone                   first 2 mm of radius above the SAP
+//! tip zone                    last 2 mm of radius below the tip circle
 //! ```
 //!
 //! l is measured along the flank; a_C is Hertz's half-width at the pitch point under the whole load, m the normal module. Contact that
-//! reaches the tip edge is cut off there, and what it presses and wears is a matter of the edge: of its rounding, of how it is resolved.
-//! Three half-widths from it the active profile feels nothing of that, and has figures of its own.
+//! reaches the tip edge is cut off there, and its pressure and wear depend on the edge: on its rounding, and its resolution.
+//! Three half-widths from it the active profile is free of that, and has figures of its own.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Gear, GearPair, PerGear, removed_material::tip_rounding_length_mm};
 
-/// Height in radius of what is called the root: from the start of active profile (SAP) upward, mm.
+/// Height of the root zone in radius, from the start of active profile (SAP) upward, mm.
 const ROOT_MM: f64 = 2.0;
-/// Height in radius of what is called the tip: from the tip circle downward, mm.
+/// Height of the tip zone in radius, from the tip circle downward, mm.
 const TIP_MM: f64 = 2.0;
 /// Length of the tip-edge zone below the edge or its rounding, in Hertz half-widths at the pitch point.
 const TIP_EDGE_HALF_WIDTHS: f64 = 3.0;
-/// Its greatest length, in normal modules.
+/// Greatest length of the tip-edge zone, in normal modules.
 const MOST_TIP_EDGE_MODULES: f64 = 0.15;
-/// Length over which a flank's pressure is a mean: in Hertz half-widths at the pitch point, and its greatest, mm.
+/// Length over which a flank's pressure is averaged: in Hertz half-widths at the pitch point, and at most, mm.
 const PRESSURE_LENGTH: (f64, f64) = (0.4, 0.04);
 
-/// A part of the flank; each place belongs to one.
+/// Zone of a flank.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FlankZone {
-    /// Below the start of active profile.
+    /// Below the active profile.
     BelowActive,
-    /// Between the start of active profile and the tip-edge zone.
+    /// Active profile.
     Active,
-    /// At the tip edge.
+    /// Tip-edge zone.
     TipEdge,
 }
 
-/// Where the zones of one flank begin, by radius.
+/// Radii of the zones of one flank.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FlankZones {
     /// Start of active profile (SAP).
     pub active_start_radius_mm: f64,
-    /// Where the tip-edge zone begins.
+    /// Beginning of the tip-edge zone.
     pub tip_edge_radius_mm: f64,
-    /// Where the tip edge or its rounding begins.
+    /// Beginning of the tip edge or its rounding.
     pub tip_end_radius_mm: f64,
-    /// The tip circle.
+    /// Tip circle.
     pub tip_radius_mm: f64,
-    /// Length over which the pressure of the flank is a mean: 0.04 mm, at most 0.4 of Hertz's half-width at the pitch point.
+    /// Length over which the pressure of the flank is averaged: 0.04 mm, at most 0.4 of Hertz's half-width at the pitch point.
     pub pressure_length_mm: f64,
 }
 
 impl FlankZones {
-    /// Of `gear`'s flank, where Hertz's half-width at the pitch point is `half_width_mm` under the whole load, of loads that change
-    /// under the greatest.
+    /// Zones of `gear`'s flank with Hertz's half-width `half_width_mm` at the pitch point under the whole load, or the greatest of several.
     pub fn new(pair: &GearPair, gear: Gear, half_width_mm: f64) -> Self {
         let (tooth, spec) = (&pair.teeth[gear], &pair.spec);
         let rounding_mm = tip_rounding_length_mm(spec.gears[gear].modification.tip_rounding_mm, tooth);
         let length_mm = (TIP_EDGE_HALF_WIDTHS * half_width_mm).min(MOST_TIP_EDGE_MODULES * spec.normal_module_mm);
         let start = pair.active_start_rho_mm(gear);
-        // A flank shorter than its tip-edge zone has no other.
-        let below_tip_mm = |length_mm: f64| {
+        // On a short flank the tip-edge zone begins at the start of active profile.
+        let [tip_edge_radius_mm, tip_end_radius_mm] = [rounding_mm + length_mm, rounding_mm].map(|length_mm| {
             let arc_mm = tooth.involute.arc_mm(tooth.tip_rho_mm()) - length_mm;
             tooth.involute.radius_mm(tooth.involute.rho_at_arc_mm(arc_mm).max(start))
-        };
+        });
         let (of_half_widths, most_mm) = PRESSURE_LENGTH;
         Self {
             active_start_radius_mm: pair.active_start_radius_mm(gear),
-            tip_edge_radius_mm: below_tip_mm(rounding_mm + length_mm),
-            tip_end_radius_mm: below_tip_mm(rounding_mm),
+            tip_edge_radius_mm,
+            tip_end_radius_mm,
             tip_radius_mm: tooth.tip_radius_mm,
             pressure_length_mm: (of_half_widths * half_width_mm).min(most_mm),
         }
     }
 
-    /// Of both flanks.
+    /// Zones of both flanks.
     pub fn of_pair(pair: &GearPair, half_width_mm: f64) -> PerGear<Self> {
         PerGear::from_fn(|gear| Self::new(pair, gear, half_width_mm))
     }
 
-    /// The zone at a radius.
+    /// Zone at a radius.
     pub fn at(&self, radius_mm: f64) -> FlankZone {
         if radius_mm < self.active_start_radius_mm {
             FlankZone::BelowActive
@@ -90,12 +91,12 @@ impl FlankZones {
         }
     }
 
-    /// Whether a radius is of the root: the first 2 mm above the start of active profile.
+    /// Whether a radius is in the root zone.
     pub fn is_root(&self, radius_mm: f64) -> bool {
         (self.active_start_radius_mm..=self.active_start_radius_mm + ROOT_MM).contains(&radius_mm)
     }
 
-    /// Whether a radius is of the tip: the last 2 mm below the tip circle.
+    /// Whether a radius is in the tip zone.
     pub fn is_tip(&self, radius_mm: f64) -> bool {
         radius_mm >= self.tip_radius_mm - TIP_MM
     }

@@ -1,67 +1,66 @@
-//! Flank points where wear needs them: how far they are apart along the flank.
+//! Graded spacing of the points along a flank, finer where wear varies more.
 //!
-//! With s the length of the involute from the base circle and m the normal module, neighbouring points are apart in proportion to
+//! With s the arc length of the involute from the base circle and m the normal module, the spacing is proportional to
 //!
 //! ```text
 //! h(s) = min over features ( h_f + g |s − feature| )          at most h_0 = 0.003 m
-//! h(s) = h_0 + g₀ (s_0 − s)                                    below  s_0 = s_SAP − 0.1 m, where hardly anything touches
+//! h(s) = h_0 + g₀ (s_0 − s)                                    below  s_0 = s_SAP − 0.1 m, where there is hardly any contact
 //!
 //! tip rounding, and as far below it         h_f = 1/24 of its length, h_0/8 at least; h_0/4 at a sharp tip edge
-//! start of active profile, ± 0.05 m         h_f = h_0/3: here the mate's tip edge ends its way
-//! where a relief begins                     h_f = h_0/3: a kink of the flank
+//! start of active profile, ± 0.05 m         h_f = h_0/3: end of the contact of the mate's tip edge
+//! beginning of a relief                     h_f = h_0/3: kink of the flank
 //! ```
 //!
-//! The number of points up to s is the integral of 1/h, made as large as it is asked to be: half of the points are twice as far apart
-//! everywhere. Below the flank that touches the distance grows as a geometric series, so that even a rack, whose base circle is
-//! a hundred times its teeth's height below them, spends few points there.
+//! The number of points up to s is proportional to the integral of 1/h: with half of the points the spacing is twice as large
+//! everywhere. Below the flank in contact the spacing grows as a geometric series, so that even a rack, whose base circle is
+//! a hundred tooth heights below the teeth, has few points there.
 
 use super::{Gear, GearPair, removed_material::tip_rounding_length_mm};
 
-/// h_0, in modules.
+/// Greatest spacing h_0, in modules.
 const WIDEST_MODULES: f64 = 0.003;
-/// g: growth of the distance with that from a feature.
+/// Growth g of the spacing with the distance from a feature.
 const GROWTH: f64 = 0.1;
-/// g₀: the same below the flank that touches.
+/// Growth g₀ below the flank in contact.
 const GROWTH_BELOW: f64 = 0.05;
-/// How far below the start of active profile that begins, in modules.
+/// Distance of s_0 below the start of active profile, in modules.
 const TOUCHED_BELOW_MODULES: f64 = 0.1;
-/// Points on a tip rounding where h_0 is the distance elsewhere.
+/// Points on a tip rounding with h_0 elsewhere.
 const ON_ROUNDING: f64 = 24.0;
 /// Least h_f of a rounding, over h_0.
 const FINEST: f64 = 1.0 / 8.0;
-/// h_f of a sharp tip edge, over h_0.
+/// Spacing h_f at a sharp tip edge, over h_0.
 const AT_SHARP_EDGE: f64 = 1.0 / 4.0;
-/// h_f of the start of active profile and of reliefs, over h_0.
+/// Spacing h_f at the start of active profile and at reliefs, over h_0.
 const AT_KINK: f64 = 1.0 / 3.0;
-/// Half of the length about the start of active profile, in modules.
+/// Half-length of the feature at the start of active profile, in modules.
 const ABOUT_START_MODULES: f64 = 0.05;
-/// Length over which h is taken as a straight line, over h.
+/// Length over which h is linear, over h.
 const PIECE: f64 = 0.25;
 
-/// A stretch of flank with closer points.
+/// Stretch of flank with closer points.
 #[derive(Debug, Clone, Copy)]
 struct Feature {
     from_mm: f64,
     to_mm: f64,
-    /// h_f, mm.
+    /// Spacing h_f, mm.
     distance_mm: f64,
 }
 
-/// Distance of the points along a flank but for a factor.
+/// Spacing h of the points along a flank, but for a factor.
 struct Distances {
     features: Vec<Feature>,
-    /// h_0, mm.
+    /// Greatest spacing h_0, mm.
     widest_mm: f64,
-    /// s_0, mm.
+    /// Arc length s_0, mm.
     touched_from_mm: f64,
 }
 
 impl Distances {
     fn new(pair: &GearPair, gear: Gear) -> Self {
         let (tooth, module_mm) = (&pair.teeth[gear], pair.spec.normal_module_mm);
-        let arc_mm = |rho_mm: f64| tooth.involute.arc_mm(rho_mm.max(0.0));
-        let (tip_rho_mm, start_rho_mm) = (tooth.tip_rho_mm(), pair.active_start_rho_mm(gear));
-        let (tip_mm, start_mm) = (arc_mm(tip_rho_mm), arc_mm(start_rho_mm));
+        let [tip_mm, start_mm] =
+            [tooth.tip_rho_mm(), pair.active_start_rho_mm(gear)].map(|rho_mm| tooth.involute.arc_mm(rho_mm.max(0.0)));
         let widest_mm = WIDEST_MODULES * module_mm;
         let rounding_mm = tip_rounding_length_mm(pair.spec.tip_rounding_mm(gear), tooth);
         let at_tip = match rounding_mm > 0.0 {
@@ -74,13 +73,13 @@ impl Distances {
             Feature { from_mm: start_mm - about_mm, to_mm: start_mm + about_mm, distance_mm: AT_KINK * widest_mm },
         ];
         features.extend(pair.begins_of_reliefs(gear).map(|(rho_mm, _)| {
-            let at_mm = arc_mm(rho_mm);
+            let at_mm = tooth.involute.arc_mm(rho_mm.max(0.0));
             Feature { from_mm: at_mm, to_mm: at_mm, distance_mm: AT_KINK * widest_mm }
         }));
         Self { features, widest_mm, touched_from_mm: start_mm - TOUCHED_BELOW_MODULES * module_mm }
     }
 
-    /// h(s).
+    /// Spacing h(s).
     fn at_mm(&self, arc_mm: f64) -> f64 {
         let below_mm = (self.touched_from_mm - arc_mm).max(0.0);
         let widest_mm = self.widest_mm + GROWTH_BELOW * below_mm;
@@ -91,12 +90,12 @@ impl Distances {
     }
 }
 
-/// Lengths of the involute from the base circle to each of `flank_points + 1` points, the first at 0 and the last at the tip circle.
+/// Arc lengths of `flank_points + 1` points, the first at 0 on the base circle and the last on the tip circle.
 pub(super) fn arcs_mm(pair: &GearPair, gear: Gear, flank_points: usize) -> Vec<f64> {
     let tooth = &pair.teeth[gear];
     let tip_mm = tooth.involute.arc_mm(tooth.tip_rho_mm());
     let distances = Distances::new(pair, gear);
-    // Pieces of flank from the tip down on which h is a straight line, and the points up to each of their ends.
+    // Ends of pieces with linear h from the tip down, and the number of points up to each.
     let (mut ends_mm, mut points_to) = (vec![tip_mm], vec![0.0]);
     let (mut at_mm, mut points) = (tip_mm, 0.0);
     while at_mm > 0.0 {

@@ -1,4 +1,4 @@
-//! A tooth as half its thickness over the height of its centre line: what beam and plate models of it read.
+//! Half-thickness of a tooth over the height of its centre line, for beam and plate models.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -6,14 +6,13 @@ use nalgebra::{Rotation2, Vector2};
 
 use super::tooth::Tooth;
 
-/// A point of the space's frame (space centre line +y, clockwise side) in the tooth's: (half-thickness, height from axis).
+/// Point of the space's frame (space centre line +y, clockwise side) in the tooth's: (half-thickness, height from the axis).
 pub(crate) fn in_tooth_frame(tooth: &Tooth, point: Vector2<f64>) -> Vector2<f64> {
     let turned = Rotation2::new(PI / f64::from(tooth.teeth)) * point;
     Vector2::new(-turned.x, turned.y)
 }
 
-/// Half-thickness and height of the profile from where the fillet leaves the root circle to the tip, heights increasing,
-/// with so many `samples` on fillet and flank each; mm.
+/// Half-thickness and increasing height of the profile from the root circle to the tip, with `samples` on fillet and flank each; mm.
 pub(crate) fn half_profile(tooth: &Tooth, samples: usize) -> Vec<Vector2<f64>> {
     let fillet = (0..=samples).map(|k| {
         let t = FRAC_PI_2 + (tooth.fillet_end_angle_rad - FRAC_PI_2) * k as f64 / samples as f64;

@@ -1,6 +1,6 @@
-//! Dimensions by which a gear is inspected: span over teeth, and diametral dimension over balls or pins.
+//! Inspection dimensions of a gear: span over teeth, and diametral dimension over balls or pins.
 //!
-//! With the generating profile shift x_E, in which the tooth thickness allowance is included, and ψ_b half the tooth's angle at the base circle:
+//! With the generating profile shift x_E, which includes the tooth thickness allowance, and ψ_b half the tooth's angle at the base circle:
 //!
 //! ```text
 //! W_k  = m_n cos α_n [(k − ½) π + z inv α_t] + 2 x_E m_n sin α_n          k teeth spanned; touches at ρ = ½ W_k cos β_b
@@ -19,29 +19,29 @@ use std::f64::consts::PI;
 use super::involute::{inv, inverse_inv};
 use super::{Gear, GearPair};
 
-/// Ball diameters in normal modules, the first of which stands out of the space and touches the flanks is taken.
+/// Ball diameters in normal modules; the first that extends beyond the tip circle and touches the flanks is taken.
 const BALLS_MODULES: [f64; 2] = [1.728, 1.92];
 
 /// Span measurement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
-    /// k.
+    /// Number of spanned teeth k.
     pub teeth: u32,
-    /// W_k, mm.
+    /// Span W_k, mm.
     pub span_mm: f64,
 }
 
 /// Diametral dimension over two balls.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OverBalls {
-    /// D_M, mm.
+    /// Ball diameter D_M, mm.
     pub ball_diameter_mm: f64,
-    /// M_dK, mm.
+    /// Diametral dimension M_dK, mm.
     pub dimension_mm: f64,
 }
 
 impl GearPair {
-    /// W_k over the number of teeth that touches nearest to the middle of the flanks; none where no number of teeth touches both flanks
+    /// Span W_k over the number of teeth with contact nearest to the middle of the flanks; `None` where no span touches both flanks
     /// between form circle and tip circle, or the face width is too small for the helix (b < W_k sin β_b).
     pub fn span(&self, gear: Gear) -> Option<Span> {
         let (spec, tooth) = (&self.spec, &self.teeth[gear]);
@@ -55,26 +55,20 @@ impl GearPair {
         let wanted = z / PI
             * (tan_middle / cos_base_helix.powi(2) - 2.0 * shift_mm / m_n * alpha_n.tan() / z - inv(alpha_t))
             + 0.5;
-        let over = |teeth: u32| {
+        let nearest = wanted.round().max(1.0) as u32;
+        let candidates = [nearest, nearest + 1, nearest.saturating_sub(1)];
+        candidates.into_iter().filter(|teeth| (1..tooth.teeth).contains(teeth)).find_map(|teeth| {
             let span_mm = m_n * alpha_n.cos() * ((f64::from(teeth) - 0.5) * PI + z * inv(alpha_t))
                 + 2.0 * shift_mm * alpha_n.sin();
-            Span { teeth, span_mm }
-        };
-        let touches = |span: &Span| {
-            let rho_mm = 0.5 * span.span_mm * cos_base_helix;
-            (tooth.root_form_rho_mm()..=tooth.tip_rho_mm()).contains(&rho_mm)
-                && spec.face_width_mm >= span.span_mm * sin_base_helix.abs()
-        };
-        let nearest = wanted.round().max(1.0) as u32;
-        [nearest, nearest + 1, nearest.saturating_sub(1)]
-            .into_iter()
-            .filter(|teeth| (1..tooth.teeth).contains(teeth))
-            .map(over)
-            .find(touches)
+            let rho_mm = 0.5 * span_mm * cos_base_helix;
+            let touches = (tooth.root_form_rho_mm()..=tooth.tip_rho_mm()).contains(&rho_mm)
+                && spec.face_width_mm >= span_mm * sin_base_helix.abs();
+            touches.then_some(Span { teeth, span_mm })
+        })
     }
 
-    /// M_dK over balls of 1.728, else 1.92 normal modules; none where neither touches the flanks between form circle and tip circle and
-    /// stands out beyond the latter.
+    /// Dimension M_dK over balls of 1.728, else 1.92 normal modules; `None` where neither touches the flanks between form circle and tip
+    /// circle and extends beyond the latter.
     pub fn over_balls(&self, gear: Gear) -> Option<OverBalls> {
         let tooth = &self.teeth[gear];
         let base_mm = tooth.involute.base_radius_mm;
@@ -96,12 +90,12 @@ impl GearPair {
         })
     }
 
-    /// d_Fa/2: radius where the usable flank ends towards the tip, at the tip circle or where the rounding of the edge begins, mm.
+    /// Tip form radius d_Fa/2, at the tip circle or where the rounding of the edge begins, mm.
     pub fn tip_form_radius_mm(&self, gear: Gear) -> f64 {
         self.teeth[gear].involute.radius_mm(self.rounding_start_rho_mm(gear))
     }
 
-    /// ζ_f: specific sliding at the start of active profile; none where that lies on the base circle.
+    /// Specific sliding ζ_f at the start of active profile; `None` where that lies on the base circle.
     pub fn specific_sliding_at_root(&self, gear: Gear) -> Option<f64> {
         let position_mm = self.path.rho_mm(gear, self.active_start_rho_mm(gear));
         Some(self.path.specific_sliding(gear, position_mm)).filter(|sliding| sliding.is_finite())

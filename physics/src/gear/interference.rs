@@ -1,15 +1,15 @@
-//! Whether the tip of one gear runs into the fillet of the other.
+//! Interference of the tip of one gear with the fillet of the other.
 //!
-//! Above the form circle two involutes never overlap. Below it the tip of the mate must have room beside what the rack has left: the root
-//! trochoid, which undercut teeth have instead of the lower involute. The tip corner at radius r_a of the mate, with its own radius of
-//! curvature ρ_a, is followed through the space of the gear. While the theoretical contact point lies at ρ on the gear and at
-//! ρ' = T1T2 − ρ on its mate, it is at (along, drop) in the mate's tangent frame, and seen from the gear's axis at
+//! Above the form circle two involutes never overlap. Below it the tip of the mate may overlap the root
+//! trochoid, which undercut teeth have instead of the lower involute. The tip corner at radius r_a of the mate, with the radius of
+//! curvature ρ_a, is followed through the space of the gear. With the theoretical contact point at ρ on the gear and at
+//! ρ' = T1T2 − ρ on its mate, it is at (along, drop) in the mate's tangent frame, and relative to the gear's axis at
 //!
 //! ```text
 //! q = (r_b − along, −ρ − drop)        r = |q|        φ = ∠q + ρ/r_b − ψ_b + π/z
 //! ```
 //!
-//! with φ the angle from the middle of the space towards the working flank. The outline leaves room up to φ_f(r), the trochoid; the gap is
+//! with φ the angle from the middle of the space towards the working flank. The trochoid is at the angle φ_f(r), and the gap is
 //! r (φ_f − |φ|), along the circle through the corner. A rounding of the tip edge is followed at several points of its arc.
 //!
 //! Source: F. L. Litvin, *Gear Geometry and Applied Theory* (2004), sections 6.5 and 13: interference as overlap of the generated shapes.
@@ -20,13 +20,13 @@ use nalgebra::Vector2;
 
 use super::{Gear, GearPair, removed_material::tip_rounding_length_mm, tooth::Tooth};
 
-/// Points of the trochoid.
+/// Number of points of the trochoid.
 const FILLET_POINTS: usize = 400;
-/// Places of the mate's tip below the form circle.
+/// Number of positions of the mate's tip below the form circle.
 const PLACES: usize = 200;
-/// Points of the arc of a rounding.
+/// Number of points of the arc of a rounding.
 const ARC_POINTS: usize = 5;
-/// Turns of the search for the least gap between two places.
+/// Iterations of the search for the least gap between two positions.
 const REFINEMENTS: usize = 40;
 
 /// Fillet of a space as angle from its middle over the radius, from the root circle up.
@@ -47,7 +47,7 @@ impl FilletRoom {
         Self { radius_mm, angle_rad }
     }
 
-    /// φ_f at a radius between root circle and form circle.
+    /// Angle φ_f at a radius between root circle and form circle.
     fn at(&self, radius_mm: f64) -> f64 {
         let after = self.radius_mm.partition_point(|&r| r <= radius_mm).clamp(1, FILLET_POINTS);
         let [low, high] = [self.radius_mm[after - 1], self.radius_mm[after]];
@@ -56,7 +56,7 @@ impl FilletRoom {
     }
 }
 
-/// The tip of the mate on its way through a space of a gear.
+/// Tip of the mate in a space of a gear.
 struct TipInSpace<'a> {
     gear: &'a Tooth,
     mate: &'a Tooth,
@@ -74,18 +74,7 @@ impl TipInSpace<'_> {
         let mate_rho = tip_rho - mate.base_radius_mm * turn_rad;
         let own_rho = self.line_of_action_mm - mate_rho;
         let axis = Vector2::new(own.base_radius_mm, -own_rho);
-        let gap_of = |point: Vector2<f64>| {
-            let seen = axis - point;
-            let radius = seen.norm();
-            if radius >= self.gear.root_form_radius_mm {
-                return f64::INFINITY;
-            }
-            let space = PI / f64::from(self.gear.teeth);
-            let from_middle =
-                seen.y.atan2(seen.x) + own_rho / own.base_radius_mm - self.gear.base_half_angle_rad + space;
-            radius * (self.room.at(radius) - from_middle.abs())
-        };
-        // The arc of the rounding, or the corner alone.
+        // Arc of the rounding, or the corner alone.
         let length = tip_rounding_length_mm(self.rounding_mm, self.mate);
         let start_rho = (tip_rho * tip_rho - 2.0 * mate.base_radius_mm * length).max(0.0).sqrt();
         let turn = (start_rho - mate_rho) / mate.base_radius_mm;
@@ -97,12 +86,25 @@ impl TipInSpace<'_> {
         (0..points)
             .map(|k| {
                 let (out, up) = (whole * k as f64 / (ARC_POINTS - 1) as f64).sin_cos();
-                gap_of(centre + self.rounding_mm * (up * Vector2::new(sin, -cos) + out * Vector2::new(cos, sin)))
+                let point = centre + self.rounding_mm * (up * Vector2::new(sin, -cos) + out * Vector2::new(cos, sin));
+                self.point_gap_mm(axis - point, own_rho)
             })
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// Least gap on the whole way.
+    /// Gap of a point of the tip, `seen` from the gear's axis; infinite above the form circle.
+    fn point_gap_mm(&self, seen: Vector2<f64>, own_rho: f64) -> f64 {
+        let radius = seen.norm();
+        if radius >= self.gear.root_form_radius_mm {
+            return f64::INFINITY;
+        }
+        let space = PI / f64::from(self.gear.teeth);
+        let rolled = own_rho / self.gear.involute.base_radius_mm;
+        let from_middle = seen.y.atan2(seen.x) + rolled - self.gear.base_half_angle_rad + space;
+        radius * (self.room.at(radius) - from_middle.abs())
+    }
+
+    /// Least gap over all positions.
     fn least_gap_mm(&self, centre_distance_mm: f64, working_pressure_angle_rad: f64) -> f64 {
         let (a, tip, form) = (centre_distance_mm, self.tip_radius_mm, self.gear.root_form_radius_mm);
         let cosine = (a * a + tip * tip - form * form) / (2.0 * a * tip);
@@ -112,11 +114,10 @@ impl TipInSpace<'_> {
         let reach = cosine.max(-1.0).acos();
         let on_line = (self.mate.involute.base_radius_mm / tip).min(1.0).acos() - working_pressure_angle_rad;
         let step = 2.0 * reach / PLACES as f64;
-        let place = |k: usize| on_line - reach + step * k as f64;
-        let gaps: Vec<f64> = (0..=PLACES).map(|k| self.gap_mm(place(k))).collect();
-        let least = (0..=PLACES).min_by(|&i, &j| gaps[i].total_cmp(&gaps[j])).unwrap_or(0);
-        let (mut low, mut high) = (place(least) - step, place(least) + step);
-        let mut smallest = gaps[least];
+        let places = (0..=PLACES).map(|k| on_line - reach + step * k as f64);
+        let gaps = places.map(|turn_rad| (turn_rad, self.gap_mm(turn_rad)));
+        let Some((nearest, mut smallest)) = gaps.min_by(|(_, a), (_, b)| a.total_cmp(b)) else { return f64::INFINITY };
+        let (mut low, mut high) = (nearest - step, nearest + step);
         for _ in 0..REFINEMENTS {
             let thirds = [low + (high - low) / 3.0, high - (high - low) / 3.0];
             let [left, right] = thirds.map(|turn| self.gap_mm(turn));
@@ -128,7 +129,7 @@ impl TipInSpace<'_> {
 }
 
 impl GearPair {
-    /// Least gap between the fillet of `gear` and the tip of its mate, had that `mate_tip_radius_mm`: along the circle through the tip, mm;
+    /// Least gap between the fillet of `gear` and the tip of its mate for a tip radius of the mate, along the circle through the tip, mm;
     /// negative where they overlap, infinite where the tip stays above the form circle.
     pub fn fillet_gap_mm(&self, gear: Gear, mate_tip_radius_mm: f64) -> f64 {
         TipInSpace {
@@ -142,7 +143,7 @@ impl GearPair {
         .least_gap_mm(self.spec.centre_distance_mm, self.working_pressure_angle_rad)
     }
 
-    /// Greatest tip radius of the mate of `gear` that leaves a gap of `least_gap_mm` beside the fillet, where its own does not.
+    /// Greatest tip radius of the mate of `gear`, below its own, with a gap of `least_gap_mm` to the fillet.
     pub(super) fn greatest_mate_tip_radius_mm(&self, gear: Gear, least_gap_mm: f64) -> f64 {
         let mate = &self.teeth[gear.mate()];
         let (mut free, mut overlapping) = (mate.involute.base_radius_mm, mate.tip_radius_mm);

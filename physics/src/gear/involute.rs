@@ -1,7 +1,7 @@
-//! The involute of a base circle.
+//! Involute of a base circle.
 //!
-//! A taut string unwound from the base circle (radius r_b) draws the involute; its free length ρ is the radius of
-//! curvature of the flank, and serves as the coordinate along it:
+//! The end of a taut string unwound from the base circle (radius r_b) describes the involute; its free length ρ is the radius of
+//! curvature of the flank, and the coordinate along it:
 //!
 //! ```text
 //! r² = r_b² + ρ²          radius of the flank point
@@ -12,12 +12,12 @@
 //!
 //! Source: ISO 21771, section 4.
 
-/// inv α = tan α − α, the polar angle of the involute.
+/// Involute function inv α = tan α − α, the polar angle of the involute.
 pub fn inv(alpha_rad: f64) -> f64 {
     alpha_rad.tan() - alpha_rad
 }
 
-/// The angle whose involute is `value` (≥ 0), by Newton's method from a series start; exact to round-off.
+/// Inverse involute function of `value` (≥ 0), by Newton's method from a series; exact to round-off.
 pub fn inverse_inv(value: f64) -> f64 {
     if value <= 0.0 {
         return 0.0;
@@ -35,10 +35,10 @@ pub fn inverse_inv(value: f64) -> f64 {
     alpha
 }
 
-/// The involute of one base circle.
+/// Involute of a base circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Involute {
-    /// r_b in mm.
+    /// Base radius r_b in mm.
     pub base_radius_mm: f64,
 }
 
@@ -73,12 +73,10 @@ impl Involute {
         (2.0 * self.base_radius_mm * arc_mm.max(0.0)).sqrt()
     }
 
-    /// The flank point with radius of curvature `rho_mm`, seen from where the flank's normal is the line of action:
-    /// theoretical contact at radius of curvature `contact_rho_mm`.
+    /// Flank point with radius of curvature `rho_mm` in the tangent frame of the theoretical contact point at radius of curvature
+    /// `contact_rho_mm`, with the common tangent (towards the tip) as first and the inward normal as second axis.
     ///
-    /// Turning by Δφ = (ρ − ξ)/r_b brings the string of the point ρ from the line of action to its own place; in the
-    /// frame with the contact point as origin, the common tangent (towards the tip) as first and the inward normal as
-    /// second axis
+    /// The string of the point ρ is turned by Δφ = (ρ − ξ)/r_b from the line of action:
     ///
     /// ```text
     /// along = r_b (cos Δφ − 1) + ρ sin Δφ
@@ -93,8 +91,8 @@ impl Involute {
         }
     }
 
-    /// The flank point at `along_mm` from the contact point, the inverse of [`Self::in_tangent_frame`] in `along`, by
-    /// Newton's method; the base circle's own point where that lies at or beyond it.
+    /// Flank point at `along_mm` from the contact point, the inverse of [`Self::in_tangent_frame`] in `along`, by
+    /// Newton's method; beyond the base circle, the point on it.
     pub fn at_along(&self, along_mm: f64, contact_rho_mm: f64) -> FlankPoint {
         let r_b = self.base_radius_mm;
         let square = contact_rho_mm * contact_rho_mm + 2.0 * r_b * along_mm;
@@ -109,7 +107,7 @@ impl Involute {
             let step = (along_mm - r_b * (cos - 1.0) - rho * sin) * r_b / (rho * cos);
             drop_mm = contact_rho_mm + r_b * sin - rho * cos + step * rho / r_b * sin;
             rho = (rho + step).max(0.5 * rho);
-            // What is left of the error goes with the square of the step.
+            // The remaining error is of the order of the square of the step.
             if step.abs() <= 1e-7 * rho {
                 break;
             }
@@ -118,21 +116,21 @@ impl Involute {
     }
 }
 
-/// A flank point found at a place of the common tangent.
+/// Flank point at a given distance along the common tangent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlankPoint {
-    /// Its radius of curvature, mm.
+    /// Radius of curvature, mm.
     pub rho_mm: f64,
-    /// Behind the tangent, into the gear, mm.
+    /// Distance behind the tangent, into the gear, mm.
     pub drop_mm: f64,
 }
 
-/// A flank point relative to the theoretical contact point.
+/// Flank point relative to the theoretical contact point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TangentFramePoint {
-    /// Along the common tangent, positive towards the gear's tip, mm.
+    /// Distance along the common tangent, positive towards the gear's tip, mm.
     pub along_mm: f64,
-    /// Behind the tangent, into the gear, mm.
+    /// Distance behind the tangent, into the gear, mm.
     pub drop_mm: f64,
 }
 

@@ -1,5 +1,5 @@
-//! Geometry of cylindrical involute gears, after ISO 21771: from the data of a pair to its teeth, their outline, the path
-//! of contact and the flank's field of removed material.
+//! Geometry of cylindrical involute gears after ISO 21771: teeth of a pair, their outline, the path
+//! of contact and the field of material removed from the flanks.
 
 pub mod backlash;
 pub mod conjugate;

@@ -1,11 +1,11 @@
-//! Deliberate deviations of the flank from the involute, as data.
+//! Modifications of the flank, deliberate deviations from the involute.
 //!
-//! Each is an amount of material removed along the flank normal; [`super::removed_material`] turns them into the field
-//! that every contact model reads. Lengths are roll lengths: differences of the radius of curvature ρ of the transverse
-//! involute, which are lengths along the path of contact (ISO 21771-1, profile modifications). What varies over the face width
-//! does so by the axial coordinate z from 0 to b (ISO 21771-1, helix modifications), and is the same from root to tip.
+//! Amounts are of material removed along the flank normal; [`super::removed_material`] calculates the field of removed material. Lengths are
+//! roll lengths: differences of the radius of curvature ρ of the transverse
+//! involute, which are lengths along the path of contact (ISO 21771-1, profile modifications). Helix modifications (ISO 21771-1) are functions of
+//! the axial coordinate z from 0 to b, constant from root to tip.
 
-/// How a relief grows from its start to its end.
+/// Shape of a relief from its start to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ReliefShape {
@@ -19,22 +19,22 @@ pub enum ReliefShape {
 /// Tip or root relief.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Relief {
-    /// Removed at the tip circle (tip relief) or at the start of active profile (root relief), mm.
+    /// Amount at the tip circle (tip relief) or at the start of active profile (root relief), mm.
     pub amount_mm: f64,
     /// Roll length over which it runs out, mm.
     pub length_mm: f64,
-    /// Its shape.
+    /// Shape of the relief.
     pub shape: ReliefShape,
 }
 
 /// Relief towards both ends of the face width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EndRelief {
-    /// Removed at the end faces, mm.
+    /// Amount at the end faces, mm.
     pub amount_mm: f64,
     /// Part of the face width over which it runs out at either end, mm.
     pub length_mm: f64,
-    /// Its shape.
+    /// Shape of the relief.
     pub shape: ReliefShape,
 }
 
@@ -58,7 +58,7 @@ pub struct Modification {
 }
 
 impl Modification {
-    /// Whether it differs from one transverse section to another.
+    /// Whether it varies over the face width.
     pub fn varies_over_width(&self) -> bool {
         self.lead_crowning_mm != 0.0 || self.end_relief.is_some() || self.helix_slope_mm != 0.0
     }

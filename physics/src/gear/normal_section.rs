@@ -1,9 +1,9 @@
-//! The normal section: where the flanks of oblique teeth press, wear and are measured.
+//! Normal section of helical teeth, in which contact, wear and measurement take place.
 //!
-//! Slices are cut in transverse sections, and loads are shared along the transverse line of action. The surfaces do not know either: they
-//! touch along a line that is oblique by β_b in the plane of action, and are pressed together along their common normal. In the tangent
-//! plane the direction across that line is the tangent of the transverse profile, e_t, because both the line of contact and the normal lie
-//! in the plane of action. So places across the contact are the same in both sections, and with w the transverse line load F_bt/b,
+//! Slices are transverse sections, and loads are shared along the transverse line of action, but the surfaces
+//! touch along a line at the angle β_b in the plane of action, and are pressed together along their common normal. In the tangent
+//! plane the direction across that line is the tangent of the transverse profile, e_t, as the line of contact and the normal lie
+//! in the plane of action. Coordinates across the contact are therefore the same in both sections, and with w the transverse line load F_bt/b,
 //!
 //! ```text
 //! normal force                 F_bn = F_bt/cos β_b
@@ -17,21 +17,21 @@
 //! area of a flank              dA = ds · dz/cos β_b
 //! ```
 //!
-//! The depth that a point loses in a mesh is k ∫ p ds = k w ζ, as in a spur pair; the volume is k F_bn s, by 1/cos β_b more than that of the
-//! spur pair. Modifications are those of a drawing, along the transverse line of action: of the field of removed material, which is normal
-//! to the flank, they are cos β_b of their amount.
+//! The wear depth of a point in a mesh is k ∫ p ds = k w ζ, as in a spur pair; the volume k F_bn s is 1/cos β_b times that of the
+//! spur pair. Modifications are given along the transverse line of action, as on a drawing; normal to the flank, as in the field of removed
+//! material, they are multiplied by cos β_b.
 //!
-//! Of a spur pair cos β_b is 1, and nothing changes in any bit.
+//! For a spur pair cos β_b is exactly 1.
 //!
 //! Source: the geometry of the involute helicoid, ISO 21771:2007, 5.4 and 5.5; ISO 1328-1:2013, 3.4 and 3.5, for where deviations are
 //! measured; K. L. Johnson, *Contact Mechanics* (1985), section 4.2.
 
 use super::{Gear, GearPair, conjugate::ConjugateFlanks, involute::TangentFramePoint};
 
-/// How oblique a line of contact is in the plane of action: what is transverse and what is normal of the same contact.
+/// Obliquity of a line of contact in the plane of action, for conversion between transverse and normal section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Obliquity {
-    /// cos β_b.
+    /// Cosine of the base helix angle β_b.
     cos_base_helix: f64,
 }
 
@@ -44,33 +44,32 @@ impl Obliquity {
         Self { cos_base_helix: base_helix_rad.cos() }
     }
 
-    /// Normal force of a transverse one, along the line of action: also a normal force per mm of face width of a transverse line load.
+    /// Normal force from its transverse component, or normal force per mm of face width from the transverse line load.
     pub fn normal_force(self, transverse: f64) -> f64 {
         transverse / self.cos_base_helix
     }
 
-    /// Approach, gap or depth along the normal of one along the transverse line of action, mm.
+    /// Approach, gap or depth along the normal from that along the transverse line of action, mm.
     pub fn normal_mm(self, transverse_mm: f64) -> f64 {
         transverse_mm * self.cos_base_helix
     }
 
-    /// Approach, gap or depth along the transverse line of action of one along the normal, mm; a compliance likewise.
+    /// Approach, gap, depth or compliance along the transverse line of action from that along the normal, mm.
     pub fn transverse_mm(self, normal_mm: f64) -> f64 {
         normal_mm / self.cos_base_helix
     }
 
-    /// Radius of curvature in the normal section of one in the transverse section, mm.
+    /// Radius of curvature in the normal section from that in the transverse section, mm.
     pub fn normal_radius_mm(self, transverse_mm: f64) -> f64 {
         transverse_mm / self.cos_base_helix
     }
 
-    /// Length of a line of contact over a width, mm; of an area of the profile times the width, area of the flank, and the volume that it
-    /// loses.
+    /// Length of a line of contact from its width, mm; likewise area or worn volume of a flank from profile length or area times width.
     pub fn along_line(self, over_width: f64) -> f64 {
         over_width / self.cos_base_helix
     }
 
-    /// Transverse line load with whose radius R_t a contact is as wide as under `line_load_n_per_mm` in the normal section: w R_n/R_t, N/mm.
+    /// Line load w R_n/R_t under which a contact with the transverse radius R_t is as wide as under w in the normal section, N/mm.
     pub fn as_wide_under_n_per_mm(self, line_load_n_per_mm: f64) -> f64 {
         line_load_n_per_mm / self.cos_base_helix
     }
@@ -80,30 +79,29 @@ impl Obliquity {
 #[derive(Clone, Copy)]
 pub struct NormalSection<'a> {
     transverse: &'a dyn ConjugateFlanks,
-    /// How oblique their line of contact is.
+    /// Obliquity of their line of contact.
     pub obliquity: Obliquity,
 }
 
 impl<'a> NormalSection<'a> {
-    /// Flanks whose line of contact is at right angles to the section in which `flanks` are told.
+    /// Flanks of a spur pair, whose transverse section is the normal one.
     pub fn of_spur(flanks: &'a dyn ConjugateFlanks) -> Self {
         Self { transverse: flanks, obliquity: Obliquity::SPUR }
     }
 }
 
 impl GearPair {
-    /// How oblique the lines of contact are.
+    /// Obliquity of the lines of contact.
     pub fn obliquity(&self) -> Obliquity {
         Obliquity::new(self.base_helix_angle_rad())
     }
 
-    /// The flanks in their normal section.
+    /// Flanks in their normal section.
     pub fn normal_section(&self) -> NormalSection<'_> {
         NormalSection { transverse: self, obliquity: self.obliquity() }
     }
 
-    /// Area of all working flanks of a gear along a length of the profile, or the volume that they lose over an area of it: whole face width,
-    /// all teeth.
+    /// Area of all working flanks of a gear over the face width from a length of the profile, or their worn volume from a worn area of it.
     pub fn over_all_flanks(&self, gear: Gear, of_profile: f64) -> f64 {
         self.obliquity().along_line(of_profile * self.spec.face_width_mm) * f64::from(self.spec.gears[gear].teeth)
     }
@@ -145,7 +143,7 @@ impl ConjugateFlanks for NormalSection<'_> {
         self.transverse.sliding_mm(from_mm, to_mm)
     }
 
-    /// The depth of the transverse section: it only says where flattening ends and the tooth begins, which stiffness models do there.
+    /// Depth in the transverse section, where stiffness models separate flattening from the tooth.
     fn depth_mm(&self, gear: Gear, position_mm: f64) -> f64 {
         self.transverse.depth_mm(gear, position_mm)
     }

@@ -1,56 +1,54 @@
-//! Everything that follows from the data of a pair.
+//! Geometry of a pair from its data.
 //!
-//! The working transverse pressure angle comes from the centre distance, cos α_wt = (r_b1 + r_b2) / a; what is left of
-//! the pitch on the working circles beside both tooth thicknesses is the backlash.
+//! The working transverse pressure angle follows from the centre distance, cos α_wt = (r_b1 + r_b2) / a; the pitch on the working circles less
+//! both tooth thicknesses is the backlash.
 //!
 //! Source: ISO 21771, section 5.
 
 use std::f64::consts::PI;
 
-use super::modification::{Modification, Relief, ReliefShape};
+use super::modification::{Modification, ReliefShape};
 use super::{
     Gear, PairError, PerGear, backlash::Backlash, path_of_contact::PathOfContact,
     removed_material::tip_rounding_length_mm, spec::PairSpec, tooth::Tooth,
 };
 
-/// Rounded profile shifts and centre distances give a few tenths of a micrometre of negative backlash on paper; real
-/// teeth interfere when it exceeds this part of the normal module (4.5 µm for module 4.5).
+/// Negative backlash that rounded profile shifts and centre distances may have, in normal modules (4.5 µm for module 4.5).
 const BACKLASH_ROUNDING_MODULES: f64 = 1e-3;
 
-/// A tip may overlap a fillet by this part of the normal module: a tenth of what rounded data do to the backlash.
+/// Overlap of tip and fillet that rounded data may have, in normal modules.
 const OVERLAP_ROUNDING_MODULES: f64 = 1e-4;
 
-/// Modifications take micrometres off a flank; one that takes more than this part of the module leaves none.
+/// Greatest amount of a modification, in modules.
 const GREATEST_REMOVAL_MODULES: f64 = 0.25;
 
-/// A gear pair with all that is derived from its data.
+/// Gear pair with its derived geometry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearPair {
-    /// The data it was built from, tip roundings that count as sharp taken away.
+    /// Given data, without tip roundings that count as sharp.
     pub spec: PairSpec,
     /// Circles and teeth.
     pub teeth: PerGear<Tooth>,
-    /// α_wt, rad.
+    /// Working transverse pressure angle α_wt, rad.
     pub working_pressure_angle_rad: f64,
-    /// Where the flanks touch.
+    /// Path of contact.
     pub path: PathOfContact,
-    /// Circumferential backlash on the working circles, transverse, mm; rounding of the data to just below zero counts
-    /// as zero.
+    /// Transverse circumferential backlash on the working circles, mm; zero where rounded data make it slightly negative.
     pub backlash_mm: f64,
     /// Distance of each gear's tip circle from its mate's root circle, mm.
     pub tip_clearance_mm: PerGear<f64>,
 }
 
 impl GearPair {
-    /// Normal load in the transverse plane per mm of face width under this torque on the pinion, N/mm: w = T₁/(r_b1 b).
+    /// Transverse line load w = T₁/(r_b1 b) under a torque on the pinion, N/mm.
     pub fn line_load_n_per_mm(&self, pinion_torque_n_mm: f64) -> f64 {
         pinion_torque_n_mm / self.path.involute.pinion.base_radius_mm / self.spec.face_width_mm
     }
 
-    /// Derives the pair.
+    /// Derives the geometry of a pair.
     ///
     /// # Errors
-    /// Whatever makes it impossible, see [`PairError`].
+    /// [`PairError`] where the geometry is impossible.
     pub fn new(spec: &PairSpec) -> Result<Self, PairError> {
         let centre_distance_mm = spec.centre_distance_mm;
         let base_radii = PerGear::from_fn(|g| spec.reference_radius_mm(g) * spec.transverse_pressure_angle_rad().cos());
@@ -90,14 +88,14 @@ impl GearPair {
         self.path.involute[gear].base_radius_mm / self.working_pressure_angle_rad.cos()
     }
 
-    /// Helix slope of the working flanks that axes which are not parallel make over the face width, mm.
+    /// Helix slope of the working flanks over the face width due to axes that are not parallel, mm.
     pub fn slope_of_axes_mm(&self) -> f64 {
         let axes = self.spec.axis_parallelism;
         let (sin, cos) = self.working_pressure_angle_rad.sin_cos();
         axes.in_plane_mm * sin + axes.out_of_plane_mm * cos
     }
 
-    /// Radius at which a gear's flank touches its mate at `position_mm` on the path of contact.
+    /// Radius of the contact point on a gear's flank at `position_mm` of the path of contact.
     pub fn radius_at_mm(&self, gear: Gear, position_mm: f64) -> f64 {
         self.path.involute[gear].radius_mm(self.path.rho_mm(gear, position_mm))
     }
@@ -110,33 +108,33 @@ impl GearPair {
         }
     }
 
-    /// Radii of curvature of a gear's flank where its reliefs begin, each with how it grows from there; a relief of nothing begins nowhere.
+    /// Radii of curvature where the reliefs of a gear's flank begin, with their shapes; without reliefs of zero amount.
     pub fn begins_of_reliefs(&self, gear: Gear) -> impl Iterator<Item = (f64, ReliefShape)> + use<> {
         let Modification { tip_relief, root_relief, .. } = self.spec.gears[gear].modification;
         let (tip_rho_mm, start_rho_mm) = (self.teeth[gear].tip_rho_mm(), self.active_start_rho_mm(gear));
-        let removes = |relief: &Relief| relief.amount_mm > 0.0;
-        let of_tip = tip_relief.filter(removes).map(|relief| (tip_rho_mm - relief.length_mm, relief.shape));
-        let of_root = root_relief.filter(removes).map(|relief| (start_rho_mm + relief.length_mm, relief.shape));
-        of_tip.into_iter().chain(of_root)
+        let of_tip = tip_relief.map(|relief| (tip_rho_mm - relief.length_mm, relief));
+        let of_root = root_relief.map(|relief| (start_rho_mm + relief.length_mm, relief));
+        let begins = of_tip.into_iter().chain(of_root).filter(|(_, relief)| relief.amount_mm > 0.0);
+        begins.map(|(rho_mm, relief)| (rho_mm, relief.shape))
     }
 
-    /// Radius of the start of active profile (SAP), r_Nf: where the mate's tip touches, or the form circle where that is larger.
+    /// Radius r_Nf of the start of active profile (SAP): that of the contact with the mate's tip, or the form circle where it is larger.
     pub fn active_start_radius_mm(&self, gear: Gear) -> f64 {
         self.path.involute[gear].radius_mm(self.active_start_rho_mm(gear))
     }
 
-    /// ε_β = b |sin β| / (π m_n).
+    /// Overlap ratio ε_β = b |sin β| / (π m_n).
     pub fn overlap_ratio(&self) -> f64 {
         self.spec.face_width_mm * self.spec.helix_angle_rad.sin().abs() / (PI * self.spec.normal_module_mm)
     }
 
-    /// β_b, helix angle at the base cylinders: tan β_b = tan β cos α_t.
+    /// Base helix angle β_b: tan β_b = tan β cos α_t.
     pub fn base_helix_angle_rad(&self) -> f64 {
         (self.spec.helix_angle_rad.tan() * self.spec.transverse_pressure_angle_rad().cos()).atan()
     }
 
-    /// s_an, the normal tooth thickness at the tip cylinder, where `lost_mm` was taken off one flank there along its transverse normal:
-    /// (s_a − h/cos α_a) cos β_a, with tan β_a = tan β r_a/r. Reliefs and roundings are not taken off. Source: ISO 21771, sections 4 and 5.
+    /// Normal tooth thickness s_an at the tip cylinder after wear of `lost_mm` of one flank there along its transverse normal:
+    /// (s_a − h/cos α_a) cos β_a, with tan β_a = tan β r_a/r; without reliefs and roundings. Source: ISO 21771, sections 4 and 5.
     pub fn normal_tip_thickness_mm(&self, gear: Gear, lost_mm: f64) -> f64 {
         let tooth = &self.teeth[gear];
         let tip_radius = tooth.tip_radius_mm;
@@ -145,15 +143,16 @@ impl GearPair {
         (tooth.thickness_mm(tip_radius) - lost_mm / cos_alpha) * helix_angle.cos()
     }
 
-    /// z_driving / z_driven: turns of the wheel per turn of the pinion.
+    /// Turns of the wheel per turn of the pinion, z_driving / z_driven.
     pub fn wheel_turns_per_pinion_turn(&self) -> f64 {
         f64::from(self.spec.gears.pinion.teeth) / f64::from(self.spec.gears.wheel.teeth)
     }
 
     fn checked_backlash_mm(&self) -> Result<f64, PairError> {
-        let on_pitch_circle = |g: Gear| self.teeth[g].thickness_mm(self.working_pitch_radius_mm(g));
+        let [pinion_mm, wheel_mm] =
+            Gear::BOTH.map(|gear| self.teeth[gear].thickness_mm(self.working_pitch_radius_mm(gear)));
         let pitch_mm = self.path.base_pitch_mm / self.working_pressure_angle_rad.cos();
-        let backlash_mm = pitch_mm - on_pitch_circle(Gear::Pinion) - on_pitch_circle(Gear::Wheel);
+        let backlash_mm = pitch_mm - pinion_mm - wheel_mm;
         if backlash_mm < -BACKLASH_ROUNDING_MODULES * self.spec.normal_module_mm {
             let centre_distance_mm = self.spec.centre_distance_mm;
             let tight = self.spec.centre_distance_with_mm(Backlash::Normal(0.0));
@@ -240,11 +239,12 @@ impl GearPair {
         Ok(())
     }
 
-    /// A rounding must leave some active flank, and the two of one tooth room for each other on the tip land.
+    /// Refuses a rounding that leaves no active flank, or no room on the tip land for that of the other flank.
     fn check_tip_rounding(&self, gear: Gear, radius_mm: f64) -> Result<(), PairError> {
         let tooth = &self.teeth[gear];
-        let arc = |rho| tooth.involute.arc_mm(rho);
-        let flank_mm = arc(tooth.tip_rho_mm()) - arc(self.active_start_rho_mm(gear));
+        let [tip_mm, start_mm] =
+            [tooth.tip_rho_mm(), self.active_start_rho_mm(gear)].map(|rho_mm| tooth.involute.arc_mm(rho_mm));
+        let flank_mm = tip_mm - start_mm;
         let room_mm = flank_mm.min(0.5 * tooth.thickness_mm(tooth.tip_radius_mm));
         let greatest_mm = room_mm / tip_rounding_length_mm(1.0, tooth);
         if radius_mm <= greatest_mm {

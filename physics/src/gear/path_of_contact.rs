@@ -1,8 +1,8 @@
-//! The path of contact: where on the line of action two involute flanks touch.
+//! Path of contact of two involute flanks on the line of action.
 //!
-//! The line of action touches both base circles, in T1 and T2. The pinion's radius of curvature ξ = ρ1 at the theoretical
-//! contact point is the coordinate along it; the wheel's is ρ2 = T1T2 − ξ. From A, where the wheel's tip circle cuts
-//! the line, to E, where the pinion's does, a tooth pair is in contact; a base pitch p_bt later the next one follows:
+//! The line of action is tangent to both base circles at T1 and T2. The pinion's radius of curvature ξ = ρ1 at the theoretical
+//! contact point is the coordinate along it; the wheel's is ρ2 = T1T2 − ξ. A tooth pair is in contact from A, on the wheel's tip circle,
+//! to E, on the pinion's; the next pair follows a base pitch p_bt later:
 //!
 //! ```text
 //! A = max(T1T2 − √(r_a2² − r_b2²), ρ_Ff1)     E = min(√(r_a1² − r_b1²), T1T2 − ρ_Ff2)     C = r_b1 tan α_wt
@@ -17,30 +17,30 @@
 
 use super::{Gear, PerGear, involute::Involute};
 
-/// Points A–E by the radius of curvature of the pinion's flank, and what goes with them; mm, transverse.
+/// Path of contact with points A–E by the radius of curvature of the pinion's flank; mm, transverse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathOfContact {
-    /// T1T2.
+    /// Length T1T2.
     pub line_of_action_mm: f64,
-    /// p_bt.
+    /// Transverse base pitch p_bt.
     pub base_pitch_mm: f64,
-    /// A: the wheel's tip, or the pinion's form circle ([`super::flank_edge`]).
+    /// Point A, at the wheel's tip or the pinion's form circle ([`super::flank_edge`]).
     pub start_mm: f64,
-    /// C: the pitch point.
+    /// Pitch point C.
     pub pitch_point_mm: f64,
-    /// E: the pinion's tip, or the wheel's form circle.
+    /// Point E, at the pinion's tip or the wheel's form circle.
     pub end_mm: f64,
-    /// Flanks in contact.
+    /// Involutes of both flanks.
     pub involute: PerGear<Involute>,
 }
 
 impl PathOfContact {
-    /// B: the pair ahead leaves at E.
+    /// Point B, where the pair ahead leaves the mesh at E.
     pub fn lower_single_contact_mm(&self) -> f64 {
         self.end_mm - self.base_pitch_mm
     }
 
-    /// D: the pair behind enters at A.
+    /// Point D, where the pair behind enters the mesh at A.
     pub fn upper_single_contact_mm(&self) -> f64 {
         self.start_mm + self.base_pitch_mm
     }
@@ -56,19 +56,18 @@ impl PathOfContact {
         ]
     }
 
-    /// `count` (≥ 2) places that divide A–E evenly, both included.
+    /// Positions that divide A–E evenly, `count` (≥ 2) with both ends.
     pub fn evenly_mm(&self, count: usize) -> Vec<f64> {
-        let at = |j: usize| self.start_mm + (self.end_mm - self.start_mm) * j as f64 / (count - 1) as f64;
-        (0..count).map(at).collect()
+        (0..count).map(|j| self.start_mm + (self.end_mm - self.start_mm) * j as f64 / (count - 1) as f64).collect()
     }
 
-    /// Place between A and E whose mirror image at the nearer of them is `position_mm`; itself between both.
+    /// Mirror image of a position outside A–E at the nearer end; positions between A and E are returned unchanged.
     pub fn folded_mm(&self, position_mm: f64) -> f64 {
         let nearer = position_mm.clamp(self.start_mm, self.end_mm);
         (2.0 * nearer - position_mm).clamp(self.start_mm, self.end_mm)
     }
 
-    /// ε_α.
+    /// Transverse contact ratio ε_α.
     pub fn contact_ratio(&self) -> f64 {
         (self.end_mm - self.start_mm) / self.base_pitch_mm
     }
@@ -81,7 +80,7 @@ impl PathOfContact {
         }
     }
 
-    /// 1/r_b1 + 1/r_b2: angle by which the gears turn against each other while the contact point moves by a unit of length.
+    /// Relative rotation of the gears per displacement of the contact point, 1/r_b1 + 1/r_b2.
     pub fn relative_turn_per_mm(&self) -> f64 {
         self.involute.map(|flank| 1.0 / flank.base_radius_mm).sum()
     }
@@ -95,7 +94,8 @@ impl PathOfContact {
     /// Specific sliding ζ = 1 − v_mate / v_own of a gear's flank at `position_mm`, v the surface velocities along the
     /// flank (ISO 21771): negative below the gear's pitch circle, positive above it.
     pub fn specific_sliding(&self, gear: Gear, position_mm: f64) -> f64 {
-        let speed = |g: Gear| self.rho_mm(g, position_mm) / self.involute[g].base_radius_mm;
-        1.0 - speed(gear.mate()) / speed(gear)
+        let [mate, own] =
+            [gear.mate(), gear].map(|gear| self.rho_mm(gear, position_mm) / self.involute[gear].base_radius_mm);
+        1.0 - mate / own
     }
 }

@@ -5,7 +5,7 @@ use std::ops::{Index, IndexMut};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Which gear of the pair; the pinion drives.
+/// Gear of the pair; the pinion drives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Gear {
@@ -19,7 +19,7 @@ impl Gear {
     /// Pinion, then wheel.
     pub const BOTH: [Gear; 2] = [Gear::Pinion, Gear::Wheel];
 
-    /// The gear this one meshes with.
+    /// Mating gear.
     pub fn mate(self) -> Gear {
         match self {
             Gear::Pinion => Gear::Wheel,
@@ -27,7 +27,7 @@ impl Gear {
         }
     }
 
-    /// `"pinion"` or `"wheel"`, as in the scene file.
+    /// Name in the scene file, `"pinion"` or `"wheel"`.
     pub fn name(self) -> &'static str {
         match self {
             Gear::Pinion => "pinion",
@@ -40,19 +40,19 @@ impl Gear {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PerGear<T> {
-    /// The pinion's.
+    /// Value of the pinion.
     pub pinion: T,
-    /// The wheel's.
+    /// Value of the wheel.
     pub wheel: T,
 }
 
 impl<T> PerGear<T> {
-    /// The value `f` gives for each gear.
+    /// Values of `f` for both gears.
     pub fn from_fn(mut f: impl FnMut(Gear) -> T) -> Self {
         Self { pinion: f(Gear::Pinion), wheel: f(Gear::Wheel) }
     }
 
-    /// Each gear's value, transformed.
+    /// Values of `f` for the values of both gears.
     pub fn map<U>(self, mut f: impl FnMut(T) -> U) -> PerGear<U> {
         PerGear { pinion: f(self.pinion), wheel: f(self.wheel) }
     }
@@ -64,17 +64,17 @@ impl<T> PerGear<T> {
 }
 
 impl<T> From<PerGear<T>> for [T; 2] {
-    /// The pinion's, then the wheel's.
+    /// Values of the pinion and the wheel.
     fn from(of: PerGear<T>) -> Self {
         [of.pinion, of.wheel]
     }
 }
 
 impl<T: Send> PerGear<T> {
-    /// What `of` makes of each gear, of both at the same time where there are threads for it.
+    /// Values of `of` for both gears, calculated in parallel.
     ///
     /// # Errors
-    /// That of the pinion, or else that of the wheel.
+    /// The error of the pinion, or else of the wheel.
     pub fn try_in_parallel<E: Send>(of: impl Fn(Gear) -> Result<T, E> + Sync) -> Result<Self, E> {
         let (pinion, wheel) = rayon::join(|| of(Gear::Pinion), || of(Gear::Wheel));
         Ok(Self { pinion: pinion?, wheel: wheel? })
@@ -82,7 +82,7 @@ impl<T: Send> PerGear<T> {
 }
 
 impl<T: std::ops::Add<Output = T>> PerGear<T> {
-    /// Pinion's and wheel's together.
+    /// Sum of both values.
     pub fn sum(self) -> T {
         self.pinion + self.wheel
     }

@@ -1,24 +1,24 @@
-//! The flank as nominal involute plus material removed along its normal.
+//! Material removed from the nominal involute along its normal.
 //!
-//! All modifications are entries of one field over the flank, to which wear adds; every contact model reads only that
-//! field. By radius of curvature ρ, in roll length along the path of contact:
+//! Modifications and wear are one field over the flank, from which all contact models calculate. By radius of curvature ρ, in roll length along
+//! the path of contact:
 //!
 //! ```text
-//! relief        C (u/L)ⁿ       u: roll length from where it begins, L: its whole length, n = 1 linear, 2 parabolic
+//! relief        C (u/L)ⁿ       u: roll length from its beginning, L: its whole length, n = 1 linear, 2 parabolic
 //! crowning      C_α (2v)²      v: roll length from the middle of the active profile over its whole length
-//! tip rounding  ρ_k − √(ρ_k² − d²)   d: distance along the flank from where the rounding of radius ρ_k begins
+//! tip rounding  ρ_k − √(ρ_k² − d²)   d: distance along the flank from the beginning of the rounding of radius ρ_k
 //! ```
 //!
-//! and by the place z over the face width b:
+//! and by z over the face width b:
 //!
 //! ```text
 //! lead crowning  C_β (2z/b − 1)²
-//! end relief     C (u/L)ⁿ         u: distance beyond where it begins, towards either end face
-//! helix slope    f z/b            f > 0; |f| (1 − z/b) where f < 0: a flank only ever lacks material
+//! end relief     C (u/L)ⁿ         u: distance from its beginning, towards either end face
+//! helix slope    f z/b            f > 0; |f| (1 − z/b) where f < 0: removed material is not negative
 //! ```
 //!
-//! Amounts are those of a drawing, along the transverse line of action (ISO 1328-1:2013, 3.4 and 3.5); along the normal of an oblique flank
-//! they are cos β_b as much ([`super::normal_section`]).
+//! Amounts are those of a drawing, along the transverse line of action (ISO 1328-1:2013, 3.4 and 3.5); along the normal of a helical flank
+//! they are multiplied by cos β_b ([`super::normal_section`]).
 //!
 //! Axes that are not parallel are a helix slope of the pinion, f_Σδ sin α_wt + f_Σβ cos α_wt.
 //!
@@ -32,10 +32,10 @@ use super::{
     tooth::Tooth,
 };
 
-/// Places over the face width whose mean is taken.
+/// Number of places over the face width for a mean.
 const PLACES_OVER_WIDTH: usize = 100;
 
-/// The modifications of a gear's flank as removed material at its points, normal to the flank, slice after slice, mm.
+/// Material removed by modifications at the points of a gear's flank, normal to it, slice by slice, mm.
 pub fn modifications_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid, slices: &Slices) -> Vec<f64> {
     let (modification, tooth) = (&with_axes(pair, gear), &pair.teeth[gear]);
     let start = pair.active_start_rho_mm(gear);
@@ -45,34 +45,34 @@ pub fn modifications_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid, slices: &
     over_width.flat_map(|lead| profile.iter().map(move |removed| obliquity.normal_mm(removed + lead))).collect()
 }
 
-/// The modification of a gear's flank, with what axes that are not parallel make of it.
+/// Modification of a gear's flank with the helix slope of axes that are not parallel.
 fn with_axes(pair: &GearPair, gear: Gear) -> Modification {
     let own = pair.spec.gears[gear].modification;
     let of_axes_mm = if gear == Gear::Pinion { pair.slope_of_axes_mm() } else { 0.0 };
     Modification { helix_slope_mm: own.helix_slope_mm + of_axes_mm, ..own }
 }
 
-/// What all modifications of a gear's flank but the rounding of its tip edge remove at radius of curvature `rho_mm` and `width_mm`, along the
-/// transverse line of action.
+/// Material removed at radius of curvature `rho_mm` and `width_mm` by all modifications except the tip rounding, along the transverse line of
+/// action, mm.
 pub(crate) fn without_rounding_mm(pair: &GearPair, gear: Gear, width_mm: f64, rho_mm: f64) -> f64 {
     of_profile_mm(pair, gear, rho_mm) + lead_removed_mm(&with_axes(pair, gear), pair.spec.face_width_mm, width_mm)
 }
 
-/// The same of what is alike in every transverse section.
+/// Material removed by profile modifications except the tip rounding, along the transverse line of action, mm.
 pub(crate) fn of_profile_mm(pair: &GearPair, gear: Gear, rho_mm: f64) -> f64 {
     let modification = Modification { tip_rounding_mm: 0.0, ..pair.spec.gears[gear].modification };
     removed_mm(&modification, &pair.teeth[gear], pair.active_start_rho_mm(gear), rho_mm)
 }
 
-/// Mean over the face width of what varies over it, along the transverse line of action, mm.
+/// Mean over the face width of the material removed by helix modifications, along the transverse line of action, mm.
 pub(crate) fn mean_over_width_mm(pair: &GearPair, gear: Gear) -> f64 {
     let (modification, face_width_mm) = (with_axes(pair, gear), pair.spec.face_width_mm);
-    let at = |k: usize| (k as f64 + 0.5) / PLACES_OVER_WIDTH as f64 * face_width_mm;
-    let removed = (0..PLACES_OVER_WIDTH).map(|k| lead_removed_mm(&modification, face_width_mm, at(k)));
+    let places_mm = (0..PLACES_OVER_WIDTH).map(|k| (k as f64 + 0.5) / PLACES_OVER_WIDTH as f64 * face_width_mm);
+    let removed = places_mm.map(|width_mm| lead_removed_mm(&modification, face_width_mm, width_mm));
     removed.sum::<f64>() / PLACES_OVER_WIDTH as f64
 }
 
-/// Material removed at `width_mm` of a face of width `face_width_mm` by what varies over it alone.
+/// Material removed at `width_mm` of the face width by helix modifications alone.
 pub fn lead_removed_mm(modification: &Modification, face_width_mm: f64, width_mm: f64) -> f64 {
     let along = width_mm / face_width_mm;
     let crowning = modification.lead_crowning_mm * (2.0 * along - 1.0).powi(2);
@@ -85,8 +85,7 @@ pub fn lead_removed_mm(modification: &Modification, face_width_mm: f64, width_mm
     crowning + end + if slope >= 0.0 { slope * along } else { -slope * (1.0 - along) }
 }
 
-/// Material removed at radius of curvature `rho_mm` of `tooth`, whose active profile begins at `active_start_rho_mm`, by
-/// what is alike in every transverse section.
+/// Material removed by profile modifications at radius of curvature `rho_mm` of `tooth`, whose active profile begins at `active_start_rho_mm`.
 pub fn removed_mm(modification: &Modification, tooth: &Tooth, active_start_rho_mm: f64, rho_mm: f64) -> f64 {
     let tip_rho = tooth.tip_rho_mm();
     let tip = modification.tip_relief.map_or(0.0, |r| relief_mm(r, rho_mm - (tip_rho - r.length_mm)));
@@ -96,14 +95,13 @@ pub fn removed_mm(modification: &Modification, tooth: &Tooth, active_start_rho_m
     tip + root + crowning + tip_rounding_mm(modification.tip_rounding_mm, tooth, rho_mm)
 }
 
-/// Length along the flank that a tip rounding takes: the tangent length ρ_k tan(γ/2) of the turn γ = π/2 − α_a from flank
-/// to tip circle.
+/// Length of a tip rounding along the flank, ρ_k tan(γ/2) with the angle γ = π/2 − α_a between flank and tip circle.
 pub fn tip_rounding_length_mm(rounding_mm: f64, tooth: &Tooth) -> f64 {
     let turn = std::f64::consts::FRAC_PI_2 - tooth.involute.pressure_angle_rad(tooth.tip_rho_mm());
     rounding_mm * (0.5 * turn).tan()
 }
 
-/// Removed by a relief at `from_start_mm` of roll length beyond where it begins; 0 before, the amount after its end.
+/// Material removed by a relief at the roll length `from_start_mm` from its beginning; 0 before, its amount after its end.
 fn relief_mm(relief: Relief, from_start_mm: f64) -> f64 {
     let fraction = (from_start_mm / relief.length_mm).clamp(0.0, 1.0);
     relief.amount_mm
@@ -113,7 +111,7 @@ fn relief_mm(relief: Relief, from_start_mm: f64) -> f64 {
         }
 }
 
-/// Removed at radius of curvature `rho_mm` of `tooth` by a rounding of its tip edge.
+/// Material removed at radius of curvature `rho_mm` of `tooth` by a rounding of its tip edge.
 pub fn tip_rounding_mm(radius: f64, tooth: &Tooth, rho_mm: f64) -> f64 {
     let begins = tooth.involute.arc_mm(tooth.tip_rho_mm()) - tip_rounding_length_mm(radius, tooth);
     let into = tooth.involute.arc_mm(rho_mm) - begins;

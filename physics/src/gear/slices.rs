@@ -1,7 +1,7 @@
-//! The face width cut into thin transverse slices.
+//! Thin transverse slices of the face width.
 //!
-//! A helical tooth is a stack of thin spur teeth, each turned a little against the one before. In the transverse section of
-//! slice i at the axial place z_i the theoretical contact point runs along the same path A–E as in every other, but is there
+//! A helical tooth is a stack of thin spur teeth, each turned relative to the one before. In the transverse section of
+//! slice i at z_i the theoretical contact point moves along the same path A–E as in every other, but
 //! earlier or later: with ξ the position in the middle of the face width,
 //!
 //! ```text
@@ -9,38 +9,38 @@
 //! ```
 //!
 //! so that for a positive helix angle the slice at z = 0 enters the mesh first. At any moment the contact points of one tooth
-//! lie on a straight line, oblique on the flank by β_b: its line of contact, l / cos β_b long where it spans the width l.
+//! lie on a straight line at the angle β_b, its line of contact, whose length over a width l is l / cos β_b.
 //!
 //! All quantities of a slice are transverse ones.
 //!
-//! What is greatest over the face width is read at fixed places, whatever the number of slices: the outermost ones lie z₀ = b/40 from either end
-//! face, where the outermost of 20 slices have their middles. With the value of a slice in its middle, and straight lines through the middles of
+//! Greatest values over the face width are read at the same outermost places for any number of slices, z₀ = b/40 from either end
+//! face, where the outermost of 20 slices have their middles. With the value of a slice in its middle, and linear interpolation between
 //! neighbours,
 //!
 //! ```text
 //! max { v(z₀), v(b − z₀), v(z_i) for all z_i between }
 //! ```
 //!
-//! Read in the outermost slice, wherever its middle is, a value that rises towards an end face would grow with the number of slices. Nearer to it
-//! the plane contact of a slice does not hold, and end faces have chamfers that no slice knows.
+//! In the middle of the outermost slice, a value that rises towards an end face would grow with the number of slices. Nearer to the end face
+//! the plane contact of a slice is not valid, and chamfers are not modelled.
 //!
 //! Source: ISO 21771, sections 5.4 and 5.5.
 
 use super::GearPair;
 
-/// Parts of the face width, one of which at either end face is left out where a greatest value is read.
+/// Ratio of the face width to the distance of the outermost readings from the end faces.
 const PARTS: f64 = 40.0;
 
-/// Slices of the same width, from z = 0 to z = b.
+/// Slices of equal width, from z = 0 to z = b.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slices {
-    /// Place of each over the face width: its middle.
+    /// Middle z_i of each slice.
     pub width_mm: Vec<f64>,
-    /// How far its theoretical contact point is ahead of that in the middle of the face width, along the path of contact.
+    /// Distance along the path of contact by which the theoretical contact point of each slice is ahead of that in the middle of the face width.
     pub ahead_mm: Vec<f64>,
-    /// Width of each.
+    /// Width of a slice.
     pub slice_width_mm: f64,
-    /// By how much the theoretical contact point of a section is further ahead at one side of a slice than at the other.
+    /// Difference of that distance between both sides of a slice.
     pub ahead_varies_mm: f64,
 }
 
@@ -55,29 +55,29 @@ impl Slices {
         Self { width_mm, ahead_mm, slice_width_mm, ahead_varies_mm: slice_width_mm * tan_beta_b.abs() }
     }
 
-    /// How many.
+    /// Number of slices.
     pub fn count(&self) -> usize {
         self.width_mm.len()
     }
 }
 
-/// Where a greatest value over the face width is read, with the slice that has its middle nearest there, of slices with these `values` (at
-/// least one): theirs, the outermost ones but for what is nearer to an end face than any reading, then the readings next to the end faces.
+/// Readings over the face width of slices with `values` (at least one), each with the nearest slice: the values of slices no nearer to an end
+/// face than the outermost readings, then these.
 pub(crate) fn readings_over_width(values: &[f64]) -> impl Iterator<Item = (usize, f64)> + '_ {
     let last = values.len() - 1;
-    // The outermost reading in widths of a slice from the middle of the outermost slice, inwards.
+    // Distance of the outermost reading from the middle of the outermost slice, inwards, in slice widths.
     let place = values.len() as f64 / PARTS - 0.5;
     let outermost = place.ceil().max(0.0) as usize;
     let before = (place.max(0.0) as usize).min(last.saturating_sub(1));
     let beside = (before + 1).min(last);
     let weight = place - before as f64;
     let nearest = if weight < 0.5 { before } else { beside };
-    let between = move |from: usize, to: usize| values[from] + weight * (values[to] - values[from]);
-    let ends = [(nearest, between(before, beside)), (last - nearest, between(last - before, last - beside))];
+    let ends = [(nearest, before, beside), (last - nearest, last - before, last - beside)]
+        .map(|(slice, from, to)| (slice, values[from] + weight * (values[to] - values[from])));
     (outermost..=last - outermost).map(|slice| (slice, values[slice])).chain(ends)
 }
 
-/// The greatest of these `values` (≥ 0, at least one) of slices, over the face width.
+/// Greatest value over the face width of slices with `values` (≥ 0, at least one).
 pub fn greatest_over_width(values: &[f64]) -> f64 {
     readings_over_width(values).map(|(_, value)| value).fold(0.0, f64::max)
 }
@@ -86,8 +86,8 @@ pub fn greatest_over_width(values: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// A straight line over the face width has the same greatest value with any number of slices, 1/40 of the width from the end face; 20 slices
-    /// are read as they are, and one stands for all.
+    /// A linear function over the face width has the same greatest value with any number of slices, 1/40 of the width from the end face; 20 slices
+    /// are read in their middles, and a single one gives its value.
     #[test]
     fn ver_greatest_values_are_read_at_the_same_places() {
         for count in [2, 7, 19, 21, 40, 41, 80, 200] {
@@ -105,7 +105,7 @@ mod tests {
         assert_eq!(greatest_over_width(&[3.0]), 3.0);
     }
 
-    /// What is greatest between the outermost readings is read in the slice that has it.
+    /// A maximum between the outermost readings is read in its slice.
     #[test]
     fn greatest_values_in_the_middle_are_those_of_their_slices() {
         for count in [5, 20, 60] {

@@ -1,4 +1,4 @@
-//! What is given of a gear pair: the data of a drawing, before anything is derived.
+//! Given data of a gear pair, as on a drawing.
 //!
 //! Profile shifts and rack factors are coefficients of the *normal* module (ISO 21771).
 
@@ -11,7 +11,7 @@ use super::{
     shaft::Shaft,
 };
 
-/// The basic rack that generates the teeth (ISO 53), as factors of the normal module.
+/// Basic rack that generates the teeth (ISO 53), as factors of the normal module.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BasicRack {
     /// Addendum factor h_aP*.
@@ -29,36 +29,36 @@ impl Default for BasicRack {
     }
 }
 
-/// One gear as given.
+/// Given data of one gear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearSpec {
     /// Number of teeth z.
     pub teeth: u32,
     /// Profile shift coefficient x, of the normal module.
     pub profile_shift: f64,
-    /// Tip diameter d_a in mm; `None`: that of the rack, shortened where the full tip clearance asks for it.
+    /// Tip diameter d_a in mm; `None` for that of the rack, reduced where the full tip clearance requires it.
     pub tip_diameter_mm: Option<f64>,
     /// Tooth thickness allowance E_sn in mm in the normal section; negative thins the tooth.
     pub tooth_thickness_allowance_mm: f64,
-    /// Bore diameter in mm, where the gear has a bore that matters.
+    /// Bore diameter in mm.
     pub bore_diameter_mm: Option<f64>,
     /// Deliberate deviations from the involute.
     pub modification: Modification,
-    /// What twists under the torque over the face width; `None`: rigid but for the body of the finite elements.
+    /// Shaft that twists under the torque over the face width; `None` for a rigid one.
     pub shaft: Option<Shaft>,
 }
 
-/// Deviation from parallel of the axes over the face width (ISO/TR 10064-3): positive, the working flanks come apart towards the full
-/// width.
+/// Deviations of the axes from parallel over the face width (ISO/TR 10064-3); positive ones open a gap between the working flanks towards the
+/// full width.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct AxisParallelism {
-    /// f_Σδ, in the common plane of the axes, mm.
+    /// Deviation f_Σδ in the common plane of the axes, mm.
     pub in_plane_mm: f64,
-    /// f_Σβ, across it, mm.
+    /// Deviation f_Σβ across the common plane, mm.
     pub out_of_plane_mm: f64,
 }
 
-/// The pair as given.
+/// Given data of a pair.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairSpec {
     /// Normal module m_n in mm.
@@ -71,11 +71,11 @@ pub struct PairSpec {
     pub centre_distance_mm: f64,
     /// Common face width b in mm.
     pub face_width_mm: f64,
-    /// The generating rack, the same for both gears.
+    /// Generating rack of both gears.
     pub rack: BasicRack,
-    /// How far the axes are from parallel.
+    /// Deviations of the axes from parallel.
     pub axis_parallelism: AxisParallelism,
-    /// The gears.
+    /// Data of the gears.
     pub gears: PerGear<GearSpec>,
 }
 
@@ -90,8 +90,8 @@ impl PairSpec {
         (self.normal_pressure_angle_rad.tan() / self.helix_angle_rad.cos()).atan()
     }
 
-    /// Whether every transverse section of the pair is alike: no helix, parallel axes, and neither a modification over the face width
-    /// nor a shaft that twists.
+    /// Whether all transverse sections of the pair are equal: no helix, parallel axes, no modification over the face width
+    /// and no shaft that twists.
     pub fn is_alike_over_width(&self) -> bool {
         self.helix_angle_rad == 0.0
             && self.axis_parallelism == AxisParallelism::default()
@@ -99,30 +99,30 @@ impl PairSpec {
             && Gear::BOTH.iter().all(|&gear| !self.gears[gear].modification.varies_over_width())
     }
 
-    /// The same gears on parallel axes and rigid shafts: what the teeth themselves are made of.
+    /// Pair on parallel axes and rigid shafts.
     pub fn on_rigid_parallel_shafts(&self) -> Self {
         let gears = self.gears.clone().map(|gear| GearSpec { shaft: None, ..gear });
         Self { axis_parallelism: AxisParallelism::default(), gears, ..self.clone() }
     }
 
-    /// Whether what carries the teeth of either gear twists.
+    /// Whether either gear has a shaft that twists.
     pub fn has_shafts(&self) -> bool {
         Gear::BOTH.iter().any(|&gear| self.gears[gear].shaft.is_some())
     }
 
-    /// Radius of the reference circle, r = m_t z / 2.
+    /// Reference radius r = m_t z / 2.
     pub fn reference_radius_mm(&self, gear: Gear) -> f64 {
         0.5 * self.transverse_module_mm() * f64::from(self.gears[gear].teeth)
     }
 
-    /// x_E m_n: the profile shift that generates the tooth of `gear`, its thickness allowance included, mm.
+    /// Generating profile shift x_E m_n of `gear`, which includes the thickness allowance, mm.
     pub(crate) fn generating_shift_mm(&self, gear: Gear) -> f64 {
         let own = &self.gears[gear];
         own.profile_shift * self.normal_module_mm
             + own.tooth_thickness_allowance_mm / (2.0 * self.normal_pressure_angle_rad.tan())
     }
 
-    /// ψ_b: half the angle of the tooth of `gear` at its base circle, ψ_b = (π/2 + 2 x_E tan α_n)/z + inv α_t.
+    /// Half the angle of the tooth of `gear` at its base circle, ψ_b = (π/2 + 2 x_E tan α_n)/z + inv α_t.
     pub fn base_half_angle_rad(&self, gear: Gear) -> f64 {
         let (m_n, alpha_n) = (self.normal_module_mm, self.normal_pressure_angle_rad);
         let shift_mm = self.generating_shift_mm(gear);
@@ -130,7 +130,7 @@ impl PairSpec {
             + inv(self.transverse_pressure_angle_rad())
     }
 
-    /// Radius of the root circle that the rack cuts, r_f = r + x_E m_n − h_fP* m_n with the generating profile shift x_E.
+    /// Root radius r_f = r + x_E m_n − h_fP* m_n with the generating profile shift x_E.
     pub fn root_radius_mm(&self, gear: Gear) -> f64 {
         let own = &self.gears[gear];
         let thinned_mm = own.tooth_thickness_allowance_mm / (2.0 * self.normal_pressure_angle_rad.tan());

@@ -1,23 +1,23 @@
-//! Where the flanks of a pair touch, on the line of action or at a tip edge outside it.
+//! Contact of the flanks of a pair on the line of action, or at a tip edge outside it.
 //!
 //! Between A and E two involutes touch at the theoretical contact point, and the normal is the line of action. Where that point
-//! would lie beyond the flank of one gear, its tip edge touches: the arc of radius ρ_k that rounds it (ρ_k = 0: sharp). The
-//! shortest way from the mate's involute to the arc leads through the arc's centre O, and as every normal of the mate's
-//! involute it is a tangent of its base circle. With the line of action as reference, T the point where it touches the mate's
+//! is beyond the flank of one gear, its tip edge touches, an arc of radius ρ_k (0 where it is sharp). The
+//! shortest distance between the mate's involute and the arc is along the normal of the involute through the arc's centre O, which
+//! is a tangent of the mate's base circle. With the line of action as reference, T the point where it touches the mate's
 //! base circle (radius r_b, axis M), and d = |MO|,
 //!
 //! ```text
-//! L = √(d² − r_b²)            from where that tangent touches the base circle to O
-//! ε = ∠TMO − acos(r_b/d)      turn of the normal from the line of action
-//! ρ' = ρ + r_b ε              radius of curvature of the mate where it is touched
+//! L = √(d² − r_b²)            length of that tangent from the base circle to O
+//! ε = ∠TMO − acos(r_b/d)      rotation of the normal from the line of action
+//! ρ' = ρ + r_b ε              radius of curvature of the mate at the contact point
 //! g = L − ρ' − ρ_k            gap along the normal
-//! ε' = ε + Δρ_e/r_be          turn of the normal from that of the flank where its rounding begins, seen in its own tooth
+//! ε' = ε + Δρ_e/r_be          rotation of the normal from that of the flank at the beginning of the rounding, in its own tooth
 //! ```
 //!
-//! with Δρ_e by how much the theoretical contact point has passed the beginning of the rounding. Positive turns are those of a
+//! with Δρ_e the distance of the theoretical contact point beyond the beginning of the rounding. Rotations are positive for a
 //! contact that moves towards the tip: ε' turns the load of a tip edge towards the axis of its own tooth.
 //!
-//! The normal touches the mate's base circle as the line of action does, so that its lever there is r_b; on the gear with the
+//! The normal is tangent to the mate's base circle, so that its lever there is r_b; on the gear with the
 //! tip edge it is
 //!
 //! ```text
@@ -26,9 +26,9 @@
 //!
 //! Where the form circle ends the path instead ([`super::flank_edge`]), the corner there touches the mate in the same way, with ρ_k = 0.
 //!
-//! Unworn flanks without relief: a relief of some hundredths of a millimetre moves an edge too little to turn its normal.
+//! Valid for unworn flanks without relief: the effect of a relief of some hundredths of a millimetre on the normal of an edge is negligible.
 //!
-//! Source: the geometry itself; R. G. Munro, L. Morrish and D. Palmer, *Proc. Inst. Mech. Eng. C* 213 (1999) 389–400, for sharp
+//! Source: geometry; R. G. Munro, L. Morrish and D. Palmer, *Proc. Inst. Mech. Eng. C* 213 (1999) 389–400, for sharp
 //! edges.
 
 use nalgebra::Vector2;
@@ -41,49 +41,51 @@ use super::{
     tooth::LoadLine,
 };
 
-/// An approach that no pair's flanks exceed, in units of line load over E*: steel on type C approaches by 7.4 of these at the pitch point, plastic
-/// on a rigid pinion by 4.8.
+/// Upper bound of the approach of flanks, in units of line load over E*: at the pitch point of type C 7.4 units for steel, 4.8 for plastic
+/// on a rigid pinion.
 const AMPLE_APPROACH: f64 = 15.0;
-/// Least radius of curvature that a flank is taken to have, as part of that at its start of active profile: the theoretical contact point of a
-/// tip edge may lie beyond T1 or T2, where the mate has no involute, while the edge touches it farther up.
+/// Lower bound of the radius of curvature of a flank over that at its start of active profile: the theoretical contact point of a
+/// tip edge may be beyond T1 or T2, where the mate has no involute, while the edge touches it farther up.
 const LEAST_CURVATURE: f64 = 0.05;
-/// Steps in which the path is walked, per base pitch.
+/// Steps along the path per base pitch.
 const STEPS_IN_PITCH: f64 = 1000.0;
-/// Places per base pitch at which modifications are asked for.
+/// Positions per base pitch for modifications.
 const PLACES_IN_PITCH: usize = 100;
 
-/// How the flanks touch at some position.
+/// Contact of the flanks at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Touch {
-    /// The gear whose edge touches: the tip edge or its rounding, or the corner at the form circle; none where both involutes do.
+pub struct FlankTouch {
+    /// Gear that touches with its edge (tip edge, rounding or corner at the form circle); `None` where both involutes touch.
     pub edge_of: Option<Gear>,
-    /// ε: turn of the normal from the line of action, rad.
+    /// Rotation ε of the normal from the line of action, rad.
     pub turned_rad: f64,
     /// Gap along the normal, mm.
     pub gap_mm: f64,
-    /// Radius of curvature of each flank where it is touched; where a rounding begins, of the gear that touches with its edge.
+    /// Radius of curvature of each flank at the contact; at the beginning of the rounding for the gear that touches with its edge.
     pub rho_mm: PerGear<f64>,
-    /// How the normal passes through each tooth.
+    /// Line of the load through each tooth.
     pub load_line: PerGear<LoadLine>,
 }
 
 impl GearPair {
-    /// How the flanks touch with the theoretical contact point at `position_mm`.
-    pub fn touch(&self, position_mm: f64) -> Touch {
-        let rho = |gear| self.path.rho_mm(gear, position_mm);
-        let edges = PathEnd::BOTH.map(|end| self.edge(end));
-        let passed = |edge: &FlankEdge| (rho(edge.gear) > edge.rho_mm) != edge.at_root;
-        match edges.into_iter().find(|edge| rho(edge.gear) != edge.rho_mm && passed(edge)) {
+    /// Contact of the flanks with the theoretical contact point at `position_mm`.
+    pub fn touch(&self, position_mm: f64) -> FlankTouch {
+        let rho_mm = PerGear::from_fn(|gear| self.path.rho_mm(gear, position_mm));
+        let mut edges = PathEnd::BOTH.into_iter().map(|end| self.edge(end));
+        let passed = edges.find(|edge| {
+            let rho_mm = rho_mm[edge.gear];
+            if edge.at_root { rho_mm < edge.rho_mm } else { rho_mm > edge.rho_mm }
+        });
+        match passed {
             Some(edge) => self.touch_at_edge(edge, position_mm),
             None => {
-                let rho_mm = PerGear::from_fn(rho);
                 let load_line = PerGear::from_fn(|gear| self.teeth[gear].load_line(rho_mm[gear]));
-                Touch { edge_of: None, turned_rad: 0.0, gap_mm: 0.0, rho_mm, load_line }
+                FlankTouch { edge_of: None, turned_rad: 0.0, gap_mm: 0.0, rho_mm, load_line }
             }
         }
     }
 
-    /// Radius of curvature where the rounding of a gear's tip edge begins; at the edge itself where it is sharp.
+    /// Radius of curvature at the beginning of the rounding of a gear's tip edge; at a sharp edge, that of the edge.
     pub fn rounding_start_rho_mm(&self, gear: Gear) -> f64 {
         let (tooth, rounding_mm) = (&self.teeth[gear], self.spec.gears[gear].modification.tip_rounding_mm);
         if rounding_mm == 0.0 {
@@ -93,11 +95,11 @@ impl GearPair {
         tooth.involute.rho_at_arc_mm(arc_mm)
     }
 
-    /// How far before A and after E the edge in which the path ends there is within its mate's tip circle, mm of path: farther out
-    /// nothing can touch.
+    /// Distance before A and after E within which the edge at that end of the path is inside its mate's tip circle, mm of path: an upper bound
+    /// for contact.
     ///
     /// With r_e the radius of the edge, r_a' the tip radius of the mate, a the centre distance and α_e = acos(r_b/r_e), the edge turns from
-    /// where its circle meets the mate's tip circle to A or E by
+    /// the intersection of its circle with the mate's tip circle to A or E by
     ///
     /// ```text
     /// acos((a² + r_e² − r_a'²)/(2 a r_e)) − |α_e − α_wt|
@@ -115,18 +117,18 @@ impl GearPair {
         })
     }
 
-    /// ρ of the edge in which the path ends: at the tip circle, where it is of the tip, and at the form circle.
+    /// Radius of curvature at the edge at an end of the path, on the tip circle or the form circle.
     fn outermost_rho_mm(&self, end: PathEnd) -> f64 {
         let FlankEdge { gear, at_root, rho_mm, .. } = self.edge(end);
         if at_root { rho_mm } else { self.teeth[gear].tip_rho_mm() }
     }
 
-    /// ρ of a gear's flank at the theoretical contact point, kept from going to nothing before A and after E.
+    /// Radius of curvature of a gear's flank at the theoretical contact point, with a lower bound before A and after E.
     pub(super) fn rho_on_flank_mm(&self, gear: Gear, position_mm: f64) -> f64 {
         self.path.rho_mm(gear, position_mm).max(LEAST_CURVATURE * self.active_start_rho_mm(gear))
     }
 
-    /// How far before A and after E the tip edges of unworn, unmodified flanks are nearer to the mate than `approach_mm`, mm of
+    /// Distance before A and after E within which the gap at tip edges of unworn, unmodified flanks is at most `approach_mm`, mm of
     /// path.
     pub fn tip_reach_mm(&self, approach_mm: f64) -> [f64; 2] {
         let path = &self.path;
@@ -135,42 +137,42 @@ impl GearPair {
         ends.map(|(end, end_mm, outwards, most)| {
             let step = path.base_pitch_mm / STEPS_IN_PITCH;
             let steps = (most / step) as usize;
-            let touches = |k: &usize| self.edge_gap_mm(end, end_mm + outwards * *k as f64 * step) <= approach_mm;
-            (1..=steps).take_while(touches).last().unwrap_or(0) as f64 * step
+            let touching =
+                (1..=steps).take_while(|&k| self.edge_gap_mm(end, end_mm + outwards * k as f64 * step) <= approach_mm);
+            touching.last().unwrap_or(0) as f64 * step
         })
     }
 
-    /// [`Self::tip_reach_mm`] of an approach that unworn flanks under `line_load_n_per_mm` do not exceed on bodies with the contact modulus E*.
+    /// [`Self::tip_reach_mm`] of an upper bound of the approach of unworn flanks under `line_load_n_per_mm` with the contact modulus E*.
     pub fn ample_tip_reach_mm(&self, line_load_n_per_mm: f64, contact_modulus_mpa: f64) -> [f64; 2] {
         self.tip_reach_mm(AMPLE_APPROACH * line_load_n_per_mm / contact_modulus_mpa + self.unloaded_approach_mm())
     }
 
-    /// What modifications add at the most to the transmission error of loaded, unworn flanks, mm.
+    /// Upper bound of the part of modifications in the transmission error of loaded, unworn flanks, mm.
     ///
     /// Springs k_i behind gaps g_i carry F = Σ k_i max(δ − g_i, 0) ≥ Σ k_i (δ − g_i), so that δ ≤ F/Σ k_i + Σ k_i g_i/Σ k_i: the elastic approach without
-    /// gaps, and the mean gap. Over the face width that is the mean of what both flanks lack; over the tooth pairs of a phase, that of the one that
-    /// has lost least of its profiles, as it could carry the load alone. The greatest over all phases counts.
+    /// gaps, and the mean gap. Over the face width that is the mean material removed from both flanks; of the tooth pairs in mesh, the least
+    /// material removed by profile modifications, as that pair could carry the load alone. The greatest over the mesh cycle is taken.
     pub fn unloaded_approach_mm(&self) -> f64 {
         let path = &self.path;
-        let of_profiles = |position_mm: f64| {
-            Gear::BOTH
-                .map(|gear| removed_material::of_profile_mm(self, gear, path.rho_mm(gear, position_mm)))
-                .iter()
-                .sum::<f64>()
-        };
         let step_mm = path.base_pitch_mm / PLACES_IN_PITCH as f64;
         let places = ((path.end_mm - path.start_mm) / step_mm) as usize;
-        // Of each phase, the tooth pair that has lost least.
+        // Least material removed from the tooth pairs in mesh at each position.
         let mut least_mm = [f64::INFINITY; PLACES_IN_PITCH];
         for k in 0..=places {
+            let position_mm = path.start_mm + k as f64 * step_mm;
+            let removed_mm = Gear::BOTH
+                .map(|gear| removed_material::of_profile_mm(self, gear, path.rho_mm(gear, position_mm)))
+                .iter()
+                .sum();
             let least = &mut least_mm[k % PLACES_IN_PITCH];
-            *least = least.min(of_profiles(path.start_mm + k as f64 * step_mm));
+            *least = least.min(removed_mm);
         }
         let of_profiles_mm = least_mm.into_iter().filter(|least| least.is_finite()).fold(0.0, f64::max);
         of_profiles_mm + Gear::BOTH.map(|gear| removed_material::mean_over_width_mm(self, gear)).iter().sum::<f64>()
     }
 
-    /// Gap between the edge in which the path ends and the mate's flank, along the line of action, with the theoretical contact point at
+    /// Gap along the line of action between the edge at an end of the path and the mate's flank, with the theoretical contact point at
     /// `position_mm`.
     pub fn edge_gap_mm(&self, end: PathEnd, position_mm: f64) -> f64 {
         let gear = self.edge(end).gear;
@@ -178,22 +180,22 @@ impl GearPair {
         edge.drop_mm + self.at_along(gear.mate(), -edge.along_mm, position_mm).1
     }
 
-    fn touch_at_edge(&self, edge: FlankEdge, position_mm: f64) -> Touch {
+    fn touch_at_edge(&self, edge: FlankEdge, position_mm: f64) -> FlankTouch {
         let FlankEdge { gear, rho_mm: start_rho, rounding_mm, .. } = edge;
         let (own, mate) = (self.path.involute[gear], self.path.involute[gear.mate()]);
         let (own_rho, mate_rho) = (self.path.rho_mm(gear, position_mm), self.path.rho_mm(gear.mate(), position_mm));
         let own_turn = (start_rho - own_rho) / own.base_radius_mm;
-        // O in the tangent frame of the gear: along the inward normal (−sin, cos) from where the rounding begins.
+        // O in the tangent frame of the gear, along the inward normal (−sin, cos) from the beginning of the rounding.
         let start = own.in_tangent_frame(start_rho, own_rho);
         let centre =
             Vector2::new(start.along_mm, start.drop_mm) + rounding_mm * Vector2::new(-own_turn.sin(), own_turn.cos());
-        // From the mate's axis, in the mate's frame, where T lies at (r_b, 0) from it.
+        // Vector from the mate's axis in the mate's frame, where that to T is (r_b, 0).
         let from_axis = Vector2::new(mate.base_radius_mm, -mate_rho) - centre;
         let free_mm = mate.curvature_radius_mm(from_axis.norm());
         let turned_rad = from_axis.y.atan2(from_axis.x) + free_mm.atan2(mate.base_radius_mm);
         let touched_rho = mate_rho + mate.base_radius_mm * turned_rad;
         let rho_mm = PerGear::from_fn(|each| if each == gear { start_rho } else { touched_rho });
-        Touch {
+        FlankTouch {
             edge_of: Some(gear),
             turned_rad,
             gap_mm: free_mm - touched_rho - rounding_mm,
@@ -205,8 +207,8 @@ impl GearPair {
         }
     }
 
-    /// l/r_b1: lever on the pinion of a load along the normal of `touch` over that of one along the line of action.
-    pub fn pinion_lever_ratio(&self, touch: &Touch) -> f64 {
+    /// Ratio l/r_b1 of the lever on the pinion of a load along the normal of `touch` to that of a load along the line of action.
+    pub fn pinion_lever_ratio(&self, touch: &FlankTouch) -> f64 {
         match touch.edge_of {
             Some(Gear::Pinion) => {
                 let base = self.path.involute.map(|involute| involute.base_radius_mm);

@@ -10,12 +10,12 @@
 //!
 //! Source: ISO 1328-1:2013, formula (10), and its rules of rounding.
 
-/// Reference diameters that the standard speaks of, mm.
+/// Range of reference diameters of the standard, mm.
 pub const DIAMETERS_MM: [f64; 2] = [5.0, 15_000.0];
-/// Face widths that the standard speaks of, mm.
+/// Range of face widths of the standard, mm.
 pub const WIDTHS_MM: [f64; 2] = [4.0, 1200.0];
 
-/// f_HβT, µm.
+/// Helix slope tolerance f_HβT, µm.
 pub fn helix_slope_um(class: u32, reference_diameter_mm: f64, face_width_mm: f64) -> f64 {
     let of_class_5_um = 0.05 * reference_diameter_mm.sqrt() + 0.35 * face_width_mm.sqrt() + 4.0;
     rounded_um(of_class_5_um * 2.0_f64.powf(0.5 * (f64::from(class) - 5.0)))

@@ -1,4 +1,4 @@
-//! One gear of the pair: the circles and the tooth that the rack generates.
+//! Circles and generated tooth of one gear.
 //!
 //! With the generating profile shift x_E = x + E_sn / (2 m_n tan α_n) (E_sn the tooth thickness allowance), the tooth
 //! is 2ψ(r) wide in angle at radius r:
@@ -24,30 +24,30 @@ use super::{
 /// Circles and tooth of one gear; radii in mm, transverse.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tooth {
-    /// z.
+    /// Number of teeth z.
     pub teeth: u32,
-    /// r, reference circle.
+    /// Reference radius r.
     pub reference_radius_mm: f64,
-    /// The flank.
+    /// Involute of the flank.
     pub involute: Involute,
-    /// r_a.
+    /// Tip radius r_a.
     pub tip_radius_mm: f64,
-    /// r_f.
+    /// Root radius r_f.
     pub root_radius_mm: f64,
-    /// r_Ff: where the involute begins.
+    /// Root form radius r_Ff, where the involute begins.
     pub root_form_radius_mm: f64,
-    /// Whether the rack cuts into the involute.
+    /// Whether the tooth is undercut.
     pub undercut: bool,
-    /// The fillet.
+    /// Trochoid of the fillet.
     pub trochoid: RootTrochoid,
-    /// Normal angle of the rack where the fillet meets the involute.
+    /// Normal angle of the rack at the end of the fillet.
     pub fillet_end_angle_rad: f64,
-    /// ψ at the base circle.
+    /// Half angle ψ_b of the tooth at the base circle.
     pub base_half_angle_rad: f64,
 }
 
 impl Tooth {
-    /// Generates the tooth of `gear`; `tip_radius_mm` as given or derived by the pair.
+    /// Generates the tooth of `gear` with a tip radius.
     ///
     /// # Errors
     /// [`PairError::RackPointed`], [`PairError::RackTipPointed`], [`PairError::NoTooth`],
@@ -120,7 +120,7 @@ impl Tooth {
         }
     }
 
-    /// Finds where fillet and involute meet.
+    /// Sets the root form circle, where fillet and involute meet.
     fn with_root_form(mut self, gear: Gear, alpha_t: f64) -> Result<Self, PairError> {
         let rho = self.trochoid.involute_end_rho_mm(alpha_t);
         if rho >= 0.0 {
@@ -137,27 +137,25 @@ impl Tooth {
         Err(PairError::TipBelowForm { gear, tip_diameter_mm, form_diameter_mm })
     }
 
-    /// Angle by which the fillet point `t` lies inside the tooth as bounded by the involute; `None` below the base
-    /// circle, where there is no involute.
+    /// Angle by which the fillet point `t` lies inside the involute; `None` below the base circle.
     fn fillet_inside_rad(&self, t: f64) -> Option<f64> {
         let point = self.trochoid.point_mm(t);
         let radius = point.norm();
         (radius >= self.involute.base_radius_mm).then(|| point.x.atan2(point.y) - self.space_half_angle_rad(radius))
     }
 
-    /// Where the fillet of an undercut tooth leaves the tooth through its involute.
+    /// Normal angle of the rack where the fillet of an undercut tooth intersects the involute.
     fn undercut_angle_rad(&self) -> Option<f64> {
         const SAMPLES: usize = 2000;
         let (first, last) = (FRAC_PI_2, self.trochoid.first_angle_rad);
-        let at = |k: usize| first + (last - first) * k as f64 / SAMPLES as f64;
-        let mut inside = None;
+        let (mut inside, mut before) = (None, first);
         for k in 0..=SAMPLES {
-            let t = at(k);
+            let t = first + (last - first) * k as f64 / SAMPLES as f64;
             match self.fillet_inside_rad(t) {
                 Some(angle) if angle > 0.0 => inside = Some(t),
                 Some(_) => {
-                    // From the last point inside the tooth to this one outside: bisect to round-off.
-                    let (mut a, mut b) = (inside.unwrap_or_else(|| at(k.saturating_sub(1))), t);
+                    // Bisection between the last point inside the tooth and this one outside, to round-off.
+                    let (mut a, mut b) = (inside.unwrap_or(before), t);
                     for _ in 0..80 {
                         let middle = 0.5 * (a + b);
                         match self.fillet_inside_rad(middle) {
@@ -169,17 +167,18 @@ impl Tooth {
                 }
                 None => {}
             }
+            before = t;
         }
         None
     }
 
-    /// Half the tooth's angle ψ(r) at `radius_mm` (≥ base radius), rad.
+    /// Half angle ψ(r) of the tooth at `radius_mm` (≥ base radius), rad.
     pub fn half_angle_rad(&self, radius_mm: f64) -> f64 {
         let rho = self.involute.curvature_radius_mm(radius_mm);
         self.base_half_angle_rad - inv(self.involute.pressure_angle_rad(rho))
     }
 
-    /// Half the angle of the space between two teeth at `radius_mm`, rad.
+    /// Half angle of the space between two teeth at `radius_mm`, rad.
     pub fn space_half_angle_rad(&self, radius_mm: f64) -> f64 {
         PI / f64::from(self.teeth) - self.half_angle_rad(radius_mm)
     }
@@ -194,28 +193,28 @@ impl Tooth {
         self.involute.curvature_radius_mm(self.tip_radius_mm)
     }
 
-    /// Radius of curvature where the involute begins.
+    /// Radius of curvature at the root form circle.
     pub fn root_form_rho_mm(&self) -> f64 {
         self.involute.curvature_radius_mm(self.root_form_radius_mm)
     }
 }
 
-/// How the line of a load passes through a tooth; the tooth's centre line is the y axis, from the gear's axis.
+/// Line of a load through a tooth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadLine {
-    /// Angle of the load to the tooth's transverse, α_F = α − ψ.
+    /// Load angle α_F = α − ψ to the perpendicular of the tooth's centre line.
     pub load_angle_rad: f64,
-    /// Where the load crosses the centre line, from the gear's axis.
+    /// Distance of the intersection with the centre line from the gear's axis.
     pub centre_line_mm: f64,
-    /// From the flank to the centre line, along the line of the load.
+    /// Distance from the flank to the centre line along the line of the load.
     pub depth_mm: f64,
 }
 
 impl LoadLine {
-    /// The same turned by `turn_rad` towards the tooth's axis, about a point `about_mm` deep below the flank: the line of a load on a
-    /// rounding of that radius that begins where this line leaves the flank.
+    /// Line turned by `turn_rad` towards the tooth's axis about its point at the depth `about_mm`: that of a load on a rounding of this
+    /// radius that begins at the flank point of the line.
     pub fn turned(&self, about_mm: f64, turn_rad: f64) -> Self {
-        // The height of that point above where this line crosses the centre line, and its distance from the latter.
+        // Height of the point above the intersection with the centre line, and its distance from that line.
         let (sin, cos) = self.load_angle_rad.sin_cos();
         let (above_mm, beside_mm) = ((self.depth_mm - about_mm) * sin, (self.depth_mm - about_mm) * cos);
         let load_angle_rad = self.load_angle_rad + turn_rad;
@@ -228,9 +227,9 @@ impl LoadLine {
 }
 
 impl Tooth {
-    /// Radius of the nominal flank point whose normal passes through `point_mm`, in the tooth's own frame with its centre
-    /// line on +y and the flank at x < 0: where on the flank a point of the modified profile counts, mm. The normals of an
-    /// involute are the tangents of the base circle: that through the point touches it at the roll angle of the flank point.
+    /// Radius of the nominal flank point whose normal passes through `point_mm` of the modified profile, mm, in the tooth's own frame with its
+    /// centre line on +y and the flank at x < 0. Normals of an
+    /// involute are tangents of the base circle: that through the point touches it at the roll angle of the flank point.
     pub fn nominal_radius_mm(&self, point_mm: Vector2<f64>) -> f64 {
         let base = self.involute.base_radius_mm;
         let beyond_base = (base / point_mm.norm()).min(1.0).acos();
@@ -239,7 +238,7 @@ impl Tooth {
         self.involute.radius_mm(base * roll_angle.max(0.0))
     }
 
-    /// The line of action through the flank point with radius of curvature `rho_mm`.
+    /// Line of a load along the flank's normal at radius of curvature `rho_mm`.
     pub fn load_line(&self, rho_mm: f64) -> LoadLine {
         let radius = self.involute.radius_mm(rho_mm);
         let half_angle = self.half_angle_rad(radius);

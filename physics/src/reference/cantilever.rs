@@ -1,4 +1,4 @@
-//! A deep cantilever under a transverse force at its end, in closed form.
+//! Deep cantilever under a transverse force at its end, in closed form.
 //!
 //! The beam lies along x from its support at 0 to its end at L, y from −h/2 to h/2; a force P per mm of thickness acts along
 //! +y on the end. In plane stress, with I = h³/12,
@@ -9,34 +9,34 @@
 //! σ_x = −P (L − x) y/I       σ_y = 0       τ_xy = P/(2 I) · (h²/4 − y²)
 //! ```
 //!
-//! and in plane strain with E/(1 − ν²) and ν/(1 − ν) instead of E and ν. It is exact where the ends carry these very
-//! stresses, or are displaced by these very displacements: the section at the support warps.
+//! and in plane strain with E/(1 − ν²) and ν/(1 − ν) instead of E and ν. It is exact where the ends have these
+//! stresses or displacements: the section at the support warps.
 //!
 //! Source: S. P. Timoshenko and J. N. Goodier, *Theory of Elasticity* (1970), section 21; in this form C. E. Augarde and
 //! A. J. Deeks, *Finite Elements in Analysis and Design* 44 (2008) 595–601, equations 1 to 5 (their P acts along −y).
 
-/// A cantilever in plane strain.
+/// Cantilever in plane strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cantilever {
-    /// L, mm.
+    /// Length L, mm.
     pub length_mm: f64,
-    /// h, mm.
+    /// Height h, mm.
     pub height_mm: f64,
-    /// P along +y at the end, per mm of thickness, N/mm.
+    /// Force P along +y at the end, per mm of thickness, N/mm.
     pub force_n_per_mm: f64,
-    /// E, MPa.
+    /// Young's modulus E, MPa.
     pub young_modulus_mpa: f64,
-    /// ν.
+    /// Poisson's ratio ν.
     pub poisson_ratio: f64,
 }
 
 impl Cantilever {
-    /// I per mm of thickness, mm³.
+    /// Second moment of area I per mm of thickness, mm³.
     fn second_moment_mm3(&self) -> f64 {
         self.height_mm.powi(3) / 12.0
     }
 
-    /// (u, v) at (x, y), mm.
+    /// Displacement (u, v) at (x, y), mm.
     pub fn displacement_mm(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let (l, h) = (self.length_mm, self.height_mm);
         let nu = self.poisson_ratio / (1.0 - self.poisson_ratio);
@@ -48,7 +48,7 @@ impl Cantilever {
         ]
     }
 
-    /// (σ_x, σ_y, τ_xy) at (x, y), MPa.
+    /// Stress (σ_x, σ_y, τ_xy) at (x, y), MPa.
     pub fn stress_mpa(&self, [x, y]: [f64; 2]) -> [f64; 3] {
         let i = self.second_moment_mm3();
         let (p, l, h) = (self.force_n_per_mm, self.length_mm, self.height_mm);
@@ -72,12 +72,11 @@ mod tests {
         };
         const H: f64 = 1e-4;
         let (x, y) = (3.7, 0.9);
-        let slope = |i: usize, [dx, dy]: [f64; 2]| {
+        let [[ex, dv_dx], [du_dy, ey]] = [[H, 0.0], [0.0, H]].map(|[dx, dy]| {
             let (ahead, behind) = (beam.displacement_mm([x + dx, y + dy]), beam.displacement_mm([x - dx, y - dy]));
-            (ahead[i] - behind[i]) / (2.0 * H)
-        };
-        let [ex, ey] = [slope(0, [H, 0.0]), slope(1, [0.0, H])];
-        let shear = slope(0, [0.0, H]) + slope(1, [H, 0.0]);
+            [0, 1].map(|i| (ahead[i] - behind[i]) / (2.0 * H))
+        });
+        let shear = du_dy + dv_dx;
         let (e, nu) = (beam.young_modulus_mpa, beam.poisson_ratio);
         let scale = e / ((1.0 + nu) * (1.0 - 2.0 * nu));
         let hooke =

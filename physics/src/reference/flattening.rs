@@ -1,4 +1,4 @@
-//! How far two bodies in Hertzian line contact approach each other by the flattening of their surfaces.
+//! Approach of two bodies in Hertzian line contact by the flattening of their surfaces.
 //!
 //! In plane strain the approach of two half-planes is unbounded, so it is measured between points at depths t1, t2
 //! below the surface. Under a Hertz pressure of half-width a and line load w each body contributes
@@ -7,29 +7,29 @@
 //! δ = (2 w / π) (1 − ν²)/E · [ asinh(t/a) − ν/(1 − ν) · t / (√(t² + a²) + t) ]
 //! ```
 //!
-//! exactly; the usual logarithm is its form for t ≫ a.
+//! exactly; for t ≫ a it is the usual logarithm.
 //!
 //! Source: C. Weber and K. Banaschek (1953), section on flattening; K. L. Johnson, *Contact Mechanics* (1985),
-//! section 5.6, for the stresses on the axis it integrates.
+//! section 5.6, for the integrated stresses on the axis.
 
 use super::hertz_line::HertzLine;
 use gearwear_fem::elastic::Elastic;
 
-/// One body, a half-plane in plane strain: elastic constants and depth of the reference point.
+/// Half-plane in plane strain with a reference point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfPlane {
-    /// E and ν.
+    /// Elastic constants E and ν.
     pub elastic: Elastic,
-    /// t, mm.
+    /// Depth t of the reference point, mm.
     pub depth_mm: f64,
 }
 
 /// Flattening of both bodies of a Hertzian line contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flattening {
-    /// The contact.
+    /// Contact.
     pub contact: HertzLine,
-    /// The bodies.
+    /// Both bodies.
     pub bodies: [HalfPlane; 2],
 }
 
@@ -62,12 +62,12 @@ impl Flattening {
         (approach, compliance)
     }
 
-    /// The line load under which the bodies approach by `approach_mm`, by Newton's method; 0 for no approach.
+    /// Line load for the approach `approach_mm`, by Newton's method; 0 without approach.
     pub fn line_load_n_per_mm(&self, approach_mm: f64) -> f64 {
         if approach_mm <= 0.0 {
             return 0.0;
         }
-        // δ(w) is concave and δ/w falls slowly: start from the secant at a load far below, and stay positive.
+        // δ(w) is concave and δ/w falls slowly: a secant at a low load is the start, and loads stay positive.
         let mut w = self.start_load(approach_mm);
         for _ in 0..60 {
             let (approach, compliance) = self.approach_and_compliance(w);
@@ -80,7 +80,7 @@ impl Flattening {
         w
     }
 
-    /// A load that gives about `approach_mm`: with the bracket of δ at t/a = 30.
+    /// Estimated load for `approach_mm`, with the bracket of δ at t/a = 30.
     fn start_load(&self, approach_mm: f64) -> f64 {
         let compliance: f64 = self.bodies.iter().map(|body| body.elastic.half_plane_mm2_per_n()).sum();
         approach_mm / (compliance * 30f64.asinh())
@@ -94,9 +94,9 @@ mod tests {
     fn fzg_c_at_the_pitch_point() -> Flattening {
         // Depths of the FZG type C teeth at C along the line of action: about half the tooth thickness.
         let elastic = Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 };
-        let body = |depth_mm| HalfPlane { elastic, depth_mm };
+        let body = HalfPlane { elastic, depth_mm: 3.9 };
         let modulus = 206e3 / (1.0 - 0.09) / 2.0;
-        Flattening { contact: HertzLine::new([13.9701, 20.9551], modulus).unwrap(), bodies: [body(3.9), body(3.9)] }
+        Flattening { contact: HertzLine::new([13.9701, 20.9551], modulus).unwrap(), bodies: [body; 2] }
     }
 
     #[test]

@@ -1,40 +1,40 @@
 //! Displacement of two elastic half-planes under pressure, in plane strain.
 //!
-//! The surface of a half-plane sinks without bound under a line load, so its displacement is measured relative to the point
-//! at depth t below the place looked at, as in [`super::flattening`]. A unit line load at distance x then lowers it by
+//! The displacement of a half-plane under a line load is unbounded, so it is measured relative to the point
+//! at depth t below the surface point, as in [`super::flattening`]. A unit line load at distance x then lowers the surface by
 //!
 //! ```text
 //! G(x) = 2 (1 − ν²)/(π E) · [ ln(√(x² + t²)/|x|) − t²/(2 (1 − ν)(x² + t²)) ]
 //! ```
 //!
-//! the first term from the vertical strain of the surface against that of the depth t, the second from the change of stress
-//! between them. Its integral is closed,
+//! and the integral has the closed form
 //!
 //! ```text
 //! ∫ G dx = 2 (1 − ν²)/(π E) · [ x ln(√(x² + t²)/|x|) + t (1 − 2ν)/(2 (1 − ν)) · atan(x/t) ]
 //! ```
 //!
-//! so a cell of uniform pressure needs two evaluations. Over Hertz's ellipse G integrates at its middle to the flattening
-//! of Weber and Banaschek. The Fourier transform of G, (1 − e^{−kt} (1 + kt/(2(1−ν))))/k up to the factor, is positive for
-//! every ν < ½: a pressure always does work.
+//! so that a cell of uniform pressure needs two evaluations. The integral of G over Hertz's ellipse is, at its middle, the flattening
+//! of Weber and Banaschek. The Fourier transform of G, (1 − e^{−kt} (1 + kt/(2(1−ν))))/k but for the factor, is positive for
+//! every ν < ½: the work of a pressure is positive.
 //!
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), sections 2.3 and 2.5.
 
 use super::flattening::HalfPlane;
 
-/// How far both of two half-planes together yield, at distance `k` · `width_mm` from the centre of a cell of that width under
+/// Sum of the displacements of two half-planes at distance `k` · `width_mm` from the centre of a cell of that width under
 /// unit pressure, mm/MPa, for k = 0 … `count` − 1.
 pub(crate) fn cell_compliance_mm_per_mpa(bodies: &[HalfPlane; 2], width_mm: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| cell_compliance_at_mm_per_mpa(bodies, width_mm, k as f64 * width_mm)).collect()
 }
 
-/// The same at any distance from the centre.
+/// Sum of the displacements of two half-planes at a distance from the centre of a cell under unit pressure, mm/MPa.
 pub(crate) fn cell_compliance_at_mm_per_mpa(bodies: &[HalfPlane; 2], width_mm: f64, distance_mm: f64) -> f64 {
-    let primitive = |x: f64| bodies.iter().map(|body| line_load_primitive(body, x)).sum::<f64>();
-    primitive(distance_mm + 0.5 * width_mm) - primitive(distance_mm - 0.5 * width_mm)
+    let [to, from] = [distance_mm + 0.5 * width_mm, distance_mm - 0.5 * width_mm]
+        .map(|x_mm| bodies.iter().map(|body| line_load_primitive(body, x_mm)).sum::<f64>());
+    to - from
 }
 
-/// ∫ G from 0 to `x_mm` of one body, mm² per N/mm.
+/// Integral ∫ G from 0 to `x_mm` for one body, mm² per N/mm.
 fn line_load_primitive(body: &HalfPlane, x_mm: f64) -> f64 {
     let (t, nu) = (body.depth_mm, body.elastic.poisson_ratio);
     let logarithm = if x_mm == 0.0 { 0.0 } else { x_mm * (x_mm.hypot(t) / x_mm.abs()).ln() };
@@ -52,18 +52,17 @@ mod tests {
         HalfPlane { elastic: Elastic { young_modulus_mpa: 70e3, poisson_ratio: 0.33 }, depth_mm: 2.1 },
     ];
 
-    /// Under Hertz's ellipse the middle yields by the closed-form flattening: 4000 cells of the ellipse's mean pressure.
+    /// The displacement of the middle under Hertz's ellipse is the closed-form flattening, with 4000 cells of the ellipse's pressure.
     #[test]
     fn ver_hertzs_ellipse_yields_the_closed_form_flattening() {
-        let compliance = |body: HalfPlane| (1.0 - body.elastic.poisson_ratio.powi(2)) / body.elastic.young_modulus_mpa;
-        let modulus = 1.0 / BODIES.map(compliance).iter().sum::<f64>();
+        let modulus = Analysis::PlaneStrain.contact_modulus_mpa(BODIES.map(|body| body.elastic));
         let hertz = Flattening { contact: HertzLine::new([13.97, 20.96], modulus).unwrap(), bodies: BODIES };
         let strip = hertz.contact.loaded(637.66);
         let half_cells = 2000;
         let width = 2.0 * strip.half_width_mm / (2 * half_cells + 1) as f64;
         let row = cell_compliance_mm_per_mpa(&BODIES, width, half_cells + 1);
-        let at = |k: usize| row[k] * strip.pressure_mpa(k as f64 * width);
-        let yielded = at(0) + 2.0 * (1..=half_cells).map(at).sum::<f64>();
+        let parts = row.iter().enumerate().map(|(k, compliance)| compliance * strip.pressure_mpa(k as f64 * width));
+        let yielded = 2.0 * parts.sum::<f64>() - row[0] * strip.pressure_mpa(0.0);
         let error = yielded / hertz.approach_mm(637.66) - 1.0;
         assert!(error.abs() < 1e-6, "{error:e}");
     }

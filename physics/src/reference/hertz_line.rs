@@ -1,4 +1,4 @@
-//! Hertzian line contact: two parallel cylinders pressed together, in closed form.
+//! Hertzian line contact of two parallel cylinders, in closed form.
 //!
 //! With w the load per length, R the relative radius of curvature and E* the contact modulus,
 //!
@@ -14,7 +14,7 @@
 
 use std::f64::consts::PI;
 
-/// What makes a line contact impossible to evaluate.
+/// Error of a line contact.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum HertzError {
     /// The surfaces do not touch along a line: flat on flat, or a hollow tighter than its partner.
@@ -22,17 +22,17 @@ pub enum HertzError {
     RelativeCurvature(f64),
 }
 
-/// Greatest over mean pressure of a line contact, whose pressure is an ellipse.
+/// Ratio of greatest to mean pressure of the elliptic distribution.
 pub const PEAK_OVER_MEAN: f64 = 4.0 / std::f64::consts::PI;
 
-/// One line contact: geometry and stiffness, without load.
+/// Line contact without load: geometry and contact modulus.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HertzLine {
     relative_radius_mm: f64,
     contact_modulus_mpa: f64,
 }
 
-/// The contact under a given load.
+/// Line contact under a load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineContact {
     /// Half-width a of the contact strip, mm.
@@ -57,7 +57,7 @@ impl HertzLine {
         Self { relative_radius_mm, contact_modulus_mpa }
     }
 
-    /// R, mm.
+    /// Relative radius of curvature R, mm.
     pub fn relative_radius_mm(&self) -> f64 {
         self.relative_radius_mm
     }
@@ -66,7 +66,7 @@ impl HertzLine {
     pub fn loaded(&self, line_load_n_per_mm: f64) -> LineContact {
         let half_width_mm =
             (4.0 * line_load_n_per_mm * self.relative_radius_mm / (PI * self.contact_modulus_mpa)).sqrt();
-        // E* a / (2 R) is p₀ again, and stays finite where 2 w / (π a) is 0/0.
+        // E* a / (2 R) is p₀ too, and finite where 2 w / (π a) is 0/0.
         let peak_pressure_mpa = self.contact_modulus_mpa * half_width_mm / (2.0 * self.relative_radius_mm);
         LineContact { half_width_mm, peak_pressure_mpa }
     }

@@ -1,23 +1,23 @@
-//! Values and means of what is given at places along a line, linear between them and beyond the ends what it is there:
+//! Values and means of piecewise linear functions, constant beyond their ends:
 //!
 //! ```text
 //! 1/(b − a) ∫ h ds over [a, b] = Σ_k m_k h_k          m_k = 1/(b − a) ∫ N_k ds over [a, b]
 //! ```
 //!
-//! with the hat functions N_k of the places.
+//! with the values h_k at given places and their hat functions N_k.
 
 use std::ops::Range;
 
-/// The value at a place of what is given at `places` (rising, at least two).
+/// Value at a place of the function with `values` at `places` (rising, at least two).
 pub fn value_at(places: &[f64], values: &[f64], at: f64) -> f64 {
     let after = places.partition_point(|&place| place <= at).clamp(1, places.len() - 1);
     let length = places[after] - places[after - 1];
     let weight = if length > 0.0 { ((at - places[after - 1]) / length).clamp(0.0, 1.0) } else { 0.0 };
-    // In this form no rounding lets a value fall while those given rise.
+    // This form is monotonic in spite of rounding.
     (1.0 - weight) * values[after - 1] + weight * values[after]
 }
 
-/// Σ m_k h_k over as many values as there are weights: four sums side by side, which a processor adds at once.
+/// Sum Σ m_k h_k over the weights, in four independent sums for vector instructions.
 pub(crate) fn weighted_sum(weights: &[f64], values: &[f64]) -> f64 {
     let values = &values[..weights.len()];
     let (weights, values) = (weights.as_chunks::<4>(), values.as_chunks::<4>());
@@ -31,16 +31,15 @@ pub(crate) fn weighted_sum(weights: &[f64], values: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
-/// Adds to `sums`, a row for all `places` (rising, at least two), `weight` times the m_k of the stretch from `from` to `to` (≥ `from`);
-/// answers the places that it reaches. A stretch without length is a point.
+/// Adds `weight` times the m_k of the stretch from `from` to `to` (≥ `from`) to `sums`, with an entry for each of the `places` (rising, at least
+/// two); returns the range of places with weight. A stretch may be a point.
 pub(crate) fn add_means(places: &[f64], [from, to]: [f64; 2], weight: f64, sums: &mut [f64]) -> Range<usize> {
     let last = places.len() - 1;
     let (low, high) = (places[0], places[last]);
-    let interval = |at: f64| places.partition_point(|&x| x <= at).clamp(1, last) - 1;
     let length = to - from;
     if length <= 1e-12 * (high - low) {
         let at = from.clamp(low, high);
-        let k = interval(at);
+        let k = interval(places, at);
         let t = (at - places[k]) / (places[k + 1] - places[k]);
         sums[k] += weight * (1.0 - t);
         sums[k + 1] += weight * t;
@@ -50,7 +49,7 @@ pub(crate) fn add_means(places: &[f64], [from, to]: [f64; 2], weight: f64, sums:
     let (inner_from, inner_to) = (from.clamp(low, high), to.clamp(low, high));
     sums[0] += per_length * (low.min(to) - from.min(low));
     sums[last] += per_length * (to.max(high) - high.max(from));
-    let first = interval(inner_from);
+    let first = interval(places, inner_from);
     let mut k = first;
     while k < last && (places[k] < inner_to || k == first) {
         let (a, b) = (places[k], places[k + 1]);
@@ -67,12 +66,17 @@ pub(crate) fn add_means(places: &[f64], [from, to]: [f64; 2], weight: f64, sums:
     begin..end + 1
 }
 
+/// Number of the interval between places that contains `at`.
+fn interval(places: &[f64], at: f64) -> usize {
+    places.partition_point(|&x| x <= at).clamp(1, places.len() - 1) - 1
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// The mean of a linear course over any stretch is its value in the middle, weights add up to one, and only the places that are
-    /// named have one.
+    /// The mean of a linear function over a stretch is its value in the middle, weights add up to one, and only places in the returned
+    /// range have one.
     #[test]
     fn ver_means_of_linear_courses() {
         let places = [0.0, 0.3, 0.4, 0.9, 1.0, 1.7];
@@ -86,7 +90,7 @@ mod tests {
         }
     }
 
-    /// What would fall beyond an end falls on the place there.
+    /// Weights beyond an end are added to the outermost place.
     #[test]
     fn ver_ends_keep_what_falls_beyond() {
         for stretch in [[-0.4, 0.2], [0.9, 1.3], [-2.0, -1.0], [1.5, 2.0], [-1.0, 2.0]] {

@@ -1,5 +1,5 @@
-//! Interpolation that never overshoots: a cubic on each interval whose slopes at the ends are a weighted harmonic mean of the
-//! neighbouring differences where these agree in sign, and zero where they do not.
+//! Monotone cubic interpolation, in which the slope at a place is a weighted harmonic mean of the
+//! neighbouring differences where these have the same sign, and zero elsewhere.
 //!
 //! ```text
 //! d_k = (h₁ + h₂ + …)       1/d = (w₁/Δ₁ + w₂/Δ₂)/(w₁ + w₂)        w₁ = 2 h₂ + h₁,   w₂ = h₂ + 2 h₁
@@ -9,7 +9,7 @@
 //!
 //! Source: F. N. Fritsch and J. Butland, *SIAM J. Sci. Stat. Comput.* 5 (1984) 300.
 
-/// The curve through given values at increasing places.
+/// Monotone curve through values at increasing places.
 #[derive(Debug, Clone)]
 pub(crate) struct MonotoneCubic<'a> {
     places: &'a [f64],
@@ -18,32 +18,28 @@ pub(crate) struct MonotoneCubic<'a> {
 }
 
 impl<'a> MonotoneCubic<'a> {
-    /// Through `values` at the increasing `places`, as many of both; of equal places the first counts.
+    /// Curve through as many `values` as increasing `places`; of equal places the first counts.
     pub(crate) fn new(places: &'a [f64], values: &'a [f64]) -> Self {
-        let last = places.len().saturating_sub(1);
-        let length = |k: usize| places[k + 1] - places[k];
-        let difference = |k: usize| if length(k) > 0.0 { (values[k + 1] - values[k]) / length(k) } else { 0.0 };
-        let slope = |k: usize| {
-            if last == 0 {
-                return 0.0;
+        let lengths: Vec<f64> = places.windows(2).map(|ends| ends[1] - ends[0]).collect();
+        let differences: Vec<f64> = (values.windows(2).zip(&lengths))
+            .map(|(ends, length)| if *length > 0.0 { (ends[1] - ends[0]) / length } else { 0.0 })
+            .collect();
+        let mut slopes = vec![0.0; places.len()];
+        if let (Some(first), Some(last)) = (differences.first(), differences.last()) {
+            slopes[0] = *first;
+            slopes[differences.len()] = *last;
+        }
+        for k in 1..differences.len() {
+            let ([before, after], [h1, h2]) = ([differences[k - 1], differences[k]], [lengths[k - 1], lengths[k]]);
+            if before * after > 0.0 {
+                let (w1, w2) = (2.0 * h2 + h1, h2 + 2.0 * h1);
+                slopes[k] = (w1 + w2) / (w1 / before + w2 / after);
             }
-            if k == 0 {
-                return difference(0);
-            }
-            if k == last {
-                return difference(last - 1);
-            }
-            let (before, after) = (difference(k - 1), difference(k));
-            if before * after <= 0.0 {
-                return 0.0;
-            }
-            let (w1, w2) = (2.0 * length(k) + length(k - 1), length(k) + 2.0 * length(k - 1));
-            (w1 + w2) / (w1 / before + w2 / after)
-        };
-        Self { places, values, slopes: (0..places.len()).map(slope).collect() }
+        }
+        Self { places, values, slopes }
     }
 
-    /// The value at `x`; beyond the ends, the value there; 0 without any place.
+    /// Value at `x`; beyond the ends, the value at the end; 0 without places.
     pub(crate) fn at(&self, x: f64) -> f64 {
         let (Some(&first), Some(last)) = (self.places.first(), self.places.len().checked_sub(1)) else { return 0.0 };
         if last == 0 || x <= first {
@@ -64,7 +60,7 @@ impl<'a> MonotoneCubic<'a> {
 mod tests {
     use super::*;
 
-    /// Straight lines stay straight, places give their values, monotone values a monotone curve.
+    /// Linear functions and values at the places are exact, and monotone values give a monotone curve.
     #[test]
     fn ver_no_overshoot() {
         let places = [0.0, 0.1, 0.5, 0.6, 2.0];

@@ -1,35 +1,35 @@
-//! A band of heat that moves over a half-space.
+//! Moving band of heat on a half-space.
 //!
-//! Heat flows at the even rate q into the strip −a < x < a of the surface of a half-space whose material passes under the strip at
-//! the speed U, entering it at −a. In the steady state every line of the strip heats the surface as a moving line source does:
+//! The uniform heat flux q enters the strip −a < x < a of the surface of a half-space whose material passes under the strip at
+//! the speed U, entering it at −a. The steady state is a superposition of moving line sources:
 //!
 //! ```text
 //! T(x) = q/(π K) ∫ exp(u) K₀(|u|) dx'        u = U (x − x')/(2κ),   x' from −a to a
 //! ```
 //!
-//! The integral is closed, since d/dz [z e^{±z} (K₀ ± K₁)] = e^{±z} K₀. With Pe = a U/(2κ) and X = x/a,
+//! The integral has a closed form, as d/dz [z e^{±z} (K₀ ± K₁)] = e^{±z} K₀. With Pe = a U/(2κ) and X = x/a,
 //!
 //! ```text
 //! T(X) = q a/(π K Pe) · [F(Pe (1 + X)) + G(Pe (1 − X))]
 //! F(z) = z e^z (K₀ + K₁) − 1                 G(z) = 1 + z e^{−z} (K₀ − K₁)
 //! ```
 //!
-//! The modified Bessel functions come from K_ν(z) = ∫₀^∞ exp(−z cosh t) cosh(ν t) dt by the trapezoidal rule, which converges
+//! The modified Bessel functions K_ν(z) = ∫₀^∞ exp(−z cosh t) cosh(ν t) dt are integrated by the trapezoidal rule, which converges
 //! faster than any power of its step for such integrands.
 //!
 //! Source: H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed. (1959), section 10.7; J. C. Jaeger,
 //! *J. Proc. R. Soc. N.S.W.* 76 (1942) 203.
 
-/// Step of the trapezoidal rule, at most; of large arguments over their root, as wide as the integrand then is. Leaves an error
-/// below 1e-14.
+/// Greatest step of the trapezoidal rule, for an error below 1e-14.
 const STEP: f64 = 0.1;
+/// Step times the root of large arguments, with which the width of the integrand decreases.
 const STEP_TIMES_ROOT: f64 = 0.5;
-/// What the integrand has fallen to, as exp(−this), where it is left off.
+/// Negative logarithm of the integrand at which the integration ends.
 const NEGLIGIBLE: f64 = 45.0;
-/// Parts into which golden sections cut the strip until the hottest place is known to 1e-8 of it.
+/// Number of golden sections, after which the hottest place is known to 1e-8 of the strip.
 const SECTIONS: usize = 40;
 
-/// e^z K₀(z) and e^z K₁(z), for z > 0.
+/// Scaled Bessel functions e^z K₀(z) and e^z K₁(z) for z > 0.
 pub(crate) fn scaled_bessel_k(z: f64) -> [f64; 2] {
     let step = STEP.min(STEP_TIMES_ROOT / z.sqrt());
     let mut sums = [0.5, 0.5];
@@ -46,7 +46,7 @@ pub(crate) fn scaled_bessel_k(z: f64) -> [f64; 2] {
     sums.map(|sum| step * sum)
 }
 
-/// ∫₀^z e^t K₀(t) dt.
+/// Integral F(z) = ∫₀^z e^t K₀(t) dt.
 fn behind(z: f64) -> f64 {
     if z <= 0.0 {
         return 0.0;
@@ -55,7 +55,7 @@ fn behind(z: f64) -> f64 {
     z * (k0 + k1) - 1.0
 }
 
-/// ∫₀^z e^{−t} K₀(t) dt.
+/// Integral G(z) = ∫₀^z e^{−t} K₀(t) dt.
 fn ahead(z: f64) -> f64 {
     if z <= 0.0 {
         return 0.0;
@@ -64,12 +64,12 @@ fn ahead(z: f64) -> f64 {
     1.0 + z * (-2.0 * z).exp() * (k0 - k1)
 }
 
-/// T K/(q a) at X = x/a within the band, −1 (where material enters) to 1, for a Peclet number a U/(2κ) > 0.
+/// Temperature rise T K/(q a) at X = x/a within the band, −1 (where material enters) to 1, for a Peclet number a U/(2κ) > 0.
 pub(crate) fn rise_at(peclet: f64, x: f64) -> f64 {
     (behind(peclet * (1.0 + x)) + ahead(peclet * (1.0 - x))) / (std::f64::consts::PI * peclet)
 }
 
-/// The greatest T K/(q a) of the band, which is in its rear half.
+/// Greatest temperature rise T K/(q a) of the band, which is in its rear half.
 pub fn greatest_rise(peclet: f64) -> f64 {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     let (mut low, mut high) = (0.0, 1.0);
@@ -98,8 +98,8 @@ mod tests {
     #[test]
     fn ver_closed_form_is_the_integral_of_line_sources() {
         for (peclet, x) in [(0.1, 0.0), (1.0, 0.4), (10.0, -0.7)] {
-            // x' = x ± s², so that dx' = 2 s ds takes the pole away.
-            let side = |length: f64, sign: f64| {
+            // x' = x ± s², so that dx' = 2 s ds removes the pole.
+            let sides = [(1.0 + x, 1.0), (1.0 - x, -1.0)].map(|(length, sign): (f64, f64)| {
                 let parts = 20_000;
                 let step = length.sqrt() / f64::from(parts);
                 (0..parts)
@@ -111,13 +111,13 @@ mod tests {
                         2.0 * s * k0 * step
                     })
                     .sum::<f64>()
-            };
-            let integral = (side(1.0 + x, 1.0) + side(1.0 - x, -1.0)) / std::f64::consts::PI;
+            });
+            let integral = (sides[0] + sides[1]) / std::f64::consts::PI;
             assert!((rise_at(peclet, x) / integral - 1.0).abs() < 1e-6, "{peclet} {x}");
         }
     }
 
-    /// A fast band heats as a half-space under a flux that lasts: 2 q/K √(κ t/π) with t = 2 a/U at its rear.
+    /// At high speed, the half-space under constant flux: 2 q/K √(κ t/π) with t = 2 a/U at the rear.
     #[test]
     fn ver_limit_of_a_fast_band() {
         let peclet: f64 = 1e4;

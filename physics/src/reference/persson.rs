@@ -1,7 +1,7 @@
-//! Nearly conforming contact: a disc in a hole of almost the same radius, in closed form.
+//! Nearly conforming contact of a disc in a hole of almost the same radius, in closed form.
 //!
 //! Disc and plate are of one material, in plane strain, without friction; the load Q acts at the disc's centre, and ΔR is the
-//! clearance of the radii. With ε the half-angle of contact and b = tan(ε/2), y = tan(θ/2),
+//! radial clearance. With ε the half-angle of contact and b = tan(ε/2), y = tan(θ/2),
 //!
 //! ```text
 //! E* ΔR/Q   = (2 − ln(b² + 1) − 2 b⁴)/(π b² (b² + 1))                      E* = E/(1 − ν²)
@@ -9,14 +9,14 @@
 //!             + ln((√(b² + 1) + √(b² − y²))/(√(b² + 1) − √(b² − y²)))/(2 π b² (b² + 1))
 //! ```
 //!
-//! For small ε they are Hertz's; ΔR falls to zero at ε ≈ 85°. Limits: an infinite plate, ΔR ≪ R.
+//! For small ε this is Hertz's solution; ΔR is zero at ε ≈ 85°. Limits: infinite plate, ΔR ≪ R.
 //!
 //! Source: A. Persson, *On the Stress Distribution of Cylindrical Elastic Bodies in Contact*, Chalmers (1964); in this form
 //! M. Ciavarella and P. Decuzzi, *Int. J. Solids Struct.* 38 (2001) 4507–4523.
 
 use std::f64::consts::PI;
 
-/// The contact with a given half-angle.
+/// Contact with a given half-angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Persson {
     b: f64,
@@ -28,13 +28,13 @@ impl Persson {
         Self { b: (0.5 * half_angle_rad).tan() }
     }
 
-    /// E* ΔR/Q: what clearance the half-angle belongs to.
+    /// Dimensionless clearance E* ΔR/Q for the half-angle.
     pub fn stiffness_ratio(&self) -> f64 {
         let s = self.b * self.b;
         (2.0 - (s + 1.0).ln() - 2.0 * s * s) / (PI * s * (s + 1.0))
     }
 
-    /// p R/Q at the angle θ; zero beyond the contact.
+    /// Dimensionless pressure p R/Q at the angle θ; zero beyond the contact.
     pub fn pressure_ratio(&self, angle_rad: f64) -> f64 {
         let (s, y) = (self.b * self.b, (0.5 * angle_rad).tan());
         if y * y >= s {

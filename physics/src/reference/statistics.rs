@@ -1,28 +1,27 @@
 //! Extent, mean, standard deviation and quantiles of samples.
 
-/// The shares below quantiles.
+/// Probabilities of the quantiles.
 pub const SHARES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
 
-/// Least and greatest of `values`; of none infinitely far apart, the wrong way round.
+/// Least and greatest of `values`; +∞ and −∞ without values.
 pub fn extent(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     values.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
 }
 
-/// Σ x / n.
+/// Mean Σ x / n.
 pub fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
     let count = values.clone().count();
     values.sum::<f64>() / count as f64
 }
 
-/// √(Σ (x − x̄)² / (n − 1)); none of fewer than two.
+/// Standard deviation √(Σ (x − x̄)² / (n − 1)); `None` for fewer than two values.
 pub fn standard_deviation(values: &[f64]) -> Option<f64> {
     let middle = mean(values.iter().copied());
     let squares: f64 = values.iter().map(|value| (value - middle) * (value - middle)).sum();
     (values.len() > 1).then(|| (squares / (values.len() - 1) as f64).sqrt())
 }
 
-/// The value below which a share of `sorted` lies, between two of them as far as the share is between theirs, i/(n − 1); none of none,
-/// or where it is infinite.
+/// Quantile of `sorted` values with linear interpolation between the probabilities i/(n − 1); `None` without values, or where it is infinite.
 pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     let place = share * (sorted.len().checked_sub(1)? as f64);
     let (below, above) = (sorted[place.floor() as usize], sorted[place.ceil() as usize]);

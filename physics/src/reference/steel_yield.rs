@@ -1,27 +1,27 @@
-//! Pressure of a line contact above which steel is no longer elastic.
+//! Elastic limit of the pressure of a line contact of steel.
 //!
 //! ```text
-//! begins to yield   p_0 = 1.67 Y        (below the surface, plane strain, von Mises)
-//! flows             p_m ≈ 2.8 Y ≈ H     (fully plastic)
+//! first yield       p_0 = 1.67 Y        (below the surface, plane strain, von Mises)
+//! fully plastic     p_m ≈ 2.8 Y ≈ H
 //! ```
 //!
 //! p_0 maximum pressure, p_m mean pressure, Y yield stress, H hardness, MPa. Source: K. L. Johnson, *Contact Mechanics*, 1985, sections 6.1
 //! to 6.3. Steel of 300 HV has H = 2940 MPa, which is rounded to 3000 MPa here; case-hardened steel of 700 HV (Y ≈ 2450 MPa) begins to
-//! yield at some 4100 MPa. What a contact model says above is the pressure of a material that stays elastic.
+//! yield at some 4100 MPa. Pressures of contact models above are those of a material that stays elastic.
 
-/// Where steel of 300 HV flows, MPa.
+/// Fully plastic pressure of steel of 300 HV, MPa.
 pub(crate) const FLOW_PRESSURE_MPA: f64 = 3000.0;
 
-/// What to say of a pressure that steel hardly bears elastically.
+/// Explanation of the warning.
 const REASON: &str = "steel of 300 HV flows at some 3000 MPa, and case-hardened steel of 700 HV begins to yield at some 4100 MPa: above, \
                       the pressure is that of a material which stays elastic";
 
-/// Whether steel hardly bears a pressure elastically.
+/// Whether a pressure exceeds the elastic limit of most steels.
 pub fn is_exceeded(pressure_mpa: f64) -> bool {
     pressure_mpa > FLOW_PRESSURE_MPA
 }
 
-/// A warning of a pressure above that, with where it is; none below.
+/// Warning for a pressure above the limit, with its place; `None` below.
 pub fn warning(pressure_mpa: f64, place: &str) -> Option<String> {
     is_exceeded(pressure_mpa).then(|| {
         format!("the maximum pressure, {pressure_mpa:.0} MPa ({place}), is above the hardness of steel: {REASON}")

@@ -1,28 +1,28 @@
-//! A cylinder worn by a flat that slides over it without wearing, in closed form.
+//! Wear of a cylinder by a sliding flat that does not wear, in closed form.
 //!
-//! The cylinder (radius R) is pressed on by a line load w and does not turn: the same strip of half-width a is in contact all the
-//! time and loses a segment. By Archard's law with the coefficient k its area after a sliding distance s is k w s, whatever the
+//! The cylinder (radius R) is pressed against the flat by a line load w and does not turn: a segment of half-width a is worn
+//! off. By Archard's law with the coefficient k its area after a sliding distance s is k w s for any
 //! pressure distribution, so that for rigid bodies
 //!
 //! ```text
 //! k w s = ∫ (a² − x²)/(2R) dx = (2/3) a³/R           a³ = 1.5 R k w s
 //! ```
 //!
-//! Elastic bodies touch on a wider strip. With the displacement u(x) of both surfaces together, contact is x²/(2R) + h + u = δ, and at
-//! the edge, which has not worn, δ = a²/(2R) + u(a). Integrated over the strip this is
+//! The contact of elastic bodies is wider. With the sum u(x) of the displacements of both surfaces, contact is x²/(2R) + h + u = δ, and at
+//! the unworn edge δ = a²/(2R) + u(a). Integrated over the strip this is
 //!
 //! ```text
 //! (2/3) a³/R = k w s + ∫ (u(x) − u(a)) dx
 //! ```
 //!
-//! On a Winkler foundation u = p/K, nothing at the edge, and ∫ u dx = w/K at every stage:
+//! On a Winkler foundation u = p/K, which is zero at the edge, and ∫ u dx = w/K:
 //!
 //! ```text
 //! a³ = a₀³ + 1.5 R k w s          a₀³ = 1.5 w R/K, unworn
 //! ```
 //!
 //! On elastic half-planes the integral is c w a/(πE*), with c = 8/3 for Hertz's ellipse and c = 2 for the uniform pressure of the late
-//! stage, in which all of the strip goes down alike. With a₀² = 4 w R/(πE*), unworn,
+//! stage, in which the strip wears evenly. With a₀² = 4 w R/(πE*), unworn,
 //!
 //! ```text
 //! a³ = 1.5 R k w s + (3c/8) a₀² a
@@ -31,47 +31,47 @@
 //! Limits: a ≪ R, no friction.
 //!
 //! Source: J. F. Archard, *Contact and rubbing of flat surfaces*, J. Appl. Phys. 24 (1953) 981–988, for the law; the displacement under
-//! uniform pressure: K. L. Johnson, *Contact Mechanics* (1985), section 2.5(a). The integrals are worked out here.
+//! uniform pressure: K. L. Johnson, *Contact Mechanics* (1985), section 2.5(a). The integrals are derived here.
 
-/// A cylinder of radius R that wears under a line load w with the coefficient k.
+/// Cylinder that wears under a line load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WornCylinder {
-    /// R, mm.
+    /// Radius R, mm.
     pub radius_mm: f64,
-    /// w, N/mm.
+    /// Line load w, N/mm.
     pub line_load_n_per_mm: f64,
-    /// k, mm²/N.
+    /// Wear coefficient k, mm²/N.
     pub coefficient_mm2_per_n: f64,
 }
 
 impl WornCylinder {
-    /// 1.5 R k w s, mm³.
+    /// Cube 1.5 R k w s of the half-width of rigid bodies, mm³.
     fn cube_mm3(&self, sliding_mm: f64) -> f64 {
         1.5 * self.radius_mm * self.worn_area_mm2(sliding_mm)
     }
 
-    /// k w s: area of the section that is lost after a sliding distance.
+    /// Worn area k w s of the section after a sliding distance.
     pub fn worn_area_mm2(&self, sliding_mm: f64) -> f64 {
         self.coefficient_mm2_per_n * self.line_load_n_per_mm * sliding_mm
     }
 
-    /// a of rigid bodies.
+    /// Half-width a of rigid bodies.
     pub fn half_width_mm(&self, sliding_mm: f64) -> f64 {
         self.cube_mm3(sliding_mm).cbrt()
     }
 
-    /// a on a Winkler foundation of stiffness K, at every stage.
+    /// Half-width a on a Winkler foundation of stiffness K.
     pub fn half_width_on_foundation_mm(&self, sliding_mm: f64, bed_mpa_per_mm: f64) -> f64 {
         let unworn = 1.5 * self.line_load_n_per_mm * self.radius_mm / bed_mpa_per_mm;
         (unworn + self.cube_mm3(sliding_mm)).cbrt()
     }
 
-    /// a on elastic half-planes in the late stage, with the half-width a₀ of the unworn contact: the greatest root of its cubic.
+    /// Half-width a on elastic half-planes in the late stage, with the half-width a₀ of the unworn contact: the greatest root of the cubic.
     pub fn late_half_width_mm(&self, sliding_mm: f64, unworn_half_width_mm: f64) -> f64 {
-        /// 3c/8 for uniform pressure.
+        /// Factor 3c/8 for uniform pressure.
         const UNIFORM: f64 = 0.75;
         let (cube, linear) = (self.cube_mm3(sliding_mm), UNIFORM * unworn_half_width_mm.powi(2));
-        // Newton's method from above falls to the root without passing it.
+        // Newton's method from above decreases to the root.
         let mut a = cube.cbrt() + linear.sqrt();
         for _ in 0..60 {
             let step = (a * a * a - linear * a - cube) / (3.0 * a * a - linear);

@@ -20,7 +20,7 @@ use crate::thermal::{
     band::{HeatedBand, Spread},
     settings::TemperatureMethod,
 };
-use crate::wear::{ContactConditions, WearModel};
+use crate::wear::{ContactConditions, LocalContact, WearModel};
 
 /// Places across a contact at which its work is weighed.
 const PLACES: usize = 32;
@@ -263,7 +263,8 @@ impl HeatObserver<'_> {
                     sliding_speed_mm_per_s: self.heat.sliding_speed_mm_per_s(&ratios),
                     temperature_k,
                 };
-                let k = self.wear.laws[gear].mild_coefficient_mm2_per_n(Some(own));
+                let at = LocalContact { pressure_mpa: *pressure, conditions: Some(own), lambda: None };
+                let k = self.wear.laws[gear].mild_coefficient_mm2_per_n(&at);
                 let part = work * pressure / total;
                 let is_outside = self.valid_k[gear].is_some_and(|[low, high]| !(low..=high).contains(&temperature_k));
                 sums.both.add(part, k, is_outside);

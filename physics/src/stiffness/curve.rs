@@ -1,7 +1,7 @@
 //! Compliance of a tooth pair along the path of contact, given at some positions.
 //!
-//! The curve is from finite elements (a calibration) or supplied by the user; between its points it is a straight line, beyond
-//! its ends the value there.
+//! The curve is from finite elements (a calibration) or supplied by the user; it is linear between its points and constant beyond
+//! its ends.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,17 +11,17 @@ use serde::{Deserialize, Serialize};
 pub struct PairCompliance {
     /// Radius of curvature of the pinion at the theoretical contact point, increasing, mm.
     pub position_mm: Vec<f64>,
-    /// Approach along the line of action over line load at each of them, mm²/N.
+    /// Approach along the line of action over line load at each position, mm²/N.
     pub mm2_per_n: Vec<f64>,
-    /// What the values stand for.
+    /// Deflections that the values include.
     pub stands_for: StandsFor,
-    /// The part of it that the pair shares with the other pairs in mesh, mm²/N: what it yields by under the load of one of
-    /// them, because the gear bodies below both yield.
+    /// Part of the compliance that all pairs in mesh share, mm²/N: the approach of a pair under the load of another, due to the deflection of the
+    /// gear bodies.
     #[serde(default)]
     pub shared_mm2_per_n: f64,
 }
 
-/// What a compliance stands for.
+/// Deflections that a compliance includes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum StandsFor {
@@ -29,13 +29,13 @@ pub enum StandsFor {
     Teeth,
     /// The whole pair, flattening included, at this line load, N/mm.
     WholePair {
-        /// Where it was taken.
+        /// Line load of the values.
         line_load_n_per_mm: f64,
     },
 }
 
 impl PairCompliance {
-    /// Its first and last position, mm.
+    /// First and last position, mm.
     pub fn ends_mm(&self) -> (f64, f64) {
         (self.position_mm[0], self.position_mm[self.position_mm.len() - 1])
     }

@@ -1,7 +1,7 @@
-//! Stiffness of a tooth pair along the path of contact, as the user's data.
+//! CSV file of the stiffness of a tooth pair along the path of contact.
 //!
-//! Simon's deflection coefficients and Wang and Cheng's table are not in any text at hand; whoever has them, or measurements,
-//! or another program's results, gives them as a CSV file:
+//! Values may be Simon's deflection coefficients or Wang and Cheng's table, which are not part of this program, measurements,
+//! or results of other programs:
 //!
 //! ```text
 //! # flattening = included
@@ -14,9 +14,9 @@
 //!
 //! `position_mm` is the radius of curvature of the pinion at the theoretical contact point, increasing from row to row. The
 //! other column is the stiffness of the pair, force per mm of face width and µm of approach along the line of action, or
-//! `deflection_um`, that approach itself under the line load. Lines that begin with # come first: whether the values hold the
-//! flattening of the flanks in contact (`included`, `excluded`), and the line load at which they were taken, which deflections
-//! and values with flattening need. Other lines with # are remarks.
+//! `deflection_um`, the approach under the line load. Lines that begin with # tell whether the values include the
+//! flattening of the flanks in contact (`included`, `excluded`), and the line load of the values, which is required for deflections
+//! and values with flattening. Other lines with # are remarks.
 
 use super::curve::{PairCompliance, StandsFor};
 use crate::gear::path_of_contact::PathOfContact;
@@ -28,54 +28,55 @@ const DEFLECTION: &str = "deflection_um";
 const FLATTENING: &str = "flattening";
 const LINE_LOAD: &str = "line_load_N_per_mm";
 const UM_PER_MM: f64 = 1e3;
-/// Part of the path of contact by which a curve may fall short at either end; it keeps its outermost value there.
+/// Fraction of the path of contact that may be missing at either end of a curve, where its outermost value is taken.
 const MISSING_AT_ENDS: f64 = 0.02;
 
-/// What is wrong with the file.
+/// Error in the file of a stiffness curve.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CurveFileError {
-    /// It is not a table of the right kind.
+    /// The table is invalid.
     #[error(transparent)]
     Table(#[from] DataTableError),
-    /// The rows end before the path of contact does.
+    /// The rows do not cover the path of contact.
     #[error("{POSITION}: found {first_mm:.4} to {last_mm:.4}; allowed: at least {start_mm:.4} (A) to {end_mm:.4} (E)")]
     TooShort {
         /// First position.
         first_mm: f64,
         /// Last position.
         last_mm: f64,
-        /// A.
+        /// Point A.
         start_mm: f64,
-        /// E.
+        /// Point E.
         end_mm: f64,
     },
 }
 
-/// What the lines with # say.
+/// Keys of the lines with #.
 #[derive(Default)]
-struct Header {
+struct CurveHeader {
     flattening_included: Option<bool>,
     line_load_n_per_mm: Option<f64>,
 }
 
-/// The curve in a file's text, which must reach from A to E.
+/// Curve in the text of a file, which must reach from A to E.
 pub fn parse(text: &str, path: &PathOfContact) -> Result<PairCompliance, CurveFileError> {
     let table = DataTable::read(text, || format!("{POSITION},{STIFFNESS} or {POSITION},{DEFLECTION}"))?;
-    let mut header = Header::default();
+    let mut header = CurveHeader::default();
     for &(line, key, value) in &table.keys {
         header.take(line, key, value)?;
     }
-    let columns = Columns::find(table.names.0, &table.names.1)?;
+    let columns = CurveColumns::find(table.names.0, &table.names.1)?;
     let stands_for = header.stands_for(columns.are_deflections)?;
     let mut curve =
         PairCompliance { position_mm: Vec::new(), mm2_per_n: Vec::new(), stands_for, shared_mm2_per_n: 0.0 };
     for (line, values) in table.rows {
-        let field = |index: usize| values.get(index).copied().unwrap_or_default();
-        let position = positive(line, POSITION, field(columns.position))?;
+        let [position, value] =
+            [columns.position, columns.value].map(|index| values.get(index).copied().unwrap_or_default());
+        let position = positive(line, POSITION, position)?;
         if let Some(&before) = curve.position_mm.last().filter(|&&before| position <= before) {
             return Err(not_allowed(line, POSITION, position, format!("more than {before}, the row before")).into());
         }
-        let value = positive(line, columns.value_name(), field(columns.value))?;
+        let value = positive(line, columns.value_name(), value)?;
         curve.position_mm.push(position);
         curve.mm2_per_n.push(match header.line_load_n_per_mm {
             Some(load) if columns.are_deflections => value / UM_PER_MM / load,
@@ -94,26 +95,24 @@ pub fn parse(text: &str, path: &PathOfContact) -> Result<PairCompliance, CurveFi
     }
 }
 
-/// Where the columns are.
-struct Columns {
+/// Numbers of the columns.
+struct CurveColumns {
     position: usize,
     value: usize,
     are_deflections: bool,
 }
 
-impl Columns {
+impl CurveColumns {
     fn find(line: usize, names: &[&str]) -> Result<Self, DataTableError> {
-        let place = |name: &str| names.iter().position(|&n| n == name);
-        let allowed = || format!("{POSITION} and either {STIFFNESS} or {DEFLECTION}, separated by commas");
-        let (value, are_deflections) = match (place(STIFFNESS), place(DEFLECTION)) {
-            (Some(value), None) => (value, false),
-            (None, Some(value)) => (value, true),
-            _ => return Err(not_allowed(line, "column names", names.join(","), allowed())),
-        };
-        let Some(position) = place(POSITION) else {
-            return Err(not_allowed(line, "column names", names.join(","), allowed()));
-        };
-        Ok(Self { position, value, are_deflections })
+        let columns = [POSITION, STIFFNESS, DEFLECTION].map(|name| names.iter().position(|&other| other == name));
+        match columns {
+            [Some(position), Some(value), None] => Ok(Self { position, value, are_deflections: false }),
+            [Some(position), None, Some(value)] => Ok(Self { position, value, are_deflections: true }),
+            _ => {
+                let allowed = format!("{POSITION} and either {STIFFNESS} or {DEFLECTION}, separated by commas");
+                Err(not_allowed(line, "column names", names.join(","), allowed))
+            }
+        }
     }
 
     fn value_name(&self) -> &'static str {
@@ -121,7 +120,7 @@ impl Columns {
     }
 }
 
-impl Header {
+impl CurveHeader {
     fn take(&mut self, line: usize, key: &str, value: &str) -> Result<(), DataTableError> {
         match (key, value) {
             (FLATTENING, "included") => self.flattening_included = Some(true),

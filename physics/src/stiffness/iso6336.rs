@@ -1,4 +1,4 @@
-//! The single stiffness c' of ISO 6336-1: greatest stiffness of one tooth pair per mm of face width, flattening included.
+//! Single stiffness c' of ISO 6336-1, the greatest stiffness of one tooth pair per mm of face width, flattening included.
 //!
 //! ```text
 //! q'    = C1 + C2/z_n1 + C3/z_n2 + C4 x1 + C5 x1/z_n1 + C6 x2 + C7 x2/z_n2 + C8 x1² + C9 x2²     (µm·mm/N)
@@ -7,26 +7,25 @@
 //! C_B   = [1 + 0.5 (1.2 − h_fP/m_n)] [1 − 0.02 (20° − α_n)]
 //! ```
 //!
-//! Of all pairs in mesh, c_γα = c' (0.75 ε_α + 0.25), and c_γβ = 0.85 c_γα for the load distribution over the face width.
+//! The mesh stiffness of all pairs is c_γα = c' (0.75 ε_α + 0.25), and c_γβ = 0.85 c_γα for the load distribution over the face width.
 //!
 //! Gear 1 is the pinion, the gear with fewer teeth, whichever drives.
 //!
-//! Below 100 N/mm of line load c' falls with the fourth root of the load. The standard gives one value for the whole
-//! path of contact; so does this model.
+//! Below 100 N/mm of line load c' is proportional to the fourth root of the load. The value is constant along the path of contact.
 //!
 //! Source: ISO 6336-1, section on tooth stiffness (method B).
 
 use crate::gear::{Gear, PerGear, spec::PairSpec};
 use crate::material::Material;
 
-/// C1 … C9.
+/// Coefficients C1 … C9.
 const C: [f64; 9] = [0.04723, 0.15551, 0.25791, -0.00635, -0.11654, -0.00193, -0.24188, 0.00529, 0.00182];
 /// Young's modulus of the standard's steel, MPa.
 const STEEL_MPA: f64 = 206e3;
 /// Correction for the difference between measured and calculated deflection.
 const MEASURED: f64 = 0.8;
 
-/// c'_th in N/(mm·µm).
+/// Theoretical single stiffness c'_th in N/(mm·µm).
 pub(crate) fn theoretical_single_stiffness_n_per_mm_um(spec: &PairSpec) -> f64 {
     let smaller = if spec.gears.pinion.teeth <= spec.gears.wheel.teeth { Gear::Pinion } else { Gear::Wheel };
     let (x1, x2) = (spec.gears[smaller].profile_shift, spec.gears[smaller.mate()].profile_shift);
@@ -38,15 +37,15 @@ pub(crate) fn theoretical_single_stiffness_n_per_mm_um(spec: &PairSpec) -> f64 {
     1.0 / C.iter().zip(terms).map(|(c, term)| c * term).sum::<f64>()
 }
 
-/// c_γα/c', of a transverse contact ratio of at least 1.
+/// Ratio c_γα/c' for a transverse contact ratio of at least 1.
 pub fn mesh_over_single(transverse_contact_ratio: f64) -> f64 {
     0.75 * transverse_contact_ratio + 0.25
 }
 
-/// c_γβ/c_γα: the mesh stiffness of misaligned gears (K_Hβ) over that of dynamics and sharing.
+/// Ratio c_γβ/c_γα of the mesh stiffness for misalignment (K_Hβ) to that for dynamics and load sharing.
 pub const MISALIGNED_OVER_MESH: f64 = 0.85;
 
-/// c' in N per mm of approach and mm of face width.
+/// Single stiffness c' in N per mm of approach and mm of face width.
 pub fn single_stiffness_n_per_mm2(spec: &PairSpec, material: &PerGear<Material>, line_load_n_per_mm: f64) -> f64 {
     let rack = (1.0 + 0.5 * (1.2 - spec.rack.dedendum_factor))
         * (1.0 - 0.02 * (20.0 - spec.normal_pressure_angle_rad.to_degrees()));

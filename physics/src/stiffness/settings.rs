@@ -1,27 +1,27 @@
-//! What is asked of the tooth stiffness.
+//! Settings of the tooth stiffness.
 
-/// The model of the pair's stiffness along the path of contact.
+/// Model of the pair's stiffness along the path of contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StiffnessSettings {
-    /// One value for the combined spring of a tooth pair, without contact flattening.
+    /// Constant stiffness of a tooth pair, without contact flattening.
     Constant {
-        /// N per mm of approach and mm of face width (1 N/(mm·µm) is 1000 of these).
+        /// Stiffness in N per mm of approach and mm of face width (1 N/(mm·µm) is 1000 of these).
         pair_n_per_mm2: f64,
     },
     /// Weber and Banaschek's tooth and body terms on the generated profile.
     WeberBanaschek,
-    /// The single stiffness c' of ISO 6336-1.
+    /// Single stiffness c' of ISO 6336-1.
     Iso6336,
-    /// From finite elements: a calibration's curve.
+    /// Curve of a calibration by finite elements.
     Fem,
-    /// A curve that the user supplies, after Simon.
+    /// Curve after Simon, supplied by the user.
     Simon,
-    /// A curve that the user supplies, after Wang and Cheng.
+    /// Curve after Wang and Cheng, supplied by the user.
     WangCheng,
 }
 
 impl StiffnessSettings {
-    /// Its name in scenes and results.
+    /// Name in scenes and results.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Constant { .. } => "constant",

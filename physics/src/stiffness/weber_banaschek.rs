@@ -25,18 +25,18 @@ use crate::material::Material;
 /// Samples of the profile on fillet and flank each; the trapezoidal rule is then exact to about 1e-6.
 const SAMPLES: usize = 1500;
 
-/// A tooth ready to be loaded anywhere.
+/// Compliance of a tooth for any load line.
 #[derive(Debug, Clone)]
 pub struct ToothCompliance {
     tooth: Tooth,
     material: Material,
-    /// Where the tooth is held, on its centre line from the gear's axis, mm.
+    /// Foot of the tooth on its centre line, from the gear's axis, mm.
     foot_mm: f64,
     /// Height above the foot, increasing, mm.
     height_mm: Vec<f64>,
-    /// ∫ dy/(2x), ∫ dy/(2x)³, ∫ y dy/(2x)³, ∫ y² dy/(2x)³ up to each height.
+    /// Integrals ∫ dy/(2x), ∫ dy/(2x)³, ∫ y dy/(2x)³, ∫ y² dy/(2x)³ up to each height.
     integrals: Vec<[f64; 4]>,
-    /// s_F.
+    /// Root chord s_F.
     pub root_chord_mm: f64,
     /// Height of that chord above the foot.
     root_chord_height_mm: f64,
@@ -57,7 +57,7 @@ impl ToothCompliance {
                 let (dy, middle): (f64, f64) = (y - before, 0.5 * (y + before));
                 let thickness = last.x + point.x;
                 let cube = thickness.powi(3);
-                // ∫ y² over the piece is middle² dy + dy³/12: exact for a piece of even thickness.
+                // ∫ y² dy over a piece of constant thickness is middle² dy + dy³/12.
                 let square = middle * middle + dy * dy / 12.0;
                 for (sum, part) in
                     total.iter_mut().zip([dy / thickness, dy / cube, middle * dy / cube, square * dy / cube])
@@ -85,7 +85,7 @@ impl ToothCompliance {
         self.along_mm2_per_n(&self.tooth.load_line(rho_mm))
     }
 
-    /// The same for any load.
+    /// Deflection of tooth and body over line load, for any load line.
     pub(crate) fn along_mm2_per_n(&self, load: &LoadLine) -> f64 {
         let y_p = load.centre_line_mm - self.foot_mm;
         let nu = self.material.poisson_ratio;
@@ -101,7 +101,7 @@ impl ToothCompliance {
         cos2 / self.material.young_modulus_mpa * (tooth + body)
     }
 
-    /// The integrals up to height `y_mm`; zeros at or below the foot.
+    /// Integrals up to height `y_mm`; zeros at or below the foot.
     fn integrals_at(&self, y_mm: f64) -> [f64; 4] {
         let after = self.height_mm.partition_point(|&y| y <= y_mm).clamp(1, self.height_mm.len() - 1);
         let (low, high) = (self.height_mm[after - 1], self.height_mm[after]);
@@ -113,18 +113,20 @@ impl ToothCompliance {
     }
 }
 
-/// Where the fillet's tangent makes 30° with the tooth's centre line, in the tooth's frame; the end of the fillet where
-/// none does.
+/// Angle of the fillet's tangent to the tooth's centre line less 30°, rad.
+fn beyond_thirty_degrees(tooth: &Tooth, t: f64) -> f64 {
+    let tangent = Rotation2::new(PI / f64::from(tooth.teeth)) * tooth.trochoid.tangent(t);
+    tangent.x.atan2(tangent.y) - 30f64.to_radians()
+}
+
+/// Point of the fillet with a tangent at 30° to the tooth's centre line, in the tooth's frame; the end of the fillet where
+/// there is none.
 fn thirty_degree_point(tooth: &Tooth) -> Vector2<f64> {
-    let steepness = |t: f64| {
-        let tangent = Rotation2::new(PI / f64::from(tooth.teeth)) * tooth.trochoid.tangent(t);
-        tangent.x.atan2(tangent.y) - 30f64.to_radians()
-    };
     let (mut flat, mut steep) = (FRAC_PI_2, tooth.fillet_end_angle_rad);
-    if steepness(steep) < 0.0 {
+    if beyond_thirty_degrees(tooth, steep) < 0.0 {
         for _ in 0..80 {
             let middle = 0.5 * (flat + steep);
-            if steepness(middle) > 0.0 {
+            if beyond_thirty_degrees(tooth, middle) > 0.0 {
                 flat = middle;
             } else {
                 steep = middle;

@@ -9,7 +9,7 @@
 //!
 //! Source: E. P. Kingsbury (1958); S. Wu and H. S. Cheng (1991, 1993); the thesis, equations 13–19.
 
-use super::{ContactConditions, WearLaw};
+use super::{ContactConditions, LawConstants, LocalContact, WearLaw};
 
 /// R, J/(mol·K).
 pub(super) const MOLAR_GAS_CONSTANT: f64 = 8.314_462_618;
@@ -51,11 +51,26 @@ impl AdsorptionConstants {
     }
 }
 
+impl LawConstants for AdsorptionConstants {
+    fn typical(&self) -> Vec<&'static str> {
+        let typical = Self::TYPICAL;
+        let keys = [
+            ("molecule_diameter_nm", self.molecule_diameter_mm == typical.molecule_diameter_mm),
+            ("vibration_time_ps", self.vibration_time_s == typical.vibration_time_s),
+            (
+                "heat_of_adsorption_kJ_per_mol",
+                self.heat_of_adsorption_j_per_mol == typical.heat_of_adsorption_j_per_mol,
+            ),
+        ];
+        keys.into_iter().filter(|(_, is_typical)| *is_typical).map(|(key, _)| key).collect()
+    }
+}
+
 impl WearLaw for Adsorption {
     const READS_CONDITIONS: bool = true;
 
-    fn coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64 {
-        let unprotected = conditions.map_or(1.0, |conditions| self.constants.unprotected(conditions));
+    fn coefficient_mm2_per_n(&self, at: &LocalContact) -> f64 {
+        let unprotected = at.conditions.map_or(1.0, |conditions| self.constants.unprotected(conditions));
         self.coefficient_mm2_per_n * unprotected
     }
 }

@@ -6,7 +6,7 @@
 //!
 //! Source: J. F. Archard (1953); the thesis, equations 9–12.
 
-use super::{ContactConditions, WearLaw};
+use super::{LocalContact, WearLaw};
 
 /// dh = k p ds at every point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +18,7 @@ pub(crate) struct Archard {
 impl WearLaw for Archard {
     const READS_CONDITIONS: bool = false;
 
-    fn coefficient_mm2_per_n(&self, _surroundings: Option<ContactConditions>) -> f64 {
+    fn coefficient_mm2_per_n(&self, _at: &LocalContact) -> f64 {
         self.coefficient_mm2_per_n
     }
 }

@@ -3,7 +3,7 @@
 //! Every law here has the form of the generalised Archard law with a coefficient of its own,
 //!
 //! ```text
-//! dh = C(p) · f(λ) · k(v, T) · p ds
+//! dh = C(p) · f(λ) · k(p, v, T, λ) · p ds
 //! ```
 //!
 //! and a new one is a file that implements [`WearLaw`]. The severe transition C(p) (`severe`) and the factor f of the film of oil
@@ -34,13 +34,33 @@ pub struct ContactConditions {
     pub temperature_k: f64,
 }
 
+/// Contact at a flank point, as a wear law sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocalContact {
+    /// Pressure, MPa.
+    pub pressure_mpa: f64,
+    /// Sliding speed and temperature; none for laws that do not read them.
+    pub conditions: Option<ContactConditions>,
+    /// λ; none where wear does not follow the film.
+    pub lambda: Option<f64>,
+}
+
 /// A local wear law.
 pub trait WearLaw: Sync {
     /// Whether the coefficient depends on the [`ContactConditions`].
     const READS_CONDITIONS: bool;
 
-    /// Depth per pressure and sliding distance, mm²/N. Laws that do not read the conditions get none.
-    fn coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64;
+    /// Depth per pressure and sliding distance, mm²/N.
+    fn coefficient_mm2_per_n(&self, at: &LocalContact) -> f64;
+}
+
+/// Constants of a law, with the facts that a scene and a report state of it.
+pub(crate) trait LawConstants {
+    /// Contact temperatures between which the law holds, °C; none where it has no bounds.
+    const VALID_TEMPERATURE_C: Option<[f64; 2]> = None;
+
+    /// Keys of the constants that have a typical value, which is an order of magnitude and not measured.
+    fn typical(&self) -> Vec<&'static str>;
 }
 
 /// Pressure, sliding and conditions of consecutive points of a flank at one loading position, in rows of the same length.
@@ -77,7 +97,7 @@ pub trait FlankWear: Sync {
     fn film(&self) -> Option<&FilmDependence>;
 
     /// Depth per pressure and sliding distance of mild wear without a film, mm²/N.
-    fn mild_coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64;
+    fn mild_coefficient_mm2_per_n(&self, at: &LocalContact) -> f64;
 }
 
 /// A law with the factors of severe wear and of the film.
@@ -98,38 +118,31 @@ impl<L: WearLaw> WithFactors<L> {
         Self { law, severe: None, film: None }
     }
 
-    /// Adds the depth that each point loses, with the factor `thin` of the film at the point's index.
-    fn add(&self, row: &SlidingRow<'_>, depth_mm: &mut [f64], thin: impl Fn(usize) -> f64) {
-        let points = row.pressure_mpa.iter().zip(row.sliding_mm);
-        if L::READS_CONDITIONS {
-            let conditions = row.conditions.expect("rows of a law that reads the conditions have them");
-            for (index, ((depth, point), own)) in depth_mm.iter_mut().zip(points).zip(conditions).enumerate() {
-                *depth += self.depth_mm(point, self.law.coefficient_mm2_per_n(Some(*own)), thin(index));
-            }
-        } else {
-            let k = self.law.coefficient_mm2_per_n(None);
-            for (index, (depth, point)) in depth_mm.iter_mut().zip(points).enumerate() {
-                *depth += self.depth_mm(point, k, thin(index));
-            }
+    /// Adds the depth that each point loses, with λ and the factor of the film at the point's index.
+    fn add(&self, row: &SlidingRow<'_>, depth_mm: &mut [f64], film: impl Fn(usize) -> (Option<f64>, f64)) {
+        let conditions = row.conditions.filter(|_| L::READS_CONDITIONS);
+        assert!(conditions.is_some() || !L::READS_CONDITIONS, "rows of a law that reads the conditions have them");
+        let points = depth_mm.iter_mut().zip(row.pressure_mpa.iter().zip(row.sliding_mm));
+        for (index, (depth, (&pressure_mpa, &sliding_mm))) in points.enumerate() {
+            let (lambda, thin) = film(index);
+            let at = LocalContact { pressure_mpa, conditions: conditions.map(|row| row[index]), lambda };
+            let factor = thin * self.severe.as_ref().map_or(1.0, |severe| severe.factor_at(pressure_mpa));
+            *depth += factor * self.law.coefficient_mm2_per_n(&at) * pressure_mpa * sliding_mm;
         }
-    }
-
-    /// Depth that a point loses under a pressure over a sliding distance, with the coefficient `k` and the factor `thin` of the film.
-    fn depth_mm(&self, (&pressure, &sliding): (&f64, &f64), k: f64, thin: f64) -> f64 {
-        let factor = thin * self.severe.as_ref().map_or(1.0, |severe| severe.factor_at(pressure));
-        factor * k * pressure * sliding
     }
 }
 
 impl<L: WearLaw> FlankWear for WithFactors<L> {
     fn add_depth(&self, row: &SlidingRow<'_>, depth_mm: &mut [f64]) {
         match self.film.as_ref().zip(row.lambda) {
-            None => self.add(row, depth_mm, |_| 1.0),
+            None => self.add(row, depth_mm, |_| (None, 1.0)),
             Some((film, Lambda::OfAll(lambda))) => {
                 let thin = film.factor_at(lambda);
-                self.add(row, depth_mm, |_| thin);
+                self.add(row, depth_mm, |_| (Some(lambda), thin));
             }
-            Some((film, Lambda::OfEach(lambda))) => self.add(row, depth_mm, |index| film.factor_at(lambda[index])),
+            Some((film, Lambda::OfEach(lambda))) => {
+                self.add(row, depth_mm, |index| (Some(lambda[index]), film.factor_at(lambda[index])));
+            }
         }
     }
 
@@ -141,8 +154,8 @@ impl<L: WearLaw> FlankWear for WithFactors<L> {
         L::READS_CONDITIONS
     }
 
-    fn mild_coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64 {
-        self.law.coefficient_mm2_per_n(conditions)
+    fn mild_coefficient_mm2_per_n(&self, at: &LocalContact) -> f64 {
+        self.law.coefficient_mm2_per_n(at)
     }
 }
 

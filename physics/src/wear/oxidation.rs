@@ -12,7 +12,7 @@
 //!
 //! Source: T. F. J. Quinn (1962); the thesis, equations 20–25, which hold for contact temperatures of about 200 to 400 °C.
 
-use super::{ContactConditions, WearLaw, adsorption::MOLAR_GAS_CONSTANT};
+use super::{ContactConditions, LawConstants, LocalContact, WearLaw, adsorption::MOLAR_GAS_CONSTANT};
 
 /// M_Fe, g/mol.
 const IRON: f64 = 55.845;
@@ -63,9 +63,6 @@ pub struct Oxidation {
     pub constants: OxidationConstants,
 }
 
-/// Contact temperatures for which the law holds, °C (thesis, equation 21).
-pub(crate) const VALID_TEMPERATURE_C: [f64; 2] = [200.0, 400.0];
-
 impl OxidationConstants {
     /// Orders of magnitude for iron, not the constants of any steel: they differ by many powers of ten between static and rubbed
     /// surfaces. The density is that of iron.
@@ -84,11 +81,24 @@ impl OxidationConstants {
     }
 }
 
+impl LawConstants for OxidationConstants {
+    // The thesis, equation 21.
+    const VALID_TEMPERATURE_C: Option<[f64; 2]> = Some([200.0, 400.0]);
+
+    fn typical(&self) -> Vec<&'static str> {
+        let typical = Self::TYPICAL;
+        let arrhenius = self.arrhenius_constant_kg_per_m2_s == typical.arrhenius_constant_kg_per_m2_s;
+        let energy = self.activation_energy_j_per_mol == typical.activation_energy_j_per_mol;
+        let keys = [("arrhenius_constant_kg_per_m2s", arrhenius), ("activation_energy_kJ_per_mol", energy)];
+        keys.into_iter().filter(|(_, is_typical)| *is_typical).map(|(key, _)| key).collect()
+    }
+}
+
 impl WearLaw for Oxidation {
     const READS_CONDITIONS: bool = true;
 
-    fn coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64 {
-        match conditions {
+    fn coefficient_mm2_per_n(&self, at: &LocalContact) -> f64 {
+        match at.conditions {
             // Speeds are means over the distance that a point slides, so that ds/v is the time it takes: none without sliding.
             Some(ContactConditions { sliding_speed_mm_per_s, temperature_k }) if sliding_speed_mm_per_s > 0.0 => {
                 self.coefficient_mm2_per_n * self.constants.growth_mm_per_s(temperature_k) / sliding_speed_mm_per_s

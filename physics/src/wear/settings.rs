@@ -1,9 +1,9 @@
 //! Settings of the wear laws.
 
-use super::WearLaw;
 use super::adsorption::{Adsorption, AdsorptionConstants};
 use super::archard::Archard;
-use super::oxidation::{Oxidation, OxidationConstants, VALID_TEMPERATURE_C};
+use super::oxidation::{Oxidation, OxidationConstants};
+use super::{LawConstants, WearLaw};
 use crate::gear::{Gear, PerGear};
 use crate::lubrication::settings::FilmRatio;
 use crate::reference::linear_means::value_at;
@@ -89,41 +89,19 @@ impl LawSettings {
     /// Contact temperatures between which the law holds, °C; none where it has no bounds.
     pub fn valid_temperature_c(&self) -> Option<[f64; 2]> {
         match self {
-            LawSettings::Oxidation(_) => Some(VALID_TEMPERATURE_C),
-            LawSettings::Archard | LawSettings::Adsorption(_) => None,
+            LawSettings::Archard => None,
+            LawSettings::Adsorption(_) => AdsorptionConstants::VALID_TEMPERATURE_C,
+            LawSettings::Oxidation(_) => OxidationConstants::VALID_TEMPERATURE_C,
         }
     }
 
-    /// Names of the constants that have the program's typical value, which is an order of magnitude and not measured.
+    /// Keys of the constants that have the program's typical value, which is an order of magnitude and not measured.
     pub fn typical_constants(&self) -> Vec<&'static str> {
-        let at_typical: Vec<(&'static str, bool)> = match self {
+        match self {
             LawSettings::Archard => Vec::new(),
-            LawSettings::Adsorption(own) => {
-                let typical = AdsorptionConstants::TYPICAL;
-                vec![
-                    ("molecule_diameter_nm", own.molecule_diameter_mm == typical.molecule_diameter_mm),
-                    ("vibration_time_ps", own.vibration_time_s == typical.vibration_time_s),
-                    (
-                        "heat_of_adsorption_kJ_per_mol",
-                        own.heat_of_adsorption_j_per_mol == typical.heat_of_adsorption_j_per_mol,
-                    ),
-                ]
-            }
-            LawSettings::Oxidation(own) => {
-                let typical = OxidationConstants::TYPICAL;
-                vec![
-                    (
-                        "arrhenius_constant_kg_per_m2s",
-                        own.arrhenius_constant_kg_per_m2_s == typical.arrhenius_constant_kg_per_m2_s,
-                    ),
-                    (
-                        "activation_energy_kJ_per_mol",
-                        own.activation_energy_j_per_mol == typical.activation_energy_j_per_mol,
-                    ),
-                ]
-            }
-        };
-        at_typical.into_iter().filter(|(_, typical)| *typical).map(|(name, _)| name).collect()
+            LawSettings::Adsorption(own) => own.typical(),
+            LawSettings::Oxidation(own) => own.typical(),
+        }
     }
 }
 

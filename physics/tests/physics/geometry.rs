@@ -5,7 +5,7 @@ use gearwear_physics::gear::{
     Gear, PairError,
     flank_zones::{FlankZone, FlankZones},
     modification::{Modification, Relief, ReliefShape},
-    outline::{Curve, outline},
+    outline::{OutlineCurve, outline},
     removed_material::{removed_mm, tip_rounding_length_mm},
     tooth::Tooth,
 };
@@ -35,8 +35,8 @@ fn check_outline(spec: &gearwear_physics::gear::spec::PairSpec) {
             let next = &pieces[(k + 1) % pieces.len()];
             let jump = (piece.point_mm(1.0) - next.point_mm(0.0)).norm();
             assert!(jump < 1e-9, "{g:?} {:?}-{:?}: jump {jump:e}", piece.curve, next.curve);
-            let corner = matches!((piece.curve, next.curve), (Curve::TipArc, _) | (_, Curve::TipArc))
-                || (tooth.undercut && piece.curve != Curve::RootArc && next.curve != Curve::RootArc);
+            let corner = matches!((piece.curve, next.curve), (OutlineCurve::TipArc, _) | (_, OutlineCurve::TipArc))
+                || (tooth.undercut && piece.curve != OutlineCurve::RootArc && next.curve != OutlineCurve::RootArc);
             let (before, after) = (piece.tangent(1.0), next.tangent(0.0));
             if !corner {
                 assert!(

@@ -72,7 +72,7 @@ fn against_curvature(calibration: &Calibration, criterion: MatchCriterion) -> Ch
         // Along the path: the depth of the closed form is another towards A than towards E.
         let (x, y) = (own().map(|c| c.relative_radius_mm), own().map(|c| c.hertz_mpa_per_mm(criterion)));
         let hertz = Trace::line(format!("Hertz, {group}"), x, y, (&*colour, 1.4, Dash::Dashed)).group(&group);
-        chart = chart.add(hertz.set("showlegend", k == 0).hover("%{y:.4g} MPa/mm, Hertz"));
+        chart = chart.add(hertz.listed(k == 0).hover("%{y:.4g} MPa/mm, Hertz"));
         for (side, end, symbol) in [(false, "A", "circle"), (true, "E", "diamond-open")] {
             let own = || own().filter(|contact| (contact.position_mm > top_mm.1) == side);
             let (x, y) = (own().map(|c| c.relative_radius_mm), own().map(|c| c.mpa_per_mm(criterion)));
@@ -130,7 +130,7 @@ fn errors(calibration: &Calibration, criterion: MatchCriterion) -> Chart {
         let (x, y) = (rows().map(|row| row.position_mm), rows().map(|row| 100.0 * row.matched_error(criterion)));
         let points = Trace::points(name, x, y, (colour, symbol, 6));
         let loads = rows().map(|row| format!("{} N/mm", figure(row.line_load_n_per_mm)));
-        points.set("text", loads.collect::<Vec<_>>()).hover("%{y:.3f} %, %{text}")
+        points.texts(loads.collect()).hover("%{y:.3f} %, %{text}")
     });
     Chart::new(format!("fit-{}", criterion.name()), format!("Error of the fit on the {}", words(criterion)))
         .y(&format!("error of the {}, %", words(criterion)))

@@ -104,7 +104,7 @@ fn pressure(record: &FemPairRecord) -> Chart {
         let x = sharp.iter().map(|row| row.pair_position_mm);
         let said = sharp.iter().map(|row| format!("{} MPa, singular", figure(row.peak_pressure_MPa)));
         let marks = Trace::points("at a sharp tip edge", x, shown, (WORN, "triangle-up-open", 6));
-        chart = chart.add(marks.set("text", said.collect::<Vec<_>>()).hover("%{text}"));
+        chart = chart.add(marks.texts(said.collect()).hover("%{text}"));
     }
     let new = &record.summary.new;
     let at_c = match (new.pitch_pressure_MPa, new.pitch_hertz_pressure_MPa) {

@@ -1,411 +1,338 @@
-//! A chart as SVG: frame, grid, curves, maps, bars, marks and legend, with the names and ranges that the page gives them.
+//! A chart as a drawing: frame, grid, traces, marks, colour scale and legend.
 
-use serde_json::{Value, json};
-
-use super::axis::Axis;
-use super::palette::{colour, of_scale};
+use super::axis::PlacedAxis;
+use super::picture::{Anchor, Group, Medium, Moves, Node, Path, Picture, Step, Words};
+use super::sign;
 use crate::reference::statistics::extent;
-use crate::report::chart::{Chart, INK, MUTED, Trace, TraceKind};
+use crate::report::chart::{BarPlaces, Chart, Dash, Drawn, Field, INK, Label, Line, MUTED, Shown, Trace};
 
-/// Widths of figures: over half of a page, over a whole one.
-const WIDTH_PX: [f64; 2] = [640.0, 1080.0];
-const LEFT: f64 = 76.0;
-const RIGHT: f64 = 18.0;
-/// With a scale of colours.
-const RIGHT_OF_MAP: f64 = 104.0;
-const TOP: f64 = 62.0;
+const GRID: &str = "var(--grid)";
+const RULE: &str = "var(--rule)";
+
+/// Widths of drawings in files: over half of a page, over a whole one.
+const FILE_WIDTH_PX: [f64; 2] = [640.0, 1080.0];
+/// The same in a page on a wide screen, beside one another and alone.
+const PAGE_WIDTH_PX: [f64; 2] = [532.0, 1104.0];
+/// Above the plot, for the names of marks; in a file for the title too.
+const ABOVE: [f64; 2] = [62.0, 24.0];
 /// Below the plot, for ticks and the axis's name.
 const BELOW: f64 = 54.0;
+/// Left of the plot: the axis's name and the longest of its ticks.
+const AXIS_NAME: f64 = 34.0;
+const RIGHT: f64 = 18.0;
+/// With a scale of colours.
+const RIGHT_OF_FIELD: f64 = 96.0;
+const TICK_SIZE: f64 = 12.0;
 const LEGEND_ROW: f64 = 20.0;
 const LEGEND_SIGN: f64 = 30.0;
 /// Mean width of a character over the size of the font.
 const CHARACTER: f64 = 0.6;
-/// Colours of a map.
-const LEVELS: usize = 256;
+/// Least distances of ticks across and upwards, px.
+pub(super) const TICK_SPACING: [f64; 2] = [64.0, 42.0];
 
-/// The whole drawing.
-pub(super) fn svg(chart: &Chart) -> String {
-    Drawing::new(chart).finish()
+pub(super) struct Drawing<'a> {
+    pub chart: &'a Chart,
+    pub x: PlacedAxis<'a>,
+    pub y: PlacedAxis<'a>,
+    pub picture: Picture,
+    /// Traces that are drawn as charts are first shown.
+    drawn: Vec<&'a Trace>,
+    below: f64,
 }
 
-struct Drawing<'a> {
-    chart: &'a Chart,
-    width: f64,
-    height: f64,
-    /// Left, top, right and bottom of the plot.
-    frame: [f64; 4],
-    x: Axis,
-    y: Axis,
-    legend: Vec<Vec<&'a Trace>>,
-    text: String,
+pub(super) fn is_shown(trace: &Trace) -> bool {
+    trace.shown == Shown::FromTheBeginning
 }
 
-fn is_drawn(trace: &Trace) -> bool {
-    trace.get("visible").is_null() || trace.get("visible") == true
+/// The bars of a chart are across or upwards, all of them.
+fn names_of_bars(drawn: &[&Trace], is_horizontal: bool) -> Vec<String> {
+    let mut all: Vec<String> = Vec::new();
+    for trace in drawn {
+        let Drawn::Bars(bars) = &trace.drawn else { continue };
+        let BarPlaces::Named(names) = &bars.places else { continue };
+        for name in names.iter().filter(|_| bars.is_horizontal == is_horizontal) {
+            if !all.contains(name) {
+                all.push(name.clone());
+            }
+        }
+    }
+    all
 }
 
-fn numbers(values: &Value) -> impl Iterator<Item = f64> + '_ {
-    values.as_array().into_iter().flatten().map(|value| value.as_f64().unwrap_or(f64::NAN))
-}
-
-fn name(trace: &Trace) -> &str {
-    trace.get("name").as_str().unwrap_or_default()
-}
-
-fn width_of(text: &str, size: f64) -> f64 {
-    text.chars().count() as f64 * CHARACTER * size
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
-}
-
-fn dash(line: &Value) -> &'static str {
-    match line["dash"].as_str() {
-        Some("dash") => " stroke-dasharray=\"9 6\"",
-        Some("dot") => " stroke-dasharray=\"2 4\"",
-        Some("dashdot") => " stroke-dasharray=\"9 4 2 4\"",
-        _ => "",
+/// Values of a trace along an axis, 0 across and 1 upwards.
+fn values(trace: &Trace, axis: usize) -> Vec<f64> {
+    match &trace.drawn {
+        Drawn::Curve(curve) if axis == 0 => curve.x.clone(),
+        Drawn::Curve(curve) if curve.uncertainty.is_empty() => curve.y.clone(),
+        Drawn::Curve(curve) => {
+            let ends = curve.y.iter().zip(&curve.uncertainty).flat_map(|(y, half)| [y - half, y + half]);
+            ends.collect()
+        }
+        Drawn::Bars(bars) => match (&bars.places, (axis == 1) != bars.is_horizontal) {
+            (_, true) => bars.ends().chain([0.0]).collect(),
+            (BarPlaces::Named(_), false) => Vec::new(),
+            (BarPlaces::At { middles, width }, false) => {
+                middles.iter().flat_map(|middle| [middle - 0.5 * width, middle + 0.5 * width]).collect()
+            }
+        },
+        Drawn::Cells(field) | Drawn::Contours(field) => [&field.x, &field.y][axis].clone(),
+        Drawn::Surface(_) => Vec::new(),
     }
 }
 
-fn stroke(line: &Value) -> String {
-    let paint = colour(line["color"].as_str().unwrap_or(INK));
-    format!("stroke=\"{paint}\" stroke-width=\"{}\"{}", line["width"].as_f64().unwrap_or(2.0), dash(line))
-}
-
 impl<'a> Drawing<'a> {
-    fn new(chart: &'a Chart) -> Self {
-        let layout = chart.layout();
-        let width = WIDTH_PX[usize::from(chart.is_wide)];
-        let drawn: Vec<&Trace> = chart.traces().filter(|trace| is_drawn(trace)).collect();
-        let has_map = drawn.iter().any(|trace| trace.kind == TraceKind::HeatMap);
-        let has_bars = drawn.iter().any(|trace| trace.kind == TraceKind::Bar);
-        let right = width - if has_map { RIGHT_OF_MAP } else { RIGHT };
-        let legend = if layout["showlegend"] == false { Vec::new() } else { legend_rows(&drawn, right - LEFT) };
-        let bottom = layout["height"].as_f64().unwrap_or(380.0) - BELOW + 20.0;
-        let height = bottom + BELOW + legend.len() as f64 * LEGEND_ROW;
-        let mut categories: Vec<String> = Vec::new();
-        for name in
-            drawn.iter().flat_map(|trace| trace.get("x").as_array().into_iter().flatten()).filter_map(Value::as_str)
-        {
-            if !categories.iter().any(|known| known == name) {
-                categories.push(name.to_owned());
-            }
-        }
-        let values = |key| drawn.iter().flat_map(move |trace| numbers(trace.get(key)));
-        let from_zero = has_bars.then_some(0.0);
-        let x = Axis::new(&layout["xaxis"], values("x"), categories, has_map).placed(LEFT, right);
-        let y = Axis::new(&layout["yaxis"], values("y").chain(from_zero), Vec::new(), has_map).placed(bottom, TOP);
-        let (x, y) = match layout["yaxis"]["scaleanchor"] == "x" {
+    pub(super) fn new(chart: &'a Chart, medium: Medium) -> Self {
+        let drawn: Vec<&Trace> = chart.traces.iter().filter(|trace| is_shown(trace)).collect();
+        let is_field = |trace: &&Trace| matches!(trace.drawn, Drawn::Cells(_) | Drawn::Contours(_));
+        let has_field = drawn.iter().any(is_field);
+        let (widths, above, legend_height) = match medium {
+            Medium::File => (FILE_WIDTH_PX, ABOVE[0], 0.0),
+            // In a page the legend takes a part of the height.
+            Medium::Page => (PAGE_WIDTH_PX, ABOVE[1], if chart.has_legend { 24.0 } else { 0.0 }),
+        };
+        let width = widths[usize::from(chart.is_wide)];
+        let bottom = chart.height_px as f64 - BELOW + if medium == Medium::File { 20.0 } else { -legend_height };
+        let along = |axis: usize| drawn.iter().flat_map(move |trace| values(trace, axis));
+        let y = PlacedAxis::new(&chart.y, along(1), names_of_bars(&drawn, true), has_field).placed(bottom, above);
+        let longest =
+            y.ticks(TICK_SPACING[1]).iter().flat_map(|(_, label)| label.lines().map(width_of)).fold(0.0, f64::max);
+        let name = if chart.y.title.is_empty() { 14.0 } else { AXIS_NAME };
+        let left = (name + longest).max(62.0);
+        let right = width - if has_field { RIGHT_OF_FIELD } else { RIGHT };
+        let x = PlacedAxis::new(&chart.x, along(0), names_of_bars(&drawn, false), has_field).placed(left, right);
+        let (x, y) = match chart.is_to_scale {
             true => {
                 let unit = x.unit_px().min(y.unit_px());
                 (x.with_unit(unit), y.with_unit(unit))
             }
             false => (x, y),
         };
-        Self { chart, width, height, frame: [LEFT, TOP, right, bottom], x, y, legend, text: String::new() }
+        let picture = Picture {
+            id: chart.id.clone(),
+            title: chart.title.clone(),
+            medium,
+            size: [width, bottom + BELOW],
+            frame: [left, above, right, bottom],
+            nodes: Vec::new(),
+        };
+        Self { chart, x, y, picture, drawn, below: bottom + BELOW }
     }
 
-    fn add(&mut self, text: impl AsRef<str>) {
-        self.text.push_str(text.as_ref());
-        self.text.push('\n');
+    /// Ranges of both axes around all that is shown.
+    pub(super) fn whole(&self) -> [[f64; 2]; 2] {
+        let tight = self.drawn.iter().any(|trace| matches!(trace.drawn, Drawn::Cells(_) | Drawn::Contours(_)));
+        let along = |axis: usize| self.drawn.iter().flat_map(move |trace| values(trace, axis));
+        [self.x.around(along(0), tight), self.y.around(along(1), tight)]
     }
 
-    fn words(&mut self, text: &str, [x, y]: [f64; 2], anchor: &str, size: f64, paint: &str) {
-        let (text, paint) = (escaped(text), colour(paint));
-        self.add(format!(
-            "<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"{anchor}\" font-size=\"{size}\" fill=\"{paint}\">{text}</text>"
-        ));
-    }
-
-    fn finish(mut self) -> String {
-        let (width, height) = (self.width, self.height);
-        let [left, top, right, bottom] = self.frame;
-        let (across, up) = (right - left, bottom - top);
-        self.add(format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
-             font-family=\"DejaVu Sans, Verdana, sans-serif\">"
-        ));
-        self.add(format!("<title>{}</title>", escaped(&self.chart.title)));
-        self.add(format!("<rect width=\"{width}\" height=\"{height}\" fill=\"{}\"/>", colour("var(--paper)")));
-        self.add(format!(
-            "<clipPath id=\"plot\"><rect x=\"{left}\" y=\"{top}\" width=\"{across}\" height=\"{up}\"/></clipPath>"
-        ));
-        let chart = self.chart;
-        self.words(&chart.title, [left, 24.0], "start", 16.0, INK);
+    /// Draws everything.
+    pub(super) fn finished(mut self) -> Self {
+        if self.picture.medium == Medium::File {
+            let [width, legend] = [self.picture.size[0], self.legend_rows().len() as f64 * LEGEND_ROW];
+            self.picture.size[1] += legend;
+            let [left, ..] = self.picture.frame;
+            let paper = rectangle([0.0, 0.0, width, self.picture.size[1]]);
+            self.filled(paper, "var(--paper)");
+            self.words(&self.chart.title.clone(), [left, 24.0], (Anchor::Start, 16.0, INK), Moves::No);
+        }
         self.axes();
+        self.titles();
         self.marks();
-        self.add("<g clip-path=\"url(#plot)\" stroke-linejoin=\"round\">");
-        self.bars();
-        for trace in chart.traces().filter(|trace| is_drawn(trace)) {
-            match trace.kind {
-                TraceKind::Scatter => self.curve(trace),
-                TraceKind::HeatMap => self.map(trace),
-                TraceKind::Bar | TraceKind::Contour | TraceKind::Surface => {}
+        self.group(Group { is_clipped: true, ..Group::named("area") }, Self::traces);
+        for trace in self.drawn.clone() {
+            if let Drawn::Cells(field) | Drawn::Contours(field) = &trace.drawn {
+                self.colour_scale(field);
             }
         }
-        self.add("</g>");
-        let frame = colour("var(--rule)");
-        self.add(format!("<path d=\"M{left} {top}V{bottom}H{right}\" fill=\"none\" stroke=\"{frame}\"/>"));
-        self.annotations();
-        self.entries();
-        self.add("</svg>");
-        self.text
+        let [left, top, right, bottom] = self.picture.frame;
+        let corner = vec![Step::Move([left, top]), Step::Line([left, bottom]), Step::Line([right, bottom])];
+        self.group(Group::named("corner"), |drawing| drawing.stroked(corner, (RULE, 1.0, Dash::Solid)));
+        self.labels();
+        if self.picture.medium == Medium::File {
+            self.legend();
+        }
+        self
     }
 
-    fn axes(&mut self) {
-        let [left, top, right, bottom] = self.frame;
-        let (grid, rule) = (colour("var(--grid)"), colour("var(--rule)"));
-        for (x, label) in self.x.ticks(80.0) {
-            if self.x.has_grid && self.x.categories.is_empty() {
-                self.add(format!("<path d=\"M{x:.2} {top}V{bottom}\" stroke=\"{grid}\"/>"));
-            }
-            self.add(format!("<path d=\"M{x:.2} {bottom}v4\" stroke=\"{rule}\"/>"));
-            self.words(&label, [x, bottom + 18.0], "middle", 12.0, INK);
-        }
-        for (y, label) in self.y.ticks(48.0) {
-            if self.y.has_grid {
-                self.add(format!("<path d=\"M{left} {y:.2}H{right}\" stroke=\"{grid}\"/>"));
-            }
-            self.add(format!("<path d=\"M{left} {y:.2}h-4\" stroke=\"{rule}\"/>"));
-            self.words(&label, [left - 8.0, y + 4.0], "end", 12.0, INK);
-        }
-        let (x_title, y_title) = (self.x.title.clone(), self.y.title.clone());
-        self.words(&x_title, [left.midpoint(right), bottom + 38.0], "middle", 13.0, INK);
-        self.add(format!("<g transform=\"translate(18 {:.2}) rotate(-90)\">", top.midpoint(bottom)));
-        self.words(&y_title, [0.0, 0.0], "middle", 13.0, INK);
-        self.add("</g>");
-    }
-
-    /// The vertical lines at named places.
-    fn marks(&mut self) {
-        let [_, top, _, bottom] = self.frame;
-        for shape in self.chart.layout()["shapes"].as_array().into_iter().flatten() {
-            let x = self.x.at(shape["x0"].as_f64().unwrap_or(f64::NAN));
-            if x.is_finite() {
-                self.add(format!("<path d=\"M{x:.2} {top}V{bottom}\" {}/>", stroke(&shape["line"])));
-            }
-        }
-    }
-
-    fn annotations(&mut self) {
-        for note in self.chart.layout()["annotations"].as_array().into_iter().flatten() {
-            let place = |axis: &Axis, key: &str, reference: &str| {
-                let value = note[key].as_f64().unwrap_or(f64::NAN);
-                if note[reference] == "paper" { axis.at_share(value) } else { axis.at_exponent(value) }
-            };
-            let (x, y) = (place(&self.x, "x", "xref"), place(&self.y, "y", "yref"));
-            let [left, top, right, bottom] = self.frame;
-            let is_inside = (left - 1.0..=right + 40.0).contains(&x) && (top - 1.0..=bottom + 1.0).contains(&y);
-            if !is_inside {
+    fn traces(&mut self) {
+        let mut bars_drawn = 0;
+        for (number, trace) in self.chart.traces.iter().enumerate() {
+            if self.picture.medium == Medium::File && !is_shown(trace) {
                 continue;
             }
-            let size = note["font"]["size"].as_f64().unwrap_or(12.0);
-            let anchor = match note["xanchor"].as_str() {
-                Some("left") => "start",
-                Some("right") => "end",
-                _ => "middle",
-            };
-            let below = match note["yanchor"].as_str() {
-                Some("bottom") => -4.0,
-                Some("top") => size,
-                _ => 0.35 * size,
-            };
-            let text = note["text"].as_str().unwrap_or_default();
-            self.words(text, [x, y + below], anchor, size, note["font"]["color"].as_str().unwrap_or(MUTED));
+            let (opacity, is_hidden) = (trace.opacity, !is_shown(trace));
+            let group = Group { trace: Some(number), is_hidden, opacity, ..Group::named("trace") };
+            self.group(group, |drawing| drawing.trace(trace, &mut bars_drawn));
         }
     }
 
-    fn points(&self, trace: &Trace) -> Vec<[f64; 2]> {
-        numbers(trace.get("x")).zip(numbers(trace.get("y"))).map(|(x, y)| [self.x.at(x), self.y.at(y)]).collect()
+    pub(super) fn group(&mut self, group: Group, draw: impl FnOnce(&mut Self)) {
+        self.picture.nodes.push(Node::Group(group));
+        draw(self);
+        self.picture.nodes.push(Node::End);
     }
 
-    fn curve(&mut self, trace: &Trace) {
-        let points = self.points(trace);
-        let mode = trace.get("mode").as_str().unwrap_or("lines");
-        let opacity = trace.get("opacity").as_f64().unwrap_or(1.0);
-        self.add(format!("<g opacity=\"{opacity}\">"));
-        if mode.contains("lines") {
-            let is_gap = |point: &[f64; 2]| !point.iter().all(|value| value.is_finite());
-            let piece = |piece: &[[f64; 2]]| -> String {
-                let places: Vec<String> = piece.iter().map(|[x, y]| format!("{x:.2} {y:.2}")).collect();
-                format!("M{}", places.join("L"))
-            };
-            let path: String = points.split(is_gap).filter(|piece| !piece.is_empty()).map(piece).collect();
-            let fill = match trace.get("fill").is_null() {
-                true => "none".to_owned(),
-                false => colour(trace.get("fillcolor").as_str().unwrap_or("none")),
-            };
-            self.add(format!("<path d=\"{path}\" fill=\"{fill}\" {}/>", stroke(trace.get("line"))));
-        }
-        if mode.contains("markers") {
-            for &[x, y] in points.iter().filter(|point| point.iter().all(|value| value.is_finite())) {
-                self.sign(trace, [x, y]);
+    pub(super) fn words(
+        &mut self,
+        text: &str,
+        at: [f64; 2],
+        (anchor, size, colour): (Anchor, f64, &str),
+        moves: Moves,
+    ) {
+        let (text, colour) = (text.to_owned(), colour.to_owned());
+        self.picture.nodes.push(Node::Words(Words { at, moves, text, anchor, size, colour, is_upright: false }));
+    }
+
+    pub(super) fn stroked(&mut self, steps: Vec<Step>, (colour, width_px, dash): (&str, f64, Dash)) {
+        let line = Some(Line { colour: colour.to_owned(), width_px, dash });
+        self.picture.nodes.push(Node::Path(Path { at: [0.0; 2], moves: Moves::No, steps, fill: None, line }));
+    }
+
+    pub(super) fn filled(&mut self, steps: Vec<Step>, colour: &str) {
+        let fill = Some(colour.to_owned());
+        self.picture.nodes.push(Node::Path(Path { at: [0.0; 2], moves: Moves::No, steps, fill, line: None }));
+    }
+
+    /// Grid, ticks and their labels.
+    fn axes(&mut self) {
+        let [left, top, right, bottom] = self.picture.frame;
+        let (across, upwards) = (self.x.ticks(TICK_SPACING[0]), self.y.ticks(TICK_SPACING[1]));
+        let has_grid = [&self.x, &self.y].map(|axis| axis.words.has_grid && axis.categories.is_empty());
+        let draw = |drawing: &mut Self| {
+            for (x, label) in across {
+                if has_grid[0] {
+                    drawing.stroked(vec![Step::Move([x, top]), Step::Line([x, bottom])], (GRID, 1.0, Dash::Solid));
+                }
+                drawing.stroked(vec![Step::Move([x, bottom]), Step::Line([x, bottom + 4.0])], (RULE, 1.0, Dash::Solid));
+                drawing.words(&label, [x, bottom + 18.0], (Anchor::Middle, TICK_SIZE, INK), Moves::No);
             }
-        }
-        if mode.contains("text") {
-            let font = trace.get("textfont");
-            let (size, paint) = (font["size"].as_f64().unwrap_or(12.0), font["color"].as_str().unwrap_or(INK));
-            for ([x, y], text) in points.iter().zip(trace.get("text").as_array().into_iter().flatten()) {
-                self.words(text.as_str().unwrap_or_default(), [*x, y - 8.0], "middle", size, paint);
+            for (y, label) in upwards {
+                if has_grid[1] {
+                    drawing.stroked(vec![Step::Move([left, y]), Step::Line([right, y])], (GRID, 1.0, Dash::Solid));
+                }
+                drawing.stroked(vec![Step::Move([left, y]), Step::Line([left - 4.0, y])], (RULE, 1.0, Dash::Solid));
+                let lines = label.lines().count() as f64;
+                for (number, line) in label.lines().enumerate() {
+                    let below = 4.0 + 14.0 * (number as f64 - 0.5 * (lines - 1.0));
+                    drawing.words(line, [left - 8.0, y + below], (Anchor::End, TICK_SIZE, INK), Moves::No);
+                }
             }
-        }
-        self.add("</g>");
-    }
-
-    /// The sign of a point, in the colour of the line where it has none of its own.
-    fn sign(&mut self, trace: &Trace, [x, y]: [f64; 2]) {
-        let marker = trace.get("marker");
-        let own = marker["color"].as_str().or(trace.get("line")["color"].as_str());
-        let paint = colour(own.unwrap_or(INK));
-        let half = 0.5 * marker["size"].as_f64().unwrap_or(6.0);
-        let (symbol, is_open) = match marker["symbol"].as_str().unwrap_or("circle") {
-            symbol if symbol.ends_with("-open") => (symbol.trim_end_matches("-open"), true),
-            symbol => (symbol, false),
         };
-        let filled = match is_open {
-            true => format!("fill=\"none\" stroke=\"{paint}\" stroke-width=\"1.5\""),
-            false => format!("fill=\"{paint}\""),
-        };
-        self.add(match symbol {
-            "square" => {
-                let side = 2.0 * half;
-                let (x, y) = (x - half, y - half);
-                format!("<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{side}\" height=\"{side}\" {filled}/>")
-            }
-            "diamond" => format!("<path d=\"M{x:.2} {:.2}l{half} {half}l-{half} {half}l-{half} -{half}z\" {filled}/>", y - half),
-            "x" => {
-                let side = 2.0 * half;
-                let (x, y) = (x - half, y - half);
-                format!(
-                    "<path d=\"M{x:.2} {y:.2}l{side} {side}m0 -{side}l-{side} {side}\" stroke=\"{paint}\" stroke-width=\"1.5\"/>"
-                )
-            }
-            _ => format!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{half}\" {filled}/>"),
-        });
+        self.group(Group::named("axes"), draw);
     }
 
-    /// Bars of one category side by side.
-    fn bars(&mut self) {
+    fn titles(&mut self) {
+        let [left, top, right, bottom] = self.picture.frame;
+        let [x, y] = [&self.x, &self.y].map(|axis| axis.words.title.clone());
+        let draw = |drawing: &mut Self| {
+            drawing.words(&x, [left.midpoint(right), bottom + 40.0], (Anchor::Middle, 13.0, INK), Moves::No);
+            let (at, anchor, colour) = ([15.0, top.midpoint(bottom)], Anchor::Middle, INK.to_owned());
+            let title = Words { at, moves: Moves::No, text: y, anchor, size: 13.0, colour, is_upright: true };
+            drawing.picture.nodes.push(Node::Words(title));
+        };
+        self.group(Group::named("titles"), draw);
+    }
+
+    /// Vertical lines at named places, with their names above.
+    fn marks(&mut self) {
+        let [left, top, right, bottom] = self.picture.frame;
         let chart = self.chart;
-        let all: Vec<&Trace> = chart.traces().filter(|trace| trace.kind == TraceKind::Bar && is_drawn(trace)).collect();
-        let width = 0.8 * self.x.unit_px() / all.len().max(1) as f64;
-        let zero = self.y.at(0.0);
-        for (number, trace) in all.iter().enumerate() {
-            let paint = colour(trace.get("marker")["color"].as_str().unwrap_or(INK));
-            let names = trace.get("x").as_array().into_iter().flatten();
-            for (name, height) in names.zip(numbers(trace.get("y"))) {
-                let category = self.x.categories.iter().position(|known| Some(known.as_str()) == name.as_str());
-                let (Some(category), true) = (category, height.is_finite()) else { continue };
-                let from = self.x.at_exponent(category as f64) + (number as f64 - 0.5 * all.len() as f64) * width;
-                let at = self.y.at(height);
-                self.add(format!(
-                    "<rect x=\"{from:.2}\" y=\"{:.2}\" width=\"{width:.2}\" height=\"{:.2}\" fill=\"{paint}\"/>",
-                    at.min(zero),
-                    (at - zero).abs()
-                ));
+        let draw = |drawing: &mut Self| {
+            for mark in &chart.marks {
+                let x = drawing.x.at(mark.x);
+                if !(left - 0.5..=right + 0.5).contains(&x) {
+                    continue;
+                }
+                let (width_px, dash) = if mark.is_strong { (1.4, Dash::Mixed) } else { (1.0, Dash::Dot) };
+                let line = Some(Line { colour: MUTED.to_owned(), width_px, dash });
+                let steps = vec![Step::Move([0.0, top]), Step::Line([0.0, bottom])];
+                let path = Path { at: [x, 0.0], moves: Moves::Across, steps, fill: None, line };
+                drawing.picture.nodes.push(Node::Path(path));
+                drawing.words(&mark.name, [x, top - 5.0], (Anchor::Middle, TICK_SIZE, MUTED), Moves::Across);
+            }
+        };
+        self.group(Group::named("marks"), draw);
+    }
+
+    fn labels(&mut self) {
+        let [left, top, right, bottom] = self.picture.frame;
+        for label in &self.chart.labels {
+            match label {
+                Label::Beside { name, y } => {
+                    let y = self.y.at(*y);
+                    if (top - 1.0..=bottom + 1.0).contains(&y) {
+                        let style = (Anchor::Start, TICK_SIZE, MUTED);
+                        self.group(Group::named("beside"), |drawing| {
+                            drawing.words(name, [right + 5.0, y + 4.0], style, Moves::Upwards);
+                        });
+                    }
+                }
+                Label::Above { name, at } => {
+                    let (x, y) = (self.x.at(at[0]), self.y.at(at[1]));
+                    let is_inside = (left..=right).contains(&x) && (top..=bottom).contains(&y);
+                    let is_somewhere = self.picture.medium == Medium::Page && x.is_finite() && y.is_finite();
+                    if is_inside || is_somewhere {
+                        let group = Group { is_clipped: true, ..Group::named("above") };
+                        let style = (Anchor::Middle, TICK_SIZE, MUTED);
+                        self.group(group, |drawing| drawing.words(name, [x, y - 5.0], style, Moves::BothWays));
+                    }
+                }
             }
         }
     }
 
-    /// Cells of one colour as one path, and the scale of colours beside the plot.
-    fn map(&mut self, trace: &Trace) {
-        let x: Vec<f64> = numbers(trace.get("x")).map(|x| self.x.at(x)).collect();
-        let y: Vec<f64> = numbers(trace.get("y")).map(|y| self.y.at(y)).collect();
-        let rows: Vec<Vec<f64>> =
-            trace.get("z").as_array().into_iter().flatten().map(|row| numbers(row).collect()).collect();
-        let [least, greatest] = extent(rows.iter().flatten().copied().filter(|value| value.is_finite()));
-        let low = trace.get("zmin").as_f64().unwrap_or(least);
-        let high = trace.get("zmax").as_f64().unwrap_or(greatest);
-        let mut paths = vec![String::new(); LEVELS];
-        for (row, edges) in rows.iter().zip(y.windows(2)) {
-            for (value, sides) in row.iter().zip(x.windows(2)).filter(|(value, _)| value.is_finite()) {
-                let share = if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 0.0 };
-                let path = &mut paths[(share * (LEVELS - 1) as f64).round() as usize];
-                let (width, height) = (sides[1] - sides[0], edges[1] - edges[0]);
-                path.push_str(&format!("M{:.1} {:.1}h{width:.1}v{height:.1}h{:.1}z", sides[0], edges[0], -width));
+    /// The traces that the legend names, in rows as wide as there is room.
+    fn legend_rows(&self) -> Vec<Vec<&'a Trace>> {
+        let (mut rows, mut used) = (Vec::<Vec<&Trace>>::new(), f64::INFINITY);
+        let room = self.picture.size[0] - self.picture.frame[0] - RIGHT;
+        for &trace in self.drawn.iter().filter(|trace| self.chart.has_legend && sign::is_listed(trace)) {
+            let width = entry_width(trace);
+            if used + width > room {
+                rows.push(Vec::new());
+                used = 0.0;
+            }
+            used += width;
+            if let Some(row) = rows.last_mut() {
+                row.push(trace);
             }
         }
-        self.add("<g shape-rendering=\"crispEdges\">");
-        for (level, path) in paths.iter().enumerate().filter(|(_, path)| !path.is_empty()) {
-            let paint = of_scale(level as f64 / (LEVELS - 1) as f64);
-            self.add(format!("<path d=\"{path}\" fill=\"{paint}\" stroke=\"{paint}\" stroke-width=\"0.3\"/>"));
-        }
-        self.add("</g></g>");
-        self.colour_scale(
-            [low, high],
-            trace.get("colorbar")["title"]["text"].as_str().unwrap_or_default().trim_end_matches("<br>\u{a0}"),
-        );
-        self.add("<g clip-path=\"url(#plot)\" stroke-linejoin=\"round\">");
+        rows
     }
 
-    fn colour_scale(&mut self, range: [f64; 2], unit: &str) {
-        const STEPS: usize = 64;
-        let [_, top, right, bottom] = self.frame;
-        let (left, step) = (right + 26.0, (bottom - top) / STEPS as f64);
-        for i in 0..STEPS {
-            let (y, paint) = (bottom - (i + 1) as f64 * step, of_scale((i as f64 + 0.5) / STEPS as f64));
-            let height = step + 0.5;
-            self.add(format!("<rect x=\"{left}\" y=\"{y:.2}\" width=\"14\" height=\"{height:.2}\" fill=\"{paint}\"/>"));
-        }
-        let axis = Axis::new(&json!({ "range": range }), std::iter::empty(), Vec::new(), true).placed(bottom, top);
-        for (y, label) in axis.ticks(48.0) {
-            self.words(&label, [left + 19.0, y + 4.0], "start", 12.0, INK);
-        }
-        self.words(unit, [left, top - 8.0], "start", 12.0, INK);
-    }
-
-    fn entries(&mut self) {
-        let below = self.frame[3] + BELOW;
-        for (row, entries) in std::mem::take(&mut self.legend).into_iter().enumerate() {
-            let y = below + row as f64 * LEGEND_ROW + 4.0;
-            let mut x = self.frame[0];
+    fn legend(&mut self) {
+        for (row, entries) in self.legend_rows().into_iter().enumerate() {
+            let y = self.below + row as f64 * LEGEND_ROW + 4.0;
+            let mut x = self.picture.frame[0];
             for trace in entries {
-                self.legend_sign(trace, [x, y]);
-                self.words(name(trace), [x + LEGEND_SIGN + 4.0, y + 4.0], "start", 12.0, INK);
+                self.picture.nodes.extend(sign::of_legend(trace, [x, y], LEGEND_SIGN));
+                self.words(&trace.name, [x + LEGEND_SIGN + 4.0, y + 4.0], (Anchor::Start, TICK_SIZE, INK), Moves::No);
                 x += entry_width(trace);
             }
         }
     }
+}
 
-    fn legend_sign(&mut self, trace: &Trace, [x, y]: [f64; 2]) {
-        let mode = trace.get("mode").as_str().unwrap_or_default();
-        if trace.kind == TraceKind::Bar {
-            let paint = colour(trace.get("marker")["color"].as_str().unwrap_or(INK));
-            self.add(format!(
-                "<rect x=\"{}\" y=\"{}\" width=\"18\" height=\"10\" fill=\"{paint}\"/>",
-                x + 6.0,
-                y - 5.0
-            ));
-        }
-        if mode.contains("lines") {
-            self.add(format!("<path d=\"M{x:.2} {y:.2}h{LEGEND_SIGN}\" fill=\"none\" {}/>", stroke(trace.get("line"))));
-        }
-        if mode.contains("markers") {
-            self.sign(trace, [x + 0.5 * LEGEND_SIGN, y]);
-        }
-    }
+fn width_of(text: &str) -> f64 {
+    text.chars().count() as f64 * CHARACTER * TICK_SIZE
 }
 
 fn entry_width(trace: &Trace) -> f64 {
-    LEGEND_SIGN + 22.0 + width_of(name(trace), 12.0)
+    LEGEND_SIGN + 22.0 + width_of(&trace.name)
 }
 
-/// The traces that the legend names, in rows as wide as there is room.
-fn legend_rows<'a>(drawn: &[&'a Trace], room: f64) -> Vec<Vec<&'a Trace>> {
-    let (mut rows, mut used) = (Vec::<Vec<&Trace>>::new(), f64::INFINITY);
-    let listed = |trace: &&&Trace| trace.get("showlegend") != false && trace.kind != TraceKind::HeatMap;
-    for &trace in drawn.iter().filter(listed) {
-        let width = entry_width(trace);
-        if used + width > room {
-            rows.push(Vec::new());
-            used = 0.0;
-        }
-        used += width;
-        if let Some(row) = rows.last_mut() {
-            row.push(trace);
-        }
-    }
-    rows
+/// With left, top, right and bottom.
+pub(super) fn rectangle([left, top, right, bottom]: [f64; 4]) -> Vec<Step> {
+    let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
+    polygon(&corners)
+}
+
+pub(super) fn polygon(corners: &[[f64; 2]]) -> Vec<Step> {
+    let first = corners.iter().take(1).map(|corner| Step::Move(*corner));
+    first.chain(corners.iter().skip(1).map(|corner| Step::Line(*corner))).chain([Step::Close]).collect()
+}
+
+/// The range of the colours of a field.
+pub(super) fn range_of_colours(field: &Field) -> [f64; 2] {
+    let finite = field.values.iter().flatten().copied().filter(|value| value.is_finite());
+    field.scale.range.unwrap_or_else(|| extent(finite))
 }

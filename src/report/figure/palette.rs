@@ -1,9 +1,9 @@
-//! Colours of figures: the tokens of charts in the colours that the pages have in the light.
+//! Colours of drawings: the tokens of charts as the style sheet of a page takes them, and in the colours that pages have in the light.
 
 /// The style sheet of the pages, which holds the palette.
 const STYLE: &str = include_str!("../html/page.css");
 
-/// plotly's scale Viridis at equal steps.
+/// The scale Viridis at equal steps.
 const VIRIDIS: [[u8; 3]; 17] = [
     [0x44, 0x01, 0x54],
     [0x48, 0x18, 0x6a],
@@ -24,28 +24,56 @@ const VIRIDIS: [[u8; 3]; 17] = [
     [0xfd, 0xe7, 0x25],
 ];
 
-/// The colour that a chart names: a token of the palette, a mixture of two, or the colour itself.
-pub(super) fn colour(text: &str) -> String {
+/// A colour as red, green, blue and opacity, each up to 255.
+pub(super) type Rgba = [u8; 4];
+
+/// What a token is: a property of the palette, a mixture of two, or a colour.
+enum Token<'a> {
+    Property(&'a str),
+    Mixture { from: &'a str, to: &'a str, share: f64 },
+    Colour(&'a str),
+}
+
+fn token(text: &str) -> Token<'_> {
     let inside = |prefix| text.strip_prefix(prefix).and_then(|rest: &str| rest.strip_suffix(')'));
-    if let Some(name) = inside("var(") {
-        return property(name).to_owned();
-    }
-    let Some(parts) = inside("mix(") else { return text.to_owned() };
-    let parts: Vec<&str> = parts.split(',').collect();
-    match parts.as_slice() {
-        [from, to, share] => {
-            hex(between(channels(property(from)), channels(property(to)), share.parse().unwrap_or(0.0)))
+    let mixture = || {
+        let mut parts = inside("mix(")?.split(',');
+        Some(Token::Mixture { from: parts.next()?, to: parts.next()?, share: parts.next()?.parse().ok()? })
+    };
+    inside("var(").map(Token::Property).or_else(mixture).unwrap_or(Token::Colour(text))
+}
+
+/// For a page, where the colours in force are those of its style sheet.
+pub(super) fn in_page(text: &str) -> String {
+    match token(text) {
+        Token::Mixture { from, to, share } => {
+            format!("color-mix(in srgb, var({from}), var({to}) {:.1}%)", 100.0 * share)
         }
-        _ => text.to_owned(),
+        Token::Property(_) | Token::Colour(_) => text.to_owned(),
+    }
+}
+
+/// For a file: as in the light.
+pub(super) fn in_light(text: &str) -> Rgba {
+    match token(text) {
+        Token::Property(name) => channels(property(name)),
+        Token::Mixture { from, to, share } => between(channels(property(from)), channels(property(to)), share),
+        Token::Colour(colour) => channels(colour),
     }
 }
 
 /// The colour at `share` of the scale of colours.
-pub(super) fn of_scale(share: f64) -> String {
+pub(crate) fn of_scale(share: f64) -> [u8; 3] {
     let last = VIRIDIS.len() - 1;
     let place = share.clamp(0.0, 1.0) * last as f64;
     let below = (place as usize).min(last - 1);
-    hex(between(VIRIDIS[below], VIRIDIS[below + 1], place - below as f64))
+    let [from, to] = [VIRIDIS[below], VIRIDIS[below + 1]].map(|[red, green, blue]| [red, green, blue, 255]);
+    let [red, green, blue, _] = between(from, to, place - below as f64);
+    [red, green, blue]
+}
+
+pub(super) fn hex([red, green, blue]: [u8; 3]) -> String {
+    format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 /// A custom property of the style sheet, the first of its name, which is that in the light.
@@ -54,16 +82,21 @@ fn property(name: &str) -> &'static str {
     start.and_then(|rest| rest.split(';').next()).unwrap_or("#000000").trim()
 }
 
-fn channels(hex: &str) -> [u8; 3] {
-    [1, 3, 5].map(|at| hex.get(at..at + 2).and_then(|two| u8::from_str_radix(two, 16).ok()).unwrap_or(0))
+/// Of `#rrggbb` or `rgba(r, g, b, opacity)`.
+fn channels(colour: &str) -> Rgba {
+    if let Some(parts) = colour.strip_prefix("rgba(").and_then(|rest| rest.strip_suffix(')')) {
+        let parts: Vec<f64> = parts.split(',').map(|part| part.trim().parse().unwrap_or(0.0)).collect();
+        return [0, 1, 2, 3].map(|i| {
+            let value = parts.get(i).copied().unwrap_or(1.0);
+            if i == 3 { (255.0 * value).round() as u8 } else { value as u8 }
+        });
+    }
+    let pair = |at: usize| colour.get(at..at + 2).and_then(|two| u8::from_str_radix(two, 16).ok()).unwrap_or(0);
+    [pair(1), pair(3), pair(5), 255]
 }
 
-fn between(from: [u8; 3], to: [u8; 3], share: f64) -> [u8; 3] {
-    [0, 1, 2].map(|i| (f64::from(from[i]) + (f64::from(to[i]) - f64::from(from[i])) * share).round() as u8)
-}
-
-fn hex([red, green, blue]: [u8; 3]) -> String {
-    format!("#{red:02x}{green:02x}{blue:02x}")
+fn between(from: Rgba, to: Rgba, share: f64) -> Rgba {
+    [0, 1, 2, 3].map(|i| (f64::from(from[i]) + (f64::from(to[i]) - f64::from(from[i])) * share).round() as u8)
 }
 
 #[cfg(test)]
@@ -72,11 +105,11 @@ mod tests {
 
     #[test]
     fn colours_are_those_of_the_page() {
-        assert_eq!(colour("var(--pinion)"), "#005f9e");
-        assert_eq!(colour("var(--pinion-fill)"), "rgba(0, 95, 158, 0.10)");
-        assert_eq!(colour("mix(--pinion,--wheel,0.000)"), "#005f9e");
-        assert_eq!(colour("mix(--pinion,--wheel,0.500)"), "#5a534f");
-        assert_eq!(colour("#ff5a36"), "#ff5a36");
-        assert_eq!([of_scale(-1.0), of_scale(0.5), of_scale(2.0)], ["#440154", "#21918c", "#fde725"]);
+        assert_eq!(in_light("var(--pinion)"), [0, 0x5f, 0x9e, 255]);
+        assert_eq!(in_light("var(--pinion-fill)"), [0, 95, 158, 26]);
+        assert_eq!(in_light("mix(--pinion,--wheel,0.500)"), [0x5a, 0x53, 0x4f, 255]);
+        assert_eq!(in_light("#ff5a36"), [0xff, 0x5a, 0x36, 255]);
+        assert_eq!(in_page("mix(--pinion,--wheel,0.5)"), "color-mix(in srgb, var(--pinion), var(--wheel) 50.0%)");
+        assert_eq!([-1.0, 0.5, 2.0].map(|share| hex(of_scale(share))), ["#440154", "#21918c", "#fde725"]);
     }
 }

@@ -2,12 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use serde_json::{Value, json};
-
 use super::number::{figure, significant};
 use crate::gear::Gear;
 use crate::reference::statistics::extent;
-use crate::report::chart::{Chart, Dash, INK, MUTED, PATH, Trace, gear_colour, gear_fill, label};
+use crate::report::chart::{Chart, Dash, INK, Label, MUTED, PATH, Trace, gear_colour, gear_fill};
 use crate::report::control::{Control, MeshMotion, TurningBody};
 use crate::results::run::{GearCircles, PairDrawing, RunRecord};
 
@@ -29,13 +27,10 @@ pub(super) fn pair(record: &RunRecord) -> Chart {
         .height(620)
         .x("x, mm")
         .y("y, mm")
-        .y_set("scaleanchor", "x")
-        .y_set("scaleratio", 1.0)
-        .x_set("constrain", "range")
-        .y_set("constrain", "range")
+        .drawn_to_scale()
         .read_nearest()
-        .set("dragmode", "pan")
-        .set("annotations", ends_of_the_line_of_action(drawing))
+        .dragged()
+        .label(ends_of_the_line_of_action(drawing))
         .add_all(Gear::BOTH.map(|gear| outline(drawing, gear)))
         .add_all(Gear::BOTH.into_iter().flat_map(|gear| circles(drawing, gear)))
         .add(line_of_action)
@@ -77,7 +72,7 @@ fn with_motion(chart: Chart, record: &RunRecord) -> Chart {
         drawn_at_mm: path.C,
         path_mm: [path.A, path.E],
         base_pitch_mm: geometry.base_pitch_mm,
-        contacts: chart.traces().count(),
+        contacts: chart.traces.len(),
         origin_mm,
         direction,
         position_mm: record.mesh_cycle.iter().map(|row| to_scale(row.position_mm)).collect(),
@@ -89,8 +84,7 @@ fn with_motion(chart: Chart, record: &RunRecord) -> Chart {
 }
 
 fn polyline(name: &str, points: &[[f64; 2]], stroke: (&str, f64, Dash)) -> Trace {
-    let [x, y] = [0, 1].map(|axis| points.iter().map(|p| to_scale(p[axis])).collect::<Vec<f64>>());
-    Trace::line(name, [0.0; 0], [0.0; 0], stroke).set("x", x).set("y", y)
+    Trace::line(name, points.iter().map(|p| p[0]), points.iter().map(|p| p[1]), stroke)
 }
 
 fn outline(drawing: &PairDrawing, gear: Gear) -> Trace {
@@ -129,18 +123,13 @@ fn path_of_contact(drawing: &PairDrawing) -> Trace {
     let names: Vec<String> = drawing.path_of_contact.iter().map(|(name, _)| name.clone()).collect();
     polyline("path of contact A–E", &points, (PATH, 4.5, Dash::Solid))
         .with_points("circle", 8)
-        .set("mode", "lines+markers+text")
-        .set("text", names)
-        .set("textposition", "top center")
-        .set("textfont", json!({ "size": 15, "color": PATH }))
+        .lettered(names)
         .hover("%{text}: x %{x:.3f} mm, y %{y:.3f} mm<extra></extra>")
 }
 
-fn ends_of_the_line_of_action(drawing: &PairDrawing) -> Vec<Value> {
-    let ends = ["T1", "T2"].into_iter().zip(drawing.line_of_action);
-    let at =
-        |[x, y]: [f64; 2]| json!({ "xref": "x", "yref": "y", "x": to_scale(x), "y": to_scale(y), "yanchor": "bottom" });
-    ends.map(|(name, end)| label(name, at(end))).collect()
+fn ends_of_the_line_of_action(drawing: &PairDrawing) -> [Label; 2] {
+    let [t1, t2] = drawing.line_of_action;
+    [("T1", t1), ("T2", t2)].map(|(name, at)| Label::Above { name: name.to_owned(), at })
 }
 
 fn reading(record: &RunRecord) -> String {

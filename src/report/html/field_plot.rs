@@ -3,9 +3,9 @@
 //! The values at the nodes are sampled on a raster of small squares. Over the raster lie the bodies' outlines and, where they can be told apart,
 //! the sides of the elements.
 
-use super::number::{plotted, to_digits};
+use super::number::to_digits;
 use crate::fem::field_raster::{Bodies, Raster, Window, sides};
-use crate::report::chart::{Chart, Dash, INK, Trace};
+use crate::report::chart::{Chart, Dash, INK, Rows, Trace};
 
 /// Significant digits of a value in the picture.
 const DIGITS: usize = 4;
@@ -18,12 +18,9 @@ const HEIGHT_PX: usize = 600;
 /// Draws the von Mises stress at the nodes within `window`.
 pub(crate) fn von_mises(chart: Chart, bodies: Bodies<'_>, stress_mpa: &[f64], window: Window) -> Chart {
     let raster = Raster::sample(bodies, stress_mpa, window);
-    let places = |centres: &[f64]| centres.iter().copied().map(plotted).collect::<Vec<f64>>();
-    let shown = |value: Option<f64>| value.map(|value| to_digits(value, DIGITS));
-    let values: Vec<Vec<Option<f64>>> =
-        raster.values.into_iter().map(|row| row.into_iter().map(shown).collect()).collect();
-    let colours = Trace::heat_map("σ<sub>v</sub>, MPa", &places(&raster.x_mm), &places(&raster.y_mm), values)
-        .set("hoverongaps", false)
+    let shown = |value: Option<f64>| value.map_or(f64::NAN, |value| to_digits(value, DIGITS));
+    let values: Rows = raster.values.into_iter().map(|row| row.into_iter().map(shown).collect()).collect();
+    let colours = Trace::heat_map("σᵥ, MPa", &raster.x_mm, &raster.y_mm, values)
         .hover("x %{x:.5~g} mm, y %{y:.5~g} mm<br>%{z:.4~g} MPa<extra></extra>");
     let (inner, outline) = side_lines(bodies, window, ("rgba(255,255,255,0.28)", 0.6), ("outline", INK, 1.2));
     to_scale(chart.wide().add(colours).add_all(inner).add(outline), window).legend(false)
@@ -53,11 +50,7 @@ pub(crate) fn to_scale(chart: Chart, window: Window) -> Chart {
         .x_range(window.x_mm)
         .y_range(window.y_mm)
         .without_grid()
-        .x_set("constrain", "range")
-        .y_set("constrain", "range")
-        .y_set("scaleanchor", "x")
-        .y_set("scaleratio", 1.0)
-        .set("dragmode", "zoom")
+        .drawn_to_scale()
 }
 
 /// Sides of elements as one line with gaps.

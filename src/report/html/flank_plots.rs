@@ -1,12 +1,12 @@
 //! Plots over a flank whose sections are alike, from root to tip: wear at every snapshot, greatest pressure, modifications.
 
 use super::active_flank::ActiveFlank;
-use super::number::{figure, hours, percent, plotted, revolutions, significant};
+use super::number::{figure, hours, percent, revolutions, significant};
 use super::reading::{Extreme, greatest, place_on_flank, tip_edge_note, yield_note};
 use crate::gear::Gear;
 use crate::reference::statistics::extent;
 use crate::report::chart::{Chart, Dash, INK, Trace, gear_colour, gear_colour_at};
-use crate::report::control::{Control, SliderStep};
+use crate::report::control::{Change, Control, SliderStep};
 use crate::results::run::{HistoryRow, RunRecord};
 
 /// At most so many snapshots are drawn, evenly chosen: more curves than that cannot be told apart.
@@ -48,8 +48,7 @@ fn wear_of(record: &RunRecord, gear: Gear, depth_um: f64) -> Chart {
         let wear = active.cut(&flank.snapshot_wear_um[snapshot]);
         let trace = Trace::line(moment(&record.history[snapshot]), radius.iter().copied(), wear, stroke);
         chart = chart.add(if last {
-            let roll: Vec<f64> = active.cut(&flank.roll_angle_deg).into_iter().map(plotted).collect();
-            trace.set("customdata", roll).hover("%{y:.3f} µm (roll angle %{customdata:.2f}°)")
+            trace.further(active.cut(&flank.roll_angle_deg)).hover("%{y:.3f} µm (roll angle %{customdata:.2f}°)")
         } else {
             trace.hover("%{y:.3f} µm")
         });
@@ -59,10 +58,12 @@ fn wear_of(record: &RunRecord, gear: Gear, depth_um: f64) -> Chart {
         chart = add_verified(chart, gear, &radius, &active.cut(&flank.wear_um), &active.cut(verified));
     }
     // Up to each snapshot; what finite elements say, at the end.
-    let all = chart.traces().count();
+    let all = chart.traces.len();
     let up_to = |last: usize| (0..all).map(move |trace| trace <= last || trace >= curves && last + 1 == curves);
-    let steps =
-        drawn.iter().enumerate().map(|(i, &snapshot)| SliderStep::showing(moment(&record.history[snapshot]), up_to(i)));
+    let steps = drawn.iter().enumerate().map(|(i, &snapshot)| SliderStep {
+        label: moment(&record.history[snapshot]),
+        change: Change::Shown(up_to(i).collect()),
+    });
     let chart = chart.movable(Control::Steps { name: "time", steps: steps.collect() });
     active.across(chart, gear)
 }

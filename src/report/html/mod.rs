@@ -1,7 +1,8 @@
 //! `report.html`: one page that holds everything it needs, and asks the network for nothing.
 //!
-//! The page is its words and tables in plain HTML, one JSON description per plot, plotly.js, and a short script
-//! (`page.js`) that draws the plots in the colours of the style sheet (`page.css`) for light, dark and paper.
+//! The page is its words and tables in plain HTML, its plots as SVG in the colours of the style sheet (`page.css`) for light, dark and paper,
+//! and a script (`page.js`) that enlarges the plots, reads their points as JSON and moves their sliders. Surfaces in space are drawn by
+//! `surface.js`.
 
 pub(crate) mod active_flank;
 mod cycle_plots;

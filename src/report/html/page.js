@@ -1,109 +1,506 @@
-// Draws the plots in the colours of the style sheet: again when those change, when the room for a plot changes, and
-// when the page is printed. The script that draws them stands in the page compressed.
-(async () => {
+// Lets the reader of a page look closer at its plots: fits each to its room, enlarges a part of it, reads its points, shows and hides its
+// traces and moves its slider. The drawing itself stands in the page as SVG; what is changed is where its parts are.
+(() => {
   "use strict";
   const PRINT_WIDTH = 670; // px: an A4 page less its margins
-  const NARROW = 480; // px: below this a plot is that of a phone
-  const FARTHER = [[480, 2.2], [900, 1.25]]; // how much farther away a scene in space is looked at below a width in px
-  const PRINTED = 0.84; // height of a plot of half the width, so that two of them stand on a page
-  const BUTTONS = 26; // px: height of a plot's buttons, which show all the time where there is no mouse to hover
+  const NEAR = 40; // px from a point at which it is read
+  const LEAST_FRAME = 6; // px: a smaller one is a click
   const root = document.documentElement;
-  const touch = matchMedia("(pointer: coarse)").matches;
-  const buttonsShown = matchMedia("(hover: none)").matches;
-  const plots = [...document.querySelectorAll(".plot")].map((node) => ({
-    node,
-    source: JSON.parse(document.getElementById(node.id + "-data").textContent),
-    width: 0,
-    at: null, // value of its slider, where it has been moved
-  }));
+  const svgElement = (name, attributes) => {
+    const element = document.createElementNS(document.querySelector(".plot svg").namespaceURI, name);
+    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+    return element;
+  };
+  const element = (name, className, text) => {
+    const made = document.createElement(name);
+    made.className = className;
+    made.textContent = text;
+    return made;
+  };
 
-  // Printing itself changes the preferred colours and the room for the plots: whatever redraws must ask.
-  const printing = () => "printing" in root.dataset;
-
-  // A function that turns a colour token into the colour in force.
-  function palette() {
-    const style = getComputedStyle(root);
-    const value = (name) => style.getPropertyValue(name).trim();
-    const channels = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
-    return (text) => {
-      const plain = /^var\((--[\w-]+)\)$/.exec(text);
-      if (plain) return value(plain[1]);
-      const mix = /^mix\((--[\w-]+),(--[\w-]+),([\d.]+)\)$/.exec(text);
-      if (!mix) return text;
-      const [from, to] = [channels(value(mix[1])), channels(value(mix[2]))];
-      return `rgb(${from.map((c, i) => Math.round(c + (to[i] - c) * mix[3])).join(",")})`;
-    };
-  }
-
-  // A copy of a plot's description with its colours resolved; the numbers are shared.
-  function coloured(item, colour) {
-    if (typeof item === "string") return colour(item);
-    if (Array.isArray(item)) return typeof item[0] === "number" ? item : item.map((x) => coloured(x, colour));
-    if (item === null || typeof item !== "object") return item;
-    return Object.fromEntries(Object.entries(item).map(([key, x]) => [key, coloured(x, colour)]));
-  }
-
-  function draw(plot, colour) {
-    const { data, layout, config } = coloured(plot.source, colour);
-    plot.width = plot.node.clientWidth;
-    layout.width = printing() ? PRINT_WIDTH : plot.width;
-    layout.autosize = false;
-    Object.assign(layout.legend, { yref: "container", y: 0, yanchor: "bottom" }); // below the axis title, always
-    layout.uirevision = "kept"; // the reader's zoom outlasts a change of theme
-    if (touch) layout.dragmode = false; // a finger scrolls the page
-    if (printing() && !plot.node.closest(".wide")) layout.height *= PRINTED;
-    const farther = FARTHER.find(([below]) => layout.width < below);
-    if (layout.scene && farther) for (const axis of "xyz") layout.scene.camera.eye[axis] *= farther[1];
-    if (layout.width < NARROW) {
-      layout.legend.font.size = 11;
-      if (layout.scene) for (const axis of "xyz") layout.scene[axis + "axis"].nticks = 4;
-      layout.height = Math.min(layout.height, layout.width + (plot.node.closest(".wide") ? 140 : 40));
+  class Plot {
+    constructor(node) {
+      this.node = node;
+      this.data = JSON.parse(document.getElementById(node.id + "-data").textContent);
+      this.data.traces.forEach((trace, i, all) => (trace.x ??= all[i - 1].x));
+      this.svg = node.querySelector("svg");
+      this.shown = this.data.traces.map((trace) => trace.is_shown);
+      this.groups = this.data.traces.map((_, i) => node.querySelector(`.trace[data-trace="${i}"]`));
+      this.turned = new Map(); // groups that a slider turns: angle and centre
+      this.view = null; // ranges of x and y that the reader chose
+      this.width = 0;
+      this.at = null; // value of its slider, where it has been moved
+      // Where each part was drawn.
+      for (const part of node.querySelectorAll(".at, .at-x, .at-y")) {
+        part.drawn = /translate\(([^,]+),([^)]+)\)/.exec(part.getAttribute("transform")).slice(1).map(Number);
+      }
+      this.tip = node.appendChild(element("div", "tip", ""));
+      this.tip.hidden = true;
+      this.listen();
+      this.addTools();
     }
-    if (buttonsShown && !printing()) {
-      layout.margin.t += BUTTONS;
-      layout.height += BUTTONS;
+
+    // The part of the plot that is shown, both ranges in coordinates, at its true proportions where those matter.
+    ranges() {
+      const { x, y, is_to_scale } = this.data;
+      const ranges = this.view || { x: x.asked, y: y.asked };
+      if (!is_to_scale) return ranges;
+      const [left, top, right, bottom] = this.frame;
+      const unit = Math.min((right - left) / Math.abs(ranges.x[1] - ranges.x[0]), (bottom - top) / Math.abs(ranges.y[1] - ranges.y[0]));
+      const wide = ([from, to], length) => [(from + to - length / unit) / 2, (from + to + length / unit) / 2];
+      return { x: wide(ranges.x, right - left), y: wide(ranges.y, bottom - top) };
     }
-    Plotly.react(plot.node, data, layout, config);
-    if (plot.at !== null && !printing()) show(plot, plot.at);
-  }
 
-  // What a slider does to its plot: from one state to another, or both gears turned and their points of contact moved.
-  function show(plot, at) {
-    const { control } = plot.source;
-    plot.at = at;
-    const [said, update, traces] = control.kind === "steps" ? state(control, at) : mesh(plot.source.data, control, at);
-    plot.slider.querySelector("output").textContent = said;
-    return Plotly.restyle(plot.node, update, traces);
-  }
+    fit(width) {
+      const { size, frame } = this.data;
+      this.width = width;
+      const farther = width - size[0];
+      this.frame = [frame[0], frame[1], Math.max(frame[2] + farther, frame[0] + 40), frame[3]];
+      this.svg.setAttribute("viewBox", `0 0 ${width} ${size[1]}`);
+      const [left, top, right, bottom] = this.frame;
+      this.svg.querySelector("clipPath rect").setAttribute("width", right - left);
+      this.svg.querySelector(".corner path").setAttribute("d", `M${left} ${top}V${bottom}H${right}`);
+      this.svg.querySelector(".titles text").setAttribute("x", (left + right) / 2);
+      for (const scale of this.svg.querySelectorAll(".scale, .beside")) scale.setAttribute("transform", `translate(${farther},0)`);
+      this.place();
+    }
 
-  const state = ({ steps }, at) => [steps[at].label, steps[at].set, steps[at].traces];
+    // From places as drawn to places as shown: a factor and a shift for each direction.
+    moves() {
+      const { x, y, frame } = this.data;
+      const [left, top, right, bottom] = this.frame;
+      const ranges = this.shownRanges = this.ranges();
+      const along = (drawn, shown, [from, to], [newFrom, newTo]) => {
+        const scale = (newTo - newFrom) / (shown[1] - shown[0]);
+        const factor = (scale * (drawn[1] - drawn[0])) / (to - from);
+        return [factor, newFrom + scale * (drawn[0] - shown[0]) - factor * from];
+      };
+      return [along(x.range, ranges.x, [frame[0], frame[2]], [left, right]), along(y.range, ranges.y, [frame[3], frame[1]], [bottom, top])];
+    }
 
-  function mesh(data, control, at) {
-    const turned = control.bodies.map(({ trace, centre_mm: [cx, cy], radians_per_mm }) => {
-      const angle = (at - control.drawn_at_mm) * radians_per_mm;
-      const [sin, cos] = [Math.sin(angle), Math.cos(angle)];
-      const { x, y } = data[trace];
-      return [x.map((px, i) => cx + cos * (px - cx) - sin * (y[i] - cy)), y.map((py, i) => cy + sin * (x[i] - cx) + cos * (py - cy))];
-    });
-    const [first, last] = control.path_mm;
-    const pitch = control.base_pitch_mm;
-    const inContact = [];
-    for (let place = at - Math.floor((at - first) / pitch) * pitch; place <= last; place += pitch) inContact.push(place);
-    const share = (place) => {
-      const { position_mm: places, load_share: shares } = control;
-      const after = places.findIndex((other) => other >= place);
-      if (after < 1) return after === 0 ? shares[0] : shares[shares.length - 1];
-      const part = (place - places[after - 1]) / (places[after] - places[after - 1] || 1);
-      return shares[after - 1] + part * (shares[after] - shares[after - 1]);
-    };
-    const shares = inContact.map(share);
-    const along = (axis) => inContact.map((place) => control.origin_mm[axis] + place * control.direction[axis]);
-    const said = `${at.toFixed(2)} mm; load shares ${shares.map((one) => one.toFixed(2)).join(", ")}`;
-    return [
-      said,
-      { x: [...turned.map(([x]) => x), along(0)], y: [...turned.map(([, y]) => y), along(1)] },
-      [...control.bodies.map(({ trace }) => trace), control.contacts],
-    ];
+    // Puts everything where the frame and the ranges want it.
+    place() {
+      const [[fx, sx], [fy, sy]] = this.moves();
+      const [left, top, right, bottom] = this.frame;
+      this.groups.forEach((group, i) => {
+        if (!group) return;
+        const turn = this.turned.get(i) || "";
+        const matrix = `matrix(${fx},0,0,${fy},${sx},${sy}) ${turn}`;
+        for (const part of group.children) {
+          if (part.drawn) part.setAttribute("transform", `translate(${fx * part.drawn[0] + sx},${fy * part.drawn[1] + sy})`);
+          else part.setAttribute("transform", matrix);
+        }
+      });
+      const put = (part, x, y, isInside) => {
+        part.setAttribute("transform", `translate(${x},${y})`);
+        part.style.display = isInside ? "" : "none";
+      };
+      for (const part of this.svg.querySelectorAll(".above .at")) put(part, fx * part.drawn[0] + sx, fy * part.drawn[1] + sy, true);
+      for (const part of this.svg.querySelectorAll(".at-x")) {
+        const x = fx * part.drawn[0] + sx;
+        put(part, x, part.drawn[1], x >= left - 0.5 && x <= right + 0.5);
+      }
+      for (const part of this.svg.querySelectorAll(".at-y")) {
+        const y = fy * (part.drawn[1] - 4) + sy;
+        put(part, part.drawn[0], y + 4, y >= top - 1 && y <= bottom + 1);
+      }
+      this.clear();
+      this.axes();
+    }
+
+    // Hides labels that would stand on others.
+    clear() {
+      const boxes = [];
+      for (const label of this.svg.querySelectorAll(".trace text")) {
+        const [, x, y] = /translate\(([^,]+),([^)]+)\)/.exec(label.getAttribute("transform")).map(Number);
+        const half = 0.3 * label.getAttribute("font-size") * label.textContent.length + 2;
+        const isFree = boxes.every(([otherX, otherY, other]) => Math.abs(x - otherX) > half + other || Math.abs(y - otherY) > 14);
+        label.style.display = isFree ? "" : "none";
+        if (isFree) boxes.push([x, y, half]);
+      }
+    }
+
+    // Place on the plot of a coordinate.
+    px(axis, coordinate) {
+      const [left, top, right, bottom] = this.frame;
+      const [from, to] = this.shownRanges[axis];
+      const share = (coordinate - from) / (to - from);
+      return axis === "x" ? left + share * (right - left) : bottom + share * (top - bottom);
+    }
+
+    coordinate(axis, px) {
+      const [left, top, right, bottom] = this.frame;
+      const [from, to] = this.shownRanges[axis];
+      return from + (to - from) * (axis === "x" ? (px - left) / (right - left) : (px - bottom) / (top - bottom));
+    }
+
+    axes() {
+      const [left, top, right, bottom] = this.frame;
+      const [grid, rule] = ["var(--grid)", "var(--rule)"];
+      const parts = [];
+      const line = (d, stroke) => parts.push(svgElement("path", { d, fill: "none", stroke }));
+      const word = (text, x, y, anchor) => {
+        const one = svgElement("text", { x, y, "text-anchor": anchor, "font-size": 12, fill: "var(--ink)" });
+        one.textContent = text;
+        parts.push(one);
+      };
+      for (const [place, label] of ticks(this.data.x, this.shownRanges.x, right - left)) {
+        const x = this.px("x", place);
+        if (this.data.x.has_grid) line(`M${x} ${top}V${bottom}`, grid);
+        line(`M${x} ${bottom}v4`, rule);
+        word(label, x, bottom + 18, "middle");
+      }
+      for (const [place, label] of ticks(this.data.y, this.shownRanges.y, bottom - top)) {
+        const y = this.px("y", place);
+        if (this.data.y.has_grid) line(`M${left} ${y}H${right}`, grid);
+        line(`M${left} ${y}h-4`, rule);
+        const lines = label.split("\n");
+        lines.forEach((text, i) => word(text, left - 8, y + 4 + 14 * (i - (lines.length - 1) / 2), "end"));
+      }
+      this.svg.querySelector(".axes").replaceChildren(...parts);
+    }
+
+    show(traces, isShown) {
+      for (const i of traces) {
+        this.shown[i] = isShown;
+        if (this.groups[i]) this.groups[i].setAttribute("display", isShown ? "inline" : "none");
+        const entry = this.entries().find((one) => Number(one.dataset.trace) === i);
+        if (entry) entry.setAttribute("aria-pressed", isShown);
+      }
+    }
+
+    entries() {
+      return [...this.node.parentNode.querySelectorAll(".legend button")];
+    }
+
+    // The traces that an entry of the legend stands for.
+    together(entry) {
+      const i = Number(entry.dataset.trace);
+      const { group } = this.data.traces[i];
+      return group === null ? [i] : this.data.traces.flatMap((trace, j) => (trace.group === group ? [j] : []));
+    }
+
+    zoom(x, y) {
+      this.view = { x, y };
+      this.hide();
+      this.place();
+    }
+
+    // By a factor about a place.
+    magnify(factor, px = (this.frame[0] + this.frame[2]) / 2, py = (this.frame[1] + this.frame[3]) / 2) {
+      const about = (axis, place) => {
+        const middle = this.coordinate(axis, place);
+        return this.shownRanges[axis].map((end) => middle + (end - middle) / factor);
+      };
+      this.zoom(about("x", px), about("y", py));
+    }
+
+    // As it was; from there to all there is.
+    reset() {
+      const whole = { x: this.data.x.whole, y: this.data.y.whole };
+      const { y } = this.data;
+      // Depths grow downwards, all of them too.
+      if (y.range[0] > y.range[1]) whole.y = [...whole.y].reverse();
+      this.view = this.view ? null : whole;
+      this.hide();
+      this.place();
+    }
+
+    addTools() {
+      const tools = element("div", "tools", "");
+      const tool = (text, name, act) => {
+        const button = tools.appendChild(element("button", "", text));
+        button.type = "button";
+        button.title = name;
+        button.setAttribute("aria-label", name);
+        button.addEventListener("click", act);
+      };
+      tool("+", "enlarge", () => this.magnify(1.5));
+      tool("−", "reduce", () => this.magnify(1 / 1.5));
+      tool("⟲", "as it was, then all there is", () => this.reset());
+      tool("⤓", "save as PNG", () => this.save());
+      this.node.append(tools);
+    }
+
+    // The drawing with its colours in force and its legend, as a picture of twice its size.
+    save() {
+      const SCALE = 2;
+      const copy = this.svg.cloneNode(true);
+      const width = this.width;
+      const height = this.data.size[1] + this.addLegend(copy);
+      const attributes = { width: SCALE * width, height: SCALE * height, viewBox: `0 0 ${width} ${height}` };
+      Object.entries(attributes).forEach(([key, value]) => copy.setAttribute(key, value));
+      // Widths of lines are those of the screen, whatever the scale.
+      for (const path of copy.querySelectorAll(".trace path:not(.at)")) {
+        path.setAttribute("vector-effect", "non-scaling-stroke");
+        for (const name of ["stroke-width", "stroke-dasharray"]) {
+          const lengths = path.getAttribute(name);
+          if (lengths) path.setAttribute(name, lengths.split(" ").map((length) => SCALE * length).join(" "));
+        }
+      }
+      const style = getComputedStyle(root);
+      const used = new Set(copy.outerHTML.match(/--[\w-]+/g));
+      copy.style.cssText = [...used].map((name) => `${name}: ${style.getPropertyValue(name)}`).join(";") + ";font-family: sans-serif";
+      copy.prepend(svgElement("rect", { width, height, fill: style.getPropertyValue("--paper") }));
+      const picture = new Image();
+      picture.onload = () => {
+        const canvas = Object.assign(document.createElement("canvas"), { width: SCALE * width, height: SCALE * height });
+        canvas.getContext("2d").drawImage(picture, 0, 0);
+        Object.assign(document.createElement("a"), { href: canvas.toDataURL("image/png"), download: `${this.node.id}.png` }).click();
+      };
+      picture.src = "data:image/svg+xml;charset=utf-8," + encodeURIComponent(new XMLSerializer().serializeToString(copy));
+    }
+
+    // Puts the legend below a copy of the drawing; returns its height.
+    addLegend(copy) {
+      const shown = this.entries().filter((entry) => entry.getAttribute("aria-pressed") === "true");
+      let [x, y] = [this.frame[0], this.data.size[1] + 4];
+      for (const entry of shown) {
+        const length = 46 + 7.2 * entry.textContent.length;
+        if (x > this.frame[0] && x + length > this.width) [x, y] = [this.frame[0], y + 20];
+        const sign = entry.querySelector("svg").cloneNode(true);
+        Object.entries({ x, y, width: 30, height: 14 }).forEach(([key, value]) => sign.setAttribute(key, value));
+        const name = svgElement("text", { x: x + 36, y: y + 11, "font-size": 12, fill: "var(--ink)" });
+        name.textContent = entry.textContent;
+        copy.append(sign, name);
+        x += length;
+      }
+      return shown.length ? y + 24 - this.data.size[1] : 0;
+    }
+
+    // Place of a pointer on the drawing.
+    at_pointer(event) {
+      const box = this.svg.getBoundingClientRect();
+      return [((event.clientX - box.left) * this.width) / box.width, ((event.clientY - box.top) * this.data.size[1]) / box.height];
+    }
+
+    isInside([x, y]) {
+      const [left, top, right, bottom] = this.frame;
+      return x >= left && x <= right && y >= top && y <= bottom;
+    }
+
+    listen() {
+      const { svg } = this;
+      let start = null; // of a drag
+      let box = null;
+      svg.addEventListener("pointerdown", (event) => {
+        const at = this.at_pointer(event);
+        if (event.button !== 0 || event.pointerType === "touch" || !this.isInside(at)) return;
+        event.preventDefault();
+        start = { at, ranges: this.shownRanges, isPan: this.data.is_dragged !== event.shiftKey };
+        svg.setPointerCapture(event.pointerId);
+      });
+      svg.addEventListener("pointermove", (event) => {
+        const at = this.at_pointer(event);
+        if (!start) return this.isInside(at) ? this.read(at) : this.hide();
+        this.hide();
+        if (start.isPan) {
+          const shifted = (axis, i) => {
+            const [from, to] = start.ranges[axis];
+            const length = i ? this.frame[1] - this.frame[3] : this.frame[2] - this.frame[0];
+            const by = ((at[i] - start.at[i]) / length) * (to - from);
+            return [from - by, to - by];
+          };
+          return this.zoom(shifted("x", 0), shifted("y", 1));
+        }
+        box = box || svg.appendChild(svgElement("rect", { class: "box" }));
+        const [left, top, right, bottom] = this.frame;
+        const end = [Math.min(Math.max(at[0], left), right), Math.min(Math.max(at[1], top), bottom)];
+        const sides = { x: Math.min(start.at[0], end[0]), y: Math.min(start.at[1], end[1]), width: Math.abs(end[0] - start.at[0]), height: Math.abs(end[1] - start.at[1]) };
+        for (const [key, value] of Object.entries(sides)) box.setAttribute(key, value);
+        box.sides = sides;
+      });
+      svg.addEventListener("pointerup", () => {
+        if (box) {
+          const { x, y, width, height } = box.sides;
+          box.remove();
+          if (width > LEAST_FRAME || height > LEAST_FRAME) {
+            // A narrow frame enlarges in one direction.
+            const range = (axis, from, to, length) =>
+              length > LEAST_FRAME ? [this.coordinate(axis, from), this.coordinate(axis, to)] : this.shownRanges[axis];
+            this.zoom(range("x", x, x + width, width), range("y", y + height, y, height));
+          }
+        }
+        [start, box] = [null, null];
+      });
+      svg.addEventListener("pointerleave", () => this.hide());
+      svg.addEventListener("dblclick", (event) => this.isInside(this.at_pointer(event)) && this.reset());
+      svg.addEventListener(
+        "wheel",
+        (event) => {
+          if (!event.ctrlKey) return; // the wheel alone scrolls the page
+          event.preventDefault();
+          this.magnify(Math.exp(-0.004 * event.deltaY), ...this.at_pointer(event));
+        },
+        { passive: false },
+      );
+      for (const entry of this.entries()) {
+        entry.addEventListener("click", () => this.show(this.together(entry), entry.getAttribute("aria-pressed") !== "true"));
+        entry.addEventListener("dblclick", () => {
+          const others = this.entries().filter((other) => other !== entry).flatMap((other) => this.together(other));
+          const isAlone = others.every((i) => !this.shown[i]);
+          this.show(others, isAlone);
+          this.show(this.together(entry), true);
+        });
+      }
+    }
+
+    // Points of a trace nearest to a place: number, distance and place.
+    nearest(trace, [px, py], isAcrossOnly) {
+      let best = null;
+      const coordinate = (axis, value) => (this.data[axis].is_logarithmic ? Math.log10(value) : value);
+      for (let i = 0; i < trace.x.length; i++) {
+        if (trace.x[i] === null || trace.y[i] === null) continue;
+        const x = this.px("x", coordinate("x", trace.x[i]));
+        const y = this.px("y", coordinate("y", trace.y[i]));
+        const distance = isAcrossOnly ? Math.abs(x - px) : Math.hypot(x - px, y - py);
+        if (distance < (best ? best.distance : NEAR) && this.isInside([x, Math.min(Math.max(y, this.frame[1]), this.frame[3])])) {
+          best = { i, distance, at: [x, y] };
+        }
+      }
+      return best;
+    }
+
+    // The cell of a field at a place.
+    cell(trace, state, at) {
+      const values = state !== null && trace.values && this.data.control && this.data.control.steps ? this.data.control.steps[state].change.cells || trace.values : trace.values;
+      const [x, y] = [this.coordinate("x", at[0]), this.coordinate("y", at[1])];
+      const isCells = trace.x.length > values[0].length;
+      const index = (places, value) => (isCells ? places.findIndex((edge) => edge > value) - 1 : this.closest(places, value));
+      const log = (axis, places) => (this.data[axis].is_logarithmic ? places.map(Math.log10) : places);
+      const [i, j] = [index(log("x", trace.x), x), index(log("y", trace.y), y)];
+      const value = i >= 0 && j >= 0 && values[j] ? values[j][i] : null;
+      if (value === null || value === undefined) return null;
+      const middle = (places, k) => (isCells ? (places[k] + places[k + 1]) / 2 : places[k]);
+      return { x: middle(trace.x, i), y: middle(trace.y, j), z: value };
+    }
+
+    closest(places, value) {
+      return places.reduce((best, place, i) => (Math.abs(place - value) < Math.abs(places[best] - value) ? i : best), 0);
+    }
+
+    // A template with the values of a point.
+    said(trace, values) {
+      return trace.hover
+        .replace(/<extra><\/extra>/, "")
+        .replace(/%\{(\w+)(?::([^}]+))?\}/g, (_, key, format) => {
+          const value = values[key];
+          if (typeof value === "string") return value;
+          const { names } = this.data[key] || {};
+          if (names && names.length) return names[Math.round(value)].replace("\n", "");
+          const given = this.data[key] && this.data[key].ticks.find(([place]) => place === value);
+          return !format && given ? given[1] : formatted(value, format || (this.data[key] && this.data[key].format));
+        })
+        .split("<br>");
+    }
+
+    values(trace, i) {
+      return { x: trace.x[i], y: trace.y[i], text: trace.texts[i] || "", customdata: trace.further[i] };
+    }
+
+    // Says what is at a place.
+    read(at) {
+      const { traces, reads_nearest, x } = this.data;
+      const read = traces.map((trace, i) => ({ trace, i })).filter(({ trace, i }) => this.shown[i] && trace.hover !== null);
+      const points = read.filter(({ trace }) => !trace.values);
+      const found = points.map(({ trace }) => ({ trace, near: this.nearest(trace, at, !reads_nearest) })).filter(({ near }) => near);
+      found.sort((a, b) => a.near.distance - b.near.distance);
+      if (found.length && !reads_nearest) {
+        const [{ trace, near }] = found;
+        const title = x.names.length ? x.names[Math.round(trace.x[near.i])] : formatted(trace.x[near.i], x.format);
+        const together = found.filter((one) => Math.abs(one.near.at[0] - near.at[0]) < 8 || x.names.length);
+        together.sort((a, b) => traces.indexOf(a.trace) - traces.indexOf(b.trace));
+        return this.say(near.at[0], at[1], [title], together.map((one) => [one.trace, this.said(one.trace, this.values(one.trace, one.near.i)).join(" ")]), true);
+      }
+      if (found.length) {
+        const [{ trace, near }] = found;
+        const isNamed = !trace.hover.includes("<extra></extra>") && trace.name;
+        const lines = this.said(trace, this.values(trace, near.i));
+        return this.say(...near.at, lines, isNamed ? [[trace, ""]] : [], false);
+      }
+      for (const { trace } of read.filter(({ trace: { values } }) => values)) {
+        const cell = this.cell(trace, this.at, at);
+        if (cell) return this.say(...at, this.said(trace, cell), [], false);
+      }
+      this.hide();
+    }
+
+    say(x, y, lines, entries, isAcross) {
+      const texts = lines.map((line) => element("div", "", line));
+      const listed = entries.map(([trace, said]) => {
+        const line = element("div", "", said ? `${trace.name}: ${said}` : trace.name);
+        const sign = element("i", "", "");
+        sign.style.background = trace.colour;
+        line.prepend(sign);
+        return line;
+      });
+      this.tip.replaceChildren(...texts, ...listed);
+      this.tip.hidden = false;
+      const scale = this.svg.getBoundingClientRect().width / this.width;
+      const { offsetWidth: width, offsetHeight: height } = this.tip;
+      const isLeft = x * scale + width + 16 > this.node.clientWidth;
+      this.tip.style.left = `${Math.max(0, isLeft ? x * scale - width - 12 : x * scale + 12)}px`;
+      this.tip.style.top = `${Math.min(Math.max(0, y * scale - height / 2), Math.max(0, this.node.clientHeight - height))}px`;
+      this.cursor = this.cursor || this.svg.appendChild(svgElement("path", { class: "cursor" }));
+      this.cursor.setAttribute("d", isAcross ? `M${x} ${this.frame[1]}V${this.frame[3]}` : entries.length ? `M${x - 4} ${y}a4 4 0 1 0 8 0a4 4 0 1 0 -8 0` : "");
+    }
+
+    hide() {
+      this.tip.hidden = true;
+      if (this.cursor) this.cursor.setAttribute("d", "");
+    }
+
+    // What a slider does: from one state to another, or both gears turned and their points of contact moved.
+    move(at) {
+      const { control } = this.data;
+      this.at = at;
+      this.hide();
+      const said = control.kind === "steps" ? this.state(control, at) : this.mesh(control, at);
+      this.slider.querySelector("output").textContent = said;
+    }
+
+    state({ steps }, at) {
+      const { label, change } = steps[at];
+      if (change.shown) change.shown.forEach((isShown, i) => this.show([i], isShown));
+      for (const picture of this.svg.querySelectorAll("image[data-state]")) {
+        picture.setAttribute("display", Number(picture.dataset.state) === at ? "inline" : "none");
+      }
+      return label;
+    }
+
+    mesh(control, at) {
+      const { x, y, frame } = this.data;
+      const drawn = ([px, py]) => [
+        frame[0] + ((px - x.range[0]) / (x.range[1] - x.range[0])) * (frame[2] - frame[0]),
+        frame[3] + ((py - y.range[0]) / (y.range[1] - y.range[0])) * (frame[1] - frame[3]),
+      ];
+      for (const { trace, centre_mm, radians_per_mm } of control.bodies) {
+        const angle = (((at - control.drawn_at_mm) * radians_per_mm * 180) / Math.PI) % 360;
+        // On the drawing y goes downwards.
+        this.turned.set(trace, `rotate(${-angle},${drawn(centre_mm)})`);
+      }
+      const [first, last] = control.path_mm;
+      const pitch = control.base_pitch_mm;
+      const inContact = [];
+      for (let place = at - Math.floor((at - first) / pitch) * pitch; place <= last; place += pitch) inContact.push(place);
+      const group = this.groups[control.contacts];
+      const [sign] = group.children;
+      const signs = inContact.map((place) => {
+        const one = sign.cloneNode(true);
+        one.drawn = drawn([0, 1].map((axis) => control.origin_mm[axis] + place * control.direction[axis]));
+        return one;
+      });
+      if (signs.length) group.replaceChildren(...signs);
+      this.place();
+      const share = (place) => {
+        const { position_mm: places, load_share: shares } = control;
+        const after = places.findIndex((other) => other >= place);
+        if (after < 1) return after === 0 ? shares[0] : shares[shares.length - 1];
+        const part = (place - places[after - 1]) / (places[after] - places[after - 1] || 1);
+        return shares[after - 1] + part * (shares[after] - shares[after - 1]);
+      };
+      return `${at.toFixed(2)} mm; load shares ${inContact.map((place) => share(place).toFixed(2)).join(", ")}`;
+    }
   }
 
   const PLAY_STEPS = 900; // ms from one snapshot to the next
@@ -111,7 +508,7 @@
 
   // Joins a plot and the slider below it.
   function slide(plot) {
-    const { control } = plot.source;
+    const { control } = plot.data;
     const slider = (plot.slider = plot.node.parentNode.querySelector(".slider"));
     const [button, input] = [slider.querySelector("button"), slider.querySelector("input")];
     const isMesh = control.kind === "mesh";
@@ -120,7 +517,7 @@
     Object.assign(input, { min: least, max: most, step: isMesh ? (most - least) / 400 : 1, value: first });
     const move = (at) => {
       input.value = at;
-      return show(plot, at);
+      plot.move(at);
     };
     let playing = null;
     const stop = () => {
@@ -132,18 +529,18 @@
     const play = () => {
       let [before, at] = [performance.now(), plot.at ?? first];
       if (!isMesh && at >= most) move((at = least));
-      const next = async (now) => {
+      const next = (now) => {
         const passed = now - before;
         if (isMesh) {
           at += (passed / PLAY_MESH) * control.base_pitch_mm;
           // A base pitch later the mesh repeats itself.
           if (at > most) at -= Math.max(1, Math.floor((at - least) / control.base_pitch_mm)) * control.base_pitch_mm;
           before = now;
-          await move(at);
+          move(at);
         } else if (passed >= PLAY_STEPS) {
           at += 1;
           before = now;
-          await move(at);
+          move(at);
           if (at >= most) return stop();
         }
         if (playing !== null) playing = requestAnimationFrame(next);
@@ -155,64 +552,35 @@
     button.addEventListener("click", () => (playing === null ? play() : stop()));
     input.addEventListener("input", () => {
       stop();
-      show(plot, Number(input.value));
+      plot.move(Number(input.value));
     });
     slider.hidden = false;
-    const [said] = isMesh ? mesh(plot.source.data, control, first) : state(control, most);
-    slider.querySelector("output").textContent = said;
+    plot.move(first);
   }
 
-  const hasRoom = ({ node }) => node.clientWidth > 0 && !node.closest("details:not([open])");
+  const plots = [...document.querySelectorAll(".plot")].map((node) => (node.querySelector("canvas") ? new SurfacePlot(node) : new Plot(node)));
 
-  function drawAll() {
-    const colour = palette();
+  const printing = () => "printing" in root.dataset;
+  function fit() {
     for (const plot of plots) {
-      if (hasRoom(plot)) draw(plot, colour);
-      else plot.width = 0; // to be drawn as soon as there is room
+      const width = printing() ? PRINT_WIDTH : plot.node.clientWidth;
+      if (width > 0 && width !== plot.width) plot.fit(width);
     }
   }
-
-  function drawWhatHasOtherRoom() {
-    if (printing()) return;
-    for (const plot of plots) if (hasRoom(plot) && plot.node.clientWidth !== plot.width) draw(plot, palette());
-  }
-
-  async function unpack(base64) {
-    const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
-    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).text();
-  }
-
-  // A frame whose document is open: the page counts as loaded, and whoever prints it unseen waits, until it is closed.
-  const frame = document.createElement("iframe");
-  frame.hidden = true;
-  document.body.append(frame);
-  frame.contentDocument.open();
-  const loaded = () => {
-    frame.contentDocument.close();
-    frame.remove();
-  };
-
-  try {
-    const script = document.createElement("script");
-    script.textContent = await unpack(document.getElementById("plot-script").textContent);
-    document.head.append(script);
-  } catch {
-    for (const message of document.querySelectorAll(".not-drawn")) message.hidden = false;
-    return loaded();
-  }
-  for (const plot of plots) if (plot.source.control) slide(plot);
-  drawAll();
-  loaded();
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawAll);
-  const room = new ResizeObserver(drawWhatHasOtherRoom);
+  fit();
+  for (const plot of plots) if (plot.data.control) slide(plot);
+  const room = new ResizeObserver(() => printing() || fit());
   for (const { node } of plots) room.observe(node);
-  document.addEventListener("toggle", drawWhatHasOtherRoom, true);
+  const surfaces = plots.filter((plot) => plot instanceof SurfacePlot);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => surfaces.forEach((plot) => plot.draw()));
   addEventListener("beforeprint", () => {
     root.dataset.printing = "";
-    drawAll();
+    fit();
+    surfaces.forEach((plot) => plot.draw());
   });
   addEventListener("afterprint", () => {
     delete root.dataset.printing;
-    drawAll();
+    fit();
+    surfaces.forEach((plot) => plot.draw());
   });
 })();

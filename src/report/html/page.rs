@@ -8,10 +8,13 @@ use super::number::fixed;
 use super::reading::bound;
 use super::table::{inner, line, list};
 use super::terms::terms;
-use crate::report::chart::Chart;
+use crate::report::chart::{Chart, Trace};
 use crate::report::control::Control;
-use crate::report::plot_script::PlotScript;
+use crate::report::figure::in_page::{self, Entry, InPage};
 use crate::results::run::StageTime;
+
+/// The script of plots.
+const SCRIPTS: [&str; 3] = [include_str!("axis.js"), include_str!("surface.js"), include_str!("page.js")];
 
 pub(crate) struct Page<'a> {
     /// What kind of report it is, above the title.
@@ -70,9 +73,8 @@ impl Page<'_> {
                         (terms())
                     }
                     footer { (self.footer) }
-                    @if let Some(bundle) = self.plots.script.get() {
-                        script type="application/gzip" id="plot-script" { (PreEscaped(bundle.in_base64())) }
-                        script { (PreEscaped(include_str!("page.js"))) }
+                    @if self.plots.shown.get() > 0 {
+                        script { @for part in SCRIPTS { (PreEscaped(part)) } }
                     }
                     @if !script.is_empty() { script { (PreEscaped(script)) } }
                 }
@@ -96,25 +98,19 @@ pub(crate) fn tables(tables: impl IntoIterator<Item = Markup>) -> Markup {
     html! { div.tables { @for table in tables { (table) } } }
 }
 
-/// The plots of a page, shown group by group: what draws them follows from them.
+/// The plots of a page, shown group by group.
 #[derive(Default)]
 pub(crate) struct Plots {
-    script: Cell<Option<PlotScript>>,
     shown: Cell<usize>,
 }
 
 impl Plots {
     /// The charts, numbered on from those before.
     pub(crate) fn show(&self, charts: &[Chart]) -> Markup {
-        self.script.set(self.script.get().max(PlotScript::of(charts)));
         let first = self.shown.get() + 1;
         self.shown.set(self.shown.get() + charts.len());
         html! {
-            noscript { p.notice { "The plots need JavaScript; all their numbers are in the data files." } }
-            p.notice.not-drawn hidden role="alert" {
-                "The plots cannot be drawn: this browser cannot unpack the script that draws them. Chrome and Edge from version 80, Firefox from \
-                 113 and Safari from 16.4 can. All numbers of the plots are in the data files."
-            }
+            noscript { p.notice { "Without JavaScript plots cannot be enlarged or read point by point; all their numbers are in the data files." } }
             div.plots { @for (number, chart) in (first..).zip(charts) { (plot(number, chart)) } }
         }
     }
@@ -122,17 +118,28 @@ impl Plots {
 
 fn plot(number: usize, chart: &Chart) -> Markup {
     let id = &chart.id;
+    let InPage { svg, legend, data } = in_page::of(chart);
     // Nothing in the data may end the element in which they stand.
-    let data = chart.to_json().replace('<', "\\u003c");
+    let data = data.replace('<', "\\u003c");
+    let is_surface = chart.traces.iter().any(Trace::is_surface);
     html! {
         figure class=[chart.is_wide.then_some("wide")] {
             h3 id={ (id) "-title" } { (chart.title) }
-            div.plot id=(id) role="img" aria-labelledby={ (id) "-title" } aria-describedby={ (id) "-reading" } {}
+            div.plot id=(id) role="img" aria-labelledby={ (id) "-title" } aria-describedby={ (id) "-reading" } {
+                @if is_surface { canvas height=(chart.height_px) {} } @else { (PreEscaped(svg)) }
+            }
+            @if !legend.is_empty() { div.legend { @for entry in &legend { (legend_entry(entry)) } } }
             @if let Some(control) = &chart.control { (slider(control)) }
             figcaption id={ (id) "-reading" } { b { "Figure " (number) "." } " " (bound(&chart.reading)) }
             script type="application/json" id={ (id) "-data" } { (PreEscaped(data)) }
         }
     }
+}
+
+/// A trace in the legend, which shows and hides it.
+fn legend_entry(entry: &Entry) -> Markup {
+    let pressed = if entry.is_shown { "true" } else { "false" };
+    html! { button type="button" aria-pressed=(pressed) data-trace=(entry.trace) { (PreEscaped(&entry.sign)) (entry.name) } }
 }
 
 /// The slider of a chart, which the page's script fills and moves.

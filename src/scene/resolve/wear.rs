@@ -1,5 +1,9 @@
 //! The wear law of each gear and its constants: `[wear]` holds for both gears unless a gear's own table overrides it.
 
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use toml::Table;
+
 use super::{curve, temperature};
 use crate::gear::{Gear, PerGear};
 use crate::lubrication::settings::FilmRatio;
@@ -108,28 +112,18 @@ fn whole(file: &WearFile, gear: Gear) -> GearWearFile {
         severe: own.severe.or(file.severe.clone()),
         film: own.film.or(file.film.clone()),
         warm: own.warm.or(file.warm.clone()),
-        adsorption: (law == Some(WearLaw::Adsorption))
-            .then(|| adsorption_of(own.adsorption.unwrap_or_default(), file.adsorption.clone().unwrap_or_default())),
-        oxidation: (law == Some(WearLaw::Oxidation))
-            .then(|| oxidation_of(own.oxidation.unwrap_or_default(), file.oxidation.clone().unwrap_or_default())),
+        adsorption: (law == Some(WearLaw::Adsorption)).then(|| overlaid(own.adsorption, &file.adsorption)),
+        oxidation: (law == Some(WearLaw::Oxidation)).then(|| overlaid(own.oxidation, &file.oxidation)),
     }
 }
 
-fn adsorption_of(own: AdsorptionFile, both: AdsorptionFile) -> AdsorptionFile {
-    AdsorptionFile {
-        molecule_diameter_nm: own.molecule_diameter_nm.or(both.molecule_diameter_nm),
-        vibration_time_ps: own.vibration_time_ps.or(both.vibration_time_ps),
-        heat_of_adsorption_kJ_per_mol: own.heat_of_adsorption_kJ_per_mol.or(both.heat_of_adsorption_kJ_per_mol),
-    }
-}
-
-fn oxidation_of(own: OxidationFile, both: OxidationFile) -> OxidationFile {
-    OxidationFile {
-        arrhenius_constant_kg_per_m2s: own.arrhenius_constant_kg_per_m2s.or(both.arrhenius_constant_kg_per_m2s),
-        activation_energy_kJ_per_mol: own.activation_energy_kJ_per_mol.or(both.activation_energy_kJ_per_mol),
-        density_kg_per_m3: own.density_kg_per_m3.or(both.density_kg_per_m3),
-        mass_ratio: own.mass_ratio.or(both.mass_ratio),
-    }
+/// Constants of a law of one gear: each key of `own`, otherwise of `both`.
+fn overlaid<T: Clone + Default + Serialize + DeserializeOwned>(own: Option<T>, both: &Option<T>) -> T {
+    let Some(own) = own else { return both.clone().unwrap_or_default() };
+    let table = |of: &T| Table::try_from(of).expect("constants are a table");
+    let mut keys = both.as_ref().map(table).unwrap_or_default();
+    keys.extend(table(&own));
+    keys.try_into().expect("their keys are known")
 }
 
 fn gives_coefficient(of: &GearWearFile) -> bool {

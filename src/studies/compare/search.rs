@@ -20,7 +20,7 @@ use super::study::root_mean_square;
 use super::unknown::Unknown;
 use crate::gear::{Gear, PerGear};
 use crate::measurement::fit::{FitStop, Parameter, broyden_update, gauss_newton_step, least_squares};
-use crate::measurement::interval::{ProfilePart, Uncertainty, uncertainty};
+use crate::measurement::interval::{FitUncertainty, ProfilePart, uncertainty};
 
 /// Least factor on the wear coefficient.
 const LEAST_FACTOR: f64 = 1e-3;
@@ -48,7 +48,7 @@ pub(super) struct FittedCoefficients {
     /// Coefficient that kept the search from converging.
     pub blamed: Option<Unknown>,
     /// Uncertainty from the residuals; `None` where nothing was fitted or too few points count.
-    pub uncertainty: Option<Uncertainty>,
+    pub uncertainty: Option<FitUncertainty>,
     /// Wear depth of the flank points of each profile.
     pub wear_um: Vec<Vec<f64>>,
     /// Last step in standard deviations, where it is above the limit of convergence.

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use crate::assessment::stage_clock::StageClock;
 use crate::calibration::bodies::Setup;
-use crate::calibration::identity::Identity;
+use crate::calibration::identity::CalibrationIdentity;
 use crate::calibration::single_contact::SingleContact;
 use crate::calibration::slice_fit::SliceFit;
 use crate::calibration::tooth_stiffness::LoadedPair;
@@ -135,7 +135,7 @@ pub fn run(
     let mut calibration = Calibration {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         hash: String::new(),
-        belongs_to: Identity::of(&pair, &scene.material, &scene.fem),
+        belongs_to: CalibrationIdentity::of(&pair, &scene.material, &scene.fem),
         elements_per_half_width: scene.fem.elements_per_half_width,
         line_load_n_per_mm: w,
         path_points_mm,

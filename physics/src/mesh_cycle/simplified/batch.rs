@@ -73,7 +73,7 @@ pub(crate) struct Batch {
 
 /// State of a contact.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct ContactState {
+pub(crate) struct LaneContact {
     /// w, N/mm.
     pub line_load_n_per_mm: f64,
     /// a, mm.
@@ -318,7 +318,7 @@ impl Batch {
     }
 
     /// Each contact of a position with its lane and its state.
-    pub(crate) fn contacts(&self, index: usize) -> impl Iterator<Item = (&SliceContact, usize, ContactState)> {
+    pub(crate) fn contacts(&self, index: usize) -> impl Iterator<Item = (&SliceContact, usize, LaneContact)> {
         let first = LANES * self.loaded_positions[index].packs.start;
         self.positions[index].contacts.iter().enumerate().map(move |(at, contact)| {
             let lane = first + at;
@@ -371,12 +371,12 @@ impl Batch {
     }
 
     /// State of the contact in a lane.
-    pub(crate) fn contact(&self, lane: usize) -> ContactState {
+    pub(crate) fn contact(&self, lane: usize) -> LaneContact {
         let (pack, per_root, k) = (&self.packs[lane / LANES], &self.per_root[lane / LANES], lane % LANES);
         let load = pack.loads().0[k];
         let root = load.sqrt();
         let [pinion, wheel] = per_root.sliding.map(|sliding| root * sliding.0[k]);
-        ContactState {
+        LaneContact {
             line_load_n_per_mm: load,
             half_width_mm: root * per_root.half_width.0[k],
             pressure_mpa: root * per_root.pressure.0[k],

@@ -46,8 +46,7 @@ fn map(run: SlicedRun<'_>, when: &str, of: Column, top: f64) -> Option<Chart> {
     let values = raster.columns(|along, slice| -lambda[along * slices.len() + slice]);
     let values: Vec<Vec<f64>> = values.into_iter().map(|row| row.into_iter().map(|value| -value).collect()).collect();
     let colours = Trace::heat_map("λ", &raster.along.edges, &raster.across.edges, values)
-        .set("zmin", 0.0)
-        .set("zmax", if top > 0.0 { top } else { 1.0 })
+        .colours_up_to(top)
         .hover("contact at %{x:.3f} mm, width %{y:.2f} mm<br>λ %{z:.3~g}<extra></extra>");
     let reading = format!(
         "The minimum of λ {when} is {}, {}, {} with the contact at {} mm. Colours end at {}, above which are the few places that carry next to nothing; it is empty where no load is \

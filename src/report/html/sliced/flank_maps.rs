@@ -3,13 +3,11 @@
 //! A line of contact is straight in the radius of curvature, ρ_c(z), and therefore a little bent over the radius
 //! r = √(r_b² + ρ²). It crosses the flank from one side of the map to the other while the tooth goes through the mesh.
 
-use serde_json::{Value, json};
-
 use super::raster::SlicedRaster;
 use super::sliced_run::{SlicedRun, slice_name};
 use crate::gear::Gear;
-use crate::report::chart::{Chart, Dash, Trace, label};
-use crate::report::control::{Control, SliderStep};
+use crate::report::chart::{Chart, Dash, Label, Trace};
+use crate::report::control::{Change, Control, SliderStep};
 use crate::report::html::active_flank::ActiveFlank;
 use crate::report::html::flank_plots::{drawn_snapshots, moment};
 use crate::report::html::number::{figure, significant};
@@ -65,7 +63,8 @@ fn over_time(run: SlicedRun<'_>, gear: Gear) -> Control {
     let points = flank.radius_mm.len();
     let steps = drawn_snapshots(history.len()).into_iter().map(|snapshot| {
         let wear = &flank.snapshot_wear_um[snapshot];
-        SliderStep::cells(moment(&history[snapshot]), raster.rows(|point, slice| wear[slice * points + point]))
+        let cells = raster.rows(|point, slice| wear[slice * points + point]);
+        SliderStep { label: moment(&history[snapshot]), change: Change::Cells(cells) }
     });
     Control::Steps { name: "time", steps: steps.collect() }
 }
@@ -84,10 +83,8 @@ fn map(run: SlicedRun<'_>, gear: Gear, quantity: MappedQuantity<'_>) -> Chart {
     let values = raster.rows(|point, slice| quantity.values[slice * points + point]);
     let unit = quantity.unit;
     let colours = Trace::heat_map(unit, &raster.across.edges, &raster.along.edges, values)
-        .set("zmin", 0.0)
-        .set("zmax", if quantity.top > 0.0 { quantity.top } else { 1.0 })
-        .hover(format!("width %{{x:.2f}} mm, radius %{{y:.2f}} mm<br>%{{z:.4~g}} {unit}<extra></extra>"))
-        .colour_bar_at(1.05);
+        .colours_up_to(quantity.top)
+        .hover(format!("width %{{x:.2f}} mm, radius %{{y:.2f}} mm<br>%{{z:.4~g}} {unit}<extra></extra>"));
     let ends = |edges: &[f64]| match edges {
         [first, .., last] => [*first, *last],
         _ => [0.0, 1.0],
@@ -102,17 +99,16 @@ fn map(run: SlicedRun<'_>, gear: Gear, quantity: MappedQuantity<'_>) -> Chart {
         .y(&format!("radius on the {name}, mm"))
         .y_range(ends(&raster.along.edges))
         .without_grid()
-        .set("annotations", path_points(flank))
+        .label(path_points(flank))
         .add(colours)
         .add(lines_of_contact(run, gear))
         .reading(quantity.reading)
 }
 
 /// The letters A–E at the right of the map.
-fn path_points(flank: &FlankRecord) -> Vec<Value> {
+fn path_points(flank: &FlankRecord) -> impl Iterator<Item = Label> {
     let points = flank.path_point_radius_mm.named().into_iter().filter(|(_, radius)| radius.is_finite());
-    let at = |radius: f64| json!({ "xref": "paper", "yref": "y", "x": 1.005, "y": radius, "xanchor": "left" });
-    points.map(|(name, radius)| label(name, at(radius))).collect()
+    points.map(|(name, y)| Label::Beside { name: name.to_owned(), y })
 }
 
 /// Lines of contact at evenly spaced positions of the tooth between its first and its last touch, as one line with gaps.

@@ -19,8 +19,7 @@ fn map(run: SlicedRun<'_>, when: &str, loads: &[f64], top: f64) -> Chart {
     let raster = SlicedRaster::of_path(&slices.position_mm, &slices.width_mm, run.record.surface.pinion.face_width_mm);
     let values = raster.columns(|position, slice| loads[position * count + slice]);
     let colours = Trace::heat_map("N/mm", &raster.along.edges, &raster.across.edges, values)
-        .set("zmin", 0.0)
-        .set("zmax", if top > 0.0 { top } else { 1.0 })
+        .colours_up_to(top)
         .hover("position %{x:.3f} mm, width %{y:.2f} mm<br>%{z:.4~g} N/mm<extra></extra>");
     let reading = match greatest(loads) {
         Some(peak) => format!(

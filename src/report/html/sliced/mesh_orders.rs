@@ -1,9 +1,7 @@
 //! The first mesh orders of the loaded transmission error, new and worn.
 
-use serde_json::json;
-
 use super::sliced_run::SlicedRun;
-use crate::report::chart::{Chart, NEW, Trace, TraceKind, WORN};
+use crate::report::chart::{BarPlaces, Chart, NEW, Trace, WORN};
 use crate::report::html::number::{change, figure, plotted};
 
 pub(super) fn new_and_worn(run: SlicedRun<'_>) -> Chart {
@@ -11,8 +9,7 @@ pub(super) fn new_and_worn(run: SlicedRun<'_>) -> Chart {
     let bars = [("new", NEW), ("worn", WORN)].into_iter().zip(orders).map(|((name, colour), amplitudes)| {
         let names: Vec<String> = (1..=amplitudes.len()).map(|order| format!("{order}×")).collect();
         let heights: Vec<f64> = amplitudes.iter().map(|&um| plotted(um)).collect();
-        let bars = Trace::new(TraceKind::Bar, name).set("x", names).set("y", heights);
-        bars.set("marker", json!({ "color": colour })).hover("%{y:.4~g} µm")
+        Trace::bars(name, BarPlaces::Named(names), heights, colour).hover("%{y:.4~g} µm")
     });
     let reading = match (orders[0].first(), orders[1].first()) {
         (Some(new), Some(worn)) => format!(
@@ -27,7 +24,6 @@ pub(super) fn new_and_worn(run: SlicedRun<'_>) -> Chart {
         _ => "No mesh order was computed.".into(),
     };
     Chart::new("mesh-orders", "Mesh orders of the transmission error")
-        .set("barmode", "group")
         .x("multiple of the tooth-mesh frequency")
         .y("amplitude, µm")
         .add_all(bars)

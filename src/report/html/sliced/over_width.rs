@@ -24,7 +24,7 @@ pub(super) fn root_and_tip(run: SlicedRun<'_>, gear: Gear) -> Chart {
             let relative: Vec<f64> = values.iter().map(|value| value / mean).collect();
             highest = relative.iter().copied().fold(highest, f64::max);
             let trace = Trace::line(name, run.helical.width_mm.iter().copied(), relative, (colour, 2.0, dash));
-            chart = chart.add(trace.set("mode", "lines+markers").hover("%{y:.3f}"));
+            chart = chart.add(trace.with_points("circle", 6).hover("%{y:.3f}"));
         }
     }
     let reading = match (wear.root_wear_um.first(), wear.root_wear_um.last()) {

@@ -3,8 +3,6 @@
 //! Colours and shapes are the surfaces; of pairs with slices, full marks are slices coupled by plate theory, those with a dot in
 //! space, open ones uncoupled.
 
-use serde_json::json;
-
 use crate::reference::statistics::extent;
 use crate::report::chart::{Chart, Dash, MUTED, Trace};
 use crate::report::html::number::{percent, significant};
@@ -57,8 +55,7 @@ fn front(record: &AccuracyRecord, quantity: ComparedQuantity) -> Chart {
         .x_logarithmic()
         .y("relative error")
         .y_logarithmic()
-        .y_set("tickvals", TICKS.to_vec())
-        .y_set("ticktext", TICK_TEXTS.to_vec())
+        .y_ticks(TICKS.into_iter().zip(TICK_TEXTS))
         .reading(reading(record, quantity, uncertainty));
     let mut on_front: Vec<(f64, f64)> =
         runs.clone().filter(|run| run.3).map(|(_, wall_s, error, _)| (wall_s, shown(error))).collect();
@@ -75,11 +72,10 @@ fn front(record: &AccuracyRecord, quantity: ComparedQuantity) -> Chart {
             let text = of_kind
                 .iter()
                 .map(|(v, wall_s, error, _)| format!("{}: {}, {} s", v.name, percent(*error), significant(*wall_s, 3)));
-            let sizes: Vec<usize> = of_kind.iter().map(|(v, ..)| size(v)).collect();
+            let sizes = of_kind.iter().map(|(v, ..)| size(v)).collect();
             let (x, y) = (of_kind.iter().map(|run| run.1), of_kind.iter().map(|run| shown(run.2)));
-            let points = Trace::points(format!("{kind}{how}"), x, y, (colour, "", 0));
-            let marker = json!({ "color": colour, "symbol": format!("{symbol}{open}"), "size": sizes });
-            chart = chart.add(points.set("marker", marker).hover_texts(text.collect()));
+            let points = Trace::points(format!("{kind}{how}"), x, y, (colour, &format!("{symbol}{open}"), 0));
+            chart = chart.add(points.sizes(sizes).hover_texts(text.collect()));
         }
     }
     let ends = extent(runs.map(|run| run.1));
@@ -98,11 +94,11 @@ fn shown(error: f64) -> f64 {
 }
 
 /// Size of the mark: the finer the run, the larger.
-fn size(variant: &VariantRecord) -> usize {
+fn size(variant: &VariantRecord) -> f64 {
     match variant.settings.spacing_coarsening.max(variant.settings.step_coarsening) {
-        1 => 13,
-        2 => 10,
-        _ => 7,
+        1 => 13.0,
+        2 => 10.0,
+        _ => 7.0,
     }
 }
 

@@ -196,7 +196,7 @@ impl ShownProfile<'_> {
             for (name, value) in [("uncertainty of a height", uncertainty), ("", -uncertainty)] {
                 let radius = self.of.rows.iter().map(|row| row.radius_mm);
                 let level = Trace::line(name, radius, self.of.rows.iter().map(|_| value), (MUTED, 1.0, Dash::Dashed));
-                chart = chart.add(level.set("showlegend", !name.is_empty()).hover("%{y:.3f} µm"));
+                chart = chart.add(level.listed(!name.is_empty()).hover("%{y:.3f} µm"));
             }
         }
         let differences = self.column(|row| row.difference_um);

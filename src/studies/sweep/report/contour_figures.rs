@@ -1,10 +1,8 @@
 //! A figure over two varied keys: contours, with the combination where it is least.
 
-use serde_json::json;
-
 use super::best_tables::shown_value;
 use super::section_plane::{self, ShownAxis, range};
-use crate::report::chart::{Chart, MUTED, Trace, TraceKind, padded};
+use crate::report::chart::{Chart, ColourScale, Drawn, Field, MUTED, Rows, Trace, padded};
 use crate::report::html::number::{figure as shown_number, plotted};
 use crate::report::html::reading::capitalised;
 use crate::results::figures::MainFigure;
@@ -34,10 +32,10 @@ pub(super) fn contour(
         .add(contours(figure, x, y, &rows))
         .reading(reading(record, figure, best, &[x, y]));
     if let Some(words) = x.axis.words() {
-        chart = chart.x_set("tickvals", x.axis.values()).x_set("ticktext", words.to_vec());
+        chart = chart.x_ticks(numbered(words));
     }
     if let Some(words) = y.axis.words() {
-        chart = chart.y_set("tickvals", y.axis.values()).y_set("ticktext", words.to_vec());
+        chart = chart.y_ticks(numbered(words));
     }
     if x.axis.spacing == AxisSpacing::Logarithmic {
         chart = chart.x_logarithmic();
@@ -57,27 +55,32 @@ pub(super) fn contour(
 
 /// Contours of a figure, from a row of combinations for each value of `y`.
 fn contours(figure: &MainFigure, x: &ShownAxis<'_>, y: &ShownAxis<'_>, rows: &[Vec<Option<&SweepRow>>]) -> Trace {
-    let z: Vec<Vec<Option<f64>>> =
-        rows.iter().map(|rows| rows.iter().map(|row| row.as_ref()?.figure(figure).map(plotted)).collect()).collect();
+    let values: Rows = rows
+        .iter()
+        .map(|rows| {
+            let figures = rows.iter().map(|row| row.as_ref().and_then(|row| row.figure(figure)));
+            figures.map(|value| value.map_or(f64::NAN, plotted)).collect()
+        })
+        .collect();
     let unit = figure.unit();
-    Trace::new(TraceKind::Contour, figure.heading.as_str())
-        .set("x", x.values())
-        .set("y", y.values())
-        .set("z", z)
-        .colour_bar(unit)
-        .set("contours", json!({ "showlabels": true, "labelfont": { "size": 11, "color": "#ffffff" } }))
-        .set("ncontours", 16)
-        .set("connectgaps", false)
-        .set("hoverongaps", false)
-        .unlisted()
-        .hover(format!("{}: %{{x}}<br>{}: %{{y}}<br>%{{z:.5~g}} {unit}<extra></extra>", x.axis.title(), y.axis.title()))
+    let field = Field { x: x.values(), y: y.values(), values, scale: ColourScale::of(unit) };
+    Trace::new(Drawn::Contours(field), figure.heading.as_str()).unlisted().hover(format!(
+        "{}: %{{x}}<br>{}: %{{y}}<br>%{{z:.5~g}} {unit}<extra></extra>",
+        x.axis.title(),
+        y.axis.title()
+    ))
 }
 
-/// The ends of an axis as plotly takes them: of a logarithmic one the exponents.
+/// Words with their places on an axis.
+pub(super) fn numbered(words: &[String]) -> impl Iterator<Item = (f64, String)> {
+    words.iter().enumerate().map(|(place, word)| (place as f64, word.clone()))
+}
+
+/// The ends of an axis, with a little room.
 fn ends(of: &ShownAxis<'_>) -> [f64; 2] {
     let (from, to) = (of.axis.from, of.axis.to);
     match of.axis.spacing {
-        AxisSpacing::Logarithmic => padded(from.log10(), to.log10()),
+        AxisSpacing::Logarithmic => padded(from.log10(), to.log10()).map(|exponent| 10f64.powf(exponent)),
         AxisSpacing::Even | AxisSpacing::Listed(_) | AxisSpacing::Words(_) => padded(from, to),
     }
 }

@@ -1,6 +1,6 @@
 //! A figure over one varied key: a line, with the value where it is least.
 
-use super::contour_figures::{id, reading};
+use super::contour_figures::{id, numbered, reading};
 use super::section_plane::{self, ShownAxis};
 use crate::report::chart::{Chart, Dash, Trace};
 use crate::report::html::number::figure as shown_number;
@@ -31,7 +31,7 @@ pub(super) fn along(record: &SweepRecord, figure: &MainFigure, x: &ShownAxis<'_>
         .add(least_at.hover(format!("minimum: {} {}<extra></extra>", shown_number(least), figure.unit())))
         .reading(reading(record, figure, best, &[x]));
     let chart = match x.axis.words() {
-        Some(words) => chart.x_set("tickvals", x.axis.values()).x_set("ticktext", words.to_vec()),
+        Some(words) => chart.x_ticks(numbered(words)),
         None => chart,
     };
     Some(if x.axis.spacing == AxisSpacing::Logarithmic { chart.x_logarithmic() } else { chart })

@@ -1,11 +1,9 @@
 //! The plots of a study of uncertainty: distributions, indices, wear over both flanks.
 
-use serde_json::json;
-
 use crate::gear::Gear;
 use crate::reference::sobol_indices::Index;
 use crate::reference::statistics::extent;
-use crate::report::chart::{Chart, Dash, INK, Trace, TraceKind, gear_colour, padded};
+use crate::report::chart::{BarPlaces, Bars, Chart, Dash, Drawn, INK, Trace, gear_colour, padded};
 use crate::report::html::number::{figure, percent};
 use crate::studies::uncertainty::record::{FactorIndices, OutputRecord, UncertaintyRecord};
 
@@ -38,11 +36,7 @@ fn distribution(number: usize, output: &OutputRecord) -> Option<Chart> {
     finite.iter().for_each(|value| counts[(((value - low) / width) as usize).min(BARS - 1)] += 1);
     let middles: Vec<f64> = (0..BARS).map(|bar| low + (bar as f64 + 0.5) * width).collect();
     let parts: Vec<f64> = counts.iter().map(|&count| 100.0 * count as f64 / output.sorted.len() as f64).collect();
-    let bars = Trace::new(TraceKind::Bar, "samples")
-        .set("x", middles)
-        .set("y", parts)
-        .set("width", width)
-        .set("marker", json!({ "color": "var(--pinion)" }))
+    let bars = Trace::bars("samples", BarPlaces::At { middles, width }, parts, "var(--pinion)")
         .hover("%{x:.4~g}: %{y:.2f} %<extra></extra>")
         .unlisted();
     let [p05, _, p50, _, p95] = output.quantiles.all();
@@ -81,7 +75,6 @@ fn indices(number: usize, output: &OutputRecord) -> Option<Chart> {
             .height(150 + 56 * indices.len())
             .x("part of the variance")
             .y("")
-            .set("barmode", "group")
             .add(bars(indices, "total", "var(--wheel)", |one| one.total))
             .add(bars(indices, "first order", "var(--pinion)", |one| one.first))
             .reading(format!(
@@ -99,19 +92,19 @@ fn bars(indices: &[FactorIndices], name: &str, colour: &str, of: fn(&FactorIndic
     let shown: Vec<Index> = indices.iter().rev().map(of).collect();
     let above: Vec<f64> = shown.iter().map(|index| index.high - index.value).collect();
     let below: Vec<f64> = shown.iter().map(|index| index.value - index.low).collect();
-    let error = json!({ "type": "data", "symmetric": false, "array": above, "arrayminus": below, "thickness": 1, "color": INK });
-    Trace::new(TraceKind::Bar, name)
-        .set("orientation", "h")
-        .set("y", factors)
-        .set("x", shown.iter().map(|index| index.value).collect::<Vec<_>>())
-        .set("error_x", error)
-        .set("marker", json!({ "color": colour }))
-        .hover("%{x:.3f}")
+    let bars = Bars {
+        places: BarPlaces::Named(factors),
+        length: shown.iter().map(|index| index.value).collect(),
+        colour: colour.to_owned(),
+        is_horizontal: true,
+        interval: Some([below, above]),
+    };
+    Trace::new(Drawn::Bars(bars), name).hover("%{x:.3f}")
 }
 
 /// Key with a line break after each part, to keep the plot wide.
 fn wrapped(key: &str) -> String {
-    key.rsplit_once('.').map_or_else(|| key.to_owned(), |(tables, name)| format!("{tables}.<br>{name}"))
+    key.rsplit_once('.').map_or_else(|| key.to_owned(), |(tables, name)| format!("{tables}.\n{name}"))
 }
 
 /// Outline of the area between two curves.

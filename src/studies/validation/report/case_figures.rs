@@ -1,11 +1,8 @@
 //! The plots of a case.
 
-use serde_json::json;
-
 use super::markup::identifier;
 use crate::reference::statistics::extent;
 use crate::report::chart::{Chart, Dash, MUTED, Trace};
-use crate::report::html::number::plotted;
 use crate::studies::validation::record::{CasePlot, CaseRecord, CurveStyle, PlotCurve};
 
 /// Colour and symbol of curve `number`; they repeat.
@@ -32,9 +29,7 @@ fn figure(case: &CaseRecord, number: usize, of: &CasePlot) -> Chart {
         .legend(of.curves.len() + of.levels.len() > 1)
         .read_nearest()
         .x(&of.x)
-        .x_set("exponentformat", "power")
         .y(&of.y)
-        .y_set("exponentformat", "power")
         .add_all(bands.into_iter().chain(curves).map(|(number, curve)| trace(number, curve)))
         .reading(&*of.reading);
     if of.log_x {
@@ -62,12 +57,7 @@ fn trace(number: usize, of: &PlotCurve) -> Trace {
         CurveStyle::Dashed => line(1.8, Dash::Dashed).hover(hover),
         CurveStyle::Points => {
             let points = Trace::points(&*of.name, x, y, (colour, symbol, 8)).hover(hover);
-            if of.uncertainty.is_empty() {
-                return points;
-            }
-            let half: Vec<f64> = of.uncertainty.iter().copied().map(plotted).collect();
-            let bars = json!({ "type": "data", "array": half, "color": colour, "thickness": 1.2, "width": 4.0 });
-            points.set("error_y", bars)
+            points.uncertain_by(&of.uncertainty)
         }
         CurveStyle::Band => line(0.8, Dash::Solid).filled(["var(--pinion-fill)", "var(--wheel-fill)"][number % 2]),
     }

@@ -49,7 +49,7 @@ fn junit_elements(record: &ValidationRecord) -> Vec<XmlElement> {
 
 fn html() -> String {
     let page = page::page(&record(), Some(&changes()));
-    // Without plotly.js, which holds any word there is.
+    // Without the scripts.
     let scripts = page.rfind("</footer>").unwrap();
     page[..scripts].to_owned()
 }
