@@ -54,7 +54,7 @@ fn main_figures() -> Vec<MainFigure> {
     figures::all().iter().map(of).collect()
 }
 
-/// What to say of figures that are called by the names that they had in the version before.
+/// Notes on figures that are named as in the previous version.
 #[pyfunction]
 fn notes_on_figures(names: Vec<String>) -> Vec<String> {
     figures::notes(names.iter().map(String::as_str))

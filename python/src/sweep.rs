@@ -16,7 +16,7 @@ use crate::watched::{cores, watched};
 #[pyclass(frozen, module = "gearwear._native")]
 pub(crate) struct Sweep {
     pub(crate) sweep: Arc<sweep::Sweep>,
-    /// What to say of how it was asked for.
+    /// Notes on the names that were asked for.
     pub(crate) notes: Vec<String>,
 }
 

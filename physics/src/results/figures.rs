@@ -90,7 +90,7 @@ pub enum RexsAttribute {
     },
 }
 
-/// How a figure sums up the slices of a pair over its face width.
+/// Reduction of the slices of a pair to one figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OverSlices {
     /// One value of the whole pair, not of slices.
@@ -99,7 +99,7 @@ pub enum OverSlices {
     Maximum,
     /// Minimum, likewise.
     Minimum,
-    /// Where the maximum is.
+    /// Place of the maximum.
     AtMaximum,
     /// Mean.
     Mean,
@@ -150,9 +150,9 @@ pub struct FigureFamily {
     pub meaning: &'static str,
     /// Reservation said with the heading: the value depends on the resolution; mostly empty.
     pub caveat: &'static str,
-    /// Where the values stand.
+    /// Places of the values in the summary.
     pub values: FigureValues,
-    /// How slices are summed up.
+    /// Reduction of the slices.
     pub over_slices: OverSlices,
     /// Whether one looks for the combination where it is least.
     pub less_is_better: bool,

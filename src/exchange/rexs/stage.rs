@@ -70,7 +70,7 @@ impl<'a> RexsStage<'a> {
         }
     }
 
-    /// What the stage says of one of its gears, where it does.
+    /// Data of one gear, where the stage gives them.
     fn data_of(&self, document: &'a RexsDocument, gear: &RexsComponent) -> Option<&'a RexsComponent> {
         let relation = document.relation("stage_gear_data", &[("stage", &self.component.id), ("gear", &gear.id)])?;
         document.component(relation.member("stage_gear_data")?)
