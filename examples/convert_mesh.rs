@@ -6,9 +6,9 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use gearwear::mesh::gmsh::{GmshEncoding, GmshStyle, GmshVersion};
-use gearwear::mesh::vtu::VtuEncoding;
-use gearwear::mesh::{self, Format};
+use gearwear_mesh::gmsh::{GmshEncoding, GmshStyle, GmshVersion};
+use gearwear_mesh::vtu::VtuEncoding;
+use gearwear_mesh::{self as mesh, Format};
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

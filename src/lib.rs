@@ -92,57 +92,44 @@
 //!
 //! `ARCHITECTURE.md` is the map of the code, `docs/theory.md` the derivations that the modules cite.
 
-// What the program alone uses of a room stays in the library without it: it is not compiled into anything.
-#![cfg_attr(not(feature = "program"), allow(dead_code, unused_imports, reason = "the program uses it"))]
-
-// The program, the tests and the examples name the library alike.
+// Tests and examples name the library alike.
 extern crate self as gearwear;
 
-#[cfg(feature = "program")]
-mod cli;
-#[cfg(feature = "program")]
-mod exchange;
-mod fem_problem;
-#[cfg(feature = "program")]
-mod measurement;
-mod report;
-mod resume;
-mod runs;
-mod scene;
-mod studies;
+pub mod evaluate;
+pub mod exchange;
+pub mod fem_problem;
+pub mod report;
+pub mod resume;
+pub mod runs;
+pub mod scene;
+pub mod spread;
+pub mod sweep;
+pub mod uncertainty;
+pub mod varied_scene;
 
-// What it calculates with, under the names of the rooms there.
-use gearwear_fem as fem;
-use gearwear_files::{content_hash, data_table, whole_file};
-pub use gearwear_mesh as mesh;
-use gearwear_physics::{
-    assessment, calibration, contact, gear, gear_fem, gear_mesh, lubrication, mesh_cycle, observer, operation, plan,
-    simulation, stiffness, thermal, wear,
-};
-pub use gearwear_physics::{material, reference, results};
-
-#[cfg(all(test, feature = "program"))]
+#[cfg(test)]
 #[allow(unreachable_pub, reason = "test modules are of one crate")]
 #[path = "../tests/inside/mod.rs"]
 mod inside;
 
-pub use assessment::calibrate::{CalibrateError, Calibrated};
-pub use assessment::fem_scene::FemPairError;
-pub use assessment::pair_mesh::PairMeshError;
-pub use assessment::{Done, RunError};
-pub use calibration::Calibration;
-#[cfg(feature = "program")]
-pub use cli::{main as program, with_arguments as program_with};
-pub use contact::settings::MatchCriterion;
+pub use evaluate::{EvaluateError, Evaluation, evaluate};
 pub use fem_problem::FemProblemError;
-pub use gear::{Gear, PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
-pub use observer::{Observer, Unwatched};
-pub use plan::Plan;
+pub use gearwear_mesh as mesh;
+pub use gearwear_physics::assessment::calibrate::{CalibrateError, Calibrated};
+pub use gearwear_physics::assessment::fem_scene::FemPairError;
+pub use gearwear_physics::assessment::pair_mesh::PairMeshError;
+pub use gearwear_physics::assessment::{Done, RunError};
+pub use gearwear_physics::calibration::Calibration;
+pub use gearwear_physics::contact::settings::MatchCriterion;
+pub use gearwear_physics::gear::{Gear, PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
+pub use gearwear_physics::observer::{Observer, Unwatched};
+pub use gearwear_physics::plan::Plan;
+pub use gearwear_physics::results::run::RunRecord;
+pub use gearwear_physics::{material, reference, results};
 pub use report::columns;
 pub use report::figure::Figure;
 pub use report::files::ReportError;
 pub use report::unit::of as unit_of;
-pub use results::run::RunRecord;
 pub use runs::run;
 pub use scene::Resolved;
 pub use scene::blame::SceneFault;
@@ -151,67 +138,34 @@ pub use scene::loaded::{LoadError, LoadedScene, SceneError, SceneText};
 pub use scene::presets::{PRESETS, Preset};
 pub use scene::schema::schema as scene_schema;
 pub use scene::{Problem, ProblemKind};
-pub use studies::evaluate::{EvaluateError, Evaluation, evaluate};
-#[cfg(feature = "program")]
-pub use studies::found::{CompareQuestion, Study, StudyError, accuracy, compare, compare_runs, validate};
-#[cfg(feature = "program")]
-pub use studies::uncertainty::{
+// The values that `LoadedScene::with` takes.
+pub use toml;
+pub use uncertainty::{
     asked::{UncertaintyError, UncertaintyQuestion},
     record::UncertaintyRecord,
 };
-// The values that `LoadedScene::with` takes.
-pub use toml;
-
-/// Sweeps: a scene's run for all combinations of some varied keys.
-///
-/// ```
-/// use gearwear::sweep::{Sweep, SweepQuestion, UnfinishedSweep};
-/// use gearwear::{LoadedScene, Unwatched};
-///
-/// let scene = LoadedScene::preset("thesis-spur")?.with("contact.surface", "hertz-mean")?.with("numerics.positions", 40)?;
-/// let vary = vec!["operation.pinion_torque_Nm=200,300".to_owned()];
-/// let sweep = Sweep::of(&scene, &SweepQuestion { vary, ..SweepQuestion::default() })?;
-/// // Kept in memory; with a folder, in the journal that `gearwear sweep` goes on with.
-/// let mut unfinished = UnfinishedSweep::begin(&sweep, None)?;
-/// for task in unfinished.tasks()? {
-///     // On any machine.
-///     let row = sweep.carry_out(&task, &Unwatched)?.expect("nobody interrupts it");
-///     unfinished.keep(&row)?;
-/// }
-/// assert_eq!((unfinished.finished(), unfinished.tasks()?.len()), (2, 0));
-/// let table = unfinished.finish()?.table();
-/// assert_eq!(table.columns[0].name, "index");
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[cfg(feature = "program")]
-pub mod sweep {
-    pub use crate::studies::sweep::asked::{SweepError, SweepQuestion};
-    pub use crate::studies::sweep::combination::Sweep;
-    pub use crate::studies::sweep::record::SweepRecord;
-    pub use crate::studies::sweep::unfinished::UnfinishedSweep;
-}
 
 /// What the errors of the calls are made of.
 pub mod error {
-    pub use crate::calibration::CalibrationError;
-    pub use crate::calibration::file::CalibrationFileError;
-    pub use crate::fem::active_set::ActiveSetError;
-    pub use crate::fem::element::ElementError;
-    pub use crate::fem::equilibrium::SolveError;
-    pub use crate::fem::factor::FactorError;
-    pub use crate::fem::space::FoldedHexahedron;
-    pub use crate::gear::error::PairError;
-    pub use crate::gear_fem::{cycle::CycleError, full::FullError, in_space::SpaceError, model::ModelError};
-    pub use crate::mesh_cycle::load_sharing::EquilibriumError;
-    pub use crate::mesh_cycle::pair_in_space::PairInSpaceError;
-    pub use crate::simulation::wear_run::SimulationError;
-    pub use crate::stiffness::{StiffnessError, curve_file::CurveFileError};
+    pub use gearwear_fem::active_set::ActiveSetError;
+    pub use gearwear_fem::element::ElementError;
+    pub use gearwear_fem::equilibrium::SolveError;
+    pub use gearwear_fem::factor::FactorError;
+    pub use gearwear_fem::space::FoldedHexahedron;
+    pub use gearwear_physics::calibration::CalibrationError;
+    pub use gearwear_physics::calibration::file::CalibrationFileError;
+    pub use gearwear_physics::gear::error::PairError;
+    pub use gearwear_physics::gear_fem::{cycle::CycleError, full::FullError, in_space::SpaceError, model::ModelError};
+    pub use gearwear_physics::mesh_cycle::load_sharing::EquilibriumError;
+    pub use gearwear_physics::mesh_cycle::pair_in_space::PairInSpaceError;
+    pub use gearwear_physics::simulation::wear_run::SimulationError;
+    pub use gearwear_physics::stiffness::{StiffnessError, curve_file::CurveFileError};
 }
 
 use std::path::Path;
 
-use results::fem_pair::FemPairRecord;
-use results::fem_problem::FemRecord;
+use gearwear_physics::results::fem_pair::FemPairRecord;
+use gearwear_physics::results::fem_problem::FemRecord;
 use scene::fem_problem::FemProblem;
 
 /// Calibrates the fast model of the scene's pair with finite elements: K/H of the Winkler foundation by position and load, and the
@@ -220,7 +174,7 @@ use scene::fem_problem::FemProblem;
 /// # Errors
 /// [`CalibrateError`]
 pub fn calibrate(scene: &LoadedScene, observer: &dyn Observer) -> Result<Calibrated, CalibrateError> {
-    runs::calibrate(scene, assessment::calibrate::CalibrationExtent::Whole, observer)
+    runs::calibrate(scene, gearwear_physics::assessment::calibrate::CalibrationExtent::Whole, observer)
 }
 
 /// Solves the contact of the scene's pair with plane finite elements: at the position `position_mm` of the path of contact (radius of
@@ -233,7 +187,11 @@ pub fn fem_pair(
     position_mm: Option<f64>,
     observer: &dyn Observer,
 ) -> Result<Done<FemPairRecord, FemPairError>, FemPairError> {
-    runs::fem_pair(&scene.resolved, assessment::fem_scene::FemPairRequest { position_mm, full: false }, observer)
+    runs::fem_pair(
+        &scene.resolved,
+        gearwear_physics::assessment::fem_scene::FemPairRequest { position_mm, full: false },
+        observer,
+    )
 }
 
 /// Solves a problem of finite elements on a mesh of one's own, plane with contact or three-dimensional without: `problem_toml` is the text of a problem file
@@ -252,7 +210,7 @@ pub fn fem_problem(problem_toml: &str, folder: &Path, observer: &dyn Observer) -
 /// As [`fem_problem`].
 pub fn fem_problem_on(
     problem_toml: &str,
-    mesh: &mesh::Mesh,
+    mesh: &gearwear_mesh::Mesh,
     observer: &dyn Observer,
 ) -> Result<FemRecord, FemProblemError> {
     let problem = FemProblem::from_toml(problem_toml).map_err(FemProblemError::Input)?;
@@ -260,7 +218,7 @@ pub fn fem_problem_on(
 }
 
 /// The mesh of a problem with its solution at the nodes, as `solution.vtu` has it.
-pub fn solution_mesh(record: &FemRecord) -> mesh::Mesh {
+pub fn solution_mesh(record: &FemRecord) -> gearwear_mesh::Mesh {
     report::fem::solution_mesh(record)
 }
 
@@ -285,8 +243,8 @@ pub fn pair_mesh(
     of: Meshed,
     position_mm: Option<f64>,
     observer: &dyn Observer,
-) -> Result<mesh::Mesh, PairMeshError> {
-    use assessment::{deformed_teeth, pair_mesh};
+) -> Result<gearwear_mesh::Mesh, PairMeshError> {
+    use gearwear_physics::assessment::{deformed_teeth, pair_mesh};
     Ok(match of {
         Meshed::InPlane => pair_mesh::build(scene.scene(), position_mm)?.mesh,
         Meshed::InSpace => pair_mesh::in_space(scene.scene(), position_mm)?.mesh,
@@ -301,25 +259,23 @@ pub fn pair_mesh(
 ///
 /// # Errors
 /// What is wrong with the question; runs that all failed.
-#[cfg(feature = "program")]
 pub fn uncertainty(
     scene: &LoadedScene,
     question: &UncertaintyQuestion,
     threads: usize,
     observer: &dyn Observer,
 ) -> Result<UncertaintyRecord, UncertaintyError> {
-    let question = studies::uncertainty::study::SampledQuestion::of(scene, question)?;
-    let record = studies::uncertainty::study::run(scene, &question, threads, observer);
-    Ok(record.map_err(studies::uncertainty::asked::UncertaintyFault::Study)?)
+    let question = uncertainty::study::SampledQuestion::of(scene, question)?;
+    let record = uncertainty::study::run(scene, &question, threads, observer);
+    Ok(record.map_err(uncertainty::asked::UncertaintyFault::Study)?)
 }
 
 /// Writes what `gearwear uncertainty` writes into `folder`, which is made if need be.
 ///
 /// # Errors
 /// [`ReportError`] where a file cannot be written.
-#[cfg(feature = "program")]
 pub fn write_uncertainty(record: &UncertaintyRecord, folder: &Path) -> Result<(), ReportError> {
-    studies::uncertainty::report::write(record, folder)
+    uncertainty::report::write(record, folder)
 }
 
 /// The plots of the page of a run as drawings, SVG; surfaces in space are left out.

@@ -1,17 +1,17 @@
 //! Runs of a loaded scene: what its record says of the file, and the assessment that is carried out on it.
 
-use crate::assessment::calibrate::{self, CalibrateError, Calibrated, CalibrationExtent};
-use crate::assessment::fem_scene::{self, FemPairError, FemPairRequest};
-use crate::assessment::{self, Done, Resumption, RunError, RunInputs};
-use crate::observer::Observer;
-use crate::plan::Plan;
-use crate::results::fem_pair::FemPairRecord;
-use crate::results::provenance::Provenance;
-use crate::results::reported_by::ReportedBy;
-use crate::results::run::{InputFile, Summary};
-use crate::results::worn_pair::WornPair;
 use crate::scene::file::ReportFile;
 use crate::scene::{Resolved, loaded::LoadedScene};
+use gearwear_physics::assessment::calibrate::{self, CalibrateError, Calibrated, CalibrationExtent};
+use gearwear_physics::assessment::fem_scene::{self, FemPairError, FemPairRequest};
+use gearwear_physics::assessment::{self, Done, Resumption, RunError, RunInputs};
+use gearwear_physics::observer::Observer;
+use gearwear_physics::plan::Plan;
+use gearwear_physics::results::fem_pair::FemPairRecord;
+use gearwear_physics::results::provenance::Provenance;
+use gearwear_physics::results::reported_by::ReportedBy;
+use gearwear_physics::results::run::{InputFile, Summary};
+use gearwear_physics::results::worn_pair::WornPair;
 
 impl LoadedScene {
     /// The stages a run of it has, those left out, and why.
@@ -23,12 +23,12 @@ impl LoadedScene {
     ///
     /// # Errors
     /// The same as the run's.
-    pub(crate) fn check_springs(&self) -> Result<(), RunError> {
+    pub fn check_springs(&self) -> Result<(), RunError> {
         self.inputs(&Provenance::default()).check_springs()
     }
 
     /// Inputs of a run whose record quotes `provenance`.
-    pub(crate) fn inputs<'a>(&'a self, provenance: &'a Provenance) -> RunInputs<'a> {
+    pub fn inputs<'a>(&'a self, provenance: &'a Provenance) -> RunInputs<'a> {
         RunInputs {
             scene: &self.resolved.scene,
             calibration: self.files.calibration.as_ref(),
@@ -76,11 +76,7 @@ pub fn run(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done, RunErro
 ///
 /// # Errors
 /// As [`run`].
-pub(crate) fn run_from(
-    scene: &LoadedScene,
-    resumption: Resumption<'_>,
-    observer: &dyn Observer,
-) -> Result<Done, RunError> {
+pub fn run_from(scene: &LoadedScene, resumption: Resumption<'_>, observer: &dyn Observer) -> Result<Done, RunError> {
     assessment::run(scene.inputs(&scene.provenance()), resumption, observer)
 }
 
@@ -88,7 +84,7 @@ pub(crate) fn run_from(
 ///
 /// # Errors
 /// As [`run`].
-pub(crate) fn summarise(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done<Summary>, RunError> {
+pub fn summarise(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done<Summary>, RunError> {
     assessment::summarise(scene.inputs(&scene.provenance()), observer)
 }
 
@@ -96,7 +92,7 @@ pub(crate) fn summarise(scene: &LoadedScene, observer: &dyn Observer) -> Result<
 ///
 /// # Errors
 /// As [`run`].
-pub(crate) fn worn_pair(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done<WornPair>, RunError> {
+pub fn worn_pair(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done<WornPair>, RunError> {
     assessment::worn_pair(scene.inputs(&scene.provenance()), observer)
 }
 
@@ -104,7 +100,7 @@ pub(crate) fn worn_pair(scene: &LoadedScene, observer: &dyn Observer) -> Result<
 ///
 /// # Errors
 /// [`FemPairError`] where no position was solved.
-pub(crate) fn fem_pair(
+pub fn fem_pair(
     resolved: &Resolved,
     request: FemPairRequest,
     observer: &dyn Observer,
@@ -116,7 +112,7 @@ pub(crate) fn fem_pair(
 ///
 /// # Errors
 /// [`CalibrateError`]
-pub(crate) fn calibrate(
+pub fn calibrate(
     scene: &LoadedScene,
     extent: CalibrationExtent,
     observer: &dyn Observer,

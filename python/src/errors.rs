@@ -4,7 +4,8 @@ use std::io;
 
 use gearwear::mesh::MeshFileError;
 use gearwear::sweep::SweepError;
-use gearwear::{LoadError, Problem, ProblemKind, ReportError, SceneError, StudyError, UncertaintyError};
+use gearwear::{LoadError, Problem, ProblemKind, ReportError, SceneError, UncertaintyError};
+use gearwear_validation::found::StudyError;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;

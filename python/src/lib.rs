@@ -26,7 +26,7 @@ use pyo3::prelude::*;
 /// The program `gearwear` with these arguments, of which the first is its name; its exit status.
 #[pyfunction]
 fn program(arguments: Vec<OsString>) -> u8 {
-    gearwear::program_with(arguments)
+    gearwear_cli::with_arguments(arguments)
 }
 
 /// The names of the built-in scenes.

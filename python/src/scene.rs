@@ -223,7 +223,9 @@ impl Scene {
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Study> {
         let scene = self.loaded.clone();
-        let work = move |observer: &dyn gearwear::Observer| gearwear::accuracy(&scene, within, quick, observer);
+        let work = move |observer: &dyn gearwear::Observer| {
+            gearwear_validation::found::accuracy(&scene, within, quick, observer)
+        };
         Study::of(py, watched(py, threads, progress, work)?)
     }
 

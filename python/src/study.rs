@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use gearwear::{CompareQuestion, Observer};
+use gearwear::Observer;
+use gearwear_validation::found::CompareQuestion;
 use pyo3::prelude::*;
 
 use crate::errors;
@@ -11,11 +12,14 @@ use crate::watched::{cores, watched};
 /// What a study found.
 #[pyclass(frozen, module = "gearwear._native")]
 pub(crate) struct Study {
-    study: gearwear::Study,
+    study: gearwear_validation::found::Study,
 }
 
 impl Study {
-    pub(crate) fn of(py: Python<'_>, found: Result<gearwear::Study, gearwear::StudyError>) -> PyResult<Self> {
+    pub(crate) fn of(
+        py: Python<'_>,
+        found: Result<gearwear_validation::found::Study, gearwear_validation::found::StudyError>,
+    ) -> PyResult<Self> {
         found.map(|study| Self { study }).map_err(|error| errors::of_study(py, &error))
     }
 }
@@ -49,14 +53,14 @@ pub(crate) fn compare(
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<Study> {
     let question = CompareQuestion { gear, form, fit, shift_within_mm };
-    let work = move |observer: &dyn Observer| gearwear::compare(&run, &measured, &question, observer);
+    let work = move |observer: &dyn Observer| gearwear_validation::found::compare(&run, &measured, &question, observer);
     Study::of(py, watched(py, threads, progress, work)?)
 }
 
 /// Finished runs side by side: their folders and what they are called.
 #[pyfunction]
 pub(crate) fn compare_runs(py: Python<'_>, runs: Vec<(PathBuf, String)>) -> PyResult<Study> {
-    Study::of(py, py.detach(|| gearwear::compare_runs(&runs)))
+    Study::of(py, py.detach(|| gearwear_validation::found::compare_runs(&runs)))
 }
 
 /// The validation suite.
@@ -69,6 +73,7 @@ pub(crate) fn validate(
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<Study> {
     let count = cores(threads);
-    let work = move |observer: &dyn Observer| gearwear::validate(&cases, tier.as_deref(), count, observer);
+    let work =
+        move |observer: &dyn Observer| gearwear_validation::found::validate(&cases, tier.as_deref(), count, observer);
     Study::of(py, watched(py, threads, progress, work)?)
 }

@@ -1,3 +1,3 @@
 //! Gear pairs out of the files of other programs, as the text of a scene.
 
-pub(crate) mod rexs;
+pub mod rexs;

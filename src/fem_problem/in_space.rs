@@ -3,11 +3,13 @@
 use nalgebra::{Vector3, Vector6};
 
 use super::recording::{mesh_summary, out_of_balance};
-use crate::fem::problem::Stop;
-use crate::fem::space::problem::{SpaceEquilibrium, SpaceProblem};
-use crate::fem::stress::von_mises_mpa;
-use crate::results::fem_problem::{BoundaryRow, FemRecord, FemSolution, FemSummary, InSpaceSummary, SpaceSolution};
 use crate::scene::fem_problem::{Component, FemProblem, FemProblemFile, Posed};
+use gearwear_fem::problem::Stop;
+use gearwear_fem::space::problem::{SpaceEquilibrium, SpaceProblem};
+use gearwear_fem::stress::von_mises_mpa;
+use gearwear_physics::results::fem_problem::{
+    BoundaryRow, FemRecord, FemSolution, FemSummary, InSpaceSummary, SpaceSolution,
+};
 
 /// The record of a solution, without the times of its stages.
 pub(super) fn record(

@@ -7,14 +7,14 @@ use std::borrow::Cow;
 use std::path::Path;
 use std::time::Instant;
 
-use crate::assessment::stage_clock::StageClock;
-use crate::fem::{self, SolveError};
-use crate::mesh::{self, Format, Mesh, MeshFileError};
-use crate::observer::Observer;
-use crate::results::fem_problem::FemRecord;
 use crate::scene::Problem;
 use crate::scene::fem_problem::FemProblem;
 use crate::scene::short_hash;
+use gearwear_fem::{self as fem, SolveError};
+use gearwear_mesh::{self as mesh, Format, Mesh, MeshFileError};
+use gearwear_physics::assessment::stage_clock::StageClock;
+use gearwear_physics::observer::Observer;
+use gearwear_physics::results::fem_problem::FemRecord;
 
 /// A factor that takes more than this is announced, GB; in space it takes 20 s about there.
 const MUCH_MEMORY_GB: f64 = 0.5;
@@ -34,7 +34,7 @@ pub enum FemProblemError {
 ///
 /// # Errors
 /// Everything that is wrong with problem and mesh, or why the solver failed.
-pub(crate) fn run(problem: &FemProblem, folder: &Path, observer: &dyn Observer) -> Result<FemRecord, FemProblemError> {
+pub fn run(problem: &FemProblem, folder: &Path, observer: &dyn Observer) -> Result<FemRecord, FemProblemError> {
     let unreadable = |reason: String| FemProblemError::Input(problem.mesh_unreadable(&reason));
     let read = || -> Result<_, FemProblemError> {
         let path = folder.join(&problem.file.mesh.file);
@@ -53,11 +53,7 @@ pub(crate) fn run(problem: &FemProblem, folder: &Path, observer: &dyn Observer) 
 ///
 /// # Errors
 /// As [`run`].
-pub(crate) fn on_mesh(
-    problem: &FemProblem,
-    mesh: &Mesh,
-    observer: &dyn Observer,
-) -> Result<FemRecord, FemProblemError> {
+pub fn on_mesh(problem: &FemProblem, mesh: &Mesh, observer: &dyn Observer) -> Result<FemRecord, FemProblemError> {
     let given = || {
         let text = mesh::to_bytes(mesh, Format::Json);
         let text = text.map_err(|error| FemProblemError::Input(problem.mesh_unreadable(&with_causes(&error))))?;

@@ -2,17 +2,17 @@
 
 use nalgebra::Vector2;
 
-use crate::assessment::UM_PER_MM;
-use crate::assessment::hertz_comparison::{self, ContactPatch};
-use crate::fem::element::ElementError;
-use crate::fem::problem::{ContactPair, ContactState, Problem, Solution};
-use crate::fem::stress::{self, StressRecovery};
-use crate::mesh::quality::{self, MeshQuality};
-use crate::results::fem_problem::{
+use crate::scene::fem_problem::{FemProblem, Posed};
+use gearwear_fem::element::ElementError;
+use gearwear_fem::problem::{ContactPair, ContactState, Problem, Solution};
+use gearwear_fem::stress::{self, StressRecovery};
+use gearwear_mesh::quality::{self, MeshQuality};
+use gearwear_physics::assessment::UM_PER_MM;
+use gearwear_physics::assessment::hertz_comparison::{self, ContactPatch};
+use gearwear_physics::results::fem_problem::{
     ContactCurve, ContactRow, ContactSummary, FemRecord, FemSolution, FemSummary, MeshSummary, NodalStress,
     PlaneSolution,
 };
-use crate::scene::fem_problem::{FemProblem, Posed};
 
 /// Elements along the half-width from which on pressures are trusted.
 const ENOUGH_ELEMENTS: f64 = 8.0;

@@ -6,29 +6,29 @@
 //! charts follow the light, dark or printed page.
 
 use super::control::Control;
-pub(crate) use super::trace::{
+pub use super::trace::{
     BarPlaces, Bars, ColourScale, Curve, Dash, Drawn, Field, Line, Rows, Shown, Signs, Surface, Trace, View,
 };
-use crate::gear::Gear;
-use crate::results::run::PathPoints;
+use gearwear_physics::gear::Gear;
+use gearwear_physics::results::run::PathPoints;
 
-pub(crate) const NEW: &str = "var(--new)";
-pub(crate) const WORN: &str = "var(--worn)";
+pub const NEW: &str = "var(--new)";
+pub const WORN: &str = "var(--worn)";
 /// Secondary lines and labels.
-pub(crate) const MUTED: &str = "var(--muted)";
+pub const MUTED: &str = "var(--muted)";
 /// The path of contact.
-pub(crate) const PATH: &str = "var(--path)";
+pub const PATH: &str = "var(--path)";
 /// Outlines and the answer that others are compared with.
-pub(crate) const INK: &str = "var(--ink)";
+pub const INK: &str = "var(--ink)";
 
-pub(crate) fn gear_colour(gear: Gear) -> &'static str {
+pub fn gear_colour(gear: Gear) -> &'static str {
     match gear {
         Gear::Pinion => "var(--pinion)",
         Gear::Wheel => "var(--wheel)",
     }
 }
 
-pub(crate) fn gear_fill(gear: Gear) -> &'static str {
+pub fn gear_fill(gear: Gear) -> &'static str {
     match gear {
         Gear::Pinion => "var(--pinion-fill)",
         Gear::Wheel => "var(--wheel-fill)",
@@ -36,18 +36,18 @@ pub(crate) fn gear_fill(gear: Gear) -> &'static str {
 }
 
 /// Colour of a gear at `share` of its life: from pale to full.
-pub(crate) fn gear_colour_at(gear: Gear, share: f64) -> String {
+pub fn gear_colour_at(gear: Gear, share: f64) -> String {
     format!("mix(--{0}-early,--{0},{share:.3})", gear.name())
 }
 
 /// Colour between those of the gears.
-pub(crate) fn colour_between_gears(share: f64) -> String {
+pub fn colour_between_gears(share: f64) -> String {
     format!("mix(--pinion,--wheel,{share:.3})")
 }
 
 /// An axis: its words, range and ticks.
 #[derive(Debug, Clone)]
-pub(crate) struct Axis {
+pub struct Axis {
     /// Unit included.
     pub title: String,
     /// Values at its beginning and its end; otherwise they follow from the traces.
@@ -61,7 +61,7 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    pub(crate) fn new() -> Self {
+    pub fn new() -> Self {
         Self {
             title: String::new(),
             range: None,
@@ -75,7 +75,7 @@ impl Axis {
 
 /// A vertical line with its name above it.
 #[derive(Debug, Clone)]
-pub(crate) struct Mark {
+pub struct Mark {
     pub name: String,
     pub x: f64,
     pub is_strong: bool,
@@ -83,7 +83,7 @@ pub(crate) struct Mark {
 
 /// A name beside something.
 #[derive(Debug, Clone)]
-pub(crate) enum Label {
+pub enum Label {
     /// At the right of the plot, at this height.
     Beside { name: String, y: f64 },
     /// Just above a point.
@@ -92,7 +92,7 @@ pub(crate) enum Label {
 
 /// A chart with its words.
 #[derive(Debug, Clone)]
-pub(crate) struct Chart {
+pub struct Chart {
     /// Identifier in the page, letters and hyphens.
     pub id: String,
     pub title: String,
@@ -120,7 +120,7 @@ pub(crate) struct Chart {
 
 impl Chart {
     /// An empty chart. Its width follows from the room there is.
-    pub(crate) fn new(id: impl Into<String>, title: impl Into<String>) -> Self {
+    pub fn new(id: impl Into<String>, title: impl Into<String>) -> Self {
         Self {
             id: id.into(),
             title: title.into(),
@@ -140,140 +140,140 @@ impl Chart {
         }
     }
 
-    pub(crate) fn reading(mut self, text: impl Into<String>) -> Self {
+    pub fn reading(mut self, text: impl Into<String>) -> Self {
         self.reading = text.into();
         self
     }
 
     /// Over the whole width of the page.
-    pub(crate) fn wide(self) -> Self {
+    pub fn wide(self) -> Self {
         self.wide_if(true)
     }
 
-    pub(crate) fn wide_if(mut self, is_wide: bool) -> Self {
+    pub fn wide_if(mut self, is_wide: bool) -> Self {
         self.is_wide = is_wide;
         self
     }
 
     /// With a slider below it; states of which there is only one need none.
-    pub(crate) fn movable(mut self, control: Control) -> Self {
+    pub fn movable(mut self, control: Control) -> Self {
         let moves = !matches!(&control, Control::Steps { steps, .. } if steps.len() < 2);
         self.control = moves.then_some(control);
         self
     }
 
-    pub(crate) fn height(mut self, px: usize) -> Self {
+    pub fn height(mut self, px: usize) -> Self {
         self.height_px = px;
         self
     }
 
     /// A length is the same on both axes.
-    pub(crate) fn drawn_to_scale(mut self) -> Self {
+    pub fn drawn_to_scale(mut self) -> Self {
         self.is_to_scale = true;
         self
     }
 
     /// The reader drags the drawing, rather than a frame to be enlarged.
-    pub(crate) fn dragged(mut self) -> Self {
+    pub fn dragged(mut self) -> Self {
         self.is_dragged = true;
         self
     }
 
     /// Whether traces are named below it.
-    pub(crate) fn legend(mut self, is_shown: bool) -> Self {
+    pub fn legend(mut self, is_shown: bool) -> Self {
         self.has_legend = is_shown;
         self
     }
 
     /// The nearest point is read, not all above one another.
-    pub(crate) fn read_nearest(mut self) -> Self {
+    pub fn read_nearest(mut self) -> Self {
         self.reads_nearest = true;
         self
     }
 
     /// Names the axis across, unit included.
-    pub(crate) fn x(mut self, title: &str) -> Self {
+    pub fn x(mut self, title: &str) -> Self {
         self.x.title = title.to_owned();
         self
     }
 
     /// Names the axis upwards, unit included.
-    pub(crate) fn y(mut self, title: &str) -> Self {
+    pub fn y(mut self, title: &str) -> Self {
         self.y.title = title.to_owned();
         self
     }
 
-    pub(crate) fn x_range(mut self, range: [f64; 2]) -> Self {
+    pub fn x_range(mut self, range: [f64; 2]) -> Self {
         self.x.range = Some(range);
         self
     }
 
-    pub(crate) fn y_range(mut self, range: [f64; 2]) -> Self {
+    pub fn y_range(mut self, range: [f64; 2]) -> Self {
         self.y.range = Some(range);
         self
     }
 
     /// The axis upwards from 0 to somewhat above `greatest`.
-    pub(crate) fn y_up_to(self, greatest: f64) -> Self {
+    pub fn y_up_to(self, greatest: f64) -> Self {
         self.y_range(from_zero(greatest))
     }
 
     /// The axis upwards as a depth: from somewhat below `greatest` up to 0.
-    pub(crate) fn y_down_to(self, greatest: f64) -> Self {
+    pub fn y_down_to(self, greatest: f64) -> Self {
         let [_, bottom] = from_zero(greatest);
         self.y_range([bottom, -0.02 * bottom])
     }
 
     /// How places across are read, a format of d3.
-    pub(crate) fn x_format(mut self, format: &'static str) -> Self {
+    pub fn x_format(mut self, format: &'static str) -> Self {
         self.x.format = Some(format);
         self
     }
 
     /// Powers of ten evenly spaced, across.
-    pub(crate) fn x_logarithmic(mut self) -> Self {
+    pub fn x_logarithmic(mut self) -> Self {
         self.x.is_logarithmic = true;
         self
     }
 
-    pub(crate) fn y_logarithmic(mut self) -> Self {
+    pub fn y_logarithmic(mut self) -> Self {
         self.y.is_logarithmic = true;
         self
     }
 
     /// Values across with words of their own.
-    pub(crate) fn x_ticks(mut self, ticks: impl IntoIterator<Item = (f64, impl Into<String>)>) -> Self {
+    pub fn x_ticks(mut self, ticks: impl IntoIterator<Item = (f64, impl Into<String>)>) -> Self {
         self.x.ticks = ticks.into_iter().map(|(value, word)| (value, word.into())).collect();
         self
     }
 
-    pub(crate) fn y_ticks(mut self, ticks: impl IntoIterator<Item = (f64, impl Into<String>)>) -> Self {
+    pub fn y_ticks(mut self, ticks: impl IntoIterator<Item = (f64, impl Into<String>)>) -> Self {
         self.y.ticks = ticks.into_iter().map(|(value, word)| (value, word.into())).collect();
         self
     }
 
-    pub(crate) fn without_grid(mut self) -> Self {
+    pub fn without_grid(mut self) -> Self {
         (self.x.has_grid, self.y.has_grid) = (false, false);
         self
     }
 
     /// The axis across as the path of contact, with its points.
-    pub(crate) fn over_path(self, points: &PathPoints) -> Self {
+    pub fn over_path(self, points: &PathPoints) -> Self {
         self.x("contact position, mm").x_range(padded(points.A, points.E)).x_format(".3f").mark_path_points(points)
     }
 
-    pub(crate) fn add(mut self, trace: Trace) -> Self {
+    pub fn add(mut self, trace: Trace) -> Self {
         self.traces.push(trace);
         self
     }
 
     /// Draws all of `traces`, one over the other.
-    pub(crate) fn add_all(self, traces: impl IntoIterator<Item = Trace>) -> Self {
+    pub fn add_all(self, traces: impl IntoIterator<Item = Trace>) -> Self {
         traces.into_iter().fold(self, Self::add)
     }
 
     /// Draws a line, read at its points by the template `hover`.
-    pub(crate) fn line(
+    pub fn line(
         self,
         name: impl Into<String>,
         x: impl IntoIterator<Item = impl Into<Option<f64>>>,
@@ -285,37 +285,37 @@ impl Chart {
     }
 
     /// Draws a quantity new (dashed, grey) and worn (full) against `x`.
-    pub(crate) fn new_and_worn(self, x: &[f64], new: Vec<f64>, worn: Vec<f64>, hover: &str) -> Self {
+    pub fn new_and_worn(self, x: &[f64], new: Vec<f64>, worn: Vec<f64>, hover: &str) -> Self {
         let x = || x.iter().copied();
         let chart = self.line("new", x(), new, (NEW, 2.0, Dash::Dashed), hover);
         chart.line("worn", x(), worn, (WORN, 2.2, Dash::Solid), hover)
     }
 
     /// A vertical line with its letter at each of the points A–E; the pitch point C is the stronger one.
-    pub(crate) fn mark_path_points(self, points: &PathPoints) -> Self {
+    pub fn mark_path_points(self, points: &PathPoints) -> Self {
         self.mark(points.named(), "C")
     }
 
     /// A vertical line with its name at each place; that of the name `strongest` is the stronger one.
-    pub(crate) fn mark(mut self, places: impl IntoIterator<Item = (impl Into<String>, f64)>, strongest: &str) -> Self {
+    pub fn mark(mut self, places: impl IntoIterator<Item = (impl Into<String>, f64)>, strongest: &str) -> Self {
         let marks = places.into_iter().map(|(name, x)| (name.into(), x));
         self.marks = marks.map(|(name, x)| Mark { is_strong: name == strongest, name, x }).collect();
         self
     }
 
-    pub(crate) fn label(mut self, labels: impl IntoIterator<Item = Label>) -> Self {
+    pub fn label(mut self, labels: impl IntoIterator<Item = Label>) -> Self {
         self.labels.extend(labels);
         self
     }
 }
 
 /// Range from 0 to somewhat above `greatest`; from 0 to 1 where nothing is above zero.
-pub(crate) fn from_zero(greatest: f64) -> [f64; 2] {
+pub fn from_zero(greatest: f64) -> [f64; 2] {
     if greatest > 0.0 && greatest.is_finite() { [0.0, greatest * 1.06] } else { [0.0, 1.0] }
 }
 
 /// The range from `low` to `high` and a little more on either side.
-pub(crate) fn padded(low: f64, high: f64) -> [f64; 2] {
+pub fn padded(low: f64, high: f64) -> [f64; 2] {
     let pad = 0.025 * (high - low).abs();
     [low - pad, high + pad]
 }

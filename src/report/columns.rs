@@ -12,9 +12,9 @@ use serde::Serialize;
 
 use super::fem_pair::pressure_table;
 use super::{csv_table, slice_table, tables, unit};
-use crate::gear::Gear;
-use crate::results::fem_pair::FemPairRecord;
-use crate::results::run::RunRecord;
+use gearwear_physics::gear::Gear;
+use gearwear_physics::results::fem_pair::FemPairRecord;
+use gearwear_physics::results::run::RunRecord;
 
 /// A table as columns of the same length.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,20 +79,20 @@ pub fn of_fem_pair(record: &FemPairRecord, name: &str) -> Option<Table> {
 /// A cell of a table whose columns are named by what is asked; empty where there is nothing to say.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
-pub(crate) enum Cell<'a> {
+pub enum Cell<'a> {
     Whole(Option<i64>),
     Number(Option<f64>),
     Text(Option<Cow<'a, str>>),
 }
 
 impl Cell<'_> {
-    pub(crate) fn count(value: usize) -> Self {
+    pub fn count(value: usize) -> Self {
         Self::Whole(i64::try_from(value).ok())
     }
 }
 
 /// The table called `name` with these columns and rows of cells; whole numbers of which some are missing become numbers.
-pub(crate) fn of_cells<'a>(
+pub fn of_cells<'a>(
     name: &'static str,
     columns: Vec<csv_table::Column>,
     rows: impl IntoIterator<Item = Vec<Cell<'a>>>,

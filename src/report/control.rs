@@ -9,7 +9,7 @@ use super::chart::Rows;
 /// A slider below a chart.
 #[derive(Debug, Clone, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
-pub(crate) enum Control {
+pub enum Control {
     /// States one after the other; the chart is first drawn in the last of them.
     Steps {
         /// What the slider moves, for those who do not see it.
@@ -22,7 +22,7 @@ pub(crate) enum Control {
 
 /// A state of a chart.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct SliderStep {
+pub struct SliderStep {
     /// Its name beside the slider.
     pub label: String,
     pub change: Change,
@@ -31,7 +31,7 @@ pub(crate) struct SliderStep {
 /// What a state has of its own.
 #[derive(Debug, Clone, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Change {
+pub enum Change {
     /// Whether each trace is shown.
     Shown(Vec<bool>),
     /// Values over the cells of the first trace.
@@ -40,7 +40,7 @@ pub(crate) enum Change {
 
 /// Two gears that turn about their axes while their contact moves along the path of contact.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct MeshMotion {
+pub struct MeshMotion {
     /// The traces that turn.
     pub bodies: [TurningBody; 2],
     /// Contact position at which they are drawn, mm.
@@ -63,7 +63,7 @@ pub(crate) struct MeshMotion {
 
 /// A trace that turns.
 #[derive(Debug, Clone, Copy, Serialize)]
-pub(crate) struct TurningBody {
+pub struct TurningBody {
     pub trace: usize,
     pub centre_mm: [f64; 2],
     /// Anticlockwise, per length along the path of contact.

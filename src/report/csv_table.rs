@@ -15,14 +15,14 @@ use serde_json::Value;
 use super::files::{ReportError, place, write_json};
 
 /// The file that says what the columns of the others mean.
-pub(crate) const COLUMNS: &str = "columns.json";
+pub const COLUMNS: &str = "columns.json";
 
 /// The name of a column and what it holds.
-pub(crate) type Column = (String, String);
+pub type Column = (String, String);
 
 /// What was computed: the kind of its input, `scene` or `problem`, with its hash, and by which version of the program.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Provenance<'a> {
+pub struct Provenance<'a> {
     /// Key of the hash.
     input: &'a str,
     hash: &'a str,
@@ -30,17 +30,17 @@ pub(crate) struct Provenance<'a> {
 }
 
 impl<'a> Provenance<'a> {
-    pub(crate) fn of_scene(program_version: &'a str, hash: &'a str) -> Self {
+    pub fn of_scene(program_version: &'a str, hash: &'a str) -> Self {
         Self { program_version, input: "scene_hash", hash }
     }
 
-    pub(crate) fn of_problem(program_version: &'a str, hash: &'a str) -> Self {
+    pub fn of_problem(program_version: &'a str, hash: &'a str) -> Self {
         Self { program_version, input: "problem_hash", hash }
     }
 }
 
 /// The CSV files of a folder as they are written.
-pub(crate) struct CsvFiles<'a> {
+pub struct CsvFiles<'a> {
     dir: &'a Path,
     provenance: Provenance<'a>,
     /// By file.
@@ -59,12 +59,12 @@ impl<V: Serialize> Serialize for InOrder<V> {
 }
 
 impl<'a> CsvFiles<'a> {
-    pub(crate) fn new(dir: &'a Path, provenance: Provenance<'a>) -> Self {
+    pub fn new(dir: &'a Path, provenance: Provenance<'a>) -> Self {
         Self { dir, provenance, columns: Vec::new() }
     }
 
     /// Writes a file with `fill`, which says what its columns hold.
-    pub(crate) fn place(
+    pub fn place(
         &mut self,
         name: &str,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<Vec<Column>>,
@@ -79,7 +79,7 @@ impl<'a> CsvFiles<'a> {
     }
 
     /// Writes what the columns of all files hold.
-    pub(crate) fn finish(self) -> Result<PathBuf, ReportError> {
+    pub fn finish(self) -> Result<PathBuf, ReportError> {
         #[derive(Serialize)]
         struct Columns<'a> {
             program_version: &'a str,
@@ -95,7 +95,7 @@ impl<'a> CsvFiles<'a> {
 }
 
 /// The columns of a record, in the order of its fields.
-pub(crate) fn columns<R: JsonSchema>() -> Vec<Column> {
+pub fn columns<R: JsonSchema>() -> Vec<Column> {
     let schema = SchemaSettings::draft2020_12().for_serialize().into_generator().into_root_schema_for::<R>();
     let schema = schema.as_value();
     // Properties stand by name; what is required, which is all that is written, stands in the order of the fields.
@@ -109,14 +109,14 @@ pub(crate) fn columns<R: JsonSchema>() -> Vec<Column> {
 }
 
 /// The variants of an enumeration with what their documentation says, in their order.
-pub(crate) fn variants<E: JsonSchema>() -> Vec<Column> {
+pub fn variants<E: JsonSchema>() -> Vec<Column> {
     let schema = schemars::schema_for!(E);
     let all = schema.as_value()["oneOf"].as_array().into_iter().flatten();
     all.map(|one| ["const", "description"].map(|key| one[key].as_str().unwrap_or_default().to_owned()).into()).collect()
 }
 
 /// Writes records as a table; what its columns hold.
-pub(crate) fn table<R: Serialize + JsonSchema>(
+pub fn table<R: Serialize + JsonSchema>(
     out: &mut dyn Write,
     rows: impl IntoIterator<Item = R>,
 ) -> io::Result<Vec<Column>> {
@@ -124,7 +124,7 @@ pub(crate) fn table<R: Serialize + JsonSchema>(
 }
 
 /// Writes a table whose columns are not known before the program runs.
-pub(crate) fn table_of(
+pub fn table_of(
     out: &mut dyn Write,
     columns: Vec<Column>,
     rows: impl IntoIterator<Item = impl Serialize>,

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use crate::whole_file;
+use gearwear_files::whole_file;
 
 /// What keeps a report from being written.
 #[derive(Debug, thiserror::Error)]
@@ -37,7 +37,7 @@ pub enum ReportError {
 }
 
 /// Takes away `dir/name`, if it is there.
-pub(crate) fn remove(dir: &Path, name: &str) -> Result<(), ReportError> {
+pub fn remove(dir: &Path, name: &str) -> Result<(), ReportError> {
     let path = dir.join(name);
     match fs::remove_file(&path) {
         Err(source) if source.kind() != io::ErrorKind::NotFound => Err(ReportError::WriteFile { path, source }),
@@ -47,7 +47,7 @@ pub(crate) fn remove(dir: &Path, name: &str) -> Result<(), ReportError> {
 
 /// Checks, before work starts, that files can be written into `dir`; leaves nothing behind that was not there, nor
 /// what a process that was killed left.
-pub(crate) fn writable(dir: &Path) -> Result<(), ReportError> {
+pub fn writable(dir: &Path) -> Result<(), ReportError> {
     let missing: Vec<&Path> = dir.ancestors().take_while(|p| !p.as_os_str().is_empty() && !p.exists()).collect();
     let probed = create_folder(dir).and_then(|()| {
         whole_file::temporary(dir).map(drop).map_err(|source| ReportError::WriteFile { path: dir.into(), source })
@@ -60,12 +60,12 @@ pub(crate) fn writable(dir: &Path) -> Result<(), ReportError> {
 }
 
 /// Writes a record as indented JSON. A value that is not finite becomes `null`, never `NaN`, which JSON lacks.
-pub(crate) fn write_json(out: &mut dyn Write, record: &impl Serialize) -> io::Result<()> {
+pub fn write_json(out: &mut dyn Write, record: &impl Serialize) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, record)?;
     writeln!(out)
 }
 
-pub(crate) fn create_folder(dir: &Path) -> Result<(), ReportError> {
+pub fn create_folder(dir: &Path) -> Result<(), ReportError> {
     if dir.exists() && !dir.is_dir() {
         return Err(ReportError::NotAFolder { path: dir.into() });
     }
@@ -73,7 +73,7 @@ pub(crate) fn create_folder(dir: &Path) -> Result<(), ReportError> {
 }
 
 /// Writes `dir/name` with `fill`, whole or not at all.
-pub(crate) fn place(
+pub fn place(
     dir: &Path,
     name: &str,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,

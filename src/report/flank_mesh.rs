@@ -1,7 +1,7 @@
 //! `flank.vtu`: the working flanks of one tooth pair in space, where they touch at the pitch point in the middle of the face
 //! width; for ParaView. `flank.pvd`, where asked for: the same at the beginning and at every snapshot.
 //!
-//! Points lie on the nominal flanks ([`crate::gear::flank_surface`]), from the root form circle to the tip circle and from one
+//! Points lie on the nominal flanks ([`gearwear_physics::gear::flank_surface`]), from the root form circle to the tip circle and from one
 //! end face to the other: at the middle of every slice, and at both end faces with the values of the slice next to them. Wear
 //! and modifications are data; along `transverse_normal` they make the worn flank (ParaView: Warp By Vector, or Calculator and
 //! Warp By Scalar with a factor).
@@ -12,15 +12,15 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 
 use super::vtu_file;
-use crate::gear::{Gear, PerGear};
-use crate::mesh::{CellBlock, CellKind, DataArray, Mesh, Values};
-use crate::results::run::{FlankRecord, RunRecord};
+use gearwear_mesh::{CellBlock, CellKind, DataArray, Mesh, Values};
+use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_physics::results::run::{FlankRecord, RunRecord};
 
 /// Names and values of what is told of the points of a flank, slice after slice.
 type Fields<'a> = Vec<(&'static str, &'a [f64])>;
 
 /// Writes both flanks at the end of the run.
-pub(crate) fn write(out: &mut dyn Write, record: &RunRecord) -> io::Result<()> {
+pub fn write(out: &mut dyn Write, record: &RunRecord) -> io::Result<()> {
     let fields = |gear: Gear| {
         let flank = &record.flanks[gear];
         let pressures =
@@ -31,12 +31,12 @@ pub(crate) fn write(out: &mut dyn Write, record: &RunRecord) -> io::Result<()> {
 }
 
 /// How many files [`write_moment`] can write: the beginning and every snapshot.
-pub(crate) fn moments(record: &RunRecord) -> usize {
+pub fn moments(record: &RunRecord) -> usize {
     record.history.len() + 1
 }
 
 /// Writes both flanks at the beginning (0) or at a snapshot, from 1.
-pub(crate) fn write_moment(out: &mut dyn Write, record: &RunRecord, moment: usize) -> io::Result<()> {
+pub fn write_moment(out: &mut dyn Write, record: &RunRecord, moment: usize) -> io::Result<()> {
     let unworn = PerGear::from_fn(|gear| vec![0.0; record.flanks[gear].wear_um.len()]);
     let fields = |gear: Gear| {
         let flank = &record.flanks[gear];
@@ -50,7 +50,7 @@ pub(crate) fn write_moment(out: &mut dyn Write, record: &RunRecord, moment: usiz
 }
 
 /// Writes the list of the `files` of all moments, each with its time: running time in hours, pinion revolutions where there is none.
-pub(crate) fn write_series(out: &mut dyn Write, record: &RunRecord, files: &[String]) -> io::Result<()> {
+pub fn write_series(out: &mut dyn Write, record: &RunRecord, files: &[String]) -> io::Result<()> {
     let times = record.history.iter().map(|row| row.hours.unwrap_or(row.revolutions).to_string());
     let mut xml = Writer::new_with_indent(out, b' ', 2);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", None, None)))?;

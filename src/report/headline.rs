@@ -1,7 +1,7 @@
 //! The first words of a run, alike in the terminal and on the page: what is known of the wear coefficient, and what to do about tip edges
 //! that carry load.
 
-use crate::results::run::Summary;
+use gearwear_physics::results::run::Summary;
 
 /// Scatter of the wear coefficient between repeated twin-disc and gear tests under the same conditions, relative: from and to.
 const SCATTER_OF_COEFFICIENT: [f64; 2] = [0.4, 0.6];
@@ -11,7 +11,7 @@ const LEAST_TIP_LOAD: f64 = 0.05;
 const ALWAYS_TWO_PAIRS: f64 = 2.0;
 
 /// The scatter in per cent: "40–60".
-pub(crate) fn scatter_percent() -> String {
+pub fn scatter_percent() -> String {
     let [from, to] = SCATTER_OF_COEFFICIENT.map(|part| format!("{:.0}", 100.0 * part));
     format!("{from}–{to}")
 }
@@ -20,7 +20,7 @@ pub(crate) fn scatter_percent() -> String {
 ///
 /// A pair that comes to A while the others carry the whole load finds its flanks overlapping by the transmission error, which is greatest
 /// where one pair is alone: tips relieved by that touch nothing before A and after E.
-pub(crate) fn tip_edges(summary: &Summary) -> Option<String> {
+pub fn tip_edges(summary: &Summary) -> Option<String> {
     let (new, worn) = (&summary.new, &summary.worn);
     if new.tip_edge_line_load_N_per_mm < LEAST_TIP_LOAD * summary.contact.line_load_N_per_mm {
         return None;

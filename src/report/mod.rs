@@ -2,12 +2,12 @@
 //!
 //! | file | from |
 //! |---|---|
-//! | `summary.json` | [`Summary`](crate::results::run::Summary) |
+//! | `summary.json` | [`Summary`](gearwear_physics::results::run::Summary) |
 //! | `pinion.csv`, `wheel.csv`, `profiles.csv` | [`tables`] |
-//! | `history.csv`, `mesh_cycle.csv` | [`HistoryRow`](crate::results::run::HistoryRow), [`MeshCycleRow`](crate::results::run::MeshCycleRow) |
+//! | `history.csv`, `mesh_cycle.csv` | [`HistoryRow`](gearwear_physics::results::run::HistoryRow), [`MeshCycleRow`](gearwear_physics::results::run::MeshCycleRow) |
 //! | `columns.json` | what the columns of the CSV files hold ([`csv_table`]) |
 //! | `slices.csv` | [`slice_table`]; only where the sections of the pair differ |
-//! | `film.csv` | [`FilmRow`](crate::results::lubrication::FilmRow); only where the scene asks for films or losses |
+//! | `film.csv` | [`FilmRow`](gearwear_physics::results::lubrication::FilmRow); only where the scene asks for films or losses |
 //! | `flank.vtu`; where asked for `flank.pvd`, `flank_000.vtu` … | [`flank_mesh`] |
 //! | `scene.toml` | the resolved scene, byte for byte, so that its SHA-256 begins with the scene hash |
 //! | `report.html` | [`html`] |
@@ -16,25 +16,24 @@
 //!
 //! `summary.json` comes last, so that its presence says the others are complete.
 
-pub(crate) mod calibration;
-pub(crate) mod chart;
+pub mod calibration;
+pub mod chart;
 pub mod columns;
-pub(crate) mod control;
-pub(crate) mod csv_table;
-pub(crate) mod fem;
-pub(crate) mod fem_pair;
-pub(crate) mod figure;
-pub(crate) mod files;
-pub(crate) mod flank_mesh;
-pub(crate) mod headline;
-pub(crate) mod html;
+pub mod control;
+pub mod csv_table;
+pub mod fem;
+pub mod fem_pair;
+pub mod figure;
+pub mod files;
+pub mod flank_mesh;
+pub mod headline;
+pub mod html;
 mod pressure_plot;
-pub(crate) mod slice_table;
-pub(crate) mod tables;
+pub mod slice_table;
+pub mod tables;
 mod trace;
-pub(crate) mod unit;
+pub mod unit;
 mod vtu_file;
-#[cfg(feature = "program")]
 mod workbook;
 
 use std::io::Write;
@@ -43,14 +42,14 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use self::csv_table::{CsvFiles, Provenance, table};
-pub(crate) use self::files::{ReportError, create_folder, writable};
+pub use self::files::{ReportError, create_folder, writable};
 use self::files::{place, remove, write_json};
-use crate::gear::Gear;
-use crate::results::run::RunRecord;
+use gearwear_physics::gear::Gear;
+use gearwear_physics::results::run::RunRecord;
 
 /// Writes all files of `record` but the page and `summary.json` into `dir`, which is made if need be; returns their paths in the order
 /// written. The file that only a pair with slices has is taken away where `record` has none.
-pub(crate) fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+pub fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
     let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
     let mut csv = CsvFiles::new(dir, provenance);
@@ -82,24 +81,22 @@ pub(crate) fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>,
 }
 
 /// Writes the page of `record` into `dir`.
-pub(crate) fn write_page(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportError> {
+pub fn write_page(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportError> {
     place(dir, PAGE, |out| out.write_all(html::run_page::page(record).as_bytes()))
 }
 
 /// Writes the plots of the page of `record` as SVG and PNG into `dir`.
-#[cfg(feature = "program")]
-pub(crate) fn write_figures(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+pub fn write_figures(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     figure::write_all(&html::run_page::charts(record), dir)
 }
 
 /// The plots of the page of `record`, drawn.
-pub(crate) fn figures(record: &RunRecord) -> Vec<figure::Figure> {
+pub fn figures(record: &RunRecord) -> Vec<figure::Figure> {
     figure::drawn(&html::run_page::charts(record)).collect()
 }
 
 /// Writes the tables of `record`, which stand in `dir`, as a workbook beside them.
-#[cfg(feature = "program")]
-pub(crate) fn write_workbook(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportError> {
+pub fn write_workbook(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportError> {
     let sliced = record.slices.is_some().then_some(SLICES);
     let films = (!record.film.is_empty()).then_some(FILM);
     let tables: Vec<&str> = TABLES.into_iter().chain(sliced).chain(films).collect();
@@ -107,13 +104,12 @@ pub(crate) fn write_workbook(record: &RunRecord, dir: &Path) -> Result<PathBuf, 
 }
 
 /// Takes away the workbook of an earlier run, if there is one.
-#[cfg(feature = "program")]
-pub(crate) fn remove_workbook(dir: &Path) -> Result<(), ReportError> {
+pub fn remove_workbook(dir: &Path) -> Result<(), ReportError> {
     remove(dir, workbook::WORKBOOK)
 }
 
 /// Writes both flanks of `record` at the beginning and at every snapshot into `dir`, and the list of these files.
-pub(crate) fn write_series(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportError> {
+pub fn write_series(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportError> {
     let files: Vec<String> = (0..flank_mesh::moments(record)).map(flank_at).collect();
     for (moment, file) in files.iter().enumerate() {
         place(dir, file, |out| flank_mesh::write_moment(out, record, moment))?;
@@ -123,7 +119,7 @@ pub(crate) fn write_series(record: &RunRecord, dir: &Path) -> Result<PathBuf, Re
 }
 
 /// Takes away the series of an earlier run, if there is one.
-pub(crate) fn remove_series(dir: &Path) -> Result<(), ReportError> {
+pub fn remove_series(dir: &Path) -> Result<(), ReportError> {
     remove(dir, SERIES)?;
     remove_moments(dir, 0)
 }
@@ -139,7 +135,7 @@ fn flank_at(moment: usize) -> String {
 }
 
 /// Takes away the page of an earlier run, if there is one: it would pass for that of a run without.
-pub(crate) fn remove_page(dir: &Path) -> Result<(), ReportError> {
+pub fn remove_page(dir: &Path) -> Result<(), ReportError> {
     remove(dir, PAGE)
 }
 
@@ -147,19 +143,19 @@ pub(crate) fn remove_page(dir: &Path) -> Result<(), ReportError> {
 const TABLES: [&str; 5] = ["pinion.csv", "wheel.csv", "history.csv", "profiles.csv", "mesh_cycle.csv"];
 const PAGE: &str = "report.html";
 /// The file of the main figures, written last.
-pub(crate) const SUMMARY: &str = "summary.json";
+pub const SUMMARY: &str = "summary.json";
 const SLICES: &str = "slices.csv";
 const FILM: &str = "film.csv";
 const FLANK: &str = "flank.vtu";
 const SERIES: &str = "flank.pvd";
 
 /// Writes `summary.json` into `dir`, of a wear run or of finite elements, after everything else.
-pub(crate) fn write_summary(summary: &impl Serialize, dir: &Path) -> Result<PathBuf, ReportError> {
+pub fn write_summary(summary: &impl Serialize, dir: &Path) -> Result<PathBuf, ReportError> {
     create_folder(dir)?;
     place(dir, SUMMARY, |out| write_json(out, summary))
 }
 
 /// Takes away the `summary.json` of an earlier run, if there is one: it would vouch for files about to be replaced.
-pub(crate) fn remove_summary(dir: &Path) -> Result<(), ReportError> {
+pub fn remove_summary(dir: &Path) -> Result<(), ReportError> {
     remove(dir, SUMMARY)
 }

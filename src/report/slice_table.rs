@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::results::run::{PathPoints, SliceRecord};
+use gearwear_physics::results::run::{PathPoints, SliceRecord};
 
 /// Positions are compared with A and E to this part of A–E.
 const SAME_PLACE: f64 = 1e-9;
@@ -37,7 +37,7 @@ struct SliceRow {
 }
 
 /// Its rows; `path` are the positions of A–E.
-pub(crate) fn rows(record: &SliceRecord, path: &PathPoints) -> impl Iterator<Item = impl Serialize + JsonSchema> {
+pub fn rows(record: &SliceRecord, path: &PathPoints) -> impl Iterator<Item = impl Serialize + JsonSchema> {
     let count = record.width_mm.len();
     let slack = SAME_PLACE * (path.E - path.A);
     let rows = record.position_mm.iter().enumerate().flat_map(move |(position, &position_mm)| {

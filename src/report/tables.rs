@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::gear::Gear;
-use crate::results::run::{FlankRecord, RunRecord};
+use gearwear_physics::gear::Gear;
+use gearwear_physics::results::run::{FlankRecord, RunRecord};
 
 /// A point of a flank; rows run from the base circle to the tip circle, slice after slice.
 #[allow(non_snake_case, reason = "the contract's column names")]
@@ -54,7 +54,7 @@ struct ProfileRow {
 }
 
 /// The rows of a flank.
-pub(crate) fn flank(flank: &FlankRecord) -> impl Iterator<Item = impl Serialize + JsonSchema> {
+pub fn flank(flank: &FlankRecord) -> impl Iterator<Item = impl Serialize + JsonSchema> {
     let points = flank.radius_mm.len();
     flank.width_mm.iter().enumerate().flat_map(move |(slice, &width_mm)| {
         (0..points).map(move |point| {
@@ -76,7 +76,7 @@ pub(crate) fn flank(flank: &FlankRecord) -> impl Iterator<Item = impl Serialize 
 }
 
 /// The rows of both flanks at every snapshot.
-pub(crate) fn profiles(record: &RunRecord) -> impl Iterator<Item = impl Serialize + JsonSchema> {
+pub fn profiles(record: &RunRecord) -> impl Iterator<Item = impl Serialize + JsonSchema> {
     record.history.iter().enumerate().flat_map(move |(snapshot, at)| {
         Gear::BOTH.into_iter().flat_map(move |gear| {
             let flank = &record.flanks[gear];

@@ -8,7 +8,7 @@ use super::html::number::plotted;
 /// How a line is dashed.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Dash {
+pub enum Dash {
     Solid,
     #[serde(rename = "dash")]
     Dashed,
@@ -18,11 +18,11 @@ pub(crate) enum Dash {
 }
 
 /// Values of a field, row by row upwards.
-pub(crate) type Rows = Vec<Vec<f64>>;
+pub type Rows = Vec<Vec<f64>>;
 
 /// Lines and points.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Curve {
+pub struct Curve {
     pub x: Vec<f64>,
     pub y: Vec<f64>,
     pub line: Option<Line>,
@@ -36,7 +36,7 @@ pub(crate) struct Curve {
 }
 
 #[derive(Debug, Clone)]
-pub(crate) struct Line {
+pub struct Line {
     pub colour: String,
     pub width_px: f64,
     pub dash: Dash,
@@ -44,7 +44,7 @@ pub(crate) struct Line {
 
 /// The signs of points.
 #[derive(Debug, Clone)]
-pub(crate) struct Signs {
+pub struct Signs {
     pub colour: String,
     /// `circle`, `square`, `diamond`, `triangle-up`, `-down` or `-right`, `cross`, `x` or `star`; with `-open` an outline, with `-dot` a dot in
     /// its middle.
@@ -54,7 +54,7 @@ pub(crate) struct Signs {
 }
 
 #[derive(Debug, Clone)]
-pub(crate) struct Bars {
+pub struct Bars {
     pub places: BarPlaces,
     pub length: Vec<f64>,
     pub colour: String,
@@ -66,14 +66,14 @@ pub(crate) struct Bars {
 
 /// Where bars stand on their axis.
 #[derive(Debug, Clone)]
-pub(crate) enum BarPlaces {
+pub enum BarPlaces {
     Named(Vec<String>),
     At { middles: Vec<f64>, width: f64 },
 }
 
 /// Values over cells or points of a raster, as colours.
 #[derive(Debug, Clone)]
-pub(crate) struct Field {
+pub struct Field {
     /// Edges of the cells, or their middles; of contours the places of the values.
     pub x: Vec<f64>,
     pub y: Vec<f64>,
@@ -83,7 +83,7 @@ pub(crate) struct Field {
 
 /// Colours of values, beside the chart.
 #[derive(Debug, Clone)]
-pub(crate) struct ColourScale {
+pub struct ColourScale {
     pub unit: String,
     /// Values of the first and the last colour; otherwise the least and the greatest.
     pub range: Option<[f64; 2]>,
@@ -91,7 +91,7 @@ pub(crate) struct ColourScale {
 
 /// A field as heights over a plane, to be turned.
 #[derive(Debug, Clone)]
-pub(crate) struct Surface {
+pub struct Surface {
     pub field: Field,
     pub height: Rows,
     pub view: View,
@@ -99,7 +99,7 @@ pub(crate) struct Surface {
 
 /// How a surface is chosen and what its heights are.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct View {
+pub struct View {
     /// On its button.
     pub label: &'static str,
     pub height_title: &'static str,
@@ -109,7 +109,7 @@ pub(crate) struct View {
 }
 
 #[derive(Debug, Clone)]
-pub(crate) enum Drawn {
+pub enum Drawn {
     Curve(Curve),
     Bars(Bars),
     /// One colour for each cell.
@@ -120,7 +120,7 @@ pub(crate) enum Drawn {
 
 /// When a trace is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Shown {
+pub enum Shown {
     FromTheBeginning,
     /// Once the reader chooses its entry in the legend.
     OnRequest,
@@ -130,7 +130,7 @@ pub(crate) enum Shown {
 
 /// One of the things that a chart shows.
 #[derive(Debug, Clone)]
-pub(crate) struct Trace {
+pub struct Trace {
     pub drawn: Drawn,
     pub name: String,
     /// What is read at a point, with `%{x}`, `%{y:.3f}` …: values in a format of d3.
@@ -155,14 +155,14 @@ fn rounded(values: impl IntoIterator<Item = impl Into<Option<f64>>>) -> Vec<f64>
 
 impl Curve {
     /// That of its line, or of its points.
-    pub(crate) fn colour(&self) -> &str {
+    pub fn colour(&self) -> &str {
         let line = self.line.as_ref().filter(|line| line.width_px > 0.0).map(|line| &line.colour);
         line.or(self.signs.as_ref().map(|signs| &signs.colour)).map_or(INK, |colour| colour)
     }
 }
 
 impl Trace {
-    pub(crate) fn new(drawn: Drawn, name: impl Into<String>) -> Self {
+    pub fn new(drawn: Drawn, name: impl Into<String>) -> Self {
         Self {
             drawn,
             name: name.into(),
@@ -178,7 +178,7 @@ impl Trace {
     }
 
     /// A line through points, of a colour, a width in pixels and a dash.
-    pub(crate) fn line(
+    pub fn line(
         name: impl Into<String>,
         x: impl IntoIterator<Item = impl Into<Option<f64>>>,
         y: impl IntoIterator<Item = impl Into<Option<f64>>>,
@@ -189,7 +189,7 @@ impl Trace {
     }
 
     /// Points, each a sign of [`Signs::symbol`].
-    pub(crate) fn points(
+    pub fn points(
         name: impl Into<String>,
         x: impl IntoIterator<Item = impl Into<Option<f64>>>,
         y: impl IntoIterator<Item = impl Into<Option<f64>>>,
@@ -200,13 +200,13 @@ impl Trace {
     }
 
     /// Bars upwards.
-    pub(crate) fn bars(name: &str, places: BarPlaces, length: Vec<f64>, colour: &str) -> Self {
+    pub fn bars(name: &str, places: BarPlaces, length: Vec<f64>, colour: &str) -> Self {
         let colour = colour.to_owned();
         Self::new(Drawn::Bars(Bars { places, length, colour, is_horizontal: false, interval: None }), name)
     }
 
     /// Colours over cells with these edges (or middles, one fewer).
-    pub(crate) fn heat_map(unit: &str, x: &[f64], y: &[f64], values: Rows) -> Self {
+    pub fn heat_map(unit: &str, x: &[f64], y: &[f64], values: Rows) -> Self {
         let [x, y] = [x, y].map(|places| rounded(places.iter().copied()));
         Self::new(Drawn::Cells(Field { x, y, values, scale: ColourScale::of(unit) }), "")
     }
@@ -219,14 +219,14 @@ impl Trace {
     }
 
     /// The signs of a line's points too.
-    pub(crate) fn with_points(self, symbol: &str, size_px: i32) -> Self {
+    pub fn with_points(self, symbol: &str, size_px: i32) -> Self {
         let Drawn::Curve(Curve { line: Some(line), .. }) = &self.drawn else { return self };
         let colour = line.colour.clone();
         self.signs(&colour, symbol, vec![size_px.into()])
     }
 
     /// A size for each point.
-    pub(crate) fn sizes(mut self, px: Vec<f64>) -> Self {
+    pub fn sizes(mut self, px: Vec<f64>) -> Self {
         if let Drawn::Curve(Curve { signs: Some(signs), .. }) = &mut self.drawn {
             signs.size_px = px;
         }
@@ -234,7 +234,7 @@ impl Trace {
     }
 
     /// A bar of half this length on either side of each point.
-    pub(crate) fn uncertain_by(mut self, half: &[f64]) -> Self {
+    pub fn uncertain_by(mut self, half: &[f64]) -> Self {
         if let Drawn::Curve(curve) = &mut self.drawn {
             curve.uncertainty = rounded(half.iter().copied());
         }
@@ -242,7 +242,7 @@ impl Trace {
     }
 
     /// An area instead of a line.
-    pub(crate) fn filled(mut self, colour: impl Into<String>) -> Self {
+    pub fn filled(mut self, colour: impl Into<String>) -> Self {
         if let Drawn::Curve(curve) = &mut self.drawn {
             curve.fill = Some(colour.into());
         }
@@ -250,7 +250,7 @@ impl Trace {
     }
 
     /// A text above each point.
-    pub(crate) fn lettered(mut self, texts: Vec<String>) -> Self {
+    pub fn lettered(mut self, texts: Vec<String>) -> Self {
         if let Drawn::Curve(curve) = &mut self.drawn {
             curve.is_lettered = true;
         }
@@ -258,7 +258,7 @@ impl Trace {
     }
 
     /// Colours from 0 to `greatest`; to 1 where nothing is above zero.
-    pub(crate) fn colours_up_to(mut self, greatest: f64) -> Self {
+    pub fn colours_up_to(mut self, greatest: f64) -> Self {
         if let Drawn::Cells(field) = &mut self.drawn {
             field.scale.range = Some([0.0, if greatest > 0.0 { greatest } else { 1.0 }]);
         }
@@ -266,67 +266,67 @@ impl Trace {
     }
 
     /// What is read at a point: [`Trace::hover`].
-    pub(crate) fn hover(mut self, template: impl Into<String>) -> Self {
+    pub fn hover(mut self, template: impl Into<String>) -> Self {
         self.hover = Some(template.into());
         self
     }
 
     /// A text of its own to be read at each point.
-    pub(crate) fn hover_texts(self, texts: Vec<String>) -> Self {
+    pub fn hover_texts(self, texts: Vec<String>) -> Self {
         self.texts(texts).hover("%{text}<extra></extra>")
     }
 
-    pub(crate) fn texts(mut self, texts: Vec<String>) -> Self {
+    pub fn texts(mut self, texts: Vec<String>) -> Self {
         self.texts = texts;
         self
     }
 
     /// A further number to be read at each point.
-    pub(crate) fn further(mut self, values: Vec<f64>) -> Self {
+    pub fn further(mut self, values: Vec<f64>) -> Self {
         self.further = rounded(values);
         self
     }
 
     /// Nothing is read at its points.
-    pub(crate) fn silent(mut self) -> Self {
+    pub fn silent(mut self) -> Self {
         self.is_silent = true;
         self
     }
 
-    pub(crate) fn unlisted(self) -> Self {
+    pub fn unlisted(self) -> Self {
         self.listed(false)
     }
 
     /// Named in the legend, or not.
-    pub(crate) fn listed(mut self, is_listed: bool) -> Self {
+    pub fn listed(mut self, is_listed: bool) -> Self {
         self.is_listed = is_listed;
         self
     }
 
     /// Shown and hidden with the others of the group.
-    pub(crate) fn group(mut self, name: &str) -> Self {
+    pub fn group(mut self, name: &str) -> Self {
         self.group = Some(name.to_owned());
         self
     }
 
     /// Drawn from the beginning, or not before its entry in the legend is chosen.
-    pub(crate) fn at_once(mut self, at_once: bool) -> Self {
+    pub fn at_once(mut self, at_once: bool) -> Self {
         self.shown = if at_once { Shown::FromTheBeginning } else { Shown::OnRequest };
         self
     }
 
-    pub(crate) fn opacity(mut self, opacity: f64) -> Self {
+    pub fn opacity(mut self, opacity: f64) -> Self {
         self.opacity = opacity;
         self
     }
 
-    pub(crate) fn is_surface(&self) -> bool {
+    pub fn is_surface(&self) -> bool {
         matches!(self.drawn, Drawn::Surface(_))
     }
 }
 
 impl ColourScale {
-    pub(crate) fn of(unit: &str) -> Self {
+    pub fn of(unit: &str) -> Self {
         Self { unit: unit.to_owned(), range: None }
     }
 }

@@ -1,6 +1,6 @@
 //! The unit of a quantity, which its name ends in, in an engineer's words.
 
-use crate::results::figures;
+use gearwear_physics::results::figures;
 
 /// What the ends of names say of units, the longer before those that they end with.
 const UNITS: [(&str, &str); 19] = [

@@ -2,10 +2,10 @@
 
 use std::io::{self, Write};
 
-use crate::fem::nodal_fields::add_nodal_fields;
-use crate::mesh::vtu::VtuEncoding;
-use crate::mesh::{Format, Mesh, to_bytes};
-use crate::results::fem_problem::NodalStress;
+use gearwear_fem::nodal_fields::add_nodal_fields;
+use gearwear_mesh::vtu::VtuEncoding;
+use gearwear_mesh::{Format, Mesh, to_bytes};
+use gearwear_physics::results::fem_problem::NodalStress;
 
 /// Adds a plane solution.
 pub(super) fn add_solution(mesh: &mut Mesh, displacement_mm: &[[f64; 2]], stress: &[NodalStress]) {

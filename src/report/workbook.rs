@@ -11,10 +11,10 @@ use serde_json::Value;
 use super::csv_table::COLUMNS;
 use super::files::{ReportError, place};
 use super::unit;
-use crate::results::figures;
-use crate::results::run::{ReportedBy, Summary};
+use gearwear_physics::results::figures;
+use gearwear_physics::results::run::{ReportedBy, Summary};
 
-pub(crate) const WORKBOOK: &str = "results.xlsx";
+pub const WORKBOOK: &str = "results.xlsx";
 
 /// Rows that a sheet can hold.
 const MOST_ROWS: usize = 1_048_576;

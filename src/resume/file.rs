@@ -16,9 +16,9 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::identity::RunIdentity;
-use crate::content_hash::sha256;
-use crate::simulation::checkpoint::Checkpoint;
-use crate::whole_file;
+use gearwear_files::content_hash::sha256;
+use gearwear_files::whole_file;
+use gearwear_physics::simulation::checkpoint::Checkpoint;
 
 /// Version of the format, raised with every change of the content.
 const FORMAT: u32 = 4;
@@ -27,7 +27,7 @@ const PROGRAM_VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// A checkpoint with the run it is of.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(crate) struct CheckpointFile {
+pub struct CheckpointFile {
     /// Scene and input files.
     pub identity: RunIdentity,
     /// Warnings given when the run began.
@@ -54,7 +54,7 @@ struct CheckpointHeader {
 
 /// Error of a checkpoint file.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum CheckpointError {
+pub enum CheckpointError {
     /// The system cannot read it.
     #[error("it cannot be read: {0}")]
     Unreadable(#[from] io::Error),
@@ -91,12 +91,7 @@ pub(crate) enum CheckpointError {
 }
 
 /// Replaces the checkpoint by one of the run `identity`, atomically.
-pub(crate) fn write(
-    path: &Path,
-    identity: &RunIdentity,
-    warnings: &[String],
-    checkpoint: &Checkpoint,
-) -> io::Result<()> {
+pub fn write(path: &Path, identity: &RunIdentity, warnings: &[String], checkpoint: &Checkpoint) -> io::Result<()> {
     let body = postcard::to_stdvec(&CheckpointBody { identity, warnings, checkpoint }).map_err(io::Error::other)?;
     let header = CheckpointHeader {
         format: FORMAT,
@@ -114,7 +109,7 @@ pub(crate) fn write(
 ///
 /// # Errors
 /// [`CheckpointError`] where it is not one of this version, whole and unchanged.
-pub(crate) fn read(path: &Path) -> Result<Option<CheckpointFile>, CheckpointError> {
+pub fn read(path: &Path) -> Result<Option<CheckpointFile>, CheckpointError> {
     match fs::read(path) {
         Ok(bytes) => parse(&bytes).map(Some),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
@@ -147,9 +142,9 @@ fn parse(bytes: &[u8]) -> Result<CheckpointFile, CheckpointError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gear::PerGear;
-    use crate::mesh_cycle::Work;
-    use crate::simulation::advance::StepperState;
+    use gearwear_physics::gear::PerGear;
+    use gearwear_physics::mesh_cycle::Work;
+    use gearwear_physics::simulation::advance::StepperState;
 
     fn written() -> (Vec<u8>, CheckpointFile) {
         let identity = RunIdentity::new("title = \"x\"\n".to_owned(), &[]);

@@ -13,18 +13,18 @@ use serde::Deserialize;
 use super::file::{self, CheckpointError, CheckpointFile};
 use super::identity::{RunIdentity, between_scenes};
 use crate::report::{ReportError, SUMMARY};
-use crate::results::run::StopReason;
 use crate::scene::loaded::NamedFile;
-use crate::whole_file;
+use gearwear_files::whole_file;
+use gearwear_physics::results::run::StopReason;
 
 /// The resolved scene.
-pub(crate) const SCENE: &str = "scene.toml";
+pub const SCENE: &str = "scene.toml";
 /// The last checkpoint.
-pub(crate) const CHECKPOINT: &str = "checkpoint.bin";
+pub const CHECKPOINT: &str = "checkpoint.bin";
 
 /// Contents of the folder of a run.
 #[derive(Debug, PartialEq)]
-pub(crate) enum FolderContents {
+pub enum FolderContents {
     /// No run.
     Nothing,
     /// A run without a checkpoint yet.
@@ -37,7 +37,7 @@ pub(crate) enum FolderContents {
 
 /// Reason why the run in a folder cannot be continued.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum FolderError {
+pub enum FolderError {
     /// An unusable checkpoint.
     #[error("{}: {source}", path.display())]
     Checkpoint {
@@ -65,14 +65,14 @@ pub(crate) enum FolderError {
 }
 
 /// Begins the run of `identity` in the existing folder `dir`, with copies of its input files; the checkpoint of an earlier run is removed first.
-pub(crate) fn begin(dir: &Path, identity: &RunIdentity, files: &[NamedFile]) -> Result<(), ReportError> {
+pub fn begin(dir: &Path, identity: &RunIdentity, files: &[NamedFile]) -> Result<(), ReportError> {
     remove_checkpoint(dir)?;
     files.iter().try_for_each(|file| place(dir, &file.name, &file.bytes))?;
     place(dir, SCENE, identity.scene_toml.as_bytes())
 }
 
 /// Writes the file `name` in `dir`, in a folder within it if its name says so.
-pub(crate) fn place(dir: &Path, name: &str, bytes: &[u8]) -> Result<(), ReportError> {
+pub fn place(dir: &Path, name: &str, bytes: &[u8]) -> Result<(), ReportError> {
     let path = dir.join(name);
     let written = path.parent().map_or(Ok(()), fs::create_dir_all);
     written
@@ -81,7 +81,7 @@ pub(crate) fn place(dir: &Path, name: &str, bytes: &[u8]) -> Result<(), ReportEr
 }
 
 /// Removes the files that [`begin`] put into `dir`, with input files of these names; what cannot be removed stays.
-pub(crate) fn abandon(dir: &Path, files: &[String]) {
+pub fn abandon(dir: &Path, files: &[String]) {
     for path in files.iter().map(String::as_str).chain([SCENE]).map(|name| dir.join(name)) {
         let _ = fs::remove_file(&path);
         if let Some(folder) = path.parent().filter(|folder| *folder != dir) {
@@ -92,7 +92,7 @@ pub(crate) fn abandon(dir: &Path, files: &[String]) {
 }
 
 /// Removes the checkpoint in `dir`, if there is one.
-pub(crate) fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
+pub fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
     let path = dir.join(CHECKPOINT);
     match fs::remove_file(&path) {
         Err(source) if source.kind() != io::ErrorKind::NotFound => Err(ReportError::WriteFile { path, source }),
@@ -101,7 +101,7 @@ pub(crate) fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
 }
 
 /// Contents of `dir`, of the run of `identity` with the scene hash `scene_hash`.
-pub(crate) fn contents(dir: &Path, identity: &RunIdentity, scene_hash: &str) -> Result<FolderContents, FolderError> {
+pub fn contents(dir: &Path, identity: &RunIdentity, scene_hash: &str) -> Result<FolderContents, FolderError> {
     let Some(scene_toml) = read(&dir.join(SCENE))? else { return Ok(FolderContents::Nothing) };
     refuse_other_run(&dir.join(SCENE), between_scenes(&scene_toml, &identity.scene_toml))?;
     if let Some(stopped) = read(&dir.join(SUMMARY))?.and_then(|text| stopped(&text, scene_hash))

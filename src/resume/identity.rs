@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
-use crate::content_hash::sha256;
 use crate::scene::loaded::NamedFile;
+use gearwear_files::content_hash::sha256;
 
 /// Inputs of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct RunIdentity {
+pub struct RunIdentity {
     /// The resolved scene.
     pub scene_toml: String,
     /// SHA-256 of the file that each key of the scene names.
@@ -19,12 +19,12 @@ pub(crate) struct RunIdentity {
 
 impl RunIdentity {
     /// Of a run of the resolved scene `scene_toml` with `files`.
-    pub(crate) fn new(scene_toml: String, files: &[NamedFile]) -> Self {
+    pub fn new(scene_toml: String, files: &[NamedFile]) -> Self {
         Self { scene_toml, inputs: files.iter().map(|file| (file.key.to_owned(), sha256(&file.bytes))).collect() }
     }
 
     /// Differences from `asked`: each key with both values.
-    pub(crate) fn differences(&self, asked: &Self) -> Vec<String> {
+    pub fn differences(&self, asked: &Self) -> Vec<String> {
         let mut differences = between_scenes(&self.scene_toml, &asked.scene_toml);
         let keys: std::collections::BTreeSet<_> = self.inputs.keys().chain(asked.inputs.keys()).collect();
         for key in keys {
@@ -41,7 +41,7 @@ impl RunIdentity {
 }
 
 /// Keys in which two resolved scenes differ, with both values.
-pub(crate) fn between_scenes(there: &str, here: &str) -> Vec<String> {
+pub fn between_scenes(there: &str, here: &str) -> Vec<String> {
     if there == here {
         return Vec::new();
     }

@@ -10,6 +10,6 @@
 //! So a folder that a run began can be run again from what lies in it, wherever it is moved to. A checkpoint says of which scene, input
 //! files and version of the program it is ([`identity`]): results are the same bits only where all of these are the same.
 
-pub(crate) mod file;
-pub(crate) mod folder;
-pub(crate) mod identity;
+pub mod file;
+pub mod folder;
+pub mod identity;

@@ -1,14 +1,14 @@
 //! What a computation fails of although the scene alone is to blame: found only when the teeth are meshed or the springs are made, it is told
 //! at its key like everything else that is wrong with a scene.
 
-use crate::assessment::RunError;
-use crate::assessment::calibrate::CalibrateError;
-use crate::assessment::fem_scene::FemPairError;
-use crate::assessment::pair_mesh::PairMeshError;
-use crate::calibration::CalibrationError;
-use crate::gear_fem::model::ModelError;
 use crate::scene::Problem;
 use crate::scene::loaded::{SceneError, SceneText};
+use gearwear_physics::assessment::RunError;
+use gearwear_physics::assessment::calibrate::CalibrateError;
+use gearwear_physics::assessment::fem_scene::FemPairError;
+use gearwear_physics::assessment::pair_mesh::PairMeshError;
+use gearwear_physics::calibration::CalibrationError;
+use gearwear_physics::gear_fem::model::ModelError;
 
 /// A failure of a computation that may be the scene's fault.
 pub trait SceneFault {

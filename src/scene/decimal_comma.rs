@@ -48,7 +48,7 @@ pub(super) fn mended(text: &str) -> Option<String> {
 }
 
 /// The help for a number that cannot be read because of its decimal comma.
-pub(crate) fn help(text: &str) -> Option<String> {
+pub fn help(text: &str) -> Option<String> {
     mended(text).map(|number| format!("decimal point, not comma: {number}"))
 }
 

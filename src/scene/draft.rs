@@ -33,7 +33,7 @@ const SAME_THING_OF_GEAR: [&[&str]; 3] = [
 const SAME_THING_OF_WEAR: [&[&str]; 1] = [&["coefficient_m2_per_N", "coefficient_mm3_per_Nm"]];
 
 /// Alternative keys of `key`.
-pub(crate) fn other_ways_to_say(key: &str) -> Vec<String> {
+pub fn other_ways_to_say(key: &str) -> Vec<String> {
     let tables: [(&str, &[&[&str]]); 5] = [
         ("pair.pinion.", &SAME_THING_OF_GEAR),
         ("pair.wheel.", &SAME_THING_OF_GEAR),
@@ -48,7 +48,7 @@ pub(crate) fn other_ways_to_say(key: &str) -> Vec<String> {
 }
 
 /// The paths of all values of `table`, which stands at `path`, that are no tables.
-pub(crate) fn keys_of(table: &Table, path: &str) -> Vec<String> {
+pub fn keys_of(table: &Table, path: &str) -> Vec<String> {
     let keys = table.iter().flat_map(|(name, value)| match value {
         Value::Table(table) => keys_of(table, &join(path, name)),
         _ => vec![join(path, name)],
@@ -57,7 +57,7 @@ pub(crate) fn keys_of(table: &Table, path: &str) -> Vec<String> {
 }
 
 /// Removes the key at the path `key` of `table`. Items of lists are numbered from 1.
-pub(crate) fn remove(mut table: &mut Table, key: &str) {
+pub fn remove(mut table: &mut Table, key: &str) {
     let mut parts = key.split('.').rev();
     let Some(name) = parts.next() else { return };
     let mut path = parts.rev().peekable();
@@ -74,7 +74,7 @@ pub(crate) fn remove(mut table: &mut Table, key: &str) {
 }
 
 /// Sets the key at the path `key` of `table`. Items of lists are numbered from 1; an item that the list does not have is not added.
-pub(crate) fn set(table: &mut Table, key: &str, value: impl Into<Value>) {
+pub fn set(table: &mut Table, key: &str, value: impl Into<Value>) {
     let (tables, name) = key.rsplit_once('.').map_or((None, key), |(tables, name)| (Some(tables), name));
     let mut table = table;
     let mut path = tables.into_iter().flat_map(|tables| tables.split('.')).peekable();
@@ -107,20 +107,20 @@ fn item_mut<'a>(list: &'a mut Value, number: &str) -> Option<&'a mut Value> {
 
 /// A scene file, read but not resolved.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Draft {
+pub struct Draft {
     table: Table,
     locator: Locator,
 }
 
 impl Draft {
     /// Reads the text of a scene file.
-    pub(crate) fn parse(text: &str) -> Result<Self, Vec<Problem>> {
+    pub fn parse(text: &str) -> Result<Self, Vec<Problem>> {
         let (table, findings) = text::parse(text)?;
         Ok(Self { table, locator: findings.into_locator() })
     }
 
     /// Sets the key at the path `key`, and removes its alternative keys.
-    pub(crate) fn set(&mut self, key: &str, value: impl Into<Value>) {
+    pub fn set(&mut self, key: &str, value: impl Into<Value>) {
         for other in other_ways_to_say(key) {
             self.remove(&other);
         }
@@ -128,7 +128,7 @@ impl Draft {
     }
 
     /// Whether the file gives the key at the path `key`.
-    pub(crate) fn gives(&self, key: &str) -> bool {
+    pub fn gives(&self, key: &str) -> bool {
         let mut parts = key.split('.');
         let first = parts.next().and_then(|part| self.table.get(part));
         let found = first.and_then(|first| {
@@ -141,7 +141,7 @@ impl Draft {
     }
 
     /// Removes the key at the path `key`.
-    pub(crate) fn remove(&mut self, key: &str) {
+    pub fn remove(&mut self, key: &str) {
         remove(&mut self.table, key);
     }
 
@@ -149,17 +149,17 @@ impl Draft {
     ///
     /// # Errors
     /// Everything that is wrong with it, at the places of the text it was read from.
-    pub(crate) fn resolve(&self) -> Result<Resolved, Vec<Problem>> {
+    pub fn resolve(&self) -> Result<Resolved, Vec<Problem>> {
         resolve::resolve_table(self.table.clone(), Findings::new(self.locator.clone()))
     }
 
     /// Scene as text, with the changes made.
-    pub(crate) fn to_toml(&self) -> String {
+    pub fn to_toml(&self) -> String {
         self.table.to_string()
     }
 
     /// First 16 hexadecimal digits of the SHA-256 of the content, independent of layout and comments.
-    pub(crate) fn hash(&self) -> String {
+    pub fn hash(&self) -> String {
         short_hash(self.table.to_string().as_bytes())
     }
 }

@@ -5,7 +5,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::gear_mesh::settings::SectorSides;
+use gearwear_physics::gear_mesh::settings::SectorSides;
 
 /// The gear bodies as finite elements.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
@@ -62,7 +62,7 @@ pub struct WebsFile {
 
 impl WebsFile {
     /// Whether a gear has one.
-    pub(crate) fn has_one(&self) -> bool {
+    pub fn has_one(&self) -> bool {
         self.pinion.is_some() || self.wheel.is_some()
     }
 }

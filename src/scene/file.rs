@@ -14,11 +14,11 @@ use super::lubrication_file::{FrictionFile, LoadFactorsFile, LubricantFile};
 use super::material_presets::MaterialPreset;
 use super::presets;
 use super::wear_file::{GearWearFile, TemperatureFile, WearFile};
-use crate::contact::settings::{MatchCriterion, SurfaceKind};
-use crate::gear::flank::PointSpacing;
-use crate::gear::modification::ReliefShape;
-use crate::gear::shaft::EndFace;
-use crate::mesh_cycle::settings::Coupling;
+use gearwear_physics::contact::settings::{MatchCriterion, SurfaceKind};
+use gearwear_physics::gear::flank::PointSpacing;
+use gearwear_physics::gear::modification::ReliefShape;
+use gearwear_physics::gear::shaft::EndFace;
+use gearwear_physics::mesh_cycle::settings::Coupling;
 
 /// A gear pair, its load and how its wear is to be computed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -6,13 +6,13 @@ use super::schema::{Node, schema};
 
 /// A key that takes a number.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct NumberKey {
+pub struct NumberKey {
     node: Node<'static>,
 }
 
 /// Error of a path that is not that of a number.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub(crate) enum KeyError {
+pub enum KeyError {
     /// No scene has the key.
     #[error("unknown key {key}; allowed: a key of the scene that takes a number, such as pair.face_width_mm")]
     Unknown {
@@ -40,7 +40,7 @@ fn node_at(path: &str) -> Option<Node<'static>> {
 }
 
 /// The words that the key at `path` takes, "true" and "false" where it is said so; none where it takes no words.
-pub(crate) fn words(path: &str) -> Option<Vec<&'static str>> {
+pub fn words(path: &str) -> Option<Vec<&'static str>> {
     let node = node_at(path)?;
     match (node.type_name(), node.choices()) {
         ("boolean", _) => Some(vec!["false", "true"]),
@@ -50,7 +50,7 @@ pub(crate) fn words(path: &str) -> Option<Vec<&'static str>> {
 }
 
 /// Whether a scene may have a key at this path.
-pub(crate) fn is_key(path: &str) -> bool {
+pub fn is_key(path: &str) -> bool {
     node_at(path).is_some()
 }
 
@@ -59,7 +59,7 @@ impl NumberKey {
     ///
     /// # Errors
     /// A path that leads nowhere, or to something that is no number.
-    pub(crate) fn find(path: &str) -> Result<Self, KeyError> {
+    pub fn find(path: &str) -> Result<Self, KeyError> {
         let Some(node) = node_at(path) else {
             return Err(KeyError::Unknown { key: path.to_owned(), nearest: nearest_number(path) });
         };
@@ -71,22 +71,22 @@ impl NumberKey {
     }
 
     /// Whether the key takes whole numbers only.
-    pub(crate) fn whole(&self) -> bool {
+    pub fn whole(&self) -> bool {
         self.node.type_name() == "integer"
     }
 
     /// Whether the key allows `value`.
-    pub(crate) fn holds(&self, value: f64) -> bool {
+    pub fn holds(&self, value: f64) -> bool {
         self.node.holds(value) && !(self.whole() && value.fract() != 0.0)
     }
 
     /// Values that it takes, in words.
-    pub(crate) fn allowed(&self) -> String {
+    pub fn allowed(&self) -> String {
         self.node.allowed()
     }
 }
 
-pub(crate) fn is_number(node: Node<'_>) -> bool {
+pub fn is_number(node: Node<'_>) -> bool {
     node.choices().is_empty() && matches!(node.type_name(), "number" | "integer")
 }
 
@@ -96,12 +96,12 @@ fn nearest_number(path: &str) -> Option<String> {
 }
 
 /// The key of a scene that `path` is most like, whatever it takes.
-pub(crate) fn nearest_key(path: &str) -> Option<String> {
+pub fn nearest_key(path: &str) -> Option<String> {
     nearest_path(path, Node::root(schema()), |node| node.keys().is_empty())
 }
 
 /// The path below `root` to what is `wanted` that `path` is most like: one that ends in it, or the nearest in spelling.
-pub(crate) fn nearest_path(path: &str, root: Node<'_>, wanted: fn(Node<'_>) -> bool) -> Option<String> {
+pub fn nearest_path(path: &str, root: Node<'_>, wanted: fn(Node<'_>) -> bool) -> Option<String> {
     let mut known = Vec::new();
     paths_below(root, "", wanted, &mut known);
     let ending = format!(".{path}");

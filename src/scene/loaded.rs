@@ -9,15 +9,15 @@ use std::sync::Arc;
 
 use super::draft::Draft;
 use super::key::is_key;
-pub(crate) use super::named_files::{CALIBRATION, CURVE, NamedFile, NamedFiles};
+pub use super::named_files::{CALIBRATION, CURVE, NamedFile, NamedFiles};
 use super::named_files::{calibration, of_another_pair, stiffness_curve, warnings};
 use super::scene_text::folder_of;
 pub use super::scene_text::{LoadError, SceneError, SceneText};
 use super::{Problem, ProblemKind, Resolved, presets};
-use crate::calibration::Calibration;
-use crate::mesh_cycle::pair_in_space::KeptInSpace;
-use crate::operation::Scene;
-use crate::results::run::InputFile;
+use gearwear_physics::calibration::Calibration;
+use gearwear_physics::mesh_cycle::pair_in_space::KeptInSpace;
+use gearwear_physics::operation::Scene;
+use gearwear_physics::results::run::InputFile;
 
 /// The folder of a run's input files within its own.
 const INPUTS: &str = "inputs";
@@ -26,13 +26,13 @@ const CHANGED: &str = " as changed";
 /// A scene, checked and with every default filled in, and every file it names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadedScene {
-    pub(crate) resolved: Resolved,
-    pub(crate) files: Arc<NamedFiles>,
-    pub(crate) given: Arc<SceneText>,
+    pub resolved: Resolved,
+    pub files: Arc<NamedFiles>,
+    pub given: Arc<SceneText>,
     /// Where files lie that are not read yet.
-    pub(crate) folder: Arc<Path>,
+    pub folder: Arc<Path>,
     /// Teeth in space that a run of it, or of a scene it was made of, has condensed.
-    pub(crate) teeth_in_space: KeptInSpace,
+    pub teeth_in_space: KeptInSpace,
 }
 
 impl LoadedScene {
@@ -135,13 +135,13 @@ impl LoadedScene {
     }
 
     /// Resolves the scene in `given` and reads the files it names from `folder`.
-    pub(crate) fn from_text(given: SceneText, folder: &Path) -> Result<Self, LoadError> {
+    pub fn from_text(given: SceneText, folder: &Path) -> Result<Self, LoadError> {
         let resolved = given.resolve()?;
         Self::of(resolved, given, folder)
     }
 
     /// The resolved scene of `given` with the files it names, which lie in `folder`.
-    pub(crate) fn of(resolved: Resolved, given: SceneText, folder: &Path) -> Result<Self, LoadError> {
+    pub fn of(resolved: Resolved, given: SceneText, folder: &Path) -> Result<Self, LoadError> {
         Self::reading(resolved, given, folder.into(), &[])
     }
 
@@ -168,7 +168,7 @@ impl LoadedScene {
     ///
     /// # Errors
     /// A file that it needs and that is not among them; a calibration of another pair.
-    pub(crate) fn with_files(mut resolved: Resolved, given: SceneText, files: NamedFiles) -> Result<Self, SceneError> {
+    pub fn with_files(mut resolved: Resolved, given: SceneText, files: NamedFiles) -> Result<Self, SceneError> {
         let foreign = files.foreign_to(&resolved);
         let name = resolved.scene.calibration_file.as_deref().unwrap_or_default();
         let belongs =
@@ -185,7 +185,7 @@ impl LoadedScene {
     }
 
     /// The scene as it stands in the folder of its run, naming the copies of its input files there.
-    pub(crate) fn naming_copies(mut self) -> Self {
+    pub fn naming_copies(mut self) -> Self {
         if self.files.as_read.is_empty() {
             return self;
         }
@@ -207,7 +207,7 @@ impl LoadedScene {
     ///
     /// # Errors
     /// A file that the other scene needs and this one does not have.
-    pub(crate) fn variant(&self, resolved: Resolved) -> Result<Self, Box<Problem>> {
+    pub fn variant(&self, resolved: Resolved) -> Result<Self, Box<Problem>> {
         self.files.complete(&self.given.text, &resolved.scene)?;
         Ok(Self { resolved, ..self.clone() })
     }
@@ -234,7 +234,7 @@ impl LoadedScene {
     }
 
     /// Scene with a calibration made for it, whether it asks for one or not.
-    pub(crate) fn calibrated(&self, calibration: Calibration) -> Self {
+    pub fn calibrated(&self, calibration: Calibration) -> Self {
         let files = NamedFiles { calibration: Some(calibration), ..(*self.files).clone() };
         Self { files: Arc::new(files), ..self.clone() }
     }
@@ -256,7 +256,7 @@ impl LoadedScene {
     }
 
     /// Scene in the terms of physics.
-    pub(crate) fn scene(&self) -> &Scene {
+    pub fn scene(&self) -> &Scene {
         &self.resolved.scene
     }
 

@@ -6,8 +6,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::lubrication::film::CentralFilm;
-use crate::lubrication::settings::{BaseOil, FrictionModel, OilSupply, PressureViscosityFit, ViscosityFit};
+use gearwear_physics::lubrication::film::CentralFilm;
+use gearwear_physics::lubrication::settings::{BaseOil, FrictionModel, OilSupply, PressureViscosityFit, ViscosityFit};
 
 /// The oil, by its class or its viscosities.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]

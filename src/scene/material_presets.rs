@@ -35,7 +35,7 @@ pub enum MaterialPreset {
 
 impl MaterialPreset {
     /// Constants of the material. Thermal diffusivity is conductivity over density and specific heat where the source gives these.
-    pub(crate) fn properties(self) -> GearMaterialFile {
+    pub fn properties(self) -> GearMaterialFile {
         // E in GPa, ν, ρ in kg/m³, λ in W/(m·K), κ in m²/s as λ/(ρ c), c in J/(kg·K).
         let [modulus, poisson, density, conductivity, diffusivity] = match self {
             // The thesis.

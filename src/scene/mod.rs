@@ -1,34 +1,34 @@
 //! The user's scene: the file with its checks and presets, resolved into the settings of each layer.
 
-pub(crate) mod blame;
-pub(crate) mod decimal_comma;
-pub(crate) mod draft;
-pub(crate) mod fem_file;
-pub(crate) mod fem_problem;
-pub(crate) mod file;
+pub mod blame;
+pub mod decimal_comma;
+pub mod draft;
+pub mod fem_file;
+pub mod fem_problem;
+pub mod file;
 mod findings;
-pub(crate) mod key;
-pub(crate) mod loaded;
+pub mod key;
+pub mod loaded;
 mod locate;
-pub(crate) mod lubrication_file;
-pub(crate) mod material_presets;
+pub mod lubrication_file;
+pub mod material_presets;
 mod named_files;
-pub(crate) mod nearest;
+pub mod nearest;
 mod outside_model;
-pub(crate) mod presets;
-pub(crate) mod problem;
+pub mod presets;
+pub mod problem;
 mod resolve;
 mod scene_text;
-pub(crate) mod schema;
+pub mod schema;
 mod shape;
 mod text;
 mod unit_slip;
-pub(crate) mod wear_file;
+pub mod wear_file;
 
-use crate::content_hash::sha256;
-use crate::operation::Scene;
+use gearwear_files::content_hash::sha256;
+use gearwear_physics::operation::Scene;
 
-pub(crate) use file::SceneFile;
+pub use file::SceneFile;
 pub use problem::{Problem, ProblemKind};
 
 /// Scene with every default filled in, as values and as a file, with its warnings.
@@ -84,6 +84,6 @@ impl Resolved {
 }
 
 /// First 16 hexadecimal digits of the SHA-256 of `bytes`.
-pub(crate) fn short_hash(bytes: &[u8]) -> String {
+pub fn short_hash(bytes: &[u8]) -> String {
     sha256(bytes)[..16].to_owned()
 }

@@ -5,19 +5,19 @@ use std::path::Path;
 
 use super::scene_text::{LoadError, SceneText};
 use super::{Problem, Resolved};
-use crate::calibration::{Calibration, identity::CalibrationIdentity};
-use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
-use crate::gear::GearPair;
-use crate::mesh_cycle::settings::Coupling;
-use crate::operation::Scene;
-use crate::stiffness::curve::PairCompliance;
-use crate::stiffness::curve_file;
-use crate::stiffness::settings::StiffnessSettings;
+use gearwear_physics::calibration::{Calibration, identity::CalibrationIdentity};
+use gearwear_physics::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
+use gearwear_physics::gear::GearPair;
+use gearwear_physics::mesh_cycle::settings::Coupling;
+use gearwear_physics::operation::Scene;
+use gearwear_physics::stiffness::curve::PairCompliance;
+use gearwear_physics::stiffness::curve_file;
+use gearwear_physics::stiffness::settings::StiffnessSettings;
 
 /// The key that names a calibration.
-pub(crate) const CALIBRATION: &str = "contact.calibration";
+pub const CALIBRATION: &str = "contact.calibration";
 /// The key that names a curve of tooth stiffness.
-pub(crate) const CURVE: &str = "stiffness.curve";
+pub const CURVE: &str = "stiffness.curve";
 /// Part of a load that counts as within a range.
 const ROUNDING: f64 = 1e-9;
 
@@ -28,7 +28,7 @@ const CURVE_HELP: &str = "the file lies beside the scene; gearwear schema says w
 
 /// A file that a scene names.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct NamedFile {
+pub struct NamedFile {
     /// The key that names it, such as `contact.calibration`.
     pub key: &'static str,
     /// Name as the scene gives it.
@@ -39,7 +39,7 @@ pub(crate) struct NamedFile {
 
 /// The files a scene names, read.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct NamedFiles {
+pub struct NamedFiles {
     /// `contact.calibration`.
     pub calibration: Option<Calibration>,
     /// `stiffness.curve`.
@@ -50,7 +50,7 @@ pub(crate) struct NamedFiles {
 
 impl NamedFiles {
     /// Differences of the calibration's pair from that of `resolved`; empty without a calibration.
-    pub(crate) fn foreign_to(&self, resolved: &Resolved) -> Vec<String> {
+    pub fn foreign_to(&self, resolved: &Resolved) -> Vec<String> {
         self.calibration.as_ref().map_or_else(Vec::new, |calibration| foreign(calibration, resolved))
     }
 

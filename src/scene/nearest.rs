@@ -1,7 +1,7 @@
 //! Suggestion for a misspelt word.
 
 /// The word of `known` that `word` is most like, if it is like any.
-pub(crate) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let word = word.to_lowercase();
     let best = known.iter().map(|&other| (likeness(&word, &other.to_lowercase()), other));
     let best = best.max_by(|a, b| a.0.total_cmp(&b.0));

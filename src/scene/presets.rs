@@ -29,18 +29,18 @@ pub const PRESETS: [Preset; 10] = [
 ];
 
 /// The names of all presets.
-pub(crate) fn names() -> [&'static str; PRESETS.len()] {
+pub fn names() -> [&'static str; PRESETS.len()] {
     PRESETS.map(|preset| preset.name)
 }
 
 /// The preset called `name`.
-pub(crate) fn find(name: &str) -> Option<Preset> {
+pub fn find(name: &str) -> Option<Preset> {
     PRESETS.into_iter().find(|preset| preset.name == name)
 }
 
 impl Preset {
     /// The `[pair]` table of the scene.
-    pub(crate) fn pair(&self) -> toml::Table {
+    pub fn pair(&self) -> toml::Table {
         let mut scene: toml::Table = self.text.parse().expect("the library's own scenes are TOML");
         match scene.remove("pair") {
             Some(toml::Value::Table(pair)) => pair,
@@ -50,6 +50,6 @@ impl Preset {
 }
 
 /// The name of a preset that `name` is most like, if it is like any.
-pub(crate) fn nearest(name: &str) -> Option<&'static str> {
+pub fn nearest(name: &str) -> Option<&'static str> {
     super::nearest::nearest(name, &names())
 }

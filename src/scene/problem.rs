@@ -4,13 +4,13 @@ use std::fmt;
 use std::ops::Range;
 
 use super::locate::Locator;
-use crate::calibration::CalibrationError;
-use crate::fem::SolveError;
-use crate::gear::{Gear, PairError};
-use crate::gear_mesh::ToothMeshError;
-use crate::mesh::quality::QualityError;
-use crate::mesh_cycle::pair_in_space::PairInSpaceError;
-use crate::stiffness::StiffnessError;
+use gearwear_fem::SolveError;
+use gearwear_mesh::quality::QualityError;
+use gearwear_physics::calibration::CalibrationError;
+use gearwear_physics::gear::{Gear, PairError};
+use gearwear_physics::gear_mesh::ToothMeshError;
+use gearwear_physics::mesh_cycle::pair_in_space::PairInSpaceError;
+use gearwear_physics::stiffness::StiffnessError;
 
 /// The nature of a problem.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,7 +54,7 @@ pub struct Problem {
 
 impl Problem {
     /// Problem: the contact surface leaves nothing for the teeth of the stiffness model.
-    pub(crate) fn of_stiffness(text: &str, error: &StiffnessError) -> Self {
+    pub fn of_stiffness(text: &str, error: &StiffnessError) -> Self {
         let locator = Locator::new(text).unwrap_or_default();
         let by_hand = "contact.foundation_MPa_per_mm";
         let key = if locator.key(by_hand).is_some() { by_hand } else { "contact.match" };
@@ -72,7 +72,7 @@ impl Problem {
     }
 
     /// Problem: the sectors have fewer than the `least` teeth that touch.
-    pub(crate) fn of_sector_teeth(text: &str, teeth: u32, least: u32) -> Self {
+    pub fn of_sector_teeth(text: &str, teeth: u32, least: u32) -> Self {
         let key = "fem.sector_teeth";
         let span = Locator::new(text).unwrap_or_default().nearest(key);
         Self {
@@ -86,7 +86,7 @@ impl Problem {
     }
 
     /// Problem: a tooth cannot be meshed, of `gear` where only one cannot.
-    pub(crate) fn of_tooth_mesh(text: &str, gear: Option<Gear>, error: &ToothMeshError) -> Self {
+    pub fn of_tooth_mesh(text: &str, gear: Option<Gear>, error: &ToothMeshError) -> Self {
         let of_gear = gear.map_or_else(|| "pair".to_owned(), |gear| format!("pair.{}", gear.name()));
         let (key, allowed) = match error {
             ToothMeshError::ClampRadius { .. } => (clamp_key(gear), "a circle below the teeth"),
@@ -109,27 +109,27 @@ impl Problem {
     }
 
     /// Problem: too many elements, or none; `found` is the message.
-    pub(crate) fn of_elements(text: &str, found: String) -> Self {
+    pub fn of_elements(text: &str, found: String) -> Self {
         let (key, allowed) = ("fem.elements_per_half_width".to_owned(), "another number");
         let help = "elements grow with the load and shrink with this number";
         Self::of_body(text, key, format!("a pair that cannot be meshed ({found})"), allowed, help)
     }
 
     /// Problem: the mesh of `gear`, or of both, has poor quality.
-    pub(crate) fn of_mesh_quality(text: &str, gear: Option<Gear>, error: &QualityError) -> Self {
+    pub fn of_mesh_quality(text: &str, gear: Option<Gear>, error: &QualityError) -> Self {
         let found = format!("a pair that cannot be meshed ({error})");
         Self::of_body(text, clamp_key(gear), found, "a body whose section can be meshed", BODIES_HELP)
     }
 
     /// Problem: the finite elements of `gear` have no solution.
-    pub(crate) fn of_condensation(text: &str, gear: Gear, error: &SolveError) -> Self {
+    pub fn of_condensation(text: &str, gear: Gear, error: &SolveError) -> Self {
         let found = format!("a body that cannot be condensed ({error})");
         let allowed = "a body that its clamp holds";
         Self::of_body(text, clamp_key(Some(gear)), found, allowed, BODIES_HELP)
     }
 
     /// Problem: the load needs a wider strip of contact than the flanks have; `None` for errors of the solver.
-    pub(crate) fn of_contact_strip(text: &str, error: &CalibrationError) -> Option<Self> {
+    pub fn of_contact_strip(text: &str, error: &CalibrationError) -> Option<Self> {
         if !matches!(error, CalibrationError::OffTheFlank { .. } | CalibrationError::NoClearPosition { .. }) {
             return None;
         }
@@ -142,7 +142,7 @@ impl Problem {
     }
 
     /// Problem: the pair is impossible.
-    pub(crate) fn of_pair(text: &str, error: &PairError) -> Self {
+    pub fn of_pair(text: &str, error: &PairError) -> Self {
         let help = "without modifications, as calibrate takes the pair, other limits hold";
         Self::of_body(text, "pair".to_owned(), format!("a pair that cannot exist ({error})"), "other gears", help)
     }
@@ -159,7 +159,7 @@ impl Problem {
     }
 
     /// Problem: the gears cannot be meshed in three dimensions, for the number of teeth or the body.
-    pub(crate) fn of_teeth_in_space(text: &str, error: &PairInSpaceError) -> Self {
+    pub fn of_teeth_in_space(text: &str, error: &PairInSpaceError) -> Self {
         let key = error.scene_key();
         let allowed = match error {
             PairInSpaceError::TooFewTeeth { .. } => "fewer teeth in mesh than a gear has",
@@ -176,7 +176,7 @@ impl Problem {
     }
 
     /// Problem: the file that `key` names is invalid; `found` says how, after its name.
-    pub(crate) fn of_named_file(text: &str, key: &str, found: String, allowed: &str, help: &str) -> Self {
+    pub fn of_named_file(text: &str, key: &str, found: String, allowed: &str, help: &str) -> Self {
         Self {
             kind: ProblemKind::NotAllowed,
             key: key.to_owned(),
@@ -188,7 +188,7 @@ impl Problem {
     }
 
     /// Adds a sentence to the help.
-    pub(crate) fn add_help(&mut self, sentence: &str) {
+    pub fn add_help(&mut self, sentence: &str) {
         match &mut self.help {
             Some(help) => {
                 help.push_str("; ");
@@ -228,13 +228,13 @@ impl fmt::Display for Problem {
 impl std::error::Error for Problem {}
 
 /// Number in its shortest form, as in a file: `4`, `0.0045`, `1e-17`.
-pub(crate) fn number(value: f64) -> String {
+pub fn number(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
 }
 
 /// Value of the file in a message.
-pub(crate) fn words(value: &toml::Value) -> String {
+pub fn words(value: &toml::Value) -> String {
     match value {
         toml::Value::String(text) => format!("the text {text:?}"),
         toml::Value::Integer(value) => value.to_string(),

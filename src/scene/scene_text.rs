@@ -6,7 +6,7 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use super::{Problem, Resolved};
-use crate::stiffness::curve_file::CurveFileError;
+use gearwear_physics::stiffness::curve_file::CurveFileError;
 
 /// Text of a scene file.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,7 +87,7 @@ pub enum LoadError {
 
 impl SceneText {
     /// Reads the text at `path` (`-`: standard input).
-    pub(crate) fn read(path: &Path) -> Result<Self, LoadError> {
+    pub fn read(path: &Path) -> Result<Self, LoadError> {
         let (name, bytes) = if path == Path::new("-") {
             let mut bytes = Vec::new();
             ("standard input".to_owned(), io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes))
@@ -104,17 +104,17 @@ impl SceneText {
     }
 
     /// Resolves the scene it holds; the files it names stay unread.
-    pub(crate) fn resolve(&self) -> Result<Resolved, SceneError> {
+    pub fn resolve(&self) -> Result<Resolved, SceneError> {
         Resolved::from_toml(&self.text).map_err(|problems| self.refused(problems))
     }
 
     /// Error with these problems.
-    pub(crate) fn refused(&self, problems: Vec<Problem>) -> SceneError {
+    pub fn refused(&self, problems: Vec<Problem>) -> SceneError {
         SceneError { given: self.clone(), problems }
     }
 }
 
 /// Folder of the files named in the scene at `path`.
-pub(crate) fn folder_of(path: &Path) -> &Path {
+pub fn folder_of(path: &Path) -> &Path {
     if path == Path::new("-") { Path::new("") } else { path.parent().unwrap_or(Path::new("")) }
 }

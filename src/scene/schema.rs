@@ -16,7 +16,7 @@ pub fn schema() -> &'static Value {
 }
 
 /// The schema (draft 2020-12) of a file, without references: every table is described where it stands.
-pub(crate) fn schema_of<F: JsonSchema>() -> Value {
+pub fn schema_of<F: JsonSchema>() -> Value {
     let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true).with_transform(WithoutNull);
     settings.into_generator().into_root_schema_for::<F>().to_value()
 }
@@ -55,11 +55,11 @@ impl Transform for WithoutNull {
 
 /// Values that a key takes, read from its node of the schema.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Node<'a>(&'a Value);
+pub struct Node<'a>(&'a Value);
 
 impl<'a> Node<'a> {
     /// The whole file that `schema` describes.
-    pub(crate) fn root(schema: &'a Value) -> Self {
+    pub fn root(schema: &'a Value) -> Self {
         Node(schema)
     }
 
@@ -80,12 +80,12 @@ impl<'a> Node<'a> {
     }
 
     /// The key `name` of this table.
-    pub(crate) fn child(&self, name: &str) -> Option<Node<'a>> {
+    pub fn child(&self, name: &str) -> Option<Node<'a>> {
         self.table().0.get("properties")?.get(name).map(Node)
     }
 
     /// The names of all keys of this table, in alphabetical order.
-    pub(crate) fn keys(&self) -> Vec<&'a str> {
+    pub fn keys(&self) -> Vec<&'a str> {
         match self.table().0.get("properties") {
             Some(Value::Object(properties)) => properties.keys().map(String::as_str).collect(),
             _ => Vec::new(),
@@ -98,7 +98,7 @@ impl<'a> Node<'a> {
     }
 
     /// Schema of each item of a list.
-    pub(crate) fn items(&self) -> Option<Node<'a>> {
+    pub fn items(&self) -> Option<Node<'a>> {
         self.0.get("items").map(Node)
     }
 
@@ -109,7 +109,7 @@ impl<'a> Node<'a> {
     }
 
     /// `object`, `array`, `number`, `integer`, `boolean` or `string`.
-    pub(crate) fn type_name(&self) -> &'a str {
+    pub fn type_name(&self) -> &'a str {
         self.0.get("type").and_then(Value::as_str).unwrap_or(if self.choices().is_empty() {
             "object"
         } else {
@@ -118,7 +118,7 @@ impl<'a> Node<'a> {
     }
 
     /// The words this key takes, if only certain ones.
-    pub(crate) fn choices(&self) -> Vec<&'a str> {
+    pub fn choices(&self) -> Vec<&'a str> {
         if let Some(Value::Array(variants)) = self.0.get("oneOf") {
             return variants.iter().flat_map(|variant| Node(variant).choices()).collect();
         }

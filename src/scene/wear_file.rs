@@ -5,9 +5,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::lubrication::settings::FilmRatio;
-use crate::thermal::settings::{HeatPartition, HeatVelocity, TemperatureMethod};
-use crate::wear::oxidation::MassRatio;
+use gearwear_physics::lubrication::settings::FilmRatio;
+use gearwear_physics::thermal::settings::{HeatPartition, HeatVelocity, TemperatureMethod};
+use gearwear_physics::wear::oxidation::MassRatio;
 
 /// Friction heat of the contact.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]

@@ -1,11 +1,11 @@
 //! The centre distance of a backlash, and the backlash of a centre distance.
 
-use gearwear::gear::GearPair;
-use gearwear::gear::backlash::{Backlash, TeethTooThin};
-use gearwear::gear::involute::{inv, inverse_inv};
-use gearwear::gear::spec::PairSpec;
 use gearwear::scene::Resolved;
 use gearwear::scene::presets;
+use gearwear_physics::gear::GearPair;
+use gearwear_physics::gear::backlash::{Backlash, TeethTooThin};
+use gearwear_physics::gear::involute::{inv, inverse_inv};
+use gearwear_physics::gear::spec::PairSpec;
 
 fn spec(preset: &str) -> PairSpec {
     Resolved::from_toml(presets::find(preset).unwrap().text).unwrap().scene.pair

@@ -3,33 +3,33 @@
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-use gearwear::assessment::calibrate::{self, CalibrationExtent};
-use gearwear::calibration::bodies::Setup;
-use gearwear::calibration::identity::CalibrationIdentity;
-use gearwear::calibration::single_contact::{Purpose, SingleContact, TouchFigures};
-use gearwear::calibration::stiffness_variation::VariationOf;
-use gearwear::calibration::tooth_stiffness::LoadedPair;
-use gearwear::calibration::{Calibration, file::CalibrationFileError, foundation_fit, single_contact};
-use gearwear::contact::hertz::{self, Hertz};
-use gearwear::contact::settings::MatchCriterion;
-use gearwear::contact::winkler::Winkler;
-use gearwear::contact::winkler::WinklerFoundation;
-use gearwear::contact::{ContactSurface, Flanks};
-use gearwear::fem::locate::locate;
-use gearwear::gear::conjugate::ConjugateFlanks;
-use gearwear::gear::modification::{Relief, ReliefShape};
-use gearwear::gear::spec::PairSpec;
-use gearwear::gear::{
+use gearwear::scene::Resolved;
+use gearwear_fem::locate::locate;
+use gearwear_physics::assessment::calibrate::{self, CalibrationExtent};
+use gearwear_physics::calibration::bodies::Setup;
+use gearwear_physics::calibration::identity::CalibrationIdentity;
+use gearwear_physics::calibration::single_contact::{Purpose, SingleContact, TouchFigures};
+use gearwear_physics::calibration::stiffness_variation::VariationOf;
+use gearwear_physics::calibration::tooth_stiffness::LoadedPair;
+use gearwear_physics::calibration::{Calibration, file::CalibrationFileError, foundation_fit, single_contact};
+use gearwear_physics::contact::hertz::{self, Hertz};
+use gearwear_physics::contact::settings::MatchCriterion;
+use gearwear_physics::contact::winkler::Winkler;
+use gearwear_physics::contact::winkler::WinklerFoundation;
+use gearwear_physics::contact::{ContactSurface, Flanks};
+use gearwear_physics::gear::conjugate::ConjugateFlanks;
+use gearwear_physics::gear::modification::{Relief, ReliefShape};
+use gearwear_physics::gear::spec::PairSpec;
+use gearwear_physics::gear::{
     Gear, GearPair, PerGear,
     flank::{FlankGrid, PointSpacing},
 };
-use gearwear::gear_fem::position::WarmStart;
-use gearwear::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides};
-use gearwear::mesh_cycle::pair_in_space::KeptInSpace;
-use gearwear::observer::Unwatched;
-use gearwear::operation::Scene;
-use gearwear::scene::Resolved;
-use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
+use gearwear_physics::gear_fem::position::WarmStart;
+use gearwear_physics::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides};
+use gearwear_physics::mesh_cycle::pair_in_space::KeptInSpace;
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::operation::Scene;
+use gearwear_physics::stiffness::{TeethSpring, settings::StiffnessSettings};
 use nalgebra::Vector2;
 
 use super::common::{assert_close, fzg_a, fzg_c, preset, steel};

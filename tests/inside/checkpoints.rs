@@ -3,13 +3,13 @@
 
 use std::sync::Mutex;
 
-use gearwear::assessment::{Resumption, RunError};
-use gearwear::observer::Unwatched;
-use gearwear::results::run::{RunRecord, StopReason};
 use gearwear::runs;
 use gearwear::scene::Resolved;
-use gearwear::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
-use gearwear::simulation::wear_run::SimulationError;
+use gearwear_physics::assessment::{Resumption, RunError};
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::results::run::{RunRecord, StopReason};
+use gearwear_physics::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
+use gearwear_physics::simulation::wear_run::SimulationError;
 
 use super::common::loaded;
 

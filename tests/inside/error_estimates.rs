@@ -1,11 +1,11 @@
 //! The error estimates of a run, against the true errors that finer runs and truer surfaces show, and what they cost.
 
-use gearwear::observer::Unwatched;
-use gearwear::plan::Plan;
-use gearwear::results::run::Summary;
 use gearwear::runs;
 use gearwear::scene::Resolved;
 use gearwear::scene::presets;
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::plan::Plan;
+use gearwear_physics::results::run::Summary;
 
 use super::common::loaded;
 

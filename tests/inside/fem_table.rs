@@ -1,8 +1,8 @@
 //! The scene's `[fem]` table.
 
-use gearwear::gear_mesh::settings::{Body, SectorSides};
 use gearwear::scene::Resolved;
 use gearwear::scene::presets;
+use gearwear_physics::gear_mesh::settings::{Body, SectorSides};
 
 /// The fzg-c scene with a `[fem]` table.
 fn scene(fem: &str) -> String {

@@ -1,9 +1,10 @@
 //! Wear on the finite-element contact: what each flank loses follows from load and sliding, and wear opens the gaps as a
 //! modification of the same shape does.
 
-use gearwear::contact::hertz;
-use gearwear::fem::elastic::Elastic;
-use gearwear::gear::{
+use gearwear::{LoadedScene, Unwatched};
+use gearwear_fem::elastic::Elastic;
+use gearwear_physics::contact::hertz;
+use gearwear_physics::gear::{
     Gear, GearPair, PerGear,
     flank::{FlankGrid, PointSpacing},
     modification::{Relief, ReliefShape},
@@ -11,12 +12,11 @@ use gearwear::gear::{
     slices::Slices,
     spec::PairSpec,
 };
-use gearwear::gear_fem::condensed_pair::CondensedPair;
-use gearwear::gear_fem::position::WarmStart;
-use gearwear::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
-use gearwear::mesh_cycle::{CycleObservation, LostMaterial, MeshCycle, Work, condensed::CondensedCycle};
-use gearwear::wear::{WearModel, settings::WearSettings};
-use gearwear::{LoadedScene, Unwatched};
+use gearwear_physics::gear_fem::condensed_pair::CondensedPair;
+use gearwear_physics::gear_fem::position::WarmStart;
+use gearwear_physics::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
+use gearwear_physics::mesh_cycle::{CycleObservation, LostMaterial, MeshCycle, Work, condensed::CondensedCycle};
+use gearwear_physics::wear::{WearModel, settings::WearSettings};
 
 use super::common::{assert_close, fzg_c, pair, steel};
 
@@ -56,7 +56,7 @@ fn mesh_once<'a>(
     let unworn = cycle.nodes().map(|nodes| vec![0.0; nodes.len()]);
     let wear_mm = wear.unwrap_or(&unworn).as_ref().map(Vec::as_slice);
     let lost = LostMaterial { removed_mm: wear_mm, wear_mm };
-    let law = gearwear::wear::of(&WearSettings::archard(COEFFICIENT));
+    let law = gearwear_physics::wear::of(&WearSettings::archard(COEFFICIENT));
     let mut depth = unworn.clone();
     let work = cycle
         .evaluate(lost, &WearModel::cold(law.as_ref()), &mut depth, &|| false)
@@ -232,7 +232,7 @@ fn ver_work_and_bits() {
     assert_eq!(work.equilibria, positions);
     assert!(work.newton_iterations <= 12 * positions, "{work:?}");
 
-    let law = gearwear::wear::of(&WearSettings::archard(COEFFICIENT));
+    let law = gearwear_physics::wear::of(&WearSettings::archard(COEFFICIENT));
     let mut wear = first.as_ref().map(|row| vec![0.0; row.len()]);
     let mut depth = wear.clone();
     let mut later = 0;

@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use gearwear::gear::{
+use gearwear::runs;
+use gearwear::scene::{draft::Draft, presets};
+use gearwear_physics::gear::{
     Gear, GearPair, PairError,
     conjugate::ConjugateFlanks,
     lines_of_contact::least_and_greatest_over_width,
@@ -11,16 +13,14 @@ use gearwear::gear::{
     slices::Slices,
     spec::PairSpec,
 };
-use gearwear::mesh_cycle::{
+use gearwear_physics::mesh_cycle::{
     settings::{Coupling, SliceSettings},
     sliced_positions::{SliceContact, SliceEnds, sliced_positions},
 };
-use gearwear::observer::Unwatched;
-use gearwear::runs;
-use gearwear::scene::{draft::Draft, presets};
-use gearwear::simulation::figures::WearFigures;
-use gearwear::simulation::wear_run::Outcome;
-use gearwear::stiffness::settings::StiffnessSettings;
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::simulation::figures::WearFigures;
+use gearwear_physics::simulation::wear_run::Outcome;
+use gearwear_physics::stiffness::settings::StiffnessSettings;
 use proptest::prelude::*;
 
 use super::common::{Scene, assert_close, fzg_c, fzg_c_scene, loaded, pair, preset};
@@ -492,7 +492,7 @@ fn steps_of_single_slices_are_told() {
             draft.remove(key);
         }
         let resolved = draft.resolve().unwrap();
-        let unwatched = &gearwear::observer::Unwatched;
+        let unwatched = &gearwear_physics::observer::Unwatched;
         gearwear::runs::run(&loaded(&resolved), unwatched).unwrap().record.summary.warnings
     };
     assert!(warnings("h951").iter().any(|warning| warning.starts_with("helical.slices: the transmission error")));

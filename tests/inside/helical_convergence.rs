@@ -2,10 +2,10 @@
 //! 400 positions, 60 wear steps). Wear is compared at fixed places of the face width, as maximum wear is read: the outermost slices themselves
 //! move outwards.
 
-use gearwear::gear::Gear;
-use gearwear::mesh_cycle::settings::{Coupling, SliceSettings};
-use gearwear::simulation::figures::WearFigures;
-use gearwear::stiffness::settings::StiffnessSettings;
+use gearwear_physics::gear::Gear;
+use gearwear_physics::mesh_cycle::settings::{Coupling, SliceSettings};
+use gearwear_physics::simulation::figures::WearFigures;
+use gearwear_physics::stiffness::settings::StiffnessSettings;
 
 use super::common::{Scene, fzg_c_scene, pair, preset};
 

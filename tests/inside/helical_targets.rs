@@ -1,15 +1,15 @@
 //! What the thesis says of helical gears (H1–H6; figures 21–23, section 5, paper E): 302 N·m, k = 1e-17 m²/N, the preset `helical` with the
 //! tooth stiffness of Weber and Banaschek, slices coupled and not. Helix angle and face width are not in the thesis.
 
-use gearwear::gear::{Gear, GearPair, PerGear, spec::PairSpec};
-use gearwear::mesh_cycle::settings::{Coupling, SliceSettings};
-use gearwear::mesh_cycle::wearing_pair::Snapshot;
-use gearwear::observer::Unwatched;
-use gearwear::results::run::RunRecord;
 use gearwear::runs;
-use gearwear::simulation::figures::{SliceFigures, WearFigures, variation};
-use gearwear::simulation::wear_run::Outcome;
-use gearwear::stiffness::settings::StiffnessSettings;
+use gearwear_physics::gear::{Gear, GearPair, PerGear, spec::PairSpec};
+use gearwear_physics::mesh_cycle::settings::{Coupling, SliceSettings};
+use gearwear_physics::mesh_cycle::wearing_pair::Snapshot;
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::results::run::RunRecord;
+use gearwear_physics::simulation::figures::{SliceFigures, WearFigures, variation};
+use gearwear_physics::simulation::wear_run::Outcome;
+use gearwear_physics::stiffness::settings::StiffnessSettings;
 
 use super::common::{Scene, fzg_c_scene, loaded, pair, preset};
 
@@ -153,7 +153,7 @@ fn val_h5_an_overlap_of_one_wears_evenly() {
             face_width_mm: width_mm,
             ..helical
         };
-        spec.rack = gearwear::gear::spec::BasicRack {
+        spec.rack = gearwear_physics::gear::spec::BasicRack {
             addendum_factor: scale,
             dedendum_factor: 1.25 * scale,
             fillet_radius_factor: 0.38 * scale,

@@ -1,11 +1,11 @@
 //! A wear law for each gear: on flanks that wear too little to change the contact, each gear's depth is its own coefficient times what
 //! the contact gives, dh = k p ds (Archard), whatever the mate wears by.
 
-use gearwear::gear::{Gear, PerGear};
-use gearwear::observer::Unwatched;
-use gearwear::results::run::RunRecord;
 use gearwear::runs;
 use gearwear::scene::Resolved;
+use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::results::run::RunRecord;
 
 use super::common::loaded;
 

@@ -1,12 +1,12 @@
 //! The life to a limit: where it ends, on every kind of contact, and what is refused.
 
-use gearwear::gear::Gear;
-use gearwear::observer::Unwatched;
-use gearwear::results::life::LifeLimit;
-use gearwear::results::run::{RunRecord, StopReason};
 use gearwear::runs;
 use gearwear::scene::Resolved;
 use gearwear::{LoadedScene, evaluate};
+use gearwear_physics::gear::Gear;
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::results::life::LifeLimit;
+use gearwear_physics::results::run::{RunRecord, StopReason};
 
 use super::common::loaded;
 

@@ -1,15 +1,15 @@
 //! Films, friction and losses: formulas against their sources' own units and limits, what scenes may say, and what a run writes.
 
-use gearwear::gear::PerGear;
-use gearwear::lubrication::film::{CentralFilm, FilmParameters};
-use gearwear::lubrication::friction;
-use gearwear::lubrication::load_sharing_factor::SharingGeometry;
-use gearwear::lubrication::rolling_contact::RollingContact;
-use gearwear::lubrication::scuffing;
-use gearwear::observer::Unwatched;
-use gearwear::results::run::RunRecord;
 use gearwear::runs;
 use gearwear::scene::{Problem, Resolved, presets};
+use gearwear_physics::gear::PerGear;
+use gearwear_physics::lubrication::film::{CentralFilm, FilmParameters};
+use gearwear_physics::lubrication::friction;
+use gearwear_physics::lubrication::load_sharing_factor::SharingGeometry;
+use gearwear_physics::lubrication::rolling_contact::RollingContact;
+use gearwear_physics::lubrication::scuffing;
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::results::run::RunRecord;
 
 use super::common::{assert_close, loaded};
 

@@ -3,10 +3,10 @@
 //! Runs under other loads have the same teeth only where their compliance is a closed form or that of the elements: a Winkler foundation, and
 //! the split of a given stiffness between teeth and contact, are matched to each load anew.
 
-use gearwear::observer::Unwatched;
-use gearwear::results::run::RunRecord;
 use gearwear::runs;
 use gearwear::scene::Resolved;
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::results::run::RunRecord;
 
 use super::common::loaded;
 

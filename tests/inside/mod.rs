@@ -4,7 +4,6 @@ mod backlash;
 mod calibration;
 mod checkpoints;
 mod common;
-mod compare_fit;
 mod error_estimates;
 mod evaluate;
 mod fem_problem;

@@ -1,12 +1,12 @@
 //! Greatest wear and greatest pressure mean the same in every output: the active profile apart from the tip edge and from what lies below it,
 //! pressures that are defined apart from those at a sharp tip edge.
 
-use gearwear::gear::Gear;
-use gearwear::observer::Unwatched;
-use gearwear::results::{figures, run::RunRecord};
+use gearwear::evaluate::output::SummaryOutput;
 use gearwear::runs;
 use gearwear::scene::{draft::Draft, presets};
-use gearwear::studies::evaluate::output::SummaryOutput;
+use gearwear_physics::gear::Gear;
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::results::{figures, run::RunRecord};
 
 use super::common::loaded;
 

@@ -1,9 +1,9 @@
 //! A load spectrum: phases that follow each other, against plain runs and what physics says, and what is refused.
 
-use gearwear::observer::Unwatched;
-use gearwear::results::run::RunRecord;
 use gearwear::runs;
 use gearwear::scene::Resolved;
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::results::run::RunRecord;
 
 use super::common::loaded;
 

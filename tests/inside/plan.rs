@@ -1,8 +1,8 @@
 //! The plan has what the scene needs, and nothing else.
 
-use gearwear::plan::{Plan, StageKind};
 use gearwear::scene::Resolved;
 use gearwear::scene::presets;
+use gearwear_physics::plan::{Plan, StageKind};
 
 /// Names of the stages of the thesis-spur scene with parts of its text exchanged, and of those left out.
 fn plan(exchange: &[(&str, &str)]) -> (Vec<&'static str>, Vec<&'static str>) {
@@ -12,7 +12,8 @@ fn plan(exchange: &[(&str, &str)]) -> (Vec<&'static str>, Vec<&'static str>) {
         text = text.replacen(old, new, 1);
     }
     let plan = Plan::of(&Resolved::from_toml(&text).unwrap().scene);
-    let names = |stages: &[gearwear::plan::PlannedStage]| stages.iter().map(|stage| stage.kind.name()).collect();
+    let names =
+        |stages: &[gearwear_physics::plan::PlannedStage]| stages.iter().map(|stage| stage.kind.name()).collect();
     assert_eq!(plan.stages.len() + plan.left_out.len(), StageKind::ALL.len());
     assert!(plan.stages.iter().chain(&plan.left_out).all(|stage| !stage.reason.is_empty()));
     (names(&plan.stages), names(&plan.left_out))

@@ -1,13 +1,13 @@
 //! Scenes drawn from physical ranges: a run never panics, no number is none, wear and pressure are never negative, and the
 //! loads of the tooth pairs are the load to carry at every position.
 
-use gearwear::assessment::RunError;
-use gearwear::gear::Gear;
-use gearwear::observer::Unwatched;
-use gearwear::results::run::{RunRecord, StopReason};
 use gearwear::runs;
 use gearwear::scene::{Resolved, draft::Draft, presets};
-use gearwear::simulation::wear_run::SimulationError;
+use gearwear_physics::assessment::RunError;
+use gearwear_physics::gear::Gear;
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::results::run::{RunRecord, StopReason};
+use gearwear_physics::simulation::wear_run::SimulationError;
 
 use super::common::loaded;
 use proptest::prelude::*;

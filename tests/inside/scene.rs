@@ -1,11 +1,11 @@
 //! Scenes: presets, defaults, overrides, and the resolved scene that says it all.
 
-use gearwear::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
-use gearwear::gear::{Gear, GearPair};
 use gearwear::scene::loaded::{LoadError, LoadedScene, SceneError};
 use gearwear::scene::{Resolved, presets, schema};
-use gearwear::simulation::settings::Stepping;
-use gearwear::stiffness::settings::StiffnessSettings;
+use gearwear_physics::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
+use gearwear_physics::gear::{Gear, GearPair};
+use gearwear_physics::simulation::settings::Stepping;
+use gearwear_physics::stiffness::settings::StiffnessSettings;
 use proptest::prelude::*;
 
 /// The least a scene can say.
@@ -85,7 +85,7 @@ fn defaults_are_those_of_the_contract() {
             (206e3, 0.3, 7830.0)
         );
     }
-    assert_eq!(scene.pair.rack, gearwear::gear::spec::BasicRack::default());
+    assert_eq!(scene.pair.rack, gearwear_physics::gear::spec::BasicRack::default());
     assert_eq!(scene.contact.surface, SurfaceKind::HalfSpace);
     assert!(scene.contact.tip_contact && scene.verify);
     assert_eq!((scene.stiffness, scene.stiffness_by_default), (StiffnessSettings::Fem, true));
@@ -379,16 +379,16 @@ fn a_loaded_scene_has_its_files() {
     refused(with("[stiffness]\nmodel = \"simon\"\ncurve = \"nowhere.csv\"\n"), "stiffness.curve");
 
     // A variant of a scene without files, as studies make them, cannot ask for one.
-    let asks = |change: &dyn Fn(&mut gearwear::operation::Scene)| {
+    let asks = |change: &dyn Fn(&mut gearwear_physics::operation::Scene)| {
         let mut resolved = winkler.resolved.clone();
         change(&mut resolved.scene);
         winkler.variant(resolved).map(drop)
     };
-    let calibrated = |scene: &mut gearwear::operation::Scene| {
+    let calibrated = |scene: &mut gearwear_physics::operation::Scene| {
         scene.contact.foundation = Foundation::Calibrated(MatchCriterion::HalfWidth);
     };
     assert_eq!(asks(&calibrated).unwrap_err().key, "contact.calibration");
-    let by_curve = |scene: &mut gearwear::operation::Scene| scene.stiffness = StiffnessSettings::WangCheng;
+    let by_curve = |scene: &mut gearwear_physics::operation::Scene| scene.stiffness = StiffnessSettings::WangCheng;
     assert_eq!(asks(&by_curve).unwrap_err().key, "stiffness.curve");
     asks(&|_| ()).unwrap();
 }
@@ -397,7 +397,7 @@ fn a_loaded_scene_has_its_files() {
 /// and the folder of its run is complete.
 #[test]
 fn a_changed_scene_is_as_if_the_file_said_so() {
-    use gearwear::assessment::calibrate::{self, CalibrationExtent};
+    use gearwear_physics::assessment::calibrate::{self, CalibrationExtent};
 
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str, text: &str| {

@@ -1,28 +1,28 @@
 //! The simplified model of helical gears against the same model on flank points, and against what must hold of any.
 
-use gearwear::contact::{hertz::flattening, hertz_mean::HertzMean};
-use gearwear::gear::{
+use gearwear_physics::contact::{hertz::flattening, hertz_mean::HertzMean};
+use gearwear_physics::gear::{
     Gear, PerGear,
     conjugate::ConjugateFlanks,
     modification::{Modification, Relief, ReliefShape},
     spec::PairSpec,
 };
-use gearwear::mesh_cycle::simplified::closed_form::{AMPLE_LOADS, ContactForms, RANGES};
-use gearwear::mesh_cycle::wearing_pair::Snapshot;
-use gearwear::mesh_cycle::{
+use gearwear_physics::mesh_cycle::simplified::closed_form::{AMPLE_LOADS, ContactForms, RANGES};
+use gearwear_physics::mesh_cycle::wearing_pair::Snapshot;
+use gearwear_physics::mesh_cycle::{
     settings::{Coupling, SliceSettings},
     slice_coupling::SliceCompliance,
     sliced_mesh::SlicedMesh,
     sliced_positions::{SliceEnds, sliced_positions},
     sliced_teeth::SlicedTeeth,
 };
-use gearwear::observer::Unwatched;
-use gearwear::simulation::figures::WearFigures;
-use gearwear::simulation::mesh_contact::MeshContact;
-use gearwear::simulation::settings::LifeLimits;
-use gearwear::simulation::wear_run::{Outcome, RunPhase, WearRun};
-use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
-use gearwear::wear::{
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::simulation::figures::WearFigures;
+use gearwear_physics::simulation::mesh_contact::MeshContact;
+use gearwear_physics::simulation::settings::LifeLimits;
+use gearwear_physics::simulation::wear_run::{Outcome, RunPhase, WearRun};
+use gearwear_physics::stiffness::{TeethSpring, settings::StiffnessSettings};
+use gearwear_physics::wear::{
     WearModel,
     settings::{SevereTransition, WearSettings},
 };
@@ -47,7 +47,7 @@ fn run(scene: &Scene) -> Outcome {
     let (pair, material) = (pair(&scene.pair), steel());
     let (surface, line_load) = (HertzMean { material }, scene.line_load());
     let teeth = TeethSpring::new(scene.stiffness, scene.curve.as_ref(), &pair, &material, &surface, line_load).unwrap();
-    let law = gearwear::wear::of(&WearSettings {
+    let law = gearwear_physics::wear::of(&WearSettings {
         severe: scene.severe,
         ..WearSettings::archard(scene.coefficient_mm2_per_n)
     });

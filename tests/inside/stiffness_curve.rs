@@ -1,12 +1,12 @@
 //! Curves of tooth stiffness that a user supplies: what they mean, and what is refused.
 
-use gearwear::contact::{hertz, hertz::Hertz};
-use gearwear::gear::PerGear;
-use gearwear::observer::Unwatched;
 use gearwear::runs;
 use gearwear::scene::loaded::NamedFiles;
 use gearwear::scene::{Resolved, presets};
-use gearwear::stiffness::{
+use gearwear_physics::contact::{hertz, hertz::Hertz};
+use gearwear_physics::gear::PerGear;
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::stiffness::{
     TeethSpring,
     curve::{PairCompliance, StandsFor},
     curve_file::{self, CurveFileError},

@@ -8,19 +8,19 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
-use gearwear::assessment::RunError;
-use gearwear::assessment::calibrate::{self, CalibrationExtent};
-use gearwear::fem::elastic::Elastic;
-use gearwear::fem::quadrature::GAUSS_3;
-use gearwear::gear::shaft::{EndFace, Shaft};
-use gearwear::gear::spec::{AxisParallelism, PairSpec};
-use gearwear::gear::{Gear, GearPair, PerGear};
-use gearwear::gear_fem::in_space::{self, FlankForces, PlaneSection, TeethInSpace};
-use gearwear::gear_mesh::settings::{SectionDivisions, SpaceBody, SpaceResolution, Web};
-use gearwear::gear_mesh::tooth_section::ExtrudedTooth;
-use gearwear::mesh::quality;
-use gearwear::mesh_cycle::pair_in_space::{KeptInSpace, PairInSpace, PairInSpaceError};
 use gearwear::{LoadedScene, RunRecord, Unwatched};
+use gearwear_fem::elastic::Elastic;
+use gearwear_fem::quadrature::GAUSS_3;
+use gearwear_mesh::quality;
+use gearwear_physics::assessment::RunError;
+use gearwear_physics::assessment::calibrate::{self, CalibrationExtent};
+use gearwear_physics::gear::shaft::{EndFace, Shaft};
+use gearwear_physics::gear::spec::{AxisParallelism, PairSpec};
+use gearwear_physics::gear::{Gear, GearPair, PerGear};
+use gearwear_physics::gear_fem::in_space::{self, FlankForces, PlaneSection, TeethInSpace};
+use gearwear_physics::gear_mesh::settings::{SectionDivisions, SpaceBody, SpaceResolution, Web};
+use gearwear_physics::gear_mesh::tooth_section::ExtrudedTooth;
+use gearwear_physics::mesh_cycle::pair_in_space::{KeptInSpace, PairInSpace, PairInSpaceError};
 
 use super::common::{assert_close, fzg_c};
 

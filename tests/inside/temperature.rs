@@ -1,14 +1,14 @@
 //! Contact temperatures: target S6, the hand calculation at A, and every method against the exact moving band of heat.
 
-use gearwear::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
-use gearwear::observer::Unwatched;
-use gearwear::reference::moving_heat_band;
-use gearwear::results::chemistry::ToothTemperatureSummary;
-use gearwear::results::run::RunRecord;
 use gearwear::runs;
 use gearwear::scene::Resolved;
 use gearwear::scene::presets;
-use gearwear::thermal::{
+use gearwear_physics::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::reference::moving_heat_band;
+use gearwear_physics::results::chemistry::ToothTemperatureSummary;
+use gearwear_physics::results::run::RunRecord;
+use gearwear_physics::thermal::{
     ContactHeat, HeatedStrip, SpeedRatios,
     band::Spread,
     heat_equation::{CELLS, Passage},
@@ -59,7 +59,7 @@ fn val_s6_three_methods_through_the_mesh() {
     let record = run(&[], "[temperature]\n");
     let points = record.summary.geometry.curvature_radius_mm;
     let rows = &record.mesh_cycle;
-    let rises = |row: &gearwear::results::run::MeshCycleRow| {
+    let rises = |row: &gearwear_physics::results::run::MeshCycleRow| {
         [
             row.temperature_rise_heat_equation_K.unwrap(),
             row.temperature_rise_williams_K.unwrap(),
@@ -109,7 +109,7 @@ fn val_tian_and_kennedy_at_a() {
     let record = run(&[], "");
     let line_load = record.summary.contact.line_load_N_per_mm;
     let scene = Resolved::from_toml(presets::find("thesis-spur").unwrap().text).unwrap().scene;
-    let pair = gearwear::gear::GearPair::new(&scene.pair).unwrap();
+    let pair = gearwear_physics::gear::GearPair::new(&scene.pair).unwrap();
     let a = pair.path.start_mm;
     let ratios = SpeedRatios::over(&pair, a, a);
     let rises = |velocity, rpm: f64, part: f64| {

@@ -1,12 +1,12 @@
 //! The wear laws that read temperatures, in whole runs: targets S7 and S8, and that every contact model wears by them alike.
 
-use gearwear::gear::Gear;
-use gearwear::observer::Unwatched;
-use gearwear::results::run::{RunRecord, Summary};
 use gearwear::runs;
 use gearwear::scene::Resolved;
 use gearwear::scene::presets;
-use gearwear::wear::regime::Regime;
+use gearwear_physics::gear::Gear;
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::results::run::{RunRecord, Summary};
+use gearwear_physics::wear::regime::Regime;
 
 use super::common::loaded;
 

@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use crate::program::gearwear;
 
 fn document(name: &str) -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(name)).unwrap()
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join("docs").join(name)).unwrap()
 }
 
 /// The blocks of a document in this language.
@@ -54,7 +54,7 @@ fn the_tutorial_on_measured_profiles_says_what_comes_out() {
 #[test]
 fn the_tutorial_on_own_problems_says_what_comes_out() {
     let page = document("fem-problems.md");
-    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
+    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join("meshes");
     let answers = blocks(&page, "text");
     assert_eq!(answers[0], fs::read_to_string(meshes.join("roller.geo")).unwrap(), "the geometry is the committed one");
     let dir = tempfile::tempdir().unwrap();

@@ -101,7 +101,8 @@ fn what_cannot_be_compared_is_refused() {
 /// The scenes of docs/tutorial.md, by its commands, answer its question as it says.
 #[test]
 fn the_tutorial_says_what_comes_out() {
-    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/tutorial.md")).unwrap();
+    let page =
+        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join("docs/tutorial.md")).unwrap();
     let mut blocks = page.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap());
     let (plain, line) = (blocks.next().unwrap(), blocks.next().unwrap());
     let relief = plain.replace("tip_rounding_mm = 0.2\n", &format!("tip_rounding_mm = 0.2\n{line}"));

@@ -8,8 +8,8 @@ use std::borrow::Cow;
 
 use super::document::RexsDocument;
 use super::same_loads::Loads;
-use crate::gear::Gear;
-use crate::results::figures::{self, FigureValues, MainFigure, RexsAttribute, RexsId, STATED_ERRORS};
+use gearwear_physics::gear::Gear;
+use gearwear_physics::results::figures::{self, FigureValues, MainFigure, RexsAttribute, RexsId, STATED_ERRORS};
 
 /// The beginning of ids that are not in the database.
 pub(super) const CUSTOM: &str = "custom_gearwear_";

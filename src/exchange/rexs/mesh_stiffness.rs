@@ -9,7 +9,7 @@
 
 /// Mesh stiffness as the columns of `mesh_cycle.csv` have it.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct MeshStiffness {
+pub struct MeshStiffness {
     pub pinion_rotation_deg: Vec<f64>,
     /// dF/dδ of all pairs in contact per mm of face width, no number where the model does not give it.
     pub new_N_per_mm_um: Vec<f64>,

@@ -11,10 +11,10 @@
 mod attributes;
 mod document;
 mod load;
-pub(crate) mod mesh_stiffness;
+pub mod mesh_stiffness;
 mod modifications;
 mod places;
-pub(crate) mod results;
+pub mod results;
 mod same_loads;
 mod same_pair;
 mod scene_text;
@@ -30,7 +30,7 @@ use stage::RexsStage;
 
 /// Scene from a file.
 #[derive(Debug)]
-pub(crate) struct FromRexs {
+pub struct FromRexs {
     /// The scene file.
     pub text: String,
     /// Parts of the stage that a scene cannot say, or that were left out, and why.
@@ -42,7 +42,7 @@ pub(crate) struct FromRexs {
 /// # Errors
 ///
 /// No REXS, a version that is not known, no such stage, or attributes that make no pair of external cylindrical gears.
-pub(crate) fn scene(text: &str, number: Option<usize>) -> Result<FromRexs, RexsError> {
+pub fn scene(text: &str, number: Option<usize>) -> Result<FromRexs, RexsError> {
     let document = RexsDocument::parse(text)?;
     let mut warnings = Vec::new();
     let stage = RexsStage::find(&document, number)?;
@@ -57,7 +57,7 @@ const VERSIONS: [&str; 6] = ["1.4", "1.5", "1.6", "1.7", "2.0", "2.0.0"];
 
 /// Why a file gives no scene. `line` counts from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub(crate) enum RexsError {
+pub enum RexsError {
     /// Not the XML form of the format: `found` says what it is instead.
     #[error("line {line}: found {found}; allowed: a REXS model in XML (.rexs)")]
     NoXml { line: usize, found: String },

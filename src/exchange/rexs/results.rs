@@ -28,15 +28,15 @@ use super::same_loads::Loads;
 use super::same_pair;
 use super::scene_text::rounded;
 use super::stage::{Gears, RexsStage};
-use crate::gear::spec::PairSpec;
-use crate::gear::{Gear, PerGear};
-use crate::studies::evaluate::output::SummaryOutput;
+use crate::evaluate::output::SummaryOutput;
+use gearwear_physics::gear::spec::PairSpec;
+use gearwear_physics::gear::{Gear, PerGear};
 
 const GEAR_IN_STAGE: &str = "cylindrical_stage_gear_data";
 
 /// Results of a finished run that are written.
 #[derive(Debug, Clone)]
-pub(crate) struct RunResults {
+pub struct RunResults {
     /// `summary.json`.
     pub summary: Value,
     pub pair: PairSpec,
@@ -46,7 +46,7 @@ pub(crate) struct RunResults {
 
 /// Wear depth of a flank from root to tip.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct WearDepths {
+pub struct WearDepths {
     pub radius_mm: Vec<f64>,
     /// Maximum over the face width.
     pub depth_um: Vec<f64>,
@@ -54,7 +54,7 @@ pub(crate) struct WearDepths {
 
 /// A file with results in it.
 #[derive(Debug)]
-pub(crate) struct WithResults {
+pub struct WithResults {
     /// The file.
     pub text: String,
     /// The stage, as messages name it.
@@ -101,7 +101,7 @@ struct Placed {
 /// # Errors
 ///
 /// As for [`super::scene`]; a run of another pair, and more than one load spectrum.
-pub(crate) fn with_results(text: &str, number: Option<usize>, run: &RunResults) -> Result<WithResults, RexsError> {
+pub fn with_results(text: &str, number: Option<usize>, run: &RunResults) -> Result<WithResults, RexsError> {
     let document = RexsDocument::parse(text)?;
     let mut places = Places::of(text)?;
     let spectrum = places.load_spectrum()?.filter(|spectrum| !spectrum.cases.is_empty());

@@ -6,9 +6,9 @@ use super::mesh_stiffness::MeshStiffness;
 use super::results::{RunResults, WearDepths, WithResults, with_results};
 use super::same_loads::Loads;
 use super::{RexsError, VERSIONS, scene};
-use crate::gear::PerGear;
+use crate::evaluate::output::SummaryOutput;
 use crate::scene::Resolved;
-use crate::studies::evaluate::output::SummaryOutput;
+use gearwear_physics::gear::PerGear;
 
 const TWO_STAGES: &str = include_str!("two_stages.rexs");
 

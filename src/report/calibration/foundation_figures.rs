@@ -1,12 +1,12 @@
 //! K/H by finite elements against Hertz and against its fit.
 
 use super::path_points;
-use crate::calibration::Calibration;
-use crate::calibration::foundation_fit::FitErrors;
-use crate::calibration::single_contact::{Purpose, SingleContact};
-use crate::contact::settings::MatchCriterion;
 use crate::report::chart::{Chart, Dash, MUTED, PATH, Trace, WORN, colour_between_gears};
 use crate::report::html::number::{figure, percent};
+use gearwear_physics::calibration::Calibration;
+use gearwear_physics::calibration::foundation_fit::FitErrors;
+use gearwear_physics::calibration::single_contact::{Purpose, SingleContact};
+use gearwear_physics::contact::settings::MatchCriterion;
 
 pub(super) fn all(calibration: &Calibration) -> Vec<Chart> {
     let against_curvature = MatchCriterion::ALL.map(|criterion| against_curvature(calibration, criterion));

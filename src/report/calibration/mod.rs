@@ -9,20 +9,20 @@ mod wear_figure;
 use std::path::{Path, PathBuf};
 
 use super::files::{ReportError, create_folder};
-use crate::calibration::Calibration;
-use crate::results::run::{PathPoints, StageTime};
-use crate::whole_file;
+use gearwear_files::whole_file;
+use gearwear_physics::calibration::Calibration;
+use gearwear_physics::results::run::{PathPoints, StageTime};
 
-pub(crate) fn folder(file: &Path) -> &Path {
+pub fn folder(file: &Path) -> &Path {
     file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-pub(crate) fn page_beside(file: &Path) -> PathBuf {
+pub fn page_beside(file: &Path) -> PathBuf {
     file.with_extension("html")
 }
 
 /// Writes the page, under the title and byline of the scene, and then the calibration itself, so that its presence says the rest is complete.
-pub(crate) fn write(
+pub fn write(
     calibration: &Calibration,
     stages: &[StageTime],
     [title, byline]: [&str; 2],

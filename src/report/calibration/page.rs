@@ -3,12 +3,12 @@
 use maud::html;
 
 use super::{foundation_figures, stiffness_figures, tables, wear_figure};
-use crate::calibration::Calibration;
-use crate::contact::settings::MatchCriterion;
 use crate::report::html::number::{figure, percent};
 use crate::report::html::page::{self, Page, Plots, section, sources_list, stages_table};
 use crate::report::html::run_page::NOTE;
-use crate::results::run::StageTime;
+use gearwear_physics::calibration::Calibration;
+use gearwear_physics::contact::settings::MatchCriterion;
+use gearwear_physics::results::run::StageTime;
 
 /// The whole page; `file` is the name of the calibration file.
 pub(super) fn page(calibration: &Calibration, stages: &[StageTime], [title, byline]: [&str; 2], file: &str) -> String {

@@ -1,9 +1,9 @@
 //! What one mesh of unworn flanks wears.
 
-use crate::calibration::Calibration;
-use crate::gear::Gear;
 use crate::report::chart::{Chart, Dash, Trace, gear_colour};
 use crate::report::html::number::figure;
+use gearwear_physics::calibration::Calibration;
+use gearwear_physics::gear::Gear;
 
 /// One in so many points, those at the tip edge, does not set the frame.
 const TIP_SHARE: usize = 40;

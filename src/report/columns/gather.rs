@@ -276,7 +276,7 @@ impl<'a> Serializer for Row<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gear::Gear;
+    use gearwear_physics::gear::Gear;
 
     #[derive(Serialize)]
     struct Row {

@@ -1,12 +1,12 @@
 //! The model, and the von Mises stress over the bodies: whole, and around each contact.
 
-use crate::fem::field_raster::{self, Bodies, Window, greatest_near};
-use crate::fem::problem::Edge;
 use crate::report::chart::{Chart, INK, MUTED, Trace};
 use crate::report::html::field_plot::{self, WIDTH_OVER_HEIGHT, segments, side_lines, to_scale};
 use crate::report::html::number::{count, figure, significant};
 use crate::report::html::reading::greatest;
-use crate::results::fem_problem::{ContactCurve, FemRecord, FemSummary, PlaneSolution};
+use gearwear_fem::field_raster::{self, Bodies, Window, greatest_near};
+use gearwear_fem::problem::Edge;
+use gearwear_physics::results::fem_problem::{ContactCurve, FemRecord, FemSummary, PlaneSolution};
 
 /// Half the height of the picture of a contact, in half-widths.
 const AROUND: f64 = 2.0;

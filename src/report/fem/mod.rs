@@ -2,7 +2,7 @@
 //!
 //! | file | from |
 //! |---|---|
-//! | `summary.json` | [`crate::results::fem_problem::FemSummary`] |
+//! | `summary.json` | [`gearwear_physics::results::fem_problem::FemSummary`] |
 //! | `contact.csv` | [`contact_table`], of plane problems |
 //! | `solution.vtu` | displacement and stress at the nodes, for ParaView |
 //! | `problem.toml` | the resolved problem |
@@ -19,14 +19,14 @@ use std::path::Path;
 use super::csv_table::{COLUMNS, Column, CsvFiles, Provenance, table};
 use super::files::{ReportError, create_folder, place, remove};
 use super::vtu_file;
-use crate::fem::nodal_fields::add_nodal_fields;
-use crate::mesh::Mesh;
-use crate::results::fem_problem::{ContactCurve, FemRecord, FemSolution, PlaneSolution, SpaceSolution};
+use gearwear_fem::nodal_fields::add_nodal_fields;
+use gearwear_mesh::Mesh;
+use gearwear_physics::results::fem_problem::{ContactCurve, FemRecord, FemSolution, PlaneSolution, SpaceSolution};
 
 const CONTACT: &str = "contact.csv";
 
 /// Writes all files of `record` but `summary.json` into `dir`, which is made if need be.
-pub(crate) fn write_data_and_page(record: &FemRecord, dir: &Path) -> Result<(), ReportError> {
+pub fn write_data_and_page(record: &FemRecord, dir: &Path) -> Result<(), ReportError> {
     create_folder(dir)?;
     place(dir, "problem.toml", |out| out.write_all(record.problem_toml.as_bytes()))?;
     let page = match &record.solution {
@@ -49,7 +49,7 @@ pub(crate) fn write_data_and_page(record: &FemRecord, dir: &Path) -> Result<(), 
 }
 
 /// The mesh of `solution.vtu`.
-pub(crate) fn solution_mesh(record: &FemRecord) -> Mesh {
+pub fn solution_mesh(record: &FemRecord) -> Mesh {
     match &record.solution {
         FemSolution::Plane(plane) => solution(plane),
         FemSolution::InSpace(space) => solution_in_space(space),
@@ -57,7 +57,7 @@ pub(crate) fn solution_mesh(record: &FemRecord) -> Mesh {
 }
 
 /// Writes `contact.csv`: the nodes of the slave surfaces, each in the order of its surface.
-pub(crate) fn contact_table(out: &mut dyn Write, contacts: &[ContactCurve]) -> io::Result<Vec<Column>> {
+pub fn contact_table(out: &mut dyn Write, contacts: &[ContactCurve]) -> io::Result<Vec<Column>> {
     table(out, contacts.iter().flat_map(|contact| &contact.rows))
 }
 

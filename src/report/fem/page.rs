@@ -3,11 +3,11 @@
 use maud::{Markup, html};
 
 use super::{field_figures, pressure_figure};
-use crate::fem::problem::{Stop, ThirdDirection};
 use crate::report::html::number::{change, figure, significant};
 use crate::report::html::page::{self, Page, Plots, section, sources_list, stages_table};
 use crate::report::html::table::{NONE, cells, row, table};
-use crate::results::fem_problem::{ContactSummary, FemRecord, FemSummary, PlaneSolution};
+use gearwear_fem::problem::{Stop, ThirdDirection};
+use gearwear_physics::results::fem_problem::{ContactSummary, FemRecord, FemSummary, PlaneSolution};
 
 const DATA_FILES: [(&str, &str); 4] = [
     ("summary.json", "the main figures"),

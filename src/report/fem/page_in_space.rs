@@ -6,7 +6,7 @@ use super::page::{model_table, solver_table};
 use crate::report::html::number::{figure, significant};
 use crate::report::html::page::{self, Page, Plots, note, section, sources_list, stages_table};
 use crate::report::html::table::{cells, line, list, row, table};
-use crate::results::fem_problem::{FemRecord, FemSummary, InSpaceSummary, SpaceSolution};
+use gearwear_physics::results::fem_problem::{FemRecord, FemSummary, InSpaceSummary, SpaceSolution};
 
 const DATA_FILES: [(&str, &str); 3] = [
     ("summary.json", "the main figures"),

@@ -1,11 +1,11 @@
 //! Pressure along a contact, beside Hertz's.
 
-use crate::reference::hertz_line::LineContact;
-use crate::reference::statistics::extent;
 use crate::report::chart::Chart;
 use crate::report::html::number::{change, figure, significant};
 use crate::report::pressure_plot::beside_hertz;
-use crate::results::fem_problem::{ContactCurve, ContactRow, ContactSummary};
+use gearwear_physics::reference::hertz_line::LineContact;
+use gearwear_physics::reference::statistics::extent;
+use gearwear_physics::results::fem_problem::{ContactCurve, ContactRow, ContactSummary};
 
 /// Half-widths shown on either side.
 const SHOWN: f64 = 1.8;

@@ -1,10 +1,10 @@
 //! Over the path of contact from A to E: load sharing, pressure, transmission error, stress at the roots.
 
-use crate::gear::Gear;
-use crate::reference::statistics::extent;
 use crate::report::chart::{Chart, Dash, MUTED, NEW, PATH, Trace, WORN, gear_colour, padded};
 use crate::report::html::number::{figure, percent, significant};
-use crate::results::fem_pair::{FemCycleRow, FemPairRecord, RootSummary};
+use gearwear_physics::gear::Gear;
+use gearwear_physics::reference::statistics::extent;
+use gearwear_physics::results::fem_pair::{FemCycleRow, FemPairRecord, RootSummary};
 
 pub(super) fn all(record: &FemPairRecord) -> Vec<Chart> {
     if record.mesh_cycle.is_empty() {

@@ -1,12 +1,12 @@
 //! The teeth in contact as finite elements, and the von Mises stress in them.
 
-use crate::fem::field_raster::{self, Bodies, Window, greatest_near};
-use crate::fem::solid::Element;
-use crate::gear::Gear;
 use crate::report::chart::{Chart, Trace, gear_colour};
 use crate::report::html::field_plot::{self, WIDTH_OVER_HEIGHT, side_lines, to_scale};
 use crate::report::html::number::{count, figure, significant};
-use crate::results::fem_pair::{ContactPlace, FemPairSummary, PairSolution};
+use gearwear_fem::field_raster::{self, Bodies, Window, greatest_near};
+use gearwear_fem::solid::Element;
+use gearwear_physics::gear::Gear;
+use gearwear_physics::results::fem_pair::{ContactPlace, FemPairSummary, PairSolution};
 
 /// Half the height of the picture of a contact, in half-widths.
 const AROUND: f64 = 2.0;

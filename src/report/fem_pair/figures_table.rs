@@ -2,13 +2,15 @@
 
 use maud::{Markup, html};
 
-use crate::gear::PerGear;
 use crate::report::html::number::{change, count, fixed, percent, significant};
 use crate::report::html::page;
 use crate::report::html::root_stress_table;
 use crate::report::html::table::{row, table};
-use crate::results::fem_pair::{FemPairSummary, FullModelSummary, GearModelSummary, PathPointsSummary, RootSummary};
-use crate::results::run::PathPoints;
+use gearwear_physics::gear::PerGear;
+use gearwear_physics::results::fem_pair::{
+    FemPairSummary, FullModelSummary, GearModelSummary, PathPointsSummary, RootSummary,
+};
+use gearwear_physics::results::run::PathPoints;
 
 pub(super) fn tables(s: &FemPairSummary) -> Markup {
     let points = s.points.as_ref().map_or_else(Markup::default, points);

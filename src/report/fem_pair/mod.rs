@@ -2,8 +2,8 @@
 //!
 //! | file | from |
 //! |---|---|
-//! | `summary.json` | [`crate::results::fem_pair::FemPairSummary`] |
-//! | `mesh_cycle.csv`, `pressure.csv` | [`crate::results::fem_pair::FemCycleRow`], [`pressure_table`] |
+//! | `summary.json` | [`gearwear_physics::results::fem_pair::FemPairSummary`] |
+//! | `mesh_cycle.csv`, `pressure.csv` | [`gearwear_physics::results::fem_pair::FemCycleRow`], [`pressure_table`] |
 //! | `solution.vtu` | displacement and stress at the nodes, for ParaView |
 //! | `scene.toml` | the resolved scene |
 //! | `report.html` | `page` |
@@ -13,7 +13,7 @@ mod field_figures;
 mod figures_table;
 mod page;
 mod pressure_figure;
-pub(crate) mod pressure_table;
+pub mod pressure_table;
 
 use std::path::Path;
 
@@ -22,12 +22,12 @@ use nalgebra::Vector2;
 use super::csv_table::{CsvFiles, Provenance, table};
 use super::files::{ReportError, create_folder, place};
 use super::vtu_file;
-use crate::fem::solid::Solid;
-use crate::mesh::Mesh;
-use crate::results::fem_pair::{FemPairRecord, PairSolution};
+use gearwear_fem::solid::Solid;
+use gearwear_mesh::Mesh;
+use gearwear_physics::results::fem_pair::{FemPairRecord, PairSolution};
 
 /// Writes all files of `record` but `summary.json` into `dir`, which is made if need be.
-pub(crate) fn write_data_and_page(record: &FemPairRecord, dir: &Path) -> Result<(), ReportError> {
+pub fn write_data_and_page(record: &FemPairRecord, dir: &Path) -> Result<(), ReportError> {
     create_folder(dir)?;
     let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
     place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?;

@@ -5,9 +5,9 @@ use maud::html;
 use super::{cycle_figures, field_figures, figures_table, pressure_figure};
 use crate::report::html::number::{figure, significant};
 use crate::report::html::page::{self, Page, Plots, section, sources_list, stages_table};
-use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
-use crate::results::path_points::among;
-use crate::results::run::{PathPoints, ReportedBy, StopReason};
+use gearwear_physics::results::fem_pair::{FemPairRecord, FemPairSummary};
+use gearwear_physics::results::path_points::among;
+use gearwear_physics::results::run::{PathPoints, ReportedBy, StopReason};
 
 const DATA_FILES: [(&str, &str); 5] = [
     ("summary.json", "the main figures"),

@@ -4,7 +4,7 @@ use super::pressure_table::hertz;
 use crate::report::chart::Chart;
 use crate::report::html::number::{change, figure, percent, significant};
 use crate::report::pressure_plot::beside_hertz;
-use crate::results::fem_pair::{FemPairRecord, PressureCurve};
+use gearwear_physics::results::fem_pair::{FemPairRecord, PressureCurve};
 
 /// Half-widths shown on either side.
 const SHOWN: f64 = 1.6;

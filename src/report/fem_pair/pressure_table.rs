@@ -5,8 +5,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::reference::hertz_line::LineContact;
-use crate::results::fem_pair::PressureCurve;
+use gearwear_physics::reference::hertz_line::LineContact;
+use gearwear_physics::results::fem_pair::PressureCurve;
 
 /// A node of the flank with the multipliers around a contact; rows run towards the pinion's tip.
 #[derive(Serialize, JsonSchema)]
@@ -26,7 +26,7 @@ struct PressureRow<'a> {
 }
 
 /// Its rows.
-pub(crate) fn rows(curves: &[PressureCurve]) -> impl Iterator<Item = impl Serialize + JsonSchema> {
+pub fn rows(curves: &[PressureCurve]) -> impl Iterator<Item = impl Serialize + JsonSchema> {
     curves.iter().flat_map(|curve| {
         let hertz = hertz(curve);
         curve.along_mm.iter().zip(&curve.pressure_MPa).map(move |(&along_mm, &pressure_mpa)| PressureRow {

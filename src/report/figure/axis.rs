@@ -1,8 +1,8 @@
 //! An axis of a figure: from values to places on the drawing, and where its ticks are.
 
-use crate::reference::statistics::extent;
 use crate::report::chart::Axis;
 use crate::report::html::number::{superscript, to_digits};
+use gearwear_physics::reference::statistics::extent;
 
 /// Of a range that follows from the values, the part that is added on either side.
 const ROOM: f64 = 0.05;

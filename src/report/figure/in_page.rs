@@ -10,7 +10,7 @@ use super::{axis::PlacedAxis, drawing::range_of_colours, palette};
 use crate::report::chart::{Chart, Drawn, Field, Rows, Surface, Trace, View};
 use crate::report::control::Control;
 
-pub(crate) struct InPage {
+pub struct InPage {
     pub svg: String,
     pub legend: Vec<Entry>,
     /// JSON.
@@ -18,7 +18,7 @@ pub(crate) struct InPage {
 }
 
 /// A trace in the legend.
-pub(crate) struct Entry {
+pub struct Entry {
     /// Number of the trace.
     pub trace: usize,
     pub name: String,
@@ -93,7 +93,7 @@ struct SurfaceData<'a> {
 const COLOURS: usize = 64;
 
 /// What a page shows of `chart`.
-pub(crate) fn of(chart: &Chart) -> InPage {
+pub fn of(chart: &Chart) -> InPage {
     let drawing = Drawing::new(chart, Medium::Page).finished();
     let listed = chart.traces.iter().enumerate().filter(|(_, trace)| chart.has_legend && sign::is_listed(trace));
     let legend = listed.map(|(number, trace)| Entry {

@@ -7,22 +7,18 @@
 mod axis;
 mod contours;
 mod drawing;
-pub(crate) mod in_page;
+pub mod in_page;
 mod palette;
 mod picture;
 mod png;
-#[cfg(feature = "program")]
 mod raster;
 mod sign;
 mod traces;
-
-#[cfg(feature = "program")]
 use std::path::{Path, PathBuf};
 
 use self::drawing::Drawing;
 use self::picture::{Medium, Picture};
 use super::chart::{Chart, Trace};
-#[cfg(feature = "program")]
 use super::files::{ReportError, create_folder, place};
 
 /// A plot of a page as a drawing.
@@ -41,13 +37,12 @@ fn pictures(charts: &[Chart]) -> impl Iterator<Item = Picture> {
 }
 
 /// Each of `charts` that is no surface in space, as SVG.
-pub(crate) fn drawn(charts: &[Chart]) -> impl Iterator<Item = Figure> {
+pub fn drawn(charts: &[Chart]) -> impl Iterator<Item = Figure> {
     pictures(charts).map(|picture| Figure { svg: picture.svg(), name: picture.id })
 }
 
 /// Writes each of `charts` as `ID.svg` and `ID.png` into `dir`, which is made if need be; returns their paths.
-#[cfg(feature = "program")]
-pub(crate) fn write_all(charts: &[Chart], dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+pub fn write_all(charts: &[Chart], dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
     let mut paths = Vec::new();
     for picture in pictures(charts) {

@@ -25,7 +25,6 @@ pub(super) fn of_levels(columns: usize, levels: &[u8]) -> Vec<u8> {
 }
 
 /// Red, green, blue and opacity of each pixel, row by row.
-#[cfg(feature = "program")]
 pub(super) fn of_pixels(columns: usize, pixels: &[u8]) -> Vec<u8> {
     encoded(columns, 4, COLOURS, &[], pixels)
 }

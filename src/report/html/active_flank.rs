@@ -1,19 +1,19 @@
 //! The part of a flank that plots show.
 
-use crate::gear::Gear;
-use crate::reference::statistics::extent;
 use crate::report::chart::{Chart, padded};
-use crate::results::run::{FlankRecord, PathPoints};
+use gearwear_physics::gear::Gear;
+use gearwear_physics::reference::statistics::extent;
+use gearwear_physics::results::run::{FlankRecord, PathPoints};
 
 /// From a little below the start of active profile up to the tip.
-pub(crate) struct ActiveFlank {
+pub struct ActiveFlank {
     /// The first point shown; the last is that at the tip.
     pub first: usize,
     path_point_radius_mm: PathPoints,
 }
 
 impl ActiveFlank {
-    pub(crate) fn of(flank: &FlankRecord) -> Self {
+    pub fn of(flank: &FlankRecord) -> Self {
         let [from_mm, to_mm] = Self::ends_mm(&flank.path_point_radius_mm);
         let margin = 0.03 * (to_mm - from_mm);
         let first = flank.radius_mm.partition_point(|&r| r < from_mm - margin);
@@ -26,12 +26,12 @@ impl ActiveFlank {
     }
 
     /// Its part of the `values` of one row of points.
-    pub(crate) fn cut(&self, values: &[f64]) -> Vec<f64> {
+    pub fn cut(&self, values: &[f64]) -> Vec<f64> {
         values.get(self.first..).unwrap_or_default().to_vec()
     }
 
     /// The chart with the radius across, and the points A–E.
-    pub(crate) fn across(&self, chart: Chart, gear: Gear) -> Chart {
+    pub fn across(&self, chart: Chart, gear: Gear) -> Chart {
         let [from_mm, to_mm] = Self::ends_mm(&self.path_point_radius_mm);
         let chart =
             chart.x(&format!("radius on the {}, mm", gear.name())).x_range(padded(from_mm, to_mm)).x_format(".3f");

@@ -2,10 +2,10 @@
 
 use super::number::{change, figure, percent, significant};
 use super::reading::{Extreme, defined_pressures, greatest, tip_edge_note};
-use crate::reference::statistics::extent;
 use crate::report::chart::Chart;
-use crate::results::path_points::among;
-use crate::results::run::{MeshCycleRow, RunRecord};
+use gearwear_physics::reference::statistics::extent;
+use gearwear_physics::results::path_points::among;
+use gearwear_physics::results::run::{MeshCycleRow, RunRecord};
 
 /// A pair that carries at least this share of the load counts as carrying it alone.
 pub(super) const ALONE: f64 = 0.9995;

@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use super::number::{figure, significant};
-use crate::gear::Gear;
-use crate::reference::statistics::extent;
 use crate::report::chart::{Chart, Dash, INK, Label, MUTED, PATH, Trace, gear_colour, gear_fill};
 use crate::report::control::{Control, MeshMotion, TurningBody};
-use crate::results::run::{GearCircles, PairDrawing, RunRecord};
+use gearwear_physics::gear::Gear;
+use gearwear_physics::reference::statistics::extent;
+use gearwear_physics::results::run::{GearCircles, PairDrawing, RunRecord};
 
 /// Points of a drawn circle: its sagitta stays below 1e-4 of the radius.
 const CIRCLE_POINTS: usize = 240;

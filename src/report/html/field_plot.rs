@@ -4,19 +4,19 @@
 //! the sides of the elements.
 
 use super::number::to_digits;
-use crate::fem::field_raster::{Bodies, Raster, Window, sides};
 use crate::report::chart::{Chart, Dash, INK, Rows, Trace};
+use gearwear_fem::field_raster::{Bodies, Raster, Window, sides};
 
 /// Significant digits of a value in the picture.
 const DIGITS: usize = 4;
 /// Sides of elements that a picture shows at the most: beyond, they are too fine to be seen and too many to be drawn.
 const MOST_SIDES: usize = 20_000;
 /// Width over height of a picture on a wide screen.
-pub(crate) const WIDTH_OVER_HEIGHT: f64 = 1.75;
+pub const WIDTH_OVER_HEIGHT: f64 = 1.75;
 const HEIGHT_PX: usize = 600;
 
 /// Draws the von Mises stress at the nodes within `window`.
-pub(crate) fn von_mises(chart: Chart, bodies: Bodies<'_>, stress_mpa: &[f64], window: Window) -> Chart {
+pub fn von_mises(chart: Chart, bodies: Bodies<'_>, stress_mpa: &[f64], window: Window) -> Chart {
     let raster = Raster::sample(bodies, stress_mpa, window);
     let shown = |value: Option<f64>| value.map_or(f64::NAN, |value| to_digits(value, DIGITS));
     let values: Rows = raster.values.into_iter().map(|row| row.into_iter().map(shown).collect()).collect();
@@ -27,7 +27,7 @@ pub(crate) fn von_mises(chart: Chart, bodies: Bodies<'_>, stress_mpa: &[f64], wi
 }
 
 /// The sides between elements, unless they are too many, and those around the bodies.
-pub(crate) fn side_lines(
+pub fn side_lines(
     bodies: Bodies<'_>,
     window: Window,
     (inner_colour, inner_px): (&str, f64),
@@ -39,7 +39,7 @@ pub(crate) fn side_lines(
 }
 
 /// The chart as a picture at its true proportions that shows `window` to begin with.
-pub(crate) fn to_scale(chart: Chart, window: Window) -> Chart {
+pub fn to_scale(chart: Chart, window: Window) -> Chart {
     let pixels = HEIGHT_PX as f64 * WIDTH_OVER_HEIGHT * window.height_mm() / window.width_mm();
     let height = (pixels.clamp(0.45 * HEIGHT_PX as f64, HEIGHT_PX as f64) + 80.0) as usize;
     chart
@@ -54,7 +54,7 @@ pub(crate) fn to_scale(chart: Chart, window: Window) -> Chart {
 }
 
 /// Sides of elements as one line with gaps.
-pub(crate) fn segments(name: &str, bodies: Bodies<'_>, sides: &[Vec<u32>], colour: &str, width_px: f64) -> Trace {
+pub fn segments(name: &str, bodies: Bodies<'_>, sides: &[Vec<u32>], colour: &str, width_px: f64) -> Trace {
     let along = |axis: usize| {
         let place = move |node: &u32| Some(bodies.points_mm[*node as usize][axis]);
         sides.iter().flat_map(move |side| side.iter().map(place).chain([None]))

@@ -6,14 +6,14 @@ use super::number::{change, fixed, percent, significant, to_digits};
 use super::reading::capitalised;
 use super::table::{Cell, cells, line, list, row, table, whole};
 use super::{film_table, law_table, page, root_stress_table, sliced};
-use crate::results::error::{ErrorSummary, SevereLimit, WearAtLimit};
-use crate::results::figures::{FAMILIES, FigureFamily, FigureValues, STATED_ERRORS};
-use crate::results::run::{GearSummary, PhaseSummary, PhaseWear, RunRecord, Summary};
+use gearwear_physics::results::error::{ErrorSummary, SevereLimit, WearAtLimit};
+use gearwear_physics::results::figures::{FAMILIES, FigureFamily, FigureValues, STATED_ERRORS};
+use gearwear_physics::results::run::{GearSummary, PhaseSummary, PhaseWear, RunRecord, Summary};
 
 /// Phases that are shown one by one.
 const MOST_PHASES: usize = 60;
 
-pub(crate) fn tables(record: &RunRecord) -> Markup {
+pub fn tables(record: &RunRecord) -> Markup {
     let s = &record.summary;
     let tables = figures(record);
     html! { (tables) (page::note(&pitch_pressure_note(s))) }
@@ -198,7 +198,7 @@ fn contact(s: &Summary) -> Markup {
 }
 
 /// Under what each phase ran, and what it wore off; nothing where there is only one.
-pub(crate) fn phases(s: &Summary) -> Markup {
+pub fn phases(s: &Summary) -> Markup {
     if s.phases.len() < 2 {
         return Markup::default();
     }
@@ -257,7 +257,7 @@ fn both_gears(phase: &PhaseSummary, depth_um: fn(&PhaseWear) -> f64) -> String {
 }
 
 /// The error estimates, each with how it was obtained.
-pub(crate) fn errors(error: &ErrorSummary) -> Markup {
+pub fn errors(error: &ErrorSummary) -> Markup {
     let how = &error.how;
     let by_elements = STATED_ERRORS.iter().enumerate().map(|(at, stated)| {
         let how = if at == 0 { &*error.total.how } else { "as above" };

@@ -2,9 +2,9 @@
 
 use super::number::{figure, significant};
 use crate::report::chart::Chart;
-use crate::results::lubrication::{FilmRow, LubricationSummary};
-use crate::results::path_points::among;
-use crate::results::run::RunRecord;
+use gearwear_physics::results::lubrication::{FilmRow, LubricationSummary};
+use gearwear_physics::results::path_points::among;
+use gearwear_physics::results::run::RunRecord;
 
 type Column = fn(&FilmRow) -> Option<f64>;
 

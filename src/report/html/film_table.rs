@@ -5,11 +5,13 @@ use maud::{Markup, html};
 use super::number::{fixed, percent, significant};
 use super::page;
 use super::table::{cells, line, list, row, table};
-use crate::gear::Gear;
-use crate::results::lubrication::{FilmSummary, LubricationSummary, MethodBSummary, OilSummary, ScuffingSummary};
-use crate::results::run::Summary;
+use gearwear_physics::gear::Gear;
+use gearwear_physics::results::lubrication::{
+    FilmSummary, LubricationSummary, MethodBSummary, OilSummary, ScuffingSummary,
+};
+use gearwear_physics::results::run::Summary;
 
-pub(crate) fn tables(s: &Summary) -> Markup {
+pub fn tables(s: &Summary) -> Markup {
     let Some(of) = &s.lubrication else { return Markup::default() };
     html! {
         @if let Some(oil) = &of.oil { (self::oil(oil)) }

@@ -3,11 +3,11 @@
 use super::active_flank::ActiveFlank;
 use super::number::{figure, hours, percent, revolutions, significant};
 use super::reading::{Extreme, greatest, place_on_flank, tip_edge_note, yield_note};
-use crate::gear::Gear;
-use crate::reference::statistics::extent;
 use crate::report::chart::{Chart, Dash, INK, Trace, gear_colour, gear_colour_at};
 use crate::report::control::{Change, Control, SliderStep};
-use crate::results::run::{HistoryRow, RunRecord};
+use gearwear_physics::gear::Gear;
+use gearwear_physics::reference::statistics::extent;
+use gearwear_physics::results::run::{HistoryRow, RunRecord};
 
 /// At most so many snapshots are drawn, evenly chosen: more curves than that cannot be told apart.
 const CURVES: usize = 12;
@@ -183,7 +183,7 @@ fn modifications_of(record: &RunRecord, gear: Gear) -> Chart {
     active.across(chart, gear)
 }
 
-fn gear_wear(record: &RunRecord, gear: Gear) -> &crate::results::run::WearSummary {
+fn gear_wear(record: &RunRecord, gear: Gear) -> &gearwear_physics::results::run::WearSummary {
     match gear {
         Gear::Pinion => &record.summary.pinion,
         Gear::Wheel => &record.summary.wheel,

@@ -2,9 +2,9 @@
 
 use super::number::{figure, significant};
 use super::reading::duration;
-use crate::gear::Gear;
 use crate::report::chart::{Chart, Dash, Trace, from_zero, gear_colour};
-use crate::results::run::{HistoryRow, PhaseSummary, RunRecord};
+use gearwear_physics::gear::Gear;
+use gearwear_physics::results::run::{HistoryRow, PhaseSummary, RunRecord};
 
 /// Phases whose ends are marked at the most: more would hide the curves.
 const MOST_MARKED: usize = 20;

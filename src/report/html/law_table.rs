@@ -5,11 +5,11 @@ use maud::{Markup, html};
 use super::number::{fixed, percent, significant};
 use super::page;
 use super::table::{cells, row, table};
-use crate::gear::PerGear;
-use crate::results::chemistry::{GreatestRise, TemperatureSummary, ToothTemperatureSummary, WearLawSummary};
-use crate::results::run::Summary;
+use gearwear_physics::gear::PerGear;
+use gearwear_physics::results::chemistry::{GreatestRise, TemperatureSummary, ToothTemperatureSummary, WearLawSummary};
+use gearwear_physics::results::run::Summary;
 
-pub(crate) fn tables(s: &Summary) -> Markup {
+pub fn tables(s: &Summary) -> Markup {
     html! {
         (law(s))
         @if let Some(t) = &s.temperature {
@@ -72,7 +72,7 @@ fn temperature(t: &TemperatureSummary) -> Markup {
 }
 
 /// What the tables mean, in words.
-pub(crate) fn note(s: &Summary) -> Markup {
+pub fn note(s: &Summary) -> Markup {
     let mut text = match &s.wear {
         Some(both) => effect(both, ""),
         None => format!(

@@ -4,22 +4,22 @@
 //! and a script (`page.js`) that enlarges the plots, reads their points as JSON and moves their sliders. Surfaces in space are drawn by
 //! `surface.js`.
 
-pub(crate) mod active_flank;
+pub mod active_flank;
 mod cycle_plots;
 mod drawing_plot;
-pub(crate) mod field_plot;
-pub(crate) mod figures_table;
+pub mod field_plot;
+pub mod figures_table;
 mod film_plot;
 mod film_table;
 mod flank_plots;
 mod history_plot;
-pub(crate) mod law_table;
-pub(crate) mod number;
-pub(crate) mod page;
-pub(crate) mod reading;
-pub(crate) mod root_stress_table;
-pub(crate) mod run_page;
+pub mod law_table;
+pub mod number;
+pub mod page;
+pub mod reading;
+pub mod root_stress_table;
+pub mod run_page;
 mod sliced;
-pub(crate) mod table;
+pub mod table;
 mod temperature_plot;
 mod terms;

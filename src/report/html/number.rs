@@ -2,7 +2,7 @@
 //! thousands.
 
 /// `value` with `digits` significant digits; integers keep all of theirs up to a million. "–" where not finite.
-pub(crate) fn significant(value: f64, digits: usize) -> String {
+pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "–".into();
     }
@@ -20,12 +20,12 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
 }
 
 /// A result: four significant digits, three below one.
-pub(crate) fn figure(value: f64) -> String {
+pub fn figure(value: f64) -> String {
     significant(value, if value.abs() < 1.0 { 3 } else { 4 })
 }
 
 /// A length or an angle of the geometry, to so many decimals.
-pub(crate) fn fixed(value: f64, decimals: usize) -> String {
+pub fn fixed(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return "–".into();
     }
@@ -35,12 +35,12 @@ pub(crate) fn fixed(value: f64, decimals: usize) -> String {
 }
 
 /// As many of seven significant digits as it takes: what the user gave.
-pub(crate) fn given(value: f64) -> String {
+pub fn given(value: f64) -> String {
     up_to_digits(value, 7)
 }
 
 /// A time in hours, which may be one of revolutions: as many of five significant digits as it takes.
-pub(crate) fn hours(value: f64) -> String {
+pub fn hours(value: f64) -> String {
     up_to_digits(value, 5)
 }
 
@@ -55,12 +55,12 @@ fn up_to_digits(value: f64, digits: usize) -> String {
 }
 
 /// Share as a percentage, three significant digits.
-pub(crate) fn percent(share: f64) -> String {
+pub fn percent(share: f64) -> String {
     format!("{}\u{202f}%", significant(share * 100.0, 3))
 }
 
 /// Change from `before` to `after` as a signed percentage; "–" where there is nothing to compare with.
-pub(crate) fn change(before: f64, after: f64) -> String {
+pub fn change(before: f64, after: f64) -> String {
     let change = (after / before - 1.0) * 100.0;
     if !change.is_finite() {
         return "–".into();
@@ -75,7 +75,7 @@ pub(crate) fn change(before: f64, after: f64) -> String {
 }
 
 /// A count of revolutions: "1.15 million", "82 000".
-pub(crate) fn revolutions(value: f64) -> String {
+pub fn revolutions(value: f64) -> String {
     if value.is_finite() && value.abs() >= 1e6 {
         format!("{} million", given((value / 1e6 * 1e3).round() / 1e3))
     } else {
@@ -84,12 +84,12 @@ pub(crate) fn revolutions(value: f64) -> String {
 }
 
 /// A count, thousands set apart.
-pub(crate) fn count(value: u64) -> String {
+pub fn count(value: u64) -> String {
     grouped(&value.to_string())
 }
 
 /// Rounded for a plot, which needs no more digits than a screen has points.
-pub(crate) fn plotted(value: f64) -> f64 {
+pub fn plotted(value: f64) -> f64 {
     if value.abs() < 1e-100 || !value.is_finite() {
         return if value.is_finite() { 0.0 } else { value };
     }
@@ -97,7 +97,7 @@ pub(crate) fn plotted(value: f64) -> f64 {
     (value * scale).round() / scale
 }
 
-pub(crate) fn to_digits(value: f64, digits: usize) -> f64 {
+pub fn to_digits(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }
 
@@ -128,7 +128,7 @@ fn grouped(digits: &str) -> String {
 }
 
 /// As small raised digits.
-pub(crate) fn superscript(exponent: i32) -> String {
+pub fn superscript(exponent: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let sign = if exponent < 0 { "⁻" } else { "" };
     let digits = exponent.unsigned_abs().to_string();

@@ -11,12 +11,12 @@ use super::terms::terms;
 use crate::report::chart::{Chart, Trace};
 use crate::report::control::Control;
 use crate::report::figure::in_page::{self, Entry, InPage};
-use crate::results::run::StageTime;
+use gearwear_physics::results::run::StageTime;
 
 /// The script of plots.
 const SCRIPTS: [&str; 3] = [include_str!("axis.js"), include_str!("surface.js"), include_str!("page.js")];
 
-pub(crate) struct Page<'a> {
+pub struct Page<'a> {
     /// What kind of report it is, above the title.
     pub kind: &'a str,
     pub title: &'a str,
@@ -36,12 +36,12 @@ pub(crate) struct Page<'a> {
 }
 
 impl Page<'_> {
-    pub(crate) fn html(&self) -> String {
+    pub fn html(&self) -> String {
         self.html_with("", "")
     }
 
     /// The same with rules after those of the common style sheet and a script after the one that draws the charts.
-    pub(crate) fn html_with(&self, style: &str, script: &str) -> String {
+    pub fn html_with(&self, style: &str, script: &str) -> String {
         let page = html! {
             (DOCTYPE)
             html lang="en" {
@@ -84,29 +84,29 @@ impl Page<'_> {
     }
 }
 
-pub(crate) fn section(id: &str, heading: &str, content: Markup) -> Markup {
+pub fn section(id: &str, heading: &str, content: Markup) -> Markup {
     html! { section aria-labelledby=(id) { h2 id=(id) { (heading) } (content) } }
 }
 
 /// A remark on what is shown.
-pub(crate) fn note(text: &str) -> Markup {
+pub fn note(text: &str) -> Markup {
     html! { p.legend-note { (text) } }
 }
 
 /// Tables beside one another where there is room.
-pub(crate) fn tables(tables: impl IntoIterator<Item = Markup>) -> Markup {
+pub fn tables(tables: impl IntoIterator<Item = Markup>) -> Markup {
     html! { div.tables { @for table in tables { (table) } } }
 }
 
 /// The plots of a page, shown group by group.
 #[derive(Default)]
-pub(crate) struct Plots {
+pub struct Plots {
     shown: Cell<usize>,
 }
 
 impl Plots {
     /// The charts, numbered on from those before.
-    pub(crate) fn show(&self, charts: &[Chart]) -> Markup {
+    pub fn show(&self, charts: &[Chart]) -> Markup {
         let first = self.shown.get() + 1;
         self.shown.set(self.shown.get() + charts.len());
         html! {
@@ -158,7 +158,7 @@ fn slider(control: &Control) -> Markup {
 }
 
 /// The stages carried out, each with its time.
-pub(crate) fn stages_table(stages: &[StageTime], wall_s: f64) -> Markup {
+pub fn stages_table(stages: &[StageTime], wall_s: f64) -> Markup {
     let stage = |name: &str, wall_s: f64| [name.to_owned(), fixed(wall_s, 4)];
     let total = html! { tr.total { (inner(stage("until this report", wall_s))) } };
     let rows = stages.iter().map(|done| line(stage(&done.name, done.wall_s))).chain([total]);
@@ -166,11 +166,11 @@ pub(crate) fn stages_table(stages: &[StageTime], wall_s: f64) -> Markup {
 }
 
 /// The data files beside the page, each with what it holds.
-pub(crate) fn files_list(files: &[(&str, &str)]) -> Markup {
+pub fn files_list(files: &[(&str, &str)]) -> Markup {
     html! { ul.files { @for (name, what) in files { li { a href=(name) { (name) } " " (what) } } } }
 }
 
-pub(crate) fn sources_list(files: &[(&str, &str)], input_name: &str, input: &str) -> Markup {
+pub fn sources_list(files: &[(&str, &str)], input_name: &str, input: &str) -> Markup {
     html! { (files_list(files)) details { summary { (input_name) } pre { (input) } } }
 }
 

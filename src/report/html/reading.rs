@@ -1,21 +1,21 @@
 //! Words for places and moments: the sentences that say what the numbers mean.
 
 use super::number::{change, figure, hours, percent, revolutions, significant};
-use crate::gear::Gear;
-use crate::reference::steel_yield;
 use crate::report::headline;
-use crate::results::path_points::among;
-use crate::results::run::{FlankRecord, MeshCycleRow, RunRecord, StopReason, Summary, WearSummary};
+use gearwear_physics::gear::Gear;
+use gearwear_physics::reference::steel_yield;
+use gearwear_physics::results::path_points::among;
+use gearwear_physics::results::run::{FlankRecord, MeshCycleRow, RunRecord, StopReason, Summary, WearSummary};
 
 /// The greatest of some values and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Extreme {
+pub struct Extreme {
     pub index: usize,
     pub value: f64,
 }
 
 /// The first of the greatest finite values.
-pub(crate) fn greatest(values: &[f64]) -> Option<Extreme> {
+pub fn greatest(values: &[f64]) -> Option<Extreme> {
     values.iter().enumerate().filter(|(_, v)| v.is_finite()).fold(None, |best, (index, &value)| match best {
         Some(Extreme { value: most, .. }) if value <= most => best,
         _ => Some(Extreme { index, value }),
@@ -23,12 +23,12 @@ pub(crate) fn greatest(values: &[f64]) -> Option<Extreme> {
 }
 
 /// "at 34.12 mm radius, close to A", "at 37.40 mm radius, between C and D".
-pub(crate) fn place_on_flank(flank: &FlankRecord, radius_mm: f64) -> String {
+pub fn place_on_flank(flank: &FlankRecord, radius_mm: f64) -> String {
     format!("at {} mm radius, {}", significant(radius_mm, 4), among(&flank.path_point_radius_mm.named(), radius_mm))
 }
 
 /// What to say of a pressure that is greatest at A or E, where one flank ends in its tip edge; empty elsewhere.
-pub(crate) fn tip_edge_note(places: &[(&str, f64)], at: f64) -> &'static str {
+pub fn tip_edge_note(places: &[(&str, f64)], at: f64) -> &'static str {
     match among(places, at).as_str() {
         "close to A" | "close to E" | "outside the active flank" => {
             " This is at a tip edge, where the maximum at a point depends on the resolution; pairs are compared by the flank pressure."
@@ -38,7 +38,7 @@ pub(crate) fn tip_edge_note(places: &[(&str, f64)], at: f64) -> &'static str {
 }
 
 /// What to say of a pressure that steel hardly bears elastically; empty below. The warning says when steel flows.
-pub(crate) fn yield_note(pressure_mpa: f64) -> &'static str {
+pub fn yield_note(pressure_mpa: f64) -> &'static str {
     if steel_yield::is_exceeded(pressure_mpa) {
         " Steel of 300 HV would flow: the pressure is that of a material which stays elastic."
     } else {
@@ -47,7 +47,7 @@ pub(crate) fn yield_note(pressure_mpa: f64) -> &'static str {
 }
 
 /// "127.75 h (1.15 million pinion revolutions)".
-pub(crate) fn duration(summary: &Summary) -> String {
+pub fn duration(summary: &Summary) -> String {
     let turns = format!("{} pinion revolutions", revolutions(summary.revolutions));
     match summary.hours {
         Some(time) => format!("{} h ({turns})", hours(time)),
@@ -56,7 +56,7 @@ pub(crate) fn duration(summary: &Summary) -> String {
 }
 
 /// The run in one sentence or two: how much each gear has lost, where, and what it did to the mesh cycle.
-pub(crate) fn answer(record: &RunRecord) -> String {
+pub fn answer(record: &RunRecord) -> String {
     let s = &record.summary;
     let lost = match (s.pinion.peak_wear_um > 0.0, s.wheel.peak_wear_um > 0.0) {
         (false, false) => "neither flank has worn".into(),
@@ -100,7 +100,7 @@ pub(crate) fn answer(record: &RunRecord) -> String {
 }
 
 /// The pressure of each row, and NaN where it is that of a sharp tip edge, which is not defined.
-pub(crate) fn defined_pressures(rows: &[MeshCycleRow], of: fn(&MeshCycleRow) -> (f64, bool)) -> Vec<f64> {
+pub fn defined_pressures(rows: &[MeshCycleRow], of: fn(&MeshCycleRow) -> (f64, bool)) -> Vec<f64> {
     rows.iter().map(of).map(|(pressure, at_sharp_edge)| defined_pressure(pressure, at_sharp_edge)).collect()
 }
 
@@ -155,7 +155,7 @@ fn within(figure: String, value: f64, relative: Option<f64>) -> String {
 }
 
 /// What to say above everything else where the run did not reach its end.
-pub(crate) fn interruption(summary: &Summary) -> Option<String> {
+pub fn interruption(summary: &Summary) -> Option<String> {
     let how = match summary.stopped {
         StopReason::Completed | StopReason::LimitReached => return None,
         StopReason::Interrupted => "was interrupted",
@@ -169,7 +169,7 @@ pub(crate) fn interruption(summary: &Summary) -> Option<String> {
 }
 
 /// The text with every number bound to the unit and to the ± after it, so that no line ends between them.
-pub(crate) fn bound(text: &str) -> String {
+pub fn bound(text: &str) -> String {
     const UNITS: [&str; 9] = ["µm", "mm", "mm³", "MPa", "h", "%", "K", "°C", "N/mm"];
     let mut bound = String::with_capacity(text.len());
     for word in text.split_inclusive(' ') {
@@ -184,7 +184,7 @@ pub(crate) fn bound(text: &str) -> String {
     bound.replace("\u{2009}×\u{2009}", "\u{202f}×\u{202f}")
 }
 
-pub(crate) fn capitalised(text: &str) -> String {
+pub fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

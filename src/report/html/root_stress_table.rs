@@ -3,8 +3,8 @@
 use maud::Markup;
 
 use super::table::{row, table};
-use crate::gear::PerGear;
-use crate::results::root_stress::{RootSectionSummary, RootStressSummary};
+use gearwear_physics::gear::PerGear;
+use gearwear_physics::results::root_stress::{RootSectionSummary, RootStressSummary};
 
 type Standard = fn(&RootStressSummary) -> &Option<RootSectionSummary>;
 
@@ -19,7 +19,7 @@ fn both(
 }
 
 /// The stresses, one row a standard.
-pub(crate) fn stresses(of: &PerGear<RootStressSummary>) -> [Markup; 2] {
+pub fn stresses(of: &PerGear<RootStressSummary>) -> [Markup; 2] {
     let stress = |label, by| both(of, label, "MPa", by, |section| section.nominal_stress_MPa);
     [
         stress("ISO 6336-3 Method B, nominal", |gear| &gear.iso_6336_3),
@@ -27,7 +27,7 @@ pub(crate) fn stresses(of: &PerGear<RootStressSummary>) -> [Markup; 2] {
     ]
 }
 
-pub(crate) fn tables(of: &PerGear<RootStressSummary>) -> Markup {
+pub fn tables(of: &PerGear<RootStressSummary>) -> Markup {
     let factor = |label, value| both(of, label, "", |gear| &gear.iso_6336_3, value);
     let form = factor("its form factor Y_F", |section| section.form_factor);
     let correction = factor("its stress correction Y_S", |section| section.stress_correction_factor);

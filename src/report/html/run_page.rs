@@ -11,7 +11,7 @@ use super::{
     temperature_plot,
 };
 use crate::report::chart::Chart;
-use crate::results::run::{ReportedBy, RunRecord, Summary};
+use gearwear_physics::results::run::{ReportedBy, RunRecord, Summary};
 
 /// The data files named in the page, which lie beside it; one more where sections differ.
 const DATA_FILES: [(&str, &str); 9] = [
@@ -29,7 +29,7 @@ const FILM_FILE: (&str, &str) = ("film.csv", "films and friction along the path 
 const SLICES_FILE: (&str, &str) = ("slices.csv", "the load of every slice over the mesh");
 
 /// What the plots of a pair have in common.
-pub(crate) const NOTE: &str = "A to E are the points of the path of contact: contact begins at A and ends at E, a \
+pub const NOTE: &str = "A to E are the points of the path of contact: contact begins at A and ends at E, a \
      tooth pair carries the load alone between B and D where no more than two pairs share it, and C is the pitch \
      point. The contact position is the radius of curvature of the pinion’s flank at the theoretical contact \
      point.";
@@ -45,7 +45,7 @@ fn sliced_note() -> String {
     )
 }
 
-pub(crate) fn page(record: &RunRecord) -> String {
+pub fn page(record: &RunRecord) -> String {
     let s = &record.summary;
     let charts = charts(record);
     let legend = if record.slices.is_some() { sliced_note() } else { NOTE.to_owned() };
@@ -76,7 +76,7 @@ pub(crate) fn page(record: &RunRecord) -> String {
 }
 
 /// The plots of a run, in the order of its page.
-pub(crate) fn charts(record: &RunRecord) -> Vec<Chart> {
+pub fn charts(record: &RunRecord) -> Vec<Chart> {
     match SlicedRun::of(record) {
         Some(run) => sliced::figures(run),
         None => figures_of_equal_sections(record),

@@ -5,10 +5,10 @@ use maud::{Markup, Render, html};
 use super::number::{count, figure};
 
 /// What stands where there is no number.
-pub(crate) const NONE: &str = "–";
+pub const NONE: &str = "–";
 
 /// What stands in a cell: a result as a number with its digits, a count, a text, or markup.
-pub(crate) struct Cell {
+pub struct Cell {
     content: Markup,
     /// A sentence, in a column of its own kind.
     is_sentence: bool,
@@ -16,7 +16,7 @@ pub(crate) struct Cell {
 
 impl Cell {
     /// A text that may take several lines.
-    pub(crate) fn sentence(text: impl Render) -> Self {
+    pub fn sentence(text: impl Render) -> Self {
         Self { is_sentence: true, ..html! { (text) }.into() }
     }
 }
@@ -49,10 +49,12 @@ cell_from! {
     bool: is_so => if is_so { "yes" } else { "no" },
 }
 
+#[doc(hidden)]
+#[macro_export]
 macro_rules! cells {
     ($($value:expr),* $(,)?) => { [$($crate::report::html::table::Cell::from($value)),*] };
 }
-pub(crate) use cells;
+pub use crate::cells;
 
 fn data(cell: impl Into<Cell>) -> Markup {
     let Cell { content, is_sentence } = cell.into();
@@ -60,31 +62,31 @@ fn data(cell: impl Into<Cell>) -> Markup {
 }
 
 /// A row of figures: what it is, its unit, and one figure for each column.
-pub(crate) fn row(label: impl Into<Cell>, unit: &str, cells: impl IntoIterator<Item = impl Into<Cell>>) -> Markup {
+pub fn row(label: impl Into<Cell>, unit: &str, cells: impl IntoIterator<Item = impl Into<Cell>>) -> Markup {
     html! {
         tr { th scope="row" { (label.into().content) } @for cell in cells { (data(cell)) } td.unit { (unit) } }
     }
 }
 
 /// A row of cells, the first of which names it.
-pub(crate) fn line(cells: impl IntoIterator<Item = impl Into<Cell>>) -> Markup {
+pub fn line(cells: impl IntoIterator<Item = impl Into<Cell>>) -> Markup {
     html! { tr { (inner(cells)) } }
 }
 
-pub(crate) fn inner(cells: impl IntoIterator<Item = impl Into<Cell>>) -> Markup {
+pub fn inner(cells: impl IntoIterator<Item = impl Into<Cell>>) -> Markup {
     let mut cells = cells.into_iter();
     let name = cells.next().map(|cell| cell.into().content);
     html! { th scope="row" { @if let Some(name) = name { (name) } } @for cell in cells { (data(cell)) } }
 }
 
 /// A table of [`row`]s, with the names of its columns of figures.
-pub(crate) fn table(caption: impl Render, columns: &[&str], rows: impl IntoIterator<Item = Markup>) -> Markup {
+pub fn table(caption: impl Render, columns: &[&str], rows: impl IntoIterator<Item = Markup>) -> Markup {
     let columns = [""].into_iter().chain(columns.iter().copied()).chain([""]);
     whole(None, Some(html! { (caption) }), columns, rows)
 }
 
 /// A table of [`line()`]s, with the names of all its columns.
-pub(crate) fn list(
+pub fn list(
     caption: impl Render,
     columns: impl IntoIterator<Item = impl Into<Cell>>,
     rows: impl IntoIterator<Item = Markup>,
@@ -93,7 +95,7 @@ pub(crate) fn list(
 }
 
 /// A table with its class and caption, where it has them; a column without a name has no head. Where it is wider than its room it scrolls.
-pub(crate) fn whole(
+pub fn whole(
     class: Option<&str>,
     caption: Option<Markup>,
     columns: impl IntoIterator<Item = impl Into<Cell>>,

@@ -1,11 +1,11 @@
 //! Plots of the contact's temperature and of its Peclet numbers over the mesh cycle, new.
 
 use super::number::{figure, significant};
-use crate::gear::Gear;
 use crate::report::chart::{Chart, Dash, MUTED, PATH, WORN, gear_colour};
-use crate::results::chemistry::{HeatVelocity, TemperatureMethod};
-use crate::results::path_points::among;
-use crate::results::run::{MeshCycleRow, RunRecord};
+use gearwear_physics::gear::Gear;
+use gearwear_physics::results::chemistry::{HeatVelocity, TemperatureMethod};
+use gearwear_physics::results::path_points::among;
+use gearwear_physics::results::run::{MeshCycleRow, RunRecord};
 
 type Column = fn(&MeshCycleRow) -> Option<f64>;
 

@@ -9,14 +9,14 @@ use super::groups::Groups;
 use super::meshed_groups::MeshedBodies;
 use super::owned_cells::{BodyNodes, owned_cells};
 use super::sides::{BodySide, Sides, corners};
-use crate::fem::elastic::Elastic;
-use crate::fem::element;
-use crate::fem::loads::add_spread_force;
-use crate::fem::problem::Edge;
-use crate::fem::solid::{Element, ElementKind, Solid};
-use crate::mesh::{CellKind, Mesh};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
+use gearwear_fem::elastic::Elastic;
+use gearwear_fem::element;
+use gearwear_fem::loads::add_spread_force;
+use gearwear_fem::problem::Edge;
+use gearwear_fem::solid::{Element, ElementKind, Solid};
+use gearwear_mesh::{CellKind, Mesh};
 
 const MPA_PER_GPA: f64 = 1e3;
 /// Tolerance of z = 0 relative to the mesh's extent, for the rounding of decimals.

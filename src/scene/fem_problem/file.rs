@@ -8,13 +8,13 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::fem::problem::ThirdDirection;
+use gearwear_fem::problem::ThirdDirection;
 
 /// Elastic bodies on a mesh of one's own, their supports, loads and contacts.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "gearwear finite-element problem")]
-pub(crate) struct FemProblemFile {
+pub struct FemProblemFile {
     /// Title of the report. Default: the name of the mesh file.
     pub title: Option<String>,
     /// What the third direction does. Default: plane-strain.
@@ -37,7 +37,7 @@ pub(crate) struct FemProblemFile {
 /// The mesh.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct MeshFile {
+pub struct MeshFile {
     /// Its file, relative to the folder of this one: Gmsh 4.1 or 2.2 (.msh), VTU or Abaqus (.inp); coordinates in mm, in
     /// plane problems z = 0.
     pub file: String,
@@ -46,7 +46,7 @@ pub(crate) struct MeshFile {
 /// A body: a group of elements of one material.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct BodyFile {
+pub struct BodyFile {
     /// Physical group or element set of the mesh: triangles or quadrilaterals, linear or quadratic; in three dimensions hexahedra of 8
     /// or 20 nodes.
     pub group: String,
@@ -61,7 +61,7 @@ pub(crate) struct BodyFile {
 /// Where a body is held.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct FixedFile {
+pub struct FixedFile {
     /// Group of the mesh: points, lines or surfaces, or a set of nodes.
     pub group: String,
     /// Directions that are held. Default: all.
@@ -71,7 +71,7 @@ pub(crate) struct FixedFile {
 /// A direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Component {
+pub enum Component {
     /// Along x.
     X,
     /// Along y.
@@ -83,7 +83,7 @@ pub(crate) enum Component {
 /// A force or a given displacement: one of the two.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct LoadFile {
+pub struct LoadFile {
     /// Group of the mesh: lines, in three dimensions quadrilaterals that are faces of elements, or points for a force; any group for a
     /// displacement.
     pub group: String,
@@ -103,7 +103,7 @@ pub(crate) struct LoadFile {
 /// Two surfaces that may touch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ContactFile {
+pub struct ContactFile {
     /// Group of lines, or set of nodes, on the surface that carries the contact pressure: the finer or softer one.
     pub slave: String,
     /// Group of lines, or set of nodes, on the surface it may touch.
@@ -115,10 +115,10 @@ pub(crate) struct ContactFile {
 
 impl Component {
     /// All, in the order of their numbers.
-    pub(crate) const ALL: [Component; 3] = [Component::X, Component::Y, Component::Z];
+    pub const ALL: [Component; 3] = [Component::X, Component::Y, Component::Z];
 
     /// 0 along x, 1 along y, 2 along z.
-    pub(crate) fn index(self) -> usize {
+    pub fn index(self) -> usize {
         match self {
             Component::X => 0,
             Component::Y => 1,
@@ -127,7 +127,7 @@ impl Component {
     }
 
     /// `x`, `y` or `z`.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Component::X => "x",
             Component::Y => "y",
@@ -138,7 +138,7 @@ impl Component {
 
 impl LoadFile {
     /// The force with its key; `None` where a displacement is given.
-    pub(crate) fn force(&self) -> Option<(&'static str, &[f64])> {
+    pub fn force(&self) -> Option<(&'static str, &[f64])> {
         let plane = self.force_N_per_mm.as_ref().map(|force| ("force_N_per_mm", &force[..]));
         plane.or(self.force_N.as_ref().map(|force| ("force_N", &force[..])))
     }
@@ -146,12 +146,12 @@ impl LoadFile {
 
 impl FemProblemFile {
     /// State of stress or strain in the third direction.
-    pub(crate) fn third_direction(&self) -> ThirdDirection {
+    pub fn third_direction(&self) -> ThirdDirection {
         self.analysis.unwrap_or_default()
     }
 
     /// The problem as TOML text.
-    pub(crate) fn to_toml(&self) -> String {
+    pub fn to_toml(&self) -> String {
         // Plain structs with text keys: nothing in them that TOML could not express.
         toml::to_string(self).expect("a problem file is always expressible in TOML")
     }

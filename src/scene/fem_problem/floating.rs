@@ -16,10 +16,10 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, SymmetricEigen, Vector2};
 
-use crate::fem::disjoint_sets::DisjointSets;
-use crate::fem::problem::{Edge, Problem};
-use crate::fem::solid::Solid;
 use crate::scene::findings::Findings;
+use gearwear_fem::disjoint_sets::DisjointSets;
+use gearwear_fem::problem::{Edge, Problem};
+use gearwear_fem::solid::Solid;
 
 /// Ratio of the sum of squared equations to the greatest, below which a motion is free.
 const FREE: f64 = 1e-10;

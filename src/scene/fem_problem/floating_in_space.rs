@@ -17,9 +17,9 @@ use nalgebra::{DMatrix, SymmetricEigen, Vector3};
 
 use super::meshed_groups::place;
 use super::space_bodies::SpaceBodies;
-use crate::fem::disjoint_sets::DisjointSets;
-use crate::fem::problem::Held;
 use crate::scene::findings::Findings;
+use gearwear_fem::disjoint_sets::DisjointSets;
+use gearwear_fem::problem::Held;
 
 /// Ratio of the sum of squared equations to the greatest, below which a motion is free.
 const FREE: f64 = 1e-10;

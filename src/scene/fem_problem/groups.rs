@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::mesh::{CellKind, Mesh};
 use crate::scene::findings::Findings;
 use crate::scene::nearest::nearest;
+use gearwear_mesh::{CellKind, Mesh};
 
 /// Greatest number of groups named in a message.
 const MOST_NAMED: usize = 20;

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::file::{Component, FemProblemFile, LoadFile};
 use super::meshed_groups::{MeshedBodies, MeshedGroups};
-use crate::fem::problem::Held;
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
+use gearwear_fem::problem::Held;
 
 /// Given displacements by degree of freedom, each with the table that gives it.
 struct Given<'a, B> {

@@ -2,8 +2,8 @@
 //!
 //! A problem file is checked twice. [`FemProblem::from_toml`] reads it by itself: names, types, ranges, and what keys say about
 //! each other. [`FemProblem::on`] then looks for its groups in the mesh and makes of both what the solver takes
-//! ([`crate::fem::problem::Problem`]), [`FemProblem::in_space_on`] of three-dimensional problems
-//! ([`crate::fem::space::problem::SpaceProblem`]), after checks that need both: elements that belong to no body or to two, contact
+//! ([`gearwear_fem::problem::Problem`]), [`FemProblem::in_space_on`] of three-dimensional problems
+//! ([`gearwear_fem::space::problem::SpaceProblem`]), after checks that need both: elements that belong to no body or to two, contact
 //! edges inside a body, supports that contradict each other, bodies that nothing holds. Each step reports all that is wrong, at
 //! its key.
 
@@ -29,12 +29,12 @@ use super::problem::{Problem, ProblemKind, number};
 use super::schema::{Node, schema_of};
 use super::shape::{self, FileShape};
 use super::{short_hash, text, unit_slip};
-use crate::fem;
-use crate::fem::problem::ThirdDirection;
-use crate::mesh::Mesh;
+use gearwear_fem as fem;
+use gearwear_fem::problem::ThirdDirection;
+use gearwear_mesh::Mesh;
 use meshed_groups::MeshedBodies;
 
-pub(crate) use file::{Component, FemProblemFile, LoadFile};
+pub use file::{Component, FemProblemFile, LoadFile};
 
 /// The JSON schema of a problem file.
 pub fn schema() -> &'static Value {
@@ -44,7 +44,7 @@ pub fn schema() -> &'static Value {
 
 /// A problem file without its mesh, checked, every default filled in.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct FemProblem {
+pub struct FemProblem {
     /// Contents of the file.
     pub file: FemProblemFile,
     /// Likely slips of unit.
@@ -55,7 +55,7 @@ pub(crate) struct FemProblem {
 
 /// A problem on its mesh: what the solver takes, and the names that go with it.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Posed<P> {
+pub struct Posed<P> {
     /// For the solver. Its nodes are those of the mesh that belong to a body, in the mesh's order.
     pub problem: P,
     /// Groups of the bodies, numbered as the elements' materials are.
@@ -66,7 +66,7 @@ pub(crate) struct Posed<P> {
 
 impl FemProblem {
     /// Reads the text of a problem file, without its mesh.
-    pub(crate) fn from_toml(text: &str) -> Result<Self, Vec<Problem>> {
+    pub fn from_toml(text: &str) -> Result<Self, Vec<Problem>> {
         let (table, mut findings) = text::parse(text)?;
         let format = FileShape { root: Node::root(schema()), of_other_files: &[] };
         let sound = shape::check(format, &table, &mut findings);
@@ -84,12 +84,12 @@ impl FemProblem {
     }
 
     /// A plane problem on its mesh.
-    pub(crate) fn on(&self, mesh: &Mesh) -> Result<Posed<fem::problem::Problem>, Vec<Problem>> {
+    pub fn on(&self, mesh: &Mesh) -> Result<Posed<fem::problem::Problem>, Vec<Problem>> {
         self.posed(|findings| pose(&self.file, mesh, findings))
     }
 
     /// A three-dimensional problem on its mesh.
-    pub(crate) fn in_space_on(&self, mesh: &Mesh) -> Result<Posed<fem::space::problem::SpaceProblem>, Vec<Problem>> {
+    pub fn in_space_on(&self, mesh: &Mesh) -> Result<Posed<fem::space::problem::SpaceProblem>, Vec<Problem>> {
         self.posed(|findings| pose_in_space(&self.file, mesh, findings))
     }
 
@@ -105,7 +105,7 @@ impl FemProblem {
     }
 
     /// The problem that the mesh file cannot be read, because of `reason`.
-    pub(crate) fn mesh_unreadable(&self, reason: &str) -> Vec<Problem> {
+    pub fn mesh_unreadable(&self, reason: &str) -> Vec<Problem> {
         match text::parse(&self.text) {
             Ok((_, mut findings)) => {
                 let allowed = "a mesh file beside this one: Gmsh 4.1 or 2.2 (.msh), VTU (.vtu) or Abaqus (.inp)";
@@ -117,12 +117,12 @@ impl FemProblem {
     }
 
     /// The resolved problem as TOML.
-    pub(crate) fn to_toml(&self) -> String {
+    pub fn to_toml(&self) -> String {
         self.file.to_toml()
     }
 
     /// First 16 hexadecimal digits of the SHA-256 of [`Self::to_toml`].
-    pub(crate) fn hash(&self) -> String {
+    pub fn hash(&self) -> String {
         short_hash(self.to_toml().as_bytes())
     }
 }

@@ -3,8 +3,8 @@
 
 use super::file::FemProblemFile;
 use super::groups::Groups;
-use crate::mesh::{CellKind, Mesh};
 use crate::scene::findings::Findings;
+use gearwear_mesh::{CellKind, Mesh};
 
 /// A cell of a body.
 pub(super) struct OwnedCell {

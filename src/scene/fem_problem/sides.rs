@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::fem::problem::Edge;
-use crate::fem::solid::{Element, ElementKind, Solid};
+use gearwear_fem::problem::Edge;
+use gearwear_fem::solid::{Element, ElementKind, Solid};
 
 /// A side that one or two elements have in common.
 #[derive(Debug, Clone, Copy)]

@@ -10,11 +10,11 @@ use super::file::FemProblemFile;
 use super::groups::Groups;
 use super::meshed_groups::{MeshedBodies, place};
 use super::owned_cells::{BodyNodes, owned_cells};
-use crate::fem::space::hexahedron::{HexahedronKind, edges, faces, is_sound};
-use crate::fem::space::loads::spread_shares;
-use crate::fem::space::problem::{SpaceElement, SpaceSolid};
-use crate::mesh::Mesh;
 use crate::scene::findings::Findings;
+use gearwear_fem::space::hexahedron::{HexahedronKind, edges, faces, is_sound};
+use gearwear_fem::space::loads::spread_shares;
+use gearwear_fem::space::problem::{SpaceElement, SpaceSolid};
+use gearwear_mesh::Mesh;
 
 /// Cells allowed in bodies in space.
 const ALLOWED: &str = "hexahedra of 8 or 20 nodes";

@@ -6,8 +6,8 @@ use super::bodies::PlaneBodies;
 use super::file::FemProblemFile;
 use super::meshed_groups::{MeshedBodies, MeshedGroups};
 use super::sides::BodySide;
-use crate::fem::problem::{ContactPair, Edge};
 use crate::scene::findings::Findings;
+use gearwear_fem::problem::{ContactPair, Edge};
 
 /// All pairs of surfaces.
 pub(super) fn contacts(

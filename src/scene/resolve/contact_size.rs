@@ -13,12 +13,12 @@
 //! teeth of that pair are smaller than their contact, or the contact than what they are made of, and what is computed of it is
 //! digits that mean nothing. Source: K. L. Johnson, *Contact Mechanics* (1985), sections 4.1 to 4.3.
 
-use crate::contact::{foundation, hertz, settings::Foundation};
-use crate::gear::conjugate::ConjugateFlanks;
-use crate::gear::{Gear, GearPair};
-use crate::operation::Scene;
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
+use gearwear_physics::contact::{foundation, hertz, settings::Foundation};
+use gearwear_physics::gear::conjugate::ConjugateFlanks;
+use gearwear_physics::gear::{Gear, GearPair};
+use gearwear_physics::operation::Scene;
 
 /// Greatest half-width over relative radius with small strains.
 const GREATEST_SMALL: f64 = 0.1;

@@ -1,13 +1,13 @@
 //! The bodies that finite elements are made of.
 
-use crate::gear::{Gear, PerGear, spec::PairSpec};
-use crate::gear_mesh::settings::{
-    Body, BodySettings, DefaultClamp, NO_WEBS, Web, default_clamp, greatest_clamp_mm, least_web_mm,
-    rim_thickness_limits_mm,
-};
 use crate::scene::fem_file::{BodyKind, ClampRadiusFile, FemFile, WebFile, WebsFile};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
+use gearwear_physics::gear::{Gear, PerGear, spec::PairSpec};
+use gearwear_physics::gear_mesh::settings::{
+    Body, BodySettings, DefaultClamp, NO_WEBS, Web, default_clamp, greatest_clamp_mm, least_web_mm,
+    rim_thickness_limits_mm,
+};
 
 const ELEMENTS_PER_HALF_WIDTH: f64 = 10.0;
 /// Elements in a wear run: 3 and 8 give the same maximum wear within half a per cent (docs/accuracy.md).

@@ -1,12 +1,12 @@
 //! Reports errors of the gear pair at the key to change.
 
 use super::centre_distance;
-use crate::gear::pair::GearPair;
-use crate::gear::spec::PairSpec;
-use crate::gear::{Gear, PairError};
-use crate::mesh_cycle::settings::SliceSettings;
 use crate::scene::findings::Findings;
 use crate::scene::problem::{ProblemKind, number};
+use gearwear_physics::gear::pair::GearPair;
+use gearwear_physics::gear::spec::PairSpec;
+use gearwear_physics::gear::{Gear, PairError};
+use gearwear_physics::mesh_cycle::settings::SliceSettings;
 
 /// Key of a geometry error, and its remedy.
 struct Cause {

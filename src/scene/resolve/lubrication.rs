@@ -1,15 +1,15 @@
 //! Oil, friction and load factors: only where the scene asks for films or losses.
 
 use super::curve;
-use crate::gear::{Gear, PerGear};
-use crate::lubrication::settings::{
-    BaseOil, FrictionModel, FrictionSettings, FrictionTable, LoadFactors, LubricantSettings, LubricationSettings,
-    OilSettings, PressureViscosity, Roughness, ScuffingSettings,
-};
 use crate::scene::file::{GearFile, PairFile, SceneFile};
 use crate::scene::findings::Findings;
 use crate::scene::lubrication_file::{LoadFactorsFile, LubricantFile};
-use crate::thermal::settings::ThermalMaterial;
+use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_physics::lubrication::settings::{
+    BaseOil, FrictionModel, FrictionSettings, FrictionTable, LoadFactors, LubricantSettings, LubricationSettings,
+    OilSettings, PressureViscosity, Roughness, ScuffingSettings,
+};
+use gearwear_physics::thermal::settings::ThermalMaterial;
 
 /// ISO VG and the viscosity at 100 °C, mm²/s, of a mineral oil of viscosity index 95 (ISO 3448, ASTM D2270), to the digits in which that is
 /// usual.

@@ -1,13 +1,13 @@
 //! Material of each gear: elastic and thermal.
 
 use super::temperature;
-use crate::gear::{Gear, PerGear};
-use crate::material::Material;
 use crate::scene::file::{GearMaterialFile, MaterialFile, ModulusCurveFile};
 use crate::scene::findings::Findings;
 use crate::scene::material_presets::MaterialPreset;
-use crate::thermal::settings::ThermalMaterial;
-use crate::thermal::tooth::TemperatureCurve;
+use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_physics::material::Material;
+use gearwear_physics::thermal::settings::ThermalMaterial;
+use gearwear_physics::thermal::tooth::TemperatureCurve;
 
 /// Room temperature, °C.
 const ROOM_C: f64 = 23.0;

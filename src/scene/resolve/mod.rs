@@ -27,12 +27,12 @@ use super::resolve::settings::StiffnessInputs;
 use super::schema::{Node, schema};
 use super::shape::{self, FileShape};
 use super::{Resolved, draft, presets, text, unit_slip};
-use crate::contact::settings::{ContactSettings, SurfaceKind};
-use crate::gear::spec::PairSpec;
-use crate::gear_mesh::settings::{Body, BodySettings, NO_WEBS};
-use crate::mesh_cycle::settings::{Coupling, SliceSettings};
-use crate::operation::Scene;
-use crate::simulation::settings::{Numerics, Operation};
+use gearwear_physics::contact::settings::{ContactSettings, SurfaceKind};
+use gearwear_physics::gear::spec::PairSpec;
+use gearwear_physics::gear_mesh::settings::{Body, BodySettings, NO_WEBS};
+use gearwear_physics::mesh_cycle::settings::{Coupling, SliceSettings};
+use gearwear_physics::operation::Scene;
+use gearwear_physics::simulation::settings::{Numerics, Operation};
 
 /// Keys of other files, each with the command that reads them.
 const OF_OTHER_FILES: &[(&str, &str)] =

@@ -8,13 +8,13 @@
 //!
 //! with ρ_a at the tip circle and ρ_Nf at the start of active profile (SAP). A helix slope is a deviation, or the whole tolerance of a class.
 
-use crate::gear::flank_edge::LEAST_ROUNDING_MODULES;
-use crate::gear::modification::{EndRelief, Modification, Relief};
-use crate::gear::spec::PairSpec;
-use crate::gear::{Gear, GearPair, tolerance};
 use crate::scene::file::{EndReliefFile, GearFile, PairFile, ReliefFile};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
+use gearwear_physics::gear::flank_edge::LEAST_ROUNDING_MODULES;
+use gearwear_physics::gear::modification::{EndRelief, Modification, Relief};
+use gearwear_physics::gear::spec::PairSpec;
+use gearwear_physics::gear::{Gear, GearPair, tolerance};
 
 const UM: f64 = 1e-3;
 

@@ -1,11 +1,11 @@
 //! Load, speed, duration and snapshots, in revolutions of the pinion.
 
 use super::wear::coefficient_mm2_per_n;
-use crate::gear::{Gear, GearPair, PerGear};
 use crate::scene::file::{GearPhaseFile, OperationFile, PhaseFile, StopFile};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
-use crate::simulation::settings::{LifeLimits, Operation, Phase};
+use gearwear_physics::gear::{Gear, GearPair, PerGear};
+use gearwear_physics::simulation::settings::{LifeLimits, Operation, Phase};
 
 /// Relative tolerance of snapshots at the end of the run: hours and revolutions round differently.
 const SAME_TIME: f64 = 1e-9;

@@ -4,13 +4,13 @@
 //! becomes x_n = x_t / cos β, because x_n m_n = x_t m_t is the same length.
 
 use super::{centre_distance, modifications};
-use crate::gear::modification::Modification;
-use crate::gear::root_trochoid::greatest_fillet_radius_factor;
-use crate::gear::shaft::Shaft;
-use crate::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
-use crate::gear::{Gear, PerGear};
 use crate::scene::file::{AxisParallelismFile, BasicRackFile, GearFile, PairFile, ShaftFile};
 use crate::scene::findings::Findings;
+use gearwear_physics::gear::modification::Modification;
+use gearwear_physics::gear::root_trochoid::greatest_fillet_radius_factor;
+use gearwear_physics::gear::shaft::Shaft;
+use gearwear_physics::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
+use gearwear_physics::gear::{Gear, PerGear};
 
 const UM: f64 = 1e-3;
 pub(super) const PRESET: &str = "pair.preset";

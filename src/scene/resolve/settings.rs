@@ -1,13 +1,13 @@
 //! Contact, stiffness and numerics.
 
-use crate::contact::settings::{ContactSettings, Foundation, SurfaceKind};
-use crate::gear::flank::PointSpacing;
-use crate::mesh_cycle::settings::Coupling;
 use crate::scene::file::{ContactFile, NamedStep, NumericsFile, StepFile, StiffnessFile, StiffnessModel};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
-use crate::simulation::settings::{Numerics, Stepping};
-use crate::stiffness::settings::StiffnessSettings;
+use gearwear_physics::contact::settings::{ContactSettings, Foundation, SurfaceKind};
+use gearwear_physics::gear::flank::PointSpacing;
+use gearwear_physics::mesh_cycle::settings::Coupling;
+use gearwear_physics::simulation::settings::{Numerics, Stepping};
+use gearwear_physics::stiffness::settings::StiffnessSettings;
 
 const FLANK_POINTS: u32 = 750;
 const POSITIONS: u32 = 400;

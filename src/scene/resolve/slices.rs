@@ -1,12 +1,12 @@
 //! The slices over the face width, where sections differ.
 
-use crate::contact::settings::SurfaceKind;
-use crate::gear::spec::PairSpec;
-use crate::mesh_cycle::settings::MOST_SLICES_IN_SPACE;
-use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::scene::fem_file::{BodyKind, WebsFile};
 use crate::scene::file::{SceneFile, StiffnessModel};
 use crate::scene::findings::Findings;
+use gearwear_physics::contact::settings::SurfaceKind;
+use gearwear_physics::gear::spec::PairSpec;
+use gearwear_physics::mesh_cycle::settings::MOST_SLICES_IN_SPACE;
+use gearwear_physics::mesh_cycle::settings::{Coupling, SliceSettings};
 
 const SLICES: u32 = 20;
 

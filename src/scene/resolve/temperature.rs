@@ -2,16 +2,16 @@
 
 use super::curve;
 use super::material::Materials;
-use crate::gear::{Gear, PerGear};
-use crate::material::Material;
 use crate::scene::file::{OperationFile, SceneFile};
 use crate::scene::findings::Findings;
 use crate::scene::wear_file::{ToothLubrication, ToothTemperatureFile, WearFile};
-use crate::thermal::settings::{ABSOLUTE_ZERO_C, HeatSettings};
-use crate::thermal::tooth::{
+use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_physics::material::Material;
+use gearwear_physics::thermal::settings::{ABSOLUTE_ZERO_C, HeatSettings};
+use gearwear_physics::thermal::tooth::{
     DRY_ON_METAL, DRY_ON_PLASTIC, IN_OIL, TemperatureCurve, ToothCoefficients, ToothHeatSettings,
 };
-use crate::wear::settings::{LawSettings, WearSettings};
+use gearwear_physics::wear::settings::{LawSettings, WearSettings};
 
 const FRICTION_COEFFICIENT: f64 = 0.1;
 const BULK_TEMPERATURE_C: f64 = 90.0;

@@ -5,16 +5,16 @@ use serde::de::DeserializeOwned;
 use toml::Table;
 
 use super::{curve, temperature};
-use crate::gear::{Gear, PerGear};
-use crate::lubrication::settings::FilmRatio;
 use crate::scene::file::OperationFile;
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 use crate::scene::wear_file::{
     AdsorptionFile, FilmFile, FilmLaw, GearWearFile, OxidationFile, WarmFile, WearFile, WearLaw,
 };
-use crate::simulation::settings::Operation;
-use crate::wear::{
+use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_physics::lubrication::settings::FilmRatio;
+use gearwear_physics::simulation::settings::Operation;
+use gearwear_physics::wear::{
     adsorption::AdsorptionConstants,
     oxidation::OxidationConstants,
     settings::{FilmDependence, LawSettings, SevereTransition, WearSettings},

@@ -17,7 +17,7 @@ use crate::program::gearwear;
 
 /// Its mesh of elements of the second order with eight nodes.
 fn mesh() -> Mesh {
-    read(Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/cylinder-on-block-quad8.msh")).unwrap()
+    read(Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join("meshes/cylinder-on-block-quad8.msh")).unwrap()
 }
 
 /// A problem file with its mesh in a folder of its own.

@@ -13,9 +13,9 @@
 //! | D3 | root, tip and start of single-tooth mesh moderate to severe; pitch point and its end mild to moderate | the least of the three above the greatest of the two, k = 1e-17 |
 #![allow(dead_code, reason = "a test and an example each use their own part")]
 
-use gearwear::reference::separate_peaks::separate_peaks;
-use gearwear::results::run::FlankRecord;
 use gearwear::{Done, LoadedScene, Unwatched};
+use gearwear_physics::reference::separate_peaks::separate_peaks;
+use gearwear_physics::results::run::FlankRecord;
 
 /// The stops of the test, h.
 pub(crate) const STOPS_H: [f64; 9] = [0.25, 0.75, 1.75, 3.75, 7.75, 15.75, 31.75, 63.75, 127.75];

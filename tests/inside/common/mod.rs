@@ -5,9 +5,9 @@ pub mod fzg_test;
 #[path = "../../../physics/tests/common/mod.rs"]
 mod of_physics;
 
-use gearwear::gear::spec::PairSpec;
 use gearwear::scene::Resolved;
 use gearwear::scene::loaded::{LoadedScene, NamedFiles, SceneText};
+use gearwear_physics::gear::spec::PairSpec;
 pub use of_physics::*;
 
 /// A resolved scene that names no files, as it is run.

@@ -1,8 +1,8 @@
 //! The cylinder on a block of the other tests, as a mesh with named groups and a problem file.
 
-use gearwear::fem::problem::{Edge, Problem};
-use gearwear::fem::solid::{Element, ElementKind};
-use gearwear::mesh::{CellKind, Mesh};
+use gearwear_fem::problem::{Edge, Problem};
+use gearwear_fem::solid::{Element, ElementKind};
+use gearwear_mesh::{CellKind, Mesh};
 
 use super::cylinder_on_block::add_block;
 

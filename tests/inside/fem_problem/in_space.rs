@@ -6,9 +6,9 @@ mod hexahedra;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::fs;
 
-use gearwear::mesh::{CellKind, Format, Mesh, to_bytes};
-use gearwear::results::fem_problem::{FemRecord, FemSolution, SpaceSolution};
 use gearwear::scene::fem_problem::FemProblem;
+use gearwear_mesh::{CellKind, Format, Mesh, to_bytes};
+use gearwear_physics::results::fem_problem::{FemRecord, FemSolution, SpaceSolution};
 use hexahedra::{BAR, add, mesh_of_box};
 
 use crate::Unwatched;
@@ -150,7 +150,7 @@ fn bodies_may_be_held_everywhere() {
     assert!(record.summary.peak_von_mises_MPa < 1e-9, "{}", record.summary.peak_von_mises_MPa);
 }
 
-fn posed(text: &str, mesh: &Mesh) -> gearwear::fem::space::problem::SpaceProblem {
+fn posed(text: &str, mesh: &Mesh) -> gearwear_fem::space::problem::SpaceProblem {
     let posed =
         FemProblem::from_toml(text).unwrap().in_space_on(mesh).unwrap_or_else(|problems| panic!("{problems:?}"));
     posed.problem

@@ -7,10 +7,10 @@ mod in_space;
 
 use case::mesh_of;
 use cylinder_on_block::TEXT;
-use gearwear::fem::problem::{Edge, Problem};
-use gearwear::fem::solid::ElementKind;
-use gearwear::mesh::Mesh;
 use gearwear::scene::fem_problem::{FemProblem, Posed};
+use gearwear_fem::problem::{Edge, Problem};
+use gearwear_fem::solid::ElementKind;
+use gearwear_mesh::Mesh;
 
 use super::common::grid::CylinderOnBlock;
 

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use gearwear::report;
 use gearwear::report::ReportError;
-use gearwear::results::run::RunRecord;
+use gearwear_physics::results::run::RunRecord;
 
 const FILES: [&str; 10] = [
     "columns.json",

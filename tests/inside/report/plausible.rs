@@ -1,11 +1,11 @@
 //! A run that never happened but looks like one: an FZG type C pair with a made-up wear that grows with time.
 
-use gearwear::gear::{Gear, PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
-use gearwear::results::chemistry::WearLawSummary;
-use gearwear::results::error::*;
-use gearwear::results::root_stress::{RootSectionSummary, RootStressSummary};
-use gearwear::results::run::*;
-use gearwear::wear::regime::Regime;
+use gearwear_physics::gear::{Gear, PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
+use gearwear_physics::results::chemistry::WearLawSummary;
+use gearwear_physics::results::error::*;
+use gearwear_physics::results::root_stress::{RootSectionSummary, RootStressSummary};
+use gearwear_physics::results::run::*;
+use gearwear_physics::wear::regime::Regime;
 
 const HOURS: [f64; 9] = [0.25, 0.75, 1.75, 3.75, 7.75, 15.75, 31.75, 63.75, 127.75];
 const REVOLUTIONS_PER_HOUR: f64 = 9000.0;

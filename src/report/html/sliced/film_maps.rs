@@ -2,11 +2,11 @@
 
 use super::raster::{MOST_ALONG, SlicedRaster};
 use super::sliced_run::{SlicedRun, slice_name};
-use crate::reference::statistics::quantile;
 use crate::report::chart::{Chart, Trace};
 use crate::report::html::number::{figure, significant};
-use crate::results::lubrication::FilmRow;
-use crate::results::path_points::among;
+use gearwear_physics::reference::statistics::quantile;
+use gearwear_physics::results::lubrication::FilmRow;
+use gearwear_physics::results::path_points::among;
 
 /// Part of the places whose λ the colours tell apart.
 const WITHIN_COLOURS: f64 = 0.97;

@@ -5,14 +5,14 @@
 
 use super::raster::SlicedRaster;
 use super::sliced_run::{SlicedRun, slice_name};
-use crate::gear::Gear;
 use crate::report::chart::{Chart, Dash, Label, Trace};
 use crate::report::control::{Change, Control, SliderStep};
 use crate::report::html::active_flank::ActiveFlank;
 use crate::report::html::flank_plots::{drawn_snapshots, moment};
 use crate::report::html::number::{figure, significant};
 use crate::report::html::reading::{greatest, place_on_flank, yield_note};
-use crate::results::run::FlankRecord;
+use gearwear_physics::gear::Gear;
+use gearwear_physics::results::run::FlankRecord;
 
 /// Positions of the tooth whose lines of contact are drawn.
 const LINES_OF_CONTACT: usize = 7;

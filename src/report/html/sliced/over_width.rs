@@ -3,9 +3,9 @@
 //! One mesh wears a millionth of what a run does; both are shown over their mean, so that their shapes can be compared.
 
 use super::sliced_run::SlicedRun;
-use crate::gear::Gear;
 use crate::report::chart::{Chart, Dash, NEW, Trace, gear_colour};
 use crate::report::html::number::{figure, percent, significant};
+use gearwear_physics::gear::Gear;
 
 pub(super) fn root_and_tip(run: SlicedRun<'_>, gear: Gear) -> Chart {
     let wear = &run.helical.wear[gear];

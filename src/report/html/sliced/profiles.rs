@@ -1,12 +1,12 @@
 //! Wear and pressure from root to tip in the first, the middle and the last slice.
 
 use super::sliced_run::{SlicedRun, slice_name};
-use crate::gear::Gear;
 use crate::report::chart::{Chart, Dash, NEW, WORN, gear_colour};
 use crate::report::html::active_flank::ActiveFlank;
 use crate::report::html::number::{figure, significant};
 use crate::report::html::reading::greatest;
-use crate::results::run::FlankRecord;
+use gearwear_physics::gear::Gear;
+use gearwear_physics::results::run::FlankRecord;
 
 /// First, middle and last of `count` slices; fewer where there are fewer.
 fn shown(count: usize) -> Vec<usize> {

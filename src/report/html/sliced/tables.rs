@@ -2,13 +2,13 @@
 
 use maud::{Markup, html};
 
-use crate::gear::{Gear, PerGear};
 use crate::report::html::number::{change, fixed, percent, significant};
 use crate::report::html::table::{Cell, cells, row, table};
-use crate::results::run::{HelicalSummary, OverWidthSummary};
+use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_physics::results::run::{HelicalSummary, OverWidthSummary};
 
 /// Lines of contact, load over the face width, mesh orders, evenness of wear.
-pub(crate) fn tables(helical: &HelicalSummary) -> Markup {
+pub fn tables(helical: &HelicalSummary) -> Markup {
     html! { (slices(helical)) (mesh_cycle(helical)) (evenness(&helical.wear)) }
 }
 

@@ -1,0 +1,140 @@
+//! Start of a run: in a new folder, or from the checkpoint of an interrupted run of the same scene.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use gearwear::report;
+use gearwear::resume::file::{self, CheckpointFile};
+use gearwear::resume::folder::{self, FolderContents};
+use gearwear::resume::identity::RunIdentity;
+use gearwear::scene::loaded::LoadedScene;
+use gearwear_physics::simulation::checkpoint::{Checkpoint, Keeper};
+
+use super::failure::{Failure, InputError};
+use super::{run, say};
+
+/// Least time between two checkpoints.
+const LEAST_INTERVAL: Duration = Duration::from_millis(250);
+/// Least time between two checkpoints over the time of writing the last one.
+const INTERVAL_OVER_WRITING: u32 = 20;
+
+pub(super) struct BegunRun {
+    /// Scene, with input files as they lie in the folder.
+    pub scene: LoadedScene,
+    /// Folder, which holds the scene and the input files.
+    pub out: PathBuf,
+    pub identity: RunIdentity,
+    /// Checkpoint to continue from; `None`: from the beginning.
+    pub from: Option<Checkpoint>,
+    /// Folder made at the beginning.
+    pub made: Option<MadeFolder>,
+}
+
+/// Folder of a new run.
+pub(super) struct MadeFolder {
+    out: PathBuf,
+    files: Vec<String>,
+    /// Whether the folder is new.
+    is_new: bool,
+}
+
+impl MadeFolder {
+    /// Removes the files of a run that its scene does not allow. What cannot be removed stays.
+    pub(super) fn abandon(&self) {
+        folder::abandon(&self.out, &self.files);
+        if self.is_new {
+            // A folder with other files stays.
+            let _ = fs::remove_dir(&self.out);
+        }
+    }
+}
+
+pub(super) fn begin(scene: &Path, out: &Path) -> Result<BegunRun, Failure> {
+    let scene = LoadedScene::open(scene)?;
+    scene.check_springs().map_err(|error| run::in_the_scene(error, &scene))?;
+    let (scene, identity) = named_as_copied(scene);
+    report::writable(out)?;
+    begin_anew(scene, identity, out)
+}
+
+/// Continues the run in the folder `out`: that of `scene`, or else of the scene in the folder. `None` where it is complete.
+pub(super) fn resume(scene: Option<&Path>, out: &Path) -> Result<Option<BegunRun>, Failure> {
+    let own = out.join(folder::SCENE);
+    if scene.is_none() && !own.exists() {
+        return Err(InputError::NothingToResume { folder: out.display().to_string() }.into());
+    }
+    let (mut scene, identity) = named_as_copied(LoadedScene::open(scene.unwrap_or(&own))?);
+    report::writable(out)?;
+    let contents = folder::contents(out, &identity, &scene.resolved.scene_hash())
+        .map_err(|error| InputError::Resume(Box::new(error)))?;
+    match contents {
+        FolderContents::Nothing | FolderContents::Begun => begin_anew(scene, identity, out).map(Some),
+        FolderContents::Checkpoint(found) => {
+            let CheckpointFile { warnings, checkpoint, .. } = *found;
+            scene.resolved.warnings = warnings;
+            Ok(Some(BegunRun { scene, out: out.to_owned(), identity, from: Some(checkpoint), made: None }))
+        }
+        FolderContents::Ended(stopped) if stopped.is_complete() => Ok(None),
+        FolderContents::Ended(_) => Err(InputError::NothingLeft { folder: out.display().to_string() }.into()),
+    }
+}
+
+fn named_as_copied(scene: LoadedScene) -> (LoadedScene, RunIdentity) {
+    let scene = scene.naming_copies();
+    let identity = RunIdentity::new(scene.resolved.to_toml(), &scene.files.as_read);
+    (scene, identity)
+}
+
+fn begin_anew(scene: LoadedScene, identity: RunIdentity, out: &Path) -> Result<BegunRun, Failure> {
+    let is_new = !out.exists();
+    report::create_folder(out)?;
+    folder::begin(out, &identity, &scene.files.as_read)?;
+    let files = scene.files.as_read.iter().map(|file| file.name.clone()).collect();
+    let made = Some(MadeFolder { out: out.to_owned(), files, is_new });
+    Ok(BegunRun { scene, out: out.to_owned(), identity, from: None, made })
+}
+
+/// Writes checkpoints into the folder of a run, seldom enough to cost no time. A checkpoint that cannot be written does not end the run.
+pub(super) struct FolderKeeper<'a> {
+    path: PathBuf,
+    identity: &'a RunIdentity,
+    warnings: &'a [String],
+    due: Mutex<Instant>,
+    failure: Mutex<Option<io::Error>>,
+}
+
+impl<'a> FolderKeeper<'a> {
+    /// Keeper for the run `identity` in the folder `out`, whose user was given `warnings`.
+    pub(super) fn new(out: &Path, identity: &'a RunIdentity, warnings: &'a [String]) -> Self {
+        let due = Mutex::new(Instant::now() + LEAST_INTERVAL);
+        Self { path: out.join(folder::CHECKPOINT), identity, warnings, due, failure: Mutex::new(None) }
+    }
+
+    /// Says why the last checkpoint could not be written, if so.
+    pub(super) fn say_failure(&self) {
+        let failure = self.failure.lock().ok().and_then(|mut failure| failure.take());
+        if let Some(error) = failure {
+            say(&format!("warning: the last checkpoint, {}, could not be written: {error}", self.path.display()));
+        }
+    }
+}
+
+impl Keeper for FolderKeeper<'_> {
+    fn is_due(&self) -> bool {
+        self.due.lock().is_ok_and(|due| Instant::now() >= *due)
+    }
+
+    fn keep(&self, checkpoint: &Checkpoint) {
+        let begin = Instant::now();
+        let written = file::write(&self.path, self.identity, self.warnings, checkpoint);
+        if let Ok(mut failure) = self.failure.lock() {
+            *failure = written.err();
+        }
+        if let Ok(mut due) = self.due.lock() {
+            *due = Instant::now() + LEAST_INTERVAL.max(INTERVAL_OVER_WRITING * begin.elapsed());
+        }
+    }
+}

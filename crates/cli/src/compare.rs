@@ -1,0 +1,238 @@
+//! `gearwear compare`: measured flank profiles against a finished run, or runs side by side ([`super::variants`]).
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use gearwear::report;
+use gearwear::scene::loaded::SceneText;
+use gearwear_physics::assessment::RunError;
+use gearwear_physics::gear::Gear;
+use gearwear_studies::compare::asked::{CompareFault, PreparedComparison};
+use gearwear_studies::compare::question::{CompareOptions, FitKind};
+use gearwear_studies::compare::record::{CoefficientCorrelation, CompareFigures, CompareRecord, FittedValue};
+use gearwear_studies::compare::study::CompareError;
+use gearwear_studies::measurement::fit::FitStop;
+use gearwear_studies::measurement::form::Form;
+
+use super::failure::{Failure, InputError};
+use super::figures::{digits, or_dash};
+use super::progress::Progress;
+use super::run::{pool, watch_for_interrupt};
+use super::variants::{self, MOST_RUNS, Variants, is_run};
+use super::{print, say, warn};
+
+/// Longest shift along the flank, where nothing else is asked, mm.
+const SHIFT_WITHIN_MM: f64 = 0.1;
+
+/// Description of a measured file.
+const FILE_HELP: &str = "\
+The measured file is CSV. Lines that begin with # come first and say what is measured:
+  # gear = pinion                        or wheel
+  # hours = 31.75                        or revolutions (of the pinion); left out: the end of the run
+  # width_mm = 7.0                       place over the face width; only for runs with slices
+  # uncertainty_um = 0.3                 of a height, one standard deviation
+  # arc_from = start-of-active-profile   with arc_mm: or base-circle, or tip (towards the root)
+  # height_from = involute               or line: heights of a stylus, with the curvature of the tooth
+Then column names with units, in any order: radius_mm, arc_mm or roll_angle_deg, and height_um or height_mm (falls
+where material is gone) or wear_um or wear_mm (rises there); then a row for each point, from one end to the other.";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = FILE_HELP)]
+pub(super) struct CompareArgs {
+    /// The folder of a finished `gearwear run`; beside other runs a scene too, which is run first
+    run: PathBuf,
+    /// The measured profile, a CSV file (- reads standard input), or two, of pinion and wheel; or one to five more runs, to be
+    /// shown side by side
+    #[arg(value_name = "MEASURED|RUN", required = true, num_args = 1..MOST_RUNS)]
+    with: Vec<PathBuf>,
+    /// The gear that was measured, where the file does not say
+    #[arg(long, value_name = "GEAR", value_parser = gear)]
+    gear: Option<Gear>,
+    /// The form removed from the measured and the simulated profile alike; default: cubic of heights, none of
+    /// wear depths
+    #[arg(long, value_enum)]
+    form: Option<Form>,
+    /// Coefficients to fit; default: k, and each with two profiles
+    #[arg(long, value_enum)]
+    fit: Option<FitKind>,
+    /// How far a profile may be shifted along the flank to where it fits best; 0: not at all
+    #[arg(long, value_name = "MM", default_value_t = SHIFT_WITHIN_MM, value_parser = length)]
+    shift_within: f64,
+    /// The folder for the results; default: compare/NAME in RUN, with the names of the measured files or of the second run
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Number of threads; default: all cores. Never changes the results
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// Show neither progress nor figures, only what is wrong
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+fn gear(text: &str) -> Result<Gear, String> {
+    let named = Gear::BOTH.into_iter().find(|gear| gear.name() == text);
+    named.ok_or_else(|| "allowed: pinion or wheel".to_owned())
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value >= 0.0 && value.is_finite() => Ok(value),
+        _ => Err("allowed: a length in mm, 0 or more".to_owned()),
+    }
+}
+
+impl CompareArgs {
+    /// The runs to be shown side by side; none where there are measured profiles.
+    fn variants(&self) -> Result<Option<Variants<'_>>, InputError> {
+        let Some(path) = self.with.iter().find(|path| !is_run(path)) else {
+            let runs: Vec<&Path> = [&self.run].into_iter().chain(&self.with).map(PathBuf::as_path).collect();
+            return Ok(Some(Variants { runs, out: self.out.as_deref(), threads: self.threads, quiet: self.quiet }));
+        };
+        match self.with.iter().any(|path| is_run(path)) {
+            true => Err(InputError::ProfileBesideRuns { path: path.clone() }),
+            false => Ok(None),
+        }
+    }
+
+    /// Where the results go.
+    fn out(&self) -> PathBuf {
+        if let Some(out) = &self.out {
+            return out.clone();
+        }
+        let stems = self.with.iter().map(|path| {
+            let stem = path.file_stem().filter(|stem| *stem != "-").unwrap_or("measured".as_ref());
+            stem.to_string_lossy().into_owned()
+        });
+        self.run.join("compare").join(stems.collect::<Vec<_>>().join("-"))
+    }
+}
+
+pub(super) fn run(args: &CompareArgs) -> Result<(), Failure> {
+    if let Some(variants) = args.variants()? {
+        return match (args.gear, args.form) {
+            (Some(_), _) => Err(InputError::OnlyForMeasured { option: "--gear" }.into()),
+            (_, Some(_)) => Err(InputError::OnlyForMeasured { option: "--form" }.into()),
+            _ => variants::run(&variants),
+        };
+    }
+    let texts = args.with.iter().map(|path| SceneText::read(path)).collect::<Result<Vec<_>, _>>()?;
+    let asked = CompareOptions { gear: args.gear, form: args.form, fit: args.fit, shift_within_mm: args.shift_within };
+    let prepared = PreparedComparison::open(&args.run, &texts, &asked)?;
+    let out = args.out();
+    report::writable(&out)?;
+
+    let pool = pool(args.threads)?;
+    let progress = Progress::new(args.quiet, Arc::clone(&watch_for_interrupt()));
+    let done = pool.install(|| prepared.carry_out(&progress));
+    progress.finish();
+    let record = done.map_err(|error| match error {
+        CompareError::Interrupted => {
+            say("interrupted before the comparison was finished");
+            Failure::Interrupted
+        }
+        CompareError::Run(error) => Failure::Run(error),
+    })?;
+    gearwear_studies::compare::report::write(&record, &out)?;
+    if !args.quiet {
+        let report = out.join("report.html");
+        print(&format!("{}report: {}\n", table(&record), report.display()))?;
+    }
+    if record.fit.stopped == FitStop::Converged {
+        warn(&record.warnings);
+        return Ok(());
+    }
+    let why = format!("{}; what was compared is kept in {}", record.warnings.join("; "), out.display());
+    Err(Failure::NotFitted { why })
+}
+
+impl From<CompareFault> for Failure {
+    fn from(fault: CompareFault) -> Self {
+        match fault {
+            CompareFault::Load(error) => error.into(),
+            CompareFault::RunFolder(error) => InputError::RunFolder(error).into(),
+            CompareFault::Measured(refused) => InputError::Measured(refused).into(),
+            CompareFault::Pair(error) => Failure::Run(RunError::from(error)),
+        }
+    }
+}
+
+/// One of the figures of a profile, where it has it.
+type Figure = fn(&CompareFigures) -> Option<f64>;
+
+fn line(name: &str, cells: &[String]) -> String {
+    let cells: String = cells.iter().map(|cell| format!("{cell:>12}")).collect();
+    format!("  {name:44}{cells}\n")
+}
+
+/// Fitted values with their names.
+fn estimates(record: &CompareRecord) -> Vec<(String, &FittedValue)> {
+    let (fit, several) = (&record.fit, record.profiles.len() > 1);
+    let mut estimates: Vec<(String, &FittedValue)> = Vec::new();
+    for own in &fit.coefficients {
+        let whose = own.gear.filter(|_| several).map_or_else(String::new, |gear| format!(" of the {}", gear.name()));
+        estimates.push((format!("wear coefficient k{whose}, m²/N"), &own.coefficient_m2_per_N));
+    }
+    estimates
+        .extend(fit.coefficient_ratio.iter().map(|ratio| ("k of the pinion over that of the wheel".to_owned(), ratio)));
+    estimates.extend(fit.severe_factor.iter().map(|severe| ("factor of severe wear".to_owned(), severe)));
+    for of in &record.profiles {
+        let whose = if several { format!(" of the {}", of.gear.name()) } else { String::new() };
+        estimates.extend(of.shift_mm.iter().map(|shift| (format!("shift{whose} towards the tip, mm"), shift)));
+    }
+    estimates
+}
+
+/// Findings for the terminal.
+fn table(record: &CompareRecord) -> String {
+    let (fit, profiles) = (&record.fit, &record.profiles);
+    let several = profiles.len() > 1;
+    let estimates = estimates(record);
+    let mut text = format!("{}\n\n", record.headline());
+    if !estimates.is_empty() {
+        text.push_str(&line("", &["run", "fitted", "95 % from", "to"].map(str::to_owned)));
+    }
+    for (name, e) in estimates {
+        text.push_str(&line(&name, &[digits(e.of_run), digits(e.value), or_dash(e.low), or_dash(e.high)]));
+    }
+    if let Some(correlation) = &fit.correlation {
+        text.push_str(&correlations(correlation));
+    }
+    text.push_str(&format!("\n  {}\n\n", fit.how));
+    if several {
+        text.push_str(&line("", &profiles.iter().map(|of| of.gear.name().to_owned()).collect::<Vec<_>>()));
+    }
+    let figures: [(&str, Figure); 5] = [
+        ("arithmetic mean deviation, measured, µm", |f| Some(f.mean_deviation_um)),
+        ("  the same, simulated", |f| Some(f.simulated_mean_deviation_um)),
+        ("Ra, cutoff 0.8 mm, measured, µm", |f| f.roughness_um),
+        ("difference as run, root mean square, µm", |f| Some(f.as_run_difference_um)),
+        ("  after the fit", |f| Some(f.difference_um)),
+    ];
+    for (name, value) in figures {
+        text.push_str(&line(name, &profiles.iter().map(|of| or_dash(value(&of.figures))).collect::<Vec<_>>()));
+    }
+    let runs = if fit.runs == 1 { "run" } else { "runs" };
+    let mut forms: Vec<&str> = profiles.iter().map(|of| of.form.as_str()).collect();
+    forms.dedup();
+    text.push_str(&format!(
+        "\nform {}, {} {runs} of the scene ({} mesh cycles)\n",
+        forms.join(" and "),
+        fit.runs,
+        fit.mesh_cycles
+    ));
+    text
+}
+
+/// The correlation coefficient of each pair of fitted values, a line for each.
+fn correlations(correlation: &CoefficientCorrelation) -> String {
+    let (parameters, matrix) = (&correlation.parameters, &correlation.matrix);
+    let mut text = String::new();
+    for i in 0..parameters.len() {
+        for j in i + 1..parameters.len() {
+            let pair = format!("{} and {}", parameters[i].key(), parameters[j].key());
+            text.push_str(&format!("  {:44}{:>12.3}\n", format!("correlation of {pair}"), matrix[i][j]));
+        }
+    }
+    text
+}

@@ -1,0 +1,5 @@
+//! The program `gearwear`.
+
+fn main() -> std::process::ExitCode {
+    gearwear_cli::main()
+}

@@ -1,0 +1,172 @@
+//! `gearwear uncertainty`: quantiles and Sobol indices of uncertain keys.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use gearwear::report;
+use gearwear::scene::loaded::LoadedScene;
+use gearwear::uncertainty::asked::{UncertaintyFault, UncertaintyQuestion};
+use gearwear::uncertainty::design::CorrelationError;
+use gearwear::uncertainty::distribution::FORMS;
+use gearwear::uncertainty::record::UncertaintyRecord;
+use gearwear::uncertainty::study::{self, SampledQuestion, UncertaintyStudyError};
+
+use super::counted_progress::CountedProgress;
+use super::failure::{Failure, InputError};
+use super::figures::{digits, or_dash};
+use super::run::{thread_count, watch_for_interrupt};
+use super::{print, say, warn};
+
+#[derive(Debug, clap::Args)]
+pub(super) struct UncertaintyArgs {
+    /// The scene file; - reads standard input
+    scene: PathBuf,
+    /// A key of the scene, and its distribution: normal:MEAN:SD, lognormal:MEDIAN:FACTOR (68 % of the values lie from MEDIAN/FACTOR to
+    /// MEDIAN·FACTOR), uniform:LOW:HIGH, triangular:LOW:MODE:HIGH; about the scene's own value ±40%, normal:10% and lognormal:FACTOR.
+    /// Keys that have the same value: pair.{pinion,wheel}.tip_rounding_mm. May be given several times
+    #[arg(long, value_name = "KEY=DISTRIBUTION", required = true)]
+    uncertain: Vec<String>,
+    /// Correlation of two uncertain keys, of their normal scores. May be given several times; pairs that are not given are independent
+    #[arg(long, value_name = "KEY:KEY=R")]
+    correlation: Vec<String>,
+    /// The folder for the results; those of an earlier study are replaced
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Points of the Sobol sequence, best a power of two; each takes two runs and one more for every uncertain key
+    #[arg(long, value_name = "N", default_value_t = 512)]
+    samples: usize,
+    /// Another seed scrambles the sequence in another way
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u32,
+    /// Figures to keep, as paths in summary.json, separated by commas; default: greatest wear and tip-edge wear of both gears, transmission
+    /// error peak to peak, worn
+    #[arg(long, value_name = "PATH,…", value_delimiter = ',')]
+    outputs: Vec<String>,
+    /// Ask for the life until a depth of wear is reached, such as pinion.peak_wear_um=10. May be given several times
+    #[arg(long, value_name = "FIGURE=VALUE")]
+    limit: Vec<String>,
+    /// Number of threads; default: all cores. Never changes the results, but the times
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// Show neither progress nor figures, only what is wrong
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// Option that caused the error.
+pub(super) fn option_of(fault: &UncertaintyFault) -> &'static str {
+    match fault {
+        UncertaintyFault::Uncertain(_) | UncertaintyFault::Count { .. } => "--uncertain: ",
+        UncertaintyFault::Correlation(_) => "--correlation: ",
+        UncertaintyFault::Limit(_) => "--limit: ",
+        UncertaintyFault::Output(_) => "--outputs: ",
+        UncertaintyFault::Samples { .. } => "--samples: ",
+        UncertaintyFault::Scene(_) | UncertaintyFault::Study(_) => "",
+    }
+}
+
+/// Remedy.
+pub(super) fn help_of(fault: &UncertaintyFault) -> String {
+    match fault {
+        UncertaintyFault::Output(_) => "summary.json of a run has all of them".to_owned(),
+        UncertaintyFault::Correlation(CorrelationError::NotPositiveDefinite) => {
+            "keys that are both close to a third are close to one another".to_owned()
+        }
+        UncertaintyFault::Samples { .. } => "powers of two are the most even".to_owned(),
+        UncertaintyFault::Study(_) | UncertaintyFault::Scene(_) => "gearwear run SCENE says more".to_owned(),
+        _ => format!("KEY=DISTRIBUTION with one of {FORMS}"),
+    }
+}
+
+pub(super) fn run(args: &UncertaintyArgs) -> Result<(), Failure> {
+    let scene = LoadedScene::open(&args.scene)?;
+    warn(scene.warnings());
+    let asked = UncertaintyQuestion {
+        uncertain: args.uncertain.clone(),
+        correlation: args.correlation.clone(),
+        outputs: args.outputs.clone(),
+        limits: args.limit.clone(),
+        samples: args.samples,
+        seed: args.seed,
+    };
+    let question = SampledQuestion::of(&scene, &asked)?;
+    asked.notes().iter().for_each(|note| say(&format!("note: {note}")));
+    report::writable(&args.out)?;
+    let threads = thread_count(args.threads);
+    let interrupted = watch_for_interrupt();
+    gearwear::uncertainty::report::begin(&args.out)?;
+    if !args.quiet {
+        say(&format!("{} samples of {} uncertain keys", question.samples, question.uncertain.len()));
+    }
+    let progress = CountedProgress::new(args.quiet, Arc::clone(&interrupted));
+    let record = study::run(&scene, &question, threads, &progress);
+    progress.finish();
+    let record = record.map_err(UncertaintyFault::Study)?;
+    gearwear::uncertainty::report::write(&record, &args.out)?;
+    if !args.quiet {
+        print(&table(&record, &args.out))?;
+    }
+    if record.samples < record.samples_asked {
+        say(&format!("interrupted: {} of {} samples were finished and are kept", record.samples, record.samples_asked));
+        return Err(Failure::Interrupted);
+    }
+    Ok(())
+}
+
+impl From<UncertaintyFault> for Failure {
+    fn from(fault: UncertaintyFault) -> Self {
+        match fault {
+            UncertaintyFault::Scene(error) => Failure::Scene(error),
+            UncertaintyFault::Study(error @ UncertaintyStudyError::Interrupted) => {
+                say(&format!("{error}: nothing to write"));
+                Failure::Interrupted
+            }
+            UncertaintyFault::Study(UncertaintyStudyError::AllFailed { runs, first }) => {
+                Failure::NoSample { count: runs, error: first }
+            }
+            wrong => InputError::Uncertainty(wrong).into(),
+        }
+    }
+}
+
+/// Quantiles and indices, for the terminal.
+fn table(record: &UncertaintyRecord, out: &Path) -> String {
+    let mut text = format!(
+        "{}\n\n{} points, {} runs, {} failed, in {} s\n\n  {:42}{:>12}{:>12}{:>12}{:>12}\n",
+        record.title,
+        record.samples,
+        record.runs,
+        record.failed,
+        digits(record.wall_s),
+        "",
+        "as given",
+        "5 %",
+        "50 %",
+        "95 %"
+    );
+    for output in &record.outputs {
+        let [p05, _, p50, _, p95] = output.quantiles.all();
+        let [given, low, middle, high] = [output.nominal, p05, p50, p95].map(or_dash);
+        text.push_str(&format!("  {:42}{given:>12}{low:>12}{middle:>12}{high:>12} {}\n", output.output, output.unit));
+        if let Some(censored) = output.censored.filter(|&part| part > 0.0) {
+            let part = digits(100.0 * censored);
+            text.push_str(&format!("    {part} % of the samples do not come to the limit within their duration\n"));
+        }
+    }
+    text.push_str(&format!("\n  {:42}{:>12}{:>12}\n", "Sobol indices", "first order", "total"));
+    for output in &record.outputs {
+        let because = output.no_indices_because.as_ref().map_or_else(String::new, |because| format!(": {because}"));
+        text.push_str(&format!("  {}{because}\n", output.output));
+        for one in output.indices.iter().flatten() {
+            let (first, total) = (one.first.value, one.total.value);
+            text.push_str(&format!("    {:40}{first:>12.3}{total:>12.3}\n", one.factor));
+        }
+    }
+    if let Some(first) = &record.first_failure {
+        text.push_str(&format!("\nthe first failure: {first}\n"));
+    }
+    text.push_str(&format!("\nerror of the fast model: {}\n", record.model_error_how));
+    text.push_str(&format!("report: {}\n", out.join("report.html").display()));
+    text
+}

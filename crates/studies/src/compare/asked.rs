@@ -1,0 +1,56 @@
+//! A comparison as it is asked for, on the command line and in the library alike: the run, the measured files, and whether they fit together.
+
+use std::path::Path;
+
+use super::question::{CompareOptions, ComparisonQuestion, Refused};
+use super::record::CompareRecord;
+use super::run_folder::{RunFolder, RunFolderError};
+use super::study::{self, CompareError};
+use crate::measurement::file;
+use gearwear::scene::loaded::{LoadError, LoadedScene, SceneText};
+use gearwear_physics::gear::GearPair;
+use gearwear_physics::gear::error::PairError;
+use gearwear_physics::observer::Observer;
+
+/// Why profiles cannot be compared.
+#[derive(Debug, thiserror::Error)]
+pub enum CompareFault {
+    #[error(transparent)]
+    Load(#[from] LoadError),
+    #[error(transparent)]
+    RunFolder(#[from] RunFolderError),
+    #[error(transparent)]
+    Measured(#[from] Refused),
+    #[error(transparent)]
+    Pair(#[from] PairError),
+}
+
+/// A comparison that can be carried out.
+#[derive(Debug)]
+pub struct PreparedComparison {
+    folder: RunFolder,
+    scene: LoadedScene,
+    question: ComparisonQuestion,
+}
+
+impl PreparedComparison {
+    /// Of the finished run in the folder `run` with the profiles in the texts `measured`.
+    pub fn open(run: &Path, measured: &[SceneText], asked: &CompareOptions) -> Result<Self, CompareFault> {
+        let folder = RunFolder::with_snapshots(run)?;
+        let scene = LoadedScene::open(folder.scene_path())?;
+        let resolved = &scene.resolved;
+        folder.check_scene(resolved)?;
+        let mut files = Vec::with_capacity(measured.len());
+        for SceneText { name, text } in measured {
+            let file = file::parse(text).map_err(|error| Refused { name: name.clone(), error: error.into() })?;
+            files.push((name.clone(), file));
+        }
+        let pair = GearPair::new(&resolved.scene.pair)?;
+        let question = ComparisonQuestion::new(asked, &files, &folder, resolved, &pair)?;
+        Ok(Self { folder, scene, question })
+    }
+
+    pub fn carry_out(&self, observer: &dyn Observer) -> Result<CompareRecord, CompareError> {
+        study::run(&self.question, &self.folder, &self.scene, observer)
+    }
+}

@@ -1,0 +1,21 @@
+//! Measured profiles of a flank: read, freed of their form, and fitted.
+//!
+//! A stylus trace, or one of a replica, is a row of heights along the flank. To show the wear, the form of the unworn flank is
+//! removed first, a least-squares cubic as in the thesis (section 4.2) or the nominal involute. The form of the simulated profile is removed in the
+//! same way: a cubic takes a part of the wear with it.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`mod@file`] | the CSV file with its header |
+//! | [`profile`] | points on the flank of a gear |
+//! | [`form`] | form removal as a projection |
+//! | [`roughness`] | arithmetic mean deviation, before and after a Gaussian filter |
+//! | [`fit`] | nonlinear least squares in a few parameters |
+//! | [`interval`] | uncertainty of the parameters, from the residuals |
+
+pub mod file;
+pub mod fit;
+pub mod form;
+pub mod interval;
+pub mod profile;
+pub mod roughness;

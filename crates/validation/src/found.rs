@@ -1,0 +1,213 @@
+//! Studies for those who use the library: one call a study, with what the program's commands give.
+//!
+//! A [`Study`] is what was found: the record as JSON, as the command writes it, and the files themselves.
+
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use serde::Serialize;
+
+use crate::invariants;
+use crate::invariants::study::{INVARIANTS, SceneRange};
+use crate::library::{Library, LibraryError};
+use crate::record::Tier;
+use gearwear::report::ReportError;
+use gearwear::scene::loaded::{LoadError, LoadedScene, SceneText};
+use gearwear_physics::gear::Gear;
+use gearwear_physics::observer::Observer;
+use gearwear_studies::accuracy::selection;
+use gearwear_studies::accuracy::study::AccuracyError;
+use gearwear_studies::compare::asked::{CompareFault, PreparedComparison};
+use gearwear_studies::compare::question;
+use gearwear_studies::compare::run_folder::RunFolderError;
+use gearwear_studies::compare::study::CompareError;
+use gearwear_studies::variants::finished_run::FinishedRun;
+use gearwear_studies::variants::record::VariantsRecord;
+use gearwear_studies::{accuracy, compare, variants};
+
+type Write = dyn Fn(&Path) -> Result<(), ReportError> + Send + Sync;
+
+/// Findings of a study.
+pub struct Study {
+    json: String,
+    write: Box<Write>,
+}
+
+impl Study {
+    fn new<R: Serialize + Send + Sync + 'static>(
+        record: R,
+        write: impl Fn(&R, &Path) -> Result<(), ReportError> + Send + Sync + 'static,
+    ) -> Result<Self, StudyError> {
+        let json = serde_json::to_string(&record).map_err(StudyFault::NoJson)?;
+        Ok(Self { json, write: Box::new(move |folder| write(&record, folder)) })
+    }
+
+    /// The record, as the command writes it.
+    pub fn json(&self) -> &str {
+        &self.json
+    }
+
+    /// Writes what the command writes into `folder`, which is made if need be.
+    ///
+    /// # Errors
+    /// [`ReportError`] where a file cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<(), ReportError> {
+        (self.write)(folder)
+    }
+}
+
+/// Error of a study.
+#[derive(Debug, thiserror::Error)]
+#[error(transparent)]
+pub struct StudyError(#[from] StudyFault);
+
+#[derive(Debug, thiserror::Error)]
+enum StudyFault {
+    #[error(transparent)]
+    Accuracy(AccuracyError),
+    #[error("within: found {found}; allowed: a share above 0 and at most 1")]
+    Within { found: f64 },
+    #[error("{key}: found {found:?}; allowed: {allowed}")]
+    Word { key: &'static str, found: String, allowed: String },
+    #[error("shift_within_mm: found {found}; allowed: a length in mm, 0 or more")]
+    Shift { found: f64 },
+    #[error("measured: found no file; allowed: one, or one of the pinion and one of the wheel")]
+    NoProfile,
+    #[error(transparent)]
+    Compare(CompareFault),
+    #[error(transparent)]
+    Comparison(CompareError),
+    #[error(transparent)]
+    RunFolder(RunFolderError),
+    #[error("found {found} runs; allowed: two or more")]
+    TooFewRuns { found: usize },
+    #[error(transparent)]
+    Library(LibraryError),
+    #[error(transparent)]
+    NoJson(serde_json::Error),
+}
+
+impl StudyError {
+    /// Fault of a file, if that is the reason.
+    pub fn in_loading(&self) -> Option<&LoadError> {
+        if let StudyFault::Compare(CompareFault::Load(error)) = &self.0 { Some(error) } else { None }
+    }
+
+    /// Whether the question was sound and the runs failed.
+    pub fn is_of_the_runs(&self) -> bool {
+        matches!(self.0, StudyFault::Accuracy(_) | StudyFault::Comparison(_))
+    }
+}
+
+/// The error of every model that fits the scene against its run time, as `gearwear accuracy`: `within` is the relative error that
+/// recommendations stay
+/// within, `quick` leaves the scene's own resolution out.
+///
+/// # Errors
+/// A reference that fails or is interrupted.
+pub fn accuracy(scene: &LoadedScene, within: f64, quick: bool, observer: &dyn Observer) -> Result<Study, StudyError> {
+    if !(within > 0.0 && within <= 1.0) {
+        return Err(StudyFault::Within { found: within }.into());
+    }
+    let record = accuracy::study::run(scene, selection::AccuracyOptions { within, quick }, observer)
+        .map_err(StudyFault::Accuracy)?;
+    Study::new(record, |record, folder| accuracy::report::write(record, folder).map(drop))
+}
+
+/// Options of a comparison with measured profiles, in the words of the command line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CompareQuestion {
+    /// Measured gear; `None`: as the file says.
+    pub gear: Option<String>,
+    /// Form to remove: cubic, involute or none; `None`: cubic of heights, none of wear depths.
+    pub form: Option<String>,
+    /// Coefficients to fit: none, k, each, severe or both; `None`: k of one profile, each of two.
+    pub fit: Option<String>,
+    /// How far a profile may be shifted along the flank, mm; 0: not at all.
+    pub shift_within_mm: f64,
+}
+
+/// The measured profiles in the files `measured`, one or those of pinion and wheel, against the finished run in the folder `run`, as
+/// `gearwear compare`.
+///
+/// # Errors
+/// A folder without a finished run, a file that does not fit it, runs that fail.
+pub fn compare(
+    run: &Path,
+    measured: &[PathBuf],
+    question: &CompareQuestion,
+    observer: &dyn Observer,
+) -> Result<Study, StudyError> {
+    let gear = question.gear.as_deref().map(|name| {
+        let named = Gear::BOTH.into_iter().find(|gear| gear.name() == name);
+        named.ok_or_else(|| word("gear", name, "pinion, wheel".to_owned()))
+    });
+    if !(question.shift_within_mm >= 0.0 && question.shift_within_mm.is_finite()) {
+        return Err(StudyFault::Shift { found: question.shift_within_mm }.into());
+    }
+    let asked = question::CompareOptions {
+        gear: gear.transpose()?,
+        form: question.form.as_deref().map(|name| one_of("form", name)).transpose()?,
+        fit: question.fit.as_deref().map(|name| one_of("fit", name)).transpose()?,
+        shift_within_mm: question.shift_within_mm,
+    };
+    if measured.is_empty() {
+        return Err(StudyFault::NoProfile.into());
+    }
+    let texts = measured.iter().map(|path| SceneText::read(path)).collect::<Result<Vec<_>, _>>();
+    let texts = texts.map_err(|error| StudyFault::Compare(error.into()))?;
+    let prepared = PreparedComparison::open(run, &texts, &asked).map_err(StudyFault::Compare)?;
+    let record = prepared.carry_out(observer).map_err(StudyFault::Comparison)?;
+    Study::new(record, compare::report::write)
+}
+
+/// One of the words that an option takes.
+fn one_of<E: ValueEnum>(key: &'static str, name: &str) -> Result<E, StudyFault> {
+    E::from_str(name, false).map_err(|_| {
+        let words = E::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+        word(key, name, words.map(|word| word.get_name().to_owned()).collect::<Vec<_>>().join(", "))
+    })
+}
+
+fn word(key: &'static str, found: &str, allowed: String) -> StudyFault {
+    StudyFault::Word { key, found: found.to_owned(), allowed }
+}
+
+/// Finished runs side by side, as `gearwear compare RUN RUN …`: their folders, each with what it is called.
+///
+/// # Errors
+/// A folder without a finished run.
+pub fn compare_runs(runs: &[(PathBuf, String)]) -> Result<Study, StudyError> {
+    if runs.len() < 2 {
+        return Err(StudyFault::TooFewRuns { found: runs.len() }.into());
+    }
+    let runs: Result<Vec<_>, _> = runs.iter().map(|(folder, name)| FinishedRun::read(folder, name.clone())).collect();
+    let runs = runs.map_err(StudyFault::RunFolder)?;
+    Study::new(VariantsRecord::new(&runs), move |record, folder| variants::report::write(record, &runs, folder))
+}
+
+/// The validation suite, as `gearwear validate`: cases by name or folder, none: all, of the `tier` smoke, full or long. The word `invariants` alone:
+/// random scenes, a hundred of the tier smoke, a thousand otherwise.
+///
+/// # Errors
+/// Cases or tiers that do not exist. A case that misses its bound is none: the record says it.
+pub fn validate(
+    cases: &[String],
+    tier: Option<&str>,
+    threads: usize,
+    observer: &dyn Observer,
+) -> Result<Study, StudyError> {
+    let tier = tier.map(|name| {
+        let named = Tier::ALL.into_iter().find(|tier| tier.name() == name);
+        named.ok_or_else(|| word("tier", name, Tier::ALL.map(Tier::name).join(", ")))
+    });
+    let tier = tier.transpose()?;
+    if cases == [INVARIANTS] {
+        let record = invariants::study::run(SceneRange::of_tier(tier), threads, observer);
+        return Study::new(record, invariants::report::write);
+    }
+    let library = Library::open(cases).map_err(StudyFault::Library)?;
+    let tier = library.tier(tier, cases.is_empty()).map_err(StudyFault::Library)?;
+    let record = crate::run(&library.cases, tier, threads, observer);
+    Study::new(record, |record, folder| crate::report::write(record, None, folder).map(drop))
+}

@@ -1,0 +1,105 @@
+//! An output of a run by its path in `summary.json`: `pinion.peak_wear_um`; items of lists are numbered from 1. Names that main figures had in the
+//! version before are read too.
+
+use std::sync::OnceLock;
+
+use serde_json::Value;
+
+use crate::scene::key::{is_number, nearest_path};
+use crate::scene::schema::{Node, schema_of};
+use gearwear_physics::results::figures;
+use gearwear_physics::results::run::Summary;
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct SummaryOutput {
+    pub path: String,
+    /// Path as a JSON pointer.
+    pointer: String,
+}
+
+/// A path that leads to no number.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OutputError {
+    pub output: String,
+    /// Path that was probably meant.
+    pub nearest: Option<String>,
+}
+
+fn schema() -> &'static Value {
+    static SCHEMA: OnceLock<Value> = OnceLock::new();
+    SCHEMA.get_or_init(schema_of::<Summary>)
+}
+
+impl SummaryOutput {
+    /// The number at `path`.
+    pub fn find(path: &str) -> Result<Self, OutputError> {
+        let path = figures::name_now(path).unwrap_or(path);
+        let root = Node::root(schema());
+        let mut pointer = String::new();
+        let mut node = Some(root);
+        for part in path.split('.') {
+            let above = node;
+            let number = part.parse::<usize>().ok().filter(|&number| number > 0);
+            node = above.and_then(|above| number.map_or_else(|| above.child(part), |_| above.items()));
+            pointer.push_str(&number.map_or_else(|| format!("/{part}"), |number| format!("/{}", number - 1)));
+        }
+        match node.filter(|&node| is_number(node)) {
+            Some(_) => Ok(Self { path: path.to_owned(), pointer }),
+            None => Err(OutputError { output: path.to_owned(), nearest: nearest_path(path, root, is_number) }),
+        }
+    }
+
+    /// Whether it is one of the run's statements about its own error, which take runs of their own.
+    pub fn is_of_error(&self) -> bool {
+        self.path.starts_with("error.")
+    }
+
+    /// Duration of a run that comes to no limit, where the output is the life to a limit.
+    pub fn at_least(&self, summary: &Value) -> Option<f64> {
+        let time = self.path.strip_prefix("life.").filter(|time| matches!(*time, "hours" | "revolutions"))?;
+        summary["life"].is_object().then(|| summary[time].as_f64())?
+    }
+
+    /// Value in the summary; none where the run does not compute it.
+    pub fn of(&self, summary: &Value) -> Option<f64> {
+        summary.pointer(&self.pointer)?.as_f64()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn outputs_are_paths_of_numbers() {
+        for path in [
+            "pinion.peak_wear_um",
+            "new.transmission_error_um.peak_to_peak",
+            "error.total.peak_wear.pinion",
+            "geometry.gears.wheel.teeth",
+            "helical.wear.pinion.root_wear_um.3",
+            "new.sharp_edge_pressure_MPa",
+            "phases.2.wheel.worn_volume_mm3",
+            "temperature.greatest_rise_new_K",
+        ] {
+            assert!(SummaryOutput::find(path).is_ok(), "{path}");
+        }
+        let phase = SummaryOutput::find("phases.2.wheel.worn_volume_mm3").unwrap();
+        let summary = serde_json::json!({ "phases": [null, { "wheel": { "worn_volume_mm3": 1.5 } }] });
+        assert_eq!((phase.of(&summary), phase.of(&serde_json::json!({}))), (Some(1.5), None));
+        assert_eq!(
+            SummaryOutput::find("pinion_peak_wear_um").map(|output| output.path),
+            Ok("pinion.peak_wear_um".to_owned())
+        );
+        for path in ["peak_wear_um", "pinion.peak_ware_um"] {
+            assert_eq!(SummaryOutput::find(path).unwrap_err().nearest.as_deref(), Some("pinion.peak_wear_um"));
+        }
+        // All main figures but the one that sweeps alone know are in the summary.
+        for figure in figures::all().iter().filter(|figure| figure.name != figures::PEAK_WEAR_OF_EITHER) {
+            assert!(SummaryOutput::find(&figure.name).is_ok(), "{}", figure.name);
+        }
+        for path in ["title", "phases.0.hours", "pinion", ""] {
+            assert!(SummaryOutput::find(path).is_err(), "{path}");
+        }
+    }
+}

@@ -1,6 +1,0 @@
-//! Finished runs side by side: what differs between their scenes, what between their figures, and whether that is more than the errors that
-//! the runs state of themselves.
-
-pub(crate) mod finished_run;
-pub(crate) mod record;
-pub(crate) mod report;

@@ -1,0 +1,170 @@
+//! The scene of a combination, and its row.
+
+use std::time::Instant;
+
+use crate::runs;
+use crate::scene::draft::Draft;
+use crate::scene::loaded::{LoadedScene, NamedFiles};
+use crate::scene::{Problem, Resolved, short_hash};
+use crate::sweep::goal::Goal;
+use crate::sweep::record::{SweepAxis, SweepIdentity, SweepRow};
+use crate::sweep::study::SweepTask;
+use crate::sweep::verification::Chosen;
+use crate::varied_scene::{VariedScene, in_words, one_line};
+use gearwear_physics::assessment::guarded::guarded;
+use gearwear_physics::observer::Observer;
+use gearwear_physics::plan::{Plan, StageKind};
+use gearwear_physics::results::error::TotalError;
+use gearwear_physics::results::figures;
+use gearwear_physics::results::run::{StopReason, Summary};
+
+/// A sweep that can be run.
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    pub identity: SweepIdentity,
+    varied: VariedScene,
+}
+
+impl Sweep {
+    /// The sweep of the scene `given`.
+    ///
+    /// Snapshots are left out, as a row keeps only the end of the run; errors are estimated only where asked for, and rows verified
+    /// only where the scene asks for it by name, or where there is a goal and the scene does not refuse it.
+    pub fn new(
+        given: &LoadedScene,
+        axes: Vec<SweepAxis>,
+        goal: Option<Goal>,
+        error_estimate: bool,
+    ) -> Result<Self, Vec<Problem>> {
+        let draft = Draft::parse(&given.given.text)?;
+        let resolved = &given.resolved;
+        let identity = SweepIdentity {
+            title: resolved.title().to_owned(),
+            program_version: env!("CARGO_PKG_VERSION").to_owned(),
+            scene_hash: resolved.scene_hash(),
+            given_hash: draft.hash(),
+            inputs_hash: hash_of(&given.files),
+            error_estimate,
+            verify: resolved.scene.verify && (draft.gives("numerics.verify") || goal.is_some()),
+            axes,
+            figures: figures::in_sweeps().iter().map(|figure| figure.name.clone()).collect(),
+            goal,
+        };
+        Ok(Self { identity, varied: VariedScene::new(given, error_estimate)? })
+    }
+
+    /// The scene, as the user gave it.
+    pub fn scene_toml(&self) -> &str {
+        self.varied.given_text()
+    }
+
+    /// The scene of combination `index`, which is not verified.
+    pub fn scene(&self, index: usize) -> Result<Resolved, Vec<Problem>> {
+        let values = self.identity.values(index);
+        self.varied.resolved(self.identity.axes.iter().zip(values).map(|(axis, value)| {
+            let value = match axis.word(value) {
+                Some(truth @ ("true" | "false")) => toml::Value::Boolean(truth == "true"),
+                Some(word) => toml::Value::String(word.to_owned()),
+                // The values were checked to be whole; the cast keeps any that a scene allows.
+                None if axis.whole => toml::Value::Integer(value as i64),
+                None => toml::Value::Float(value),
+            };
+            (axis.key.as_str(), value)
+        }))
+    }
+
+    /// Problems of the first combination, where no combination is a valid scene.
+    pub fn unbuildable(&self) -> Option<String> {
+        let first = self.scene(0).err()?;
+        let all = (1..self.identity.combinations()).all(|index| self.scene(index).is_err());
+        all.then(|| in_words(&first))
+    }
+
+    /// Runs combination `index`; `None` where it was interrupted. Any error, a panic included, becomes the error of the row.
+    ///
+    /// Whatever goes wrong with it is its row's error, a defect of the program included.
+    fn row(&self, index: usize, observer: &dyn Observer) -> Option<SweepRow> {
+        let start = Instant::now();
+        let run = guarded(|| self.run(index, observer));
+        let run = run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
+        let row = match run {
+            Ok(summary) if summary.stopped == StopReason::Interrupted => return None,
+            Ok(summary) => SweepRow {
+                figures: figures::in_sweeps()
+                    .iter()
+                    .map(|f| f.value(&summary).filter(|value| value.is_finite()))
+                    .collect(),
+                warnings: Some(summary.warnings.len()),
+                simulation_s: simulation_s(&summary),
+                ..self.empty(index)
+            },
+            Err(_) if observer.interrupted() => return None,
+            Err(error) => self.failed(index, &error),
+        };
+        Some(SweepRow { wall_s: start.elapsed().as_secs_f64(), ..row })
+    }
+
+    fn empty(&self, index: usize) -> SweepRow {
+        let (values, figures) = (self.identity.values(index), vec![None; figures::in_sweeps().len()]);
+        SweepRow { index, values, figures, ..SweepRow::default() }
+    }
+
+    /// Does `task`; `None` where it was interrupted.
+    pub fn row_of(&self, task: &SweepTask, observer: &dyn Observer) -> Option<SweepRow> {
+        match task {
+            SweepTask::Run(index) => self.row(*index, observer),
+            SweepTask::Verify { row, chosen } => self.verified(row, *chosen, observer),
+        }
+    }
+
+    /// The row of combination `index` with an error and no figures.
+    pub fn failed(&self, index: usize, reason: &str) -> SweepRow {
+        SweepRow { error: Some(one_line(reason)), ..self.empty(index) }
+    }
+
+    fn run(&self, index: usize, observer: &dyn Observer) -> Result<Summary, String> {
+        let resolved = self.scene(index).map_err(|problems| in_words(&problems))?;
+        self.varied.inputs_belong_to(&resolved)?;
+        self.varied.carry_out(resolved, observer, runs::summarise)
+    }
+
+    /// The row `row` verified by finite elements; `None` where that was interrupted. Its run is repeated with the same result: the best rows are
+    /// known only at the end, and keeping the state of every run would take much memory.
+    ///
+    /// Its run is done again and comes to the same bits: which rows are the best is known when all are there, and what a verification
+    /// starts from would be much to keep of each until then.
+    fn verified(&self, row: &SweepRow, chosen: Chosen, observer: &dyn Observer) -> Option<SweepRow> {
+        let start = Instant::now();
+        let total = guarded(|| self.total_error(row.index, observer));
+        let total = total.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
+        if observer.interrupted() {
+            return None;
+        }
+        let total = total.unwrap_or_else(|reason| TotalError::none(&one_line(&reason)));
+        Some(row.clone().verified(chosen, total, start.elapsed().as_secs_f64()))
+    }
+
+    fn total_error(&self, index: usize, observer: &dyn Observer) -> Result<TotalError, String> {
+        let mut resolved = self.scene(index).map_err(|problems| in_words(&problems))?;
+        resolved.scene.verify = true;
+        resolved.scene.numerics.error_estimate = false;
+        let plan = Plan::of(&resolved.scene);
+        match plan.left_out_because(StageKind::Verification) {
+            Some(reason) => Err(reason.to_owned()),
+            None => self.varied.carry_out(resolved, observer, runs::summarise).map(|summary| summary.error.total),
+        }
+    }
+}
+
+/// Hash of the files that a scene names; empty where it names none.
+fn hash_of(files: &NamedFiles) -> String {
+    let calibration = files.calibration.as_ref().map(|calibration| calibration.to_json());
+    let curve = files.stiffness_curve.as_ref().map(|curve| format!("{curve:?}"));
+    let all: String = calibration.into_iter().chain(curve).collect();
+    if all.is_empty() { all } else { short_hash(all.as_bytes()) }
+}
+
+fn simulation_s(summary: &Summary) -> Option<f64> {
+    let name = StageKind::Simulation.name();
+    summary.stages.iter().find(|stage| stage.name == name).map(|stage| stage.wall_s)
+}

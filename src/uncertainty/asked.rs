@@ -1,0 +1,119 @@
+//! Question of a study, the same on the command line and in Python, and its errors.
+
+use super::design::{self, CorrelationError, MOST_FACTORS, MOST_SAMPLES};
+use super::distribution::{self, UncertainError};
+use super::life::LimitError;
+use super::study::{SampledQuestion, UncertaintyStudyError};
+use crate::evaluate::output::{OutputError, SummaryOutput};
+use crate::scene::draft::Draft;
+use crate::scene::loaded::{LoadedScene, SceneError};
+use crate::varied_scene::{linked_keys, missing_phase};
+use gearwear_physics::results::figures;
+
+/// Question of a study of uncertainty.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UncertaintyQuestion {
+    /// Uncertain keys: `KEY=DISTRIBUTION` (docs/sweep.md).
+    pub uncertain: Vec<String>,
+    /// Correlations of their normal scores: `KEY:KEY=R`.
+    pub correlation: Vec<String>,
+    /// Figures to keep, as paths in `summary.json`; empty: the greatest wear and tip-edge wear of both gears and the transmission error, worn.
+    pub outputs: Vec<String>,
+    /// Limits of the wear depth that end the life: `FIGURE=VALUE`.
+    pub limits: Vec<String>,
+    /// Points of the Sobol sequence, best a power of two; each takes two runs and one more for every uncertain key.
+    pub samples: usize,
+    /// Seed of the scrambling of the sequence.
+    pub seed: u32,
+}
+
+impl UncertaintyQuestion {
+    /// Notes on figures that are asked for by the name that they had in the version before.
+    pub fn notes(&self) -> Vec<String> {
+        let of_limits = self.limits.iter().map(|limit| limit.split('=').next().unwrap_or_default());
+        figures::notes(self.outputs.iter().map(String::as_str).chain(of_limits).map(str::trim))
+    }
+}
+
+/// Error of a study of uncertainty.
+#[derive(Debug, thiserror::Error)]
+#[error(transparent)]
+pub struct UncertaintyError(#[from] pub UncertaintyFault);
+
+#[derive(Debug, thiserror::Error)]
+pub enum UncertaintyFault {
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error(transparent)]
+    Uncertain(#[from] UncertainError),
+    #[error(transparent)]
+    Correlation(#[from] CorrelationError),
+    #[error(transparent)]
+    Limit(#[from] LimitError),
+    #[error("unknown output {}; allowed: the path of a number in summary.json, such as pinion.peak_wear_um{}", .0.output, .0.nearest.as_ref().map_or_else(String::new, |nearest| format!("; did you mean {nearest}?")))]
+    Output(OutputError),
+    #[error("found {found} keys; allowed: 1 to {}", MOST_FACTORS - 1)]
+    Count { found: usize },
+    #[error("found {found} samples; allowed: a whole number from 2 to {MOST_SAMPLES}")]
+    Samples { found: usize },
+    #[error(transparent)]
+    Study(#[from] UncertaintyStudyError),
+}
+
+impl From<OutputError> for UncertaintyFault {
+    fn from(error: OutputError) -> Self {
+        Self::Output(error)
+    }
+}
+
+impl UncertaintyError {
+    /// Fault of the scene itself, if that is the reason.
+    pub fn in_the_scene(&self) -> Option<&SceneError> {
+        if let UncertaintyFault::Scene(error) = &self.0 { Some(error) } else { None }
+    }
+
+    /// Whether the question was sound and the runs failed.
+    pub fn is_of_the_runs(&self) -> bool {
+        matches!(self.0, UncertaintyFault::Study(_))
+    }
+}
+
+impl SampledQuestion {
+    /// Question `asked`, resolved for `scene`.
+    pub fn of(scene: &LoadedScene, asked: &UncertaintyQuestion) -> Result<Self, UncertaintyFault> {
+        let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
+        let resolved: toml::Table = scene.to_toml().parse().unwrap_or_default();
+        let given = asked.uncertain.iter().map(String::as_str);
+        let uncertain = distribution::parse_all(given, |key| number_at(&resolved, key))?;
+        if let Some(key) = missing_phase(uncertain.iter().flat_map(|one| linked_keys(&one.key)), &draft) {
+            return Err(UncertainError::NoPhase { key }.into());
+        }
+        // The error of the model takes one more.
+        if !(1..MOST_FACTORS).contains(&uncertain.len()) {
+            return Err(UncertaintyFault::Count { found: uncertain.len() });
+        }
+        if !(2..=MOST_SAMPLES).contains(&asked.samples) {
+            return Err(UncertaintyFault::Samples { found: asked.samples });
+        }
+        let keys: Vec<&str> = uncertain.iter().map(|one| one.key.as_str()).collect();
+        let correlation = design::correlation(&keys, &asked.correlation)?;
+        let limits = asked.limits.iter().map(|text| text.parse()).collect::<Result<_, LimitError>>()?;
+        let outputs: Vec<&str> = match asked.outputs.as_slice() {
+            [] => figures::default_outputs().iter().map(|figure| &*figure.name).collect(),
+            given => given.iter().map(|path| path.trim()).collect(),
+        };
+        let outputs = outputs.into_iter().map(SummaryOutput::find).collect::<Result<_, _>>()?;
+        Ok(Self { uncertain, correlation, outputs, limits, samples: asked.samples, seed: asked.seed })
+    }
+}
+
+/// The number at the path `key` of a table; items of lists are numbered from 1.
+fn number_at(table: &toml::Table, key: &str) -> Option<f64> {
+    let mut parts = key.split('.');
+    let first = table.get(parts.next()?)?;
+    let value = parts.try_fold(first, |value, part| match value.as_array() {
+        Some(list) => list.get(part.parse::<usize>().ok()?.checked_sub(1)?),
+        None => value.get(part),
+    })?;
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+}

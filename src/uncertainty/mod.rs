@@ -1,0 +1,22 @@
+//! Uncertainty: what a run's figures are worth where some of its keys are known only as distributions.
+//!
+//! The scene is run for samples of its uncertain keys. Quantiles give the scatter of the figures, Sobol indices the contribution of each key to it.
+//! The error of the fast model, as found by finite elements on the scene as given, is one more uncertain factor.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`asked`] | a study as it is asked for, checked |
+//! | [`distribution`] | an uncertain key as the user writes it |
+//! | [`design`] | samples from a Sobol sequence, correlations |
+//! | [`study`] | runs them on all threads |
+//! | [`life`] | when wear comes to a limit |
+//!
+//! Quantiles and Sobol indices of any values are in [`crate::reference`].
+
+pub mod asked;
+pub mod design;
+pub mod distribution;
+pub mod life;
+pub mod record;
+pub mod report;
+pub mod study;

@@ -1,0 +1,147 @@
+//! The plots of a study of uncertainty: distributions, indices, wear over both flanks.
+
+use crate::report::chart::{BarPlaces, Bars, Chart, Dash, Drawn, INK, Trace, gear_colour, padded};
+use crate::report::html::number::{figure, percent};
+use crate::uncertainty::record::{FactorIndices, OutputRecord, UncertaintyRecord};
+use gearwear_physics::gear::Gear;
+use gearwear_physics::reference::sobol_indices::Index;
+use gearwear_physics::reference::statistics::extent;
+
+/// Number of bars of a distribution.
+const BARS: usize = 30;
+
+pub(super) fn all(record: &UncertaintyRecord) -> Vec<Chart> {
+    let bands = Gear::BOTH.into_iter().filter_map(|gear| band(record, gear));
+    let outputs = record.outputs.iter().enumerate();
+    let distributions = outputs.clone().filter_map(|(number, output)| distribution(number, output));
+    let indices = outputs.filter_map(|(number, output)| indices(number, output));
+    indices.chain(distributions).chain(bands).collect()
+}
+
+/// Title of the axis; the limit of a life stands in the title of the plot.
+fn with_unit(output: &OutputRecord) -> String {
+    let name = if output.censored.is_some() { "life" } else { &output.meaning };
+    if output.unit.is_empty() { name.to_owned() } else { format!("{name}, {}", output.unit) }
+}
+
+/// Histogram of the samples as parts of all.
+fn distribution(number: usize, output: &OutputRecord) -> Option<Chart> {
+    let finite: Vec<f64> = output.sorted.iter().copied().filter(|value| value.is_finite()).collect();
+    let (low, high) = (*finite.first()?, *finite.last()?);
+    if high <= low {
+        return None;
+    }
+    let width = (high - low) / BARS as f64;
+    let mut counts = [0_usize; BARS];
+    finite.iter().for_each(|value| counts[(((value - low) / width) as usize).min(BARS - 1)] += 1);
+    let middles: Vec<f64> = (0..BARS).map(|bar| low + (bar as f64 + 0.5) * width).collect();
+    let parts: Vec<f64> = counts.iter().map(|&count| 100.0 * count as f64 / output.sorted.len() as f64).collect();
+    let bars = Trace::bars("samples", BarPlaces::At { middles, width }, parts, "var(--pinion)")
+        .hover("%{x:.4~g}: %{y:.2f} %<extra></extra>")
+        .unlisted();
+    let [p05, _, p50, _, p95] = output.quantiles.all();
+    let marks = [("5 %", p05), ("50 %", p50), ("95 %", p95)];
+    let marks = marks.into_iter().filter_map(|(name, value)| Some((name, value?)));
+    let unit = &output.unit;
+    let reading = match (p05, p95) {
+        (Some(p05), Some(p95)) => {
+            format!("Nine in ten samples lie between {} and {} {unit}.", figure(p05), figure(p95))
+        }
+        _ => format!(
+            "{} of the samples do not come to the limit within their duration and are not shown.",
+            percent(output.censored.unwrap_or(0.0))
+        ),
+    };
+    Some(
+        Chart::new(format!("distribution-{number}"), &output.meaning)
+            .read_nearest()
+            .legend(false)
+            .height(320)
+            .x(&with_unit(output))
+            .y("part of the samples, %")
+            .add(bars)
+            .mark(marks, "50 %")
+            .reading(reading),
+    )
+}
+
+/// Share of the variance that each factor explains, with intervals.
+fn indices(number: usize, output: &OutputRecord) -> Option<Chart> {
+    let indices = output.indices.as_ref()?;
+    let most = indices.iter().max_by(|a, b| a.total.value.total_cmp(&b.total.value))?;
+    Some(
+        Chart::new(format!("indices-{number}"), format!("Sobol indices: {}", output.meaning))
+            .read_nearest()
+            .height(150 + 56 * indices.len())
+            .x("part of the variance")
+            .y("")
+            .add(bars(indices, "total", "var(--wheel)", |one| one.total))
+            .add(bars(indices, "first order", "var(--pinion)", |one| one.first))
+            .reading(format!(
+                "{} matters most: without knowing it, {} of the variance stays; alone it explains {}. Lines: 95 % intervals.",
+                most.factor,
+                percent(most.total.value.clamp(0.0, 1.0)),
+                percent(most.first.value.clamp(0.0, 1.0)),
+            )),
+    )
+}
+
+/// Bars of one kind of index with their intervals, the first factor at the top.
+fn bars(indices: &[FactorIndices], name: &str, colour: &str, of: fn(&FactorIndices) -> Index) -> Trace {
+    let factors: Vec<String> = indices.iter().rev().map(|one| wrapped(&one.factor)).collect();
+    let shown: Vec<Index> = indices.iter().rev().map(of).collect();
+    let above: Vec<f64> = shown.iter().map(|index| index.high - index.value).collect();
+    let below: Vec<f64> = shown.iter().map(|index| index.value - index.low).collect();
+    let bars = Bars {
+        places: BarPlaces::Named(factors),
+        length: shown.iter().map(|index| index.value).collect(),
+        colour: colour.to_owned(),
+        is_horizontal: true,
+        interval: Some([below, above]),
+    };
+    Trace::new(Drawn::Bars(bars), name).hover("%{x:.3f}")
+}
+
+/// Key with a line break after each part, to keep the plot wide.
+fn wrapped(key: &str) -> String {
+    key.rsplit_once('.').map_or_else(|| key.to_owned(), |(tables, name)| format!("{tables}.\n{name}"))
+}
+
+/// Outline of the area between two curves.
+fn area(name: &str, radius: &[f64], [below, above]: [&Vec<f64>; 2]) -> Trace {
+    let x = radius.iter().chain(radius.iter().rev()).copied();
+    let y = below.iter().chain(above.iter().rev()).copied();
+    Trace::line(name, x, y, ("rgba(0,0,0,0)", 0.0, Dash::Solid))
+}
+
+/// Quantiles of wear over a flank.
+fn band(record: &UncertaintyRecord, gear: Gear) -> Option<Chart> {
+    let band = &record.bands[gear];
+    let [p05, p25, p50, p75, p95] = &band.quantiles_um;
+    let deepest = p95.iter().copied().fold(0.0, f64::max);
+    if deepest <= 0.0 {
+        return None;
+    }
+    let radius = &band.radius_mm;
+    let [low, high] = extent(radius.iter().copied());
+    let [x, median, nominal] = [radius, p50, &band.nominal_um].map(|values| values.iter().copied());
+    Some(
+        Chart::new(format!("band-{}", gear.name()), format!("Wear over the flank of the {}", gear.name()))
+            .wide()
+            .height(420)
+            .x(&format!("radius on the {}, mm", gear.name()))
+            .x_range(padded(low, high))
+            .x_format(".3f")
+            .y("wear depth, µm")
+            .y_down_to(deepest)
+            .add(area("5 to 95 %", radius, [p05, p95]).filled(gear_colour(gear)).opacity(0.16))
+            .add(area("25 to 75 %", radius, [p25, p75]).filled(gear_colour(gear)).opacity(0.28))
+            .line("median", x.clone(), median, (gear_colour(gear), 2.2, Dash::Solid), "%{y:.3f} µm")
+            .line("scene as given", x, nominal, (INK, 1.4, Dash::Dashed), "%{y:.3f} µm")
+            .reading(format!(
+                "Quantiles of the samples at each radius, maximum over the face width; at the deepest place 95 % of them have worn less than {} µm. The error \
+                 of the fast model is not in them.",
+                figure(deepest)
+            )),
+    )
+}

@@ -1,0 +1,162 @@
+//! `report.html` of a study of uncertainty.
+
+use maud::{Markup, html};
+
+use super::{LAST, SAMPLES, SCENE, figures};
+use crate::report::html::number::{count, figure, fixed, percent, significant};
+use crate::report::html::page::{Page, Plots, note, section, sources_list};
+use crate::report::html::table::{Cell, NONE, cells, line, list};
+use crate::uncertainty::record::UncertaintyRecord;
+use gearwear_physics::reference::sobol_indices::Index;
+
+const DATA_FILES: &[(&str, &str)] = &[
+    (SAMPLES, "one row per run: values of the keys, figures, errors"),
+    (LAST, "distributions, quantiles, indices, bands"),
+    (SCENE, "the scene as given"),
+];
+
+pub(super) fn page(record: &UncertaintyRecord) -> String {
+    let plots = Plots::default();
+    let charts = figures::all(record);
+    let interruption = (record.samples < record.samples_asked).then(|| {
+        format!(
+            "It was interrupted after {} of {} points.",
+            count(record.samples as u64),
+            count(record.samples_asked as u64)
+        )
+    });
+    let warnings: Vec<String> = record
+        .first_failure
+        .iter()
+        .map(|first| {
+            let (failed, runs) = (count(record.failed as u64), count(record.runs as u64));
+            format!("{failed} of {runs} runs failed and are in none of the figures; the first: {first}")
+        })
+        .collect();
+    Page {
+        kind: "Uncertainty",
+        title: &record.title,
+        byline: "",
+        answer: &answer(record),
+        interruption: interruption.as_deref(),
+        warnings: &warnings,
+        main: html! {
+            (section("uncertain", "What is uncertain", uncertain(record)))
+            (section("figures", "Main figures", quantiles(record)))
+            (section("indices", "Sobol indices", indices(record)))
+            @if !charts.is_empty() { (section("plots", "Plots", plots.show(&charts))) }
+            (section("work", "How it was computed", work(record)))
+            (section("sources", "Data and scene", sources_list(DATA_FILES, "The scene as given", &record.scene_toml)))
+        },
+        plots,
+        footer: &format!("gearwear {} · scene {}", record.program_version, record.scene_hash),
+    }
+    .html()
+}
+
+fn answer(record: &UncertaintyRecord) -> String {
+    let ranges = record.outputs.iter().take(2).filter_map(|output| {
+        let (p05, p95) = (output.quantiles.p05?, output.quantiles.p95?);
+        (p95 > p05).then(|| format!("{}: {} to {} {}", output.meaning, figure(p05), figure(p95), output.unit))
+    });
+    let ranges: Vec<String> = ranges.collect();
+    let most = record.outputs.iter().find_map(|output| {
+        let most = output.indices.as_ref()?.iter().max_by(|a, b| a.total.value.total_cmp(&b.total.value))?;
+        Some(format!(" Most of the scatter of the first comes from {}.", most.factor))
+    });
+    let quantiles = match ranges.as_slice() {
+        [] => "No figure has quantiles.".to_owned(),
+        _ => format!("{} (nine of ten samples).", ranges.join("; ")),
+    };
+    format!("{quantiles}{}", most.unwrap_or_default())
+}
+
+fn uncertain(record: &UncertaintyRecord) -> Markup {
+    let rows = record.uncertain.iter().map(|one| line(cells![one.key.as_str(), one.given.as_str()]));
+    html! {
+        (list("Uncertain keys", ["key", "distribution"], rows))
+        @if let Some(matrix) = &record.correlation {
+            (list(
+                "Correlation of their normal scores",
+                [""].into_iter().chain(record.uncertain.iter().map(|one| one.key.as_str())),
+                record.uncertain.iter().zip(matrix).map(|(one, row)| {
+                    line([Cell::from(one.key.as_str())].into_iter().chain(row.iter().map(|r| Cell::from(significant(*r, 3)))))
+                }),
+            ))
+        }
+        (note(&format!("Error of the fast model: {}.", record.model_error_how.trim_end_matches('.'))))
+    }
+}
+
+fn quantiles(record: &UncertaintyRecord) -> Markup {
+    let rows = record.outputs.iter().map(|output| {
+        let [p05, p25, p50, p75, p95] = output.quantiles.all();
+        let [model_error, longer] =
+            [output.model_error, output.censored].map(|share| share.map_or_else(|| NONE.to_owned(), percent));
+        line(cells![
+            output.meaning.as_str(),
+            output.nominal,
+            p05,
+            p25,
+            p50,
+            p75,
+            p95,
+            output.mean,
+            output.standard_deviation,
+            model_error,
+            longer,
+            output.unit.as_str(),
+        ])
+    });
+    let columns =
+        ["", "as given", "5 %", "25 %", "50 %", "75 %", "95 %", "mean", "st. dev.", "model error ±", "longer", "unit"];
+    html! {
+        (list("Quantiles", columns, rows))
+        (note(
+            "A quantile of 95 % is the value that 95 % of the samples stay below. Longer: part of the samples whose life is longer than their \
+             duration; a quantile among these is not known. Model error: the relative difference to finite elements on the scene as given, within \
+             which the samples vary it uniformly."
+        ))
+    }
+}
+
+fn with_interval(index: &Index) -> String {
+    let [value, low, high] = [index.value, index.low, index.high].map(|share| fixed(share, 3));
+    format!("{value} ({low} to {high})")
+}
+
+fn indices(record: &UncertaintyRecord) -> Markup {
+    let rows = record.outputs.iter().flat_map(|output| match (&output.indices, &output.no_indices_because) {
+        (Some(indices), _) => indices
+            .iter()
+            .map(|one| {
+                let [first, total] = [&one.first, &one.total].map(with_interval);
+                line(cells![output.meaning.as_str(), one.factor.as_str(), first, total])
+            })
+            .collect(),
+        (None, because) => {
+            let because = because.as_deref().unwrap_or_default();
+            vec![line([output.meaning.as_str().into(), Cell::sentence(because), NONE.into(), NONE.into()])]
+        }
+    });
+    html! {
+        (list("Indices with 95 % intervals", ["figure", "factor", "first order", "total"], rows))
+        (note(
+            "First order: the part of the variance that would go if this factor alone were known. Total: the part that would stay if all others \
+             were known, so its interactions count too; a factor with a total near 0 may be fixed without loss. First orders that add up to less \
+             than 1 leave the rest to interactions."
+        ))
+    }
+}
+
+fn work(record: &UncertaintyRecord) -> Markup {
+    html! {
+        p {
+            (count(record.samples as u64)) " points of a scrambled Sobol sequence (seed " (record.seed) ") took " (count(record.runs as u64))
+            " runs of the scene in " (significant(record.wall_s, 3)) " s on "
+            (if record.threads == 1 { "one thread".to_owned() } else { format!("{} threads", record.threads) })
+            ". Verification, error estimates and snapshots were left out of the samples; the scene as given was run and verified once, unless it \
+             turns verification off. Quantiles are those of two independent samples a point."
+        }
+    }
+}

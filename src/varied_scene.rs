@@ -1,0 +1,107 @@
+//! A scene whose values are changed and which is resolved again for each of many runs.
+//!
+//! The text is read once. Defaults are chosen again each time; the named files and the condensed teeth in three dimensions are shared.
+
+use crate::scene::draft::Draft;
+use crate::scene::loaded::LoadedScene;
+use crate::scene::{Problem, Resolved};
+use gearwear_physics::assessment::{Done, RunError};
+use gearwear_physics::gear::spec::PairSpec;
+use gearwear_physics::observer::Observer;
+
+/// Paths of a key with alternatives: `a.b.d` and `a.c.d` for `a.{b,c}.d`.
+pub fn linked_keys(key: &str) -> Vec<String> {
+    let Some((before, rest)) = key.split_once('{') else { return vec![key.to_owned()] };
+    let Some((alternatives, after)) = rest.split_once('}') else { return vec![key.to_owned()] };
+    alternatives.split(',').flat_map(|name| linked_keys(&format!("{before}{}{after}", name.trim()))).collect()
+}
+
+/// The first of `keys` that names a phase of the operation which `scene` does not have.
+pub fn missing_phase(keys: impl IntoIterator<Item = String>, scene: &Draft) -> Option<String> {
+    keys.into_iter().find(|key| {
+        let number = key.strip_prefix("operation.phases.").and_then(|rest| rest.split('.').next());
+        number.is_some_and(|number| !scene.gives(&format!("operation.phases.{number}")))
+    })
+}
+
+#[derive(Debug, Clone)]
+pub struct VariedScene {
+    /// The scene without what is left out of its runs.
+    draft: Draft,
+    /// The scene as given, with the files it names.
+    given: LoadedScene,
+}
+
+impl VariedScene {
+    /// Scene of runs of which only the end is kept, from `given` without snapshots.
+    pub fn new(given: &LoadedScene, error_estimate: bool) -> Result<Self, Vec<Problem>> {
+        let mut draft = Draft::parse(&given.given.text)?;
+        draft.remove("operation.snapshots_h");
+        draft.remove("operation.snapshots_revolutions");
+        draft.set("numerics.error_estimate", error_estimate);
+        Ok(Self { draft, given: given.clone() })
+    }
+
+    /// The text of the scene, as given.
+    pub fn given_text(&self) -> &str {
+        &self.given.given.text
+    }
+
+    /// Scene with these values, not verified; a key with alternatives sets all of them.
+    pub fn resolved<'a>(
+        &self,
+        values: impl IntoIterator<Item = (&'a str, toml::Value)>,
+    ) -> Result<Resolved, Vec<Problem>> {
+        let mut draft = self.draft.clone();
+        for (key, value) in values {
+            linked_keys(key).iter().for_each(|key| draft.set(key, value.clone()));
+        }
+        let mut resolved = draft.resolve()?;
+        resolved.scene.verify = false;
+        let operation = &mut resolved.scene.operation;
+        operation.snapshots_revolutions = vec![operation.pinion_revolutions];
+        Ok(resolved)
+    }
+
+    /// Whether the files that the scene names were made for the pair of `resolved`.
+    pub fn inputs_belong_to(&self, resolved: &Resolved) -> Result<(), String> {
+        let differences = self.given.files.foreign_to(resolved);
+        if !differences.is_empty() {
+            return Err(format!("contact.calibration belongs to another pair: {}", differences.join("; ")));
+        }
+        if self.given.files.stiffness_curve.is_none() {
+            return Ok(());
+        }
+        let pair = self.given.resolved.scene.pair.on_rigid_parallel_shafts();
+        let same_section =
+            |own: &PairSpec| PairSpec { face_width_mm: pair.face_width_mm, ..own.on_rigid_parallel_shafts() } == pair;
+        match same_section(&resolved.scene.pair) {
+            true => Ok(()),
+            false => Err("stiffness.curve belongs to the pair of the scene as given".to_owned()),
+        }
+    }
+
+    /// Runs `resolved` with `run`; any error, a panic included, is returned as text.
+    pub fn carry_out<R>(
+        &self,
+        resolved: Resolved,
+        observer: &dyn Observer,
+        run: impl FnOnce(&LoadedScene, &dyn Observer) -> Result<Done<R>, RunError>,
+    ) -> Result<R, String> {
+        let scene = self.given.variant(resolved).map_err(|problem| problem.to_string())?;
+        match run(&scene, observer) {
+            Ok(Done { failure: Some(failure), .. }) => Err(failure.to_string()),
+            Ok(Done { record, failure: None }) => Ok(record),
+            Err(failure) => Err(failure.to_string()),
+        }
+    }
+}
+
+/// All of `problems` on one line.
+pub fn in_words(problems: &[Problem]) -> String {
+    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}
+
+pub fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
