@@ -95,16 +95,26 @@
 // Tests and examples name the library alike.
 extern crate self as gearwear;
 
+#[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod evaluate;
+#[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod exchange;
+#[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod fem_problem;
+#[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod report;
+#[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod resume;
 pub mod runs;
+#[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod scene;
+#[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod spread;
+#[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod sweep;
+#[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod uncertainty;
+#[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod varied_scene;
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use super::unit;
 use gearwear_physics::results::figures;
 use gearwear_physics::results::run::{ReportedBy, Summary};
 
-pub const WORKBOOK: &str = "results.xlsx";
+pub(crate) const WORKBOOK: &str = "results.xlsx";
 
 /// Rows that a sheet can hold.
 const MOST_ROWS: usize = 1_048_576;

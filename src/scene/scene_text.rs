@@ -115,6 +115,6 @@ impl SceneText {
 }
 
 /// Folder of the files named in the scene at `path`.
-pub fn folder_of(path: &Path) -> &Path {
+pub(crate) fn folder_of(path: &Path) -> &Path {
     if path == Path::new("-") { Path::new("") } else { path.parent().unwrap_or(Path::new("")) }
 }

@@ -1,98 +1,70 @@
-//! The table of rooms in ARCHITECTURE.md against the imports of the source.
+//! The tables of rooms in ARCHITECTURE.md against the imports of the source.
 //!
-//! A room is a folder of `physics/src` or `src`, or a file there beside `lib.rs` and `main.rs`. Reading is line by line: comments and what follows
-//! `#[cfg(test)]` with `mod tests` are left out.
+//! A room is a folder of a crate's source, or a file there beside `lib.rs`; it uses only rooms that stand above it in the table of its crate. Which crate
+//! uses which, the compiler holds. Reading is line by line: comments and what follows `#[cfg(test)]` with `mod tests` are left out.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Where the rooms are, those of the first crate above those of the second.
+/// Sources that have a table of rooms, in the order of the tables.
 const SOURCES: [&str; 2] = ["physics/src", "src"];
-
-/// A row of the table.
-struct Room {
-    name: String,
-    /// Rooms, or modules of rooms, that it may use.
-    may_use: Vec<String>,
-    /// Whether it may use every room above it in the table.
-    all_above: bool,
-}
 
 /// An import of another room.
 struct Import {
-    /// Below the root of the repository.
-    file: String,
     line: usize,
+    /// Room of the file that imports.
     room: String,
-    /// From the root of the crate on.
-    path: String,
+    /// Room that is imported.
+    used: String,
 }
 
-/// Imports that the table does not allow, rooms that it lacks or that are gone, and known imports that are gone.
+/// Imports of rooms that do not stand above, rooms that the tables lack, and rooms in them that are gone.
 pub fn faults(architecture: &str, root: &Path) -> Vec<String> {
-    let table = table(architecture);
+    let tables = tables(architecture);
+    assert_eq!(tables.len(), SOURCES.len(), "ARCHITECTURE.md: a table of rooms for each of {SOURCES:?}");
+    SOURCES.iter().zip(&tables).flat_map(|(source, table)| faults_of(source, table, root)).collect()
+}
+
+fn faults_of(source: &str, table: &[String], root: &Path) -> Vec<String> {
     let mut faults = Vec::new();
-    let files: Vec<String> = SOURCES.iter().flat_map(|src| source_files(root, src)).collect();
+    let files = source_files(root, source);
     let names: BTreeSet<&str> = files.iter().filter_map(|file| room_of(file)).collect();
-    for name in &names {
-        if !table.iter().any(|room| room.name == *name) {
-            faults.push(format!("ARCHITECTURE.md: no room {name} in the table"));
-        }
-    }
-    for room in table.iter().filter(|room| !names.contains(room.name.as_str())) {
-        faults.push(format!("ARCHITECTURE.md: the room {} is in none of {SOURCES:?}", room.name));
-    }
+    let lacking = names.iter().filter(|name| !table.iter().any(|room| room == *name));
+    faults.extend(lacking.map(|name| format!("ARCHITECTURE.md: no room {name} in the table of {source}")));
+    let gone = table.iter().filter(|room| !names.contains(room.as_str()));
+    faults.extend(gone.map(|room| format!("ARCHITECTURE.md: there is no room {room} in {source}")));
     for file in &files {
         let text = fs::read_to_string(root.join(file)).expect("a source file can be read");
-        for import in imports(file, &text, &names) {
-            if !allowed(&table, &import) {
-                let Import { file, line, room, path } = import;
-                faults.push(format!("{file}:{line}: {room} may not use {path}"));
+        for Import { line, room, used } in imports(file, &text, &names) {
+            let place = |name: &str| table.iter().position(|room| room == name);
+            if place(&used) >= place(&room) {
+                faults.push(format!(
+                    "{file}:{line}: {room} uses {used}, which does not stand above it in ARCHITECTURE.md"
+                ));
             }
         }
     }
     faults
 }
 
-/// Entries of the table that name a room which does not stand above: without them the table is an order without circles.
-pub fn upward_entries(architecture: &str) -> Vec<String> {
-    let table = table(architecture);
-    let mut faults = Vec::new();
-    for (index, room) in table.iter().enumerate() {
-        for used in &room.may_use {
-            let name = used.split("::").next().unwrap_or(used);
-            if !table[..index].iter().any(|above| above.name == name) {
-                faults.push(format!("ARCHITECTURE.md: {} may use {used}, which does not stand above it", room.name));
+/// Rooms of each table whose head begins with "room", in their order.
+fn tables(architecture: &str) -> Vec<Vec<String>> {
+    let mut tables: Vec<Vec<String>> = Vec::new();
+    let mut inside = false;
+    for line in architecture.lines() {
+        match line.split('`').nth(1) {
+            _ if line.starts_with("| room |") => {
+                inside = true;
+                tables.push(Vec::new());
             }
+            Some(name) if inside && line.starts_with("| `") => {
+                tables.last_mut().expect("a table").push(name.to_owned())
+            }
+            _ => inside = inside && line.starts_with('|'),
         }
     }
-    faults
-}
-
-fn allowed(table: &[Room], import: &Import) -> bool {
-    let Some(index) = table.iter().position(|room| room.name == import.room) else { return false };
-    let under =
-        |used: &str| import.path.strip_prefix(used).is_some_and(|rest| rest.is_empty() || rest.starts_with("::"));
-    table[index].may_use.iter().any(|used| under(used))
-        || (table[index].all_above && table[..index].iter().any(|above| under(&above.name)))
-}
-
-/// The rows of the table whose head begins with "room": the first column names the room, the third what it may use.
-fn table(architecture: &str) -> Vec<Room> {
-    let rows = architecture.lines().skip_while(|line| !line.starts_with("| room |")).skip(2);
-    rows.take_while(|line| line.starts_with('|'))
-        .map(|line| {
-            let cells: Vec<&str> = line.trim_matches('|').split(" | ").collect();
-            let [name, .., may_use] = cells.as_slice() else { panic!("ARCHITECTURE.md: {line}") };
-            let words = |cell: &str| cell.split('`').skip(1).step_by(2).map(str::to_owned).collect::<Vec<String>>();
-            Room {
-                name: words(name).first().unwrap_or_else(|| panic!("ARCHITECTURE.md: no name in {line}")).clone(),
-                may_use: words(may_use),
-                all_above: may_use.contains("all above"),
-            }
-        })
-        .collect()
+    tables
 }
 
 /// All files below the folder `src` of `root`, in order, with `/` between folders.
@@ -151,9 +123,8 @@ fn imports(file: &str, text: &str, rooms: &BTreeSet<&str>) -> Vec<Import> {
                 let end = rest.find(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':')).unwrap_or(rest.len());
                 let path = rest[..end].trim_end_matches(':');
                 let first = path.split("::").next().unwrap_or(path);
-                if first != room && (rooms.contains(first) || first.is_empty()) {
-                    let (file, path) = (file.to_owned(), path.to_owned());
-                    found.push(Import { file, line: index + 1, room: room.to_owned(), path });
+                if first != room && rooms.contains(first) {
+                    found.push(Import { line: index + 1, room: room.to_owned(), used: first.to_owned() });
                 }
             }
         }

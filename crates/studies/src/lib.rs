@@ -1,6 +1,6 @@
 //! Questions to the library `gearwear` that take many runs: which model is accurate enough and cheapest ([`accuracy`]), which wear coefficients
 //! explain measured profiles ([`compare`]), finished runs side by side ([`variants`]).
-#![allow(missing_docs, reason = "read by those who work on it, whose names say what there is to say")]
+#![allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 
 pub mod accuracy;
 pub mod compare;

@@ -5,7 +5,7 @@
 //! under the names of its output files (and, of each flank, `snapshot_wear_um[row of the history]` and `path_point_radius_mm.A` to
 //! `.E`); [`judge`] holds quantities, which are expressions over those names ([`expression`]), against
 //! references and bounds; [`drawing`] evaluates plots. The result is a plain record that reports are written from.
-#![allow(missing_docs, reason = "read by those who work on it, whose names say what there is to say")]
+#![allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 
 pub mod against;
 pub mod case_file;

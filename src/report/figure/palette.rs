@@ -63,7 +63,7 @@ pub(super) fn in_light(text: &str) -> Rgba {
 }
 
 /// The colour at `share` of the scale of colours.
-pub fn of_scale(share: f64) -> [u8; 3] {
+pub(crate) fn of_scale(share: f64) -> [u8; 3] {
     let last = VIRIDIS.len() - 1;
     let place = share.clamp(0.0, 1.0) * last as f64;
     let below = (place as usize).min(last - 1);

@@ -11,7 +11,7 @@ use crate::report::chart::{Dash, Line};
 
 /// Where a drawing is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Medium {
+pub(crate) enum Medium {
     /// In the page, whose style sheet colours it and whose script moves it.
     Page,
     /// In a file of its own.

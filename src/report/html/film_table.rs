@@ -11,7 +11,7 @@ use gearwear_physics::results::lubrication::{
 };
 use gearwear_physics::results::run::Summary;
 
-pub fn tables(s: &Summary) -> Markup {
+pub(crate) fn tables(s: &Summary) -> Markup {
     let Some(of) = &s.lubrication else { return Markup::default() };
     html! {
         @if let Some(oil) = &of.oil { (self::oil(oil)) }

@@ -10,14 +10,14 @@ use crate::report::html::number::to_digits;
 use gearwear_physics::results::run::FlankRecord;
 
 /// Cells at most from root to tip, or along the path.
-pub const MOST_ALONG: usize = 200;
+pub(crate) const MOST_ALONG: usize = 200;
 /// Cells at most over the face width.
-pub const MOST_ACROSS: usize = 60;
+pub(crate) const MOST_ACROSS: usize = 60;
 /// Significant digits of a value in a picture.
 const DIGITS: usize = 4;
 
 /// One direction of a picture: its cells, and where each begins and ends.
-pub struct Cells {
+pub(crate) struct Cells {
     pub groups: Vec<Range<usize>>,
     /// Where the cells begin, and where the last ends.
     pub edges: Vec<f64>,
@@ -25,7 +25,7 @@ pub struct Cells {
 
 impl Cells {
     /// The ascending `places` in at most `most` (≥ 1) cells; each place reaches halfway to its neighbours.
-    pub fn new(places: &[f64], most: usize) -> Self {
+    pub(crate) fn new(places: &[f64], most: usize) -> Self {
         let count = places.len();
         let cells = count.min(most);
         let groups: Vec<_> = (0..cells).map(|cell| cell * count / cells..(cell + 1) * count / cells).collect();
@@ -55,13 +55,13 @@ impl Cells {
         cells
     }
 
-    pub fn middles(&self) -> Vec<f64> {
+    pub(crate) fn middles(&self) -> Vec<f64> {
         self.edges.windows(2).map(|edge| edge[0].midpoint(edge[1])).collect()
     }
 }
 
 /// A picture of something given slice by slice.
-pub struct SlicedRaster {
+pub(crate) struct SlicedRaster {
     /// From root to tip, or along the path.
     pub along: Cells,
     pub across: Cells,
@@ -69,7 +69,7 @@ pub struct SlicedRaster {
 
 impl SlicedRaster {
     /// Of the active part of `flank`.
-    pub fn of_flank(flank: &FlankRecord, face_width_mm: f64) -> Self {
+    pub(crate) fn of_flank(flank: &FlankRecord, face_width_mm: f64) -> Self {
         let first = ActiveFlank::of(flank).first.min(flank.radius_mm.len());
         let mut along = Cells::new(&flank.radius_mm[first..], MOST_ALONG);
         for group in &mut along.groups {
@@ -79,12 +79,12 @@ impl SlicedRaster {
     }
 
     /// Of `position_mm` along the path and the slices at `width_mm`.
-    pub fn of_path(position_mm: &[f64], width_mm: &[f64], face_width_mm: f64) -> Self {
+    pub(crate) fn of_path(position_mm: &[f64], width_mm: &[f64], face_width_mm: f64) -> Self {
         Self { along: Cells::new(position_mm, MOST_ALONG), across: Cells::over_width(width_mm, face_width_mm) }
     }
 
     /// The cells' values, `at` (along, slice): for each cell along, those over the face width.
-    pub fn rows(&self, at: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
+    pub(crate) fn rows(&self, at: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
         let cell = |along: &Range<usize>, across: &Range<usize>| {
             let all = along.clone().flat_map(|i| across.clone().map(move |slice| (i, slice)));
             to_digits(all.map(|(i, slice)| at(i, slice)).fold(f64::NEG_INFINITY, f64::max), DIGITS)
@@ -97,7 +97,7 @@ impl SlicedRaster {
     }
 
     /// The same for each cell over the face width: those along.
-    pub fn columns(&self, at: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
+    pub(crate) fn columns(&self, at: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
         let rows = self.rows(at);
         (0..self.across.groups.len()).map(|slice| rows.iter().map(|row| row[slice]).collect()).collect()
     }

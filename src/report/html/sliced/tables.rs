@@ -8,7 +8,7 @@ use gearwear_physics::gear::{Gear, PerGear};
 use gearwear_physics::results::run::{HelicalSummary, OverWidthSummary};
 
 /// Lines of contact, load over the face width, mesh orders, evenness of wear.
-pub fn tables(helical: &HelicalSummary) -> Markup {
+pub(crate) fn tables(helical: &HelicalSummary) -> Markup {
     html! { (slices(helical)) (mesh_cycle(helical)) (evenness(&helical.wear)) }
 }
 

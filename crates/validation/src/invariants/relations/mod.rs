@@ -11,7 +11,7 @@ mod time;
 use super::relation::SceneRelation;
 
 /// All relations, in the order in which they are reported.
-pub fn all() -> Vec<SceneRelation> {
+pub(crate) fn all() -> Vec<SceneRelation> {
     [
         exchange::RELATIONS,
         similarity::RELATIONS,
