@@ -1,7 +1,7 @@
 //! Sweeps: the scene's run for all combinations of some varied keys.
 //!
 //! Each combination is a scene like any other: the user's file with some values exchanged, resolved anew. It is carried
-//! out by [`crate::pipeline`] on one thread, and leaves one row of figures. Rows are kept in a journal as they are finished,
+//! out by [`gearwear_physics::assessment`] on one thread, and leaves one row of figures. Rows are kept in a journal as they are finished,
 //! so that a sweep which was stopped goes on where it was; parts of a sweep that ran elsewhere are merged from their
 //! journals.
 //!

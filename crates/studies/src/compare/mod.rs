@@ -3,7 +3,7 @@
 //! One profile, or one of the pinion and one of the wheel. The form is removed from a measured profile and from the simulated one alike
 //! ([`crate::measurement::form`]), the profile is shifted along the flank to where it fits best, and what is asked for, the wear
 //! coefficient or that of each gear, the severe factor, is fitted by least squares to all profiles at once. Runs are carried out by
-//! [`crate::pipeline`].
+//! [`gearwear_physics::assessment`].
 //!
 //! | module | what it does |
 //! |---|---|
