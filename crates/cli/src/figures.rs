@@ -187,7 +187,7 @@ fn main_row(name: &str, values: [&str; 2]) -> String {
 
 /// Line of other commands' tables: a shorter name and two values.
 pub(super) fn row(name: &str, values: [&str; 2]) -> String {
-    format!("{}\n", format!("  {name:NAME$}{:>12}{:>12}", values[0], values[1]).trim_end())
+    format!("  {name:38}{:>12}{:>12}\n", values[0], values[1])
 }
 
 /// A figure with four significant digits, or all digits of a large whole one.
