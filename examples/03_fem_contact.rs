@@ -5,8 +5,8 @@
 use std::path::Path;
 
 use gearwear::{LoadedScene, Unwatched};
-use gearwear_physics::material::{Elastic, contact_modulus_mpa};
-use gearwear_physics::reference::hertz_line::HertzLine;
+use gearwear_bodies::material::{Elastic, contact_modulus_mpa};
+use gearwear_bodies::reference::hertz_line::HertzLine;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A steel cylinder of radius 50 mm on an aluminium block under 35 kN per mm: half of it is meshed.

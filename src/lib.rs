@@ -124,6 +124,8 @@ mod inside;
 
 pub use evaluate::{EvaluateError, Evaluation, evaluate};
 pub use fem_problem::FemProblemError;
+pub use gearwear_bodies::gear::{Gear, PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
+pub use gearwear_bodies::{material, reference};
 pub use gearwear_mesh as mesh;
 pub use gearwear_physics::assessment::calibrate::{CalibrateError, Calibrated};
 pub use gearwear_physics::assessment::fem_scene::FemPairError;
@@ -131,11 +133,10 @@ pub use gearwear_physics::assessment::pair_mesh::PairMeshError;
 pub use gearwear_physics::assessment::{Done, RunError};
 pub use gearwear_physics::calibration::Calibration;
 pub use gearwear_physics::contact::settings::MatchCriterion;
-pub use gearwear_physics::gear::{Gear, PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
 pub use gearwear_physics::observer::{Observer, Unwatched};
 pub use gearwear_physics::plan::Plan;
+pub use gearwear_physics::results;
 pub use gearwear_physics::results::run::RunRecord;
-pub use gearwear_physics::{material, reference, results};
 pub use report::columns;
 pub use report::figure::Figure;
 pub use report::files::ReportError;
@@ -157,6 +158,8 @@ pub use uncertainty::{
 
 /// What the errors of the calls are made of.
 pub mod error {
+    pub use gearwear_bodies::gear::error::PairError;
+    pub use gearwear_bodies::gear_fem::{cycle::CycleError, full::FullError, in_space::SpaceError, model::ModelError};
     pub use gearwear_fem::active_set::ActiveSetError;
     pub use gearwear_fem::element::ElementError;
     pub use gearwear_fem::equilibrium::SolveError;
@@ -164,8 +167,6 @@ pub mod error {
     pub use gearwear_fem::space::FoldedHexahedron;
     pub use gearwear_physics::calibration::CalibrationError;
     pub use gearwear_physics::calibration::file::CalibrationFileError;
-    pub use gearwear_physics::gear::error::PairError;
-    pub use gearwear_physics::gear_fem::{cycle::CycleError, full::FullError, in_space::SpaceError, model::ModelError};
     pub use gearwear_physics::mesh_cycle::load_sharing::EquilibriumError;
     pub use gearwear_physics::mesh_cycle::pair_in_space::PairInSpaceError;
     pub use gearwear_physics::simulation::wear_run::SimulationError;

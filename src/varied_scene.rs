@@ -5,8 +5,8 @@
 use crate::scene::draft::Draft;
 use crate::scene::loaded::LoadedScene;
 use crate::scene::{Problem, Resolved};
+use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_physics::assessment::{Done, RunError};
-use gearwear_physics::gear::spec::PairSpec;
 use gearwear_physics::observer::Observer;
 
 /// Paths of a key with alternatives: `a.b.d` and `a.c.d` for `a.{b,c}.d`.

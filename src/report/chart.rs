@@ -9,7 +9,7 @@ use super::control::Control;
 pub use super::trace::{
     BarPlaces, Bars, ColourScale, Curve, Dash, Drawn, Field, Line, Rows, Shown, Signs, Surface, Trace, View,
 };
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::PathPoints;
 
 pub const NEW: &str = "var(--new)";

@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use super::fem_pair::pressure_table;
 use super::{csv_table, slice_table, tables, unit};
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::fem_pair::FemPairRecord;
 use gearwear_physics::results::run::RunRecord;
 

@@ -1,7 +1,7 @@
 //! `flank.vtu`: the working flanks of one tooth pair in space, where they touch at the pitch point in the middle of the face
 //! width; for ParaView. `flank.pvd`, where asked for: the same at the beginning and at every snapshot.
 //!
-//! Points lie on the nominal flanks ([`gearwear_physics::gear::flank_surface`]), from the root form circle to the tip circle and from one
+//! Points lie on the nominal flanks ([`gearwear_bodies::gear::flank_surface`]), from the root form circle to the tip circle and from one
 //! end face to the other: at the middle of every slice, and at both end faces with the values of the slice next to them. Wear
 //! and modifications are data; along `transverse_normal` they make the worn flank (ParaView: Warp By Vector, or Calculator and
 //! Warp By Scalar with a factor).
@@ -12,8 +12,8 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 
 use super::vtu_file;
+use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_mesh::{CellBlock, CellKind, DataArray, Mesh, Values};
-use gearwear_physics::gear::{Gear, PerGear};
 use gearwear_physics::results::run::{FlankRecord, RunRecord};
 
 /// Names and values of what is told of the points of a flank, slice after slice.

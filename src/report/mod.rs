@@ -44,7 +44,7 @@ use serde::Serialize;
 use self::csv_table::{CsvFiles, Provenance, table};
 pub use self::files::{ReportError, create_folder, writable};
 use self::files::{place, remove, write_json};
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::RunRecord;
 
 /// Writes all files of `record` but the page and `summary.json` into `dir`, which is made if need be; returns their paths in the order

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::chart::{Chart, Dash, MUTED, PATH, Trace};
-use gearwear_physics::reference::hertz_line::LineContact;
+use gearwear_bodies::reference::hertz_line::LineContact;
 
 /// Points of Hertz's ellipse.
 const ELLIPSE_POINTS: usize = 200;

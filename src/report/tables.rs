@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::{FlankRecord, RunRecord};
 
 /// A point of a flank; rows run from the base circle to the tip circle, slice after slice.

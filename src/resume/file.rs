@@ -142,7 +142,7 @@ fn parse(bytes: &[u8]) -> Result<CheckpointFile, CheckpointError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gearwear_physics::gear::PerGear;
+    use gearwear_bodies::gear::PerGear;
     use gearwear_physics::mesh_cycle::Work;
     use gearwear_physics::simulation::advance::StepperState;
 

@@ -3,12 +3,12 @@
 
 use crate::scene::Problem;
 use crate::scene::loaded::{SceneError, SceneText};
+use gearwear_bodies::gear_fem::model::ModelError;
 use gearwear_physics::assessment::RunError;
 use gearwear_physics::assessment::calibrate::CalibrateError;
 use gearwear_physics::assessment::fem_scene::FemPairError;
 use gearwear_physics::assessment::pair_mesh::PairMeshError;
 use gearwear_physics::calibration::CalibrationError;
-use gearwear_physics::gear_fem::model::ModelError;
 
 /// A failure of a computation that may be the scene's fault.
 pub trait SceneFault {

@@ -5,7 +5,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use gearwear_physics::gear_mesh::settings::SectorSides;
+use gearwear_bodies::gear_mesh::settings::SectorSides;
 
 /// The gear bodies as finite elements.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]

@@ -14,10 +14,10 @@ use super::lubrication_file::{FrictionFile, LoadFactorsFile, LubricantFile};
 use super::material_presets::MaterialPreset;
 use super::presets;
 use super::wear_file::{GearWearFile, TemperatureFile, WearFile};
+use gearwear_bodies::gear::flank::PointSpacing;
+use gearwear_bodies::gear::modification::ReliefShape;
+use gearwear_bodies::gear::shaft::EndFace;
 use gearwear_physics::contact::settings::{MatchCriterion, SurfaceKind};
-use gearwear_physics::gear::flank::PointSpacing;
-use gearwear_physics::gear::modification::ReliefShape;
-use gearwear_physics::gear::shaft::EndFace;
 use gearwear_physics::mesh_cycle::settings::Coupling;
 
 /// A gear pair, its load and how its wear is to be computed.

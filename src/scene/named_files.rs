@@ -5,9 +5,9 @@ use std::path::Path;
 
 use super::scene_text::{LoadError, SceneText};
 use super::{Problem, Resolved};
+use gearwear_bodies::gear::GearPair;
 use gearwear_physics::calibration::{Calibration, identity::CalibrationIdentity};
 use gearwear_physics::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
-use gearwear_physics::gear::GearPair;
 use gearwear_physics::mesh_cycle::settings::Coupling;
 use gearwear_physics::operation::Scene;
 use gearwear_physics::stiffness::curve::PairCompliance;

@@ -4,11 +4,11 @@ use std::fmt;
 use std::ops::Range;
 
 use super::locate::Locator;
+use gearwear_bodies::gear::{Gear, PairError};
+use gearwear_bodies::gear_mesh::ToothMeshError;
 use gearwear_fem::SolveError;
 use gearwear_mesh::quality::QualityError;
 use gearwear_physics::calibration::CalibrationError;
-use gearwear_physics::gear::{Gear, PairError};
-use gearwear_physics::gear_mesh::ToothMeshError;
 use gearwear_physics::mesh_cycle::pair_in_space::PairInSpaceError;
 use gearwear_physics::stiffness::StiffnessError;
 

@@ -5,8 +5,8 @@ use serde::Serialize;
 use super::distribution::Uncertain;
 use super::life::DepthLimit;
 use crate::report::columns::Table;
-use gearwear_physics::gear::PerGear;
-use gearwear_physics::reference::sobol_indices::Index;
+use gearwear_bodies::gear::PerGear;
+use gearwear_bodies::reference::sobol_indices::Index;
 
 /// Name of the factor for the error of the fast model.
 pub const MODEL_ERROR: &str = "error of the fast model";

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Sources that have a table of rooms, in the order of the tables.
-const SOURCES: [&str; 2] = ["physics/src", "src"];
+const SOURCES: [&str; 3] = ["crates/bodies/src", "physics/src", "src"];
 
 /// An import of another room.
 struct Import {

@@ -2,10 +2,10 @@
 
 use gearwear::scene::Resolved;
 use gearwear::scene::presets;
-use gearwear_physics::gear::GearPair;
-use gearwear_physics::gear::backlash::{Backlash, TeethTooThin};
-use gearwear_physics::gear::involute::{inv, inverse_inv};
-use gearwear_physics::gear::spec::PairSpec;
+use gearwear_bodies::gear::GearPair;
+use gearwear_bodies::gear::backlash::{Backlash, TeethTooThin};
+use gearwear_bodies::gear::involute::{inv, inverse_inv};
+use gearwear_bodies::gear::spec::PairSpec;
 
 fn spec(preset: &str) -> PairSpec {
     Resolved::from_toml(presets::find(preset).unwrap().text).unwrap().scene.pair

@@ -4,6 +4,15 @@ use std::f64::consts::PI;
 use std::sync::OnceLock;
 
 use gearwear::scene::Resolved;
+use gearwear_bodies::gear::conjugate::ConjugateFlanks;
+use gearwear_bodies::gear::modification::{Relief, ReliefShape};
+use gearwear_bodies::gear::spec::PairSpec;
+use gearwear_bodies::gear::{
+    Gear, GearPair, PerGear,
+    flank::{FlankGrid, PointSpacing},
+};
+use gearwear_bodies::gear_fem::position::WarmStart;
+use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides};
 use gearwear_fem::locate::locate;
 use gearwear_physics::assessment::calibrate::{self, CalibrationExtent};
 use gearwear_physics::calibration::bodies::Setup;
@@ -17,15 +26,6 @@ use gearwear_physics::contact::settings::MatchCriterion;
 use gearwear_physics::contact::winkler::Winkler;
 use gearwear_physics::contact::winkler::WinklerFoundation;
 use gearwear_physics::contact::{ContactSurface, Flanks};
-use gearwear_physics::gear::conjugate::ConjugateFlanks;
-use gearwear_physics::gear::modification::{Relief, ReliefShape};
-use gearwear_physics::gear::spec::PairSpec;
-use gearwear_physics::gear::{
-    Gear, GearPair, PerGear,
-    flank::{FlankGrid, PointSpacing},
-};
-use gearwear_physics::gear_fem::position::WarmStart;
-use gearwear_physics::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides};
 use gearwear_physics::mesh_cycle::pair_in_space::KeptInSpace;
 use gearwear_physics::observer::Unwatched;
 use gearwear_physics::operation::Scene;

@@ -2,7 +2,7 @@
 
 use gearwear::scene::Resolved;
 use gearwear::scene::presets;
-use gearwear_physics::gear_mesh::settings::{Body, SectorSides};
+use gearwear_bodies::gear_mesh::settings::{Body, SectorSides};
 
 /// The fzg-c scene with a `[fem]` table.
 fn scene(fem: &str) -> String {

@@ -2,9 +2,7 @@
 //! modification of the same shape does.
 
 use gearwear::{LoadedScene, Unwatched};
-use gearwear_fem::elastic::Elastic;
-use gearwear_physics::contact::hertz;
-use gearwear_physics::gear::{
+use gearwear_bodies::gear::{
     Gear, GearPair, PerGear,
     flank::{FlankGrid, PointSpacing},
     modification::{Relief, ReliefShape},
@@ -12,9 +10,11 @@ use gearwear_physics::gear::{
     slices::Slices,
     spec::PairSpec,
 };
-use gearwear_physics::gear_fem::condensed_pair::CondensedPair;
-use gearwear_physics::gear_fem::position::WarmStart;
-use gearwear_physics::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
+use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
+use gearwear_bodies::gear_fem::position::WarmStart;
+use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
+use gearwear_fem::elastic::Elastic;
+use gearwear_physics::contact::hertz;
 use gearwear_physics::mesh_cycle::{CycleObservation, LostMaterial, MeshCycle, Work, condensed::CondensedCycle};
 use gearwear_physics::wear::{WearModel, settings::WearSettings};
 

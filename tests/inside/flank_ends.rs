@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use gearwear_physics::gear::{
+use gearwear_bodies::gear::{
     Gear, GearPair, PairError,
     flank_edge::PathEnd,
     involute::inv,
@@ -187,7 +187,7 @@ fn val_tips_are_never_longer_than_the_rack_makes_them() {
     let larger = pair(&spur(3.0, 114.3, 30.0, gear(19, 0.0, None), gear(57, 0.0, None)));
     assert_eq!(
         larger.teeth.map(|tooth| tooth.tip_radius_mm),
-        gearwear_physics::gear::PerGear { pinion: 31.5, wheel: 88.5 }
+        gearwear_bodies::gear::PerGear { pinion: 31.5, wheel: 88.5 }
     );
     assert_close("ε_α", larger.path.contact_ratio(), 1.562, 5e-4);
     // z 20/30, m_n 3.5, β 15°, x 0.1809/0.0891: d_a = d + 2 m_n (1 + x − 0.0…) of a = 91.5 mm is shortened; at 92 mm it is d + 2 m_n (1 + x).
@@ -262,7 +262,7 @@ proptest! {
         spec.gears.wheel.profile_shift = shifts[1];
         let room = std::f64::consts::FRAC_PI_4 - 1.25 * angle.to_radians().tan();
         spec.rack.fillet_radius_factor = (room / (1.0 / angle.to_radians().cos() - angle.to_radians().tan())).clamp(0.0, 0.38);
-        if let Ok(centre) = spec.centre_distance_with_mm(gearwear_physics::gear::backlash::Backlash::Normal(apart)) {
+        if let Ok(centre) = spec.centre_distance_with_mm(gearwear_bodies::gear::backlash::Backlash::Normal(apart)) {
             spec.centre_distance_mm = centre;
         }
         if let Ok(pair) = GearPair::new(&spec) {

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use gearwear::runs;
 use gearwear::scene::{draft::Draft, presets};
-use gearwear_physics::gear::{
+use gearwear_bodies::gear::{
     Gear, GearPair, PairError,
     conjugate::ConjugateFlanks,
     lines_of_contact::least_and_greatest_over_width,

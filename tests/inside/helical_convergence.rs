@@ -2,7 +2,7 @@
 //! 400 positions, 60 wear steps). Wear is compared at fixed places of the face width, as maximum wear is read: the outermost slices themselves
 //! move outwards.
 
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::mesh_cycle::settings::{Coupling, SliceSettings};
 use gearwear_physics::simulation::figures::WearFigures;
 use gearwear_physics::stiffness::settings::StiffnessSettings;

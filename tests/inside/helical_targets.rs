@@ -2,7 +2,7 @@
 //! tooth stiffness of Weber and Banaschek, slices coupled and not. Helix angle and face width are not in the thesis.
 
 use gearwear::runs;
-use gearwear_physics::gear::{Gear, GearPair, PerGear, spec::PairSpec};
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, spec::PairSpec};
 use gearwear_physics::mesh_cycle::settings::{Coupling, SliceSettings};
 use gearwear_physics::mesh_cycle::wearing_pair::Snapshot;
 use gearwear_physics::observer::Unwatched;
@@ -153,7 +153,7 @@ fn val_h5_an_overlap_of_one_wears_evenly() {
             face_width_mm: width_mm,
             ..helical
         };
-        spec.rack = gearwear_physics::gear::spec::BasicRack {
+        spec.rack = gearwear_bodies::gear::spec::BasicRack {
             addendum_factor: scale,
             dedendum_factor: 1.25 * scale,
             fillet_radius_factor: 0.38 * scale,

@@ -3,7 +3,7 @@
 
 use gearwear::runs;
 use gearwear::scene::Resolved;
-use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::observer::Unwatched;
 use gearwear_physics::results::run::RunRecord;
 

@@ -3,7 +3,7 @@
 use gearwear::runs;
 use gearwear::scene::Resolved;
 use gearwear::{LoadedScene, evaluate};
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::observer::Unwatched;
 use gearwear_physics::results::life::LifeLimit;
 use gearwear_physics::results::run::{RunRecord, StopReason};

@@ -2,7 +2,7 @@
 
 use gearwear::runs;
 use gearwear::scene::{Problem, Resolved, presets};
-use gearwear_physics::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 use gearwear_physics::lubrication::film::{CentralFilm, FilmParameters};
 use gearwear_physics::lubrication::friction;
 use gearwear_physics::lubrication::load_sharing_factor::SharingGeometry;

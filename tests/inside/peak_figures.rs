@@ -4,7 +4,7 @@
 use gearwear::evaluate::output::SummaryOutput;
 use gearwear::runs;
 use gearwear::scene::{draft::Draft, presets};
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::observer::Unwatched;
 use gearwear_physics::results::{figures, run::RunRecord};
 

@@ -3,8 +3,8 @@
 
 use gearwear::runs;
 use gearwear::scene::{Resolved, draft::Draft, presets};
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::assessment::RunError;
-use gearwear_physics::gear::Gear;
 use gearwear_physics::observer::Unwatched;
 use gearwear_physics::results::run::{RunRecord, StopReason};
 use gearwear_physics::simulation::wear_run::SimulationError;

@@ -2,8 +2,8 @@
 
 use gearwear::scene::loaded::{LoadError, LoadedScene, SceneError};
 use gearwear::scene::{Resolved, presets, schema};
+use gearwear_bodies::gear::{Gear, GearPair};
 use gearwear_physics::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
-use gearwear_physics::gear::{Gear, GearPair};
 use gearwear_physics::simulation::settings::Stepping;
 use gearwear_physics::stiffness::settings::StiffnessSettings;
 use proptest::prelude::*;
@@ -85,7 +85,7 @@ fn defaults_are_those_of_the_contract() {
             (206e3, 0.3, 7830.0)
         );
     }
-    assert_eq!(scene.pair.rack, gearwear_physics::gear::spec::BasicRack::default());
+    assert_eq!(scene.pair.rack, gearwear_bodies::gear::spec::BasicRack::default());
     assert_eq!(scene.contact.surface, SurfaceKind::HalfSpace);
     assert!(scene.contact.tip_contact && scene.verify);
     assert_eq!((scene.stiffness, scene.stiffness_by_default), (StiffnessSettings::Fem, true));

@@ -1,8 +1,8 @@
 //! Twist of what carries the teeth, and axes that are not parallel.
 
 use gearwear::{LoadedScene, RunRecord, Unwatched};
-use gearwear_physics::gear::shaft::{EndFace, Shaft};
-use gearwear_physics::gear::slices::Slices;
+use gearwear_bodies::gear::shaft::{EndFace, Shaft};
+use gearwear_bodies::gear::slices::Slices;
 
 use super::common::{assert_close, fzg_c, pair};
 

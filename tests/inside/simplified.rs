@@ -1,12 +1,12 @@
 //! The simplified model of helical gears against the same model on flank points, and against what must hold of any.
 
-use gearwear_physics::contact::{hertz::flattening, hertz_mean::HertzMean};
-use gearwear_physics::gear::{
+use gearwear_bodies::gear::{
     Gear, PerGear,
     conjugate::ConjugateFlanks,
     modification::{Modification, Relief, ReliefShape},
     spec::PairSpec,
 };
+use gearwear_physics::contact::{hertz::flattening, hertz_mean::HertzMean};
 use gearwear_physics::mesh_cycle::simplified::closed_form::{AMPLE_LOADS, ContactForms, RANGES};
 use gearwear_physics::mesh_cycle::wearing_pair::Snapshot;
 use gearwear_physics::mesh_cycle::{

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use gearwear::uncertainty::design::{Design, Matrix};
 use gearwear::uncertainty::distribution::Distribution;
-use gearwear_physics::reference::sobol_indices::{Index, Indices, indices};
+use gearwear_bodies::reference::sobol_indices::{Index, Indices, indices};
 
 fn of(distributions: &[Distribution], samples: usize, f: impl Fn(&[f64]) -> f64) -> Indices {
     let factors = distributions.len();

@@ -3,8 +3,8 @@
 use gearwear::runs;
 use gearwear::scene::loaded::NamedFiles;
 use gearwear::scene::{Resolved, presets};
+use gearwear_bodies::gear::PerGear;
 use gearwear_physics::contact::{hertz, hertz::Hertz};
-use gearwear_physics::gear::PerGear;
 use gearwear_physics::observer::Unwatched;
 use gearwear_physics::stiffness::{
     TeethSpring,

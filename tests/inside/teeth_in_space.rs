@@ -9,17 +9,17 @@ use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use gearwear::{LoadedScene, RunRecord, Unwatched};
+use gearwear_bodies::gear::shaft::{EndFace, Shaft};
+use gearwear_bodies::gear::spec::{AxisParallelism, PairSpec};
+use gearwear_bodies::gear::{Gear, GearPair, PerGear};
+use gearwear_bodies::gear_fem::in_space::{self, FlankForces, PlaneSection, TeethInSpace};
+use gearwear_bodies::gear_mesh::settings::{SectionDivisions, SpaceBody, SpaceResolution, Web};
+use gearwear_bodies::gear_mesh::tooth_section::ExtrudedTooth;
 use gearwear_fem::elastic::Elastic;
 use gearwear_fem::quadrature::GAUSS_3;
 use gearwear_mesh::quality;
 use gearwear_physics::assessment::RunError;
 use gearwear_physics::assessment::calibrate::{self, CalibrationExtent};
-use gearwear_physics::gear::shaft::{EndFace, Shaft};
-use gearwear_physics::gear::spec::{AxisParallelism, PairSpec};
-use gearwear_physics::gear::{Gear, GearPair, PerGear};
-use gearwear_physics::gear_fem::in_space::{self, FlankForces, PlaneSection, TeethInSpace};
-use gearwear_physics::gear_mesh::settings::{SectionDivisions, SpaceBody, SpaceResolution, Web};
-use gearwear_physics::gear_mesh::tooth_section::ExtrudedTooth;
 use gearwear_physics::mesh_cycle::pair_in_space::{KeptInSpace, PairInSpace, PairInSpaceError};
 
 use super::common::{assert_close, fzg_c};

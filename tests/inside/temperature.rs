@@ -3,9 +3,9 @@
 use gearwear::runs;
 use gearwear::scene::Resolved;
 use gearwear::scene::presets;
-use gearwear_physics::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use gearwear_bodies::reference::moving_heat_band;
 use gearwear_physics::observer::Unwatched;
-use gearwear_physics::reference::moving_heat_band;
 use gearwear_physics::results::chemistry::ToothTemperatureSummary;
 use gearwear_physics::results::run::RunRecord;
 use gearwear_physics::thermal::{
@@ -109,7 +109,7 @@ fn val_tian_and_kennedy_at_a() {
     let record = run(&[], "");
     let line_load = record.summary.contact.line_load_N_per_mm;
     let scene = Resolved::from_toml(presets::find("thesis-spur").unwrap().text).unwrap().scene;
-    let pair = gearwear_physics::gear::GearPair::new(&scene.pair).unwrap();
+    let pair = gearwear_bodies::gear::GearPair::new(&scene.pair).unwrap();
     let a = pair.path.start_mm;
     let ratios = SpeedRatios::over(&pair, a, a);
     let rises = |velocity, rpm: f64, part: f64| {

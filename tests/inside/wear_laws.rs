@@ -3,7 +3,7 @@
 use gearwear::runs;
 use gearwear::scene::Resolved;
 use gearwear::scene::presets;
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::observer::Unwatched;
 use gearwear_physics::results::run::{RunRecord, Summary};
 use gearwear_physics::wear::regime::Regime;

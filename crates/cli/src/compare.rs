@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use gearwear::report;
 use gearwear::scene::loaded::SceneText;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::assessment::RunError;
-use gearwear_physics::gear::Gear;
 use gearwear_studies::compare::asked::{CompareFault, PreparedComparison};
 use gearwear_studies::compare::question::{CompareOptions, FitKind};
 use gearwear_studies::compare::record::{CoefficientCorrelation, CompareFigures, CompareRecord, FittedValue};

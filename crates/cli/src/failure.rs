@@ -376,11 +376,11 @@ pub(super) fn no_mesh(error: PairMeshError, text: &SceneText) -> Failure {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use gearwear_bodies::gear::Gear;
+    use gearwear_bodies::gear_fem::model::ModelError;
     use gearwear_fem::factor::FactorError;
     use gearwear_mesh::quality::QualityError;
     use gearwear_physics::calibration::CalibrationError;
-    use gearwear_physics::gear::Gear;
-    use gearwear_physics::gear_fem::model::ModelError;
     use gearwear_physics::stiffness::StiffnessError;
 
     const SCENE: &str = "[pair]\npreset = \"fzg-c\"\n[operation]\npinion_torque_Nm = 302.0\n[fem]\nclamp_radius_mm = { pinion = 19.9, wheel = 37.9 }\n";

@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use gearwear::scene::Resolved;
 use gearwear::scene::loaded::{LoadedScene, SceneText};
+use gearwear_bodies::gear::Gear;
+use gearwear_bodies::gear_mesh::settings::{Body, SectorSides};
 use gearwear_mesh::{self as mesh, CellKind, Format};
 use gearwear_physics::assessment::deformed_teeth::deformed_teeth;
 use gearwear_physics::assessment::pair_mesh::{self, PairMesh, SpaceMesh};
-use gearwear_physics::gear::Gear;
-use gearwear_physics::gear_mesh::settings::{Body, SectorSides};
 use gearwear_physics::results::provenance::Provenance;
 
 use super::failure::{Failure, InputError, no_mesh};

@@ -7,8 +7,8 @@ use gearwear::exchange::rexs::mesh_stiffness::MeshStiffness;
 use gearwear::exchange::rexs::results::{self, RunResults, WearDepths};
 use gearwear::report::ReportError;
 use gearwear::scene::loaded::LoadedScene;
+use gearwear_bodies::gear::PerGear;
 use gearwear_files::whole_file;
-use gearwear_physics::gear::PerGear;
 use gearwear_studies::compare::run_folder::RunFolder;
 use gearwear_studies::variants::finished_run::FinishedRun;
 

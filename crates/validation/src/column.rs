@@ -27,7 +27,7 @@ use std::sync::Arc;
 
 use super::profile;
 use super::value::Value;
-use gearwear_physics::reference::statistics;
+use gearwear_bodies::reference::statistics;
 
 /// Why a function of columns has no value.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

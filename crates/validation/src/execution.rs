@@ -25,12 +25,12 @@ use gearwear::scene::fem_problem::FemProblem;
 use gearwear::scene::loaded::{self, LoadedScene, NamedFiles, SceneText};
 use gearwear::scene::{Problem, Resolved, presets};
 use gearwear::varied_scene::in_words;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::assessment::RunError;
 use gearwear_physics::assessment::calibrate::{self, CalibrateError, CalibrationExtent};
 use gearwear_physics::assessment::fem_scene::{self, FemPairError};
 use gearwear_physics::assessment::guarded::guarded;
 use gearwear_physics::calibration::Calibration;
-use gearwear_physics::gear::Gear;
 use gearwear_physics::observer::Observer;
 use gearwear_physics::results::run::StopReason;
 

@@ -13,7 +13,7 @@ use crate::library::{Library, LibraryError};
 use crate::record::Tier;
 use gearwear::report::ReportError;
 use gearwear::scene::loaded::{LoadError, LoadedScene, SceneText};
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::observer::Observer;
 use gearwear_studies::accuracy::selection;
 use gearwear_studies::accuracy::study::AccuracyError;

@@ -10,7 +10,7 @@
 
 use super::column::{ColumnError, same_length};
 use super::value::Value;
-use gearwear_physics::reference::separate_peaks::separate_peaks;
+use gearwear_bodies::reference::separate_peaks::separate_peaks;
 use gearwear_studies::measurement::form::{Form, FormRemoval};
 use gearwear_studies::measurement::roughness;
 

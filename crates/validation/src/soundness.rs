@@ -1,7 +1,7 @@
 //! Conditions of every wear run, whatever its scene: finite numbers, no negative wear or pressure, forces in
 //! equilibrium at every position.
 
-use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::results::run::{CycleSummary, FlankRecord, RunRecord};
 
 /// Greatest relative difference between the loads of the pairs together and the load to carry.

@@ -9,8 +9,8 @@
 
 use nalgebra::{Rotation2, Vector2};
 
-use crate::gear::{Gear, GearPair, PerGear, outline::polyline};
 use crate::results::run::{GearCircles, PairDrawing};
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, outline::polyline};
 
 /// Points on each fillet and flank.
 const POINTS_PER_PIECE: usize = 20;
@@ -68,9 +68,9 @@ fn outline_in_place(pair: &GearPair, gear: Gear) -> Vec<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gear::flank_surface::FlankSurface;
-    use crate::gear::modification::Modification;
-    use crate::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
+    use gearwear_bodies::gear::flank_surface::FlankSurface;
+    use gearwear_bodies::gear::modification::Modification;
+    use gearwear_bodies::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
 
     /// The flanks in space, cut in the middle of the face width, are the working flanks drawn, but for the chords between the
     /// drawing's points. The pair is the preset h501 (FEUP).

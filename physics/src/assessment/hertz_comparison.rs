@@ -13,8 +13,8 @@
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
-use crate::reference::hertz_line::HertzLine;
 use crate::results::fem_problem::HertzSummary;
+use gearwear_bodies::reference::hertz_line::HertzLine;
 use gearwear_fem::elastic::Elastic;
 use gearwear_fem::problem::{ContactPair, Edge, Problem};
 

@@ -34,13 +34,13 @@
 use super::left_out_contact::is_beyond_range;
 use super::{RunModel, UM_PER_MM};
 use crate::contact::settings::SurfaceKind;
-use crate::gear::Gear;
 use crate::mesh_cycle::sliced_mesh::SlicedMesh;
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::mesh_cycle::{CycleObservation, FlankOverlap, PositionObservation};
 use crate::results::invariant::Invariant;
 use crate::results::run::WearBalance;
 use crate::simulation::wear_run::Outcome;
+use gearwear_bodies::gear::Gear;
 
 /// Greatest |Σ loads / load − 1|: equilibria are solved to 1e-10 of the load.
 const MOST_IMBALANCE: f64 = 1e-6;

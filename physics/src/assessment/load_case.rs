@@ -12,14 +12,14 @@ use crate::contact::{
     settings::{Foundation, MatchCriterion, SurfaceKind},
     winkler::{Winkler, WinklerFoundation},
 };
-use crate::gear::{GearPair, PerGear};
-use crate::gear_fem::condensed_pair::CondensedPair;
-use crate::material::Material;
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::operation::Scene;
 use crate::plan::StageKind;
 use crate::simulation::mesh_contact::MeshContact;
 use crate::stiffness::{StiffnessError, TeethSpring, curve::PairCompliance, settings::StiffnessSettings};
+use gearwear_bodies::gear::{GearPair, PerGear};
+use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
+use gearwear_bodies::material::Material;
 
 /// Contact of the gears under one load, with one material.
 pub(super) struct ContactCase<'a> {

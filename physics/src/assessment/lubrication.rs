@@ -1,7 +1,7 @@
 //! Films, friction and losses of the new and of the worn pair, from the loads and pressures of the run.
 //!
 //! With x the pinion's radius of curvature at the contact point of a slice, w its transverse load per mm of face width, v_g its sliding speed and
-//! n slices, the normal force is w/cos β_b ([`crate::gear::normal_section`]) and
+//! n slices, the normal force is w/cos β_b ([`gearwear_bodies::gear::normal_section`]) and
 //!
 //! ```text
 //! P_VZ = 1/p_bt ∫ b/n Σ μ w v_g/cos β_b dx        H_VL = 1/p_bt ∫ b/n Σ w v_g/cos β_b dx / P
@@ -15,17 +15,17 @@ use std::f64::consts::PI;
 
 use super::{RunModel, scuffing, slices};
 use crate::contact::settings::SurfaceKind;
-use crate::gear::{Gear, PerGear, flank_zones::FlankZone};
 use crate::lubrication::local_film::local_film;
 use crate::lubrication::loss;
 use crate::lubrication::running_pair::{ContactFilm, Finish, LoadedPlace, OilInMesh, RunningPair};
 use crate::mesh_cycle::sliced_mesh::SlicedMesh;
-use crate::reference::hertz_line::PEAK_OVER_MEAN;
 use crate::results::lubrication::{
     AlongPath, FilmRow, FilmSummary, FrictionSummary, LossSummary, LubricationSummary, MethodBPoint, MethodBSummary,
     OilSummary,
 };
 use crate::simulation::wear_run::Outcome;
+use gearwear_bodies::gear::{Gear, PerGear, flank_zones::FlankZone};
+use gearwear_bodies::reference::hertz_line::PEAK_OVER_MEAN;
 
 /// Reason why figures with the standards' load sharing factor are missing.
 pub(super) const NO_SHARING_FACTOR: &str =

@@ -33,7 +33,6 @@ mod verification;
 use std::time::Instant;
 
 use crate::contact::hertz;
-use crate::gear::GearPair;
 use crate::observer::Observer;
 use crate::plan::{Plan, StageKind};
 use crate::results::error::ErrorSummary;
@@ -42,6 +41,7 @@ use crate::results::run::{RunRecord, StopReason, Summary};
 use crate::results::worn_pair::WornPair;
 use crate::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
 use crate::simulation::wear_run::{Outcome, reference_phase};
+use gearwear_bodies::gear::GearPair;
 pub use inputs::RunInputs;
 use model::RunModel;
 use prepare::{ContactCases, RunSlices, ToothElasticity};

@@ -1,12 +1,12 @@
 //! Model of a run: its pair, phases, springs and slices.
 
-use crate::gear::{GearPair, PerGear, flank_zones::FlankZones};
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::operation::Scene;
-use crate::reference::flattening::Flattening;
 use crate::simulation::settings::LifeLimits;
 use crate::simulation::wear_run::{Outcome, RunPhase, WearRun, reference_phase};
 use crate::stiffness::{TeethSpring, settings::StiffnessSettings};
+use gearwear_bodies::gear::{GearPair, PerGear, flank_zones::FlankZones};
+use gearwear_bodies::reference::flattening::Flattening;
 
 /// Model of a run, beyond the scene's own data. Where loads of phases differ, figures of one load are of the greatest.
 pub(super) struct RunModel<'a> {

@@ -2,13 +2,13 @@
 
 use super::RunError;
 use crate::contact::hertz;
-use crate::gear::{Gear, GearPair, PairError, PerGear};
-use crate::gear_mesh::settings::{Body, SpaceResolution};
-use crate::gear_mesh::tooth_section::ExtrudedTooth;
-use crate::gear_mesh::{self, ToothMeshError};
-use crate::material::{Material, contact_modulus_mpa};
 use crate::mesh_cycle::pair_in_space::PairInSpaceError;
 use crate::operation::Scene;
+use gearwear_bodies::gear::{Gear, GearPair, PairError, PerGear};
+use gearwear_bodies::gear_mesh::settings::{Body, SpaceResolution};
+use gearwear_bodies::gear_mesh::tooth_section::ExtrudedTooth;
+use gearwear_bodies::gear_mesh::{self, ToothMeshError};
+use gearwear_bodies::material::{Material, contact_modulus_mpa};
 use gearwear_mesh::quality::{self, MeshQuality, QualityError};
 use gearwear_mesh::{CellKind, Mesh};
 

@@ -3,11 +3,11 @@
 use super::temperature;
 use super::{RunModel, UM_PER_MM};
 use crate::contact::hertz;
-use crate::gear::Gear;
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::results::run::{PhaseSummary, PhaseWear};
 use crate::simulation::figures::WearFigures;
 use crate::simulation::wear_run::Outcome;
+use gearwear_bodies::gear::Gear;
 
 /// 1 m²/N in mm²/N.
 const MM2_PER_N: f64 = 1e6;

@@ -11,23 +11,23 @@ use super::temperature;
 use super::verification::{self, Elements};
 use crate::calibration::{self, CalibrationError};
 use crate::contact::settings::SurfaceKind;
-use crate::gear::GearPair;
-use crate::gear_fem::condensed_pair::CondensedPair;
-use crate::gear_fem::model::ModelError;
 use crate::lubrication::running_pair::RunningPair;
-use crate::material::Material;
 use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::mesh_cycle::slice_coupling::SliceCompliance;
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::operation::Scene;
 use crate::plan::{MUCH_OF_SLICES_GB, Plan, StageKind, memory_in_space_gb, memory_of_slices_gb};
-use crate::reference::flattening::Flattening;
 use crate::simulation::wear_run::RunPhase;
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
 use crate::thermal::ContactHeat;
 use crate::wear::{self, Laws, WearModel};
+use gearwear_bodies::gear::GearPair;
+use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
+use gearwear_bodies::gear_fem::model::ModelError;
+use gearwear_bodies::material::Material;
+use gearwear_bodies::reference::flattening::Flattening;
 
 /// Least load, over the greatest of all phases, whose contact the wearing elements are meshed for: half as wide as that of the greatest. Phases
 /// under less load have fewer elements in contact, and little wear.

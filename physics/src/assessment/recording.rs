@@ -7,11 +7,9 @@ use super::{
     severe_pressure, slices, stability::Judged, verification::Verified,
 };
 use crate::contact::flank_pressure::{PressureFigures, TIP_EDGE_MEAN_OVER_MM};
-use crate::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
 use crate::mesh_cycle::CycleObservation;
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::plan::Plan;
-use crate::reference::steel_yield;
 use crate::results::error::ErrorSummary;
 use crate::results::iso_stiffness::IsoStiffnessSummary;
 use crate::results::life::LifeSummary;
@@ -25,8 +23,11 @@ use crate::simulation::figures::{WearFigures, wear_profile};
 use crate::simulation::wear_run::{Outcome, SMALL_WEAR_MODULES};
 use crate::stiffness::iso6336;
 use crate::thermal::settings::TemperatureMethod;
+use crate::wear::settings::WearOfPair;
 use crate::wear::settings::WearSettings;
 use crate::wear::vdi_2736::{SteadyWear, mean_wear_mm};
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
+use gearwear_bodies::reference::steel_yield;
 
 /// Flank points that the pitch point index of the output counts in.
 const INDEX_POINTS: f64 = 750.0;

@@ -1,8 +1,8 @@
 //! Nominal root stress by the standards, beside what finite elements find.
 
-use crate::gear::{Gear, GearPair, PerGear};
 use crate::results::root_stress::{RootSectionSummary, RootStressSummary};
-use crate::root_stress::{LoadedAt, section};
+use gearwear_bodies::gear::{Gear, GearPair, PerGear};
+use gearwear_bodies::root_stress::{LoadedAt, section};
 
 /// Nominal root stress of both gears under this line load at the base circle.
 pub(super) fn summary(pair: &GearPair, line_load_n_per_mm: f64) -> PerGear<RootStressSummary> {

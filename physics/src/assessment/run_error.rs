@@ -1,12 +1,12 @@
 //! Failures of a run.
 
 use crate::calibration::CalibrationError;
-use crate::gear::PairError;
-use crate::gear_fem::model::ModelError;
 use crate::mesh_cycle::load_sharing::EquilibriumError;
 use crate::mesh_cycle::pair_in_space::PairInSpaceError;
 use crate::simulation::wear_run::SimulationError;
 use crate::stiffness::StiffnessError;
+use gearwear_bodies::gear::PairError;
+use gearwear_bodies::gear_fem::model::ModelError;
 
 /// Failure of a run.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

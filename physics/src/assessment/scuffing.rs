@@ -1,7 +1,6 @@
 //! Scuffing temperatures of the pair as the standards have them, and the safeties: from geometry and load factors, without the contact of the
 //! run.
 
-use crate::gear::{Gear, PerGear};
 use crate::lubrication::friction::lubricant_factor;
 use crate::lubrication::loss;
 use crate::lubrication::running_pair::{OilInMesh, RunningPair};
@@ -9,9 +8,10 @@ use crate::lubrication::scuffing::{
     ScuffingConditions, approach_factor, contact_ratio_factor, flash_approach_factor, integral_scuffing_temperature_c,
     run_in_factor, scuffing_temperature_c, tip_relief_factor,
 };
-use crate::material::Material;
 use crate::results::lubrication::{FlashPoint, ScuffingSummary};
 use crate::stiffness::iso6336::{mesh_over_single, single_stiffness_n_per_mm2};
+use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_bodies::material::Material;
 
 /// Places along the path at which the flash temperature is averaged.
 const PLACES: usize = 400;

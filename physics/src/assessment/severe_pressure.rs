@@ -8,6 +8,7 @@ use std::f64::consts::FRAC_PI_4;
 use super::RunModel;
 use crate::contact::{foundation, settings::SurfaceKind};
 use crate::simulation::wear_run::Outcome;
+use crate::wear::settings::WearOfPair;
 
 /// Difference from the elastic pressure that is not warned of: a limit is not known so well.
 const LITTLE: f64 = 0.02;

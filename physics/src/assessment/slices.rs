@@ -2,12 +2,12 @@
 
 use super::{RunModel, UM_PER_MM};
 use crate::contact::settings::SurfaceKind;
-use crate::gear::spec::AxisParallelism;
-use crate::gear::{Gear, GearPair, PerGear, lines_of_contact::LinesOfContact};
 use crate::mesh_cycle::sliced_mesh::SlicedMesh;
 use crate::results::run::{HelicalSummary, LineOfContactSummary, OverWidthSummary, SliceRecord};
 use crate::simulation::figures::{SliceFigures, WearFigures, variation};
 use crate::simulation::wear_run::Outcome;
+use gearwear_bodies::gear::spec::AxisParallelism;
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, lines_of_contact::LinesOfContact};
 
 /// Mesh orders that are kept.
 const MESH_ORDERS: usize = 5;

@@ -3,9 +3,9 @@
 use super::stage_clock::StageClock;
 use super::{RunError, RunInputs, load_case};
 use crate::contact::settings::SurfaceKind;
-use crate::gear::GearPair;
 use crate::observer::Unwatched;
 use crate::stiffness::settings::StiffnessSettings;
+use gearwear_bodies::gear::GearPair;
 
 impl RunInputs<'_> {
     /// Checks that every spring of the run has a positive compliance, where that is known without finite elements of the run itself.

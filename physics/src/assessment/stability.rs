@@ -1,13 +1,14 @@
 //! Stability of Euler's wear steps, judged before the first of them.
 
 use super::RunModel;
-use crate::gear::PerGear;
-use crate::material::Material;
 use crate::observer::Observer;
 use crate::simulation::settings::Stepping;
 use crate::simulation::stability::StepBound;
 use crate::simulation::wear_run::RunPhase;
 use crate::wear;
+use crate::wear::settings::WearOfPair;
+use gearwear_bodies::gear::PerGear;
+use gearwear_bodies::material::Material;
 
 /// Judgement of the wear steps, and the mesh cycles evaluated for it.
 #[derive(Default)]

@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 
 use super::RunModel;
 use crate::contact::settings::SurfaceKind;
-use crate::gear::{Gear, GearPair, PerGear};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::operation::{Scene, mean_friction};
 use crate::results::chemistry::{
@@ -19,6 +18,8 @@ use crate::thermal::settings::{ABSOLUTE_ZERO_C, TemperatureMethod};
 use crate::thermal::tooth::{TemperatureCurve, ToothTemperatures};
 use crate::wear::LocalContact;
 use crate::wear::regime::{MM3_PER_NM, Regime};
+use crate::wear::settings::WearOfPair;
+use gearwear_bodies::gear::{Gear, GearPair, PerGear};
 
 /// Relative difference of Young's moduli of phases up to which it is not warned of.
 const NEGLIGIBLE_CHANGE: f64 = 0.02;

@@ -9,12 +9,12 @@ use serde::{Deserialize, Serialize};
 use super::CalibrationError;
 use super::loaded_tooth::{LoadedTooth, nodes_under};
 use crate::contact::hertz;
-use crate::gear::{Gear, GearPair, PerGear};
-use crate::gear_fem::condensed_pair::CondensedPair;
-use crate::gear_fem::model::MeshedGear;
-use crate::gear_fem::ring::ToothForce;
-use crate::gear_mesh::settings::{Body, BodySettings, SectorSides, greatest_clamp_mm};
-use crate::material::Material;
+use gearwear_bodies::gear::{Gear, GearPair, PerGear};
+use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
+use gearwear_bodies::gear_fem::model::MeshedGear;
+use gearwear_bodies::gear_fem::ring::ToothForce;
+use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, SectorSides, greatest_clamp_mm};
+use gearwear_bodies::material::Material;
 use gearwear_fem::elastic::Elastic;
 
 /// Elements per half-width in the tables of rim and neighbours; the convergence table shows that they are enough.

@@ -6,10 +6,10 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::gear::modification::{Relief, ReliefShape};
-use crate::gear::{Gear, GearPair, PerGear};
-use crate::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides, Web};
-use crate::material::Material;
+use gearwear_bodies::gear::modification::{Relief, ReliefShape};
+use gearwear_bodies::gear::{Gear, GearPair, PerGear};
+use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides, Web};
+use gearwear_bodies::material::Material;
 
 /// Relative difference of two numbers below which they are the same: round-off of units.
 const SAME: f64 = 1e-9;

@@ -13,16 +13,16 @@
 //!
 //! The displacement at the point inside, where the load's line crosses the tooth's centre line, is **bending** of tooth and body; its
 //! difference from the displacement at the loaded point is **flattening**, which a contact surface has itself. The split is that of Weber and
-//! Banaschek's closed form ([`crate::reference::flattening`]), so that nothing is counted twice.
+//! Banaschek's closed form ([`gearwear_bodies::reference::flattening`]), so that nothing is counted twice.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector2;
 
-use crate::gear::tooth::{LoadLine, Tooth};
-use crate::gear_fem::flank_surface::MeshedFlank;
-use crate::gear_fem::ring::{GearCompliance, ToothForce};
-use crate::gear_fem::sector::{Answer, Functional};
+use gearwear_bodies::gear::tooth::{LoadLine, Tooth};
+use gearwear_bodies::gear_fem::flank_surface::MeshedFlank;
+use gearwear_bodies::gear_fem::ring::{GearCompliance, ToothForce};
+use gearwear_bodies::gear_fem::sector::{Answer, Functional};
 use gearwear_fem::locate::locate;
 
 /// Number of forces in place of the ellipse.

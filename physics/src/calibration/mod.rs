@@ -41,10 +41,10 @@ use self::tooth_family::FamilyMember;
 use self::tooth_stiffness::{LoadedPair, PairDeflection};
 use self::wear_reference::WearReference;
 use crate::contact::{foundation::FoundationCurve, settings::MatchCriterion};
-use crate::gear::{Gear, PerGear};
-use crate::gear_fem::{condensed_pair::CondensedPair, model::ModelError};
-use crate::material::Material;
 use crate::stiffness::curve::PairCompliance;
+use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_bodies::gear_fem::{condensed_pair::CondensedPair, model::ModelError};
+use gearwear_bodies::material::Material;
 use gearwear_fem::active_set::ActiveSetError;
 
 /// Positions of the stiffness curve.

@@ -27,12 +27,12 @@ use super::CalibrationError;
 use super::loaded_tooth::Inside;
 use super::tooth_stiffness::{LoadedPair, evenly};
 use crate::contact::settings::MatchCriterion;
-use crate::gear::conjugate::ConjugateFlanks;
-use crate::gear::{Gear, PerGear};
-use crate::gear_fem::condensed_pair::CondensedPair;
-use crate::gear_fem::flank_surface::MeshedFlank;
-use crate::gear_fem::position::{PositionContact, WarmStart};
-use crate::gear_fem::ring::ToothForce;
+use gearwear_bodies::gear::conjugate::ConjugateFlanks;
+use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
+use gearwear_bodies::gear_fem::flank_surface::MeshedFlank;
+use gearwear_bodies::gear_fem::position::{PositionContact, WarmStart};
+use gearwear_bodies::gear_fem::ring::ToothForce;
 
 /// Loads of the fit, in units of the scene's, largest first.
 pub const FITTED_LOADS: [f64; 4] = [1.5, 1.0, 0.5, 0.25];

@@ -16,7 +16,7 @@
 //! ```
 //!
 //! and the parameters are those with the least sum of squares of Δw over the mean load, of Δδ/δ, and of U_plates − U on single lines of
-//! contact that are loaded evenly ([`crate::reference::levenberg_marquardt`], from the closed forms). A parameter on which none of them depends stays
+//! contact that are loaded evenly ([`gearwear_bodies::reference::levenberg_marquardt`], from the closed forms). A parameter on which none of them depends stays
 //! as in the closed form.
 
 use std::convert::Infallible;
@@ -27,15 +27,15 @@ use serde::{Deserialize, Serialize};
 use super::STIFFNESS_POSITIONS;
 use super::identity::same;
 use crate::contact::{half_space::HalfSpace, hertz};
-use crate::gear::{GearPair, PerGear, slices::Slices};
-use crate::material::Material;
 use crate::mesh_cycle::pair_in_space::PairInSpace;
 use crate::mesh_cycle::slice_coupling::{Factors, Reach, SliceCompliance};
 use crate::mesh_cycle::sliced::SpringAlongPath;
 use crate::mesh_cycle::sliced_positions::{SliceContact, SliceEnds, sliced_positions};
-use crate::reference::levenberg_marquardt::{LeastSquares, LevenbergMarquardt};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::stiffness::{StiffnessError, TeethSpring, curve::PairCompliance};
+use gearwear_bodies::gear::{GearPair, PerGear, slices::Slices};
+use gearwear_bodies::material::Material;
+use gearwear_bodies::reference::levenberg_marquardt::{LeastSquares, LevenbergMarquardt};
 
 /// Slices of the fit.
 pub const SLICES: usize = 20;

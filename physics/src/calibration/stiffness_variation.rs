@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::tooth_stiffness::PairDeflection;
-use crate::gear::GearPair;
+use gearwear_bodies::gear::GearPair;
 
 /// Variation of one stiffness.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -13,7 +13,7 @@
 //!
 //! Positions run evenly over the stretch on which the ellipse lies wholly on both flanks: it begins and ends about a
 //! half-width of flank inside A and E. Beyond it the curve of the fast model ([`LoadedPair::curve`]) changes as bending alone does,
-//! under a concentrated load along the normal where the flanks touch ([`crate::gear::tip_touch`]): at A and E,
+//! under a concentrated load along the normal where the flanks touch ([`gearwear_bodies::gear::tip_touch`]): at A and E,
 //! and beyond them, where the load turns towards the axis of the tooth whose tip edge touches.
 
 use rayon::prelude::*;
@@ -22,14 +22,14 @@ use serde::{Deserialize, Serialize};
 use super::CalibrationError;
 use super::loaded_tooth::LoadedTooth;
 use crate::contact::hertz;
-use crate::gear::flank_edge::PathEnd;
-use crate::gear::{Gear, GearPair, PerGear};
-use crate::gear_fem::condensed_pair::CondensedPair;
-use crate::gear_fem::ring::ToothForce;
-use crate::material::{Material, contact_modulus_mpa};
-use crate::reference::flattening::Flattening;
 use crate::stiffness::curve::{PairCompliance, StandsFor};
 use crate::stiffness::weber_banaschek::ToothCompliance;
+use gearwear_bodies::gear::flank_edge::PathEnd;
+use gearwear_bodies::gear::{Gear, GearPair, PerGear};
+use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
+use gearwear_bodies::gear_fem::ring::ToothForce;
+use gearwear_bodies::material::{Material, contact_modulus_mpa};
+use gearwear_bodies::reference::flattening::Flattening;
 
 /// Iterations that find the end of the stretch clear of an edge.
 const TURNS: usize = 12;

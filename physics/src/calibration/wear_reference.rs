@@ -10,7 +10,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 
 /// Loads in units of the scene's.
 pub const LOADS: [f64; 3] = [0.5, 1.0, 1.25];

@@ -31,10 +31,10 @@ use super::hertz;
 use super::pressure_field::PressureField;
 use super::settings::MatchCriterion;
 use super::strip::{common_extent_mm, nearest_mm};
-use crate::gear::flank_edge::PathEnd;
-use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, removed_material::tip_rounding_mm};
-use crate::material::{Material, contact_modulus_mpa};
-use crate::reference::half_plane::cell_compliance_mm_per_mpa;
+use gearwear_bodies::gear::flank_edge::PathEnd;
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, removed_material::tip_rounding_mm};
+use gearwear_bodies::material::{Material, contact_modulus_mpa};
+use gearwear_bodies::reference::half_plane::cell_compliance_mm_per_mpa;
 
 /// Greatest load over the whole load.
 const GREATEST_LOAD: f64 = 1.5;

@@ -6,7 +6,7 @@
 //! p_i ≥ 0        g_i + Σ_j C_|i−j| p_j − δ ≥ 0        the product of both 0
 //! ```
 //!
-//! C: [`cell_compliance_mm_per_mpa`](crate::reference::half_plane::cell_compliance_mm_per_mpa). As long as the same cells
+//! C: [`cell_compliance_mm_per_mpa`](gearwear_bodies::reference::half_plane::cell_compliance_mm_per_mpa). As long as the same cells
 //! touch, the pressures are linear in the indentation,
 //!
 //! ```text
@@ -190,7 +190,7 @@ fn solved(factor: &Llt<f64>, side: impl ExactSizeIterator<Item = f64>) -> Vec<f6
 mod tests {
     use super::*;
     use crate::contact::pressure_field::PressureField;
-    use crate::reference::{
+    use gearwear_bodies::reference::{
         flattening::{Flattening, HalfPlane},
         half_plane::cell_compliance_mm_per_mpa,
         hertz_line::{HertzLine, LineContact},

@@ -1,7 +1,7 @@
 //! Motion of the flanks under a contact within the cell of a loading position.
 
 use super::PositionCell;
-use crate::gear::{Gear, conjugate::ConjugateFlanks};
+use gearwear_bodies::gear::{Gear, conjugate::ConjugateFlanks};
 
 /// Part of the flank's length by which a limit may miss the theoretical contact point at A or E, by rounding errors.
 pub(super) const ROUND_OFF: f64 = 1e-9;

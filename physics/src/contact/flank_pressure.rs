@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use super::flank_motion::on_tangent;
 use crate::contact::PressedCell;
-use crate::gear::{
+use gearwear_bodies::gear::{
     Gear, GearPair, PerGear, conjugate::ConjugateFlanks, flank_zones::FlankZones, slices::greatest_over_width,
 };
 

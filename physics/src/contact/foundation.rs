@@ -21,8 +21,8 @@ use std::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 
 use super::settings::MatchCriterion;
-use crate::gear::normal_section::Obliquity;
-use crate::reference::flattening::Flattening;
+use gearwear_bodies::gear::normal_section::Obliquity;
+use gearwear_bodies::reference::flattening::Flattening;
 
 /// K/H in MPa/mm that makes the foundation agree with `hertz` under `line_load_n_per_mm`.
 pub fn matched_mpa_per_mm(criterion: MatchCriterion, hertz: &Flattening, line_load_n_per_mm: f64) -> f64 {
@@ -176,7 +176,7 @@ pub(super) fn mean_positive([u0, u1]: [f64; 2]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reference::{flattening::HalfPlane, hertz_line::HertzLine};
+    use gearwear_bodies::reference::{flattening::HalfPlane, hertz_line::HertzLine};
     use gearwear_fem::elastic::Elastic;
 
     /// Each criterion holds, checked through the foundation's own closed form.

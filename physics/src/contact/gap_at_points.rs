@@ -3,7 +3,7 @@
 use super::Flanks;
 use super::observed_points::ObservedPoints;
 use super::strip::Interpolation;
-use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 
 /// Part of its course by which the theoretical contact point may miss a point and still passes it: between two cells neither must lose it to
 /// rounding errors.

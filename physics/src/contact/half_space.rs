@@ -3,7 +3,7 @@
 //! Each body is an elastic half-plane where it touches: pressure at one place lowers the surface everywhere. On unmodified
 //! involutes this is Hertz's contact; it holds for worn flanks too, with the elasticity that the independent springs of
 //! [`winkler`](super::winkler) lack. Displacements are measured relative to the tooth's centre line
-//! along the line of action ([`half_plane`](crate::reference::half_plane)), so that the load follows from the approach by
+//! along the line of action ([`half_plane`](gearwear_bodies::reference::half_plane)), so that the load follows from the approach by
 //! itself, and agrees with the closed-form flattening of plain flanks.
 //!
 //! The pressure is uniform on evenly spaced cells ([`ElasticCells`]). There are at least [`CELLS_PER_HALF_WIDTH`] of them in
@@ -32,9 +32,9 @@ use super::{
     strip::{ContactWindow, Strip, gaps_beside_mm, least_removed_mm, point_distance_mm},
     swept_field::SweptField,
 };
-use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
-use crate::material::Material;
-use crate::reference::{
+use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use gearwear_bodies::material::Material;
+use gearwear_bodies::reference::{
     flattening::Flattening,
     half_plane::{cell_compliance_at_mm_per_mpa, cell_compliance_mm_per_mpa},
 };

@@ -23,9 +23,9 @@ use super::{
     observed_points::ObservedPoints,
     strip::ContactWindow,
 };
-use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
-use crate::material::{Material, contact_modulus_mpa};
-use crate::reference::{
+use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use gearwear_bodies::material::{Material, contact_modulus_mpa};
+use gearwear_bodies::reference::{
     flattening::{Flattening, HalfPlane},
     hertz_line::HertzLine,
 };

@@ -17,8 +17,8 @@ use super::{
     ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, PressedCell, Response, Sweep,
     hertz::ClosedFormPair,
 };
-use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
-use crate::material::Material;
+use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use gearwear_bodies::material::Material;
 
 /// Hertz's mean pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]

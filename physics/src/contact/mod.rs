@@ -30,10 +30,10 @@ pub mod winkler;
 
 use serde::{Deserialize, Serialize};
 
-use crate::gear::{
+use flank_pressure::FlankParts;
+use gearwear_bodies::gear::{
     Gear, GearPair, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid, normal_section::NormalSection,
 };
-use flank_pressure::FlankParts;
 
 /// Two flanks and the points on them.
 #[derive(Clone, Copy)]

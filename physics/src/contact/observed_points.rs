@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::flank_motion::{edge_under_load, passes_to_ends_mm, shift_to_ends_mm};
 use super::strip::ContactWindow;
 use super::{Flanks, PositionCell};
-use crate::gear::{Gear, conjugate::ConjugateFlanks, involute::TangentFramePoint};
+use gearwear_bodies::gear::{Gear, conjugate::ConjugateFlanks, involute::TangentFramePoint};
 
 /// Consecutive points of one flank that may touch the other, with one more at either end.
 #[derive(Debug, Clone)]
@@ -222,8 +222,8 @@ fn positive_stretch(before: f64, after: f64) -> (f64, f64) {
 mod tests {
     use super::super::strip::tests::pair_of;
     use super::*;
-    use crate::gear::PerGear;
-    use crate::gear::flank::{FlankGrid, PointSpacing};
+    use gearwear_bodies::gear::PerGear;
+    use gearwear_bodies::gear::flank::{FlankGrid, PointSpacing};
 
     /// A window that has grown has more points; those that it had before move as they did, also near the base circle of an undercut wheel, where
     /// neighbours move by other distances.

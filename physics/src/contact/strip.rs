@@ -12,8 +12,8 @@ use std::ops::Range;
 
 use super::flank_motion::{ROUND_OFF, edge_under_load, on_tangent, passes_to_ends_mm};
 use super::{Flanks, PositionCell};
-use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
-use crate::reference::linear_means::add_means;
+use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
+use gearwear_bodies::reference::linear_means::add_means;
 
 /// Points of a gear's grid between which its removed material is interpolated.
 ///
@@ -422,11 +422,11 @@ pub(super) mod tests {
     use crate::contact::ContactSurface;
     use crate::contact::half_space::HalfSpace;
     use crate::contact::winkler::{Winkler, WinklerFoundation};
-    use crate::gear::GearPair;
-    use crate::gear::flank::PointSpacing;
-    use crate::gear::modification::Modification;
-    use crate::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
-    use crate::material::Material;
+    use gearwear_bodies::gear::GearPair;
+    use gearwear_bodies::gear::flank::PointSpacing;
+    use gearwear_bodies::gear::modification::Modification;
+    use gearwear_bodies::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
+    use gearwear_bodies::material::Material;
 
     /// The plastic pair of `validation/plastic-ridge`, whose contact reaches the wheel's root form circle.
     fn pair() -> GearPair {

@@ -10,7 +10,7 @@ use super::flank_motion::{edge_under_load, on_tangent};
 use super::observed_points::ObservedPoints;
 use super::strip::ContactWindow;
 use super::{Flanks, PointContact, PositionCell, Sweep, pressure_field::PressureField};
-use crate::gear::{Gear, PerGear};
+use gearwear_bodies::gear::{Gear, PerGear};
 
 /// A pressure field, and the points of both flanks that may feel it.
 pub(crate) struct SweptField {

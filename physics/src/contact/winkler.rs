@@ -34,7 +34,7 @@ use super::{
     strip::{ContactWindow, Strip, gaps_beside_mm, least_removed_mm, point_distance_mm},
     swept_field::SweptField,
 };
-use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 
 /// The springs of a foundation: one K/H everywhere, or a curve of it.
 #[derive(Debug, Clone, PartialEq)]

@@ -30,7 +30,7 @@
 
 use super::rolling_contact::RollingContact;
 use super::settings::{BaseOil, FrictionModel, FrictionTable};
-use crate::reference::linear_means::value_at;
+use gearwear_bodies::reference::linear_means::value_at;
 
 /// Greatest μ of a lubricated mesh; formulas with a logarithm exceed it where sliding stops.
 const GREATEST: f64 = 0.2;

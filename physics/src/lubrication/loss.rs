@@ -21,7 +21,7 @@
 
 use std::f64::consts::PI;
 
-use crate::gear::{Gear, GearPair};
+use gearwear_bodies::gear::{Gear, GearPair};
 
 /// H_V of a pair.
 pub fn of_pair(pair: &GearPair) -> f64 {

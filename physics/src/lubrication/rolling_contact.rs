@@ -9,7 +9,7 @@
 
 use std::f64::consts::PI;
 
-use crate::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 
 /// A contact along a line under load.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -25,8 +25,8 @@ use super::oil::Oil;
 use super::rolling_contact::{RollingBodies, RollingContact};
 use super::scuffing::helical_load_factor;
 use super::settings::{FilmRatio, FrictionModel, LubricantSettings, LubricationSettings, Roughness};
-use crate::gear::conjugate::ConjugateFlanks;
-use crate::gear::{GearPair, PerGear};
+use gearwear_bodies::gear::conjugate::ConjugateFlanks;
+use gearwear_bodies::gear::{GearPair, PerGear};
 
 /// W per N·mm/s.
 const W_PER_N_MM_PER_S: f64 = 1e-3;

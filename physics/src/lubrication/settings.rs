@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::film::CentralFilm;
-use crate::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 
 /// Viscosity over temperature, from the two values that are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

@@ -4,7 +4,7 @@
 
 use super::Work;
 use super::load_sharing::EquilibriumError;
-use crate::gear::{Gear, PerGear};
+use gearwear_bodies::gear::{Gear, PerGear};
 
 /// The collection of one group.
 pub(super) struct Collected {

@@ -6,7 +6,7 @@
 //! own place of the path, together are one tooth pair over its whole mesh.
 //!
 //! Wear is that of the nodes of both flanks: the load of every multiplier reaches those that it faces while the contact moves on
-//! ([`crate::gear_fem::load_transfer`]). Positions are closer together where a tip edge touches, about A and E, where the contact is
+//! ([`gearwear_bodies::gear_fem::load_transfer`]). Positions are closer together where a tip edge touches, about A and E, where the contact is
 //! narrow, stands still on the edge and runs along the mate; and so about B and D, where the number of pairs changes, as
 //! a base pitch leads from A to D and from B to E.
 //!
@@ -22,16 +22,16 @@ use super::{
 };
 use crate::contact::Footprint;
 use crate::contact::flank_pressure::PressureFigures;
-use crate::gear::{Gear, PerGear, flank_zones::FlankZones};
-use crate::gear_fem::condensed_pair::CondensedPair;
-use crate::gear_fem::condensed_pair::hertz_half_width_mm;
-use crate::gear_fem::flank_nodes::{FlankNodes, Weights};
-use crate::gear_fem::load_transfer::LoadTransfer;
-use crate::gear_fem::prepared::PreparedPosition;
-use crate::gear_fem::tilted::Worn;
 use crate::lubrication::running_pair::LoadedPlace;
-use crate::reference::{linear_means::value_at, monotone_cubic::MonotoneCubic};
 use crate::wear::{SlidingRow, WearModel};
+use gearwear_bodies::gear::{Gear, PerGear, flank_zones::FlankZones};
+use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
+use gearwear_bodies::gear_fem::condensed_pair::hertz_half_width_mm;
+use gearwear_bodies::gear_fem::flank_nodes::{FlankNodes, Weights};
+use gearwear_bodies::gear_fem::load_transfer::LoadTransfer;
+use gearwear_bodies::gear_fem::prepared::PreparedPosition;
+use gearwear_bodies::gear_fem::tilted::Worn;
+use gearwear_bodies::reference::{linear_means::value_at, monotone_cubic::MonotoneCubic};
 use gearwear_fem::active_set::ContactEquilibrium;
 
 /// Distance of positions.

@@ -2,20 +2,20 @@
 
 use crate::contact::PressedCell;
 use crate::contact::flank_pressure::ContactParts;
-use crate::gear::{
-    Gear, PerGear,
-    conjugate::ConjugateFlanks,
-    flank_zones::{FlankZone, FlankZones},
-};
-use crate::gear_fem::condensed_pair::CondensedPair;
-use crate::gear_fem::flank_nodes::Weights;
-use crate::gear_fem::load_transfer::LoadTransfer;
-use crate::reference::linear_means::weighted_sum;
 use crate::thermal::{ContactHeat, HeatedStrip, SpeedRatios};
 use crate::wear::{
     ContactConditions,
     heated_row::{HeatedContact, HeatedRow, RowOfPoints},
 };
+use gearwear_bodies::gear::{
+    Gear, PerGear,
+    conjugate::ConjugateFlanks,
+    flank_zones::{FlankZone, FlankZones},
+};
+use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
+use gearwear_bodies::gear_fem::flank_nodes::Weights;
+use gearwear_bodies::gear_fem::load_transfer::LoadTransfer;
+use gearwear_bodies::reference::linear_means::weighted_sum;
 
 /// A contact as a source of heat and a place of films.
 #[derive(Clone, Copy)]

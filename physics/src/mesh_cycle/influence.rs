@@ -1,5 +1,5 @@
 //! Compliance between all contacts at a position, u = U w: of thin slices, of plates ([`super::slice_coupling`]) or of teeth in space
-//! ([`super::pair_in_space`]), and of the shafts ([`crate::gear::shaft`]).
+//! ([`super::pair_in_space`]), and of the shafts ([`gearwear_bodies::gear::shaft`]).
 
 use super::sliced_positions::SliceContact;
 

@@ -21,7 +21,7 @@
 use super::Work;
 use super::tip_contact::OnLever;
 use crate::contact::{PairContact, Response};
-use crate::gear::{PerGear, normal_section::Obliquity};
+use gearwear_bodies::gear::{PerGear, normal_section::Obliquity};
 use gearwear_fem::active_set::ActiveSetError;
 
 /// Greatest imbalance, relative to the load, at which an equilibrium is accepted.

@@ -33,9 +33,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::flank_pressure::PressureFigures;
 use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCell, Sweep};
-use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, slices::greatest_over_width};
 use crate::wear::WearModel;
 use collected::Collected;
+use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks, slices::greatest_over_width};
 use load_sharing::{EquilibriumError, MeshedPair, PairEquilibrium, balance, settled};
 use sliced_mesh::SlicedMesh;
 use worn_points::{ContactOnPath, WornPoints};

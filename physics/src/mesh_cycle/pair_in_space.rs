@@ -6,7 +6,7 @@
 //! u = Tᵀ (U + S g S b) T w          g = (q − q°)/cos β_b
 //! ```
 //!
-//! U is the compliance of both gears in three-dimensional finite elements ([`crate::gear_fem::in_space`]): bending, shear, bodies,
+//! U is the compliance of both gears in three-dimensional finite elements ([`gearwear_bodies::gear_fem::in_space`]): bending, shear, bodies,
 //! neighbouring teeth and free end faces, under loads along the pieces of a line of contact in halves of layers of elements. T brings loads of
 //! slices onto those halves, and their deflections back ([`super::half_layers`]). The elements are too coarse close to a line of contact, where a
 //! slice is in plane strain: q° is the compliance of the transverse section on the same elements, q that of the same section by the stiffness model
@@ -25,13 +25,13 @@ use super::half_layers::HalfLayers;
 use super::influence::Influence;
 use super::sliced_positions::{ContactPart, SliceContact};
 use crate::contact::PositionCell;
-use crate::gear::{Gear, GearPair, PerGear, normal_section::Obliquity, slices::Slices, spec::PairSpec};
-use crate::gear_fem::in_space::{DeformedTooth, FlankForces, PlaneSection, SpaceError, TeethInSpace};
-use crate::gear_mesh::{
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, normal_section::Obliquity, slices::Slices, spec::PairSpec};
+use gearwear_bodies::gear_fem::in_space::{DeformedTooth, FlankForces, PlaneSection, SpaceError, TeethInSpace};
+use gearwear_bodies::gear_mesh::{
     settings::{SpaceBody, SpaceResolution},
     tooth_section::ExtrudedTooth,
 };
-use crate::material::contact_modulus_mpa;
+use gearwear_bodies::material::contact_modulus_mpa;
 use gearwear_fem::elastic::Elastic;
 use gearwear_fem::quadrature::GAUSS_3;
 

@@ -9,7 +9,7 @@
 
 use super::sliced_positions::ContactPart;
 use crate::contact::{Footprint, PairContact, PointContact, PressedCell, Response, Sweep};
-use crate::gear::{Gear, PerGear};
+use gearwear_bodies::gear::{Gear, PerGear};
 
 /// Contact of a part of a slice, counted over the width of the slice.
 pub(crate) struct PartOfSlice<'a> {

@@ -9,7 +9,7 @@
 
 use super::{LoadingPosition, PairInMesh};
 use crate::contact::PositionCell;
-use crate::gear::path_of_contact::PathOfContact;
+use gearwear_bodies::gear::path_of_contact::PathOfContact;
 
 /// Part of the base pitch within which two places of the path are the same.
 const SAME_PLACE: f64 = 1e-9;
@@ -110,7 +110,7 @@ fn pairs_in_mesh(path: &PathOfContact, position_mm: f64) -> impl Iterator<Item =
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gear::{PerGear, involute::Involute};
+    use gearwear_bodies::gear::{PerGear, involute::Involute};
 
     fn path(contact_ratio: f64) -> PathOfContact {
         let involute = Involute { base_radius_mm: 50.0 };

@@ -39,8 +39,8 @@ use serde::{Deserialize, Serialize};
 
 use super::influence::Influence;
 use super::sliced_positions::SliceContact;
-use crate::gear::{Gear, GearPair, PerGear, half_profile::half_profile, slices::Slices, tooth::Tooth};
-use crate::material::Material;
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, half_profile::half_profile, slices::Slices, tooth::Tooth};
+use gearwear_bodies::material::Material;
 
 /// Samples of the profile on fillet and flank each.
 const SAMPLES: usize = 400;

@@ -29,9 +29,9 @@ use super::{
 };
 use crate::contact::flank_pressure::PressureFigures;
 use crate::contact::{ContactSurface, Flanks, Sweep};
-use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, path_of_contact::PathOfContact};
 use crate::stiffness::SpringParts;
 use crate::wear::WearModel;
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, path_of_contact::PathOfContact};
 
 /// Compliance of the teeth along the path of contact, evaluated once for all slices.
 pub struct SpringAlongPath {

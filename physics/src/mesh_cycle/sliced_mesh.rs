@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::PositionObservation;
 use crate::contact::Footprint;
-use crate::gear::path_of_contact::PathOfContact;
+use gearwear_bodies::gear::path_of_contact::PathOfContact;
 
 /// Observation of a slice in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -31,7 +31,7 @@
 use std::collections::BTreeSet;
 
 use crate::contact::PositionCell;
-use crate::gear::{path_of_contact::PathOfContact, slices::Slices};
+use gearwear_bodies::gear::{path_of_contact::PathOfContact, slices::Slices};
 
 /// Part of the base pitch within which two places of the path are the same.
 const SAME_PLACE: f64 = 1e-9;

@@ -10,8 +10,8 @@ use super::settings::{Coupling, SliceSettings};
 use super::slice_coupling::{Reach, SliceCompliance, SliceCoupling};
 use super::sliced::SpringAlongPath;
 use super::sliced_positions::SliceContact;
-use crate::gear::{Gear, GearPair, PerGear, slices::Slices};
-use crate::material::Material;
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, slices::Slices};
+use gearwear_bodies::material::Material;
 
 /// Slices of a pair with their coupling.
 #[derive(Clone)]

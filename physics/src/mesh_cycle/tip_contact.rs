@@ -13,7 +13,7 @@
 //! rounding, relief and wear included.
 //!
 //! The contact's normal is that of the mate's flank where the edge touches it, turned from the line of action by ε
-//! ([`crate::gear::tip_touch`]). Before A it is a tangent of the pinion's base circle like any other, and the load's lever on the
+//! ([`gearwear_bodies::gear::tip_touch`]). Before A it is a tangent of the pinion's base circle like any other, and the load's lever on the
 //! pinion is r_b1. After E it is a tangent of the wheel's base circle, and with its lever l on the pinion
 //!
 //! ```text
@@ -28,7 +28,7 @@
 //! and top contact", *Proc. Inst. Mech. Eng. C* 213 (1999) 389–400, for the phenomenon.
 
 use crate::contact::{Footprint, PairContact, PointContact, PressedCell, Response, Sweep};
-use crate::gear::{Gear, GearPair, PerGear};
+use gearwear_bodies::gear::{Gear, GearPair, PerGear};
 
 /// l/(r_b1 cos ε): approach in the tangent frame over transmission error with the theoretical contact point at `position_mm`.
 pub(crate) fn approach_ratio(pair: &GearPair, position_mm: f64) -> f64 {
@@ -41,7 +41,7 @@ pub(crate) fn approach_ratio(pair: &GearPair, position_mm: f64) -> f64 {
 pub(crate) struct OnLever<'a> {
     /// The contact along its own normal.
     pub contact: Box<dyn PairContact + 'a>,
-    /// Approach along the normal ([`crate::gear::normal_section`]) over transmission error, [`approach_ratio`].
+    /// Approach along the normal ([`gearwear_bodies::gear::normal_section`]) over transmission error, [`approach_ratio`].
     pub approach: f64,
     /// Load by the torque over load along the normal, [`approach_ratio`] without obliquity.
     pub load: f64,

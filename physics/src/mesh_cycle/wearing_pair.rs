@@ -4,10 +4,10 @@
 //! ([`OnFlankNodes`]), and at the contact points by the simplified model of helical gears ([`super::simplified`]).
 
 use super::CycleObservation;
-use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::{LostMaterial, MeshCycle, Work, condensed::CondensedCycle, load_sharing::EquilibriumError};
-use crate::reference::linear_means::weighted_sum;
 use crate::wear::WearModel;
+use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_bodies::reference::linear_means::weighted_sum;
 use serde::{Deserialize, Serialize};
 
 /// State kept at a snapshot.

@@ -2,14 +2,14 @@
 
 use super::load_sharing::MeshedPair;
 use crate::contact::{Flanks, PairContact, PositionCell, Sweep};
-use crate::gear::{Gear, PerGear};
 use crate::lubrication::running_pair::LoadedPlace;
-use crate::reference::hertz_line::PEAK_OVER_MEAN;
 use crate::thermal::{HeatedStrip, SpeedRatios};
 use crate::wear::{
     ContactConditions, SlidingRow, WearModel,
     heated_row::{HeatedContact, HeatedRow, RowOfPoints},
 };
+use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_bodies::reference::hertz_line::PEAK_OVER_MEAN;
 
 /// Place of a contact on the path, for heat and film.
 #[derive(Debug, Clone, Copy)]

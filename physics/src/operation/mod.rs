@@ -4,16 +4,16 @@
 mod phase_conditions;
 
 use crate::contact::settings::ContactSettings;
-use crate::gear::{PerGear, spec::PairSpec};
-use crate::gear_mesh::settings::BodySettings;
 use crate::lubrication::settings::LubricationSettings;
-use crate::material::Material;
 use crate::mesh_cycle::settings::SliceSettings;
 use crate::simulation::settings::{Numerics, Operation};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::thermal::settings::HeatSettings;
 use crate::thermal::tooth::TemperatureCurve;
 use crate::wear::settings::WearSettings;
+use gearwear_bodies::gear::{PerGear, spec::PairSpec};
+use gearwear_bodies::gear_mesh::settings::BodySettings;
+use gearwear_bodies::material::Material;
 pub use phase_conditions::mean_friction;
 
 /// A scene with every choice made: what the plan and the pipeline work from.

@@ -8,15 +8,15 @@ use std::f64::consts::TAU;
 
 use crate::contact::settings::{Foundation, SurfaceKind};
 use crate::contact::{foundation, hertz};
-use crate::gear::{Gear, GearPair, PerGear};
 use crate::lubrication::loss;
 use crate::lubrication::running_pair::{RunningConditions, RunningPair, SurfaceOverHertz};
-use crate::material::{Material, contact_modulus_mpa};
 use crate::operation::Scene;
 use crate::simulation::settings::Phase;
 use crate::thermal::settings::HeatSettings;
 use crate::thermal::tooth::{ToothTemperatures, WarmGear};
 use crate::wear::settings::WearSettings;
+use gearwear_bodies::gear::{Gear, GearPair, PerGear};
+use gearwear_bodies::material::{Material, contact_modulus_mpa};
 
 /// W per N·mm/s.
 const W_PER_N_MM_PER_S: f64 = 1e-3;

@@ -6,12 +6,12 @@ pub mod fem_pair;
 use serde::{Serialize, Serializer};
 
 use crate::contact::settings::{Foundation, SurfaceKind};
-use crate::gear::Gear;
-use crate::gear_mesh::settings::{Body, SpaceResolution};
 use crate::mesh_cycle::settings::{Coupling, MOST_SLICES_IN_SPACE, SliceSettings};
 use crate::operation::Scene;
 use crate::simulation::settings::{Operation, Phase, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
+use gearwear_bodies::gear::Gear;
+use gearwear_bodies::gear_mesh::settings::{Body, SpaceResolution};
 
 /// Phases that are listed one by one.
 const PHASES_LISTED: usize = 8;

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 
 pub use crate::thermal::settings::{HeatPartition, HeatVelocity, TemperatureMethod};
 pub use crate::wear::regime::Regime;

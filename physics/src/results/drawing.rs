@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 
 /// The pair in mesh in the transverse section, mm; the pinion's axis is the origin and the wheel's lies on +y.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

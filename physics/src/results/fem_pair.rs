@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::fem_problem::NodalStress;
 use super::root_stress::RootStressSummary;
 use super::run::{ContactSummary, GeometrySummary, PathPoints, RangeSummary, StageTime, StopReason};
-use crate::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 use gearwear_fem::solid::Element;
 use gearwear_mesh::quality::MeshQuality;
 

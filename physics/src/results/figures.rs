@@ -10,7 +10,7 @@ use std::sync::LazyLock;
 
 use super::error::TotalError;
 use super::run::{CycleSummary, HistoryRow, OverWidthSummary, Summary, WearSummary};
-use crate::gear::Gear;
+use gearwear_bodies::gear::Gear;
 
 /// A relative error that a run states of itself, against the same wear simulation with finite elements.
 #[derive(Debug, Clone, Copy)]

@@ -5,7 +5,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 
 /// Films, friction and losses under the load of the reference phase.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

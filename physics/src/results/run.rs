@@ -16,7 +16,7 @@ use super::lubrication::{FilmRow, LubricationSummary};
 pub use super::path_points::PathPoints;
 pub use super::reported_by::ReportedBy;
 use super::root_stress::RootStressSummary;
-use crate::gear::{PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
+use gearwear_bodies::gear::{PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
 
 /// A finished (or interrupted) run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

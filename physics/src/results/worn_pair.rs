@@ -1,7 +1,7 @@
 //! Record that a study of many runs keeps of each: the main figures, how they grew, and the wear over both flanks.
 
 use super::run::{HistoryRow, Summary};
-use crate::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 
 /// A run as a study of many keeps it.
 #[derive(Debug, Clone, PartialEq)]

@@ -13,7 +13,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::settings::Stepping;
-use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::wearing_pair::WearingPair;
 use crate::mesh_cycle::{Work, load_sharing::EquilibriumError};
 use crate::wear::WearModel;
@@ -22,6 +21,7 @@ use crate::wear::stepping::{
     adaptive::{Adaptive, StepCounts},
     spectral_radius::SpectralRadius,
 };
+use gearwear_bodies::gear::{Gear, PerGear};
 
 /// Part of a step below which a remainder joins the step before it.
 const NEGLIGIBLE_STEP: f64 = 1e-9;

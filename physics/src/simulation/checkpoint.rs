@@ -13,9 +13,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::advance::StepperState;
-use crate::gear::PerGear;
 use crate::mesh_cycle::Work;
 use crate::mesh_cycle::wearing_pair::Snapshot;
+use gearwear_bodies::gear::PerGear;
 
 /// A run at a clean start: evaluated, and what was due there kept.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -1,14 +1,14 @@
 //! The figures an engineer asks of a worn flank.
 
 use super::wear_run::Outcome;
-use crate::gear::{
+use crate::mesh_cycle::wearing_pair::Snapshot;
+use crate::results::worn_pair::WearProfile;
+use gearwear_bodies::gear::{
     Gear, GearPair,
     flank::FlankGrid,
     flank_zones::{FlankZone, FlankZones},
     slices::{greatest_over_width, readings_over_width},
 };
-use crate::mesh_cycle::wearing_pair::Snapshot;
-use crate::results::worn_pair::WearProfile;
 
 /// The greatest depth of a part of a flank.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -11,16 +11,16 @@
 //!
 //! and so does the part of it that is done outside the temperatures for which a law holds.
 
-use crate::gear::{Gear, GearPair, PerGear};
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::mesh_cycle::{CycleObservation, sliced_mesh::SlicedMesh};
-use crate::reference::hertz_line::PEAK_OVER_MEAN;
 use crate::thermal::{
     ContactHeat, HeatedStrip, SpeedRatios,
     band::{HeatedBand, Spread},
     settings::TemperatureMethod,
 };
 use crate::wear::{ContactConditions, LocalContact, WearModel};
+use gearwear_bodies::gear::{Gear, GearPair, PerGear};
+use gearwear_bodies::reference::hertz_line::PEAK_OVER_MEAN;
 
 /// Places across a contact at which its work is weighed.
 const PLACES: usize = 32;

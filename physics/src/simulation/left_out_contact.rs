@@ -14,9 +14,9 @@
 //! Source: R. G. Munro, L. Morrish and D. Palmer, *Proc. Inst. Mech. Eng. C* 213 (1999) 389–400, for the phenomenon.
 
 use super::wear_run::Outcome;
-use crate::gear::flank_edge::PathEnd;
-use crate::gear::{Gear, GearPair, removed_material};
 use crate::mesh_cycle::wearing_pair::Snapshot;
+use gearwear_bodies::gear::flank_edge::PathEnd;
+use gearwear_bodies::gear::{Gear, GearPair, removed_material};
 
 /// Distances along the path are compared to this part of the base pitch.
 const SAME_PLACE: f64 = 1e-9;

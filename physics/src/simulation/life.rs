@@ -25,9 +25,9 @@
 
 use super::figures::WearFigures;
 use super::settings::LifeLimits;
-use crate::gear::{Gear, GearPair, PerGear, flank::FlankGrid, flank_zones::FlankZones};
 use crate::mesh_cycle::wearing_pair::WearingPair;
 use crate::results::life::LifeLimit;
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, flank::FlankGrid, flank_zones::FlankZones};
 
 /// Halvings of the last step: to the last bit of θ.
 const HALVINGS: u32 = 52;

@@ -3,9 +3,6 @@
 use super::settings::Numerics;
 use crate::contact::flank_pressure::FlankParts;
 use crate::contact::{ContactSurface, Effort, Flanks};
-use crate::gear::{GearPair, PerGear, flank_zones::FlankZones, slices::Slices};
-use crate::gear_fem::condensed_pair::CondensedPair;
-use crate::material::Material;
 use crate::mesh_cycle::simplified::{SimplifiedPair, exact::SlicesInSeries};
 use crate::mesh_cycle::wearing_pair::{OnFlankNodes, OnFlankPoints, WearingPair};
 use crate::mesh_cycle::{
@@ -18,6 +15,9 @@ use crate::mesh_cycle::{
     tip_contact,
 };
 use crate::stiffness::{SpringParts, StiffnessError, TeethSpring};
+use gearwear_bodies::gear::{GearPair, PerGear, flank_zones::FlankZones, slices::Slices};
+use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
+use gearwear_bodies::material::Material;
 
 /// The elastic model of the pair in mesh.
 #[derive(Clone, Copy)]

@@ -1,6 +1,6 @@
 //! Settings of a wear run: operation and numerical resolution.
 
-use crate::gear::{PerGear, flank::PointSpacing};
+use gearwear_bodies::gear::{PerGear, flank::PointSpacing};
 
 /// Wear steps of a run where nothing else is asked for.
 const STEPS: f64 = 150.0;

@@ -12,16 +12,16 @@ use super::life::{LimitReached, LimitsOfPair, StepBeginning};
 use super::mesh_contact::{LoadedMesh, MeshContact};
 use super::settings::{LifeLimits, Numerics, Stepping, first_greatest};
 use crate::contact::Flanks;
-use crate::gear::{
-    Gear, GearPair, PerGear, flank::FlankGrid, flank_zones::FlankZones, removed_material::modifications_mm,
-    slices::Slices,
-};
 use crate::mesh_cycle::wearing_pair::{Snapshot, WearingPair};
 use crate::mesh_cycle::{Work, load_sharing::EquilibriumError};
 use crate::observer::Observer;
 use crate::results::run::StopReason;
 use crate::stiffness::StiffnessError;
 use crate::wear::{WearModel, stepping::adaptive::StepCounts};
+use gearwear_bodies::gear::{
+    Gear, GearPair, PerGear, flank::FlankGrid, flank_zones::FlankZones, removed_material::modifications_mm,
+    slices::Slices,
+};
 
 /// Wear depth in modules up to which wear with the stiffness of unworn teeth is within 6 % of that by finite elements, and that stiffness
 /// within 3 % of the worn tooth's, as measured (`docs/materials.md`).

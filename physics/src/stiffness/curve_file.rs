@@ -19,7 +19,7 @@
 //! and values with flattening. Other lines with # are remarks.
 
 use super::curve::{PairCompliance, StandsFor};
-use crate::gear::path_of_contact::PathOfContact;
+use gearwear_bodies::gear::path_of_contact::PathOfContact;
 use gearwear_files::data_table::{DataTable, DataTableError, missing, not_allowed, positive};
 
 const POSITION: &str = "position_mm";

@@ -15,8 +15,8 @@
 //!
 //! Source: ISO 6336-1, section on tooth stiffness (method B).
 
-use crate::gear::{Gear, PerGear, spec::PairSpec};
-use crate::material::Material;
+use gearwear_bodies::gear::{Gear, PerGear, spec::PairSpec};
+use gearwear_bodies::material::Material;
 
 /// Coefficients C1 … C9.
 const C: [f64; 9] = [0.04723, 0.15551, 0.25791, -0.00635, -0.11654, -0.00193, -0.24188, 0.00529, 0.00182];

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! with s_F the chord where the fillet's tangent makes 30° with the centre line and L the height of y_p above it.
-//! Flattening is [`crate::reference::flattening`].
+//! Flattening is [`gearwear_bodies::reference::flattening`].
 //!
 //! Source: C. Weber and K. Banaschek, *Formänderung und Profilrücknahme bei gerad- und schrägverzahnten Rädern* (1953).
 
@@ -18,9 +18,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Rotation2, Vector2};
 
-use crate::gear::half_profile::{half_profile, in_tooth_frame};
-use crate::gear::tooth::{LoadLine, Tooth};
-use crate::material::Material;
+use gearwear_bodies::gear::half_profile::{half_profile, in_tooth_frame};
+use gearwear_bodies::gear::tooth::{LoadLine, Tooth};
+use gearwear_bodies::material::Material;
 
 /// Samples of the profile on fillet and flank each; the trapezoidal rule is then exact to about 1e-6.
 const SAMPLES: usize = 1500;

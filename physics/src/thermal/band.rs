@@ -4,8 +4,8 @@ use super::heat_equation::{CELLS, Passage};
 use super::peclet::peclet;
 use super::settings::{HeatVelocity, TemperatureMethod, ThermalMaterial};
 use super::{ContactHeat, HeatedStrip, enters_at_tip_side, partition, tian_kennedy, williams};
-use crate::gear::{Gear, PerGear};
-use crate::reference::linear_means::value_at;
+use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_bodies::reference::linear_means::value_at;
 
 /// Distribution of the heat over the strip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

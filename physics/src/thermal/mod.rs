@@ -30,8 +30,8 @@ pub mod tian_kennedy;
 pub mod tooth;
 pub mod williams;
 
-use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 use band::HeatedBand;
+use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 use heat_equation::Passage;
 use settings::{HeatSettings, TemperatureMethod};
 

@@ -10,7 +10,7 @@
 //! Source: J. F. Archard and R. A. Rowntree, *Wear* 128 (1988) 1; the thesis, equation 29 (δ_theory).
 
 use super::settings::HeatPartition;
-use crate::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 
 /// δ of both bodies, from the greatest rise that each would have with all of the heat.
 pub(crate) fn shares(partition: HeatPartition, rise_with_all: PerGear<f64>) -> PerGear<f64> {

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::tooth::ToothHeatSettings;
-use crate::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 
 /// 0 K in °C.
 pub const ABSOLUTE_ZERO_C: f64 = -273.15;

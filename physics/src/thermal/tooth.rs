@@ -16,8 +16,8 @@
 //!
 //! Limits: a steady mean of both gears' loss; in dry running an error of tens of kelvins is usual.
 
-use crate::gear::PerGear;
-use crate::reference::linear_means::value_at;
+use gearwear_bodies::gear::PerGear;
+use gearwear_bodies::reference::linear_means::value_at;
 
 /// k_θ of flank and root of a plastic gear on a metal one, dry.
 pub const DRY_ON_METAL: ToothCoefficients = ToothCoefficients { flank: 6300.0, root: 895.0 };

@@ -1,8 +1,8 @@
 //! Conditions of flank points in a heated contact, in rows that are filled anew for every contact.
 
 use super::ContactConditions;
-use crate::gear::Gear;
 use crate::thermal::{ContactHeat, HeatedStrip, band::Spread};
+use gearwear_bodies::gear::Gear;
 
 /// A contact heated by friction.
 #[derive(Debug, Clone, Copy)]

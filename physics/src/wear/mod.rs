@@ -19,10 +19,10 @@ mod severe;
 pub mod stepping;
 pub mod vdi_2736;
 
-use crate::gear::{Gear, PerGear};
 use crate::lubrication::running_pair::{LoadedPlace, RunningPair};
 use crate::lubrication::settings::FilmRatio;
 use crate::thermal::ContactHeat;
+use gearwear_bodies::gear::{Gear, PerGear};
 use settings::{FilmDependence, LawSettings, SevereTransition, WearSettings};
 
 /// Conditions of a contact that the chemistry of a flank point depends on.

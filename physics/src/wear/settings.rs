@@ -4,10 +4,10 @@ use super::adsorption::{Adsorption, AdsorptionConstants};
 use super::archard::Archard;
 use super::oxidation::{Oxidation, OxidationConstants};
 use super::{LawConstants, WearLaw};
-use crate::gear::{Gear, PerGear};
 use crate::lubrication::settings::FilmRatio;
-use crate::reference::linear_means::value_at;
 use crate::thermal::tooth::TemperatureCurve;
+use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_bodies::reference::linear_means::value_at;
 
 /// The transition from mild to severe wear (thesis eq 26).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -120,21 +120,36 @@ pub struct WearSettings {
     pub warm: Option<TemperatureCurve>,
 }
 
-impl PerGear<WearSettings> {
+/// The wear laws of both gears.
+pub trait WearOfPair {
     /// Whether both gears wear by the same law with the same constants and coefficient.
-    pub fn are_alike(&self) -> bool {
+    fn are_alike(&self) -> bool;
+
+    /// Whether wear of either gear may be severe.
+    fn may_be_severe(&self) -> bool;
+
+    /// Greatest factor of severe wear under this maximum pressure, MPa; none where neither gear wears severely.
+    fn severe_factor_under(&self, peak_pressure_mpa: f64) -> Option<f64>;
+
+    /// Whether wear of either gear is faster than mild under this maximum pressure, MPa, or would be with limits of `part` of their own.
+    fn is_severe_under(&self, peak_pressure_mpa: f64, part: f64) -> bool;
+
+    /// Laws with another transition in place of each gear's own.
+    fn with_severe(&self, of: impl Fn(SevereTransition) -> Option<SevereTransition>) -> Self;
+}
+
+impl WearOfPair for PerGear<WearSettings> {
+    fn are_alike(&self) -> bool {
         let [pinion, wheel] =
             Gear::BOTH.map(|gear| WearSettings { severe: self[gear].severe_transition(), ..self[gear].clone() });
         pinion == wheel
     }
 
-    /// Whether wear of either gear may be severe.
-    pub fn may_be_severe(&self) -> bool {
+    fn may_be_severe(&self) -> bool {
         Gear::BOTH.into_iter().any(|gear| self[gear].severe_transition().is_some())
     }
 
-    /// Greatest factor of severe wear under this maximum pressure, MPa; none where neither gear wears severely.
-    pub fn severe_factor_under(&self, peak_pressure_mpa: f64) -> Option<f64> {
+    fn severe_factor_under(&self, peak_pressure_mpa: f64) -> Option<f64> {
         let wearing = Gear::BOTH.into_iter().map(|gear| &self[gear]).filter(|own| own.coefficient_mm2_per_n > 0.0);
         let severe = wearing
             .filter_map(WearSettings::severe_transition)
@@ -142,13 +157,11 @@ impl PerGear<WearSettings> {
         severe.map(|severe| severe.factor).reduce(f64::max)
     }
 
-    /// Whether wear of either gear is faster than mild under this maximum pressure, MPa, or would be with limits of `part` of their own.
-    pub fn is_severe_under(&self, peak_pressure_mpa: f64, part: f64) -> bool {
+    fn is_severe_under(&self, peak_pressure_mpa: f64, part: f64) -> bool {
         self.with_severe(|own| Some(own.with_limit(part))).severe_factor_under(peak_pressure_mpa).is_some()
     }
 
-    /// Laws with another transition in place of each gear's own.
-    pub fn with_severe(&self, of: impl Fn(SevereTransition) -> Option<SevereTransition>) -> Self {
+    fn with_severe(&self, of: impl Fn(SevereTransition) -> Option<SevereTransition>) -> Self {
         self.as_ref().map(|own| WearSettings { severe: own.severe.and_then(&of), ..own.clone() })
     }
 }

@@ -11,8 +11,8 @@
 
 use std::f64::consts::TAU;
 
-use crate::gear::{Gear, GearPair};
 use crate::lubrication::loss;
+use gearwear_bodies::gear::{Gear, GearPair};
 
 /// A stretch of operation under constant torque with a constant wear coefficient.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,7 +6,7 @@ mod fem;
 
 pub use fem::{assert_close, fe_case, grid};
 
-use gearwear_physics::gear::{
+use gearwear_bodies::gear::{
     GearPair, PerGear,
     flank::PointSpacing,
     flank_zones::FlankZones,
@@ -63,11 +63,11 @@ pub fn zones(pair: &GearPair, line_load_n_per_mm: f64) -> PerGear<FlankZones> {
 }
 
 /// Steel as in the scene's default.
-pub const STEEL: gearwear_physics::material::Material =
-    gearwear_physics::material::Material { young_modulus_mpa: 206e3, poisson_ratio: 0.3, density_kg_per_m3: 7830.0 };
+pub const STEEL: gearwear_bodies::material::Material =
+    gearwear_bodies::material::Material { young_modulus_mpa: 206e3, poisson_ratio: 0.3, density_kg_per_m3: 7830.0 };
 
 /// Both gears of steel.
-pub fn steel() -> PerGear<gearwear_physics::material::Material> {
+pub fn steel() -> PerGear<gearwear_bodies::material::Material> {
     PerGear { pinion: STEEL, wheel: STEEL }
 }
 

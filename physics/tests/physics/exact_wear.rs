@@ -1,6 +1,12 @@
 //! The exact wear test: while radii, speeds and load are constant, ∫ p v_s dt at a passing point is the line load times
 //! the specific sliding, whatever the pressure distribution.
 
+use gearwear_bodies::gear::{
+    Gear, GearPair, PerGear,
+    conjugate::ConjugateFlanks,
+    flank::FlankGrid,
+    involute::{TangentFramePoint, inv, inverse_inv},
+};
 use gearwear_physics::contact::{
     ContactSurface, Flanks, PositionCell,
     foundation::matched_mpa_per_mm,
@@ -10,12 +16,6 @@ use gearwear_physics::contact::{
     hertz_mean::HertzMean,
     settings::MatchCriterion,
     winkler::{Winkler, WinklerFoundation},
-};
-use gearwear_physics::gear::{
-    Gear, GearPair, PerGear,
-    conjugate::ConjugateFlanks,
-    flank::FlankGrid,
-    involute::{TangentFramePoint, inv, inverse_inv},
 };
 use gearwear_physics::mesh_cycle::{LineOfActionCycle, LoadingPosition, LostMaterial, MeshCycle, PairInMesh};
 use gearwear_physics::simulation::wear_run::Outcome;
@@ -145,7 +145,7 @@ fn val_two_discs_wear_the_load_times_the_specific_sliding() {
 }
 
 /// A pair of 20 and 41 teeth at the centre distance without backlash.
-fn twenty_to_forty_one() -> gearwear_physics::gear::spec::PairSpec {
+fn twenty_to_forty_one() -> gearwear_bodies::gear::spec::PairSpec {
     let (x1, x2, alpha) = (0.3, 0.15, 20f64.to_radians());
     let working = inverse_inv(inv(alpha) + 2.0 * alpha.tan() * (x1 + x2) / 61.0);
     let centre_distance_mm = 0.5 * 3.0 * 61.0 * alpha.cos() / working.cos() + 0.01;
@@ -154,7 +154,7 @@ fn twenty_to_forty_one() -> gearwear_physics::gear::spec::PairSpec {
 
 /// One mesh of the unworn pair.
 fn first_mesh(
-    spec: &gearwear_physics::gear::spec::PairSpec,
+    spec: &gearwear_bodies::gear::spec::PairSpec,
     torque_n_mm: f64,
     surface: &'static str,
 ) -> (GearPair, f64, Outcome) {

@@ -2,10 +2,10 @@
 
 use std::time::Instant;
 
+use gearwear_bodies::reference::hertz_line::HertzLine;
 use gearwear_fem::problem::{Problem, Solution};
 use gearwear_fem::solid::{ElementKind, Solid};
 use gearwear_fem::solve;
-use gearwear_physics::reference::hertz_line::HertzLine;
 use nalgebra::{Matrix2, Rotation2, Vector2};
 
 use super::common::fe_case::{hold, linear_fit, pair, press, problem};

@@ -1,15 +1,15 @@
 //! Finite-element contact of the FZG type C pair at 302 N·m: against Hertz, against other programs, against itself.
 
+use gearwear_bodies::gear::spec::PairSpec;
+use gearwear_bodies::gear::{GearPair, PerGear};
+use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
+use gearwear_bodies::gear_fem::cycle::cycle;
+use gearwear_bodies::gear_fem::full;
+use gearwear_bodies::gear_fem::model::MeshedGear;
+use gearwear_bodies::gear_fem::position::{PositionContact, ToothPairContact, WarmStart};
+use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides};
+use gearwear_bodies::reference::hertz_line::HertzLine;
 use gearwear_fem::elastic::Elastic;
-use gearwear_physics::gear::spec::PairSpec;
-use gearwear_physics::gear::{GearPair, PerGear};
-use gearwear_physics::gear_fem::condensed_pair::CondensedPair;
-use gearwear_physics::gear_fem::cycle::cycle;
-use gearwear_physics::gear_fem::full;
-use gearwear_physics::gear_fem::model::MeshedGear;
-use gearwear_physics::gear_fem::position::{PositionContact, ToothPairContact, WarmStart};
-use gearwear_physics::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides};
-use gearwear_physics::reference::hertz_line::HertzLine;
 
 use super::common::{assert_close, fzg_c};
 
@@ -205,7 +205,7 @@ fn ver_recovered_field_is_that_of_the_condensed_tooth() {
     let pair = GearPair::new(&fzg_c()).unwrap();
     let model = model(&pair, settings(Body::Ring, 3.0));
     let found = model.at(pair.path.pitch_point_mm, line_load(&pair), &WarmStart::default()).unwrap();
-    for gear in gearwear_physics::gear::Gear::BOTH {
+    for gear in gearwear_bodies::gear::Gear::BOTH {
         let (body, forces) = (&model.gears[gear], &found.forces[gear]);
         let condensed = &body.sector;
         for tooth in 0..body.teeth() {

@@ -3,11 +3,11 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
+use gearwear_bodies::reference::hertz_line::{HertzLine, LineContact};
+use gearwear_bodies::reference::persson::Persson;
 use gearwear_fem::problem::{Problem, Solution};
 use gearwear_fem::solid::{ElementKind, Solid};
 use gearwear_fem::{SolveError, solve};
-use gearwear_physics::reference::hertz_line::{HertzLine, LineContact};
-use gearwear_physics::reference::persson::Persson;
 use nalgebra::{Rotation2, Vector2};
 
 use super::common::fe_case::{even, graded_around, hold, in_units, nearest, pair, press, problem, renumbered, weld};

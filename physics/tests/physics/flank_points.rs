@@ -1,10 +1,6 @@
 //! Where flank points lie.
 
-use gearwear_physics::contact::{
-    ContactSurface, Flanks, PositionCell, Sweep,
-    winkler::{Winkler, WinklerFoundation},
-};
-use gearwear_physics::gear::{
+use gearwear_bodies::gear::{
     Gear, GearPair, PerGear,
     flank::{FlankGrid, PointSpacing},
     flank_zones::FlankZones,
@@ -12,6 +8,10 @@ use gearwear_physics::gear::{
     removed_material::{modifications_mm, tip_rounding_length_mm},
     slices::Slices,
     spec::PairSpec,
+};
+use gearwear_physics::contact::{
+    ContactSurface, Flanks, PositionCell, Sweep,
+    winkler::{Winkler, WinklerFoundation},
 };
 
 use super::common::{fzg_c, gear, pair, spur};

@@ -1,6 +1,6 @@
 //! The working flanks in space: both gears in one frame, turned to any place of the mesh.
 
-use gearwear_physics::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface, spec::PairSpec};
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface, spec::PairSpec};
 use proptest::prelude::*;
 
 use super::common::{fzg_c, pair};

@@ -1,7 +1,6 @@
 //! Gear geometry against the FZG test gears and against its own continuity.
 
-use gearwear_physics::contact::hertz::flattening;
-use gearwear_physics::gear::{
+use gearwear_bodies::gear::{
     Gear, PairError,
     flank_zones::{FlankZone, FlankZones},
     modification::{Modification, Relief, ReliefShape},
@@ -9,6 +8,7 @@ use gearwear_physics::gear::{
     removed_material::{removed_mm, tip_rounding_length_mm},
     tooth::Tooth,
 };
+use gearwear_physics::contact::hertz::flattening;
 
 use super::common::{assert_close, fzg_a, fzg_c, gear, pair, spur, steel};
 
@@ -26,7 +26,7 @@ fn val_the_wheel_of_fzg_type_a_is_undercut() {
 }
 
 /// The outline closes, its pieces join to 1e-9 mm, and where nothing is undercut they join without a kink.
-fn check_outline(spec: &gearwear_physics::gear::spec::PairSpec) {
+fn check_outline(spec: &gearwear_bodies::gear::spec::PairSpec) {
     for g in Gear::BOTH {
         let tooth = &Tooth::new(spec, g, spec.tip_radius_mm(g)).expect("the tooth of the test is sound");
         let pieces = outline(tooth);
@@ -110,10 +110,10 @@ fn tip_circles_from_the_rack_keep_the_full_clearance() {
 
 #[test]
 fn impossible_pairs_are_refused() {
-    let refuse = |edit: &dyn Fn(&mut gearwear_physics::gear::spec::PairSpec)| {
+    let refuse = |edit: &dyn Fn(&mut gearwear_bodies::gear::spec::PairSpec)| {
         let mut spec = fzg_c();
         edit(&mut spec);
-        gearwear_physics::gear::GearPair::new(&spec).unwrap_err()
+        gearwear_bodies::gear::GearPair::new(&spec).unwrap_err()
     };
     assert!(matches!(refuse(&|s| s.centre_distance_mm = 84.0), PairError::NoMesh { .. }));
     assert!(matches!(refuse(&|s| s.centre_distance_mm = 91.3), PairError::NegativeBacklash { .. }));
@@ -130,7 +130,7 @@ fn impossible_pairs_are_refused() {
     // The tip of a wheel that reaches below what the tool's straight flank has made runs into the fillet.
     let mates = spur(1.0, 40.0, 10.0, gear(20, 0.0, None), gear(60, 0.0, Some(62.4)));
     assert!(matches!(
-        gearwear_physics::gear::GearPair::new(&mates).unwrap_err(),
+        gearwear_bodies::gear::GearPair::new(&mates).unwrap_err(),
         PairError::Interference { gear: Gear::Pinion, .. }
     ));
     assert!(matches!(refuse(&|s| s.rack.dedendum_factor = 2.2), PairError::RackPointed { .. }));
@@ -146,7 +146,7 @@ fn impossible_pairs_are_refused() {
 fn ver_least_centre_distance_is_exact() {
     let mut spec = fzg_c();
     spec.centre_distance_mm = 91.0;
-    let Err(PairError::NegativeBacklash { least_mm, .. }) = gearwear_physics::gear::GearPair::new(&spec) else {
+    let Err(PairError::NegativeBacklash { least_mm, .. }) = gearwear_bodies::gear::GearPair::new(&spec) else {
         panic!("91 mm is too close")
     };
     spec.centre_distance_mm = least_mm + 1e-6;

@@ -1,7 +1,7 @@
 //! The half-space surface: Hertz's contact on plain gear flanks, and what springs do not know on worn ones.
 
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::contact::hertz;
-use gearwear_physics::gear::Gear;
 use gearwear_physics::simulation::figures::WearFigures;
 use gearwear_physics::simulation::wear_run::SimulationError;
 use gearwear_physics::stiffness::settings::StiffnessSettings;

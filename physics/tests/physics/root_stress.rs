@@ -1,7 +1,7 @@
 //! Nominal root stress of the standards against the fillet that the rack cuts. Printed figures are in the case `micropitting-method-b`.
 
-use gearwear_physics::gear::{Gear, GearPair, spec::BasicRack};
-use gearwear_physics::root_stress::{LoadedAt, section};
+use gearwear_bodies::gear::{Gear, GearPair, spec::BasicRack};
+use gearwear_bodies::root_stress::{LoadedAt, section};
 use nalgebra::{Rotation2, Vector2};
 
 use super::common::{assert_close, gear, spur};

@@ -1,8 +1,8 @@
 //! How slices of a tooth hold each other: limit cases, and the plate that a tooth is taken for.
 
+use gearwear_bodies::gear::slices::Slices;
+use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::contact::{Footprint, PairContact, PointContact, PositionCell, PressedCell, Response, Sweep};
-use gearwear_physics::gear::slices::Slices;
-use gearwear_physics::gear::{Gear, PerGear};
 use gearwear_physics::mesh_cycle::bent_tooth::BentTooth;
 use gearwear_physics::mesh_cycle::coupled_teeth::CoupledTeeth;
 use gearwear_physics::mesh_cycle::load_sharing::MeshedPair;

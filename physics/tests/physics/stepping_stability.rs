@@ -1,9 +1,9 @@
 //! Where Euler's steps break, and that adaptive ones do not.
 
+use gearwear_bodies::gear::{Gear, PerGear, flank::PointSpacing};
+use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
+use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
 use gearwear_fem::elastic::Elastic;
-use gearwear_physics::gear::{Gear, PerGear, flank::PointSpacing};
-use gearwear_physics::gear_fem::condensed_pair::CondensedPair;
-use gearwear_physics::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
 use gearwear_physics::observer::Unwatched;
 use gearwear_physics::simulation::mesh_contact::MeshContact;
 use gearwear_physics::simulation::settings::{LifeLimits, Numerics, Stepping};

@@ -1,10 +1,10 @@
 //! Tooth stiffness against Weber and Banaschek's formulae evaluated independently.
 
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::contact::{
     hertz,
     winkler::{Winkler, WinklerFoundation},
 };
-use gearwear_physics::gear::Gear;
 use gearwear_physics::stiffness::{TeethSpring, settings::StiffnessSettings, weber_banaschek::ToothCompliance};
 
 use super::common::{STEEL, assert_close, fzg_c, pair, steel};

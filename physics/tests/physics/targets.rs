@@ -1,11 +1,11 @@
 //! What the thesis says the simulator must show, for spur gears (targets S2–S5, S11, S12; S1 is in `validation/fzg-c-geometry`).
 //! Thresholds marked "ours" were set by the project; the others are the thesis's own.
 
-use gearwear_physics::contact::settings::MatchCriterion;
-use gearwear_physics::gear::{
+use gearwear_bodies::gear::{
     Gear, GearPair,
     modification::{Relief, ReliefShape},
 };
+use gearwear_physics::contact::settings::MatchCriterion;
 use gearwear_physics::mesh_cycle::wearing_pair::Snapshot;
 use gearwear_physics::simulation::figures::WearFigures;
 use gearwear_physics::simulation::wear_run::Outcome;

@@ -1,15 +1,15 @@
 //! Contact at tip edges before A and after E.
 
+use gearwear_bodies::gear::{
+    Gear, GearPair, conjugate::ConjugateFlanks, flank_edge::PathEnd, removed_material::tip_rounding_mm,
+};
+use gearwear_bodies::gear_fem::placement::{axis_mm, tooth_angle_rad};
 use gearwear_physics::contact::{
     edge_foundation::EdgeFoundations,
     foundation::{FoundationCurve, half_width_mm, matched_mpa_per_mm},
     hertz,
     settings::MatchCriterion,
 };
-use gearwear_physics::gear::{
-    Gear, GearPair, conjugate::ConjugateFlanks, flank_edge::PathEnd, removed_material::tip_rounding_mm,
-};
-use gearwear_physics::gear_fem::placement::{axis_mm, tooth_angle_rad};
 use gearwear_physics::mesh_cycle::PositionObservation;
 use gearwear_physics::simulation::settings::Stepping;
 use gearwear_physics::simulation::wear_run::Outcome;

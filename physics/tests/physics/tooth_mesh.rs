@@ -3,18 +3,18 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
+use gearwear_bodies::gear::modification::{Modification, Relief, ReliefShape};
+use gearwear_bodies::gear::removed_material::removed_mm;
+use gearwear_bodies::gear::spec::PairSpec;
+use gearwear_bodies::gear::{Gear, GearPair, PerGear};
+use gearwear_bodies::gear_mesh::pair_mesh::PairSectors;
+use gearwear_bodies::gear_mesh::settings::{
+    Body, BodySettings, NO_WEBS, SectorSides, SpaceBody, SpaceResolution, Web, default_clamp,
+};
+use gearwear_bodies::gear_mesh::{self, FlankResolution, SectorSettings, ToothMeshError, ToothSector, ToothShape};
 use gearwear_mesh::quality::{self, MeshQuality};
 use gearwear_mesh::{CellBlock, CellKind, Mesh};
 use gearwear_physics::contact::hertz;
-use gearwear_physics::gear::modification::{Modification, Relief, ReliefShape};
-use gearwear_physics::gear::removed_material::removed_mm;
-use gearwear_physics::gear::spec::PairSpec;
-use gearwear_physics::gear::{Gear, GearPair, PerGear};
-use gearwear_physics::gear_mesh::pair_mesh::PairSectors;
-use gearwear_physics::gear_mesh::settings::{
-    Body, BodySettings, NO_WEBS, SectorSides, SpaceBody, SpaceResolution, Web, default_clamp,
-};
-use gearwear_physics::gear_mesh::{self, FlankResolution, SectorSettings, ToothMeshError, ToothSector, ToothShape};
 use nalgebra::{Rotation2, Vector2};
 use proptest::prelude::*;
 

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use gearwear_physics::gear::{
+use gearwear_bodies::gear::{
     Gear,
     involute::{inv, inverse_inv},
     modification::{Relief, ReliefShape},
@@ -74,7 +74,7 @@ fn ver_each_refinement_alone_changes_little() {
 }
 
 /// A pair of 32 and 48 long teeth: contact ratio above 2, so two and three pairs share the load.
-fn high_contact_ratio() -> gearwear_physics::gear::spec::PairSpec {
+fn high_contact_ratio() -> gearwear_bodies::gear::spec::PairSpec {
     let alpha = 20f64.to_radians();
     let working = inverse_inv(inv(alpha) + 2.0 * alpha.tan() * 0.0 / 80.0);
     let mut spec = spur(

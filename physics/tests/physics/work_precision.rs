@@ -1,6 +1,6 @@
 //! How many mesh cycles a given accuracy of the wear takes, by Euler's method and by adaptive steps.
 
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::simulation::settings::Stepping;
 use gearwear_physics::simulation::wear_run::Outcome;
 

@@ -1,5 +1,8 @@
 //! A cylinder that a flat wears, from Hertz's contact to the late stage: the program's own surfaces against the closed form.
 
+use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid, involute::TangentFramePoint};
+use gearwear_bodies::material::{Material, contact_modulus_mpa};
+use gearwear_bodies::reference::worn_cylinder::WornCylinder;
 use gearwear_physics::contact::{
     ContactSurface, Flanks, PositionCell,
     foundation::matched_mpa_per_mm,
@@ -8,12 +11,7 @@ use gearwear_physics::contact::{
     settings::MatchCriterion,
     winkler::{Winkler, WinklerFoundation},
 };
-use gearwear_physics::gear::{
-    Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid, involute::TangentFramePoint,
-};
-use gearwear_physics::material::{Material, contact_modulus_mpa};
 use gearwear_physics::mesh_cycle::{LineOfActionCycle, LoadingPosition, LostMaterial, MeshCycle, PairInMesh};
-use gearwear_physics::reference::worn_cylinder::WornCylinder;
 use gearwear_physics::wear::{WearModel, settings::WearSettings};
 
 use super::common::{assert_close, steel};

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 
 use super::document::RexsDocument;
 use super::same_loads::Loads;
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::figures::{self, FigureValues, MainFigure, RexsAttribute, RexsId, STATED_ERRORS};
 
 /// The beginning of ids that are not in the database.

@@ -29,8 +29,8 @@ use super::same_pair;
 use super::scene_text::rounded;
 use super::stage::{Gears, RexsStage};
 use crate::evaluate::output::SummaryOutput;
-use gearwear_physics::gear::spec::PairSpec;
-use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_bodies::gear::spec::PairSpec;
+use gearwear_bodies::gear::{Gear, PerGear};
 
 const GEAR_IN_STAGE: &str = "cylindrical_stage_gear_data";
 

@@ -8,7 +8,7 @@ use super::same_loads::Loads;
 use super::{RexsError, VERSIONS, scene};
 use crate::evaluate::output::SummaryOutput;
 use crate::scene::Resolved;
-use gearwear_physics::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 
 const TWO_STAGES: &str = include_str!("two_stages.rexs");
 

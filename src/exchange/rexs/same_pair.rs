@@ -2,8 +2,8 @@
 
 use super::RexsError;
 use super::stage::{Gears, RexsStage};
-use gearwear_physics::gear::Gear;
-use gearwear_physics::gear::spec::PairSpec;
+use gearwear_bodies::gear::Gear;
+use gearwear_bodies::gear::spec::PairSpec;
 
 /// Figures this close to each other, relatively, or as numbers without unit, are the same: scenes from REXS have twelve digits.
 const SAME: f64 = 1e-6;

@@ -3,12 +3,12 @@
 use super::path_points;
 use crate::report::chart::{Chart, Dash, MUTED, PATH, Trace, WORN, colour_between_gears, gear_colour};
 use crate::report::html::number::{figure, percent, significant};
+use gearwear_bodies::gear::Gear;
+use gearwear_bodies::reference::statistics::extent;
 use gearwear_physics::calibration::Calibration;
 use gearwear_physics::calibration::stiffness_variation::{StiffnessVariation, VariationOf};
 use gearwear_physics::calibration::tooth_family::FamilyMember;
 use gearwear_physics::calibration::tooth_stiffness::{PairDeflection, ToothDeflection};
-use gearwear_physics::gear::Gear;
-use gearwear_physics::reference::statistics::extent;
 
 pub(super) fn all(calibration: &Calibration) -> Vec<Chart> {
     let over_path = [pair, each_gear, flattening, coupling, course].map(|of| of(calibration));

@@ -4,11 +4,11 @@ use maud::Markup;
 
 use crate::report::html::number::{change, fixed, percent, significant};
 use crate::report::html::table::{cells, row, table};
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::calibration::Calibration;
 use gearwear_physics::calibration::foundation_fit::FitErrors;
 use gearwear_physics::calibration::tooth_stiffness::{PairDeflection, ToothDeflection};
 use gearwear_physics::contact::settings::MatchCriterion;
-use gearwear_physics::gear::Gear;
 
 pub(super) fn tables(calibration: &Calibration) -> impl Iterator<Item = Markup> {
     [points, parts, fits, slices, convergence, rims, neighbours, courses].into_iter().map(|of| of(calibration))

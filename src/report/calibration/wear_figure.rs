@@ -2,8 +2,8 @@
 
 use crate::report::chart::{Chart, Dash, Trace, gear_colour};
 use crate::report::html::number::figure;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::calibration::Calibration;
-use gearwear_physics::gear::Gear;
 
 /// One in so many points, those at the tip edge, does not set the frame.
 const TIP_SHARE: usize = 40;

@@ -276,7 +276,7 @@ impl<'a> Serializer for Row<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gearwear_physics::gear::Gear;
+    use gearwear_bodies::gear::Gear;
 
     #[derive(Serialize)]
     struct Row {

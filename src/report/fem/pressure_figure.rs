@@ -3,8 +3,8 @@
 use crate::report::chart::Chart;
 use crate::report::html::number::{change, figure, significant};
 use crate::report::pressure_plot::beside_hertz;
-use gearwear_physics::reference::hertz_line::LineContact;
-use gearwear_physics::reference::statistics::extent;
+use gearwear_bodies::reference::hertz_line::LineContact;
+use gearwear_bodies::reference::statistics::extent;
 use gearwear_physics::results::fem_problem::{ContactCurve, ContactRow, ContactSummary};
 
 /// Half-widths shown on either side.

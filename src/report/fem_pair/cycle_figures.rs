@@ -2,8 +2,8 @@
 
 use crate::report::chart::{Chart, Dash, MUTED, NEW, PATH, Trace, WORN, gear_colour, padded};
 use crate::report::html::number::{figure, percent, significant};
-use gearwear_physics::gear::Gear;
-use gearwear_physics::reference::statistics::extent;
+use gearwear_bodies::gear::Gear;
+use gearwear_bodies::reference::statistics::extent;
 use gearwear_physics::results::fem_pair::{FemCycleRow, FemPairRecord, RootSummary};
 
 pub(super) fn all(record: &FemPairRecord) -> Vec<Chart> {

@@ -3,9 +3,9 @@
 use crate::report::chart::{Chart, Trace, gear_colour};
 use crate::report::html::field_plot::{self, WIDTH_OVER_HEIGHT, side_lines, to_scale};
 use crate::report::html::number::{count, figure, significant};
+use gearwear_bodies::gear::Gear;
 use gearwear_fem::field_raster::{self, Bodies, Window, greatest_near};
 use gearwear_fem::solid::Element;
-use gearwear_physics::gear::Gear;
 use gearwear_physics::results::fem_pair::{ContactPlace, FemPairSummary, PairSolution};
 
 /// Half the height of the picture of a contact, in half-widths.

@@ -6,7 +6,7 @@ use crate::report::html::number::{change, count, fixed, percent, significant};
 use crate::report::html::page;
 use crate::report::html::root_stress_table;
 use crate::report::html::table::{row, table};
-use gearwear_physics::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 use gearwear_physics::results::fem_pair::{
     FemPairSummary, FullModelSummary, GearModelSummary, PathPointsSummary, RootSummary,
 };

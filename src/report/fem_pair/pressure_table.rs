@@ -5,7 +5,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use gearwear_physics::reference::hertz_line::LineContact;
+use gearwear_bodies::reference::hertz_line::LineContact;
 use gearwear_physics::results::fem_pair::PressureCurve;
 
 /// A node of the flank with the multipliers around a contact; rows run towards the pinion's tip.

@@ -2,7 +2,7 @@
 
 use crate::report::chart::Axis;
 use crate::report::html::number::{superscript, to_digits};
-use gearwear_physics::reference::statistics::extent;
+use gearwear_bodies::reference::statistics::extent;
 
 /// Of a range that follows from the values, the part that is added on either side.
 const ROOM: f64 = 0.05;

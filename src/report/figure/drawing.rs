@@ -4,7 +4,7 @@ use super::axis::PlacedAxis;
 use super::picture::{Anchor, Group, Medium, Moves, Node, Path, Picture, Step, Words};
 use super::sign;
 use crate::report::chart::{BarPlaces, Chart, Dash, Drawn, Field, INK, Label, Line, MUTED, Shown, Trace};
-use gearwear_physics::reference::statistics::extent;
+use gearwear_bodies::reference::statistics::extent;
 
 const GRID: &str = "var(--grid)";
 const RULE: &str = "var(--rule)";

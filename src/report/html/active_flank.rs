@@ -1,8 +1,8 @@
 //! The part of a flank that plots show.
 
 use crate::report::chart::{Chart, padded};
-use gearwear_physics::gear::Gear;
-use gearwear_physics::reference::statistics::extent;
+use gearwear_bodies::gear::Gear;
+use gearwear_bodies::reference::statistics::extent;
 use gearwear_physics::results::run::{FlankRecord, PathPoints};
 
 /// From a little below the start of active profile up to the tip.

@@ -3,7 +3,7 @@
 use super::number::{change, figure, percent, significant};
 use super::reading::{Extreme, defined_pressures, greatest, tip_edge_note};
 use crate::report::chart::Chart;
-use gearwear_physics::reference::statistics::extent;
+use gearwear_bodies::reference::statistics::extent;
 use gearwear_physics::results::path_points::among;
 use gearwear_physics::results::run::{MeshCycleRow, RunRecord};
 

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use super::number::{figure, significant};
 use crate::report::chart::{Chart, Dash, INK, Label, MUTED, PATH, Trace, gear_colour, gear_fill};
 use crate::report::control::{Control, MeshMotion, TurningBody};
-use gearwear_physics::gear::Gear;
-use gearwear_physics::reference::statistics::extent;
+use gearwear_bodies::gear::Gear;
+use gearwear_bodies::reference::statistics::extent;
 use gearwear_physics::results::run::{GearCircles, PairDrawing, RunRecord};
 
 /// Points of a drawn circle: its sagitta stays below 1e-4 of the radius.

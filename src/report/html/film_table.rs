@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::number::{fixed, percent, significant};
 use super::page;
 use super::table::{cells, line, list, row, table};
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::lubrication::{
     FilmSummary, LubricationSummary, MethodBSummary, OilSummary, ScuffingSummary,
 };

@@ -5,8 +5,8 @@ use super::number::{figure, hours, percent, revolutions, significant};
 use super::reading::{Extreme, greatest, place_on_flank, tip_edge_note, yield_note};
 use crate::report::chart::{Chart, Dash, INK, Trace, gear_colour, gear_colour_at};
 use crate::report::control::{Change, Control, SliderStep};
-use gearwear_physics::gear::Gear;
-use gearwear_physics::reference::statistics::extent;
+use gearwear_bodies::gear::Gear;
+use gearwear_bodies::reference::statistics::extent;
 use gearwear_physics::results::run::{HistoryRow, RunRecord};
 
 /// At most so many snapshots are drawn, evenly chosen: more curves than that cannot be told apart.

@@ -3,7 +3,7 @@
 use super::number::{figure, significant};
 use super::reading::duration;
 use crate::report::chart::{Chart, Dash, Trace, from_zero, gear_colour};
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::{HistoryRow, PhaseSummary, RunRecord};
 
 /// Phases whose ends are marked at the most: more would hide the curves.

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::number::{fixed, percent, significant};
 use super::page;
 use super::table::{cells, row, table};
-use gearwear_physics::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 use gearwear_physics::results::chemistry::{GreatestRise, TemperatureSummary, ToothTemperatureSummary, WearLawSummary};
 use gearwear_physics::results::run::Summary;
 

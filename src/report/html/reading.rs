@@ -2,8 +2,8 @@
 
 use super::number::{change, figure, hours, percent, revolutions, significant};
 use crate::report::headline;
-use gearwear_physics::gear::Gear;
-use gearwear_physics::reference::steel_yield;
+use gearwear_bodies::gear::Gear;
+use gearwear_bodies::reference::steel_yield;
 use gearwear_physics::results::path_points::among;
 use gearwear_physics::results::run::{FlankRecord, MeshCycleRow, RunRecord, StopReason, Summary, WearSummary};
 

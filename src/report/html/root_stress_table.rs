@@ -3,7 +3,7 @@
 use maud::Markup;
 
 use super::table::{row, table};
-use gearwear_physics::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 use gearwear_physics::results::root_stress::{RootSectionSummary, RootStressSummary};
 
 type Standard = fn(&RootStressSummary) -> &Option<RootSectionSummary>;

@@ -2,7 +2,7 @@
 
 use super::number::{figure, significant};
 use crate::report::chart::{Chart, Dash, MUTED, PATH, WORN, gear_colour};
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::chemistry::{HeatVelocity, TemperatureMethod};
 use gearwear_physics::results::path_points::among;
 use gearwear_physics::results::run::{MeshCycleRow, RunRecord};

@@ -4,8 +4,8 @@ use super::pair::PRESET;
 use crate::scene::file::PairFile;
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
-use gearwear_physics::gear::backlash::{Backlash, TeethTooThin};
-use gearwear_physics::gear::spec::PairSpec;
+use gearwear_bodies::gear::backlash::{Backlash, TeethTooThin};
+use gearwear_bodies::gear::spec::PairSpec;
 
 /// Alternative keys, one of which is given.
 pub(super) const KEYS: [&str; 3] = ["pair.centre_distance_mm", "pair.backlash_um", "pair.normal_backlash_um"];

@@ -15,9 +15,9 @@
 
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
+use gearwear_bodies::gear::conjugate::ConjugateFlanks;
+use gearwear_bodies::gear::{Gear, GearPair};
 use gearwear_physics::contact::{foundation, hertz, settings::Foundation};
-use gearwear_physics::gear::conjugate::ConjugateFlanks;
-use gearwear_physics::gear::{Gear, GearPair};
 use gearwear_physics::operation::Scene;
 
 /// Greatest half-width over relative radius with small strains.

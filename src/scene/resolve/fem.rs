@@ -3,8 +3,8 @@
 use crate::scene::fem_file::{BodyKind, ClampRadiusFile, FemFile, WebFile, WebsFile};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
-use gearwear_physics::gear::{Gear, PerGear, spec::PairSpec};
-use gearwear_physics::gear_mesh::settings::{
+use gearwear_bodies::gear::{Gear, PerGear, spec::PairSpec};
+use gearwear_bodies::gear_mesh::settings::{
     Body, BodySettings, DefaultClamp, NO_WEBS, Web, default_clamp, greatest_clamp_mm, least_web_mm,
     rim_thickness_limits_mm,
 };

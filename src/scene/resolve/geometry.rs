@@ -3,9 +3,9 @@
 use super::centre_distance;
 use crate::scene::findings::Findings;
 use crate::scene::problem::{ProblemKind, number};
-use gearwear_physics::gear::pair::GearPair;
-use gearwear_physics::gear::spec::PairSpec;
-use gearwear_physics::gear::{Gear, PairError};
+use gearwear_bodies::gear::pair::GearPair;
+use gearwear_bodies::gear::spec::PairSpec;
+use gearwear_bodies::gear::{Gear, PairError};
 use gearwear_physics::mesh_cycle::settings::SliceSettings;
 
 /// Key of a geometry error, and its remedy.

@@ -4,7 +4,7 @@ use super::curve;
 use crate::scene::file::{GearFile, PairFile, SceneFile};
 use crate::scene::findings::Findings;
 use crate::scene::lubrication_file::{LoadFactorsFile, LubricantFile};
-use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::lubrication::settings::{
     BaseOil, FrictionModel, FrictionSettings, FrictionTable, LoadFactors, LubricantSettings, LubricationSettings,
     OilSettings, PressureViscosity, Roughness, ScuffingSettings,

@@ -4,8 +4,8 @@ use super::temperature;
 use crate::scene::file::{GearMaterialFile, MaterialFile, ModulusCurveFile};
 use crate::scene::findings::Findings;
 use crate::scene::material_presets::MaterialPreset;
-use gearwear_physics::gear::{Gear, PerGear};
-use gearwear_physics::material::Material;
+use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_bodies::material::Material;
 use gearwear_physics::thermal::settings::ThermalMaterial;
 use gearwear_physics::thermal::tooth::TemperatureCurve;
 

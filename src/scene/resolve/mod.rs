@@ -27,12 +27,13 @@ use super::resolve::settings::StiffnessInputs;
 use super::schema::{Node, schema};
 use super::shape::{self, FileShape};
 use super::{Resolved, draft, presets, text, unit_slip};
+use gearwear_bodies::gear::spec::PairSpec;
+use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS};
 use gearwear_physics::contact::settings::{ContactSettings, SurfaceKind};
-use gearwear_physics::gear::spec::PairSpec;
-use gearwear_physics::gear_mesh::settings::{Body, BodySettings, NO_WEBS};
 use gearwear_physics::mesh_cycle::settings::{Coupling, SliceSettings};
 use gearwear_physics::operation::Scene;
 use gearwear_physics::simulation::settings::{Numerics, Operation};
+use gearwear_physics::wear::settings::WearOfPair;
 
 /// Keys of other files, each with the command that reads them.
 const OF_OTHER_FILES: &[(&str, &str)] =

@@ -11,10 +11,10 @@
 use crate::scene::file::{EndReliefFile, GearFile, PairFile, ReliefFile};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
-use gearwear_physics::gear::flank_edge::LEAST_ROUNDING_MODULES;
-use gearwear_physics::gear::modification::{EndRelief, Modification, Relief};
-use gearwear_physics::gear::spec::PairSpec;
-use gearwear_physics::gear::{Gear, GearPair, tolerance};
+use gearwear_bodies::gear::flank_edge::LEAST_ROUNDING_MODULES;
+use gearwear_bodies::gear::modification::{EndRelief, Modification, Relief};
+use gearwear_bodies::gear::spec::PairSpec;
+use gearwear_bodies::gear::{Gear, GearPair, tolerance};
 
 const UM: f64 = 1e-3;
 

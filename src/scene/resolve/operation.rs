@@ -4,7 +4,7 @@ use super::wear::coefficient_mm2_per_n;
 use crate::scene::file::{GearPhaseFile, OperationFile, PhaseFile, StopFile};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
-use gearwear_physics::gear::{Gear, GearPair, PerGear};
+use gearwear_bodies::gear::{Gear, GearPair, PerGear};
 use gearwear_physics::simulation::settings::{LifeLimits, Operation, Phase};
 
 /// Relative tolerance of snapshots at the end of the run: hours and revolutions round differently.

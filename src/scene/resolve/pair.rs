@@ -6,11 +6,11 @@
 use super::{centre_distance, modifications};
 use crate::scene::file::{AxisParallelismFile, BasicRackFile, GearFile, PairFile, ShaftFile};
 use crate::scene::findings::Findings;
-use gearwear_physics::gear::modification::Modification;
-use gearwear_physics::gear::root_trochoid::greatest_fillet_radius_factor;
-use gearwear_physics::gear::shaft::Shaft;
-use gearwear_physics::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
-use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_bodies::gear::modification::Modification;
+use gearwear_bodies::gear::root_trochoid::greatest_fillet_radius_factor;
+use gearwear_bodies::gear::shaft::Shaft;
+use gearwear_bodies::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
+use gearwear_bodies::gear::{Gear, PerGear};
 
 const UM: f64 = 1e-3;
 pub(super) const PRESET: &str = "pair.preset";

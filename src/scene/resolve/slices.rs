@@ -3,8 +3,8 @@
 use crate::scene::fem_file::{BodyKind, WebsFile};
 use crate::scene::file::{SceneFile, StiffnessModel};
 use crate::scene::findings::Findings;
+use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_physics::contact::settings::SurfaceKind;
-use gearwear_physics::gear::spec::PairSpec;
 use gearwear_physics::mesh_cycle::settings::MOST_SLICES_IN_SPACE;
 use gearwear_physics::mesh_cycle::settings::{Coupling, SliceSettings};
 

@@ -5,8 +5,8 @@ use super::material::Materials;
 use crate::scene::file::{OperationFile, SceneFile};
 use crate::scene::findings::Findings;
 use crate::scene::wear_file::{ToothLubrication, ToothTemperatureFile, WearFile};
-use gearwear_physics::gear::{Gear, PerGear};
-use gearwear_physics::material::Material;
+use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_bodies::material::Material;
 use gearwear_physics::thermal::settings::{ABSOLUTE_ZERO_C, HeatSettings};
 use gearwear_physics::thermal::tooth::{
     DRY_ON_METAL, DRY_ON_PLASTIC, IN_OIL, TemperatureCurve, ToothCoefficients, ToothHeatSettings,

@@ -11,7 +11,7 @@ use crate::scene::problem::number;
 use crate::scene::wear_file::{
     AdsorptionFile, FilmFile, FilmLaw, GearWearFile, OxidationFile, WarmFile, WearFile, WearLaw,
 };
-use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::lubrication::settings::FilmRatio;
 use gearwear_physics::simulation::settings::Operation;
 use gearwear_physics::wear::{

@@ -13,7 +13,7 @@ use crate::report::html::page::{Page, Plots, section, sources_list};
 use crate::sweep::journal;
 use crate::sweep::record::SweepRecord;
 use crate::sweep::verification::SweepVerification;
-use gearwear_physics::reference::steel_yield;
+use gearwear_bodies::reference::steel_yield;
 use gearwear_physics::results::figures::{self, MainFigure};
 use gearwear_physics::results::run::ReportedBy;
 

@@ -3,9 +3,9 @@
 use crate::report::chart::{BarPlaces, Bars, Chart, Dash, Drawn, INK, Trace, gear_colour, padded};
 use crate::report::html::number::{figure, percent};
 use crate::uncertainty::record::{FactorIndices, OutputRecord, UncertaintyRecord};
-use gearwear_physics::gear::Gear;
-use gearwear_physics::reference::sobol_indices::Index;
-use gearwear_physics::reference::statistics::extent;
+use gearwear_bodies::gear::Gear;
+use gearwear_bodies::reference::sobol_indices::Index;
+use gearwear_bodies::reference::statistics::extent;
 
 /// Number of bars of a distribution.
 const BARS: usize = 30;

@@ -7,7 +7,7 @@ use crate::report::html::number::{count, figure, fixed, percent, significant};
 use crate::report::html::page::{Page, Plots, note, section, sources_list};
 use crate::report::html::table::{Cell, NONE, cells, line, list};
 use crate::uncertainty::record::UncertaintyRecord;
-use gearwear_physics::reference::sobol_indices::Index;
+use gearwear_bodies::reference::sobol_indices::Index;
 
 const DATA_FILES: &[(&str, &str)] = &[
     (SAMPLES, "one row per run: values of the keys, figures, errors"),

@@ -14,7 +14,7 @@
 #![allow(dead_code, reason = "a test and an example each use their own part")]
 
 use gearwear::{Done, LoadedScene, Unwatched};
-use gearwear_physics::reference::separate_peaks::separate_peaks;
+use gearwear_bodies::reference::separate_peaks::separate_peaks;
 use gearwear_physics::results::run::FlankRecord;
 
 /// The stops of the test, h.

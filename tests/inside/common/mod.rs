@@ -7,7 +7,7 @@ mod of_physics;
 
 use gearwear::scene::Resolved;
 use gearwear::scene::loaded::{LoadedScene, NamedFiles, SceneText};
-use gearwear_physics::gear::spec::PairSpec;
+use gearwear_bodies::gear::spec::PairSpec;
 #[allow(unused_imports, reason = "each test uses its own part")]
 pub use of_physics::*;
 

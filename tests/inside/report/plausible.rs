@@ -1,6 +1,6 @@
 //! A run that never happened but looks like one: an FZG type C pair with a made-up wear that grows with time.
 
-use gearwear_physics::gear::{Gear, PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
+use gearwear_bodies::gear::{Gear, PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
 use gearwear_physics::results::chemistry::WearLawSummary;
 use gearwear_physics::results::error::*;
 use gearwear_physics::results::root_stress::{RootSectionSummary, RootStressSummary};

@@ -10,7 +10,7 @@ use super::settings::{Setting, StiffnessSetting, SurfaceSetting};
 use crate::accuracy::record::{ComparisonRow, SettingComparison};
 use gearwear::scene::Resolved;
 use gearwear::scene::file::StiffnessModel;
-use gearwear_physics::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 
 /// A run to compare.
 #[derive(Debug, Clone, Copy)]

@@ -19,8 +19,8 @@ use gearwear::scene::file::StepFile;
 use gearwear::scene::loaded::LoadedScene;
 use gearwear::scene::{Problem, Resolved};
 use gearwear::varied_scene::in_words;
+use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::contact::settings::{Foundation, MatchCriterion};
-use gearwear_physics::gear::{Gear, PerGear};
 use gearwear_physics::mesh_cycle::settings::{Coupling, SliceSettings};
 use gearwear_physics::observer::{Observer, PartOf};
 
@@ -166,7 +166,7 @@ fn roughness(flank: &ObservedFlank) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gearwear_physics::gear::flank_zones::FlankZones;
+    use gearwear_bodies::gear::flank_zones::FlankZones;
 
     /// On a depth of 3 an alternation of 1 leaves ‖±1‖/‖3 ± 1‖ = √(1/10) but for the two ends; a straight profile leaves nothing.
     #[test]

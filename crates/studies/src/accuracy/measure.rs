@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 use super::observed::{ObservedCycle, ObservedFlank, ObservedRun};
 use super::over_width::OverWidth;
 use crate::accuracy::record::ComparedQuantity;
-use gearwear_physics::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 use gearwear_physics::results::run::PathPoints;
 
 /// Length of the path of contact at a sharp tip edge without a comparable pressure, in half-widths of Hertz at the pitch

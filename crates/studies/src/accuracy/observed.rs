@@ -1,9 +1,9 @@
 //! The curves of a run that errors are measured on, and how they are brought onto common coordinates.
 
 use super::over_width::{OverWidth, depths_at_widths, interpolated, pressure_along_path_mpa};
-use gearwear_physics::gear::PerGear;
-use gearwear_physics::gear::flank_zones::{FlankZone, FlankZones};
-use gearwear_physics::gear::slices::greatest_over_width;
+use gearwear_bodies::gear::PerGear;
+use gearwear_bodies::gear::flank_zones::{FlankZone, FlankZones};
+use gearwear_bodies::gear::slices::greatest_over_width;
 use gearwear_physics::results::run::{FlankRecord, RunRecord};
 
 /// Curves and figures that errors are measured on.

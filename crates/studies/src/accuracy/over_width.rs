@@ -6,8 +6,8 @@
 //! never negative.
 
 use super::observed::corrected;
-use gearwear_physics::gear::PerGear;
-use gearwear_physics::reference::linear_means::value_at;
+use gearwear_bodies::gear::PerGear;
+use gearwear_bodies::reference::linear_means::value_at;
 use gearwear_physics::results::run::{RunRecord, SliceRecord};
 
 /// Curves over the face width.

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 pub use super::quantity::ComparedQuantity;
-use gearwear_physics::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 use gearwear_physics::results::run::{PathPoints, StopReason, WorkSummary};
 
 /// Name of the calibration beside the results.

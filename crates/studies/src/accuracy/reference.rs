@@ -67,7 +67,7 @@ impl Reference {
 mod tests {
     use super::*;
     use crate::accuracy::observed::{ObservedCycle, ObservedFlank};
-    use gearwear_physics::gear::{PerGear, flank_zones::FlankZones};
+    use gearwear_bodies::gear::{PerGear, flank_zones::FlankZones};
     use gearwear_physics::results::run::PathPoints;
 
     /// A run whose curves are off from y = 3 + x by `error`(x).

@@ -13,8 +13,8 @@
 use super::selection::{COMPANION_STEP, CompanionRuns, RefinedSpacing, Selection, Stiffnesses, surfaces};
 use super::settings::{Coarsening, Setting, StiffnessSetting, SurfaceSetting};
 use gearwear::scene::Resolved;
+use gearwear_bodies::gear_mesh::settings::Body;
 use gearwear_physics::contact::settings::{Foundation, MatchCriterion};
-use gearwear_physics::gear_mesh::settings::Body;
 use gearwear_physics::mesh_cycle::settings::{Coupling, MOST_SLICES_IN_SPACE, SliceSettings};
 use gearwear_physics::operation::Scene;
 

@@ -18,10 +18,10 @@ use crate::accuracy::record::{
 };
 use gearwear::scene::Resolved;
 use gearwear::scene::loaded::LoadedScene;
+use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::assessment::calibrate::{self, CalibrateError, CalibrationExtent};
 use gearwear_physics::calibration::Calibration;
 use gearwear_physics::contact::settings::MatchCriterion;
-use gearwear_physics::gear::{Gear, PerGear};
 use gearwear_physics::observer::{Observer, PartOf};
 use gearwear_physics::results::run::StopReason;
 use gearwear_physics::simulation::settings::LifeLimits;

@@ -8,8 +8,8 @@ use super::run_folder::{RunFolder, RunFolderError};
 use super::study::{self, CompareError};
 use crate::measurement::file;
 use gearwear::scene::loaded::{LoadError, LoadedScene, SceneText};
-use gearwear_physics::gear::GearPair;
-use gearwear_physics::gear::error::PairError;
+use gearwear_bodies::gear::GearPair;
+use gearwear_bodies::gear::error::PairError;
 use gearwear_physics::observer::Observer;
 
 /// Why profiles cannot be compared.

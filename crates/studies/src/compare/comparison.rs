@@ -9,7 +9,7 @@
 
 use super::question::ProfileQuestion;
 use crate::measurement::form::FormRemoval;
-use gearwear_physics::gear::{GearPair, flank::FlankGrid};
+use gearwear_bodies::gear::{GearPair, flank::FlankGrid};
 use gearwear_physics::simulation::settings::Numerics;
 
 /// Number of shifts tried on either side for the start of a search.

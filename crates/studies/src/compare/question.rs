@@ -8,9 +8,10 @@ use crate::measurement::file::{HeightFrom, MeasuredFile, Moment, ValueKind};
 use crate::measurement::form::Form;
 use crate::measurement::profile::MeasuredProfile;
 use gearwear::scene::Resolved;
+use gearwear_bodies::gear::{Gear, GearPair, slices::Slices};
 use gearwear_files::data_table::DataTableError;
-use gearwear_physics::gear::{Gear, GearPair, slices::Slices};
 use gearwear_physics::operation::Scene;
+use gearwear_physics::wear::settings::WearOfPair;
 
 /// Relative tolerance on the end of the run.
 const SAME_TIME: f64 = 1e-9;

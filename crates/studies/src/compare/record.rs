@@ -5,7 +5,7 @@ use serde::{Serialize, Serializer};
 
 use super::unknown::Unknown;
 use crate::measurement::fit::FitStop;
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::PathPoints;
 
 /// A finished comparison.

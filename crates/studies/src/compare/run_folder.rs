@@ -14,7 +14,7 @@ use gearwear::evaluate::output::SummaryOutput;
 use gearwear::report::SUMMARY;
 use gearwear::resume::folder::SCENE;
 use gearwear::scene::Resolved;
-use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::results::run::ReportedBy;
 
 const PROFILES: &str = "profiles.csv";

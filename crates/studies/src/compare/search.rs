@@ -20,7 +20,7 @@ use super::study::root_mean_square;
 use super::unknown::Unknown;
 use crate::measurement::fit::{FitStop, Parameter, broyden_update, gauss_newton_step, least_squares};
 use crate::measurement::interval::{FitUncertainty, ProfilePart, uncertainty};
-use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_bodies::gear::{Gear, PerGear};
 
 /// Least factor on the wear coefficient.
 const LEAST_FACTOR: f64 = 1e-3;

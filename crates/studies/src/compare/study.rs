@@ -16,8 +16,8 @@ use crate::measurement::interval::CONFIDENCE;
 use crate::measurement::roughness::{CUTOFF_MM, mean_deviation, roughness};
 use gearwear::scene::Resolved;
 use gearwear::scene::loaded::LoadedScene;
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, slices::Slices};
 use gearwear_physics::assessment::RunError;
-use gearwear_physics::gear::{Gear, GearPair, PerGear, slices::Slices};
 use gearwear_physics::observer::Observer;
 use gearwear_physics::results::run::PathPoints;
 

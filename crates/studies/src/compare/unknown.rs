@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 
 /// A parameter of the fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

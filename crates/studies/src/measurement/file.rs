@@ -27,8 +27,8 @@
 //! `wear_mm`, which rises there (a difference of profiles before and after). Columns stand in any order; places increase from row
 //! to row.
 
+use gearwear_bodies::gear::Gear;
 use gearwear_files::data_table::{DataTable, DataTableError, finite, missing, not_allowed, positive};
-use gearwear_physics::gear::Gear;
 
 /// Names of the columns that may give the place.
 const PLACES: [(&str, PlaceColumn); 3] = [

@@ -1,4 +1,4 @@
-//! Least squares in a few bounded parameters, by Levenberg and Marquardt's method ([`levenberg_marquardt`](gearwear_physics::reference::levenberg_marquardt)).
+//! Least squares in a few bounded parameters, by Levenberg and Marquardt's method ([`levenberg_marquardt`](gearwear_bodies::reference::levenberg_marquardt)).
 //!
 //! J is found by central differences, and steps are cut at the bounds. Parameters are logarithms of positive quantities, or lengths: each has the
 //! width of its differences, which is also the measure of a step that no longer matters.
@@ -6,7 +6,7 @@
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use gearwear_physics::reference::levenberg_marquardt::{
+use gearwear_bodies::reference::levenberg_marquardt::{
     LeastSquares, LevenbergMarquardt, Minimum, sum_of_squares as square,
 };
 

@@ -13,8 +13,8 @@
 //! the angle between them: level the trace to a few degrees).
 
 use super::file::{ArcFrom, HeightFrom, MeasuredFile, PlaceColumn, ValueKind};
+use gearwear_bodies::gear::{Gear, GearPair, involute::Involute, removed_material::removed_mm};
 use gearwear_files::data_table::{DataTableError, not_allowed};
-use gearwear_physics::gear::{Gear, GearPair, involute::Involute, removed_material::removed_mm};
 
 const UM_PER_MM: f64 = 1e3;
 /// Part of the flank's height by which a point may lie outside it: files give few decimals.

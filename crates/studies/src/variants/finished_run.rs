@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::Deserialize;
 
 use crate::compare::run_folder::{NumberColumns, RunFolder, RunFolderError, RunFolderSummary};
-use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::results::error::TotalError;
 use gearwear_physics::results::figures::MainFigure;
 

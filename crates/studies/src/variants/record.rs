@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::finished_run::FinishedRun;
 use gearwear::report::html::reading::capitalised;
-use gearwear_physics::reference::steel_yield;
+use gearwear_bodies::reference::steel_yield;
 use gearwear_physics::results::figures::{self, MainFigure};
 
 /// A comparison of runs, each with the first.

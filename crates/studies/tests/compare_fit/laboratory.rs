@@ -6,7 +6,7 @@ use gearwear::report;
 use gearwear::runs;
 use gearwear::scene::Resolved;
 use gearwear::scene::loaded::LoadedScene;
-use gearwear_physics::gear::{Gear, GearPair, PerGear};
+use gearwear_bodies::gear::{Gear, GearPair, PerGear};
 use gearwear_physics::observer::Unwatched;
 use gearwear_physics::results::run::{FlankRecord, RunRecord};
 use gearwear_studies::compare::question::{CompareOptions, ComparisonQuestion, FitKind};

@@ -3,8 +3,8 @@
 use serde::Serialize;
 use serde_json::Value;
 
-use gearwear_physics::gear::{Gear, PerGear};
-use gearwear_physics::reference::linear_means::value_at;
+use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_bodies::reference::linear_means::value_at;
 use gearwear_physics::results::run::{FlankRecord, MeshCycleRow, RunRecord, Summary};
 
 /// A difference with what is allowed.

@@ -3,7 +3,7 @@
 use super::markup::identifier;
 use crate::record::{CasePlot, CaseRecord, CurveStyle, PlotCurve};
 use gearwear::report::chart::{Chart, Dash, MUTED, Trace};
-use gearwear_physics::reference::statistics::extent;
+use gearwear_bodies::reference::statistics::extent;
 
 /// Colour and symbol of curve `number`; they repeat.
 pub(super) fn colour_and_symbol(number: usize) -> (&'static str, &'static str) {

@@ -14,11 +14,6 @@ use crate::calibration::{
     Calibration, CalibrationError, STIFFNESS_POSITIONS, foundation_fit, single_contact, slice_fit, stiffness_variation,
     tooth_family,
 };
-use crate::gear::modification::Modification;
-use crate::gear::{Gear, GearPair, PairError};
-use crate::gear_fem::{condensed_pair::CondensedPair, model::much_memory};
-use crate::gear_mesh::settings::Body;
-use crate::material::Material;
 use crate::mesh_cycle::load_sharing::EquilibriumError;
 use crate::mesh_cycle::pair_in_space::KeptInSpace;
 use crate::observer::Observer;
@@ -26,6 +21,11 @@ use crate::operation::Scene;
 use crate::plan::calibration::CalibrationStage;
 use crate::results::run::StageTime;
 use crate::stiffness::{StiffnessError, curve::PairCompliance, iso6336};
+use gearwear_bodies::gear::modification::Modification;
+use gearwear_bodies::gear::{Gear, GearPair, PairError};
+use gearwear_bodies::gear_fem::{condensed_pair::CondensedPair, model::much_memory};
+use gearwear_bodies::gear_mesh::settings::Body;
+use gearwear_bodies::material::Material;
 
 /// Peak memory of a calibration over that of the pair's own bodies: finer meshes and other rims are held beside them. 1.3 to 1.7 on FZG type C with
 /// tip roundings of 0.1 and 0.001 mm.

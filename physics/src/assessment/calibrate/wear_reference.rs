@@ -2,15 +2,15 @@
 
 use super::CalibrateError;
 use crate::calibration::wear_reference::{FLANK_POINTS, LOADS, POSITIONS, ReferenceDepth, WearReference};
-use crate::gear::{
-    Gear, PerGear,
-    flank::{FlankGrid, PointSpacing},
-};
-use crate::gear_fem::condensed_pair::CondensedPair;
 use crate::mesh_cycle::condensed::CondensedCycle;
 use crate::mesh_cycle::load_sharing::EquilibriumError;
 use crate::mesh_cycle::{LostMaterial, MeshCycle};
 use crate::wear::{self, WearModel, settings::WearSettings};
+use gearwear_bodies::gear::{
+    Gear, PerGear,
+    flank::{FlankGrid, PointSpacing},
+};
+use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
 
 /// Wear references of all loads, each a multiple of `line_load_n_per_mm`.
 pub(super) fn references(

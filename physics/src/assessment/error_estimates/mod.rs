@@ -15,13 +15,14 @@ mod severe_switch;
 mod wear_runs;
 
 use super::RunModel;
-use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::observer::Observer;
 use crate::results::error::{ErrorSources, ErrorSummary};
 use crate::simulation::figures::WearFigures;
 use crate::simulation::wear_run::{Outcome, RunPhase, SimulationError, WearRun};
+use crate::wear::settings::WearOfPair;
 use crate::wear::{self, Laws, settings::SevereTransition};
+use gearwear_bodies::gear::{Gear, PerGear};
 
 /// Fewest flank points and positions of a companion run.
 const LEAST_POINTS: usize = 20;

@@ -6,11 +6,12 @@
 
 use super::run_with_transition;
 use crate::assessment::{RunModel, UM_PER_MM};
-use crate::gear::Gear;
 use crate::observer::{Observer, PartOf};
 use crate::results::error::{SevereLimit, WearAtLimit, WearOfGearAtLimit};
 use crate::simulation::figures::WearFigures;
 use crate::simulation::wear_run::{Outcome, WearRun};
+use crate::wear::settings::WearOfPair;
+use gearwear_bodies::gear::Gear;
 
 /// Relative change of the limit, lower and higher.
 const APART: f64 = 0.1;

@@ -14,11 +14,12 @@
 
 use super::{ErrorEstimate, LEAST_POINTS, greatest_difference, peak_wear_of_both_mm, run_with_transition};
 use crate::assessment::RunModel;
-use crate::gear::{Gear, PerGear};
 use crate::observer::{Observer, PartOf};
 use crate::simulation::settings::{Numerics, Stepping};
 use crate::simulation::wear_run::{Outcome, RunPhase, WearRun};
+use crate::wear::settings::WearOfPair;
 use crate::wear::{self, settings::SevereTransition};
+use gearwear_bodies::gear::{Gear, PerGear};
 
 /// Divisor of the flank points.
 const POINTS_SPACING: usize = 4;

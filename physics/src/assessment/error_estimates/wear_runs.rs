@@ -30,12 +30,12 @@
 use super::{ErrorEstimate, LEAST_POINTS, greatest_difference, peak_wear_of_both_mm, severe_switch};
 use crate::assessment::RunModel;
 use crate::contact::settings::SurfaceKind;
-use crate::gear::PerGear;
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::observer::{Observer, PartOf};
 use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::settings::Numerics;
 use crate::simulation::wear_run::{Outcome, RunPhase, SimulationError, WearRun};
+use gearwear_bodies::gear::PerGear;
 
 /// Least ratio of two wear steps for an estimate.
 const LEAST_STEP_RATIO: f64 = 1.5;

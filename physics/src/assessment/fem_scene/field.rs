@@ -5,13 +5,13 @@
 
 use nalgebra::{Rotation2, Vector2};
 
-use crate::gear::{Gear, PerGear};
-use crate::gear_fem::condensed_pair::CondensedPair;
-use crate::gear_fem::model::{MeshedGear, solid};
-use crate::gear_fem::placement::{in_place_mm, tooth_angle_rad};
-use crate::gear_fem::position::PositionContact;
 use crate::results::fem_pair::{ContactPlace, PairSolution};
 use crate::results::fem_problem::NodalStress;
+use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
+use gearwear_bodies::gear_fem::model::{MeshedGear, solid};
+use gearwear_bodies::gear_fem::placement::{in_place_mm, tooth_angle_rad};
+use gearwear_bodies::gear_fem::position::PositionContact;
 use gearwear_fem::elastic::{Analysis, Elastic};
 use gearwear_fem::element::ElementError;
 use gearwear_fem::solid::{Element, Solid};

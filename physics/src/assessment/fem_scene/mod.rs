@@ -14,20 +14,20 @@ use whole::WholeModel;
 
 use crate::assessment::Done;
 use crate::assessment::stage_clock::StageClock;
-use crate::gear::path_of_contact::PathOfContact;
-use crate::gear::{Gear, GearPair, PairError, PerGear};
-use crate::gear_fem::condensed_pair::CondensedPair;
-use crate::gear_fem::cycle::{CycleError, cycle};
-use crate::gear_fem::full::FullError;
-use crate::gear_fem::model::{MeshedGear, ModelError, much_memory};
-use crate::gear_fem::position::PositionContact;
-use crate::material::Material;
 use crate::observer::Observer;
 use crate::operation::Scene;
 use crate::plan::fem_pair::FemPairStage;
 use crate::results::fem_pair::{FemPairRecord, FullModelSummary};
 use crate::results::provenance::Provenance;
 use crate::results::run::StopReason;
+use gearwear_bodies::gear::path_of_contact::PathOfContact;
+use gearwear_bodies::gear::{Gear, GearPair, PairError, PerGear};
+use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
+use gearwear_bodies::gear_fem::cycle::{CycleError, cycle};
+use gearwear_bodies::gear_fem::full::FullError;
+use gearwear_bodies::gear_fem::model::{MeshedGear, ModelError, much_memory};
+use gearwear_bodies::gear_fem::position::PositionContact;
+use gearwear_bodies::material::Material;
 use gearwear_fem::element::ElementError;
 use gearwear_mesh::quality::QualityError;
 

@@ -5,15 +5,7 @@ use crate::assessment::UM_PER_MM;
 use crate::assessment::recording::{geometry, path_points, sharp_edges};
 use crate::assessment::root_stress;
 use crate::contact::hertz::flattening;
-use crate::gear::{Gear, GearPair, PerGear};
-use crate::gear_fem::condensed_pair::CondensedPair;
-use crate::gear_fem::model::{MeshedGear, solid};
-use crate::gear_fem::position::{PositionContact, ToothPairContact};
-use crate::gear_fem::ring::Surroundings;
-use crate::gear_mesh::settings::{Body, NO_WEBS, SectorSides, default_clamp};
 use crate::operation::Scene;
-use crate::reference::hertz_line::LineContact;
-use crate::reference::steel_yield;
 use crate::results::fem_pair::{
     ChecksSummary, FemCycleRow, FemCycleSummary, FemPairRecord, FemPairSummary, GearModelSummary, ModelSummary,
     PairSolution, PathPointsSummary, PressureCurve, RootSummary,
@@ -21,6 +13,14 @@ use crate::results::fem_pair::{
 use crate::results::path_points::among;
 use crate::results::provenance::Provenance;
 use crate::results::run::{ContactSummary, RangeSummary};
+use gearwear_bodies::gear::{Gear, GearPair, PerGear};
+use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
+use gearwear_bodies::gear_fem::model::{MeshedGear, solid};
+use gearwear_bodies::gear_fem::position::{PositionContact, ToothPairContact};
+use gearwear_bodies::gear_fem::ring::Surroundings;
+use gearwear_bodies::gear_mesh::settings::{Body, NO_WEBS, SectorSides, default_clamp};
+use gearwear_bodies::reference::hertz_line::LineContact;
+use gearwear_bodies::reference::steel_yield;
 use gearwear_mesh::quality::{self, MeshQuality};
 use gearwear_mesh::{CellBlock, CellKind, Mesh};
 

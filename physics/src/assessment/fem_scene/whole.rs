@@ -4,11 +4,11 @@ use std::time::Instant;
 
 use super::FemPairError;
 use crate::assessment::UM_PER_MM;
-use crate::gear::{GearPair, PerGear};
-use crate::gear_fem::full;
-use crate::gear_fem::model::MeshedGear;
-use crate::gear_fem::position::PositionContact;
 use crate::results::fem_pair::FullModelSummary;
+use gearwear_bodies::gear::{GearPair, PerGear};
+use gearwear_bodies::gear_fem::full;
+use gearwear_bodies::gear_fem::model::MeshedGear;
+use gearwear_bodies::gear_fem::position::PositionContact;
 use gearwear_fem::elastic::Elastic;
 
 /// Whole model of both gears.

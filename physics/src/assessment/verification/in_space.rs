@@ -13,9 +13,6 @@ use super::{Elements, Extrapolation, ReferenceRun, ReferenceUncertainty, Verific
 use crate::assessment::RunModel;
 use crate::calibration;
 use crate::contact::{ContactSurface, half_space::HalfSpace};
-use crate::gear::slices::Slices;
-use crate::gear::{Gear, PerGear};
-use crate::gear_fem::model::ModelError;
 use crate::mesh_cycle::pair_in_space::PairInSpace;
 use crate::mesh_cycle::settings::{Coupling, MOST_SLICES_IN_SPACE, SliceSettings};
 use crate::mesh_cycle::slice_coupling::SliceCompliance;
@@ -27,6 +24,9 @@ use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::wear_run::Outcome;
 use crate::stiffness::settings::StiffnessSettings;
 use crate::stiffness::{TeethSpring, curve::PairCompliance};
+use gearwear_bodies::gear::slices::Slices;
+use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_bodies::gear_fem::model::ModelError;
 
 /// Positions from A to E.
 const POSITIONS: usize = 200;

@@ -1,7 +1,7 @@
 //! Verification of a run by the same wear simulation on finite elements.
 //!
 //! Both gears are meshed with few elements and condensed, and the same operation wears their flanks by the same law in adaptive steps.
-//! Conservative transfer of the wear ([`crate::gear_fem::load_transfer`]) needs no more: on the pairs of the case `verified-pairs` this reference run
+//! Conservative transfer of the wear ([`gearwear_bodies::gear_fem::load_transfer`]) needs no more: on the pairs of the case `verified-pairs` this reference run
 //! is within its stated uncertainty of one on elements, positions and steps four times as fine (docs/accuracy.md). The whole duration is simulated:
 //! worn flanks that fit one surface do not fit another, and the difference over a short run swings with its steps.
 //!
@@ -25,17 +25,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::RunModel;
 use super::guarded::guarded;
 use crate::contact::settings::SurfaceKind;
-use crate::gear::{Gear, GearPair, PerGear, flank::FlankGrid, flank_zones::FlankZone};
-use crate::gear_fem::{condensed_pair::CondensedPair, model::ModelError};
-use crate::gear_mesh::settings::{BodySettings, rounding_element_mm};
-use crate::material::Material;
 use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::mesh_cycle::{CycleObservation, PositionObservation};
 use crate::observer::Observer;
 use crate::operation::Scene;
 use crate::plan::is_finest_in_space;
-use crate::reference::flattening::Flattening;
 use crate::results::error::{ErrorNewAndWorn, ErrorPerGear, ErrorSummary, TotalError};
 use crate::results::run::StopReason;
 use crate::simulation::figures::WearFigures;
@@ -44,6 +39,11 @@ use crate::simulation::settings::{Numerics, Stepping};
 use crate::simulation::wear_run::{Outcome, RunPhase, WearRun};
 use crate::stiffness::curve::PairCompliance;
 use crate::wear::stepping::adaptive::SHALLOW_MM;
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, flank::FlankGrid, flank_zones::FlankZone};
+use gearwear_bodies::gear_fem::{condensed_pair::CondensedPair, model::ModelError};
+use gearwear_bodies::gear_mesh::settings::{BodySettings, rounding_element_mm};
+use gearwear_bodies::material::Material;
+use gearwear_bodies::reference::flattening::Flattening;
 
 /// Least half-width of contact at the pitch point that is meshed, in modules: the flank then has some thousand nodes.
 const LEAST_HALF_WIDTH_MODULES: f64 = 0.015;

@@ -14,7 +14,6 @@ use super::closed_form::ContactForms;
 use super::exact::SlicesInSeries;
 use super::lanes::{LANES, Lanes};
 use super::loaded_position::{Attempt, Common, LoadedPosition, Pack, Tangent, UNUSED_GAP_MM};
-use crate::gear::{Gear, PerGear};
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::mesh_cycle::{
     Work,
@@ -22,9 +21,10 @@ use crate::mesh_cycle::{
     load_sharing::EquilibriumError,
     sliced_positions::{SliceContact, SlicedPosition},
 };
-use crate::reference::hertz_line::PEAK_OVER_MEAN;
 use crate::thermal::{HeatedStrip, SpeedRatios, band::Spread};
 use crate::wear::{ContactConditions, Lambda, SlidingRow, WearModel, heated_row::HeatedContact};
+use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_bodies::reference::hertz_line::PEAK_OVER_MEAN;
 
 /// Quantities of a contact over the square root of its load.
 #[derive(Debug, Clone, Copy, Default)]
@@ -55,7 +55,7 @@ pub(crate) struct Batch {
     /// Teeth of each position, where slices are coupled.
     teeth: Vec<CoupledTeeth>,
     common: Common,
-    /// Gap along the transverse line of action over depth normal to the flanks ([`crate::gear::normal_section`]).
+    /// Gap along the transverse line of action over depth normal to the flanks ([`gearwear_bodies::gear::normal_section`]).
     gap_per_depth: f64,
     /// Depth that both flanks have lost at each contact, mm.
     wear_mm: PerGear<Row>,

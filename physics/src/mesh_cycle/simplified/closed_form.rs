@@ -1,7 +1,7 @@
 //! Load and approach of a tooth pair in contact, prepared for many loads.
 //!
 //! The approach s of a contact under the line load w is that of the teeth, q w, and the flattening of both surfaces in closed form
-//! ([`crate::reference::flattening`]). With the half-width a² = α w, α = 4 R / (π E*), and the depths t of both bodies b, that
+//! ([`gearwear_bodies::reference::flattening`]). With the half-width a² = α w, α = 4 R / (π E*), and the depths t of both bodies b, that
 //! is for a < t
 //!
 //! ```text
@@ -23,10 +23,10 @@
 
 use std::f64::consts::{LN_2, PI};
 
-use crate::gear::{
+use gearwear_bodies::gear::{
     Gear, GearPair, PerGear, conjugate::ConjugateFlanks, normal_section::Obliquity, path_of_contact::PathOfContact,
 };
-use crate::material::{Material, contact_modulus_mpa};
+use gearwear_bodies::material::{Material, contact_modulus_mpa};
 
 /// X: ranges of (a/t)² with a polynomial each.
 pub const RANGES: [f64; 4] = [0.03, 0.1, 0.3, 1.0];

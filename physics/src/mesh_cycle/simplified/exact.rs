@@ -3,8 +3,6 @@
 //! Every contact is a [`PairContact`] of the closed form with a given gap; teeth and their coupling are those of the general mesh cycle ([`crate::mesh_cycle::sliced`]).
 
 use crate::contact::{Footprint, PairContact, PointContact, PressedCell, Response, Sweep, hertz};
-use crate::gear::{Gear, GearPair, PerGear};
-use crate::material::Material;
 use crate::mesh_cycle::{
     load_sharing::{EquilibriumError, MeshedPair, PairEquilibrium, balance},
     sliced::SpringAlongPath,
@@ -12,7 +10,9 @@ use crate::mesh_cycle::{
     sliced_sharing::balance_on_teeth,
     sliced_teeth::SlicedTeeth,
 };
-use crate::reference::flattening::Flattening;
+use gearwear_bodies::gear::{Gear, GearPair, PerGear};
+use gearwear_bodies::material::Material;
+use gearwear_bodies::reference::flattening::Flattening;
 
 /// A contact with a given gap.
 struct GivenGap {

@@ -35,7 +35,6 @@ use crate::contact::{
     Footprint, PressedCell,
     flank_pressure::{FlankParts, PressureFigures},
 };
-use crate::gear::{Gear, PerGear, flank::FlankGrid};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::mesh_cycle::{
     CycleObservation, GreatestPressure, Work,
@@ -47,6 +46,7 @@ use crate::wear::WearModel;
 use batch::Batch;
 use closed_form::ContactForms;
 use exact::SlicesInSeries;
+use gearwear_bodies::gear::{Gear, PerGear, flank::FlankGrid};
 use on_flanks::{FlankPoints, Knot};
 
 /// Contacts of a batch, about 0.1 ms of work: handing it to another thread costs little against that.

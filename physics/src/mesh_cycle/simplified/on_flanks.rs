@@ -12,7 +12,7 @@
 //! neighbours, and the wear of all stretches together is kept. A point whose share of the flank reaches beyond
 //! A or E counts with the part within.
 
-use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 
 /// A contact of a slice.
 #[derive(Debug, Clone, Copy, PartialEq)]

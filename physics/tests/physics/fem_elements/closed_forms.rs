@@ -2,12 +2,12 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use gearwear_bodies::reference::cantilever::Cantilever;
+use gearwear_bodies::reference::lame_cylinder::LameCylinder;
 use gearwear_fem::elastic::{Analysis, Elastic};
 use gearwear_fem::loads::add_traction;
 use gearwear_fem::solid::ElementKind;
 use gearwear_fem::stress::{NodalStress, StressComponent, StressRecovery};
-use gearwear_physics::reference::cantilever::Cantilever;
-use gearwear_physics::reference::lame_cylinder::LameCylinder;
 use nalgebra::Vector2;
 
 use super::common::{STEEL, field, figures, hold, l2_error, largest, nodes_of, order, solve};

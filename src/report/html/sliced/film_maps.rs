@@ -4,7 +4,7 @@ use super::raster::{MOST_ALONG, SlicedRaster};
 use super::sliced_run::{SlicedRun, slice_name};
 use crate::report::chart::{Chart, Trace};
 use crate::report::html::number::{figure, significant};
-use gearwear_physics::reference::statistics::quantile;
+use gearwear_bodies::reference::statistics::quantile;
 use gearwear_physics::results::lubrication::FilmRow;
 use gearwear_physics::results::path_points::among;
 

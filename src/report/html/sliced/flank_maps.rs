@@ -11,7 +11,7 @@ use crate::report::html::active_flank::ActiveFlank;
 use crate::report::html::flank_plots::{drawn_snapshots, moment};
 use crate::report::html::number::{figure, significant};
 use crate::report::html::reading::{greatest, place_on_flank, yield_note};
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::FlankRecord;
 
 /// Positions of the tooth whose lines of contact are drawn.

@@ -15,7 +15,7 @@ mod tooth_cycle;
 use self::sliced_run::SlicedRun;
 use super::{cycle_plots, drawing_plot, film_plot, history_plot, temperature_plot};
 use crate::report::chart::Chart;
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 
 /// All of them, in the order of the page.
 pub(super) fn figures(run: SlicedRun<'_>) -> Vec<Chart> {

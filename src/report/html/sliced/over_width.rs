@@ -5,7 +5,7 @@
 use super::sliced_run::SlicedRun;
 use crate::report::chart::{Chart, Dash, NEW, Trace, gear_colour};
 use crate::report::html::number::{figure, percent, significant};
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 
 pub(super) fn root_and_tip(run: SlicedRun<'_>, gear: Gear) -> Chart {
     let wear = &run.helical.wear[gear];

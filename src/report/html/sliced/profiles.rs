@@ -5,7 +5,7 @@ use crate::report::chart::{Chart, Dash, NEW, WORN, gear_colour};
 use crate::report::html::active_flank::ActiveFlank;
 use crate::report::html::number::{figure, significant};
 use crate::report::html::reading::greatest;
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::FlankRecord;
 
 /// First, middle and last of `count` slices; fewer where there are fewer.

@@ -6,7 +6,7 @@ use super::sliced_run::SlicedRun;
 use crate::report::chart::{Chart, ColourScale, Drawn, Field, Rows, Shown, Surface, Trace, View};
 use crate::report::html::number::{figure, plotted};
 use crate::report::html::reading::greatest;
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 
 /// Wear is in µm, the flank in mm.
 const MM_PER_UM: f64 = 1e-3;

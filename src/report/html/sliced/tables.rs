@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::report::html::number::{change, fixed, percent, significant};
 use crate::report::html::table::{Cell, cells, row, table};
-use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::results::run::{HelicalSummary, OverWidthSummary};
 
 /// Lines of contact, load over the face width, mesh orders, evenness of wear.

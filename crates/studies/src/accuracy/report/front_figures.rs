@@ -6,7 +6,7 @@
 use crate::accuracy::record::{AccuracyRecord, ComparedQuantity, VariantRecord, VariantSettings};
 use gearwear::report::chart::{Chart, Dash, MUTED, Trace};
 use gearwear::report::html::number::{percent, significant};
-use gearwear_physics::reference::statistics::extent;
+use gearwear_bodies::reference::statistics::extent;
 
 /// Least error shown; smaller ones are drawn here, on the logarithmic axis.
 const LEAST_SHOWN: f64 = 1e-5;

@@ -7,8 +7,8 @@ use crate::accuracy::record::{AccuracyRecord, ComparedQuantity, ReferenceFlank, 
 use gearwear::report::chart::{Chart, Dash, INK, Trace, padded};
 use gearwear::report::html::number::{figure, percent, significant};
 use gearwear::report::html::reading::greatest;
-use gearwear_physics::gear::Gear;
-use gearwear_physics::reference::statistics::extent;
+use gearwear_bodies::gear::Gear;
+use gearwear_bodies::reference::statistics::extent;
 use gearwear_physics::results::path_points::among;
 
 /// Stiffness models with which the surfaces are shown, the best first.

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::accuracy::record::{AccuracyRecord, ComparedQuantity, ReferenceFlank, VariantRecord};
 use gearwear::report::csv_table::{Column, table, table_of, variants};
-use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_bodies::gear::{Gear, PerGear};
 
 #[derive(Serialize, JsonSchema)]
 struct OverWidthRow<'a> {

@@ -8,8 +8,8 @@ use crate::compare::record::{CompareRecord, CompareRow, FittedValue, ProfileReco
 use gearwear::report::chart::{Chart, Dash, MUTED, NEW, Trace, WORN, padded};
 use gearwear::report::html::number::{figure, fixed, significant};
 use gearwear::report::html::reading::greatest;
-use gearwear_physics::gear::Gear;
-use gearwear_physics::reference::statistics::extent;
+use gearwear_bodies::gear::Gear;
+use gearwear_bodies::reference::statistics::extent;
 use gearwear_physics::results::path_points::among;
 
 const MEASURED: &str = "var(--wheel)";

@@ -10,7 +10,7 @@ use gearwear::report::html::number::{figure, fixed, given, hours, revolutions, s
 use gearwear::report::html::page::{Page, Plots, section, sources_list};
 use gearwear::report::html::reading::capitalised;
 use gearwear::report::html::table::{Cell, NONE, line, list, row, table};
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::ReportedBy;
 
 const DATA_FILES: [(&str, &str); 2] =

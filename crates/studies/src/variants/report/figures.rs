@@ -4,8 +4,8 @@ use crate::variants::finished_run::FinishedRun;
 use gearwear::report::chart::{Chart, Dash, colour_between_gears, padded};
 use gearwear::report::html::number::{figure, significant};
 use gearwear::report::html::reading::greatest;
-use gearwear_physics::gear::Gear;
-use gearwear_physics::reference::statistics::extent;
+use gearwear_bodies::gear::Gear;
+use gearwear_bodies::reference::statistics::extent;
 
 const DASHES: [Dash; 4] = [Dash::Solid, Dash::Dashed, Dash::Dot, Dash::Mixed];
 

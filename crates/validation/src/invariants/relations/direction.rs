@@ -8,7 +8,7 @@ use crate::invariants::scene_table::{gives, number, scaled, value, with};
 use crate::invariants::traits_of_scene::{
     has_fixed_steps, is_hard_severe, is_sliced, takes_stable_steps, touches_beyond_range,
 };
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::RunRecord;
 
 use super::SOLVED;

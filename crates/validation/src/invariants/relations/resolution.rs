@@ -4,7 +4,7 @@ use crate::invariants::comparison::{Measured, difference, worn_volume_mm3};
 use crate::invariants::relation::{POINTS, POSITIONS, RelationOutcome, SceneRelation, Subject};
 use crate::invariants::scene_table::{gives, number, with};
 use crate::invariants::traits_of_scene::{follows_tip_edges, has_heat_or_oil, is_severe, takes_stable_steps};
-use gearwear_physics::gear::Gear;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::RunRecord;
 
 pub(super) const RELATIONS: &[SceneRelation] = &[

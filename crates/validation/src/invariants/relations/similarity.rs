@@ -9,7 +9,7 @@ use crate::invariants::traits_of_scene::{
     has_a_size, has_finite_elements, has_heat_or_oil, is_hard_severe, is_sliced, takes_stable_steps,
     tolerance_of_steps_um,
 };
-use gearwear_physics::gear::PerGear;
+use gearwear_bodies::gear::PerGear;
 use gearwear_physics::results::run::RunRecord;
 
 /// Relative effect of the tolerance of the equilibria, amplified by steps.

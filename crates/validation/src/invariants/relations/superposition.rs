@@ -6,7 +6,7 @@ use crate::invariants::comparison::{Bounds, Follows, Measured, compare, differen
 use crate::invariants::relation::{RelationOutcome, SceneRelation, Subject};
 use crate::invariants::scene_table::{number, phases, scaled, with};
 use crate::invariants::traits_of_scene::{has_finite_elements, has_fixed_steps, has_one_coefficient, is_sliced};
-use gearwear_physics::gear::{Gear, PerGear};
+use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::results::run::RunRecord;
 
 /// Factor on the wear coefficients: wear of at most 2e-3 modules becomes 2e-12 modules, whose relative effect on contact is as small.

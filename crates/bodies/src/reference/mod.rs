@@ -2,12 +2,12 @@
 
 pub mod cantilever;
 pub mod flattening;
-pub(crate) mod half_plane;
+pub mod half_plane;
 pub mod hertz_line;
 pub mod lame_cylinder;
 pub mod levenberg_marquardt;
 pub mod linear_means;
-pub(crate) mod monotone_cubic;
+pub mod monotone_cubic;
 pub mod moving_heat_band;
 pub mod persson;
 pub mod separate_peaks;

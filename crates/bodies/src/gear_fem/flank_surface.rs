@@ -35,12 +35,12 @@ impl MeshedFlank {
     }
 
     /// Local number of the node at the tip end.
-    pub(crate) fn tip_node(&self) -> usize {
+    pub fn tip_node(&self) -> usize {
         self.surface.edges.first().map_or(0, |edge| edge.nodes()[0])
     }
 
     /// Local number of the node at the root end.
-    pub(crate) fn root_node(&self) -> usize {
+    pub fn root_node(&self) -> usize {
         self.surface.edges.last().map_or(0, |edge| edge.nodes()[1])
     }
 

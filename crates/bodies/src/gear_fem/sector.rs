@@ -33,7 +33,7 @@ pub struct Answer {
 }
 
 /// Sparse linear functional of the displacements: degrees of freedom with their coefficients.
-pub(crate) type Functional = Vec<(u32, f64)>;
+pub type Functional = Vec<(u32, f64)>;
 
 /// One sector before condensation; the tooth's centre line is +y, the gear's axis the origin.
 #[derive(Debug, Clone)]

@@ -254,7 +254,7 @@ impl PreparedPosition {
     }
 
     /// Greatest overlap of the flanks beside the window of the last solution, mm.
-    pub(crate) fn overlap_beside_mm(&self) -> f64 {
+    pub fn overlap_beside_mm(&self) -> f64 {
         self.beside.iter().map(BesideWindow::deepest_mm).fold(0.0, f64::max)
     }
 

@@ -9,7 +9,7 @@ pub mod flank_edge;
 pub mod flank_surface;
 pub mod flank_zones;
 mod graded_spacing;
-pub(crate) mod half_profile;
+pub mod half_profile;
 pub mod inspection;
 pub(crate) mod interference;
 pub mod involute;

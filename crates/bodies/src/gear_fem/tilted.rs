@@ -24,7 +24,7 @@ use crate::gear::{Gear, PerGear};
 
 /// Wear of both flanks.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Worn<'a> {
+pub struct Worn<'a> {
     /// Depth h at the nodes, from root to tip, mm.
     pub depth_mm: PerGear<&'a [f64]>,
     /// Tilt dh/ds at the nodes, rad.
@@ -78,7 +78,7 @@ impl CondensedPair<'_> {
 
 impl PreparedPosition {
     /// Tilt of the flanks at a multiplier, rad.
-    pub(crate) fn tilt_rad(&self, row: usize) -> f64 {
+    pub fn tilt_rad(&self, row: usize) -> f64 {
         self.tilt_rad.get(row).copied().unwrap_or(0.0)
     }
 

@@ -54,7 +54,7 @@ fn with_axes(pair: &GearPair, gear: Gear) -> Modification {
 
 /// Material removed at radius of curvature `rho_mm` and `width_mm` by all modifications except the tip rounding, along the transverse line of
 /// action, mm.
-pub(crate) fn without_rounding_mm(pair: &GearPair, gear: Gear, width_mm: f64, rho_mm: f64) -> f64 {
+pub fn without_rounding_mm(pair: &GearPair, gear: Gear, width_mm: f64, rho_mm: f64) -> f64 {
     of_profile_mm(pair, gear, rho_mm) + lead_removed_mm(&with_axes(pair, gear), pair.spec.face_width_mm, width_mm)
 }
 

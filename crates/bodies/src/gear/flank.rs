@@ -72,7 +72,7 @@ impl FlankGrid {
     }
 
     /// [`Self::place`] of a coordinate near the point `index`.
-    pub(crate) fn place_near(&self, mut index: usize, coordinate_mm: f64) -> GridPosition {
+    pub fn place_near(&self, mut index: usize, coordinate_mm: f64) -> GridPosition {
         while index + 2 < self.len() && self.coordinate_mm[index + 1] <= coordinate_mm {
             index += 1;
         }

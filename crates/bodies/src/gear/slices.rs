@@ -63,7 +63,7 @@ impl Slices {
 
 /// Readings over the face width of slices with `values` (at least one), each with the nearest slice: the values of slices no nearer to an end
 /// face than the outermost readings, then these.
-pub(crate) fn readings_over_width(values: &[f64]) -> impl Iterator<Item = (usize, f64)> + '_ {
+pub fn readings_over_width(values: &[f64]) -> impl Iterator<Item = (usize, f64)> + '_ {
     let last = values.len() - 1;
     // Distance of the outermost reading from the middle of the outermost slice, inwards, in slice widths.
     let place = values.len() as f64 / PARTS - 0.5;

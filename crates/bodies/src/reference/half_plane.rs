@@ -23,12 +23,12 @@ use super::flattening::HalfPlane;
 
 /// Sum of the displacements of two half-planes at distance `k` · `width_mm` from the centre of a cell of that width under
 /// unit pressure, mm/MPa, for k = 0 … `count` − 1.
-pub(crate) fn cell_compliance_mm_per_mpa(bodies: &[HalfPlane; 2], width_mm: f64, count: usize) -> Vec<f64> {
+pub fn cell_compliance_mm_per_mpa(bodies: &[HalfPlane; 2], width_mm: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| cell_compliance_at_mm_per_mpa(bodies, width_mm, k as f64 * width_mm)).collect()
 }
 
 /// Sum of the displacements of two half-planes at a distance from the centre of a cell under unit pressure, mm/MPa.
-pub(crate) fn cell_compliance_at_mm_per_mpa(bodies: &[HalfPlane; 2], width_mm: f64, distance_mm: f64) -> f64 {
+pub fn cell_compliance_at_mm_per_mpa(bodies: &[HalfPlane; 2], width_mm: f64, distance_mm: f64) -> f64 {
     let [to, from] = [distance_mm + 0.5 * width_mm, distance_mm - 0.5 * width_mm]
         .map(|x_mm| bodies.iter().map(|body| line_load_primitive(body, x_mm)).sum::<f64>());
     to - from

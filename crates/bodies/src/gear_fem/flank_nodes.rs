@@ -33,7 +33,7 @@ pub struct FlankNodes {
 
 /// Consecutive nodes and the weight of each.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Weights<'a> {
+pub struct Weights<'a> {
     /// First node.
     pub first: usize,
     /// Weights m_k of the nodes from the first on.
@@ -84,7 +84,7 @@ impl FlankNodes {
 
     /// Tilt dh/ds of the worn profile at the nodes, s from root to tip, rad: over an element to either side, so that waves
     /// between neighbouring nodes do not count.
-    pub(crate) fn tilt_rad(&self, depth_mm: &[f64]) -> Vec<f64> {
+    pub fn tilt_rad(&self, depth_mm: &[f64]) -> Vec<f64> {
         (0..self.len())
             .map(|place| {
                 let from = place.saturating_sub(NODES_TO_A_SIDE);

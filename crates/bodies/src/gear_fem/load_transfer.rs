@@ -65,7 +65,7 @@ const LEAST_COSINE: f64 = 0.3;
 
 /// Transfer between the multipliers of one tooth pair at a position and the nodes of its flanks.
 #[derive(Debug, Clone)]
-pub(crate) struct LoadTransfer {
+pub struct LoadTransfer {
     /// Number of the pair: base pitches ahead of the reference pair.
     pub pair: i32,
     /// Gear whose flank has the multipliers.
@@ -88,7 +88,7 @@ pub(crate) struct LoadTransfer {
 
 /// M_ik of one flank: row by row, consecutive nodes.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct StretchMeans {
+pub struct StretchMeans {
     first: Vec<usize>,
     ends: Vec<usize>,
     weights: Vec<f64>,
@@ -107,7 +107,7 @@ impl StretchMeans {
 
     /// Weights M_ik of row `i`.
     #[inline]
-    pub(crate) fn row(&self, i: usize) -> Weights<'_> {
+    pub fn row(&self, i: usize) -> Weights<'_> {
         let begin = if i > 0 { self.ends[i - 1] } else { 0 };
         Weights { first: self.first[i], weights: &self.weights[begin..self.ends[i]] }
     }
@@ -121,13 +121,13 @@ impl StretchMeans {
 
 impl LoadTransfer {
     /// Number of rows.
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.weight_mm.len()
     }
 
     /// Opens the gaps of the position's rows by the wear `depth_mm` at the nodes. A coupling of flanks tilted by `tilt_rad` at a row
     /// ([`super::tilted`]) contains the opening by the slave's offset along that tilt already.
-    pub(crate) fn open_gaps(&self, depth_mm: PerGear<&[f64]>, tilt_rad: impl Fn(usize) -> f64, gap_mm: &mut [f64]) {
+    pub fn open_gaps(&self, depth_mm: PerGear<&[f64]>, tilt_rad: impl Fn(usize) -> f64, gap_mm: &mut [f64]) {
         for (i, gap) in gap_mm[self.first_row..self.first_row + self.len()].iter_mut().enumerate() {
             let [pinion_mm, wheel_mm] = Gear::BOTH.map(|gear| self.means[gear].opening_mm(i, depth_mm[gear]));
             let by_tilt_mm = tilt_rad(self.first_row + i) * self.slave_off_mm;
@@ -136,12 +136,7 @@ impl LoadTransfer {
     }
 
     /// StretchMeans of nodal values of `gear`, weighted by the load `force` on the rows; 0 without load.
-    pub(crate) fn mean_on<const N: usize>(
-        &self,
-        gear: Gear,
-        force: &[f64],
-        at_node: impl Fn(usize) -> [f64; N],
-    ) -> [f64; N] {
+    pub fn mean_on<const N: usize>(&self, gear: Gear, force: &[f64], at_node: impl Fn(usize) -> [f64; N]) -> [f64; N] {
         let (mut sums, mut whole) = ([0.0; N], 0.0);
         for (i, &force) in force.iter().enumerate().filter(|(_, force)| **force > 0.0) {
             let Weights { first, weights } = self.means[gear].row(i);
@@ -155,7 +150,7 @@ impl LoadTransfer {
     }
 
     /// Adds the wear of the rows, `depth_mm` each, to the depths at the nodes of a flank.
-    pub(crate) fn wear_nodes(&self, gear: Gear, nodes: &FlankNodes, depth_mm: &[f64], sums_mm: &mut [f64]) {
+    pub fn wear_nodes(&self, gear: Gear, nodes: &FlankNodes, depth_mm: &[f64], sums_mm: &mut [f64]) {
         for (i, (depth, weight)) in depth_mm.iter().zip(&self.weight_mm).enumerate() {
             if *depth == 0.0 {
                 continue;
@@ -195,7 +190,7 @@ struct Passing {
 
 impl CondensedPair<'_> {
     /// Nodes of both working flanks.
-    pub(crate) fn flank_nodes(&self) -> PerGear<FlankNodes> {
+    pub fn flank_nodes(&self) -> PerGear<FlankNodes> {
         self.flanks.as_ref().map(FlankNodes::new)
     }
 
@@ -207,7 +202,7 @@ impl CondensedPair<'_> {
 
     /// Load transfer of each tooth pair that may touch at a position, which represents the path from
     /// `stretch_mm.0` to `stretch_mm.1`, under the transmission error `turned_mm`; linearised about `worn` flanks where given.
-    pub(crate) fn load_transfers(
+    pub fn load_transfers(
         &self,
         prepared: &PreparedPosition,
         stretch_mm: (f64, f64),

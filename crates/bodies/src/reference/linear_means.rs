@@ -18,7 +18,7 @@ pub fn value_at(places: &[f64], values: &[f64], at: f64) -> f64 {
 }
 
 /// Sum Σ m_k h_k over the weights, in four independent sums for vector instructions.
-pub(crate) fn weighted_sum(weights: &[f64], values: &[f64]) -> f64 {
+pub fn weighted_sum(weights: &[f64], values: &[f64]) -> f64 {
     let values = &values[..weights.len()];
     let (weights, values) = (weights.as_chunks::<4>(), values.as_chunks::<4>());
     let mut sums = [0.0; 4];
@@ -33,7 +33,7 @@ pub(crate) fn weighted_sum(weights: &[f64], values: &[f64]) -> f64 {
 
 /// Adds `weight` times the m_k of the stretch from `from` to `to` (≥ `from`) to `sums`, with an entry for each of the `places` (rising, at least
 /// two); returns the range of places with weight. A stretch may be a point.
-pub(crate) fn add_means(places: &[f64], [from, to]: [f64; 2], weight: f64, sums: &mut [f64]) -> Range<usize> {
+pub fn add_means(places: &[f64], [from, to]: [f64; 2], weight: f64, sums: &mut [f64]) -> Range<usize> {
     let last = places.len() - 1;
     let (low, high) = (places[0], places[last]);
     let length = to - from;

@@ -11,7 +11,7 @@
 
 /// Monotone curve through values at increasing places.
 #[derive(Debug, Clone)]
-pub(crate) struct MonotoneCubic<'a> {
+pub struct MonotoneCubic<'a> {
     places: &'a [f64],
     values: &'a [f64],
     slopes: Vec<f64>,
@@ -19,7 +19,7 @@ pub(crate) struct MonotoneCubic<'a> {
 
 impl<'a> MonotoneCubic<'a> {
     /// Curve through as many `values` as increasing `places`; of equal places the first counts.
-    pub(crate) fn new(places: &'a [f64], values: &'a [f64]) -> Self {
+    pub fn new(places: &'a [f64], values: &'a [f64]) -> Self {
         let lengths: Vec<f64> = places.windows(2).map(|ends| ends[1] - ends[0]).collect();
         let differences: Vec<f64> = (values.windows(2).zip(&lengths))
             .map(|(ends, length)| if *length > 0.0 { (ends[1] - ends[0]) / length } else { 0.0 })
@@ -40,7 +40,7 @@ impl<'a> MonotoneCubic<'a> {
     }
 
     /// Value at `x`; beyond the ends, the value at the end; 0 without places.
-    pub(crate) fn at(&self, x: f64) -> f64 {
+    pub fn at(&self, x: f64) -> f64 {
         let (Some(&first), Some(last)) = (self.places.first(), self.places.len().checked_sub(1)) else { return 0.0 };
         if last == 0 || x <= first {
             return self.values[0];

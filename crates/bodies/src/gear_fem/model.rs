@@ -126,7 +126,7 @@ impl MeshedGear {
     }
 
     /// Meshes a gear of which only the middle tooth is loaded.
-    pub(crate) fn with_one_fine_tooth(
+    pub fn with_one_fine_tooth(
         pair: &GearPair,
         gear: Gear,
         material: &PerGear<Elastic>,
@@ -237,7 +237,7 @@ impl MeshedGear {
     }
 
     /// Condenses the gear onto `nodes` of its working flank alone, without stresses, for known loads.
-    pub(crate) fn condense_onto(
+    pub fn condense_onto(
         &self,
         pair: &GearPair,
         material: Elastic,

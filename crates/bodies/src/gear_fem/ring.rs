@@ -25,7 +25,7 @@ use super::sector::{CondensedSector, SectorMatrices};
 use gearwear_fem::active_set::ActiveSetError;
 
 /// Forces on the candidates of one tooth: column and N/mm, by increasing column.
-pub(crate) type ToothForce = Vec<(usize, f64)>;
+pub type ToothForce = Vec<(usize, f64)>;
 
 /// Surroundings of the fine group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -215,7 +215,7 @@ pub struct Between<'a> {
 
 impl Between<'_> {
     /// Entries of `rows` × `columns`, column by column.
-    pub(crate) fn gathered(&self, rows: &[usize], columns: &[usize]) -> Vec<f64> {
+    pub fn gathered(&self, rows: &[usize], columns: &[usize]) -> Vec<f64> {
         let height = rows.len();
         let mut entries = vec![0.0; height * columns.len()];
         // Memory is read along the columns of the stored block.
