@@ -66,7 +66,7 @@ class Flank:
 
     @cached_property
     def verified_wear_um(self) -> Numbers | None:
-        """Wear depth at the end of the run by the finite elements that vouch for it; None where none do."""
+        """Wear depth at the end of the run by the finite elements that verify it; None without verification."""
         return self._native.flank_array(self._gear, "verified_wear_um")
 
     @cached_property

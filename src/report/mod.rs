@@ -155,7 +155,7 @@ pub fn write_summary(summary: &impl Serialize, dir: &Path) -> Result<PathBuf, Re
     place(dir, SUMMARY, |out| write_json(out, summary))
 }
 
-/// Takes away the `summary.json` of an earlier run, if there is one: it would vouch for files about to be replaced.
+/// Takes away the `summary.json` of an earlier run, if there is one: its presence says that the other files are complete, and they are about to be replaced.
 pub fn remove_summary(dir: &Path) -> Result<(), ReportError> {
     remove(dir, SUMMARY)
 }

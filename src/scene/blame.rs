@@ -1,4 +1,4 @@
-//! What a computation fails of although the scene alone is to blame: found only when the teeth are meshed or the springs are made, it is told
+//! Failures of a computation that the scene causes: found only when the teeth are meshed or the springs are made, they are told
 //! at its key like everything else that is wrong with a scene.
 
 use crate::scene::Problem;
@@ -71,7 +71,7 @@ impl SceneFault for FemPairError {
     }
 }
 
-/// A finite-element model that cannot be made, at the key to blame in the scene's `text`.
+/// A finite-element model that cannot be made, at the key to change in the scene's `text`.
 fn of_model(error: &ModelError, text: &str) -> Problem {
     match error {
         ModelError::TooFewTeeth { teeth, least, .. } => Problem::of_sector_teeth(text, *teeth, *least),
@@ -81,7 +81,7 @@ fn of_model(error: &ModelError, text: &str) -> Problem {
     }
 }
 
-/// A calibration that cannot be made, if the scene in `text` is to blame.
+/// A calibration that cannot be made, if the scene in `text` causes it.
 fn of_calibration(error: &CalibrationError, text: &str) -> Option<Problem> {
     match error {
         CalibrationError::Model(model) => Some(of_model(model, text)),

@@ -416,7 +416,7 @@ pub struct ContactFile {
 #[serde(deny_unknown_fields)]
 pub struct StiffnessFile {
     /// Stiffness of a tooth pair, except with contact.surface = "fem". Default: fem, or weber-banaschek with a warning where finite elements
-    /// cannot be had.
+    /// cannot be made.
     pub model: Option<StiffnessModel>,
     /// Stiffness of a tooth pair per face width in N/(mm·µm), > 0, without contact flattening. Required with model = "constant".
     #[schemars(extend("exclusiveMinimum" = 0))]

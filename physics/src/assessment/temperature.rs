@@ -73,7 +73,7 @@ pub(super) fn tooth_warnings(model: &RunModel<'_>, summary: Option<&TemperatureS
         }
         if at.flank_C > HOTTEST_PLASTIC_C {
             warnings.push(format!(
-                "[temperature.tooth] {name} {:.0} °C at the flank: no plastic bears that; the pair, its lubrication or the coefficients are not meant so",
+                "[temperature.tooth] {name} {:.0} °C at the flank, above the {HOTTEST_PLASTIC_C:.0} °C that plastics endure: check torque and speed, lubrication, and the heat coefficients",
                 at.flank_C
             ));
         }

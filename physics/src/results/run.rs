@@ -501,7 +501,7 @@ pub struct FlankRecord {
     pub sliding_mm_per_mesh: Vec<f64>,
     /// Wear depth at the end of the run.
     pub wear_um: Vec<f64>,
-    /// Wear depth by the finite elements that vouch for it; none where none do. Not a column of its own.
+    /// Wear depth by the finite elements that verify the run; none without verification. Not a column of its own.
     pub verified_wear_um: Option<Vec<f64>>,
     /// Maximum pressure during one mesh, new.
     pub pressure_new_MPa: Vec<f64>,

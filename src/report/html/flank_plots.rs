@@ -68,7 +68,7 @@ fn wear_of(record: &RunRecord, gear: Gear, depth_um: f64) -> Chart {
     active.across(chart, gear)
 }
 
-/// The wear by the finite elements that vouch for the run, and the band between both answers.
+/// Wear by the finite elements that verify the run, and the band between both answers.
 fn add_verified(chart: Chart, gear: Gear, radius_mm: &[f64], own_um: &[f64], verified_um: &[f64]) -> Chart {
     let around = radius_mm.iter().chain(radius_mm.iter().rev()).copied();
     let edges = own_um.iter().chain(verified_um.iter().rev()).copied();
