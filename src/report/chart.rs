@@ -60,8 +60,8 @@ pub struct Axis {
     pub ticks: Vec<(f64, String)>,
 }
 
-impl Axis {
-    pub fn new() -> Self {
+impl Default for Axis {
+    fn default() -> Self {
         Self {
             title: String::new(),
             range: None,
@@ -128,8 +128,8 @@ impl Chart {
             is_wide: false,
             height_px: 380,
             control: None,
-            x: Axis::new(),
-            y: Axis::new(),
+            x: Axis::default(),
+            y: Axis::default(),
             is_to_scale: false,
             is_dragged: false,
             has_legend: true,
@@ -262,6 +262,7 @@ impl Chart {
         self.x("contact position, mm").x_range(padded(points.A, points.E)).x_format(".3f").mark_path_points(points)
     }
 
+    #[allow(clippy::should_implement_trait, reason = "a chart is built of traces, one after the other")]
     pub fn add(mut self, trace: Trace) -> Self {
         self.traces.push(trace);
         self

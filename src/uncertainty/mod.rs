@@ -11,7 +11,7 @@
 //! | [`study`] | runs them on all threads |
 //! | [`life`] | when wear comes to a limit |
 //!
-//! Quantiles and Sobol indices of any values are in [`crate::reference`].
+//! Quantiles and Sobol indices of any values are in [`gearwear_bodies::reference`].
 
 pub mod asked;
 pub mod design;

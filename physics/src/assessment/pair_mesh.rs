@@ -15,7 +15,7 @@ use gearwear_mesh::{CellKind, Mesh};
 /// Mesh of a pair with its resolution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairMesh {
-    /// The mesh, see [`gear_mesh::pair_mesh`].
+    /// The mesh, see [`mod@gear_mesh::pair_mesh`].
     pub mesh: Mesh,
     /// Quality of its cells.
     pub quality: MeshQuality,

@@ -13,7 +13,7 @@
 //!
 //! Positions run evenly over the stretch on which the ellipse lies wholly on both flanks: it begins and ends about a
 //! half-width of flank inside A and E. Beyond it the curve of the fast model ([`LoadedPair::curve`]) changes as bending alone does,
-//! under a concentrated load along the normal where the flanks touch ([`gearwear_bodies::gear::tip_touch`]): at A and E,
+//! under a concentrated load along the normal where the flanks touch (`gear::tip_touch`): at A and E,
 //! and beyond them, where the load turns towards the axis of the tooth whose tip edge touches.
 
 use rayon::prelude::*;

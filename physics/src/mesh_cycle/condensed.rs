@@ -1,6 +1,6 @@
 //! The mesh cycle on the finite-element model: both gears condensed onto their flanks, contact found from their true, worn profiles.
 //!
-//! All tooth pairs at a position are in one complementarity problem, coupled through the gear bodies ([`crate::gear_fem`]),
+//! All tooth pairs at a position are in one complementarity problem, coupled through the gear bodies ([`gearwear_bodies::gear_fem`]),
 //! and touch wherever their profiles do, also before A and after E, where a tip edge meets its mate outside the line of
 //! action. As every tooth of a gear wears alike, one base pitch of positions suffices: the pairs found there, each at its
 //! own place of the path, together are one tooth pair over its whole mesh.

@@ -13,7 +13,7 @@
 //! rounding, relief and wear included.
 //!
 //! The contact's normal is that of the mate's flank where the edge touches it, turned from the line of action by ε
-//! ([`gearwear_bodies::gear::tip_touch`]). Before A it is a tangent of the pinion's base circle like any other, and the load's lever on the
+//! (`gear::tip_touch`). Before A it is a tangent of the pinion's base circle like any other, and the load's lever on the
 //! pinion is r_b1. After E it is a tangent of the wheel's base circle, and with its lever l on the pinion
 //!
 //! ```text

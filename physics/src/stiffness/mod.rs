@@ -19,7 +19,7 @@
 //! together: the gears approach each other by q_b F more under the whole load F.
 //!
 //! At a tip edge, before A and after E and on its rounding, the load has another
-//! angle to its tooth and acts at another height of its mate ([`gearwear_bodies::gear::tip_touch`]): it turns towards the axis of its tooth, which is stiffer.
+//! angle to its tooth and acts at another height of its mate (`gear::tip_touch`): it turns towards the axis of its tooth, which is stiffer.
 //! `weber-banaschek` holds for any load line, a curve of finite elements includes the effect, and a constant spring holds everywhere. Beyond A
 //! and E (a curve: beyond its ends) the springs of the other models change in proportion to the teeth of Weber and
 //! Banaschek,

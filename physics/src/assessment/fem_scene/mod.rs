@@ -1,6 +1,6 @@
 //! Finite-element contact of a scene's gear pair: mesh, condense, solve the positions, record.
 //!
-//! Each gear is factorised and condensed once; a position then is a small contact problem ([`crate::gear_fem`]). The
+//! Each gear is factorised and condensed once; a position then is a small contact problem ([`gearwear_bodies::gear_fem`]). The
 //! positions are solved in batches of fixed size, between which progress is reported and an interrupt heard, without effect on the results.
 
 mod field;
