@@ -196,7 +196,7 @@ impl Drawing<'_> {
         let [_, top, right, bottom] = self.picture.frame;
         let range = range_of_colours(field);
         let (left, width) = (right + 26.0, 14.0);
-        let words = Axis { range: Some(range), ..Axis::new() };
+        let words = Axis { range: Some(range), ..Axis::default() };
         let ticks =
             PlacedAxis::new(&words, std::iter::empty(), Vec::new(), true).placed(bottom, top).ticks(TICK_SPACING[1]);
         let levels = (0..LEVELS).rev().map(|level| level as u8).collect();
