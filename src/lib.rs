@@ -55,7 +55,7 @@
 //!
 //! # Many runs
 //!
-//! [`evaluate`] runs a scene for rows of values of its keys on several threads, and gives the outputs asked for, by their path in the summary:
+//! [`evaluate()`] runs a scene for rows of values of its keys on several threads, and gives the outputs asked for, by their path in the summary:
 //!
 //! ```
 //! use gearwear::{LoadedScene, Unwatched};
@@ -68,13 +68,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`sweep`](mod@sweep) runs all combinations of some keys, on the threads of this process or wherever their tasks are carried out, and [`uncertainty`] samples
+//! [`sweep`](mod@sweep) runs all combinations of some keys, on the threads of this process or wherever their tasks are carried out, and [`uncertainty()`] samples
 //! of uncertain ones.
 //!
 //! # Finite elements
 //!
 //! [`calibrate`] teaches the fast model from finite elements, [`fem_pair`] solves the contact of the pair itself over the mesh
-//! cycle, [`fem_problem`] any plane contact problem on a mesh of one's own ([`mesh`] reads and writes the formats).
+//! cycle, [`fem_problem()`] any plane contact problem on a mesh of one's own ([`mesh`] reads and writes the formats).
 //!
 //! ```no_run
 //! use gearwear::{LoadedScene, Unwatched};
@@ -91,6 +91,11 @@
 //! K, rad. Quantities of helical gears say *normal* or *transverse*.
 //!
 //! `ARCHITECTURE.md` is the map of the code, `docs/theory.md` the derivations that the modules cite.
+
+#![allow(
+    rustdoc::private_intra_doc_links,
+    reason = "the documentation is read by those who work on it, private items with it"
+)]
 
 // Tests and examples name the library alike.
 extern crate self as gearwear;
@@ -218,7 +223,7 @@ pub fn fem_problem(problem_toml: &str, folder: &Path, observer: &dyn Observer) -
 /// Solves the same problem on `mesh`; the file that it names is not read.
 ///
 /// # Errors
-/// As [`fem_problem`].
+/// As [`fem_problem()`].
 pub fn fem_problem_on(
     problem_toml: &str,
     mesh: &gearwear_mesh::Mesh,

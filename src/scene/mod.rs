@@ -3,13 +3,16 @@
 pub mod blame;
 pub mod decimal_comma;
 pub mod draft;
+#[allow(rustdoc::broken_intra_doc_links, reason = "tables of the file stand in brackets, as in TOML")]
 pub mod fem_file;
 pub mod fem_problem;
+#[allow(rustdoc::broken_intra_doc_links, reason = "tables of the file stand in brackets, as in TOML")]
 pub mod file;
 mod findings;
 pub mod key;
 pub mod loaded;
 mod locate;
+#[allow(rustdoc::broken_intra_doc_links, reason = "tables of the file stand in brackets, as in TOML")]
 pub mod lubrication_file;
 pub mod material_presets;
 mod named_files;
@@ -23,6 +26,7 @@ pub mod schema;
 mod shape;
 mod text;
 mod unit_slip;
+#[allow(rustdoc::broken_intra_doc_links, reason = "tables of the file stand in brackets, as in TOML")]
 pub mod wear_file;
 
 use gearwear_files::content_hash::sha256;

@@ -1,5 +1,9 @@
 //! Questions to the library `gearwear` that take many runs: which model is accurate enough and cheapest ([`accuracy`]), which wear coefficients
 //! explain measured profiles ([`compare`]), finished runs side by side ([`variants`]).
+#![allow(
+    rustdoc::private_intra_doc_links,
+    reason = "the documentation is read by those who work on it, private items with it"
+)]
 #![allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 
 pub mod accuracy;

@@ -5,6 +5,10 @@
 //! under the names of its output files (and, of each flank, `snapshot_wear_um[row of the history]` and `path_point_radius_mm.A` to
 //! `.E`); [`judge`] holds quantities, which are expressions over those names ([`expression`]), against
 //! references and bounds; [`drawing`] evaluates plots. The result is a plain record that reports are written from.
+#![allow(
+    rustdoc::private_intra_doc_links,
+    reason = "the documentation is read by those who work on it, private items with it"
+)]
 #![allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 
 pub mod against;
