@@ -57,7 +57,7 @@ fn family_row(family: &FigureFamily, values: [Option<f64>; 2]) -> String {
     let (unit, factor) = if is_share { ("%", 100.0) } else { (family.unit, 1.0) };
     let comma = if unit.is_empty() { "" } else { ", " };
     let [one, other] = values.map(|value| value.map_or_else(|| "–".to_owned(), |value| digits(factor * value)));
-    row(&format!("{}{comma}{unit}", family.row()), [&one, &other])
+    main_row(&format!("{}{comma}{unit}", family.row()), [&one, &other])
 }
 
 /// First lines: wear and its uncertainty, flank pressure, transmission error, and advice on the tip edges.
@@ -66,7 +66,7 @@ fn headline(summary: &Summary) -> String {
     let is_verified = total.peak_wear.pinion.or(total.peak_wear.wheel).is_some();
     let mut text = format!("{}\n\n", summary.title);
     for columns in GROUPS {
-        text.push_str(&row("", columns));
+        text.push_str(&main_row("", columns));
         for family in shown(columns).filter(|family| family.in_headline) {
             let values = family.both(summary);
             text.push_str(&family_row(family, values));
@@ -114,7 +114,7 @@ fn over_the_width(summary: &Summary) -> String {
         return String::new();
     }
     let [gears, states] = GROUPS.map(|columns| rows(shown(columns).filter(|family| family.is_of_slices()), summary));
-    format!("{states}{}{gears}", row("over the face width", GROUPS[0]))
+    format!("{states}{}{gears}", main_row("over the face width", GROUPS[0]))
 }
 
 /// Difference of the run from finite elements, or why it is not known.
@@ -177,7 +177,7 @@ pub(super) fn two_digits(value: f64) -> String {
 
 fn figures(name: &str, values: [f64; 2]) -> String {
     let [one, other] = values.map(digits);
-    row(name, [&one, &other])
+    main_row(name, [&one, &other])
 }
 
 /// Line of the run's table: a name and two values.

@@ -247,6 +247,8 @@ impl HeatObserver<'_> {
         let work = contact.line_load_n_per_mm * ratios.sliding * contact.length_mm;
         let (pressure, mut rises) = (self.pressures(), [0.0; PLACES]);
         let total: f64 = pressure.iter().sum();
+        // The pressures stand on any scale: of these, the mean is that of the contact, which has a width where it has a load.
+        let to_mpa = contact.line_load_n_per_mm / (2.0 * contact.half_width_mm) * PLACES as f64 / total;
         for gear in Gear::BOTH {
             match self.spread {
                 Spread::Even => rises.fill(band.greatest_rise_k(gear, Spread::Even)),
@@ -263,7 +265,7 @@ impl HeatObserver<'_> {
                     sliding_speed_mm_per_s: self.heat.sliding_speed_mm_per_s(&ratios),
                     temperature_k,
                 };
-                let at = LocalContact { pressure_mpa: *pressure, conditions: Some(own), lambda: None };
+                let at = LocalContact { pressure_mpa: to_mpa * pressure, conditions: Some(own), lambda: None };
                 let k = self.wear.laws[gear].mild_coefficient_mm2_per_n(&at);
                 let part = work * pressure / total;
                 let is_outside = self.valid_k[gear].is_some_and(|[low, high]| !(low..=high).contains(&temperature_k));
