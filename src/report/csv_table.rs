@@ -3,6 +3,7 @@
 //! Columns are named as the fields of their record, and the documentation of a field is what `columns.json` beside the files says of its
 //! column. Numbers are the shortest decimals that read back as the same bits; a value that was not computed is an empty field.
 
+use crate::report::output_files;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -13,9 +14,6 @@ use serde::{Serialize, Serializer};
 use serde_json::Value;
 
 use super::files::{ReportError, place, write_json};
-
-/// The file that says what the columns of the others mean.
-pub const COLUMNS: &str = "columns.json";
 
 /// The name of a column and what it holds.
 pub type Column = (String, String);
@@ -90,7 +88,7 @@ impl<'a> CsvFiles<'a> {
         let Provenance { program_version, input, hash } = self.provenance;
         let input = InOrder(vec![(input.to_owned(), hash)]);
         let columns = Columns { program_version, input, files: InOrder(self.columns) };
-        place(self.dir, COLUMNS, |out| write_json(out, &columns))
+        place(self.dir, output_files::COLUMNS, |out| write_json(out, &columns))
     }
 }
 

@@ -28,6 +28,7 @@ pub mod files;
 pub mod flank_mesh;
 pub mod headline;
 pub mod html;
+pub mod output_files;
 mod pressure_plot;
 pub mod slice_table;
 pub mod tables;
@@ -56,7 +57,7 @@ pub fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, Report
     let flank = |gear: Gear| move |out: &mut dyn Write| table(out, tables::flank(&record.flanks[gear]));
     let [pinion, wheel, history, profiles, mesh_cycle] = TABLES;
     let mut paths = vec![
-        place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?,
+        place(dir, output_files::SCENE, |out| out.write_all(record.scene_toml.as_bytes()))?,
         csv.place(pinion, flank(Gear::Pinion))?,
         csv.place(wheel, flank(Gear::Wheel))?,
         csv.place(history, |out| table(out, &record.history))?,
@@ -66,23 +67,23 @@ pub fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, Report
     match &record.slices {
         Some(slices) => {
             let path = &record.summary.geometry.curvature_radius_mm;
-            paths.push(csv.place(SLICES, |out| table(out, slice_table::rows(slices, path)))?);
+            paths.push(csv.place(output_files::SLICES, |out| table(out, slice_table::rows(slices, path)))?);
         }
         // What an earlier run left there would pass for this one's.
-        None => remove(dir, SLICES)?,
+        None => remove(dir, output_files::SLICES)?,
     }
     match record.film.is_empty() {
-        false => paths.push(csv.place(FILM, |out| table(out, &record.film))?),
-        true => remove(dir, FILM)?,
+        false => paths.push(csv.place(output_files::FILM, |out| table(out, &record.film))?),
+        true => remove(dir, output_files::FILM)?,
     }
-    paths.push(place(dir, FLANK, |out| flank_mesh::write(out, record))?);
+    paths.push(place(dir, output_files::FLANK, |out| flank_mesh::write(out, record))?);
     paths.push(csv.finish()?);
     Ok(paths)
 }
 
 /// Writes the page of `record` into `dir`.
 pub fn write_page(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportError> {
-    place(dir, PAGE, |out| out.write_all(html::run_page::page(record).as_bytes()))
+    place(dir, output_files::PAGE, |out| out.write_all(html::run_page::page(record).as_bytes()))
 }
 
 /// Writes the plots of the page of `record` as SVG and PNG into `dir`.
@@ -97,8 +98,8 @@ pub fn figures(record: &RunRecord) -> Vec<figure::Figure> {
 
 /// Writes the tables of `record`, which stand in `dir`, as a workbook beside them.
 pub fn write_workbook(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportError> {
-    let sliced = record.slices.is_some().then_some(SLICES);
-    let films = (!record.film.is_empty()).then_some(FILM);
+    let sliced = record.slices.is_some().then_some(output_files::SLICES);
+    let films = (!record.film.is_empty()).then_some(output_files::FILM);
     let tables: Vec<&str> = TABLES.into_iter().chain(sliced).chain(films).collect();
     workbook::write(&record.summary, &tables, dir)
 }
@@ -115,12 +116,12 @@ pub fn write_series(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportErr
         place(dir, file, |out| flank_mesh::write_moment(out, record, moment))?;
     }
     remove_moments(dir, files.len())?;
-    place(dir, SERIES, |out| flank_mesh::write_series(out, record, &files))
+    place(dir, output_files::SERIES, |out| flank_mesh::write_series(out, record, &files))
 }
 
 /// Takes away the series of an earlier run, if there is one.
 pub fn remove_series(dir: &Path) -> Result<(), ReportError> {
-    remove(dir, SERIES)?;
+    remove(dir, output_files::SERIES)?;
     remove_moments(dir, 0)
 }
 
@@ -136,26 +137,25 @@ fn flank_at(moment: usize) -> String {
 
 /// Takes away the page of an earlier run, if there is one: it would pass for that of a run without.
 pub fn remove_page(dir: &Path) -> Result<(), ReportError> {
-    remove(dir, PAGE)
+    remove(dir, output_files::PAGE)
 }
 
 /// The tables of every run.
-const TABLES: [&str; 5] = ["pinion.csv", "wheel.csv", "history.csv", "profiles.csv", "mesh_cycle.csv"];
-const PAGE: &str = "report.html";
-/// The file of the main figures, written last.
-pub const SUMMARY: &str = "summary.json";
-const SLICES: &str = "slices.csv";
-const FILM: &str = "film.csv";
-const FLANK: &str = "flank.vtu";
-const SERIES: &str = "flank.pvd";
+const TABLES: [&str; 5] = [
+    output_files::PINION,
+    output_files::WHEEL,
+    output_files::HISTORY,
+    output_files::PROFILES,
+    output_files::MESH_CYCLE,
+];
 
 /// Writes `summary.json` into `dir`, of a wear run or of finite elements, after everything else.
 pub fn write_summary(summary: &impl Serialize, dir: &Path) -> Result<PathBuf, ReportError> {
     create_folder(dir)?;
-    place(dir, SUMMARY, |out| write_json(out, summary))
+    place(dir, output_files::SUMMARY, |out| write_json(out, summary))
 }
 
 /// Takes away the `summary.json` of an earlier run, if there is one: its presence says that the other files are complete, and they are about to be replaced.
 pub fn remove_summary(dir: &Path) -> Result<(), ReportError> {
-    remove(dir, SUMMARY)
+    remove(dir, output_files::SUMMARY)
 }

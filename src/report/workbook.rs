@@ -2,13 +2,13 @@
 //!
 //! Its values are read from the CSV files beside it, whose decimals are those of the same bits, and are stored as the same bits again.
 
+use crate::report::output_files;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, Worksheet, XlsxError};
 use serde_json::Value;
 
-use super::csv_table::COLUMNS;
 use super::files::{ReportError, place};
 use super::unit;
 use gearwear_physics::results::figures;
@@ -29,7 +29,7 @@ pub(super) fn write(summary: &Summary, tables: &[&str], dir: &Path) -> Result<Pa
 }
 
 fn bytes(summary: &Summary, tables: &[&str], dir: &Path) -> io::Result<Vec<u8>> {
-    let meanings: Value = serde_json::from_slice(&std::fs::read(dir.join(COLUMNS))?)?;
+    let meanings: Value = serde_json::from_slice(&std::fs::read(dir.join(output_files::COLUMNS))?)?;
     let mut workbook = Workbook::new();
     // The same bytes for the same run, whenever it is written.
     let created = ExcelDateTime::from_ymd(2000, 1, 1).map_err(io::Error::other)?;

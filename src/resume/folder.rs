@@ -4,6 +4,7 @@
 //! the beginning: the checkpoint of an earlier run goes first, then come input files and scene, and last goes the summary, which
 //! counts only beside a scene of its own hash.
 
+use crate::report::output_files;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -12,13 +13,11 @@ use serde::Deserialize;
 
 use super::file::{self, CheckpointError, CheckpointFile};
 use super::identity::{RunIdentity, between_scenes};
-use crate::report::{ReportError, SUMMARY};
+use crate::report::ReportError;
 use crate::scene::loaded::NamedFile;
 use gearwear_files::whole_file;
 use gearwear_physics::results::run::StopReason;
 
-/// The resolved scene.
-pub const SCENE: &str = "scene.toml";
 /// The last checkpoint.
 pub const CHECKPOINT: &str = "checkpoint.bin";
 
@@ -68,7 +67,7 @@ pub enum FolderError {
 pub fn begin(dir: &Path, identity: &RunIdentity, files: &[NamedFile]) -> Result<(), ReportError> {
     remove_checkpoint(dir)?;
     files.iter().try_for_each(|file| place(dir, &file.name, &file.bytes))?;
-    place(dir, SCENE, identity.scene_toml.as_bytes())
+    place(dir, output_files::SCENE, identity.scene_toml.as_bytes())
 }
 
 /// Writes the file `name` in `dir`, in a folder within it if its name says so.
@@ -82,7 +81,7 @@ pub fn place(dir: &Path, name: &str, bytes: &[u8]) -> Result<(), ReportError> {
 
 /// Removes the files that [`begin`] put into `dir`, with input files of these names; what cannot be removed stays.
 pub fn abandon(dir: &Path, files: &[String]) {
-    for path in files.iter().map(String::as_str).chain([SCENE]).map(|name| dir.join(name)) {
+    for path in files.iter().map(String::as_str).chain([output_files::SCENE]).map(|name| dir.join(name)) {
         let _ = fs::remove_file(&path);
         if let Some(folder) = path.parent().filter(|folder| *folder != dir) {
             // Removed if empty.
@@ -102,9 +101,9 @@ pub fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
 
 /// Contents of `dir`, of the run of `identity` with the scene hash `scene_hash`.
 pub fn contents(dir: &Path, identity: &RunIdentity, scene_hash: &str) -> Result<FolderContents, FolderError> {
-    let Some(scene_toml) = read(&dir.join(SCENE))? else { return Ok(FolderContents::Nothing) };
-    refuse_other_run(&dir.join(SCENE), between_scenes(&scene_toml, &identity.scene_toml))?;
-    if let Some(stopped) = read(&dir.join(SUMMARY))?.and_then(|text| stopped(&text, scene_hash))
+    let Some(scene_toml) = read(&dir.join(output_files::SCENE))? else { return Ok(FolderContents::Nothing) };
+    refuse_other_run(&dir.join(output_files::SCENE), between_scenes(&scene_toml, &identity.scene_toml))?;
+    if let Some(stopped) = read(&dir.join(output_files::SUMMARY))?.and_then(|text| stopped(&text, scene_hash))
         && stopped != StopReason::Interrupted
     {
         return Ok(FolderContents::Ended(stopped));

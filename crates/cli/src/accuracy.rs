@@ -1,5 +1,6 @@
 //! `gearwear accuracy`: error against run time of every model that fits a scene.
 
+use gearwear::report::output_files;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -63,7 +64,7 @@ pub(super) fn run(args: &AccuracyArgs) -> Result<(), Failure> {
     })?;
     gearwear_studies::accuracy::report::write(&record, &args.out)?;
     if !args.quiet {
-        let report = args.out.join("report.html");
+        let report = args.out.join(output_files::PAGE);
         print(&format!("{}report: {}\n", table(&record), report.display()))?;
     }
     if record.stopped == StopReason::Completed {

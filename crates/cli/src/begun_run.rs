@@ -62,7 +62,7 @@ pub(super) fn begin(scene: &Path, out: &Path) -> Result<BegunRun, Failure> {
 
 /// Continues the run in the folder `out`: that of `scene`, or else of the scene in the folder. `None` where it is complete.
 pub(super) fn resume(scene: Option<&Path>, out: &Path) -> Result<Option<BegunRun>, Failure> {
-    let own = out.join(folder::SCENE);
+    let own = out.join(gearwear::report::output_files::SCENE);
     if scene.is_none() && !own.exists() {
         return Err(InputError::NothingToResume { folder: out.display().to_string() }.into());
     }

@@ -1,5 +1,6 @@
 //! `gearwear compare`: measured flank profiles against a finished run, or runs side by side ([`super::variants`]).
 
+use gearwear::report::output_files;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -135,7 +136,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<(), Failure> {
     })?;
     gearwear_studies::compare::report::write(&record, &out)?;
     if !args.quiet {
-        let report = out.join("report.html");
+        let report = out.join(output_files::PAGE);
         print(&format!("{}report: {}\n", table(&record), report.display()))?;
     }
     if record.fit.stopped == FitStop::Converged {

@@ -1,5 +1,6 @@
 //! `gearwear fem`: finite-element contact, of a problem with its own mesh or of a gear pair.
 
+use gearwear::report::output_files;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -83,7 +84,7 @@ fn problem(args: &FemArgs, text: SceneText) -> Result<(), Failure> {
     warn(&record.summary.warnings);
     write(&mut record, &args.out)?;
     if !args.quiet {
-        let page = args.out.join("report.html");
+        let page = args.out.join(output_files::PAGE);
         print(&format!("{}report: {}\n", summary(&record.summary), page.display()))?;
     }
     Ok(())

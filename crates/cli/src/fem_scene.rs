@@ -1,5 +1,6 @@
 //! `gearwear fem` of a gear pair: finite-element contact over the mesh cycle, or at one position.
 
+use gearwear::report::output_files;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -47,7 +48,7 @@ pub(super) fn run(args: &FemArgs, text: SceneText) -> Result<(), Failure> {
     let summary = &record.summary;
     warn(&summary.warnings[resolved.warnings.len()..]);
     if !args.quiet {
-        let report = args.out.join("report.html");
+        let report = args.out.join(output_files::PAGE);
         print(&format!("{}report: {}\n", table(summary), report.display()))?;
     }
     if summary.stopped != StopReason::Completed {

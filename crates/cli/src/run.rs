@@ -1,5 +1,6 @@
 //! `gearwear run`: the wear simulation of a scene.
 
+use gearwear::report::output_files;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -121,7 +122,7 @@ fn finish(
     if !args.quiet {
         let (name, path) = match args.no_report {
             true => ("results", out.to_owned()),
-            false => ("report", out.join("report.html")),
+            false => ("report", out.join(output_files::PAGE)),
         };
         print(&format!("{}{name}: {}\n", figures::table(&record.summary), path.display()))?;
     }

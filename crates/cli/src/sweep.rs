@@ -1,5 +1,6 @@
 //! `gearwear sweep`: the scene's run for all combinations of some varied keys, and `gearwear sweep merge`.
 
+use gearwear::report::output_files;
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -207,7 +208,7 @@ fn not_another_sweep(whole: &JournalContents, out: &Path) -> Result<(), JournalE
 
 /// The scene of the sweep, from the first folder that has it.
 fn scene_of(whole: &JournalContents, folders: &[PathBuf]) -> Result<String, InputError> {
-    let scenes = folders.iter().map(|folder| folder.join(gearwear::sweep::report::SCENE));
+    let scenes = folders.iter().map(|folder| folder.join(output_files::SCENE));
     let mut texts = scenes.filter_map(|scene| fs::read_to_string(scene).ok());
     texts
         .find(|text| Draft::parse(text).is_ok_and(|draft| draft.hash() == whole.identity.given_hash))
@@ -257,7 +258,7 @@ fn table(record: &SweepRecord, out: &Path) -> String {
     if let Some(verification) = &summary.verification {
         text.push_str(&verified(record, verification));
     }
-    let file = out.join(if record.shard.is_none() { "report.html" } else { "sweep.csv" });
+    let file = out.join(if record.shard.is_none() { output_files::PAGE } else { "sweep.csv" });
     text.push_str(&format!("\n{}: {}\n", if record.shard.is_none() { "report" } else { "table" }, file.display()));
     if cfg!(not(feature = "parquet")) && record.shard.is_none() {
         text.push_str("no sweep.parquet: this program was built without --features parquet\n");

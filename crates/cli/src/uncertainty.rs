@@ -1,5 +1,6 @@
 //! `gearwear uncertainty`: quantiles and Sobol indices of uncertain keys.
 
+use gearwear::report::output_files;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -167,6 +168,6 @@ fn table(record: &UncertaintyRecord, out: &Path) -> String {
         text.push_str(&format!("\nthe first failure: {first}\n"));
     }
     text.push_str(&format!("\nerror of the fast model: {}\n", record.model_error_how));
-    text.push_str(&format!("report: {}\n", out.join("report.html").display()));
+    text.push_str(&format!("report: {}\n", out.join(output_files::PAGE).display()));
     text
 }

@@ -1,5 +1,6 @@
 //! `gearwear validate`: the validation suite.
 
+use gearwear::report::output_files;
 use std::fs;
 use std::num::{NonZeroU64, NonZeroUsize};
 use std::path::{Path, PathBuf};
@@ -94,7 +95,7 @@ pub(super) fn run(args: &ValidateArgs) -> Result<(), Failure> {
         // As wide as the terminal; `None` where the output goes elsewhere.
         let width = comfy_table::Table::new().width();
         let verdicts = validation::report::terminal(&record, changes.as_ref(), width);
-        print(&format!("{verdicts}report: {}\n", out.join("report.html").display()))?;
+        print(&format!("{verdicts}report: {}\n", out.join(output_files::PAGE).display()))?;
     }
     let missed: Vec<String> = record.cases.iter().filter(|case| !case.passed()).map(|case| case.name.clone()).collect();
     match (record.not_run.is_empty(), missed.is_empty()) {
@@ -127,7 +128,11 @@ fn random_scenes(args: &ValidateArgs) -> Result<(), Failure> {
     progress.finish();
     invariants::report::write(&record, out)?;
     if !args.quiet {
-        print(&format!("{}report: {}\n", invariants::report::terminal(&record), out.join("report.html").display()))?;
+        print(&format!(
+            "{}report: {}\n",
+            invariants::report::terminal(&record),
+            out.join(output_files::PAGE).display()
+        ))?;
     }
     if record.drawn < record.count {
         say(&format!("interrupted: {} scenes were finished and are kept in {}", record.drawn, out.display()));

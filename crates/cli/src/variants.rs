@@ -1,5 +1,6 @@
 //! `gearwear compare RUN RUN …`: finished runs, or scenes that are run first, side by side.
 
+use gearwear::report::output_files;
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -63,7 +64,7 @@ pub(super) fn run(asked: &Variants<'_>) -> Result<(), Failure> {
     variants::report::write(&record, &runs, &out)?;
     warn(&record.warnings);
     if !asked.quiet {
-        print(&format!("{}report: {}\n", table(&record), out.join("report.html").display()))?;
+        print(&format!("{}report: {}\n", table(&record), out.join(output_files::PAGE).display()))?;
     }
     Ok(())
 }

@@ -13,39 +13,38 @@ mod page;
 mod page_in_space;
 mod pressure_figure;
 
+use crate::report::output_files;
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::csv_table::{COLUMNS, Column, CsvFiles, Provenance, table};
+use super::csv_table::{Column, CsvFiles, Provenance, table};
 use super::files::{ReportError, create_folder, place, remove};
 use super::vtu_file;
 use gearwear_fem::nodal_fields::add_nodal_fields;
 use gearwear_mesh::Mesh;
 use gearwear_physics::results::fem_problem::{ContactCurve, FemRecord, FemSolution, PlaneSolution, SpaceSolution};
 
-const CONTACT: &str = "contact.csv";
-
 /// Writes all files of `record` but `summary.json` into `dir`, which is made if need be.
 pub fn write_data_and_page(record: &FemRecord, dir: &Path) -> Result<(), ReportError> {
     create_folder(dir)?;
-    place(dir, "problem.toml", |out| out.write_all(record.problem_toml.as_bytes()))?;
+    place(dir, output_files::PROBLEM, |out| out.write_all(record.problem_toml.as_bytes()))?;
     let page = match &record.solution {
         FemSolution::Plane(plane) => {
             let summary = &record.summary;
             let provenance = Provenance::of_problem(&summary.program_version, &summary.problem_hash);
             let mut csv = CsvFiles::new(dir, provenance);
-            csv.place(CONTACT, |out| contact_table(out, &plane.contacts))?;
+            csv.place(output_files::CONTACT, |out| contact_table(out, &plane.contacts))?;
             csv.finish()?;
             page::page(record, plane)
         }
         FemSolution::InSpace(space) => {
             // Those of a plane problem that was solved there before would pass for this one's.
-            [CONTACT, COLUMNS].into_iter().try_for_each(|name| remove(dir, name))?;
+            [output_files::CONTACT, output_files::COLUMNS].into_iter().try_for_each(|name| remove(dir, name))?;
             page_in_space::page(record, space)
         }
     };
-    place(dir, "solution.vtu", |out| vtu_file::write(out, &solution_mesh(record)))?;
-    place(dir, "report.html", |out| out.write_all(page.as_bytes())).map(drop)
+    place(dir, output_files::SOLUTION, |out| vtu_file::write(out, &solution_mesh(record)))?;
+    place(dir, output_files::PAGE, |out| out.write_all(page.as_bytes())).map(drop)
 }
 
 /// The mesh of `solution.vtu`.

@@ -1,5 +1,6 @@
 //! `report.html` of a finite-element problem.
 
+use crate::report::output_files;
 use maud::{Markup, html};
 
 use super::{field_figures, pressure_figure};
@@ -10,10 +11,10 @@ use gearwear_fem::problem::{Stop, ThirdDirection};
 use gearwear_physics::results::fem_problem::{ContactSummary, FemRecord, FemSummary, PlaneSolution};
 
 const DATA_FILES: [(&str, &str); 4] = [
-    ("summary.json", "the main figures"),
-    ("contact.csv", "gap and pressure along the contacts"),
-    ("solution.vtu", "displacement and stress, for ParaView"),
-    ("problem.toml", "the resolved problem"),
+    (output_files::SUMMARY, "the main figures"),
+    (output_files::CONTACT, "gap and pressure along the contacts"),
+    (output_files::SOLUTION, "displacement and stress, for ParaView"),
+    (output_files::PROBLEM, "the resolved problem"),
 ];
 
 pub(super) fn page(record: &FemRecord, plane: &PlaneSolution) -> String {

@@ -1,5 +1,6 @@
 //! `report.html` of a three-dimensional problem.
 
+use crate::report::output_files;
 use maud::{Markup, html};
 
 use super::page::{model_table, solver_table};
@@ -9,9 +10,9 @@ use crate::report::html::table::{cells, line, list, row, table};
 use gearwear_physics::results::fem_problem::{FemRecord, FemSummary, InSpaceSummary, SpaceSolution};
 
 const DATA_FILES: [(&str, &str); 3] = [
-    ("summary.json", "the main figures"),
-    ("solution.vtu", "displacement and stress, for ParaView"),
-    ("problem.toml", "the resolved problem"),
+    (output_files::SUMMARY, "the main figures"),
+    (output_files::SOLUTION, "displacement and stress, for ParaView"),
+    (output_files::PROBLEM, "the resolved problem"),
 ];
 
 pub(super) fn page(record: &FemRecord, found: &SpaceSolution) -> String {

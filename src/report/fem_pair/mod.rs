@@ -15,6 +15,7 @@ mod page;
 mod pressure_figure;
 pub mod pressure_table;
 
+use crate::report::output_files;
 use std::path::Path;
 
 use nalgebra::Vector2;
@@ -30,15 +31,15 @@ use gearwear_physics::results::fem_pair::{FemPairRecord, PairSolution};
 pub fn write_data_and_page(record: &FemPairRecord, dir: &Path) -> Result<(), ReportError> {
     create_folder(dir)?;
     let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
-    place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?;
+    place(dir, output_files::SCENE, |out| out.write_all(record.scene_toml.as_bytes()))?;
     let mut csv = CsvFiles::new(dir, provenance);
-    csv.place("mesh_cycle.csv", |out| table(out, &record.mesh_cycle))?;
-    csv.place("pressure.csv", |out| table(out, pressure_table::rows(&record.pressure)))?;
+    csv.place(output_files::MESH_CYCLE, |out| table(out, &record.mesh_cycle))?;
+    csv.place(output_files::PRESSURE, |out| table(out, pressure_table::rows(&record.pressure)))?;
     csv.finish()?;
     if let Some(solution) = &record.solution {
-        place(dir, "solution.vtu", |out| vtu_file::write(out, &mesh(solution)))?;
+        place(dir, output_files::SOLUTION, |out| vtu_file::write(out, &mesh(solution)))?;
     }
-    place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes())).map(drop)
+    place(dir, output_files::PAGE, |out| out.write_all(page::page(record).as_bytes())).map(drop)
 }
 
 /// The teeth in contact with displacement and stress at their nodes.

@@ -1,5 +1,6 @@
 //! `report.html` of finite-element contact of a gear pair.
 
+use crate::report::output_files;
 use maud::html;
 
 use super::{cycle_figures, field_figures, figures_table, pressure_figure};
@@ -10,11 +11,11 @@ use gearwear_physics::results::path_points::among;
 use gearwear_physics::results::run::{PathPoints, ReportedBy, StopReason};
 
 const DATA_FILES: [(&str, &str); 5] = [
-    ("summary.json", "the main figures"),
-    ("mesh_cycle.csv", "load, pressure, transmission error and root stress, position by position"),
-    ("pressure.csv", "pressure along the flank, beside Hertz’s"),
-    ("solution.vtu", "displacement and stress of the teeth in contact, for ParaView"),
-    ("scene.toml", "the resolved scene"),
+    (output_files::SUMMARY, "the main figures"),
+    (output_files::MESH_CYCLE, "load, pressure, transmission error and root stress, position by position"),
+    (output_files::PRESSURE, "pressure along the flank, beside Hertz’s"),
+    (output_files::SOLUTION, "displacement and stress of the teeth in contact, for ParaView"),
+    (output_files::SCENE, "the resolved scene"),
 ];
 
 const LEGEND: &str = "A to E are the points of the path of contact: theoretical contact begins at A \
@@ -30,7 +31,7 @@ pub(super) fn page(record: &FemPairRecord) -> String {
     }
     charts.extend(pressure_figure::all(record));
     charts.extend(record.solution.iter().flat_map(field_figures::von_mises));
-    let is_there = |(name, _): &(&str, &str)| *name != "solution.vtu" || record.solution.is_some();
+    let is_there = |(name, _): &(&str, &str)| *name != output_files::SOLUTION || record.solution.is_some();
     let files: Vec<_> = DATA_FILES.into_iter().filter(is_there).collect();
     let work = html! { (stages_table(&s.stages, s.wall_s)) (figures_table::checks(s)) };
     let plots = Plots::default();

@@ -1,5 +1,6 @@
 //! The page of a wear run.
 
+use crate::report::output_files;
 use maud::{Markup, html};
 
 use super::page::{Page, Plots, note, section, sources_list, stages_table};
@@ -15,18 +16,18 @@ use gearwear_physics::results::run::{ReportedBy, RunRecord, Summary};
 
 /// The data files named in the page, which lie beside it; one more where sections differ.
 const DATA_FILES: [(&str, &str); 9] = [
-    ("summary.json", "the main figures"),
-    ("pinion.csv", "the pinion’s flank, point by point"),
-    ("wheel.csv", "the wheel’s flank, point by point"),
-    ("history.csv", "the snapshots"),
-    ("profiles.csv", "both flanks at every snapshot"),
-    ("mesh_cycle.csv", "the mesh cycle"),
-    ("flank.vtu", "both flanks in space, for ParaView"),
-    ("columns.json", "what the columns of these tables hold"),
-    ("scene.toml", "the resolved scene"),
+    (output_files::SUMMARY, "the main figures"),
+    (output_files::PINION, "the pinion’s flank, point by point"),
+    (output_files::WHEEL, "the wheel’s flank, point by point"),
+    (output_files::HISTORY, "the snapshots"),
+    (output_files::PROFILES, "both flanks at every snapshot"),
+    (output_files::MESH_CYCLE, "the mesh cycle"),
+    (output_files::FLANK, "both flanks in space, for ParaView"),
+    (output_files::COLUMNS, "what the columns of these tables hold"),
+    (output_files::SCENE, "the resolved scene"),
 ];
-const FILM_FILE: (&str, &str) = ("film.csv", "films and friction along the path of contact");
-const SLICES_FILE: (&str, &str) = ("slices.csv", "the load of every slice over the mesh");
+const FILM_FILE: (&str, &str) = (output_files::FILM, "films and friction along the path of contact");
+const SLICES_FILE: (&str, &str) = (output_files::SLICES, "the load of every slice over the mesh");
 
 /// What the plots of a pair have in common.
 pub const NOTE: &str = "A to E are the points of the path of contact: contact begins at A and ends at E, a \

@@ -20,6 +20,7 @@ pub mod parquet_table;
 mod section_plane;
 pub mod tables;
 
+use crate::report::output_files;
 use std::path::Path;
 
 use crate::report::csv_table::{CsvFiles, Provenance};
@@ -28,7 +29,6 @@ use crate::sweep::record::SweepRecord;
 
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "sweep.json";
-pub const SCENE: &str = "scene.toml";
 const COMBINATIONS: &str = "sweep.csv";
 const PARQUET: &str = "sweep.parquet";
 
@@ -36,7 +36,7 @@ const PARQUET: &str = "sweep.parquet";
 pub fn begin(scene_toml: &str, dir: &Path) -> Result<(), ReportError> {
     create_folder(dir)?;
     remove(dir, LAST)?;
-    place(dir, SCENE, |out| out.write_all(scene_toml.as_bytes())).map(drop)
+    place(dir, output_files::SCENE, |out| out.write_all(scene_toml.as_bytes())).map(drop)
 }
 
 /// Writes all files of `record` into `dir`, which is made if need be.
@@ -50,7 +50,7 @@ pub fn write(record: &SweepRecord, dir: &Path) -> Result<(), ReportError> {
     if record.shard.is_none() {
         #[cfg(feature = "parquet")]
         place(dir, PARQUET, |out| out.write_all(&parquet_table::bytes(record).map_err(std::io::Error::other)?))?;
-        place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?;
+        place(dir, output_files::PAGE, |out| out.write_all(page::page(record).as_bytes()))?;
     }
     place(dir, LAST, |out| write_json(out, &record.summary())).map(drop)
 }

@@ -1,12 +1,13 @@
 //! `report.html` of a sweep.
 
+use crate::report::output_files;
 use maud::{Markup, html};
 
 #[cfg(feature = "parquet")]
 use super::PARQUET;
 use super::best_tables::shown_value;
 use super::section_plane::{differs, varied};
-use super::{COMBINATIONS, LAST, SCENE, best_tables, contour_figures, line_figures};
+use super::{COMBINATIONS, LAST, best_tables, contour_figures, line_figures};
 use crate::report::chart::Chart;
 use crate::report::html::number::{count, figure as shown_number, given, significant};
 use crate::report::html::page::{Page, Plots, section, sources_list};
@@ -23,7 +24,7 @@ const DATA_FILES: &[(&str, &str)] = &[
     (PARQUET, "the same table as Parquet"),
     (LAST, "the sweep, its counts and the best combinations"),
     (journal::FILE_NAME, "the rows as they were finished; a restart reads it"),
-    (SCENE, "the scene as given"),
+    (output_files::SCENE, "the scene as given"),
 ];
 
 /// Figures whose least value is given at the top of the page, where there is one.

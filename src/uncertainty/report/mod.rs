@@ -11,6 +11,7 @@
 mod figures;
 mod page;
 
+use crate::report::output_files;
 use std::borrow::Cow;
 use std::io::{self, Write};
 use std::path::Path;
@@ -23,7 +24,6 @@ use crate::report::files::{ReportError, create_folder, place, remove, write_json
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "uncertainty.json";
 const SAMPLES: &str = "samples.csv";
-const SCENE: &str = "scene.toml";
 
 /// Creates `dir` or removes the results of an earlier study there.
 pub fn begin(dir: &Path) -> Result<(), ReportError> {
@@ -34,12 +34,12 @@ pub fn begin(dir: &Path) -> Result<(), ReportError> {
 /// Writes all files of `record` into `dir`.
 pub fn write(record: &UncertaintyRecord, dir: &Path) -> Result<(), ReportError> {
     begin(dir)?;
-    place(dir, SCENE, |out| out.write_all(record.scene_toml.as_bytes()))?;
+    place(dir, output_files::SCENE, |out| out.write_all(record.scene_toml.as_bytes()))?;
     let provenance = Provenance::of_scene(&record.program_version, &record.scene_hash);
     let mut csv = CsvFiles::new(dir, provenance);
     csv.place(SAMPLES, |out| samples(out, record))?;
     csv.finish()?;
-    place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?;
+    place(dir, output_files::PAGE, |out| out.write_all(page::page(record).as_bytes()))?;
     place(dir, LAST, |out| write_json(out, record)).map(drop)
 }
 

@@ -1,8 +1,9 @@
 //! `report.html` of a study of uncertainty.
 
+use crate::report::output_files;
 use maud::{Markup, html};
 
-use super::{LAST, SAMPLES, SCENE, figures};
+use super::{LAST, SAMPLES, figures};
 use crate::report::html::number::{count, figure, fixed, percent, significant};
 use crate::report::html::page::{Page, Plots, note, section, sources_list};
 use crate::report::html::table::{Cell, NONE, cells, line, list};
@@ -12,7 +13,7 @@ use gearwear_bodies::reference::sobol_indices::Index;
 const DATA_FILES: &[(&str, &str)] = &[
     (SAMPLES, "one row per run: values of the keys, figures, errors"),
     (LAST, "distributions, quantiles, indices, bands"),
-    (SCENE, "the scene as given"),
+    (output_files::SCENE, "the scene as given"),
 ];
 
 pub(super) fn page(record: &UncertaintyRecord) -> String {

@@ -2,6 +2,7 @@
 //!
 //! The SHA-256 of `scene.toml` is the summary's scene hash, so that a scene changed after the run is noticed.
 
+use gearwear::report::output_files;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
@@ -11,13 +12,10 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use gearwear::evaluate::output::SummaryOutput;
-use gearwear::report::SUMMARY;
-use gearwear::resume::folder::SCENE;
 use gearwear::scene::Resolved;
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::results::run::ReportedBy;
 
-const PROFILES: &str = "profiles.csv";
 /// Relative difference up to which times are equal: hours and revolutions round differently.
 const SAME_TIME: f64 = 1e-9;
 
@@ -28,7 +26,7 @@ pub enum RunFolderError {
     Unreadable { path: PathBuf, reason: io::Error },
     #[error("{}: stopped: found {found}; allowed: completed or limit-reached", path.display())]
     Unfinished { path: PathBuf, found: String },
-    #[error("{}: found a scene with hash {found}; allowed: {allowed}, that of {SUMMARY}", path.display())]
+    #[error("{}: found a scene with hash {found}; allowed: {allowed}, that of {}", path.display(), output_files::SUMMARY)]
     OtherScene { path: PathBuf, found: String, allowed: String },
     #[error("{}: line {line}: found {found}; allowed: {allowed}", path.display())]
     Damaged {
@@ -94,7 +92,7 @@ pub struct RunFolder {
 impl RunFolder {
     /// Reads summary and scene of a finished run; tables are read when they are asked for.
     pub fn open(folder: &Path) -> Result<Self, RunFolderError> {
-        let path = folder.join(SUMMARY);
+        let path = folder.join(output_files::SUMMARY);
         let text = read(&path)?;
         let damaged = |error: serde_json::Error| {
             RunFolderError::damaged(&path, error.line() as u64, error, "what gearwear run writes")
@@ -105,19 +103,19 @@ impl RunFolder {
         }
         let whole_summary = serde_json::from_str(&text).map_err(damaged)?;
         // The scene is resolved elsewhere, with better messages; here it must only exist.
-        let scene_toml = read(&folder.join(SCENE))?;
+        let scene_toml = read(&folder.join(output_files::SCENE))?;
         Ok(Self { path: folder.to_owned(), summary, whole_summary, scene_toml, snapshots: Vec::new() })
     }
 
     /// Folder with the wear at the snapshots.
     pub fn with_snapshots(folder: &Path) -> Result<Self, RunFolderError> {
         let opened = Self::open(folder)?;
-        let snapshots = snapshots(&folder.join(PROFILES))?;
+        let snapshots = snapshots(&folder.join(output_files::PROFILES))?;
         Ok(Self { snapshots, ..opened })
     }
 
     pub fn scene_path(&self) -> PathBuf {
-        self.path.join(SCENE)
+        self.path.join(output_files::SCENE)
     }
 
     /// Number at a path in the summary; none where the run did not compute it.

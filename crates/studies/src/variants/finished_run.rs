@@ -1,5 +1,6 @@
 //! A finished run, as far as it is shown beside others.
 
+use gearwear::report::output_files;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -41,8 +42,8 @@ impl FinishedRun {
             summary: folder.summary.clone(),
             total: TotalError::deserialize(&folder.whole_summary["error"]["total"]).unwrap_or_default(),
             scene,
-            mesh_cycle: folder.table("mesh_cycle.csv")?,
-            flanks: PerGear { pinion: folder.table("pinion.csv")?, wheel: folder.table("wheel.csv")? },
+            mesh_cycle: folder.table(output_files::MESH_CYCLE)?,
+            flanks: PerGear { pinion: folder.table(output_files::PINION)?, wheel: folder.table(output_files::WHEEL)? },
             folder,
         })
     }

@@ -1,5 +1,6 @@
 //! The files of a study of random scenes, written from its record alone: `invariants.csv`, `report.html`, `violations/`, and `summary.json` last.
 
+use gearwear::report::output_files;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -12,8 +13,6 @@ use gearwear::report::html::number::significant;
 use gearwear::report::html::page::{Page, Plots, section};
 use gearwear::report::html::table::{Cell, line, list};
 
-/// The file that is written last: its presence says that the others are complete.
-const LAST: &str = "summary.json";
 /// The folder of the scenes that violate a statement.
 const VIOLATIONS: &str = "violations";
 /// Violations of which the scenes are written.
@@ -22,7 +21,7 @@ const MOST_WRITTEN: usize = 200;
 /// Writes all files into `dir`, which is made if need be.
 pub fn write(record: &InvariantsRecord, dir: &Path) -> Result<(), ReportError> {
     create_folder(dir)?;
-    remove(dir, LAST)?;
+    remove(dir, output_files::SUMMARY)?;
     let seed = format!("seed {}", record.seed);
     let mut csv = CsvFiles::new(dir, Provenance::of_scene(&record.program_version, &seed));
     csv.place("invariants.csv", |out| csv_table::table(out, record.statements.iter()))?;
@@ -38,8 +37,8 @@ pub fn write(record: &InvariantsRecord, dir: &Path) -> Result<(), ReportError> {
             place(&folder, &format!("{name}-other.toml"), |out| out.write_all(other.as_bytes()))?;
         }
     }
-    place(dir, "report.html", |out| out.write_all(page(record).as_bytes()))?;
-    place(dir, LAST, |out| write_json(out, record)).map(drop)
+    place(dir, output_files::PAGE, |out| out.write_all(page(record).as_bytes()))?;
+    place(dir, output_files::SUMMARY, |out| write_json(out, record)).map(drop)
 }
 
 fn file_name(seed: u64, violation: &Violation) -> String {

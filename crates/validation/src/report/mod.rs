@@ -45,7 +45,7 @@ pub fn write(record: &ValidationRecord, changes: Option<&Changes>, dir: &Path) -
     create_folder(dir)?;
     remove(dir, LAST)?;
     Ok(vec![
-        place(dir, "report.html", |out| out.write_all(page::page(record, changes).as_bytes()))?,
+        place(dir, gearwear::report::output_files::PAGE, |out| out.write_all(page::page(record, changes).as_bytes()))?,
         place(dir, JUNIT, |out| junit::write(out, record))?,
         place(dir, SUMMARY, |out| out.write_all(markdown::text(record, changes).as_bytes()))?,
         place(dir, WORK_PRECISION, |out| write_json(out, &work_precision(record)))?,

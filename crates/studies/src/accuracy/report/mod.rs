@@ -15,6 +15,7 @@ mod profile_figures;
 mod run_tables;
 pub mod tables;
 
+use gearwear::report::output_files;
 use std::path::{Path, PathBuf};
 
 use crate::accuracy::record::{AccuracyRecord, CALIBRATION_FILE, OVER_WIDTH_FILE};
@@ -24,7 +25,6 @@ use gearwear::report::files::{ReportError, create_folder, place, remove, write_j
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "accuracy.json";
 const RECOMMENDED: &str = "recommended.toml";
-const SCENE: &str = "scene.toml";
 const RUNS: &str = "accuracy.csv";
 const PROFILES: &str = "wear_profiles.csv";
 
@@ -37,7 +37,7 @@ pub fn write(record: &AccuracyRecord, dir: &Path) -> Result<Vec<PathBuf>, Report
     remove(dir, OVER_WIDTH_FILE)?;
     let provenance = Provenance::of_scene(&record.program_version, &record.scene_hash);
     let mut csv = CsvFiles::new(dir, provenance);
-    let mut written = vec![place(dir, SCENE, |out| out.write_all(record.scene_toml.as_bytes()))?];
+    let mut written = vec![place(dir, output_files::SCENE, |out| out.write_all(record.scene_toml.as_bytes()))?];
     for (name, text) in [(CALIBRATION_FILE, &record.calibration_json), (RECOMMENDED, &record.recommended_toml)] {
         if let Some(text) = text {
             written.push(place(dir, name, |out| out.write_all(text.as_bytes()))?);
@@ -52,7 +52,7 @@ pub fn write(record: &AccuracyRecord, dir: &Path) -> Result<Vec<PathBuf>, Report
     }
     written.extend([
         csv.finish()?,
-        place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?,
+        place(dir, output_files::PAGE, |out| out.write_all(page::page(record).as_bytes()))?,
         place(dir, LAST, |out| write_json(out, record))?,
     ]);
     Ok(written)

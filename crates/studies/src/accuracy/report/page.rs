@@ -1,8 +1,9 @@
 //! `report.html` of a comparison of models.
 
+use gearwear::report::output_files;
 use maud::{Markup, html};
 
-use super::{LAST, PROFILES, RECOMMENDED, RUNS, SCENE, front_figures, profile_figures, run_tables};
+use super::{LAST, PROFILES, RECOMMENDED, RUNS, front_figures, profile_figures, run_tables};
 use crate::accuracy::record::{AccuracyRecord, CALIBRATION_FILE, ComparedQuantity, OVER_WIDTH_FILE};
 use gearwear::report::html::number::{percent, significant};
 use gearwear::report::html::page::{Page, Plots, section, sources_list};
@@ -14,7 +15,7 @@ const DATA_FILES: [(&str, &str); 7] = [
     (RUNS, "one row per run: settings, times, work, errors, fronts"),
     (PROFILES, "wear over both flanks, reference and runs of the finest resolution"),
     (OVER_WIDTH_FILE, "root wear over the face width, reference and runs of the finest resolution"),
-    (SCENE, "the resolved scene"),
+    (output_files::SCENE, "the resolved scene"),
     (RECOMMENDED, "the scene of the recommended run of the wear profile"),
     (CALIBRATION_FILE, "the calibration that the runs read"),
 ];

@@ -9,6 +9,7 @@
 mod figures;
 mod page;
 
+use gearwear::report::output_files;
 use std::path::Path;
 
 use crate::compare::record::{CompareRecord, CompareRow};
@@ -28,6 +29,6 @@ pub fn write(record: &CompareRecord, dir: &Path) -> Result<(), ReportError> {
     let rows: Vec<CompareRow> = record.profiles.iter().flat_map(|of| &of.rows).copied().collect();
     csv.place(POINTS, |out| table(out, &rows))?;
     csv.finish()?;
-    place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?;
+    place(dir, output_files::PAGE, |out| out.write_all(page::page(record).as_bytes()))?;
     place(dir, LAST, |out| write_json(out, record)).map(drop)
 }

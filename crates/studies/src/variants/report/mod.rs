@@ -9,6 +9,7 @@
 mod figures;
 mod page;
 
+use gearwear::report::output_files;
 use std::path::Path;
 
 use super::finished_run::FinishedRun;
@@ -26,6 +27,6 @@ pub fn write(record: &VariantsRecord, runs: &[FinishedRun], dir: &Path) -> Resul
     let mut csv = CsvFiles::new(dir, Provenance::of_scene(&record.program_version, &runs[0].summary.scene_hash));
     csv.place("variants.csv", |out| table(out, &record.rows))?;
     csv.finish()?;
-    place(dir, "report.html", |out| out.write_all(page::page(record, runs).as_bytes()))?;
+    place(dir, output_files::PAGE, |out| out.write_all(page::page(record, runs).as_bytes()))?;
     place(dir, LAST, |out| write_json(out, record)).map(drop)
 }

@@ -1,5 +1,6 @@
 //! `report.html` of runs side by side.
 
+use gearwear::report::output_files;
 use maud::{Markup, html};
 
 use super::figures;
@@ -13,7 +14,7 @@ use gearwear_physics::results::run::ReportedBy;
 const DATA_FILES: [(&str, &str); 3] = [
     ("variants.json", "the runs and the keys in which they differ"),
     ("variants.csv", "every figure of every run, its error and its difference to the first"),
-    ("columns.json", "what the columns of that table hold"),
+    (output_files::COLUMNS, "what the columns of that table hold"),
 ];
 
 pub(super) fn page(record: &VariantsRecord, runs: &[FinishedRun]) -> String {
