@@ -183,8 +183,9 @@ fn contact(s: &Summary) -> Markup {
         ]);
         let remainder = k.split_remainder_at_half_load.map(percent);
         rows.extend(
-            remainder
-                .map(|share| row("Residual of the split of tooth and contact compliance, at 50 % load", "", [share])),
+            remainder.map(|share| {
+                row("Deviation of teeth plus contact from the pair’s compliance, at 50 % load", "", [share])
+            }),
         );
     }
     if let Some(iso) = &s.stiffness_iso_6336_1 {
