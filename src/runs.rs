@@ -1,7 +1,7 @@
 //! Runs of a loaded scene: what its record says of the file, and the assessment that is carried out on it.
 
 use crate::scene::file::ReportFile;
-use crate::scene::{Resolved, loaded::LoadedScene};
+use crate::scene::{Resolved, loaded::LoadedScene, short_hash};
 use gearwear_physics::assessment::calibrate::{self, CalibrateError, Calibrated, CalibrationExtent};
 use gearwear_physics::assessment::fem_scene::{self, FemPairError, FemPairRequest};
 use gearwear_physics::assessment::{self, Done, Resumption, RunError, RunInputs};
@@ -10,7 +10,7 @@ use gearwear_physics::plan::Plan;
 use gearwear_physics::results::fem_pair::FemPairRecord;
 use gearwear_physics::results::provenance::Provenance;
 use gearwear_physics::results::reported_by::ReportedBy;
-use gearwear_physics::results::run::{InputFile, Summary};
+use gearwear_physics::results::run::Summary;
 use gearwear_physics::results::worn_pair::WornPair;
 
 impl LoadedScene {
@@ -37,24 +37,18 @@ impl LoadedScene {
             provenance,
         }
     }
-
-    /// Origin of its records, with the files it names.
-    fn provenance(&self) -> Provenance {
-        let inputs = self.files.as_read.iter();
-        let inputs = inputs.map(|file| InputFile { name: file.name.clone(), bytes: file.bytes.clone() });
-        Provenance { inputs: inputs.collect(), ..provenance(&self.resolved) }
-    }
 }
 
-/// Origin of the records of a scene that names no files.
+/// Origin of the records of a scene, without copies of the files that it names.
 fn provenance(resolved: &Resolved) -> Provenance {
     let report = resolved.file.report.clone();
     let report = report.map(|ReportFile { author, company, date }| ReportedBy { author, company, date });
+    let scene_toml = resolved.to_toml();
     Provenance {
         title: resolved.title().to_owned(),
         report,
-        scene_toml: resolved.to_toml(),
-        scene_hash: resolved.scene_hash(),
+        scene_hash: short_hash(scene_toml.as_bytes()),
+        scene_toml,
         inputs: Vec::new(),
         warnings: resolved.warnings.clone(),
     }
@@ -77,7 +71,8 @@ pub fn run(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done, RunErro
 /// # Errors
 /// As [`run`].
 pub fn run_from(scene: &LoadedScene, resumption: Resumption<'_>, observer: &dyn Observer) -> Result<Done, RunError> {
-    assessment::run(scene.inputs(&scene.provenance()), resumption, observer)
+    let provenance = Provenance { inputs: scene.input_files(), ..provenance(&scene.resolved) };
+    assessment::run(scene.inputs(&provenance), resumption, observer)
 }
 
 /// Main figures of a run of `scene`.
@@ -85,7 +80,7 @@ pub fn run_from(scene: &LoadedScene, resumption: Resumption<'_>, observer: &dyn 
 /// # Errors
 /// As [`run`].
 pub fn summarise(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done<Summary>, RunError> {
-    assessment::summarise(scene.inputs(&scene.provenance()), observer)
+    assessment::summarise(scene.inputs(&provenance(&scene.resolved)), observer)
 }
 
 /// Main figures, history and worn profiles of a run of `scene`.
@@ -93,7 +88,7 @@ pub fn summarise(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done<Su
 /// # Errors
 /// As [`run`].
 pub fn worn_pair(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done<WornPair>, RunError> {
-    assessment::worn_pair(scene.inputs(&scene.provenance()), observer)
+    assessment::worn_pair(scene.inputs(&provenance(&scene.resolved)), observer)
 }
 
 /// Solves the contact of the scene's pair with plane finite elements.

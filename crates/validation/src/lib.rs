@@ -1,7 +1,7 @@
 //! The validation suite: every claim of the program compared with its reference, with its cost.
 //!
 //! A case is a folder of data with a file `case.toml` ([`case_file`]); adding one adds no code. [`library`] finds cases, built in or
-//! on disk; [`schedule`] hands their runs to the threads; [`execution`] carries each out through the pipeline and reads it back
+//! on disk; [`schedule`] hands their runs to the threads; [`execution`] carries each out and reads it back
 //! under the names of its output files (and, of each flank, `snapshot_wear_um[row of the history]` and `path_point_radius_mm.A` to
 //! `.E`); [`judge`] holds quantities, which are expressions over those names ([`expression`]), against
 //! references and bounds; [`drawing`] evaluates plots. The result is a plain record that reports are written from.

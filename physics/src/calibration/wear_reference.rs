@@ -5,7 +5,7 @@
 //! h / k = ∫ p |v_s| dt        N/mm
 //! ```
 //!
-//! over one mesh, contact outside the line of action at the tip edges included. Plain data: the pipeline fills it from the
+//! over one mesh, contact outside the line of action at the tip edges included. Plain data: `assessment::calibrate` fills it from the
 //! finite-element mesh cycle.
 
 use serde::{Deserialize, Serialize};

@@ -15,7 +15,7 @@
 //! H_VL = 1/p_bt ∫ F/F_bt · v_g/(r_b ω) dx        over A–E
 //! ```
 //!
-//! (Wimmer), which the pipeline sums up over the run's own loads.
+//! (Wimmer), which an assessment sums up over the run's own loads.
 //!
 //! Sources: H. Ohlendorf, dissertation, Munich 1958, as in ISO/TR 14179-2; A. Wimmer, dissertation, Munich 2006.
 

@@ -16,7 +16,7 @@ use gearwear_bodies::gear_mesh::settings::BodySettings;
 use gearwear_bodies::material::Material;
 pub use phase_conditions::mean_friction;
 
-/// A scene with every choice made: what the plan and the pipeline work from.
+/// A scene with every choice made: what plan and assessment work from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     /// The gear pair as given.

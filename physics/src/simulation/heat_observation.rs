@@ -96,6 +96,13 @@ struct ContactAsHeated {
     length_mm: f64,
 }
 
+impl ContactAsHeated {
+    /// Mean pressure, MPa.
+    fn mean_mpa(&self) -> f64 {
+        if self.half_width_mm > 0.0 { self.line_load_n_per_mm / (2.0 * self.half_width_mm) } else { 0.0 }
+    }
+}
+
 /// Sums over the contacts of a mesh.
 #[derive(Debug, Clone, Copy, Default)]
 struct MeshSums {
@@ -207,11 +214,10 @@ impl HeatObserver<'_> {
 
     fn band(&self, method: TemperatureMethod, contact: &ContactAsHeated) -> HeatedBand<'_> {
         let (line_load_n_per_mm, half_width_mm) = (contact.line_load_n_per_mm, contact.half_width_mm);
-        let mean_mpa = if half_width_mm > 0.0 { line_load_n_per_mm / (2.0 * half_width_mm) } else { 0.0 };
         let place = LoadedPlace {
             position_mm: contact.position_mm,
             line_load_n_per_mm,
-            peak_pressure_mpa: PEAK_OVER_MEAN * mean_mpa,
+            peak_pressure_mpa: PEAK_OVER_MEAN * contact.mean_mpa(),
             half_width_mm,
         };
         let strip = HeatedStrip {
@@ -247,8 +253,7 @@ impl HeatObserver<'_> {
         let work = contact.line_load_n_per_mm * ratios.sliding * contact.length_mm;
         let (pressure, mut rises) = (self.pressures(), [0.0; PLACES]);
         let total: f64 = pressure.iter().sum();
-        // The pressures stand on any scale: of these, the mean is that of the contact, which has a width where it has a load.
-        let to_mpa = contact.line_load_n_per_mm / (2.0 * contact.half_width_mm) * PLACES as f64 / total;
+        let to_mpa = contact.mean_mpa() * PLACES as f64 / total;
         for gear in Gear::BOTH {
             match self.spread {
                 Spread::Even => rises.fill(band.greatest_rise_k(gear, Spread::Even)),
@@ -315,5 +320,97 @@ impl HeatObservation {
         let loaded = self.positions.iter().filter(|at| at.loaded);
         let all = loaded.flat_map(|at| [at.peclet.pinion, at.peclet.wheel]);
         all.fold([f64::INFINITY, 0.0], |[low, high], pe| [low.min(pe), high.max(pe)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::thermal::settings::{HeatPartition, HeatSettings, HeatVelocity, ThermalMaterial};
+    use crate::wear::{FlankWear, SlidingRow, settings::FilmDependence};
+    use gearwear_bodies::gear::modification::Modification;
+    use gearwear_bodies::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
+
+    /// A law whose coefficient is the pressure in MPa.
+    struct Proportional;
+
+    impl FlankWear for Proportional {
+        fn add_depth(&self, _row: &SlidingRow<'_>, _depth_mm: &mut [f64]) {}
+
+        fn reads_conditions(&self) -> bool {
+            true
+        }
+
+        fn film(&self) -> Option<&FilmDependence> {
+            None
+        }
+
+        fn mild_coefficient_mm2_per_n(&self, at: &LocalContact) -> f64 {
+            at.pressure_mpa
+        }
+    }
+
+    fn gear(teeth: u32, profile_shift: f64, tip_diameter_mm: f64) -> GearSpec {
+        GearSpec {
+            teeth,
+            profile_shift,
+            tip_diameter_mm: Some(tip_diameter_mm),
+            tooth_thickness_allowance_mm: 0.0,
+            bore_diameter_mm: None,
+            modification: Modification::default(),
+            shaft: None,
+        }
+    }
+
+    /// Weighed by the work p v_s, the mean of p is ∫p² dx/∫p dx: w/(2 a) where heat is even, 8/(3π) of Hertz's maximum 2 w/(π a) on
+    /// his ellipse, within what the midpoint rule makes of its ends at 32 places. FZG type C, 0.5 mm before C.
+    #[test]
+    fn ver_laws_get_the_pressure_in_mpa() {
+        let pair = GearPair::new(&PairSpec {
+            normal_module_mm: 4.5,
+            normal_pressure_angle_rad: 20f64.to_radians(),
+            helix_angle_rad: 0.0,
+            centre_distance_mm: 91.5,
+            face_width_mm: 14.0,
+            rack: BasicRack::default(),
+            axis_parallelism: AxisParallelism::default(),
+            gears: PerGear { pinion: gear(16, 0.1817, 82.46), wheel: gear(24, 0.1715, 118.36) },
+        })
+        .unwrap();
+        let steel = ThermalMaterial { conductivity_n_per_s_k: 46.0, diffusivity_mm2_per_s: 12.0 };
+        let settings = HeatSettings {
+            method: TemperatureMethod::TianKennedy,
+            velocity: HeatVelocity::Sliding,
+            partition: HeatPartition::ArchardRowntree,
+            friction_coefficient: Some(0.1),
+            bulk_temperature_k: 363.15,
+            is_bulk_of_mesh: false,
+            tooth: None,
+            material: PerGear { pinion: steel, wheel: steel },
+        };
+        let heat = ContactHeat::new(settings, 531.4);
+        let (w, a) = (637.7, 0.25);
+        let on_ellipse = 8.0 / (3.0 * std::f64::consts::PI) * 2.0 * w / (std::f64::consts::PI * a);
+        for (spread, expected_mpa, within) in
+            [(Spread::Even, w / (2.0 * a), 1e-12), (Spread::Ellipse, on_ellipse, 5e-3)]
+        {
+            let observer = HeatObserver {
+                pair: &pair,
+                heat: &heat,
+                wear: WearModel::cold(&Proportional),
+                valid_k: PerGear::default(),
+                spread,
+                line_load_n_per_mm: w,
+                ahead_mm: &[],
+            };
+            let mut sums = MeshSums::default();
+            let position_mm = pair.path.pitch_point_mm - 0.5;
+            let contact = ContactAsHeated { position_mm, line_load_n_per_mm: w, half_width_mm: a, length_mm: 0.1 };
+            observer.weigh(&contact, &mut sums);
+            for of in [sums.both, sums.of.pinion, sums.of.wheel] {
+                let mean_mpa = of.law(false).mean_coefficient_mm2_per_n;
+                assert!((mean_mpa / expected_mpa - 1.0).abs() < within, "{spread:?}: {mean_mpa} for {expected_mpa}");
+            }
+        }
     }
 }

@@ -277,3 +277,41 @@ impl Films<'_> {
         self.running.film_ratio(place, self.ratio).unwrap_or(0.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// k(p, λ) = k₀ p^(n−1) (1 + λ), n = 1.5, k₀ = 1e-12.
+    struct Power;
+
+    impl WearLaw for Power {
+        const READS_CONDITIONS: bool = false;
+
+        fn coefficient_mm2_per_n(&self, at: &LocalContact) -> f64 {
+            1e-12 * at.pressure_mpa.sqrt() * (1.0 + at.lambda.unwrap_or_default())
+        }
+    }
+
+    /// dh = k₀ pⁿ ds in closed form at every point, and with λ and the factor f(λ) of a film where there is one: f falls from 1 at λ = 0 to 0 at 2.
+    #[test]
+    fn ver_a_law_sees_pressure_and_film_of_its_own_point() {
+        let (pressure, sliding, lambda) = ([100.0, 400.0, 900.0], [0.7, 0.5, 0.3], [0.0, 0.5, 1.0]);
+        let row = SlidingRow { pressure_mpa: &pressure, sliding_mm: &sliding, conditions: None, lambda: None };
+        let film = FilmDependence { ratio: FilmRatio::Composite, lambda: vec![0.0, 2.0], factor: vec![1.0, 0.0] };
+        let (dry, oiled) = (WithFactors::none(Power), WithFactors { law: Power, severe: None, film: Some(film) });
+        let of_each = SlidingRow { lambda: Some(Lambda::OfEach(&lambda)), ..row };
+        let of_all = SlidingRow { lambda: Some(Lambda::OfAll(0.5)), ..row };
+        let cases: [(&WithFactors<Power>, SlidingRow<'_>, [f64; 3]); 3] =
+            [(&dry, of_each, [0.0; 3]), (&oiled, of_each, lambda), (&oiled, of_all, [0.5; 3])];
+        for (law, row, lambda) in cases {
+            let mut depth = [0.0; 3];
+            law.add_depth(&row, &mut depth);
+            for point in 0..3 {
+                let film = (1.0 + lambda[point]) * (1.0 - 0.5 * lambda[point]);
+                let expected = 1e-12 * pressure[point].powf(1.5) * sliding[point] * film;
+                assert!((depth[point] / expected - 1.0).abs() < 1e-14, "{point}: {} for {expected}", depth[point]);
+            }
+        }
+    }
+}

@@ -45,8 +45,7 @@ fn line_load_primitive(body: &HalfPlane, x_mm: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::reference::{flattening::Flattening, hertz_line::HertzLine};
-    use gearwear_fem::elastic::Analysis;
-    use gearwear_fem::elastic::Elastic;
+    use gearwear_fem::elastic::{Analysis, Elastic};
 
     const BODIES: [HalfPlane; 2] = [
         HalfPlane { elastic: Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 }, depth_mm: 3.9 },

@@ -1,6 +1,6 @@
 //! One setting, run for its result and its time.
 //!
-//! Each is carried out alone by the pipeline, so that its wall time means something; a short run is repeated and its least
+//! Each is carried out alone, so that its wall time means something; a short run is repeated and its least
 //! time counts.
 
 use std::time::Instant;
