@@ -110,3 +110,69 @@ impl LevenbergMarquardt {
 pub fn sum_of_squares(values: &[f64]) -> f64 {
     values.iter().map(|value| value * value).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rosenbrock's function as residuals, 10 (y − x²) and 1 − x: J. J. Moré, B. S. Garbow, K. E. Hillstrom, *ACM Transactions on Mathematical
+    /// Software* 7 (1981) 17–41, problem 1.
+    struct Rosenbrock {
+        evaluations: usize,
+    }
+
+    impl LeastSquares for Rosenbrock {
+        type Error = std::convert::Infallible;
+        type Jacobian = [[f64; 2]; 2];
+
+        fn residuals(&mut self, theta: &[f64]) -> Result<Vec<f64>, Self::Error> {
+            self.evaluations += 1;
+            Ok(vec![10.0 * (theta[1] - theta[0] * theta[0]), 1.0 - theta[0]])
+        }
+
+        fn jacobian(&mut self, theta: &[f64], _residuals: &[f64]) -> Result<Self::Jacobian, Self::Error> {
+            Ok([[-20.0 * theta[0], 10.0], [-1.0, 0.0]])
+        }
+
+        fn damped_step(
+            &self,
+            theta: &[f64],
+            residuals: &[f64],
+            jacobian: &Self::Jacobian,
+            damping: f64,
+        ) -> Option<Vec<f64>> {
+            let product = |a: usize, b: usize| jacobian[0][a] * jacobian[0][b] + jacobian[1][a] * jacobian[1][b];
+            let slope = [0, 1].map(|a| jacobian[0][a] * residuals[0] + jacobian[1][a] * residuals[1]);
+            let (xx, xy, yy) = ((1.0 + damping) * product(0, 0), product(0, 1), (1.0 + damping) * product(1, 1));
+            let determinant = xx * yy - xy * xy;
+            let step = [(xy * slope[1] - yy * slope[0]) / determinant, (xy * slope[0] - xx * slope[1]) / determinant];
+            Some(vec![theta[0] + step[0], theta[1] + step[1]])
+        }
+    }
+
+    const SEARCH: LevenbergMarquardt = LevenbergMarquardt {
+        most_steps: 100,
+        damping_decrease: 0.1,
+        least_damping: 1e-12,
+        most_damping: 1e9,
+        settled: 1e-14,
+    };
+
+    /// The minimum is 0 at (1, 1), from the standard start (−1.2, 1).
+    #[test]
+    fn ver_rosenbrock() {
+        let mut problem = Rosenbrock { evaluations: 0 };
+        let found = SEARCH.minimise(&mut problem, vec![-1.2, 1.0]).unwrap();
+        assert!(found.theta.iter().all(|value| (value - 1.0).abs() < 1e-9), "{found:?}");
+        assert!(problem.evaluations < 100, "{} evaluations", problem.evaluations);
+    }
+
+    /// Steps that have run out are no convergence, and the best point so far is given.
+    #[test]
+    fn steps_that_run_out_are_told() {
+        let search = LevenbergMarquardt { most_steps: 2, ..SEARCH };
+        let mut problem = Rosenbrock { evaluations: 0 };
+        let found = search.minimise(&mut problem, vec![-1.2, 1.0]).unwrap();
+        assert!(!found.is_converged && sum_of_squares(&found.residuals) < 24.2, "{found:?}");
+    }
+}
