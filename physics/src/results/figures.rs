@@ -809,6 +809,21 @@ mod tests {
         assert_eq!(error_of("pinion.root_wear_um", &total), None);
     }
 
+    /// Each stated error is the number at its path: here every number of `error.total` is another.
+    #[test]
+    fn stated_errors_are_the_numbers_at_their_paths() {
+        let mut summary = serde_json::json!({ "error": { "total": TotalError::none("") } });
+        for (number, error) in STATED_ERRORS.iter().enumerate() {
+            let pointer = format!("/{}", error.name.replace('.', "/"));
+            *summary.pointer_mut(&pointer).unwrap_or_else(|| panic!("no {}", error.name)) =
+                (0.5 + number as f64).into();
+        }
+        let total: TotalError = serde_json::from_value(summary["error"]["total"].take()).unwrap();
+        for (number, error) in STATED_ERRORS.iter().enumerate() {
+            assert_eq!((error.of)(&total), Some(0.5 + number as f64), "{}", error.name);
+        }
+    }
+
     #[test]
     fn older_names_are_read_with_a_note() {
         let given = ["pinion.peak_wear_um", "transmission_error_peak_to_peak_worn_um", "no such"];
