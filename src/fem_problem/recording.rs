@@ -10,7 +10,7 @@ use gearwear_mesh::quality::{self, MeshQuality};
 use gearwear_physics::assessment::UM_PER_MM;
 use gearwear_physics::assessment::hertz_comparison::{self, ContactPatch};
 use gearwear_physics::results::fem_problem::{
-    ContactCurve, ContactRow, ContactSummary, FemRecord, FemSolution, FemSummary, MeshSummary, NodalStress,
+    ContactCurve, ContactRow, FemContactSummary, FemRecord, FemSolution, FemSummary, MeshSummary, NodalStress,
     PlaneSolution,
 };
 
@@ -153,7 +153,7 @@ fn contact(
     state: &ContactState,
     curve: &ContactCurve,
     [slave, master]: [String; 2],
-) -> ContactSummary {
+) -> FemContactSummary {
     let half_model = is_half(state);
     let middle = curve.rows.iter().min_by(|a, b| {
         let distance = |row: &ContactRow| (row.along_mm - curve.centre_along_mm).abs();
@@ -166,7 +166,7 @@ fn contact(
         force_n_per_mm: state.force_n_per_mm,
         half_model,
     };
-    ContactSummary {
+    FemContactSummary {
         slave,
         master,
         peak_pressure_MPa: state.peak_pressure_mpa,
@@ -197,7 +197,7 @@ fn elements_per_half_width(problem: &Problem, pair: &ContactPair, patch: Contact
     Some(patch.half_width_mm * lengths.len() as f64 / lengths.iter().sum::<f64>())
 }
 
-fn contact_warning(number: usize, contact: &ContactSummary) -> Option<String> {
+fn contact_warning(number: usize, contact: &FemContactSummary) -> Option<String> {
     let names = format!("contact[{number}], {:?} on {:?}", contact.slave, contact.master);
     match contact.elements_per_half_width {
         None => Some(format!("{names}: the surfaces do not touch")),

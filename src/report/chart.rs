@@ -7,7 +7,7 @@
 
 use super::control::Control;
 pub use super::trace::{
-    BarPlaces, Bars, ColourScale, Curve, Dash, Drawn, Field, Line, Rows, Shown, Signs, Surface, Trace, View,
+    BarPlaces, Bars, ColourScale, Curve, Dash, Drawn, Field, Line, Rows, Signs, Surface, Trace, View,
 };
 use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::PathPoints;

@@ -118,16 +118,6 @@ pub enum Drawn {
     Surface(Surface),
 }
 
-/// When a trace is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shown {
-    FromTheBeginning,
-    /// Once the reader chooses its entry in the legend.
-    OnRequest,
-    /// Once the reader chooses its view.
-    Hidden,
-}
-
 /// One of the things that a chart shows.
 #[derive(Debug, Clone)]
 pub struct Trace {
@@ -135,8 +125,6 @@ pub struct Trace {
     pub name: String,
     /// What is read at a point, with `%{x}`, `%{y:.3f}` …: values in a format of d3.
     pub hover: Option<String>,
-    /// Nothing is read at its points.
-    pub is_silent: bool,
     /// A text for each point, `%{text}`.
     pub texts: Vec<String>,
     /// A further number for each point, `%{customdata}`.
@@ -144,7 +132,8 @@ pub struct Trace {
     pub is_listed: bool,
     /// Shown and hidden with the others of this group.
     pub group: Option<String>,
-    pub shown: Shown,
+    /// Whether it is drawn before the reader chooses its entry in the legend, or its view.
+    pub is_shown: bool,
     pub opacity: f64,
 }
 
@@ -167,12 +156,11 @@ impl Trace {
             drawn,
             name: name.into(),
             hover: None,
-            is_silent: false,
             texts: Vec::new(),
             further: Vec::new(),
             is_listed: true,
             group: None,
-            shown: Shown::FromTheBeginning,
+            is_shown: true,
             opacity: 1.0,
         }
     }
@@ -246,7 +234,7 @@ impl Trace {
         if let Drawn::Curve(curve) = &mut self.drawn {
             curve.fill = Some(colour.into());
         }
-        self.silent()
+        self
     }
 
     /// A text above each point.
@@ -287,12 +275,6 @@ impl Trace {
         self
     }
 
-    /// Nothing is read at its points.
-    pub fn silent(mut self) -> Self {
-        self.is_silent = true;
-        self
-    }
-
     pub fn unlisted(self) -> Self {
         self.listed(false)
     }
@@ -311,7 +293,7 @@ impl Trace {
 
     /// Drawn from the beginning, or not before its entry in the legend is chosen.
     pub fn at_once(mut self, at_once: bool) -> Self {
-        self.shown = if at_once { Shown::FromTheBeginning } else { Shown::OnRequest };
+        self.is_shown = at_once;
         self
     }
 

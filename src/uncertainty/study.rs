@@ -18,6 +18,7 @@ use super::life::{DepthLimit, Growth};
 use super::record::{Band, FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, SampleRow, UncertaintyRecord};
 use crate::evaluate::output::SummaryOutput;
 use crate::report::html::reading::capitalised;
+use crate::report::unit;
 use crate::runs;
 use crate::scene::Resolved;
 use crate::scene::loaded::LoadedScene;
@@ -28,7 +29,7 @@ use gearwear_bodies::reference::sobol_indices::indices;
 use gearwear_bodies::reference::statistics::{SHARES, mean, quantile, standard_deviation};
 use gearwear_physics::assessment::guarded::guarded;
 use gearwear_physics::observer::Observer;
-use gearwear_physics::results::figures::{self, MainFigure};
+use gearwear_physics::results::figures;
 use gearwear_physics::results::run::StopReason;
 use gearwear_physics::results::worn_pair::{WearProfile, WornPair};
 
@@ -365,7 +366,7 @@ fn named(samples: &Samples<'_>, figure: usize) -> [String; 3] {
     let name = limit.map_or_else(|| outputs[figure].path.as_str(), |limit| limit.output);
     let known = figures::find(name);
     let heading = known.map_or_else(|| name.to_owned(), |known| capitalised(&known.heading));
-    let Some(limit) = limit else { return [name.to_owned(), heading, known.map_or("", MainFigure::unit).to_owned()] };
+    let Some(limit) = limit else { return [name.to_owned(), heading, unit::of(name).unwrap_or_default().to_owned()] };
     let unit = if samples.nominal.summary.hours.is_some() { "h" } else { "revolutions" };
     let depth_um = limit.depth_um;
     [format!("life.{name}={depth_um}"), format!("Life until {depth_um} µm: {heading}"), unit.to_owned()]

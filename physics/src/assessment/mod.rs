@@ -3,6 +3,7 @@
 //! This is the one way in which the program runs anything; the only clock it reads times the stages.
 
 pub mod calibrate;
+mod contact_case;
 pub mod deformed_teeth;
 mod drawing;
 mod error_estimates;
@@ -12,7 +13,6 @@ pub mod hertz_comparison;
 mod inputs;
 mod invariants;
 mod left_out_contact;
-mod load_case;
 mod lubrication;
 mod model;
 pub mod pair_mesh;

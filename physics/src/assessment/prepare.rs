@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::calibrate;
+use super::contact_case::{ContactCase, contact_case};
 use super::inputs::RunInputs;
-use super::load_case::{ContactCase, contact_case};
 use super::run_error::RunError;
 use super::stage_clock::StageClock;
 use super::temperature;

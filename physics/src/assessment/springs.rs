@@ -1,7 +1,7 @@
 //! Check that contact surface and stiffness model of a scene are compatible, in closed form and before any work.
 
 use super::stage_clock::StageClock;
-use super::{RunError, RunInputs, load_case};
+use super::{RunError, RunInputs, contact_case};
 use crate::contact::settings::SurfaceKind;
 use crate::observer::Unwatched;
 use crate::stiffness::settings::StiffnessSettings;
@@ -26,7 +26,7 @@ impl RunInputs<'_> {
         let mut stages = StageClock::new(&Unwatched);
         for phase in &scene.operation.phases {
             let (load, material) = (pair.line_load_n_per_mm(phase.pinion_torque_n_mm), scene.material_in(phase));
-            let case = load_case::contact_case(self, &pair, material, load, &mut stages)?;
+            let case = contact_case::contact_case(self, &pair, material, load, &mut stages)?;
             let Some(spring) = case.spring(scene.stiffness, curve, &pair)? else { continue };
             for position_mm in pair.path.evenly_mm(scene.numerics.positions) {
                 spring.own_n_per_mm2(position_mm)?;

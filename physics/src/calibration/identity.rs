@@ -1,4 +1,4 @@
-//! CalibrationIdentity of a calibration: every number that shapes the section of the pair, its material, and the radii at which its bodies are held.
+//! Identity of a calibration: every number that shapes the section of the pair, its material, and the radii at which its bodies are held.
 //!
 //! Names and units are those of the scene's keys, so that messages can name a difference. The face width is
 //! not among them, as everything is per mm of it, nor is the helix angle by itself: pairs of one transverse section share their calibrations.
@@ -138,7 +138,7 @@ pub struct WebIdentity {
 }
 
 impl CalibrationIdentity {
-    /// CalibrationIdentity of a pair with its material and bodies.
+    /// Identity of a pair with its material and bodies.
     pub fn of(pair: &GearPair, material: &PerGear<Material>, bodies: &BodySettings) -> Self {
         let spec = &pair.spec;
         let (body, sector_teeth, sector_sides) = match bodies.body {

@@ -120,7 +120,7 @@ pub struct FemSummary {
     /// Time from the beginning to the end of the last stage, s.
     pub wall_s: f64,
     /// The contacts, in the order of the problem.
-    pub contact: Vec<ContactSummary>,
+    pub contact: Vec<FemContactSummary>,
     /// Maximum von Mises stress at a node, MPa.
     pub peak_von_mises_MPa: f64,
     /// Further figures of three-dimensional problems.
@@ -156,7 +156,7 @@ pub struct MeshSummary {
 
 /// Figures of one contact.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ContactSummary {
+pub struct FemContactSummary {
     /// Group of the surface that carries the pressure.
     pub slave: String,
     /// Group of the surface opposite.

@@ -45,10 +45,10 @@ pub const STATED_ERRORS: [StatedError; 10] = [
     stated("error.total.tip_edge_wear.wheel", "wear of the wheel’s tip edge", |total| total.tip_edge_wear.wheel),
     stated("error.total.profile.pinion", "wear over the pinion’s flank (rms)", |total| total.profile.pinion),
     stated("error.total.profile.wheel", "wear over the wheel’s flank (rms)", |total| total.profile.wheel),
-    stated("error.total.transmission_error_peak_to_peak", "transmission error, peak to peak", |total| {
+    stated("error.total.transmission_error_peak_to_peak", "transmission error, peak to peak, worn", |total| {
         total.transmission_error_peak_to_peak
     }),
-    stated("error.total.pressure_between_tips", "pressure between the tip edges (rms)", |total| {
+    stated("error.total.pressure_between_tips", "pressure between the tip edges, worn (rms)", |total| {
         total.pressure_between_tips
     }),
     stated("error.total.flank_pressure.new", "flank pressure, new", |total| total.flank_pressure.new),
@@ -97,7 +97,9 @@ pub enum OverSlices {
     OfPair,
     /// Maximum, a fortieth of the face width at either end face left out.
     Maximum,
-    /// Minimum, likewise.
+    /// Maximum of all slices, those at the end faces included.
+    MaximumOfAll,
+    /// Minimum, a fortieth of the face width at either end face left out.
     Minimum,
     /// Place of the maximum.
     AtMaximum,
@@ -113,8 +115,9 @@ impl OverSlices {
     /// In words, for a table.
     pub fn name(self) -> &'static str {
         match self {
-            Self::OfPair => "of the pair",
+            Self::OfPair => "one value",
             Self::Maximum => "maximum",
+            Self::MaximumOfAll => "maximum, end faces included",
             Self::Minimum => "minimum",
             Self::AtMaximum => "where the maximum is",
             Self::Mean => "mean",
@@ -234,10 +237,6 @@ impl FigureFamily {
         Self { in_terminal: true, on_page: true, ..self }
     }
 
-    const fn in_terminal(self) -> Self {
-        Self { in_terminal: true, ..self }
-    }
-
     const fn on_page(self) -> Self {
         Self { on_page: true, ..self }
     }
@@ -304,7 +303,8 @@ impl FigureFamily {
             name: of_side(self.path),
             heading,
             meaning: of_side(self.meaning),
-            former: of_side(self.former),
+            // Older names were columns of sweeps.
+            former: if self.sweep_column[side] > 0 { of_side(self.former) } else { String::new() },
             own_attribute: custom,
             family: self,
             side,
@@ -557,11 +557,11 @@ pub static FAMILIES: &[FigureFamily] = &[
         })
     }
     .means("maximum pressure found at a sharp tip edge under load, which grows with every refinement, {state}; empty where there is none")
-    .of_slices(OverSlices::Maximum)
+    .of_slices(OverSlices::MaximumOfAll)
     .shown(),
     states("{state}.pitch_pressure_MPa", "MPa", "pressure at the pitch point", |s| cycle(s, |c| c.pitch_pressure_MPa))
         .means("maximum pressure with the theoretical contact point at C, {state}")
-        .of_slices(OverSlices::Maximum)
+        .of_slices(OverSlices::MaximumOfAll)
         .shown(),
     FigureFamily {
         default_output: [0, 5],
@@ -683,6 +683,7 @@ pub static FAMILIES: &[FigureFamily] = &[
         [s.pinion.peak_over_vdi_2736_mean_wear, s.wheel.peak_over_vdi_2736_mean_wear]
     })
     .means("maximum wear depth over the mean wear of VDI 2736-2")
+    .of_slices(OverSlices::Maximum)
     .on_page(),
     gears("{gear}.worn_mass_mg", "mg", "worn mass{}", |s| wear(s, |w| w.worn_mass_mg))
         .means("worn off the whole {gear}: all teeth, whole width")
@@ -702,7 +703,7 @@ pub static FAMILIES: &[FigureFamily] = &[
     .of_slices(OverSlices::Spread)
     .once_called("{gear}_root_wear_variation")
     .wants_less()
-    .in_terminal()
+    .shown()
     .in_sweeps([23, 26]),
     gears("helical.wear.{gear}.tip_variation", "", "variation of tip wear{} over the width", |s| {
         over_width(s, |w| w.tip_variation)
@@ -711,7 +712,7 @@ pub static FAMILIES: &[FigureFamily] = &[
     .of_slices(OverSlices::Spread)
     .once_called("{gear}_tip_wear_variation")
     .wants_less()
-    .in_terminal()
+    .shown()
     .in_sweeps([24, 27]),
     gears("helical.wear.{gear}.root_tip_variation", "", "variation of root and tip wear{}", |s| {
         over_width(s, |w| w.root_tip_variation)
@@ -720,14 +721,15 @@ pub static FAMILIES: &[FigureFamily] = &[
     .of_slices(OverSlices::Spread)
     .once_called("{gear}_root_tip_wear_variation")
     .wants_less()
-    .in_terminal()
+    .shown()
     .in_sweeps([25, 28]),
     gears("helical.wear.{gear}.root_asymmetry", "", "asymmetry of root wear{}", |s| over_width(s, |w| w.root_asymmetry))
         .means("first less last slice over their sum; empty where there are no slices")
         .of_slices(OverSlices::Spread)
         .once_called("{gear}_root_wear_asymmetry")
+        .on_page()
         .in_sweeps([29, 0]),
-    states("helical.K_Hbeta_{state}", "", "face load factor", |s| {
+    states("helical.K_Hbeta_{state}", "", "face load factor K_Hβ", |s| {
         let helical = s.helical.as_ref();
         [helical.map(|helical| helical.K_Hbeta_new), helical.map(|helical| helical.K_Hbeta_worn)]
     })
@@ -735,7 +737,7 @@ pub static FAMILIES: &[FigureFamily] = &[
     .of_slices(OverSlices::Spread)
     .once_called("K_Hbeta_{state}")
     .wants_less()
-    .in_terminal()
+    .shown()
     .in_sweeps([30, 31])
     .compared([19, 20]),
     states("helical.mesh_orders_{state}_um.1", "µm", "transmission error, first mesh order", |s| {
@@ -748,7 +750,7 @@ pub static FAMILIES: &[FigureFamily] = &[
     .means("amplitude at the mesh frequency, {state}; empty where there are no slices")
     .once_called("mesh_order_1_{state}_um")
     .wants_less()
-    .in_terminal()
+    .shown()
     .in_sweeps([32, 33]),
     pair("error.volume_balance", "", "difference of the worn volumes of pinion and wheel", |s| s.error.volume_balance)
         .means(

@@ -469,7 +469,7 @@ pub struct WorkSummary {
     pub rejected_steps: u64,
     /// Mesh cycles evaluated in wear steps, rejected ones included.
     pub stages: u64,
-    /// Mesh cycles evaluated to learn how stiff the wear is: spectral radius, Jacobian, length of the first step.
+    /// Mesh cycles evaluated to learn how stiff the wear is: spectral radius, length of the first step.
     pub jacobian_probes: u64,
     /// Mesh cycles evaluated before the run, to learn how long a step of Euler's method may be; not among those of the run.
     pub stability_probes: u64,

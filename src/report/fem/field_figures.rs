@@ -70,7 +70,7 @@ fn along(edges: &[Edge]) -> Vec<Vec<u32>> {
 fn marks(name: &str, symbol: &str, nodes: &[u32], points: &[[f64; 2]]) -> Trace {
     let step = nodes.len().div_ceil(MOST_MARKS);
     let along = |axis: usize| nodes.iter().step_by(step).map(move |&node| points[node as usize][axis]);
-    Trace::points(name, along(0), along(1), (MUTED, symbol, 8)).silent()
+    Trace::points(name, along(0), along(1), (MUTED, symbol, 8))
 }
 
 /// The von Mises stress: over all bodies, and around each contact that carries load; deformed as computed.

@@ -8,7 +8,7 @@ use crate::report::html::number::{change, figure, significant};
 use crate::report::html::page::{self, Page, Plots, section, sources_list, stages_table};
 use crate::report::html::table::{NONE, cells, row, table};
 use gearwear_fem::problem::{Stop, ThirdDirection};
-use gearwear_physics::results::fem_problem::{ContactSummary, FemRecord, FemSummary, PlaneSolution};
+use gearwear_physics::results::fem_problem::{FemContactSummary, FemRecord, FemSummary, PlaneSolution};
 
 const DATA_FILES: [(&str, &str); 4] = [
     (output_files::SUMMARY, "the main figures"),
@@ -51,7 +51,7 @@ pub(super) fn page(record: &FemRecord, plane: &PlaneSolution) -> String {
 }
 
 fn answer(s: &FemSummary) -> String {
-    let touching = |contact: &&ContactSummary| contact.half_width_mm > 0.0;
+    let touching = |contact: &&FemContactSummary| contact.half_width_mm > 0.0;
     let hardest = s.contact.iter().filter(touching).max_by(|a, b| a.peak_pressure_MPa.total_cmp(&b.peak_pressure_MPa));
     match hardest {
         Some(contact) => format!(
@@ -71,7 +71,7 @@ fn answer(s: &FemSummary) -> String {
     }
 }
 
-fn contact_table(contact: &ContactSummary) -> Markup {
+fn contact_table(contact: &FemContactSummary) -> Markup {
     let [x, y] = contact.force_N_per_mm;
     let hertz = contact.hertz;
     let compare = |label, unit, found: f64, by_hertz: Option<f64>| {

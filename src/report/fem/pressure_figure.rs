@@ -5,13 +5,18 @@ use crate::report::html::number::{change, figure, significant};
 use crate::report::pressure_plot::beside_hertz;
 use gearwear_bodies::reference::hertz_line::LineContact;
 use gearwear_bodies::reference::statistics::extent;
-use gearwear_physics::results::fem_problem::{ContactCurve, ContactRow, ContactSummary};
+use gearwear_physics::results::fem_problem::{ContactCurve, ContactRow, FemContactSummary};
 
 /// Half-widths shown on either side.
 const SHOWN: f64 = 1.8;
 
 /// The pressure along one contact, number `index` of `count`; none where nothing touches.
-pub(super) fn pressure(index: usize, count: usize, summary: &ContactSummary, contact: &ContactCurve) -> Option<Chart> {
+pub(super) fn pressure(
+    index: usize,
+    count: usize,
+    summary: &FemContactSummary,
+    contact: &ContactCurve,
+) -> Option<Chart> {
     if summary.half_width_mm <= 0.0 {
         return None;
     }
@@ -32,7 +37,7 @@ pub(super) fn pressure(index: usize, count: usize, summary: &ContactSummary, con
     Some(beside_hertz(chart, &shown, "Hertz, same force", hertz, range).y_up_to(top))
 }
 
-fn reading(summary: &ContactSummary) -> String {
+fn reading(summary: &FemContactSummary) -> String {
     let half =
         if summary.half_model { " The contact ends on a line of symmetry: the model holds half of it." } else { "" };
     let found = format!(

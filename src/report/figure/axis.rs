@@ -8,8 +8,8 @@ use gearwear_bodies::reference::statistics::extent;
 const ROOM: f64 = 0.05;
 /// Decades of a logarithmic axis up to which it has ticks at 2 and 5 as well.
 const FEW_DECADES: f64 = 2.5;
-/// Decades below which there may be none of these.
-const LEAST_DECADES: f64 = 0.3;
+/// Decades below which there may be less than two of these: from just above 2 to just below 10.
+const LEAST_DECADES: f64 = 0.7;
 
 /// An axis with its range in coordinates (of a logarithmic axis exponents) and its ends on the drawing.
 pub(super) struct PlacedAxis<'a> {
@@ -45,7 +45,9 @@ impl<'a> PlacedAxis<'a> {
         match (self.categories.len(), high - low) {
             (1.., _) => [-0.5, self.categories.len() as f64 - 0.5],
             // Bars stand on the axis.
-            (0, width) if width > 0.0 && width.is_finite() && low == 0.0 => [0.0, high + room],
+            (0, width) if width > 0.0 && width.is_finite() && low == 0.0 && !self.words.is_logarithmic => {
+                [0.0, high + room]
+            }
             (0, width) if width > 0.0 && width.is_finite() => [low - room, high + room],
             _ if low.is_finite() && high.is_finite() => [low - 0.5, high + 0.5],
             _ => [0.0, 1.0],
@@ -91,8 +93,8 @@ impl<'a> PlacedAxis<'a> {
         let inside = |place: f64| low - 1e-9 * (high - low) <= place && place <= high + 1e-9 * (high - low);
         let ticks: Vec<(f64, String)> = match (&self.categories[..], &self.words.ticks[..]) {
             ([], []) if self.words.is_logarithmic && high - low < LEAST_DECADES => {
-                let ticks = evenly(low, high, most).into_iter();
-                ticks.map(|(exponent, _)| (exponent, plain(to_digits(10f64.powf(exponent), 4)))).collect()
+                let ticks = evenly(10f64.powf(low), 10f64.powf(high), most).into_iter();
+                ticks.map(|(value, word)| (value.log10(), word)).collect()
             }
             ([], []) if self.words.is_logarithmic && high - low < FEW_DECADES => within_decades(low, high),
             ([], []) if self.words.is_logarithmic => decades(low, high, most),
@@ -130,10 +132,16 @@ fn within_decades(low: f64, high: f64) -> Vec<(f64, String)> {
 /// A number of a scale whose numbers are `step` apart.
 fn label(value: f64, step: f64) -> String {
     if value != 0.0 && !(1e-4..1e6).contains(&step) {
-        return plain(to_digits(value, 6));
+        let digits = order(value) - order(step) + 1.0;
+        return plain(to_digits(value, digits.clamp(1.0, 15.0) as usize));
     }
-    let decimals = if (1e-4..1e6).contains(&step) { (-step.log10().floor()).max(0.0) as usize } else { 0 };
+    let decimals = if (1e-4..1e6).contains(&step) { (-order(step)).max(0.0) as usize } else { 0 };
     format!("{value:.decimals$}").replace('-', "−")
+}
+
+/// Exponent of the power of ten at or below `value`.
+fn order(value: f64) -> f64 {
+    (value.abs().log10() + 1e-9).floor()
 }
 
 /// As it is, or with a power of ten where that is shorter.
@@ -175,6 +183,8 @@ mod tests {
         let logarithmic = Chart::new("", "").x_logarithmic();
         assert_eq!(labels(&logarithmic, &[1e-2, 1e1]), ["10⁻²", "10⁻¹", "10⁰", "10¹"]);
         assert_eq!(labels(&logarithmic, &[0.15, 2.5]), ["0.2", "0.5", "1", "2"]);
+        assert_eq!(labels(&logarithmic, &[2.1, 4.9]), ["3", "4"]);
+        assert_eq!(within(34.1234, 34.12355), ["34.1234", "34.12345", "34.1235", "34.12355"]);
         assert_eq!(labels(&Chart::new("", ""), &[]).len(), 6);
         assert_eq!(labels(&Chart::new("", ""), &[3.0]).first().unwrap(), "2.6");
     }

@@ -1,6 +1,7 @@
 //! Contours of values on a rectangular raster: areas between levels and lines at them.
 //!
-//! Each cell is parted into four triangles about its middle, where the value is the mean of the corners; within a triangle values are linear.
+//! Each cell is parted into four triangles about its middle, where the value is the mean of the corners; within a triangle values are linear. Cells
+//! between two levels are drawn whole, as one rectangle where they lie side by side.
 
 use super::axis::round_step;
 use crate::report::chart::Rows;
@@ -10,7 +11,7 @@ use crate::report::html::number::to_digits;
 const ABOUT: f64 = 14.0;
 
 type Place = [f64; 2];
-type Corner = (Place, f64);
+pub(super) type Corner = (Place, f64);
 
 /// Round levels within the range, and its ends.
 pub(super) fn levels(low: f64, high: f64) -> Vec<f64> {
@@ -32,19 +33,45 @@ pub(super) fn label(level: f64, levels: &[f64]) -> String {
 
 /// Polygons between each level and the next.
 pub(super) fn bands(x: &[f64], y: &[f64], values: &Rows, levels: &[f64]) -> Vec<Vec<Vec<Place>>> {
-    let triangles = triangles(x, y, values);
-    let band = |ends: &[f64]| {
-        let within = triangles.iter().map(|triangle| clipped(&clipped(triangle, ends[0], 1.0), ends[1], -1.0));
-        within
-            .filter(|corners| corners.len() > 2)
-            .map(|corners| corners.iter().map(|(place, _)| *place).collect())
-            .collect()
-    };
-    levels.windows(2).map(band).collect()
+    let mut bands = vec![Vec::new(); levels.len().saturating_sub(1)];
+    for j in 1..values.len() {
+        // The rectangle that goes on: its band, and the column where it begins.
+        let mut run: Option<(usize, usize)> = None;
+        for i in 1..=values[j].len() {
+            let corners = (i < values[j].len()).then(|| corners(x, y, values, i, j));
+            let whole = corners.and_then(|corners| band_of(&corners, levels));
+            if let Some((band, first)) = run.filter(|(band, _)| Some(*band) != whole) {
+                bands[band].push(vec![[x[first], y[j - 1]], [x[i - 1], y[j - 1]], [x[i - 1], y[j]], [x[first], y[j]]]);
+                run = None;
+            }
+            match (whole, corners) {
+                (Some(band), _) => run = run.or(Some((band, i - 1))),
+                (None, Some(corners)) => add_parts(&mut bands, &parted(&corners), levels),
+                (None, None) => {}
+            }
+        }
+    }
+    bands
 }
 
-/// Pieces of the line at `level`.
-pub(super) fn lines(x: &[f64], y: &[f64], values: &Rows, level: f64) -> Vec<[Place; 2]> {
+/// The band in which all corners of a cell lie.
+fn band_of(corners: &[Corner; 4], levels: &[f64]) -> Option<usize> {
+    let within = |ends: &[f64]| corners.iter().all(|(_, value)| (ends[0]..=ends[1]).contains(value));
+    levels.windows(2).position(within)
+}
+
+/// Adds the parts of triangles between each level and the next.
+fn add_parts(bands: &mut [Vec<Vec<Place>>], triangles: &[[Corner; 3]], levels: &[f64]) {
+    for (band, ends) in bands.iter_mut().zip(levels.windows(2)) {
+        let within = triangles.iter().map(|triangle| clipped(&clipped(triangle, ends[0], 1.0), ends[1], -1.0));
+        band.extend(
+            within.filter(|corners| corners.len() > 2).map(|corners| corners.iter().map(|(place, _)| *place).collect()),
+        );
+    }
+}
+
+/// Pieces of the line at `level` through `triangles`.
+pub(super) fn lines(triangles: &[[Corner; 3]], level: f64) -> Vec<[Place; 2]> {
     let crossing = |triangle: &[Corner; 3]| {
         let sides = [(0, 1), (1, 2), (2, 0)].into_iter();
         let places: Vec<Place> = sides
@@ -53,24 +80,29 @@ pub(super) fn lines(x: &[f64], y: &[f64], values: &Rows, level: f64) -> Vec<[Pla
             .collect();
         <[Place; 2]>::try_from(places).ok()
     };
-    triangles(x, y, values).iter().filter_map(crossing).collect()
+    triangles.iter().filter_map(crossing).collect()
 }
 
-fn triangles(x: &[f64], y: &[f64], values: &Rows) -> Vec<[Corner; 3]> {
-    let mut all = Vec::new();
-    for j in 1..values.len() {
-        for i in 1..values[j].len() {
-            let corner = |i: usize, j: usize| ([x[i], y[j]], values[j][i]);
-            let corners = [corner(i - 1, j - 1), corner(i, j - 1), corner(i, j), corner(i - 1, j)];
-            let mean = corners.iter().map(|(_, value)| value).sum::<f64>() / 4.0;
-            if !mean.is_finite() {
-                continue;
-            }
-            let middle = ([x[i - 1].midpoint(x[i]), y[j - 1].midpoint(y[j])], mean);
-            all.extend((0..4).map(|side| [corners[side], corners[(side + 1) % 4], middle]));
-        }
+/// Triangles of all cells.
+pub(super) fn triangles(x: &[f64], y: &[f64], values: &Rows) -> Vec<[Corner; 3]> {
+    let cells = (1..values.len()).flat_map(|j| (1..values[j].len()).map(move |i| (i, j)));
+    cells.flat_map(|(i, j)| parted(&corners(x, y, values, i, j))).collect()
+}
+
+/// Corners of the cell before column `i` and row `j`, once round.
+fn corners(x: &[f64], y: &[f64], values: &Rows, i: usize, j: usize) -> [Corner; 4] {
+    [(i - 1, j - 1), (i, j - 1), (i, j), (i - 1, j)].map(|(i, j)| ([x[i], y[j]], values[j][i]))
+}
+
+/// Triangles of a cell; none where a corner has no value.
+fn parted(corners: &[Corner; 4]) -> Vec<[Corner; 3]> {
+    let mean = corners.iter().map(|(_, value)| value).sum::<f64>() / 4.0;
+    if !mean.is_finite() {
+        return Vec::new();
     }
-    all
+    let ([before, _, after, _], half) = (corners.map(|(place, _)| place), [0, 1]);
+    let middle = (half.map(|axis| before[axis].midpoint(after[axis])), mean);
+    (0..4).map(|side| [corners[side], corners[(side + 1) % 4], middle]).collect()
 }
 
 /// The part of a polygon whose values are not below `level`, or with a `sign` of −1 not above it.
@@ -99,23 +131,37 @@ fn between(from: Corner, to: Corner, level: f64) -> Corner {
 mod tests {
     use super::*;
 
+    fn area(corners: &Vec<Place>) -> f64 {
+        let next = corners.iter().cycle().skip(1);
+        corners.iter().zip(next).map(|(a, b)| 0.5 * (a[0] * b[1] - b[0] * a[1])).sum::<f64>().abs()
+    }
+
     /// z = x over the unit square: the band from 0.25 to 0.5 has a quarter of its area, the line at 0.5 the length 1.
     #[test]
     fn bands_and_lines_of_a_plane() {
         let (places, values) = ([0.0, 1.0], vec![vec![0.0, 1.0], vec![0.0, 1.0]]);
-        let area = |corners: &Vec<Place>| {
-            let next = corners.iter().cycle().skip(1);
-            corners.iter().zip(next).map(|(a, b)| 0.5 * (a[0] * b[1] - b[0] * a[1])).sum::<f64>().abs()
-        };
         let bands = bands(&places, &places, &values, &[0.0, 0.25, 0.5, 1.0]);
         let areas: Vec<f64> = bands.iter().map(|band| band.iter().map(area).sum()).collect();
         assert!(areas.iter().zip([0.25, 0.25, 0.5]).all(|(found, exact)| (found - exact).abs() < 1e-12), "{areas:?}");
-        let line = lines(&places, &places, &values, 0.3);
+        let line = lines(&triangles(&places, &places, &values), 0.3);
         let length: f64 = line.iter().map(|[a, b]| (a[0] - b[0]).hypot(a[1] - b[1])).sum();
         assert!((length - 1.0).abs() < 1e-12 && line.iter().flatten().all(|place| (place[0] - 0.3).abs() < 1e-12));
         assert_eq!(
             levels(0.0, 1.0),
             [0.0, 0.1, 0.2, 0.30000000000000004, 0.4, 0.5, 0.6000000000000001, 0.7000000000000001, 0.8, 0.9, 1.0]
         );
+    }
+
+    /// z = 1 − |x| − |y| where that is positive, and 0 beyond, at 41 × 41 places: bands cover the square once, and cells between two levels are few rectangles.
+    #[test]
+    fn bands_cover_the_square_once_with_few_polygons() {
+        let places: Vec<f64> = (0..41).map(|i| -2.0 + 0.1 * f64::from(i)).collect();
+        let row = |y: &f64| places.iter().map(|x| (1.0 - x.abs() - y.abs()).max(0.0)).collect();
+        let values: Rows = places.iter().map(row).collect();
+        let bands = bands(&places, &places, &values, &[0.0, 0.25, 0.5, 0.75, 1.0]);
+        let whole: f64 = bands.iter().flatten().map(area).sum();
+        assert!((whole - 16.0).abs() < 1e-9, "{whole}");
+        let polygons = bands.iter().map(Vec::len).sum::<usize>();
+        assert!(polygons < 40 * 40 / 2, "{polygons}");
     }
 }

@@ -3,7 +3,7 @@
 use super::axis::PlacedAxis;
 use super::picture::{Anchor, Group, Medium, Moves, Node, Path, Picture, Step, Words};
 use super::sign;
-use crate::report::chart::{BarPlaces, Chart, Dash, Drawn, Field, INK, Label, Line, MUTED, Shown, Trace};
+use crate::report::chart::{BarPlaces, Chart, Dash, Drawn, Field, INK, Label, Line, MUTED, Trace};
 use gearwear_bodies::reference::statistics::extent;
 
 const GRID: &str = "var(--grid)";
@@ -41,7 +41,7 @@ pub(super) struct Drawing<'a> {
 }
 
 pub(super) fn is_shown(trace: &Trace) -> bool {
-    trace.shown == Shown::FromTheBeginning
+    trace.is_shown
 }
 
 /// The bars of a chart are across or upwards, all of them.
@@ -331,8 +331,31 @@ pub(super) fn polygon(corners: &[[f64; 2]]) -> Vec<Step> {
     first.chain(corners.iter().skip(1).map(|corner| Step::Line(*corner))).chain([Step::Close]).collect()
 }
 
-/// The range of the colours of a field.
+/// The range of the colours of a field: about its value where it has but one, and 0 to 1 where it has none.
 pub(super) fn range_of_colours(field: &Field) -> [f64; 2] {
     let finite = field.values.iter().flatten().copied().filter(|value| value.is_finite());
-    field.scale.range.unwrap_or_else(|| extent(finite))
+    match field.scale.range.unwrap_or_else(|| extent(finite)) {
+        [low, high] if low < high => [low, high],
+        [low, _] if low.is_finite() => [low - 0.5, low + 0.5],
+        _ => [0.0, 1.0],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::chart::ColourScale;
+
+    #[test]
+    fn colours_of_one_value_lie_about_it() {
+        let of = |values: [f64; 2]| {
+            range_of_colours(&Field {
+                x: vec![],
+                y: vec![],
+                values: vec![values.into()],
+                scale: ColourScale::of("MPa"),
+            })
+        };
+        assert_eq!([of([62.0; 2]), of([f64::NAN; 2]), of([1.0, 3.0])], [[61.5, 62.5], [0.0, 1.0], [1.0, 3.0]]);
+    }
 }

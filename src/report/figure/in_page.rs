@@ -144,7 +144,7 @@ fn traces<'a>(drawing: &Drawing<'a>) -> Vec<TraceData<'a>> {
 }
 
 fn of_trace<'a>(drawing: &Drawing<'a>, number: usize, trace: &'a Trace) -> TraceData<'a> {
-    let hover = trace.hover.as_deref().filter(|_| !trace.is_silent);
+    let hover = trace.hover.as_deref();
     let (x, y, colour) = match &trace.drawn {
         // Places of what is not read are in the drawing already, but for bodies that turn with it.
         Drawn::Curve(curve) if hover.is_none() => (Vec::new(), Vec::new(), curve.colour()),

@@ -156,16 +156,16 @@ impl Picture {
         svg
     }
 
-    fn colour(&self, token: &str) -> String {
-        match self.medium {
-            Medium::Page => in_page(token),
-            Medium::File => {
-                let [red, green, blue, opacity] = in_light(token);
-                match opacity {
-                    255 => hex([red, green, blue]),
-                    _ => format!("rgba({red}, {green}, {blue}, {:.3})", f64::from(opacity) / 255.0),
-                }
-            }
+    /// The attribute `name` of a colour: `fill` or `stroke`. In files opacity is an attribute of its own, as SVG 1.1 has no `rgba()`.
+    fn paint(&self, name: &str, token: &str) -> String {
+        if self.medium == Medium::Page {
+            return format!("{name}=\"{}\"", in_page(token));
+        }
+        let [red, green, blue, opacity] = in_light(token);
+        let colour = hex([red, green, blue]);
+        match opacity {
+            255 => format!("{name}=\"{colour}\""),
+            _ => format!("{name}=\"{colour}\" {name}-opacity=\"{:.3}\"", f64::from(opacity) / 255.0),
         }
     }
 
@@ -199,11 +199,10 @@ impl Picture {
         if path.at != [0.0; 2] || path.moves != Moves::No {
             let _ = write!(svg, " transform=\"translate({},{})\"", place(path.at[0]), place(path.at[1]));
         }
-        let _ = write!(svg, " d=\"{}\" fill=\"", path.steps.iter().map(written).collect::<String>());
-        svg.push_str(&path.fill.as_deref().map_or_else(|| "none".to_owned(), |fill| self.colour(fill)));
-        svg.push('"');
+        let fill = path.fill.as_deref().map_or_else(|| "fill=\"none\"".to_owned(), |fill| self.paint("fill", fill));
+        let _ = write!(svg, " d=\"{}\" {fill}", path.steps.iter().map(written).collect::<String>());
         if let Some(line) = &path.line {
-            let _ = write!(svg, " stroke=\"{}\" stroke-width=\"{}\"", self.colour(&line.colour), line.width_px);
+            let _ = write!(svg, " {} stroke-width=\"{}\"", self.paint("stroke", &line.colour), line.width_px);
             let lengths: Vec<String> = dashes(line.dash).iter().map(f32::to_string).collect();
             if !lengths.is_empty() {
                 let _ = write!(svg, " stroke-dasharray=\"{}\"", lengths.join(" "));
@@ -226,8 +225,8 @@ impl Picture {
             Anchor::Middle => "middle",
             Anchor::End => "end",
         };
-        let (size, colour, text) = (words.size, self.colour(&words.colour), escaped(&words.text));
-        let _ = writeln!(svg, " text-anchor=\"{anchor}\" font-size=\"{size}\" fill=\"{colour}\">{text}</text>");
+        let (size, fill, text) = (words.size, self.paint("fill", &words.colour), escaped(&words.text));
+        let _ = writeln!(svg, " text-anchor=\"{anchor}\" font-size=\"{size}\" {fill}>{text}</text>");
     }
 
     fn write_moves(&self, moves: Moves, svg: &mut String) {
@@ -264,7 +263,7 @@ fn written(step: &Step) -> String {
         Step::Line([x, y]) => format!(" {} {}", place(x), place(y)),
         Step::Circle { centre: [x, y], radius } => {
             let (left, r, across) = (place(x - radius), place(radius), place(2.0 * radius));
-            format!("M{left} {}a{r} {r} 0 1 0 {across} 0a{r} {r} 0 1 0 -{across} 0z", place(y))
+            format!("M{left} {}a{r} {r} 0 1 1 {across} 0a{r} {r} 0 1 1 -{across} 0z", place(y))
         }
         Step::Close => "Z".to_owned(),
     }

@@ -162,15 +162,16 @@ impl Drawing<'_> {
         let levels = contours::levels(low, high);
         for (number, area) in contours::bands(&x, &y, &field.values, &levels).into_iter().enumerate() {
             let level = levels[number].midpoint(levels[number + 1]);
-            let colour = hex(of_scale(if high > low { (level - low) / (high - low) } else { 0.0 }));
+            let colour = hex(of_scale((level - low) / (high - low)));
             let line = Some(Line { colour: colour.clone(), width_px: 0.6, dash: Dash::Solid });
             let steps = area.iter().flat_map(|corners| polygon(corners)).collect();
             let path = Path { at: [0.0; 2], moves: Moves::No, steps, fill: Some(colour), line };
             self.picture.nodes.push(Node::Path(path));
         }
+        let triangles = contours::triangles(&x, &y, &field.values);
         let mut labels: Vec<[f64; 2]> = Vec::new();
         for &level in &levels[1..levels.len() - 1] {
-            let lines = contours::lines(&x, &y, &field.values, level);
+            let lines = contours::lines(&triangles, level);
             let steps = lines.iter().flat_map(|[from, to]| [Step::Move(*from), Step::Line(*to)]).collect();
             self.stroked(steps, ("rgba(255,255,255,0.45)", 1.0, Dash::Solid));
             // Near the middle of the line, where no other label is.

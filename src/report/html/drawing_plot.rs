@@ -21,7 +21,7 @@ fn to_scale(mm: f64) -> f64 {
 /// modules around it. A double click shows both gears whole.
 pub(super) fn pair(record: &RunRecord) -> Chart {
     let drawing = &record.drawing;
-    let line_of_action = polyline("line of action T1T2", &drawing.line_of_action, (MUTED, 1.4, Dash::Solid)).silent();
+    let line_of_action = polyline("line of action T1T2", &drawing.line_of_action, (MUTED, 1.4, Dash::Solid));
     let chart = Chart::new("pair", "The pair in mesh, to scale")
         .wide()
         .height(620)
@@ -79,7 +79,7 @@ fn with_motion(chart: Chart, record: &RunRecord) -> Chart {
         load_share: record.mesh_cycle.iter().map(|row| to_scale(row.load_share_worn)).collect(),
     };
     let at_c = [0, 1].map(|axis| [origin_mm[axis] + path.C * direction[axis]]);
-    let contacts = Trace::points("contact", at_c[0], at_c[1], (INK, "circle", 9)).silent();
+    let contacts = Trace::points("contact", at_c[0], at_c[1], (INK, "circle", 9));
     chart.add(contacts).movable(Control::Mesh(motion))
 }
 
@@ -104,7 +104,7 @@ fn circles(drawing: &PairDrawing, gear: Gear) -> impl Iterator<Item = Trace> {
     ];
     circles.into_iter().filter_map(move |(name, radius, dash, listed)| {
         let circle = polyline(name, &circle(drawing.axis[gear], radius?), (gear_colour(gear), 1.0, dash));
-        let circle = circle.opacity(0.8).group(name).silent();
+        let circle = circle.opacity(0.8).group(name);
         Some(if listed && gear == Gear::Pinion { circle } else { circle.unlisted() })
     })
 }

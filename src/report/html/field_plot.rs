@@ -59,5 +59,5 @@ pub fn segments(name: &str, bodies: Bodies<'_>, sides: &[Vec<u32>], colour: &str
         let place = move |node: &u32| Some(bodies.points_mm[*node as usize][axis]);
         sides.iter().flat_map(move |side| side.iter().map(place).chain([None]))
     };
-    Trace::line(name, along(0), along(1), (colour, width_px, Dash::Solid)).silent()
+    Trace::line(name, along(0), along(1), (colour, width_px, Dash::Solid))
 }

@@ -8,7 +8,7 @@ use super::table::{Cell, cells, line, list, row, table, whole};
 use super::{film_table, law_table, page, root_stress_table, sliced};
 use gearwear_physics::results::error::{ErrorSummary, SevereLimit, WearAtLimit};
 use gearwear_physics::results::figures::{FAMILIES, FigureFamily, FigureValues, STATED_ERRORS};
-use gearwear_physics::results::run::{GearSummary, PhaseSummary, PhaseWear, RunRecord, Summary};
+use gearwear_physics::results::run::{GearSummary, HelicalSummary, PhaseSummary, PhaseWear, RunRecord, Summary};
 
 /// Phases that are shown one by one.
 const MOST_PHASES: usize = 60;
@@ -21,7 +21,7 @@ pub fn tables(record: &RunRecord) -> Markup {
 
 fn figures(record: &RunRecord) -> Markup {
     let s = &record.summary;
-    let sliced = s.helical.as_ref().map_or_else(Markup::default, sliced::tables::tables);
+    let sliced = s.helical.as_ref().map_or_else(Markup::default, |helical| sliced_tables(s, helical));
     page::tables([
         new_and_worn(s),
         wear(s),
@@ -35,6 +35,17 @@ fn figures(record: &RunRecord) -> Markup {
     ])
 }
 
+/// Slices, load over the face width with the mesh orders, and wear over the face width.
+fn sliced_tables(s: &Summary, helical: &HelicalSummary) -> Markup {
+    let mesh_cycle = of_states(s, true).chain(sliced::tables::higher_mesh_orders(helical));
+    let wear = of_gears(s, true).chain([sliced::tables::asymmetry_of_the_first_mesh(&helical.wear)]);
+    html! {
+        (sliced::tables::slices(helical))
+        (table("Load over the face width and mesh orders", &["new", "worn", "change"], mesh_cycle))
+        (table("Wear over the face width", &["pinion", "wheel"], wear))
+    }
+}
+
 /// Families on the page whose values are the `wanted`, with heading and values; none of those that the run has no values of.
 fn shown(
     s: &Summary,
@@ -46,21 +57,25 @@ fn shown(
         .filter(|(_, _, values)| values.iter().any(Option::is_some))
 }
 
-fn new_and_worn(s: &Summary) -> Markup {
-    let mut rows = Vec::new();
-    for (family, label, [new, worn]) in shown(s, |values| matches!(values, FigureValues::States(_))) {
+/// Rows of figures of new and worn flanks, of the slices or of the pair.
+fn of_states(s: &Summary, of_slices: bool) -> impl Iterator<Item = Markup> {
+    let families = shown(s, |values| matches!(values, FigureValues::States(_)));
+    // Where both are nought no tip edge carries anything.
+    let families =
+        families.filter(move |(family, _, values)| family.is_of_slices() == of_slices && *values != [Some(0.0); 2]);
+    families.map(|(family, label, [new, worn])| {
         let changed = match (new, worn) {
-            // No tip edge carries anything.
-            (Some(0.0), Some(0.0)) => continue,
             (Some(new), Some(worn)) if family.caveat.is_empty() => change(new, worn),
             _ => String::new(),
         };
-        rows.push(row(label, family.unit, cells![new, worn, changed]));
-        if family.path == "{state}.pitch_pressure_MPa" {
-            let [new, worn] = over_hertz(s).map(|ratio| fixed(ratio, 3));
-            rows.push(row("Over Hertz’s with the whole load", "", cells![new, worn, ""]));
-        }
-    }
+        row(label, family.unit, cells![new, worn, changed])
+    })
+}
+
+fn new_and_worn(s: &Summary) -> Markup {
+    let mut rows: Vec<Markup> = of_states(s, false).collect();
+    let [new, worn] = over_hertz(s).map(|ratio| fixed(ratio, 3));
+    rows.push(row("Pressure at the pitch point over Hertz’s with the whole load", "", cells![new, worn, ""]));
     // What one flank of a contact loses the other does too: what differs is error.
     let balance = [s.wear_balance.new, s.wear_balance.worn].map(|share| share.map(percent));
     let [new, worn] = balance;
@@ -68,9 +83,15 @@ fn new_and_worn(s: &Summary) -> Markup {
     table("Mesh cycle", &["new", "worn", "change"], rows)
 }
 
+/// Rows of figures of each gear, of the slices or of the pair.
+fn of_gears(s: &Summary, of_slices: bool) -> impl Iterator<Item = Markup> {
+    let families = shown(s, |values| matches!(values, FigureValues::Gears(_)));
+    let families = families.filter(move |(family, ..)| family.is_of_slices() == of_slices);
+    families.map(|(family, label, values)| row(label, family.unit, values))
+}
+
 fn wear(s: &Summary) -> Markup {
-    let rows = shown(s, |values| matches!(values, FigureValues::Gears(_)));
-    table("Wear", &["pinion", "wheel"], rows.map(|(family, label, values)| row(label, family.unit, values)))
+    table("Wear", &["pinion", "wheel"], of_gears(s, false))
 }
 
 /// The pressure at C, new and worn, over Hertz's of unmodified involutes under the whole load.

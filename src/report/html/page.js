@@ -181,6 +181,9 @@
     }
 
     zoom(x, y) {
+      // Narrower than numbers can tell apart, nothing is to be seen.
+      const isTold = ([from, to]) => Math.abs(to - from) > 1e-9 * Math.max(Math.abs(from), Math.abs(to));
+      if (!isTold(x) || !isTold(y)) return;
       this.view = { x, y };
       this.hide();
       this.place();

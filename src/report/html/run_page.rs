@@ -102,7 +102,7 @@ fn work(s: &Summary) -> Markup {
     let counts = [
         ("Wear steps", w.wear_steps),
         ("Rejected steps", w.rejected_steps),
-        ("Mesh cycles for the Jacobian of the wear step", w.jacobian_probes),
+        ("Mesh cycles for the stability of the wear step", w.jacobian_probes),
         ("Mesh cycles", w.mesh_cycles),
         ("Equilibria", w.equilibria),
         ("Newton iterations", w.newton_iterations),

@@ -73,26 +73,24 @@ impl JoinedSectors {
     ) -> Result<Self, ActiveSetError> {
         let n = fine.cut_stiffness.nrows() / 2;
         let cuts = Cuts::new(teeth, surroundings);
-        let mut blocks: Vec<(Mat<f64>, Vec<usize>)> =
-            (0..teeth).map(|tooth| (fine.cut_stiffness.clone(), vec![tooth, tooth + 1])).collect();
+        let mut joined = Mat::<f64>::zeros(n * cuts.unknown, n * cuts.unknown);
+        for tooth in 0..teeth {
+            cuts.add(&mut joined, n, &fine.cut_stiffness, &[tooth, tooth + 1]);
+        }
         if let (Some(coarse), count @ 1..) = (coarse, surroundings.coarse()) {
             let chain = chain(coarse, count)?;
             match surroundings {
                 // The chain's clockwise cut is the group's anticlockwise one.
-                Surroundings::Ring { .. } => blocks.push((chain, vec![teeth, 0])),
+                Surroundings::Ring { .. } => cuts.add(&mut joined, n, &chain, &[teeth, 0]),
                 Surroundings::FreeSector { .. } => {
-                    blocks.push((eliminated(&chain, 0, n)?, vec![0]));
-                    blocks.push((eliminated(&chain, n, n)?, vec![teeth]));
+                    cuts.add(&mut joined, n, &eliminated(&chain, 0, n)?, &[0]);
+                    cuts.add(&mut joined, n, &eliminated(&chain, n, n)?, &[teeth]);
                 }
                 Surroundings::ClampedSector { .. } => {
-                    blocks.push((chain.get(n.., n..).to_owned(), vec![0]));
-                    blocks.push((chain.get(..n, ..n).to_owned(), vec![teeth]));
+                    cuts.add(&mut joined, n, &chain.get(n.., n..).to_owned(), &[0]);
+                    cuts.add(&mut joined, n, &chain.get(..n, ..n).to_owned(), &[teeth]);
                 }
             }
-        }
-        let mut joined = Mat::<f64>::zeros(n * cuts.unknown, n * cuts.unknown);
-        for (block, at) in &blocks {
-            add_block(&mut joined, block, |k| cuts.unknowns[at[k / n]].map(|cut| n * cut + k % n));
         }
         let inverse = factor(&joined)?.inverse();
         let cut_compliance =
@@ -248,6 +246,11 @@ struct Cuts {
 }
 
 impl Cuts {
+    /// Adds the stiffness `block` of the cuts `at`, each of `n` degrees of freedom, to that of all unknown ones.
+    fn add(&self, joined: &mut Mat<f64>, n: usize, block: &Mat<f64>, at: &[usize]) {
+        add_block(joined, block, |k| self.unknowns[at[k / n]].map(|cut| n * cut + k % n));
+    }
+
     fn new(teeth: usize, surroundings: Surroundings) -> Self {
         match surroundings {
             Surroundings::Ring { coarse: 0 } => {

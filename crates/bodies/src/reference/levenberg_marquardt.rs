@@ -63,13 +63,16 @@ pub struct Minimum {
 }
 
 impl LevenbergMarquardt {
-    /// Searches the least sum of squares from `theta` on.
+    /// Searches the least sum of squares from `theta` on; not converged, and without a step, where the residuals there are not finite.
     ///
     /// # Errors
     /// The first failure to find residuals.
     pub fn minimise<P: LeastSquares>(&self, problem: &mut P, theta: Vec<f64>) -> Result<Minimum, P::Error> {
         let residuals = problem.residuals(&theta)?;
         let mut at = Minimum { theta, residuals, is_converged: false };
+        if !sum_of_squares(&at.residuals).is_finite() {
+            return Ok(at);
+        }
         let mut damping = FIRST_DAMPING;
         for _ in 0..self.most_steps {
             let before = sum_of_squares(&at.residuals);

@@ -14,6 +14,7 @@ use serde_json::Value;
 use gearwear::evaluate::output::SummaryOutput;
 use gearwear::scene::Resolved;
 use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_physics::results::error::TotalError;
 use gearwear_physics::results::run::ReportedBy;
 
 /// Relative difference up to which times are equal: hours and revolutions round differently.
@@ -90,6 +91,16 @@ pub struct RunFolder {
 }
 
 impl RunFolder {
+    /// Errors that the run states.
+    ///
+    /// # Errors
+    /// A summary that states them otherwise than a run does.
+    pub fn total_error(&self) -> Result<TotalError, RunFolderError> {
+        TotalError::deserialize(&self.whole_summary["error"]["total"]).map_err(|error| {
+            RunFolderError::damaged(&self.path.join(output_files::SUMMARY), 1, error, "what gearwear run writes")
+        })
+    }
+
     /// Reads summary and scene of a finished run; tables are read when they are asked for.
     pub fn open(folder: &Path) -> Result<Self, RunFolderError> {
         let path = folder.join(output_files::SUMMARY);

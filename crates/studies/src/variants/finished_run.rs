@@ -4,8 +4,6 @@ use gearwear::report::output_files;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use serde::Deserialize;
-
 use crate::compare::run_folder::{NumberColumns, RunFolder, RunFolderError, RunFolderSummary};
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::results::error::TotalError;
@@ -40,7 +38,7 @@ impl FinishedRun {
         Ok(Self {
             name,
             summary: folder.summary.clone(),
-            total: TotalError::deserialize(&folder.whole_summary["error"]["total"]).unwrap_or_default(),
+            total: folder.total_error()?,
             scene,
             mesh_cycle: folder.table(output_files::MESH_CYCLE)?,
             flanks: PerGear { pinion: folder.table(output_files::PINION)?, wheel: folder.table(output_files::WHEEL)? },

@@ -117,7 +117,7 @@ fn lines_of_contact(run: SlicedRun<'_>, gear: Gear) -> Trace {
     let along = |axis: usize| {
         lines.iter().flat_map(move |points| points.iter().map(move |point| Some(point[axis])).chain([None]))
     };
-    Trace::line("lines of contact", along(0), along(1), ("rgba(255,255,255,0.8)", 1.3, Dash::Solid)).silent()
+    Trace::line("lines of contact", along(0), along(1), ("rgba(255,255,255,0.8)", 1.3, Dash::Solid))
 }
 
 /// Those lines as points (width, radius), mm.

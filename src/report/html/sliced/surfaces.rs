@@ -3,7 +3,7 @@
 
 use super::raster::SlicedRaster;
 use super::sliced_run::SlicedRun;
-use crate::report::chart::{Chart, ColourScale, Drawn, Field, Rows, Shown, Surface, Trace, View};
+use crate::report::chart::{Chart, ColourScale, Drawn, Field, Rows, Surface, Trace, View};
 use crate::report::html::number::{figure, plotted};
 use crate::report::html::reading::greatest;
 use gearwear_bodies::gear::Gear;
@@ -90,6 +90,6 @@ fn surface(run: SlicedRun<'_>, gear: Gear, shown: &ShownSurface<'_>, is_first: b
     };
     let field = Field { x: width.collect(), y: radius.collect(), values, scale };
     let mut trace = Trace::new(Drawn::Surface(Surface { field, height, view }), shown.label);
-    trace.shown = if is_first { Shown::FromTheBeginning } else { Shown::Hidden };
+    trace.is_shown = is_first;
     trace.hover(format!("width %{{x:.2f}} mm, radius %{{y:.2f}} mm<br>%{{z:.4~g}} {unit}<extra></extra>"))
 }

@@ -1,18 +1,14 @@
 //! The figures of the slices as tables.
 
-use maud::{Markup, html};
+use maud::Markup;
 
-use crate::report::html::number::{change, fixed, percent, significant};
-use crate::report::html::table::{Cell, cells, row, table};
+use crate::report::html::number::{change, fixed, significant};
+use crate::report::html::table::{cells, row, table};
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::results::run::{HelicalSummary, OverWidthSummary};
 
-/// Lines of contact, load over the face width, mesh orders, evenness of wear.
-pub(crate) fn tables(helical: &HelicalSummary) -> Markup {
-    html! { (slices(helical)) (mesh_cycle(helical)) (evenness(&helical.wear)) }
-}
-
-fn slices(h: &HelicalSummary) -> Markup {
+/// Lines of contact, slices and their coupling.
+pub(crate) fn slices(h: &HelicalSummary) -> Markup {
     let length = &h.line_of_contact_mm;
     let mut rows = vec![
         row("Helix angle at the reference cylinder", "°", [fixed(h.helix_angle_deg, 3)]),
@@ -40,29 +36,20 @@ fn slices(h: &HelicalSummary) -> Markup {
     table("Face width and slices", &["value"], rows)
 }
 
-fn mesh_cycle(h: &HelicalSummary) -> Markup {
-    let compare = |label: Cell, unit, new: f64, worn: f64| row(label, unit, cells![new, worn, change(new, worn)]);
-    let face_load_factor = html! { "Face load factor K" sub { "Hβ" } };
-    let mut rows = vec![compare(face_load_factor.into(), "", h.K_Hbeta_new, h.K_Hbeta_worn)];
-    let orders = h.mesh_orders_new_um.iter().zip(&h.mesh_orders_worn_um).enumerate();
-    rows.extend(orders.map(|(i, (&new, &worn))| compare(format!("Mesh order {}", i + 1).into(), "µm", new, worn)));
-    table("Load over the face width and mesh orders", &["new", "worn", "change"], rows)
+/// Rows of the mesh orders after the first, which is a main figure.
+pub(crate) fn higher_mesh_orders(h: &HelicalSummary) -> impl Iterator<Item = Markup> {
+    let orders = h.mesh_orders_new_um.iter().zip(&h.mesh_orders_worn_um).enumerate().skip(1);
+    orders.map(|(i, (&new, &worn))| {
+        let label = format!("Transmission error, mesh order {}", i + 1);
+        row(label, "µm", cells![new, worn, change(new, worn)])
+    })
 }
 
-fn evenness(wear: &PerGear<OverWidthSummary>) -> Markup {
-    let both = |label, value: fn(&OverWidthSummary) -> f64, words: fn(f64) -> String| {
-        row(label, "", [words(value(&wear.pinion)), words(value(&wear.wheel))])
-    };
-    let three: fn(f64) -> String = |value| significant(value, 3);
-    table(
-        "Wear over the face width",
-        &["pinion", "wheel"],
-        [
-            both("Variation at the root", |w| w.root_variation, percent),
-            both("Variation at the tip", |w| w.tip_variation, percent),
-            both("Variation of root and tip together", |w| w.root_tip_variation, percent),
-            both("Asymmetry at the root, first mesh", |w| w.root_asymmetry_first_mesh, three),
-            both("Asymmetry at the root, end of the run", |w| w.root_asymmetry, three),
-        ],
+/// Row of the asymmetry at the root after the first mesh; that at the end of the run is a main figure.
+pub(crate) fn asymmetry_of_the_first_mesh(wear: &PerGear<OverWidthSummary>) -> Markup {
+    row(
+        "Asymmetry of root wear, first mesh",
+        "",
+        [wear.pinion.root_asymmetry_first_mesh, wear.wheel.root_asymmetry_first_mesh],
     )
 }

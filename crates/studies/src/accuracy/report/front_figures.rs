@@ -61,7 +61,7 @@ fn front(record: &AccuracyRecord, quantity: ComparedQuantity) -> Chart {
         runs.clone().filter(|run| run.3).map(|(_, wall_s, error, _)| (wall_s, shown(error))).collect();
     on_front.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (wall_s, errors): (Vec<f64>, Vec<f64>) = on_front.into_iter().unzip();
-    chart = chart.add(Trace::line("Pareto front", wall_s, errors, (MUTED, 8.0, Dash::Solid)).opacity(0.35).silent());
+    chart = chart.add(Trace::line("Pareto front", wall_s, errors, (MUTED, 8.0, Dash::Solid)).opacity(0.35));
     for (kind, colour, symbol, holds) in KINDS {
         for (coupling, how, open) in COUPLINGS {
             let of_coupling = runs.clone().filter(|(v, ..)| v.settings.coupling.as_deref() == coupling);
