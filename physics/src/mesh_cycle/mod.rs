@@ -13,6 +13,7 @@ pub mod coupled_teeth;
 mod half_layers;
 pub(crate) mod influence;
 pub mod load_sharing;
+pub(crate) mod local_means;
 pub mod pair_in_space;
 pub(crate) mod part_of_slice;
 pub mod positions;

@@ -4,6 +4,7 @@
 //! ([`OnFlankNodes`]), and at the contact points by the simplified model of helical gears ([`super::simplified`]).
 
 use super::CycleObservation;
+use super::local_means::LocalMeans;
 use crate::mesh_cycle::{LostMaterial, MeshCycle, Work, condensed::CondensedCycle, load_sharing::EquilibriumError};
 use crate::wear::WearModel;
 use gearwear_bodies::gear::{Gear, PerGear};
@@ -69,6 +70,9 @@ pub(crate) trait WearingPair {
     /// wear. Otherwise its last bits depend on where the last one ended.
     fn reset(&mut self);
 
+    /// Greatest magnitude of a row of depths at the places, as means along the flanks ([`LocalMeans`]), mm.
+    fn greatest_mean_mm(&self, row: PerGear<&[f64]>) -> f64;
+
     /// Wear of each place at which the model keeps it, mm: as many places as in [`Self::set_wear_mm`] and [`Self::depth_mm`].
     fn wear_mm(&self) -> PerGear<Vec<f64>>;
 
@@ -88,6 +92,7 @@ pub(crate) trait WearingPair {
 /// Flanks as rows of points, slice after slice, that a mesh cycle wears.
 pub(crate) struct OnFlankPoints<'a> {
     cycle: Box<dyn MeshCycle + 'a>,
+    means: LocalMeans,
     modification_mm: &'a PerGear<Vec<f64>>,
     removed_mm: PerGear<Vec<f64>>,
     wear_mm: PerGear<Vec<f64>>,
@@ -96,9 +101,13 @@ pub(crate) struct OnFlankPoints<'a> {
 
 impl<'a> OnFlankPoints<'a> {
     /// Unworn flanks with their modifications.
-    pub(crate) fn new(cycle: Box<dyn MeshCycle + 'a>, modification_mm: &'a PerGear<Vec<f64>>) -> Self {
+    pub(crate) fn new(
+        cycle: Box<dyn MeshCycle + 'a>,
+        means: LocalMeans,
+        modification_mm: &'a PerGear<Vec<f64>>,
+    ) -> Self {
         let wear_mm = modification_mm.as_ref().map(|flank| vec![0.0; flank.len()]);
-        Self { cycle, modification_mm, removed_mm: modification_mm.clone(), depth_mm: wear_mm.clone(), wear_mm }
+        Self { cycle, means, modification_mm, removed_mm: modification_mm.clone(), depth_mm: wear_mm.clone(), wear_mm }
     }
 }
 
@@ -135,6 +144,10 @@ impl WearingPair for OnFlankPoints<'_> {
         self.wear_mm.clone()
     }
 
+    fn greatest_mean_mm(&self, row: PerGear<&[f64]>) -> f64 {
+        self.means.greatest_mm(row)
+    }
+
     fn wear_at_points_mm(&self) -> PerGear<Vec<f64>> {
         self.wear_mm.clone()
     }
@@ -168,6 +181,7 @@ impl WearingPair for OnFlankPoints<'_> {
 /// Flanks of finite elements, worn at their nodes; values at flank points are interpolated.
 pub(crate) struct OnFlankNodes<'a> {
     cycle: CondensedCycle<'a>,
+    means: LocalMeans,
     /// Nominal radii of the flank points.
     radius_mm: PerGear<Vec<f64>>,
     wear_mm: PerGear<Vec<f64>>,
@@ -176,9 +190,9 @@ pub(crate) struct OnFlankNodes<'a> {
 
 impl<'a> OnFlankNodes<'a> {
     /// Unworn flanks with points at the nominal radii `radius_mm`.
-    pub(crate) fn new(cycle: CondensedCycle<'a>, radius_mm: PerGear<Vec<f64>>) -> Self {
+    pub(crate) fn new(cycle: CondensedCycle<'a>, means: LocalMeans, radius_mm: PerGear<Vec<f64>>) -> Self {
         let wear_mm = cycle.nodes().map(|nodes| vec![0.0; nodes.len()]);
-        Self { cycle, radius_mm, depth_mm: wear_mm.clone(), wear_mm }
+        Self { cycle, means, radius_mm, depth_mm: wear_mm.clone(), wear_mm }
     }
 
     /// Values at the flank points, from those at the nodes.
@@ -217,6 +231,10 @@ impl WearingPair for OnFlankNodes<'_> {
 
     fn wear_mm(&self) -> PerGear<Vec<f64>> {
         self.wear_mm.clone()
+    }
+
+    fn greatest_mean_mm(&self, row: PerGear<&[f64]>) -> f64 {
+        self.means.greatest_mm(row)
     }
 
     fn wear_at_points_mm(&self) -> PerGear<Vec<f64>> {

@@ -278,6 +278,11 @@ impl Rate for OnRows<'_, '_> {
         Ok(0)
     }
 
+    fn size(&self, row: &[f64]) -> f64 {
+        let (pinion, wheel) = row.split_at(self.wear_mm.pinion.len());
+        self.rate.pair.greatest_mean_mm(PerGear { pinion, wheel })
+    }
+
     fn may_succeed_nearer(&self, failure: &EquilibriumError) -> bool {
         !matches!(failure, EquilibriumError::Interrupted)
     }

@@ -3,6 +3,7 @@
 use super::settings::Numerics;
 use crate::contact::flank_pressure::FlankParts;
 use crate::contact::{ContactSurface, Effort, Flanks};
+use crate::mesh_cycle::local_means::LocalMeans;
 use crate::mesh_cycle::simplified::{SimplifiedPair, exact::SlicesInSeries};
 use crate::mesh_cycle::wearing_pair::{OnFlankNodes, OnFlankPoints, WearingPair};
 use crate::mesh_cycle::{
@@ -180,10 +181,16 @@ impl<'a> LoadedMesh<'a> {
                     let involute = self.pair.teeth[gear].involute;
                     flanks.grid[gear].coordinate_mm.iter().map(|&rho| involute.radius_mm(rho)).collect()
                 });
-                return Ok(Box::new(OnFlankNodes::new(cycle, radius_mm)));
+                let places = cycle.nodes().map(|nodes| (nodes.along_mm.clone(), nodes.share_mm.clone()));
+                let means = LocalMeans::new(places, &self.zones);
+                return Ok(Box::new(OnFlankNodes::new(cycle, means, radius_mm)));
             }
         };
-        Ok(Box::new(OnFlankPoints::new(cycle, modification_mm)))
+        let places = flanks.grid.map(|grid| {
+            let share_mm = (0..grid.len()).map(|i| grid.share_mm(i)).collect();
+            (grid.arc_mm.clone(), share_mm)
+        });
+        Ok(Box::new(OnFlankPoints::new(cycle, LocalMeans::new(places, &self.zones), modification_mm)))
     }
 
     /// The simplified model of a pair with slices.

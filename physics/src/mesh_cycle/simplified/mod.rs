@@ -43,6 +43,7 @@ use crate::mesh_cycle::{
     sliced_positions::{ContactPart, SlicedPosition},
 };
 use crate::wear::WearModel;
+use crate::wear::stepping::{greater_or_nan, greatest};
 use batch::Batch;
 use closed_form::ContactForms;
 use exact::SlicesInSeries;
@@ -219,6 +220,11 @@ impl WearingPair for SimplifiedPair<'_> {
             let rows = self.batches.iter().flat_map(|batch| batch.rows(gear));
             rows.map(|[wear, depth]| wear + self.meshes[gear] * depth).collect()
         })
+    }
+
+    fn greatest_mean_mm(&self, row: PerGear<&[f64]>) -> f64 {
+        // Contact points are a position apart.
+        greater_or_nan(greatest(row.pinion), greatest(row.wheel))
     }
 
     fn wear_at_points_mm(&self) -> PerGear<Vec<f64>> {

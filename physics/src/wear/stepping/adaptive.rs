@@ -1,6 +1,7 @@
 //! Steps of [`RungeKuttaChebyshev`] one after another, each as long as the error allows.
 //!
-//! **What the tolerance means.** It is a depth. The estimated error of a step, at whichever place it is greatest, stays below
+//! **What the tolerance means.** It is a depth. The estimated error of a step, by its [`Rate::size`] (of gear flanks the greatest mean over the length
+//! over which pressures are averaged), stays below
 //!
 //! ```text
 //! 0.3 · tolerance · max(1, greatest wear / 0.05 mm)
@@ -150,7 +151,7 @@ impl Adaptive {
                 Err(failure) => return Err(failure),
             }
             let allowed = SHARE * self.tolerance_at(state);
-            let error = greatest(&self.error) / allowed;
+            let error = rate.size(&self.error) / allowed;
             let verdict = self.control.judge(length, error, length < planned);
             if verdict == StepVerdict::Rejected && !(at_floor && error.is_finite()) {
                 self.counts.rejected += 1;

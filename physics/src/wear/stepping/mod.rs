@@ -41,13 +41,23 @@ pub trait Rate {
         Ok(0)
     }
 
+    /// Size of a row of depths, such as the error of a step, mm.
+    fn size(&self, row: &[f64]) -> f64 {
+        greatest(row)
+    }
+
     /// Whether a state nearer to the last good one may have a rate after this `failure`.
     fn may_succeed_nearer(&self, failure: &Self::Error) -> bool;
 }
 
-/// Greatest magnitude of a row.
+/// Greatest magnitude of a row; NaN where one is.
 pub fn greatest(row: &[f64]) -> f64 {
-    row.iter().fold(0.0, |greatest: f64, value| if value.is_nan() { f64::NAN } else { greatest.max(value.abs()) })
+    row.iter().fold(0.0, |greatest, value| greater_or_nan(greatest, value.abs()))
+}
+
+/// Greater of two numbers; NaN where one is.
+pub(crate) fn greater_or_nan(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
 /// Pseudo-random numbers in −1…1, the same in every run: SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, 2014).
