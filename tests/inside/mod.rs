@@ -1,7 +1,5 @@
 //! The tests of the library that look inside it; `src/lib.rs` compiles them into its unit tests.
 
-mod backlash;
-mod calibration;
 mod checkpoints;
 mod common;
 mod error_estimates;
@@ -12,7 +10,6 @@ mod fem_wear;
 mod flank_ends;
 mod fzg_test;
 mod helical;
-mod helical_convergence;
 mod helical_targets;
 mod law_of_each_gear;
 mod life;
@@ -26,7 +23,6 @@ mod random_scenes;
 mod report;
 mod scene;
 mod shaft;
-mod simplified;
 mod sobol_indices;
 mod stiffness_curve;
 mod teeth_in_space;

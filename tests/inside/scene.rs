@@ -8,6 +8,8 @@ use gearwear_physics::simulation::settings::Stepping;
 use gearwear_physics::stiffness::settings::StiffnessSettings;
 use proptest::prelude::*;
 
+use super::common::preset_pairs;
+
 /// The least a scene can say.
 const LEAST: &str = "pair.preset = \"fzg-c\"\n[operation]\npinion_torque_Nm = 302\npinion_revolutions = 6400\n\
                      [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n";
@@ -31,6 +33,14 @@ fn val_presets_are_the_fzg_gears() {
         assert_eq!(Gear::BOTH.map(|gear| pair.gears[gear].teeth), [16, 24]);
         assert_eq!(Gear::BOTH.map(|gear| pair.gears[gear].profile_shift), shifts);
         assert_eq!(Gear::BOTH.map(|gear| pair.gears[gear].tip_diameter_mm), tips.map(Some));
+    }
+}
+
+/// Tests of physics know no presets: the pairs that they have instead are these.
+#[test]
+fn ver_presets_are_the_pairs_of_the_tests_of_physics() {
+    for (name, pair) in preset_pairs() {
+        assert_eq!(resolve(presets::find(name).unwrap().text).scene.pair, pair, "{name}");
     }
 }
 

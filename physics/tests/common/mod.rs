@@ -7,10 +7,11 @@ mod fem;
 pub use fem::{assert_close, fe_case, grid};
 
 use gearwear_bodies::gear::{
-    GearPair, PerGear,
+    Gear, GearPair, PerGear,
     flank::PointSpacing,
     flank_zones::FlankZones,
     modification::Modification,
+    root_trochoid::greatest_fillet_radius_factor,
     spec::{AxisParallelism, BasicRack, GearSpec, PairSpec},
 };
 
@@ -49,6 +50,63 @@ pub fn fzg_c() -> PairSpec {
 /// FZG type A (A20).
 pub fn fzg_a() -> PairSpec {
     spur(4.5, 91.5, 20.0, gear(16, 0.8532, Some(88.77)), gear(24, -0.5, Some(112.5)))
+}
+
+/// The transverse section of FZG type C with a helix: factors of the transverse module become x_n = x_t/cos β, but for a
+/// fillet radius that does not fit into the rack of a steep helix.
+pub fn fzg_c_with_helix(helix_angle_deg: f64, face_width_mm: f64) -> PairSpec {
+    let mut spec = fzg_c();
+    (spec.helix_angle_rad, spec.face_width_mm) = (helix_angle_deg.to_radians(), face_width_mm);
+    let cos_beta = spec.helix_angle_rad.cos();
+    spec.normal_module_mm *= cos_beta;
+    spec.normal_pressure_angle_rad = (spec.normal_pressure_angle_rad.tan() * cos_beta).atan();
+    let scale = 1.0 / cos_beta;
+    Gear::BOTH.into_iter().for_each(|gear| spec.gears[gear].profile_shift *= scale);
+    let BasicRack { addendum_factor, dedendum_factor, fillet_radius_factor } = spec.rack;
+    let greatest = greatest_fillet_radius_factor(spec.normal_pressure_angle_rad, scale * dedendum_factor);
+    spec.rack = BasicRack {
+        addendum_factor: scale * addendum_factor,
+        dedendum_factor: scale * dedendum_factor,
+        fillet_radius_factor: (scale * fillet_radius_factor).min(greatest),
+    };
+    spec
+}
+
+/// A public FEUP pair, 15° and 91.5 mm, with broken tip edges.
+fn feup(module: f64, face_width_mm: f64, pinion: GearSpec, wheel: GearSpec) -> PairSpec {
+    with_broken_edges(PairSpec {
+        helix_angle_rad: 15f64.to_radians(),
+        ..spur(module, 91.5, face_width_mm, pinion, wheel)
+    })
+}
+
+/// The same with tip edges rounded by 0.1 mm.
+fn with_broken_edges(mut spec: PairSpec) -> PairSpec {
+    Gear::BOTH.into_iter().for_each(|gear| spec.gears[gear].modification.tip_rounding_mm = 0.1);
+    spec
+}
+
+/// Pairs of presets of the program by name; a test of `gearwear` holds them against the presets themselves.
+pub fn preset_pairs() -> [(&'static str, PairSpec); 8] {
+    let helical = fzg_c_with_helix(15.0, 20.0);
+    let h951 = feup(1.75, 21.2418, gear(38, 1.6915, None), gear(57, 2.0003, None));
+    let smaller_fillets = BasicRack { fillet_radius_factor: 0.3, ..h951.rack };
+    [
+        ("thesis-spur", fzg_c()),
+        ("fzg-c", with_broken_edges(fzg_c())),
+        ("fzg-a", with_broken_edges(fzg_a())),
+        ("thesis-helical", helical.clone()),
+        ("helical", with_broken_edges(helical)),
+        ("h501", feup(3.5, 23.0, gear(20, 0.1809, None), gear(30, 0.0891, None))),
+        ("h701", feup(2.5, 17.0, gear(28, 0.229, None), gear(42, 0.1489, None))),
+        ("h951", PairSpec { rack: smaller_fillets, ..h951 }),
+    ]
+}
+
+/// The pair of a preset.
+pub fn preset(name: &str) -> PairSpec {
+    let (_, pair) = preset_pairs().into_iter().find(|(own, _)| *own == name).expect("a preset");
+    pair
 }
 
 /// A pair that can run.

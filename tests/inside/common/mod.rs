@@ -7,7 +7,6 @@ mod of_physics;
 
 use gearwear::scene::Resolved;
 use gearwear::scene::loaded::{LoadedScene, NamedFiles, SceneText};
-use gearwear_bodies::gear::spec::PairSpec;
 #[allow(unused_imports, reason = "each test uses its own part")]
 pub use of_physics::*;
 
@@ -20,10 +19,4 @@ pub fn loaded(resolved: &Resolved) -> LoadedScene {
 pub fn loaded_with(resolved: &Resolved, files: NamedFiles) -> LoadedScene {
     let given = SceneText { name: "scene of a test".to_owned(), text: resolved.to_toml() };
     LoadedScene::with_files(resolved.clone(), given, files).expect("the scene of the test has its files")
-}
-
-/// The pair of a preset.
-pub fn preset(name: &str) -> PairSpec {
-    let text = gearwear::scene::presets::find(name).expect("a preset").text;
-    Resolved::from_toml(text).expect("presets are sound").scene.pair
 }

@@ -1,21 +1,16 @@
 //! The centre distance of a backlash, and the backlash of a centre distance.
 
-use gearwear::scene::Resolved;
-use gearwear::scene::presets;
 use gearwear_bodies::gear::GearPair;
 use gearwear_bodies::gear::backlash::{Backlash, TeethTooThin};
 use gearwear_bodies::gear::involute::{inv, inverse_inv};
-use gearwear_bodies::gear::spec::PairSpec;
 
-fn spec(preset: &str) -> PairSpec {
-    Resolved::from_toml(presets::find(preset).unwrap().text).unwrap().scene.pair
-}
+use super::common::preset;
 
 /// ISO 21771: inv α_wt = inv α_t + 2 tan α_n (x1 + x2)/(z1 + z2), without allowances and backlash.
 #[test]
 fn val_no_backlash_is_the_formula_of_the_standard() {
-    for preset in ["fzg-c", "h501"] {
-        let spec = spec(preset);
+    for name in ["fzg-c", "h501"] {
+        let spec = preset(name);
         let alpha_t = spec.transverse_pressure_angle_rad();
         let shifts = spec.gears.as_ref().map(|gear| gear.profile_shift).sum();
         let teeth = spec.gears.as_ref().map(|gear| f64::from(gear.teeth)).sum();
@@ -23,7 +18,7 @@ fn val_no_backlash_is_the_formula_of_the_standard() {
         let expected = 0.5 * spec.transverse_module_mm() * teeth * alpha_t.cos() / alpha_w.cos();
         for none in [Backlash::Normal(0.0), Backlash::Circumferential(0.0)] {
             let found = spec.centre_distance_with_mm(none).unwrap();
-            assert!((found / expected - 1.0).abs() < 1e-12, "{preset}, {none:?}: {found}, {expected}");
+            assert!((found / expected - 1.0).abs() < 1e-12, "{name}, {none:?}: {found}, {expected}");
         }
     }
 }
@@ -31,8 +26,8 @@ fn val_no_backlash_is_the_formula_of_the_standard() {
 /// The pair at that centre distance has the backlash, j_bn = j_wt cos α_wt cos β_b, whatever helix and allowances.
 #[test]
 fn ver_the_pair_has_the_backlash_asked_for() {
-    for preset in ["fzg-c", "h501"] {
-        let mut spec = spec(preset);
+    for name in ["fzg-c", "h501"] {
+        let mut spec = preset(name);
         spec.gears.pinion.tooth_thickness_allowance_mm = -0.05;
         for backlash_mm in [0.02, 0.15, 0.4] {
             spec.centre_distance_mm = spec.centre_distance_with_mm(Backlash::Circumferential(backlash_mm)).unwrap();
@@ -48,7 +43,7 @@ fn ver_the_pair_has_the_backlash_asked_for() {
 /// Teeth thinner than any pitch leaves: the least backlash is where α_wt = 0.
 #[test]
 fn teeth_that_are_too_thin_are_told() {
-    let mut spec = spec("fzg-c");
+    let mut spec = preset("fzg-c");
     spec.gears.wheel.tooth_thickness_allowance_mm = -5.0;
     let TeethTooThin { least_mm } = spec.centre_distance_with_mm(Backlash::Circumferential(0.1)).unwrap_err();
     assert!(spec.centre_distance_with_mm(Backlash::Circumferential(1.01 * least_mm)).is_ok());

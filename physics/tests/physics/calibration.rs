@@ -3,7 +3,6 @@
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-use gearwear::scene::Resolved;
 use gearwear_bodies::gear::conjugate::ConjugateFlanks;
 use gearwear_bodies::gear::modification::{Relief, ReliefShape};
 use gearwear_bodies::gear::spec::PairSpec;
@@ -12,7 +11,7 @@ use gearwear_bodies::gear::{
     flank::{FlankGrid, PointSpacing},
 };
 use gearwear_bodies::gear_fem::position::WarmStart;
-use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides};
+use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides, default_clamp};
 use gearwear_fem::locate::locate;
 use gearwear_physics::assessment::calibrate::{self, CalibrationExtent};
 use gearwear_physics::calibration::bodies::Setup;
@@ -22,17 +21,19 @@ use gearwear_physics::calibration::stiffness_variation::VariationOf;
 use gearwear_physics::calibration::tooth_stiffness::LoadedPair;
 use gearwear_physics::calibration::{Calibration, file::CalibrationFileError, foundation_fit, single_contact};
 use gearwear_physics::contact::hertz::{self, Hertz};
-use gearwear_physics::contact::settings::MatchCriterion;
+use gearwear_physics::contact::settings::{ContactSettings, Foundation, MatchCriterion, SurfaceKind};
 use gearwear_physics::contact::winkler::Winkler;
 use gearwear_physics::contact::winkler::WinklerFoundation;
 use gearwear_physics::contact::{ContactSurface, Flanks};
 use gearwear_physics::mesh_cycle::pair_in_space::KeptInSpace;
 use gearwear_physics::observer::Unwatched;
 use gearwear_physics::operation::Scene;
+use gearwear_physics::simulation::settings::Operation;
 use gearwear_physics::stiffness::{TeethSpring, settings::StiffnessSettings};
+use gearwear_physics::wear::settings::WearSettings;
 use nalgebra::Vector2;
 
-use super::common::{assert_close, fzg_a, fzg_c, preset, steel};
+use super::common::{self, assert_close, fzg_a, fzg_c, preset, steel};
 
 /// 302 N·m over base radius and face width.
 const LINE_LOAD_N_PER_MM: f64 = 637.66;
@@ -50,13 +51,39 @@ fn setup(pair: &GearPair, body: Body, elements_per_half_width: f64) -> Setup<'_>
     Setup { pair, material: steel(), bodies, line_load_n_per_mm: LINE_LOAD_N_PER_MM }
 }
 
+/// A revolution of the preset `fzg-c` under 302 N·m. Calibrations read pair, material, torque, bodies and slices of it.
 fn fzg_c_scene(elements_per_half_width: f64) -> Scene {
-    let text = format!(
-        "[pair]\npreset = \"fzg-c\"\n[operation]\npinion_torque_Nm = 302.0\npinion_revolutions = 1.0\n\
-         [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n\
-         [fem]\nelements_per_half_width = {elements_per_half_width:?}\n"
-    );
-    Resolved::from_toml(&text).unwrap().scene
+    let pair = preset("fzg-c");
+    let clamp = |gear| default_clamp(pair.root_radius_mm(gear), pair.transverse_module_mm()).radius_mm;
+    let fem = BodySettings {
+        body: Body::Ring,
+        clamp_radius_mm: PerGear::from_fn(clamp),
+        web: NO_WEBS,
+        elements_per_half_width,
+        rounding_refinement: 1.0,
+    };
+    let numerics = common::fzg_c_scene().numerics();
+    let foundation = Foundation::Matched(MatchCriterion::HalfWidth);
+    Scene {
+        pair,
+        material: steel(),
+        modulus: PerGear::default(),
+        operation: Operation::steady(302e3, None, 1.0, vec![1.0]),
+        contact: ContactSettings { surface: SurfaceKind::HalfSpace, foundation, tip_contact: true },
+        calibration_file: None,
+        stiffness: StiffnessSettings::Fem,
+        stiffness_by_default: true,
+        stiffness_curve_file: None,
+        fem,
+        wear_elements_per_half_width: 3.0,
+        slices: None,
+        coupling_by_default: true,
+        heat: None,
+        lubrication: None,
+        wear: PerGear::from_fn(|_| WearSettings::archard(1e-11)),
+        numerics,
+        verify: true,
+    }
 }
 
 /// The whole calibration of the preset, made once for all tests.
