@@ -22,6 +22,7 @@ mod helical_convergence;
 mod helical_targets;
 mod lubrication;
 mod root_stress;
+mod shaft;
 mod simplified;
 mod slice_coupling;
 mod stepping_stability;

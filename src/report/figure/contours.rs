@@ -131,7 +131,7 @@ fn between(from: Corner, to: Corner, level: f64) -> Corner {
 mod tests {
     use super::*;
 
-    fn area(corners: &Vec<Place>) -> f64 {
+    fn area(corners: &[Place]) -> f64 {
         let next = corners.iter().cycle().skip(1);
         corners.iter().zip(next).map(|(a, b)| 0.5 * (a[0] * b[1] - b[0] * a[1])).sum::<f64>().abs()
     }
@@ -141,7 +141,7 @@ mod tests {
     fn bands_and_lines_of_a_plane() {
         let (places, values) = ([0.0, 1.0], vec![vec![0.0, 1.0], vec![0.0, 1.0]]);
         let bands = bands(&places, &places, &values, &[0.0, 0.25, 0.5, 1.0]);
-        let areas: Vec<f64> = bands.iter().map(|band| band.iter().map(area).sum()).collect();
+        let areas: Vec<f64> = bands.iter().map(|band| band.iter().map(|corners| area(corners)).sum()).collect();
         assert!(areas.iter().zip([0.25, 0.25, 0.5]).all(|(found, exact)| (found - exact).abs() < 1e-12), "{areas:?}");
         let line = lines(&triangles(&places, &places, &values), 0.3);
         let length: f64 = line.iter().map(|[a, b]| (a[0] - b[0]).hypot(a[1] - b[1])).sum();
@@ -159,7 +159,7 @@ mod tests {
         let row = |y: &f64| places.iter().map(|x| (1.0 - x.abs() - y.abs()).max(0.0)).collect();
         let values: Rows = places.iter().map(row).collect();
         let bands = bands(&places, &places, &values, &[0.0, 0.25, 0.5, 0.75, 1.0]);
-        let whole: f64 = bands.iter().flatten().map(area).sum();
+        let whole: f64 = bands.iter().flatten().map(|corners| area(corners)).sum();
         assert!((whole - 16.0).abs() < 1e-9, "{whole}");
         let polygons = bands.iter().map(Vec::len).sum::<usize>();
         assert!(polygons < 40 * 40 / 2, "{polygons}");
