@@ -21,7 +21,7 @@ use gearwear_files::whole_file;
 use gearwear_physics::simulation::checkpoint::Checkpoint;
 
 /// Version of the format, raised with every change of the content.
-const FORMAT: u32 = 4;
+const FORMAT: u32 = 5;
 const MAGIC: &str = "gearwear checkpoint ";
 const PROGRAM_VERSION: &str = env!("CARGO_PKG_VERSION");
 

@@ -37,6 +37,8 @@ const RENEWAL: u32 = 20;
 const FLOOR: f64 = 1e-5;
 /// Shortest step over the length of the whole run.
 const FLOOR_OF_RUN: f64 = 1e-11;
+/// Factor of the change of the mean rate from step to step, where that is the estimated error.
+const CHANGE_FACTOR: f64 = 2.0;
 /// Steps without a rate at their end are repeated with this part of their length.
 const SHORTER: f64 = 0.25;
 
@@ -69,6 +71,8 @@ pub struct Adaptive {
     run: f64,
     counts: StepCounts,
     accumulated: Vec<f64>,
+    /// Mean rate of each place over the last step since the start; empty before one.
+    mean_rate: Vec<f64>,
     #[serde(skip)]
     end: Vec<f64>,
     #[serde(skip)]
@@ -90,6 +94,7 @@ impl Adaptive {
             run: 0.0,
             counts: StepCounts::default(),
             accumulated: vec![0.0; places],
+            mean_rate: Vec::new(),
             end: Vec::new(),
             end_slope: Vec::new(),
             error: Vec::new(),
@@ -116,6 +121,7 @@ impl Adaptive {
     pub(crate) fn start_anew(&mut self) {
         (self.control, self.run, self.age) = (StepControl::default(), 0.0, 0);
         self.radius.reset();
+        self.mean_rate.clear();
     }
 
     /// Takes one step of at most `room` from `state`, where the rate is `slope`, and moves both to its end, where `rate` was last evaluated.
@@ -165,6 +171,8 @@ impl Adaptive {
                 self.radius.reset();
             }
             self.run += length;
+            self.mean_rate.clear();
+            self.mean_rate.extend(state.iter().zip(&self.end).map(|(start, end)| (end - start) / length));
             self.accumulated.iter_mut().zip(&self.error).for_each(|(sum, e)| *sum += e);
             std::mem::swap(state, &mut self.end);
             std::mem::swap(slope, &mut self.end_slope);
@@ -204,12 +212,25 @@ impl Adaptive {
         self.end.iter_mut().zip(state).for_each(|(end, start)| *end = end.max(*start));
         self.end_slope.resize(state.len(), 0.0);
         rate.evaluate(&self.end, &mut self.end_slope)?;
-        self.error.clear();
+        self.estimate_error(state, slope, *length);
+        Ok(())
+    }
+
+    /// Estimates the error of a step of `length` from `state` and its `slope` to the end that was found, place by place.
+    fn estimate_error(&mut self, state: &[f64], slope: &[f64], length: f64) {
         let rates = slope.iter().zip(&self.end_slope);
         let ends = state.iter().zip(&self.end);
-        let mean = 0.5 * *length;
-        self.error.extend(ends.zip(rates).map(|((y, end), (f0, f1))| ERROR_FACTOR * (mean * (f0 + f1) - (end - y))));
-        Ok(())
+        let by_rates = ends.zip(rates).map(|((y, end), (f0, f1))| 0.5 * length * (f0 + f1) - (end - y));
+        self.error.clear();
+        self.error.extend(by_rates.map(|error| ERROR_FACTOR * error));
+        // Empty before the first step.
+        let places = self.error.iter_mut().zip(&self.mean_rate).zip(state.iter().zip(&self.end));
+        for ((error, mean_rate), (y, end)) in places {
+            let change = CHANGE_FACTOR * ((end - y) - length * mean_rate).abs();
+            if change < error.abs() {
+                *error = change.copysign(*error);
+            }
+        }
     }
 
     /// Length of the first step: half of that after which the error of Euler's method is the part of the tolerance that a step may spend.
