@@ -37,5 +37,40 @@ fn wear_run(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, wear_run);
+/// Tip roundings that are small beside the contact, and severe wear, over a band and abrupt.
+fn hard_cases(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("hard cases");
+    group.sample_size(10);
+    for rounding in ["0.1", "0.03", "0.01", "0.002"] {
+        let roundings = [("pair.pinion.tip_rounding_mm", rounding), ("pair.wheel.tip_rounding_mm", rounding)];
+        let scene = common::scene(
+            "fzg-c",
+            "operation.snapshots_h",
+            &[&[("contact.surface", "\"fem\"")], &roundings[..]].concat(),
+        );
+        println!("rounding {rounding}: {:?}", run(&scene).summary.work);
+        group.bench_function(BenchmarkId::new("rounding, fem", rounding), |bencher| bencher.iter(|| run(&scene)));
+    }
+    for surface in ["fem", "half-space"] {
+        for (torque, factor, band) in [("372.6", "100.0", "100.0"), ("405.0", "60.0", "0.0")] {
+            let severe = format!("{{ above_MPa = 2000.0, factor = {factor}, band_MPa = {band} }}");
+            let scene = common::scene(
+                "fzg-c",
+                "operation.snapshots_h",
+                &[
+                    ("contact.surface", &format!("\"{surface}\"")),
+                    ("operation.pinion_torque_Nm", torque),
+                    ("wear.severe", &severe),
+                ],
+            );
+            println!("severe, {surface}, band {band}: {:?}", run(&scene).summary.work);
+            group.bench_function(BenchmarkId::new(format!("severe, {surface}"), band), |bencher| {
+                bencher.iter(|| run(&scene));
+            });
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, wear_run, hard_cases);
 criterion_main!(benches);

@@ -18,6 +18,12 @@ use crate::gear::flank_edge::{FlankEdge, PathEnd};
 use crate::gear::{Gear, PerGear};
 use gearwear_fem::contact::mortar::MortarCoupling;
 
+/// Greatest length of rows that share a multiplier, in the greatest distance of the flank's nodes, which resolves a smooth contact: where the mesh is
+/// finer for the mate's tip edge, its rows are more than a smooth contact needs. Finer elements have shorter ones.
+const MOST_LENGTH: f64 = 0.125;
+/// Distances from the expected contact of a tip edge, in Hertz half-widths, within which every row has a multiplier, and beyond which they have the
+/// greatest length.
+const ABOUT_EDGE: [f64; 2] = [0.5, 0.7];
 /// Number of rows at an inner end of the window that must be without load.
 const FREE_ROWS: usize = 3;
 /// Extent of the window beyond an overlap over its half-length.
@@ -179,10 +185,11 @@ impl CondensedPair<'_> {
         let slave_part = self.flanks[slave].surface.part(edges[slave].clone());
         let master_part =
             self.flanks[master].surface.part(edges[master].clone()).placed(|x| turn * x + master_axis_mm, |n| turn * n);
-        let coupling = MortarCoupling::new(&slave_part, &master_part, window.reach_mm);
-        if coupling.is_empty() {
+        let fine = MortarCoupling::new(&slave_part, &master_part, window.reach_mm);
+        if fine.is_empty() {
             return None;
         }
+        let coupling = fine.grouped(&self.groups(&fine, placed));
         let row_mm: Vec<f64> = coupling.nodes.iter().map(|&node| self.flanks[slave].from_tip_mm[node]).collect();
         let mut from_tip: Vec<usize> = (0..coupling.len()).collect();
         from_tip.sort_by(|&a, &b| row_mm[a].total_cmp(&row_mm[b]));
@@ -206,6 +213,48 @@ impl CondensedPair<'_> {
             half_width_mm: placed.half_width_mm,
             from_tip,
             first_row: 0,
+        })
+    }
+
+    /// Rows of `fine` that share a multiplier, outwards from the expected contact, so that they are the same in wider windows.
+    fn groups(&self, fine: &MortarCoupling, placed: &PlacedTeeth) -> Vec<Vec<usize>> {
+        let far_mm = |row: usize| self.flanks[placed.slave].from_tip_mm[fine.nodes[row]] - placed.expected_mm;
+        let mut rows: Vec<usize> = (0..fine.len()).collect();
+        rows.sort_by(|&a, &b| far_mm(a).total_cmp(&far_mm(b)));
+        let (to_tip, to_root) = rows.split_at(rows.partition_point(|&row| far_mm(row) < 0.0));
+        let most_mm = MOST_LENGTH * self.flanks[placed.slave].farthest_nodes_mm();
+        let [near_mm, far_off_mm] = ABOUT_EDGE.map(|half_widths| half_widths * placed.half_width_mm);
+        let is_smooth = self.is_smooth(placed);
+        let length_mm = |here_mm: f64| match is_smooth {
+            true => most_mm,
+            false => most_mm * ((here_mm - near_mm) / (far_off_mm - near_mm)).min(1.0),
+        };
+        let outwards = |rows: &mut dyn Iterator<Item = usize>| {
+            let mut groups: Vec<Vec<usize>> = Vec::new();
+            let mut begins_mm = 0.0;
+            for row in rows {
+                let here_mm = far_mm(row).abs();
+                match groups.last_mut() {
+                    Some(group) if here_mm - begins_mm < length_mm(here_mm) => group.push(row),
+                    _ => {
+                        groups.push(vec![row]);
+                        begins_mm = here_mm;
+                    }
+                }
+            }
+            groups
+        };
+        [outwards(&mut to_tip.iter().rev().copied()), outwards(&mut to_root.iter().copied())].concat()
+    }
+
+    /// Whether no tip edge, rounding or corner is in the window of a tooth pair.
+    fn is_smooth(&self, placed: &PlacedTeeth) -> bool {
+        Gear::BOTH.into_iter().all(|gear| {
+            let (flank, edges) = (&self.flanks[gear], &placed.edges[gear]);
+            let mut nodes = flank.surface.edges[edges.clone()].iter().flat_map(|edge| edge.nodes());
+            let is_inner = edges.start > 0 && edges.end < flank.surface.edges.len();
+            // ρ is NaN on a rounding.
+            is_inner && nodes.all(|&node| flank.rho_mm[node].is_finite())
         })
     }
 

@@ -44,6 +44,12 @@ impl MeshedFlank {
         self.surface.edges.last().map_or(0, |edge| edge.nodes()[1])
     }
 
+    /// Greatest distance of neighbouring nodes along the profile, mm.
+    pub(crate) fn farthest_nodes_mm(&self) -> f64 {
+        let along_mm: Vec<f64> = self.tip_to_root().map(|node| self.from_tip_mm[node]).collect();
+        along_mm.windows(2).map(|two| two[1] - two[0]).fold(0.0, f64::max)
+    }
+
     /// Local numbers of the nodes from tip to root.
     pub(crate) fn tip_to_root(&self) -> impl Iterator<Item = usize> {
         let before_ends = self.surface.edges.iter().flat_map(|edge| {

@@ -241,9 +241,10 @@ impl CondensedPair<'_> {
         let (mut sliding_mm, mut along_mm) = (Vec::new(), Vec::new());
         let towards_pinion_tip = if slave == Gear::Pinion { 1.0 } else { -1.0 };
         let turn_per_mm = self.pair.path.relative_turn_per_mm();
-        for &node in &facing.coupling.nodes {
+        for (&node, ends) in facing.coupling.nodes.iter().zip(&facing.coupling.ends) {
             let place = own.place[node];
-            let loaded = own.loaded_mm[place];
+            let [one, other] = ends.map(|node| own.loaded_mm[own.place[node]]);
+            let loaded = [one[0].min(other[0]), one[1].max(other[1])];
             let reached = spread(own, loaded, moves[slave], &mut sums[slave]);
             means[slave].push(reached, &mut sums[slave], 1.0);
             let faced = faced_mm(own, &feet, place, loaded);

@@ -24,8 +24,10 @@ const LEAST_WEIGHT: f64 = 0.05;
 /// Columns are `2 · local node + component` of each surface.
 #[derive(Debug, Clone)]
 pub struct MortarCoupling {
-    /// Local slave node of each row.
+    /// Local slave node of each row; of a group of them ([`Self::grouped`]) the middle one.
     pub nodes: Vec<usize>,
+    /// First and last local slave node of each row.
+    pub ends: Vec<[usize; 2]>,
     /// Weights w_i, mm.
     pub weight_mm: Vec<f64>,
     /// Initial gaps g_i⁰, mm.
@@ -107,11 +109,44 @@ impl MortarCoupling {
             rows.into_iter().enumerate().filter(|(_, row)| !row.is_sliver()).collect();
         Self {
             nodes: kept.iter().map(|(node, _)| *node).collect(),
+            ends: kept.iter().map(|(node, _)| [*node; 2]).collect(),
             weight_mm: kept.iter().map(|(_, row)| row.weight_mm).collect(),
             gap_mm: kept.iter().map(|(_, row)| row.gap_mm2 / row.weight_mm).collect(),
             slave: operator(&kept, slave.points_mm.len(), |row| &row.slave),
             master: operator(&kept, master.points_mm.len(), |row| &row.master),
         }
+    }
+
+    /// Coupling with one multiplier for each of `groups` of rows that follow one another along the slave: its pressure is even over all of them.
+    pub fn grouped(&self, groups: &[Vec<usize>]) -> Self {
+        let weight_mm: Vec<f64> = groups.iter().map(|rows| rows.iter().map(|&row| self.weight_mm[row]).sum()).collect();
+        let mean = |rows: &[usize], whole_mm: f64| {
+            rows.iter().map(|&row| self.weight_mm[row] * self.gap_mm[row]).sum::<f64>() / whole_mm
+        };
+        Self {
+            nodes: groups.iter().map(|rows| self.nodes[rows[rows.len() / 2]]).collect(),
+            ends: groups.iter().map(|rows| [self.nodes[rows[0]], self.nodes[rows[rows.len() - 1]]]).collect(),
+            gap_mm: groups.iter().zip(&weight_mm).map(|(rows, &whole_mm)| mean(rows, whole_mm)).collect(),
+            slave: self.grouped_operator(&self.slave, groups, &weight_mm),
+            master: self.grouped_operator(&self.master, groups, &weight_mm),
+            weight_mm,
+        }
+    }
+
+    /// Matrix B of groups of rows with the weights `whole_mm`.
+    fn grouped_operator(&self, operator: &CsMat<f64>, groups: &[Vec<usize>], whole_mm: &[f64]) -> CsMat<f64> {
+        let mut triplets = TriMat::new((groups.len(), operator.cols()));
+        for (i, (rows, whole_mm)) in groups.iter().zip(whole_mm).enumerate() {
+            for &row in rows {
+                let part = self.weight_mm[row] / whole_mm;
+                let entries = operator.outer_view(row);
+                entries
+                    .iter()
+                    .flat_map(|row| row.iter())
+                    .for_each(|(column, b)| triplets.add_triplet(i, column, part * b));
+            }
+        }
+        triplets.to_csr()
     }
 
     /// Number of multipliers.
@@ -199,4 +234,41 @@ fn operator(
         }
     }
     triplets.to_csr()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::Edge;
+
+    /// Flat surface with nodes at `x_mm`, body below or above.
+    fn flat(x_mm: &[f64], y_mm: f64) -> Surface {
+        let points: Vec<Vector2<f64>> = x_mm.iter().map(|&x| Vector2::new(x, y_mm)).collect();
+        let edges: Vec<Edge> = (1..x_mm.len() as u32).map(|end| Edge { ends: [end - 1, end], middle: None }).collect();
+        Surface::new(&edges, &points)
+    }
+
+    /// A group of multipliers loads both surfaces as its rows do together under an even pressure, and its gap is their mean.
+    #[test]
+    fn ver_groups_are_the_sum_of_their_rows() {
+        let (slave, master) = (flat(&[0.0, 0.3, 0.5, 1.1, 1.4, 2.0], 0.0), flat(&[2.2, 1.5, 0.8, 0.1, -0.5], -0.02));
+        let fine = MortarCoupling::new(&slave, &master, 1.0);
+        assert_eq!(fine.len(), 6);
+        let groups = [vec![0, 1], vec![2, 3, 4], vec![5]];
+        let grouped = fine.grouped(&groups);
+        assert_eq!((grouped.len(), &grouped.ends[1]), (3, &[2, 4]));
+        for (at, rows) in groups.iter().enumerate() {
+            let whole_mm: f64 = rows.iter().map(|&row| fine.weight_mm[row]).sum();
+            assert!((grouped.weight_mm[at] - whole_mm).abs() < 1e-15);
+            let gap_mm: f64 = rows.iter().map(|&row| fine.weight_mm[row] * fine.gap_mm[row]).sum();
+            assert!((grouped.gap_mm[at] * whole_mm - gap_mm).abs() < 1e-15);
+            for (own, others) in [(&grouped.slave, &fine.slave), (&grouped.master, &fine.master)] {
+                for column in 0..own.cols() {
+                    let entry = |matrix: &CsMat<f64>, row| matrix.get(row, column).copied().unwrap_or(0.0);
+                    let sum: f64 = rows.iter().map(|&row| fine.weight_mm[row] * entry(others, row)).sum();
+                    assert!((entry(own, at) * whole_mm - sum).abs() < 1e-15, "{at} {column}");
+                }
+            }
+        }
+    }
 }

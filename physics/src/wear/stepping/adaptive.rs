@@ -227,7 +227,8 @@ impl Adaptive {
         let places = self.error.iter_mut().zip(&self.mean_rate).zip(state.iter().zip(&self.end));
         for ((error, mean_rate), (y, end)) in places {
             let change = CHANGE_FACTOR * ((end - y) - length * mean_rate).abs();
-            if change < error.abs() {
+            // A place that would have grown, and was held, says nothing by its mean rate.
+            if end > y && change < error.abs() {
                 *error = change.copysign(*error);
             }
         }
@@ -266,5 +267,44 @@ fn fitting(planned: f64, room: f64) -> f64 {
         0.5 * room
     } else {
         planned
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::convert::Infallible;
+
+    use super::*;
+
+    /// A drive y₀ that rises evenly, and a wear y₁ that is a thousand times as fast where y₀ − y₁ is above 1: it holds y₀ − y₁ at that limit.
+    struct HeldAtALimit;
+
+    impl Rate for HeldAtALimit {
+        type Error = Infallible;
+
+        fn evaluate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Infallible> {
+            rate.copy_from_slice(&[1.0, if state[0] - state[1] > 1.0 { 100.0 } else { 0.1 }]);
+            Ok(())
+        }
+
+        fn may_succeed_nearer(&self, _: &Infallible) -> bool {
+            false
+        }
+    }
+
+    /// At the limit the rate jumps to and fro; steps follow its mean, and need not be as short as its jumps ask for.
+    #[test]
+    fn ver_jumping_rates_take_few_steps() {
+        let (duration, tolerance) = (10.0, 0.02);
+        let mut integrator = Adaptive::new(tolerance, duration, 2);
+        let (mut state, mut slope) = (vec![0.0, 0.0], vec![1.0, 0.1]);
+        let mut reached = 0.0;
+        while reached < duration {
+            let Ok(length) = integrator.step(&mut HeldAtALimit, &mut state, &mut slope, duration - reached);
+            reached += length;
+        }
+        let counts = integrator.counts();
+        assert!((state[1] - (duration - 1.0)).abs() < 2.0 * tolerance, "{state:?}");
+        assert!(counts.stages + counts.probes < 500, "{counts:?}");
     }
 }
