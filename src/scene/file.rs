@@ -476,7 +476,7 @@ pub struct NumericsFile {
     /// Wear step: a table for Euler's method, or "adaptive", which is stable in any case. Default: "adaptive" on half-space and fem, with
     /// severe wear and with operation.stop, otherwise 1/150 of the duration.
     pub step: Option<StepFile>,
-    /// Permitted error of the wear depth in adaptive steps in µm, > 0, at least 0.0001, as a mean over up to 0.04 mm of flank; beyond 50 µm of
+    /// Permitted error of the wear depth in adaptive steps in µm, > 0, at least 0.0001, as a mean over up to 0.02 mm of flank; beyond 50 µm of
     /// wear it grows in proportion. Default 0.05.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub tolerance_um: Option<f64>,

@@ -264,7 +264,7 @@ fn the_page_shows_the_whole_flank() {
     for id in ["slice-load-new", "slice-load-worn", "load-sharing", "transmission-error", "mesh-orders", "history"] {
         assert!(page.contains(&format!("<div class=\"plot\" id=\"{id}\"")), "{id}");
     }
-    for words in ["slices.csv", "flank.vtu", "Face load factor", "Overlap ratio", "Total contact ratio", "Mesh order 5"]
+    for words in ["slices.csv", "flank.vtu", "Face load factor", "Overlap ratio", "Total contact ratio", "mesh order 5"]
     {
         assert!(page.contains(words), "{words}");
     }

@@ -1,10 +1,14 @@
 //! Rows of depths as a contact sees them: averaged along the flank.
 //!
 //! A depth at a single point or node is a matter of the resolution: at a fine tip edge nodes are micrometres apart, and severe wear passes from one to
-//! the next in bursts. Their mean over the length over which pressures are averaged too is not.
+//! the next in bursts. The mean of their magnitudes over half the length over which pressures are averaged is not.
 
 use crate::wear::stepping::greater_or_nan;
 use gearwear_bodies::gear::{PerGear, flank_zones::FlankZones};
+
+/// Length of the means, in that over which pressures are averaged. With the whole of it the wear of tip edges is less exact than a verification needs
+/// (case `verified-lean`).
+const LENGTH: f64 = 0.5;
 
 /// Places of both flanks, and the length over which depths at them are averaged.
 pub(crate) struct LocalMeans {
@@ -21,17 +25,17 @@ struct FlankPlaces {
 }
 
 impl LocalMeans {
-    /// Means over [`FlankZones::pressure_length_mm`] of depths at places with these distances along the flanks, and the shares of the flanks that each
+    /// Means over half of [`FlankZones::pressure_length_mm`] of depths at places with these distances along the flanks, and the shares of the flanks that each
     /// represents, mm.
     pub(crate) fn new(places: PerGear<(Vec<f64>, Vec<f64>)>, zones: &PerGear<FlankZones>) -> Self {
         let flanks = PerGear::from_fn(|gear| {
             let (along_mm, share_mm) = places[gear].clone();
-            FlankPlaces { along_mm, share_mm, length_mm: zones[gear].pressure_length_mm }
+            FlankPlaces { along_mm, share_mm, length_mm: LENGTH * zones[gear].pressure_length_mm }
         });
         Self { flanks }
     }
 
-    /// Greatest magnitude of the means of `rows`, mm: depths at the places of each flank, slice after slice.
+    /// Greatest mean magnitude of `rows`, mm: depths at the places of each flank, slice after slice.
     pub(crate) fn greatest_mm(&self, rows: PerGear<&[f64]>) -> f64 {
         let of = |flank: &FlankPlaces, row: &[f64]| {
             let slices = row.chunks(flank.along_mm.len()).map(|slice| flank.greatest_mm(slice));
@@ -42,23 +46,23 @@ impl LocalMeans {
 }
 
 impl FlankPlaces {
-    /// Greatest magnitude of the means about each place; where places are farther apart than the length, of the depths themselves.
+    /// Greatest mean magnitude about a place; where places are farther apart than the length, that of a depth.
     fn greatest_mm(&self, depth_mm: &[f64]) -> f64 {
         let Self { along_mm, share_mm, length_mm } = self;
         let (mut from, mut to, mut area_mm2, mut long_mm) = (0, 0, 0.0, 0.0);
         let mut greatest = 0.0;
         for here_mm in along_mm {
             while to < along_mm.len() && along_mm[to] <= here_mm + 0.5 * length_mm {
-                area_mm2 += share_mm[to] * depth_mm[to];
+                area_mm2 += share_mm[to] * depth_mm[to].abs();
                 long_mm += share_mm[to];
                 to += 1;
             }
             while along_mm[from] < here_mm - 0.5 * length_mm {
-                area_mm2 -= share_mm[from] * depth_mm[from];
+                area_mm2 -= share_mm[from] * depth_mm[from].abs();
                 long_mm -= share_mm[from];
                 from += 1;
             }
-            greatest = greater_or_nan(greatest, (area_mm2 / long_mm).abs());
+            greatest = greater_or_nan(greatest, area_mm2 / long_mm);
         }
         greatest
     }

@@ -70,7 +70,7 @@ pub(crate) trait WearingPair {
     /// wear. Otherwise its last bits depend on where the last one ended.
     fn reset(&mut self);
 
-    /// Greatest magnitude of a row of depths at the places, as means along the flanks ([`LocalMeans`]), mm.
+    /// Greatest mean magnitude along the flanks ([`LocalMeans`]) of a row of depths at the places, mm.
     fn greatest_mean_mm(&self, row: PerGear<&[f64]>) -> f64;
 
     /// Wear of each place at which the model keeps it, mm: as many places as in [`Self::set_wear_mm`] and [`Self::depth_mm`].

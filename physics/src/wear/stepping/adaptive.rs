@@ -1,7 +1,7 @@
 //! Steps of [`RungeKuttaChebyshev`] one after another, each as long as the error allows.
 //!
-//! **What the tolerance means.** It is a depth. The estimated error of a step, by its [`Rate::size`] (of gear flanks the greatest mean over the length
-//! over which pressures are averaged), stays below
+//! **What the tolerance means.** It is a depth. The estimated error of a step, by its [`Rate::size`] (of gear flanks the greatest mean over half the
+//! length over which pressures are averaged), stays below
 //!
 //! ```text
 //! 0.3 · tolerance · max(1, greatest wear / 0.05 mm)
