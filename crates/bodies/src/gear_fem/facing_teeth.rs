@@ -18,7 +18,7 @@ use crate::gear::flank_edge::{FlankEdge, PathEnd};
 use crate::gear::{Gear, PerGear};
 use gearwear_fem::contact::mortar::MortarCoupling;
 
-/// Greatest length of rows that share a multiplier, in the greatest distance of the flank's nodes, which resolves a smooth contact: where the mesh is
+/// Greatest length of rows that share a multiplier, in the greatest distance of the active profile's nodes, which resolves a smooth contact: where the mesh is
 /// finer for the mate's tip edge, its rows are more than a smooth contact needs. Finer elements have shorter ones.
 const MOST_LENGTH: f64 = 0.125;
 /// Distances from the expected contact of a tip edge, in Hertz half-widths, within which every row has a multiplier, and beyond which they have the
@@ -53,7 +53,7 @@ pub(super) struct SearchWindow {
     pub overlaps: Vec<FlankOverlap>,
 }
 
-/// FlankOverlap of the flanks of a tooth pair beside its window.
+/// Overlap of the flanks of a tooth pair beside its window.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FlankOverlap {
     pub pair: i32,
@@ -99,7 +99,7 @@ pub(super) struct FacingTeeth {
     pub coupling: MortarCoupling,
     /// Edges of each flank in the window.
     pub edges: PerGear<Range<usize>>,
-    /// MortarCoupling matrix B for each gear, in its own tooth's frame.
+    /// Matrix B of the coupling for each gear, in its own tooth's frame.
     pub operator: PerGear<CsMat<f64>>,
     /// Expected contact from the slave's tip end, mm.
     pub expected_mm: f64,
@@ -216,13 +216,14 @@ impl CondensedPair<'_> {
         })
     }
 
-    /// Rows of `fine` that share a multiplier, outwards from the expected contact, so that they are the same in wider windows.
+    /// Rows of `fine` that share a multiplier, outwards from the expected contact, so that they are the same in wider windows of the same kind.
     fn groups(&self, fine: &MortarCoupling, placed: &PlacedTeeth) -> Vec<Vec<usize>> {
         let far_mm = |row: usize| self.flanks[placed.slave].from_tip_mm[fine.nodes[row]] - placed.expected_mm;
         let mut rows: Vec<usize> = (0..fine.len()).collect();
         rows.sort_by(|&a, &b| far_mm(a).total_cmp(&far_mm(b)));
         let (to_tip, to_root) = rows.split_at(rows.partition_point(|&row| far_mm(row) < 0.0));
-        let most_mm = MOST_LENGTH * self.flanks[placed.slave].farthest_nodes_mm();
+        let active_rho_mm = self.pair.active_start_rho_mm(placed.slave);
+        let most_mm = MOST_LENGTH * self.flanks[placed.slave].farthest_nodes_mm(active_rho_mm);
         let [near_mm, far_off_mm] = ABOUT_EDGE.map(|half_widths| half_widths * placed.half_width_mm);
         let is_smooth = self.is_smooth(placed);
         let length_mm = |here_mm: f64| match is_smooth {

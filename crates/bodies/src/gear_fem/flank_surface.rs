@@ -44,9 +44,10 @@ impl MeshedFlank {
         self.surface.edges.last().map_or(0, |edge| edge.nodes()[1])
     }
 
-    /// Greatest distance of neighbouring nodes along the profile, mm.
-    pub(crate) fn farthest_nodes_mm(&self) -> f64 {
-        let along_mm: Vec<f64> = self.tip_to_root().map(|node| self.from_tip_mm[node]).collect();
+    /// Greatest distance of neighbouring nodes of the involute from `rho_mm` outwards, mm: below the active profile elements are larger.
+    pub(crate) fn farthest_nodes_mm(&self, rho_mm: f64) -> f64 {
+        let nodes = self.tip_to_root().filter(|&node| self.rho_mm[node] >= rho_mm);
+        let along_mm: Vec<f64> = nodes.map(|node| self.from_tip_mm[node]).collect();
         along_mm.windows(2).map(|two| two[1] - two[0]).fold(0.0, f64::max)
     }
 

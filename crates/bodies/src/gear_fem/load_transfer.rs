@@ -135,7 +135,7 @@ impl LoadTransfer {
         }
     }
 
-    /// StretchMeans of nodal values of `gear`, weighted by the load `force` on the rows; 0 without load.
+    /// Means of nodal values of `gear`, weighted by the load `force` on the rows; 0 without load.
     pub fn mean_on<const N: usize>(&self, gear: Gear, force: &[f64], at_node: impl Fn(usize) -> [f64; N]) -> [f64; N] {
         let (mut sums, mut whole) = ([0.0; N], 0.0);
         for (i, &force) in force.iter().enumerate().filter(|(_, force)| **force > 0.0) {

@@ -19,14 +19,14 @@ use super::surface::Surface;
 /// a neighbour, so that a constant pressure is still represented; without a neighbour it is left out.
 const LEAST_WEIGHT: f64 = 0.05;
 
-/// Coupling of a slave surface with a master surface; a row for every slave node that faces the master.
+/// Coupling of a slave surface with a master surface; a row for every slave node that faces the master, or for a group of them ([`MortarCoupling::grouped`]).
 ///
 /// Columns are `2 · local node + component` of each surface.
 #[derive(Debug, Clone)]
 pub struct MortarCoupling {
     /// Local slave node of each row; of a group of them ([`Self::grouped`]) the middle one.
     pub nodes: Vec<usize>,
-    /// First and last local slave node of each row.
+    /// First and last local slave node of each row, in the order of the rows that were grouped.
     pub ends: Vec<[usize; 2]>,
     /// Weights w_i, mm.
     pub weight_mm: Vec<f64>,

@@ -39,6 +39,10 @@ const FLOOR: f64 = 1e-5;
 const FLOOR_OF_RUN: f64 = 1e-11;
 /// Factor of the change of the mean rate from step to step, where that is the estimated error.
 const CHANGE_FACTOR: f64 = 2.0;
+/// Part of the jumps of a rate that is remembered from step to step.
+const REMEMBERED: f64 = 0.9;
+/// Greatest ratio of a jump to those seen before that still counts as one of them.
+const LIKE_BEFORE: f64 = 2.0;
 /// Steps without a rate at their end are repeated with this part of their length.
 const SHORTER: f64 = 0.25;
 
@@ -73,6 +77,8 @@ pub struct Adaptive {
     accumulated: Vec<f64>,
     /// Mean rate of each place over the last step since the start; empty before one.
     mean_rate: Vec<f64>,
+    /// How far the mean of the rates at both ends of earlier steps was from the mean rate of each place.
+    jumps: Vec<f64>,
     #[serde(skip)]
     end: Vec<f64>,
     #[serde(skip)]
@@ -95,6 +101,7 @@ impl Adaptive {
             counts: StepCounts::default(),
             accumulated: vec![0.0; places],
             mean_rate: Vec::new(),
+            jumps: Vec::new(),
             end: Vec::new(),
             end_slope: Vec::new(),
             error: Vec::new(),
@@ -122,6 +129,7 @@ impl Adaptive {
         (self.control, self.run, self.age) = (StepControl::default(), 0.0, 0);
         self.radius.reset();
         self.mean_rate.clear();
+        self.jumps.clear();
     }
 
     /// Takes one step of at most `room` from `state`, where the rate is `slope`, and moves both to its end, where `rate` was last evaluated.
@@ -171,6 +179,7 @@ impl Adaptive {
                 self.radius.reset();
             }
             self.run += length;
+            self.remember_jumps(state, slope, length);
             self.mean_rate.clear();
             self.mean_rate.extend(state.iter().zip(&self.end).map(|(start, end)| (end - start) / length));
             self.accumulated.iter_mut().zip(&self.error).for_each(|(sum, e)| *sum += e);
@@ -216,22 +225,40 @@ impl Adaptive {
         Ok(())
     }
 
+    /// Difference of the mean of the rates at both ends of a step of `length` from its mean rate, times its length, place by place.
+    fn off_mean<'a>(&'a self, state: &'a [f64], slope: &'a [f64], length: f64) -> impl Iterator<Item = f64> + 'a {
+        let ends = state.iter().zip(&self.end);
+        let rates = slope.iter().zip(&self.end_slope);
+        ends.zip(rates).map(move |((y, end), (f0, f1))| 0.5 * length * (f0 + f1) - (end - y))
+    }
+
     /// Estimates the error of a step of `length` from `state` and its `slope` to the end that was found, place by place.
     fn estimate_error(&mut self, state: &[f64], slope: &[f64], length: f64) {
-        let rates = slope.iter().zip(&self.end_slope);
-        let ends = state.iter().zip(&self.end);
-        let by_rates = ends.zip(rates).map(|((y, end), (f0, f1))| 0.5 * length * (f0 + f1) - (end - y));
-        self.error.clear();
-        self.error.extend(by_rates.map(|error| ERROR_FACTOR * error));
-        // Empty before the first step.
-        let places = self.error.iter_mut().zip(&self.mean_rate).zip(state.iter().zip(&self.end));
-        for ((error, mean_rate), (y, end)) in places {
+        let mut errors = std::mem::take(&mut self.error);
+        errors.clear();
+        errors.extend(self.off_mean(state, slope, length).map(|off_mean| ERROR_FACTOR * off_mean));
+        // Both are empty before the first step.
+        let before = self.mean_rate.iter().zip(&self.jumps);
+        let places = errors.iter_mut().zip(before).zip(state.iter().zip(&self.end));
+        for ((error, (mean_rate, jump)), (y, end)) in places {
+            let jumped_before = error.abs() <= LIKE_BEFORE * ERROR_FACTOR * length * jump;
             let change = CHANGE_FACTOR * ((end - y) - length * mean_rate).abs();
             // A place that would have grown, and was held, says nothing by its mean rate.
-            if end > y && change < error.abs() {
+            if jumped_before && end > y && change < error.abs() {
                 *error = change.copysign(*error);
             }
         }
+        self.error = errors;
+    }
+
+    /// Remembers how far the rates at the ends of an accepted step were from its mean rate.
+    fn remember_jumps(&mut self, state: &[f64], slope: &[f64], length: f64) {
+        let mut jumps = std::mem::take(&mut self.jumps);
+        jumps.resize(state.len(), 0.0);
+        for (jump, off_mean) in jumps.iter_mut().zip(self.off_mean(state, slope, length)) {
+            *jump = (REMEMBERED * *jump).max(off_mean.abs() / length);
+        }
+        self.jumps = jumps;
     }
 
     /// Length of the first step: half of that after which the error of Euler's method is the part of the tolerance that a step may spend.
@@ -289,6 +316,42 @@ mod tests {
 
         fn may_succeed_nearer(&self, _: &Infallible) -> bool {
             false
+        }
+    }
+
+    /// A rate that becomes a hundred times as great once, and stays so.
+    struct RisesOnce;
+
+    impl Rate for RisesOnce {
+        type Error = Infallible;
+
+        fn evaluate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Infallible> {
+            rate.copy_from_slice(&[0.02, if state[0] < 0.02 * 0.617 { 0.002 } else { 0.2 }]);
+            Ok(())
+        }
+
+        fn may_succeed_nearer(&self, _: &Infallible) -> bool {
+            false
+        }
+    }
+
+    /// A rise that was not there before counts as what it is, however steps are cut.
+    #[test]
+    fn ver_a_rate_that_rises_once_is_not_missed() {
+        for room in [1.0, 0.05] {
+            let mut integrator = Adaptive::new(5e-5, 1.0, 2);
+            let (mut state, mut slope) = (vec![0.0, 0.0], vec![0.02, 0.002]);
+            let (mut reached, mut cuts) = (0.0, 1.0);
+            while reached < 1.0 - 1e-12 {
+                let to_cut = f64::min(cuts * room, 1.0) - reached;
+                let Ok(length) = integrator.step(&mut RisesOnce, &mut state, &mut slope, to_cut);
+                reached += length;
+                if length >= to_cut {
+                    cuts += 1.0;
+                }
+            }
+            let exact = 0.002 * 0.617 + 0.2 * 0.383;
+            assert!((state[1] - exact).abs() < 5e-5, "{room}: {state:?} {exact}");
         }
     }
 

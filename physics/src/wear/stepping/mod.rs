@@ -21,8 +21,8 @@
 //! ```
 //!
 //! with c = 0.8 (Sommeijer, Shampine and Verwer, equation 2.11). It costs nothing: the rate at the end is that at the beginning of the next step.
-//! Where rates jump to and fro, as at a fine tip edge that wears severely, those at both ends of a step say little of their mean. There the change of
-//! the mean rate from the step before is the estimate, which elsewhere is the greater of the two:
+//! Where rates jump to and fro, as at a fine tip edge that wears severely, those at both ends of a step say little of their mean. At a place where
+//! they were as far from the mean rate in earlier steps, and that wears, the change of the mean rate from the step before bounds the estimate:
 //!
 //! ```text
 //! |e| ≤ 2 |(yₙ₊₁ − yₙ) − Δn (yₙ − yₙ₋₁)/Δn₋₁|
