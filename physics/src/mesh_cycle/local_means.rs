@@ -28,11 +28,13 @@ impl LocalMeans {
     /// Means over half of [`FlankZones::pressure_length_mm`] of depths at places with these distances along the flanks, and the shares of the flanks that each
     /// represents, mm.
     pub(crate) fn new(places: PerGear<(Vec<f64>, Vec<f64>)>, zones: &PerGear<FlankZones>) -> Self {
-        let flanks = PerGear::from_fn(|gear| {
-            let (along_mm, share_mm) = places[gear].clone();
-            FlankPlaces { along_mm, share_mm, length_mm: LENGTH * zones[gear].pressure_length_mm }
-        });
-        Self { flanks }
+        let flank = |(along_mm, share_mm), zones: &FlankZones| FlankPlaces {
+            along_mm,
+            share_mm,
+            length_mm: LENGTH * zones.pressure_length_mm,
+        };
+        let PerGear { pinion, wheel } = places;
+        Self { flanks: PerGear { pinion: flank(pinion, &zones.pinion), wheel: flank(wheel, &zones.wheel) } }
     }
 
     /// Greatest mean magnitude of `rows`, mm: depths at the places of each flank, slice after slice.

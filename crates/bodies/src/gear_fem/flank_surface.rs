@@ -46,9 +46,9 @@ impl MeshedFlank {
 
     /// Greatest distance of neighbouring nodes of the involute from `rho_mm` outwards, mm: below the active profile elements are larger.
     pub(crate) fn farthest_nodes_mm(&self, rho_mm: f64) -> f64 {
-        let nodes = self.tip_to_root().filter(|&node| self.rho_mm[node] >= rho_mm);
-        let along_mm: Vec<f64> = nodes.map(|node| self.from_tip_mm[node]).collect();
-        along_mm.windows(2).map(|two| two[1] - two[0]).fold(0.0, f64::max)
+        let nodes = || self.tip_to_root().filter(|&node| self.rho_mm[node] >= rho_mm);
+        let apart_mm = nodes().zip(nodes().skip(1)).map(|(one, next)| self.from_tip_mm[next] - self.from_tip_mm[one]);
+        apart_mm.fold(0.0, f64::max)
     }
 
     /// Local numbers of the nodes from tip to root.

@@ -9,7 +9,7 @@
 //!
 //! which leaves room for several steps whose errors add up where the wear is neutral (its mean over a contact); elsewhere later steps
 //! wear the error down. Measured on the preset thesis-spur (`docs/runs.md`) the error at the end is below the tolerance, unless a rate
-//! jumps. What is estimated is kept with its sign ([`Adaptive::accumulated_error`]), so that a run can say in the end what it came to.
+//! jumps. What is estimated, where the change of the mean rate bounds it with the sign of what it bounds, is kept with its sign ([`Adaptive::accumulated_error`]), so that a run can say in the end what it came to.
 //!
 //! **What else can happen to a step.** A trial state may have no rate (teeth without equilibrium): the step is shortened. A place
 //! may seem to have grown where the rate jumps to and fro: it is taken to have stayed as it was, before the error is estimated.
