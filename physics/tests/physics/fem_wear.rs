@@ -71,6 +71,29 @@ fn ver_multipliers_follow_the_elements_under_a_light_load() {
     }
 }
 
+/// An even depth at all multipliers wears the nodes between them evenly, those of a multiplier that stands for several rows too.
+#[test]
+fn ver_an_even_depth_wears_all_nodes_evenly() {
+    let mut spec = fzg_c();
+    for gear in Gear::BOTH {
+        spec.gears[gear].modification.tip_rounding_mm = 0.05;
+    }
+    let pair = pair(&spec);
+    let model = condensed(&pair, 3.0);
+    let nodes = model.flank_nodes();
+    let position_mm = pair.path.start_mm + 0.1 * (pair.path.end_mm - pair.path.start_mm);
+    let prepared = model.prepare(position_mm, line_load(&pair));
+    let transfers = model.load_transfers(&prepared, (position_mm, position_mm), 0.0, nodes.as_ref(), None);
+    let contact = transfers.iter().find(|contact| contact.pair == 0).expect("the pair faces itself");
+    let mut depth_mm = vec![0.0; nodes[contact.slave].len()];
+    contact.wear_nodes(contact.slave, &nodes[contact.slave], &vec![1.0; contact.len()], &mut depth_mm);
+    let worn: Vec<usize> = (0..depth_mm.len()).filter(|&k| depth_mm[k] > 0.0).collect();
+    assert!(worn.len() > contact.len() + 10, "multipliers stand for several nodes: {} {}", worn.len(), contact.len());
+    for &k in &worn[4..worn.len() - 4] {
+        assert!((depth_mm[k] - 1.0).abs() < 0.2, "node {k}: {}", depth_mm[k]);
+    }
+}
+
 fn grid(pair: &GearPair, flank_points: usize) -> PerGear<FlankGrid> {
     PerGear::from_fn(|gear| FlankGrid::new(pair, gear, flank_points, PointSpacing::Even))
 }
