@@ -25,7 +25,7 @@ impl Uncertainty {
 
     /// The columns of `samples.csv`.
     fn samples(&self, py: Python<'_>) -> PyResult<Columns> {
-        table::columns(py, py.detach(|| self.record.table()))
+        table::columns(py, py.detach(|| gearwear::uncertainty::report::table(&self.record)))
     }
 
     /// Writes what `gearwear uncertainty` writes.

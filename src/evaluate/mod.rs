@@ -12,9 +12,10 @@
 pub mod output;
 
 use crate::runs;
-use crate::scene::draft::{Draft, other_ways_to_say};
+use crate::scene::draft::Draft;
 use crate::scene::key::{self, NumberKey, is_key};
 use crate::scene::loaded::{LoadedScene, SceneError};
+use crate::scene::table::other_ways_to_say;
 use crate::spread::spread;
 use crate::varied_scene::{VariedScene, in_words, linked_keys, missing_phase, one_line};
 use gearwear_physics::assessment::guarded::guarded;

@@ -5,40 +5,12 @@
 //! Colours are tokens, `var(--name)` or `mix(--from,--to,share)`, of the custom properties of `page.css`: one place holds the palette, and
 //! charts follow the light, dark or printed page.
 
+pub use super::colour::{INK, MUTED, NEW, PATH, WORN, gear_colour, gear_colour_at, gear_fill};
 use super::control::Control;
 pub use super::trace::{
     BarPlaces, Bars, ColourScale, Curve, Dash, Drawn, Field, Line, Rows, Signs, Surface, Trace, View,
 };
-use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::PathPoints;
-
-pub const NEW: &str = "var(--new)";
-pub const WORN: &str = "var(--worn)";
-/// Secondary lines and labels.
-pub const MUTED: &str = "var(--muted)";
-/// The path of contact.
-pub const PATH: &str = "var(--path)";
-/// Outlines and the answer that others are compared with.
-pub const INK: &str = "var(--ink)";
-
-pub fn gear_colour(gear: Gear) -> &'static str {
-    match gear {
-        Gear::Pinion => "var(--pinion)",
-        Gear::Wheel => "var(--wheel)",
-    }
-}
-
-pub fn gear_fill(gear: Gear) -> &'static str {
-    match gear {
-        Gear::Pinion => "var(--pinion-fill)",
-        Gear::Wheel => "var(--wheel-fill)",
-    }
-}
-
-/// Colour of a gear at `share` of its life: from pale to full.
-pub fn gear_colour_at(gear: Gear, share: f64) -> String {
-    format!("mix(--{0}-early,--{0},{share:.3})", gear.name())
-}
 
 /// Colour between those of the gears.
 pub fn colour_between_gears(share: f64) -> String {

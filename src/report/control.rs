@@ -4,7 +4,7 @@
 
 use serde::Serialize;
 
-use super::chart::Rows;
+use super::trace::Rows;
 
 /// A slider below a chart.
 #[derive(Debug, Clone, Serialize)]

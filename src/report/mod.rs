@@ -18,6 +18,7 @@
 
 pub mod calibration;
 pub mod chart;
+mod colour;
 pub mod columns;
 pub mod control;
 pub mod csv_table;

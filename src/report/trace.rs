@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::chart::INK;
+use super::colour::INK;
 use super::html::number::plotted;
 
 /// How a line is dashed.

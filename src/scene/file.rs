@@ -11,7 +11,6 @@ use serde::{Deserialize, Serialize};
 
 use super::fem_file::FemFile;
 use super::lubrication_file::{FrictionFile, LoadFactorsFile, LubricantFile};
-use super::material_presets::MaterialPreset;
 use super::presets;
 use super::wear_file::{GearWearFile, TemperatureFile, WearFile};
 use gearwear_bodies::gear::flank::PointSpacing;
@@ -285,6 +284,32 @@ pub struct ModulusCurveFile {
     /// Young's modulus in GPa at each, 0.0001 to 1500. Required.
     #[schemars(length(min = 2), inner(range(min = 0.0001, max = 1500)))]
     pub young_modulus_GPa: Option<Vec<f64>>,
+}
+
+/// A material by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum MaterialPreset {
+    /// Case-hardened steel: the default.
+    #[serde(rename = "steel")]
+    Steel,
+    /// Nodular cast iron EN-GJS-500-7.
+    #[serde(rename = "cast-iron")]
+    CastIron,
+    /// Polyoxymethylene, unfilled.
+    #[serde(rename = "POM")]
+    Pom,
+    /// Polyamide 66, unfilled, conditioned.
+    #[serde(rename = "PA66")]
+    Pa66,
+    /// Polyamide 46, unfilled, dry.
+    #[serde(rename = "PA46")]
+    Pa46,
+    /// Polybutylene terephthalate, unfilled.
+    #[serde(rename = "PBT")]
+    Pbt,
+    /// Polyether ether ketone, unfilled.
+    #[serde(rename = "PEEK")]
+    Peek,
 }
 
 /// Material of one gear.

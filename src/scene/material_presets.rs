@@ -2,36 +2,7 @@
 //!
 //! What a material wears by is not among them: the wear coefficient belongs to a pair, its lubrication and its load.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use super::file::GearMaterialFile;
-
-/// A material by its name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum MaterialPreset {
-    /// Case-hardened steel: the default.
-    #[serde(rename = "steel")]
-    Steel,
-    /// Nodular cast iron EN-GJS-500-7.
-    #[serde(rename = "cast-iron")]
-    CastIron,
-    /// Polyoxymethylene, unfilled.
-    #[serde(rename = "POM")]
-    Pom,
-    /// Polyamide 66, unfilled, conditioned.
-    #[serde(rename = "PA66")]
-    Pa66,
-    /// Polyamide 46, unfilled, dry.
-    #[serde(rename = "PA46")]
-    Pa46,
-    /// Polybutylene terephthalate, unfilled.
-    #[serde(rename = "PBT")]
-    Pbt,
-    /// Polyether ether ketone, unfilled.
-    #[serde(rename = "PEEK")]
-    Peek,
-}
+use super::file::{GearMaterialFile, MaterialPreset};
 
 impl MaterialPreset {
     /// Constants of the material. Thermal diffusivity is conductivity over density and specific heat where the source gives these.

@@ -24,6 +24,7 @@ mod resolve;
 mod scene_text;
 pub mod schema;
 mod shape;
+pub mod table;
 mod text;
 mod unit_slip;
 #[allow(rustdoc::broken_intra_doc_links, reason = "tables of the file stand in brackets, as in TOML")]

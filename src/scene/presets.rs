@@ -5,6 +5,9 @@
 //! defaults, `thesis-spur` with the thesis's model, every choice written out, and `fzg-test` is the thesis's wear test on elastic contact,
 //! `thesis-fzg-test` with the thesis's model. Helical pairs: one like the FZG gears, again with the thesis's model as `thesis-helical`, and the public ones of FEUP (Porto), whose tip diameters follow from the rack.
 
+/// Key of the scene that names one.
+pub const KEY: &str = "pair.preset";
+
 /// A scene of the library.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Preset {

@@ -4,9 +4,10 @@
 use std::str::FromStr;
 
 use crate::scene::decimal_comma;
-use crate::scene::draft::{Draft, other_ways_to_say};
+use crate::scene::draft::Draft;
 use crate::scene::key::{self, KeyError, NumberKey};
 use crate::scene::problem::number;
+use crate::scene::table::other_ways_to_say;
 use crate::sweep::record::{AxisSpacing, SweepAxis};
 use crate::varied_scene::{linked_keys, missing_phase};
 

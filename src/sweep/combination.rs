@@ -2,13 +2,14 @@
 
 use std::time::Instant;
 
+use serde::{Deserialize, Serialize};
+
 use crate::runs;
 use crate::scene::draft::Draft;
 use crate::scene::loaded::{LoadedScene, NamedFiles};
 use crate::scene::{Problem, Resolved, short_hash};
 use crate::sweep::goal::Goal;
 use crate::sweep::record::{SweepAxis, SweepIdentity, SweepRow};
-use crate::sweep::study::SweepTask;
 use crate::sweep::verification::Chosen;
 use crate::varied_scene::{VariedScene, in_words, one_line};
 use gearwear_physics::assessment::guarded::guarded;
@@ -17,6 +18,16 @@ use gearwear_physics::plan::{Plan, StageKind};
 use gearwear_physics::results::error::TotalError;
 use gearwear_physics::results::figures;
 use gearwear_physics::results::run::{StopReason, Summary};
+
+/// Something to do of a sweep: what one thread, wherever it is, does from beginning to end.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SweepTask {
+    /// A combination is to be run.
+    Run(usize),
+    /// A finished row is to be verified.
+    Verify { row: Box<SweepRow>, chosen: Chosen },
+}
 
 /// A sweep that can be run.
 #[derive(Debug, Clone)]

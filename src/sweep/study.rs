@@ -6,13 +6,11 @@
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
-
-use super::combination::Sweep;
+use super::combination::{Sweep, SweepTask};
 use super::journal::{Journal, JournalError};
 use crate::spread::{SpreadOutcome, spread};
 use crate::sweep::record::{Shard, SweepRow};
-use crate::sweep::verification::{Chosen, chosen};
+use crate::sweep::verification::chosen;
 use gearwear_physics::observer::Observer;
 
 /// The combinations of a part of a sweep, in order: every `of`-th, beginning with `number`; `None`: all.
@@ -42,16 +40,6 @@ impl<F: FnMut(&SweepRow)> RowKeeper<'_, F> {
         }
         self.error.is_none()
     }
-}
-
-/// Something to do of a sweep: what one thread, wherever it is, does from beginning to end.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SweepTask {
-    /// A combination is to be run.
-    Run(usize),
-    /// A finished row is to be verified.
-    Verify { row: Box<SweepRow>, chosen: Chosen },
 }
 
 /// Tasks that can be done now: the missing combinations of `shard`; where none is missing, of a whole sweep that asks for it, the chosen rows

@@ -11,11 +11,11 @@ use std::time::Instant;
 use serde::Serialize;
 
 use super::asked::{SweepError, SweepFault};
-use super::combination::Sweep;
+use super::combination::{Sweep, SweepTask};
 use super::journal::{Journal, JournalError};
 use super::record::{Shard, SweepRecord};
 use super::report;
-use super::study::{self, SweepTask};
+use super::study;
 use crate::report::columns::Table;
 use crate::report::writable;
 use crate::spread::SpreadOutcome;

@@ -4,7 +4,6 @@ use serde::Serialize;
 
 use super::distribution::Uncertain;
 use super::life::DepthLimit;
-use crate::report::columns::Table;
 use gearwear_bodies::gear::PerGear;
 use gearwear_bodies::reference::sobol_indices::Index;
 
@@ -48,11 +47,6 @@ pub struct UncertaintyRecord {
 }
 
 impl UncertaintyRecord {
-    /// `samples.csv` as columns.
-    pub fn table(&self) -> Table {
-        super::report::table(self)
-    }
-
     /// `uncertainty.json`.
     ///
     /// # Errors

@@ -13,8 +13,8 @@ use gearwear::resume::identity::RunIdentity;
 use gearwear::scene::loaded::LoadedScene;
 use gearwear_physics::simulation::checkpoint::{Checkpoint, Keeper};
 
-use super::failure::{Failure, InputError};
-use super::{run, say};
+use super::failure::{Failure, InputError, in_the_scene};
+use super::say;
 
 /// Least time between two checkpoints.
 const LEAST_INTERVAL: Duration = Duration::from_millis(250);
@@ -54,7 +54,7 @@ impl MadeFolder {
 
 pub(super) fn begin(scene: &Path, out: &Path) -> Result<BegunRun, Failure> {
     let scene = LoadedScene::open(scene)?;
-    scene.check_springs().map_err(|error| run::in_the_scene(error, &scene))?;
+    scene.check_springs().map_err(|error| in_the_scene(error, &scene))?;
     let (scene, identity) = named_as_copied(scene);
     report::writable(out)?;
     begin_anew(scene, identity, out)

@@ -10,7 +10,7 @@ use gearwear::report::ReportError;
 use gearwear::resume::file::CheckpointError;
 use gearwear::resume::folder::FolderError;
 use gearwear::scene::blame::SceneFault;
-use gearwear::scene::loaded::{LoadError, SceneError, SceneText};
+use gearwear::scene::loaded::{LoadError, LoadedScene, SceneError, SceneText};
 use gearwear::scene::{Problem, ProblemKind, presets};
 use gearwear::sweep::asked::{SweepError, SweepFault};
 use gearwear::sweep::axis::AxisError;
@@ -18,6 +18,8 @@ use gearwear::sweep::goal::GoalError;
 use gearwear::sweep::journal::JournalError;
 use gearwear::sweep::merge::MergeError;
 use gearwear::uncertainty::asked::UncertaintyFault;
+use gearwear::uncertainty::design::CorrelationError;
+use gearwear::uncertainty::distribution::FORMS;
 use gearwear_fem::SolveError;
 use gearwear_mesh::MeshFileError;
 use gearwear_physics::assessment::RunError;
@@ -192,8 +194,8 @@ pub(super) enum InputError {
     #[diagnostic(help("for example --best pinion.peak_wear_um --subject-to \"wheel.peak_wear_um<=8\""))]
     Goal(GoalError),
     /// `uncertainty` with a question that cannot be asked.
-    #[error("{option}{0}", option = super::uncertainty::option_of(.0))]
-    #[diagnostic(help("{}", super::uncertainty::help_of(.0)))]
+    #[error("{option}{0}", option = option_of(.0))]
+    #[diagnostic(help("{}", uncertainty_help(.0)))]
     Uncertainty(UncertaintyFault),
     #[error("--out: {0}")]
     #[diagnostic(help("{}", journal_help(.0)))]
@@ -371,6 +373,36 @@ pub(super) fn no_mesh(error: PairMeshError, text: &SceneText) -> Failure {
             refused.expect("a fault of the pair has its key").into()
         }
     }
+}
+
+/// Option that caused the error.
+fn option_of(fault: &UncertaintyFault) -> &'static str {
+    match fault {
+        UncertaintyFault::Uncertain(_) | UncertaintyFault::Count { .. } => "--uncertain: ",
+        UncertaintyFault::Correlation(_) => "--correlation: ",
+        UncertaintyFault::Limit(_) => "--limit: ",
+        UncertaintyFault::Output(_) => "--outputs: ",
+        UncertaintyFault::Samples { .. } => "--samples: ",
+        UncertaintyFault::Scene(_) | UncertaintyFault::Study(_) => "",
+    }
+}
+
+/// Remedy.
+fn uncertainty_help(fault: &UncertaintyFault) -> String {
+    match fault {
+        UncertaintyFault::Output(_) => "summary.json of a run has all of them".to_owned(),
+        UncertaintyFault::Correlation(CorrelationError::NotPositiveDefinite) => {
+            "keys that are both close to a third are close to one another".to_owned()
+        }
+        UncertaintyFault::Samples { .. } => "powers of two are the most even".to_owned(),
+        UncertaintyFault::Study(_) | UncertaintyFault::Scene(_) => "gearwear run SCENE says more".to_owned(),
+        _ => format!("KEY=DISTRIBUTION with one of {FORMS}"),
+    }
+}
+
+/// Failure of a run, at the key of the scene that causes it, if one does.
+pub(super) fn in_the_scene(error: RunError, scene: &LoadedScene) -> Failure {
+    error.in_the_scene(&scene.given).map_or(Failure::Run(error), Failure::Scene)
 }
 
 #[cfg(test)]

@@ -7,8 +7,8 @@ use gearwear_physics::plan::Plan;
 
 use gearwear::scene::loaded::LoadedScene;
 
-use super::failure::Failure;
-use super::{print, run, warn};
+use super::failure::{Failure, in_the_scene};
+use super::{print, warn};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct PlanArgs {
@@ -29,7 +29,7 @@ enum PlanFormat {
 
 pub(super) fn run(args: &PlanArgs) -> Result<(), Failure> {
     let scene = LoadedScene::open(&args.scene)?;
-    scene.check_springs().map_err(|error| run::in_the_scene(error, &scene))?;
+    scene.check_springs().map_err(|error| in_the_scene(error, &scene))?;
     warn(scene.warnings());
     let plan = scene.plan();
     print(&match args.format {

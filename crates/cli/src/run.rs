@@ -11,7 +11,6 @@ use gearwear::report;
 use gearwear::report::ReportError;
 use gearwear::resume::folder;
 use gearwear::runs;
-use gearwear::scene::blame::SceneFault;
 use gearwear::scene::loaded::LoadedScene;
 use gearwear_physics::assessment::{Done, Resumption, RunError};
 use gearwear_physics::observer::Observer;
@@ -21,7 +20,7 @@ use gearwear_physics::results::run::{RunRecord, StageTime, StopReason};
 use gearwear_physics::simulation::settings::Operation;
 
 use super::begun_run::{self, BegunRun, FolderKeeper, MadeFolder};
-use super::failure::{Failure, InputError};
+use super::failure::{Failure, InputError, in_the_scene};
 use super::progress::Progress;
 use super::{figures, print, say, warn};
 
@@ -137,11 +136,6 @@ fn finish(
             if violations.is_empty() { Ok(()) } else { Err(Failure::Violated { violations }) }
         }
     }
-}
-
-/// Failure of a run, at the key of the scene that causes it, if one does.
-pub(super) fn in_the_scene(error: RunError, scene: &LoadedScene) -> Failure {
-    error.in_the_scene(&scene.given).map_or(Failure::Run(error), Failure::Scene)
 }
 
 /// Failure of a run of which nothing was finished; the folder made for a scene that allows no run is removed.

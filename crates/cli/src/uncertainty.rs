@@ -8,8 +8,6 @@ use std::sync::Arc;
 use gearwear::report;
 use gearwear::scene::loaded::LoadedScene;
 use gearwear::uncertainty::asked::{UncertaintyFault, UncertaintyQuestion};
-use gearwear::uncertainty::design::CorrelationError;
-use gearwear::uncertainty::distribution::FORMS;
 use gearwear::uncertainty::record::UncertaintyRecord;
 use gearwear::uncertainty::study::{self, SampledQuestion, UncertaintyStudyError};
 
@@ -53,31 +51,6 @@ pub(super) struct UncertaintyArgs {
     /// Show neither progress nor figures, only what is wrong
     #[arg(long, short)]
     quiet: bool,
-}
-
-/// Option that caused the error.
-pub(super) fn option_of(fault: &UncertaintyFault) -> &'static str {
-    match fault {
-        UncertaintyFault::Uncertain(_) | UncertaintyFault::Count { .. } => "--uncertain: ",
-        UncertaintyFault::Correlation(_) => "--correlation: ",
-        UncertaintyFault::Limit(_) => "--limit: ",
-        UncertaintyFault::Output(_) => "--outputs: ",
-        UncertaintyFault::Samples { .. } => "--samples: ",
-        UncertaintyFault::Scene(_) | UncertaintyFault::Study(_) => "",
-    }
-}
-
-/// Remedy.
-pub(super) fn help_of(fault: &UncertaintyFault) -> String {
-    match fault {
-        UncertaintyFault::Output(_) => "summary.json of a run has all of them".to_owned(),
-        UncertaintyFault::Correlation(CorrelationError::NotPositiveDefinite) => {
-            "keys that are both close to a third are close to one another".to_owned()
-        }
-        UncertaintyFault::Samples { .. } => "powers of two are the most even".to_owned(),
-        UncertaintyFault::Study(_) | UncertaintyFault::Scene(_) => "gearwear run SCENE says more".to_owned(),
-        _ => format!("KEY=DISTRIBUTION with one of {FORMS}"),
-    }
 }
 
 pub(super) fn run(args: &UncertaintyArgs) -> Result<(), Failure> {

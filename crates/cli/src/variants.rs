@@ -15,10 +15,10 @@ use gearwear_studies::variants;
 use gearwear_studies::variants::finished_run::FinishedRun;
 use gearwear_studies::variants::record::{VariantRow, VariantsRecord};
 
-use super::failure::{Failure, InputError};
+use super::failure::{Failure, InputError, in_the_scene};
 use super::figures::{digits, or_dash};
 use super::progress::Progress;
-use super::run::{in_the_scene, pool, watch_for_interrupt};
+use super::run::{pool, watch_for_interrupt};
 use super::{print, warn};
 
 /// Most runs side by side.

@@ -26,33 +26,8 @@ use std::f64::consts;
 use std::sync::Arc;
 
 use super::profile;
-use super::value::Value;
+use super::value::{ColumnError, Value, same_length};
 use gearwear_bodies::reference::statistics;
-
-/// Why a function of columns has no value.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum ColumnError {
-    #[error("columns of {0} and {1} points do not go together")]
-    Lengths(usize, usize),
-    #[error("lists of different lengths, {0} and {1}")]
-    ListLengths(usize, usize),
-    #[error("the column has no points")]
-    Empty,
-    #[error("{place} lies outside the column, {from} to {to}")]
-    Outside { place: f64, from: f64, to: f64 },
-    #[error("the column never passes {0}")]
-    NeverPasses(f64),
-    #[error("a column is made of numbers")]
-    NotNumbers,
-    #[error("the places of a profile must rise")]
-    NotRising,
-    #[error("a profile of {0} points has no cubic form")]
-    NoForm(usize),
-}
-
-pub fn same_length(x: &[f64], y: &[f64]) -> Result<(), ColumnError> {
-    if x.len() == y.len() { Ok(()) } else { Err(ColumnError::Lengths(x.len(), y.len())) }
-}
 
 fn map(x: &[f64], f: impl Fn(f64) -> f64) -> Arc<[f64]> {
     x.iter().map(|&x| f(x)).collect()

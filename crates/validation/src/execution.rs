@@ -20,9 +20,10 @@ use gearwear::report::csv_table::{self, Column};
 use gearwear::report::slice_table;
 use gearwear::report::tables;
 use gearwear::runs;
-use gearwear::scene::draft::{self, Draft};
+use gearwear::scene::draft::Draft;
 use gearwear::scene::fem_problem::FemProblem;
 use gearwear::scene::loaded::{self, LoadedScene, NamedFiles, SceneText};
+use gearwear::scene::table;
 use gearwear::scene::{Problem, Resolved, presets};
 use gearwear::varied_scene::in_words;
 use gearwear_bodies::gear::Gear;
@@ -207,7 +208,7 @@ impl MemberRun<'_> {
             return self.finite_element_pair();
         }
         for (key, value) in &self.member.set {
-            draft::set(&mut file, key, value.clone());
+            table::set(&mut file, key, value.clone());
         }
         let problem = FemProblem::from_toml(&file.to_string()).map_err(wrong)?;
         let record = fem_problem::run(&problem, self.folder, self.watch).map_err(|error| match error {

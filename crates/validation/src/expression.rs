@@ -7,7 +7,7 @@
 
 use super::column;
 use super::syntax::{self, Term, TermNode};
-use super::value::Value;
+use super::value::{ColumnError, Value};
 
 /// Greatest number of items of a list made by an expression, nested lists included; columns of results may be longer.
 const MOST_ITEMS: usize = 100_000;
@@ -37,7 +37,7 @@ pub enum TermFault {
     #[error("found a list too large; allowed: {MOST_ITEMS} items, those of lists in it included")]
     TooLarge,
     #[error(transparent)]
-    Column(#[from] column::ColumnError),
+    Column(#[from] ColumnError),
 }
 
 /// Evaluates expressions over names.

@@ -8,8 +8,7 @@
 //!
 //! A peak is separate where the profile falls by `share` of its height on both sides before it rises above the peak.
 
-use super::column::{ColumnError, same_length};
-use super::value::Value;
+use super::value::{ColumnError, Value, same_length};
 use gearwear_bodies::reference::separate_peaks::separate_peaks;
 use gearwear_studies::measurement::form::{Form, FormRemoval};
 use gearwear_studies::measurement::roughness;

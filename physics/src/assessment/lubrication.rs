@@ -13,7 +13,8 @@
 
 use std::f64::consts::PI;
 
-use super::{RunModel, scuffing, slices};
+use super::scuffing::{self, NO_SHARING_FACTOR};
+use super::{RunModel, slices};
 use crate::contact::settings::SurfaceKind;
 use crate::lubrication::local_film::local_film;
 use crate::lubrication::loss;
@@ -26,10 +27,6 @@ use crate::results::lubrication::{
 use crate::simulation::wear_run::Outcome;
 use gearwear_bodies::gear::{Gear, PerGear, flank_zones::FlankZone};
 use gearwear_bodies::reference::hertz_line::PEAK_OVER_MEAN;
-
-/// Reason why figures with the standards' load sharing factor are missing.
-pub(super) const NO_SHARING_FACTOR: &str =
-    "the standards have a load sharing factor for transverse contact ratios below 2 alone";
 
 /// Summary and rows of the record.
 pub(super) struct LubricationFindings {

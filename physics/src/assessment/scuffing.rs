@@ -13,6 +13,9 @@ use crate::stiffness::iso6336::{mesh_over_single, single_stiffness_n_per_mm2};
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_bodies::material::Material;
 
+/// Reason why figures with the standards' load sharing factor are missing.
+pub(super) const NO_SHARING_FACTOR: &str =
+    "the standards have a load sharing factor for transverse contact ratios below 2 alone";
 /// Places along the path at which the flash temperature is averaged.
 const PLACES: usize = 400;
 /// Part of the mean flash temperature by which teeth are warmer than the oil, ISO/TS 6336-20.
@@ -78,7 +81,7 @@ pub(super) fn summary(running: &RunningPair<'_>, oil: &OilInMesh, material: &Per
         scuffing_temperature_C: limit_c,
         scuffing_safety: limit_c.zip(contact_c).map(|(limit, contact)| over_oil(limit) / over_oil(contact)),
         flash_points: flash.map_or_else(Vec::new, |flash| flash.points),
-        flash_null_because: (!has_flash).then(|| super::lubrication::NO_SHARING_FACTOR.to_owned()),
+        flash_null_because: (!has_flash).then(|| NO_SHARING_FACTOR.to_owned()),
         run_in_factor: integral.as_ref().map(|own| own.run_in_factor),
         integral_friction: integral.as_ref().map(|own| own.friction),
         integral_flash_K: integral.as_ref().map(|own| own.flash_k),

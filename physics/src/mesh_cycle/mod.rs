@@ -25,6 +25,7 @@ pub mod sliced_mesh;
 pub mod sliced_positions;
 pub mod sliced_sharing;
 pub mod sliced_teeth;
+pub mod spring_along_path;
 pub mod tip_contact;
 pub mod wearing_pair;
 mod worn_points;

@@ -8,8 +8,8 @@ use super::influence::Influence;
 use super::pair_in_space::PairInSpace;
 use super::settings::{Coupling, SliceSettings};
 use super::slice_coupling::{Reach, SliceCompliance, SliceCoupling};
-use super::sliced::SpringAlongPath;
 use super::sliced_positions::SliceContact;
+use super::spring_along_path::SpringAlongPath;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear, slices::Slices};
 use gearwear_bodies::material::Material;
 

@@ -10,9 +10,10 @@ use crate::mesh_cycle::{
     LineOfActionCycle, MeshCycle,
     condensed::CondensedCycle,
     positions::{loading_positions, positions_with_tip_contact},
-    sliced::{SliceSprings, SlicedCycle, SpringAlongPath},
+    sliced::{SliceSprings, SlicedCycle},
     sliced_positions::{SliceEnds, sliced_positions},
     sliced_teeth::SlicedTeeth,
+    spring_along_path::SpringAlongPath,
     tip_contact,
 };
 use crate::stiffness::{SpringParts, StiffnessError, TeethSpring};

@@ -5,7 +5,7 @@ use gearwear_bodies::gear::{
     flank::{FlankGrid, PointSpacing},
     flank_zones::FlankZones,
     modification::{Modification, Relief, ReliefShape},
-    removed_material::{modifications_mm, tip_rounding_length_mm},
+    removed_material::modifications_mm,
     slices::Slices,
     spec::PairSpec,
 };
@@ -59,7 +59,7 @@ fn ver_points_crowd_on_tip_roundings() {
     let pair = rounded(0.1);
     for gear in Gear::BOTH {
         let tooth = &pair.teeth[gear];
-        let begins = tooth.involute.arc_mm(tooth.tip_rho_mm()) - tip_rounding_length_mm(0.1, tooth);
+        let begins = tooth.involute.arc_mm(tooth.tip_rho_mm()) - tooth.tip_rounding_length_mm(0.1);
         let within = |grid: &FlankGrid| grid.arc_mm.iter().filter(|arc| **arc > begins).count();
         let [even, graded] = grids(&pair, gear, 750);
         let [_, coarse] = grids(&pair, gear, 375);
@@ -111,7 +111,7 @@ fn ver_the_tip_edge_zone_is_as_long_as_it_is_said_to_be() {
     for gear in Gear::BOTH {
         let tooth = &pair.teeth[gear];
         let arc_mm = |radius_mm: f64| tooth.involute.arc_mm(tooth.involute.curvature_radius_mm(radius_mm));
-        let begins_mm = arc_mm(tooth.tip_radius_mm) - tip_rounding_length_mm(0.1, tooth);
+        let begins_mm = arc_mm(tooth.tip_radius_mm) - tooth.tip_rounding_length_mm(0.1);
         for (half_width_mm, length_mm) in [(0.1, 0.3), (0.3, 0.15 * 4.5)] {
             let zones = FlankZones::new(&pair, gear, half_width_mm);
             assert!(

@@ -5,7 +5,7 @@ use gearwear_bodies::gear::{
     flank_zones::{FlankZone, FlankZones},
     modification::{Modification, Relief, ReliefShape},
     outline::{OutlineCurve, outline},
-    removed_material::{removed_mm, tip_rounding_length_mm},
+    removed_material::removed_mm,
     tooth::Tooth,
 };
 use gearwear_physics::contact::hertz::flattening;
@@ -201,7 +201,7 @@ fn ver_modifications_remove_what_they_say() {
     let rounded = Modification { tip_rounding_mm: 0.2, ..Modification::default() };
     let turn = std::f64::consts::FRAC_PI_2 - tooth.involute.pressure_angle_rad(tip);
     let length = 0.2 * (0.5 * turn).tan();
-    assert_close("length", tip_rounding_length_mm(0.2, tooth), length, 1e-12);
+    assert_close("length", tooth.tip_rounding_length_mm(0.2), length, 1e-12);
     assert_close("at the tip", at(&rounded, tip), 0.2 - (0.04 - length * length).sqrt(), 1e-9);
     assert_eq!(at(&rounded, tip - 2.0), 0.0);
 }

@@ -1,7 +1,7 @@
 //! A chart as a drawing: frame, grid, traces, marks, colour scale and legend.
 
 use super::axis::PlacedAxis;
-use super::picture::{Anchor, Group, Medium, Moves, Node, Path, Picture, Step, Words};
+use super::picture::{Anchor, Group, Medium, Moves, Node, Path, Picture, Step, Words, rectangle};
 use super::sign;
 use crate::report::chart::{BarPlaces, Chart, Dash, Drawn, Field, INK, Label, Line, MUTED, Trace};
 use gearwear_bodies::reference::statistics::extent;
@@ -321,16 +321,6 @@ fn entry_width(trace: &Trace) -> f64 {
 }
 
 /// With left, top, right and bottom.
-pub(super) fn rectangle([left, top, right, bottom]: [f64; 4]) -> Vec<Step> {
-    let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
-    polygon(&corners)
-}
-
-pub(super) fn polygon(corners: &[[f64; 2]]) -> Vec<Step> {
-    let first = corners.iter().take(1).map(|corner| Step::Move(*corner));
-    first.chain(corners.iter().skip(1).map(|corner| Step::Line(*corner))).chain([Step::Close]).collect()
-}
-
 /// The range of the colours of a field: about its value where it has but one, and 0 to 1 where it has none.
 pub(super) fn range_of_colours(field: &Field) -> [f64; 2] {
     let finite = field.values.iter().flatten().copied().filter(|value| value.is_finite());

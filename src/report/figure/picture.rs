@@ -73,6 +73,16 @@ pub(super) enum Step {
     Close,
 }
 
+pub(super) fn rectangle([left, top, right, bottom]: [f64; 4]) -> Vec<Step> {
+    let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
+    polygon(&corners)
+}
+
+pub(super) fn polygon(corners: &[[f64; 2]]) -> Vec<Step> {
+    let first = corners.iter().take(1).map(|corner| Step::Move(*corner));
+    first.chain(corners.iter().skip(1).map(|corner| Step::Line(*corner))).chain([Step::Close]).collect()
+}
+
 /// Lines and areas about the point `at`.
 pub(super) struct Path {
     pub at: [f64; 2],

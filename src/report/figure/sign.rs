@@ -1,7 +1,6 @@
 //! Signs of points, and of traces in a legend.
 
-use super::drawing::{polygon, rectangle};
-use super::picture::{Group, Medium, Moves, Node, Path, Picture, Step};
+use super::picture::{Group, Medium, Moves, Node, Path, Picture, Step, polygon, rectangle};
 use crate::report::chart::{Bars, Curve, Dash, Drawn, Line, Signs, Trace};
 
 /// Width of the outline of open signs, px.

@@ -1,9 +1,9 @@
 //! The traces of a chart on its drawing, and the scale of colours beside it.
 
 use super::contours;
-use super::drawing::{Drawing, polygon, range_of_colours, rectangle};
+use super::drawing::{Drawing, range_of_colours};
 use super::palette::{hex, of_scale};
-use super::picture::{Anchor, FieldOfColour, Group, Medium, Moves, Node, Path, Step};
+use super::picture::{Anchor, FieldOfColour, Group, Medium, Moves, Node, Path, Step, polygon, rectangle};
 use super::png::{LEVELS, NO_LEVEL};
 use super::sign;
 use super::{axis::PlacedAxis, drawing::TICK_SPACING};

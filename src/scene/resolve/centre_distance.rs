@@ -1,9 +1,8 @@
 //! The centre distance, as given or from the backlash.
 
-use super::pair::PRESET;
 use crate::scene::file::PairFile;
 use crate::scene::findings::Findings;
-use crate::scene::problem::number;
+use crate::scene::{presets, problem::number};
 use gearwear_bodies::gear::backlash::{Backlash, TeethTooThin};
 use gearwear_bodies::gear::spec::PairSpec;
 
@@ -29,7 +28,7 @@ pub(super) fn given(file: &PairFile, findings: &mut Findings) -> Option<CentreDi
         }
         (None, None, Some(um)) => Some(CentreDistance::Leaves { key: normal, backlash: Backlash::Normal(UM * um) }),
         (None, None, None) => {
-            findings.missing(&[centre, PRESET], "a number greater than 0");
+            findings.missing(&[centre, presets::KEY], "a number greater than 0");
             findings.help(format!("{circumferential} = 0 or {normal} = 0 is a pair without backlash"));
             None
         }

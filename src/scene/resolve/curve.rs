@@ -2,6 +2,7 @@
 
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
+use gearwear_physics::thermal::tooth::TemperatureCurve;
 
 /// A curve as the file has it: the key of each array, and the array.
 type Array<'a> = (&'a str, &'a Option<Vec<f64>>);
@@ -39,4 +40,22 @@ pub(super) fn choose(places: Array<'_>, values: Array<'_>, findings: &mut Findin
         return None;
     }
     Some([at.clone(), of.clone()])
+}
+
+/// The curve in the table `key` of what its array `name` holds over the temperature of the teeth, which the scene must give.
+pub(super) fn tooth_curve(
+    key: &str,
+    temperature_c: &Option<Vec<f64>>,
+    (name, values): (&str, &Option<Vec<f64>>),
+    has_tooth_temperature: bool,
+    findings: &mut Findings,
+) -> Option<TemperatureCurve> {
+    let [places, name] = ["temperature_C", name].map(|name| format!("{key}.{name}"));
+    let [temperature_c, value] = choose((&places, temperature_c), (&name, values), findings)?;
+    if !has_tooth_temperature {
+        findings.missing(&["temperature.tooth.ambient_temperature_C"], "a number from -60 to 250");
+        findings.help(format!("{key} follows the temperature of the teeth and needs the table [temperature.tooth]"));
+        return None;
+    }
+    Some(TemperatureCurve { temperature_c, value })
 }

@@ -1,9 +1,8 @@
 //! Material of each gear: elastic and thermal.
 
-use super::temperature;
-use crate::scene::file::{GearMaterialFile, MaterialFile, ModulusCurveFile};
+use super::curve;
+use crate::scene::file::{GearMaterialFile, MaterialFile, MaterialPreset, ModulusCurveFile};
 use crate::scene::findings::Findings;
-use crate::scene::material_presets::MaterialPreset;
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_bodies::material::Material;
 use gearwear_physics::thermal::settings::ThermalMaterial;
@@ -128,7 +127,7 @@ fn modulus_curve(
     findings: &mut Findings,
 ) -> Option<TemperatureCurve> {
     let values = ("young_modulus_GPa", &file.young_modulus_GPa);
-    let in_gpa = temperature::tooth_curve(key, &file.temperature_C, values, has_tooth_temperature, findings)?;
+    let in_gpa = curve::tooth_curve(key, &file.temperature_C, values, has_tooth_temperature, findings)?;
     Some(TemperatureCurve { value: in_gpa.value.into_iter().map(|gpa| 1e3 * gpa).collect(), ..in_gpa })
 }
 

@@ -26,7 +26,7 @@ use super::problem::{Problem, ProblemKind};
 use super::resolve::settings::StiffnessInputs;
 use super::schema::{Node, schema};
 use super::shape::{self, FileShape};
-use super::{Resolved, draft, presets, text, unit_slip};
+use super::{Resolved, presets, table, text, unit_slip};
 use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS};
 use gearwear_physics::contact::settings::{ContactSettings, SurfaceKind};
@@ -95,9 +95,9 @@ fn with_preset(mut scene: Table) -> Table {
         pair.remove("preset");
         // Keys of the file also replace alternative keys of the preset.
         let mut below = Table::from_iter([("pair".to_owned(), Value::Table(preset.pair()))]);
-        for key in draft::keys_of(pair, "pair") {
-            for other in draft::other_ways_to_say(&key) {
-                draft::remove(&mut below, &other);
+        for key in table::keys_of(pair, "pair") {
+            for other in table::other_ways_to_say(&key) {
+                table::remove(&mut below, &other);
             }
         }
         let Some(Value::Table(below)) = below.remove("pair") else { return scene };

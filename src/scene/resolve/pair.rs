@@ -6,6 +6,7 @@
 use super::{centre_distance, modifications};
 use crate::scene::file::{AxisParallelismFile, BasicRackFile, GearFile, PairFile, ShaftFile};
 use crate::scene::findings::Findings;
+use crate::scene::presets;
 use gearwear_bodies::gear::modification::Modification;
 use gearwear_bodies::gear::root_trochoid::greatest_fillet_radius_factor;
 use gearwear_bodies::gear::shaft::Shaft;
@@ -13,7 +14,6 @@ use gearwear_bodies::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec
 use gearwear_bodies::gear::{Gear, PerGear};
 
 const UM: f64 = 1e-3;
-pub(super) const PRESET: &str = "pair.preset";
 
 /// Chooses what `[pair]` leaves open; `None` where something needed is missing or contradictory.
 pub(super) fn choose(file: &mut PairFile, findings: &mut Findings) -> Option<PairSpec> {
@@ -48,7 +48,7 @@ pub(super) fn choose(file: &mut PairFile, findings: &mut Findings) -> Option<Pai
 
 fn required<T>(value: Option<T>, key: &str, allowed: &str, findings: &mut Findings) -> Option<T> {
     if value.is_none() {
-        findings.missing(&[key, PRESET], allowed);
+        findings.missing(&[key, presets::KEY], allowed);
     }
     value
 }
@@ -63,7 +63,7 @@ fn module(file: &PairFile, cos_beta: f64, findings: &mut Findings) -> Option<f64
             None
         }
         (None, None) => {
-            findings.missing(&[keys[0], keys[1], PRESET], "a number greater than 0");
+            findings.missing(&[keys[0], keys[1], presets::KEY], "a number greater than 0");
             None
         }
     }
@@ -80,7 +80,7 @@ fn pressure_angle(file: &PairFile, cos_beta: f64, findings: &mut Findings) -> Op
             None
         }
         (None, None) => {
-            findings.missing(&[keys[0], keys[1], PRESET], "a number at least 5 and at most 45");
+            findings.missing(&[keys[0], keys[1], presets::KEY], "a number at least 5 and at most 45");
             None
         }
     }

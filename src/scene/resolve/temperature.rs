@@ -1,6 +1,5 @@
 //! Contact temperatures: only where the wear law reads them or the scene asks for them.
 
-use super::curve;
 use super::material::Materials;
 use crate::scene::file::{OperationFile, SceneFile};
 use crate::scene::findings::Findings;
@@ -8,9 +7,7 @@ use crate::scene::wear_file::{ToothLubrication, ToothTemperatureFile, WearFile};
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_bodies::material::Material;
 use gearwear_physics::thermal::settings::{ABSOLUTE_ZERO_C, HeatSettings};
-use gearwear_physics::thermal::tooth::{
-    DRY_ON_METAL, DRY_ON_PLASTIC, IN_OIL, TemperatureCurve, ToothCoefficients, ToothHeatSettings,
-};
+use gearwear_physics::thermal::tooth::{DRY_ON_METAL, DRY_ON_PLASTIC, IN_OIL, ToothCoefficients, ToothHeatSettings};
 use gearwear_physics::wear::settings::{LawSettings, WearSettings};
 
 const FRICTION_COEFFICIENT: f64 = 0.1;
@@ -174,24 +171,6 @@ fn tooth_coefficients(
             None
         }
     }
-}
-
-/// The curve in the table `key` of what its array `name` holds over the temperature of the teeth, which the scene must give.
-pub(super) fn tooth_curve(
-    key: &str,
-    temperature_c: &Option<Vec<f64>>,
-    (name, values): (&str, &Option<Vec<f64>>),
-    has_tooth_temperature: bool,
-    findings: &mut Findings,
-) -> Option<TemperatureCurve> {
-    let [places, name] = ["temperature_C", name].map(|name| format!("{key}.{name}"));
-    let [temperature_c, value] = curve::choose((&places, temperature_c), (&name, values), findings)?;
-    if !has_tooth_temperature {
-        findings.missing(&["temperature.tooth.ambient_temperature_C"], "a number from -60 to 250");
-        findings.help(format!("{key} follows the temperature of the teeth and needs the table [temperature.tooth]"));
-        return None;
-    }
-    Some(TemperatureCurve { temperature_c, value })
 }
 
 /// Whether every phase has a speed.

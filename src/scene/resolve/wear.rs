@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use toml::Table;
 
-use super::{curve, temperature};
+use super::curve;
 use crate::scene::file::OperationFile;
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
@@ -70,7 +70,7 @@ pub(super) fn choose(file: &mut WearFile, given: LawInputs, findings: &mut Findi
             None => Some(None),
             Some(WarmFile { temperature_C, factor }) => {
                 let (values, has_tooth) = (("factor", factor), given.has_tooth_temperature);
-                temperature::tooth_curve(&warm_key, temperature_C, values, has_tooth, findings).map(Some)
+                curve::tooth_curve(&warm_key, temperature_C, values, has_tooth, findings).map(Some)
             }
         };
         Some(WearSettings { film: film?, warm: warm?, ..of_gear(&mut wholes[gear], gear, findings)? })

@@ -14,7 +14,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Gear, GearPair, PerGear, removed_material::tip_rounding_length_mm};
+use super::{Gear, GearPair, PerGear};
 
 /// Height of the root zone in radius, from the start of active profile (SAP) upward, mm.
 const ROOT_MM: f64 = 2.0;
@@ -57,7 +57,7 @@ impl FlankZones {
     /// Zones of `gear`'s flank with Hertz's half-width `half_width_mm` at the pitch point under the whole load, or the greatest of several.
     pub fn new(pair: &GearPair, gear: Gear, half_width_mm: f64) -> Self {
         let (tooth, spec) = (&pair.teeth[gear], &pair.spec);
-        let rounding_mm = tip_rounding_length_mm(spec.gears[gear].modification.tip_rounding_mm, tooth);
+        let rounding_mm = tooth.tip_rounding_length_mm(spec.gears[gear].modification.tip_rounding_mm);
         let length_mm = (TIP_EDGE_HALF_WIDTHS * half_width_mm).min(MOST_TIP_EDGE_MODULES * spec.normal_module_mm);
         let start = pair.active_start_rho_mm(gear);
         // On a short flank the tip-edge zone begins at the start of active profile.

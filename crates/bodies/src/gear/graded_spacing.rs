@@ -15,7 +15,7 @@
 //! everywhere. Below the flank in contact the spacing grows as a geometric series, so that even a rack, whose base circle is
 //! a hundred tooth heights below the teeth, has few points there.
 
-use super::{Gear, GearPair, removed_material::tip_rounding_length_mm};
+use super::{Gear, GearPair};
 
 /// Greatest spacing h_0, in modules.
 const WIDEST_MODULES: f64 = 0.003;
@@ -62,7 +62,7 @@ impl Distances {
         let [tip_mm, start_mm] =
             [tooth.tip_rho_mm(), pair.active_start_rho_mm(gear)].map(|rho_mm| tooth.involute.arc_mm(rho_mm.max(0.0)));
         let widest_mm = WIDEST_MODULES * module_mm;
-        let rounding_mm = tip_rounding_length_mm(pair.spec.tip_rounding_mm(gear), tooth);
+        let rounding_mm = tooth.tip_rounding_length_mm(pair.spec.tip_rounding_mm(gear));
         let at_tip = match rounding_mm > 0.0 {
             true => (rounding_mm / ON_ROUNDING).clamp(FINEST * widest_mm, widest_mm),
             false => AT_SHARP_EDGE * widest_mm,

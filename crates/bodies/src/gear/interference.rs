@@ -18,7 +18,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector2;
 
-use super::{Gear, GearPair, removed_material::tip_rounding_length_mm, tooth::Tooth};
+use super::{Gear, GearPair, tooth::Tooth};
 
 /// Number of points of the trochoid.
 const FILLET_POINTS: usize = 400;
@@ -75,7 +75,7 @@ impl TipInSpace<'_> {
         let own_rho = self.line_of_action_mm - mate_rho;
         let axis = Vector2::new(own.base_radius_mm, -own_rho);
         // Arc of the rounding, or the corner alone.
-        let length = tip_rounding_length_mm(self.rounding_mm, self.mate);
+        let length = self.mate.tip_rounding_length_mm(self.rounding_mm);
         let start_rho = (tip_rho * tip_rho - 2.0 * mate.base_radius_mm * length).max(0.0).sqrt();
         let turn = (start_rho - mate_rho) / mate.base_radius_mm;
         let (sin, cos) = turn.sin_cos();

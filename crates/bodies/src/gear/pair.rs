@@ -9,8 +9,7 @@ use std::f64::consts::PI;
 
 use super::modification::{Modification, ReliefShape};
 use super::{
-    Gear, PairError, PerGear, backlash::Backlash, path_of_contact::PathOfContact,
-    removed_material::tip_rounding_length_mm, spec::PairSpec, tooth::Tooth,
+    Gear, PairError, PerGear, backlash::Backlash, path_of_contact::PathOfContact, spec::PairSpec, tooth::Tooth,
 };
 
 /// Negative backlash that rounded profile shifts and centre distances may have, in normal modules (4.5 µm for module 4.5).
@@ -246,7 +245,7 @@ impl GearPair {
             [tooth.tip_rho_mm(), self.active_start_rho_mm(gear)].map(|rho_mm| tooth.involute.arc_mm(rho_mm));
         let flank_mm = tip_mm - start_mm;
         let room_mm = flank_mm.min(0.5 * tooth.thickness_mm(tooth.tip_radius_mm));
-        let greatest_mm = room_mm / tip_rounding_length_mm(1.0, tooth);
+        let greatest_mm = room_mm / tooth.tip_rounding_length_mm(1.0);
         if radius_mm <= greatest_mm {
             Ok(())
         } else {

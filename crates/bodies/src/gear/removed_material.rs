@@ -95,12 +95,6 @@ pub fn removed_mm(modification: &Modification, tooth: &Tooth, active_start_rho_m
     tip + root + crowning + tip_rounding_mm(modification.tip_rounding_mm, tooth, rho_mm)
 }
 
-/// Length of a tip rounding along the flank, ρ_k tan(γ/2) with the angle γ = π/2 − α_a between flank and tip circle.
-pub fn tip_rounding_length_mm(rounding_mm: f64, tooth: &Tooth) -> f64 {
-    let turn = std::f64::consts::FRAC_PI_2 - tooth.involute.pressure_angle_rad(tooth.tip_rho_mm());
-    rounding_mm * (0.5 * turn).tan()
-}
-
 /// Material removed by a relief at the roll length `from_start_mm` from its beginning; 0 before, its amount after its end.
 fn relief_mm(relief: Relief, from_start_mm: f64) -> f64 {
     let fraction = (from_start_mm / relief.length_mm).clamp(0.0, 1.0);
@@ -113,7 +107,7 @@ fn relief_mm(relief: Relief, from_start_mm: f64) -> f64 {
 
 /// Material removed at radius of curvature `rho_mm` of `tooth` by a rounding of its tip edge.
 pub fn tip_rounding_mm(radius: f64, tooth: &Tooth, rho_mm: f64) -> f64 {
-    let begins = tooth.involute.arc_mm(tooth.tip_rho_mm()) - tip_rounding_length_mm(radius, tooth);
+    let begins = tooth.involute.arc_mm(tooth.tip_rho_mm()) - tooth.tip_rounding_length_mm(radius);
     let into = tooth.involute.arc_mm(rho_mm) - begins;
     if radius <= 0.0 || into <= 0.0 {
         return 0.0;

@@ -35,11 +35,7 @@ use nalgebra::Vector2;
 
 use super::conjugate::ConjugateFlanks;
 use super::flank_edge::{FlankEdge, PathEnd};
-use super::{
-    Gear, GearPair, PerGear,
-    removed_material::{self, tip_rounding_length_mm},
-    tooth::LoadLine,
-};
+use super::{Gear, GearPair, PerGear, removed_material, tooth::LoadLine};
 
 /// Upper bound of the approach of flanks, in units of line load over E*: at the pitch point of type C 7.4 units for steel, 4.8 for plastic
 /// on a rigid pinion.
@@ -91,7 +87,7 @@ impl GearPair {
         if rounding_mm == 0.0 {
             return tooth.tip_rho_mm();
         }
-        let arc_mm = tooth.involute.arc_mm(tooth.tip_rho_mm()) - tip_rounding_length_mm(rounding_mm, tooth);
+        let arc_mm = tooth.involute.arc_mm(tooth.tip_rho_mm()) - tooth.tip_rounding_length_mm(rounding_mm);
         tooth.involute.rho_at_arc_mm(arc_mm)
     }
 

@@ -188,6 +188,12 @@ impl Tooth {
         2.0 * radius_mm * self.half_angle_rad(radius_mm)
     }
 
+    /// Length along the flank of a tip rounding of this radius, ρ_k tan(γ/2) with the angle γ = π/2 − α_a between flank and tip circle.
+    pub fn tip_rounding_length_mm(&self, rounding_mm: f64) -> f64 {
+        let turn = std::f64::consts::FRAC_PI_2 - self.involute.pressure_angle_rad(self.tip_rho_mm());
+        rounding_mm * (0.5 * turn).tan()
+    }
+
     /// Radius of curvature at the tip.
     pub fn tip_rho_mm(&self) -> f64 {
         self.involute.curvature_radius_mm(self.tip_radius_mm)

@@ -18,7 +18,7 @@ use sprs::{CsMat, TriMat};
 
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::{Direction, FacingTeeth, FlankOverlap, PlacedTeeth};
-use super::prepared::add_sandwich;
+use super::sandwich::add_sandwich;
 use crate::gear::{Gear, PerGear};
 use gearwear_fem::active_set::ContactEquilibrium;
 use gearwear_fem::contact::master_search::LEAST_FACING;

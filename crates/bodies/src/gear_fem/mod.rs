@@ -14,5 +14,6 @@ pub mod placement;
 pub mod position;
 pub mod prepared;
 pub mod ring;
+mod sandwich;
 pub mod sector;
 pub mod tilted;

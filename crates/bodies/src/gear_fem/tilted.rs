@@ -19,7 +19,8 @@ use sprs::CsMat;
 
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::turned;
-use super::prepared::{PreparedPosition, Sideways, add_sandwich, mirror_below};
+use super::prepared::{PreparedPosition, Sideways};
+use super::sandwich::{add_sandwich, mirror_below};
 use crate::gear::{Gear, PerGear};
 
 /// Wear of both flanks.

@@ -1,6 +1,6 @@
 //! The curves of a run that errors are measured on, and how they are brought onto common coordinates.
 
-use super::over_width::{OverWidth, depths_at_widths, interpolated, pressure_along_path_mpa};
+use super::over_width::{OverWidth, corrected, depths_at_widths, interpolated, pressure_along_path_mpa};
 use gearwear_bodies::gear::PerGear;
 use gearwear_bodies::gear::flank_zones::{FlankZone, FlankZones};
 use gearwear_bodies::gear::slices::greatest_over_width;
@@ -98,16 +98,6 @@ impl ObservedRun {
             }),
         }
     }
-}
-
-/// own + factor · (fine − coarse), value by value.
-pub(super) fn corrected<'a>(
-    factor: f64,
-    own: &'a [f64],
-    fine: &'a [f64],
-    coarse: &'a [f64],
-) -> impl Iterator<Item = f64> + 'a {
-    own.iter().zip(fine.iter().zip(coarse)).map(move |(x, (f, c))| x + factor * (f - c))
 }
 
 impl ObservedCycle {

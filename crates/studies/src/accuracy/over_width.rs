@@ -5,7 +5,6 @@
 //! holding the values there would leave an error of first order in the slices' width at both ends of the tooth. Depths are
 //! never negative.
 
-use super::observed::corrected;
 use gearwear_bodies::gear::PerGear;
 use gearwear_bodies::reference::linear_means::value_at;
 use gearwear_physics::results::run::{RunRecord, SliceRecord};
@@ -102,6 +101,16 @@ pub fn interpolated(x: &[f64], values: &[f64], at: &[f64]) -> Vec<f64> {
             (_, values) => value_at(x, values, place),
         })
         .collect()
+}
+
+/// own + factor · (fine − coarse), value by value.
+pub(super) fn corrected<'a>(
+    factor: f64,
+    own: &'a [f64],
+    fine: &'a [f64],
+    coarse: &'a [f64],
+) -> impl Iterator<Item = f64> + 'a {
+    own.iter().zip(fine.iter().zip(coarse)).map(move |(x, (f, c))| x + factor * (f - c))
 }
 
 #[cfg(test)]

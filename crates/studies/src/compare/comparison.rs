@@ -115,3 +115,8 @@ impl<'a> Comparison<'a> {
         Beginning { shift_mm, factor }
     }
 }
+
+pub(super) fn root_mean_square(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len() as f64;
+    (values.map(|v| v * v).sum::<f64>() / count).sqrt()
+}

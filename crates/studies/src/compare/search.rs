@@ -13,10 +13,9 @@
 //! abrupt transition to severe wear, wear steps beyond the stable one), exact runs scatter: steps of up to half a standard deviation then remain, and
 //! are reported.
 
-use super::comparison::{Beginning, Comparison};
+use super::comparison::{Beginning, Comparison, root_mean_square};
 use super::question::{ComparisonQuestion, FitKind, FittedGears};
 use super::simulations::{CoefficientChange, CompareError, Simulations};
-use super::study::root_mean_square;
 use super::unknown::Unknown;
 use crate::measurement::fit::{FitStop, Parameter, broyden_update, gauss_newton_step, least_squares};
 use crate::measurement::interval::{FitUncertainty, ProfilePart, uncertainty};

@@ -1,6 +1,6 @@
 //! A comparison from beginning to end.
 
-use super::comparison::Comparison;
+use super::comparison::{Comparison, root_mean_square};
 use super::question::{ComparisonQuestion, FittedGears, ProfileQuestion, is_of_both};
 use super::record::{
     Coefficient, CoefficientCorrelation, CompareFigures, CompareRecord, CompareRow, FitRecord, FittedValue,
@@ -246,11 +246,6 @@ fn figures(of: &ProfileQuestion, rows: &[CompareRow]) -> CompareFigures {
         greatest_difference_radius_mm: worst.map_or(0.0, |row| row.radius_mm),
         uncertainty_um: of.uncertainty_um,
     }
-}
-
-pub(super) fn root_mean_square(values: impl ExactSizeIterator<Item = f64>) -> f64 {
-    let count = values.len() as f64;
-    (values.map(|v| v * v).sum::<f64>() / count).sqrt()
 }
 
 fn warnings(fit: &FitRecord, profiles: &[ProfileRecord], unsettled: Option<f64>) -> Vec<String> {

@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 
 use toml::{Table, Value};
 
-use gearwear::scene::draft::set;
 use gearwear::scene::presets;
+use gearwear::scene::table::set;
 
 /// Presets whose pair is written out in their text.
 const PAIRS: [&str; 6] = ["fzg-c", "fzg-a", "helical", "h501", "h701", "h951"];

@@ -2,7 +2,7 @@
 
 use toml::{Table, Value};
 
-use gearwear::scene::draft;
+use gearwear::scene::table::set;
 
 /// The value at the path `key`.
 pub(super) fn value<'a>(table: &'a Table, key: &str) -> Option<&'a Value> {
@@ -35,7 +35,7 @@ pub(super) fn phases(table: &Table) -> Option<&Vec<Value>> {
 /// The scene with the value at the path `key` exchanged.
 pub(super) fn with(table: &Table, key: &str, value: impl Into<Value>) -> Table {
     let mut table = table.clone();
-    draft::set(&mut table, key, value);
+    set(&mut table, key, value);
     table
 }
 

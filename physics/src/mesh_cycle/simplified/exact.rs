@@ -5,10 +5,10 @@
 use crate::contact::{Footprint, PairContact, PointContact, PressedCell, Response, Sweep, hertz};
 use crate::mesh_cycle::{
     load_sharing::{EquilibriumError, MeshedPair, PairEquilibrium, balance},
-    sliced::SpringAlongPath,
     sliced_positions::SliceContact,
     sliced_sharing::balance_on_teeth,
     sliced_teeth::SlicedTeeth,
+    spring_along_path::SpringAlongPath,
 };
 use gearwear_bodies::gear::{Gear, GearPair, PerGear};
 use gearwear_bodies::material::Material;

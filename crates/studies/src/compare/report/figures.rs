@@ -3,7 +3,6 @@
 
 use std::f64::consts::TAU;
 
-use super::page::interval;
 use crate::compare::record::{CompareRecord, CompareRow, FittedValue, ProfileRecord};
 use gearwear::report::chart::{Chart, Dash, MUTED, NEW, Trace, WORN, padded};
 use gearwear::report::html::number::{figure, fixed, significant};
@@ -201,5 +200,15 @@ impl ShownProfile<'_> {
         }
         let differences = self.column(|row| row.difference_um);
         self.curve(chart, "measured less simulated", differences, (WORN, 1.4, Dash::Solid))
+    }
+}
+
+/// ", 95 % interval … to …".
+pub(super) fn interval(estimate: &FittedValue) -> String {
+    match (estimate.low, estimate.high) {
+        (Some(low), Some(high)) => {
+            format!(", 95 % interval {} to {}", significant(low, 3), significant(high, 3))
+        }
+        _ => ", without an interval".to_owned(),
     }
 }

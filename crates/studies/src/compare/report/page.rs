@@ -95,17 +95,7 @@ fn answer(record: &CompareRecord) -> String {
 
 /// "a wear coefficient of …, 95 % interval … to …".
 fn of_estimate(what: &str, estimate: &FittedValue) -> String {
-    format!("{what} of {}{}", significant(estimate.value, 3), interval(estimate))
-}
-
-/// ", 95 % interval … to …".
-pub(super) fn interval(estimate: &FittedValue) -> String {
-    match (estimate.low, estimate.high) {
-        (Some(low), Some(high)) => {
-            format!(", 95 % interval {} to {}", significant(low, 3), significant(high, 3))
-        }
-        _ => ", without an interval".to_owned(),
-    }
+    format!("{what} of {}{}", significant(estimate.value, 3), figures::interval(estimate))
 }
 
 fn estimated(name: String, unit: &str, e: &FittedValue) -> Markup {
