@@ -107,8 +107,9 @@ pub mod exchange;
 #[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod fem_problem;
 #[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
-pub mod report;
+pub mod journal;
 #[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
+pub mod report;
 pub mod resume;
 pub mod runs;
 #[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
@@ -271,18 +272,26 @@ pub fn pair_mesh(
 }
 
 /// Runs `scene` for samples of its uncertain keys, on `threads` threads: quantiles and Sobol indices. Where the observer interrupts it, of the
-/// points that are finished, if they are a few.
+/// points that are finished, if they are a few. Finished runs are kept in a journal in `folder`, with which the same study goes on; without a folder in
+/// memory.
 ///
 /// # Errors
-/// What is wrong with the question; runs that all failed.
+/// What is wrong with the question; runs that all failed; a folder with the runs of another study, or that cannot be written.
 pub fn uncertainty(
     scene: &LoadedScene,
     question: &UncertaintyQuestion,
+    folder: Option<&Path>,
     threads: usize,
     observer: &dyn Observer,
 ) -> Result<UncertaintyRecord, UncertaintyError> {
-    let question = uncertainty::study::SampledQuestion::of(scene, question)?;
-    let record = uncertainty::study::run(scene, &question, threads, observer);
+    let question = uncertainty::sampled_run::SampledQuestion::of(scene, question)?;
+    let study =
+        uncertainty::kept::SampledStudy::of(scene, &question).map_err(uncertainty::asked::UncertaintyFault::Scene)?;
+    let mut journal = match folder {
+        None => journal::Journal::in_memory(study),
+        Some(folder) => journal::Journal::open(folder, study).map_err(uncertainty::asked::UncertaintyFault::Journal)?,
+    };
+    let record = uncertainty::study::run(scene, &question, &mut journal, threads, observer);
     Ok(record.map_err(uncertainty::asked::UncertaintyFault::Study)?)
 }
 

@@ -91,6 +91,18 @@ pub fn worn_pair(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done<Wo
     assessment::worn_pair(scene.inputs(&provenance(&scene.resolved)), observer)
 }
 
+/// Main figures, history and worn profiles of a run of `scene` at each of `revolutions`, which are snapshots of it.
+///
+/// # Errors
+/// As [`run`].
+pub fn worn_pairs(
+    scene: &LoadedScene,
+    revolutions: &[f64],
+    observer: &dyn Observer,
+) -> Result<Done<Vec<WornPair>>, RunError> {
+    assessment::worn_pairs(scene.inputs(&provenance(&scene.resolved)), revolutions, observer)
+}
+
 /// Solves the contact of the scene's pair with plane finite elements.
 ///
 /// # Errors

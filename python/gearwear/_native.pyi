@@ -60,6 +60,8 @@ class Scene:
         limits: Sequence[str],
         samples: int,
         seed: int,
+        own_surface: bool,
+        folder: str | None,
         threads: int,
         progress: _Progress | None,
     ) -> Uncertainty: ...

@@ -126,6 +126,8 @@ def uncertainty(
     correlation: Mapping[tuple[str, str], float] | None = None,
     outputs: Iterable[str] = (),
     limits: Mapping[str, float] | None = None,
+    own_surface: bool = False,
+    out: str | os.PathLike[str] | None = None,
     threads: int | None = 1,
     progress: ProgressArgument = False,
 ) -> Uncertainty:
@@ -135,7 +137,9 @@ def uncertainty(
     ``n`` points of a Sobol sequence, best a power of two, take n (keys + 2) runs, or 2 n where keys are correlated; ``seed`` scrambles them.
     ``correlation`` has for pairs of keys the correlation of their normal scores. ``outputs`` are paths in the summary, by default the maximum wear
     and tip-edge wear of both gears and the transmission error, worn; ``limits`` has depths of wear in µm whose life is asked for:
-    ``{"pinion.peak_wear_um": 10}``. ``threads`` (None: all cores, one in a worker process) run a sample each and never change a bit of the results.
+    ``{"pinion.peak_wear_um": 10}``. The samples are run on a calibrated Winkler foundation where the figures of the scene as given differ there by less
+    than 5 %, with ``own_surface`` always on the surface of the scene. ``out`` is a folder whose journal keeps each run as it is finished: the same
+    call goes on with those that are missing, and ``write(out)`` adds the files. ``threads`` (None: all cores, one in a worker process) run a sample each and never change a bit of the results.
 
     What is wrong with the question raises :class:`ValueError`, and :class:`gearwear.RunError` is raised where no sample can be run.
     """
@@ -151,10 +155,11 @@ def uncertainty(
     depths = [f"{name}={float(depth)!r}" for name, depth in (limits or {}).items()]
     count = thread_count(threads)
     kept = list(outputs)
+    folder = None if out is None else os.fspath(out)
     warn_of_older_names([*kept, *(limits or {})])
     with Watched(progress) as told:
         return Uncertainty(
-            scene._native.uncertainty(uncertain, pairs, kept, depths, samples, scrambling, count, told)
+            scene._native.uncertainty(uncertain, pairs, kept, depths, samples, scrambling, own_surface, folder, count, told)
         )
 
 

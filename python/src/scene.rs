@@ -255,12 +255,16 @@ impl Scene {
         limits: Vec<String>,
         samples: usize,
         seed: u32,
+        on_own_surface: bool,
+        folder: Option<PathBuf>,
         threads: usize,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Uncertainty> {
-        let question = UncertaintyQuestion { uncertain, correlation, outputs, limits, samples, seed };
+        let question = UncertaintyQuestion { uncertain, correlation, outputs, limits, samples, seed, on_own_surface };
         let (scene, count) = (self.loaded.clone(), cores(threads));
-        let work = move |observer: &dyn gearwear::Observer| gearwear::uncertainty(&scene, &question, count, observer);
+        let work = move |observer: &dyn gearwear::Observer| {
+            gearwear::uncertainty(&scene, &question, folder.as_deref(), count, observer)
+        };
         let record = watched(py, threads, progress, work)?.map_err(|error| errors::of_uncertainty(py, &error))?;
         Ok(Uncertainty { record })
     }

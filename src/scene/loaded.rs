@@ -15,6 +15,7 @@ use super::scene_text::folder_of;
 pub use super::scene_text::{LoadError, SceneError, SceneText};
 use super::{Problem, ProblemKind, Resolved, presets};
 use gearwear_physics::calibration::Calibration;
+use gearwear_physics::contact::settings::SurfaceKind;
 use gearwear_physics::mesh_cycle::pair_in_space::KeptInSpace;
 use gearwear_physics::operation::Scene;
 use gearwear_physics::results::run::InputFile;
@@ -217,11 +218,30 @@ impl LoadedScene {
     /// # Errors
     /// A calibration of another pair.
     pub fn with_calibration(&self, calibration: Calibration) -> Result<Self, LoadError> {
+        self.calibrated_with(calibration, |_| {})
+    }
+
+    /// Scene on a Winkler foundation with this calibration, as if the file named both.
+    ///
+    /// # Errors
+    /// A calibration of another pair.
+    pub fn on_calibrated_foundation(&self, calibration: Calibration) -> Result<Self, LoadError> {
+        self.calibrated_with(calibration, |draft| {
+            draft.remove("contact.foundation_MPa_per_mm");
+            draft.set("contact.surface", SurfaceKind::Winkler.name());
+        })
+    }
+
+    fn calibrated_with(&self, calibration: Calibration, change: impl FnOnce(&mut Draft)) -> Result<Self, LoadError> {
         let (key, name) = (CALIBRATION, "calibration.json".to_owned());
         let mut known = self.files.as_read.clone();
         known.retain(|file| file.key != key);
         known.push(NamedFile { key, name: name.clone(), bytes: calibration.to_json().into_bytes() });
-        self.changed(|draft| draft.set(key, name), &known)
+        let changed = |draft: &mut Draft| {
+            draft.set(key, name);
+            change(draft);
+        };
+        self.changed(changed, &known)
     }
 
     fn changed(&self, change: impl FnOnce(&mut Draft), known: &[NamedFile]) -> Result<Self, LoadError> {

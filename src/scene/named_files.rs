@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::scene_text::{LoadError, SceneText};
-use super::{Problem, Resolved};
+use super::{Problem, Resolved, short_hash};
 use gearwear_bodies::gear::GearPair;
 use gearwear_physics::calibration::{Calibration, identity::CalibrationIdentity};
 use gearwear_physics::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
@@ -52,6 +52,14 @@ impl NamedFiles {
     /// Differences of the calibration's pair from that of `resolved`; empty without a calibration.
     pub fn foreign_to(&self, resolved: &Resolved) -> Vec<String> {
         self.calibration.as_ref().map_or_else(Vec::new, |calibration| foreign(calibration, resolved))
+    }
+
+    /// Hash of the calibration and the stiffness curve; empty where there is neither.
+    pub fn hash(&self) -> String {
+        let calibration = self.calibration.as_ref().map(Calibration::to_json);
+        let curve = self.stiffness_curve.as_ref().map(|curve| format!("{curve:?}"));
+        let all: String = calibration.into_iter().chain(curve).collect();
+        if all.is_empty() { all } else { short_hash(all.as_bytes()) }
     }
 
     /// Checks that `scene`, of the file with this text, lacks no file.

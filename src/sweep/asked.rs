@@ -5,7 +5,7 @@ use std::io;
 use super::axis::{self, AxisError};
 use super::combination::Sweep;
 use super::goal::{Goal, GoalError};
-use super::journal::JournalError;
+use crate::journal::JournalError;
 use crate::report::ReportError;
 use crate::scene::draft::Draft;
 use crate::scene::loaded::{LoadedScene, SceneError};

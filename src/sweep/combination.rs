@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::runs;
 use crate::scene::draft::Draft;
-use crate::scene::loaded::{LoadedScene, NamedFiles};
-use crate::scene::{Problem, Resolved, short_hash};
+use crate::scene::loaded::LoadedScene;
+use crate::scene::{Problem, Resolved};
 use crate::sweep::goal::Goal;
 use crate::sweep::record::{SweepAxis, SweepIdentity, SweepRow};
 use crate::sweep::verification::Chosen;
@@ -54,7 +54,7 @@ impl Sweep {
             program_version: env!("CARGO_PKG_VERSION").to_owned(),
             scene_hash: resolved.scene_hash(),
             given_hash: draft.hash(),
-            inputs_hash: hash_of(&given.files),
+            inputs_hash: given.files.hash(),
             error_estimate,
             verify: resolved.scene.verify && (draft.gives("numerics.verify") || goal.is_some()),
             axes,
@@ -165,14 +165,6 @@ impl Sweep {
             None => self.varied.carry_out(resolved, observer, runs::summarise).map(|summary| summary.error.total),
         }
     }
-}
-
-/// Hash of the files that a scene names; empty where it names none.
-fn hash_of(files: &NamedFiles) -> String {
-    let calibration = files.calibration.as_ref().map(|calibration| calibration.to_json());
-    let curve = files.stiffness_curve.as_ref().map(|curve| format!("{curve:?}"));
-    let all: String = calibration.into_iter().chain(curve).collect();
-    if all.is_empty() { all } else { short_hash(all.as_bytes()) }
 }
 
 fn simulation_s(summary: &Summary) -> Option<f64> {

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::journal::{self, JournalContents, JournalError};
-use crate::sweep::record::SweepRow;
+use crate::journal::{self, JournalContents, JournalError, Kept};
+use crate::sweep::record::{SweepPart, SweepRow};
 
 /// Greatest number of missing combinations named in a message.
 const MOST_NAMED: usize = 5;
@@ -38,17 +38,17 @@ pub enum MergeError {
 /// The whole sweep from the journals in `folders`, in any order.
 ///
 /// Parts may overlap, where their results are the same.
-pub fn merge(folders: &[PathBuf]) -> Result<JournalContents, MergeError> {
-    let parts: Vec<(&Path, JournalContents)> = folders
+pub fn merge(folders: &[PathBuf]) -> Result<JournalContents<SweepPart>, MergeError> {
+    let parts: Vec<(&Path, JournalContents<SweepPart>)> = folders
         .iter()
         .map(|folder| Ok((folder.as_path(), journal::read(folder)?)))
         .collect::<Result<_, JournalError>>()?;
-    let Some((first, JournalContents { identity, .. })) = parts.first() else {
-        return Err(JournalError::NoSweep { folder: PathBuf::new() }.into());
+    let Some((first, JournalContents { study: SweepPart { identity, .. }, .. })) = parts.first() else {
+        return Err(JournalError::NoStudy { folder: PathBuf::new(), kind: SweepPart::KIND }.into());
     };
     let mut rows: BTreeMap<usize, SweepRow> = BTreeMap::new();
     for (folder, part) in &parts {
-        let differences = identity.differences(&part.identity);
+        let differences = identity.differences(&part.study.identity);
         if !differences.is_empty() {
             let (first, other) = (first.to_path_buf(), folder.to_path_buf());
             return Err(MergeError::OtherSweep { first, other, differences });
@@ -69,10 +69,10 @@ pub fn merge(folders: &[PathBuf]) -> Result<JournalContents, MergeError> {
     let combinations = identity.combinations();
     let missing: Vec<usize> = (0..combinations).filter(|index| !rows.contains_key(index)).collect();
     if missing.is_empty() {
-        return Ok(JournalContents { identity: identity.clone(), shard: None, rows });
+        return Ok(JournalContents { study: SweepPart { identity: identity.clone(), shard: None }, rows });
     }
     let unfinished = parts.iter().filter_map(|(folder, part)| {
-        let own: Vec<usize> = super::study::part(combinations, part.shard).collect();
+        let own: Vec<usize> = super::study::part(combinations, part.study.shard).collect();
         (part.rows.len() < own.len()).then(|| format!("{} ({} of {})", folder.display(), part.rows.len(), own.len()))
     });
     Err(MergeError::Incomplete {

@@ -11,7 +11,7 @@
 //! | [`axis`] | a varied key as the user writes it, checked |
 //! | [`goal`] | what is to be least, and what is as good within the error |
 //! | [`combination`] | the scene of a combination, and its row |
-//! | [`journal`] | the rows finished so far, kept on disk |
+//! | [`crate::journal`] | the rows finished so far, kept on disk |
 //! | [`study`] | what is left to do, and runs it on all threads |
 //! | [`unfinished`] | a sweep under way, whoever runs its rows |
 //! | [`mod@merge`] | one sweep from its parts |
@@ -40,7 +40,6 @@ pub mod asked;
 pub mod axis;
 pub mod combination;
 pub mod goal;
-pub mod journal;
 pub mod merge;
 pub mod record;
 pub mod report;

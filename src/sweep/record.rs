@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::goal::{Goal, Optimum};
 use super::verification::{Chosen, RowVerification, SweepVerification};
+use crate::journal::Kept;
 use crate::scene::problem::number;
 use gearwear_physics::results::error::TotalError;
 use gearwear_physics::results::figures::{self, MainFigure};
@@ -171,6 +172,39 @@ pub struct Shard {
     /// Number of the part, from 1.
     pub number: usize,
     pub of: usize,
+}
+
+/// Sweep, or part of one, that a journal keeps the rows of.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SweepPart {
+    pub identity: SweepIdentity,
+    /// Part of the sweep; `None`: all of it.
+    pub shard: Option<Shard>,
+}
+
+impl Kept for SweepPart {
+    type Row = SweepRow;
+    const KIND: &'static str = "sweep";
+    const COMMAND: &'static str = "gearwear sweep";
+
+    fn number(&self, row: &SweepRow) -> usize {
+        row.index
+    }
+
+    fn refuses(&self, row: &SweepRow) -> Option<String> {
+        let fits = row.index < self.identity.combinations() && row.figures.len() == self.identity.figures.len();
+        (!fits).then(|| format!("a row of another sweep, combination {}", row.index))
+    }
+
+    fn differences(&self, wanted: &Self) -> Vec<String> {
+        let mut differences = self.identity.differences(&wanted.identity);
+        if self.shard != wanted.shard {
+            let [there, here] = [self.shard, wanted.shard]
+                .map(|shard| shard.map_or_else(|| "all of it".to_owned(), |s| format!("shard {}/{}", s.number, s.of)));
+            differences.push(format!("the part that is run: {there} and {here}"));
+        }
+        differences
+    }
 }
 
 /// Identity of a sweep: rows of sweeps with equal identities can be merged.

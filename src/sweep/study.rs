@@ -7,9 +7,9 @@
 use std::collections::BTreeMap;
 
 use super::combination::{Sweep, SweepTask};
-use super::journal::{Journal, JournalError};
+use crate::journal::{Journal, JournalError, RowKeeper};
 use crate::spread::{SpreadOutcome, spread};
-use crate::sweep::record::{Shard, SweepRow};
+use crate::sweep::record::{Shard, SweepPart, SweepRow};
 use crate::sweep::verification::chosen;
 use gearwear_physics::observer::Observer;
 
@@ -17,29 +17,6 @@ use gearwear_physics::observer::Observer;
 pub fn part(combinations: usize, shard: Option<Shard>) -> impl Iterator<Item = usize> {
     let (first, step) = shard.map_or((0, 1), |shard| (shard.number.saturating_sub(1), shard.of.max(1)));
     (first..combinations).step_by(step)
-}
-
-/// Journal that rows are kept in.
-struct RowKeeper<'a, F> {
-    journal: &'a mut Journal,
-    tell: F,
-    /// Why no row can be kept any more.
-    error: Option<JournalError>,
-}
-
-impl<F: FnMut(&SweepRow)> RowKeeper<'_, F> {
-    /// Keeps a finished row, if rows can still be kept: what follows a line that was not written whole could not be read again.
-    fn keep(&mut self, row: SweepRow) -> bool {
-        if self.error.is_some() {
-            return false;
-        }
-        let index = row.index;
-        self.error = self.journal.append(row).err();
-        if let (None, Some(row)) = (&self.error, self.journal.contents.rows.get(&index)) {
-            (self.tell)(row);
-        }
-        self.error.is_none()
-    }
 }
 
 /// Tasks that can be done now: the missing combinations of `shard`; where none is missing, of a whole sweep that asks for it, the chosen rows
@@ -64,7 +41,7 @@ pub fn tasks(sweep: &Sweep, shard: Option<Shard>, rows: &BTreeMap<usize, SweepRo
 pub fn run(
     sweep: &Sweep,
     shard: Option<Shard>,
-    journal: &mut Journal,
+    journal: &mut Journal<SweepPart>,
     threads: usize,
     observer: &dyn Observer,
 ) -> Result<SpreadOutcome, JournalError> {

@@ -12,10 +12,10 @@ use serde::Serialize;
 
 use super::asked::{SweepError, SweepFault};
 use super::combination::{Sweep, SweepTask};
-use super::journal::{Journal, JournalError};
-use super::record::{Shard, SweepRecord};
+use super::record::{Shard, SweepPart, SweepRecord};
 use super::report;
 use super::study;
+use crate::journal::{Journal, JournalError};
 use crate::report::columns::Table;
 use crate::report::writable;
 use crate::spread::SpreadOutcome;
@@ -28,7 +28,7 @@ use gearwear_physics::results::error::TotalError;
 pub struct UnfinishedSweep {
     sweep: Sweep,
     shard: Option<Shard>,
-    journal: Journal,
+    journal: Journal<SweepPart>,
     folder: Option<PathBuf>,
     begun: Instant,
     /// Number of threads of the last start; 0 where the rows come from elsewhere.
@@ -50,11 +50,12 @@ impl UnfinishedSweep {
             return Err(SweepFault::NothingToVary(problems));
         }
         let begun = Instant::now();
+        let part = SweepPart { identity: sweep.identity.clone(), shard };
         let journal = match folder {
-            None => Journal::in_memory(&sweep.identity, shard),
+            None => Journal::in_memory(part),
             Some(folder) => {
                 writable(folder)?;
-                let journal = Journal::open(folder, &sweep.identity, shard)?;
+                let journal = Journal::open(folder, part)?;
                 report::begin(sweep.scene_toml(), folder)?;
                 journal
             }

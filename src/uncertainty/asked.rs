@@ -3,8 +3,9 @@
 use super::design::{self, CorrelationError, MOST_FACTORS, MOST_SAMPLES};
 use super::distribution::{self, UncertainError};
 use super::life::LimitError;
-use super::study::{SampledQuestion, UncertaintyStudyError};
+use super::sampled_run::{SampledQuestion, UncertaintyStudyError};
 use crate::evaluate::output::{OutputError, SummaryOutput};
+use crate::journal::JournalError;
 use crate::scene::draft::Draft;
 use crate::scene::loaded::{LoadedScene, SceneError};
 use crate::varied_scene::{linked_keys, missing_phase};
@@ -25,6 +26,8 @@ pub struct UncertaintyQuestion {
     pub samples: usize,
     /// Seed of the scrambling of the sequence.
     pub seed: u32,
+    /// Whether the samples are run on the contact surface of the scene, where a fast model would do.
+    pub on_own_surface: bool,
 }
 
 impl UncertaintyQuestion {
@@ -58,6 +61,8 @@ pub enum UncertaintyFault {
     Samples { found: usize },
     #[error(transparent)]
     Study(#[from] UncertaintyStudyError),
+    #[error(transparent)]
+    Journal(#[from] JournalError),
 }
 
 impl From<OutputError> for UncertaintyFault {
@@ -103,7 +108,15 @@ impl SampledQuestion {
             given => given.iter().map(|path| path.trim()).collect(),
         };
         let outputs = outputs.into_iter().map(SummaryOutput::find).collect::<Result<_, _>>()?;
-        Ok(Self { uncertain, correlation, outputs, limits, samples: asked.samples, seed: asked.seed })
+        Ok(Self {
+            uncertain,
+            correlation,
+            outputs,
+            limits,
+            samples: asked.samples,
+            seed: asked.seed,
+            on_own_surface: asked.on_own_surface,
+        })
     }
 }
 

@@ -60,6 +60,11 @@ impl DepthLimit {
         history.iter().map(|row| (row.hours.unwrap_or(row.revolutions), of(row))).collect()
     }
 
+    /// Depth at the end of the history, µm; no number where there is none.
+    pub fn depth(&self, history: &[HistoryRow]) -> f64 {
+        self.growth(history).last().map_or(f64::NAN, |(_, depth_um)| *depth_um)
+    }
+
     /// Life: when `times` times the depth reaches the limit; infinite where it does not, with the time up to which that is known.
     pub fn life(&self, growth: &Growth, times: f64) -> (f64, f64) {
         let (mut time, mut depth) = (0.0, 0.0);

@@ -8,6 +8,10 @@
 //! | [`asked`] | a study as it is asked for, checked |
 //! | [`distribution`] | an uncertain key as the user writes it |
 //! | [`design`] | samples from a Sobol sequence, correlations |
+//! | [`sampled_run`] | a run of the scene with some values of its keys |
+//! | [`fast_model`] | the contact surface of the samples |
+//! | `shared_runs` | samples that share a run |
+//! | [`kept`] | finished runs, kept in a journal |
 //! | [`study`] | runs them on all threads |
 //! | [`life`] | when wear comes to a limit |
 //!
@@ -16,7 +20,11 @@
 pub mod asked;
 pub mod design;
 pub mod distribution;
+pub mod fast_model;
+pub mod kept;
 pub mod life;
 pub mod record;
 pub mod report;
+pub mod sampled_run;
+mod shared_runs;
 pub mod study;

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::distribution::Uncertain;
+use super::fast_model::SampledSurface;
 use super::life::DepthLimit;
 use gearwear_bodies::gear::PerGear;
 use gearwear_bodies::reference::sobol_indices::Index;
@@ -38,6 +39,8 @@ pub struct UncertaintyRecord {
     pub bands: PerGear<Band>,
     pub threads: usize,
     pub wall_s: f64,
+    /// Contact surface of the samples.
+    pub surface: SampledSurface,
     /// The scene, as the user gave it.
     #[serde(skip)]
     pub scene_toml: String,
@@ -65,7 +68,8 @@ pub struct OutputRecord {
     pub unit: String,
     /// Value of the scene as given.
     pub nominal: Option<f64>,
-    /// Relative error that finite elements find of it there, within which it is varied evenly; null where it is not known.
+    /// Relative error that finite elements find of it there; null where it is not known. It is varied evenly within this and `surface_difference`
+    /// together.
     pub model_error: Option<f64>,
     /// Samples that have it.
     pub samples: usize,
@@ -77,6 +81,8 @@ pub struct OutputRecord {
     /// Null where `no_indices_because` says why.
     pub indices: Option<Vec<FactorIndices>>,
     pub no_indices_because: Option<String>,
+    /// Relative difference that the contact surface of the samples makes to it there; null where they are on the surface of the scene.
+    pub surface_difference: Option<f64>,
     /// All values, rising.
     #[serde(skip)]
     pub sorted: Vec<f64>,

@@ -1,26 +1,28 @@
 //! Runs the samples on all threads and evaluates them.
 //!
-//! The scene as given is run first: its wear gives the places of the bands, and its verification by finite elements the relative errors
-//! e of the fast model. With a factor u of its own, between 0 and 1, the error is part of the samples without further runs:
+//! The scene as given is run first: its wear gives the places of the bands, and its verification by finite elements its relative errors e. To
+//! these the difference d of a fast model is added, where the samples are run on one ([`super::fast_model`]). With a factor u of its own,
+//! between 0 and 1, the error is part of the samples without further runs:
 //!
 //! ```text
-//! y = y_model (1 + e (2 u − 1))
+//! y = y_model (1 + (e + d) (2 u − 1))
 //! ```
 //!
-//! One u stands for all outputs, as their errors have one cause. Snapshots, error estimates and verification are left out of the samples;
-//! where a life is asked for, their histories have [`MOMENTS`] moments.
+//! One u stands for all outputs, as their errors have one cause. Finished runs are kept in a journal, and a study that was stopped goes on with
+//! those that are missing.
 
 use std::time::Instant;
 
-use super::design::{Design, Matrix, ScoreCorrelation};
-use super::distribution::Uncertain;
-use super::life::{DepthLimit, Growth};
+use super::design::{Design, Matrix};
+use super::fast_model::{SampledScene, SampledSurface};
+use super::kept::{KeptRun, Ran, SampledStudy};
 use super::record::{Band, FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, SampleRow, UncertaintyRecord};
-use crate::evaluate::output::SummaryOutput;
+use super::sampled_run::{FEWEST_SAMPLES, SampledQuestion, UncertaintyStudyError, nominal, outputs_of, worn};
+use super::shared_runs;
+use crate::journal::{Journal, RowKeeper};
 use crate::report::html::reading::capitalised;
 use crate::report::unit;
 use crate::runs;
-use crate::scene::Resolved;
 use crate::scene::loaded::LoadedScene;
 use crate::spread::spread;
 use crate::varied_scene::{VariedScene, in_words, one_line};
@@ -33,46 +35,10 @@ use gearwear_physics::results::figures;
 use gearwear_physics::results::run::StopReason;
 use gearwear_physics::results::worn_pair::{WearProfile, WornPair};
 
-/// Number of moments of a history, evenly over the duration.
-const MOMENTS: usize = 20;
+type Row = Result<Ran, String>;
+
 /// Greatest number of places of a band over the flank.
 const PLACES: usize = 160;
-/// Least number of finished points for the results of an interrupted study.
-pub const FEWEST_SAMPLES: usize = 8;
-
-/// Question, resolved.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SampledQuestion {
-    pub uncertain: Vec<Uncertain>,
-    /// How the keys are correlated, if they are.
-    pub correlation: Option<ScoreCorrelation>,
-    pub outputs: Vec<SummaryOutput>,
-    pub limits: Vec<DepthLimit>,
-    /// Points of the sequence.
-    pub samples: usize,
-    pub seed: u32,
-}
-
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum UncertaintyStudyError {
-    #[error("the scene as given cannot be run: {0}")]
-    Nominal(String),
-    #[error("none of {runs} samples has a result; the first says: {first}")]
-    AllFailed { runs: usize, first: String },
-    #[error("interrupted before {FEWEST_SAMPLES} samples were finished")]
-    Interrupted,
-}
-
-/// Part of a run that is kept.
-struct Ran {
-    /// Each with the time until which it is known, where it is a life.
-    outputs: Vec<(f64, f64)>,
-    growths: Vec<Growth>,
-    /// Wear at the places of the bands, for samples A and B only.
-    wear_um: Option<PerGear<Vec<f32>>>,
-}
-
-type Row = Result<Ran, String>;
 
 /// Inputs of the samples.
 struct Samples<'a> {
@@ -81,8 +47,10 @@ struct Samples<'a> {
     nominal: &'a WornPair,
     places: &'a PerGear<Vec<f64>>,
     design: Design,
-    /// Relative error of the model in each output, then in the depth of each limit; empty where none is known.
+    /// Relative error of the scene as given in each output, then in the depth of each limit; `None` where it is not known.
     errors: Vec<Option<f64>>,
+    /// Relative difference of a fast model to it; empty where the samples are not on one.
+    differences: &'a [f64],
 }
 
 impl Samples<'_> {
@@ -99,18 +67,87 @@ impl Samples<'_> {
         self.design.factors > self.question.uncertain.len()
     }
 
+    /// Bound of the relative error of each figure that the samples vary; `None` where none is known.
+    fn bounds(&self) -> Vec<Option<f64>> {
+        bounds(&self.errors, self.differences)
+    }
+
     fn values(&self, point: usize, matrix: Matrix) -> Vec<f64> {
         let u = self.design.sample(point, matrix);
         self.question.uncertain.iter().zip(u).map(|(one, u)| one.distribution.quantile(u)).collect()
     }
 
+    /// Runs what the journal does not have.
+    fn run_all(
+        &self,
+        journal: &mut Journal<SampledStudy>,
+        threads: usize,
+        observer: &dyn Observer,
+    ) -> Result<(), UncertaintyStudyError> {
+        let matrices = self.matrices();
+        let total = self.question.samples * matrices.len();
+        let rows = &journal.contents.rows;
+        let coefficient = shared_runs::coefficient_key(self.varied, self.question);
+        let values = |number: usize| self.values(number / matrices.len(), matrices[number % matrices.len()]);
+        let is_finished = |number: usize| rows.contains_key(&number);
+        let tasks = shared_runs::groups(self.question.samples, matrices.len(), coefficient, values, is_finished);
+        let mut failed = rows.values().filter(|row| row.number < total && row.ran.is_err()).count();
+        let mut done = total - tasks.iter().flatten().filter(|number| !is_finished(**number)).count();
+        let tell = |row: &KeptRun| {
+            done = (done + 1).min(total);
+            failed += usize::from(row.ran.is_err());
+            let beside = if failed == 0 { String::new() } else { format!(", {failed} failed") };
+            observer.counted(done, total, "samples", &beside);
+        };
+        let mut kept = RowKeeper { journal, tell, error: None };
+        let run = |group: &Vec<usize>, within: &dyn Observer| self.run_group(group, &matrices, within);
+        spread(&tasks, threads.max(1), observer, run, |rows| rows.into_iter().all(|row| kept.keep(row)));
+        kept.error.map_or(Ok(()), |error| Err(error.into()))
+    }
+
+    /// Runs with these numbers, in one where they can share it; `None` where it was interrupted.
+    fn run_group(&self, group: &[usize], matrices: &[Matrix], observer: &dyn Observer) -> Option<Vec<KeptRun>> {
+        let of = |number: usize| (number / matrices.len(), matrices[number % matrices.len()]);
+        if let Some(pairs) =
+            (group.len() > 1).then(|| self.shared_run(group.iter().map(|&n| of(n)), observer)).flatten()
+        {
+            let kept = group.iter().zip(pairs);
+            return Some(kept.map(|(&number, pair)| KeptRun { number, ran: self.kept(&pair, of(number).1) }).collect());
+        }
+        let alone = group.iter().map(|&number| {
+            let (point, matrix) = of(number);
+            Some(KeptRun { number, ran: self.run(point, matrix, observer)? })
+        });
+        alone.collect()
+    }
+
+    /// The worn pairs of samples that differ in their wear coefficient alone; `None` where each has to be run by itself.
+    fn shared_run(
+        &self,
+        samples: impl Iterator<Item = (usize, Matrix)>,
+        observer: &dyn Observer,
+    ) -> Option<Vec<WornPair>> {
+        let scenes =
+            samples.map(|(point, matrix)| self.varied.resolved(self.keys_with(&self.values(point, matrix))).ok());
+        let scenes = scenes.collect::<Option<Vec<_>>>()?;
+        let (run, revolutions) = shared_runs::shared(&scenes)?;
+        self.varied.inputs_belong_to(&run).ok()?;
+        let found = guarded(|| {
+            self.varied.carry_out(run, observer, |scene, observer| runs::worn_pairs(scene, &revolutions, observer))
+        });
+        found.ok()?.ok().filter(|pairs| pairs.len() == scenes.len())
+    }
+
+    /// The uncertain keys with these values.
+    fn keys_with(&self, values: &[f64]) -> impl Iterator<Item = (&str, toml::Value)> {
+        let keys = self.question.uncertain.iter().map(|one| one.key.as_str());
+        keys.zip(values.iter().map(|&value| toml::Value::Float(value)).collect::<Vec<_>>())
+    }
+
     fn run(&self, point: usize, matrix: Matrix, observer: &dyn Observer) -> Option<Row> {
         let values = self.values(point, matrix);
-        let run = guarded(|| -> Result<WornPair, String> {
-            let keys = self.question.uncertain.iter().map(|one| one.key.as_str());
-            let values = values.iter().map(|&value| toml::Value::Float(value));
-            worn(self.varied, keys.zip(values), !self.question.limits.is_empty(), observer)
-        });
+        let with_history = !self.question.limits.is_empty();
+        let run = guarded(|| worn(self.varied, self.keys_with(&values), with_history, observer));
         match run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}"))) {
             Ok(found) if found.summary.stopped == StopReason::Interrupted => None,
             Ok(found) => Some(self.kept(&found, matrix)),
@@ -128,18 +165,18 @@ impl Samples<'_> {
         })
     }
 
-    /// 1 + e (2 u − 1) of each output and limit.
+    /// 1 + (e + d) (2 u − 1) of each output and limit.
     fn times(&self, point: usize, matrix: Matrix) -> (Option<f64>, Vec<f64>) {
         let u = self.has_model_error().then(|| self.design.sample(point, matrix)[self.design.factors - 1]);
         let place = u.map(|u| 2.0 * u - 1.0);
-        (place, self.errors.iter().map(|error| 1.0 + error.unwrap_or(0.0) * place.unwrap_or(0.0)).collect())
+        (place, self.bounds().iter().map(|bound| 1.0 + bound.unwrap_or(0.0) * place.unwrap_or(0.0)).collect())
     }
 
     /// The outputs and lives of a run as those of a sample, the error of the model included, and until when each is known.
     fn figures(&self, ran: &Ran, point: usize, matrix: Matrix) -> Vec<(f64, f64)> {
         let (_, times) = self.times(point, matrix);
         let (of_outputs, of_limits) = times.split_at(self.question.outputs.len());
-        let outputs = ran.outputs.iter().zip(of_outputs).map(|((value, until), times)| (value * times, until * times));
+        let outputs = ran.outputs.iter().zip(of_outputs).map(|(output, times)| output.times(*times));
         let limits = self.question.limits.iter().zip(&ran.growths).zip(of_limits);
         outputs.chain(limits.map(|((limit, growth), times)| limit.life(growth, *times))).collect()
     }
@@ -181,38 +218,6 @@ impl Samples<'_> {
     }
 }
 
-/// Runs the scene with these values.
-fn worn<'a>(
-    varied: &VariedScene,
-    values: impl IntoIterator<Item = (&'a str, toml::Value)>,
-    with_history: bool,
-    observer: &dyn Observer,
-) -> Result<WornPair, String> {
-    let mut resolved = varied.resolved(values).map_err(|problems| in_words(&problems))?;
-    varied.inputs_belong_to(&resolved)?;
-    if with_history {
-        take_moments(&mut resolved);
-    }
-    varied.carry_out(resolved, observer, runs::worn_pair)
-}
-
-/// Sets [`MOMENTS`] moments of the history, evenly over the duration.
-fn take_moments(resolved: &mut Resolved) {
-    let operation = &mut resolved.scene.operation;
-    let moments = (1..=MOMENTS).map(|number| operation.pinion_revolutions * number as f64 / MOMENTS as f64);
-    operation.snapshots_revolutions = moments.collect();
-}
-
-/// Each output with the time until which it is known: a life to a limit that is not reached is infinite.
-fn outputs_of(question: &SampledQuestion, found: &WornPair) -> Result<Vec<(f64, f64)>, String> {
-    let summary = serde_json::to_value(&found.summary).map_err(|error| error.to_string())?;
-    let outputs = question.outputs.iter().map(|output| match (output.of(&summary), output.at_least(&summary)) {
-        (None, Some(at_least)) => (f64::INFINITY, at_least),
-        (value, _) => (value.unwrap_or(f64::NAN), value.unwrap_or(f64::NAN)),
-    });
-    Ok(outputs.collect())
-}
-
 /// Wear at these radii, even between the points; 0 outside them.
 fn at(profile: &WearProfile, radii: &[f64]) -> Vec<f32> {
     let (radius, wear) = (&profile.radius_mm, &profile.wear_um);
@@ -239,78 +244,62 @@ fn places(profile: &WearProfile) -> Vec<f64> {
     active.into_iter().step_by(every).collect()
 }
 
-/// Runs the study; where it is interrupted, of the points that were finished.
+/// Bounds e + d of errors, of those that are known.
+fn bounds(errors: &[Option<f64>], differences: &[f64]) -> Vec<Option<f64>> {
+    let of_each = errors.iter().enumerate().map(|(figure, error)| match (error, differences.get(figure)) {
+        (None, None) => None,
+        (error, difference) => Some(error.unwrap_or(0.0) + difference.copied().unwrap_or(0.0)),
+    });
+    of_each.collect()
+}
+
+/// Runs what `journal` does not have of the study, and evaluates it; where it is interrupted, the points that were finished.
+///
+/// # Errors
+/// A scene that cannot be run, no finished sample, a journal that cannot be written.
 pub fn run(
     scene: &LoadedScene,
     question: &SampledQuestion,
+    journal: &mut Journal<SampledStudy>,
     threads: usize,
     observer: &dyn Observer,
 ) -> Result<UncertaintyRecord, UncertaintyStudyError> {
     let start = Instant::now();
-    let varied =
+    let given =
         VariedScene::new(scene, false).map_err(|problems| UncertaintyStudyError::Nominal(in_words(&problems)))?;
-    let nominal = nominal(scene, &varied, question, observer)?;
+    observer.stage("the scene as given");
+    let nominal = nominal(&given, question, scene.scene().verify, observer)?;
+    let sampled = SampledScene::choose(scene, question, &nominal, observer)?;
     let total = &nominal.summary.error.total;
     let paths = question.outputs.iter().map(|output| output.path.as_str());
     let known = paths.chain(question.limits.iter().map(|limit| limit.output)).map(figures::find);
     let errors: Vec<Option<f64>> = known.map(|figure| figure?.error(total)).collect();
-    let factors = question.uncertain.len() + usize::from(errors.iter().any(Option::is_some));
+    let varies = bounds(&errors, &sampled.differences).iter().any(Option::is_some);
     let places = PerGear::from_fn(|gear| places(&nominal.flanks[gear]));
     let correlation = question.correlation.as_ref().map(|correlation| correlation.lower.clone());
-    let design = Design { factors, seed: question.seed, correlation };
-    let samples = Samples { question, varied: &varied, nominal: &nominal, places: &places, design, errors };
+    let factors = question.uncertain.len() + usize::from(varies);
+    let samples = Samples {
+        question,
+        varied: &sampled.varied,
+        nominal: &nominal,
+        places: &places,
+        design: Design { factors, seed: question.seed, correlation },
+        errors,
+        differences: &sampled.differences,
+    };
+    samples.run_all(journal, threads, observer)?;
 
     let matrices = samples.matrices();
-    let tasks: Vec<(usize, usize)> =
-        (0..question.samples).flat_map(|point| (0..matrices.len()).map(move |matrix| (point, matrix))).collect();
-    let mut rows: Vec<Option<Row>> = tasks.iter().map(|_| None).collect();
-    let (mut done, mut failed) = (0, 0);
-    spread(
-        &tasks,
-        threads.max(1),
-        observer,
-        |&(point, matrix), within| Some(((point, matrix), samples.run(point, matrices[matrix], within)?)),
-        |((point, matrix), row)| {
-            done += 1;
-            failed += usize::from(row.is_err());
-            let beside = if failed == 0 { String::new() } else { format!(", {failed} failed") };
-            observer.counted(done, tasks.len(), "samples", &beside);
-            rows[point * matrices.len() + matrix] = Some(row);
-            true
-        },
-    );
-    let whole: Vec<Row> = rows.into_iter().map_while(|row| row).collect();
+    let runs = 0..question.samples * matrices.len();
+    let whole: Vec<Row> =
+        runs.map_while(|number| journal.contents.rows.get(&number)).map(|kept| kept.ran.clone()).collect();
     let points = whole.len() / matrices.len();
     if points < question.samples.min(FEWEST_SAMPLES) {
         return Err(UncertaintyStudyError::Interrupted);
     }
     let rows: Vec<&[Row]> = whole.chunks_exact(matrices.len()).collect();
-    record(scene, &samples, &matrices, &rows, threads, start)
-}
-
-/// The scene as given, verified where it does not refuse that.
-fn nominal(
-    scene: &LoadedScene,
-    varied: &VariedScene,
-    question: &SampledQuestion,
-    observer: &dyn Observer,
-) -> Result<WornPair, UncertaintyStudyError> {
-    observer.stage("the scene as given");
-    let run = guarded(|| -> Result<WornPair, String> {
-        let mut resolved = varied.resolved([]).map_err(|problems| in_words(&problems))?;
-        resolved.scene.verify = scene.scene().verify;
-        if !question.limits.is_empty() {
-            take_moments(&mut resolved);
-        }
-        varied.carry_out(resolved, observer, runs::worn_pair)
-    });
-    let run = run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
-    match run {
-        Ok(found) if found.summary.stopped == StopReason::Interrupted => Err(UncertaintyStudyError::Interrupted),
-        Ok(found) => Ok(found),
-        Err(_) if observer.interrupted() => Err(UncertaintyStudyError::Interrupted),
-        Err(error) => Err(UncertaintyStudyError::Nominal(one_line(&error))),
-    }
+    let record = record(scene, &samples, &matrices, &rows)?;
+    Ok(UncertaintyRecord { surface: sampled.surface, threads, wall_s: start.elapsed().as_secs_f64(), ..record })
 }
 
 fn record(
@@ -318,8 +307,6 @@ fn record(
     samples: &Samples<'_>,
     matrices: &[Matrix],
     rows: &[&[Row]],
-    threads: usize,
-    start: Instant,
 ) -> Result<UncertaintyRecord, UncertaintyStudyError> {
     let question = samples.question;
     let mut failures = rows.iter().flat_map(|row| row.iter()).filter_map(|row| row.as_ref().err());
@@ -352,8 +339,9 @@ fn record(
             let wear: Vec<&[f32]> = ran.map(|wear| wear[gear].as_slice()).collect();
             band(&samples.places[gear], &samples.nominal.flanks[gear], &wear)
         }),
-        threads,
-        wall_s: start.elapsed().as_secs_f64(),
+        threads: 0,
+        wall_s: 0.0,
+        surface: SampledSurface::default(),
         scene_toml: scene.given.text.clone(),
         rows: sample_rows(samples, matrices, rows),
     })
@@ -391,7 +379,7 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
     let [output, meaning, unit] = named(samples, figure);
     let is_life = limit.is_some() || output.starts_with("life.");
     let nominal = match limit {
-        None => outputs_of(question, samples.nominal).ok().map(|values| values[figure].0),
+        None => outputs_of(question, samples.nominal).ok().map(|values| values[figure].times(1.0).0),
         Some(limit) => Some(limit.life(&limit.growth(&samples.nominal.history), 1.0).0),
     };
     let found = match (&question.correlation, censored) {
@@ -405,6 +393,7 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
         unit,
         nominal: nominal.filter(|value| value.is_finite()),
         model_error: samples.errors[figure],
+        surface_difference: samples.differences.get(figure).copied(),
         samples: sorted.len(),
         censored: is_life.then(|| censored as f64 / sorted.len().max(1) as f64),
         mean: complete.then(|| mean(sorted.iter().copied())),

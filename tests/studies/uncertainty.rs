@@ -166,3 +166,82 @@ fn bad_input_is_refused() {
     refused(&bench.study("out", &["operation.phases.1.hours=uniform:1:2"], &[]), &["operation.phases.1.hours"]);
     assert!(!bench.out("out").exists());
 }
+
+/// A study that was stopped goes on to the same bytes with the runs that are missing, whatever the last line of its journal; another study is refused
+/// with `--resume` and replaced without.
+#[test]
+fn a_study_goes_on_where_it_was_stopped() {
+    let bench = Bench::new();
+    let samples = ["--samples", "16"];
+    done(&bench.study("whole", &[K, TORQUE], &samples));
+    let journal = fs::read_to_string(bench.out("whole").join("rows.jsonl")).unwrap();
+    assert_eq!(journal.lines().count(), 1 + 16 * 4);
+    let half: Vec<&str> = journal.lines().take(1 + 30).collect();
+    let stopped = |name: &str| {
+        fs::create_dir(bench.out(name)).unwrap();
+        fs::write(bench.out(name).join("rows.jsonl"), format!("{}\n{{\"number\":3", half.join("\n"))).unwrap();
+    };
+    stopped("resumed");
+    let resume = |name: &str, uncertain: &[&str]| {
+        let mut command = gearwear();
+        command.arg("uncertainty").arg(bench.out("scene.toml")).arg("--resume").arg(bench.out(name)).args(samples);
+        command.args(uncertain.iter().flat_map(|one| ["--uncertain", one]));
+        command.output().unwrap()
+    };
+    let resumed = resume("resumed", &[K, TORQUE]);
+    done(&resumed);
+    assert!(said(&resumed).contains("30 runs of them were finished before"), "{}", said(&resumed));
+    stopped("again");
+    done(&bench.study("again", &[K, TORQUE], &samples));
+    for name in ["resumed", "again"] {
+        assert_eq!(timeless(&bench.out(name)), timeless(&bench.out("whole")));
+        for file in ["samples.csv", "columns.json"] {
+            assert_eq!(fs::read(bench.out(name).join(file)).unwrap(), fs::read(bench.out("whole").join(file)).unwrap());
+        }
+    }
+    refused(&resume("resumed", &[K]), &["--resume", "another study of uncertainty", "what is uncertain"]);
+    refused(&resume("nowhere", &[K]), &["--resume", "holds no study of uncertainty"]);
+    assert!(bench.out("resumed").join("uncertainty.json").exists() && !bench.out("nowhere").exists());
+    done(&bench.study("resumed", &[K], &samples));
+    assert_eq!(timeless(&bench.out("resumed"))["runs"].as_u64(), Some(16 * 3));
+    // More samples go on with the same sequence.
+    done(&bench.study("again", &[K, TORQUE], &["--samples", "32"]));
+    done(&bench.study("more", &[K, TORQUE], &["--samples", "32"]));
+    assert_eq!(timeless(&bench.out("again")), timeless(&bench.out("more")));
+}
+
+/// Samples that differ in their coefficient alone share a run, and have the same figures as runs of their own: these have a limit, which is not shared.
+/// A calibrated foundation stands for half-planes where it changes the figures of the scene as given little, and says so.
+#[test]
+fn samples_share_runs_on_a_fast_model() {
+    let bench = Bench::new();
+    let scene = exchanged(
+        "fzg-c",
+        &[
+            ("flank_points = 750 ", "flank_points = 200 "),
+            ("positions = 400 ", "positions = 80 "),
+            ("verify = true", "verify = false"),
+        ],
+    );
+    fs::write(bench.out("scene.toml"), scene).unwrap();
+    let samples = ["--samples", "4"];
+    done(&bench.study("shared", &[K, TORQUE], &samples));
+    done(&bench.study("alone", &[K, TORQUE], &["--samples", "4", "--limit", "pinion.peak_wear_um=1e6"]));
+    done(&bench.study("own", &[K, TORQUE], &["--samples", "4", "--own-surface"]));
+    let [shared, alone, own] = ["shared", "alone", "own"].map(|name| timeless(&bench.out(name)));
+    assert_eq!((&shared["surface"]["surface"], &own["surface"]["surface"]), (&"winkler".into(), &"half-space".into()));
+    for name in ["pinion.peak_wear_um", "wheel.peak_wear_um", "worn.transmission_error_um.peak_to_peak"] {
+        let [one, other, on_own] = [&shared, &alone, &own].map(|record| output(record, name));
+        let value = |of: &Value, quantile: &str| of["quantiles"][quantile].as_f64().unwrap();
+        for quantile in ["p05", "p50", "p95"] {
+            // The step error of 0.05 µm.
+            let [one, other] = [one, other].map(|of| of["quantiles"][quantile].as_f64().unwrap());
+            assert!((one - other).abs() < 0.05, "{name}, {quantile}: {one} and {other}");
+        }
+        let difference = one["surface_difference"].as_f64().unwrap();
+        assert!(
+            difference > 0.0 && difference <= 0.05 && on_own["surface_difference"].is_null(),
+            "{name}: {difference}"
+        );
+    }
+}

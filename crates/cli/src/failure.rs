@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::say;
 use gearwear::exchange::rexs::RexsError;
+use gearwear::journal::{JournalError, Kept};
 use gearwear::report::ReportError;
 use gearwear::resume::file::CheckpointError;
 use gearwear::resume::folder::FolderError;
@@ -15,11 +16,11 @@ use gearwear::scene::{Problem, ProblemKind, presets};
 use gearwear::sweep::asked::{SweepError, SweepFault};
 use gearwear::sweep::axis::AxisError;
 use gearwear::sweep::goal::GoalError;
-use gearwear::sweep::journal::JournalError;
 use gearwear::sweep::merge::MergeError;
 use gearwear::uncertainty::asked::UncertaintyFault;
 use gearwear::uncertainty::design::CorrelationError;
 use gearwear::uncertainty::distribution::FORMS;
+use gearwear::uncertainty::kept::SampledStudy;
 use gearwear_fem::SolveError;
 use gearwear_mesh::MeshFileError;
 use gearwear_physics::assessment::RunError;
@@ -197,9 +198,9 @@ pub(super) enum InputError {
     #[error("{option}{0}", option = option_of(.0))]
     #[diagnostic(help("{}", uncertainty_help(.0)))]
     Uncertainty(UncertaintyFault),
-    #[error("--out: {0}")]
-    #[diagnostic(help("{}", journal_help(.0)))]
-    Journal(JournalError),
+    #[error("{option}: {error}")]
+    #[diagnostic(help("{}", journal_help(error)))]
+    Journal { option: &'static str, error: JournalError },
     #[error("{0}")]
     #[diagnostic(help("{}", merge_help(.0)))]
     Merge(MergeError),
@@ -237,7 +238,7 @@ impl From<SweepFault> for Failure {
             SweepFault::Axis(error) => InputError::Vary(error),
             SweepFault::Goal(error) => InputError::Goal(error),
             SweepFault::NothingToVary(problems) => InputError::NothingToVary(problems),
-            SweepFault::Journal(error) => InputError::Journal(error),
+            SweepFault::Journal(error) => InputError::Journal { option: "--out", error },
             SweepFault::Report(error) => InputError::Out(error),
         })
     }
@@ -278,11 +279,14 @@ fn resume_help(error: &FolderError) -> &'static str {
 /// Remedy for rows that cannot be kept.
 fn journal_help(error: &JournalError) -> &'static str {
     match error {
-        JournalError::OtherSweep { .. } | JournalError::Damaged { .. } | JournalError::Foreign { .. } => {
+        JournalError::OtherStudy { .. } | JournalError::Damaged { .. } | JournalError::Foreign { .. } => {
             "choose another folder, or remove this one to begin anew"
         }
         JournalError::InUse { .. } => "wait for it to end, or choose another folder; each shard needs its own",
-        JournalError::NoSweep { .. } => "give the folders that gearwear sweep --shard wrote",
+        JournalError::NoStudy { kind, .. } if *kind == SampledStudy::KIND => {
+            "leave --resume out, and the study begins there"
+        }
+        JournalError::NoStudy { .. } => "give the folders that gearwear sweep --shard wrote",
         JournalError::Write { .. } | JournalError::Removed { .. } => "the same command continues with the missing rows",
         JournalError::Open { .. } | JournalError::Lost { .. } => "choose a folder you may write to",
     }
@@ -383,7 +387,7 @@ fn option_of(fault: &UncertaintyFault) -> &'static str {
         UncertaintyFault::Limit(_) => "--limit: ",
         UncertaintyFault::Output(_) => "--outputs: ",
         UncertaintyFault::Samples { .. } => "--samples: ",
-        UncertaintyFault::Scene(_) | UncertaintyFault::Study(_) => "",
+        UncertaintyFault::Scene(_) | UncertaintyFault::Study(_) | UncertaintyFault::Journal(_) => "",
     }
 }
 

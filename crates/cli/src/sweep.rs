@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
+use gearwear::journal::{self, JournalContents, JournalError, Kept};
 use gearwear::report;
 use gearwear::scene::draft::Draft;
 use gearwear::scene::loaded::LoadedScene;
@@ -14,9 +15,8 @@ use gearwear::sweep::asked::SweepQuestion;
 use gearwear::sweep::axis::{self, AxisError};
 use gearwear::sweep::combination::Sweep;
 use gearwear::sweep::goal::Optimum;
-use gearwear::sweep::journal::{self, JournalContents, JournalError};
 use gearwear::sweep::merge::merge;
-use gearwear::sweep::record::{Shard, SweepRecord};
+use gearwear::sweep::record::{Shard, SweepPart, SweepRecord};
 use gearwear::sweep::unfinished::UnfinishedSweep;
 use gearwear::sweep::verification::{SweepVerification, intention};
 
@@ -177,12 +177,11 @@ fn merge_shards(args: &MergeArgs) -> Result<(), Failure> {
     let whole = merge(&args.folders).map_err(InputError::Merge)?;
     let scene_toml = scene_of(&whole, &args.folders)?;
     report::writable(&args.out)?;
-    not_another_sweep(&whole, &args.out).map_err(InputError::Journal)?;
-    journal::write(&args.out, &whole).map_err(|source| {
-        InputError::Journal(JournalError::Open { path: args.out.join(journal::FILE_NAME), source })
-    })?;
+    not_another_sweep(&whole, &args.out).map_err(of_journal)?;
+    journal::write(&args.out, &whole)
+        .map_err(|source| of_journal(JournalError::Open { path: args.out.join(journal::FILE_NAME), source }))?;
     let record = SweepRecord {
-        identity: whole.identity,
+        identity: whole.study.identity,
         shard: None,
         scene_toml,
         rows: whole.rows.into_values().collect(),
@@ -193,25 +192,29 @@ fn merge_shards(args: &MergeArgs) -> Result<(), Failure> {
     finish(&record, &args.out, args.quiet)
 }
 
+fn of_journal(error: JournalError) -> InputError {
+    InputError::Journal { option: "--out", error }
+}
+
 /// Checks that rows in `out` are of this sweep, as they will be replaced.
-fn not_another_sweep(whole: &JournalContents, out: &Path) -> Result<(), JournalError> {
-    let differences = match journal::read(out) {
-        Ok(found) => found.identity.differences(&whole.identity),
-        Err(JournalError::NoSweep { .. }) => Vec::new(),
+fn not_another_sweep(whole: &JournalContents<SweepPart>, out: &Path) -> Result<(), JournalError> {
+    let differences = match journal::read::<SweepPart>(out) {
+        Ok(found) => found.study.identity.differences(&whole.study.identity),
+        Err(JournalError::NoStudy { .. }) => Vec::new(),
         Err(error) => return Err(error),
     };
     if differences.is_empty() {
         return Ok(());
     }
-    Err(JournalError::OtherSweep { path: out.join(journal::FILE_NAME), differences })
+    Err(JournalError::OtherStudy { path: out.join(journal::FILE_NAME), kind: SweepPart::KIND, differences })
 }
 
 /// The scene of the sweep, from the first folder that has it.
-fn scene_of(whole: &JournalContents, folders: &[PathBuf]) -> Result<String, InputError> {
+fn scene_of(whole: &JournalContents<SweepPart>, folders: &[PathBuf]) -> Result<String, InputError> {
     let scenes = folders.iter().map(|folder| folder.join(output_files::SCENE));
     let mut texts = scenes.filter_map(|scene| fs::read_to_string(scene).ok());
     texts
-        .find(|text| Draft::parse(text).is_ok_and(|draft| draft.hash() == whole.identity.given_hash))
+        .find(|text| Draft::parse(text).is_ok_and(|draft| draft.hash() == whole.study.identity.given_hash))
         .ok_or(InputError::MergeWithoutScene)
 }
 

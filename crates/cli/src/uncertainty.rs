@@ -5,11 +5,15 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use gearwear::journal::{self, Journal};
 use gearwear::report;
 use gearwear::scene::loaded::LoadedScene;
 use gearwear::uncertainty::asked::{UncertaintyFault, UncertaintyQuestion};
+use gearwear::uncertainty::kept::SampledStudy;
 use gearwear::uncertainty::record::UncertaintyRecord;
-use gearwear::uncertainty::study::{self, SampledQuestion, UncertaintyStudyError};
+use gearwear::uncertainty::report as report_of_study;
+use gearwear::uncertainty::sampled_run::{SampledQuestion, UncertaintyStudyError};
+use gearwear::uncertainty::study;
 
 use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError};
@@ -29,9 +33,12 @@ pub(super) struct UncertaintyArgs {
     /// Correlation of two uncertain keys, of their normal scores. May be given several times; pairs that are not given are independent
     #[arg(long, value_name = "KEY:KEY=R")]
     correlation: Vec<String>,
-    /// The folder for the results; those of an earlier study are replaced
-    #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    /// The folder for the results; the same study goes on where it was stopped, another one is replaced
+    #[arg(long, value_name = "DIR", required_unless_present = "resume")]
+    out: Option<PathBuf>,
+    /// Go on with the study in this folder; another one is refused
+    #[arg(long, value_name = "DIR", conflicts_with = "out")]
+    resume: Option<PathBuf>,
     /// Points of the Sobol sequence, best a power of two; each takes two runs and one more for every uncertain key
     #[arg(long, value_name = "N", default_value_t = 512)]
     samples: usize,
@@ -45,6 +52,10 @@ pub(super) struct UncertaintyArgs {
     /// Ask for the life until a depth of wear is reached, such as pinion.peak_wear_um=10. May be given several times
     #[arg(long, value_name = "FIGURE=VALUE")]
     limit: Vec<String>,
+    /// Run the samples on the contact surface of the scene; left out: on a calibrated Winkler foundation, where the figures of the scene
+    /// as given differ by less than 5 %
+    #[arg(long)]
+    own_surface: bool,
     /// Number of threads; default: all cores. Never changes the results, but the times
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
@@ -63,29 +74,56 @@ pub(super) fn run(args: &UncertaintyArgs) -> Result<(), Failure> {
         limits: args.limit.clone(),
         samples: args.samples,
         seed: args.seed,
+        on_own_surface: args.own_surface,
     };
     let question = SampledQuestion::of(&scene, &asked)?;
     asked.notes().iter().for_each(|note| say(&format!("note: {note}")));
-    report::writable(&args.out)?;
+    let study = SampledStudy::of(&scene, &question).map_err(UncertaintyFault::Scene)?;
+    let (out, mut journal) = begun(args, study)?;
     let threads = thread_count(args.threads);
     let interrupted = watch_for_interrupt();
-    gearwear::uncertainty::report::begin(&args.out)?;
     if !args.quiet {
         say(&format!("{} samples of {} uncertain keys", question.samples, question.uncertain.len()));
+        if !journal.contents.rows.is_empty() {
+            say(&format!("{} runs of them were finished before", journal.contents.rows.len()));
+        }
     }
     let progress = CountedProgress::new(args.quiet, Arc::clone(&interrupted));
-    let record = study::run(&scene, &question, threads, &progress);
+    let record = study::run(&scene, &question, &mut journal, threads, &progress);
     progress.finish();
     let record = record.map_err(UncertaintyFault::Study)?;
-    gearwear::uncertainty::report::write(&record, &args.out)?;
+    report_of_study::write(&record, out)?;
     if !args.quiet {
-        print(&table(&record, &args.out))?;
+        print(&table(&record, out))?;
     }
     if record.samples < record.samples_asked {
-        say(&format!("interrupted: {} of {} samples were finished and are kept", record.samples, record.samples_asked));
+        say(&format!(
+            "interrupted: {} of {} samples were finished and are kept; --resume {} goes on",
+            record.samples,
+            record.samples_asked,
+            out.display()
+        ));
         return Err(Failure::Interrupted);
     }
     Ok(())
+}
+
+/// Folder of the study with its journal, which an earlier start may have begun.
+fn begun(args: &UncertaintyArgs, study: SampledStudy) -> Result<(&Path, Journal<SampledStudy>), Failure> {
+    let resumed = args.resume.as_deref();
+    let out = resumed.or(args.out.as_deref()).unwrap_or(Path::new(""));
+    let refused = |error| InputError::Journal { option: if resumed.is_some() { "--resume" } else { "--out" }, error };
+    if resumed.is_some() {
+        journal::read::<SampledStudy>(out).map_err(refused)?;
+    }
+    report::writable(out)?;
+    let journal = match resumed {
+        Some(_) => Journal::open(out, study),
+        None => Journal::open_or_replace(out, study),
+    };
+    let journal = journal.map_err(refused)?;
+    report_of_study::begin(out)?;
+    Ok((out, journal))
 }
 
 impl From<UncertaintyFault> for Failure {
@@ -93,7 +131,7 @@ impl From<UncertaintyFault> for Failure {
         match fault {
             UncertaintyFault::Scene(error) => Failure::Scene(error),
             UncertaintyFault::Study(error @ UncertaintyStudyError::Interrupted) => {
-                say(&format!("{error}: nothing to write"));
+                say(&format!("{error}: nothing to write; finished runs are kept, and the same command goes on"));
                 Failure::Interrupted
             }
             UncertaintyFault::Study(UncertaintyStudyError::AllFailed { runs, first }) => {

@@ -8,7 +8,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::pair_mesh::{PairMeshError, SpaceMesh, in_space_at, on_path_mm};
-use super::{Resumption, RunInputs, RunModel, UM_PER_MM, carry_out};
+use super::{Resumption, RunInputs, RunModel, UM_PER_MM, prepared};
 use crate::contact::PositionCell;
 use crate::contact::settings::SurfaceKind;
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
@@ -70,15 +70,12 @@ pub fn deformed_teeth(
     // Under the one load of a scene in phases too.
     let torque = scene.operation.pinion_torque_n_mm;
     scene.operation = Operation::steady(torque, None, 1.0, vec![1.0]);
-    carry_out(
-        RunInputs { scene: &scene, ..inputs },
-        Resumption::none(),
-        &UnwornFlanksOnly(observer),
-        |model, found, _| {
+    prepared(RunInputs { scene: &scene, ..inputs }, &UnwornFlanksOnly(observer), |run, stages| {
+        run.assess(Resumption::none(), stages, |model, found, _| {
             let mesh = found.outcome.new.cycle.slices.as_ref().expect("the scene has slices");
             deformed(model, mesh, position_mm)
-        },
-    )?
+        })
+    })?
     .complete()?
 }
 

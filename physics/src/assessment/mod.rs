@@ -47,6 +47,7 @@ use model::RunModel;
 use prepare::{ContactCases, RunSlices, ToothElasticity};
 use recording::RunFindings;
 pub use run_error::RunError;
+use stability::Judged;
 use stage_clock::StageClock;
 use verification::{VerificationModels, Verified};
 
@@ -100,8 +101,10 @@ impl Resumption<'_> {
 /// [`RunError`] where nothing was finished.
 pub fn run(inputs: RunInputs<'_>, resumption: Resumption<'_>, observer: &dyn Observer) -> Result<Done, RunError> {
     let start = Instant::now();
-    let mut done = carry_out(inputs, resumption, observer, |model, found, summary| {
-        recording::record(inputs.provenance, model, found, summary)
+    let mut done = prepared(inputs, observer, |run, stages| {
+        run.assess(resumption, stages, |model, found, summary| {
+            recording::record(inputs.provenance, model, found, summary)
+        })
     })?;
     done.record.summary.wall_s = start.elapsed().as_secs_f64();
     Ok(done)
@@ -113,7 +116,8 @@ pub fn run(inputs: RunInputs<'_>, resumption: Resumption<'_>, observer: &dyn Obs
 /// As [`run`].
 pub fn summarise(inputs: RunInputs<'_>, observer: &dyn Observer) -> Result<Done<Summary>, RunError> {
     let start = Instant::now();
-    let mut done = carry_out(inputs, Resumption::none(), observer, |_, _, summary| summary)?;
+    let mut done =
+        prepared(inputs, observer, |run, stages| run.assess(Resumption::none(), stages, |_, _, summary| summary))?;
     done.record.wall_s = start.elapsed().as_secs_f64();
     Ok(done)
 }
@@ -123,15 +127,27 @@ pub fn summarise(inputs: RunInputs<'_>, observer: &dyn Observer) -> Result<Done<
 /// # Errors
 /// As [`run`].
 pub fn worn_pair(inputs: RunInputs<'_>, observer: &dyn Observer) -> Result<Done<WornPair>, RunError> {
-    carry_out(inputs, Resumption::none(), observer, recording::worn_pair)
+    prepared(inputs, observer, |run, stages| run.assess(Resumption::none(), stages, recording::worn_pair))
 }
 
-/// Carries out the plan of the scene and hands the outcome to `keep`, with a summary that lacks only the whole wall time.
-fn carry_out<R>(
+/// The pair of a run at each of `revolutions`, which are snapshots of the scene, as [`worn_pair`] has it at the end; one evaluation of the wear stands
+/// for all. A run that ends early has none.
+///
+/// # Errors
+/// As [`run`].
+pub fn worn_pairs(
     inputs: RunInputs<'_>,
-    resumption: Resumption<'_>,
+    revolutions: &[f64],
     observer: &dyn Observer,
-    keep: impl FnOnce(&RunModel<'_>, RunFindings<'_>, Summary) -> R,
+) -> Result<Done<Vec<WornPair>>, RunError> {
+    prepared(inputs, observer, |run, stages| run.at_moments(revolutions, stages))
+}
+
+/// Prepares the run of a scene up to its first wear step and hands it to `carry_out`.
+fn prepared<R>(
+    inputs: RunInputs<'_>,
+    observer: &dyn Observer,
+    carry_out: impl FnOnce(PreparedRun<'_, '_>, StageClock<'_>) -> Result<Done<R>, RunError>,
 ) -> Result<Done<R>, RunError> {
     let (scene, plan) = (inputs.scene, &Plan::of(inputs.scene));
     let mut stages = StageClock::new(observer);
@@ -160,8 +176,7 @@ fn carry_out<R>(
     };
     let verification = VerificationModels { elements, curve: elasticity.curve_by_elements(inputs), in_space };
     let warnings = elasticity.warning.iter().chain(&slices.warning).cloned().collect();
-    let prepared = PreparedRun { provenance: inputs.provenance, plan, model, verification, warnings };
-    prepared.assess(resumption, stages, keep)
+    carry_out(PreparedRun { provenance: inputs.provenance, plan, model, verification, warnings }, stages)
 }
 
 /// A run whose first wear step can be taken.
@@ -175,38 +190,90 @@ struct PreparedRun<'a, 'b> {
 }
 
 impl PreparedRun<'_, '_> {
-    /// Simulates the wear, observes the new and the worn pair, estimates and verifies the errors, and hands all of it to `keep`.
+    /// Simulates the wear, observes the new and the worn pair, estimates and verifies the errors, and hands all of it to `keep`, with a summary
+    /// that lacks only the whole wall time.
     fn assess<R>(
         self,
-        Resumption { from, keeper }: Resumption<'_>,
+        resumption: Resumption<'_>,
         mut stages: StageClock<'_>,
         keep: impl FnOnce(&RunModel<'_>, RunFindings<'_>, Summary) -> R,
     ) -> Result<Done<R>, RunError> {
+        let (outcome, judged) = self.simulate(resumption, &mut stages)?;
         let Self { provenance, plan, model, verification, warnings } = self;
-        let observer = stages.observer;
-        let judged = stages.planned(plan, StageKind::StepBound, || stability::judge(&model, observer));
-        let judged = judged.unwrap_or_default();
         let step_over_safe = judged.step_over_safe;
-        let outcome = stages.run(StageKind::Simulation.name(), || model.wear_run().run_from(from, keeper, observer))?;
-        let model = model.ending_with(&outcome);
-        let heat = stages.planned(plan, StageKind::ContactTemperature, || temperature::observe(&model, &outcome));
-        let heat = heat.flatten();
-        let films = films_and_losses(plan, &model, &outcome, &mut stages);
-        let mut error = estimates(plan, &model, &outcome, step_over_safe, &mut stages);
-        let verified = verify(plan, &model, &outcome, verification, &mut stages);
-        verified.tell(&mut error);
-
-        let found = RunFindings {
-            outcome: &outcome,
-            heat: heat.as_ref(),
-            lubrication: films.as_ref(),
-            verified: Some(&verified),
+        let ended = EndedRun { provenance, plan, model: model.ending_with(&outcome), outcome: &outcome, warnings };
+        let errors = |model: &RunModel<'_>, stages: &mut StageClock<'_>| {
+            let error = estimates(plan, model, &outcome, step_over_safe, stages);
+            (error, verify(plan, model, &outcome, verification, stages))
         };
-        let mut summary = recording::summary(provenance, plan, &model, found, error, judged)?;
-        summary.warnings.extend(warnings);
-        summary.stages = stages.times;
-        let record = keep(&model, found, summary);
+        let record = ended.sum_up(judged, &mut stages, errors, keep)?;
         Ok(Done { record, failure: outcome.failure.map(|failure| RunError::of_run(failure, step_over_safe)) })
+    }
+
+    /// Simulates the wear and observes the pair at each of `revolutions`; nothing of a run that ends early.
+    fn at_moments(self, revolutions: &[f64], mut stages: StageClock<'_>) -> Result<Done<Vec<WornPair>>, RunError> {
+        let (outcome, judged) = self.simulate(Resumption::none(), &mut stages)?;
+        let Self { provenance, plan, mut model, warnings, .. } = self;
+        let step_over_safe = judged.step_over_safe;
+        model = model.ending_with(&outcome);
+        let at = revolutions.iter().map_while(|&revolutions| outcome.ended_at(revolutions));
+        let mut pairs = Vec::new();
+        for outcome in at {
+            let ended = EndedRun { provenance, plan, model, outcome: &outcome, warnings: warnings.clone() };
+            let errors = |_: &RunModel<'_>, _: &mut StageClock<'_>| {
+                let reason = not_estimated_because(&outcome);
+                (ErrorSummary::not_estimated(reason), Verified::none(reason))
+            };
+            pairs.push(ended.sum_up(judged.clone(), &mut stages, errors, recording::worn_pair)?);
+            model = ended.model;
+        }
+        Ok(Done { record: pairs, failure: outcome.failure.map(|failure| RunError::of_run(failure, step_over_safe)) })
+    }
+
+    /// The outcome of the wear run, and the judgement of its steps.
+    fn simulate(
+        &self,
+        Resumption { from, keeper }: Resumption<'_>,
+        stages: &mut StageClock<'_>,
+    ) -> Result<(Outcome, Judged), RunError> {
+        let observer = stages.observer;
+        let judged = stages.planned(self.plan, StageKind::StepBound, || stability::judge(&self.model, observer));
+        let run = || self.model.wear_run().run_from(from, keeper, observer);
+        Ok((stages.run(StageKind::Simulation.name(), run)?, judged.unwrap_or_default()))
+    }
+}
+
+/// A run whose wear is simulated.
+struct EndedRun<'a, 'b> {
+    provenance: &'b Provenance,
+    plan: &'b Plan,
+    model: RunModel<'a>,
+    outcome: &'b Outcome,
+    /// Warnings of the preparation.
+    warnings: Vec<String>,
+}
+
+impl EndedRun<'_, '_> {
+    /// Observes the new and the worn pair and hands the findings to `keep`, with the errors that `errors` gives.
+    fn sum_up<R>(
+        &self,
+        judged: Judged,
+        stages: &mut StageClock<'_>,
+        errors: impl FnOnce(&RunModel<'_>, &mut StageClock<'_>) -> (ErrorSummary, Verified),
+        keep: impl FnOnce(&RunModel<'_>, RunFindings<'_>, Summary) -> R,
+    ) -> Result<R, RunError> {
+        let Self { plan, model, outcome, .. } = self;
+        let heat = stages.planned(plan, StageKind::ContactTemperature, || temperature::observe(model, outcome));
+        let heat = heat.flatten();
+        let films = films_and_losses(plan, model, outcome, stages);
+        let (mut error, verified) = errors(model, stages);
+        verified.tell(&mut error);
+        let found =
+            RunFindings { outcome, heat: heat.as_ref(), lubrication: films.as_ref(), verified: Some(&verified) };
+        let mut summary = recording::summary(self.provenance, plan, model, found, error, judged)?;
+        summary.warnings.extend_from_slice(&self.warnings);
+        summary.stages.clone_from(&stages.times);
+        Ok(keep(model, found, summary))
     }
 }
 

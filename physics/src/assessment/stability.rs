@@ -11,7 +11,7 @@ use gearwear_bodies::gear::PerGear;
 use gearwear_bodies::material::Material;
 
 /// Judgement of the wear steps, and the mesh cycles evaluated for it.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Judged {
     pub warnings: Vec<String>,
     pub evaluations: u64,

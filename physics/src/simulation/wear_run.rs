@@ -125,6 +125,16 @@ pub struct Outcome {
     pub work: Work,
 }
 
+impl Outcome {
+    /// The outcome as it would be had the run ended at its snapshot after `revolutions`; `None` where it has none. Counts of the work stay those of
+    /// the whole run.
+    pub fn ended_at(&self, revolutions: f64) -> Option<Self> {
+        let last = self.snapshots.iter().position(|snapshot| snapshot.revolutions.total_cmp(&revolutions).is_eq())?;
+        let snapshots = self.snapshots[..=last].to_vec();
+        Some(Self { worn: snapshots[last].clone(), snapshots, ..self.clone() })
+    }
+}
+
 /// Both flanks before the first mesh.
 pub(super) struct UnwornFlanks {
     pub grid: PerGear<FlankGrid>,

@@ -4,6 +4,7 @@ use crate::report::output_files;
 use maud::{Markup, html};
 
 use super::{LAST, SAMPLES, figures};
+use crate::journal;
 use crate::report::html::number::{count, figure, fixed, percent, significant};
 use crate::report::html::page::{Page, Plots, note, section, sources_list};
 use crate::report::html::table::{Cell, NONE, cells, line, list};
@@ -14,6 +15,7 @@ const DATA_FILES: &[(&str, &str)] = &[
     (SAMPLES, "one row per run: values of the keys, figures, errors"),
     (LAST, "distributions, quantiles, indices, bands"),
     (output_files::SCENE, "the scene as given"),
+    (journal::FILE_NAME, "the runs as they were finished; a restart reads it"),
 ];
 
 pub(super) fn page(record: &UncertaintyRecord) -> String {
@@ -85,15 +87,16 @@ fn uncertain(record: &UncertaintyRecord) -> Markup {
                 }),
             ))
         }
-        (note(&format!("Error of the fast model: {}.", record.model_error_how.trim_end_matches('.'))))
+        (note(&format!("Error of the scene as given: {}.", record.model_error_how.trim_end_matches('.'))))
+        (note(&format!("Contact surface of the samples: {}, as {}.", record.surface.surface, record.surface.because)))
     }
 }
 
 fn quantiles(record: &UncertaintyRecord) -> Markup {
     let rows = record.outputs.iter().map(|output| {
         let [p05, p25, p50, p75, p95] = output.quantiles.all();
-        let [model_error, longer] =
-            [output.model_error, output.censored].map(|share| share.map_or_else(|| NONE.to_owned(), percent));
+        let [model_error, difference, longer] = [output.model_error, output.surface_difference, output.censored]
+            .map(|share| share.map_or_else(|| NONE.to_owned(), percent));
         line(cells![
             output.meaning.as_str(),
             output.nominal,
@@ -105,18 +108,32 @@ fn quantiles(record: &UncertaintyRecord) -> Markup {
             output.mean,
             output.standard_deviation,
             model_error,
+            difference,
             longer,
             output.unit.as_str(),
         ])
     });
-    let columns =
-        ["", "as given", "5 %", "25 %", "50 %", "75 %", "95 %", "mean", "st. dev.", "model error ±", "longer", "unit"];
+    let columns = [
+        "",
+        "as given",
+        "5 %",
+        "25 %",
+        "50 %",
+        "75 %",
+        "95 %",
+        "mean",
+        "st. dev.",
+        "error ±",
+        "fast model ±",
+        "longer",
+        "unit",
+    ];
     html! {
         (list("Quantiles", columns, rows))
         (note(
             "A quantile of 95 % is the value that 95 % of the samples stay below. Longer: part of the samples whose life is longer than their \
-             duration; a quantile among these is not known. Model error: the relative difference to finite elements on the scene as given, within \
-             which the samples vary it uniformly."
+             duration; a quantile among these is not known. Error: the relative difference to finite elements on the scene as given. Fast model: the \
+             relative difference that the contact surface of the samples makes there. The samples vary the figure uniformly within the sum of both."
         ))
     }
 }
