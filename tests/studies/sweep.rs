@@ -486,7 +486,7 @@ fn a_folder_removed_on_the_way_is_an_error_and_its_rows_are_kept() {
     let output = child.wait_with_output().unwrap();
     refused(
         &output,
-        &["rows.jsonl was removed while the sweep ran", "written there anew", "the same command continues"],
+        &["rows.jsonl was removed while the study ran", "written there anew", "the same command continues"],
     );
     let kept = journaled(&out);
     assert!((5..2000).contains(&kept), "{kept}");
