@@ -1,6 +1,7 @@
 //! The stages a scene needs and those it does not, decided here alone and from the scene alone.
 
 pub mod calibration;
+pub mod cost;
 pub mod fem_pair;
 
 use serde::{Serialize, Serializer};

@@ -86,7 +86,7 @@ impl Stages<'_> {
 /// Extent of a calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CalibrationExtent {
-    /// Everything, with the tables of other bodies and other teeth.
+    /// Everything, with the tables of other bodies and other teeth and the wear of unworn flanks.
     Whole,
     /// Curves of the fast model alone.
     FastModel,
@@ -113,7 +113,7 @@ pub fn run(
     let deflection = stages.run(CalibrationStage::ToothStiffness, || loaded.along_the_path(STIFFNESS_POSITIONS, w))?;
     let single_contact = stages.run(CalibrationStage::Foundation, || on_plain_flanks(&setup, &condensed, &loaded))?;
     let (foundation, foundation_fit) = foundation_fit::all(&single_contact, w, (pair.path.start_mm, pair.path.end_mm));
-    let (mut convergence, mut rim_depth, mut neighbours, mut family) = Default::default();
+    let (mut convergence, mut rim_depth, mut neighbours, mut family, mut wear_reference) = Default::default();
     if extent == CalibrationExtent::Whole {
         convergence = stages.run(CalibrationStage::Convergence, || setup.convergence())?;
         rim_depth = stages.run(CalibrationStage::RimDepth, || setup.rim_depths())?;
@@ -125,9 +125,11 @@ pub fn run(
         true => stages.run(CalibrationStage::Slices, || slices(scene, &pair, kept, (&pair_compliance, w), observer))?,
         false => None,
     };
-    let wear_reference = stages.run(CalibrationStage::WearReference, || {
-        wear_reference::references(&condensed, w, &|| observer.interrupted())
-    })?;
+    if extent == CalibrationExtent::Whole {
+        wear_reference = stages.run(CalibrationStage::WearReference, || {
+            wear_reference::references(&condensed, w, &|| observer.interrupted())
+        })?;
+    }
     let mut calibration = Calibration {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         hash: String::new(),
