@@ -232,7 +232,6 @@ fn samples_share_runs_on_a_fast_model() {
     assert_eq!((&shared["surface"]["surface"], &own["surface"]["surface"]), (&"winkler".into(), &"half-space".into()));
     for name in ["pinion.peak_wear_um", "wheel.peak_wear_um", "worn.transmission_error_um.peak_to_peak"] {
         let [one, other, on_own] = [&shared, &alone, &own].map(|record| output(record, name));
-        let value = |of: &Value, quantile: &str| of["quantiles"][quantile].as_f64().unwrap();
         for quantile in ["p05", "p50", "p95"] {
             // The step error of 0.05 µm.
             let [one, other] = [one, other].map(|of| of["quantiles"][quantile].as_f64().unwrap());

@@ -10,6 +10,7 @@ use std::time::Instant;
 
 use gearwear::scene::loaded::LoadedScene;
 use gearwear::scene::table::set;
+use gearwear_bodies::gear::GearPair;
 use gearwear_physics::plan::cost::RunCost;
 use gearwear_validation::invariants::scene_generator;
 use serde_json::{Value, json};
@@ -39,7 +40,7 @@ fn peak_memory_gb() -> Option<f64> {
 /// Runs a scene and prints what it was to cost and what it did, JSON.
 fn measure(seed: u64, index: u64) -> Result<(), Box<dyn Error>> {
     let scene = LoadedScene::from_toml(&scene(seed, index))?;
-    let announced = RunCost::of(scene.scene())?;
+    let announced = RunCost::of(scene.scene(), &GearPair::new(&scene.scene().pair)?);
     let start = Instant::now();
     let done = gearwear::run(&scene, &gearwear::Unwatched)?;
     let seconds = start.elapsed().as_secs_f64();
@@ -48,8 +49,8 @@ fn measure(seed: u64, index: u64) -> Result<(), Box<dyn Error>> {
     let line = json!({
         "index": index, "announced_s": announced.seconds, "seconds": seconds, "announced_GB": announced.memory_gb, "GB": peak_memory_gb(),
         "stages": stages, "mesh_cycles": summary.work.mesh_cycles, "surface": summary.contact.surface,
-        "parts": announced.parts.iter().map(|(stage, s)| json!([stage.name(), s])).collect::<Vec<_>>(),
-        "debug": announced.debug, "coupling": scene.scene().slices.map(|s| s.coupling.name()), "law": [scene.scene().wear.pinion.law.name(), scene.scene().wear.wheel.law.name()], "heat": scene.scene().heat.is_some(), "depth_um": summary.pinion.peak_wear_um.max(summary.wheel.peak_wear_um),
+        "announced_stages": announced.stages,
+        "depth_um": summary.pinion.peak_wear_um.max(summary.wheel.peak_wear_um),
     });
     println!("{line}");
     Ok(())

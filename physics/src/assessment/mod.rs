@@ -34,7 +34,7 @@ use std::time::Instant;
 
 use crate::contact::hertz;
 use crate::observer::Observer;
-use crate::plan::{Plan, StageKind};
+use crate::plan::{Plan, StageKind, cost::RunCost};
 use crate::results::error::ErrorSummary;
 use crate::results::provenance::Provenance;
 use crate::results::run::{RunRecord, StopReason, Summary};
@@ -153,6 +153,9 @@ fn prepared<R>(
     let mut stages = StageClock::new(observer);
 
     let pair = stages.run(StageKind::Geometry.name(), || GearPair::new(&scene.pair))?;
+    if let Some(much) = RunCost::of(scene, &pair).announcement() {
+        observer.announcement(&much);
+    }
     let at_pitch = hertz::flattening(&pair.normal_section(), &scene.material, pair.path.pitch_point_mm);
     let elements = prepare::elements(scene, plan, &pair, &at_pitch, &mut stages);
     let elasticity = ToothElasticity::new(inputs, plan, &pair, elements.as_ref(), &mut stages)?;

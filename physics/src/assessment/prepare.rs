@@ -17,7 +17,7 @@ use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::mesh_cycle::slice_coupling::SliceCompliance;
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::operation::Scene;
-use crate::plan::{MUCH_OF_SLICES_GB, Plan, StageKind, memory_in_space_gb, memory_of_slices_gb};
+use crate::plan::{Plan, StageKind};
 use crate::simulation::wear_run::RunPhase;
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
@@ -32,9 +32,6 @@ use gearwear_bodies::reference::flattening::Flattening;
 /// Least load, over the greatest of all phases, whose contact the wearing elements are meshed for: half as wide as that of the greatest. Phases
 /// under less load have fewer elements in contact, and little wear.
 const LEAST_MESHED_LOAD: f64 = 0.25;
-
-/// Memory of three-dimensional finite elements above which it is announced, GB.
-const MUCH_IN_SPACE_GB: f64 = 0.8;
 
 /// Plane finite elements for both stiffness and verification; none where the plan has neither, or where the elements themselves wear.
 pub(super) fn elements<'a>(
@@ -214,13 +211,6 @@ pub(super) fn teeth_in_space(
         return None;
     }
     let scene = inputs.scene;
-    let gb = memory_in_space_gb(scene);
-    if gb > MUCH_IN_SPACE_GB {
-        stages.observer.announcement(&format!(
-            "three-dimensional finite elements of the teeth take some {gb:.1} GB, and a minute or more; a smaller pair.face_width_mm, fewer helical.slices, \
-             numerics.positions or loads of operation.phases, or numerics.verify = false take less"
-        ));
-    }
     Some(stages.run(StageKind::TeethInSpace.name(), || {
         let material = scene.material.map(Material::elastic);
         let slices = scene.slices.map_or(1, |slices| slices.count);
@@ -248,13 +238,6 @@ impl RunSlices {
     ) -> Result<Self, RunError> {
         let scene = inputs.scene;
         let (slices, warning) = own_slices(scene, stiffness, in_space)?;
-        let gb = memory_of_slices_gb(scene);
-        if gb > MUCH_OF_SLICES_GB {
-            stages.observer.announcement(&format!(
-                "the contacts of all slices take some {gb:.1} GB, and a wear step as much longer; fewer helical.slices, \
-                 numerics.positions or loads of operation.phases take less"
-            ));
-        }
         let of_teeth = slices.map(|settings| {
             let coupling = in_space.and_then(|teeth| teeth.as_ref().ok()).cloned();
             let compliance = slice_compliance(inputs, pair, teeth);

@@ -1,130 +1,190 @@
-//! Time and memory that a run will take, from its scene alone: what is announced before it begins.
+//! Time and memory that a run will take, from its scene alone: what is said before it begins.
 //!
-//! Work is counted in the sizes that it grows with (positions, slices, points in a contact, wear steps), and times of each were measured once, on one
-//! thread of a core of some 3 GHz ([`SECONDS`]). The number of wear steps follows from the depth that VDI 2736 expects over the tolerance. What the
-//! program cannot know before it runs, such as how often a severe law switches, leaves the announcement within a factor of two or so of most runs.
+//! Work is counted in the sizes that it grows with: positions, slices, mesh cycles, flank points in a contact. The time of each unit was measured once,
+//! on one thread of a core of some 3 GHz. Mesh cycles follow from the mean depth of VDI 2736 over the tolerance of adaptive steps. What shows only when
+//! the gears wear, such as how often a severe law switches, leaves an estimate; `examples/run_costs` holds it against random scenes.
 
+use serde::Serialize;
+
+use super::{Plan, StageKind, memory_in_space_gb, memory_of_slices_gb};
 use crate::contact::hertz;
 use crate::contact::settings::SurfaceKind;
-use crate::mesh_cycle::settings::Coupling;
 use crate::operation::Scene;
-use crate::plan::{Plan, StageKind, memory_in_space_gb, memory_of_slices_gb};
 use crate::simulation::settings::Stepping;
 use crate::wear::settings::WearOfPair;
 use crate::wear::vdi_2736::{SteadyWear, mean_wear_mm};
-use gearwear_bodies::gear::{Gear, GearPair, PairError};
+use gearwear_bodies::gear::{Gear, GearPair};
 
-/// Work of a scene.
-struct Work {
-    /// Positions of the mesh cycle on springs, of all loads.
-    positions: f64,
-    /// Mesh cycles of the wear run.
-    mesh_cycles: f64,
-    slices: f64,
-    /// Flank points in a contact under the whole load at the pitch point.
-    points_in_contact: f64,
-    /// Nodes of the finite elements of both flanks.
-    nodes: f64,
-}
+/// Time above which a run says at its beginning what it takes, s.
+const MUCH_TIME_S: f64 = 20.0;
+/// Memory above which it does, GB.
+const MUCH_MEMORY_GB: f64 = 1.0;
+/// Mesh cycles that the preparation of all positions stands for.
+const PREPARATION_CYCLES: f64 = 4.0;
+/// Mesh cycles of a run whose depth is not that of a constant coefficient.
+const USUAL_CYCLES: f64 = 15.0;
+/// Ratio of depth to tolerance from which mesh cycles grow no more: steps are then as long as stability allows.
+const DEEP: f64 = 400.0;
+/// Mesh cycles with severe wear over those without.
+const SEVERE: f64 = 4.0;
+/// Part of the wear run that error estimates take, which evaluate half of the points and positions.
+const ERROR_ESTIMATES: f64 = 0.45;
+/// Positions of a verification over those of the run, in slices.
+const VERIFIED_POSITIONS: f64 = 0.4;
+/// Flank points in a contact that the times of a position are measured with, and the power with which these grow.
+const POINTS: (f64, f64) = (20.0, 0.6);
+/// Plane finite elements of a pair: time of a model, s, and of a position of the mesh cycle, s; memory, GB.
+const PLANE_ELEMENTS: (f64, f64, f64) = (0.25, 25e-6, 0.15);
+/// Positions of the mesh cycle of a verification on plane finite elements.
+const PLANE_POSITIONS: f64 = 200.0;
+/// Time of three-dimensional finite elements for each slice, s.
+const IN_SPACE_S: f64 = 0.14;
+/// Memory of a program that has begun, GB.
+const PROGRAM_GB: f64 = 0.01;
 
 /// Cost of a run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RunCost {
-    /// Time of each stage on one thread, s.
-    pub parts: Vec<(StageKind, f64)>,
-    /// Time of all, s.
+    /// Time of all stages on one thread, s.
     pub seconds: f64,
     /// Peak memory, GB.
+    #[serde(rename = "memory_GB")]
     pub memory_gb: f64,
-    pub debug: Vec<f64>,
+    /// Time of each stage that takes any, s.
+    pub stages: Vec<StageCost>,
+}
+
+/// Plan of a run with its cost.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PlanAndCost {
+    /// Stages, and those left out.
+    #[serde(flatten)]
+    pub plan: Plan,
+    /// Cost of the run.
+    pub cost: RunCost,
+}
+
+/// Cost of a stage.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StageCost {
+    /// Kind of stage.
+    #[serde(rename = "name")]
+    pub kind: StageKind,
+    /// Time on one thread, s.
+    pub seconds: f64,
 }
 
 impl RunCost {
-    /// Cost of a run of `scene`.
-    ///
-    /// # Errors
-    /// A pair that cannot exist.
-    pub fn of(scene: &Scene) -> Result<Self, PairError> {
-        let pair = GearPair::new(&scene.pair)?;
-        let plan = Plan::of(scene);
-        let work = Work::of(scene, &pair);
-        let parts: Vec<(StageKind, f64)> =
-            plan.stages.iter().map(|stage| (stage.kind, work.seconds(stage.kind, scene))).collect();
-        Ok(Self {
-            seconds: parts.iter().map(|(_, seconds)| seconds).sum(),
-            memory_gb: work.memory_gb(scene, &plan),
-            parts,
-            debug: vec![
-                work.positions,
-                work.mesh_cycles,
-                work.slices,
-                work.points_in_contact,
-                work.nodes,
-                scene.wear.severe_factor_under(1e9).unwrap_or(1.0),
-                scene.operation.snapshots_revolutions.len() as f64,
-            ],
-        })
+    /// Cost of a run of `scene`, whose gears are `pair`.
+    pub fn of(scene: &Scene, pair: &GearPair) -> Self {
+        let (plan, work) = (Plan::of(scene), Work::of(scene, pair));
+        let all =
+            plan.stages.iter().map(|stage| StageCost { kind: stage.kind, seconds: work.seconds(stage.kind, scene) });
+        let stages: Vec<StageCost> = all.filter(|stage| stage.seconds > 0.0).collect();
+        let elements = if plan.has(StageKind::FiniteElementModel) { PLANE_ELEMENTS.2 } else { 0.0 };
+        let in_space = if plan.has(StageKind::TeethInSpace) { memory_in_space_gb(scene) } else { 0.0 };
+        let memory_gb = PROGRAM_GB + elements + in_space + memory_of_slices_gb(scene);
+        Self { seconds: stages.iter().map(|stage| stage.seconds).sum(), memory_gb, stages }
     }
+
+    /// In words, where it is much.
+    pub fn announcement(&self) -> Option<String> {
+        if self.seconds <= MUCH_TIME_S && self.memory_gb <= MUCH_MEMORY_GB {
+            return None;
+        }
+        let most = self.stages.iter().max_by(|a, b| a.seconds.total_cmp(&b.seconds))?;
+        Some(format!(
+            "the run takes some {:.0} s on one thread, {:.0} s of them for the {}, and {:.1} GB; fewer helical.slices, numerics.positions or \
+             loads of operation.phases, or numerics.verify = false take less",
+            self.seconds,
+            most.seconds,
+            most.kind.name(),
+            self.memory_gb
+        ))
+    }
+}
+
+/// Sizes that the work of a scene grows with.
+struct Work {
+    /// Positions of the mesh cycle, of all loads.
+    positions: f64,
+    mesh_cycles: f64,
+    slices: Option<f64>,
+    /// Flank points in a contact at the pitch point, with [`POINTS`].
+    of_points: f64,
 }
 
 impl Work {
     fn of(scene: &Scene, pair: &GearPair) -> Self {
         let load = pair.line_load_n_per_mm(scene.operation.torque_range_n_mm()[1]);
         let at_pitch = hertz::flattening(&pair.normal_section(), &scene.material, pair.path.pitch_point_mm);
-        let half_width_mm = at_pitch.contact.loaded(load).half_width_mm;
-        let flank_mm: f64 = pair.teeth.pinion.involute.arc_mm(pair.teeth.pinion.tip_rho_mm());
-        let element_mm = half_width_mm / scene.wear_elements_per_half_width;
-        let nodes = Gear::BOTH.map(|gear| {
-            let tooth = &pair.teeth[gear];
-            let active_mm = tooth.tip_radius_mm - pair.active_start_radius_mm(gear);
-            let rounding = scene.pair.tip_rounding_mm(gear).max(0.1 * half_width_mm);
-            active_mm / element_mm + 40.0 * half_width_mm / rounding
-        });
+        let contact = at_pitch.contact.loaded(load);
+        let flank_mm = pair.teeth.pinion.involute.arc_mm(pair.teeth.pinion.tip_rho_mm());
+        let points = 2.0 * contact.half_width_mm / flank_mm * scene.numerics.flank_points as f64;
+        let severe = scene.wear.is_severe_under(contact.peak_pressure_mpa, 0.5);
+        let more = if severe && matches!(scene.numerics.stepping, Stepping::Adaptive { .. }) { SEVERE } else { 1.0 };
         Self {
-            positions: scene.numerics.positions as f64 * scene.operation.phases.len() as f64,
-            mesh_cycles: mesh_cycles(scene, pair),
-            slices: scene.slices.map_or(1.0, |slices| slices.count as f64),
-            points_in_contact: 2.0 * half_width_mm / flank_mm * scene.numerics.flank_points as f64,
-            nodes: nodes.iter().sum(),
+            positions: scene.numerics.positions as f64 * super::loads(scene),
+            mesh_cycles: more * mesh_cycles(scene, pair),
+            slices: scene.slices.map(|slices| slices.count as f64),
+            of_points: (points / POINTS.0).max(0.5).powf(POINTS.1),
         }
     }
 
     /// Time of a stage, s.
     fn seconds(&self, kind: StageKind, scene: &Scene) -> f64 {
-        let per_position = 1e-6 * self.points_in_contact.max(10.0);
+        let cycles = self.mesh_cycles + PREPARATION_CYCLES;
+        let (model_s, position_s, _) = PLANE_ELEMENTS;
         match kind {
-            StageKind::FiniteElementModel => 1e-6 * self.nodes.powi(2),
-            StageKind::Simulation => per_position * self.positions * self.slices * self.mesh_cycles,
+            StageKind::FiniteElementModel | StageKind::FiniteElementCalibration => model_s,
+            StageKind::TeethInSpace => IN_SPACE_S * self.slices.unwrap_or(1.0),
+            StageKind::Simulation => self.wear_run(scene.contact.surface, self.positions, cycles),
+            StageKind::ErrorEstimates => ERROR_ESTIMATES * self.seconds(StageKind::Simulation, scene),
+            StageKind::Verification if self.slices.is_some() => {
+                self.wear_run(SurfaceKind::HalfSpace, VERIFIED_POSITIONS * self.positions, cycles)
+            }
+            StageKind::Verification => position_s * PLANE_POSITIONS * cycles + model_s,
             _ => 0.0,
         }
     }
 
-    fn memory_gb(&self, scene: &Scene, plan: &Plan) -> f64 {
-        let in_space = if plan.has(StageKind::TeethInSpace) { memory_in_space_gb(scene) } else { 0.0 };
-        0.03 + in_space + memory_of_slices_gb(scene)
+    /// Time of a wear run on a surface, s.
+    fn wear_run(&self, surface: SurfaceKind, positions: f64, cycles: f64) -> f64 {
+        let evaluations = positions * cycles;
+        let [plane_us, of_slice_us] = match surface {
+            SurfaceKind::Fem => return PLANE_ELEMENTS.1 * evaluations,
+            SurfaceKind::HalfSpace => [10.0, 15.0],
+            SurfaceKind::Winkler => [3.0, 8.0],
+            SurfaceKind::Hertz => [2.0, 5.0],
+            SurfaceKind::HertzMean => [1.0, 0.1],
+        };
+        1e-6 * self.of_points * evaluations * self.slices.map_or(plane_us, |slices| of_slice_us * slices)
     }
 }
 
-/// Mesh cycles of a wear run.
+/// Mesh cycles of a wear run without severe wear.
 fn mesh_cycles(scene: &Scene, pair: &GearPair) -> f64 {
+    let snapshots = scene.operation.snapshots_revolutions.len() as f64;
     match scene.numerics.stepping {
-        Stepping::Fixed { revolutions } => (scene.operation.pinion_revolutions / revolutions).ceil(),
+        Stepping::Fixed { revolutions } => (scene.operation.pinion_revolutions / revolutions).ceil() + snapshots,
         Stepping::Adaptive { tolerance_mm } => {
-            let depth = Gear::BOTH.map(|gear| depth_mm(scene, pair, gear));
-            let over_tolerance = depth[0].max(depth[1]) / tolerance_mm;
-            10.0 + 3.0 * over_tolerance.sqrt()
+            let depth = Gear::BOTH.map(|gear| mean_depth_mm(scene, pair, gear));
+            let of_depth = |depth: f64| 10.0 + 3.0 * (depth / tolerance_mm).min(DEEP).sqrt();
+            let [pinion, wheel] = depth.map(|depth| depth.map_or(USUAL_CYCLES, of_depth));
+            pinion.max(wheel).max(2.0 * snapshots)
         }
     }
 }
 
-/// Mean wear depth that VDI 2736 expects of a gear with the coefficients of its phases.
-fn depth_mm(scene: &Scene, pair: &GearPair, gear: Gear) -> f64 {
+/// Mean wear depth that VDI 2736 expects of a gear; none of a law that is more than a coefficient.
+fn mean_depth_mm(scene: &Scene, pair: &GearPair, gear: Gear) -> Option<f64> {
     let mut begin = 0.0;
     let stretches = scene.operation.phases.iter().map(|phase| {
         let revolutions = phase.end_revolutions - begin;
         begin = phase.end_revolutions;
-        let coefficient_mm2_per_n = scene.wear_in(phase)[gear].coefficient_mm2_per_n;
-        SteadyWear { coefficient_mm2_per_n, pinion_torque_n_mm: phase.pinion_torque_n_mm, revolutions }
+        let coefficient_mm2_per_n = scene.wear_in(phase)[gear].constant_coefficient_mm2_per_n()?;
+        Some(SteadyWear { coefficient_mm2_per_n, pinion_torque_n_mm: phase.pinion_torque_n_mm, revolutions })
     });
-    mean_wear_mm(pair, gear, stretches)
+    let stretches: Option<Vec<SteadyWear>> = stretches.collect();
+    Some(mean_wear_mm(pair, gear, stretches?.into_iter()))
 }

@@ -322,7 +322,7 @@ fn loads(scene: &Scene) -> f64 {
 }
 
 /// Memory of the three-dimensional finite elements of `scene`, GB: their sectors, and for each of its loads the matrices that couple its slices.
-pub fn memory_in_space_gb(scene: &Scene) -> f64 {
+fn memory_in_space_gb(scene: &Scene) -> f64 {
     let loads = loads(scene);
     let count = scene.slices.map_or(1, |slices| slices.count);
     let (slices, positions) = (count as f64 / 100.0, scene.numerics.positions as f64 / 400.0);
@@ -345,7 +345,7 @@ fn teeth_in_space(scene: &Scene) -> Result<String, String> {
 
 /// Memory that the contacts of the slices of `scene` take, GB: one for every slice at every position of one load, measured on the preset `helical`
 /// with 300 points a flank; points and cells across a contact grow with theirs.
-pub fn memory_of_slices_gb(scene: &Scene) -> f64 {
+fn memory_of_slices_gb(scene: &Scene) -> f64 {
     let count = scene.slices.map_or(0, |slices| slices.count);
     let of_contact_kb = match scene.contact.surface {
         SurfaceKind::Winkler => 8.0,
@@ -359,7 +359,7 @@ pub fn memory_of_slices_gb(scene: &Scene) -> f64 {
 }
 
 /// Memory of the contacts of slices, above which it is said, GB.
-pub const MUCH_OF_SLICES_GB: f64 = 1.0;
+const MUCH_OF_SLICES_GB: f64 = 1.0;
 
 fn helical_slices(scene: &Scene) -> Result<String, String> {
     let Some(slices) = scene.slices else {

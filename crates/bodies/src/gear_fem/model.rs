@@ -84,7 +84,7 @@ pub fn much_memory(meshed: &PerGear<MeshedGear>, bodies: f64) -> Result<Option<S
     }
     Ok((gb > MUCH_MEMORY_GB).then(|| {
         format!(
-            "the working flanks have {} nodes (pinion) and {} (wheel): their condensation takes some {gb:.1} GB, and a minute or more; fewer \
+            "the working flanks have {} nodes (pinion) and {} (wheel): their condensation takes some {gb:.1} GB; fewer \
              fem.elements_per_half_width or a larger tip_rounding_mm takes less",
             nodes.pinion, nodes.wheel
         )
