@@ -3,9 +3,10 @@
 //!
 //! Scenes are those of the invariants, with resolutions that users choose in place of their coarse ones.
 
+#[path = "../common/mod.rs"]
+mod common;
+
 use std::error::Error;
-use std::fs;
-use std::process::Command;
 use std::time::Instant;
 
 use gearwear::scene::loaded::LoadedScene;
@@ -30,26 +31,17 @@ fn scene(seed: u64, index: u64) -> String {
     table.to_string()
 }
 
-/// Peak memory of this process, GB; none where the system does not say.
-fn peak_memory_gb() -> Option<f64> {
-    let status = fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    Some(1e-6 * line.split_whitespace().next()?.parse::<f64>().ok()?)
-}
-
 /// Runs a scene and prints what it was to cost and what it did, JSON.
 fn measure(seed: u64, index: u64) -> Result<(), Box<dyn Error>> {
     let scene = LoadedScene::from_toml(&scene(seed, index))?;
     let announced = RunCost::of(scene.scene(), &GearPair::new(&scene.scene().pair)?);
     let start = Instant::now();
     let done = gearwear::run(&scene, &gearwear::Unwatched)?;
-    let seconds = start.elapsed().as_secs_f64();
     let summary = done.record.summary;
     let stages: Vec<Value> = summary.stages.iter().map(|stage| json!([stage.name, stage.wall_s])).collect();
     let line = json!({
-        "index": index, "announced_s": announced.seconds, "seconds": seconds, "announced_GB": announced.memory_gb, "GB": peak_memory_gb(),
-        "stages": stages, "mesh_cycles": summary.work.mesh_cycles, "surface": summary.contact.surface,
-        "announced_stages": announced.stages,
+        "index": index, "announced": announced, "measured": common::cost_since(start), "stages": stages,
+        "surface": summary.contact.surface, "mesh_cycles": summary.work.mesh_cycles,
         "depth_um": summary.pinion.peak_wear_um.max(summary.wheel.peak_wear_um),
     });
     println!("{line}");
@@ -78,14 +70,17 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let (mut seconds, mut memory) = (Vec::new(), Vec::new());
     for index in 0..count {
-        let mut one = Command::new(std::env::current_exe()?);
-        one.args(["--one", &seed.to_string(), &index.to_string()]).env("RAYON_NUM_THREADS", "1");
-        let output = one.output()?;
-        let Ok(found) = serde_json::from_slice::<Value>(&output.stdout) else { continue };
+        let args = ["--one", &seed.to_string(), &index.to_string()];
+        let Ok(found) = common::in_its_own_process(&args, 1) else { continue };
         println!("{found}");
-        let ratio = |announced: &str, measured: &str| Some(found[announced].as_f64()? / found[measured].as_f64()?);
-        seconds.extend(ratio("announced_s", "seconds"));
-        memory.extend(ratio("announced_GB", "GB"));
+        let ratio = |announced: &str, measured: &str| {
+            Some(
+                found["announced"][announced].as_f64()?
+                    / found["measured"][measured].as_f64().filter(|cost| *cost > 0.0)?,
+            )
+        };
+        seconds.extend(ratio("seconds", "processor_s"));
+        memory.extend(ratio("memory_GB", "memory_GB"));
     }
     print_ratios("time", seconds);
     print_ratios("memory", memory);
