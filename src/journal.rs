@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Debug;
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, Seek, SeekFrom, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -124,34 +124,37 @@ impl JournalError {
 /// [`JournalError`] where there is none, or one that no such study wrote.
 pub fn read<K: Kept>(folder: &Path) -> Result<JournalContents<K>, JournalError> {
     let path = folder.join(FILE_NAME);
-    let text = match fs::read_to_string(&path) {
-        Ok(text) => text,
+    let bytes = match fs::read(&path) {
+        Ok(bytes) => bytes,
         Err(source) if source.kind() == io::ErrorKind::NotFound => {
             return Err(JournalError::NoStudy { folder: folder.to_owned(), kind: K::KIND });
         }
         Err(source) => return Err(JournalError::Open { path, source }),
     };
-    let contents = parse(&path, whole_lines(&text))?;
+    let contents = parse(&path, whole_lines(&bytes))?;
     contents.ok_or_else(|| JournalError::NoStudy { folder: folder.to_owned(), kind: K::KIND })
 }
 
-/// The text without a last line that was cut short.
-fn whole_lines(text: &str) -> &str {
-    &text[..text.rfind('\n').map_or(0, |end| end + 1)]
+/// The contents without a last line that was cut short.
+fn whole_lines(bytes: &[u8]) -> &[u8] {
+    &bytes[..bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1)]
 }
 
 /// The contents of a journal's whole lines; `None` where there is none.
-fn parse<K: Kept>(path: &Path, text: &str) -> Result<Option<JournalContents<K>>, JournalError> {
+fn parse<K: Kept>(path: &Path, whole: &[u8]) -> Result<Option<JournalContents<K>>, JournalError> {
     let mut contents: Option<JournalContents<K>> = None;
-    for (index, text) in text.lines().enumerate() {
-        let read = match &mut contents {
-            None => serde_json::from_str(text)
-                .map(|first| contents = Some(JournalContents::of(first)))
-                .map_err(|error| error.to_string()),
+    for (index, line) in whole.split_inclusive(|byte| *byte == b'\n').enumerate() {
+        let text = std::str::from_utf8(line).map_err(|error| error.to_string());
+        let read = text.and_then(|text| match &mut contents {
+            None => {
+                let first = serde_json::from_str(text).map_err(|error| error.to_string())?;
+                contents = Some(JournalContents::of(first));
+                Ok(())
+            }
             Some(contents) => {
                 contents.row(text).map(|row| drop(contents.rows.insert(contents.study.number(&row), row)))
             }
-        };
+        });
         read.map_err(|found| JournalError::Damaged {
             path: path.to_owned(),
             line: index + 1,
@@ -190,43 +193,29 @@ impl<K: Kept> Journal<K> {
     /// # Errors
     /// [`JournalError`] where it cannot be written, is written by another program now, or is another study's.
     pub fn open(folder: &Path, study: K) -> Result<Self, JournalError> {
-        let (path, mut file, text) = Self::locked(folder)?;
-        let text = whole_lines(&text);
-        let found = parse::<K>(&path, text)?;
+        let (path, mut file, bytes) = Self::locked(folder)?;
+        let whole = whole_lines(&bytes);
+        let found = parse::<K>(&path, whole)?;
         let differences = found.as_ref().map_or_else(Vec::new, |found| found.study.differences(&study));
         if !differences.is_empty() {
             return Err(JournalError::OtherStudy { path, kind: K::KIND, differences });
         }
-        let begun = begin_at(&mut file, text.len(), found.is_none().then_some(&study));
+        let begun = begin_at(&mut file, whole.len(), found.is_none().then_some(&study));
         begun.map_err(|source| cannot_open(&path, source))?;
         Ok(Self { kept: Some((path, file)), contents: found.unwrap_or_else(|| JournalContents::of(study)) })
     }
 
-    /// Opens the journal in `folder` as [`Self::open`] does, and begins it anew where it is another study's.
-    ///
-    /// # Errors
-    /// [`JournalError`] where it cannot be written, or is written by another program now.
-    pub fn open_or_replace(folder: &Path, study: K) -> Result<Self, JournalError> {
-        match Self::open(folder, study.clone()) {
-            Err(JournalError::OtherStudy { .. } | JournalError::Damaged { .. }) => {
-                let (path, mut file, _) = Self::locked(folder)?;
-                begin_at(&mut file, 0, Some(&study)).map_err(|source| cannot_open(&path, source))?;
-                Ok(Self { kept: Some((path, file)), contents: JournalContents::of(study) })
-            }
-            opened => opened,
-        }
-    }
-
-    /// File of the journal, locked, with its text.
-    fn locked(folder: &Path) -> Result<(PathBuf, File, String), JournalError> {
+    /// File of the journal, locked, with its contents.
+    fn locked(folder: &Path) -> Result<(PathBuf, File, Vec<u8>), JournalError> {
         let path = folder.join(FILE_NAME);
-        let file = opened(folder, &path).map_err(|source| cannot_open(&path, source))?;
+        let mut file = opened(folder, &path).map_err(|source| cannot_open(&path, source))?;
         // A file system without locks does not prevent a study.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(JournalError::InUse { path, command: K::COMMAND });
         }
-        let text = io::read_to_string(&file).map_err(|source| cannot_open(&path, source))?;
-        Ok((path, file, text))
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).map_err(|source| cannot_open(&path, source))?;
+        Ok((path, file, bytes))
     }
 
     /// Appends a finished row, or one that was written again.

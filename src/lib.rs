@@ -285,14 +285,14 @@ pub fn uncertainty(
     observer: &dyn Observer,
 ) -> Result<UncertaintyRecord, UncertaintyError> {
     let question = uncertainty::sampled_run::SampledQuestion::of(scene, question)?;
-    let study =
-        uncertainty::kept::SampledStudy::of(scene, &question).map_err(uncertainty::asked::UncertaintyFault::Scene)?;
+    let of_study = uncertainty::asked::UncertaintyFault::Study;
+    let prepared = uncertainty::study::PreparedStudy::new(scene, &question, observer).map_err(of_study)?;
+    let study = prepared.study().map_err(uncertainty::asked::UncertaintyFault::Scene)?;
     let mut journal = match folder {
         None => journal::Journal::in_memory(study),
         Some(folder) => journal::Journal::open(folder, study).map_err(uncertainty::asked::UncertaintyFault::Journal)?,
     };
-    let record = uncertainty::study::run(scene, &question, &mut journal, threads, observer);
-    Ok(record.map_err(uncertainty::asked::UncertaintyFault::Study)?)
+    Ok(prepared.run(&mut journal, threads, observer).map_err(of_study)?)
 }
 
 /// Writes what `gearwear uncertainty` writes into `folder`, which is made if need be.

@@ -137,8 +137,8 @@ def uncertainty(
     ``n`` points of a Sobol sequence, best a power of two, take n (keys + 2) runs, or 2 n where keys are correlated; ``seed`` scrambles them.
     ``correlation`` has for pairs of keys the correlation of their normal scores. ``outputs`` are paths in the summary, by default the maximum wear
     and tip-edge wear of both gears and the transmission error, worn; ``limits`` has depths of wear in µm whose life is asked for:
-    ``{"pinion.peak_wear_um": 10}``. The samples are run on a calibrated Winkler foundation where the figures of the scene as given differ there by less
-    than 5 %, with ``own_surface`` always on the surface of the scene. ``out`` is a folder whose journal keeps each run as it is finished: the same
+    ``{"pinion.peak_wear_um": 10}``. The samples are run on a calibrated Winkler foundation where their figures differ there by at most 5 %, with
+    ``own_surface`` always on the surface of the scene. ``out`` is a folder whose journal keeps each run as it is finished: the same
     call goes on with those that are missing, and ``write(out)`` adds the files. ``threads`` (None: all cores, one in a worker process) run a sample each and never change a bit of the results.
 
     What is wrong with the question raises :class:`ValueError`, and :class:`gearwear.RunError` is raised where no sample can be run.

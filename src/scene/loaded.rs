@@ -221,14 +221,19 @@ impl LoadedScene {
         self.calibrated_with(calibration, |_| {})
     }
 
-    /// Scene on a Winkler foundation with this calibration, as if the file named both.
+    /// Scene on a Winkler foundation with this calibration, as if the file named both, at the resolution of this one.
     ///
     /// # Errors
     /// A calibration of another pair.
     pub fn on_calibrated_foundation(&self, calibration: Calibration) -> Result<Self, LoadError> {
+        let resolved: toml::Table = self.to_toml().parse().unwrap_or_default();
         self.calibrated_with(calibration, |draft| {
             draft.remove("contact.foundation_MPa_per_mm");
             draft.set("contact.surface", SurfaceKind::Winkler.name());
+            // Defaults of the resolution follow the surface.
+            if let Some(numerics) = resolved.get("numerics") {
+                draft.set("numerics", numerics.clone());
+            }
         })
     }
 

@@ -26,13 +26,15 @@ pub struct SampledStudy {
     pub outputs: Vec<String>,
     pub limits: Vec<String>,
     pub seed: u32,
-    /// Whether the samples are run on the contact surface of the scene, fast or not.
-    pub on_own_surface: bool,
+    /// Contact surface of the samples.
+    pub surface: String,
+    /// Places of each flank where the wear of samples A and B is kept.
+    pub places: PerGear<usize>,
 }
 
 impl SampledStudy {
     /// Parts of the identity with their names.
-    fn said(&self) -> [(&'static str, String); 10] {
+    fn said(&self) -> [(&'static str, String); 11] {
         [
             ("program version", self.program_version.clone()),
             ("what is uncertain", self.uncertain.join(" ")),
@@ -43,15 +45,26 @@ impl SampledStudy {
             ("scene", self.given_hash.clone()),
             ("the resolved scene", self.scene_hash.clone()),
             ("files that the scene names", self.inputs_hash.clone()),
-            ("on the scene's own surface", if self.on_own_surface { "yes" } else { "no" }.to_owned()),
+            ("contact surface of the samples", self.surface.clone()),
+            ("places of the flanks", format!("{} and {}", self.places.pinion, self.places.wheel)),
         ]
+    }
+
+    /// Runs of a point: A, B, and A with each key from B; without the last where keys are correlated.
+    pub fn runs_of_a_point(&self) -> usize {
+        if self.correlation.is_empty() { 2 + self.uncertain.len() } else { 2 }
     }
 
     /// Study of `question` on `scene`.
     ///
     /// # Errors
     /// A scene whose text cannot be read again.
-    pub fn of(scene: &LoadedScene, question: &SampledQuestion) -> Result<Self, SceneError> {
+    pub fn of(
+        scene: &LoadedScene,
+        question: &SampledQuestion,
+        surface: &str,
+        places: PerGear<usize>,
+    ) -> Result<Self, SceneError> {
         let correlation = question.correlation.as_ref();
         let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
         Ok(Self {
@@ -66,7 +79,8 @@ impl SampledStudy {
             outputs: question.outputs.iter().map(|output| output.path.clone()).collect(),
             limits: question.limits.iter().map(|limit| format!("{}={}", limit.output, limit.depth_um)).collect(),
             seed: question.seed,
-            on_own_surface: question.on_own_surface,
+            surface: surface.to_owned(),
+            places,
         })
     }
 }
@@ -81,16 +95,13 @@ impl Kept for SampledStudy {
     }
 
     fn refuses(&self, row: &KeptRun) -> Option<String> {
-        let differs = row
-            .ran
-            .as_ref()
-            .is_ok_and(|ran| ran.outputs.len() != self.outputs.len() || ran.growths.len() != self.limits.len());
-        differs.then(|| {
-            format!(
-                "a run with {} figures and lives",
-                row.ran.as_ref().map_or(0, |ran| ran.outputs.len() + ran.growths.len())
-            )
-        })
+        let Ok(ran) = &row.ran else { return None };
+        let of_flanks = ran.wear_um.as_ref().map(|wear| wear.as_ref().map(Vec::len));
+        let has_wear = row.number % self.runs_of_a_point() < 2;
+        let fits = ran.outputs.len() == self.outputs.len()
+            && ran.growths.len() == self.limits.len()
+            && of_flanks == has_wear.then_some(self.places);
+        (!fits).then(|| format!("run {} of another study", row.number))
     }
 
     fn differences(&self, wanted: &Self) -> Vec<String> {

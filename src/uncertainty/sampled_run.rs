@@ -39,7 +39,7 @@ pub struct SampledQuestion {
 #[derive(Debug, thiserror::Error)]
 pub enum UncertaintyStudyError {
     #[error("the scene as given cannot be run: {0}")]
-    Nominal(String),
+    Run(String),
     #[error("none of {runs} samples has a result; the first says: {first}")]
     AllFailed { runs: usize, first: String },
     #[error("interrupted before {FEWEST_SAMPLES} samples were finished")]
@@ -47,21 +47,6 @@ pub enum UncertaintyStudyError {
     /// Rows that cannot be kept, or are another study's.
     #[error(transparent)]
     Journal(#[from] JournalError),
-}
-
-/// Runs the scene with these values.
-pub(super) fn worn<'a>(
-    varied: &VariedScene,
-    values: impl IntoIterator<Item = (&'a str, toml::Value)>,
-    with_history: bool,
-    observer: &dyn Observer,
-) -> Result<WornPair, String> {
-    let mut resolved = varied.resolved(values).map_err(|problems| in_words(&problems))?;
-    varied.inputs_belong_to(&resolved)?;
-    if with_history {
-        take_moments(&mut resolved);
-    }
-    varied.carry_out(resolved, observer, runs::worn_pair)
 }
 
 /// Sets [`MOMENTS`] moments of the history, evenly over the duration.
@@ -81,26 +66,30 @@ pub(super) fn outputs_of(question: &SampledQuestion, found: &WornPair) -> Result
     Ok(outputs.collect())
 }
 
-/// Run of the scene as given, verified where that is asked for and the scene does not refuse it.
-pub(super) fn nominal(
+/// Run of the scene with these values, verified where that is asked for and the scene does not refuse it.
+///
+/// # Errors
+/// [`UncertaintyStudyError::Run`] with the reason, or an interrupt.
+pub(super) fn run_of<'a>(
     varied: &VariedScene,
+    values: impl IntoIterator<Item = (&'a str, toml::Value)>,
     question: &SampledQuestion,
     verify: bool,
     observer: &dyn Observer,
 ) -> Result<WornPair, UncertaintyStudyError> {
     let run = guarded(|| -> Result<WornPair, String> {
-        let mut resolved = varied.resolved([]).map_err(|problems| in_words(&problems))?;
+        let mut resolved = varied.resolved(values).map_err(|problems| in_words(&problems))?;
+        varied.inputs_belong_to(&resolved)?;
         resolved.scene.verify = verify;
         if !question.limits.is_empty() {
             take_moments(&mut resolved);
         }
         varied.carry_out(resolved, observer, runs::worn_pair)
     });
-    let run = run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
-    match run {
+    match run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}"))) {
         Ok(found) if found.summary.stopped == StopReason::Interrupted => Err(UncertaintyStudyError::Interrupted),
         Ok(found) => Ok(found),
         Err(_) if observer.interrupted() => Err(UncertaintyStudyError::Interrupted),
-        Err(error) => Err(UncertaintyStudyError::Nominal(one_line(&error))),
+        Err(error) => Err(UncertaintyStudyError::Run(one_line(&error))),
     }
 }

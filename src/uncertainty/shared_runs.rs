@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use super::sampled_run::SampledQuestion;
 use crate::scene::Resolved;
 use crate::varied_scene::VariedScene;
-use gearwear_bodies::gear::Gear;
+use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::operation::Scene;
 use gearwear_physics::results::figures;
 use gearwear_physics::simulation::settings::Stepping;
@@ -48,7 +48,7 @@ pub(super) fn coefficient_ratio(scene: &Scene, other: &Scene) -> Option<f64> {
     if !steady || !matches!(scene.numerics.stepping, Stepping::Adaptive { .. }) {
         return None;
     }
-    let [own, others] = [scene, other].map(|of| of.wear.as_ref().map(|wear| wear.coefficient_mm2_per_n));
+    let [own, others] = [coefficients(scene)?, coefficients(other)?];
     let ratios = Gear::BOTH.map(|gear| (own[gear], others[gear]));
     let ratios: Vec<f64> = ratios
         .into_iter()
@@ -60,44 +60,47 @@ pub(super) fn coefficient_ratio(scene: &Scene, other: &Scene) -> Option<f64> {
     (alike && without_coefficients(scene) == without_coefficients(other)).then_some(ratio)
 }
 
+/// Wear coefficients in the one phase of a scene.
+fn coefficients(scene: &Scene) -> Option<PerGear<f64>> {
+    let phase = scene.operation.phases.first()?;
+    Some(scene.wear_in(phase).as_ref().map(|wear| wear.coefficient_mm2_per_n))
+}
+
 /// The scene with coefficients of 1.
 fn without_coefficients(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     for gear in Gear::BOTH {
         scene.wear[gear].coefficient_mm2_per_n = 1.0;
         for phase in &mut scene.operation.phases {
-            phase.coefficient_mm2_per_n[gear] = phase.coefficient_mm2_per_n[gear].map(|_| 1.0);
+            phase.coefficient_mm2_per_n[gear] = None;
         }
     }
     scene
 }
 
-/// Numbers of the runs of `points` points whose values but that of the `coefficient` are the same, `values` being those of a run; those of which
-/// `finished` has all are left out.
+/// Numbers of the runs of a number of points that share a run: those whose `values` but that of the `coefficient` are the same. Where that is all values,
+/// points are taken [`POINTS_TOGETHER`] at a time, also beyond the last one asked for, so that a group does not depend on how many there are.
 pub(super) fn groups(
     points: usize,
     runs_of_a_point: usize,
     coefficient: Option<usize>,
     values: impl Fn(usize) -> Vec<f64>,
-    finished: impl Fn(usize) -> bool,
 ) -> Vec<Vec<usize>> {
     let Some(coefficient) = coefficient else {
-        return (0..points * runs_of_a_point).filter(|number| !finished(*number)).map(|number| vec![number]).collect();
+        return (0..points * runs_of_a_point).map(|number| vec![number]).collect();
     };
-    let mut groups = Vec::new();
     let points_together = if values(0).len() == 1 { POINTS_TOGETHER } else { 1 };
+    let mut groups = Vec::new();
     for first in (0..points).step_by(points_together) {
-        let end = (first + points_together).min(points);
         let mut alike: BTreeMap<Vec<u64>, Vec<usize>> = BTreeMap::new();
-        for number in first * runs_of_a_point..end * runs_of_a_point {
+        for number in first * runs_of_a_point..(first + points_together) * runs_of_a_point {
             let mut others = values(number);
             others.remove(coefficient);
             alike.entry(others.into_iter().map(f64::to_bits).collect()).or_default().push(number);
         }
-        let mut unfinished: Vec<Vec<usize>> =
-            alike.into_values().filter(|group| !group.iter().all(|number| finished(*number))).collect();
-        unfinished.sort();
-        groups.append(&mut unfinished);
+        let mut of_points: Vec<Vec<usize>> = alike.into_values().collect();
+        of_points.sort();
+        groups.append(&mut of_points);
     }
     groups
 }
@@ -105,10 +108,7 @@ pub(super) fn groups(
 /// The scene with the greatest coefficient of `scenes`, with a snapshot for each of them, and the revolutions of these; `None` where they do not
 /// differ in their coefficients alone.
 pub(super) fn shared(scenes: &[Resolved]) -> Option<(Resolved, Vec<f64>)> {
-    let coefficient = |resolved: &Resolved| {
-        let wear = &resolved.scene.wear;
-        wear.pinion.coefficient_mm2_per_n.max(wear.wheel.coefficient_mm2_per_n)
-    };
+    let coefficient = |resolved: &Resolved| coefficients(&resolved.scene).map_or(0.0, |of| of.pinion.max(of.wheel));
     let greatest = scenes.iter().max_by(|a, b| coefficient(a).total_cmp(&coefficient(b)))?;
     let ratios = scenes.iter().map(|resolved| coefficient_ratio(&resolved.scene, &greatest.scene));
     let duration = greatest.scene.operation.pinion_revolutions;

@@ -11,28 +11,28 @@
 //! One u stands for all outputs, as their errors have one cause. Finished runs are kept in a journal, and a study that was stopped goes on with
 //! those that are missing.
 
+use std::collections::BTreeSet;
 use std::time::Instant;
 
 use super::design::{Design, Matrix};
 use super::fast_model::{SampledScene, SampledSurface};
 use super::kept::{KeptRun, Ran, SampledStudy};
 use super::record::{Band, FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, SampleRow, UncertaintyRecord};
-use super::sampled_run::{FEWEST_SAMPLES, SampledQuestion, UncertaintyStudyError, nominal, outputs_of, worn};
+use super::sampled_run::{FEWEST_SAMPLES, SampledQuestion, UncertaintyStudyError, outputs_of, run_of};
 use super::shared_runs;
 use crate::journal::{Journal, RowKeeper};
 use crate::report::html::reading::capitalised;
 use crate::report::unit;
 use crate::runs;
-use crate::scene::loaded::LoadedScene;
+use crate::scene::loaded::{LoadedScene, SceneError};
 use crate::spread::spread;
-use crate::varied_scene::{VariedScene, in_words, one_line};
+use crate::varied_scene::VariedScene;
 use gearwear_bodies::gear::PerGear;
 use gearwear_bodies::reference::sobol_indices::indices;
 use gearwear_bodies::reference::statistics::{SHARES, mean, quantile, standard_deviation};
 use gearwear_physics::assessment::guarded::guarded;
 use gearwear_physics::observer::Observer;
 use gearwear_physics::results::figures;
-use gearwear_physics::results::run::StopReason;
 use gearwear_physics::results::worn_pair::{WearProfile, WornPair};
 
 type Row = Result<Ran, String>;
@@ -40,13 +40,53 @@ type Row = Result<Ran, String>;
 /// Greatest number of places of a band over the flank.
 const PLACES: usize = 160;
 
+/// The samples of a question: of each point A and B, and A with each key from B.
+struct Sampling<'a> {
+    question: &'a SampledQuestion,
+    design: Design,
+    /// Runs of a point.
+    matrices: Vec<Matrix>,
+}
+
+impl<'a> Sampling<'a> {
+    fn of(question: &'a SampledQuestion) -> Self {
+        let keys = question.uncertain.len();
+        let mixed = if question.correlation.is_some() { 0 } else { keys };
+        let correlation = question.correlation.as_ref().map(|correlation| correlation.lower.clone());
+        // One more for the error of the model, whether it is known or not: no sample depends on that.
+        let design = Design { factors: keys + 1, seed: question.seed, correlation };
+        let matrices = [Matrix::A, Matrix::B].into_iter().chain((0..mixed).map(Matrix::Mixed)).collect();
+        Self { question, design, matrices }
+    }
+
+    /// Point and matrix of a run.
+    fn of_run(&self, number: usize) -> (usize, Matrix) {
+        (number / self.matrices.len(), self.matrices[number % self.matrices.len()])
+    }
+
+    fn values(&self, point: usize, matrix: Matrix) -> Vec<f64> {
+        let u = self.design.sample(point, matrix);
+        self.question.uncertain.iter().zip(u).map(|(one, u)| one.distribution.quantile(u)).collect()
+    }
+
+    /// Numbers of the runs, in groups that share one.
+    fn groups(&self, varied: &VariedScene) -> Vec<Vec<usize>> {
+        let coefficient = shared_runs::coefficient_key(varied, self.question);
+        let values = |number: usize| {
+            let (point, matrix) = self.of_run(number);
+            self.values(point, matrix)
+        };
+        shared_runs::groups(self.question.samples, self.matrices.len(), coefficient, values)
+    }
+}
+
 /// Inputs of the samples.
 struct Samples<'a> {
     question: &'a SampledQuestion,
+    sampling: &'a Sampling<'a>,
     varied: &'a VariedScene,
     nominal: &'a WornPair,
     places: &'a PerGear<Vec<f64>>,
-    design: Design,
     /// Relative error of the scene as given in each output, then in the depth of each limit; `None` where it is not known.
     errors: Vec<Option<f64>>,
     /// Relative difference of a fast model to it; empty where the samples are not on one.
@@ -54,27 +94,13 @@ struct Samples<'a> {
 }
 
 impl Samples<'_> {
-    /// Runs of a point.
-    fn matrices(&self) -> Vec<Matrix> {
-        let mixed = match self.question.correlation {
-            None => self.question.uncertain.len(),
-            Some(_) => 0,
-        };
-        [Matrix::A, Matrix::B].into_iter().chain((0..mixed).map(Matrix::Mixed)).collect()
-    }
-
     fn has_model_error(&self) -> bool {
-        self.design.factors > self.question.uncertain.len()
+        self.bounds().iter().any(Option::is_some)
     }
 
     /// Bound of the relative error of each figure that the samples vary; `None` where none is known.
     fn bounds(&self) -> Vec<Option<f64>> {
         bounds(&self.errors, self.differences)
-    }
-
-    fn values(&self, point: usize, matrix: Matrix) -> Vec<f64> {
-        let u = self.design.sample(point, matrix);
-        self.question.uncertain.iter().zip(u).map(|(one, u)| one.distribution.quantile(u)).collect()
     }
 
     /// Runs what the journal does not have.
@@ -84,51 +110,50 @@ impl Samples<'_> {
         threads: usize,
         observer: &dyn Observer,
     ) -> Result<(), UncertaintyStudyError> {
-        let matrices = self.matrices();
-        let total = self.question.samples * matrices.len();
+        let total = self.question.samples * self.sampling.matrices.len();
         let rows = &journal.contents.rows;
-        let coefficient = shared_runs::coefficient_key(self.varied, self.question);
-        let values = |number: usize| self.values(number / matrices.len(), matrices[number % matrices.len()]);
-        let is_finished = |number: usize| rows.contains_key(&number);
-        let tasks = shared_runs::groups(self.question.samples, matrices.len(), coefficient, values, is_finished);
-        let mut failed = rows.values().filter(|row| row.number < total && row.ran.is_err()).count();
-        let mut done = total - tasks.iter().flatten().filter(|number| !is_finished(**number)).count();
+        let unfinished = |number: &usize| !rows.contains_key(number);
+        let mut tasks = self.sampling.groups(self.varied);
+        tasks.retain(|group| group.iter().any(unfinished));
+        let mut left: BTreeSet<usize> = tasks.iter().flatten().copied().filter(|number| *number < total).collect();
+        let mut failed: BTreeSet<usize> =
+            rows.values().filter(|row| row.number < total && row.ran.is_err()).map(|row| row.number).collect();
         let tell = |row: &KeptRun| {
-            done = (done + 1).min(total);
-            failed += usize::from(row.ran.is_err());
-            let beside = if failed == 0 { String::new() } else { format!(", {failed} failed") };
-            observer.counted(done, total, "samples", &beside);
+            left.remove(&row.number);
+            if row.ran.is_err() && row.number < total {
+                failed.insert(row.number);
+            }
+            let beside = if failed.is_empty() { String::new() } else { format!(", {} failed", failed.len()) };
+            observer.counted(total - left.len(), total, "samples", &beside);
         };
         let mut kept = RowKeeper { journal, tell, error: None };
-        let run = |group: &Vec<usize>, within: &dyn Observer| self.run_group(group, &matrices, within);
+        let run = |group: &Vec<usize>, within: &dyn Observer| self.run_group(group, within);
         spread(&tasks, threads.max(1), observer, run, |rows| rows.into_iter().all(|row| kept.keep(row)));
         kept.error.map_or(Ok(()), |error| Err(error.into()))
     }
 
     /// Runs with these numbers, in one where they can share it; `None` where it was interrupted.
-    fn run_group(&self, group: &[usize], matrices: &[Matrix], observer: &dyn Observer) -> Option<Vec<KeptRun>> {
-        let of = |number: usize| (number / matrices.len(), matrices[number % matrices.len()]);
-        if let Some(pairs) =
-            (group.len() > 1).then(|| self.shared_run(group.iter().map(|&n| of(n)), observer)).flatten()
-        {
-            let kept = group.iter().zip(pairs);
-            return Some(kept.map(|(&number, pair)| KeptRun { number, ran: self.kept(&pair, of(number).1) }).collect());
+    fn run_group(&self, group: &[usize], observer: &dyn Observer) -> Option<Vec<KeptRun>> {
+        if let Some(pairs) = (group.len() > 1).then(|| self.shared_run(group, observer)).flatten() {
+            let kept = group.iter().zip(pairs).map(|(&number, pair)| {
+                let (_, matrix) = self.sampling.of_run(number);
+                KeptRun { number, ran: self.kept(&pair, matrix) }
+            });
+            return Some(kept.collect());
         }
         let alone = group.iter().map(|&number| {
-            let (point, matrix) = of(number);
+            let (point, matrix) = self.sampling.of_run(number);
             Some(KeptRun { number, ran: self.run(point, matrix, observer)? })
         });
         alone.collect()
     }
 
     /// The worn pairs of samples that differ in their wear coefficient alone; `None` where each has to be run by itself.
-    fn shared_run(
-        &self,
-        samples: impl Iterator<Item = (usize, Matrix)>,
-        observer: &dyn Observer,
-    ) -> Option<Vec<WornPair>> {
-        let scenes =
-            samples.map(|(point, matrix)| self.varied.resolved(self.keys_with(&self.values(point, matrix))).ok());
+    fn shared_run(&self, group: &[usize], observer: &dyn Observer) -> Option<Vec<WornPair>> {
+        let scenes = group.iter().map(|&number| {
+            let (point, matrix) = self.sampling.of_run(number);
+            self.varied.resolved(self.keys_with(&self.sampling.values(point, matrix))).ok()
+        });
         let scenes = scenes.collect::<Option<Vec<_>>>()?;
         let (run, revolutions) = shared_runs::shared(&scenes)?;
         self.varied.inputs_belong_to(&run).ok()?;
@@ -145,14 +170,12 @@ impl Samples<'_> {
     }
 
     fn run(&self, point: usize, matrix: Matrix, observer: &dyn Observer) -> Option<Row> {
-        let values = self.values(point, matrix);
-        let with_history = !self.question.limits.is_empty();
-        let run = guarded(|| worn(self.varied, self.keys_with(&values), with_history, observer));
-        match run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}"))) {
-            Ok(found) if found.summary.stopped == StopReason::Interrupted => None,
+        let values = self.sampling.values(point, matrix);
+        match run_of(self.varied, self.keys_with(&values), self.question, false, observer) {
             Ok(found) => Some(self.kept(&found, matrix)),
-            Err(_) if observer.interrupted() => None,
-            Err(error) => Some(Err(one_line(&error))),
+            Err(UncertaintyStudyError::Interrupted) => None,
+            Err(UncertaintyStudyError::Run(reason)) => Some(Err(reason)),
+            Err(other) => Some(Err(other.to_string())),
         }
     }
 
@@ -167,7 +190,8 @@ impl Samples<'_> {
 
     /// 1 + (e + d) (2 u − 1) of each output and limit.
     fn times(&self, point: usize, matrix: Matrix) -> (Option<f64>, Vec<f64>) {
-        let u = self.has_model_error().then(|| self.design.sample(point, matrix)[self.design.factors - 1]);
+        let u =
+            self.has_model_error().then(|| self.sampling.design.sample(point, matrix)[self.question.uncertain.len()]);
         let place = u.map(|u| 2.0 * u - 1.0);
         (place, self.bounds().iter().map(|bound| 1.0 + bound.unwrap_or(0.0) * place.unwrap_or(0.0)).collect())
     }
@@ -204,7 +228,7 @@ impl Samples<'_> {
                 Matrix::B => "B".to_owned(),
                 Matrix::Mixed(factor) => question.uncertain[factor].key.clone(),
             },
-            values: self.values(point, matrix),
+            values: self.sampling.values(point, matrix),
             model_error: self.times(point, matrix).0,
             outputs: match row {
                 Ok(ran) => {
@@ -253,59 +277,88 @@ fn bounds(errors: &[Option<f64>], differences: &[f64]) -> Vec<Option<f64>> {
     of_each.collect()
 }
 
-/// Runs what `journal` does not have of the study, and evaluates it; where it is interrupted, the points that were finished.
-///
-/// # Errors
-/// A scene that cannot be run, no finished sample, a journal that cannot be written.
-pub fn run(
-    scene: &LoadedScene,
-    question: &SampledQuestion,
-    journal: &mut Journal<SampledStudy>,
-    threads: usize,
-    observer: &dyn Observer,
-) -> Result<UncertaintyRecord, UncertaintyStudyError> {
-    let start = Instant::now();
-    let given =
-        VariedScene::new(scene, false).map_err(|problems| UncertaintyStudyError::Nominal(in_words(&problems)))?;
-    observer.stage("the scene as given");
-    let nominal = nominal(&given, question, scene.scene().verify, observer)?;
-    let sampled = SampledScene::choose(scene, question, &nominal, observer)?;
-    let total = &nominal.summary.error.total;
-    let paths = question.outputs.iter().map(|output| output.path.as_str());
-    let known = paths.chain(question.limits.iter().map(|limit| limit.output)).map(figures::find);
-    let errors: Vec<Option<f64>> = known.map(|figure| figure?.error(total)).collect();
-    let varies = bounds(&errors, &sampled.differences).iter().any(Option::is_some);
-    let places = PerGear::from_fn(|gear| places(&nominal.flanks[gear]));
-    let correlation = question.correlation.as_ref().map(|correlation| correlation.lower.clone());
-    let factors = question.uncertain.len() + usize::from(varies);
-    let samples = Samples {
-        question,
-        varied: &sampled.varied,
-        nominal: &nominal,
-        places: &places,
-        design: Design { factors, seed: question.seed, correlation },
-        errors,
-        differences: &sampled.differences,
-    };
-    samples.run_all(journal, threads, observer)?;
+/// A study whose scene as given is run, and the surface of its samples chosen.
+pub struct PreparedStudy<'a> {
+    scene: &'a LoadedScene,
+    sampling: Sampling<'a>,
+    nominal: WornPair,
+    sampled: SampledScene,
+    places: PerGear<Vec<f64>>,
+    begun: Instant,
+}
 
-    let matrices = samples.matrices();
-    let runs = 0..question.samples * matrices.len();
-    let whole: Vec<Row> =
-        runs.map_while(|number| journal.contents.rows.get(&number)).map(|kept| kept.ran.clone()).collect();
-    let points = whole.len() / matrices.len();
-    if points < question.samples.min(FEWEST_SAMPLES) {
-        return Err(UncertaintyStudyError::Interrupted);
+impl<'a> PreparedStudy<'a> {
+    /// Prepares the study of `question` on `scene`.
+    ///
+    /// # Errors
+    /// A scene that cannot be run.
+    pub fn new(
+        scene: &'a LoadedScene,
+        question: &'a SampledQuestion,
+        observer: &dyn Observer,
+    ) -> Result<Self, UncertaintyStudyError> {
+        let begun = Instant::now();
+        let given = SampledScene::as_given(scene, String::new())?;
+        let sampling = Sampling::of(question);
+        observer.stage("the scene as given");
+        let nominal = run_of(&given.varied, [], question, scene.scene().verify, observer)?;
+        let runs = sampling.groups(&given.varied).len();
+        let sampled = SampledScene::choose(scene, given, question, (&nominal, runs), observer)?;
+        let places = PerGear::from_fn(|gear| places(&nominal.flanks[gear]));
+        Ok(Self { scene, sampling, nominal, sampled, places, begun })
     }
-    let rows: Vec<&[Row]> = whole.chunks_exact(matrices.len()).collect();
-    let record = record(scene, &samples, &matrices, &rows)?;
-    Ok(UncertaintyRecord { surface: sampled.surface, threads, wall_s: start.elapsed().as_secs_f64(), ..record })
+
+    /// Study that a journal keeps the runs of.
+    ///
+    /// # Errors
+    /// A scene whose text cannot be read again.
+    pub fn study(&self) -> Result<SampledStudy, SceneError> {
+        let places = self.places.as_ref().map(Vec::len);
+        SampledStudy::of(self.scene, self.sampling.question, &self.sampled.surface.surface, places)
+    }
+
+    /// Runs what `journal` does not have of the study, and evaluates it; where it is interrupted, the points that were finished.
+    ///
+    /// # Errors
+    /// No finished sample, a journal that cannot be written.
+    pub fn run(
+        self,
+        journal: &mut Journal<SampledStudy>,
+        threads: usize,
+        observer: &dyn Observer,
+    ) -> Result<UncertaintyRecord, UncertaintyStudyError> {
+        let Self { scene, sampling, nominal, sampled, places, begun } = self;
+        let question = sampling.question;
+        let total = &nominal.summary.error.total;
+        let paths = question.outputs.iter().map(|output| output.path.as_str());
+        let known = paths.chain(question.limits.iter().map(|limit| limit.output)).map(figures::find);
+        let samples = Samples {
+            question,
+            sampling: &sampling,
+            varied: &sampled.varied,
+            nominal: &nominal,
+            places: &places,
+            errors: known.map(|figure| figure?.error(total)).collect(),
+            differences: &sampled.differences,
+        };
+        samples.run_all(journal, threads, observer)?;
+
+        let runs_of_a_point = sampling.matrices.len();
+        let runs = 0..question.samples * runs_of_a_point;
+        let whole: Vec<Row> =
+            runs.map_while(|number| journal.contents.rows.get(&number)).map(|kept| kept.ran.clone()).collect();
+        if whole.len() / runs_of_a_point < question.samples.min(FEWEST_SAMPLES) {
+            return Err(UncertaintyStudyError::Interrupted);
+        }
+        let rows: Vec<&[Row]> = whole.chunks_exact(runs_of_a_point).collect();
+        let record = record(scene, &samples, &rows)?;
+        Ok(UncertaintyRecord { surface: sampled.surface, threads, wall_s: begun.elapsed().as_secs_f64(), ..record })
+    }
 }
 
 fn record(
     scene: &LoadedScene,
     samples: &Samples<'_>,
-    matrices: &[Matrix],
     rows: &[&[Row]],
 ) -> Result<UncertaintyRecord, UncertaintyStudyError> {
     let question = samples.question;
@@ -343,7 +396,7 @@ fn record(
         wall_s: 0.0,
         surface: SampledSurface::default(),
         scene_toml: scene.given.text.clone(),
-        rows: sample_rows(samples, matrices, rows),
+        rows: sample_rows(samples, rows),
     })
 }
 
@@ -407,7 +460,7 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
 
 /// Indices of a figure, over the points all of whose runs have it.
 fn factor_indices(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Result<Vec<FactorIndices>, String> {
-    let factors = samples.design.factors;
+    let factors = samples.question.uncertain.len() + usize::from(samples.has_model_error());
     let (mut a, mut b) = (Vec::new(), Vec::new());
     let mut mixed = vec![Vec::new(); factors];
     for point in 0..rows.len() {
@@ -443,7 +496,8 @@ fn band(places: &[f64], nominal: &WearProfile, wear: &[&[f32]]) -> Band {
     Band { radius_mm: places.to_vec(), nominal_um, quantiles_um }
 }
 
-fn sample_rows(samples: &Samples<'_>, matrices: &[Matrix], rows: &[&[Row]]) -> Vec<SampleRow> {
+fn sample_rows(samples: &Samples<'_>, rows: &[&[Row]]) -> Vec<SampleRow> {
+    let matrices = &samples.sampling.matrices;
     let mut sample_rows = Vec::new();
     for (point, row) in rows.iter().enumerate() {
         sample_rows.extend(matrices.iter().zip(*row).map(|(&matrix, row)| samples.row(point, matrix, row)));

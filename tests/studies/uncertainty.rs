@@ -190,7 +190,7 @@ fn a_study_goes_on_where_it_was_stopped() {
     };
     let resumed = resume("resumed", &[K, TORQUE]);
     done(&resumed);
-    assert!(said(&resumed).contains("30 runs of them were finished before"), "{}", said(&resumed));
+    assert!(said(&resumed).contains("30 runs were finished before"), "{}", said(&resumed));
     stopped("again");
     done(&bench.study("again", &[K, TORQUE], &samples));
     for name in ["resumed", "again"] {
@@ -199,15 +199,83 @@ fn a_study_goes_on_where_it_was_stopped() {
             assert_eq!(fs::read(bench.out(name).join(file)).unwrap(), fs::read(bench.out("whole").join(file)).unwrap());
         }
     }
-    refused(&resume("resumed", &[K]), &["--resume", "another study of uncertainty", "what is uncertain"]);
+    let other = ["another study of uncertainty", "what is uncertain"];
+    refused(&resume("resumed", &[K]), &["--resume", other[0], other[1]]);
+    refused(&bench.study("resumed", &[K], &samples), &["--out", other[0], other[1]]);
     refused(&resume("nowhere", &[K]), &["--resume", "holds no study of uncertainty"]);
     assert!(bench.out("resumed").join("uncertainty.json").exists() && !bench.out("nowhere").exists());
-    done(&bench.study("resumed", &[K], &samples));
-    assert_eq!(timeless(&bench.out("resumed"))["runs"].as_u64(), Some(16 * 3));
+    assert_eq!(fs::read(bench.out("resumed").join("rows.jsonl")).unwrap().len(), journal.len());
     // More samples go on with the same sequence.
     done(&bench.study("again", &[K, TORQUE], &["--samples", "32"]));
     done(&bench.study("more", &[K, TORQUE], &["--samples", "32"]));
     assert_eq!(timeless(&bench.out("again")), timeless(&bench.out("more")));
+}
+
+/// What no study wrote is refused with its line and stays as it is; a last line that was cut short is dropped, even within a letter.
+#[test]
+fn a_damaged_journal_is_refused_and_kept() {
+    let bench = Bench::new();
+    let samples = ["--samples", "8"];
+    done(&bench.study("out", &[K, TORQUE], &samples));
+    let path = bench.out("out").join("rows.jsonl");
+    let whole = fs::read_to_string(&path).unwrap();
+    let shorter = |line: &str| {
+        let mut row: Value = serde_json::from_str(line).unwrap();
+        row["ran"]["Ok"]["wear_um"]["pinion"].as_array_mut().unwrap().truncate(5);
+        row.to_string()
+    };
+    let lines: Vec<&str> = whole.lines().collect();
+    for (damaged, part) in [
+        (whole.replacen(lines[2], "nothing", 1), "line 3"),
+        (whole.replacen(lines[1], &shorter(lines[1]), 1), "run 0 of another study"),
+    ] {
+        fs::write(&path, &damaged).unwrap();
+        refused(&bench.study("out", &[K, TORQUE], &samples), &[part, "gearwear uncertainty wrote"]);
+        assert_eq!(fs::read_to_string(&path).unwrap(), damaged);
+    }
+    let cut = [whole.as_bytes(), b"{\"number\":400,\"ran\":{\"Err\":\"\xc2"].concat();
+    fs::write(&path, cut).unwrap();
+    done(&bench.study("out", &[K, TORQUE], &samples));
+    assert_eq!(fs::read_to_string(&path).unwrap(), whole);
+}
+
+/// The coefficient of the one phase is the one that counts: runs that share it have the wear of runs of their own, and a coefficient that a phase
+/// overrides changes nothing.
+#[test]
+fn shared_runs_follow_the_coefficient_of_the_phase() {
+    let bench = Bench::new();
+    let scene = coarse_scene()
+        .replace("step = { revolutions = 200000.0 }", "step = \"adaptive\"")
+        .replace("hours = 127.75 ", "# hours")
+        .replace("[contact]", "[[operation.phases]]\nhours = 127.75\ncoefficient_m2_per_N = 2e-17\n[contact]");
+    fs::write(bench.out("scene.toml"), scene).unwrap();
+    let peaks = |name: &str, key: &str, more: &[&str]| -> Vec<f64> {
+        let uncertain = format!("{key}=uniform:1e-17:3e-17");
+        done(&bench.study(name, &[&uncertain], &[&["--samples", "4"], more].concat()));
+        let table = fs::read_to_string(bench.out(name).join("samples.csv")).unwrap();
+        let at = table.lines().next().unwrap().split(',').position(|name| name == "pinion.peak_wear_um").unwrap();
+        table.lines().skip(1).map(|line| line.split(',').nth(at).unwrap().parse().unwrap()).collect()
+    };
+    let alone = ["--limit", "pinion.peak_wear_um=1e6"];
+    let of_phase = "operation.phases.1.coefficient_m2_per_N";
+    let (shared, own) = (peaks("shared", of_phase, &[]), peaks("own", of_phase, &alone));
+    assert!(shared.iter().zip(&own).all(|(a, b)| (a - b).abs() < 0.05), "{shared:?} and {own:?}");
+    assert!(own.iter().copied().fold(0.0, f64::max) > 1.5 * own.iter().copied().fold(f64::INFINITY, f64::min));
+    let overridden = peaks("overridden", "wear.coefficient_m2_per_N", &[]);
+    assert!(overridden.iter().all(|peak| (peak - overridden[0]).abs() < 1e-9), "{overridden:?}");
+}
+
+/// Of the coefficient alone a group of points shares a run, whose figures do not depend on how many points are asked for.
+#[test]
+fn fewer_samples_are_the_first_of_more() {
+    let bench = Bench::new();
+    let scene = coarse_scene().replace("step = { revolutions = 200000.0 }", "step = \"adaptive\"");
+    fs::write(bench.out("scene.toml"), scene).unwrap();
+    done(&bench.study("many", &[K], &["--samples", "40"]));
+    done(&bench.study("many", &[K], &["--samples", "10"]));
+    done(&bench.study("few", &[K], &["--samples", "10"]));
+    let table = |name: &str| fs::read(bench.out(name).join("samples.csv")).unwrap();
+    assert_eq!(table("many"), table("few"));
 }
 
 /// Samples that differ in their coefficient alone share a run, and have the same figures as runs of their own: these have a limit, which is not shared.
@@ -218,16 +286,16 @@ fn samples_share_runs_on_a_fast_model() {
     let scene = exchanged(
         "fzg-c",
         &[
-            ("flank_points = 750 ", "flank_points = 200 "),
-            ("positions = 400 ", "positions = 80 "),
+            ("flank_points = 750 ", "flank_points = 120 "),
+            ("positions = 400 ", "positions = 40 "),
             ("verify = true", "verify = false"),
         ],
     );
-    fs::write(bench.out("scene.toml"), scene).unwrap();
-    let samples = ["--samples", "4"];
+    fs::write(bench.out("scene.toml"), scene + "\n[fem]\nelements_per_half_width = 4\n").unwrap();
+    let samples = ["--samples", "16"];
     done(&bench.study("shared", &[K, TORQUE], &samples));
-    done(&bench.study("alone", &[K, TORQUE], &["--samples", "4", "--limit", "pinion.peak_wear_um=1e6"]));
-    done(&bench.study("own", &[K, TORQUE], &["--samples", "4", "--own-surface"]));
+    done(&bench.study("alone", &[K, TORQUE], &["--samples", "16", "--limit", "pinion.peak_wear_um=1e6"]));
+    done(&bench.study("own", &[K, TORQUE], &["--samples", "2", "--own-surface"]));
     let [shared, alone, own] = ["shared", "alone", "own"].map(|name| timeless(&bench.out(name)));
     assert_eq!((&shared["surface"]["surface"], &own["surface"]["surface"]), (&"winkler".into(), &"half-space".into()));
     for name in ["pinion.peak_wear_um", "wheel.peak_wear_um", "worn.transmission_error_um.peak_to_peak"] {

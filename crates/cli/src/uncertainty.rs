@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use gearwear::journal::{self, Journal};
+use gearwear::journal::{self, Journal, JournalError};
 use gearwear::report;
 use gearwear::scene::loaded::LoadedScene;
 use gearwear::uncertainty::asked::{UncertaintyFault, UncertaintyQuestion};
@@ -13,7 +13,7 @@ use gearwear::uncertainty::kept::SampledStudy;
 use gearwear::uncertainty::record::UncertaintyRecord;
 use gearwear::uncertainty::report as report_of_study;
 use gearwear::uncertainty::sampled_run::{SampledQuestion, UncertaintyStudyError};
-use gearwear::uncertainty::study;
+use gearwear::uncertainty::study::PreparedStudy;
 
 use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError};
@@ -33,10 +33,10 @@ pub(super) struct UncertaintyArgs {
     /// Correlation of two uncertain keys, of their normal scores. May be given several times; pairs that are not given are independent
     #[arg(long, value_name = "KEY:KEY=R")]
     correlation: Vec<String>,
-    /// The folder for the results; the same study goes on where it was stopped, another one is replaced
+    /// The folder for the results; the same study goes on where it was stopped, another one is refused
     #[arg(long, value_name = "DIR", required_unless_present = "resume")]
     out: Option<PathBuf>,
-    /// Go on with the study in this folder; another one is refused
+    /// Go on with the study in this folder, which must have one
     #[arg(long, value_name = "DIR", conflicts_with = "out")]
     resume: Option<PathBuf>,
     /// Points of the Sobol sequence, best a power of two; each takes two runs and one more for every uncertain key
@@ -52,8 +52,8 @@ pub(super) struct UncertaintyArgs {
     /// Ask for the life until a depth of wear is reached, such as pinion.peak_wear_um=10. May be given several times
     #[arg(long, value_name = "FIGURE=VALUE")]
     limit: Vec<String>,
-    /// Run the samples on the contact surface of the scene; left out: on a calibrated Winkler foundation, where the figures of the scene
-    /// as given differ by less than 5 %
+    /// Run the samples on the contact surface of the scene; left out: on a calibrated Winkler foundation, where its figures differ
+    /// by at most 5 %
     #[arg(long)]
     own_surface: bool,
     /// Number of threads; default: all cores. Never changes the results, but the times
@@ -78,18 +78,20 @@ pub(super) fn run(args: &UncertaintyArgs) -> Result<(), Failure> {
     };
     let question = SampledQuestion::of(&scene, &asked)?;
     asked.notes().iter().for_each(|note| say(&format!("note: {note}")));
-    let study = SampledStudy::of(&scene, &question).map_err(UncertaintyFault::Scene)?;
-    let (out, mut journal) = begun(args, study)?;
-    let threads = thread_count(args.threads);
+    let out = folder(args)?;
     let interrupted = watch_for_interrupt();
     if !args.quiet {
         say(&format!("{} samples of {} uncertain keys", question.samples, question.uncertain.len()));
-        if !journal.contents.rows.is_empty() {
-            say(&format!("{} runs of them were finished before", journal.contents.rows.len()));
-        }
     }
     let progress = CountedProgress::new(args.quiet, Arc::clone(&interrupted));
-    let record = study::run(&scene, &question, &mut journal, threads, &progress);
+    let prepared = PreparedStudy::new(&scene, &question, &progress).map_err(UncertaintyFault::Study)?;
+    let study = prepared.study().map_err(UncertaintyFault::Scene)?;
+    let mut journal = Journal::open(out, study).map_err(|error| of_journal(args, error))?;
+    report_of_study::begin(out)?;
+    if !(args.quiet || journal.contents.rows.is_empty()) {
+        say(&format!("goes on: {} runs were finished before", journal.contents.rows.len()));
+    }
+    let record = prepared.run(&mut journal, thread_count(args.threads), &progress);
     progress.finish();
     let record = record.map_err(UncertaintyFault::Study)?;
     report_of_study::write(&record, out)?;
@@ -108,22 +110,18 @@ pub(super) fn run(args: &UncertaintyArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Folder of the study with its journal, which an earlier start may have begun.
-fn begun(args: &UncertaintyArgs, study: SampledStudy) -> Result<(&Path, Journal<SampledStudy>), Failure> {
-    let resumed = args.resume.as_deref();
-    let out = resumed.or(args.out.as_deref()).unwrap_or(Path::new(""));
-    let refused = |error| InputError::Journal { option: if resumed.is_some() { "--resume" } else { "--out" }, error };
-    if resumed.is_some() {
-        journal::read::<SampledStudy>(out).map_err(refused)?;
+/// Folder of the study; one that is resumed has a study.
+fn folder(args: &UncertaintyArgs) -> Result<&Path, Failure> {
+    if let Some(resumed) = &args.resume {
+        journal::read::<SampledStudy>(resumed).map_err(|error| of_journal(args, error))?;
     }
+    let out = args.resume.as_deref().or(args.out.as_deref()).unwrap_or(Path::new(""));
     report::writable(out)?;
-    let journal = match resumed {
-        Some(_) => Journal::open(out, study),
-        None => Journal::open_or_replace(out, study),
-    };
-    let journal = journal.map_err(refused)?;
-    report_of_study::begin(out)?;
-    Ok((out, journal))
+    Ok(out)
+}
+
+fn of_journal(args: &UncertaintyArgs, error: JournalError) -> InputError {
+    InputError::Journal { option: if args.resume.is_some() { "--resume" } else { "--out" }, error }
 }
 
 impl From<UncertaintyFault> for Failure {
