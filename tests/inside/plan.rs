@@ -1,7 +1,10 @@
 //! The plan has what the scene needs, and nothing else.
 
 use gearwear::scene::Resolved;
+use gearwear::scene::draft::Draft;
 use gearwear::scene::presets;
+use gearwear_bodies::gear::GearPair;
+use gearwear_physics::plan::cost::RunCost;
 use gearwear_physics::plan::{Plan, StageKind};
 
 /// Names of the stages of the thesis-spur scene with parts of its text exchanged, and of those left out.
@@ -82,4 +85,34 @@ fn the_step_bound_only_where_steps_have_one() {
 fn error_estimates_only_where_asked_for() {
     let (stages, left_out) = plan(&[("error_estimate = true", "error_estimate = false")]);
     assert!(!stages.contains(&"error-estimates") && left_out.contains(&"error-estimates"));
+}
+
+/// Cost of a preset with keys changed.
+fn cost(preset: &str, keys: &[(&str, toml::Value)]) -> RunCost {
+    let mut draft = Draft::parse(presets::find(preset).unwrap().text).unwrap();
+    for (key, value) in keys {
+        draft.set(key, value.clone());
+    }
+    let scene = draft.resolve().unwrap().scene;
+    RunCost::of(&scene, &GearPair::new(&scene.pair).unwrap())
+}
+
+/// Costs grow with what is computed: those of slices and positions as these, and only what is much is said.
+#[test]
+fn a_cost_grows_with_the_work_and_much_of_it_is_said() {
+    let seconds = |cost: &RunCost, kind: StageKind| {
+        cost.stages.iter().find(|stage| stage.kind == kind).map_or(0.0, |stage| stage.seconds)
+    };
+    let plane = cost("fzg-c", &[]);
+    assert!(plane.announcement().is_none() && plane.seconds < 20.0 && plane.memory_gb < 1.0, "{plane:?}");
+    assert_eq!(plane.seconds, plane.stages.iter().map(|stage| stage.seconds).sum::<f64>());
+    let unverified = cost("fzg-c", &[("numerics.verify", false.into())]);
+    assert!(seconds(&unverified, StageKind::Verification) == 0.0 && unverified.seconds < plane.seconds);
+    let finer = cost("fzg-c", &[("numerics.positions", 800.into())]);
+    assert_eq!(seconds(&finer, StageKind::Simulation), 2.0 * seconds(&plane, StageKind::Simulation));
+    let [few, many] = [20, 100].map(|slices| cost("helical", &[("helical.slices", slices.into())]));
+    let ratio = seconds(&many, StageKind::Simulation) / seconds(&few, StageKind::Simulation);
+    assert!((ratio / 5.0 - 1.0).abs() < 1e-12 && many.memory_gb > few.memory_gb, "{ratio}, {many:?}");
+    let said = many.announcement().unwrap();
+    assert!(said.contains(" GB; fewer helical.slices") && said.contains(" s on one thread"), "{said}");
 }

@@ -29,12 +29,14 @@ const DEEP: f64 = 400.0;
 const SEVERE: f64 = 4.0;
 /// Part of the wear run that error estimates take, which evaluate half of the points and positions.
 const ERROR_ESTIMATES: f64 = 0.45;
+/// Tolerance of the steps of a verification, mm.
+const VERIFIED_TOLERANCE_MM: f64 = 5e-5;
 /// Positions of a verification over those of the run, in slices.
 const VERIFIED_POSITIONS: f64 = 0.4;
 /// Flank points in a contact that the times of a position are measured with, and the power with which these grow.
 const POINTS: (f64, f64) = (20.0, 0.6);
 /// Plane finite elements of a pair: time of a model, s, and of a position of the mesh cycle, s; memory, GB.
-const PLANE_ELEMENTS: (f64, f64, f64) = (0.25, 25e-6, 0.15);
+const PLANE_ELEMENTS: (f64, f64, f64) = (0.25, 80e-6, 0.25);
 /// Positions of the mesh cycle of a verification on plane finite elements.
 const PLANE_POSITIONS: f64 = 200.0;
 /// Time of three-dimensional finite elements for each slice, s.
@@ -109,6 +111,8 @@ struct Work {
     /// Positions of the mesh cycle, of all loads.
     positions: f64,
     mesh_cycles: f64,
+    /// Mesh cycles of the verification, whose steps are adaptive.
+    verified_cycles: f64,
     slices: Option<f64>,
     /// Flank points in a contact at the pitch point, with [`POINTS`].
     of_points: f64,
@@ -122,10 +126,11 @@ impl Work {
         let flank_mm = pair.teeth.pinion.involute.arc_mm(pair.teeth.pinion.tip_rho_mm());
         let points = 2.0 * contact.half_width_mm / flank_mm * scene.numerics.flank_points as f64;
         let severe = scene.wear.is_severe_under(contact.peak_pressure_mpa, 0.5);
-        let more = if severe && matches!(scene.numerics.stepping, Stepping::Adaptive { .. }) { SEVERE } else { 1.0 };
+        let more = if severe { SEVERE } else { 1.0 };
         Self {
             positions: scene.numerics.positions as f64 * super::loads(scene),
-            mesh_cycles: more * mesh_cycles(scene, pair),
+            mesh_cycles: mesh_cycles(scene, pair, more),
+            verified_cycles: more * adaptive_cycles(scene, pair, VERIFIED_TOLERANCE_MM) + PREPARATION_CYCLES,
             slices: scene.slices.map(|slices| slices.count as f64),
             of_points: (points / POINTS.0).max(0.5).powf(POINTS.1),
         }
@@ -138,12 +143,13 @@ impl Work {
         match kind {
             StageKind::FiniteElementModel | StageKind::FiniteElementCalibration => model_s,
             StageKind::TeethInSpace => IN_SPACE_S * self.slices.unwrap_or(1.0),
+            StageKind::StepBound => self.wear_run(scene.contact.surface, self.positions, PREPARATION_CYCLES),
             StageKind::Simulation => self.wear_run(scene.contact.surface, self.positions, cycles),
             StageKind::ErrorEstimates => ERROR_ESTIMATES * self.seconds(StageKind::Simulation, scene),
             StageKind::Verification if self.slices.is_some() => {
-                self.wear_run(SurfaceKind::HalfSpace, VERIFIED_POSITIONS * self.positions, cycles)
+                self.wear_run(SurfaceKind::HalfSpace, VERIFIED_POSITIONS * self.positions, self.verified_cycles)
             }
-            StageKind::Verification => position_s * PLANE_POSITIONS * cycles + model_s,
+            StageKind::Verification => position_s * PLANE_POSITIONS * self.verified_cycles + model_s,
             _ => 0.0,
         }
     }
@@ -153,27 +159,32 @@ impl Work {
         let evaluations = positions * cycles;
         let [plane_us, of_slice_us] = match surface {
             SurfaceKind::Fem => return PLANE_ELEMENTS.1 * evaluations,
-            SurfaceKind::HalfSpace => [10.0, 15.0],
-            SurfaceKind::Winkler => [3.0, 8.0],
-            SurfaceKind::Hertz => [2.0, 5.0],
+            SurfaceKind::HalfSpace => [25.0, 40.0],
+            SurfaceKind::Winkler => [4.0, 11.0],
+            SurfaceKind::Hertz => [2.0, 6.0],
             SurfaceKind::HertzMean => [1.0, 0.1],
         };
         1e-6 * self.of_points * evaluations * self.slices.map_or(plane_us, |slices| of_slice_us * slices)
     }
 }
 
-/// Mesh cycles of a wear run without severe wear.
-fn mesh_cycles(scene: &Scene, pair: &GearPair) -> f64 {
+/// Mesh cycles of a wear run; `of_severe`: those of adaptive steps over those without severe wear.
+fn mesh_cycles(scene: &Scene, pair: &GearPair, of_severe: f64) -> f64 {
     let snapshots = scene.operation.snapshots_revolutions.len() as f64;
     match scene.numerics.stepping {
         Stepping::Fixed { revolutions } => (scene.operation.pinion_revolutions / revolutions).ceil() + snapshots,
         Stepping::Adaptive { tolerance_mm } => {
-            let depth = Gear::BOTH.map(|gear| mean_depth_mm(scene, pair, gear));
-            let of_depth = |depth: f64| 10.0 + 3.0 * (depth / tolerance_mm).min(DEEP).sqrt();
-            let [pinion, wheel] = depth.map(|depth| depth.map_or(USUAL_CYCLES, of_depth));
-            pinion.max(wheel).max(2.0 * snapshots)
+            (of_severe * adaptive_cycles(scene, pair, tolerance_mm)).max(2.0 * snapshots)
         }
     }
+}
+
+/// Mesh cycles of adaptive steps without severe wear.
+fn adaptive_cycles(scene: &Scene, pair: &GearPair, tolerance_mm: f64) -> f64 {
+    let depth = Gear::BOTH.map(|gear| mean_depth_mm(scene, pair, gear));
+    let of_depth = |depth: f64| 10.0 + 3.0 * (depth / tolerance_mm).min(DEEP).sqrt();
+    let [pinion, wheel] = depth.map(|depth| depth.map_or(USUAL_CYCLES, of_depth));
+    pinion.max(wheel)
 }
 
 /// Mean wear depth that VDI 2736 expects of a gear; none of a law that is more than a coefficient.
