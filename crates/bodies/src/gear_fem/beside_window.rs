@@ -18,7 +18,7 @@ use sprs::{CsMat, TriMat};
 
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::{Direction, FacingTeeth, FlankOverlap, PlacedTeeth};
-use super::sandwich::add_sandwich;
+use super::sandwich::ToothRows;
 use crate::gear::{Gear, PerGear};
 use gearwear_fem::active_set::ContactEquilibrium;
 use gearwear_fem::contact::master_search::LEAST_FACING;
@@ -185,10 +185,10 @@ impl CondensedPair<'_> {
         let mut compliance = Mat::zeros(probes.len(), rows);
         for gear in Gear::BOTH {
             let operator = beside.operator(probes, gear, self.flanks[gear].surface.points_mm.len());
-            for facing in facings {
-                let between = self.gears[gear].between(facing.tooth[gear], beside.tooth[gear]);
-                let places = (0, facing.first_row);
-                add_sandwich(&mut compliance, places, &operator, between, &facing.operator[gear], false);
+            let own = ToothRows::new(&self.gears[gear], beside.tooth[gear], 0, &operator);
+            let operators: Vec<&CsMat<f64>> = facings.iter().map(|facing| &facing.operator[gear]).collect();
+            for other in self.tooth_rows(facings, gear, &operators) {
+                own.add_product(&other, false, &mut compliance);
             }
         }
         for (row, &probe) in probes.iter().enumerate() {

@@ -16,7 +16,7 @@ use sprs::CsMat;
 use super::beside_window::BesideWindow;
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::{Direction, FacingTeeth, SearchWindow};
-use super::sandwich::{add_sandwich, mirror_below};
+use super::sandwich::{ToothRows, mirror_below};
 use crate::gear::Gear;
 use gearwear_fem::active_set::{ActiveSetError, ActiveSetLog, Condensed, ContactEquilibrium, ReusableFactor};
 
@@ -210,13 +210,27 @@ impl<'a> CondensedPair<'a> {
         gear: Gear,
         operators: &[&CsMat<f64>],
     ) {
-        for (a, (facing, own)) in facings.iter().zip(operators).enumerate() {
-            for (other, others) in facings[..=a].iter().zip(operators) {
-                let places = (facing.first_row, other.first_row);
-                let between = self.gears[gear].between(other.tooth[gear], facing.tooth[gear]);
-                add_sandwich(sum, places, own, between, others, facing.first_row == other.first_row);
+        let rows = self.tooth_rows(facings, gear, operators);
+        for (a, own) in rows.iter().enumerate() {
+            for (b, other) in rows[..=a].iter().enumerate() {
+                own.add_product(other, a == b, sum);
             }
         }
+    }
+
+    /// Rows of `operators` L of each tooth pair on a gear.
+    pub(super) fn tooth_rows<'b>(
+        &'b self,
+        facings: &[FacingTeeth],
+        gear: Gear,
+        operators: &[&'b CsMat<f64>],
+    ) -> Vec<ToothRows<'b>> {
+        let of_pairs = facings.iter().zip(operators);
+        of_pairs
+            .map(|(facing, operator)| {
+                ToothRows::new(&self.gears[gear], facing.tooth[gear], facing.first_row, operator)
+            })
+            .collect()
     }
 }
 

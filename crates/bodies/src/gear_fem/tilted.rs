@@ -20,7 +20,7 @@ use sprs::CsMat;
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::turned;
 use super::prepared::{PreparedPosition, Sideways};
-use super::sandwich::{add_sandwich, mirror_below};
+use super::sandwich::mirror_below;
 use crate::gear::{Gear, PerGear};
 
 /// Wear of both flanks.
@@ -56,15 +56,14 @@ impl CondensedPair<'_> {
         let rows = prepared.along_rotation.len();
         let (mut compliance, mut along) = (Mat::zeros(rows, rows), Mat::zeros(rows, rows));
         for gear in Gear::BOTH {
-            let operators = prepared.facings.iter().map(|facing| &facing.operator[gear]);
-            let sideways: Vec<CsMat<f64>> = operators.map(|b| turned(b, Rotation2::new(-FRAC_PI_2))).collect();
-            self.add_symmetric_sandwich(&mut along, &prepared.facings, gear, &sideways.iter().collect::<Vec<_>>());
-            for (facing, own) in prepared.facings.iter().zip(&sideways) {
-                for other in &prepared.facings {
-                    let between = self.gears[gear].between(other.tooth[gear], facing.tooth[gear]);
-                    let places = (facing.first_row, other.first_row);
-                    add_sandwich(&mut compliance, places, own, between, &other.operator[gear], false);
-                }
+            let across: Vec<&CsMat<f64>> = prepared.facings.iter().map(|facing| &facing.operator[gear]).collect();
+            let sideways: Vec<CsMat<f64>> =
+                across.iter().map(|b| turned(b, Rotation2::new(-FRAC_PI_2))).collect();
+            let sideways: Vec<&CsMat<f64>> = sideways.iter().collect();
+            self.add_symmetric_sandwich(&mut along, &prepared.facings, gear, &sideways);
+            let across = self.tooth_rows(&prepared.facings, gear, &across);
+            for own in self.tooth_rows(&prepared.facings, gear, &sideways) {
+                across.iter().for_each(|other| own.add_product(other, false, &mut compliance));
             }
         }
         mirror_below(&mut along);
