@@ -188,7 +188,7 @@ impl CondensedPair<'_> {
             let own = ToothRows::new(&self.gears[gear], beside.tooth[gear], 0, &operator);
             let operators: Vec<&CsMat<f64>> = facings.iter().map(|facing| &facing.operator[gear]).collect();
             for other in self.tooth_rows(facings, gear, &operators) {
-                own.add_product(&other, false, &mut compliance);
+                own.add_product(&other, &mut compliance);
             }
         }
         for (row, &probe) in probes.iter().enumerate() {

@@ -212,9 +212,8 @@ impl<'a> CondensedPair<'a> {
     ) {
         let rows = self.tooth_rows(facings, gear, operators);
         for (a, own) in rows.iter().enumerate() {
-            for (b, other) in rows[..=a].iter().enumerate() {
-                own.add_product(other, a == b, sum);
-            }
+            rows[..=a].iter().for_each(|other| own.add_carried_product(other, sum));
+            ToothRows::held_products(&[own], &mut |_, [i, j], entry| sum[(i, j)] += entry);
         }
     }
 
@@ -227,9 +226,7 @@ impl<'a> CondensedPair<'a> {
     ) -> Vec<ToothRows<'b>> {
         let of_pairs = facings.iter().zip(operators);
         of_pairs
-            .map(|(facing, operator)| {
-                ToothRows::new(&self.gears[gear], facing.tooth[gear], facing.first_row, operator)
-            })
+            .map(|(facing, operator)| ToothRows::new(&self.gears[gear], facing.tooth[gear], facing.first_row, operator))
             .collect()
     }
 }

@@ -1,66 +1,125 @@
 //! Products of compliances with the rows of multipliers on both sides.
 
-use faer::Mat;
+use std::ops::Range;
+
+use faer::{ColRef, Mat};
 use sprs::CsMat;
 
 use super::ring::GearCompliance;
+use crate::reference::linear_means::weighted_sum;
 
-/// Rows of multipliers on a tooth of a gear.
+/// Rows B of multipliers on a tooth of a gear, and others of the same multipliers.
 pub(super) struct ToothRows<'a> {
     gear: &'a GearCompliance,
     tooth: usize,
     first_row: usize,
-    operator: &'a CsMat<f64>,
+    rows: Vec<ToothRow>,
     /// Displacement of each row, in a column, by the shapes that cuts carry.
     carried: Mat<f64>,
 }
 
+/// Consecutive entries of a row.
+struct ToothRow {
+    first_column: usize,
+    entries: Vec<f64>,
+}
+
 impl<'a> ToothRows<'a> {
     /// Rows of `operator` from `first_row` on; its columns are those of the candidates of `tooth`.
-    pub(super) fn new(gear: &'a GearCompliance, tooth: usize, first_row: usize, operator: &'a CsMat<f64>) -> Self {
+    pub(super) fn new(gear: &'a GearCompliance, tooth: usize, first_row: usize, operator: &CsMat<f64>) -> Self {
         let shapes = gear.shapes();
-        let mut carried = Mat::zeros(shapes.nrows(), operator.rows());
-        for (row, entries) in operator.outer_iterator().enumerate() {
-            let mut sum = carried.col_mut(row);
-            entries.iter().for_each(|(column, b)| sum += shapes.col(column) * faer::Scale(*b));
+        let rows: Vec<ToothRow> = operator
+            .outer_iterator()
+            .map(|row| {
+                let (first, last) = (row.indices().iter().min(), row.indices().iter().max());
+                let (first, end) = (first.copied().unwrap_or(0), last.map_or(0, |last| last + 1));
+                let mut entries = vec![0.0; end - first];
+                row.iter().for_each(|(column, b)| entries[column - first] = *b);
+                ToothRow { first_column: first, entries }
+            })
+            .collect();
+        let mut carried = Mat::zeros(shapes.nrows(), rows.len());
+        for (k, row) in rows.iter().enumerate() {
+            carried.col_mut(k).copy_from(shapes.subcols(row.first_column, row.entries.len()) * row.entries());
         }
-        Self { gear, tooth, first_row, operator, carried }
+        Self { gear, tooth, first_row, rows, carried }
     }
 
-    /// Adds the product B C B'ᵀ with the rows B' of `right` to `sum`, or with `half` its entries on and below the diagonal.
-    pub(super) fn add_product(&self, right: &ToothRows<'_>, half: bool, sum: &mut Mat<f64>) {
-        let softness = self.gear.softness();
+    /// Adds the product B C B'ᵀ with the rows B' of `right` to `sum`.
+    pub(super) fn add_product(&self, right: &ToothRows<'_>, sum: &mut Mat<f64>) {
+        self.add_carried_product(right, sum);
+        if self.tooth != right.tooth {
+            return;
+        }
+        let columns = used_columns(&self.rows);
+        for (j, row) in right.rows.iter().enumerate() {
+            let moved = row.moved(self.gear, &columns);
+            for (i, row) in self.rows.iter().enumerate() {
+                sum[(self.first_row + i, right.first_row + j)] += row.along(&moved, columns.start);
+            }
+        }
+    }
+
+    /// Adds the part of the product B C B'ᵀ that the cuts carry.
+    pub(super) fn add_carried_product(&self, right: &ToothRows<'_>, sum: &mut Mat<f64>) {
         let by_shape = self.gear.between_cuts(self.tooth, right.tooth) * &right.carried;
         let product = self.carried.transpose() * by_shape;
         for j in 0..product.ncols() {
-            let first = if half { j } else { 0 };
-            for i in first..product.nrows() {
-                sum[(self.first_row + i, right.first_row + j)] += softness * product[(i, j)];
+            for i in 0..product.nrows() {
+                sum[(self.first_row + i, right.first_row + j)] += self.gear.softness() * product[(i, j)];
             }
-        }
-        if self.tooth == right.tooth {
-            self.add_held_product(right, half, sum);
         }
     }
 
-    /// Adds the part of the product with held cuts.
-    fn add_held_product(&self, right: &ToothRows<'_>, half: bool, sum: &mut Mat<f64>) {
-        let (held, softness) = (self.gear.held(), self.gear.softness());
-        let used = used_columns(self.operator);
-        let mut moved = vec![0.0; used.len()];
-        for (j, row) in right.operator.outer_iterator().enumerate() {
-            moved.fill(0.0);
-            for (column, b) in row.iter() {
-                let by_force = held.col(column).try_as_col_major().map_or(&[][..], |column| column.as_slice());
-                moved.iter_mut().zip(&by_force[used.clone()]).for_each(|(sum, c)| *sum += b * c);
-            }
-            let first = if half { j } else { 0 };
-            for (i, row) in self.operator.outer_iterator().enumerate().skip(first) {
-                let product: f64 = row.iter().map(|(column, b)| b * moved[column - used.start]).sum();
-                sum[(self.first_row + i, right.first_row + j)] += softness * product;
+    /// Entries on and below the diagonal of the products B C B'ᵀ with held cuts, for B and B' each of the `kinds` of rows of the same multipliers on a
+    /// tooth: numbers of both kinds, row, column and entry to `take`.
+    pub(super) fn held_products(kinds: &[&ToothRows<'_>], take: &mut dyn FnMut([usize; 2], [usize; 2], f64)) {
+        let count = kinds.first().map_or(0, |rows| rows.rows.len());
+        // Columns of this and of later rows.
+        let mut columns = vec![usize::MAX..0; count + 1];
+        for j in (0..count).rev() {
+            let own = kinds.iter().map(|kind| used_columns(&kind.rows[j..=j]));
+            columns[j] = own.fold(columns[j + 1].clone(), joined);
+        }
+        for (j, columns) in columns[..count].iter().enumerate() {
+            for (b, right) in kinds.iter().enumerate() {
+                let moved = right.rows[j].moved(right.gear, columns);
+                for (a, left) in kinds.iter().enumerate() {
+                    for (i, row) in left.rows.iter().enumerate().skip(j) {
+                        let places = [left.first_row + i, right.first_row + j];
+                        take([a, b], places, row.along(&moved, columns.start));
+                    }
+                }
             }
         }
     }
+}
+
+impl ToothRow {
+    fn entries(&self) -> ColRef<'_, f64> {
+        ColRef::from_slice(&self.entries)
+    }
+
+    /// Displacements of these candidate columns by the row's force, with held cuts.
+    fn moved(&self, gear: &GearCompliance, columns: &Range<usize>) -> Vec<f64> {
+        let by_force = gear.held().subcols(self.first_column, self.entries.len());
+        let moved = by_force.subrows(columns.start, columns.len()) * self.entries();
+        moved.iter().map(|moved| gear.softness() * moved).collect()
+    }
+
+    /// Displacement of the row where the candidate columns from `first` on move by `moved`.
+    fn along(&self, moved: &[f64], first: usize) -> f64 {
+        weighted_sum(&self.entries, &moved[self.first_column - first..])
+    }
+}
+
+/// Range of the columns with entries.
+fn used_columns(rows: &[ToothRow]) -> Range<usize> {
+    rows.iter().map(|row| row.first_column..row.first_column + row.entries.len()).fold(usize::MAX..0, joined)
+}
+
+fn joined(one: Range<usize>, other: Range<usize>) -> Range<usize> {
+    one.start.min(other.start)..one.end.max(other.end)
 }
 
 /// Copies the entries below the diagonal to above it.
@@ -70,10 +129,4 @@ pub(super) fn mirror_below(matrix: &mut Mat<f64>) {
             matrix[(i, j)] = matrix[(j, i)];
         }
     }
-}
-
-/// Range of the columns with entries.
-fn used_columns(operator: &CsMat<f64>) -> std::ops::Range<usize> {
-    let first = operator.indices().iter().copied().min().unwrap_or(0);
-    first..operator.indices().iter().map(|column| column + 1).max().unwrap_or(first)
 }

@@ -20,7 +20,7 @@ use sprs::CsMat;
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::turned;
 use super::prepared::{PreparedPosition, Sideways};
-use super::sandwich::mirror_below;
+use super::sandwich::{ToothRows, mirror_below};
 use crate::gear::{Gear, PerGear};
 
 /// Wear of both flanks.
@@ -57,13 +57,18 @@ impl CondensedPair<'_> {
         let (mut compliance, mut along) = (Mat::zeros(rows, rows), Mat::zeros(rows, rows));
         for gear in Gear::BOTH {
             let across: Vec<&CsMat<f64>> = prepared.facings.iter().map(|facing| &facing.operator[gear]).collect();
-            let sideways: Vec<CsMat<f64>> =
-                across.iter().map(|b| turned(b, Rotation2::new(-FRAC_PI_2))).collect();
-            let sideways: Vec<&CsMat<f64>> = sideways.iter().collect();
-            self.add_symmetric_sandwich(&mut along, &prepared.facings, gear, &sideways);
-            let across = self.tooth_rows(&prepared.facings, gear, &across);
-            for own in self.tooth_rows(&prepared.facings, gear, &sideways) {
-                across.iter().for_each(|other| own.add_product(other, false, &mut compliance));
+            let turned: Vec<CsMat<f64>> = across.iter().map(|b| turned(b, Rotation2::new(-FRAC_PI_2))).collect();
+            let [across, turned] =
+                [across, turned.iter().collect()].map(|operators| self.tooth_rows(&prepared.facings, gear, &operators));
+            for (a, own) in turned.iter().enumerate() {
+                across.iter().for_each(|other| own.add_carried_product(other, &mut compliance));
+                turned[..=a].iter().for_each(|other| own.add_carried_product(other, &mut along));
+                ToothRows::held_products(&[&across[a], own], &mut |kinds, [i, j], entry| match kinds {
+                    [1, 0] => compliance[(i, j)] += entry,
+                    [0, 1] if i != j => compliance[(j, i)] += entry,
+                    [1, 1] => along[(i, j)] += entry,
+                    _ => {}
+                });
             }
         }
         mirror_below(&mut along);
