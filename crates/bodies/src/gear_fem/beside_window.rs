@@ -10,7 +10,10 @@
 //! under the forces f of the window's multipliers, b being the row of B for the node and its foot. Where it is negative,
 //! the window must be extended. Teeth deflect away from each other, so that the last term only opens gaps, and matters for those
 //! nodes alone that would overlap without it. It changes slowly along the flank: it is calculated at some of the nodes, the
-//! probes, and linear between them.
+//! probes, and linear between them. As wear only opens gaps too, nodes between two probes are looked at one by one only where one of them may overlap
+//! without wear.
+
+use std::ops::Range;
 
 use faer::Mat;
 use nalgebra::Vector2;
@@ -22,6 +25,7 @@ use super::sandwich::ToothRows;
 use crate::gear::{Gear, PerGear};
 use gearwear_fem::active_set::ContactEquilibrium;
 use gearwear_fem::contact::master_search::LEAST_FACING;
+use gearwear_fem::weighted_sum::weighted_sum;
 
 /// Overlap over the transmission error that is tolerated, above the error of interpolation between nodes and probes.
 const OVERLOOKED: f64 = 1e-3;
@@ -35,11 +39,11 @@ pub(super) struct BesideWindow {
     tooth: PerGear<usize>,
     /// Nodes from tip to root.
     nodes: Vec<BesideNode>,
-    /// Transmission error at which each would touch if rigid and unworn, mm.
-    touch_at_mm: Vec<f64>,
-    /// Least of these transmission errors.
+    /// Least transmission error at which one would touch if rigid and unworn, mm.
     first_touch_mm: f64,
     probes: Vec<Probe>,
+    /// Nodes from each probe to the next.
+    spans: Vec<Span>,
     /// Greatest overlap of the last solution, mm.
     deepest_mm: f64,
 }
@@ -57,8 +61,16 @@ struct BesideNode {
     gap_mm: f64,
     /// Change b r of the gap per transmission error.
     by_rotation: f64,
-    /// Probes to either side, and their weights.
-    probes: [(usize, f64); 2],
+    /// Weights of the probes to either side.
+    probe_parts: [f64; 2],
+}
+
+/// Nodes between two probes.
+struct Span {
+    nodes: Range<usize>,
+    /// Least gap g⁰, and least change b r per transmission error.
+    least_gap_mm: f64,
+    least_by_rotation: f64,
 }
 
 /// Node at which b C Bᵀ is calculated.
@@ -91,21 +103,21 @@ impl CondensedPair<'_> {
             .collect();
         let along_mm: Vec<f64> = nodes.iter().map(|at| own.from_tip_mm[at.node]).collect();
         let probes = probes(&along_mm, PROBES_APART * half_width_mm);
-        for (after, ends) in probes.windows(2).enumerate() {
+        for ends in probes.windows(2) {
             let [from_mm, to_mm] = [along_mm[ends[0]], along_mm[ends[1]]];
-            for at in ends[0]..=ends[1] {
+            for at in ends[0]..ends[1] {
                 let t = (along_mm[at] - from_mm) / (to_mm - from_mm);
-                nodes[at].probes = [(after, 1.0 - t), (after + 1, t)];
+                nodes[at].probe_parts = [1.0 - t, t];
             }
         }
-        let probes = probes.into_iter().map(|at| Probe { at, compliance: None, yields_mm: None }).collect();
         // A node that rotation does not bring nearer never touches.
-        let touch_at_mm: Vec<f64> = nodes
-            .iter()
-            .map(|at| if at.by_rotation < 0.0 { -at.gap_mm / at.by_rotation } else { f64::INFINITY })
-            .collect();
-        let first_touch_mm = touch_at_mm.iter().copied().fold(f64::INFINITY, f64::min);
-        BesideWindow { pair, slave, tooth, nodes, touch_at_mm, first_touch_mm, probes, deepest_mm: 0.0 }
+        let nearing = nodes.iter().filter(|at| at.by_rotation < 0.0);
+        let first_touch_mm = nearing.map(|at| -at.gap_mm / at.by_rotation).fold(f64::INFINITY, f64::min);
+        let spans = (0..probes.len())
+            .map(|k| Span::new(&nodes, probes[k]..probes.get(k + 1).map_or(nodes.len(), |next| *next)));
+        let spans = spans.collect();
+        let probes = probes.into_iter().map(|at| Probe { at, compliance: None, yields_mm: None }).collect();
+        BesideWindow { pair, slave, tooth, nodes, first_touch_mm, probes, spans, deepest_mm: 0.0 }
     }
 
     /// Slave's node beside the window with its foot on the `master`'s nodes, from tip to root; `None` where there is none within reach.
@@ -131,8 +143,8 @@ impl CondensedPair<'_> {
             return None;
         }
         let normal = PerGear::from_fn(|gear| if gear == placed.slave { normal } else { in_masters });
-        let (foot, probes) = ([(first, 1.0 - t), (second, t)], [(0, 1.0), (0, 0.0)]);
-        let mut beside = BesideNode { node, foot, normal, cosine, gap_mm, by_rotation: 0.0, probes };
+        let foot = [(first, 1.0 - t), (second, t)];
+        let mut beside = BesideNode { node, foot, normal, cosine, gap_mm, by_rotation: 0.0, probe_parts: [1.0, 0.0] };
         let of_pinion = beside.entries(placed.slave, Gear::Pinion);
         beside.by_rotation = of_pinion.map(|(column, b)| b * self.rotation(column, Direction::AcrossFlank)).sum();
         Some(beside)
@@ -152,15 +164,14 @@ impl CondensedPair<'_> {
         if turned_mm <= beside.first_touch_mm {
             return None;
         }
-        let overlapping = beside.overlapping(turned_mm, depth_mm);
-        let unknown = beside.probes_without_compliance(&overlapping);
+        let unknown = beside.probes_without_compliance(turned_mm);
         if !unknown.is_empty() {
             self.find_compliance(beside, &unknown, facings);
         }
         beside.probes.iter_mut().for_each(|probe| probe.yields_mm = None);
         let mut from_tip_mm: Option<PerGear<[f64; 2]>> = None;
-        for (at, if_rigid_mm) in overlapping {
-            let gap_mm = if_rigid_mm + beside.yields_mm(at, &found.force);
+        for (at, unworn_mm) in beside.overlapping(turned_mm, &found.force) {
+            let gap_mm = unworn_mm + beside.worn_mm(at, depth_mm);
             beside.deepest_mm = beside.deepest_mm.max(-gap_mm);
             if gap_mm >= -OVERLOOKED * turned_mm {
                 continue;
@@ -218,35 +229,44 @@ impl BesideWindow {
         self.deepest_mm
     }
 
-    /// Nodes that would overlap if the teeth were rigid, and their gaps.
-    fn overlapping(&self, turned_mm: f64, depth_mm: &dyn Fn(Gear, usize) -> f64) -> Vec<(usize, f64)> {
-        let (slave, master) = (self.slave, self.slave.mate());
-        let may_touch = self.nodes.iter().enumerate().filter(|(at, _)| self.touch_at_mm[*at] < turned_mm);
-        let gaps = may_touch.map(|(at, node)| {
-            let mates_mm = node.at_foot(|node| depth_mm(master, node));
-            let worn_mm = depth_mm(slave, node.node) + mates_mm / node.cosine;
-            (at, node.gap_mm + worn_mm + node.by_rotation * turned_mm)
-        });
-        gaps.filter(|(_, gap_mm)| *gap_mm < 0.0).collect()
+    /// Nodes that would overlap without wear, and their gaps then.
+    fn overlapping(&mut self, turned_mm: f64, force: &[f64]) -> Vec<(usize, f64)> {
+        let mut overlapping = Vec::new();
+        for span in 0..self.spans.len() {
+            let rigid_mm = self.spans[span].least_mm(turned_mm);
+            if rigid_mm >= 0.0 {
+                continue;
+            }
+            let after = (span + 1).min(self.probes.len() - 1);
+            let yields_mm = [span, after].map(|probe| self.probes[probe].yields_mm(force));
+            if rigid_mm + yields_mm[0].min(yields_mm[1]) >= 0.0 {
+                continue;
+            }
+            let first = self.spans[span].nodes.start;
+            for (k, node) in self.nodes[self.spans[span].nodes.clone()].iter().enumerate() {
+                let yields_mm: f64 = node.probe_parts.iter().zip(yields_mm).map(|(part, yields)| part * yields).sum();
+                let gap_mm = node.gap_mm + node.by_rotation * turned_mm + yields_mm;
+                if gap_mm < 0.0 {
+                    overlapping.push((first + k, gap_mm));
+                }
+            }
+        }
+        overlapping
     }
 
-    /// Probes around these nodes whose compliance is not known yet.
-    fn probes_without_compliance(&self, overlapping: &[(usize, f64)]) -> Vec<usize> {
-        let around = overlapping.iter().flat_map(|(at, _)| self.nodes[*at].probes.map(|(probe, _)| probe));
+    /// Opening of the gap at a node by wear, mm.
+    fn worn_mm(&self, at: usize, depth_mm: &dyn Fn(Gear, usize) -> f64) -> f64 {
+        let node = &self.nodes[at];
+        depth_mm(self.slave, node.node) + node.at_foot(|node| depth_mm(self.slave.mate(), node)) / node.cosine
+    }
+
+    /// Probes whose compliance is not known yet, around nodes that would overlap if the teeth were rigid and unworn.
+    fn probes_without_compliance(&self, turned_mm: f64) -> Vec<usize> {
+        let overlapping = self.spans.iter().enumerate().filter(|(_, span)| span.least_mm(turned_mm) < 0.0);
+        let around = overlapping.flat_map(|(span, _)| [span, (span + 1).min(self.probes.len() - 1)]);
         let mut unknown: Vec<usize> = around.filter(|probe| self.probes[*probe].compliance.is_none()).collect();
-        unknown.sort_unstable();
         unknown.dedup();
         unknown
-    }
-
-    /// Opening of the gap at a node by the deflection under `force`, mm.
-    fn yields_mm(&mut self, at: usize, force: &[f64]) -> f64 {
-        let parts = self.nodes[at].probes.map(|(probe, part)| {
-            let Probe { compliance, yields_mm, .. } = &mut self.probes[probe];
-            let products = compliance.iter().flatten().zip(force).map(|(c, force)| c * force);
-            part * *yields_mm.get_or_insert_with(|| products.sum())
-        });
-        parts.iter().sum()
     }
 
     /// Rows of B of these probes.
@@ -258,6 +278,27 @@ impl BesideWindow {
             }
         }
         triplets.to_csr()
+    }
+}
+
+impl Span {
+    fn new(nodes: &[BesideNode], range: Range<usize>) -> Self {
+        let least = |of: fn(&BesideNode) -> f64| nodes[range.clone()].iter().map(of).fold(f64::INFINITY, f64::min);
+        let (least_gap_mm, least_by_rotation) = (least(|node| node.gap_mm), least(|node| node.by_rotation));
+        Self { nodes: range, least_gap_mm, least_by_rotation }
+    }
+
+    /// Lower bound of the gaps if the teeth were rigid and unworn, mm.
+    fn least_mm(&self, turned_mm: f64) -> f64 {
+        self.least_gap_mm + self.least_by_rotation * turned_mm
+    }
+}
+
+impl Probe {
+    /// Opening of the gap by the deflection under `force`, mm.
+    fn yields_mm(&mut self, force: &[f64]) -> f64 {
+        let compliance = self.compliance.as_deref().unwrap_or_default();
+        *self.yields_mm.get_or_insert_with(|| weighted_sum(compliance, force))
     }
 }
 

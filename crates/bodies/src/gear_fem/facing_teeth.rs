@@ -406,9 +406,9 @@ impl FacingTeeth {
 
     /// Whether load comes close to an end of the window within the flank, so that it may have been cut off.
     pub(super) fn is_cramped(&self, force: &[f64]) -> bool {
-        let loaded: Vec<bool> = self.from_tip.iter().map(|row| force[self.first_row + row] > 0.0).collect();
-        (self.inner_ends.0 && loaded.iter().take(FREE_ROWS).any(|loaded| *loaded))
-            || (self.inner_ends.1 && loaded.iter().rev().take(FREE_ROWS).any(|loaded| *loaded))
+        let is_loaded = |row: &usize| force[self.first_row + row] > 0.0;
+        (self.inner_ends.0 && self.from_tip.iter().take(FREE_ROWS).any(is_loaded))
+            || (self.inner_ends.1 && self.from_tip.iter().rev().take(FREE_ROWS).any(is_loaded))
     }
 }
 

@@ -56,7 +56,7 @@ use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
 use super::prepared::PreparedPosition;
 use super::tilted::Worn;
 use crate::gear::{Gear, PerGear};
-use crate::reference::linear_means::weighted_sum;
+use gearwear_fem::weighted_sum::weighted_sum;
 
 /// Greatest number of parts into which the movement of a contact is divided.
 const MOST_PARTS: usize = 24;

@@ -6,7 +6,7 @@ use faer::{ColRef, Mat};
 use sprs::CsMat;
 
 use super::ring::GearCompliance;
-use crate::reference::linear_means::weighted_sum;
+use gearwear_fem::weighted_sum::weighted_sum;
 
 /// Rows B of multipliers on a tooth of a gear, and others of the same multipliers.
 pub(super) struct ToothRows<'a> {
