@@ -16,7 +16,7 @@
 use std::ops::Range;
 
 use faer::Mat;
-use nalgebra::Vector2;
+use nalgebra::{Rotation2, Vector2};
 use sprs::{CsMat, TriMat};
 
 use super::condensed_pair::CondensedPair;
@@ -37,6 +37,8 @@ pub(super) struct BesideWindow {
     pair: i32,
     slave: Gear,
     tooth: PerGear<usize>,
+    /// Turn from the frame of the master's tooth to that of the slave's.
+    turn: Rotation2<f64>,
     /// Nodes from tip to root.
     nodes: Vec<BesideNode>,
     /// Least transmission error at which one would touch if rigid and unworn, mm.
@@ -50,19 +52,19 @@ pub(super) struct BesideWindow {
 
 struct BesideNode {
     /// Local node of the slave.
-    node: usize,
-    /// Local nodes of the master to either side of the foot, and their weights.
-    foot: [(usize, f64); 2],
-    /// Slave's normal in the frame of each tooth.
-    normal: PerGear<Vector2<f64>>,
+    node: u32,
+    /// Local nodes of the master to either side of the foot.
+    foot: [u32; 2],
+    /// Weight of the second of them.
+    second_part: f64,
     /// Cosine n_s · −n_m.
     cosine: f64,
     /// Gap g⁰ of the unworn flanks.
     gap_mm: f64,
     /// Change b r of the gap per transmission error.
     by_rotation: f64,
-    /// Weights of the probes to either side.
-    probe_parts: [f64; 2],
+    /// Weight of the probe after the node.
+    next_probe_part: f64,
 }
 
 /// Nodes between two probes.
@@ -86,11 +88,11 @@ struct Probe {
 impl CondensedPair<'_> {
     /// Nodes of the slave beside the window within `reach_mm` of the master.
     pub(super) fn beside_window(&self, placed: &PlacedTeeth, reach_mm: f64) -> BesideWindow {
-        let PlacedTeeth { pair, slave, tooth, half_width_mm, ref edges, .. } = *placed;
+        let PlacedTeeth { pair, slave, tooth, half_width_mm, ref edges, turn, .. } = *placed;
         let (own, mate) = (&self.flanks[slave], &self.flanks[slave.mate()]);
         let master: Vec<(usize, Vector2<f64>)> = mate
             .tip_to_root()
-            .map(|node| (node, placed.turn * mate.surface.points_mm[node] + placed.master_axis_mm))
+            .map(|node| (node, turn * mate.surface.points_mm[node] + placed.master_axis_mm))
             .collect();
         let mut in_window = vec![false; own.surface.points_mm.len()];
         for edge in &own.surface.edges[edges[slave].clone()] {
@@ -101,13 +103,13 @@ impl CondensedPair<'_> {
             .filter(|&node| !in_window[node])
             .filter_map(|node| self.beside_node(placed, node, &master, reach_mm))
             .collect();
-        let along_mm: Vec<f64> = nodes.iter().map(|at| own.from_tip_mm[at.node]).collect();
+        let along_mm: Vec<f64> = nodes.iter().map(|at| own.from_tip_mm[at.node as usize]).collect();
         let probes = probes(&along_mm, PROBES_APART * half_width_mm);
         for ends in probes.windows(2) {
             let [from_mm, to_mm] = [along_mm[ends[0]], along_mm[ends[1]]];
             for at in ends[0]..ends[1] {
                 let t = (along_mm[at] - from_mm) / (to_mm - from_mm);
-                nodes[at].probe_parts = [1.0 - t, t];
+                nodes[at].next_probe_part = t;
             }
         }
         // A node that rotation does not bring nearer never touches.
@@ -117,7 +119,7 @@ impl CondensedPair<'_> {
             .map(|k| Span::new(&nodes, probes[k]..probes.get(k + 1).map_or(nodes.len(), |next| *next)));
         let spans = spans.collect();
         let probes = probes.into_iter().map(|at| Probe { at, compliance: None, yields_mm: None }).collect();
-        BesideWindow { pair, slave, tooth, nodes, first_touch_mm, probes, spans, deepest_mm: 0.0 }
+        BesideWindow { pair, slave, tooth, turn, nodes, first_touch_mm, probes, spans, deepest_mm: 0.0 }
     }
 
     /// Slave's node beside the window with its foot on the `master`'s nodes, from tip to root; `None` where there is none within reach.
@@ -142,10 +144,17 @@ impl CondensedPair<'_> {
         if gap_mm.abs() > reach_mm || cosine <= LEAST_FACING {
             return None;
         }
-        let normal = PerGear::from_fn(|gear| if gear == placed.slave { normal } else { in_masters });
-        let foot = [(first, 1.0 - t), (second, t)];
-        let mut beside = BesideNode { node, foot, normal, cosine, gap_mm, by_rotation: 0.0, probe_parts: [1.0, 0.0] };
-        let of_pinion = beside.entries(placed.slave, Gear::Pinion);
+        let mut beside = BesideNode {
+            node: node as u32,
+            foot: [first as u32, second as u32],
+            second_part: t,
+            cosine,
+            gap_mm,
+            by_rotation: 0.0,
+            next_probe_part: 0.0,
+        };
+        let on_pinion = if placed.slave == Gear::Pinion { normal } else { in_masters };
+        let of_pinion = beside.entries(placed.slave == Gear::Pinion, on_pinion);
         beside.by_rotation = of_pinion.map(|(column, b)| b * self.rotation(column, Direction::AcrossFlank)).sum();
         Some(beside)
     }
@@ -179,7 +188,7 @@ impl CondensedPair<'_> {
             let at = &beside.nodes[at];
             let along_mm = PerGear::from_fn(|gear| {
                 let along_mm = &self.flanks[gear].from_tip_mm;
-                if gear == beside.slave { along_mm[at.node] } else { at.at_foot(|node| along_mm[node]) }
+                if gear == beside.slave { along_mm[at.node as usize] } else { at.at_foot(|node| along_mm[node]) }
             });
             let ends_mm = from_tip_mm.get_or_insert(along_mm.map(|along_mm| [along_mm; 2]));
             for gear in Gear::BOTH {
@@ -195,7 +204,7 @@ impl CondensedPair<'_> {
         let rows = facings.iter().map(|facing| facing.coupling.len()).sum();
         let mut compliance = Mat::zeros(probes.len(), rows);
         for gear in Gear::BOTH {
-            let operator = beside.operator(probes, gear, self.flanks[gear].surface.points_mm.len());
+            let operator = self.operator(beside, probes, gear);
             let own = ToothRows::new(&self.gears[gear], beside.tooth[gear], 0, &operator);
             let operators: Vec<&CsMat<f64>> = facings.iter().map(|facing| &facing.operator[gear]).collect();
             for other in self.tooth_rows(facings, gear, &operators) {
@@ -205,6 +214,19 @@ impl CondensedPair<'_> {
         for (row, &probe) in probes.iter().enumerate() {
             beside.probes[probe].compliance = Some(compliance.row(row).iter().copied().collect());
         }
+    }
+
+    /// Rows of B of these probes.
+    fn operator(&self, beside: &BesideWindow, probes: &[usize], gear: Gear) -> CsMat<f64> {
+        let is_slave = gear == beside.slave;
+        let mut triplets = TriMat::new((probes.len(), 2 * self.flanks[gear].surface.points_mm.len()));
+        for (row, &probe) in probes.iter().enumerate() {
+            let node = &beside.nodes[beside.probes[probe].at];
+            let normal = self.flanks[beside.slave].surface.normals[node.node as usize];
+            let normal = if is_slave { normal } else { beside.turn.inverse() * normal };
+            node.entries(is_slave, normal).for_each(|(column, b)| triplets.add_triplet(row, column, b));
+        }
+        triplets.to_csr()
     }
 }
 
@@ -244,7 +266,8 @@ impl BesideWindow {
             }
             let first = self.spans[span].nodes.start;
             for (k, node) in self.nodes[self.spans[span].nodes.clone()].iter().enumerate() {
-                let yields_mm: f64 = node.probe_parts.iter().zip(yields_mm).map(|(part, yields)| part * yields).sum();
+                let part = node.next_probe_part;
+                let yields_mm = (1.0 - part) * yields_mm[0] + part * yields_mm[1];
                 let gap_mm = node.gap_mm + node.by_rotation * turned_mm + yields_mm;
                 if gap_mm < 0.0 {
                     overlapping.push((first + k, gap_mm));
@@ -257,7 +280,7 @@ impl BesideWindow {
     /// Opening of the gap at a node by wear, mm.
     fn worn_mm(&self, at: usize, depth_mm: &dyn Fn(Gear, usize) -> f64) -> f64 {
         let node = &self.nodes[at];
-        depth_mm(self.slave, node.node) + node.at_foot(|node| depth_mm(self.slave.mate(), node)) / node.cosine
+        depth_mm(self.slave, node.node as usize) + node.at_foot(|node| depth_mm(self.slave.mate(), node)) / node.cosine
     }
 
     /// Probes whose compliance is not known yet, around nodes that would overlap if the teeth were rigid and unworn.
@@ -267,17 +290,6 @@ impl BesideWindow {
         let mut unknown: Vec<usize> = around.filter(|probe| self.probes[*probe].compliance.is_none()).collect();
         unknown.dedup();
         unknown
-    }
-
-    /// Rows of B of these probes.
-    fn operator(&self, probes: &[usize], gear: Gear, flank_nodes: usize) -> CsMat<f64> {
-        let mut triplets = TriMat::new((probes.len(), 2 * flank_nodes));
-        for (row, &probe) in probes.iter().enumerate() {
-            for (column, b) in self.nodes[self.probes[probe].at].entries(self.slave, gear) {
-                triplets.add_triplet(row, column, b);
-            }
-        }
-        triplets.to_csr()
     }
 }
 
@@ -305,14 +317,17 @@ impl Probe {
 impl BesideNode {
     /// Value at the foot, interpolated between the master's local nodes.
     fn at_foot(&self, of: impl Fn(usize) -> f64) -> f64 {
-        self.foot.iter().map(|&(node, part)| part * of(node)).sum()
+        let [first, second] = self.foot.map(|node| of(node as usize));
+        (1.0 - self.second_part) * first + self.second_part * second
     }
 
-    /// Columns and entries of b for displacements of `gear`.
-    fn entries(&self, slave: Gear, gear: Gear) -> impl Iterator<Item = (usize, f64)> {
-        let normal = self.normal[gear];
-        let parts = if gear == slave { [(self.node, -1.0), (self.node, 0.0)] } else { self.foot };
-        let loaded = parts.into_iter().filter(|(_, part)| *part != 0.0);
+    /// Columns and entries of b for displacements of the slave or of the master, in whose frame the slave's `normal` is given.
+    fn entries(&self, is_slave: bool, normal: Vector2<f64>) -> impl Iterator<Item = (usize, f64)> {
+        let parts = match is_slave {
+            true => [(self.node, -1.0), (self.node, 0.0)],
+            false => [(self.foot[0], 1.0 - self.second_part), (self.foot[1], self.second_part)],
+        };
+        let loaded = parts.into_iter().map(|(node, part)| (node as usize, part)).filter(|(_, part)| *part != 0.0);
         loaded.flat_map(move |(node, part)| [(2 * node, part * normal.x), (2 * node + 1, part * normal.y)])
     }
 }

@@ -412,16 +412,12 @@ impl FacingTeeth {
     }
 }
 
-/// B with each pair of columns turned into another frame.
+/// B turned into another frame: its rows have both columns of each node that they have one of.
 pub(super) fn turned(operator: &CsMat<f64>, turn: Rotation2<f64>) -> CsMat<f64> {
-    let mut triplets = sprs::TriMat::new(operator.shape());
-    for (i, row) in operator.outer_iterator().enumerate() {
-        for (column, value) in row.iter() {
-            let unit = if column.is_multiple_of(2) { Vector2::x() } else { Vector2::y() };
-            let image = turn * (*value * unit);
-            triplets.add_triplet(i, column - column % 2, image.x);
-            triplets.add_triplet(i, column - column % 2 + 1, image.y);
-        }
+    let mut turned = operator.clone();
+    for entries in turned.data_mut().chunks_exact_mut(2) {
+        let image = turn * Vector2::new(entries[0], entries[1]);
+        entries.copy_from_slice(image.as_slice());
     }
-    triplets.to_csr()
+    turned
 }

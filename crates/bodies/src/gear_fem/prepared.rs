@@ -59,9 +59,10 @@ pub struct PreparedPosition {
 pub(super) struct Sideways {
     /// Matrix B⊥ C Bᵀ.
     pub compliance: Mat<f64>,
-    /// Matrix B⊥ C B⊥ᵀ.
-    pub along: Mat<f64>,
-    pub level_compliance: Mat<f64>,
+    /// Matrix B C Bᵀ on and below the diagonal, B⊥ C B⊥ᵀ above it, both symmetric.
+    pub level_and_along: Mat<f64>,
+    /// Diagonal of B⊥ C B⊥ᵀ.
+    pub along_diagonal: Vec<f64>,
     pub level_rigid: Mat<f64>,
 }
 
@@ -242,9 +243,11 @@ impl PreparedPosition {
     /// Resets tilt and active set.
     fn level(&mut self) {
         (self.active, self.kept) = (None, None);
-        if let Some(Sideways { level_compliance, level_rigid, .. }) = &self.sideways {
-            self.condensed.compliance.copy_from(level_compliance);
-            self.condensed.rigid.copy_from(level_rigid);
+        if let Some(sideways) = &self.sideways {
+            let level = &sideways.level_and_along;
+            self.condensed.compliance.copy_from_triangular_lower(level);
+            mirror_below(&mut self.condensed.compliance);
+            self.condensed.rigid.copy_from(&sideways.level_rigid);
             self.tilt_rad.clear();
         }
     }

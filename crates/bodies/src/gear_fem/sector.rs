@@ -146,9 +146,9 @@ impl Sector {
         }
         let columns: Vec<Functional> =
             candidate_dofs.iter().map(|dof| vec![(*dof, 1.0)]).chain(self.probes.iter().cloned()).collect();
-        let all = factor.compliance(&columns);
-        let compliance = all.get(..candidates, ..candidates).to_owned();
-        let probe_by_force = all.get(candidates.., ..candidates).to_owned();
+        let mut compliance = factor.compliance(&columns);
+        let probe_by_force = compliance.get(candidates.., ..candidates).to_owned();
+        compliance.truncate(candidates, candidates);
         Ok(CondensedSector {
             stiffness,
             factor,

@@ -38,17 +38,20 @@ impl CondensedPair<'_> {
         if prepared.sideways.is_none() {
             prepared.sideways = Some(self.sideways(prepared));
         }
-        let Some(Sideways { compliance, along, level_compliance, level_rigid }) = &prepared.sideways else { return };
+        let Some(Sideways { compliance, level_and_along, along_diagonal, level_rigid }) = &prepared.sideways else {
+            return;
+        };
         let of_rows = &tilt_rad;
         let condensed = &mut prepared.condensed;
         for j in 0..of_rows.len() {
-            for i in 0..of_rows.len() {
+            for i in j..of_rows.len() {
                 let turned = of_rows[i] * compliance[(i, j)] + of_rows[j] * compliance[(j, i)];
-                let turned_twice = of_rows[i] * along[(i, j)] * of_rows[j];
-                condensed.compliance[(i, j)] = level_compliance[(i, j)] + turned + turned_twice;
+                let along = if i == j { along_diagonal[j] } else { level_and_along[(j, i)] };
+                condensed.compliance[(i, j)] = level_and_along[(i, j)] + turned + of_rows[i] * along * of_rows[j];
             }
             condensed.rigid[(j, 0)] = level_rigid[(j, 0)] + of_rows[j] * prepared.along_rotation[j];
         }
+        mirror_below(&mut condensed.compliance);
         (prepared.tilt_rad, prepared.kept) = (tilt_rad, None);
     }
 
@@ -71,13 +74,11 @@ impl CondensedPair<'_> {
                 });
             }
         }
+        let along_diagonal = (0..rows).map(|k| along[(k, k)]).collect();
         mirror_below(&mut along);
-        Sideways {
-            compliance,
-            along,
-            level_compliance: prepared.condensed.compliance.clone(),
-            level_rigid: prepared.condensed.rigid.clone(),
-        }
+        along.copy_from_triangular_lower(&prepared.condensed.compliance);
+        let level_rigid = prepared.condensed.rigid.clone();
+        Sideways { compliance, level_and_along: along, along_diagonal, level_rigid }
     }
 }
 
