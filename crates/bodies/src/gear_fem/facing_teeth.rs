@@ -105,7 +105,7 @@ pub(super) struct FacingTeeth {
     pub expected_mm: f64,
     /// Pinion's axis in the frame of the slave's tooth.
     pub pinion_axis_mm: Vector2<f64>,
-    /// Whether the window ends within the flank towards the tip, towards the root.
+    /// Whether the window ends within both flanks towards the slave's tip, towards its root.
     pub inner_ends: (bool, bool),
     /// Rows from tip to root.
     pub from_tip: Vec<usize>,
@@ -181,7 +181,7 @@ impl CondensedPair<'_> {
     fn facing(&self, placed: &PlacedTeeth, window: &SearchWindow) -> Option<FacingTeeth> {
         let PlacedTeeth { slave, ref edges, turn, master_axis_mm, .. } = *placed;
         let master = slave.mate();
-        let inner_ends = (edges[slave].start > 0, edges[slave].end < self.flanks[slave].surface.edges.len());
+        let own = &edges[slave];
         let slave_part = self.flanks[slave].surface.part(edges[slave].clone());
         let master_part =
             self.flanks[master].surface.part(edges[master].clone()).placed(|x| turn * x + master_axis_mm, |n| turn * n);
@@ -190,6 +190,15 @@ impl CondensedPair<'_> {
             return None;
         }
         let coupling = fine.grouped(&self.groups(&fine, placed));
+        // Beyond the master's own end there are no rows that the window could cut off.
+        let has_row_on = |edge: usize| {
+            let nodes = self.flanks[slave].surface.edges[edge].nodes();
+            coupling.ends.iter().flatten().any(|node| nodes.contains(node))
+        };
+        let inner_ends = (
+            own.start > 0 && has_row_on(own.start),
+            own.end < self.flanks[slave].surface.edges.len() && has_row_on(own.end - 1),
+        );
         let row_mm: Vec<f64> = coupling.nodes.iter().map(|&node| self.flanks[slave].from_tip_mm[node]).collect();
         let mut from_tip: Vec<usize> = (0..coupling.len()).collect();
         from_tip.sort_by(|&a, &b| row_mm[a].total_cmp(&row_mm[b]));
