@@ -81,6 +81,8 @@ struct Probe {
     at: usize,
     /// Row b C Bᵀ, from its first use on.
     compliance: Option<Vec<f64>>,
+    /// Least entry of it for the multipliers of each tooth pair.
+    least: Vec<f64>,
     /// Deflection b C Bᵀ f under the force of the current solution.
     yields_mm: Option<f64>,
 }
@@ -118,7 +120,8 @@ impl CondensedPair<'_> {
         let spans = (0..probes.len())
             .map(|k| Span::new(&nodes, probes[k]..probes.get(k + 1).map_or(nodes.len(), |next| *next)));
         let spans = spans.collect();
-        let probes = probes.into_iter().map(|at| Probe { at, compliance: None, yields_mm: None }).collect();
+        let probes =
+            probes.into_iter().map(|at| Probe { at, compliance: None, least: Vec::new(), yields_mm: None }).collect();
         BesideWindow { pair, slave, tooth, turn, nodes, first_touch_mm, probes, spans, deepest_mm: 0.0 }
     }
 
@@ -179,7 +182,8 @@ impl CondensedPair<'_> {
         }
         beside.probes.iter_mut().for_each(|probe| probe.yields_mm = None);
         let mut from_tip_mm: Option<PerGear<[f64; 2]>> = None;
-        for (at, unworn_mm) in beside.overlapping(turned_mm, &found.force) {
+        let loads: Vec<f64> = facings.iter().map(|facing| found.force[facing.rows()].iter().sum()).collect();
+        for (at, unworn_mm) in beside.overlapping(turned_mm, &found.force, &loads) {
             let gap_mm = unworn_mm + beside.worn_mm(at, depth_mm);
             beside.deepest_mm = beside.deepest_mm.max(-gap_mm);
             if gap_mm >= -OVERLOOKED * turned_mm {
@@ -212,7 +216,11 @@ impl CondensedPair<'_> {
             }
         }
         for (row, &probe) in probes.iter().enumerate() {
-            beside.probes[probe].compliance = Some(compliance.row(row).iter().copied().collect());
+            let compliance: Vec<f64> = compliance.row(row).iter().copied().collect();
+            let of_pair = |facing: &FacingTeeth| &compliance[facing.rows()];
+            let least = facings.iter().map(|facing| of_pair(facing).iter().copied().fold(f64::INFINITY, f64::min));
+            beside.probes[probe].least = least.collect();
+            beside.probes[probe].compliance = Some(compliance);
         }
     }
 
@@ -251,8 +259,8 @@ impl BesideWindow {
         self.deepest_mm
     }
 
-    /// Nodes that would overlap without wear, and their gaps then.
-    fn overlapping(&mut self, turned_mm: f64, force: &[f64]) -> Vec<(usize, f64)> {
+    /// Nodes that would overlap without wear, and their gaps then, under `force` on the multipliers, whose sums for each tooth pair are the `loads`.
+    fn overlapping(&mut self, turned_mm: f64, force: &[f64], loads: &[f64]) -> Vec<(usize, f64)> {
         let mut overlapping = Vec::new();
         for span in 0..self.spans.len() {
             let rigid_mm = self.spans[span].least_mm(turned_mm);
@@ -260,6 +268,10 @@ impl BesideWindow {
                 continue;
             }
             let after = (span + 1).min(self.probes.len() - 1);
+            let least_mm = [span, after].map(|probe| weighted_sum(&self.probes[probe].least, loads));
+            if rigid_mm + least_mm[0].min(least_mm[1]) >= 0.0 {
+                continue;
+            }
             let yields_mm = [span, after].map(|probe| self.probes[probe].yields_mm(force));
             if rigid_mm + yields_mm[0].min(yields_mm[1]) >= 0.0 {
                 continue;

@@ -356,6 +356,11 @@ impl LoadedRows {
 }
 
 impl FacingTeeth {
+    /// Rows of the tooth pair among those of the position.
+    pub(super) fn rows(&self) -> Range<usize> {
+        self.first_row..self.first_row + self.coupling.len()
+    }
+
     /// Distance of a node of the slave from the expected contact, towards the pinion's tip.
     pub(super) fn towards_pinion_tip_mm(&self, slave: &MeshedFlank, node: usize) -> f64 {
         let from_tip_mm = slave.from_tip_mm[node] - self.expected_mm;
