@@ -8,7 +8,7 @@ use sprs::CsMat;
 use super::ring::GearCompliance;
 use gearwear_fem::weighted_sum::weighted_sum;
 
-/// Rows B of multipliers on a tooth of a gear, and others of the same multipliers.
+/// Rows B of multipliers on a tooth of a gear.
 pub(super) struct ToothRows<'a> {
     gear: &'a GearCompliance,
     tooth: usize,
@@ -75,13 +75,14 @@ impl<'a> ToothRows<'a> {
     /// tooth: numbers of both kinds, row, column and entry to `take`.
     pub(super) fn held_products(kinds: &[&ToothRows<'_>], take: &mut dyn FnMut([usize; 2], [usize; 2], f64)) {
         let count = kinds.first().map_or(0, |rows| rows.rows.len());
-        // Columns of this and of later rows.
-        let mut columns = vec![usize::MAX..0; count + 1];
-        for j in (0..count).rev() {
+        let mut of_later_rows: Option<Range<usize>> = None;
+        let columns = (0..count).rev().map(|j| {
             let own = kinds.iter().map(|kind| used_columns(&kind.rows[j..=j]));
-            columns[j] = own.fold(columns[j + 1].clone(), joined);
-        }
-        for (j, columns) in columns[..count].iter().enumerate() {
+            of_later_rows = own.chain(of_later_rows.clone()).reduce(joined);
+            of_later_rows.clone().unwrap_or_default()
+        });
+        let columns: Vec<Range<usize>> = columns.collect();
+        for (j, columns) in columns.iter().rev().enumerate() {
             for (b, right) in kinds.iter().enumerate() {
                 let moved = right.rows[j].moved(right.gear, columns);
                 for (a, left) in kinds.iter().enumerate() {
@@ -115,9 +116,10 @@ impl ToothRow {
 
 /// Range of the columns with entries.
 fn used_columns(rows: &[ToothRow]) -> Range<usize> {
-    rows.iter().map(|row| row.first_column..row.first_column + row.entries.len()).fold(usize::MAX..0, joined)
+    rows.iter().map(|row| row.first_column..row.first_column + row.entries.len()).reduce(joined).unwrap_or_default()
 }
 
+/// Range over both.
 fn joined(one: Range<usize>, other: Range<usize>) -> Range<usize> {
     one.start.min(other.start)..one.end.max(other.end)
 }
