@@ -152,7 +152,7 @@ fn much_memory_is_announced() {
         let output = fem(dir.path(), &text, "out", &["--position", "12"]);
         (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
     };
-    let (code, said) = with(24);
+    let (code, said) = with(36);
     assert!(code == Some(0) && said.contains("their condensation takes some 1."), "{code:?} {said}");
     let (code, said) = with(60);
     assert!(code == Some(2) && said.contains("scene.toml") && said.contains("nodes"), "{code:?} {said}");

@@ -22,7 +22,9 @@
 //! Oper. Res.* 21 (1994) 587–596 (block principal pivoting and its backup).
 
 use faer::linalg::solvers::{Llt, Solve};
-use faer::{Mat, MatRef, Side};
+use faer::{ColRef, Mat, MatRef, Side};
+
+use crate::weighted_sum::weighted_sum;
 
 /// Number of full exchanges without fewer wrong signs before single exchanges.
 const PATIENCE: usize = 8;
@@ -137,8 +139,7 @@ fn solve_in_place(factor: &Llt<f64>, b: &mut [f64]) {
     }
     for j in (0..b.len()).rev() {
         let column = column(l, j);
-        let below: f64 = column[j + 1..].iter().zip(&b[j + 1..]).map(|(l, x)| l * x).sum();
-        b[j] = (b[j] - below) / column[j];
+        b[j] = (b[j] - weighted_sum(&column[j + 1..], &b[j + 1..])) / column[j];
     }
 }
 
@@ -158,6 +159,9 @@ struct FactoredSet {
     factor: Llt<f64>,
     /// Product C⁻¹ G.
     by_motion: Mat<f64>,
+    /// Other multipliers, and their rows of C for the members.
+    others: Vec<usize>,
+    others_compliance: Mat<f64>,
 }
 
 /// Solution of one active set.
@@ -305,29 +309,34 @@ impl Condensed {
                 self.factored(active)?
             }
         };
-        let FactoredSet { members, factor, by_motion, .. } = &*factored.insert(set);
+        let set = &*factored.insert(set);
+        let FactoredSet { members, factor, by_motion, .. } = set;
         let m = self.rigid_load.len();
         let mut by_gap: Vec<f64> = members.iter().map(|&member| -self.gap_mm[member]).collect();
         solve_in_place(factor, &mut by_gap);
         let s = nalgebra::DMatrix::from_fn(m, m, |a, b| self.along_motion(a, members, column(by_motion.as_ref(), b)));
         let load = nalgebra::DVector::from_fn(m, |a, _| self.along_motion(a, members, &by_gap) - self.rigid_load[a]);
         let (alpha, loose) = held_motion(&s, &load, resistance);
-        let mut force = vec![0.0; active.len()];
-        for (i, &member) in members.iter().enumerate() {
-            force[member] = by_gap[i] - (0..m).map(|a| by_motion[(i, a)] * alpha[a]).sum::<f64>();
-        }
-        let mut gap_mm = self.gap_mm.clone();
-        for &member in members {
-            add_scaled(&mut gap_mm, column(self.compliance.as_ref(), member), force[member]);
-        }
+        let mut of_members = by_gap;
         for (a, alpha) in alpha.iter().enumerate() {
-            add_scaled(&mut gap_mm, column(self.rigid.as_ref(), a), *alpha);
+            add_scaled(&mut of_members, column(by_motion.as_ref(), a), -alpha);
         }
-        for &member in members {
-            gap_mm[member] = 0.0;
-        }
+        let mut force = vec![0.0; active.len()];
+        members.iter().zip(&of_members).for_each(|(&member, own)| force[member] = *own);
+        let gap_mm = self.gaps_mm(set, &of_members, alpha.as_slice());
         // S is symmetric, so that columns are rows.
         Ok(Trial { force, gap_mm, rigid: alpha.iter().copied().collect(), resistance: s.data.into(), loose })
+    }
+
+    /// Gaps under the forces of the members of a set and amplitudes of the rigid motions.
+    fn gaps_mm(&self, set: &FactoredSet, force: &[f64], amplitudes: &[f64]) -> Vec<f64> {
+        let mut gap_mm = vec![0.0; self.gap_mm.len()];
+        let yields_mm = &set.others_compliance * ColRef::from_slice(force);
+        for (&other, yields_mm) in set.others.iter().zip(yields_mm.iter()) {
+            let by_motion = amplitudes.iter().enumerate().map(|(a, amplitude)| self.rigid[(other, a)] * amplitude);
+            gap_mm[other] = self.gap_mm[other] + yields_mm + by_motion.sum::<f64>();
+        }
+        gap_mm
     }
 
     /// Product of column `a` of G with forces of `members`.
@@ -337,13 +346,17 @@ impl Condensed {
 
     /// Factorised compliance of the `active` multipliers.
     fn factored(&self, active: &[bool]) -> Result<FactoredSet, ActiveSetError> {
-        let members: Vec<usize> = (0..active.len()).filter(|&i| active[i]).collect();
+        let (members, others): (Vec<usize>, Vec<usize>) = (0..active.len()).partition(|&i| active[i]);
         let k = members.len();
         let mut c = Mat::<f64>::zeros(k, k);
+        let mut others_compliance = Mat::<f64>::zeros(others.len(), k);
         for (j, &member) in members.iter().enumerate() {
             let whole = column(self.compliance.as_ref(), member);
             // Only the lower triangle is read.
             for (entry, &i) in column_mut(&mut c, j)[j..].iter_mut().zip(&members[j..]) {
+                *entry = whole[i];
+            }
+            for (entry, &i) in column_mut(&mut others_compliance, j).iter_mut().zip(&others) {
                 *entry = whole[i];
             }
         }
@@ -353,7 +366,7 @@ impl Condensed {
         })?;
         let mut by_motion = Mat::from_fn(k, self.rigid_load.len(), |i, a| self.rigid[(members[i], a)]);
         factor.solve_in_place(by_motion.as_mut());
-        Ok(FactoredSet { active: active.to_vec(), members, factor, by_motion })
+        Ok(FactoredSet { active: active.to_vec(), members, factor, by_motion, others, others_compliance })
     }
 
     /// Active multipliers in tension and others that penetrate.

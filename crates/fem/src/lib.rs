@@ -26,5 +26,6 @@ mod sparse_solve;
 pub mod stiffness;
 pub mod stress;
 mod support;
+pub mod weighted_sum;
 
 pub use equilibrium::{SolveError, solve};

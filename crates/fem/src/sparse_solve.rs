@@ -48,8 +48,7 @@ impl Factor {
     /// Where a degree of freedom is not of this mesh.
     pub fn compliance(&self, columns: &[Vec<(u32, f64)>]) -> Mat<f64> {
         let order = self.by_first_place(columns);
-        let fronts = Fronts::new(self, columns, &order);
-        let product = fronts.product(columns.len());
+        let product = Fronts::new(self, columns, &order).product(columns.len());
         let mut out = Mat::zeros(columns.len(), columns.len());
         for (j, q) in order.iter().enumerate() {
             for (i, p) in order.iter().enumerate().skip(j) {
@@ -172,16 +171,16 @@ impl Fronts {
         }
     }
 
-    /// Lower half of Yᵀ Y.
-    fn product(&self, columns: usize) -> Mat<f64> {
+    /// Lower half of Yᵀ Y; each group of rows is freed once it is added.
+    fn product(self, columns: usize) -> Mat<f64> {
         let mut product = Mat::<f64>::zeros(columns, columns);
-        for (active, y) in &self.groups {
+        for (active, y) in self.groups {
             let (first, count) = (active[0] as usize, active.len());
             if active[count - 1] as usize - first + 1 == count {
-                add_square(product.as_mut().submatrix_mut(first, first, count, count), y);
+                add_square(product.as_mut().submatrix_mut(first, first, count, count), &y);
             } else {
                 let mut part = Mat::zeros(count, count);
-                add_square(part.as_mut(), y);
+                add_square(part.as_mut(), &y);
                 for k in 0..count {
                     for i in k..count {
                         product[(active[i] as usize, active[k] as usize)] += part[(i, k)];

@@ -79,14 +79,7 @@ impl<'a> LoadedTooth<'a> {
     /// Displacement at ρ of tooth `p` in the direction of a load there, under `force` on tooth `q`, mm.
     pub(crate) fn surface_mm(&self, p: usize, rho_mm: f64, q: usize, force: &ToothForce) -> Option<f64> {
         let point = self.along(self.tooth.involute.arc_mm(rho_mm), direction(&self.tooth.load_line(rho_mm)))?;
-        let (rows, weights): (Vec<usize>, Vec<f64>) = point.into_iter().unzip();
-        let (columns, forces): (Vec<usize>, Vec<f64>) = force.iter().copied().unzip();
-        let entries = self.body.between(p, q).gathered(&rows, &columns);
-        let moved = entries
-            .chunks_exact(rows.len())
-            .zip(forces)
-            .map(|(column, f)| f * column.iter().zip(&weights).map(|(c, weight)| c * weight).sum::<f64>());
-        Some(moved.sum())
+        Some(self.body.displacement_along_mm(p, &point, q, force))
     }
 
     /// The point inside where a load at ρ crosses the tooth's centre line, with its displacement along that load.

@@ -15,7 +15,7 @@ use gearwear_bodies::gear::{
 use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
 use gearwear_bodies::gear_fem::flank_nodes::Weights;
 use gearwear_bodies::gear_fem::load_transfer::LoadTransfer;
-use gearwear_bodies::reference::linear_means::weighted_sum;
+use gearwear_fem::weighted_sum::weighted_sum;
 
 /// A contact as a source of heat and a place of films.
 #[derive(Clone, Copy)]

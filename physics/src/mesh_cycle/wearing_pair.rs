@@ -8,7 +8,7 @@ use super::local_means::LocalMeans;
 use crate::mesh_cycle::{LostMaterial, MeshCycle, Work, condensed::CondensedCycle, load_sharing::EquilibriumError};
 use crate::wear::WearModel;
 use gearwear_bodies::gear::{Gear, PerGear};
-use gearwear_bodies::reference::linear_means::weighted_sum;
+use gearwear_fem::weighted_sum::weighted_sum;
 use serde::{Deserialize, Serialize};
 
 /// State kept at a snapshot.

@@ -10,18 +10,22 @@
 //! under the forces f of the window's multipliers, b being the row of B for the node and its foot. Where it is negative,
 //! the window must be extended. Teeth deflect away from each other, so that the last term only opens gaps, and matters for those
 //! nodes alone that would overlap without it. It changes slowly along the flank: it is calculated at some of the nodes, the
-//! probes, and linear between them.
+//! probes, and linear between them. As wear only opens gaps too, nodes between two probes are looked at one by one only where one of them may overlap
+//! without wear.
+
+use std::ops::Range;
 
 use faer::Mat;
-use nalgebra::Vector2;
+use nalgebra::{Rotation2, Vector2};
 use sprs::{CsMat, TriMat};
 
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::{Direction, FacingTeeth, FlankOverlap, PlacedTeeth};
-use super::sandwich::add_sandwich;
+use super::sandwich::ToothRows;
 use crate::gear::{Gear, PerGear};
 use gearwear_fem::active_set::ContactEquilibrium;
 use gearwear_fem::contact::master_search::LEAST_FACING;
+use gearwear_fem::weighted_sum::weighted_sum;
 
 /// Overlap over the transmission error that is tolerated, above the error of interpolation between nodes and probes.
 const OVERLOOKED: f64 = 1e-3;
@@ -33,32 +37,42 @@ pub(super) struct BesideWindow {
     pair: i32,
     slave: Gear,
     tooth: PerGear<usize>,
+    /// Turn from the frame of the master's tooth to that of the slave's.
+    turn: Rotation2<f64>,
     /// Nodes from tip to root.
     nodes: Vec<BesideNode>,
-    /// Transmission error at which each would touch if rigid and unworn, mm.
-    touch_at_mm: Vec<f64>,
-    /// Least of these transmission errors.
+    /// Least transmission error at which one would touch if rigid and unworn, mm.
     first_touch_mm: f64,
     probes: Vec<Probe>,
+    /// Nodes from each probe to the next.
+    spans: Vec<Span>,
     /// Greatest overlap of the last solution, mm.
     deepest_mm: f64,
 }
 
 struct BesideNode {
     /// Local node of the slave.
-    node: usize,
-    /// Local nodes of the master to either side of the foot, and their weights.
-    foot: [(usize, f64); 2],
-    /// Slave's normal in the frame of each tooth.
-    normal: PerGear<Vector2<f64>>,
+    node: u32,
+    /// Local nodes of the master to either side of the foot.
+    foot: [u32; 2],
+    /// Weight of the second of them.
+    second_part: f64,
     /// Cosine n_s · −n_m.
     cosine: f64,
     /// Gap g⁰ of the unworn flanks.
     gap_mm: f64,
     /// Change b r of the gap per transmission error.
     by_rotation: f64,
-    /// Probes to either side, and their weights.
-    probes: [(usize, f64); 2],
+    /// Weight of the probe after the node.
+    next_probe_part: f64,
+}
+
+/// Nodes between two probes.
+struct Span {
+    nodes: Range<usize>,
+    /// Least gap g⁰, and least change b r per transmission error.
+    least_gap_mm: f64,
+    least_by_rotation: f64,
 }
 
 /// Node at which b C Bᵀ is calculated.
@@ -67,6 +81,8 @@ struct Probe {
     at: usize,
     /// Row b C Bᵀ, from its first use on.
     compliance: Option<Vec<f64>>,
+    /// Least entry of it for the multipliers of each tooth pair.
+    least: Vec<f64>,
     /// Deflection b C Bᵀ f under the force of the current solution.
     yields_mm: Option<f64>,
 }
@@ -74,11 +90,11 @@ struct Probe {
 impl CondensedPair<'_> {
     /// Nodes of the slave beside the window within `reach_mm` of the master.
     pub(super) fn beside_window(&self, placed: &PlacedTeeth, reach_mm: f64) -> BesideWindow {
-        let PlacedTeeth { pair, slave, tooth, half_width_mm, ref edges, .. } = *placed;
+        let PlacedTeeth { pair, slave, tooth, half_width_mm, ref edges, turn, .. } = *placed;
         let (own, mate) = (&self.flanks[slave], &self.flanks[slave.mate()]);
         let master: Vec<(usize, Vector2<f64>)> = mate
             .tip_to_root()
-            .map(|node| (node, placed.turn * mate.surface.points_mm[node] + placed.master_axis_mm))
+            .map(|node| (node, turn * mate.surface.points_mm[node] + placed.master_axis_mm))
             .collect();
         let mut in_window = vec![false; own.surface.points_mm.len()];
         for edge in &own.surface.edges[edges[slave].clone()] {
@@ -89,23 +105,24 @@ impl CondensedPair<'_> {
             .filter(|&node| !in_window[node])
             .filter_map(|node| self.beside_node(placed, node, &master, reach_mm))
             .collect();
-        let along_mm: Vec<f64> = nodes.iter().map(|at| own.from_tip_mm[at.node]).collect();
+        let along_mm: Vec<f64> = nodes.iter().map(|at| own.from_tip_mm[at.node as usize]).collect();
         let probes = probes(&along_mm, PROBES_APART * half_width_mm);
-        for (after, ends) in probes.windows(2).enumerate() {
+        for ends in probes.windows(2) {
             let [from_mm, to_mm] = [along_mm[ends[0]], along_mm[ends[1]]];
-            for at in ends[0]..=ends[1] {
+            for at in ends[0]..ends[1] {
                 let t = (along_mm[at] - from_mm) / (to_mm - from_mm);
-                nodes[at].probes = [(after, 1.0 - t), (after + 1, t)];
+                nodes[at].next_probe_part = t;
             }
         }
-        let probes = probes.into_iter().map(|at| Probe { at, compliance: None, yields_mm: None }).collect();
         // A node that rotation does not bring nearer never touches.
-        let touch_at_mm: Vec<f64> = nodes
-            .iter()
-            .map(|at| if at.by_rotation < 0.0 { -at.gap_mm / at.by_rotation } else { f64::INFINITY })
-            .collect();
-        let first_touch_mm = touch_at_mm.iter().copied().fold(f64::INFINITY, f64::min);
-        BesideWindow { pair, slave, tooth, nodes, touch_at_mm, first_touch_mm, probes, deepest_mm: 0.0 }
+        let nearing = nodes.iter().filter(|at| at.by_rotation < 0.0);
+        let first_touch_mm = nearing.map(|at| -at.gap_mm / at.by_rotation).fold(f64::INFINITY, f64::min);
+        let spans = (0..probes.len())
+            .map(|k| Span::new(&nodes, probes[k]..probes.get(k + 1).map_or(nodes.len(), |next| *next)));
+        let spans = spans.collect();
+        let probes =
+            probes.into_iter().map(|at| Probe { at, compliance: None, least: Vec::new(), yields_mm: None }).collect();
+        BesideWindow { pair, slave, tooth, turn, nodes, first_touch_mm, probes, spans, deepest_mm: 0.0 }
     }
 
     /// Slave's node beside the window with its foot on the `master`'s nodes, from tip to root; `None` where there is none within reach.
@@ -130,10 +147,17 @@ impl CondensedPair<'_> {
         if gap_mm.abs() > reach_mm || cosine <= LEAST_FACING {
             return None;
         }
-        let normal = PerGear::from_fn(|gear| if gear == placed.slave { normal } else { in_masters });
-        let (foot, probes) = ([(first, 1.0 - t), (second, t)], [(0, 1.0), (0, 0.0)]);
-        let mut beside = BesideNode { node, foot, normal, cosine, gap_mm, by_rotation: 0.0, probes };
-        let of_pinion = beside.entries(placed.slave, Gear::Pinion);
+        let mut beside = BesideNode {
+            node: node as u32,
+            foot: [first as u32, second as u32],
+            second_part: t,
+            cosine,
+            gap_mm,
+            by_rotation: 0.0,
+            next_probe_part: 0.0,
+        };
+        let on_pinion = if placed.slave == Gear::Pinion { normal } else { in_masters };
+        let of_pinion = beside.entries(placed.slave == Gear::Pinion, on_pinion);
         beside.by_rotation = of_pinion.map(|(column, b)| b * self.rotation(column, Direction::AcrossFlank)).sum();
         Some(beside)
     }
@@ -152,15 +176,15 @@ impl CondensedPair<'_> {
         if turned_mm <= beside.first_touch_mm {
             return None;
         }
-        let overlapping = beside.overlapping(turned_mm, depth_mm);
-        let unknown = beside.probes_without_compliance(&overlapping);
+        let unknown = beside.probes_without_compliance(turned_mm);
         if !unknown.is_empty() {
             self.find_compliance(beside, &unknown, facings);
         }
         beside.probes.iter_mut().for_each(|probe| probe.yields_mm = None);
         let mut from_tip_mm: Option<PerGear<[f64; 2]>> = None;
-        for (at, if_rigid_mm) in overlapping {
-            let gap_mm = if_rigid_mm + beside.yields_mm(at, &found.force);
+        let loads: Vec<f64> = facings.iter().map(|facing| found.force[facing.rows()].iter().sum()).collect();
+        for (at, unworn_mm) in beside.overlapping(turned_mm, &found.force, &loads) {
+            let gap_mm = unworn_mm + beside.worn_mm(at, depth_mm);
             beside.deepest_mm = beside.deepest_mm.max(-gap_mm);
             if gap_mm >= -OVERLOOKED * turned_mm {
                 continue;
@@ -168,7 +192,7 @@ impl CondensedPair<'_> {
             let at = &beside.nodes[at];
             let along_mm = PerGear::from_fn(|gear| {
                 let along_mm = &self.flanks[gear].from_tip_mm;
-                if gear == beside.slave { along_mm[at.node] } else { at.at_foot(|node| along_mm[node]) }
+                if gear == beside.slave { along_mm[at.node as usize] } else { at.at_foot(|node| along_mm[node]) }
             });
             let ends_mm = from_tip_mm.get_or_insert(along_mm.map(|along_mm| [along_mm; 2]));
             for gear in Gear::BOTH {
@@ -184,16 +208,33 @@ impl CondensedPair<'_> {
         let rows = facings.iter().map(|facing| facing.coupling.len()).sum();
         let mut compliance = Mat::zeros(probes.len(), rows);
         for gear in Gear::BOTH {
-            let operator = beside.operator(probes, gear, self.flanks[gear].surface.points_mm.len());
-            for facing in facings {
-                let between = self.gears[gear].between(facing.tooth[gear], beside.tooth[gear]);
-                let places = (0, facing.first_row);
-                add_sandwich(&mut compliance, places, &operator, between, &facing.operator[gear], false);
+            let operator = self.operator(beside, probes, gear);
+            let own = ToothRows::new(&self.gears[gear], beside.tooth[gear], 0, &operator);
+            let operators: Vec<&CsMat<f64>> = facings.iter().map(|facing| &facing.operator[gear]).collect();
+            for other in self.tooth_rows(facings, gear, &operators) {
+                own.add_product(&other, &mut compliance);
             }
         }
         for (row, &probe) in probes.iter().enumerate() {
-            beside.probes[probe].compliance = Some(compliance.row(row).iter().copied().collect());
+            let compliance: Vec<f64> = compliance.row(row).iter().copied().collect();
+            let of_pair = |facing: &FacingTeeth| &compliance[facing.rows()];
+            let least = facings.iter().map(|facing| of_pair(facing).iter().copied().fold(f64::INFINITY, f64::min));
+            beside.probes[probe].least = least.collect();
+            beside.probes[probe].compliance = Some(compliance);
         }
+    }
+
+    /// Rows of B of these probes.
+    fn operator(&self, beside: &BesideWindow, probes: &[usize], gear: Gear) -> CsMat<f64> {
+        let is_slave = gear == beside.slave;
+        let mut triplets = TriMat::new((probes.len(), 2 * self.flanks[gear].surface.points_mm.len()));
+        for (row, &probe) in probes.iter().enumerate() {
+            let node = &beside.nodes[beside.probes[probe].at];
+            let normal = self.flanks[beside.slave].surface.normals[node.node as usize];
+            let normal = if is_slave { normal } else { beside.turn.inverse() * normal };
+            node.entries(is_slave, normal).for_each(|(column, b)| triplets.add_triplet(row, column, b));
+        }
+        triplets.to_csr()
     }
 }
 
@@ -218,60 +259,87 @@ impl BesideWindow {
         self.deepest_mm
     }
 
-    /// Nodes that would overlap if the teeth were rigid, and their gaps.
-    fn overlapping(&self, turned_mm: f64, depth_mm: &dyn Fn(Gear, usize) -> f64) -> Vec<(usize, f64)> {
-        let (slave, master) = (self.slave, self.slave.mate());
-        let may_touch = self.nodes.iter().enumerate().filter(|(at, _)| self.touch_at_mm[*at] < turned_mm);
-        let gaps = may_touch.map(|(at, node)| {
-            let mates_mm = node.at_foot(|node| depth_mm(master, node));
-            let worn_mm = depth_mm(slave, node.node) + mates_mm / node.cosine;
-            (at, node.gap_mm + worn_mm + node.by_rotation * turned_mm)
-        });
-        gaps.filter(|(_, gap_mm)| *gap_mm < 0.0).collect()
+    /// Nodes that would overlap without wear, and their gaps then, under `force` on the multipliers, whose sums for each tooth pair are the `loads`.
+    fn overlapping(&mut self, turned_mm: f64, force: &[f64], loads: &[f64]) -> Vec<(usize, f64)> {
+        let mut overlapping = Vec::new();
+        for span in 0..self.spans.len() {
+            let rigid_mm = self.spans[span].least_mm(turned_mm);
+            if rigid_mm >= 0.0 {
+                continue;
+            }
+            let after = (span + 1).min(self.probes.len() - 1);
+            let least_mm = [span, after].map(|probe| weighted_sum(&self.probes[probe].least, loads));
+            if rigid_mm + least_mm[0].min(least_mm[1]) >= 0.0 {
+                continue;
+            }
+            let yields_mm = [span, after].map(|probe| self.probes[probe].yields_mm(force));
+            if rigid_mm + yields_mm[0].min(yields_mm[1]) >= 0.0 {
+                continue;
+            }
+            let first = self.spans[span].nodes.start;
+            for (k, node) in self.nodes[self.spans[span].nodes.clone()].iter().enumerate() {
+                let part = node.next_probe_part;
+                let yields_mm = (1.0 - part) * yields_mm[0] + part * yields_mm[1];
+                let gap_mm = node.gap_mm + node.by_rotation * turned_mm + yields_mm;
+                if gap_mm < 0.0 {
+                    overlapping.push((first + k, gap_mm));
+                }
+            }
+        }
+        overlapping
     }
 
-    /// Probes around these nodes whose compliance is not known yet.
-    fn probes_without_compliance(&self, overlapping: &[(usize, f64)]) -> Vec<usize> {
-        let around = overlapping.iter().flat_map(|(at, _)| self.nodes[*at].probes.map(|(probe, _)| probe));
+    /// Opening of the gap at a node by wear, mm.
+    fn worn_mm(&self, at: usize, depth_mm: &dyn Fn(Gear, usize) -> f64) -> f64 {
+        let node = &self.nodes[at];
+        depth_mm(self.slave, node.node as usize) + node.at_foot(|node| depth_mm(self.slave.mate(), node)) / node.cosine
+    }
+
+    /// Probes whose compliance is not known yet, around nodes that would overlap if the teeth were rigid and unworn.
+    fn probes_without_compliance(&self, turned_mm: f64) -> Vec<usize> {
+        let overlapping = self.spans.iter().enumerate().filter(|(_, span)| span.least_mm(turned_mm) < 0.0);
+        let around = overlapping.flat_map(|(span, _)| [span, (span + 1).min(self.probes.len() - 1)]);
         let mut unknown: Vec<usize> = around.filter(|probe| self.probes[*probe].compliance.is_none()).collect();
-        unknown.sort_unstable();
         unknown.dedup();
         unknown
     }
+}
 
-    /// Opening of the gap at a node by the deflection under `force`, mm.
-    fn yields_mm(&mut self, at: usize, force: &[f64]) -> f64 {
-        let parts = self.nodes[at].probes.map(|(probe, part)| {
-            let Probe { compliance, yields_mm, .. } = &mut self.probes[probe];
-            let products = compliance.iter().flatten().zip(force).map(|(c, force)| c * force);
-            part * *yields_mm.get_or_insert_with(|| products.sum())
-        });
-        parts.iter().sum()
+impl Span {
+    fn new(nodes: &[BesideNode], range: Range<usize>) -> Self {
+        let least = |of: fn(&BesideNode) -> f64| nodes[range.clone()].iter().map(of).fold(f64::INFINITY, f64::min);
+        let (least_gap_mm, least_by_rotation) = (least(|node| node.gap_mm), least(|node| node.by_rotation));
+        Self { nodes: range, least_gap_mm, least_by_rotation }
     }
 
-    /// Rows of B of these probes.
-    fn operator(&self, probes: &[usize], gear: Gear, flank_nodes: usize) -> CsMat<f64> {
-        let mut triplets = TriMat::new((probes.len(), 2 * flank_nodes));
-        for (row, &probe) in probes.iter().enumerate() {
-            for (column, b) in self.nodes[self.probes[probe].at].entries(self.slave, gear) {
-                triplets.add_triplet(row, column, b);
-            }
-        }
-        triplets.to_csr()
+    /// Lower bound of the gaps if the teeth were rigid and unworn, mm.
+    fn least_mm(&self, turned_mm: f64) -> f64 {
+        self.least_gap_mm + self.least_by_rotation * turned_mm
+    }
+}
+
+impl Probe {
+    /// Opening of the gap by the deflection under `force`, mm.
+    fn yields_mm(&mut self, force: &[f64]) -> f64 {
+        let compliance = self.compliance.as_deref().unwrap_or_default();
+        *self.yields_mm.get_or_insert_with(|| weighted_sum(compliance, force))
     }
 }
 
 impl BesideNode {
     /// Value at the foot, interpolated between the master's local nodes.
     fn at_foot(&self, of: impl Fn(usize) -> f64) -> f64 {
-        self.foot.iter().map(|&(node, part)| part * of(node)).sum()
+        let [first, second] = self.foot.map(|node| of(node as usize));
+        (1.0 - self.second_part) * first + self.second_part * second
     }
 
-    /// Columns and entries of b for displacements of `gear`.
-    fn entries(&self, slave: Gear, gear: Gear) -> impl Iterator<Item = (usize, f64)> {
-        let normal = self.normal[gear];
-        let parts = if gear == slave { [(self.node, -1.0), (self.node, 0.0)] } else { self.foot };
-        let loaded = parts.into_iter().filter(|(_, part)| *part != 0.0);
+    /// Columns and entries of b for displacements of the slave or of the master, in whose frame the slave's `normal` is given.
+    fn entries(&self, is_slave: bool, normal: Vector2<f64>) -> impl Iterator<Item = (usize, f64)> {
+        let parts = match is_slave {
+            true => [(self.node, -1.0), (self.node, 0.0)],
+            false => [(self.foot[0], 1.0 - self.second_part), (self.foot[1], self.second_part)],
+        };
+        let loaded = parts.into_iter().map(|(node, part)| (node as usize, part)).filter(|(_, part)| *part != 0.0);
         loaded.flat_map(move |(node, part)| [(2 * node, part * normal.x), (2 * node + 1, part * normal.y)])
     }
 }

@@ -21,9 +21,9 @@ use gearwear_fem::contact::mortar::MortarCoupling;
 /// Greatest length of rows that share a multiplier, in the greatest distance of the active profile's nodes, which resolves a smooth contact: where the mesh is
 /// finer for the mate's tip edge, its rows are more than a smooth contact needs. Finer elements have shorter ones.
 const MOST_LENGTH: f64 = 0.125;
-/// Distances from the expected contact of a tip edge, in Hertz half-widths, within which every row has a multiplier, and beyond which they have the
-/// greatest length.
-const ABOUT_EDGE: [f64; 2] = [0.5, 0.7];
+/// Greatest length of rows that share a multiplier over their distance from a tip edge or a corner: pressures are as narrow there as its rounding, and
+/// change less and less away from it.
+const LENGTH_OVER_DISTANCE: f64 = 0.05;
 /// Number of rows at an inner end of the window that must be without load.
 const FREE_ROWS: usize = 3;
 /// Extent of the window beyond an overlap over its half-length.
@@ -105,7 +105,7 @@ pub(super) struct FacingTeeth {
     pub expected_mm: f64,
     /// Pinion's axis in the frame of the slave's tooth.
     pub pinion_axis_mm: Vector2<f64>,
-    /// Whether the window ends within the flank towards the tip, towards the root.
+    /// Whether the window ends within both flanks towards the slave's tip, towards its root.
     pub inner_ends: (bool, bool),
     /// Rows from tip to root.
     pub from_tip: Vec<usize>,
@@ -181,7 +181,7 @@ impl CondensedPair<'_> {
     fn facing(&self, placed: &PlacedTeeth, window: &SearchWindow) -> Option<FacingTeeth> {
         let PlacedTeeth { slave, ref edges, turn, master_axis_mm, .. } = *placed;
         let master = slave.mate();
-        let inner_ends = (edges[slave].start > 0, edges[slave].end < self.flanks[slave].surface.edges.len());
+        let own = &edges[slave];
         let slave_part = self.flanks[slave].surface.part(edges[slave].clone());
         let master_part =
             self.flanks[master].surface.part(edges[master].clone()).placed(|x| turn * x + master_axis_mm, |n| turn * n);
@@ -190,6 +190,15 @@ impl CondensedPair<'_> {
             return None;
         }
         let coupling = fine.grouped(&self.groups(&fine, placed));
+        // Beyond the master's own end there are no rows that the window could cut off.
+        let has_row_on = |edge: usize| {
+            let nodes = self.flanks[slave].surface.edges[edge].nodes();
+            coupling.ends.iter().flatten().any(|node| nodes.contains(node))
+        };
+        let inner_ends = (
+            own.start > 0 && has_row_on(own.start),
+            own.end < self.flanks[slave].surface.edges.len() && has_row_on(own.end - 1),
+        );
         let row_mm: Vec<f64> = coupling.nodes.iter().map(|&node| self.flanks[slave].from_tip_mm[node]).collect();
         let mut from_tip: Vec<usize> = (0..coupling.len()).collect();
         from_tip.sort_by(|&a, &b| row_mm[a].total_cmp(&row_mm[b]));
@@ -216,7 +225,8 @@ impl CondensedPair<'_> {
         })
     }
 
-    /// Rows of `fine` that share a multiplier, outwards from the expected contact, so that they are the same in wider windows of the same kind.
+    /// Rows of `fine` that share a multiplier, from tip to root: put together outwards from the expected contact, so that they are the same in wider
+    /// windows of the same kind.
     fn groups(&self, fine: &MortarCoupling, placed: &PlacedTeeth) -> Vec<Vec<usize>> {
         let far_mm = |row: usize| self.flanks[placed.slave].from_tip_mm[fine.nodes[row]] - placed.expected_mm;
         let mut rows: Vec<usize> = (0..fine.len()).collect();
@@ -224,11 +234,10 @@ impl CondensedPair<'_> {
         let (to_tip, to_root) = rows.split_at(rows.partition_point(|&row| far_mm(row) < 0.0));
         let active_rho_mm = self.pair.active_start_rho_mm(placed.slave);
         let most_mm = MOST_LENGTH * self.flanks[placed.slave].farthest_nodes_mm(active_rho_mm);
-        let [near_mm, far_off_mm] = ABOUT_EDGE.map(|half_widths| half_widths * placed.half_width_mm);
-        let is_smooth = self.is_smooth(placed);
-        let length_mm = |here_mm: f64| match is_smooth {
-            true => most_mm,
-            false => most_mm * ((here_mm - near_mm) / (far_off_mm - near_mm)).min(1.0),
+        let edges_mm = self.edges_mm(fine, placed);
+        let length_mm = |row: usize| {
+            let from_edges_mm = edges_mm.iter().map(|edge_mm| (far_mm(row) - edge_mm).abs());
+            most_mm.min(LENGTH_OVER_DISTANCE * from_edges_mm.fold(f64::INFINITY, f64::min))
         };
         let outwards = |rows: &mut dyn Iterator<Item = usize>| {
             let mut groups: Vec<Vec<usize>> = Vec::new();
@@ -236,7 +245,7 @@ impl CondensedPair<'_> {
             for row in rows {
                 let here_mm = far_mm(row).abs();
                 match groups.last_mut() {
-                    Some(group) if here_mm - begins_mm < length_mm(here_mm) => group.push(row),
+                    Some(group) if here_mm - begins_mm < length_mm(row) => group.push(row),
                     _ => {
                         groups.push(vec![row]);
                         begins_mm = here_mm;
@@ -245,18 +254,28 @@ impl CondensedPair<'_> {
             }
             groups
         };
-        [outwards(&mut to_tip.iter().rev().copied()), outwards(&mut to_root.iter().copied())].concat()
+        let mut groups = outwards(&mut to_tip.iter().rev().copied());
+        groups.reverse();
+        groups.extend(outwards(&mut to_root.iter().copied()));
+        groups
     }
 
-    /// Whether no tip edge, rounding or corner is in the window of a tooth pair.
-    fn is_smooth(&self, placed: &PlacedTeeth) -> bool {
-        Gear::BOTH.into_iter().all(|gear| {
-            let (flank, edges) = (&self.flanks[gear], &placed.edges[gear]);
-            let mut nodes = flank.surface.edges[edges.clone()].iter().flat_map(|edge| edge.nodes());
-            let is_inner = edges.start > 0 && edges.end < flank.surface.edges.len();
+    /// Places of the rows of `fine` at a tip edge, on its rounding or at a corner of one of the flanks, from the expected contact.
+    fn edges_mm(&self, fine: &MortarCoupling, placed: &PlacedTeeth) -> Vec<f64> {
+        let at_edge = |gear: Gear, column: usize| {
+            let (flank, node) = (&self.flanks[gear], column / 2);
             // ρ is NaN on a rounding.
-            is_inner && nodes.all(|&node| flank.rho_mm[node].is_finite())
-        })
+            !flank.rho_mm[node].is_finite() || node == flank.tip_node() || node == flank.root_node()
+        };
+        let of_gears = [(placed.slave, &fine.slave), (placed.slave.mate(), &fine.master)];
+        let rows = fine.nodes.iter().enumerate().filter(|(row, _)| {
+            let of_gear = |(gear, operator): (Gear, &CsMat<f64>)| {
+                operator.outer_view(*row).is_some_and(|row| row.indices().iter().any(|&column| at_edge(gear, column)))
+            };
+            of_gears.into_iter().any(of_gear)
+        });
+        let slave = &self.flanks[placed.slave];
+        rows.map(|(_, &node)| slave.from_tip_mm[node] - placed.expected_mm).collect()
     }
 
     /// Edge that a tooth pair touches with where its theoretical contact point is at `own_mm`; `None` between A and E.
@@ -337,6 +356,11 @@ impl LoadedRows {
 }
 
 impl FacingTeeth {
+    /// Rows of the tooth pair among those of the position.
+    pub(super) fn rows(&self) -> Range<usize> {
+        self.first_row..self.first_row + self.coupling.len()
+    }
+
     /// Distance of a node of the slave from the expected contact, towards the pinion's tip.
     pub(super) fn towards_pinion_tip_mm(&self, slave: &MeshedFlank, node: usize) -> f64 {
         let from_tip_mm = slave.from_tip_mm[node] - self.expected_mm;
@@ -396,22 +420,18 @@ impl FacingTeeth {
 
     /// Whether load comes close to an end of the window within the flank, so that it may have been cut off.
     pub(super) fn is_cramped(&self, force: &[f64]) -> bool {
-        let loaded: Vec<bool> = self.from_tip.iter().map(|row| force[self.first_row + row] > 0.0).collect();
-        (self.inner_ends.0 && loaded.iter().take(FREE_ROWS).any(|loaded| *loaded))
-            || (self.inner_ends.1 && loaded.iter().rev().take(FREE_ROWS).any(|loaded| *loaded))
+        let is_loaded = |row: &usize| force[self.first_row + row] > 0.0;
+        (self.inner_ends.0 && self.from_tip.iter().take(FREE_ROWS).any(is_loaded))
+            || (self.inner_ends.1 && self.from_tip.iter().rev().take(FREE_ROWS).any(is_loaded))
     }
 }
 
-/// B with each pair of columns turned into another frame.
+/// B turned into another frame: its rows have both columns of each node that they have one of.
 pub(super) fn turned(operator: &CsMat<f64>, turn: Rotation2<f64>) -> CsMat<f64> {
-    let mut triplets = sprs::TriMat::new(operator.shape());
-    for (i, row) in operator.outer_iterator().enumerate() {
-        for (column, value) in row.iter() {
-            let unit = if column.is_multiple_of(2) { Vector2::x() } else { Vector2::y() };
-            let image = turn * (*value * unit);
-            triplets.add_triplet(i, column - column % 2, image.x);
-            triplets.add_triplet(i, column - column % 2 + 1, image.y);
-        }
+    let mut turned = operator.clone();
+    for entries in turned.data_mut().chunks_exact_mut(2) {
+        let image = turn * Vector2::new(entries[0], entries[1]);
+        entries.copy_from_slice(image.as_slice());
     }
-    triplets.to_csr()
+    turned
 }

@@ -56,7 +56,7 @@ use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
 use super::prepared::PreparedPosition;
 use super::tilted::Worn;
 use crate::gear::{Gear, PerGear};
-use crate::reference::linear_means::weighted_sum;
+use gearwear_fem::weighted_sum::weighted_sum;
 
 /// Greatest number of parts into which the movement of a contact is divided.
 const MOST_PARTS: usize = 24;
@@ -422,13 +422,15 @@ fn foot(masters: &[MasterNode], point: Vector2<f64>, normal: Vector2<f64>) -> Op
 fn spread(nodes: &FlankNodes, stretch_mm: [f64; 2], moves_mm: [f64; 2], sums: &mut [f64]) -> std::ops::Range<usize> {
     let (length, way) = (stretch_mm[1] - stretch_mm[0], moves_mm[1] - moves_mm[0]);
     let parts = ((2.0 * way / length.max(1e-9)).ceil()).clamp(1.0, MOST_PARTS as f64) as usize;
+    if parts as f64 * length <= way {
+        // Parts of a long way join without overlap: all of them are one stretch.
+        let middle_mm = stretch_mm[0].midpoint(stretch_mm[1]);
+        return nodes.add_means([middle_mm + moves_mm[0], middle_mm + moves_mm[1]], 1.0, sums);
+    }
     let mut reached: Option<std::ops::Range<usize>> = None;
     for part in 0..parts {
         let moved = moves_mm[0] + way * (part as f64 + 0.5) / parts as f64;
-        // Parts of a long way are widened until they join.
-        let wider = 0.5 * (way / parts as f64 - length).max(0.0);
-        let stretch = [stretch_mm[0] + moved - wider, stretch_mm[1] + moved + wider];
-        let range = nodes.add_means(stretch, 1.0 / parts as f64, sums);
+        let range = nodes.add_means(stretch_mm.map(|end| end + moved), 1.0 / parts as f64, sums);
         reached = Some(match reached {
             Some(before) => before.start.min(range.start)..before.end.max(range.end),
             None => range,

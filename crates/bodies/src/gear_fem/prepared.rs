@@ -16,7 +16,7 @@ use sprs::CsMat;
 use super::beside_window::BesideWindow;
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::{Direction, FacingTeeth, SearchWindow};
-use super::sandwich::{add_sandwich, mirror_below};
+use super::sandwich::{ToothRows, mirror_below};
 use crate::gear::Gear;
 use gearwear_fem::active_set::{ActiveSetError, ActiveSetLog, Condensed, ContactEquilibrium, ReusableFactor};
 
@@ -59,9 +59,10 @@ pub struct PreparedPosition {
 pub(super) struct Sideways {
     /// Matrix B⊥ C Bᵀ.
     pub compliance: Mat<f64>,
-    /// Matrix B⊥ C B⊥ᵀ.
-    pub along: Mat<f64>,
-    pub level_compliance: Mat<f64>,
+    /// Matrix B C Bᵀ on and below the diagonal, B⊥ C B⊥ᵀ above it, both symmetric.
+    pub level_and_along: Mat<f64>,
+    /// Diagonal of B⊥ C B⊥ᵀ.
+    pub along_diagonal: Vec<f64>,
     pub level_rigid: Mat<f64>,
 }
 
@@ -210,13 +211,24 @@ impl<'a> CondensedPair<'a> {
         gear: Gear,
         operators: &[&CsMat<f64>],
     ) {
-        for (a, (facing, own)) in facings.iter().zip(operators).enumerate() {
-            for (other, others) in facings[..=a].iter().zip(operators) {
-                let places = (facing.first_row, other.first_row);
-                let between = self.gears[gear].between(other.tooth[gear], facing.tooth[gear]);
-                add_sandwich(sum, places, own, between, others, facing.first_row == other.first_row);
-            }
+        let rows = self.tooth_rows(facings, gear, operators);
+        for (a, own) in rows.iter().enumerate() {
+            rows[..=a].iter().for_each(|other| own.add_carried_product(other, sum));
+            ToothRows::held_products(&[own], &mut |_, [i, j], entry| sum[(i, j)] += entry);
         }
+    }
+
+    /// Rows of `operators` L of each tooth pair on a gear.
+    pub(super) fn tooth_rows<'b>(
+        &'b self,
+        facings: &[FacingTeeth],
+        gear: Gear,
+        operators: &[&'b CsMat<f64>],
+    ) -> Vec<ToothRows<'b>> {
+        let of_pairs = facings.iter().zip(operators);
+        of_pairs
+            .map(|(facing, operator)| ToothRows::new(&self.gears[gear], facing.tooth[gear], facing.first_row, operator))
+            .collect()
     }
 }
 
@@ -231,9 +243,11 @@ impl PreparedPosition {
     /// Resets tilt and active set.
     fn level(&mut self) {
         (self.active, self.kept) = (None, None);
-        if let Some(Sideways { level_compliance, level_rigid, .. }) = &self.sideways {
-            self.condensed.compliance.copy_from(level_compliance);
-            self.condensed.rigid.copy_from(level_rigid);
+        if let Some(sideways) = &self.sideways {
+            let level = &sideways.level_and_along;
+            self.condensed.compliance.copy_from_triangular_lower(level);
+            mirror_below(&mut self.condensed.compliance);
+            self.condensed.rigid.copy_from(&sideways.level_rigid);
             self.tilt_rad.clear();
         }
     }

@@ -14,12 +14,13 @@
 //! C_pq = δ_pq C + Ψ F_pq Ψᵀ
 //! ```
 //!
-//! exactly as in the finite-element model of the whole gear, at the cost of one fine and one coarse sector.
+//! exactly as in the finite-element model of the whole gear, at the cost of one fine and one coarse sector. What cuts carry is smooth on the
+//! flank: a few shapes U span Ψ = U R to round-off, and Ψ F_pq Ψᵀ = U (R F_pq Rᵀ) Uᵀ.
 
 use std::sync::Arc;
 
 use faer::linalg::solvers::{DenseSolveCore, Llt, Solve};
-use faer::{Mat, Side};
+use faer::{Col, Mat, Scale, Side};
 
 use super::sector::{CondensedSector, SectorMatrices};
 use gearwear_fem::active_set::ActiveSetError;
@@ -136,14 +137,65 @@ impl JoinedSectors {
     }
 }
 
+/// Relative size of what shapes of the flank leave of the displacements by cuts.
+const SHAPE_ROUND_OFF: f64 = 1e-12;
+
+/// Displacements of the candidates by forces on cuts, in few shapes.
+struct CarriedShapes {
+    /// Displacements Uᵀ of the candidates, a column for each.
+    shapes: Mat<f64>,
+    /// Products R F_pq Rᵀ, row by row.
+    compliance: Vec<Mat<f64>>,
+    teeth: usize,
+}
+
+impl CarriedShapes {
+    fn new(fine: &SectorMatrices, joined: &JoinedSectors, teeth: usize) -> Self {
+        let (shapes, by_cut) = spanned(&fine.carried);
+        let (n, by_cut) = (joined.cut_dofs, &by_cut);
+        let compliance = (0..teeth * teeth).map(|pq| {
+            let (p, q) = (pq / teeth, pq % teeth);
+            by_cut * joined.cut_compliance.get(n * p..n * (p + 2), n * q..n * (q + 2)) * by_cut.transpose()
+        });
+        Self { shapes: shapes.transpose().to_owned(), compliance: compliance.collect(), teeth }
+    }
+}
+
+/// Orthonormal columns U and their factors R of `matrix` = U R to round-off, by Gram and Schmidt's method with the greatest column first.
+fn spanned(matrix: &Mat<f64>) -> (Mat<f64>, Mat<f64>) {
+    let mut left = matrix.clone();
+    let mut columns: Vec<Col<f64>> = Vec::new();
+    let mut least = 0.0;
+    while columns.len() < matrix.ncols() {
+        let sizes = (0..left.ncols()).map(|j| (j, left.col(j).norm_l2()));
+        let Some((greatest, size)) = sizes.max_by(|(_, a), (_, b)| a.total_cmp(b)) else { break };
+        if size <= least {
+            break;
+        }
+        if columns.is_empty() {
+            least = SHAPE_ROUND_OFF * size;
+        }
+        let mut unit = left.col(greatest) * Scale(1.0 / size);
+        for column in &columns {
+            let along = column.transpose() * &unit;
+            unit -= column * Scale(along);
+        }
+        unit *= Scale(1.0 / unit.norm_l2());
+        let factors = unit.transpose() * &left;
+        left -= &unit * factors;
+        columns.push(unit);
+    }
+    let shapes = Mat::from_fn(matrix.nrows(), columns.len(), |i, k| columns[k][i]);
+    let factors = shapes.transpose() * matrix;
+    (shapes, factors)
+}
+
 /// Compliance of a gear between the candidate nodes of its fine teeth.
 #[derive(Clone)]
 pub struct GearCompliance {
     /// Sector of all fine teeth, with the modulus of its condensation.
     pub sector: Arc<CondensedSector>,
-    teeth: usize,
-    /// C_pq for q ≤ p, row by row.
-    blocks: Arc<[Mat<f64>]>,
+    carried: Arc<CarriedShapes>,
     joined: Arc<JoinedSectors>,
     /// Young's modulus of the condensed sector over that of the gear.
     softness: f64,
@@ -160,8 +212,8 @@ impl GearCompliance {
     ) -> Result<Self, ActiveSetError> {
         let coarse = coarse.map(|coarse| &coarse.matrices.cut_stiffness);
         let joined = JoinedSectors::new(&fine.matrices, coarse, teeth, surroundings)?;
-        let blocks = (0..teeth).flat_map(|p| joined.blocks(&fine.matrices, p, 0..=p)).collect();
-        Ok(Self { sector: Arc::new(fine), teeth, blocks, joined: Arc::new(joined), softness: 1.0 })
+        let carried = CarriedShapes::new(&fine.matrices, &joined, teeth);
+        Ok(Self { sector: Arc::new(fine), carried: Arc::new(carried), joined: Arc::new(joined), softness: 1.0 })
     }
 
     /// Gear of a material `by` times as soft, with the same Poisson's ratio: every displacement under the same forces is `by` times as great.
@@ -176,13 +228,40 @@ impl GearCompliance {
 
     /// Number of fine teeth.
     pub fn teeth(&self) -> usize {
-        self.teeth
+        self.carried.teeth
     }
 
-    /// Compliance C_pq: displacements of the candidate columns of tooth `p` per force on those of tooth `q`.
-    pub fn between(&self, p: usize, q: usize) -> Between<'_> {
-        let (low, high) = (p.min(q), p.max(q));
-        Between { block: &self.blocks[high * (high + 1) / 2 + low], turned: q > p, softness: self.softness }
+    /// Displacement of tooth `p` along `direction`, candidate columns with weights, under `force` on tooth `q`, mm.
+    pub fn displacement_along_mm(&self, p: usize, direction: &[(usize, f64)], q: usize, force: &[(usize, f64)]) -> f64 {
+        let in_shapes = |columns: &[(usize, f64)]| {
+            let mut sum = Col::<f64>::zeros(self.carried.shapes.nrows());
+            columns.iter().for_each(|&(column, part)| sum += self.carried.shapes.col(column) * Scale(part));
+            sum
+        };
+        let mut moved = in_shapes(direction).transpose() * (self.between_cuts(p, q) * in_shapes(force));
+        if p == q {
+            let by_force = force.iter().map(|&(column, force)| {
+                let column = self.held().col(column);
+                force * direction.iter().map(|&(row, part)| part * column[row]).sum::<f64>()
+            });
+            moved += by_force.sum::<f64>();
+        }
+        self.softness * moved
+    }
+
+    /// Compliance C of the candidates of a tooth with its cuts held, with the modulus of the condensation.
+    pub(super) fn held(&self) -> &Mat<f64> {
+        &self.sector.matrices.compliance
+    }
+
+    /// Displacements of the candidates in the shapes that cuts carry, a column for each.
+    pub(super) fn shapes(&self) -> &Mat<f64> {
+        &self.carried.shapes
+    }
+
+    /// Compliance between the shapes of tooth `p` and those of tooth `q`, with the modulus of the condensation.
+    pub(super) fn between_cuts(&self, p: usize, q: usize) -> &Mat<f64> {
+        &self.carried.compliance[p * self.carried.teeth + q]
     }
 
     /// Displacements of both cuts of tooth `p` under candidate forces on the fine teeth, with the modulus of the condensation, mm.
@@ -200,42 +279,6 @@ impl GearCompliance {
                 own + cuts.iter().enumerate().map(|(b, u)| sector.probe_by_cut[(k, b)] * u).sum::<f64>()
             })
             .collect()
-    }
-}
-
-/// View of C_pq.
-#[derive(Clone, Copy)]
-pub struct Between<'a> {
-    block: &'a Mat<f64>,
-    turned: bool,
-    softness: f64,
-}
-
-impl Between<'_> {
-    /// Entries of `rows` × `columns`, column by column.
-    pub fn gathered(&self, rows: &[usize], columns: &[usize]) -> Vec<f64> {
-        let height = rows.len();
-        let mut entries = vec![0.0; height * columns.len()];
-        // Memory is read along the columns of the stored block.
-        if self.turned {
-            for (i, &row) in rows.iter().enumerate() {
-                let stored = self.block.col(row);
-                for (j, &column) in columns.iter().enumerate() {
-                    entries[j * height + i] = stored[column];
-                }
-            }
-        } else {
-            for (j, &column) in columns.iter().enumerate() {
-                let stored = self.block.col(column);
-                for (i, &row) in rows.iter().enumerate() {
-                    entries[j * height + i] = stored[row];
-                }
-            }
-        }
-        if self.softness != 1.0 {
-            entries.iter_mut().for_each(|entry| *entry *= self.softness);
-        }
-        entries
     }
 }
 

@@ -1,62 +1,134 @@
 //! Products of compliances with the rows of multipliers on both sides.
 
-use faer::Mat;
+use std::ops::Range;
+
+use faer::{ColRef, Mat};
 use sprs::CsMat;
 
-use super::ring::Between;
+use super::ring::GearCompliance;
+use gearwear_fem::weighted_sum::weighted_sum;
+
+/// Rows B of multipliers on a tooth of a gear.
+pub(super) struct ToothRows<'a> {
+    gear: &'a GearCompliance,
+    tooth: usize,
+    first_row: usize,
+    rows: Vec<ToothRow>,
+    /// Displacement of each row, in a column, by the shapes that cuts carry.
+    carried: Mat<f64>,
+}
+
+/// Consecutive entries of a row.
+struct ToothRow {
+    first_column: usize,
+    entries: Vec<f64>,
+}
+
+impl<'a> ToothRows<'a> {
+    /// Rows of `operator` from `first_row` on; its columns are those of the candidates of `tooth`.
+    pub(super) fn new(gear: &'a GearCompliance, tooth: usize, first_row: usize, operator: &CsMat<f64>) -> Self {
+        let shapes = gear.shapes();
+        let rows: Vec<ToothRow> = operator
+            .outer_iterator()
+            .map(|row| {
+                let (first, last) = (row.indices().iter().min(), row.indices().iter().max());
+                let (first, end) = (first.copied().unwrap_or(0), last.map_or(0, |last| last + 1));
+                let mut entries = vec![0.0; end - first];
+                row.iter().for_each(|(column, b)| entries[column - first] = *b);
+                ToothRow { first_column: first, entries }
+            })
+            .collect();
+        let mut carried = Mat::zeros(shapes.nrows(), rows.len());
+        for (k, row) in rows.iter().enumerate() {
+            carried.col_mut(k).copy_from(shapes.subcols(row.first_column, row.entries.len()) * row.entries());
+        }
+        Self { gear, tooth, first_row, rows, carried }
+    }
+
+    /// Adds the product B C B'ᵀ with the rows B' of `right` to `sum`.
+    pub(super) fn add_product(&self, right: &ToothRows<'_>, sum: &mut Mat<f64>) {
+        self.add_carried_product(right, sum);
+        if self.tooth != right.tooth {
+            return;
+        }
+        let columns = used_columns(&self.rows);
+        for (j, row) in right.rows.iter().enumerate() {
+            let moved = row.moved(self.gear, &columns);
+            for (i, row) in self.rows.iter().enumerate() {
+                sum[(self.first_row + i, right.first_row + j)] += row.along(&moved, columns.start);
+            }
+        }
+    }
+
+    /// Adds the part of the product B C B'ᵀ that the cuts carry.
+    pub(super) fn add_carried_product(&self, right: &ToothRows<'_>, sum: &mut Mat<f64>) {
+        let by_shape = self.gear.between_cuts(self.tooth, right.tooth) * &right.carried;
+        let product = self.carried.transpose() * by_shape;
+        for j in 0..product.ncols() {
+            for i in 0..product.nrows() {
+                sum[(self.first_row + i, right.first_row + j)] += self.gear.softness() * product[(i, j)];
+            }
+        }
+    }
+
+    /// Entries on and below the diagonal of the products B C B'ᵀ with held cuts, for B and B' each of the `kinds` of rows of the same multipliers on a
+    /// tooth: numbers of both kinds, row, column and entry to `take`.
+    pub(super) fn held_products(kinds: &[&ToothRows<'_>], take: &mut dyn FnMut([usize; 2], [usize; 2], f64)) {
+        let count = kinds.first().map_or(0, |rows| rows.rows.len());
+        let mut of_later_rows: Option<Range<usize>> = None;
+        let columns = (0..count).rev().map(|j| {
+            let own = kinds.iter().map(|kind| used_columns(&kind.rows[j..=j]));
+            of_later_rows = own.chain(of_later_rows.clone()).reduce(joined);
+            of_later_rows.clone().unwrap_or_default()
+        });
+        let columns: Vec<Range<usize>> = columns.collect();
+        for (j, columns) in columns.iter().rev().enumerate() {
+            for (b, right) in kinds.iter().enumerate() {
+                let moved = right.rows[j].moved(right.gear, columns);
+                for (a, left) in kinds.iter().enumerate() {
+                    for (i, row) in left.rows.iter().enumerate().skip(j) {
+                        let places = [left.first_row + i, right.first_row + j];
+                        take([a, b], places, row.along(&moved, columns.start));
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl ToothRow {
+    fn entries(&self) -> ColRef<'_, f64> {
+        ColRef::from_slice(&self.entries)
+    }
+
+    /// Displacements of these candidate columns by the row's force, with held cuts.
+    fn moved(&self, gear: &GearCompliance, columns: &Range<usize>) -> Vec<f64> {
+        let by_force = gear.held().subcols(self.first_column, self.entries.len());
+        let moved = by_force.subrows(columns.start, columns.len()) * self.entries();
+        moved.iter().map(|moved| gear.softness() * moved).collect()
+    }
+
+    /// Displacement of the row where the candidate columns from `first` on move by `moved`.
+    fn along(&self, moved: &[f64], first: usize) -> f64 {
+        weighted_sum(&self.entries, &moved[self.first_column - first..])
+    }
+}
+
+/// Range of the columns with entries.
+fn used_columns(rows: &[ToothRow]) -> Range<usize> {
+    rows.iter().map(|row| row.first_column..row.first_column + row.entries.len()).reduce(joined).unwrap_or_default()
+}
+
+/// Range over both.
+fn joined(one: Range<usize>, other: Range<usize>) -> Range<usize> {
+    one.start.min(other.start)..one.end.max(other.end)
+}
 
 /// Copies the entries below the diagonal to above it.
 pub(super) fn mirror_below(matrix: &mut Mat<f64>) {
-    for i in 0..matrix.nrows() {
-        for j in i + 1..matrix.ncols() {
+    for j in 0..matrix.ncols() {
+        for i in 0..j {
             matrix[(i, j)] = matrix[(j, i)];
         }
     }
-}
-
-/// Adds `left · Cᵀ · rightᵀ`, or with `half` its entries on and below the diagonal, at `places` of `sum`; `compliance` is C, with a row for each
-/// column of `right`.
-pub(super) fn add_sandwich(
-    sum: &mut Mat<f64>,
-    places: (usize, usize),
-    left: &CsMat<f64>,
-    compliance: Between<'_>,
-    right: &CsMat<f64>,
-    half: bool,
-) {
-    let (left_columns, left_place) = used_columns(left);
-    let (right_columns, right_place) = used_columns(right);
-    // Entries of C are gathered once into contiguous columns, as are those of the right.
-    let width = right_columns.len();
-    let gathered = compliance.gathered(&right_columns, &left_columns);
-    let right_entries: Vec<(usize, f64)> =
-        right.indices().iter().zip(right.data()).map(|(&column, &value)| (right_place[column], value)).collect();
-    let right_rows = right.indptr();
-    let mut carried = vec![0.0; width];
-    for (i, row) in left.outer_iterator().enumerate() {
-        carried.fill(0.0);
-        for (k, value) in row.iter() {
-            let column = &gathered[left_place[k] * width..][..width];
-            for (sum, c) in carried.iter_mut().zip(column) {
-                *sum += value * c;
-            }
-        }
-        let count = if half { i + 1 } else { right.rows() };
-        for (j, row) in right_rows.iter_outer_sz().take(count).enumerate() {
-            let product: f64 = right_entries[row].iter().map(|&(place, value)| value * carried[place]).sum();
-            sum[(places.0 + i, places.1 + j)] += product;
-        }
-    }
-}
-
-/// Columns with entries, and the place of each among them.
-fn used_columns(operator: &CsMat<f64>) -> (Vec<usize>, Vec<usize>) {
-    let mut used = operator.indices().to_vec();
-    used.sort_unstable();
-    used.dedup();
-    let mut place = vec![usize::MAX; operator.cols()];
-    for (k, &column) in used.iter().enumerate() {
-        place[column] = k;
-    }
-    (used, place)
 }

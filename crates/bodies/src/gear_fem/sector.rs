@@ -9,7 +9,8 @@
 //! f_b = S u_b − Ψᵀ f_c         S = K_bb − K_bi K_ii⁻¹ K_ib
 //! ```
 //!
-//! and likewise any stress, a linear functional σ = pᵀ u of it. K is factorised once for all of these. Cut
+//! and likewise any stress, a linear functional σ = pᵀ u of it. K is factorised once for all of these, and one compliance between forces on the candidates,
+//! the functionals p and the columns of K_ib has all products with K_ii⁻¹. Cut
 //! displacements are radial and circumferential components, so that a sector turned by a pitch has the same matrices.
 //!
 //! Source: R. J. Guyan, *AIAA J.* 3 (1965) 380 (static condensation); exact in statics.
@@ -110,45 +111,22 @@ impl Sector {
 
         let directions = self.cut_directions();
         let cuts = directions.len();
-        let cut_dofs: Vec<u32> = directions.iter().step_by(2).flat_map(|(node, _)| [2 * node, 2 * node + 1]).collect();
-        let held_columns = stiffness.matrix().columns(&cut_dofs);
-        // Each cut column in the two degrees of freedom of its node.
-        let along: Vec<[(usize, f64); 2]> = (directions.iter().enumerate())
-            .map(|(a, (_, direction))| [(a - a % 2, direction.x), (a - a % 2 + 1, direction.y)])
-            .collect();
-        let mut moved = vec![0.0; dofs * cuts];
-        for (along, column) in along.iter().zip(moved.chunks_exact_mut(dofs)) {
-            for &(held, part) in along {
-                held_columns[held].iter().for_each(|(dof, value)| column[*dof as usize] -= part * value);
-            }
-        }
-        factor.solve(cuts, &mut moved);
-        for ((node, direction), column) in directions.iter().zip(moved.chunks_exact_mut(dofs)) {
-            for (dof, value) in given(*node, *direction) {
-                column[dof as usize] += value;
-            }
-        }
-        let candidate_dofs: Vec<u32> = self.candidates.iter().flat_map(|node| [2 * node, 2 * node + 1]).collect();
-        let candidates = candidate_dofs.len();
-        let carried = Mat::from_fn(candidates, cuts, |c, b| moved[b * dofs + candidate_dofs[c] as usize]);
-        let probe_by_cut = Mat::from_fn(self.probes.len(), cuts, |p, b| {
-            self.probes[p].iter().map(|&(dof, value)| value * moved[b * dofs + dof as usize]).sum()
-        });
-        let mut cut_stiffness = Mat::zeros(cuts, cuts);
-        for (b, column) in moved.chunks_exact(dofs).enumerate() {
-            let force: Vec<f64> = held_columns
-                .iter()
-                .map(|row| row.iter().map(|(dof, value)| value * column[*dof as usize]).sum())
-                .collect();
-            for (a, along) in along.iter().enumerate() {
-                cut_stiffness[(a, b)] = along.iter().map(|&(held, part)| part * force[held]).sum();
-            }
-        }
+        let by_cut = cut_columns(&stiffness, &directions);
+        let candidate_dofs = self.candidates.iter().flat_map(|node| [2 * node, 2 * node + 1]);
+        let unit_forces = candidate_dofs.map(|dof| vec![(dof, 1.0)]);
         let columns: Vec<Functional> =
-            candidate_dofs.iter().map(|dof| vec![(*dof, 1.0)]).chain(self.probes.iter().cloned()).collect();
-        let all = factor.compliance(&columns);
-        let compliance = all.get(..candidates, ..candidates).to_owned();
-        let probe_by_force = all.get(candidates.., ..candidates).to_owned();
+            unit_forces.chain(self.probes.iter().cloned()).chain(by_cut.iter().cloned()).collect();
+        let mut compliance = factor.compliance(&columns);
+        let (candidates, first_cut) = (2 * self.candidates.len(), columns.len() - cuts);
+        let carried = Mat::from_fn(candidates, cuts, |c, b| -compliance[(c, first_cut + b)]);
+        let probe_by_cut = Mat::from_fn(self.probes.len(), cuts, |p, b| {
+            along(&self.probes[p], directions[b]) - compliance[(candidates + p, first_cut + b)]
+        });
+        let cut_stiffness = Mat::from_fn(cuts, cuts, |a, b| {
+            along(&by_cut[b], directions[a]) - compliance[(first_cut + a, first_cut + b)]
+        });
+        let probe_by_force = compliance.get(candidates..first_cut, ..candidates).to_owned();
+        compliance.truncate(candidates, candidates);
         Ok(CondensedSector {
             stiffness,
             factor,
@@ -158,6 +136,28 @@ impl Sector {
             sector: self,
         })
     }
+}
+
+/// Forces K_b on all degrees of freedom by a unit displacement of each cut node in each of its directions.
+fn cut_columns(stiffness: &Stiffness, directions: &[(u32, Vector2<f64>)]) -> Vec<Functional> {
+    let cut_dofs: Vec<u32> = directions.iter().step_by(2).flat_map(|(node, _)| [2 * node, 2 * node + 1]).collect();
+    let of_dofs = stiffness.matrix().columns(&cut_dofs);
+    let columns = directions.iter().enumerate().map(|(k, (_, direction))| {
+        let parts = [(k - k % 2, direction.x), (k - k % 2 + 1, direction.y)];
+        let entries =
+            parts.into_iter().flat_map(|(k, part)| of_dofs[k].iter().map(move |(dof, force)| (*dof, part * force)));
+        entries.collect()
+    });
+    columns.collect()
+}
+
+/// Value of a functional of the displacements where one node moves by a direction.
+fn along(functional: &Functional, (node, direction): (u32, Vector2<f64>)) -> f64 {
+    let moved = given(node, direction);
+    let products = functional
+        .iter()
+        .map(|(dof, value)| value * moved.iter().filter(|(other, _)| other == dof).map(|(_, part)| part).sum::<f64>());
+    products.sum()
 }
 
 /// Displacement of one node by degree of freedom.

@@ -20,7 +20,7 @@ use sprs::CsMat;
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::turned;
 use super::prepared::{PreparedPosition, Sideways};
-use super::sandwich::{add_sandwich, mirror_below};
+use super::sandwich::{ToothRows, mirror_below};
 use crate::gear::{Gear, PerGear};
 
 /// Wear of both flanks.
@@ -38,17 +38,20 @@ impl CondensedPair<'_> {
         if prepared.sideways.is_none() {
             prepared.sideways = Some(self.sideways(prepared));
         }
-        let Some(Sideways { compliance, along, level_compliance, level_rigid }) = &prepared.sideways else { return };
+        let Some(Sideways { compliance, level_and_along, along_diagonal, level_rigid }) = &prepared.sideways else {
+            return;
+        };
         let of_rows = &tilt_rad;
         let condensed = &mut prepared.condensed;
         for j in 0..of_rows.len() {
-            for i in 0..of_rows.len() {
+            for i in j..of_rows.len() {
                 let turned = of_rows[i] * compliance[(i, j)] + of_rows[j] * compliance[(j, i)];
-                let turned_twice = of_rows[i] * along[(i, j)] * of_rows[j];
-                condensed.compliance[(i, j)] = level_compliance[(i, j)] + turned + turned_twice;
+                let along = if i == j { along_diagonal[j] } else { level_and_along[(j, i)] };
+                condensed.compliance[(i, j)] = level_and_along[(i, j)] + turned + of_rows[i] * along * of_rows[j];
             }
             condensed.rigid[(j, 0)] = level_rigid[(j, 0)] + of_rows[j] * prepared.along_rotation[j];
         }
+        mirror_below(&mut condensed.compliance);
         (prepared.tilt_rad, prepared.kept) = (tilt_rad, None);
     }
 
@@ -56,24 +59,26 @@ impl CondensedPair<'_> {
         let rows = prepared.along_rotation.len();
         let (mut compliance, mut along) = (Mat::zeros(rows, rows), Mat::zeros(rows, rows));
         for gear in Gear::BOTH {
-            let operators = prepared.facings.iter().map(|facing| &facing.operator[gear]);
-            let sideways: Vec<CsMat<f64>> = operators.map(|b| turned(b, Rotation2::new(-FRAC_PI_2))).collect();
-            self.add_symmetric_sandwich(&mut along, &prepared.facings, gear, &sideways.iter().collect::<Vec<_>>());
-            for (facing, own) in prepared.facings.iter().zip(&sideways) {
-                for other in &prepared.facings {
-                    let between = self.gears[gear].between(other.tooth[gear], facing.tooth[gear]);
-                    let places = (facing.first_row, other.first_row);
-                    add_sandwich(&mut compliance, places, own, between, &other.operator[gear], false);
-                }
+            let across: Vec<&CsMat<f64>> = prepared.facings.iter().map(|facing| &facing.operator[gear]).collect();
+            let turned: Vec<CsMat<f64>> = across.iter().map(|b| turned(b, Rotation2::new(-FRAC_PI_2))).collect();
+            let [across, turned] =
+                [across, turned.iter().collect()].map(|operators| self.tooth_rows(&prepared.facings, gear, &operators));
+            for (a, own) in turned.iter().enumerate() {
+                across.iter().for_each(|other| own.add_carried_product(other, &mut compliance));
+                turned[..=a].iter().for_each(|other| own.add_carried_product(other, &mut along));
+                ToothRows::held_products(&[&across[a], own], &mut |kinds, [i, j], entry| match kinds {
+                    [1, 0] => compliance[(i, j)] += entry,
+                    [0, 1] if i != j => compliance[(j, i)] += entry,
+                    [1, 1] => along[(i, j)] += entry,
+                    _ => {}
+                });
             }
         }
+        let along_diagonal = (0..rows).map(|k| along[(k, k)]).collect();
         mirror_below(&mut along);
-        Sideways {
-            compliance,
-            along,
-            level_compliance: prepared.condensed.compliance.clone(),
-            level_rigid: prepared.condensed.rigid.clone(),
-        }
+        along.copy_from_triangular_lower(&prepared.condensed.compliance);
+        let level_rigid = prepared.condensed.rigid.clone();
+        Sideways { compliance, level_and_along: along, along_diagonal, level_rigid }
     }
 }
 

@@ -17,20 +17,6 @@ pub fn value_at(places: &[f64], values: &[f64], at: f64) -> f64 {
     (1.0 - weight) * values[after - 1] + weight * values[after]
 }
 
-/// Sum Σ m_k h_k over the weights, in four independent sums for vector instructions.
-pub fn weighted_sum(weights: &[f64], values: &[f64]) -> f64 {
-    let values = &values[..weights.len()];
-    let (weights, values) = (weights.as_chunks::<4>(), values.as_chunks::<4>());
-    let mut sums = [0.0; 4];
-    for (m, h) in weights.0.iter().zip(values.0) {
-        for k in 0..4 {
-            sums[k] += m[k] * h[k];
-        }
-    }
-    let rest: f64 = weights.1.iter().zip(values.1).map(|(m, h)| m * h).sum();
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
-}
-
 /// Adds `weight` times the m_k of the stretch from `from` to `to` (≥ `from`) to `sums`, with an entry for each of the `places` (rising, at least
 /// two); returns the range of places with weight. A stretch may be a point.
 pub fn add_means(places: &[f64], [from, to]: [f64; 2], weight: f64, sums: &mut [f64]) -> Range<usize> {

@@ -60,10 +60,10 @@ fn aabb((low, high): (Vector2<f64>, Vector2<f64>)) -> Aabb {
     Aabb::new(Vector::new(low.x, low.y), Vector::new(high.x, high.y))
 }
 
-/// Root between −1 and 1 of a function that falls from a positive to a negative value, by Newton's method with
-/// bisection; `f` gives value and derivative.
-fn falling_root(f: impl Fn(f64) -> (f64, f64)) -> f64 {
-    let (mut low, mut high, mut xi) = (-1.0, 1.0, 0.0);
+/// Root between −1 and 1 of a function that falls from the positive value `first` to the negative one `last`, by Newton's method with
+/// bisection from where a straight line has it; `f` gives value and derivative.
+fn falling_root(f: impl Fn(f64) -> (f64, f64), [first, last]: [f64; 2]) -> f64 {
+    let (mut low, mut high, mut xi) = (-1.0, 1.0, (first + last) / (first - last));
     for _ in 0..60 {
         let (value, slope) = f(xi);
         if value > 0.0 {
@@ -147,12 +147,11 @@ impl<'a> MasterSearch<'a> {
 
 /// [`falling_root`], or the nearer end where there is none.
 fn falling_root_between(f: impl Fn(f64) -> (f64, f64)) -> f64 {
-    if f(-1.0).0 <= 0.0 {
-        -1.0
-    } else if f(1.0).0 >= 0.0 {
-        1.0
-    } else {
-        falling_root(f)
+    let ends = [-1.0, 1.0].map(|end| f(end).0);
+    match ends {
+        [first, _] if first <= 0.0 => -1.0,
+        [_, last] if last >= 0.0 => 1.0,
+        _ => falling_root(f, ends),
     }
 }
 

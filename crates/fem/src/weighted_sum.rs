@@ -1,0 +1,21 @@
+//! Sums of products in independent lanes.
+
+/// Number of sums that run beside each other, for vector instructions.
+const LANES: usize = 8;
+
+/// Sum Σ m_k h_k over the weights.
+pub fn weighted_sum(weights: &[f64], values: &[f64]) -> f64 {
+    let values = &values[..weights.len()];
+    let (weights, values) = (weights.as_chunks::<LANES>(), values.as_chunks::<LANES>());
+    let mut sums = [0.0; LANES];
+    for (m, h) in weights.0.iter().zip(values.0) {
+        for k in 0..LANES {
+            sums[k] += m[k] * h[k];
+        }
+    }
+    for (sum, (m, h)) in sums.iter_mut().zip(weights.1.iter().zip(values.1)) {
+        *sum += m * h;
+    }
+    let [a, b, c, d, e, f, g, h] = sums;
+    ((a + b) + (c + d)) + ((e + f) + (g + h))
+}
