@@ -286,8 +286,8 @@ fn samples_share_runs_on_a_fast_model() {
     let scene = exchanged(
         "fzg-c",
         &[
-            ("flank_points = 750 ", "flank_points = 120 "),
-            ("positions = 400 ", "positions = 40 "),
+            ("flank_points = 750 ", "flank_points = 250 "),
+            ("positions = 400 ", "positions = 80 "),
             ("verify = true", "verify = false"),
         ],
     );
