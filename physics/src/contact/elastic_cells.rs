@@ -14,14 +14,21 @@
 //! ```
 //!
 //! between the indentation at which the first of them leaves the contact and the one at which the next touches. Within
-//! these, load and stiffness cost nothing; beyond them the set is found anew ([`Condensed`]), starting from the present one. C
-//! does not change with wear, so its factors are kept while the flanks wear until another set of cells touches.
+//! these, load and stiffness cost nothing; beyond them the set is found anew, starting from the present one, by exchanges of all cells that pull or
+//! overlap, or by [`Condensed`] where these do not end. C does not change with wear, so its inverse is kept while the flanks wear until another set of
+//! cells touches. C of cells beside each other is a Toeplitz matrix ([`ToeplitzInverse`]).
 
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, Side};
 
 use super::Response;
+use super::toeplitz::ToeplitzInverse;
 use gearwear_fem::active_set::{ActiveSetError, Condensed};
+
+/// Exchanges of cells until the guarded method takes over; three or four are usual.
+const MOST_EXCHANGES: usize = 12;
+/// Round-off over the greatest pressure or gap.
+const ROUND_OFF: f64 = 1e-12;
 
 /// A row of cells that may touch.
 pub(crate) struct ElasticCells {
@@ -37,13 +44,27 @@ pub(crate) struct ElasticCells {
 struct Touching {
     active: Vec<bool>,
     members: Vec<usize>,
-    factor: Llt<f64>,
+    inverse: Inverse,
     /// C⁻¹1, MPa/mm.
     per_indentation: Vec<f64>,
     /// C⁻¹g, MPa.
     relieved: Vec<f64>,
+    /// Sums of both.
+    sums: [f64; 2],
+    /// 1 − C C⁻¹1 of each cell beside the contact: what remains of the indentation there.
+    closing: Vec<f64>,
+    /// g − C C⁻¹g of each cell beside the contact, mm.
+    beside_mm: Vec<f64>,
     /// Indentations between which exactly these cells touch, mm.
     holds_mm: [f64; 2],
+}
+
+/// C⁻¹ on the cells in contact.
+enum Inverse {
+    /// Cells beside each other.
+    Adjacent(ToeplitzInverse),
+    /// Cells in several groups.
+    Scattered(Llt<f64>),
 }
 
 impl ElasticCells {
@@ -79,9 +100,7 @@ impl ElasticCells {
             };
             self.touching = Some(touching);
         }
-        let sums =
-            self.touching.iter().map(|t| (t.per_indentation.iter().sum::<f64>(), t.relieved.iter().sum::<f64>()));
-        let (per_indentation, relieved) = sums.fold((0.0, 0.0), |_, of_set| of_set);
+        let [per_indentation, relieved] = self.touching.as_ref().map_or([0.0; 2], |touching| touching.sums);
         Response {
             line_load_n_per_mm: self.width_mm * (indentation_mm * per_indentation - relieved),
             stiffness_n_per_mm2: self.width_mm * per_indentation,
@@ -119,6 +138,27 @@ impl ElasticCells {
 
     /// Cells that touch at the present indentation.
     fn find(&self) -> Result<Touching, ActiveSetError> {
+        let mut active = match &self.touching {
+            Some(touching) => touching.active.clone(),
+            None => self.gap_mm.iter().map(|gap| *gap <= self.indentation_mm).collect(),
+        };
+        for _ in 0..MOST_EXCHANGES {
+            if !active.contains(&true) {
+                break;
+            }
+            let touching = Touching::new(active, &self.gap_mm, &self.compliance)?;
+            let wrong = touching.wrong(self.indentation_mm);
+            if wrong.is_empty() {
+                return Ok(touching);
+            }
+            active = touching.active;
+            wrong.into_iter().for_each(|i| active[i] = !active[i]);
+        }
+        self.find_guarded()
+    }
+
+    /// Cells that touch at the present indentation, by the method that cannot cycle.
+    fn find_guarded(&self) -> Result<Touching, ActiveSetError> {
         let count = self.gap_mm.len();
         let problem = Condensed {
             compliance: Mat::from_fn(count, count, |i, j| self.compliance[i.abs_diff(j)]),
@@ -135,19 +175,34 @@ impl ElasticCells {
 impl Touching {
     fn new(active: Vec<bool>, gap_mm: &[f64], compliance: &[f64]) -> Result<Self, ActiveSetError> {
         let members: Vec<usize> = (0..active.len()).filter(|&i| active[i]).collect();
-        let count = members.len();
-        let own = Mat::from_fn(count, count, |i, j| compliance[members[i].abs_diff(members[j])]);
-        let factor = Llt::new(own.as_ref(), Side::Lower)
-            .map_err(|_| ActiveSetError::NotPositiveDefinite { index: members.first().copied().unwrap_or(0) })?;
-        let per_indentation = solved(&factor, members.iter().map(|_| 1.0));
-        let mut touching = Self { active, members, factor, per_indentation, relieved: Vec::new(), holds_mm: [0.0; 2] };
+        let inverse = Inverse::new(&members, compliance)?;
+        let mut per_indentation = Vec::new();
+        inverse.times(members.iter().map(|_| 1.0), &mut per_indentation);
+        let beside = (0..active.len()).filter(|&i| !active[i]);
+        let closing = beside.map(|i| 1.0 - sunk_mm(i, &members, &per_indentation, compliance)).collect();
+        let (relieved, beside_mm) = (Vec::new(), Vec::new());
+        let mut touching = Self {
+            active,
+            members,
+            inverse,
+            per_indentation,
+            relieved,
+            sums: [0.0; 2],
+            closing,
+            beside_mm,
+            holds_mm: [0.0; 2],
+        };
         touching.relieve(gap_mm, compliance);
         Ok(touching)
     }
 
     /// Exchanges the gaps.
     fn relieve(&mut self, gap_mm: &[f64], compliance: &[f64]) {
-        self.relieved = solved(&self.factor, self.members.iter().map(|&i| gap_mm[i]));
+        self.inverse.times(self.members.iter().map(|&i| gap_mm[i]), &mut self.relieved);
+        self.sums = [&self.per_indentation, &self.relieved].map(|of_cells| of_cells.iter().sum());
+        let beside = (0..gap_mm.len()).filter(|&i| !self.active[i]);
+        self.beside_mm.clear();
+        self.beside_mm.extend(beside.map(|i| gap_mm[i] - sunk_mm(i, &self.members, &self.relieved, compliance)));
         // A cell leaves the contact where δ C⁻¹1 = C⁻¹g.
         let (mut least, mut most) = (0.0_f64, f64::INFINITY);
         for (per_indentation, relieved) in self.per_indentation.iter().zip(&self.relieved) {
@@ -159,31 +214,62 @@ impl Touching {
             }
         }
         // Another one touches where g + C p = δ.
-        for i in (0..gap_mm.len()).filter(|&i| !self.active[i]) {
-            let (mut closing, mut gap) = (1.0, gap_mm[i]);
-            for ((&j, per_indentation), relieved) in self.members.iter().zip(&self.per_indentation).zip(&self.relieved)
-            {
-                let c = compliance[i.abs_diff(j)];
-                closing -= c * per_indentation;
-                gap -= c * relieved;
-            }
-            if closing > 0.0 {
-                most = most.min(gap / closing);
-            } else if gap < 0.0 {
+        for (closing, gap_mm) in self.closing.iter().zip(&self.beside_mm) {
+            if *closing > 0.0 {
+                most = most.min(gap_mm / closing);
+            } else if *gap_mm < 0.0 {
                 least = f64::INFINITY;
             }
         }
         self.holds_mm = [least, most];
     }
+
+    /// Cells in contact that pull at an indentation, and others that overlap.
+    fn wrong(&self, indentation_mm: f64) -> Vec<usize> {
+        let pressures = self.per_indentation.iter().zip(&self.relieved);
+        let pressures: Vec<f64> = pressures.map(|(per, relieved)| indentation_mm * per - relieved).collect();
+        let gaps_mm = self.closing.iter().zip(&self.beside_mm);
+        let gaps_mm: Vec<f64> = gaps_mm.map(|(closing, gap_mm)| gap_mm - indentation_mm * closing).collect();
+        let [least_mpa, least_mm] =
+            [&pressures, &gaps_mm].map(|of| -ROUND_OFF * of.iter().fold(0.0_f64, |most, value| most.max(value.abs())));
+        let (mut pressures, mut gaps_mm) = (pressures.into_iter(), gaps_mm.into_iter());
+        let is_wrong = |i: &usize| match self.active[*i] {
+            true => pressures.next().is_some_and(|pressure| pressure < least_mpa),
+            false => gaps_mm.next().is_some_and(|gap| gap < least_mm),
+        };
+        (0..self.active.len()).filter(is_wrong).collect()
+    }
 }
 
-/// C⁻¹ applied to a right-hand side.
-fn solved(factor: &Llt<f64>, side: impl ExactSizeIterator<Item = f64>) -> Vec<f64> {
-    let count = side.len();
-    let mut column = Mat::zeros(count, 1);
-    column.col_mut(0).iter_mut().zip(side).for_each(|(to, from)| *to = from);
-    factor.solve_in_place(column.as_mut());
-    column.col(0).iter().copied().collect()
+/// Displacement of a cell by `pressures` on the `members`, mm.
+fn sunk_mm(cell: usize, members: &[usize], pressures: &[f64], compliance: &[f64]) -> f64 {
+    members.iter().zip(pressures).map(|(&member, pressure)| compliance[cell.abs_diff(member)] * pressure).sum()
+}
+
+impl Inverse {
+    fn new(members: &[usize], compliance: &[f64]) -> Result<Self, ActiveSetError> {
+        let count = members.len();
+        let error = || ActiveSetError::NotPositiveDefinite { index: members.first().copied().unwrap_or(0) };
+        if members.windows(2).all(|two| two[1] == two[0] + 1) {
+            return ToeplitzInverse::new(compliance, count).map(Self::Adjacent).ok_or_else(error);
+        }
+        let own = Mat::from_fn(count, count, |i, j| compliance[members[i].abs_diff(members[j])]);
+        Llt::new(own.as_ref(), Side::Lower).map(Self::Scattered).map_err(|_| error())
+    }
+
+    /// C⁻¹ applied to a right-hand side.
+    fn times(&self, side: impl ExactSizeIterator<Item = f64>, product: &mut Vec<f64>) {
+        match self {
+            Self::Adjacent(inverse) => inverse.times(side, product),
+            Self::Scattered(factor) => {
+                let mut column = Mat::zeros(side.len(), 1);
+                column.col_mut(0).iter_mut().zip(side).for_each(|(to, from)| *to = from);
+                factor.solve_in_place(column.as_mut());
+                product.clear();
+                product.extend(column.col(0).iter());
+            }
+        }
+    }
 }
 
 #[cfg(test)]

@@ -26,6 +26,7 @@ pub(crate) mod pressure_field;
 pub mod settings;
 pub(crate) mod strip;
 pub(crate) mod swept_field;
+mod toeplitz;
 pub mod winkler;
 
 use serde::{Deserialize, Serialize};
