@@ -73,6 +73,11 @@ impl ElasticCells {
         Self { width_mm, gap_mm: vec![0.0; compliance.len()], compliance, touching: None, indentation_mm: 0.0 }
     }
 
+    /// Width of a cell, mm.
+    pub(crate) fn width_mm(&self) -> f64 {
+        self.width_mm
+    }
+
     /// Forgets which cells touched.
     pub(crate) fn reset(&mut self) {
         self.touching = None;

@@ -27,6 +27,10 @@ pub(crate) struct PressureField {
     pressure_mpa: Vec<f64>,
     /// Load from the beginning to the centre of each cell, N/mm.
     load_below: Vec<f64>,
+    /// Outermost places under pressure; both 0 without pressure.
+    extent_mm: (f64, f64),
+    /// Greatest pressure, between the cells' centres.
+    peak_mpa: f64,
 }
 
 impl PressureField {
@@ -49,6 +53,7 @@ impl PressureField {
             before = Some(pressure);
             self.load_below.push(load);
         }
+        (self.extent_mm, self.peak_mpa) = (self.found_extent_mm(), self.found_peak_mpa());
     }
 
     /// Pressure of each cell, MPa.
@@ -116,10 +121,14 @@ impl PressureField {
 
     /// Outermost places under pressure; both 0 without pressure.
     pub(crate) fn extent_mm(&self) -> (f64, f64) {
+        self.extent_mm
+    }
+
+    fn found_extent_mm(&self) -> (f64, f64) {
         let p = &self.pressure_mpa;
-        let mut loaded = (0..p.len()).filter(|&k| p[k] > 0.0);
-        let Some(first) = loaded.next() else { return (0.0, 0.0) };
-        let last = loaded.next_back().unwrap_or(first);
+        let is_loaded = |pressure: &f64| *pressure > 0.0;
+        let Some(first) = p.iter().position(is_loaded) else { return (0.0, 0.0) };
+        let last = p.iter().rposition(is_loaded).unwrap_or(first);
         // A contact that reaches the outermost cell ends where the surfaces end.
         let before = if first == 0 { 0.0 } else { inset(p[first..=last].iter()) };
         let after = if last + 1 == p.len() { 0.0 } else { inset(p[first..=last].iter().rev()) };
@@ -130,12 +139,12 @@ impl PressureField {
 
     /// Greatest pressure, between the cells' centres, and half the extent.
     pub(crate) fn footprint(&self) -> Footprint {
-        let (lower, upper) = self.extent_mm();
-        Footprint { peak_pressure_mpa: self.peak_mpa(), half_width_mm: 0.5 * (upper - lower), at_sharp_edge: false }
+        let (lower, upper) = self.extent_mm;
+        Footprint { peak_pressure_mpa: self.peak_mpa, half_width_mm: 0.5 * (upper - lower), at_sharp_edge: false }
     }
 
     /// Top of the parabola through the greatest pressure and its neighbours, or the pressure itself in an outermost cell.
-    fn peak_mpa(&self) -> f64 {
+    fn found_peak_mpa(&self) -> f64 {
         let p = &self.pressure_mpa;
         let Some(k) = (0..p.len()).max_by(|&a, &b| p[a].total_cmp(&p[b])) else { return 0.0 };
         match p.get(k.wrapping_sub(1)..k + 2) {

@@ -68,17 +68,17 @@ impl Interpolation {
     }
 }
 
-/// Removed material of one flank at samples: mean over the stretch that passes each within a [`PositionCell`].
+/// Removed material of one flank at samples: for each a sum over consecutive points with weights, 1 in all.
 #[derive(Debug, Clone, Default)]
-struct PassingMean {
+struct WeightedPoints {
     first: Vec<u32>,
     ends: Vec<u32>,
     weights: Vec<f64>,
 }
 
-impl PassingMean {
-    /// Means at the samples `along_mm`, in the gear's own direction of the tangent.
-    fn new(flanks: Flanks<'_>, gear: Gear, cell: PositionCell, along_mm: impl Iterator<Item = f64>) -> Self {
+impl WeightedPoints {
+    /// Means over the stretches that pass the samples `along_mm`, in the gear's own direction of the tangent, within a [`PositionCell`].
+    fn passing(flanks: Flanks<'_>, gear: Gear, cell: PositionCell, along_mm: impl Iterator<Item = f64>) -> Self {
         let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
         let mut passing = Self::default();
         let within = points_within(flanks, gear);
@@ -90,12 +90,49 @@ impl PassingMean {
             let passes = passes_to_ends_mm(&geometry, gear, at_mm, cell, grid.distance_at_mm(at_mm));
             let ends = passes.map(|by| geometry.at_along(gear, along - by, cell.position_mm).0);
             let reached = add_means(points_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
-            passing.first.push((within.start + reached.start) as u32);
-            passing.weights.extend_from_slice(&sums[reached.clone()]);
-            passing.ends.push(passing.weights.len() as u32);
+            passing.push(within.start + reached.start, sums[reached.clone()].iter().copied());
             sums[reached].fill(0.0);
         }
         passing
+    }
+
+    /// Values between the points.
+    fn of_places(places: &Interpolation) -> Self {
+        let mut points = Self::default();
+        for (index, weight) in places.index.iter().zip(&places.weight) {
+            points.push(*index as usize, [1.0 - weight, *weight].into_iter());
+        }
+        points
+    }
+
+    fn push(&mut self, first: usize, weights: impl Iterator<Item = f64>) {
+        self.first.push(first as u32);
+        self.weights.extend(weights);
+        self.ends.push(self.weights.len() as u32);
+    }
+
+    /// First point and weights of a sample.
+    fn sample(&self, k: usize) -> (usize, &[f64]) {
+        let begin = if k == 0 { 0 } else { self.ends[k - 1] as usize };
+        (self.first[k] as usize, &self.weights[begin..self.ends[k] as usize])
+    }
+
+    /// Means over cells of two intervals between samples each.
+    fn over_cells(&self) -> Self {
+        let mut cells = Self::default();
+        let mut sums = Vec::new();
+        for k in (0..self.first.len() - 2).step_by(2) {
+            let samples = [k, k + 1, k + 2].map(|k| self.sample(k));
+            let first = samples.iter().map(|(first, _)| *first).min().unwrap_or_default();
+            let end = samples.iter().map(|(first, weights)| first + weights.len()).max().unwrap_or_default();
+            sums.clear();
+            sums.resize(end - first, 0.0);
+            for ((from, weights), part) in samples.into_iter().zip(OF_CELL) {
+                sums[from - first..].iter_mut().zip(weights).for_each(|(sum, weight)| *sum += part * weight);
+            }
+            cells.push(first, sums.iter().copied());
+        }
+        cells
     }
 
     fn of<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
@@ -103,10 +140,14 @@ impl PassingMean {
         self.first.iter().zip(&self.ends).map(move |(&first, &end)| {
             let weights = &self.weights[begin as usize..end as usize];
             begin = end;
-            weights.iter().zip(&values[first as usize..]).map(|(weight, value)| weight * value).sum()
+            let values = &values[first as usize..][..weights.len()];
+            weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
         })
     }
 }
+
+/// Weights of begin, middle and end of a cell in its mean.
+const OF_CELL: [f64; 3] = [0.25, 0.5, 0.25];
 
 /// Part of the tangent at one position in which a contact is looked for; mm from the theoretical contact point, positive towards the pinion's tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -257,8 +298,8 @@ pub(crate) struct Strip {
 enum Removed {
     /// Value at the place of each sample.
     Here(PerGear<Interpolation>),
-    /// Mean of the material that passes each sample.
-    Passing(PerGear<PassingMean>),
+    /// Mean of the material that passes each sample, or over a cell.
+    Weighted(PerGear<WeightedPoints>),
 }
 
 impl Strip {
@@ -287,13 +328,29 @@ impl Strip {
             return Self { window, along_mm, geometric_gap_mm, unmodified_at_ends_mm, removed: Removed::Here(here) };
         };
         let passing = PerGear::from_fn(|gear| {
-            let passing = PassingMean::new(flanks, gear, cell, along_mm.iter().map(|&along| on_tangent(gear, along)));
+            let passing =
+                WeightedPoints::passing(flanks, gear, cell, along_mm.iter().map(|&along| on_tangent(gear, along)));
             // A modification counts as at the sample.
             let beside = here[gear].of(modification_mm[gear]).zip(passing.of(modification_mm[gear]));
             geometric_gap_mm.iter_mut().zip(beside).for_each(|(gap, (here, mean))| *gap += here - mean);
             passing
         });
-        Self { window, along_mm, geometric_gap_mm, unmodified_at_ends_mm, removed: Removed::Passing(passing) }
+        Self { window, along_mm, geometric_gap_mm, unmodified_at_ends_mm, removed: Removed::Weighted(passing) }
+    }
+
+    /// Strip with a sample for each cell of two intervals instead: gap and removed material are ¼, ½ and ¼ of those at its begin, middle and end,
+    /// and the gap is counted from `lower_mm` below.
+    pub(crate) fn over_cells(self, lower_mm: f64) -> Self {
+        let gaps = self.geometric_gap_mm.windows(3).step_by(2);
+        let mean = |gap: &[f64]| gap.iter().zip(OF_CELL).map(|(gap, part)| part * gap).sum::<f64>();
+        let geometric_gap_mm = gaps.map(|gap| mean(gap) - lower_mm).collect();
+        let points = match &self.removed {
+            Removed::Here(here) => here.as_ref().map(WeightedPoints::of_places),
+            Removed::Weighted(points) => points.clone(),
+        };
+        let along_mm = self.along_mm.iter().copied().skip(1).step_by(2).collect();
+        let removed = Removed::Weighted(points.as_ref().map(WeightedPoints::over_cells));
+        Self { along_mm, geometric_gap_mm, removed, ..self }
     }
 
     /// Distance of evenly spaced samples.
@@ -305,8 +362,8 @@ impl Strip {
     pub(crate) fn gap_mm(&self, removed_mm: PerGear<&[f64]>, gap_mm: &mut Vec<f64>) -> f64 {
         match &self.removed {
             Removed::Here(here) => self.opened_mm(Gear::BOTH.map(|gear| here[gear].of(removed_mm[gear])), gap_mm),
-            Removed::Passing(passing) => {
-                self.opened_mm(Gear::BOTH.map(|gear| passing[gear].of(removed_mm[gear])), gap_mm)
+            Removed::Weighted(points) => {
+                self.opened_mm(Gear::BOTH.map(|gear| points[gear].of(removed_mm[gear])), gap_mm)
             }
         }
     }

@@ -17,12 +17,40 @@ pub(crate) struct SweptField {
     /// Pressure along the tangent.
     pub field: PressureField,
     width_mm: f64,
-    /// Points of both flanks with their courses; none where nothing is collected.
-    observed: Option<PerGear<(ObservedPoints, Courses)>>,
+    /// Points of both flanks; none where nothing is collected.
+    observed: Option<PerGear<SweptPoints>>,
 }
 
-/// Distances of each point from the cell's position to both ends of its course, mm; none for points that face nothing.
-type Courses = Vec<Option<[f64; 2]>>;
+/// Consecutive points of a flank.
+struct SweptPoints {
+    first_point: usize,
+    /// Places, in the gear's own direction of the tangent.
+    along_mm: Vec<f64>,
+    /// Distances that points move along the tangent from their places: the least of them (at most 0) and the greatest (at least 0).
+    least_and_most_mm: [f64; 2],
+    /// Sliding of each point while it faces the mate, mm.
+    sliding_mm: Vec<f64>,
+    /// Places along the tangent of both ends of the course of each point, mm; none for points that face nothing.
+    courses_mm: Vec<Option<[f64; 2]>>,
+}
+
+impl SweptPoints {
+    fn new(flanks: Flanks<'_>, gear: Gear, window: ContactWindow, cell: PositionCell) -> Self {
+        let points = ObservedPoints::under_standing_pressure(flanks, gear, window, cell);
+        let along_mm: Vec<f64> = points.at[1..=points.sliding_mm.len()].iter().map(|point| point.along_mm).collect();
+        let courses = points.courses_mm();
+        let courses = along_mm.iter().zip(courses);
+        let courses_mm =
+            courses.map(|(at, course)| course.map(|ends| ends.map(|by| on_tangent(gear, at + by)))).collect();
+        Self {
+            first_point: points.first_point,
+            least_and_most_mm: points.least_and_most_mm(),
+            sliding_mm: points.sliding_mm,
+            along_mm,
+            courses_mm,
+        }
+    }
+}
 
 impl SweptField {
     /// A field of cells of `width_mm` over `window`, without pressure so far; with a `cell`, points are collected.
@@ -30,13 +58,7 @@ impl SweptField {
         // An edge moves to both sides of its place unless the cell lies to one side of its position, or the field goes with the edge.
         let mirrored = cell
             .is_some_and(|cell| cell.goes_both_ways() && edge_under_load(&flanks.geometry, cell.position_mm).is_none());
-        let observed = cell.map(|cell| {
-            PerGear::from_fn(|gear| {
-                let points = ObservedPoints::under_standing_pressure(flanks, gear, window, cell);
-                let courses = points.courses_mm();
-                (points, courses)
-            })
-        });
+        let observed = cell.map(|cell| PerGear::from_fn(|gear| SweptPoints::new(flanks, gear, window, cell)));
         let field = PressureField::new(window.lower_mm, width_mm, mirrored);
         Self { field, width_mm, observed }
     }
@@ -44,27 +66,23 @@ impl SweptField {
     /// Fills in pressure and sliding of the points of a flank.
     pub(crate) fn sweep(&self, gear: Gear, sweep: &mut Sweep) {
         let Some(observed) = &self.observed else { return sweep.begin(0, &[]) };
-        let (points, courses) = &observed[gear];
+        let points = &observed[gear];
         let near = self.touching(gear, points);
         sweep.begin(points.first_point + near.start, &points.sliding_mm[near.clone()]);
-        let near = points.at[1..][near.clone()].iter().zip(&courses[near]);
-        for (pressure, (point, course)) in sweep.pressure_mpa.iter_mut().zip(near) {
-            *pressure =
-                course.map_or(0.0, |ends| self.field.mean_mpa(ends.map(|by| on_tangent(gear, point.along_mm + by))));
+        for (pressure, course) in sweep.pressure_mpa.iter_mut().zip(&points.courses_mm[near]) {
+            *pressure = course.map_or(0.0, |ends| self.field.mean_mpa(ends));
         }
     }
 
     /// Contact of each point of that [`Sweep`].
     pub(crate) fn contact_of_points(&self, gear: Gear) -> Vec<PointContact> {
         let Some(observed) = &self.observed else { return Vec::new() };
-        let (points, courses) = &observed[gear];
+        let points = &observed[gear];
         let near = self.touching(gear, points);
         let (lower, upper) = self.field.extent_mm();
-        let near = points.at[1..][near.clone()].iter().zip(&courses[near]);
-        near.map(|(point, course)| {
-            let Some([begin, end]) = course.map(|course| course.map(|by| on_tangent(gear, point.along_mm + by))) else {
-                return PointContact::default();
-            };
+        let courses_mm = points.courses_mm[near].iter();
+        let contacts = courses_mm.map(|course| {
+            let Some([begin, end]) = *course else { return PointContact::default() };
             let (low, high) = (begin.min(end), begin.max(end));
             let inside = high.min(upper) - low.max(lower);
             PointContact {
@@ -72,17 +90,23 @@ impl SweptField {
                 // A point that stands still is in contact all the time or not at all.
                 contact_fraction: if high > low { inside.max(0.0) / (high - low) } else { f64::from(inside >= 0.0) },
             }
-        })
-        .collect()
+        });
+        contacts.collect()
     }
 
-    /// Range of the points of a flank that may touch: pressure goes half a cell beyond the cells in contact.
-    fn touching(&self, gear: Gear, points: &ObservedPoints) -> Range<usize> {
+    /// Range of the points of a flank that may touch, and one more at either end: pressure goes half a cell beyond the cells in contact.
+    fn touching(&self, gear: Gear, points: &SweptPoints) -> Range<usize> {
         let (lower, upper) = self.field.extent_mm();
         let more = 2.0 * self.width_mm;
-        match gear {
-            Gear::Pinion => points.between(lower - more, upper + more),
-            Gear::Wheel => points.between(-upper - more, more - lower),
-        }
+        let (lower, upper) = match gear {
+            Gear::Pinion => (lower - more, upper + more),
+            Gear::Wheel => (-upper - more, more - lower),
+        };
+        let [least, most] = points.least_and_most_mm;
+        let [below, within] =
+            [lower - most, upper - least].map(|end_mm| points.along_mm.partition_point(|&along_mm| along_mm < end_mm));
+        let first = below.saturating_sub(1);
+        let end = (within + 1).min(points.along_mm.len());
+        first.min(end)..end
     }
 }

@@ -157,20 +157,17 @@ impl MeshCycle for SlicedCycle<'_> {
         let mut observed = Vec::new();
         let mut greatest_pressure = GreatestPressure::default();
         let mut sliding_work_n = 0.0;
-        let mut deepest_overlap: Option<FlankOverlap> = None;
         let mut of_slices = vec![GreatestPressure::default(); slices];
         let mut pressure_figures = PressureFigures::default();
         let mut figures_of_slices = vec![PressureFigures::default(); slices];
+        let (points, bodies_mm) = (self.points, self.bodies_mm);
+        let overlaps: Vec<Option<FlankOverlap>> =
+            self.groups.par_iter_mut().map(|group| group.deepest_overlap(removed_mm, points, bodies_mm)).collect();
+        let deepest_overlap = overlaps.into_iter().flatten().reduce(FlankOverlap::deeper);
         for loaded in self.groups.iter().flat_map(|group| &group.loaded_positions) {
-            let transmission_error_mm = loaded.equilibrium.transmission_error_mm + self.bodies_mm;
             for ((contact, pair), sliding) in loaded.contacts.iter().zip(&loaded.pairs).zip(&loaded.sliding_mm) {
                 let own = of_slice(removed_mm, self.points, contact.slice);
                 let footprint = pair.contact.footprint();
-                let overlap = pair.contact.overlap_beside_mm(own).map(|overlap_mm| FlankOverlap {
-                    of_transmission_error: overlap_mm / transmission_error_mm,
-                    position_mm: contact.cell.position_mm,
-                });
-                deepest_overlap = deepest_overlap.into_iter().chain(overlap).reduce(FlankOverlap::deeper);
                 // The pressure of a part of a slice is that at the end of the line of contact, not in the middle of the slice.
                 let is_whole = contact.part == ContactPart::WHOLE;
                 let greatest = if is_whole { &mut of_slices[contact.slice] } else { &mut greatest_pressure };
@@ -230,6 +227,26 @@ impl SlicedGroup<'_> {
                 self.points.wear(wear, (pair, place), own, first, &mut self.collected.depth_mm);
             }
         }
+    }
+
+    /// Deepest overlap of flanks beside the windows.
+    fn deepest_overlap(
+        &self,
+        removed_mm: PerGear<&[f64]>,
+        points: PerGear<usize>,
+        bodies_mm: f64,
+    ) -> Option<FlankOverlap> {
+        let of_positions = self.loaded_positions.iter().flat_map(|loaded| {
+            let transmission_error_mm = loaded.equilibrium.transmission_error_mm + bodies_mm;
+            loaded.contacts.iter().zip(&loaded.pairs).filter_map(move |(contact, pair)| {
+                let own = of_slice(removed_mm, points, contact.slice);
+                pair.contact.overlap_beside_mm(own).map(|overlap_mm| FlankOverlap {
+                    of_transmission_error: overlap_mm / transmission_error_mm,
+                    position_mm: contact.cell.position_mm,
+                })
+            })
+        });
+        of_positions.reduce(FlankOverlap::deeper)
     }
 }
 
