@@ -48,8 +48,7 @@ impl Factor {
     /// Where a degree of freedom is not of this mesh.
     pub fn compliance(&self, columns: &[Vec<(u32, f64)>]) -> Mat<f64> {
         let order = self.by_first_place(columns);
-        let fronts = Fronts::new(self, columns, &order);
-        let product = fronts.product(columns.len());
+        let product = Fronts::new(self, columns, &order).product(columns.len());
         let mut out = Mat::zeros(columns.len(), columns.len());
         for (j, q) in order.iter().enumerate() {
             for (i, p) in order.iter().enumerate().skip(j) {

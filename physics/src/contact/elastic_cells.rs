@@ -22,7 +22,7 @@ use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, Side};
 
 use super::Response;
-use super::toeplitz::ToeplitzInverse;
+use super::toeplitz::{self, ToeplitzInverse};
 use gearwear_fem::active_set::{ActiveSetError, Condensed};
 
 /// Exchanges of cells until the guarded method takes over; three or four are usual.
@@ -183,8 +183,9 @@ impl Touching {
         let inverse = Inverse::new(&members, compliance)?;
         let mut per_indentation = Vec::new();
         inverse.times(members.iter().map(|_| 1.0), &mut per_indentation);
-        let beside = (0..active.len()).filter(|&i| !active[i]);
-        let closing = beside.map(|i| 1.0 - sunk_mm(i, &members, &per_indentation, compliance)).collect();
+        let mut closing = Vec::new();
+        inverse.sunk_beside_mm(&active, &members, &per_indentation, compliance, &mut closing);
+        closing.iter_mut().for_each(|sunk| *sunk = 1.0 - *sunk);
         let (relieved, beside_mm) = (Vec::new(), Vec::new());
         let mut touching = Self {
             active,
@@ -205,9 +206,10 @@ impl Touching {
     fn relieve(&mut self, gap_mm: &[f64], compliance: &[f64]) {
         self.inverse.times(self.members.iter().map(|&i| gap_mm[i]), &mut self.relieved);
         self.sums = [&self.per_indentation, &self.relieved].map(|of_cells| of_cells.iter().sum());
-        let beside = (0..gap_mm.len()).filter(|&i| !self.active[i]);
-        self.beside_mm.clear();
-        self.beside_mm.extend(beside.map(|i| gap_mm[i] - sunk_mm(i, &self.members, &self.relieved, compliance)));
+        let Self { active, members, relieved, beside_mm, .. } = self;
+        self.inverse.sunk_beside_mm(active, members, relieved, compliance, beside_mm);
+        let beside = gap_mm.iter().zip(&*active).filter(|(_, active)| !**active);
+        beside_mm.iter_mut().zip(beside).for_each(|(sunk, (gap, _))| *sunk = gap - *sunk);
         // A cell leaves the contact where δ C⁻¹1 = C⁻¹g.
         let (mut least, mut most) = (0.0_f64, f64::INFINITY);
         for (per_indentation, relieved) in self.per_indentation.iter().zip(&self.relieved) {
@@ -246,11 +248,6 @@ impl Touching {
     }
 }
 
-/// Displacement of a cell by `pressures` on the `members`, mm.
-fn sunk_mm(cell: usize, members: &[usize], pressures: &[f64], compliance: &[f64]) -> f64 {
-    members.iter().zip(pressures).map(|(&member, pressure)| compliance[cell.abs_diff(member)] * pressure).sum()
-}
-
 impl Inverse {
     fn new(members: &[usize], compliance: &[f64]) -> Result<Self, ActiveSetError> {
         let count = members.len();
@@ -260,6 +257,31 @@ impl Inverse {
         }
         let own = Mat::from_fn(count, count, |i, j| compliance[members[i].abs_diff(members[j])]);
         Llt::new(own.as_ref(), Side::Lower).map(Self::Scattered).map_err(|_| error())
+    }
+
+    /// Displacements of the cells beside those in contact by `pressures` on these, mm.
+    fn sunk_beside_mm(
+        &self,
+        active: &[bool],
+        members: &[usize],
+        pressures: &[f64],
+        compliance: &[f64],
+        sunk_mm: &mut Vec<f64>,
+    ) {
+        match self {
+            Self::Adjacent(_) => {
+                let before = members[0];
+                toeplitz::beside(compliance, pressures, [before, active.len() - before - members.len()], sunk_mm);
+            }
+            Self::Scattered(_) => {
+                let sunk = |cell: usize| -> f64 {
+                    let by_cells = members.iter().zip(pressures);
+                    by_cells.map(|(member, pressure)| compliance[cell.abs_diff(*member)] * pressure).sum()
+                };
+                sunk_mm.clear();
+                sunk_mm.extend((0..active.len()).filter(|&cell| !active[cell]).map(sunk));
+            }
+        }
     }
 
     /// C⁻¹ applied to a right-hand side.

@@ -1,6 +1,6 @@
 //! Points of one flank that may touch the other: places, motion and sliding while they face the mate.
 
-use super::flank_motion::{edge_under_load, passes_to_ends_mm, shift_to_ends_mm};
+use super::flank_motion::{Passes, edge_under_load, shift_to_ends_mm};
 use super::strip::ContactWindow;
 use super::{Flanks, PositionCell};
 use gearwear_bodies::gear::{Gear, conjugate::ConjugateFlanks, involute::TangentFramePoint};
@@ -103,8 +103,8 @@ impl ObservedPoints {
             let widest_mm = points.at.windows(2).map(|two| two[1].along_mm - two[0].along_mm).fold(0.0, f64::max);
             let seen = points.first_point..points.first_point + points.sliding_mm.len();
             let coordinates_mm = flanks.grid[gear].coordinate_mm[seen].iter();
-            let passes = coordinates_mm.map(|&at| passes_to_ends_mm(&flanks.geometry, gear, at, cell, widest_mm));
-            points.shifts_to_ends_mm = passes.collect();
+            let passes = Passes::new(&flanks.geometry, gear, cell);
+            points.shifts_to_ends_mm = coordinates_mm.map(|&at| passes.to_ends_mm(at, || widest_mm)).collect();
         }
         points
     }

@@ -10,7 +10,7 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
-use super::flank_motion::{ROUND_OFF, edge_under_load, on_tangent, passes_to_ends_mm};
+use super::flank_motion::{Passes, ROUND_OFF, edge_under_load, on_tangent};
 use super::{Flanks, PositionCell};
 use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 use gearwear_bodies::reference::linear_means::add_means;
@@ -77,18 +77,19 @@ struct WeightedPoints {
 }
 
 impl WeightedPoints {
-    /// Means over the stretches that pass the samples `along_mm`, in the gear's own direction of the tangent, within a [`PositionCell`].
-    fn passing(flanks: Flanks<'_>, gear: Gear, cell: PositionCell, along_mm: impl Iterator<Item = f64>) -> Self {
+    /// Means over the stretches that pass the samples `along_mm` within a [`PositionCell`], where the flank has these coordinates.
+    fn passing(flanks: Flanks<'_>, gear: Gear, cell: PositionCell, along_mm: &[f64], coordinates_mm: &[f64]) -> Self {
         let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
         let mut passing = Self::default();
         let within = points_within(flanks, gear);
         let points_mm = &grid.coordinate_mm[within.clone()];
         // All 0 again after every sample.
         let mut sums = vec![0.0; points_mm.len()];
-        for along in along_mm {
-            let at_mm = geometry.at_along(gear, along, cell.position_mm).0;
-            let passes = passes_to_ends_mm(&geometry, gear, at_mm, cell, grid.distance_at_mm(at_mm));
-            let ends = passes.map(|by| geometry.at_along(gear, along - by, cell.position_mm).0);
+        let passes = Passes::new(&geometry, gear, cell);
+        for (along_mm, at_mm) in along_mm.iter().zip(coordinates_mm) {
+            let along_mm = on_tangent(gear, *along_mm);
+            let passed = passes.to_ends_mm(*at_mm, || grid.distance_at_mm(*at_mm));
+            let ends = passed.map(|by| geometry.at_along(gear, along_mm - by, cell.position_mm).0);
             let reached = add_means(points_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
             passing.push(within.start + reached.start, sums[reached.clone()].iter().copied());
             sums[reached].fill(0.0);
@@ -314,13 +315,18 @@ impl Strip {
         passed_during: Option<PositionCell>,
     ) -> Self {
         let mut geometric_gap_mm = vec![0.0; along_mm.len()];
+        let coordinates_mm = PerGear::from_fn(|gear| -> Vec<f64> {
+            let places =
+                along_mm.iter().map(|&along| flanks.geometry.at_along(gear, on_tangent(gear, along), position_mm));
+            let places = places.zip(&mut geometric_gap_mm).map(|((coordinate, drop), gap)| {
+                *gap += drop;
+                coordinate
+            });
+            places.collect()
+        });
         let here = PerGear::from_fn(|gear| {
             let mut here = Interpolation::new(flanks, gear);
-            for (&along, gap) in along_mm.iter().zip(&mut geometric_gap_mm) {
-                let (coordinate, drop) = flanks.geometry.at_along(gear, on_tangent(gear, along), position_mm);
-                *gap += drop;
-                here.push(flanks.grid[gear], coordinate);
-            }
+            coordinates_mm[gear].iter().for_each(|coordinate| here.push(flanks.grid[gear], *coordinate));
             here
         });
         let unmodified_at_ends_mm = [0, geometric_gap_mm.len() - 1].map(|end| geometric_gap_mm[end]);
@@ -328,8 +334,7 @@ impl Strip {
             return Self { window, along_mm, geometric_gap_mm, unmodified_at_ends_mm, removed: Removed::Here(here) };
         };
         let passing = PerGear::from_fn(|gear| {
-            let passing =
-                WeightedPoints::passing(flanks, gear, cell, along_mm.iter().map(|&along| on_tangent(gear, along)));
+            let passing = WeightedPoints::passing(flanks, gear, cell, &along_mm, &coordinates_mm[gear]);
             // A modification counts as at the sample.
             let beside = here[gear].of(modification_mm[gear]).zip(passing.of(modification_mm[gear]));
             geometric_gap_mm.iter_mut().zip(beside).for_each(|(gap, (here, mean))| *gap += here - mean);

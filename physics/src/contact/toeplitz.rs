@@ -11,10 +11,17 @@
 //! Source: G. H. Golub and C. F. Van Loan, *Matrix Computations*, 4th ed. (2013), section 4.7; I. Gohberg and A. Semencul, *Mat. Issled.* 7 (1972)
 //! 201–223.
 
+use std::cell::RefCell;
+
 use pulp::Arch;
 
 /// Diagonals that are taken together.
 const TOGETHER: usize = 4;
+
+thread_local! {
+    /// Memory of products, used again.
+    static WORK: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
+}
 
 /// The inverse.
 pub(super) struct ToeplitzInverse {
@@ -42,24 +49,36 @@ impl ToeplitzInverse {
     /// The inverse times `side`.
     pub(super) fn times(&self, side: impl Iterator<Item = f64>, product: &mut Vec<f64>) {
         let (count, more) = (self.count, TOGETHER - 1);
-        // Zeros after the side, and before what the transposed factors make of it.
-        let mut work = vec![0.0; 3 * (count + more)];
-        let (padded, of_factors) = work.split_at_mut(count + more);
-        padded.iter_mut().zip(side).for_each(|(to, from)| *to = from);
-        let (of_forward, of_backward) = of_factors.split_at_mut(count + more);
         product.clear();
         product.resize(count, 0.0);
-        Arch::new().dispatch(|| {
-            transposed_times(
-                &self.forward,
-                &self.backward,
-                padded,
-                [&mut of_forward[more..], &mut of_backward[more..]],
-            );
-            times(&self.forward, &self.backward, [of_forward, of_backward], product);
-            product.iter_mut().for_each(|x| *x *= self.per_error);
+        WORK.with_borrow_mut(|work| {
+            // Zeros after the side, and before what the transposed factors make of it.
+            work.clear();
+            work.resize(3 * (count + more), 0.0);
+            let (padded, of_factors) = work.split_at_mut(count + more);
+            padded.iter_mut().zip(side).for_each(|(to, from)| *to = from);
+            let (of_forward, of_backward) = of_factors.split_at_mut(count + more);
+            Arch::new().dispatch(|| {
+                let transposed = [&mut of_forward[more..], &mut of_backward[more..]];
+                transposed_times(&self.forward, &self.backward, padded, transposed);
+                times(&self.forward, &self.backward, [of_forward, of_backward], product);
+                product.iter_mut().for_each(|x| *x *= self.per_error);
+            });
         });
     }
+}
+
+/// Products with `x` of rows of a Toeplitz matrix beside those of `x`: of so many before it, then of those after it.
+pub(super) fn beside(by_distance: &[f64], x: &[f64], [before, after]: [usize; 2], products: &mut Vec<f64>) {
+    products.clear();
+    WORK.with_borrow_mut(|reversed| {
+        reversed.clear();
+        reversed.extend(x.iter().rev());
+        Arch::new().dispatch(|| {
+            products.extend((1..=before).rev().map(|distance| product(&by_distance[distance..][..x.len()], x)));
+            products.extend((1..=after).map(|distance| product(&by_distance[distance..][..x.len()], reversed)));
+        });
+    });
 }
 
 /// Levinson's recursion: fills in a, and gives E.
@@ -149,6 +168,21 @@ mod tests {
                 assert!((there - side).abs() < 1e-12, "{count} rows: {there} {side}");
             }
         }
+    }
+
+    /// Rows before and after, one by one.
+    #[test]
+    fn ver_rows_beside_are_those_of_the_matrix() {
+        let by_distance: Vec<f64> = (0..30).map(|k| 6.0 - (0.3 + f64::from(k)).ln()).collect();
+        let x: Vec<f64> = (0..21).map(|i| (1.0 + f64::from(i)).sin()).collect();
+        let mut products = Vec::new();
+        beside(&by_distance, &x, [4, 5], &mut products);
+        let rows = (0..4).chain(25..30);
+        for (row, found) in rows.zip(&products) {
+            let there: f64 = x.iter().enumerate().map(|(j, x)| by_distance[row.abs_diff(4 + j)] * x).sum();
+            assert!((there - found).abs() < 1e-12, "row {row}: {there} {found}");
+        }
+        assert_eq!(products.len(), 9);
     }
 
     /// A matrix that is not positive definite has none.
