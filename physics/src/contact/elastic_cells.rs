@@ -47,9 +47,11 @@ struct Touching {
     inverse: Inverse,
     /// C⁻¹1, MPa/mm.
     per_indentation: Vec<f64>,
+    /// Reciprocals of these, mm/MPa.
+    indentation_per: Vec<f64>,
     /// C⁻¹g, MPa.
     relieved: Vec<f64>,
-    /// Sums of both.
+    /// Sums of C⁻¹1 and C⁻¹g.
     sums: [f64; 2],
     /// 1 − C C⁻¹1 of each cell beside the contact: what remains of the indentation there.
     closing: Vec<f64>,
@@ -191,6 +193,7 @@ impl Touching {
             active,
             members,
             inverse,
+            indentation_per: per_indentation.iter().map(|per_indentation| per_indentation.recip()).collect(),
             per_indentation,
             relieved,
             sums: [0.0; 2],
@@ -212,9 +215,9 @@ impl Touching {
         beside_mm.iter_mut().zip(beside).for_each(|(sunk, (gap, _))| *sunk = gap - *sunk);
         // A cell leaves the contact where δ C⁻¹1 = C⁻¹g.
         let (mut least, mut most) = (0.0_f64, f64::INFINITY);
-        for (per_indentation, relieved) in self.per_indentation.iter().zip(&self.relieved) {
-            let depth = relieved / per_indentation;
-            if *per_indentation > 0.0 {
+        for (indentation_per, relieved) in self.indentation_per.iter().zip(&self.relieved) {
+            let depth = relieved * indentation_per;
+            if *indentation_per > 0.0 {
                 least = least.max(depth);
             } else {
                 most = most.min(depth);

@@ -27,6 +27,7 @@ pub mod settings;
 pub(crate) mod strip;
 pub(crate) mod swept_field;
 mod toeplitz;
+mod weighted_rows;
 pub mod winkler;
 
 use serde::{Deserialize, Serialize};

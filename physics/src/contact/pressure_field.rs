@@ -77,6 +77,42 @@ impl PressureField {
         (self.load_below(to_mm) - self.load_below(from_mm)) / length
     }
 
+    /// First of `cells` cells and the weights of their pressures in the mean of [`Self::mean_mpa`], where the field is not mirrored.
+    pub(crate) fn mean_weights(&self, cells: usize, [from_mm, to_mm]: [f64; 2]) -> (usize, Vec<f64>) {
+        let upper_mm = self.lower_mm + cells as f64 * self.width_mm;
+        let place = |x_mm: f64| self.place_among(cells, x_mm);
+        let length_mm = to_mm - from_mm;
+        if length_mm.abs() <= 1e-9 * self.width_mm {
+            let (k, weight) = place(0.5 * (from_mm + to_mm));
+            let weight = weight.clamp(0.0, 1.0);
+            return (k, vec![1.0 - weight, weight]);
+        }
+        let ends = [from_mm, to_mm].map(|end_mm| place(end_mm.clamp(self.lower_mm, upper_mm)));
+        let first = ends[0].0.min(ends[1].0);
+        let mut weights = vec![0.0; ends[0].0.max(ends[1].0) + 2 - first];
+        for ((k, weight), sign) in ends.into_iter().zip([-1.0, 1.0]) {
+            // P(x) is Σ of all cells before k, and these parts of the two around x.
+            let (here, next) = if weight < 0.0 {
+                (0.5 + weight, 0.0)
+            } else if weight > 1.0 {
+                (1.0, weight - 0.5)
+            } else {
+                (0.5 + weight - 0.5 * weight * weight, 0.5 * weight * weight)
+            };
+            let part = sign * self.width_mm / length_mm;
+            weights[..k - first].iter_mut().for_each(|before| *before += part);
+            weights[k - first] += part * here;
+            weights[k + 1 - first] += part * next;
+        }
+        (first, weights)
+    }
+
+    /// Whether the mean from one place to another depends on the field's being mirrored, where it has so many cells.
+    pub(crate) fn may_be_mirrored(&self, cells: usize, ends_mm: [f64; 2]) -> bool {
+        let upper_mm = self.lower_mm + cells as f64 * self.width_mm;
+        self.mirrored && ends_mm.into_iter().any(|end_mm| !(self.lower_mm..=upper_mm).contains(&end_mm))
+    }
+
     /// Greatest pressure from one place to another.
     pub(crate) fn greatest_mpa(&self, [from_mm, to_mm]: [f64; 2]) -> f64 {
         let [low, high] = [from_mm.min(to_mm), from_mm.max(to_mm)]
@@ -114,8 +150,12 @@ impl PressureField {
     /// Centre before `x_mm`, and the distance from it in cells: 0 to 1, but below 0 before the first and above 1 after the
     /// last centre.
     fn place(&self, x_mm: f64) -> (usize, f64) {
+        self.place_among(self.pressure_mpa.len(), x_mm)
+    }
+
+    fn place_among(&self, cells: usize, x_mm: f64) -> (usize, f64) {
         let from_first = (x_mm - self.lower_mm) / self.width_mm - 0.5;
-        let k = (from_first.max(0.0) as usize).min(self.pressure_mpa.len() - 2);
+        let k = (from_first.max(0.0) as usize).min(cells - 2);
         (k, from_first - k as f64)
     }
 
@@ -202,6 +242,22 @@ mod tests {
                 let loaded = field.at_mpa(if within[0] < 0.0 { -0.3 } else { 0.3 }) > 0.0;
                 let [within, beyond] = [within, beyond].map(|stretch| field.mean_mpa(stretch));
                 assert!((beyond - if loaded { within } else { 0.0 }).abs() < 1e-12);
+            }
+        }
+    }
+
+    /// Means by weights of the cells are those of the field, from any place to any other, where it is not mirrored.
+    #[test]
+    fn ver_weights_of_cells_give_the_mean() {
+        let pressures = [7.0, 3.0, 0.5, 0.0, 2.0, 9.0];
+        let field = PressureField { mirrored: false, ..field(&pressures) };
+        let places = (-40..=40).map(|k| 0.0101 * f64::from(k));
+        for from in places.clone() {
+            for to in places.clone().chain([from]) {
+                let (first, weights) = field.mean_weights(pressures.len(), [from, to]);
+                let by_weights: f64 = weights.iter().zip(&pressures[first..]).map(|(weight, p)| weight * p).sum();
+                let mean = field.mean_mpa([from, to]);
+                assert!((by_weights - mean).abs() < 1e-9, "{from} to {to}: {by_weights} {mean}");
             }
         }
     }

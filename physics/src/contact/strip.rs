@@ -11,6 +11,7 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 use super::flank_motion::{Passes, ROUND_OFF, edge_under_load, on_tangent};
+use super::weighted_rows::WeightedRows;
 use super::{Flanks, PositionCell};
 use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 use gearwear_bodies::reference::linear_means::add_means;
@@ -59,6 +60,14 @@ impl Interpolation {
         self.index.push(index as u32);
     }
 
+    /// Weights of the points at the samples.
+    fn weights(&self) -> WeightedRows {
+        let mut rows = WeightedRows::default();
+        let samples = self.index.iter().zip(&self.weight);
+        samples.for_each(|(index, weight)| rows.push(*index as usize, [1.0 - weight, *weight]));
+        rows
+    }
+
     /// Values at the samples.
     pub(super) fn of<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         self.index.iter().zip(&self.weight).map(|(&i, &weight)| {
@@ -68,83 +77,50 @@ impl Interpolation {
     }
 }
 
-/// Removed material of one flank at samples: for each a sum over consecutive points with weights, 1 in all.
-#[derive(Debug, Clone, Default)]
-struct WeightedPoints {
-    first: Vec<u32>,
-    ends: Vec<u32>,
-    weights: Vec<f64>,
+/// Weights of the points of a flank in the means over the stretches that pass the samples `along_mm` within a [`PositionCell`], where the flank has
+/// these coordinates.
+fn passing(
+    flanks: Flanks<'_>,
+    gear: Gear,
+    cell: PositionCell,
+    along_mm: &[f64],
+    coordinates_mm: &[f64],
+) -> WeightedRows {
+    let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
+    let mut passing = WeightedRows::default();
+    let within = points_within(flanks, gear);
+    let points_mm = &grid.coordinate_mm[within.clone()];
+    // All 0 again after every sample.
+    let mut sums = vec![0.0; points_mm.len()];
+    let passes = Passes::new(&geometry, gear, cell);
+    for (along_mm, at_mm) in along_mm.iter().zip(coordinates_mm) {
+        let along_mm = on_tangent(gear, *along_mm);
+        let passed = passes.to_ends_mm(*at_mm, || grid.distance_at_mm(*at_mm));
+        let ends = passed.map(|by| geometry.at_along(gear, along_mm - by, cell.position_mm).0);
+        let reached = add_means(points_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
+        passing.push(within.start + reached.start, sums[reached.clone()].iter().copied());
+        sums[reached].fill(0.0);
+    }
+    passing
 }
 
-impl WeightedPoints {
-    /// Means over the stretches that pass the samples `along_mm` within a [`PositionCell`], where the flank has these coordinates.
-    fn passing(flanks: Flanks<'_>, gear: Gear, cell: PositionCell, along_mm: &[f64], coordinates_mm: &[f64]) -> Self {
-        let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
-        let mut passing = Self::default();
-        let within = points_within(flanks, gear);
-        let points_mm = &grid.coordinate_mm[within.clone()];
-        // All 0 again after every sample.
-        let mut sums = vec![0.0; points_mm.len()];
-        let passes = Passes::new(&geometry, gear, cell);
-        for (along_mm, at_mm) in along_mm.iter().zip(coordinates_mm) {
-            let along_mm = on_tangent(gear, *along_mm);
-            let passed = passes.to_ends_mm(*at_mm, || grid.distance_at_mm(*at_mm));
-            let ends = passed.map(|by| geometry.at_along(gear, along_mm - by, cell.position_mm).0);
-            let reached = add_means(points_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
-            passing.push(within.start + reached.start, sums[reached.clone()].iter().copied());
-            sums[reached].fill(0.0);
+/// Weights in the means over cells of two intervals between samples each, from those at the samples.
+fn means_of_cells(samples: &WeightedRows) -> WeightedRows {
+    let mut cells = WeightedRows::default();
+    let mut sums = Vec::new();
+    for k in (0..samples.count() - 2).step_by(2) {
+        let of_cell = [k, k + 1, k + 2].map(|k| samples.row(k));
+        let first = of_cell.iter().map(|(first, _)| *first).min().unwrap_or_default();
+        let end = of_cell.iter().map(|(first, weights)| first + weights.len()).max().unwrap_or_default();
+        sums.clear();
+        sums.resize(end - first, 0.0);
+        for ((from, weights), part) in of_cell.into_iter().zip(OF_CELL) {
+            sums[from - first..].iter_mut().zip(weights).for_each(|(sum, weight)| *sum += part * weight);
         }
-        passing
+        cells.push(first, sums.iter().copied());
     }
-
-    /// Values between the points.
-    fn of_places(places: &Interpolation) -> Self {
-        let mut points = Self::default();
-        for (index, weight) in places.index.iter().zip(&places.weight) {
-            points.push(*index as usize, [1.0 - weight, *weight].into_iter());
-        }
-        points
-    }
-
-    fn push(&mut self, first: usize, weights: impl Iterator<Item = f64>) {
-        self.first.push(first as u32);
-        self.weights.extend(weights);
-        self.ends.push(self.weights.len() as u32);
-    }
-
-    /// First point and weights of a sample.
-    fn sample(&self, k: usize) -> (usize, &[f64]) {
-        let begin = if k == 0 { 0 } else { self.ends[k - 1] as usize };
-        (self.first[k] as usize, &self.weights[begin..self.ends[k] as usize])
-    }
-
-    /// Means over cells of two intervals between samples each.
-    fn over_cells(&self) -> Self {
-        let mut cells = Self::default();
-        let mut sums = Vec::new();
-        for k in (0..self.first.len() - 2).step_by(2) {
-            let samples = [k, k + 1, k + 2].map(|k| self.sample(k));
-            let first = samples.iter().map(|(first, _)| *first).min().unwrap_or_default();
-            let end = samples.iter().map(|(first, weights)| first + weights.len()).max().unwrap_or_default();
-            sums.clear();
-            sums.resize(end - first, 0.0);
-            for ((from, weights), part) in samples.into_iter().zip(OF_CELL) {
-                sums[from - first..].iter_mut().zip(weights).for_each(|(sum, weight)| *sum += part * weight);
-            }
-            cells.push(first, sums.iter().copied());
-        }
-        cells
-    }
-
-    fn of<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-        let mut begin = 0;
-        self.first.iter().zip(&self.ends).map(move |(&first, &end)| {
-            let weights = &self.weights[begin as usize..end as usize];
-            begin = end;
-            let values = &values[first as usize..][..weights.len()];
-            weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
-        })
-    }
+    cells.shrink();
+    cells
 }
 
 /// Weights of begin, middle and end of a cell in its mean.
@@ -300,7 +276,7 @@ enum Removed {
     /// Value at the place of each sample.
     Here(PerGear<Interpolation>),
     /// Mean of the material that passes each sample, or over a cell.
-    Weighted(PerGear<WeightedPoints>),
+    Weighted(PerGear<WeightedRows>),
 }
 
 impl Strip {
@@ -334,9 +310,9 @@ impl Strip {
             return Self { window, along_mm, geometric_gap_mm, unmodified_at_ends_mm, removed: Removed::Here(here) };
         };
         let passing = PerGear::from_fn(|gear| {
-            let passing = WeightedPoints::passing(flanks, gear, cell, &along_mm, &coordinates_mm[gear]);
+            let passing = passing(flanks, gear, cell, &along_mm, &coordinates_mm[gear]);
             // A modification counts as at the sample.
-            let beside = here[gear].of(modification_mm[gear]).zip(passing.of(modification_mm[gear]));
+            let beside = here[gear].of(modification_mm[gear]).zip(passing.times_from(0, modification_mm[gear]));
             geometric_gap_mm.iter_mut().zip(beside).for_each(|(gap, (here, mean))| *gap += here - mean);
             passing
         });
@@ -350,11 +326,11 @@ impl Strip {
         let mean = |gap: &[f64]| gap.iter().zip(OF_CELL).map(|(gap, part)| part * gap).sum::<f64>();
         let geometric_gap_mm = gaps.map(|gap| mean(gap) - lower_mm).collect();
         let points = match &self.removed {
-            Removed::Here(here) => here.as_ref().map(WeightedPoints::of_places),
+            Removed::Here(here) => here.as_ref().map(Interpolation::weights),
             Removed::Weighted(points) => points.clone(),
         };
         let along_mm = self.along_mm.iter().copied().skip(1).step_by(2).collect();
-        let removed = Removed::Weighted(points.as_ref().map(WeightedPoints::over_cells));
+        let removed = Removed::Weighted(points.as_ref().map(means_of_cells));
         Self { along_mm, geometric_gap_mm, removed, ..self }
     }
 
@@ -368,7 +344,7 @@ impl Strip {
         match &self.removed {
             Removed::Here(here) => self.opened_mm(Gear::BOTH.map(|gear| here[gear].of(removed_mm[gear])), gap_mm),
             Removed::Weighted(points) => {
-                self.opened_mm(Gear::BOTH.map(|gear| points[gear].of(removed_mm[gear])), gap_mm)
+                self.opened_mm(Gear::BOTH.map(|gear| points[gear].times_from(0, removed_mm[gear])), gap_mm)
             }
         }
     }

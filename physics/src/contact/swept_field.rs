@@ -9,6 +9,7 @@ use std::ops::Range;
 use super::flank_motion::{edge_under_load, on_tangent};
 use super::observed_points::ObservedPoints;
 use super::strip::ContactWindow;
+use super::weighted_rows::WeightedRows;
 use super::{Flanks, PointContact, PositionCell, Sweep, pressure_field::PressureField};
 use gearwear_bodies::gear::{Gear, PerGear};
 
@@ -32,22 +33,44 @@ struct SweptPoints {
     sliding_mm: Vec<f64>,
     /// Places along the tangent of both ends of the course of each point, mm; none for points that face nothing.
     courses_mm: Vec<Option<[f64; 2]>>,
+    /// Weights of the cells in the mean pressure on each course, where the field is not mirrored.
+    means: WeightedRows,
+    /// Points whose course goes beyond an end of the field, where it may be mirrored, in rising order.
+    beyond: Vec<u32>,
 }
 
 impl SweptPoints {
-    fn new(flanks: Flanks<'_>, gear: Gear, window: ContactWindow, cell: PositionCell) -> Self {
+    /// Points under a `field` of so many cells.
+    fn new(
+        flanks: Flanks<'_>,
+        gear: Gear,
+        window: ContactWindow,
+        cell: PositionCell,
+        (field, cells): (&PressureField, usize),
+    ) -> Self {
         let points = ObservedPoints::under_standing_pressure(flanks, gear, window, cell);
         let along_mm: Vec<f64> = points.at[1..=points.sliding_mm.len()].iter().map(|point| point.along_mm).collect();
         let courses = points.courses_mm();
         let courses = along_mm.iter().zip(courses);
-        let courses_mm =
+        let courses_mm: Vec<Option<[f64; 2]>> =
             courses.map(|(at, course)| course.map(|ends| ends.map(|by| on_tangent(gear, at + by)))).collect();
+        let (mut means, mut beyond) = (WeightedRows::default(), Vec::new());
+        for (k, course) in (0..).zip(&courses_mm) {
+            let (first, weights) = course.map_or((0, Vec::new()), |ends_mm| field.mean_weights(cells, ends_mm));
+            means.push(first, weights);
+            if course.is_some_and(|ends_mm| field.may_be_mirrored(cells, ends_mm)) {
+                beyond.push(k);
+            }
+        }
+        means.shrink();
         Self {
             first_point: points.first_point,
             least_and_most_mm: points.least_and_most_mm(),
             sliding_mm: points.sliding_mm,
             along_mm,
             courses_mm,
+            means,
+            beyond,
         }
     }
 }
@@ -58,8 +81,10 @@ impl SweptField {
         // An edge moves to both sides of its place unless the cell lies to one side of its position, or the field goes with the edge.
         let mirrored = cell
             .is_some_and(|cell| cell.goes_both_ways() && edge_under_load(&flanks.geometry, cell.position_mm).is_none());
-        let observed = cell.map(|cell| PerGear::from_fn(|gear| SweptPoints::new(flanks, gear, window, cell)));
         let field = PressureField::new(window.lower_mm, width_mm, mirrored);
+        let cells = (window.length_mm() / width_mm).round() as usize;
+        let observed =
+            cell.map(|cell| PerGear::from_fn(|gear| SweptPoints::new(flanks, gear, window, cell, (&field, cells))));
         Self { field, width_mm, observed }
     }
 
@@ -69,8 +94,11 @@ impl SweptField {
         let points = &observed[gear];
         let near = self.touching(gear, points);
         sweep.begin(points.first_point + near.start, &points.sliding_mm[near.clone()]);
-        for (pressure, course) in sweep.pressure_mpa.iter_mut().zip(&points.courses_mm[near]) {
-            *pressure = course.map_or(0.0, |ends| self.field.mean_mpa(ends));
+        let means_mpa = points.means.times_from(near.start, self.field.cells_mpa());
+        sweep.pressure_mpa.iter_mut().zip(means_mpa).for_each(|(pressure, mean_mpa)| *pressure = mean_mpa);
+        for k in points.beyond.iter().map(|k| *k as usize).filter(|k| near.contains(k)) {
+            let mean_mpa = points.courses_mm[k].map_or(0.0, |ends_mm| self.field.mean_mpa(ends_mm));
+            sweep.pressure_mpa[k - near.start] = mean_mpa;
         }
     }
 

@@ -41,7 +41,11 @@ impl ToeplitzInverse {
     pub(super) fn new(by_distance: &[f64], count: usize) -> Option<Self> {
         let padded = count.next_multiple_of(TOGETHER);
         let (mut forward, mut backward) = (vec![0.0; padded], vec![0.0; padded]);
-        let error = Arch::new().dispatch(|| recursion(&by_distance[..count], &mut forward[..count]))?;
+        let by_distance = &by_distance[..count];
+        let error = Arch::new().dispatch(
+            #[inline(always)]
+            || recursion(by_distance, &mut forward[..count]),
+        )?;
         backward[1..count].iter_mut().zip(forward[1..count].iter().rev()).for_each(|(to, from)| *to = *from);
         Some(Self { count, forward, backward, per_error: 1.0 / error })
     }
@@ -58,26 +62,37 @@ impl ToeplitzInverse {
             let (padded, of_factors) = work.split_at_mut(count + more);
             padded.iter_mut().zip(side).for_each(|(to, from)| *to = from);
             let (of_forward, of_backward) = of_factors.split_at_mut(count + more);
-            Arch::new().dispatch(|| {
-                let transposed = [&mut of_forward[more..], &mut of_backward[more..]];
-                transposed_times(&self.forward, &self.backward, padded, transposed);
-                times(&self.forward, &self.backward, [of_forward, of_backward], product);
-                product.iter_mut().for_each(|x| *x *= self.per_error);
-            });
+            Arch::new().dispatch(
+                #[inline(always)]
+                || {
+                    let transposed = [&mut of_forward[more..], &mut of_backward[more..]];
+                    transposed_times(&self.forward, &self.backward, padded, transposed);
+                    times(&self.forward, &self.backward, [of_forward, of_backward], product);
+                },
+            );
+            product.iter_mut().for_each(|x| *x *= self.per_error);
         });
     }
 }
 
 /// Products with `x` of rows of a Toeplitz matrix beside those of `x`: of so many before it, then of those after it.
 pub(super) fn beside(by_distance: &[f64], x: &[f64], [before, after]: [usize; 2], products: &mut Vec<f64>) {
-    products.clear();
+    products.resize(before + after, 0.0);
+    let (of_before, of_after) = products.split_at_mut(before);
     WORK.with_borrow_mut(|reversed| {
         reversed.clear();
         reversed.extend(x.iter().rev());
-        Arch::new().dispatch(|| {
-            products.extend((1..=before).rev().map(|distance| product(&by_distance[distance..][..x.len()], x)));
-            products.extend((1..=after).map(|distance| product(&by_distance[distance..][..x.len()], reversed)));
-        });
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                for (distance, value) in (1..=before).rev().zip(of_before) {
+                    *value = product(&by_distance[distance..][..x.len()], x);
+                }
+                for (distance, value) in (1..=after).zip(of_after) {
+                    *value = product(&by_distance[distance..][..x.len()], reversed);
+                }
+            },
+        );
     });
 }
 
