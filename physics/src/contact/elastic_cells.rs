@@ -19,7 +19,7 @@
 //! cells touches. C of cells beside each other is a Toeplitz matrix ([`ToeplitzInverse`]).
 
 use faer::linalg::solvers::{Llt, Solve};
-use faer::{Mat, Side};
+use faer::{Mat, MatMut, Side};
 
 use super::Response;
 use super::toeplitz::{self, ToeplitzInverse};
@@ -42,31 +42,30 @@ pub(crate) struct ElasticCells {
 
 /// Cells in contact, with their pressures as linear functions of the indentation.
 struct Touching {
-    active: Vec<bool>,
-    members: Vec<usize>,
-    inverse: Inverse,
-    /// C⁻¹1, MPa/mm.
-    per_indentation: Vec<f64>,
-    /// Reciprocals of these, mm/MPa.
-    indentation_per: Vec<f64>,
-    /// C⁻¹g, MPa.
-    relieved: Vec<f64>,
+    set: TouchingSet,
+    /// One after the other, for one way through memory: C⁻¹1, MPa/mm, and C⁻¹g, MPa, of each cell in contact; 1 − C C⁻¹1, what remains of the
+    /// indentation, and g − C C⁻¹g, mm, of each cell beside.
+    numbers: Vec<f64>,
     /// Sums of C⁻¹1 and C⁻¹g.
     sums: [f64; 2],
-    /// 1 − C C⁻¹1 of each cell beside the contact: what remains of the indentation there.
-    closing: Vec<f64>,
-    /// g − C C⁻¹g of each cell beside the contact, mm.
-    beside_mm: Vec<f64>,
     /// Indentations between which exactly these cells touch, mm.
     holds_mm: [f64; 2],
 }
 
-/// C⁻¹ on the cells in contact.
-enum Inverse {
+/// The cells in contact, with C⁻¹ on them.
+enum TouchingSet {
     /// Cells beside each other.
-    Adjacent(ToeplitzInverse),
+    Adjacent {
+        /// The first of them.
+        first: usize,
+        inverse: ToeplitzInverse,
+    },
     /// Cells in several groups.
-    Scattered(Llt<f64>),
+    Scattered {
+        /// Cells in rising order.
+        members: Vec<usize>,
+        factor: Llt<f64>,
+    },
 }
 
 impl ElasticCells {
@@ -123,11 +122,8 @@ impl ElasticCells {
     pub(crate) fn sunk_at_ends_mm(&self) -> [f64; 2] {
         let Some(touching) = self.touching.as_ref().filter(|_| self.indentation_mm > 0.0) else { return [0.0; 2] };
         [0, self.gap_mm.len() - 1].map(|end| {
-            let cells = touching.members.iter().zip(&touching.per_indentation).zip(&touching.relieved);
-            let sunk = cells.map(|((&member, per_indentation), relieved)| {
-                self.compliance[end.abs_diff(member)] * (self.indentation_mm * per_indentation - relieved)
-            });
-            sunk.sum()
+            let pressures = touching.pressures_mpa(self.indentation_mm);
+            pressures.map(|(member, pressure)| self.compliance[end.abs_diff(member)] * pressure).sum()
         })
     }
 
@@ -136,29 +132,25 @@ impl ElasticCells {
         pressure_mpa.clear();
         pressure_mpa.resize(self.gap_mm.len(), 0.0);
         let Some(touching) = self.touching.as_ref().filter(|_| self.indentation_mm > 0.0) else { return };
-        for ((&member, per_indentation), relieved) in
-            touching.members.iter().zip(&touching.per_indentation).zip(&touching.relieved)
-        {
-            pressure_mpa[member] = (self.indentation_mm * per_indentation - relieved).max(0.0);
-        }
+        let pressures = touching.pressures_mpa(self.indentation_mm);
+        pressures.for_each(|(member, pressure)| pressure_mpa[member] = pressure.max(0.0));
     }
 
     /// Cells that touch at the present indentation.
     fn find(&self) -> Result<Touching, ActiveSetError> {
         let mut active = match &self.touching {
-            Some(touching) => touching.active.clone(),
+            Some(touching) => touching.active(self.gap_mm.len()),
             None => self.gap_mm.iter().map(|gap| *gap <= self.indentation_mm).collect(),
         };
         for _ in 0..MOST_EXCHANGES {
             if !active.contains(&true) {
                 break;
             }
-            let touching = Touching::new(active, &self.gap_mm, &self.compliance)?;
-            let wrong = touching.wrong(self.indentation_mm);
+            let touching = Touching::new(&active, &self.gap_mm, &self.compliance)?;
+            let wrong = touching.wrong(&active, self.indentation_mm);
             if wrong.is_empty() {
                 return Ok(touching);
             }
-            active = touching.active;
             wrong.into_iter().for_each(|i| active[i] = !active[i]);
         }
         self.find_guarded()
@@ -173,60 +165,72 @@ impl ElasticCells {
             rigid: Mat::zeros(count, 0),
             rigid_load: Vec::new(),
         };
-        let start = self.touching.as_ref().map(|touching| touching.active.as_slice());
-        let active = problem.solve(start)?.active;
-        Touching::new(active, &self.gap_mm, &self.compliance)
+        let start = self.touching.as_ref().map(|touching| touching.active(count));
+        let active = problem.solve(start.as_deref())?.active;
+        Touching::new(&active, &self.gap_mm, &self.compliance)
     }
 }
 
 impl Touching {
-    fn new(active: Vec<bool>, gap_mm: &[f64], compliance: &[f64]) -> Result<Self, ActiveSetError> {
-        let members: Vec<usize> = (0..active.len()).filter(|&i| active[i]).collect();
-        let inverse = Inverse::new(&members, compliance)?;
-        let mut per_indentation = Vec::new();
-        inverse.times(members.iter().map(|_| 1.0), &mut per_indentation);
-        let mut closing = Vec::new();
-        inverse.sunk_beside_mm(&active, &members, &per_indentation, compliance, &mut closing);
+    fn new(active: &[bool], gap_mm: &[f64], compliance: &[f64]) -> Result<Self, ActiveSetError> {
+        let set = TouchingSet::new(active, compliance)?;
+        let (count, beside) = (set.count(), active.len() - set.count());
+        let mut numbers = vec![0.0; 2 * active.len()];
+        let (of_members, of_beside) = numbers.split_at_mut(2 * count);
+        let (per_indentation, closing) = (&mut of_members[..count], &mut of_beside[..beside]);
+        set.times(&vec![1.0; count], per_indentation);
+        set.sunk_beside_mm(per_indentation, compliance, closing);
         closing.iter_mut().for_each(|sunk| *sunk = 1.0 - *sunk);
-        let (relieved, beside_mm) = (Vec::new(), Vec::new());
-        let mut touching = Self {
-            active,
-            members,
-            inverse,
-            indentation_per: per_indentation.iter().map(|per_indentation| per_indentation.recip()).collect(),
-            per_indentation,
-            relieved,
-            sums: [0.0; 2],
-            closing,
-            beside_mm,
-            holds_mm: [0.0; 2],
-        };
+        let mut touching = Self { set, numbers, sums: [0.0; 2], holds_mm: [0.0; 2] };
         touching.relieve(gap_mm, compliance);
         Ok(touching)
     }
 
+    /// C⁻¹1, C⁻¹g, 1 − C C⁻¹1 and g − C C⁻¹g.
+    fn numbers(&self) -> [&[f64]; 4] {
+        let count = self.set.count();
+        let (of_members, of_beside) = self.numbers.split_at(2 * count);
+        let (per_indentation, relieved) = of_members.split_at(count);
+        let (closing, beside_mm) = of_beside.split_at(of_beside.len() / 2);
+        [per_indentation, relieved, closing, beside_mm]
+    }
+
+    /// Whether each of `cells` cells is in contact.
+    fn active(&self, cells: usize) -> Vec<bool> {
+        let mut active = vec![false; cells];
+        (0..self.set.count()).for_each(|k| active[self.set.member(k)] = true);
+        active
+    }
+
+    /// Cells in contact with their pressures at an indentation, MPa.
+    fn pressures_mpa(&self, indentation_mm: f64) -> impl Iterator<Item = (usize, f64)> {
+        let [per_indentation, relieved, ..] = self.numbers();
+        let pressures = per_indentation.iter().zip(relieved);
+        pressures.enumerate().map(move |(k, (per, relieved))| (self.set.member(k), indentation_mm * per - relieved))
+    }
+
     /// Exchanges the gaps.
     fn relieve(&mut self, gap_mm: &[f64], compliance: &[f64]) {
-        self.inverse.times(self.members.iter().map(|&i| gap_mm[i]), &mut self.relieved);
-        self.sums = [&self.per_indentation, &self.relieved].map(|of_cells| of_cells.iter().sum());
-        let Self { active, members, relieved, beside_mm, .. } = self;
-        self.inverse.sunk_beside_mm(active, members, relieved, compliance, beside_mm);
-        let beside = gap_mm.iter().zip(&*active).filter(|(_, active)| !**active);
-        beside_mm.iter_mut().zip(beside).for_each(|(sunk, (gap, _))| *sunk = gap - *sunk);
+        let count = self.set.count();
+        let (of_members, of_beside) = self.numbers.split_at_mut(2 * count);
+        let (per_indentation, relieved) = of_members.split_at_mut(count);
+        let (closing, beside_mm) = of_beside.split_at_mut(gap_mm.len() - count);
+        self.set.relieve(gap_mm, compliance, relieved, beside_mm);
+        self.sums = [toeplitz::sum(per_indentation), toeplitz::sum(relieved)];
         // A cell leaves the contact where δ C⁻¹1 = C⁻¹g.
         let (mut least, mut most) = (0.0_f64, f64::INFINITY);
-        for (indentation_per, relieved) in self.indentation_per.iter().zip(&self.relieved) {
-            let depth = relieved * indentation_per;
-            if *indentation_per > 0.0 {
+        for (per_indentation, relieved) in per_indentation.iter().zip(relieved) {
+            let depth = *relieved / per_indentation;
+            if *per_indentation > 0.0 {
                 least = least.max(depth);
             } else {
                 most = most.min(depth);
             }
         }
         // Another one touches where g + C p = δ.
-        for (closing, gap_mm) in self.closing.iter().zip(&self.beside_mm) {
+        for (closing, gap_mm) in closing.iter().zip(beside_mm) {
             if *closing > 0.0 {
-                most = most.min(gap_mm / closing);
+                most = most.min(*gap_mm / closing);
             } else if *gap_mm < 0.0 {
                 least = f64::INFINITY;
             }
@@ -234,69 +238,95 @@ impl Touching {
         self.holds_mm = [least, most];
     }
 
-    /// Cells in contact that pull at an indentation, and others that overlap.
-    fn wrong(&self, indentation_mm: f64) -> Vec<usize> {
-        let pressures = self.per_indentation.iter().zip(&self.relieved);
-        let pressures: Vec<f64> = pressures.map(|(per, relieved)| indentation_mm * per - relieved).collect();
-        let gaps_mm = self.closing.iter().zip(&self.beside_mm);
+    /// Cells in contact, all that are `active`, that pull at an indentation, and others that overlap.
+    fn wrong(&self, active: &[bool], indentation_mm: f64) -> Vec<usize> {
+        let [.., closing, beside_mm] = self.numbers();
+        let pressures: Vec<f64> = self.pressures_mpa(indentation_mm).map(|(_, pressure)| pressure).collect();
+        let gaps_mm = closing.iter().zip(beside_mm);
         let gaps_mm: Vec<f64> = gaps_mm.map(|(closing, gap_mm)| gap_mm - indentation_mm * closing).collect();
         let [least_mpa, least_mm] =
             [&pressures, &gaps_mm].map(|of| -ROUND_OFF * of.iter().fold(0.0_f64, |most, value| most.max(value.abs())));
         let (mut pressures, mut gaps_mm) = (pressures.into_iter(), gaps_mm.into_iter());
-        let is_wrong = |i: &usize| match self.active[*i] {
+        let is_wrong = |i: &usize| match active[*i] {
             true => pressures.next().is_some_and(|pressure| pressure < least_mpa),
             false => gaps_mm.next().is_some_and(|gap| gap < least_mm),
         };
-        (0..self.active.len()).filter(is_wrong).collect()
+        (0..active.len()).filter(is_wrong).collect()
     }
 }
 
-impl Inverse {
-    fn new(members: &[usize], compliance: &[f64]) -> Result<Self, ActiveSetError> {
-        let count = members.len();
-        let error = || ActiveSetError::NotPositiveDefinite { index: members.first().copied().unwrap_or(0) };
-        if members.windows(2).all(|two| two[1] == two[0] + 1) {
-            return ToeplitzInverse::new(compliance, count).map(Self::Adjacent).ok_or_else(error);
+impl TouchingSet {
+    fn new(active: &[bool], compliance: &[f64]) -> Result<Self, ActiveSetError> {
+        let members: Vec<usize> = (0..active.len()).filter(|&i| active[i]).collect();
+        let (first, count) = (members.first().copied().unwrap_or(0), members.len());
+        let error = ActiveSetError::NotPositiveDefinite { index: first };
+        if members.last().is_some_and(|last| last + 1 - first == count) {
+            let inverse = ToeplitzInverse::new(compliance, count).ok_or(error)?;
+            return Ok(Self::Adjacent { first, inverse });
         }
         let own = Mat::from_fn(count, count, |i, j| compliance[members[i].abs_diff(members[j])]);
-        Llt::new(own.as_ref(), Side::Lower).map(Self::Scattered).map_err(|_| error())
+        let factor = Llt::new(own.as_ref(), Side::Lower).map_err(|_| error)?;
+        Ok(Self::Scattered { members, factor })
     }
 
-    /// Displacements of the cells beside those in contact by `pressures` on these, mm.
-    fn sunk_beside_mm(
-        &self,
-        active: &[bool],
-        members: &[usize],
-        pressures: &[f64],
-        compliance: &[f64],
-        sunk_mm: &mut Vec<f64>,
-    ) {
+    /// Number of cells in contact.
+    fn count(&self) -> usize {
         match self {
-            Self::Adjacent(_) => {
-                let before = members[0];
-                toeplitz::beside(compliance, pressures, [before, active.len() - before - members.len()], sunk_mm);
+            Self::Adjacent { inverse, .. } => inverse.count(),
+            Self::Scattered { members, .. } => members.len(),
+        }
+    }
+
+    /// Cell number `k` of those in contact.
+    fn member(&self, k: usize) -> usize {
+        match self {
+            Self::Adjacent { first, .. } => first + k,
+            Self::Scattered { members, .. } => members[k],
+        }
+    }
+
+    /// Fills in C⁻¹g of the cells in contact and g − C C⁻¹g of those beside.
+    fn relieve(&self, gap_mm: &[f64], compliance: &[f64], relieved: &mut [f64], beside_mm: &mut [f64]) {
+        match self {
+            Self::Adjacent { first, .. } => {
+                let end = first + self.count();
+                self.times(&gap_mm[*first..end], relieved);
+                self.sunk_beside_mm(relieved, compliance, beside_mm);
+                let beside = gap_mm[..*first].iter().chain(&gap_mm[end..]);
+                beside_mm.iter_mut().zip(beside).for_each(|(sunk, gap)| *sunk = gap - *sunk);
             }
-            Self::Scattered(_) => {
-                let sunk = |cell: usize| -> f64 {
-                    let by_cells = members.iter().zip(pressures);
-                    by_cells.map(|(member, pressure)| compliance[cell.abs_diff(*member)] * pressure).sum()
-                };
-                sunk_mm.clear();
-                sunk_mm.extend((0..active.len()).filter(|&cell| !active[cell]).map(sunk));
+            Self::Scattered { members, .. } => {
+                let own: Vec<f64> = members.iter().map(|&member| gap_mm[member]).collect();
+                self.times(&own, relieved);
+                self.sunk_beside_mm(relieved, compliance, beside_mm);
+                let beside = (0..gap_mm.len()).filter(|cell| members.binary_search(cell).is_err());
+                beside_mm.iter_mut().zip(beside).for_each(|(sunk, cell)| *sunk = gap_mm[cell] - *sunk);
             }
         }
     }
 
-    /// C⁻¹ applied to a right-hand side.
-    fn times(&self, side: impl ExactSizeIterator<Item = f64>, product: &mut Vec<f64>) {
+    /// Fills in the displacements of the cells beside those in contact by `pressures` on these, mm.
+    fn sunk_beside_mm(&self, pressures: &[f64], compliance: &[f64], sunk_mm: &mut [f64]) {
         match self {
-            Self::Adjacent(inverse) => inverse.times(side, product),
-            Self::Scattered(factor) => {
-                let mut column = Mat::zeros(side.len(), 1);
-                column.col_mut(0).iter_mut().zip(side).for_each(|(to, from)| *to = from);
-                factor.solve_in_place(column.as_mut());
-                product.clear();
-                product.extend(column.col(0).iter());
+            Self::Adjacent { first, .. } => toeplitz::beside(compliance, pressures, *first, sunk_mm),
+            Self::Scattered { members, .. } => {
+                let cells = pressures.len() + sunk_mm.len();
+                let beside = (0..cells).filter(|cell| members.binary_search(cell).is_err());
+                for (sunk, cell) in sunk_mm.iter_mut().zip(beside) {
+                    let by_cells = members.iter().zip(pressures);
+                    *sunk = by_cells.map(|(member, pressure)| compliance[cell.abs_diff(*member)] * pressure).sum();
+                }
+            }
+        }
+    }
+
+    /// Fills `product` with C⁻¹ times `side`.
+    fn times(&self, side: &[f64], product: &mut [f64]) {
+        match self {
+            Self::Adjacent { inverse, .. } => inverse.times(side, product),
+            Self::Scattered { factor, .. } => {
+                product.copy_from_slice(side);
+                factor.solve_in_place(MatMut::from_column_major_slice_mut(product, side.len(), 1));
             }
         }
     }

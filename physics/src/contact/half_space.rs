@@ -133,7 +133,7 @@ impl Sampled for HalfSpaceStretch<'_> {
         // Rise of the weighted gap of a parabola above that at the centre: Δ²/16R.
         let rise = width * width / (16.0 * self.flattening.contact.relative_radius_mm());
         let strip = Strip::new(self.flanks, self.position_mm, window, window.evenly_mm(2 * count), self.cell);
-        let strip = strip.over_cells(rise);
+        let strip = strip.over_cells(self.flanks.grid.map(|grid| grid.len()), rise);
         let compliance = cell_compliance_mm_per_mpa(&self.flattening.bodies, width, count);
         let swept = SweptField::new(self.flanks, window, width, self.cell);
         SampledStretch { strip, cells: ElasticCells::new(width, compliance), swept }

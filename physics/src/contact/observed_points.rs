@@ -75,12 +75,6 @@ impl ObservedPoints {
         Self { first_point, sliding_mm, partly_exposed, standing_within_mm: None, at, shifts_to_ends_mm }
     }
 
-    /// Least of the distances that points move to the ends of the cell (at most 0), and greatest (at least 0), mm.
-    pub(crate) fn least_and_most_mm(&self) -> [f64; 2] {
-        let shifts = self.shifts_to_ends_mm.iter().flatten();
-        shifts.fold([0.0; 2], |[least, most], &shift| [shift.min(least), shift.max(most)])
-    }
-
     /// The points under a pressure that stands still during the cell, or goes with an edge: the mate passes an edge all the time.
     pub(crate) fn under_standing_pressure(
         flanks: Flanks<'_>,

@@ -27,6 +27,8 @@ pub(crate) struct PressureField {
     pressure_mpa: Vec<f64>,
     /// Load from the beginning to the centre of each cell, N/mm.
     load_below: Vec<f64>,
+    /// First and last cell under pressure.
+    pressed: Option<(usize, usize)>,
     /// Outermost places under pressure; both 0 without pressure.
     extent_mm: (f64, f64),
     /// Greatest pressure, between the cells' centres.
@@ -53,12 +55,20 @@ impl PressureField {
             before = Some(pressure);
             self.load_below.push(load);
         }
+        let is_pressed = |pressure: &f64| *pressure > 0.0;
+        let first = self.pressure_mpa.iter().position(is_pressed);
+        self.pressed = first.zip(self.pressure_mpa.iter().rposition(is_pressed));
         (self.extent_mm, self.peak_mpa) = (self.found_extent_mm(), self.found_peak_mpa());
     }
 
     /// Pressure of each cell, MPa.
     pub(crate) fn cells_mpa(&self) -> &[f64] {
         &self.pressure_mpa
+    }
+
+    /// First and last cell under pressure.
+    pub(crate) fn pressed(&self) -> Option<(usize, usize)> {
+        self.pressed
     }
 
     /// Pressure at `x_mm`.
@@ -166,9 +176,7 @@ impl PressureField {
 
     fn found_extent_mm(&self) -> (f64, f64) {
         let p = &self.pressure_mpa;
-        let is_loaded = |pressure: &f64| *pressure > 0.0;
-        let Some(first) = p.iter().position(is_loaded) else { return (0.0, 0.0) };
-        let last = p.iter().rposition(is_loaded).unwrap_or(first);
+        let Some((first, last)) = self.pressed else { return (0.0, 0.0) };
         // A contact that reaches the outermost cell ends where the surfaces end.
         let before = if first == 0 { 0.0 } else { inset(p[first..=last].iter()) };
         let after = if last + 1 == p.len() { 0.0 } else { inset(p[first..=last].iter().rev()) };

@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 use super::flank_motion::{Passes, ROUND_OFF, edge_under_load, on_tangent};
-use super::weighted_rows::WeightedRows;
+use super::weighted_rows::{RowsOfAnyLength, WeightedRows};
 use super::{Flanks, PositionCell};
 use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 use gearwear_bodies::reference::linear_means::add_means;
@@ -61,11 +61,11 @@ impl Interpolation {
     }
 
     /// Weights of the points at the samples.
-    fn weights(&self) -> WeightedRows {
-        let mut rows = WeightedRows::default();
+    fn weights(&self, points: usize) -> WeightedRows {
+        let mut rows = RowsOfAnyLength::default();
         let samples = self.index.iter().zip(&self.weight);
-        samples.for_each(|(index, weight)| rows.push(*index as usize, [1.0 - weight, *weight]));
-        rows
+        samples.for_each(|(index, weight)| rows.push(*index as usize, &[1.0 - weight, *weight]));
+        rows.packed(points)
     }
 
     /// Values at the samples.
@@ -87,7 +87,7 @@ fn passing(
     coordinates_mm: &[f64],
 ) -> WeightedRows {
     let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
-    let mut passing = WeightedRows::default();
+    let mut passing = RowsOfAnyLength::default();
     let within = points_within(flanks, gear);
     let points_mm = &grid.coordinate_mm[within.clone()];
     // All 0 again after every sample.
@@ -98,15 +98,15 @@ fn passing(
         let passed = passes.to_ends_mm(*at_mm, || grid.distance_at_mm(*at_mm));
         let ends = passed.map(|by| geometry.at_along(gear, along_mm - by, cell.position_mm).0);
         let reached = add_means(points_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
-        passing.push(within.start + reached.start, sums[reached.clone()].iter().copied());
+        passing.push(within.start + reached.start, &sums[reached.clone()]);
         sums[reached].fill(0.0);
     }
-    passing
+    passing.packed(grid.len())
 }
 
 /// Weights in the means over cells of two intervals between samples each, from those at the samples.
-fn means_of_cells(samples: &WeightedRows) -> WeightedRows {
-    let mut cells = WeightedRows::default();
+fn means_of_cells(samples: &WeightedRows, points: usize) -> WeightedRows {
+    let mut cells = RowsOfAnyLength::default();
     let mut sums = Vec::new();
     for k in (0..samples.count() - 2).step_by(2) {
         let of_cell = [k, k + 1, k + 2].map(|k| samples.row(k));
@@ -117,10 +117,9 @@ fn means_of_cells(samples: &WeightedRows) -> WeightedRows {
         for ((from, weights), part) in of_cell.into_iter().zip(OF_CELL) {
             sums[from - first..].iter_mut().zip(weights).for_each(|(sum, weight)| *sum += part * weight);
         }
-        cells.push(first, sums.iter().copied());
+        cells.push(first, &sums);
     }
-    cells.shrink();
-    cells
+    cells.packed(points)
 }
 
 /// Weights of begin, middle and end of a cell in its mean.
@@ -320,17 +319,16 @@ impl Strip {
     }
 
     /// Strip with a sample for each cell of two intervals instead: gap and removed material are ¼, ½ and ¼ of those at its begin, middle and end,
-    /// and the gap is counted from `lower_mm` below.
-    pub(crate) fn over_cells(self, lower_mm: f64) -> Self {
+    /// and the gap is counted from `lower_mm` below. The flanks have so many points.
+    pub(crate) fn over_cells(self, points: PerGear<usize>, lower_mm: f64) -> Self {
         let gaps = self.geometric_gap_mm.windows(3).step_by(2);
         let mean = |gap: &[f64]| gap.iter().zip(OF_CELL).map(|(gap, part)| part * gap).sum::<f64>();
         let geometric_gap_mm = gaps.map(|gap| mean(gap) - lower_mm).collect();
-        let points = match &self.removed {
-            Removed::Here(here) => here.as_ref().map(Interpolation::weights),
-            Removed::Weighted(points) => points.clone(),
-        };
         let along_mm = self.along_mm.iter().copied().skip(1).step_by(2).collect();
-        let removed = Removed::Weighted(points.as_ref().map(means_of_cells));
+        let removed = Removed::Weighted(PerGear::from_fn(|gear| match &self.removed {
+            Removed::Here(here) => means_of_cells(&here[gear].weights(points[gear]), points[gear]),
+            Removed::Weighted(rows) => means_of_cells(&rows[gear], points[gear]),
+        }));
         Self { along_mm, geometric_gap_mm, removed, ..self }
     }
 

@@ -9,7 +9,7 @@ use std::ops::Range;
 use super::flank_motion::{edge_under_load, on_tangent};
 use super::observed_points::ObservedPoints;
 use super::strip::ContactWindow;
-use super::weighted_rows::WeightedRows;
+use super::weighted_rows::{RowsOfAnyLength, WeightedRows};
 use super::{Flanks, PointContact, PositionCell, Sweep, pressure_field::PressureField};
 use gearwear_bodies::gear::{Gear, PerGear};
 
@@ -17,7 +17,6 @@ use gearwear_bodies::gear::{Gear, PerGear};
 pub(crate) struct SweptField {
     /// Pressure along the tangent.
     pub field: PressureField,
-    width_mm: f64,
     /// Points of both flanks; none where nothing is collected.
     observed: Option<PerGear<SweptPoints>>,
 }
@@ -25,10 +24,6 @@ pub(crate) struct SweptField {
 /// Consecutive points of a flank.
 struct SweptPoints {
     first_point: usize,
-    /// Places, in the gear's own direction of the tangent.
-    along_mm: Vec<f64>,
-    /// Distances that points move along the tangent from their places: the least of them (at most 0) and the greatest (at least 0).
-    least_and_most_mm: [f64; 2],
     /// Sliding of each point while it faces the mate, mm.
     sliding_mm: Vec<f64>,
     /// Places along the tangent of both ends of the course of each point, mm; none for points that face nothing.
@@ -54,22 +49,19 @@ impl SweptPoints {
         let courses = along_mm.iter().zip(courses);
         let courses_mm: Vec<Option<[f64; 2]>> =
             courses.map(|(at, course)| course.map(|ends| ends.map(|by| on_tangent(gear, at + by)))).collect();
-        let (mut means, mut beyond) = (WeightedRows::default(), Vec::new());
+        let (mut means, mut beyond) = (RowsOfAnyLength::default(), Vec::new());
         for (k, course) in (0..).zip(&courses_mm) {
             let (first, weights) = course.map_or((0, Vec::new()), |ends_mm| field.mean_weights(cells, ends_mm));
-            means.push(first, weights);
+            means.push(first, &weights);
             if course.is_some_and(|ends_mm| field.may_be_mirrored(cells, ends_mm)) {
                 beyond.push(k);
             }
         }
-        means.shrink();
         Self {
             first_point: points.first_point,
-            least_and_most_mm: points.least_and_most_mm(),
             sliding_mm: points.sliding_mm,
-            along_mm,
             courses_mm,
-            means,
+            means: means.packed(cells),
             beyond,
         }
     }
@@ -85,14 +77,14 @@ impl SweptField {
         let cells = (window.length_mm() / width_mm).round() as usize;
         let observed =
             cell.map(|cell| PerGear::from_fn(|gear| SweptPoints::new(flanks, gear, window, cell, (&field, cells))));
-        Self { field, width_mm, observed }
+        Self { field, observed }
     }
 
     /// Fills in pressure and sliding of the points of a flank.
     pub(crate) fn sweep(&self, gear: Gear, sweep: &mut Sweep) {
         let Some(observed) = &self.observed else { return sweep.begin(0, &[]) };
         let points = &observed[gear];
-        let near = self.touching(gear, points);
+        let near = self.touching(points);
         sweep.begin(points.first_point + near.start, &points.sliding_mm[near.clone()]);
         let means_mpa = points.means.times_from(near.start, self.field.cells_mpa());
         sweep.pressure_mpa.iter_mut().zip(means_mpa).for_each(|(pressure, mean_mpa)| *pressure = mean_mpa);
@@ -106,7 +98,7 @@ impl SweptField {
     pub(crate) fn contact_of_points(&self, gear: Gear) -> Vec<PointContact> {
         let Some(observed) = &self.observed else { return Vec::new() };
         let points = &observed[gear];
-        let near = self.touching(gear, points);
+        let near = self.touching(points);
         let (lower, upper) = self.field.extent_mm();
         let courses_mm = points.courses_mm[near].iter();
         let contacts = courses_mm.map(|course| {
@@ -122,19 +114,16 @@ impl SweptField {
         contacts.collect()
     }
 
-    /// Range of the points of a flank that may touch, and one more at either end: pressure goes half a cell beyond the cells in contact.
-    fn touching(&self, gear: Gear, points: &SweptPoints) -> Range<usize> {
-        let (lower, upper) = self.field.extent_mm();
-        let more = 2.0 * self.width_mm;
-        let (lower, upper) = match gear {
-            Gear::Pinion => (lower - more, upper + more),
-            Gear::Wheel => (-upper - more, more - lower),
+    /// Range of the points of a flank from the first to the last whose course meets a cell under pressure, and one more at either end.
+    fn touching(&self, points: &SweptPoints) -> Range<usize> {
+        let Some((first_cell, last_cell)) = self.field.pressed() else { return 0..0 };
+        let meets = |first: &u32| {
+            let first = *first as usize;
+            first <= last_cell && first_cell < first + points.means.width()
         };
-        let [least, most] = points.least_and_most_mm;
-        let [below, within] =
-            [lower - most, upper - least].map(|end_mm| points.along_mm.partition_point(|&along_mm| along_mm < end_mm));
-        let first = below.saturating_sub(1);
-        let end = (within + 1).min(points.along_mm.len());
-        first.min(end)..end
+        let of_points = points.means.first();
+        let Some(first) = of_points.iter().position(meets) else { return 0..0 };
+        let last = of_points.iter().rposition(meets).unwrap_or(first);
+        first.saturating_sub(1)..(last + 2).min(of_points.len())
     }
 }

@@ -29,8 +29,6 @@ pub(super) struct ToeplitzInverse {
     count: usize,
     /// a, then zeros up to a multiple of [`TOGETHER`].
     forward: Vec<f64>,
-    /// b, likewise.
-    backward: Vec<f64>,
     /// 1/E.
     per_error: f64,
 }
@@ -39,35 +37,39 @@ impl ToeplitzInverse {
     /// Inverse of the matrix of `count` rows whose entries depend on their distance from the diagonal alone; none of a matrix that is not
     /// positive definite.
     pub(super) fn new(by_distance: &[f64], count: usize) -> Option<Self> {
-        let padded = count.next_multiple_of(TOGETHER);
-        let (mut forward, mut backward) = (vec![0.0; padded], vec![0.0; padded]);
+        let mut forward = vec![0.0; count.next_multiple_of(TOGETHER)];
         let by_distance = &by_distance[..count];
         let error = Arch::new().dispatch(
             #[inline(always)]
             || recursion(by_distance, &mut forward[..count]),
         )?;
-        backward[1..count].iter_mut().zip(forward[1..count].iter().rev()).for_each(|(to, from)| *to = *from);
-        Some(Self { count, forward, backward, per_error: 1.0 / error })
+        Some(Self { count, forward, per_error: 1.0 / error })
     }
 
-    /// The inverse times `side`.
-    pub(super) fn times(&self, side: impl Iterator<Item = f64>, product: &mut Vec<f64>) {
+    /// Number of rows.
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Fills `product` with the inverse times `side`.
+    pub(super) fn times(&self, side: &[f64], product: &mut [f64]) {
         let (count, more) = (self.count, TOGETHER - 1);
-        product.clear();
-        product.resize(count, 0.0);
+        product.fill(0.0);
         WORK.with_borrow_mut(|work| {
             // Zeros after the side, and before what the transposed factors make of it.
             work.clear();
-            work.resize(3 * (count + more), 0.0);
+            work.resize(3 * (count + more) + self.forward.len(), 0.0);
+            let (backward, work) = work.split_at_mut(self.forward.len());
+            backward[1..count].iter_mut().zip(self.forward[1..count].iter().rev()).for_each(|(to, from)| *to = *from);
             let (padded, of_factors) = work.split_at_mut(count + more);
-            padded.iter_mut().zip(side).for_each(|(to, from)| *to = from);
+            padded[..count].copy_from_slice(side);
             let (of_forward, of_backward) = of_factors.split_at_mut(count + more);
             Arch::new().dispatch(
                 #[inline(always)]
                 || {
                     let transposed = [&mut of_forward[more..], &mut of_backward[more..]];
-                    transposed_times(&self.forward, &self.backward, padded, transposed);
-                    times(&self.forward, &self.backward, [of_forward, of_backward], product);
+                    transposed_times(&self.forward, backward, padded, transposed);
+                    times(&self.forward, backward, [of_forward, of_backward], product);
                 },
             );
             product.iter_mut().for_each(|x| *x *= self.per_error);
@@ -75,9 +77,8 @@ impl ToeplitzInverse {
     }
 }
 
-/// Products with `x` of rows of a Toeplitz matrix beside those of `x`: of so many before it, then of those after it.
-pub(super) fn beside(by_distance: &[f64], x: &[f64], [before, after]: [usize; 2], products: &mut Vec<f64>) {
-    products.resize(before + after, 0.0);
+/// Fills `products` with those with `x` of rows of a Toeplitz matrix beside those of `x`: of so many `before` it, then of those after it.
+pub(super) fn beside(by_distance: &[f64], x: &[f64], before: usize, products: &mut [f64]) {
     let (of_before, of_after) = products.split_at_mut(before);
     WORK.with_borrow_mut(|reversed| {
         reversed.clear();
@@ -88,7 +89,7 @@ pub(super) fn beside(by_distance: &[f64], x: &[f64], [before, after]: [usize; 2]
                 for (distance, value) in (1..=before).rev().zip(of_before) {
                     *value = product(&by_distance[distance..][..x.len()], x);
                 }
-                for (distance, value) in (1..=after).zip(of_after) {
+                for (distance, value) in (1..).zip(of_after) {
                     *value = product(&by_distance[distance..][..x.len()], reversed);
                 }
             },
@@ -119,6 +120,16 @@ fn recursion(by_distance: &[f64], a: &mut [f64]) -> Option<f64> {
         error *= 1.0 - reflection * reflection;
     }
     (error > 0.0).then_some(error)
+}
+
+/// Sum, in partial sums.
+pub(super) fn sum(values: &[f64]) -> f64 {
+    const LANES: usize = 8;
+    let mut sums = [0.0; LANES];
+    let chunks = values.chunks_exact(LANES);
+    let rest: f64 = chunks.remainder().iter().sum();
+    chunks.for_each(|chunk| sums.iter_mut().zip(chunk).for_each(|(sum, value)| *sum += value));
+    sums.iter().sum::<f64>() + rest
 }
 
 /// Scalar product, in partial sums.
@@ -176,8 +187,8 @@ mod tests {
         for count in 1..=by_distance.len() {
             let inverse = ToeplitzInverse::new(&by_distance, count).unwrap();
             let side: Vec<f64> = (0..count).map(|i| (1.0 + i as f64).sin()).collect();
-            let mut product = Vec::new();
-            inverse.times(side.iter().copied(), &mut product);
+            let mut product = vec![0.0; count];
+            inverse.times(&side, &mut product);
             for (i, side) in side.iter().enumerate() {
                 let there: f64 = product.iter().enumerate().map(|(j, x)| by_distance[i.abs_diff(j)] * x).sum();
                 assert!((there - side).abs() < 1e-12, "{count} rows: {there} {side}");
@@ -190,14 +201,13 @@ mod tests {
     fn ver_rows_beside_are_those_of_the_matrix() {
         let by_distance: Vec<f64> = (0..30).map(|k| 6.0 - (0.3 + f64::from(k)).ln()).collect();
         let x: Vec<f64> = (0..21).map(|i| (1.0 + f64::from(i)).sin()).collect();
-        let mut products = Vec::new();
-        beside(&by_distance, &x, [4, 5], &mut products);
+        let mut products = [0.0; 9];
+        beside(&by_distance, &x, 4, &mut products);
         let rows = (0..4).chain(25..30);
         for (row, found) in rows.zip(&products) {
             let there: f64 = x.iter().enumerate().map(|(j, x)| by_distance[row.abs_diff(4 + j)] * x).sum();
             assert!((there - found).abs() < 1e-12, "row {row}: {there} {found}");
         }
-        assert_eq!(products.len(), 9);
     }
 
     /// A matrix that is not positive definite has none.
