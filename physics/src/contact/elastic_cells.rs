@@ -147,11 +147,9 @@ impl ElasticCells {
                 break;
             }
             let touching = Touching::new(&active, &self.gap_mm, &self.compliance)?;
-            let wrong = touching.wrong(&active, self.indentation_mm);
-            if wrong.is_empty() {
+            if !touching.exchange(&mut active, self.indentation_mm) {
                 return Ok(touching);
             }
-            wrong.into_iter().for_each(|i| active[i] = !active[i]);
         }
         self.find_guarded()
     }
@@ -238,32 +236,38 @@ impl Touching {
         self.holds_mm = [least, most];
     }
 
-    /// Cells in contact, all that are `active`, that pull at an indentation, and others that overlap.
-    fn wrong(&self, active: &[bool], indentation_mm: f64) -> Vec<usize> {
-        let [.., closing, beside_mm] = self.numbers();
-        let pressures: Vec<f64> = self.pressures_mpa(indentation_mm).map(|(_, pressure)| pressure).collect();
-        let gaps_mm = closing.iter().zip(beside_mm);
-        let gaps_mm: Vec<f64> = gaps_mm.map(|(closing, gap_mm)| gap_mm - indentation_mm * closing).collect();
-        let [least_mpa, least_mm] =
-            [&pressures, &gaps_mm].map(|of| -ROUND_OFF * of.iter().fold(0.0_f64, |most, value| most.max(value.abs())));
-        let (mut pressures, mut gaps_mm) = (pressures.into_iter(), gaps_mm.into_iter());
-        let is_wrong = |i: &usize| match active[*i] {
-            true => pressures.next().is_some_and(|pressure| pressure < least_mpa),
-            false => gaps_mm.next().is_some_and(|gap| gap < least_mm),
-        };
-        (0..active.len()).filter(is_wrong).collect()
+    /// Exchanges cells in contact, all that are `active`, that pull at an indentation, and others that overlap. Returns whether there are any.
+    fn exchange(&self, active: &mut [bool], indentation_mm: f64) -> bool {
+        let [_, _, closing, beside_mm] = self.numbers();
+        let pressures = || self.pressures_mpa(indentation_mm).map(|(_, pressure)| pressure);
+        let gaps_mm = || closing.iter().zip(beside_mm).map(|(closing, gap_mm)| gap_mm - indentation_mm * closing);
+        let greatest = |most: f64, value: f64| most.max(value.abs());
+        let least_mpa = -ROUND_OFF * pressures().fold(0.0, greatest);
+        let least_mm = -ROUND_OFF * gaps_mm().fold(0.0, greatest);
+        let (mut pressures, mut gaps_mm, mut any) = (pressures(), gaps_mm(), false);
+        for active in active {
+            let wrong = match active {
+                true => pressures.next().is_some_and(|pressure| pressure < least_mpa),
+                false => gaps_mm.next().is_some_and(|gap| gap < least_mm),
+            };
+            *active ^= wrong;
+            any |= wrong;
+        }
+        any
     }
 }
 
 impl TouchingSet {
     fn new(active: &[bool], compliance: &[f64]) -> Result<Self, ActiveSetError> {
-        let members: Vec<usize> = (0..active.len()).filter(|&i| active[i]).collect();
-        let (first, count) = (members.first().copied().unwrap_or(0), members.len());
+        let first = active.iter().position(|active| *active).unwrap_or_default();
+        let end = active.iter().rposition(|active| *active).map_or(first, |last| last + 1);
         let error = ActiveSetError::NotPositiveDefinite { index: first };
-        if members.last().is_some_and(|last| last + 1 - first == count) {
-            let inverse = ToeplitzInverse::new(compliance, count).ok_or(error)?;
+        if active[first..end].iter().all(|active| *active) {
+            let inverse = ToeplitzInverse::new(compliance, end - first).ok_or(error)?;
             return Ok(Self::Adjacent { first, inverse });
         }
+        let members: Vec<usize> = (first..end).filter(|&i| active[i]).collect();
+        let count = members.len();
         let own = Mat::from_fn(count, count, |i, j| compliance[members[i].abs_diff(members[j])]);
         let factor = Llt::new(own.as_ref(), Side::Lower).map_err(|_| error)?;
         Ok(Self::Scattered { members, factor })

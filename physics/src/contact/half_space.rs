@@ -84,7 +84,6 @@ impl ContactSurface for HalfSpace {
             window: GrowingWindow::new(stretch, FIRST_WINDOW * half_width),
             gap: Vec::new(),
             touch: 0.0,
-            removed_everywhere: 0.0,
         })
     }
 
@@ -168,15 +167,26 @@ struct HalfSpacePair<'a> {
     gap: Vec<f64>,
     /// Least gap, mm.
     touch: f64,
-    /// Least loss of both flanks together where they may touch, mm; 0 where it is little.
-    removed_everywhere: f64,
 }
 
 impl HalfSpacePair<'_> {
-    /// Whether the flanks may touch beyond an end of the window where no flank ends.
-    fn may_touch_beyond(&self) -> bool {
+    /// Whether flanks that have lost `removed_mm` may touch beyond an end of the window where no flank ends.
+    fn may_touch_beyond(&self, removed_mm: PerGear<&[f64]>) -> bool {
         let SampledStretch { strip, cells, .. } = &self.window.samples;
-        strip.may_touch_beyond(self.touch + cells.indentation_mm(), self.removed_everywhere, cells.sunk_at_ends_mm())
+        let (approach_mm, sunk_mm) = (self.touch + cells.indentation_mm(), cells.sunk_at_ends_mm());
+        let may_touch = |removed_mm| strip.may_touch_beyond(approach_mm, removed_mm, sunk_mm);
+        may_touch(0.0) && may_touch(self.removed_everywhere_mm(removed_mm))
+    }
+
+    /// Least loss of both flanks together where they may touch, mm; 0 where it is little.
+    fn removed_everywhere_mm(&self, removed_mm: PerGear<&[f64]>) -> f64 {
+        let HalfSpaceStretch { flanks, position_mm, flattening, .. } = &self.window.flanks;
+        let half_length_mm = self.window.half_length_mm;
+        let at_end = half_length_mm * half_length_mm / (2.0 * flattening.contact.relative_radius_mm());
+        match self.touch > LITTLE_REMOVED * at_end {
+            true => least_removed_mm(*flanks, *position_mm, self.touch + at_end, removed_mm),
+            false => 0.0,
+        }
     }
 }
 
@@ -188,13 +198,6 @@ impl PairContact for HalfSpacePair<'_> {
         self.gap.iter_mut().for_each(|gap| *gap -= touch);
         self.touch = touch;
         cells.set_gap(&self.gap);
-        let HalfSpaceStretch { flanks, position_mm, flattening, .. } = &self.window.flanks;
-        let half_length_mm = self.window.half_length_mm;
-        let at_end = half_length_mm * half_length_mm / (2.0 * flattening.contact.relative_radius_mm());
-        self.removed_everywhere = match touch > LITTLE_REMOVED * at_end {
-            true => least_removed_mm(*flanks, *position_mm, touch + at_end, removed_mm),
-            false => 0.0,
-        };
     }
 
     fn touch_mm(&self) -> f64 {
@@ -210,7 +213,7 @@ impl PairContact for HalfSpacePair<'_> {
         self.window.flanks.flattening.approach_mm(2.0 * line_load_n_per_mm)
     }
 
-    fn window_suffices(&mut self) -> bool {
+    fn window_suffices(&mut self, removed_mm: PerGear<&[f64]>) -> bool {
         let SampledStretch { strip, cells, swept } = &mut self.window.samples;
         swept.field.fill(|pressure| cells.pressure_mpa(pressure));
         let pressure = swept.field.cells_mpa();
@@ -218,7 +221,7 @@ impl PairContact for HalfSpacePair<'_> {
         let [free_below, free_above] =
             [&pressure[..cells], &pressure[pressure.len() - cells..]].map(|end| end.iter().all(|p| *p == 0.0));
         let [real_below, real_above] = strip.window.ends_are_real;
-        (real_below || free_below) && (real_above || free_above) && !self.may_touch_beyond()
+        (real_below || free_below) && (real_above || free_above) && !self.may_touch_beyond(removed_mm)
     }
 
     fn widen(&mut self) {

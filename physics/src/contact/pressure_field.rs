@@ -87,19 +87,22 @@ impl PressureField {
         (self.load_below(to_mm) - self.load_below(from_mm)) / length
     }
 
-    /// First of `cells` cells and the weights of their pressures in the mean of [`Self::mean_mpa`], where the field is not mirrored.
-    pub(crate) fn mean_weights(&self, cells: usize, [from_mm, to_mm]: [f64; 2]) -> (usize, Vec<f64>) {
+    /// Fills in the `weights` of the pressures of `cells` cells in the mean of [`Self::mean_mpa`], where the field is not mirrored. Returns the first
+    /// cell with a weight.
+    pub(crate) fn mean_weights(&self, cells: usize, [from_mm, to_mm]: [f64; 2], weights: &mut Vec<f64>) -> usize {
         let upper_mm = self.lower_mm + cells as f64 * self.width_mm;
         let place = |x_mm: f64| self.place_among(cells, x_mm);
         let length_mm = to_mm - from_mm;
+        weights.clear();
         if length_mm.abs() <= 1e-9 * self.width_mm {
             let (k, weight) = place(0.5 * (from_mm + to_mm));
             let weight = weight.clamp(0.0, 1.0);
-            return (k, vec![1.0 - weight, weight]);
+            weights.extend([1.0 - weight, weight]);
+            return k;
         }
         let ends = [from_mm, to_mm].map(|end_mm| place(end_mm.clamp(self.lower_mm, upper_mm)));
         let first = ends[0].0.min(ends[1].0);
-        let mut weights = vec![0.0; ends[0].0.max(ends[1].0) + 2 - first];
+        weights.resize(ends[0].0.max(ends[1].0) + 2 - first, 0.0);
         for ((k, weight), sign) in ends.into_iter().zip([-1.0, 1.0]) {
             // P(x) is Σ of all cells before k, and these parts of the two around x.
             let (here, next) = if weight < 0.0 {
@@ -114,7 +117,7 @@ impl PressureField {
             weights[k - first] += part * here;
             weights[k + 1 - first] += part * next;
         }
-        (first, weights)
+        first
     }
 
     /// Whether the mean from one place to another depends on the field's being mirrored, where it has so many cells.
@@ -260,9 +263,10 @@ mod tests {
         let pressures = [7.0, 3.0, 0.5, 0.0, 2.0, 9.0];
         let field = PressureField { mirrored: false, ..field(&pressures) };
         let places = (-40..=40).map(|k| 0.0101 * f64::from(k));
+        let mut weights = Vec::new();
         for from in places.clone() {
             for to in places.clone().chain([from]) {
-                let (first, weights) = field.mean_weights(pressures.len(), [from, to]);
+                let first = field.mean_weights(pressures.len(), [from, to], &mut weights);
                 let by_weights: f64 = weights.iter().zip(&pressures[first..]).map(|(weight, p)| weight * p).sum();
                 let mean = field.mean_mpa([from, to]);
                 assert!((by_weights - mean).abs() < 1e-9, "{from} to {to}: {by_weights} {mean}");

@@ -62,7 +62,7 @@ impl Interpolation {
 
     /// Weights of the points at the samples.
     fn weights(&self, points: usize) -> WeightedRows {
-        let mut rows = RowsOfAnyLength::default();
+        let mut rows = RowsOfAnyLength::of_about(self.index.len());
         let samples = self.index.iter().zip(&self.weight);
         samples.for_each(|(index, weight)| rows.push(*index as usize, &[1.0 - weight, *weight]));
         rows.packed(points)
@@ -87,7 +87,7 @@ fn passing(
     coordinates_mm: &[f64],
 ) -> WeightedRows {
     let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
-    let mut passing = RowsOfAnyLength::default();
+    let mut passing = RowsOfAnyLength::of_about(along_mm.len());
     let within = points_within(flanks, gear);
     let points_mm = &grid.coordinate_mm[within.clone()];
     // All 0 again after every sample.
@@ -106,7 +106,7 @@ fn passing(
 
 /// Weights in the means over cells of two intervals between samples each, from those at the samples.
 fn means_of_cells(samples: &WeightedRows, points: usize) -> WeightedRows {
-    let mut cells = RowsOfAnyLength::default();
+    let mut cells = RowsOfAnyLength::of_about(samples.count() / 2);
     let mut sums = Vec::new();
     for k in (0..samples.count() - 2).step_by(2) {
         let of_cell = [k, k + 1, k + 2].map(|k| samples.row(k));
@@ -311,7 +311,9 @@ impl Strip {
         let passing = PerGear::from_fn(|gear| {
             let passing = passing(flanks, gear, cell, &along_mm, &coordinates_mm[gear]);
             // A modification counts as at the sample.
-            let beside = here[gear].of(modification_mm[gear]).zip(passing.times_from(0, modification_mm[gear]));
+            let mut means = vec![0.0; along_mm.len()];
+            passing.add_products(0, modification_mm[gear], &mut means);
+            let beside = here[gear].of(modification_mm[gear]).zip(means);
             geometric_gap_mm.iter_mut().zip(beside).for_each(|(gap, (here, mean))| *gap += here - mean);
             passing
         });
@@ -339,25 +341,17 @@ impl Strip {
 
     /// Fills `gap_mm` with the gap of flanks that have lost `removed_mm`. Returns the least gap.
     pub(crate) fn gap_mm(&self, removed_mm: PerGear<&[f64]>, gap_mm: &mut Vec<f64>) -> f64 {
-        match &self.removed {
-            Removed::Here(here) => self.opened_mm(Gear::BOTH.map(|gear| here[gear].of(removed_mm[gear])), gap_mm),
-            Removed::Weighted(points) => {
-                self.opened_mm(Gear::BOTH.map(|gear| points[gear].times_from(0, removed_mm[gear])), gap_mm)
+        gap_mm.clear();
+        gap_mm.extend_from_slice(&self.geometric_gap_mm);
+        for gear in Gear::BOTH {
+            match &self.removed {
+                Removed::Here(here) => {
+                    gap_mm.iter_mut().zip(here[gear].of(removed_mm[gear])).for_each(|(gap, removed)| *gap += removed);
+                }
+                Removed::Weighted(rows) => rows[gear].add_products(0, removed_mm[gear], gap_mm),
             }
         }
-    }
-
-    fn opened_mm(&self, [pinion, wheel]: [impl Iterator<Item = f64>; 2], gap_mm: &mut Vec<f64>) -> f64 {
-        gap_mm.resize(self.geometric_gap_mm.len(), 0.0);
-        let mut least = f64::INFINITY;
-        for (((gap, geometric), pinion), wheel) in gap_mm.iter_mut().zip(&self.geometric_gap_mm).zip(pinion).zip(wheel)
-        {
-            *gap = geometric + pinion + wheel;
-            if *gap < least {
-                least = *gap;
-            }
-        }
-        least
+        least(gap_mm)
     }
 
     /// Whether flanks pressed together by `approach_mm`, which have lost at least `removed_mm` wherever they may touch, can touch
@@ -367,6 +361,17 @@ impl Strip {
         let ends = self.unmodified_at_ends_mm.into_iter().zip(sunk_mm).zip(self.window.ends_are_real);
         ends.into_iter().any(|((gap, sunk), real)| !real && gap + sunk + removed_mm < approach_mm)
     }
+}
+
+/// Least of some values, in partial minima.
+fn least(values: &[f64]) -> f64 {
+    const LANES: usize = 8;
+    let lesser = |one: f64, other: f64| if other < one { other } else { one };
+    let mut minima = [f64::INFINITY; LANES];
+    let chunks = values.chunks_exact(LANES);
+    let rest = chunks.remainder();
+    chunks.for_each(|chunk| minima.iter_mut().zip(chunk).for_each(|(least, value)| *least = lesser(*least, *value)));
+    minima.iter().chain(rest).copied().fold(f64::INFINITY, lesser)
 }
 
 /// Number of parts of the stretch from an end of a window to the end of a flank.
@@ -628,7 +633,7 @@ pub(super) mod tests {
             for windows in 1.. {
                 contact.set_removed(worn_mm);
                 contact.load_at(approach_mm - contact.touch_mm());
-                let suffices = contact.window_suffices();
+                let suffices = contact.window_suffices(worn_mm);
                 overlaps_mm.push(contact.overlap_beside_mm(worn_mm).unwrap());
                 if suffices {
                     break;

@@ -49,9 +49,11 @@ impl SweptPoints {
         let courses = along_mm.iter().zip(courses);
         let courses_mm: Vec<Option<[f64; 2]>> =
             courses.map(|(at, course)| course.map(|ends| ends.map(|by| on_tangent(gear, at + by)))).collect();
-        let (mut means, mut beyond) = (RowsOfAnyLength::default(), Vec::new());
+        let (mut means, mut beyond) = (RowsOfAnyLength::of_about(courses_mm.len()), Vec::new());
+        let mut weights = Vec::new();
         for (k, course) in (0..).zip(&courses_mm) {
-            let (first, weights) = course.map_or((0, Vec::new()), |ends_mm| field.mean_weights(cells, ends_mm));
+            weights.clear();
+            let first = course.map_or(0, |ends_mm| field.mean_weights(cells, ends_mm, &mut weights));
             means.push(first, &weights);
             if course.is_some_and(|ends_mm| field.may_be_mirrored(cells, ends_mm)) {
                 beyond.push(k);
@@ -86,8 +88,8 @@ impl SweptField {
         let points = &observed[gear];
         let near = self.touching(points);
         sweep.begin(points.first_point + near.start, &points.sliding_mm[near.clone()]);
-        let means_mpa = points.means.times_from(near.start, self.field.cells_mpa());
-        sweep.pressure_mpa.iter_mut().zip(means_mpa).for_each(|(pressure, mean_mpa)| *pressure = mean_mpa);
+        sweep.pressure_mpa.fill(0.0);
+        points.means.add_products(near.start, self.field.cells_mpa(), &mut sweep.pressure_mpa);
         for k in points.beyond.iter().map(|k| *k as usize).filter(|k| near.contains(k)) {
             let mean_mpa = points.courses_mm[k].map_or(0.0, |ends_mm| self.field.mean_mpa(ends_mm));
             sweep.pressure_mpa[k - near.start] = mean_mpa;

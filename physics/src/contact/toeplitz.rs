@@ -203,7 +203,7 @@ mod tests {
         let x: Vec<f64> = (0..21).map(|i| (1.0 + f64::from(i)).sin()).collect();
         let mut products = [0.0; 9];
         beside(&by_distance, &x, 4, &mut products);
-        let rows = (0..4).chain(25..30);
+        let rows = (0..4_usize).chain(25..30);
         for (row, found) in rows.zip(&products) {
             let there: f64 = x.iter().enumerate().map(|(j, x)| by_distance[row.abs_diff(4 + j)] * x).sum();
             assert!((there - found).abs() < 1e-12, "row {row}: {there} {found}");

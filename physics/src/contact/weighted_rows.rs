@@ -1,6 +1,7 @@
 //! Rows of a matrix with few weights each, on consecutive values.
 
-use gearwear_bodies::reference::linear_means::weighted_sum;
+/// Lengths of rows for which there is a product of its own.
+const UNROLLED: [usize; 7] = [2, 4, 6, 8, 10, 12, 16];
 
 /// Rows, each as long as it is.
 #[derive(Debug, Clone, Default)]
@@ -13,6 +14,16 @@ pub(super) struct RowsOfAnyLength {
 }
 
 impl RowsOfAnyLength {
+    /// No rows yet, with room for so many of the usual length.
+    pub(super) fn of_about(rows: usize) -> Self {
+        let usual = UNROLLED[UNROLLED.len() / 2];
+        Self {
+            first: Vec::with_capacity(rows),
+            ends: Vec::with_capacity(rows),
+            weights: Vec::with_capacity(usual * rows),
+        }
+    }
+
     /// Appends a row on the values from `first` on.
     pub(super) fn push(&mut self, first: usize, weights: &[f64]) {
         let zeros = weights.iter().take_while(|weight| **weight == 0.0).count().min(weights.len().saturating_sub(1));
@@ -30,7 +41,8 @@ impl RowsOfAnyLength {
     /// The rows on so many values, all of one length.
     pub(super) fn packed(&self, values: usize) -> WeightedRows {
         let count = self.first.len();
-        let width = (0..count).map(|k| self.row(k).1.len()).max().unwrap_or_default();
+        let widest = (0..count).map(|k| self.row(k).1.len()).max().unwrap_or_default();
+        let width = UNROLLED.into_iter().find(|width| (widest..=values).contains(width)).unwrap_or(widest);
         let (mut first, mut packed) = (Vec::with_capacity(count), vec![0.0; count * width]);
         for (k, to) in (0..count).zip(packed.chunks_exact_mut(width.max(1))) {
             let (from, weights) = self.row(k);
@@ -73,13 +85,36 @@ impl WeightedRows {
         (self.first[k] as usize, &self.weights[k * self.width..(k + 1) * self.width])
     }
 
-    /// Products of the rows from `from` on with `values`.
-    pub(super) fn times_from<'a>(&'a self, from: usize, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-        let rows = self.weights[from * self.width..].chunks_exact(self.width.max(1));
-        self.first[from..]
-            .iter()
-            .zip(rows)
-            .map(move |(&first, weights)| weighted_sum(weights, &values[first as usize..]))
+    /// Adds the products of the rows from `from` on with `values` to as many `sums`.
+    pub(super) fn add_products(&self, from: usize, values: &[f64], sums: &mut [f64]) {
+        match self.width {
+            2 => self.add_unrolled::<2>(from, values, sums),
+            4 => self.add_unrolled::<4>(from, values, sums),
+            6 => self.add_unrolled::<6>(from, values, sums),
+            8 => self.add_unrolled::<8>(from, values, sums),
+            10 => self.add_unrolled::<10>(from, values, sums),
+            12 => self.add_unrolled::<12>(from, values, sums),
+            16 => self.add_unrolled::<16>(from, values, sums),
+            _ => {
+                for (k, sum) in (from..).zip(sums) {
+                    let (first, weights) = self.row(k);
+                    *sum += weights.iter().zip(&values[first..]).map(|(weight, value)| weight * value).sum::<f64>();
+                }
+            }
+        }
+    }
+
+    fn add_unrolled<const WIDTH: usize>(&self, from: usize, values: &[f64], sums: &mut [f64]) {
+        let rows = self.weights.as_chunks::<WIDTH>().0;
+        for ((first, weights), sum) in self.first[from..].iter().zip(&rows[from..]).zip(sums) {
+            let values = values[*first as usize..].first_chunk::<WIDTH>().expect("rows end with the values");
+            let (mut even, mut odd) = (0.0, 0.0);
+            for pair in 0..WIDTH / 2 {
+                even += weights[2 * pair] * values[2 * pair];
+                odd += weights[2 * pair + 1] * values[2 * pair + 1];
+            }
+            *sum += even + odd;
+        }
     }
 }
 
@@ -96,9 +131,10 @@ mod tests {
         of_rows.iter().for_each(|(first, weights)| rows.push(*first, weights));
         let values: Vec<f64> = (0..8).map(|i| 1.0 + f64::from(i * i)).collect();
         let packed = rows.packed(values.len());
-        assert_eq!((packed.count(), packed.width()), (5, 3));
+        assert_eq!((packed.count(), packed.width()), (5, 4));
         for from in 0..5 {
-            let products: Vec<f64> = packed.times_from(from, &values).collect();
+            let mut products = vec![0.0; 5 - from];
+            packed.add_products(from, &values, &mut products);
             let expected = of_rows[from..].iter().map(|(first, weights)| -> f64 {
                 weights.iter().zip(&values[*first..]).map(|(weight, value)| weight * value).sum()
             });

@@ -164,3 +164,41 @@ impl CoupledTeeth {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Steps with the same tangents factorise one matrix, others a new one; the loads of both balance on the bent teeth.
+    #[test]
+    fn ver_a_matrix_is_factorised_once_for_the_same_tangents() {
+        let count = 5;
+        let coupling = |k: usize| 1e-5 * (-((k / count).abs_diff(k % count) as f64)).exp();
+        let mm2_per_n: Vec<f64> = (0..count * count).map(coupling).collect();
+        let mut teeth = TeethTogether::new(Influence { mm2_per_n: mm2_per_n.clone(), of_teeth: vec![1e-5; count] });
+        let mut bend = |line_load: f64, n_per_mm2: f64| {
+            let tangent = |k: usize| ContactTangent {
+                line_load_n_per_mm: 100.0 + 10.0 * k as f64,
+                n_per_mm2: if k == 3 { 0.0 } else { n_per_mm2 },
+                approach_mm: 1e-3,
+            };
+            let Bend { delta_mm, .. } = teeth.bend(line_load, tangent).unwrap();
+            let loads: Vec<f64> = (0..count)
+                .map(|k| {
+                    let ContactTangent { line_load_n_per_mm, n_per_mm2, approach_mm } = tangent(k);
+                    let further = n_per_mm2 * (delta_mm - approach_mm - teeth.deflection_mm[k]);
+                    if n_per_mm2 > 0.0 { line_load_n_per_mm + further } else { 0.0 }
+                })
+                .collect();
+            assert!((loads.iter().sum::<f64>() / line_load - 1.0).abs() < 1e-12);
+            for (row, deflection_mm) in mm2_per_n.chunks_exact(count).zip(&teeth.deflection_mm) {
+                let bent_mm: f64 = row.iter().zip(&loads).map(|(u, load)| u * load).sum();
+                assert!((bent_mm / deflection_mm - 1.0).abs() < 1e-12, "{bent_mm} {deflection_mm}");
+            }
+            teeth.factorisations()
+        };
+        let counts =
+            [(500.0, 1e5), (700.0, 1e5), (700.0, 2e5), (650.0, 2e5), (650.0, 1e5)].map(|(load, c)| bend(load, c));
+        assert_eq!(counts, [1, 1, 2, 2, 3]);
+    }
+}

@@ -160,10 +160,14 @@ impl MeshCycle for SlicedCycle<'_> {
         let mut of_slices = vec![GreatestPressure::default(); slices];
         let mut pressure_figures = PressureFigures::default();
         let mut figures_of_slices = vec![PressureFigures::default(); slices];
-        let (points, bodies_mm) = (self.points, self.bodies_mm);
-        let overlaps: Vec<Option<FlankOverlap>> =
-            self.groups.par_iter_mut().map(|group| group.deepest_overlap(removed_mm, points, bodies_mm)).collect();
-        let deepest_overlap = overlaps.into_iter().flatten().reduce(FlankOverlap::deeper);
+        let (points, bodies_mm, flanks) = (self.points, self.bodies_mm, self.flanks);
+        let of_groups: Vec<(Option<FlankOverlap>, Vec<PressureFigures>)> = self
+            .groups
+            .par_iter_mut()
+            .map(|group| (group.deepest_overlap(removed_mm, points, bodies_mm), group.figures(flanks)))
+            .collect();
+        let deepest_overlap = of_groups.iter().filter_map(|(overlap, _)| *overlap).reduce(FlankOverlap::deeper);
+        let mut figures_of_contacts = of_groups.iter().flat_map(|(_, figures)| figures);
         for loaded in self.groups.iter().flat_map(|group| &group.loaded_positions) {
             for ((contact, pair), sliding) in loaded.contacts.iter().zip(&loaded.pairs).zip(&loaded.sliding_mm) {
                 let own = of_slice(removed_mm, self.points, contact.slice);
@@ -181,7 +185,7 @@ impl MeshCycle for SlicedCycle<'_> {
                     greatest.note(greatest_mpa, footprint.at_sharp_edge);
                 }
                 let figures = if is_whole { &mut figures_of_slices[contact.slice] } else { &mut pressure_figures };
-                figures.note(figures_of(self.flanks, contact.cell.position_mm, &*pair.contact));
+                figures_of_contacts.next().into_iter().for_each(|of_contact| figures.note(*of_contact));
                 sliding_work_n += pair.normal_load_n_per_mm() * sliding;
             }
             observed.push(loaded.observe(slices, self.line_load_n_per_mm, self.bodies_mm));
@@ -227,6 +231,12 @@ impl SlicedGroup<'_> {
                 self.points.wear(wear, (pair, place), own, first, &mut self.collected.depth_mm);
             }
         }
+    }
+
+    /// Figures of the pressure of each contact.
+    fn figures(&self, flanks: Flanks<'_>) -> Vec<PressureFigures> {
+        let contacts = self.loaded_positions.iter().flat_map(|loaded| loaded.contacts.iter().zip(&loaded.pairs));
+        contacts.map(|(contact, pair)| figures_of(flanks, contact.cell.position_mm, &*pair.contact)).collect()
     }
 
     /// Deepest overlap of flanks beside the windows.

@@ -28,7 +28,7 @@ use crate::gear_mesh::tooth_section::{ExtrudedTooth, ToothSection};
 use gearwear_fem::active_set::ActiveSetError;
 use gearwear_fem::elastic::{Analysis, Elastic};
 use gearwear_fem::equilibrium::SolveError;
-use gearwear_fem::factor::{Factor, FactorError};
+use gearwear_fem::factor::{Factor, FactorError, SymbolicFactor};
 use gearwear_fem::node_matrix::NodeMatrix;
 use gearwear_fem::shape::{Shape, along_edge};
 use gearwear_fem::solid::{Element, ElementKind, Solid};
@@ -325,13 +325,15 @@ impl SectorInSpace {
         cut_nodes.iter().for_each(|node| held[*node as usize] = true);
         let ends = [0, mesh.z_mm.len() - 1].map(|k| mesh.z_mm[k]);
         let stays = |node: usize| plane_strain && ends.contains(&mesh.points_mm[node].z);
-        let factor = Factor::of_held(&matrix, |dof| held[dof / 3] || dof % 3 == 2 && stays(dof / 3))?;
-
         let mut columns = flank_forces(tooth, mesh);
         let loads = columns.len();
         let cuts = CutDisplacements::new(mesh, cut_nodes, |node| !stays(node as usize));
         let (own, of_cuts) = cuts.stiffness(&matrix, &held);
         columns.extend(of_cuts);
+        let symbolic = SymbolicFactor::new(&matrix, |dof| held[dof / 3] || dof % 3 == 2 && stays(dof / 3))?;
+        // The factor is as large as all else together.
+        drop(matrix);
+        let factor = symbolic.factorised()?;
         let all = factor.compliance(&columns);
         let units = cuts.units.len();
         let matrices = SectorMatrices {

@@ -42,7 +42,7 @@ pub fn line_loads_primitive(bodies: &[HalfPlane; 2], x_mm: f64) -> f64 {
 /// Integral ∫ G from 0 to `x_mm` for one body, mm² per N/mm.
 fn line_load_primitive(body: &HalfPlane, x_mm: f64) -> f64 {
     let (t, nu) = (body.depth_mm, body.elastic.poisson_ratio);
-    let logarithm = if x_mm == 0.0 { 0.0 } else { x_mm * (x_mm.hypot(t) / x_mm.abs()).ln() };
+    let logarithm = if x_mm == 0.0 { 0.0 } else { 0.5 * x_mm * (1.0 + (t / x_mm).powi(2)).ln() };
     body.elastic.half_plane_mm2_per_n() * (logarithm + t * (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu)) * (x_mm / t).atan())
 }
 
