@@ -25,7 +25,7 @@ pub enum CoupledTeeth {
         coupling: SliceCoupling,
     },
     /// One matrix couples all teeth.
-    Together(TeethTogether),
+    Together(Box<TeethTogether>),
 }
 
 /// Teeth that one matrix couples.
@@ -157,8 +157,8 @@ impl CoupledTeeth {
             Self::Plates { teeth, .. } => {
                 teeth.iter().flat_map(BentTooth::deflections_mm).for_each(|(k, mm2_per_n, mm)| take(k, mm2_per_n, mm));
             }
-            Self::Together(TeethTogether { influence, deflection_mm, .. }) => {
-                let contacts = influence.of_teeth.iter().zip(deflection_mm).enumerate();
+            Self::Together(teeth) => {
+                let contacts = teeth.influence.of_teeth.iter().zip(&teeth.deflection_mm).enumerate();
                 contacts.for_each(|(k, (mm2_per_n, mm))| take(k, *mm2_per_n, *mm));
             }
         }

@@ -26,6 +26,7 @@ use super::sector::{Sector, SectorMatrices};
 use crate::gear::tooth::Tooth;
 use crate::gear_mesh::tooth_section::{ExtrudedTooth, ToothSection};
 use gearwear_fem::active_set::ActiveSetError;
+use gearwear_fem::dissection::dissected;
 use gearwear_fem::elastic::{Analysis, Elastic};
 use gearwear_fem::equilibrium::SolveError;
 use gearwear_fem::factor::{Factor, FactorError, SymbolicFactor};
@@ -330,7 +331,10 @@ impl SectorInSpace {
         let cuts = CutDisplacements::new(mesh, cut_nodes, |node| !stays(node as usize));
         let (own, of_cuts) = cuts.stiffness(&matrix, &held);
         columns.extend(of_cuts);
-        let symbolic = SymbolicFactor::new(&matrix, |dof| held[dof / 3] || dof % 3 == 2 && stays(dof / 3))?;
+        let order = dissected(&mesh.points_mm, &mesh.hexahedra, |node| held[node as usize]);
+        let is_held = |dof: usize| held[dof / 3] || dof % 3 == 2 && stays(dof / 3);
+        let symbolic = SymbolicFactor::in_order(&matrix, is_held, &order)?;
+        {}
         // The factor is as large as all else together.
         drop(matrix);
         let factor = symbolic.factorised()?;
