@@ -16,6 +16,7 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::solvers::LltError;
+use faer::perm::PermRef;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::supernodal::{SupernodalLltRef, SymbolicSupernodalCholesky};
 use faer::sparse::linalg::cholesky::{
@@ -78,6 +79,26 @@ struct Reduced {
     values: Vec<f64>,
 }
 
+/// Order of elimination of the free degrees of freedom by that of their nodes.
+struct NodeOrder {
+    free_of_place: Vec<u32>,
+    place_of_free: Vec<u32>,
+}
+
+impl NodeOrder {
+    fn new(nodes: &[u32], per_node: usize, free_of_dof: &[u32]) -> Self {
+        let dofs = nodes.iter().flat_map(|node| (0..per_node).map(|k| per_node * *node as usize + k));
+        let free_of_place: Vec<u32> = dofs.map(|dof| free_of_dof[dof]).filter(|free| *free != HELD).collect();
+        let mut place_of_free = vec![0; free_of_place.len()];
+        (0..).zip(&free_of_place).for_each(|(place, free)| place_of_free[*free as usize] = place);
+        Self { free_of_place, place_of_free }
+    }
+
+    fn dofs(&self) -> PermRef<'_, u32> {
+        PermRef::new_checked(&self.free_of_place, &self.place_of_free, self.free_of_place.len())
+    }
+}
+
 /// Symbolic factorisation of a stiffness, whose memory is known before the numeric one.
 pub struct SymbolicFactor {
     reduced: Reduced,
@@ -90,6 +111,19 @@ pub struct SymbolicFactor {
 impl SymbolicFactor {
     /// Symbolic factorisation of `matrix` without the degrees of freedom that `is_held`, which must prevent all rigid motions.
     pub fn new(matrix: &NodeMatrix, is_held: impl Fn(usize) -> bool) -> Result<Self, FactorError> {
+        Self::of_nodes(matrix, is_held, None)
+    }
+
+    /// The same in an order of `nodes`, all with free degrees of freedom.
+    pub fn in_order(matrix: &NodeMatrix, is_held: impl Fn(usize) -> bool, nodes: &[u32]) -> Result<Self, FactorError> {
+        Self::of_nodes(matrix, is_held, Some(nodes))
+    }
+
+    fn of_nodes(
+        matrix: &NodeMatrix,
+        is_held: impl Fn(usize) -> bool,
+        nodes: Option<&[u32]>,
+    ) -> Result<Self, FactorError> {
         let dofs = matrix.dofs();
         let mut free_of_dof = vec![HELD; dofs];
         let mut dof_of_free = Vec::with_capacity(dofs);
@@ -99,13 +133,15 @@ impl SymbolicFactor {
                 dof_of_free.push(dof as u32);
             }
         }
+        let order = nodes.map(|nodes| NodeOrder::new(nodes, matrix.per_node(), &free_of_dof));
+        let ordering = order.as_ref().map_or(SymmetricOrdering::Amd, |order| SymmetricOrdering::Custom(order.dofs()));
         let reduced = Reduced::new(matrix, &free_of_dof, &dof_of_free);
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
         };
         let pattern = reduced.matrix();
-        let symbolic = factorize_symbolic_cholesky(pattern.symbolic(), Side::Lower, SymmetricOrdering::Amd, params)
+        let symbolic = factorize_symbolic_cholesky(pattern.symbolic(), Side::Lower, ordering, params)
             .map_err(|_| FactorError::OutOfMemory)?;
         Ok(Self { reduced, dofs, per_node: matrix.per_node(), dof_of_free, symbolic })
     }

@@ -3,6 +3,7 @@
 pub mod active_set;
 pub mod contact;
 pub mod disjoint_sets;
+pub mod dissection;
 pub mod elastic;
 pub mod element;
 mod enhanced_quad;

@@ -161,6 +161,8 @@ fn prepared<R>(
     let elasticity = ToothElasticity::new(inputs, plan, &pair, elements.as_ref(), &mut stages)?;
     let cases = ContactCases::new(inputs, &pair, &elasticity, elements.as_ref(), &mut stages)?;
     let teeth = cases.springs(inputs, plan, &pair, &elasticity, &mut stages)?;
+    // Slices are verified by other slices with the curve of the plane elements, which make room for the teeth in space once that is known.
+    let elements = elements.filter(|_| scene.slices.is_none() || elasticity.curve_by_elements(inputs).is_none());
     let in_space = prepare::teeth_in_space(inputs, plan, &pair, &mut stages);
     let slices =
         RunSlices::new(inputs, &pair, elasticity.stiffness, teeth[0].as_ref(), in_space.as_ref(), &mut stages)?;

@@ -14,14 +14,21 @@
 //! ```
 //!
 //! between the indentation at which the first of them leaves the contact and the one at which the next touches. Within
-//! these, load and stiffness cost nothing; beyond them the set is found anew ([`Condensed`]), starting from the present one. C
-//! does not change with wear, so its factors are kept while the flanks wear until another set of cells touches.
+//! these, load and stiffness cost nothing; beyond them the set is found anew, starting from the present one, by exchanges of all cells that pull or
+//! overlap, or by [`Condensed`] where these do not end. C does not change with wear, so its inverse is kept while the flanks wear until another set of
+//! cells touches. C of cells beside each other is a Toeplitz matrix ([`ToeplitzInverse`]).
 
 use faer::linalg::solvers::{Llt, Solve};
-use faer::{Mat, Side};
+use faer::{Mat, MatMut, Side};
 
 use super::Response;
+use super::toeplitz::{self, ToeplitzInverse};
 use gearwear_fem::active_set::{ActiveSetError, Condensed};
+
+/// Exchanges of cells until the guarded method takes over; three or four are usual.
+const MOST_EXCHANGES: usize = 12;
+/// Round-off over the greatest pressure or gap.
+const ROUND_OFF: f64 = 1e-12;
 
 /// A row of cells that may touch.
 pub(crate) struct ElasticCells {
@@ -35,21 +42,41 @@ pub(crate) struct ElasticCells {
 
 /// Cells in contact, with their pressures as linear functions of the indentation.
 struct Touching {
-    active: Vec<bool>,
-    members: Vec<usize>,
-    factor: Llt<f64>,
-    /// C⁻¹1, MPa/mm.
-    per_indentation: Vec<f64>,
-    /// C⁻¹g, MPa.
-    relieved: Vec<f64>,
+    set: TouchingSet,
+    /// One after the other, for one way through memory: C⁻¹1, MPa/mm, and C⁻¹g, MPa, of each cell in contact; 1 − C C⁻¹1, what remains of the
+    /// indentation, and g − C C⁻¹g, mm, of each cell beside.
+    numbers: Vec<f64>,
+    /// Sums of C⁻¹1 and C⁻¹g.
+    sums: [f64; 2],
     /// Indentations between which exactly these cells touch, mm.
     holds_mm: [f64; 2],
+}
+
+/// The cells in contact, with C⁻¹ on them.
+enum TouchingSet {
+    /// Cells beside each other.
+    Adjacent {
+        /// The first of them.
+        first: usize,
+        inverse: ToeplitzInverse,
+    },
+    /// Cells in several groups.
+    Scattered {
+        /// Cells in rising order.
+        members: Vec<usize>,
+        factor: Llt<f64>,
+    },
 }
 
 impl ElasticCells {
     /// Cells of `width_mm`, as many as `compliance` has entries: the effect of one cell on another by their distance.
     pub(crate) fn new(width_mm: f64, compliance: Vec<f64>) -> Self {
         Self { width_mm, gap_mm: vec![0.0; compliance.len()], compliance, touching: None, indentation_mm: 0.0 }
+    }
+
+    /// Width of a cell, mm.
+    pub(crate) fn width_mm(&self) -> f64 {
+        self.width_mm
     }
 
     /// Forgets which cells touched.
@@ -79,9 +106,7 @@ impl ElasticCells {
             };
             self.touching = Some(touching);
         }
-        let sums =
-            self.touching.iter().map(|t| (t.per_indentation.iter().sum::<f64>(), t.relieved.iter().sum::<f64>()));
-        let (per_indentation, relieved) = sums.fold((0.0, 0.0), |_, of_set| of_set);
+        let [per_indentation, relieved] = self.touching.as_ref().map_or([0.0; 2], |touching| touching.sums);
         Response {
             line_load_n_per_mm: self.width_mm * (indentation_mm * per_indentation - relieved),
             stiffness_n_per_mm2: self.width_mm * per_indentation,
@@ -97,11 +122,8 @@ impl ElasticCells {
     pub(crate) fn sunk_at_ends_mm(&self) -> [f64; 2] {
         let Some(touching) = self.touching.as_ref().filter(|_| self.indentation_mm > 0.0) else { return [0.0; 2] };
         [0, self.gap_mm.len() - 1].map(|end| {
-            let cells = touching.members.iter().zip(&touching.per_indentation).zip(&touching.relieved);
-            let sunk = cells.map(|((&member, per_indentation), relieved)| {
-                self.compliance[end.abs_diff(member)] * (self.indentation_mm * per_indentation - relieved)
-            });
-            sunk.sum()
+            let pressures = touching.pressures_mpa(self.indentation_mm);
+            pressures.map(|(member, pressure)| self.compliance[end.abs_diff(member)] * pressure).sum()
         })
     }
 
@@ -110,15 +132,30 @@ impl ElasticCells {
         pressure_mpa.clear();
         pressure_mpa.resize(self.gap_mm.len(), 0.0);
         let Some(touching) = self.touching.as_ref().filter(|_| self.indentation_mm > 0.0) else { return };
-        for ((&member, per_indentation), relieved) in
-            touching.members.iter().zip(&touching.per_indentation).zip(&touching.relieved)
-        {
-            pressure_mpa[member] = (self.indentation_mm * per_indentation - relieved).max(0.0);
-        }
+        let pressures = touching.pressures_mpa(self.indentation_mm);
+        pressures.for_each(|(member, pressure)| pressure_mpa[member] = pressure.max(0.0));
     }
 
     /// Cells that touch at the present indentation.
     fn find(&self) -> Result<Touching, ActiveSetError> {
+        let mut active = match &self.touching {
+            Some(touching) => touching.active(self.gap_mm.len()),
+            None => self.gap_mm.iter().map(|gap| *gap <= self.indentation_mm).collect(),
+        };
+        for _ in 0..MOST_EXCHANGES {
+            if !active.contains(&true) {
+                break;
+            }
+            let touching = Touching::new(&active, &self.gap_mm, &self.compliance)?;
+            if !touching.exchange(&mut active, self.indentation_mm) {
+                return Ok(touching);
+            }
+        }
+        self.find_guarded()
+    }
+
+    /// Cells that touch at the present indentation, by the method that cannot cycle.
+    fn find_guarded(&self) -> Result<Touching, ActiveSetError> {
         let count = self.gap_mm.len();
         let problem = Condensed {
             compliance: Mat::from_fn(count, count, |i, j| self.compliance[i.abs_diff(j)]),
@@ -126,32 +163,62 @@ impl ElasticCells {
             rigid: Mat::zeros(count, 0),
             rigid_load: Vec::new(),
         };
-        let start = self.touching.as_ref().map(|touching| touching.active.as_slice());
-        let active = problem.solve(start)?.active;
-        Touching::new(active, &self.gap_mm, &self.compliance)
+        let start = self.touching.as_ref().map(|touching| touching.active(count));
+        let active = problem.solve(start.as_deref())?.active;
+        Touching::new(&active, &self.gap_mm, &self.compliance)
     }
 }
 
 impl Touching {
-    fn new(active: Vec<bool>, gap_mm: &[f64], compliance: &[f64]) -> Result<Self, ActiveSetError> {
-        let members: Vec<usize> = (0..active.len()).filter(|&i| active[i]).collect();
-        let count = members.len();
-        let own = Mat::from_fn(count, count, |i, j| compliance[members[i].abs_diff(members[j])]);
-        let factor = Llt::new(own.as_ref(), Side::Lower)
-            .map_err(|_| ActiveSetError::NotPositiveDefinite { index: members.first().copied().unwrap_or(0) })?;
-        let per_indentation = solved(&factor, members.iter().map(|_| 1.0));
-        let mut touching = Self { active, members, factor, per_indentation, relieved: Vec::new(), holds_mm: [0.0; 2] };
+    fn new(active: &[bool], gap_mm: &[f64], compliance: &[f64]) -> Result<Self, ActiveSetError> {
+        let set = TouchingSet::new(active, compliance)?;
+        let (count, beside) = (set.count(), active.len() - set.count());
+        let mut numbers = vec![0.0; 2 * active.len()];
+        let (of_members, of_beside) = numbers.split_at_mut(2 * count);
+        let (per_indentation, closing) = (&mut of_members[..count], &mut of_beside[..beside]);
+        set.times(&vec![1.0; count], per_indentation);
+        set.sunk_beside_mm(per_indentation, compliance, closing);
+        closing.iter_mut().for_each(|sunk| *sunk = 1.0 - *sunk);
+        let mut touching = Self { set, numbers, sums: [0.0; 2], holds_mm: [0.0; 2] };
         touching.relieve(gap_mm, compliance);
         Ok(touching)
     }
 
+    /// C⁻¹1, C⁻¹g, 1 − C C⁻¹1 and g − C C⁻¹g.
+    fn numbers(&self) -> [&[f64]; 4] {
+        let count = self.set.count();
+        let (of_members, of_beside) = self.numbers.split_at(2 * count);
+        let (per_indentation, relieved) = of_members.split_at(count);
+        let (closing, beside_mm) = of_beside.split_at(of_beside.len() / 2);
+        [per_indentation, relieved, closing, beside_mm]
+    }
+
+    /// Whether each of `cells` cells is in contact.
+    fn active(&self, cells: usize) -> Vec<bool> {
+        let mut active = vec![false; cells];
+        (0..self.set.count()).for_each(|k| active[self.set.member(k)] = true);
+        active
+    }
+
+    /// Cells in contact with their pressures at an indentation, MPa.
+    fn pressures_mpa(&self, indentation_mm: f64) -> impl Iterator<Item = (usize, f64)> {
+        let [per_indentation, relieved, ..] = self.numbers();
+        let pressures = per_indentation.iter().zip(relieved);
+        pressures.enumerate().map(move |(k, (per, relieved))| (self.set.member(k), indentation_mm * per - relieved))
+    }
+
     /// Exchanges the gaps.
     fn relieve(&mut self, gap_mm: &[f64], compliance: &[f64]) {
-        self.relieved = solved(&self.factor, self.members.iter().map(|&i| gap_mm[i]));
+        let count = self.set.count();
+        let (of_members, of_beside) = self.numbers.split_at_mut(2 * count);
+        let (per_indentation, relieved) = of_members.split_at_mut(count);
+        let (closing, beside_mm) = of_beside.split_at_mut(gap_mm.len() - count);
+        self.set.relieve(gap_mm, compliance, relieved, beside_mm);
+        self.sums = [toeplitz::sum(per_indentation), toeplitz::sum(relieved)];
         // A cell leaves the contact where δ C⁻¹1 = C⁻¹g.
         let (mut least, mut most) = (0.0_f64, f64::INFINITY);
-        for (per_indentation, relieved) in self.per_indentation.iter().zip(&self.relieved) {
-            let depth = relieved / per_indentation;
+        for (per_indentation, relieved) in per_indentation.iter().zip(relieved) {
+            let depth = *relieved / per_indentation;
             if *per_indentation > 0.0 {
                 least = least.max(depth);
             } else {
@@ -159,31 +226,114 @@ impl Touching {
             }
         }
         // Another one touches where g + C p = δ.
-        for i in (0..gap_mm.len()).filter(|&i| !self.active[i]) {
-            let (mut closing, mut gap) = (1.0, gap_mm[i]);
-            for ((&j, per_indentation), relieved) in self.members.iter().zip(&self.per_indentation).zip(&self.relieved)
-            {
-                let c = compliance[i.abs_diff(j)];
-                closing -= c * per_indentation;
-                gap -= c * relieved;
-            }
-            if closing > 0.0 {
-                most = most.min(gap / closing);
-            } else if gap < 0.0 {
+        for (closing, gap_mm) in closing.iter().zip(beside_mm) {
+            if *closing > 0.0 {
+                most = most.min(*gap_mm / closing);
+            } else if *gap_mm < 0.0 {
                 least = f64::INFINITY;
             }
         }
         self.holds_mm = [least, most];
     }
+
+    /// Exchanges cells in contact, all that are `active`, that pull at an indentation, and others that overlap. Returns whether there are any.
+    fn exchange(&self, active: &mut [bool], indentation_mm: f64) -> bool {
+        let [_, _, closing, beside_mm] = self.numbers();
+        let pressures = || self.pressures_mpa(indentation_mm).map(|(_, pressure)| pressure);
+        let gaps_mm = || closing.iter().zip(beside_mm).map(|(closing, gap_mm)| gap_mm - indentation_mm * closing);
+        let greatest = |most: f64, value: f64| most.max(value.abs());
+        let least_mpa = -ROUND_OFF * pressures().fold(0.0, greatest);
+        let least_mm = -ROUND_OFF * gaps_mm().fold(0.0, greatest);
+        let (mut pressures, mut gaps_mm, mut any) = (pressures(), gaps_mm(), false);
+        for active in active {
+            let wrong = match active {
+                true => pressures.next().is_some_and(|pressure| pressure < least_mpa),
+                false => gaps_mm.next().is_some_and(|gap| gap < least_mm),
+            };
+            *active ^= wrong;
+            any |= wrong;
+        }
+        any
+    }
 }
 
-/// C⁻¹ applied to a right-hand side.
-fn solved(factor: &Llt<f64>, side: impl ExactSizeIterator<Item = f64>) -> Vec<f64> {
-    let count = side.len();
-    let mut column = Mat::zeros(count, 1);
-    column.col_mut(0).iter_mut().zip(side).for_each(|(to, from)| *to = from);
-    factor.solve_in_place(column.as_mut());
-    column.col(0).iter().copied().collect()
+impl TouchingSet {
+    fn new(active: &[bool], compliance: &[f64]) -> Result<Self, ActiveSetError> {
+        let first = active.iter().position(|active| *active).unwrap_or_default();
+        let end = active.iter().rposition(|active| *active).map_or(first, |last| last + 1);
+        let error = ActiveSetError::NotPositiveDefinite { index: first };
+        if active[first..end].iter().all(|active| *active) {
+            let inverse = ToeplitzInverse::new(compliance, end - first).ok_or(error)?;
+            return Ok(Self::Adjacent { first, inverse });
+        }
+        let members: Vec<usize> = (first..end).filter(|&i| active[i]).collect();
+        let count = members.len();
+        let own = Mat::from_fn(count, count, |i, j| compliance[members[i].abs_diff(members[j])]);
+        let factor = Llt::new(own.as_ref(), Side::Lower).map_err(|_| error)?;
+        Ok(Self::Scattered { members, factor })
+    }
+
+    /// Number of cells in contact.
+    fn count(&self) -> usize {
+        match self {
+            Self::Adjacent { inverse, .. } => inverse.count(),
+            Self::Scattered { members, .. } => members.len(),
+        }
+    }
+
+    /// Cell number `k` of those in contact.
+    fn member(&self, k: usize) -> usize {
+        match self {
+            Self::Adjacent { first, .. } => first + k,
+            Self::Scattered { members, .. } => members[k],
+        }
+    }
+
+    /// Fills in C⁻¹g of the cells in contact and g − C C⁻¹g of those beside.
+    fn relieve(&self, gap_mm: &[f64], compliance: &[f64], relieved: &mut [f64], beside_mm: &mut [f64]) {
+        match self {
+            Self::Adjacent { first, .. } => {
+                let end = first + self.count();
+                self.times(&gap_mm[*first..end], relieved);
+                self.sunk_beside_mm(relieved, compliance, beside_mm);
+                let beside = gap_mm[..*first].iter().chain(&gap_mm[end..]);
+                beside_mm.iter_mut().zip(beside).for_each(|(sunk, gap)| *sunk = gap - *sunk);
+            }
+            Self::Scattered { members, .. } => {
+                let own: Vec<f64> = members.iter().map(|&member| gap_mm[member]).collect();
+                self.times(&own, relieved);
+                self.sunk_beside_mm(relieved, compliance, beside_mm);
+                let beside = (0..gap_mm.len()).filter(|cell| members.binary_search(cell).is_err());
+                beside_mm.iter_mut().zip(beside).for_each(|(sunk, cell)| *sunk = gap_mm[cell] - *sunk);
+            }
+        }
+    }
+
+    /// Fills in the displacements of the cells beside those in contact by `pressures` on these, mm.
+    fn sunk_beside_mm(&self, pressures: &[f64], compliance: &[f64], sunk_mm: &mut [f64]) {
+        match self {
+            Self::Adjacent { first, .. } => toeplitz::beside(compliance, pressures, *first, sunk_mm),
+            Self::Scattered { members, .. } => {
+                let cells = pressures.len() + sunk_mm.len();
+                let beside = (0..cells).filter(|cell| members.binary_search(cell).is_err());
+                for (sunk, cell) in sunk_mm.iter_mut().zip(beside) {
+                    let by_cells = members.iter().zip(pressures);
+                    *sunk = by_cells.map(|(member, pressure)| compliance[cell.abs_diff(*member)] * pressure).sum();
+                }
+            }
+        }
+    }
+
+    /// Fills `product` with C⁻¹ times `side`.
+    fn times(&self, side: &[f64], product: &mut [f64]) {
+        match self {
+            Self::Adjacent { inverse, .. } => inverse.times(side, product),
+            Self::Scattered { factor, .. } => {
+                product.copy_from_slice(side);
+                factor.solve_in_place(MatMut::from_column_major_slice_mut(product, side.len(), 1));
+            }
+        }
+    }
 }
 
 #[cfg(test)]

@@ -53,23 +53,38 @@ pub(super) fn edge_under_load(geometry: &dyn ConjugateFlanks, position_mm: f64) 
     }
 }
 
-/// Distances that the flank of `gear` around `coordinate_mm` passes its contact from the cell's position to its ends. On the line of action the
-/// contact stands still in the tangent frame; before A and after E it stands on an edge, which the mate passes as far as it slides. The
-/// points of the edge's flank, `spacing_mm` apart, then each feel the pressure on their part of the edge.
-pub(super) fn passes_to_ends_mm(
-    geometry: &dyn ConjugateFlanks,
+/// How far a flank passes its contact within the cell of a loading position. On the line of action the contact stands still in the tangent frame;
+/// before A and after E it stands on an edge, which the mate passes as far as it slides. The points of the edge's flank then each feel the pressure
+/// on their part of the edge.
+pub(super) struct Passes<'a> {
+    geometry: &'a dyn ConjugateFlanks,
     gear: Gear,
-    coordinate_mm: f64,
     cell: PositionCell,
-    spacing_mm: f64,
-) -> [f64; 2] {
-    let own = shift_to_ends_mm(geometry, gear, coordinate_mm, cell);
-    match edge_under_load(geometry, cell.position_mm) {
-        None => own,
-        Some(edge) if edge.gear == gear => [-0.5 * spacing_mm, 0.5 * spacing_mm],
-        Some(edge) => {
-            let edges = shift_to_ends_mm(geometry, edge.gear, edge.coordinate_mm, cell);
-            [own[0] + edges[0], own[1] + edges[1]]
+    /// Gear of the edge under load, and distances that the edge itself moves.
+    edge: Option<(Gear, [f64; 2])>,
+}
+
+impl<'a> Passes<'a> {
+    /// Passes of the flank of `gear`.
+    pub(super) fn new(geometry: &'a dyn ConjugateFlanks, gear: Gear, cell: PositionCell) -> Self {
+        let edge = edge_under_load(geometry, cell.position_mm)
+            .map(|edge| (edge.gear, shift_to_ends_mm(geometry, edge.gear, edge.coordinate_mm, cell)));
+        Self { geometry, gear, cell, edge }
+    }
+
+    /// Distances that the flank around `coordinate_mm` passes from the cell's position to its ends, with points `spacing_mm` apart there.
+    pub(super) fn to_ends_mm(&self, coordinate_mm: f64, spacing_mm: impl FnOnce() -> f64) -> [f64; 2] {
+        let own = || shift_to_ends_mm(self.geometry, self.gear, coordinate_mm, self.cell);
+        match self.edge {
+            None => own(),
+            Some((gear, _)) if gear == self.gear => {
+                let half_mm = 0.5 * spacing_mm();
+                [-half_mm, half_mm]
+            }
+            Some((_, edges)) => {
+                let own = own();
+                [own[0] + edges[0], own[1] + edges[1]]
+            }
         }
     }
 }

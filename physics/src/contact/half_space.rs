@@ -36,7 +36,7 @@ use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 use gearwear_bodies::material::Material;
 use gearwear_bodies::reference::{
     flattening::Flattening,
-    half_plane::{cell_compliance_at_mm_per_mpa, cell_compliance_mm_per_mpa},
+    half_plane::{cell_compliance_mm_per_mpa, line_loads_primitive},
 };
 
 /// Elastic half-planes as a contact surface.
@@ -82,10 +82,8 @@ impl ContactSurface for HalfSpace {
         };
         Box::new(HalfSpacePair {
             window: GrowingWindow::new(stretch, FIRST_WINDOW * half_width),
-            samples: Vec::new(),
             gap: Vec::new(),
             touch: 0.0,
-            removed_everywhere: 0.0,
         })
     }
 
@@ -130,8 +128,11 @@ impl Sampled for HalfSpaceStretch<'_> {
     fn sample(&self, half_length_mm: f64) -> SampledStretch {
         let window = ContactWindow::new(self.flanks, self.position_mm, half_length_mm);
         let (window, count) = in_cells(window, self.cell_mm);
+        let width = window.length_mm() / count as f64;
+        // Rise of the weighted gap of a parabola above that at the centre: Δ²/16R.
+        let rise = width * width / (16.0 * self.flattening.contact.relative_radius_mm());
         let strip = Strip::new(self.flanks, self.position_mm, window, window.evenly_mm(2 * count), self.cell);
-        let width = 2.0 * strip.spacing_mm();
+        let strip = strip.over_cells(self.flanks.grid.map(|grid| grid.len()), rise);
         let compliance = cell_compliance_mm_per_mpa(&self.flattening.bodies, width, count);
         let swept = SweptField::new(self.flanks, window, width, self.cell);
         SampledStretch { strip, cells: ElasticCells::new(width, compliance), swept }
@@ -162,45 +163,41 @@ fn in_cells(window: ContactWindow, cell_mm: f64) -> (ContactWindow, usize) {
 /// One tooth pair on half-planes.
 struct HalfSpacePair<'a> {
     window: GrowingWindow<HalfSpaceStretch<'a>>,
-    /// Real gap at the ends and centres of the cells, mm.
-    samples: Vec<f64>,
     /// Real gap of each cell less the least of them, mm.
     gap: Vec<f64>,
     /// Least gap, mm.
     touch: f64,
-    /// Least loss of both flanks together where they may touch, mm; 0 where it is little.
-    removed_everywhere: f64,
 }
 
 impl HalfSpacePair<'_> {
-    /// Whether the flanks may touch beyond an end of the window where no flank ends.
-    fn may_touch_beyond(&self) -> bool {
+    /// Whether flanks that have lost `removed_mm` may touch beyond an end of the window where no flank ends.
+    fn may_touch_beyond(&self, removed_mm: PerGear<&[f64]>) -> bool {
         let SampledStretch { strip, cells, .. } = &self.window.samples;
-        strip.may_touch_beyond(self.touch + cells.indentation_mm(), self.removed_everywhere, cells.sunk_at_ends_mm())
+        let (approach_mm, sunk_mm) = (self.touch + cells.indentation_mm(), cells.sunk_at_ends_mm());
+        let may_touch = |removed_mm| strip.may_touch_beyond(approach_mm, removed_mm, sunk_mm);
+        may_touch(0.0) && may_touch(self.removed_everywhere_mm(removed_mm))
+    }
+
+    /// Least loss of both flanks together where they may touch, mm; 0 where it is little.
+    fn removed_everywhere_mm(&self, removed_mm: PerGear<&[f64]>) -> f64 {
+        let HalfSpaceStretch { flanks, position_mm, flattening, .. } = &self.window.flanks;
+        let half_length_mm = self.window.half_length_mm;
+        let at_end = half_length_mm * half_length_mm / (2.0 * flattening.contact.relative_radius_mm());
+        match self.touch > LITTLE_REMOVED * at_end {
+            true => least_removed_mm(*flanks, *position_mm, self.touch + at_end, removed_mm),
+            false => 0.0,
+        }
     }
 }
 
 impl PairContact for HalfSpacePair<'_> {
     fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
         let SampledStretch { strip, cells, .. } = &mut self.window.samples;
-        strip.gap_mm(removed_mm, &mut self.samples);
-        // Rise of the weighted gap of a parabola above that at the centre: Δ²/16R.
-        let rise = strip.spacing_mm().powi(2) / (4.0 * self.window.flanks.flattening.contact.relative_radius_mm());
-        self.gap.clear();
-        let ends = self.samples.windows(3).step_by(2);
-        self.gap.extend(ends.map(|ends| 0.25 * (ends[0] + ends[2]) + 0.5 * ends[1] - rise));
-        let touch = self.gap.iter().copied().fold(f64::INFINITY, f64::min);
+        let touch = strip.gap_mm(removed_mm, &mut self.gap);
         // Counted from the first touch: a light load on a deep relief keeps its digits.
         self.gap.iter_mut().for_each(|gap| *gap -= touch);
         self.touch = touch;
         cells.set_gap(&self.gap);
-        let HalfSpaceStretch { flanks, position_mm, flattening, .. } = &self.window.flanks;
-        let half_length_mm = self.window.half_length_mm;
-        let at_end = half_length_mm * half_length_mm / (2.0 * flattening.contact.relative_radius_mm());
-        self.removed_everywhere = match touch > LITTLE_REMOVED * at_end {
-            true => least_removed_mm(*flanks, *position_mm, touch + at_end, removed_mm),
-            false => 0.0,
-        };
     }
 
     fn touch_mm(&self) -> f64 {
@@ -216,7 +213,7 @@ impl PairContact for HalfSpacePair<'_> {
         self.window.flanks.flattening.approach_mm(2.0 * line_load_n_per_mm)
     }
 
-    fn window_suffices(&mut self) -> bool {
+    fn window_suffices(&mut self, removed_mm: PerGear<&[f64]>) -> bool {
         let SampledStretch { strip, cells, swept } = &mut self.window.samples;
         swept.field.fill(|pressure| cells.pressure_mpa(pressure));
         let pressure = swept.field.cells_mpa();
@@ -224,7 +221,7 @@ impl PairContact for HalfSpacePair<'_> {
         let [free_below, free_above] =
             [&pressure[..cells], &pressure[pressure.len() - cells..]].map(|end| end.iter().all(|p| *p == 0.0));
         let [real_below, real_above] = strip.window.ends_are_real;
-        (real_below || free_below) && (real_above || free_above) && !self.may_touch_beyond()
+        (real_below || free_below) && (real_above || free_above) && !self.may_touch_beyond(removed_mm)
     }
 
     fn widen(&mut self) {
@@ -263,17 +260,22 @@ impl PairContact for HalfSpacePair<'_> {
     }
 
     fn pressed_cells(&self) -> Vec<PressedCell> {
-        let SampledStretch { strip, swept, .. } = &self.window.samples;
+        let SampledStretch { strip, cells, swept } = &self.window.samples;
         let pressures_mpa = swept.field.cells_mpa().iter().copied();
-        PressedCell::evenly(strip.window.lower_mm, 2.0 * strip.spacing_mm(), pressures_mpa)
+        PressedCell::evenly(strip.window.lower_mm, cells.width_mm(), pressures_mpa)
     }
 }
 
 /// Displacement of both surfaces at a place under the pressure of `cells`, mm.
 fn sunk_mm(flattening: &Flattening, cells: &[PressedCell], at_mm: f64) -> f64 {
-    let by_cells = cells.iter().map(|cell| {
-        let (width_mm, distance_mm) = (cell.upper_mm - cell.lower_mm, at_mm - cell.lower_mm.midpoint(cell.upper_mm));
-        cell.pressure_mpa * cell_compliance_at_mm_per_mpa(&flattening.bodies, width_mm, distance_mm)
-    });
-    by_cells.sum()
+    let primitive = |end_mm: f64| line_loads_primitive(&flattening.bodies, at_mm - end_mm);
+    let (mut sunk, mut before) = (0.0, None);
+    for cell in cells {
+        // Cells beside each other share an end.
+        let lower = before.filter(|(end_mm, _)| *end_mm == cell.lower_mm).map(|(_, of_end)| of_end);
+        let (lower, upper) = (lower.unwrap_or_else(|| primitive(cell.lower_mm)), primitive(cell.upper_mm));
+        sunk += cell.pressure_mpa * (lower - upper);
+        before = Some((cell.upper_mm, upper));
+    }
+    sunk
 }

@@ -164,7 +164,7 @@ impl PairContact for HertzPair<'_> {
         self.closed_form.ample_indentation_mm(line_load_n_per_mm)
     }
 
-    fn window_suffices(&mut self) -> bool {
+    fn window_suffices(&mut self, _removed_mm: PerGear<&[f64]>) -> bool {
         (self.strip_load, self.half_width_mm) = self.strip(self.closed_form.line_load);
         self.half_width_mm <= self.window.half_length_mm
     }

@@ -26,6 +26,8 @@ pub(crate) mod pressure_field;
 pub mod settings;
 pub(crate) mod strip;
 pub(crate) mod swept_field;
+mod toeplitz;
+mod weighted_rows;
 pub mod winkler;
 
 use serde::{Deserialize, Serialize};
@@ -208,9 +210,9 @@ pub trait PairContact: Send {
     /// Indentation that should carry at least `line_load_n_per_mm`, to begin an iteration with.
     fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64;
 
-    /// Whether the window of this contact holds all that touches at the last indentation. If not, [`widen`](Self::widen) it, set the removed
-    /// material and press again.
-    fn window_suffices(&mut self) -> bool {
+    /// Whether the window of this contact holds all that touches at the last indentation, on flanks that have lost `removed_mm`. If not,
+    /// [`widen`](Self::widen) it, set the removed material and press again.
+    fn window_suffices(&mut self, _removed_mm: PerGear<&[f64]>) -> bool {
         true
     }
 

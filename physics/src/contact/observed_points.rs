@@ -1,8 +1,6 @@
 //! Points of one flank that may touch the other: places, motion and sliding while they face the mate.
 
-use std::ops::Range;
-
-use super::flank_motion::{edge_under_load, passes_to_ends_mm, shift_to_ends_mm};
+use super::flank_motion::{Passes, edge_under_load, shift_to_ends_mm};
 use super::strip::ContactWindow;
 use super::{Flanks, PositionCell};
 use gearwear_bodies::gear::{Gear, conjugate::ConjugateFlanks, involute::TangentFramePoint};
@@ -20,8 +18,6 @@ pub(crate) struct ObservedPoints {
     /// Distances that each point moves along the tangent from the cell's position to its lower and to its upper end, mm; near a base circle neighbours
     /// differ much.
     shifts_to_ends_mm: Vec<[f64; 2]>,
-    /// Least of these distances (at most 0) and greatest (at least 0).
-    least_and_most_mm: [f64; 2],
     /// Ends along the tangent, mm, of a flank that stands under the pressure; its points feel the pressure on their part of it.
     standing_within_mm: Option<[f64; 2]>,
     /// Points that an end of the mate's flank passes within the cell, or that face nothing.
@@ -75,21 +71,8 @@ impl ObservedPoints {
         }
         let coordinates_mm = &grid.coordinate_mm[first_point..=last];
         let shifts = coordinates_mm.iter().map(|&at| shift_to_ends_mm(&geometry, gear, at, cell));
-        let (shifts_to_ends_mm, least_and_most_mm) = (Vec::new(), [0.0; 2]);
-        let standing_within_mm = None;
-        Self { first_point, sliding_mm, partly_exposed, standing_within_mm, at, shifts_to_ends_mm, least_and_most_mm }
-            .moving_by(shifts)
-    }
-
-    /// Points that each move by these distances.
-    fn moving_by(mut self, shifts_to_ends_mm: impl Iterator<Item = [f64; 2]>) -> Self {
-        self.shifts_to_ends_mm = shifts_to_ends_mm.collect();
-        self.least_and_most_mm = self
-            .shifts_to_ends_mm
-            .iter()
-            .flatten()
-            .fold([0.0; 2], |[least, most], &shift| [shift.min(least), shift.max(most)]);
-        self
+        let shifts_to_ends_mm = shifts.collect();
+        Self { first_point, sliding_mm, partly_exposed, standing_within_mm: None, at, shifts_to_ends_mm }
     }
 
     /// The points under a pressure that stands still during the cell, or goes with an edge: the mate passes an edge all the time.
@@ -114,8 +97,8 @@ impl ObservedPoints {
             let widest_mm = points.at.windows(2).map(|two| two[1].along_mm - two[0].along_mm).fold(0.0, f64::max);
             let seen = points.first_point..points.first_point + points.sliding_mm.len();
             let coordinates_mm = flanks.grid[gear].coordinate_mm[seen].iter();
-            points = points
-                .moving_by(coordinates_mm.map(|&at| passes_to_ends_mm(&flanks.geometry, gear, at, cell, widest_mm)));
+            let passes = Passes::new(&flanks.geometry, gear, cell);
+            points.shifts_to_ends_mm = coordinates_mm.map(|&at| passes.to_ends_mm(at, || widest_mm)).collect();
         }
         points
     }
@@ -149,18 +132,6 @@ impl ObservedPoints {
             shifts[point.sample] = [point.from, point.to].map(|t| lower + t * (upper - lower));
         }
         shifts
-    }
-
-    /// Range of the points, counted from the first, that touch anywhere between `lower_mm` and `upper_mm` (gear's own direction)
-    /// within the cell, and a few more at either end.
-    pub(crate) fn between(&self, lower_mm: f64, upper_mm: f64) -> Range<usize> {
-        let [least, most] = self.least_and_most_mm;
-        let points = &self.at[1..=self.sliding_mm.len()];
-        let [below, within] = [lower_mm - most, upper_mm - least]
-            .map(|along_mm| points.partition_point(|point| point.along_mm < along_mm));
-        let first = below.saturating_sub(1);
-        let end = (within + 1).min(points.len());
-        first.min(end)..end
     }
 }
 

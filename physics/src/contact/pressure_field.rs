@@ -27,6 +27,12 @@ pub(crate) struct PressureField {
     pressure_mpa: Vec<f64>,
     /// Load from the beginning to the centre of each cell, N/mm.
     load_below: Vec<f64>,
+    /// First and last cell under pressure.
+    pressed: Option<(usize, usize)>,
+    /// Outermost places under pressure; both 0 without pressure.
+    extent_mm: (f64, f64),
+    /// Greatest pressure, between the cells' centres.
+    peak_mpa: f64,
 }
 
 impl PressureField {
@@ -49,11 +55,20 @@ impl PressureField {
             before = Some(pressure);
             self.load_below.push(load);
         }
+        let is_pressed = |pressure: &f64| *pressure > 0.0;
+        let first = self.pressure_mpa.iter().position(is_pressed);
+        self.pressed = first.zip(self.pressure_mpa.iter().rposition(is_pressed));
+        (self.extent_mm, self.peak_mpa) = (self.found_extent_mm(), self.found_peak_mpa());
     }
 
     /// Pressure of each cell, MPa.
     pub(crate) fn cells_mpa(&self) -> &[f64] {
         &self.pressure_mpa
+    }
+
+    /// First and last cell under pressure.
+    pub(crate) fn pressed(&self) -> Option<(usize, usize)> {
+        self.pressed
     }
 
     /// Pressure at `x_mm`.
@@ -70,6 +85,45 @@ impl PressureField {
             return self.at_mpa(0.5 * (from_mm + to_mm));
         }
         (self.load_below(to_mm) - self.load_below(from_mm)) / length
+    }
+
+    /// Fills in the `weights` of the pressures of `cells` cells in the mean of [`Self::mean_mpa`], where the field is not mirrored. Returns the first
+    /// cell with a weight.
+    pub(crate) fn mean_weights(&self, cells: usize, [from_mm, to_mm]: [f64; 2], weights: &mut Vec<f64>) -> usize {
+        let upper_mm = self.lower_mm + cells as f64 * self.width_mm;
+        let place = |x_mm: f64| self.place_among(cells, x_mm);
+        let length_mm = to_mm - from_mm;
+        weights.clear();
+        if length_mm.abs() <= 1e-9 * self.width_mm {
+            let (k, weight) = place(0.5 * (from_mm + to_mm));
+            let weight = weight.clamp(0.0, 1.0);
+            weights.extend([1.0 - weight, weight]);
+            return k;
+        }
+        let ends = [from_mm, to_mm].map(|end_mm| place(end_mm.clamp(self.lower_mm, upper_mm)));
+        let first = ends[0].0.min(ends[1].0);
+        weights.resize(ends[0].0.max(ends[1].0) + 2 - first, 0.0);
+        for ((k, weight), sign) in ends.into_iter().zip([-1.0, 1.0]) {
+            // P(x) is Σ of all cells before k, and these parts of the two around x.
+            let (here, next) = if weight < 0.0 {
+                (0.5 + weight, 0.0)
+            } else if weight > 1.0 {
+                (1.0, weight - 0.5)
+            } else {
+                (0.5 + weight - 0.5 * weight * weight, 0.5 * weight * weight)
+            };
+            let part = sign * self.width_mm / length_mm;
+            weights[..k - first].iter_mut().for_each(|before| *before += part);
+            weights[k - first] += part * here;
+            weights[k + 1 - first] += part * next;
+        }
+        first
+    }
+
+    /// Whether the mean from one place to another depends on the field's being mirrored, where it has so many cells.
+    pub(crate) fn may_be_mirrored(&self, cells: usize, ends_mm: [f64; 2]) -> bool {
+        let upper_mm = self.lower_mm + cells as f64 * self.width_mm;
+        self.mirrored && ends_mm.into_iter().any(|end_mm| !(self.lower_mm..=upper_mm).contains(&end_mm))
     }
 
     /// Greatest pressure from one place to another.
@@ -109,17 +163,23 @@ impl PressureField {
     /// Centre before `x_mm`, and the distance from it in cells: 0 to 1, but below 0 before the first and above 1 after the
     /// last centre.
     fn place(&self, x_mm: f64) -> (usize, f64) {
+        self.place_among(self.pressure_mpa.len(), x_mm)
+    }
+
+    fn place_among(&self, cells: usize, x_mm: f64) -> (usize, f64) {
         let from_first = (x_mm - self.lower_mm) / self.width_mm - 0.5;
-        let k = (from_first.max(0.0) as usize).min(self.pressure_mpa.len() - 2);
+        let k = (from_first.max(0.0) as usize).min(cells - 2);
         (k, from_first - k as f64)
     }
 
     /// Outermost places under pressure; both 0 without pressure.
     pub(crate) fn extent_mm(&self) -> (f64, f64) {
+        self.extent_mm
+    }
+
+    fn found_extent_mm(&self) -> (f64, f64) {
         let p = &self.pressure_mpa;
-        let mut loaded = (0..p.len()).filter(|&k| p[k] > 0.0);
-        let Some(first) = loaded.next() else { return (0.0, 0.0) };
-        let last = loaded.next_back().unwrap_or(first);
+        let Some((first, last)) = self.pressed else { return (0.0, 0.0) };
         // A contact that reaches the outermost cell ends where the surfaces end.
         let before = if first == 0 { 0.0 } else { inset(p[first..=last].iter()) };
         let after = if last + 1 == p.len() { 0.0 } else { inset(p[first..=last].iter().rev()) };
@@ -130,12 +190,12 @@ impl PressureField {
 
     /// Greatest pressure, between the cells' centres, and half the extent.
     pub(crate) fn footprint(&self) -> Footprint {
-        let (lower, upper) = self.extent_mm();
-        Footprint { peak_pressure_mpa: self.peak_mpa(), half_width_mm: 0.5 * (upper - lower), at_sharp_edge: false }
+        let (lower, upper) = self.extent_mm;
+        Footprint { peak_pressure_mpa: self.peak_mpa, half_width_mm: 0.5 * (upper - lower), at_sharp_edge: false }
     }
 
     /// Top of the parabola through the greatest pressure and its neighbours, or the pressure itself in an outermost cell.
-    fn peak_mpa(&self) -> f64 {
+    fn found_peak_mpa(&self) -> f64 {
         let p = &self.pressure_mpa;
         let Some(k) = (0..p.len()).max_by(|&a, &b| p[a].total_cmp(&p[b])) else { return 0.0 };
         match p.get(k.wrapping_sub(1)..k + 2) {
@@ -193,6 +253,23 @@ mod tests {
                 let loaded = field.at_mpa(if within[0] < 0.0 { -0.3 } else { 0.3 }) > 0.0;
                 let [within, beyond] = [within, beyond].map(|stretch| field.mean_mpa(stretch));
                 assert!((beyond - if loaded { within } else { 0.0 }).abs() < 1e-12);
+            }
+        }
+    }
+
+    /// Means by weights of the cells are those of the field, from any place to any other, where it is not mirrored.
+    #[test]
+    fn ver_weights_of_cells_give_the_mean() {
+        let pressures = [7.0, 3.0, 0.5, 0.0, 2.0, 9.0];
+        let field = PressureField { mirrored: false, ..field(&pressures) };
+        let places = (-40..=40).map(|k| 0.0101 * f64::from(k));
+        let mut weights = Vec::new();
+        for from in places.clone() {
+            for to in places.clone().chain([from]) {
+                let first = field.mean_weights(pressures.len(), [from, to], &mut weights);
+                let by_weights: f64 = weights.iter().zip(&pressures[first..]).map(|(weight, p)| weight * p).sum();
+                let mean = field.mean_mpa([from, to]);
+                assert!((by_weights - mean).abs() < 1e-9, "{from} to {to}: {by_weights} {mean}");
             }
         }
     }

@@ -10,7 +10,8 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
-use super::flank_motion::{ROUND_OFF, edge_under_load, on_tangent, passes_to_ends_mm};
+use super::flank_motion::{Passes, ROUND_OFF, edge_under_load, on_tangent};
+use super::weighted_rows::{RowsOfAnyLength, WeightedRows};
 use super::{Flanks, PositionCell};
 use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 use gearwear_bodies::reference::linear_means::add_means;
@@ -59,6 +60,14 @@ impl Interpolation {
         self.index.push(index as u32);
     }
 
+    /// Weights of the points at the samples.
+    fn weights(&self, points: usize) -> WeightedRows {
+        let mut rows = RowsOfAnyLength::of_about(self.index.len());
+        let samples = self.index.iter().zip(&self.weight);
+        samples.for_each(|(index, weight)| rows.push(*index as usize, &[1.0 - weight, *weight]));
+        rows.packed(points)
+    }
+
     /// Values at the samples.
     pub(super) fn of<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         self.index.iter().zip(&self.weight).map(|(&i, &weight)| {
@@ -68,45 +77,53 @@ impl Interpolation {
     }
 }
 
-/// Removed material of one flank at samples: mean over the stretch that passes each within a [`PositionCell`].
-#[derive(Debug, Clone, Default)]
-struct PassingMean {
-    first: Vec<u32>,
-    ends: Vec<u32>,
-    weights: Vec<f64>,
+/// Weights of the points of a flank in the means over the stretches that pass the samples `along_mm` within a [`PositionCell`], where the flank has
+/// these coordinates.
+fn passing(
+    flanks: Flanks<'_>,
+    gear: Gear,
+    cell: PositionCell,
+    along_mm: &[f64],
+    coordinates_mm: &[f64],
+) -> WeightedRows {
+    let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
+    let mut passing = RowsOfAnyLength::of_about(along_mm.len());
+    let within = points_within(flanks, gear);
+    let points_mm = &grid.coordinate_mm[within.clone()];
+    // All 0 again after every sample.
+    let mut sums = vec![0.0; points_mm.len()];
+    let passes = Passes::new(&geometry, gear, cell);
+    for (along_mm, at_mm) in along_mm.iter().zip(coordinates_mm) {
+        let along_mm = on_tangent(gear, *along_mm);
+        let passed = passes.to_ends_mm(*at_mm, || grid.distance_at_mm(*at_mm));
+        let ends = passed.map(|by| geometry.at_along(gear, along_mm - by, cell.position_mm).0);
+        let reached = add_means(points_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
+        passing.push(within.start + reached.start, &sums[reached.clone()]);
+        sums[reached].fill(0.0);
+    }
+    passing.packed(grid.len())
 }
 
-impl PassingMean {
-    /// Means at the samples `along_mm`, in the gear's own direction of the tangent.
-    fn new(flanks: Flanks<'_>, gear: Gear, cell: PositionCell, along_mm: impl Iterator<Item = f64>) -> Self {
-        let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
-        let mut passing = Self::default();
-        let within = points_within(flanks, gear);
-        let points_mm = &grid.coordinate_mm[within.clone()];
-        // All 0 again after every sample.
-        let mut sums = vec![0.0; points_mm.len()];
-        for along in along_mm {
-            let at_mm = geometry.at_along(gear, along, cell.position_mm).0;
-            let passes = passes_to_ends_mm(&geometry, gear, at_mm, cell, grid.distance_at_mm(at_mm));
-            let ends = passes.map(|by| geometry.at_along(gear, along - by, cell.position_mm).0);
-            let reached = add_means(points_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
-            passing.first.push((within.start + reached.start) as u32);
-            passing.weights.extend_from_slice(&sums[reached.clone()]);
-            passing.ends.push(passing.weights.len() as u32);
-            sums[reached].fill(0.0);
+/// Weights in the means over cells of two intervals between samples each, from those at the samples.
+fn means_of_cells(samples: &WeightedRows, points: usize) -> WeightedRows {
+    let mut cells = RowsOfAnyLength::of_about(samples.count() / 2);
+    let mut sums = Vec::new();
+    for k in (0..samples.count() - 2).step_by(2) {
+        let of_cell = [k, k + 1, k + 2].map(|k| samples.row(k));
+        let first = of_cell.iter().map(|(first, _)| *first).min().unwrap_or_default();
+        let end = of_cell.iter().map(|(first, weights)| first + weights.len()).max().unwrap_or_default();
+        sums.clear();
+        sums.resize(end - first, 0.0);
+        for ((from, weights), part) in of_cell.into_iter().zip(OF_CELL) {
+            sums[from - first..].iter_mut().zip(weights).for_each(|(sum, weight)| *sum += part * weight);
         }
-        passing
+        cells.push(first, &sums);
     }
-
-    fn of<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-        let mut begin = 0;
-        self.first.iter().zip(&self.ends).map(move |(&first, &end)| {
-            let weights = &self.weights[begin as usize..end as usize];
-            begin = end;
-            weights.iter().zip(&values[first as usize..]).map(|(weight, value)| weight * value).sum()
-        })
-    }
+    cells.packed(points)
 }
+
+/// Weights of begin, middle and end of a cell in its mean.
+const OF_CELL: [f64; 3] = [0.25, 0.5, 0.25];
 
 /// Part of the tangent at one position in which a contact is looked for; mm from the theoretical contact point, positive towards the pinion's tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -257,8 +274,8 @@ pub(crate) struct Strip {
 enum Removed {
     /// Value at the place of each sample.
     Here(PerGear<Interpolation>),
-    /// Mean of the material that passes each sample.
-    Passing(PerGear<PassingMean>),
+    /// Mean of the material that passes each sample, or over a cell.
+    Weighted(PerGear<WeightedRows>),
 }
 
 impl Strip {
@@ -273,13 +290,18 @@ impl Strip {
         passed_during: Option<PositionCell>,
     ) -> Self {
         let mut geometric_gap_mm = vec![0.0; along_mm.len()];
+        let coordinates_mm = PerGear::from_fn(|gear| -> Vec<f64> {
+            let places =
+                along_mm.iter().map(|&along| flanks.geometry.at_along(gear, on_tangent(gear, along), position_mm));
+            let places = places.zip(&mut geometric_gap_mm).map(|((coordinate, drop), gap)| {
+                *gap += drop;
+                coordinate
+            });
+            places.collect()
+        });
         let here = PerGear::from_fn(|gear| {
             let mut here = Interpolation::new(flanks, gear);
-            for (&along, gap) in along_mm.iter().zip(&mut geometric_gap_mm) {
-                let (coordinate, drop) = flanks.geometry.at_along(gear, on_tangent(gear, along), position_mm);
-                *gap += drop;
-                here.push(flanks.grid[gear], coordinate);
-            }
+            coordinates_mm[gear].iter().for_each(|coordinate| here.push(flanks.grid[gear], *coordinate));
             here
         });
         let unmodified_at_ends_mm = [0, geometric_gap_mm.len() - 1].map(|end| geometric_gap_mm[end]);
@@ -287,13 +309,29 @@ impl Strip {
             return Self { window, along_mm, geometric_gap_mm, unmodified_at_ends_mm, removed: Removed::Here(here) };
         };
         let passing = PerGear::from_fn(|gear| {
-            let passing = PassingMean::new(flanks, gear, cell, along_mm.iter().map(|&along| on_tangent(gear, along)));
+            let passing = passing(flanks, gear, cell, &along_mm, &coordinates_mm[gear]);
             // A modification counts as at the sample.
-            let beside = here[gear].of(modification_mm[gear]).zip(passing.of(modification_mm[gear]));
+            let mut means = vec![0.0; along_mm.len()];
+            passing.add_products(0, modification_mm[gear], &mut means);
+            let beside = here[gear].of(modification_mm[gear]).zip(means);
             geometric_gap_mm.iter_mut().zip(beside).for_each(|(gap, (here, mean))| *gap += here - mean);
             passing
         });
-        Self { window, along_mm, geometric_gap_mm, unmodified_at_ends_mm, removed: Removed::Passing(passing) }
+        Self { window, along_mm, geometric_gap_mm, unmodified_at_ends_mm, removed: Removed::Weighted(passing) }
+    }
+
+    /// Strip with a sample for each cell of two intervals instead: gap and removed material are ¼, ½ and ¼ of those at its begin, middle and end,
+    /// and the gap is counted from `lower_mm` below. The flanks have so many points.
+    pub(crate) fn over_cells(self, points: PerGear<usize>, lower_mm: f64) -> Self {
+        let gaps = self.geometric_gap_mm.windows(3).step_by(2);
+        let mean = |gap: &[f64]| gap.iter().zip(OF_CELL).map(|(gap, part)| part * gap).sum::<f64>();
+        let geometric_gap_mm = gaps.map(|gap| mean(gap) - lower_mm).collect();
+        let along_mm = self.along_mm.iter().copied().skip(1).step_by(2).collect();
+        let removed = Removed::Weighted(PerGear::from_fn(|gear| match &self.removed {
+            Removed::Here(here) => means_of_cells(&here[gear].weights(points[gear]), points[gear]),
+            Removed::Weighted(rows) => means_of_cells(&rows[gear], points[gear]),
+        }));
+        Self { along_mm, geometric_gap_mm, removed, ..self }
     }
 
     /// Distance of evenly spaced samples.
@@ -303,25 +341,17 @@ impl Strip {
 
     /// Fills `gap_mm` with the gap of flanks that have lost `removed_mm`. Returns the least gap.
     pub(crate) fn gap_mm(&self, removed_mm: PerGear<&[f64]>, gap_mm: &mut Vec<f64>) -> f64 {
-        match &self.removed {
-            Removed::Here(here) => self.opened_mm(Gear::BOTH.map(|gear| here[gear].of(removed_mm[gear])), gap_mm),
-            Removed::Passing(passing) => {
-                self.opened_mm(Gear::BOTH.map(|gear| passing[gear].of(removed_mm[gear])), gap_mm)
+        gap_mm.clear();
+        gap_mm.extend_from_slice(&self.geometric_gap_mm);
+        for gear in Gear::BOTH {
+            match &self.removed {
+                Removed::Here(here) => {
+                    gap_mm.iter_mut().zip(here[gear].of(removed_mm[gear])).for_each(|(gap, removed)| *gap += removed);
+                }
+                Removed::Weighted(rows) => rows[gear].add_products(0, removed_mm[gear], gap_mm),
             }
         }
-    }
-
-    fn opened_mm(&self, [pinion, wheel]: [impl Iterator<Item = f64>; 2], gap_mm: &mut Vec<f64>) -> f64 {
-        gap_mm.resize(self.geometric_gap_mm.len(), 0.0);
-        let mut least = f64::INFINITY;
-        for (((gap, geometric), pinion), wheel) in gap_mm.iter_mut().zip(&self.geometric_gap_mm).zip(pinion).zip(wheel)
-        {
-            *gap = geometric + pinion + wheel;
-            if *gap < least {
-                least = *gap;
-            }
-        }
-        least
+        least(gap_mm)
     }
 
     /// Whether flanks pressed together by `approach_mm`, which have lost at least `removed_mm` wherever they may touch, can touch
@@ -331,6 +361,17 @@ impl Strip {
         let ends = self.unmodified_at_ends_mm.into_iter().zip(sunk_mm).zip(self.window.ends_are_real);
         ends.into_iter().any(|((gap, sunk), real)| !real && gap + sunk + removed_mm < approach_mm)
     }
+}
+
+/// Least of some values, in partial minima.
+fn least(values: &[f64]) -> f64 {
+    const LANES: usize = 8;
+    let lesser = |one: f64, other: f64| if other < one { other } else { one };
+    let mut minima = [f64::INFINITY; LANES];
+    let chunks = values.chunks_exact(LANES);
+    let rest = chunks.remainder();
+    chunks.for_each(|chunk| minima.iter_mut().zip(chunk).for_each(|(least, value)| *least = lesser(*least, *value)));
+    minima.iter().chain(rest).copied().fold(f64::INFINITY, lesser)
 }
 
 /// Number of parts of the stretch from an end of a window to the end of a flank.
@@ -592,7 +633,7 @@ pub(super) mod tests {
             for windows in 1.. {
                 contact.set_removed(worn_mm);
                 contact.load_at(approach_mm - contact.touch_mm());
-                let suffices = contact.window_suffices();
+                let suffices = contact.window_suffices(worn_mm);
                 overlaps_mm.push(contact.overlap_beside_mm(worn_mm).unwrap());
                 if suffices {
                     break;

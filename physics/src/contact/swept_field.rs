@@ -9,6 +9,7 @@ use std::ops::Range;
 use super::flank_motion::{edge_under_load, on_tangent};
 use super::observed_points::ObservedPoints;
 use super::strip::ContactWindow;
+use super::weighted_rows::{RowsOfAnyLength, WeightedRows};
 use super::{Flanks, PointContact, PositionCell, Sweep, pressure_field::PressureField};
 use gearwear_bodies::gear::{Gear, PerGear};
 
@@ -16,13 +17,57 @@ use gearwear_bodies::gear::{Gear, PerGear};
 pub(crate) struct SweptField {
     /// Pressure along the tangent.
     pub field: PressureField,
-    width_mm: f64,
-    /// Points of both flanks with their courses; none where nothing is collected.
-    observed: Option<PerGear<(ObservedPoints, Courses)>>,
+    /// Points of both flanks; none where nothing is collected.
+    observed: Option<PerGear<SweptPoints>>,
 }
 
-/// Distances of each point from the cell's position to both ends of its course, mm; none for points that face nothing.
-type Courses = Vec<Option<[f64; 2]>>;
+/// Consecutive points of a flank.
+struct SweptPoints {
+    first_point: usize,
+    /// Sliding of each point while it faces the mate, mm.
+    sliding_mm: Vec<f64>,
+    /// Places along the tangent of both ends of the course of each point, mm; none for points that face nothing.
+    courses_mm: Vec<Option<[f64; 2]>>,
+    /// Weights of the cells in the mean pressure on each course, where the field is not mirrored.
+    means: WeightedRows,
+    /// Points whose course goes beyond an end of the field, where it may be mirrored, in rising order.
+    beyond: Vec<u32>,
+}
+
+impl SweptPoints {
+    /// Points under a `field` of so many cells.
+    fn new(
+        flanks: Flanks<'_>,
+        gear: Gear,
+        window: ContactWindow,
+        cell: PositionCell,
+        (field, cells): (&PressureField, usize),
+    ) -> Self {
+        let points = ObservedPoints::under_standing_pressure(flanks, gear, window, cell);
+        let along_mm: Vec<f64> = points.at[1..=points.sliding_mm.len()].iter().map(|point| point.along_mm).collect();
+        let courses = points.courses_mm();
+        let courses = along_mm.iter().zip(courses);
+        let courses_mm: Vec<Option<[f64; 2]>> =
+            courses.map(|(at, course)| course.map(|ends| ends.map(|by| on_tangent(gear, at + by)))).collect();
+        let (mut means, mut beyond) = (RowsOfAnyLength::of_about(courses_mm.len()), Vec::new());
+        let mut weights = Vec::new();
+        for (k, course) in (0..).zip(&courses_mm) {
+            weights.clear();
+            let first = course.map_or(0, |ends_mm| field.mean_weights(cells, ends_mm, &mut weights));
+            means.push(first, &weights);
+            if course.is_some_and(|ends_mm| field.may_be_mirrored(cells, ends_mm)) {
+                beyond.push(k);
+            }
+        }
+        Self {
+            first_point: points.first_point,
+            sliding_mm: points.sliding_mm,
+            courses_mm,
+            means: means.packed(cells),
+            beyond,
+        }
+    }
+}
 
 impl SweptField {
     /// A field of cells of `width_mm` over `window`, without pressure so far; with a `cell`, points are collected.
@@ -30,41 +75,36 @@ impl SweptField {
         // An edge moves to both sides of its place unless the cell lies to one side of its position, or the field goes with the edge.
         let mirrored = cell
             .is_some_and(|cell| cell.goes_both_ways() && edge_under_load(&flanks.geometry, cell.position_mm).is_none());
-        let observed = cell.map(|cell| {
-            PerGear::from_fn(|gear| {
-                let points = ObservedPoints::under_standing_pressure(flanks, gear, window, cell);
-                let courses = points.courses_mm();
-                (points, courses)
-            })
-        });
         let field = PressureField::new(window.lower_mm, width_mm, mirrored);
-        Self { field, width_mm, observed }
+        let cells = (window.length_mm() / width_mm).round() as usize;
+        let observed =
+            cell.map(|cell| PerGear::from_fn(|gear| SweptPoints::new(flanks, gear, window, cell, (&field, cells))));
+        Self { field, observed }
     }
 
     /// Fills in pressure and sliding of the points of a flank.
     pub(crate) fn sweep(&self, gear: Gear, sweep: &mut Sweep) {
         let Some(observed) = &self.observed else { return sweep.begin(0, &[]) };
-        let (points, courses) = &observed[gear];
-        let near = self.touching(gear, points);
+        let points = &observed[gear];
+        let near = self.touching(points);
         sweep.begin(points.first_point + near.start, &points.sliding_mm[near.clone()]);
-        let near = points.at[1..][near.clone()].iter().zip(&courses[near]);
-        for (pressure, (point, course)) in sweep.pressure_mpa.iter_mut().zip(near) {
-            *pressure =
-                course.map_or(0.0, |ends| self.field.mean_mpa(ends.map(|by| on_tangent(gear, point.along_mm + by))));
+        sweep.pressure_mpa.fill(0.0);
+        points.means.add_products(near.start, self.field.cells_mpa(), &mut sweep.pressure_mpa);
+        for k in points.beyond.iter().map(|k| *k as usize).filter(|k| near.contains(k)) {
+            let mean_mpa = points.courses_mm[k].map_or(0.0, |ends_mm| self.field.mean_mpa(ends_mm));
+            sweep.pressure_mpa[k - near.start] = mean_mpa;
         }
     }
 
     /// Contact of each point of that [`Sweep`].
     pub(crate) fn contact_of_points(&self, gear: Gear) -> Vec<PointContact> {
         let Some(observed) = &self.observed else { return Vec::new() };
-        let (points, courses) = &observed[gear];
-        let near = self.touching(gear, points);
+        let points = &observed[gear];
+        let near = self.touching(points);
         let (lower, upper) = self.field.extent_mm();
-        let near = points.at[1..][near.clone()].iter().zip(&courses[near]);
-        near.map(|(point, course)| {
-            let Some([begin, end]) = course.map(|course| course.map(|by| on_tangent(gear, point.along_mm + by))) else {
-                return PointContact::default();
-            };
+        let courses_mm = points.courses_mm[near].iter();
+        let contacts = courses_mm.map(|course| {
+            let Some([begin, end]) = *course else { return PointContact::default() };
             let (low, high) = (begin.min(end), begin.max(end));
             let inside = high.min(upper) - low.max(lower);
             PointContact {
@@ -72,17 +112,20 @@ impl SweptField {
                 // A point that stands still is in contact all the time or not at all.
                 contact_fraction: if high > low { inside.max(0.0) / (high - low) } else { f64::from(inside >= 0.0) },
             }
-        })
-        .collect()
+        });
+        contacts.collect()
     }
 
-    /// Range of the points of a flank that may touch: pressure goes half a cell beyond the cells in contact.
-    fn touching(&self, gear: Gear, points: &ObservedPoints) -> Range<usize> {
-        let (lower, upper) = self.field.extent_mm();
-        let more = 2.0 * self.width_mm;
-        match gear {
-            Gear::Pinion => points.between(lower - more, upper + more),
-            Gear::Wheel => points.between(-upper - more, more - lower),
-        }
+    /// Range of the points of a flank from the first to the last whose course meets a cell under pressure, and one more at either end.
+    fn touching(&self, points: &SweptPoints) -> Range<usize> {
+        let Some((first_cell, last_cell)) = self.field.pressed() else { return 0..0 };
+        let meets = |first: &u32| {
+            let first = *first as usize;
+            first <= last_cell && first_cell < first + points.means.width()
+        };
+        let of_points = points.means.first();
+        let Some(first) = of_points.iter().position(meets) else { return 0..0 };
+        let last = of_points.iter().rposition(meets).unwrap_or(first);
+        first.saturating_sub(1)..(last + 2).min(of_points.len())
     }
 }

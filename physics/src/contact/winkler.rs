@@ -125,7 +125,6 @@ impl ContactSurface for Winkler {
             window: GrowingWindow::new(stretch, first_half_length_mm),
             gap: Vec::new(),
             touch: 0.0,
-            removed_everywhere: 0.0,
             indentation_mm: 0.0,
             extent_mm: (0.0, 0.0),
         })
@@ -207,8 +206,6 @@ struct WinklerPair<'a> {
     gap: Vec<f64>,
     /// Least gap, mm.
     touch: f64,
-    /// Least loss of both flanks together where they may touch, mm; 0 where it is little.
-    removed_everywhere: f64,
     /// Last indentation, mm.
     indentation_mm: f64,
     /// Outermost places in contact at equilibrium, along the tangent.
@@ -221,11 +218,6 @@ impl PairContact for WinklerPair<'_> {
         // Counted from the first touch: a light load on a deep relief keeps its digits.
         self.gap.iter_mut().for_each(|gap| *gap -= touch);
         self.touch = touch;
-        // Where much is removed everywhere, as by a helix-slope deviation, the window need not reach as far as that is deep.
-        let WinklerStretch { flanks, position_mm, .. } = self.window.flanks;
-        let at_end = self.window.half_length_mm * self.window.half_length_mm / (2.0 * self.radius_mm);
-        self.removed_everywhere =
-            if touch > 0.25 * at_end { least_removed_mm(flanks, position_mm, touch + at_end, removed_mm) } else { 0.0 };
     }
 
     fn touch_mm(&self) -> f64 {
@@ -272,7 +264,7 @@ impl PairContact for WinklerPair<'_> {
         a * a / (2.0 * self.radius_mm)
     }
 
-    fn window_suffices(&mut self) -> bool {
+    fn window_suffices(&mut self, removed_mm: PerGear<&[f64]>) -> bool {
         self.extent_mm = self.extent_in_contact_mm();
         if let Some(ObservedFlanks::Swept(swept)) = &mut self.window.samples.1 {
             let (gap, indentation_mm, foundation) = (&self.gap, self.indentation_mm, self.foundation);
@@ -289,7 +281,9 @@ impl PairContact for WinklerPair<'_> {
         let raised_mm = [along_mm[1] - along_mm[0], along_mm[along_mm.len() - 1] - along_mm[along_mm.len() - 2]]
             .map(|length_mm| self.raised_mm(length_mm).max(0.0));
         let approach_mm = self.touch + self.indentation_mm;
-        !self.strip().may_touch_beyond(approach_mm, self.removed_everywhere, raised_mm.map(|raised_mm| -raised_mm))
+        let sunk_mm = raised_mm.map(|raised_mm| -raised_mm);
+        let may_touch = |removed_mm| self.strip().may_touch_beyond(approach_mm, removed_mm, sunk_mm);
+        !(may_touch(0.0) && may_touch(self.removed_everywhere_mm(removed_mm)))
     }
 
     fn widen(&mut self) {
@@ -383,6 +377,17 @@ fn least(places: &[f64], samples: &[f64], radius: f64) -> f64 {
 impl WinklerPair<'_> {
     fn strip(&self) -> &Strip {
         &self.window.samples.0
+    }
+
+    /// Least loss of both flanks together where they may touch, mm; 0 where it is little. Where much is removed everywhere, as by a helix-slope
+    /// deviation, the window need not reach as far as that is deep.
+    fn removed_everywhere_mm(&self, removed_mm: PerGear<&[f64]>) -> f64 {
+        let WinklerStretch { flanks, position_mm, .. } = self.window.flanks;
+        let at_end = self.window.half_length_mm * self.window.half_length_mm / (2.0 * self.radius_mm);
+        match self.touch > 0.25 * at_end {
+            true => least_removed_mm(flanks, position_mm, self.touch + at_end, removed_mm),
+            false => 0.0,
+        }
     }
 
     /// Mean rise Δ²/12R of the penetration above the straight line between two samples, by the curvature of the gap.

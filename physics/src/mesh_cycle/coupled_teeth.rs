@@ -25,51 +25,108 @@ pub enum CoupledTeeth {
         coupling: SliceCoupling,
     },
     /// One matrix couples all teeth.
-    Together(TeethTogether),
+    Together(Box<TeethTogether>),
 }
 
 /// Teeth that one matrix couples.
 pub struct TeethTogether {
     influence: Influence,
     deflection_mm: Vec<f64>,
+    /// Matrix of the last step.
+    kept: Option<FactoredStep>,
+    /// Number of matrices factorised so far.
+    factorisations: u64,
+}
+
+/// Factorised matrix of a Newton step.
+struct FactoredStep {
+    /// Contacts that carry.
+    carrying: Vec<usize>,
+    /// √c of each.
+    root: Vec<f64>,
+    factor: StepFactor,
+    /// Product of the inverse with √c.
+    by_approach: Vec<f64>,
+}
+
+/// Factor of I + √C U √C.
+enum StepFactor {
+    /// Positive definite.
+    Definite(Llt<f64>),
+    /// Elements and surface contradict each other locally; a step is possible too.
+    Indefinite(PartialPivLu<f64>),
+}
+
+impl StepFactor {
+    fn solve(&self, side: impl ExactSizeIterator<Item = f64>) -> Vec<f64> {
+        let mut column = Mat::zeros(side.len(), 1);
+        column.col_mut(0).iter_mut().zip(side).for_each(|(to, from)| *to = from);
+        match self {
+            Self::Definite(factor) => factor.solve_in_place(column.as_mut()),
+            Self::Indefinite(factor) => factor.solve_in_place(column.as_mut()),
+        }
+        column.col(0).iter().copied().collect()
+    }
+}
+
+impl FactoredStep {
+    fn new(influence: &Influence, carrying: Vec<usize>, root: Vec<f64>) -> Self {
+        let (n, count, u) = (carrying.len(), influence.of_teeth.len(), &influence.mm2_per_n);
+        let matrix = Mat::from_fn(n, n, |i, j| {
+            f64::from(u8::from(i == j)) + root[i] * u[carrying[i] * count + carrying[j]] * root[j]
+        });
+        let factor = match Llt::new(matrix.as_ref(), Side::Lower) {
+            Ok(factor) => StepFactor::Definite(factor),
+            Err(_) => StepFactor::Indefinite(PartialPivLu::new(matrix.as_ref())),
+        };
+        let by_approach = factor.solve(root.iter().copied());
+        Self { carrying, root, factor, by_approach }
+    }
 }
 
 impl TeethTogether {
     /// Teeth that are not yet bent.
     pub fn new(influence: Influence) -> Self {
-        Self { deflection_mm: vec![0.0; influence.of_teeth.len()], influence }
+        Self { deflection_mm: vec![0.0; influence.of_teeth.len()], influence, kept: None, factorisations: 0 }
+    }
+
+    /// Number of matrices factorised so far.
+    pub fn factorisations(&self) -> u64 {
+        self.factorisations
     }
 
     fn bend(&mut self, line_load: f64, tangent: impl Fn(usize) -> ContactTangent) -> Option<Bend> {
         let (count, u) = (self.deflection_mm.len(), &self.influence.mm2_per_n);
         // Contacts without load do not take part in the step.
-        let carrying: Vec<(usize, ContactTangent)> =
-            (0..count).map(|k| (k, tangent(k))).filter(|(_, tangent)| tangent.n_per_mm2 > 0.0).collect();
+        let (carrying, tangents): (Vec<usize>, Vec<ContactTangent>) =
+            (0..count).map(|k| (k, tangent(k))).filter(|(_, tangent)| tangent.n_per_mm2 > 0.0).unzip();
         if carrying.is_empty() {
             return None;
         }
-        let root: Vec<f64> = carrying.iter().map(|(_, tangent)| tangent.n_per_mm2.sqrt()).collect();
-        let n = carrying.len();
-        let matrix = Mat::from_fn(n, n, |i, j| {
-            f64::from(u8::from(i == j)) + root[i] * u[carrying[i].0 * count + carrying[j].0] * root[j]
+        let root: Vec<f64> = tangents.iter().map(|tangent| tangent.n_per_mm2.sqrt()).collect();
+        // As long as no cell enters or leaves a contact, the tangents stay the same.
+        let kept = self.kept.take().filter(|kept| kept.carrying == carrying && kept.root == root);
+        let step = kept.unwrap_or_else(|| {
+            self.factorisations += 1;
+            FactoredStep::new(&self.influence, carrying, root)
         });
-        let given = Mat::from_fn(n, 2, |i, j| {
-            let ContactTangent { line_load_n_per_mm: w, n_per_mm2: c, approach_mm } = carrying[i].1;
-            if j == 0 { (w - c * approach_mm) / root[i] } else { root[i] }
-        });
-        // Positive definite unless elements and surface contradict each other locally, where a step is possible too.
-        let solved = match Llt::new(matrix.as_ref(), Side::Lower) {
-            Ok(factor) => factor.solve(&given),
-            Err(_) => PartialPivLu::new(matrix.as_ref()).solve(&given),
-        };
-        let [carried, stiffness] = [0, 1].map(|j| (0..n).map(|i| root[i] * solved[(i, j)]).sum::<f64>());
+        let FactoredStep { carrying, root, factor, by_approach } = &*self.kept.insert(step);
+        let given = tangents
+            .iter()
+            .zip(root)
+            .map(|(tangent, root)| (tangent.line_load_n_per_mm - tangent.n_per_mm2 * tangent.approach_mm) / root);
+        let by_load = factor.solve(given);
+        let [carried, stiffness] =
+            [&by_load, by_approach].map(|of| root.iter().zip(of).map(|(root, value)| root * value).sum::<f64>());
         if stiffness <= 0.0 {
             return None;
         }
         let delta_mm = (line_load - carried) / stiffness;
-        let load: Vec<f64> = (0..n).map(|i| root[i] * (solved[(i, 0)] + delta_mm * solved[(i, 1)])).collect();
+        let load = root.iter().zip(by_load.iter().zip(by_approach));
+        let load: Vec<f64> =
+            load.map(|(root, (by_load, by_approach))| root * (by_load + delta_mm * by_approach)).collect();
         for (row, deflection) in u.chunks_exact(count).zip(&mut self.deflection_mm) {
-            *deflection = carrying.iter().zip(&load).map(|((k, _), load)| row[*k] * load).sum();
+            *deflection = carrying.iter().zip(&load).map(|(k, load)| row[*k] * load).sum();
         }
         Some(Bend { delta_mm, n_per_mm2: stiffness })
     }
@@ -100,10 +157,48 @@ impl CoupledTeeth {
             Self::Plates { teeth, .. } => {
                 teeth.iter().flat_map(BentTooth::deflections_mm).for_each(|(k, mm2_per_n, mm)| take(k, mm2_per_n, mm));
             }
-            Self::Together(TeethTogether { influence, deflection_mm, .. }) => {
-                let contacts = influence.of_teeth.iter().zip(deflection_mm).enumerate();
+            Self::Together(teeth) => {
+                let contacts = teeth.influence.of_teeth.iter().zip(&teeth.deflection_mm).enumerate();
                 contacts.for_each(|(k, (mm2_per_n, mm))| take(k, *mm2_per_n, *mm));
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Steps with the same tangents factorise one matrix, others a new one; the loads of both balance on the bent teeth.
+    #[test]
+    fn ver_a_matrix_is_factorised_once_for_the_same_tangents() {
+        let count = 5;
+        let coupling = |k: usize| 1e-5 * (-((k / count).abs_diff(k % count) as f64)).exp();
+        let mm2_per_n: Vec<f64> = (0..count * count).map(coupling).collect();
+        let mut teeth = TeethTogether::new(Influence { mm2_per_n: mm2_per_n.clone(), of_teeth: vec![1e-5; count] });
+        let mut bend = |line_load: f64, n_per_mm2: f64| {
+            let tangent = |k: usize| ContactTangent {
+                line_load_n_per_mm: 100.0 + 10.0 * k as f64,
+                n_per_mm2: if k == 3 { 0.0 } else { n_per_mm2 },
+                approach_mm: 1e-3,
+            };
+            let Bend { delta_mm, .. } = teeth.bend(line_load, tangent).unwrap();
+            let loads: Vec<f64> = (0..count)
+                .map(|k| {
+                    let ContactTangent { line_load_n_per_mm, n_per_mm2, approach_mm } = tangent(k);
+                    let further = n_per_mm2 * (delta_mm - approach_mm - teeth.deflection_mm[k]);
+                    if n_per_mm2 > 0.0 { line_load_n_per_mm + further } else { 0.0 }
+                })
+                .collect();
+            assert!((loads.iter().sum::<f64>() / line_load - 1.0).abs() < 1e-12);
+            for (row, deflection_mm) in mm2_per_n.chunks_exact(count).zip(&teeth.deflection_mm) {
+                let bent_mm: f64 = row.iter().zip(&loads).map(|(u, load)| u * load).sum();
+                assert!((bent_mm / deflection_mm - 1.0).abs() < 1e-12, "{bent_mm} {deflection_mm}");
+            }
+            teeth.factorisations()
+        };
+        let counts =
+            [(500.0, 1e5), (700.0, 1e5), (700.0, 2e5), (650.0, 2e5), (650.0, 1e5)].map(|(load, c)| bend(load, c));
+        assert_eq!(counts, [1, 1, 2, 2, 3]);
     }
 }

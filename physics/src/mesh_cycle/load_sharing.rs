@@ -252,7 +252,7 @@ pub fn settled<'a, 'r>(
         work.pair_evaluations += equilibrium.pair_evaluations;
         let mut held = true;
         for (k, pair) in pairs.iter_mut().enumerate() {
-            if !pair.contact.window_suffices() {
+            if !pair.contact.window_suffices(removed_mm(k)) {
                 pair.contact.widen();
                 pair.set_removed(removed_mm(k));
                 held = false;

@@ -48,8 +48,8 @@ impl PairContact for PartOfSlice<'_> {
         self.contact.ample_indentation_mm(line_load_n_per_mm)
     }
 
-    fn window_suffices(&mut self) -> bool {
-        self.contact.window_suffices()
+    fn window_suffices(&mut self, removed_mm: PerGear<&[f64]>) -> bool {
+        self.contact.window_suffices(removed_mm)
     }
 
     fn widen(&mut self) {

@@ -157,20 +157,21 @@ impl MeshCycle for SlicedCycle<'_> {
         let mut observed = Vec::new();
         let mut greatest_pressure = GreatestPressure::default();
         let mut sliding_work_n = 0.0;
-        let mut deepest_overlap: Option<FlankOverlap> = None;
         let mut of_slices = vec![GreatestPressure::default(); slices];
         let mut pressure_figures = PressureFigures::default();
         let mut figures_of_slices = vec![PressureFigures::default(); slices];
+        let (points, bodies_mm, flanks) = (self.points, self.bodies_mm, self.flanks);
+        let of_groups: Vec<(Option<FlankOverlap>, Vec<PressureFigures>)> = self
+            .groups
+            .par_iter_mut()
+            .map(|group| (group.deepest_overlap(removed_mm, points, bodies_mm), group.figures(flanks)))
+            .collect();
+        let deepest_overlap = of_groups.iter().filter_map(|(overlap, _)| *overlap).reduce(FlankOverlap::deeper);
+        let mut figures_of_contacts = of_groups.iter().flat_map(|(_, figures)| figures);
         for loaded in self.groups.iter().flat_map(|group| &group.loaded_positions) {
-            let transmission_error_mm = loaded.equilibrium.transmission_error_mm + self.bodies_mm;
             for ((contact, pair), sliding) in loaded.contacts.iter().zip(&loaded.pairs).zip(&loaded.sliding_mm) {
                 let own = of_slice(removed_mm, self.points, contact.slice);
                 let footprint = pair.contact.footprint();
-                let overlap = pair.contact.overlap_beside_mm(own).map(|overlap_mm| FlankOverlap {
-                    of_transmission_error: overlap_mm / transmission_error_mm,
-                    position_mm: contact.cell.position_mm,
-                });
-                deepest_overlap = deepest_overlap.into_iter().chain(overlap).reduce(FlankOverlap::deeper);
                 // The pressure of a part of a slice is that at the end of the line of contact, not in the middle of the slice.
                 let is_whole = contact.part == ContactPart::WHOLE;
                 let greatest = if is_whole { &mut of_slices[contact.slice] } else { &mut greatest_pressure };
@@ -184,7 +185,7 @@ impl MeshCycle for SlicedCycle<'_> {
                     greatest.note(greatest_mpa, footprint.at_sharp_edge);
                 }
                 let figures = if is_whole { &mut figures_of_slices[contact.slice] } else { &mut pressure_figures };
-                figures.note(figures_of(self.flanks, contact.cell.position_mm, &*pair.contact));
+                figures_of_contacts.next().into_iter().for_each(|of_contact| figures.note(*of_contact));
                 sliding_work_n += pair.normal_load_n_per_mm() * sliding;
             }
             observed.push(loaded.observe(slices, self.line_load_n_per_mm, self.bodies_mm));
@@ -230,6 +231,32 @@ impl SlicedGroup<'_> {
                 self.points.wear(wear, (pair, place), own, first, &mut self.collected.depth_mm);
             }
         }
+    }
+
+    /// Figures of the pressure of each contact.
+    fn figures(&self, flanks: Flanks<'_>) -> Vec<PressureFigures> {
+        let contacts = self.loaded_positions.iter().flat_map(|loaded| loaded.contacts.iter().zip(&loaded.pairs));
+        contacts.map(|(contact, pair)| figures_of(flanks, contact.cell.position_mm, &*pair.contact)).collect()
+    }
+
+    /// Deepest overlap of flanks beside the windows.
+    fn deepest_overlap(
+        &self,
+        removed_mm: PerGear<&[f64]>,
+        points: PerGear<usize>,
+        bodies_mm: f64,
+    ) -> Option<FlankOverlap> {
+        let of_positions = self.loaded_positions.iter().flat_map(|loaded| {
+            let transmission_error_mm = loaded.equilibrium.transmission_error_mm + bodies_mm;
+            loaded.contacts.iter().zip(&loaded.pairs).filter_map(move |(contact, pair)| {
+                let own = of_slice(removed_mm, points, contact.slice);
+                pair.contact.overlap_beside_mm(own).map(|overlap_mm| FlankOverlap {
+                    of_transmission_error: overlap_mm / transmission_error_mm,
+                    position_mm: contact.cell.position_mm,
+                })
+            })
+        });
+        of_positions.reduce(FlankOverlap::deeper)
     }
 }
 

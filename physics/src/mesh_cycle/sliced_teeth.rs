@@ -132,7 +132,7 @@ impl SlicedTeeth {
         if let Some(twist) = &self.twist {
             influence.add(|a, b| twist[contacts[a].slice * self.slices.count() + contacts[b].slice]);
         }
-        Some(CoupledTeeth::Together(TeethTogether::new(influence)))
+        Some(CoupledTeeth::Together(Box::new(TeethTogether::new(influence))))
     }
 }
 

@@ -73,8 +73,8 @@ impl PairContact for OnLever<'_> {
         self.contact.ample_indentation_mm(line_load_n_per_mm / self.load) / self.approach
     }
 
-    fn window_suffices(&mut self) -> bool {
-        self.contact.window_suffices()
+    fn window_suffices(&mut self, removed_mm: PerGear<&[f64]>) -> bool {
+        self.contact.window_suffices(removed_mm)
     }
 
     fn widen(&mut self) {

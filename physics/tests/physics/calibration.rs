@@ -331,7 +331,7 @@ fn val_calibrated_winkler_surface_in_single_contact() {
                 if alone.load_at(middle).line_load_n_per_mm < load { low = middle } else { high = middle }
             }
             assert_close("load", alone.load_at(high).line_load_n_per_mm, load, 1e-9);
-            alone.window_suffices();
+            alone.window_suffices(unworn.as_ref().map(Vec::as_slice));
             let found = alone.footprint();
             match criterion {
                 MatchCriterion::HalfWidth => {

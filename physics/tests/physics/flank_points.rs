@@ -191,7 +191,7 @@ fn of_longer_windows(pair: &GearPair, worn: f64, mpa_per_mm: f64, approach_mm: f
         for _ in 0..15 {
             contact.set_removed(removed_mm);
             let load = contact.load_at(approach_mm - contact.touch_mm()).line_load_n_per_mm;
-            if contact.window_suffices() {
+            if contact.window_suffices(removed_mm) {
                 let pressures_mpa = Gear::BOTH.map(|gear| {
                     let (mut sweep, mut all) = (Sweep::default(), vec![0.0; grid[gear].len()]);
                     contact.sweep(gear, removed_mm, &mut sweep);

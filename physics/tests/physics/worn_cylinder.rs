@@ -202,9 +202,10 @@ fn settled_load(surface: &dyn ContactSurface, grid: &FlankGrid, worn_mm: &[f64],
     let flanks = Flanks::new(&CylinderOnFlat, PerGear { pinion: grid, wheel: grid });
     let mut pair = surface.pair(flanks, 0.0, None);
     loop {
-        pair.set_removed(PerGear { pinion: worn_mm, wheel: zeros.as_slice() });
+        let removed_mm = PerGear { pinion: worn_mm, wheel: zeros.as_slice() };
+        pair.set_removed(removed_mm);
         let load = pair.load_at(approach_mm - pair.touch_mm()).line_load_n_per_mm;
-        if pair.window_suffices() {
+        if pair.window_suffices(removed_mm) {
             return load;
         }
         pair.widen();

@@ -22,13 +22,14 @@ use faer::Mat;
 use nalgebra::{Rotation2, Vector2, Vector3, Vector6};
 
 use super::ring::{JoinedSectors, Surroundings, ToothForce};
-use super::sector::{Sector, SectorMatrices, symmetric};
+use super::sector::{Sector, SectorMatrices};
 use crate::gear::tooth::Tooth;
 use crate::gear_mesh::tooth_section::{ExtrudedTooth, ToothSection};
 use gearwear_fem::active_set::ActiveSetError;
+use gearwear_fem::dissection::dissected;
 use gearwear_fem::elastic::{Analysis, Elastic};
 use gearwear_fem::equilibrium::SolveError;
-use gearwear_fem::factor::{Factor, FactorError};
+use gearwear_fem::factor::{Factor, FactorError, SymbolicFactor};
 use gearwear_fem::node_matrix::NodeMatrix;
 use gearwear_fem::shape::{Shape, along_edge};
 use gearwear_fem::solid::{Element, ElementKind, Solid};
@@ -111,7 +112,7 @@ impl PlaneSection {
             working_side_probes: 0,
         };
         let matrices = sector.condense(material, Analysis::PlaneStrain)?.matrices;
-        let joined = joined(&matrices, 1, ring(tooth.teeth, 1))?;
+        let joined = joined(&matrices, 1, ring(tooth.teeth, 1), 0)?;
         let compliance = joined.blocks(&matrices, 0, 0..=0).next().expect("one sector");
         let directions = flank_radii_mm(section).map(|radius_mm| load_direction(tooth, radius_mm)).collect();
         Ok(Self { section: section.clone(), compliance, directions })
@@ -142,13 +143,14 @@ fn ring(all: u32, teeth: usize) -> Surroundings {
     Surroundings::Ring { coarse: all as usize - teeth }
 }
 
-/// Joins `teeth` loaded teeth with others of the same mesh.
+/// Joins `teeth` loaded teeth with others of the same mesh, and finds the compliance of the cuts of one of them.
 fn joined(
     matrices: &SectorMatrices,
     teeth: usize,
     surroundings: Surroundings,
+    of: usize,
 ) -> Result<JoinedSectors, ActiveSetError> {
-    JoinedSectors::new(matrices, Some(&matrices.cut_stiffness), teeth, surroundings)
+    JoinedSectors::new(matrices, Some(&matrices.cut_stiffness), teeth, surroundings, of..=of)
 }
 
 impl TeethInSpace {
@@ -180,7 +182,7 @@ impl TeethInSpace {
         for k in 0..mesh.z_mm.len() {
             places.push(mesh.section.flank.iter().map(|node| mesh.node(*node, k).and_then(|_| next.next())).collect());
         }
-        let joined = joined(matrices, teeth, surroundings)?;
+        let joined = joined(matrices, teeth, surroundings, 0)?;
         Ok(Self { by_distance: joined.blocks(matrices, 0, 0..=teeth - 1).collect(), mesh, places })
     }
 
@@ -229,8 +231,8 @@ impl TeethInSpace {
             of_tooth.extend(parts.iter().map(|(node, part)| (*node as usize, load_n * part)));
         }
         let sector = SectorInSpace::new(tooth, &self.mesh, material, false)?;
-        let joined = joined(&sector.matrices, teeth, ring(tooth.teeth, teeth))?;
         let shown = -first as usize;
+        let joined = joined(&sector.matrices, teeth, ring(tooth.teeth, teeth), shown)?;
         let cuts_mm = joined.cut_displacement_mm(&sector.matrices, shown, &forces);
         let displacement_mm = sector.displacement_mm(&forces[shown], &cuts_mm);
         let stress_mpa = nodal_stresses_mpa(&self.mesh.points_mm, elements(&self.mesh, &material), &displacement_mm)?;
@@ -324,18 +326,26 @@ impl SectorInSpace {
         cut_nodes.iter().for_each(|node| held[*node as usize] = true);
         let ends = [0, mesh.z_mm.len() - 1].map(|k| mesh.z_mm[k]);
         let stays = |node: usize| plane_strain && ends.contains(&mesh.points_mm[node].z);
-        let factor = Factor::of_held(&matrix, |dof| held[dof / 3] || dof % 3 == 2 && stays(dof / 3))?;
-
         let mut columns = flank_forces(tooth, mesh);
         let loads = columns.len();
         let cuts = CutDisplacements::new(mesh, cut_nodes, |node| !stays(node as usize));
         let (own, of_cuts) = cuts.stiffness(&matrix, &held);
         columns.extend(of_cuts);
+        let order = dissected(&mesh.points_mm, &mesh.hexahedra, |node| held[node as usize]);
+        let is_held = |dof: usize| held[dof / 3] || dof % 3 == 2 && stays(dof / 3);
+        let symbolic = SymbolicFactor::in_order(&matrix, is_held, &order)?;
+        {}
+        // The factor is as large as all else together.
+        drop(matrix);
+        let factor = symbolic.factorised()?;
         let all = factor.compliance(&columns);
+        let units = cuts.units.len();
         let matrices = SectorMatrices {
             compliance: all.get(..loads, ..loads).to_owned(),
-            carried: Mat::from_fn(loads, cuts.units.len(), |i, j| -all[(i, loads + j)]),
-            cut_stiffness: symmetric(&(own - all.get(loads.., loads..))),
+            carried: Mat::from_fn(loads, units, |i, j| -all[(i, loads + j)]),
+            cut_stiffness: Mat::from_fn(units, units, |i, j| {
+                0.5 * (own[(i, j)] + own[(j, i)]) - all[(loads + i, loads + j)]
+            }),
         };
         Ok(Self { factor, columns, cuts, matrices })
     }

@@ -17,10 +17,17 @@
 //! exactly as in the finite-element model of the whole gear, at the cost of one fine and one coarse sector. What cuts carry is smooth on the
 //! flank: a few shapes U span Ψ = U R to round-off, and Ψ F_pq Ψᵀ = U (R F_pq Rᵀ) Uᵀ.
 
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
+use faer::linalg::matmul::{
+    matmul,
+    triangular::{self, BlockStructure},
+};
 use faer::linalg::solvers::{DenseSolveCore, Llt, Solve};
-use faer::{Col, Mat, Scale, Side};
+use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
+use faer::{Accum, Col, Mat, MatRef, Par, Scale, Side};
 
 use super::sector::{CondensedSector, SectorMatrices};
 use gearwear_fem::active_set::ActiveSetError;
@@ -59,58 +66,65 @@ impl Surroundings {
 
 /// Neighbouring sectors, from clockwise to anticlockwise, joined to their surroundings.
 pub(crate) struct JoinedSectors {
-    /// Compliance F of the group's cuts.
+    /// Compliance F of the group's cuts: displacements of all per force on the known ones.
     cut_compliance: Mat<f64>,
+    /// Cuts whose columns of F are known.
+    known: RangeInclusive<usize>,
     cut_dofs: usize,
 }
 
 impl JoinedSectors {
-    /// Joins `teeth` sectors with their surroundings; the cut stiffness of a `coarse` sector is needed where these have teeth.
+    /// Joins `teeth` sectors with their surroundings, and finds the compliance of the cuts of `sectors`; the cut stiffness of a `coarse` sector is
+    /// needed where the surroundings have teeth.
     pub(crate) fn new(
         fine: &SectorMatrices,
         coarse: Option<&Mat<f64>>,
         teeth: usize,
         surroundings: Surroundings,
+        sectors: RangeInclusive<usize>,
     ) -> Result<Self, ActiveSetError> {
         let n = fine.cut_stiffness.nrows() / 2;
         let cuts = Cuts::new(teeth, surroundings);
-        let mut joined = Mat::<f64>::zeros(n * cuts.unknown, n * cuts.unknown);
+        let mut joined = CutBlocks::new(n);
         for tooth in 0..teeth {
-            cuts.add(&mut joined, n, &fine.cut_stiffness, &[tooth, tooth + 1]);
+            cuts.add(&mut joined, &fine.cut_stiffness, &[tooth, tooth + 1]);
         }
         if let (Some(coarse), count @ 1..) = (coarse, surroundings.coarse()) {
             let chain = chain(coarse, count)?;
             match surroundings {
                 // The chain's clockwise cut is the group's anticlockwise one.
-                Surroundings::Ring { .. } => cuts.add(&mut joined, n, &chain, &[teeth, 0]),
+                Surroundings::Ring { .. } => cuts.add(&mut joined, &chain, &[teeth, 0]),
                 Surroundings::FreeSector { .. } => {
-                    cuts.add(&mut joined, n, &eliminated(&chain, 0, n)?, &[0]);
-                    cuts.add(&mut joined, n, &eliminated(&chain, n, n)?, &[teeth]);
+                    cuts.add(&mut joined, &eliminated(&chain, 0, n)?, &[0]);
+                    cuts.add(&mut joined, &eliminated(&chain, n, n)?, &[teeth]);
                 }
                 Surroundings::ClampedSector { .. } => {
-                    cuts.add(&mut joined, n, &chain.get(n.., n..).to_owned(), &[0]);
-                    cuts.add(&mut joined, n, &chain.get(..n, ..n).to_owned(), &[teeth]);
+                    cuts.add(&mut joined, &chain.get(n.., n..).to_owned(), &[0]);
+                    cuts.add(&mut joined, &chain.get(..n, ..n).to_owned(), &[teeth]);
                 }
             }
         }
-        let inverse = factor(&joined)?.inverse();
-        let cut_compliance =
-            Mat::from_fn(n * (teeth + 1), n * (teeth + 1), |i, j| match (cuts.unknowns[i / n], cuts.unknowns[j / n]) {
-                (Some(row), Some(column)) => inverse[(n * row + i % n, n * column + j % n)],
-                _ => 0.0,
-            });
-        Ok(Self { cut_compliance, cut_dofs: n })
+        let known = *sectors.start()..=sectors.end() + 1;
+        let cut_compliance = cuts.compliance(joined, &known)?;
+        Ok(Self { cut_compliance, known, cut_dofs: n })
     }
 
-    /// Compliances C_pq for all q of `others`: displacements of the candidates of sector p per force on those of sector q.
+    /// Displacements of all cuts per force on both cuts of sector `p`, whose compliance is known.
+    fn by_sector(&self, p: usize) -> MatRef<'_, f64> {
+        let (n, place) = (self.cut_dofs, p - self.known.start());
+        self.cut_compliance.get(.., n * place..n * (place + 2))
+    }
+
+    /// Compliances C_pq for all q of `others`: displacements of the candidates of sector p, whose compliance is known, per force on those of sector
+    /// q.
     pub(crate) fn blocks(
         &self,
         fine: &SectorMatrices,
         p: usize,
-        others: std::ops::RangeInclusive<usize>,
+        others: RangeInclusive<usize>,
     ) -> impl Iterator<Item = Mat<f64>> {
         let n = self.cut_dofs;
-        let carried = &fine.carried * self.cut_compliance.get(n * p..n * (p + 2), ..);
+        let carried = &fine.carried * self.by_sector(p).transpose();
         others.map(move |q| {
             let mut block = carried.get(.., n * q..n * (q + 2)) * fine.carried.transpose();
             if p == q {
@@ -120,7 +134,7 @@ impl JoinedSectors {
         })
     }
 
-    /// Displacements of both cuts of sector `p` under candidate forces on all sectors.
+    /// Displacements of both cuts of sector `p`, whose compliance is known, under candidate forces on all sectors.
     pub(crate) fn cut_displacement_mm(&self, fine: &SectorMatrices, p: usize, forces: &[ToothForce]) -> Vec<f64> {
         let n = self.cut_dofs;
         let mut load = vec![0.0; self.cut_compliance.nrows()];
@@ -132,7 +146,7 @@ impl JoinedSectors {
             }
         }
         let load = faer::Col::from_iter(load);
-        let moved = self.cut_compliance.get(n * p..n * (p + 2), ..) * load;
+        let moved = self.by_sector(p).transpose() * load;
         moved.iter().copied().collect()
     }
 }
@@ -211,7 +225,7 @@ impl GearCompliance {
         surroundings: Surroundings,
     ) -> Result<Self, ActiveSetError> {
         let coarse = coarse.map(|coarse| &coarse.matrices.cut_stiffness);
-        let joined = JoinedSectors::new(&fine.matrices, coarse, teeth, surroundings)?;
+        let joined = JoinedSectors::new(&fine.matrices, coarse, teeth, surroundings, 0..=teeth - 1)?;
         let carried = CarriedShapes::new(&fine.matrices, &joined, teeth);
         Ok(Self { sector: Arc::new(fine), carried: Arc::new(carried), joined: Arc::new(joined), softness: 1.0 })
     }
@@ -289,9 +303,34 @@ struct Cuts {
 }
 
 impl Cuts {
-    /// Adds the stiffness `block` of the cuts `at`, each of `n` degrees of freedom, to that of all unknown ones.
-    fn add(&self, joined: &mut Mat<f64>, n: usize, block: &Mat<f64>, at: &[usize]) {
-        add_block(joined, block, |k| self.unknowns[at[k / n]].map(|cut| n * cut + k % n));
+    /// Adds the stiffness `block` of the cuts `at` to that of all unknown ones.
+    fn add(&self, joined: &mut CutBlocks, block: &Mat<f64>, at: &[usize]) {
+        let n = joined.dofs;
+        for (a, row) in at.iter().enumerate() {
+            for (b, column) in at.iter().enumerate() {
+                if let (Some(row), Some(column)) = (self.unknowns[*row], self.unknowns[*column]) {
+                    joined.add((row, column), block.get(n * a..n * (a + 1), n * b..n * (b + 1)));
+                }
+            }
+        }
+    }
+
+    /// Compliance of all cuts under forces on the `known` ones, with the stiffness `joined`.
+    fn compliance(&self, joined: CutBlocks, known: &RangeInclusive<usize>) -> Result<Mat<f64>, ActiveSetError> {
+        let n = joined.dofs;
+        let loaded: BTreeSet<usize> = known.clone().filter_map(|cut| self.unknowns[cut]).collect();
+        let place: BTreeMap<usize, usize> = loaded.iter().copied().zip(0..).collect();
+        let of_unknowns = joined.compliance(&loaded, self.unknown)?;
+        let mut compliance = Mat::zeros(n * self.unknowns.len(), n * (known.end() - known.start() + 1));
+        for (row, cut) in self.unknowns.iter().enumerate() {
+            for (column, force) in known.clone().enumerate() {
+                if let (Some(cut), Some(force)) = (cut, self.unknowns[force]) {
+                    let block = of_unknowns[*cut].get(.., n * place[&force]..n * (place[&force] + 1));
+                    compliance.get_mut(n * row..n * (row + 1), n * column..n * (column + 1)).copy_from(block);
+                }
+            }
+        }
+        Ok(compliance)
     }
 
     fn new(teeth: usize, surroundings: Surroundings) -> Self {
@@ -308,24 +347,117 @@ impl Cuts {
     }
 }
 
-/// Adds `block` to `sum` at the unknowns `place` of its rows and columns.
-fn add_block(sum: &mut Mat<f64>, block: &Mat<f64>, place: impl Fn(usize) -> Option<usize>) {
-    for j in 0..block.ncols() {
-        for i in 0..block.nrows() {
-            if let (Some(row), Some(column)) = (place(i), place(j)) {
-                sum[(row, column)] += block[(i, j)];
+/// Symmetric matrix of blocks, one for each two cuts that are joined: row ≥ column.
+struct CutBlocks {
+    /// Degrees of freedom of a cut.
+    dofs: usize,
+    blocks: BTreeMap<(usize, usize), Mat<f64>>,
+}
+
+/// A cut that is eliminated: with K = L Lᵀ its own stiffness and B its coupling with `neighbours`, L and L⁻¹ B.
+struct EliminatedCut {
+    cut: usize,
+    factor: Llt<f64>,
+    neighbours: Vec<(usize, Mat<f64>)>,
+}
+
+impl CutBlocks {
+    fn new(dofs: usize) -> Self {
+        Self { dofs, blocks: BTreeMap::new() }
+    }
+
+    /// Adds `block` to that of two cuts; those above the diagonal are not kept.
+    fn add(&mut self, (row, column): (usize, usize), block: MatRef<'_, f64>) {
+        if row >= column {
+            let dofs = self.dofs;
+            *self.blocks.entry((row, column)).or_insert_with(|| Mat::zeros(dofs, dofs)) += block;
+        }
+    }
+
+    /// Eliminates the free `cut`.
+    fn eliminate(&mut self, cut: usize) -> Result<EliminatedCut, ActiveSetError> {
+        let own = self.blocks.remove(&(cut, cut)).unwrap_or_else(|| Mat::zeros(self.dofs, self.dofs));
+        let factor = factor(&own)?;
+        let mut neighbours = Vec::new();
+        let joined: Vec<(usize, usize)> =
+            self.blocks.keys().copied().filter(|(row, column)| *row == cut || *column == cut).collect();
+        for (row, column) in joined {
+            let block = self.blocks.remove(&(row, column)).expect("a key of the map");
+            let (neighbour, mut block) = if row == cut { (column, block) } else { (row, block.transpose().to_owned()) };
+            solve_lower_triangular_in_place(factor.L(), block.as_mut(), Par::Seq);
+            neighbours.push((neighbour, block));
+        }
+        for (row, of_row) in &neighbours {
+            for (column, of_column) in &neighbours {
+                if row >= column {
+                    let dofs = self.dofs;
+                    let block = self.blocks.entry((*row, *column)).or_insert_with(|| Mat::zeros(dofs, dofs));
+                    matmul(block.as_mut(), Accum::Add, of_row.transpose(), of_column.as_ref(), -1.0, Par::Seq);
+                }
             }
         }
+        Ok(EliminatedCut { cut, factor, neighbours })
+    }
+
+    /// Displacements of each of `count` cuts per force on the `loaded` ones.
+    fn compliance(mut self, loaded: &BTreeSet<usize>, count: usize) -> Result<Vec<Mat<f64>>, ActiveSetError> {
+        let n = self.dofs;
+        let free = (0..count).rev().filter(|cut| !loaded.contains(cut));
+        let eliminated: Vec<EliminatedCut> = free.map(|cut| self.eliminate(cut)).collect::<Result<_, _>>()?;
+        let mut own = Mat::<f64>::zeros(n * loaded.len(), n * loaded.len());
+        let place: BTreeMap<usize, usize> = loaded.iter().copied().zip(0..).collect();
+        for ((row, column), block) in self.blocks {
+            let (row, column) = (n * place[&row], n * place[&column]);
+            own.get_mut(row..row + n, column..column + n).copy_from(block);
+        }
+        // Only the lower half is read.
+        let inverse = factor(&own)?.inverse();
+        let mut compliance = vec![Mat::new(); count];
+        for (cut, place) in place {
+            compliance[cut] = inverse.get(n * place..n * (place + 1), ..).to_owned();
+        }
+        for EliminatedCut { cut, factor, neighbours } in eliminated.into_iter().rev() {
+            let mut moved = Mat::zeros(n, n * loaded.len());
+            for (neighbour, coupling) in &neighbours {
+                matmul(moved.as_mut(), Accum::Add, coupling, &compliance[*neighbour], -1.0, Par::Seq);
+            }
+            solve_upper_triangular_in_place(factor.L().transpose(), moved.as_mut(), Par::Seq);
+            compliance[cut] = moved;
+        }
+        Ok(compliance)
     }
 }
 
 /// Stiffness of two neighbouring sectors or rows on their outer cuts.
 fn beside(first: &Mat<f64>, second: &Mat<f64>) -> Result<Mat<f64>, ActiveSetError> {
     let n = first.nrows() / 2;
-    let mut three = Mat::zeros(3 * n, 3 * n);
-    add_block(&mut three, first, Some);
-    add_block(&mut three, second, |k| Some(n + k));
-    eliminated(&three, n, n)
+    let inner = first.get(n.., n..) + second.get(..n, ..n);
+    let factor = factor(&inner)?;
+    let mut coupling = Mat::zeros(n, 2 * n);
+    coupling.get_mut(.., ..n).copy_from(first.get(n.., ..n));
+    coupling.get_mut(.., n..).copy_from(second.get(..n, n..));
+    solve_lower_triangular_in_place(factor.L(), coupling.as_mut(), Par::Seq);
+    let mut outer = Mat::zeros(2 * n, 2 * n);
+    outer.get_mut(..n, ..n).copy_from(first.get(..n, ..n));
+    outer.get_mut(n.., n..).copy_from(second.get(n.., n..));
+    let (lower, whole) = (BlockStructure::TriangularLower, BlockStructure::Rectangular);
+    triangular::matmul(
+        outer.as_mut(),
+        lower,
+        Accum::Add,
+        coupling.transpose(),
+        whole,
+        coupling.as_ref(),
+        whole,
+        -1.0,
+        Par::Seq,
+    );
+    for j in 1..2 * n {
+        for i in 0..j {
+            outer[(i, j)] = outer[(j, i)];
+        }
+    }
+    Ok(outer)
 }
 
 /// Stiffness of a row of `count` (≥ 1) sectors with cut stiffness `one` on its two outer cuts: rows of 1, 2, 4 … sectors are joined by the

@@ -166,7 +166,7 @@ fn given(node: u32, displacement: Vector2<f64>) -> [(u32, f64); 2] {
 }
 
 /// Symmetric part of a matrix, which differs from its transpose by round-off.
-pub(super) fn symmetric(matrix: &Mat<f64>) -> Mat<f64> {
+fn symmetric(matrix: &Mat<f64>) -> Mat<f64> {
     Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| 0.5 * (matrix[(i, j)] + matrix[(j, i)]))
 }
 

@@ -29,15 +29,20 @@ pub fn cell_compliance_mm_per_mpa(bodies: &[HalfPlane; 2], width_mm: f64, count:
 
 /// Sum of the displacements of two half-planes at a distance from the centre of a cell under unit pressure, mm/MPa.
 pub fn cell_compliance_at_mm_per_mpa(bodies: &[HalfPlane; 2], width_mm: f64, distance_mm: f64) -> f64 {
-    let [to, from] = [distance_mm + 0.5 * width_mm, distance_mm - 0.5 * width_mm]
-        .map(|x_mm| bodies.iter().map(|body| line_load_primitive(body, x_mm)).sum::<f64>());
+    let [to, from] =
+        [distance_mm + 0.5 * width_mm, distance_mm - 0.5 * width_mm].map(|x_mm| line_loads_primitive(bodies, x_mm));
     to - from
+}
+
+/// Sum of the integrals ∫ G from 0 to `x_mm` for two bodies, mm² per N/mm.
+pub fn line_loads_primitive(bodies: &[HalfPlane; 2], x_mm: f64) -> f64 {
+    bodies.iter().map(|body| line_load_primitive(body, x_mm)).sum()
 }
 
 /// Integral ∫ G from 0 to `x_mm` for one body, mm² per N/mm.
 fn line_load_primitive(body: &HalfPlane, x_mm: f64) -> f64 {
     let (t, nu) = (body.depth_mm, body.elastic.poisson_ratio);
-    let logarithm = if x_mm == 0.0 { 0.0 } else { x_mm * (x_mm.hypot(t) / x_mm.abs()).ln() };
+    let logarithm = if x_mm == 0.0 { 0.0 } else { 0.5 * x_mm * (1.0 + (t / x_mm).powi(2)).ln() };
     body.elastic.half_plane_mm2_per_n() * (logarithm + t * (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu)) * (x_mm / t).atan())
 }
 
