@@ -173,7 +173,8 @@ impl CondensedPair<'_> {
     ) -> Option<FlankOverlap> {
         let turned_mm = found.rigid[0];
         beside.deepest_mm = 0.0;
-        if turned_mm <= beside.first_touch_mm {
+        // Bounds of the spans hold for gears that are turned towards one another.
+        if turned_mm <= beside.first_touch_mm.max(0.0) {
             return None;
         }
         let unknown = beside.probes_without_compliance(turned_mm);
@@ -312,7 +313,7 @@ impl Span {
         Self { nodes: range, least_gap_mm, least_by_rotation }
     }
 
-    /// Lower bound of the gaps if the teeth were rigid and unworn, mm.
+    /// Lower bound of the gaps if the teeth were rigid and unworn, mm; `turned_mm` ≥ 0.
     fn least_mm(&self, turned_mm: f64) -> f64 {
         self.least_gap_mm + self.least_by_rotation * turned_mm
     }

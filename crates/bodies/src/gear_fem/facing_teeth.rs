@@ -190,14 +190,16 @@ impl CondensedPair<'_> {
             return None;
         }
         let coupling = fine.grouped(&self.groups(&fine, placed));
-        // Beyond the master's own end there are no rows that the window could cut off.
+        // Where the master itself ends there are no rows that the window could cut off; from the slave's tip to its root the master runs towards its tip.
+        let mate = &edges[master];
+        let mate_ends = (mate.end == self.flanks[master].surface.edges.len(), mate.start == 0);
         let has_row_on = |edge: usize| {
             let nodes = self.flanks[slave].surface.edges[edge].nodes();
             coupling.ends.iter().flatten().any(|node| nodes.contains(node))
         };
         let inner_ends = (
-            own.start > 0 && has_row_on(own.start),
-            own.end < self.flanks[slave].surface.edges.len() && has_row_on(own.end - 1),
+            own.start > 0 && (has_row_on(own.start) || !mate_ends.0),
+            own.end < self.flanks[slave].surface.edges.len() && (has_row_on(own.end - 1) || !mate_ends.1),
         );
         let row_mm: Vec<f64> = coupling.nodes.iter().map(|&node| self.flanks[slave].from_tip_mm[node]).collect();
         let mut from_tip: Vec<usize> = (0..coupling.len()).collect();

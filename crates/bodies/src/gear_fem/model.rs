@@ -19,7 +19,7 @@ const MOST_FLANK_NODES: usize = 3000;
 /// Memory of one gear with the most nodes, GB, quadratic in the number of nodes. Measured on FZG type C with 10 and 14 elements in a half-width and
 /// tip roundings of 0.01 and 0.1 mm, and on the pair of the thesis with 24 and 36, both gears together 0.37 to 0.95 GB: within 15 %.
 const GB_OF_MOST_NODES: f64 = 0.7;
-/// Memory above which a condensation is announced, GB; a wear run or a mesh cycle on it takes 20 s.
+/// Memory above which a condensation is announced, GB.
 const MUCH_MEMORY_GB: f64 = 0.8;
 /// Memory above which a condensation is refused, GB: both gears with the most nodes.
 const MOST_MEMORY_GB: f64 = 2.0 * GB_OF_MOST_NODES;

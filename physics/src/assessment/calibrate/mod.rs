@@ -27,9 +27,9 @@ use gearwear_bodies::gear_fem::{condensed_pair::CondensedPair, model::much_memor
 use gearwear_bodies::gear_mesh::settings::Body;
 use gearwear_bodies::material::Material;
 
-/// Peak memory of a calibration over that of the pair's own bodies: finer meshes and other rims are held beside them. 1.3 to 1.7 on FZG type C with
-/// tip roundings of 0.1 and 0.001 mm.
-const BODIES_AT_ONCE: f64 = 1.7;
+/// Peak memory of a calibration over that of the pair's own bodies: finer meshes and other rims are held beside them. 1.1 on FZG type C with tip
+/// roundings of 0.6 mm.
+const BODIES_AT_ONCE: f64 = 1.2;
 
 /// Failure of a calibration.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
