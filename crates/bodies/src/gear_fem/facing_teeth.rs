@@ -51,6 +51,8 @@ pub(super) struct SearchWindow {
     pub reach_mm: f64,
     /// Overlaps beside earlier windows, at most one of each tooth pair.
     pub overlaps: Vec<FlankOverlap>,
+    /// Whether rows away from tip edges share multipliers.
+    pub shares_multipliers: bool,
 }
 
 /// Overlap of the flanks of a tooth pair beside its window.
@@ -189,7 +191,10 @@ impl CondensedPair<'_> {
         if fine.is_empty() {
             return None;
         }
-        let coupling = fine.grouped(&self.groups(&fine, placed));
+        let coupling = match window.shares_multipliers {
+            true => fine.grouped(&self.groups(&fine, placed)),
+            false => fine,
+        };
         // Where the master itself ends there are no rows that the window could cut off; from the slave's tip to its root the master runs towards its tip.
         let mate = &edges[master];
         let mate_ends = (mate.end == self.flanks[master].surface.edges.len(), mate.start == 0);
