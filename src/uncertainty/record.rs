@@ -81,7 +81,8 @@ pub struct OutputRecord {
     /// Null where `no_indices_because` says why.
     pub indices: Option<Vec<FactorIndices>>,
     pub no_indices_because: Option<String>,
-    /// Relative difference that the contact surface of the samples makes to it there; null where they are on the surface of the scene.
+    /// Greatest relative difference that the contact surface of the samples makes to it there and with all keys low or high; null where they are on the
+    /// surface of the scene.
     pub surface_difference: Option<f64>,
     /// All values, rising.
     #[serde(skip)]

@@ -133,7 +133,7 @@ fn quantiles(record: &UncertaintyRecord) -> Markup {
         (note(
             "A quantile of 95 % is the value that 95 % of the samples stay below. Longer: part of the samples whose life is longer than their \
              duration; a quantile among these is not known. Error: the relative difference to finite elements on the scene as given. Fast model: the \
-             relative difference that the contact surface of the samples makes there. The samples vary the figure uniformly within the sum of both."
+             relative difference that the contact surface of the samples makes there and with all keys low or high, at most. The samples vary the figure uniformly within the sum of both."
         ))
     }
 }
@@ -170,8 +170,8 @@ fn indices(record: &UncertaintyRecord) -> Markup {
 fn work(record: &UncertaintyRecord) -> Markup {
     html! {
         p {
-            (count(record.samples as u64)) " points of a scrambled Sobol sequence (seed " (record.seed) ") took " (count(record.runs as u64))
-            " runs of the scene in " (significant(record.wall_s, 3)) " s on "
+            (count(record.samples as u64)) " points of a scrambled Sobol sequence (seed " (record.seed) ") gave " (count(record.runs as u64))
+            " samples of the scene in " (significant(record.wall_s, 3)) " s on "
             (if record.threads == 1 { "one thread".to_owned() } else { format!("{} threads", record.threads) })
             ". Verification, error estimates and snapshots were left out of the samples; the scene as given was run and verified once, unless it \
              turns verification off. Quantiles are those of two independent samples a point."

@@ -278,6 +278,13 @@ impl GearCompliance {
         &self.carried.compliance[p * self.carried.teeth + q]
     }
 
+    /// Compliance between the candidates of tooth `p` and those of tooth `q`, from the compliance of the cuts itself.
+    #[cfg(test)]
+    pub(super) fn between_teeth(&self, p: usize, q: usize) -> Mat<f64> {
+        let block = self.joined.blocks(&self.sector.matrices, p, q..=q).next().expect("there is one");
+        block * Scale(self.softness)
+    }
+
     /// Displacements of both cuts of tooth `p` under candidate forces on the fine teeth, with the modulus of the condensation, mm.
     pub fn cut_displacement_mm(&self, p: usize, forces: &[ToothForce]) -> Vec<f64> {
         self.joined.cut_displacement_mm(&self.sector.matrices, p, forces)
