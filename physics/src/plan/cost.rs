@@ -28,19 +28,19 @@ const DEEP: f64 = 400.0;
 /// Mesh cycles with severe wear over those without.
 const SEVERE: f64 = 4.0;
 /// Part of the wear run that error estimates take, which evaluate half of the points and positions.
-const ERROR_ESTIMATES: f64 = 0.45;
+const ERROR_ESTIMATES: f64 = 0.7;
 /// Tolerance of the steps of a verification, mm.
 const VERIFIED_TOLERANCE_MM: f64 = 5e-5;
 /// Positions of a verification over those of the run, in slices.
-const VERIFIED_POSITIONS: f64 = 0.4;
+const VERIFIED_POSITIONS: f64 = 1.0;
 /// Flank points in a contact that the times of a position are measured with, and the power with which these grow.
 const POINTS: (f64, f64) = (20.0, 0.6);
 /// Plane finite elements of a pair: time of a model, s, and of a position of the mesh cycle, s; memory, GB.
-const PLANE_ELEMENTS: (f64, f64, f64) = (0.25, 80e-6, 0.25);
+const PLANE_ELEMENTS: (f64, f64, f64) = (0.12, 70e-6, 0.1);
 /// Positions of the mesh cycle of a verification on plane finite elements.
 const PLANE_POSITIONS: f64 = 200.0;
 /// Time of three-dimensional finite elements for each slice, s.
-const IN_SPACE_S: f64 = 0.14;
+const IN_SPACE_S: f64 = 0.08;
 /// Memory of a program that has begun, GB.
 const PROGRAM_GB: f64 = 0.01;
 
@@ -159,9 +159,9 @@ impl Work {
         let evaluations = positions * cycles;
         let [plane_us, of_slice_us] = match surface {
             SurfaceKind::Fem => return PLANE_ELEMENTS.1 * evaluations,
-            SurfaceKind::HalfSpace => [25.0, 40.0],
-            SurfaceKind::Winkler => [4.0, 11.0],
-            SurfaceKind::Hertz => [2.0, 6.0],
+            SurfaceKind::HalfSpace => [8.0, 12.0],
+            SurfaceKind::Winkler => [3.0, 8.0],
+            SurfaceKind::Hertz => [2.5, 8.0],
             SurfaceKind::HertzMean => [1.0, 0.1],
         };
         1e-6 * self.of_points * evaluations * self.slices.map_or(plane_us, |slices| of_slice_us * slices)

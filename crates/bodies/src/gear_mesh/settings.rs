@@ -188,11 +188,11 @@ impl SpaceResolution {
         Self { slices: Some(count), ..Self::USUAL }
     }
 
-    /// Memory for condensing the sectors of both gears of `pair`, GB: measured on the preset `helical` at 8 to 90 mm, quadratic in
-    /// the number of nodes on flank and cuts.
+    /// Memory for condensing the sectors of both gears of `pair`, GB: measured on the presets `helical` and `h501`, quadratic in the number of nodes on
+    /// flank and cuts.
     pub fn memory_gb(&self, pair: &PairSpec, bodies: &PerGear<SpaceBody>) -> f64 {
         let layers = (self.layer_ends_mm(pair, bodies).len() - 1) as f64;
-        0.2 + 0.0018 * layers * layers
+        0.05 + 0.0006 * layers * layers
     }
 
     /// Ends of elements over the face width of `pair`, from z = 0 on. Elements at both end faces, near which the compliance changes over less than
