@@ -10,10 +10,13 @@ use super::sampled_run::{SampledQuestion, UncertaintyStudyError, outputs_of, run
 use crate::runs;
 use crate::scene::loaded::LoadedScene;
 use crate::varied_scene::{VariedScene, in_words, one_line};
+use gearwear_bodies::gear::GearPair;
 use gearwear_physics::assessment::calibrate::{CalibrateError, CalibrationExtent};
 use gearwear_physics::assessment::guarded::guarded;
+use gearwear_physics::calibration::identity::CalibrationIdentity;
 use gearwear_physics::contact::settings::SurfaceKind;
 use gearwear_physics::observer::Observer;
+use gearwear_physics::operation::Scene;
 use gearwear_physics::results::worn_pair::WornPair;
 use gearwear_physics::stiffness::settings::StiffnessSettings;
 use gearwear_physics::wear::settings::WearOfPair;
@@ -75,6 +78,11 @@ impl SampledScene {
         if let Some(because) = needs_own_surface(scene, question, runs) {
             return Ok(Err(because));
         }
+        if !keeps_the_pair(scene, given, question) {
+            return Ok(Err(
+                "the uncertain keys change the pair, and with it the calibration of a fast model".to_owned()
+            ));
+        }
         observer.stage("calibration of the fast model");
         let calibrated = guarded(|| runs::calibrate(scene, CalibrationExtent::FastModel, observer));
         let calibration = match calibrated {
@@ -90,11 +98,6 @@ impl SampledScene {
             Err(error) => return Ok(Err(one_line(&error.to_string()))),
         };
         let fast = Self::as_given(&on_foundation, String::new())?;
-        if !keeps_the_pair(&fast.varied, question) {
-            return Ok(Err(
-                "the uncertain keys change the pair, and with it the calibration of a fast model".to_owned()
-            ));
-        }
         observer.stage("the scene as given, on the fast model");
         let mut greatest = vec![0.0_f64; question.outputs.len() + question.limits.len()];
         for share in [None, Some(LOW_AND_HIGH[0]), Some(LOW_AND_HIGH[1])] {
@@ -203,13 +206,14 @@ fn needs_own_surface(scene: &LoadedScene, question: &SampledQuestion, runs: usiz
     warms.then(|| "moduli of elasticity follow the temperature of the teeth".to_owned())
 }
 
-/// Whether the calibration belongs to the pair of every sample, tried with all keys away from their medians.
-fn keeps_the_pair(varied: &VariedScene, question: &SampledQuestion) -> bool {
-    [0.25, 0.75].into_iter().all(|share| {
-        let values = question
-            .uncertain
-            .iter()
-            .map(|one| (one.key.as_str(), toml::Value::Float(one.distribution.quantile(share))));
-        varied.resolved(values).is_ok_and(|resolved| varied.inputs_belong_to(&resolved).is_ok())
+/// Whether a calibration of the scene belongs to the pair of every sample, tried with all keys low and high.
+fn keeps_the_pair(scene: &LoadedScene, given: &VariedScene, question: &SampledQuestion) -> bool {
+    let identity = |of: &Scene| {
+        let pair = GearPair::new(&of.pair).ok()?;
+        Some(CalibrationIdentity::of(&pair, &of.material, &of.fem))
+    };
+    let own = identity(scene.scene());
+    LOW_AND_HIGH.into_iter().all(|share| {
+        given.resolved(values_at(question, Some(share))).is_ok_and(|resolved| identity(&resolved.scene) == own)
     })
 }

@@ -91,16 +91,13 @@ struct Samples<'a> {
     errors: Vec<Option<f64>>,
     /// Relative difference of a fast model to it; empty where the samples are not on one.
     differences: &'a [f64],
+    /// Bound of the relative error that the samples vary, of each figure; `None` where none is known.
+    bounds: Vec<Option<f64>>,
 }
 
 impl Samples<'_> {
     fn has_model_error(&self) -> bool {
-        self.bounds().iter().any(Option::is_some)
-    }
-
-    /// Bound of the relative error of each figure that the samples vary; `None` where none is known.
-    fn bounds(&self) -> Vec<Option<f64>> {
-        bounds(&self.errors, self.differences)
+        self.bounds.iter().any(Option::is_some)
     }
 
     /// Runs what the journal does not have.
@@ -193,7 +190,7 @@ impl Samples<'_> {
         let u =
             self.has_model_error().then(|| self.sampling.design.sample(point, matrix)[self.question.uncertain.len()]);
         let place = u.map(|u| 2.0 * u - 1.0);
-        (place, self.bounds().iter().map(|bound| 1.0 + bound.unwrap_or(0.0) * place.unwrap_or(0.0)).collect())
+        (place, self.bounds.iter().map(|bound| 1.0 + bound.unwrap_or(0.0) * place.unwrap_or(0.0)).collect())
     }
 
     /// The outputs and lives of a run as those of a sample, the error of the model included, and until when each is known.
@@ -332,13 +329,15 @@ impl<'a> PreparedStudy<'a> {
         let total = &nominal.summary.error.total;
         let paths = question.outputs.iter().map(|output| output.path.as_str());
         let known = paths.chain(question.limits.iter().map(|limit| limit.output)).map(figures::find);
+        let errors: Vec<Option<f64>> = known.map(|figure| figure?.error(total)).collect();
         let samples = Samples {
             question,
             sampling: &sampling,
             varied: &sampled.varied,
             nominal: &nominal,
             places: &places,
-            errors: known.map(|figure| figure?.error(total)).collect(),
+            bounds: bounds(&errors, &sampled.differences),
+            errors,
             differences: &sampled.differences,
         };
         samples.run_all(journal, threads, observer)?;

@@ -94,7 +94,7 @@ fn cost(preset: &str, keys: &[(&str, toml::Value)]) -> RunCost {
         draft.set(key, value.clone());
     }
     let scene = draft.resolve().unwrap().scene;
-    RunCost::of(&scene, &GearPair::new(&scene.pair).unwrap())
+    RunCost::of(&scene, &Plan::of(&scene), &GearPair::new(&scene.pair).unwrap())
 }
 
 /// Costs grow with what is computed: those of slices and positions as these, and only what is much is said.

@@ -312,4 +312,17 @@ fn samples_share_runs_on_a_fast_model() {
             "{name}: {difference}"
         );
     }
+    // Without verification the difference alone is the error that samples vary, evenly: y = y_model (1 + d (2 u - 1)).
+    let of_run = fs::read_to_string(bench.out("shared").join("rows.jsonl")).unwrap();
+    let of_run = of_run.lines().find(|line| line.starts_with("{\"number\":0,")).unwrap();
+    let of_run: Value = serde_json::from_str(of_run).unwrap();
+    let table = fs::read_to_string(bench.out("shared").join("samples.csv")).unwrap();
+    let column = |name: &str| -> f64 {
+        let at = table.lines().next().unwrap().split(',').position(|heading| heading == name).unwrap();
+        table.lines().nth(1).unwrap().split(',').nth(at).unwrap().parse().unwrap()
+    };
+    let difference = output(&shared, "pinion.peak_wear_um")["surface_difference"].as_f64().unwrap();
+    let varied =
+        of_run["ran"]["Ok"]["outputs"][0]["value"].as_f64().unwrap() * (1.0 + difference * column("model_error"));
+    assert!((column("pinion.peak_wear_um") / varied - 1.0).abs() < 1e-12, "{varied}");
 }

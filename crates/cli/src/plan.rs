@@ -37,7 +37,7 @@ pub(super) fn run(args: &PlanArgs) -> Result<(), Failure> {
     warn(scene.warnings());
     let plan = scene.plan();
     let pair = GearPair::new(&scene.scene().pair).map_err(RunError::from)?;
-    let cost = RunCost::of(scene.scene(), &pair);
+    let cost = RunCost::of(scene.scene(), &plan, &pair);
     print(&match args.format {
         PlanFormat::Text => text(scene.resolved.title(), &plan, &cost),
         PlanFormat::Json => {

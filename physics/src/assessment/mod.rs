@@ -101,7 +101,7 @@ impl Resumption<'_> {
 /// [`RunError`] where nothing was finished.
 pub fn run(inputs: RunInputs<'_>, resumption: Resumption<'_>, observer: &dyn Observer) -> Result<Done, RunError> {
     let start = Instant::now();
-    let mut done = prepared(inputs, observer, |run, stages| {
+    let mut done = announced(inputs, observer, |run, stages| {
         run.assess(resumption, stages, |model, found, summary| {
             recording::record(inputs.provenance, model, found, summary)
         })
@@ -117,7 +117,7 @@ pub fn run(inputs: RunInputs<'_>, resumption: Resumption<'_>, observer: &dyn Obs
 pub fn summarise(inputs: RunInputs<'_>, observer: &dyn Observer) -> Result<Done<Summary>, RunError> {
     let start = Instant::now();
     let mut done =
-        prepared(inputs, observer, |run, stages| run.assess(Resumption::none(), stages, |_, _, summary| summary))?;
+        announced(inputs, observer, |run, stages| run.assess(Resumption::none(), stages, |_, _, summary| summary))?;
     done.record.wall_s = start.elapsed().as_secs_f64();
     Ok(done)
 }
@@ -127,7 +127,7 @@ pub fn summarise(inputs: RunInputs<'_>, observer: &dyn Observer) -> Result<Done<
 /// # Errors
 /// As [`run`].
 pub fn worn_pair(inputs: RunInputs<'_>, observer: &dyn Observer) -> Result<Done<WornPair>, RunError> {
-    prepared(inputs, observer, |run, stages| run.assess(Resumption::none(), stages, recording::worn_pair))
+    announced(inputs, observer, |run, stages| run.assess(Resumption::none(), stages, recording::worn_pair))
 }
 
 /// The pair of a run at each of `revolutions`, which are snapshots of the scene, as [`worn_pair`] has it at the end; one evaluation of the wear stands
@@ -140,7 +140,21 @@ pub fn worn_pairs(
     revolutions: &[f64],
     observer: &dyn Observer,
 ) -> Result<Done<Vec<WornPair>>, RunError> {
-    prepared(inputs, observer, |run, stages| run.at_moments(revolutions, stages))
+    announced(inputs, observer, |run, stages| run.at_moments(revolutions, stages))
+}
+
+/// [`prepared`], after an announcement of what the run takes where that is much.
+fn announced<R>(
+    inputs: RunInputs<'_>,
+    observer: &dyn Observer,
+    carry_out: impl FnOnce(PreparedRun<'_, '_>, StageClock<'_>) -> Result<Done<R>, RunError>,
+) -> Result<Done<R>, RunError> {
+    let scene = inputs.scene;
+    let cost = RunCost::of(scene, &Plan::of(scene), &GearPair::new(&scene.pair)?);
+    if let Some(much) = cost.announcement() {
+        observer.announcement(&much);
+    }
+    prepared(inputs, observer, carry_out)
 }
 
 /// Prepares the run of a scene up to its first wear step and hands it to `carry_out`.
@@ -153,9 +167,6 @@ fn prepared<R>(
     let mut stages = StageClock::new(observer);
 
     let pair = stages.run(StageKind::Geometry.name(), || GearPair::new(&scene.pair))?;
-    if let Some(much) = RunCost::of(scene, &pair).announcement() {
-        observer.announcement(&much);
-    }
     let at_pitch = hertz::flattening(&pair.normal_section(), &scene.material, pair.path.pitch_point_mm);
     let elements = prepare::elements(scene, plan, &pair, &at_pitch, &mut stages);
     let elasticity = ToothElasticity::new(inputs, plan, &pair, elements.as_ref(), &mut stages)?;

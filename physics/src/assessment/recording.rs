@@ -25,7 +25,7 @@ use crate::stiffness::iso6336;
 use crate::thermal::settings::TemperatureMethod;
 use crate::wear::settings::WearOfPair;
 use crate::wear::settings::WearSettings;
-use crate::wear::vdi_2736::{SteadyWear, mean_wear_mm};
+use crate::wear::vdi_2736::mean_wear_mm;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
 use gearwear_bodies::reference::steel_yield;
 
@@ -379,19 +379,8 @@ fn wear_figures(model: &RunModel<'_>, outcome: &Outcome, gear: Gear) -> WearSumm
 fn vdi_2736_mean_wear_mm(model: &RunModel<'_>, outcome: &Outcome, gear: Gear) -> Option<f64> {
     let scene = model.scene;
     Gear::BOTH.into_iter().any(|gear| scene.material[gear].is_plastic()).then_some(())?;
-    let mut begin = 0.0;
-    let stretches = scene.operation.phases.iter().map(|phase| {
-        let end = phase.end_revolutions.min(outcome.worn.revolutions);
-        let revolutions = (end - begin).max(0.0);
-        begin = phase.end_revolutions;
-        Some(SteadyWear {
-            coefficient_mm2_per_n: scene.wear_in(phase)[gear].constant_coefficient_mm2_per_n()?,
-            pinion_torque_n_mm: phase.pinion_torque_n_mm,
-            revolutions,
-        })
-    });
-    let stretches: Option<Vec<_>> = stretches.collect();
-    Some(mean_wear_mm(model.pair, gear, stretches?.into_iter()))
+    let stretches = scene.steady_wear(gear, outcome.worn.revolutions)?;
+    Some(mean_wear_mm(model.pair, gear, stretches.into_iter()))
 }
 
 /// Service life to the limits of the scene, where it has any.

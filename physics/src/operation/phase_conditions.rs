@@ -15,6 +15,7 @@ use crate::simulation::settings::Phase;
 use crate::thermal::settings::HeatSettings;
 use crate::thermal::tooth::{ToothTemperatures, WarmGear};
 use crate::wear::settings::WearSettings;
+use crate::wear::vdi_2736::SteadyWear;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear};
 use gearwear_bodies::material::{Material, contact_modulus_mpa};
 
@@ -34,6 +35,22 @@ impl Scene {
             let factor = own.warm.as_ref().zip(phase.flank_c[gear]).map_or(1.0, |(warm, flank_c)| warm.at(flank_c));
             WearSettings { coefficient_mm2_per_n: factor * given, ..own.clone() }
         })
+    }
+
+    /// Wear of a gear by its coefficient in each phase, up to `revolutions` of the pinion; none of a law that is more than a coefficient.
+    pub fn steady_wear(&self, gear: Gear, revolutions: f64) -> Option<Vec<SteadyWear>> {
+        let mut begin = 0.0;
+        let stretches = self.operation.phases.iter().map(|phase| {
+            let end = phase.end_revolutions.min(revolutions);
+            let revolutions = (end - begin).max(0.0);
+            begin = phase.end_revolutions;
+            Some(SteadyWear {
+                coefficient_mm2_per_n: self.wear_in(phase)[gear].constant_coefficient_mm2_per_n()?,
+                pinion_torque_n_mm: phase.pinion_torque_n_mm,
+                revolutions,
+            })
+        });
+        stretches.collect()
     }
 
     /// The pair at the speed and load of `phase`, with its oil; none where nobody asks for films or losses.

@@ -2,7 +2,7 @@
 //!
 //! Work is counted in the sizes that it grows with: positions, slices, mesh cycles, flank points in a contact. The time of each unit was measured once,
 //! on one thread of a core of some 3 GHz. Mesh cycles follow from the mean depth of VDI 2736 over the tolerance of adaptive steps. What shows only when
-//! the gears wear, such as how often a severe law switches, leaves an estimate; `examples/run_costs` holds it against random scenes.
+//! the gears wear, such as how often a severe law switches, leaves an estimate; the example `run_costs` of the validation holds it against random scenes.
 
 use serde::Serialize;
 
@@ -12,7 +12,7 @@ use crate::contact::settings::SurfaceKind;
 use crate::operation::Scene;
 use crate::simulation::settings::Stepping;
 use crate::wear::settings::WearOfPair;
-use crate::wear::vdi_2736::{SteadyWear, mean_wear_mm};
+use crate::wear::vdi_2736::mean_wear_mm;
 use gearwear_bodies::gear::{Gear, GearPair};
 
 /// Time above which a run says at its beginning what it takes, s.
@@ -77,9 +77,9 @@ pub struct StageCost {
 }
 
 impl RunCost {
-    /// Cost of a run of `scene`, whose gears are `pair`.
-    pub fn of(scene: &Scene, pair: &GearPair) -> Self {
-        let (plan, work) = (Plan::of(scene), Work::of(scene, pair));
+    /// Cost of a run of `scene`, whose gears are `pair`, as `plan` says.
+    pub fn of(scene: &Scene, plan: &Plan, pair: &GearPair) -> Self {
+        let work = Work::of(scene, pair);
         let all =
             plan.stages.iter().map(|stage| StageCost { kind: stage.kind, seconds: work.seconds(stage.kind, scene) });
         let stages: Vec<StageCost> = all.filter(|stage| stage.seconds > 0.0).collect();
@@ -181,21 +181,11 @@ fn mesh_cycles(scene: &Scene, pair: &GearPair, of_severe: f64) -> f64 {
 
 /// Mesh cycles of adaptive steps without severe wear.
 fn adaptive_cycles(scene: &Scene, pair: &GearPair, tolerance_mm: f64) -> f64 {
-    let depth = Gear::BOTH.map(|gear| mean_depth_mm(scene, pair, gear));
+    let depth = Gear::BOTH.map(|gear| {
+        let stretches = scene.steady_wear(gear, scene.operation.pinion_revolutions)?;
+        Some(mean_wear_mm(pair, gear, stretches.into_iter()))
+    });
     let of_depth = |depth: f64| 10.0 + 3.0 * (depth / tolerance_mm).min(DEEP).sqrt();
     let [pinion, wheel] = depth.map(|depth| depth.map_or(USUAL_CYCLES, of_depth));
     pinion.max(wheel)
-}
-
-/// Mean wear depth that VDI 2736 expects of a gear; none of a law that is more than a coefficient.
-fn mean_depth_mm(scene: &Scene, pair: &GearPair, gear: Gear) -> Option<f64> {
-    let mut begin = 0.0;
-    let stretches = scene.operation.phases.iter().map(|phase| {
-        let revolutions = phase.end_revolutions - begin;
-        begin = phase.end_revolutions;
-        let coefficient_mm2_per_n = scene.wear_in(phase)[gear].constant_coefficient_mm2_per_n()?;
-        Some(SteadyWear { coefficient_mm2_per_n, pinion_torque_n_mm: phase.pinion_torque_n_mm, revolutions })
-    });
-    let stretches: Option<Vec<SteadyWear>> = stretches.collect();
-    Some(mean_wear_mm(pair, gear, stretches?.into_iter()))
 }

@@ -34,7 +34,7 @@ fn scene(seed: u64, index: u64) -> String {
 /// Runs a scene and prints what it was to cost and what it did, JSON.
 fn measure(seed: u64, index: u64) -> Result<(), Box<dyn Error>> {
     let scene = LoadedScene::from_toml(&scene(seed, index))?;
-    let announced = RunCost::of(scene.scene(), &GearPair::new(&scene.scene().pair)?);
+    let announced = RunCost::of(scene.scene(), &scene.plan(), &GearPair::new(&scene.scene().pair)?);
     let start = Instant::now();
     let done = gearwear::run(&scene, &gearwear::Unwatched)?;
     let summary = done.record.summary;
