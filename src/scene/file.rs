@@ -34,7 +34,7 @@ pub struct SceneFile {
     pub material: Option<MaterialFile>,
     /// Load, speed and duration.
     pub operation: OperationFile,
-    /// Contact of the flanks. Default: elastic half-planes.
+    /// Contact of the flanks. Default: finite elements; elastic half-planes where sections differ over the face width.
     pub contact: Option<ContactFile>,
     /// Stiffness of the teeth. Default: by finite elements.
     pub stiffness: Option<StiffnessFile>,
@@ -421,7 +421,8 @@ pub struct GearPhaseFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactFile {
-    /// Model of the surfaces in contact. Default: half-space; winkler where a calibration or K/H is given or matched.
+    /// Model of the surfaces in contact. Default: fem; half-space where sections differ over the face width, a tooth stiffness is given, tip_contact
+    /// is false or finite elements cannot be made; winkler where a calibration or K/H is given or matched.
     pub surface: Option<SurfaceKind>,
     /// Quantity of Hertz's contact at the pitch point that winkler reproduces. With half-width its peak pressure is 1.178 times Hertz's.
     /// Default: half-width.
@@ -450,6 +451,13 @@ pub struct StiffnessFile {
     /// deflection_um, under lines "# flattening = included" (or excluded) and, with flattening or deflections, "# line_load_N_per_mm = …".
     /// Required with model = "simon" or "wang-cheng".
     pub curve: Option<String>,
+}
+
+impl StiffnessFile {
+    /// Whether any key is given.
+    pub(crate) fn says_anything(&self) -> bool {
+        self.model.is_some() || self.pair_N_per_mm_um.is_some() || self.curve.is_some()
+    }
 }
 
 /// Model of the stiffness of a tooth pair along the path of contact.

@@ -1,8 +1,14 @@
 //! Contact surface of the samples: that of the scene, or a calibrated Winkler foundation, which takes a fraction of its time.
 //!
 //! Finite elements of the scene as given calibrate K/H and the stiffness of the teeth once. The scene is then run on both surfaces, as given and with all
-//! uncertain keys low and high: where none of the figures asked for differs by more than [`GREATEST_DIFFERENCE`], the samples are run on the foundation,
-//! and the greatest difference of each figure is added to the error that its samples vary.
+//! uncertain keys low and high. With y the figure on the scene's own surface and y' that on the foundation, as given (0) or with the keys low or high (±),
+//!
+//! ```text
+//! correction   c = y₀/y'₀            difference   d = max |c y'±/y± − 1|
+//! ```
+//!
+//! Where no correction is above [`GREATEST_CORRECTION`] and no difference above [`GREATEST_DIFFERENCE`], the samples are run on the foundation, their
+//! figures corrected, and the difference of each figure is added to the error that its samples vary.
 
 use serde::Serialize;
 
@@ -21,8 +27,10 @@ use gearwear_physics::results::worn_pair::WornPair;
 use gearwear_physics::stiffness::settings::StiffnessSettings;
 use gearwear_physics::wear::settings::WearOfPair;
 
-/// Greatest relative difference of a figure of the scene as given between both surfaces.
+/// Greatest relative difference of a figure, corrected, between both surfaces.
 pub const GREATEST_DIFFERENCE: f64 = 0.05;
+/// Greatest relative difference of a figure as given that is corrected.
+pub const GREATEST_CORRECTION: f64 = 0.1;
 /// Shares of the distributions where both surfaces are compared too, all keys together.
 const LOW_AND_HIGH: [f64; 2] = [0.05, 0.95];
 /// Number of runs from which a fast model pays.
@@ -40,7 +48,10 @@ pub struct SampledSurface {
 pub(super) struct SampledScene {
     pub varied: VariedScene,
     pub surface: SampledSurface,
-    /// Relative difference of each output, then of the depth of each limit, to the surface of the scene; empty where the samples are on that.
+    /// Figure on the surface of the scene over that of the samples, both as given, of each output, then of the depth of each limit; empty where the samples
+    /// are on the scene's own.
+    pub corrections: Vec<f64>,
+    /// Greatest relative difference of each figure, corrected so, to the surface of the scene; empty likewise.
     pub differences: Vec<f64>,
 }
 
@@ -50,7 +61,7 @@ impl SampledScene {
         let varied = VariedScene::new(scene, false);
         let varied = varied.map_err(|problems| UncertaintyStudyError::Run(in_words(&problems)))?;
         let surface = scene.scene().contact.surface.name().to_owned();
-        Ok(Self { varied, surface: SampledSurface { surface, because }, differences: Vec::new() })
+        Ok(Self { varied, surface: SampledSurface { surface, because }, corrections: Vec::new(), differences: Vec::new() })
     }
 
     /// Scene of the samples of `question`: `given`, or the fast one. `nominal` is the run of the scene as given, and the number of runs of the samples.
@@ -99,31 +110,38 @@ impl SampledScene {
         };
         let fast = Self::as_given(&on_foundation, String::new())?;
         observer.stage("the scene as given, on the fast model");
-        let mut greatest = vec![0.0_f64; question.outputs.len() + question.limits.len()];
-        for share in [None, Some(LOW_AND_HIGH[0]), Some(LOW_AND_HIGH[1])] {
-            let values = || values_at(question, share);
+        let corrections = match at_values(&fast.varied, question, values_at(question, None), observer)? {
+            Ok(found) => match corrections(question, nominal_run, &found) {
+                Ok(corrections) => corrections,
+                Err(because) => return Ok(Err(because)),
+            },
+            Err(reason) => return Ok(Err(reason)),
+        };
+        let mut greatest = vec![0.0_f64; corrections.len()];
+        for share in LOW_AND_HIGH {
+            let values = || values_at(question, Some(share));
             let found = match at_values(&fast.varied, question, values(), observer)? {
                 Ok(found) => found,
                 Err(reason) => return Ok(Err(reason)),
             };
-            let own = match share {
-                None => None,
-                Some(_) => match at_values(given, question, values(), observer)? {
-                    Ok(own) => Some(own),
-                    // Samples that cannot be run are none of the figures.
-                    Err(_) => continue,
-                },
-            };
-            match differences(question, own.as_ref().unwrap_or(nominal_run), &found) {
+            // Samples that cannot be run are none of the figures.
+            let Ok(own) = at_values(given, question, values(), observer)? else { continue };
+            match differences(question, &own, &found, &corrections) {
                 Ok(found) => greatest.iter_mut().zip(found).for_each(|(most, found)| *most = most.max(found)),
                 Err(because) => return Ok(Err(because)),
             }
         }
+        let [corrected, greatest_left] = [
+            corrections.iter().map(|correction| (correction - 1.0).abs()).fold(0.0, f64::max),
+            greatest.iter().copied().fold(0.0, f64::max),
+        ];
         let because = format!(
-            "a calibrated foundation takes a fraction of the time, and the figures, as given and with all keys low or high, differ by {:.1} % at most",
-            100.0 * greatest.iter().copied().fold(0.0, f64::max)
+            "a calibrated foundation takes a fraction of the time; its figures are corrected by what they differ as given, {:.1} % at most, and then differ \
+             with all keys low or high by {:.1} % at most",
+            100.0 * corrected,
+            100.0 * greatest_left
         );
-        Ok(Ok(Self { surface: SampledSurface { because, ..fast.surface }, differences: greatest, ..fast }))
+        Ok(Ok(Self { surface: SampledSurface { because, ..fast.surface }, corrections, differences: greatest, ..fast }))
     }
 }
 
@@ -149,29 +167,56 @@ fn at_values(
     }
 }
 
-/// Relative differences of the figures of `found` from those of `given`, or which is too great.
-fn differences(question: &SampledQuestion, given: &WornPair, found: &WornPair) -> Result<Vec<f64>, String> {
+/// Names of the outputs and of the depths of the limits.
+fn names(question: &SampledQuestion) -> impl Iterator<Item = &str> {
     let names = question.outputs.iter().map(|output| output.path.as_str());
-    let names = names.chain(question.limits.iter().map(|limit| limit.output));
+    names.chain(question.limits.iter().map(|limit| limit.output))
+}
+
+/// Figures of `given` over those of `found`, or which are too far apart.
+fn corrections(question: &SampledQuestion, given: &WornPair, found: &WornPair) -> Result<Vec<f64>, String> {
     let values = figures_of(question, given)?.into_iter().zip(figures_of(question, found)?);
-    let of_each = names.zip(values).map(|(name, (given, found))| {
-        if given.is_nan() != found.is_nan()
-            || given.is_finite() != found.is_finite()
-            || (given == 0.0) != (found == 0.0)
-        {
+    let of_each = names(question).zip(values).map(|(name, (given, found))| {
+        if given.is_finite() != found.is_finite() || (given == 0.0) != (found == 0.0) {
             return Err(format!("only one of both surfaces has {name}"));
         }
-        let difference = if given == found || given.is_nan() { 0.0 } else { (found / given - 1.0).abs() };
-        if difference <= GREATEST_DIFFERENCE {
-            return Ok(difference);
-        }
-        Err(format!(
-            "{name} differs on a calibrated Winkler foundation by {:.1} %, more than {:.0} %",
-            100.0 * difference,
-            100.0 * GREATEST_DIFFERENCE
-        ))
+        let correction = if given == found || !given.is_finite() { 1.0 } else { given / found };
+        within(name, (correction - 1.0).abs(), GREATEST_CORRECTION, "differs")?;
+        Ok(correction)
     });
     of_each.collect()
+}
+
+/// Relative differences of the figures of `found`, corrected, from those of `given`, or which is too great.
+fn differences(
+    question: &SampledQuestion,
+    given: &WornPair,
+    found: &WornPair,
+    corrections: &[f64],
+) -> Result<Vec<f64>, String> {
+    let values = figures_of(question, given)?.into_iter().zip(figures_of(question, found)?);
+    let of_each = names(question).zip(values).zip(corrections).map(|((name, (given, found)), correction)| {
+        if given.is_finite() != found.is_finite() || (given == 0.0) != (found == 0.0) {
+            return Err(format!("only one of both surfaces has {name}"));
+        }
+        let found = correction * found;
+        let difference = if given == found || !given.is_finite() { 0.0 } else { (found / given - 1.0).abs() };
+        within(name, difference, GREATEST_DIFFERENCE, "differs with all keys low or high")?;
+        Ok(difference)
+    });
+    of_each.collect()
+}
+
+/// Refuses a difference above the greatest.
+fn within(name: &str, difference: f64, greatest: f64, differs: &str) -> Result<(), String> {
+    if difference <= greatest {
+        return Ok(());
+    }
+    Err(format!(
+        "{name} {differs} on a calibrated Winkler foundation by {:.1} %, more than {:.0} %",
+        100.0 * difference,
+        100.0 * greatest
+    ))
 }
 
 /// Values of the outputs and of the depths of the limits.

@@ -81,8 +81,10 @@ pub struct OutputRecord {
     /// Null where `no_indices_because` says why.
     pub indices: Option<Vec<FactorIndices>>,
     pub no_indices_because: Option<String>,
-    /// Greatest relative difference that the contact surface of the samples makes to it there and with all keys low or high; null where they are on the
-    /// surface of the scene.
+    /// Factor to the figures on the contact surface of the samples: that of the scene as given, over that there; null where they are on the surface of
+    /// the scene.
+    pub surface_correction: Option<f64>,
+    /// Greatest relative difference that the contact surface of the samples makes to it with all keys low or high, so corrected; null likewise.
     pub surface_difference: Option<f64>,
     /// All values, rising.
     #[serde(skip)]

@@ -89,7 +89,9 @@ struct Samples<'a> {
     places: &'a PerGear<Vec<f64>>,
     /// Relative error of the scene as given in each output, then in the depth of each limit; `None` where it is not known.
     errors: Vec<Option<f64>>,
-    /// Relative difference of a fast model to it; empty where the samples are not on one.
+    /// Factor to the figures of a fast model; empty where the samples are not on one.
+    corrections: &'a [f64],
+    /// Relative difference that is left then; empty likewise.
     differences: &'a [f64],
     /// Bound of the relative error that the samples vary, of each figure; `None` where none is known.
     bounds: Vec<Option<f64>>,
@@ -185,12 +187,14 @@ impl Samples<'_> {
         })
     }
 
-    /// 1 + (e + d) (2 u − 1) of each output and limit.
+    /// c (1 + (e + d) (2 u − 1)) of each output and limit.
     fn times(&self, point: usize, matrix: Matrix) -> (Option<f64>, Vec<f64>) {
         let u =
             self.has_model_error().then(|| self.sampling.design.sample(point, matrix)[self.question.uncertain.len()]);
         let place = u.map(|u| 2.0 * u - 1.0);
-        (place, self.bounds.iter().map(|bound| 1.0 + bound.unwrap_or(0.0) * place.unwrap_or(0.0)).collect())
+        let corrections = self.corrections.iter().copied().chain(std::iter::repeat(1.0));
+        let of_each = self.bounds.iter().zip(corrections);
+        (place, of_each.map(|(bound, correction)| correction * (1.0 + bound.unwrap_or(0.0) * place.unwrap_or(0.0))).collect())
     }
 
     /// The outputs and lives of a run as those of a sample, the error of the model included, and until when each is known.
@@ -338,6 +342,7 @@ impl<'a> PreparedStudy<'a> {
             places: &places,
             bounds: bounds(&errors, &sampled.differences),
             errors,
+            corrections: &sampled.corrections,
             differences: &sampled.differences,
         };
         samples.run_all(journal, threads, observer)?;
@@ -445,6 +450,7 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
         unit,
         nominal: nominal.filter(|value| value.is_finite()),
         model_error: samples.errors[figure],
+        surface_correction: samples.corrections.get(figure).copied(),
         surface_difference: samples.differences.get(figure).copied(),
         samples: sorted.len(),
         censored: is_life.then(|| censored as f64 / sorted.len().max(1) as f64),

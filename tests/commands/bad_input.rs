@@ -42,7 +42,7 @@ impl Case {
                 if old.starts_with('[') {
                     inside = old.starts_with(&header);
                 }
-                if inside && !done && old.split('=').next().unwrap().trim() == key {
+                if inside && !done && old.trim_start_matches("# ").split('=').next().unwrap().trim() == key {
                     done = true;
                     line
                 } else {

@@ -25,7 +25,7 @@ fn the_plan_says_what_a_run_uses_the_table_for() {
     command.current_dir(folder.path()).args(["plan", "-"]).write_stdin(scene("body = \"ring\"")).assert().success();
     let mut command = Command::cargo_bin("gearwear").unwrap();
     let assert = command.args(["plan", "-"]).write_stdin(scene("body = \"ring\"")).assert().success();
-    assert.stdout(predicate::str::contains("the stiffness of the teeth and the verification"));
+    assert.stdout(predicate::str::contains("the surface fem: both gears meshed"));
 }
 
 /// One pitch of each gear in hexahedra, in every format alike.

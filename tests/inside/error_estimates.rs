@@ -193,6 +193,7 @@ fn val_hardly_worn_tip_edges_are_verified_on_short_elements() {
              [pair.pinion]\nteeth = 16\nprofile_shift = 0.566\ntip_rounding_mm = 0.1381\n\
              [pair.wheel]\nteeth = 69\nprofile_shift = -0.244\ntip_rounding_mm = 0.1008\n\
              [operation]\npinion_torque_Nm = 150.0\npinion_revolutions = 1e6\n\
+             [contact]\nsurface = \"half-space\"\n\
              [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = {coefficient:e}\n[numerics]\nerror_estimate = false\n"
         ))
     };

@@ -96,12 +96,37 @@ fn defaults_are_those_of_the_contract() {
         );
     }
     assert_eq!(scene.pair.rack, gearwear_bodies::gear::spec::BasicRack::default());
-    assert_eq!(scene.contact.surface, SurfaceKind::HalfSpace);
+    assert_eq!((scene.contact.surface, scene.surface_by_default), (SurfaceKind::Fem, true));
     assert!(scene.contact.tip_contact && scene.verify);
     assert_eq!((scene.stiffness, scene.stiffness_by_default), (StiffnessSettings::Fem, true));
     assert!(matches!(scene.numerics.stepping, Stepping::Adaptive { .. }));
     assert_eq!(scene.operation.snapshots_revolutions, [100.0, 200.0, 400.0, 800.0, 1600.0, 3200.0, 6400.0]);
     assert!(scene.numerics.error_estimate);
+}
+
+/// Finite elements are the default surface where all sections are alike and nothing is given that only another surface reads; contact too narrow for them
+/// is left to half-planes with a warning.
+#[test]
+fn the_default_surface_follows_what_is_given() {
+    let surface = |more: &str| {
+        let resolved = resolve(&format!("{LEAST}\n{more}\n"));
+        (resolved.scene.contact.surface, resolved.warnings.join("\n"))
+    };
+    for (more, expected) in [
+        ("", SurfaceKind::Fem),
+        ("[contact]\ntip_contact = true", SurfaceKind::Fem),
+        ("[contact]\ntip_contact = false", SurfaceKind::HalfSpace),
+        ("[stiffness]\nmodel = \"weber-banaschek\"", SurfaceKind::HalfSpace),
+        ("[contact]\nmatch = \"half-width\"", SurfaceKind::Winkler),
+    ] {
+        assert_eq!(surface(more).0, expected, "{more}");
+    }
+    let helical = LEAST.replace("pair.preset = \"fzg-c\"", "pair.preset = \"helical\"");
+    assert_eq!(resolve(&helical).scene.contact.surface, SurfaceKind::HalfSpace);
+    let light = LEAST.replace("pinion_torque_Nm = 302.0", "pinion_torque_Nm = 0.01");
+    let light = resolve(&light);
+    assert_eq!(light.scene.contact.surface, SurfaceKind::HalfSpace);
+    assert!(light.warnings.iter().any(|warning| warning.contains("too narrow")), "{:?}", light.warnings);
 }
 
 #[test]
@@ -374,7 +399,7 @@ proptest! {
 #[test]
 fn a_loaded_scene_has_its_files() {
     let with = |lines: &str| {
-        let text = presets::find("fzg-c").unwrap().text.replace("surface = \"half-space\"", "surface = \"winkler\"");
+        let text = presets::find("fzg-c").unwrap().text.replace("# surface = \"fem\"", "surface = \"winkler\"");
         LoadedScene::from_toml(&format!("{text}\n{lines}"))
     };
     let refused = |scene: Result<LoadedScene, LoadError>, key: &str| match scene {
@@ -415,7 +440,7 @@ fn a_changed_scene_is_as_if_the_file_said_so() {
         std::fs::write(&path, text).unwrap();
         path
     };
-    let text = presets::find("fzg-c").unwrap().text.replace("surface = \"half-space\"", "surface = \"winkler\"");
+    let text = presets::find("fzg-c").unwrap().text.replace("# surface = \"fem\"", "surface = \"winkler\"");
     let scene = LoadedScene::open(file("scene.toml", &text)).unwrap();
     let key_of = |scene: Result<LoadedScene, LoadError>| match scene {
         Err(LoadError::Scene(SceneError { problems, .. })) => problems[0].key.clone(),

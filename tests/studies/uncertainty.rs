@@ -280,7 +280,7 @@ fn fewer_samples_are_the_first_of_more() {
 }
 
 /// Samples that differ in their coefficient alone share a run, and have the same figures as runs of their own: these have a limit, which is not shared.
-/// A calibrated foundation stands for half-planes where it changes the figures of the scene as given little, and says so.
+/// A calibrated foundation stands for finite elements where, corrected as given, it changes the figures of the scene as given little, and says so.
 #[test]
 fn samples_share_runs_on_a_fast_model() {
     let bench = Bench::new();
@@ -298,7 +298,7 @@ fn samples_share_runs_on_a_fast_model() {
     done(&bench.study("alone", &[K, TORQUE], &["--samples", "16", "--limit", "pinion.peak_wear_um=1e6"]));
     done(&bench.study("own", &[K, TORQUE], &["--samples", "2", "--own-surface"]));
     let [shared, alone, own] = ["shared", "alone", "own"].map(|name| timeless(&bench.out(name)));
-    assert_eq!((&shared["surface"]["surface"], &own["surface"]["surface"]), (&"winkler".into(), &"half-space".into()));
+    assert_eq!((&shared["surface"]["surface"], &own["surface"]["surface"]), (&"winkler".into(), &"fem".into()));
     for name in ["pinion.peak_wear_um", "wheel.peak_wear_um", "worn.transmission_error_um.peak_to_peak"] {
         let [one, other, on_own] = [&shared, &alone, &own].map(|record| output(record, name));
         for quantile in ["p05", "p50", "p95"] {
@@ -312,7 +312,7 @@ fn samples_share_runs_on_a_fast_model() {
             "{name}: {difference}"
         );
     }
-    // Without verification the difference alone is the error that samples vary, evenly: y = y_model (1 + d (2 u - 1)).
+    // Without verification the difference alone is the error that samples vary, evenly: y = c y_model (1 + d (2 u - 1)).
     let of_run = fs::read_to_string(bench.out("shared").join("rows.jsonl")).unwrap();
     let of_run = of_run.lines().find(|line| line.starts_with("{\"number\":0,")).unwrap();
     let of_run: Value = serde_json::from_str(of_run).unwrap();
@@ -321,8 +321,10 @@ fn samples_share_runs_on_a_fast_model() {
         let at = table.lines().next().unwrap().split(',').position(|heading| heading == name).unwrap();
         table.lines().nth(1).unwrap().split(',').nth(at).unwrap().parse().unwrap()
     };
-    let difference = output(&shared, "pinion.peak_wear_um")["surface_difference"].as_f64().unwrap();
-    let varied =
-        of_run["ran"]["Ok"]["outputs"][0]["value"].as_f64().unwrap() * (1.0 + difference * column("model_error"));
+    let of = |key: &str| output(&shared, "pinion.peak_wear_um")[key].as_f64().unwrap();
+    let (correction, difference) = (of("surface_correction"), of("surface_difference"));
+    assert!(correction != 1.0 && (correction - 1.0).abs() < 0.05, "{correction}");
+    let on_foundation = of_run["ran"]["Ok"]["outputs"][0]["value"].as_f64().unwrap();
+    let varied = correction * on_foundation * (1.0 + difference * column("model_error"));
     assert!((column("pinion.peak_wear_um") / varied - 1.0).abs() < 1e-12, "{varied}");
 }

@@ -163,13 +163,22 @@ fn prepared<R>(
     observer: &dyn Observer,
     carry_out: impl FnOnce(PreparedRun<'_, '_>, StageClock<'_>) -> Result<Done<R>, RunError>,
 ) -> Result<Done<R>, RunError> {
-    let (scene, plan) = (inputs.scene, &Plan::of(inputs.scene));
     let mut stages = StageClock::new(observer);
 
-    let pair = stages.run(StageKind::Geometry.name(), || GearPair::new(&scene.pair))?;
+    let pair = stages.run(StageKind::Geometry.name(), || GearPair::new(&inputs.scene.pair))?;
+    let (worn, on_half_planes) = match prepare::wearing_elements(inputs.scene, &pair, &mut stages) {
+        Err(error) if inputs.scene.surface_by_default => (None, Some((inputs.scene.on_half_planes(), error))),
+        worn => (worn?, None),
+    };
+    let scene = on_half_planes.as_ref().map_or(inputs.scene, |(scene, _)| scene);
+    let inputs = RunInputs { scene, ..inputs };
+    let plan = &Plan::of(scene);
+    let surface_warning = on_half_planes.as_ref().map(|(_, error)| {
+        format!("contact.surface: elastic half-planes, as finite elements, the default, cannot be made for this pair: {error}")
+    });
     let at_pitch = hertz::flattening(&pair.normal_section(), &scene.material, pair.path.pitch_point_mm);
     let elements = prepare::elements(scene, plan, &pair, &at_pitch, &mut stages);
-    let elasticity = ToothElasticity::new(inputs, plan, &pair, elements.as_ref(), &mut stages)?;
+    let elasticity = ToothElasticity::new(inputs, plan, &pair, elements.as_ref(), worn, &mut stages)?;
     let cases = ContactCases::new(inputs, &pair, &elasticity, elements.as_ref(), &mut stages)?;
     let teeth = cases.springs(inputs, plan, &pair, &elasticity, &mut stages)?;
     // Slices are verified by other slices with the curve of the plane elements, which make room for the teeth in space once that is known.
@@ -191,7 +200,7 @@ fn prepared<R>(
         foundations_mpa_per_mm: cases.foundations_mpa_per_mm(),
     };
     let verification = VerificationModels { elements, curve: elasticity.curve_by_elements(inputs), in_space };
-    let warnings = elasticity.warning.iter().chain(&slices.warning).cloned().collect();
+    let warnings = surface_warning.iter().chain(&elasticity.warning).chain(&slices.warning).cloned().collect();
     carry_out(PreparedRun { provenance: inputs.provenance, plan, model, verification, warnings }, stages)
 }
 

@@ -48,6 +48,23 @@ pub(super) fn elements<'a>(
     stages.planned(plan, StageKind::FiniteElementModel, || verification::elements(scene, pair, at_pitch, observer))
 }
 
+/// Finite elements whose flank nodes wear in all phases; none of other surfaces.
+pub(super) fn wearing_elements<'a>(
+    scene: &Scene,
+    pair: &'a GearPair,
+    stages: &mut StageClock<'_>,
+) -> Result<Option<CondensedPair<'a>>, ModelError> {
+    let observer = stages.observer;
+    let wearing = (scene.contact.surface == SurfaceKind::Fem).then(|| {
+        let [least, greatest] = scene.operation.torque_range_n_mm().map(|torque| pair.line_load_n_per_mm(torque));
+        let load = least.max(LEAST_MESHED_LOAD * greatest);
+        stages.run(StageKind::FiniteElementModel.name(), || {
+            verification::condensed(scene, pair, load, &scene.wear_bodies(), observer)
+        })
+    });
+    wearing.transpose()
+}
+
 /// Stiffness of the teeth, and the wearing finite elements of `contact.surface = "fem"`.
 pub(super) struct ToothElasticity<'a> {
     /// Stiffness model in use.
@@ -66,19 +83,12 @@ impl<'a> ToothElasticity<'a> {
         plan: &Plan,
         pair: &'a GearPair,
         elements: Option<&Result<Elements<'a>, ModelError>>,
+        worn: Option<CondensedPair<'a>>,
         stages: &mut StageClock<'_>,
     ) -> Result<Self, RunError> {
-        let (scene, observer) = (inputs.scene, stages.observer);
-        let setup = calibrate::setup(scene, pair);
+        let setup = calibrate::setup(inputs.scene, pair);
         let (stiffness, computed, warning) = own_stiffness(inputs, plan, elements, &setup, stages)?;
-        let worn = (scene.contact.surface == SurfaceKind::Fem).then(|| {
-            let [least, greatest] = scene.operation.torque_range_n_mm().map(|torque| pair.line_load_n_per_mm(torque));
-            let load = least.max(LEAST_MESHED_LOAD * greatest);
-            stages.run(StageKind::FiniteElementModel.name(), || {
-                verification::condensed(scene, pair, load, &scene.wear_bodies(), observer)
-            })
-        });
-        Ok(Self { stiffness, computed, warning, worn: worn.transpose()? })
+        Ok(Self { stiffness, computed, warning, worn })
     }
 
     /// Curve of the stiffness model in use, for the scene's own material.

@@ -3,7 +3,8 @@
 
 mod phase_conditions;
 
-use crate::contact::settings::ContactSettings;
+use crate::contact::hertz;
+use crate::contact::settings::{ContactSettings, SurfaceKind};
 use crate::lubrication::settings::LubricationSettings;
 use crate::mesh_cycle::settings::SliceSettings;
 use crate::simulation::settings::{Numerics, Operation};
@@ -11,10 +12,13 @@ use crate::stiffness::settings::StiffnessSettings;
 use crate::thermal::settings::HeatSettings;
 use crate::thermal::tooth::TemperatureCurve;
 use crate::wear::settings::WearSettings;
-use gearwear_bodies::gear::{PerGear, spec::PairSpec};
+use gearwear_bodies::gear::{GearPair, PerGear, spec::PairSpec};
 use gearwear_bodies::gear_mesh::settings::BodySettings;
 use gearwear_bodies::material::Material;
 pub use phase_conditions::mean_friction;
+
+/// Least half-width of contact at the pitch point that is meshed, in modules: the flank then has some thousand nodes.
+pub(crate) const LEAST_HALF_WIDTH_MODULES: f64 = 0.015;
 
 /// A scene with every choice made: what plan and assessment work from.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +33,8 @@ pub struct Scene {
     pub operation: Operation,
     /// Contact surface.
     pub contact: ContactSettings,
+    /// Whether the scene leaves the contact surface open.
+    pub surface_by_default: bool,
     /// Calibration file, as named by the scene.
     pub calibration_file: Option<String>,
     /// Tooth stiffness.
@@ -61,6 +67,20 @@ impl Scene {
     /// Bodies of finite elements that wear.
     pub fn wear_bodies(&self) -> BodySettings {
         BodySettings { elements_per_half_width: self.wear_elements_per_half_width, ..self.fem }
+    }
+
+    /// The scene on elastic half-planes, for a pair of which finite elements, the default surface, cannot be made.
+    pub fn on_half_planes(&self) -> Self {
+        let contact = ContactSettings { surface: SurfaceKind::HalfSpace, ..self.contact };
+        Self { contact, ..self.clone() }
+    }
+
+    /// Whether contact at the pitch point is wide enough under the greatest load for finite elements of a reasonable size.
+    pub fn contact_can_be_meshed(&self, pair: &GearPair) -> bool {
+        let [_, greatest_n_mm] = self.operation.torque_range_n_mm();
+        let at_pitch = hertz::flattening(&pair.normal_section(), &self.material, pair.path.pitch_point_mm);
+        let half_width_mm = at_pitch.contact.loaded(pair.line_load_n_per_mm(greatest_n_mm)).half_width_mm;
+        half_width_mm >= LEAST_HALF_WIDTH_MODULES * self.pair.normal_module_mm
     }
 
     /// Warning of a command under one load alone that a scene has phases under others.

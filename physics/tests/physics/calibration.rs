@@ -70,6 +70,7 @@ fn fzg_c_scene(elements_per_half_width: f64) -> Scene {
         modulus: PerGear::default(),
         operation: Operation::steady(302e3, None, 1.0, vec![1.0]),
         contact: ContactSettings { surface: SurfaceKind::HalfSpace, foundation, tip_contact: true },
+        surface_by_default: false,
         calibration_file: None,
         stiffness: StiffnessSettings::Fem,
         stiffness_by_default: true,

@@ -53,11 +53,14 @@ pub(super) fn resolve_table(table: Table, mut findings: Findings) -> Result<Reso
     let slips = unit_slip::find(&with_preset(table));
 
     let resolved = text::typed::<SceneFile>(sound, &mut findings).and_then(|file| choose(file, &mut findings));
-    let resolved = resolved.filter(|_| findings.problems.is_empty());
+    let mut resolved = resolved.filter(|_| findings.problems.is_empty());
     let mut of_contact = false;
-    if let Some((scene, _)) = &resolved
+    if let Some((scene, _)) = &mut resolved
         && let Some(pair) = geometry::check(&scene.pair, scene.slices, &mut findings)
     {
+        if let Some(warning) = settings::leave_elements_out(scene, &pair) {
+            findings.warnings.push(warning);
+        }
         contact_size::check(scene, &pair, &mut findings);
         of_contact = !findings.problems.is_empty();
         operation::check_stop(&scene.operation.stop, &pair, &mut findings);
@@ -173,7 +176,9 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let has_tooth_temperature = file.temperature.as_ref().is_some_and(|of| of.tooth.is_some());
     let materials = material::choose(&mut file.material, has_tooth_temperature, findings);
     let operation = operation::choose(&mut file.operation, findings);
-    let contact = settings::contact(&mut file.contact, findings);
+    let surface_by_default = file.contact.as_ref().is_none_or(|contact| contact.surface.is_none());
+    let alike = pair.as_ref().is_none_or(|pair| pair.is_alike_over_width() && !slices::has_web(file.fem.as_ref()));
+    let contact = settings::contact(&mut file.contact, file.stiffness.as_ref(), alike, findings);
     let calibration_file = file.contact.as_ref().and_then(|contact| contact.calibration.clone());
     let surface = contact.map(|contact| contact.surface);
     let slices = pair.as_ref().and_then(|pair| slices::choose(&mut file, pair, surface, findings));
@@ -211,6 +216,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         modulus: materials.modulus,
         operation,
         contact: contact?,
+        surface_by_default,
         calibration_file,
         stiffness: stiffness?,
         stiffness_by_default,

@@ -4,8 +4,10 @@ use crate::scene::file::{ContactFile, NamedStep, NumericsFile, StepFile, Stiffne
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 use gearwear_bodies::gear::flank::PointSpacing;
+use gearwear_bodies::gear::GearPair;
 use gearwear_physics::contact::settings::{ContactSettings, Foundation, SurfaceKind};
 use gearwear_physics::mesh_cycle::settings::Coupling;
+use gearwear_physics::operation::Scene;
 use gearwear_physics::simulation::settings::{Numerics, Stepping};
 use gearwear_physics::stiffness::settings::StiffnessSettings;
 
@@ -20,15 +22,34 @@ const MOST_POINTS_TIMES_POSITIONS: usize = 100_000_000;
 /// Greatest number of wear steps in an acceptable time.
 const MOST_STEPS: f64 = 1e7;
 
-/// Chooses the contact surface: elastic half-planes, unless something is given that only a Winkler foundation reads.
-pub(super) fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -> Option<ContactSettings> {
-    let file = file.get_or_insert_default();
+/// Contact surface of a scene that leaves it open: finite elements where all sections are alike, unless something is given that only another surface
+/// reads.
+fn default_surface(file: &ContactFile, stiffness: Option<&StiffnessFile>, alike_over_width: bool) -> SurfaceKind {
     let of_foundation = file.foundation_MPa_per_mm.is_some() || file.match_criterion.is_some();
-    let default = match of_foundation || file.calibration.is_some() {
-        true => SurfaceKind::Winkler,
-        false => SurfaceKind::HalfSpace,
+    let of_springs = stiffness.is_some_and(StiffnessFile::says_anything);
+    if of_foundation || file.calibration.is_some() {
+        SurfaceKind::Winkler
+    } else if !alike_over_width || of_springs || file.tip_contact == Some(false) {
+        SurfaceKind::HalfSpace
+    } else {
+        SurfaceKind::Fem
+    }
+}
+
+/// Chooses the contact surface.
+pub(super) fn contact(
+    file: &mut Option<ContactFile>,
+    stiffness: Option<&StiffnessFile>,
+    alike_over_width: bool,
+    findings: &mut Findings,
+) -> Option<ContactSettings> {
+    let file = file.get_or_insert_default();
+    let surface = match (file.surface, default_surface(file, stiffness, alike_over_width)) {
+        (Some(surface), _) => surface,
+        // The default differs where finite elements are not possible, and is not written into the file.
+        (None, SurfaceKind::Fem) => SurfaceKind::Fem,
+        (None, default) => *file.surface.insert(default),
     };
-    let surface = *file.surface.get_or_insert(default);
     let (given, criterion) = (file.foundation_MPa_per_mm, file.match_criterion);
     let keys = ["contact.match", "contact.foundation_MPa_per_mm"];
     if findings.said_twice(&[(keys[0], criterion.is_some()), (keys[1], given.is_some())]) {
@@ -66,6 +87,15 @@ pub(super) fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -
         None => Foundation::Matched(criterion.unwrap_or_default()),
     };
     Some(ContactSettings { surface, foundation, tip_contact })
+}
+
+/// Puts a scene that leaves its surface open on elastic half-planes where finite elements for its contact would be too many, with a warning.
+pub(super) fn leave_elements_out(scene: &mut Scene, pair: &GearPair) -> Option<String> {
+    let too_narrow = scene.surface_by_default && scene.contact.surface == SurfaceKind::Fem;
+    (too_narrow && !scene.contact_can_be_meshed(pair)).then(|| {
+        *scene = scene.on_half_planes();
+        "contact.surface: elastic half-planes, as the contact is too narrow for finite elements, the default".to_owned()
+    })
 }
 
 /// Inputs of the choice of a stiffness model.

@@ -1,6 +1,6 @@
 //! The slices over the face width, where sections differ.
 
-use crate::scene::fem_file::{BodyKind, WebsFile};
+use crate::scene::fem_file::{BodyKind, FemFile, WebsFile};
 use crate::scene::file::{SceneFile, StiffnessModel};
 use crate::scene::findings::Findings;
 use gearwear_bodies::gear::spec::PairSpec;
@@ -9,6 +9,11 @@ use gearwear_physics::mesh_cycle::settings::MOST_SLICES_IN_SPACE;
 use gearwear_physics::mesh_cycle::settings::{Coupling, SliceSettings};
 
 const SLICES: u32 = 20;
+
+/// Whether a gear has a web.
+pub(super) fn has_web(fem: Option<&FemFile>) -> bool {
+    fem.and_then(|fem| fem.web.as_ref()).is_some_and(WebsFile::has_one)
+}
 
 /// Chooses the slices of `pair`; none where all its transverse sections are alike.
 pub(super) fn choose(
@@ -19,7 +24,7 @@ pub(super) fn choose(
 ) -> Option<SliceSettings> {
     let stiffness = file.stiffness.as_ref().and_then(|stiffness| stiffness.model);
     let body = file.fem.as_ref().and_then(|fem| fem.body);
-    let has_web = file.fem.as_ref().and_then(|fem| fem.web.as_ref()).is_some_and(WebsFile::has_one);
+    let has_web = has_web(file.fem.as_ref());
     let file = &mut file.helical;
     if pair.is_alike_over_width() && !has_web {
         if file.is_some() {

@@ -15,7 +15,8 @@
 //! flank pressure      |p − p_f| / p_f + u                 of the greatest between the tip-edge zones, on new and on worn flanks
 //! ```
 //!
-//! A run on finite elements is compared with one on a finer mesh; a run with slices with one on three-dimensional finite elements ([`in_space`]).
+//! A run on finite elements is compared with one of elements and positions half as long again, from which it differs by more than from the converged
+//! answer where both approach that at first order or faster; a run with slices with one on three-dimensional finite elements ([`in_space`]).
 
 mod in_space;
 
@@ -29,7 +30,7 @@ use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::mesh_cycle::{CycleObservation, PositionObservation};
 use crate::observer::Observer;
-use crate::operation::Scene;
+use crate::operation::{LEAST_HALF_WIDTH_MODULES, Scene};
 use crate::plan::is_finest_in_space;
 use crate::results::error::{ErrorNewAndWorn, ErrorPerGear, ErrorSummary, TotalError};
 use crate::results::run::StopReason;
@@ -45,10 +46,10 @@ use gearwear_bodies::gear_mesh::settings::{BodySettings, rounding_element_mm};
 use gearwear_bodies::material::Material;
 use gearwear_bodies::reference::flattening::Flattening;
 
-/// Least half-width of contact at the pitch point that is meshed, in modules: the flank then has some thousand nodes.
-const LEAST_HALF_WIDTH_MODULES: f64 = 0.015;
-/// Positions from A to E.
+/// Positions from A to E of the check of other surfaces.
 const POSITIONS: usize = 400;
+/// Length of elements and distance of positions of the check of a run on finite elements, over those of the run.
+const COARSER: f64 = 1.5;
 /// Tolerance of the wear depth over the greatest depth.
 const TOLERANCE: f64 = 0.03;
 /// Least tolerance of the wear depth, mm.
@@ -275,8 +276,10 @@ fn on_elements<'a>(
 ) -> Result<ReferenceRun, String> {
     let scene = model.scene;
     let mut bodies = scene.wear_bodies();
+    let mut positions = POSITIONS;
     if elements.is_none() {
-        bodies.elements_per_half_width += 1.0;
+        bodies.elements_per_half_width /= COARSER;
+        positions = (scene.numerics.positions as f64 / COARSER).round() as usize;
     }
     let hardly_worn = Gear::BOTH.into_iter().any(|gear| {
         let depth_mm = WearFigures::at(model.pair, gear, outcome, &outcome.worn).tip_edge.depth_mm;
@@ -308,7 +311,7 @@ fn on_elements<'a>(
         .map(|own| (own != scene.material).then(|| of_material(&elements, scene, &own)))
         .collect();
     let contacts = warm.iter().map(|own| MeshContact::FiniteElements(own.as_ref().unwrap_or(&elements))).collect();
-    let reference = simulate(model, outcome, contacts, POSITIONS, observer)?;
+    let reference = simulate(model, outcome, contacts, positions, observer)?;
     let uncertainty = if wears_severely(model, &reference) { OF_ELEMENTS.severe() } else { OF_ELEMENTS };
     Ok(ReferenceRun {
         wear_mm: reference.worn.wear_mm.clone(),
