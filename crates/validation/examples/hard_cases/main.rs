@@ -25,11 +25,11 @@ const CASES: &[Case] = &[
     Case { name: "fem, rounding 0.03 mm", threads: 1, carry_out: || run(&rounded(0.03)?) },
     Case { name: "fem, rounding 0.01 mm", threads: 1, carry_out: || run(&rounded(0.01)?) },
     Case { name: "fem, rounding 0.002 mm", threads: 1, carry_out: || run(&rounded(0.002)?) },
-    Case { name: "default, half-planes with check", threads: 1, carry_out: || run(&LoadedScene::preset("fzg-c")?) },
+    Case { name: "default, fem with check", threads: 1, carry_out: || run(&LoadedScene::preset("fzg-c")?) },
     Case {
-        name: "default, fem with check",
+        name: "default, half-planes with check",
         threads: 1,
-        carry_out: || run(&LoadedScene::preset("fzg-c")?.with("contact.surface", "fem")?),
+        carry_out: || run(&LoadedScene::preset("fzg-c")?.with("contact.surface", "half-space")?),
     },
     Case {
         name: "severe, fem",
