@@ -416,6 +416,6 @@ fn prop_a_cut_file_takes_no_results() {
     let end = TWO_STAGES.rfind("</model>").unwrap();
     for at in (0..end).filter(|&at| TWO_STAGES.is_char_boundary(at)) {
         let refused = with_results(&TWO_STAGES[..at], Some(1), &run).unwrap_err();
-        assert!(matches!(refused, RexsError::NoXml { .. }), "{at}: {refused}");
+        assert!(matches!(refused, RexsError::NoModel { .. }), "{at}: {refused}");
     }
 }
