@@ -359,7 +359,7 @@ pub struct OperationFile {
     /// The same times in revolutions of the pinion.
     #[schemars(extend("items" = { "type": "number", "exclusiveMinimum": 0 }))]
     pub snapshots_revolutions: Option<Vec<f64>>,
-    /// Meshes of each tooth in one revolution of its gear, for a gear in several meshes, as a sun. Default: one each.
+    /// Meshes of each gear per revolution, as of a sun with planets. Default: one each.
     pub meshes_per_revolution: Option<MeshesFile>,
     /// Limits that end the run; the life until then is a result. Default: none.
     pub stop: Option<StopFile>,
@@ -371,10 +371,10 @@ pub struct OperationFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeshesFile {
-    /// Meshes of the pinion in each of its revolutions, a whole number, 1 to 20; of a sun the number of planets. Default 1.
+    /// Mates on the pinion's working flanks, 1 to 20. Default 1.
     #[schemars(range(min = 1, max = 20))]
     pub pinion: Option<u32>,
-    /// Meshes of the wheel in each of its revolutions on the same flank, a whole number, 1 to 20. Default 1.
+    /// Mates on the wheel's working flanks, 1 to 20. Default 1.
     #[schemars(range(min = 1, max = 20))]
     pub wheel: Option<u32>,
 }

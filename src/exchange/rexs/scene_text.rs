@@ -46,8 +46,11 @@ pub(super) fn of(
     text.table("pair", "");
     text.figure("normal_module_mm", gears.normal_module_mm.as_ref());
     text.figure("pressure_angle_deg", gears.pressure_angle_deg.as_ref());
-    if gears.helix_angle_deg != 0.0 {
-        text.number("helix_angle_deg", gears.helix_angle_deg.abs(), "positive: width 0 enters the mesh first");
+    let helix_deg = gears.helix_angle_deg.value.abs();
+    match &gears.helix_angle_deg.how {
+        _ if helix_deg == 0.0 => {}
+        None => text.number("helix_angle_deg", helix_deg, "positive: width 0 enters the mesh first"),
+        Some(how) => text.derived("helix_angle_deg", &rounded(helix_deg), how),
     }
     text.figure("centre_distance_mm", gears.centre_distance_mm.as_ref());
     text.figure("face_width_mm", gears.face_width_mm.as_ref());

@@ -38,7 +38,8 @@ impl Figure {
 pub(super) struct Gears<'a> {
     pub normal_module_mm: Option<Figure>,
     pub pressure_angle_deg: Option<Figure>,
-    pub helix_angle_deg: f64,
+    /// With the sign of the pinion.
+    pub helix_angle_deg: Figure,
     pub centre_distance_mm: Option<Figure>,
     pub face_width_mm: Option<Figure>,
     pub dedendum_factor: Option<f64>,
@@ -157,9 +158,11 @@ impl<'a> RexsStage<'a> {
             },
         };
         let section = match (&normal_module_mm, &pressure_angle_deg) {
-            (Some(module), Some(angle)) => {
-                Some(NormalSection { normal_module_mm: module.value, pressure_angle_deg: angle.value, helix_angle_deg })
-            }
+            (Some(module), Some(angle)) => Some(NormalSection {
+                normal_module_mm: module.value,
+                pressure_angle_deg: angle.value,
+                helix_angle_deg: helix_angle_deg.value,
+            }),
             _ => None,
         };
         let mut pinion_data = pinion.data(document, section.as_ref(), warnings)?;
@@ -194,21 +197,21 @@ impl<'a> RexsStage<'a> {
         })
     }
 
-    /// That of the pinion.
-    fn helix_angle_deg(&self, pinion: &RexsComponent, wheel: &RexsComponent) -> Result<f64, RexsError> {
+    /// That of the pinion; of spur gears 0.
+    fn helix_angle_deg(&self, pinion: &RexsComponent, wheel: &RexsComponent) -> Result<Figure, RexsError> {
         let [own_deg, of_wheel_deg] = [pinion, wheel].map(|gear| gear.number("helix_angle_reference_diameter", DEG));
-        let (own_deg, of_wheel_deg) = match (own_deg?, of_wheel_deg?) {
-            (Some(own_deg), of_wheel_deg) => (own_deg, of_wheel_deg.unwrap_or(-own_deg)),
-            (None, of_wheel_deg) => (0.0 - of_wheel_deg.unwrap_or(0.0), of_wheel_deg.unwrap_or(0.0)),
-        };
-        if (own_deg + of_wheel_deg).abs() > 1e-6 {
-            let allowed = format!(
-                "{} for external gears on parallel axes; internal gears and crossed axes are not in the model",
-                0.0 - own_deg
-            );
-            return Err(wheel.wrong("helix_angle_reference_diameter", of_wheel_deg.to_string(), allowed));
+        match (own_deg?, of_wheel_deg?) {
+            (Some(own_deg), Some(of_wheel_deg)) if (own_deg + of_wheel_deg).abs() > 1e-6 => {
+                let allowed = format!(
+                    "{} for external gears on parallel axes; internal gears and crossed axes are not in the model",
+                    0.0 - own_deg
+                );
+                Err(wheel.wrong("helix_angle_reference_diameter", of_wheel_deg.to_string(), allowed))
+            }
+            (Some(own_deg), _) => Ok(Figure::of_file(own_deg)),
+            (None, Some(of_wheel_deg)) => Ok(Figure::derived(0.0 - of_wheel_deg, "against that of the other gear")),
+            (None, None) => Ok(Figure::of_file(0.0)),
         }
-        Ok(own_deg)
     }
 
     /// As given, otherwise the distance of both axes.
