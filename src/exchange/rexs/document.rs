@@ -7,7 +7,11 @@ use std::collections::HashMap;
 use super::{RexsError, VERSIONS, json, xml};
 
 /// Components of a file, and relations, at most: what belongs together is looked for among all of them.
-const MOST_PARTS: usize = 100_000;
+const MOST_PARTS: usize = 50_000;
+/// Stages at most.
+const MOST_STAGES: usize = 200;
+/// Load cases at most.
+const MOST_LOAD_CASES: usize = 1000;
 
 #[derive(Debug, Default)]
 pub(super) struct RexsDocument {
@@ -109,6 +113,10 @@ impl RexsComponent {
 
     fn attribute(&self, id: &str) -> Option<&Attribute> {
         self.attributes.iter().find(|attribute| newest(&OLDER_IDS, &attribute.id) == id)
+    }
+
+    pub(super) fn is_stage(&self) -> bool {
+        self.kind.ends_with("_stage")
     }
 
     /// A word or text; None where it is not there or empty.
@@ -245,9 +253,16 @@ impl RexsDocument {
         if !VERSIONS.contains(&document.version.as_str()) {
             return Err(RexsError::Version { line, found: document.version, allowed: "1.0 to 1.7 and 2.0" });
         }
-        if document.components.len().max(document.relations.len()) > MOST_PARTS {
-            let found = format!("more than {MOST_PARTS} components or relations");
-            return Err(RexsError::NoModel { line, found });
+        let stages = document.components.iter().filter(|component| component.is_stage()).count();
+        for (what, count, most) in [
+            ("components", document.components.len(), MOST_PARTS),
+            ("relations", document.relations.len(), MOST_PARTS),
+            ("stages", stages, MOST_STAGES),
+            ("load cases", document.load_cases.len(), MOST_LOAD_CASES),
+        ] {
+            if count > most {
+                return Err(RexsError::NoModel { line, found: format!("more than {most} {what}") });
+            }
         }
         Ok(document)
     }

@@ -33,6 +33,8 @@ pub(super) struct Drivetrain<'a> {
 struct ShaftGroup<'a> {
     shafts: Vec<&'a RexsComponent>,
     loads: Vec<&'a RexsComponent>,
+    /// Meshes and the side of them that is on these shafts.
+    meshes: Vec<(usize, usize)>,
     /// Planets, whose axes move.
     is_planet: bool,
 }
@@ -110,11 +112,16 @@ impl<'a> Drivetrain<'a> {
             }
         }
         // In the order of the stages' components, by which they are counted.
-        for stage in document.components.iter().filter(|component| component.kind.ends_with("_stage")) {
+        for stage in document.components.iter().filter(|component| component.is_stage()) {
             let Some(relation) = document.relation("stage", &[("stage", &stage.id)]) else { continue };
             let gears = ["gear_1", "gear_2"].map(|role| document.component(relation.member(role)?));
             if let [Some(first), Some(second)] = gears {
                 let mesh = train.mesh(stage, [first, second]);
+                for (side, group) in mesh.groups.into_iter().enumerate() {
+                    if let Some(group) = group {
+                        train.groups[group].meshes.push((train.meshes.len(), side));
+                    }
+                }
                 train.meshes.push(mesh);
             }
         }
@@ -174,19 +181,14 @@ impl<'a> Drivetrain<'a> {
     /// Whether the load of the mesh is read from the shaft of its gear on this side: nothing else is on it but loads that are given.
     pub(super) fn is_alone(&self, mesh: usize, side: usize) -> bool {
         let Some(group) = self.meshes[mesh].groups[side] else { return false };
-        self.groups[group].shafts.len() == 1 && self.meshes_on(group).count() == 1
-    }
-
-    fn meshes_on(&self, group: usize) -> impl Iterator<Item = (usize, usize)> {
-        let sides = self.meshes.iter().enumerate().flat_map(|(index, mesh)| [(index, 0, mesh), (index, 1, mesh)]);
-        sides.filter(move |(_, side, mesh)| mesh.groups[*side] == Some(group)).map(|(index, side, _)| (index, side))
+        self.groups[group].shafts.len() == 1 && self.groups[group].meshes.len() == 1
     }
 
     /// Speeds and powers in a load case.
     pub(super) fn flow(&self, case: CaseView) -> Result<Flow, RexsError> {
         let mut speed_rpm = Vec::new();
-        for (index, group) in self.groups.iter().enumerate() {
-            let gears = self.meshes_on(index).map(|(mesh, side)| self.meshes[mesh].gears[side]);
+        for group in &self.groups {
+            let gears = group.meshes.iter().map(|&(mesh, side)| self.meshes[mesh].gears[side]);
             let mut said =
                 group.shafts.iter().copied().chain(gears).map(|part| case.number(&part.id, "rotational_speed", RPM));
             speed_rpm.push(said.find_map(Result::transpose).transpose()?.filter(|&speed_rpm| speed_rpm != 0.0));
@@ -243,7 +245,7 @@ impl<'a> Drivetrain<'a> {
         loop {
             let mut is_new = false;
             for (group, of_group) in loads.iter().enumerate() {
-                if self.groups[group].is_planet {
+                if self.groups[group].is_planet || self.groups[group].meshes.is_empty() {
                     continue;
                 }
                 let (mut known, mut sum, mut unknown) = (0, 0.0, 0);
@@ -254,7 +256,7 @@ impl<'a> Drivetrain<'a> {
                     }
                 }
                 let mut open: Vec<(usize, usize)> = Vec::new();
-                for (mesh, side) in self.meshes_on(group) {
+                for &(mesh, side) in &self.groups[group].meshes {
                     match flow.power[mesh] {
                         Some(power) => (known, sum) = (known + 1, sum + if side == 0 { -power } else { power }),
                         None => open.push((mesh, side)),

@@ -75,7 +75,7 @@ struct Flanked<'a> {
 impl<'a> RexsStage<'a> {
     /// All stages of two cylindrical gears, in the order of the file.
     fn all(document: &'a RexsDocument) -> impl Iterator<Item = Result<Self, &'a RexsComponent>> {
-        let stages = document.components.iter().filter(|component| component.kind.ends_with("_stage"));
+        let stages = document.components.iter().filter(|component| component.is_stage());
         stages.map(|component| {
             let relation = document
                 .relation("stage", &[("stage", &component.id)])
