@@ -356,6 +356,8 @@ fn circular_reliefs_are_parabolic_to_first_order() {
 /// What no parser of XML accepts is refused with its line.
 #[test]
 fn what_is_not_xml_is_refused_with_its_line() {
+    let declared = scene(&with(&[("<?xml version", "<?xml]]> version")]), Some(1)).unwrap_err().to_string();
+    assert!(declared.starts_with("line 1: found an XML declaration that cannot be read"), "{declared}");
     let [opened, closed] = ["<c>", "</c>"].map(|tag| tag.repeat(100_000));
     let deep = format!("{opened}{closed}<component id=\"11\"");
     let long = format!("<component {}>", "a=\"\" ".repeat(3000));

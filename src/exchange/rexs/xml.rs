@@ -24,6 +24,12 @@ pub(super) fn parse(text: &str) -> Result<RexsDocument, RexsError> {
         found: format!("XML that cannot be read ({error})"),
     })?;
     let mut lines = Lines::of(text);
+    // A declaration that is none is read as an instruction of its name.
+    let mut instructions = document.root().descendants().filter_map(|node| Some((node, node.pi()?)));
+    if let Some((node, _)) = instructions.find(|(_, said)| said.target.eq_ignore_ascii_case("xml")) {
+        let found = "an XML declaration that cannot be read".to_owned();
+        return Err(RexsError::NoModel { line: lines.of_node(node), found });
+    }
     let mut found = RexsDocument::default();
     let root = document.root_element();
     if root.tag_name().name() != "model" {
