@@ -359,10 +359,24 @@ pub struct OperationFile {
     /// The same times in revolutions of the pinion.
     #[schemars(extend("items" = { "type": "number", "exclusiveMinimum": 0 }))]
     pub snapshots_revolutions: Option<Vec<f64>>,
+    /// Meshes of each gear per revolution, as of a sun with planets. Default: one each.
+    pub meshes_per_revolution: Option<MeshesFile>,
     /// Limits that end the run; the life until then is a result. Default: none.
     pub stop: Option<StopFile>,
     /// Load spectrum or running-in: phases one after the other, whose durations add up to that of the run. Default: one phase.
     pub phases: Option<Vec<PhaseFile>>,
+}
+
+/// Meshes per revolution of each gear. The torque is that of one mesh; wear, life and the heat of plastic teeth are those of all.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MeshesFile {
+    /// Mates on the pinion's working flanks, 1 to 20. Default 1.
+    #[schemars(range(min = 1, max = 20))]
+    pub pinion: Option<u32>,
+    /// Mates on the wheel's working flanks, 1 to 20. Default 1.
+    #[schemars(range(min = 1, max = 20))]
+    pub wheel: Option<u32>,
 }
 
 /// Limits that end the life of the pair: one at least.

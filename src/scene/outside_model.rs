@@ -27,6 +27,13 @@ pub(super) fn reason_of_key(name: &str) -> Option<&'static str> {
             "axes that cross are not in the model: they are parallel, but for the deviations of pair.axis_parallelism",
         ),
         "cone_angle_deg" | "pitch_angle_deg" | "reference_cone_angle_deg" => Some("bevel gears are not in the model"),
+        "internal" => Some("internal gears, such as the ring gear of a planetary stage, are not in the model"),
+        "drive_pressure_angle_deg"
+        | "coast_pressure_angle_deg"
+        | "left_pressure_angle_deg"
+        | "right_pressure_angle_deg" => Some(
+            "asymmetric teeth are not in the model: write the angle of the flank that wears as pair.pressure_angle_deg",
+        ),
         "planets" | "ring" | "sun" => Some(
             "planetary stages are not in the model as a whole: a scene is one pair of external gears, such as sun and planet",
         ),

@@ -27,8 +27,31 @@ fn init_makes_scenes_of_rexs() {
     let refused = init(&unit.replace(">91.5<", ">wide<"), "1").code(2).get_output().stderr.clone();
     let refused = String::from_utf8(refused).unwrap();
     assert!(refused.contains("unit.rexs: line 46: FZG & type C (id 10): center_distance: found \"wide\""), "{refused}");
+    // What stands where is listed beside the scene.
+    let listed = String::from_utf8(init(unit, "1").success().get_output().stderr.clone()).unwrap();
+    for line in [
+        "taken from the file: pair.normal_module_mm, ",
+        "derived: which gear is pair.pinion (",
+        "assumed: pair.pinion.tip_rounding_mm, ",
+        "REQUIRED: nothing\n",
+    ] {
+        assert!(listed.contains(line), "{line}: {listed}");
+    }
     let refused = init(unit, "9").code(2).get_output().stderr.clone();
     assert!(String::from_utf8(refused).unwrap().contains("--stage: found 9; allowed: 1 ("));
+}
+
+/// Inputs without an end are refused, as is what no parser of XML reads.
+#[cfg(unix)]
+#[test]
+fn init_refuses_what_has_no_end() {
+    let mut command = Command::cargo_bin("gearwear").unwrap();
+    let refused = command.args(["init", "--from", "/dev/zero"]).assert().code(2).get_output().stderr.clone();
+    let refused = String::from_utf8(refused).unwrap();
+    assert!(
+        refused.contains("/dev/zero: found more than 64 MB, or no end; allowed: a REXS model of up to 64 MB"),
+        "{refused}"
+    );
 }
 
 #[test]

@@ -96,7 +96,12 @@ fn what_does_not_go_together_is_refused() {
     folder.refuses("run", "none.rexs", "1", &["none.rexs cannot be read"]);
     for (text, parts) in [
         (UNIT.replace(">91.5<", ">92<").into_bytes(), "centre distance in mm: found 91.5; allowed: 92"),
-        (UNIT.as_bytes()[..UNIT.len() / 2].to_vec(), "line 69: found XML that cannot be read"),
+        (UNIT.as_bytes()[..UNIT.len() / 2].to_vec(), "found XML that cannot be read"),
+        (UNIT.replace("Wheel 57", "Wheel\u{1}57").into_bytes(), "line 67: found XML that cannot be read"),
+        (
+            UNIT.replace("name=\"Wheel 57\"", "name=\"a\" name=\"b\"").into_bytes(),
+            "line 67: found XML that cannot be read",
+        ),
         (
             UNIT.replace("version=\"1.4\"", "version=\"1.3\"").into_bytes(),
             "line 3: version: found \"1.3\"; allowed: 1.4",

@@ -15,6 +15,7 @@ mod law_of_each_gear;
 mod life;
 mod lubrication;
 mod mesh_stiffness;
+mod meshes_per_revolution;
 mod named_limits;
 mod peak_figures;
 mod phases;

@@ -1,8 +1,10 @@
 //! `gearwear rexs`: the results of a finished run written into the REXS file that its scene came from.
 
-use std::fs;
-use std::path::PathBuf;
+use std::fs::File;
+use std::path::{Path, PathBuf};
 
+use gearwear::exchange::rexs::RexsError;
+use gearwear::exchange::rexs::container::{self, FileError};
 use gearwear::exchange::rexs::mesh_stiffness::MeshStiffness;
 use gearwear::exchange::rexs::results::{self, RunResults, WearDepths};
 use gearwear::report::ReportError;
@@ -36,14 +38,13 @@ pub(super) struct RexsArgs {
 pub(super) fn run(args: &RexsArgs) -> Result<(), Failure> {
     let run = read(args)?;
     let name = args.into.display().to_string();
-    let bytes = fs::read(&args.into).map_err(|reason| InputError::Unreadable { name: name.clone(), reason })?;
-    let text = String::from_utf8(bytes).map_err(|error| {
+    let refused = |error| InputError::IntoRexs { name: name.clone(), error: Box::new(error) };
+    let text = String::from_utf8(bytes_of(&args.into, refused)?).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
         InputError::NotUtf8 { name: name.clone(), line }
     })?;
-    let written = results::with_results(&text, args.stage, &run)
-        .map_err(|error| InputError::IntoRexs { name, error: Box::new(error) })?;
+    let written = results::with_results(&text, args.stage, &run).map_err(refused)?;
     whole_file::write(&args.out, |out| out.write_all(written.text.as_bytes()))
         .map_err(|source| ReportError::WriteFile { path: args.out.clone(), source })?;
     warn(&written.warnings);
@@ -57,6 +58,16 @@ pub(super) fn run(args: &RexsArgs) -> Result<(), Failure> {
         written.custom,
         args.out.display()
     ))
+}
+
+/// The bytes of a file, if it has an end; `refused` makes the failure of one that has none.
+pub(super) fn bytes_of(file: &Path, refused: impl Fn(RexsError) -> InputError) -> Result<Vec<u8>, Failure> {
+    let unreadable = |reason| InputError::Unreadable { name: file.display().to_string(), reason };
+    let opened = File::open(file).map_err(unreadable)?;
+    container::read(opened).map_err(|error| match error {
+        FileError::Unreadable(reason) => unreadable(reason).into(),
+        FileError::Rexs(error) => refused(error).into(),
+    })
 }
 
 /// Results of the finished run to be written.

@@ -35,6 +35,7 @@ impl RunModel<'_> {
             zones: self.zones(),
             phases: &self.phases,
             snapshots_revolutions: &self.scene.operation.snapshots_revolutions,
+            meshes_per_pinion_turn: self.scene.operation.meshes_per_pinion_turn(self.pair),
             limits: self.limits,
             numerics: self.scene.numerics,
         }

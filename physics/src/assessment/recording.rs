@@ -223,7 +223,7 @@ fn relative_difference(volume: PerGear<f64>, unit: PerGear<f64>) -> Option<f64> 
     (greater > 0.0).then(|| (lost.pinion - lost.wheel).abs() / greater)
 }
 
-/// [`relative_difference`] of the volumes that all teeth of each gear lose in the whole run, with how it was obtained, or why it was not.
+/// [`relative_difference`] of the volumes that all teeth of each gear lose to one mate in the whole run, with how it was obtained, or why it was not.
 fn volume_balance(model: &RunModel<'_>, worn: &PerGear<WearSummary>) -> (Option<f64>, String) {
     let phases = 0..model.scene.operation.phases.len();
     let unit = match phases.map(|phase| unit_of_volume(model, phase)).collect::<Result<Vec<_>, _>>() {
@@ -233,7 +233,9 @@ fn volume_balance(model: &RunModel<'_>, worn: &PerGear<WearSummary>) -> (Option<
             _ => return (None, "the ratio of the wear coefficients is not the same in all phases".to_owned()),
         },
     };
-    let balance = relative_difference(worn.as_ref().map(|worn| worn.worn_volume_mm3), unit);
+    let mates = model.scene.operation.meshes_per_revolution;
+    let of_one_mate = PerGear::from_fn(|gear| worn[gear].worn_volume_mm3 / mates[gear]);
+    let balance = relative_difference(of_one_mate, unit);
     let how = "worn volumes of the whole gears over their wear coefficients, which are the same where contact and wear are resolved";
     (balance, how.to_owned())
 }
@@ -448,7 +450,9 @@ fn history_row(model: &RunModel<'_>, outcome: &Outcome, snapshot: &Snapshot) -> 
     let pinion = WearFigures::at(pair, Gear::Pinion, outcome, snapshot);
     let wheel = WearFigures::at(pair, Gear::Wheel, outcome, snapshot);
     let (min, max) = snapshot.cycle.transmission_error_mm();
-    let rate = outcome.grid.pinion.value_at(&snapshot.depth_per_mesh_mm.pinion, pair.active_start_rho_mm(Gear::Pinion));
+    let depth_mm =
+        outcome.grid.pinion.value_at(&snapshot.depth_per_mesh_mm.pinion, pair.active_start_rho_mm(Gear::Pinion));
+    let rate = model.scene.operation.meshes_per_revolution.pinion * depth_mm;
     HistoryRow {
         hours: model.scene.operation.hours(snapshot.revolutions),
         revolutions: snapshot.revolutions,

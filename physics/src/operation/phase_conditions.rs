@@ -39,7 +39,7 @@ impl Scene {
 
     /// Wear of a gear by its coefficient in each phase, up to `revolutions` of the pinion; none of a law that is more than a coefficient.
     pub fn steady_wear(&self, gear: Gear, revolutions: f64) -> Option<Vec<SteadyWear>> {
-        let mut begin = 0.0;
+        let (mut begin, mates) = (0.0, self.operation.meshes_per_revolution[gear]);
         let stretches = self.operation.phases.iter().map(|phase| {
             let end = phase.end_revolutions.min(revolutions);
             let revolutions = (end - begin).max(0.0);
@@ -47,7 +47,7 @@ impl Scene {
             Some(SteadyWear {
                 coefficient_mm2_per_n: self.wear_in(phase)[gear].constant_coefficient_mm2_per_n()?,
                 pinion_torque_n_mm: phase.pinion_torque_n_mm,
-                revolutions,
+                revolutions: mates * revolutions,
             })
         });
         stretches.collect()
@@ -107,6 +107,8 @@ impl Scene {
                 pitch_velocity_m_per_s: 1e-3 * pair.working_pitch_radius_mm(Gear::Pinion) * pinion_per_s,
                 normal_module_mm: pair.spec.normal_module_mm,
             };
+            // Every mate warms the teeth that it runs on.
+            let loss_w = self.operation.meshes_per_revolution[gear] * loss_w;
             tooth.of[gear].then(|| tooth.temperatures(&warm, loss_w))
         }))
     }

@@ -11,7 +11,7 @@ use crate::mesh_cycle::settings::{Coupling, MOST_SLICES_IN_SPACE, SliceSettings}
 use crate::operation::Scene;
 use crate::simulation::settings::{Operation, Phase, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
-use gearwear_bodies::gear::Gear;
+use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_bodies::gear_mesh::settings::{Body, SpaceResolution};
 
 /// Phases that are listed one by one.
@@ -426,8 +426,13 @@ fn simulation(scene: &Scene) -> String {
     let limits: Vec<String> = limits.into_iter().flatten().collect();
     let ends = if limits.is_empty() { String::new() } else { format!(", ends at {}", limits.join(" or at ")) };
     let tip_edges = if scene.contact.tip_contact { ", contact at tip edges before A and after E" } else { "" };
+    let PerGear { pinion, wheel } = operation.meshes_per_revolution;
+    let mates = match operation.meshes_per_revolution == Operation::ONE_MATE {
+        true => String::new(),
+        false => format!(", {pinion} meshes a revolution of the pinion and {wheel} of the wheel"),
+    };
     format!(
-        "{steps}{ends}, {} positions, {} points a flank, {} snapshots{tip_edges}{}",
+        "{steps}{ends}, {} positions, {} points a flank, {} snapshots{tip_edges}{mates}{}",
         numerics.positions,
         numerics.flank_points,
         operation.snapshots_revolutions.len(),

@@ -1,10 +1,10 @@
 //! From one evaluated state of a wearing pair to the next.
 //!
 //! Euler's method, that of the thesis, keeps the depth per mesh of one evaluation for the whole step. Each pinion tooth meshes once per
-//! pinion turn, each wheel tooth z1/z2 times:
+//! pinion turn, each wheel tooth z1/z2 times; of a gear that several mates run on, as a sun, so many times as often (n1, n2):
 //!
 //! ```text
-//! h1 ← h1 + Δn · dh1          h2 ← h2 + Δn · (z1/z2) · dh2
+//! h1 ← h1 + Δn · n1 · dh1          h2 ← h2 + Δn · n2 · (z1/z2) · dh2
 //! ```
 //!
 //! The last step of an interval is shortened to its end. Adaptive steps ([`crate::wear::stepping`]) integrate the wear of both gears as one
@@ -57,8 +57,8 @@ pub struct StepperState {
 pub(crate) struct Stepper {
     stepping: Stepping,
     duration: f64,
-    /// Turns of the wheel per turn of the pinion.
-    wheel_meshes: f64,
+    /// Of a tooth of each gear per turn of the pinion.
+    meshes: PerGear<f64>,
     euler_steps: u64,
     /// Integrator of adaptive steps, from the first on.
     adaptive: Option<Box<AdaptiveSteps>>,
@@ -75,8 +75,8 @@ struct AdaptiveSteps {
 
 impl Stepper {
     /// Stepper of a run of `duration` pinion revolutions.
-    pub(crate) fn new(stepping: Stepping, duration: f64, wheel_meshes: f64) -> Self {
-        Self { stepping, duration, wheel_meshes, euler_steps: 0, adaptive: None }
+    pub(crate) fn new(stepping: Stepping, duration: f64, meshes: PerGear<f64>) -> Self {
+        Self { stepping, duration, meshes, euler_steps: 0, adaptive: None }
     }
 
     /// Forgets the step length: load, speed or law change here.
@@ -135,10 +135,10 @@ impl Stepper {
         match self.stepping {
             Stepping::Fixed { revolutions } => self.euler(revolutions, pair, wear, interval, stopped),
             Stepping::Adaptive { tolerance_mm } => {
-                let (duration, wheel_meshes) = (self.duration, self.wheel_meshes);
+                let (duration, meshes) = (self.duration, self.meshes);
                 let steps =
                     self.adaptive.get_or_insert_with(|| Box::new(AdaptiveSteps::new(pair, tolerance_mm, duration)));
-                steps.advance(PairRate { pair, wear, stopped, wheel_meshes, work: Work::default() }, interval)
+                steps.advance(PairRate { pair, wear, stopped, meshes, work: Work::default() }, interval)
             }
         }
     }
@@ -153,7 +153,7 @@ impl Stepper {
     ) -> Advanced {
         let arrives = interval.from + step * (1.0 + NEGLIGIBLE_STEP) >= interval.limit;
         let step = if arrives { interval.limit - interval.from } else { step };
-        pair.wear_for(PerGear { pinion: step, wheel: step * self.wheel_meshes });
+        pair.wear_for(self.meshes.map(|meshes| step * meshes));
         self.euler_steps += 1;
         let revolutions = if arrives { interval.limit } else { interval.from + step };
         if interval.clean_start {
@@ -210,14 +210,14 @@ const PROBE_MM: f64 = 1e-5;
 pub(super) fn fastest_decay(
     pair: &mut dyn WearingPair,
     wear: &WearModel<'_>,
-    wheel_meshes: f64,
+    meshes: PerGear<f64>,
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Result<(f64, u64), EquilibriumError> {
     let mut wear_mm = pair.wear_mm();
     let mut depth_mm = wear_mm.clone();
     let state: Vec<f64> = Gear::BOTH.iter().flat_map(|&gear| &wear_mm[gear]).copied().collect();
     let mut slope = vec![0.0; state.len()];
-    let rate = PairRate { pair, wear, stopped, wheel_meshes, work: Work::default() };
+    let rate = PairRate { pair, wear, stopped, meshes, work: Work::default() };
     rate.read_slope(&mut depth_mm, &mut slope);
     let mut rows = OnRows { rate, wear_mm: &mut wear_mm, depth_mm: &mut depth_mm, clean_start: false };
     let mut radius = SpectralRadius::default();
@@ -230,7 +230,8 @@ struct PairRate<'a> {
     pair: &'a mut dyn WearingPair,
     wear: &'a WearModel<'a>,
     stopped: &'a (dyn Fn() -> bool + Sync),
-    wheel_meshes: f64,
+    /// Of a tooth of each gear per turn of the pinion.
+    meshes: PerGear<f64>,
     work: Work,
 }
 
@@ -239,8 +240,9 @@ impl PairRate<'_> {
     fn read_slope(&self, depth_mm: &mut PerGear<Vec<f64>>, slope: &mut [f64]) {
         self.pair.depth_mm(depth_mm);
         let (pinion, wheel) = slope.split_at_mut(depth_mm.pinion.len());
-        pinion.copy_from_slice(&depth_mm.pinion);
-        wheel.iter_mut().zip(&depth_mm.wheel).for_each(|(slope, depth)| *slope = self.wheel_meshes * depth);
+        for (row, gear) in [(pinion, Gear::Pinion), (wheel, Gear::Wheel)] {
+            row.iter_mut().zip(&depth_mm[gear]).for_each(|(slope, depth)| *slope = self.meshes[gear] * depth);
+        }
     }
 }
 

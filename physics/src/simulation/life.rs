@@ -46,6 +46,8 @@ pub struct LimitReached {
 pub(super) struct LimitsOfPair<'a> {
     pub limits: LifeLimits,
     pub pair: &'a GearPair,
+    /// Meshes of a tooth of each gear per turn of the pinion.
+    pub meshes: PerGear<f64>,
     pub grid: &'a PerGear<FlankGrid>,
     pub zones: &'a PerGear<FlankZones>,
 }
@@ -105,12 +107,11 @@ impl StepBeginning {
         let mut end_depth_mm = end_mm.clone();
         pair.depth_mm(&mut end_depth_mm);
         let length = revolutions - self.revolutions;
-        let turns = PerGear { pinion: 1.0, wheel: limits.pair.wheel_turns_per_pinion_turn() };
         let between = |part: f64| {
             PerGear::from_fn(|gear| {
                 let (from, to) = (&self.wear_mm[gear], &end_mm[gear]);
                 let (first, last) = (&self.depth_mm[gear], &end_depth_mm[gear]);
-                let meshes = length * turns[gear];
+                let meshes = length * limits.meshes[gear];
                 let at = |i: usize| {
                     let slopes = if smooth { [meshes * first[i], meshes * last[i]] } else { [to[i] - from[i]; 2] };
                     hermite(from[i], to[i], slopes, part).clamp(from[i].min(to[i]), to[i].max(from[i]))

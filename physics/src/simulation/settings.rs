@@ -1,6 +1,6 @@
 //! Settings of a wear run: operation and numerical resolution.
 
-use gearwear_bodies::gear::{PerGear, flank::PointSpacing};
+use gearwear_bodies::gear::{GearPair, PerGear, flank::PointSpacing};
 
 /// Wear steps of a run where nothing else is asked for.
 const STEPS: f64 = 150.0;
@@ -55,9 +55,14 @@ pub struct Operation {
     pub phases: Vec<Phase>,
     /// Limits that end the run early.
     pub stop: LifeLimits,
+    /// Meshes of each tooth in one revolution of its own gear: the number of mates that run on the same flanks under the same load.
+    pub meshes_per_revolution: PerGear<f64>,
 }
 
 impl Operation {
+    /// One mate for each gear.
+    pub const ONE_MATE: PerGear<f64> = PerGear { pinion: 1.0, wheel: 1.0 };
+
     /// Operation under one load and speed.
     pub fn steady(
         pinion_torque_n_mm: f64,
@@ -80,7 +85,14 @@ impl Operation {
             snapshots_revolutions,
             phases: vec![phase],
             stop: LifeLimits::default(),
+            meshes_per_revolution: Self::ONE_MATE,
         }
+    }
+
+    /// Meshes of each tooth of both gears in one revolution of the pinion: z1/z2 of the wheel where each gear has one mate.
+    pub fn meshes_per_pinion_turn(&self, pair: &GearPair) -> PerGear<f64> {
+        let PerGear { pinion, wheel } = self.meshes_per_revolution;
+        PerGear { pinion, wheel: wheel * pair.wheel_turns_per_pinion_turn() }
     }
 
     /// The phase of the greatest load, the first of equals.

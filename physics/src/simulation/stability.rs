@@ -48,9 +48,9 @@ impl WearRun<'_> {
             true => Some(pair.snapshot(0.0).map_err(failed)?.cycle.peak_pressure_mpa()),
             false => None,
         };
-        let wheel_meshes = self.pair.wheel_turns_per_pinion_turn();
+        let meshes = self.meshes_per_pinion_turn;
         let (fastest, evaluations) =
-            advance::fastest_decay(&mut *pair, &phase.wear, wheel_meshes, stopped).map_err(failed)?;
+            advance::fastest_decay(&mut *pair, &phase.wear, meshes, stopped).map_err(failed)?;
         Ok(StepBound { revolutions: STABLE / fastest, peak_pressure_mpa, evaluations: evaluations + 1 })
     }
 }

@@ -86,6 +86,8 @@ pub struct WearRun<'a> {
     pub phases: &'a [RunPhase<'a>],
     /// Pinion revolutions at which the state is kept; that at the end of the run is always kept.
     pub snapshots_revolutions: &'a [f64],
+    /// Meshes of a tooth of each gear in one revolution of the pinion.
+    pub meshes_per_pinion_turn: PerGear<f64>,
     /// Limits that end the run early.
     pub limits: LifeLimits,
     /// Resolution.
@@ -318,11 +320,7 @@ impl WearRun<'_> {
         RunState {
             phase: 0,
             revolutions: 0.0,
-            stepper: Stepper::new(
-                self.numerics.stepping,
-                self.end_revolutions(),
-                self.pair.wheel_turns_per_pinion_turn(),
-            ),
+            stepper: Stepper::new(self.numerics.stepping, self.end_revolutions(), self.meshes_per_pinion_turn),
             work: Work::default(),
             states: Vec::new(),
             wear_mm: None,
@@ -502,7 +500,13 @@ impl WearRun<'_> {
         let is_taken = run_state.revolutions > interval.from && evaluated != Err(EquilibriumError::Interrupted);
         let Some(beginning) = beginning.filter(|_| is_taken) else { return evaluated };
         let smooth = matches!(self.numerics.stepping, Stepping::Adaptive { .. });
-        let limits = LimitsOfPair { limits: self.limits, pair: self.pair, grid: &flanks.grid, zones: &self.zones };
+        let limits = LimitsOfPair {
+            limits: self.limits,
+            pair: self.pair,
+            meshes: self.meshes_per_pinion_turn,
+            grid: &flanks.grid,
+            zones: &self.zones,
+        };
         let Some(within) = beginning.limit_within(&limits, pair, run_state.revolutions, smooth) else {
             return evaluated;
         };

@@ -4,7 +4,7 @@
 //! W_m = k_W 2π T N H_V / (b z l_Fl)          l_Fl = (r_a² − r_SAP²) / (2 r_b)
 //! ```
 //!
-//! T and N torque and revolutions of either gear, H_V Ohlendorf's loss factor, l_Fl the length of the active flank. W_m is the mean over that length of
+//! T and N torque and revolutions of either gear, N as often as mates run on it, H_V Ohlendorf's loss factor, l_Fl the length of the active flank. W_m is the mean over that length of
 //! the depth by Archard's law on an unchanged flank whose load is shared by halves where two pairs are in mesh.
 //!
 //! Source: VDI 2736-2:2014; the report of `validation/plastic-pair`.
@@ -21,7 +21,7 @@ pub struct SteadyWear {
     pub coefficient_mm2_per_n: f64,
     /// N·mm.
     pub pinion_torque_n_mm: f64,
-    /// Revolutions of the pinion.
+    /// Revolutions of the pinion, times the mates of the gear.
     pub revolutions: f64,
 }
 

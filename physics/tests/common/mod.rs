@@ -272,7 +272,16 @@ impl Scene {
         let (snapshots, numerics) = (&self.snapshots, self.numerics());
         let zones = zones(&pair, line_load);
         let limits = LifeLimits::default();
-        let run = WearRun { pair: &pair, zones, phases: &[phase], snapshots_revolutions: snapshots, limits, numerics };
+        let meshes_per_pinion_turn = PerGear { pinion: 1.0, wheel: pair.wheel_turns_per_pinion_turn() };
+        let run = WearRun {
+            pair: &pair,
+            zones,
+            phases: &[phase],
+            snapshots_revolutions: snapshots,
+            meshes_per_pinion_turn,
+            limits,
+            numerics,
+        };
         then(&run, &phase)
     }
 }

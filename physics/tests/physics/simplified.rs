@@ -64,6 +64,7 @@ fn run(scene: &Scene) -> Outcome {
         zones: zones(&pair, line_load),
         phases: &[phase],
         snapshots_revolutions: &scene.snapshots,
+        meshes_per_pinion_turn: PerGear { pinion: 1.0, wheel: pair.wheel_turns_per_pinion_turn() },
         limits: LifeLimits::default(),
         numerics: scene.numerics(),
     };

@@ -111,7 +111,16 @@ fn ver_eulers_steps_break_where_the_bound_says_on_finite_elements() {
         };
         let zones = zones(&pair, scene.line_load());
         let limits = LifeLimits::default();
-        let run = WearRun { pair: &pair, zones, phases: &[phase], snapshots_revolutions: snapshots, limits, numerics };
+        let meshes_per_pinion_turn = PerGear { pinion: 1.0, wheel: pair.wheel_turns_per_pinion_turn() };
+        let run = WearRun {
+            pair: &pair,
+            zones,
+            phases: &[phase],
+            snapshots_revolutions: snapshots,
+            meshes_per_pinion_turn,
+            limits,
+            numerics,
+        };
         match bound {
             true => Err(run.step_bound(&phase, false, &|| false).expect("the unworn pair has an equilibrium")),
             false => Ok(run.run(&Unwatched).expect("the run converges")),

@@ -1,16 +1,28 @@
-//! The XML of a REXS file as plain data: components, relations, and what each load case says of components.
+//! A REXS file as plain data, whatever its form: components, relations, and what each load case says of components.
+//!
+//! Names are those of version 2.0. What older versions call otherwise is found under both names, and messages say that of the file.
 
-use quick_xml::events::{BytesStart, Event};
-use quick_xml::{Reader, XmlVersion};
+use std::collections::HashMap;
 
-use super::{RexsError, VERSIONS};
+use super::{RexsError, VERSIONS, json, xml};
+
+/// Components of a file, and relations, at most: what belongs together is looked for among all of them.
+const MOST_PARTS: usize = 50_000;
+/// Stages at most.
+const MOST_STAGES: usize = 200;
+/// Load cases at most.
+const MOST_LOAD_CASES: usize = 1000;
 
 #[derive(Debug, Default)]
 pub(super) struct RexsDocument {
     pub version: String,
+    /// Line that says it, from 1.
+    pub version_line: usize,
     /// Name and version of the program that wrote the file.
     pub application: String,
     pub components: Vec<RexsComponent>,
+    /// Index of the first component of each id.
+    pub by_id: HashMap<String, usize>,
     pub relations: Vec<RexsRelation>,
     /// Components as each load case has them, in the order of the file.
     pub load_cases: Vec<Vec<RexsComponent>>,
@@ -24,16 +36,44 @@ pub(super) struct RexsComponent {
     pub name: String,
     /// Line of its tag, from 1.
     pub line: usize,
-    attributes: Vec<Attribute>,
+    pub attributes: Vec<Attribute>,
 }
 
-#[derive(Debug, Clone)]
-struct Attribute {
-    id: String,
-    unit: String,
+#[derive(Debug, Clone, Default)]
+pub(super) struct Attribute {
+    /// As the file has it.
+    pub id: String,
+    pub unit: String,
     /// Scalar; that of arrays and matrices is empty.
-    text: String,
-    line: usize,
+    pub text: String,
+    /// Numbers of an array; empty of anything else.
+    pub numbers: Vec<f64>,
+    pub line: usize,
+}
+
+/// Names of components in older versions, and those of today.
+const OLDER_KINDS: [(&str, &str); 2] =
+    [("flank_geometry", "cylindrical_gear_flank"), ("stage_gear_data", "cylindrical_stage_gear_data")];
+/// Names of attributes in older versions, and those of today. Some programs write an older one in a newer version too.
+const OLDER_IDS: [(&str, &str); 3] = [
+    ("load_duration", "operating_time"),
+    ("load_duration_fraction", "operating_time_fraction"),
+    ("arithmetic_average_roughness_flank", "arithmetic_mean_roughness_flank_iso_4287_1997"),
+];
+
+/// The name of today for `name`.
+fn newest<'a>(older: &[(&'static str, &'static str)], name: &'a str) -> &'a str {
+    older.iter().find(|(old, _)| *old == name).map_or(name, |(_, new)| new)
+}
+
+/// The kind of a component by its name of today.
+pub(super) fn kind_of_today(kind: &str) -> String {
+    newest(&OLDER_KINDS, kind).to_owned()
+}
+
+/// A name or word on one line: it stands in remarks, which end with theirs.
+pub(super) fn on_one_line(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect::<String>().trim().to_owned()
 }
 
 /// Components that belong together, by their roles.
@@ -50,7 +90,7 @@ pub(super) const MM: Units = &[("mm", 1.0), ("m", 1e3)];
 pub(super) const UM: Units = &[("mum", 1.0), ("mm", 1e3)];
 /// Lengths that the format gives in mm, wanted in µm.
 pub(super) const MM_AS_UM: Units = &[("mm", 1e3), ("mum", 1.0)];
-pub(super) const DEG: Units = &[("deg", 1.0), ("rad", 180.0 / std::f64::consts::PI)];
+pub(super) const DEG: Units = &[("deg", 1.0), ("°", 1.0), ("rad", 180.0 / std::f64::consts::PI)];
 pub(super) const NONE: Units = &[("none", 1.0), ("", 1.0)];
 pub(super) const PERCENT: Units = &[("%", 0.01), ("none", 1.0), ("", 1.0)];
 pub(super) const GPA: Units = &[("N/mm^2", 1e-3), ("MPa", 1e-3)];
@@ -62,6 +102,7 @@ pub(super) const CELSIUS: Units = &[("C", 1.0)];
 pub(super) const NM: Units = &[("Nm", 1.0)];
 pub(super) const RPM: Units = &[("1/min", 1.0)];
 pub(super) const HOURS: Units = &[("h", 1.0)];
+pub(super) const KW: Units = &[("kW", 1.0), ("W", 1e-3)];
 
 impl RexsComponent {
     /// Name in messages.
@@ -71,7 +112,11 @@ impl RexsComponent {
     }
 
     fn attribute(&self, id: &str) -> Option<&Attribute> {
-        self.attributes.iter().find(|attribute| attribute.id == id)
+        self.attributes.iter().find(|attribute| newest(&OLDER_IDS, &attribute.id) == id)
+    }
+
+    pub(super) fn is_stage(&self) -> bool {
+        self.kind.ends_with("_stage")
     }
 
     /// A word or text; None where it is not there or empty.
@@ -101,6 +146,14 @@ impl RexsComponent {
         Ok(Some(value * factor.1))
     }
 
+    /// A vector of three numbers in mm; None where it is not there, or of another length or unit.
+    pub(super) fn vector_mm(&self, id: &str) -> Option<[f64; 3]> {
+        let attribute = self.attribute(id)?;
+        let (_, factor) = MM.iter().find(|(name, _)| *name == attribute.unit)?;
+        let vector: [f64; 3] = attribute.numbers.as_slice().try_into().ok()?;
+        Some(vector.map(|number| factor * number)).filter(|vector| vector.iter().all(|number| number.is_finite()))
+    }
+
     /// A number that the scene needs.
     pub(super) fn needed(&self, id: &'static str, units: Units) -> Result<f64, RexsError> {
         self.number(id, units)?.ok_or_else(|| self.missing(id))
@@ -112,7 +165,7 @@ impl RexsComponent {
 
     /// Error that the value of an attribute will not do.
     pub(super) fn wrong(&self, id: &str, found: String, allowed: String) -> RexsError {
-        let line = self.attribute(id).map_or(self.line, |attribute| attribute.line);
+        let (line, id) = self.attribute(id).map_or((self.line, id), |attribute| (attribute.line, &attribute.id));
         RexsError::Value { line, component: self.label(), attribute: id.to_owned(), found, allowed }
     }
 }
@@ -126,7 +179,7 @@ impl RexsRelation {
 
 impl RexsDocument {
     pub(super) fn component(&self, id: &str) -> Option<&RexsComponent> {
-        self.components.iter().find(|component| component.id == id)
+        self.by_id.get(id).map(|&index| &self.components[index])
     }
 
     /// The first relation of `kind` in which each `(role, id)` of `members` stands.
@@ -151,7 +204,24 @@ impl RexsDocument {
 
     /// The shaft that carries a gear.
     pub(super) fn shaft_of<'a>(&'a self, gear: &'a RexsComponent) -> Option<&'a RexsComponent> {
-        self.related("assembly", ("part", &gear.id), "assembly").find(|component| component.kind == "shaft")
+        let mut parts = self.related("assembly", ("part", &gear.id), "assembly");
+        parts.find(|component| component.kind == "shaft").or_else(|| {
+            let joints = self.relations.iter().filter(|relation| relation.kind == "side" && self.is_joint(relation));
+            let mut mates = joints.filter_map(|relation| {
+                let sides = [relation.member("inner_part")?, relation.member("outer_part")?];
+                let own = sides.iter().position(|id| *id == gear.id)?;
+                self.component(sides[1 - own])
+            });
+            mates.find(|mate| mate.kind == "shaft")
+        })
+    }
+
+    /// Whether what joins both sides of a relation turns with them: an engaged coupling, a key, spline or interference fit.
+    pub(super) fn is_joint(&self, relation: &RexsRelation) -> bool {
+        let Some(joint) = relation.member("assembly").and_then(|id| self.component(id)) else { return false };
+        let kind = joint.kind.as_str();
+        let holds = ["coupling", "_connection", "_fit"].iter().any(|ending| kind.ends_with(ending));
+        holds && joint.text("is_engaged") != Some("false")
     }
 
     /// The material that a component refers to.
@@ -165,138 +235,36 @@ impl RexsDocument {
         cases.chain([component]).find_map(|said| said.text(id))
     }
 
-    pub(super) fn parse(text: &str) -> Result<Self, RexsError> {
-        if let Some(found) = other_form(text) {
-            return Err(RexsError::NoXml { line: 1, found: found.to_owned() });
-        }
-        let mut reader = Reader::from_str(text);
-        let mut lines = Lines::of(text);
-        let mut path: Vec<String> = Vec::new();
-        let mut document = RexsDocument::default();
-        let mut model_seen = false;
-        loop {
-            let line = lines.at(reader.buffer_position());
-            let event = reader
-                .read_event()
-                .map_err(|error| RexsError::unreadable(lines.at(reader.error_position()), &error))?;
-            match event {
-                Event::Start(tag) => {
-                    model_seen |= tag.name().as_ref() == "model";
-                    document.enter(&tag, line, &path)?;
-                    path.push(tag.name().as_ref().to_owned());
-                }
-                Event::Empty(tag) => document.enter(&tag, line, &path)?,
-                Event::Text(more) if path.last().is_some_and(|name| name == "attribute") => {
-                    if let Some(attribute) = document.open_attribute(&path) {
-                        attribute.text.push_str(more.trim());
-                    }
-                }
-                Event::End(_) => {
-                    path.pop();
-                }
-                Event::Eof => break,
-                _ => {}
+    /// Adds a component of the model, or of the load case of this index.
+    pub(super) fn add(&mut self, component: RexsComponent, case: Option<usize>) {
+        match case.and_then(|index| self.load_cases.get_mut(index)) {
+            Some(of_case) => of_case.push(component),
+            None => {
+                self.by_id.entry(component.id.clone()).or_insert(self.components.len());
+                self.components.push(component);
             }
         }
-        let line = lines.at(text.len() as u64);
-        if let Some(open) = path.last() {
-            return Err(RexsError::NoXml { line, found: format!("the end of the file before </{open}>") });
+    }
+
+    /// The model in its XML or its JSON form.
+    pub(super) fn parse(text: &str) -> Result<Self, RexsError> {
+        let document = if json::is_json(text) { json::parse(text) } else { xml::parse(text) }?;
+        let line = document.version_line;
+        if !VERSIONS.contains(&document.version.as_str()) {
+            return Err(RexsError::Version { line, found: document.version, allowed: "1.0 to 1.7 and 2.0" });
         }
-        if !model_seen {
-            return Err(RexsError::NoXml { line, found: "no element <model>".to_owned() });
+        let stages = document.components.iter().filter(|component| component.is_stage()).count();
+        for (what, count, most) in [
+            ("components", document.components.len(), MOST_PARTS),
+            ("relations", document.relations.len(), MOST_PARTS),
+            ("stages", stages, MOST_STAGES),
+            ("load cases", document.load_cases.len(), MOST_LOAD_CASES),
+        ] {
+            if count > most {
+                return Err(RexsError::NoModel { line, found: format!("more than {most} {what}") });
+            }
         }
         Ok(document)
-    }
-
-    /// Takes in an element within the elements `path`.
-    fn enter(&mut self, tag: &BytesStart, line: usize, path: &[String]) -> Result<(), RexsError> {
-        let value = |name: &str| xml_attribute(tag, name, line);
-        match tag.name().as_ref() {
-            "model" => {
-                self.version = value("version")?;
-                if !VERSIONS.contains(&self.version.as_str()) {
-                    return Err(RexsError::Version { line, found: self.version.clone() });
-                }
-                self.application =
-                    format!("{} {}", value("applicationId")?, value("applicationVersion")?).trim().to_owned();
-            }
-            "relation" => self.relations.push(RexsRelation { kind: value("type")?, members: Vec::new() }),
-            "ref" => {
-                let member = (value("role")?, value("id")?);
-                if let Some(relation) = self.relations.last_mut() {
-                    relation.members.push(member);
-                }
-            }
-            "load_case" => self.load_cases.push(Vec::new()),
-            "component" => {
-                let component = RexsComponent {
-                    id: value("id")?,
-                    kind: value("type")?,
-                    name: value("name")?,
-                    line,
-                    attributes: Vec::new(),
-                };
-                if let Some(components) = self.components_of(path) {
-                    components.push(component);
-                }
-            }
-            "attribute" => {
-                let attribute = Attribute { id: value("id")?, unit: value("unit")?, text: String::new(), line };
-                if let Some(component) = self.components_of(path).and_then(|components| components.last_mut()) {
-                    component.attributes.push(attribute);
-                }
-            }
-            _ => {}
-        }
-        Ok(())
-    }
-
-    /// Where components within the elements `path` belong; None of sums over the load spectrum, which nothing reads.
-    fn components_of(&mut self, path: &[String]) -> Option<&mut Vec<RexsComponent>> {
-        if path.iter().any(|element| element == "accumulation") {
-            None
-        } else if path.iter().any(|element| element == "load_case") {
-            self.load_cases.last_mut()
-        } else {
-            Some(&mut self.components)
-        }
-    }
-
-    fn open_attribute(&mut self, path: &[String]) -> Option<&mut Attribute> {
-        self.components_of(path)?.last_mut()?.attributes.last_mut()
-    }
-}
-
-/// An attribute of an element on `line`; empty where it is not there.
-pub(super) fn xml_attribute(tag: &BytesStart, name: &str, line: usize) -> Result<String, RexsError> {
-    match tag.try_get_attribute(name).map_err(|error| unreadable_attribute(line, error))? {
-        None => Ok(String::new()),
-        Some(found) => {
-            let value =
-                found.normalized_value(XmlVersion::Implicit1_0).map_err(|error| unreadable_attribute(line, error))?;
-            // Names stand in remarks, which end with their line.
-            Ok(value.chars().map(|c| if c.is_control() { ' ' } else { c }).collect())
-        }
-    }
-}
-
-fn unreadable_attribute(line: usize, error: impl std::fmt::Display) -> RexsError {
-    RexsError::NoXml { line, found: format!("an attribute that cannot be read ({error})") }
-}
-
-/// Kind of a file that is no XML, by how it begins.
-fn other_form(text: &str) -> Option<&'static str> {
-    let text = text.trim_start_matches('\u{feff}').trim_start();
-    if text.is_empty() {
-        Some("an empty file")
-    } else if text.starts_with('{') {
-        Some("the JSON form of REXS (.rexsj)")
-    } else if text.starts_with("PK") {
-        Some("a compressed file (.rexsz)")
-    } else if !text.starts_with('<') {
-        Some("text that is no XML")
-    } else {
-        None
     }
 }
 
@@ -310,6 +278,11 @@ pub(super) struct Lines<'a> {
 impl<'a> Lines<'a> {
     pub(super) fn of(text: &'a str) -> Self {
         Self { text, byte: 0, line: 1 }
+    }
+
+    /// The place it is at.
+    pub(super) fn byte(&self) -> usize {
+        self.byte
     }
 
     pub(super) fn at(&mut self, byte: u64) -> usize {

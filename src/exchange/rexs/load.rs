@@ -1,8 +1,12 @@
-//! The load spectrum, as far as the file says it for the driving gear.
+//! The load spectrum, as far as the file says or determines it for the driving gear.
+//!
+//! A torque is that of the gear in its stage, otherwise that on the gear or on its shaft, over the meshes that share it, otherwise what the loads on other
+//! shafts leave for it ([`super::drivetrain`]).
 
 use super::RexsError;
 use super::document::{HOURS, NM, PERCENT, RPM, RexsComponent, RexsDocument};
-use super::stage::GearData;
+use super::drivetrain::{CaseView, Drivetrain};
+use super::stage::{Figure, Gears, RexsStage};
 
 /// Load of the stage over its life.
 #[derive(Debug)]
@@ -16,92 +20,109 @@ pub(super) struct Load {
 /// One load case; what the file does not say is None.
 #[derive(Debug)]
 pub(super) struct LoadOfCase {
-    pub torque_Nm: Option<f64>,
-    pub speed_rpm: Option<f64>,
+    pub torque_Nm: Option<Figure>,
+    pub speed_rpm: Option<Figure>,
     /// Part of the whole time, all together 1.
     pub fraction: f64,
 }
 
-/// The components that say something of the load of the driving gear.
+/// What says something of the load of the driving gear.
 struct Sources<'a> {
-    document: &'a RexsDocument,
-    gear_id: &'a str,
-    /// The gear in its stage.
-    in_stage: Option<&'a RexsComponent>,
-    shaft: Option<&'a RexsComponent>,
-    /// Ids of the external loads on the shaft, where it carries no other gear.
-    external_loads: Vec<String>,
+    train: &'a Drivetrain<'a>,
+    gears: &'a Gears<'a>,
+    /// The stage in the train, and the side of the driving gear.
+    mesh: Option<usize>,
     unit: Option<&'a RexsComponent>,
 }
 
-impl<'a> Sources<'a> {
-    fn new(document: &'a RexsDocument, pinion: &GearData<'a>) -> Self {
-        let shaft = document.shaft_of(pinion.component);
-        let alone = shaft.filter(|shaft| parts(document, shaft, "cylindrical_gear").len() == 1);
-        Self {
-            document,
-            gear_id: &pinion.component.id,
-            in_stage: pinion.in_stage,
-            shaft,
-            external_loads: alone.map(|shaft| parts(document, shaft, "external_load")).unwrap_or_default(),
-            unit: document.components.iter().find(|component| component.kind == "gear_unit"),
-        }
-    }
+/// What a load case says; torque and speed with what they are derived from.
+struct Said {
+    torque_Nm: Option<Figure>,
+    speed_rpm: Option<Figure>,
+    fraction: Option<f64>,
+}
 
-    /// Torque in N·m, speed in 1/min and part of the time of a load case that says the components `said`.
-    fn case(&self, said: &[RexsComponent]) -> Result<[Option<f64>; 3], RexsError> {
-        // What the case says stands before what the component itself says.
-        let number = |id: &str, attribute: &str, units| -> Result<Option<f64>, RexsError> {
-            let said = said.iter().find(|component| component.id == id).into_iter().chain(self.document.component(id));
-            said.map(|component| component.number(attribute, units)).find_map(Result::transpose).transpose()
-        };
-        let mut torque_Nm = match self.in_stage {
-            Some(data) => number(&data.id, "torque", NM)?,
+const WITHOUT_LOSSES: &str = "from the loads on other shafts, without losses";
+
+impl Sources<'_> {
+    fn case(&self, case: CaseView) -> Result<Said, RexsError> {
+        let (pinion, side) = (&self.gears.pinion, self.gears.roles.pinion_side);
+        let flow = self.train.flow(case)?;
+        let is_alone = self.mesh.is_some_and(|mesh| self.train.is_alone(mesh, side));
+        let shared = |torque_Nm: f64| self.shared(torque_Nm);
+
+        let mut torque_Nm = match pinion.in_stage {
+            Some(data) => case.number(&data.id, "torque", NM)?.map(Figure::of_file),
             None => None,
         };
         if torque_Nm.is_none() {
-            torque_Nm = number(self.gear_id, "torque_acting_on_shaft_u", NM)?;
+            torque_Nm = case.number(&pinion.component.id, "torque_acting_on_shaft_u", NM)?.map(shared);
         }
-        if torque_Nm.is_none() {
-            for load in &self.external_loads {
-                if let Some(part_Nm) = number(load, "torque_around_u_axis", NM)? {
-                    torque_Nm = Some(torque_Nm.unwrap_or(0.0) + part_Nm);
+        if let (None, Some(mesh)) = (&torque_Nm, self.mesh) {
+            let found = flow.torque_Nm(self.train, mesh, side);
+            let mates = self.gears.roles.mates.pinion.len();
+            torque_Nm = found.map(|torque_Nm| match (is_alone, mates) {
+                (true, _) => Figure::of_file(torque_Nm),
+                (false, 0 | 1) => Figure::derived(torque_Nm, WITHOUT_LOSSES),
+                (false, _) => {
+                    Figure::derived(torque_Nm, &format!("the shaft's over {mates} meshes that share it alike"))
                 }
-            }
+            });
         }
-        let mut speed_rpm = number(self.gear_id, "rotational_speed", RPM)?;
-        if let (None, Some(shaft)) = (speed_rpm, self.shaft) {
-            speed_rpm = number(&shaft.id, "rotational_speed", RPM)?;
+        if let (None, Some(data)) = (&torque_Nm, self.gears.wheel.in_stage) {
+            let ratio =
+                self.gears.pinion.teeth.zip(self.gears.wheel.teeth).map(|(z1, z2)| f64::from(z1) / f64::from(z2));
+            let of_wheel = case.number(&data.id, "torque", NM)?.zip(ratio);
+            torque_Nm = of_wheel
+                .map(|(torque_Nm, ratio)| Figure::derived(torque_Nm * ratio, "that of the other gear, without losses"));
         }
-        let mut fraction = None;
-        if let Some(unit) = self.unit {
-            fraction = number(&unit.id, "operating_time_fraction", PERCENT)?;
-            if fraction.is_none() {
-                // As Bearinx writes it.
-                fraction = number(&unit.id, "load_duration_fraction", PERCENT)?;
-            }
+
+        let shaft = case.document.shaft_of(pinion.component);
+        let mut speed_rpm = case.number(&pinion.component.id, "rotational_speed", RPM)?.map(Figure::of_file);
+        if let (None, Some(shaft)) = (&speed_rpm, shaft) {
+            speed_rpm = case.number(&shaft.id, "rotational_speed", RPM)?.map(Figure::of_file);
         }
-        Ok([torque_Nm.map(f64::abs), speed_rpm.map(f64::abs), fraction])
+        if let (None, Some(mesh)) = (&speed_rpm, self.mesh) {
+            let found = flow.speed_rpm(self.train, mesh, side);
+            speed_rpm = found.map(|speed_rpm| Figure::derived(speed_rpm, "from the speed of another shaft"));
+        }
+        let fraction = match self.unit {
+            Some(unit) => case.number(&unit.id, "operating_time_fraction", PERCENT)?,
+            None => None,
+        };
+        let size = |figure: Figure| Figure { value: figure.value.abs(), ..figure };
+        Ok(Said { torque_Nm: torque_Nm.map(size), speed_rpm: speed_rpm.map(size), fraction })
+    }
+
+    /// The torque of one mesh, of that on the gear.
+    fn shared(&self, torque_Nm: f64) -> Figure {
+        match self.gears.roles.mates.pinion.len() {
+            0 | 1 => Figure::of_file(torque_Nm),
+            mates => Figure::derived(
+                torque_Nm / mates as f64,
+                &format!("that on the gear over {mates} meshes that share it alike"),
+            ),
+        }
     }
 }
 
-/// Ids of the parts of a shaft that are of a kind.
-fn parts(document: &RexsDocument, shaft: &RexsComponent, kind: &str) -> Vec<String> {
-    let parts = document.related("assembly", ("assembly", &shaft.id), "part");
-    parts.filter(|part| part.kind == kind).map(|part| part.id.clone()).collect()
-}
-
-/// The load of the driving gear. Its torque is that of the gear itself, or the sum of the external loads on its shaft where that carries no
-/// other gear; a shaft between two stages would need the equilibrium of the gear unit.
-pub(super) fn of(document: &RexsDocument, pinion: &GearData, warnings: &mut Vec<String>) -> Result<Load, RexsError> {
-    let sources = Sources::new(document, pinion);
+/// The load of the driving gear in one mesh.
+pub(super) fn of<'a>(
+    document: &'a RexsDocument,
+    train: &'a Drivetrain<'a>,
+    stage: &RexsStage,
+    gears: &'a Gears<'a>,
+    warnings: &mut Vec<String>,
+) -> Result<Load, RexsError> {
+    let unit = document.components.iter().find(|component| component.kind == "gear_unit");
+    let sources = Sources { train, gears, mesh: train.mesh_of(stage.component), unit };
     let without = [Vec::new()];
     let said = if document.load_cases.is_empty() { &without[..] } else { &document.load_cases[..] };
     let mut cases = Vec::new();
     for (index, said) in said.iter().enumerate() {
-        let [torque_Nm, speed_rpm, fraction] = sources.case(said)?;
-        let idle = torque_Nm == Some(0.0) || speed_rpm == Some(0.0) || fraction.is_some_and(|part| part <= 0.0);
-        if idle {
+        let Said { torque_Nm, speed_rpm, fraction } = sources.case(CaseView { document, said })?;
+        let is_zero = |figure: &Option<Figure>| figure.as_ref().is_some_and(|figure| figure.value == 0.0);
+        if is_zero(&torque_Nm) || is_zero(&speed_rpm) || fraction.is_some_and(|part| part <= 0.0) {
             warnings.push(format!("load case {} has no torque, speed or time and is left out", index + 1));
         } else {
             cases.push(LoadOfCase { torque_Nm, speed_rpm, fraction: fraction.unwrap_or(1.0) });
@@ -112,7 +133,7 @@ pub(super) fn of(document: &RexsDocument, pinion: &GearData, warnings: &mut Vec<
     }
     let sum: f64 = cases.iter().map(|case| case.fraction).sum();
     cases.iter_mut().for_each(|case| case.fraction /= sum);
-    let hours = match sources.unit {
+    let hours = match unit {
         Some(unit) => unit.number("operating_time", HOURS)?.filter(|&hours| hours > 0.0),
         None => None,
     };

@@ -17,7 +17,16 @@ pub(super) struct Modifications {
 pub(super) struct RexsRelief {
     pub amount_um: f64,
     pub start: ReliefStart,
-    pub parabolic: bool,
+    pub form: ReliefForm,
+}
+
+/// Shape of a relief.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ReliefForm {
+    Linear,
+    Parabolic,
+    /// Of constant curvature: parabolic to first order in its depth.
+    Circular,
 }
 
 #[derive(Debug)]
@@ -30,7 +39,7 @@ pub(super) enum ReliefStart {
 pub(super) struct RexsEndRelief {
     pub amount_um: f64,
     pub length_mm: f64,
-    pub parabolic: bool,
+    pub form: ReliefForm,
 }
 
 /// Where an amount is given, or a crowning is highest: of a scene both are fixed.
@@ -143,7 +152,7 @@ fn relief(
         Some(diameter_mm) => ReliefStart::Diameter(diameter_mm),
         None => ReliefStart::RollLength(part.needed(length, MM)?),
     };
-    Ok(Some(RexsRelief { amount_um, start, parabolic: parabolic(part, warnings) }))
+    Ok(Some(RexsRelief { amount_um, start, form: form(part, warnings) }))
 }
 
 /// An end relief by the names of its depth and length; None where nothing is removed.
@@ -156,7 +165,7 @@ fn end_relief(
     if amount_um == 0.0 {
         return Ok(None);
     }
-    Ok(Some(RexsEndRelief { amount_um, length_mm: part.needed(length, MM)?, parabolic: parabolic(part, warnings) }))
+    Ok(Some(RexsEndRelief { amount_um, length_mm: part.needed(length, MM)?, form: form(part, warnings) }))
 }
 
 /// The height of a crowning that is given at both ends.
@@ -181,16 +190,17 @@ fn crowning(
     Ok(Some(height_um).filter(|&height_um| height_um != 0.0))
 }
 
-fn parabolic(part: &RexsComponent, warnings: &mut Vec<String>) -> bool {
+fn form(part: &RexsComponent, warnings: &mut Vec<String>) -> ReliefForm {
     match part.text("shape_of_relief") {
-        Some("parabolic") => true,
-        Some("linear") | None => false,
+        Some("parabolic") => ReliefForm::Parabolic,
+        Some("circular") => ReliefForm::Circular,
+        Some("linear") | None => ReliefForm::Linear,
         Some(other) => {
             warnings.push(format!(
                 "{}: shape {other:?} is taken as linear; a scene has linear and parabolic",
                 part.label()
             ));
-            false
+            ReliefForm::Linear
         }
     }
 }

@@ -4,12 +4,12 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use quick_xml::Reader;
 use quick_xml::escape::escape;
 use quick_xml::events::{BytesStart, Event};
+use quick_xml::{Reader, XmlVersion};
 
 use super::RexsError;
-use super::document::{Lines, xml_attribute};
+use super::document::{Lines, on_one_line};
 
 /// Elements whose places are kept.
 const KEPT: [&str; 8] =
@@ -154,7 +154,7 @@ impl<'a> Places<'a> {
     /// The first element of a name.
     pub(super) fn first(&self, name: &'static str) -> Result<usize, RexsError> {
         let first = self.named(name).next();
-        first.ok_or_else(|| RexsError::NoXml { line: 1, found: format!("no element <{name}>") })
+        first.ok_or_else(|| RexsError::NoModel { line: 1, found: format!("no element <{name}>") })
     }
 
     /// The load spectrum with its load cases and, where it has one, its accumulation; None where the file has none.
@@ -292,6 +292,21 @@ impl<'a> Places<'a> {
         }
         text.push_str(&self.text[kept..]);
         text
+    }
+}
+
+/// An attribute of an element on `line`; empty where it is not there.
+fn xml_attribute(tag: &BytesStart, name: &str, line: usize) -> Result<String, RexsError> {
+    let unreadable = |error: &dyn std::fmt::Display| RexsError::NoModel {
+        line,
+        found: format!("an attribute that cannot be read ({error})"),
+    };
+    match tag.try_get_attribute(name).map_err(|error| unreadable(&error))? {
+        None => Ok(String::new()),
+        Some(found) => {
+            let value = found.normalized_value(XmlVersion::Implicit1_0).map_err(|error| unreadable(&error))?;
+            Ok(on_one_line(&value))
+        }
     }
 }
 

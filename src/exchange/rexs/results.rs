@@ -21,6 +21,8 @@ use serde_json::Value;
 use super::RexsError;
 use super::attributes::{self, AttributeKind, CUSTOM, FigureAttribute, Naming, Of, On};
 use super::document::{RexsComponent, RexsDocument};
+use super::drivetrain::Drivetrain;
+use super::json;
 use super::load;
 use super::mesh_stiffness::MeshStiffness;
 use super::places::{LoadSpectrum, NewElement, Places};
@@ -32,6 +34,8 @@ use crate::evaluate::output::SummaryOutput;
 use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_bodies::gear::{Gear, PerGear};
 
+/// The version whose names of attributes are the first to be written.
+const WRITTEN_FROM: &str = "1.4";
 const GEAR_IN_STAGE: &str = "cylindrical_stage_gear_data";
 
 /// Results of a finished run that are written.
@@ -102,17 +106,25 @@ struct Placed {
 ///
 /// As for [`super::scene`]; a run of another pair, and more than one load spectrum.
 pub fn with_results(text: &str, number: Option<usize>, run: &RunResults) -> Result<WithResults, RexsError> {
+    if json::is_json(text) {
+        return Err(RexsError::OnlyXml);
+    }
     let document = RexsDocument::parse(text)?;
+    if document.version.as_str() < WRITTEN_FROM {
+        let (line, found) = (document.version_line, document.version);
+        return Err(RexsError::Version { line, found, allowed: "1.4 to 1.7 and 2.0" });
+    }
     let mut places = Places::of(text)?;
     let spectrum = places.load_spectrum()?.filter(|spectrum| !spectrum.cases.is_empty());
     if spectrum.as_ref().map_or(0, |spectrum| spectrum.cases.len()) != document.load_cases.len() {
-        return Err(RexsError::NoXml { line: 1, found: "a load_case outside <load_spectrum>".to_owned() });
+        return Err(RexsError::NoModel { line: 1, found: "a load_case outside <load_spectrum>".to_owned() });
     }
-    let stage = RexsStage::find(&document, number)?;
     // What a scene cannot say of the stage was told when it was made.
-    let gears = stage.gears(&document, &mut Vec::new())?;
+    let stage = RexsStage::find(&document, number, &mut Vec::new())?;
+    let train = Drivetrain::of(&document);
+    let gears = stage.gears(&document, &train, &mut Vec::new())?;
     same_pair::check(&stage, &gears, &run.pair)?;
-    let load = load::of(&document, &gears.pinion, &mut Vec::new())?;
+    let load = load::of(&document, &train, &stage, &gears, &mut Vec::new())?;
     let loads = Loads::of(&document, &load, &run.summary);
 
     let targets = targets(&stage, &gears, &places);
@@ -343,7 +355,7 @@ fn put(
                 });
                 places.set_attributes(component, attributes);
             } else if let (FileSection::Model, Some(line)) = (section, target.line) {
-                return Err(RexsError::NoXml { line, found: "a component outside <components>".to_owned() });
+                return Err(RexsError::NoModel { line, found: "a component outside <components>".to_owned() });
             } else if !attributes.is_empty() || section == FileSection::Model {
                 let xml = vec![("id", target.id.clone()), ("type", target.kind.to_owned())];
                 new.push(NewElement::new("component", xml, attributes));

@@ -338,6 +338,8 @@ fn every_figure_has_a_number_and_a_name() {
 #[test]
 fn the_document_has_every_figure() {
     let page = include_str!("../../../docs/rexs.md");
+    let of_state = |state: &'static str| page.replace("{state}", state);
+    let page = of_state("new") + &of_state("worn");
     for figure in figures() {
         let mut names = vec![figure.path.to_string()];
         for version in VERSIONS {
@@ -416,6 +418,6 @@ fn prop_a_cut_file_takes_no_results() {
     let end = TWO_STAGES.rfind("</model>").unwrap();
     for at in (0..end).filter(|&at| TWO_STAGES.is_char_boundary(at)) {
         let refused = with_results(&TWO_STAGES[..at], Some(1), &run).unwrap_err();
-        assert!(matches!(refused, RexsError::NoXml { .. }), "{at}: {refused}");
+        assert!(matches!(refused, RexsError::NoModel { .. }), "{at}: {refused}");
     }
 }

@@ -31,8 +31,8 @@ impl Loads {
         let agree = load.cases.len() == given
             && phases.len() == given
             && load.cases.iter().zip(phases).all(|(case, phase)| {
-                same(case.torque_Nm, phase["pinion_torque_Nm"].as_f64())
-                    && same(case.speed_rpm, phase["pinion_speed_rpm"].as_f64())
+                same(case.torque_Nm.as_ref().map(|torque| torque.value), phase["pinion_torque_Nm"].as_f64())
+                    && same(case.speed_rpm.as_ref().map(|speed| speed.value), phase["pinion_speed_rpm"].as_f64())
             });
         match (agree, given) {
             (false, _) => Self::Different,

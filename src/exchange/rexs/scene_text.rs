@@ -5,12 +5,25 @@ use std::fmt::Write;
 use super::RexsError;
 use super::document::{CELSIUS, GPA, J_PER_KGK, KG_PER_M3, MM2_PER_S, NONE, RexsDocument, W_PER_MK};
 use super::load::Load;
-use super::modifications::{ReliefStart, RexsEndRelief, RexsRelief};
-use super::stage::{GearData, Gears, RexsStage};
+use super::modifications::{ReliefForm, ReliefStart, RexsEndRelief, RexsRelief};
+use super::stage::{Figure, GearData, Gears, RexsStage};
 
 /// Hours and revolutions of a life that the file does not give.
 const ASSUMED_HOURS: f64 = 1000.0;
 const ASSUMED_REVOLUTIONS: f64 = 1e6;
+
+/// What stands in the scene, by where it comes from: keys by their paths.
+#[derive(Debug, Default)]
+pub struct Provenance {
+    /// As the file says it.
+    pub taken: Vec<String>,
+    /// Determined by what the file says.
+    pub derived: Vec<String>,
+    /// Usual values of what the file leaves open.
+    pub assumed: Vec<String>,
+    /// To be filled in.
+    pub required: Vec<String>,
+}
 
 pub(super) fn of(
     document: &RexsDocument,
@@ -18,7 +31,7 @@ pub(super) fn of(
     gears: &Gears,
     load: &Load,
     warnings: &mut Vec<String>,
-) -> Result<String, RexsError> {
+) -> Result<(String, Provenance), RexsError> {
     let mut text = Text::default();
     let title = if stage.component.name.is_empty() { "Cylindrical stage" } else { &stage.component.name };
     text.line(format!(
@@ -30,47 +43,59 @@ pub(super) fn of(
     text.line("# All keys, their ranges and defaults:   gearwear schema");
     text.line(format!("title = {}", quoted(title)));
 
-    text.line("\n[pair]");
-    text.number("normal_module_mm", gears.normal_module_mm, "");
-    text.number("pressure_angle_deg", gears.pressure_angle_deg, "");
-    if gears.helix_angle_deg != 0.0 {
-        text.number("helix_angle_deg", gears.helix_angle_deg.abs(), "positive: width 0 enters the mesh first");
+    text.table("pair", "");
+    text.figure("normal_module_mm", gears.normal_module_mm.as_ref());
+    text.figure("pressure_angle_deg", gears.pressure_angle_deg.as_ref());
+    let helix_deg = gears.helix_angle_deg.value.abs();
+    match &gears.helix_angle_deg.how {
+        _ if helix_deg == 0.0 => {}
+        None => text.number("helix_angle_deg", helix_deg, "positive: width 0 enters the mesh first"),
+        Some(how) => text.derived("helix_angle_deg", &rounded(helix_deg), how),
     }
-    text.number("centre_distance_mm", gears.centre_distance_mm, "");
-    text.number("face_width_mm", gears.face_width_mm, "");
+    text.figure("centre_distance_mm", gears.centre_distance_mm.as_ref());
+    text.figure("face_width_mm", gears.face_width_mm.as_ref());
     if let Some(factor) = gears.dedendum_factor {
-        text.line(format!("basic_rack = {{ dedendum_factor = {} }}   # of the root diameter", rounded(factor)));
+        text.derived("basic_rack", &format!("{{ dedendum_factor = {} }}", rounded(factor)), "of the root diameter");
     }
     for (table, data) in [("pinion", &gears.pinion), ("wheel", &gears.wheel)] {
-        gear(&mut text, table, data);
+        let drives = gears.roles.how.as_ref().filter(|_| table == "pinion");
+        let drives = drives.map_or("drives".to_owned(), |how| format!("drives: {how}"));
+        text.table(&format!("pair.{table}"), if table == "pinion" { &drives } else { "" });
+        if let (Some(how), "pinion") = (&gears.roles.how, table) {
+            let provenance = &mut text.provenance;
+            let list = if gears.roles.is_assumed { &mut provenance.assumed } else { &mut provenance.derived };
+            list.push(format!("which gear is pair.pinion ({how})"));
+        }
+        gear(&mut text, data);
     }
     for (table, data) in [("pinion", &gears.pinion), ("wheel", &gears.wheel)] {
         material(&mut text, document, table, data)?;
     }
-    operation(&mut text, load, warnings);
+    operation(&mut text, gears, load, warnings);
     lubricant(&mut text, document, stage, gears, load)?;
-    text.line("\n[wear]");
+    text.table("wear", "");
     text.line("law = \"archard\"");
-    text.line(
-        "coefficient_m2_per_N = 1e-18      # ASSUMED: steel with a full film; docs/materials.md has k with sources",
-    );
-    Ok(text.0)
+    text.assumed("coefficient_m2_per_N", "1e-18", "steel with a full film; docs/materials.md has k with sources");
+    Ok((text.lines, text.provenance))
 }
 
-/// The table of a relief in a scene.
-fn relief(relief: &RexsRelief) -> String {
+/// The table of a relief in a scene, and what is to be said of it.
+fn relief(relief: &RexsRelief) -> (String, &'static str) {
     let start = match relief.start {
         ReliefStart::Diameter(diameter_mm) => format!("begins_at_diameter_mm = {}", rounded(diameter_mm)),
         ReliefStart::RollLength(length_mm) => format!("length_mm = {}", rounded(length_mm)),
     };
-    format!("{{ amount_um = {}, {start}{} }}", rounded(relief.amount_um), shape(relief.parabolic))
+    let (shape, remark) = shape(relief.form);
+    (format!("{{ amount_um = {}, {start}{shape} }}", rounded(relief.amount_um)), remark)
 }
 
-fn gear(text: &mut Text, table: &str, data: &GearData) {
-    text.line(format!("\n[pair.{table}]{}", if table == "pinion" { "                     # drives" } else { "" }));
+fn gear(text: &mut Text, data: &GearData) {
     text.line(format!("# {}", data.component.label()));
-    text.line(format!("teeth = {}", data.teeth));
-    text.number("profile_shift", data.profile_shift, "");
+    match data.teeth {
+        Some(teeth) => text.taken("teeth", &teeth.to_string(), ""),
+        None => text.required("teeth"),
+    }
+    text.figure("profile_shift", data.profile_shift.as_ref());
     if let Some(tip_mm) = data.tip_diameter_mm {
         text.number("tip_diameter_mm", tip_mm, "");
     }
@@ -79,23 +104,22 @@ fn gear(text: &mut Text, table: &str, data: &GearData) {
     }
     match data.tip_chamfer_mm {
         Some(chamfer_mm) => {
-            text.number("tip_rounding_mm", chamfer_mm, "ASSUMED: a rounding of the size of the file’s chamfer")
+            text.assumed("tip_rounding_mm", &rounded(chamfer_mm), "a rounding of the size of the file’s chamfer");
         }
-        None => text.line("tip_rounding_mm = 0.1             # ASSUMED: a broken edge; a sharp one has no pressure"),
+        None => text.assumed("tip_rounding_mm", "0.1", "a broken edge; a sharp one has no pressure"),
     }
     if let Some(roughness_um) = data.roughness_Ra_um {
         text.number("roughness_Ra_um", roughness_um, "");
     }
     let modifications = &data.modifications;
-    if let Some(tip) = &modifications.tip_relief {
-        text.line(format!("tip_relief = {}", relief(tip)));
+    for (key, part) in [("tip_relief", &modifications.tip_relief), ("root_relief", &modifications.root_relief)] {
+        if let Some((value, remark)) = part.as_ref().map(relief) {
+            text.taken(key, &value, remark);
+        }
     }
-    if let Some(root) = &modifications.root_relief {
-        text.line(format!("root_relief = {}", relief(root)));
-    }
-    if let Some(RexsEndRelief { amount_um, length_mm, parabolic }) = &modifications.end_relief {
-        let (amount, length) = (rounded(*amount_um), rounded(*length_mm));
-        text.line(format!("end_relief = {{ amount_um = {amount}, length_mm = {length}{} }}", shape(*parabolic)));
+    if let Some(RexsEndRelief { amount_um, length_mm, form }) = &modifications.end_relief {
+        let (amount, length, (shape, remark)) = (rounded(*amount_um), rounded(*length_mm), shape(*form));
+        text.taken("end_relief", &format!("{{ amount_um = {amount}, length_mm = {length}{shape} }}"), remark);
     }
     if let Some(height_um) = modifications.profile_crowning_um {
         text.number("profile_crowning_um", height_um, "");
@@ -115,7 +139,7 @@ fn material(text: &mut Text, document: &RexsDocument, table: &str, data: &GearDa
     let density = material.number("density", KG_PER_M3)?;
     let conductivity = material.number("thermal_conductivity", W_PER_MK)?;
     let capacity = material.number("thermal_capacity", J_PER_KGK)?;
-    text.line(format!("\n[material.{table}]                 # {}", material.label()));
+    text.table(&format!("material.{table}"), &material.label());
     for (key, value) in [
         ("young_modulus_GPa", modulus_GPa),
         ("poisson_ratio", ratio),
@@ -132,36 +156,59 @@ fn material(text: &mut Text, document: &RexsDocument, table: &str, data: &GearDa
     Ok(())
 }
 
-fn operation(text: &mut Text, load: &Load, warnings: &mut Vec<String>) {
-    text.line("\n[operation]");
+fn operation(text: &mut Text, gears: &Gears, load: &Load, warnings: &mut Vec<String>) {
+    text.table("operation", "");
+    meshes(text, gears);
     let speeds = load.cases.iter().all(|case| case.speed_rpm.is_some());
     let (key, whole, assumed) = match (speeds, load.hours) {
         (true, Some(hours)) => ("hours", hours, ""),
-        (true, None) => ("hours", ASSUMED_HOURS, "ASSUMED: the file does not say how long"),
-        (false, _) => {
-            ("pinion_revolutions", ASSUMED_REVOLUTIONS, "ASSUMED: the file does not say how long, or how fast")
-        }
+        (true, None) => ("hours", ASSUMED_HOURS, "the file does not say how long"),
+        (false, _) => ("pinion_revolutions", ASSUMED_REVOLUTIONS, "the file does not say how long, or how fast"),
     };
     if load.cases.iter().any(|case| case.torque_Nm.is_none()) {
         warnings
             .push("the file does not give the torque of the driving gear: write operation.pinion_torque_Nm".to_owned());
-        text.line("# pinion_torque_Nm =               # REQUIRED: the file does not give it for this gear");
+        text.required("pinion_torque_Nm");
     }
     let many = load.cases.len() > 1;
     if many && !assumed.is_empty() {
-        text.line(format!("# {key} of the phases: {} in all, {assumed}", rounded(whole)));
+        text.line(format!("# {key} of the phases: {} in all, ASSUMED: {assumed}", rounded(whole)));
     }
     for case in &load.cases {
         if many {
             text.line("\n[[operation.phases]]");
         }
-        if let Some(torque_Nm) = case.torque_Nm {
-            text.number("pinion_torque_Nm", torque_Nm, "");
+        for (key, figure) in [("pinion_torque_Nm", &case.torque_Nm), ("pinion_speed_rpm", &case.speed_rpm)] {
+            if figure.is_some() {
+                text.figure(key, figure.as_ref());
+            }
         }
-        if let Some(speed_rpm) = case.speed_rpm {
-            text.number("pinion_speed_rpm", speed_rpm, "");
+        let value = rounded(whole * case.fraction);
+        match assumed {
+            "" => text.taken(key, &value, ""),
+            _ if many => text.line(format!("{key} = {value}")),
+            why => text.assumed(key, &value, why),
         }
-        text.number(key, whole * case.fraction, if many { "" } else { assumed });
+    }
+    if many && !assumed.is_empty() {
+        text.provenance.assumed.push(format!("operation.phases.{key}"));
+    }
+}
+
+/// On how many mates each gear runs, where one has several.
+fn meshes(text: &mut Text, gears: &Gears) {
+    let mates = [&gears.roles.mates.pinion, &gears.roles.mates.wheel];
+    let [of_pinion, of_wheel] = mates.map(|mates| mates.len().max(1));
+    if of_pinion == 1 && of_wheel == 1 {
+        return;
+    }
+    for (name, mates) in ["pinion", "wheel"].into_iter().zip(mates).filter(|(_, mates)| mates.len() > 1) {
+        text.line(format!("# the {name} runs on {}; the torque is that of one mesh", mates.join(", ")));
+    }
+    let value = format!("{{ pinion = {of_pinion}, wheel = {of_wheel} }}");
+    text.derived("meshes_per_revolution", &value, "counted in the file");
+    if gears.roles.is_planetary {
+        text.line("# revolutions and speed are those against the planet carrier: where that turns, the difference of both speeds");
     }
 }
 
@@ -201,23 +248,82 @@ fn lubricant(
     Ok(())
 }
 
-/// Lines of a TOML file.
+/// Lines of a TOML file, and where what they say comes from.
 #[derive(Default)]
-struct Text(String);
+struct Text {
+    lines: String,
+    /// Path of the table that the lines are in.
+    table: String,
+    provenance: Provenance,
+}
 
 impl Text {
     fn line(&mut self, line: impl AsRef<str>) {
-        self.0.push_str(line.as_ref());
-        self.0.push('\n');
+        self.lines.push_str(line.as_ref());
+        self.lines.push('\n');
+    }
+
+    /// Begins a table.
+    fn table(&mut self, path: &str, remark: &str) {
+        self.table = path.to_owned();
+        let head = format!("[{path}]");
+        self.lines.push('\n');
+        self.setting(&head, remark);
+    }
+
+    fn setting(&mut self, setting: &str, remark: &str) {
+        let _ = if remark.is_empty() {
+            writeln!(self.lines, "{setting}")
+        } else {
+            writeln!(self.lines, "{setting:<33} # {remark}")
+        };
+    }
+
+    fn path(&self, key: &str) -> String {
+        format!("{}.{key}", self.table)
+    }
+
+    /// A value as the file has it.
+    fn taken(&mut self, key: &str, value: &str, remark: &str) {
+        let path = self.path(key);
+        if !self.provenance.taken.contains(&path) {
+            self.provenance.taken.push(path);
+        }
+        self.setting(&format!("{key} = {value}"), remark);
     }
 
     fn number(&mut self, key: &str, value: f64, remark: &str) {
-        let setting = format!("{key} = {}", rounded(value));
-        let _ = if remark.is_empty() {
-            writeln!(self.0, "{setting}")
-        } else {
-            writeln!(self.0, "{setting:<33} # {remark}")
-        };
+        self.taken(key, &rounded(value), remark);
+    }
+
+    /// A value that follows from what the file has.
+    fn derived(&mut self, key: &str, value: &str, how: &str) {
+        let entry = format!("{} ({how})", self.path(key));
+        if !self.provenance.derived.contains(&entry) {
+            self.provenance.derived.push(entry);
+        }
+        self.setting(&format!("{key} = {value}"), &format!("derived: {how}"));
+    }
+
+    fn assumed(&mut self, key: &str, value: &str, why: &str) {
+        let path = self.path(key);
+        self.provenance.assumed.push(path);
+        self.setting(&format!("{key} = {value}"), &format!("ASSUMED: {why}"));
+    }
+
+    /// A key to be filled in.
+    fn required(&mut self, key: &str) {
+        let path = self.path(key);
+        self.provenance.required.push(path);
+        self.setting(&format!("# {key} ="), "REQUIRED: the file does not give it");
+    }
+
+    fn figure(&mut self, key: &str, figure: Option<&Figure>) {
+        match figure {
+            Some(Figure { value, how: None }) => self.number(key, *value, ""),
+            Some(Figure { value, how: Some(how) }) => self.derived(key, &rounded(*value), how),
+            None => self.required(key),
+        }
     }
 }
 
@@ -227,8 +333,14 @@ pub(super) fn rounded(value: f64) -> String {
     format!("{short:?}")
 }
 
-fn shape(parabolic: bool) -> &'static str {
-    if parabolic { ", shape = \"parabolic\"" } else { "" }
+/// The shape in a scene, and what is to be said of it.
+fn shape(form: ReliefForm) -> (&'static str, &'static str) {
+    const PARABOLIC: &str = ", shape = \"parabolic\"";
+    match form {
+        ReliefForm::Linear => ("", ""),
+        ReliefForm::Parabolic => (PARABOLIC, ""),
+        ReliefForm::Circular => (PARABOLIC, "circular in the file, which is parabolic to first order"),
+    }
 }
 
 fn or<'a>(text: &'a str, other: &'a str) -> &'a str {

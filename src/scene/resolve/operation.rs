@@ -1,7 +1,7 @@
 //! Load, speed, duration and snapshots, in revolutions of the pinion.
 
 use super::wear::coefficient_mm2_per_n;
-use crate::scene::file::{GearPhaseFile, OperationFile, PhaseFile, StopFile};
+use crate::scene::file::{GearPhaseFile, MeshesFile, OperationFile, PhaseFile, StopFile};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear};
@@ -58,6 +58,7 @@ pub(super) fn choose(file: &mut OperationFile, findings: &mut Findings) -> Optio
         snapshots_revolutions: Vec::new(),
         phases,
         stop,
+        meshes_per_revolution: meshes_per_revolution(file.meshes_per_revolution.as_ref()),
     };
     operation.snapshots_revolutions = snapshots(file, &operation, findings)?;
     for phase in &operation.phases {
@@ -81,6 +82,12 @@ pub(super) fn check_stop(stop: &LifeLimits, pair: &GearPair, findings: &mut Find
         let allowed = format!("less than {thickness_mm:.4}, the normal tip thickness of the new {} in mm", gear.name());
         findings.not_allowed("operation.stop.tip_thickness_mm", number(limit_mm), allowed);
     }
+}
+
+/// Meshes of each gear as given, otherwise one.
+fn meshes_per_revolution(file: Option<&MeshesFile>) -> PerGear<f64> {
+    let MeshesFile { pinion, wheel } = file.cloned().unwrap_or_default();
+    PerGear { pinion, wheel }.map(|meshes| f64::from(meshes.unwrap_or(1)))
 }
 
 /// Duration given by one of two keys, in revolutions of the pinion.

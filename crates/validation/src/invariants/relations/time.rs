@@ -1,14 +1,15 @@
-//! Time: coefficients against duration, phases cut in two, speeds that nothing reads.
+//! Time: coefficients and mates against duration, phases cut in two, speeds that nothing reads.
 
 use toml::Value;
 
 use super::ROUNDING;
 use crate::invariants::comparison::{Bounds, Follows, Measured, compare, summaries};
 use crate::invariants::relation::{RelationOutcome, SceneRelation, Subject};
-use crate::invariants::scene_table::{phases, scaled, value, with};
+use crate::invariants::scene_table::{gives, phases, scaled, value, with};
 use crate::invariants::traits_of_scene::{has_fixed_steps, has_heat_or_oil, is_hard_severe, takes_stable_steps};
 
 const FASTER: f64 = 3.7;
+const MATES: i64 = 3;
 
 pub(super) const RELATIONS: &[SceneRelation] = &[
     SceneRelation {
@@ -17,6 +18,13 @@ pub(super) const RELATIONS: &[SceneRelation] = &[
         bound: "rounding, in steps of the same number",
         is_rare: false,
         check: faster,
+    },
+    SceneRelation {
+        name: "mates and duration",
+        states: "Each gear with three mates and the duration over three: the same wear.",
+        bound: "rounding, in steps of the same number",
+        is_rare: false,
+        check: mates,
     },
     SceneRelation {
         name: "phases cut in two",
@@ -45,6 +53,23 @@ fn faster(subject: &Subject<'_>) -> RelationOutcome {
         "pinion_revolutions" | "revolutions" | "snapshots_revolutions" => 1.0 / FASTER,
         _ => 1.0,
     });
+    subject.beside(other, |record| compare(subject.record, record, &Follows::default(), Bounds::all(1e2 * ROUNDING)))
+}
+
+fn mates(subject: &Subject<'_>) -> RelationOutcome {
+    let table = subject.table;
+    // Mates warm the teeth that they run on.
+    let is_warm = gives(table, "temperature.tooth");
+    if is_warm || !has_fixed_steps(table) || is_hard_severe(table) || !takes_stable_steps(subject.record) {
+        return RelationOutcome::NotOfThisScene;
+    }
+    let mut other = scaled(table, &|key| match key {
+        "pinion_revolutions" | "revolutions" | "snapshots_revolutions" => 1.0 / MATES as f64,
+        _ => 1.0,
+    });
+    for gear in ["pinion", "wheel"] {
+        other = with(&other, &format!("operation.meshes_per_revolution.{gear}"), MATES);
+    }
     subject.beside(other, |record| compare(subject.record, record, &Follows::default(), Bounds::all(1e2 * ROUNDING)))
 }
 
