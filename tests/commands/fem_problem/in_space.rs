@@ -130,7 +130,7 @@ fn folded_elements_and_hanging_nodes() {
         mesh.points.extend(mixed.points);
         let nodes = corners.into_iter().map(|node| numbers[node]).collect();
         mesh.cell_sets.get_mut("box").unwrap().push(vec![0]);
-        mesh.cells.push(gearwear::mesh::CellBlock { kind: CellKind::Hexahedron, nodes });
+        mesh.cells.push(gearwear::mesh::CellBlock::new(CellKind::Hexahedron, nodes));
         for (name, set) in &mut mesh.cell_sets {
             if name != "box" {
                 set.push(Vec::new());

@@ -77,7 +77,7 @@ impl SpaceSolid {
         for block in self.elements.chunk_by(|a, b| (a.nodes.len(), a.body) == (b.nodes.len(), b.body)) {
             let kind = HexahedronKind::with_nodes(block[0].nodes.len()).cell_kind();
             let nodes = block.iter().flat_map(|element| &element.nodes).map(|&node| node as usize).collect();
-            add_body(&mut mesh, CellBlock { kind, nodes }, block[0].body);
+            add_body(&mut mesh, CellBlock::new(kind, nodes), block[0].body);
         }
         mesh
     }
