@@ -146,6 +146,11 @@ impl CellBlock {
         self.nodes.len() / self.kind.node_count()
     }
 
+    /// Element type of an Abaqus file that stands for the cells, if there is one.
+    pub fn element_type(&self) -> Option<String> {
+        abaqus::element_type(self.kind, self.formulation)
+    }
+
     /// Whether there are no cells.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()

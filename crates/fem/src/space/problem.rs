@@ -13,7 +13,7 @@ use super::hexahedron::HexahedronKind;
 use super::{FoldedHexahedron, Hexahedron, PER_NODE, nodal_stresses_mpa, stiffness};
 use crate::SolveError;
 use crate::elastic::Elastic;
-use crate::equilibrium::relative;
+use crate::equilibrium::{relative, round_off_n};
 use crate::factor::SymbolicFactor;
 use crate::node_matrix::NodeMatrix;
 use crate::problem::{Held, Work};
@@ -156,6 +156,9 @@ fn balance(problem: &SpaceProblem, matrix: &NodeMatrix, displacement_mm: &[f64],
         force += external;
         moment += (point - centre).cross(&external);
         sum_of_sizes += external.norm();
+    }
+    if greatest <= round_off_n(matrix, displacement_mm) {
+        return [0.0; 2];
     }
     let unbalance = f64::max(force.norm(), moment.norm() / size_mm);
     [relative(unbalanced, greatest), relative(unbalance, sum_of_sizes)]

@@ -83,7 +83,7 @@ pub(super) fn kind(name: &str) -> Option<(CellKind, Option<Formulation>)> {
 }
 
 /// Element type of cells, if there is one; plane cells without a formulation are written for plane strain.
-pub(super) fn name(kind: CellKind, formulation: Option<Formulation>) -> Option<String> {
+pub(crate) fn name(kind: CellKind, formulation: Option<Formulation>) -> Option<String> {
     let default = (kind.dimension() == 2).then_some(Formulation::PlaneStrain);
     let mut families = FAMILIES.iter().filter(|(_, own, _)| *own == formulation.or(default));
     families.find_map(|(family, _, kinds)| {

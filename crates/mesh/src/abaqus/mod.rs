@@ -33,5 +33,6 @@ mod sets;
 mod sources;
 mod write;
 
+pub(super) use elements::name as element_type;
 pub(super) use read::read;
 pub(super) use write::write;
