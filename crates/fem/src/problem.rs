@@ -16,7 +16,7 @@ pub enum ThirdDirection {
     PlaneStrain,
     /// No stress across the plane: a thin sheet.
     PlaneStress,
-    /// Bodies of revolution, in half section: x the radius, y the axis; forces are those of the whole circumference.
+    /// Half section of a body of revolution: x the radius, y the axis.
     Axisymmetric,
     /// Three-dimensional bodies of hexahedra, without contact.
     ThreeDimensional,

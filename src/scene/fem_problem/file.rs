@@ -17,8 +17,7 @@ use gearwear_fem::problem::ThirdDirection;
 pub struct FemProblemFile {
     /// Title of the report. Default: the name of the mesh file.
     pub title: Option<String>,
-    /// What the third direction does. Default: what the element types of the mesh say (CPE, CPS), else plane-strain; must be given for
-    /// bodies of revolution.
+    /// What the third direction does. Default: what the mesh says (CPE, CPS), else plane-strain.
     pub analysis: Option<ThirdDirection>,
     /// The mesh.
     pub mesh: MeshFile,
@@ -40,8 +39,7 @@ pub struct FemProblemFile {
 #[serde(deny_unknown_fields)]
 pub struct MeshFile {
     /// Its file, relative to the folder of this one: Gmsh 4.1 or 2.2 (.msh), VTU or Abaqus (.inp); coordinates in mm, in
-    /// plane problems z = 0, of bodies of revolution x the radius and y the axis. Groups are physical groups, sets, surfaces, and
-    /// integers at the cells: 7 of gmsh:physical, NAME=7 of others.
+    /// plane problems z = 0.
     pub file: String,
 }
 
@@ -89,12 +87,11 @@ pub struct LoadFile {
     /// Group of the mesh: lines, in three dimensions quadrilaterals that are faces of elements, or points for a force; any group for a
     /// displacement.
     pub group: String,
-    /// Resultant force [x, y] over the group in N per mm of thickness, in plane strain and plane stress: spread evenly over its lines as a uniform
+    /// Resultant force [x, y] over the group in N per mm of thickness, in plane problems: spread evenly over its lines as a uniform
     /// traction, or shared evenly by its points.
     pub force_N_per_mm: Option<[f64; 2]>,
     /// Resultant force [x, y, z] over the group in N, in three dimensions: spread evenly over its quadrilaterals as a uniform
-    /// traction, or shared evenly by its points. Of bodies of revolution [radial, axial], a uniform traction times the area of the whole
-    /// circumference.
+    /// traction, or shared evenly by its points. Axisymmetric: [radial, axial], whole circumference.
     #[schemars(length(min = 2, max = 3))]
     pub force_N: Option<Vec<f64>>,
     /// Displacement of the whole group in mm: [x, y], in three dimensions [x, y, z].

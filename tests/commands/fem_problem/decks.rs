@@ -90,14 +90,23 @@ fn val_the_element_type_says_plane_stress_or_plane_strain() {
 
 #[test]
 fn other_physics_is_refused_by_name() {
-    drawn("plane-strain", "CPS4").refused(&["analysis: found \"plane-strain\"", "CPS4 (plane stress)", "problem.toml:2:"]);
+    drawn("plane-strain", "CPS4").refused(&[
+        "analysis: found \"plane-strain\"",
+        "CPS4 (plane stress)",
+        "problem.toml:2:",
+    ]);
     drawn("", "CAX4").refused(&["analysis is missing", "\"axisymmetric\"", "CAX4"]);
     drawn("", "M3D4").refused(&["analysis is missing", "M3D4 (membrane)"]);
-    drawn("", "CPEG4").refused(&["body[0].group", "CPEG4 (generalized plane strain)", "allowed: elements of plane strain"]);
+    drawn("", "CPEG4").refused(&[
+        "body[0].group",
+        "CPEG4 (generalized plane strain)",
+        "allowed: elements of plane strain",
+    ]);
     drawn("", "DC2D4").refused(&["DC2D4 (heat conduction)"]);
     drawn("", "GAPUNI").refused(&["\"PLATE\", which holds 1 element of type GAPUNI (line 6 of the mesh)"]);
     let both = square("CPS4") + "*ELEMENT, TYPE=CPE3, ELSET=OTHER\n2, 1, 2, 3\n";
-    let two = DRAWN.replace("ratio = 0.3 }", "ratio = 0.3 }, { group = \"OTHER\", young_modulus_GPa = 1.0, poisson_ratio = 0.3 }");
+    let two = DRAWN
+        .replace("ratio = 0.3 }", "ratio = 0.3 }, { group = \"OTHER\", young_modulus_GPa = 1.0, poisson_ratio = 0.3 }");
     Deck::new(&two, "both.inp", &both).refused(&["CPE3 (plane strain)", "\"PLATE\" are of \"plane-stress\""]);
     let no_mesh = Deck::new(DRAWN, "plate.inp", "*NODE\n1, 0, 0\n*ELEMENT, TYPE=CPS4\n1, 1, 2, 3, 4\n");
     no_mesh.refused(&["line 4: *ELEMENT: node 2 does not exist"]);
@@ -128,7 +137,8 @@ fn springs_are_left_out_and_nothing_balances_nothing() {
     assert!(message.contains("1 element of type SPRINGA (line 14 of the mesh): left out"), "{message}");
     assert_eq!((summary["elements"].as_u64(), summary["force_balance"].as_f64()), (Some(1), Some(0.0)));
     // Moved as a whole, it is as free of forces.
-    let moved = BLOCK.replace("fixed = [{ group = \"BASE\" }]", "load = [{ group = \"BASE\", displacement_mm = [0.1, 0.2, 0.3] }]");
+    let moved = BLOCK
+        .replace("fixed = [{ group = \"BASE\" }]", "load = [{ group = \"BASE\", displacement_mm = [0.1, 0.2, 0.3] }]");
     let (summary, message) = Deck::new(&moved, "bar.inp", &mesh).solved(&[]);
     assert!(!message.contains("out of balance"), "{message}");
     assert_eq!(summary["force_balance"].as_f64(), Some(0.0));
@@ -186,7 +196,8 @@ body = [{ group = "1", young_modulus_GPa = 210.0, poisson_ratio = 0.3 }]
 fixed = [{ group = "2" }]
 load = [{ group = "3", force_N_per_mm = [100.0, 0.0] }]
 "#;
-    for problem in [problem.to_owned(), problem.replace("\"1\"", "\"medit:ref=5\"").replace("\"3\"", "\"medit:ref=7\"")] {
+    for problem in [problem.to_owned(), problem.replace("\"1\"", "\"medit:ref=5\"").replace("\"3\"", "\"medit:ref=7\"")]
+    {
         let (summary, _) = Deck::new(&problem, "mesh.data", mesh).solved(&[]);
         assert_eq!(summary["elements"].as_u64(), Some(2));
     }
@@ -212,7 +223,8 @@ fn val_a_body_of_revolution() {
     for row in 0..rows {
         for column in 0..columns {
             let at = |di: usize, dj: usize| 1 + 2 * column + di + (2 * row + dj) * (2 * columns + 1);
-            let nodes = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1)].map(|(i, j)| at(i, j).to_string());
+            let nodes =
+                [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1)].map(|(i, j)| at(i, j).to_string());
             let element = 1 + column + row * columns;
             mesh.push_str(&format!("{element}, {}\n", nodes.join(", ")));
             if column == 0 {
@@ -221,7 +233,12 @@ fn val_a_body_of_revolution() {
         }
     }
     let last = 2 * rows * (2 * columns + 1);
-    mesh.push_str(&format!("{bore}*NSET, NSET=ENDS, GENERATE\n1, {}\n{}, {}\n", 2 * columns + 1, last + 1, last + 2 * columns + 1));
+    mesh.push_str(&format!(
+        "{bore}*NSET, NSET=ENDS, GENERATE\n1, {}\n{}, {}\n",
+        2 * columns + 1,
+        last + 1,
+        last + 2 * columns + 1
+    ));
     let force = 100.0 * 2.0 * std::f64::consts::PI * 10.0 * 5.0;
     let problem = format!(
         "analysis = \"axisymmetric\"\nbody = [{{ group = \"TUBE\", young_modulus_GPa = 210.0, poisson_ratio = 0.3 }}]\n\

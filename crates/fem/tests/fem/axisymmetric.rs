@@ -69,7 +69,13 @@ fn val_thick_cylinder_of_lame() {
                 }
             }
             let quadratic = !matches!(kind, ElementKind::Triangle3 | ElementKind::Quad4);
-            let tolerance = if quadratic && nu < 0.4 { 0.004 } else if quadratic { 0.03 } else { 0.06 };
+            let tolerance = if quadratic && nu < 0.4 {
+                0.004
+            } else if quadratic {
+                0.03
+            } else {
+                0.06
+            };
             for stress in stresses(&problem, &found.displacement_mm) {
                 let r = problem.solid.points_mm[stress.node as usize].x;
                 let radial = scale * (1.0 - b * b / (r * r));
