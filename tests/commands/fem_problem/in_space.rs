@@ -75,7 +75,7 @@ fn results_are_complete() {
 fn keys_of_the_other_kind_of_problem() {
     let force = "force_N = [100.0, 0.0, 0.0]";
     for (new, line, parts) in [
-        ("force_N = [1.0, 2.0]", "force_N", ["load[0].force_N: found a list of 2", "a list of 3"]),
+        ("force_N = [1.0, 2.0]", "force_N", ["load[0].force_N: found a list of 2", "three numbers, [x, y, z]"]),
         ("force_N_per_mm = [1.0, 2.0]", "force_N_per_mm", ["load[0].force_N_per_mm: found", "force_N, three numbers"]),
         (
             "displacement_mm = [1.0, 2.0]",
