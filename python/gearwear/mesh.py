@@ -24,7 +24,8 @@ class Mesh:
     def from_meshio(cls, mesh: Any) -> Mesh:
         """The same as a ``meshio.Mesh``, or as anything with its attributes. Plane points get z = 0.
 
-        What meshio keeps of a Gmsh file under names that begin with ``gmsh:`` stays behind: numbers of groups, which are sets too.
+        What meshio keeps of a Gmsh file under names that begin with ``gmsh:`` stays behind: numbers of groups, which are sets too. Of a mesh
+        without sets the tags ``gmsh:physical`` come along.
         """
         import numpy as np
 
@@ -35,12 +36,15 @@ class Mesh:
             points = np.column_stack([points, np.zeros(len(points))])
         blocks = [(block.type, _integers(block.data)) for block in mesh.cells]
         tags = {name: (int(tag), int(dimension)) for name, (tag, dimension) in mesh.field_data.items()}
+        cell_data = _own(mesh.cell_data)
+        if not mesh.cell_sets and "gmsh:physical" in mesh.cell_data:
+            cell_data.append(("gmsh:physical", mesh.cell_data["gmsh:physical"]))
         return cls(
             _native.Mesh(
                 points,
                 blocks,
                 {name: _numbers(values) for name, values in mesh.point_data.items()},
-                {name: [_numbers(values) for values in of_blocks] for name, of_blocks in _own(mesh.cell_data)},
+                {name: [_numbers(values) for values in of_blocks] for name, of_blocks in cell_data},
                 {name: _members(places) for name, places in mesh.point_sets.items()},
                 {name: [_members(places) for places in of_blocks] for name, of_blocks in _own(mesh.cell_sets)},
                 tags,
@@ -48,18 +52,28 @@ class Mesh:
         )
 
     def to_meshio(self) -> Any:
-        """The same as a ``meshio.Mesh`` (``pip install gearwear[mesh]``)."""
+        """The same as a ``meshio.Mesh`` (``pip install gearwear[mesh]``), with the tags of physical groups as ``gmsh:physical`` too."""
         import meshio
         import numpy as np
 
         make: Any = meshio.Mesh
+        tags = self._native.field_data
+        cell_data = dict(self.cell_data)
+        if tags:
+            # meshio writes groups into Gmsh's files from these: of several groups of a cell the last.
+            physical = [np.zeros(len(nodes), dtype=np.int32) for _, nodes in self.cells]
+            for name, (tag, _) in tags.items():
+                for numbers, members in zip(physical, self.cell_sets.get(name, []), strict=False):
+                    numbers[members] = tag
+            cell_data.setdefault("gmsh:physical", physical)
+            cell_data.setdefault("gmsh:geometrical", [numbers.copy() for numbers in physical])
         # Points of its own, as meshio's users change them.
         return make(
             self.points.copy(),
             self.cells,
             point_data=self.point_data,
-            cell_data=self.cell_data,
-            field_data={name: np.array(tag) for name, tag in self._native.field_data.items()},
+            cell_data=cell_data,
+            field_data={name: np.array(tag) for name, tag in tags.items()},
             point_sets=self.point_sets,
             cell_sets=self.cell_sets,
         )

@@ -56,6 +56,7 @@ impl Mesh {
             point_sets: each(point_sets, |name, set| members(&name, &set))?,
             cell_sets: each(cell_sets, |name, sets| sets.iter().map(|set| members(&name, set)).collect())?,
             field_data: each(field_data, |_, (tag, dimension)| Ok(PhysicalTag { tag, dimension }))?,
+            left_out: Vec::new(),
         };
         mesh.check().map_err(|error| PyValueError::new_err(error.to_string()))?;
         Ok(Self { mesh })
@@ -158,7 +159,7 @@ fn block(name: &str, nodes: &PyReadonlyArrayDyn<'_, i64>) -> PyResult<CellBlock>
             format!("cells {name:?}: found an array of shape {:?}; allowed: rows of {count} nodes", array.shape());
         return Err(PyValueError::new_err(message));
     }
-    Ok(CellBlock { kind, nodes: members(name, nodes)? })
+    Ok(CellBlock::new(kind, members(name, nodes)?))
 }
 
 /// Numbers of points or cells, from 0.

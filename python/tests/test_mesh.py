@@ -60,6 +60,25 @@ def test_meshio_there_and_back(tmp_path: Path) -> None:
     assert (meshio.read(tmp_path / "pair.vtu").points == mesh.points).all()
 
 
+@pytest.mark.parametrize("file_format", ["vtu", "gmsh22"])
+def test_groups_survive_what_meshio_writes(tmp_path: Path, file_format: str) -> None:
+    mesh = gearwear.Mesh.read(MESHES / "cylinder-on-block-quad8.msh")
+    sizes = sorted(sum(map(len, lists)) for lists in mesh.cell_sets.values())
+    meshio.write(tmp_path / "written", mesh.to_meshio(), file_format=file_format)
+    back = gearwear.Mesh.read(tmp_path / "written")
+    assert sorted(sum(map(len, lists)) for lists in back.cell_sets.values()) == sizes
+
+
+def test_tags_that_are_no_sets_stay(tmp_path: Path) -> None:
+    square = meshio.Mesh(
+        np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]), [("triangle", [[0, 1, 2]])], cell_data={"gmsh:physical": [np.array([7])]}
+    )
+    mesh = gearwear.Mesh.from_meshio(square)
+    assert mesh.cell_data["gmsh:physical"][0].tolist() == [7]
+    mesh.write(tmp_path / "square.vtu")
+    assert [lists.tolist() for lists in gearwear.Mesh.read(tmp_path / "square.vtu").cell_sets["7"]] == [[0]]
+
+
 def test_a_problem_on_a_mesh_of_meshio() -> None:
     problem = MESHES / "cylinder-on-block.toml"
     from_file = gearwear.fem_problem(problem)

@@ -80,8 +80,8 @@ fn boundary(file: &FemProblemFile) -> Vec<BoundaryRow> {
     };
     let supports =
         file.fixed.iter().map(|fixed| row(&fixed.group, ("held", "mm"), given(&fixed.components, &[0.0; 3])));
-    let loads = file.load.iter().map(|load| match (load.force_N, &load.displacement_mm) {
-        (Some(force), _) => row(&load.group, ("force", "N"), force.map(Some)),
+    let loads = file.load.iter().map(|load| match (&load.force_N, &load.displacement_mm) {
+        (Some(force), _) => row(&load.group, ("force", "N"), [0, 1, 2].map(|along| force.get(along).copied())),
         (None, moved) => {
             let along = given(&load.components, moved.as_deref().unwrap_or_default());
             row(&load.group, ("displacement", "mm"), along)

@@ -38,13 +38,9 @@ pub fn run(problem: &FemProblem, folder: &Path, observer: &dyn Observer) -> Resu
     let unreadable = |reason: String| FemProblemError::Input(problem.mesh_unreadable(&reason));
     let read = || -> Result<_, FemProblemError> {
         let path = folder.join(&problem.file.mesh.file);
-        let unreadable = |error: MeshFileError| unreadable(with_causes(&error));
-        let format = Format::of_path(&path).map_err(unreadable)?;
-        let read = std::fs::read(&path).map_err(|source| MeshFileError::Read { path: path.clone(), source });
-        let bytes = read.map_err(unreadable)?;
-        let content = |fault| MeshFileError::Content { path: path.clone(), fault: Box::new(fault) };
-        let mesh = mesh::from_bytes(format, &bytes).map_err(content).map_err(unreadable)?;
-        Ok((Cow::Owned(mesh), short_hash(&bytes)))
+        let read = mesh::read_with_content(&path);
+        let (mesh, content) = read.map_err(|error: MeshFileError| unreadable(with_causes(&error)))?;
+        Ok((Cow::Owned(mesh), short_hash(&content)))
     };
     solved(problem, read, observer)
 }
@@ -71,6 +67,7 @@ fn solved<'m>(
     let start = Instant::now();
     let mut stages = StageClock::new(observer);
     let (mesh, mesh_hash) = stages.run("mesh", given)?;
+    let problem = &problem.for_mesh(&mesh).map_err(FemProblemError::Input)?;
     let mut record = match problem.file.third_direction().in_plane() {
         Some(_) => {
             let posed = stages.run("problem", || problem.on(&mesh)).map_err(FemProblemError::Input)?;

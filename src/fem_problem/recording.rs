@@ -3,6 +3,7 @@
 use nalgebra::Vector2;
 
 use crate::scene::fem_problem::{FemProblem, Posed};
+use gearwear_fem::elastic::Analysis;
 use gearwear_fem::element::ElementError;
 use gearwear_fem::problem::{ContactPair, ContactState, Problem, Solution};
 use gearwear_fem::stress::{self, StressRecovery};
@@ -155,6 +156,7 @@ fn contact(
     [slave, master]: [String; 2],
 ) -> FemContactSummary {
     let half_model = is_half(state);
+    let of_revolution = problem.analysis == Analysis::Axisymmetric;
     let middle = curve.rows.iter().min_by(|a, b| {
         let distance = |row: &ContactRow| (row.along_mm - curve.centre_along_mm).abs();
         distance(a).total_cmp(&distance(b))
@@ -172,7 +174,8 @@ fn contact(
         peak_pressure_MPa: state.peak_pressure_mpa,
         half_width_mm: state.half_width_mm,
         contact_width_mm: state.contact_width_mm,
-        force_N_per_mm: state.force_n_per_mm.into(),
+        force_N_per_mm: (!of_revolution).then(|| state.force_n_per_mm.into()),
+        force_N: of_revolution.then(|| state.force_n_per_mm.into()),
         max_penetration_um: state.max_penetration_mm * UM_PER_MM,
         centre_mm: state.centre_mm.into(),
         half_model,

@@ -117,7 +117,7 @@ fn mesh(record: &RunRecord, fields: PerGear<Fields<'_>>) -> Mesh {
             }
         }
     }
-    mesh.cells.push(CellBlock { kind: CellKind::Quad, nodes: quads });
+    mesh.cells.push(CellBlock::new(CellKind::Quad, quads));
     let integers = |values| DataArray { components: 1, values: Values::Integers(values) };
     mesh.cell_data.insert("gear".to_owned(), vec![integers(gear_of_quad)]);
     for (name, values) in [("radius_mm", radius), ("width_mm", width)].into_iter().chain(values) {

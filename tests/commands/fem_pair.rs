@@ -193,7 +193,7 @@ fn refusals() {
 #[test]
 fn options_of_a_pair_are_refused_for_a_mesh_of_ones_own() {
     let dir = tempfile::tempdir().unwrap();
-    for more in [&["--position", "12"][..], &["--full"], &["--threads", "1"]] {
+    for more in [&["--position", "12"][..], &["--full"]] {
         let output = fem(dir.path(), "[mesh]\nfile = \"none.msh\"\n", "out", more);
         let error = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{error}");

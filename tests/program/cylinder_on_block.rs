@@ -39,7 +39,7 @@ friction = 0.0
 /// Adds a block of cells, all of which are the set `name`.
 pub fn add_block(mesh: &mut Mesh, kind: CellKind, nodes: Vec<usize>, name: &str) {
     let count = nodes.len() / kind.node_count();
-    mesh.cells.push(CellBlock { kind, nodes });
+    mesh.cells.push(CellBlock::new(kind, nodes));
     for set in mesh.cell_sets.values_mut() {
         set.push(Vec::new());
     }

@@ -91,7 +91,7 @@ pub fn mesh_of_box(kind: CellKind, cells: [usize; 3], to: impl Fn([f64; 3]) -> [
 
 /// Adds a block of cells, all of which are the set `name`.
 pub fn add(mesh: &mut Mesh, kind: CellKind, nodes: Vec<usize>, name: &str) {
-    mesh.cells.push(CellBlock { kind, nodes });
+    mesh.cells.push(CellBlock::new(kind, nodes));
     let (last, count) = (mesh.cells.len() - 1, mesh.cells[mesh.cells.len() - 1].len());
     let mut set = vec![Vec::new(); last];
     set.push((0..count).collect());

@@ -16,6 +16,7 @@ use gearwear_physics::results::run::StageTime;
 
 use super::failure::{Failure, InputError};
 use super::progress::Progress;
+use super::run::pool;
 use super::{fem_scene, figures, print, warn};
 
 #[derive(Debug, clap::Args)]
@@ -32,7 +33,7 @@ pub(super) struct FemArgs {
     /// Of a gear pair: solve the whole model without condensation too, at --position or at A to E, and compare
     #[arg(long)]
     pub full: bool,
-    /// Of a gear pair: number of threads; default: all cores. Never changes the results
+    /// Number of threads; default: all cores. Never changes the results
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
     /// Show neither progress nor figures, only what is wrong
@@ -46,7 +47,6 @@ impl FemArgs {
         match self {
             Self { position: Some(_), .. } => Some("--position"),
             Self { full: true, .. } => Some("--full"),
-            Self { threads: Some(_), .. } => Some("--threads"),
             _ => None,
         }
     }
@@ -75,7 +75,8 @@ fn problem(args: &FemArgs, text: SceneText) -> Result<(), Failure> {
     report::remove_summary(&args.out)?;
     let folder = args.file.parent().unwrap_or(Path::new(""));
     let progress = Progress::new(args.quiet, Arc::default());
-    let record = fem_problem::run(&problem, folder, &progress).map_err(|error| match error {
+    let pool = pool(args.threads)?;
+    let record = pool.install(|| fem_problem::run(&problem, folder, &progress)).map_err(|error| match error {
         FemProblemError::Input(problems) => text.refused(problems).into(),
         FemProblemError::Solve(error) => Failure::Solve(error),
     });
@@ -107,13 +108,16 @@ fn summary(summary: &FemSummary) -> String {
         let names = format!("{} on {}", contact.slave, contact.master);
         text.push_str(&figures::row(&names, ["computed", "Hertz"]));
         let hertz = contact.hertz;
-        let [x, y] = contact.force_N_per_mm;
+        let [x, y] = contact.force_N_per_mm.map_or([None; 2], |force| force.map(Some));
+        let along_axis = contact.force_N.map(|[_, y]| y);
         for (name, value, other) in [
-            ("maximum pressure, MPa", contact.peak_pressure_MPa, hertz.map(|h| h.peak_pressure_MPa)),
-            ("half-width, mm", contact.half_width_mm, hertz.map(|h| h.half_width_mm)),
+            ("maximum pressure, MPa", Some(contact.peak_pressure_MPa), hertz.map(|h| h.peak_pressure_MPa)),
+            ("half-width, mm", Some(contact.half_width_mm), hertz.map(|h| h.half_width_mm)),
             ("force along x, N/mm", x, None),
             ("force along y, N/mm", y, None),
+            ("force along the axis, N", along_axis, None),
         ] {
+            let Some(value) = value else { continue };
             let other = other.map_or_else(String::new, figures::digits);
             text.push_str(&figures::row(name, [&figures::digits(value), &other]));
         }

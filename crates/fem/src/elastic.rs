@@ -19,10 +19,21 @@ pub enum Analysis {
     PlaneStrain,
     /// No stress across the plane: a thin sheet.
     PlaneStress,
+    /// Half section of a body of revolution, x the radius and y the axis.
+    Axisymmetric,
 }
 
 impl Analysis {
-    /// Contact modulus E* of two bodies, MPa: 1/E* = Σ (1 − ν²)/E in plane strain, Σ 1/E in plane stress.
+    /// Thickness of the modelled body at a place, by which lengths and areas of the plane become areas and volumes, mm: 1 in the plane, so
+    /// that forces are per mm, and the circumference 2π x of a body of revolution, whose forces are those of the whole body.
+    pub fn thickness_mm(self, x_mm: f64) -> f64 {
+        match self {
+            Analysis::PlaneStrain | Analysis::PlaneStress => 1.0,
+            Analysis::Axisymmetric => 2.0 * PI * x_mm,
+        }
+    }
+
+    /// Contact modulus E* of two bodies, MPa: 1/E* = Σ (1 − ν²)/E, in plane stress Σ 1/E.
     ///
     /// Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.1.
     pub fn contact_modulus_mpa(self, bodies: [Elastic; 2]) -> f64 {
@@ -41,11 +52,12 @@ pub struct Elastic {
 }
 
 impl Elastic {
-    /// Elasticity matrix D with σ = D ε for σ = (σ_x, σ_y, τ_xy) and ε = (ε_x, ε_y, γ_xy), MPa.
+    /// Elasticity matrix D with σ = D ε for σ = (σ_x, σ_y, τ_xy) and ε = (ε_x, ε_y, γ_xy), MPa; of a body of revolution without its
+    /// hoop strain.
     pub fn stiffness_mpa(&self, analysis: Analysis) -> Matrix3<f64> {
         let (e, nu) = (self.young_modulus_mpa, self.poisson_ratio);
         match analysis {
-            Analysis::PlaneStrain => {
+            Analysis::PlaneStrain | Analysis::Axisymmetric => {
                 let scale = e / ((1.0 + nu) * (1.0 - 2.0 * nu));
                 Matrix3::new(1.0 - nu, nu, 0.0, nu, 1.0 - nu, 0.0, 0.0, 0.0, 0.5 - nu) * scale
             }
@@ -55,10 +67,12 @@ impl Elastic {
         }
     }
 
-    /// Surface compliance, 1/MPa: (1 − ν²)/E in plane strain, 1/E in plane stress.
+    /// Surface compliance, 1/MPa: (1 − ν²)/E, in plane stress 1/E.
     pub fn surface_compliance_per_mpa(&self, analysis: Analysis) -> f64 {
         match analysis {
-            Analysis::PlaneStrain => (1.0 - self.poisson_ratio.powi(2)) / self.young_modulus_mpa,
+            Analysis::PlaneStrain | Analysis::Axisymmetric => {
+                (1.0 - self.poisson_ratio.powi(2)) / self.young_modulus_mpa
+            }
             Analysis::PlaneStress => 1.0 / self.young_modulus_mpa,
         }
     }
@@ -84,10 +98,10 @@ impl Elastic {
         Matrix3::new(4.0, -2.0, 0.0, -2.0, 4.0, 0.0, 0.0, 0.0, 3.0) * (mu / 3.0)
     }
 
-    /// Stress σ_z from the stresses in the plane, MPa.
+    /// Stress σ_z across the plane without strain or stress there, from the stresses in the plane, MPa.
     pub fn across_mpa(&self, analysis: Analysis, sigma_x_mpa: f64, sigma_y_mpa: f64) -> f64 {
         match analysis {
-            Analysis::PlaneStrain => self.poisson_ratio * (sigma_x_mpa + sigma_y_mpa),
+            Analysis::PlaneStrain | Analysis::Axisymmetric => self.poisson_ratio * (sigma_x_mpa + sigma_y_mpa),
             Analysis::PlaneStress => 0.0,
         }
     }

@@ -21,8 +21,10 @@ use super::contact::mortar::MortarCoupling;
 use super::contact::overlap::{Moved, largest_overlap_mm};
 use super::contact::surface::Surface;
 use super::contact::zones;
+use super::elastic::Analysis;
 use super::element::ElementError;
 use super::factor::{Factor, FactorError};
+use super::node_matrix::NodeMatrix;
 use super::problem::{ContactNode, ContactState, Problem, Solution, Stop, Work};
 use super::rigid_body::{RigidMotion, describe, free_motions};
 use super::space::FoldedHexahedron;
@@ -69,7 +71,7 @@ pub fn solve(problem: &Problem) -> Result<Solution, SolveError> {
     for support in &problem.held {
         held[support.dof as usize] = true;
     }
-    let motions = free_motions(solid, &held);
+    let motions = free_motions(solid, &held, problem.analysis);
     if !motions.is_empty() && problem.contacts.is_empty() {
         return Err(SolveError::Floating { motion: describe(&motions, &[1.0]) });
     }
@@ -137,7 +139,7 @@ fn interfaces(problem: &Problem) -> Vec<Interface> {
             let slave = Surface::new(&pair.slave, &problem.solid.points_mm);
             let master = Surface::new(&pair.master, &problem.solid.points_mm);
             let reach_mm = slave.extent_mm() + master.extent_mm();
-            let coupling = MortarCoupling::new(&slave, &master, reach_mm);
+            let coupling = MortarCoupling::new(&slave, &master, reach_mm, problem.analysis);
             let interface = Interface { slave, master, coupling, reach_mm, first_row };
             first_row += interface.coupling.len();
             interface
@@ -223,6 +225,14 @@ struct Balance {
     forces: f64,
 }
 
+/// Forces that are round-off of the stiffness times displacements: those of bodies that move as a whole, without loads.
+pub(super) fn round_off_n(matrix: &NodeMatrix, displacement_mm: &[f64]) -> f64 {
+    const ROUND_OFF: f64 = 1e-13;
+    let greatest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0_f64, |most, value| most.max(value.abs()));
+    let stiffest = greatest(&mut matrix.lower().data().iter().copied());
+    ROUND_OFF * stiffest * greatest(&mut displacement_mm.iter().copied())
+}
+
 /// `value` over `scale`, 0 where both are 0.
 pub(super) fn relative(value: f64, scale: f64) -> f64 {
     if scale > 0.0 { value / scale } else { 0.0 }
@@ -250,6 +260,13 @@ impl Balance {
             sum[dof % 2] += external;
             sum_of_sizes += external.abs();
         }
+        if problem.analysis == Analysis::Axisymmetric {
+            // Forces along the radius balance by themselves.
+            sum[0] = 0.0;
+        }
+        if greatest <= round_off_n(stiffness.matrix(), displacement_mm) {
+            return Self { residual: 0.0, forces: 0.0 };
+        }
         Self {
             residual: relative(unbalanced, greatest),
             forces: relative(sum[0].abs().max(sum[1].abs()), sum_of_sizes),
@@ -275,7 +292,11 @@ fn state(
         gap[node] = own.gap_mm[i] + moved[row];
     }
     let local_force = &force[interface.first_row..interface.first_row + own.len()];
-    let resultant = Resultant::of(slave, own, local_force);
+    let mut resultant = Resultant::of(slave, own, local_force);
+    if problem.analysis == Analysis::Axisymmetric {
+        // Around the circumference the radial part adds up to nothing.
+        resultant.force.x = 0.0;
+    }
     let mut nodes = Vec::with_capacity(pressure.len());
     let (mut contact_width_mm, mut half_width_mm) = (0.0, 0.0_f64);
     for path in slave.paths() {

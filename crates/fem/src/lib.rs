@@ -1,6 +1,7 @@
 //! Finite elements: plane elements and hexahedra, assembly, factorisation, contact of plane meshes.
 
 pub mod active_set;
+mod axisymmetric;
 pub mod contact;
 pub mod disjoint_sets;
 pub mod dissection;

@@ -8,11 +8,15 @@
 //! have the body on their left, so the outward normal is the tangent turned right, and a pressure p is t = −p n. Forces in
 //! N per mm of thickness are added to given ones.
 //!
+//! ds and dA are areas and volumes with the thickness of [`Analysis::thickness_mm`]: of bodies of revolution forces are those of the whole
+//! circumference, N.
+//!
 //! Source: O. C. Zienkiewicz, R. L. Taylor and J. Z. Zhu, *The Finite Element Method: Its Basis and Fundamentals* (2005),
 //! section 2.3.
 
 use nalgebra::Vector2;
 
+use super::elastic::Analysis;
 use super::problem::Edge;
 use super::quadrature::GAUSS_4;
 use super::quadrature::load_rule;
@@ -56,6 +60,7 @@ fn add(forces_n_per_mm: &mut [f64], node: u32, force: Vector2<f64>) {
 pub fn add_traction(
     solid: &Solid,
     edges: &[Edge],
+    analysis: Analysis,
     traction_mpa: impl Fn(Vector2<f64>, Vector2<f64>) -> Vector2<f64>,
     forces_n_per_mm: &mut [f64],
 ) {
@@ -64,7 +69,7 @@ pub fn add_traction(
         for EdgeIntegrationPoint { at_mm, tangent_mm, shape } in edge_points(solid, edge) {
             let length_mm = tangent_mm.norm();
             let normal = Vector2::new(tangent_mm.y, -tangent_mm.x) / length_mm;
-            let force = traction_mpa(at_mm, normal) * length_mm;
+            let force = traction_mpa(at_mm, normal) * (length_mm * analysis.thickness_mm(at_mm.x));
             for (node, share) in edge_nodes(edge).into_iter().zip(shape) {
                 add(forces_n_per_mm, node, force * share);
             }
@@ -72,18 +77,21 @@ pub fn add_traction(
     }
 }
 
-/// Adds the force `resultant_n_per_mm`, spread evenly over the length of `edges`.
+/// Adds the force `resultant_n_per_mm`, spread evenly over the area of `edges`.
 ///
 /// # Panics
 /// Where there is not one force for each degree of freedom.
-pub fn add_spread_force(solid: &Solid, edges: &[Edge], resultant_n_per_mm: Vector2<f64>, forces_n_per_mm: &mut [f64]) {
-    let traction = resultant_n_per_mm / length_mm(solid, edges);
-    add_traction(solid, edges, |_, _| traction, forces_n_per_mm);
-}
-
-/// Length of `edges`, mm.
-pub fn length_mm(solid: &Solid, edges: &[Edge]) -> f64 {
-    edges.iter().flat_map(|edge| edge_points(solid, edge)).map(|point| point.tangent_mm.norm()).sum()
+pub fn add_spread_force(
+    solid: &Solid,
+    edges: &[Edge],
+    analysis: Analysis,
+    resultant_n_per_mm: Vector2<f64>,
+    forces_n_per_mm: &mut [f64],
+) {
+    let points = edges.iter().flat_map(|edge| edge_points(solid, edge));
+    let area: f64 = points.map(|point| point.tangent_mm.norm() * analysis.thickness_mm(point.at_mm.x)).sum();
+    let traction = resultant_n_per_mm / area;
+    add_traction(solid, edges, analysis, |_, _| traction, forces_n_per_mm);
 }
 
 /// Adds the forces of a force per volume `force_n_per_mm3(x)`, x in mm, on all elements.
@@ -92,6 +100,7 @@ pub fn length_mm(solid: &Solid, edges: &[Edge]) -> f64 {
 /// Where there is not one force for each degree of freedom.
 pub fn add_body_force(
     solid: &Solid,
+    analysis: Analysis,
     force_n_per_mm3: impl Fn(Vector2<f64>) -> Vector2<f64>,
     forces_n_per_mm: &mut [f64],
 ) {
@@ -102,7 +111,8 @@ pub fn add_body_force(
         nodes_mm.extend(element.nodes().iter().map(|node| solid.points_mm[*node as usize]));
         for point in &load_rule(element.kind).points {
             let area_mm2 = point.weight * point.shape.jacobian(&nodes_mm).determinant();
-            let force = force_n_per_mm3(point.shape.point(&nodes_mm)) * area_mm2;
+            let at_mm = point.shape.point(&nodes_mm);
+            let force = force_n_per_mm3(at_mm) * (area_mm2 * analysis.thickness_mm(at_mm.x));
             for (node, share) in element.nodes().iter().zip(point.shape.values) {
                 add(forces_n_per_mm, *node, force * share);
             }

@@ -16,6 +16,8 @@ pub enum ThirdDirection {
     PlaneStrain,
     /// No stress across the plane: a thin sheet.
     PlaneStress,
+    /// Half section of a body of revolution: x the radius, y the axis.
+    Axisymmetric,
     /// Three-dimensional bodies of hexahedra, without contact.
     ThreeDimensional,
 }
@@ -35,6 +37,7 @@ impl ThirdDirection {
         match self {
             Self::PlaneStrain => Some(Analysis::PlaneStrain),
             Self::PlaneStress => Some(Analysis::PlaneStress),
+            Self::Axisymmetric => Some(Analysis::Axisymmetric),
             Self::ThreeDimensional => None,
         }
     }
@@ -63,10 +66,10 @@ pub struct Held {
     pub displacement_mm: f64,
 }
 
-/// Bodies, supports, loads and contacts; forces are per mm of thickness.
+/// Bodies, supports, loads and contacts; forces are per mm of thickness, of bodies of revolution those of the whole circumference.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Problem {
-    /// Plane strain or plane stress.
+    /// Plane strain, plane stress or axisymmetric.
     pub analysis: Analysis,
     /// Elastic bodies.
     pub solid: Solid,
@@ -98,7 +101,7 @@ pub struct ContactNode {
 pub struct ContactState {
     /// Nodes of the slave in the order of its surface.
     pub nodes: Vec<ContactNode>,
-    /// Resultant of the pressure on the slave, N/mm.
+    /// Resultant of the pressure on the slave, N/mm; of bodies of revolution its part along the axis, N.
     pub force_n_per_mm: Vector2<f64>,
     /// Greatest pressure, MPa.
     pub peak_pressure_mpa: f64,

@@ -1,7 +1,7 @@
 //! Rigid motions that no support prevents.
 //!
 //! A plane body has three rigid motions u(x) = t + ω ẑ × (x − c)/L, with c its centre and L its size, so that all
-//! three amplitudes are lengths. Supports prevent those that would move a held degree of freedom; the free ones are
+//! three amplitudes are lengths; of a body of revolution the one along its axis is the only one, as the others strain it. Supports prevent those that would move a held degree of freedom; the free ones are
 //! the null space of the held components. A body with free motions is anchored at as many degrees
 //! of freedom, and its motions are unknowns of the contact problem, with the balance of
 //! the loads along each as equation. In equilibrium the anchors carry no force.
@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::disjoint_sets::DisjointSets;
+use super::elastic::Analysis;
 use super::solid::Solid;
 
 /// Relative size of held components below which a motion is free.
@@ -101,18 +102,24 @@ pub(crate) fn bodies(solid: &Solid) -> Vec<Vec<u32>> {
 }
 
 /// Free rigid motions of all bodies of `solid` with the degrees of freedom `held`.
-pub(crate) fn free_motions(solid: &Solid, held: &[bool]) -> Vec<RigidMotion> {
-    bodies(solid).into_iter().flat_map(|nodes| free_motions_of(solid, nodes, held)).collect()
+pub(crate) fn free_motions(solid: &Solid, held: &[bool], analysis: Analysis) -> Vec<RigidMotion> {
+    bodies(solid).into_iter().flat_map(|nodes| free_motions_of(solid, nodes, held, analysis)).collect()
 }
 
-fn free_motions_of(solid: &Solid, nodes: Vec<u32>, held: &[bool]) -> Vec<RigidMotion> {
+/// Motions (both translations, rotation) that strain a body whatever holds it: of a body of revolution those but along its axis.
+pub(super) fn straining(analysis: Analysis) -> &'static [Vector3<f64>] {
+    const OF_REVOLUTION: [Vector3<f64>; 2] = [Vector3::new(1.0, 0.0, 0.0), Vector3::new(0.0, 0.0, 1.0)];
+    if analysis == Analysis::Axisymmetric { &OF_REVOLUTION } else { &[] }
+}
+
+fn free_motions_of(solid: &Solid, nodes: Vec<u32>, held: &[bool], analysis: Analysis) -> Vec<RigidMotion> {
     let frame = BodyFrame::new(&solid.points_mm, &nodes);
     let dofs = nodes.iter().flat_map(|node| [2 * node, 2 * node + 1]);
     let (held, free): (Vec<_>, Vec<_>) = dofs
         .map(|dof| (dof, frame.row(solid.points_mm[dof as usize / 2], dof as usize % 2)))
         .partition(|(dof, _)| held[*dof as usize]);
     let mut gram = Matrix3::zeros();
-    for (_, row) in &held {
+    for row in held.iter().map(|(_, row)| row).chain(straining(analysis)) {
         gram += row * row.transpose();
     }
     let eigen = gram.symmetric_eigen();
@@ -152,14 +159,16 @@ mod tests {
         let solid = two_squares();
         assert_eq!(bodies(&solid).len(), 2);
         let mut held = vec![false; solid.dofs()];
-        assert_eq!(free_motions(&solid, &held).len(), 6);
+        let along_axis = free_motions(&solid, &held, Analysis::Axisymmetric);
+        assert!(along_axis.len() == 2 && along_axis[0].at(solid.points_mm[2]) == Vector2::y());
+        assert_eq!(free_motions(&solid, &held, Analysis::PlaneStrain).len(), 6);
         // The first square stands still, the second slides along x only.
         held[0] = true;
         held[1] = true;
         held[3] = true;
         held[2 * 4 + 1] = true;
         held[2 * 5 + 1] = true;
-        let left = free_motions(&solid, &held);
+        let left = free_motions(&solid, &held, Analysis::PlaneStrain);
         assert_eq!(left.len(), 1);
         let moved = left[0].at(solid.points_mm[6]);
         assert!(moved.y.abs() < 1e-12 && moved.x.abs() > 0.5, "{moved}");

@@ -94,7 +94,7 @@ impl Solid {
         let mut mesh = Mesh { points: self.points_mm.iter().map(|p| [p.x, p.y, 0.0]).collect(), ..Mesh::default() };
         for block in self.elements.chunk_by(|a, b| (a.kind, a.material) == (b.kind, b.material)) {
             let nodes = block.iter().flat_map(Element::nodes).map(|&node| node as usize).collect();
-            add_body(&mut mesh, CellBlock { kind: block[0].kind.cell_kind(), nodes }, block[0].material);
+            add_body(&mut mesh, CellBlock::new(block[0].kind.cell_kind(), nodes), block[0].material);
         }
         mesh
     }

@@ -5,6 +5,7 @@
 
 use nalgebra::Vector2;
 
+use super::axisymmetric::RingElement;
 use super::elastic::{Analysis, Elastic};
 use super::element::{ElementError, ElementMatrix, Fold, MOST_DOFS, check_nodes, stiffness_n_per_mm2};
 use super::enhanced_quad::EnhancedQuad;
@@ -18,7 +19,7 @@ use super::support::RigidParts;
 /// Degrees of freedom of a node.
 const PER_NODE: usize = 2;
 
-/// Stiffness matrix of a solid, N/mm per mm of thickness.
+/// Stiffness matrix of a solid, N/mm per mm of thickness; of bodies of revolution N/mm.
 #[derive(Debug, Clone)]
 pub struct Stiffness {
     matrix: NodeMatrix,
@@ -34,7 +35,7 @@ impl Stiffness {
         let matrix = NodeMatrix::new(PER_NODE, solid.points_mm.len(), || {
             solid.elements.iter().map(|e| e.nodes()).chain(patches.iter().map(|p| p.nodes.as_slice()))
         });
-        let mut stiffness = Self { matrix, analysis, parts: RigidParts::new(solid) };
+        let mut stiffness = Self { matrix, analysis, parts: RigidParts::new(solid, analysis) };
         stiffness.assemble(solid, materials, &patches)?;
         Ok(stiffness)
     }
@@ -63,6 +64,9 @@ impl Stiffness {
             let d = &d_mpa[usize::from(element.material)];
             let material = &materials[usize::from(element.material)];
             let made = check_nodes(element.kind, nodes_mm).and_then(|()| match element.kind {
+                kind if self.analysis == Analysis::Axisymmetric => {
+                    RingElement::new(kind, nodes_mm)?.write_stiffness(material, &mut entries)
+                }
                 ElementKind::Quad4 => EnhancedQuad::new(nodes_mm, d).map(|quad| quad.write_stiffness(&mut entries)),
                 kind if plane_strain => {
                     stiffness_n_per_mm2(kind, nodes_mm, &material.deviatoric_mpa(), &mut entries)?;
@@ -107,7 +111,7 @@ impl Stiffness {
 pub(super) fn averaged_patches(solid: &Solid, analysis: Analysis) -> Vec<NodePatch> {
     match analysis {
         Analysis::PlaneStrain => patches(solid),
-        Analysis::PlaneStress => Vec::new(),
+        Analysis::PlaneStress | Analysis::Axisymmetric => Vec::new(),
     }
 }
 

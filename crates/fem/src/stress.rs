@@ -11,7 +11,7 @@
 //!
 //! Strains are those of the element formulation: enhanced in the bilinear quadrilateral (`enhanced_quad`); in plane strain with the
 //! projected volume strain of quadratic elements (`projected_volume`) and the mean volume strain around the node of linear triangles
-//! (`nodal_triangle`). A stress is linear in the displacements, a row of coefficients: solving for that row as a load (K λ = row) gives the
+//! (`nodal_triangle`); of bodies of revolution those of `axisymmetric`. A stress is linear in the displacements, a row of coefficients: solving for that row as a load (K λ = row) gives the
 //! stress under every load F as λ · F.
 //!
 //! Source: J. Barlow, *International Journal for Numerical Methods in Engineering* 10 (1976) 243–251 (optimal points);
@@ -19,6 +19,7 @@
 
 use nalgebra::{Matrix3, Matrix4x3, SMatrix, Vector2, Vector4};
 
+use super::axisymmetric::RingElement;
 use super::elastic::{Analysis, Elastic};
 use super::element::{ElementError, Fold, MOST_DOFS};
 use super::enhanced_quad::EnhancedQuad;
@@ -53,7 +54,7 @@ pub struct NodalStress {
     pub sigma_y_mpa: f64,
     /// τ_xy, MPa.
     pub tau_xy_mpa: f64,
-    /// σ_z, MPa.
+    /// σ_z across the plane, of bodies of revolution the hoop stress, MPa.
     pub sigma_z_mpa: f64,
 }
 
@@ -188,6 +189,11 @@ impl<'a> StressRecovery<'a> {
             |Fold { at_mm, determinant_mm2 }| ElementError::Distorted { element: number, kind, at_mm, determinant_mm2 };
         let material = &self.materials[usize::from(element.material)];
         let points = sample_points(kind);
+        if self.analysis == Analysis::Axisymmetric {
+            let ring = RingElement::new(kind, &nodes_mm).map_err(distorted)?;
+            let stresses = points.iter().map(|at| ring.stress(material, &Shape::at(kind, *at)).map_err(distorted));
+            return stresses.collect();
+        }
         if kind == ElementKind::Quad4 {
             let d = material.stiffness_mpa(self.analysis);
             let quad = EnhancedQuad::new(&nodes_mm, &d).map_err(distorted)?;

@@ -14,8 +14,9 @@
 use nalgebra::{DMatrix, Vector2, Vector3};
 
 use super::disjoint_sets::DisjointSets;
+use super::elastic::Analysis;
 use super::incidence::Incidence;
-use super::rigid_body::BodyFrame;
+use super::rigid_body::{BodyFrame, straining};
 use super::solid::{ElementKind, Solid};
 
 /// Least ratio of the least to the greatest eigenvalue of the sum of squares. With lengths relative to the size
@@ -29,6 +30,7 @@ pub(super) struct RigidParts {
     /// Parts of each node.
     parts_of_node: Vec<NodeParts>,
     count: usize,
+    analysis: Analysis,
 }
 
 /// Parts that a node belongs to, in rising order.
@@ -49,7 +51,7 @@ pub(super) struct Loose {
 }
 
 impl RigidParts {
-    pub(super) fn new(solid: &Solid) -> Self {
+    pub(super) fn new(solid: &Solid, analysis: Analysis) -> Self {
         let nodes = solid.points_mm.len();
         let mut sets = DisjointSets::new(solid.elements.len());
         let around = Incidence::new(nodes, || solid.elements.iter().map(|element| element.nodes()));
@@ -77,7 +79,7 @@ impl RigidParts {
                 }
             })
             .collect();
-        Self { points_mm: solid.points_mm.clone(), parts_of_node, count }
+        Self { points_mm: solid.points_mm.clone(), parts_of_node, count, analysis }
     }
 
     /// Whether the node belongs to an element.
@@ -118,6 +120,9 @@ impl RigidParts {
         let frame = BodyFrame::new(&self.points_mm, nodes);
         let mut conditions = Conditions { parts, squares: DMatrix::zeros(3 * parts.len(), 3 * parts.len()) };
         let mut fixed = 0;
+        for part in parts {
+            straining(self.analysis).iter().for_each(|motion| conditions.add(&[(*part, 1.0)], *motion));
+        }
         for node in nodes {
             for component in 0..2 {
                 let row = frame.row(self.points_mm[*node as usize], component);

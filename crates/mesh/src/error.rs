@@ -132,6 +132,14 @@ pub enum FileProblem {
         /// Supported alternatives.
         allowed: String,
     },
+    /// An included file cannot be read.
+    #[error("the included file {file:?} cannot be read: {reason}")]
+    Included {
+        /// Name of the file.
+        file: String,
+        /// Reason.
+        reason: String,
+    },
     /// The content is not a consistent mesh.
     #[error(transparent)]
     Mesh(#[from] Inconsistency),

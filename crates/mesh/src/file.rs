@@ -1,11 +1,12 @@
-//! Reading and writing of mesh files, in the format of their ending.
+//! Reading and writing of mesh files. What is written has the format of its ending; what is read says its format itself, by how it begins,
+//! and the ending counts where it does not.
 //!
-//! | ending | format | module |
-//! |---|---|---|
-//! | `.msh` | Gmsh 2.2 and 4.1, ASCII and binary | [`super::gmsh`] |
-//! | `.vtu` | VTK unstructured grid | [`super::vtu`] |
-//! | `.inp` | Abaqus (CalculiX) input | [`super::abaqus`] |
-//! | `.json` | JSON of [`Mesh`] | `json` |
+//! | ending | begins with | format | module |
+//! |---|---|---|---|
+//! | `.msh` | `$MeshFormat`, `$Comments` | Gmsh 2.2 and 4.1, ASCII and binary | [`super::gmsh`] |
+//! | `.vtu` | `<` | VTK unstructured grid | [`super::vtu`] |
+//! | `.inp` | `*`, `>**` | Abaqus (CalculiX) input | [`super::abaqus`] |
+//! | `.json` | `{` | JSON of [`Mesh`] | `json` |
 //!
 //! Every mesh read passes [`Mesh::check`]. Files may be hostile: no content makes a reader panic, counts are
 //! checked against the rest of the file, and sets and data, which can be given in a few bytes for a
@@ -48,14 +49,48 @@ impl Format {
             _ => Err(MeshFileError::Extension { path: path.into(), allowed: ALLOWED_ENDINGS }),
         }
     }
+
+    /// Format that the beginning of a file's content tells, if any.
+    pub fn of_content(bytes: &[u8]) -> Option<Self> {
+        let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes).trim_ascii_start();
+        let begins = |with: &[&[u8]]| with.iter().any(|start| bytes.starts_with(start));
+        match () {
+            () if begins(&[b"$MeshFormat", b"$Comments"]) => Some(Format::Gmsh(GmshStyle::default())),
+            () if begins(&[b"<"]) => Some(Format::Vtu(VtuEncoding::default())),
+            () if begins(&[b"*", b">**"]) => Some(Format::Abaqus),
+            () if begins(&[b"{"]) => Some(Format::Json),
+            () => None,
+        }
+    }
 }
 
-/// Reads the mesh file `path` in the format of its ending.
+/// Mark of UTF-8 that some programs put before text.
+const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
+
+/// Reads the mesh file `path`.
 pub fn read(path: impl AsRef<Path>) -> Result<Mesh, MeshFileError> {
+    read_with_content(path).map(|(mesh, _)| mesh)
+}
+
+/// Reads the mesh file `path`; with it the content of the file and of all that it includes, one after the other.
+pub fn read_with_content(path: impl AsRef<Path>) -> Result<(Mesh, Vec<u8>), MeshFileError> {
     let path = path.as_ref();
-    let format = Format::of_path(path)?;
-    let bytes = fs::read(path).map_err(|source| MeshFileError::Read { path: path.into(), source })?;
-    from_bytes(format, &bytes).map_err(|fault| MeshFileError::Content { path: path.into(), fault: Box::new(fault) })
+    let mut bytes = match fs::read(path) {
+        Ok(bytes) => bytes,
+        Err(source) => {
+            // Of a name without a known ending the ending is the likely slip.
+            Format::of_path(path)?;
+            return Err(MeshFileError::Read { path: path.into(), source });
+        }
+    };
+    let format = match Format::of_content(&bytes) {
+        Some(format) => format,
+        None => Format::of_path(path)?,
+    };
+    let (mesh, mut included) = checked(format, &bytes, Some(path))
+        .map_err(|fault| MeshFileError::Content { path: path.into(), fault: Box::new(fault) })?;
+    bytes.append(&mut included);
+    Ok((mesh, bytes))
 }
 
 /// Writes `mesh` to `path` in the format of its ending, completely or not at all.
@@ -73,16 +108,22 @@ pub fn write_as(mesh: &Mesh, path: impl AsRef<Path>, format: Format) -> Result<(
         .map_err(|source| MeshFileError::Write { path: path.into(), source })
 }
 
-/// Reads a mesh from the content of a file.
+/// Reads a mesh from the content of a file that includes no other.
 pub fn from_bytes(format: Format, bytes: &[u8]) -> Result<Mesh, FileFault> {
-    let mesh = match format {
-        Format::Gmsh(_) => gmsh::read(bytes),
-        Format::Vtu(_) => vtu::read(bytes),
-        Format::Abaqus => abaqus::read(bytes),
-        Format::Json => json::read(bytes),
+    checked(format, bytes, None).map(|(mesh, _)| mesh)
+}
+
+/// Mesh in `bytes`, of `file` if they are of a file, and the content of files that it includes.
+fn checked(format: Format, bytes: &[u8], file: Option<&Path>) -> Result<(Mesh, Vec<u8>), FileFault> {
+    let alone = |mesh| (mesh, Vec::new());
+    let (mesh, included) = match format {
+        Format::Gmsh(_) => gmsh::read(bytes).map(alone),
+        Format::Vtu(_) => vtu::read(bytes).map(alone),
+        Format::Abaqus => abaqus::read(bytes, file),
+        Format::Json => json::read(bytes).map(alone),
     }?;
     mesh.check().map_err(|inconsistency| FileFault::anywhere("", inconsistency))?;
-    Ok(mesh)
+    Ok((mesh, included))
 }
 
 /// Content of a file with `mesh`.

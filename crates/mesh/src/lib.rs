@@ -16,15 +16,19 @@ mod cell_kind;
 pub mod check;
 pub mod error;
 pub mod file;
+mod formulation;
 pub mod gmsh;
 mod json;
 mod numbering;
 pub mod quality;
+mod tag_groups;
 pub mod vtu;
 
 pub use cell_kind::CellKind;
 pub use error::MeshFileError;
-pub use file::{Format, from_bytes, read, to_bytes, write, write_as};
+pub use file::{Format, from_bytes, read, read_with_content, to_bytes, write, write_as};
+pub use formulation::Formulation;
+pub use tag_groups::tag_groups;
 
 /// Finite-element mesh.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -49,6 +53,23 @@ pub struct Mesh {
     /// Tag and dimension of the named sets that come from physical groups.
     #[serde(default)]
     pub field_data: BTreeMap<String, PhysicalTag>,
+    /// Elements of the file without a kind of cell, which are not part of the mesh.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub left_out: Vec<LeftOut>,
+}
+
+/// Elements of one type that a mesh cannot hold: springs, couplings, user elements …
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LeftOut {
+    /// Type as the file names it.
+    pub element_type: String,
+    /// Number of elements.
+    pub count: usize,
+    /// Line of the file with the first of them, from 1.
+    pub line: usize,
+    /// Cell sets that they would be in.
+    pub sets: Vec<String>,
 }
 
 /// Cells of one kind.
@@ -59,6 +80,9 @@ pub struct CellBlock {
     pub kind: CellKind,
     /// Node numbers cell by cell, [`CellKind::node_count`] each.
     pub nodes: Vec<usize>,
+    /// What the element type of the file stands for, where it says more than the nodes do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub formulation: Option<Formulation>,
 }
 
 /// Numbers at nodes or cells.
@@ -107,6 +131,11 @@ impl Mesh {
 }
 
 impl CellBlock {
+    /// Cells of a kind on their nodes, without a formulation.
+    pub fn new(kind: CellKind, nodes: Vec<usize>) -> Self {
+        Self { kind, nodes, formulation: None }
+    }
+
     /// Nodes of each cell.
     pub fn iter(&self) -> std::slice::ChunksExact<'_, usize> {
         self.nodes.chunks_exact(self.kind.node_count())
@@ -115,6 +144,11 @@ impl CellBlock {
     /// Number of cells.
     pub fn len(&self) -> usize {
         self.nodes.len() / self.kind.node_count()
+    }
+
+    /// Element type of an Abaqus file that stands for the cells, if there is one.
+    pub fn element_type(&self) -> Option<String> {
+        abaqus::element_type(self.kind, self.formulation)
     }
 
     /// Whether there are no cells.

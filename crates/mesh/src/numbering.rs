@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::error::{FileProblem, LARGEST_EXPANSION};
-use super::{CellBlock, CellKind, DataArray, Values};
+use super::{CellBlock, CellKind, DataArray, Formulation, Values};
 
 /// Map from the numbers of a file, in any order and with gaps, to indices from 0.
 #[derive(Debug, Default)]
@@ -83,15 +83,15 @@ impl CellList {
     }
 
     /// Begins a new block, also of the same kind.
-    pub(super) fn begin(&mut self, kind: CellKind) {
+    pub(super) fn begin(&mut self, kind: CellKind, formulation: Option<Formulation>) {
         self.starts.push(self.count);
-        self.blocks.push(CellBlock { kind, nodes: Vec::new() });
+        self.blocks.push(CellBlock { kind, nodes: Vec::new(), formulation });
     }
 
     /// Adds a cell, in a new block if its kind is not that of the last; returns its number over all blocks.
     pub(super) fn push(&mut self, kind: CellKind, nodes: impl IntoIterator<Item = usize>) -> usize {
         if self.blocks.last().is_none_or(|block| block.kind != kind) {
-            self.begin(kind);
+            self.begin(kind, None);
         }
         if let Some(block) = self.blocks.last_mut() {
             block.nodes.extend(nodes);
@@ -100,12 +100,12 @@ impl CellList {
         self.count - 1
     }
 
-    /// Nodes of a cell by its number over all blocks.
-    pub(super) fn cell(&self, number: usize) -> (CellKind, &[usize]) {
+    /// Block of a cell, and its nodes, by its number over all blocks.
+    pub(super) fn cell(&self, number: usize) -> (&CellBlock, &[usize]) {
         let block = self.starts.partition_point(|&start| start <= number) - 1;
-        let (kind, within) = (self.blocks[block].kind, number - self.starts[block]);
-        let per_cell = kind.node_count();
-        (kind, &self.blocks[block].nodes[within * per_cell..(within + 1) * per_cell])
+        let (block, within) = (&self.blocks[block], number - self.starts[block]);
+        let per_cell = block.kind.node_count();
+        (block, &block.nodes[within * per_cell..(within + 1) * per_cell])
     }
 
     /// Divides the cells into blocks of given kinds and lengths, empty ones included; does nothing and returns false if the
@@ -125,7 +125,7 @@ impl CellList {
         for &(kind, length) in lengths {
             self.starts.push(start);
             start += length;
-            self.blocks.push(CellBlock { kind, nodes: nodes.by_ref().take(length * kind.node_count()).collect() });
+            self.blocks.push(CellBlock::new(kind, nodes.by_ref().take(length * kind.node_count()).collect()));
         }
         true
     }

@@ -362,7 +362,7 @@ mod tests {
 
         let mut mesh = Mesh {
             points: square.iter().chain(&[[2.0, 0.0], [2.0, 1.0]]).map(|p| [p[0], p[1], 0.0]).collect(),
-            cells: vec![super::super::CellBlock { kind: CellKind::Quad, nodes: vec![0, 1, 2, 3, 1, 2, 5, 4] }],
+            cells: vec![super::super::CellBlock::new(CellKind::Quad, vec![0, 1, 2, 3, 1, 2, 5, 4])],
             ..Mesh::default()
         };
         match of_mesh(&mesh) {

@@ -9,13 +9,21 @@
 //! ```
 //!
 //! which is linear in γ, β, κ': least squares recover a circle from its nodes exactly, whatever part of it they cover.
+//! A body of revolution touches on its axis in a circle: Hertz's point contact of a load F and a relative radius R,
+//!
+//! ```text
+//! a = (¾ F R/E*)^⅓        p₀ = 3 F/(2π a²)        K. L. Johnson, Contact Mechanics (1985), section 4.2
+//! ```
+//!
 //! Surfaces that are not round are left out, and so are contacts that end at a corner, where Hertz does not apply.
+
+use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use crate::results::fem_problem::HertzSummary;
 use gearwear_bodies::reference::hertz_line::HertzLine;
-use gearwear_fem::elastic::Elastic;
+use gearwear_fem::elastic::{Analysis, Elastic};
 use gearwear_fem::problem::{ContactPair, Edge, Problem};
 
 /// Half-widths on either side over which surfaces must be round.
@@ -61,6 +69,17 @@ pub fn hertz(problem: &Problem, pair: &ContactPair, patch: ContactPatch) -> Opti
         return None;
     }
     let modulus_mpa = contact_modulus_mpa(problem, pair, patch)?;
+    if problem.analysis == Analysis::Axisymmetric {
+        let relative_radius_mm = 1.0 / curvature_per_mm;
+        let half_width_mm = (0.75 * force * relative_radius_mm / modulus_mpa).cbrt();
+        let peak_pressure_mpa = 1.5 * force / (PI * half_width_mm * half_width_mm);
+        let on_axis = patch.centre_mm.x == 0.0;
+        return on_axis.then_some(HertzSummary {
+            relative_radius_mm,
+            half_width_mm,
+            peak_pressure_MPa: peak_pressure_mpa,
+        });
+    }
     // The resultant of one half leans towards the other; their sum stands on the surface.
     let whole = if patch.half_model { 2.0 / (1.0 + slave.slope * slave.slope).sqrt() } else { 1.0 };
     let hertz = HertzLine::of_relative_radius(1.0 / curvature_per_mm, modulus_mpa);

@@ -98,7 +98,7 @@ pub struct FemSummary {
     pub problem_hash: String,
     /// The mesh.
     pub mesh: MeshSummary,
-    /// Plane strain, plane stress, or three-dimensional.
+    /// Plane strain, plane stress, axisymmetric, or three-dimensional.
     pub analysis: ThirdDirection,
     /// Why the solver stopped.
     pub stopped: Stop,
@@ -167,8 +167,12 @@ pub struct FemContactSummary {
     pub half_width_mm: f64,
     /// Length of surface under pressure in the modelled part, mm.
     pub contact_width_mm: f64,
-    /// Resultant of the pressure on the slave in the modelled part, [x, y] in N/mm.
-    pub force_N_per_mm: [f64; 2],
+    /// Resultant of the pressure on the slave in the modelled part, [x, y] in N/mm; in plane strain and plane stress.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_N_per_mm: Option<[f64; 2]>,
+    /// Resultant of the pressure on the slave over the whole circumference, [0, along the axis] in N; of bodies of revolution.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_N: Option<[f64; 2]>,
     /// Largest penetration that is left, µm.
     pub max_penetration_um: f64,
     /// Where the resultant acts, [x, y] in mm.
@@ -177,11 +181,12 @@ pub struct FemContactSummary {
     pub half_model: bool,
     /// Edges of the slave along a; none where there is no contact.
     pub elements_per_half_width: Option<f64>,
-    /// Hertz's line contact of the same force and curvature; none where the surfaces are not round there.
+    /// Hertz's line contact of the same force and curvature, on the axis of bodies of revolution his point contact; none where the surfaces
+    /// are not round there.
     pub hertz: Option<HertzSummary>,
 }
 
-/// Hertz's line contact that a contact compares with.
+/// Hertz's contact that a contact compares with.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct HertzSummary {
     /// Relative radius of curvature R of the surfaces, fitted to their nodes, mm.
@@ -230,7 +235,7 @@ pub struct ContactCurve {
 /// Stress at a node.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct NodalStress {
-    /// σ_x, σ_y, σ_z (across the plane) and τ_xy, MPa.
+    /// σ_x, σ_y, σ_z (across the plane, of bodies of revolution the hoop stress) and τ_xy, MPa.
     pub components_MPa: [f64; 4],
     /// von Mises, MPa.
     pub von_mises_MPa: f64,

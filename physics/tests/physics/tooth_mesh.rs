@@ -37,14 +37,9 @@ fn sectors(pair: &GearPair, settings: &BodySettings) -> PairSectors {
 }
 
 fn as_mesh(sector: &ToothSector) -> Mesh {
-    let block = |kind| CellBlock {
-        kind,
-        nodes: sector
-            .cells
-            .iter()
-            .filter(|cell| cell.kind == kind)
-            .flat_map(|cell| cell.nodes().iter().map(|&node| node as usize))
-            .collect(),
+    let block = |kind| {
+        let cells = sector.cells.iter().filter(|cell| cell.kind == kind);
+        CellBlock::new(kind, cells.flat_map(|cell| cell.nodes().iter().map(|&node| node as usize)).collect())
     };
     Mesh {
         points: sector.points_mm.iter().map(|p| [p.x, p.y, 0.0]).collect(),

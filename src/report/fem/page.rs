@@ -55,14 +55,12 @@ fn answer(s: &FemSummary) -> String {
     let hardest = s.contact.iter().filter(touching).max_by(|a, b| a.peak_pressure_MPa.total_cmp(&b.peak_pressure_MPa));
     match hardest {
         Some(contact) => format!(
-            "{} presses on {} with up to {} MPa over a half-width of {} mm; {} the force along x and y is {} and {} N per mm of thickness.",
+            "{} presses on {} with up to {} MPa over a half-width of {} mm; {}.",
             contact.slave,
             contact.master,
             figure(contact.peak_pressure_MPa),
             figure(contact.half_width_mm),
-            if contact.half_model { "in the modelled half" } else { "altogether" },
-            figure(contact.force_N_per_mm[0]),
-            figure(contact.force_N_per_mm[1]),
+            force_in_words(contact),
         ),
         None if s.contact.is_empty() => {
             format!("The von Mises stress reaches {} MPa.", figure(s.peak_von_mises_MPa))
@@ -71,8 +69,17 @@ fn answer(s: &FemSummary) -> String {
     }
 }
 
+fn force_in_words(contact: &FemContactSummary) -> String {
+    let part = if contact.half_model { "in the modelled half" } else { "altogether" };
+    match (contact.force_N_per_mm, contact.force_N) {
+        (Some([x, y]), _) => {
+            format!("{part} the force along x and y is {} and {} N per mm of thickness", figure(x), figure(y))
+        }
+        (None, force) => format!("around the axis the force is {} N", figure(force.map_or(0.0, |[_, y]| y))),
+    }
+}
+
 fn contact_table(contact: &FemContactSummary) -> Markup {
-    let [x, y] = contact.force_N_per_mm;
     let hertz = contact.hertz;
     let compare = |label, unit, found: f64, by_hertz: Option<f64>| {
         let difference = by_hertz.map_or_else(|| NONE.to_owned(), |hertz| change(hertz, found));
@@ -83,12 +90,17 @@ fn contact_table(contact: &FemContactSummary) -> Markup {
         compare("Maximum pressure", "MPa", contact.peak_pressure_MPa, hertz.map(|h| h.peak_pressure_MPa)),
         compare("Half-width a", "mm", contact.half_width_mm, hertz.map(|h| h.half_width_mm)),
         only("Width in contact, modelled part", "mm", contact.contact_width_mm),
-        only("Force along x, modelled part", "N/mm", x),
-        only("Force along y, modelled part", "N/mm", y),
+    ];
+    if let Some([x, y]) = contact.force_N_per_mm {
+        rows.push(only("Force along x, modelled part", "N/mm", x));
+        rows.push(only("Force along y, modelled part", "N/mm", y));
+    }
+    rows.extend(contact.force_N.map(|[_, y]| only("Force along the axis, whole circumference", "N", y)));
+    rows.extend([
         only("Centre, x", "mm", contact.centre_mm[0]),
         only("Centre, y", "mm", contact.centre_mm[1]),
         only("Largest penetration", "µm", contact.max_penetration_um),
-    ];
+    ]);
     rows.extend(contact.elements_per_half_width.map(|elements| only("Elements along a", "", elements)));
     rows.extend(hertz.map(|hertz| only("Relative radius of curvature, fitted", "mm", hertz.relative_radius_mm)));
     let caption = format!("{} on {}", contact.slave, contact.master);
@@ -99,6 +111,7 @@ pub(super) fn model_table(s: &FemSummary) -> Markup {
     let analysis = match s.analysis {
         ThirdDirection::PlaneStrain => "plane strain",
         ThirdDirection::PlaneStress => "plane stress",
+        ThirdDirection::Axisymmetric => "axisymmetric, x the radius",
         ThirdDirection::ThreeDimensional => "three-dimensional",
     };
     let rows = [

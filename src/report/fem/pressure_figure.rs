@@ -47,7 +47,7 @@ fn reading(summary: &FemContactSummary) -> String {
     );
     let compared = match summary.hertz {
         Some(hertz) => format!(
-            " Hertz’s line contact of the same force and of the curvature of both surfaces, a relative radius of {} mm, has {} MPa ({}) \
+            " Hertz’s contact of the same force and of the curvature of both surfaces, a relative radius of {} mm, has {} MPa ({}) \
              over {} mm ({}).",
             significant(hertz.relative_radius_mm, 4),
             figure(hertz.peak_pressure_MPa),
@@ -55,9 +55,7 @@ fn reading(summary: &FemContactSummary) -> String {
             figure(hertz.half_width_mm),
             deviation(hertz.half_width_mm, summary.half_width_mm),
         ),
-        None => {
-            " The surfaces are not both round here, so there is no line contact of Hertz to compare with.".to_owned()
-        }
+        None => " The surfaces are not both round here, so there is no contact of Hertz to compare with.".to_owned(),
     };
     format!("{found}{compared}{half}")
 }

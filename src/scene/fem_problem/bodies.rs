@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 
+use super::axis;
 use super::file::FemProblemFile;
 use super::groups::Groups;
 use super::meshed_groups::MeshedBodies;
@@ -11,7 +12,7 @@ use super::owned_cells::{BodyNodes, owned_cells};
 use super::sides::{BodySide, Sides, corners};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
-use gearwear_fem::elastic::Elastic;
+use gearwear_fem::elastic::{Analysis, Elastic};
 use gearwear_fem::element;
 use gearwear_fem::loads::add_spread_force;
 use gearwear_fem::problem::Edge;
@@ -28,6 +29,7 @@ pub(super) struct PlaneBodies {
     pub solid: Solid,
     /// The sides of the elements.
     pub sides: Sides,
+    analysis: Analysis,
     nodes: BodyNodes,
 }
 
@@ -65,7 +67,7 @@ impl MeshedBodies for PlaneBodies {
         })?;
         let edges: Vec<Edge> = sides.into_values().collect();
         let mut unit = vec![0.0; self.solid.dofs()];
-        add_spread_force(&self.solid, &edges, Vector2::x(), &mut unit);
+        add_spread_force(&self.solid, &edges, self.analysis, Vector2::x(), &mut unit);
         Some(edges.iter().flat_map(|edge| edge.nodes()).map(|node| (node, unit[2 * node as usize])).collect())
     }
 }
@@ -97,10 +99,14 @@ pub(super) fn mesh_bodies(
         points_mm: nodes.points_mm.iter().map(|&[x, y, _]| Vector2::new(x, y)).collect(),
         elements: elements.collect(),
     };
+    let analysis = file.third_direction().in_plane().unwrap_or_default();
+    if analysis == Analysis::Axisymmetric {
+        axis::check(&mut solid.points_mm, FLAT * extent_mm(&nodes), findings);
+    }
     check_plane(mesh, &nodes, findings);
     turn(file, &mut solid, findings);
     let sides = Sides::of(&solid);
-    (findings.problems.len() == before).then_some(PlaneBodies { solid, sides, nodes })
+    (findings.problems.len() == before).then_some(PlaneBodies { solid, sides, analysis, nodes })
 }
 
 /// Refuses cells the solver has no element for.
@@ -137,8 +143,13 @@ fn element_kind(kind: CellKind) -> Option<ElementKind> {
     }
 }
 
+/// Greatest coordinate in the plane.
+fn extent_mm(nodes: &BodyNodes) -> f64 {
+    nodes.points_mm.iter().fold(0.0, |extent: f64, p| extent.max(p[0].abs()).max(p[1].abs()))
+}
+
 fn check_plane(mesh: &Mesh, nodes: &BodyNodes, findings: &mut Findings) {
-    let extent = nodes.points_mm.iter().fold(0.0, |extent: f64, p| extent.max(p[0].abs()).max(p[1].abs()));
+    let extent = extent_mm(nodes);
     let mut points = mesh.points.iter().enumerate();
     let off = points.find(|(node, point)| nodes.node(*node).is_some() && point[2].abs() > FLAT * extent);
     if let Some((node, [x, y, z])) = off {

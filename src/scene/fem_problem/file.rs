@@ -17,7 +17,7 @@ use gearwear_fem::problem::ThirdDirection;
 pub struct FemProblemFile {
     /// Title of the report. Default: the name of the mesh file.
     pub title: Option<String>,
-    /// What the third direction does. Default: plane-strain.
+    /// What the third direction does. Default: what the mesh says (CPE, CPS), else plane-strain.
     pub analysis: Option<ThirdDirection>,
     /// The mesh.
     pub mesh: MeshFile,
@@ -91,8 +91,9 @@ pub struct LoadFile {
     /// traction, or shared evenly by its points.
     pub force_N_per_mm: Option<[f64; 2]>,
     /// Resultant force [x, y, z] over the group in N, in three dimensions: spread evenly over its quadrilaterals as a uniform
-    /// traction, or shared evenly by its points.
-    pub force_N: Option<[f64; 3]>,
+    /// traction, or shared evenly by its points. Axisymmetric: [radial, axial], whole circumference.
+    #[schemars(length(min = 2, max = 3))]
+    pub force_N: Option<Vec<f64>>,
     /// Displacement of the whole group in mm: [x, y], in three dimensions [x, y, z].
     #[schemars(length(min = 2, max = 3))]
     pub displacement_mm: Option<Vec<f64>>,

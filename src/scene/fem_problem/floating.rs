@@ -18,6 +18,7 @@ use nalgebra::{DMatrix, SymmetricEigen, Vector2};
 
 use crate::scene::findings::Findings;
 use gearwear_fem::disjoint_sets::DisjointSets;
+use gearwear_fem::elastic::Analysis;
 use gearwear_fem::problem::{Edge, Problem};
 use gearwear_fem::solid::Solid;
 
@@ -45,6 +46,11 @@ type Equation = Vec<(usize, [f64; WAYS])>;
 pub(super) fn check(problem: &Problem, solid: &Solid, findings: &mut Findings) {
     let pieces = Pieces::of(solid);
     let mut equations: Vec<Equation> = Vec::new();
+    if problem.analysis == Analysis::Axisymmetric {
+        // Every motion but the one along the axis strains a body of revolution.
+        let straining = [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+        equations.extend((0..pieces.body.len()).flat_map(|piece| straining.map(|motion| vec![(piece, motion)])));
+    }
     for held in &problem.held {
         let node = (held.dof / 2) as usize;
         let direction = if held.dof % 2 == 0 { Vector2::x() } else { Vector2::y() };

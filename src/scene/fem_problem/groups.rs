@@ -1,10 +1,10 @@
-//! Named groups of a mesh: their cells and nodes, and the message where a name is unknown.
+//! Named groups of a mesh, sets and integers at its cells: their cells and nodes, and the message where a name is unknown.
 
 use std::collections::BTreeMap;
 
 use crate::scene::findings::Findings;
 use crate::scene::nearest::nearest;
-use gearwear_mesh::{CellKind, Mesh};
+use gearwear_mesh::{CellKind, Mesh, tag_groups};
 
 /// Greatest number of groups named in a message.
 const MOST_NAMED: usize = 20;
@@ -24,15 +24,17 @@ pub(super) struct NamedGroup {
 /// All groups of a mesh.
 pub(super) struct Groups<'a> {
     mesh: &'a Mesh,
-    by_name: BTreeMap<&'a str, NamedGroup>,
+    by_name: BTreeMap<String, NamedGroup>,
 }
 
 impl<'a> Groups<'a> {
     /// Collects the groups of `mesh`.
     pub(super) fn new(mesh: &'a Mesh) -> Self {
-        let mut by_name: BTreeMap<&str, NamedGroup> = BTreeMap::new();
-        for (name, blocks) in &mesh.cell_sets {
-            let group = by_name.entry(name).or_default();
+        let mut by_name: BTreeMap<String, NamedGroup> = BTreeMap::new();
+        let numbered = tag_groups(mesh);
+        let numbered = numbered.iter().map(|group| (&group.name, &group.lists));
+        for (name, blocks) in mesh.cell_sets.iter().chain(numbered) {
+            let group = by_name.entry(name.clone()).or_default();
             for (block, numbers) in blocks.iter().enumerate() {
                 let Some(cells) = mesh.cells.get(block) else { continue };
                 let within = numbers.iter().copied().filter(|&cell| cell < cells.len());
@@ -40,16 +42,21 @@ impl<'a> Groups<'a> {
             }
         }
         for (name, nodes) in &mesh.point_sets {
-            by_name.entry(name).or_default().nodes.extend(nodes);
+            by_name.entry(name.clone()).or_default().nodes.extend(nodes);
         }
         Self { mesh, by_name }
     }
 
+    /// The group of this name.
+    pub(super) fn get(&self, name: &str) -> Option<&NamedGroup> {
+        self.by_name.get(name)
+    }
+
     /// The group that the value of `key` names; reported where there is none.
     pub(super) fn find(&self, name: &str, key: &str, findings: &mut Findings) -> Option<&NamedGroup> {
-        let found = self.by_name.get(name);
+        let found = self.get(name);
         if found.is_none() {
-            let names: Vec<&str> = self.by_name.keys().copied().collect();
+            let names: Vec<&str> = self.by_name.keys().map(String::as_str).collect();
             findings.not_allowed(key, format!("{name:?}, which the mesh does not have"), self.named());
             if let Some(near) = nearest(name, &names) {
                 findings.help(format!("did you mean {near:?}?"));

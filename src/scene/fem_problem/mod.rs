@@ -7,7 +7,9 @@
 //! edges inside a body, supports that contradict each other, bodies that nothing holds. Each step reports all that is wrong, at
 //! its key.
 
+mod axis;
 mod bodies;
+mod element_types;
 mod file;
 mod floating;
 mod floating_in_space;
@@ -30,6 +32,7 @@ use super::schema::{Node, schema_of};
 use super::shape::{self, FileShape};
 use super::{short_hash, text, unit_slip};
 use gearwear_fem as fem;
+use gearwear_fem::elastic::Analysis;
 use gearwear_fem::problem::ThirdDirection;
 use gearwear_mesh::Mesh;
 use meshed_groups::MeshedBodies;
@@ -83,6 +86,19 @@ impl FemProblem {
         }
     }
 
+    /// The problem with the analysis that the element types of `mesh` stand for, where it gives none.
+    pub fn for_mesh(&self, mesh: &Mesh) -> Result<Self, Vec<Problem>> {
+        let (_, mut findings) = text::parse(&self.text)?;
+        let analysis = element_types::analysis(&self.file, mesh, &mut findings);
+        if !findings.problems.is_empty() {
+            return Err(findings.in_order());
+        }
+        let mut problem = self.clone();
+        problem.file.analysis = Some(analysis);
+        problem.warnings.append(&mut findings.warnings);
+        Ok(problem)
+    }
+
     /// A plane problem on its mesh.
     pub fn on(&self, mesh: &Mesh) -> Result<Posed<fem::problem::Problem>, Vec<Problem>> {
         self.posed(|findings| pose(&self.file, mesh, findings))
@@ -130,7 +146,7 @@ impl FemProblem {
 /// Makes every choice the file leaves open, and checks what keys say about each other.
 fn choose(mut file: FemProblemFile, findings: &mut Findings) -> FemProblemFile {
     file.title.get_or_insert_with(|| file.mesh.file.clone());
-    let third = *file.analysis.get_or_insert_default();
+    let third = file.third_direction();
     if file.body.is_empty() {
         findings.missing(&["body"], "at least one [[body]] with group, young_modulus_GPa, poisson_ratio");
     }
@@ -166,15 +182,25 @@ fn choose_load(load: &mut LoadFile, third: ThirdDirection, key: &str, findings: 
     let displacement = format!("{key}.displacement_mm");
     // The force of such a problem, that of the others and whether it is given, and what a vector is.
     let (force, (other, is_given), vector) = match third.in_plane() {
+        Some(Analysis::Axisymmetric) => {
+            ("force_N", ("force_N_per_mm", load.force_N_per_mm.is_some()), "two numbers, [radial, axial]")
+        }
         Some(_) => ("force_N_per_mm", ("force_N", load.force_N.is_some()), "two numbers, [x, y]"),
         None => ("force_N", ("force_N_per_mm", load.force_N_per_mm.is_some()), "three numbers, [x, y, z]"),
     };
     if is_given {
         let found = format!("{other} in a problem with analysis = {}", in_quotes(third));
         findings.not_allowed(&format!("{key}.{other}"), found, format!("{force}, {vector}"));
+        if other == "force_N" {
+            findings.help("forces in N are those of analysis = \"axisymmetric\" or \"three-dimensional\"");
+        }
     }
     match (load.force(), &load.displacement_mm) {
-        (Some(_), None) => {
+        (Some((key_of_force, given)), None) => {
+            if given.len() != third.directions() && key_of_force == force {
+                let found = format!("a list of {} in a problem with analysis = {}", given.len(), in_quotes(third));
+                findings.not_allowed(&format!("{key}.{force}"), found, vector);
+            }
             if load.components.is_some() {
                 findings.not_allowed(
                     &format!("{key}.components"),
@@ -240,6 +266,9 @@ fn pose(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) -> Option<f
         held: loads::held(file, place, findings),
         ..Default::default()
     };
+    if problem.analysis == Analysis::Axisymmetric {
+        axis::hold(&bodies.solid, &mut problem.held, findings);
+    }
     problem.forces_n_per_mm = loads::forces(file, place, &problem.held, findings);
     problem.materials = bodies::materials(file);
     if findings.problems.is_empty() {

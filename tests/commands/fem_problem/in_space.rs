@@ -75,7 +75,7 @@ fn results_are_complete() {
 fn keys_of_the_other_kind_of_problem() {
     let force = "force_N = [100.0, 0.0, 0.0]";
     for (new, line, parts) in [
-        ("force_N = [1.0, 2.0]", "force_N", ["load[0].force_N: found a list of 2", "a list of 3"]),
+        ("force_N = [1.0, 2.0]", "force_N", ["load[0].force_N: found a list of 2", "three numbers, [x, y, z]"]),
         ("force_N_per_mm = [1.0, 2.0]", "force_N_per_mm", ["load[0].force_N_per_mm: found", "force_N, three numbers"]),
         (
             "displacement_mm = [1.0, 2.0]",
@@ -130,7 +130,7 @@ fn folded_elements_and_hanging_nodes() {
         mesh.points.extend(mixed.points);
         let nodes = corners.into_iter().map(|node| numbers[node]).collect();
         mesh.cell_sets.get_mut("box").unwrap().push(vec![0]);
-        mesh.cells.push(gearwear::mesh::CellBlock { kind: CellKind::Hexahedron, nodes });
+        mesh.cells.push(gearwear::mesh::CellBlock::new(CellKind::Hexahedron, nodes));
         for (name, set) in &mut mesh.cell_sets {
             if name != "box" {
                 set.push(Vec::new());

@@ -2,6 +2,7 @@
 
 #[path = "../../program/cylinder_on_block.rs"]
 pub(crate) mod cylinder_on_block;
+mod decks;
 mod in_space;
 mod refusals;
 

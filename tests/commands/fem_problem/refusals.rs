@@ -32,7 +32,7 @@ fn keys_and_values_that_no_problem_has() {
         ("[0.0, -17500.0]", "[0.0]", "force_N_per_mm", "load[0].force_N_per_mm: found a list of 1"),
         ("poisson_ratio = 0.3", "poisson_ratio = 0.5", "poisson_ratio = 0.5", "body[0].poisson_ratio: found 0.5"),
         ("master = \"block-top\"", "master = \"cylinder-surface\"", "master", "which is the slave too"),
-        ("title", "analysis = \"axisymmetric\"\ntitle", "analysis", "\"plane-strain\", \"plane-stress\""),
+        ("title", "analysis = \"antiplane\"\ntitle", "analysis", "\"plane-strain\", \"plane-stress\""),
         (
             "group = \"top\"",
             "group = \"top\"\ndisplacement_mm = [0.0, -0.1]",

@@ -17,6 +17,7 @@ use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
 use crate::gear::flank_edge::{FlankEdge, PathEnd};
 use crate::gear::{Gear, PerGear};
 use gearwear_fem::contact::mortar::MortarCoupling;
+use gearwear_fem::elastic::Analysis;
 
 /// Greatest length of rows that share a multiplier, in the greatest distance of the active profile's nodes, which resolves a smooth contact: where the mesh is
 /// finer for the mate's tip edge, its rows are more than a smooth contact needs. Finer elements have shorter ones.
@@ -187,7 +188,7 @@ impl CondensedPair<'_> {
         let slave_part = self.flanks[slave].surface.part(edges[slave].clone());
         let master_part =
             self.flanks[master].surface.part(edges[master].clone()).placed(|x| turn * x + master_axis_mm, |n| turn * n);
-        let fine = MortarCoupling::new(&slave_part, &master_part, window.reach_mm);
+        let fine = MortarCoupling::new(&slave_part, &master_part, window.reach_mm, Analysis::PlaneStrain);
         if fine.is_empty() {
             return None;
         }

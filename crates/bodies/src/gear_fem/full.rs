@@ -214,7 +214,7 @@ impl WholePair {
                 let (first, last) =
                     window.next().map_or((0, 0), |first| (first, window.next_back().unwrap_or(first) + 1));
                 let slave = slave.part(first..last);
-                let coupling = MortarCoupling::new(&slave, &master, reach_mm);
+                let coupling = MortarCoupling::new(&slave, &master, reach_mm, Analysis::PlaneStrain);
                 CoupledPair { pair: contact.pair, slave, master, coupling }
             })
             .collect()

@@ -206,7 +206,7 @@ struct Blocks {
 impl Default for Blocks {
     fn default() -> Self {
         let kinds = [CellKind::Triangle6, CellKind::Quad8, CellKind::Line3];
-        let cells = kinds.map(|kind| CellBlock { kind, nodes: Vec::new() }).to_vec();
+        let cells = kinds.map(|kind| CellBlock::new(kind, Vec::new())).to_vec();
         Self { mesh: Mesh { cells, ..Mesh::default() } }
     }
 }

@@ -29,7 +29,7 @@ pub fn space_mesh(pair: &GearPair, teeth: &PerGear<ExtrudedTooth>, position_mm: 
             mesh.point_sets.insert(format!("{name}_{set}"), nodes);
         }
         let nodes = tooth.hexahedra.iter().flatten().map(|node| first + *node as usize).collect();
-        mesh.cells.push(CellBlock { kind: CellKind::Hexahedron20, nodes });
+        mesh.cells.push(CellBlock::new(CellKind::Hexahedron20, nodes));
     }
     let [pinion, wheel] = [0, 1].map(|block| (0..mesh.cells[block].len()).collect());
     mesh.cell_sets = BTreeMap::from([

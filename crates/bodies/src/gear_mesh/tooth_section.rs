@@ -310,7 +310,7 @@ impl ToothSection {
         let nodes = self.quads.iter().flatten().map(|node| *node as usize).collect();
         Mesh {
             points: self.points_mm.iter().map(|point| [point.x, point.y, 0.0]).collect(),
-            cells: vec![CellBlock { kind: CellKind::Quad8, nodes }],
+            cells: vec![CellBlock::new(CellKind::Quad8, nodes)],
             ..Mesh::default()
         }
     }

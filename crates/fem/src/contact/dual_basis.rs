@@ -71,6 +71,11 @@ impl DualBasis {
         if covered.0 <= -WHOLE && covered.1 >= WHOLE {
             return Self::whole(nodes, jacobian);
         }
+        Self::hats(nodes, covered, jacobian)
+    }
+
+    /// Dual of hats over the part `covered` of an edge with `nodes` nodes, also where that is the whole.
+    pub(crate) fn hats(nodes: usize, covered: (f64, f64), jacobian: impl Fn(f64) -> f64) -> Self {
         let intervals = match nodes {
             2 => [Some(([0, 1], [-1.0, 1.0])), None],
             _ => [Some(([0, 2], [-1.0, 0.0])), Some(([2, 1], [0.0, 1.0]))],

@@ -4,6 +4,7 @@
 //! g_i = g_i⁰ + Σ_k B_ik · u_k,     B_ik = (1/w_i) ∫ ψ_i n (N_k^m − N_k^s) dγ,     w_i = ∫ ψ_i dγ
 //! ```
 //!
+//! with dγ the area of the slave, per mm of thickness in the plane and of the whole circumference of a body of revolution,
 //! integrated segment by segment, so that no kink of the integrand falls between integration points. With the force
 //! f_i = w_i λ_i the nodal forces are Bᵀ f.
 
@@ -14,6 +15,7 @@ use super::dual_basis::{DualBasis, gauss_points};
 use super::edge::shape;
 use super::master_search::{FacingSegment, MasterSearch};
 use super::surface::Surface;
+use crate::elastic::Analysis;
 
 /// Weight over that of a fully faced node below which a multiplier is a sliver: its basis function is added to that of
 /// a neighbour, so that a constant pressure is still represented; without a neighbour it is left out.
@@ -97,12 +99,12 @@ fn add(entries: &mut Vec<(usize, Vector2<f64>)>, node: usize, value: Vector2<f64
 
 impl MortarCoupling {
     /// Couples `slave` to `master` where their distance along the slave's normals is at most `reach_mm`.
-    pub fn new(slave: &Surface, master: &Surface, reach_mm: f64) -> Self {
+    pub fn new(slave: &Surface, master: &Surface, reach_mm: f64, analysis: Analysis) -> Self {
         let facing = MasterSearch::new(master);
         let mut rows = vec![MultiplierSums::default(); slave.points_mm.len()];
         for number in 0..slave.edges.len() {
             let segments = facing.segments(slave, number, reach_mm);
-            integrate_edge(slave, number, &facing, &segments, &mut rows);
+            integrate_edge((slave, number, analysis), &facing, &segments, &mut rows);
         }
         hand_over_slivers(slave, &mut rows);
         let kept: Vec<(usize, MultiplierSums)> =
@@ -162,16 +164,22 @@ impl MortarCoupling {
 
 /// Adds the integrals over one slave edge.
 fn integrate_edge(
-    slave: &Surface,
-    number: usize,
+    (slave, number, analysis): (&Surface, usize, Analysis),
     facing: &MasterSearch<'_>,
     segments: &[FacingSegment],
     rows: &mut [MultiplierSums],
 ) {
     let edge = &slave.edges[number];
     let count = edge.nodes().len();
-    let jacobian = |xi: f64| slave.point_and_tangent(edge, xi).1.norm();
-    let whole = DualBasis::new(count, (-1.0, 1.0), jacobian);
+    let jacobian = |xi: f64| {
+        let (at_mm, tangent) = slave.point_and_tangent(edge, xi);
+        tangent.norm() * analysis.thickness_mm(at_mm.x)
+    };
+    let whole = match (analysis, count) {
+        // The end of a quadratic edge on the axis has no area of its own but that of its hat.
+        (Analysis::Axisymmetric, 3) => DualBasis::hats(count, (-1.0, 1.0), jacobian),
+        _ => DualBasis::new(count, (-1.0, 1.0), jacobian),
+    };
     for (xi, weight) in gauss_points(-1.0, 1.0) {
         for (psi, &node) in whole.at(xi).iter().zip(edge.nodes()) {
             rows[node].whole_mm += weight * jacobian(xi) * psi;
@@ -183,7 +191,7 @@ fn integrate_edge(
     let unbroken = (last.to - first.from - faced).abs() < 1e-9;
     let basis = match (first.from, last.to) {
         (from, to) if unbroken && from == -1.0 && to == 1.0 => whole,
-        (from, to) => DualBasis::new(count, (from, to.min(1.0 - 2e-9).max(from)), jacobian),
+        (from, to) => DualBasis::hats(count, (from, to.min(1.0 - 2e-9).max(from)), jacobian),
     };
     for segment in segments {
         for (from, to) in smooth_stretches(segment, &basis) {
@@ -252,7 +260,7 @@ mod tests {
     #[test]
     fn ver_groups_are_the_sum_of_their_rows() {
         let (slave, master) = (flat(&[0.0, 0.3, 0.5, 1.1, 1.4, 2.0], 0.0), flat(&[2.2, 1.5, 0.8, 0.1, -0.5], -0.02));
-        let fine = MortarCoupling::new(&slave, &master, 1.0);
+        let fine = MortarCoupling::new(&slave, &master, 1.0, Analysis::PlaneStrain);
         assert_eq!(fine.len(), 6);
         let groups = [vec![0, 1], vec![2, 3, 4], vec![5]];
         let grouped = fine.grouped(&groups);

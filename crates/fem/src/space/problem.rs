@@ -13,7 +13,7 @@ use super::hexahedron::HexahedronKind;
 use super::{FoldedHexahedron, Hexahedron, PER_NODE, nodal_stresses_mpa, stiffness};
 use crate::SolveError;
 use crate::elastic::Elastic;
-use crate::equilibrium::relative;
+use crate::equilibrium::{relative, round_off_n};
 use crate::factor::SymbolicFactor;
 use crate::node_matrix::NodeMatrix;
 use crate::problem::{Held, Work};
@@ -77,7 +77,7 @@ impl SpaceSolid {
         for block in self.elements.chunk_by(|a, b| (a.nodes.len(), a.body) == (b.nodes.len(), b.body)) {
             let kind = HexahedronKind::with_nodes(block[0].nodes.len()).cell_kind();
             let nodes = block.iter().flat_map(|element| &element.nodes).map(|&node| node as usize).collect();
-            add_body(&mut mesh, CellBlock { kind, nodes }, block[0].body);
+            add_body(&mut mesh, CellBlock::new(kind, nodes), block[0].body);
         }
         mesh
     }
@@ -156,6 +156,9 @@ fn balance(problem: &SpaceProblem, matrix: &NodeMatrix, displacement_mm: &[f64],
         force += external;
         moment += (point - centre).cross(&external);
         sum_of_sizes += external.norm();
+    }
+    if greatest <= round_off_n(matrix, displacement_mm) {
+        return [0.0; 2];
     }
     let unbalance = f64::max(force.norm(), moment.norm() / size_mm);
     [relative(unbalanced, greatest), relative(unbalance, sum_of_sizes)]

@@ -5,4 +5,5 @@
 mod common;
 
 mod active_set;
+mod axisymmetric;
 mod hexahedra;

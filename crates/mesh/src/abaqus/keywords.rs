@@ -1,6 +1,7 @@
 //! Lines of an Abaqus file: keywords with their parameters, and data.
 
-use crate::error::{FileFault, FilePosition, FileProblem};
+use super::sources::{At, Sources};
+use crate::error::{FileFault, FileProblem};
 
 /// Keyword line with its data lines.
 #[derive(Debug)]
@@ -8,12 +9,17 @@ pub(super) struct Keyword<'a> {
     /// Keyword in capitals with single blanks between words, without the star.
     pub name: String,
     /// Parameters, with names in capitals.
-    pub parameters: Vec<(String, Option<Name>)>,
-    /// Line number, from 1.
-    pub line: usize,
-    /// Line numbers and texts of data, without comments.
-    pub data: Vec<(usize, &'a str)>,
+    pub parameters: Parameters,
+    /// Line of the keyword.
+    pub at: At,
+    /// Lines and texts of data, without comments.
+    pub data: Vec<(At, &'a str)>,
+    /// Files that the lines are of.
+    pub sources: &'a Sources,
 }
+
+/// Parameters of a keyword with their values.
+pub(super) type Parameters = Vec<(String, Option<Name>)>;
 
 /// Name of a set or surface.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,9 +30,9 @@ pub(super) struct Name {
 }
 
 impl Keyword<'_> {
-    /// Fault in a `line` of the keyword.
-    pub(super) fn fault(&self, line: usize, problem: FileProblem) -> FileFault {
-        FileFault { place: Some(FilePosition::Line(line)), section: format!("*{}", self.name), problem }
+    /// Fault in a line of the keyword.
+    pub(super) fn fault(&self, at: At, problem: FileProblem) -> FileFault {
+        self.sources.fault(at, &format!("*{}", self.name), problem)
     }
 
     pub(super) fn has(&self, name: &str) -> bool {
@@ -39,47 +45,42 @@ impl Keyword<'_> {
 
     /// Value of a required parameter.
     pub(super) fn required(&self, name: &str) -> Result<&Name, FileFault> {
-        self.value(name).ok_or_else(|| self.fault(self.line, FileProblem::Ended { expected: format!("{name}=…") }))
-    }
-
-    pub(super) fn refuse_input(&self, allowed: &str) -> Result<(), FileFault> {
-        if self.has("INPUT") { Err(self.unsupported("INPUT=", allowed)) } else { Ok(()) }
+        self.value(name).ok_or_else(|| self.fault(self.at, FileProblem::Ended { expected: format!("{name}=…") }))
     }
 
     pub(super) fn unsupported(&self, what: impl Into<String>, allowed: &str) -> FileFault {
-        self.fault(self.line, FileProblem::Unsupported { what: what.into(), allowed: allowed.into() })
+        self.fault(self.at, FileProblem::Unsupported { what: what.into(), allowed: allowed.into() })
     }
 }
 
-/// All keywords of a file in order.
-pub(super) fn keywords(text: &str) -> Result<Vec<Keyword<'_>>, FileFault> {
-    let mut keywords: Vec<Keyword> = Vec::new();
-    let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim_start().starts_with("**"));
-    while let Some((number, line)) = lines.next() {
-        let line = line.trim();
-        if let Some(first) = line.strip_prefix('*') {
-            let mut whole = first.to_owned();
-            while whole.trim_end().ends_with(',') {
-                match lines.next() {
-                    Some((_, more)) => whole.push_str(more),
-                    None => break,
-                }
-            }
-            keywords.push(keyword(&whole, number));
-        } else if !line.is_empty() {
-            match keywords.last_mut() {
-                Some(keyword) => keyword.data.push((number, line)),
-                None => {
-                    let problem = FileProblem::unexpected(line, "a keyword, `*NODE` for example");
-                    return Err(FileFault { place: Some(FilePosition::Line(number)), section: String::new(), problem });
-                }
-            }
+/// Line without comments and with its continuations.
+pub(super) enum LogicalLine<'a> {
+    /// Keyword with its parameters, without the star.
+    Keyword(String),
+    /// Data, without blanks around them.
+    Data(&'a str),
+}
+
+/// Lines of a text with their numbers. Comments begin with `**`, of some programs with `>**`.
+pub(super) fn logical_lines(text: &str) -> impl Iterator<Item = (usize, LogicalLine<'_>)> {
+    let lines = (1..).zip(text.lines()).map(|(number, line)| (number, line.trim()));
+    let is_comment = |line: &str| line.is_empty() || line.starts_with("**") || line.starts_with(">**");
+    let mut lines = lines.filter(move |(_, line)| !is_comment(line)).peekable();
+    std::iter::from_fn(move || {
+        let (number, line) = lines.next()?;
+        let Some(first) = line.strip_prefix('*') else { return Some((number, LogicalLine::Data(line))) };
+        let mut whole = first.to_owned();
+        while whole.ends_with(',')
+            && let Some((_, more)) = lines.next_if(|(_, line)| !line.starts_with('*'))
+        {
+            whole.push_str(more);
         }
-    }
-    Ok(keywords)
+        Some((number, LogicalLine::Keyword(whole)))
+    })
 }
 
-fn keyword<'a>(line: &str, number: usize) -> Keyword<'a> {
+/// Name and parameters of a keyword line.
+pub(super) fn parsed(line: &str) -> (String, Parameters) {
     let mut fields = split(line).into_iter();
     let name = fields.next().unwrap_or_default();
     let name = name.split_ascii_whitespace().collect::<Vec<_>>().join(" ").to_ascii_uppercase();
@@ -87,7 +88,7 @@ fn keyword<'a>(line: &str, number: usize) -> Keyword<'a> {
         Some((name, value)) => (name.trim().to_ascii_uppercase(), Some(Name::parse(value))),
         None => (field.trim().to_ascii_uppercase(), None),
     });
-    Keyword { name, parameters: parameters.collect(), line: number, data: Vec::new() }
+    (name, parameters.collect())
 }
 
 impl Name {
@@ -98,6 +99,11 @@ impl Name {
             Some(inner) => Self { text: inner.to_owned(), quoted: true },
             None => Self { text: text.to_owned(), quoted: false },
         }
+    }
+
+    /// Whether both stand for the same; unquoted names are case-insensitive.
+    pub(super) fn is(&self, other: &Name) -> bool {
+        self.text == other.text || !self.quoted && !other.quoted && self.text.eq_ignore_ascii_case(&other.text)
     }
 }
 

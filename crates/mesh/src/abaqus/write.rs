@@ -5,11 +5,11 @@ use std::fmt::Write as _;
 
 use super::elements;
 use crate::error::Unwritable;
-use crate::{CellKind, Mesh};
+use crate::{CellBlock, CellKind, Mesh};
 
 const FORMAT: &str = "an Abaqus file";
 
-/// Element (counted over all cells) and side of a line.
+/// Element (counted over all cells) and side of a line or face.
 type Side = (usize, usize);
 
 pub(crate) fn write(mesh: &Mesh) -> Result<Vec<u8>, Unwritable> {
@@ -61,8 +61,8 @@ fn check(mesh: &Mesh) -> Result<(), Unwritable> {
     if let Some(name) = mesh.cell_data.keys().next() {
         return Err(Unwritable::data(FORMAT, "cell data", name, no_data));
     }
-    if let Some(block) = mesh.cells.iter().find(|block| elements::name(block.kind).is_none()) {
-        return Err(Unwritable::data(FORMAT, "cells", &format!("{:?}", block.kind), elements::ALLOWED));
+    if let Some(block) = mesh.cells.iter().find(|block| elements::name(block.kind, block.formulation).is_none()) {
+        return Err(Unwritable::data(FORMAT, "cells", &in_words(block), elements::ALLOWED));
     }
     let mut names = mesh.point_sets.keys().chain(mesh.cell_sets.keys());
     if let Some(name) = names.find(|name| name.contains(|c: char| c == '"' || c.is_control())) {
@@ -72,54 +72,75 @@ fn check(mesh: &Mesh) -> Result<(), Unwritable> {
     Ok(())
 }
 
-/// Sets of line cells on sides of plane elements.
+/// Kind and formulation of cells, for messages.
+fn in_words(block: &CellBlock) -> String {
+    match block.formulation {
+        Some(formulation) => format!("{:?}, {formulation}", block.kind),
+        None => format!("{:?}", block.kind),
+    }
+}
+
+/// Sets of cells on sides of elements: lines of plane elements, faces of solids.
 struct Surfaces {
-    /// Sides of each set in the order of the lines.
+    /// Sides of each set in the order of its cells.
     sides: BTreeMap<String, Vec<Side>>,
-    /// Whether each cell is such a line, which is not written as an element.
-    is_line: Vec<bool>,
+    /// Whether each cell is such a side, which is not written as an element.
+    is_side: Vec<bool>,
 }
 
 impl Surfaces {
     fn of(mesh: &Mesh) -> Self {
         let cells: Vec<(CellKind, &[usize])> =
             mesh.cells.iter().flat_map(|block| block.iter().map(|nodes| (block.kind, nodes))).collect();
-        let mut sides_by_nodes: BTreeMap<Vec<usize>, Side> = BTreeMap::new();
+        // Shells and the like are elements of their own, also on a face.
+        let formulated: Vec<bool> =
+            mesh.cells.iter().flat_map(|block| std::iter::repeat_n(block.formulation.is_some(), block.len())).collect();
+        let mut sides_by_nodes: BTreeMap<(CellKind, Vec<usize>), Side> = BTreeMap::new();
         for (number, &(kind, nodes)) in cells.iter().enumerate() {
-            for side in 0..elements::side_count(kind) {
-                let (_, line) = elements::side(kind, nodes, side);
-                sides_by_nodes.entry(unturned(line)).or_insert((number, side));
+            for (side, corners) in elements::sides(kind).iter().enumerate() {
+                let (side_kind, own) = elements::side(kind, nodes, corners);
+                sides_by_nodes.entry((side_kind, unturned(own, corners.len()))).or_insert((number, side));
             }
         }
         let mut sides = BTreeMap::new();
-        let mut is_line = vec![false; cells.len()];
+        let mut is_side = vec![false; cells.len()];
         for (name, lists) in &mesh.cell_sets {
             let on_sides = mesh.over_all(lists).map(|cell| {
                 let (kind, nodes) = cells[cell];
-                (kind.dimension() == 1).then(|| sides_by_nodes.get(&unturned(nodes.to_vec())).copied())?
+                let corners = corners_of_side(kind).filter(|_| !formulated[cell])?;
+                sides_by_nodes.get(&(kind, unturned(nodes.to_vec(), corners))).copied()
             });
             let found: Option<Vec<Side>> = on_sides.collect();
             if let Some(found) = found.filter(|found| !found.is_empty()) {
-                mesh.over_all(lists).for_each(|cell| is_line[cell] = true);
+                mesh.over_all(lists).for_each(|cell| is_side[cell] = true);
                 sides.insert(name.clone(), found);
             }
         }
         // A line in another set as well is written as an element.
         for (name, lists) in &mesh.cell_sets {
             if !sides.contains_key(name) {
-                mesh.over_all(lists).for_each(|cell| is_line[cell] = false);
+                mesh.over_all(lists).for_each(|cell| is_side[cell] = false);
             }
         }
-        Self { sides, is_line }
+        Self { sides, is_side }
     }
 }
 
-/// Nodes of a line in an order that does not depend on its direction.
-fn unturned(mut line: Vec<usize>) -> Vec<usize> {
-    if line[0] > line[1] {
-        line.swap(0, 1);
+/// Number of corners of cells that may be sides: lines, triangles and quadrilaterals without a node in the middle.
+fn corners_of_side(kind: CellKind) -> Option<usize> {
+    match kind {
+        CellKind::Line | CellKind::Line3 => Some(2),
+        CellKind::Triangle | CellKind::Triangle6 => Some(3),
+        CellKind::Quad | CellKind::Quad8 => Some(4),
+        _ => None,
     }
-    line
+}
+
+/// Nodes of a side in an order that does not depend on its direction: corners, then middles.
+fn unturned(mut side: Vec<usize>, corners: usize) -> Vec<usize> {
+    side[..corners].sort_unstable();
+    side[corners..].sort_unstable();
+    side
 }
 
 /// Writes a line; writing into memory does not fail.
@@ -158,16 +179,17 @@ fn nodes(text: &mut String, mesh: &Mesh) {
 
 /// Writes the elements; returns the number of every cell.
 fn write_elements(text: &mut String, mesh: &Mesh, surfaces: &Surfaces) -> Vec<Option<usize>> {
-    let mut numbers = vec![None; surfaces.is_line.len()];
+    let mut numbers = vec![None; surfaces.is_side.len()];
     let (mut cell, mut last) = (0, 0);
     for block in &mesh.cells {
         let own = cell..cell + block.len();
         cell = own.end;
-        if !own.is_empty() && own.clone().all(|cell| surfaces.is_line[cell]) {
+        if !own.is_empty() && own.clone().all(|cell| surfaces.is_side[cell]) {
             continue;
         }
-        line(text, format_args!("*ELEMENT, TYPE={}", elements::name(block.kind).unwrap_or_default()));
-        for (cell, nodes) in own.zip(block.iter()).filter(|&(cell, _)| !surfaces.is_line[cell]) {
+        let name = elements::name(block.kind, block.formulation).unwrap_or_default();
+        line(text, format_args!("*ELEMENT, TYPE={name}"));
+        for (cell, nodes) in own.zip(block.iter()).filter(|&(cell, _)| !surfaces.is_side[cell]) {
             last += 1;
             numbers[cell] = Some(last);
             let nodes = elements::reorder(block.kind, nodes);

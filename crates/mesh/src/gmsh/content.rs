@@ -48,6 +48,11 @@ impl GmshContent {
         {
             return Err(in_keep(FileProblem::unexpected("blocks", "kinds and numbers of the cells of `$Elements`")));
         }
+        for (&block, &formulation) in &self.keep.formulations {
+            let block = self.cells.blocks.get_mut(block);
+            let expected = || in_keep(FileProblem::unexpected("formulations", "numbers of the blocks of cells"));
+            block.ok_or_else(expected)?.formulation = Some(formulation);
+        }
         let cell_sets = close_cell_sets(cell_sets, &self.cells, &mut allowance).map_err(in_elements)?;
         let point_data = self.node_data.into_iter().map(|(name, data)| {
             let form = self.keep.point_data.get(&name);
@@ -68,6 +73,7 @@ impl GmshContent {
             point_sets: close_point_sets(self.keep.point_sets),
             cell_sets,
             field_data,
+            left_out: Vec::new(),
         })
     }
 

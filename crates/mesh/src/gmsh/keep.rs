@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::CellKind;
+use crate::{CellKind, Formulation};
 
 pub(super) const SECTION: &str = "Gearwear";
 
@@ -15,6 +15,9 @@ pub(super) struct Keep {
     /// Kind and number of cells of each block, where blocks are not runs of one kind.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blocks: Option<Vec<(CellKind, usize)>>,
+    /// Formulations of blocks by their number, from 0.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub formulations: BTreeMap<usize, Formulation>,
     /// Node sets, with nodes by their index in the file.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub point_sets: BTreeMap<String, Vec<usize>>,

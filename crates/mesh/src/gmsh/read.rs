@@ -261,7 +261,7 @@ impl Copies {
         let cell = match &self.kept {
             Some(kept) if number >= self.first => {
                 let original = kept[number - self.first];
-                if original >= cells.len() || cells.cell(original) != (kind, nodes) {
+                if original >= cells.len() || (cells.cell(original).0.kind, cells.cell(original).1) != (kind, nodes) {
                     return Err(FileProblem::unexpected("a new element", "a copy, as `$Gearwear` says"));
                 }
                 original

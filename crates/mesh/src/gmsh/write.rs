@@ -126,10 +126,12 @@ fn groups(mesh: &Mesh) -> Vec<PhysicalGroup<'_>> {
 /// Parts of the mesh that Gmsh has no place for.
 fn kept(mesh: &Mesh, version: GmshVersion, entities: &Entities) -> Keep {
     let blocks: Vec<_> = mesh.cells.iter().map(|block| (block.kind, block.len())).collect();
+    let formulations = mesh.cells.iter().enumerate().filter_map(|(block, own)| Some((block, own.formulation?)));
     let runs = blocks.windows(2).all(|pair| pair[0].0 != pair[1].0) && blocks.iter().all(|&(_, length)| length > 0);
     let copies = entities.copies();
     Keep {
         blocks: (!runs).then_some(blocks),
+        formulations: formulations.collect(),
         point_sets: mesh.point_sets.clone(),
         untagged: mesh.cell_sets.keys().filter(|&name| !mesh.field_data.contains_key(name)).cloned().collect(),
         point_data: mesh.point_data.iter().filter_map(|(name, array)| Some((name.clone(), form(array)?))).collect(),

@@ -13,6 +13,8 @@
 //! |---|---|
 //! | `set:NAME` of the points or cells, `UInt8`, all 0 or 1 | set `NAME` of those with a 1 |
 //! | `tag:NAME` of the file (`FieldData`), two integers | tag and dimension of set `NAME` |
+//! | `gmsh:physical` of the cells, integers, as meshio and Gmsh's users write physical groups | sets named after the tag, or after the name that a `tag:NAME` gives it; [`crate::tag_groups()`] |
+//! | `gearwear:formulations` of the file | formulation of each block, 0 for none |
 //! | `gearwear:blocks` of the file, pairs of VTK cell type and number of cells | blocks, where they are not runs of one type |
 //!
 //! The crate vtkio, with which tests read these files, is not used as it does not check what it reads (short
@@ -44,3 +46,4 @@ const ALLOWED: &str = "points, lines, triangles, quadrilaterals, tetrahedra, hex
 const SET: &str = "set:";
 const TAG: &str = "tag:";
 const BLOCKS: &str = "gearwear:blocks";
+const FORMULATIONS: &str = "gearwear:formulations";

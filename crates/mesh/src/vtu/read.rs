@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use super::array::{Decoder, ScalarType};
 use super::document::{Array, VtuDocument};
-use super::{ALLOWED, BLOCKS, SET, TAG};
+use super::{ALLOWED, BLOCKS, FORMULATIONS, SET, TAG};
 use crate::error::{FileFault, FileProblem};
 use crate::numbering::{Allowance, CellList, OpenSets, close_cell_sets, close_point_sets};
-use crate::{CellKind, DataArray, Mesh, PhysicalTag, Values};
+use crate::tag_groups::{PHYSICAL, tag_groups};
+use crate::{CellKind, DataArray, Formulation, Mesh, PhysicalTag, Values};
 
 pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, FileFault> {
     let document = VtuDocument::parse(bytes)?;
@@ -32,6 +33,10 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, FileFault> {
             field_data.insert(name.to_owned(), physical_tag(array, &decoder.values(array, Some(2), &mut allowance)?)?);
         }
     }
+    // After the blocks, which may follow in the file.
+    for array in document.field_data.iter().filter(|array| array.name() == FORMULATIONS) {
+        formulate(&mut cells, array, &decoder.values(array, None, &mut allowance)?)?;
+    }
     let (point_data, point_sets) = data(&decoder, &document.point_data, point_count, &mut allowance)?;
     let (all_cell_data, cell_sets) = data(&decoder, &document.cell_data, cell_count, &mut allowance)?;
     let cell_sets =
@@ -41,7 +46,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, FileFault> {
         allowance.take(cells.blocks.len()).map_err(|limit| FileFault::anywhere("CellData", limit))?;
         cell_data.insert(name, cells.split(&array));
     }
-    Ok(Mesh {
+    let mut mesh = Mesh {
         points,
         cells: cells.blocks,
         point_data,
@@ -49,7 +54,15 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, FileFault> {
         point_sets: close_point_sets(point_sets),
         cell_sets,
         field_data,
-    })
+        left_out: Vec::new(),
+    };
+    for group in tag_groups(&mesh).into_iter().filter(|group| group.data == PHYSICAL) {
+        let entries = group.lists.iter().map(Vec::len).sum::<usize>() + group.lists.len();
+        allowance.take(entries).map_err(|limit| FileFault::anywhere("CellData", limit))?;
+        mesh.field_data.extend(group.tag.map(|tag| (group.name.clone(), tag)));
+        mesh.cell_sets.insert(group.name, group.lists);
+    }
+    Ok(mesh)
 }
 
 fn points(
@@ -190,4 +203,15 @@ fn divide(cells: &mut CellList, array: &Array, values: &Values) -> Result<(), Fi
         return Ok(());
     }
     Err(array.fault(FileProblem::unexpected("blocks", "types and numbers of the file's cells in their order")))
+}
+
+fn formulate(cells: &mut CellList, array: &Array, values: &Values) -> Result<(), FileFault> {
+    let numbers = match values {
+        Values::Integers(values) if values.len() == cells.blocks.len() => values.as_slice(),
+        _ => return Err(array.fault(FileProblem::unexpected("formulations", "an integer for each block of cells"))),
+    };
+    for (block, &number) in cells.blocks.iter_mut().zip(numbers) {
+        block.formulation = Formulation::numbered(number);
+    }
+    Ok(())
 }

@@ -9,7 +9,7 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use quick_xml::escape::escape;
 
-use super::{BLOCKS, SET, TAG, VtuEncoding};
+use super::{BLOCKS, FORMULATIONS, SET, TAG, VtuEncoding};
 use crate::error::Unwritable;
 use crate::{DataArray, Mesh, Values};
 
@@ -83,13 +83,18 @@ fn is_impossible(c: char) -> bool {
 fn field_data(out: &mut VtuOutput, mesh: &Mesh) {
     let runs = mesh.cells.windows(2).all(|pair| pair[0].kind != pair[1].kind);
     let plain = runs && mesh.cells.iter().all(|block| !block.is_empty());
-    if plain && mesh.field_data.is_empty() {
+    let formulated = mesh.cells.iter().any(|block| block.formulation.is_some());
+    if plain && !formulated && mesh.field_data.is_empty() {
         return;
     }
     out.line("<FieldData>");
     if !plain {
         let pairs = mesh.cells.iter().flat_map(|block| [block.kind as i64, block.len() as i64]);
         out.array_of(BLOCKS, 2, "Int64", Some(mesh.cells.len()), pairs.map(Number::Integer));
+    }
+    if formulated {
+        let numbers = mesh.cells.iter().map(|block| block.formulation.map_or(0, |own| own as i64));
+        out.array_of(FORMULATIONS, 1, "Int64", Some(mesh.cells.len()), numbers.map(Number::Integer));
     }
     for (name, tag) in &mesh.field_data {
         let values = [tag.tag, tag.dimension.into()].map(Number::Integer);

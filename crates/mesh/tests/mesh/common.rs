@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use gearwear_mesh::gmsh::{GmshEncoding, GmshStyle, GmshVersion};
 use gearwear_mesh::vtu::VtuEncoding;
-use gearwear_mesh::{CellBlock, CellKind, DataArray, Format, Mesh, PhysicalTag, Values};
+use gearwear_mesh::{CellBlock, CellKind, DataArray, Format, Formulation, Mesh, PhysicalTag, Values};
 use proptest::prelude::*;
 
 /// Every format in every style.
@@ -64,8 +64,19 @@ fn data(owners: usize, components: usize, integers: bool) -> BoxedStrategy<DataA
 /// A block of up to four cells of any kind that every format has.
 fn block(points: usize) -> impl Strategy<Value = CellBlock> {
     let kinds: Vec<CellKind> = CellKind::ALL.into_iter().filter(|&kind| kind != CellKind::Hexahedron27).collect();
-    (prop::sample::select(kinds), 0..4_usize).prop_flat_map(move |(kind, cells)| {
-        prop::collection::vec(0..points, cells * kind.node_count()).prop_map(move |nodes| CellBlock { kind, nodes })
+    let formulation = prop::option::of(prop::sample::select(vec![
+        Formulation::PlaneStress,
+        Formulation::Axisymmetric,
+        Formulation::Shell,
+        Formulation::Membrane,
+    ]));
+    (prop::sample::select(kinds), 0..4_usize, formulation).prop_flat_map(move |(kind, cells, formulation)| {
+        let formulation = formulation.filter(|_| kind.dimension() == 2);
+        prop::collection::vec(0..points, cells * kind.node_count()).prop_map(move |nodes| CellBlock {
+            kind,
+            nodes,
+            formulation,
+        })
     })
 }
 
@@ -114,13 +125,17 @@ pub fn any_mesh() -> impl Strategy<Value = Mesh> {
                     point_sets: point_sets.into_iter().collect(),
                     cell_sets: cell_sets.into_iter().map(|(name, lists, _)| (name, lists)).collect(),
                     field_data,
+                    left_out: Vec::new(),
                 }
             },
         )
     })
 }
 
-/// What an Abaqus file can hold of a mesh.
-pub fn without_data(mesh: Mesh) -> Mesh {
+/// What an Abaqus file can hold of a mesh, whose plane cells always have a formulation.
+pub fn without_data(mut mesh: Mesh) -> Mesh {
+    for block in mesh.cells.iter_mut().filter(|block| block.kind.dimension() == 2) {
+        block.formulation.get_or_insert(Formulation::PlaneStrain);
+    }
     Mesh { point_data: BTreeMap::new(), cell_data: BTreeMap::new(), field_data: BTreeMap::new(), ..mesh }
 }

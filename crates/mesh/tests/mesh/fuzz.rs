@@ -30,7 +30,14 @@ fn survives(format: Format, bytes: &[u8]) -> Result<(), TestCaseError> {
             let most = (bytes.len() as u64 * (LARGEST_EXPANSION + 8)).max(LEAST_ALLOWANCE);
             prop_assert!(entries(&mesh) <= most, "{} entries of {} bytes", entries(&mesh), bytes.len());
         }
-        Err(fault) => prop_assert!(!fault.to_string().is_empty()),
+        Err(fault) => {
+            let text = fault.to_string();
+            prop_assert!(!text.is_empty() && !text.contains('\n'), "one line: {text}");
+            if format == Format::Abaqus && !matches!(fault.problem, FileProblem::TooLarge { .. } | FileProblem::Mesh(_))
+            {
+                prop_assert!(text.starts_with("line "), "without its line: {text}");
+            }
+        }
     }
     Ok(())
 }
@@ -46,7 +53,7 @@ enum Harm {
 }
 
 /// Tokens that mean something in one of the formats, and numbers that are too large for anything.
-const TOKENS: [&[u8]; 30] = [
+const TOKENS: [&[u8]; 37] = [
     b"$Nodes\n",
     b"$EndNodes\n",
     b"$Elements\n",
@@ -74,6 +81,13 @@ const TOKENS: [&[u8]; 30] = [
     b"*SURFACE, NAME=y\n1, S9\n",
     b"*ELEMENT, TYPE=CPE8\n1, 1,\n",
     b"*PART, NAME=a\n",
+    b"*END PART\n*INSTANCE, NAME=i, PART=a\n1, 2, 3\n",
+    b"0, 0, 0, 0, 0, 1, 90\n",
+    b"*END INSTANCE\n",
+    b"*INCLUDE, INPUT=other.inp\n",
+    b"*ELEMENT, TYPE=SPRINGA, ELSET=x\n1, 1, 2\n",
+    b"*NSET, NSET=y, INSTANCE=i\n1, i.2\n",
+    b">**\n",
     b"[[",
     b"1e400",
     "é".as_bytes(),
@@ -150,6 +164,34 @@ proptest! {
         let mut bytes = std::fs::read(&path).expect("the file is part of the repository");
         harms.iter().for_each(|harm| apply(&mut bytes, harm));
         survives(Format::of_path(&path).expect("a mesh file"), &bytes)?;
+    }
+}
+
+/// An assembly of two instances, shells, springs and surfaces of every kind.
+const ASSEMBLY: &str = "*HEADING\n** of two\n*PART, NAME=a\n*NODE, NSET=n\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n\
+    *ELEMENT, TYPE=C3D4, ELSET=e\n1, 1, 2, 3, 4\n*ELEMENT, TYPE=S3, ELSET=s\n2, 1, 2, 3\n*ELEMENT, TYPE=SPRINGA, ELSET=w\n3, 1,\n2\n\
+    *SURFACE, NAME=f\ne, S2\ns, SPOS\ns, E1\n*END PART\n*ASSEMBLY, NAME=b\n*INSTANCE, NAME=i, PART=a\n*END INSTANCE\n\
+    *INSTANCE, NAME=j, PART=a\n1, 2, 3\n0, 0, 0, 0, 0, 1, 90\n*END INSTANCE\n*NODE\n1, 5, 5\n*NSET, NSET=m, INSTANCE=i, GENERATE\n1, 3\n\
+    *ELSET, ELSET=all\ni.e, j.1, j.w\n*NSET, NSET=k, ELSET=all\n*SURFACE, TYPE=NODE, NAME=p\nm, 1.\n*END ASSEMBLY\n*STEP\n*END STEP\n";
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 3000, max_shrink_iters: 200, ..ProptestConfig::default() })]
+
+    #[test]
+    fn prop_broken_assemblies_are_read_or_refused_at_their_line(harms in prop::collection::vec(harm(), 1..4)) {
+        let mut bytes = ASSEMBLY.as_bytes().to_vec();
+        prop_assert!(from_bytes(Format::Abaqus, &bytes).is_ok());
+        harms.iter().for_each(|harm| apply(&mut bytes, harm));
+        survives(Format::Abaqus, &bytes)?;
+    }
+
+    #[test]
+    fn prop_lines_in_any_order_are_read_or_refused_at_their_line(
+        order in prop::collection::vec(0..ASSEMBLY.lines().count(), 0..40),
+    ) {
+        let lines: Vec<&str> = ASSEMBLY.lines().collect();
+        let text: Vec<&str> = order.into_iter().map(|line| lines[line]).collect();
+        survives(Format::Abaqus, text.join("\n").as_bytes())?;
     }
 }
 

@@ -333,7 +333,7 @@ fn worst(meshed: &MeshedGear) -> Result<MeshQuality, quality::QualityError> {
         all.points.extend(solid(sector).points_mm.iter().map(|p| [p.x, p.y, 0.0]));
         for cell in &sector.cells {
             if all.cells.last().is_none_or(|block| block.kind != cell.kind) {
-                all.cells.push(CellBlock { kind: cell.kind, nodes: Vec::new() });
+                all.cells.push(CellBlock::new(cell.kind, Vec::new()));
             }
             if let Some(block) = all.cells.last_mut() {
                 block.nodes.extend(cell.nodes().iter().map(|&node| first + node as usize));

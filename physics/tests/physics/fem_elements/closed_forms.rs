@@ -47,8 +47,20 @@ fn greater_principal_mpa(stress: &NodalStress) -> f64 {
 fn solve_tube(tube: &LameCylinder, mesh: &Block) -> Vec<f64> {
     let solid = &mesh.solid;
     let mut forces = vec![0.0; solid.dofs()];
-    add_traction(solid, &mesh.sides[3], |_, normal| -normal * tube.inner_pressure_mpa, &mut forces);
-    add_traction(solid, &mesh.sides[1], |_, normal| -normal * tube.outer_pressure_mpa, &mut forces);
+    add_traction(
+        solid,
+        &mesh.sides[3],
+        Analysis::PlaneStrain,
+        |_, normal| -normal * tube.inner_pressure_mpa,
+        &mut forces,
+    );
+    add_traction(
+        solid,
+        &mesh.sides[1],
+        Analysis::PlaneStrain,
+        |_, normal| -normal * tube.outer_pressure_mpa,
+        &mut forces,
+    );
     let on_x = nodes_of(&mesh.sides[0]).into_iter().map(|node| (2 * node + 1, 0.0));
     let on_y = nodes_of(&mesh.sides[2]).into_iter().map(|node| (2 * node, 0.0));
     let given: Vec<_> = on_x.chain(on_y).collect();
@@ -147,7 +159,7 @@ fn ver_deep_cantilever() {
             let exact = field(solid, |x| beam.displacement_mm(x.into()).into());
             let mut forces = vec![0.0; solid.dofs()];
             let shear = |x: Vector2<f64>, _| Vector2::new(0.0, beam.stress_mpa(x.into())[2]);
-            add_traction(solid, &mesh.sides[1], shear, &mut forces);
+            add_traction(solid, &mesh.sides[1], Analysis::PlaneStrain, shear, &mut forces);
             let given = hold(&nodes_of(&mesh.sides[3]), &exact);
             let u = solve(solid, STEEL, Analysis::PlaneStrain, &given, forces);
             l2_error(solid, &u, |x| beam.displacement_mm(x.into()).into())

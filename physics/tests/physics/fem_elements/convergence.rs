@@ -50,7 +50,7 @@ fn error(kind: ElementKind, n: usize, nu: f64, bent: bool) -> f64 {
     };
     let solid = &mesh.solid;
     let mut forces = vec![0.0; solid.dofs()];
-    add_body_force(solid, |x| body_force(material, x), &mut forces);
+    add_body_force(solid, Analysis::PlaneStrain, |x| body_force(material, x), &mut forces);
     let nodal = field(solid, |x| exact(nu, x));
     let given = hold(&nodes_of(mesh.sides.iter().flatten()), &nodal);
     let u = solve(solid, material, Analysis::PlaneStrain, &given, forces);

@@ -106,7 +106,7 @@ fn ver_constant_strain_from_given_tractions() {
             |_, n: Vector2<f64>| Vector2::new(stress.x * n.x + stress.z * n.y, stress.z * n.x + stress.y * n.y);
         let mut forces = vec![0.0; solid.dofs()];
         for side in &block.sides {
-            add_traction(solid, side, traction, &mut forces);
+            add_traction(solid, side, analysis, traction, &mut forces);
         }
         let stiffness = Stiffness::new(solid, &[material], analysis).unwrap();
         let scale = largest(stiffness.matrix().lower().data()) * largest(&exact);
@@ -138,7 +138,7 @@ fn ver_units_do_not_matter() {
             let material = Elastic { young_modulus_mpa: STEEL.young_modulus_mpa / (unit * unit), ..STEEL };
             let mut forces = vec![0.0; solid.dofs()];
             let traction = Vector2::new(20.0, -100.0) / (unit * unit);
-            add_traction(solid, &block.sides[1], |_, _| traction, &mut forces);
+            add_traction(solid, &block.sides[1], Analysis::PlaneStrain, |_, _| traction, &mut forces);
             let given = hold(&nodes_of(&block.sides[3]), &vec![0.0; solid.dofs()]);
             solve(solid, material, Analysis::PlaneStrain, &given, forces)
         };
