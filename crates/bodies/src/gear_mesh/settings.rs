@@ -238,7 +238,7 @@ impl SpaceResolution {
 }
 
 /// Least distance of two ends of elements, in face widths.
-const SAME_PLACE: f64 = 1e-6;
+pub(super) const SAME_PLACE: f64 = 1e-6;
 
 /// Greatest ratio, either way, of the number of elements aligned with slices to the wanted one.
 const MOST_OFF: f64 = 1.8;
