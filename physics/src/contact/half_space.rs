@@ -36,7 +36,7 @@ use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 use gearwear_bodies::material::Material;
 use gearwear_bodies::reference::{
     flattening::Flattening,
-    half_plane::{cell_compliance_mm_per_mpa, line_loads_primitive},
+    half_plane::{cell_compliance_at_mm_per_mpa, cell_compliance_mm_per_mpa, line_loads_primitive},
 };
 
 /// Elastic half-planes as a contact surface.
@@ -235,8 +235,10 @@ impl PairContact for HalfSpacePair<'_> {
         let beside = gaps_beside_mm(*flanks, *position_mm, strip.window, approach_mm, removed_mm);
         let mut cells = self.pressed_cells();
         cells.retain(|cell| cell.pressure_mpa > 0.0);
-        // Only where rigid flanks would overlap.
-        let overlapping = beside.into_iter().filter(|(_, gap)| *gap < approach_mm);
+        let least_sunk = LeastSunk::under(&cells);
+        // Only where flanks would overlap that sink as little as they may.
+        let overlapping =
+            beside.into_iter().filter(|(at_mm, gap)| *gap + least_sunk.at_mm(flattening, *at_mm) < approach_mm);
         Some(overlapping.map(|(at_mm, gap)| approach_mm - gap - sunk_mm(flattening, &cells, at_mm)).fold(0.0, f64::max))
     }
 
@@ -263,6 +265,34 @@ impl PairContact for HalfSpacePair<'_> {
         let SampledStretch { strip, cells, swept } = &self.window.samples;
         let pressures_mpa = swept.field.cells_mpa().iter().copied();
         PressedCell::evenly(strip.window.lower_mm, cells.width_mm(), pressures_mpa)
+    }
+}
+
+/// Least displacement of both surfaces beside a contact: as if all of its load were on its cell farthest away, for a load displaces the less the
+/// farther away it is.
+struct LeastSunk {
+    /// Middles of the first and the last cell, mm.
+    ends_mm: [f64; 2],
+    width_mm: f64,
+    /// Sum of the pressures, MPa.
+    sum_mpa: f64,
+}
+
+impl LeastSunk {
+    /// Displacement under the pressure of `cells`, all of one width.
+    fn under(cells: &[PressedCell]) -> Self {
+        let middle_mm = |cell: Option<&PressedCell>| cell.map_or(0.0, |cell| cell.lower_mm.midpoint(cell.upper_mm));
+        Self {
+            ends_mm: [cells.first(), cells.last()].map(middle_mm),
+            width_mm: cells.first().map_or(0.0, |cell| cell.upper_mm - cell.lower_mm),
+            sum_mpa: cells.iter().map(|cell| cell.pressure_mpa).sum(),
+        }
+    }
+
+    /// Displacement at a place, mm.
+    fn at_mm(&self, flattening: &Flattening, at_mm: f64) -> f64 {
+        let [first, last] = self.ends_mm.map(|end_mm| (at_mm - end_mm).abs());
+        self.sum_mpa * cell_compliance_at_mm_per_mpa(&flattening.bodies, self.width_mm, first.max(last))
     }
 }
 

@@ -6,7 +6,7 @@
 
 use serde::Serialize;
 
-use super::{Plan, StageKind, memory_in_space_gb, memory_of_slices_gb};
+use super::{Plan, StageKind, is_finest_in_space, memory_in_space_gb, memory_of_slices_gb};
 use crate::contact::hertz;
 use crate::contact::settings::SurfaceKind;
 use crate::operation::Scene;
@@ -31,16 +31,16 @@ const SEVERE: f64 = 4.0;
 const ERROR_ESTIMATES: f64 = 0.7;
 /// Tolerance of the steps of a verification, mm.
 const VERIFIED_TOLERANCE_MM: f64 = 5e-5;
-/// Positions of a verification over those of the run, in slices.
-const VERIFIED_POSITIONS: f64 = 1.0;
+/// Contacts of a verification over those of the run, in slices: of a run on the finest model, on half as many slices, and of others.
+const VERIFIED_CONTACTS: [f64; 2] = [0.5, 1.0];
 /// Flank points in a contact that the times of a position are measured with, and the power with which these grow.
 const POINTS: (f64, f64) = (20.0, 0.6);
 /// Plane finite elements of a pair: time of a model, s, and of a position of the mesh cycle, s; memory, GB.
 const PLANE_ELEMENTS: (f64, f64, f64) = (0.12, 70e-6, 0.1);
 /// Positions of the mesh cycle of a verification on plane finite elements.
 const PLANE_POSITIONS: f64 = 200.0;
-/// Time of three-dimensional finite elements for each slice, s.
-const IN_SPACE_S: f64 = 0.08;
+/// Time of three-dimensional finite elements over the square of the number of elements over the face width, s.
+const IN_SPACE_S: f64 = 0.0042;
 /// Memory of a program that has begun, GB.
 const PROGRAM_GB: f64 = 0.01;
 
@@ -142,12 +142,14 @@ impl Work {
         let (model_s, position_s, _) = PLANE_ELEMENTS;
         match kind {
             StageKind::FiniteElementModel | StageKind::FiniteElementCalibration => model_s,
-            StageKind::TeethInSpace => IN_SPACE_S * self.slices.unwrap_or(1.0),
+            StageKind::TeethInSpace => IN_SPACE_S * (super::layers_in_space(scene) as f64).powi(2),
             StageKind::StepBound => self.wear_run(scene.contact.surface, self.positions, PREPARATION_CYCLES),
             StageKind::Simulation => self.wear_run(scene.contact.surface, self.positions, cycles),
             StageKind::ErrorEstimates => ERROR_ESTIMATES * self.seconds(StageKind::Simulation, scene),
             StageKind::Verification if self.slices.is_some() => {
-                self.wear_run(SurfaceKind::HalfSpace, VERIFIED_POSITIONS * self.positions, self.verified_cycles)
+                let [of_finest, of_others] = VERIFIED_CONTACTS;
+                let contacts = if is_finest_in_space(scene) { of_finest } else { of_others };
+                self.wear_run(SurfaceKind::HalfSpace, contacts * self.positions, self.verified_cycles)
             }
             StageKind::Verification => position_s * PLANE_POSITIONS * self.verified_cycles + model_s,
             _ => 0.0,

@@ -321,6 +321,12 @@ fn loads(scene: &Scene) -> f64 {
     phases.iter().enumerate().filter(is_first).count() as f64
 }
 
+/// Elements over the face width of the three-dimensional finite elements of `scene`.
+fn layers_in_space(scene: &Scene) -> usize {
+    let count = scene.slices.map_or(1, |slices| slices.count);
+    SpaceResolution::of_slices(count).layers(&scene.pair, &scene.fem.in_space())
+}
+
 /// Memory of the three-dimensional finite elements of `scene`, GB: their sectors, and for each of its loads the matrices that couple its slices.
 fn memory_in_space_gb(scene: &Scene) -> f64 {
     let loads = loads(scene);

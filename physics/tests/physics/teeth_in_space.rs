@@ -141,6 +141,26 @@ fn ver_webs_over_the_face_width() {
     assert!(own(&before, 2.5) < 0.95 * own(&before, 11.5));
 }
 
+/// Displacements even and odd under half a turn of the tooth add up to all: on a web in the middle, and on one so little beside it that there is no
+/// such symmetry, and all are condensed together.
+#[test]
+fn ver_even_and_odd_displacements_are_all() {
+    let pair = GearPair::new(&fzg_c()).unwrap();
+    let [symmetric, whole] = [0.0, 1e-4].map(|offset_mm| pinion_on_a_web(&pair, 15.0, [4.0, offset_mm], 2));
+    let places = [(34.9, 1.3), (36.6, 7.0), (40.2, 11.8)];
+    for pitches in [-1, 0, 1] {
+        for of in places {
+            for under in places {
+                let [found, expected] = [&symmetric, &whole].map(|teeth| {
+                    let [of, under] = [of, under].map(|(radius_mm, z_mm)| teeth.load([(radius_mm, z_mm, 1.0)]));
+                    teeth.mm_per_n(&of, &under, pitches)
+                });
+                assert_close(&format!("{of:?} under {under:?}, {pitches}"), found, expected, 2e-4);
+            }
+        }
+    }
+}
+
 #[test]
 fn sections_are_well_shaped_on_all_presets() {
     for name in ["fzg-c", "fzg-a", "helical", "h501", "thesis-spur"] {

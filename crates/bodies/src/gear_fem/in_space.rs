@@ -2,7 +2,8 @@
 //!
 //! One pitch of the gear over its whole face width is condensed onto the nodes of its working flank, each with the force of
 //! frictionless contact as its one degree of freedom, and onto its cuts; sectors are joined to the ring as in two dimensions
-//! (`gear_fem::ring`). With r the nodal forces of a total load of 1 N along a segment of a line of contact,
+//! (`gear_fem::ring`). Displacements that are even and odd under half a turn of the tooth are condensed one after the other (`gear_fem::half_turn`). With
+//! r the nodal forces of a total load of 1 N along a segment of a line of contact,
 //!
 //! ```text
 //! u_a = r_aᵀ C_pq r_b · F_b
@@ -18,9 +19,10 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use faer::Mat;
+use faer::{Mat, Scale};
 use nalgebra::{Rotation2, Vector2, Vector3, Vector6};
 
+use super::half_turn::Part;
 use super::ring::{JoinedSectors, Surroundings, ToothForce};
 use super::sector::{Sector, SectorMatrices};
 use crate::gear::tooth::Tooth;
@@ -33,7 +35,7 @@ use gearwear_fem::factor::{Factor, FactorError, SymbolicFactor};
 use gearwear_fem::node_matrix::NodeMatrix;
 use gearwear_fem::shape::{Shape, along_edge};
 use gearwear_fem::solid::{Element, ElementKind, Solid};
-use gearwear_fem::space::{FoldedHexahedron, Hexahedron, nodal_stresses_mpa, stiffness};
+use gearwear_fem::space::{FoldedHexahedron, Hexahedron, nodal_stresses_mpa, stiffness_of};
 
 /// Reason why the three-dimensional teeth of a gear cannot be condensed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -156,19 +158,19 @@ fn joined(
 impl TeethInSpace {
     /// Condenses the teeth of a gear, of which `teeth` may be loaded together.
     pub fn new(tooth: &Tooth, mesh: ExtrudedTooth, material: Elastic, teeth: usize) -> Result<Self, SpaceError> {
-        let matrices = SectorInSpace::new(tooth, &mesh, material, false)?.matrices;
+        let matrices = SectorInSpace::matrices(tooth, &mesh, material, false)?;
         Self::joined(mesh, &matrices, teeth, ring(tooth.teeth, teeth))
     }
 
     /// Condenses one tooth in plane strain: without axial displacement of the end faces.
     pub fn in_plane_strain(tooth: &Tooth, mesh: ExtrudedTooth, material: Elastic) -> Result<Self, SpaceError> {
-        let matrices = SectorInSpace::new(tooth, &mesh, material, true)?.matrices;
+        let matrices = SectorInSpace::matrices(tooth, &mesh, material, true)?;
         Self::joined(mesh, &matrices, 1, ring(tooth.teeth, 1))
     }
 
     /// Condenses two neighbouring teeth with `beside` more on either side, the outer cuts held.
     pub fn in_a_row(tooth: &Tooth, mesh: ExtrudedTooth, material: Elastic, beside: usize) -> Result<Self, SpaceError> {
-        let matrices = SectorInSpace::new(tooth, &mesh, material, false)?.matrices;
+        let matrices = SectorInSpace::matrices(tooth, &mesh, material, false)?;
         Self::joined(mesh, &matrices, 2, Surroundings::ClampedSector { coarse: beside })
     }
 
@@ -230,11 +232,13 @@ impl TeethInSpace {
             let of_tooth = &mut forces[(pitches - first) as usize];
             of_tooth.extend(parts.iter().map(|(node, part)| (*node as usize, load_n * part)));
         }
-        let sector = SectorInSpace::new(tooth, &self.mesh, material, false)?;
+        let sector = SectorInSpace::new(tooth, &self.mesh, material, false);
+        let mut parts = Vec::new();
+        let matrices = sector.condensed(|part| parts.push(part))?;
         let shown = -first as usize;
-        let joined = joined(&sector.matrices, teeth, ring(tooth.teeth, teeth), shown)?;
-        let cuts_mm = joined.cut_displacement_mm(&sector.matrices, shown, &forces);
-        let displacement_mm = sector.displacement_mm(&forces[shown], &cuts_mm);
+        let joined = joined(&matrices, teeth, ring(tooth.teeth, teeth), shown)?;
+        let cuts_mm = joined.cut_displacement_mm(&matrices, shown, &forces);
+        let displacement_mm = sector.displacement_mm(&parts, &forces[shown], &cuts_mm);
         let stress_mpa = nodal_stresses_mpa(&self.mesh.points_mm, elements(&self.mesh, &material), &displacement_mm)?;
         let displacement_mm = displacement_mm.chunks_exact(3).map(|u| Vector3::new(u[0], u[1], u[2])).collect();
         Ok(DeformedTooth { displacement_mm, stress_mpa })
@@ -251,14 +255,29 @@ impl TeethInSpace {
     }
 }
 
-/// One sector of a gear, factorised with its cuts held, and condensed onto the loads on its working flank and onto its cuts.
-struct SectorInSpace {
-    factor: Factor,
-    /// Forces by degree of freedom: of a load of 1 N at each node of the flank, then K_ib, the forces on inner nodes per displacement of the
-    /// cuts.
-    columns: Vec<Vec<(u32, f64)>>,
+/// One sector of a gear with the loads on its working flank and the displacements of its cuts.
+struct SectorInSpace<'a> {
+    mesh: &'a ExtrudedTooth,
+    material: Elastic,
+    /// Whether the end faces have no axial displacement.
+    plane_strain: bool,
+    /// Forces of a load of 1 N at each node of the flank.
+    loads: Vec<Vec<(u32, f64)>>,
     cuts: CutDisplacements,
-    matrices: SectorMatrices,
+    /// Whether each node is clamped.
+    clamped: Vec<bool>,
+}
+
+/// Displacements of a sector of one parity, factorised with its cuts held.
+struct CondensedPart {
+    part: Part,
+    factor: Factor,
+    /// Forces by degree of freedom: of the loads, then K_ib, the forces on inner nodes per displacement of the cuts.
+    columns: Vec<Vec<(u32, f64)>>,
+    /// Displacements of the cuts that represent all.
+    cuts: CutDisplacements,
+    /// Those by which each displacement of the sector's cuts is known, and its sign there.
+    of_cuts: Vec<(usize, f64)>,
 }
 
 /// Unit displacements of the cuts: radial, circumferential and axial at each of their nodes.
@@ -314,27 +333,90 @@ impl CutDisplacements {
     }
 }
 
-impl SectorInSpace {
-    /// Condenses a sector with free end faces or, in plane strain, without axial displacement of these.
-    fn new(tooth: &Tooth, mesh: &ExtrudedTooth, material: Elastic, plane_strain: bool) -> Result<Self, SpaceError> {
-        let matrix = stiffness(&mesh.points_mm, || elements(mesh, &material))?;
-        let mut held = vec![false; mesh.points_mm.len()];
-        let clamp = mesh.over(&mesh.section.clamp);
-        clamp.iter().for_each(|node| held[*node as usize] = true);
-        let cut_nodes: Vec<u32> =
-            mesh.section.cuts.iter().flat_map(|cut| free_of(&mesh.over(cut), |node| held[*node as usize])).collect();
+impl<'a> SectorInSpace<'a> {
+    /// Sector with free end faces or, in plane strain, without axial displacement of these.
+    fn new(tooth: &Tooth, mesh: &'a ExtrudedTooth, material: Elastic, plane_strain: bool) -> Self {
+        let mut clamped = vec![false; mesh.points_mm.len()];
+        mesh.over(&mesh.section.clamp).iter().for_each(|node| clamped[*node as usize] = true);
+        let of_cuts = mesh.section.cuts.iter().flat_map(|cut| free_of(&mesh.over(cut), |node| clamped[*node as usize]));
+        let stays = |node: u32| plane_strain && is_on_end_face(mesh, node);
+        let cuts = CutDisplacements::new(mesh, of_cuts.collect(), |node| !stays(node));
+        Self { loads: flank_forces(tooth, mesh), mesh, material, plane_strain, cuts, clamped }
+    }
+
+    /// Matrices of a sector.
+    fn matrices(
+        tooth: &Tooth,
+        mesh: &ExtrudedTooth,
+        material: Elastic,
+        plane_strain: bool,
+    ) -> Result<SectorMatrices, SpaceError> {
+        SectorInSpace::new(tooth, mesh, material, plane_strain).condensed(drop)
+    }
+
+    /// Condenses the sector part by part, and gives each part to `take` before the next one is begun.
+    fn condensed(&self, mut take: impl FnMut(CondensedPart)) -> Result<SectorMatrices, SpaceError> {
+        let (loads, units) = (self.loads.len(), self.cuts.units.len());
+        let mut matrices = SectorMatrices {
+            compliance: Mat::zeros(loads, loads),
+            carried: Mat::zeros(loads, units),
+            cut_stiffness: Mat::zeros(units, units),
+        };
+        for part in Part::of(self.mesh) {
+            let share = part.share();
+            let (condensed, own) = CondensedPart::new(self, part)?;
+            matrices.compliance += Scale(share) * own.compliance;
+            for (j, (q, of_column)) in condensed.of_cuts.iter().enumerate() {
+                for i in 0..loads {
+                    matrices.carried[(i, j)] += share * of_column * own.carried[(i, *q)];
+                }
+                for (i, (p, of_row)) in condensed.of_cuts.iter().enumerate() {
+                    matrices.cut_stiffness[(i, j)] += share * of_row * of_column * own.cut_stiffness[(*p, *q)];
+                }
+            }
+            take(condensed);
+        }
+        Ok(matrices)
+    }
+
+    /// Displacement of every degree of freedom under loads on the flank and displacements of the cuts, mm.
+    fn displacement_mm(&self, parts: &[CondensedPart], loads: &[(usize, f64)], cuts_mm: &[f64]) -> Vec<f64> {
+        let mut displacement_mm = vec![0.0; 3 * self.mesh.points_mm.len()];
+        for condensed in parts {
+            let of_part = condensed.displacement_mm(self.loads.len(), loads, cuts_mm);
+            condensed.part.add_unfolded(&of_part, &mut displacement_mm);
+        }
+        displacement_mm
+    }
+}
+
+impl CondensedPart {
+    /// Condenses a part of the displacements of `sector`.
+    fn new(sector: &SectorInSpace<'_>, part: Part) -> Result<(Self, SectorMatrices), SpaceError> {
+        let SectorInSpace { mesh, material, plane_strain, .. } = sector;
+        let of_part = || part.elements.iter().map(|element| &mesh.hexahedra[*element]);
+        let hexahedra = || of_part().map(|nodes| Hexahedron { nodes, material });
+        let matrix = stiffness_of(&mesh.points_mm, hexahedra, |node| part.representative(node))?;
+        let cut_nodes = free_of(&sector.cuts.nodes, |node| !part.represents_itself(*node));
+        let mut held = sector.clamped.clone();
         cut_nodes.iter().for_each(|node| held[*node as usize] = true);
-        let ends = [0, mesh.z_mm.len() - 1].map(|k| mesh.z_mm[k]);
-        let stays = |node: usize| plane_strain && ends.contains(&mesh.points_mm[node].z);
-        let mut columns = flank_forces(tooth, mesh);
+        let stays = |node: u32| *plane_strain && is_on_end_face(mesh, node);
+        let cuts = CutDisplacements::new(mesh, cut_nodes, |node| !stays(node));
+        let of_cuts = sector.cuts.nodes.iter().flat_map(|node| {
+            let represented = cuts.of_node[&part.representative(*node).node].clone();
+            represented.enumerate().map(|(k, unit)| (unit, part.sign_on_cut(*node, k)))
+        });
+        let of_cuts: Vec<(usize, f64)> = of_cuts.collect();
+        let mut columns: Vec<Vec<(u32, f64)>> = sector.loads.iter().map(|forces| part.folded(forces)).collect();
         let loads = columns.len();
-        let cuts = CutDisplacements::new(mesh, cut_nodes, |node| !stays(node as usize));
-        let (own, of_cuts) = cuts.stiffness(&matrix, &held);
-        columns.extend(of_cuts);
-        let order = dissected(&mesh.points_mm, &mesh.hexahedra, |node| held[node as usize]);
-        let is_held = |dof: usize| held[dof / 3] || dof % 3 == 2 && stays(dof / 3);
+        let (own, per_displacement) = cuts.stiffness(&matrix, &held);
+        columns.extend(per_displacement);
+        let elements: Vec<[u32; 20]> =
+            of_part().map(|nodes| nodes.map(|node| part.representative(node).node)).collect();
+        let order = dissected(&mesh.points_mm, &elements, |node| held[node as usize]);
+        let is_held =
+            |dof: usize| held[dof / 3] || !part.is_independent(dof) || dof % 3 == 2 && stays((dof / 3) as u32);
         let symbolic = SymbolicFactor::in_order(&matrix, is_held, &order)?;
-        {}
         // The factor is as large as all else together.
         drop(matrix);
         let factor = symbolic.factorised()?;
@@ -347,23 +429,32 @@ impl SectorInSpace {
                 0.5 * (own[(i, j)] + own[(j, i)]) - all[(loads + i, loads + j)]
             }),
         };
-        Ok(Self { factor, columns, cuts, matrices })
+        Ok((Self { part, factor, columns, cuts, of_cuts }, matrices))
     }
 
-    /// Displacement of every degree of freedom under loads on the flank and displacements of the cuts, mm.
-    fn displacement_mm(&self, loads: &[(usize, f64)], cuts_mm: &[f64]) -> Vec<f64> {
+    /// Displacement of the nodes that represent all under loads on the flank and displacements of the cuts, mm.
+    fn displacement_mm(&self, of_loads: usize, loads: &[(usize, f64)], cuts_mm: &[f64]) -> Vec<f64> {
+        let share = self.part.share();
+        let mut units_mm = vec![0.0; self.cuts.units.len()];
+        self.of_cuts.iter().zip(cuts_mm).for_each(|((unit, sign), mm)| units_mm[*unit] += share * sign * mm);
         let mut u = vec![0.0; self.factor.dofs()];
-        let of_loads = self.columns.len() - self.cuts.units.len();
-        let of_cuts = cuts_mm.iter().enumerate().map(|(k, cut)| (of_loads + k, -cut));
-        for (column, part) in loads.iter().copied().chain(of_cuts) {
+        let of_loads_themselves = loads.iter().map(|(load, force)| (*load, share * force));
+        let of_units = units_mm.iter().enumerate().map(|(k, mm)| (of_loads + k, -mm));
+        for (column, part) in of_loads_themselves.chain(of_units) {
             self.columns[column].iter().for_each(|(dof, force)| u[*dof as usize] += part * force);
         }
         self.factor.solve(1, &mut u);
-        for ((node, direction), cut) in self.cuts.units.iter().zip(cuts_mm) {
-            (0..3).for_each(|k| u[3 * *node as usize + k] += cut * direction[k]);
+        for ((node, direction), mm) in self.cuts.units.iter().zip(&units_mm) {
+            (0..3).for_each(|k| u[3 * *node as usize + k] += mm * direction[k]);
         }
         u
     }
+}
+
+/// Whether a node lies on an end face.
+fn is_on_end_face(mesh: &ExtrudedTooth, node: u32) -> bool {
+    let z_mm = mesh.points_mm[node as usize].z;
+    z_mm == mesh.z_mm[0] || z_mm == mesh.z_mm[mesh.z_mm.len() - 1]
 }
 
 /// Elements of a sector.

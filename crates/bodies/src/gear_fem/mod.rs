@@ -7,6 +7,7 @@ mod facing_teeth;
 pub mod flank_nodes;
 pub mod flank_surface;
 pub mod full;
+mod half_turn;
 pub mod in_space;
 pub mod load_transfer;
 pub mod model;

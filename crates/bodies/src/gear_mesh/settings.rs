@@ -191,12 +191,16 @@ impl SpaceResolution {
     /// Memory for condensing the sectors of both gears of `pair`, GB: measured on the presets `helical` and `h501`, quadratic in the number of nodes on
     /// flank and cuts.
     pub fn memory_gb(&self, pair: &PairSpec, bodies: &PerGear<SpaceBody>) -> f64 {
-        let layers = (self.layer_ends_mm(pair, bodies).len() - 1) as f64;
-        0.05 + 0.0006 * layers * layers
+        0.03 + 0.00043 * (self.layers(pair, bodies) as f64).powi(2)
+    }
+
+    /// Number of elements over the face width of `pair`.
+    pub fn layers(&self, pair: &PairSpec, bodies: &PerGear<SpaceBody>) -> usize {
+        self.layer_ends_mm(pair, bodies).len() - 1
     }
 
     /// Ends of elements over the face width of `pair`, from z = 0 on. Elements at both end faces, near which the compliance changes over less than
-    /// a module, and those that a face of a web cuts are divided.
+    /// a module, the next ones if they hold several slices, and those that a face of a web cuts are divided.
     pub fn layer_ends_mm(&self, pair: &PairSpec, bodies: &PerGear<SpaceBody>) -> Vec<f64> {
         let even = self.even_layers(pair);
         let mut places: Vec<f64> = (0..=even).map(|k| k as f64).collect();
@@ -204,8 +208,12 @@ impl SpaceResolution {
             // A layer of several slices is divided between two of them.
             let in_layer = slices / even;
             let first = if in_layer > 1 { (in_layer / 2) as f64 / in_layer as f64 } else { 0.5 };
-            places.insert(1, first);
-            places.insert(even + 1, even as f64 - first);
+            let divided = if in_layer > 1 && even >= 2 * DIVIDED_LAYERS { DIVIDED_LAYERS } else { 1 };
+            for layer in 0..divided {
+                places.push(layer as f64 + first);
+                places.push((even - layer) as f64 - first);
+            }
+            places.sort_by(f64::total_cmp);
         }
         let mut ends: Vec<f64> = places.into_iter().map(|place| pair.face_width_mm * place / even as f64).collect();
         let webs = [bodies.pinion.web, bodies.wheel.web].into_iter().flatten();
@@ -221,13 +229,13 @@ impl SpaceResolution {
     ///
     /// Each has the same number of slices, or each slice the same number of elements: the work of a slice's load on an element depends on its
     /// place in the element, and would otherwise differ from slice to slice. Two slices in an element are resolved, and an element may
-    /// be a quarter longer.
+    /// be two thirds longer, for those near the end faces are divided.
     pub fn even_layers(&self, pair: &PairSpec) -> usize {
         let [least, most] = self.layers;
         let wanted = (pair.face_width_mm / (self.layer_modules * pair.normal_module_mm)).ceil() as usize;
         let wanted = wanted.clamp(least, most);
         let Some(slices) = self.slices else { return wanted };
-        let ideal = (0.8 * wanted as f64).max(0.5 * slices as f64).min(most as f64);
+        let ideal = (BETWEEN_SLICES * wanted as f64).max(0.5 * slices as f64).min(most as f64);
         let aligned = (least..=most).filter(|layers| slices % layers == 0 || layers % slices == 0);
         let nearest = aligned
             .map(|layers| (layers, (layers as f64 / ideal).ln().abs()))
@@ -237,8 +245,14 @@ impl SpaceResolution {
     }
 }
 
+/// Layers of several slices at either end face that are divided.
+const DIVIDED_LAYERS: usize = 2;
+
+/// Part of the usual number of layers that is enough between slices.
+const BETWEEN_SLICES: f64 = 0.6;
+
 /// Least distance of two ends of elements, in face widths.
-const SAME_PLACE: f64 = 1e-6;
+pub(super) const SAME_PLACE: f64 = 1e-6;
 
 /// Greatest ratio, either way, of the number of elements aligned with slices to the wanted one.
 const MOST_OFF: f64 = 1.8;

@@ -20,7 +20,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use nalgebra::{Rotation2, Vector2, Vector3};
 
 use super::layer::add;
-use super::settings::{SectionDivisions, SpaceBody, SpaceResolution};
+use super::settings::{SAME_PLACE, SectionDivisions, SpaceBody, SpaceResolution};
 use crate::gear::half_profile::in_tooth_frame;
 use crate::gear::{Gear, GearPair, PerGear, tooth::Tooth};
 use gearwear_mesh::{CellBlock, CellKind, Mesh};
@@ -51,6 +51,8 @@ pub struct ToothSection {
     pub clamp: Vec<u32>,
     /// Radii of the first and the last node of the flank; nodes are evenly spaced in radius.
     pub flank_radius_mm: [f64; 2],
+    /// Node on the other side of the centre line, for each.
+    mirrored: Vec<u32>,
 }
 
 /// The section extruded along the helix as hexahedra of twenty nodes.
@@ -286,6 +288,11 @@ impl ToothSection {
         for j in 1..=grids.tooth_rows() {
             tooth_grid.push(add_row(&mut points_mm, 2 * across, j, |i, j| grids.in_tooth(i, j)));
         }
+        let mut mirrored = vec![0; points_mm.len()];
+        for row in body_grid.iter().chain(&tooth_grid) {
+            let of_row = row.iter().zip(row.iter().rev()).filter(|(node, _)| **node != u32::MAX);
+            of_row.for_each(|(node, other)| mirrored[*node as usize] = *other);
+        }
         let mut quads_of_both = quads(&tooth_grid, true);
         quads_of_both.extend(quads(&body_grid, false));
         Self {
@@ -296,6 +303,7 @@ impl ToothSection {
             quads: quads_of_both,
             points_mm,
             flank_radius_mm: [tooth.root_form_radius_mm, tooth.tip_radius_mm],
+            mirrored,
         }
     }
 
@@ -420,5 +428,26 @@ impl ExtrudedTooth {
     /// The node over a node of the section at an end (even) or a middle of a layer, where there is one.
     pub fn node(&self, section_node: u32, place: usize) -> Option<u32> {
         self.nodes[place][section_node as usize]
+    }
+
+    /// Node onto which each goes by half a turn about the centre line of the tooth in the middle of the face width; none where layers or web are not
+    /// the same on both sides of it.
+    pub(crate) fn half_turned(&self) -> Option<Vec<u32>> {
+        let last = self.z_mm.len() - 1;
+        let off_mm = |k: usize| (self.z_mm[k] + self.z_mm[last - k] - self.z_mm[last]).abs();
+        if (0..=last).any(|k| off_mm(k) > SAME_PLACE * self.z_mm[last]) {
+            return None;
+        }
+        let mut turned = vec![0; self.points_mm.len()];
+        for (nodes, opposite) in self.nodes.iter().zip(self.nodes.iter().rev()) {
+            for (node, mirrored) in nodes.iter().zip(&self.section.mirrored) {
+                match (node, opposite[*mirrored as usize]) {
+                    (Some(node), Some(other)) => turned[*node as usize] = other,
+                    (None, None) => {}
+                    _ => return None,
+                }
+            }
+        }
+        Some(turned)
     }
 }

@@ -64,12 +64,40 @@ impl Hexahedron<'_> {
     }
 }
 
+/// Node whose displacement another one has, but for the signs of the components.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Representative {
+    /// Node.
+    pub node: u32,
+    /// 1 or −1 for each component; 0 for one that vanishes.
+    pub signs: [f64; PER_NODE],
+}
+
+impl Representative {
+    /// A node that stands for itself.
+    pub fn itself(node: u32) -> Self {
+        Self { node, signs: [1.0; PER_NODE] }
+    }
+}
+
 /// Assembled stiffness of `elements`, N/mm.
 pub fn stiffness<'a, E: Iterator<Item = Hexahedron<'a>>>(
     points_mm: &[Vector3<f64>],
     elements: impl Fn() -> E,
 ) -> Result<NodeMatrix, FoldedHexahedron> {
-    let mut matrix = NodeMatrix::new(PER_NODE, points_mm.len(), || elements().map(|element| element.nodes));
+    stiffness_of(points_mm, elements, Representative::itself)
+}
+
+/// Assembled stiffness of `elements` by the displacements of the nodes that represent all, N/mm; zero at others.
+pub fn stiffness_of<'a, E: Iterator<Item = Hexahedron<'a>>>(
+    points_mm: &[Vector3<f64>],
+    elements: impl Fn() -> E,
+    representative: impl Fn(u32) -> Representative,
+) -> Result<NodeMatrix, FoldedHexahedron> {
+    let coupled: Vec<Vec<u32>> =
+        elements().map(|element| element.nodes.iter().map(|node| representative(*node).node).collect()).collect();
+    let mut matrix = NodeMatrix::new(PER_NODE, points_mm.len(), || coupled.iter().map(Vec::as_slice));
+    drop(coupled);
     let mut entries = Box::new(SMatrix::<f64, MOST_DOFS, MOST_DOFS>::zeros());
     let mut room = [Vector3::zeros(); MOST_NODES];
     for (number, element) in elements().enumerate() {
@@ -80,13 +108,15 @@ pub fn stiffness<'a, E: Iterator<Item = Hexahedron<'a>>>(
             HexahedronKind::Twenty => quadratic::stiffness_n_per_mm(nodes_mm, element.material, &mut entries),
         }
         .map_err(|folded| folded.of(number))?;
-        for (a, i) in element.nodes.iter().enumerate() {
-            for (b, j) in element.nodes.iter().enumerate() {
-                if i >= j {
+        let (mut of, count) = ([Representative::itself(0); MOST_NODES], element.nodes.len());
+        of.iter_mut().zip(element.nodes).for_each(|(of, node)| *of = representative(*node));
+        for (a, row) in of[..count].iter().enumerate() {
+            for (b, column) in of[..count].iter().enumerate() {
+                if row.node >= column.node {
                     // Symmetric but for rounding: always the lower half is used.
-                    let block = [0, 1, 2]
-                        .map(|r| [0, 1, 2].map(|c| entries[((3 * a + r).max(3 * b + c), (3 * a + r).min(3 * b + c))]));
-                    matrix.add(*i, *j, block);
+                    let entry = |r: usize, c: usize| entries[((3 * a + r).max(3 * b + c), (3 * a + r).min(3 * b + c))];
+                    let block = [0, 1, 2].map(|r| [0, 1, 2].map(|c| row.signs[r] * column.signs[c] * entry(r, c)));
+                    matrix.add(row.node, column.node, block);
                 }
             }
         }
