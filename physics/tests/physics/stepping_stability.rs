@@ -210,7 +210,7 @@ fn ver_adaptive_steps_bear_any_transition() {
 /// spectral radius take a small part of the evaluations, and the wear is that of steps with a fifth of the tolerance.
 #[test]
 fn ver_severe_wear_takes_few_evaluations() {
-    for (band, most) in [(0.05, 700), (SevereTransition::LEAST_BAND, 900)] {
+    for (band, most) in [(0.05, 800), (SevereTransition::LEAST_BAND, 1500)] {
         let severe = Some(SevereTransition { above_mpa: 2000.0, factor: 100.0, band_mpa: band * 2000.0 });
         let scene = Scene { severe, torque_n_mm: 372.6e3, ..coarse("half-space") };
         let [outcome, fine] =

@@ -373,7 +373,6 @@ mod tests {
         }
         let counts = integrator.counts();
         assert!((state[1] - (duration - 1.0)).abs() < 2.0 * tolerance, "{state:?}");
-        println!("{counts:?}");
         assert!(counts.stages + counts.probes < 500, "{counts:?}");
     }
 }
