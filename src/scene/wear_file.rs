@@ -218,8 +218,8 @@ pub struct SevereFile {
     /// Factor on the wear coefficient there, > 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub factor: f64,
-    /// Range of pressure around above_MPa over which the factor rises in MPa, 0 or more; 0: at once, as in the thesis. Default: 5 % of
-    /// above_MPa.
+    /// Range of pressure around above_MPa over which the factor rises in MPa, 0 or more; 0: at once, as in the thesis, though adaptive steps follow no
+    /// less than 2 % of above_MPa. Default: 5 % of above_MPa.
     #[schemars(range(min = 0))]
     pub band_MPa: Option<f64>,
 }

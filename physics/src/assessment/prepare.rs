@@ -22,6 +22,7 @@ use crate::simulation::wear_run::RunPhase;
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
 use crate::thermal::ContactHeat;
+use crate::wear::settings::WearOfPair;
 use crate::wear::{self, Laws, WearModel};
 use gearwear_bodies::gear::GearPair;
 use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
@@ -114,7 +115,8 @@ pub(super) fn conditions<'a>(scene: &'a Scene, pair: &'a GearPair) -> Vec<Condit
     phases
         .map(|phase| {
             let heat = temperature::in_phase(scene, pair, phase);
-            (wear::of_both(&scene.wear_in(phase)), heat, scene.running_in(pair, phase))
+            let wear = scene.wear_in(phase).with_severe(|own| Some(scene.numerics.stepping.followed(own)));
+            (wear::of_both(&wear), heat, scene.running_in(pair, phase))
         })
         .collect()
 }

@@ -1,5 +1,6 @@
 //! Settings of a wear run: operation and numerical resolution.
 
+use crate::wear::settings::SevereTransition;
 use gearwear_bodies::gear::{GearPair, PerGear, flank::PointSpacing};
 
 /// Wear steps of a run where nothing else is asked for.
@@ -168,6 +169,14 @@ impl Stepping {
         match *self {
             Stepping::Fixed { revolutions } => revolutions,
             Stepping::Adaptive { .. } => duration / STEPS,
+        }
+    }
+
+    /// A transition to severe wear as these steps follow it: Euler's method as it is, adaptive steps over a band at least.
+    pub(crate) fn followed(&self, transition: SevereTransition) -> SevereTransition {
+        match self {
+            Stepping::Fixed { .. } => transition,
+            Stepping::Adaptive { .. } => transition.continuous(),
         }
     }
 

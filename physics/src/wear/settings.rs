@@ -23,10 +23,17 @@ pub struct SevereTransition {
 impl SevereTransition {
     /// Band over its limit where a scene names none.
     pub const DEFAULT_BAND: f64 = 0.05;
+    /// Least band over its limit that adaptive steps follow.
+    pub const LEAST_BAND: f64 = 0.02;
 
     /// A transition at `part` of this one's limit, over a band as wide in MPa.
     pub fn with_limit(self, part: f64) -> Self {
         Self { above_mpa: part * self.above_mpa, ..self }
+    }
+
+    /// The transition as adaptive steps follow it: over a band of at least [`Self::LEAST_BAND`], within which the rate is continuous.
+    pub(crate) fn continuous(self) -> Self {
+        Self { band_mpa: self.band_mpa.max(Self::LEAST_BAND * self.above_mpa), ..self }
     }
 }
 
@@ -187,6 +194,7 @@ impl WearSettings {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simulation::settings::Stepping;
 
     /// A factor of 1 is no severe wear: neither the resolution nor the coefficient depends on it.
     #[test]
@@ -198,6 +206,17 @@ mod tests {
             assert_eq!(own.constant_coefficient_mm2_per_n().is_none(), is_severe, "{factor}");
             let both = PerGear { pinion: WearSettings::archard(1e-11), wheel: own };
             assert_eq!((both.may_be_severe(), both.are_alike()), (is_severe, !is_severe), "{factor}");
+        }
+    }
+
+    /// Adaptive steps follow an abrupt transition, or one over a narrow band, over 2 % of its limit; Euler's method follows it as it is.
+    #[test]
+    fn ver_adaptive_steps_follow_a_band() {
+        let (adaptive, euler) = (Stepping::Adaptive { tolerance_mm: 5e-5 }, Stepping::Fixed { revolutions: 1000.0 });
+        for (band_mpa, followed_mpa) in [(0.0, 40.0), (39.0, 40.0), (41.0, 41.0), (100.0, 100.0)] {
+            let own = SevereTransition { above_mpa: 2000.0, factor: 100.0, band_mpa };
+            assert_eq!(adaptive.followed(own), SevereTransition { band_mpa: followed_mpa, ..own });
+            assert_eq!(euler.followed(own), own);
         }
     }
 

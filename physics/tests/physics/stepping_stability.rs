@@ -8,6 +8,7 @@ use gearwear_physics::observer::Unwatched;
 use gearwear_physics::simulation::mesh_contact::MeshContact;
 use gearwear_physics::simulation::settings::{LifeLimits, Numerics, Stepping};
 use gearwear_physics::simulation::wear_run::{Outcome, RunPhase, WearRun};
+use gearwear_physics::wear::stepping::adaptive::StepCounts;
 use gearwear_physics::wear::{WearModel, settings::SevereTransition, settings::WearSettings};
 
 use super::common::{Scene, fzg_c, fzg_c_scene, pair, steel, zones};
@@ -211,5 +212,23 @@ fn ver_adaptive_steps_bear_any_transition() {
                 assert_sound(&what, &outcome);
             }
         }
+    }
+}
+
+/// The 128 h of the scene under load stage 10 with wear a hundred times as fast above 2000 MPa, over bands of 5 and 2 % of that: estimates of the
+/// spectral radius take a small part of the evaluations, and the wear is that of steps with a fifth of the tolerance.
+#[test]
+fn ver_severe_wear_takes_few_evaluations() {
+    for (band, most) in [(0.05, 800), (SevereTransition::LEAST_BAND, 1500)] {
+        let severe = Some(SevereTransition { above_mpa: 2000.0, factor: 100.0, band_mpa: band * 2000.0 });
+        let scene = Scene { severe, torque_n_mm: 372.6e3, ..coarse("half-space") };
+        let [outcome, fine] =
+            [0.05, 0.01].map(|tolerance_um| Scene { stepping: chebyshev(tolerance_um), ..scene.clone() }.run());
+        let StepCounts { stages, probes, .. } = outcome.steps;
+        let (error, gear, place) = difference_um(&outcome, &fine);
+        println!("band {band}: {:?}, {:?}: {error:.4} µm at {gear:?} {place}", outcome.steps, fine.steps);
+        assert_sound(&format!("band {band}"), &outcome);
+        assert!(stages + probes <= most && 5 * probes <= stages, "band {band}: {:?}", outcome.steps);
+        assert!(error <= 0.05, "band {band}: {error} µm at {gear:?} {place}");
     }
 }

@@ -100,9 +100,9 @@ fn run_with_transition(
     observer: &dyn Observer,
 ) -> Result<Outcome, SimulationError> {
     let scene = model.scene;
+    let followed = |own| Some(run.numerics.stepping.followed(transition(own)));
     let phases = scene.operation.phases.iter();
-    let laws: Vec<Laws> =
-        phases.map(|phase| wear::of_both(&scene.wear_in(phase).with_severe(|own| Some(transition(own))))).collect();
+    let laws: Vec<Laws> = phases.map(|phase| wear::of_both(&scene.wear_in(phase).with_severe(followed))).collect();
     let phases = model.phases.iter().zip(&laws);
     let phases: Vec<RunPhase<'_>> =
         phases.map(|(phase, laws)| RunPhase { wear: phase.wear.with_laws(laws), ..*phase }).collect();

@@ -71,6 +71,8 @@ pub struct Adaptive {
     control: StepControl,
     /// Accepted steps since the spectral radius was last estimated.
     age: u32,
+    /// Rejected steps since the last accepted one.
+    rejected_in_a_row: u32,
     /// Length run since the start.
     run: f64,
     counts: StepCounts,
@@ -97,6 +99,7 @@ impl Adaptive {
             radius: SpectralRadius::default(),
             control: StepControl::default(),
             age: 0,
+            rejected_in_a_row: 0,
             run: 0.0,
             counts: StepCounts::default(),
             accumulated: vec![0.0; places],
@@ -126,7 +129,8 @@ impl Adaptive {
 
     /// Forgets what was learned of the rate, which is another one from here on.
     pub(crate) fn start_anew(&mut self) {
-        (self.control, self.run, self.age) = (StepControl::default(), 0.0, 0);
+        (self.control, self.run) = (StepControl::default(), 0.0);
+        (self.age, self.rejected_in_a_row) = (0, 0);
         self.radius.reset();
         self.mean_rate.clear();
         self.jumps.clear();
@@ -157,9 +161,8 @@ impl Adaptive {
             match tried {
                 Ok(()) => {}
                 Err(failure) if rate.may_succeed_nearer(&failure) && !at_floor => {
-                    self.counts.rejected += 1;
+                    self.count_rejected();
                     self.control.set_next(SHORTER * length);
-                    self.renew_unless_fresh();
                     continue;
                 }
                 Err(failure) => return Err(failure),
@@ -168,13 +171,12 @@ impl Adaptive {
             let error = rate.size(&self.error) / allowed;
             let verdict = self.control.judge(length, error, length < planned);
             if verdict == StepVerdict::Rejected && !(at_floor && error.is_finite()) {
-                self.counts.rejected += 1;
-                self.renew_unless_fresh();
+                self.count_rejected();
                 continue;
             }
             self.counts.at_floor += u64::from(verdict == StepVerdict::Rejected);
             self.counts.accepted += 1;
-            self.age += 1;
+            (self.age, self.rejected_in_a_row) = (self.age + 1, 0);
             if self.age >= RENEWAL {
                 self.radius.reset();
             }
@@ -190,9 +192,12 @@ impl Adaptive {
         }
     }
 
-    /// After a rejected step: has the spectral radius estimated anew where it is that of an earlier state, which may be the reason.
-    fn renew_unless_fresh(&mut self) {
-        if self.age > 0 {
+    /// Counts a rejected step, and has the spectral radius estimated anew where it is that of an earlier state, which may be the reason. An estimate
+    /// that wandered is dear, and no better anew: a shorter step comes first.
+    fn count_rejected(&mut self) {
+        self.counts.rejected += 1;
+        self.rejected_in_a_row += 1;
+        if self.age > 0 && (!self.radius.wanders() || self.rejected_in_a_row > 1) {
             self.radius.reset();
         }
     }

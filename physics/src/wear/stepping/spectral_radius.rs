@@ -8,7 +8,8 @@
 //! where wear is. The vector found is kept, so that a renewal takes two or three.
 //!
 //! ε is no round-off but a depth that matters: waves lower than that may do what they like. So a rate that jumps (the hard
-//! switch to severe wear) has a finite radius, jump/ε, and steps are long enough to be worth their stages.
+//! switch to severe wear) has a finite radius, jump/ε, and steps are long enough to be worth their stages. Over such a depth severe wear is not
+//! linear, and the iteration may wander through all its evaluations: then the greatest of its values counts, and another estimate costs as much.
 //!
 //! Source: Sommeijer, Shampine and Verwer (1997), section 3; B. Lindberg (1974) for the factor of safety.
 
@@ -28,6 +29,8 @@ const SAFETY: f64 = 1.2;
 pub(crate) struct SpectralRadius {
     vector: Vec<f64>,
     value: Option<f64>,
+    /// Whether the last estimate did not settle.
+    wanders: bool,
 }
 
 fn norm(row: &[f64]) -> f64 {
@@ -43,6 +46,11 @@ impl SpectralRadius {
     /// Estimate without the factor of safety, which approaches the radius from below; 0 where there is none.
     pub(crate) fn found(&self) -> f64 {
         self.value.unwrap_or_default() / SAFETY
+    }
+
+    /// Whether the last estimate took all evaluations that it may, and did not settle.
+    pub(crate) fn wanders(&self) -> bool {
+        self.wanders
     }
 
     /// Drops the estimate; the vector is kept.
@@ -87,8 +95,8 @@ impl SpectralRadius {
             }
         }
         // Where it wanders, for a rate that is not linear over the probe, no smaller radius is safe.
-        let is_found = evaluations < MOST_ITERATIONS as u64;
-        self.value = Some(SAFETY * if is_found { radius } else { greatest_found });
+        self.wanders = evaluations == MOST_ITERATIONS as u64;
+        self.value = Some(SAFETY * if self.wanders { greatest_found } else { radius });
         Ok(evaluations)
     }
 }
@@ -130,6 +138,37 @@ mod tests {
         assert!((4.0..1.25 * 4.0).contains(&found), "{found} after {first}");
         let Ok(second) = radius.estimate(&mut Heat, (&state, &slope), 1e-3);
         assert!(second <= 3 && first <= 20, "{first}, {second}");
+    }
+
+    /// y₀' = 1 + 3 (y₁ − 1), y₁' = 1 − (y₀ − 1): the eigenvalues are imaginary, and the iteration turns for ever.
+    struct Wandering;
+
+    impl Rate for Wandering {
+        type Error = Infallible;
+
+        fn evaluate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Infallible> {
+            rate.copy_from_slice(&[1.0 + 3.0 * (state[1] - 1.0), 1.0 - (state[0] - 1.0)]);
+            Ok(())
+        }
+
+        fn may_succeed_nearer(&self, _: &Infallible) -> bool {
+            false
+        }
+    }
+
+    /// An estimate that does not settle says so, and is the greatest value found; one that settles says the other.
+    #[test]
+    fn ver_a_radius_that_wanders_is_the_greatest_found() {
+        let mut radius = SpectralRadius::default();
+        let Ok(evaluations) = radius.estimate(&mut Wandering, (&[1.0, 1.0], &[1.0, 1.0]), 1e-3);
+        assert_eq!((evaluations, radius.wanders()), (MOST_ITERATIONS as u64, true));
+        // |J v|/|v| swings about √3, between 1 and 3.
+        assert!((3.0_f64.sqrt()..=3.0).contains(&radius.found()), "{}", radius.found());
+        let state: Vec<f64> = (0..200).map(|i| (0.1 * f64::from(i)).sin() + 2.0).collect();
+        let mut slope = vec![0.0; 200];
+        let Ok(()) = Heat.evaluate(&state, &mut slope);
+        let Ok(_) = radius.estimate(&mut Heat, (&state, &slope), 1e-3);
+        assert!(!radius.wanders());
     }
 
     /// Nothing wears: no radius, and no endless loop.
