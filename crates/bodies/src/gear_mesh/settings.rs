@@ -200,7 +200,7 @@ impl SpaceResolution {
     }
 
     /// Ends of elements over the face width of `pair`, from z = 0 on. Elements at both end faces, near which the compliance changes over less than
-    /// a module, the next ones if they hold several slices, and those that a face of a web cuts are divided.
+    /// a module, and those that a face of a web cuts are divided.
     pub fn layer_ends_mm(&self, pair: &PairSpec, bodies: &PerGear<SpaceBody>) -> Vec<f64> {
         let even = self.even_layers(pair);
         let mut places: Vec<f64> = (0..=even).map(|k| k as f64).collect();
@@ -208,12 +208,8 @@ impl SpaceResolution {
             // A layer of several slices is divided between two of them.
             let in_layer = slices / even;
             let first = if in_layer > 1 { (in_layer / 2) as f64 / in_layer as f64 } else { 0.5 };
-            let divided = if in_layer > 1 && even >= 2 * DIVIDED_LAYERS { DIVIDED_LAYERS } else { 1 };
-            for layer in 0..divided {
-                places.push(layer as f64 + first);
-                places.push((even - layer) as f64 - first);
-            }
-            places.sort_by(f64::total_cmp);
+            places.insert(1, first);
+            places.insert(even + 1, even as f64 - first);
         }
         let mut ends: Vec<f64> = places.into_iter().map(|place| pair.face_width_mm * place / even as f64).collect();
         let webs = [bodies.pinion.web, bodies.wheel.web].into_iter().flatten();
@@ -229,7 +225,7 @@ impl SpaceResolution {
     ///
     /// Each has the same number of slices, or each slice the same number of elements: the work of a slice's load on an element depends on its
     /// place in the element, and would otherwise differ from slice to slice. Two slices in an element are resolved, and an element may
-    /// be two thirds longer, for those near the end faces are divided.
+    /// be two thirds longer, for those at the end faces are divided.
     pub fn even_layers(&self, pair: &PairSpec) -> usize {
         let [least, most] = self.layers;
         let wanted = (pair.face_width_mm / (self.layer_modules * pair.normal_module_mm)).ceil() as usize;
@@ -244,9 +240,6 @@ impl SpaceResolution {
         nearest.map_or(wanted, |(layers, _)| layers)
     }
 }
-
-/// Layers of several slices at either end face that are divided.
-const DIVIDED_LAYERS: usize = 2;
 
 /// Part of the usual number of layers that is enough between slices.
 const BETWEEN_SLICES: f64 = 0.6;
