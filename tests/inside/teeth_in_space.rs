@@ -265,12 +265,12 @@ fn assert_calibrated_slices(helix_deg: f64, width_mm: f64, torque_nm: f64) {
     let off = (square / count).sqrt() / mean;
     println!("{helix_deg}°: loads {off:.4}");
     assert!(off < 0.06, "{helix_deg}°: {off}");
-    // Elements end with slices, so that no slice carries more than its neighbours for where in an element it lies.
+    // Elements end with slices; of two slices in an element each carries 1 % more or less for where in it it lies, at the greatest angle.
     let (mut over_width, sum) = ([0.0; 20], there.values().sum::<f64>());
     there.iter().for_each(|((_, slice), load)| over_width[*slice] += load * 20.0 / sum);
     let uneven = over_width.windows(3).map(|of| (of[1] - 0.5 * (of[0] + of[2])).abs());
     let uneven = uneven.skip(2).take(14).fold(0.0, f64::max);
-    assert!(uneven < 0.02, "{helix_deg}°: {over_width:?}");
+    assert!(uneven < if wears { 0.02 } else { 0.025 }, "{helix_deg}°: {uneven} {over_width:?}");
     if wears {
         let root = |run: &RunRecord| {
             let wear = &run.summary.helical.as_ref().unwrap().wear;

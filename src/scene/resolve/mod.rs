@@ -176,9 +176,9 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let has_tooth_temperature = file.temperature.as_ref().is_some_and(|of| of.tooth.is_some());
     let materials = material::choose(&mut file.material, has_tooth_temperature, findings);
     let operation = operation::choose(&mut file.operation, findings);
-    let surface_by_default = file.contact.as_ref().is_none_or(|contact| contact.surface.is_none());
     let alike = pair.as_ref().is_none_or(|pair| pair.is_alike_over_width() && !slices::has_web(file.fem.as_ref()));
     let contact = settings::contact(&mut file.contact, file.stiffness.as_ref(), alike, findings);
+    let surface_by_default = file.contact.as_ref().is_none_or(|contact| contact.surface.is_none());
     let calibration_file = file.contact.as_ref().and_then(|contact| contact.calibration.clone());
     let surface = contact.map(|contact| contact.surface);
     let slices = pair.as_ref().and_then(|pair| slices::choose(&mut file, pair, surface, findings));

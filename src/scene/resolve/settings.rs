@@ -121,10 +121,8 @@ pub(super) fn stiffness(
         findings.unused("stiffness.model", "the finite elements of the surface \"fem\" bend their own teeth");
     }
     let model = match (surface, calibrated) {
-        // The key is not read: left out, it stays so.
-        (Some(SurfaceKind::Fem), _) => file.model.unwrap_or_default(),
-        (_, true) => *file.model.get_or_insert(StiffnessModel::Fem),
-        // The default differs where finite elements are not possible, and is not written into the file.
+        (_, true) if surface != Some(SurfaceKind::Fem) => *file.model.get_or_insert(StiffnessModel::Fem),
+        // The default differs where finite elements are not possible, and is not written into the file; nor is a key that is not read.
         _ => file.model.unwrap_or(StiffnessModel::Fem),
     };
     if coupling == Some(Coupling::Fem) && model != StiffnessModel::Fem {
