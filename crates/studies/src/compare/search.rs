@@ -203,10 +203,16 @@ impl<'a> CoefficientSearch<'a> {
                 let columns: Vec<&[f64]> = columns.map(Vec::as_slice).collect();
                 let found = waviness::find(&alone.residuals, &columns, &one.of.profile.places_mm(one.pair));
                 if !found.is_empty() {
-                    self.waves[index] = found.iter().map(|one| one.wave).collect();
+                    let waves = found.iter().map(|one| one.wave).collect();
                     let of_waves = found.into_iter().flat_map(|one| one.columns);
                     self.removals[index] = one.removal.clone().and(of_waves);
-                    alone = fit(self)?;
+                    let with_waves = fit(self)?;
+                    // Waves after which the profile no longer gives what is fitted are wear.
+                    if with_waves.stop == FitStop::Converged {
+                        (self.waves[index], alone) = (waves, with_waves);
+                    } else {
+                        self.removals[index] = one.removal.clone();
+                    }
                 }
             }
             if self.comparisons.len() == 1 {

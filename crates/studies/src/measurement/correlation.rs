@@ -4,10 +4,11 @@
 //! the variance σ² S_k. Either all S_k are 1, white noise, or long waves are stronger,
 //!
 //! ```text
-//! S_k = 1 + a/(1 + (k/k₀)²)
+//! S_k = 1 + a/(1 + (k/k₀)²)^p
 //! ```
 //!
-//! as of noise that decays exponentially along the flank beside white noise. Of each pair (a, k₀) on a grid the restricted likelihood is, with the
+//! beside white noise: with p = 1 as of noise whose correlation decays exponentially along the flank, with p = 3 as of what is smooth, which a simulation
+//! does not describe. Of each triple (a, k₀, p) on a grid the restricted likelihood is, with the
 //! columns X that were fitted,
 //!
 //! ```text
@@ -26,10 +27,13 @@ use nalgebra::{DMatrix, DVector};
 
 use super::fit::dot;
 
+/// Probability of white noise above which residuals are that.
+pub(super) const IS_WHITE: f64 = 0.5;
 /// Most points that are divided into cosines.
 const MOST_POINTS: usize = 512;
-/// a.
-const STRENGTHS: [f64; 9] = [0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0];
+/// p and a.
+const STRENGTHS: [(i32, [f64; 9]); 2] =
+    [(1, [0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1e3, 3e3]), (3, [1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8])];
 /// k₀.
 const CORNERS: [f64; 7] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 /// Length of a column, less what others have of it, below which it is one of them.
@@ -146,16 +150,19 @@ impl Cosines {
             return Vec::new();
         }
         let corners: Vec<f64> = CORNERS.into_iter().filter(|&corner| 2.0 * corner <= n as f64).collect();
-        let grid = corners.iter().flat_map(|&corner| STRENGTHS.map(|strength| (strength, corner)));
-        let of_each = (0.5 / (corners.len() * STRENGTHS.len()).max(1) as f64).ln();
-        let all = [(0.0, 1.0, 0.5f64.ln())].into_iter().chain(grid.map(|(a, corner)| (a, corner, of_each)));
+        let strengths = STRENGTHS.iter().flat_map(|(power, all)| all.map(|strength| (strength, *power)));
+        let grid: Vec<(f64, i32, f64)> =
+            strengths.flat_map(|(a, power)| corners.iter().map(move |&corner| (a, power, corner))).collect();
+        let of_each = (0.5 / grid.len().max(1) as f64).ln();
+        let all = [((0.0, 1, 1.0), 0.5f64.ln())].into_iter().chain(grid.into_iter().map(|one| (one, of_each)));
         // Products of columns and values, a row for each k.
         let pairs: Vec<(usize, usize)> = (0..=q).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
         let column = |i: usize| if i < q { &self.columns[i] } else { &self.values };
         let products: Vec<Vec<f64>> =
             pairs.iter().map(|&(i, j)| column(i).iter().zip(column(j)).map(|(a, b)| a * b).collect()).collect();
-        let fitted = all.filter_map(|(strength, corner, prior)| {
-            let shape: Vec<f64> = (0..n).map(|k| 1.0 + strength / (1.0 + (k as f64 / corner).powi(2))).collect();
+        let fitted = all.filter_map(|((strength, power, corner), prior)| {
+            let shape = (0..n).map(|k| 1.0 + strength / (1.0 + (k as f64 / corner).powi(2)).powi(power));
+            let shape: Vec<f64> = shape.collect();
             let inverse: Vec<f64> = shape.iter().map(|s| 1.0 / s).collect();
             let mut sums = DMatrix::zeros(q + 1, q + 1);
             for (&(i, j), product) in pairs.iter().zip(&products) {

@@ -37,13 +37,11 @@ use std::ops::Range;
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::correlation::{Cosines, FittedSpectrum, in_cosines, probabilities};
+use super::correlation::{Cosines, FittedSpectrum, IS_WHITE, in_cosines, probabilities};
 use super::fit::{dot, inverse_normal_matrix};
 
 /// Probability that the interval holds.
 pub const CONFIDENCE: f64 = 0.95;
-/// Probability of white noise above which residuals are that.
-const IS_WHITE: f64 = 0.5;
 /// Probability below which a spectrum is left out.
 const NEGLIGIBLE: f64 = 1e-4;
 /// Greatest number of degrees of freedom that is told from more.
@@ -131,9 +129,9 @@ pub fn uncertainty(jacobian: &[Vec<f64>], residuals: &[f64], parts: &[ProfilePar
     };
     let mut deviations = Vec::with_capacity(count);
     let mut half_widths = Vec::with_capacity(count);
-    for i in 0..count {
+    for (i, own) in moves.iter().enumerate() {
         let variances = sources(i, i);
-        let of_teeth = moves[i].iter().map(|of| of.len() as f64 - 1.0);
+        let of_teeth = own.iter().map(|of| of.len() as f64 - 1.0);
         let freedom: Vec<f64> = noise.iter().map(|of| of.freedom[i]).chain(of_teeth).collect();
         let deviation = variances.iter().sum::<f64>().sqrt();
         deviations.push(deviation);
@@ -219,13 +217,13 @@ impl PartNoise {
             of.variance * products.map(|((a, b), s)| a * b * s).sum::<f64>()
         };
         let mean = |i: usize, j: usize| likely.iter().map(|(p, of)| p * of_spectrum(of, i, j)).sum::<f64>();
-        let mut covariances: Vec<Vec<f64>> =
-            (0..influence.len()).map(|i| (0..influence.len()).map(|j| mean(i, j)).collect()).collect();
-        let mut freedom = Vec::with_capacity(influence.len());
+        // Of each parameter, √(v_i/⟨v_im⟩) and ν_i.
+        let (mut scales, mut freedom) = (Vec::with_capacity(influence.len()), Vec::with_capacity(influence.len()));
         let student = StudentsT::new(0.0, 1.0, cosines.freedom()).ok()?;
         for i in 0..influence.len() {
             let variances: Vec<(f64, f64)> = likely.iter().map(|&(p, of)| (p, of_spectrum(of, i, i))).collect();
             if variances.iter().any(|(_, variance)| *variance <= 0.0) {
+                scales.push(1.0);
                 freedom.push(white_freedom);
                 continue;
             }
@@ -238,13 +236,14 @@ impl PartNoise {
             let widest = variances.iter().map(|(_, v)| v.sqrt()).fold(0.0, f64::max);
             let half =
                 root(|half| outside(half) - (1.0 - CONFIDENCE), 0.0, widest * quantile(cosines.freedom())? * 2.0);
-            let by = middle / covariances[i][i];
-            (0..influence.len()).for_each(|j| {
-                covariances[i][j] *= by.sqrt();
-                covariances[j][i] *= by.sqrt();
-            });
+            scales.push((middle / mean(i, i)).sqrt());
             freedom.push(freedom_of(half / middle.sqrt())?);
         }
+        let covariances = scales.iter().enumerate().map(|(i, a)| {
+            let row = scales.iter().enumerate().map(|(j, b)| a * b * mean(i, j));
+            row.collect()
+        });
+        let covariances = covariances.collect();
         Some(Self { points, white_variance, influence_squares, covariances, freedom })
     }
 

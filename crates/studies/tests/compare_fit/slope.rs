@@ -6,7 +6,6 @@ use std::sync::LazyLock;
 
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_studies::compare::question::{CompareOptions, FitKind};
-use gearwear_studies::measurement::fit::FitStop;
 use gearwear_studies::measurement::form::Form;
 
 use super::laboratory::{Laboratory, Noise, POINTS, asked};
@@ -21,7 +20,6 @@ static LABORATORY: LazyLock<Laboratory> = LazyLock::new(|| {
         let both = format!("coefficient_m2_per_N = {pinion:e}\n");
         super::scene(pinion, 1.0)
             .replace(&both, &format!("{both}wheel.coefficient_m2_per_N = {wheel:e}\n"))
-            .replace("hours = 127.75", "hours = 63.875")
             .replace("positions = 100", "positions = 60")
     };
     Laboratory::new(&with([1e-17; 2]), &with(TRUE_K))
@@ -30,9 +28,9 @@ static LABORATORY: LazyLock<Laboratory> = LazyLock::new(|| {
 /// What waves there are.
 #[derive(Clone, Copy)]
 enum Waviness {
-    /// One of 0.5 µm and a length of 0.6 to 3 mm along the flank.
+    /// One of 0.5 µm and a length of 0.6 to 2 mm along the flank.
     AlongFlank,
-    /// One of 0.5 µm and a length of 1 to 4 mm of roll length.
+    /// One of 0.5 µm and a length of 1 to 3 mm of roll length.
     InRollLength,
 }
 
@@ -43,8 +41,8 @@ fn heights(of: &Laboratory, gear: Gear, noise: &mut Noise, waviness: Waviness) -
     let roll_mm: Vec<f64> = trace.arc_mm.iter().map(|arc| (2.0 * of.base_radius_mm(gear) * arc).sqrt()).collect();
     let (offset, phase) = (5.0 * noise.normal(), TAU * noise.uniform());
     let (places, length) = match waviness {
-        Waviness::InRollLength => (&roll_mm, 1.0 + 3.0 * noise.uniform()),
-        Waviness::AlongFlank => (&trace.arc_mm, 0.6 + 2.4 * noise.uniform()),
+        Waviness::InRollLength => (&roll_mm, 1.0 + 2.0 * noise.uniform()),
+        Waviness::AlongFlank => (&trace.arc_mm, 0.6 + 1.4 * noise.uniform()),
     };
     let point = |i: usize| {
         let wave = 0.5 * (TAU * places[i] / length + phase).sin();
@@ -53,7 +51,7 @@ fn heights(of: &Laboratory, gear: Gear, noise: &mut Noise, waviness: Waviness) -
     (0..POINTS).map(|i| point(i) + 0.4 * noise.normal()).collect()
 }
 
-/// How many of `count` pairs of profiles have the true coefficients in their intervals.
+/// How many of `count` pairs of profiles have the true coefficients in their intervals; without an interval they have not.
 fn covered(count: u64, waviness: Waviness) -> PerGear<u64> {
     let of = &*LABORATORY;
     let ask = CompareOptions { form: Some(Form::Involute), ..asked(FitKind::Each) };
@@ -62,10 +60,10 @@ fn covered(count: u64, waviness: Waviness) -> PerGear<u64> {
         let mut noise = Noise::new(seed);
         let texts = Gear::BOTH.map(|gear| of.traces[gear].file(&heights(of, gear, &mut noise, waviness)));
         let record = of.compare_all(&texts.each_ref().map(String::as_str), &ask);
-        assert_eq!(record.fit.stopped, FitStop::Converged, "seed {seed}: {:?}", record.warnings);
         for (index, gear) in Gear::BOTH.into_iter().enumerate() {
             let k = record.fit.coefficients[index].coefficient_m2_per_N;
-            held[gear] += u64::from((k.low.unwrap()..=k.high.unwrap()).contains(&TRUE_K[index]));
+            let holds = |(low, high): (f64, f64)| (low..=high).contains(&TRUE_K[index]);
+            held[gear] += u64::from(k.low.zip(k.high).is_some_and(holds));
         }
     }
     held
@@ -89,13 +87,13 @@ fn ver_a_slope_in_roll_length_changes_nothing() {
     }
 }
 
-/// 95 % intervals hold for 26 to 30 of 30 seeds with each kind of waviness (fewer in one of 160 such samples), both gears.
+/// 95 % intervals hold for 16 to 20 of 20 seeds with each kind of waviness (fewer in one of 390 such samples), both gears.
 #[test]
 fn ver_intervals_cover_with_slope_waviness_and_noise() {
     for waviness in [Waviness::AlongFlank, Waviness::InRollLength] {
-        let held = covered(30, waviness);
-        println!("{held:?} of 30");
-        assert!(held.pinion >= 26 && held.wheel >= 26, "{held:?}");
+        let held = covered(20, waviness);
+        println!("{held:?} of 20");
+        assert!(held.pinion >= 16 && held.wheel >= 16, "{held:?}");
     }
 }
 
