@@ -61,12 +61,7 @@ impl SampledScene {
         let varied = VariedScene::new(scene, false);
         let varied = varied.map_err(|problems| UncertaintyStudyError::Run(in_words(&problems)))?;
         let surface = scene.scene().contact.surface.name().to_owned();
-        Ok(Self {
-            varied,
-            surface: SampledSurface { surface, because },
-            corrections: Vec::new(),
-            differences: Vec::new(),
-        })
+        Ok(Self { varied, surface: SampledSurface { surface, because }, corrections: Vec::new(), differences: Vec::new() })
     }
 
     /// Scene of the samples of `question`: `given`, or the fast one. `nominal` is the run of the scene as given, and the number of runs of the samples.

@@ -194,12 +194,7 @@ impl Samples<'_> {
         let place = u.map(|u| 2.0 * u - 1.0);
         let corrections = self.corrections.iter().copied().chain(std::iter::repeat(1.0));
         let of_each = self.bounds.iter().zip(corrections);
-        (
-            place,
-            of_each
-                .map(|(bound, correction)| correction * (1.0 + bound.unwrap_or(0.0) * place.unwrap_or(0.0)))
-                .collect(),
-        )
+        (place, of_each.map(|(bound, correction)| correction * (1.0 + bound.unwrap_or(0.0) * place.unwrap_or(0.0))).collect())
     }
 
     /// The outputs and lives of a run as those of a sample, the error of the model included, and until when each is known.

@@ -26,7 +26,8 @@ fn json_for_scripts_and_text_for_people() {
 /// A plan of what `run` refuses is refused; output that cannot be written is no success.
 #[test]
 fn a_plan_promises_nothing_that_cannot_run() {
-    let scene = preset("fzg-c").replace("# surface = \"fem\"", "surface = \"winkler\"\ncalibration = \"nowhere.json\"");
+    let scene =
+        preset("fzg-c").replace("# surface = \"fem\"", "surface = \"winkler\"\ncalibration = \"nowhere.json\"");
     let mut command = Command::cargo_bin("gearwear").unwrap();
     let assert = command.args(["plan", "-"]).write_stdin(scene).assert().code(2).stdout("");
     assert.stderr(predicate::str::contains("contact.calibration").and(predicate::str::contains("nowhere.json")));

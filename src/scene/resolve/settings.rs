@@ -3,8 +3,8 @@
 use crate::scene::file::{ContactFile, NamedStep, NumericsFile, StepFile, StiffnessFile, StiffnessModel};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
-use gearwear_bodies::gear::GearPair;
 use gearwear_bodies::gear::flank::PointSpacing;
+use gearwear_bodies::gear::GearPair;
 use gearwear_physics::contact::settings::{ContactSettings, Foundation, SurfaceKind};
 use gearwear_physics::mesh_cycle::settings::Coupling;
 use gearwear_physics::operation::Scene;
