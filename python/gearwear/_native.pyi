@@ -181,6 +181,9 @@ def compare(
     form: str | None,
     fit: str | None,
     shift_within_mm: float,
+    tooth: int | None,
+    flank: str | None,
+    width_mm: float | None,
     threads: int,
     progress: _Progress | None,
 ) -> Study: ...

@@ -48,10 +48,13 @@ def compare(
     form: str | None = None,
     fit: str | None = None,
     shift_within_mm: float = 0.1,
+    tooth: int | None = None,
+    flank: str | None = None,
+    width_mm: float | None = None,
     threads: int | None = None,
     progress: ProgressArgument = False,
 ) -> Study:
-    """The measured profile in a CSV file against a run, or those of pinion and wheel in a list of two: ``gearwear compare RUN MEASURED …``, whose options these are.
+    """The measured profile in a file against a run, or those of pinion and wheel in a list of two: ``gearwear compare RUN MEASURED …``, whose options these are.
 
     ``summary["fit"]`` is what was fitted, with the correlation coefficients of the values, ``summary["profiles"]`` how far apart each profile
     and the simulated one are. A profile that does not fit the run raises :class:`ValueError`.
@@ -61,7 +64,8 @@ def compare(
         folder = _folder(run, kept)
         files = [measured] if isinstance(measured, (str, os.PathLike)) else measured
         paths = [os.fspath(file) for file in files]
-        return Study(_native.compare(folder, paths, gear, form, fit, float(shift_within_mm), count, told))
+        of_file = (tooth, flank, None if width_mm is None else float(width_mm))
+        return Study(_native.compare(folder, paths, gear, form, fit, float(shift_within_mm), *of_file, count, told))
 
 
 def compare_runs(runs: Mapping[str, Finished]) -> Study:

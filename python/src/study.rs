@@ -49,10 +49,13 @@ pub(crate) fn compare(
     form: Option<String>,
     fit: Option<String>,
     shift_within_mm: f64,
+    tooth: Option<u32>,
+    flank: Option<String>,
+    width_mm: Option<f64>,
     threads: usize,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<Study> {
-    let question = CompareQuestion { gear, form, fit, shift_within_mm };
+    let question = CompareQuestion { gear, form, fit, shift_within_mm, tooth, flank, width_mm };
     let work = move |observer: &dyn Observer| gearwear_validation::found::compare(&run, &measured, &question, observer);
     Study::of(py, watched(py, threads, progress, work)?)
 }

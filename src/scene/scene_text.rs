@@ -6,6 +6,7 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use super::{Problem, Resolved};
+use gearwear_files::text::decode;
 use gearwear_physics::stiffness::curve_file::CurveFileError;
 
 /// Text of a scene file.
@@ -88,19 +89,22 @@ pub enum LoadError {
 impl SceneText {
     /// Reads the text at `path` (`-`: standard input).
     pub fn read(path: &Path) -> Result<Self, LoadError> {
-        let (name, bytes) = if path == Path::new("-") {
-            let mut bytes = Vec::new();
-            ("standard input".to_owned(), io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes))
-        } else {
-            (path.display().to_string(), fs::read(path))
-        };
-        let bytes = bytes.map_err(|reason| LoadError::Unreadable { name: name.clone(), reason })?;
+        let (name, bytes) = read_bytes(path)?;
         let text = String::from_utf8(bytes).map_err(|error| {
             let byte = error.utf8_error().valid_up_to();
             let line = error.as_bytes()[..byte].iter().filter(|&&b| b == b'\n').count() + 1;
             LoadError::NotUtf8 { name: name.clone(), byte, line }
         })?;
         Ok(Self { name, text })
+    }
+
+    /// Reads a text of another program at `path` (`-`: standard input), in the encoding it has.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn read_foreign(path: &Path) -> Result<Self, LoadError> {
+        let (name, bytes) = read_bytes(path)?;
+        Ok(Self { name, text: decode(&bytes) })
     }
 
     /// Resolves the scene it holds; the files it names stay unread.
@@ -111,6 +115,20 @@ impl SceneText {
     /// Error with these problems.
     pub fn refused(&self, problems: Vec<Problem>) -> SceneError {
         SceneError { given: self.clone(), problems }
+    }
+}
+
+/// Name and bytes of the file at `path` (`-`: standard input).
+fn read_bytes(path: &Path) -> Result<(String, Vec<u8>), LoadError> {
+    let (name, bytes) = if path == Path::new("-") {
+        let mut bytes = Vec::new();
+        ("standard input".to_owned(), io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes))
+    } else {
+        (path.display().to_string(), fs::read(path))
+    };
+    match bytes {
+        Ok(bytes) => Ok((name, bytes)),
+        Err(reason) => Err(LoadError::Unreadable { name, reason }),
     }
 }
 

@@ -13,8 +13,10 @@ use gearwear_studies::compare::asked::{CompareFault, PreparedComparison};
 use gearwear_studies::compare::question::{CompareOptions, FitKind};
 use gearwear_studies::compare::record::{CoefficientCorrelation, CompareFigures, CompareRecord, FittedValue};
 use gearwear_studies::compare::study::CompareError;
+use gearwear_studies::measurement::file::FlankSide;
 use gearwear_studies::measurement::fit::FitStop;
 use gearwear_studies::measurement::form::Form;
+use gearwear_studies::measurement::teeth::TraceChoice;
 
 use super::failure::{Failure, InputError};
 use super::figures::{digits, or_dash};
@@ -28,22 +30,25 @@ const SHIFT_WITHIN_MM: f64 = 0.1;
 
 /// Description of a measured file.
 const FILE_HELP: &str = "\
-The measured file is CSV. Lines that begin with # come first and say what is measured:
+The measured file is a table, or the text export of curves (.mka) of a P40 gear measuring machine. In a table, lines that begin with # come
+first and say what is measured:
   # gear = pinion                        or wheel
   # hours = 31.75                        or revolutions (of the pinion); left out: the end of the run
   # width_mm = 7.0                       place over the face width; only for runs with slices
   # uncertainty_um = 0.3                 of a height, one standard deviation
   # arc_from = start-of-active-profile   with arc_mm: or base-circle, or tip (towards the root)
   # height_from = involute               or line: heights of a stylus, with the curvature of the tooth
-Then column names with units, in any order: radius_mm, arc_mm or roll_angle_deg, and height_um or height_mm (falls
-where material is gone) or wear_um or wear_mm (rises there); then a row for each point, from one end to the other.";
+Then column names with units, in any order: radius_mm, diameter_mm, roll_length_mm, roll_angle_deg or arc_mm, and
+height_um or height_mm (falls where material is gone) or wear_um or wear_mm (rises there); then a row for each point,
+from root to tip. Columns are apart by ; tabs or commas, and may have German names: Wälzlänge [mm];Höhe [µm]. The
+columns tooth and flank (left, right) make a file of several teeth, whose mean is compared.";
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = FILE_HELP)]
 pub(super) struct CompareArgs {
     /// The folder of a finished `gearwear run`; beside other runs a scene too, which is run first
     run: PathBuf,
-    /// The measured profile, a CSV file (- reads standard input), or two, of pinion and wheel; or one to five more runs, to be
+    /// The measured profile, a table or .mka file (- reads standard input), or two, of pinion and wheel; or one to five more runs, to be
     /// shown side by side
     #[arg(value_name = "MEASURED|RUN", required = true, num_args = 1..MOST_RUNS)]
     with: Vec<PathBuf>,
@@ -60,6 +65,15 @@ pub(super) struct CompareArgs {
     /// How far a profile may be shifted along the flank to where it fits best; 0: not at all
     #[arg(long, value_name = "MM", default_value_t = SHIFT_WITHIN_MM, value_parser = length)]
     shift_within: f64,
+    /// The tooth to take of a file with several; default: the mean of all
+    #[arg(long, value_name = "N")]
+    tooth: Option<u32>,
+    /// The flank to take of a file with both
+    #[arg(long, value_enum, value_name = "SIDE")]
+    flank: Option<FlankSide>,
+    /// The place over the face width whose profile is taken of a file with several: the nearest
+    #[arg(long, value_name = "MM", value_parser = length)]
+    width: Option<f64>,
     /// The folder for the results; default: compare/NAME in RUN, with the names of the measured files or of the second run
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -71,12 +85,12 @@ pub(super) struct CompareArgs {
     quiet: bool,
 }
 
-fn gear(text: &str) -> Result<Gear, String> {
+pub(super) fn gear(text: &str) -> Result<Gear, String> {
     let named = Gear::BOTH.into_iter().find(|gear| gear.name() == text);
     named.ok_or_else(|| "allowed: pinion or wheel".to_owned())
 }
 
-fn length(text: &str) -> Result<f64, String> {
+pub(super) fn length(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value >= 0.0 && value.is_finite() => Ok(value),
         _ => Err("allowed: a length in mm, 0 or more".to_owned()),
@@ -111,14 +125,26 @@ impl CompareArgs {
 
 pub(super) fn run(args: &CompareArgs) -> Result<(), Failure> {
     if let Some(variants) = args.variants()? {
-        return match (args.gear, args.form) {
-            (Some(_), _) => Err(InputError::OnlyForMeasured { option: "--gear" }.into()),
-            (_, Some(_)) => Err(InputError::OnlyForMeasured { option: "--form" }.into()),
-            _ => variants::run(&variants),
+        let given = [
+            ("--gear", args.gear.is_some()),
+            ("--form", args.form.is_some()),
+            ("--tooth", args.tooth.is_some()),
+            ("--flank", args.flank.is_some()),
+            ("--width", args.width.is_some()),
+        ];
+        return match given.into_iter().find(|(_, is_given)| *is_given) {
+            Some((option, _)) => Err(InputError::OnlyForMeasured { option }.into()),
+            None => variants::run(&variants),
         };
     }
-    let texts = args.with.iter().map(|path| SceneText::read(path)).collect::<Result<Vec<_>, _>>()?;
-    let asked = CompareOptions { gear: args.gear, form: args.form, fit: args.fit, shift_within_mm: args.shift_within };
+    let texts = args.with.iter().map(|path| SceneText::read_foreign(path)).collect::<Result<Vec<_>, _>>()?;
+    let asked = CompareOptions {
+        gear: args.gear,
+        form: args.form,
+        fit: args.fit,
+        shift_within_mm: args.shift_within,
+        traces: TraceChoice { tooth: args.tooth, side: args.flank, width_mm: args.width },
+    };
     let prepared = PreparedComparison::open(&args.run, &texts, &asked)?;
     let out = args.out();
     report::writable(&out)?;

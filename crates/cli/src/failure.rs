@@ -30,6 +30,7 @@ use gearwear_physics::assessment::pair_mesh::PairMeshError;
 use gearwear_studies::accuracy::study::AccuracyError;
 use gearwear_studies::compare::question::Refused;
 use gearwear_studies::compare::run_folder::RunFolderError;
+use gearwear_studies::export::ExportError;
 use gearwear_validation::library::LibraryError;
 use miette::{Diagnostic, LabeledSpan, MietteDiagnostic, NamedSource, Report};
 
@@ -149,6 +150,10 @@ pub(super) enum InputError {
     #[error(transparent)]
     #[diagnostic(help("gearwear compare --help says what stands in a measured file"))]
     Measured(Refused),
+    /// A flank that `export` cannot write.
+    #[error(transparent)]
+    #[diagnostic(help("gearwear export RUN --gear wheel --out FILE"))]
+    Export(ExportError),
     /// `init` with a name that is no preset.
     #[error("unknown preset {name:?}; allowed: {}", presets::names().join(", "))]
     #[diagnostic(help("{}", presets::nearest(name).map_or_else(

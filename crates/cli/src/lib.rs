@@ -6,6 +6,7 @@ mod calibrate;
 mod compare;
 mod completions;
 mod counted_progress;
+mod export;
 mod failure;
 mod fem;
 mod fem_scene;
@@ -65,6 +66,8 @@ enum Command {
     Calibrate(calibrate::CalibrateArgs),
     /// Compare measured flank profiles with a finished run, and fit the wear coefficients to them
     Compare(compare::CompareArgs),
+    /// Write the worn flank of a finished run as the file of a measured one
+    Export(export::ExportArgs),
     /// Write the results of a finished run into the REXS file that its scene came from
     Rexs(rexs::RexsArgs),
     /// Run the validation suite: every claim against its reference, with error, run time and work
@@ -107,6 +110,7 @@ pub fn with_arguments(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Uncertainty(args) => uncertainty::run(args),
         Command::Calibrate(args) => calibrate::run(args),
         Command::Compare(args) => compare::run(args),
+        Command::Export(args) => export::run(args),
         Command::Rexs(args) => rexs::run(args),
         Command::Validate(args) => validate::run(args),
         Command::Schema(args) => schema::run(args),

@@ -1,6 +1,7 @@
-//! Files of users and of runs: written whole or not at all ([`whole_file`]), known by their content ([`content_hash`]), comma-separated
-//! tables with the line of every fault ([`data_table`]).
+//! Files of users and of runs: written whole or not at all ([`whole_file`]), known by their content ([`content_hash`]), text
+//! in the encodings of other programs ([`text`]), tables with the line of every fault ([`data_table`]).
 
 pub mod content_hash;
 pub mod data_table;
+pub mod text;
 pub mod whole_file;

@@ -21,6 +21,7 @@ use gearwear_studies::compare::asked::{CompareFault, PreparedComparison};
 use gearwear_studies::compare::question;
 use gearwear_studies::compare::run_folder::RunFolderError;
 use gearwear_studies::compare::study::CompareError;
+use gearwear_studies::measurement::teeth::TraceChoice;
 use gearwear_studies::variants::finished_run::FinishedRun;
 use gearwear_studies::variants::record::VariantsRecord;
 use gearwear_studies::{accuracy, compare, variants};
@@ -125,6 +126,12 @@ pub struct CompareQuestion {
     pub fit: Option<String>,
     /// How far a profile may be shifted along the flank, mm; 0: not at all.
     pub shift_within_mm: f64,
+    /// Tooth to take of a file with several; `None`: the mean of all.
+    pub tooth: Option<u32>,
+    /// Flank to take of a file with both: left or right.
+    pub flank: Option<String>,
+    /// Place over the face width whose profile is taken of a file with several.
+    pub width_mm: Option<f64>,
 }
 
 /// The measured profiles in the files `measured`, one or those of pinion and wheel, against the finished run in the folder `run`, as
@@ -150,11 +157,16 @@ pub fn compare(
         form: question.form.as_deref().map(|name| one_of("form", name)).transpose()?,
         fit: question.fit.as_deref().map(|name| one_of("fit", name)).transpose()?,
         shift_within_mm: question.shift_within_mm,
+        traces: TraceChoice {
+            tooth: question.tooth,
+            side: question.flank.as_deref().map(|name| one_of("flank", name)).transpose()?,
+            width_mm: question.width_mm,
+        },
     };
     if measured.is_empty() {
         return Err(StudyFault::NoProfile.into());
     }
-    let texts = measured.iter().map(|path| SceneText::read(path)).collect::<Result<Vec<_>, _>>();
+    let texts = measured.iter().map(|path| SceneText::read_foreign(path)).collect::<Result<Vec<_>, _>>();
     let texts = texts.map_err(|error| StudyFault::Compare(error.into()))?;
     let prepared = PreparedComparison::open(run, &texts, &asked).map_err(StudyFault::Compare)?;
     let record = prepared.carry_out(observer).map_err(StudyFault::Comparison)?;

@@ -42,7 +42,8 @@ impl PreparedComparison {
         folder.check_scene(resolved)?;
         let mut files = Vec::with_capacity(measured.len());
         for SceneText { name, text } in measured {
-            let file = file::parse(text).map_err(|error| Refused { name: name.clone(), error: error.into() })?;
+            let file = file::parse(text, &asked.traces)
+                .map_err(|error| Refused { name: name.clone(), error: error.into() })?;
             files.push((name.clone(), file));
         }
         let pair = GearPair::new(&resolved.scene.pair)?;

@@ -18,8 +18,8 @@ const SHIFTS_TRIED: i32 = 15;
 /// Measured heights and the flank they are compared on.
 pub(super) struct Comparison<'a> {
     pub of: &'a ProfileQuestion,
-    pair: &'a GearPair,
-    removal: FormRemoval,
+    pub pair: &'a GearPair,
+    pub removal: FormRemoval,
     /// Arc length of each point of the wear profiles.
     grid_arc_mm: Vec<f64>,
     /// P z.
@@ -49,7 +49,7 @@ impl<'a> Comparison<'a> {
     pub(super) fn new(of: &'a ProfileQuestion, pair: &'a GearPair, numerics: &Numerics) -> Self {
         let Numerics { flank_points, point_spacing, .. } = *numerics;
         let grid_arc_mm = FlankGrid::new(pair, of.profile.gear, flank_points, point_spacing).arc_mm;
-        let removal = FormRemoval::new(of.form, &of.profile.arc_mm);
+        let removal = FormRemoval::new(of.form, &of.profile.form_place_mm(pair, of.form));
         let mut measured_um = of.profile.height_um.clone();
         removal.remove(&mut measured_um);
         Self { of, pair, removal, grid_arc_mm, measured_um }

@@ -4,9 +4,10 @@ use std::path::Path;
 
 use super::run_folder::RunFolder;
 use super::unknown::Unknown;
-use crate::measurement::file::{HeightFrom, MeasuredFile, Moment, ValueKind};
+use crate::measurement::file::{HeightFrom, MachineGear, MeasuredFile, Moment, ValueKind};
 use crate::measurement::form::Form;
 use crate::measurement::profile::MeasuredProfile;
+use crate::measurement::teeth::TraceChoice;
 use gearwear::scene::Resolved;
 use gearwear_bodies::gear::{Gear, GearPair, slices::Slices};
 use gearwear_files::data_table::DataTableError;
@@ -15,6 +16,8 @@ use gearwear_physics::wear::settings::WearOfPair;
 
 /// Relative tolerance on the end of the run.
 const SAME_TIME: f64 = 1e-9;
+/// Relative difference of base radii of one gear: machines give few decimals.
+const SAME_SIZE: f64 = 1e-3;
 /// Least degrees of freedom of a fit.
 const SPARE_POINTS: usize = 2;
 /// Most profiles that are fitted together: one of each gear.
@@ -90,6 +93,8 @@ pub struct CompareOptions {
     pub fit: Option<FitKind>,
     /// How far a profile may be shifted along the flank, mm; 0: not at all.
     pub shift_within_mm: f64,
+    /// Traces of a file with several.
+    pub traces: TraceChoice,
 }
 
 /// Inconsistent inputs.
@@ -99,6 +104,12 @@ pub enum QuestionError {
     File(#[from] DataTableError),
     #[error("gear is missing; allowed: a line \"# gear = pinion\" or \"# gear = wheel\", or --gear")]
     NoGear,
+    #[error("line {line}: number of teeth: found {found}; allowed: {allowed}")]
+    OtherTeeth { line: usize, found: u32, allowed: String },
+    #[error(
+        "line {line}: base radius, mm: found {found:.4}, by module, teeth and angles; allowed: {allowed:.4}, that of the {gear} of the run"
+    )]
+    OtherGearSize { line: usize, found: f64, allowed: f64, gear: &'static str },
     #[error("gear: found {file} in the file and --gear {command}; allowed: the same")]
     OtherGear { file: &'static str, command: &'static str },
     #[error("line {line}: hours: found {hours}; allowed: revolutions, since the scene of the run gives no speed")]
@@ -240,8 +251,13 @@ impl ProfileQuestion {
             (Some(file), Some(command)) if file != command => {
                 return Err(QuestionError::OtherGear { file: file.name(), command: command.name() });
             }
-            (file, command) => file.or(command).ok_or(QuestionError::NoGear)?,
+            (file, command) => file.or(command),
         };
+        let gear = match file.machine_gear {
+            Some(machine) => Some(of_machine(machine, gear, pair)?),
+            None => gear,
+        };
+        let gear = gear.ok_or(QuestionError::NoGear)?;
         let of_kind = if file.kind == ValueKind::Wear { Form::None } else { Form::Cubic };
         let form = asked.form.unwrap_or(of_kind);
         if form == Form::None && file.kind == ValueKind::Height && file.height_from == HeightFrom::Line {
@@ -268,6 +284,27 @@ impl ProfileQuestion {
         let file_name = Path::new(name).file_name();
         let measured = file_name.map_or_else(|| name.to_owned(), |name| name.to_string_lossy().into_owned());
         Ok(Self { measured, profile, revolutions, width_mm, uncertainty_um: file.uncertainty_um, form, as_run_um })
+    }
+}
+
+/// The gear that a machine measured: `asked`, or the one with its number of teeth.
+fn of_machine(machine: MachineGear, asked: Option<Gear>, pair: &GearPair) -> Result<Gear, QuestionError> {
+    let MachineGear { line, teeth: found, base_radius_mm } = machine;
+    let fits = |&gear: &Gear| pair.spec.gears[gear].teeth == found;
+    let gear = match (asked, &Gear::BOTH.into_iter().filter(fits).collect::<Vec<_>>()[..]) {
+        (Some(asked), fitting) if fitting.contains(&asked) => asked,
+        (None, &[one]) => one,
+        (None, [_, _]) => return Err(QuestionError::NoGear),
+        (asked, _) => {
+            let of = |gear: Gear| format!("{}, of the {}", pair.spec.gears[gear].teeth, gear.name());
+            let allowed = asked.map_or_else(|| Gear::BOTH.map(of).join(", or "), of);
+            return Err(QuestionError::OtherTeeth { line, found, allowed });
+        }
+    };
+    let allowed = pair.teeth[gear].involute.base_radius_mm;
+    match (base_radius_mm / allowed - 1.0).abs() <= SAME_SIZE {
+        true => Ok(gear),
+        false => Err(QuestionError::OtherGearSize { line, found: base_radius_mm, allowed, gear: gear.name() }),
     }
 }
 

@@ -4,7 +4,9 @@ use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 
 use super::unknown::Unknown;
+use crate::measurement::deviations::Deviations;
 use crate::measurement::fit::FitStop;
+use crate::measurement::waviness::Wave;
 use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::PathPoints;
 
@@ -51,11 +53,37 @@ pub struct ProfileRecord {
     /// Independent points less the values fitted, form included.
     pub degrees_of_freedom: Option<f64>,
     pub figures: CompareFigures,
+    /// Teeth whose mean the profile is.
+    pub teeth: usize,
+    /// Waves that are fitted along.
+    pub waves: Vec<Wave>,
+    /// Deviations after ISO 1328-1; `None` where the heights are not from the involute.
+    pub deviations: Option<ProfileDeviations>,
+    /// Those of the leads of the same flanks.
+    pub leads: Vec<LeadDeviations>,
     /// Radii of the points A–E on the gear.
     pub path_point_radius_mm: PathPoints,
     /// The points; in `compare.csv`.
     #[serde(skip)]
     pub rows: Vec<CompareRow>,
+}
+
+/// Deviations of a profile after ISO 1328-1; `None` each where the evaluation range is not covered.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ProfileDeviations {
+    /// Of the profile as measured.
+    pub measured: Option<Deviations>,
+    /// Of the profile as measured, with the simulated wear after the fit put back: before wear.
+    pub before_wear: Option<Deviations>,
+    /// Of the simulated wear alone, after the fit.
+    pub wear: Option<Deviations>,
+}
+
+/// Deviations of a lead after ISO 1328-1.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LeadDeviations {
+    pub tooth: Option<u32>,
+    pub measured: Option<Deviations>,
 }
 
 /// A fitted value with its interval.

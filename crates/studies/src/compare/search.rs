@@ -6,8 +6,9 @@
 //!
 //! with the residuals r_p of each profile ([`Comparison`]). Parameters, where they are fitted: ln κ, the logarithm of the factor on the wear
 //! coefficient (one for each gear where both are fitted); ln C, that of the factor of severe wear; d_p, the shift of each profile along its flank. Of
-//! several profiles each has the weight w_p = 1/(σ_p √τ_p), with the standard deviation σ_p of its residuals when it is fitted alone and the number
-//! τ_p of neighbouring points that are correlated ([`crate::measurement::interval`]). χ² is minimised over profiles interpolated between runs
+//! several profiles each has the weight w_p = 1/σ_p, with the standard deviation σ_p of its residuals when it is fitted alone, times the root of the
+//! number of points that are correlated ([`crate::measurement::interval`]). Waves that are found in the residuals of that fit are fitted along
+//! ([`crate::measurement::waviness`]). χ² is minimised over profiles interpolated between runs
 //! ([`Simulations::about`]), then by Gauss–Newton steps on the residuals of exact runs until convergence. The result is the best exact run; the
 //! derivatives are those of the interpolation, updated after each exact run (Broyden). Where wear is not a smooth function of the coefficient (an
 //! abrupt transition to severe wear, wear steps beyond the stable one), exact runs scatter: steps of up to half a standard deviation then remain, and
@@ -18,7 +19,9 @@ use super::question::{ComparisonQuestion, FitKind, FittedGears};
 use super::simulations::{CoefficientChange, CompareError, Simulations};
 use super::unknown::Unknown;
 use crate::measurement::fit::{FitStop, Parameter, broyden_update, gauss_newton_step, least_squares};
+use crate::measurement::form::FormRemoval;
 use crate::measurement::interval::{FitUncertainty, ProfilePart, uncertainty};
+use crate::measurement::waviness::{self, Wave};
 use gearwear_bodies::gear::{Gear, PerGear};
 
 /// Least factor on the wear coefficient.
@@ -50,6 +53,8 @@ pub(super) struct FittedCoefficients {
     pub uncertainty: Option<FitUncertainty>,
     /// Wear depth of the flank points of each profile.
     pub wear_um: Vec<Vec<f64>>,
+    /// Waves of each profile that are fitted along.
+    pub waves: Vec<Vec<Wave>>,
     /// Last step in standard deviations, where it is above the limit of convergence.
     pub unsettled: Option<f64>,
 }
@@ -83,6 +88,10 @@ pub(super) struct CoefficientSearch<'a> {
     unknowns: Vec<Unknown>,
     /// w_p.
     weights: Vec<f64>,
+    /// Removal of the form of each profile and of its waves.
+    removals: Vec<FormRemoval>,
+    /// Waves of each profile.
+    waves: Vec<Vec<Wave>>,
 }
 
 impl<'a> CoefficientSearch<'a> {
@@ -100,7 +109,9 @@ impl<'a> CoefficientSearch<'a> {
         if question.shift_within_mm > 0.0 {
             unknowns.extend(comparisons.iter().map(|one| question.shift_of(one.of.profile.gear)));
         }
-        Self { question, comparisons, unknowns, weights: vec![1.0; comparisons.len()] }
+        let removals = comparisons.iter().map(|one| one.removal.clone()).collect();
+        let (weights, waves) = (vec![1.0; comparisons.len()], vec![Vec::new(); comparisons.len()]);
+        Self { question, comparisons, unknowns, weights, removals, waves }
     }
 
     /// Parameters of the best fit, starting from the run's own wear.
@@ -122,9 +133,7 @@ impl<'a> CoefficientSearch<'a> {
             true => simulations.about(search.change(theta)),
             false => Ok(as_run_um.to_vec()),
         };
-        if begun.len() > 1 {
-            self.weigh(&mut parameters, &mut wear)?;
-        }
+        self.fit_alone(&mut parameters, &mut wear)?;
         let mut residuals = |theta: &[f64]| Ok(self.residuals(&wear(&self, theta)?, theta));
         let fitted = least_squares::<CompareError>(&parameters, &mut residuals)?;
         let mut found = FittedCoefficients {
@@ -135,6 +144,7 @@ impl<'a> CoefficientSearch<'a> {
             unsettled: None,
             parameters: fitted.parameters,
             unknowns: self.unknowns.clone(),
+            waves: self.waves.clone(),
         };
         if needs_runs {
             self.settle(&mut found, &parameters, fitted.jacobian, simulations)?;
@@ -169,28 +179,53 @@ impl<'a> CoefficientSearch<'a> {
         parameters.collect()
     }
 
-    /// Weighs each profile by the scatter of its own fit, which begins at `parameters`; these then start from its result.
-    fn weigh(&mut self, parameters: &mut [Parameter], wear: &mut Wear<'_, Self>) -> Result<(), CompareError> {
+    /// Fits each profile alone, from `parameters` on: finds its waves, and its weight by the scatter that is left; the fit of all then starts from the
+    /// results.
+    fn fit_alone(&mut self, parameters: &mut [Parameter], wear: &mut Wear<'_, Self>) -> Result<(), CompareError> {
         let begun: Vec<f64> = parameters.iter().map(|parameter| parameter.start).collect();
-        for (index, part) in self.parts().into_iter().enumerate() {
+        for index in 0..self.comparisons.len() {
             let one = &self.comparisons[index];
-            let own: Vec<usize> = (0..begun.len()).filter(|&i| self.unknowns[i].is_of(one.of.profile.gear)).collect();
-            let mut residuals = |values: &[f64]| {
-                let mut theta = begun.clone();
-                own.iter().zip(values).for_each(|(&i, &value)| theta[i] = value);
-                let wear_um = wear(self, &theta)?;
-                Ok(one.residuals_um(&wear_um[index], self.shift_mm(one, &theta)))
-            };
+            let gear = one.of.profile.gear;
+            let own: Vec<usize> = (0..begun.len()).filter(|&i| self.unknowns[i].is_of(gear)).collect();
             let of_own: Vec<Parameter> = own.iter().map(|&i| parameters[i]).collect();
-            let alone = least_squares::<CompareError>(&of_own, &mut residuals)?;
-            let found = uncertainty(&alone.jacobian, &alone.residuals, &[part]);
+            let mut fit = |search: &Self| {
+                let mut residuals = |values: &[f64]| {
+                    let mut theta = begun.clone();
+                    own.iter().zip(values).for_each(|(&i, &value)| theta[i] = value);
+                    let wear_um = wear(search, &theta)?;
+                    Ok(search.residuals_of(index, &wear_um[index], &theta))
+                };
+                least_squares::<CompareError>(&of_own, &mut residuals)
+            };
+            let mut alone = fit(self)?;
+            if alone.stop == FitStop::Converged {
+                let columns = self.removals[index].columns().iter().chain(&alone.jacobian);
+                let columns: Vec<&[f64]> = columns.map(Vec::as_slice).collect();
+                let found = waviness::find(&alone.residuals, &columns, &one.of.profile.places_mm(one.pair));
+                if !found.is_empty() {
+                    let waves = found.iter().map(|one| one.wave).collect();
+                    let of_waves = found.into_iter().flat_map(|one| one.columns);
+                    self.removals[index] = one.removal.clone().and(of_waves);
+                    let with_waves = fit(self)?;
+                    // Waves after which the profile no longer gives what is fitted are wear.
+                    if with_waves.stop == FitStop::Converged {
+                        (self.waves[index], alone) = (waves, with_waves);
+                    } else {
+                        self.removals[index] = one.removal.clone();
+                    }
+                }
+            }
+            if self.comparisons.len() == 1 {
+                return Ok(());
+            }
+            let found = uncertainty(&alone.jacobian, &alone.residuals, &[self.part(index)]);
             let deviation = match found {
                 Some(found) => found.scatter[0].deviation,
                 None => root_mean_square(alone.residuals.iter().copied()),
             };
             self.weights[index] = deviation.max(LEAST_SCATTER_UM).recip();
             for (&i, &value) in own.iter().zip(&alone.parameters) {
-                if self.unknowns[i] == Unknown::Coefficient(Some(one.of.profile.gear)) {
+                if self.unknowns[i] == Unknown::Coefficient(Some(gear)) {
                     parameters[i].start = value;
                 }
             }
@@ -252,19 +287,35 @@ impl<'a> CoefficientSearch<'a> {
 
     /// The weighted residuals of all profiles, with the wear at the flank points of each.
     fn residuals(&self, wear_um: &[Vec<f64>], theta: &[f64]) -> Vec<f64> {
-        let mut all = Vec::new();
-        for (one, (wear_um, weight)) in self.comparisons.iter().zip(wear_um.iter().zip(&self.weights)) {
-            all.extend(one.residuals_um(wear_um, self.shift_mm(one, theta)).into_iter().map(|r| weight * r));
-        }
-        all
+        (0..self.comparisons.len()).flat_map(|index| self.residuals_of(index, &wear_um[index], theta)).collect()
+    }
+
+    /// Those of one profile.
+    fn residuals_of(&self, index: usize, wear_um: &[f64], theta: &[f64]) -> Vec<f64> {
+        let one = &self.comparisons[index];
+        let mut residuals = one.residuals_um(wear_um, self.shift_mm(one, theta));
+        self.removals[index].remove(&mut residuals);
+        residuals.iter_mut().for_each(|r| *r *= self.weights[index]);
+        residuals
     }
 
     /// The part of each profile in the residuals.
     fn parts(&self) -> Vec<ProfilePart> {
-        self.comparisons
-            .iter()
-            .map(|one| ProfilePart { points: one.measured_um.len(), also_fitted: one.of.form.parameters() })
-            .collect()
+        (0..self.comparisons.len()).map(|index| self.part(index)).collect()
+    }
+
+    fn part(&self, index: usize) -> ProfilePart {
+        let (one, removal, weight) = (&self.comparisons[index], &self.removals[index], self.weights[index]);
+        let tooth = |own: &Vec<f64>| {
+            let mut own = own.clone();
+            removal.remove(&mut own);
+            own.iter().map(|deviation| weight * deviation).collect()
+        };
+        ProfilePart {
+            points: one.measured_um.len(),
+            also_fitted: removal.columns().to_vec(),
+            teeth: one.of.profile.teeth_um.iter().map(tooth).collect(),
+        }
     }
 
     /// Change of the scene for these parameters.

@@ -4,13 +4,15 @@ use super::comparison::{Comparison, root_mean_square};
 use super::question::{ComparisonQuestion, FittedGears, ProfileQuestion, is_of_both};
 use super::record::{
     Coefficient, CoefficientCorrelation, CompareFigures, CompareRecord, CompareRow, FitRecord, FittedValue,
-    ProfileRecord,
+    LeadDeviations, ProfileDeviations, ProfileRecord,
 };
 use super::run_folder::RunFolder;
 use super::search::{CoefficientSearch, FittedCoefficients};
 pub use super::simulations::CompareError;
 use super::simulations::{CoefficientChange, Simulations, over_width};
 use super::unknown::Unknown;
+use crate::measurement::deviations::Evaluation;
+use crate::measurement::file::HeightFrom;
 use crate::measurement::fit::FitStop;
 use crate::measurement::interval::CONFIDENCE;
 use crate::measurement::roughness::{CUTOFF_MM, mean_deviation, roughness};
@@ -133,6 +135,10 @@ fn profile(
         effective_points: scatter.map(|s| s.effective_points),
         degrees_of_freedom: scatter.map(|s| s.degrees_of_freedom),
         figures: figures(of, &rows),
+        teeth: of.profile.teeth_um.len().max(1),
+        waves: found.waves[index].clone(),
+        deviations: deviations(of, pair, &rows),
+        leads: leads(of, pair),
         path_point_radius_mm: PathPoints { A: a, B: b, C: c, D: d, E: e },
         rows,
     }
@@ -220,6 +226,7 @@ fn how(question: &ComparisonQuestion, found: &FittedCoefficients, profiles: &[Pr
             )
         }
     };
+    let how = with_waves(how, profiles);
     match question.fitted {
         FittedGears::Alone(gear) if question.fit.coefficient() => format!(
             "{how}; the gears wear by different laws: what is fitted is that of the {} alone, and that of the {} is as in the run",
@@ -228,6 +235,49 @@ fn how(question: &ComparisonQuestion, found: &FittedCoefficients, profiles: &[Pr
         ),
         _ => how,
     }
+}
+
+/// Deviations of the measured profile, without its wear, and of the wear.
+fn deviations(of: &ProfileQuestion, pair: &GearPair, rows: &[CompareRow]) -> Option<ProfileDeviations> {
+    let profile = &of.profile;
+    if profile.height_from == HeightFrom::Line {
+        return None;
+    }
+    let evaluation = Evaluation::of_profile(pair, profile.gear);
+    let [_, roll_mm] = profile.places_mm(pair);
+    let design_um = profile.unworn_um(pair, 0.0);
+    let points = || profile.height_um.iter().zip(design_um.iter().zip(rows));
+    let measured: Vec<f64> = points().map(|(height, (design, _))| height - design).collect();
+    let before: Vec<f64> = measured.iter().zip(rows).map(|(height, row)| height + row.wear_um).collect();
+    let wear: Vec<f64> = rows.iter().map(|row| -row.wear_um).collect();
+    let [measured, before_wear, wear] =
+        [measured, before, wear].map(|heights| evaluation.deviations(&roll_mm, &heights));
+    Some(ProfileDeviations { measured, before_wear, wear })
+}
+
+/// Deviations of the leads of the flanks of a profile.
+fn leads(of: &ProfileQuestion, pair: &GearPair) -> Vec<LeadDeviations> {
+    let evaluation = Evaluation::of_lead(pair, of.profile.gear);
+    let leads = of.profile.leads.iter().map(|lead| {
+        let (places, heights): (Vec<f64>, Vec<f64>) = lead.points.iter().map(|at| (at.place, at.height_um)).unzip();
+        LeadDeviations { tooth: lead.tooth, measured: evaluation.deviations(&places, &heights) }
+    });
+    leads.collect()
+}
+
+/// With the waves that are fitted along, and the teeth whose mean a profile is.
+fn with_waves(mut how: String, profiles: &[ProfileRecord]) -> String {
+    for of in profiles {
+        let whose = if profiles.len() > 1 { format!(" of the {}", of.gear.name()) } else { String::new() };
+        let lengths: Vec<String> = of.waves.iter().map(|wave| format!("{:.2}", wave.length_mm)).collect();
+        if !lengths.is_empty() {
+            how.push_str(&format!("; waves{whose} of {} mm are fitted along", lengths.join(", ")));
+        }
+        if of.teeth > 1 {
+            how.push_str(&format!("; the profile{whose} is the mean of {} teeth, whose scatter counts too", of.teeth));
+        }
+    }
+    how
 }
 
 fn figures(of: &ProfileQuestion, rows: &[CompareRow]) -> CompareFigures {

@@ -1,16 +1,14 @@
-//! The file of a measured profile.
+//! The file of a measured flank.
 //!
-//! ```text
-//! # gear = pinion
-//! # hours = 31.75
-//! # uncertainty_um = 0.3
-//! # arc_from = start-of-active-profile
-//! arc_mm,height_um
-//! 0.00,-3.10
-//! 0.01,-3.24
-//! ```
+//! | format | module |
+//! |---|---|
+//! | table of columns, with lines `# key = value` | [`super::table`] |
+//! | text export of curves of a gear measuring machine, `.mka` | [`super::mka`] |
 //!
-//! Lines that begin with # come first; those of the form `key = value` describe the measurement:
+//! A file holds traces: profiles, from root to tip in a transverse section, and leads, over the face width on a cylinder; of one tooth or of
+//! several, of left flanks or of right ones. What is compared is the mean profile of the teeth chosen ([`super::teeth`]).
+//!
+//! The header of a table describes the measurement:
 //!
 //! | key | meaning |
 //! |---|---|
@@ -18,35 +16,24 @@
 //! | `hours`, `revolutions` | time of the measurement, revolutions of the pinion; left out: end of the run |
 //! | `width_mm` | place over the face width, for runs with slices |
 //! | `uncertainty_um` | standard deviation of a height, for comparison with the scatter |
-//! | `arc_from` | beginning of `arc_mm`: `base-circle`, `start-of-active-profile`, or `tip` (towards the root) |
+//! | `arc_from` | beginning of lengths along the flank: `base-circle`, `start-of-active-profile`, or `tip` (towards the root) |
 //! | `height_from` | reference of the heights: `involute` (the nominal one, along its normal) or `line` (as a stylus on a
 //! straight guide measures them, with the curvature of the tooth in them); left out: `involute` |
-//!
-//! Other lines with # are remarks. One column is the place on the flank: `radius_mm`, `arc_mm` (length along the flank) or
-//! `roll_angle_deg`; another one the height `height_um` or `height_mm`, which falls where material is gone, or `wear_um` or
-//! `wear_mm`, which rises there (a difference of profiles before and after). Columns stand in any order; places increase from row
-//! to row.
+//! | `units` | units of the columns in their order, where their names have none |
 
 use gearwear_bodies::gear::Gear;
-use gearwear_files::data_table::{DataTable, DataTableError, finite, missing, not_allowed, positive};
+use gearwear_files::data_table::{DataTableError, finite, not_allowed, positive};
 
-/// Names of the columns that may give the place.
-const PLACES: [(&str, PlaceColumn); 3] = [
-    ("radius_mm", PlaceColumn::RadiusMm),
-    ("arc_mm", PlaceColumn::ArcMm),
-    ("roll_angle_deg", PlaceColumn::RollAngleDeg),
-];
-/// Names of the columns that may give the height, and µm of height per unit.
-const VALUES: [(&str, ValueKind, f64); 4] = [
-    ("height_um", ValueKind::Height, 1.0),
-    ("height_mm", ValueKind::Height, UM_PER_MM),
-    ("wear_um", ValueKind::Wear, -1.0),
-    ("wear_mm", ValueKind::Wear, -UM_PER_MM),
-];
-const KEYS: [&str; 7] = ["gear", "hours", "revolutions", "width_mm", "uncertainty_um", "arc_from", "height_from"];
-const UM_PER_MM: f64 = 1e3;
+use super::teeth::{self, TraceChoice};
+use super::{mka, table};
+
+const KEYS: [&str; 8] =
+    ["gear", "hours", "revolutions", "width_mm", "uncertainty_um", "arc_from", "height_from", "units"];
 /// Similarity to a known key (Jaro and Winkler's measure) above which a key is taken for a misspelling.
 const SLIP: f64 = 0.85;
+/// Formats that can be read, as errors name them.
+const FORMATS: &str =
+    "a table of columns under their names, or the text export of curves (.mka) of a P40 gear measuring machine";
 
 /// Column that gives the place of a point on the flank.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -54,10 +41,14 @@ pub enum PlaceColumn {
     /// Distance from the axis.
     #[default]
     RadiusMm,
+    /// Twice that.
+    DiameterMm,
     /// Length along the flank.
     ArcMm,
     /// Roll angle of the transverse involute.
     RollAngleDeg,
+    /// Radius of curvature of the transverse involute: roll angle times base radius.
+    RollLengthMm,
 }
 
 impl PlaceColumn {
@@ -65,6 +56,8 @@ impl PlaceColumn {
     pub fn name(self) -> &'static str {
         match self {
             PlaceColumn::RadiusMm => "radius_mm",
+            PlaceColumn::DiameterMm => "diameter_mm",
+            PlaceColumn::RollLengthMm => "roll_length_mm",
             PlaceColumn::ArcMm => "arc_mm",
             PlaceColumn::RollAngleDeg => "roll_angle_deg",
         }
@@ -135,10 +128,71 @@ pub struct MeasuredFile {
     pub height_from: HeightFrom,
     /// Column of the places.
     pub place: PlaceColumn,
+    /// What the file calls it.
+    pub place_name: String,
     /// Kind of the heights.
     pub kind: ValueKind,
-    /// The points.
+    /// Gear that a machine says it measured.
+    pub machine_gear: Option<MachineGear>,
+    /// The points: the mean of the profiles of all teeth that were chosen.
     pub rows: Vec<MeasuredRow>,
+    /// Leads of the flank that was chosen.
+    pub leads: Vec<Trace>,
+    /// Heights of each tooth at the points less their mean, where there are several.
+    pub teeth_um: Vec<Vec<f64>>,
+}
+
+/// What a machine's file says of its gear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MachineGear {
+    /// Line of the number of teeth.
+    pub line: usize,
+    /// Number of teeth.
+    pub teeth: u32,
+    /// Base radius.
+    pub base_radius_mm: f64,
+}
+
+/// Flank of a tooth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum FlankSide {
+    /// Left flank, of a tooth that points upwards.
+    Left,
+    /// Right flank.
+    Right,
+}
+
+impl FlankSide {
+    /// Name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            FlankSide::Left => "left",
+            FlankSide::Right => "right",
+        }
+    }
+}
+
+/// What runs along a trace.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TraceKind {
+    /// A transverse section of the flank, from root to tip.
+    Profile,
+    /// A line over the face width.
+    Lead,
+}
+
+/// A trace of one flank.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trace {
+    pub kind: TraceKind,
+    /// Number of the tooth, where the file says it.
+    pub tooth: Option<u32>,
+    /// Flank, where the file says it.
+    pub side: Option<FlankSide>,
+    /// Place over the face width of a profile.
+    pub width_mm: Option<f64>,
+    /// The points: of a profile in the unit of [`MeasuredFile::place`], of a lead by their place over the face width.
+    pub points: Vec<MeasuredRow>,
 }
 
 /// A point of the file.
@@ -152,68 +206,36 @@ pub struct MeasuredRow {
     pub height_um: f64,
 }
 
-/// Reads the text of a file.
-pub fn parse(text: &str) -> Result<MeasuredFile, DataTableError> {
-    let table = DataTable::read(text, columns_allowed)?;
-    let mut file = MeasuredFile::default();
-    for &(line, key, value) in &table.keys {
-        file.take(line, key, value)?;
-    }
-    let columns = ProfileColumns::find(table.names.0, &table.names.1)?;
-    if columns.place == PlaceColumn::ArcMm && file.arc_from.is_none() {
-        return Err(missing(
-            "where arc_mm begins",
-            "a line \"# arc_from = base-circle\", \"start-of-active-profile\" or \"tip\"".to_owned(),
-        ));
-    }
-    (file.place, file.kind) = (columns.place, columns.kind);
-    for (line, fields) in &table.rows {
-        let point = columns.point(*line, fields)?;
-        if let Some(before) = file.rows.last().filter(|before| before.place >= point.place) {
-            let allowed =
-                format!("more than {} of line {}: places increase from row to row", before.place, before.line);
-            return Err(not_allowed(*line, columns.place.name(), point.place, allowed));
-        }
-        file.rows.push(point);
-    }
-    Ok(file)
+/// Reads the text of a file: its header, and the mean of the profiles in it that are chosen.
+///
+/// # Errors
+/// The first thing that is wrong with the file, or a choice that is not one profile of a tooth.
+pub fn parse(text: &str, choice: &TraceChoice) -> Result<MeasuredFile, DataTableError> {
+    let (header, traces) = traces(text)?;
+    teeth::mean(header, &traces, choice)
 }
 
-/// Columns of the place and the height.
-struct ProfileColumns {
-    count: usize,
-    place: PlaceColumn,
-    place_index: usize,
-    kind: ValueKind,
-    value_name: &'static str,
-    value_index: usize,
-    um_per_unit: f64,
-}
-
-impl ProfileColumns {
-    fn find(line: usize, names: &[&str]) -> Result<Self, DataTableError> {
-        let places: Vec<_> = PLACES.iter().filter_map(|(name, column)| Some((index(names, name)?, *column))).collect();
-        let values: Vec<_> = VALUES.iter().filter_map(|value| Some((index(names, value.0)?, value))).collect();
-        let (&[(place_index, place)], &[(value_index, &(value_name, kind, um_per_unit))]) = (&places[..], &values[..])
-        else {
-            return Err(not_allowed(line, "column names", names.join(","), columns_allowed()));
-        };
-        Ok(Self { count: names.len(), place, place_index, kind, value_name, value_index, um_per_unit })
-    }
-
-    fn point(&self, line: usize, fields: &[&str]) -> Result<MeasuredRow, DataTableError> {
-        if fields.len() != self.count {
-            let allowed = format!("{}, as there are columns; decimals are written with a point", self.count);
-            return Err(not_allowed(line, "number of fields", fields.len(), allowed));
+/// Header of a file and all its traces.
+pub fn traces(text: &str) -> Result<(MeasuredFile, Vec<Trace>), DataTableError> {
+    let text = text.trim_start_matches('\u{feff}');
+    let begin = text.trim_start();
+    let refused = |found: &str| Err(not_allowed(1, "format", found, FORMATS.to_owned()));
+    match begin.split_whitespace().next() {
+        _ if text.contains('\0') => refused("a binary file"),
+        Some(first) if first.starts_with('<') => {
+            refused("XML, as of the Gear Data Exchange format (GDE, VDI/VDE 2610)")
         }
-        let place = finite(line, self.place.name(), fields[self.place_index])?;
-        let value = finite(line, self.value_name, fields[self.value_index])?;
-        Ok(MeasuredRow { line, place, height_um: value * self.um_per_unit })
+        Some("HEADER") if begin.lines().next().is_some_and(|line| line.contains("KS.MW.FILE")) => {
+            refused("the export of values (.mew) of a P40 gear measuring machine, which has no curves")
+        }
+        Some("HEADER") => mka::read(text),
+        _ => table::read(text),
     }
 }
 
 impl MeasuredFile {
-    fn take(&mut self, line: usize, key: &str, value: &str) -> Result<(), DataTableError> {
+    /// Takes a line `# key = value`.
+    pub(super) fn take(&mut self, line: usize, key: &str, value: &str) -> Result<(), DataTableError> {
         match key {
             "gear" => {
                 let gear = Gear::BOTH.into_iter().find(|gear| gear.name() == value);
@@ -249,6 +271,8 @@ impl MeasuredFile {
                     _ => return Err(not_allowed(line, key, value, "involute or line".to_owned())),
                 };
             }
+            // Of the columns, which read it.
+            "units" => {}
             _ => {
                 if let Some(meant) = KEYS.iter().find(|known| strsim::jaro_winkler(known, key) > SLIP) {
                     return Err(not_allowed(line, "key", key, format!("{meant}, or a remark without =")));
@@ -259,19 +283,6 @@ impl MeasuredFile {
     }
 }
 
-/// Place of the column `name` among `names`.
-fn index(names: &[&str], name: &str) -> Option<usize> {
-    names.iter().position(|&own| own == name)
-}
-
-fn columns_allowed() -> String {
-    format!(
-        "names with units, separated by commas: one of {}, and one of {}",
-        PLACES.map(|(name, _)| name).join(", "),
-        VALUES.map(|(name, ..)| name).join(", ")
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -279,14 +290,14 @@ mod tests {
     #[test]
     fn columns_in_any_order_and_units_of_both_kinds() {
         let text = "# a remark\n# gear = wheel\n# hours = 2\nwear_um,note,roll_angle_deg\n1.5,a,10\n2,b,10.5\n";
-        let file = parse(text).unwrap();
+        let file = parse(text, &TraceChoice::default()).unwrap();
         assert_eq!(
             (file.gear, file.moment, file.place),
             (Some(Gear::Wheel), Moment::Hours(2.0), PlaceColumn::RollAngleDeg)
         );
         let points: Vec<_> = file.rows.iter().map(|row| (row.line, row.place, row.height_um)).collect();
         assert_eq!(points, [(5, 10.0, -1.5), (6, 10.5, -2.0)]);
-        let in_mm = parse("radius_mm,height_mm\n34,-0.002\n").unwrap();
+        let in_mm = parse("radius_mm,height_mm\n34,-0.002\n", &TraceChoice::default()).unwrap();
         assert_eq!((in_mm.rows[0].height_um, in_mm.kind), (-2.0, ValueKind::Height));
     }
 
@@ -307,12 +318,12 @@ mod tests {
             ("# hours = -3\nradius_mm,height_um\n34,1\n", "line 1", "-3"),
             ("# hours = 3\n# revolutions = 3\nradius_mm,height_um\n34,1\n", "line 2", "3"),
         ] {
-            let message = parse(text).unwrap_err().to_string();
+            let message = parse(text, &TraceChoice::default()).unwrap_err().to_string();
             assert!(message.starts_with(line) && message.contains(&format!("found {found}")), "{text}: {message}");
             assert!(message.contains("allowed: "), "{message}");
         }
         for text in ["", "# only remarks\n", "arc_mm,height_um\n1,2\n"] {
-            assert!(matches!(parse(text), Err(DataTableError::Missing { .. })), "{text}");
+            assert!(matches!(parse(text, &TraceChoice::default()), Err(DataTableError::Missing { .. })), "{text}");
         }
     }
 }

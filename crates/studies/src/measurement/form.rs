@@ -1,7 +1,7 @@
 //! Form removal: the residual of a profile after its form is fitted by least squares.
 //!
-//! All forms are linear in a few functions of the arc length, so that removing them is a projection: with Q the orthonormal
-//! columns of these functions at the points,
+//! All forms are linear in a few functions of the place x along the flank, so that removing them is a projection: with Q the
+//! orthonormal columns of these functions at the points,
 //!
 //! ```text
 //! P z = z − Q Qᵀ z
@@ -9,8 +9,8 @@
 //!
 //! | form | functions |
 //! |---|---|
-//! | cubic | 1, x, x², x³: the thesis's form of a trace (section 4.2) |
-//! | involute | 1, x: offset and tilt beside the nominal involute, whose sag and modifications are known |
+//! | cubic | 1, x, x², x³ of the length along the flank: the thesis's form of a trace (section 4.2) |
+//! | involute | 1, x beside the nominal involute, whose sag and modifications are known: of the roll length, an offset and a line as the slope deviation f_Hα has it; of the length along the flank, offset and tilt of a stylus's line |
 //! | none | none: heights and zero are true |
 //!
 //! The columns are Legendre's polynomials on the length of the profile, orthonormalised twice: well conditioned for any number of
@@ -18,12 +18,15 @@
 
 use super::fit::dot;
 
+/// Length of a column, less what others have of it, below which it is one of them.
+const IN_OTHERS: f64 = 1e-6;
+
 /// Form of a profile: the values of `--form`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Form {
     /// A least-squares polynomial of third order.
     Cubic,
-    /// The nominal flank, with offset and tilt by least squares.
+    /// The nominal flank, with an offset and a line in roll length by least squares.
     Involute,
     /// Nothing.
     None,
@@ -57,16 +60,16 @@ pub struct FormRemoval {
 }
 
 impl FormRemoval {
-    /// Removal of `form` at points of these arc lengths, more of them than the form has parameters.
-    pub fn new(form: Form, arc_mm: &[f64]) -> Self {
-        let (first, last) = match (arc_mm.first(), arc_mm.last()) {
+    /// Removal of `form` at points with these places, more of them than the form has parameters.
+    pub fn new(form: Form, place_mm: &[f64]) -> Self {
+        let (first, last) = match (place_mm.first(), place_mm.last()) {
             (Some(&first), Some(&last)) => (first, last),
             _ => (0.0, 0.0),
         };
         let (middle, half) = (0.5 * (first + last), (0.5 * (last - first)).max(f64::MIN_POSITIVE));
         let mut columns: Vec<Vec<f64>> = Vec::new();
         for degree in 0..form.parameters() {
-            let mut column: Vec<f64> = arc_mm.iter().map(|arc| legendre(degree, (arc - middle) / half)).collect();
+            let mut column: Vec<f64> = place_mm.iter().map(|place| legendre(degree, (place - middle) / half)).collect();
             for _ in 0..2 {
                 for other in &columns {
                     take_out(other, &mut column);
@@ -77,6 +80,27 @@ impl FormRemoval {
             columns.push(column);
         }
         Self { columns }
+    }
+
+    /// Removal of the part of `values` that is made of some columns too, beside what is removed already.
+    pub fn and(mut self, columns: impl IntoIterator<Item = Vec<f64>>) -> Self {
+        for mut column in columns {
+            let length = dot(&column, &column).sqrt();
+            for _ in 0..2 {
+                self.remove(&mut column);
+            }
+            let rest = dot(&column, &column).sqrt();
+            if rest > IN_OTHERS * length {
+                column.iter_mut().for_each(|value| *value /= rest);
+                self.columns.push(column);
+            }
+        }
+        self
+    }
+
+    /// The orthonormal columns.
+    pub fn columns(&self) -> &[Vec<f64>] {
+        &self.columns
     }
 
     /// Takes the form away from `values` at the points.

@@ -6,16 +6,28 @@
 //!
 //! | module | what it does |
 //! |---|---|
-//! | [`mod@file`] | the CSV file with its header |
+//! | [`mod@file`] | the file with its header, in the formats [`table`] and [`mka`] |
+//! | [`teeth`] | mean of the profiles of some teeth |
+//! | [`mod@undefined`] | points without a height |
 //! | [`profile`] | points on the flank of a gear |
 //! | [`form`] | form removal as a projection |
 //! | [`roughness`] | arithmetic mean deviation, before and after a Gaussian filter |
 //! | [`fit`] | nonlinear least squares in a few parameters |
+//! | [`deviations`] | deviations and tolerance class after ISO 1328-1 |
+//! | [`waviness`] | waves in the residuals |
+//! | `correlation` | spectrum of the residuals |
 //! | [`interval`] | uncertainty of the parameters, from the residuals |
 
+mod correlation;
+pub mod deviations;
 pub mod file;
 pub mod fit;
 pub mod form;
 pub mod interval;
+pub mod mka;
 pub mod profile;
 pub mod roughness;
+pub mod table;
+pub mod teeth;
+pub mod undefined;
+pub mod waviness;

@@ -12,7 +12,8 @@
 //! middle of the profile; another one differs from it by an offset and a tilt, which form removal takes away (to first order in
 //! the angle between them: level the trace to a few degrees).
 
-use super::file::{ArcFrom, HeightFrom, MeasuredFile, PlaceColumn, ValueKind};
+use super::file::{ArcFrom, HeightFrom, MeasuredFile, PlaceColumn, Trace, ValueKind};
+use super::form::Form;
 use gearwear_bodies::gear::{Gear, GearPair, involute::Involute, removed_material::removed_mm};
 use gearwear_files::data_table::{DataTableError, not_allowed};
 
@@ -33,6 +34,10 @@ pub struct MeasuredProfile {
     pub kind: ValueKind,
     /// Reference of the heights.
     pub height_from: HeightFrom,
+    /// Leads of the same flanks.
+    pub leads: Vec<Trace>,
+    /// Heights of each tooth at the points less their mean, where it is one of several.
+    pub teeth_um: Vec<Vec<f64>>,
 }
 
 impl MeasuredProfile {
@@ -45,21 +50,52 @@ impl MeasuredProfile {
         let FlankArc { first, last, .. } = flank;
         let margin = OUTSIDE * (last - first);
         let mut points = Vec::with_capacity(file.rows.len());
-        for row in &file.rows {
+        for (index, row) in file.rows.iter().enumerate() {
             let at = flank.arc_mm(file, row.place);
             // Below the base circle there is no involute, and no arc length that tells.
-            let is_below = file.place == PlaceColumn::RadiusMm && row.place < flank.involute.base_radius_mm
-                || file.place == PlaceColumn::RollAngleDeg && row.place < 0.0;
+            let base = flank.involute.base_radius_mm;
+            let is_below = match file.place {
+                PlaceColumn::RadiusMm => row.place < base,
+                PlaceColumn::DiameterMm => row.place < 2.0 * base,
+                PlaceColumn::RollAngleDeg | PlaceColumn::RollLengthMm => row.place < 0.0,
+                PlaceColumn::ArcMm => false,
+            };
             if is_below || at < first - margin || at > last + margin {
                 let (a, b) = (flank.place(file, first), flank.place(file, last));
                 let allowed = format!("{:.4} to {:.4}, the {}'s flank", a.min(b), a.max(b), gear.name());
-                return Err(not_allowed(row.line, file.place.name(), row.place, allowed));
+                return Err(not_allowed(row.line, &file.place_name, row.place, allowed));
             }
-            points.push((at.clamp(first, last), row.height_um));
+            points.push((at.clamp(first, last), index));
         }
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let (arc_mm, height_um) = points.into_iter().unzip();
-        Ok(Self { gear, arc_mm, height_um, kind: file.kind, height_from: file.height_from })
+        let of_points = |values: &dyn Fn(usize) -> f64| points.iter().map(|&(_, index)| values(index)).collect();
+        Ok(Self {
+            gear,
+            arc_mm: points.iter().map(|&(arc, _)| arc).collect(),
+            height_um: of_points(&|index| file.rows[index].height_um),
+            kind: file.kind,
+            height_from: file.height_from,
+            leads: file.leads.clone(),
+            teeth_um: file.teeth_um.iter().map(|own| of_points(&|index| own[index])).collect(),
+        })
+    }
+
+    /// Where the form of the profile is even: lengths along the flank for heights from a line, roll lengths for those from the involute.
+    pub fn form_place_mm(&self, pair: &GearPair, form: Form) -> Vec<f64> {
+        let involute = pair.teeth[self.gear].involute;
+        match (form, self.height_from) {
+            (Form::Involute, HeightFrom::Involute) => {
+                self.arc_mm.iter().map(|&arc| involute.rho_at_arc_mm(arc)).collect()
+            }
+            _ => self.arc_mm.clone(),
+        }
+    }
+
+    /// Lengths along the flank, and roll lengths.
+    pub fn places_mm(&self, pair: &GearPair) -> [Vec<f64>; 2] {
+        let involute = pair.teeth[self.gear].involute;
+        let roll = self.arc_mm.iter().map(|&arc| involute.rho_at_arc_mm(arc)).collect();
+        [self.arc_mm.clone(), roll]
     }
 
     /// Radius of each point.
@@ -120,7 +156,9 @@ impl FlankArc {
         let involute = &self.involute;
         match (file.place, file.arc_from) {
             (PlaceColumn::RadiusMm, _) => involute.arc_mm(involute.curvature_radius_mm(place)),
+            (PlaceColumn::DiameterMm, _) => involute.arc_mm(involute.curvature_radius_mm(0.5 * place)),
             (PlaceColumn::RollAngleDeg, _) => involute.arc_mm(place.to_radians() * involute.base_radius_mm),
+            (PlaceColumn::RollLengthMm, _) => involute.arc_mm(place),
             (PlaceColumn::ArcMm, Some(ArcFrom::Tip)) => self.last - place,
             (PlaceColumn::ArcMm, Some(ArcFrom::ActiveStart)) => self.active_start + place,
             (PlaceColumn::ArcMm, _) => place,
@@ -132,7 +170,9 @@ impl FlankArc {
         let involute = &self.involute;
         match (file.place, file.arc_from) {
             (PlaceColumn::RadiusMm, _) => involute.radius_mm(involute.rho_at_arc_mm(arc)),
+            (PlaceColumn::DiameterMm, _) => 2.0 * involute.radius_mm(involute.rho_at_arc_mm(arc)),
             (PlaceColumn::RollAngleDeg, _) => involute.roll_angle_rad(involute.rho_at_arc_mm(arc)).to_degrees(),
+            (PlaceColumn::RollLengthMm, _) => involute.rho_at_arc_mm(arc),
             (PlaceColumn::ArcMm, Some(ArcFrom::Tip)) => self.last - arc,
             (PlaceColumn::ArcMm, Some(ArcFrom::ActiveStart)) => arc - self.active_start,
             (PlaceColumn::ArcMm, _) => arc,

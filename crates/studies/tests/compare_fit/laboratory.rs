@@ -14,6 +14,7 @@ use gearwear_studies::compare::record::CompareRecord;
 use gearwear_studies::compare::run_folder::RunFolder;
 use gearwear_studies::compare::study;
 use gearwear_studies::measurement::file;
+use gearwear_studies::measurement::teeth::TraceChoice;
 
 use crate::common::loaded;
 
@@ -52,9 +53,9 @@ impl Laboratory {
         Self { folder, scene: loaded(&resolved), pair, traces }
     }
 
-    /// r_b of the pinion.
-    pub fn base_radius_mm(&self) -> f64 {
-        self.pair.teeth.pinion.involute.base_radius_mm
+    /// r_b.
+    pub fn base_radius_mm(&self, gear: Gear) -> f64 {
+        self.pair.teeth[gear].involute.base_radius_mm
     }
 
     /// What the comparison of a file with the run says.
@@ -64,7 +65,8 @@ impl Laboratory {
 
     /// What the comparison of some files with the run says.
     pub fn compare_all(&self, texts: &[&str], asked: &CompareOptions) -> CompareRecord {
-        let files: Vec<_> = texts.iter().map(|text| ("trace.csv".to_owned(), file::parse(text).unwrap())).collect();
+        let files: Vec<_> =
+            texts.iter().map(|text| ("trace.csv".to_owned(), file::parse(text, &asked.traces).unwrap())).collect();
         let question = ComparisonQuestion::new(asked, &files, &self.folder, &self.scene.resolved, &self.pair).unwrap();
         study::run(&question, &self.folder, &self.scene, &Unwatched).unwrap()
     }
@@ -120,7 +122,7 @@ fn interpolated(x: &[f64], y: &[f64], at: f64) -> f64 {
 
 /// What is asked where a test says nothing else: k of heights, no shift.
 pub fn asked(fit: FitKind) -> CompareOptions {
-    CompareOptions { gear: None, form: None, fit: Some(fit), shift_within_mm: 0.0 }
+    CompareOptions { gear: None, form: None, fit: Some(fit), shift_within_mm: 0.0, traces: TraceChoice::default() }
 }
 
 /// Normal numbers of mean 0 and deviation 1 by Box and Muller, from xorshift64* (Vigna 2016).
@@ -137,7 +139,8 @@ impl Noise {
         noise
     }
 
-    fn uniform(&mut self) -> f64 {
+    /// A number from 0 to 1, all alike.
+    pub fn uniform(&mut self) -> f64 {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
         self.0 ^= self.0 >> 27;

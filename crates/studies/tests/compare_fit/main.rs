@@ -5,9 +5,12 @@ mod both_gears;
 #[path = "../../../../tests/inside/common/mod.rs"]
 mod common;
 mod laboratory;
+mod mutated;
+mod slope;
 
 use std::sync::LazyLock;
 
+use gearwear_bodies::gear::Gear;
 use gearwear_studies::compare::question::{CompareOptions, FitKind};
 use gearwear_studies::compare::record::{CompareRecord, FittedValue};
 use gearwear_studies::measurement::fit::FitStop;
@@ -206,7 +209,7 @@ fn val_the_deviation_of_a_trace_with_a_cubic_form() {
 fn ver_heights_from_a_line_tell_the_same() {
     let of = &*LABORATORY;
     let z = of.traces.pinion.heights(&[0.0; POINTS]);
-    let r_b = of.base_radius_mm();
+    let r_b = of.base_radius_mm(Gear::Pinion);
     // The involute as a curve in the plane, ρ from the base circle: r_b (cos φ + φ sin φ), r_b (sin φ − φ cos φ).
     let point = |s: f64| {
         let phi: f64 = (2.0 * s / r_b).sqrt();

@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use super::{LAST, POINTS, figures};
 use crate::compare::record::{CoefficientCorrelation, CompareRecord, FittedValue, ProfileRecord};
 use crate::compare::unknown::Unknown;
+use crate::measurement::deviations::Deviations;
 use crate::measurement::fit::FitStop;
 use gearwear::report::html::number::{figure, fixed, given, hours, revolutions, significant};
 use gearwear::report::html::page::{Page, Plots, section, sources_list};
@@ -151,9 +152,39 @@ fn tables(record: &CompareRecord, correlated: Option<Markup>) -> Markup {
             (correlations(correlation))
         }
         (table(format!("Profile, form removed ({})", forms.join(", ")), &names, of_profiles))
+        @for of in profiles {
+            @if let Some(deviations) = deviations(of, several) { (deviations) }
+        }
         (table("Runs", &[""], runs))
         @if let Some(plot) = correlated { (plot) }
     }
+}
+
+/// Deviations of a profile and of its leads after ISO 1328-1, where there are any.
+fn deviations(of: &ProfileRecord, name_gear: bool) -> Option<Markup> {
+    let profile = of.deviations.iter().flat_map(|of| {
+        [
+            ("as measured", of.measured),
+            ("before wear: wear as fitted put back", of.before_wear),
+            ("wear alone", of.wear),
+        ]
+    });
+    let profile = profile.map(|(name, found)| (format!("profile, {name}"), found));
+    let leads = of.leads.iter().map(|lead| {
+        let tooth = lead.tooth.map_or_else(String::new, |tooth| format!(" of tooth {tooth}"));
+        (format!("lead{tooth}"), lead.measured)
+    });
+    let rows: Vec<Markup> = profile
+        .chain(leads)
+        .filter_map(|(name, found)| {
+            let Deviations { total_um, form_um, slope_um, tolerance_class } = found?;
+            let class = tolerance_class.map_or_else(|| "above 11".to_owned(), |class| class.to_string());
+            Some(row(name, "µm", [fixed(total_um, 2), fixed(form_um, 2), fixed(slope_um, 2), class]))
+        })
+        .collect();
+    let whose = if name_gear { format!(" of the {}", of.gear.name()) } else { String::new() };
+    let title = format!("Deviations{whose} after ISO 1328-1");
+    (!rows.is_empty()).then(|| table(title, &["total F", "form f_f", "slope f_H", "tolerance class"], rows))
 }
 
 /// Rows of the correlations, each pair of fitted values once.

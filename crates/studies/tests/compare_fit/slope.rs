@@ -1,0 +1,107 @@
+//! Profiles as a gear measuring machine gives them: with an offset, a slope in roll length, waviness and noise. The interval of the wear
+//! coefficient holds the true one as often as it says, whatever the slope.
+
+use std::f64::consts::TAU;
+use std::sync::LazyLock;
+
+use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_studies::compare::question::{CompareOptions, FitKind};
+use gearwear_studies::measurement::form::Form;
+
+use super::laboratory::{Laboratory, Noise, POINTS, asked};
+
+/// Of pinion and wheel; the run has 1e-17 m²/N for both.
+const TRUE_K: [f64; 2] = [1.4e-17, 0.8e-17];
+/// Slopes, µm per mm of roll length.
+const SLOPES: [f64; 2] = [0.4, -0.3];
+
+static LABORATORY: LazyLock<Laboratory> = LazyLock::new(|| {
+    let with = |[pinion, wheel]: [f64; 2]| {
+        let both = format!("coefficient_m2_per_N = {pinion:e}\n");
+        super::scene(pinion, 1.0)
+            .replace(&both, &format!("{both}wheel.coefficient_m2_per_N = {wheel:e}\n"))
+            .replace("positions = 100", "positions = 60")
+    };
+    Laboratory::new(&with([1e-17; 2]), &with(TRUE_K))
+});
+
+/// What waves there are.
+#[derive(Clone, Copy)]
+enum Waviness {
+    /// One of 0.5 µm and a length of 0.6 to 2 mm along the flank.
+    AlongFlank,
+    /// One of 0.5 µm and a length of 1 to 3 mm of roll length.
+    InRollLength,
+}
+
+/// Heights of a flank: offset, slope, waviness and noise of 0.4 µm.
+fn heights(of: &Laboratory, gear: Gear, noise: &mut Noise, waviness: Waviness) -> Vec<f64> {
+    let trace = &of.traces[gear];
+    let slope = SLOPES[usize::from(gear == Gear::Wheel)];
+    let roll_mm: Vec<f64> = trace.arc_mm.iter().map(|arc| (2.0 * of.base_radius_mm(gear) * arc).sqrt()).collect();
+    let (offset, phase) = (5.0 * noise.normal(), TAU * noise.uniform());
+    let (places, length) = match waviness {
+        Waviness::InRollLength => (&roll_mm, 1.0 + 2.0 * noise.uniform()),
+        Waviness::AlongFlank => (&trace.arc_mm, 0.6 + 1.4 * noise.uniform()),
+    };
+    let point = |i: usize| {
+        let wave = 0.5 * (TAU * places[i] / length + phase).sin();
+        -trace.wear_um[i] + offset + slope * roll_mm[i] + wave
+    };
+    (0..POINTS).map(|i| point(i) + 0.4 * noise.normal()).collect()
+}
+
+/// How many of `count` pairs of profiles have the true coefficients in their intervals; without an interval they have not.
+fn covered(count: u64, waviness: Waviness) -> PerGear<u64> {
+    let of = &*LABORATORY;
+    let ask = CompareOptions { form: Some(Form::Involute), ..asked(FitKind::Each) };
+    let mut held = PerGear { pinion: 0, wheel: 0 };
+    for seed in 0..count {
+        let mut noise = Noise::new(seed);
+        let texts = Gear::BOTH.map(|gear| of.traces[gear].file(&heights(of, gear, &mut noise, waviness)));
+        let record = of.compare_all(&texts.each_ref().map(String::as_str), &ask);
+        for (index, gear) in Gear::BOTH.into_iter().enumerate() {
+            let k = record.fit.coefficients[index].coefficient_m2_per_N;
+            let holds = |(low, high): (f64, f64)| (low..=high).contains(&TRUE_K[index]);
+            held[gear] += u64::from(k.low.zip(k.high).is_some_and(holds));
+        }
+    }
+    held
+}
+
+/// Noiseless, a slope in roll length changes nothing.
+#[test]
+fn ver_a_slope_in_roll_length_changes_nothing() {
+    let of = &*LABORATORY;
+    let texts = Gear::BOTH.map(|gear| {
+        let (trace, slope) = (&of.traces[gear], SLOPES[usize::from(gear == Gear::Wheel)]);
+        let roll = trace.arc_mm.iter().map(|arc| (2.0 * of.base_radius_mm(gear) * arc).sqrt());
+        let heights: Vec<f64> = roll.zip(&trace.wear_um).map(|(roll, wear)| 3.0 + slope * roll - wear).collect();
+        trace.file(&heights)
+    });
+    let ask = CompareOptions { form: Some(Form::Involute), ..asked(FitKind::Each) };
+    let record = of.compare_all(&texts.each_ref().map(String::as_str), &ask);
+    for (index, truth) in TRUE_K.into_iter().enumerate() {
+        let k = record.fit.coefficients[index].coefficient_m2_per_N.value;
+        assert!((k / truth - 1.0).abs() < 1e-3, "{k:e} {truth:e}");
+    }
+}
+
+/// 95 % intervals hold for 16 to 20 of 20 seeds with each kind of waviness (fewer in one of 390 such samples), both gears.
+#[test]
+fn ver_intervals_cover_with_slope_waviness_and_noise() {
+    for waviness in [Waviness::AlongFlank, Waviness::InRollLength] {
+        let held = covered(20, waviness);
+        println!("{held:?} of 20");
+        assert!(held.pinion >= 16 && held.wheel >= 16, "{held:?}");
+    }
+}
+
+/// Of 600 pairs of profiles with waviness along the flank, 558 to 582 hold the true coefficient, both gears: 93 to 97 %.
+#[test]
+#[ignore = "600 fits"]
+fn ver_intervals_cover_93_to_97_percent_of_600() {
+    let held = covered(600, Waviness::AlongFlank);
+    println!("{held:?} of 600");
+    assert!([held.pinion, held.wheel].iter().all(|held| (558..=582).contains(held)), "{held:?}");
+}
