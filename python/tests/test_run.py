@@ -121,7 +121,7 @@ def test_arrays_outlive_their_run() -> None:
 
 def test_names_that_are_none(spur: gearwear.Run) -> None:
     with pytest.raises(AttributeError, match="a flank has no wear_mm; allowed: .*wear_um"):
-        spur.pinion.wear_mm
+        spur.pinion.wear_mm  # type: ignore[attr-defined]
     with pytest.raises(AttributeError, match="no column load_share; allowed: .*load_share_new"):
         spur.mesh_cycle.load_share
     with pytest.raises(KeyError, match="no column load_share; allowed: .*load_share_new"):
