@@ -199,6 +199,12 @@ class Run:
         return self._table("profiles")
 
     @cached_property
+    def film(self) -> Table | None:
+        """A row for each position, and slice: films and friction, new and worn; None where the scene asks for neither."""
+        columns = self._native.table("film")
+        return None if columns is None else Table("film", columns)
+
+    @cached_property
     def slices(self) -> Slices | None:
         """The mesh of one tooth slice by slice; None where all sections are alike."""
         return None if self._native.slice_array("width_mm") is None else Slices(self._native)
@@ -233,6 +239,8 @@ class Run:
         }
         if self.slices is not None:
             tables["slices"] = self.slices
+        if self.film is not None:
+            tables["film"] = self.film
         return {name: table.to_pandas() for name, table in tables.items()}
 
     def to_xarray(self) -> xr.Dataset:
@@ -273,7 +281,7 @@ class Run:
 
     @property
     def plot(self) -> Plots:
-        """Plots with matplotlib: ``run.plot.wear()`` and others."""
+        """Plots with matplotlib, one for each drawing of the page: ``run.plot.wear()`` and others."""
         from gearwear.plot import Plots
 
         return Plots(self)

@@ -248,6 +248,7 @@ class Scene:
         helix = pair.get("helix_angle_deg") or 0.0
         kind = f"helix angle {helix:g}°" if helix else "spur"
         torque = f"{operation['pinion_torque_Nm']:g} N·m"
-        surface = tables.get("contact", {}).get("surface", "")
+        surface = tables.get("contact", {}).get("surface")
         law = tables["wear"].get("law", "a law for each gear")
-        return f"<gearwear.Scene {self.title!r}: {teeth}, {module}, {kind}, {torque}, {surface}, {law}>"
+        said = ", ".join(part for part in (teeth, module, kind, torque, surface, law) if part)
+        return f"<gearwear.Scene {self.title!r}: {said}>"

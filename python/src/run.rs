@@ -178,6 +178,18 @@ impl Run {
         self.record.inputs.iter().map(|file| (file.name.clone(), file.bytes.clone())).collect()
     }
 
+    /// Names and radii of A to E on a flank.
+    fn path_points(&self, gear: &str) -> PyResult<Vec<(String, f64)>> {
+        let points = self.record.flanks[gear_of(gear)?].path_point_radius_mm.named();
+        Ok(points.into_iter().map(|(name, radius_mm)| (name.to_owned(), radius_mm)).collect())
+    }
+
+    /// The pair in mesh, to scale, as JSON.
+    #[getter]
+    fn drawing_json(&self) -> PyResult<String> {
+        json(&self.record.drawing)
+    }
+
     /// The plots of its page: names and SVG.
     fn figures(&self, py: Python<'_>) -> Vec<(String, String)> {
         let figures = py.detach(|| gearwear::figures(&self.record));
