@@ -116,6 +116,7 @@ pub mod runs;
 pub mod scene;
 #[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod spread;
+pub mod stamped_file;
 #[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod sweep;
 #[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
@@ -143,10 +144,13 @@ pub use gearwear_physics::observer::{Observer, Unwatched};
 pub use gearwear_physics::plan::Plan;
 pub use gearwear_physics::results;
 pub use gearwear_physics::results::run::RunRecord;
+pub use report::RunFiles;
 pub use report::columns;
 pub use report::figure::Figure;
 pub use report::files::ReportError;
 pub use report::unit::of as unit_of;
+pub use resume::kept_run::{KeptRunError, run as run_kept};
+pub use resume::result::ResultError;
 pub use runs::run;
 pub use scene::Resolved;
 pub use scene::blame::SceneFault;
@@ -342,9 +346,21 @@ pub fn write_calibration(calibrated: &Calibrated, title: &str, file: &Path) -> R
 /// # Errors
 /// [`ReportError`] where a file cannot be written.
 pub fn write(run: &RunRecord, folder: &Path) -> Result<(), ReportError> {
-    report::remove_summary(folder)?;
-    run.inputs.iter().try_for_each(|file| resume::folder::place(folder, &file.name, &file.bytes))?;
-    report::write_data(run, folder)?;
-    report::write_page(run, folder)?;
-    report::write_summary(&run.summary, folder).map(drop)
+    write_with(run, &RunFiles::default(), folder)
+}
+
+/// Writes the same with `files` beside the tables.
+///
+/// # Errors
+/// [`ReportError`] where a file cannot be written.
+pub fn write_with(run: &RunRecord, files: &RunFiles, folder: &Path) -> Result<(), ReportError> {
+    resume::result::write_all(run, files, folder)
+}
+
+/// The run in a folder that [`write()`] or `gearwear run` filled, equal to the one that was written.
+///
+/// # Errors
+/// [`ResultError`]: no folder, none of a finished run, or one of another version of the program.
+pub fn read(folder: &Path) -> Result<RunRecord, ResultError> {
+    resume::result::read(folder)
 }

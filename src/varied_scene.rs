@@ -3,18 +3,12 @@
 //! The text is read once. Defaults are chosen again each time; the named files and the condensed teeth in three dimensions are shared.
 
 use crate::scene::draft::Draft;
+use crate::scene::key::linked_keys;
 use crate::scene::loaded::LoadedScene;
 use crate::scene::{Problem, Resolved};
 use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_physics::assessment::{Done, RunError};
 use gearwear_physics::observer::Observer;
-
-/// Paths of a key with alternatives: `a.b.d` and `a.c.d` for `a.{b,c}.d`.
-pub fn linked_keys(key: &str) -> Vec<String> {
-    let Some((before, rest)) = key.split_once('{') else { return vec![key.to_owned()] };
-    let Some((alternatives, after)) = rest.split_once('}') else { return vec![key.to_owned()] };
-    alternatives.split(',').flat_map(|name| linked_keys(&format!("{before}{}{after}", name.trim()))).collect()
-}
 
 /// The first of `keys` that names a phase of the operation which `scene` does not have.
 pub fn missing_phase(keys: impl IntoIterator<Item = String>, scene: &Draft) -> Option<String> {

@@ -13,7 +13,7 @@ from gearwear._native import VERSION as __version__
 from gearwear._native import presets, unit_of
 from gearwear.calibration import Calibration
 from gearwear.errors import Finding, GearwearError, NotConverged, RunError, SceneError, WornThrough
-from gearwear.evaluate import evaluate
+from gearwear.evaluate import Evaluation, evaluate
 from gearwear.fem import FemPair, FemProblem, fem_problem
 from gearwear.figures import Figure, main_figures
 from gearwear.mesh import Mesh
@@ -27,6 +27,7 @@ from gearwear.uncertainty import Uncertainty, uncertainty
 
 __all__ = [
     "Calibration",
+    "Evaluation",
     "FemPair",
     "FemProblem",
     "Figure",

@@ -26,8 +26,8 @@ MOST_BYTES = 1 << 27
 #: Tasks that may be lost for good before any has come back; more, and the executor is at fault.
 MOST_DOUBTFUL = 2
 
-#: What is varied, the figure that is to be lowest, its limits, and whether errors are estimated.
-Question = tuple[list[str], "str | None", list[str], bool]
+#: What is varied, the figure that is to be lowest, its limits, whether errors are estimated, and further columns.
+Question = tuple[list[str], "str | None", list[str], bool, list[str]]
 
 
 def is_one_or_makes_one(executor: object) -> bool:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from gearwear import _native
+from gearwear.kept import Kept, as_kept
 from gearwear.mesh import Mesh, as_mesh
 from gearwear.table import Table
 from gearwear.version import refuse_other
@@ -18,8 +20,13 @@ from gearwear.workers import ProgressArgument, Watched
 class FemPair:
     """The contact of a gear pair by finite elements, over the mesh cycle or at one position."""
 
-    def __init__(self, native: _native.FemPair) -> None:
+    def __init__(self, native: _native.FemPair | Kept) -> None:
         self._native = native
+
+    @classmethod
+    def read(cls, folder: str | os.PathLike[str]) -> FemPair:
+        """The contact in a folder that ``gearwear fem`` or :meth:`write` wrote."""
+        return cls(Kept.read(folder, "FemPair"))
 
     @cached_property
     def summary(self) -> dict[str, Any]:
@@ -47,6 +54,8 @@ class FemPair:
         self._native.write(os.fspath(folder))
 
     def __reduce__(self) -> tuple[Any, ...]:
+        if isinstance(self._native, Kept):
+            return FemPair, (self._native,)
         return _restored, (_native.VERSION, self._native.to_bytes())
 
     def __repr__(self) -> str:
@@ -61,8 +70,13 @@ def _restored(version: str, data: bytes) -> FemPair:
 class FemProblem:
     """The answer to a problem of finite elements on a mesh of one's own."""
 
-    def __init__(self, native: _native.FemProblem) -> None:
+    def __init__(self, native: _native.FemProblem | Kept) -> None:
         self._native = native
+
+    @classmethod
+    def read(cls, folder: str | os.PathLike[str]) -> FemProblem:
+        """The answer in a folder that ``gearwear fem`` or :meth:`write` wrote."""
+        return cls(Kept.read(folder, "FemProblem"))
 
     @cached_property
     def summary(self) -> dict[str, Any]:
@@ -75,26 +89,37 @@ class FemProblem:
         """The mesh with displacement, stress and, in the plane, contact pressure at its points: that of ``solution.vtu``."""
         return Mesh(self._native.mesh())
 
+    @cached_property
+    def contact(self) -> Table:
+        """A row for each place of each contact: gap and pressure, the columns of ``contact.csv``; empty in space, where nothing touches."""
+        return Table("contact", as_kept(self._native).table("contact") or [])
+
     def write(self, folder: str | os.PathLike[str]) -> None:
         """Writes what ``gearwear fem`` writes: ``solution.vtu``, ``contact.csv`` and the others."""
         self._native.write(os.fspath(folder))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        raise TypeError("the answer to a problem of finite elements cannot be pickled; write(folder) keeps it")
+        return FemProblem, (as_kept(self._native),)
 
     def __repr__(self) -> str:
         return f"<gearwear.FemProblem {self.summary['title']!r}: {self.summary['elements']} elements>"
 
 
 def fem_problem(
-    path: str | os.PathLike[str], *, mesh: Any = None, progress: ProgressArgument = False
+    problem: str | os.PathLike[str] | Mapping[str, Any], *, mesh: Any = None, progress: ProgressArgument = False
 ) -> FemProblem:
-    """Solves the problem in a file (``docs/fem-problems.md``), whose mesh lies beside it.
+    """Solves a problem (``docs/fem-problems.md``): that in a file, whose mesh lies beside it, or a dict of its tables.
 
-    With ``mesh``, a :class:`Mesh` or a ``meshio.Mesh``, it is solved on that, and the file that the problem names is not read.
+    With ``mesh``, a :class:`Mesh` or a ``meshio.Mesh``, it is solved on that: a file that the problem names is not read, and none need be named.
     """
-    file = Path(path)
-    text = file.read_text(encoding="utf-8")
     native = None if mesh is None else as_mesh(mesh)._native
+    if isinstance(problem, Mapping):
+        tables = dict(problem)
+        if native is not None:
+            tables.setdefault("mesh", {"file": "mesh.json"})
+        name, text, folder = "problem", _native.Scene.text_of(tables), ""
+    else:
+        file = Path(problem)
+        name, text, folder = str(file), file.read_text(encoding="utf-8"), str(file.parent)
     with Watched(progress) as told:
-        return FemProblem(_native.solve_fem_problem(str(file), text, str(file.parent), native, told))
+        return FemProblem(_native.solve_fem_problem(name, text, folder, native, told))

@@ -51,20 +51,25 @@ class Mesh:
             )
         )
 
-    def to_meshio(self) -> Any:
-        """The same as a ``meshio.Mesh`` (``pip install gearwear[mesh]``), with the tags of physical groups as ``gmsh:physical`` too."""
+    def to_meshio(self, *, gmsh: bool = False) -> Any:
+        """The same as a ``meshio.Mesh`` (``pip install gearwear[mesh]``), with the tags of physical groups as ``gmsh:physical`` too.
+
+        With ``gmsh`` as meshio writes into files of Gmsh 4.1: a block for the cells of each group, and ``gmsh:dim_tags`` at the points. There a cell
+        is in one group, of several the smallest, and sets of points have no place.
+        """
         import meshio
         import numpy as np
 
         make: Any = meshio.Mesh
+        from gearwear.gmsh import for_gmsh, physical_tags
+
+        if gmsh:
+            return for_gmsh(self)
         tags = self._native.field_data
         cell_data = dict(self.cell_data)
         if tags:
-            # meshio writes groups into Gmsh's files from these: of several groups of a cell the last.
-            physical = [np.zeros(len(nodes), dtype=np.int32) for _, nodes in self.cells]
-            for name, (tag, _) in tags.items():
-                for numbers, members in zip(physical, self.cell_sets.get(name, []), strict=False):
-                    numbers[members] = tag
+            # meshio writes groups into Gmsh's older files from these.
+            physical = [numbers.astype(np.int32) for numbers in physical_tags(self, tags)]
             cell_data.setdefault("gmsh:physical", physical)
             cell_data.setdefault("gmsh:geometrical", [numbers.copy() for numbers in physical])
         # Points of its own, as meshio's users change them.

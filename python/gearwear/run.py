@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from gearwear import _native
 from gearwear.figures import main_figures
+from gearwear.kept import kind_of
 from gearwear.table import Table
 from gearwear.version import refuse_other
 
@@ -56,13 +57,16 @@ class Flank:
         self._native = native
         self._gear: Gear = gear
 
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_") or name not in Flank.__annotations__:
-            allowed = ", ".join(Flank.__annotations__)
-            raise AttributeError(f"a flank has no {name}; allowed: {allowed}", name=name, obj=self)
-        array = self._native.flank_array(self._gear, name)
-        self.__dict__[name] = array
-        return array
+    # Of a name that is none, a type checker says so.
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith("_") or name not in Flank.__annotations__:
+                allowed = ", ".join(Flank.__annotations__)
+                raise AttributeError(f"a flank has no {name}; allowed: {allowed}", name=name, obj=self)
+            array = self._native.flank_array(self._gear, name)
+            self.__dict__[name] = array
+            return array
 
     @cached_property
     def verified_wear_um(self) -> Numbers | None:
@@ -128,13 +132,16 @@ class Slices:
     def __init__(self, native: _native.Run) -> None:
         self._native = native
 
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_") or name not in Slices.__annotations__:
-            allowed = ", ".join(Slices.__annotations__)
-            raise AttributeError(f"slices have no {name}; allowed: {allowed}", name=name, obj=self)
-        array = self._native.slice_array(name)
-        self.__dict__[name] = array
-        return array
+    # Of a name that is none, a type checker says so.
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith("_") or name not in Slices.__annotations__:
+                allowed = ", ".join(Slices.__annotations__)
+                raise AttributeError(f"slices have no {name}; allowed: {allowed}", name=name, obj=self)
+            array = self._native.slice_array(name)
+            self.__dict__[name] = array
+            return array
 
     @cached_property
     def table(self) -> Table:
@@ -192,6 +199,12 @@ class Run:
         return self._table("profiles")
 
     @cached_property
+    def film(self) -> Table | None:
+        """A row for each position, and slice: films and friction, new and worn; None where the scene asks for neither."""
+        columns = self._native.table("film")
+        return None if columns is None else Table("film", columns)
+
+    @cached_property
     def slices(self) -> Slices | None:
         """The mesh of one tooth slice by slice; None where all sections are alike."""
         return None if self._native.slice_array("width_mm") is None else Slices(self._native)
@@ -226,6 +239,8 @@ class Run:
         }
         if self.slices is not None:
             tables["slices"] = self.slices
+        if self.film is not None:
+            tables["film"] = self.film
         return {name: table.to_pandas() for name, table in tables.items()}
 
     def to_xarray(self) -> xr.Dataset:
@@ -234,9 +249,31 @@ class Run:
 
         return of_run(self)
 
-    def write(self, folder: str | os.PathLike[str]) -> None:
-        """Writes what ``gearwear run`` writes: tables, page, summary, scene."""
-        self._native.write(os.fspath(folder))
+    @classmethod
+    def read(cls, folder: str | os.PathLike[str]) -> Run:
+        """The run in a folder that ``gearwear run`` or :meth:`write` of this version wrote, equal to that in every bit.
+
+        A folder that is not there raises :class:`OSError`, one of something else, of another version, or of a run that is not finished
+        :class:`ValueError`.
+        """
+        kind_of(folder, cls.__name__)
+        return cls(_native.Run.read(os.fspath(folder)))
+
+    def write(
+        self,
+        folder: str | os.PathLike[str],
+        *,
+        report: bool = True,
+        workbook: bool = False,
+        series: bool = False,
+        figures: str | os.PathLike[str] | None = None,
+    ) -> None:
+        """Writes what ``gearwear run`` writes: tables, page, summary, scene.
+
+        ``report=False`` leaves the page out; ``workbook``, ``series`` and ``figures``, a folder, are the options of the command.
+        """
+        into = None if figures is None else os.fspath(figures)
+        self._native.write(os.fspath(folder), report, workbook, series, into)
 
     def figures(self) -> dict[str, str]:
         """The plots of the page as drawings, SVG, by name."""
@@ -244,7 +281,7 @@ class Run:
 
     @property
     def plot(self) -> Plots:
-        """Plots with matplotlib: ``run.plot.wear()`` and others."""
+        """Plots with matplotlib, one for each drawing of the page: ``run.plot.wear()`` and others."""
         from gearwear.plot import Plots
 
         return Plots(self)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from gearwear._native import Scene as Native
+from gearwear._native import key_fault
 from gearwear.calibration import Calibration
 from gearwear.errors import NotConverged, RunError, WornThrough
 from gearwear.fem import FemPair
@@ -66,10 +68,40 @@ class Scene:
         """The scene that a dict of its tables is, such as ``{"pair": {"preset": "fzg-c"}, …}``; what is None is left out."""
         return cls.from_toml(Native.text_of(tables), folder)
 
+    @classmethod
+    def from_rexs(cls, path: str | os.PathLike[str], *, stage: int | None = None) -> Scene:
+        """The scene of a cylindrical stage of a gear unit in REXS, of the only one without ``stage``, its number from 1: ``gearwear init --from``.
+
+        What a scene cannot say of it is warned of. A stage that leaves open what a scene needs raises :class:`SceneError`, whose findings name it.
+        """
+        text, left_out = Native.text_of_rexs(os.fspath(path), stage)
+        for warning in left_out:
+            warnings.warn(warning, stacklevel=2)
+        return cls(Native.from_parts(os.fspath(path), text, "", []))
+
+    def __getitem__(self, key: str) -> Any:
+        """The value of a key of the resolved scene, such as ``scene["operation.pinion_torque_Nm"]``; items of lists are numbered from 1.
+
+        None where the scene leaves it out; a key that no scene has raises :class:`KeyError`.
+        """
+        if not isinstance(key, str):
+            raise TypeError(f"found a key of type {type(key).__name__}; allowed: a text, such as 'operation.pinion_torque_Nm'")
+        fault = key_fault(key)
+        if fault is not None:
+            raise KeyError(fault)
+        value: Any = self.to_dict()
+        for part in key.split("."):
+            if isinstance(value, list):
+                value = value[int(part) - 1] if part.isdigit() and 0 < int(part) <= len(value) else None
+            else:
+                value = value.get(part) if isinstance(value, dict) else None
+        return value
+
     def with_(self, changes: Mapping[str, Any] | None = None, /, **more: Any) -> Scene:
         """The same scene with other values, all changed together: ``with_(**{"operation.pinion_torque_Nm": 250})``.
 
-        A key whose value is None is left out, so that its default holds.
+        Keys and values are those that :func:`gearwear.evaluate` and :func:`gearwear.sweep` take: ``"pair.{pinion,wheel}.teeth"`` is both keys, a
+        number one of NumPy's too, or an array of one. A key whose value is None is left out, so that its default holds.
         """
         return Scene(self._native.with_all([*(changes or {}).items(), *more.items()]))
 
@@ -110,8 +142,18 @@ class Scene:
         plan: dict[str, list[dict[str, str]]] = json.loads(self._native.plan_json())
         return plan
 
-    def run(self, *, threads: int | None = None, progress: ProgressArgument = False) -> Run:
+    def run(
+        self,
+        *,
+        resume: str | os.PathLike[str] | None = None,
+        threads: int | None = None,
+        progress: ProgressArgument = False,
+    ) -> Run:
         """Runs the wear simulation.
+
+        ``resume`` is a folder in which the run is kept from its beginning on, as by ``gearwear run``: the same call goes on from the last checkpoint
+        of a run that was stopped or killed there, to the same bits, and reads one that is complete. The run of another scene raises
+        :class:`ValueError`.
 
         ``threads``, by default all cores and one in a worker process, never change a bit of the results. ``progress`` is True for a line on
         standard error, or a function that is called with the name of the stage and the part of it that is done. Ctrl-C stops it.
@@ -120,8 +162,9 @@ class Scene:
         :class:`gearwear.WornThrough` with what was finished, and :class:`gearwear.RunError` where nothing was.
         """
         count = thread_count(threads)
+        folder = None if resume is None else os.fspath(resume)
         with Watched(progress) as told:
-            native, failure = self._native.run(count, told)
+            native, failure = self._native.run(folder, count, told)
         run = Run(native)
         if failure is not None:
             raise _FAILURES.get(run.summary["stopped"], RunError)(failure, run)
@@ -205,6 +248,7 @@ class Scene:
         helix = pair.get("helix_angle_deg") or 0.0
         kind = f"helix angle {helix:g}°" if helix else "spur"
         torque = f"{operation['pinion_torque_Nm']:g} N·m"
-        surface = tables.get("contact", {}).get("surface", "")
+        surface = tables.get("contact", {}).get("surface")
         law = tables["wear"].get("law", "a law for each gear")
-        return f"<gearwear.Scene {self.title!r}: {teeth}, {module}, {kind}, {torque}, {surface}, {law}>"
+        said = ", ".join(part for part in (teeth, module, kind, torque, surface, law) if part)
+        return f"<gearwear.Scene {self.title!r}: {said}>"

@@ -12,10 +12,15 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from gearwear import _native
+from gearwear.kept import Kept, as_kept
+from gearwear.measured import Profile, profiles
 from gearwear.run import Run
+from gearwear.table import Table
 from gearwear.workers import ProgressArgument, Watched, thread_count
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     #: A run, or the folder that one was written into.
     Finished = Run | str | os.PathLike[str]
 
@@ -23,26 +28,44 @@ if TYPE_CHECKING:
 class Study:
     """What a study found: its record, and the files of the command."""
 
-    def __init__(self, native: _native.Study) -> None:
+    def __init__(self, native: _native.Study | Kept) -> None:
         self._native = native
+
+    @classmethod
+    def read(cls, folder: str | os.PathLike[str]) -> Study:
+        """The study in a folder that its command or :meth:`write` wrote."""
+        return cls(Kept.read(folder, "Study"))
 
     @cached_property
     def summary(self) -> dict[str, Any]:
         """The record, as the command writes it: ``accuracy.json``, ``compare.json``, ``variants.json`` or ``validation.json``."""
-        summary: dict[str, Any] = json.loads(self._native.json)
+        summary: dict[str, Any] = json.loads(self._native.summary_json)
         return summary
 
     def write(self, folder: str | os.PathLike[str]) -> None:
         """Writes what the command writes: tables, page, record."""
         self._native.write(os.fspath(folder))
 
+    @cached_property
+    def tables(self) -> dict[str, Table]:
+        """Its tables, by the names of their CSV files."""
+        kept = as_kept(self._native)
+        return {name: Table(name, kept.table(name) or []) for name in kept.names()}
+
+    def to_pandas(self) -> dict[str, pd.DataFrame]:
+        """Its tables as data frames."""
+        return {name: table.to_pandas() for name, table in self.tables.items()}
+
     def __reduce__(self) -> tuple[Any, ...]:
-        raise TypeError("a study cannot be pickled; its summary can, and write(folder) keeps it")
+        return Study, (as_kept(self._native),)
+
+    def __repr__(self) -> str:
+        return f"<gearwear.Study: {', '.join(self.summary)}>"
 
 
 def compare(
     run: Finished,
-    measured: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
+    measured: Profile | Sequence[Profile] | Mapping[str, Profile],
     *,
     gear: str | None = None,
     form: str | None = None,
@@ -54,7 +77,11 @@ def compare(
     threads: int | None = None,
     progress: ProgressArgument = False,
 ) -> Study:
-    """The measured profile in a file against a run, or those of pinion and wheel in a list of two: ``gearwear compare RUN MEASURED …``, whose options these are.
+    """A measured profile against a run, or those of pinion and wheel: ``gearwear compare RUN MEASURED …``, whose options these are.
+
+    A profile is a CSV file, or a dict or data frame of the columns that such a file has: ``{"radius_mm": …, "height_um": …}``, two arrays of one
+    dimension and the same length, and numbers or words as after ``#`` there, such as ``"hours": 31.75``. Those of both gears are a list of two, or
+    ``{"pinion": …, "wheel": …}``.
 
     ``summary["fit"]`` is what was fitted, with the correlation coefficients of the values, ``summary["profiles"]`` how far apart each profile
     and the simulated one are. A profile that does not fit the run raises :class:`ValueError`.
@@ -62,10 +89,10 @@ def compare(
     count = thread_count(threads)
     with ExitStack() as kept, Watched(progress) as told:
         folder = _folder(run, kept)
-        files = [measured] if isinstance(measured, (str, os.PathLike)) else measured
-        paths = [os.fspath(file) for file in files]
         of_file = (tooth, flank, None if width_mm is None else float(width_mm))
-        return Study(_native.compare(folder, paths, gear, form, fit, float(shift_within_mm), *of_file, count, told))
+        return Study(
+            _native.compare(folder, profiles(measured), gear, form, fit, float(shift_within_mm), *of_file, count, told)
+        )
 
 
 def compare_runs(runs: Mapping[str, Finished]) -> Study:

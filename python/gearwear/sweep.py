@@ -8,6 +8,7 @@ import warnings
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from gearwear.kept import Kept
 from gearwear.scene import Scene
 from gearwear.table import Table
 from gearwear.workers import ProgressArgument, Watched, thread_count
@@ -25,6 +26,14 @@ class Sweep(Table):
         super().__init__("sweep", columns)
         #: what ``sweep.json`` holds: what was varied, the best combinations, the verification
         self.summary = summary
+
+    @classmethod
+    def read(cls, folder: str | os.PathLike[str]) -> Sweep:
+        """The sweep in a folder that ``gearwear sweep``, or :func:`sweep` with ``out``, has finished."""
+        kept = Kept.read(folder, "Sweep")
+        columns = kept.table("sweep")
+        assert columns is not None
+        return cls(columns, json.loads(kept.summary_json))
 
     @property
     def rows(self) -> list[dict[str, Any]]:
@@ -48,7 +57,8 @@ def sweep(
     *,
     executor: Executor | Callable[[], Executor] | None = None,
     out: str | os.PathLike[str] | None = None,
-    threads: int | None = 1,
+    threads: int | None = None,
+    outputs: Iterable[str] = (),
     best: str | None = None,
     subject_to: Iterable[str] = (),
     error_estimate: bool = False,
@@ -59,13 +69,14 @@ def sweep(
     The values of a key are a list of rising numbers or of words, or a text as after ``--vary KEY=``, such as ``"10:30:21"`` or ``"1e-19:1e-17:5:log"``;
     ``"pair.{pinion,wheel}.tip_rounding_mm"`` links keys. The first key changes slowest.
 
-    Combinations are run by ``threads`` threads of this process, one each, or by the workers of ``executor``, any
+    Combinations are run by ``threads`` threads of this process (None: all cores, one in a worker process), one each, or by the workers of ``executor``, any
     :class:`concurrent.futures.Executor`: a process pool, ``dask.distributed.Client.get_executor()``, ``mpi4py.futures``. No engine changes a bit of
     the rows but their times. A combination whose worker dies is run again; one that is lost three times is a failed row. A pool that is broken
     when a process of it died is made anew: one of ``concurrent.futures`` as it is, others where ``executor`` is a function that makes one.
 
     ``out`` is a folder with the journal and the files of ``gearwear sweep``: each row is kept there as it arrives, so that after Ctrl-C or a
-    killed process the same call, and the same command, goes on with what is missing. ``best``, ``subject_to`` and ``error_estimate`` are those of
+    killed process the same call, and the same command, goes on with what is missing. Rows have all main figures; ``outputs`` are columns beside
+    them, paths of numbers in the summary as in :func:`gearwear.evaluate`. ``best``, ``subject_to`` and ``error_estimate`` are those of
     the command. A combination that cannot be run is a row that says why; what is wrong with the question raises :class:`ValueError`.
     """
     if not isinstance(scene, Scene):
@@ -76,10 +87,13 @@ def sweep(
         raise ValueError("vary: found no key; allowed: at least one")
     if isinstance(subject_to, str):
         raise TypeError(f"subject_to: found {subject_to!r}; allowed: a list of texts")
+    if isinstance(outputs, str):
+        raise TypeError(f"outputs: found {outputs!r}; allowed: a list of texts")
     count = thread_count(threads)
-    if executor is not None and threads != 1:
-        raise ValueError(f"threads: found {threads!r} beside an executor, which has workers of its own; allowed: 1")
-    question = ([f"{key}={_values(key, values)}" for key, values in vary.items()], best, list(subject_to), error_estimate)
+    if executor is not None and threads is not None:
+        raise ValueError(f"threads: found {threads!r} beside an executor, which has workers of its own; allowed: None")
+    varied = [f"{key}={_values(key, values)}" for key, values in vary.items()]
+    question = (varied, best, list(subject_to), error_estimate, list(outputs))
 
     # With `concurrent.futures`, which the package does not load before it is needed.
     from gearwear.executors import Engine, Held, is_one_or_makes_one, packed

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from operator import index
 from typing import TYPE_CHECKING, Any
 
 from gearwear.figures import warn_of_older_names
+from gearwear.kept import Kept, as_kept
 from gearwear.scene import Scene
 from gearwear.table import Table
 from gearwear.workers import ProgressArgument, Watched, thread_count
@@ -50,8 +52,13 @@ class Band:
 class Uncertainty:
     """A study of uncertainty. Figures are named by their path in the summary, lives as ``"life.pinion.peak_wear_um=10"``."""
 
-    def __init__(self, native: _native.Uncertainty) -> None:
+    def __init__(self, native: _native.Uncertainty | Kept) -> None:
         self._native = native
+
+    @classmethod
+    def read(cls, folder: str | os.PathLike[str]) -> Uncertainty:
+        """The study in a folder that ``gearwear uncertainty`` or :meth:`write` wrote."""
+        return cls(Kept.read(folder, "Uncertainty"))
 
     @cached_property
     def summary(self) -> dict[str, Any]:
@@ -109,7 +116,7 @@ class Uncertainty:
         self._native.write(os.fspath(folder))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        raise TypeError("a study of uncertainty cannot be pickled; summary and samples can, and write(folder) keeps it")
+        return Uncertainty, (as_kept(self._native),)
 
     def __repr__(self) -> str:
         summary = self.summary
@@ -119,7 +126,7 @@ class Uncertainty:
 
 def uncertainty(
     scene: Scene,
-    distributions: Mapping[str, str],
+    distributions: Mapping[str, Any],
     n: int = 512,
     seed: int = 1,
     *,
@@ -128,12 +135,13 @@ def uncertainty(
     limits: Mapping[str, float] | None = None,
     own_surface: bool = False,
     out: str | os.PathLike[str] | None = None,
-    threads: int | None = 1,
+    threads: int | None = None,
     progress: ProgressArgument = False,
 ) -> Uncertainty:
     """Runs ``scene`` for samples of uncertain keys: what ``gearwear uncertainty`` does, with the same figures.
 
-    ``distributions`` has for each key a distribution as after ``--uncertain KEY=``: ``"lognormal:1.5"``, ``"normal:5%"``, ``"±2%"``, ``"uniform:10:14"``.
+    ``distributions`` has for each key a distribution as after ``--uncertain KEY=``: ``"lognormal:1.5"``, ``"normal:5%"``, ``"±2%"``, ``"uniform:10:14"``;
+    or one of ``scipy.stats``: ``norm``, ``lognorm`` with ``loc`` 0, ``uniform`` or ``triang``, frozen with their parameters.
     ``n`` points of a Sobol sequence, best a power of two, take n (keys + 2) runs, or 2 n where keys are correlated; ``seed`` scrambles them.
     ``correlation`` has for pairs of keys the correlation of their normal scores. ``outputs`` are paths in the summary, by default the maximum wear
     and tip-edge wear of both gears and the transmission error, worn; ``limits`` has depths of wear in µm whose life is asked for:
@@ -150,7 +158,7 @@ def uncertainty(
     if isinstance(outputs, str):
         raise TypeError(f"outputs: found {outputs!r}; allowed: a list of texts")
     samples, scrambling = _whole("n", n, 2), _whole("seed", seed, 0)
-    uncertain = [f"{key}={distribution}" for key, distribution in distributions.items()]
+    uncertain = [f"{key}={_as_given(key, distribution)}" for key, distribution in distributions.items()]
     pairs = [f"{one}:{other}={float(r)!r}" for (one, other), r in (correlation or {}).items()]
     depths = [f"{name}={float(depth)!r}" for name, depth in (limits or {}).items()]
     count = thread_count(threads)
@@ -161,6 +169,32 @@ def uncertainty(
         return Uncertainty(
             scene._native.uncertainty(uncertain, pairs, kept, depths, samples, scrambling, own_surface, folder, count, told)
         )
+
+
+#: Shape parameters of the distributions of ``scipy.stats`` that are taken.
+_SHAPES: dict[str, tuple[str, ...]] = {"norm": (), "lognorm": ("s",), "uniform": (), "triang": ("c",)}
+
+
+def _as_given(key: str, distribution: Any) -> str:
+    """A distribution as the command line has it."""
+    if isinstance(distribution, str):
+        return distribution
+    name = getattr(getattr(distribution, "dist", None), "name", type(distribution).__name__)
+    if name not in _SHAPES:
+        allowed = f"a text such as 'normal:5%', or of scipy.stats {', '.join(_SHAPES)}"
+        raise TypeError(f"{key}: found {name}; allowed: {allowed}")
+    names = (*_SHAPES[name], "loc", "scale")
+    given = {"loc": 0.0, "scale": 1.0} | dict(zip(names, distribution.args)) | distribution.kwds
+    loc, scale = float(given["loc"]), float(given["scale"])
+    if name == "norm":
+        return f"normal:{loc!r}:{scale!r}"
+    if name == "uniform":
+        return f"uniform:{loc!r}:{loc + scale!r}"
+    if name == "triang":
+        return f"triangular:{loc!r}:{loc + float(given['c']) * scale!r}:{loc + scale!r}"
+    if loc != 0.0:
+        raise ValueError(f"{key}: found lognorm with loc={loc!r}; allowed: loc=0")
+    return f"lognormal:{scale!r}:{math.exp(float(given['s']))!r}"
 
 
 def _whole(name: str, value: int, least: int) -> int:

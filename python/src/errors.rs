@@ -2,9 +2,15 @@
 
 use std::io;
 
+use gearwear::exchange::rexs::container::FileError;
 use gearwear::mesh::MeshFileError;
+use gearwear::resume::folder::FolderError;
+use gearwear::stamped_file::StampedFileError;
 use gearwear::sweep::SweepError;
-use gearwear::{LoadError, Problem, ProblemKind, ReportError, SceneError, UncertaintyError};
+use gearwear::{
+    KeptRunError, LoadError, Problem, ProblemKind, ReportError, ResultError, SceneError, SceneFault, SceneText,
+    UncertaintyError,
+};
 use gearwear_validation::found::StudyError;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -121,6 +127,39 @@ pub(crate) fn of_uncertainty(py: Python<'_>, error: &UncertaintyError) -> PyErr 
         Some(error) => of_scene(py, error),
         None if error.is_of_the_runs() => of_run(py, error.to_string()),
         None => PyValueError::new_err(error.to_string()),
+    }
+}
+
+/// What keeps a run from being read from its folder.
+pub(crate) fn of_result(error: &ResultError) -> PyErr {
+    match error {
+        ResultError::Unreadable { source, .. } => of_system(source.kind(), error),
+        ResultError::Record { source: StampedFileError::Unreadable(source), .. } => of_system(source.kind(), error),
+        ResultError::NoRun { .. } | ResultError::Record { .. } | ResultError::OtherSummary { .. } => {
+            PyValueError::new_err(error.to_string())
+        }
+    }
+}
+
+/// What keeps a run in its folder from going on.
+pub(crate) fn of_kept_run(py: Python<'_>, error: &KeptRunError, given: &SceneText) -> PyErr {
+    match error {
+        KeptRunError::Result(error) => of_result(error),
+        KeptRunError::Report(error) => of_report(error),
+        KeptRunError::Folder(FolderError::Unreadable { source, .. }) => of_system(source.kind(), error),
+        KeptRunError::Folder(_) | KeptRunError::NothingLeft { .. } => PyValueError::new_err(error.to_string()),
+        KeptRunError::Run(failure) => match failure.in_the_scene(given) {
+            Some(error) => of_scene(py, &error),
+            None => of_run(py, failure.to_string()),
+        },
+    }
+}
+
+/// What keeps a scene from being made of a file of another program.
+pub(crate) fn of_rexs(error: &FileError, name: &str) -> PyErr {
+    match error {
+        FileError::Unreadable(source) => of_system(source.kind(), format!("{name}: {error}")),
+        FileError::Rexs(_) => PyValueError::new_err(format!("{name}: {error}")),
     }
 }
 

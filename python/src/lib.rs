@@ -20,6 +20,7 @@ mod watched;
 
 use std::ffi::OsString;
 
+use gearwear::EvaluateError;
 use gearwear::results::figures;
 use pyo3::prelude::*;
 
@@ -39,6 +40,14 @@ fn presets() -> Vec<&'static str> {
 #[pyfunction]
 fn scene_schema() -> String {
     gearwear::scene_schema().to_string()
+}
+
+/// Why no scene has a key at this path; None where one may.
+#[pyfunction]
+fn key_fault(key: String) -> Option<String> {
+    let is_known = gearwear::scene::key::is_key(&key);
+    let unknown = || EvaluateError::UnknownKey { nearest: gearwear::scene::key::nearest_key(&key), key: key.clone() };
+    (!is_known).then(|| unknown().to_string())
 }
 
 /// A main figure: path in the summary, heading, heading for both gears or states, unit, meaning, whether short tables show it.
@@ -85,7 +94,7 @@ mod _native {
     #[pymodule_export]
     use super::uncertainty::Uncertainty;
     #[pymodule_export]
-    use super::{main_figures, notes_on_figures, presets, program, scene_schema, unit_of};
+    use super::{key_fault, main_figures, notes_on_figures, presets, program, scene_schema, unit_of};
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use gearwear::mesh::{self, CellBlock, CellKind, DataArray, PhysicalTag, Values};
+use gearwear::mesh::{self, CellBlock, CellKind, DataArray, Format, PhysicalTag, Values};
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArrayDyn};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -11,7 +11,6 @@ use pyo3::types::PyBytes;
 
 use crate::array::borrowed;
 use crate::errors;
-use crate::record_bytes;
 
 /// Numbers of points or cells, integers or not.
 #[derive(FromPyObject)]
@@ -126,13 +125,15 @@ impl Mesh {
 
     /// Everything, for [`Self::from_bytes`] of the same version.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        record_bytes::of(py, &self.mesh)
+        let bytes = py.detach(|| mesh::to_bytes(&self.mesh, Format::Json));
+        bytes.map(|bytes| PyBytes::new(py, &bytes)).map_err(|error| PyValueError::new_err(error.to_string()))
     }
 
     /// The same from [`Self::to_bytes`].
     #[staticmethod]
     fn from_bytes(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
-        record_bytes::read(py, bytes).map(Self::of)
+        let mesh = py.detach(|| mesh::from_bytes(Format::Json, bytes));
+        mesh.map(Self::of).map_err(|error| PyValueError::new_err(format!("no mesh of this version: {error}")))
     }
 }
 

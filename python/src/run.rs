@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use gearwear::results::run::{FlankRecord, RunRecord, SliceRecord};
-use gearwear::{Gear, columns};
+use gearwear::{Gear, RunFiles, columns};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -178,6 +178,18 @@ impl Run {
         self.record.inputs.iter().map(|file| (file.name.clone(), file.bytes.clone())).collect()
     }
 
+    /// Names and radii of A to E on a flank.
+    fn path_points(&self, gear: &str) -> PyResult<Vec<(String, f64)>> {
+        let points = self.record.flanks[gear_of(gear)?].path_point_radius_mm.named();
+        Ok(points.into_iter().map(|(name, radius_mm)| (name.to_owned(), radius_mm)).collect())
+    }
+
+    /// The pair in mesh, to scale, as JSON.
+    #[getter]
+    fn drawing_json(&self) -> PyResult<String> {
+        json(&self.record.drawing)
+    }
+
     /// The plots of its page: names and SVG.
     fn figures(&self, py: Python<'_>) -> Vec<(String, String)> {
         let figures = py.detach(|| gearwear::figures(&self.record));
@@ -185,8 +197,23 @@ impl Run {
     }
 
     /// Writes what `gearwear run` writes.
-    fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
-        py.detach(|| gearwear::write(&self.record, &folder)).map_err(|error| errors::of_report(&error))
+    fn write(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        page: bool,
+        workbook: bool,
+        series: bool,
+        figures: Option<PathBuf>,
+    ) -> PyResult<()> {
+        let files = RunFiles { page, workbook, series, figures };
+        py.detach(|| gearwear::write_with(&self.record, &files, &folder)).map_err(|error| errors::of_report(&error))
+    }
+
+    /// The run in a folder.
+    #[staticmethod]
+    fn read(py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
+        py.detach(|| gearwear::read(&folder)).map(Self::of).map_err(|error| errors::of_result(&error))
     }
 
     /// Everything, for [`Self::from_bytes`] of the same version.

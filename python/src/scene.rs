@@ -1,15 +1,18 @@
 //! Scenes.
 
 use std::collections::hash_map::DefaultHasher;
+use std::fs::File;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
-use gearwear::SceneFault;
+use gearwear::exchange::rexs;
+use gearwear::exchange::rexs::container::{self, FileError};
 use gearwear::results::run::InputFile;
 use gearwear::sweep::{self, SweepQuestion};
 use gearwear::toml::{Table, Value};
 use gearwear::{Done, EvaluateError, Evaluation, LoadError, LoadedScene, Meshed, SceneText, UncertaintyQuestion};
+use gearwear::{KeptRunError, SceneFault};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -85,6 +88,18 @@ impl Scene {
     #[staticmethod]
     fn preset(py: Python<'_>, name: &str) -> PyResult<Self> {
         Self::of(py, LoadedScene::preset(name))
+    }
+
+    /// The text of the scene of a stage in a REXS file, and what of the stage it leaves out.
+    #[staticmethod]
+    fn text_of_rexs(py: Python<'_>, path: PathBuf, stage: Option<usize>) -> PyResult<(String, Vec<String>)> {
+        let read = || -> Result<_, FileError> {
+            let bytes = container::read(File::open(&path).map_err(FileError::Unreadable)?)?;
+            let text = container::text(&bytes).map_err(FileError::Rexs)?;
+            rexs::scene(&text, stage).map_err(FileError::Rexs)
+        };
+        let scene = py.detach(read).map_err(|error| errors::of_rexs(&error, &path.display().to_string()))?;
+        Ok((scene.text, scene.warnings))
     }
 
     /// The text of a scene file that says what a mapping does.
@@ -169,20 +184,22 @@ impl Scene {
         hasher.finish()
     }
 
-    /// Runs it: the run, and what went wrong where it did not come to its end.
+    /// Runs it, in a folder where one is given, with the run that is there: the run, and what went wrong where it did not come to its end.
     fn run(
         &self,
         py: Python<'_>,
+        folder: Option<PathBuf>,
         threads: usize,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<(Run, Option<String>)> {
         let scene = self.loaded.clone();
-        let done = watched(py, threads, progress, move |observer| gearwear::run(&scene, observer))?;
+        let work = move |observer: &dyn gearwear::Observer| match folder {
+            Some(folder) => gearwear::run_kept(&scene, &folder, observer),
+            None => gearwear::run(&scene, observer).map_err(KeptRunError::Run),
+        };
+        let done = watched(py, threads, progress, work)?;
         let given = self.loaded.given();
-        let Done { record, failure } = done.map_err(|error| match error.in_the_scene(given) {
-            Some(error) => errors::of_scene(py, &error),
-            None => errors::of_run(py, error.to_string()),
-        })?;
+        let Done { record, failure } = done.map_err(|error| errors::of_kept_run(py, &error, given))?;
         Ok((Run::of(record), failure.map(|failure| failure.to_string())))
     }
 
@@ -237,8 +254,9 @@ impl Scene {
         best: Option<String>,
         subject_to: Vec<String>,
         error_estimate: bool,
+        outputs: Vec<String>,
     ) -> PyResult<Sweep> {
-        let question = SweepQuestion { vary, best, subject_to, error_estimate };
+        let question = SweepQuestion { vary, best, subject_to, error_estimate, outputs };
         let sweep = py.detach(|| sweep::Sweep::of(&self.loaded, &question));
         let sweep = Arc::new(sweep.map_err(|error| errors::of_sweep(py, &error))?);
         Ok(Sweep { sweep, notes: question.notes() })

@@ -1,8 +1,8 @@
 //! Studies whose record is read as JSON and whose files are written on demand.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use gearwear::Observer;
+use gearwear::{Observer, SceneText};
 use gearwear_validation::found::CompareQuestion;
 use pyo3::prelude::*;
 
@@ -28,7 +28,7 @@ impl Study {
 impl Study {
     /// The record, as the command writes it.
     #[getter]
-    fn json(&self) -> &str {
+    fn summary_json(&self) -> &str {
         self.study.json()
     }
 
@@ -38,13 +38,13 @@ impl Study {
     }
 }
 
-/// Measured profiles against the finished run in a folder.
+/// Measured profiles against the finished run in a folder: their names, and their texts where they are no files.
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "the arguments of the Python function")]
 pub(crate) fn compare(
     py: Python<'_>,
     run: PathBuf,
-    measured: Vec<PathBuf>,
+    measured: Vec<(String, Option<String>)>,
     gear: Option<String>,
     form: Option<String>,
     fit: Option<String>,
@@ -55,6 +55,12 @@ pub(crate) fn compare(
     threads: usize,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<Study> {
+    let text_of = |(name, text): (String, Option<String>)| match text {
+        Some(text) => Ok(SceneText { name, text }),
+        None => SceneText::read_foreign(Path::new(&name)),
+    };
+    let measured: Result<Vec<_>, _> = py.detach(|| measured.into_iter().map(text_of).collect());
+    let measured = measured.map_err(|error| errors::of_loading(py, &error))?;
     let question = CompareQuestion { gear, form, fit, shift_within_mm, tooth, flank, width_mm };
     let work = move |observer: &dyn Observer| gearwear_validation::found::compare(&run, &measured, &question, observer);
     Study::of(py, watched(py, threads, progress, work)?)

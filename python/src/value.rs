@@ -1,5 +1,6 @@
 //! Values of a scene from Python: numbers, texts, lists, tables, and what NumPy makes of them.
 
+use gearwear::scene::key::takes_list;
 use gearwear::toml::{Table, Value};
 use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
@@ -30,8 +31,11 @@ pub(crate) fn of(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> {
     if value.hasattr("__fspath__")? {
         return of(key, &value.call_method0("__fspath__")?);
     }
-    // NumPy's scalars and arrays.
+    // NumPy's scalars and arrays; an array of one number is that number where no list is meant.
     if value.hasattr("tolist")? && value.hasattr("dtype")? {
+        if value.getattr("size")?.extract::<usize>()? == 1 && !takes_list(key) {
+            return of(key, &value.call_method0("item")?);
+        }
         return of(key, &value.call_method0("tolist")?);
     }
     if let Ok(items) = value.try_iter() {

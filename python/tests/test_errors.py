@@ -19,7 +19,7 @@ WRONG = {
     "unknown key": ("face_width_mm = 14.0", "face_widht_mm = 14.0"),
     "wrong type": ("teeth = 24", 'teeth = "twenty-four"'),
     "out of range": ("teeth = 16", "teeth = 4"),
-    "no such surface": ('surface = "', 'surface = "rubber'),
+    "no such surface": ('# surface = "fem"', 'surface = "rubber" #'),
     "tip below the base circle": ("tip_diameter_mm = 82.46", "tip_diameter_mm = 67.0"),
     "no mesh": ("centre_distance_mm = 91.5", "centre_distance_mm = 80.0"),
     "decimal comma": ("face_width_mm = 14.0", "face_width_mm = 14,0"),

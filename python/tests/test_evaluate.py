@@ -35,24 +35,37 @@ def test_rows_are_runs_and_threads_change_nothing(scene: gearwear.Scene) -> None
     torques = np.array([[150.0], [302.0]])
     outputs = [PEAK, "worn.transmission_error_um.peak_to_peak"]
     found = gearwear.evaluate(scene, [TORQUE], torques, outputs)
-    assert found.shape == (2, 2)
-    assert found.status == [None, None]
-    for row, torque in zip(found, torques[:, 0], strict=True):
+    assert found.values.shape == (2, 2)
+    assert found.status == (None, None)
+    for row, torque in zip(found.values, torques[:, 0], strict=True):
         summary = scene.with_({TORQUE: float(torque), "operation.snapshots_h": [1.0]}).run(threads=1).summary
         assert row[0] == summary["pinion"]["peak_wear_um"]
         assert row[1] == summary["worn"]["transmission_error_um"]["peak_to_peak"]
     again = gearwear.evaluate(scene, [TORQUE], torques, outputs, threads=2)
-    assert np.array_equal(found, again)
+    assert np.array_equal(found.values, again.values)
 
 
 def test_a_failed_row_is_nan_and_says_why(scene: gearwear.Scene) -> None:
     rows: list[list[object]] = [["hertz", 300.0], ["hertz", -1.0], ["no-such-surface", 300.0]]
     found = gearwear.evaluate(scene, ["contact.surface", TORQUE], rows, [PEAK])
-    assert np.isfinite(found[0, 0])
-    assert np.isnan(found[1:, 0]).all()
+    assert np.isfinite(found.values[0, 0])
+    assert np.isnan(found.values[1:, 0]).all()
     assert found.status[0] is None
     assert TORQUE in str(found.status[1])
     assert "contact.surface" in str(found.status[2])
+
+
+def test_rows_as_a_frame(scene: gearwear.Scene) -> None:
+    pandas = pytest.importorskip("pandas")
+    rows = pandas.DataFrame({"surface": ["hertz", "hertz-mean", "rubber"], "torque": [200.0, 300.0, 300.0]})
+    keys = ["contact.surface", TORQUE]
+    found = gearwear.evaluate(scene, keys, rows, [PEAK])
+    frame = found.to_pandas()
+    assert list(frame) == [*keys, PEAK, "status"] and frame[TORQUE].tolist() == [200.0, 300.0, 300.0]
+    assert frame[PEAK].to_numpy().tobytes() == found[PEAK].tobytes() == found.values[:, 0].tobytes()
+    assert frame["status"].notna().tolist() == [False, False, True] and "1 failed" in repr(found)
+    with pytest.raises(KeyError, match=f"found the output 'wear'; allowed: {PEAK}"):
+        found["wear"]
 
 
 def test_what_is_wrong_is_named(scene: gearwear.Scene) -> None:
@@ -79,7 +92,7 @@ def test_figures_are_called_as_in_the_summary(scene: gearwear.Scene) -> None:
     new = gearwear.evaluate(scene, [TORQUE], [[200.0]], [PEAK])
     with pytest.warns(UserWarning, match=f"pinion_peak_wear_um is now called {PEAK}"):
         old = gearwear.evaluate(scene, [TORQUE], [[200.0]], ["pinion_peak_wear_um"])
-    assert np.array_equal(old, new)
+    assert np.array_equal(old.values, new.values)
     with pytest.warns(UserWarning, match=f"pinion_peak_wear_um is now called {PEAK}"):
         swept = gearwear.sweep(scene, {TORQUE: [200.0]}, best="pinion_peak_wear_um")
     assert swept.summary["goal"]["figure"] == PEAK

@@ -6,6 +6,7 @@ import json
 import pickle
 from pathlib import Path
 
+import meshio
 import numpy as np
 import pytest
 
@@ -25,6 +26,10 @@ def test_finite_elements_at_one_position(tmp_path: Path) -> None:
     assert again.pressure["pressure_MPa"].tobytes() == pair.pressure["pressure_MPa"].tobytes()
     pair.write(tmp_path)
     assert json.loads((tmp_path / "summary.json").read_text()) == pair.summary
+    back = gearwear.FemPair.read(tmp_path)
+    for one in (back, pickle.loads(pickle.dumps(back))):
+        assert one.summary == pair.summary and list(one.pressure) == list(pair.pressure)
+        assert one.mesh_cycle["load_share"].tobytes() == pair.mesh_cycle["load_share"].tobytes()
     text = (ROOT / "meshes" / "cylinder-on-block.toml").read_text().replace("poisson_ratio = 0.3", "poisson_ratio = 3")
     (tmp_path / "wrong.toml").write_text(text)
     with pytest.raises(gearwear.SceneError, match="poisson_ratio: found 3"):
@@ -40,6 +45,30 @@ def test_a_problem_of_ones_own(tmp_path: Path) -> None:
     assert problem.summary["elements"] > 0
     problem.write(tmp_path)
     assert json.loads((tmp_path / "summary.json").read_text()) == problem.summary
+    # Of the arrays the greatest is the figure.
+    assert problem.contact["pressure_MPa"].max() == problem.summary["contact"][0]["peak_pressure_MPa"]
+    for back in (gearwear.FemProblem.read(tmp_path), pickle.loads(pickle.dumps(problem))):
+        assert back.summary == problem.summary and (back.mesh.points == problem.mesh.points).all()
+        assert back.contact["pressure_MPa"].tobytes() == problem.contact["pressure_MPa"].tobytes()
+        stress = problem.mesh.point_data["stress_MPa"]
+        assert back.mesh.point_data["stress_MPa"].tobytes() == stress.tobytes()
+
+
+def test_a_problem_as_a_dict() -> None:
+    tables = {
+        "title": "a square under tension",
+        "body": [{"group": "square", "young_modulus_GPa": 200.0, "poisson_ratio": 0.0}],
+        "fixed": [{"group": "left", "components": ["x", "y"]}],
+        "load": [{"group": "right", "force_N_per_mm": [100.0, 0.0]}],
+    }
+    mesh = meshio.Mesh(
+        np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),
+        [("quad", [[0, 1, 2, 3]]), ("line", [[3, 0], [1, 2]])],
+        cell_sets={"square": [[0], []], "left": [[], [0]], "right": [[], [1]]},
+    )
+    found = gearwear.fem_problem(tables, mesh=mesh)
+    assert np.allclose(found.mesh.point_data["stress_MPa"][:, 0], 100.0)
+    assert len(found.contact) == 0 or len(found.contact["pressure_MPa"]) == 0
 
 
 def test_what_is_no_calibration() -> None:

@@ -6,6 +6,7 @@ import csv
 import json
 import multiprocessing
 import pickle
+import re
 import sys
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
@@ -121,7 +122,7 @@ def test_arrays_outlive_their_run() -> None:
 
 def test_names_that_are_none(spur: gearwear.Run) -> None:
     with pytest.raises(AttributeError, match="a flank has no wear_mm; allowed: .*wear_um"):
-        spur.pinion.wear_mm
+        spur.pinion.wear_mm  # type: ignore[attr-defined]
     with pytest.raises(AttributeError, match="no column load_share; allowed: .*load_share_new"):
         spur.mesh_cycle.load_share
     with pytest.raises(KeyError, match="no column load_share; allowed: .*load_share_new"):
@@ -214,7 +215,6 @@ def _caught(scene: gearwear.Scene, changes: dict[str, Any]) -> gearwear.SceneErr
 
 def test_the_files_of_the_command_line(spur: gearwear.Run, tmp_path: Path) -> None:
     """Wall times differ, and nothing else does."""
-    import re
     import subprocess
 
     (tmp_path / "scene.toml").write_text(spur_scene().text)
@@ -224,6 +224,8 @@ def test_the_files_of_the_command_line(spur: gearwear.Run, tmp_path: Path) -> No
     spur.write(own)
     assert sorted(p.name for p in program.iterdir()) == sorted(p.name for p in own.iterdir())
     for file in program.iterdir():
+        if file.name == "record.bin":
+            continue
         one, other = file.read_bytes(), (own / file.name).read_bytes()
         if file.name == "summary.json":
             one, other = (json.dumps(_without_times(json.loads(data))).encode() for data in (one, other))
@@ -267,24 +269,74 @@ def test_what_a_notebook_shows(spur: gearwear.Run, helical: gearwear.Run) -> Non
     assert "not verified" in repr(spur) and "completed" in repr(spur)
 
 
-def test_plots(spur: gearwear.Run, helical: gearwear.Run) -> None:
+def plotted(run: gearwear.Run, name: str) -> Any:
+    """The plot of a drawing of the page, by its name."""
+    plot = run.plot
+    names: dict[str, Any] = {
+        "load-sharing": plot.load_share,
+        "lambda": plot.film_ratio,
+        "map-wear": lambda gear: plot.map(gear),
+        "map-sliding": lambda gear: plot.map(gear, "sliding_mm_per_mesh"),
+        "map-pressure-new": lambda gear: plot.map(gear, "pressure_new_MPa"),
+        "map-pressure-worn": lambda gear: plot.map(gear, "pressure_worn_MPa"),
+        "map-modifications": lambda gear: plot.map(gear, "removed_um"),
+        "slice-lambda": plot.slice_film_ratio,
+    }
+    before, _, last = name.rpartition("-")
+    if last in ("pinion", "wheel", "new", "worn"):
+        return names.get(before, getattr(plot, before.replace("-", "_"), None))(last)
+    return names.get(name, getattr(plot, name.replace("-", "_"), None))()
+
+
+def test_every_drawing_has_a_plot(spur: gearwear.Run, helical: gearwear.Run) -> None:
     pytest.importorskip("matplotlib").use("agg")
     from matplotlib import pyplot
 
-    for run in (spur, helical):
-        for axes in (
-            run.plot.wear(),
-            run.plot.wear("wheel"),
-            run.plot.pressure(),
-            run.plot.load_share(),
-            run.plot.transmission_error(),
-            run.plot.history(),
-        ):
-            assert axes.lines and axes.get_xlabel() and axes.get_ylabel()
-        assert run.plot.wear().get_ylabel() == "wear depth, µm"
-        pyplot.close("all")
-    with pytest.raises(ValueError, match="gear: found 'sun'"):
+    oil = {
+        "lubricant": {"viscosity_class": 100, "temperature_C": 90.0},
+        "temperature": {"bulk_temperature_C": 90.0},
+        "pair.{pinion,wheel}.roughness_Ra_um": 0.5,
+    }
+    oiled = [scene.with_(oil).run() for scene in (spur_scene(), helical_scene())]
+    assert {"film", "lambda", "temperature", "peclet"} <= oiled[0].figures().keys()
+    assert "slice-lambda-worn" in oiled[1].figures()
+    for run in (spur, helical, *oiled):
+        for name in run.figures():
+            axes = plotted(run, name)
+            assert axes.get_xlabel() and axes.get_ylabel() and axes.get_title(), name
+            marks = {text.get_text() for text in axes.texts}
+            marked = not name.startswith(("history", "over-width", "mesh-orders"))
+            assert marks == (set("ABCDE") if marked else set()), name
+            axes.figure.canvas.draw()
+            pyplot.close("all")
+    axes = spur.plot.wear()
+    assert axes.get_ylabel() == "wear depth, µm" and len(axes.lines) == 2
+    assert spur.plot.mesh_stiffness().get_ylabel() == "mesh stiffness, N/(mm·µm)"
+    assert spur.plot.load_share().get_ylabel() == "load share"
+    pyplot.close("all")
+    with pytest.raises(ValueError, match="gear: found 'sun'; allowed: 'pinion', 'wheel'"):
         spur.plot.pressure("sun")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="one with slices"):
+        spur.plot.map()
+    with pytest.raises(ValueError, match="without films"):
+        spur.plot.film()
+    with pytest.raises(ValueError, match="without temperature rise"):
+        spur.plot.temperature()
+
+
+def identifiers(svg: str) -> set[str]:
+    return set(re.findall(r'id="([^"]+)"', svg)) | set(re.findall(r"url\(#([^)]+)\)", svg))
+
+
+def test_drawings_on_one_page_do_not_cut_each_other(spur: gearwear.Run) -> None:
+    """Identifiers are of the content: another run has others, the same one the same bytes."""
+    other = spur_scene().with_({"operation.pinion_torque_Nm": 250.0}).run()
+    assert spur_scene().run().figures() == spur.figures()
+    for name, svg in spur.figures().items():
+        own, theirs = identifiers(svg), identifiers(other.figures()[name])
+        assert len(own) == 1
+        if svg != other.figures()[name]:
+            assert not own & theirs, name
 
 
 def test_progress_is_told() -> None:

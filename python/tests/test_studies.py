@@ -79,7 +79,7 @@ def test_measured_profiles_of_both_gears(run: gearwear.Run, tmp_path: Path) -> N
     assert np.array(fit["correlation"]["matrix"]).shape == (2, 2)
     with pytest.raises(ValueError, match="different gears"):
         gearwear.compare(run, [files[0], files[0]])
-    with pytest.raises(ValueError, match="measured: found no file"):
+    with pytest.raises(ValueError, match="measured: found no profile"):
         gearwear.compare(run, [])
 
 

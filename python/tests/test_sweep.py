@@ -351,5 +351,5 @@ def test_what_is_wrong_is_named() -> None:
         gearwear.sweep(scene(), f"{TORQUE}=1,2")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="unknown figure pinion.peak_ware_um.*pinion.peak_wear_um"):
         gearwear.sweep(scene(), VARY, best="pinion.peak_ware_um")
-    with ThreadPoolExecutor(1) as pool, pytest.raises(ValueError, match="threads: found 2 beside an executor"):
+    with ThreadPoolExecutor(1) as pool, pytest.raises(ValueError, match="threads: found 2 beside an executor.*allowed: None"):
         gearwear.sweep(scene(), VARY, executor=pool, threads=2)

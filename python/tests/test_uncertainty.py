@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import pickle
 import subprocess
 import sys
 from pathlib import Path
@@ -76,8 +75,6 @@ def test_figures_as_arrays(study: gearwear.Uncertainty) -> None:
         study.band("rack")
     with pytest.raises(KeyError, match=PEAK):
         study.output("pinion.peak")
-    with pytest.raises(TypeError, match="cannot be pickled"):
-        pickle.dumps(study)
 
 
 def test_correlated_keys(study: gearwear.Uncertainty) -> None:

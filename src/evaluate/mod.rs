@@ -13,11 +13,11 @@ pub mod output;
 
 use crate::runs;
 use crate::scene::draft::Draft;
-use crate::scene::key::{self, NumberKey, is_key};
+use crate::scene::key::{self, as_whole, is_key, linked_keys, takes_whole_numbers};
 use crate::scene::loaded::{LoadedScene, SceneError};
 use crate::scene::table::other_ways_to_say;
 use crate::spread::spread;
-use crate::varied_scene::{VariedScene, in_words, linked_keys, missing_phase, one_line};
+use crate::varied_scene::{VariedScene, in_words, missing_phase, one_line};
 use gearwear_physics::assessment::guarded::guarded;
 use gearwear_physics::observer::Observer;
 use gearwear_physics::results::run::StopReason;
@@ -121,8 +121,7 @@ pub fn evaluate(
     observer: &dyn Observer,
 ) -> Result<Evaluation, EvaluateError> {
     let keys: Vec<&str> = keys.iter().map(AsRef::as_ref).collect();
-    let outputs: Vec<SummaryOutput> =
-        outputs.iter().map(|path| SummaryOutput::find(path.as_ref())).collect::<Result<_, _>>()?;
+    let outputs = self::outputs(outputs)?;
     let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
     check_keys(&keys, &draft)?;
     check_rows(&keys, rows)?;
@@ -158,6 +157,14 @@ pub fn evaluate(
         },
     );
     Ok(found)
+}
+
+/// The outputs at these paths of the summary.
+///
+/// # Errors
+/// A path that no summary has.
+pub fn outputs(paths: &[impl AsRef<str>]) -> Result<Vec<SummaryOutput>, EvaluateError> {
+    Ok(paths.iter().map(|path| SummaryOutput::find(path.as_ref())).collect::<Result<_, OutputError>>()?)
 }
 
 /// Question that all rows share.
@@ -229,17 +236,4 @@ fn check_rows(keys: &[&str], rows: &[Vec<toml::Value>]) -> Result<(), EvaluateEr
         }
     }
     Ok(())
-}
-
-/// Whether a key takes whole numbers alone, so that `16.0` stands for `16`: arrays of numbers have but one kind.
-fn takes_whole_numbers(key: &str) -> bool {
-    linked_keys(key).iter().any(|key| NumberKey::find(key).is_ok_and(|key| key.whole()))
-}
-
-fn as_whole(value: &toml::Value) -> toml::Value {
-    match value.as_float() {
-        // A cast keeps any whole number that is of a size that a scene allows.
-        Some(number) if number.fract() == 0.0 => toml::Value::Integer(number as i64),
-        _ => value.clone(),
-    }
 }

@@ -1,5 +1,5 @@
 //! An output of a run by its path in `summary.json`: `pinion.peak_wear_um`; items of lists are numbered from 1. Names that main figures had in the
-//! version before are read too.
+//! version before are read too, and so is the greatest wear of either gear.
 
 use std::sync::OnceLock;
 
@@ -10,11 +10,13 @@ use crate::scene::schema::{Node, schema_of};
 use gearwear_physics::results::figures;
 use gearwear_physics::results::run::Summary;
 
+const GEARS: [&str; 2] = ["pinion", "wheel"];
+
 #[derive(Debug, Clone, PartialEq)]
 pub struct SummaryOutput {
     pub path: String,
-    /// Path as a JSON pointer.
-    pointer: String,
+    /// Path as a JSON pointer; of several the greatest number counts.
+    pointers: Vec<String>,
 }
 
 /// A path that leads to no number.
@@ -34,6 +36,9 @@ impl SummaryOutput {
     /// The number at `path`.
     pub fn find(path: &str) -> Result<Self, OutputError> {
         let path = figures::name_now(path).unwrap_or(path);
+        if path == figures::PEAK_WEAR_OF_EITHER {
+            return Ok(Self { path: path.to_owned(), pointers: GEARS.map(|gear| format!("/{gear}/{path}")).into() });
+        }
         let root = Node::root(schema());
         let mut pointer = String::new();
         let mut node = Some(root);
@@ -44,7 +49,7 @@ impl SummaryOutput {
             pointer.push_str(&number.map_or_else(|| format!("/{part}"), |number| format!("/{}", number - 1)));
         }
         match node.filter(|&node| is_number(node)) {
-            Some(_) => Ok(Self { path: path.to_owned(), pointer }),
+            Some(_) => Ok(Self { path: path.to_owned(), pointers: vec![pointer] }),
             None => Err(OutputError { output: path.to_owned(), nearest: nearest_path(path, root, is_number) }),
         }
     }
@@ -62,7 +67,9 @@ impl SummaryOutput {
 
     /// Value in the summary; none where the run does not compute it.
     pub fn of(&self, summary: &Value) -> Option<f64> {
-        summary.pointer(&self.pointer)?.as_f64()
+        let numbers: Option<Vec<f64>> =
+            self.pointers.iter().map(|pointer| summary.pointer(pointer).and_then(Value::as_f64)).collect();
+        numbers?.into_iter().reduce(f64::max)
     }
 }
 
@@ -91,11 +98,14 @@ mod tests {
             SummaryOutput::find("pinion_peak_wear_um").map(|output| output.path),
             Ok("pinion.peak_wear_um".to_owned())
         );
-        for path in ["peak_wear_um", "pinion.peak_ware_um"] {
-            assert_eq!(SummaryOutput::find(path).unwrap_err().nearest.as_deref(), Some("pinion.peak_wear_um"));
-        }
-        // All main figures but the one that sweeps alone know are in the summary.
-        for figure in figures::all().iter().filter(|figure| figure.name != figures::PEAK_WEAR_OF_EITHER) {
+        assert_eq!(
+            SummaryOutput::find("pinion.peak_ware_um").unwrap_err().nearest.as_deref(),
+            Some("pinion.peak_wear_um")
+        );
+        let of_either = SummaryOutput::find("peak_wear_um").unwrap();
+        let gears = serde_json::json!({ "pinion": { "peak_wear_um": 1.0 }, "wheel": { "peak_wear_um": 2.0 } });
+        assert_eq!((of_either.of(&gears), of_either.of(&summary)), (Some(2.0), None));
+        for figure in figures::all() {
             assert!(SummaryOutput::find(&figure.name).is_ok(), "{}", figure.name);
         }
         for path in ["title", "phases.0.hours", "pinion", ""] {

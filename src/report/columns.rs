@@ -51,7 +51,7 @@ pub enum Values {
     Words(Vec<String>),
 }
 
-/// The table called `name` of a run: `pinion`, `wheel`, `history`, `profiles`, `mesh_cycle` or `slices`; none for another name, or where
+/// The table called `name` of a run: `pinion`, `wheel`, `history`, `profiles`, `mesh_cycle`, `film` or `slices`; none for another name, or where
 /// the run has no such table.
 pub fn of_run(record: &RunRecord, name: &str) -> Option<Table> {
     Some(match name {
@@ -60,6 +60,7 @@ pub fn of_run(record: &RunRecord, name: &str) -> Option<Table> {
         "history" => table("history", &record.history),
         "profiles" => table("profiles", tables::profiles(record)),
         "mesh_cycle" => table("mesh_cycle", &record.mesh_cycle),
+        "film" if !record.film.is_empty() => table("film", &record.film),
         "slices" => {
             table("slices", slice_table::rows(record.slices.as_ref()?, &record.summary.geometry.curvature_radius_mm))
         }

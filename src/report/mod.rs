@@ -10,6 +10,7 @@
 //! | `film.csv` | [`FilmRow`](gearwear_physics::results::lubrication::FilmRow); only where the scene asks for films or losses |
 //! | `flank.vtu`; where asked for `flank.pvd`, `flank_000.vtu` … | [`flank_mesh`] |
 //! | `scene.toml` | the resolved scene, byte for byte, so that its SHA-256 begins with the scene hash |
+//! | `record.bin` | the record itself, written by [`resume`](crate::resume) |
 //! | `report.html` | [`html`] |
 //! | `results.xlsx`, where asked for | [`workbook`], from the CSV files |
 //! | figures in a folder of their own, where asked for | [`figure`], which draws the plots of the page too |
@@ -80,6 +81,44 @@ pub fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, Report
     paths.push(place(dir, output_files::FLANK, |out| flank_mesh::write(out, record))?);
     paths.push(csv.finish()?);
     Ok(paths)
+}
+
+/// Files of a run beside its tables.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RunFiles {
+    /// The page.
+    pub page: bool,
+    /// The tables as a workbook.
+    pub workbook: bool,
+    /// Both flanks in space at every snapshot.
+    pub series: bool,
+    /// Folder of the plots of the page as SVG and PNG; `None`: not written.
+    pub figures: Option<PathBuf>,
+}
+
+impl Default for RunFiles {
+    /// The page alone.
+    fn default() -> Self {
+        Self { page: true, workbook: false, series: false, figures: None }
+    }
+}
+
+/// Writes all of `record` but its summary and the record itself into `dir`; of `files` those that are not asked for are taken away there.
+pub fn write_files(record: &RunRecord, files: &RunFiles, dir: &Path) -> Result<(), ReportError> {
+    write_data(record, dir)?;
+    match files.page {
+        true => write_page(record, dir).map(drop),
+        false => remove_page(dir),
+    }?;
+    match files.series {
+        true => write_series(record, dir).map(drop),
+        false => remove_series(dir),
+    }?;
+    match files.workbook {
+        true => write_workbook(record, dir).map(drop),
+        false => remove_workbook(dir),
+    }?;
+    files.figures.as_ref().map_or(Ok(()), |figures| write_figures(record, figures).map(drop))
 }
 
 /// Writes the page of `record` into `dir`.

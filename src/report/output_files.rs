@@ -4,6 +4,8 @@
 pub const PAGE: &str = "report.html";
 /// Main figures, written last.
 pub const SUMMARY: &str = "summary.json";
+/// The whole result to the bit.
+pub const RECORD: &str = "record.bin";
 /// The resolved scene.
 pub const SCENE: &str = "scene.toml";
 /// The resolved problem of finite elements.

@@ -11,10 +11,11 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::file::{self, CheckpointError, CheckpointFile};
+use super::file::{self, CheckpointFile};
 use super::identity::{RunIdentity, between_scenes};
 use crate::report::ReportError;
 use crate::scene::loaded::NamedFile;
+use crate::stamped_file::StampedFileError;
 use gearwear_files::whole_file;
 use gearwear_physics::results::run::StopReason;
 
@@ -43,7 +44,7 @@ pub enum FolderError {
         /// The file.
         path: PathBuf,
         /// Fault of the file.
-        source: CheckpointError,
+        source: StampedFileError,
     },
     /// The run of another scene, or of other input files.
     #[error("{} holds the run of another scene: {}", path.display(), differences.join("; "))]

@@ -5,6 +5,7 @@
 //! | `scene.toml` | the resolved scene, written before the run begins |
 //! | `inputs/` | copies of the files that the scene names; `scene.toml` names these |
 //! | `checkpoint.bin` | the last checkpoint ([`mod@file`]), until the run has ended |
+//! | `record.bin` | the whole result ([`result`]), after the other files |
 //! | `summary.json` | written last of all: the run has ended |
 //!
 //! So a folder that a run began can be run again from what lies in it, wherever it is moved to. A checkpoint says of which scene, input
@@ -13,3 +14,6 @@
 pub mod file;
 pub mod folder;
 pub mod identity;
+pub mod keeper;
+pub mod kept_run;
+pub mod result;

@@ -54,6 +54,32 @@ pub fn is_key(path: &str) -> bool {
     node_at(path).is_some()
 }
 
+/// Paths of a key with alternatives: `a.b.d` and `a.c.d` for `a.{b,c}.d`.
+pub fn linked_keys(key: &str) -> Vec<String> {
+    let Some((before, rest)) = key.split_once('{') else { return vec![key.to_owned()] };
+    let Some((alternatives, after)) = rest.split_once('}') else { return vec![key.to_owned()] };
+    alternatives.split(',').flat_map(|name| linked_keys(&format!("{before}{}{after}", name.trim()))).collect()
+}
+
+/// Whether a key takes whole numbers alone, so that `16.0` stands for `16`: arrays of numbers have but one kind.
+pub fn takes_whole_numbers(key: &str) -> bool {
+    linked_keys(key).iter().any(|key| NumberKey::find(key).is_ok_and(|key| key.whole()))
+}
+
+/// A number of which nothing is lost as a whole one; any other value as it is.
+pub fn as_whole(value: &toml::Value) -> toml::Value {
+    match value.as_float() {
+        // A cast keeps any whole number that is of a size that a scene allows.
+        Some(number) if number.fract() == 0.0 => toml::Value::Integer(number as i64),
+        _ => value.clone(),
+    }
+}
+
+/// Whether a key takes a list.
+pub fn takes_list(key: &str) -> bool {
+    linked_keys(key).iter().any(|key| node_at(key).is_some_and(|node| node.items().is_some()))
+}
+
 impl NumberKey {
     /// The key at `path`.
     ///

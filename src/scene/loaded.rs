@@ -8,7 +8,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::draft::Draft;
-use super::key::is_key;
+use super::key::{as_whole, is_key, linked_keys, takes_whole_numbers};
 pub use super::named_files::{CALIBRATION, CURVE, NamedFile, NamedFiles};
 use super::named_files::{calibration, of_another_pair, stiffness_curve, warnings};
 use super::scene_text::folder_of;
@@ -106,7 +106,8 @@ impl LoadedScene {
     }
 
     /// Scene with all these keys changed together, so that those that need one another need no order: with a value as
-    /// [`Self::with`] gives it, without one as [`Self::without`] takes it away.
+    /// [`Self::with`] gives it, without one as [`Self::without`] takes it away. A key with alternatives, `pair.{pinion,wheel}.teeth`, is all of
+    /// them, and a number without a fraction is whole where the key takes whole numbers.
     ///
     /// # Errors
     /// As of [`Self::with`] and [`Self::without`].
@@ -115,12 +116,15 @@ impl LoadedScene {
         changes: impl IntoIterator<Item = (String, Option<toml::Value>)>,
     ) -> Result<Self, LoadError> {
         let change = |draft: &mut Draft| {
-            for (key, value) in changes {
-                match value {
-                    Some(value) => draft.set(&key, value),
-                    None if is_key(&key) => draft.remove(&key),
-                    // As a key that is given, it is refused with what was probably meant.
-                    None => draft.set(&key, true),
+            for (keys, value) in changes {
+                for key in linked_keys(&keys) {
+                    match &value {
+                        Some(value) if takes_whole_numbers(&key) => draft.set(&key, as_whole(value)),
+                        Some(value) => draft.set(&key, value.clone()),
+                        None if is_key(&key) => draft.remove(&key),
+                        // As a key that is given, it is refused with what was probably meant.
+                        None => draft.set(&key, true),
+                    }
                 }
             }
         };

@@ -5,6 +5,7 @@ use std::io;
 use super::axis::{self, AxisError};
 use super::combination::Sweep;
 use super::goal::{Goal, GoalError};
+use crate::evaluate::{self, EvaluateError};
 use crate::journal::JournalError;
 use crate::report::ReportError;
 use crate::scene::draft::Draft;
@@ -23,13 +24,16 @@ pub struct SweepQuestion {
     pub subject_to: Vec<String>,
     /// Whether the errors of each combination are estimated.
     pub error_estimate: bool,
+    /// Columns beside the main figures: paths of numbers in `summary.json`.
+    pub outputs: Vec<String>,
 }
 
 impl SweepQuestion {
     /// Notes on figures that are named as in the previous version.
     pub fn notes(&self) -> Vec<String> {
         let of_limits = self.subject_to.iter().map(|limit| limit.split(['<', '>']).next().unwrap_or_default().trim());
-        figures::notes(self.best.iter().map(String::as_str).chain(of_limits))
+        let outputs = self.outputs.iter().map(String::as_str);
+        figures::notes(self.best.iter().map(String::as_str).chain(of_limits).chain(outputs))
     }
 }
 
@@ -46,6 +50,8 @@ pub enum SweepFault {
     Axis(#[from] AxisError),
     #[error(transparent)]
     Goal(#[from] GoalError),
+    #[error(transparent)]
+    Output(#[from] EvaluateError),
     #[error("none of the combinations makes a scene; the first: {0}")]
     NothingToVary(String),
     #[error(transparent)]
@@ -88,7 +94,8 @@ impl Sweep {
         axis::check_phases(&axes, &draft)?;
         let limits = question.subject_to.iter().map(|limit| limit.parse()).collect::<Result<_, GoalError>>()?;
         let goal = question.best.as_ref().map(|figure| Goal::new(figure, limits)).transpose()?;
-        let sweep = Self::new(scene, axes, goal, question.error_estimate);
+        let outputs = evaluate::outputs(&question.outputs)?;
+        let sweep = Self::new(scene, axes, goal, question.error_estimate, outputs);
         Ok(sweep.map_err(|problems| scene.given.refused(problems))?)
     }
 

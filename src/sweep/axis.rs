@@ -5,11 +5,11 @@ use std::str::FromStr;
 
 use crate::scene::decimal_comma;
 use crate::scene::draft::Draft;
-use crate::scene::key::{self, KeyError, NumberKey};
+use crate::scene::key::{self, KeyError, NumberKey, linked_keys};
 use crate::scene::problem::number;
 use crate::scene::table::other_ways_to_say;
 use crate::sweep::record::{AxisSpacing, SweepAxis};
-use crate::varied_scene::{linked_keys, missing_phase};
+use crate::varied_scene::missing_phase;
 
 /// Greatest number of values of one key.
 pub const MOST_VALUES: usize = 100_000;

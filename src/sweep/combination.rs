@@ -3,7 +3,9 @@
 use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
+use crate::evaluate::output::SummaryOutput;
 use crate::runs;
 use crate::scene::draft::Draft;
 use crate::scene::loaded::LoadedScene;
@@ -16,7 +18,7 @@ use gearwear_physics::assessment::guarded::guarded;
 use gearwear_physics::observer::Observer;
 use gearwear_physics::plan::{Plan, StageKind};
 use gearwear_physics::results::error::TotalError;
-use gearwear_physics::results::figures;
+use gearwear_physics::results::figures::{self, STATED_ERRORS};
 use gearwear_physics::results::run::{StopReason, Summary};
 
 /// Something to do of a sweep: what one thread, wherever it is, does from beginning to end.
@@ -34,6 +36,8 @@ pub enum SweepTask {
 pub struct Sweep {
     pub identity: SweepIdentity,
     varied: VariedScene,
+    /// Columns beside those of every sweep.
+    outputs: Vec<SummaryOutput>,
 }
 
 impl Sweep {
@@ -46,9 +50,19 @@ impl Sweep {
         axes: Vec<SweepAxis>,
         goal: Option<Goal>,
         error_estimate: bool,
+        outputs: Vec<SummaryOutput>,
     ) -> Result<Self, Vec<Problem>> {
         let draft = Draft::parse(&given.given.text)?;
         let resolved = &given.resolved;
+        let mut figures: Vec<String> = figures::in_sweeps().iter().map(|figure| figure.name.clone()).collect();
+        let is_verified = |path: &str| STATED_ERRORS.iter().any(|claim| claim.name == path);
+        let mut own = Vec::new();
+        for output in outputs {
+            if !figures.contains(&output.path) && !is_verified(&output.path) {
+                figures.push(output.path.clone());
+                own.push(output);
+            }
+        }
         let identity = SweepIdentity {
             title: resolved.title().to_owned(),
             program_version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -58,10 +72,10 @@ impl Sweep {
             error_estimate,
             verify: resolved.scene.verify && (draft.gives("numerics.verify") || goal.is_some()),
             axes,
-            figures: figures::in_sweeps().iter().map(|figure| figure.name.clone()).collect(),
+            figures,
             goal,
         };
-        Ok(Self { identity, varied: VariedScene::new(given, error_estimate)? })
+        Ok(Self { identity, varied: VariedScene::new(given, error_estimate)?, outputs: own })
     }
 
     /// The scene, as the user gave it.
@@ -101,10 +115,7 @@ impl Sweep {
         let row = match run {
             Ok(summary) if summary.stopped == StopReason::Interrupted => return None,
             Ok(summary) => SweepRow {
-                figures: figures::in_sweeps()
-                    .iter()
-                    .map(|f| f.value(&summary).filter(|value| value.is_finite()))
-                    .collect(),
+                figures: self.figures(&summary),
                 warnings: Some(summary.warnings.len()),
                 simulation_s: simulation_s(&summary),
                 ..self.empty(index)
@@ -115,8 +126,16 @@ impl Sweep {
         Some(SweepRow { wall_s: start.elapsed().as_secs_f64(), ..row })
     }
 
+    /// The figures of a row, in the order of the identity.
+    fn figures(&self, summary: &Summary) -> Vec<Option<f64>> {
+        let main = figures::in_sweeps().iter().map(|figure| figure.value(summary));
+        let whole = if self.outputs.is_empty() { Value::Null } else { serde_json::json!(summary) };
+        let own = self.outputs.iter().map(|output| output.of(&whole));
+        main.chain(own).map(|value| value.filter(|value| value.is_finite())).collect()
+    }
+
     fn empty(&self, index: usize) -> SweepRow {
-        let (values, figures) = (self.identity.values(index), vec![None; figures::in_sweeps().len()]);
+        let (values, figures) = (self.identity.values(index), vec![None; self.identity.figures.len()]);
         SweepRow { index, values, figures, ..SweepRow::default() }
     }
 

@@ -7,8 +7,9 @@ use super::sampled_run::{SampledQuestion, UncertaintyStudyError};
 use crate::evaluate::output::{OutputError, SummaryOutput};
 use crate::journal::JournalError;
 use crate::scene::draft::Draft;
+use crate::scene::key::linked_keys;
 use crate::scene::loaded::{LoadedScene, SceneError};
-use crate::varied_scene::{linked_keys, missing_phase};
+use crate::varied_scene::missing_phase;
 use gearwear_physics::results::figures;
 
 /// Question of a study of uncertainty.

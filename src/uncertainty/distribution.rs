@@ -13,9 +13,8 @@
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use crate::scene::key::{KeyError, NumberKey};
+use crate::scene::key::{KeyError, NumberKey, linked_keys};
 use crate::scene::table::other_ways_to_say;
-use crate::varied_scene::linked_keys;
 
 pub const FORMS: &str = "normal:MEAN:SD, lognormal:MEDIAN:FACTOR, uniform:LOW:HIGH, triangular:LOW:MODE:HIGH, ±40%, normal:10%, \
      lognormal:FACTOR";

@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use crate::program::{exchanged, gearwear};
 
-const FILES: [&str; 10] = [
+const FILES: [&str; 11] = [
     "summary.json",
     "columns.json",
     "pinion.csv",
@@ -19,6 +19,7 @@ const FILES: [&str; 10] = [
     "profiles.csv",
     "mesh_cycle.csv",
     "flank.vtu",
+    "record.bin",
     "scene.toml",
     "report.html",
 ];

@@ -1,25 +1,16 @@
 //! Start of a run: in a new folder, or from the checkpoint of an interrupted run of the same scene.
 
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
-use std::time::{Duration, Instant};
 
 use gearwear::report;
-use gearwear::resume::file::{self, CheckpointFile};
+use gearwear::resume::file::CheckpointFile;
 use gearwear::resume::folder::{self, FolderContents};
 use gearwear::resume::identity::RunIdentity;
 use gearwear::scene::loaded::LoadedScene;
-use gearwear_physics::simulation::checkpoint::{Checkpoint, Keeper};
+use gearwear_physics::simulation::checkpoint::Checkpoint;
 
 use super::failure::{Failure, InputError, in_the_scene};
-use super::say;
-
-/// Least time between two checkpoints.
-const LEAST_INTERVAL: Duration = Duration::from_millis(250);
-/// Least time between two checkpoints over the time of writing the last one.
-const INTERVAL_OVER_WRITING: u32 = 20;
 
 pub(super) struct BegunRun {
     /// Scene, with input files as they lie in the folder.
@@ -95,46 +86,4 @@ fn begin_anew(scene: LoadedScene, identity: RunIdentity, out: &Path) -> Result<B
     let files = scene.files.as_read.iter().map(|file| file.name.clone()).collect();
     let made = Some(MadeFolder { out: out.to_owned(), files, is_new });
     Ok(BegunRun { scene, out: out.to_owned(), identity, from: None, made })
-}
-
-/// Writes checkpoints into the folder of a run, seldom enough to cost no time. A checkpoint that cannot be written does not end the run.
-pub(super) struct FolderKeeper<'a> {
-    path: PathBuf,
-    identity: &'a RunIdentity,
-    warnings: &'a [String],
-    due: Mutex<Instant>,
-    failure: Mutex<Option<io::Error>>,
-}
-
-impl<'a> FolderKeeper<'a> {
-    /// Keeper for the run `identity` in the folder `out`, whose user was given `warnings`.
-    pub(super) fn new(out: &Path, identity: &'a RunIdentity, warnings: &'a [String]) -> Self {
-        let due = Mutex::new(Instant::now() + LEAST_INTERVAL);
-        Self { path: out.join(folder::CHECKPOINT), identity, warnings, due, failure: Mutex::new(None) }
-    }
-
-    /// Says why the last checkpoint could not be written, if so.
-    pub(super) fn say_failure(&self) {
-        let failure = self.failure.lock().ok().and_then(|mut failure| failure.take());
-        if let Some(error) = failure {
-            say(&format!("warning: the last checkpoint, {}, could not be written: {error}", self.path.display()));
-        }
-    }
-}
-
-impl Keeper for FolderKeeper<'_> {
-    fn is_due(&self) -> bool {
-        self.due.lock().is_ok_and(|due| Instant::now() >= *due)
-    }
-
-    fn keep(&self, checkpoint: &Checkpoint) {
-        let begin = Instant::now();
-        let written = file::write(&self.path, self.identity, self.warnings, checkpoint);
-        if let Ok(mut failure) = self.failure.lock() {
-            *failure = written.err();
-        }
-        if let Ok(mut due) = self.due.lock() {
-            *due = Instant::now() + LEAST_INTERVAL.max(INTERVAL_OVER_WRITING * begin.elapsed());
-        }
-    }
 }

@@ -5,14 +5,15 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::say;
+use gearwear::EvaluateError;
 use gearwear::exchange::rexs::RexsError;
 use gearwear::journal::{JournalError, Kept};
 use gearwear::report::ReportError;
-use gearwear::resume::file::CheckpointError;
 use gearwear::resume::folder::FolderError;
 use gearwear::scene::blame::SceneFault;
 use gearwear::scene::loaded::{LoadError, LoadedScene, SceneError, SceneText};
 use gearwear::scene::{Problem, ProblemKind, presets};
+use gearwear::stamped_file::StampedFileError;
 use gearwear::sweep::asked::{SweepError, SweepFault};
 use gearwear::sweep::axis::AxisError;
 use gearwear::sweep::goal::GoalError;
@@ -199,6 +200,9 @@ pub(super) enum InputError {
     #[error("--best, --subject-to: {0}")]
     #[diagnostic(help("for example --best pinion.peak_wear_um --subject-to \"wheel.peak_wear_um<=8\""))]
     Goal(GoalError),
+    #[error("--outputs: {0}")]
+    #[diagnostic(help("summary.json of a run has all of them"))]
+    Outputs(EvaluateError),
     /// `uncertainty` with a question that cannot be asked.
     #[error("{option}{0}", option = option_of(.0))]
     #[diagnostic(help("{}", uncertainty_help(.0)))]
@@ -242,6 +246,7 @@ impl From<SweepFault> for Failure {
             SweepFault::Scene(error) => return Failure::Scene(error),
             SweepFault::Axis(error) => InputError::Vary(error),
             SweepFault::Goal(error) => InputError::Goal(error),
+            SweepFault::Output(error) => InputError::Outputs(error),
             SweepFault::NothingToVary(problems) => InputError::NothingToVary(problems),
             SweepFault::Journal(error) => InputError::Journal { option: "--out", error },
             SweepFault::Report(error) => InputError::Out(error),
@@ -273,7 +278,7 @@ fn resume_help(error: &FolderError) -> &'static str {
     match error {
         FolderError::OtherRun { .. } => "resume it with its own scene and files, or choose another folder with --out",
         FolderError::Checkpoint {
-            source: CheckpointError::OtherVersion { .. } | CheckpointError::OtherFormat { .. },
+            source: StampedFileError::OtherVersion { .. } | StampedFileError::OtherFormat { .. },
             ..
         } => "resume it with the version that wrote it, or remove the checkpoint to begin anew",
         FolderError::Checkpoint { .. } => "remove the checkpoint to begin anew",

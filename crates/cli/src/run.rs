@@ -8,8 +8,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use gearwear::report;
-use gearwear::report::ReportError;
-use gearwear::resume::folder;
+use gearwear::report::{ReportError, RunFiles};
+use gearwear::resume::keeper::FolderKeeper;
+use gearwear::resume::{folder, result};
 use gearwear::runs;
 use gearwear::scene::loaded::LoadedScene;
 use gearwear_physics::assessment::{Done, Resumption, RunError};
@@ -19,7 +20,7 @@ use gearwear_physics::results::invariant::Invariant;
 use gearwear_physics::results::run::{RunRecord, StageTime, StopReason};
 use gearwear_physics::simulation::settings::Operation;
 
-use super::begun_run::{self, BegunRun, FolderKeeper, MadeFolder};
+use super::begun_run::{self, BegunRun, MadeFolder};
 use super::failure::{Failure, InputError, in_the_scene};
 use super::progress::Progress;
 use super::{figures, print, say, warn};
@@ -97,7 +98,9 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
         Ok(done)
     });
     progress.finish();
-    keeper.say_failure();
+    if let Some((path, error)) = keeper.failure() {
+        say(&format!("warning: the last checkpoint, {}, could not be written: {error}", path.display()));
+    }
     if matches!(done, Err(Failure::Run(_))) && interrupted.load(Ordering::Relaxed) {
         say(&format!("interrupted before anything was finished; {}", how_to_go_on(&out)));
         return Err(Failure::Interrupted);
@@ -151,25 +154,13 @@ fn refused(error: RunError, scene: &LoadedScene, made: Option<&MadeFolder>) -> F
 fn write(record: &mut RunRecord, out: &Path, args: &RunArgs, progress: &Progress) -> Result<(), ReportError> {
     progress.stage(StageKind::Report.name());
     let start = Instant::now();
-    report::write_data(record, out)?;
-    match args.no_report {
-        true => report::remove_page(out),
-        false => report::write_page(record, out).map(drop),
-    }?;
-    match args.series {
-        true => report::write_series(record, out).map(drop),
-        false => report::remove_series(out),
-    }?;
-    match args.workbook {
-        true => report::write_workbook(record, out).map(drop),
-        false => report::remove_workbook(out),
-    }?;
-    if let Some(figures) = &args.figures {
-        report::write_figures(record, figures)?;
-    }
+    let files =
+        RunFiles { page: !args.no_report, workbook: args.workbook, series: args.series, figures: args.figures.clone() };
+    report::write_files(record, &files, out)?;
     let wall_s = start.elapsed().as_secs_f64();
     record.summary.stages.push(StageTime { name: StageKind::Report.name().to_owned(), wall_s });
     record.summary.wall_s += wall_s;
+    result::write(record, out)?;
     report::write_summary(&record.summary, out).map(drop)
 }
 

@@ -53,6 +53,9 @@ pub(super) struct SweepRunArgs {
     /// A limit that the best combination keeps to: FIGURE<=VALUE or FIGURE>=VALUE. May be given several times
     #[arg(long, value_name = "FIGURE<=VALUE", requires = "best")]
     subject_to: Vec<String>,
+    /// Columns beside the main figures, as paths in summary.json, separated by commas
+    #[arg(long, value_name = "PATH,…", value_delimiter = ',')]
+    outputs: Vec<String>,
     /// The folder for the results; a sweep that was stopped goes on where it was
     #[arg(long, value_name = "DIR", required = true)]
     out: PathBuf,
@@ -116,6 +119,7 @@ fn run_sweep(args: &SweepRunArgs) -> Result<(), Failure> {
         best: args.best.clone(),
         subject_to: args.subject_to.clone(),
         error_estimate: args.error_estimate,
+        outputs: args.outputs.clone(),
     };
     let sweep = Sweep::of(&scene, &question)?;
     question.notes().iter().for_each(|note| say(&format!("note: {note}")));

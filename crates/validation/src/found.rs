@@ -72,7 +72,7 @@ enum StudyFault {
     Word { key: &'static str, found: String, allowed: String },
     #[error("shift_within_mm: found {found}; allowed: a length in mm, 0 or more")]
     Shift { found: f64 },
-    #[error("measured: found no file; allowed: one, or one of the pinion and one of the wheel")]
+    #[error("measured: found no profile; allowed: one, or one of the pinion and one of the wheel")]
     NoProfile,
     #[error(transparent)]
     Compare(CompareFault),
@@ -134,14 +134,14 @@ pub struct CompareQuestion {
     pub width_mm: Option<f64>,
 }
 
-/// The measured profiles in the files `measured`, one or those of pinion and wheel, against the finished run in the folder `run`, as
+/// The measured profiles in the texts `measured`, one or those of pinion and wheel, against the finished run in the folder `run`, as
 /// `gearwear compare`.
 ///
 /// # Errors
-/// A folder without a finished run, a file that does not fit it, runs that fail.
+/// A folder without a finished run, a profile that does not fit it, runs that fail.
 pub fn compare(
     run: &Path,
-    measured: &[PathBuf],
+    measured: &[SceneText],
     question: &CompareQuestion,
     observer: &dyn Observer,
 ) -> Result<Study, StudyError> {
@@ -166,9 +166,7 @@ pub fn compare(
     if measured.is_empty() {
         return Err(StudyFault::NoProfile.into());
     }
-    let texts = measured.iter().map(|path| SceneText::read_foreign(path)).collect::<Result<Vec<_>, _>>();
-    let texts = texts.map_err(|error| StudyFault::Compare(error.into()))?;
-    let prepared = PreparedComparison::open(run, &texts, &asked).map_err(StudyFault::Compare)?;
+    let prepared = PreparedComparison::open(run, measured, &asked).map_err(StudyFault::Compare)?;
     let record = prepared.carry_out(observer).map_err(StudyFault::Comparison)?;
     Study::new(record, compare::report::write)
 }

@@ -159,6 +159,8 @@ struct RunState {
     wear_mm: Option<PerGear<Vec<f64>>>,
     /// Wear depth at the last of the states; none before the first and after a checkpoint.
     wear_of_last_state_mm: Option<PerGear<Vec<f64>>>,
+    /// Revolutions and wear depth where the run last arrived with no tooth worn through.
+    arrived: Option<(f64, PerGear<Vec<f64>>)>,
     /// Number of snapshots due so far.
     passed: usize,
     /// Limit reached.
@@ -325,6 +327,7 @@ impl WearRun<'_> {
             states: Vec::new(),
             wear_mm: None,
             wear_of_last_state_mm: None,
+            arrived: None,
             passed: 0,
             limit_reached: None,
             is_repeated: false,
@@ -471,8 +474,10 @@ impl WearRun<'_> {
             Err(source) => return Ok(Some(PhaseEnd::Failed(SimulationError::Equilibrium { revolutions, source }))),
         }
         if let Some(worn_through) = worn_through {
+            self.keep_arrived(run_state, pair, progress);
             return Ok(Some(PhaseEnd::Failed(worn_through)));
         }
+        run_state.arrived = Some((revolutions, pair.wear_mm()));
         self.pass_due(run_state);
         progress.progress(revolutions, self.end_revolutions());
         if ends || self.due(run_state.passed).is_none() {
@@ -480,6 +485,24 @@ impl WearRun<'_> {
         }
         let is_reached = revolutions >= self.phases[run_state.phase].end_revolutions;
         Ok(is_reached.then_some(PhaseEnd::Reached))
+    }
+
+    /// Keeps the state where the run last arrived with no tooth worn through, if it is after all states and has an equilibrium.
+    fn keep_arrived(&self, run_state: &mut RunState, pair: &mut dyn WearingPair, progress: &dyn Observer) {
+        let Some((revolutions, wear_mm)) = run_state.arrived.take() else { return };
+        if run_state.states.last().is_some_and(|state| state.revolutions >= revolutions) {
+            return;
+        }
+        pair.set_wear_mm(&wear_mm);
+        let evaluated = pair.evaluate(&self.phases[run_state.phase].wear, &|| progress.gives_up());
+        let state = evaluated.and_then(|done| {
+            run_state.work += done;
+            pair.snapshot(revolutions)
+        });
+        if let Ok(state) = state {
+            run_state.states.push(state);
+            run_state.wear_of_last_state_mm = Some(wear_mm);
+        }
     }
 
     /// Takes one wear step within `interval`, up to the first limit that it passes, and evaluates the pair there.

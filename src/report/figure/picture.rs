@@ -8,6 +8,7 @@ use base64::prelude::BASE64_STANDARD;
 use super::palette::{hex, in_light, in_page};
 use super::png;
 use crate::report::chart::{Dash, Line};
+use gearwear_files::content_hash::sha256;
 
 /// Where a drawing is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -131,6 +132,9 @@ pub(super) fn dashes(dash: Dash) -> &'static [f32] {
     }
 }
 
+/// Hexadecimal digits of the content's SHA-256 in an identifier.
+const IDENTIFYING_DIGITS: usize = 12;
+
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
@@ -143,7 +147,19 @@ fn place(value: f64) -> String {
 }
 
 impl Picture {
+    /// SVG. Identifiers in that of a file have its content in them: drawings of other runs may stand on the same page.
     pub(super) fn svg(&self) -> String {
+        let svg = self.drawn();
+        if self.medium == Medium::Page || self.id.is_empty() {
+            return svg;
+        }
+        let area = format!("{}-area", self.id);
+        let own = format!("{area}-{}", &sha256(svg.as_bytes())[..IDENTIFYING_DIGITS]);
+        svg.replace(&format!("id=\"{area}\""), &format!("id=\"{own}\""))
+            .replace(&format!("url(#{area})"), &format!("url(#{own})"))
+    }
+
+    fn drawn(&self) -> String {
         let [width, height] = self.size;
         let [left, top, right, bottom] = self.frame;
         let mut svg = match self.medium {

@@ -54,6 +54,11 @@ pub fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
     for figure in figures::in_sweeps() {
         columns.push(SweepColumn::new(&figure.name, &figure.meaning, |row| Cell::Number(row.figure(figure))));
     }
+    for (at, path) in record.identity.figures.iter().enumerate().skip(figures::in_sweeps().len()) {
+        columns.push(SweepColumn::new(path, "the number at this path of summary.json", move |row| {
+            Cell::Number(row.figures.get(at).copied().flatten())
+        }));
+    }
     let all_of_it = "wall time of the whole combination, its verification apart";
     let why = "why finite elements verified this row: best, corner, or best and corner; empty: nothing verified it";
     columns.extend([

@@ -8,15 +8,17 @@ use std::path::{Path, PathBuf};
 
 use gearwear::report;
 use gearwear::report::ReportError;
+use gearwear::resume::result;
 use gearwear_physics::results::run::RunRecord;
 
-const FILES: [&str; 10] = [
+const FILES: [&str; 11] = [
     "columns.json",
     "flank.vtu",
     "history.csv",
     "mesh_cycle.csv",
     "pinion.csv",
     "profiles.csv",
+    "record.bin",
     "report.html",
     "scene.toml",
     "summary.json",
@@ -40,6 +42,7 @@ fn names_in(dir: &Path) -> Vec<String> {
 fn write_all(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     let mut paths = report::write_data(record, dir)?;
     paths.push(report::write_page(record, dir)?);
+    paths.push(result::write(record, dir)?);
     paths.push(report::write_summary(&record.summary, dir)?);
     Ok(paths)
 }
