@@ -15,7 +15,7 @@
 //! L = |S|^(−1/2) |Xᵀ S⁻¹ X|^(−1/2) R^(−(n − q)/2),      R = least yᵀ S⁻¹ y after X
 //! ```
 //!
-//! and its part of all likelihoods, white noise and all others each having half of the prior, is its probability. A parameter with the influence w
+//! and its part of all likelihoods is its probability, with equal priors of white noise and of all spectra of one p. A parameter with the influence w
 //! has the variance R/(n − q) Σ w_k² S_k of each pair. Profiles of more than [`MOST_POINTS`] points are averaged over neighbours first.
 //!
 //! Sources: H. D. Patterson and R. Thompson, *Recovery of inter-block information when block sizes are unequal*, Biometrika 58 (1971) 545–554;
@@ -53,6 +53,8 @@ pub(super) struct Cosines {
 pub(super) struct FittedSpectrum {
     /// S_k.
     pub shape: Vec<f64>,
+    /// Whether it is one of what is smooth, p = 3.
+    pub is_smooth: bool,
     /// Logarithm of the restricted likelihood and the prior.
     pub restricted: f64,
     /// Logarithm of the greatest likelihood and the prior.
@@ -153,7 +155,7 @@ impl Cosines {
         let strengths = STRENGTHS.iter().flat_map(|(power, all)| all.map(|strength| (strength, *power)));
         let grid: Vec<(f64, i32, f64)> =
             strengths.flat_map(|(a, power)| corners.iter().map(move |&corner| (a, power, corner))).collect();
-        let of_each = (0.5 / grid.len().max(1) as f64).ln();
+        let of_each = (0.5 * STRENGTHS.len() as f64 / grid.len().max(1) as f64).ln();
         let all = [((0.0, 1, 1.0), 0.5f64.ln())].into_iter().chain(grid.into_iter().map(|one| (one, of_each)));
         // Products of columns and values, a row for each k.
         let pairs: Vec<(usize, usize)> = (0..=q).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
@@ -178,6 +180,7 @@ impl Cosines {
                 restricted: prior - spectrum - columns - 0.5 * freedom * left.ln(),
                 greatest: prior - spectrum - 0.5 * n as f64 * left.ln(),
                 variance: left / freedom,
+                is_smooth: power > 1,
                 shape,
             })
         });

@@ -197,7 +197,8 @@ impl PartNoise {
         let also = part.also_fitted.iter().map(Vec::as_slice);
         let cosines =
             Cosines::new(residuals, also.chain(jacobian.iter().copied().filter(|column| dot(column, column) > 0.0)));
-        let spectra = cosines.spectra();
+        // Smooth spectra say nothing of the longest waves, which are fitted: their strength there would be a guess.
+        let spectra: Vec<FittedSpectrum> = cosines.spectra().into_iter().filter(|of| !of.is_smooth).collect();
         let probability = probabilities(&spectra);
         if probability.first().is_none_or(|&white| white > IS_WHITE) {
             let freedom = vec![white_freedom; influence.len()];
