@@ -284,8 +284,8 @@ def plotted(run: gearwear.Run, name: str) -> Any:
     }
     before, _, last = name.rpartition("-")
     if last in ("pinion", "wheel", "new", "worn"):
-        return names.get(before, getattr(plot, before.replace("-", "_"), None))(last)
-    return names.get(name, getattr(plot, name.replace("-", "_"), None))()
+        return (names.get(before) or getattr(plot, before.replace("-", "_")))(last)
+    return (names.get(name) or getattr(plot, name.replace("-", "_")))()
 
 
 def test_every_drawing_has_a_plot(spur: gearwear.Run, helical: gearwear.Run) -> None:
