@@ -164,6 +164,10 @@ def test_a_run_is_pickled_bit_for_bit(spur: gearwear.Run, helical: gearwear.Run)
         assert bits_of(again) == bits_of(run)
         assert again.summary == run.summary and again.scene == run.scene
         assert again._native.to_bytes() == run._native.to_bytes()
+        for part in (run.pinion, run.wheel, run.slices, run.history, run.plot):
+            back = pickle.loads(pickle.dumps(part))
+            assert type(back) is type(part) and repr(back).split(" object")[0] == repr(part).split(" object")[0]
+        assert pickle.loads(pickle.dumps(run.wheel)).wear_um.tobytes() == run.wheel.wear_um.tobytes()
 
 
 def test_a_run_of_another_version() -> None:
