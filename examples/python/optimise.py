@@ -60,8 +60,7 @@ class Study:
 
     def run(self, designs: Numbers, outputs: list[str]) -> Numbers:
         """The outputs of designs, a row each."""
-        found = gearwear.evaluate(self.scene, list(self.limits), designs, outputs, threads=None)
-        return np.asarray(found)
+        return gearwear.evaluate(self.scene, list(self.limits), designs, outputs).values
 
     @property
     def bounds(self) -> Numbers:

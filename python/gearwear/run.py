@@ -103,6 +103,9 @@ class Flank:
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *Flank.__annotations__]
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return getattr, (Run(self._native), self._gear)
+
     def __repr__(self) -> str:
         return f"<{self._gear}: {self.radius_mm.size} points, {self.width_mm.size} slices>"
 
@@ -156,6 +159,9 @@ class Slices:
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *Slices.__annotations__]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return getattr, (Run(self._native), "slices")
 
     def __repr__(self) -> str:
         return f"<slices: {self.width_mm.size} slices, {self.position_mm.size} positions>"

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from short_scenes import spur_scene
+from short_scenes import SHORT, spur_scene
 
 import gearwear
 
@@ -104,6 +104,10 @@ def test_a_run_that_comes_to_no_end_keeps_what_was_finished() -> None:
     assert error.run is not None and again.run is not None
     assert again.run.summary == error.run.summary
     assert error.run.summary["stopped"] == "worn-through"
+    # Of the steps that were taken the last before the tooth was gone, between two snapshots.
+    last = error.run.history["revolutions"][-1]
+    assert 0.0 < last == error.run.summary["revolutions"] and last not in SHORT["operation.snapshots_revolutions"]  # type: ignore[operator]
+    assert error.run.pinion.wear_um.max() > 0.0
 
 
 @pytest.mark.parametrize("threads", [0, -1, 1.5, True, "2"])

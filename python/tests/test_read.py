@@ -208,5 +208,8 @@ def test_a_script_of_a_cluster(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
         assert same_table(back.tables["compare"], study.tables["compare"])
 
     pytest.importorskip("matplotlib").use("agg")
-    run.plot.wear().figure.savefig(tmp_path / "wear.png")
+    from matplotlib import pyplot
+
+    run.plot.wear(axes=pyplot.subplots()[1])
+    pyplot.savefig(tmp_path / "wear.png")
     assert (tmp_path / "wear.png").stat().st_size > 0

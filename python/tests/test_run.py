@@ -164,6 +164,10 @@ def test_a_run_is_pickled_bit_for_bit(spur: gearwear.Run, helical: gearwear.Run)
         assert bits_of(again) == bits_of(run)
         assert again.summary == run.summary and again.scene == run.scene
         assert again._native.to_bytes() == run._native.to_bytes()
+        for part in (run.pinion, run.wheel, run.slices, run.history, run.plot):
+            back = pickle.loads(pickle.dumps(part))
+            assert type(back) is type(part) and repr(back).split(" object")[0] == repr(part).split(" object")[0]
+        assert pickle.loads(pickle.dumps(run.wheel)).wear_um.tobytes() == run.wheel.wear_um.tobytes()
 
 
 def test_a_run_of_another_version() -> None:
@@ -284,8 +288,8 @@ def plotted(run: gearwear.Run, name: str) -> Any:
     }
     before, _, last = name.rpartition("-")
     if last in ("pinion", "wheel", "new", "worn"):
-        return names.get(before, getattr(plot, before.replace("-", "_"), None))(last)
-    return names.get(name, getattr(plot, name.replace("-", "_"), None))()
+        return (names.get(before) or getattr(plot, before.replace("-", "_")))(last)
+    return (names.get(name) or getattr(plot, name.replace("-", "_")))()
 
 
 def test_every_drawing_has_a_plot(spur: gearwear.Run, helical: gearwear.Run) -> None:

@@ -144,3 +144,28 @@ def test_copies_are_the_scene_itself() -> None:
     assert copy.copy(scene) is scene and copy.deepcopy(scene) is scene
     again: Any = pickle.loads(pickle.dumps(scene))
     assert again == scene and again.text == scene.text and {scene: 1}[again] == 1
+
+
+def test_keys_are_read_and_take_the_values_of_evaluate() -> None:
+    scene = Scene.preset("fzg-c")
+    assert scene["operation.pinion_torque_Nm"] == 302.0 and scene["pair.pinion"]["teeth"] == 16
+    assert scene["helical.slices"] is None and scene["operation.phases.2.hours"] is None
+    snapshots = scene.with_({"operation.snapshots_h": np.array([50.0])})
+    assert snapshots == scene.with_({"operation.snapshots_h": [50]}) and snapshots["operation.snapshots_h.1"] == 50.0
+    changed = scene.with_(
+        {
+            "pair.{pinion,wheel}.tip_rounding_mm": np.array([0.2]),
+            "operation.pinion_torque_Nm": np.array([[250]]),
+            "pair.pinion.teeth": np.float64(16.0),
+            "contact.surface": np.array(["winkler"]),
+        }
+    )
+    assert changed["pair.pinion.tip_rounding_mm"] == changed["pair.wheel.tip_rounding_mm"] == 0.2
+    assert (changed["operation.pinion_torque_Nm"], changed["contact.surface"]) == (250.0, "winkler")
+    assert changed.without("pair.{pinion,wheel}.tip_rounding_mm")["pair.wheel.tip_rounding_mm"] == 0.0
+    with pytest.raises(KeyError, match="unknown key pair.face_widht_mm; .*did you mean pair.face_width_mm"):
+        scene["pair.face_widht_mm"]
+    with pytest.raises(TypeError, match="found a key of type int"):
+        scene[0]  # type: ignore[index]
+    with pytest.raises(gearwear.SceneError, match="teeth: found"):
+        scene.with_({"pair.pinion.teeth": 16.5})

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -81,6 +82,38 @@ def test_measured_profiles_of_both_gears(run: gearwear.Run, tmp_path: Path) -> N
         gearwear.compare(run, [files[0], files[0]])
     with pytest.raises(ValueError, match="measured: found no profile"):
         gearwear.compare(run, [])
+
+
+def test_profiles_as_arrays_and_frames(run: gearwear.Run, tmp_path: Path) -> None:
+    """The same as from files, to the bit."""
+    pandas = pytest.importorskip("pandas")
+    columns: dict[str, dict[str, Any]] = {}
+    for flank, name, factor in [(run.pinion, "pinion", 1.3), (run.wheel, "wheel", 0.9)]:
+        worn = flank.wear_um > 0.0
+        columns[name] = {"radius_mm": flank.radius_mm[worn], "height_um": -factor * flank.wear_um[worn]}
+        rows = "".join(f"{r!r},{h!r}\n" for r, h in zip(*(values.tolist() for values in columns[name].values()), strict=True))
+        (tmp_path / f"{name}.csv").write_text(f"# gear = {name}\n# hours = 1.0\nradius_mm,height_um\n{rows}")
+    timed = {name: {"hours": 1.0, **values} for name, values in columns.items()}
+    framed = [pandas.DataFrame({"gear": name, **values}) for name, values in columns.items()]
+    options: dict[str, Any] = {"form": "none", "shift_within_mm": 0.0, "threads": 1}
+    expected = gearwear.compare(run, [tmp_path / "pinion.csv", tmp_path / "wheel.csv"], **options).summary["fit"]
+    assert gearwear.compare(run, timed, **options).summary["fit"] == expected
+    frames = {name: frame.drop(columns="gear") for name, frame in zip(columns, framed, strict=True)}
+    study = gearwear.compare(run, frames, **options)
+    assert study.summary["fit"] == expected
+    assert len(study.to_pandas()["compare"]) == sum(len(frame) for frame in frames.values())
+    one = gearwear.compare(run, columns["pinion"], gear="pinion", **options)
+    assert one.summary["fit"] == gearwear.compare(run, {"pinion": columns["pinion"]}, **options).summary["fit"]
+    radius = columns["pinion"]["radius_mm"]
+    for wrong, said in [
+        ({"pinion": {"radius_mm": radius, "height_um": radius[1:]}}, "pinion: found .* of radius_mm, .* of height_um; allowed: as many"),
+        ({"pinion": {"radius_mm": radius, "height_um": np.ones((2, 2))}}, "height_um: found an array of 2 dimensions"),
+        ({"radius_mm": radius, "heights_um": radius}, "measured: .*height_um"),
+    ]:
+        with pytest.raises(ValueError, match=said):
+            gearwear.compare(run, wrong)
+    with pytest.raises(TypeError, match="measured: found int"):
+        gearwear.compare(run, 3)
 
 
 def test_runs_side_by_side(run: gearwear.Run, tmp_path: Path) -> None:

@@ -77,6 +77,21 @@ fn writing_again_replaces_the_files() {
     assert!(read_csv(dir.path(), "history.csv").1.is_empty());
 }
 
+#[test]
+fn a_run_is_read_from_its_folder() {
+    for record in [plausible::run(), plausible::interrupted()] {
+        let dir = written(&record);
+        assert_eq!(result::read(dir.path()).unwrap(), record);
+        let summary = dir.path().join("summary.json");
+        let refused = || result::read(dir.path()).unwrap_err().to_string();
+        fs::write(&summary, "{}").unwrap();
+        assert!(refused().contains("summary of another run"), "{}", refused());
+        fs::remove_file(&summary).unwrap();
+        assert!(refused().contains("found no summary.json"), "{}", refused());
+    }
+    assert!(result::read(Path::new("no such folder")).unwrap_err().to_string().contains("cannot be read"));
+}
+
 #[cfg(unix)]
 #[test]
 fn files_are_as_readable_as_any_new_file() {

@@ -59,12 +59,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         while (measured.len() as u64) < count {
             let index = indices.next().unwrap_or_default();
             // Scenes that cannot be run are left out: so few keys of the generator may not go together.
-            let fits = on_defaults(seed, index).is_ok_and(|scene| scene.scene().slices.is_some() == sliced);
-            let one = ["--one", &seed.to_string(), &index.to_string()];
-            let Ok(found) = fits.then(|| common::in_its_own_process(&one, threads)).unwrap_or_else(|| Err("".into()))
-            else {
+            if !on_defaults(seed, index).is_ok_and(|scene| scene.scene().slices.is_some() == sliced) {
                 continue;
-            };
+            }
+            let one = ["--one", &seed.to_string(), &index.to_string()];
+            let Ok(found) = common::in_its_own_process(&one, threads) else { continue };
             let cost = ["processor_s", "wall_s", "memory_GB"].map(|of| found["cost"][of].as_f64().unwrap_or(f64::NAN));
             if cost[0] > SLOW_S {
                 println!("{found}");
