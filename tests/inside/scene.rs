@@ -121,8 +121,8 @@ fn the_default_surface_follows_what_is_given() {
     ] {
         assert_eq!(surface(more).0, expected, "{more}");
     }
-    let helical = format!("pair.helix_angle_deg = 10.0\n{LEAST}");
-    assert_eq!(resolve(&helical).scene.contact.surface, SurfaceKind::HalfSpace);
+    let crowned = format!("pair.pinion.lead_crowning_um = 5.0\n{LEAST}");
+    assert_eq!(resolve(&crowned).scene.contact.surface, SurfaceKind::HalfSpace);
     let light = LEAST.replace("pinion_torque_Nm = 302", "pinion_torque_Nm = 0.01");
     let light = resolve(&light);
     assert_eq!(light.scene.contact.surface, SurfaceKind::HalfSpace);
