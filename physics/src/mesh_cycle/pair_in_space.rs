@@ -172,13 +172,6 @@ impl PairInSpace {
         least.next_multiple_of(self.even_layers)
     }
 
-    /// Half of so many slices, where ends of these and of elements coincide over the face width as theirs do.
-    pub fn half_of(&self, slices: usize) -> Option<usize> {
-        let half = slices / 2;
-        let coincide = |count: usize| count.is_multiple_of(self.even_layers) || self.even_layers.is_multiple_of(count);
-        (slices.is_multiple_of(2) && half > 0 && coincide(half)).then_some(half)
-    }
-
     /// Integration points of a contact on each flank: radius, place over the face width, and weight.
     fn points(&self, pair: &GearPair, slices: &Slices, contact: &SliceContact) -> PerGear<Vec<(f64, f64, f64)>> {
         let layer_ends_mm = self.gears.pinion.teeth.layer_ends_mm();

@@ -127,12 +127,6 @@ impl GearPair {
         self.spec.face_width_mm * self.spec.helix_angle_rad.sin().abs() / (PI * self.spec.normal_module_mm)
     }
 
-    /// Whether one of `slices` over the face width touches at every position.
-    pub fn is_covered_by(&self, slices: usize) -> bool {
-        let between = 1.0 - 1.0 / slices as f64;
-        self.path.contact_ratio() + between * self.overlap_ratio() >= 1.0
-    }
-
     /// Base helix angle β_b: tan β_b = tan β cos α_t.
     pub fn base_helix_angle_rad(&self) -> f64 {
         (self.spec.helix_angle_rad.tan() * self.spec.transverse_pressure_angle_rad().cos()).atan()

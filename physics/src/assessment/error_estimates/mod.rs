@@ -85,11 +85,9 @@ pub(super) fn estimate(
 fn coarse_slices(model: &RunModel<'_>) -> Option<SlicedTeeth> {
     let fine = model.sliced?;
     let count = fine.settings.count.div_ceil(2);
-    Some(if model.pair.is_covered_by(count) {
-        fine.with_count(model.pair, &model.scene.material, count)
-    } else {
-        fine.clone()
-    })
+    let between = 1.0 - 1.0 / count as f64;
+    let covers = model.pair.path.contact_ratio() + between * model.pair.overlap_ratio() >= 1.0;
+    Some(if covers { fine.with_count(model.pair, &model.scene.material, count) } else { fine.clone() })
 }
 
 /// Wear of the run with other wear laws, the severe transition of each exchanged by `transition`.

@@ -1,8 +1,8 @@
 //! Reference run for a run with slices: on elastic half-planes, tip edges followed, slices coupled by three-dimensional finite elements of both gears
 //! ([`crate::mesh_cycle::pair_in_space`]), teeth as stiff as by plane finite elements.
 //!
-//! A run of this kind itself is compared with one on m slices in place of its n, half as many where ends of slices and elements still coincide, at
-//! least 10, else a third more: the remaining error is that of the slices, for positions, points and steps have estimates of their own. Loads gather in the last slices of a line of contact, so that wear converges with the
+//! A run of this kind itself is compared with one on m slices in place of its n: the remaining error is that of the slices, for positions,
+//! points and steps have estimates of their own. Loads gather in the last slices of a line of contact, so that wear converges with the
 //! first order of their width, and the whole error is m/(m − n) times the difference (Richardson). At tip edges and below the start of active
 //! profile it is the difference itself: the error there is of positions and points, not of slices. The transmission error is a sum over the slices and
 //! converges about with the second order, m²/(m² − n²) times (docs/accuracy.md).
@@ -59,7 +59,7 @@ pub(super) fn reference_run(
         None => return Err("there are no three-dimensional finite elements of the teeth".to_owned()),
     };
     let curve = curve(scene, models.curve, models.elements)?;
-    let (count, extrapolation) = slices_of_reference(model, outcome.slices.count(), &in_space);
+    let (count, extrapolation) = slices_of_reference(scene, outcome.slices.count(), &in_space);
     let settings = SliceSettings { count, coupling: Coupling::Fem };
     let unread = SliceCompliance::of_plates(pair, &scene.material, true);
     let sliced = SlicedTeeth::new(pair, &scene.material, settings, unread, Some(in_space));
@@ -116,24 +116,21 @@ fn curve<'c>(
 }
 
 /// Number of slices of the reference run for a run with `own` slices, and the factors of the differences to it.
-fn slices_of_reference(model: &RunModel<'_>, own: usize, in_space: &PairInSpace) -> (usize, Extrapolation) {
-    if !is_finest_in_space(model.scene) {
+fn slices_of_reference(scene: &Scene, own: usize, in_space: &PairInSpace) -> (usize, Extrapolation) {
+    if !is_finest_in_space(scene) {
         let count = if own < LEAST_SLICES { in_space.slices_from(LEAST_SLICES) } else { own };
         return (count.min(MOST_SLICES_IN_SPACE), Extrapolation::NONE);
     }
-    let half = in_space.half_of(own).filter(|half| 2 * half >= LEAST_SLICES && model.pair.is_covered_by(*half));
-    let count = half.unwrap_or_else(|| {
-        let more = in_space.slices_from((own + own.div_ceil(3)).max(LEAST_SLICES)).min(MOST_SLICES_IN_SPACE);
-        // At the upper limit fewer slices are compared with.
-        if more > own { more } else { own - own / 4 }
-    });
+    let count = in_space.slices_from((own + own.div_ceil(3)).max(LEAST_SLICES)).min(MOST_SLICES_IN_SPACE);
+    // At the upper limit fewer slices are compared with.
+    let count = if count > own { count } else { own - own / 4 };
     let (m, n) = (count as f64, own as f64);
     let transmission_error = m.powi(2) / (m.powi(2) - n.powi(2)).abs();
     (count, Extrapolation { wear: m / (m - n).abs(), transmission_error })
 }
 
 /// Wear at the `points` of each slice as means over other slices of the same face width, mm.
-pub(super) fn over_slices(wear_mm: &[f64], points: usize, from: &Slices, to: &Slices) -> Vec<f64> {
+fn over_slices(wear_mm: &[f64], points: usize, from: &Slices, to: &Slices) -> Vec<f64> {
     if from.count() == to.count() {
         return wear_mm.to_vec();
     }

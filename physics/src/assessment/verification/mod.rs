@@ -401,12 +401,9 @@ impl<'a> RunComparison<'a> {
         Verified { total, surface_model, wear_mm: Some(wear_mm.clone()), warning: None }
     }
 
-    /// Error of the wear over the whole flank of a gear, in the fewer of both runs' slices; none where the reference does not wear.
+    /// Error of the wear over the whole flank of a gear; none where the reference does not wear.
     fn profile(&self, gear: Gear) -> Option<f64> {
-        let (grid, [run, reference]) = (&self.run.grid[gear], [self.run, &self.reference.outcome]);
-        let fewer = if reference.slices.count() < run.slices.count() { &reference.slices } else { &run.slices };
-        let [own, truth] = [run, reference]
-            .map(|outcome| in_space::over_slices(&outcome.worn.wear_mm[gear], grid.len(), &outcome.slices, fewer));
+        let (own, truth, grid) = (&self.run.worn.wear_mm[gear], &self.reference.wear_mm[gear], &self.run.grid[gear]);
         let involute = self.model.pair.teeth[gear].involute;
         let rho_mm = grid.coordinate_mm.iter();
         let factors: Vec<f64> = rho_mm
@@ -416,7 +413,7 @@ impl<'a> RunComparison<'a> {
             })
             .collect();
         let off =
-            own.iter().zip(&truth).zip(factors.iter().cycle()).map(|((own, truth), factor)| factor * (own - truth));
+            own.iter().zip(truth).zip(factors.iter().cycle()).map(|((own, truth), factor)| factor * (own - truth));
         let whole = integral_of_squares(grid, truth.iter().copied());
         (whole > 0.0).then(|| (integral_of_squares(grid, off) / whole).sqrt() + self.reference.uncertainty.profile)
     }
