@@ -192,7 +192,7 @@ fn verification(scene: &Scene) -> Result<String, String> {
         return verification_in_space(scene, slices);
     }
     Ok(match scene.contact.surface {
-        SurfaceKind::Fem => "numerics.verify: the same wear simulation on another finite-element mesh".to_owned(),
+        SurfaceKind::Fem => "numerics.verify: the same wear simulation on coarser finite elements".to_owned(),
         _ => "numerics.verify: the same wear simulation with finite elements, which gives error.total".to_owned(),
     })
 }

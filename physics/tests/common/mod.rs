@@ -174,6 +174,24 @@ pub struct Scene {
     pub curve: Option<PairCompliance>,
 }
 
+/// Wear run of `pair` in `phases`, all under the load of the first, with one mate of each gear.
+pub fn wear_run<'a>(
+    pair: &'a GearPair,
+    phases: &'a [RunPhase<'a>],
+    snapshots_revolutions: &'a [f64],
+    numerics: Numerics,
+) -> WearRun<'a> {
+    WearRun {
+        pair,
+        zones: zones(pair, phases[0].line_load_n_per_mm),
+        phases,
+        snapshots_revolutions,
+        meshes_per_pinion_turn: PerGear { pinion: 1.0, wheel: pair.wheel_turns_per_pinion_turn() },
+        limits: LifeLimits::default(),
+        numerics,
+    }
+}
+
 /// "The fzg-c scene": 302 N·m, 150 rpm, 127.75 h, Winkler matched on half-width, 20 N/(mm·µm), k 1e-17 m²/N.
 pub fn fzg_c_scene() -> Scene {
     Scene {
@@ -269,19 +287,6 @@ impl Scene {
             line_load_n_per_mm: line_load,
             end_revolutions: self.revolutions,
         };
-        let (snapshots, numerics) = (&self.snapshots, self.numerics());
-        let zones = zones(&pair, line_load);
-        let limits = LifeLimits::default();
-        let meshes_per_pinion_turn = PerGear { pinion: 1.0, wheel: pair.wheel_turns_per_pinion_turn() };
-        let run = WearRun {
-            pair: &pair,
-            zones,
-            phases: &[phase],
-            snapshots_revolutions: snapshots,
-            meshes_per_pinion_turn,
-            limits,
-            numerics,
-        };
-        then(&run, &phase)
+        then(&wear_run(&pair, &[phase], &self.snapshots, self.numerics()), &phase)
     }
 }

@@ -19,15 +19,14 @@ use gearwear_physics::mesh_cycle::{
 use gearwear_physics::observer::Unwatched;
 use gearwear_physics::simulation::figures::WearFigures;
 use gearwear_physics::simulation::mesh_contact::MeshContact;
-use gearwear_physics::simulation::settings::LifeLimits;
-use gearwear_physics::simulation::wear_run::{Outcome, RunPhase, WearRun};
+use gearwear_physics::simulation::wear_run::{Outcome, RunPhase};
 use gearwear_physics::stiffness::{TeethSpring, settings::StiffnessSettings};
 use gearwear_physics::wear::{
     WearModel,
     settings::{SevereTransition, WearSettings},
 };
 
-use super::common::{Scene, assert_close, fzg_c, fzg_c_scene, pair, preset, steel, zones};
+use super::common::{Scene, assert_close, fzg_c, fzg_c_scene, pair, preset, steel, wear_run};
 
 /// The preset `helical` on the simplified surface.
 fn scene(slices: usize, coupling: Coupling) -> Scene {
@@ -59,16 +58,9 @@ fn run(scene: &Scene) -> Outcome {
         line_load_n_per_mm: line_load,
         end_revolutions: scene.revolutions,
     };
-    let run = WearRun {
-        pair: &pair,
-        zones: zones(&pair, line_load),
-        phases: &[phase],
-        snapshots_revolutions: &scene.snapshots,
-        meshes_per_pinion_turn: PerGear { pinion: 1.0, wheel: pair.wheel_turns_per_pinion_turn() },
-        limits: LifeLimits::default(),
-        numerics: scene.numerics(),
-    };
-    run.run(&Unwatched).expect("the run of the test converges")
+    wear_run(&pair, &[phase], &scene.snapshots, scene.numerics())
+        .run(&Unwatched)
+        .expect("the run of the test converges")
 }
 
 /// The mesh of an unworn or worn pair.

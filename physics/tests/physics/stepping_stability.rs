@@ -6,12 +6,12 @@ use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_
 use gearwear_fem::elastic::Elastic;
 use gearwear_physics::observer::Unwatched;
 use gearwear_physics::simulation::mesh_contact::MeshContact;
-use gearwear_physics::simulation::settings::{LifeLimits, Numerics, Stepping};
-use gearwear_physics::simulation::wear_run::{Outcome, RunPhase, WearRun};
+use gearwear_physics::simulation::settings::{Numerics, Stepping};
+use gearwear_physics::simulation::wear_run::{Outcome, RunPhase};
 use gearwear_physics::wear::stepping::adaptive::StepCounts;
 use gearwear_physics::wear::{WearModel, settings::SevereTransition, settings::WearSettings};
 
-use super::common::{Scene, fzg_c, fzg_c_scene, pair, steel, zones};
+use super::common::{Scene, fzg_c, fzg_c_scene, pair, steel, wear_run};
 
 /// Steps of Euler's method: a wave that grows by 1.5 · 2 − 1 a step rises from rounding to its full height in them.
 const STEPS: u32 = 20;
@@ -110,18 +110,8 @@ fn ver_eulers_steps_break_where_the_bound_says_on_finite_elements() {
             stepping,
             error_estimate: false,
         };
-        let zones = zones(&pair, scene.line_load());
-        let limits = LifeLimits::default();
-        let meshes_per_pinion_turn = PerGear { pinion: 1.0, wheel: pair.wheel_turns_per_pinion_turn() };
-        let run = WearRun {
-            pair: &pair,
-            zones,
-            phases: &[phase],
-            snapshots_revolutions: snapshots,
-            meshes_per_pinion_turn,
-            limits,
-            numerics,
-        };
+        let phases = [phase];
+        let run = wear_run(&pair, &phases, snapshots, numerics);
         match bound {
             true => Err(run.step_bound(&phase, false, &|| false).expect("the unworn pair has an equilibrium")),
             false => Ok(run.run(&Unwatched).expect("the run converges")),

@@ -2,6 +2,7 @@
 //! coefficient holds the true one as often as it says, whatever the slope.
 
 use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
 use std::sync::LazyLock;
 
 use gearwear_bodies::gear::{Gear, PerGear};
@@ -87,21 +88,26 @@ fn ver_a_slope_in_roll_length_changes_nothing() {
     }
 }
 
-/// 95 % intervals hold for 16 to 20 of 20 seeds with each kind of waviness (fewer in one of 390 such samples), both gears.
-#[test]
-fn ver_intervals_cover_with_slope_waviness_and_noise() {
-    for waviness in [Waviness::AlongFlank, Waviness::InRollLength] {
-        let held = covered(20, waviness);
-        println!("{held:?} of 20");
-        assert!(held.pinion >= 16 && held.wheel >= 16, "{held:?}");
-    }
+/// Pairs of profiles of each kind of waviness.
+const PAIRS: u64 = 20;
+/// Environment variable with another number of those with waviness along the flank.
+const PAIRS_VARIABLE: &str = "COVERAGE_PAIRS";
+/// Number of pairs from which the interval is held to its percentage.
+const MANY: u64 = 600;
+
+/// Requires that the intervals of `count` pairs hold the true coefficient of each gear this often.
+fn assert_covered(count: u64, waviness: Waviness, allowed: RangeInclusive<f64>) {
+    let held = covered(count, waviness);
+    println!("{held:?} of {count}");
+    let shares = [held.pinion, held.wheel].map(|held| held as f64 / count as f64);
+    assert!(shares.iter().all(|share| allowed.contains(share)), "{held:?} of {count}");
 }
 
-/// Of 600 pairs of profiles with waviness along the flank, 558 to 582 hold the true coefficient, both gears: 93 to 97 %.
+/// 95 % intervals hold for 16 to 20 of 20 pairs with each kind of waviness (fewer in one of 390 such samples), both gears; of `COVERAGE_PAIRS=600` or more
+/// for 93 to 97 %.
 #[test]
-#[ignore = "600 fits"]
-fn ver_intervals_cover_93_to_97_percent_of_600() {
-    let held = covered(600, Waviness::AlongFlank);
-    println!("{held:?} of 600");
-    assert!([held.pinion, held.wheel].iter().all(|held| (558..=582).contains(held)), "{held:?}");
+fn ver_intervals_cover_with_slope_waviness_and_noise() {
+    let count = std::env::var(PAIRS_VARIABLE).map_or(PAIRS, |count| count.parse().expect("a number of pairs"));
+    assert_covered(count, Waviness::AlongFlank, if count >= MANY { 0.93..=0.97 } else { 0.8..=1.0 });
+    assert_covered(PAIRS, Waviness::InRollLength, 0.8..=1.0);
 }
