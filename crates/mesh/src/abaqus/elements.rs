@@ -153,12 +153,21 @@ pub(super) fn side(kind: CellKind, nodes: &[usize], corners: &[usize]) -> (CellK
     (kind, own)
 }
 
+/// Whether the labels `S1` and `S2` of a plane element of `block` are its faces, as those of a shell are.
+fn has_faces(block: &CellBlock) -> bool {
+    matches!(block.formulation, Some(Formulation::Shell | Formulation::Membrane | Formulation::Rigid))
+}
+
+/// Label of a side, from 0, of the elements of `block`.
+pub(super) fn label(block: &CellBlock, side: usize) -> String {
+    format!("{}{}", if has_faces(block) { 'E' } else { 'S' }, side + 1)
+}
+
 /// Kind and nodes of the side with this label (`S1`, `SPOS` …) of an element of `block`.
 pub(super) fn labelled(block: &CellBlock, nodes: &[usize], label: &str) -> Option<(CellKind, Vec<usize>)> {
     let label = label.trim().to_ascii_uppercase();
-    let is_shell = matches!(block.formulation, Some(Formulation::Shell | Formulation::Membrane | Formulation::Rigid));
     let numbered = |first: char| label.strip_prefix(first)?.parse::<usize>().ok();
-    let edge = match (is_shell, label.as_str()) {
+    let edge = match (has_faces(block), label.as_str()) {
         (true, "SPOS" | "SNEG" | "S1" | "S2") => return Some((block.kind, nodes.to_vec())),
         (true, _) => numbered('E').or(numbered('S').and_then(|side| side.checked_sub(2)))?,
         (false, _) => numbered('S')?,

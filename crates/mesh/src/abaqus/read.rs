@@ -7,7 +7,7 @@ use super::assembly::{Placement, Scope, scopes};
 use super::elements;
 use super::keywords::{Keyword, Name, split};
 use super::sets::{Named, Targets, joined};
-use super::sources::Sources;
+use super::sources::{At, Sources};
 use crate::error::{FileFault, FileProblem};
 use crate::numbering::{Allowance, CellList, Numbering, OpenSets, close_cell_sets, close_point_sets};
 use crate::{CellKind, LeftOut, Mesh};
@@ -64,10 +64,10 @@ pub(crate) fn read(bytes: &[u8], file: Option<&Path>) -> Result<(Mesh, Vec<u8>),
     // Sets and surfaces may come before the elements they refer to, so that nodes are read first, then elements, then these; sets of the
     // assembly, which refer to instances, are the last.
     for scope in &scopes {
-        content.read_all_nodes(scope, &mut allowance)?;
+        content.read_all_nodes(scope, &sources, &mut allowance)?;
     }
     for (number, scope) in scopes.iter().enumerate() {
-        content.read_all_elements(number, scope, &mut allowance)?;
+        content.read_all_elements(number, scope, &sources, &mut allowance)?;
     }
     for (number, scope) in scopes.iter().enumerate().skip(1).chain(scopes.iter().enumerate().take(1)) {
         for keyword in &scope.keywords {
@@ -83,25 +83,33 @@ pub(crate) fn read(bytes: &[u8], file: Option<&Path>) -> Result<(Mesh, Vec<u8>),
     Ok((mesh, sources.included_bytes()))
 }
 
-/// Numbering of pairs of a number and an index; of a number that is there twice, the fault at the line of the second.
-fn numbering(pairs: Vec<(u64, usize)>, what: &'static str, scope: &Scope) -> Result<Numbering, FileFault> {
+/// Number of a node or an element, and its line.
+type NumberAt = (u64, At);
+
+/// Numbering of nodes or elements from the index `first` on; of a number that is there twice, the fault at the line of the second.
+fn numbering(
+    numbers: &[NumberAt],
+    first: usize,
+    what: &'static str,
+    sources: &Sources,
+) -> Result<Numbering, FileFault> {
+    let pairs = numbers.iter().map(|&(number, _)| number).zip(first..).collect();
     Numbering::new(pairs, what).map_err(|problem| {
-        let FileProblem::Twice { number, .. } = problem else { return FileFault::anywhere("", problem) };
-        let name = what.to_ascii_uppercase();
-        let keywords = scope.keywords.iter().filter(|keyword| keyword.name == name);
-        let lines = keywords.flat_map(|keyword| keyword.data.iter().map(move |line| (keyword, line)));
-        let mut same = lines.filter(|(_, (_, text))| split(text)[0].trim().parse() == Ok(number));
-        match same.nth(1) {
-            Some((keyword, &(at, _))) => keyword.fault(at, problem),
-            None => FileFault::anywhere(format!("*{name}"), problem),
+        let twice = |number: u64| numbers.iter().filter(move |own| own.0 == number).nth(1);
+        let second = if let FileProblem::Twice { number, .. } = problem { twice(number) } else { None };
+        let section = format!("*{}", what.to_ascii_uppercase());
+        match second {
+            Some(&(_, at)) => sources.fault(at, &section, problem),
+            None => FileFault::anywhere(section, problem),
         }
     })
 }
 
 impl AbaqusContent {
-    fn read_all_nodes(&mut self, scope: &Scope, allowance: &mut Allowance) -> Result<(), FileFault> {
+    fn read_all_nodes(&mut self, scope: &Scope, sources: &Sources, allowance: &mut Allowance) -> Result<(), FileFault> {
         let mut own = Named { instance: scope.instance.cloned(), ..Named::default() };
         let mut numbers = Vec::new();
+        let before = self.points.len();
         for keyword in scope.keywords.iter().filter(|keyword| keyword.name == "NODE") {
             // Copies of a part are paid for as sets are.
             let entries = 3 * keyword.data.len();
@@ -112,7 +120,7 @@ impl AbaqusContent {
                 own.sets.open(name).extend(first..self.points.len());
             }
         }
-        own.numbers = numbering(numbers, "node", scope)?;
+        own.numbers = numbering(&numbers, before, "node", sources)?;
         self.nodes.push(own);
         Ok(())
     }
@@ -121,7 +129,7 @@ impl AbaqusContent {
         &mut self,
         keyword: &Keyword,
         placement: Placement,
-        numbers: &mut Vec<(u64, usize)>,
+        numbers: &mut Vec<NumberAt>,
     ) -> Result<(), FileFault> {
         if keyword.value("SYSTEM").is_some_and(|system| !system.text.eq_ignore_ascii_case("R")) {
             return Err(keyword.unsupported("a cylindrical or spherical system", "SYSTEM=R"));
@@ -140,7 +148,7 @@ impl AbaqusContent {
             if !point.iter().all(|x| x.is_finite()) {
                 return Err(wrong());
             }
-            numbers.push((number, self.points.len()));
+            numbers.push((number, at));
             self.points.push(point);
         }
         Ok(())
@@ -150,6 +158,7 @@ impl AbaqusContent {
         &mut self,
         scope_number: usize,
         scope: &Scope,
+        sources: &Sources,
         allowance: &mut Allowance,
     ) -> Result<(), FileFault> {
         let mut own = Named { instance: scope.instance.cloned(), ..Named::default() };
@@ -167,12 +176,12 @@ impl AbaqusContent {
                 }
                 None => self.leave_out(keyword, type_name)?,
             };
-            numbers.extend(found.into_iter().zip(first..));
+            numbers.extend(found);
             if let Some(name) = keyword.value("ELSET") {
                 own.sets.open(name).extend(first..self.elements.len());
             }
         }
-        own.numbers = numbering(numbers, "element", scope)?;
+        own.numbers = numbering(&numbers, before, "element", sources)?;
         if let Some(name) = &own.instance
             && own.sets.find(name).is_none()
             && self.nodes.len() > 2
@@ -199,9 +208,9 @@ impl AbaqusContent {
     }
 
     /// Numbers of the elements of a keyword, whose cells are added.
-    fn read_cells(&mut self, scope: usize, keyword: &Keyword, kind: CellKind) -> Result<Vec<u64>, FileFault> {
+    fn read_cells(&mut self, scope: usize, keyword: &Keyword, kind: CellKind) -> Result<Vec<NumberAt>, FileFault> {
         let first = self.cells.len();
-        let mut numbers: Vec<u64> = Vec::new();
+        let mut numbers: Vec<NumberAt> = Vec::new();
         let mut nodes: Vec<usize> = Vec::new();
         let expected = format!(
             "an element's number and its {} nodes, with a comma where the line is continued",
@@ -216,7 +225,7 @@ impl AbaqusContent {
                     if place > 0 {
                         return Err(wrong());
                     }
-                    numbers.push(field.parse().map_err(|_| wrong())?);
+                    numbers.push((field.parse().map_err(|_| wrong())?, at));
                     continue;
                 }
                 nodes.push(targets.node(field).ok_or_else(wrong)?.map_err(|problem| keyword.fault(at, problem))?);
@@ -237,7 +246,7 @@ impl AbaqusContent {
     }
 
     /// Numbers of elements of a type without a kind of cell, of which they alone are kept.
-    fn leave_out(&mut self, keyword: &Keyword, type_name: &str) -> Result<Vec<u64>, FileFault> {
+    fn leave_out(&mut self, keyword: &Keyword, type_name: &str) -> Result<Vec<NumberAt>, FileFault> {
         let known = self.left_out.iter().position(|own| own.element_type.eq_ignore_ascii_case(type_name));
         let kept = known.unwrap_or_else(|| {
             let (element_type, line) = (type_name.to_owned(), keyword.at.line);
@@ -250,7 +259,7 @@ impl AbaqusContent {
             if !continued {
                 let number = split(text)[0].trim().parse();
                 let wrong = |_| keyword.fault(at, FileProblem::unexpected(text, "an element's number and its nodes"));
-                numbers.push(number.map_err(wrong)?);
+                numbers.push((number.map_err(wrong)?, at));
             }
             continued = text.ends_with(',');
         }

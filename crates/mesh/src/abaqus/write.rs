@@ -31,7 +31,8 @@ pub(crate) fn write(mesh: &Mesh) -> Result<Vec<u8>, Unwritable> {
             Some(sides) => {
                 keyword(&mut text, "*SURFACE, TYPE=ELEMENT, NAME=", name, mesh);
                 for &(cell, side) in sides {
-                    line(&mut text, format_args!("{}, S{}", numbers[cell].unwrap_or(0), side + 1));
+                    let label = elements::label(surfaces.block_of[cell], side);
+                    line(&mut text, format_args!("{}, {label}", numbers[cell].unwrap_or(0)));
                 }
                 if !mesh.point_sets.contains_key(name) {
                     keyword(&mut text, "*NSET, NSET=", name, mesh);
@@ -81,20 +82,21 @@ fn in_words(block: &CellBlock) -> String {
 }
 
 /// Sets of cells on sides of elements: lines of plane elements, faces of solids.
-struct Surfaces {
+struct Surfaces<'a> {
     /// Sides of each set in the order of its cells.
     sides: BTreeMap<String, Vec<Side>>,
     /// Whether each cell is such a side, which is not written as an element.
     is_side: Vec<bool>,
+    /// Block of each cell.
+    block_of: Vec<&'a CellBlock>,
 }
 
-impl Surfaces {
-    fn of(mesh: &Mesh) -> Self {
+impl<'a> Surfaces<'a> {
+    fn of(mesh: &'a Mesh) -> Self {
         let cells: Vec<(CellKind, &[usize])> =
             mesh.cells.iter().flat_map(|block| block.iter().map(|nodes| (block.kind, nodes))).collect();
-        // Shells and the like are elements of their own, also on a face.
-        let formulated: Vec<bool> =
-            mesh.cells.iter().flat_map(|block| std::iter::repeat_n(block.formulation.is_some(), block.len())).collect();
+        let block_of: Vec<&CellBlock> =
+            mesh.cells.iter().flat_map(|block| std::iter::repeat_n(block, block.len())).collect();
         let mut sides_by_nodes: BTreeMap<(CellKind, Vec<usize>), Side> = BTreeMap::new();
         for (number, &(kind, nodes)) in cells.iter().enumerate() {
             for (side, corners) in elements::sides(kind).iter().enumerate() {
@@ -107,7 +109,8 @@ impl Surfaces {
         for (name, lists) in &mesh.cell_sets {
             let on_sides = mesh.over_all(lists).map(|cell| {
                 let (kind, nodes) = cells[cell];
-                let corners = corners_of_side(kind).filter(|_| !formulated[cell])?;
+                // Shells and the like are elements of their own, also on a face.
+                let corners = corners_of_side(kind).filter(|_| block_of[cell].formulation.is_none())?;
                 sides_by_nodes.get(&(kind, unturned(nodes.to_vec(), corners))).copied()
             });
             let found: Option<Vec<Side>> = on_sides.collect();
@@ -122,7 +125,7 @@ impl Surfaces {
                 mesh.over_all(lists).for_each(|cell| is_side[cell] = false);
             }
         }
-        Self { sides, is_side }
+        Self { sides, is_side, block_of }
     }
 }
 
@@ -178,7 +181,7 @@ fn nodes(text: &mut String, mesh: &Mesh) {
 }
 
 /// Writes the elements; returns the number of every cell.
-fn write_elements(text: &mut String, mesh: &Mesh, surfaces: &Surfaces) -> Vec<Option<usize>> {
+fn write_elements(text: &mut String, mesh: &Mesh, surfaces: &Surfaces<'_>) -> Vec<Option<usize>> {
     let mut numbers = vec![None; surfaces.is_side.len()];
     let (mut cell, mut last) = (0, 0);
     for block in &mesh.cells {

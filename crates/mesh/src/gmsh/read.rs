@@ -260,7 +260,8 @@ impl Copies {
         let (kind, nodes) = (identity.1, identity.2.as_slice());
         let cell = match &self.kept {
             Some(kept) if number >= self.first => {
-                let original = kept[number - self.first];
+                let wanted = || FileProblem::unexpected("an element more", "as many as announced");
+                let original = *kept.get(number - self.first).ok_or_else(wanted)?;
                 if original >= cells.len() || (cells.cell(original).0.kind, cells.cell(original).1) != (kind, nodes) {
                     return Err(FileProblem::unexpected("a new element", "a copy, as `$Gearwear` says"));
                 }

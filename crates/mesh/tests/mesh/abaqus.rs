@@ -144,6 +144,10 @@ fn refusals_say_the_line() {
             "*NODE\n1,0\n*ELEMENT, TYPE=MASS\n1, 1\n*ELEMENT, TYPE=SPRING1\n1, 1\n",
             "line 6: *ELEMENT: element 1 is there twice",
         ),
+        (
+            "*NODE\n1, 0, 0\n2, 1, 0\n*ELEMENT, TYPE=T3D2\n1,\n1, 2\n, 1, 2, 1\n",
+            "line 7: *ELEMENT: element 1 is there twice",
+        ),
         ("*NODE\n1, 0\n*SURFACE, NAME=S, COMBINE=UNION\na, b\n", "line 3: *SURFACE: a surface with COMBINE"),
         (
             "*PART, NAME=P\n*END PART\n*INSTANCE, NAME=I, PART=Q\n",
