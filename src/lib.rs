@@ -109,6 +109,8 @@ pub mod fem_problem;
 #[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod journal;
 #[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
+pub mod measured_flank;
+#[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod report;
 pub mod resume;
 pub mod runs;

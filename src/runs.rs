@@ -2,6 +2,7 @@
 
 use crate::scene::file::ReportFile;
 use crate::scene::{Resolved, loaded::LoadedScene, short_hash};
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::assessment::calibrate::{self, CalibrateError, Calibrated, CalibrationExtent};
 use gearwear_physics::assessment::fem_scene::{self, FemPairError, FemPairRequest};
 use gearwear_physics::assessment::{self, Done, Resumption, RunError, RunInputs};
@@ -112,7 +113,14 @@ pub fn fem_pair(
     request: FemPairRequest,
     observer: &dyn Observer,
 ) -> Result<Done<FemPairRecord, FemPairError>, FemPairError> {
-    fem_scene::run(&resolved.scene, &provenance(resolved), request, observer)
+    let mut provenance = provenance(resolved);
+    let gears = &resolved.file.pair;
+    let has_measured = |gear: &Gear| gears.gear(*gear).is_some_and(|gear| gear.initial_flank.is_some());
+    if Gear::BOTH.iter().any(has_measured) {
+        let unused = "initial_flank: the flanks of these finite elements are those of the design; gearwear run has the measured ones";
+        provenance.warnings.push(unused.to_owned());
+    }
+    fem_scene::run(&resolved.scene, &provenance, request, observer)
 }
 
 /// Calibrates the pair of `scene` with finite elements.

@@ -13,6 +13,8 @@ use super::fem_file::FemFile;
 use super::lubrication_file::{FrictionFile, LoadFactorsFile, LubricantFile};
 use super::presets;
 use super::wear_file::{GearWearFile, TemperatureFile, WearFile};
+use crate::measured_flank::file::FlankSide;
+use gearwear_bodies::gear::Gear;
 use gearwear_bodies::gear::flank::PointSpacing;
 use gearwear_bodies::gear::modification::ReliefShape;
 use gearwear_bodies::gear::shaft::EndFace;
@@ -206,8 +208,30 @@ pub struct GearFile {
     pub root_relief: Option<ReliefFile>,
     /// Relief towards both ends of the face width. Default: none.
     pub end_relief: Option<EndReliefFile>,
+    /// Flank as it was measured, with which the run begins. Default: none, the design profile.
+    pub initial_flank: Option<InitialFlankFile>,
     /// Elastic twist over the face width under the torque, with at most 100 slices. Default: none.
     pub shaft: Option<ShaftFile>,
+}
+
+/// Measured profile of a gear's flank, in the formats that compare reads. Heights stand for the whole flank, in place of tip_relief, root_relief and
+/// profile_crowning_um; depths of wear come beside them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InitialFlankFile {
+    /// Name of the file, beside the scene.
+    pub file: String,
+    /// Flank, left or right, of a file with both. Default: the one there is.
+    pub flank: Option<FlankSide>,
+    /// Tooth of a file with several. Default: the mean of all.
+    #[schemars(range(min = 1))]
+    pub tooth: Option<u32>,
+    /// Place over the face width in mm, of a file with several profiles; the nearest is taken. Default: the one there is.
+    #[schemars(range(min = 0))]
+    pub width_mm: Option<f64>,
+    /// Cutoff of the Gaussian filter in mm of roll length, 0 or more; 0: none. Default: a thirtieth of the active profile, at least 0.05.
+    #[schemars(range(min = 0))]
+    pub cutoff_mm: Option<f64>,
 }
 
 /// Tip or root relief; where it begins is said in one of three ways.
@@ -571,6 +595,24 @@ impl StepFile {
     /// A fixed length.
     pub fn fixed(revolutions: f64) -> Self {
         StepFile::Fixed(FixedStepFile { revolutions })
+    }
+}
+
+impl PairFile {
+    /// Table of a gear.
+    pub fn gear(&self, gear: Gear) -> Option<&GearFile> {
+        match gear {
+            Gear::Pinion => self.pinion.as_ref(),
+            Gear::Wheel => self.wheel.as_ref(),
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn gear_mut(&mut self, gear: Gear) -> Option<&mut GearFile> {
+        match gear {
+            Gear::Pinion => self.pinion.as_mut(),
+            Gear::Wheel => self.wheel.as_mut(),
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! A scene with every file it names: what a run is made from.
 //!
-//! A scene may name a calibration (`contact.calibration`) and a curve of tooth stiffness (`stiffness.curve`). A [`LoadedScene`] cannot lack
-//! one: it comes into being where they are read, or is a variant of one that has them.
+//! A scene may name a calibration (`contact.calibration`), a curve of tooth stiffness (`stiffness.curve`) and a measured flank of each gear
+//! (`initial_flank`). A [`LoadedScene`] cannot lack one: it comes into being where they are read, or is a variant of one that has them.
 
 use std::ffi::OsStr;
 use std::path::Path;
@@ -10,10 +10,11 @@ use std::sync::Arc;
 use super::draft::Draft;
 use super::key::{as_whole, is_key, linked_keys, takes_whole_numbers};
 pub use super::named_files::{CALIBRATION, CURVE, NamedFile, NamedFiles};
-use super::named_files::{calibration, of_another_pair, stiffness_curve, warnings};
+use super::named_files::{KEYS, calibration, initial_flank, of_another_pair, stiffness_curve, warnings};
 use super::scene_text::folder_of;
 pub use super::scene_text::{LoadError, SceneError, SceneText};
 use super::{Problem, ProblemKind, Resolved, presets};
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::calibration::Calibration;
 use gearwear_physics::contact::settings::SurfaceKind;
 use gearwear_physics::mesh_cycle::pair_in_space::KeptInSpace;
@@ -63,7 +64,7 @@ impl LoadedScene {
     /// As [`Self::open`].
     pub fn from_parts(given: SceneText, folder: &Path, files: Vec<InputFile>) -> Result<Self, LoadError> {
         let resolved = given.resolve()?;
-        let known = [CALIBRATION, CURVE].into_iter().flat_map(|key| {
+        let known = KEYS.into_iter().flat_map(|key| {
             files.iter().map(move |InputFile { name, bytes }| NamedFile {
                 key,
                 name: name.clone(),
@@ -152,7 +153,7 @@ impl LoadedScene {
 
     /// The resolved scene of `given` with the files it names; those that are `known` need not be read.
     fn reading(
-        resolved: Resolved,
+        mut resolved: Resolved,
         given: SceneText,
         folder: Arc<Path>,
         known: &[NamedFile],
@@ -165,6 +166,12 @@ impl LoadedScene {
         if let Some((curve, file)) = stiffness_curve(&folder, known, &given, &resolved)? {
             files.stiffness_curve = Some(curve);
             files.as_read.push(file);
+        }
+        for gear in Gear::BOTH {
+            if let Some((flank, file)) = initial_flank(&folder, known, &given, &mut resolved, gear)? {
+                files.initial_flanks[gear] = Some(flank);
+                files.as_read.push(file);
+            }
         }
         Ok(Self { folder, ..Self::with_files(resolved, given, files)? })
     }
@@ -185,6 +192,7 @@ impl LoadedScene {
             let warnings = warnings(name, calibration, &resolved.scene);
             resolved.warnings.extend(warnings);
         }
+        files.put_flanks_into(&mut resolved);
         let (files, given, folder) = (Arc::new(files), Arc::new(given), Path::new("").into());
         Ok(Self { resolved, files, given, folder, teeth_in_space: KeptInSpace::default() })
     }
@@ -212,7 +220,8 @@ impl LoadedScene {
     ///
     /// # Errors
     /// A file that the other scene needs and this one does not have.
-    pub fn variant(&self, resolved: Resolved) -> Result<Self, Box<Problem>> {
+    pub fn variant(&self, mut resolved: Resolved) -> Result<Self, Box<Problem>> {
+        self.files.put_flanks_into(&mut resolved);
         self.files.complete(&self.given.text, &resolved.scene)?;
         Ok(Self { resolved, ..self.clone() })
     }

@@ -30,6 +30,7 @@ mod unit_slip;
 #[allow(rustdoc::broken_intra_doc_links, reason = "tables of the file stand in brackets, as in TOML")]
 pub mod wear_file;
 
+use gearwear_bodies::gear::Gear;
 use gearwear_files::content_hash::sha256;
 use gearwear_physics::operation::Scene;
 
@@ -66,7 +67,7 @@ impl Resolved {
         self.file.to_toml()
     }
 
-    /// Lets the key `contact.calibration` or `stiffness.curve` name another file.
+    /// Lets a key that names a file, such as `contact.calibration`, name another one.
     pub fn rename_file(&mut self, key: &str, name: &str) {
         let name = Some(name.to_owned());
         match key {
@@ -78,7 +79,13 @@ impl Resolved {
                 self.scene.stiffness_curve_file.clone_from(&name);
                 self.file.stiffness.get_or_insert_default().curve = name;
             }
-            _ => {}
+            _ => {
+                let gear = Gear::BOTH.into_iter().find(|&gear| named_files::INITIAL_FLANK[gear] == key);
+                let file = gear.and_then(|gear| self.file.pair.gear_mut(gear));
+                if let (Some(flank), Some(name)) = (file.and_then(|file| file.initial_flank.as_mut()), name) {
+                    flank.file = name;
+                }
+            }
         }
     }
 

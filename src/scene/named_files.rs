@@ -2,10 +2,16 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
+use super::file::InitialFlankFile;
 use super::scene_text::{LoadError, SceneText};
 use super::{Problem, Resolved, short_hash};
-use gearwear_bodies::gear::GearPair;
+use crate::measured_flank::file::ValueKind;
+use crate::measured_flank::initial;
+use crate::measured_flank::teeth::{ChosenBy, TraceChoice};
+use gearwear_bodies::gear::measured_flank::MeasuredFlank;
+use gearwear_bodies::gear::{Gear, GearPair, PerGear};
 use gearwear_physics::calibration::{Calibration, identity::CalibrationIdentity};
 use gearwear_physics::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use gearwear_physics::mesh_cycle::settings::Coupling;
@@ -18,12 +24,19 @@ use gearwear_physics::stiffness::settings::StiffnessSettings;
 pub const CALIBRATION: &str = "contact.calibration";
 /// The key that names a curve of tooth stiffness.
 pub const CURVE: &str = "stiffness.curve";
+/// The keys that name a measured flank.
+pub(super) const INITIAL_FLANK: PerGear<&str> =
+    PerGear { pinion: "pair.pinion.initial_flank.file", wheel: "pair.wheel.initial_flank.file" };
+/// Every key that names a file.
+pub(super) const KEYS: [&str; 4] = [CALIBRATION, CURVE, INITIAL_FLANK.pinion, INITIAL_FLANK.wheel];
 /// Part of a load that counts as within a range.
 const ROUNDING: f64 = 1e-9;
 
 const CALIBRATION_ALLOWED: &str = "a file that gearwear calibrate wrote for this pair";
 const MAKE_CALIBRATION: &str = "gearwear calibrate SCENE --out FILE makes one";
 const CURVE_ALLOWED: &str = "a data file (CSV) of the stiffness along the path of contact";
+const FLANK_ALLOWED: &str = "a measured profile of this flank, as gearwear compare reads it";
+const FLANK_HELP: &str = "docs/compare.md says what stands in it; gearwear export RUN writes the worn flank of a run";
 const CURVE_HELP: &str = "the file lies beside the scene; gearwear schema says what stands in it";
 
 /// A file that a scene names.
@@ -44,6 +57,8 @@ pub struct NamedFiles {
     pub calibration: Option<Calibration>,
     /// `stiffness.curve`.
     pub stiffness_curve: Option<PairCompliance>,
+    /// `initial_flank` of each gear.
+    pub initial_flanks: PerGear<Option<Arc<MeasuredFlank>>>,
     /// The files as they were read.
     pub as_read: Vec<NamedFile>,
 }
@@ -54,12 +69,23 @@ impl NamedFiles {
         self.calibration.as_ref().map_or_else(Vec::new, |calibration| foreign(calibration, resolved))
     }
 
-    /// Hash of the calibration and the stiffness curve; empty where there is neither.
+    /// Hash of the calibration, the stiffness curve and the measured flanks; empty where there is none.
     pub fn hash(&self) -> String {
         let calibration = self.calibration.as_ref().map(Calibration::to_json);
         let curve = self.stiffness_curve.as_ref().map(|curve| format!("{curve:?}"));
-        let all: String = calibration.into_iter().chain(curve).collect();
+        let flanks = Gear::BOTH.into_iter().filter_map(|gear| {
+            let flank = self.initial_flanks[gear].as_ref()?;
+            Some(format!("{} {flank:?}", gear.name()))
+        });
+        let all: String = calibration.into_iter().chain(curve).chain(flanks).collect();
         if all.is_empty() { all } else { short_hash(all.as_bytes()) }
+    }
+
+    /// Gives the pair of `resolved` its measured flanks.
+    pub(super) fn put_flanks_into(&self, resolved: &mut Resolved) {
+        for gear in Gear::BOTH {
+            resolved.scene.pair.gears[gear].measured_flank.clone_from(&self.initial_flanks[gear]);
+        }
     }
 
     /// Checks that `scene`, of the file with this text, lacks no file.
@@ -87,16 +113,23 @@ impl NamedFiles {
     }
 }
 
-/// Text of the file `name` that `key` names: one that is `known`, or as it lies in `folder`.
+/// Bytes of the file `name` that `key` names: one that is `known`, or as it lies in `folder`.
+///
+/// # Errors
+/// Fault of the file, in words.
+fn bytes_of(folder: &Path, known: &[NamedFile], key: &str, name: &str) -> Result<Vec<u8>, String> {
+    match known.iter().find(|file| file.key == key && file.name == name) {
+        Some(file) => Ok(file.bytes.clone()),
+        None => fs::read(folder.join(name)).map_err(|reason| format!("which cannot be read: {reason}")),
+    }
+}
+
+/// Text of such a file.
 ///
 /// # Errors
 /// Fault of the file, in words.
 fn text_of(folder: &Path, known: &[NamedFile], key: &str, name: &str) -> Result<String, String> {
-    let bytes = match known.iter().find(|file| file.key == key && file.name == name) {
-        Some(file) => file.bytes.clone(),
-        None => fs::read(folder.join(name)).map_err(|reason| format!("which cannot be read: {reason}"))?,
-    };
-    String::from_utf8(bytes)
+    String::from_utf8(bytes_of(folder, known, key, name)?)
         .map_err(|error| format!("which is not UTF-8 text: byte {}", error.utf8_error().valid_up_to()))
 }
 
@@ -185,4 +218,43 @@ pub(super) fn stiffness_curve(
     let curve = curve_file::parse(&text, &pair.path)
         .map_err(|error| LoadError::Curve { name: folder.join(name).display().to_string(), error })?;
     Ok(Some((curve, NamedFile { key: CURVE, name: name.clone(), bytes: text.into_bytes() })))
+}
+
+/// Measured flank that the scene names for a gear, with its file.
+pub(super) fn initial_flank(
+    folder: &Path,
+    known: &[NamedFile],
+    given: &SceneText,
+    resolved: &mut Resolved,
+    gear: Gear,
+) -> Result<Option<(Arc<MeasuredFlank>, NamedFile)>, LoadError> {
+    let key = INITIAL_FLANK[gear];
+    let Some(asked) = resolved.file.pair.gear(gear).and_then(|file| file.initial_flank.clone()) else {
+        return Ok(None);
+    };
+    let InitialFlankFile { file: name, flank: side, tooth, width_mm, cutoff_mm } = asked;
+    let refused = |what: String| {
+        let found = format!("{name:?}, {what}");
+        given.refused(vec![Problem::of_named_file(&given.text, key, found, FLANK_ALLOWED, FLANK_HELP)])
+    };
+    let bytes = bytes_of(folder, known, key, &name).map_err(refused)?;
+    // The pair was checked when the scene was resolved.
+    let pair = GearPair::new(&resolved.scene.pair).map_err(|error| refused(format!("but {error}")))?;
+    let choice = TraceChoice { tooth, side, width_mm, by: ChosenBy::Keys };
+    let cutoff_mm = cutoff_mm.unwrap_or_else(|| initial::default_cutoff_mm(&pair, gear));
+    let read = initial::read(&bytes, &choice, cutoff_mm, &pair, gear).map_err(|error| refused(error.to_string()))?;
+    let mut with_flank = resolved.scene.pair.clone();
+    if read.kind == ValueKind::Height && with_flank.gears[gear].modification.has_profile_modification() {
+        let keys = "tip_relief, root_relief and profile_crowning_um, which the heights have in them, are given as well";
+        return Err(refused(format!("but {keys}")).into());
+    }
+    let uncovered = read.uncovered(&pair, gear);
+    let flank = Arc::new(read.flank);
+    with_flank.gears[gear].measured_flank = Some(Arc::clone(&flank));
+    GearPair::new(&with_flank).map_err(|error| refused(format!("but {error}")))?;
+    if let Some(ends) = uncovered {
+        let beyond = "beyond, the flank deviates as at the end";
+        resolved.warnings.push(format!("{key}: the profile of {name} {ends}; {beyond}"));
+    }
+    Ok(Some((flank, NamedFile { key, name, bytes })))
 }

@@ -5,6 +5,9 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use clap::builder::PossibleValuesParser;
+use gearwear::measured_flank::file::FlankSide;
+use gearwear::measured_flank::teeth::{ChosenBy, TraceChoice};
 use gearwear::report;
 use gearwear::scene::loaded::SceneText;
 use gearwear_bodies::gear::Gear;
@@ -13,10 +16,8 @@ use gearwear_studies::compare::asked::{CompareFault, PreparedComparison};
 use gearwear_studies::compare::question::{CompareOptions, FitKind};
 use gearwear_studies::compare::record::{CoefficientCorrelation, CompareFigures, CompareRecord, FittedValue};
 use gearwear_studies::compare::study::CompareError;
-use gearwear_studies::measurement::file::FlankSide;
 use gearwear_studies::measurement::fit::FitStop;
 use gearwear_studies::measurement::form::Form;
-use gearwear_studies::measurement::teeth::TraceChoice;
 
 use super::failure::{Failure, InputError};
 use super::figures::{digits, or_dash};
@@ -69,8 +70,8 @@ pub(super) struct CompareArgs {
     #[arg(long, value_name = "N")]
     tooth: Option<u32>,
     /// The flank to take of a file with both
-    #[arg(long, value_enum, value_name = "SIDE")]
-    flank: Option<FlankSide>,
+    #[arg(long, value_name = "SIDE", value_parser = PossibleValuesParser::new(FlankSide::BOTH.map(FlankSide::name)))]
+    flank: Option<String>,
     /// The place over the face width whose profile is taken of a file with several: the nearest
     #[arg(long, value_name = "MM", value_parser = length)]
     width: Option<f64>,
@@ -143,7 +144,12 @@ pub(super) fn run(args: &CompareArgs) -> Result<(), Failure> {
         form: args.form,
         fit: args.fit,
         shift_within_mm: args.shift_within,
-        traces: TraceChoice { tooth: args.tooth, side: args.flank, width_mm: args.width },
+        traces: TraceChoice {
+            tooth: args.tooth,
+            side: args.flank.as_deref().and_then(FlankSide::named),
+            width_mm: args.width,
+            by: ChosenBy::Options,
+        },
     };
     let prepared = PreparedComparison::open(&args.run, &texts, &asked)?;
     let out = args.out();

@@ -1,13 +1,13 @@
 //! The worn flank of a finished run as the file of a measured one, which a comparison reads.
 //!
-//! Heights are those from the nominal involute along its normal: less the profile modifications, less the wear at the end of the run. Places are
+//! Heights are those from the nominal involute along the transverse line of action: less the profile modifications, less the wear at the end of the run. Places are
 //! roll lengths, from the root form circle to the tip.
 
 use std::path::Path;
 
 use crate::compare::run_folder::{RunFolder, RunFolderError};
-use crate::measurement::file::{HeightFrom, ValueKind};
-use crate::measurement::profile::MeasuredProfile;
+use gearwear::measured_flank::file::{HeightFrom, ValueKind};
+use gearwear::measured_flank::profile::MeasuredProfile;
 use gearwear::scene::loaded::{LoadError, LoadedScene};
 use gearwear_bodies::gear::error::PairError;
 use gearwear_bodies::gear::{Gear, GearPair};
@@ -73,9 +73,10 @@ pub fn worn_flank(folder: &Path, gear: Gear, width_mm: Option<f64>) -> Result<St
         text.push_str(&format!("# width_mm = {width}\n"));
     }
     text.push_str("roll_length_mm,height_um\n");
+    let scale = profile.over_normal(&pair);
     for (rho, (design, wear)) in rho_mm.iter().zip(profile.unworn_um(&pair, 0.0).iter().zip(&wear_um)) {
         // Without the sign of a zero.
-        text.push_str(&format!("{rho:.6},{:.6}\n", design - wear + 0.0));
+        text.push_str(&format!("{rho:.6},{:.6}\n", design - scale * wear + 0.0));
     }
     Ok(text)
 }

@@ -11,6 +11,8 @@ use crate::invariants;
 use crate::invariants::study::{INVARIANTS, SceneRange};
 use crate::library::{Library, LibraryError};
 use crate::record::Tier;
+use gearwear::measured_flank::file::FlankSide;
+use gearwear::measured_flank::teeth::{ChosenBy, TraceChoice};
 use gearwear::report::ReportError;
 use gearwear::scene::loaded::{LoadError, LoadedScene, SceneText};
 use gearwear_bodies::gear::Gear;
@@ -21,7 +23,6 @@ use gearwear_studies::compare::asked::{CompareFault, PreparedComparison};
 use gearwear_studies::compare::question;
 use gearwear_studies::compare::run_folder::RunFolderError;
 use gearwear_studies::compare::study::CompareError;
-use gearwear_studies::measurement::teeth::TraceChoice;
 use gearwear_studies::variants::finished_run::FinishedRun;
 use gearwear_studies::variants::record::VariantsRecord;
 use gearwear_studies::{accuracy, compare, variants};
@@ -149,6 +150,10 @@ pub fn compare(
         let named = Gear::BOTH.into_iter().find(|gear| gear.name() == name);
         named.ok_or_else(|| word("gear", name, "pinion, wheel".to_owned()))
     });
+    let side = question
+        .flank
+        .as_deref()
+        .map(|name| FlankSide::named(name).ok_or_else(|| word("flank", name, "left, right".to_owned())));
     if !(question.shift_within_mm >= 0.0 && question.shift_within_mm.is_finite()) {
         return Err(StudyFault::Shift { found: question.shift_within_mm }.into());
     }
@@ -159,8 +164,9 @@ pub fn compare(
         shift_within_mm: question.shift_within_mm,
         traces: TraceChoice {
             tooth: question.tooth,
-            side: question.flank.as_deref().map(|name| one_of("flank", name)).transpose()?,
+            side: side.transpose()?,
             width_mm: question.width_mm,
+            by: ChosenBy::Options,
         },
     };
     if measured.is_empty() {

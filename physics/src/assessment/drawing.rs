@@ -83,6 +83,7 @@ mod tests {
             tooth_thickness_allowance_mm: 0.0,
             bore_diameter_mm: None,
             modification: Modification::default(),
+            measured_flank: None,
             shaft: None,
         };
         let pair = GearPair::new(&PairSpec {

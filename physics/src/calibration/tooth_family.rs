@@ -84,6 +84,7 @@ fn spec(setup: &Setup<'_>, teeth: u32) -> PairSpec {
         tooth_thickness_allowance_mm: 0.0,
         bore_diameter_mm: None,
         modification: Modification::default(),
+        measured_flank: None,
         shaft: None,
     };
     spec

@@ -487,6 +487,7 @@ pub(super) mod tests {
             tooth_thickness_allowance_mm: -0.06,
             bore_diameter_mm: None,
             modification: Modification::default(),
+            measured_flank: None,
             shaft: None,
         });
         let spec = PairSpec {

@@ -296,8 +296,8 @@ impl CondensedCycle<'_> {
         depth_mm: &mut PerGear<Vec<f64>>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
-        let tilt_rad = PerGear::from_fn(|gear| self.nodes[gear].tilt_rad(lost.wear_mm[gear]));
-        let worn = Worn { depth_mm: lost.wear_mm, tilt_rad: &tilt_rad };
+        let tilt_rad = PerGear::from_fn(|gear| self.nodes[gear].tilt_rad(lost[gear]));
+        let worn = Worn { depth_mm: lost, tilt_rad: &tilt_rad };
         let step = WearEvaluation { model: self.model, worn, nodes: self.nodes.as_ref(), wear, stopped };
         self.groups.par_iter_mut().for_each(|group| part(group, &step));
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)

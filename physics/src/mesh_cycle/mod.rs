@@ -212,14 +212,9 @@ pub struct CycleObservation {
     pub deepest_overlap: Option<FlankOverlap>,
 }
 
-/// Material that flanks have lost, at their points.
-#[derive(Debug, Clone, Copy)]
-pub struct LostMaterial<'a> {
-    /// Modifications and wear together, mm.
-    pub removed_mm: PerGear<&'a [f64]>,
-    /// Wear alone, mm.
-    pub wear_mm: PerGear<&'a [f64]>,
-}
+/// Material that flanks have lost, mm: at points, all that lies beside the involute, modifications, deviations of measured flanks and wear; at
+/// nodes of meshes, which have the modifications, the deviations and wear.
+pub type LostMaterial<'a> = PerGear<&'a [f64]>;
 
 /// A pair in mesh, evaluated over a whole mesh cycle on ever newly worn flanks.
 pub trait MeshCycle {
@@ -280,7 +275,7 @@ impl MeshCycle for LineOfActionCycle<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
         let load = self.line_load_n_per_mm;
-        self.groups.par_iter_mut().for_each(|group| group.evaluate(lost.removed_mm, load, wear, stopped));
+        self.groups.par_iter_mut().for_each(|group| group.evaluate(lost, load, wear, stopped));
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
 
@@ -291,7 +286,7 @@ impl MeshCycle for LineOfActionCycle<'_> {
     }
 
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
-        let removed_mm = lost.removed_mm;
+        let removed_mm = lost;
         let zeros = removed_mm.map(|flank| vec![0.0; flank.len()]);
         let ends = [self.loaded_positions().next(), self.loaded_positions().last()];
         let mut observation = CycleObservation {

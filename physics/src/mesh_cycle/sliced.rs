@@ -136,7 +136,7 @@ impl MeshCycle for SlicedCycle<'_> {
     ) -> Result<Work, EquilibriumError> {
         let (load, points) = (self.sum_of_line_loads(), self.points);
         self.groups.par_iter_mut().for_each(|group| {
-            group.evaluate(lost.removed_mm, points, load, wear, stopped);
+            group.evaluate(lost, points, load, wear, stopped);
         });
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
@@ -149,7 +149,7 @@ impl MeshCycle for SlicedCycle<'_> {
     }
 
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
-        let removed_mm = lost.removed_mm;
+        let removed_mm = lost;
         let slices = self.sliced.slices.count();
         let mut pressure_mpa = removed_mm.map(|flank| vec![0.0; flank.len()]);
         let mut sliding_mm = pressure_mpa.clone();

@@ -111,9 +111,16 @@ impl<'a> OnFlankPoints<'a> {
     }
 }
 
-/// Removed material and wear, borrowed.
-fn lost<'a>(removed_mm: &'a PerGear<Vec<f64>>, wear_mm: &'a PerGear<Vec<f64>>) -> LostMaterial<'a> {
-    LostMaterial { removed_mm: removed_mm.as_ref().map(Vec::as_slice), wear_mm: wear_mm.as_ref().map(Vec::as_slice) }
+/// Lost material, borrowed.
+fn lost(lost_mm: &PerGear<Vec<f64>>) -> LostMaterial<'_> {
+    lost_mm.as_ref().map(Vec::as_slice)
+}
+
+/// Adds the wear `wear_mm` to what a flank had lost before it.
+fn add(lost_mm: &mut [f64], before_mm: &[f64], wear_mm: &[f64]) {
+    for ((lost, before), wear) in lost_mm.iter_mut().zip(before_mm).zip(wear_mm) {
+        *lost = before + wear;
+    }
 }
 
 impl WearingPair for OnFlankPoints<'_> {
@@ -122,7 +129,7 @@ impl WearingPair for OnFlankPoints<'_> {
         wear: &WearModel<'_>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
-        self.cycle.evaluate(lost(&self.removed_mm, &self.wear_mm), wear, &mut self.depth_mm, stopped)
+        self.cycle.evaluate(lost(&self.removed_mm), wear, &mut self.depth_mm, stopped)
     }
 
     fn wear_for(&mut self, meshes: PerGear<f64>) {
@@ -155,10 +162,7 @@ impl WearingPair for OnFlankPoints<'_> {
     fn set_wear_mm(&mut self, wear_mm: &PerGear<Vec<f64>>) {
         for gear in Gear::BOTH {
             self.wear_mm[gear].copy_from_slice(&wear_mm[gear]);
-            let points = self.removed_mm[gear].iter_mut().zip(&self.modification_mm[gear]);
-            for ((removed, modification), wear) in points.zip(&wear_mm[gear]) {
-                *removed = modification + wear;
-            }
+            add(&mut self.removed_mm[gear], &self.modification_mm[gear], &wear_mm[gear]);
         }
     }
 
@@ -167,7 +171,7 @@ impl WearingPair for OnFlankPoints<'_> {
     }
 
     fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {
-        let cycle = self.cycle.observe(lost(&self.removed_mm, &self.wear_mm))?;
+        let cycle = self.cycle.observe(lost(&self.removed_mm))?;
         Ok(Snapshot {
             revolutions,
             wear_mm: self.wear_mm.clone(),
@@ -184,15 +188,25 @@ pub(crate) struct OnFlankNodes<'a> {
     means: LocalMeans,
     /// Nominal radii of the flank points.
     radius_mm: PerGear<Vec<f64>>,
+    /// Deviations of measured flanks, of which the mesh knows nothing.
+    measured_mm: PerGear<Vec<f64>>,
+    /// These and the wear.
+    lost_mm: PerGear<Vec<f64>>,
     wear_mm: PerGear<Vec<f64>>,
     depth_mm: PerGear<Vec<f64>>,
 }
 
 impl<'a> OnFlankNodes<'a> {
-    /// Unworn flanks with points at the nominal radii `radius_mm`.
-    pub(crate) fn new(cycle: CondensedCycle<'a>, means: LocalMeans, radius_mm: PerGear<Vec<f64>>) -> Self {
-        let wear_mm = cycle.nodes().map(|nodes| vec![0.0; nodes.len()]);
-        Self { cycle, means, radius_mm, depth_mm: wear_mm.clone(), wear_mm }
+    /// Unworn flanks with points at the nominal radii `radius_mm`, whose nodes deviate by `measured_mm` from the mesh.
+    pub(crate) fn new(
+        cycle: CondensedCycle<'a>,
+        means: LocalMeans,
+        radius_mm: PerGear<Vec<f64>>,
+        measured_mm: PerGear<Vec<f64>>,
+    ) -> Self {
+        let wear_mm = measured_mm.as_ref().map(|nodes| vec![0.0; nodes.len()]);
+        let lost_mm = measured_mm.clone();
+        Self { cycle, means, radius_mm, measured_mm, lost_mm, depth_mm: wear_mm.clone(), wear_mm }
     }
 
     /// Values at the flank points, from those at the nodes.
@@ -207,7 +221,7 @@ impl WearingPair for OnFlankNodes<'_> {
         wear: &WearModel<'_>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
-        self.cycle.evaluate(lost(&self.wear_mm, &self.wear_mm), wear, &mut self.depth_mm, stopped)
+        self.cycle.evaluate(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
     }
 
     fn linearise_anew(
@@ -215,13 +229,14 @@ impl WearingPair for OnFlankNodes<'_> {
         wear: &WearModel<'_>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Work>, EquilibriumError> {
-        self.cycle.linearise_anew(lost(&self.wear_mm, &self.wear_mm), wear, &mut self.depth_mm, stopped)
+        self.cycle.linearise_anew(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
     }
 
     fn wear_for(&mut self, meshes: PerGear<f64>) {
         for gear in Gear::BOTH {
             let nodes = self.wear_mm[gear].iter_mut().zip(&self.depth_mm[gear]);
             nodes.for_each(|(wear, depth)| *wear += meshes[gear] * depth);
+            add(&mut self.lost_mm[gear], &self.measured_mm[gear], &self.wear_mm[gear]);
         }
     }
 
@@ -243,6 +258,9 @@ impl WearingPair for OnFlankNodes<'_> {
 
     fn set_wear_mm(&mut self, wear_mm: &PerGear<Vec<f64>>) {
         self.wear_mm.clone_from(wear_mm);
+        for gear in Gear::BOTH {
+            add(&mut self.lost_mm[gear], &self.measured_mm[gear], &wear_mm[gear]);
+        }
     }
 
     fn depth_mm(&self, depth_mm: &mut PerGear<Vec<f64>>) {
@@ -250,7 +268,7 @@ impl WearingPair for OnFlankNodes<'_> {
     }
 
     fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {
-        let mut cycle = self.cycle.observe(lost(&self.wear_mm, &self.wear_mm))?;
+        let mut cycle = self.cycle.observe(lost(&self.lost_mm))?;
         cycle.pressure_mpa = self.at_points(&cycle.pressure_mpa);
         cycle.sliding_mm = self.at_points(&cycle.sliding_mm);
         let (wear_mm, depth_per_mesh_mm) = (self.at_points(&self.wear_mm), self.at_points(&self.depth_mm));

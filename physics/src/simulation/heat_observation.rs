@@ -358,6 +358,7 @@ mod tests {
             tooth_thickness_allowance_mm: 0.0,
             bore_diameter_mm: None,
             modification: Modification::default(),
+            measured_flank: None,
             shaft: None,
         }
     }

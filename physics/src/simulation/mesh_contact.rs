@@ -17,6 +17,7 @@ use crate::mesh_cycle::{
     tip_contact,
 };
 use crate::stiffness::{SpringParts, StiffnessError, TeethSpring};
+use gearwear_bodies::gear::removed_material::measured_flank_mm;
 use gearwear_bodies::gear::{GearPair, PerGear, flank_zones::FlankZones, slices::Slices};
 use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
 use gearwear_bodies::material::Material;
@@ -184,7 +185,10 @@ impl<'a> LoadedMesh<'a> {
                 });
                 let places = cycle.nodes().map(|nodes| (nodes.along_mm.clone(), nodes.share_mm.clone()));
                 let means = LocalMeans::new(places, &self.zones);
-                return Ok(Box::new(OnFlankNodes::new(cycle, means, radius_mm)));
+                let measured_mm = PerGear::from_fn(|gear| {
+                    measured_flank_mm(self.pair, gear, cycle.radius_mm()[gear].iter().copied())
+                });
+                return Ok(Box::new(OnFlankNodes::new(cycle, means, radius_mm, measured_mm)));
             }
         };
         let places = flanks.grid.map(|grid| {

@@ -24,6 +24,7 @@ pub fn gear(teeth: u32, profile_shift: f64, tip_diameter_mm: Option<f64>) -> Gea
         tooth_thickness_allowance_mm: 0.0,
         bore_diameter_mm: None,
         modification: Modification::default(),
+        measured_flank: None,
         shaft: None,
     }
 }

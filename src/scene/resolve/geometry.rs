@@ -3,7 +3,7 @@
 use super::centre_distance;
 use crate::scene::findings::Findings;
 use crate::scene::problem::{ProblemKind, number};
-use gearwear_bodies::gear::pair::GearPair;
+use gearwear_bodies::gear::pair::{GearPair, MEASURED_FLANK};
 use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_bodies::gear::{Gear, PairError};
 use gearwear_physics::mesh_cycle::settings::SliceSettings;
@@ -273,6 +273,7 @@ impl ErrorPlace<'_> {
             crowning @ ("profile crowning" | "lead crowning" | "helix slope deviation") => {
                 format!("{}_um", crowning.replace(' ', "_"))
             }
+            MEASURED_FLANK => "initial_flank".to_owned(),
             relief => format!("{}.amount_um", relief.replace(' ', "_")),
         };
         Cause {

@@ -1,7 +1,7 @@
 //! Oil, friction and load factors: only where the scene asks for films or losses.
 
 use super::curve;
-use crate::scene::file::{GearFile, PairFile, SceneFile};
+use crate::scene::file::{PairFile, SceneFile};
 use crate::scene::findings::Findings;
 use crate::scene::lubrication_file::{LoadFactorsFile, LubricantFile};
 use gearwear_bodies::gear::{Gear, PerGear};
@@ -84,15 +84,8 @@ pub(super) fn choose(
     Some(Some(LubricationSettings { lubricant, friction, load_factors }))
 }
 
-fn gear_file(pair: &PairFile, gear: Gear) -> Option<&GearFile> {
-    match gear {
-        Gear::Pinion => pair.pinion.as_ref(),
-        Gear::Wheel => pair.wheel.as_ref(),
-    }
-}
-
 fn rough(pair: &PairFile) -> bool {
-    Gear::BOTH.into_iter().filter_map(|gear| gear_file(pair, gear)).any(|gear| {
+    Gear::BOTH.into_iter().filter_map(|gear| pair.gear(gear)).any(|gear| {
         gear.roughness_Ra_um.is_some() || gear.roughness_run_in_Ra_um.is_some() || gear.roughness_Rq_um.is_some()
     })
 }

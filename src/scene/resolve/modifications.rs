@@ -8,6 +8,7 @@
 //!
 //! with ρ_a at the tip circle and ρ_Nf at the start of active profile (SAP). A helix slope is a deviation, or the whole tolerance of a class.
 
+use crate::measured_flank::initial::default_cutoff_mm;
 use crate::scene::file::{EndReliefFile, GearFile, PairFile, ReliefFile};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
@@ -30,7 +31,9 @@ pub(super) fn choose(file: &mut PairFile, spec: &mut PairSpec, findings: &mut Fi
     let begins =
         |relief: &ReliefFile| relief.begins_at_diameter_mm.is_some() || relief.begins_at_roll_angle_deg.is_some();
     let gears = [&file.pinion, &file.wheel].into_iter().flatten();
-    let is_needed = gears.flat_map(|gear| [&gear.tip_relief, &gear.root_relief]).flatten().any(begins);
+    let is_needed = gears.into_iter().any(|gear| {
+        gear.initial_flank.is_some() || [&gear.tip_relief, &gear.root_relief].into_iter().flatten().any(begins)
+    });
     // An impossible pair is reported later; reliefs then have no position.
     let pair = is_needed.then(|| GearPair::new(spec).ok()).flatten();
     let [pinion, wheel] = [(&mut file.pinion, Gear::Pinion), (&mut file.wheel, Gear::Wheel)]
@@ -54,6 +57,9 @@ fn of_gear(
                 Some(file) => relief(file, &format!("{table}.{name}"), gear, end, pair, findings),
                 None => Some(None),
             });
+    if let (Some(flank), Some(pair)) = (&mut file.initial_flank, pair) {
+        flank.cutoff_mm.get_or_insert_with(|| default_cutoff_mm(pair, gear));
+    }
     let helix_slope_um = helix_slope_um(file, gear, spec, findings);
     let tip_rounding_mm = *file.tip_rounding_mm.get_or_insert(0.0);
     let least_mm = LEAST_ROUNDING_MODULES * spec.normal_module_mm;

@@ -133,6 +133,7 @@ fn gear(file: &mut GearFile, which: Gear, factor_scale: f64, findings: &mut Find
         bore_diameter_mm: file.bore_diameter_mm,
         // Chosen where the whole pair is known.
         modification: Modification::default(),
+        measured_flank: None,
         shaft: file.shaft.as_mut().and_then(|file| shaft(file, &format!("{table}.shaft"), findings)),
     })
 }

@@ -14,6 +14,7 @@ pub mod inspection;
 pub(crate) mod interference;
 pub mod involute;
 pub mod lines_of_contact;
+pub mod measured_flank;
 pub mod modification;
 pub mod normal_section;
 pub mod outline;

@@ -58,6 +58,11 @@ pub struct Modification {
 }
 
 impl Modification {
+    /// Whether it changes the profile, apart from the rounding of the tip edge.
+    pub fn has_profile_modification(&self) -> bool {
+        self.tip_relief.is_some() || self.root_relief.is_some() || self.profile_crowning_mm != 0.0
+    }
+
     /// Whether it varies over the face width.
     pub fn varies_over_width(&self) -> bool {
         self.lead_crowning_mm != 0.0 || self.end_relief.is_some() || self.helix_slope_mm != 0.0

@@ -18,6 +18,8 @@ const BACKLASH_ROUNDING_MODULES: f64 = 1e-3;
 /// Overlap of tip and fillet that rounded data may have, in normal modules.
 const OVERLAP_ROUNDING_MODULES: f64 = 1e-4;
 
+/// Name of the deviation of a measured flank in errors.
+pub const MEASURED_FLANK: &str = "measured flank";
 /// Greatest amount of a modification, in modules.
 const GREATEST_REMOVAL_MODULES: f64 = 0.25;
 
@@ -216,8 +218,9 @@ impl GearPair {
                 ("end relief", modification.end_relief.map_or(0.0, |relief| relief.amount_mm)),
                 ("helix slope deviation", modification.helix_slope_mm.abs()),
             ];
-            let crowning = [("profile crowning", modification.profile_crowning_mm)];
-            for (name, amount_mm) in amounts.into_iter().chain(crowning).chain(over_width) {
+            let measured_mm = self.spec.gears[gear].measured_flank.as_ref().map_or(0.0, |flank| flank.greatest_mm());
+            let of_profile = [("profile crowning", modification.profile_crowning_mm), (MEASURED_FLANK, measured_mm)];
+            for (name, amount_mm) in amounts.into_iter().chain(of_profile).chain(over_width) {
                 if amount_mm > greatest_mm {
                     return Err(PairError::ModificationTooDeep { gear, modification: name, amount_mm, greatest_mm });
                 }

@@ -37,12 +37,19 @@ const PLACES_OVER_WIDTH: usize = 100;
 
 /// Material removed by modifications at the points of a gear's flank, normal to it, slice by slice, mm.
 pub fn modifications_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid, slices: &Slices) -> Vec<f64> {
-    let (modification, tooth) = (&with_axes(pair, gear), &pair.teeth[gear]);
-    let start = pair.active_start_rho_mm(gear);
-    let profile: Vec<f64> = grid.coordinate_mm.iter().map(|&rho| removed_mm(modification, tooth, start, rho)).collect();
-    let over_width = slices.width_mm.iter().map(|&z| lead_removed_mm(modification, pair.spec.face_width_mm, z));
+    let modification = with_axes(pair, gear);
+    let profile: Vec<f64> = grid.coordinate_mm.iter().map(|&rho| whole_profile_mm(pair, gear, rho)).collect();
+    let over_width = slices.width_mm.iter().map(|&z| lead_removed_mm(&modification, pair.spec.face_width_mm, z));
     let obliquity = pair.obliquity();
     over_width.flat_map(|lead| profile.iter().map(move |removed| obliquity.normal_mm(removed + lead))).collect()
+}
+
+/// Material missing at these radii by what a measured flank deviates from its design profile, normal to it, mm.
+pub fn measured_flank_mm(pair: &GearPair, gear: Gear, radii_mm: impl Iterator<Item = f64>) -> Vec<f64> {
+    let (involute, obliquity) = (pair.teeth[gear].involute, pair.obliquity());
+    radii_mm
+        .map(|radius| obliquity.normal_mm(of_measurement_mm(pair, gear, involute.curvature_radius_mm(radius))))
+        .collect()
 }
 
 /// Modification of a gear's flank with the helix slope of axes that are not parallel.
@@ -58,10 +65,25 @@ pub fn without_rounding_mm(pair: &GearPair, gear: Gear, width_mm: f64, rho_mm: f
     of_profile_mm(pair, gear, rho_mm) + lead_removed_mm(&with_axes(pair, gear), pair.spec.face_width_mm, width_mm)
 }
 
-/// Material removed by profile modifications except the tip rounding, along the transverse line of action, mm.
+/// Material removed from the profile except by the tip rounding, along the transverse line of action, mm.
 pub(crate) fn of_profile_mm(pair: &GearPair, gear: Gear, rho_mm: f64) -> f64 {
     let modification = Modification { tip_rounding_mm: 0.0, ..pair.spec.gears[gear].modification };
-    removed_mm(&modification, &pair.teeth[gear], pair.active_start_rho_mm(gear), rho_mm)
+    of_modification_mm(pair, gear, &modification, rho_mm)
+}
+
+/// Material removed from the profile at radius of curvature `rho_mm`: by its modifications, and what a measured flank deviates from them, along the
+/// transverse line of action, mm.
+pub fn whole_profile_mm(pair: &GearPair, gear: Gear, rho_mm: f64) -> f64 {
+    of_modification_mm(pair, gear, &pair.spec.gears[gear].modification, rho_mm)
+}
+
+fn of_modification_mm(pair: &GearPair, gear: Gear, modification: &Modification, rho_mm: f64) -> f64 {
+    let measured_mm = of_measurement_mm(pair, gear, rho_mm);
+    removed_mm(modification, &pair.teeth[gear], pair.active_start_rho_mm(gear), rho_mm) + measured_mm
+}
+
+fn of_measurement_mm(pair: &GearPair, gear: Gear, rho_mm: f64) -> f64 {
+    pair.spec.gears[gear].measured_flank.as_ref().map_or(0.0, |flank| flank.removed_mm(rho_mm))
 }
 
 /// Mean over the face width of the material removed by helix modifications, along the transverse line of action, mm.

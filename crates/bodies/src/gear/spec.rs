@@ -3,9 +3,11 @@
 //! Profile shifts and rack factors are coefficients of the *normal* module (ISO 21771).
 
 use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
 
 use super::{
     involute::inv,
+    measured_flank::MeasuredFlank,
     modification::Modification,
     per_gear::{Gear, PerGear},
     shaft::Shaft,
@@ -44,6 +46,8 @@ pub struct GearSpec {
     pub bore_diameter_mm: Option<f64>,
     /// Deliberate deviations from the involute.
     pub modification: Modification,
+    /// Deviation of the flank as it was measured, beside the modification; finite-element meshes are without it.
+    pub measured_flank: Option<Arc<MeasuredFlank>>,
     /// Shaft that twists under the torque over the face width; `None` for a rigid one.
     pub shaft: Option<Shaft>,
 }

@@ -6,7 +6,7 @@ use super::question::{CompareOptions, ComparisonQuestion, Refused};
 use super::record::CompareRecord;
 use super::run_folder::{RunFolder, RunFolderError};
 use super::study::{self, CompareError};
-use crate::measurement::file;
+use gearwear::measured_flank::file;
 use gearwear::scene::loaded::{LoadError, LoadedScene, SceneText};
 use gearwear_bodies::gear::GearPair;
 use gearwear_bodies::gear::error::PairError;

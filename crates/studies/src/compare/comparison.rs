@@ -1,7 +1,7 @@
 //! A measured profile beside simulated ones.
 //!
 //! ```text
-//! r = P [z − z₀(s + d) + h(s + d)]
+//! r = P [z − z₀(s + d) + h(s + d)/cos β_b]
 //! ```
 //!
 //! with the measured heights z at arc lengths s, the unworn flank z₀, the simulated wear depth h, the shift d along the flank, and the
@@ -49,7 +49,7 @@ impl<'a> Comparison<'a> {
     pub(super) fn new(of: &'a ProfileQuestion, pair: &'a GearPair, numerics: &Numerics) -> Self {
         let Numerics { flank_points, point_spacing, .. } = *numerics;
         let grid_arc_mm = FlankGrid::new(pair, of.profile.gear, flank_points, point_spacing).arc_mm;
-        let removal = FormRemoval::new(of.form, &of.profile.form_place_mm(pair, of.form));
+        let removal = FormRemoval::new(of.form, &of.form.places_mm(&of.profile, pair));
         let mut measured_um = of.profile.height_um.clone();
         removal.remove(&mut measured_um);
         Self { of, pair, removal, grid_arc_mm, measured_um }
@@ -82,7 +82,8 @@ impl<'a> Comparison<'a> {
     pub(super) fn simulated_um(&self, wear_um: &[f64], shift_mm: f64) -> Vec<f64> {
         let mut heights = self.of.profile.unworn_um(self.pair, shift_mm);
         let wear = self.wear_at_points_um(wear_um, shift_mm);
-        heights.iter_mut().zip(&wear).for_each(|(height, wear)| *height -= wear);
+        let scale = self.of.profile.over_normal(self.pair);
+        heights.iter_mut().zip(&wear).for_each(|(height, wear)| *height -= scale * wear);
         self.removal.remove(&mut heights);
         heights
     }

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::run_folder::RunFolder;
 use super::unknown::Unknown;
-use crate::measurement::file::{HeightFrom, MachineGear, MeasuredFile, Moment, ValueKind};
 use crate::measurement::form::Form;
-use crate::measurement::profile::MeasuredProfile;
-use crate::measurement::teeth::TraceChoice;
+use gearwear::measured_flank::file::{HeightFrom, MachineGear, MeasuredFile, Moment, ValueKind};
+use gearwear::measured_flank::profile::MeasuredProfile;
+use gearwear::measured_flank::teeth::TraceChoice;
 use gearwear::scene::Resolved;
 use gearwear_bodies::gear::{Gear, GearPair, slices::Slices};
 use gearwear_files::data_table::DataTableError;
@@ -16,8 +16,6 @@ use gearwear_physics::wear::settings::WearOfPair;
 
 /// Relative tolerance on the end of the run.
 const SAME_TIME: f64 = 1e-9;
-/// Relative difference of base radii of one gear: machines give few decimals.
-const SAME_SIZE: f64 = 1e-3;
 /// Least degrees of freedom of a fit.
 const SPARE_POINTS: usize = 2;
 /// Most profiles that are fitted together: one of each gear.
@@ -290,7 +288,7 @@ impl ProfileQuestion {
 /// The gear that a machine measured: `asked`, or the one with its number of teeth.
 fn of_machine(machine: MachineGear, asked: Option<Gear>, pair: &GearPair) -> Result<Gear, QuestionError> {
     let MachineGear { line, teeth: found, base_radius_mm } = machine;
-    let fits = |&gear: &Gear| pair.spec.gears[gear].teeth == found;
+    let fits = |&gear: &Gear| machine.has_teeth_of(pair, gear);
     let gear = match (asked, &Gear::BOTH.into_iter().filter(fits).collect::<Vec<_>>()[..]) {
         (Some(asked), fitting) if fitting.contains(&asked) => asked,
         (None, &[one]) => one,
@@ -301,11 +299,11 @@ fn of_machine(machine: MachineGear, asked: Option<Gear>, pair: &GearPair) -> Res
             return Err(QuestionError::OtherTeeth { line, found, allowed });
         }
     };
-    let allowed = pair.teeth[gear].involute.base_radius_mm;
-    match (base_radius_mm / allowed - 1.0).abs() <= SAME_SIZE {
-        true => Ok(gear),
-        false => Err(QuestionError::OtherGearSize { line, found: base_radius_mm, allowed, gear: gear.name() }),
+    if machine.has_size_of(pair, gear) {
+        return Ok(gear);
     }
+    let allowed = pair.teeth[gear].involute.base_radius_mm;
+    Err(QuestionError::OtherGearSize { line, found: base_radius_mm, allowed, gear: gear.name() })
 }
 
 /// Whether `fit` can be asked of a profile of `gear`, one of so many.

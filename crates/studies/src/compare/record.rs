@@ -194,7 +194,7 @@ pub struct CompareRow {
     pub as_run_um: f64,
     /// simulated wear depth after the fit
     pub wear_um: f64,
-    /// wear depth of the measured profile on the form of the simulation: wear_um less difference_um
+    /// wear depth of the measured profile on the form of the simulation: wear_um less difference_um, normal to the flank
     pub measured_wear_um: f64,
     /// whose flank it is on
     pub gear: Gear,

@@ -12,10 +12,10 @@ pub use super::simulations::CompareError;
 use super::simulations::{CoefficientChange, Simulations, over_width};
 use super::unknown::Unknown;
 use crate::measurement::deviations::Evaluation;
-use crate::measurement::file::HeightFrom;
 use crate::measurement::fit::FitStop;
 use crate::measurement::interval::CONFIDENCE;
 use crate::measurement::roughness::{CUTOFF_MM, mean_deviation, roughness};
+use gearwear::measured_flank::file::HeightFrom;
 use gearwear::scene::Resolved;
 use gearwear::scene::loaded::LoadedScene;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear, slices::Slices};
@@ -86,6 +86,7 @@ fn rows(
     let mut shifted = comparison.of.profile.clone();
     shifted.arc_mm.iter_mut().for_each(|arc| *arc += shift);
     let radius = shifted.radius_mm(pair);
+    let scale = comparison.of.profile.over_normal(comparison.pair);
     let simulated = comparison.simulated_um(wear_um, shift);
     let as_run = comparison.simulated_um(as_run_um, shift);
     let wear = comparison.wear_at_points_um(wear_um, shift);
@@ -100,7 +101,7 @@ fn rows(
                 difference_um,
                 as_run_um: as_run[i],
                 wear_um: wear[i],
-                measured_wear_um: wear[i] - difference_um,
+                measured_wear_um: wear[i] - difference_um / scale,
                 gear,
             }
         })
@@ -246,10 +247,13 @@ fn deviations(of: &ProfileQuestion, pair: &GearPair, rows: &[CompareRow]) -> Opt
     let evaluation = Evaluation::of_profile(pair, profile.gear);
     let [_, roll_mm] = profile.places_mm(pair);
     let design_um = profile.unworn_um(pair, 0.0);
-    let points = || profile.height_um.iter().zip(design_um.iter().zip(rows));
-    let measured: Vec<f64> = points().map(|(height, (design, _))| height - design).collect();
-    let before: Vec<f64> = measured.iter().zip(rows).map(|(height, row)| height + row.wear_um).collect();
-    let wear: Vec<f64> = rows.iter().map(|row| -row.wear_um).collect();
+    // Deviations are along the transverse line of action.
+    let of_normal = pair.obliquity().transverse_mm(1.0);
+    let of_heights = of_normal / profile.over_normal(pair);
+    let wear: Vec<f64> = rows.iter().map(|row| -of_normal * row.wear_um).collect();
+    let points = profile.height_um.iter().zip(&design_um);
+    let measured: Vec<f64> = points.map(|(height, design)| of_heights * (height - design)).collect();
+    let before: Vec<f64> = measured.iter().zip(&wear).map(|(height, wear)| height - wear).collect();
     let [measured, before_wear, wear] =
         [measured, before, wear].map(|heights| evaluation.deviations(&roll_mm, &heights));
     Some(ProfileDeviations { measured, before_wear, wear })

@@ -16,6 +16,10 @@
 //! The columns are Legendre's polynomials on the length of the profile, orthonormalised twice: well conditioned for any number of
 //! points.
 
+use gearwear::measured_flank::file::HeightFrom;
+use gearwear::measured_flank::profile::MeasuredProfile;
+use gearwear_bodies::gear::GearPair;
+
 use super::fit::dot;
 
 /// Length of a column, less what others have of it, below which it is one of them.
@@ -49,6 +53,13 @@ impl Form {
             Form::Involute => 2,
             Form::None => 0,
         }
+    }
+
+    /// Where the form of `profile` is even: lengths along the flank for heights from a line, roll lengths for those from the involute.
+    pub fn places_mm(self, profile: &MeasuredProfile, pair: &GearPair) -> Vec<f64> {
+        let [arc_mm, roll_mm] = profile.places_mm(pair);
+        let is_in_roll = self == Form::Involute && profile.height_from == HeightFrom::Involute;
+        if is_in_roll { roll_mm } else { arc_mm }
     }
 }
 

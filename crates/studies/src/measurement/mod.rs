@@ -1,4 +1,4 @@
-//! Measured profiles of a flank: read, freed of their form, and fitted.
+//! Measured profiles of a flank ([`gearwear::measured_flank`]): freed of their form, evaluated, and fitted.
 //!
 //! A stylus trace, or one of a replica, is a row of heights along the flank. To show the wear, the form of the unworn flank is
 //! removed first, a least-squares cubic as in the thesis (section 4.2) or the nominal involute. The form of the simulated profile is removed in the
@@ -6,10 +6,6 @@
 //!
 //! | module | what it does |
 //! |---|---|
-//! | [`mod@file`] | the file with its header, in the formats [`table`] and [`mka`] |
-//! | [`teeth`] | mean of the profiles of some teeth |
-//! | [`mod@undefined`] | points without a height |
-//! | [`profile`] | points on the flank of a gear |
 //! | [`form`] | form removal as a projection |
 //! | [`roughness`] | arithmetic mean deviation, before and after a Gaussian filter |
 //! | [`fit`] | nonlinear least squares in a few parameters |
@@ -20,14 +16,8 @@
 
 mod correlation;
 pub mod deviations;
-pub mod file;
 pub mod fit;
 pub mod form;
 pub mod interval;
-pub mod mka;
-pub mod profile;
 pub mod roughness;
-pub mod table;
-pub mod teeth;
-pub mod undefined;
 pub mod waviness;

@@ -2,6 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use gearwear::measured_flank::file;
+use gearwear::measured_flank::teeth::TraceChoice;
 use gearwear::report;
 use gearwear::runs;
 use gearwear::scene::Resolved;
@@ -13,8 +15,6 @@ use gearwear_studies::compare::question::{CompareOptions, ComparisonQuestion, Fi
 use gearwear_studies::compare::record::CompareRecord;
 use gearwear_studies::compare::run_folder::RunFolder;
 use gearwear_studies::compare::study;
-use gearwear_studies::measurement::file;
-use gearwear_studies::measurement::teeth::TraceChoice;
 
 use crate::common::loaded;
 

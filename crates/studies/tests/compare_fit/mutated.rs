@@ -1,10 +1,10 @@
 //! Measured files with bytes and lines changed at random: each is read or refused, with a message that says what is allowed, and none stops the program.
 
+use gearwear::measured_flank::file;
+use gearwear::measured_flank::profile::MeasuredProfile;
+use gearwear::measured_flank::teeth::TraceChoice;
 use gearwear_bodies::gear::{Gear, GearPair};
 use gearwear_files::text::decode;
-use gearwear_studies::measurement::file;
-use gearwear_studies::measurement::profile::MeasuredProfile;
-use gearwear_studies::measurement::teeth::TraceChoice;
 
 use super::laboratory::Noise;
 

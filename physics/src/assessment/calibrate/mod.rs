@@ -187,8 +187,10 @@ fn on_plain_flanks(
     let w = setup.line_load_n_per_mm;
     let mut spec = setup.pair.spec.clone();
     for gear in Gear::BOTH {
-        let own = &mut spec.gears[gear].modification;
-        *own = Modification { tip_rounding_mm: own.tip_rounding_mm, ..Modification::default() };
+        let own = &mut spec.gears[gear];
+        own.modification =
+            Modification { tip_rounding_mm: own.modification.tip_rounding_mm, ..Modification::default() };
+        own.measured_flank = None;
     }
     if spec == setup.pair.spec {
         return Ok(single_contact::solve(condensed, loaded, w)?);

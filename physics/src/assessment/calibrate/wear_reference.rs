@@ -2,9 +2,9 @@
 
 use super::CalibrateError;
 use crate::calibration::wear_reference::{FLANK_POINTS, LOADS, POSITIONS, ReferenceDepth, WearReference};
+use crate::mesh_cycle::MeshCycle;
 use crate::mesh_cycle::condensed::CondensedCycle;
 use crate::mesh_cycle::load_sharing::EquilibriumError;
-use crate::mesh_cycle::{LostMaterial, MeshCycle};
 use crate::wear::{self, WearModel, settings::WearSettings};
 use gearwear_bodies::gear::{
     Gear, PerGear,
@@ -34,8 +34,7 @@ fn reference(
     let mut depth = cycle.nodes().map(|nodes| vec![0.0; nodes.len()]);
     let unworn = depth.clone();
     let zeros = unworn.as_ref().map(Vec::as_slice);
-    let lost = LostMaterial { removed_mm: zeros, wear_mm: zeros };
-    match cycle.evaluate(lost, &WearModel::cold(law.as_ref()), &mut depth, stopped) {
+    match cycle.evaluate(zeros, &WearModel::cold(law.as_ref()), &mut depth, stopped) {
         Ok(_) => {}
         Err(EquilibriumError::Interrupted) => return Err(CalibrateError::Interrupted),
         Err(source) => return Err(CalibrateError::Cycle { line_load_n_per_mm, source }),

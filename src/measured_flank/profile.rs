@@ -4,17 +4,16 @@
 //! is gone. The simulated height of the same points is
 //!
 //! ```text
-//! z(s) = z₀(s) − h(s)
+//! z(s) = z₀(s) − h(s)/cos β_b
 //! ```
 //!
-//! with the wear depth h and the height z₀ of the unworn flank: 0 for a measured wear depth, − modifications for a height from
-//! the nominal involute, and less the sag of the involute for a height from a straight line. The line is the tangent at the
-//! middle of the profile; another one differs from it by an offset and a tilt, which form removal takes away (to first order in
-//! the angle between them: level the trace to a few degrees).
+//! with the wear depth h normal to the flank (of a measured wear depth without cos β_b) and the height z₀ of the unworn flank: 0 for a measured wear
+//! depth, − modifications, or what was measured before the run, for a height from the nominal involute, and less the sag of the involute for a
+//! height from a straight line. The line is the tangent at the middle of the profile; another one differs from it by an offset and a tilt, which
+//! form removal takes away (to first order in the angle between them: level the trace to a few degrees).
 
 use super::file::{ArcFrom, HeightFrom, MeasuredFile, PlaceColumn, Trace, ValueKind};
-use super::form::Form;
-use gearwear_bodies::gear::{Gear, GearPair, involute::Involute, removed_material::removed_mm};
+use gearwear_bodies::gear::{Gear, GearPair, involute::Involute, removed_material::whole_profile_mm};
 use gearwear_files::data_table::{DataTableError, not_allowed};
 
 const UM_PER_MM: f64 = 1e3;
@@ -80,17 +79,6 @@ impl MeasuredProfile {
         })
     }
 
-    /// Where the form of the profile is even: lengths along the flank for heights from a line, roll lengths for those from the involute.
-    pub fn form_place_mm(&self, pair: &GearPair, form: Form) -> Vec<f64> {
-        let involute = pair.teeth[self.gear].involute;
-        match (form, self.height_from) {
-            (Form::Involute, HeightFrom::Involute) => {
-                self.arc_mm.iter().map(|&arc| involute.rho_at_arc_mm(arc)).collect()
-            }
-            _ => self.arc_mm.clone(),
-        }
-    }
-
     /// Lengths along the flank, and roll lengths.
     pub fn places_mm(&self, pair: &GearPair) -> [Vec<f64>; 2] {
         let involute = pair.teeth[self.gear].involute;
@@ -104,12 +92,20 @@ impl MeasuredProfile {
         self.arc_mm.iter().map(|&arc| involute.radius_mm(involute.rho_at_arc_mm(arc))).collect()
     }
 
+    /// Scale of the heights: along the transverse line of action over normal to the flank, as wear depths are. Heights of a transverse section are
+    /// 1/cos β_b times what they are normal to a helical flank (ISO 1328-1:2013, 3.4).
+    pub fn over_normal(&self, pair: &GearPair) -> f64 {
+        match self.kind {
+            ValueKind::Height => pair.obliquity().transverse_mm(1.0),
+            ValueKind::Wear => 1.0,
+        }
+    }
+
     /// z₀: height of the unworn flank at each point, moved by `shift_mm` towards the tip.
     pub fn unworn_um(&self, pair: &GearPair, shift_mm: f64) -> Vec<f64> {
         let tooth = &pair.teeth[self.gear];
         let involute = tooth.involute;
         let (tip, start) = (tooth.tip_rho_mm(), pair.active_start_rho_mm(self.gear));
-        let modification = &pair.spec.gears[self.gear].modification;
         let middle = match (self.arc_mm.first(), self.arc_mm.last()) {
             (Some(first), Some(last)) => involute.rho_at_arc_mm(0.5 * (first + last)),
             _ => start,
@@ -119,7 +115,7 @@ impl MeasuredProfile {
         }
         let rhos = self.arc_mm.iter().map(|&arc| involute.rho_at_arc_mm(arc + shift_mm).min(tip));
         rhos.map(|rho| {
-            let modified = removed_mm(modification, tooth, start, rho);
+            let modified = whole_profile_mm(pair, self.gear, rho);
             UM_PER_MM
                 * match self.height_from {
                     HeightFrom::Involute => -modified,

@@ -7,7 +7,7 @@
 //!
 //! Heights of a tooth are counted from its own mean, since machines find the flanks of a gear at different heights (pitch deviations), and the mean
 //! of these means is added again; depths of wear are not moved. Between its points a profile is straight; a place in a gap of one tooth
-//! is none of the mean. Deviations d_t of the teeth are kept for the uncertainty ([`super::interval`]).
+//! is none of the mean. Deviations d_t of the teeth are kept for the uncertainty.
 
 use gearwear_files::data_table::{DataTableError, missing, not_allowed};
 
@@ -27,6 +27,44 @@ pub struct TraceChoice {
     pub side: Option<FlankSide>,
     /// Place over the face width, of several; `None`: the one there is.
     pub width_mm: Option<f64>,
+    /// Who chooses.
+    pub by: ChosenBy,
+}
+
+/// Where a choice of traces is made, for messages.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ChosenBy {
+    /// Options of the command line.
+    #[default]
+    Options,
+    /// Keys of a scene.
+    Keys,
+}
+
+impl ChosenBy {
+    /// The option or key of this name.
+    fn named(self, name: &str) -> String {
+        match self {
+            ChosenBy::Options => format!("--{name}"),
+            ChosenBy::Keys => name.to_owned(),
+        }
+    }
+
+    /// The choice of a flank, as it is typed.
+    fn flank(self, side: FlankSide) -> String {
+        match self {
+            ChosenBy::Options => format!("--flank {}", side.name()),
+            ChosenBy::Keys => format!("flank = \"{}\"", side.name()),
+        }
+    }
+
+    /// The choice of a place over the face width.
+    fn width(self) -> &'static str {
+        match self {
+            ChosenBy::Options => "--width",
+            ChosenBy::Keys => "width_mm",
+        }
+    }
 }
 
 /// The file `header` with the mean of the profiles among `traces` that are chosen.
@@ -60,7 +98,7 @@ pub(super) fn mean(
         heights.iter_mut().zip(of_all).for_each(|(own, height)| own.push(height));
     }
     if at.len() < LEAST_POINTS {
-        let allowed = format!("at least {LEAST_POINTS}; --tooth takes one of the teeth");
+        let allowed = format!("at least {LEAST_POINTS}; {} takes one of the teeth", choice.by.named("tooth"));
         let line = first.points.first().map_or(1, |point| point.line);
         return Err(not_allowed(line, "points that all teeth have", at.len(), allowed));
     }
@@ -96,17 +134,15 @@ pub fn choose<'t>(
         return Err(missing("the profile", allowed));
     }
     let listed = |words: Vec<String>| words.join(", ");
-    let sides: Vec<FlankSide> = [FlankSide::Left, FlankSide::Right]
-        .into_iter()
-        .filter(|&side| chosen.iter().any(|trace| trace.side == Some(side)))
-        .collect();
+    let sides: Vec<FlankSide> =
+        FlankSide::BOTH.into_iter().filter(|&side| chosen.iter().any(|trace| trace.side == Some(side))).collect();
     match choice.side {
         Some(side) if !sides.is_empty() && !sides.contains(&side) => {
-            let allowed = format!("--flank {}", listed(sides.iter().map(|side| side.name().to_owned()).collect()));
-            return Err(not_allowed(line(&chosen), "--flank", side.name(), allowed));
+            let allowed = listed(sides.iter().map(|&side| choice.by.flank(side)).collect());
+            return Err(not_allowed(line(&chosen), &choice.by.named("flank"), side.name(), allowed));
         }
         None if sides.len() > 1 => {
-            let allowed = "one of them: --flank left or --flank right".to_owned();
+            let allowed = format!("one of them: {}", FlankSide::BOTH.map(|side| choice.by.flank(side)).join(" or "));
             return Err(not_allowed(line(&chosen), "flank", "left and right", allowed));
         }
         side => chosen.retain(|trace| side.is_none() || trace.side.is_none() || trace.side == side),
@@ -117,7 +153,7 @@ pub fn choose<'t>(
         chosen.retain(|trace| trace.tooth == Some(tooth));
         if chosen.is_empty() {
             let allowed = if teeth.is_empty() { "a file that says the teeth".to_owned() } else { listed(teeth) };
-            return Err(not_allowed(first, "--tooth", tooth, allowed));
+            return Err(not_allowed(first, &choice.by.named("tooth"), tooth, allowed));
         }
     }
     if kind == TraceKind::Profile {
@@ -125,7 +161,7 @@ pub fn choose<'t>(
         widths.sort_by(f64::total_cmp);
         widths.dedup();
         if widths.len() > 1 {
-            let allowed = "one of them: --width with the nearest".to_owned();
+            let allowed = format!("one of them: {} with the nearest", choice.by.width());
             let found = || listed(widths.iter().map(|width| format!("{width}")).collect());
             let wanted = choice
                 .width_mm

@@ -6,7 +6,7 @@
 //! | text export of curves of a gear measuring machine, `.mka` | [`super::mka`] |
 //!
 //! A file holds traces: profiles, from root to tip in a transverse section, and leads, over the face width on a cylinder; of one tooth or of
-//! several, of left flanks or of right ones. What is compared is the mean profile of the teeth chosen ([`super::teeth`]).
+//! several, of left flanks or of right ones. What is taken is the mean profile of the teeth chosen ([`super::teeth`]).
 //!
 //! The header of a table describes the measurement:
 //!
@@ -21,7 +21,10 @@
 //! straight guide measures them, with the curvature of the tooth in them); left out: `involute` |
 //! | `units` | units of the columns in their order, where their names have none |
 
-use gearwear_bodies::gear::Gear;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use gearwear_bodies::gear::{Gear, GearPair};
 use gearwear_files::data_table::{DataTableError, finite, not_allowed, positive};
 
 use super::teeth::{self, TraceChoice};
@@ -153,8 +156,24 @@ pub struct MachineGear {
     pub base_radius_mm: f64,
 }
 
+/// Relative difference of base radii of one gear: machines give few decimals.
+const SAME_SIZE: f64 = 1e-3;
+
+impl MachineGear {
+    /// Whether a gear of the pair has as many teeth.
+    pub fn has_teeth_of(&self, pair: &GearPair, gear: Gear) -> bool {
+        pair.spec.gears[gear].teeth == self.teeth
+    }
+
+    /// Whether it has the same base radius.
+    pub fn has_size_of(&self, pair: &GearPair, gear: Gear) -> bool {
+        (self.base_radius_mm / pair.teeth[gear].involute.base_radius_mm - 1.0).abs() <= SAME_SIZE
+    }
+}
+
 /// Flank of a tooth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum FlankSide {
     /// Left flank, of a tooth that points upwards.
     Left,
@@ -163,7 +182,15 @@ pub enum FlankSide {
 }
 
 impl FlankSide {
-    /// Name on the command line.
+    /// Both.
+    pub const BOTH: [FlankSide; 2] = [FlankSide::Left, FlankSide::Right];
+
+    /// The flank of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::BOTH.into_iter().find(|side| side.name() == name)
+    }
+
+    /// Name on the command line and in scenes.
     pub fn name(self) -> &'static str {
         match self {
             FlankSide::Left => "left",
