@@ -318,7 +318,11 @@ fn a_crowned_spur_pair_is_shown_slice_by_slice() {
         assert!(page.contains("id=\"map-wear-pinion\"") && folder.path().join("out/flank.vtu").is_file());
         assert_eq!(page.contains("id=\"map-modifications-pinion\""), shown, "{slices} slices");
         // Crowning of 10 µm is parabolic over the half-width: 10 · 0.8² at the middle of the first of five slices.
-        assert_eq!(page.contains("The modifications take up to 6.400\u{a0}µm"), shown, "{slices} slices");
+        assert_eq!(
+            page.contains("Modifications, or what was measured, take up to 6.400\u{a0}µm"),
+            shown,
+            "{slices} slices"
+        );
     }
 }
 

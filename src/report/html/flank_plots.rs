@@ -163,7 +163,7 @@ fn modifications_of(record: &RunRecord, gear: Gear) -> Chart {
     let radius = active.cut(&flank.radius_mm);
     let reading = match greatest(&removed) {
         Some(at) if at.value > 0.0 => format!(
-            "The modifications take up to {} µm off the {}’s active flank, {}.",
+            "Modifications, or what was measured, take up to {} µm off the {}’s active flank, {}.",
             figure(at.value),
             gear.name(),
             place_on_flank(flank, radius[at.index]),
@@ -172,7 +172,7 @@ fn modifications_of(record: &RunRecord, gear: Gear) -> Chart {
     };
     let [least, most] = extent(removed.iter().copied().chain([0.0]));
     let span = if most > least { most - least } else { 1.0 };
-    let title = format!("Modifications of the {}’s flank", gear.name());
+    let title = format!("The {}’s flank before the run", gear.name());
     let chart = Chart::new(format!("modifications-{}", gear.name()), title)
         .height(320)
         .legend(false)

@@ -50,8 +50,15 @@ pub(super) fn all(run: SlicedRun<'_>, gear: Gear) -> Vec<Chart> {
     ];
     if flank.removed_um.iter().any(|&removed| removed != 0.0) {
         let shown = on_active_flank(flank, &flank.removed_um);
-        let reading = format!("The modifications take up to {}.", peak_of(flank, &shown, "µm"));
-        charts.push(draw("modifications", ["Modifications of", ""], "µm", &flank.removed_um, top(&shown), reading));
+        let reading = format!("Modifications, or what was measured, take up to {}.", peak_of(flank, &shown, "µm"));
+        charts.push(draw(
+            "modifications",
+            ["Material missing from", " before the run"],
+            "µm",
+            &flank.removed_um,
+            top(&shown),
+            reading,
+        ));
     }
     charts
 }
