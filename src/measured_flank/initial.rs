@@ -76,13 +76,17 @@ pub fn read(
         return Err(not_allowed(1, "height_from", "line", allowed));
     }
     let profile = MeasuredProfile::on_flank(&file, pair, gear)?;
-    let [_, rho_mm] = profile.places_mm(pair);
+    let [_, places_mm] = profile.places_mm(pair);
+    // Points that lie a little beyond an end of the flank are at that end together.
+    let mut points: Vec<(f64, f64)> = places_mm.into_iter().zip(profile.height_um).collect();
+    points.dedup_by(|point, before| point.0 <= before.0);
+    let (rho_mm, height_um): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
     let removed_mm: Vec<f64> = match file.kind {
         ValueKind::Wear => {
-            let filtered_um = filtered(&rho_mm, &profile.height_um, cutoff_mm);
+            let filtered_um = filtered(&rho_mm, &height_um, cutoff_mm);
             filtered_um.iter().map(|z| pair.obliquity().transverse_mm(-MM_PER_UM * z)).collect()
         }
-        ValueKind::Height => from_heights(pair, gear, &rho_mm, &profile.height_um, cutoff_mm),
+        ValueKind::Height => from_heights(pair, gear, &rho_mm, &height_um, cutoff_mm),
     };
     let from_to_mm = [rho_mm.first(), rho_mm.last()].map(|end| end.copied().unwrap_or_default());
     let flank = MeasuredFlank::new(&pair.teeth[gear].involute, rho_mm, removed_mm);

@@ -130,6 +130,19 @@ fn files_of_no_initial_flank_are_refused() {
     }
 }
 
+/// Points a little beyond the tip, by the digits of a file, are at the tip.
+#[test]
+fn points_at_the_tip_are_one() {
+    let folder = tempfile::tempdir().unwrap();
+    // Roll length at the tip of the preset's pinion: √((82.46/2)² − (36 cos 20°)²) = 23.5684 mm.
+    fs::write(folder.path().join("flank.csv"), "roll_length_mm,height_um\n12,0\n20,-2\n23.569,-2\n23.570,-2\n")
+        .unwrap();
+    fs::write(folder.path().join("scene.toml"), scene("half-space", 1.0, &initial_flank("pinion", "flank.csv", "")))
+        .unwrap();
+    let (status, message) = command(folder.path(), &["plan", "scene.toml"]);
+    assert_eq!(status, Some(0), "{message}");
+}
+
 /// A profile that does not reach the ends of the active profile is told; one with both flanks is read with the one that the scene names.
 #[test]
 fn a_short_profile_is_told() {
