@@ -134,8 +134,8 @@ fn files_of_no_initial_flank_are_refused() {
 #[test]
 fn points_at_the_tip_are_one() {
     let folder = tempfile::tempdir().unwrap();
-    // Roll length at the tip of the preset's pinion: √((82.46/2)² − (36 cos 20°)²) = 23.5684 mm.
-    fs::write(folder.path().join("flank.csv"), "roll_length_mm,height_um\n12,0\n20,-2\n23.569,-2\n23.570,-2\n")
+    // Roll length at the tip of the preset's pinion: √((82.46/2)² − (36 cos 20°)²) = 23.5694 mm.
+    fs::write(folder.path().join("flank.csv"), "roll_length_mm,height_um\n12,0\n20,-2\n23.570,-2\n23.571,-2\n")
         .unwrap();
     fs::write(folder.path().join("scene.toml"), scene("half-space", 1.0, &initial_flank("pinion", "flank.csv", "")))
         .unwrap();
