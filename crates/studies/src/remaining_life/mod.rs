@@ -1,0 +1,3 @@
+//! Wear coefficient and remaining life from measurements of wear at several times.
+
+pub mod wear_process;
