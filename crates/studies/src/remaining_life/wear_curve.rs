@@ -22,7 +22,7 @@ const SNAPSHOTS: u32 = 60;
 /// Factor on the duration up to which the number of wear steps rises with it.
 const AS_FINE_UP_TO: f64 = 4.0;
 /// Factor by which a curve reaches beyond the wear asked for.
-const AHEAD: f64 = 1.3;
+const AHEAD: f64 = 1.7;
 /// Longest run, over the run of the scene.
 pub const LONGEST: f64 = 50.0;
 /// Shortest run, over the run of the scene.

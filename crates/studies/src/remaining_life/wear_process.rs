@@ -1,51 +1,60 @@
 //! Wear that wanders, measured with scatter: what measurements say of the wear coefficient, and of wear to come.
 //!
 //! The exposure S of a gear is how far the run must go with its own coefficient k₀ to wear it as much; both S and the revolutions n of the pinion are
-//! over the duration of the run. With the factor κ = k/k₀ it is κ n on the mean. Its logarithm is a Gaussian process, with the mean and covariance of
-//! S those of a gamma process, whose increments are independent, with the mean κ Δn and the variance c² κ Δn:
+//! over the duration of the run. With the factor κ = k/k₀ it is κ n on the mean. About this mean it wanders as a gamma process, whose increments are
+//! independent and never negative, and a measurement scatters by a factor about it:
 //!
 //! ```text
-//! S(n) = κ n exp(Z(n) − g(n)/2)        g(n) = ln(1 + c²/(κ n))        cov (Z(n), Z(n')) = g(n'),  n ≤ n'
-//! Z(n') = ρ Z(n) + N(0, g(n') (1 − ρ))                                ρ = g(n')/g(n)
+//! S(n + Δ) − S(n) ~ Gamma        mean κ Δ,   variance c² κ Δ
 //! ln s_i = ln S(n_i) + N(0, r² + r_i²)
 //! ```
 //!
 //! c is the relative standard deviation of the wear at the end of the run under k₀; r that of a measurement, beside what is known of it, r_i. Neither c nor
 //! r is known: their priors are half of Student's t with 3 degrees of freedom and the scale [`SCATTER_SCALE`]. κ is lognormal before any measurement.
 //!
-//! **Computed.** For given κ, c and r everything is Gaussian (Kalman's filter, exact). ln κ has [`FACTORS`] places about the mode of its density for each
-//! pair of c and r, which lie on a grid of [`SCATTERS`] by as many, evenly in their logarithms.
+//! **Computed.** For given κ, c and r the three first cumulants of S follow by addition; S is taken as a constant plus a gamma distributed number with the
+//! same cumulants, which is exact up to the first measurement and from a perfect one on. A measurement changes them by quadrature ([`Wear::measured`]).
+//! ln κ has [`FACTORS`] places about the mode of its density for each pair of c and r, which lie on a grid of [`SCATTERS`] by as many, evenly in their
+//! logarithms, and a second grid where the first has found them likely.
 //!
-//! **Valid** where one coefficient holds: a step in the wear rate is none of the model. The gamma process never decreases, which S here does with the
-//! little probability that matters for c near 1 alone.
+//! **Valid** where one coefficient holds: a step in the wear rate is none of the model.
 //!
 //! Sources: M. Abdel-Hameed, *A gamma wear process*, IEEE Trans. Reliability 24 (1975) 152–153; J. M. van Noortwijk, *A survey of the application of
 //! gamma processes in maintenance*, Reliability Engineering and System Safety 94 (2009) 2–21; G. A. Whitmore, *Estimating degradation by a Wiener
-//! diffusion process subject to measurement error*, Lifetime Data Analysis 1 (1995) 307–319; A. Gelman, *Prior distributions for variance parameters in
+//! diffusion process subject to measurement error*, Lifetime Data Analysis 1 (1995) 307–319; E. B. Wilson and M. M. Hilferty, *The distribution of
+//! chi-square*, Proc. Nat. Acad. Sci. 17 (1931) 684–688; A. Gelman, *Prior distributions for variance parameters in
 //! hierarchical models*, Bayesian Analysis 1 (2006) 515–534 (half-t).
 
+use rayon::prelude::*;
 use statrs::function::erf::erfc;
+use statrs::function::gamma::ln_gamma;
 
 /// Scale of the priors of c and r: a tenth.
-pub const SCATTER_SCALE: f64 = 0.1;
+pub const SCATTER_SCALE: f64 = 0.15;
 /// Degrees of freedom of these priors.
 pub const SCATTER_FREEDOM: f64 = 3.0;
 /// Least and greatest c and r.
 pub const SCATTER_RANGE: [f64; 2] = [0.003, 2.0];
 /// Places of c, and of r.
-const SCATTERS: usize = 13;
+const SCATTERS: usize = 9;
 /// Places of ln κ for each pair of c and r.
-const FACTORS: i32 = 19;
+const FACTORS: i32 = 11;
 /// Distance of these places in standard deviations.
-const FACTOR_STEP: f64 = 0.5;
+const FACTOR_STEP: f64 = 0.8;
+/// Places of the quadrature over S.
+const GAMMA_NODES: usize = 15;
+/// Distance of these places in standard deviations.
+const GAMMA_STEP: f64 = 0.8;
+/// Greatest shape of a gamma distribution, beyond which it is normal.
+const MOST_SHAPE: f64 = 1e5;
 /// Greatest number of steps of Newton's method to the mode.
 const MODE_STEPS: usize = 40;
 /// Share of the greatest density over c, or r, below which a place is left out of the finer grid.
 const NEGLIGIBLE: f64 = 1e-3;
 /// Weight below which a node is left out.
-const LIGHTEST: f64 = 1e-9;
+const LIGHTEST: f64 = 1e-7;
 /// Halvings of an interval that is searched for a quantile.
-const HALVINGS: usize = 60;
+const HALVINGS: usize = 44;
 /// Range of the logarithm of a quantile about that of the run.
 const LOG_RANGE: f64 = 60.0;
 
@@ -60,16 +69,6 @@ pub struct ExposureMeasurement {
     pub relative_sigma: f64,
 }
 
-impl ExposureMeasurement {
-    fn ln_revolutions(&self) -> f64 {
-        self.revolutions.ln()
-    }
-
-    fn ln_exposure(&self) -> f64 {
-        self.exposure.ln()
-    }
-}
-
 /// Normal distribution of the logarithm of κ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FactorPrior {
@@ -79,49 +78,121 @@ pub struct FactorPrior {
     pub deviation: f64,
 }
 
-/// g = ln(1 + c²/(κ n)): variance of Z, and of ln S for given κ.
-fn variance_of_wander(kappa: f64, c: f64, revolutions: f64) -> f64 {
-    (c * c / (kappa * revolutions)).ln_1p()
-}
-
-/// Z at some revolutions as far as measurements tell: its mean and variance, and g there.
+/// S as far as measurements tell, by its first three cumulants: a gamma distributed number times θ, of shape a, and a constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Wander {
+struct Wear {
     mean: f64,
     variance: f64,
-    /// g; infinite at the beginning, where nothing is worn.
-    prior_variance: f64,
+    /// Third central moment.
+    third: f64,
 }
 
-impl Wander {
-    const AT_BEGINNING: Self = Self { mean: 0.0, variance: 0.0, prior_variance: f64::INFINITY };
+impl Wear {
+    const NONE: Self = Self { mean: 0.0, variance: 0.0, third: 0.0 };
 
-    /// Where g has become `prior_variance`.
-    fn at(self, prior_variance: f64) -> Self {
-        let rho = prior_variance / self.prior_variance;
+    /// After `more` revolutions with the factor `kappa` and the wander `c`.
+    fn after(self, more: f64, kappa: f64, c: f64) -> Self {
+        let (mean, c2) = (kappa * more, c * c);
         Self {
-            mean: rho * self.mean,
-            variance: rho * rho * self.variance + prior_variance * (1.0 - rho),
-            prior_variance,
+            mean: self.mean + mean,
+            variance: self.variance + c2 * mean,
+            third: self.third + 2.0 * c2 * c2 * mean,
         }
     }
+
+    /// Shape a, scale θ and constant; nearly symmetric distributions have a greatest shape.
+    fn shifted_gamma(self) -> (f64, f64, f64) {
+        let shape = (4.0 * self.variance.powi(3) / (self.third * self.third)).min(MOST_SHAPE);
+        let scale = (self.variance / shape).sqrt();
+        (shape, scale, self.mean - shape * scale)
+    }
+
+    /// With a measurement of logarithm `ln_s` and variance `noise` of that logarithm, and the logarithm of its probability density.
+    ///
+    /// Quadrature over v = ln((S − constant)/θ), in which a gamma density is smooth, about the mode of the product.
+    fn measured(self, ln_s: f64, noise: f64) -> (Self, f64) {
+        let (shape, scale, constant) = self.shifted_gamma();
+        let (mode, deviation) = mode_of_measured((shape, scale, constant), ln_s, noise);
+        let step = GAMMA_STEP * deviation;
+        let mut nodes = [(0.0, 0.0); GAMMA_NODES];
+        for (i, node) in nodes.iter_mut().enumerate() {
+            let v = mode + step * (i as f64 - 0.5 * (GAMMA_NODES - 1) as f64);
+            let x = v.exp();
+            let wear = constant + scale * x;
+            let beside = ln_s - wear.ln();
+            let log_density = if wear > 0.0 { shape * v - x - 0.5 * beside * beside / noise } else { f64::NEG_INFINITY };
+            *node = (wear, log_density);
+        }
+        let greatest = nodes.iter().map(|node| node.1).fold(f64::NEG_INFINITY, f64::max);
+        nodes.iter_mut().for_each(|node| node.1 = (node.1 - greatest).exp());
+        let sum: f64 = nodes.iter().map(|node| node.1).sum();
+        let mean = nodes.iter().map(|(wear, weight)| wear * weight).sum::<f64>() / sum;
+        let moment = |power: i32| nodes.iter().map(|(wear, weight)| (wear - mean).powi(power) * weight).sum::<f64>() / sum;
+        let log_density = greatest + (sum * step).ln() - ln_gamma(shape) - 0.5 * noise.ln();
+        (Self { mean, variance: moment(2), third: moment(3).max(0.0) }, log_density)
+    }
+
+    /// P(S ≤ `wear`), after Wilson and Hilferty: the cube root of a gamma distributed number is nearly normal.
+    fn below(self, wear: f64) -> f64 {
+        let (shape, scale, constant) = self.shifted_gamma();
+        let x = (wear - constant) / (shape * scale);
+        if x <= 0.0 {
+            return 0.0;
+        }
+        normal_below((x.cbrt() - 1.0 + 1.0 / (9.0 * shape)) * 3.0 * shape.sqrt())
+    }
+
+    /// Mean and variance of a normal distribution of ln S with the median of S.
+    fn of_logarithm(self) -> (f64, f64) {
+        let (shape, scale, constant) = self.shifted_gamma();
+        let median = constant + shape * scale * (1.0 - 1.0 / (9.0 * shape)).max(0.1).powi(3);
+        let variance = (self.variance / (self.mean * self.mean)).ln_1p();
+        (if median > 0.0 { median.ln() } else { self.mean.ln() - 0.5 * variance }, variance)
+    }
 }
 
-/// Z at the last measurement, and the logarithm of the probability density of all of them, for given ln κ, c and r.
-fn filtered(measurements: &[ExposureMeasurement], ln_kappa: f64, c: f64, r: f64) -> (Wander, f64) {
-    let (mut wander, mut log_density) = (Wander::AT_BEGINNING, 0.0);
+/// Mode of the product of a gamma density over v and a measurement, and the standard deviation of the normal density of the same curvature.
+fn mode_of_measured((shape, scale, constant): (f64, f64, f64), ln_s: f64, noise: f64) -> (f64, f64) {
+    let mut v = shape.ln();
+    let from_s = (ln_s.exp() - constant) / scale;
+    if from_s > 0.0 {
+        // Weighted as two normal densities of v would be.
+        let share = (from_s * scale / ln_s.exp()).powi(2) / noise;
+        v += (from_s.ln() - v) * share / (share + shape);
+    }
+    // S is above 0.
+    let least = if constant < 0.0 { (-constant / scale).ln() + 1e-9 } else { f64::NEG_INFINITY };
+    let mut deviation = 1.0;
+    for _ in 0..MODE_STEPS {
+        v = v.max(least);
+        let x = v.exp();
+        let wear = constant + scale * x;
+        let (part, beside) = (scale * x / wear, ln_s - wear.ln());
+        let slope = shape - x + beside * part / noise;
+        let certain = x + part * part / noise;
+        let curvature = certain - beside * part * (1.0 - part) / noise;
+        let curvature = if curvature > 0.0 { curvature } else { certain };
+        deviation = 1.0 / curvature.sqrt();
+        let step = (slope / curvature).clamp(-2.0, 2.0);
+        v += step;
+        if step.abs() < 0.02 * deviation {
+            break;
+        }
+    }
+    (v.max(least), deviation)
+}
+
+/// S at the last measurement, and the logarithm of the probability density of all of them, for given ln κ, c and r.
+fn filtered(measurements: &[ExposureMeasurement], ln_kappa: f64, c: f64, r: f64) -> (Wear, f64) {
+    let (mut wear, mut log_density, mut at) = (Wear::NONE, 0.0, 0.0);
     let kappa = ln_kappa.exp();
     for of in measurements {
-        wander = wander.at(variance_of_wander(kappa, c, of.revolutions));
         let noise = r * r + of.relative_sigma * of.relative_sigma;
-        let expected = ln_kappa + of.ln_revolutions() - 0.5 * wander.prior_variance + wander.mean;
-        let (beside, total) = (of.ln_exposure() - expected, wander.variance + noise);
-        log_density -= 0.5 * (total.ln() + beside * beside / total);
-        let gain = wander.variance / total;
-        wander.mean += gain * beside;
-        wander.variance *= 1.0 - gain;
+        let (after, density) = wear.after(of.revolutions - at, kappa, c).measured(of.exposure.ln(), noise);
+        (wear, at) = (after, of.revolutions);
+        log_density += density;
     }
-    (wander, log_density)
+    (wear, log_density)
 }
 
 /// Logarithm of the prior density of ln c or ln r.
@@ -139,20 +210,19 @@ struct Node {
     cell: f64,
     c: f64,
     r: f64,
-    /// Z at the last measurement.
-    wander: Wander,
-    /// d mean Z/d ln κ.
-    wander_slope: f64,
+    /// S at the last measurement.
+    wear: Wear,
+    /// d mean S/d ln κ.
+    wear_slope: f64,
 }
 
 impl Node {
-    /// Mean and variance of ln S after `revolutions`; what κ does within the cell is in the variance.
-    fn ln_exposure(&self, revolutions: f64) -> (f64, f64) {
+    /// S at `more` revolutions later; what κ does within the cell is in its variance.
+    fn wear_after(&self, more: f64) -> Wear {
         let kappa = self.ln_kappa.exp();
-        let g = variance_of_wander(kappa, self.c, revolutions);
-        let wander = self.wander.at(g);
-        let within = self.cell * (1.0 + g / self.wander.prior_variance * self.wander_slope);
-        (self.ln_kappa + revolutions.ln() - 0.5 * g + wander.mean, wander.variance + within * within)
+        let wear = self.wear.after(more, kappa, self.c);
+        let within = self.cell * (self.wear_slope + kappa * more);
+        Wear { variance: wear.variance + within * within, ..wear }
     }
 }
 
@@ -186,22 +256,26 @@ impl Posterior {
 
     /// Probability that the exposure after `revolutions`, at or after the last measurement, is at most `exposure`.
     pub fn exposure_below(&self, revolutions: f64, exposure: f64) -> f64 {
-        self.below(revolutions, exposure.ln(), |_| 0.0)
+        let more = revolutions - self.revolutions;
+        self.expected(|node| node.wear_after(more).below(exposure))
     }
 
     pub fn exposure_quantile(&self, revolutions: f64, probability: f64) -> f64 {
-        quantile(probability, |ln_s| self.below(revolutions, ln_s, |_| 0.0))
+        quantile(probability, |ln_s| self.exposure_below(revolutions, ln_s.exp()))
     }
 
     /// Probability that a measurement with known `relative_sigma` after `revolutions` finds at most `exposure`.
     pub fn measured_below(&self, revolutions: f64, exposure: f64, relative_sigma: f64) -> f64 {
-        self.below(revolutions, exposure.ln(), |r| r * r + relative_sigma * relative_sigma)
+        let (more, ln_s) = (revolutions - self.revolutions, exposure.ln());
+        self.expected(|node| {
+            let (mean, variance) = node.wear_after(more).of_logarithm();
+            let noise = node.r * node.r + relative_sigma * relative_sigma;
+            normal_below((ln_s - mean) / (variance + noise).sqrt())
+        })
     }
 
     pub fn measured_quantile(&self, revolutions: f64, relative_sigma: f64, probability: f64) -> f64 {
-        quantile(probability, |ln_s| {
-            self.below(revolutions, ln_s, |r| r * r + relative_sigma * relative_sigma)
-        })
+        quantile(probability, |ln_s| self.measured_below(revolutions, ln_s.exp(), relative_sigma))
     }
 
     /// Probability that the exposure comes to `limit` within `revolutions` from the beginning.
@@ -232,14 +306,6 @@ impl Posterior {
         [median(|node| node.c), median(|node| node.r)]
     }
 
-    /// P(ln S ≤ `ln_s`) with a variance of the logarithm added that depends on r.
-    fn below(&self, revolutions: f64, ln_s: f64, noise: impl Fn(f64) -> f64) -> f64 {
-        self.expected(|node| {
-            let (mean, variance) = node.ln_exposure(revolutions);
-            normal_below((ln_s - mean) / (variance + noise(node.r)).sqrt())
-        })
-    }
-
     fn expected(&self, value: impl Fn(&Node) -> f64) -> f64 {
         self.nodes.iter().map(|node| node.weight * value(node)).sum()
     }
@@ -267,10 +333,9 @@ fn places([low, high]: [f64; 2]) -> impl Iterator<Item = f64> {
 
 /// Nodes over ln c and ln r in a box, weights of sum 1.
 fn nodes_in(prior: FactorPrior, measurements: &[ExposureMeasurement], [of_c, of_r]: [[f64; 2]; 2]) -> Vec<Node> {
-    let mut nodes = Vec::with_capacity(SCATTERS * SCATTERS * FACTORS as usize);
-    for (c, r) in places(of_c).flat_map(|c| places(of_r).map(move |r| (c.exp(), r.exp()))) {
-        over_factors(prior, measurements, (c, r), &mut nodes);
-    }
+    let rows: Vec<f64> = places(of_c).map(f64::exp).collect();
+    let rows: Vec<Vec<Node>> = rows.into_par_iter().map(|c| over_scatters(prior, measurements, c, of_r)).collect();
+    let mut nodes = rows.concat();
     // Weights are logarithms until here.
     let greatest = nodes.iter().map(|node| node.weight).fold(f64::NEG_INFINITY, f64::max);
     nodes.iter_mut().for_each(|node| node.weight = (node.weight - greatest).exp());
@@ -280,28 +345,40 @@ fn nodes_in(prior: FactorPrior, measurements: &[ExposureMeasurement], [of_c, of_
     nodes
 }
 
-/// Adds the nodes of one pair of c and r, with the logarithms of their weights.
+/// Nodes of one c over ln r, with the logarithms of their weights.
+fn over_scatters(prior: FactorPrior, measurements: &[ExposureMeasurement], c: f64, of_r: [f64; 2]) -> Vec<Node> {
+    let mut nodes = Vec::with_capacity(SCATTERS * FACTORS as usize);
+    let mut start = None;
+    for r in places(of_r).map(f64::exp) {
+        let found = mode(prior, measurements, (c, r), start);
+        over_factors(prior, measurements, (c, r), found, &mut nodes);
+        start = Some(found);
+    }
+    nodes
+}
+
+/// Adds the nodes of one pair of c and r about the mode of ln κ, with the logarithms of their weights.
 fn over_factors(
     prior: FactorPrior,
     measurements: &[ExposureMeasurement],
     (c, r): (f64, f64),
+    (mode, deviation): (f64, f64),
     nodes: &mut Vec<Node>,
 ) {
-    let (mode, deviation) = mode(prior, measurements, (c, r));
     let step = FACTOR_STEP * deviation;
     let of_scatter = log_scatter_prior(c) + log_scatter_prior(r) + step.ln();
     let first = nodes.len();
     for j in -(FACTORS / 2)..=FACTORS / 2 {
         let ln_kappa = mode + step * f64::from(j);
-        let (wander, log_density) = filtered(measurements, ln_kappa, c, r);
+        let (wear, log_density) = filtered(measurements, ln_kappa, c, r);
         let weight = log_density + prior.log_density(ln_kappa) + of_scatter;
         // A value evenly within a cell has its width over √12 as standard deviation.
-        nodes.push(Node { weight, ln_kappa, cell: step / 12f64.sqrt(), c, r, wander, wander_slope: 0.0 });
+        nodes.push(Node { weight, ln_kappa, cell: step / 12f64.sqrt(), c, r, wear, wear_slope: 0.0 });
     }
-    let means: Vec<f64> = nodes[first..].iter().map(|node| node.wander.mean).collect();
+    let means: Vec<f64> = nodes[first..].iter().map(|node| node.wear.mean).collect();
     for (i, node) in nodes[first..].iter_mut().enumerate() {
         let (before, after) = (i.saturating_sub(1), (i + 1).min(means.len() - 1));
-        node.wander_slope = (means[after] - means[before]) / (step * (after - before) as f64);
+        node.wear_slope = (means[after] - means[before]) / (step * (after - before) as f64);
     }
 }
 
@@ -311,13 +388,20 @@ impl FactorPrior {
     }
 }
 
-/// Mode of ln κ for given c and r, and the standard deviation of the normal density of the same curvature, by Newton's method on differences.
-fn mode(prior: FactorPrior, measurements: &[ExposureMeasurement], (c, r): (f64, f64)) -> (f64, f64) {
+/// Mode of ln κ for given c and r, and the standard deviation of the normal density of the same curvature, by Newton's method on differences
+/// from `start`, where a neighbour has them.
+fn mode(
+    prior: FactorPrior,
+    measurements: &[ExposureMeasurement],
+    (c, r): (f64, f64),
+    start: Option<(f64, f64)>,
+) -> (f64, f64) {
     let Some(last) = measurements.last() else { return (prior.mean, prior.deviation) };
     let log_density = |x: f64| filtered(measurements, x, c, r).1 + prior.log_density(x);
-    let variance = c * c / last.exposure + r * r + last.relative_sigma * last.relative_sigma;
-    let mut x = (last.exposure / last.revolutions).ln();
-    let mut deviation = (1.0 / (1.0 / variance + 1.0 / (prior.deviation * prior.deviation))).sqrt();
+    let noise = r * r + last.relative_sigma * last.relative_sigma;
+    let variance = c * c / last.exposure + noise / measurements.len() as f64;
+    let guess = (1.0 / (1.0 / variance + 1.0 / (prior.deviation * prior.deviation))).sqrt();
+    let (mut x, mut deviation) = start.unwrap_or(((last.exposure / last.revolutions).ln(), guess));
     for _ in 0..MODE_STEPS {
         let h = 0.5 * deviation;
         let [before, here, after] = [x - h, x, x + h].map(log_density);
