@@ -48,6 +48,9 @@ pub struct GearLife {
     /// Wear after the last measurement.
     #[serde(skip)]
     pub band: Vec<BandPoint>,
+    /// Simulated wear with the median coefficient up to the last measurement: revolutions and wear.
+    #[serde(skip)]
+    pub simulated: Vec<(f64, Option<f64>)>,
 }
 
 /// A measurement: the mean of its teeth, or repetitions.

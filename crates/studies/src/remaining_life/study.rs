@@ -197,7 +197,7 @@ impl GearCase<'_> {
         let sigmas = self.relative_sigmas(self.valued.len());
         let measurements =
             self.valued.iter().zip(sigmas).map(|(of, sigma)| self.measurement(of, sigma, shown)).collect();
-        let exposures = self.exposures(self.valued.len());
+        let posterior = Posterior::new(factor_prior, &self.exposures(self.valued.len()));
         GearLife {
             gear: self.gear,
             coefficient_of_run_m2_per_N: self.coefficient_of_run,
@@ -206,7 +206,8 @@ impl GearCase<'_> {
             measurements,
             updates,
             shown,
-            band: self.band(&Posterior::new(factor_prior, &exposures), shown),
+            band: self.band(&posterior, shown),
+            simulated: self.simulated(&posterior, shown),
         }
     }
 
@@ -328,6 +329,13 @@ impl GearCase<'_> {
             BandPoint { revolutions: self.duration * revolutions, low: at(0.025), median: at(0.5), high: at(0.975) }
         });
         points.collect()
+    }
+
+    /// Wear of the run with the median coefficient up to the last measurement.
+    fn simulated(&self, posterior: &Posterior, shown: WearQuantity) -> Vec<(f64, Option<f64>)> {
+        let (factor, end) = (posterior.factor_quantile(0.5), self.duration * posterior.revolutions);
+        let times = (0..=BAND_POINTS).map(|i| end * i as f64 / BAND_POINTS as f64);
+        times.map(|revolutions| (revolutions, self.curve.value_at(shown, factor * revolutions))).collect()
     }
 
     fn hours(&self, revolutions: f64) -> Option<f64> {

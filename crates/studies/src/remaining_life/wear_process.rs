@@ -293,17 +293,30 @@ impl Posterior {
 
     /// Median c, and r.
     pub fn scatter_medians(&self) -> [f64; 2] {
-        let median = |value: fn(&Node) -> f64| {
-            let mut sorted: Vec<(f64, f64)> = self.nodes.iter().map(|node| (value(node), node.weight)).collect();
-            sorted.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-            let mut sum = 0.0;
-            let found = sorted.iter().find(|(_, weight)| {
-                sum += weight;
-                sum >= 0.5
-            });
-            found.map_or(f64::NAN, |(value, _)| *value)
-        };
-        [median(|node| node.c), median(|node| node.r)]
+        [self.median(|node| node.c), self.median(|node| node.r)]
+    }
+
+    /// Median of a quantity on a grid even in its logarithm, with the probability of a place spread over its cell.
+    fn median(&self, value: fn(&Node) -> f64) -> f64 {
+        let mut sums: Vec<(f64, f64)> = Vec::new();
+        for node in &self.nodes {
+            let ln_value = value(node).ln();
+            match sums.iter_mut().find(|(place, _)| *place == ln_value) {
+                Some((_, sum)) => *sum += node.weight,
+                None => sums.push((ln_value, node.weight)),
+            }
+        }
+        sums.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        let cell = sums.windows(2).map(|ends| ends[1].0 - ends[0].0).fold(f64::INFINITY, f64::min);
+        let mut below = 0.0;
+        for (place, weight) in sums {
+            if below + weight >= 0.5 {
+                let within = if cell.is_finite() { cell * ((0.5 - below) / weight - 0.5) } else { 0.0 };
+                return (place + within).exp();
+            }
+            below += weight;
+        }
+        f64::NAN
     }
 
     fn expected(&self, value: impl Fn(&Node) -> f64) -> f64 {

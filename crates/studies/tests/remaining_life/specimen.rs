@@ -60,6 +60,15 @@ pub fn gamma(shape: f64, scale: f64, random: &mut Rng) -> f64 {
     }
 }
 
+/// When specimens are measured.
+#[derive(Debug, Clone, Copy)]
+pub struct Plan {
+    /// Over the time at which the limit is reached on the mean.
+    pub times: &'static [f64],
+    /// Known relative standard deviation of a measurement.
+    pub relative_sigma: f64,
+}
+
 /// A specimen that was measured, and what came of it.
 #[derive(Debug, Clone)]
 pub struct Specimen {
@@ -69,38 +78,26 @@ pub struct Specimen {
 }
 
 impl Specimen {
-    /// Worn and measured at `times` (over the time at which the limit is reached on the mean), then worn on to the exposure `limit`; `rate` is the factor
-    /// on the wear rate at an exposure.
-    pub fn new(
-        truth: Truth,
-        times: &[f64],
-        limit: f64,
-        relative_sigma: f64,
-        rate: impl Fn(f64) -> f64,
-        random: &mut Rng,
-    ) -> Self {
-        let mean_life = limit / truth.kappa;
-        let wear_on = |exposure: &mut f64, more: f64, random: &mut Rng| {
-            let mean = truth.kappa * more * rate(*exposure);
-            let c2 = truth.wander * truth.wander;
-            *exposure += gamma(mean / c2, c2, random);
-        };
+    /// Worn and measured as planned, then worn on to the exposure 1; `rate` is the factor on the wear rate at an exposure.
+    pub fn new(truth: Truth, plan: &Plan, rate: impl Fn(f64) -> f64, random: &mut Rng) -> Self {
+        let mean_life = 1.0 / truth.kappa;
+        let c2 = truth.wander * truth.wander;
         let (mut exposure, mut at, mut life) = (0.0, 0.0, f64::INFINITY);
         let mut measurements = Vec::new();
-        for time in times {
-            wear_on(&mut exposure, time * mean_life - at, random);
+        for time in plan.times {
+            exposure += gamma(truth.kappa * (time * mean_life - at) * rate(exposure) / c2, c2, random);
             at = time * mean_life;
-            if exposure >= limit {
+            if exposure >= 1.0 {
                 life = life.min(at);
             }
-            let noise = truth.scatter.hypot(relative_sigma) * normal(random);
+            let noise = truth.scatter.hypot(plan.relative_sigma) * normal(random);
+            let relative_sigma = plan.relative_sigma;
             measurements.push(ExposureMeasurement { revolutions: at, exposure: exposure * noise.exp(), relative_sigma });
         }
-        while exposure < limit {
-            wear_on(&mut exposure, STEP * mean_life, random);
+        while exposure < 1.0 {
+            exposure += gamma(STEP * rate(exposure) / c2, c2, random);
             at += STEP * mean_life;
-            life = life.min(if exposure >= limit { at } else { f64::INFINITY });
         }
-        Self { measurements, life }
+        Self { measurements, life: life.min(at) }
     }
 }

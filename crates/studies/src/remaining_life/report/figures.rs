@@ -27,7 +27,7 @@ fn wear(of: &GearLife) -> Chart {
     let x = || band.iter().map(|at| at.revolutions);
     let there_and_back: Vec<f64> = x().chain(band.iter().rev().map(|at| at.revolutions)).collect();
     let outline = band.iter().map(|at| cut(at.low)).chain(band.iter().rev().map(|at| cut(at.high)));
-    let area = Trace::line("95 %", there_and_back, outline, ("rgba(0,0,0,0)", 0.0, Dash::Solid));
+    let area = Trace::line("to come, 95 %", there_and_back, outline, ("rgba(0,0,0,0)", 0.0, Dash::Solid));
     let inside = || band.iter().filter(|at| at.median.is_some_and(|median| median <= top));
     let median = inside().map(|at| at.median);
     let times: Vec<f64> = of.measurements.iter().map(|one| one.revolutions).collect();
@@ -41,7 +41,10 @@ fn wear(of: &GearLife) -> Chart {
         .y_range([0.0, top])
         .reading(wear_reading(of))
         .add(area.filled(gear_colour(of.gear)).opacity(0.2))
-        .line("median", inside().map(|at| at.revolutions), median, (gear_colour(of.gear), 2.2, Dash::Solid), "%{y:.4~g}");
+        .line("to come, median", inside().map(|at| at.revolutions), median, (gear_colour(of.gear), 2.2, Dash::Solid), "%{y:.4~g}");
+    let simulated = || of.simulated.iter().filter(|(_, wear)| wear.is_some_and(|wear| wear <= top));
+    let stroke = (NEW, 1.6, Dash::Dashed);
+    chart = chart.line("simulated with median k", simulated().map(|at| at.0), simulated().map(|at| at.1), stroke, "%{y:.4~g}");
     if let Some(limit) = limit {
         let line = Trace::line("limit", [0.0, 1.02 * last], [limit; 2], (WORN, 1.4, Dash::Dashed));
         chart = chart.add(line.hover("%{y:.4~g}"));

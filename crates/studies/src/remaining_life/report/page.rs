@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::{LAST, LIVES, PREDICTIONS, figures};
 use crate::remaining_life::record::{GearLife, LifeRecord, LifeUpdate};
 use crate::remaining_life::wear_table::WearKind;
-use gearwear::report::html::number::{hours, percent, revolutions, significant};
+use gearwear::report::html::number::{fixed, hours, percent, revolutions, significant};
 use gearwear::report::html::page::{Page, Plots, note, section, sources_list};
 use gearwear::report::html::table::{Cell, NONE, cells, line, list};
 use gearwear_physics::results::run::ReportedBy;
@@ -59,7 +59,7 @@ fn of_gear(of: &GearLife, last: &LifeUpdate) -> String {
     );
     let Some(life) = last.life else { return format!("{found}.") };
     if life.passed > 0.5 {
-        return format!("{found}; it has passed its limit with a probability of {}.", percent(life.passed));
+        return format!("{found}; it has passed its limit with a probability of {} %.", fixed(100.0 * life.passed, 0));
     }
     let left = match life.remaining_hours {
         Some(left) => format!("{} h, {} to {}", figure(left.median), figure(left.low), figure(left.high)),
@@ -73,7 +73,7 @@ fn of_gear(of: &GearLife, last: &LifeUpdate) -> String {
             )
         }
     };
-    format!("{found}; its limit is {left}, away.")
+    format!("{found}; its limit is {left} (95 %), away.")
 }
 
 fn figure(value: f64) -> String {
@@ -136,12 +136,17 @@ fn updates(of: &GearLife) -> Vec<Markup> {
                 .into();
         if let Some(life) = update.life {
             let left = life.remaining_revolutions;
-            cells.extend([left.median, left.low, left.high].map(|value| Cell::from(revolutions(value))));
-            cells.push(Cell::from(percent(life.passed)));
+            cells.extend([left.median, left.low, left.high].map(|value| Cell::from(long(value))));
+            cells.push(Cell::from(format!("{}\u{202f}%", fixed(100.0 * life.passed, 1))));
         }
         line(cells)
     });
     rows.collect()
+}
+
+/// Revolutions, which may be more than any gear does.
+fn long(value: f64) -> String {
+    if value < 1e12 { revolutions(value) } else { figure(value) }
 }
 
 fn prior(of: &GearLife) -> String {
