@@ -42,9 +42,9 @@ const FACTORS: i32 = 11;
 /// Distance of these places in standard deviations.
 const FACTOR_STEP: f64 = 0.8;
 /// Places of the quadrature over S.
-const GAMMA_NODES: usize = 15;
+const GAMMA_NODES: usize = 11;
 /// Distance of these places in standard deviations.
-const GAMMA_STEP: f64 = 0.8;
+const GAMMA_STEP: f64 = 1.0;
 /// Greatest shape of a gamma distribution, beyond which it is normal.
 const MOST_SHAPE: f64 = 1e5;
 /// Greatest number of steps of Newton's method to the mode.
@@ -115,13 +115,15 @@ impl Wear {
         let (mode, deviation) = mode_of_measured((shape, scale, constant), ln_s, noise);
         let step = GAMMA_STEP * deviation;
         let mut nodes = [(0.0, 0.0); GAMMA_NODES];
-        for (i, node) in nodes.iter_mut().enumerate() {
-            let v = mode + step * (i as f64 - 0.5 * (GAMMA_NODES - 1) as f64);
-            let x = v.exp();
+        let (mut v, ratio) = (mode - step * (GAMMA_NODES / 2) as f64, step.exp());
+        let mut next = v.exp();
+        for node in &mut nodes {
+            let x = next;
             let wear = constant + scale * x;
             let beside = ln_s - wear.ln();
             let log_density = if wear > 0.0 { shape * v - x - 0.5 * beside * beside / noise } else { f64::NEG_INFINITY };
             *node = (wear, log_density);
+            (v, next) = (v + step, next * ratio);
         }
         let greatest = nodes.iter().map(|node| node.1).fold(f64::NEG_INFINITY, f64::max);
         nodes.iter_mut().for_each(|node| node.1 = (node.1 - greatest).exp());
