@@ -142,12 +142,13 @@ def test_remaining_life(run: gearwear.Run, tmp_path: Path) -> None:
     assert gearwear.remaining_life(run, file, **options).summary["gears"] == study.summary["gears"]
     known = gearwear.remaining_life(run, file, prior=(1e-17, 2e-17), threads=1).summary["gears"][0]
     assert known["prior"]["high_m2_per_N"] == 2e-17 and known["updates"][-1]["life"] is None
-    for wrong, said in [
+    refused: list[tuple[dict[str, Any], str]] = [
         ({"limit": {"pinion.root_wear_um": 1.0}}, "limit: found .*pinion.peak_wear_um"),
         ({"prior": "wet"}, "prior: found .*wet.*regime-2"),
         ({"gear": "wheel"}, "line 3: gear: found pinion"),
         ({"limit": {"wheel.peak_wear_um": 1.0}}, "a figure of a measured gear: pinion.peak_wear_um"),
-    ]:
+    ]
+    for wrong, said in refused:
         with pytest.raises(ValueError, match=said):
             gearwear.remaining_life(run, file, **wrong)
     with pytest.raises(ValueError, match="table: line 2: column: found depth; allowed: revolutions, hours"):

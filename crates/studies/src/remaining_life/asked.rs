@@ -58,7 +58,7 @@ pub enum TableError {
     ProfileAfterRun { line: usize, found: f64, end: f64 },
     #[error("line {line}: profile: {error}")]
     Profile { line: usize, error: String },
-    #[error("the run has {found} phases of load; allowed: one: wear under several is no function of k times revolutions")]
+    #[error("operation.phases of the run: found {found}; allowed: one, since wear under several is no function of k times revolutions")]
     Phases { found: usize },
     #[error("--limit: found {figure}; allowed: a figure of a measured gear: {measured}")]
     LimitOfOther { figure: String, measured: String },
@@ -176,7 +176,7 @@ fn profile(
     revolutions: f64,
     asked: &LifeOptions,
 ) -> Result<PreparedComparison, String> {
-    let text = SceneText::read_foreign(path).map_err(|error| error.to_string())?;
+    let text = SceneText::read_foreign(path).map_err(|error| format!("{error}; allowed: a file beside the table"))?;
     let options = CompareOptions {
         gear: Some(gear),
         form: asked.form,
