@@ -98,7 +98,7 @@ mod tests {
         for Regime { name, range_m2_per_n: [low, high] } in REGIMES {
             let row = page.lines().find(|line| line.contains(&format!("`{name}`")));
             let row = row.unwrap_or_else(|| panic!("docs/materials.md: no row of {name}"));
-            assert!(row.contains(&format!("{low:e} to {high:e}")), "{name}: {low:e} to {high:e} is not in {row}");
+            assert!(row.contains(&format!("{low:e}–{high:e}")), "{name}: {low:e}–{high:e} is not in {row}");
         }
     }
 
