@@ -24,7 +24,12 @@ fn finished_run(scene: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("given.toml");
     fs::write(&path, scene).unwrap();
-    gearwear().args(["run", "--quiet", "--no-report", "--out"]).arg(folder.path().join("run")).arg(path).assert().success();
+    gearwear()
+        .args(["run", "--quiet", "--no-report", "--out"])
+        .arg(folder.path().join("run"))
+        .arg(path)
+        .assert()
+        .success();
     folder
 }
 
@@ -100,7 +105,13 @@ fn it_finds_coefficient_and_life_of_both_gears_and_writes_everything() {
     let output = table.compare(&run, &options).output().unwrap();
     let (said, stderr) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
     assert_eq!(output.status.code(), Some(0), "{said}{stderr}");
-    for words in ["pinion: k of the run", "hours left until pinion.peak_wear_um", "wheel: k of", "report.html", "2 runs of the scene"] {
+    for words in [
+        "pinion: k of the run",
+        "hours left until pinion.peak_wear_um",
+        "wheel: k of",
+        "report.html",
+        "2 runs of the scene",
+    ] {
         assert!(said.contains(words), "no {words:?} in {said}");
     }
     let record = json(&table.out().join("remaining_life.json"));
@@ -179,10 +190,22 @@ fn profiles_give_coefficients_and_a_passed_limit_leaves_no_life() {
 fn what_does_not_fit_is_refused() {
     let run = shared_run();
     let weighed = || Measured::new("# gear = pinion\nhours,mass_loss_g\n20,0.06\n");
-    Measured::new("hours,depth_um\n20,3\n").refused(&run, &[], &["weighed.csv", "line 2", "gear: found none", "--gear"]);
+    Measured::new("hours,depth_um\n20,3\n").refused(
+        &run,
+        &[],
+        &["weighed.csv", "line 2", "gear: found none", "--gear"],
+    );
     weighed().refused(&run, &["--gear", "wheel"], &["line 3", "found pinion, and --gear wheel"]);
-    Measured::new("# gear = pinion\nhours,depth_um\n20,-3\n").refused(&run, &[], &["weighed.csv", "line 3", "depth_um", "found -3"]);
-    weighed().refused(&run, &["--limit", "wheel.peak_wear_um=3"], &["--limit", "found wheel.peak_wear_um", "pinion.peak_wear_um"]);
+    Measured::new("# gear = pinion\nhours,depth_um\n20,-3\n").refused(
+        &run,
+        &[],
+        &["weighed.csv", "line 3", "depth_um", "found -3"],
+    );
+    weighed().refused(
+        &run,
+        &["--limit", "wheel.peak_wear_um=3"],
+        &["--limit", "found wheel.peak_wear_um", "pinion.peak_wear_um"],
+    );
     // A gram for a milligram: a run of 50 times the revolutions does not come to it.
     Measured::new("# gear = pinion\nhours,mass_loss_g\n20,600\n").refused(
         &run,
@@ -212,7 +235,10 @@ fn what_does_not_fit_is_refused() {
 /// Where the scene has a limit, that one ends the life; without a speed times are revolutions.
 #[test]
 fn the_limit_of_the_scene_and_no_speed() {
-    let stop = SCENE.replace("pinion_speed_rpm = 150.0\nhours = 127.75\nsnapshots_h = [42.0, 84.0]\n", "pinion_revolutions = 1.15e6\nstop = { wear_um = 100.0 }\n");
+    let stop = SCENE.replace(
+        "pinion_speed_rpm = 150.0\nhours = 127.75\nsnapshots_h = [42.0, 84.0]\n",
+        "pinion_revolutions = 1.15e6\nstop = { wear_um = 100.0 }\n",
+    );
     let folder = finished_run(&stop);
     let run = folder.path().join("run");
     let table = Measured::new("# gear = pinion\nrevolutions,depth_um\n3e5,3\n6e5,6.5\n");

@@ -153,7 +153,9 @@ pub(super) enum InputError {
     Measured(Refused),
     /// A table of measurements that cannot be evaluated with the run.
     #[error("{0}")]
-    #[diagnostic(help("gearwear compare RUN --history TABLE --limit pinion.peak_wear_um=50; docs/compare.md has an example"))]
+    #[diagnostic(help(
+        "gearwear compare RUN --history TABLE --limit pinion.peak_wear_um=50; docs/compare.md has an example"
+    ))]
     WearTable(String),
     /// Wear, measured or a limit, that takes much longer than the run.
     #[error("{0}")]

@@ -64,7 +64,9 @@ impl From<LifeError> for Failure {
                 Failure::Interrupted
             }
             LifeError::Curve(WearCurveError::Run(CompareError::Run(error))) => Failure::Run(error),
-            LifeError::Curve(beyond @ WearCurveError::BeyondRun { .. }) => InputError::WearBeyondRun(beyond.to_string()).into(),
+            LifeError::Curve(beyond @ WearCurveError::BeyondRun { .. }) => {
+                InputError::WearBeyondRun(beyond.to_string()).into()
+            }
             LifeError::Profile { .. } => Failure::NotFitted { why: error.to_string() },
         }
     }
@@ -112,7 +114,8 @@ fn of_gear(of: &GearLife) -> String {
 fn cells(update: &LifeUpdate) -> Vec<String> {
     let k = update.coefficient_m2_per_N;
     let time = update.hours.unwrap_or(update.revolutions);
-    let mut cells = vec![update.measurements.to_string(), digits(time), digits(k.median), digits(k.low), digits(k.high)];
+    let mut cells =
+        vec![update.measurements.to_string(), digits(time), digits(k.median), digits(k.low), digits(k.high)];
     if let Some(life) = &update.life {
         let left = life.remaining_hours.unwrap_or(life.remaining_revolutions);
         cells.extend([left.median, left.low, left.high].map(digits));

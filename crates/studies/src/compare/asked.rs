@@ -46,7 +46,11 @@ impl PreparedComparison {
     }
 
     /// Of the finished run in the folder `run` with measured files and their names.
-    pub fn of_files(run: &Path, files: &[(String, MeasuredFile)], asked: &CompareOptions) -> Result<Self, CompareFault> {
+    pub fn of_files(
+        run: &Path,
+        files: &[(String, MeasuredFile)],
+        asked: &CompareOptions,
+    ) -> Result<Self, CompareFault> {
         let folder = RunFolder::with_snapshots(run)?;
         let scene = LoadedScene::open(folder.scene_path())?;
         let resolved = &scene.resolved;

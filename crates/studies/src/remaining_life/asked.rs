@@ -58,7 +58,9 @@ pub enum TableError {
     ProfileAfterRun { line: usize, found: f64, end: f64 },
     #[error("line {line}: profile: {error}")]
     Profile { line: usize, error: String },
-    #[error("operation.phases of the run: found {found}; allowed: one, since wear under several is no function of k times revolutions")]
+    #[error(
+        "operation.phases of the run: found {found}; allowed: one, since wear under several is no function of k times revolutions"
+    )]
     Phases { found: usize },
     #[error("--limit: found {figure}; allowed: a figure of a measured gear: {measured}")]
     LimitOfOther { figure: String, measured: String },
@@ -130,7 +132,8 @@ impl PreparedLife {
         }
         let measurements = in_order(measurements);
         let limits = limits(&measurements, asked, &scene).map_err(named)?;
-        let question = LifeQuestion { measured: file_name(&table.name), measurements, limits, prior: asked.prior.clone() };
+        let question =
+            LifeQuestion { measured: file_name(&table.name), measurements, limits, prior: asked.prior.clone() };
         Ok(Self { folder, scene, pair, question })
     }
 
@@ -187,7 +190,8 @@ fn profile(
     let refused = |error: QuestionError| Refused { name: text.name.clone(), error }.to_string();
     let file = file::parse(&text.text, &asked.traces).map_err(|error| refused(error.into()))?;
     let file = file::MeasuredFile { moment: Moment::Revolutions(revolutions), ..file };
-    PreparedComparison::of_files(run, &[(text.name.clone(), file)], &options).map_err(|fault: CompareFault| fault.to_string())
+    PreparedComparison::of_files(run, &[(text.name.clone(), file)], &options)
+        .map_err(|fault: CompareFault| fault.to_string())
 }
 
 /// Path of a file that a table names.

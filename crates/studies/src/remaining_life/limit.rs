@@ -60,7 +60,9 @@ mod tests {
     fn limits_are_main_figures_of_a_gear() {
         let limit: WearLimit = "wheel.worn_mass_mg = 1200".parse().unwrap();
         assert_eq!(limit, WearLimit::new(Gear::Wheel, WearQuantity::Mass, 1200.0));
-        for given in ["pinion.peak_wear_um", "pinion.peak_wear_um=0", "pinion.root_wear_um=1", "sun.peak_wear_um=1", "=1"] {
+        for given in
+            ["pinion.peak_wear_um", "pinion.peak_wear_um=0", "pinion.root_wear_um=1", "sun.peak_wear_um=1", "=1"]
+        {
             let error = given.parse::<WearLimit>().unwrap_err().to_string();
             assert!(error.contains("allowed: ") && error.contains("pinion.worn_mass_mg"), "{error}");
         }

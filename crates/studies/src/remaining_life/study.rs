@@ -261,8 +261,7 @@ impl GearCase<'_> {
     }
 
     fn remaining(&self, posterior: &Posterior, limit: f64) -> RemainingLife {
-        let remaining =
-            interval(|probability| self.duration * posterior.remaining_quantile(limit, probability));
+        let remaining = interval(|probability| self.duration * posterior.remaining_quantile(limit, probability));
         let hours = |revolutions: f64| self.hours(revolutions);
         let in_hours = || {
             Some(Interval {

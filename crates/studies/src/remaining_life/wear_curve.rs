@@ -168,7 +168,9 @@ pub fn simulated_wear(
         observer.stage("run");
         let done = longer(given, reach, ratio, observer)?;
         (runs, mesh_cycles) = (runs + 1, mesh_cycles + done.record.summary.work.mesh_cycles);
-        let curves = PerGear::from_fn(|gear| curve(&done.record, given, pair, gear, if gear == Gear::Wheel { ratio } else { 1.0 }));
+        let curves = PerGear::from_fn(|gear| {
+            curve(&done.record, given, pair, gear, if gear == Gear::Wheel { ratio } else { 1.0 })
+        });
         let lacking = needed.iter().map(|(needed, _)| needed).find(|needed| {
             let reached = curves[needed.gear].values(needed.quantity).last();
             reached.is_none_or(|&reached| reached < needed.value)
@@ -233,12 +235,8 @@ fn curve(record: &RunRecord, given: &LoadedScene, pair: &GearPair, gear: Gear, f
     let at_end = volume(&flank.wear_um);
     let exact = if at_end > 0.0 { summary.worn_volume_mm3 / at_end } else { 1.0 };
     let density_mg_per_mm3 = 1e-3 * scene.material[gear].density_kg_per_m3;
-    let mut curve = WearCurve {
-        revolutions: vec![0.0],
-        peak_depth_um: vec![0.0],
-        mass_mg: vec![0.0],
-        volume_mm3: vec![0.0],
-    };
+    let mut curve =
+        WearCurve { revolutions: vec![0.0], peak_depth_um: vec![0.0], mass_mg: vec![0.0], volume_mm3: vec![0.0] };
     for (row, wear_um) in record.history.iter().zip(&flank.snapshot_wear_um) {
         let volume_mm3 = exact * volume(wear_um);
         curve.revolutions.push(factor * row.revolutions);

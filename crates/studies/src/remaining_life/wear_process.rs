@@ -29,7 +29,8 @@ use rayon::prelude::*;
 use statrs::function::erf::erfc;
 use statrs::function::gamma::ln_gamma;
 
-/// Scale of the priors of c and r: a tenth.
+/// Scale of the priors of c and r. Repeated wear tests scatter by 40 to 60 % (A. Flodin, KTH 2000), two standard deviations; a third each of their variance for
+/// the specimen, the wander of its wear, and its measurement: 25 %/√3.
 pub const SCATTER_SCALE: f64 = 0.15;
 /// Degrees of freedom of these priors.
 pub const SCATTER_FREEDOM: f64 = 3.0;
@@ -93,11 +94,7 @@ impl Wear {
     /// After `more` revolutions with the factor `kappa` and the wander `c`.
     fn after(self, more: f64, kappa: f64, c: f64) -> Self {
         let (mean, c2) = (kappa * more, c * c);
-        Self {
-            mean: self.mean + mean,
-            variance: self.variance + c2 * mean,
-            third: self.third + 2.0 * c2 * c2 * mean,
-        }
+        Self { mean: self.mean + mean, variance: self.variance + c2 * mean, third: self.third + 2.0 * c2 * c2 * mean }
     }
 
     /// Shape a, scale θ and constant; nearly symmetric distributions have a greatest shape.
@@ -121,7 +118,8 @@ impl Wear {
             let x = next;
             let wear = constant + scale * x;
             let beside = ln_s - wear.ln();
-            let log_density = if wear > 0.0 { shape * v - x - 0.5 * beside * beside / noise } else { f64::NEG_INFINITY };
+            let log_density =
+                if wear > 0.0 { shape * v - x - 0.5 * beside * beside / noise } else { f64::NEG_INFINITY };
             *node = (wear, log_density);
             (v, next) = (v + step, next * ratio);
         }
@@ -129,7 +127,8 @@ impl Wear {
         nodes.iter_mut().for_each(|node| node.1 = (node.1 - greatest).exp());
         let sum: f64 = nodes.iter().map(|node| node.1).sum();
         let mean = nodes.iter().map(|(wear, weight)| wear * weight).sum::<f64>() / sum;
-        let moment = |power: i32| nodes.iter().map(|(wear, weight)| (wear - mean).powi(power) * weight).sum::<f64>() / sum;
+        let moment =
+            |power: i32| nodes.iter().map(|(wear, weight)| (wear - mean).powi(power) * weight).sum::<f64>() / sum;
         let log_density = greatest + (sum * step).ln() - ln_gamma(shape) - 0.5 * noise.ln();
         (Self { mean, variance: moment(2), third: moment(3).max(0.0) }, log_density)
     }

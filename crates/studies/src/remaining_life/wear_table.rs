@@ -116,7 +116,9 @@ impl<'a> WearColumns<'a> {
         }
         let [revolutions, hours] = [at[0], at[1]];
         match (revolutions, hours) {
-            (None, None) => return Err(missing("a column of times", "revolutions (of the pinion) or hours".to_owned())),
+            (None, None) => {
+                return Err(missing("a column of times", "revolutions (of the pinion) or hours".to_owned()));
+            }
             (Some(_), Some(_)) => {
                 return Err(not_allowed(*line, "column", "revolutions and hours", "one of them".to_owned()));
             }

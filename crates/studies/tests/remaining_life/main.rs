@@ -86,21 +86,22 @@ fn val_intervals_hold_their_percentage() {
     }
 }
 
-/// What `docs/compare.md` says of specimens that are not as assumed: the bounds are its figures, less 3 % for the number of specimens.
+/// What `docs/compare.md` says of specimens that are not as assumed: the bounds are its figures, beside two of wander alone, less 3 % for the number of specimens.
 #[test]
 fn reg_intervals_off_the_assumed_scatter() {
     let twice = |random: &mut Rng| {
         let truth = Truth::drawn(PRIOR, random);
         Truth { scatter: 2.0 * truth.scatter, ..truth }
     };
-    let fixed = |wander: f64, scatter: f64| move |random: &mut Rng| Truth { wander, scatter, ..Truth::drawn(PRIOR, random) };
+    let fixed =
+        |wander: f64, scatter: f64| move |random: &mut Rng| Truth { wander, scatter, ..Truth::drawn(PRIOR, random) };
     let step = |exposure: f64| if exposure < 0.7 { 1.0 } else { 2.0 };
     let cases = [
-        ("scatter twice as great", coverage(OFF_THE_MODEL, twice, |_| 1.0), 0.0),
-        ("even wear, scatter 5 %", coverage(OFF_THE_MODEL, fixed(0.003, 0.05), |_| 1.0), 0.0),
-        ("wander 10 %, scatter 10 %", coverage(OFF_THE_MODEL, fixed(0.1, 0.1), |_| 1.0), 0.0),
-        ("wander 20 %, scatter 10 %", coverage(OFF_THE_MODEL, fixed(0.2, 0.1), |_| 1.0), 0.0),
-        ("rate doubles at 0.7 of the limit", coverage(OFF_THE_MODEL, fixed(0.1, 0.05), step), 0.0),
+        ("scatter twice as great", coverage(OFF_THE_MODEL, twice, |_| 1.0), 92.0),
+        ("even wear, scatter 5 %", coverage(OFF_THE_MODEL, fixed(0.003, 0.05), |_| 1.0), 100.0),
+        ("wander 10 %, scatter 10 %", coverage(OFF_THE_MODEL, fixed(0.1, 0.1), |_| 1.0), 97.0),
+        ("wander 20 %, scatter 10 %", coverage(OFF_THE_MODEL, fixed(0.2, 0.1), |_| 1.0), 93.0),
+        ("rate doubles at 0.7 of the limit", coverage(OFF_THE_MODEL, fixed(0.1, 0.05), step), 86.0),
     ];
     for (name, [of_k, life], least) in cases {
         println!("{name}: coefficient {:.0?}, life {:.0?}", of_k.percent(), life.percent());

@@ -92,7 +92,11 @@ impl Specimen {
             }
             let noise = truth.scatter.hypot(plan.relative_sigma) * normal(random);
             let relative_sigma = plan.relative_sigma;
-            measurements.push(ExposureMeasurement { revolutions: at, exposure: exposure * noise.exp(), relative_sigma });
+            measurements.push(ExposureMeasurement {
+                revolutions: at,
+                exposure: exposure * noise.exp(),
+                relative_sigma,
+            });
         }
         while exposure < 1.0 {
             exposure += gamma(STEP * rate(exposure) / c2, c2, random);

@@ -74,7 +74,10 @@ fn val_the_second_half_is_predicted_from_the_first() {
         for later in &half.later {
             let [median, low, high] = [later.median, later.low, later.high].map(|value| 1e-3 * value.unwrap());
             let (_, g) = WEIGHED[later.measurement - 1];
-            println!("{prior:?}: {g} g, predicted {median:.2} ({:+.1} %), {low:.2} to {high:.2}", 100.0 * (median / g - 1.0));
+            println!(
+                "{prior:?}: {g} g, predicted {median:.2} ({:+.1} %), {low:.2} to {high:.2}",
+                100.0 * (median / g - 1.0)
+            );
             assert!((median / g - 1.0).abs() <= 0.10, "{g} g: {median}");
             assert!((low..=high).contains(&g), "{g} g: {low} to {high}");
         }

@@ -41,10 +41,22 @@ fn wear(of: &GearLife) -> Chart {
         .y_range([0.0, top])
         .reading(wear_reading(of))
         .add(area.filled(gear_colour(of.gear)).opacity(0.2))
-        .line("to come, median", inside().map(|at| at.revolutions), median, (gear_colour(of.gear), 2.2, Dash::Solid), "%{y:.4~g}");
+        .line(
+            "to come, median",
+            inside().map(|at| at.revolutions),
+            median,
+            (gear_colour(of.gear), 2.2, Dash::Solid),
+            "%{y:.4~g}",
+        );
     let simulated = || of.simulated.iter().filter(|(_, wear)| wear.is_some_and(|wear| wear <= top));
     let stroke = (NEW, 1.6, Dash::Dashed);
-    chart = chart.line("simulated with median k", simulated().map(|at| at.0), simulated().map(|at| at.1), stroke, "%{y:.4~g}");
+    chart = chart.line(
+        "simulated with median k",
+        simulated().map(|at| at.0),
+        simulated().map(|at| at.1),
+        stroke,
+        "%{y:.4~g}",
+    );
     if let Some(limit) = limit {
         let line = Trace::line("limit", [0.0, 1.02 * last], [limit; 2], (WORN, 1.4, Dash::Dashed));
         chart = chart.add(line.hover("%{y:.4~g}"));
@@ -100,12 +112,13 @@ fn coefficient(of: &GearLife) -> Option<Chart> {
         significant(last.high, 3),
         significant(of.coefficient_of_run_m2_per_N, 3)
     );
-    let chart = Chart::new(format!("coefficient-{gear}"), format!("Wear coefficient of the {gear} after each measurement"))
-        .height(420)
-        .y("wear coefficient, m²/N")
-        .y_range([low / 1.15, high * 1.15])
-        .y_logarithmic()
-        .reading(reading);
+    let chart =
+        Chart::new(format!("coefficient-{gear}"), format!("Wear coefficient of the {gear} after each measurement"))
+            .height(420)
+            .y("wear coefficient, m²/N")
+            .y_range([low / 1.15, high * 1.15])
+            .y_logarithmic()
+            .reading(reading);
     let run = Trace::line("run", ends(of), [of.coefficient_of_run_m2_per_N; 2], (NEW, 1.4, Dash::Dashed));
     let points = of.measurements.iter().map(|one| one.revolutions);
     let means = Trace::points("mean up to a measurement", points, means(), (INK, "circle-open", 8));
@@ -136,12 +149,7 @@ fn ends(of: &GearLife) -> [f64; 2] {
 }
 
 /// Median and 95 % interval over the times of the measurements, cut off at `top`.
-fn over_updates(
-    chart: Chart,
-    of: &GearLife,
-    top: f64,
-    interval: impl Fn(&LifeUpdate) -> Option<Interval>,
-) -> Chart {
+fn over_updates(chart: Chart, of: &GearLife, top: f64, interval: impl Fn(&LifeUpdate) -> Option<Interval>) -> Chart {
     let shown: Vec<(f64, Interval)> =
         measured(of).filter_map(|update| Some((update.revolutions, interval(update)?))).collect();
     let times = || shown.iter().map(|(at, _)| *at);
@@ -150,7 +158,8 @@ fn over_updates(
     let high = shown.iter().rev().map(|(_, one)| one.high.min(top));
     let area = Trace::line("95 %", x, low.chain(high), ("rgba(0,0,0,0)", 0.0, Dash::Solid));
     let colour = gear_colour(of.gear);
-    let median = Trace::line("median", times(), shown.iter().map(|(_, one)| one.median.min(top)), (colour, 2.2, Dash::Solid));
+    let median =
+        Trace::line("median", times(), shown.iter().map(|(_, one)| one.median.min(top)), (colour, 2.2, Dash::Solid));
     let [first, last] = ends(of);
     let margin = 0.03 * last.max(first);
     let chart = chart.x("pinion revolutions").x_range([(first - margin).max(0.0), last + margin]);

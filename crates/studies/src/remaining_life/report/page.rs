@@ -95,8 +95,7 @@ fn tables(record: &LifeRecord) -> Markup {
     }
 }
 
-const MEASUREMENT_COLUMNS: [&str; 8] =
-    ["", "time", "kind", "found", "known sd", "predicted before", "95 % from", "to"];
+const MEASUREMENT_COLUMNS: [&str; 8] = ["", "time", "kind", "found", "known sd", "predicted before", "95 % from", "to"];
 
 fn measurements(of: &GearLife) -> Vec<Markup> {
     let rows = of.measurements.iter().enumerate().map(|(index, found)| {
@@ -131,9 +130,15 @@ fn updates(of: &GearLife) -> Vec<Markup> {
     let rows = of.updates.iter().map(|update| {
         let k = update.coefficient_m2_per_N;
         let name = if update.measurements == 0 { "none".to_owned() } else { update.measurements.to_string() };
-        let mut cells: Vec<Cell> =
-            cells![name, figure(k.median), figure(k.low), figure(k.high), percent(update.wander), percent(update.scatter)]
-                .into();
+        let mut cells: Vec<Cell> = cells![
+            name,
+            figure(k.median),
+            figure(k.low),
+            figure(k.high),
+            percent(update.wander),
+            percent(update.scatter)
+        ]
+        .into();
         if let Some(life) = update.life {
             let left = life.remaining_revolutions;
             cells.extend([left.median, left.low, left.high].map(|value| Cell::from(long(value))));
