@@ -62,6 +62,12 @@ pub enum TableError {
         "operation.phases of the run: found {found}; allowed: one, since wear under several is no function of k times revolutions"
     )]
     Phases { found: usize },
+    #[error(
+        "line {line}: found wear for which a coefficient some {factor:.0e} times that of the run is needed; allowed: within a factor of {MOST_FACTOR:.0e}"
+    )]
+    FarFromRun { line: usize, factor: f64 },
+    #[error("line {line}: found {found} times of the {gear}; allowed: at most {MOST_TIMES}")]
+    TooManyTimes { line: usize, found: usize, gear: &'static str },
     #[error("--limit: found {figure}; allowed: a figure of a measured gear: {measured}")]
     LimitOfOther { figure: String, measured: String },
 }
@@ -131,6 +137,7 @@ impl PreparedLife {
             measurements.push(WearMeasurement::new(row, gear, revolutions, profile));
         }
         let measurements = in_order(measurements);
+        check_sizes(&measurements, &folder).map_err(named)?;
         let limits = limits(&measurements, asked, &scene).map_err(named)?;
         let question =
             LifeQuestion { measured: file_name(&table.name), measurements, limits, prior: asked.prior.clone() };
@@ -144,6 +151,10 @@ impl PreparedLife {
     }
 }
 
+/// Greatest factor between a measured coefficient and that of the run, about.
+const MOST_FACTOR: f64 = 1e6;
+/// Most times of a gear that are evaluated.
+const MOST_TIMES: usize = 100;
 /// Relative tolerance on the end of the run.
 const SAME_TIME: f64 = 1e-9;
 
@@ -169,6 +180,28 @@ fn placed(row: &WearRow, asked: &LifeOptions, scene: &LoadedScene) -> Result<(Ge
         }
     };
     Ok((gear, revolutions))
+}
+
+/// Checks the number of times, and that wear is not of another order than in the run.
+fn check_sizes(measurements: &[WearMeasurement], folder: &RunFolder) -> Result<(), TableError> {
+    for gear in Gear::BOTH {
+        let of_gear: Vec<&WearMeasurement> = measurements.iter().filter(|of| of.gear == gear).collect();
+        if let Some(first) = of_gear.get(MOST_TIMES) {
+            let found = of_gear.len();
+            return Err(TableError::TooManyTimes { line: first.lines[0], found, gear: gear.name() });
+        }
+    }
+    for of in measurements {
+        let Some(quantity) = WearQuantity::of_kind(of.kind) else { continue };
+        let of_run = folder.number(&format!("{}.{}", of.gear.name(), quantity.figure())).unwrap_or(0.0);
+        for (&value, &line) in of.values.iter().zip(&of.lines) {
+            let factor = value / of.revolutions / (of_run / folder.summary.revolutions);
+            if !(1.0 / MOST_FACTOR..=MOST_FACTOR).contains(&factor) {
+                return Err(TableError::FarFromRun { line, factor });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Comparison of one profile with the run, for its wear coefficient.

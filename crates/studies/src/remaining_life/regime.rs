@@ -15,6 +15,9 @@ pub const HALF_WIDTH_95: f64 = 1.959_963_984_540_054;
 /// Factor on either side of the run's own coefficient where no prior is given.
 pub const ABOUT_RUN: f64 = 100.0;
 
+/// Least and greatest end of a range of one's own.
+const ENDS_M2_PER_N: [f64; 2] = [1e-25, 1e-5];
+
 /// A row of the table of coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Regime {
@@ -46,7 +49,7 @@ pub struct CoefficientPrior {
 }
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("found {given:?}; allowed: {}, or LOW:HIGH in m²/N with 0 < LOW < HIGH, such as 1e-17:1e-15", REGIMES.map(|regime| regime.name).join(", "))]
+#[error("found {given:?}; allowed: {}, or LOW:HIGH in m²/N, rising and within {:e} to {:e}, such as 1e-17:1e-15", REGIMES.map(|regime| regime.name).join(", "), ENDS_M2_PER_N[0], ENDS_M2_PER_N[1])]
 pub struct PriorError {
     given: String,
 }
@@ -59,7 +62,9 @@ impl FromStr for CoefficientPrior {
             let [low, high] = regime.range_m2_per_n;
             return Ok(Self { name: regime.name.to_owned(), low_m2_per_N: low, high_m2_per_N: high });
         }
-        let number = |text: &str| text.trim().parse().ok().filter(|end: &f64| end.is_finite() && *end > 0.0);
+        let number = |text: &str| {
+            text.trim().parse().ok().filter(|end: &f64| (ENDS_M2_PER_N[0]..=ENDS_M2_PER_N[1]).contains(end))
+        };
         let ends = given.split_once(':').and_then(|(low, high)| Some((number(low)?, number(high)?)));
         match ends {
             Some((low, high)) if low < high => {

@@ -17,6 +17,7 @@ use crate::measurement::fit::FitStop;
 use gearwear::scene::loaded::LoadedScene;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear};
 use gearwear_physics::observer::Observer;
+use rayon::prelude::*;
 
 /// mm²/N to m²/N.
 const M2_PER_MM2: f64 = 1e-6;
@@ -191,7 +192,8 @@ fn coefficient_ratio(gears: &[GearLife], given: &LoadedScene) -> f64 {
 impl GearCase<'_> {
     fn evaluated(&self) -> GearLife {
         let factor_prior = self.prior.of_factor(self.coefficient_of_run);
-        let updates = (0..=self.valued.len()).map(|count| self.update(factor_prior, count)).collect();
+        let counts: Vec<usize> = (0..=self.valued.len()).collect();
+        let updates = counts.into_par_iter().map(|count| self.update(factor_prior, count)).collect();
         let first = WearQuantity::of_kind(self.valued[0].of.kind).unwrap_or(WearQuantity::PeakDepth);
         let shown = self.limit.as_ref().map_or(first, |(limit, _)| limit.quantity);
         let sigmas = self.relative_sigmas(self.valued.len());
@@ -280,16 +282,14 @@ impl GearCase<'_> {
         let given: f64 = of.values.relative_sigmas.iter().map(|sigma| sigma * sigma).sum::<f64>();
         let found = self.measured_exposure(of, given.sqrt() / of.values.values.len() as f64);
         let quantity = WearQuantity::of_kind(of.of.kind).unwrap_or(WearQuantity::PeakDepth);
-        let at = |probability: f64| {
-            let exposure = posterior.measured_quantile(found.revolutions, found.relative_sigma, probability);
-            self.curve.value_at(quantity, self.duration * exposure)
-        };
+        let expected = posterior.measured(found.revolutions, found.relative_sigma);
+        let at = |probability: f64| self.curve.value_at(quantity, self.duration * expected.quantile(probability));
         Prediction {
             measurement: index + 1,
             median: at(0.5),
             low: at(0.025),
             high: at(0.975),
-            below_found: posterior.measured_below(found.revolutions, found.exposure, found.relative_sigma),
+            below_found: expected.below(found.exposure),
         }
     }
 

@@ -53,9 +53,9 @@ const MODE_STEPS: usize = 40;
 /// Share of the greatest density over c, or r, below which a place is left out of the finer grid.
 const NEGLIGIBLE: f64 = 1e-3;
 /// Weight below which a node is left out.
-const LIGHTEST: f64 = 1e-7;
+const LIGHTEST: f64 = 1e-5;
 /// Halvings of an interval that is searched for a quantile.
-const HALVINGS: usize = 44;
+const HALVINGS: usize = 36;
 /// Range of the logarithm of a quantile about that of the run.
 const LOG_RANGE: f64 = 60.0;
 
@@ -265,23 +265,20 @@ impl Posterior {
         quantile(probability, |ln_s| self.exposure_below(revolutions, ln_s.exp()))
     }
 
-    /// Probability that a measurement with known `relative_sigma` after `revolutions` finds at most `exposure`.
-    pub fn measured_below(&self, revolutions: f64, exposure: f64, relative_sigma: f64) -> f64 {
-        let (more, ln_s) = (revolutions - self.revolutions, exposure.ln());
-        self.expected(|node| {
+    /// What a measurement with known `relative_sigma` after `revolutions` is expected to find.
+    pub fn measured(&self, revolutions: f64, relative_sigma: f64) -> ExpectedMeasurement {
+        let more = revolutions - self.revolutions;
+        let normals = self.nodes.iter().map(|node| {
             let (mean, variance) = node.wear_after(more).of_logarithm();
             let noise = node.r * node.r + relative_sigma * relative_sigma;
-            normal_below((ln_s - mean) / (variance + noise).sqrt())
-        })
-    }
-
-    pub fn measured_quantile(&self, revolutions: f64, relative_sigma: f64, probability: f64) -> f64 {
-        quantile(probability, |ln_s| self.measured_below(revolutions, ln_s.exp(), relative_sigma))
+            (node.weight, mean, (variance + noise).sqrt())
+        });
+        ExpectedMeasurement { normals: normals.collect() }
     }
 
     /// Probability that the exposure comes to `limit` within `revolutions` from the beginning.
     pub fn life_below(&self, revolutions: f64, limit: f64) -> f64 {
-        1.0 - self.exposure_below(revolutions.max(self.revolutions), limit)
+        (1.0 - self.exposure_below(revolutions.max(self.revolutions), limit)).max(0.0)
     }
 
     /// Revolutions left until the exposure comes to `limit`; 0 where it has come to it with this probability.
@@ -322,6 +319,25 @@ impl Posterior {
 
     fn expected(&self, value: impl Fn(&Node) -> f64) -> f64 {
         self.nodes.iter().map(|node| node.weight * value(node)).sum()
+    }
+}
+
+/// Distribution of a measurement to come.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExpectedMeasurement {
+    /// Probability, mean and standard deviation of the logarithm of its exposure, for each κ, c and r.
+    normals: Vec<(f64, f64, f64)>,
+}
+
+impl ExpectedMeasurement {
+    /// Probability that it finds at most `exposure`.
+    pub fn below(&self, exposure: f64) -> f64 {
+        let ln_s = exposure.ln();
+        self.normals.iter().map(|(weight, mean, deviation)| weight * normal_below((ln_s - mean) / deviation)).sum()
+    }
+
+    pub fn quantile(&self, probability: f64) -> f64 {
+        quantile(probability, |ln_s| self.below(ln_s.exp()))
     }
 }
 
@@ -414,8 +430,11 @@ fn mode(
     let log_density = |x: f64| filtered(measurements, x, c, r).1 + prior.log_density(x);
     let noise = r * r + last.relative_sigma * last.relative_sigma;
     let variance = c * c / last.exposure + noise / measurements.len() as f64;
-    let guess = (1.0 / (1.0 / variance + 1.0 / (prior.deviation * prior.deviation))).sqrt();
-    let (mut x, mut deviation) = start.unwrap_or(((last.exposure / last.revolutions).ln(), guess));
+    // As two normal densities of ln κ would have it.
+    let [of_measured, of_prior] = [variance, prior.deviation * prior.deviation].map(f64::recip);
+    let middle = of_measured * (last.exposure / last.revolutions).ln() + of_prior * prior.mean;
+    let guess = (middle / (of_measured + of_prior), (of_measured + of_prior).sqrt().recip());
+    let (mut x, mut deviation) = start.unwrap_or(guess);
     for _ in 0..MODE_STEPS {
         let h = 0.5 * deviation;
         let [before, here, after] = [x - h, x, x + h].map(log_density);

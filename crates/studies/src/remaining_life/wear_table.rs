@@ -73,8 +73,10 @@ const COLUMNS: [&str; 9] =
 /// Columns of values.
 const VALUES: [&str; 4] = ["mass_loss_g", "mass_loss_mg", "depth_um", "profile"];
 const MG_PER_G: f64 = 1e3;
+/// Greatest standard deviation over its value.
+const MOST_SIGMA: f64 = 10.0;
 /// Most rows that are read.
-const MOST_ROWS: usize = 10_000;
+const MOST_ROWS: usize = 1000;
 
 /// Table with its columns found.
 struct WearColumns<'a> {
@@ -174,7 +176,7 @@ impl<'a> WearColumns<'a> {
                 let allowed = "nothing beside a profile, whose scatter is that of its residuals".to_owned();
                 return Err(not_allowed(line, "sigma", text, allowed));
             }
-            text => Some(unit * positive(line, "sigma", text)?),
+            text => Some(sigma(line, text, unit, &value)?),
         };
         Ok(WearRow { line, time, gear, tooth, value, sigma })
     }
@@ -203,6 +205,17 @@ impl WearValue {
             WearValue::DepthUm(_) => WearKind::Depth,
             WearValue::Profile(_) => WearKind::Profile,
         }
+    }
+}
+
+/// Standard deviation of a value, given in a `unit` of it.
+fn sigma(line: usize, text: &str, unit: f64, value: &WearValue) -> Result<f64, DataTableError> {
+    let sigma = unit * positive(line, "sigma", text)?;
+    let (WearValue::MassMg(value) | WearValue::DepthUm(value)) = *value else { return Ok(sigma) };
+    let most = MOST_SIGMA * value;
+    match sigma <= most {
+        true => Ok(sigma),
+        false => Err(not_allowed(line, "sigma", text, format!("at most {MOST_SIGMA} times the value"))),
     }
 }
 
@@ -246,6 +259,7 @@ mod tests {
             ("hours,mass_loss_g,tooth\n1,2,3\n", "line 2: tooth: found 3"),
             ("hours,depth_um,tooth\n1,2,x\n", "line 2: tooth: found x"),
             ("hours,depth_um,sigma\n1,2,0\n", "line 2: sigma: found 0"),
+            ("hours,depth_um,sigma\n1,2,21\n", "line 2: sigma: found 21; allowed: at most 10 times"),
             ("hours,profile,sigma\n1,a.csv,1\n", "line 2: sigma: found 1"),
             ("hours,depth_um,gear\n1,2,sun\n", "line 2: gear: found sun; allowed: pinion or wheel"),
             ("# gear = sun\nhours,depth_um\n1,2\n", "line 1: gear: found sun"),
