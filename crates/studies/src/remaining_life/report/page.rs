@@ -95,7 +95,7 @@ fn tables(record: &LifeRecord) -> Markup {
     }
 }
 
-const MEASUREMENT_COLUMNS: [&str; 8] = ["", "time", "kind", "found", "known sd", "predicted before", "95 % from", "to"];
+const MEASUREMENT_COLUMNS: [&str; 8] = ["", "time", "kind", "found", "σ known", "predicted before", "95 % from", "to"];
 
 fn measurements(of: &GearLife) -> Vec<Markup> {
     let rows = of.measurements.iter().enumerate().map(|(index, found)| {
