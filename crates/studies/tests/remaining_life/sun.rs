@@ -67,7 +67,7 @@ fn val_the_second_half_is_predicted_from_the_first() {
     report::write_data(&record, run.path()).unwrap();
     report::write_summary(&record.summary, run.path()).unwrap();
     fs::write(run.path().join("scene.toml"), resolved.to_toml()).unwrap();
-    for prior in [None, Some("regime-2"), Some("1e-16:1e-14")] {
+    for prior in [None, Some("regime-2")] {
         let found = evaluated(run.path(), prior);
         let of = &found.gears[0];
         let half = &of.updates[5];
