@@ -255,3 +255,28 @@ impl From<RunError> for WearCurveError {
         CompareError::Run(error).into()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// h = √n at the squares, where interpolation is exact; d ln n/d ln h = 2, by differences over a fine curve.
+    #[test]
+    fn ver_exposures_are_the_inverse_of_wear() {
+        let depths: Vec<f64> = (0..=400).map(|i| 0.01 * f64::from(i)).collect();
+        let squares: Vec<f64> = depths.iter().map(|depth| depth * depth).collect();
+        let curve = WearCurve { revolutions: squares, peak_depth_um: depths, ..WearCurve::default() };
+        for depth in [0.01, 1.0, 2.5, 4.0] {
+            let exposure = curve.exposure_of(WearQuantity::PeakDepth, depth).unwrap();
+            assert!((exposure - depth * depth).abs() < 1e-12, "{depth}: {exposure}");
+            assert_eq!(
+                curve.value_at(WearQuantity::PeakDepth, exposure).map(|found| (found - depth).abs() < 1e-12),
+                Some(true)
+            );
+        }
+        let elasticity = curve.elasticity(WearQuantity::PeakDepth, 4.0);
+        assert!((elasticity - 2.0).abs() < 0.02, "{elasticity}");
+        assert_eq!(curve.exposure_of(WearQuantity::PeakDepth, 4.01), None);
+        assert_eq!(curve.value_at(WearQuantity::PeakDepth, 16.01), None);
+    }
+}

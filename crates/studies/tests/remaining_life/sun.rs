@@ -4,7 +4,8 @@
 //! 38.1 mm, four planets, 2825 N·m on the sun, E 210 GPa, k about 1.27e-15 m²/N before any measurement. Profile shifts are not given: none. The
 //! scene is the external pair of sun and planet with a quarter of the torque, in the frame of the planets, in which the sun turns
 //! 81/(19 + 81) as often. Its mass is almost proportional to revolutions, 1 % less at the end than a straight line through the beginning, on
-//! `half-space` and `hertz-mean` alike.
+//! `half-space` and `hertz-mean` alike. On finite elements (the default surface; two minutes a run) predictions are 0.7 to 1.3 % higher than on half-planes: with
+//! the regime's prior −3.5 to +8.1 %, without one +10.3 % at 23.14 g, where the scatter is greatest, and at most 2.9 % elsewhere.
 
 use std::fs;
 use std::path::Path;
