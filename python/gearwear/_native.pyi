@@ -199,6 +199,17 @@ def compare(
     threads: int,
     progress: _Progress | None,
 ) -> Study: ...
+def remaining_life(
+    run: str,
+    table: tuple[str, str | None],
+    limits: Sequence[str],
+    prior: str | None,
+    gear: str | None,
+    form: str | None,
+    shift_within_mm: float,
+    threads: int,
+    progress: _Progress | None,
+) -> Study: ...
 def compare_runs(runs: Sequence[tuple[str, str]]) -> Study: ...
 def validate(cases: Sequence[str], tier: str | None, threads: int, progress: _Progress | None) -> Study: ...
 def solve_fem_problem(

@@ -35,6 +35,7 @@ KINDS = (
     Kind("a study of uncertainty", "Uncertainty", "uncertainty.json", "samples.csv"),
     Kind("a study of accuracy", "Study", "accuracy.json", "accuracy.csv"),
     Kind("a comparison with measured profiles", "Study", "compare.json", "compare.csv"),
+    Kind("a remaining life", "Study", "remaining_life.json", "remaining_life.csv"),
     Kind("a comparison of runs", "Study", "variants.json", "variants.csv"),
     Kind("a validation", "Study", "validation.json", "junit.xml"),
     Kind("a validation of invariants", "Study", "summary.json", "invariants.csv"),

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from gearwear import _native
 from gearwear.kept import Kept, as_kept
 from gearwear.measured import Profile, profiles
+from gearwear.measured import table as named_table
 from gearwear.run import Run
 from gearwear.table import Table
 from gearwear.workers import ProgressArgument, Watched, thread_count
@@ -38,7 +39,8 @@ class Study:
 
     @cached_property
     def summary(self) -> dict[str, Any]:
-        """The record, as the command writes it: ``accuracy.json``, ``compare.json``, ``variants.json`` or ``validation.json``."""
+        """The record, as the command writes it: ``accuracy.json``, ``compare.json``, ``remaining_life.json``, ``variants.json`` or
+        ``validation.json``."""
         summary: dict[str, Any] = json.loads(self._native.summary_json)
         return summary
 
@@ -93,6 +95,34 @@ def compare(
         return Study(
             _native.compare(folder, profiles(measured), gear, form, fit, float(shift_within_mm), *of_file, count, told)
         )
+
+
+def remaining_life(
+    run: Finished,
+    table: Profile,
+    *,
+    limit: Mapping[str, float] | None = None,
+    prior: str | tuple[float, float] | None = None,
+    gear: str | None = None,
+    form: str | None = None,
+    shift_within_mm: float = 0.1,
+    threads: int | None = None,
+    progress: ProgressArgument = False,
+) -> Study:
+    """Wear coefficient and remaining life by wear measured at several times: ``gearwear compare RUN --history TABLE``, whose options these are.
+
+    The table is a file, or a dict or data frame of its columns: ``{"hours": …, "mass_loss_g": …}``. ``limit`` is the wear that ends the life,
+    ``{"pinion.peak_wear_um": 50.0}``; ``prior`` a regime such as ``"mild"``, or the ends of a 95 % interval in m²/N.
+
+    ``summary["gears"]`` has each measured gear: ``["updates"]`` is what was known before any measurement, and after each.
+    """
+    count = thread_count(threads)
+    limits = [f"{figure}={float(value)!r}" for figure, value in (limit or {}).items()]
+    known = prior if prior is None or isinstance(prior, str) else ":".join(repr(float(end)) for end in prior)
+    with ExitStack() as kept, Watched(progress) as told:
+        folder = _folder(run, kept)
+        options = (limits, known, gear, form, float(shift_within_mm))
+        return Study(_native.remaining_life(folder, named_table(table), *options, count, told))
 
 
 def compare_runs(runs: Mapping[str, Finished]) -> Study:

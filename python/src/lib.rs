@@ -88,7 +88,7 @@ mod _native {
     #[pymodule_export]
     use super::scene::Scene;
     #[pymodule_export]
-    use super::study::{Study, compare, compare_runs, validate};
+    use super::study::{Study, compare, compare_runs, remaining_life, validate};
     #[pymodule_export]
     use super::sweep::{Sweep, UnfinishedSweep};
     #[pymodule_export]

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use gearwear::{Observer, SceneText};
-use gearwear_validation::found::CompareQuestion;
+use gearwear::{LoadError, Observer, SceneText};
+use gearwear_validation::found::{CompareQuestion, LifeQuestion};
 use pyo3::prelude::*;
 
 use crate::errors;
@@ -55,15 +55,41 @@ pub(crate) fn compare(
     threads: usize,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<Study> {
-    let text_of = |(name, text): (String, Option<String>)| match text {
-        Some(text) => Ok(SceneText { name, text }),
-        None => SceneText::read_foreign(Path::new(&name)),
-    };
     let measured: Result<Vec<_>, _> = py.detach(|| measured.into_iter().map(text_of).collect());
     let measured = measured.map_err(|error| errors::of_loading(py, &error))?;
     let question = CompareQuestion { gear, form, fit, shift_within_mm, tooth, flank, width_mm };
     let work = move |observer: &dyn Observer| gearwear_validation::found::compare(&run, &measured, &question, observer);
     Study::of(py, watched(py, threads, progress, work)?)
+}
+
+/// Remaining life by measurements: the name of their table, and its text where it is no file.
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "the arguments of the Python function")]
+pub(crate) fn remaining_life(
+    py: Python<'_>,
+    run: PathBuf,
+    table: (String, Option<String>),
+    limits: Vec<String>,
+    prior: Option<String>,
+    gear: Option<String>,
+    form: Option<String>,
+    shift_within_mm: f64,
+    threads: usize,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<Study> {
+    let table = py.detach(|| text_of(table)).map_err(|error| errors::of_loading(py, &error))?;
+    let question = LifeQuestion { gear, limits, prior, form, shift_within_mm };
+    let work =
+        move |observer: &dyn Observer| gearwear_validation::found::remaining_life(&run, &table, &question, observer);
+    Study::of(py, watched(py, threads, progress, work)?)
+}
+
+/// Text of a file, or the one given.
+fn text_of((name, text): (String, Option<String>)) -> Result<SceneText, LoadError> {
+    match text {
+        Some(text) => Ok(SceneText { name, text }),
+        None => SceneText::read_foreign(Path::new(&name)),
+    }
 }
 
 /// Finished runs side by side: their folders and what they are called.

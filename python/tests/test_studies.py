@@ -116,6 +116,47 @@ def test_profiles_as_arrays_and_frames(run: gearwear.Run, tmp_path: Path) -> Non
         gearwear.compare(run, 3)
 
 
+def test_remaining_life(run: gearwear.Run, tmp_path: Path) -> None:
+    """Masses of 1.3 times the coefficient of the run, with a tenth of scatter at most: k lies in its interval, and what is left is as long."""
+    end = run.summary["revolutions"]
+    mass_g = 1e-3 * run.summary["pinion"]["worn_mass_mg"]
+    revolutions = end * np.array([0.2, 0.4, 0.6])
+    masses = 1.3 * mass_g * np.array([0.2, 0.4, 0.6]) * np.array([1.04, 0.97, 1.02])
+    table = {"gear": "pinion", "revolutions": revolutions, "mass_loss_g": masses}
+    options: dict[str, Any] = {"limit": {"pinion.worn_mass_mg": 1.3e3 * mass_g}, "threads": 1}
+    study = gearwear.remaining_life(run, table, **options)
+    [pinion] = study.summary["gears"]
+    last = pinion["updates"][-1]
+    k = last["coefficient_m2_per_N"]
+    assert k["low"] < 1.3 * pinion["coefficient_of_run_m2_per_N"] < k["high"]
+    left = last["life"]["remaining_revolutions"]
+    assert left["low"] < 0.4 * end < left["high"] and left["median"] == pytest.approx(0.4 * end, rel=0.25)
+    study.write(tmp_path / "out")
+    assert json.loads((tmp_path / "out" / "remaining_life.json").read_text(encoding="utf-8")) == study.summary
+    assert gearwear.Study.read(tmp_path / "out").summary == study.summary
+    rows = study.tables["predictions"]
+    assert len(rows["found"]) == 6
+    file = tmp_path / "weighed.csv"
+    lines = "".join(f"{n!r};{m!r}\n" for n, m in zip(revolutions.tolist(), masses.tolist(), strict=True))
+    file.write_text(f"# gear = pinion\nrevolutions;mass_loss_g\n{lines}", encoding="utf-8")
+    assert gearwear.remaining_life(run, file, **options).summary["gears"] == study.summary["gears"]
+    known = gearwear.remaining_life(run, file, prior=(1e-17, 2e-17), threads=1).summary["gears"][0]
+    assert known["prior"]["high_m2_per_N"] == 2e-17 and known["updates"][-1]["life"] is None
+    refused: list[tuple[dict[str, Any], str]] = [
+        ({"limit": {"pinion.root_wear_um": 1.0}}, "limit: found .*pinion.peak_wear_um"),
+        ({"prior": "wet"}, "prior: found .*wet.*regime-2"),
+        ({"gear": "wheel"}, "line 3: gear: found pinion"),
+        ({"limit": {"wheel.peak_wear_um": 1.0}}, "a figure of a measured gear: pinion.peak_wear_um"),
+    ]
+    for wrong, said in refused:
+        with pytest.raises(ValueError, match=said):
+            gearwear.remaining_life(run, file, **wrong)
+    with pytest.raises(ValueError, match="table: line 2: column: found depth; allowed: revolutions, hours"):
+        gearwear.remaining_life(run, {"gear": "pinion", "hours": [1.0], "depth": [1.0]})
+    with pytest.raises(TypeError, match="table: found int"):
+        gearwear.remaining_life(run, 3)
+
+
 def test_runs_side_by_side(run: gearwear.Run, tmp_path: Path) -> None:
     run.write(tmp_path / "run")
     study = gearwear.compare_runs({"one": run, "other": tmp_path / "run"})

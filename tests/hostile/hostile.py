@@ -133,6 +133,17 @@ def write(path, text):
     path.write_bytes(text.encode("utf-8", "surrogateescape"))
 
 
+#: Wear at several times.
+HISTORY = """hours;gear;tooth;depth_um;mass_loss_mg;profile;sigma
+20;pinion;1;3.1;;;0.3
+20;pinion;2;3.5;;;0.3
+31.75;pinion;;;;trace.csv;
+70;pinion;1;9.4;;;
+20;wheel;;;14;;2
+70;wheel;;;40;;2
+"""
+
+
 class Sources:
     """What is spoiled: sound files, made once by the program itself where it makes such."""
 
@@ -227,6 +238,13 @@ class Case:
             traces.append("wheel.csv")
         self.command = ["compare", str(sources.worn), *traces, "--out", "out", "--threads", "1", *fit]
 
+    def history(self, rng, sources):
+        write(self.folder / "history.csv", spoiled(rng, HISTORY))
+        write(self.folder / "trace.csv", rng.choice([sources.profile, spoiled(rng, sources.profile)]))
+        limit = rng.choice(["pinion.peak_wear_um=30", "wheel.worn_mass_mg=120", "pinion.peak_wear_um=1e9", "pinion.worn_volume_mm3=1e-9"])
+        prior = rng.choice([[], ["--prior", rng.choice(["mild", "1e-18:1e-15", "1e-24:2e-24"])]])
+        self.command = ["compare", str(sources.worn), "--history", "history.csv", "--limit", limit, *prior, "--out", "out", "--threads", "1"]
+
     def problem(self, rng, sources):
         path, text = rng.choice(sources.problems)
         whole = lambda found: f'file = "{path.parent / found.group(1)}"'
@@ -261,7 +279,7 @@ class Case:
         self.command = ["validate", f"./{path.parent.name}", "--tier", "smoke", "--out", "out", "--threads", "1"]
 
 
-KINDS = {"run": 24, "plan": 20, "mesh": 10, "fem": 8, "calibrate": 4, "sweep": 4, "calibration": 5, "curve": 5, "measured": 6, "problem": 8,
+KINDS = {"run": 24, "plan": 20, "mesh": 10, "fem": 8, "calibrate": 4, "sweep": 4, "calibration": 5, "curve": 5, "measured": 6, "history": 4, "problem": 8,
          "own_mesh": 10, "validation_case": 4}
 
 

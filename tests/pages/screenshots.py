@@ -60,6 +60,10 @@ PAGES = {
     ],
     "compare-measured": ["run {s}/spur.toml --out {o}", "compare {o} {s}/trace.csv --shift-within 0 --out {o}/compared"],
     "compare-flanks": ["run {s}/spur.toml --out {o}", "compare {o} {o}/pinion-trace.csv {o}/wheel-trace.csv --out {o}/compared"],
+    "compare-history": [
+        "run {s}/spur.toml --out {o}",
+        "compare {o} --history {s}/history.csv --limit pinion.peak_wear_um=30 --out {o}/compared",
+    ],
     "compare-runs": ["compare {s}/spur.toml {s}/heavy.toml --out {o}"],
     "compare-helical": ["compare {s}/helical.toml {s}/helical-heavy.toml --out {o}"],
     "accuracy": ["accuracy {s}/spur.toml --out {o}"],
@@ -189,6 +193,8 @@ def scenes(program: str, folder: pathlib.Path) -> None:
     rows = [(34.3 + 0.02 * i, -8 * 2.718 ** (-i / 60) + 0.1 * (i * 7 % 5 - 2)) for i in range(300)]
     lines = ["# invented", "# gear = pinion", "# uncertainty_um = 0.15", "radius_mm,height_um"]
     (folder / "trace.csv").write_text("\n".join(lines + [f"{r:.3f},{h:.3f}" for r, h in rows]) + "\n")
+    weighed = "20;pinion;1;3.1;;0.3\n20;pinion;2;3.5;;0.3\n45;pinion;1;6.8;;0.3\n70;pinion;1;9.4;;0.3\n20;wheel;;;14;\n70;wheel;;;40;\n"
+    (folder / "history.csv").write_text(f"hours;gear;tooth;depth_um;mass_loss_mg;sigma\n{weighed}")
 
 
 LUBRICATED = """
@@ -239,7 +245,7 @@ def compute(program: str, name: str, scene_folder: pathlib.Path, folder: pathlib
             if done.returncode != 0:
                 raise RuntimeError(f"gearwear {' '.join(arguments)}\n{done.stderr.strip()}")
     pages = sorted(folder.rglob("*.html"))
-    if name in ("compare-measured", "compare-flanks"):
+    if name in ("compare-measured", "compare-flanks", "compare-history"):
         pages = [page for page in pages if page.parent != folder]
     if name in ("compare-runs", "compare-helical"):
         pages = [page for page in pages if page.parent == folder]

@@ -6,6 +6,7 @@ mod accuracy_helical;
 mod compare;
 #[path = "../program/mod.rs"]
 mod program;
+mod remaining_life;
 mod sweep;
 mod tutorials;
 mod uncertainty;

@@ -18,10 +18,14 @@ use gearwear_studies::compare::record::{CoefficientCorrelation, CompareFigures, 
 use gearwear_studies::compare::study::CompareError;
 use gearwear_studies::measurement::fit::FitStop;
 use gearwear_studies::measurement::form::Form;
+use gearwear_studies::remaining_life::asked::LifeOptions;
+use gearwear_studies::remaining_life::limit::WearLimit;
+use gearwear_studies::remaining_life::regime::CoefficientPrior;
 
 use super::failure::{Failure, InputError};
 use super::figures::{digits, or_dash};
 use super::progress::Progress;
+use super::remaining_life::{self, LifeQuestion};
 use super::run::{pool, watch_for_interrupt};
 use super::variants::{self, MOST_RUNS, Variants, is_run};
 use super::{print, say, warn};
@@ -51,8 +55,20 @@ pub(super) struct CompareArgs {
     run: PathBuf,
     /// The measured profile, a table or .mka file (- reads standard input), or two, of pinion and wheel; or one to five more runs, to be
     /// shown side by side
-    #[arg(value_name = "MEASURED|RUN", required = true, num_args = 1..MOST_RUNS)]
+    #[arg(value_name = "MEASURED|RUN", required_unless_present = "history", num_args = 1..MOST_RUNS)]
     with: Vec<PathBuf>,
+    /// A table of wear measured at several times, for wear coefficient and remaining life after each: columns hours or
+    /// revolutions (of the pinion), one of mass_loss_g, depth_um and profile (a file) in each row; gear, tooth, sigma
+    #[arg(long, value_name = "TABLE", conflicts_with_all = ["with", "fit"])]
+    history: Option<PathBuf>,
+    /// With --history: wear that ends the life, such as pinion.peak_wear_um=50 or wheel.worn_mass_mg=1200; again for the other
+    /// gear; default: operation.stop of the scene
+    #[arg(long, value_name = "FIGURE=VALUE", requires = "history")]
+    limit: Vec<WearLimit>,
+    /// With --history: what is known of k before any measurement, mild, regime-1, regime-2, regime-3, plastic, dry, or its
+    /// 95 % interval LOW:HIGH in m²/N; default: 100 times less to 100 times more than in the run
+    #[arg(long, value_name = "REGIME", requires = "history")]
+    prior: Option<CoefficientPrior>,
     /// The gear that was measured, where the file does not say
     #[arg(long, value_name = "GEAR", value_parser = gear)]
     gear: Option<Gear>,
@@ -111,12 +127,31 @@ impl CompareArgs {
         }
     }
 
+    /// Question about a table of measurements.
+    fn life_question<'a>(&'a self, table: &'a Path, out: &'a Path) -> LifeQuestion<'a> {
+        let options = LifeOptions {
+            gear: self.gear,
+            prior: self.prior.clone(),
+            limits: self.limit.clone(),
+            form: self.form,
+            shift_within_mm: self.shift_within,
+            traces: self.traces(),
+        };
+        LifeQuestion { run: &self.run, table, options, out, threads: self.threads, quiet: self.quiet }
+    }
+
+    /// Traces of a file with several.
+    fn traces(&self) -> TraceChoice {
+        let side = self.flank.as_deref().and_then(FlankSide::named);
+        TraceChoice { tooth: self.tooth, side, width_mm: self.width, by: ChosenBy::Options }
+    }
+
     /// Where the results go.
     fn out(&self) -> PathBuf {
         if let Some(out) = &self.out {
             return out.clone();
         }
-        let stems = self.with.iter().map(|path| {
+        let stems = self.with.iter().chain(&self.history).map(|path| {
             let stem = path.file_stem().filter(|stem| *stem != "-").unwrap_or("measured".as_ref());
             stem.to_string_lossy().into_owned()
         });
@@ -125,6 +160,9 @@ impl CompareArgs {
 }
 
 pub(super) fn run(args: &CompareArgs) -> Result<(), Failure> {
+    if let Some(table) = &args.history {
+        return remaining_life::run(&args.life_question(table, &args.out()));
+    }
     if let Some(variants) = args.variants()? {
         let given = [
             ("--gear", args.gear.is_some()),
@@ -144,12 +182,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<(), Failure> {
         form: args.form,
         fit: args.fit,
         shift_within_mm: args.shift_within,
-        traces: TraceChoice {
-            tooth: args.tooth,
-            side: args.flank.as_deref().and_then(FlankSide::named),
-            width_mm: args.width,
-            by: ChosenBy::Options,
-        },
+        traces: args.traces(),
     };
     let prepared = PreparedComparison::open(&args.run, &texts, &asked)?;
     let out = args.out();

@@ -151,6 +151,16 @@ pub(super) enum InputError {
     #[error(transparent)]
     #[diagnostic(help("gearwear compare --help says what stands in a measured file"))]
     Measured(Refused),
+    /// A table of measurements that cannot be evaluated with the run.
+    #[error("{0}")]
+    #[diagnostic(help(
+        "gearwear compare RUN --history TABLE --limit pinion.peak_wear_um=50; docs/compare.md has an example"
+    ))]
+    WearTable(String),
+    /// Wear, measured or a limit, that takes much longer than the run.
+    #[error("{0}")]
+    #[diagnostic(help("units of the table and of --limit: g or mg, µm; revolutions are of the pinion"))]
+    WearBeyondRun(String),
     /// A flank that `export` cannot write.
     #[error(transparent)]
     #[diagnostic(help("gearwear export RUN --gear wheel --out FILE"))]

@@ -15,6 +15,7 @@ mod init;
 mod mesh;
 mod plan;
 mod progress;
+mod remaining_life;
 mod rexs;
 mod run;
 mod schema;

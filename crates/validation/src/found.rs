@@ -23,9 +23,13 @@ use gearwear_studies::compare::asked::{CompareFault, PreparedComparison};
 use gearwear_studies::compare::question;
 use gearwear_studies::compare::run_folder::RunFolderError;
 use gearwear_studies::compare::study::CompareError;
+use gearwear_studies::remaining_life::asked::{LifeError, LifeFault, LifeOptions, PreparedLife};
+use gearwear_studies::remaining_life::limit::LimitError;
+use gearwear_studies::remaining_life::regime::PriorError;
+use gearwear_studies::remaining_life::wear_curve::WearCurveError;
 use gearwear_studies::variants::finished_run::FinishedRun;
 use gearwear_studies::variants::record::VariantsRecord;
-use gearwear_studies::{accuracy, compare, variants};
+use gearwear_studies::{accuracy, compare, remaining_life, variants};
 
 type Write = dyn Fn(&Path) -> Result<(), ReportError> + Send + Sync;
 
@@ -79,6 +83,14 @@ enum StudyFault {
     Compare(CompareFault),
     #[error(transparent)]
     Comparison(CompareError),
+    #[error("limit: {0}")]
+    Limit(LimitError),
+    #[error("prior: {0}")]
+    Prior(PriorError),
+    #[error(transparent)]
+    Life(LifeFault),
+    #[error(transparent)]
+    Lives(LifeError),
     #[error(transparent)]
     RunFolder(RunFolderError),
     #[error("found {found} runs; allowed: two or more")]
@@ -92,12 +104,20 @@ enum StudyFault {
 impl StudyError {
     /// Fault of a file, if that is the reason.
     pub fn in_loading(&self) -> Option<&LoadError> {
-        if let StudyFault::Compare(CompareFault::Load(error)) = &self.0 { Some(error) } else { None }
+        match &self.0 {
+            StudyFault::Compare(CompareFault::Load(error)) | StudyFault::Life(LifeFault::Load(error)) => Some(error),
+            _ => None,
+        }
     }
 
     /// Whether the question was sound and the runs failed.
     pub fn is_of_the_runs(&self) -> bool {
-        matches!(self.0, StudyFault::Accuracy(_) | StudyFault::Comparison(_))
+        matches!(
+            self.0,
+            StudyFault::Accuracy(_)
+                | StudyFault::Comparison(_)
+                | StudyFault::Lives(LifeError::Curve(WearCurveError::Run(_)) | LifeError::Profile { .. })
+        )
     }
 }
 
@@ -146,10 +166,7 @@ pub fn compare(
     question: &CompareQuestion,
     observer: &dyn Observer,
 ) -> Result<Study, StudyError> {
-    let gear = question.gear.as_deref().map(|name| {
-        let named = Gear::BOTH.into_iter().find(|gear| gear.name() == name);
-        named.ok_or_else(|| word("gear", name, "pinion, wheel".to_owned()))
-    });
+    let gear = question.gear.as_deref().map(gear_named);
     let side = question
         .flank
         .as_deref()
@@ -187,6 +204,54 @@ fn one_of<E: ValueEnum>(key: &'static str, name: &str) -> Result<E, StudyFault> 
 
 fn word(key: &'static str, found: &str, allowed: String) -> StudyFault {
     StudyFault::Word { key, found: found.to_owned(), allowed }
+}
+
+/// Options of remaining life by measurements at several times, in the words of the command line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LifeQuestion {
+    /// Measured gear; `None`: as the table says.
+    pub gear: Option<String>,
+    /// Limits of wear, `FIGURE=VALUE` each; none: those of the scene.
+    pub limits: Vec<String>,
+    /// Regime, or LOW:HIGH in m²/N; `None`: about the coefficient of the run.
+    pub prior: Option<String>,
+    /// Form to remove from profiles.
+    pub form: Option<String>,
+    /// How far a profile may be shifted along the flank, mm.
+    pub shift_within_mm: f64,
+}
+
+/// Wear coefficient and remaining life by the measurements of `table`, beside which the files of profiles lie, and the finished run in the folder `run`, as
+/// `gearwear compare --history`.
+///
+/// # Errors
+/// A folder without a finished run, a table that does not fit it, runs that fail.
+pub fn remaining_life(
+    run: &Path,
+    table: &SceneText,
+    question: &LifeQuestion,
+    observer: &dyn Observer,
+) -> Result<Study, StudyError> {
+    if !(question.shift_within_mm >= 0.0 && question.shift_within_mm.is_finite()) {
+        return Err(StudyFault::Shift { found: question.shift_within_mm }.into());
+    }
+    let limits = question.limits.iter().map(|limit| limit.parse().map_err(StudyFault::Limit));
+    let asked = LifeOptions {
+        gear: question.gear.as_deref().map(gear_named).transpose()?,
+        prior: question.prior.as_deref().map(|prior| prior.parse().map_err(StudyFault::Prior)).transpose()?,
+        limits: limits.collect::<Result<_, _>>()?,
+        form: question.form.as_deref().map(|name| one_of("form", name)).transpose()?,
+        shift_within_mm: question.shift_within_mm,
+        traces: TraceChoice::default(),
+    };
+    let prepared = PreparedLife::open(run, table, &asked).map_err(StudyFault::Life)?;
+    let record = prepared.carry_out(observer).map_err(StudyFault::Lives)?;
+    Study::new(record, remaining_life::report::write)
+}
+
+fn gear_named(name: &str) -> Result<Gear, StudyFault> {
+    let named = Gear::BOTH.into_iter().find(|gear| gear.name() == name);
+    named.ok_or_else(|| word("gear", name, "pinion, wheel".to_owned()))
 }
 
 /// Finished runs side by side, as `gearwear compare RUN RUN …`: their folders, each with what it is called.

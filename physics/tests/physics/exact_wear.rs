@@ -17,7 +17,7 @@ use gearwear_physics::contact::{
     settings::MatchCriterion,
     winkler::{Winkler, WinklerFoundation},
 };
-use gearwear_physics::mesh_cycle::{LineOfActionCycle, LoadingPosition, LostMaterial, MeshCycle, PairInMesh};
+use gearwear_physics::mesh_cycle::{LineOfActionCycle, LoadingPosition, MeshCycle, PairInMesh};
 use gearwear_physics::simulation::wear_run::Outcome;
 use gearwear_physics::wear::{WearModel, settings::WearSettings};
 
@@ -109,8 +109,7 @@ fn disc_wear_over_exact(surface: impl Fn(f64, &TwoDiscs) -> Box<dyn ContactSurfa
     let mut depth = PerGear { pinion: zeros.clone(), wheel: zeros.clone() };
     let law = gearwear_physics::wear::of(&WearSettings::archard(k));
     let nothing = PerGear { pinion: zeros.as_slice(), wheel: zeros.as_slice() };
-    let lost = LostMaterial { removed_mm: nothing, wear_mm: nothing };
-    cycle.evaluate(lost, &WearModel::cold(law.as_ref()), &mut depth, &|| false).unwrap();
+    cycle.evaluate(nothing, &WearModel::cold(law.as_ref()), &mut depth, &|| false).unwrap();
     PerGear::from_fn(|gear| {
         let middle = discs.contact_coordinate_mm(gear, 1.2);
         let specific_sliding = 1.0 - discs.speed[gear.mate()] / discs.speed[gear];

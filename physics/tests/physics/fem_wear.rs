@@ -14,7 +14,7 @@ use gearwear_bodies::gear_fem::position::WarmStart;
 use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
 use gearwear_fem::elastic::Elastic;
 use gearwear_physics::contact::hertz;
-use gearwear_physics::mesh_cycle::{CycleObservation, LostMaterial, MeshCycle, Work, condensed::CondensedCycle};
+use gearwear_physics::mesh_cycle::{CycleObservation, MeshCycle, Work, condensed::CondensedCycle};
 use gearwear_physics::wear::{WearModel, settings::WearSettings};
 
 use super::common::{assert_close, fzg_c, pair, steel};
@@ -106,8 +106,7 @@ fn mesh_once<'a>(
 ) -> (PerGear<Vec<f64>>, CycleObservation, Work, CondensedCycle<'a>) {
     let mut cycle = CondensedCycle::new(model, positions, line_load(model.pair));
     let unworn = cycle.nodes().map(|nodes| vec![0.0; nodes.len()]);
-    let wear_mm = wear.unwrap_or(&unworn).as_ref().map(Vec::as_slice);
-    let lost = LostMaterial { removed_mm: wear_mm, wear_mm };
+    let lost = wear.unwrap_or(&unworn).as_ref().map(Vec::as_slice);
     let law = gearwear_physics::wear::of(&WearSettings::archard(COEFFICIENT));
     let mut depth = unworn.clone();
     let work = cycle
@@ -289,8 +288,7 @@ fn ver_work_and_bits() {
     let mut depth = wear.clone();
     let mut later = 0;
     for step in 0..5 {
-        let wear_mm = wear.as_ref().map(Vec::as_slice);
-        let lost = LostMaterial { removed_mm: wear_mm, wear_mm };
+        let lost = wear.as_ref().map(Vec::as_slice);
         let work = cycle.evaluate(lost, &WearModel::cold(law.as_ref()), &mut depth, &|| false).unwrap();
         later += if step == 0 { 0 } else { work.newton_iterations };
         for gear in Gear::BOTH {

@@ -11,7 +11,7 @@ use gearwear_physics::contact::{
     settings::MatchCriterion,
     winkler::{Winkler, WinklerFoundation},
 };
-use gearwear_physics::mesh_cycle::{LineOfActionCycle, LoadingPosition, LostMaterial, MeshCycle, PairInMesh};
+use gearwear_physics::mesh_cycle::{LineOfActionCycle, LoadingPosition, MeshCycle, PairInMesh};
 use gearwear_physics::wear::{WearModel, settings::WearSettings};
 
 use super::common::{assert_close, steel};
@@ -120,7 +120,6 @@ fn wear(
     let mut stages = Vec::new();
     for done in 0..=steps {
         let lost = PerGear { pinion: worn.as_slice(), wheel: zeros.as_slice() };
-        let lost = LostMaterial { removed_mm: lost, wear_mm: lost };
         cycle.evaluate(lost, &WearModel::cold(law.as_ref()), &mut depth, &|| false).unwrap();
         if done % (steps / 100) == 0 {
             let half_width_mm = cycle.observe(lost).unwrap().positions[0].footprint.half_width_mm;

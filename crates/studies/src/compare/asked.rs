@@ -6,7 +6,7 @@ use super::question::{CompareOptions, ComparisonQuestion, Refused};
 use super::record::CompareRecord;
 use super::run_folder::{RunFolder, RunFolderError};
 use super::study::{self, CompareError};
-use gearwear::measured_flank::file;
+use gearwear::measured_flank::file::{self, MeasuredFile};
 use gearwear::scene::loaded::{LoadError, LoadedScene, SceneText};
 use gearwear_bodies::gear::GearPair;
 use gearwear_bodies::gear::error::PairError;
@@ -36,18 +36,27 @@ pub struct PreparedComparison {
 impl PreparedComparison {
     /// Of the finished run in the folder `run` with the profiles in the texts `measured`.
     pub fn open(run: &Path, measured: &[SceneText], asked: &CompareOptions) -> Result<Self, CompareFault> {
-        let folder = RunFolder::with_snapshots(run)?;
-        let scene = LoadedScene::open(folder.scene_path())?;
-        let resolved = &scene.resolved;
-        folder.check_scene(resolved)?;
         let mut files = Vec::with_capacity(measured.len());
         for SceneText { name, text } in measured {
             let file = file::parse(text, &asked.traces)
                 .map_err(|error| Refused { name: name.clone(), error: error.into() })?;
             files.push((name.clone(), file));
         }
+        Self::of_files(run, &files, asked)
+    }
+
+    /// Of the finished run in the folder `run` with measured files and their names.
+    pub fn of_files(
+        run: &Path,
+        files: &[(String, MeasuredFile)],
+        asked: &CompareOptions,
+    ) -> Result<Self, CompareFault> {
+        let folder = RunFolder::with_snapshots(run)?;
+        let scene = LoadedScene::open(folder.scene_path())?;
+        let resolved = &scene.resolved;
+        folder.check_scene(resolved)?;
         let pair = GearPair::new(&resolved.scene.pair)?;
-        let question = ComparisonQuestion::new(asked, &files, &folder, resolved, &pair)?;
+        let question = ComparisonQuestion::new(asked, files, &folder, resolved, &pair)?;
         Ok(Self { folder, scene, question })
     }
 

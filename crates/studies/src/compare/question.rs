@@ -325,7 +325,7 @@ fn check_fit(fit: FitKind, gear: Gear, profiles: usize, scene: &Scene) -> Result
 }
 
 /// Whether both gears wear by one law in all phases.
-pub(super) fn is_of_both(scene: &Scene) -> bool {
+pub(crate) fn is_of_both(scene: &Scene) -> bool {
     scene.operation.phases.iter().all(|phase| scene.wear_in(phase).are_alike())
 }
 
