@@ -319,7 +319,7 @@ impl GearCase<'_> {
             Some((_, exposure)) => begin + posterior.remaining_quantile(exposure / self.duration, 0.975),
             None => 2.0 * begin,
         };
-        let end = end.clamp(1.1 * begin, 4.0 * begin);
+        let end = end.clamp(1.1 * begin, 10.0 * begin);
         let points = (0..=BAND_POINTS).map(|i| {
             let revolutions = begin + (end - begin) * i as f64 / BAND_POINTS as f64;
             let at = |probability: f64| {
