@@ -1,11 +1,11 @@
 //! The files that a scene names – a calibration and a curve of tooth stiffness – read and checked against it.
 
-use std::fs;
 use std::path::Path;
 
 use super::scene_text::{LoadError, SceneText};
 use super::{Problem, Resolved, short_hash};
 use gearwear_bodies::gear::GearPair;
+use gearwear_files::size_limit::SizeLimit;
 use gearwear_physics::calibration::{Calibration, identity::CalibrationIdentity};
 use gearwear_physics::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use gearwear_physics::mesh_cycle::settings::Coupling;
@@ -18,6 +18,8 @@ use gearwear_physics::stiffness::settings::StiffnessSettings;
 pub const CALIBRATION: &str = "contact.calibration";
 /// The key that names a curve of tooth stiffness.
 pub const CURVE: &str = "stiffness.curve";
+/// Size of a file that a scene names.
+const MOST: SizeLimit = SizeLimit { of: "a file that a scene names", megabytes: 64 };
 /// Part of a load that counts as within a range.
 const ROUNDING: f64 = 1e-9;
 
@@ -94,7 +96,7 @@ impl NamedFiles {
 fn text_of(folder: &Path, known: &[NamedFile], key: &str, name: &str) -> Result<String, String> {
     let bytes = match known.iter().find(|file| file.key == key && file.name == name) {
         Some(file) => file.bytes.clone(),
-        None => fs::read(folder.join(name)).map_err(|reason| format!("which cannot be read: {reason}"))?,
+        None => MOST.read(&folder.join(name)).map_err(|reason| format!("which cannot be read: {reason}"))?,
     };
     String::from_utf8(bytes)
         .map_err(|error| format!("which is not UTF-8 text: byte {}", error.utf8_error().valid_up_to()))

@@ -12,15 +12,17 @@
 //! checked against the rest of the file, and sets and data, which can be given in a few bytes for a
 //! whole mesh, have at most [`super::error::LARGEST_EXPANSION`] entries for each byte of the file.
 
-use std::fs;
 use std::path::Path;
 
 use super::error::{FileFault, MeshFileError, Unwritable};
 use super::gmsh::{self, GmshStyle};
 use super::vtu::{self, VtuEncoding};
 use super::{Mesh, abaqus, json};
+use gearwear_files::size_limit::SizeLimit;
 use gearwear_files::whole_file;
 
+/// Size of a mesh file, and of all that it includes.
+pub(crate) const MESH_SIZE: SizeLimit = SizeLimit { of: "a mesh file", megabytes: 1024 };
 /// Endings of mesh files.
 pub(crate) const ALLOWED_ENDINGS: &str = ".msh (Gmsh 2.2 or 4.1), .vtu (VTK), .inp (Abaqus) or .json";
 
@@ -75,7 +77,7 @@ pub fn read(path: impl AsRef<Path>) -> Result<Mesh, MeshFileError> {
 /// Reads the mesh file `path`; with it the content of the file and of all that it includes, one after the other.
 pub fn read_with_content(path: impl AsRef<Path>) -> Result<(Mesh, Vec<u8>), MeshFileError> {
     let path = path.as_ref();
-    let mut bytes = match fs::read(path) {
+    let mut bytes = match MESH_SIZE.read(path) {
         Ok(bytes) => bytes,
         Err(source) => {
             // Of a name without a known ending the ending is the likely slip.
