@@ -51,6 +51,9 @@ pub(super) enum Failure {
     Run(#[from] RunError),
     #[error(transparent)]
     Solve(#[from] SolveError),
+    /// More memory than there is.
+    #[error("{0}")]
+    Memory(String),
     #[error(transparent)]
     FemPair(FemPairError),
     /// No reference for the comparison of models.
@@ -340,7 +343,7 @@ impl Failure {
             Failure::Missed { .. } | Failure::Violated { .. } | Failure::InvariantsViolated { .. } => 1,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
-            Failure::Run(_) | Failure::Solve(_) | Failure::FemPair(_) | Failure::Accuracy(_) => 3,
+            Failure::Run(_) | Failure::Solve(_) | Failure::Memory(_) | Failure::FemPair(_) | Failure::Accuracy(_) => 3,
             Failure::Calibrate(_)
             | Failure::NotFitted { .. }
             | Failure::NoCombination { .. }

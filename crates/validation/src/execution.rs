@@ -214,6 +214,7 @@ impl MemberRun<'_> {
         let problem = FemProblem::from_toml(&file.to_string()).map_err(wrong)?;
         let record = fem_problem::run(&problem, self.folder, self.watch).map_err(|error| match error {
             FemProblemError::Input(problems) => wrong(problems),
+            FemProblemError::Memory(said) => not_converged(said),
             FemProblemError::Solve(error) => not_converged(error),
         })?;
         let contact = table(|out| report::fem::contact_table(out, record.contacts()))?;

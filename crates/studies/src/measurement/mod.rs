@@ -7,6 +7,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`mod@file`] | the file with its header, in the formats [`table`] and [`mka`] |
+//! | `mka_export` | a profile as such an export |
 //! | [`teeth`] | mean of the profiles of some teeth |
 //! | [`mod@undefined`] | points without a height |
 //! | [`profile`] | points on the flank of a gear |
@@ -25,6 +26,7 @@ pub mod fit;
 pub mod form;
 pub mod interval;
 pub mod mka;
+pub(crate) mod mka_export;
 pub mod profile;
 pub mod roughness;
 pub mod table;
