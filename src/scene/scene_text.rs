@@ -10,7 +10,7 @@ use gearwear_files::text::decode;
 use gearwear_physics::stiffness::curve_file::CurveFileError;
 
 /// Size of a scene or a problem of finite elements.
-const SCENE: SizeLimit = SizeLimit { of: "a scene", megabytes: 16 };
+const SCENE: SizeLimit = SizeLimit { of: "a scene", megabytes: 4 };
 /// Size of a file of another program, such as a measured profile.
 const FOREIGN: SizeLimit = SizeLimit { of: "a measured file", megabytes: 64 };
 

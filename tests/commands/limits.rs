@@ -33,7 +33,7 @@ fn files_beyond_the_size_of_their_kind_are_refused() {
     let scene = curve.replace("model = \"constant\"", "#").replace("pair_N_per_mm_um", "# pair_N_per_mm_um");
     fs::write(at("curve.toml"), scene).unwrap();
     for (command, file, words) in [
-        ("plan", "scene.toml", "scene.toml cannot be read: it exceeds 16 MB, the most of a scene"),
+        ("plan", "scene.toml", "scene.toml cannot be read: it exceeds 4 MB, the most of a scene"),
         ("fem", "problem.toml", "mesh.msh: it exceeds 1024 MB, the most of a mesh file"),
         ("plan", "curve.toml", "\"curve.csv\", which cannot be read: it exceeds 64 MB"),
     ] {
@@ -62,7 +62,7 @@ fn standard_input_without_an_end_is_refused() {
     let output = running.wait_with_output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(
-        output.status.code() == Some(2) && said.contains("standard input cannot be read: it exceeds 16 MB"),
+        output.status.code() == Some(2) && said.contains("standard input cannot be read: it exceeds 4 MB"),
         "{said}"
     );
 }
@@ -82,7 +82,7 @@ fn a_run_that_no_memory_is_left_for_does_not_begin() {
     let scene = folder.path().join("scene.toml");
     let text = "[pair]\npreset = \"fzg-c\"\nhelix_angle_deg = 15.0\ntransverse_module_mm = 4.5\n[operation]\npinion_torque_Nm = 302.0\n\
                 pinion_revolutions = 100.0\n[wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n[contact]\nsurface = \"winkler\"\n\
-                [helical]\nslices = 2000\ncoupling = \"none\"\n[numerics]\nverify = false\nerror_estimate = false\n";
+                [helical]\nslices = 2000\ncoupling = \"none\"\n[numerics]\npositions = 60\nverify = false\nerror_estimate = false\n";
     fs::write(&scene, text).unwrap();
     let out = folder.path().join("out");
     let (status, said) =

@@ -36,7 +36,7 @@ const UNBROKEN: usize = 10_000;
 
 /// Predicts how the flanks of spur and helical gears wear, and the pressure, load sharing and transmission error that follow.
 ///
-/// Exit status: 0 done; 1 a check failed; 2 the input is wrong; 3 the solver failed; 130 interrupted (what was finished is kept).
+/// Exit status: 0 done; 1 a check failed; 2 the input is wrong; 3 the solver failed, or memory lacks; 130 interrupted (what was finished is kept).
 #[derive(Debug, Parser)]
 #[command(name = "gearwear", version)]
 struct Cli {
