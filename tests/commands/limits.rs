@@ -67,6 +67,20 @@ fn standard_input_without_an_end_is_refused() {
     );
 }
 
+/// A line that no screen holds is named, and not shown.
+#[test]
+fn long_lines_are_named_by_their_number() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    fs::write(&scene, format!("# mine\ntitle = \"{}\n", "x".repeat(1 << 20))).unwrap();
+    let (status, said) = outcome(gearwear().arg("plan").arg(&scene));
+    assert!(
+        status == Some(2) && said.contains("scene.toml, line 2: not TOML") && said.len() < 1000,
+        "{} bytes",
+        said.len()
+    );
+}
+
 /// The program with so much address space, in MB.
 fn within_mb(megabytes: u32) -> Command {
     let mut shell = Command::new("sh");
