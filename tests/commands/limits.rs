@@ -107,6 +107,21 @@ fn a_run_that_no_memory_is_left_for_does_not_begin() {
     assert!(!out.exists());
 }
 
+/// The matrices of a pair's elements take some 50 MB each.
+#[cfg(target_os = "linux")]
+#[test]
+fn matrices_that_no_memory_is_left_for_end_the_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    fs::write(&scene, preset("fzg-c")).unwrap();
+    let out = folder.path().join("out");
+    let mut command = within_mb(200);
+    command.args(["fem", "--quiet", "--threads", "1"]).arg(&scene).arg("--out").arg(&out);
+    let (status, said) = outcome(&mut command);
+    assert!(status == Some(3) && said.contains("more memory than can be had"), "{status:?} {said}");
+    assert!(!said.contains("panicked"), "{said}");
+}
+
 /// A square of 600 × 600 quadrilaterals: a file of 20 MB, which reading takes some 160 MB for and the stiffness some 540.
 #[cfg(target_os = "linux")]
 #[test]

@@ -13,6 +13,7 @@ mod fem_scene;
 mod figures;
 mod init;
 mod mesh;
+mod out_of_memory;
 mod plan;
 mod progress;
 mod rexs;
@@ -80,7 +81,7 @@ enum Command {
 
 /// Runs the command the user typed.
 pub fn main() -> ExitCode {
-    ExitCode::from(with_arguments(std::env::args_os()))
+    ExitCode::from(out_of_memory::guarded(|| with_arguments(std::env::args_os())))
 }
 
 /// Runs the command in `arguments`, of which the first is the name of the program; gives its exit status.
