@@ -7,16 +7,20 @@
 use std::collections::BTreeMap;
 use std::fmt::Debug;
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use gearwear_files::size_limit::SizeLimit;
 use gearwear_files::whole_file;
 
 /// Name of the journal in the folder of a study.
 pub const FILE_NAME: &str = "rows.jsonl";
+
+/// Size of a line, so that a file of zeros is refused before it fills the memory.
+const LINE: SizeLimit = SizeLimit { of: "a line of a journal", megabytes: 64 };
 
 /// A study whose rows a journal keeps: what its first line says.
 pub trait Kept: Clone + Debug + PartialEq + Serialize + DeserializeOwned {
@@ -121,30 +125,47 @@ impl JournalError {
 /// Reads the journal in `folder` without holding it.
 ///
 /// # Errors
-/// [`JournalError`] where there is none, or one that no such study wrote.
+/// [`JournalError`] where there is none, or one that no such study wrote or whose first line is cut short.
 pub fn read<K: Kept>(folder: &Path) -> Result<JournalContents<K>, JournalError> {
     let path = folder.join(FILE_NAME);
-    let bytes = match fs::read(&path) {
-        Ok(bytes) => bytes,
+    let file = match File::open(&path) {
+        Ok(file) => file,
         Err(source) if source.kind() == io::ErrorKind::NotFound => {
             return Err(JournalError::NoStudy { folder: folder.to_owned(), kind: K::KIND });
         }
         Err(source) => return Err(JournalError::Open { path, source }),
     };
-    let contents = parse(&path, whole_lines(&bytes))?;
-    contents.ok_or_else(|| JournalError::NoStudy { folder: folder.to_owned(), kind: K::KIND })
+    let (contents, _) = parse(&path, &file)?;
+    let found = "a line without an end".to_owned();
+    contents.ok_or(JournalError::Damaged { path, line: 1, found, command: K::COMMAND })
 }
 
-/// The contents without a last line that was cut short.
-fn whole_lines(bytes: &[u8]) -> &[u8] {
-    &bytes[..bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1)]
+/// Reads the next line into `line`; whether there is a whole one. The error is the reason why it cannot be read.
+fn next_line(file: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<bool> {
+    line.clear();
+    file.take(LINE.bytes() + 1).read_until(b'\n', line)?;
+    match line.len() as u64 > LINE.bytes() {
+        true => {
+            Err(io::Error::new(io::ErrorKind::FileTooLarge, format!("more than {} MB without an end", LINE.megabytes)))
+        }
+        false => Ok(line.ends_with(b"\n")),
+    }
 }
 
-/// The contents of a journal's whole lines; `None` where there is none.
-fn parse<K: Kept>(path: &Path, whole: &[u8]) -> Result<Option<JournalContents<K>>, JournalError> {
+/// The contents of a journal's whole lines, `None` where there is none, and their length in bytes; a last line that was cut short is left out.
+fn parse<K: Kept>(path: &Path, file: &File) -> Result<(Option<JournalContents<K>>, u64), JournalError> {
+    let mut file = BufReader::new(file);
     let mut contents: Option<JournalContents<K>> = None;
-    for (index, line) in whole.split_inclusive(|byte| *byte == b'\n').enumerate() {
-        let text = std::str::from_utf8(line).map_err(|error| error.to_string());
+    let (mut line, mut length) = (Vec::new(), 0);
+    for number in 1.. {
+        let damaged = |found| JournalError::Damaged { path: path.to_owned(), line: number, found, command: K::COMMAND };
+        match next_line(&mut file, &mut line) {
+            Ok(true) => length += line.len() as u64,
+            Ok(false) => break,
+            Err(error) if error.kind() == io::ErrorKind::FileTooLarge => return Err(damaged(error.to_string())),
+            Err(source) => return Err(cannot_open(path, source)),
+        }
+        let text = std::str::from_utf8(&line).map_err(|error| error.to_string());
         let read = text.and_then(|text| match &mut contents {
             None => {
                 let first = serde_json::from_str(text).map_err(|error| error.to_string())?;
@@ -155,14 +176,9 @@ fn parse<K: Kept>(path: &Path, whole: &[u8]) -> Result<Option<JournalContents<K>
                 contents.row(text).map(|row| drop(contents.rows.insert(contents.study.number(&row), row)))
             }
         });
-        read.map_err(|found| JournalError::Damaged {
-            path: path.to_owned(),
-            line: index + 1,
-            found,
-            command: K::COMMAND,
-        })?;
+        read.map_err(damaged)?;
     }
-    Ok(contents)
+    Ok((contents, length))
 }
 
 fn cannot_open(path: &Path, source: io::Error) -> JournalError {
@@ -176,8 +192,8 @@ fn opened(folder: &Path, path: &Path) -> io::Result<File> {
 }
 
 /// Cuts the file after its whole lines, and writes the first line of a journal that is `new`.
-fn begin_at<K: Kept>(file: &mut File, length: usize, new: Option<&K>) -> io::Result<()> {
-    file.set_len(length as u64)?;
+fn begin_at<K: Kept>(file: &mut File, length: u64, new: Option<&K>) -> io::Result<()> {
+    file.set_len(length)?;
     file.seek(SeekFrom::End(0))?;
     new.map_or(Ok(()), |study| file.write_all(&line_of(study)?))
 }
@@ -193,29 +209,26 @@ impl<K: Kept> Journal<K> {
     /// # Errors
     /// [`JournalError`] where it cannot be written, is written by another program now, or is another study's.
     pub fn open(folder: &Path, study: K) -> Result<Self, JournalError> {
-        let (path, mut file, bytes) = Self::locked(folder)?;
-        let whole = whole_lines(&bytes);
-        let found = parse::<K>(&path, whole)?;
+        let (path, mut file) = Self::locked(folder)?;
+        let (found, whole) = parse::<K>(&path, &file)?;
         let differences = found.as_ref().map_or_else(Vec::new, |found| found.study.differences(&study));
         if !differences.is_empty() {
             return Err(JournalError::OtherStudy { path, kind: K::KIND, differences });
         }
-        let begun = begin_at(&mut file, whole.len(), found.is_none().then_some(&study));
+        let begun = begin_at(&mut file, whole, found.is_none().then_some(&study));
         begun.map_err(|source| cannot_open(&path, source))?;
         Ok(Self { kept: Some((path, file)), contents: found.unwrap_or_else(|| JournalContents::of(study)) })
     }
 
-    /// File of the journal, locked, with its contents.
-    fn locked(folder: &Path) -> Result<(PathBuf, File, Vec<u8>), JournalError> {
+    /// File of the journal, locked.
+    fn locked(folder: &Path) -> Result<(PathBuf, File), JournalError> {
         let path = folder.join(FILE_NAME);
-        let mut file = opened(folder, &path).map_err(|source| cannot_open(&path, source))?;
+        let file = opened(folder, &path).map_err(|source| cannot_open(&path, source))?;
         // A file system without locks does not prevent a study.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(JournalError::InUse { path, command: K::COMMAND });
         }
-        let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes).map_err(|source| cannot_open(&path, source))?;
-        Ok((path, file, bytes))
+        Ok((path, file))
     }
 
     /// Appends a finished row, or one that was written again.

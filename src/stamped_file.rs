@@ -8,8 +8,9 @@
 //!
 //! Length and SHA-256 tell a file that is incomplete or edited. The program's version is checked too, as bytes mean something else to another.
 
-use std::fs;
-use std::io::{self, Write};
+use std::cmp::Ordering;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::Path;
 
 use serde::de::DeserializeOwned;
@@ -18,6 +19,8 @@ use serde::{Deserialize, Serialize};
 use gearwear_files::content_hash::sha256;
 
 const PROGRAM_VERSION: &str = env!("CARGO_PKG_VERSION");
+/// Greatest length of the first line, bytes.
+const FIRST_LINE: u64 = 4096;
 
 /// A kind of files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,11 +66,17 @@ pub enum StampedFileError {
         /// The version that wrote it.
         found: String,
     },
-    /// Shorter or longer than its first line states.
+    /// Shorter than its first line states.
     #[error("it is incomplete: {found} bytes where its first line says {said}")]
     Torn {
         /// Length of the file's body, bytes.
         found: usize,
+        /// Length stated in the first line, bytes.
+        said: usize,
+    },
+    /// Longer than its first line states.
+    #[error("it is longer than the {said} bytes that its first line says")]
+    Longer {
         /// Length stated in the first line, bytes.
         said: usize,
     },
@@ -99,26 +108,19 @@ impl Stamp {
     /// # Errors
     /// [`StampedFileError`] where it is not one of this kind and version, whole and unchanged.
     pub fn read<B: DeserializeOwned>(self, path: &Path) -> Result<Option<B>, StampedFileError> {
-        match fs::read(path) {
-            Ok(bytes) => self.parse(&bytes).map(Some),
+        match File::open(path) {
+            Ok(file) => self.parse(BufReader::new(file)).map(Some),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(error) => Err(error.into()),
         }
     }
 
-    /// Content of a file with these bytes.
+    /// Content of what `input` gives: no more of it is read than its first line states, and one byte.
     ///
     /// # Errors
     /// As [`Self::read`].
-    pub fn parse<B: DeserializeOwned>(self, bytes: &[u8]) -> Result<B, StampedFileError> {
-        let other_kind = StampedFileError::OtherKind(self.kind);
-        let Some(end) = bytes.iter().position(|&byte| byte == b'\n') else { return Err(other_kind) };
-        let magic = self.magic();
-        let line = std::str::from_utf8(&bytes[..end]).ok().and_then(|line| line.strip_prefix(&magic));
-        let Some(header) = line.and_then(|line| serde_json::from_str::<Header>(line).ok()) else {
-            return Err(other_kind);
-        };
-        let body = &bytes[end + 1..];
+    pub fn parse<B: DeserializeOwned>(self, mut input: impl BufRead) -> Result<B, StampedFileError> {
+        let header = self.header(&mut input)?;
         if header.format != self.format {
             let Header { format: found, program_version, .. } = header;
             return Err(StampedFileError::OtherFormat { found, program_version, allowed: self.format });
@@ -126,12 +128,26 @@ impl Stamp {
         if header.program_version != PROGRAM_VERSION {
             return Err(StampedFileError::OtherVersion { found: header.program_version });
         }
-        if header.body_bytes != body.len() {
-            return Err(StampedFileError::Torn { found: body.len(), said: header.body_bytes });
+        let mut body = Vec::new();
+        input.take((header.body_bytes as u64).saturating_add(1)).read_to_end(&mut body)?;
+        let (found, said) = (body.len(), header.body_bytes);
+        match found.cmp(&said) {
+            Ordering::Less => return Err(StampedFileError::Torn { found, said }),
+            Ordering::Greater => return Err(StampedFileError::Longer { said }),
+            Ordering::Equal => {}
         }
-        if header.body_sha256 != sha256(body) {
+        if header.body_sha256 != sha256(&body) {
             return Err(StampedFileError::Damaged);
         }
-        postcard::from_bytes(body).map_err(|_| StampedFileError::Damaged)
+        postcard::from_bytes(&body).map_err(|_| StampedFileError::Damaged)
+    }
+
+    /// The first line.
+    fn header(self, input: &mut impl BufRead) -> Result<Header, StampedFileError> {
+        let mut first = Vec::new();
+        input.take(FIRST_LINE).read_until(b'\n', &mut first)?;
+        let line = std::str::from_utf8(&first).ok().and_then(|line| line.strip_suffix('\n'));
+        let json = line.and_then(|line| line.strip_prefix(&self.magic()));
+        json.and_then(|json| serde_json::from_str(json).ok()).ok_or(StampedFileError::OtherKind(self.kind))
     }
 }

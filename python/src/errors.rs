@@ -13,7 +13,7 @@ use gearwear::{
 };
 use gearwear_validation::found::StudyError;
 use pyo3::IntoPyObjectExt;
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyMemoryError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
 /// The exception called `name`, made of `arguments`.
@@ -99,6 +99,7 @@ pub(crate) fn of_mesh_file(error: &MeshFileError) -> PyErr {
         MeshFileError::Read { source, .. } | MeshFileError::Write { source, .. } => {
             of_system(source.kind(), format!("{error}: {source}"))
         }
+        MeshFileError::Memory { .. } => PyMemoryError::new_err(error.to_string()),
         _ => PyValueError::new_err(error.to_string()),
     }
 }

@@ -102,6 +102,7 @@ pub(crate) fn solve_fem_problem(
         FemProblemError::Input(problems) => {
             errors::of_scene(py, &SceneError { given: SceneText { name, text }, problems })
         }
+        FemProblemError::Memory(said) => errors::of_run(py, said),
         FemProblemError::Solve(error) => errors::of_run(py, error.to_string()),
     })?;
     Ok(FemProblem { record })

@@ -32,12 +32,12 @@ use super::file::{FlankSide, MachineGear, MeasuredFile, MeasuredRow, PlaceColumn
 use super::undefined::undefined;
 
 /// Numbers of header lines.
-const MODULE: u32 = 21;
-const TEETH: u32 = 22;
-const HELIX_ANGLE: u32 = 23;
-const PRESSURE_ANGLE: u32 = 24;
-const FACE_WIDTH: u32 = 26;
-const PROFILE_ENDS: [u32; 2] = [41, 44];
+pub(super) const MODULE: u32 = 21;
+pub(super) const TEETH: u32 = 22;
+pub(super) const HELIX_ANGLE: u32 = 23;
+pub(super) const PRESSURE_ANGLE: u32 = 24;
+pub(super) const FACE_WIDTH: u32 = 26;
+pub(super) const PROFILE_ENDS: [u32; 2] = [41, 44];
 const LEAD_ENDS: [u32; 2] = [51, 54];
 /// Most values of a curve.
 const MOST_VALUES: usize = 1_000_000;

@@ -76,7 +76,7 @@ mod tests {
     #[test]
     fn a_checkpoint_comes_back_to_the_bit() {
         let (bytes, file) = written();
-        let read: CheckpointFile = STAMP.parse(&bytes).unwrap();
+        let read: CheckpointFile = STAMP.parse(bytes.as_slice()).unwrap();
         assert_eq!(read, file);
         assert!(read.checkpoint.wear_mm.wheel[0].is_sign_negative());
     }
@@ -90,7 +90,7 @@ mod tests {
         for at in 0..bytes.len() {
             let mut edited = bytes.clone();
             edited[at] ^= 1;
-            assert!(STAMP.parse::<CheckpointFile>(&edited).is_err(), "byte {at}");
+            assert!(STAMP.parse::<CheckpointFile>(edited.as_slice()).is_err(), "byte {at}");
         }
     }
 
@@ -109,7 +109,7 @@ mod tests {
         ] {
             assert!(line.contains(&from), "{line}");
             let edited = [line.replace(&from, to).as_bytes(), &bytes[line_end..]].concat();
-            let message = STAMP.parse::<CheckpointFile>(&edited).unwrap_err().to_string();
+            let message = STAMP.parse::<CheckpointFile>(edited.as_slice()).unwrap_err().to_string();
             assert!(message.contains(&said), "{message}");
         }
     }

@@ -16,9 +16,12 @@ use super::identity::{RunIdentity, between_scenes};
 use crate::report::ReportError;
 use crate::scene::loaded::NamedFile;
 use crate::stamped_file::StampedFileError;
+use gearwear_files::size_limit::SizeLimit;
 use gearwear_files::whole_file;
 use gearwear_physics::results::run::StopReason;
 
+/// Size of the scene and the summary of a run.
+pub(super) const MOST: SizeLimit = SizeLimit { of: "a file of a run", megabytes: 256 };
 /// The last checkpoint.
 pub const CHECKPOINT: &str = "checkpoint.bin";
 
@@ -129,7 +132,7 @@ fn refuse_other_run(path: &Path, differences: Vec<String>) -> Result<(), FolderE
 
 /// The text of a file; `None` where there is none.
 fn read(path: &Path) -> Result<Option<String>, FolderError> {
-    match fs::read_to_string(path) {
+    match MOST.read_to_string(path) {
         Ok(text) => Ok(Some(text)),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(source) => Err(FolderError::Unreadable { path: path.to_owned(), source }),

@@ -74,7 +74,7 @@ pub fn read(dir: &Path) -> Result<RunRecord, ResultError> {
     fs::read_dir(dir).map_err(unreadable(dir))?;
     let lacks = |file| ResultError::NoRun { folder: dir.to_owned(), file };
     let path = dir.join(output_files::SUMMARY);
-    let summary = match fs::read(&path) {
+    let summary = match folder::MOST.read(&path) {
         Ok(summary) => summary,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Err(lacks(output_files::SUMMARY)),
         Err(error) => return Err(unreadable(&path)(error)),

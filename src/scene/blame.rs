@@ -25,7 +25,8 @@ impl SceneFault for RunError {
             (None, RunError::FiniteElements(model)) => Some(of_model(model, text)),
             (None, RunError::Calibration(calibration)) => of_calibration(calibration, text),
             (None, RunError::Pair(pair)) => Some(Problem::of_pair(text, pair)),
-            (None, RunError::Stiffness(_) | RunError::Simulation(_) | RunError::UnstableSteps { .. }) => None,
+            (None, RunError::Memory { .. } | RunError::Stiffness(_)) => None,
+            (None, RunError::Simulation(_) | RunError::UnstableSteps { .. }) => None,
         };
         problem.map(|problem| given.refused(vec![problem]))
     }

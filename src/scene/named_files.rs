@@ -1,6 +1,5 @@
 //! The files that a scene names – a calibration and a curve of tooth stiffness – read and checked against it.
 
-use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -12,6 +11,7 @@ use crate::measured_flank::initial;
 use crate::measured_flank::teeth::{ChosenBy, TraceChoice};
 use gearwear_bodies::gear::measured_flank::MeasuredFlank;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear};
+use gearwear_files::size_limit::SizeLimit;
 use gearwear_physics::calibration::{Calibration, identity::CalibrationIdentity};
 use gearwear_physics::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use gearwear_physics::mesh_cycle::settings::Coupling;
@@ -29,6 +29,8 @@ pub(super) const INITIAL_FLANK: PerGear<&str> =
     PerGear { pinion: "pair.pinion.initial_flank.file", wheel: "pair.wheel.initial_flank.file" };
 /// Every key that names a file.
 pub(super) const KEYS: [&str; 4] = [CALIBRATION, CURVE, INITIAL_FLANK.pinion, INITIAL_FLANK.wheel];
+/// Size of a file that a scene names.
+const MOST: SizeLimit = SizeLimit { of: "a file that a scene names", megabytes: 64 };
 /// Part of a load that counts as within a range.
 const ROUNDING: f64 = 1e-9;
 
@@ -120,7 +122,7 @@ impl NamedFiles {
 fn bytes_of(folder: &Path, known: &[NamedFile], key: &str, name: &str) -> Result<Vec<u8>, String> {
     match known.iter().find(|file| file.key == key && file.name == name) {
         Some(file) => Ok(file.bytes.clone()),
-        None => fs::read(folder.join(name)).map_err(|reason| format!("which cannot be read: {reason}")),
+        None => MOST.read(&folder.join(name)).map_err(|reason| format!("which cannot be read: {reason}")),
     }
 }
 

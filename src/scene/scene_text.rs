@@ -1,13 +1,18 @@
 //! The text of a scene file, and the errors of opening one.
 
 use std::fmt;
-use std::fs;
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
 
 use super::{Problem, Resolved};
+use gearwear_files::size_limit::SizeLimit;
 use gearwear_files::text::decode;
 use gearwear_physics::stiffness::curve_file::CurveFileError;
+
+/// Size of a scene or a problem of finite elements.
+const SCENE: SizeLimit = SizeLimit { of: "a scene", megabytes: 4 };
+/// Size of a file of another program, such as a measured profile.
+const FOREIGN: SizeLimit = SizeLimit { of: "a measured file", megabytes: 64 };
 
 /// Text of a scene file.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,7 +94,7 @@ pub enum LoadError {
 impl SceneText {
     /// Reads the text at `path` (`-`: standard input).
     pub fn read(path: &Path) -> Result<Self, LoadError> {
-        let (name, bytes) = read_bytes(path)?;
+        let (name, bytes) = read_bytes(path, SCENE)?;
         let text = String::from_utf8(bytes).map_err(|error| {
             let byte = error.utf8_error().valid_up_to();
             let line = error.as_bytes()[..byte].iter().filter(|&&b| b == b'\n').count() + 1;
@@ -103,7 +108,7 @@ impl SceneText {
     /// # Errors
     /// A file that cannot be read.
     pub fn read_foreign(path: &Path) -> Result<Self, LoadError> {
-        let (name, bytes) = read_bytes(path)?;
+        let (name, bytes) = read_bytes(path, FOREIGN)?;
         Ok(Self { name, text: decode(&bytes) })
     }
 
@@ -119,12 +124,11 @@ impl SceneText {
 }
 
 /// Name and bytes of the file at `path` (`-`: standard input).
-fn read_bytes(path: &Path) -> Result<(String, Vec<u8>), LoadError> {
+fn read_bytes(path: &Path, most: SizeLimit) -> Result<(String, Vec<u8>), LoadError> {
     let (name, bytes) = if path == Path::new("-") {
-        let mut bytes = Vec::new();
-        ("standard input".to_owned(), io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes))
+        ("standard input".to_owned(), most.read_from(io::stdin().lock()))
     } else {
-        (path.display().to_string(), fs::read(path))
+        (path.display().to_string(), most.read(path))
     };
     match bytes {
         Ok(bytes) => Ok((name, bytes)),

@@ -19,6 +19,13 @@ use crate::scene::table::other_ways_to_say;
 pub const FORMS: &str = "normal:MEAN:SD, lognormal:MEDIAN:FACTOR, uniform:LOW:HIGH, triangular:LOW:MODE:HIGH, ±40%, normal:10%, \
      lognormal:FACTOR";
 
+/// Greatest FACTOR: six powers of ten on each side hold 68 % of the values.
+const MOST_FACTOR: f64 = 1e6;
+/// Greatest magnitude of values but for [`RARE`].
+const MOST_VALUE: f64 = 1e100;
+/// Share of values, on each side, that a study does not draw.
+const RARE: f64 = 1e-12;
+
 /// Faults of an uncertain key.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum UncertainError {
@@ -76,12 +83,15 @@ impl Distribution {
             Self::Normal { standard_deviation, .. } if standard_deviation <= 0.0 => {
                 Some("a standard deviation above 0")
             }
-            Self::Lognormal { median, factor } if median <= 0.0 || factor <= 1.0 => {
-                Some("a median above 0 and a factor above 1")
+            Self::Lognormal { median, factor } if median <= 0.0 || factor <= 1.0 || factor > MOST_FACTOR => {
+                Some("a median above 0, and a factor above 1 and at most 1e6")
             }
             Self::Uniform { low, high } if low >= high => Some("LOW below HIGH"),
             Self::Triangular { low, mode, high } if !(low <= mode && mode <= high && low < high) => {
                 Some("LOW, MODE and HIGH that rise")
+            }
+            _ if [RARE, 1.0 - RARE].into_iter().any(|share| self.quantile(share).abs() > MOST_VALUE) => {
+                Some("values of at most 1e100")
             }
             _ => None,
         }
@@ -230,6 +240,8 @@ mod tests {
             ("pair.face_width_mm=uniform:2:1", "LOW below HIGH"),
             ("pair.face_width_mm=normal:1:-1", "above 0"),
             ("pair.face_width_mm=lognormal:0.5", "factor above 1"),
+            ("pair.face_width_mm=lognormal:1e300", "at most 1e6"),
+            ("pair.face_width_mm=uniform:-1e308:1e308", "at most 1e100"),
             ("pair.face_width_mm=gamma:1:2", "triangular:LOW:MODE:HIGH"),
             ("operation.pinion_torque_Nm=±10%", "which it does not have"),
         ] {

@@ -8,6 +8,7 @@ mod fem_problem;
 mod helical_output;
 mod init;
 mod initial_flank;
+mod limits;
 mod mesh;
 mod phases;
 mod plan;

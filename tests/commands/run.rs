@@ -351,3 +351,19 @@ fn a_closed_or_full_standard_error_is_no_panic() {
     let status = gearwear().arg("run").arg(&file).arg("--out").arg(dir.path().join("out")).stderr(full).status();
     assert_eq!(status.unwrap().code(), Some(2));
 }
+
+/// A face of 0.01 mm under the whole torque bends so far that positions past the tips of both gears are asked, where flanks do not face each
+/// other: the run ends with what is wrong, and not with a panic.
+#[test]
+fn loads_that_no_tooth_carries_end_with_what_is_wrong() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    let text = "[pair]\npreset = \"h501\"\nface_width_mm = 0.01\n[operation]\npinion_torque_Nm = 302.0\npinion_revolutions = 6e5\n[contact]\n\
+                surface = \"half-space\"\n[wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-11\n[helical]\nslices = 20\n\
+                [numerics]\nflank_points = 120\npositions = 40\nerror_estimate = false\nverify = false\n";
+    fs::write(&scene, text).unwrap();
+    let output =
+        gearwear().args(["run", "--quiet"]).arg(&scene).arg("--out").arg(folder.path().join("out")).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.code() == Some(3) && said.contains("worn through"), "{:?} {said}", output.status);
+}

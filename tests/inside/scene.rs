@@ -291,7 +291,7 @@ fn val_reliefs_begin_at_a_diameter_or_a_roll_angle() {
     assert!(!resolved.to_toml().contains("begins_at"));
 }
 
-/// ISO 1328-1:2013, formula (10): d = 72 mm, b = 14 mm, class 6: (0.05 √72 + 0.35 √14 + 4) √2 = 8.11, rounded to 8 µm; class 8 of the wheel,
+/// ISO 1328-1:2013, helix slope tolerance: d = 72 mm, b = 14 mm, class 6: (0.05 √72 + 0.35 √14 + 4) √2 = 8.11, rounded to 8 µm; class 8 of the wheel,
 /// d = 108 mm: 5.829 · 2√2 = 16.49, rounded to 16 µm.
 #[test]
 fn val_a_class_is_the_whole_tolerance_of_the_helix_slope() {

@@ -449,6 +449,14 @@ fn an_exported_flank_is_read_back() {
         let difference = column(&out.join("compare.csv"), "difference_um");
         assert!(difference.len() > 100 && difference.iter().all(|d| d.abs() < 1e-3), "{gear}: {difference:?}");
     }
+    // The export of a machine has places of its own, even in roll length: k within a thousandth.
+    let machine = folder.path().join("pinion.mka");
+    gearwear().arg("export").arg(&run).args(["--gear", "pinion", "--out"]).arg(&machine).assert().success();
+    let out = folder.path().join("machine");
+    let fit = ["--form", "none", "--shift-within", "0", "--quiet", "--out"];
+    gearwear().arg("compare").arg(&run).arg(&machine).args(fit).arg(&out).assert().success();
+    let factor = json(&out.join("compare.json"))["fit"]["coefficient_factor"]["value"].as_f64().unwrap();
+    assert!((factor - 1.0).abs() < 1e-3, "{factor}");
     let nothing = folder.path().join("nothing.csv");
     let refused = gearwear().arg("export").arg(&run).args(["--width", "15", "--out"]).arg(&nothing).output().unwrap();
     let message = String::from_utf8(refused.stderr).unwrap();

@@ -385,6 +385,19 @@ fn shards_merge_into_the_whole() {
     let text = fs::read_to_string(&journal).unwrap();
     fs::write(&journal, text.lines().take(3).map(|line| format!("{line}\n")).collect::<String>()).unwrap();
     refused(&bench.merge(&["s1", "s2", "s3"], "never"), &["2 of 12", "s2 (2 of 4)"]);
+
+    // One whose first line is cut short or damaged, or that has a byte of no text, is named with its line.
+    let head = text.lines().next().unwrap();
+    for (bytes, words) in [
+        (head.as_bytes()[..40].to_vec(), "line 1: a line without an end"),
+        ([b"{\xff".as_slice(), text.as_bytes()].concat(), "line 1: invalid utf-8"),
+        ([text.as_bytes(), b"\xfe\n".as_slice()].concat(), "line 6: invalid utf-8"),
+    ] {
+        fs::write(&journal, bytes).unwrap();
+        let merged = bench.merge(&["s1", "s2", "s3"], "never");
+        refused(&merged, &["rows.jsonl", words]);
+        assert!(!bench.out("never").exists());
+    }
 }
 
 #[test]

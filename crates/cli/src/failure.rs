@@ -35,6 +35,8 @@ use gearwear_studies::export::ExportError;
 use gearwear_validation::library::LibraryError;
 use miette::{Diagnostic, LabeledSpan, MietteDiagnostic, NamedSource, Report};
 
+/// Greatest length of a line that is shown, bytes.
+const LONGEST_SHOWN: usize = 500;
 /// Greatest number of problems of a file that are shown.
 const MOST_SHOWN: usize = 20;
 
@@ -51,6 +53,9 @@ pub(super) enum Failure {
     Run(#[from] RunError),
     #[error(transparent)]
     Solve(#[from] SolveError),
+    /// More memory than there is.
+    #[error("{0}")]
+    Memory(String),
     #[error(transparent)]
     FemPair(FemPairError),
     /// No reference for the comparison of models.
@@ -350,7 +355,7 @@ impl Failure {
             Failure::Missed { .. } | Failure::Violated { .. } | Failure::InvariantsViolated { .. } => 1,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
-            Failure::Run(_) | Failure::Solve(_) | Failure::FemPair(_) | Failure::Accuracy(_) => 3,
+            Failure::Run(_) | Failure::Solve(_) | Failure::Memory(_) | Failure::FemPair(_) | Failure::Accuracy(_) => 3,
             Failure::Calibrate(_)
             | Failure::NotFitted { .. }
             | Failure::NoCombination { .. }
@@ -359,19 +364,35 @@ impl Failure {
     }
 }
 
+/// Whether `text` is shown around the place of a problem, which takes the lines there and beside it whole.
+fn is_shown(text: &str, problem: &Problem) -> bool {
+    let Some(span) = &problem.span else { return true };
+    let (Some(before), Some(after)) = (text.get(..span.start), text.get(span.end..)) else { return false };
+    let longest = before.rsplit('\n').take(2).chain(after.split('\n').take(2)).map(str::len).max();
+    longest.unwrap_or(0).max(span.len()) <= LONGEST_SHOWN
+}
+
 /// Prints every problem of a scene with its place in the text.
-fn print_problems(SceneError { given, problems }: SceneError) {
-    let count = problems.len();
-    let source = Arc::new(NamedSource::new(&given.name, given.text));
-    for problem in problems.into_iter().take(MOST_SHOWN) {
-        let labels = label(&problem);
-        let mut diagnostic = MietteDiagnostic::new(problem.to_string()).with_labels(labels);
-        diagnostic.help = problem.help;
-        say(&format!("{:?}", Report::new(diagnostic).with_source_code(Arc::clone(&source))));
+fn print_problems(error: SceneError) {
+    let count = error.problems.len();
+    let source = Arc::new(NamedSource::new(&error.given.name, error.given.text.clone()));
+    for problem in error.problems.iter().take(MOST_SHOWN) {
+        say(&format!("{:?}", reported(problem, &error, &source)));
     }
     if count > 1 {
-        say(&format!("{count} problems in {}", given.name));
+        say(&format!("{count} problems in {}", error.given.name));
     }
+}
+
+/// One of the problems of `error`, with the text around it, or its line alone.
+fn reported(problem: &Problem, error: &SceneError, source: &Arc<NamedSource<String>>) -> Report {
+    let help = problem.help.clone();
+    if is_shown(&error.given.text, problem) {
+        let said = MietteDiagnostic::new(problem.to_string()).with_labels(label(problem));
+        return Report::new(MietteDiagnostic { help, ..said }).with_source_code(Arc::clone(source));
+    }
+    let said = format!("{}, line {}: {problem}", error.given.name, error.line_of(problem));
+    Report::new(MietteDiagnostic { help, ..MietteDiagnostic::new(said) })
 }
 
 /// The place of the problem, marked with what is found there.

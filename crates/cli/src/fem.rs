@@ -78,6 +78,7 @@ fn problem(args: &FemArgs, text: SceneText) -> Result<(), Failure> {
     let pool = pool(args.threads)?;
     let record = pool.install(|| fem_problem::run(&problem, folder, &progress)).map_err(|error| match error {
         FemProblemError::Input(problems) => text.refused(problems).into(),
+        FemProblemError::Memory(said) => Failure::Memory(said),
         FemProblemError::Solve(error) => Failure::Solve(error),
     });
     progress.finish();

@@ -13,6 +13,7 @@ mod fem_scene;
 mod figures;
 mod init;
 mod mesh;
+mod out_of_memory;
 mod plan;
 mod progress;
 mod remaining_life;
@@ -37,7 +38,7 @@ const UNBROKEN: usize = 10_000;
 
 /// Predicts how the flanks of spur and helical gears wear, and the pressure, load sharing and transmission error that follow.
 ///
-/// Exit status: 0 done; 1 a check failed; 2 the input is wrong; 3 the solver failed; 130 interrupted (what was finished is kept).
+/// Exit status: 0 done; 1 a check failed; 2 the input is wrong; 3 the solver failed, or memory lacks; 130 interrupted (what was finished is kept).
 #[derive(Debug, Parser)]
 #[command(name = "gearwear", version)]
 struct Cli {
@@ -81,7 +82,7 @@ enum Command {
 
 /// Runs the command the user typed.
 pub fn main() -> ExitCode {
-    ExitCode::from(with_arguments(std::env::args_os()))
+    ExitCode::from(out_of_memory::guarded(|| with_arguments(std::env::args_os())))
 }
 
 /// Runs the command in `arguments`, of which the first is the name of the program; gives its exit status.

@@ -141,10 +141,11 @@ fn finish(
     }
 }
 
-/// Failure of a run of which nothing was finished; the folder made for a scene that allows no run is removed.
+/// Failure of a run of which nothing was finished; the folder made for a scene that allows no run, or none in this memory, is removed.
 fn refused(error: RunError, scene: &LoadedScene, made: Option<&MadeFolder>) -> Failure {
     let failure = in_the_scene(error, scene);
-    if let (Failure::Scene(_), Some(made)) = (&failure, made) {
+    let none_begins = matches!(failure, Failure::Scene(_) | Failure::Run(RunError::Memory { .. }));
+    if let Some(made) = made.filter(|_| none_begins) {
         made.abandon();
     }
     failure

@@ -1,7 +1,6 @@
 //! `gearwear sweep`: the scene's run for all combinations of some varied keys, and `gearwear sweep merge`.
 
 use gearwear::report::output_files;
-use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,7 +9,7 @@ use std::time::Instant;
 use gearwear::journal::{self, JournalContents, JournalError, Kept};
 use gearwear::report;
 use gearwear::scene::draft::Draft;
-use gearwear::scene::loaded::LoadedScene;
+use gearwear::scene::loaded::{LoadedScene, SceneText};
 use gearwear::sweep::asked::SweepQuestion;
 use gearwear::sweep::axis::{self, AxisError};
 use gearwear::sweep::combination::Sweep;
@@ -216,7 +215,7 @@ fn not_another_sweep(whole: &JournalContents<SweepPart>, out: &Path) -> Result<(
 /// The scene of the sweep, from the first folder that has it.
 fn scene_of(whole: &JournalContents<SweepPart>, folders: &[PathBuf]) -> Result<String, InputError> {
     let scenes = folders.iter().map(|folder| folder.join(output_files::SCENE));
-    let mut texts = scenes.filter_map(|scene| fs::read_to_string(scene).ok());
+    let mut texts = scenes.filter_map(|scene| SceneText::read(&scene).ok().map(|scene| scene.text));
     texts
         .find(|text| Draft::parse(text).is_ok_and(|draft| draft.hash() == whole.study.identity.given_hash))
         .ok_or(InputError::MergeWithoutScene)

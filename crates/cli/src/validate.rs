@@ -1,7 +1,6 @@
 //! `gearwear validate`: the validation suite.
 
 use gearwear::report::output_files;
-use std::fs;
 use std::num::{NonZeroU64, NonZeroUsize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,10 +12,15 @@ use gearwear_validation::library::{self, Library};
 use gearwear_validation::record::{Tier, ValidationRecord};
 use gearwear_validation::{self as validation, against};
 
+use gearwear_files::size_limit::SizeLimit;
+
 use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError};
 use super::run::{thread_count, watch_for_interrupt};
 use super::{print, say};
+
+/// Size of an earlier run's validation.json.
+const VALIDATION_RECORD: SizeLimit = SizeLimit { of: "a validation.json", megabytes: 64 };
 
 #[derive(Debug, clap::Args)]
 pub(super) struct ValidateArgs {
@@ -159,7 +163,9 @@ fn list(library: &Library, tier: Option<Tier>) -> Result<(), Failure> {
 /// The record of an earlier run.
 fn read_earlier(path: &Path) -> Result<ValidationRecord, InputError> {
     let name = path.display().to_string();
-    let text = fs::read_to_string(path).map_err(|reason| InputError::Unreadable { name: name.clone(), reason })?;
+    let text = VALIDATION_RECORD
+        .read_to_string(path)
+        .map_err(|reason| InputError::Unreadable { name: name.clone(), reason })?;
     serde_json::from_str(&text).map_err(|error| InputError::NoValidationRecord {
         name,
         line: error.line(),

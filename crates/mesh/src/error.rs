@@ -17,6 +17,14 @@ pub enum MeshFileError {
         /// Error of the system.
         source: io::Error,
     },
+    /// Reading needs more memory than there is.
+    #[error("{}: reading it takes some {megabytes} MB of memory, more than can be had; a coarser mesh takes less", path.display())]
+    Memory {
+        /// Path of the file.
+        path: PathBuf,
+        /// Memory that reading takes, MB of 2²⁰ bytes.
+        megabytes: u64,
+    },
     /// The file cannot be written.
     #[error("cannot write {}", path.display())]
     Write {

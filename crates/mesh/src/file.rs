@@ -13,14 +13,21 @@
 //! whole mesh, have at most [`super::error::LARGEST_EXPANSION`] entries for each byte of the file.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 
 use super::error::{FileFault, MeshFileError, Unwritable};
 use super::gmsh::{self, GmshStyle};
 use super::vtu::{self, VtuEncoding};
 use super::{Mesh, abaqus, json};
+use gearwear_files::memory;
+use gearwear_files::size_limit::SizeLimit;
 use gearwear_files::whole_file;
 
+/// Size of a mesh file, and of all that it includes.
+pub(crate) const MESH_SIZE: SizeLimit = SizeLimit { of: "a mesh file", megabytes: 1024 };
+/// Memory that reading takes for each byte of a file: text takes seven, of 160,000 quadrilaterals.
+const MEMORY_PER_BYTE: u64 = 8;
 /// Endings of mesh files.
 pub(crate) const ALLOWED_ENDINGS: &str = ".msh (Gmsh 2.2 or 4.1), .vtu (VTK), .inp (Abaqus) or .json";
 
@@ -75,14 +82,22 @@ pub fn read(path: impl AsRef<Path>) -> Result<Mesh, MeshFileError> {
 /// Reads the mesh file `path`; with it the content of the file and of all that it includes, one after the other.
 pub fn read_with_content(path: impl AsRef<Path>) -> Result<(Mesh, Vec<u8>), MeshFileError> {
     let path = path.as_ref();
-    let mut bytes = match fs::read(path) {
+    let mut bytes = match MESH_SIZE.read(path) {
         Ok(bytes) => bytes,
+        Err(source) if source.kind() == ErrorKind::OutOfMemory => {
+            let bytes = fs::metadata(path).map_or(0, |found| found.len());
+            return Err(MeshFileError::Memory { path: path.into(), megabytes: (MEMORY_PER_BYTE * bytes) >> 20 });
+        }
         Err(source) => {
             // Of a name without a known ending the ending is the likely slip.
             Format::of_path(path)?;
             return Err(MeshFileError::Read { path: path.into(), source });
         }
     };
+    let needed = MEMORY_PER_BYTE * bytes.len() as u64;
+    if !memory::can_be_had(needed) {
+        return Err(MeshFileError::Memory { path: path.into(), megabytes: needed >> 20 });
+    }
     let format = match Format::of_content(&bytes) {
         Some(format) => format,
         None => Format::of_path(path)?,

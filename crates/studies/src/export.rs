@@ -7,6 +7,7 @@ use std::path::Path;
 
 use crate::compare::run_folder::{RunFolder, RunFolderError};
 use gearwear::measured_flank::file::{HeightFrom, ValueKind};
+use gearwear::measured_flank::mka_export;
 use gearwear::measured_flank::profile::MeasuredProfile;
 use gearwear::scene::loaded::{LoadError, LoadedScene};
 use gearwear_bodies::gear::error::PairError;
@@ -29,11 +30,35 @@ pub enum ExportError {
     Width { found: f64, face_width_mm: f64 },
 }
 
+/// Format of the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FlankFormat {
+    /// Columns under their names.
+    Table,
+    /// Text export of curves of a gear measuring machine.
+    Mka,
+}
+
+impl FlankFormat {
+    /// Format by the ending of the file's name: [`Self::Mka`] for `.mka`, upper or lower case.
+    pub fn of(path: &Path) -> Self {
+        match path.extension() {
+            Some(ending) if ending.eq_ignore_ascii_case("mka") => Self::Mka,
+            _ => Self::Table,
+        }
+    }
+}
+
 /// The text of the file of a gear of the run in `folder`; of several slices, of that nearest to `width_mm`, or to the middle of the face width.
 ///
 /// # Errors
 /// A folder without a finished run, a place outside the face width.
-pub fn worn_flank(folder: &Path, gear: Gear, width_mm: Option<f64>) -> Result<String, ExportError> {
+pub fn worn_flank(
+    folder: &Path,
+    gear: Gear,
+    width_mm: Option<f64>,
+    format: FlankFormat,
+) -> Result<String, ExportError> {
     let folder = RunFolder::open(folder)?;
     let scene = LoadedScene::open(folder.scene_path())?;
     folder.check_scene(&scene.resolved)?;
@@ -56,7 +81,7 @@ pub fn worn_flank(folder: &Path, gear: Gear, width_mm: Option<f64>) -> Result<St
     });
     let (rho_mm, wear_um): (Vec<f64>, Vec<f64>) =
         rows.map(|(_, (&radius, &wear))| (tooth.involute.curvature_radius_mm(radius), wear)).unzip();
-    if rho_mm.is_empty() {
+    if rho_mm.len() < 2 {
         return Err(ExportError::NoPoints { file });
     }
     let profile = MeasuredProfile {
@@ -68,15 +93,25 @@ pub fn worn_flank(folder: &Path, gear: Gear, width_mm: Option<f64>) -> Result<St
         leads: Vec::new(),
         teeth_um: Vec::new(),
     };
-    let mut text = format!("# gear = {}\n# revolutions = {}\n", gear.name(), folder.summary.revolutions);
-    if let Some(width) = nearest.filter(|_| has_slices) {
+    let scale = profile.over_normal(&pair);
+    // Without the sign of a zero.
+    let heights =
+        profile.unworn_um(&pair, 0.0).into_iter().zip(&wear_um).map(|(design, wear)| design - scale * wear + 0.0);
+    let height_um: Vec<f64> = heights.collect();
+    let place = nearest.filter(|_| has_slices);
+    match format {
+        FlankFormat::Mka => Ok(mka_export::text(&pair, gear, place.unwrap_or(wanted), &rho_mm, &height_um)),
+        FlankFormat::Table => Ok(table_text(gear, folder.summary.revolutions, place, &rho_mm, &height_um)),
+    }
+}
+
+/// Table of roll lengths and heights, under what it is of.
+fn table_text(gear: Gear, revolutions: f64, width_mm: Option<f64>, rho_mm: &[f64], height_um: &[f64]) -> String {
+    let mut text = format!("# gear = {}\n# revolutions = {revolutions}\n", gear.name());
+    if let Some(width) = width_mm {
         text.push_str(&format!("# width_mm = {width}\n"));
     }
     text.push_str("roll_length_mm,height_um\n");
-    let scale = profile.over_normal(&pair);
-    for (rho, (design, wear)) in rho_mm.iter().zip(profile.unworn_um(&pair, 0.0).iter().zip(&wear_um)) {
-        // Without the sign of a zero.
-        text.push_str(&format!("{rho:.6},{:.6}\n", design - scale * wear + 0.0));
-    }
-    Ok(text)
+    rho_mm.iter().zip(height_um).for_each(|(rho, height)| text.push_str(&format!("{rho:.6},{height:.6}\n")));
+    text
 }

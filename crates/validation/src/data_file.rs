@@ -1,13 +1,16 @@
 //! Files of numbers beside a case: CSV with lines of `#` remarks and a line of column names. Columns whose name begins with
 //! `uncertainty` hold positive numbers.
 
-use std::fs;
 use std::io;
 use std::path::Path;
 
 use super::case_file::DataSpec;
 use super::value::Value;
 use gearwear_files::data_table::{DataTable, finite, positive};
+use gearwear_files::size_limit::SizeLimit;
+
+/// Size of a file of numbers.
+const MOST: SizeLimit = SizeLimit { of: "a file of numbers", megabytes: 64 };
 
 /// Columns of the file, as a group; `None` where it is missing and may be.
 ///
@@ -15,7 +18,7 @@ use gearwear_files::data_table::{DataTable, finite, positive};
 /// The fault of the file, with its name.
 pub(super) fn read(spec: &DataSpec, folder: &Path) -> Result<Option<Value>, String> {
     let path = folder.join(&spec.file);
-    let text = match fs::read_to_string(&path) {
+    let text = match MOST.read_to_string(&path) {
         Ok(text) => text,
         Err(error) if error.kind() == io::ErrorKind::NotFound && spec.missing.is_some() => return Ok(None),
         Err(error) => return Err(format!("{}: cannot be read: {error}", spec.file)),

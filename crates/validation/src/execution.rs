@@ -1,7 +1,6 @@
 //! One run of a case: done as by its command, and read as from its output files.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 use std::time::Instant;
@@ -9,6 +8,7 @@ use std::time::Instant;
 use serde::Serialize;
 
 use super::case_file::{CaseCommand, RunSpec};
+use super::library::MOST;
 use super::members::Member;
 use super::soundness;
 use super::value::Value;
@@ -133,7 +133,8 @@ impl MemberRun<'_> {
         let name = &self.run.scene;
         match presets::find(name) {
             Some(preset) => Ok(preset.text.to_owned()),
-            None => fs::read_to_string(self.folder.join(name))
+            None => MOST
+                .read_to_string(&self.folder.join(name))
                 .map_err(|reason| refused(format!("{name}: neither a preset nor a file that can be read: {reason}"))),
         }
     }
@@ -213,6 +214,7 @@ impl MemberRun<'_> {
         let problem = FemProblem::from_toml(&file.to_string()).map_err(wrong)?;
         let record = fem_problem::run(&problem, self.folder, self.watch).map_err(|error| match error {
             FemProblemError::Input(problems) => wrong(problems),
+            FemProblemError::Memory(said) => not_converged(said),
             FemProblemError::Solve(error) => not_converged(error),
         })?;
         let contact = table(|out| report::fem::contact_table(out, record.contacts()))?;

@@ -9,6 +9,7 @@ use include_dir::{Dir, include_dir};
 
 use super::case_file::CaseFile;
 use super::record::Tier;
+use gearwear_files::size_limit::SizeLimit;
 use gearwear_files::whole_file::TemporaryFolder;
 
 /// Built-in cases with their files.
@@ -17,6 +18,9 @@ static CASES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../validation");
 static MESHES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../meshes");
 /// File of a case in its folder.
 const CASE_FILE: &str = "case.toml";
+
+/// Size of a case's own file, and of a scene beside it.
+pub(crate) const MOST: SizeLimit = SizeLimit { of: "a case", megabytes: 16 };
 
 /// Error of finding cases.
 #[derive(Debug, thiserror::Error)]
@@ -133,7 +137,7 @@ impl Library {
 
 fn read(folder: &Path) -> Result<ValidationCase, LibraryError> {
     let path = folder.join(CASE_FILE);
-    let text = fs::read_to_string(&path).map_err(|reason| LibraryError::Unreadable { path: path.clone(), reason })?;
+    let text = MOST.read_to_string(&path).map_err(|reason| LibraryError::Unreadable { path: path.clone(), reason })?;
     let file: CaseFile = toml::from_str(&text).map_err(|error| {
         let start = error.span().map_or(0, |span| span.start);
         let line = text.get(..start).map_or(1, |before| before.matches('\n').count() + 1);

@@ -42,6 +42,7 @@ use crate::results::worn_pair::WornPair;
 use crate::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
 use crate::simulation::wear_run::{Outcome, reference_phase};
 use gearwear_bodies::gear::GearPair;
+use gearwear_files::memory;
 pub use inputs::RunInputs;
 use model::RunModel;
 use prepare::{ContactCases, RunSlices, ToothElasticity};
@@ -143,7 +144,7 @@ pub fn worn_pairs(
     announced(inputs, observer, |run, stages| run.at_moments(revolutions, stages))
 }
 
-/// [`prepared`], after an announcement of what the run takes where that is much.
+/// [`prepared`], where the memory for it can be had, after an announcement of what the run takes where that is much.
 fn announced<R>(
     inputs: RunInputs<'_>,
     observer: &dyn Observer,
@@ -153,6 +154,9 @@ fn announced<R>(
     let cost = RunCost::of(scene, &Plan::of(scene), &GearPair::new(&scene.pair)?);
     if let Some(much) = cost.announcement() {
         observer.announcement(&much);
+    }
+    if !memory::can_be_had((cost.memory_gb * 1e9) as u64) {
+        return Err(RunError::Memory { gb: cost.memory_gb });
     }
     prepared(inputs, observer, carry_out)
 }

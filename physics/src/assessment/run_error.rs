@@ -26,6 +26,14 @@ pub enum RunError {
     /// The tooth stiffness of finite elements cannot be computed.
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
+    /// The run needs more memory than there is.
+    #[error(
+        "the run takes some {gb:.1} GB of memory, more than can be had; fewer helical.slices, numerics.positions or numerics.flank_points take less"
+    )]
+    Memory {
+        /// Memory of the run, GB.
+        gb: f64,
+    },
     /// The solver failed.
     #[error(transparent)]
     Simulation(#[from] SimulationError),

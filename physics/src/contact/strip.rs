@@ -141,9 +141,12 @@ pub(crate) struct ContactWindow {
     pub ends_are_sharp: [bool; 2],
 }
 
+/// Least length of a window, mm.
+const LEAST_LENGTH_MM: f64 = 1e-6;
+
 impl ContactWindow {
     /// A window of `half_length_mm` to either side of the theoretical contact point, or of the edge beside it where one flank
-    /// ends before that point, cut where a flank ends.
+    /// ends before that point, cut where a flank ends; of [`LEAST_LENGTH_MM`] where the flanks do not face each other, past the tips of both gears.
     pub(crate) fn new(flanks: Flanks<'_>, position_mm: f64, half_length_mm: f64) -> Self {
         let ((lower, upper), at_tips) = common_extent_mm(&flanks.geometry, position_mm);
         let nearest_mm = nearest_mm(&flanks.geometry, position_mm, (lower, upper));
@@ -151,9 +154,10 @@ impl ContactWindow {
         let ends_are_real = [lower >= from, upper <= to];
         let (edges, corners) = (flanks.sharp_edges, flanks.sharp_corners);
         let sharp = [(edges.wheel, corners.pinion), (edges.pinion, corners.wheel)];
+        let lower_mm = lower.max(from);
         Self {
-            lower_mm: lower.max(from),
-            upper_mm: upper.min(to),
+            lower_mm,
+            upper_mm: upper.min(to).max(lower_mm + LEAST_LENGTH_MM),
             nearest_mm,
             ends_are_real,
             ends_are_sharp: [0, 1]

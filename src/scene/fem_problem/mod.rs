@@ -39,6 +39,9 @@ use meshed_groups::MeshedBodies;
 
 pub use file::{Component, FemProblemFile, LoadFile};
 
+/// Remedy for a third direction in the plane.
+const IN_SPACE: &str = "z is a direction of analysis = \"three-dimensional\"";
+
 /// The JSON schema of a problem file.
 pub fn schema() -> &'static Value {
     static SCHEMA: OnceLock<Value> = OnceLock::new();
@@ -213,6 +216,9 @@ fn choose_load(load: &mut LoadFile, third: ThirdDirection, key: &str, findings: 
             if given.len() != third.directions() {
                 let found = format!("a list of {} in a problem with analysis = {}", given.len(), in_quotes(third));
                 findings.not_allowed(&displacement, found, vector);
+                if given.len() == ThirdDirection::ThreeDimensional.directions() {
+                    findings.help(IN_SPACE);
+                }
             }
             components(&mut load.components, third, &format!("{key}.components"), findings);
         }
@@ -240,6 +246,7 @@ fn components(given: &mut Option<Vec<Component>>, third: ThirdDirection, key: &s
         let found = format!("{:?} in a problem with analysis = {}", component.name(), in_quotes(third));
         let names: Vec<String> = all.iter().map(|component| format!("{:?}", component.name())).collect();
         findings.not_allowed(&format!("{key}[{i}]"), found, names.join(" or "));
+        findings.help(IN_SPACE);
     }
     let mut unique = given.clone();
     unique.sort();

@@ -23,8 +23,8 @@
 //!
 //! For a spur pair cos β_b is exactly 1.
 //!
-//! Source: the geometry of the involute helicoid, ISO 21771:2007, 5.4 and 5.5; ISO 1328-1:2013, 3.4 and 3.5, for where deviations are
-//! measured; K. L. Johnson, *Contact Mechanics* (1985), section 4.2.
+//! Source: the geometry of the involute helicoid, ISO 21771:2007, 5.4 and 5.5; ISO 1328-1:2013, where deviations are measured;
+//! K. L. Johnson, *Contact Mechanics* (1985), section 4.2.
 
 use super::{Gear, GearPair, conjugate::ConjugateFlanks, involute::TangentFramePoint};
 

@@ -17,7 +17,7 @@
 //! helix slope    f z/b            f > 0; |f| (1 − z/b) where f < 0: removed material is not negative
 //! ```
 //!
-//! Amounts are those of a drawing, along the transverse line of action (ISO 1328-1:2013, 3.4 and 3.5); along the normal of a helical flank
+//! Amounts are those of a drawing, along the transverse line of action (ISO 1328-1:2013); along the normal of a helical flank
 //! they are multiplied by cos β_b ([`super::normal_section`]).
 //!
 //! Axes that are not parallel are a helix slope of the pinion, f_Σδ sin α_wt + f_Σβ cos α_wt.

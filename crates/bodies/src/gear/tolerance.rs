@@ -8,7 +8,7 @@
 //!
 //! rounded to whole µm above 10 µm, to 0.5 µm from 5 µm on, and to 0.1 µm below.
 //!
-//! Source: ISO 1328-1:2013, formula (10), and its rules of rounding.
+//! Source: ISO 1328-1:2013, helix slope tolerance, and its rules of rounding.
 
 /// Range of reference diameters of the standard, mm.
 pub const DIAMETERS_MM: [f64; 2] = [5.0, 15_000.0];

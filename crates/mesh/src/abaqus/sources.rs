@@ -2,18 +2,17 @@
 //!
 //! `*INCLUDE, INPUT=file` stands for the lines of that file, and `INPUT=file` of `*NODE`, `*ELEMENT`, `*NSET` and `*ELSET` for data lines
 //! there. Names are relative to the folder of the file read, as all programs take them that run there. A file that includes itself, on
-//! any way, is refused, and so is more than [`MOST_FILES`] or [`MOST_BYTES`] of all.
+//! any way, is refused, and so is more than [`MOST_FILES`] or [`MESH_SIZE`] of all.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::keywords::{Keyword, LogicalLine, logical_lines, parsed};
 use crate::error::{FileFault, FilePosition, FileProblem};
+use crate::file::MESH_SIZE;
 
 /// Greatest number of included files.
 const MOST_FILES: usize = 1000;
-/// Greatest size of all included files, bytes.
-const MOST_BYTES: u64 = 4 << 30;
 /// Keywords whose data may be in another file.
 const WITH_INPUT: [&str; 4] = ["NODE", "ELEMENT", "NSET", "ELSET"];
 
@@ -95,12 +94,12 @@ impl Sources {
             }
             above = self.files[file].parent;
         }
-        let size = std::fs::metadata(&path).map_err(|error| refused(error.to_string()))?.len();
-        self.bytes = self.bytes.saturating_add(size);
-        if self.files.len() > MOST_FILES || self.bytes > MOST_BYTES {
-            return Err(refused(format!("more than {MOST_FILES} files or {} GB are included", MOST_BYTES >> 30)));
+        let bytes = MESH_SIZE.read(&path).map_err(|error| refused(error.to_string()))?;
+        self.bytes += bytes.len() as u64;
+        if self.files.len() > MOST_FILES || self.bytes > MESH_SIZE.bytes() {
+            let most_mb = MESH_SIZE.megabytes;
+            return Err(refused(format!("more than {MOST_FILES} files or {most_mb} MB are included")));
         }
-        let bytes = std::fs::read(&path).map_err(|error| refused(error.to_string()))?;
         let text = utf8(&bytes).map_err(|(line, problem)| refused(format!("line {line}: {problem}")))?;
         Ok(Source { name: Some(name.to_owned()), path: Some(path), text: text.to_owned(), parent: Some(place.file) })
     }

@@ -4,7 +4,6 @@
 
 use gearwear::report::output_files;
 use std::collections::BTreeMap;
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -14,9 +13,14 @@ use serde_json::Value;
 use gearwear::evaluate::output::SummaryOutput;
 use gearwear::scene::Resolved;
 use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_files::size_limit::SizeLimit;
 use gearwear_physics::results::error::TotalError;
 use gearwear_physics::results::run::ReportedBy;
 
+/// Size of the summary and the scene of a run.
+const SUMMARY: SizeLimit = SizeLimit { of: "a summary or scene of a run", megabytes: 256 };
+/// Size of a table of a run, which has a row for each snapshot, slice and point.
+const TABLE: SizeLimit = SizeLimit { of: "a table of a run", megabytes: 4096 };
 /// Relative difference up to which times are equal: hours and revolutions round differently.
 const SAME_TIME: f64 = 1e-9;
 
@@ -104,7 +108,7 @@ impl RunFolder {
     /// Reads summary and scene of a finished run; tables are read when they are asked for.
     pub fn open(folder: &Path) -> Result<Self, RunFolderError> {
         let path = folder.join(output_files::SUMMARY);
-        let text = read(&path)?;
+        let text = read(&path, SUMMARY)?;
         let damaged = |error: serde_json::Error| {
             RunFolderError::damaged(&path, error.line() as u64, error, "what gearwear run writes")
         };
@@ -114,7 +118,7 @@ impl RunFolder {
         }
         let whole_summary = serde_json::from_str(&text).map_err(damaged)?;
         // The scene is resolved elsewhere, with better messages; here it must only exist.
-        let scene_toml = read(&folder.join(output_files::SCENE))?;
+        let scene_toml = read(&folder.join(output_files::SCENE), SUMMARY)?;
         Ok(Self { path: folder.to_owned(), summary, whole_summary, scene_toml, snapshots: Vec::new() })
     }
 
@@ -167,7 +171,7 @@ impl RunFolder {
     /// The numbers of a table, such as `mesh_cycle.csv`.
     pub fn table(&self, file: &str) -> Result<NumberColumns, RunFolderError> {
         let path = self.path.join(file);
-        let text = read(&path)?;
+        let text = read(&path, TABLE)?;
         let mut reader = csv::Reader::from_reader(text.as_bytes());
         let refused = |error: csv::Error| RunFolderError::damaged(&path, line_of(&error), error, THIS_VERSION);
         let names: Vec<String> = reader.headers().map_err(refused)?.iter().map(str::to_owned).collect();
@@ -201,13 +205,13 @@ fn line_of(error: &csv::Error) -> u64 {
 }
 
 /// The text of a file of a run.
-fn read(path: &Path) -> Result<String, RunFolderError> {
-    fs::read_to_string(path).map_err(|reason| RunFolderError::Unreadable { path: path.to_owned(), reason })
+fn read(path: &Path, most: SizeLimit) -> Result<String, RunFolderError> {
+    most.read_to_string(path).map_err(|reason| RunFolderError::Unreadable { path: path.to_owned(), reason })
 }
 
 /// The wear in `profiles.csv`.
 fn snapshots(path: &Path) -> Result<Vec<FlankSnapshot>, RunFolderError> {
-    let text = read(path)?;
+    let text = read(path, TABLE)?;
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let mut snapshots: Vec<FlankSnapshot> = Vec::new();
     for row in reader.deserialize::<KeptProfileRow>() {

@@ -22,7 +22,7 @@
 //! F_αT  = √(f_HαT² + f_fαT²)                              F_βT  = √(f_HβT² + f_fβT²)
 //! ```
 //!
-//! Source: ISO 1328-1:2013, 3.4 and 3.5 (deviations), formulae (7) to (12) (tolerances).
+//! Source: ISO 1328-1:2013, definitions of profile and helix deviations, formulae of their tolerances.
 
 use serde::Serialize;
 
