@@ -85,6 +85,7 @@ fn spec(setup: &Setup<'_>, teeth: u32) -> PairSpec {
         bore_diameter_mm: None,
         modification: Modification::default(),
         shaft: None,
+        ring: None,
     };
     spec
 }

@@ -488,6 +488,7 @@ pub(super) mod tests {
             bore_diameter_mm: None,
             modification: Modification::default(),
             shaft: None,
+            ring: None,
         });
         let spec = PairSpec {
             normal_module_mm,

@@ -359,6 +359,7 @@ mod tests {
             bore_diameter_mm: None,
             modification: Modification::default(),
             shaft: None,
+            ring: None,
         }
     }
 

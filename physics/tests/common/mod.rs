@@ -25,6 +25,7 @@ pub fn gear(teeth: u32, profile_shift: f64, tip_diameter_mm: Option<f64>) -> Gea
         bore_diameter_mm: None,
         modification: Modification::default(),
         shaft: None,
+        ring: None,
     }
 }
 

@@ -89,6 +89,13 @@ fn polyline(name: &str, points: &[[f64; 2]], stroke: (&str, f64, Dash)) -> Trace
 
 fn outline(drawing: &PairDrawing, gear: Gear) -> Trace {
     let mut points = drawing.outline[gear].clone();
+    if let (Gear::Wheel, Some(rim_mm)) = (gear, drawing.rim_radius_mm) {
+        // The rim's circle is joined to the outline opposite the mesh, so that the ring between them is filled.
+        let middle = points.len() / 2;
+        points.rotate_left(middle);
+        points.extend(points.first().copied());
+        points.extend(rim(&points[0], drawing.axis[gear], rim_mm));
+    }
     points.extend(points.first().copied());
     polyline(gear.name(), &points, (gear_colour(gear), 1.8, Dash::Solid)).filled(gear_fill(gear))
 }
@@ -107,6 +114,17 @@ fn circles(drawing: &PairDrawing, gear: Gear) -> impl Iterator<Item = Trace> {
         let circle = circle.opacity(0.8).group(name);
         Some(if listed && gear == Gear::Pinion { circle } else { circle.unlisted() })
     })
+}
+
+/// Circle about `centre` that begins and ends beside `point`.
+fn rim(point: &[f64; 2], centre: [f64; 2], radius_mm: f64) -> Vec<[f64; 2]> {
+    let first = (point[1] - centre[1]).atan2(point[0] - centre[0]);
+    (0..=CIRCLE_POINTS)
+        .map(|i| {
+            let (sin, cos) = (first - TAU * i as f64 / CIRCLE_POINTS as f64).sin_cos();
+            [centre[0] + radius_mm * cos, centre[1] + radius_mm * sin]
+        })
+        .collect()
 }
 
 fn circle(centre: [f64; 2], radius_mm: f64) -> Vec<[f64; 2]> {

@@ -45,7 +45,7 @@ impl GearPair {
     /// between form circle and tip circle, or the face width is too small for the helix (b < W_k sin β_b).
     pub fn span(&self, gear: Gear) -> Option<Span> {
         let (spec, tooth) = (&self.spec, &self.teeth[gear]);
-        let z = f64::from(tooth.teeth);
+        let z = tooth.z();
         let (m_n, alpha_n, alpha_t) =
             (spec.normal_module_mm, spec.normal_pressure_angle_rad, spec.transverse_pressure_angle_rad());
         let (sin_base_helix, cos_base_helix) = self.base_helix_angle_rad().sin_cos();
@@ -73,7 +73,7 @@ impl GearPair {
         let tooth = &self.teeth[gear];
         let base_mm = tooth.involute.base_radius_mm;
         let cos_base_helix = self.base_helix_angle_rad().cos();
-        let half_pitch = PI / f64::from(tooth.teeth);
+        let half_pitch = PI / tooth.z();
         let odd = if tooth.teeth % 2 == 1 { (0.5 * half_pitch).cos() } else { 1.0 };
         BALLS_MODULES.into_iter().find_map(|modules| {
             let ball_diameter_mm = modules * self.spec.normal_module_mm;

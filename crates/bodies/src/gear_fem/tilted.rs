@@ -134,6 +134,7 @@ mod tests {
             bore_diameter_mm: None,
             modification: Modification::default(),
             shaft: None,
+            ring: None,
         });
         let spec = PairSpec {
             normal_module_mm: 4.5,
