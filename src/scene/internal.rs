@@ -39,8 +39,7 @@ pub(super) fn with_positive_numbers(mut table: Table, findings: &mut Findings) -
         findings.not_allowed(INTERNAL, "false with a negative number of teeth, that of an internal wheel", "true");
         return table;
     }
-    let given: Vec<(&str, f64)> =
-        LENGTHS.into_iter().filter_map(|key| Some((key, number_at(&table, key)?))).collect();
+    let given: Vec<(&str, f64)> = LENGTHS.into_iter().filter_map(|key| Some((key, number_at(&table, key)?))).collect();
     if let [(first_key, first), others @ ..] = given.as_slice()
         && let Some((key, odd)) = others.iter().find(|(_, other)| (*other < 0.0) != (*first < 0.0))
     {
@@ -71,7 +70,11 @@ pub(super) fn check_keys(file: &SceneFile, findings: &mut Findings) {
         for (key, given) in [("root_diameter_mm", gear.root_diameter_mm.is_some()), ("cutter", gear.cutter.is_some())] {
             if given && !is_internal {
                 let key = format!("pair.{name}.{key}");
-                findings.not_allowed(&key, "given for external teeth", "left out: the basic rack generates external teeth");
+                findings.not_allowed(
+                    &key,
+                    "given for external teeth",
+                    "left out: the basic rack generates external teeth",
+                );
             }
         }
         if gear.root_diameter_mm.is_some() && gear.cutter.is_some() {
@@ -88,7 +91,8 @@ pub(super) fn check_model(file: &SceneFile, pair: &PairSpec, findings: &mut Find
     let tooth_temperature = file.temperature.as_ref().is_some_and(|temperature| temperature.tooth.is_some());
     let surfaces = "\"half-space\", the default, \"winkler\", \"hertz\" or \"hertz-mean\"";
     let models = "\"weber-banaschek\", the default, \"iso6336\" or \"constant\"";
-    let of_elements = |model| !matches!(model, StiffnessModel::WeberBanaschek | StiffnessModel::Iso6336 | StiffnessModel::Constant);
+    let of_elements =
+        |model| !matches!(model, StiffnessModel::WeberBanaschek | StiffnessModel::Iso6336 | StiffnessModel::Constant);
     let bore = file.pair.wheel.as_ref().is_some_and(|wheel| wheel.bore_diameter_mm.is_some());
     // Key, whether it is given, what is allowed instead, and why.
     let asked = [
@@ -102,7 +106,12 @@ pub(super) fn check_model(file: &SceneFile, pair: &PairSpec, findings: &mut Find
             "a spur pair without modifications over the face width, parallel axes and no shafts that twist",
             "slices of internal pairs are not in the model",
         ),
-        ("lubricant", file.lubricant.is_some(), "left out; [friction] gives losses", "films and scuffing of internal pairs are not in the model"),
+        (
+            "lubricant",
+            file.lubricant.is_some(),
+            "left out; [friction] gives losses",
+            "films and scuffing of internal pairs are not in the model",
+        ),
         ("temperature.tooth", tooth_temperature, "left out", "VDI 2736-2 has the temperatures of external teeth"),
         ("pair.wheel.bore_diameter_mm", bore, "left out", "an internal wheel has no bore below its teeth"),
     ];

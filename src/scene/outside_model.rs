@@ -8,9 +8,9 @@ const NEWTON_METRES_IN_POUND_INCH: f64 = 0.112_984_829;
 /// Reason why a value of `key` outside its range is not modelled.
 pub(super) fn reason(key: &str, value: f64) -> Option<&'static str> {
     match key {
-        "pair.pinion.teeth" if value < 0.0 => Some(
-            "a negative number of teeth is that of an internal gear (ISO 21771), which is the wheel of a pair",
-        ),
+        "pair.pinion.teeth" if value < 0.0 => {
+            Some("a negative number of teeth is that of an internal gear (ISO 21771), which is the wheel of a pair")
+        }
         "pair.wheel.teeth" if value < 0.0 => {
             Some("an internal wheel is said by internal = true in [pair.wheel] and a positive number of teeth here")
         }

@@ -41,9 +41,10 @@ pub(super) fn draw(pair: &GearPair) -> PairDrawing {
             .into_iter()
             .map(|(name, position_mm)| (name.to_owned(), on_line(position_mm)))
             .collect(),
-        rim_radius_mm: pair.spec.is_internal().then(|| {
-            pair.teeth.wheel.root_radius_mm.abs() + DRAWN_RIM_MODULES * pair.spec.normal_module_mm
-        }),
+        rim_radius_mm: pair
+            .spec
+            .is_internal()
+            .then(|| pair.teeth.wheel.root_radius_mm.abs() + DRAWN_RIM_MODULES * pair.spec.normal_module_mm),
     }
 }
 

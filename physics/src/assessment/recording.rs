@@ -294,7 +294,7 @@ pub(super) fn geometry(pair: &GearPair) -> GeometrySummary {
                 span_teeth: span.map(|span| span.teeth),
                 span_mm: span.map(|span| span.span_mm),
                 ball_diameter_mm: over_balls.map(|balls| balls.ball_diameter_mm),
-                dimension_over_balls_mm: over_balls.map(|balls| balls.dimension_mm),
+                dimension_over_balls_mm: over_balls.map(|balls| balls.dimension_mm.abs()),
             }
         }),
     }
@@ -441,7 +441,9 @@ fn flank(model: &RunModel<'_>, RunFindings { outcome, verified, .. }: RunFinding
         pressure_worn_MPa: outcome.worn.cycle.pressure_mpa[gear].clone(),
         snapshot_wear_um: outcome.snapshots.iter().map(|snapshot| in_um(&snapshot.wear_mm[gear])).collect(),
         snapshot_pressure_MPa: outcome.snapshots.iter().map(|s| s.cycle.pressure_mpa[gear].clone()).collect(),
-        path_point_radius_mm: path_points(pair.path.points_mm().map(|position| pair.radius_at_mm(gear, position).abs())),
+        path_point_radius_mm: path_points(
+            pair.path.points_mm().map(|position| pair.radius_at_mm(gear, position).abs()),
+        ),
         zones: outcome.zones[gear],
     }
 }

@@ -191,7 +191,13 @@ impl<'a> RunningPair<'a> {
         let spec = &self.pair.spec;
         let bulk_c = settings.bulk_temperature_c.unwrap_or_else(|| {
             let supply = settings.supply.factor();
-            bulk_temperature_c(settings.temperature_c, loss_kw, spec.centre_distance_mm.abs(), spec.face_width_mm, supply)
+            bulk_temperature_c(
+                settings.temperature_c,
+                loss_kw,
+                spec.centre_distance_mm.abs(),
+                spec.face_width_mm,
+                supply,
+            )
         });
         let [at_inlet, at_teeth] = [settings.temperature_c, bulk_c].map(|celsius| OilState::of(&oil, celsius));
         OilInMesh { settings, oil, mean, bulk_c, at_inlet, at_teeth }

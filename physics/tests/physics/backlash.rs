@@ -45,7 +45,8 @@ fn ver_the_pair_has_the_backlash_asked_for() {
 fn teeth_that_are_too_thin_are_told() {
     let mut spec = preset("fzg-c");
     spec.gears.wheel.tooth_thickness_allowance_mm = -5.0;
-    let Err(NoSuchBacklash::TeethTooThin { least_mm }) = spec.centre_distance_with_mm(Backlash::Circumferential(0.1)) else {
+    let Err(NoSuchBacklash::TeethTooThin { least_mm }) = spec.centre_distance_with_mm(Backlash::Circumferential(0.1))
+    else {
         panic!("thin teeth have more backlash at any centre distance");
     };
     assert!(spec.centre_distance_with_mm(Backlash::Circumferential(1.01 * least_mm)).is_ok());

@@ -53,7 +53,9 @@ pub(super) fn pair(record: &RunRecord) -> Chart {
 fn with_motion(chart: Chart, record: &RunRecord) -> Chart {
     let (drawing, geometry) = (&record.drawing, &record.summary.geometry);
     let [from, to] = drawing.line_of_action;
-    let along = [to[0] - from[0], to[1] - from[1]];
+    // T1T2 is negative of an internal pair: contact is on the other side of T1.
+    let sense = drawing.circles_mm.wheel.base.signum();
+    let along = [to[0] - from[0], to[1] - from[1]].map(|component| sense * component);
     let length_mm = along[0].hypot(along[1]);
     let path = &geometry.curvature_radius_mm;
     let at_mm = [path.A, path.C, path.E];
@@ -153,8 +155,12 @@ fn ends_of_the_line_of_action(drawing: &PairDrawing) -> [Label; 2] {
 fn reading(record: &RunRecord) -> String {
     let geometry = &record.summary.geometry;
     let length = geometry.curvature_radius_mm.E - geometry.curvature_radius_mm.A;
+    let line = match record.drawing.rim_radius_mm {
+        Some(_) => "mm long, on the line of action beyond T1, T1T2".to_owned(),
+        None => "mm of the".to_owned(),
+    };
     format!(
-        "The flanks touch along the path of contact from A to E, {} mm of the {} mm long line of action at {}°; a tooth \
+        "The flanks touch along the path of contact from A to E, {} {line} {} mm long line of action at {}°; a tooth \
          pair follows every {} mm, so {} pairs are in contact on average. Double-click shows both gears whole; the \
          slider turns the pair through the mesh and tells what share of the load each contact of the worn pair carries.",
         figure(length),

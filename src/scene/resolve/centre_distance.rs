@@ -59,7 +59,9 @@ pub(super) fn choose(
                 let (Backlash::Circumferential(found_mm) | Backlash::Normal(found_mm)) = backlash;
                 let allowed = format!("less than {:.1}", (10.0 * greatest_mm / UM).floor() / 10.0);
                 findings.not_allowed(key, number(found_mm / UM), allowed);
-                findings.help("an internal pair has its greatest backlash where its base circles touch: check profile shifts");
+                findings.help(
+                    "an internal pair has its greatest backlash where its base circles touch: check profile shifts",
+                );
                 return None;
             }
             Err(NoSuchBacklash::TeethTooThin { least_mm }) => {

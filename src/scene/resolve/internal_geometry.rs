@@ -1,7 +1,7 @@
 //! Key and remedy of an impossible internal pair.
 
-use gearwear_bodies::gear::{Gear, GearPair};
 use gearwear_bodies::gear::internal_error::InternalError;
+use gearwear_bodies::gear::{Gear, GearPair};
 
 use super::geometry::{Cause, ErrorPlace, at_least, at_most};
 use crate::scene::findings::Findings;
@@ -99,7 +99,8 @@ impl ErrorPlace<'_> {
     /// A tip diameter of the internal wheel that is too small.
     fn ring_tip(&self, tip_diameter_mm: f64, least_mm: f64, what: &str) -> Cause {
         let allowed = format!("a tip diameter of the wheel of at least {least_mm} mm, {what}");
-        let help = "give pair.wheel.tip_diameter_mm, or a smaller profile shift of the wheel, positive towards its tips";
+        let help =
+            "give pair.wheel.tip_diameter_mm, or a smaller profile shift of the wheel, positive towards its tips";
         self.tip((Gear::Wheel, tip_diameter_mm), allowed, help)
     }
 }

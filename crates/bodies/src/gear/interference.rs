@@ -148,7 +148,9 @@ impl GearPair {
     /// Greatest tip radius of the mate of `gear`, below its own, with a gap of `least_gap_mm` to the fillet.
     pub(super) fn greatest_mate_tip_radius_mm(&self, gear: Gear, least_gap_mm: f64) -> f64 {
         let mate = &self.teeth[gear.mate()];
-        let (mut free, mut overlapping) = (mate.involute.base_radius_mm, mate.tip_radius_mm);
+        // An internal tooth has its base circle beyond its tip.
+        let low = if mate.is_internal() { mate.root_form_radius_mm } else { mate.involute.base_radius_mm };
+        let (mut free, mut overlapping) = (low, mate.tip_radius_mm);
         for _ in 0..60 {
             let middle = 0.5 * (free + overlapping);
             if self.fillet_gap_mm(gear, middle) >= least_gap_mm { free = middle } else { overlapping = middle }

@@ -24,7 +24,9 @@ pub enum InternalError {
         least_mm: f64,
     },
     /// The teeth are together thicker than the pitch on the working circles.
-    #[error("the teeth interfere: backlash is {backlash_mm:.4} mm at centre distance {centre_distance_mm} mm of an internal pair")]
+    #[error(
+        "the teeth interfere: backlash is {backlash_mm:.4} mm at centre distance {centre_distance_mm} mm of an internal pair"
+    )]
     NegativeBacklash {
         /// Circumferential backlash on the working pitch circles, negative.
         backlash_mm: f64,

@@ -120,9 +120,7 @@ impl OutlineSegment<'_> {
             OutlineCurve::TipArc => {
                 (tooth.tip_radius_mm, tooth.half_angle_rad(tooth.tip_radius_mm) * (2.0 * tau - 1.0))
             }
-            OutlineCurve::Fillet => {
-                tooth.polar(tooth.trochoid.point_mm(self.fillet_angle_rad(tau)))
-            }
+            OutlineCurve::Fillet => tooth.polar(tooth.trochoid.point_mm(self.fillet_angle_rad(tau))),
             OutlineCurve::Flank => {
                 let radius = tooth.involute.radius_mm(self.flank_rho_mm(tau));
                 (radius, tooth.space_half_angle_rad(radius))

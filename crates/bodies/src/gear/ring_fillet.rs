@@ -183,8 +183,7 @@ impl RingFillet {
     /// # Errors
     /// [`InternalError`] where cutter or root circle are impossible.
     pub fn new(spec: &PairSpec, ring: &RingSpec) -> Result<Self, InternalError> {
-        let base_radius_mm =
-            spec.reference_radius_mm(Gear::Wheel).abs() * spec.transverse_pressure_angle_rad().cos();
+        let base_radius_mm = spec.reference_radius_mm(Gear::Wheel).abs() * spec.transverse_pressure_angle_rad().cos();
         if let Some(cutter) = &ring.cutter {
             let mesh = CutterMesh::new(spec, cutter)?;
             let (base_mm, half_angle, tip_mm) = (mesh.base_radius_mm, mesh.base_half_angle_rad, mesh.tip_radius_mm);

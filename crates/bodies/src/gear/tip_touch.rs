@@ -190,7 +190,8 @@ impl GearPair {
         let from_axis = Vector2::new(mate.base_radius_mm, -mate_rho) - centre;
         let free_mm = mate.curvature_radius_mm(from_axis.norm());
         let sign = mate.signed(1.0);
-        let turned_rad = (sign * from_axis.y).atan2(sign * from_axis.x) + (sign * free_mm).atan2(sign * mate.base_radius_mm);
+        let turned_rad =
+            (sign * from_axis.y).atan2(sign * from_axis.x) + (sign * free_mm).atan2(sign * mate.base_radius_mm);
         let touched_rho = mate_rho + mate.base_radius_mm * turned_rad;
         let rho_mm = PerGear::from_fn(|each| if each == gear { start_rho } else { touched_rho });
         FlankTouch {

@@ -18,9 +18,9 @@ use nalgebra::Vector2;
 
 use super::{
     Gear, PairError,
-    involute::{Involute, inv, inverse_inv},
     fillet::Fillet,
     internal_error::InternalError,
+    involute::{Involute, inv, inverse_inv},
     ring_fillet::RingFillet,
     root_trochoid::{RackTip, RootTrochoid, greatest_dedendum_factor, greatest_fillet_radius_factor},
     spec::PairSpec,
