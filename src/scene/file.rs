@@ -184,15 +184,14 @@ pub struct GearFile {
     /// Number of teeth z, 5 to 10000. Required without a preset.
     #[schemars(range(min = 5, max = 10000))]
     pub teeth: Option<u32>,
-    /// Whether the wheel has internal teeth; so has one with a negative number of teeth, and then diameters and centre distance that are all
-    /// positive (ISO 21771) or all negative (DIN 3960). Default false.
+    /// Internal teeth, of the wheel alone. Default false.
     pub internal: Option<bool>,
-    /// Root diameter d_f of internal teeth in mm, > 0. Default: that of the basic rack or the cutter.
+    /// Root diameter d_f of internal teeth in mm, > 0. Default: that of basic rack or cutter.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub root_diameter_mm: Option<f64>,
-    /// Shaper cutter of internal teeth. Default: none, and a circular root fillet.
+    /// Shaper cutter of internal teeth. Default: none, a circular fillet.
     pub cutter: Option<CutterFile>,
-    /// Profile shift coefficient x of the module that is given, −5 to 5; positive towards the tips, of internal teeth too. Required without a preset.
+    /// Profile shift coefficient x of the module that is given, −5 to 5. Required without a preset.
     #[schemars(range(min = -5, max = 5))]
     pub profile_shift: Option<f64>,
     /// Tip diameter d_a in mm, > 0. Default: d + 2 m (x + h_aP*), shortened where the tip clearance asks for it.

@@ -89,6 +89,9 @@ impl Problem {
     pub fn of_tooth_mesh(text: &str, gear: Option<Gear>, error: &ToothMeshError) -> Self {
         let of_gear = gear.map_or_else(|| "pair".to_owned(), |gear| format!("pair.{}", gear.name()));
         let (key, allowed) = match error {
+            ToothMeshError::InternalTeeth => {
+                ("pair.wheel".to_owned(), "external teeth; gearwear run computes the pair on elastic half-planes")
+            }
             ToothMeshError::ClampRadius { .. } => (clamp_key(gear), "a circle below the teeth"),
             ToothMeshError::SectorTeeth { .. } => ("fem.sector_teeth".to_owned(), "an odd number, at most all teeth"),
             ToothMeshError::NotPositive { .. }
