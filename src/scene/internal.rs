@@ -12,6 +12,7 @@ use super::problem::number;
 use super::table;
 use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_physics::contact::settings::SurfaceKind;
+use gearwear_physics::mesh_cycle::settings::Coupling;
 
 const TEETH: &str = "pair.wheel.teeth";
 const INTERNAL: &str = "pair.wheel.internal";
@@ -93,6 +94,7 @@ pub(super) fn check_model(file: &SceneFile, pair: &PairSpec, findings: &mut Find
     let models = "\"weber-banaschek\", the default, \"iso6336\" or \"constant\"";
     let of_elements =
         |model| !matches!(model, StiffnessModel::WeberBanaschek | StiffnessModel::Iso6336 | StiffnessModel::Constant);
+    let coupling = file.helical.as_ref().and_then(|helical| helical.coupling);
     let bore = file.pair.wheel.as_ref().is_some_and(|wheel| wheel.bore_diameter_mm.is_some());
     // Key, whether it is given, what is allowed instead, and why.
     let asked = [
@@ -100,12 +102,8 @@ pub(super) fn check_model(file: &SceneFile, pair: &PairSpec, findings: &mut Find
         ("contact.calibration", contact.is_some_and(|own| own.calibration.is_some()), "left out", NO_ELEMENTS),
         ("stiffness.model", stiffness.is_some_and(of_elements), models, "the other models hold for external teeth"),
         ("fem", file.fem.is_some(), "left out", NO_ELEMENTS),
-        (
-            "helical",
-            !pair.is_alike_over_width(),
-            "a spur pair without modifications over the face width, parallel axes and no shafts that twist",
-            "slices of internal pairs are not in the model",
-        ),
+        ("helical.coupling", coupling == Some(Coupling::Fem), "\"slicing\", the default, or \"none\"", NO_ELEMENTS),
+        ("pair.wheel.shaft", pair.gears.wheel.shaft.is_some(), "left out", "the shaft of an internal wheel is not in the model"),
         (
             "lubricant",
             file.lubricant.is_some(),

@@ -7,6 +7,7 @@ mod fem_pair;
 mod fem_problem;
 mod helical_output;
 mod init;
+mod internal_gears;
 mod mesh;
 mod phases;
 mod plan;
