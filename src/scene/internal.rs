@@ -103,19 +103,25 @@ pub(super) fn check_model(file: &SceneFile, pair: &PairSpec, findings: &mut Find
         ("stiffness.model", stiffness.is_some_and(of_elements), models, "the other models hold for external teeth"),
         ("fem", file.fem.is_some(), "left out", NO_ELEMENTS),
         ("helical.coupling", coupling == Some(Coupling::Fem), "\"slicing\", the default, or \"none\"", NO_ELEMENTS),
-        ("pair.wheel.shaft", pair.gears.wheel.shaft.is_some(), "left out", "the shaft of an internal wheel is not in the model"),
         (
-            "lubricant",
-            file.lubricant.is_some(),
-            "left out; [friction] gives losses",
-            "films and scuffing of internal pairs are not in the model",
+            "pair.wheel.shaft",
+            pair.gears.wheel.shaft.is_some(),
+            "left out",
+            "the shaft of an internal wheel is not in the model",
+        ),
+        (
+            "lubricant.bulk_temperature_C",
+            file.lubricant.as_ref().is_some_and(|oil| oil.bulk_temperature_C.is_none()),
+            "the temperature of the teeth",
+            "ISO/TS 6336-22 estimates it from the centre distance of external gears",
         ),
         ("temperature.tooth", tooth_temperature, "left out", "VDI 2736-2 has the temperatures of external teeth"),
         ("pair.wheel.bore_diameter_mm", bore, "left out", "an internal wheel has no bore below its teeth"),
     ];
     for (key, given, instead, because) in asked {
         if given {
-            findings.not_allowed(key, "given for a pair with an internal wheel", instead);
+            let found = if key.starts_with("lubricant") { "nothing for" } else { "given for" };
+            findings.not_allowed(key, format!("{found} a pair with an internal wheel"), instead);
             findings.help(because);
         }
     }

@@ -68,7 +68,8 @@ fn all_spellings_give_the_same_files() {
         let output = run(text, folder);
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     }
-    for name in ["scene.toml", "pinion.csv", "wheel.csv", "mesh_cycle.csv", "history.csv", "profiles.csv", "flank.vtu"] {
+    for name in ["scene.toml", "pinion.csv", "wheel.csv", "mesh_cycle.csv", "history.csv", "profiles.csv", "flank.vtu"]
+    {
         let [first, others @ ..] = &folders[..] else { panic!("three folders") };
         let first = fs::read(first.join("out").join(name)).unwrap();
         for other in others {
@@ -88,7 +89,10 @@ fn what_is_refused() {
     let tip = "tip_diameter_mm = 176.2";
     let surface = "surface = \"hertz\"";
     let cases: &[(&[(&str, &str)], &[&str])] = &[
-        (&[("teeth = 60", "teeth = -60"), (tip, "tip_diameter_mm = -176.2")], &["pair.wheel.tip_diameter_mm", "a positive number"]),
+        (
+            &[("teeth = 60", "teeth = -60"), (tip, "tip_diameter_mm = -176.2")],
+            &["pair.wheel.tip_diameter_mm", "a positive number"],
+        ),
         (&[("teeth = 60\ninternal = true", "teeth = -60\ninternal = false")], &["pair.wheel.internal", "true"]),
         (&[("teeth = 60\ninternal = true", "teeth = 60")], &["pair.wheel.cutter", "external teeth"]),
         (&[("teeth = 20", "teeth = -20")], &["pair.pinion.teeth", "found -20", "which is the wheel of a pair"]),
@@ -98,11 +102,20 @@ fn what_is_refused() {
         (&[(tip, "tip_diameter_mm = 169.0")], &["base circle", "at least 169.14"]),
         (&[("centre_distance_mm = 60.0", "centre_distance_mm = 61.0")], &["the teeth interfere", "at most 60"]),
         (&[("teeth = 25", "teeth = 60")], &["pair.wheel.cutter.teeth", "at most 59"]),
-        (&[(surface, "surface = \"fem\"")], &["contact.surface", "finite elements of internal gears are not in the model"]),
+        (
+            &[(surface, "surface = \"fem\"")],
+            &["contact.surface", "finite elements of internal gears are not in the model"],
+        ),
         (&[(surface, "calibration = \"a.json\"")], &["contact.calibration", "left out"]),
         (&[("[wear]", "[stiffness]\nmodel = \"fem\"\n[wear]")], &["stiffness.model", "\"weber-banaschek\""]),
         (&[("[wear]", "[fem]\nbody = \"ring\"\n[wear]")], &["fem: found given for a pair with an internal wheel"]),
-        (&[("face_width_mm = 20.0", "face_width_mm = 20.0\nhelix_angle_deg = 15.0"), ("[wear]", "[helical]\ncoupling = \"fem\"\n[wear]")], &["helical.coupling", "\"slicing\""]),
+        (
+            &[
+                ("face_width_mm = 20.0", "face_width_mm = 20.0\nhelix_angle_deg = 15.0"),
+                ("[wear]", "[helical]\ncoupling = \"fem\"\n[wear]"),
+            ],
+            &["helical.coupling", "\"slicing\""],
+        ),
     ];
     for (lines, parts) in cases {
         let folder = tempfile::tempdir().unwrap();

@@ -155,17 +155,15 @@ fn ends_of_the_line_of_action(drawing: &PairDrawing) -> [Label; 2] {
 fn reading(record: &RunRecord) -> String {
     let geometry = &record.summary.geometry;
     let length = geometry.curvature_radius_mm.E - geometry.curvature_radius_mm.A;
+    let [length, whole, angle] = [length, geometry.line_of_action_mm, geometry.working_pressure_angle_deg].map(figure);
     let line = match record.drawing.rim_radius_mm {
-        Some(_) => "mm long, on the line of action beyond T1, T1T2".to_owned(),
-        None => "mm of the".to_owned(),
+        Some(_) => format!("{length} mm long, on the line of action beyond T1, at {angle}°"),
+        None => format!("{length} mm of the {whole} mm long line of action at {angle}°"),
     };
     format!(
-        "The flanks touch along the path of contact from A to E, {} {line} {} mm long line of action at {}°; a tooth \
+        "The flanks touch along the path of contact from A to E, {line}; a tooth \
          pair follows every {} mm, so {} pairs are in contact on average. Double-click shows both gears whole; the \
          slider turns the pair through the mesh and tells what share of the load each contact of the worn pair carries.",
-        figure(length),
-        figure(geometry.line_of_action_mm),
-        figure(geometry.working_pressure_angle_deg),
         figure(geometry.base_pitch_mm),
         significant(geometry.transverse_contact_ratio, 4),
     )

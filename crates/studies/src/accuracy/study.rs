@@ -40,7 +40,9 @@ pub enum AccuracyError {
     #[error("the reference, {name}: {reason}")]
     Reference { name: String, reason: String },
     /// There is no reference of a pair with an internal wheel.
-    #[error("pair.wheel: the reference of this comparison is finite elements, which are not in the model for internal gears")]
+    #[error(
+        "pair.wheel: the reference of this comparison is finite elements, which are not in the model for internal gears"
+    )]
     InternalTeeth,
     #[error("interrupted before the reference was finished")]
     Interrupted,

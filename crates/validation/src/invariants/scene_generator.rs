@@ -33,7 +33,7 @@ struct Sizes {
     /// E*, MPa.
     modulus_mpa: f64,
     is_plastic: bool,
-    /// Whether the wheel has internal teeth, of which there are neither finite elements nor slices, films and temperatures of teeth.
+    /// Whether the wheel has internal teeth, of which there are neither finite elements nor temperatures.
     is_internal: bool,
 }
 
@@ -144,7 +144,7 @@ impl Draw {
         Sizes { module_mm, teeth, helix_rad, face_width_mm, modulus_mpa: 0.0, is_plastic: false, is_internal: false }
     }
 
-    /// A spur pair with an internal wheel, whose tips are short enough for most pinions.
+    /// A pair with an internal wheel, whose tips are short enough for most pinions.
     fn internal_pair(&mut self) -> Sizes {
         let module_mm = self.logarithmic(1.0, 8.0);
         let pinion = self.random.i64(14..=40);
@@ -161,7 +161,10 @@ impl Draw {
         self.set("pair.pinion.profile_shift", shift);
         let of_wheel = four_digits(-shift - self.between(0.0, 0.2));
         self.set("pair.wheel.profile_shift", of_wheel);
-        let tip_mm = four_digits(module_mm * (wheel as f64 - 2.0 * (self.between(0.6, 0.8) + of_wheel)));
+        let helix_deg = if self.chance(0.2) { self.between(-20.0, 20.0) } else { 0.0 };
+        self.set("pair.helix_angle_deg", helix_deg);
+        let reference_mm = module_mm * wheel as f64 / helix_deg.to_radians().cos();
+        let tip_mm = four_digits(reference_mm - 2.0 * module_mm * (self.between(0.6, 0.8) + of_wheel));
         if self.chance(0.5) {
             self.set("pair.wheel.teeth", wheel);
             self.set("pair.wheel.internal", true);
@@ -175,8 +178,8 @@ impl Draw {
             self.set("pair.wheel.cutter.teeth", teeth);
         }
         let teeth = [pinion, wheel].map(|teeth| teeth as f64);
-        let (modulus_mpa, is_plastic) = (0.0, false);
-        Sizes { module_mm, teeth, helix_rad: 0.0, face_width_mm, modulus_mpa, is_plastic, is_internal: true }
+        let (helix_rad, modulus_mpa, is_plastic) = (helix_deg.to_radians(), 0.0, false);
+        Sizes { module_mm, teeth, helix_rad, face_width_mm, modulus_mpa, is_plastic, is_internal: true }
     }
 
     /// The pair of a preset, if its text writes it out.
@@ -219,9 +222,6 @@ impl Draw {
                 let rounding = four_digits(m * self.between(0.01, 0.06));
                 self.set(&of("tip_rounding_mm"), rounding);
             }
-        }
-        if sizes.is_internal {
-            return;
         }
         // Modifications over the face width, which need slices.
         if !self.chance(if sizes.helix_rad == 0.0 { 0.08 } else { 0.4 }) {
@@ -384,7 +384,7 @@ impl Draw {
     }
 
     fn lubricant(&mut self, sizes: &Sizes) -> bool {
-        let has_oil = !sizes.is_internal && self.chance(0.25);
+        let has_oil = self.chance(0.25);
         if has_oil {
             let class = self.pick(&[32i64, 68, 100, 220, 460]);
             self.set("lubricant.viscosity_class", class);
@@ -396,7 +396,7 @@ impl Draw {
             self.set("lubricant.supply", supply);
             let film = self.pick(&["hamrock", "grubin"]);
             self.set("lubricant.central_film", film);
-            if self.chance(0.3) {
+            if self.chance(0.3) || sizes.is_internal {
                 let bulk = four_digits(temperature + self.between(0.0, 30.0));
                 self.set("lubricant.bulk_temperature_C", bulk);
             }
