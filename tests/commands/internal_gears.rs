@@ -88,6 +88,7 @@ fn all_spellings_give_the_same_files() {
 fn what_is_refused() {
     let tip = "tip_diameter_mm = 176.2";
     let surface = "surface = \"hertz\"";
+    // By hand: cos α_a2 = 169.1447/174, α_a2 = 13.566°, 1 − tan α_a2/tan 20° = 0.3370.
     let cases: &[(&[(&str, &str)], &[&str])] = &[
         (
             &[("teeth = 60", "teeth = -60"), (tip, "tip_diameter_mm = -176.2")],
@@ -98,7 +99,14 @@ fn what_is_refused() {
         (&[("teeth = 20", "teeth = -20")], &["pair.pinion.teeth", "found -20", "which is the wheel of a pair"]),
         (&[("teeth = 20\n", "teeth = 20\ninternal = true\n")], &["pair.pinion.internal", "is the wheel"]),
         (&[("cutter = {", "root_diameter_mm = 189.0\ncutter = {")], &["pair.wheel.cutter", "one of the two"]),
-        (&[(tip, "tip_diameter_mm = 170.0")], &["involute interference", "1 − tan α_a2/tan α_wt", "at least"]),
+        (
+            &[
+                ("centre_distance_mm = 60.0", "centre_distance_mm = 72.0"),
+                ("teeth = 20\nprofile_shift = 0.3", "teeth = 12\nprofile_shift = 0.0"),
+                ("profile_shift = -0.3\ntip_diameter_mm = 176.2\ncutter = { teeth = 25 }", "profile_shift = 0.0"),
+            ],
+            &["involute interference", "z1/z2 = 0.2000 is less than 1 − tan α_a2/tan α_wt = 0.3370", "at least"],
+        ),
         (&[(tip, "tip_diameter_mm = 169.0")], &["base circle", "at least 169.14"]),
         (&[("centre_distance_mm = 60.0", "centre_distance_mm = 61.0")], &["the teeth interfere", "at most 60"]),
         (&[("teeth = 25", "teeth = 60")], &["pair.wheel.cutter.teeth", "at most 59"]),
