@@ -52,7 +52,7 @@ pub fn worn_flank(folder: &Path, gear: Gear, width_mm: Option<f64>) -> Result<St
     let flank = tooth.involute.radius_mm(tooth.root_form_rho_mm())..=tooth.tip_radius_mm;
     let rows = radius.iter().zip(wear).enumerate().filter(|&(row, (radius, wear))| {
         let is_in_slice = !has_slices || width.get(row).copied() == nearest;
-        is_in_slice && flank.contains(radius) && wear.is_finite()
+        is_in_slice && flank.contains(&tooth.involute.signed(*radius)) && wear.is_finite()
     });
     let (rho_mm, wear_um): (Vec<f64>, Vec<f64>) =
         rows.map(|(_, (&radius, &wear))| (tooth.involute.curvature_radius_mm(radius), wear)).unzip();

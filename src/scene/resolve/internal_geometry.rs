@@ -80,6 +80,10 @@ impl ErrorPlace<'_> {
                 let [found, most] = [profile_shift, greatest].map(|shift| shift / self.factor_scale);
                 cutter("profile_shift", number(found), format!("less than {}", at_most(most)))
             }
+            InternalError::CutterAddendum { addendum_factor, least_factor, .. } => {
+                let [found, least] = [addendum_factor, least_factor].map(|factor| factor / self.factor_scale);
+                cutter("addendum_factor", number(found), format!("more than {}", at_least(least)))
+            }
             InternalError::CutterTip { tip_rounding_factor, greatest } => {
                 let [found, most] = [tip_rounding_factor, greatest].map(|factor| factor / self.factor_scale);
                 cutter("tip_rounding_factor", number(found), format!("at most {}", at_most(most)))

@@ -97,6 +97,20 @@ pub enum InternalError {
         /// Greatest possible radius.
         greatest: f64,
     },
+    /// The rounding of the cutter's tip edge begins inside its pitch circle.
+    #[error(
+        "the cutter's tip of radius {tip_radius_mm:.4} mm does not reach beyond its pitch circle by its edge: at least {least_mm:.4} mm"
+    )]
+    CutterAddendum {
+        /// Tip radius of the cutter, mm.
+        tip_radius_mm: f64,
+        /// Least tip radius, mm.
+        least_mm: f64,
+        /// Addendum factor.
+        addendum_factor: f64,
+        /// Least addendum factor.
+        least_factor: f64,
+    },
     /// The cutter cuts the ring's tips below its own involute.
     #[error("the cutter's involute ends at its base circle and leaves none on the wheel inside {least_mm:.4} mm")]
     CutterCutsTips {

@@ -111,6 +111,10 @@ impl CutterMesh {
         self.centre_distance_mm + self.tip_radius_mm
     }
 
+    fn pitch_radius_mm(&self) -> f64 {
+        self.base_radius_mm / self.pressure_angle_rad.cos()
+    }
+
     /// Length |a_0| sin α_w0 of the line of action between the base circles.
     fn line_of_action_mm(&self) -> f64 {
         self.centre_distance_mm * self.pressure_angle_rad.sin()
@@ -188,6 +192,15 @@ impl RingFillet {
             let mesh = CutterMesh::new(spec, cutter)?;
             let (base_mm, half_angle, tip_mm) = (mesh.base_radius_mm, mesh.base_half_angle_rad, mesh.tip_radius_mm);
             let rounding_mm = cutter.tip_rounding_factor * spec.normal_module_mm;
+            let least_mm = mesh.pitch_radius_mm() + rounding_mm;
+            if tip_mm <= least_mm {
+                return Err(InternalError::CutterAddendum {
+                    tip_radius_mm: tip_mm,
+                    least_mm,
+                    addendum_factor: cutter.addendum_factor,
+                    least_factor: cutter.addendum_factor + (least_mm - tip_mm) / spec.normal_module_mm,
+                });
+            }
             let circle = TouchingCircle::new(base_mm, half_angle, tip_mm, rounding_mm).ok_or_else(|| {
                 let greatest_mm = TouchingCircle::greatest_radius_mm(base_mm, half_angle, tip_mm, rounding_mm);
                 let greatest = greatest_mm.unwrap_or(0.0) / spec.normal_module_mm;
@@ -225,8 +238,7 @@ impl RingFillet {
         let end = circle.tangent_rad + mesh.pressure_angle_rad;
         let beta = circle.centre_rad + part * (end - circle.centre_rad);
         let to_pitch_point = Vector2::new(beta.sin(), beta.cos());
-        let pitch_mm = mesh.base_radius_mm / mesh.pressure_angle_rad.cos();
-        let normal = (circle.centre_mm() - pitch_mm * to_pitch_point).normalize();
+        let normal = (circle.centre_mm() - mesh.pitch_radius_mm() * to_pitch_point).normalize();
         let touched = circle.centre_mm() + circle.radius_mm * normal;
         let from_ring_axis = touched + mesh.centre_distance_mm * to_pitch_point;
         // In the ring's frame the pitch point is at γ = β r_b0/r_b clockwise of +y instead of β.
