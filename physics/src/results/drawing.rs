@@ -21,7 +21,6 @@ pub struct PairDrawing {
     /// Points A–E with their names, in the order of contact.
     pub path_of_contact: Vec<(String, [f64; 2])>,
     /// Outside radius with which an internal wheel is drawn.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rim_radius_mm: Option<f64>,
 }
 

@@ -64,7 +64,7 @@ pub fn scene(seed: u64, index: u64) -> Table {
     mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     let mut draw = Draw { random: fastrand::Rng::with_seed(mixed ^ (mixed >> 31)), table: Table::new() };
     draw.set("title", format!("random scene {index} of seed {seed}"));
-    let mut sizes = if index % EVERY_INTERNAL == 0 { draw.internal_pair() } else { draw.pair() };
+    let mut sizes = if index.is_multiple_of(EVERY_INTERNAL) { draw.internal_pair() } else { draw.pair() };
     draw.modifications(&sizes);
     draw.material(&mut sizes);
     let aim = draw.aim(&sizes);
