@@ -83,13 +83,16 @@ fn all_spellings_give_the_same_files() {
     assert!(summary["error"]["total"]["peak_wear"]["pinion"].is_null());
 }
 
+/// Lines exchanged, and parts of the message.
+type Refused<'a> = (&'a [(&'a str, &'a str)], &'a [&'a str]);
+
 /// What an internal pair cannot be, or the model does not have of it, each with key, figure and remedy.
 #[test]
 fn what_is_refused() {
     let tip = "tip_diameter_mm = 176.2";
     let surface = "surface = \"hertz\"";
     // By hand: cos α_a2 = 169.1447/174, α_a2 = 13.566°, 1 − tan α_a2/tan 20° = 0.3370.
-    let cases: &[(&[(&str, &str)], &[&str])] = &[
+    let cases: &[Refused<'_>] = &[
         (
             &[("teeth = 60", "teeth = -60"), (tip, "tip_diameter_mm = -176.2")],
             &["pair.wheel.tip_diameter_mm", "a positive number"],
