@@ -73,9 +73,17 @@ pub fn worn_flank(folder: &Path, gear: Gear, width_mm: Option<f64>) -> Result<St
         text.push_str(&format!("# width_mm = {width}\n"));
     }
     text.push_str("roll_length_mm,height_um\n");
-    for (rho, (design, wear)) in rho_mm.iter().zip(profile.unworn_um(&pair, 0.0).iter().zip(&wear_um)) {
+    let design_um = profile.unworn_um(&pair, 0.0);
+    let mut lines: Vec<String> = rho_mm
+        .iter()
+        .zip(design_um.iter().zip(&wear_um))
         // Without the sign of a zero.
-        text.push_str(&format!("{rho:.6},{:.6}\n", design - wear + 0.0));
+        .map(|(rho, (design, wear))| format!("{:.6},{:.6}\n", rho.abs(), design - wear + 0.0))
+        .collect();
+    if tooth.is_internal() {
+        // Roll lengths rise in a file, towards the root of an internal tooth.
+        lines.reverse();
     }
+    text.push_str(&lines.concat());
     Ok(text)
 }
