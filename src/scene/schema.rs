@@ -26,7 +26,7 @@ fn with_negative_numbers() -> Value {
     let pair = "/properties/pair/properties";
     if let Some(Value::Object(teeth)) = whole.pointer_mut(&format!("{pair}/wheel/properties/teeth")) {
         let bounds = |least: i64, most: i64| serde_json::json!({ "minimum": least, "maximum": most });
-        teeth.retain(|key, _| !matches!(key.as_str(), "minimum" | "maximum"));
+        teeth.retain(|key, _| !matches!(key.as_str(), "minimum" | "maximum" | "format"));
         teeth.insert("anyOf".to_owned(), Value::Array(vec![bounds(5, 10_000), bounds(-10_000, -5)]));
     }
     for key in ["centre_distance_mm", "wheel/properties/tip_diameter_mm", "wheel/properties/root_diameter_mm"] {
