@@ -159,7 +159,7 @@ pub use scene::blame::SceneFault;
 pub use scene::fem_problem::schema as fem_problem_schema;
 pub use scene::loaded::{LoadError, LoadedScene, SceneError, SceneText};
 pub use scene::presets::{PRESETS, Preset};
-pub use scene::schema::schema as scene_schema;
+pub use scene::schema::published as scene_schema;
 pub use scene::{Problem, ProblemKind};
 // The values that `LoadedScene::with` takes.
 pub use toml;

@@ -167,7 +167,7 @@ impl MachineGear {
 
     /// Whether it has the same base radius.
     pub fn has_size_of(&self, pair: &GearPair, gear: Gear) -> bool {
-        (self.base_radius_mm / pair.teeth[gear].involute.base_radius_mm - 1.0).abs() <= SAME_SIZE
+        (self.base_radius_mm / pair.teeth[gear].involute.base_radius_mm.abs() - 1.0).abs() <= SAME_SIZE
     }
 }
 

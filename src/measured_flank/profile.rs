@@ -165,10 +165,11 @@ impl FlankArc {
     fn place(&self, file: &MeasuredFile, arc: f64) -> f64 {
         let involute = &self.involute;
         match (file.place, file.arc_from) {
-            (PlaceColumn::RadiusMm, _) => involute.radius_mm(involute.rho_at_arc_mm(arc)),
-            (PlaceColumn::DiameterMm, _) => 2.0 * involute.radius_mm(involute.rho_at_arc_mm(arc)),
+            // Places are positive, of internal gears too.
+            (PlaceColumn::RadiusMm, _) => involute.radius_mm(involute.rho_at_arc_mm(arc)).abs(),
+            (PlaceColumn::DiameterMm, _) => 2.0 * involute.radius_mm(involute.rho_at_arc_mm(arc)).abs(),
             (PlaceColumn::RollAngleDeg, _) => involute.roll_angle_rad(involute.rho_at_arc_mm(arc)).to_degrees(),
-            (PlaceColumn::RollLengthMm, _) => involute.rho_at_arc_mm(arc),
+            (PlaceColumn::RollLengthMm, _) => involute.rho_at_arc_mm(arc).abs(),
             (PlaceColumn::ArcMm, Some(ArcFrom::Tip)) => self.last - arc,
             (PlaceColumn::ArcMm, Some(ArcFrom::ActiveStart)) => arc - self.active_start,
             (PlaceColumn::ArcMm, _) => arc,

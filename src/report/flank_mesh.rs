@@ -91,7 +91,7 @@ fn mesh(record: &RunRecord, fields: PerGear<Fields<'_>>) -> Mesh {
         let surface = &record.surface[gear];
         let position_mm = record.summary.geometry.curvature_radius_mm.C;
         let root_form_mm = 0.5 * record.summary.geometry.gears[gear].root_form_diameter_mm;
-        let on_involute = flank.radius_mm.partition_point(|&radius| radius < root_form_mm)..flank.radius_mm.len();
+        let on_involute = flank.first_from(root_form_mm)..flank.radius_mm.len();
         let (start, along) = (mesh.points.len(), on_involute.len());
         let sections = sections(&flank.width_mm, surface.face_width_mm);
         for &(width_mm, slice) in &sections {

@@ -11,7 +11,7 @@ use crate::stamped_file::{Stamp, StampedFileError};
 use gearwear_physics::results::run::RunRecord;
 
 /// What the file says that it is.
-const STAMP: Stamp = Stamp { kind: "record", format: 1 };
+const STAMP: Stamp = Stamp { kind: "record", format: 2 };
 
 /// Error of a folder that is to be read as that of a run.
 #[derive(Debug, thiserror::Error)]

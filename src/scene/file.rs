@@ -161,6 +161,24 @@ pub struct ShaftFile {
     pub driven_at: Option<EndFace>,
 }
 
+/// Shaper cutter of internal teeth; factors of the module that is given.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CutterFile {
+    /// Number of teeth z_0, 5 to 10000, less than the wheel's.
+    #[schemars(range(min = 5, max = 10000))]
+    pub teeth: u32,
+    /// Profile shift coefficient x_0, −5 to 5. Default 0.
+    #[schemars(range(min = -5, max = 5))]
+    pub profile_shift: Option<f64>,
+    /// Addendum factor h_a0*, > 0 to 3. Default 1.25.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 3))]
+    pub addendum_factor: Option<f64>,
+    /// Radius of its tip edge, 0 to 1. Default 0.2.
+    #[schemars(range(min = 0, max = 1))]
+    pub tip_rounding_factor: Option<f64>,
+}
+
 /// One gear.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -168,6 +186,13 @@ pub struct GearFile {
     /// Number of teeth z, 5 to 10000. Required without a preset.
     #[schemars(range(min = 5, max = 10000))]
     pub teeth: Option<u32>,
+    /// Internal teeth, of the wheel alone. Default false.
+    pub internal: Option<bool>,
+    /// Root diameter d_f of internal teeth in mm, > 0. Default: that of basic rack or cutter.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub root_diameter_mm: Option<f64>,
+    /// Shaper cutter of internal teeth. Default: none, a circular fillet.
+    pub cutter: Option<CutterFile>,
     /// Profile shift coefficient x of the module that is given, −5 to 5. Required without a preset.
     #[schemars(range(min = -5, max = 5))]
     pub profile_shift: Option<f64>,

@@ -9,6 +9,7 @@ pub mod fem_problem;
 #[allow(rustdoc::broken_intra_doc_links, reason = "tables of the file stand in brackets, as in TOML")]
 pub mod file;
 mod findings;
+mod internal;
 pub mod key;
 pub mod loaded;
 mod locate;

@@ -8,10 +8,12 @@ const NEWTON_METRES_IN_POUND_INCH: f64 = 0.112_984_829;
 /// Reason why a value of `key` outside its range is not modelled.
 pub(super) fn reason(key: &str, value: f64) -> Option<&'static str> {
     match key {
-        "pair.pinion.teeth" | "pair.wheel.teeth" if value < 0.0 => Some(
-            "a negative number of teeth is that of an internal gear (ISO 21771): internal gears, such as the ring gear of a planetary \
-             stage, are not in the model",
-        ),
+        "pair.pinion.teeth" if value < 0.0 => {
+            Some("a negative number of teeth is that of an internal gear (ISO 21771), which is the wheel of a pair")
+        }
+        "pair.wheel.teeth" if value < 0.0 => {
+            Some("an internal wheel is said by internal = true in [pair.wheel] and a positive number of teeth here")
+        }
         "pair.helix_angle_deg" if value.abs() > 45.0 => Some(
             "helix angles beyond 45° are those of gears on crossed axes: crossed helical and worm gears are not in the model, axes are \
              parallel",
@@ -27,7 +29,6 @@ pub(super) fn reason_of_key(name: &str) -> Option<&'static str> {
             "axes that cross are not in the model: they are parallel, but for the deviations of pair.axis_parallelism",
         ),
         "cone_angle_deg" | "pitch_angle_deg" | "reference_cone_angle_deg" => Some("bevel gears are not in the model"),
-        "internal" => Some("internal gears, such as the ring gear of a planetary stage, are not in the model"),
         "drive_pressure_angle_deg"
         | "coast_pressure_angle_deg"
         | "left_pressure_angle_deg"
@@ -35,7 +36,7 @@ pub(super) fn reason_of_key(name: &str) -> Option<&'static str> {
             "asymmetric teeth are not in the model: write the angle of the flank that wears as pair.pressure_angle_deg",
         ),
         "planets" | "ring" | "sun" => Some(
-            "planetary stages are not in the model as a whole: a scene is one pair of external gears, such as sun and planet",
+            "planetary stages are not in the model as a whole: a scene is one pair, such as sun and planet, or planet and ring",
         ),
         _ => None,
     }

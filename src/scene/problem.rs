@@ -89,6 +89,11 @@ impl Problem {
     pub fn of_tooth_mesh(text: &str, gear: Option<Gear>, error: &ToothMeshError) -> Self {
         let of_gear = gear.map_or_else(|| "pair".to_owned(), |gear| format!("pair.{}", gear.name()));
         let (key, allowed) = match error {
+            ToothMeshError::InternalTeeth => {
+                let help = "gearwear run computes a pair with an internal wheel on elastic half-planes";
+                let found = format!("an internal wheel ({error})");
+                return Self::of_body(text, "pair.wheel".to_owned(), found, "external teeth", help);
+            }
             ToothMeshError::ClampRadius { .. } => (clamp_key(gear), "a circle below the teeth"),
             ToothMeshError::SectorTeeth { .. } => ("fem.sector_teeth".to_owned(), "an odd number, at most all teeth"),
             ToothMeshError::NotPositive { .. }

@@ -15,6 +15,29 @@ pub fn schema() -> &'static Value {
     SCHEMA.get_or_init(schema_of::<SceneFile>)
 }
 
+/// The schema of a scene for editors, in which an internal wheel may have negative numbers: a scene is checked once they are positive.
+pub fn published() -> &'static Value {
+    static PUBLISHED: OnceLock<Value> = OnceLock::new();
+    PUBLISHED.get_or_init(with_negative_numbers)
+}
+
+fn with_negative_numbers() -> Value {
+    let mut whole = schema().clone();
+    let pair = "/properties/pair/properties";
+    if let Some(Value::Object(teeth)) = whole.pointer_mut(&format!("{pair}/wheel/properties/teeth")) {
+        let bounds = |least: i64, most: i64| serde_json::json!({ "minimum": least, "maximum": most });
+        teeth.retain(|key, _| !matches!(key.as_str(), "minimum" | "maximum" | "format"));
+        teeth.insert("anyOf".to_owned(), Value::Array(vec![bounds(5, 10_000), bounds(-10_000, -5)]));
+    }
+    for key in ["centre_distance_mm", "wheel/properties/tip_diameter_mm", "wheel/properties/root_diameter_mm"] {
+        if let Some(Value::Object(length)) = whole.pointer_mut(&format!("{pair}/{key}")) {
+            length.remove("exclusiveMinimum");
+            length.insert("not".to_owned(), serde_json::json!({ "const": 0 }));
+        }
+    }
+    whole
+}
+
 /// The schema (draft 2020-12) of a file, without references: every table is described where it stands.
 pub fn schema_of<F: JsonSchema>() -> Value {
     let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true).with_transform(WithoutNull);

@@ -50,6 +50,13 @@ pub fn keys_of(table: &Table, path: &str) -> Vec<String> {
     keys.collect()
 }
 
+/// Value at the path `key` of `table`, which leads through tables alone.
+pub(super) fn at<'a>(table: &'a Table, key: &str) -> Option<&'a Value> {
+    let mut parts = key.split('.');
+    let first = table.get(parts.next()?)?;
+    parts.try_fold(first, |value, part| value.get(part))
+}
+
 /// Removes the key at the path `key` of `table`. Items of lists are numbered from 1.
 pub fn remove(mut table: &mut Table, key: &str) {
     let mut parts = key.split('.').rev();

@@ -7,6 +7,7 @@
 use toml::{Table, Value};
 
 use super::problem::number;
+use super::table;
 
 /// A suspected slip of unit.
 #[derive(Debug, Clone, PartialEq)]
@@ -130,7 +131,8 @@ impl SlipSearch<'_> {
         let Some(module) = self.module_mm() else { return };
         let teeth = [self.get("pair.pinion.teeth"), self.get("pair.wheel.teeth")];
         if let [Some(z1), Some(z2)] = teeth {
-            let reference = module * (z1 + z2) / 2.0;
+            let internal = table::at(self.scene, "pair.wheel.internal").and_then(Value::as_bool) == Some(true);
+            let reference = module * if internal { z2 - z1 } else { z1 + z2 } / 2.0;
             let close = [0.6 * reference, 1.7 * reference];
             self.judge("pair.centre_distance_mm", [0.1 * reference, 10.0 * reference], close, &[METRES, MICROMETRES]);
         }

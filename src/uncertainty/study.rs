@@ -503,7 +503,8 @@ fn band(places: &[f64], nominal: &WearProfile, wear: &[&[f32]]) -> Band {
         }
     }
     let nominal_um = at(nominal, places).into_iter().map(f64::from).collect();
-    Band { radius_mm: places.to_vec(), nominal_um, quantiles_um }
+    let radius_mm = places.iter().map(|radius| radius.abs()).collect();
+    Band { radius_mm, nominal_um, quantiles_um }
 }
 
 fn sample_rows(samples: &Samples<'_>, rows: &[&[Row]]) -> Vec<SampleRow> {

@@ -8,6 +8,7 @@ mod fem_problem;
 mod helical_output;
 mod init;
 mod initial_flank;
+mod internal_gears;
 mod limits;
 mod mesh;
 mod phases;

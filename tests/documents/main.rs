@@ -41,7 +41,7 @@ fn check_generated(path: &str, what: &str, expected: &str) {
 fn scene_document_has_every_key() {
     let sources = ["file", "fem_file", "lubrication_file", "wear_file"];
     let sources = sources.map(|name| read(&format!("src/scene/{name}.rs"))).join("\n");
-    check_generated("docs/scene.md", "keys", &key_tables::of_schema(gearwear::scene_schema(), &sources));
+    check_generated("docs/scene.md", "keys", &key_tables::of_schema(gearwear::scene::schema::schema(), &sources));
 }
 
 #[test]

@@ -348,6 +348,20 @@ fn the_schema_holds_for_presets_and_resolved_scenes() {
     assert_eq!(schema::schema()["additionalProperties"], false);
 }
 
+/// Editors take an internal wheel with negative numbers (DIN 3960), and none between.
+#[test]
+fn the_published_schema_takes_negative_numbers() {
+    let validator = jsonschema::validator_for(schema::published()).unwrap();
+    let with = |teeth: i64, centre_distance_mm: f64| {
+        let mut scene: toml::Table = LEAST.parse().unwrap();
+        gearwear::scene::table::set(&mut scene, "pair.wheel.teeth", teeth);
+        gearwear::scene::table::set(&mut scene, "pair.centre_distance_mm", centre_distance_mm);
+        validator.is_valid(&serde_json::to_value(scene).unwrap())
+    };
+    assert!(with(24, 91.5) && with(-60, -60.0) && with(-60, 60.0));
+    assert!(!with(-4, -60.0) && !with(60, 0.0));
+}
+
 /// Every key has its meaning written beside it.
 #[test]
 fn the_schema_describes_every_key() {

@@ -75,9 +75,12 @@ fn helix_factor(pair: &GearPair) -> f64 {
     1.0 - pair.overlap_ratio().min(1.0) * pair.spec.helix_angle_rad.abs().to_degrees().min(30.0) / 120.0
 }
 
-/// Critical section of `gear`; `None` where the formulas do not hold.
+/// Critical section of `gear`; `None` where the formulas do not hold, and of internal teeth, whose fillet no rack generates.
 pub fn section(pair: &GearPair, gear: Gear, at: LoadedAt) -> Option<RootSection> {
     let spec = &pair.spec;
+    if spec.gears[gear].ring.is_some() {
+        return None;
+    }
     let (m_n, alpha) = (spec.normal_module_mm, spec.normal_pressure_angle_rad);
     let (rack, shift) = (spec.rack, spec.generating_shift_mm(gear) / m_n);
     let (rho, contact_ratio) = (rack.fillet_radius_factor, virtual_contact_ratio(pair));

@@ -1,6 +1,6 @@
 //! `gearwear schema`: the JSON schema of the scene, or of a finite-element problem, for editors.
 
-use gearwear::scene::{fem_problem, schema::schema};
+use gearwear::scene::{fem_problem, schema::published};
 
 use super::failure::Failure;
 use super::print;
@@ -13,6 +13,6 @@ pub(super) struct SchemaArgs {
 }
 
 pub(super) fn run(args: &SchemaArgs) -> Result<(), Failure> {
-    let schema = if args.problem { fem_problem::schema() } else { schema() };
+    let schema = if args.problem { fem_problem::schema() } else { published() };
     print(&format!("{schema:#}\n"))
 }

@@ -1,7 +1,7 @@
 //! The worn flank of a finished run as the file of a measured one, which a comparison reads.
 //!
-//! Heights are those from the nominal involute along the transverse line of action: less the profile modifications, less the wear at the end of the run. Places are
-//! roll lengths, from the root form circle to the tip.
+//! Heights are those from the nominal involute along the transverse line of action: less the profile modifications, less the wear at the end of the run.
+//! Places are roll lengths between root form circle and tip.
 
 use std::path::Path;
 
@@ -77,7 +77,7 @@ pub fn worn_flank(
     let flank = tooth.involute.radius_mm(tooth.root_form_rho_mm())..=tooth.tip_radius_mm;
     let rows = radius.iter().zip(wear).enumerate().filter(|&(row, (radius, wear))| {
         let is_in_slice = !has_slices || width.get(row).copied() == nearest;
-        is_in_slice && flank.contains(radius) && wear.is_finite()
+        is_in_slice && flank.contains(&tooth.involute.signed(*radius)) && wear.is_finite()
     });
     let (rho_mm, wear_um): (Vec<f64>, Vec<f64>) =
         rows.map(|(_, (&radius, &wear))| (tooth.involute.curvature_radius_mm(radius), wear)).unzip();
@@ -97,21 +97,27 @@ pub fn worn_flank(
     // Without the sign of a zero.
     let heights =
         profile.unworn_um(&pair, 0.0).into_iter().zip(&wear_um).map(|(design, wear)| design - scale * wear + 0.0);
-    let height_um: Vec<f64> = heights.collect();
+    let mut height_um: Vec<f64> = heights.collect();
+    let mut roll_mm: Vec<f64> = rho_mm.iter().map(|rho| rho.abs()).collect();
+    if tooth.is_internal() {
+        // Roll lengths rise in a file, towards the root of an internal tooth.
+        roll_mm.reverse();
+        height_um.reverse();
+    }
     let place = nearest.filter(|_| has_slices);
     match format {
-        FlankFormat::Mka => Ok(mka_export::text(&pair, gear, place.unwrap_or(wanted), &rho_mm, &height_um)),
-        FlankFormat::Table => Ok(table_text(gear, folder.summary.revolutions, place, &rho_mm, &height_um)),
+        FlankFormat::Mka => Ok(mka_export::text(&pair, gear, place.unwrap_or(wanted), &roll_mm, &height_um)),
+        FlankFormat::Table => Ok(table_text(gear, folder.summary.revolutions, place, &roll_mm, &height_um)),
     }
 }
 
 /// Table of roll lengths and heights, under what it is of.
-fn table_text(gear: Gear, revolutions: f64, width_mm: Option<f64>, rho_mm: &[f64], height_um: &[f64]) -> String {
+fn table_text(gear: Gear, revolutions: f64, width_mm: Option<f64>, roll_mm: &[f64], height_um: &[f64]) -> String {
     let mut text = format!("# gear = {}\n# revolutions = {revolutions}\n", gear.name());
     if let Some(width) = width_mm {
         text.push_str(&format!("# width_mm = {width}\n"));
     }
     text.push_str("roll_length_mm,height_um\n");
-    rho_mm.iter().zip(height_um).for_each(|(rho, height)| text.push_str(&format!("{rho:.6},{height:.6}\n")));
+    roll_mm.iter().zip(height_um).for_each(|(roll, height)| text.push_str(&format!("{roll:.6},{height:.6}\n")));
     text
 }

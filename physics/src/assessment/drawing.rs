@@ -1,6 +1,6 @@
 //! The pair in mesh, to scale, in contact at the pitch point.
 //!
-//! The pinion's axis is the origin and the wheel's lies on +y; the pinion turns anticlockwise and pushes with the
+//! The pinion's axis is the origin and the wheel's lies on +y, an internal wheel's on −y; the pinion turns anticlockwise and pushes with the
 //! anticlockwise flanks of its teeth, so that the line of action runs from T1 up to the left:
 //!
 //! ```text
@@ -14,6 +14,9 @@ use gearwear_bodies::gear::{Gear, GearPair, PerGear, outline::polyline};
 
 /// Points on each fillet and flank.
 const POINTS_PER_PIECE: usize = 20;
+
+/// Rim drawn about the root circle of an internal wheel, in modules.
+const DRAWN_RIM_MODULES: f64 = 2.0;
 
 /// Draws `pair`.
 pub(super) fn draw(pair: &GearPair) -> PairDrawing {
@@ -38,6 +41,10 @@ pub(super) fn draw(pair: &GearPair) -> PairDrawing {
             .into_iter()
             .map(|(name, position_mm)| (name.to_owned(), on_line(position_mm)))
             .collect(),
+        rim_radius_mm: pair
+            .spec
+            .is_internal()
+            .then(|| pair.teeth.wheel.root_radius_mm.abs() + DRAWN_RIM_MODULES * pair.spec.normal_module_mm),
     }
 }
 
@@ -58,7 +65,8 @@ fn outline_in_place(pair: &GearPair, gear: Gear) -> Vec<[f64; 2]> {
             let p = to_pitch_point * Vector2::new(x, y);
             match gear {
                 Gear::Pinion => [p.x, p.y],
-                // The wheel looks down on the pinion: turned by half a turn about its own axis.
+                // The wheel looks down on the pinion: turned by half a turn about its own axis. An internal one, at −y in its own frame, then
+                // reaches beyond it.
                 Gear::Wheel => [-p.x, pair.spec.centre_distance_mm - p.y],
             }
         })
@@ -85,6 +93,7 @@ mod tests {
             modification: Modification::default(),
             measured_flank: None,
             shaft: None,
+            ring: None,
         };
         let pair = GearPair::new(&PairSpec {
             normal_module_mm: 3.5,

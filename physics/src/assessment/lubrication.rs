@@ -359,7 +359,7 @@ fn between_tip_edges(model: &RunModel<'_>) -> impl Fn(&LubricatedContact) -> boo
     let (path, zones) = (&model.pair.path, model.zones());
     move |place| {
         let is_at_edge = Gear::BOTH.into_iter().any(|gear| {
-            let radius_mm = path.involute[gear].base_radius_mm.hypot(path.rho_mm(gear, place.position_mm));
+            let radius_mm = path.involute[gear].radius_mm(path.rho_mm(gear, place.position_mm));
             zones[gear].at(radius_mm) == FlankZone::TipEdge
         });
         !(sees_edges && is_at_edge)

@@ -259,6 +259,7 @@ pub(super) fn path_points(values: [f64; 5]) -> PathPoints {
     PathPoints { A: a, B: b, C: c, D: d, E: e }
 }
 
+/// Geometry of a pair, with diameters and lengths as on a drawing: positive, of an internal wheel too (ISO 21771).
 pub(super) fn geometry(pair: &GearPair) -> GeometrySummary {
     let pinion = &pair.teeth.pinion;
     let (base, tip) = (pinion.involute.base_radius_mm, pinion.tip_radius_mm);
@@ -269,31 +270,31 @@ pub(super) fn geometry(pair: &GearPair) -> GeometrySummary {
         working_pressure_angle_deg: pair.working_pressure_angle_rad.to_degrees(),
         curvature_radius_mm: path_points(pair.path.points_mm()),
         pitch_point_index: INDEX_POINTS * (pair.working_pitch_radius_mm(Gear::Pinion) - base) / (tip - base),
-        line_of_action_mm: pair.path.line_of_action_mm,
+        line_of_action_mm: pair.path.line_of_action_mm.abs(),
         backlash_mm: pair.backlash_mm,
         gears: PerGear::from_fn(|gear| {
             let tooth = &pair.teeth[gear];
             let (span, over_balls) = (pair.span(gear), pair.over_balls(gear));
             GearSummary {
                 teeth: tooth.teeth,
-                reference_diameter_mm: 2.0 * tooth.reference_radius_mm,
-                base_diameter_mm: 2.0 * tooth.involute.base_radius_mm,
-                working_pitch_diameter_mm: 2.0 * pair.working_pitch_radius_mm(gear),
-                tip_diameter_mm: 2.0 * tooth.tip_radius_mm,
-                root_diameter_mm: 2.0 * tooth.root_radius_mm,
-                root_form_diameter_mm: 2.0 * tooth.root_form_radius_mm,
-                start_of_active_profile_diameter_mm: 2.0 * pair.active_start_radius_mm(gear),
+                reference_diameter_mm: 2.0 * tooth.reference_radius_mm.abs(),
+                base_diameter_mm: 2.0 * tooth.involute.base_radius_mm.abs(),
+                working_pitch_diameter_mm: 2.0 * pair.working_pitch_radius_mm(gear).abs(),
+                tip_diameter_mm: 2.0 * tooth.tip_radius_mm.abs(),
+                root_diameter_mm: 2.0 * tooth.root_radius_mm.abs(),
+                root_form_diameter_mm: 2.0 * tooth.root_form_radius_mm.abs(),
+                start_of_active_profile_diameter_mm: 2.0 * pair.active_start_radius_mm(gear).abs(),
                 tooth_thickness_mm: tooth.thickness_mm(tooth.reference_radius_mm),
                 tip_thickness_mm: tooth.thickness_mm(tooth.tip_radius_mm),
                 tip_clearance_mm: pair.tip_clearance_mm[gear],
                 undercut: tooth.undercut,
-                tip_form_diameter_mm: 2.0 * pair.tip_form_radius_mm(gear),
-                end_of_active_profile_diameter_mm: 2.0 * pair.active_end_radius_mm(gear),
+                tip_form_diameter_mm: 2.0 * pair.tip_form_radius_mm(gear).abs(),
+                end_of_active_profile_diameter_mm: 2.0 * pair.active_end_radius_mm(gear).abs(),
                 specific_sliding_at_root: pair.specific_sliding_at_root(gear),
                 span_teeth: span.map(|span| span.teeth),
                 span_mm: span.map(|span| span.span_mm),
                 ball_diameter_mm: over_balls.map(|balls| balls.ball_diameter_mm),
-                dimension_over_balls_mm: over_balls.map(|balls| balls.dimension_mm),
+                dimension_over_balls_mm: over_balls.map(|balls| balls.dimension_mm.abs()),
             }
         }),
     }
@@ -361,11 +362,11 @@ fn wear_figures(model: &RunModel<'_>, outcome: &Outcome, gear: Gear) -> WearSumm
     let mean_mm = vdi_2736_mean_wear_mm(model, outcome, gear);
     WearSummary {
         peak_wear_um: figures.peak_mm * UM_PER_MM,
-        peak_wear_radius_mm: figures.peak_radius_mm,
+        peak_wear_radius_mm: figures.peak_radius_mm.abs(),
         tip_edge_wear_um: figures.tip_edge.depth_mm * UM_PER_MM,
-        tip_edge_wear_radius_mm: figures.tip_edge.radius_mm,
+        tip_edge_wear_radius_mm: figures.tip_edge.radius_mm.abs(),
         below_sap_wear_um: figures.below_active.depth_mm * UM_PER_MM,
-        below_sap_wear_radius_mm: figures.below_active.radius_mm,
+        below_sap_wear_radius_mm: figures.below_active.radius_mm.abs(),
         root_wear_um: figures.root_mm * UM_PER_MM,
         pitch_wear_um: figures.pitch_mm * UM_PER_MM,
         worn_volume_mm3: volume_mm3,
@@ -429,7 +430,7 @@ fn flank(model: &RunModel<'_>, RunFindings { outcome, verified, .. }: RunFinding
     let normal_mm = outcome.modification_mm[gear].iter();
     let drawn_mm: Vec<f64> = normal_mm.map(|&normal| pair.obliquity().transverse_mm(normal)).collect();
     FlankRecord {
-        radius_mm: rho.iter().map(|&rho| involute.radius_mm(rho)).collect(),
+        radius_mm: rho.iter().map(|&rho| involute.radius_mm(rho).abs()).collect(),
         roll_angle_deg: rho.iter().map(|&rho| involute.roll_angle_rad(rho).to_degrees()).collect(),
         width_mm: outcome.slices.width_mm.clone(),
         removed_um: in_um(&drawn_mm),
@@ -440,7 +441,9 @@ fn flank(model: &RunModel<'_>, RunFindings { outcome, verified, .. }: RunFinding
         pressure_worn_MPa: outcome.worn.cycle.pressure_mpa[gear].clone(),
         snapshot_wear_um: outcome.snapshots.iter().map(|snapshot| in_um(&snapshot.wear_mm[gear])).collect(),
         snapshot_pressure_MPa: outcome.snapshots.iter().map(|s| s.cycle.pressure_mpa[gear].clone()).collect(),
-        path_point_radius_mm: path_points(pair.path.points_mm().map(|position| pair.radius_at_mm(gear, position))),
+        path_point_radius_mm: path_points(
+            pair.path.points_mm().map(|position| pair.radius_at_mm(gear, position).abs()),
+        ),
         zones: outcome.zones[gear],
     }
 }

@@ -16,6 +16,8 @@ use gearwear_bodies::material::Material;
 /// Reason why figures with the standards' load sharing factor are missing.
 pub(super) const NO_SHARING_FACTOR: &str =
     "the standards have a load sharing factor for transverse contact ratios below 2 alone";
+/// Reason why figures of internal pairs are missing.
+const INTERNAL: &str = "the geometry factors here are those of external pairs";
 /// Places along the path at which the flash temperature is averaged.
 const PLACES: usize = 400;
 /// Part of the mean flash temperature by which teeth are warmer than the oil, ISO/TS 6336-20.
@@ -72,6 +74,7 @@ pub(super) fn summary(running: &RunningPair<'_>, oil: &OilInMesh, material: &Per
     let integral_c = integral.as_ref().map(|own| own.bulk_c + INTEGRAL_WEIGHT * own.flash_k);
     let over_oil = |celsius: f64| celsius - settings.temperature_c;
     let has_flash = flash.is_some();
+    let missing = |external: &str| (if running.pair.spec.is_internal() { INTERNAL } else { external }).to_owned();
     ScuffingSummary {
         flash_friction: flash.as_ref().map(|flash| flash.friction),
         mean_flash_K: flash.as_ref().map(|flash| flash.mean_k),
@@ -81,7 +84,7 @@ pub(super) fn summary(running: &RunningPair<'_>, oil: &OilInMesh, material: &Per
         scuffing_temperature_C: limit_c,
         scuffing_safety: limit_c.zip(contact_c).map(|(limit, contact)| over_oil(limit) / over_oil(contact)),
         flash_points: flash.map_or_else(Vec::new, |flash| flash.points),
-        flash_null_because: (!has_flash).then(|| NO_SHARING_FACTOR.to_owned()),
+        flash_null_because: (!has_flash).then(|| missing(NO_SHARING_FACTOR)),
         run_in_factor: integral.as_ref().map(|own| own.run_in_factor),
         integral_friction: integral.as_ref().map(|own| own.friction),
         integral_flash_K: integral.as_ref().map(|own| own.flash_k),
@@ -91,7 +94,7 @@ pub(super) fn summary(running: &RunningPair<'_>, oil: &OilInMesh, material: &Per
         integral_scuffing_safety: integral_limit_c.zip(integral_c).map(|(limit, found)| limit / found),
         integral_null_because: integral_c
             .is_none()
-            .then(|| "ISO/TS 6336-21 has no contact ratio factor from a transverse contact ratio of 3 on".to_owned()),
+            .then(|| missing("ISO/TS 6336-21 has no contact ratio factor from a transverse contact ratio of 3 on")),
         safeties_null_because: limit_c.is_none().then(|| "lubricant.fzg_scuffing_load_stage is not given".to_owned()),
     }
 }
@@ -138,7 +141,7 @@ impl<'a> Scuffing<'a> {
     fn flash(&self) -> Option<Flash> {
         let path = &self.running.pair.path;
         let sharing = &self.running.sharing;
-        if !sharing.is_of_standard() {
+        if !sharing.is_of_standard() || self.running.pair.spec.is_internal() {
             return None;
         }
         let friction = self.oil.mean.iso_6336_20();
@@ -167,7 +170,7 @@ impl<'a> Scuffing<'a> {
     fn integral(&self) -> Option<Integral> {
         let (pair, mean) = (self.running.pair, &self.oil.mean);
         let [after, before] = loss::contact_ratios(pair);
-        if after + before >= GREATEST_CONTACT_RATIO {
+        if after + before >= GREATEST_CONTACT_RATIO || pair.spec.is_internal() {
             return None;
         }
         let friction = mean.iso_6336_21();

@@ -86,6 +86,7 @@ fn spec(setup: &Setup<'_>, teeth: u32) -> PairSpec {
         modification: Modification::default(),
         measured_flank: None,
         shaft: None,
+        ring: None,
     };
     spec
 }

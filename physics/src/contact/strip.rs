@@ -493,6 +493,7 @@ pub(super) mod tests {
             modification: Modification::default(),
             measured_flank: None,
             shaft: None,
+            ring: None,
         });
         let spec = PairSpec {
             normal_module_mm,

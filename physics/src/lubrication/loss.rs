@@ -25,7 +25,7 @@ use gearwear_bodies::gear::{Gear, GearPair};
 
 /// H_V of a pair.
 pub fn of_pair(pair: &GearPair) -> f64 {
-    let teeth = Gear::BOTH.map(|gear| pair.spec.gears[gear].teeth);
+    let teeth = Gear::BOTH.map(|gear| pair.spec.gears[gear].z());
     ohlendorf(teeth, pair.base_helix_angle_rad(), contact_ratios(pair))
 }
 
@@ -36,9 +36,8 @@ pub fn contact_ratios(pair: &GearPair) -> [f64; 2] {
 }
 
 /// H_V.
-fn ohlendorf(teeth: [u32; 2], base_helix_angle_rad: f64, after_and_before_pitch_point: [f64; 2]) -> f64 {
-    let [z1, z2] = teeth.map(f64::from);
-    // (u + 1)/(z₁ u) is 1/z₁ + 1/z₂.
+fn ohlendorf([z1, z2]: [f64; 2], base_helix_angle_rad: f64, after_and_before_pitch_point: [f64; 2]) -> f64 {
+    // (u + 1)/(z₁ u) is 1/z₁ + 1/z₂, with z₂ < 0 of an internal pair.
     2.0 * PI * (1.0 / z1 + 1.0 / z2) / base_helix_angle_rad.cos() * evenly_shared_sliding(after_and_before_pitch_point)
 }
 

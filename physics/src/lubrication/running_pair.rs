@@ -191,7 +191,13 @@ impl<'a> RunningPair<'a> {
         let spec = &self.pair.spec;
         let bulk_c = settings.bulk_temperature_c.unwrap_or_else(|| {
             let supply = settings.supply.factor();
-            bulk_temperature_c(settings.temperature_c, loss_kw, spec.centre_distance_mm, spec.face_width_mm, supply)
+            bulk_temperature_c(
+                settings.temperature_c,
+                loss_kw,
+                spec.centre_distance_mm.abs(),
+                spec.face_width_mm,
+                supply,
+            )
         });
         let [at_inlet, at_teeth] = [settings.temperature_c, bulk_c].map(|celsius| OilState::of(&oil, celsius));
         OilInMesh { settings, oil, mean, bulk_c, at_inlet, at_teeth }
@@ -211,7 +217,8 @@ impl<'a> RunningPair<'a> {
             relative_radius_mm: self.pair.normal_section().relative_radius_mm(position_mm),
             peak_pressure_mpa,
             surface_speeds_m_per_s: PerGear::from_fn(|gear| {
-                1e-3 * self.angular_speed_per_s[gear] * self.pair.path.rho_mm(gear, position_mm)
+                let rho_mm = self.pair.path.involute[gear].signed(1.0) * self.pair.path.rho_mm(gear, position_mm);
+                1e-3 * self.angular_speed_per_s[gear] * rho_mm
             }),
         }
     }

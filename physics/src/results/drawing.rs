@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use gearwear_bodies::gear::PerGear;
 
-/// The pair in mesh in the transverse section, mm; the pinion's axis is the origin and the wheel's lies on +y.
+/// The pair in mesh in the transverse section, mm; the pinion's axis is the origin and the wheel's lies on +y, on −y of an
+/// internal pair.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PairDrawing {
     /// Closed outline of each whole gear in its place.
@@ -19,9 +20,11 @@ pub struct PairDrawing {
     pub line_of_action: [[f64; 2]; 2],
     /// Points A–E with their names, in the order of contact.
     pub path_of_contact: Vec<(String, [f64; 2])>,
+    /// Outside radius with which an internal wheel is drawn.
+    pub rim_radius_mm: Option<f64>,
 }
 
-/// Radii of the circles drawn.
+/// Radii of the circles drawn, negative of an internal wheel.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct GearCircles {

@@ -489,7 +489,7 @@ pub struct WorkSummary {
 #[allow(non_snake_case, reason = "the contract's column names")]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FlankRecord {
-    /// Distance from the gear's axis, from base circle to tip circle.
+    /// Distance from the gear's axis, from base circle to tip circle, or from form circle to tip circle of an internal gear.
     pub radius_mm: Vec<f64>,
     /// Roll angle ρ/r_b of the transverse involute.
     pub roll_angle_deg: Vec<f64>,
@@ -515,6 +515,21 @@ pub struct FlankRecord {
     pub path_point_radius_mm: PathPoints,
     /// Zones of the flank, of which figures speak.
     pub zones: FlankZones,
+}
+
+impl FlankRecord {
+    /// Number of the first point, from the root, that is not below `radius_mm`; towards the tip of an internal gear the radius falls.
+    pub fn first_from(&self, radius_mm: f64) -> usize {
+        match self.is_internal() {
+            true => self.radius_mm.partition_point(|&radius| radius > radius_mm),
+            false => self.radius_mm.partition_point(|&radius| radius < radius_mm),
+        }
+    }
+
+    /// Whether the radius falls from root to tip.
+    pub fn is_internal(&self) -> bool {
+        self.radius_mm.first() > self.radius_mm.last()
+    }
 }
 
 /// A row of `history.csv`.

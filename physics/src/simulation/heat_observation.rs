@@ -360,6 +360,7 @@ mod tests {
             modification: Modification::default(),
             measured_flank: None,
             shaft: None,
+            ring: None,
         }
     }
 

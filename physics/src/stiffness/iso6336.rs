@@ -9,7 +9,7 @@
 //!
 //! The mesh stiffness of all pairs is c_γα = c' (0.75 ε_α + 0.25), and c_γβ = 0.85 c_γα for the load distribution over the face width.
 //!
-//! Gear 1 is the pinion, the gear with fewer teeth, whichever drives.
+//! Gear 1 is the pinion, the gear with fewer teeth, whichever drives. Of an internal wheel z_n2 is infinite.
 //!
 //! Below 100 N/mm of line load c' is proportional to the fourth root of the load. The value is constant along the path of contact.
 //!
@@ -32,7 +32,8 @@ pub(crate) fn theoretical_single_stiffness_n_per_mm_um(spec: &PairSpec) -> f64 {
     let base_helix = (spec.helix_angle_rad.sin() * spec.normal_pressure_angle_rad.cos()).asin();
     let virtual_teeth =
         |gear: Gear| f64::from(spec.gears[gear].teeth) / (base_helix.cos().powi(2) * spec.helix_angle_rad.cos());
-    let (z1, z2) = (virtual_teeth(smaller), virtual_teeth(smaller.mate()));
+    let z1 = virtual_teeth(smaller);
+    let z2 = if spec.is_internal() { f64::INFINITY } else { virtual_teeth(smaller.mate()) };
     let terms = [1.0, 1.0 / z1, 1.0 / z2, x1, x1 / z1, x2, x2 / z2, x1 * x1, x2 * x2];
     1.0 / C.iter().zip(terms).map(|(c, term)| c * term).sum::<f64>()
 }

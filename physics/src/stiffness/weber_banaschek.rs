@@ -115,7 +115,7 @@ impl ToothCompliance {
 
 /// Angle of the fillet's tangent to the tooth's centre line less 30°, rad.
 fn beyond_thirty_degrees(tooth: &Tooth, t: f64) -> f64 {
-    let tangent = Rotation2::new(PI / f64::from(tooth.teeth)) * tooth.trochoid.tangent(t);
+    let tangent = Rotation2::new(PI / tooth.z()) * tooth.trochoid.tangent(t);
     tangent.x.atan2(tangent.y) - 30f64.to_radians()
 }
 

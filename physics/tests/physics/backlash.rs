@@ -1,7 +1,7 @@
 //! The centre distance of a backlash, and the backlash of a centre distance.
 
 use gearwear_bodies::gear::GearPair;
-use gearwear_bodies::gear::backlash::{Backlash, TeethTooThin};
+use gearwear_bodies::gear::backlash::{Backlash, NoSuchBacklash};
 use gearwear_bodies::gear::involute::{inv, inverse_inv};
 
 use super::common::preset;
@@ -45,7 +45,10 @@ fn ver_the_pair_has_the_backlash_asked_for() {
 fn teeth_that_are_too_thin_are_told() {
     let mut spec = preset("fzg-c");
     spec.gears.wheel.tooth_thickness_allowance_mm = -5.0;
-    let TeethTooThin { least_mm } = spec.centre_distance_with_mm(Backlash::Circumferential(0.1)).unwrap_err();
+    let Err(NoSuchBacklash::TeethTooThin { least_mm }) = spec.centre_distance_with_mm(Backlash::Circumferential(0.1))
+    else {
+        panic!("thin teeth have more backlash at any centre distance");
+    };
     assert!(spec.centre_distance_with_mm(Backlash::Circumferential(1.01 * least_mm)).is_ok());
     assert!(spec.centre_distance_with_mm(Backlash::Normal(0.99 * least_mm)).is_err());
 }

@@ -20,7 +20,10 @@ fn val_the_wheel_of_fzg_type_a_is_undercut() {
     // would lie, √(r_b² + ρ²) with ρ = −1.27 mm: not on the gear.
     assert_close("r_Ff2", a.teeth.wheel.root_form_radius_mm, 50.7472, 1e-5);
     let alpha = 20f64.to_radians();
-    let rho = a.teeth.wheel.trochoid.involute_end_rho_mm(alpha);
+    let gearwear_bodies::gear::fillet::Fillet::Rack(trochoid) = a.teeth.wheel.trochoid else {
+        panic!("an external gear has the fillet of a rack")
+    };
+    let rho = trochoid.involute_end_rho_mm(alpha);
     assert_close("mirror image", a.path.involute.wheel.radius_mm(rho), 50.759, 1e-5);
     assert!(a.teeth.wheel.undercut && !a.teeth.pinion.undercut);
 }

@@ -25,7 +25,7 @@ fn ver_critical_section_of_the_trochoid() {
             let tangent: Vector2<f64> = into_tooth * trochoid.tangent(t);
             tangent.x.abs().atan2(tangent.y.abs())
         };
-        let (mut low, mut high) = (trochoid.first_angle_rad, std::f64::consts::FRAC_PI_2);
+        let (mut low, mut high) = (trochoid.first_angle_rad(), std::f64::consts::FRAC_PI_2);
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
             *(if to_middle(middle) < 30f64.to_radians() { &mut low } else { &mut high }) = middle;

@@ -333,7 +333,7 @@ fn ver_a_sun_has_a_mesh_with_each_planet_and_a_third_of_the_torque() {
         ] {
             assert!(found.text.contains(line), "{line}\n{}", found.text);
         }
-        let ring = "its ring gear is an internal gear, and internal gears are not in the model";
+        let ring = "its ring gear is an internal gear, and internal gears are not read from REXS";
         assert_eq!(found.warnings.iter().filter(|said| said.ends_with(ring)).count(), 3, "{:?}", found.warnings);
         let resolved = Resolved::from_toml(&found.text).unwrap();
         assert_eq!(resolved.scene.operation.meshes_per_revolution.pinion, 3.0);

@@ -203,7 +203,7 @@ impl<'a> RexsStage<'a> {
         match (own_deg?, of_wheel_deg?) {
             (Some(own_deg), Some(of_wheel_deg)) if (own_deg + of_wheel_deg).abs() > 1e-6 => {
                 let allowed = format!(
-                    "{} for external gears on parallel axes; internal gears and crossed axes are not in the model",
+                    "{} for external gears on parallel axes; internal gears are not read from REXS, crossed axes not in the model",
                     0.0 - own_deg
                 );
                 Err(wheel.wrong("helix_angle_reference_diameter", of_wheel_deg.to_string(), allowed))
@@ -260,7 +260,7 @@ fn reason(document: &RexsDocument, stage: &RexsComponent) -> Option<String> {
     let relation = document.relation("stage", &[("stage", &stage.id)])?;
     let gears = ["gear_1", "gear_2"].map(|role| document.component(relation.member(role)?));
     let why = if gears.iter().flatten().any(|gear| gear.kind == "ring_gear") {
-        "its ring gear is an internal gear, and internal gears are not in the model"
+        "its ring gear is an internal gear, and internal gears are not read from REXS"
     } else if stage.kind.starts_with("bevel") || stage.kind.starts_with("worm") {
         "bevel and worm gears are not in the model"
     } else {
@@ -345,7 +345,7 @@ impl<'a> Flanked<'a> {
         let gear = self.gear;
         let number = gear.number("number_of_teeth", NONE)?;
         if let Some(number) = number.filter(|number| !(1.0..=1e4).contains(number) || number.fract() != 0.0) {
-            let allowed = "a whole number, positive: external gears; internal gears are not in the model".to_owned();
+            let allowed = "a whole number, positive: external gears; internal gears are not read from REXS".to_owned();
             return Err(gear.wrong("number_of_teeth", number.to_string(), allowed));
         }
         let profile_shift = self.profile_shift(section)?;

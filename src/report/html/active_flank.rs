@@ -16,7 +16,8 @@ impl ActiveFlank {
     pub fn of(flank: &FlankRecord) -> Self {
         let [from_mm, to_mm] = Self::ends_mm(&flank.path_point_radius_mm);
         let margin = 0.03 * (to_mm - from_mm);
-        let first = flank.radius_mm.partition_point(|&r| r < from_mm - margin);
+        let root_mm = if flank.is_internal() { to_mm + margin } else { from_mm - margin };
+        let first = flank.first_from(root_mm);
         Self { first, path_point_radius_mm: flank.path_point_radius_mm }
     }
 

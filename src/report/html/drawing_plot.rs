@@ -53,7 +53,9 @@ pub(super) fn pair(record: &RunRecord) -> Chart {
 fn with_motion(chart: Chart, record: &RunRecord) -> Chart {
     let (drawing, geometry) = (&record.drawing, &record.summary.geometry);
     let [from, to] = drawing.line_of_action;
-    let along = [to[0] - from[0], to[1] - from[1]];
+    // T1T2 is negative of an internal pair: contact is on the other side of T1.
+    let sense = drawing.circles_mm.wheel.base.signum();
+    let along = [to[0] - from[0], to[1] - from[1]].map(|component| sense * component);
     let length_mm = along[0].hypot(along[1]);
     let path = &geometry.curvature_radius_mm;
     let at_mm = [path.A, path.C, path.E];
@@ -89,6 +91,13 @@ fn polyline(name: &str, points: &[[f64; 2]], stroke: (&str, f64, Dash)) -> Trace
 
 fn outline(drawing: &PairDrawing, gear: Gear) -> Trace {
     let mut points = drawing.outline[gear].clone();
+    if let (Gear::Wheel, Some(rim_mm)) = (gear, drawing.rim_radius_mm) {
+        // The rim's circle is joined to the outline opposite the mesh, so that the ring between them is filled.
+        let middle = points.len() / 2;
+        points.rotate_left(middle);
+        points.extend(points.first().copied());
+        points.extend(rim(&points[0], drawing.axis[gear], rim_mm));
+    }
     points.extend(points.first().copied());
     polyline(gear.name(), &points, (gear_colour(gear), 1.8, Dash::Solid)).filled(gear_fill(gear))
 }
@@ -107,6 +116,17 @@ fn circles(drawing: &PairDrawing, gear: Gear) -> impl Iterator<Item = Trace> {
         let circle = circle.opacity(0.8).group(name);
         Some(if listed && gear == Gear::Pinion { circle } else { circle.unlisted() })
     })
+}
+
+/// Circle about `centre` that begins and ends beside `point`.
+fn rim(point: &[f64; 2], centre: [f64; 2], radius_mm: f64) -> Vec<[f64; 2]> {
+    let first = (point[1] - centre[1]).atan2(point[0] - centre[0]);
+    (0..=CIRCLE_POINTS)
+        .map(|i| {
+            let (sin, cos) = (first - TAU * i as f64 / CIRCLE_POINTS as f64).sin_cos();
+            [centre[0] + radius_mm * cos, centre[1] + radius_mm * sin]
+        })
+        .collect()
 }
 
 fn circle(centre: [f64; 2], radius_mm: f64) -> Vec<[f64; 2]> {
@@ -135,13 +155,15 @@ fn ends_of_the_line_of_action(drawing: &PairDrawing) -> [Label; 2] {
 fn reading(record: &RunRecord) -> String {
     let geometry = &record.summary.geometry;
     let length = geometry.curvature_radius_mm.E - geometry.curvature_radius_mm.A;
+    let [length, whole, angle] = [length, geometry.line_of_action_mm, geometry.working_pressure_angle_deg].map(figure);
+    let line = match record.drawing.rim_radius_mm {
+        Some(_) => format!("{length} mm long, on the line of action beyond T1, at {angle}°"),
+        None => format!("{length} mm of the {whole} mm long line of action at {angle}°"),
+    };
     format!(
-        "The flanks touch along the path of contact from A to E, {} mm of the {} mm long line of action at {}°; a tooth \
+        "The flanks touch along the path of contact from A to E, {line}; a tooth \
          pair follows every {} mm, so {} pairs are in contact on average. Double-click shows both gears whole; the \
          slider turns the pair through the mesh and tells what share of the load each contact of the worn pair carries.",
-        figure(length),
-        figure(geometry.line_of_action_mm),
-        figure(geometry.working_pressure_angle_deg),
         figure(geometry.base_pitch_mm),
         significant(geometry.transverse_contact_ratio, 4),
     )

@@ -3,7 +3,7 @@
 use crate::scene::file::PairFile;
 use crate::scene::findings::Findings;
 use crate::scene::{presets, problem::number};
-use gearwear_bodies::gear::backlash::{Backlash, TeethTooThin};
+use gearwear_bodies::gear::backlash::{Backlash, NoSuchBacklash};
 use gearwear_bodies::gear::spec::PairSpec;
 
 /// Alternative keys, one of which is given.
@@ -43,7 +43,7 @@ pub(super) fn given(file: &PairFile, findings: &mut Findings) -> Option<CentreDi
     }
 }
 
-/// The centre distance of `spec`, which has all else, written into the file.
+/// The centre distance of `spec`, which has all else, negative of an internal pair; written into the file as positive.
 pub(super) fn choose(
     given: CentreDistance,
     file: &mut PairFile,
@@ -51,10 +51,20 @@ pub(super) fn choose(
     findings: &mut Findings,
 ) -> Option<f64> {
     let centre_distance_mm = match given {
+        CentreDistance::Given { centre_distance_mm } if spec.is_internal() => -centre_distance_mm,
         CentreDistance::Given { centre_distance_mm } => centre_distance_mm,
         CentreDistance::Leaves { key, backlash } => match spec.centre_distance_with_mm(backlash) {
             Ok(centre_distance_mm) => centre_distance_mm,
-            Err(TeethTooThin { least_mm }) => {
+            Err(NoSuchBacklash::TeethTooThick { greatest_mm }) => {
+                let (Backlash::Circumferential(found_mm) | Backlash::Normal(found_mm)) = backlash;
+                let allowed = format!("less than {:.1}", (10.0 * greatest_mm / UM).floor() / 10.0);
+                findings.not_allowed(key, number(found_mm / UM), allowed);
+                findings.help(
+                    "an internal pair has its greatest backlash where its base circles touch: check profile shifts",
+                );
+                return None;
+            }
+            Err(NoSuchBacklash::TeethTooThin { least_mm }) => {
                 let (Backlash::Circumferential(found_mm) | Backlash::Normal(found_mm)) = backlash;
                 let allowed = format!("more than {:.1}", (10.0 * least_mm / UM).ceil() / 10.0);
                 findings.not_allowed(key, number(found_mm / UM), allowed);
@@ -63,6 +73,6 @@ pub(super) fn choose(
             }
         },
     };
-    (file.centre_distance_mm, file.backlash_um, file.normal_backlash_um) = (Some(centre_distance_mm), None, None);
+    (file.centre_distance_mm, file.backlash_um, file.normal_backlash_um) = (Some(centre_distance_mm.abs()), None, None);
     Some(centre_distance_mm)
 }

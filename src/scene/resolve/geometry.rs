@@ -1,6 +1,6 @@
 //! Reports errors of the gear pair at the key to change.
 
-use super::centre_distance;
+use super::{centre_distance, internal_geometry};
 use crate::scene::findings::Findings;
 use crate::scene::problem::{ProblemKind, number};
 use gearwear_bodies::gear::pair::{GearPair, MEASURED_FLANK};
@@ -9,17 +9,18 @@ use gearwear_bodies::gear::{Gear, PairError};
 use gearwear_physics::mesh_cycle::settings::SliceSettings;
 
 /// Key of a geometry error, and its remedy.
-struct Cause {
-    key: String,
-    found: String,
-    allowed: String,
-    help: String,
+pub(super) struct Cause {
+    pub key: String,
+    pub found: String,
+    pub allowed: String,
+    pub help: String,
 }
 
 /// Derives the pair and reports why that is impossible, if it is, or why its slices leave a position without contact.
 pub(super) fn check(spec: &PairSpec, slices: Option<SliceSettings>, findings: &mut Findings) -> Option<GearPair> {
     match GearPair::new(spec) {
         Ok(pair) => {
+            internal_geometry::warn(&pair, findings);
             if let Some(slices) = slices {
                 check_slices(&pair, slices.count, findings);
             }
@@ -56,11 +57,11 @@ fn check_slices(pair: &GearPair, count: usize, findings: &mut Findings) {
 }
 
 /// Finder of the key that causes an error of the geometry.
-struct ErrorPlace<'a> {
-    spec: &'a PairSpec,
-    findings: &'a Findings,
+pub(super) struct ErrorPlace<'a> {
+    pub spec: &'a PairSpec,
+    pub findings: &'a Findings,
     /// Ratio of a factor in the file, of the module given there, to the factor of the normal module.
-    factor_scale: f64,
+    pub factor_scale: f64,
 }
 
 fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
@@ -80,7 +81,10 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
         }
         PairError::PointedTooth { gear, tip_diameter_mm, pointed_diameter_mm, .. } => place.tip(
             (gear, tip_diameter_mm),
-            format!("a tip diameter below {} mm, where the flanks meet", at_most(pointed_diameter_mm)),
+            match pointed_diameter_mm < 0.0 {
+                true => format!("a tip diameter above {} mm, where the flanks meet", at_least(-pointed_diameter_mm)),
+                false => format!("a tip diameter below {} mm, where the flanks meet", at_most(pointed_diameter_mm)),
+            },
             &format!("give {} or a smaller profile shift", key_of(gear, "tip_diameter_mm")),
         ),
         PairError::TipBelowForm { gear, tip_diameter_mm, form_diameter_mm } => place.tip(
@@ -88,6 +92,7 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
             format!("a tip diameter above the form circle, {} mm", at_least(form_diameter_mm)),
             "a larger centre distance leaves more of a tip that follows from the rack, less profile shift of its mate too",
         ),
+        PairError::Internal(ref error) => place.of_internal(error),
         PairError::Interference { gear, greatest_tip_diameter_mm, .. } => {
             place.interference(gear, greatest_tip_diameter_mm)
         }
@@ -168,15 +173,15 @@ impl ErrorPlace<'_> {
     }
 
     /// Key and meaning of the centre distance; the backlash where it follows from that.
-    fn centre(&self) -> (&'static str, String) {
+    pub(super) fn centre(&self) -> (&'static str, String) {
         let key = centre_distance::KEYS.into_iter().find(|key| self.findings.is_in_file(key));
         match key.unwrap_or("pair.centre_distance_mm") {
-            key @ "pair.centre_distance_mm" => (key, number(self.spec.centre_distance_mm)),
+            key @ "pair.centre_distance_mm" => (key, number(self.spec.centre_distance_mm.abs())),
             key => (key, format!("a backlash that gives centre distance {}", short(self.spec.centre_distance_mm))),
         }
     }
 
-    fn centre_distance(&self, least_mm: f64, help: &str) -> Cause {
+    pub(super) fn centre_distance(&self, least_mm: f64, help: &str) -> Cause {
         let (key, found) = self.centre();
         let allowed = format!("a centre distance of at least {} mm", at_least(least_mm));
         Cause { key: key.to_owned(), found, allowed, help: help.to_owned() }
@@ -216,13 +221,14 @@ impl ErrorPlace<'_> {
                 None => format!("profile shift {}", of_file(self.spec.gears[gear].profile_shift, self.factor_scale)),
             },
             allowed: format!(
-                "a tip diameter of the {} of at most {} mm, which leaves the root fillet of the {} alone",
+                "a tip diameter of the {} of {}, which leaves the root fillet of the {} alone",
                 mate.name(),
-                at_most(greatest_tip_diameter_mm),
+                inside(greatest_tip_diameter_mm),
                 gear.name()
             ),
             help: format!(
-                "a smaller {}, a larger {} or more teeth on the {}",
+                "a {} {}, a larger {} or more teeth on the {}",
+                if greatest_tip_diameter_mm < 0.0 { "larger" } else { "smaller" },
                 key_of(mate, "tip_diameter_mm"),
                 key_of(gear, "profile_shift"),
                 gear.name()
@@ -230,7 +236,7 @@ impl ErrorPlace<'_> {
         }
     }
 
-    fn tip(&self, (gear, tip_diameter_mm): (Gear, f64), allowed: String, help: &str) -> Cause {
+    pub(super) fn tip(&self, (gear, tip_diameter_mm): (Gear, f64), allowed: String, help: &str) -> Cause {
         Cause { key: self.tip_key(gear), found: tip_found(gear, tip_diameter_mm), allowed, help: help.to_owned() }
     }
 
@@ -246,13 +252,18 @@ impl ErrorPlace<'_> {
     fn tip_clearance(&self, gear: Gear, clearance_mm: f64) -> Cause {
         Cause {
             key: self.tip_key(gear),
-            found: self.spec.gears[gear].tip_diameter_mm.map_or_else(|| "a tip from the rack".to_owned(), number),
+            found: self.spec.gears[gear]
+                .tip_diameter_mm
+                .map_or_else(|| "a tip from the rack".to_owned(), |tip_mm| number(tip_mm.abs())),
             allowed: format!(
-                "a tip diameter of at most {} mm, beyond which it reaches the root circle of the {}",
-                at_most(2.0 * (self.spec.tip_radius_mm(gear) + clearance_mm)),
+                "a tip diameter of {}, beyond which it reaches the root circle of the {}",
+                inside(2.0 * (self.spec.tip_radius_mm(gear) + clearance_mm)),
                 gear.mate().name()
             ),
-            help: "or a larger centre distance, or a larger pair.basic_rack.dedendum_factor".to_owned(),
+            help: match self.spec.is_internal() {
+                true => "or a smaller centre distance, or a larger pair.basic_rack.dedendum_factor".to_owned(),
+                false => "or a larger centre distance, or a larger pair.basic_rack.dedendum_factor".to_owned(),
+            },
         }
     }
 
@@ -286,13 +297,21 @@ impl ErrorPlace<'_> {
 }
 
 /// A limit that a value may reach, to four digits and within the true one.
-fn at_most(limit: f64) -> f64 {
+pub(super) fn at_most(limit: f64) -> f64 {
     (limit * 1e4).floor() / 1e4
 }
 
 /// A limit that a value must reach, to four digits and within the true one.
-fn at_least(limit: f64) -> f64 {
+pub(super) fn at_least(limit: f64) -> f64 {
     (limit * 1e4).ceil() / 1e4
+}
+
+/// Limit of a tip diameter, which is negative of an internal gear.
+fn inside(diameter_mm: f64) -> String {
+    match diameter_mm < 0.0 {
+        true => format!("at least {} mm", at_least(-diameter_mm)),
+        false => format!("at most {} mm", at_most(diameter_mm)),
+    }
 }
 
 /// Factor of the normal module in terms of the file, without the digits of the conversion.
@@ -300,9 +319,9 @@ fn of_file(factor: f64, factor_scale: f64) -> String {
     number((factor / factor_scale * 1e10).round() / 1e10)
 }
 
-/// Derived length without rounding errors.
+/// Derived length without rounding errors, as on a drawing.
 fn short(length_mm: f64) -> String {
-    format!("{} mm", (length_mm * 1e4).round() / 1e4)
+    format!("{} mm", (length_mm.abs() * 1e4).round() / 1e4)
 }
 
 #[cfg(test)]

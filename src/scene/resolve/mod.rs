@@ -8,6 +8,7 @@ mod contact_size;
 mod curve;
 mod fem;
 mod geometry;
+mod internal_geometry;
 mod lubrication;
 mod material;
 mod modifications;
@@ -26,7 +27,7 @@ use super::problem::{Problem, ProblemKind};
 use super::resolve::settings::StiffnessInputs;
 use super::schema::{Node, schema};
 use super::shape::{self, FileShape};
-use super::{Resolved, presets, table, text, unit_slip};
+use super::{Resolved, internal, presets, table, text, unit_slip};
 use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS};
 use gearwear_physics::contact::settings::{ContactSettings, SurfaceKind};
@@ -47,6 +48,7 @@ pub(super) fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
 
 /// Resolves a parsed scene file; `findings` know where its keys stand.
 pub(super) fn resolve_table(table: Table, mut findings: Findings) -> Result<Resolved, Vec<Problem>> {
+    let table = internal::with_positive_numbers(table, &mut findings);
     let format = FileShape { root: Node::root(schema()), of_other_files: OF_OTHER_FILES };
     let sound = with_preset(shape::check(format, &table, &mut findings));
     // Slips of unit are looked for in the file as it is, since they may exceed the allowed range.
@@ -172,19 +174,25 @@ fn default_title(file: &PairFile, pair: &PairSpec) -> String {
 
 /// Makes every choice the file leaves open, and writes it into the file.
 fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneFile)> {
+    internal::check_keys(&file, findings);
     let pair = pair::choose(&mut file.pair, findings);
+    let is_internal = pair.as_ref().is_some_and(PairSpec::is_internal);
+    if let Some(pair) = pair.as_ref().filter(|_| is_internal) {
+        internal::check_model(&file, pair, findings);
+    }
     let has_tooth_temperature = file.temperature.as_ref().is_some_and(|of| of.tooth.is_some());
     let materials = material::choose(&mut file.material, has_tooth_temperature, findings);
     let operation = operation::choose(&mut file.operation, findings);
     let alike = pair.as_ref().is_none_or(|pair| pair.is_alike_over_width() && !slices::has_web(file.fem.as_ref()));
-    let contact = settings::contact(&mut file.contact, file.stiffness.as_ref(), alike, findings);
+    let can_be_meshed = alike && !is_internal;
+    let contact = settings::contact(&mut file.contact, file.stiffness.as_ref(), can_be_meshed, findings);
     let surface_by_default = file.contact.as_ref().is_none_or(|contact| contact.surface.is_none());
     let calibration_file = file.contact.as_ref().and_then(|contact| contact.calibration.clone());
     let surface = contact.map(|contact| contact.surface);
     let slices = pair.as_ref().and_then(|pair| slices::choose(&mut file, pair, surface, findings));
     let coupling_by_default = file.helical.as_ref().is_none_or(|helical| helical.coupling.is_none());
     let coupling = slices.map(|slices| slices.coupling);
-    let inputs = StiffnessInputs { surface, calibrated: calibration_file.is_some(), coupling };
+    let inputs = StiffnessInputs { surface, calibrated: calibration_file.is_some(), coupling, is_internal };
     let stiffness = settings::stiffness(&mut file.stiffness, inputs, findings);
     let stiffness_by_default = file.stiffness.as_ref().is_none_or(|stiffness| stiffness.model.is_none());
     let stiffness_curve_file = file.stiffness.as_ref().and_then(|stiffness| stiffness.curve.clone());
@@ -206,7 +214,11 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let is_severe = wear.as_ref().is_some_and(|wear| wear.may_be_severe());
     let numerics = choose_numerics(&mut file.numerics, contact, slices, is_severe, &operation, findings);
     let verify = *file.numerics.get_or_insert_default().verify.get_or_insert(true);
-    if !verify {
+    if verify && is_internal {
+        findings.warnings.push(
+            "numerics.verify: the error against finite elements is unknown, as those of internal gears are not in the model".to_owned(),
+        );
+    } else if !verify {
         findings.warnings.push("numerics.verify is false: the error against finite elements is unknown".to_owned());
     }
     file.title.get_or_insert_with(|| default_title(&file.pair, &pair));

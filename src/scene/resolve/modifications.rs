@@ -117,7 +117,7 @@ fn relief(
             let [start, tip] = [pair.active_start_rho_mm(gear), pair.teeth[gear].tip_rho_mm()];
             let (begins_mm, key, found, [least, most], unit) = match (begins_at_diameter_mm, begins_at_roll_angle_deg) {
                 (Some(diameter_mm), _) => {
-                    let ends = [start, tip].map(|rho| 2.0 * flank.radius_mm(rho));
+                    let ends = [start, tip].map(|rho| 2.0 * flank.radius_mm(rho).abs());
                     (flank.curvature_radius_mm(0.5 * diameter_mm), diameter, diameter_mm, ends, "mm")
                 }
                 (None, angle_deg) => {
@@ -152,7 +152,7 @@ fn helix_slope_um(file: &mut GearFile, gear: Gear, spec: &PairSpec, findings: &m
         return None;
     }
     if let Some(number_of_class) = file.helix_slope_class.take() {
-        let [diameter_mm, width_mm] = [2.0 * spec.reference_radius_mm(gear), spec.face_width_mm];
+        let [diameter_mm, width_mm] = [2.0 * spec.reference_radius_mm(gear).abs(), spec.face_width_mm];
         for (what, value, [least, most]) in [
             ("a reference diameter", diameter_mm, tolerance::DIAMETERS_MM),
             ("a face width", width_mm, tolerance::WIDTHS_MM),

@@ -4,10 +4,11 @@
 //! becomes x_n = x_t / cos β, because x_n m_n = x_t m_t is the same length.
 
 use super::{centre_distance, modifications};
-use crate::scene::file::{AxisParallelismFile, BasicRackFile, GearFile, PairFile, ShaftFile};
+use crate::scene::file::{AxisParallelismFile, BasicRackFile, CutterFile, GearFile, PairFile, ShaftFile};
 use crate::scene::findings::Findings;
 use crate::scene::presets;
 use gearwear_bodies::gear::modification::Modification;
+use gearwear_bodies::gear::ring_fillet::{RingSpec, ShaperCutter};
 use gearwear_bodies::gear::root_trochoid::greatest_fillet_radius_factor;
 use gearwear_bodies::gear::shaft::Shaft;
 use gearwear_bodies::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
@@ -120,22 +121,44 @@ fn rack(
 }
 
 fn gear(file: &mut GearFile, which: Gear, factor_scale: f64, findings: &mut Findings) -> Option<GearSpec> {
+    let is_internal = file.internal == Some(true);
+    // Diameters of internal gears are negative inside the model.
+    let signed = |diameter_mm: f64| if is_internal { -diameter_mm } else { diameter_mm };
     let table = format!("pair.{}", which.name());
     let teeth =
         required(file.teeth, &format!("{table}.teeth"), "a whole number at least 5 and at most 10000", findings);
     let shift_key = format!("{table}.profile_shift");
     let shift = required(file.profile_shift, &shift_key, "a number at least -5 and at most 5 (0: none)", findings);
+    let ring = is_internal.then(|| RingSpec {
+        root_diameter_mm: file.root_diameter_mm.map(signed),
+        cutter: file.cutter.as_mut().map(|cutter| shaper_cutter(cutter, factor_scale)),
+    });
     Some(GearSpec {
         teeth: teeth?,
         profile_shift: factor_scale * shift?,
-        tip_diameter_mm: file.tip_diameter_mm,
+        tip_diameter_mm: file.tip_diameter_mm.map(signed),
         tooth_thickness_allowance_mm: UM * *file.tooth_thickness_allowance_um.get_or_insert(0.0),
         bore_diameter_mm: file.bore_diameter_mm,
         // Chosen where the whole pair is known.
         modification: Modification::default(),
         measured_flank: None,
         shaft: file.shaft.as_mut().and_then(|file| shaft(file, &format!("{table}.shaft"), findings)),
+        ring,
     })
+}
+
+/// Addendum factor of a shaper cutter whose teeth reach as deep as those of the standard rack.
+const CUTTER_ADDENDUM: f64 = 1.25;
+/// Radius of a cutter's tip edge, in modules.
+const CUTTER_TIP_ROUNDING: f64 = 0.2;
+
+fn shaper_cutter(file: &mut CutterFile, factor_scale: f64) -> ShaperCutter {
+    ShaperCutter {
+        teeth: file.teeth,
+        profile_shift: factor_scale * *file.profile_shift.get_or_insert(0.0),
+        addendum_factor: factor_scale * *file.addendum_factor.get_or_insert(CUTTER_ADDENDUM),
+        tip_rounding_factor: factor_scale * *file.tip_rounding_factor.get_or_insert(CUTTER_TIP_ROUNDING),
+    }
 }
 
 fn shaft(file: &mut ShaftFile, key: &str, findings: &mut Findings) -> Option<Shaft> {

@@ -22,14 +22,14 @@ const MOST_POINTS_TIMES_POSITIONS: usize = 100_000_000;
 /// Greatest number of wear steps in an acceptable time.
 const MOST_STEPS: f64 = 1e7;
 
-/// Contact surface of a scene that leaves it open: finite elements where all sections are alike, unless something is given that only another surface
+/// Contact surface of a scene that leaves it open: finite elements where plane ones can be made of the pair, unless something is given that only another surface
 /// reads.
-fn default_surface(file: &ContactFile, stiffness: Option<&StiffnessFile>, alike_over_width: bool) -> SurfaceKind {
+fn default_surface(file: &ContactFile, stiffness: Option<&StiffnessFile>, can_be_meshed: bool) -> SurfaceKind {
     let of_foundation = file.foundation_MPa_per_mm.is_some() || file.match_criterion.is_some();
     let of_springs = stiffness.is_some_and(StiffnessFile::says_anything);
     if of_foundation || file.calibration.is_some() {
         SurfaceKind::Winkler
-    } else if !alike_over_width || of_springs || file.tip_contact == Some(false) {
+    } else if !can_be_meshed || of_springs || file.tip_contact == Some(false) {
         SurfaceKind::HalfSpace
     } else {
         SurfaceKind::Fem
@@ -40,11 +40,11 @@ fn default_surface(file: &ContactFile, stiffness: Option<&StiffnessFile>, alike_
 pub(super) fn contact(
     file: &mut Option<ContactFile>,
     stiffness: Option<&StiffnessFile>,
-    alike_over_width: bool,
+    can_be_meshed: bool,
     findings: &mut Findings,
 ) -> Option<ContactSettings> {
     let file = file.get_or_insert_default();
-    let surface = match (file.surface, default_surface(file, stiffness, alike_over_width)) {
+    let surface = match (file.surface, default_surface(file, stiffness, can_be_meshed)) {
         (Some(surface), _) => surface,
         // The default differs where finite elements are not possible, and is not written into the file.
         (None, SurfaceKind::Fem) => SurfaceKind::Fem,
@@ -107,12 +107,14 @@ pub(super) struct StiffnessInputs {
     pub calibrated: bool,
     /// Coupling of the slices over the face width, where there are any.
     pub coupling: Option<Coupling>,
+    /// Whether the wheel has internal teeth, of which there are no finite elements.
+    pub is_internal: bool,
 }
 
 /// Chooses the tooth stiffness.
 pub(super) fn stiffness(
     file: &mut Option<StiffnessFile>,
-    StiffnessInputs { surface, calibrated, coupling }: StiffnessInputs,
+    StiffnessInputs { surface, calibrated, coupling, is_internal }: StiffnessInputs,
     findings: &mut Findings,
 ) -> Option<StiffnessSettings> {
     let key = "stiffness.pair_N_per_mm_um";
@@ -122,6 +124,7 @@ pub(super) fn stiffness(
     }
     let model = match (surface, calibrated) {
         (_, true) if surface != Some(SurfaceKind::Fem) => *file.model.get_or_insert(StiffnessModel::Fem),
+        _ if is_internal => *file.model.get_or_insert(StiffnessModel::WeberBanaschek),
         // The default differs where finite elements are not possible, and is not written into the file; nor is a key that is not read.
         _ => file.model.unwrap_or(StiffnessModel::Fem),
     };

@@ -379,6 +379,7 @@ fn drawing() -> PairDrawing {
         },
         line_of_action: [t1, t2],
         path_of_contact: [("A", A), ("B", B), ("C", C), ("D", D), ("E", E)].map(|(n, r)| (n.into(), on_line(r))).into(),
+        rim_radius_mm: None,
     }
 }
 

@@ -14,15 +14,18 @@
 //! inv α_wt = inv α_t + 2 tan α_n (x1 + x2)/(z1 + z2)
 //! ```
 //!
-//! The normal backlash gives inv α_wt directly, as a cos α_wt is known; for the circumferential one, which increases with α_wt, the angle is found
-//! by bisection.
+//! The normal backlash gives inv α_wt directly, as a cos α_wt is known; for the circumferential one, which increases with α_wt, or decreases on an
+//! internal pair, the angle is found by bisection.
 //!
 //! Source: ISO 21771, sections 5.2 (working pressure angle) and 5.5 (backlash).
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::involute::{inv, inverse_inv};
-use super::{Gear, PerGear, spec::PairSpec};
+use super::{
+    Gear, PerGear,
+    spec::{GearSpec, PairSpec},
+};
 
 /// Backlash as given on a drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,17 +36,25 @@ pub enum Backlash {
     Normal(f64),
 }
 
-/// Error for thin teeth with more backlash at any centre distance.
+/// Error for a backlash that the teeth have at no centre distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TeethTooThin {
-    /// Least backlash of the given kind, mm.
-    pub least_mm: f64,
+pub enum NoSuchBacklash {
+    /// Thin teeth have more at any centre distance.
+    TeethTooThin {
+        /// Least backlash of the given kind, mm.
+        least_mm: f64,
+    },
+    /// An internal pair has less at any centre distance: its backlash is greatest where the base circles touch.
+    TeethTooThick {
+        /// Greatest backlash of the given kind, mm.
+        greatest_mm: f64,
+    },
 }
 
 impl PairSpec {
     /// Centre distance for a backlash, mm, independent of the given centre distance.
-    pub fn centre_distance_with_mm(&self, backlash: Backlash) -> Result<f64, TeethTooThin> {
-        let teeth = self.gears.as_ref().map(|gear| f64::from(gear.teeth));
+    pub fn centre_distance_with_mm(&self, backlash: Backlash) -> Result<f64, NoSuchBacklash> {
+        let teeth = self.gears.as_ref().map(GearSpec::z);
         let alpha_t = self.transverse_pressure_angle_rad();
         let base_radii_mm = PerGear::from_fn(|gear| self.reference_radius_mm(gear) * alpha_t.cos()).sum();
         // Both teeth fill the pitch where Z inv α = Σ z ψ_b − π.
@@ -55,19 +66,29 @@ impl PairSpec {
                 let scale = 2.0 * base_radii_mm * cos_base_helix;
                 let involute = filled + normal_mm / scale;
                 if involute <= 0.0 {
-                    return Err(TeethTooThin { least_mm: -scale * filled });
+                    return Err(self.no_such_backlash(-scale * filled));
                 }
                 inverse_inv(involute)
             }
             Backlash::Circumferential(transverse_mm) => {
                 let backlash_mm = |alpha: f64| 2.0 * base_radii_mm / alpha.cos() * (inv(alpha) - filled);
-                if backlash_mm(0.0) >= transverse_mm {
-                    return Err(TeethTooThin { least_mm: backlash_mm(0.0) });
+                // The backlash of an internal pair falls with the angle.
+                let rising = base_radii_mm.signum();
+                if rising * backlash_mm(0.0) >= rising * transverse_mm {
+                    return Err(self.no_such_backlash(backlash_mm(0.0)));
                 }
-                bisect(|alpha| backlash_mm(alpha) - transverse_mm, [0.0, FRAC_PI_2])
+                bisect(|alpha| rising * (backlash_mm(alpha) - transverse_mm), [0.0, FRAC_PI_2])
             }
         };
         Ok(base_radii_mm / angle.cos())
+    }
+
+    /// Error with the limit of the backlash, where the base circles touch.
+    fn no_such_backlash(&self, limit_mm: f64) -> NoSuchBacklash {
+        match self.is_internal() {
+            true => NoSuchBacklash::TeethTooThick { greatest_mm: limit_mm },
+            false => NoSuchBacklash::TeethTooThin { least_mm: limit_mm },
+        }
     }
 }
 

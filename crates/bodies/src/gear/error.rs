@@ -1,6 +1,6 @@
 //! Reasons why the geometry of a gear pair is impossible.
 
-use super::per_gear::Gear;
+use super::{internal_error::InternalError, per_gear::Gear};
 
 /// Reason why the geometry of a pair is impossible; transverse diameters and lengths in mm.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -75,6 +75,9 @@ pub enum PairError {
         /// Tip clearance, negative.
         clearance_mm: f64,
     },
+    /// The pair is impossible as an internal one.
+    #[error(transparent)]
+    Internal(#[from] InternalError),
     /// The flanks of the generating rack meet above its dedendum.
     #[error(
         "the rack is pointed: at this pressure angle its flanks meet {greatest_dedendum_factor:.4} modules below the datum line, above the \

@@ -1,6 +1,7 @@
 //! Row of points on a flank, for single-point observation.
 //!
-//! Points lie between the base circle (0) and the tip circle (`flank_points`) with a [`PointSpacing`]. Quantities over
+//! Points lie between the base circle (0) and the tip circle (`flank_points`) with a [`PointSpacing`]; on an internal gear, whose base circle is beyond
+//! the tip, from the root form circle. Quantities over
 //! the flank (removed material, pressure, sliding) have one value for each point and are linear between them.
 
 use serde::{Deserialize, Serialize};
@@ -52,9 +53,9 @@ impl FlankGrid {
 
     fn evenly_in_radius(pair: &GearPair, gear: Gear, flank_points: usize) -> Self {
         let (involute, tip) = (pair.teeth[gear].involute, pair.teeth[gear].tip_radius_mm);
-        let base = involute.base_radius_mm;
+        let first = involute.radius_mm(pair.teeth[gear].first_rho_mm());
         let coordinate_mm: Vec<f64> = (0..=flank_points)
-            .map(|i| involute.curvature_radius_mm(base + (tip - base) * i as f64 / flank_points as f64))
+            .map(|i| involute.curvature_radius_mm(first + (tip - first) * i as f64 / flank_points as f64))
             .collect();
         let arc_mm = coordinate_mm.iter().map(|&rho| involute.arc_mm(rho)).collect();
         Self { coordinate_mm, arc_mm }

@@ -15,7 +15,7 @@
 //! everywhere. Below the flank in contact the spacing grows as a geometric series, so that even a rack, whose base circle is
 //! a hundred tooth heights below the teeth, has few points there.
 
-use super::{Gear, GearPair};
+use super::{Gear, GearPair, tooth::Tooth};
 
 /// Greatest spacing h_0, in modules.
 const WIDEST_MODULES: f64 = 0.003;
@@ -47,6 +47,11 @@ struct Feature {
     distance_mm: f64,
 }
 
+/// Arc length at a radius of curvature, of the first point of the row where it is below that.
+fn arc_on_flank_mm(tooth: &Tooth, rho_mm: f64) -> f64 {
+    tooth.involute.arc_mm(rho_mm.max(tooth.first_rho_mm()))
+}
+
 /// Spacing h of the points along a flank, but for a factor.
 struct Distances {
     features: Vec<Feature>,
@@ -60,7 +65,7 @@ impl Distances {
     fn new(pair: &GearPair, gear: Gear) -> Self {
         let (tooth, module_mm) = (&pair.teeth[gear], pair.spec.normal_module_mm);
         let [tip_mm, start_mm] =
-            [tooth.tip_rho_mm(), pair.active_start_rho_mm(gear)].map(|rho_mm| tooth.involute.arc_mm(rho_mm.max(0.0)));
+            [tooth.tip_rho_mm(), pair.active_start_rho_mm(gear)].map(|rho_mm| arc_on_flank_mm(tooth, rho_mm));
         let widest_mm = WIDEST_MODULES * module_mm;
         let rounding_mm = tooth.tip_rounding_length_mm(pair.spec.tip_rounding_mm(gear));
         let at_tip = match rounding_mm > 0.0 {
@@ -73,7 +78,7 @@ impl Distances {
             Feature { from_mm: start_mm - about_mm, to_mm: start_mm + about_mm, distance_mm: AT_KINK * widest_mm },
         ];
         features.extend(pair.begins_of_reliefs(gear).map(|(rho_mm, _)| {
-            let at_mm = tooth.involute.arc_mm(rho_mm.max(0.0));
+            let at_mm = arc_on_flank_mm(tooth, rho_mm);
             Feature { from_mm: at_mm, to_mm: at_mm, distance_mm: AT_KINK * widest_mm }
         }));
         Self { features, widest_mm, touched_from_mm: start_mm - TOUCHED_BELOW_MODULES * module_mm }
@@ -90,16 +95,16 @@ impl Distances {
     }
 }
 
-/// Arc lengths of `flank_points + 1` points, the first at 0 on the base circle and the last on the tip circle.
+/// Arc lengths of `flank_points + 1` points, the first on the base circle, or the form circle of an internal tooth, and the last on the tip circle.
 pub(super) fn arcs_mm(pair: &GearPair, gear: Gear, flank_points: usize) -> Vec<f64> {
     let tooth = &pair.teeth[gear];
-    let tip_mm = tooth.involute.arc_mm(tooth.tip_rho_mm());
+    let [first_mm, tip_mm] = [tooth.first_rho_mm(), tooth.tip_rho_mm()].map(|rho_mm| tooth.involute.arc_mm(rho_mm));
     let distances = Distances::new(pair, gear);
     // Ends of pieces with linear h from the tip down, and the number of points up to each.
     let (mut ends_mm, mut points_to) = (vec![tip_mm], vec![0.0]);
     let (mut at_mm, mut points) = (tip_mm, 0.0);
-    while at_mm > 0.0 {
-        let next_mm = (at_mm - PIECE * distances.at_mm(at_mm)).max(0.0);
+    while at_mm > first_mm {
+        let next_mm = (at_mm - PIECE * distances.at_mm(at_mm)).max(first_mm);
         // Simpson's rule of 1/h.
         let per_distance = [at_mm, at_mm.midpoint(next_mm), next_mm].map(|at_mm| 1.0 / distances.at_mm(at_mm));
         points += (at_mm - next_mm) * (per_distance[0] + 4.0 * per_distance[1] + per_distance[2]) / 6.0;
@@ -120,7 +125,7 @@ pub(super) fn arcs_mm(pair: &GearPair, gear: Gear, flank_points: usize) -> Vec<f
         })
         .collect();
     arcs_mm.reverse();
-    arcs_mm[0] = 0.0;
+    arcs_mm[0] = first_mm;
     arcs_mm[flank_points] = tip_mm;
     arcs_mm
 }

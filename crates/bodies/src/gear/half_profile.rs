@@ -8,11 +8,11 @@ use super::tooth::Tooth;
 
 /// Point of the space's frame (space centre line +y, clockwise side) in the tooth's: (half-thickness, height from the axis).
 pub fn in_tooth_frame(tooth: &Tooth, point: Vector2<f64>) -> Vector2<f64> {
-    let turned = Rotation2::new(PI / f64::from(tooth.teeth)) * point;
+    let turned = Rotation2::new(PI / tooth.z()) * point;
     Vector2::new(-turned.x, turned.y)
 }
 
-/// Half-thickness and increasing height of the profile from the root circle to the tip, with `samples` on fillet and flank each; mm.
+/// Half-thickness and increasing height of the profile (negative on an internal gear, whose axis is above its teeth) from the root circle to the tip, with `samples` on fillet and flank each; mm.
 pub fn half_profile(tooth: &Tooth, samples: usize) -> Vec<Vector2<f64>> {
     let fillet = (0..=samples).map(|k| {
         let t = FRAC_PI_2 + (tooth.fillet_end_angle_rad - FRAC_PI_2) * k as f64 / samples as f64;

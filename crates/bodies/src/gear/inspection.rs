@@ -45,7 +45,7 @@ impl GearPair {
     /// between form circle and tip circle, or the face width is too small for the helix (b < W_k sin β_b).
     pub fn span(&self, gear: Gear) -> Option<Span> {
         let (spec, tooth) = (&self.spec, &self.teeth[gear]);
-        let z = f64::from(tooth.teeth);
+        let z = tooth.z();
         let (m_n, alpha_n, alpha_t) =
             (spec.normal_module_mm, spec.normal_pressure_angle_rad, spec.transverse_pressure_angle_rad());
         let (sin_base_helix, cos_base_helix) = self.base_helix_angle_rad().sin_cos();
@@ -68,26 +68,31 @@ impl GearPair {
     }
 
     /// Dimension M_dK over balls of 1.728, else 1.92 normal modules; `None` where neither touches the flanks between form circle and tip
-    /// circle and extends beyond the latter.
+    /// circle and extends beyond the latter. Between internal teeth it is negative.
     pub fn over_balls(&self, gear: Gear) -> Option<OverBalls> {
+        BALLS_MODULES.into_iter().find_map(|modules| {
+            let ball_diameter_mm = modules * self.spec.normal_module_mm;
+            let dimension_mm = self.dimension_over_balls_mm(gear, ball_diameter_mm)?;
+            Some(OverBalls { ball_diameter_mm, dimension_mm })
+        })
+    }
+
+    /// Dimension M_dK over balls of a diameter, mm, negative between internal teeth; `None` where they do not touch the flanks between form circle and
+    /// tip circle or do not extend beyond the latter.
+    pub fn dimension_over_balls_mm(&self, gear: Gear, ball_diameter_mm: f64) -> Option<f64> {
         let tooth = &self.teeth[gear];
         let base_mm = tooth.involute.base_radius_mm;
         let cos_base_helix = self.base_helix_angle_rad().cos();
-        let half_pitch = PI / f64::from(tooth.teeth);
+        let half_pitch = PI / tooth.z();
         let odd = if tooth.teeth % 2 == 1 { (0.5 * half_pitch).cos() } else { 1.0 };
-        BALLS_MODULES.into_iter().find_map(|modules| {
-            let ball_diameter_mm = modules * self.spec.normal_module_mm;
-            let involute =
-                0.5 * ball_diameter_mm / (base_mm * cos_base_helix) - (half_pitch - tooth.base_half_angle_rad);
-            let alpha = inverse_inv(involute);
-            let rho_mm = base_mm * alpha.tan() - 0.5 * ball_diameter_mm * cos_base_helix;
-            let centre_mm = base_mm / alpha.cos();
-            let touches = involute > 0.0
-                && (tooth.root_form_rho_mm()..=tooth.tip_rho_mm()).contains(&rho_mm)
-                && centre_mm + 0.5 * ball_diameter_mm > tooth.tip_radius_mm;
-            let dimension_mm = 2.0 * centre_mm * odd + ball_diameter_mm;
-            touches.then_some(OverBalls { ball_diameter_mm, dimension_mm })
-        })
+        let involute = 0.5 * ball_diameter_mm / (base_mm * cos_base_helix) - (half_pitch - tooth.base_half_angle_rad);
+        let alpha = inverse_inv(involute);
+        let rho_mm = base_mm * alpha.tan() - 0.5 * ball_diameter_mm * cos_base_helix;
+        let centre_mm = base_mm / alpha.cos();
+        let touches = involute > 0.0
+            && (tooth.root_form_rho_mm()..=tooth.tip_rho_mm()).contains(&rho_mm)
+            && centre_mm + 0.5 * ball_diameter_mm > tooth.tip_radius_mm;
+        touches.then_some(2.0 * centre_mm * odd + ball_diameter_mm)
     }
 
     /// Tip form radius d_Fa/2, at the tip circle or where the rounding of the edge begins, mm.

@@ -41,8 +41,9 @@ impl FilletRoom {
         for k in 0..=FILLET_POINTS {
             let t = FRAC_PI_2 + (tooth.fillet_end_angle_rad - FRAC_PI_2) * k as f64 / FILLET_POINTS as f64;
             let point = tooth.trochoid.point_mm(t);
-            radius_mm.push(point.norm());
-            angle_rad.push(point.x.atan2(point.y));
+            let (radius, angle) = tooth.polar(point);
+            radius_mm.push(radius);
+            angle_rad.push(angle);
         }
         Self { radius_mm, angle_rad }
     }
@@ -76,7 +77,7 @@ impl TipInSpace<'_> {
         let axis = Vector2::new(own.base_radius_mm, -own_rho);
         // Arc of the rounding, or the corner alone.
         let length = self.mate.tip_rounding_length_mm(self.rounding_mm);
-        let start_rho = (tip_rho * tip_rho - 2.0 * mate.base_radius_mm * length).max(0.0).sqrt();
+        let start_rho = mate.signed((tip_rho * tip_rho - 2.0 * mate.base_radius_mm * length).max(0.0).sqrt());
         let turn = (start_rho - mate_rho) / mate.base_radius_mm;
         let (sin, cos) = turn.sin_cos();
         let start = mate.in_tangent_frame(start_rho, mate_rho);
@@ -94,14 +95,15 @@ impl TipInSpace<'_> {
 
     /// Gap of a point of the tip, `seen` from the gear's axis; infinite above the form circle.
     fn point_gap_mm(&self, seen: Vector2<f64>, own_rho: f64) -> f64 {
-        let radius = seen.norm();
+        // Angles are counted from the tangent point of the line of action.
+        let (radius, seen_rad) = self.gear.polar(Vector2::new(seen.y, seen.x));
         if radius >= self.gear.root_form_radius_mm {
             return f64::INFINITY;
         }
-        let space = PI / f64::from(self.gear.teeth);
+        let space = PI / self.gear.z();
         let rolled = own_rho / self.gear.involute.base_radius_mm;
-        let from_middle = seen.y.atan2(seen.x) + rolled - self.gear.base_half_angle_rad + space;
-        radius * (self.room.at(radius) - from_middle.abs())
+        let from_middle = seen_rad + rolled - self.gear.base_half_angle_rad + space;
+        radius * (self.room.at(radius) - self.gear.involute.signed(from_middle.abs()))
     }
 
     /// Least gap over all positions.
@@ -146,7 +148,9 @@ impl GearPair {
     /// Greatest tip radius of the mate of `gear`, below its own, with a gap of `least_gap_mm` to the fillet.
     pub(super) fn greatest_mate_tip_radius_mm(&self, gear: Gear, least_gap_mm: f64) -> f64 {
         let mate = &self.teeth[gear.mate()];
-        let (mut free, mut overlapping) = (mate.involute.base_radius_mm, mate.tip_radius_mm);
+        // An internal tooth has its base circle beyond its tip.
+        let low = if mate.is_internal() { mate.root_form_radius_mm } else { mate.involute.base_radius_mm };
+        let (mut free, mut overlapping) = (low, mate.tip_radius_mm);
         for _ in 0..60 {
             let middle = 0.5 * (free + overlapping);
             if self.fillet_gap_mm(gear, middle) >= least_gap_mm { free = middle } else { overlapping = middle }

@@ -10,6 +10,9 @@
 //! s  = ρ² / (2 r_b)       arc length from the base circle
 //! ```
 //!
+//! On an internal gear r_b, r, ρ and s are negative, with the number of teeth (sign convention of DIN 3960): the same formulas hold, and ρ, r and s
+//! increase towards the tip on both.
+//!
 //! Source: ISO 21771, section 4.
 
 /// Involute function inv α = tan α − α, the polar angle of the involute.
@@ -38,19 +41,25 @@ pub fn inverse_inv(value: f64) -> f64 {
 /// Involute of a base circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Involute {
-    /// Base radius r_b in mm.
+    /// Base radius r_b in mm; negative on an internal gear, as all radii.
     pub base_radius_mm: f64,
 }
 
 impl Involute {
     /// Radius of the point with radius of curvature `rho_mm`.
     pub fn radius_mm(&self, rho_mm: f64) -> f64 {
-        self.base_radius_mm.hypot(rho_mm)
+        self.signed(self.base_radius_mm.hypot(rho_mm))
     }
 
-    /// Radius of curvature at `radius_mm`; 0 on the base circle and below it.
+    /// Length with the sign of the radii of the gear.
+    pub fn signed(&self, length_mm: f64) -> f64 {
+        length_mm.copysign(self.base_radius_mm)
+    }
+
+    /// Radius of curvature at `radius_mm`, of either sign; 0 on the base circle and inside it.
     pub fn curvature_radius_mm(&self, radius_mm: f64) -> f64 {
-        ((radius_mm - self.base_radius_mm).max(0.0) * (radius_mm + self.base_radius_mm)).sqrt()
+        let (radius, base) = (radius_mm.abs(), self.base_radius_mm.abs());
+        self.signed(((radius - base).max(0.0) * (radius + base)).sqrt())
     }
 
     /// Transverse pressure angle at the point with radius of curvature `rho_mm`.
@@ -68,9 +77,9 @@ impl Involute {
         rho_mm * rho_mm / (2.0 * self.base_radius_mm)
     }
 
-    /// Radius of curvature at the arc length `arc_mm` from the base circle; 0 below it.
+    /// Radius of curvature at the arc length `arc_mm` from the base circle; 0 inside it.
     pub fn rho_at_arc_mm(&self, arc_mm: f64) -> f64 {
-        (2.0 * self.base_radius_mm * arc_mm.max(0.0)).sqrt()
+        self.signed((2.0 * self.base_radius_mm * arc_mm).max(0.0).sqrt())
     }
 
     /// Flank point with radius of curvature `rho_mm` in the tangent frame of the theoretical contact point at radius of curvature
@@ -94,9 +103,9 @@ impl Involute {
     /// Flank point at `along_mm` from the contact point, the inverse of [`Self::in_tangent_frame`] in `along`, by
     /// Newton's method; beyond the base circle, the point on it.
     pub fn at_along(&self, along_mm: f64, contact_rho_mm: f64) -> FlankPoint {
-        let r_b = self.base_radius_mm;
+        let (r_b, sign) = (self.base_radius_mm, self.signed(1.0));
         let square = contact_rho_mm * contact_rho_mm + 2.0 * r_b * along_mm;
-        let mut rho = square.max(0.0).sqrt();
+        let mut rho = self.signed(square.max(0.0).sqrt());
         if rho == 0.0 {
             return FlankPoint { rho_mm: 0.0, drop_mm: self.in_tangent_frame(0.0, contact_rho_mm).drop_mm };
         }
@@ -106,9 +115,9 @@ impl Involute {
             // d along / dρ = (ρ / r_b) cos Δφ and d drop / dρ = (ρ / r_b) sin Δφ
             let step = (along_mm - r_b * (cos - 1.0) - rho * sin) * r_b / (rho * cos);
             drop_mm = contact_rho_mm + r_b * sin - rho * cos + step * rho / r_b * sin;
-            rho = (rho + step).max(0.5 * rho);
+            rho = sign * (sign * (rho + step)).max(0.5 * sign * rho);
             // The remaining error is of the order of the square of the step.
-            if step.abs() <= 1e-7 * rho {
+            if step.abs() <= 1e-7 * rho.abs() {
                 break;
             }
         }

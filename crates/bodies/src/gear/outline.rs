@@ -4,7 +4,8 @@
 //! curves; neighbours share their end points, and without undercut the fillet is
 //! tangent to the root circle and to the involute.
 //!
-//! Frame: origin on the axis, the centre line of space 0 is +y, angles θ run clockwise from there.
+//! Frame: origin on the axis, the centre line of space 0 is +y, angles θ run clockwise from there. On an internal gear, whose radii and angles are
+//! negative, it is −y; the outline still has the material on the same side.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -39,7 +40,7 @@ pub struct OutlineSegment<'a> {
 
 /// Outline of the whole gear, segments in order.
 pub fn outline(tooth: &Tooth) -> Vec<OutlineSegment<'_>> {
-    let pitch_rad = 2.0 * PI / f64::from(tooth.teeth);
+    let pitch_rad = 2.0 * PI / tooth.z();
     let mut segments = Vec::with_capacity(6 * tooth.teeth as usize);
     for k in 0..tooth.teeth {
         let space = f64::from(k) * pitch_rad;
@@ -113,16 +114,13 @@ impl OutlineSegment<'_> {
         let tooth = self.tooth;
         match self.curve {
             OutlineCurve::RootArc => {
-                let p = tooth.trochoid.point_mm(FRAC_PI_2);
-                (tooth.root_radius_mm, p.x.atan2(p.y) * (2.0 * tau - 1.0))
+                let (_, at_root) = tooth.polar(tooth.trochoid.point_mm(FRAC_PI_2));
+                (tooth.root_radius_mm, at_root * (2.0 * tau - 1.0))
             }
             OutlineCurve::TipArc => {
                 (tooth.tip_radius_mm, tooth.half_angle_rad(tooth.tip_radius_mm) * (2.0 * tau - 1.0))
             }
-            OutlineCurve::Fillet => {
-                let p = tooth.trochoid.point_mm(self.fillet_angle_rad(tau));
-                (p.norm(), p.x.atan2(p.y))
-            }
+            OutlineCurve::Fillet => tooth.polar(tooth.trochoid.point_mm(self.fillet_angle_rad(tau))),
             OutlineCurve::Flank => {
                 let radius = tooth.involute.radius_mm(self.flank_rho_mm(tau));
                 (radius, tooth.space_half_angle_rad(radius))

@@ -3,13 +3,16 @@
 //! The working transverse pressure angle follows from the centre distance, cos α_wt = (r_b1 + r_b2) / a; the pitch on the working circles less
 //! both tooth thicknesses is the backlash.
 //!
+//! With an internal wheel, centre distance, T1T2 and the wheel's radii are negative, and the same equations hold.
+//!
 //! Source: ISO 21771, section 5.
 
 use std::f64::consts::PI;
 
 use super::modification::{Modification, ReliefShape};
 use super::{
-    Gear, PairError, PerGear, backlash::Backlash, path_of_contact::PathOfContact, spec::PairSpec, tooth::Tooth,
+    Gear, PairError, PerGear, backlash::Backlash, internal_error::InternalError, path_of_contact::PathOfContact,
+    spec::PairSpec, tooth::Tooth,
 };
 
 /// Negative backlash that rounded profile shifts and centre distances may have, in normal modules (4.5 µm for module 4.5).
@@ -40,6 +43,20 @@ pub struct GearPair {
     pub tip_clearance_mm: PerGear<f64>,
 }
 
+/// Refuses a wheel no larger than its pinion, and a centre distance at which the base circle of the pinion lies inside that of the internal wheel
+/// (`base_radii_mm`: sum of the base radii).
+fn check_sizes(spec: &PairSpec, base_radii_mm: f64) -> Result<(), InternalError> {
+    let PerGear { pinion, wheel } = spec.gears.as_ref().map(|gear| gear.teeth);
+    if wheel <= pinion {
+        return Err(InternalError::Teeth { pinion, wheel });
+    }
+    let [centre_distance_mm, least_mm] = [spec.centre_distance_mm, base_radii_mm].map(f64::abs);
+    if centre_distance_mm <= least_mm {
+        return Err(InternalError::NoMesh { centre_distance_mm, least_mm });
+    }
+    Ok(())
+}
+
 impl GearPair {
     /// Transverse line load w = T₁/(r_b1 b) under a torque on the pinion, N/mm.
     pub fn line_load_n_per_mm(&self, pinion_torque_n_mm: f64) -> f64 {
@@ -54,7 +71,9 @@ impl GearPair {
         let centre_distance_mm = spec.centre_distance_mm;
         let base_radii = PerGear::from_fn(|g| spec.reference_radius_mm(g) * spec.transverse_pressure_angle_rad().cos());
         let least_mm = base_radii.pinion + base_radii.wheel;
-        if centre_distance_mm <= least_mm {
+        if spec.is_internal() {
+            check_sizes(spec, least_mm)?;
+        } else if centre_distance_mm <= least_mm {
             return Err(PairError::NoMesh { centre_distance_mm, least_mm });
         }
         let teeth = PerGear {
@@ -62,7 +81,8 @@ impl GearPair {
             wheel: Tooth::new(spec, Gear::Wheel, spec.tip_radius_mm(Gear::Wheel))?,
         };
         let working_pressure_angle_rad = (least_mm / centre_distance_mm).acos();
-        let line_of_action_mm = ((centre_distance_mm - least_mm) * (centre_distance_mm + least_mm)).sqrt();
+        let line_of_action_mm =
+            ((centre_distance_mm - least_mm) * (centre_distance_mm + least_mm)).sqrt().copysign(centre_distance_mm);
         let path = PathOfContact {
             line_of_action_mm,
             base_pitch_mm: 2.0 * PI * base_radii.pinion / f64::from(spec.gears.pinion.teeth),
@@ -126,7 +146,7 @@ impl GearPair {
 
     /// Overlap ratio ε_β = b |sin β| / (π m_n).
     pub fn overlap_ratio(&self) -> f64 {
-        self.spec.face_width_mm * self.spec.helix_angle_rad.sin().abs() / (PI * self.spec.normal_module_mm)
+        self.spec.overlap_ratio()
     }
 
     /// Base helix angle β_b: tan β_b = tan β cos α_t.
@@ -158,6 +178,10 @@ impl GearPair {
             let centre_distance_mm = self.spec.centre_distance_mm;
             let tight = self.spec.centre_distance_with_mm(Backlash::Normal(0.0));
             let least_mm = tight.unwrap_or(centre_distance_mm);
+            if self.spec.is_internal() {
+                let [centre_distance_mm, greatest_mm] = [centre_distance_mm, least_mm].map(f64::abs);
+                return Err(InternalError::NegativeBacklash { backlash_mm, centre_distance_mm, greatest_mm }.into());
+            }
             return Err(PairError::NegativeBacklash { backlash_mm, centre_distance_mm, least_mm });
         }
         Ok(backlash_mm.max(0.0))
@@ -174,10 +198,16 @@ impl GearPair {
                 return Err(PairError::NoTipClearance { gear, clearance_mm });
             }
         }
+        if self.spec.is_internal() {
+            self.check_tips()?;
+        }
         for gear in Gear::BOTH {
             let least_mm = -OVERLAP_ROUNDING_MODULES * self.spec.normal_module_mm;
             let gap_mm = self.fillet_gap_mm(gear, self.teeth[gear.mate()].tip_radius_mm);
             if gap_mm < least_mm {
+                if let Some(of) = self.involute_interference().filter(|_| gear == Gear::Pinion) {
+                    return Err(InternalError::InvoluteInterference { of, overlap_mm: -gap_mm }.into());
+                }
                 return Err(PairError::Interference {
                     gear,
                     overlap_mm: -gap_mm,

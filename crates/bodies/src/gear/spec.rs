@@ -1,8 +1,12 @@
 //! Given data of a gear pair, as on a drawing.
 //!
 //! Profile shifts and rack factors are coefficients of the *normal* module (ISO 21771).
+//!
+//! A pair with an internal wheel has a negative number of teeth z there, and with it negative radii of the wheel and a negative centre distance (sign
+//! convention of DIN 3960, in which ISO 21771 differs by positive diameters): all equations of external gears then hold. A profile shift is positive
+//! where it moves the basic rack towards the tips, which are inside the reference circle of an internal gear.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
 use super::{
@@ -10,6 +14,7 @@ use super::{
     measured_flank::MeasuredFlank,
     modification::Modification,
     per_gear::{Gear, PerGear},
+    ring_fillet::RingSpec,
     shaft::Shaft,
 };
 
@@ -38,7 +43,7 @@ pub struct GearSpec {
     pub teeth: u32,
     /// Profile shift coefficient x, of the normal module.
     pub profile_shift: f64,
-    /// Tip diameter d_a in mm; `None` for that of the rack, reduced where the full tip clearance requires it.
+    /// Tip diameter d_a in mm, negative on an internal gear; `None` for that of the rack, reduced where the full tip clearance requires it.
     pub tip_diameter_mm: Option<f64>,
     /// Tooth thickness allowance E_sn in mm in the normal section; negative thins the tooth.
     pub tooth_thickness_allowance_mm: f64,
@@ -50,6 +55,16 @@ pub struct GearSpec {
     pub measured_flank: Option<Arc<MeasuredFlank>>,
     /// Shaft that twists under the torque over the face width; `None` for a rigid one.
     pub shaft: Option<Shaft>,
+    /// Generation of internal teeth; `None` for external ones.
+    pub ring: Option<RingSpec>,
+}
+
+impl GearSpec {
+    /// Number of teeth z with the sign of ISO 21771, negative on an internal gear.
+    pub fn z(&self) -> f64 {
+        let teeth = f64::from(self.teeth);
+        if self.ring.is_some() { -teeth } else { teeth }
+    }
 }
 
 /// Deviations of the axes from parallel over the face width (ISO/TR 10064-3); positive ones open a gap between the working flanks towards the
@@ -71,7 +86,7 @@ pub struct PairSpec {
     pub normal_pressure_angle_rad: f64,
     /// Helix angle β at the reference cylinder in rad.
     pub helix_angle_rad: f64,
-    /// Working centre distance a_w in mm.
+    /// Working centre distance a_w in mm, negative with an internal wheel.
     pub centre_distance_mm: f64,
     /// Common face width b in mm.
     pub face_width_mm: f64,
@@ -94,6 +109,11 @@ impl PairSpec {
         (self.normal_pressure_angle_rad.tan() / self.helix_angle_rad.cos()).atan()
     }
 
+    /// Overlap ratio ε_β = b |sin β| / (π m_n).
+    pub fn overlap_ratio(&self) -> f64 {
+        self.face_width_mm * self.helix_angle_rad.sin().abs() / (PI * self.normal_module_mm)
+    }
+
     /// Whether all transverse sections of the pair are equal: no helix, parallel axes, no modification over the face width
     /// and no shaft that twists.
     pub fn is_alike_over_width(&self) -> bool {
@@ -114,9 +134,14 @@ impl PairSpec {
         Gear::BOTH.iter().any(|&gear| self.gears[gear].shaft.is_some())
     }
 
+    /// Whether the wheel has internal teeth.
+    pub fn is_internal(&self) -> bool {
+        self.gears.wheel.ring.is_some()
+    }
+
     /// Reference radius r = m_t z / 2.
     pub fn reference_radius_mm(&self, gear: Gear) -> f64 {
-        0.5 * self.transverse_module_mm() * f64::from(self.gears[gear].teeth)
+        0.5 * self.transverse_module_mm() * self.gears[gear].z()
     }
 
     /// Generating profile shift x_E m_n of `gear`, which includes the thickness allowance, mm.
@@ -130,13 +155,16 @@ impl PairSpec {
     pub fn base_half_angle_rad(&self, gear: Gear) -> f64 {
         let (m_n, alpha_n) = (self.normal_module_mm, self.normal_pressure_angle_rad);
         let shift_mm = self.generating_shift_mm(gear);
-        (FRAC_PI_2 + 2.0 * shift_mm / m_n * alpha_n.tan()) / f64::from(self.gears[gear].teeth)
+        (FRAC_PI_2 + 2.0 * shift_mm / m_n * alpha_n.tan()) / self.gears[gear].z()
             + inv(self.transverse_pressure_angle_rad())
     }
 
-    /// Root radius r_f = r + x_E m_n − h_fP* m_n with the generating profile shift x_E.
+    /// Root radius r_f = r + x_E m_n − h_fP* m_n with the generating profile shift x_E; of an internal gear also as given, or as its cutter makes it.
     pub fn root_radius_mm(&self, gear: Gear) -> f64 {
         let own = &self.gears[gear];
+        if let Some(root_mm) = own.ring.as_ref().and_then(|ring| ring.root_radius_mm(self)) {
+            return root_mm;
+        }
         let thinned_mm = own.tooth_thickness_allowance_mm / (2.0 * self.normal_pressure_angle_rad.tan());
         let shift_mm = own.profile_shift * self.normal_module_mm + thinned_mm;
         self.reference_radius_mm(gear) + shift_mm - self.rack.dedendum_factor * self.normal_module_mm

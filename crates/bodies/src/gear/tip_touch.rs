@@ -109,7 +109,7 @@ impl GearPair {
             let (own, mate) = (involute.radius_mm(rho_mm), self.teeth[gear.mate()].tip_radius_mm);
             let cos = (centre_mm * centre_mm + own * own - mate * mate) / (2.0 * centre_mm * own);
             let at_end_rad = (involute.pressure_angle_rad(rho_mm) - self.working_pressure_angle_rad).abs();
-            (involute.base_radius_mm * (cos.clamp(-1.0, 1.0).acos() - at_end_rad)).max(0.0)
+            (involute.base_radius_mm.abs() * (cos.clamp(-1.0, 1.0).acos() - at_end_rad)).max(0.0)
         })
     }
 
@@ -121,7 +121,8 @@ impl GearPair {
 
     /// Radius of curvature of a gear's flank at the theoretical contact point, with a lower bound before A and after E.
     pub(super) fn rho_on_flank_mm(&self, gear: Gear, position_mm: f64) -> f64 {
-        self.path.rho_mm(gear, position_mm).max(LEAST_CURVATURE * self.active_start_rho_mm(gear))
+        let sign = self.path.involute[gear].signed(1.0);
+        sign * (sign * self.path.rho_mm(gear, position_mm)).max(LEAST_CURVATURE * sign * self.active_start_rho_mm(gear))
     }
 
     /// Distance before A and after E within which the gap at tip edges of unworn, unmodified flanks is at most `approach_mm`, mm of
@@ -188,7 +189,9 @@ impl GearPair {
         // Vector from the mate's axis in the mate's frame, where that to T is (r_b, 0).
         let from_axis = Vector2::new(mate.base_radius_mm, -mate_rho) - centre;
         let free_mm = mate.curvature_radius_mm(from_axis.norm());
-        let turned_rad = from_axis.y.atan2(from_axis.x) + free_mm.atan2(mate.base_radius_mm);
+        let sign = mate.signed(1.0);
+        let turned_rad =
+            (sign * from_axis.y).atan2(sign * from_axis.x) + (sign * free_mm).atan2(sign * mate.base_radius_mm);
         let touched_rho = mate_rho + mate.base_radius_mm * turned_rad;
         let rho_mm = PerGear::from_fn(|each| if each == gear { start_rho } else { touched_rho });
         FlankTouch {

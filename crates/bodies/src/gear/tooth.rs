@@ -7,6 +7,8 @@
 //! ψ(r) = (π/2 + 2 x_E tan α_n) / z + inv α_t − inv α(r)
 //! ```
 //!
+//! On an internal gear z and all radii and angles of the tooth are negative (sign convention of DIN 3960): "above" is towards the tip on both.
+//!
 //! Source: ISO 21771, sections 4 and 5; the lower end of the involute from the rack's rounding ([`RootTrochoid`]), and
 //! where the rack undercuts the flank from the intersection of trochoid and involute.
 
@@ -16,12 +18,15 @@ use nalgebra::Vector2;
 
 use super::{
     Gear, PairError,
+    fillet::Fillet,
+    internal_error::InternalError,
     involute::{Involute, inv, inverse_inv},
+    ring_fillet::RingFillet,
     root_trochoid::{RackTip, RootTrochoid, greatest_dedendum_factor, greatest_fillet_radius_factor},
     spec::PairSpec,
 };
 
-/// Circles and tooth of one gear; radii in mm, transverse.
+/// Circles and tooth of one gear; radii in mm, transverse, negative on an internal gear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tooth {
     /// Number of teeth z.
@@ -38,8 +43,8 @@ pub struct Tooth {
     pub root_form_radius_mm: f64,
     /// Whether the tooth is undercut.
     pub undercut: bool,
-    /// Trochoid of the fillet.
-    pub trochoid: RootTrochoid,
+    /// Root fillet.
+    pub trochoid: Fillet,
     /// Normal angle of the rack at the end of the fillet.
     pub fillet_end_angle_rad: f64,
     /// Half angle ψ_b of the tooth at the base circle.
@@ -51,7 +56,7 @@ impl Tooth {
     ///
     /// # Errors
     /// [`PairError::RackPointed`], [`PairError::RackTipPointed`], [`PairError::NoTooth`],
-    /// [`PairError::TipBelowForm`], [`PairError::PointedTooth`], [`PairError::BoreTooLarge`].
+    /// [`PairError::TipBelowForm`], [`PairError::PointedTooth`], [`PairError::BoreTooLarge`], [`PairError::Internal`].
     pub fn new(spec: &PairSpec, gear: Gear, tip_radius_mm: f64) -> Result<Self, PairError> {
         let own = &spec.gears[gear];
         let (m_n, alpha_n) = (spec.normal_module_mm, spec.normal_pressure_angle_rad);
@@ -74,7 +79,10 @@ impl Tooth {
             return Err(PairError::RackTipPointed { greatest });
         }
         let generating_shift_mm = spec.generating_shift_mm(gear);
-        let trochoid = RootTrochoid::new(&rack, reference_radius_mm, generating_shift_mm);
+        let trochoid = match &own.ring {
+            Some(ring) => Fillet::Ring(RingFillet::new(spec, ring)?),
+            None => Fillet::Rack(RootTrochoid::new(&rack, reference_radius_mm, generating_shift_mm)),
+        };
         let root_radius_mm = trochoid.root_radius_mm();
         let base_half_angle_rad = spec.base_half_angle_rad(gear);
 
@@ -87,7 +95,7 @@ impl Tooth {
             root_form_radius_mm: 0.0,
             undercut: false,
             trochoid,
-            fillet_end_angle_rad: trochoid.first_angle_rad,
+            fillet_end_angle_rad: trochoid.first_angle_rad(),
             base_half_angle_rad,
         };
         tooth.check(gear, own.bore_diameter_mm)?;
@@ -96,7 +104,9 @@ impl Tooth {
 
     /// Refuses a tooth without flank, without tip land or without body.
     fn check(&self, gear: Gear, bore_diameter_mm: Option<f64>) -> Result<(), PairError> {
-        if self.root_radius_mm <= 0.0 || self.base_half_angle_rad <= 0.0 {
+        if self.is_internal() {
+            self.check_ring()?;
+        } else if self.root_radius_mm <= 0.0 || self.base_half_angle_rad <= 0.0 {
             return Err(PairError::NoTooth { gear });
         }
         // Not a number below the base circle, which the form circle's check refuses.
@@ -111,7 +121,7 @@ impl Tooth {
             });
         }
         match bore_diameter_mm {
-            Some(bore) if bore >= 2.0 * self.root_radius_mm => Err(PairError::BoreTooLarge {
+            Some(bore) if !self.is_internal() && bore >= 2.0 * self.root_radius_mm => Err(PairError::BoreTooLarge {
                 gear,
                 bore_diameter_mm: bore,
                 root_diameter_mm: 2.0 * self.root_radius_mm,
@@ -120,10 +130,25 @@ impl Tooth {
         }
     }
 
+    /// Refuses a ring without involute at its tip.
+    fn check_ring(&self) -> Result<(), InternalError> {
+        let tip_diameter_mm = 2.0 * self.tip_radius_mm.abs();
+        let base_diameter_mm = 2.0 * self.involute.base_radius_mm.abs();
+        if tip_diameter_mm < base_diameter_mm {
+            return Err(InternalError::TipInsideBase { tip_diameter_mm, base_diameter_mm });
+        }
+        let Fillet::Ring(fillet) = &self.trochoid else { return Ok(()) };
+        match fillet.least_tip_diameter_mm() {
+            Some(least_mm) if tip_diameter_mm < least_mm => {
+                Err(InternalError::CutterCutsTips { tip_diameter_mm, least_mm })
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Sets the root form circle, where fillet and involute meet.
     fn with_root_form(mut self, gear: Gear, alpha_t: f64) -> Result<Self, PairError> {
-        let rho = self.trochoid.involute_end_rho_mm(alpha_t);
-        if rho >= 0.0 {
+        if let Some(rho) = self.trochoid.involute_end_rho_mm(alpha_t) {
             self.root_form_radius_mm = self.involute.radius_mm(rho);
         } else {
             self.undercut = true;
@@ -134,6 +159,10 @@ impl Tooth {
             return Ok(self);
         }
         let (tip_diameter_mm, form_diameter_mm) = (2.0 * self.tip_radius_mm, 2.0 * self.root_form_radius_mm);
+        if self.is_internal() {
+            let [tip_diameter_mm, form_diameter_mm] = [tip_diameter_mm, form_diameter_mm].map(f64::abs);
+            return Err(InternalError::TipBeyondForm { tip_diameter_mm, form_diameter_mm }.into());
+        }
         Err(PairError::TipBelowForm { gear, tip_diameter_mm, form_diameter_mm })
     }
 
@@ -147,7 +176,7 @@ impl Tooth {
     /// Normal angle of the rack where the fillet of an undercut tooth intersects the involute.
     fn undercut_angle_rad(&self) -> Option<f64> {
         const SAMPLES: usize = 2000;
-        let (first, last) = (FRAC_PI_2, self.trochoid.first_angle_rad);
+        let (first, last) = (FRAC_PI_2, self.trochoid.first_angle_rad());
         let (mut inside, mut before) = (None, first);
         for k in 0..=SAMPLES {
             let t = first + (last - first) * k as f64 / SAMPLES as f64;
@@ -172,6 +201,22 @@ impl Tooth {
         None
     }
 
+    /// Number of teeth z with the sign of ISO 21771, negative on an internal gear.
+    pub fn z(&self) -> f64 {
+        self.involute.signed(f64::from(self.teeth))
+    }
+
+    /// Whether the teeth are internal.
+    pub fn is_internal(&self) -> bool {
+        self.involute.base_radius_mm < 0.0
+    }
+
+    /// Radius and angle from +y of a point in the frame of a space or tooth with its centre line on the axis y, both negative on an internal gear.
+    pub fn polar(&self, point_mm: Vector2<f64>) -> (f64, f64) {
+        let sign = self.involute.signed(1.0);
+        (self.involute.signed(point_mm.norm()), (sign * point_mm.x).atan2(sign * point_mm.y))
+    }
+
     /// Half angle ψ(r) of the tooth at `radius_mm` (≥ base radius), rad.
     pub fn half_angle_rad(&self, radius_mm: f64) -> f64 {
         let rho = self.involute.curvature_radius_mm(radius_mm);
@@ -180,7 +225,7 @@ impl Tooth {
 
     /// Half angle of the space between two teeth at `radius_mm`, rad.
     pub fn space_half_angle_rad(&self, radius_mm: f64) -> f64 {
-        PI / f64::from(self.teeth) - self.half_angle_rad(radius_mm)
+        PI / self.z() - self.half_angle_rad(radius_mm)
     }
 
     /// Transverse tooth thickness on the circle of `radius_mm`, mm of arc.
@@ -197,6 +242,11 @@ impl Tooth {
     /// Radius of curvature at the tip.
     pub fn tip_rho_mm(&self) -> f64 {
         self.involute.curvature_radius_mm(self.tip_radius_mm)
+    }
+
+    /// Radius of curvature at the first point of a row along the flank: on the base circle, or at the form circle of an internal tooth.
+    pub fn first_rho_mm(&self) -> f64 {
+        if self.is_internal() { self.root_form_rho_mm() } else { 0.0 }
     }
 
     /// Radius of curvature at the root form circle.
@@ -238,8 +288,9 @@ impl Tooth {
     /// involute are tangents of the base circle: that through the point touches it at the roll angle of the flank point.
     pub fn nominal_radius_mm(&self, point_mm: Vector2<f64>) -> f64 {
         let base = self.involute.base_radius_mm;
-        let beyond_base = (base / point_mm.norm()).min(1.0).acos();
-        let from_centre_line = (-point_mm.x).atan2(point_mm.y);
+        let (radius, angle) = self.polar(point_mm);
+        let beyond_base = (base / radius).min(1.0).acos();
+        let from_centre_line = -angle;
         let roll_angle = self.base_half_angle_rad - from_centre_line + beyond_base;
         self.involute.radius_mm(base * roll_angle.max(0.0))
     }

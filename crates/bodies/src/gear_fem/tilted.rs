@@ -135,6 +135,7 @@ mod tests {
             modification: Modification::default(),
             measured_flank: None,
             shaft: None,
+            ring: None,
         });
         let spec = PairSpec {
             normal_module_mm: 4.5,

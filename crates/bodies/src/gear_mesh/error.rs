@@ -3,6 +3,9 @@
 /// Reason why a tooth cannot be meshed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ToothMeshError {
+    /// The teeth are internal.
+    #[error("finite elements of internal gears are not in the model")]
+    InternalTeeth,
     /// The clamp radius is not positive or leaves no body below the teeth.
     #[error(
         "clamp radius {clamp_radius_mm:.4} mm: it must be above 0 and at most {greatest_mm:.4} mm, below the teeth"

@@ -67,6 +67,9 @@ impl<'a> Profile<'a> {
         modification: &Modification,
         active_start_rho_mm: f64,
     ) -> Result<Self, ToothMeshError> {
+        if tooth.is_internal() {
+            return Err(ToothMeshError::InternalTeeth);
+        }
         // The rounding is a separate circle here, not material removed from the flank.
         let modification = Modification { tip_rounding_mm: 0.0, ..*modification };
         let mut profile =

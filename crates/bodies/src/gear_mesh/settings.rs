@@ -231,7 +231,9 @@ impl SpaceResolution {
         let wanted = (pair.face_width_mm / (self.layer_modules * pair.normal_module_mm)).ceil() as usize;
         let wanted = wanted.clamp(least, most);
         let Some(slices) = self.slices else { return wanted };
-        let ideal = (BETWEEN_SLICES * wanted as f64).max(0.5 * slices as f64).min(most as f64);
+        // Where the overlap ratio is about one or more, the transmission error is small, and a ripple of the elements would be a large part of it.
+        let part = if pair.overlap_ratio() < WIDE_OVERLAP { BETWEEN_SLICES } else { 1.0 };
+        let ideal = (part * wanted as f64).max(0.5 * slices as f64).min(most as f64);
         let aligned = (least..=most).filter(|layers| slices % layers == 0 || layers % slices == 0);
         let nearest = aligned
             .map(|layers| (layers, (layers as f64 / ideal).ln().abs()))
@@ -243,6 +245,8 @@ impl SpaceResolution {
 
 /// Part of the usual number of layers that is enough between slices.
 const BETWEEN_SLICES: f64 = 0.6;
+/// Overlap ratio from which all of them are needed.
+const WIDE_OVERLAP: f64 = 0.8;
 
 /// Least distance of two ends of elements, in face widths.
 pub(super) const SAME_PLACE: f64 = 1e-6;

@@ -15,6 +15,9 @@ use gearwear::scene::table::set;
 const PAIRS: [&str; 6] = ["fzg-c", "fzg-a", "helical", "h501", "h701", "h951"];
 const STEEL_GPA: f64 = 206.0;
 
+/// One scene of so many has an internal wheel.
+const EVERY_INTERNAL: u64 = 12;
+
 /// Random choices of one scene.
 struct Draw {
     random: fastrand::Rng,
@@ -30,6 +33,8 @@ struct Sizes {
     /// E*, MPa.
     modulus_mpa: f64,
     is_plastic: bool,
+    /// Whether the wheel has internal teeth, of which there are neither finite elements nor temperatures.
+    is_internal: bool,
 }
 
 /// Tables of wear laws, of both gears most often.
@@ -59,7 +64,7 @@ pub fn scene(seed: u64, index: u64) -> Table {
     mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     let mut draw = Draw { random: fastrand::Rng::with_seed(mixed ^ (mixed >> 31)), table: Table::new() };
     draw.set("title", format!("random scene {index} of seed {seed}"));
-    let mut sizes = draw.pair();
+    let mut sizes = if index.is_multiple_of(EVERY_INTERNAL) { draw.internal_pair() } else { draw.pair() };
     draw.modifications(&sizes);
     draw.material(&mut sizes);
     let aim = draw.aim(&sizes);
@@ -136,7 +141,45 @@ impl Draw {
         }
         let teeth = teeth.map(|teeth| teeth as f64);
         let helix_rad = helix_deg.to_radians();
-        Sizes { module_mm, teeth, helix_rad, face_width_mm, modulus_mpa: 0.0, is_plastic: false }
+        Sizes { module_mm, teeth, helix_rad, face_width_mm, modulus_mpa: 0.0, is_plastic: false, is_internal: false }
+    }
+
+    /// A pair with an internal wheel, whose tips are short enough for most pinions.
+    fn internal_pair(&mut self) -> Sizes {
+        let module_mm = self.logarithmic(1.0, 8.0);
+        let pinion = self.random.i64(14..=40);
+        let wheel = ((pinion as f64) * self.between(1.8, 4.0)) as i64;
+        let face_width_mm = four_digits(module_mm * self.between(4.0, 10.0));
+        let pressure_angle_deg = if self.chance(0.65) { 20.0 } else { self.between(18.0, 25.0) };
+        self.set("pair.normal_module_mm", module_mm);
+        self.set("pair.pressure_angle_deg", pressure_angle_deg);
+        self.set("pair.face_width_mm", face_width_mm);
+        let backlash_um = four_digits(module_mm * self.between(10.0, 60.0));
+        self.set("pair.backlash_um", backlash_um);
+        let shift = self.between(0.1, 0.5);
+        self.set("pair.pinion.teeth", pinion);
+        self.set("pair.pinion.profile_shift", shift);
+        let of_wheel = four_digits(-shift - self.between(0.0, 0.2));
+        self.set("pair.wheel.profile_shift", of_wheel);
+        let helix_deg = if self.chance(0.2) { self.between(-20.0, 20.0) } else { 0.0 };
+        self.set("pair.helix_angle_deg", helix_deg);
+        let reference_mm = module_mm * wheel as f64 / helix_deg.to_radians().cos();
+        let tip_mm = four_digits(reference_mm - 2.0 * module_mm * (self.between(0.6, 0.8) + of_wheel));
+        if self.chance(0.5) {
+            self.set("pair.wheel.teeth", wheel);
+            self.set("pair.wheel.internal", true);
+            self.set("pair.wheel.tip_diameter_mm", tip_mm);
+        } else {
+            self.set("pair.wheel.teeth", -wheel);
+            self.set("pair.wheel.tip_diameter_mm", -tip_mm);
+        }
+        if self.chance(0.5) {
+            let teeth = self.random.i64(12..=pinion.max(13));
+            self.set("pair.wheel.cutter.teeth", teeth);
+        }
+        let teeth = [pinion, wheel].map(|teeth| teeth as f64);
+        let (helix_rad, modulus_mpa, is_plastic) = (helix_deg.to_radians(), 0.0, false);
+        Sizes { module_mm, teeth, helix_rad, face_width_mm, modulus_mpa, is_plastic, is_internal: true }
     }
 
     /// The pair of a preset, if its text writes it out.
@@ -152,6 +195,7 @@ impl Draw {
             face_width_mm: number("face_width_mm")?,
             modulus_mpa: 0.0,
             is_plastic: false,
+            is_internal: false,
         };
         self.table.insert("pair".to_owned(), Value::Table(pair.clone()));
         Some(sizes)
@@ -297,7 +341,7 @@ impl Draw {
         let is_sliced = sizes.helix_rad != 0.0;
         let drawn = self.random.u16(0..1000);
         let surface = match drawn {
-            0..=3 if !is_sliced => "fem",
+            0..=3 if !is_sliced && !sizes.is_internal => "fem",
             // Half-planes cost ten times what the others do.
             _ if drawn < if is_sliced { 600 } else { 500 } => "winkler",
             _ if drawn < 700 => "half-space",
@@ -322,8 +366,8 @@ impl Draw {
         }
         if surface != "fem" {
             let model = match self.random.u16(0..1000) {
-                0..=3 => "fem",
-                4..=249 => "constant",
+                0..=3 if !sizes.is_internal => "fem",
+                0..=249 => "constant",
                 250..=399 => "iso6336",
                 _ => "weber-banaschek",
             };
@@ -352,7 +396,7 @@ impl Draw {
             self.set("lubricant.supply", supply);
             let film = self.pick(&["hamrock", "grubin"]);
             self.set("lubricant.central_film", film);
-            if self.chance(0.3) {
+            if self.chance(0.3) || sizes.is_internal {
                 let bulk = four_digits(temperature + self.between(0.0, 30.0));
                 self.set("lubricant.bulk_temperature_C", bulk);
             }
@@ -383,7 +427,7 @@ impl Draw {
     }
 
     fn temperature(&mut self, sizes: &Sizes, has_oil: bool) -> bool {
-        let has_tooth = sizes.is_plastic && self.chance(0.4);
+        let has_tooth = sizes.is_plastic && !sizes.is_internal && self.chance(0.4);
         if !has_tooth && !self.chance(0.12) {
             return false;
         }

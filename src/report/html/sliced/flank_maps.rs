@@ -148,11 +148,10 @@ fn lines_mm(run: SlicedRun<'_>, gear: Gear) -> Vec<Vec<[f64; 2]>> {
 
 /// Whether `rho_mm` lies on the active flank.
 fn touches(run: SlicedRun<'_>, gear: Gear, rho_mm: f64) -> bool {
-    let geometry = &run.record.summary.geometry;
-    let path = &geometry.curvature_radius_mm;
+    let path = &run.record.summary.geometry.curvature_radius_mm;
     let position = match gear {
         Gear::Pinion => rho_mm,
-        Gear::Wheel => geometry.line_of_action_mm - rho_mm,
+        Gear::Wheel => run.record.surface[gear].line_of_action_mm - rho_mm,
     };
     (path.A..=path.E).contains(&position)
 }
@@ -207,7 +206,7 @@ fn pressure_reading(run: SlicedRun<'_>, gear: Gear, field: &[f64], when: &str) -
     if let Some(entering) = greatest(&run.slices.ahead_mm) {
         let points = flank.radius_mm.len();
         let first_touch = flank.path_point_radius_mm.A;
-        let after = flank.radius_mm.partition_point(|&radius| radius < first_touch);
+        let after = flank.first_from(first_touch);
         let nearest = match gear {
             // A is where the pinion's active flank begins, and where the wheel's ends.
             Gear::Pinion => after.min(points.saturating_sub(1)),

@@ -62,7 +62,7 @@ impl Cells {
 
 /// A picture of something given slice by slice.
 pub(crate) struct SlicedRaster {
-    /// From root to tip, or along the path.
+    /// From root to tip, from tip to root of an internal gear, or along the path.
     pub along: Cells,
     pub across: Cells,
 }
@@ -74,6 +74,11 @@ impl SlicedRaster {
         let mut along = Cells::new(&flank.radius_mm[first..], MOST_ALONG);
         for group in &mut along.groups {
             *group = group.start + first..group.end + first;
+        }
+        if flank.is_internal() {
+            // Pictures have rising radii.
+            along.groups.reverse();
+            along.edges.reverse();
         }
         Self { along, across: Cells::over_width(&flank.width_mm, face_width_mm) }
     }

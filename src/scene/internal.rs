@@ -1,0 +1,128 @@
+//! Pairs with an internal wheel: both spellings made one, and what the model does not have of them.
+//!
+//! A wheel is internal with `internal = true` and positive numbers, or with a negative number of teeth, and then diameters and centre distance that
+//! are all positive (ISO 21771) or all negative (DIN 3960). The profile shift has the same sign in all: positive towards the tips. Before the file is
+//! checked, the second spelling is rewritten as the first.
+
+use toml::{Table, Value};
+
+use super::file::{SceneFile, StiffnessModel};
+use super::findings::Findings;
+use super::problem::number;
+use super::table;
+use gearwear_bodies::gear::spec::PairSpec;
+use gearwear_physics::contact::settings::SurfaceKind;
+use gearwear_physics::mesh_cycle::settings::Coupling;
+
+const TEETH: &str = "pair.wheel.teeth";
+const INTERNAL: &str = "pair.wheel.internal";
+
+/// Keys of lengths that are negative beside a negative number of teeth.
+const LENGTHS: [&str; 5] = [
+    "pair.centre_distance_mm",
+    "pair.wheel.tip_diameter_mm",
+    "pair.wheel.root_diameter_mm",
+    "pair.wheel.tip_relief.begins_at_diameter_mm",
+    "pair.wheel.root_relief.begins_at_diameter_mm",
+];
+
+/// Number at the path `key` of `table`.
+fn number_at(table: &Table, key: &str) -> Option<f64> {
+    let value = table::at(table, key)?;
+    value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
+}
+
+/// Rewrites a wheel with a negative number of teeth as one with `internal = true` and positive numbers.
+pub(super) fn with_positive_numbers(mut table: Table, findings: &mut Findings) -> Table {
+    let Some(Value::Integer(teeth @ ..=-1)) = table::at(&table, TEETH) else { return table };
+    let teeth = teeth.saturating_abs();
+    if table::at(&table, INTERNAL).and_then(Value::as_bool) == Some(false) {
+        findings.not_allowed(INTERNAL, "false with a negative number of teeth, that of an internal wheel", "true");
+        return table;
+    }
+    let given: Vec<(&str, f64)> = LENGTHS.into_iter().filter_map(|key| Some((key, number_at(&table, key)?))).collect();
+    if let [(first_key, first), others @ ..] = given.as_slice()
+        && let Some((key, odd)) = others.iter().find(|(_, other)| (*other < 0.0) != (*first < 0.0))
+    {
+        let sign = if *first < 0.0 { "negative" } else { "positive" };
+        findings.not_allowed(key, number(*odd), format!("a {sign} number, as {first_key} is {}", number(*first)));
+        findings.help(
+            "beside a negative number of teeth, diameters and centre distance are all positive (ISO 21771) or all negative (DIN 3960)",
+        );
+        return table;
+    }
+    table::set(&mut table, TEETH, teeth);
+    table::set(&mut table, INTERNAL, true);
+    for (key, length) in given {
+        table::set(&mut table, key, length.abs());
+    }
+    table
+}
+
+/// Reports keys of internal teeth on gears with external ones.
+pub(super) fn check_keys(file: &SceneFile, findings: &mut Findings) {
+    for (name, gear) in [("pinion", &file.pair.pinion), ("wheel", &file.pair.wheel)] {
+        let Some(gear) = gear else { continue };
+        let is_internal = gear.internal == Some(true);
+        if name == "pinion" && is_internal {
+            findings.not_allowed("pair.pinion.internal", "true", "false: the internal gear of a pair is the wheel");
+            return;
+        }
+        for (key, given) in [("root_diameter_mm", gear.root_diameter_mm.is_some()), ("cutter", gear.cutter.is_some())] {
+            if given && !is_internal {
+                let key = format!("pair.{name}.{key}");
+                findings.not_allowed(
+                    &key,
+                    "given for external teeth",
+                    "left out: the basic rack generates external teeth",
+                );
+            }
+        }
+        if gear.root_diameter_mm.is_some() && gear.cutter.is_some() {
+            findings.said_twice(&[("pair.wheel.root_diameter_mm", true), ("pair.wheel.cutter", true)]);
+        }
+    }
+}
+
+/// Reports what the scene asks for and the model does not have of internal pairs.
+pub(super) fn check_model(file: &SceneFile, pair: &PairSpec, findings: &mut Findings) {
+    const NO_ELEMENTS: &str = "finite elements of internal gears are not in the model";
+    let contact = file.contact.as_ref();
+    let stiffness = file.stiffness.as_ref().and_then(|stiffness| stiffness.model);
+    let tooth_temperature = file.temperature.as_ref().is_some_and(|temperature| temperature.tooth.is_some());
+    let surfaces = "\"half-space\", the default, \"winkler\", \"hertz\" or \"hertz-mean\"";
+    let models = "\"weber-banaschek\", the default, \"iso6336\" or \"constant\"";
+    let of_elements =
+        |model| !matches!(model, StiffnessModel::WeberBanaschek | StiffnessModel::Iso6336 | StiffnessModel::Constant);
+    let coupling = file.helical.as_ref().and_then(|helical| helical.coupling);
+    let bore = file.pair.wheel.as_ref().is_some_and(|wheel| wheel.bore_diameter_mm.is_some());
+    // Key, whether it is given, what is allowed instead, and why.
+    let asked = [
+        ("contact.surface", contact.is_some_and(|own| own.surface == Some(SurfaceKind::Fem)), surfaces, NO_ELEMENTS),
+        ("contact.calibration", contact.is_some_and(|own| own.calibration.is_some()), "left out", NO_ELEMENTS),
+        ("stiffness.model", stiffness.is_some_and(of_elements), models, "the other models hold for external teeth"),
+        ("fem", file.fem.is_some(), "left out", NO_ELEMENTS),
+        ("helical.coupling", coupling == Some(Coupling::Fem), "\"slicing\", the default, or \"none\"", NO_ELEMENTS),
+        (
+            "pair.wheel.shaft",
+            pair.gears.wheel.shaft.is_some(),
+            "left out",
+            "the shaft of an internal wheel is not in the model",
+        ),
+        (
+            "lubricant.bulk_temperature_C",
+            file.lubricant.as_ref().is_some_and(|oil| oil.bulk_temperature_C.is_none()),
+            "the temperature of the teeth",
+            "ISO/TS 6336-22 estimates it from the centre distance of external gears",
+        ),
+        ("temperature.tooth", tooth_temperature, "left out", "VDI 2736-2 has the temperatures of external teeth"),
+        ("pair.wheel.bore_diameter_mm", bore, "left out", "an internal wheel has no bore below its teeth"),
+    ];
+    for (key, given, instead, because) in asked {
+        if given {
+            let found = if key.starts_with("lubricant") { "nothing for" } else { "given for" };
+            findings.not_allowed(key, format!("{found} a pair with an internal wheel"), instead);
+            findings.help(because);
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! Pairs with an internal wheel, from the outside: two spellings of one pair, and what is refused.
+
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+
+/// A planet in its ring with positive numbers.
+const SCENE: &str = r#"
+[pair]
+normal_module_mm = 3.0
+pressure_angle_deg = 20.0
+centre_distance_mm = 60.0
+face_width_mm = 20.0
+[pair.pinion]
+teeth = 20
+profile_shift = 0.3
+[pair.wheel]
+teeth = 60
+internal = true
+profile_shift = -0.3
+tip_diameter_mm = 176.2
+cutter = { teeth = 25 }
+[operation]
+pinion_torque_Nm = 150.0
+pinion_revolutions = 1e4
+[contact]
+surface = "hertz"
+[wear]
+law = "archard"
+coefficient_m2_per_N = 1e-17
+[numerics]
+error_estimate = false
+verify = false
+"#;
+
+/// The scene with lines exchanged: from and to, one after the other.
+fn with(lines: &[(&str, &str)]) -> String {
+    lines.iter().fold(SCENE.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "no {from}");
+        text.replace(from, to)
+    })
+}
+
+/// DIN 3960: everything negative but the shift, which has its sign.
+const NEGATIVE: [(&str, &str); 4] = [
+    ("centre_distance_mm = 60.0", "centre_distance_mm = -60.0"),
+    ("teeth = 60", "teeth = -60"),
+    ("internal = true\n", ""),
+    ("tip_diameter_mm = 176.2", "tip_diameter_mm = -176.2"),
+];
+
+fn run(text: &str, folder: &Path) -> std::process::Output {
+    fs::create_dir_all(folder).unwrap();
+    let scene = folder.join("scene.toml");
+    fs::write(&scene, text).unwrap();
+    let mut command = Command::cargo_bin("gearwear").unwrap();
+    command.args(["run", "--quiet", "--out"]).arg(folder.join("out")).arg(&scene).output().unwrap()
+}
+
+/// Positive numbers with `internal`, negative ones (DIN 3960), and a negative number of teeth alone (ISO 21771) give the same bytes.
+#[test]
+fn all_spellings_give_the_same_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let spellings = [SCENE.to_owned(), with(&NEGATIVE), with(&NEGATIVE[1..3])];
+    let folders: Vec<_> = (0..).map(|k| folder.path().join(format!("{k}"))).take(spellings.len()).collect();
+    for (text, folder) in spellings.iter().zip(&folders) {
+        let output = run(text, folder);
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    for name in ["scene.toml", "pinion.csv", "wheel.csv", "mesh_cycle.csv", "history.csv", "profiles.csv", "flank.vtu"]
+    {
+        let [first, others @ ..] = &folders[..] else { panic!("three folders") };
+        let first = fs::read(first.join("out").join(name)).unwrap();
+        for other in others {
+            assert!(first == fs::read(other.join("out").join(name)).unwrap(), "{name}");
+        }
+    }
+    // Diameters in results are those of a drawing.
+    let summary = fs::read_to_string(folders[1].join("out/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    assert_eq!(summary["geometry"]["gears"]["wheel"]["tip_diameter_mm"], 176.2);
+    assert!(summary["error"]["total"]["peak_wear"]["pinion"].is_null());
+}
+
+/// Lines exchanged, and parts of the message.
+type Refused<'a> = (&'a [(&'a str, &'a str)], &'a [&'a str]);
+
+/// What an internal pair cannot be, or the model does not have of it, each with key, figure and remedy.
+#[test]
+fn what_is_refused() {
+    let tip = "tip_diameter_mm = 176.2";
+    let surface = "surface = \"hertz\"";
+    // By hand: cos α_a2 = 169.1447/174, α_a2 = 13.566°, 1 − tan α_a2/tan 20° = 0.3370.
+    let cases: &[Refused<'_>] = &[
+        (
+            &[("teeth = 60", "teeth = -60"), (tip, "tip_diameter_mm = -176.2")],
+            &["pair.wheel.tip_diameter_mm", "a positive number"],
+        ),
+        (&[("teeth = 60\ninternal = true", "teeth = -60\ninternal = false")], &["pair.wheel.internal", "true"]),
+        (&[("teeth = 60\ninternal = true", "teeth = 60")], &["pair.wheel.cutter", "external teeth"]),
+        (&[("teeth = 20", "teeth = -20")], &["pair.pinion.teeth", "found -20", "which is the wheel of a pair"]),
+        (&[("teeth = 20\n", "teeth = 20\ninternal = true\n")], &["pair.pinion.internal", "is the wheel"]),
+        (&[("cutter = {", "root_diameter_mm = 189.0\ncutter = {")], &["pair.wheel.cutter", "one of the two"]),
+        (
+            &[
+                ("centre_distance_mm = 60.0", "centre_distance_mm = 72.0"),
+                ("teeth = 20\nprofile_shift = 0.3", "teeth = 12\nprofile_shift = 0.0"),
+                ("profile_shift = -0.3\ntip_diameter_mm = 176.2\ncutter = { teeth = 25 }", "profile_shift = 0.0"),
+            ],
+            &["involute interference", "z1/z2 = 0.2000 is less than 1 − tan α_a2/tan α_wt = 0.3370", "at least"],
+        ),
+        (&[(tip, "tip_diameter_mm = 169.0")], &["base circle", "at least 169.14"]),
+        (&[("centre_distance_mm = 60.0", "centre_distance_mm = 61.0")], &["the teeth interfere", "at most 60"]),
+        (&[("teeth = 25", "teeth = 60")], &["pair.wheel.cutter.teeth", "at most 59"]),
+        (
+            &[(surface, "surface = \"fem\"")],
+            &["contact.surface", "finite elements of internal gears are not in the model"],
+        ),
+        (&[(surface, "calibration = \"a.json\"")], &["contact.calibration", "left out"]),
+        (&[("[wear]", "[stiffness]\nmodel = \"fem\"\n[wear]")], &["stiffness.model", "\"weber-banaschek\""]),
+        (&[("[wear]", "[fem]\nbody = \"ring\"\n[wear]")], &["fem: found given for a pair with an internal wheel"]),
+        (
+            &[
+                ("face_width_mm = 20.0", "face_width_mm = 20.0\nhelix_angle_deg = 15.0"),
+                ("[wear]", "[helical]\ncoupling = \"fem\"\n[wear]"),
+            ],
+            &["helical.coupling", "\"slicing\""],
+        ),
+    ];
+    for (lines, parts) in cases {
+        let folder = tempfile::tempdir().unwrap();
+        let output = run(&with(lines), folder.path());
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{lines:?}: {message}");
+        assert!(!folder.path().join("out").exists());
+        for part in *parts {
+            assert!(message.contains(part), "no {part:?} in:\n{message}");
+        }
+    }
+}
+
+/// Finite elements of internal gears are refused by every command that makes them.
+#[test]
+fn commands_on_finite_elements_refuse() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    fs::write(&scene, SCENE).unwrap();
+    let out = folder.path().join("out");
+    for arguments in [&["mesh"][..], &["mesh", "--three-dimensional"], &["fem"], &["calibrate"], &["accuracy"]] {
+        let target = if arguments[0] == "mesh" { out.with_extension("msh") } else { out.clone() };
+        let mut command = Command::cargo_bin("gearwear").unwrap();
+        let output = command.args(arguments).arg(&scene).arg("--out").arg(&target).output().unwrap();
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+        assert!(message.contains("not in the model"), "{arguments:?}: {message}");
+        assert!(!target.exists());
+    }
+}
