@@ -38,7 +38,6 @@ pub(super) fn with_positive_numbers(mut table: Table, findings: &mut Findings) -
     let teeth = teeth.saturating_abs();
     if table::at(&table, INTERNAL).and_then(Value::as_bool) == Some(false) {
         findings.not_allowed(INTERNAL, "false with a negative number of teeth, that of an internal wheel", "true");
-        return table;
     }
     let given: Vec<(&str, f64)> = LENGTHS.into_iter().filter_map(|key| Some((key, number_at(&table, key)?))).collect();
     if let [(first_key, first), others @ ..] = given.as_slice()
@@ -49,7 +48,6 @@ pub(super) fn with_positive_numbers(mut table: Table, findings: &mut Findings) -
         findings.help(
             "beside a negative number of teeth, diameters and centre distance are all positive (ISO 21771) or all negative (DIN 3960)",
         );
-        return table;
     }
     table::set(&mut table, TEETH, teeth);
     table::set(&mut table, INTERNAL, true);

@@ -5,7 +5,8 @@
 //! points and steps have estimates of their own. Loads gather in the last slices of a line of contact, so that wear converges with the
 //! first order of their width, and the whole error is m/(m − n) times the difference (Richardson). At tip edges and below the start of active
 //! profile it is the difference itself: the error there is of positions and points, not of slices. The transmission error is a sum over the slices and
-//! converges about with the second order, m²/(m² − n²) times (docs/accuracy.md).
+//! converges about with the second order, m²/(m² − n²) times (docs/accuracy.md). A run of another kind is compared with one on as many slices, or on m
+//! where the overlap is wide.
 
 use std::borrow::Cow;
 
@@ -32,6 +33,8 @@ use gearwear_bodies::gear_fem::model::ModelError;
 const POSITIONS: usize = 200;
 /// Fewest slices that resolve the loads at the ends of the lines of contact.
 const LEAST_SLICES: usize = 20;
+/// Overlap ratio from which the transmission error is so small that slices make a ripple of a tenth of it and more, and more slices are compared with.
+const WIDE_OVERLAP: f64 = 0.8;
 /// Uncertainty of half-planes in place of finite elements, of the elements and of the slices (docs/accuracy.md), at least that of severe wear.
 const OF_HALF_PLANES: ReferenceUncertainty = ReferenceUncertainty {
     profile: 0.03,
@@ -117,11 +120,16 @@ fn curve<'c>(
 
 /// Number of slices of the reference run for a run with `own` slices, and the factors of the differences to it.
 fn slices_of_reference(scene: &Scene, own: usize, in_space: &PairInSpace) -> (usize, Extrapolation) {
+    let more = in_space.slices_from((own + own.div_ceil(3)).max(LEAST_SLICES)).min(MOST_SLICES_IN_SPACE);
     if !is_finest_in_space(scene) {
-        let count = if own < LEAST_SLICES { in_space.slices_from(LEAST_SLICES) } else { own };
+        let count = match own {
+            _ if scene.pair.overlap_ratio() >= WIDE_OVERLAP => more,
+            ..LEAST_SLICES => in_space.slices_from(LEAST_SLICES),
+            _ => own,
+        };
         return (count.min(MOST_SLICES_IN_SPACE), Extrapolation::NONE);
     }
-    let count = in_space.slices_from((own + own.div_ceil(3)).max(LEAST_SLICES)).min(MOST_SLICES_IN_SPACE);
+    let count = more;
     // At the upper limit fewer slices are compared with.
     let count = if count > own { count } else { own - own / 4 };
     let (m, n) = (count as f64, own as f64);
