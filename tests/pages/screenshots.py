@@ -173,7 +173,7 @@ def scenes(program: str, folder: pathlib.Path) -> None:
     (folder / "adsorption.toml").write_text(
         exchanged(spur, ('law = "archard"', 'law = "adsorption"'), ("= 1e-17 ", "= 1e-13 "))
     )
-    (folder / "fem.toml").write_text(exchanged(spur, ('surface = "half-space"', 'surface = "fem"')))
+    (folder / "fem.toml").write_text(exchanged(spur, ('# surface = "fem"', 'surface = "fem"')))
     phases = "".join(f"[[operation.phases]]\nhours = 20.0\npinion_torque_Nm = {torque}\n" for torque in (200.0, 302.0))
     hours = next(line for line in spur.splitlines() if line.startswith("hours"))
     shown = next(line for line in spur.splitlines() if line.startswith("snapshots_h"))
