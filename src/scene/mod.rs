@@ -9,6 +9,8 @@ pub mod fem_problem;
 #[allow(rustdoc::broken_intra_doc_links, reason = "tables of the file stand in brackets, as in TOML")]
 pub mod file;
 mod findings;
+#[allow(rustdoc::broken_intra_doc_links, reason = "tables of the file stand in brackets, as in TOML")]
+pub mod gear_file;
 mod internal;
 pub mod key;
 pub mod loaded;

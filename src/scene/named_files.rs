@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::file::InitialFlankFile;
+use super::gear_file::InitialFlankFile;
 use super::scene_text::{LoadError, SceneText};
 use super::{Problem, Resolved, short_hash};
 use crate::measured_flank::file::ValueKind;

@@ -161,7 +161,14 @@ fn a_short_profile_is_told() {
         assert!(message.contains(words), "{message}");
     }
     let resolved = fs::read_to_string(folder.path().join("out/scene.toml")).unwrap();
-    assert!(resolved.contains("file = \"inputs/flank.csv\"") && resolved.contains("cutoff_mm = "), "{resolved}");
+    assert!(resolved.contains("file = \"inputs/flank.csv\""), "{resolved}");
+    // A thirtieth of the roll length from start of active profile to tip: T1T2 − √((118.36/2)² − r_b2²) to √((82.46/2)² − r_b1²).
+    let [pinion_base, wheel_base] = [36.0, 54.0].map(|radius| radius * 20f64.to_radians().cos());
+    let beside = |hypotenuse: f64, side: f64| (hypotenuse * hypotenuse - side * side).sqrt();
+    let begins = beside(91.5, pinion_base + wheel_base) - beside(0.5 * 118.36, wheel_base);
+    let cutoff_mm = (beside(0.5 * 82.46, pinion_base) - begins) / 30.0;
+    let line = resolved.lines().find_map(|line| line.strip_prefix("cutoff_mm = ")).unwrap();
+    assert!((line.parse::<f64>().unwrap() / cutoff_mm - 1.0).abs() < 1e-9, "{line} and {cutoff_mm}");
     // The folder is a scene of its own.
     let (status, message) = command(&folder.path().join("out"), &["plan", "scene.toml"]);
     assert_eq!(status, Some(0), "{message}");

@@ -8,31 +8,17 @@ use std::sync::OnceLock;
 
 use assert_cmd::Command;
 
+use crate::coarse_run::{finished_run, scene};
 use crate::program::json;
-
-/// fzg-c at coarse resolution.
-const SCENE: &str = "title = \"coarse\"\n[pair]\npreset = \"thesis-spur\"\n\
-    [operation]\npinion_torque_Nm = 302.0\npinion_speed_rpm = 150.0\nhours = 127.75\nsnapshots_h = [31.75]\n\
-    [contact]\nsurface = \"winkler\"\ntip_contact = false\n[stiffness]\nmodel = \"constant\"\npair_N_per_mm_um = 20.0\n\
-    [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n\
-    [numerics]\nflank_points = 200\npositions = 100\nstep = { revolutions = 19162.5 }\nerror_estimate = false\nverify = false\n";
 
 fn gearwear() -> Command {
     Command::cargo_bin("gearwear").unwrap()
 }
 
-fn finished_run(scene: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("given.toml");
-    fs::write(&path, scene).unwrap();
-    gearwear().args(["run", "--quiet", "--out"]).arg(folder.path().join("run")).arg(path).assert().success();
-    folder
-}
-
 /// A finished run that all tests share and none changes.
 fn shared_run() -> PathBuf {
     static RUN: OnceLock<tempfile::TempDir> = OnceLock::new();
-    RUN.get_or_init(|| finished_run(SCENE)).path().join("run")
+    RUN.get_or_init(|| finished_run(&scene("31.75"))).path().join("run")
 }
 
 /// Columns of a CSV file by name.
@@ -155,7 +141,7 @@ fn the_same_again_and_nothing_run_where_nothing_is_fitted() {
 /// Results lie beside the run where no other place is named; a moment between snapshots is run for.
 #[test]
 fn results_lie_beside_the_run_and_any_moment_will_do() {
-    let folder = finished_run(SCENE);
+    let folder = finished_run(&scene("31.75"));
     let run = folder.path().join("run");
     let trace = Trace::new(measured(&run, "# gear = pinion\n# hours = 64\n", 0.5));
     gearwear()
@@ -221,7 +207,7 @@ fn wrong_measured_files_are_refused() {
 fn folders_that_are_no_finished_run_are_refused() {
     let trace = Trace::new(measured(&shared_run(), "# gear = pinion\n", 1.0));
     trace.refused(Path::new("/nowhere"), &[], &["RUN", "summary.json", "the folder of a finished gearwear run"]);
-    let folder = finished_run(SCENE);
+    let folder = finished_run(&scene("31.75"));
     let run = folder.path().join("run");
     let change = |name: &str, from: &str, to: &str| {
         let text = fs::read_to_string(run.join(name)).unwrap();

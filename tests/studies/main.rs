@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod accuracy_helical;
+mod coarse_run;
 mod compare;
 #[path = "../program/mod.rs"]
 mod program;

@@ -7,36 +7,17 @@ use std::sync::OnceLock;
 
 use assert_cmd::Command;
 
+use crate::coarse_run::{finished_run, scene};
 use crate::program::json;
-
-/// fzg-c at coarse resolution.
-const SCENE: &str = "title = \"coarse\"\n[pair]\npreset = \"thesis-spur\"\n\
-    [operation]\npinion_torque_Nm = 302.0\npinion_speed_rpm = 150.0\nhours = 127.75\nsnapshots_h = [42.0, 84.0]\n\
-    [contact]\nsurface = \"winkler\"\ntip_contact = false\n[stiffness]\nmodel = \"constant\"\npair_N_per_mm_um = 20.0\n\
-    [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n\
-    [numerics]\nflank_points = 200\npositions = 100\nstep = { revolutions = 19162.5 }\nerror_estimate = false\nverify = false\n";
 
 fn gearwear() -> Command {
     Command::cargo_bin("gearwear").unwrap()
 }
 
-fn finished_run(scene: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("given.toml");
-    fs::write(&path, scene).unwrap();
-    gearwear()
-        .args(["run", "--quiet", "--no-report", "--out"])
-        .arg(folder.path().join("run"))
-        .arg(path)
-        .assert()
-        .success();
-    folder
-}
-
 /// A finished run that all tests share and none changes.
 fn shared_run() -> PathBuf {
     static RUN: OnceLock<tempfile::TempDir> = OnceLock::new();
-    RUN.get_or_init(|| finished_run(SCENE)).path().join("run")
+    RUN.get_or_init(|| finished_run(&scene("42.0, 84.0"))).path().join("run")
 }
 
 /// A folder with a table.
@@ -224,7 +205,7 @@ fn what_does_not_fit_is_refused() {
     refused(&["--prior", "wet"], &["--prior", "regime-2", "LOW:HIGH"]);
     refused(&["--fit", "k"], &["--fit", "--history"]);
 
-    let phases = SCENE.replace("hours = 127.75\nsnapshots_h = [42.0, 84.0]\n", "").replace(
+    let phases = scene("42.0, 84.0").replace("hours = 127.75\nsnapshots_h = [42.0, 84.0]\n", "").replace(
         "[contact]",
         "[[operation.phases]]\nhours = 60.0\n[[operation.phases]]\nhours = 60.0\npinion_torque_Nm = 200.0\n[contact]",
     );
@@ -235,7 +216,7 @@ fn what_does_not_fit_is_refused() {
 /// Where the scene has a limit, that one ends the life; without a speed times are revolutions.
 #[test]
 fn the_limit_of_the_scene_and_no_speed() {
-    let stop = SCENE.replace(
+    let stop = scene("42.0, 84.0").replace(
         "pinion_speed_rpm = 150.0\nhours = 127.75\nsnapshots_h = [42.0, 84.0]\n",
         "pinion_revolutions = 1.15e6\nstop = { wear_um = 100.0 }\n",
     );

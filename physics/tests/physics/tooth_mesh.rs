@@ -647,6 +647,13 @@ fn elements_over_the_face_width_end_with_slices() {
     // 20 mm are 14.4 times 0.32 modules of 4.5 mm · cos 15°.
     assert_eq!([None, Some(5), Some(10), Some(20), Some(40), Some(80)].map(even), [15, 10, 10, 10, 20, 20]);
     assert_eq!([Some(24), Some(30), Some(60), Some(29), Some(23)].map(even), [12, 15, 20, 15, 15]);
+    // 43 mm of module 6 mm under 26.2°, ε_β = 1.007, have all elements that there may be; under 15°, ε_β = 0.590, half as many.
+    let of_helix = |degrees: f64| {
+        let helix_angle_rad = degrees.to_radians();
+        let wide = PairSpec { helix_angle_rad, normal_module_mm: 6.0, face_width_mm: 43.0, ..fzg_c() };
+        SpaceResolution { slices: Some(20), ..SpaceResolution::USUAL }.even_layers(&wide)
+    };
+    assert_eq!([26.2, 15.0].map(of_helix), [20, 10]);
     let ends = SpaceResolution::of_slices(60).layer_ends_mm(pair, &solid);
     assert_eq!(ends.len(), 23);
     for (found, expected) in [(ends[1], 1.0 / 3.0), (ends[2], 1.0), (ends[20], 19.0), (ends[21], 20.0 - 1.0 / 3.0)] {

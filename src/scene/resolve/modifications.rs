@@ -9,8 +9,9 @@
 //! with ρ_a at the tip circle and ρ_Nf at the start of active profile (SAP). A helix slope is a deviation, or the whole tolerance of a class.
 
 use crate::measured_flank::initial::default_cutoff_mm;
-use crate::scene::file::{EndReliefFile, GearFile, PairFile, ReliefFile};
+use crate::scene::file::PairFile;
 use crate::scene::findings::Findings;
+use crate::scene::gear_file::{EndReliefFile, GearFile, ReliefFile};
 use crate::scene::problem::number;
 use gearwear_bodies::gear::flank_edge::LEAST_ROUNDING_MODULES;
 use gearwear_bodies::gear::modification::{EndRelief, Modification, Relief};

@@ -4,8 +4,9 @@
 //! becomes x_n = x_t / cos β, because x_n m_n = x_t m_t is the same length.
 
 use super::{centre_distance, modifications};
-use crate::scene::file::{AxisParallelismFile, BasicRackFile, CutterFile, GearFile, PairFile, ShaftFile};
+use crate::scene::file::{AxisParallelismFile, BasicRackFile, PairFile};
 use crate::scene::findings::Findings;
+use crate::scene::gear_file::{CutterFile, GearFile, ShaftFile};
 use crate::scene::presets;
 use gearwear_bodies::gear::modification::Modification;
 use gearwear_bodies::gear::ring_fillet::{RingSpec, ShaperCutter};
