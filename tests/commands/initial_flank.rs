@@ -175,7 +175,7 @@ fn a_short_profile_is_told() {
 }
 
 /// Heights of a helical flank are along the transverse line of action, depths of wear normal to the flank: a machine sees 1/cos β_b of the wear, with
-/// tan β_b = tan β cos α_t (ISO 21771).
+/// tan β_b = tan β cos α_t (ISO 21771), a comparison takes it for the run's own, and a run begins with it.
 #[test]
 fn ver_heights_of_helical_flanks_are_transverse() {
     let folder = tempfile::tempdir().unwrap();
@@ -199,6 +199,14 @@ fn ver_heights_of_helical_flanks_are_transverse() {
     run(folder.path(), "worn", &scene(""));
     let (status, message) = command(folder.path(), &["export", "worn", "--gear", "wheel", "--out", "wheel.csv"]);
     assert_eq!(status, Some(0), "{message}");
+    let read_back =
+        ["compare", "worn", "wheel.csv", "--fit", "none", "--form", "none", "--shift-within", "0", "--out", "read"];
+    let (status, message) = command(folder.path(), &read_back);
+    assert_eq!(status, Some(0), "{message}");
+    let mut rows = csv::Reader::from_path(folder.path().join("read/compare.csv")).unwrap();
+    let column = rows.headers().unwrap().iter().position(|name| name == "difference_um").unwrap();
+    let greatest = rows.records().map(|row| row.unwrap()[column].parse::<f64>().unwrap().abs()).fold(0.0, f64::max);
+    assert!(greatest < 1e-3, "{greatest}");
     run(folder.path(), "next", &scene(&initial_flank("wheel", "wheel.csv", "cutoff_mm = 0")));
     let base_helix = (15f64.to_radians().tan() * 20f64.to_radians().cos()).atan();
     let width_mm = 7.5;
