@@ -171,7 +171,7 @@ impl InitialFlank {
         let tolerated = UNCOVERED * (form_rho - start_rho);
         let [from, to] = self.from_to_mm;
         let of = |rho: f64, what: &str, end: f64| {
-            format!("{:.3} mm, where {what} has {:.3} mm", 2.0 * involute.radius_mm(rho), 2.0 * end)
+            format!("{:.3} mm, where {what} has {:.3} mm", 2.0 * involute.radius_mm(rho).abs(), 2.0 * end.abs())
         };
         let mut ends = Vec::new();
         if from > start_rho + tolerated {
