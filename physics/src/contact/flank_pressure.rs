@@ -76,13 +76,14 @@ impl FlankParts {
         Self { coordinates_mm, flank_mean_over_mm: zones.pinion.pressure_length_mm }
     }
 
-    /// Figures of a contact with its theoretical contact point at `position_mm`.
-    pub(crate) fn figures(
+    /// Takes a contact with its theoretical contact point at `position_mm` into account.
+    pub(crate) fn note(
         &self,
         geometry: &dyn ConjugateFlanks,
         position_mm: f64,
         cells: &[PressedCell],
-    ) -> PressureFigures {
+        figures: &mut PressureFigures,
+    ) {
         let [pinion, wheel] = Gear::BOTH.map(|gear| {
             self.coordinates_mm[gear]
                 .map(|at_mm| on_tangent(gear, geometry.in_tangent_frame(gear, at_mm, position_mm).along_mm))
@@ -93,7 +94,7 @@ impl FlankParts {
             edges_mm: [wheel[2], pinion[2]],
             flank_mean_over_mm: self.flank_mean_over_mm,
         };
-        parts.figures(cells)
+        parts.note(cells, figures);
     }
 }
 
@@ -109,28 +110,33 @@ pub(crate) struct ContactParts {
 }
 
 impl ContactParts {
-    /// Figures of a contact, of cells in their order.
-    pub(crate) fn figures(&self, cells: &[PressedCell]) -> PressureFigures {
+    /// Takes a contact into account, of cells in their order. A mean is no greater than the greatest pressure: where that is no greater than the mean of
+    /// another contact, none is looked for.
+    pub(crate) fn note(&self, cells: &[PressedCell], figures: &mut PressureFigures) {
         let mut pressed = cells.iter().filter(|cell| cell.pressure_mpa > 0.0);
-        let Some(first) = pressed.next() else { return PressureFigures::default() };
+        let Some(first) = pressed.next() else { return };
         let last = pressed.next_back().unwrap_or(first);
+        let peak_mpa = cells.iter().map(|cell| cell.pressure_mpa).fold(0.0, f64::max);
         let [from_mm, to_mm] = self.flank_mm;
-        let mut figures = PressureFigures {
-            flank_mpa: greatest_mean_mpa(cells, self.flank_mean_over_mm, self.flank_mm, self.flank_mm),
-            ..PressureFigures::default()
-        };
+        if peak_mpa > figures.flank_mpa {
+            let mean_mpa = greatest_mean_mpa(cells, self.flank_mean_over_mm, self.flank_mm, self.flank_mm);
+            figures.flank_mpa = figures.flank_mpa.max(mean_mpa);
+        }
         let [wheel_edge_mm, pinion_edge_mm] = self.edges_mm;
         if first.lower_mm > wheel_edge_mm + AT_EDGE_MM && last.upper_mm < pinion_edge_mm - AT_EDGE_MM {
-            return figures;
+            return;
         }
-        figures.tip_edge_line_load_n_per_mm = cells.iter().map(PressedCell::line_load_n_per_mm).sum();
+        let load_n_per_mm = cells.iter().map(PressedCell::line_load_n_per_mm).sum();
+        figures.tip_edge_line_load_n_per_mm = figures.tip_edge_line_load_n_per_mm.max(load_n_per_mm);
+        if peak_mpa <= figures.tip_edge_mean_mpa {
+            return;
+        }
         let anywhere = [first.lower_mm - TIP_EDGE_MEAN_OVER_MM, last.upper_mm + TIP_EDGE_MEAN_OVER_MM];
         let sides = [[f64::NEG_INFINITY, from_mm], [to_mm, f64::INFINITY]];
         figures.tip_edge_mean_mpa = sides
             .into_iter()
             .map(|side| greatest_mean_mpa(cells, TIP_EDGE_MEAN_OVER_MM, anywhere, side))
-            .fold(0.0, f64::max);
-        figures
+            .fold(figures.tip_edge_mean_mpa, f64::max);
     }
 }
 
@@ -182,6 +188,12 @@ mod tests {
             .collect()
     }
 
+    fn figures_of(parts: ContactParts, cells: &[PressedCell]) -> PressureFigures {
+        let mut figures = PressureFigures::default();
+        parts.note(cells, &mut figures);
+        figures
+    }
+
     /// Closed form: the mean of an ellipse over ±h about its middle is p₀ (√(1 − u²) + asin(u)/u)/2 with u = h/a, whether at the flank or at an
     /// edge; the load is π a p₀/2.
     #[test]
@@ -193,13 +205,13 @@ mod tests {
             0.5 * peak * ((1.0 - u * u).sqrt() + u.asin() / u)
         });
         let away = ContactParts { flank_mm: [-1.0, 1.0], edges_mm: [-2.0, 2.0], flank_mean_over_mm: 0.03 };
-        let figures = away.figures(&cells);
+        let figures = figures_of(away, &cells);
         assert!((figures.flank_mpa / flank_mean - 1.0).abs() < 1e-4, "{figures:?}");
         assert_eq!(figures.tip_edge_line_load_n_per_mm, 0.0);
         assert_eq!(figures.tip_edge_mean_mpa, 0.0);
         // At the wheel's tip edge, and at the pinion's.
         for (flank_mm, edges_mm) in [([0.5, 1.0], [-0.05, 2.0]), ([-1.0, -0.5], [-2.0, 0.05])] {
-            let at_edge = ContactParts { flank_mm, edges_mm, flank_mean_over_mm: 0.03 }.figures(&cells);
+            let at_edge = figures_of(ContactParts { flank_mm, edges_mm, flank_mean_over_mm: 0.03 }, &cells);
             let load = 0.5 * std::f64::consts::PI * a * peak;
             assert_eq!(at_edge.flank_mpa, 0.0);
             assert!((at_edge.tip_edge_line_load_n_per_mm / load - 1.0).abs() < 1e-9, "{at_edge:?}");
@@ -208,7 +220,21 @@ mod tests {
         // A zone that begins in the contact: only the flank beyond it counts, and its greatest pressure is where the zone ends.
         let cut = ContactParts { flank_mm: [0.05, 1.0], edges_mm: [-2.0, 2.0], flank_mean_over_mm: 1e-6 };
         let at_end = peak * (1.0_f64 - 0.25).sqrt();
-        assert!((cut.figures(&cells).flank_mpa / at_end - 1.0).abs() < 5e-3);
+        assert!((figures_of(cut, &cells).flank_mpa / at_end - 1.0).abs() < 5e-3);
+    }
+
+    /// The greatest of two contacts does not depend on their order.
+    #[test]
+    fn ver_lesser_contacts_are_passed_over() {
+        let parts = ContactParts { flank_mm: [-1.0, 0.0], edges_mm: [-2.0, 0.02], flank_mean_over_mm: 0.03 };
+        let (lesser, greater) = (ellipse(0.12, 900.0), ellipse(0.1, 1200.0));
+        let mut figures = figures_of(parts, &lesser);
+        parts.note(&greater, &mut figures);
+        let mut in_other_order = figures_of(parts, &greater);
+        parts.note(&lesser, &mut in_other_order);
+        assert_eq!(figures, in_other_order);
+        let of_greater = figures_of(parts, &greater);
+        assert_eq!([figures.flank_mpa, figures.tip_edge_mean_mpa], [of_greater.flank_mpa, of_greater.tip_edge_mean_mpa]);
     }
 
     /// A contact narrower than the length has its load over the length as mean, however sharp its peak.
@@ -218,7 +244,7 @@ mod tests {
             let cells = ellipse(a, 80.0 / a);
             let parts = ContactParts { flank_mm: [0.5, 1.0], edges_mm: [0.0, 2.0], flank_mean_over_mm: 0.03 };
             let expected = 0.5 * std::f64::consts::PI * 80.0 / TIP_EDGE_MEAN_OVER_MM;
-            assert!((parts.figures(&cells).tip_edge_mean_mpa / expected - 1.0).abs() < 1e-9);
+            assert!((figures_of(parts, &cells).tip_edge_mean_mpa / expected - 1.0).abs() < 1e-9);
         }
     }
 }

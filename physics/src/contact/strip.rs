@@ -77,6 +77,42 @@ impl Interpolation {
     }
 }
 
+/// Samples of a cubic that interpolates a coordinate.
+const CUBIC: usize = 4;
+/// Greatest change of a coordinate over the samples of a cubic, in parts of itself: the cubic is then exact to some 1e-10 of it.
+const SMOOTH: f64 = 0.01;
+
+/// Coordinate of a flank at a place along the tangent by the cubic through the samples around it: that of the involute, whose own inverse is an
+/// iteration. `None` beyond the samples and next to the base circle, where the coordinate is no polynomial.
+fn interpolated_mm(along_mm: &[f64], coordinates_mm: &[f64], at_mm: f64) -> Option<f64> {
+    let last = along_mm.len() - 1;
+    if last + 1 < CUBIC || !(along_mm[0]..=along_mm[last]).contains(&at_mm) {
+        return None;
+    }
+    // Samples are evenly spaced but for a few.
+    let even = (at_mm - along_mm[0]) / (along_mm[last] - along_mm[0]) * last as f64;
+    let mut before = (even as usize).min(last);
+    while along_mm[before] > at_mm {
+        before -= 1;
+    }
+    while before < last && along_mm[before + 1] < at_mm {
+        before += 1;
+    }
+    let first = before.saturating_sub(1).min(last + 1 - CUBIC);
+    let x: &[f64; CUBIC] = along_mm[first..].first_chunk()?;
+    let y: &[f64; CUBIC] = coordinates_mm[first..].first_chunk()?;
+    if (y[CUBIC - 1] - y[0]).abs() > SMOOTH * y[0].abs().min(y[CUBIC - 1].abs()) {
+        return None;
+    }
+    // Lagrange's polynomial, of the differences from the first sample, which keep digits.
+    let from = x.map(|x| at_mm - x);
+    let of = |k: usize| {
+        let others = (0..CUBIC).filter(|other| *other != k);
+        (y[k] - y[0]) * others.map(|other| from[other] / (x[k] - x[other])).product::<f64>()
+    };
+    Some(y[0] + (1..CUBIC).map(of).sum::<f64>())
+}
+
 /// Weights of the points of a flank in the means over the stretches that pass the samples `along_mm` within a [`PositionCell`], where the flank has
 /// these coordinates.
 fn passing(
@@ -93,10 +129,13 @@ fn passing(
     // All 0 again after every sample.
     let mut sums = vec![0.0; points_mm.len()];
     let passes = Passes::new(&geometry, gear, cell);
-    for (along_mm, at_mm) in along_mm.iter().zip(coordinates_mm) {
-        let along_mm = on_tangent(gear, *along_mm);
+    for (sample_mm, at_mm) in along_mm.iter().zip(coordinates_mm) {
         let passed = passes.to_ends_mm(*at_mm, || grid.distance_at_mm(*at_mm));
-        let ends = passed.map(|by| geometry.at_along(gear, along_mm - by, cell.position_mm).0);
+        let ends = passed.map(|by| {
+            let end_mm = on_tangent(gear, *sample_mm) - by;
+            let interpolated = interpolated_mm(along_mm, coordinates_mm, on_tangent(gear, end_mm));
+            interpolated.unwrap_or_else(|| geometry.at_along(gear, end_mm, cell.position_mm).0)
+        });
         let reached = add_means(points_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
         passing.push(within.start + reached.start, &sums[reached.clone()]);
         sums[reached].fill(0.0);

@@ -42,6 +42,11 @@ impl Collected {
         self.failure.is_none()
     }
 
+    /// Greatest depth of any flank point, mm.
+    pub(super) fn deepest_mm(&self) -> f64 {
+        Gear::BOTH.into_iter().flat_map(|gear| &self.depth_mm[gear]).copied().fold(0.0, f64::max)
+    }
+
     /// Fills `depth_mm` with the depths of all groups together. Returns the work of one mesh cycle.
     pub(super) fn sum<'a>(
         groups: impl Iterator<Item = &'a Self>,

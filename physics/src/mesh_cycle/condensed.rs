@@ -324,7 +324,7 @@ impl CondensedCycle<'_> {
             for contact in &loaded.transfers {
                 let force = &found.force[contact.first_row..contact.first_row + contact.len()];
                 let (parts, cells) = parts_of_rows(contact, force, self.radius_mm(), zones);
-                figures.note(parts.figures(&cells));
+                parts.note(&cells, &mut figures);
             }
         }
         figures

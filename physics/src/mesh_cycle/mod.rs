@@ -229,6 +229,23 @@ pub trait MeshCycle {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError>;
 
+    /// Chooses a part of the positions in which waves of wear decay as fast as in any: of those evaluated last, the part that wears deepest. Returns
+    /// whether there is one.
+    fn choose_part(&mut self) -> bool {
+        false
+    }
+
+    /// As [`Self::evaluate`], of the part of the positions chosen last; no mesh cycle is counted.
+    fn evaluate_part(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.evaluate(lost, wear, depth_mm, stopped)
+    }
+
     /// Returns to the state before any evaluation: the next one depends only on what the flanks have lost, to the bit.
     fn reset(&mut self);
 
@@ -316,7 +333,8 @@ impl MeshCycle for LineOfActionCycle<'_> {
                 observation.greatest_pressure.note(greatest_mpa, contact.footprint().at_sharp_edge);
             }
             let position_mm = loaded.cell.position_mm;
-            observation.pressure_figures.note(figures_of(self.flanks, position_mm, &*loaded.pairs[0].contact));
+            let contact = &*loaded.pairs[0].contact;
+            note_figures(self.flanks, position_mm, contact, &mut observation.pressure_figures);
             sliding_work_n += loaded.pairs[0].normal_load_n_per_mm() * loaded.sliding_mm;
         }
         observation.sliding_work_n = Some(sliding_work_n);
@@ -350,9 +368,11 @@ fn note_contact_of_points(
     most_mpa
 }
 
-/// Figures of the pressure of a contact, where the zones of the flanks are known.
-fn figures_of(flanks: Flanks<'_>, position_mm: f64, contact: &dyn PairContact) -> PressureFigures {
-    flanks.parts.map(|parts| parts.figures(&flanks.geometry, position_mm, &contact.pressed_cells())).unwrap_or_default()
+/// Takes the pressure of a contact into account, where the zones of the flanks are known.
+fn note_figures(flanks: Flanks<'_>, position_mm: f64, contact: &dyn PairContact, figures: &mut PressureFigures) {
+    if let Some(parts) = flanks.parts {
+        parts.note(&flanks.geometry, position_mm, &contact.pressed_cells(), figures);
+    }
 }
 
 impl LineOfActionGroup<'_> {

@@ -25,8 +25,8 @@ use super::sliced_teeth::SlicedTeeth;
 use super::spring_along_path::SpringAlongPath;
 use super::worn_points::{ContactOnPath, WornPoints};
 use super::{
-    CycleObservation, FlankOverlap, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, figures_of, in_series,
-    note_contact_of_points,
+    CycleObservation, FlankOverlap, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, in_series,
+    note_contact_of_points, note_figures,
 };
 use crate::contact::flank_pressure::PressureFigures;
 use crate::contact::{ContactSurface, Flanks, Sweep};
@@ -59,6 +59,27 @@ struct LoadedSlices<'a> {
     equilibrium: PairEquilibrium,
 }
 
+/// Figures of the pressure of slices.
+struct SlicedFigures {
+    /// Whole slices.
+    of_slices: Vec<PressureFigures>,
+    /// All parts of slices together.
+    of_parts: PressureFigures,
+}
+
+impl SlicedFigures {
+    /// Figures of no contact.
+    fn new(slices: usize) -> Self {
+        Self { of_slices: vec![PressureFigures::default(); slices], of_parts: PressureFigures::default() }
+    }
+
+    /// Takes other figures of the same slices into account.
+    fn note(&mut self, other: &Self) {
+        self.of_parts.note(other.of_parts);
+        self.of_slices.iter_mut().zip(&other.of_slices).for_each(|(slice, other)| slice.note(*other));
+    }
+}
+
 /// Positions that collect wear together.
 struct SlicedGroup<'a> {
     loaded_positions: Vec<LoadedSlices<'a>>,
@@ -69,6 +90,8 @@ struct SlicedGroup<'a> {
 /// All positions of a sliced pair, ready to be evaluated on ever newly worn flanks.
 pub(crate) struct SlicedCycle<'a> {
     groups: Vec<SlicedGroup<'a>>,
+    /// Index of the group that probes of fast waves evaluate alone.
+    part: usize,
     sliced: &'a SlicedTeeth,
     path: &'a PathOfContact,
     flanks: Flanks<'a>,
@@ -112,7 +135,7 @@ impl<'a> SlicedCycle<'a> {
                 points: WornPoints::default(),
             })
             .collect();
-        Self { groups, sliced, path, flanks, points, positions, line_load_n_per_mm, bodies_mm: 0.0 }
+        Self { groups, part: 0, sliced, path, flanks, points, positions, line_load_n_per_mm, bodies_mm: 0.0 }
     }
 
     /// Puts the pair on gear bodies that yield by `bodies_mm` under the whole load.
@@ -141,6 +164,27 @@ impl MeshCycle for SlicedCycle<'_> {
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
 
+    fn choose_part(&mut self) -> bool {
+        // Contacts are shorter than the stretch of the path on which a group has each slice, and all groups have slices at tip edges.
+        let deepest = self.groups.iter().map(|group| group.collected.deepest_mm()).enumerate();
+        self.part = deepest.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(group, _)| group);
+        self.groups.len() > 1
+    }
+
+    fn evaluate_part(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        let (load, points) = (self.sum_of_line_loads(), self.points);
+        let group = &mut self.groups[self.part];
+        group.evaluate(lost, points, load, wear, stopped);
+        let work = Collected::sum(std::iter::once(&group.collected), depth_mm)?;
+        Ok(Work { mesh_cycles: 0, ..work })
+    }
+
     fn reset(&mut self) {
         self.groups.par_iter_mut().flat_map(|group| &mut group.loaded_positions).for_each(|loaded| {
             loaded.pairs.iter_mut().for_each(MeshedPair::reset);
@@ -158,16 +202,15 @@ impl MeshCycle for SlicedCycle<'_> {
         let mut greatest_pressure = GreatestPressure::default();
         let mut sliding_work_n = 0.0;
         let mut of_slices = vec![GreatestPressure::default(); slices];
-        let mut pressure_figures = PressureFigures::default();
-        let mut figures_of_slices = vec![PressureFigures::default(); slices];
         let (points, bodies_mm, flanks) = (self.points, self.bodies_mm, self.flanks);
-        let of_groups: Vec<(Option<FlankOverlap>, Vec<PressureFigures>)> = self
+        let of_groups: Vec<(Option<FlankOverlap>, SlicedFigures)> = self
             .groups
             .par_iter_mut()
-            .map(|group| (group.deepest_overlap(removed_mm, points, bodies_mm), group.figures(flanks)))
+            .map(|group| (group.deepest_overlap(removed_mm, points, bodies_mm), group.figures(flanks, slices)))
             .collect();
         let deepest_overlap = of_groups.iter().filter_map(|(overlap, _)| *overlap).reduce(FlankOverlap::deeper);
-        let mut figures_of_contacts = of_groups.iter().flat_map(|(_, figures)| figures);
+        let mut figures = SlicedFigures::new(slices);
+        of_groups.iter().for_each(|(_, of_group)| figures.note(of_group));
         for loaded in self.groups.iter().flat_map(|group| &group.loaded_positions) {
             for ((contact, pair), sliding) in loaded.contacts.iter().zip(&loaded.pairs).zip(&loaded.sliding_mm) {
                 let own = of_slice(removed_mm, self.points, contact.slice);
@@ -184,8 +227,6 @@ impl MeshCycle for SlicedCycle<'_> {
                     let greatest_mpa = note_contact_of_points(&*pair.contact, gear, own, &mut sweep, pressure, sliding);
                     greatest.note(greatest_mpa, footprint.at_sharp_edge);
                 }
-                let figures = if is_whole { &mut figures_of_slices[contact.slice] } else { &mut pressure_figures };
-                figures_of_contacts.next().into_iter().for_each(|of_contact| figures.note(*of_contact));
                 sliding_work_n += pair.normal_load_n_per_mm() * sliding;
             }
             observed.push(loaded.observe(slices, self.line_load_n_per_mm, self.bodies_mm));
@@ -193,7 +234,8 @@ impl MeshCycle for SlicedCycle<'_> {
         let mesh = SlicedMesh::new(&observed, slices, self.path.base_pitch_mm);
         let positions = mesh.along_path(self.path, self.positions, self.line_load_n_per_mm);
         greatest_pressure.note_slices(&of_slices);
-        pressure_figures.note_slices(&figures_of_slices);
+        let mut pressure_figures = figures.of_parts;
+        pressure_figures.note_slices(&figures.of_slices);
         Ok(CycleObservation {
             positions,
             shares_at_ends: None,
@@ -233,10 +275,15 @@ impl SlicedGroup<'_> {
         }
     }
 
-    /// Figures of the pressure of each contact.
-    fn figures(&self, flanks: Flanks<'_>) -> Vec<PressureFigures> {
-        let contacts = self.loaded_positions.iter().flat_map(|loaded| loaded.contacts.iter().zip(&loaded.pairs));
-        contacts.map(|(contact, pair)| figures_of(flanks, contact.cell.position_mm, &*pair.contact)).collect()
+    /// Figures of the pressure of all contacts.
+    fn figures(&self, flanks: Flanks<'_>, slices: usize) -> SlicedFigures {
+        let mut figures = SlicedFigures::new(slices);
+        for (contact, pair) in self.loaded_positions.iter().flat_map(|loaded| loaded.contacts.iter().zip(&loaded.pairs)) {
+            let is_whole = contact.part == ContactPart::WHOLE;
+            let of = if is_whole { &mut figures.of_slices[contact.slice] } else { &mut figures.of_parts };
+            note_figures(flanks, contact.cell.position_mm, &*pair.contact, of);
+        }
+        figures
     }
 
     /// Deepest overlap of flanks beside the windows.

@@ -54,6 +54,20 @@ pub(crate) trait WearingPair {
     fn evaluate(&mut self, wear: &WearModel<'_>, stopped: &(dyn Fn() -> bool + Sync))
     -> Result<Work, EquilibriumError>;
 
+    /// Chooses a part of the positions ([`MeshCycle::choose_part`]). Returns whether there is one.
+    fn choose_part(&mut self) -> bool {
+        false
+    }
+
+    /// As [`Self::evaluate`], of the part of the positions chosen last.
+    fn evaluate_part(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.evaluate(wear, stopped)
+    }
+
     /// Makes the positions of a [`CondensedCycle`] anew ([`CondensedCycle::linearise_anew`]), after an evaluation on the same flanks.
     fn linearise_anew(
         &mut self,
@@ -130,6 +144,18 @@ impl WearingPair for OnFlankPoints<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
         self.cycle.evaluate(lost(&self.removed_mm), wear, &mut self.depth_mm, stopped)
+    }
+
+    fn choose_part(&mut self) -> bool {
+        self.cycle.choose_part()
+    }
+
+    fn evaluate_part(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.cycle.evaluate_part(lost(&self.removed_mm), wear, &mut self.depth_mm, stopped)
     }
 
     fn wear_for(&mut self, meshes: PerGear<f64>) {

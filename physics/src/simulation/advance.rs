@@ -189,7 +189,8 @@ impl AdaptiveSteps {
         self.slope.resize(self.state.len(), 0.0);
         rate.read_slope(&mut self.depth_mm, &mut self.slope);
         let clean_start = interval.clean_start;
-        let mut pair = OnRows { rate, wear_mm: &mut self.wear_mm, depth_mm: &mut self.depth_mm, clean_start };
+        let (wear_mm, depth_mm) = (&mut self.wear_mm, &mut self.depth_mm);
+        let mut pair = OnRows { rate, wear_mm, depth_mm, clean_start, probes_a_part: true };
         let room = interval.limit - interval.from;
         match self.integrator.step(&mut pair, &mut self.state, &mut self.slope, room) {
             Ok(length) => {
@@ -219,7 +220,8 @@ pub(super) fn fastest_decay(
     let mut slope = vec![0.0; state.len()];
     let rate = PairRate { pair, wear, stopped, meshes, work: Work::default() };
     rate.read_slope(&mut depth_mm, &mut slope);
-    let mut rows = OnRows { rate, wear_mm: &mut wear_mm, depth_mm: &mut depth_mm, clean_start: false };
+    let (wear_mm, depth_mm) = (&mut wear_mm, &mut depth_mm);
+    let mut rows = OnRows { rate, wear_mm, depth_mm, clean_start: false, probes_a_part: false };
     let mut radius = SpectralRadius::default();
     let evaluations = radius.estimate(&mut rows, (&state, &slope), PROBE_MM)?;
     Ok((radius.found(), evaluations))
@@ -253,16 +255,25 @@ struct OnRows<'a, 'b> {
     depth_mm: &'b mut PerGear<Vec<f64>>,
     /// Whether the next step begins from a clean start.
     clean_start: bool,
+    /// Whether a part of the mesh cycle may stand for all of it in probes of the spectral radius.
+    probes_a_part: bool,
+}
+
+impl OnRows<'_, '_> {
+    /// Sets the wear of the pair.
+    fn set(&mut self, state: &[f64]) {
+        let (pinion, wheel) = state.split_at(self.wear_mm.pinion.len());
+        self.wear_mm.pinion.copy_from_slice(pinion);
+        self.wear_mm.wheel.copy_from_slice(wheel);
+        self.rate.pair.set_wear_mm(self.wear_mm);
+    }
 }
 
 impl Rate for OnRows<'_, '_> {
     type Error = EquilibriumError;
 
     fn evaluate(&mut self, state: &[f64], slope: &mut [f64]) -> Result<(), EquilibriumError> {
-        let (pinion, wheel) = state.split_at(self.wear_mm.pinion.len());
-        self.wear_mm.pinion.copy_from_slice(pinion);
-        self.wear_mm.wheel.copy_from_slice(wheel);
-        self.rate.pair.set_wear_mm(self.wear_mm);
+        self.set(state);
         self.rate.work += self.rate.pair.evaluate(self.rate.wear, self.rate.stopped)?;
         self.rate.read_slope(self.depth_mm, slope);
         Ok(())
@@ -278,6 +289,22 @@ impl Rate for OnRows<'_, '_> {
             self.rate.read_slope(self.depth_mm, slope);
         }
         Ok(0)
+    }
+
+    fn choose_part(&mut self, state: &[f64]) -> Result<Option<Vec<f64>>, EquilibriumError> {
+        if !self.probes_a_part || !self.rate.pair.choose_part() {
+            return Ok(None);
+        }
+        let mut slope = vec![0.0; state.len()];
+        self.evaluate_part(state, &mut slope)?;
+        Ok(Some(slope))
+    }
+
+    fn evaluate_part(&mut self, state: &[f64], slope: &mut [f64]) -> Result<(), EquilibriumError> {
+        self.set(state);
+        self.rate.work += self.rate.pair.evaluate_part(self.rate.wear, self.rate.stopped)?;
+        self.rate.read_slope(self.depth_mm, slope);
+        Ok(())
     }
 
     fn size(&self, row: &[f64]) -> f64 {

@@ -2,10 +2,10 @@
 //!
 //! Not every combination is run, but
 //!
-//! * the finite-element surface on meshes of three sizes, each at every resolution of points, positions and steps; the
+//! * the finite-element surface on meshes of three sizes, the coarser ones at every resolution of points, positions and steps; the
 //!   finest and some companions of it make the reference and come first;
-//! * every other surface with every stiffness at the finest resolution;
-//! * every other surface at the coarser resolutions, with the scene's own stiffness and with that of finite elements;
+//! * every other surface at every resolution, with the scene's own stiffness and with that of finite elements;
+//! * every other surface with every other stiffness at the second resolution, the scene's own surface at the finest;
 //! * tip edges followed outside A to E, and not, with one stiffness only.
 //!
 //! A scene with slices over the face width has another plan: `sliced_selection`.
@@ -170,10 +170,18 @@ impl Selection {
             let ratio = f64::from(wider) / f64::from(finest);
             self.companions.push(CompanionRuns { fine, coarse, spacing: RefinedSpacing::Points(ratio) });
         }
-        for mesh in meshes {
+        // The finest mesh has most of its cost in the mesh itself: fewer points and steps on it cost more than all of them on a coarser one.
+        let coarser = if meshes.len() > 1 { &meshes[1..] } else { &meshes[..] };
+        for &mesh in coarser {
             for &by in levels {
                 self.add(Setting::fem(mesh, Coarsening::even(by)));
             }
+        }
+        if meshes.len() > 1 && levels.len() > 1 {
+            self.leave_out(
+                &format!("fewer points, positions and steps with {elements} elements in a half-width"),
+                "all of them with fewer elements cost less",
+            );
         }
     }
 
@@ -190,9 +198,12 @@ impl Selection {
         let best = &with.best().name;
         let finest = levels[0];
         for surface in surfaces(resolved, calibrated) {
+            // Stiffnesses are compared with each other on the scene's own surface.
+            let is_own = surface == SurfaceSetting::of_scene(resolved);
+            let level_of_others = if is_own { finest } else { levels.get(1).copied().unwrap_or(finest) };
             for &by in levels {
                 for stiffness in stiffnesses {
-                    if by != finest && !tried.contains(&stiffness.name) {
+                    if by != level_of_others && !tried.contains(&stiffness.name) {
                         continue;
                     }
                     let tip_contact = follows_tip(surface, has_calibration);
@@ -212,7 +223,7 @@ impl Selection {
         }
         if levels.len() > 1 && stiffnesses.len() > tried.len() {
             self.leave_out(
-                &format!("coarser resolutions with other stiffnesses than {}", tried.join(" and ")),
+                &format!("more than one resolution with other stiffnesses than {}", tried.join(" and ")),
                 "the resolution's error hardly depends on the stiffness",
             );
         }

@@ -138,9 +138,9 @@ impl<'a> SimplifiedPair<'a> {
             for index in 0..batch.loaded_positions.len() {
                 for (contact, _, state) in batch.contacts(index) {
                     let cells = PressedCell::even(state.half_width_mm, state.pressure_mpa);
-                    let own = self.parts.figures(self.springs.pair, contact.cell.position_mm, &cells);
                     let is_whole = contact.part == ContactPart::WHOLE;
-                    if is_whole { of_slices[contact.slice].note(own) } else { figures.note(own) }
+                    let figures = if is_whole { &mut of_slices[contact.slice] } else { &mut figures };
+                    self.parts.note(self.springs.pair, contact.cell.position_mm, &cells, figures);
                 }
             }
         }

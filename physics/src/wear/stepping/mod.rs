@@ -47,6 +47,17 @@ pub trait Rate {
         Ok(0)
     }
 
+    /// Chooses a part of the sources of the rate, whose fastest decay is that of all, and finds the rate at `state` of that part alone; `None`, and
+    /// nothing chosen, where no part is as good as the whole.
+    fn choose_part(&mut self, _state: &[f64]) -> Result<Option<Vec<f64>>, Self::Error> {
+        Ok(None)
+    }
+
+    /// Fills in the rate of the part chosen last.
+    fn evaluate_part(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Self::Error> {
+        self.evaluate(state, rate)
+    }
+
     /// Size of a row of depths, such as the error of a step, mm.
     fn size(&self, row: &[f64]) -> f64 {
         greatest(row)

@@ -4,7 +4,7 @@
 //! J v ≈ (f(y + ε v) − f(y))/ε            v ← J v/‖J v‖            ρ ≈ ‖J v‖/‖v‖
 //! ```
 //!
-//! each iteration one evaluation of f. The first probe is noise, in proportion to the rate: it has a part of every wave,
+//! each iteration one evaluation of f, or of a part of it that decays as fast ([`Rate::choose_part`]). The first probe is noise, in proportion to the rate: it has a part of every wave,
 //! where wear is. The vector found is kept, so that a renewal takes two or three.
 //!
 //! ε is no round-off but a depth that matters: waves lower than that may do what they like. So a rate that jumps (the hard
@@ -65,6 +65,8 @@ impl SpectralRadius {
         (state, slope): (&[f64], &[f64]),
         probe: f64,
     ) -> Result<u64, R::Error> {
+        let part = rate.choose_part(state)?;
+        let slope = part.as_deref().unwrap_or(slope);
         if self.vector.len() != state.len() {
             let mut noise = Noise::new(1);
             self.vector = slope.iter().map(|f| f * noise.next()).collect();
@@ -82,7 +84,10 @@ impl SpectralRadius {
             // The probe is normalised: without that repeated application of J takes it out of the range of numbers.
             self.vector.iter_mut().for_each(|v| *v *= probe / height);
             probed.iter_mut().zip(state.iter().zip(&self.vector)).for_each(|(p, (y, v))| *p = y + v);
-            rate.evaluate(&probed, &mut image)?;
+            match &part {
+                Some(_) => rate.evaluate_part(&probed, &mut image)?,
+                None => rate.evaluate(&probed, &mut image)?,
+            }
             evaluations += 1;
             image.iter_mut().zip(slope).for_each(|(image, f)| *image -= f);
             let (before, found) = (radius, norm(&image) / norm(&self.vector));
