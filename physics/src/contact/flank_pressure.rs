@@ -234,7 +234,10 @@ mod tests {
         parts.note(&lesser, &mut in_other_order);
         assert_eq!(figures, in_other_order);
         let of_greater = figures_of(parts, &greater);
-        assert_eq!([figures.flank_mpa, figures.tip_edge_mean_mpa], [of_greater.flank_mpa, of_greater.tip_edge_mean_mpa]);
+        assert_eq!(
+            [figures.flank_mpa, figures.tip_edge_mean_mpa],
+            [of_greater.flank_mpa, of_greater.tip_edge_mean_mpa]
+        );
     }
 
     /// A contact narrower than the length has its load over the length as mean, however sharp its peak.

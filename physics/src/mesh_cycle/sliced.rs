@@ -278,7 +278,8 @@ impl SlicedGroup<'_> {
     /// Figures of the pressure of all contacts.
     fn figures(&self, flanks: Flanks<'_>, slices: usize) -> SlicedFigures {
         let mut figures = SlicedFigures::new(slices);
-        for (contact, pair) in self.loaded_positions.iter().flat_map(|loaded| loaded.contacts.iter().zip(&loaded.pairs)) {
+        for (contact, pair) in self.loaded_positions.iter().flat_map(|loaded| loaded.contacts.iter().zip(&loaded.pairs))
+        {
             let is_whole = contact.part == ContactPart::WHOLE;
             let of = if is_whole { &mut figures.of_slices[contact.slice] } else { &mut figures.of_parts };
             note_figures(flanks, contact.cell.position_mm, &*pair.contact, of);

@@ -145,6 +145,53 @@ mod tests {
         assert!(second <= 3 && first <= 20, "{first}, {second}");
     }
 
+    /// Two rods that do not touch, of which one stands for both.
+    #[derive(Default)]
+    struct TwoRods {
+        of_both: u32,
+        of_one: u32,
+    }
+
+    impl Rate for TwoRods {
+        type Error = Infallible;
+
+        fn evaluate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Infallible> {
+            self.of_both += 1;
+            let rods = state.len() / 2;
+            let Ok(()) = Heat.evaluate(&state[..rods], &mut rate[..rods]);
+            Heat.evaluate(&state[rods..], &mut rate[rods..])
+        }
+
+        fn choose_part(&mut self, state: &[f64]) -> Result<Option<Vec<f64>>, Infallible> {
+            let mut rate = vec![0.0; state.len()];
+            self.evaluate_part(state, &mut rate).map(|()| Some(rate))
+        }
+
+        fn evaluate_part(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Infallible> {
+            self.of_one += 1;
+            let rods = state.len() / 2;
+            rate[rods..].fill(0.0);
+            Heat.evaluate(&state[..rods], &mut rate[..rods])
+        }
+
+        fn may_succeed_nearer(&self, _: &Infallible) -> bool {
+            false
+        }
+    }
+
+    /// A part that decays as fast as the whole is all that is evaluated.
+    #[test]
+    fn ver_radius_of_a_part() {
+        let state: Vec<f64> = (0..400).map(|i| (0.1 * f64::from(i)).sin() + 2.0).collect();
+        let (mut rods, mut slope) = (TwoRods::default(), vec![0.0; 400]);
+        let Ok(()) = rods.evaluate(&state, &mut slope);
+        let mut radius = SpectralRadius::default();
+        let Ok(probes) = radius.estimate(&mut rods, (&state, &slope), 1e-3);
+        let found = radius.value().unwrap();
+        assert!((4.0..1.25 * 4.0).contains(&found), "{found} after {probes}");
+        assert_eq!((rods.of_both, u64::from(rods.of_one)), (1, 1 + probes));
+    }
+
     /// y₀' = 1 + 3 (y₁ − 1), y₁' = 1 − (y₀ − 1): the eigenvalues are imaginary, and the iteration turns for ever.
     struct Wandering;
 
