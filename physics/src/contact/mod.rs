@@ -11,6 +11,7 @@
 //! | [`hertz`] | Hertz's ellipse on the nominal curvature | closed-form flattening |
 //! | [`hertz_mean`] | Hertz's mean pressure, closed-form sliding | closed-form flattening |
 
+mod coordinates_along;
 pub mod edge_foundation;
 pub(crate) mod elastic_cells;
 mod flank_motion;
