@@ -241,6 +241,21 @@ fn no_estimates_where_the_scene_wants_none() {
     );
 }
 
+/// The verification of a run on finite elements is on other elements, and tells the error of their length: no companion is run for it.
+#[test]
+fn elements_leave_their_resolution_to_the_verification() {
+    let text = with("fem", 2, 15_330.0)
+        .replace("step = { revolutions = 15330.0 }", "step = \"adaptive\"")
+        .replace("tip_contact = false", "# tip_contact");
+    let error = run(&text).error;
+    assert_eq!(error.companions_cost, Some(0.0), "{error:?}");
+    let told = error.discretisation.expect("the verification tells it");
+    let of_peaks = [error.total.peak_wear.pinion, error.total.peak_wear.wheel].map(|total| total.expect("verified"));
+    // The totals have the uncertainty of the verification, 0.6 %, on top.
+    assert!((of_peaks[0].max(of_peaks[1]) - told - 0.006).abs() < 1e-9, "{error:?}");
+    assert!(run(&unverified(&text)).error.companions_cost.is_some_and(|cost| cost > 0.0));
+}
+
 /// An estimate is a matter of the run, not of threads.
 #[test]
 fn estimates_are_the_same_on_any_number_of_threads() {

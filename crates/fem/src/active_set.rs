@@ -23,6 +23,7 @@
 
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{ColRef, Mat, MatRef, Side};
+use pulp::Arch;
 
 use crate::weighted_sum::weighted_sum;
 
@@ -129,18 +130,23 @@ pub enum ActiveSetError {
 /// Solves L Lᵀ x = b in place; faster than a blocked solution for one right-hand side and few unknowns.
 fn solve_in_place(factor: &Llt<f64>, b: &mut [f64]) {
     let l = factor.L();
-    for j in 0..b.len() {
-        let column = column(l, j);
-        b[j] /= column[j];
-        let x = b[j];
-        for (b, l) in b[j + 1..].iter_mut().zip(&column[j + 1..]) {
-            *b -= l * x;
-        }
-    }
-    for j in (0..b.len()).rev() {
-        let column = column(l, j);
-        b[j] = (b[j] - weighted_sum(&column[j + 1..], &b[j + 1..])) / column[j];
-    }
+    Arch::new().dispatch(
+        #[inline(always)]
+        || {
+            for j in 0..b.len() {
+                let column = column(l, j);
+                b[j] /= column[j];
+                let x = b[j];
+                for (b, l) in b[j + 1..].iter_mut().zip(&column[j + 1..]) {
+                    *b -= l * x;
+                }
+            }
+            for j in (0..b.len()).rev() {
+                let column = column(l, j);
+                b[j] = (b[j] - weighted_sum(&column[j + 1..], &b[j + 1..])) / column[j];
+            }
+        },
+    );
 }
 
 /// Results that solutions with the same compliance and rigid motions share.
@@ -383,6 +389,7 @@ impl Condensed {
 }
 
 /// Column of a matrix, all of which are stored by columns.
+#[inline(always)]
 fn column(matrix: MatRef<'_, f64>, j: usize) -> &[f64] {
     matrix.col(j).try_as_col_major().map_or(&[], |column| column.as_slice())
 }

@@ -317,8 +317,10 @@ fn estimates(
     if !plan.has(StageKind::ErrorEstimates) || !outcome.stop.is_complete() {
         return ErrorSummary::not_estimated(not_estimated_because(outcome));
     }
-    let observer = stages.observer;
-    stages.run(StageKind::ErrorEstimates.name(), || error_estimates::estimate(model, outcome, step_over_safe, observer))
+    let (observer, is_verified) = (stages.observer, plan.has(StageKind::Verification));
+    stages.run(StageKind::ErrorEstimates.name(), || {
+        error_estimates::estimate(model, outcome, step_over_safe, is_verified, observer)
+    })
 }
 
 /// The verification of a complete run by finite elements, or why there is none.

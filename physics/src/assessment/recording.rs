@@ -156,7 +156,7 @@ fn warnings(model: &RunModel<'_>, found: RunFindings<'_>, judged: Judged, figure
     warnings.extend(imbalance_warning(&figures.wear_balance, figures.error.volume_balance));
     warnings.extend(invariants::warnings(&figures.invariants));
     warnings.extend(slices::warning(model, outcome));
-    warnings.extend(error_estimates::warnings(&figures.error));
+    warnings.extend(error_estimates::warnings(model.scene.contact.surface, &figures.error));
     warnings.extend(found.verified.and_then(|verified| verified.warning.clone()));
     warnings
 }

@@ -69,7 +69,7 @@ struct CondensedPosition {
     stretch_mm: (f64, f64),
     /// Load transfer of each tooth pair that may touch.
     transfers: Vec<LoadTransfer>,
-    /// Transmission error for which the transfers were found, mm; 0 as long as there is none.
+    /// Transmission error for which the transfers were found, mm: at first that of unworn flanks.
     turned_mm: f64,
     /// Number of the windows of `prepared` for which they were found.
     windows: usize,
@@ -221,7 +221,8 @@ impl MeshCycle for CondensedCycle<'_> {
         self.groups.par_iter_mut().flat_map(|group| &mut group.loaded_positions).for_each(|loaded| {
             model.reset(&mut loaded.prepared);
             loaded.found = None;
-            if loaded.windows != loaded.prepared.windows() || loaded.about_rad.is_some() || loaded.turned_mm != 0.0 {
+            let is_moved = loaded.turned_mm != loaded.prepared.unworn_transmission_error_mm();
+            if loaded.windows != loaded.prepared.windows() || loaded.about_rad.is_some() || is_moved {
                 loaded.observe(model, nodes);
             }
         });
@@ -470,8 +471,9 @@ impl CondensedPosition {
 
     /// Finds the load transfers to the nodes of new flanks, in the present windows.
     fn observe(&mut self, model: &CondensedPair<'_>, nodes: PerGear<&FlankNodes>) {
-        self.transfers = model.load_transfers(&self.prepared, self.stretch_mm, 0.0, nodes, None);
-        (self.turned_mm, self.windows, self.about_rad) = (0.0, self.prepared.windows(), None);
+        self.turned_mm = self.prepared.unworn_transmission_error_mm();
+        self.transfers = model.load_transfers(&self.prepared, self.stretch_mm, self.turned_mm, nodes, None);
+        (self.windows, self.about_rad) = (self.prepared.windows(), None);
     }
 
     fn overlap(&self) -> Option<FlankOverlap> {

@@ -21,7 +21,7 @@ use sprs::{CsMat, TriMat};
 
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::{Direction, FacingTeeth, FlankOverlap, PlacedTeeth};
-use super::sandwich::ToothRows;
+use super::sandwich::{CarriedRows, ToothRows};
 use crate::gear::{Gear, PerGear};
 use gearwear_fem::active_set::ContactEquilibrium;
 use gearwear_fem::contact::master_search::LEAST_FACING;
@@ -210,9 +210,9 @@ impl CondensedPair<'_> {
         let mut compliance = Mat::zeros(probes.len(), rows);
         for gear in Gear::BOTH {
             let operator = self.operator(beside, probes, gear);
-            let own = ToothRows::new(&self.gears[gear], beside.tooth[gear], 0, &operator);
-            let operators: Vec<&CsMat<f64>> = facings.iter().map(|facing| &facing.operator[gear]).collect();
-            for other in self.tooth_rows(facings, gear, &operators) {
+            let carried = CarriedRows::new(&self.gears[gear], &operator);
+            let own = ToothRows::new(&self.gears[gear], beside.tooth[gear], 0, &carried);
+            for other in self.tooth_rows(facings, gear) {
                 own.add_product(&other, &mut compliance);
             }
         }

@@ -14,6 +14,7 @@ use super::condensed_pair::CondensedPair;
 use super::condensed_pair::hertz_half_width_mm;
 use super::flank_surface::MeshedFlank;
 use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
+use super::sandwich::CarriedRows;
 use crate::gear::flank_edge::{FlankEdge, PathEnd};
 use crate::gear::{Gear, PerGear};
 use gearwear_fem::contact::mortar::MortarCoupling;
@@ -104,6 +105,8 @@ pub(super) struct FacingTeeth {
     pub edges: PerGear<Range<usize>>,
     /// Matrix B of the coupling for each gear, in its own tooth's frame.
     pub operator: PerGear<CsMat<f64>>,
+    /// The same rows with the displacements that cuts carry.
+    pub carried: PerGear<CarriedRows>,
     /// Expected contact from the slave's tip end, mm.
     pub expected_mm: f64,
     /// Pinion's axis in the frame of the slave's tooth.
@@ -222,6 +225,7 @@ impl CondensedPair<'_> {
             tooth: placed.tooth,
             coupling,
             edges: edges.clone(),
+            carried: PerGear::from_fn(|gear| CarriedRows::new(&self.gears[gear], &operator[gear])),
             operator,
             expected_mm: placed.expected_mm,
             pinion_axis_mm: placed.pinion_axis_mm,

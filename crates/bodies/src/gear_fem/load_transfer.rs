@@ -48,6 +48,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::{Rotation2, Vector2};
+use pulp::Arch;
 
 use super::condensed_pair::CondensedPair;
 use super::facing_teeth::FacingTeeth;
@@ -106,13 +107,14 @@ impl StretchMeans {
     }
 
     /// Weights M_ik of row `i`.
-    #[inline]
+    #[inline(always)]
     pub fn row(&self, i: usize) -> Weights<'_> {
         let begin = if i > 0 { self.ends[i - 1] } else { 0 };
         Weights { first: self.first[i], weights: &self.weights[begin..self.ends[i]] }
     }
 
     /// Opening of the gap of row `i` by depths at the nodes, mm.
+    #[inline(always)]
     fn opening_mm(&self, i: usize, depth_mm: &[f64]) -> f64 {
         let Weights { first, weights } = self.row(i);
         self.askew[i] * weighted_sum(weights, &depth_mm[first..])
@@ -128,11 +130,20 @@ impl LoadTransfer {
     /// Opens the gaps of the position's rows by the wear `depth_mm` at the nodes. A coupling of flanks tilted by `tilt_rad` at a row
     /// ([`super::tilted`]) contains the opening by the slave's offset along that tilt already.
     pub fn open_gaps(&self, depth_mm: PerGear<&[f64]>, tilt_rad: impl Fn(usize) -> f64, gap_mm: &mut [f64]) {
-        for (i, gap) in gap_mm[self.first_row..self.first_row + self.len()].iter_mut().enumerate() {
-            let [pinion_mm, wheel_mm] = Gear::BOTH.map(|gear| self.means[gear].opening_mm(i, depth_mm[gear]));
-            let by_tilt_mm = tilt_rad(self.first_row + i) * self.slave_off_mm;
-            *gap += pinion_mm + wheel_mm + self.beyond_rule_mm[i] - by_tilt_mm;
-        }
+        let gap_mm = &mut gap_mm[self.first_row..self.first_row + self.len()];
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                for (i, gap) in gap_mm.iter_mut().enumerate() {
+                    let [pinion_mm, wheel_mm] = Gear::BOTH.map(
+                        #[inline(always)]
+                        |gear| self.means[gear].opening_mm(i, depth_mm[gear]),
+                    );
+                    let by_tilt_mm = tilt_rad(self.first_row + i) * self.slave_off_mm;
+                    *gap += pinion_mm + wheel_mm + self.beyond_rule_mm[i] - by_tilt_mm;
+                }
+            },
+        );
     }
 
     /// Means of nodal values of `gear`, weighted by the load `force` on the rows; 0 without load.
@@ -151,17 +162,22 @@ impl LoadTransfer {
 
     /// Adds the wear of the rows, `depth_mm` each, to the depths at the nodes of a flank.
     pub fn wear_nodes(&self, gear: Gear, nodes: &FlankNodes, depth_mm: &[f64], sums_mm: &mut [f64]) {
-        for (i, (depth, weight)) in depth_mm.iter().zip(&self.weight_mm).enumerate() {
-            if *depth == 0.0 {
-                continue;
-            }
-            let volume = depth * weight;
-            let Weights { first, weights } = self.means[gear].row(i);
-            let reached = sums_mm[first..].iter_mut().zip(&nodes.share_mm[first..]).zip(weights);
-            for ((sum, share), m) in reached {
-                *sum += m * volume / share;
-            }
-        }
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                for (i, (depth, weight)) in depth_mm.iter().zip(&self.weight_mm).enumerate() {
+                    if *depth == 0.0 {
+                        continue;
+                    }
+                    let volume = depth * weight;
+                    let Weights { first, weights } = self.means[gear].row(i);
+                    let reached = sums_mm[first..].iter_mut().zip(&nodes.share_mm[first..]).zip(weights);
+                    for ((sum, share), m) in reached {
+                        *sum += m * volume / share;
+                    }
+                }
+            },
+        );
     }
 }
 

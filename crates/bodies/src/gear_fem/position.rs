@@ -93,7 +93,7 @@ impl<'a> CondensedPair<'a> {
         line_load_n_per_mm: f64,
         warm: &WarmStart,
     ) -> Result<PositionContact, ActiveSetError> {
-        self.solve_from(self.prepare(position_mm, line_load_n_per_mm), warm)
+        self.solve_from(self.untouched(self.most_beside(), position_mm, line_load_n_per_mm), warm)
     }
 
     /// Solves as [`Self::at`] does, but with the reference pair alone, which carries the whole load.
@@ -103,7 +103,7 @@ impl<'a> CondensedPair<'a> {
         line_load_n_per_mm: f64,
         warm: &WarmStart,
     ) -> Result<PositionContact, ActiveSetError> {
-        self.solve_from(self.prepare_alone(position_mm, line_load_n_per_mm), warm)
+        self.solve_from(self.untouched(0, position_mm, line_load_n_per_mm), warm)
     }
 
     fn solve_from(&self, mut prepared: PreparedPosition, warm: &WarmStart) -> Result<PositionContact, ActiveSetError> {

@@ -11,7 +11,6 @@
 //! the flanks so far that the direction of the load matters, it is corrected for the tilt ([`super::tilted`]).
 
 use faer::Mat;
-use sprs::CsMat;
 
 use super::beside_window::BesideWindow;
 use super::condensed_pair::CondensedPair;
@@ -48,11 +47,19 @@ pub struct PreparedPosition {
     /// Tilt of the flanks at each row; empty without tilt.
     pub(super) tilt_rad: Vec<f64>,
     unworn_gap_mm: Vec<f64>,
+    /// Contact of the unworn flanks in the first window; `None` where that has none.
+    unworn: Option<UnwornContact>,
     /// Active set that the next solution starts from.
     pub(super) active: Option<Vec<bool>>,
     pub(super) kept: Option<ReusableFactor>,
     /// Number of the window, from 1.
     windows: usize,
+}
+
+/// Contact of unworn flanks, from which that of worn ones is found.
+struct UnwornContact {
+    active: Vec<bool>,
+    transmission_error_mm: f64,
 }
 
 /// Compliance along the flanks ([`super::tilted`]), and the matrices without tilt.
@@ -67,18 +74,30 @@ pub(super) struct Sideways {
 }
 
 impl<'a> CondensedPair<'a> {
-    /// Prepares the contact at `position_mm` under `line_load_n_per_mm`.
+    /// Prepares the contact at `position_mm` under `line_load_n_per_mm`, with that of unworn flanks.
     pub fn prepare(&self, position_mm: f64, line_load_n_per_mm: f64) -> PreparedPosition {
-        self.prepare_among((self.gears.pinion.teeth() / 2) as i32, position_mm, line_load_n_per_mm)
+        self.unworn(position_mm, self.first_window(self.most_beside(), line_load_n_per_mm))
     }
 
-    /// Prepares the contact of the reference pair alone.
-    pub(crate) fn prepare_alone(&self, position_mm: f64, line_load_n_per_mm: f64) -> PreparedPosition {
-        self.prepare_among(0, position_mm, line_load_n_per_mm)
+    /// Number of tooth pairs on either side of the reference pair that have fine teeth.
+    pub(super) fn most_beside(&self) -> i32 {
+        (self.gears.pinion.teeth() / 2) as i32
     }
 
-    fn prepare_among(&self, beside: i32, position_mm: f64, line_load_n_per_mm: f64) -> PreparedPosition {
+    /// Position without any contact yet, with `beside` tooth pairs on either side of the reference pair.
+    pub(super) fn untouched(&self, beside: i32, position_mm: f64, line_load_n_per_mm: f64) -> PreparedPosition {
         self.observe(position_mm, self.first_window(beside, line_load_n_per_mm))
+    }
+
+    /// Position with the contact of its unworn flanks.
+    fn unworn(&self, position_mm: f64, window: SearchWindow) -> PreparedPosition {
+        let mut prepared = self.observe(position_mm, window);
+        if let Ok(found) = prepared.condensed.solve_with(None, &mut prepared.kept) {
+            let unworn = UnwornContact { active: found.active, transmission_error_mm: found.rigid[0] };
+            prepared.active = Some(unworn.active.clone());
+            prepared.unworn = Some(unworn);
+        }
+        prepared
     }
 
     /// Window around the expected contact.
@@ -110,6 +129,7 @@ impl<'a> CondensedPair<'a> {
             along_rotation,
             sideways: None,
             tilt_rad: Vec::new(),
+            unworn: None,
             active: None,
             kept: None,
             windows: 1,
@@ -172,11 +192,11 @@ impl<'a> CondensedPair<'a> {
         wider
     }
 
-    /// Resets a prepared position to its state before any solution: without contact and tilt, with its first window.
+    /// Resets a prepared position to its state before any solution: with the contact of its unworn flanks, without tilt, with its first window.
     pub fn reset(&self, prepared: &mut PreparedPosition) {
         if prepared.windows > 1 {
             let SearchWindow { beside, line_load_n_per_mm, .. } = prepared.window;
-            *prepared = self.observe(prepared.position_mm, self.first_window(beside, line_load_n_per_mm));
+            *prepared = self.unworn(prepared.position_mm, self.first_window(beside, line_load_n_per_mm));
         } else {
             prepared.level();
         }
@@ -201,38 +221,23 @@ impl<'a> CondensedPair<'a> {
         }
         let mut compliance = Mat::zeros(rows, rows);
         for gear in Gear::BOTH {
-            let operators: Vec<&CsMat<f64>> = facings.iter().map(|facing| &facing.operator[gear]).collect();
-            self.add_symmetric_sandwich(&mut compliance, facings, gear, &operators);
+            let rows = self.tooth_rows(facings, gear);
+            for (a, own) in rows.iter().enumerate() {
+                rows[..=a].iter().for_each(|other| own.add_carried_product(other, &mut compliance));
+                ToothRows::held_products(&[own], &mut |_, [i, j], entry| compliance[(i, j)] += entry);
+            }
         }
         mirror_below(&mut compliance);
         Condensed { compliance, gap_mm, rigid, rigid_load: vec![-line_load_n_per_mm] }
     }
 
-    /// Adds L C Lᵀ of a gear to `sum` on and below the diagonal, with `operators` L of each tooth pair.
-    pub(super) fn add_symmetric_sandwich(
-        &self,
-        sum: &mut Mat<f64>,
-        facings: &[FacingTeeth],
-        gear: Gear,
-        operators: &[&CsMat<f64>],
-    ) {
-        let rows = self.tooth_rows(facings, gear, operators);
-        for (a, own) in rows.iter().enumerate() {
-            rows[..=a].iter().for_each(|other| own.add_carried_product(other, sum));
-            ToothRows::held_products(&[own], &mut |_, [i, j], entry| sum[(i, j)] += entry);
-        }
-    }
-
-    /// Rows of `operators` L of each tooth pair on a gear.
-    pub(super) fn tooth_rows<'b>(
-        &'b self,
-        facings: &[FacingTeeth],
-        gear: Gear,
-        operators: &[&'b CsMat<f64>],
-    ) -> Vec<ToothRows<'b>> {
-        let of_pairs = facings.iter().zip(operators);
+    /// Rows B of each tooth pair on a gear.
+    pub(super) fn tooth_rows<'b>(&'b self, facings: &'b [FacingTeeth], gear: Gear) -> Vec<ToothRows<'b>> {
+        let of_pairs = facings.iter();
         of_pairs
-            .map(|(facing, operator)| ToothRows::new(&self.gears[gear], facing.tooth[gear], facing.first_row, operator))
+            .map(|facing| {
+                ToothRows::new(&self.gears[gear], facing.tooth[gear], facing.first_row, &facing.carried[gear])
+            })
             .collect()
     }
 }
@@ -247,7 +252,8 @@ impl SearchWindow {
 impl PreparedPosition {
     /// Resets tilt and active set.
     fn level(&mut self) {
-        (self.active, self.kept) = (None, None);
+        self.active = self.unworn.as_ref().map(|unworn| unworn.active.clone());
+        self.kept = None;
         if let Some(sideways) = &self.sideways {
             let level = &sideways.level_and_along;
             self.condensed.compliance.copy_from_triangular_lower(level);
@@ -260,6 +266,11 @@ impl PreparedPosition {
     /// Line load that `force` on the multipliers from `first_row` on carries, with its lever, N/mm.
     pub(super) fn carried_n_per_mm(&self, first_row: usize, force: &[f64]) -> f64 {
         force.iter().enumerate().map(|(k, f)| -f * self.condensed.rigid[(first_row + k, 0)]).sum()
+    }
+
+    /// Transmission error on unworn flanks by their contact in the first window, mm; 0 without one.
+    pub fn unworn_transmission_error_mm(&self) -> f64 {
+        self.unworn.as_ref().map_or(0.0, |unworn| unworn.transmission_error_mm)
     }
 
     /// Line load w, N/mm.

@@ -8,14 +8,19 @@ use sprs::CsMat;
 use super::ring::GearCompliance;
 use gearwear_fem::weighted_sum::weighted_sum;
 
+/// Rows B of multipliers, apart from the teeth of the gear that they are on.
+pub(super) struct CarriedRows {
+    rows: Vec<ToothRow>,
+    /// Displacement of each row, in a column, by the shapes that cuts carry.
+    carried: Mat<f64>,
+}
+
 /// Rows B of multipliers on a tooth of a gear.
 pub(super) struct ToothRows<'a> {
     gear: &'a GearCompliance,
     tooth: usize,
     first_row: usize,
-    rows: Vec<ToothRow>,
-    /// Displacement of each row, in a column, by the shapes that cuts carry.
-    carried: Mat<f64>,
+    of_gear: &'a CarriedRows,
 }
 
 /// Consecutive entries of a row.
@@ -24,37 +29,47 @@ struct ToothRow {
     entries: Vec<f64>,
 }
 
-impl<'a> ToothRows<'a> {
-    /// Rows of `operator` from `first_row` on; its columns are those of the candidates of `tooth`.
-    pub(super) fn new(gear: &'a GearCompliance, tooth: usize, first_row: usize, operator: &CsMat<f64>) -> Self {
+impl CarriedRows {
+    /// Rows of `operator`, whose columns are those of the candidates of a tooth.
+    pub(super) fn new(gear: &GearCompliance, operator: &CsMat<f64>) -> Self {
         let shapes = gear.shapes();
-        let rows: Vec<ToothRow> = operator
-            .outer_iterator()
-            .map(|row| {
-                let (first, last) = (row.indices().iter().min(), row.indices().iter().max());
-                let (first, end) = (first.copied().unwrap_or(0), last.map_or(0, |last| last + 1));
-                let mut entries = vec![0.0; end - first];
-                row.iter().for_each(|(column, b)| entries[column - first] = *b);
-                ToothRow { first_column: first, entries }
-            })
-            .collect();
-        let mut carried = Mat::zeros(shapes.nrows(), rows.len());
-        for (k, row) in rows.iter().enumerate() {
-            carried.col_mut(k).copy_from(shapes.subcols(row.first_column, row.entries.len()) * row.entries());
-        }
-        Self { gear, tooth, first_row, rows, carried }
+        let mut carried = Mat::zeros(shapes.nrows(), operator.rows());
+        let rows = operator.outer_iterator().enumerate().map(|(k, row)| {
+            let (first, last) = (row.indices().iter().min(), row.indices().iter().max());
+            let (first, end) = (first.copied().unwrap_or(0), last.map_or(0, |last| last + 1));
+            let mut entries = vec![0.0; end - first];
+            for (column, &b) in row.iter() {
+                entries[column - first] = b;
+                let moved = carried.col_mut(k).iter_mut().zip(shapes.col(column).iter());
+                moved.for_each(|(sum, shape)| *sum += b * shape);
+            }
+            ToothRow { first_column: first, entries }
+        });
+        Self { rows: rows.collect(), carried }
+    }
+}
+
+impl<'a> ToothRows<'a> {
+    /// Rows on `tooth` of the `gear`, from `first_row` on.
+    pub(super) fn new(gear: &'a GearCompliance, tooth: usize, first_row: usize, of_gear: &'a CarriedRows) -> Self {
+        Self { gear, tooth, first_row, of_gear }
     }
 
-    /// Adds the product B C B'ᵀ with the rows B' of `right` to `sum`.
+    fn rows(&self) -> &'a [ToothRow] {
+        &self.of_gear.rows
+    }
+
+    /// Adds the product B C B'ᵀ with the rows B' of `right`, of which there are more, to `sum`.
     pub(super) fn add_product(&self, right: &ToothRows<'_>, sum: &mut Mat<f64>) {
         self.add_carried_product(right, sum);
         if self.tooth != right.tooth {
             return;
         }
-        let columns = used_columns(&self.rows);
-        for (j, row) in right.rows.iter().enumerate() {
+        // C is symmetric: the displacements are found for the rows of the shorter side.
+        let columns = used_columns(right.rows());
+        for (i, row) in self.rows().iter().enumerate() {
             let moved = row.moved(self.gear, &columns);
-            for (i, row) in self.rows.iter().enumerate() {
+            for (j, row) in right.rows().iter().enumerate() {
                 sum[(self.first_row + i, right.first_row + j)] += row.along(&moved, columns.start);
             }
         }
@@ -62,8 +77,12 @@ impl<'a> ToothRows<'a> {
 
     /// Adds the part of the product B C B'ᵀ that the cuts carry.
     pub(super) fn add_carried_product(&self, right: &ToothRows<'_>, sum: &mut Mat<f64>) {
-        let by_shape = self.gear.between_cuts(self.tooth, right.tooth) * &right.carried;
-        let product = self.carried.transpose() * by_shape;
+        let between = self.gear.between_cuts(self.tooth, right.tooth);
+        let (own, others) = (&self.of_gear.carried, &right.of_gear.carried);
+        let product = match own.ncols() < others.ncols() {
+            true => (own.transpose() * between) * others,
+            false => own.transpose() * (between * others),
+        };
         for j in 0..product.ncols() {
             for i in 0..product.nrows() {
                 sum[(self.first_row + i, right.first_row + j)] += self.gear.softness() * product[(i, j)];
@@ -74,19 +93,19 @@ impl<'a> ToothRows<'a> {
     /// Entries on and below the diagonal of the products B C B'ᵀ with held cuts, for B and B' each of the `kinds` of rows of the same multipliers on a
     /// tooth: numbers of both kinds, row, column and entry to `take`.
     pub(super) fn held_products(kinds: &[&ToothRows<'_>], take: &mut dyn FnMut([usize; 2], [usize; 2], f64)) {
-        let count = kinds.first().map_or(0, |rows| rows.rows.len());
+        let count = kinds.first().map_or(0, |kind| kind.rows().len());
         let mut of_later_rows: Option<Range<usize>> = None;
         let columns = (0..count).rev().map(|j| {
-            let own = kinds.iter().map(|kind| used_columns(&kind.rows[j..=j]));
+            let own = kinds.iter().map(|kind| used_columns(&kind.rows()[j..=j]));
             of_later_rows = own.chain(of_later_rows.clone()).reduce(joined);
             of_later_rows.clone().unwrap_or_default()
         });
         let columns: Vec<Range<usize>> = columns.collect();
         for (j, columns) in columns.iter().rev().enumerate() {
             for (b, right) in kinds.iter().enumerate() {
-                let moved = right.rows[j].moved(right.gear, columns);
+                let moved = right.rows()[j].moved(right.gear, columns);
                 for (a, left) in kinds.iter().enumerate() {
-                    for (i, row) in left.rows.iter().enumerate().skip(j) {
+                    for (i, row) in left.rows().iter().enumerate().skip(j) {
                         let places = [left.first_row + i, right.first_row + j];
                         take([a, b], places, row.along(&moved, columns.start));
                     }

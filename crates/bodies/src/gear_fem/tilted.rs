@@ -15,12 +15,11 @@ use std::f64::consts::FRAC_PI_2;
 
 use faer::Mat;
 use nalgebra::Rotation2;
-use sprs::CsMat;
 
 use super::condensed_pair::CondensedPair;
-use super::facing_teeth::turned;
+use super::facing_teeth::{FacingTeeth, turned};
 use super::prepared::{PreparedPosition, Sideways};
-use super::sandwich::{ToothRows, mirror_below};
+use super::sandwich::{CarriedRows, ToothRows, mirror_below};
 use crate::gear::{Gear, PerGear};
 
 /// Wear of both flanks.
@@ -59,10 +58,19 @@ impl CondensedPair<'_> {
         let rows = prepared.along_rotation.len();
         let (mut compliance, mut along) = (Mat::zeros(rows, rows), Mat::zeros(rows, rows));
         for gear in Gear::BOTH {
-            let across: Vec<&CsMat<f64>> = prepared.facings.iter().map(|facing| &facing.operator[gear]).collect();
-            let turned: Vec<CsMat<f64>> = across.iter().map(|b| turned(b, Rotation2::new(-FRAC_PI_2))).collect();
-            let [across, turned] =
-                [across, turned.iter().collect()].map(|operators| self.tooth_rows(&prepared.facings, gear, &operators));
+            let across = self.tooth_rows(&prepared.facings, gear);
+            let along_flank = |facing: &FacingTeeth| {
+                CarriedRows::new(&self.gears[gear], &turned(&facing.operator[gear], Rotation2::new(-FRAC_PI_2)))
+            };
+            let carried: Vec<CarriedRows> = prepared.facings.iter().map(along_flank).collect();
+            let turned: Vec<ToothRows<'_>> = prepared
+                .facings
+                .iter()
+                .zip(&carried)
+                .map(|(facing, carried)| {
+                    ToothRows::new(&self.gears[gear], facing.tooth[gear], facing.first_row, carried)
+                })
+                .collect();
             for (a, own) in turned.iter().enumerate() {
                 across.iter().for_each(|other| own.add_carried_product(other, &mut compliance));
                 turned[..=a].iter().for_each(|other| own.add_carried_product(other, &mut along));

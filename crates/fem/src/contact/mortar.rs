@@ -9,7 +9,7 @@
 //! f_i = w_i λ_i the nodal forces are Bᵀ f.
 
 use nalgebra::Vector2;
-use sprs::{CsMat, TriMat};
+use sprs::CsMat;
 
 use super::dual_basis::{DualBasis, gauss_points};
 use super::edge::shape;
@@ -102,9 +102,13 @@ impl MortarCoupling {
     pub fn new(slave: &Surface, master: &Surface, reach_mm: f64, analysis: Analysis) -> Self {
         let facing = MasterSearch::new(master);
         let mut rows = vec![MultiplierSums::default(); slave.points_mm.len()];
-        for number in 0..slave.edges.len() {
-            let segments = facing.segments(slave, number, reach_mm);
-            integrate_edge((slave, number, analysis), &facing, &segments, &mut rows);
+        let edges = 0..slave.edges.len();
+        let segments: Vec<Vec<FacingSegment>> = edges.map(|number| facing.segments(slave, number, reach_mm)).collect();
+        // Where the surfaces face each other nowhere there are no rows.
+        if segments.iter().any(|of_edge| !of_edge.is_empty()) {
+            for (number, segments) in segments.iter().enumerate() {
+                integrate_edge((slave, number, analysis), &facing, segments, &mut rows);
+            }
         }
         hand_over_slivers(slave, &mut rows);
         let kept: Vec<(usize, MultiplierSums)> =
@@ -137,18 +141,16 @@ impl MortarCoupling {
 
     /// Matrix B of groups of rows with the weights `whole_mm`.
     fn grouped_operator(&self, operator: &CsMat<f64>, groups: &[Vec<usize>], whole_mm: &[f64]) -> CsMat<f64> {
-        let mut triplets = TriMat::new((groups.len(), operator.cols()));
-        for (i, (rows, whole_mm)) in groups.iter().zip(whole_mm).enumerate() {
+        let mut sums = RowSums::new(operator.cols());
+        for (rows, whole_mm) in groups.iter().zip(whole_mm) {
             for &row in rows {
                 let part = self.weight_mm[row] / whole_mm;
                 let entries = operator.outer_view(row);
-                entries
-                    .iter()
-                    .flat_map(|row| row.iter())
-                    .for_each(|(column, b)| triplets.add_triplet(i, column, part * b));
+                entries.iter().flat_map(|row| row.iter()).for_each(|(column, b)| sums.row.push((column, part * b)));
             }
+            sums.end_row();
         }
-        triplets.to_csr()
+        sums.matrix()
     }
 
     /// Number of multipliers.
@@ -234,14 +236,50 @@ fn operator(
     nodes: usize,
     entries: impl Fn(&MultiplierSums) -> &Vec<(usize, Vector2<f64>)>,
 ) -> CsMat<f64> {
-    let mut triplets = TriMat::new((rows.len(), 2 * nodes));
-    for (i, (_, row)) in rows.iter().enumerate() {
+    let mut sums = RowSums::new(2 * nodes);
+    for (_, row) in rows {
         for (node, value) in entries(row) {
-            triplets.add_triplet(i, 2 * node, value.x / row.weight_mm);
-            triplets.add_triplet(i, 2 * node + 1, value.y / row.weight_mm);
+            sums.row.extend([(2 * node, value.x / row.weight_mm), (2 * node + 1, value.y / row.weight_mm)]);
         }
+        sums.end_row();
     }
-    triplets.to_csr()
+    sums.matrix()
+}
+
+/// Sparse matrix that is made row by row.
+struct RowSums {
+    columns: usize,
+    /// Entries of the present row in any order; those of one column are added up.
+    row: Vec<(usize, f64)>,
+    ends: Vec<usize>,
+    indices: Vec<usize>,
+    values: Vec<f64>,
+}
+
+impl RowSums {
+    fn new(columns: usize) -> Self {
+        Self { columns, row: Vec::new(), ends: vec![0], indices: Vec::new(), values: Vec::new() }
+    }
+
+    fn end_row(&mut self) {
+        // Stable: entries of a column are added in the order in which they came.
+        self.row.sort_by_key(|(column, _)| *column);
+        let begin = self.indices.len();
+        for (column, value) in self.row.drain(..) {
+            match self.values.last_mut() {
+                Some(sum) if self.indices[begin..].last() == Some(&column) => *sum += value,
+                _ => {
+                    self.indices.push(column);
+                    self.values.push(value);
+                }
+            }
+        }
+        self.ends.push(self.indices.len());
+    }
+
+    fn matrix(self) -> CsMat<f64> {
+        CsMat::new((self.ends.len() - 1, self.columns), self.ends, self.indices, self.values)
+    }
 }
 
 #[cfg(test)]

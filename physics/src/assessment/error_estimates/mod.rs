@@ -2,7 +2,7 @@
 //!
 //! | estimate | companions | module |
 //! |---|---|---|
-//! | wear step, discretisation | coarser wear runs | [`wear_runs`] |
+//! | wear step, discretisation | coarser wear runs; of a verified run on finite elements its verification | [`wear_runs`] |
 //! | wear step of adaptive runs | none: their own steps estimate it | [`wear_runs`] |
 //! | transition to severe wear: abrupt or over a band | two short wear runs | [`severe_switch`] |
 //! | limits of severe wear a tenth lower and higher | two wear runs as long, beyond that half and announced | [`severe_limit`] |
@@ -15,6 +15,7 @@ mod severe_switch;
 mod wear_runs;
 
 use super::RunModel;
+use crate::contact::settings::SurfaceKind;
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::observer::Observer;
 use crate::results::error::{ErrorSources, ErrorSummary};
@@ -46,11 +47,13 @@ impl ErrorEstimate {
 }
 
 /// Estimates the errors of the peak wear in `outcome`, the larger of both gears. A companion that fails leaves its estimate out, never the
-/// result of the run. `step_over_safe` is the run's wear step over the longest stable one, 0 without a limit.
+/// result of the run. `step_over_safe` is the run's wear step over the longest stable one, 0 without a limit; `is_verified` tells whether a verification
+/// follows.
 pub(super) fn estimate(
     model: &RunModel<'_>,
     outcome: &Outcome,
     step_over_safe: f64,
+    is_verified: bool,
     observer: &dyn Observer,
 ) -> ErrorSummary {
     let peaks_mm = peak_wear_of_both_mm(model, outcome);
@@ -58,7 +61,7 @@ pub(super) fn estimate(
         return ErrorSummary::not_estimated("neither gear wears");
     }
     let slices = coarse_slices(model);
-    let runs = wear_runs::estimate(model, outcome, slices.as_ref(), step_over_safe, observer);
+    let runs = wear_runs::estimate(model, outcome, slices.as_ref(), step_over_safe, is_verified, observer);
     let (severe_switch, switch_cost) = severe_switch::estimate(model, outcome, BUDGET - runs.cost, observer);
     let (severe_limit, limit_how) = severe_limit::estimate(model, outcome, observer);
     if observer.interrupted() {
@@ -120,9 +123,12 @@ fn peak_wear_of_both_mm(model: &RunModel<'_>, outcome: &Outcome) -> PerGear<f64>
 }
 
 /// Warns where the maximum wear is far from converged, or far from that by finite elements.
-pub(super) fn warnings(error: &ErrorSummary) -> Vec<String> {
-    let causes =
-        [("numerics.flank_points and numerics.positions", error.discretisation), ("numerics.step", error.wear_step)];
+pub(super) fn warnings(surface: SurfaceKind, error: &ErrorSummary) -> Vec<String> {
+    let resolution = match surface {
+        SurfaceKind::Fem => "fem.elements_per_half_width",
+        _ => "numerics.flank_points and numerics.positions",
+    };
+    let causes = [(resolution, error.discretisation), ("numerics.step", error.wear_step)];
     let unresolved = causes.into_iter().filter_map(|(keys, estimate)| {
         let off = 100.0 * estimate.filter(|e| *e > ALARMING)?;
         Some(format!("{keys}: the maximum wear is estimated to be off by {off:.0} %; refine"))

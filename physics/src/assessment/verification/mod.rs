@@ -144,6 +144,8 @@ pub(super) struct Verified {
     pub total: TotalError,
     /// Part of contact surface and tooth stiffness in the error of the maximum wear.
     surface_model: Option<f64>,
+    /// Difference of the maximum wear on finite elements to that on coarser ones, where wear is not severe.
+    discretisation: Option<f64>,
     /// Wear depth at the flank points by finite elements, mm; none of a run that is not verified.
     pub wear_mm: Option<PerGear<Vec<f64>>>,
     /// Warning that the run is not verified.
@@ -171,6 +173,13 @@ impl Verified {
                 .to_owned(),
             None => self.total.how.clone(),
         };
+        // Only where the estimates were made, and left it to the verification.
+        if let (None, Some(_), Some(difference)) = (error.discretisation, error.wear_step, self.discretisation) {
+            error.discretisation = Some(difference);
+            error.how.discretisation = format!(
+                "difference of the maximum wear from the same wear simulation on elements {COARSER} times as long, of both gears the larger"
+            );
+        }
     }
 }
 
@@ -376,10 +385,11 @@ impl<'a> RunComparison<'a> {
     /// Errors of the run.
     fn verified(&self) -> Verified {
         let ReferenceRun { outcome, uncertainty, extrapolation, wear_mm, .. } = self.reference;
-        let surface_model = match self.model.scene.contact.surface {
-            SurfaceKind::Fem => None,
-            _ if is_finest_in_space(self.model.scene) => None,
-            _ => Gear::BOTH.into_iter().filter_map(|gear| self.peak_difference(gear)).reduce(f64::max),
+        let peak = Gear::BOTH.into_iter().filter_map(|gear| self.peak_difference(gear)).reduce(f64::max);
+        let [surface_model, discretisation] = match self.model.scene.contact.surface {
+            SurfaceKind::Fem => [None, peak.filter(|_| !wears_severely(self.model, outcome))],
+            _ if is_finest_in_space(self.model.scene) => [None; 2],
+            _ => [peak, None],
         };
         let [new, worn] = uncertainty.flank_pressure;
         let total = TotalError {
@@ -398,7 +408,7 @@ impl<'a> RunComparison<'a> {
             },
             how: [self.how(), without_wear(&self.wear)].concat(),
         };
-        Verified { total, surface_model, wear_mm: Some(wear_mm.clone()), warning: None }
+        Verified { total, surface_model, discretisation, wear_mm: Some(wear_mm.clone()), warning: None }
     }
 
     /// Error of the wear over the whole flank of a gear; none where the reference does not wear.

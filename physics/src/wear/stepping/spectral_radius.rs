@@ -9,7 +9,8 @@
 //!
 //! ε is no round-off but a depth that matters: waves lower than that may do what they like. So a rate that jumps (the hard
 //! switch to severe wear) has a finite radius, jump/ε, and steps are long enough to be worth their stages. Over such a depth severe wear is not
-//! linear, and the iteration may wander through all its evaluations: then the greatest of its values counts, and another estimate costs as much.
+//! linear, and the iteration may wander. The values of a linear rate rise: where one has fallen, and they do not settle in eight, the greatest of them
+//! counts, and another estimate costs as much.
 //!
 //! Source: Sommeijer, Shampine and Verwer (1997), section 3; B. Lindberg (1974) for the factor of safety.
 
@@ -19,6 +20,8 @@ use super::{Noise, Rate, greatest};
 
 /// Greatest number of iterations.
 const MOST_ITERATIONS: usize = 20;
+/// Greatest number of iterations where a value has fallen.
+const MOST_WANDERING: u64 = 8;
 /// Relative change that ends the iteration.
 const CONVERGED: f64 = 0.05;
 /// Factor of safety on the estimate, which approaches the radius from below.
@@ -48,7 +51,7 @@ impl SpectralRadius {
         self.value.unwrap_or_default() / SAFETY
     }
 
-    /// Whether the last estimate took all evaluations that it may, and did not settle.
+    /// Whether the last estimate did not settle.
     pub(crate) fn wanders(&self) -> bool {
         self.wanders
     }
@@ -74,11 +77,15 @@ impl SpectralRadius {
         let mut probed = vec![0.0; state.len()];
         let mut image = vec![0.0; state.len()];
         let (mut radius, mut greatest_found, mut evaluations): (f64, f64, u64) = (0.0, 0.0, 0);
+        let mut has_fallen = false;
+        // Where it wanders, for a rate that is not linear over the probe, no smaller radius than the greatest found is safe.
+        self.wanders = true;
         for _ in 0..MOST_ITERATIONS {
             let height = greatest(&self.vector);
             if !(height > 0.0 && height.is_finite()) {
                 // Nothing wears, or nothing changes with wear.
                 self.vector.clear();
+                self.wanders = false;
                 break;
             }
             // The probe is normalised: without that repeated application of J takes it out of the range of numbers.
@@ -96,11 +103,14 @@ impl SpectralRadius {
             // The first image is of noise.
             greatest_found = if evaluations > 1 { greatest_found.max(found) } else { 0.0 };
             if evaluations > 1 && (found - before).abs() <= CONVERGED * found {
+                self.wanders = false;
+                break;
+            }
+            has_fallen |= evaluations > 2 && found < before;
+            if has_fallen && evaluations >= MOST_WANDERING {
                 break;
             }
         }
-        // Where it wanders, for a rate that is not linear over the probe, no smaller radius is safe.
-        self.wanders = evaluations == MOST_ITERATIONS as u64;
         self.value = Some(SAFETY * if self.wanders { greatest_found } else { radius });
         Ok(evaluations)
     }
@@ -213,7 +223,7 @@ mod tests {
     fn ver_a_radius_that_wanders_is_the_greatest_found() {
         let mut radius = SpectralRadius::default();
         let Ok(evaluations) = radius.estimate(&mut Wandering, (&[1.0, 1.0], &[1.0, 1.0]), 1e-3);
-        assert_eq!((evaluations, radius.wanders()), (MOST_ITERATIONS as u64, true));
+        assert_eq!((evaluations, radius.wanders()), (MOST_WANDERING, true));
         // |J v|/|v| swings about √3, between 1 and 3.
         assert!((3.0_f64.sqrt()..=3.0).contains(&radius.found()), "{}", radius.found());
         let state: Vec<f64> = (0..200).map(|i| (0.1 * f64::from(i)).sin() + 2.0).collect();
