@@ -44,6 +44,19 @@ fn scene_document_has_every_key() {
     check_generated("docs/scene.md", "keys", &key_tables::of_schema(gearwear::scene::schema::schema(), &sources));
 }
 
+/// What `[planetary]` and `[operation]` of a stage have; the gears are those of a pair.
+#[test]
+fn scene_document_has_every_key_of_a_stage() {
+    let mut schema = gearwear::scene::schema::schema_of::<gearwear::scene::planetary::file::StageFile>();
+    for gear in ["sun", "planet", "ring"] {
+        if let Some(gear) = schema.pointer_mut(&format!("/properties/planetary/properties/{gear}")) {
+            gear["properties"] = serde_json::json!({});
+        }
+    }
+    let source = read("src/scene/planetary/file.rs");
+    check_generated("docs/scene.md", "planetary", &key_tables::of_schema(&schema, &source));
+}
+
 #[test]
 fn problem_document_has_every_key() {
     let source = read("src/scene/fem_problem/file.rs");

@@ -27,7 +27,7 @@ use super::problem::{Problem, ProblemKind};
 use super::resolve::settings::StiffnessInputs;
 use super::schema::{Node, schema};
 use super::shape::{self, FileShape};
-use super::{Resolved, internal, presets, table, text, unit_slip};
+use super::{Resolved, internal, planetary, presets, table, text, unit_slip};
 use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS};
 use gearwear_physics::contact::settings::{ContactSettings, SurfaceKind};
@@ -48,6 +48,9 @@ pub(super) fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
 
 /// Resolves a parsed scene file; `findings` know where its keys stand.
 pub(super) fn resolve_table(table: Table, mut findings: Findings) -> Result<Resolved, Vec<Problem>> {
+    if table.contains_key("planetary") {
+        return planetary::resolve_mesh(&table, findings);
+    }
     let table = internal::with_positive_numbers(table, &mut findings);
     let format = FileShape { root: Node::root(schema()), of_other_files: OF_OTHER_FILES };
     let sound = with_preset(shape::check(format, &table, &mut findings));
