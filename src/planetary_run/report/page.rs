@@ -128,11 +128,11 @@ fn stage(drawing: &StageDrawing, record: &PlanetaryRecord) -> Chart {
         ))
 }
 
-/// Circle of `radius_mm` about the origin that begins and ends beside `point`, clockwise.
+/// Circle of `radius_mm` about the origin that begins and ends beside `point`, anticlockwise: the ring's outline, mirrored, is clockwise.
 fn circle_from(point: Option<&[f64; 2]>, radius_mm: f64) -> Vec<[f64; 2]> {
     const POINTS: usize = 240;
     let first = point.map_or(0.0, |[x, y]| y.atan2(*x));
-    let angle = |i: usize| first - std::f64::consts::TAU * i as f64 / POINTS as f64;
+    let angle = |i: usize| first + std::f64::consts::TAU * i as f64 / POINTS as f64;
     (0..=POINTS).map(|i| [radius_mm * angle(i).cos(), radius_mm * angle(i).sin()]).collect()
 }
 
