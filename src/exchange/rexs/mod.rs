@@ -18,6 +18,7 @@ mod load;
 pub mod mesh_stiffness;
 mod modifications;
 mod places;
+mod planetary_unit;
 mod profile_shift;
 pub mod results;
 mod roles;
@@ -27,6 +28,8 @@ mod scene_text;
 mod stage;
 mod xml;
 
+#[cfg(test)]
+mod planetary_tests;
 #[cfg(test)]
 mod reading_tests;
 #[cfg(test)]
@@ -50,7 +53,7 @@ pub struct FromRexs {
     pub warnings: Vec<String>,
 }
 
-/// The scene of the `number`-th cylindrical stage, from 1, of a REXS file of this text, XML or JSON; of the only one without a number.
+/// The scene of the `number`-th cylindrical stage, from 1, or of the planetary stage whose mesh of sun and planet it is, of a REXS file of this text, XML or JSON; of the only one without a number.
 ///
 /// # Errors
 ///
@@ -62,7 +65,8 @@ pub fn scene(text: &str, number: Option<usize>) -> Result<FromRexs, RexsError> {
     let train = Drivetrain::of(&document);
     let gears = stage.gears(&document, &train, &mut warnings)?;
     let load = load::of(&document, &train, &stage, &gears, &mut warnings)?;
-    let (text, provenance) = scene_text::of(&document, &stage, &gears, &load, &mut warnings)?;
+    let planetary = planetary_unit::of(&document, &stage, &gears, &mut warnings)?;
+    let (text, provenance) = scene_text::of(&document, &stage, (&gears, planetary.as_ref()), &load, &mut warnings)?;
     Ok(FromRexs { text, provenance, warnings })
 }
 
