@@ -37,6 +37,10 @@ mod results_tests;
 #[cfg(test)]
 mod tests;
 
+use std::path::Path;
+
+use crate::scene::loaded::{LoadError, SceneError, SceneText};
+use crate::scene::planetary::PlanetaryScene;
 use document::RexsDocument;
 use drivetrain::Drivetrain;
 pub use scene_text::Provenance;
@@ -65,9 +69,35 @@ pub fn scene(text: &str, number: Option<usize>) -> Result<FromRexs, RexsError> {
     let train = Drivetrain::of(&document);
     let gears = stage.gears(&document, &train, &mut warnings)?;
     let load = load::of(&document, &train, &stage, &gears, &mut warnings)?;
-    let planetary = planetary_unit::of(&document, &stage, &gears, &mut warnings)?;
-    let (text, provenance) = scene_text::of(&document, &stage, (&gears, planetary.as_ref()), &load, &mut warnings)?;
+    let mut planetary = planetary_unit::of(&document, &stage, &gears, &mut warnings)?;
+    let before = warnings.len();
+    let (mut text, mut provenance) =
+        scene_text::of(&document, &stage, (&gears, planetary.as_ref()), &load, &mut warnings)?;
+    if let Some(unit) = &mut planetary
+        && let Some(found) = refused_ring_tip(&text)
+    {
+        warnings.truncate(before);
+        warnings.push(format!(
+            "{}: tip_diameter is left out, and the ring’s tips are shortened: {found}",
+            unit.ring.component.label()
+        ));
+        unit.ring.tip_diameter_mm = None;
+        (text, provenance) = scene_text::of(&document, &stage, (&gears, planetary.as_ref()), &load, &mut warnings)?;
+    }
     Ok(FromRexs { text, provenance, warnings })
+}
+
+/// Why the stage of this text is refused at the tip circle of its ring, as where the fillets that the basic rack generates on the planets reach
+/// farther than those of the unit's tools; `None` where it is not.
+fn refused_ring_tip(text: &str) -> Option<String> {
+    const TIP: &str = "planetary.ring.tip_diameter_mm";
+    let given = SceneText { name: String::new(), text: text.to_owned() };
+    match PlanetaryScene::from_text(given, Path::new("")) {
+        Err(LoadError::Scene(SceneError { problems, .. })) => {
+            problems.into_iter().find(|problem| problem.key == TIP).map(|problem| problem.found)
+        }
+        _ => None,
+    }
 }
 
 /// Versions whose attributes are known.

@@ -80,7 +80,7 @@ fn ver_a_planetary_stage_is_that_of_its_meshes() {
             "<attribute id=\"number_of_teeth\" unit=\"none\">{teeth}</attribute><attribute id=\"tip_diameter\" unit=\"mm\">{tip}</attribute>"
         ))
     };
-    for (teeth, tip) in [("61", "236.4"), ("-61", "-236.4")] {
+    for (teeth, tip) in [("61", "237.0"), ("-61", "-237.0")] {
         let found = scene(&with_teeth(teeth, tip), Some(1)).unwrap();
         let stage = stage(&found.text);
         assert_eq!(stage.title, "Minus gear");
@@ -125,4 +125,20 @@ fn ver_the_sign_of_a_rings_shift_follows_from_the_centre_distance() {
         let value: f64 = line.split('=').nth(1).unwrap().split('#').next().unwrap().trim().parse().unwrap();
         assert!((value - tight).abs() < 1e-5, "{line}, {tight}");
     }
+}
+
+/// A ring whose tips run into the fillets of the planets, of which the file does not know the tool, is shortened, and that is said.
+#[test]
+fn tips_of_a_ring_that_run_into_fillets_are_shortened() {
+    let text = unit(
+        "<attribute id=\"number_of_teeth\" unit=\"none\">61</attribute><attribute id=\"tip_diameter\" unit=\"mm\">236</attribute>",
+    );
+    let found = scene(&text, Some(2)).unwrap();
+    assert!(
+        found.warnings.iter().any(|said| said.contains("Ring (id 58): tip_diameter is left out")),
+        "{:?}",
+        found.warnings
+    );
+    let stage = stage(&found.text);
+    assert!(2.0 * stage.pairs.planet_ring.teeth.wheel.tip_radius_mm < -236.7);
 }

@@ -213,10 +213,8 @@ impl<'a> RexsStage<'a> {
         let [own_deg, of_wheel_deg] = [pinion, wheel].map(|gear| gear.number("helix_angle_reference_diameter", DEG));
         match (own_deg?, of_wheel_deg?) {
             (Some(own_deg), Some(of_wheel_deg)) if (own_deg + of_wheel_deg).abs() > 1e-6 => {
-                let allowed = format!(
-                    "{} for external gears on parallel axes; internal gears are not read from REXS, crossed axes not in the model",
-                    0.0 - own_deg
-                );
+                let allowed =
+                    format!("{} for external gears on parallel axes; crossed axes are not in the model", 0.0 - own_deg);
                 Err(wheel.wrong("helix_angle_reference_diameter", of_wheel_deg.to_string(), allowed))
             }
             (Some(own_deg), _) => Ok(Figure::of_file(own_deg)),
@@ -270,8 +268,17 @@ impl<'a> RexsStage<'a> {
 fn reason(document: &RexsDocument, stage: &RexsComponent) -> Option<String> {
     let relation = document.relation("stage", &[("stage", &stage.id)])?;
     let gears = ["gear_1", "gear_2"].map(|role| document.component(relation.member(role)?));
-    let why = if gears.iter().flatten().any(|gear| gear.kind == "ring_gear") {
-        "its ring gear is read with the mesh of sun and planet"
+    let has_ring = gears.iter().flatten().any(|gear| gear.kind == "ring_gear");
+    let meets_a_sun = |planet: &RexsComponent| {
+        let mut stages = RexsStage::all(document).filter_map(Result::ok);
+        stages.any(|stage| stage.gears.iter().any(|gear| gear.id == planet.id))
+    };
+    if has_ring && gears.into_iter().flatten().any(meets_a_sun) {
+        // Read with the mesh of sun and planet.
+        return None;
+    }
+    let why = if has_ring {
+        "pairs with a ring gear are read as those of planetary stages, and no sun meets its planet"
     } else if stage.kind.starts_with("bevel") || stage.kind.starts_with("worm") {
         "bevel and worm gears are not in the model"
     } else {
@@ -358,7 +365,7 @@ impl<'a> Flanked<'a> {
         let is_ring = gear.kind == "ring_gear";
         let number = gear.number("number_of_teeth", NONE)?.map(|number| if is_ring { number.abs() } else { number });
         if let Some(number) = number.filter(|number| !(1.0..=1e4).contains(number) || number.fract() != 0.0) {
-            let allowed = "a whole number, positive: external gears; internal gears are not read from REXS".to_owned();
+            let allowed = "a whole number, positive: external gears, unless it is a ring_gear".to_owned();
             return Err(gear.wrong("number_of_teeth", number.to_string(), allowed));
         }
         let profile_shift = self.profile_shift(section)?;
