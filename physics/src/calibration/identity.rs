@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use gearwear_bodies::gear::modification::{Relief, ReliefShape};
+use gearwear_bodies::gear::ring_fillet::RingSpec;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear};
 use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides, Web};
 use gearwear_bodies::material::Material;
@@ -77,12 +78,25 @@ pub struct GearIdentity {
     pub tooth_thickness_allowance_um: f64,
     /// Crowning, µm.
     pub profile_crowning_um: f64,
+    /// Root of an internal gear.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub internal: Option<RingIdentity>,
     /// Tip rounding.
     pub tip_rounding_mm: f64,
     /// Tip relief.
     pub tip_relief: Option<ReliefIdentity>,
     /// Root relief.
     pub root_relief: Option<ReliefIdentity>,
+}
+
+/// Root of internal teeth.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RingIdentity {
+    /// d_f, given or derived.
+    pub root_diameter_mm: f64,
+    /// Teeth, profile shift, addendum factor and radius of the tip edge of the shaper cutter, where one makes the fillet.
+    pub cutter: Option<(u32, f64, f64, f64)>,
 }
 
 /// A relief.
@@ -150,7 +164,7 @@ impl CalibrationIdentity {
                 normal_module_mm: spec.normal_module_mm,
                 pressure_angle_deg: spec.normal_pressure_angle_rad.to_degrees(),
                 helix_angle_deg: spec.helix_angle_rad.to_degrees(),
-                centre_distance_mm: spec.centre_distance_mm,
+                centre_distance_mm: spec.centre_distance_mm.abs(),
                 basic_rack: RackIdentity {
                     addendum_factor: spec.rack.addendum_factor,
                     dedendum_factor: spec.rack.dedendum_factor,
@@ -167,7 +181,7 @@ impl CalibrationIdentity {
                 body: body.to_owned(),
                 sector_teeth,
                 sector_sides,
-                clamp_radius_mm: bodies.clamp_radius_mm,
+                clamp_radius_mm: bodies.clamp_radius_mm.map(f64::abs),
                 web: (bodies.web != NO_WEBS).then(|| bodies.web.map(|web| web.map(WebIdentity::of))),
             },
         }
@@ -196,9 +210,10 @@ impl GearIdentity {
         Self {
             teeth: spec.teeth,
             profile_shift: spec.profile_shift,
-            tip_diameter_mm: 2.0 * pair.teeth[gear].tip_radius_mm,
+            tip_diameter_mm: 2.0 * pair.teeth[gear].tip_radius_mm.abs(),
             tooth_thickness_allowance_um: 1e3 * spec.tooth_thickness_allowance_mm,
             profile_crowning_um: 1e3 * modification.profile_crowning_mm,
+            internal: spec.ring.map(|ring| RingIdentity::of(ring, pair.teeth[gear].root_radius_mm)),
             tip_rounding_mm: modification.tip_rounding_mm,
             tip_relief: modification.tip_relief.map(ReliefIdentity::of),
             root_relief: modification.root_relief.map(ReliefIdentity::of),
@@ -232,6 +247,15 @@ impl PairIdentity {
             "pinion": self.pinion.in_transverse_section(cos),
             "wheel": self.wheel.in_transverse_section(cos),
         })
+    }
+}
+
+impl RingIdentity {
+    fn of(ring: RingSpec, root_radius_mm: f64) -> Self {
+        let cutter = ring.cutter.map(|own| {
+            (own.teeth, own.profile_shift, own.addendum_factor, own.tip_rounding_factor)
+        });
+        Self { root_diameter_mm: 2.0 * root_radius_mm.abs(), cutter }
     }
 }
 

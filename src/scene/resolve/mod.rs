@@ -184,15 +184,14 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let materials = material::choose(&mut file.material, has_tooth_temperature, findings);
     let operation = operation::choose(&mut file.operation, findings);
     let alike = pair.as_ref().is_none_or(|pair| pair.is_alike_over_width() && !slices::has_web(file.fem.as_ref()));
-    let can_be_meshed = alike && !is_internal;
-    let contact = settings::contact(&mut file.contact, file.stiffness.as_ref(), can_be_meshed, findings);
+    let contact = settings::contact(&mut file.contact, file.stiffness.as_ref(), alike, findings);
     let surface_by_default = file.contact.as_ref().is_none_or(|contact| contact.surface.is_none());
     let calibration_file = file.contact.as_ref().and_then(|contact| contact.calibration.clone());
     let surface = contact.map(|contact| contact.surface);
     let slices = pair.as_ref().and_then(|pair| slices::choose(&mut file, pair, surface, findings));
     let coupling_by_default = file.helical.as_ref().is_none_or(|helical| helical.coupling.is_none());
     let coupling = slices.map(|slices| slices.coupling);
-    let inputs = StiffnessInputs { surface, calibrated: calibration_file.is_some(), coupling, is_internal };
+    let inputs = StiffnessInputs { surface, calibrated: calibration_file.is_some(), coupling };
     let stiffness = settings::stiffness(&mut file.stiffness, inputs, findings);
     let stiffness_by_default = file.stiffness.as_ref().is_none_or(|stiffness| stiffness.model.is_none());
     let stiffness_curve_file = file.stiffness.as_ref().and_then(|stiffness| stiffness.curve.clone());
@@ -208,15 +207,16 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         temperature::check_followers(&file.wear, materials, wear, findings);
     }
     let lubrication = lubrication::choose(&mut file, thermal, findings);
-    let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
+    let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, file.pair.wheel.as_mut(), pair, findings));
     check_bodies(fem, slices, calibration_file.is_some(), findings);
     let (pair, operation, materials) = (pair?, operation?, materials?);
     let is_severe = wear.as_ref().is_some_and(|wear| wear.may_be_severe());
     let numerics = choose_numerics(&mut file.numerics, contact, slices, is_severe, &operation, findings);
     let verify = *file.numerics.get_or_insert_default().verify.get_or_insert(true);
-    if verify && is_internal {
+    if verify && is_internal && slices.is_some() {
         findings.warnings.push(
-            "numerics.verify: the error against finite elements is unknown, as those of internal gears are not in the model".to_owned(),
+            "numerics.verify: the error is unknown, as three-dimensional finite elements of internal gears are not in the model"
+                .to_owned(),
         );
     } else if !verify {
         findings.warnings.push("numerics.verify is false: the error against finite elements is unknown".to_owned());

@@ -39,9 +39,9 @@ pub enum AccuracyError {
     /// A run of the reference failed.
     #[error("the reference, {name}: {reason}")]
     Reference { name: String, reason: String },
-    /// There is no reference of a pair with an internal wheel.
+    /// There is no reference of an internal pair whose sections differ over the face width.
     #[error(
-        "pair.wheel: the reference of this comparison is finite elements, which are not in the model for internal gears"
+        "pair.wheel: the reference of this comparison is three-dimensional finite elements, which are not in the model for internal gears"
     )]
     InternalTeeth,
     #[error("interrupted before the reference was finished")]
@@ -59,7 +59,7 @@ pub fn run(
     asked: AccuracyOptions,
     observer: &dyn Observer,
 ) -> Result<AccuracyRecord, AccuracyError> {
-    if given.scene().pair.is_internal() {
+    if given.scene().pair.is_internal() && given.scene().slices.is_some() {
         return Err(AccuracyError::InternalTeeth);
     }
     let start = Instant::now();
