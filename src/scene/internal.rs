@@ -11,7 +11,6 @@ use super::findings::Findings;
 use super::problem::number;
 use super::table;
 use gearwear_bodies::gear::spec::PairSpec;
-use gearwear_physics::mesh_cycle::settings::Coupling;
 
 const TEETH: &str = "pair.wheel.teeth";
 const INTERNAL: &str = "pair.wheel.internal";
@@ -88,7 +87,6 @@ pub(super) fn check_keys(file: &SceneFile, findings: &mut Findings) {
 
 /// Reports what the scene asks for and the model does not have of internal pairs.
 pub(super) fn check_model(file: &SceneFile, pair: &PairSpec, findings: &mut Findings) {
-    const NO_ELEMENTS: &str = "three-dimensional finite elements of internal gears are not in the model";
     const RIM: &str = "pair.wheel.rim_thickness_mm says how far from its teeth an internal wheel is held";
     let stiffness = file.stiffness.as_ref().and_then(|stiffness| stiffness.model);
     let tooth_temperature = file.temperature.as_ref().is_some_and(|temperature| temperature.tooth.is_some());
@@ -97,14 +95,12 @@ pub(super) fn check_model(file: &SceneFile, pair: &PairSpec, findings: &mut Find
     let fem = file.fem.as_ref();
     let clamped = fem.and_then(|fem| fem.clamp_radius_mm.as_ref()).is_some_and(|radii| radii.wheel.is_some());
     let on_web = fem.and_then(|fem| fem.web.as_ref()).is_some_and(|webs| webs.wheel.is_some());
-    let coupling = file.helical.as_ref().and_then(|helical| helical.coupling);
     let bore = file.pair.wheel.as_ref().is_some_and(|wheel| wheel.bore_diameter_mm.is_some());
     // Key, whether it is given, what is allowed instead, and why.
     let asked = [
         ("stiffness.model", stiffness.is_some_and(of_external), models, "the other models hold for external teeth"),
         ("fem.clamp_radius_mm.wheel", clamped, "left out", RIM),
         ("fem.web.wheel", on_web, "left out", RIM),
-        ("helical.coupling", coupling == Some(Coupling::Fem), "\"slicing\", the default, or \"none\"", NO_ELEMENTS),
         (
             "pair.wheel.shaft",
             pair.gears.wheel.shaft.is_some(),

@@ -89,11 +89,6 @@ impl Problem {
     pub fn of_tooth_mesh(text: &str, gear: Option<Gear>, error: &ToothMeshError) -> Self {
         let of_gear = gear.map_or_else(|| "pair".to_owned(), |gear| format!("pair.{}", gear.name()));
         let (key, allowed) = match error {
-            ToothMeshError::InternalTeeth => {
-                let help = "gearwear mesh without --three-dimensional meshes the transverse section";
-                let found = format!("an internal wheel ({error})");
-                return Self::of_body(text, "pair.wheel".to_owned(), found, "external teeth", help);
-            }
             ToothMeshError::ClampRadius { greatest_mm, .. } if *greatest_mm < 0.0 => {
                 ("pair.wheel.rim_thickness_mm".to_owned(), "a rim of a tenth of a module")
             }

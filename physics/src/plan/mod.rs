@@ -189,9 +189,6 @@ fn verification(scene: &Scene) -> Result<String, String> {
         return Err("numerics.verify is false: the error against finite elements is unknown".to_owned());
     }
     if let Some(slices) = scene.slices {
-        if scene.pair.is_internal() {
-            return Err("three-dimensional finite elements of internal gears are not in the model".to_owned());
-        }
         return verification_in_space(scene, slices);
     }
     Ok(match scene.contact.surface {

@@ -6,8 +6,8 @@ use crate::scene::gear_file::GearFile;
 use crate::scene::problem::number;
 use gearwear_bodies::gear::{Gear, PerGear, spec::PairSpec};
 use gearwear_bodies::gear_mesh::settings::{
-    Body, BodySettings, DefaultClamp, NO_WEBS, Web, default_clamp, greatest_clamp_mm, least_ring_rim_mm,
-    least_web_mm, rim_thickness_limits_mm,
+    Body, BodySettings, DefaultClamp, NO_WEBS, Web, default_clamp, default_ring_rim_mm, greatest_clamp_mm,
+    least_ring_rim_mm, least_web_mm, rim_thickness_limits_mm,
 };
 
 const ELEMENTS_PER_HALF_WIDTH: f64 = 10.0;
@@ -36,8 +36,7 @@ pub(super) fn choose(
 /// Chooses the outside radius of an internal wheel by the thickness of its rim; negative, `None` where it is refused.
 fn outside_radius(wheel: &mut GearFile, pair: &PairSpec, findings: &mut Findings) -> Option<f64> {
     let root_mm = pair.root_radius_mm(Gear::Wheel);
-    let default = default_clamp(root_mm, pair.transverse_module_mm());
-    let rim_mm = *wheel.rim_thickness_mm.get_or_insert(root_mm - default.radius_mm);
+    let rim_mm = *wheel.rim_thickness_mm.get_or_insert(default_ring_rim_mm(pair.transverse_module_mm()));
     let least_mm = least_ring_rim_mm(pair.normal_module_mm);
     if rim_mm < least_mm {
         let allowed = format!("at least {least_mm:.4} mm, a tenth of a module");

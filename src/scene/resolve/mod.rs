@@ -176,8 +176,7 @@ fn default_title(file: &PairFile, pair: &PairSpec) -> String {
 fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneFile)> {
     internal::check_keys(&file, findings);
     let pair = pair::choose(&mut file.pair, findings);
-    let is_internal = pair.as_ref().is_some_and(PairSpec::is_internal);
-    if let Some(pair) = pair.as_ref().filter(|_| is_internal) {
+    if let Some(pair) = pair.as_ref().filter(|pair| pair.is_internal()) {
         internal::check_model(&file, pair, findings);
     }
     let has_tooth_temperature = file.temperature.as_ref().is_some_and(|of| of.tooth.is_some());
@@ -213,12 +212,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let is_severe = wear.as_ref().is_some_and(|wear| wear.may_be_severe());
     let numerics = choose_numerics(&mut file.numerics, contact, slices, is_severe, &operation, findings);
     let verify = *file.numerics.get_or_insert_default().verify.get_or_insert(true);
-    if verify && is_internal && slices.is_some() {
-        findings.warnings.push(
-            "numerics.verify: the error is unknown, as three-dimensional finite elements of internal gears are not in the model"
-                .to_owned(),
-        );
-    } else if !verify {
+    if !verify {
         findings.warnings.push("numerics.verify is false: the error against finite elements is unknown".to_owned());
     }
     file.title.get_or_insert_with(|| default_title(&file.pair, &pair));

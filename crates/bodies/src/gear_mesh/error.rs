@@ -3,9 +3,6 @@
 /// Reason why a tooth cannot be meshed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ToothMeshError {
-    /// The teeth of a mesh in space are internal.
-    #[error("three-dimensional finite elements of internal gears are not in the model")]
-    InternalTeeth,
     /// The clamp radius is not positive or leaves no body below the teeth.
     #[error(
         "clamp radius {:.4} mm: it must {} {:.4} mm, below the teeth",

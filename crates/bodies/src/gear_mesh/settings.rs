@@ -123,6 +123,11 @@ pub fn rim_thickness_limits_mm(root_radius_mm: f64, clamp_radius_mm: f64, normal
     [LEAST_RIM_MODULES * normal_module_mm, left_mm]
 }
 
+/// Default thickness of the rim of an internal wheel, 3.5 transverse modules.
+pub fn default_ring_rim_mm(transverse_module_mm: f64) -> f64 {
+    RING_MODULES * transverse_module_mm
+}
+
 /// Least thickness of the rim of an internal wheel.
 pub fn least_ring_rim_mm(normal_module_mm: f64) -> f64 {
     LEAST_BODY_MODULES * normal_module_mm
@@ -146,7 +151,8 @@ pub struct DefaultClamp {
 /// have the same bodies, or 0.4 of the root radius where that would leave less than 0.2 of it; of an internal wheel, 3.5 transverse modules outside it.
 pub fn default_clamp(root_radius_mm: f64, transverse_module_mm: f64) -> DefaultClamp {
     if root_radius_mm < 0.0 {
-        return DefaultClamp { radius_mm: root_radius_mm - RING_MODULES * transverse_module_mm, small_gear: false };
+        let radius_mm = root_radius_mm - default_ring_rim_mm(transverse_module_mm);
+        return DefaultClamp { radius_mm, small_gear: false };
     }
     let radius_mm = root_radius_mm - BODY_MODULES * transverse_module_mm;
     if radius_mm > LEAST_OVER_ROOT * root_radius_mm {
