@@ -53,8 +53,8 @@ pub struct GearFile {
     /// Root diameter d_f of internal teeth in mm, > 0. Default: that of basic rack or cutter.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub root_diameter_mm: Option<f64>,
-    /// Thickness in mm of the rim of internal teeth, from the root circle to the outside, where the ring is held: at least a tenth of a module. Default: 3.5
-    /// transverse modules.
+    /// Thickness of the rim of internal teeth in mm, > 0: from the root circle to the outside, where the ring is held; at least a tenth of a module.
+    /// Default: 3.5 transverse modules.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub rim_thickness_mm: Option<f64>,
     /// Shaper cutter of internal teeth. Default: none, a circular fillet.

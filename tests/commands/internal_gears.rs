@@ -192,7 +192,8 @@ fn runs_are_verified() {
     let worn_in = ("pinion_revolutions = 1e4", "pinion_revolutions = 1e6");
     for surface in ["", "surface = \"half-space\""] {
         let folder = tempfile::tempdir().unwrap();
-        let output = run(&with(&[rounded, rounded_ring, verify, worn_in, ("surface = \"hertz\"", surface)]), folder.path());
+        let output =
+            run(&with(&[rounded, rounded_ring, verify, worn_in, ("surface = \"hertz\"", surface)]), folder.path());
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
         let summary = fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
         let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();

@@ -128,8 +128,7 @@ impl<'a> Setup<'a> {
         let root_mm = self.pair.teeth[gear].root_radius_mm;
         let radius_mm = root_mm - depth_modules * module_mm;
         let bore_mm = self.pair.spec.gears[gear].bore_diameter_mm.map_or(0.0, |diameter| 0.5 * diameter);
-        let least_mm =
-            if root_mm < 0.0 { f64::NEG_INFINITY } else { bore_mm.max(LEAST_CLAMP_OVER_ROOT * root_mm) };
+        let least_mm = if root_mm < 0.0 { f64::NEG_INFINITY } else { bore_mm.max(LEAST_CLAMP_OVER_ROOT * root_mm) };
         (least_mm..=greatest_clamp_mm(root_mm, module_mm)).contains(&radius_mm).then_some(radius_mm)
     }
 

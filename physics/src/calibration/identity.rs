@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use gearwear_bodies::gear::modification::{Relief, ReliefShape};
-use gearwear_bodies::gear::ring_fillet::RingSpec;
+use gearwear_bodies::gear::ring_fillet::ShaperCutter;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear};
 use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides, Web};
 use gearwear_bodies::material::Material;
@@ -78,9 +78,12 @@ pub struct GearIdentity {
     pub tooth_thickness_allowance_um: f64,
     /// Crowning, µm.
     pub profile_crowning_um: f64,
-    /// Root of an internal gear.
+    /// d_f of an internal gear, given or derived.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub internal: Option<RingIdentity>,
+    pub root_diameter_mm: Option<f64>,
+    /// Shaper cutter of an internal gear.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cutter: Option<CutterIdentity>,
     /// Tip rounding.
     pub tip_rounding_mm: f64,
     /// Tip relief.
@@ -89,14 +92,18 @@ pub struct GearIdentity {
     pub root_relief: Option<ReliefIdentity>,
 }
 
-/// Root of internal teeth.
+/// A shaper cutter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct RingIdentity {
-    /// d_f, given or derived.
-    pub root_diameter_mm: f64,
-    /// Teeth, profile shift, addendum factor and radius of the tip edge of the shaper cutter, where one makes the fillet.
-    pub cutter: Option<(u32, f64, f64, f64)>,
+pub struct CutterIdentity {
+    /// z_0.
+    pub teeth: u32,
+    /// x_0.
+    pub profile_shift: f64,
+    /// h_a0*.
+    pub addendum_factor: f64,
+    /// Radius of its tip edge, in modules.
+    pub tip_rounding_factor: f64,
 }
 
 /// A relief.
@@ -213,7 +220,8 @@ impl GearIdentity {
             tip_diameter_mm: 2.0 * pair.teeth[gear].tip_radius_mm.abs(),
             tooth_thickness_allowance_um: 1e3 * spec.tooth_thickness_allowance_mm,
             profile_crowning_um: 1e3 * modification.profile_crowning_mm,
-            internal: spec.ring.map(|ring| RingIdentity::of(ring, pair.teeth[gear].root_radius_mm)),
+            root_diameter_mm: spec.ring.map(|_| 2.0 * pair.teeth[gear].root_radius_mm.abs()),
+            cutter: spec.ring.and_then(|ring| ring.cutter).map(|cutter| CutterIdentity::of(&cutter)),
             tip_rounding_mm: modification.tip_rounding_mm,
             tip_relief: modification.tip_relief.map(ReliefIdentity::of),
             root_relief: modification.root_relief.map(ReliefIdentity::of),
@@ -225,6 +233,7 @@ impl GearIdentity {
         Self {
             profile_shift: self.profile_shift * cos,
             tooth_thickness_allowance_um: self.tooth_thickness_allowance_um / cos,
+            cutter: self.cutter.as_ref().map(|cutter| cutter.in_transverse_section(cos)),
             ..self.clone()
         }
     }
@@ -250,12 +259,20 @@ impl PairIdentity {
     }
 }
 
-impl RingIdentity {
-    fn of(ring: RingSpec, root_radius_mm: f64) -> Self {
-        let cutter = ring.cutter.map(|own| {
-            (own.teeth, own.profile_shift, own.addendum_factor, own.tip_rounding_factor)
-        });
-        Self { root_diameter_mm: 2.0 * root_radius_mm.abs(), cutter }
+impl CutterIdentity {
+    fn of(cutter: &ShaperCutter) -> Self {
+        let ShaperCutter { teeth, profile_shift, addendum_factor, tip_rounding_factor } = *cutter;
+        Self { teeth, profile_shift, addendum_factor, tip_rounding_factor }
+    }
+
+    /// The cutter by factors of the transverse module, where β has the cosine `cos`.
+    fn in_transverse_section(&self, cos: f64) -> Self {
+        Self {
+            teeth: self.teeth,
+            profile_shift: self.profile_shift * cos,
+            addendum_factor: self.addendum_factor * cos,
+            tip_rounding_factor: self.tip_rounding_factor * cos,
+        }
     }
 }
 

@@ -367,7 +367,7 @@ impl Draw {
         if surface != "fem" {
             let model = match self.random.u16(0..1000) {
                 0..=3 => "fem",
-                0..=249 => "constant",
+                4..=249 => "constant",
                 250..=399 => "iso6336",
                 _ => "weber-banaschek",
             };
