@@ -360,7 +360,6 @@ impl Failure {
             Failure::Missed { .. } | Failure::Violated { .. } | Failure::InvariantsViolated { .. } => 1,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
-            Failure::Accuracy(AccuracyError::InternalTeeth) => 2,
             Failure::Run(_) | Failure::Solve(_) | Failure::Memory(_) | Failure::FemPair(_) | Failure::Accuracy(_) => 3,
             Failure::Calibrate(_)
             | Failure::NotFitted { .. }
