@@ -10,9 +10,11 @@ use gearwear::scene::loaded::SceneText;
 use gearwear::scene::planetary::PlanetaryScene;
 use gearwear::scene::planetary::mesh::StageMesh;
 use gearwear::{LoadedScene, RunFiles, evaluate};
+use gearwear_bodies::gear::GearPair;
 use gearwear_bodies::gear::planetary::ring_mesh_phase;
 use gearwear_physics::observer::{Observer, Unwatched};
 use gearwear_physics::results::run::{RunRecord, StopReason};
+use gearwear_physics::simulation::settings::Operation;
 
 use super::common::loaded;
 
@@ -53,6 +55,13 @@ fn run(text: &str) -> PlanetaryRecord {
 
 fn with_common(text: &str) -> String {
     format!("{text}{COMMON}")
+}
+
+/// The example is a stage as it stands.
+#[test]
+fn the_example_is_a_stage() {
+    let example = stage(include_str!("../../examples/planetary_stage.toml"));
+    assert!((4.0 * example.stage.sun_turns_relative_to_carrier(example.member).unwrap() - 3.24).abs() < 1e-12);
 }
 
 /// Both meshes are the pairs of their gears on the carrier: torques, speeds and meshes by Willis's equation, by hand.
@@ -245,4 +254,83 @@ fn ver_studies_of_a_mesh_have_the_keys_of_the_stage() {
     assert!(found.reasons[2].as_ref().is_some_and(|reason| reason.contains("planetary.load_sharing_factor: found 9")));
     let error = LoadedScene::from_toml(&with_common(STAGE)).unwrap_err().to_string();
     assert!(error.contains("planetary.mesh is missing; allowed: \"sun-planet\" or \"planet-ring\""), "{error}");
+}
+
+/// A random stage; half of them cannot be assembled or have planets that touch.
+fn random_stage(random: &mut fastrand::Rng) -> String {
+    let module = [1.0, 2.0, 3.2, 5.0][random.usize(..4)];
+    let [sun, planet] = [random.u32(14..40), random.u32(14..45)];
+    let planets = random.u32(1..7);
+    // A ring that the planets fit in, and that can be assembled more often than not.
+    let mut ring = sun + 2 * planet + random.u32(0..3);
+    if random.bool() {
+        ring -= (sun + ring) % planets;
+    }
+    let shift = 0.4 * random.f64();
+    let held = ["ring", "carrier", "sun"][random.usize(..3)];
+    let centre_distance = 0.5 * module * f64::from(sun + planet) + module * random.f64() * 0.3;
+    let helix = if random.u8(..5) == 0 { 15.0 * random.f64() } else { 0.0 };
+    let member = ["sun", "carrier", "ring"][random.usize(..3)];
+    format!(
+        "[planetary]\nplanets = {planets}\nheld = \"{held}\"\nload_sharing_factor = {:.3}\nnormal_module_mm = {module:?}\npressure_angle_deg = 20.0\n\
+         helix_angle_deg = {helix:.2}\ncentre_distance_mm = {centre_distance:.3}\nface_width_mm = {:.1}\n\
+         sun = {{ teeth = {sun}, profile_shift = {:.3}, tooth_thickness_allowance_um = -{:.0} }}\n\
+         planet = {{ teeth = {planet}, profile_shift = {shift:.3} }}\nring = {{ teeth = {}, profile_shift = {:.3} }}\n\
+         [operation]\nmember = \"{member}\"\ntorque_Nm = {:.1}\nspeed_rpm = 300.0\nhours = 1.0\n[wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-18\n{COMMON}",
+        1.0 + 0.3 * random.f64(),
+        module * 8.0,
+        0.3 - shift,
+        100.0 * module,
+        if random.bool() { i64::from(ring) } else { -i64::from(ring) },
+        -shift - 0.3 * random.f64(),
+        100.0 * module.powi(3),
+    )
+}
+
+/// Of 3,000 random stages none fails but with a key and what is allowed. Those that can be assembled keep the laws of a train: both meshes press with one force on a
+/// planet, which turns on the carrier alike in both, and what enters the stage leaves it.
+#[test]
+fn prop_random_stages_keep_the_laws_of_a_train() {
+    let mut random = fastrand::Rng::with_seed(20_261_127);
+    let mut sound = 0;
+    for number in 0..3_000 {
+        let text = random_stage(&mut random);
+        let given = SceneText { name: "stage".to_owned(), text: text.clone() };
+        let stage = match PlanetaryScene::from_text(given, Path::new("")) {
+            Ok(stage) => stage,
+            Err(gearwear::LoadError::Scene(error)) => {
+                for problem in &error.problems {
+                    let named = ["planetary", "operation"].iter().any(|table| problem.key.starts_with(table));
+                    assert!(named && !problem.allowed.is_empty(), "{number}: {problem}\n{text}");
+                }
+                continue;
+            }
+            Err(other) => panic!("{number}: {other}\n{text}"),
+        };
+        sound += 1;
+        let [with_sun, with_ring] =
+            StageMesh::BOTH.map(|mesh| (&stage.pairs[mesh], &stage.meshes[mesh].scene().operation));
+        let near = |one: f64, other: f64, what: &str| {
+            assert!(
+                (one - other).abs() <= 1e-9 * one.abs().max(other.abs()),
+                "{number}, {what}: {one} and {other}\n{text}"
+            );
+        };
+        let force = |(pair, operation): (&GearPair, &Operation)| {
+            operation.pinion_torque_n_mm / pair.path.involute.pinion.base_radius_mm
+        };
+        near(force(with_sun), force(with_ring), "force on a planet");
+        near(
+            with_sun.0.path.involute.wheel.base_radius_mm,
+            with_ring.0.path.involute.pinion.base_radius_mm,
+            "base circle of a planet",
+        );
+        near(with_sun.0.path.base_pitch_mm, with_ring.0.path.base_pitch_mm, "base pitch");
+        let planet_turns = with_sun.1.pinion_revolutions * with_sun.0.wheel_turns_per_pinion_turn();
+        near(planet_turns, with_ring.1.pinion_revolutions, "turns of a planet");
+        near(with_sun.1.meshes_per_revolution.pinion, stage.stage.planets() as f64, "mates of the sun");
+        near(with_ring.1.meshes_per_revolution.wheel, stage.stage.planets() as f64, "mates of the ring");
+        assert!((0.0..1.0).contains(&stage.ring_mesh_phase) && stage.planet_clearance_mm.is_none_or(|gap| gap > 0.0));
+    }
+    assert!((300..2_700).contains(&sound), "{sound} of 3000 stages are possible");
 }
