@@ -268,7 +268,10 @@ fn random_stage(random: &mut fastrand::Rng) -> String {
     }
     let shift = 0.4 * random.f64();
     let held = ["ring", "carrier", "sun"][random.usize(..3)];
-    let centre_distance = 0.5 * module * f64::from(sun + planet) + module * random.f64() * 0.3;
+    // Modules by which the axes are farther apart than reference circles that touch; the ring makes room for them, most often.
+    let apart = if random.bool() { 0.0 } else { 0.2 * random.f64() };
+    let centre_distance = module * (0.5 * f64::from(sun + planet) + apart);
+    let room = 0.3 * random.f64() - 0.05;
     let helix = if random.u8(..5) == 0 { 15.0 * random.f64() } else { 0.0 };
     let member = ["sun", "carrier", "ring"][random.usize(..3)];
     format!(
@@ -279,10 +282,10 @@ fn random_stage(random: &mut fastrand::Rng) -> String {
          [operation]\nmember = \"{member}\"\ntorque_Nm = {:.1}\nspeed_rpm = 300.0\nhours = 1.0\n[wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-18\n{COMMON}",
         1.0 + 0.3 * random.f64(),
         module * 8.0,
-        0.3 - shift,
-        100.0 * module,
+        apart - shift,
+        20.0 * module,
         if random.bool() { i64::from(ring) } else { -i64::from(ring) },
-        -shift - 0.3 * random.f64(),
+        -shift - apart - room,
         100.0 * module.powi(3),
     )
 }
@@ -332,5 +335,5 @@ fn prop_random_stages_keep_the_laws_of_a_train() {
         near(with_ring.1.meshes_per_revolution.wheel, stage.stage.planets() as f64, "mates of the ring");
         assert!((0.0..1.0).contains(&stage.ring_mesh_phase) && stage.planet_clearance_mm.is_none_or(|gap| gap > 0.0));
     }
-    assert!((300..2_700).contains(&sound), "{sound} of 3000 stages are possible");
+    assert!((500..2_700).contains(&sound), "{sound} of 3000 stages are possible");
 }
