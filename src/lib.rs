@@ -110,6 +110,7 @@ pub mod fem_problem;
 pub mod journal;
 #[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod measured_flank;
+pub mod planetary_run;
 #[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod report;
 pub mod resume;

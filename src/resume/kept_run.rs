@@ -43,6 +43,19 @@ pub enum KeptRunError {
 /// # Errors
 /// [`KeptRunError`]: a folder with another run, or that cannot be written; a run that fails.
 pub fn run(scene: &LoadedScene, dir: &Path, observer: &dyn Observer) -> Result<Done, KeptRunError> {
+    run_with(scene, &RunFiles::default(), dir, observer)
+}
+
+/// Runs `scene` in the same way, with `files` beside the tables.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_with(
+    scene: &LoadedScene,
+    files: &RunFiles,
+    dir: &Path,
+    observer: &dyn Observer,
+) -> Result<Done, KeptRunError> {
     scene.check_springs()?;
     let mut scene = scene.clone().naming_copies();
     let identity = RunIdentity::new(scene.resolved.to_toml(), &scene.files.as_read);
@@ -67,7 +80,7 @@ pub fn run(scene: &LoadedScene, dir: &Path, observer: &dyn Observer) -> Result<D
     let warnings = scene.resolved.warnings.clone();
     let keeper = FolderKeeper::new(dir, &identity, &warnings);
     let done = runs::run_from(&scene, Resumption { from, keeper: &keeper }, observer)?;
-    result::write_all(&done.record, &RunFiles::default(), dir)?;
+    result::write_all(&done.record, files, dir)?;
     if done.record.summary.stopped != StopReason::Interrupted {
         folder::remove_checkpoint(dir)?;
     }

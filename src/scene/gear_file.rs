@@ -53,12 +53,16 @@ pub struct GearFile {
     /// Root diameter d_f of internal teeth in mm, > 0. Default: that of basic rack or cutter.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub root_diameter_mm: Option<f64>,
+    /// Thickness of the rim of internal teeth in mm, > 0: from the root circle to the outside, where the ring is held; at least a tenth of a module.
+    /// Default: 3.5 transverse modules.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub rim_thickness_mm: Option<f64>,
     /// Shaper cutter of internal teeth. Default: none, a circular fillet.
     pub cutter: Option<CutterFile>,
     /// Profile shift coefficient x of the module that is given, −5 to 5. Required without a preset.
     #[schemars(range(min = -5, max = 5))]
     pub profile_shift: Option<f64>,
-    /// Tip diameter d_a in mm, > 0. Default: d + 2 m (x + h_aP*), shortened where the tip clearance asks for it.
+    /// Tip diameter d_a in mm, > 0. Default: d + 2 m (x + h_aP*), shortened where the tip clearance asks for it, and of a ring where it would interfere.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub tip_diameter_mm: Option<f64>,
     /// Tooth thickness allowance E_sn in the normal section in µm; negative thins the tooth. Default 0.

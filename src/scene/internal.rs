@@ -11,8 +11,6 @@ use super::findings::Findings;
 use super::problem::number;
 use super::table;
 use gearwear_bodies::gear::spec::PairSpec;
-use gearwear_physics::contact::settings::SurfaceKind;
-use gearwear_physics::mesh_cycle::settings::Coupling;
 
 const TEETH: &str = "pair.wheel.teeth";
 const INTERNAL: &str = "pair.wheel.internal";
@@ -66,14 +64,19 @@ pub(super) fn check_keys(file: &SceneFile, findings: &mut Findings) {
             findings.not_allowed("pair.pinion.internal", "true", "false: the internal gear of a pair is the wheel");
             return;
         }
-        for (key, given) in [("root_diameter_mm", gear.root_diameter_mm.is_some()), ("cutter", gear.cutter.is_some())] {
+        let generated = "left out: the basic rack generates external teeth";
+        let of_internal_teeth = [
+            ("root_diameter_mm", gear.root_diameter_mm.is_some(), generated),
+            ("cutter", gear.cutter.is_some(), generated),
+            (
+                "rim_thickness_mm",
+                gear.rim_thickness_mm.is_some(),
+                "left out: fem.clamp_radius_mm says where external gears are held, fem.web which rim they have",
+            ),
+        ];
+        for (key, given, allowed) in of_internal_teeth {
             if given && !is_internal {
-                let key = format!("pair.{name}.{key}");
-                findings.not_allowed(
-                    &key,
-                    "given for external teeth",
-                    "left out: the basic rack generates external teeth",
-                );
+                findings.not_allowed(&format!("pair.{name}.{key}"), "given for external teeth", allowed);
             }
         }
         if gear.root_diameter_mm.is_some() && gear.cutter.is_some() {
@@ -84,23 +87,20 @@ pub(super) fn check_keys(file: &SceneFile, findings: &mut Findings) {
 
 /// Reports what the scene asks for and the model does not have of internal pairs.
 pub(super) fn check_model(file: &SceneFile, pair: &PairSpec, findings: &mut Findings) {
-    const NO_ELEMENTS: &str = "finite elements of internal gears are not in the model";
-    let contact = file.contact.as_ref();
+    const RIM: &str = "pair.wheel.rim_thickness_mm says how far from its teeth an internal wheel is held";
     let stiffness = file.stiffness.as_ref().and_then(|stiffness| stiffness.model);
     let tooth_temperature = file.temperature.as_ref().is_some_and(|temperature| temperature.tooth.is_some());
-    let surfaces = "\"half-space\", the default, \"winkler\", \"hertz\" or \"hertz-mean\"";
-    let models = "\"weber-banaschek\", the default, \"iso6336\" or \"constant\"";
-    let of_elements =
-        |model| !matches!(model, StiffnessModel::WeberBanaschek | StiffnessModel::Iso6336 | StiffnessModel::Constant);
-    let coupling = file.helical.as_ref().and_then(|helical| helical.coupling);
+    let models = "\"fem\", the default, \"weber-banaschek\", \"iso6336\" or \"constant\"";
+    let of_external = |model| matches!(model, StiffnessModel::Simon | StiffnessModel::WangCheng);
+    let fem = file.fem.as_ref();
+    let clamped = fem.and_then(|fem| fem.clamp_radius_mm.as_ref()).is_some_and(|radii| radii.wheel.is_some());
+    let on_web = fem.and_then(|fem| fem.web.as_ref()).is_some_and(|webs| webs.wheel.is_some());
     let bore = file.pair.wheel.as_ref().is_some_and(|wheel| wheel.bore_diameter_mm.is_some());
     // Key, whether it is given, what is allowed instead, and why.
     let asked = [
-        ("contact.surface", contact.is_some_and(|own| own.surface == Some(SurfaceKind::Fem)), surfaces, NO_ELEMENTS),
-        ("contact.calibration", contact.is_some_and(|own| own.calibration.is_some()), "left out", NO_ELEMENTS),
-        ("stiffness.model", stiffness.is_some_and(of_elements), models, "the other models hold for external teeth"),
-        ("fem", file.fem.is_some(), "left out", NO_ELEMENTS),
-        ("helical.coupling", coupling == Some(Coupling::Fem), "\"slicing\", the default, or \"none\"", NO_ELEMENTS),
+        ("stiffness.model", stiffness.is_some_and(of_external), models, "the other models hold for external teeth"),
+        ("fem.clamp_radius_mm.wheel", clamped, "left out", RIM),
+        ("fem.web.wheel", on_web, "left out", RIM),
         (
             "pair.wheel.shaft",
             pair.gears.wheel.shaft.is_some(),

@@ -2,6 +2,7 @@
 
 use super::locate::join;
 use super::nearest::nearest;
+use super::planetary;
 use super::schema::{Node, schema};
 
 /// A key that takes a number.
@@ -31,12 +32,15 @@ pub enum KeyError {
     },
 }
 
-/// Node of the schema at this path; none where no scene has it. Items of lists are numbered from 1.
+/// Node of the schema at this path, of a pair or of a planetary stage; none where no scene has it. Items of lists are numbered from 1.
 fn node_at(path: &str) -> Option<Node<'static>> {
-    path.split('.').try_fold(Node::root(schema()), |node, name| match name.parse::<usize>() {
-        Ok(1..) => node.items(),
-        _ => node.child(name),
-    })
+    let within = |schema| {
+        path.split('.').try_fold(Node::root(schema), |node: Node<'static>, name| match name.parse::<usize>() {
+            Ok(1..) => node.items(),
+            _ => node.child(name),
+        })
+    };
+    within(schema()).or_else(|| within(planetary::schema::published()))
 }
 
 /// The words that the key at `path` takes, "true" and "false" where it is said so; none where it takes no words.

@@ -21,6 +21,7 @@ pub mod material_presets;
 mod named_files;
 pub mod nearest;
 mod outside_model;
+pub mod planetary;
 pub mod presets;
 pub mod problem;
 mod resolve;
@@ -38,6 +39,7 @@ use gearwear_files::content_hash::sha256;
 use gearwear_physics::operation::Scene;
 
 pub use file::SceneFile;
+use loaded::{LoadError, SceneError, SceneText};
 pub use problem::{Problem, ProblemKind};
 
 /// Scene with every default filled in, as values and as a file, with its warnings.

@@ -89,10 +89,8 @@ impl Problem {
     pub fn of_tooth_mesh(text: &str, gear: Option<Gear>, error: &ToothMeshError) -> Self {
         let of_gear = gear.map_or_else(|| "pair".to_owned(), |gear| format!("pair.{}", gear.name()));
         let (key, allowed) = match error {
-            ToothMeshError::InternalTeeth => {
-                let help = "gearwear run computes a pair with an internal wheel on elastic half-planes";
-                let found = format!("an internal wheel ({error})");
-                return Self::of_body(text, "pair.wheel".to_owned(), found, "external teeth", help);
+            ToothMeshError::ClampRadius { greatest_mm, .. } if *greatest_mm < 0.0 => {
+                ("pair.wheel.rim_thickness_mm".to_owned(), "a rim of a tenth of a module")
             }
             ToothMeshError::ClampRadius { .. } => (clamp_key(gear), "a circle below the teeth"),
             ToothMeshError::SectorTeeth { .. } => ("fem.sector_teeth".to_owned(), "an odd number, at most all teeth"),

@@ -5,18 +5,20 @@ use toml::{Table, Value};
 use super::locate::join;
 
 /// Alternative keys: setting one removes the others.
-const SAME_THING: [&[&str]; 8] = [
+const SAME_THING: [&[&str]; 10] = [
     &["pair.normal_module_mm", "pair.transverse_module_mm"],
     &["pair.pressure_angle_deg", "pair.transverse_pressure_angle_deg"],
+    &["planetary.normal_module_mm", "planetary.transverse_module_mm"],
+    &["planetary.pressure_angle_deg", "planetary.transverse_pressure_angle_deg"],
     &["pair.centre_distance_mm", "pair.backlash_um", "pair.normal_backlash_um"],
-    &["operation.hours", "operation.pinion_revolutions"],
+    &["operation.hours", "operation.pinion_revolutions", "operation.revolutions"],
     &["wear.coefficient_m2_per_N", "wear.coefficient_mm3_per_Nm"],
     &["contact.foundation_MPa_per_mm", "contact.match"],
     &["lubricant.viscosity_class", "lubricant.viscosity_40C_mm2_per_s"],
     &["lubricant.pressure_viscosity", "lubricant.pressure_viscosity_per_GPa"],
 ];
 
-/// Alternative keys of `pair.pinion` and `pair.wheel`.
+/// Alternative keys of `pair.pinion` and `pair.wheel`, and of the gears of a planetary stage.
 const SAME_THING_OF_GEAR: [&[&str]; 3] = [
     &["tip_relief.length_mm", "tip_relief.begins_at_diameter_mm", "tip_relief.begins_at_roll_angle_deg"],
     &["root_relief.length_mm", "root_relief.begins_at_diameter_mm", "root_relief.begins_at_roll_angle_deg"],
@@ -28,9 +30,12 @@ const SAME_THING_OF_WEAR: [&[&str]; 1] = [&["coefficient_m2_per_N", "coefficient
 
 /// Alternative keys of `key`.
 pub fn other_ways_to_say(key: &str) -> Vec<String> {
-    let tables: [(&str, &[&[&str]]); 5] = [
+    let tables: [(&str, &[&[&str]]); 8] = [
         ("pair.pinion.", &SAME_THING_OF_GEAR),
         ("pair.wheel.", &SAME_THING_OF_GEAR),
+        ("planetary.sun.", &SAME_THING_OF_GEAR),
+        ("planetary.planet.", &SAME_THING_OF_GEAR),
+        ("planetary.ring.", &SAME_THING_OF_GEAR),
         ("wear.pinion.", &SAME_THING_OF_WEAR),
         ("wear.wheel.", &SAME_THING_OF_WEAR),
         ("", &SAME_THING),

@@ -164,9 +164,9 @@ impl SlipSearch<'_> {
         }
         let (credible, usual) = ([0.01 * z * module, 2.0 * z * module], [0.1 * z * module, 0.6 * z * module]);
         self.judge(&format!("fem.clamp_radius_mm.{gear}"), credible, usual, &[METRES, MICROMETRES]);
-        for key in ["thickness_mm", "rim_thickness_mm"] {
+        for key in ["fem.web.GEAR.thickness_mm", "fem.web.GEAR.rim_thickness_mm", "pair.GEAR.rim_thickness_mm"] {
             let (credible, usual) = ([0.02 * module, 20.0 * z * module], [0.5 * module, 20.0 * module]);
-            self.judge(&format!("fem.web.{gear}.{key}"), credible, usual, &[METRES, MICROMETRES]);
+            self.judge(&key.replace("GEAR", gear), credible, usual, &[METRES, MICROMETRES]);
         }
     }
 

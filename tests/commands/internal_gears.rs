@@ -1,4 +1,4 @@
-//! Pairs with an internal wheel, from the outside: two spellings of one pair, and what is refused.
+//! Pairs with an internal wheel, from the outside: two spellings of one pair, finite elements, default tips, and what is refused.
 
 use std::fs;
 use std::path::Path;
@@ -90,7 +90,6 @@ type Refused<'a> = (&'a [(&'a str, &'a str)], &'a [&'a str]);
 #[test]
 fn what_is_refused() {
     let tip = "tip_diameter_mm = 176.2";
-    let surface = "surface = \"hertz\"";
     // By hand: cos α_a2 = 169.1447/174, α_a2 = 13.566°, 1 − tan α_a2/tan 20° = 0.3370.
     let cases: &[Refused<'_>] = &[
         (
@@ -106,7 +105,10 @@ fn what_is_refused() {
             &[
                 ("centre_distance_mm = 60.0", "centre_distance_mm = 72.0"),
                 ("teeth = 20\nprofile_shift = 0.3", "teeth = 12\nprofile_shift = 0.0"),
-                ("profile_shift = -0.3\ntip_diameter_mm = 176.2\ncutter = { teeth = 25 }", "profile_shift = 0.0"),
+                (
+                    "profile_shift = -0.3\ntip_diameter_mm = 176.2\ncutter = { teeth = 25 }",
+                    "profile_shift = 0.0\ntip_diameter_mm = 174.0",
+                ),
             ],
             &["involute interference", "z1/z2 = 0.2000 is less than 1 − tan α_a2/tan α_wt = 0.3370", "at least"],
         ),
@@ -114,18 +116,24 @@ fn what_is_refused() {
         (&[("centre_distance_mm = 60.0", "centre_distance_mm = 61.0")], &["the teeth interfere", "at most 60"]),
         (&[("teeth = 25", "teeth = 60")], &["pair.wheel.cutter.teeth", "at most 59"]),
         (
-            &[(surface, "surface = \"fem\"")],
-            &["contact.surface", "finite elements of internal gears are not in the model"],
+            &[("[wear]", "[fem]\nclamp_radius_mm = { wheel = 100.0 }\n[wear]")],
+            &["fem.clamp_radius_mm.wheel", "pair.wheel.rim_thickness_mm says"],
         ),
-        (&[(surface, "calibration = \"a.json\"")], &["contact.calibration", "left out"]),
-        (&[("[wear]", "[stiffness]\nmodel = \"fem\"\n[wear]")], &["stiffness.model", "\"weber-banaschek\""]),
-        (&[("[wear]", "[fem]\nbody = \"ring\"\n[wear]")], &["fem: found given for a pair with an internal wheel"]),
         (
-            &[
-                ("face_width_mm = 20.0", "face_width_mm = 20.0\nhelix_angle_deg = 15.0"),
-                ("[wear]", "[helical]\ncoupling = \"fem\"\n[wear]"),
-            ],
-            &["helical.coupling", "\"slicing\""],
+            &[("[wear]", "[fem]\nweb.wheel = { thickness_mm = 5.0, rim_thickness_mm = 6.0 }\n[wear]")],
+            &["fem.web.wheel", "pair.wheel.rim_thickness_mm says"],
+        ),
+        (
+            &[("internal = true", "internal = true\nrim_thickness_mm = 0.2")],
+            &["pair.wheel.rim_thickness_mm: found 0.2", "at least 0.3000 mm, a tenth of a module"],
+        ),
+        (
+            &[("teeth = 20\n", "teeth = 20\nrim_thickness_mm = 6.0\n")],
+            &["pair.pinion.rim_thickness_mm: found given for external teeth", "fem.clamp_radius_mm"],
+        ),
+        (
+            &[("[wear]", "[stiffness]\nmodel = \"simon\"\ncurve = \"a.csv\"\n[wear]")],
+            &["stiffness.model", "the other models hold for external teeth"],
         ),
     ];
     for (lines, parts) in cases {
@@ -140,20 +148,78 @@ fn what_is_refused() {
     }
 }
 
-/// Finite elements of internal gears are refused by every command that makes them.
+/// Finite elements of internal gears are made by every command that makes them, and their calibration is read.
 #[test]
-fn commands_on_finite_elements_refuse() {
+fn commands_on_finite_elements_know_rings() {
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("scene.toml");
-    fs::write(&scene, SCENE).unwrap();
-    let out = folder.path().join("out");
-    for arguments in [&["mesh"][..], &["mesh", "--three-dimensional"], &["fem"], &["calibrate"], &["accuracy"]] {
-        let target = if arguments[0] == "mesh" { out.with_extension("msh") } else { out.clone() };
+    fs::write(&scene, with(&[("profile_shift = 0.3", "profile_shift = 0.3\ntip_rounding_mm = 0.1")])).unwrap();
+    let command = |arguments: &[&str], target: &str| {
+        let target = folder.path().join(target);
         let mut command = Command::cargo_bin("gearwear").unwrap();
         let output = command.args(arguments).arg(&scene).arg("--out").arg(&target).output().unwrap();
-        let message = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
-        assert!(message.contains("not in the model"), "{arguments:?}: {message}");
-        assert!(!target.exists());
+        (output.status.code(), String::from_utf8(output.stderr).unwrap(), target)
+    };
+    for (arguments, target) in [
+        (&["mesh"][..], "pair.msh"),
+        (&["mesh", "--three-dimensional"], "space.vtu"),
+        (&["fem", "--position", "11.5", "--full"], "fem"),
+        (&["calibrate"], "calibration.json"),
+    ] {
+        let (status, message, target) = command(arguments, target);
+        assert_eq!(status, Some(0), "{arguments:?}: {message}");
+        assert!(target.exists());
     }
+
+    let calibrated = [
+        ("profile_shift = 0.3", "profile_shift = 0.3\ntip_rounding_mm = 0.1"),
+        ("surface = \"hertz\"", "calibration = \"calibration.json\""),
+    ];
+    let output = run(&with(&calibrated), folder.path());
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    // Another rim is another body.
+    let other = [&calibrated[..], &[("internal = true", "internal = true\nrim_thickness_mm = 6.0")]].concat();
+    let message = String::from_utf8(run(&with(&other), folder.path()).stderr).unwrap();
+    assert!(message.contains("fem.clamp_radius_mm.wheel"), "{message}");
+}
+
+/// Runs on finite elements, the default, and on half-planes are verified.
+#[test]
+fn runs_are_verified() {
+    let rounded = ("profile_shift = 0.3", "profile_shift = 0.3\ntip_rounding_mm = 0.1");
+    let rounded_ring = ("internal = true", "internal = true\ntip_rounding_mm = 0.1");
+    let verify = ("verify = false", "verify = true");
+    let worn_in = ("pinion_revolutions = 1e4", "pinion_revolutions = 1e6");
+    for surface in ["", "surface = \"half-space\""] {
+        let folder = tempfile::tempdir().unwrap();
+        let output =
+            run(&with(&[rounded, rounded_ring, verify, worn_in, ("surface = \"hertz\"", surface)]), folder.path());
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        let summary = fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
+        let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+        for gear in ["pinion", "wheel"] {
+            let claimed = summary["error"]["total"]["profile"][gear].as_f64().expect("a run that is verified");
+            assert!(claimed < 0.1, "{surface} {gear}: {claimed}");
+        }
+        let scene = fs::read_to_string(folder.path().join("out/scene.toml")).unwrap();
+        assert!(scene.contains("rim_thickness_mm = 10.5"), "{scene}");
+    }
+}
+
+/// A default tip of a ring that would interfere is shortened to the diameter that a given one is refused below, with a note; the scene says it.
+#[test]
+fn default_tips_are_shortened() {
+    let folder = tempfile::tempdir().unwrap();
+    let small = [
+        ("centre_distance_mm = 60.0", "centre_distance_mm = 72.0"),
+        ("teeth = 20\nprofile_shift = 0.3", "teeth = 12\nprofile_shift = 0.0"),
+        ("profile_shift = -0.3\ntip_diameter_mm = 176.2\ncutter = { teeth = 25 }", "profile_shift = 0.0"),
+    ];
+    let output = run(&with(&small), folder.path());
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    // By hand: d_b2 = 169.1447, 2 T1T2 = 144 sin 20° = 49.2509; √(169.1447² + 49.2509²) = 176.16916, to the last digit outwards.
+    assert!(message.contains("176.1692 mm instead of the rack's 174.0000 mm"), "{message}");
+    let scene = fs::read_to_string(folder.path().join("out/scene.toml")).unwrap();
+    assert!(scene.contains("tip_diameter_mm = 176.1692"), "{scene}");
 }

@@ -13,6 +13,7 @@ mod limits;
 mod mesh;
 mod phases;
 mod plan;
+mod planetary;
 #[path = "../program/mod.rs"]
 mod program;
 mod resume;

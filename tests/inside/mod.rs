@@ -20,6 +20,7 @@ mod named_limits;
 mod peak_figures;
 mod phases;
 mod plan;
+mod planetary;
 mod random_scenes;
 mod report;
 mod scene;

@@ -39,14 +39,15 @@ class Results:
     reaction_n_per_mm: dict  # node whose reaction was asked for: (x, y)
     contacts: dict  # name of the slave surface: ContactForce
     iterations: int
+    stress_mpa: dict  # node: (xx, yy, zz, xy, yz, zx); empty where it was not asked for
 
 
 class Deck:
     """An input deck of one step, in the order CalculiX wants it."""
 
-    def __init__(self, mesh, tolerances=TOLERANCES):
+    def __init__(self, mesh, tolerances=TOLERANCES, stresses=False):
         self.mesh, self.lines, self.step, self.contacts = mesh, ["*NODE"], [], []
-        self.tolerances = tolerances
+        self.tolerances, self.stresses = tolerances, stresses
         self.lines += [f"{node},{NUMBER(x)},{NUMBER(y)},0." for node, (x, y) in sorted(mesh.points.items())]
         for body, cells in mesh.bodies.items():
             for kind in sorted({mesh.cells[cell][0] for cell in cells}):
@@ -84,6 +85,8 @@ class Deck:
         lines = self.lines + ["*NSET,NSET=REACTIONS"] + [f"{node}," for node in self.mesh.nodes_of(reactions_of)]
         lines += ["*STEP", "*CONTROLS,PARAMETERS=FIELD", self.tolerances, "*STATIC,DIRECT", "1.,1."] + self.step
         lines += ["*NODE PRINT,NSET=REACTIONS", "RF", "*NODE FILE", "U"]
+        if self.stresses:
+            lines += ["*EL FILE", "S"]
         if self.contacts:
             lines += ["*CONTACT FILE", "CSTR"]
         for number in range(len(self.contacts)):
@@ -103,7 +106,8 @@ class Deck:
         displacement = {node: row[:2] for node, row in _nodal(folder / f"{name}.frd", "DISP").items()}
         pressure = {node: row[3] for node, row in _nodal(folder / f"{name}.frd", "CONTACT").items()}
         reactions, contacts = _printed((folder / f"{name}.dat").read_text(encoding="ascii"), self.contacts)
-        return Results(displacement, pressure, reactions, contacts, int(status[0][3]))
+        stress = _nodal(folder / f"{name}.frd", "STRESS") if self.stresses else {}
+        return Results(displacement, pressure, reactions, contacts, int(status[0][3]), stress)
 
 
 def program():

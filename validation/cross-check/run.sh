@@ -1,6 +1,6 @@
 #!/bin/sh
-# Solves the NAFEMS cylinder and the fzg-c pair with CalculiX, with sharp tips and with rounded ones that touch, a plastic and an
-# undercut pair, and pinion teeth in space, writes the results beside this file and prints those of the first two beside
+# Solves the NAFEMS cylinder and the fzg-c pair with CalculiX, with sharp tips and with rounded ones that touch, a plastic, an
+# undercut and an internal pair, and pinion teeth in space, writes the results beside this file and prints those of the first two beside
 # gearwear's. Needs Python 3.10, ccx (or CCX=…) and gearwear (or GEARWEAR=…); about an hour and a half.
 set -eu
 here=$(dirname "$0")
@@ -15,5 +15,6 @@ python3 "$here"/fzg_c_pair.py "$work"
 python3 "$here"/tip_edges.py "$work"
 python3 "$here"/plastic_pair.py "$work"
 python3 "$here"/undercut_pair.py "$work"
+python3 "$here"/internal_pair.py "$work"
 python3 "$here"/teeth_in_space.py "$work"
 python3 "$here"/compare.py "$work"

@@ -73,11 +73,13 @@ class TurnedPair:
     # What of each body is held or turned.
     held: tuple = ("clamp",)
     tolerances: str = calculix.TOLERANCES
+    # Whether stresses at the nodes are wanted.
+    stresses: bool = False
 
     def solve(self, folder, name, mesh, transmission_error_um, sides, penalty_mpa_per_mm):
         """The results at an angle, and the torque in N·m."""
         angle_rad = 1e-3 * transmission_error_um / self.base_radius_mm
-        deck = calculix.Deck(mesh, self.tolerances)
+        deck = calculix.Deck(mesh, self.tolerances, self.stresses)
         for body in mesh.bodies:
             deck.material(body, self.young_modulus_mpa[body], self.poisson_ratio)
         deck.penalty(penalty_mpa_per_mm)

@@ -43,21 +43,26 @@ impl MadeFolder {
     }
 }
 
-pub(super) fn begin(scene: &Path, out: &Path) -> Result<BegunRun, Failure> {
-    let scene = LoadedScene::open(scene)?;
+pub(super) fn begin(scene: LoadedScene, out: &Path) -> Result<BegunRun, Failure> {
     scene.check_springs().map_err(|error| in_the_scene(error, &scene))?;
     let (scene, identity) = named_as_copied(scene);
     report::writable(out)?;
     begin_anew(scene, identity, out)
 }
 
-/// Continues the run in the folder `out`: that of `scene`, or else of the scene in the folder. `None` where it is complete.
-pub(super) fn resume(scene: Option<&Path>, out: &Path) -> Result<Option<BegunRun>, Failure> {
+/// File of the scene whose run in the folder `out` is to be continued: `scene`, or else the one in the folder.
+pub(super) fn scene_to_resume(scene: Option<&Path>, out: &Path) -> Result<PathBuf, InputError> {
     let own = out.join(gearwear::report::output_files::SCENE);
-    if scene.is_none() && !own.exists() {
-        return Err(InputError::NothingToResume { folder: out.display().to_string() }.into());
+    match scene {
+        Some(scene) => Ok(scene.to_owned()),
+        None if own.exists() => Ok(own),
+        None => Err(InputError::NothingToResume { folder: out.display().to_string() }),
     }
-    let (mut scene, identity) = named_as_copied(LoadedScene::open(scene.unwrap_or(&own))?);
+}
+
+/// Continues the run of `scene` in the folder `out`. `None` where it is complete.
+pub(super) fn resume(scene: LoadedScene, out: &Path) -> Result<Option<BegunRun>, Failure> {
+    let (mut scene, identity) = named_as_copied(scene);
     report::writable(out)?;
     let contents = folder::contents(out, &identity, &scene.resolved.scene_hash())
         .map_err(|error| InputError::Resume(Box::new(error)))?;

@@ -10,6 +10,7 @@ use gearwear::exchange::rexs::RexsError;
 use gearwear::journal::{JournalError, Kept};
 use gearwear::report::ReportError;
 use gearwear::resume::folder::FolderError;
+use gearwear::resume::result::ResultError;
 use gearwear::scene::blame::SceneFault;
 use gearwear::scene::loaded::{LoadError, LoadedScene, SceneError, SceneText};
 use gearwear::scene::{Problem, ProblemKind, presets};
@@ -209,6 +210,10 @@ pub(super) enum InputError {
     #[error("--resume: {0}")]
     #[diagnostic(help("{}", resume_help(.0)))]
     Resume(Box<FolderError>),
+    /// A run that cannot be read.
+    #[error("{0}")]
+    #[diagnostic(help("run the scene again"))]
+    Result(Box<ResultError>),
     #[error("--vary: {0}")]
     #[diagnostic(help("{}", .0.help().unwrap_or_else(|| "for example --vary pair.face_width_mm=10:30:21".to_owned())))]
     Vary(AxisError),
@@ -355,7 +360,6 @@ impl Failure {
             Failure::Missed { .. } | Failure::Violated { .. } | Failure::InvariantsViolated { .. } => 1,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
-            Failure::Accuracy(AccuracyError::InternalTeeth) => 2,
             Failure::Run(_) | Failure::Solve(_) | Failure::Memory(_) | Failure::FemPair(_) | Failure::Accuracy(_) => 3,
             Failure::Calibrate(_)
             | Failure::NotFitted { .. }

@@ -58,7 +58,8 @@ pub(super) fn run(args: &FemArgs) -> Result<(), Failure> {
     let Ok(table) = text.text.parse::<toml::Table>() else {
         return if args.of_a_pair().is_some() { fem_scene::run(args, text) } else { problem(args, text) };
     };
-    match (table.contains_key("mesh"), table.contains_key("pair")) {
+    let has_pair = table.contains_key("pair") || table.contains_key("planetary");
+    match (table.contains_key("mesh"), has_pair) {
         (true, true) => Err(InputError::MeshAndPair { name: text.name }.into()),
         (false, true) => fem_scene::run(args, text),
         _ => match args.of_a_pair() {

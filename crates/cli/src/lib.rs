@@ -15,6 +15,7 @@ mod init;
 mod mesh;
 mod out_of_memory;
 mod plan;
+mod planetary;
 mod progress;
 mod remaining_life;
 mod rexs;

@@ -93,7 +93,8 @@ fn text_in_space(resolved: &Resolved, built: &SpaceMesh, out: &Path) -> String {
     let cells: usize = built.mesh.cells.iter().map(|block| block.len()).sum();
     text += &line("cells", format!("{cells} twenty-node hexahedra"));
     for gear in Gear::BOTH {
-        text += &line(&format!("{} clamp", gear.name()), format!("radius {:.4} mm", scene.fem.clamp_radius_mm[gear]));
+        text +=
+            &line(&format!("{} clamp", gear.name()), format!("radius {:.4} mm", scene.fem.clamp_radius_mm[gear].abs()));
         let worst = &built.quality[gear].scaled_jacobian;
         text += &line(&format!("{} section", gear.name()), format!("minimum scaled Jacobian {:.3}", worst.value));
     }
@@ -119,7 +120,7 @@ fn described(resolved: &Resolved, built: &PairMesh, out: &Path) -> String {
     text += &line("bodies", format!("{body}; teeth {} resolved", fine.join(", ")));
     text += &line("position", format!("{:.4} mm", built.position_mm));
     for gear in Gear::BOTH {
-        let radius = scene.fem.clamp_radius_mm[gear];
+        let radius = scene.fem.clamp_radius_mm[gear].abs();
         text += &line(&format!("{} clamp", gear.name()), format!("radius {radius:.4} mm"));
     }
     text += &line(

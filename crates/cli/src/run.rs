@@ -13,6 +13,7 @@ use gearwear::resume::keeper::FolderKeeper;
 use gearwear::resume::{folder, result};
 use gearwear::runs;
 use gearwear::scene::loaded::LoadedScene;
+use gearwear::scene::planetary::OpenedScene;
 use gearwear_physics::assessment::{Done, Resumption, RunError};
 use gearwear_physics::observer::Observer;
 use gearwear_physics::plan::StageKind;
@@ -23,7 +24,7 @@ use gearwear_physics::simulation::settings::Operation;
 use super::begun_run::{self, BegunRun, MadeFolder};
 use super::failure::{Failure, InputError, in_the_scene};
 use super::progress::Progress;
-use super::{figures, print, say, warn};
+use super::{figures, planetary, print, say, warn};
 
 /// The exit status after an interrupt: 128 and the number of the signal.
 const INTERRUPTED: i32 = 130;
@@ -41,10 +42,10 @@ pub(super) struct RunArgs {
     resume: Option<PathBuf>,
     /// Number of threads; default: all cores. Never changes the results
     #[arg(long, value_name = "N")]
-    threads: Option<NonZeroUsize>,
+    pub(super) threads: Option<NonZeroUsize>,
     /// Write no report.html, the data files alone
     #[arg(long)]
-    no_report: bool,
+    pub(super) no_report: bool,
     /// Write results.xlsx too, a workbook with a sheet per table
     #[arg(long)]
     workbook: bool,
@@ -56,7 +57,14 @@ pub(super) struct RunArgs {
     figures: Option<PathBuf>,
     /// Show neither progress nor figures, only what is wrong
     #[arg(long, short)]
-    quiet: bool,
+    pub(super) quiet: bool,
+}
+
+impl RunArgs {
+    /// Files that are asked for beside the tables.
+    pub(super) fn files(&self) -> RunFiles {
+        RunFiles { page: !self.no_report, workbook: self.workbook, series: self.series, figures: self.figures.clone() }
+    }
 }
 
 pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
@@ -64,16 +72,21 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     if let Some(figures) = &args.figures {
         report::writable(figures)?;
     }
-    let begun = match (&args.scene, &args.out, &args.resume) {
-        (scene, _, Some(folder)) => match begun_run::resume(scene.as_deref(), folder)? {
+    let (file, out, goes_on) = match (&args.scene, &args.out, &args.resume) {
+        (scene, _, Some(folder)) => (begun_run::scene_to_resume(scene.as_deref(), folder)?, folder, true),
+        (Some(scene), Some(out), None) => (scene.clone(), out, false),
+        (_, _, None) => unreachable!("clap demands both"),
+    };
+    let begun = match (OpenedScene::open(&file)?, goes_on) {
+        (OpenedScene::Planetary(stage), _) => return planetary::run(&stage, out, goes_on, args),
+        (OpenedScene::Pair(scene), false) => begun_run::begin(*scene, out)?,
+        (OpenedScene::Pair(scene), true) => match begun_run::resume(*scene, out)? {
             Some(begun) => begun,
             None => {
-                say(&format!("the run in {} is complete: nothing is left to do", folder.display()));
+                say(&format!("the run in {} is complete: nothing is left to do", out.display()));
                 return Ok(());
             }
         },
-        (Some(scene), Some(out), None) => begun_run::begin(scene, out)?,
-        (_, _, None) => unreachable!("clap demands both"),
     };
     let BegunRun { scene, out, identity, from, made } = begun;
     let resolved = &scene.resolved;
@@ -155,9 +168,7 @@ fn refused(error: RunError, scene: &LoadedScene, made: Option<&MadeFolder>) -> F
 fn write(record: &mut RunRecord, out: &Path, args: &RunArgs, progress: &Progress) -> Result<(), ReportError> {
     progress.stage(StageKind::Report.name());
     let start = Instant::now();
-    let files =
-        RunFiles { page: !args.no_report, workbook: args.workbook, series: args.series, figures: args.figures.clone() };
-    report::write_files(record, &files, out)?;
+    report::write_files(record, &args.files(), out)?;
     let wall_s = start.elapsed().as_secs_f64();
     record.summary.stages.push(StageTime { name: StageKind::Report.name().to_owned(), wall_s });
     record.summary.wall_s += wall_s;

@@ -15,11 +15,8 @@ use gearwear_bodies::gear::{Gear, GearPair, PerGear, outline::polyline};
 /// Points on each fillet and flank.
 const POINTS_PER_PIECE: usize = 20;
 
-/// Rim drawn about the root circle of an internal wheel, in modules.
-const DRAWN_RIM_MODULES: f64 = 2.0;
-
-/// Draws `pair`.
-pub(super) fn draw(pair: &GearPair) -> PairDrawing {
+/// Draws `pair`, whose wheel is held at `wheel_clamp_radius_mm`: the outside of an internal one.
+pub(super) fn draw(pair: &GearPair, wheel_clamp_radius_mm: f64) -> PairDrawing {
     let axis = PerGear { pinion: [0.0, 0.0], wheel: [0.0, pair.spec.centre_distance_mm] };
     let (sin, cos) = pair.working_pressure_angle_rad.sin_cos();
     let t1 = pair.path.involute.pinion.base_radius_mm * Vector2::new(sin, cos);
@@ -41,10 +38,7 @@ pub(super) fn draw(pair: &GearPair) -> PairDrawing {
             .into_iter()
             .map(|(name, position_mm)| (name.to_owned(), on_line(position_mm)))
             .collect(),
-        rim_radius_mm: pair
-            .spec
-            .is_internal()
-            .then(|| pair.teeth.wheel.root_radius_mm.abs() + DRAWN_RIM_MODULES * pair.spec.normal_module_mm),
+        rim_radius_mm: pair.spec.is_internal().then_some(wheel_clamp_radius_mm.abs()),
     }
 }
 
@@ -106,7 +100,7 @@ mod tests {
             gears: PerGear { pinion: gear(20, 0.1809), wheel: gear(30, 0.0891) },
         })
         .unwrap();
-        let drawing = draw(&pair);
+        let drawing = draw(&pair, 35.0);
         for gear in Gear::BOTH {
             let surface = FlankSurface::new(&pair, gear);
             let tooth = &pair.teeth[gear];

@@ -93,9 +93,6 @@ pub fn in_space(scene: &Scene, position_mm: Option<f64>) -> Result<SpaceMesh, Pa
 
 /// Meshes one pitch of each gear of `pair` in space at a position on the path of contact or beyond.
 pub(super) fn in_space_at(scene: &Scene, pair: &GearPair, position_mm: f64) -> Result<SpaceMesh, PairMeshError> {
-    if pair.spec.is_internal() {
-        return Err(ToothMeshError::InternalTeeth.into());
-    }
     let resolution = SpaceResolution { slices: scene.slices.map(|slices| slices.count), ..SpaceResolution::USUAL };
     let bodies = scene.fem.in_space();
     let teeth = PerGear::from_fn(|gear| ExtrudedTooth::of_gear(pair, gear, &bodies, &resolution));

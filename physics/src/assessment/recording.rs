@@ -56,7 +56,7 @@ pub(super) fn record(from: &Provenance, model: &RunModel<'_>, found: RunFindings
         film: found.lubrication.map_or_else(Vec::new, |observed| observed.rows.clone()),
         surface: PerGear::from_fn(|gear| FlankSurface::new(model.pair, gear)),
         slices: slices::record(outcome),
-        drawing: drawing::draw(model.pair),
+        drawing: drawing::draw(model.pair, model.scene.fem.clamp_radius_mm.wheel),
     }
 }
 

@@ -56,7 +56,7 @@ pub struct ResolutionRow {
 pub struct RimRow {
     /// Depth of the body below the root circle in normal modules.
     pub depth_modules: f64,
-    /// Radius at which each body is held, mm.
+    /// Radius at which each body is held, mm; positive.
     pub clamp_radius_mm: PerGear<f64>,
     /// Stiffness, N/(mm·µm).
     pub pair_n_per_mm_um: f64,
@@ -128,7 +128,7 @@ impl<'a> Setup<'a> {
         let root_mm = self.pair.teeth[gear].root_radius_mm;
         let radius_mm = root_mm - depth_modules * module_mm;
         let bore_mm = self.pair.spec.gears[gear].bore_diameter_mm.map_or(0.0, |diameter| 0.5 * diameter);
-        let least_mm = bore_mm.max(LEAST_CLAMP_OVER_ROOT * root_mm);
+        let least_mm = if root_mm < 0.0 { f64::NEG_INFINITY } else { bore_mm.max(LEAST_CLAMP_OVER_ROOT * root_mm) };
         (least_mm..=greatest_clamp_mm(root_mm, module_mm)).contains(&radius_mm).then_some(radius_mm)
     }
 
@@ -160,7 +160,7 @@ impl<'a> Setup<'a> {
         rims.par_iter()
             .map(|&(depth_modules, clamp_radius_mm)| {
                 let (pair_n_per_mm_um, _) = self.pitch_stiffness(BodySettings { clamp_radius_mm, ..self.coarse() })?;
-                Ok(RimRow { depth_modules, clamp_radius_mm, pair_n_per_mm_um })
+                Ok(RimRow { depth_modules, clamp_radius_mm: clamp_radius_mm.map(f64::abs), pair_n_per_mm_um })
             })
             .collect()
     }

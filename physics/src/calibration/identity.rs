@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use gearwear_bodies::gear::modification::{Relief, ReliefShape};
+use gearwear_bodies::gear::ring_fillet::ShaperCutter;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear};
 use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides, Web};
 use gearwear_bodies::material::Material;
@@ -77,12 +78,32 @@ pub struct GearIdentity {
     pub tooth_thickness_allowance_um: f64,
     /// Crowning, µm.
     pub profile_crowning_um: f64,
+    /// d_f of an internal gear, given or derived.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub root_diameter_mm: Option<f64>,
+    /// Shaper cutter of an internal gear.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cutter: Option<CutterIdentity>,
     /// Tip rounding.
     pub tip_rounding_mm: f64,
     /// Tip relief.
     pub tip_relief: Option<ReliefIdentity>,
     /// Root relief.
     pub root_relief: Option<ReliefIdentity>,
+}
+
+/// A shaper cutter.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CutterIdentity {
+    /// z_0.
+    pub teeth: u32,
+    /// x_0.
+    pub profile_shift: f64,
+    /// h_a0*.
+    pub addendum_factor: f64,
+    /// Radius of its tip edge, in modules.
+    pub tip_rounding_factor: f64,
 }
 
 /// A relief.
@@ -150,7 +171,7 @@ impl CalibrationIdentity {
                 normal_module_mm: spec.normal_module_mm,
                 pressure_angle_deg: spec.normal_pressure_angle_rad.to_degrees(),
                 helix_angle_deg: spec.helix_angle_rad.to_degrees(),
-                centre_distance_mm: spec.centre_distance_mm,
+                centre_distance_mm: spec.centre_distance_mm.abs(),
                 basic_rack: RackIdentity {
                     addendum_factor: spec.rack.addendum_factor,
                     dedendum_factor: spec.rack.dedendum_factor,
@@ -167,7 +188,7 @@ impl CalibrationIdentity {
                 body: body.to_owned(),
                 sector_teeth,
                 sector_sides,
-                clamp_radius_mm: bodies.clamp_radius_mm,
+                clamp_radius_mm: bodies.clamp_radius_mm.map(f64::abs),
                 web: (bodies.web != NO_WEBS).then(|| bodies.web.map(|web| web.map(WebIdentity::of))),
             },
         }
@@ -196,9 +217,11 @@ impl GearIdentity {
         Self {
             teeth: spec.teeth,
             profile_shift: spec.profile_shift,
-            tip_diameter_mm: 2.0 * pair.teeth[gear].tip_radius_mm,
+            tip_diameter_mm: 2.0 * pair.teeth[gear].tip_radius_mm.abs(),
             tooth_thickness_allowance_um: 1e3 * spec.tooth_thickness_allowance_mm,
             profile_crowning_um: 1e3 * modification.profile_crowning_mm,
+            root_diameter_mm: spec.ring.map(|_| 2.0 * pair.teeth[gear].root_radius_mm.abs()),
+            cutter: spec.ring.and_then(|ring| ring.cutter).map(|cutter| CutterIdentity::of(&cutter)),
             tip_rounding_mm: modification.tip_rounding_mm,
             tip_relief: modification.tip_relief.map(ReliefIdentity::of),
             root_relief: modification.root_relief.map(ReliefIdentity::of),
@@ -210,6 +233,7 @@ impl GearIdentity {
         Self {
             profile_shift: self.profile_shift * cos,
             tooth_thickness_allowance_um: self.tooth_thickness_allowance_um / cos,
+            cutter: self.cutter.as_ref().map(|cutter| cutter.in_transverse_section(cos)),
             ..self.clone()
         }
     }
@@ -232,6 +256,23 @@ impl PairIdentity {
             "pinion": self.pinion.in_transverse_section(cos),
             "wheel": self.wheel.in_transverse_section(cos),
         })
+    }
+}
+
+impl CutterIdentity {
+    fn of(cutter: &ShaperCutter) -> Self {
+        let ShaperCutter { teeth, profile_shift, addendum_factor, tip_rounding_factor } = *cutter;
+        Self { teeth, profile_shift, addendum_factor, tip_rounding_factor }
+    }
+
+    /// The cutter by factors of the transverse module, where β has the cosine `cos`.
+    fn in_transverse_section(&self, cos: f64) -> Self {
+        Self {
+            teeth: self.teeth,
+            profile_shift: self.profile_shift * cos,
+            addendum_factor: self.addendum_factor * cos,
+            tip_rounding_factor: self.tip_rounding_factor * cos,
+        }
     }
 }
 

@@ -188,9 +188,6 @@ fn verification(scene: &Scene) -> Result<String, String> {
     if !scene.verify {
         return Err("numerics.verify is false: the error against finite elements is unknown".to_owned());
     }
-    if scene.pair.is_internal() {
-        return Err("finite elements of internal gears are not in the model".to_owned());
-    }
     if let Some(slices) = scene.slices {
         return verification_in_space(scene, slices);
     }

@@ -20,6 +20,7 @@ mod half_space;
 mod helical;
 mod helical_convergence;
 mod helical_targets;
+mod internal_fem;
 mod internal_gears;
 mod lubrication;
 mod root_stress;

@@ -18,6 +18,7 @@ mod load;
 pub mod mesh_stiffness;
 mod modifications;
 mod places;
+mod planetary_unit;
 mod profile_shift;
 pub mod results;
 mod roles;
@@ -28,12 +29,18 @@ mod stage;
 mod xml;
 
 #[cfg(test)]
+mod planetary_tests;
+#[cfg(test)]
 mod reading_tests;
 #[cfg(test)]
 mod results_tests;
 #[cfg(test)]
 mod tests;
 
+use std::path::Path;
+
+use crate::scene::loaded::{LoadError, SceneError, SceneText};
+use crate::scene::planetary::PlanetaryScene;
 use document::RexsDocument;
 use drivetrain::Drivetrain;
 pub use scene_text::Provenance;
@@ -50,7 +57,7 @@ pub struct FromRexs {
     pub warnings: Vec<String>,
 }
 
-/// The scene of the `number`-th cylindrical stage, from 1, of a REXS file of this text, XML or JSON; of the only one without a number.
+/// The scene of the `number`-th cylindrical stage, from 1, or of the planetary stage whose mesh of sun and planet it is, of a REXS file of this text, XML or JSON; of the only one without a number.
 ///
 /// # Errors
 ///
@@ -62,8 +69,35 @@ pub fn scene(text: &str, number: Option<usize>) -> Result<FromRexs, RexsError> {
     let train = Drivetrain::of(&document);
     let gears = stage.gears(&document, &train, &mut warnings)?;
     let load = load::of(&document, &train, &stage, &gears, &mut warnings)?;
-    let (text, provenance) = scene_text::of(&document, &stage, &gears, &load, &mut warnings)?;
+    let mut planetary = planetary_unit::of(&document, &stage, &gears, &mut warnings)?;
+    let before = warnings.len();
+    let (mut text, mut provenance) =
+        scene_text::of(&document, &stage, (&gears, planetary.as_ref()), &load, &mut warnings)?;
+    if let Some(unit) = &mut planetary
+        && let Some(found) = refused_ring_tip(&text)
+    {
+        warnings.truncate(before);
+        warnings.push(format!(
+            "{}: tip_diameter is left out, and the ring’s tips are shortened: {found}",
+            unit.ring.component.label()
+        ));
+        unit.ring.tip_diameter_mm = None;
+        (text, provenance) = scene_text::of(&document, &stage, (&gears, planetary.as_ref()), &load, &mut warnings)?;
+    }
     Ok(FromRexs { text, provenance, warnings })
+}
+
+/// Why the stage of this text is refused at the tip circle of its ring, as where the fillets that the basic rack generates on the planets reach
+/// farther than those of the unit's tools; `None` where it is not.
+fn refused_ring_tip(text: &str) -> Option<String> {
+    const TIP: &str = "planetary.ring.tip_diameter_mm";
+    let given = SceneText { name: String::new(), text: text.to_owned() };
+    match PlanetaryScene::from_text(given, Path::new("")) {
+        Err(LoadError::Scene(SceneError { problems, .. })) => {
+            problems.into_iter().find(|problem| problem.key == TIP).map(|problem| problem.found)
+        }
+        _ => None,
+    }
 }
 
 /// Versions whose attributes are known.

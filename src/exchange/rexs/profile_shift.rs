@@ -51,8 +51,8 @@ pub(super) fn complete(
     }
 }
 
-/// x1 + x2 of a pair without backlash; None where no involutes meet.
-fn sum(section: &NormalSection, centre_distance_mm: f64, teeth: f64) -> Option<f64> {
+/// x1 + x2 of a pair without backlash; None where no involutes meet. Centre distance and sum of teeth are negative with an internal wheel (DIN 3960).
+pub(super) fn sum(section: &NormalSection, centre_distance_mm: f64, teeth: f64) -> Option<f64> {
     let transverse = section.transverse_pressure_angle_rad();
     let working_cos = 0.5 * section.reference_diameter_mm(teeth) * transverse.cos() / centre_distance_mm;
     let rise = inv((0.0..1.0).contains(&working_cos).then_some(working_cos)?.acos()) - inv(transverse);

@@ -4,8 +4,9 @@ use std::fmt::Write;
 
 use super::RexsError;
 use super::document::{CELSIUS, GPA, J_PER_KGK, KG_PER_M3, MM2_PER_S, NONE, RexsDocument, W_PER_MK};
-use super::load::Load;
+use super::load::{Load, LoadOfCase};
 use super::modifications::{ReliefForm, ReliefStart, RexsEndRelief, RexsRelief};
+use super::planetary_unit::PlanetaryUnit;
 use super::stage::{Figure, GearData, Gears, RexsStage};
 
 /// Hours and revolutions of a life that the file does not give.
@@ -28,12 +29,17 @@ pub struct Provenance {
 pub(super) fn of(
     document: &RexsDocument,
     stage: &RexsStage,
-    gears: &Gears,
+    (gears, planetary): (&Gears, Option<&PlanetaryUnit>),
     load: &Load,
     warnings: &mut Vec<String>,
 ) -> Result<(String, Provenance), RexsError> {
     let mut text = Text::default();
-    let title = if stage.component.name.is_empty() { "Cylindrical stage" } else { &stage.component.name };
+    let named = planetary.and_then(|unit| unit.component).unwrap_or(stage.component);
+    let title = match (named.name.as_str(), planetary) {
+        ("", None) => "Cylindrical stage",
+        ("", Some(_)) => "Planetary stage",
+        (name, _) => name,
+    };
     text.line(format!(
         "# From a REXS {} file of {}.",
         document.version,
@@ -43,7 +49,11 @@ pub(super) fn of(
     text.line("# All keys, their ranges and defaults:   gearwear schema");
     text.line(format!("title = {}", quoted(title)));
 
-    text.table("pair", "");
+    text.table(if planetary.is_some() { "planetary" } else { "pair" }, "");
+    if let Some(unit) = planetary {
+        text.taken("planets", &unit.planets.to_string(), "at equal angles");
+        text.assumed("held", "\"ring\"", "or \"carrier\", \"sun\"");
+    }
     text.figure("normal_module_mm", gears.normal_module_mm.as_ref());
     text.figure("pressure_angle_deg", gears.pressure_angle_deg.as_ref());
     let helix_deg = gears.helix_angle_deg.value.abs();
@@ -57,7 +67,25 @@ pub(super) fn of(
     if let Some(factor) = gears.dedendum_factor {
         text.derived("basic_rack", &format!("{{ dedendum_factor = {} }}", rounded(factor)), "of the root diameter");
     }
-    for (table, data) in [("pinion", &gears.pinion), ("wheel", &gears.wheel)] {
+    let tables = match planetary {
+        None => pair_tables(&mut text, gears),
+        Some(unit) => stage_tables(&mut text, gears, unit),
+    };
+    for (table, data) in tables {
+        material(&mut text, document, table, data)?;
+    }
+    operation(&mut text, gears, planetary, load, warnings);
+    lubricant(&mut text, document, stage, (gears, planetary.is_some()), load)?;
+    text.table("wear", "");
+    text.line("law = \"archard\"");
+    text.assumed("coefficient_m2_per_N", "1e-18", "steel with a full film; docs/materials.md has k with sources");
+    Ok((text.lines, text.provenance))
+}
+
+/// Tables of both gears of a pair; their names with their data.
+fn pair_tables<'a>(text: &mut Text, gears: &'a Gears) -> Vec<(&'static str, &'a GearData<'a>)> {
+    let tables = vec![("pinion", &gears.pinion), ("wheel", &gears.wheel)];
+    for &(table, data) in &tables {
         let drives = gears.roles.how.as_ref().filter(|_| table == "pinion");
         let drives = drives.map_or("drives".to_owned(), |how| format!("drives: {how}"));
         text.table(&format!("pair.{table}"), if table == "pinion" { &drives } else { "" });
@@ -66,17 +94,24 @@ pub(super) fn of(
             let list = if gears.roles.is_assumed { &mut provenance.assumed } else { &mut provenance.derived };
             list.push(format!("which gear is pair.pinion ({how})"));
         }
-        gear(&mut text, data);
+        gear(text, data);
     }
-    for (table, data) in [("pinion", &gears.pinion), ("wheel", &gears.wheel)] {
-        material(&mut text, document, table, data)?;
+    tables
+}
+
+/// Tables of the gears of a planetary stage; their names with their data.
+fn stage_tables<'a>(
+    text: &mut Text,
+    gears: &'a Gears,
+    unit: &'a PlanetaryUnit,
+) -> Vec<(&'static str, &'a GearData<'a>)> {
+    let (sun, planet) = if unit.sun_drives { (&gears.pinion, &gears.wheel) } else { (&gears.wheel, &gears.pinion) };
+    let tables = vec![("sun", sun), ("planet", planet), ("ring", &unit.ring)];
+    for &(table, data) in &tables {
+        text.table(&format!("planetary.{table}"), "");
+        gear(text, data);
     }
-    operation(&mut text, gears, load, warnings);
-    lubricant(&mut text, document, stage, gears, load)?;
-    text.table("wear", "");
-    text.line("law = \"archard\"");
-    text.assumed("coefficient_m2_per_N", "1e-18", "steel with a full film; docs/materials.md has k with sources");
-    Ok((text.lines, text.provenance))
+    tables
 }
 
 /// The table of a relief in a scene, and what is to be said of it.
@@ -156,34 +191,63 @@ fn material(text: &mut Text, document: &RexsDocument, table: &str, data: &GearDa
     Ok(())
 }
 
-fn operation(text: &mut Text, gears: &Gears, load: &Load, warnings: &mut Vec<String>) {
+/// Keys of an operation: of a pair's, or of a planetary stage's.
+struct OperationKeys {
+    torque: &'static str,
+    speed: &'static str,
+    revolutions: &'static str,
+}
+
+const OF_PAIR: OperationKeys =
+    OperationKeys { torque: "pinion_torque_Nm", speed: "pinion_speed_rpm", revolutions: "pinion_revolutions" };
+const OF_STAGE: OperationKeys = OperationKeys { torque: "torque_Nm", speed: "speed_rpm", revolutions: "revolutions" };
+
+fn operation(
+    text: &mut Text,
+    gears: &Gears,
+    planetary: Option<&PlanetaryUnit>,
+    load: &Load,
+    warnings: &mut Vec<String>,
+) {
     text.table("operation", "");
-    meshes(text, gears);
-    let speeds = load.cases.iter().all(|case| case.speed_rpm.is_some());
+    let keys = if planetary.is_some() { OF_STAGE } else { OF_PAIR };
+    match planetary {
+        None => meshes(text, gears),
+        Some(_) => text.line("member = \"sun\""),
+    }
+    let cases: Vec<(Option<Figure>, Option<Figure>, f64)> = load
+        .cases
+        .iter()
+        .map(|case| match planetary {
+            None => (case.torque_Nm.clone(), case.speed_rpm.clone(), case.fraction),
+            Some(unit) => (sun_torque(gears, unit, case), sun_speed(unit, case), case.fraction),
+        })
+        .collect();
+    let speeds = cases.iter().all(|(_, speed, _)| speed.is_some());
     let (key, whole, assumed) = match (speeds, load.hours) {
         (true, Some(hours)) => ("hours", hours, ""),
         (true, None) => ("hours", ASSUMED_HOURS, "the file does not say how long"),
-        (false, _) => ("pinion_revolutions", ASSUMED_REVOLUTIONS, "the file does not say how long, or how fast"),
+        (false, _) => (keys.revolutions, ASSUMED_REVOLUTIONS, "the file does not say how long, or how fast"),
     };
-    if load.cases.iter().any(|case| case.torque_Nm.is_none()) {
+    if cases.iter().any(|(torque, _, _)| torque.is_none()) {
         warnings
-            .push("the file does not give the torque of the driving gear: write operation.pinion_torque_Nm".to_owned());
-        text.required("pinion_torque_Nm");
+            .push(format!("the file does not give the torque of the driving gear: write operation.{}", keys.torque));
+        text.required(keys.torque);
     }
-    let many = load.cases.len() > 1;
+    let many = cases.len() > 1;
     if many && !assumed.is_empty() {
         text.line(format!("# {key} of the phases: {} in all, ASSUMED: {assumed}", rounded(whole)));
     }
-    for case in &load.cases {
+    for (torque, speed, fraction) in &cases {
         if many {
             text.line("\n[[operation.phases]]");
         }
-        for (key, figure) in [("pinion_torque_Nm", &case.torque_Nm), ("pinion_speed_rpm", &case.speed_rpm)] {
+        for (key, figure) in [(keys.torque, torque), (keys.speed, speed)] {
             if figure.is_some() {
                 text.figure(key, figure.as_ref());
             }
         }
-        let value = rounded(whole * case.fraction);
+        let value = rounded(whole * fraction);
         match assumed {
             "" => text.taken(key, &value, ""),
             _ if many => text.line(format!("{key} = {value}")),
@@ -193,6 +257,22 @@ fn operation(text: &mut Text, gears: &Gears, load: &Load, warnings: &mut Vec<Str
     if many && !assumed.is_empty() {
         text.provenance.assumed.push(format!("operation.phases.{key}"));
     }
+}
+
+/// Torque on the sun: that of one mesh, of all its planets.
+fn sun_torque(gears: &Gears, unit: &PlanetaryUnit, case: &LoadOfCase) -> Option<Figure> {
+    let of_mesh = case.torque_Nm.as_ref()?;
+    let to_sun = match unit.sun_drives {
+        true => 1.0,
+        false => f64::from(gears.wheel.teeth?) / f64::from(gears.pinion.teeth?),
+    };
+    let value = of_mesh.value * to_sun * unit.planets as f64;
+    Some(Figure::derived(value, "that of one mesh times the planets, which share alike"))
+}
+
+/// Speed of the sun; unknown where the file gives that of a planet.
+fn sun_speed(unit: &PlanetaryUnit, case: &LoadOfCase) -> Option<Figure> {
+    case.speed_rpm.clone().filter(|_| unit.sun_drives)
 }
 
 /// On how many mates each gear runs, where one has several.
@@ -217,7 +297,7 @@ fn lubricant(
     text: &mut Text,
     document: &RexsDocument,
     stage: &RexsStage,
-    gears: &Gears,
+    (gears, is_planetary): (&Gears, bool),
     load: &Load,
 ) -> Result<(), RexsError> {
     let Some(oil) = document.components.iter().find(|component| component.kind == "lubricant") else { return Ok(()) };
@@ -232,7 +312,8 @@ fn lubricant(
     let temperature_C = temperature.find_map(Result::transpose).transpose()?;
     let speeds = load.cases.iter().all(|case| case.speed_rpm.is_some());
     let rough = gears.pinion.roughness_Ra_um.is_some() && gears.wheel.roughness_Ra_um.is_some();
-    let mark = if speeds && rough && temperature_C.is_some() { "" } else { "# " };
+    // The mesh with the ring asks for the temperature of the teeth too.
+    let mark = if speeds && rough && temperature_C.is_some() && !is_planetary { "" } else { "# " };
     text.line(if mark.is_empty() {
         ""
     } else {

@@ -197,15 +197,24 @@ impl<'a> RexsStage<'a> {
         })
     }
 
+    /// Data of the ring of the planetary stage that this one is a mesh of.
+    pub(super) fn ring_data(
+        &self,
+        document: &'a RexsDocument,
+        ring: &'a RexsComponent,
+        section: Option<&NormalSection>,
+        warnings: &mut Vec<String>,
+    ) -> Result<GearData<'a>, RexsError> {
+        self.flanked(document, ring, warnings).data(document, section, warnings)
+    }
+
     /// That of the pinion; of spur gears 0.
     fn helix_angle_deg(&self, pinion: &RexsComponent, wheel: &RexsComponent) -> Result<Figure, RexsError> {
         let [own_deg, of_wheel_deg] = [pinion, wheel].map(|gear| gear.number("helix_angle_reference_diameter", DEG));
         match (own_deg?, of_wheel_deg?) {
             (Some(own_deg), Some(of_wheel_deg)) if (own_deg + of_wheel_deg).abs() > 1e-6 => {
-                let allowed = format!(
-                    "{} for external gears on parallel axes; internal gears are not read from REXS, crossed axes not in the model",
-                    0.0 - own_deg
-                );
+                let allowed =
+                    format!("{} for external gears on parallel axes; crossed axes are not in the model", 0.0 - own_deg);
                 Err(wheel.wrong("helix_angle_reference_diameter", of_wheel_deg.to_string(), allowed))
             }
             (Some(own_deg), _) => Ok(Figure::of_file(own_deg)),
@@ -259,8 +268,17 @@ impl<'a> RexsStage<'a> {
 fn reason(document: &RexsDocument, stage: &RexsComponent) -> Option<String> {
     let relation = document.relation("stage", &[("stage", &stage.id)])?;
     let gears = ["gear_1", "gear_2"].map(|role| document.component(relation.member(role)?));
-    let why = if gears.iter().flatten().any(|gear| gear.kind == "ring_gear") {
-        "its ring gear is an internal gear, and internal gears are not read from REXS"
+    let has_ring = gears.iter().flatten().any(|gear| gear.kind == "ring_gear");
+    let meets_a_sun = |planet: &RexsComponent| {
+        let mut stages = RexsStage::all(document).filter_map(Result::ok);
+        stages.any(|stage| stage.gears.iter().any(|gear| gear.id == planet.id))
+    };
+    if has_ring && gears.into_iter().flatten().any(meets_a_sun) {
+        // Read with the mesh of sun and planet.
+        return None;
+    }
+    let why = if has_ring {
+        "pairs with a ring gear are read as those of planetary stages, and no sun meets its planet"
     } else if stage.kind.starts_with("bevel") || stage.kind.starts_with("worm") {
         "bevel and worm gears are not in the model"
     } else {
@@ -343,14 +361,17 @@ impl<'a> Flanked<'a> {
         warnings: &mut Vec<String>,
     ) -> Result<GearData<'a>, RexsError> {
         let gear = self.gear;
-        let number = gear.number("number_of_teeth", NONE)?;
+        // Of rings with either sign.
+        let is_ring = gear.kind == "ring_gear";
+        let number = gear.number("number_of_teeth", NONE)?.map(|number| if is_ring { number.abs() } else { number });
         if let Some(number) = number.filter(|number| !(1.0..=1e4).contains(number) || number.fract() != 0.0) {
-            let allowed = "a whole number, positive: external gears; internal gears are not read from REXS".to_owned();
+            let allowed = "a whole number, positive: external gears, unless it is a ring_gear".to_owned();
             return Err(gear.wrong("number_of_teeth", number.to_string(), allowed));
         }
         let profile_shift = self.profile_shift(section)?;
         let base_mm = section.zip(number).map(|(section, teeth)| section.base_diameter_mm(teeth));
-        let tip_diameter_mm = gear.number("tip_diameter", MM)?.filter(|&tip_mm| {
+        let tip_mm = gear.number("tip_diameter", MM)?.map(|tip_mm| if is_ring { tip_mm.abs() } else { tip_mm });
+        let tip_diameter_mm = tip_mm.filter(|&tip_mm| {
             let base_mm = base_mm.unwrap_or(0.0);
             let fits = tip_mm > base_mm;
             if !fits {

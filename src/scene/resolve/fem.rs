@@ -1,12 +1,13 @@
 //! The bodies that finite elements are made of.
 
-use crate::scene::fem_file::{BodyKind, ClampRadiusFile, FemFile, WebFile, WebsFile};
+use crate::scene::fem_file::{BodyKind, FemFile, WebFile, WebsFile};
 use crate::scene::findings::Findings;
+use crate::scene::gear_file::GearFile;
 use crate::scene::problem::number;
 use gearwear_bodies::gear::{Gear, PerGear, spec::PairSpec};
 use gearwear_bodies::gear_mesh::settings::{
-    Body, BodySettings, DefaultClamp, NO_WEBS, Web, default_clamp, greatest_clamp_mm, least_web_mm,
-    rim_thickness_limits_mm,
+    Body, BodySettings, DefaultClamp, NO_WEBS, Web, default_clamp, default_ring_rim_mm, greatest_clamp_mm,
+    least_ring_rim_mm, least_web_mm, rim_thickness_limits_mm,
 };
 
 const ELEMENTS_PER_HALF_WIDTH: f64 = 10.0;
@@ -18,18 +19,45 @@ const SEVERE_WEAR_ELEMENTS_PER_HALF_WIDTH: f64 = 5.0;
 const FEW_ELEMENTS: f64 = 8.0;
 const SECTOR_TEETH: u32 = 3;
 
-/// Chooses what `[fem]` leaves open; a file without the table stays without it, and the bodies are the default ones.
-pub(super) fn choose(file: &mut Option<FemFile>, pair: &PairSpec, findings: &mut Findings) -> Option<BodySettings> {
+/// Chooses what `[fem]` and the rim of an internal `wheel` leave open; a file without the table stays without it, and the bodies are the default ones.
+pub(super) fn choose(
+    file: &mut Option<FemFile>,
+    wheel: Option<&mut GearFile>,
+    pair: &PairSpec,
+    findings: &mut Findings,
+) -> Option<BodySettings> {
+    let outside_mm = wheel.filter(|_| pair.is_internal()).map(|wheel| outside_radius(wheel, pair, findings));
     match file {
-        Some(file) => given(file, pair, findings),
-        None => given(&mut FemFile::default(), pair, &mut Findings::default()),
+        Some(file) => given(file, outside_mm, pair, findings),
+        None => given(&mut FemFile::default(), outside_mm, pair, &mut Findings::default()),
     }
 }
 
-fn given(file: &mut FemFile, pair: &PairSpec, findings: &mut Findings) -> Option<BodySettings> {
+/// Chooses the outside radius of an internal wheel by the thickness of its rim; negative, `None` where it is refused.
+fn outside_radius(wheel: &mut GearFile, pair: &PairSpec, findings: &mut Findings) -> Option<f64> {
+    let root_mm = pair.root_radius_mm(Gear::Wheel);
+    let rim_mm = *wheel.rim_thickness_mm.get_or_insert(default_ring_rim_mm(pair.transverse_module_mm()));
+    let least_mm = least_ring_rim_mm(pair.normal_module_mm);
+    if rim_mm < least_mm {
+        let allowed = format!("at least {least_mm:.4} mm, a tenth of a module");
+        findings.not_allowed("pair.wheel.rim_thickness_mm", number(rim_mm), allowed);
+        return None;
+    }
+    Some(root_mm - rim_mm)
+}
+
+/// `outside_mm`: outside radius of an internal wheel.
+fn given(
+    file: &mut FemFile,
+    outside_mm: Option<Option<f64>>,
+    pair: &PairSpec,
+    findings: &mut Findings,
+) -> Option<BodySettings> {
     let body = body(file, pair, findings);
     let radii = file.clamp_radius_mm.get_or_insert_default();
-    let clamp_radius_mm = clamp_radii(radii, pair, findings);
+    let pinion = clamp_radius(&mut radii.pinion, Gear::Pinion, pair, findings);
+    let wheel = outside_mm.unwrap_or_else(|| clamp_radius(&mut radii.wheel, Gear::Wheel, pair, findings));
+    let clamp_radius_mm = pinion.zip(wheel).map(|(pinion, wheel)| PerGear { pinion, wheel });
     let web = webs(file.web.as_mut(), pair, clamp_radius_mm, findings);
     // The default depends on the command and is not written into the file.
     let elements_per_half_width = file.elements_per_half_width.unwrap_or(ELEMENTS_PER_HALF_WIDTH);
@@ -135,12 +163,6 @@ fn body(file: &mut FemFile, pair: &PairSpec, findings: &mut Findings) -> Option<
             Some(Body::Sector { teeth, sides })
         }
     }
-}
-
-fn clamp_radii(file: &mut ClampRadiusFile, pair: &PairSpec, findings: &mut Findings) -> Option<PerGear<f64>> {
-    let pinion = clamp_radius(&mut file.pinion, Gear::Pinion, pair, findings);
-    let wheel = clamp_radius(&mut file.wheel, Gear::Wheel, pair, findings);
-    Some(PerGear { pinion: pinion?, wheel: wheel? })
 }
 
 fn clamp_radius(given: &mut Option<f64>, gear: Gear, pair: &PairSpec, findings: &mut Findings) -> Option<f64> {

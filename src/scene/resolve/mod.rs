@@ -27,7 +27,7 @@ use super::problem::{Problem, ProblemKind};
 use super::resolve::settings::StiffnessInputs;
 use super::schema::{Node, schema};
 use super::shape::{self, FileShape};
-use super::{Resolved, internal, presets, table, text, unit_slip};
+use super::{Resolved, internal, planetary, presets, table, text, unit_slip};
 use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS};
 use gearwear_physics::contact::settings::{ContactSettings, SurfaceKind};
@@ -48,6 +48,9 @@ pub(super) fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
 
 /// Resolves a parsed scene file; `findings` know where its keys stand.
 pub(super) fn resolve_table(table: Table, mut findings: Findings) -> Result<Resolved, Vec<Problem>> {
+    if table.contains_key("planetary") {
+        return planetary::resolve_mesh(&table, findings);
+    }
     let table = internal::with_positive_numbers(table, &mut findings);
     let format = FileShape { root: Node::root(schema()), of_other_files: OF_OTHER_FILES };
     let sound = with_preset(shape::check(format, &table, &mut findings));
@@ -176,23 +179,21 @@ fn default_title(file: &PairFile, pair: &PairSpec) -> String {
 fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneFile)> {
     internal::check_keys(&file, findings);
     let pair = pair::choose(&mut file.pair, findings);
-    let is_internal = pair.as_ref().is_some_and(PairSpec::is_internal);
-    if let Some(pair) = pair.as_ref().filter(|_| is_internal) {
+    if let Some(pair) = pair.as_ref().filter(|pair| pair.is_internal()) {
         internal::check_model(&file, pair, findings);
     }
     let has_tooth_temperature = file.temperature.as_ref().is_some_and(|of| of.tooth.is_some());
     let materials = material::choose(&mut file.material, has_tooth_temperature, findings);
     let operation = operation::choose(&mut file.operation, findings);
     let alike = pair.as_ref().is_none_or(|pair| pair.is_alike_over_width() && !slices::has_web(file.fem.as_ref()));
-    let can_be_meshed = alike && !is_internal;
-    let contact = settings::contact(&mut file.contact, file.stiffness.as_ref(), can_be_meshed, findings);
+    let contact = settings::contact(&mut file.contact, file.stiffness.as_ref(), alike, findings);
     let surface_by_default = file.contact.as_ref().is_none_or(|contact| contact.surface.is_none());
     let calibration_file = file.contact.as_ref().and_then(|contact| contact.calibration.clone());
     let surface = contact.map(|contact| contact.surface);
     let slices = pair.as_ref().and_then(|pair| slices::choose(&mut file, pair, surface, findings));
     let coupling_by_default = file.helical.as_ref().is_none_or(|helical| helical.coupling.is_none());
     let coupling = slices.map(|slices| slices.coupling);
-    let inputs = StiffnessInputs { surface, calibrated: calibration_file.is_some(), coupling, is_internal };
+    let inputs = StiffnessInputs { surface, calibrated: calibration_file.is_some(), coupling };
     let stiffness = settings::stiffness(&mut file.stiffness, inputs, findings);
     let stiffness_by_default = file.stiffness.as_ref().is_none_or(|stiffness| stiffness.model.is_none());
     let stiffness_curve_file = file.stiffness.as_ref().and_then(|stiffness| stiffness.curve.clone());
@@ -208,17 +209,13 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         temperature::check_followers(&file.wear, materials, wear, findings);
     }
     let lubrication = lubrication::choose(&mut file, thermal, findings);
-    let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
+    let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, file.pair.wheel.as_mut(), pair, findings));
     check_bodies(fem, slices, calibration_file.is_some(), findings);
     let (pair, operation, materials) = (pair?, operation?, materials?);
     let is_severe = wear.as_ref().is_some_and(|wear| wear.may_be_severe());
     let numerics = choose_numerics(&mut file.numerics, contact, slices, is_severe, &operation, findings);
     let verify = *file.numerics.get_or_insert_default().verify.get_or_insert(true);
-    if verify && is_internal {
-        findings.warnings.push(
-            "numerics.verify: the error against finite elements is unknown, as those of internal gears are not in the model".to_owned(),
-        );
-    } else if !verify {
+    if !verify {
         findings.warnings.push("numerics.verify is false: the error against finite elements is unknown".to_owned());
     }
     file.title.get_or_insert_with(|| default_title(&file.pair, &pair));

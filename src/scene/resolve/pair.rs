@@ -44,8 +44,22 @@ pub(super) fn choose(file: &mut PairFile, findings: &mut Findings) -> Option<Pai
         gears: PerGear { pinion: pinion?, wheel: wheel? },
     };
     spec.centre_distance_mm = centre_distance::choose(centre_distance?, file, &spec, findings)?;
+    shorten_ring_tip(file, &mut spec, findings);
     modifications::choose(file, &mut spec, findings)?;
     Some(spec)
+}
+
+/// Shortens the tips of an internal wheel that follow from the rack and would interfere with the pinion.
+fn shorten_ring_tip(file: &mut PairFile, spec: &mut PairSpec, findings: &mut Findings) {
+    let (Some(tip_mm), Some(wheel)) = (spec.shortened_ring_tip_mm(), &mut file.wheel) else { return };
+    // As it is written into the file.
+    let tip_mm = (tip_mm.abs() * 1e4).round() / 1e4;
+    findings.warnings.push(format!(
+        "pair.wheel.tip_diameter_mm: {tip_mm} mm instead of the rack's {:.4} mm, whose tips would interfere with the pinion",
+        2.0 * spec.tip_radius_mm(Gear::Wheel).abs()
+    ));
+    spec.gears.wheel.tip_diameter_mm = Some(-tip_mm);
+    wheel.tip_diameter_mm = Some(tip_mm);
 }
 
 fn required<T>(value: Option<T>, key: &str, allowed: &str, findings: &mut Findings) -> Option<T> {

@@ -107,14 +107,12 @@ pub(super) struct StiffnessInputs {
     pub calibrated: bool,
     /// Coupling of the slices over the face width, where there are any.
     pub coupling: Option<Coupling>,
-    /// Whether the wheel has internal teeth, of which there are no finite elements.
-    pub is_internal: bool,
 }
 
 /// Chooses the tooth stiffness.
 pub(super) fn stiffness(
     file: &mut Option<StiffnessFile>,
-    StiffnessInputs { surface, calibrated, coupling, is_internal }: StiffnessInputs,
+    StiffnessInputs { surface, calibrated, coupling }: StiffnessInputs,
     findings: &mut Findings,
 ) -> Option<StiffnessSettings> {
     let key = "stiffness.pair_N_per_mm_um";
@@ -124,7 +122,6 @@ pub(super) fn stiffness(
     }
     let model = match (surface, calibrated) {
         (_, true) if surface != Some(SurfaceKind::Fem) => *file.model.get_or_insert(StiffnessModel::Fem),
-        _ if is_internal => *file.model.get_or_insert(StiffnessModel::WeberBanaschek),
         // The default differs where finite elements are not possible, and is not written into the file; nor is a key that is not read.
         _ => file.model.unwrap_or(StiffnessModel::Fem),
     };

@@ -47,7 +47,6 @@ pub(super) fn choose(
     let count = *file.slices.get_or_insert(SLICES);
     // The default differs where the gears cannot be meshed in three dimensions, and is not written into the file.
     let in_space = count as usize <= MOST_SLICES_IN_SPACE
-        && !pair.is_internal()
         && stiffness.is_none_or(|model| model == StiffnessModel::Fem)
         && body != Some(BodyKind::Sector);
     let coupling = match in_space {

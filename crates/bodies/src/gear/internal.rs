@@ -18,7 +18,7 @@
 //!
 //! Sources: DIN 3993-1 (internal pairs, interferences); KHK, *Gear Technical Reference*, section 4.2 (equations and an example).
 
-use super::{Gear, GearPair, internal_error::InternalError, involute::inv};
+use super::{Gear, GearPair, PairError, internal_error::InternalError, involute::inv, spec::PairSpec};
 
 /// Figures of involute interference: the wheel's tip would touch below the pinion's base circle. Teeth whose root fillet leaves room for that tip, as on an
 /// undercut pinion, bear it; others overlap.
@@ -36,6 +36,64 @@ pub struct InvoluteInterference {
 
 /// Bisections of a limiting tip radius.
 const BISECTIONS: usize = 60;
+/// Most interferences that a ring's tip is shortened for, one after the other.
+const MOST_SHORTENINGS: usize = 4;
+/// Most by which a ring's tip is shortened for tips that meet outside the path of contact, in normal modules.
+const MOST_SHORTENED_MODULES: f64 = 1.0;
+/// Last digit of a shortened tip diameter, mm.
+const LAST_DIGIT_MM: f64 = 1e-4;
+
+impl PairSpec {
+    /// Tip diameter of an internal wheel, negative, where that of the rack would interfere with the pinion, or has no involute: the one that is allowed;
+    /// `None` where there is nothing to shorten, or where shortening does not help.
+    pub fn shortened_ring_tip_mm(&self) -> Option<f64> {
+        if !self.is_internal() || self.gears.wheel.tip_diameter_mm.is_some() {
+            return None;
+        }
+        let mut spec = self.clone();
+        for _ in 0..MOST_SHORTENINGS {
+            let diameter_mm = match GearPair::new(&spec) {
+                Ok(_) => return spec.gears.wheel.tip_diameter_mm,
+                Err(error) => spec.tip_without_interference_mm(&error)?,
+            };
+            spec.gears.wheel.tip_diameter_mm = Some((diameter_mm / LAST_DIGIT_MM).floor() * LAST_DIGIT_MM);
+        }
+        None
+    }
+
+    /// Tip diameter of the internal wheel without the interference `error`, negative; `None` where it is none of that tip.
+    fn tip_without_interference_mm(&self, error: &PairError) -> Option<f64> {
+        match *error {
+            PairError::Internal(InternalError::TipInsideBase { base_diameter_mm, .. }) => Some(-base_diameter_mm),
+            PairError::Internal(InternalError::CutterCutsTips { least_mm, .. }) => Some(-least_mm),
+            PairError::Internal(InternalError::InvoluteInterference { of, .. }) => Some(-of.least_tip_diameter_mm),
+            PairError::Internal(InternalError::TrochoidalInterference { .. }) => self.tip_beside_tips_mm(),
+            PairError::Interference { gear: Gear::Pinion, greatest_tip_diameter_mm, .. } => {
+                Some(greatest_tip_diameter_mm)
+            }
+            _ => None,
+        }
+    }
+
+    /// Greatest tip diameter of the internal wheel, negative, whose tips pass beside those of the pinion.
+    fn tip_beside_tips_mm(&self) -> Option<f64> {
+        let meets = |diameter_mm: f64| {
+            let mut spec = self.clone();
+            spec.gears.wheel.tip_diameter_mm = Some(diameter_mm);
+            matches!(GearPair::new(&spec), Err(PairError::Internal(InternalError::TrochoidalInterference { .. })))
+        };
+        let mut overlapping = 2.0 * self.tip_radius_mm(Gear::Wheel);
+        let mut free = overlapping - 2.0 * MOST_SHORTENED_MODULES * self.normal_module_mm;
+        if meets(free) {
+            return None;
+        }
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (free + overlapping);
+            if meets(middle) { overlapping = middle } else { free = middle }
+        }
+        Some(free)
+    }
+}
 
 impl GearPair {
     /// Refuses trochoidal interference of an internal pair.

@@ -56,6 +56,11 @@ impl Involute {
         length_mm.copysign(self.base_radius_mm)
     }
 
+    /// Radius of curvature `rho_mm`, or 0 where it is beyond the base circle.
+    pub fn on_flank_mm(&self, rho_mm: f64) -> f64 {
+        self.signed((self.signed(1.0) * rho_mm).max(0.0))
+    }
+
     /// Radius of curvature at `radius_mm`, of either sign; 0 on the base circle and inside it.
     pub fn curvature_radius_mm(&self, radius_mm: f64) -> f64 {
         let (radius, base) = (radius_mm.abs(), self.base_radius_mm.abs());

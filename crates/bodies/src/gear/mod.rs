@@ -24,6 +24,7 @@ pub mod outline;
 pub mod pair;
 pub mod path_of_contact;
 pub(crate) mod per_gear;
+pub mod planetary;
 pub mod removed_material;
 pub mod ring_fillet;
 pub mod root_trochoid;

@@ -88,7 +88,7 @@ impl WholePair {
         let reach = meshed.fine_teeth as i32 / 2;
         let fine: Vec<i32> = (-reach..=reach).collect();
         let sectors = [&meshed.fine, meshed.coarse.as_ref().unwrap_or(&meshed.fine)];
-        let mesh = gear_mesh(gear, pair.teeth[gear].teeth, meshed.settings.body, &fine, sectors)?;
+        let mesh = gear_mesh(gear, pair.teeth[gear].z(), meshed.settings.body, &fine, sectors)?;
         let offset = self.solid.points_mm.len() as u32;
         let placed = mesh.points_mm.iter().map(|&point| in_place_mm(pair, gear, position_mm, 0, point));
         self.solid.points_mm.extend(placed);

@@ -108,7 +108,7 @@ impl PlaneSection {
             solid: Solid { points_mm: section.points_mm.clone(), elements },
             clamp: section.clamp.clone(),
             cuts: section.cuts.each_ref().map(|cut| free_of(cut, |node| section.clamp.contains(node))),
-            half_angle_rad: std::f64::consts::PI / f64::from(tooth.teeth),
+            half_angle_rad: std::f64::consts::PI / tooth.z(),
             candidates: section.flank.clone(),
             probes: Vec::new(),
             working_side_probes: 0,

@@ -394,7 +394,7 @@ impl CondensedPair<'_> {
     /// ρ where the involute of a gear's flank ends, at its tip circle or where the rounding begins.
     fn involute_end_mm(&self, gear: Gear) -> f64 {
         // NaN on a rounding is never greater.
-        self.flanks[gear].rho_mm.iter().copied().fold(0.0, f64::max)
+        self.flanks[gear].rho_mm.iter().copied().fold(f64::NEG_INFINITY, f64::max)
     }
 }
 

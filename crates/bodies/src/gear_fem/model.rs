@@ -271,9 +271,9 @@ fn dofs_without_cut(sector: &ToothSector) -> usize {
     sector.dofs() - 2 * sector.left_cut.len()
 }
 
-/// Half a pitch of a gear.
+/// Half a pitch of a gear, negative of an internal one.
 fn half_angle_rad(pair: &GearPair, gear: Gear) -> f64 {
-    std::f64::consts::PI / f64::from(pair.teeth[gear].teeth)
+    std::f64::consts::PI / pair.teeth[gear].z()
 }
 
 /// Finite-element model of a meshed sector; forces may act on the nodes `candidates`.

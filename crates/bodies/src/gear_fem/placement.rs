@@ -7,7 +7,7 @@
 //! pinion   ξ/r_b1 − ψ_b1 − α_w + 2πj/z1            wheel   π + ρ2/r_b2 − ψ_b2 − α_w − 2πj/z2
 //! ```
 //!
-//! ψ_b: half the tooth's angle on the base circle. Pair j = +1 is a base pitch ahead of the reference pair.
+//! with negative a, r_b2, ρ2, ψ_b2 and z2 of an internal wheel. ψ_b: half the tooth's angle on the base circle. Pair j = +1 is a base pitch ahead of the reference pair.
 
 use std::f64::consts::{PI, TAU};
 
@@ -18,7 +18,7 @@ use crate::gear_mesh::turn_rad;
 
 /// Angle of the centre line of tooth `tooth` of a gear from +y, anticlockwise.
 pub fn tooth_angle_rad(pair: &GearPair, gear: Gear, position_mm: f64, tooth: i32) -> f64 {
-    let pitches = TAU * f64::from(tooth) / f64::from(pair.teeth[gear].teeth);
+    let pitches = TAU * f64::from(tooth) / pair.teeth[gear].z();
     let angle = turn_rad(pair, gear, position_mm);
     match gear {
         Gear::Pinion => angle + pitches,

@@ -8,7 +8,7 @@ use nalgebra::Vector2;
 
 use super::cut::Cut;
 use super::layer::{self, FlankNode, Layer, add};
-use super::outline::Outline;
+use super::outline::{Outline, reaches};
 use super::spacing::{OutlinePart, ToothSide};
 use super::{
     FlankChain, GREATEST_MODULES, SectorSettings, ToothElement, ToothMeshError, ToothSector, ToothShape, interior,
@@ -28,7 +28,7 @@ pub(super) fn assemble(
     outline: &Outline,
     cut: &Cut,
 ) -> Result<ToothSector, ToothMeshError> {
-    let half_pitch_rad = PI / f64::from(shape.tooth.teeth);
+    let half_pitch_rad = PI / shape.tooth.z();
     // Nodes of the outline come first, in its order.
     let mut points_mm: Vec<Vector2<f64>> = outline.nodes.iter().map(|node| node.point_mm).collect();
     let ends = [(1.0, 0), (-1.0, outline.nodes.len() - 1)];
@@ -169,7 +169,7 @@ fn flank_chain(outline: &Outline, side: ToothSide) -> FlankChain {
 
 /// The first end of an element, from the root, where the resolved part has begun.
 fn first_resolved(rho_mm: &[f64], from_rho_mm: f64) -> usize {
-    2 * rho_mm.iter().step_by(2).position(|&rho| rho >= from_rho_mm * (1.0 - 1e-12)).unwrap_or(0)
+    2 * rho_mm.iter().step_by(2).position(|&rho| reaches(rho, from_rho_mm)).unwrap_or(0)
 }
 
 /// Six-node triangles inside a loop of edges, which keep their middle nodes; other middles lie halfway between corners.

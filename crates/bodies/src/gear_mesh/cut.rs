@@ -61,7 +61,7 @@ impl Cut {
     pub(super) fn new(shape: &ToothShape, clamp_radius_mm: f64, first_mm: f64) -> Result<Self, ToothMeshError> {
         let root_mm = shape.tooth.root_radius_mm;
         let greatest_mm = greatest_clamp_mm(root_mm, shape.normal_module_mm);
-        if !(clamp_radius_mm > 0.0 && clamp_radius_mm <= greatest_mm) {
+        if !((clamp_radius_mm > 0.0 || shape.tooth.is_internal()) && clamp_radius_mm <= greatest_mm) {
             return Err(ToothMeshError::ClampRadius { clamp_radius_mm, greatest_mm });
         }
         let depth_mm = root_mm - clamp_radius_mm;

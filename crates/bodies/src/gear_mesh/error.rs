@@ -3,17 +3,17 @@
 /// Reason why a tooth cannot be meshed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ToothMeshError {
-    /// The teeth are internal.
-    #[error("finite elements of internal gears are not in the model")]
-    InternalTeeth,
     /// The clamp radius is not positive or leaves no body below the teeth.
     #[error(
-        "clamp radius {clamp_radius_mm:.4} mm: it must be above 0 and at most {greatest_mm:.4} mm, below the teeth"
+        "clamp radius {:.4} mm: it must {} {:.4} mm, below the teeth",
+        .clamp_radius_mm.abs(),
+        if *.greatest_mm < 0.0 { "be at least" } else { "be above 0 and at most" },
+        .greatest_mm.abs()
     )]
     ClampRadius {
         /// Given radius.
         clamp_radius_mm: f64,
-        /// Greatest possible radius.
+        /// Greatest possible radius, negative of an internal gear.
         greatest_mm: f64,
     },
     /// A setting of the mesh is not positive and finite.

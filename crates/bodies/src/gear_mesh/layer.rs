@@ -26,7 +26,7 @@ const THICKENING: f64 = 1.25;
 const THICKEST_OVER_WIDTH: f64 = 1.5;
 /// Greatest depth over the tooth's thickness.
 const PART_OF_THICKNESS: f64 = 0.3;
-/// Greatest depth over the flank's radius of curvature, at whose centre the normals meet.
+/// Greatest depth over the radius of curvature of a convex flank, at whose centre the normals meet.
 const PART_OF_CURVATURE: f64 = 0.4;
 /// Steepest slant of the lowest row against the flank.
 const STEEPEST: f64 = 0.3;
@@ -144,7 +144,7 @@ fn where_it_fits(flank: &[FlankNode], depth: f64) -> (usize, usize) {
 fn fits(at: &FlankNode, next: Option<&FlankNode>, depth: f64) -> bool {
     let depth_mm = depth * at.node.length_mm;
     depth_mm <= PART_OF_THICKNESS * 2.0 * at.node.point_mm.x.abs()
-        && depth_mm <= PART_OF_CURVATURE * at.rho_mm
+        && (at.rho_mm < 0.0 || depth_mm <= PART_OF_CURVATURE * at.rho_mm)
         && next.is_none_or(|next| {
             let along = (next.node.point_mm - at.node.point_mm).norm();
             depth * (next.node.length_mm - at.node.length_mm).abs() <= STEEPEST * along

@@ -6,6 +6,9 @@
 //! lie on the true profile: involute less the removed material, root trochoid, arcs of the root, tip and clamp circles,
 //! and the true circle of the tip rounding.
 //!
+//! An internal gear has negative radii and angles in the same equations: its tooth lies on −y, the tip towards +y and the axis, the clamp circle
+//! is its outside, and "clockwise" on a cut is x > 0 as on an external gear.
+//!
 //! A **fine** sector resolves the working flank from a margin below the start of active profile to the tip with a given
 //! number of elements in the local half-width of contact: a layer of structured elements on the flank, six-node
 //! triangles below it. A **coarse** sector has the same shape without that and with sharp tip edges. Both have the same nodes on both cuts,

@@ -57,7 +57,7 @@ impl Outline {
         let right = wanted.half(profile, ToothSide::Right);
         let left = wanted.half(profile, ToothSide::Left);
         let mut runs = right;
-        if profile.land_rad() * shape.tooth.tip_radius_mm > LEAST_MODULES * shape.normal_module_mm {
+        if profile.land_mm() > LEAST_MODULES * shape.normal_module_mm {
             let halves = [(ToothSide::Right, Piece::Land, [0.0, 1.0]), (ToothSide::Left, Piece::Land, [1.0, 0.0])];
             runs.push(OutlineRun::new(profile, OutlinePart::Land, &halves, SAMPLES));
         }
@@ -109,6 +109,11 @@ impl Outline {
     }
 }
 
+/// Whether ρ is not below `from_rho_mm`, but for round-off.
+pub(super) fn reaches(rho_mm: f64, from_rho_mm: f64) -> bool {
+    rho_mm >= from_rho_mm * (1.0 - 1e-12_f64.copysign(from_rho_mm))
+}
+
 /// Resolved part of the working flank.
 struct ResolvedFlank<'a> {
     flank: FlankResolution<'a>,
@@ -151,7 +156,7 @@ impl<'a> Wanted<'a> {
         let margin_mm = flank.margin_mm.max(0.0);
         // Arc length of the involute: s = ρ²/(2 r_b).
         let square = start * start - 2.0 * tooth.involute.base_radius_mm * margin_mm;
-        let from_rho_mm = square.max(0.0).sqrt().max(tooth.root_form_rho_mm());
+        let from_rho_mm = tooth.involute.signed(square.max(0.0).sqrt()).max(tooth.root_form_rho_mm());
         let resolved = ResolvedFlank { flank, from_rho_mm, tip_rho_mm: tooth.tip_rho_mm() };
         let least_mm = LEAST_MODULES * module_mm;
         for k in 0..=SAMPLES {
@@ -229,7 +234,7 @@ impl<'a> Wanted<'a> {
                 let open = (FLANK_MODULES * module).min(OVER_THICKNESS * thickness);
                 // The node at the beginning of the resolved part belongs to it for the runs on both sides.
                 resolved
-                    .filter(|resolved| rho >= resolved.from_rho_mm * (1.0 - 1e-12))
+                    .filter(|resolved| reaches(rho, resolved.from_rho_mm))
                     .map_or(open, |resolved| resolved.element_mm(rho).min(open))
             }),
             OutlinePart::Rounding => {

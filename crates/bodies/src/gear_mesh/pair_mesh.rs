@@ -8,7 +8,7 @@
 //! wheel  turned by −ψ₂(r_w2) − (ξ − C)/r_b2, then by half a turn about its axis
 //! ```
 //!
-//! ψ being half the tooth's angle on the working pitch circle. Between modified flanks there is a gap of the material removed there.
+//! ψ being half the tooth's angle on the working pitch circle, negative as a, r_b2 and all radii of an internal wheel are, whose tooth 0 is on −y. Between modified flanks there is a gap of the material removed there.
 
 use std::ops::Range;
 
@@ -103,7 +103,7 @@ impl<'a> ResolvedHalfWidth<'a> {
             .flat_map(|of| pair.begins_of_reliefs(of).map(move |(rho_mm, shape)| (of, rho_mm, shape)))
             .filter(|&(_, _, shape)| shape == ReliefShape::Linear)
             .map(|(of, rho_mm, _)| path.rho_mm(gear, path.rho_mm(of, rho_mm)))
-            .map(|rho_mm| path.involute[gear].arc_mm(rho_mm.max(0.0)))
+            .map(|rho_mm| path.involute[gear].arc_mm(path.involute[gear].on_flank_mm(rho_mm)))
             .collect();
         let mut resolved = Self {
             pair,
@@ -188,7 +188,7 @@ pub fn pair_mesh(
     let mut blocks = Blocks::default();
     for gear in Gear::BOTH {
         let of_gear = [&sectors.fine[gear], &sectors.coarse[gear]];
-        let mesh = gear_mesh(gear, pair.teeth[gear].teeth, settings.body, fine, of_gear)?;
+        let mesh = gear_mesh(gear, pair.teeth[gear].z(), settings.body, fine, of_gear)?;
         blocks.add(gear, &mesh, in_place(pair, gear, position_mm));
     }
     Ok(blocks.mesh)

@@ -1,8 +1,8 @@
 //! Exact curves of the outline of one tooth, from the cut in the middle of a space to the tip.
 //!
 //! Half with x > 0, the tooth's centre line on +y; the other half is its mirror image. Angles θ run clockwise from
-//! the centre line. From root to tip the pieces are the arc of the root circle, the root trochoid, the flank and the
-//! rounding of the tip edge:
+//! the centre line. An internal tooth has negative radii and angles, and its centre line on −y: its tip points to +y too. From root to tip the
+//! pieces are the arc of the root circle, the fillet, the flank and the rounding of the tip edge:
 //!
 //! ```text
 //! flank      P(ρ) = T + (ρ − c(ρ)) n       T = r_b (sin θ_T, cos θ_T),   n = (cos θ_T, −sin θ_T),   θ_T = ψ_b − ρ/r_b
@@ -67,22 +67,21 @@ impl<'a> Profile<'a> {
         modification: &Modification,
         active_start_rho_mm: f64,
     ) -> Result<Self, ToothMeshError> {
-        if tooth.is_internal() {
-            return Err(ToothMeshError::InternalTeeth);
-        }
         // The rounding is a separate circle here, not material removed from the flank.
         let modification = Modification { tip_rounding_mm: 0.0, ..*modification };
         let mut profile =
             Self { tooth, modification, active_start_rho_mm, flank_end_rho_mm: 0.0, rounding: None, land_rad: 0.0 };
         // Beyond the tip circle of the plain involute the removed material is constant.
         profile.flank_end_rho_mm = tooth.tip_rho_mm() + profile.removed_mm(tooth.tip_rho_mm());
-        let (form_rho, removed) = (tooth.root_form_rho_mm(), profile.removed_mm(tooth.root_form_rho_mm()));
-        if removed > 0.5 * form_rho && removed > 0.0 {
-            return Err(ToothMeshError::ReliefBeyondCurvature { removed_mm: removed, rho_mm: form_rho });
+        // The flank is most curved where it is nearest to its base circle: at the tip of an internal tooth.
+        let curved_rho = if tooth.is_internal() { tooth.tip_rho_mm() } else { tooth.root_form_rho_mm() };
+        let (rho_mm, removed_mm) = (curved_rho.abs(), profile.removed_mm(curved_rho));
+        if removed_mm > 0.5 * rho_mm && removed_mm > 0.0 {
+            return Err(ToothMeshError::ReliefBeyondCurvature { removed_mm, rho_mm });
         }
         let corner = profile.flank_mm(profile.flank_end_rho_mm);
-        profile.land_rad = corner.x.atan2(corner.y);
-        if profile.land_rad <= 0.0 {
+        profile.land_rad = tooth.polar(corner).1;
+        if profile.land_mm() <= 0.0 {
             return Err(ToothMeshError::PointedTip { tip_radius_mm: tooth.tip_radius_mm });
         }
         Ok(profile)
@@ -109,9 +108,10 @@ impl<'a> Profile<'a> {
         let normal = self.normal(low);
         let centre_mm = self.flank_mm(low) - radius_mm * normal;
         let first_rad = normal.y.atan2(normal.x);
-        let sweep_rad = centre_mm.y.atan2(centre_mm.x) - first_rad;
-        self.land_rad = centre_mm.x.atan2(centre_mm.y);
-        if sweep_rad <= 0.0 || self.land_rad < 0.0 {
+        let to_tip = self.tooth.involute.signed(1.0) * centre_mm;
+        let sweep_rad = to_tip.y.atan2(to_tip.x) - first_rad;
+        self.land_rad = to_tip.x.atan2(to_tip.y);
+        if sweep_rad <= 0.0 || self.land_mm() < 0.0 {
             return Err(error);
         }
         self.flank_end_rho_mm = low;
@@ -121,14 +121,15 @@ impl<'a> Profile<'a> {
 
     /// Distance by which a circle tangent to the flank at ρ from inside reaches beyond the tip circle, mm.
     fn beyond_tip_mm(&self, rho_mm: f64, radius_mm: f64) -> f64 {
-        (self.flank_mm(rho_mm) - radius_mm * self.normal(rho_mm)).norm() - (self.tooth.tip_radius_mm - radius_mm)
+        let (centre_radius_mm, _) = self.tooth.polar(self.flank_mm(rho_mm) - radius_mm * self.normal(rho_mm));
+        centre_radius_mm - (self.tooth.tip_radius_mm - radius_mm)
     }
 
     /// Point of `piece` at `u`, from 0 at its root end to 1.
     pub(super) fn point_mm(&self, piece: Piece, u: f64) -> Vector2<f64> {
         match piece {
             Piece::RootArc => {
-                let cut = PI / f64::from(self.tooth.teeth);
+                let cut = PI / self.tooth.z();
                 let theta = cut - u * self.root_arc_rad();
                 self.tooth.root_radius_mm * Vector2::new(theta.sin(), theta.cos())
             }
@@ -151,7 +152,7 @@ impl<'a> Profile<'a> {
     /// Radius of curvature of the involute at `u` on the flank, evenly spaced in arc length.
     pub(super) fn rho_mm(&self, u: f64) -> f64 {
         let (first, last) = (self.tooth.root_form_rho_mm(), self.flank_end_rho_mm);
-        (first * first + u * (last - first) * (last + first)).max(0.0).sqrt()
+        self.tooth.involute.signed((first * first + u * (last - first) * (last + first)).max(0.0).sqrt())
     }
 
     /// Parameter of the flank at a radius of curvature; inverse of [`Self::rho_mm`].
@@ -181,13 +182,13 @@ impl<'a> Profile<'a> {
 
     /// Half angle of the root circle's arc between two fillets.
     pub(super) fn root_arc_rad(&self) -> f64 {
-        let foot = self.tooth.trochoid.point_mm(FRAC_PI_2);
-        foot.x.atan2(foot.y).max(0.0)
+        let (sign, foot) = (self.tooth.involute.signed(1.0), self.tooth.trochoid.point_mm(FRAC_PI_2));
+        sign * (sign * self.tooth.polar(foot).1).max(0.0)
     }
 
-    /// Half angle of the tip land.
-    pub(super) fn land_rad(&self) -> f64 {
-        self.land_rad
+    /// Half of the arc of the tip land.
+    pub(super) fn land_mm(&self) -> f64 {
+        self.land_rad * self.tooth.tip_radius_mm
     }
 
     /// Radius of the tip rounding; 0 where the edge is sharp.
@@ -228,8 +229,9 @@ impl<'a> Profile<'a> {
         let t = FRAC_PI_2 + (self.tooth.fillet_end_angle_rad - FRAC_PI_2) * u;
         let in_space = self.tooth.trochoid.point_mm(t);
         // Anticlockwise from the centre line of the space to that of the tooth.
-        let theta = PI / f64::from(self.tooth.teeth) - in_space.x.atan2(in_space.y);
-        let point = in_space.norm() * Vector2::new(theta.sin(), theta.cos());
+        let (radius_mm, from_space_rad) = self.tooth.polar(in_space);
+        let theta = PI / self.tooth.z() - from_space_rad;
+        let point = radius_mm * Vector2::new(theta.sin(), theta.cos());
         let form_rho = self.tooth.root_form_rho_mm();
         let fading = u * u * (3.0 - 2.0 * u);
         point - fading * self.removed_mm(form_rho) * self.involute_normal(form_rho)

@@ -21,6 +21,8 @@ pub fn rounding_element_mm(rounding_mm: f64, elements_per_half_width: f64, refin
 
 /// Default depth of the body below the root circle, in transverse modules.
 const BODY_MODULES: f64 = 2.5;
+/// Default thickness of the rim of an internal wheel, in transverse modules.
+const RING_MODULES: f64 = 3.5;
 /// Least default clamp radius over the root radius.
 const LEAST_OVER_ROOT: f64 = 0.2;
 /// Clamp radius over the root radius of smaller gears.
@@ -31,7 +33,7 @@ const SMALL_OVER_ROOT: f64 = 0.4;
 pub struct BodySettings {
     /// Part of each gear that is meshed.
     pub body: Body,
-    /// Radius at which each body is held or turned rigidly: rim or bore.
+    /// Radius at which each body is held or turned rigidly: rim or bore, or the outside of an internal wheel, negative as its radii.
     pub clamp_radius_mm: PerGear<f64>,
     /// Webs that carry rims, in three dimensions only: plane elements are as wide as the teeth.
     pub web: PerGear<Option<Web>>,
@@ -107,7 +109,7 @@ pub enum SectorSides {
 /// Least depth of the body below the root circle, in normal modules.
 const LEAST_BODY_MODULES: f64 = 0.1;
 
-/// Greatest clamp radius of a gear, a tenth of a module below its root circle.
+/// Greatest clamp radius of a gear, a tenth of a module below its root circle, where radii of an internal gear are negative.
 pub fn greatest_clamp_mm(root_radius_mm: f64, normal_module_mm: f64) -> f64 {
     root_radius_mm - LEAST_BODY_MODULES * normal_module_mm
 }
@@ -119,6 +121,16 @@ const LEAST_RIM_MODULES: f64 = 0.25;
 pub fn rim_thickness_limits_mm(root_radius_mm: f64, clamp_radius_mm: f64, normal_module_mm: f64) -> [f64; 2] {
     let left_mm = greatest_clamp_mm(root_radius_mm, normal_module_mm) - clamp_radius_mm;
     [LEAST_RIM_MODULES * normal_module_mm, left_mm]
+}
+
+/// Default thickness of the rim of an internal wheel, 3.5 transverse modules.
+pub fn default_ring_rim_mm(transverse_module_mm: f64) -> f64 {
+    RING_MODULES * transverse_module_mm
+}
+
+/// Least thickness of the rim of an internal wheel.
+pub fn least_ring_rim_mm(normal_module_mm: f64) -> f64 {
+    LEAST_BODY_MODULES * normal_module_mm
 }
 
 /// Least thickness of a web along the axis, a tenth of a module.
@@ -136,8 +148,12 @@ pub struct DefaultClamp {
 }
 
 /// Default clamp radius of a gear: the root radius less 2.5 transverse modules, so that pairs of the same transverse section
-/// have the same bodies, or 0.4 of the root radius where that would leave less than 0.2 of it.
+/// have the same bodies, or 0.4 of the root radius where that would leave less than 0.2 of it; of an internal wheel, 3.5 transverse modules outside it.
 pub fn default_clamp(root_radius_mm: f64, transverse_module_mm: f64) -> DefaultClamp {
+    if root_radius_mm < 0.0 {
+        let radius_mm = root_radius_mm - default_ring_rim_mm(transverse_module_mm);
+        return DefaultClamp { radius_mm, small_gear: false };
+    }
     let radius_mm = root_radius_mm - BODY_MODULES * transverse_module_mm;
     if radius_mm > LEAST_OVER_ROOT * root_radius_mm {
         DefaultClamp { radius_mm, small_gear: false }

@@ -11,7 +11,7 @@
 //!
 //! A body with a web has a circle between, where the rim ends; below it there are elements in the web only.
 //!
-//! Frame and orientation are those of [`super::ToothSector`]: the tooth's centre line on +y, the working flank at x < 0. The profile is
+//! Frame and orientation are those of [`super::ToothSector`]: the tooth's centre line on +y, of an internal gear on −y, the working flank at x < 0. The profile is
 //! the generated one without modifications or rounding of the tip edge; the nodes of the surface lie on it. In space each section
 //! turns about the gear's axis by the same angle per mm.
 
@@ -116,10 +116,10 @@ impl<'a> HalfOutline<'a> {
                 in_tooth_frame(tooth, tooth.trochoid.point_mm(t))
             })
             .collect();
-        let (root_mm, at_cut) = (tooth.root_radius_mm, PI / f64::from(tooth.teeth));
-        let begins = fillet[0].x.atan2(fillet[0].y);
+        let (root_mm, at_cut) = (tooth.root_radius_mm, PI / tooth.z());
+        let (_, begins) = tooth.polar(fillet[0]);
         let mut outline: Vec<Vector2<f64>> = Vec::with_capacity(2 * SAMPLES);
-        if (at_cut - begins) * root_mm > 1e-6 * root_mm {
+        if (at_cut - begins) * root_mm > 1e-6 * root_mm.abs() {
             outline.extend((0..SAMPLES).map(|k| {
                 let angle = at_cut + (begins - at_cut) * sample(k);
                 root_mm * Vector2::new(angle.sin(), angle.cos())
@@ -217,7 +217,7 @@ impl<'a> Grids<'a> {
         let s = i as f64 / across as f64 - 1.0;
         let x = edge.x * s;
         if j == self.tooth_rows() {
-            return Vector2::new(x, (tooth.tip_radius_mm.powi(2) - x * x).sqrt());
+            return Vector2::new(x, tooth.involute.signed((tooth.tip_radius_mm.powi(2) - x * x).sqrt()));
         }
         let tip = self.outline.flank(tooth.tip_radius_mm);
         let tip_bulge = (tooth.tip_radius_mm - tip.y) / tip.x;
@@ -230,7 +230,7 @@ impl<'a> Grids<'a> {
         let SectionDivisions { across, land, radial, .. } = self.divisions;
         let (beside, columns, rim_rows) = (2 * land, self.columns(), 2 * radial);
         let middle = self.outline.lower.at(1.0);
-        let (at_cut, at_middle) = (PI / f64::from(self.outline.tooth.teeth), middle.x.atan2(middle.y));
+        let (at_cut, at_middle) = (PI / self.outline.tooth.z(), self.outline.tooth.polar(middle).1);
         let (top, angle) = if i < beside || i > columns - beside {
             let from_cut = i.min(columns - i) as f64 / beside as f64;
             let side = if i < beside { -1.0 } else { 1.0 };

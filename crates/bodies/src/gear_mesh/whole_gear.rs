@@ -18,7 +18,7 @@ pub struct GearMesh {
     pub points_mm: Vec<Vector2<f64>>,
     /// Elements, tooth by tooth.
     pub cells: Vec<ToothElement>,
-    /// The teeth, anticlockwise.
+    /// The teeth, from the side of the back flanks to that of the working flanks: anticlockwise of an external gear.
     pub teeth: Vec<ToothNodes>,
     /// Cut sides of a sector by increasing radius, the clockwise one first; empty for a ring.
     pub sides: Vec<Vec<u32>>,
@@ -53,17 +53,18 @@ fn sense(gear: Gear) -> i32 {
     }
 }
 
-/// Builds `gear` with `teeth` teeth from its sectors: those numbered in `fine` from the fine one.
+/// Builds `gear` with `z` teeth, negative of an internal one, from its sectors: those numbered in `fine` from the fine one.
 ///
 /// # Errors
 /// [`ToothMeshError::SectorTeeth`] where a sector's number of teeth is even or more than the gear has.
 pub fn gear_mesh(
     gear: Gear,
-    teeth: u32,
+    z: f64,
     body: Body,
     fine: &[i32],
     sectors: [&ToothSector; 2],
 ) -> Result<GearMesh, ToothMeshError> {
+    let teeth = z.abs() as u32;
     let (count, closed) = match body {
         Body::Ring => (teeth, true),
         Body::Sector { teeth: sector_teeth, .. } if sector_teeth % 2 == 1 && sector_teeth <= teeth => {
@@ -76,7 +77,7 @@ pub fn gear_mesh(
     let mut mesh = GearMesh::default();
     let (mut first_cut, mut last_cut): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
     for place in 0..count {
-        // Pitches anticlockwise from the tooth on +y.
+        // Pitches towards the working flank of the tooth on the axis y, anticlockwise of an external gear.
         let steps = place as i32 - (count as i32 - 1) / 2;
         let index = sense(gear) * steps;
         let is_fine = fine.contains(&index);
@@ -88,7 +89,7 @@ pub fn gear_mesh(
         if closed && place + 1 == count && place > 0 {
             share(&mut shared, &sector.left_cut, &first_cut);
         }
-        let turn = Rotation2::new(2.0 * PI * f64::from(steps) / f64::from(teeth));
+        let turn = Rotation2::new(2.0 * PI * f64::from(steps) / z);
         let ids = mesh.add(sector, &shared, turn);
         if place == 0 {
             first_cut = renumbered(&sector.right_cut, &ids);

@@ -39,11 +39,6 @@ pub enum AccuracyError {
     /// A run of the reference failed.
     #[error("the reference, {name}: {reason}")]
     Reference { name: String, reason: String },
-    /// There is no reference of a pair with an internal wheel.
-    #[error(
-        "pair.wheel: the reference of this comparison is finite elements, which are not in the model for internal gears"
-    )]
-    InternalTeeth,
     #[error("interrupted before the reference was finished")]
     Interrupted,
 }
@@ -59,9 +54,6 @@ pub fn run(
     asked: AccuracyOptions,
     observer: &dyn Observer,
 ) -> Result<AccuracyRecord, AccuracyError> {
-    if given.scene().pair.is_internal() {
-        return Err(AccuracyError::InternalTeeth);
-    }
     let start = Instant::now();
     let CalibrationOfRuns { made, wall_s: calibration_s, why_none } = calibration(given, observer)?;
     let mut given = made.map_or_else(|| given.clone(), |made| given.calibrated(made));

@@ -33,7 +33,7 @@ struct Sizes {
     /// E*, MPa.
     modulus_mpa: f64,
     is_plastic: bool,
-    /// Whether the wheel has internal teeth, of which there are neither finite elements nor temperatures.
+    /// Whether the wheel has internal teeth, of which there are no temperatures.
     is_internal: bool,
 }
 
@@ -341,7 +341,7 @@ impl Draw {
         let is_sliced = sizes.helix_rad != 0.0;
         let drawn = self.random.u16(0..1000);
         let surface = match drawn {
-            0..=3 if !is_sliced && !sizes.is_internal => "fem",
+            0..=3 if !is_sliced => "fem",
             // Half-planes cost ten times what the others do.
             _ if drawn < if is_sliced { 600 } else { 500 } => "winkler",
             _ if drawn < 700 => "half-space",
@@ -366,8 +366,8 @@ impl Draw {
         }
         if surface != "fem" {
             let model = match self.random.u16(0..1000) {
-                0..=3 if !sizes.is_internal => "fem",
-                0..=249 => "constant",
+                0..=3 => "fem",
+                4..=249 => "constant",
                 250..=399 => "iso6336",
                 _ => "weber-banaschek",
             };

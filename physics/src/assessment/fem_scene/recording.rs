@@ -186,7 +186,7 @@ impl RecordSource<'_> {
             Surroundings::FreeSector { coarse } | Surroundings::ClampedSector { coarse } => 2 * coarse,
         };
         Ok(GearModelSummary {
-            clamp_radius_mm: self.scene.fem.clamp_radius_mm[gear],
+            clamp_radius_mm: self.scene.fem.clamp_radius_mm[gear].abs(),
             dofs: meshed.dofs(),
             elements: meshed.fine_teeth as usize * meshed.fine.cells.len()
                 + coarse * meshed.coarse.as_ref().map_or(0, |sector| sector.cells.len()),
@@ -280,10 +280,15 @@ impl RecordSource<'_> {
             .into_iter()
             .any(|gear| default_clamp(self.model.pair.teeth[gear].root_radius_mm, module_mm).radius_mm == radii[gear])
         {
+            let (of_ring, key) = match self.model.pair.spec.is_internal() {
+                true => (", 3.5 outside that of a ring", "fem.clamp_radius_mm and pair.wheel.rim_thickness_mm say"),
+                false => ("", "fem.clamp_radius_mm says"),
+            };
             warnings.push(format!(
-                "the bodies are held at {:.2} mm (pinion) and {:.2} mm (wheel), by default 2.5 modules below the root circle: \
-                 transmission error and root stress depend on it; fem.clamp_radius_mm says where rim or bore are",
-                radii.pinion, radii.wheel
+                "the bodies are held at {:.2} mm (pinion) and {:.2} mm (wheel), by default 2.5 modules below the root circle{of_ring}: \
+                 transmission error and root stress depend on it; {key} where rim or bore are",
+                radii.pinion,
+                radii.wheel.abs()
             ));
         }
         if self.scene.fem.web != NO_WEBS {
