@@ -180,7 +180,7 @@ fn commands_on_finite_elements_know_rings() {
     // Another rim is another body.
     let other = [&calibrated[..], &[("internal = true", "internal = true\nrim_thickness_mm = 6.0")]].concat();
     let message = String::from_utf8(run(&with(&other), folder.path()).stderr).unwrap();
-    assert!(message.contains("fem.clamp_radius_mm.wheel"), "{message}");
+    assert!(message.contains("pair.wheel.rim_thickness_mm: calibration 10.5, scene 6"), "{message}");
 }
 
 /// Runs on finite elements, the default, and on half-planes are verified.

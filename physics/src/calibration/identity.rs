@@ -81,6 +81,9 @@ pub struct GearIdentity {
     /// d_f of an internal gear, given or derived.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub root_diameter_mm: Option<f64>,
+    /// Thickness of the rim of an internal gear.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rim_thickness_mm: Option<f64>,
     /// Shaper cutter of an internal gear.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cutter: Option<CutterIdentity>,
@@ -177,8 +180,8 @@ impl CalibrationIdentity {
                     dedendum_factor: spec.rack.dedendum_factor,
                     fillet_radius_factor: spec.rack.fillet_radius_factor,
                 },
-                pinion: GearIdentity::of(pair, Gear::Pinion),
-                wheel: GearIdentity::of(pair, Gear::Wheel),
+                pinion: GearIdentity::of(pair, Gear::Pinion, bodies),
+                wheel: GearIdentity::of(pair, Gear::Wheel, bodies),
             },
             material: material.map(|own| MaterialIdentity {
                 young_modulus_gpa: 1e-3 * own.young_modulus_mpa,
@@ -211,7 +214,8 @@ impl CalibrationIdentity {
 }
 
 impl GearIdentity {
-    fn of(pair: &GearPair, gear: Gear) -> Self {
+    fn of(pair: &GearPair, gear: Gear, bodies: &BodySettings) -> Self {
+        let root_radius_mm = pair.teeth[gear].root_radius_mm;
         let spec = &pair.spec.gears[gear];
         let modification = &spec.modification;
         Self {
@@ -220,7 +224,8 @@ impl GearIdentity {
             tip_diameter_mm: 2.0 * pair.teeth[gear].tip_radius_mm.abs(),
             tooth_thickness_allowance_um: 1e3 * spec.tooth_thickness_allowance_mm,
             profile_crowning_um: 1e3 * modification.profile_crowning_mm,
-            root_diameter_mm: spec.ring.map(|_| 2.0 * pair.teeth[gear].root_radius_mm.abs()),
+            root_diameter_mm: spec.ring.map(|_| 2.0 * root_radius_mm.abs()),
+            rim_thickness_mm: spec.ring.map(|_| root_radius_mm - bodies.clamp_radius_mm[gear]),
             cutter: spec.ring.and_then(|ring| ring.cutter).map(|cutter| CutterIdentity::of(&cutter)),
             tip_rounding_mm: modification.tip_rounding_mm,
             tip_relief: modification.tip_relief.map(ReliefIdentity::of),
