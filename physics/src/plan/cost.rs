@@ -6,7 +6,9 @@
 
 use serde::Serialize;
 
-use super::{Plan, StageKind, is_finest_in_space, memory_in_space_gb, memory_of_slices_gb};
+use super::{
+    Plan, StageKind, is_estimated_by_verification, is_finest_in_space, memory_in_space_gb, memory_of_slices_gb,
+};
 use crate::contact::hertz;
 use crate::contact::settings::SurfaceKind;
 use crate::operation::Scene;
@@ -36,7 +38,7 @@ const VERIFIED_CONTACTS: [f64; 2] = [0.5, 1.0];
 /// Flank points in a contact that the times of a position are measured with, and the power with which these grow.
 const POINTS: (f64, f64) = (20.0, 0.6);
 /// Plane finite elements of a pair: time of a model, s, and of a position of the mesh cycle, s; memory, GB.
-const PLANE_ELEMENTS: (f64, f64, f64) = (0.12, 70e-6, 0.1);
+const PLANE_ELEMENTS: (f64, f64, f64) = (0.12, 60e-6, 0.1);
 /// Positions of the mesh cycle of a verification on plane finite elements.
 const PLANE_POSITIONS: f64 = 200.0;
 /// Time of three-dimensional finite elements over the square of the number of elements over the face width, s.
@@ -145,6 +147,7 @@ impl Work {
             StageKind::TeethInSpace => IN_SPACE_S * (super::layers_in_space(scene) as f64).powi(2),
             StageKind::StepBound => self.wear_run(scene.contact.surface, self.positions, PREPARATION_CYCLES),
             StageKind::Simulation => self.wear_run(scene.contact.surface, self.positions, cycles),
+            StageKind::ErrorEstimates if is_estimated_by_verification(scene) => 0.0,
             StageKind::ErrorEstimates => ERROR_ESTIMATES * self.seconds(StageKind::Simulation, scene),
             StageKind::Verification if self.slices.is_some() => {
                 let [of_finest, of_others] = VERIFIED_CONTACTS;

@@ -11,6 +11,7 @@ use crate::mesh_cycle::settings::{Coupling, MOST_SLICES_IN_SPACE, SliceSettings}
 use crate::operation::Scene;
 use crate::simulation::settings::{Operation, Phase, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
+use crate::wear::settings::WearOfPair;
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_bodies::gear_mesh::settings::{Body, SpaceResolution};
 
@@ -145,6 +146,12 @@ impl Plan {
     }
 }
 
+/// Whether the difference from the verification stands for the error of the elements, so that the estimates need no run of their own.
+fn is_estimated_by_verification(scene: &Scene) -> bool {
+    let is_adaptive = matches!(scene.numerics.stepping, Stepping::Adaptive { .. });
+    scene.verify && is_adaptive && scene.contact.surface == SurfaceKind::Fem && !scene.wear.may_be_severe()
+}
+
 /// Why `kind` is needed (`Ok`) or left out (`Err`).
 fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
     match kind {
@@ -160,6 +167,9 @@ fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
         StageKind::Film => film(scene),
         StageKind::Losses => losses(scene),
         StageKind::Simulation => Ok(simulation(scene)),
+        StageKind::ErrorEstimates if scene.numerics.error_estimate && is_estimated_by_verification(scene) => {
+            Ok("numerics.error_estimate: of the wear step; the verification tells that of the elements".to_owned())
+        }
         StageKind::ErrorEstimates if scene.numerics.error_estimate => {
             Ok("numerics.error_estimate: Richardson extrapolation from coarser runs; at most half of the run's work"
                 .to_owned())
