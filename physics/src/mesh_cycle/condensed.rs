@@ -1,14 +1,12 @@
 //! The mesh cycle on the finite-element model: both gears condensed onto their flanks, contact found from their true, worn profiles.
 //!
-//! All tooth pairs at a position are in one complementarity problem, coupled through the gear bodies ([`gearwear_bodies::gear_fem`]),
-//! and touch wherever their profiles do, also before A and after E, where a tip edge meets its mate outside the line of
-//! action. As every tooth of a gear wears alike, one base pitch of positions suffices: the pairs found there, each at its
-//! own place of the path, together are one tooth pair over its whole mesh.
+//! All tooth pairs at a position are in one complementarity problem, coupled through the gear bodies ([`gearwear_bodies::gear_fem`]), and touch wherever
+//! their profiles do, also before A and after E, where a tip edge meets its mate outside the line of action. As every tooth of a gear wears alike, one
+//! base pitch of positions suffices: the pairs found there, each at its own place of the path, together are one tooth pair over its whole mesh.
 //!
 //! Wear is that of the nodes of both flanks: the load of every multiplier reaches those that it faces while the contact moves on
-//! ([`gearwear_bodies::gear_fem::load_transfer`]). Positions are closer together where a tip edge touches, about A and E, where the contact is
-//! narrow, stands still on the edge and runs along the mate; and so about B and D, where the number of pairs changes, as
-//! a base pitch leads from A to D and from B to E.
+//! ([`gearwear_bodies::gear_fem::load_transfer`]). Positions are closer together where a tip edge touches, about A and E, where the contact is narrow,
+//! stands still on the edge and runs along the mate; and so about B and D, as a base pitch leads from A to D and from B to E.
 //!
 //! The couplings of a position are prepared once; from one wear step to the next only the gaps change, and hardly the active set.
 
@@ -25,8 +23,7 @@ use crate::contact::flank_pressure::PressureFigures;
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::wear::{SlidingRow, WearModel};
 use gearwear_bodies::gear::{Gear, PerGear, flank_zones::FlankZones};
-use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
-use gearwear_bodies::gear_fem::condensed_pair::hertz_half_width_mm;
+use gearwear_bodies::gear_fem::condensed_pair::{CondensedPair, hertz_half_width_mm};
 use gearwear_bodies::gear_fem::flank_nodes::{FlankNodes, Weights};
 use gearwear_bodies::gear_fem::load_transfer::LoadTransfer;
 use gearwear_bodies::gear_fem::prepared::PreparedPosition;
