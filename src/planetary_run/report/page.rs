@@ -75,7 +75,7 @@ fn of_flanks(run: &RunRecord, mesh: StageMesh) -> impl Iterator<Item = Chart> {
         let title = of_stage(&chart.title, mesh);
         let mate = |gear: &str| mesh.gears().into_iter().find(|name| *name != gear).unwrap_or_default();
         let of_planet =
-            title.contains("planet").then(|| format!(" towards the {}", mate("planet"))).unwrap_or_default();
+            if title.contains("planet") { format!(" towards the {}", mate("planet")) } else { String::new() };
         let x = of_stage(&chart.x.title, mesh);
         Chart {
             id: format!("{}-{}", mesh.folder(), chart.id),

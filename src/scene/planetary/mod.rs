@@ -265,7 +265,7 @@ fn choose(file: StageFile, findings: &mut Findings) -> Option<(StageFile, Planet
         if gear.teeth.is_none() {
             findings.missing(&[&key], "a whole number at least 5");
         }
-        u32::try_from(gear.teeth?).ok()
+        gear.teeth
     });
     let planet_angles_rad = match &planetary.planet_angles_deg {
         None => PlanetaryStage::equal_angles_rad(planets),
