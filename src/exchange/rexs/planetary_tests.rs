@@ -82,6 +82,7 @@ fn ver_a_planetary_stage_is_that_of_its_meshes() {
     };
     for (teeth, tip) in [("61", "237.0"), ("-61", "-237.0")] {
         let found = scene(&with_teeth(teeth, tip), Some(1)).unwrap();
+        assert!(!found.text.contains("-0.0"), "{}", found.text);
         let stage = stage(&found.text);
         assert_eq!(stage.title, "Minus gear");
         assert_eq!([stage.stage.sun_teeth, stage.stage.planet_teeth, stage.stage.ring_teeth], [17, 22, 61]);

@@ -90,7 +90,8 @@ fn ring_shift(
         let teeth = [f64::from(planet.teeth?), -f64::from(ring.teeth?)];
         let sum = profile_shift::sum(section?, -centre_distance_mm?.value, teeth[0] + teeth[1])?;
         let value = sum - planet.profile_shift.as_ref()?.value;
-        Some((1e9 * value).round() / 1e9)
+        // Without the sign of a shift that is none.
+        Some((1e9 * value).round() / 1e9 + 0.0)
     };
     match (given, determined()) {
         (Some(given), Some(tight)) if (given.value + tight).abs() < (given.value - tight).abs() => {
