@@ -284,4 +284,19 @@ mod tests {
             assert!((phase - expected).abs() < 1e-9, "{phases:?}");
         }
     }
+
+    /// The phase is the part of a pitch by which the sun's flank that passed the line of centres last has gone beyond it, turning anticlockwise, flank by flank:
+    /// where angles are unequal, its sign matters.
+    #[test]
+    fn ver_phases_are_those_of_the_flank_that_passed_last() {
+        let mut stage = stage([21, 21, 63], 3, Member::Ring);
+        stage.planet_angles_rad = [0.0, 124.285_714_285_714_29, 240.0].map(f64::to_radians).to_vec();
+        assert_eq!(stage.check_assembly(), Ok(()));
+        let pitch = TAU / 21.0;
+        for (angle, phase) in stage.planet_angles_rad.iter().zip(stage.phases()) {
+            let beyond = (0..=21).map(|flank| f64::from(flank) * pitch - angle).filter(|beyond| *beyond > -1e-9);
+            let least = beyond.fold(f64::INFINITY, f64::min);
+            assert!((phase - least / pitch).abs() < 1e-6, "{phase} at {angle}: {}", least / pitch);
+        }
+    }
 }
