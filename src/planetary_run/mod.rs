@@ -270,19 +270,3 @@ fn kinematics(scene: &PlanetaryScene) -> KinematicSummary {
         ring_mesh_phase: scene.ring_mesh_phase,
     }
 }
-
-/// Writes what the program writes of a stage that was run in memory: a folder for each mesh, and the stage.
-///
-/// # Errors
-/// Files that cannot be written.
-pub fn write(record: &PlanetaryRecord, files: &RunFiles, dir: &Path) -> Result<(), ReportError> {
-    run_report::create_folder(dir)?;
-    run_report::remove_summary(dir)?;
-    for mesh in StageMesh::BOTH {
-        if let Some(run) = &record.meshes[mesh] {
-            crate::resume::result::write_all(run, files, &dir.join(mesh.folder()))?;
-        }
-    }
-    folder::place(dir, output_files::SCENE, record.scene_toml.as_bytes())?;
-    report::write(record, files, dir)
-}

@@ -11,7 +11,7 @@ mod pair_scene;
 pub mod schema;
 pub mod words;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use toml::{Table, Value};
@@ -38,8 +38,6 @@ const OF_OTHER_FILES: &[(&str, &str)] =
 pub struct PlanetaryScene {
     /// The file.
     pub given: Arc<SceneText>,
-    /// Folder of the files it names.
-    pub folder: PathBuf,
     /// Title, as given or made of the teeth.
     pub title: String,
     /// Teeth and planets.
@@ -85,18 +83,10 @@ impl OpenedScene {
 }
 
 impl PlanetaryScene {
-    /// Opens the file at `path` (`-`: standard input). Files it names lie beside it.
-    ///
-    /// # Errors
-    /// [`LoadError`], with everything that is wrong.
-    pub fn open(path: &Path) -> Result<Self, LoadError> {
-        Self::from_text(SceneText::read(path)?, folder_of(path))
-    }
-
     /// The stage in a text; files it names lie in `folder`.
     ///
     /// # Errors
-    /// As [`Self::open`].
+    /// [`LoadError`], with everything that is wrong.
     pub fn from_text(given: SceneText, folder: &Path) -> Result<Self, LoadError> {
         let refused = |problems| SceneError { given: given.clone(), problems };
         let (table, mut findings) = text::parse(&given.text).map_err(refused)?;
@@ -133,7 +123,6 @@ impl PlanetaryScene {
             load_sharing_factor: file.planetary.load_sharing_factor.unwrap_or(1.0),
             member: member.into(),
             given: Arc::new(given),
-            folder: folder.to_owned(),
             title,
             stage,
             meshes,
