@@ -102,6 +102,14 @@ fn with_adaptive_steps() {
     goes_on_to_the_same_bits(&scene(SPUR, "surface = \"winkler\"\ntip_contact = false", numerics, ""), 1);
 }
 
+/// Steps of slices are as long as a part of the positions allows, which is chosen anew from what was evaluated last.
+#[test]
+fn with_adaptive_steps_of_slices() {
+    let numerics = "flank_points = 100\npositions = 400\nstep = \"adaptive\"\ntolerance_um = 2e-4";
+    let helical = "[helical]\nslices = 20\ncoupling = \"slicing\"";
+    goes_on_to_the_same_bits(&scene(HELICAL, "surface = \"winkler\"", numerics, helical), 1);
+}
+
 #[test]
 fn slice_by_slice() {
     let numerics = "flank_points = 60\npositions = 60\nstep = { revolutions = 3500.0 }";
