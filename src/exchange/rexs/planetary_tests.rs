@@ -143,3 +143,19 @@ fn tips_of_a_ring_that_run_into_fillets_are_shortened() {
     let stage = stage(&found.text);
     assert!(2.0 * stage.pairs.planet_ring.teeth.wheel.tip_radius_mm < -236.7);
 }
+
+/// Planets that drive the sun, as where the carrier is driven: the torque of a planet's mesh is that of the sun's over the ratio of teeth.
+#[test]
+fn ver_torque_of_planets_that_drive_the_sun() {
+    let mut text = unit(
+        "<attribute id=\"number_of_teeth\" unit=\"none\">61</attribute><attribute id=\"tip_diameter\" unit=\"mm\">237</attribute>",
+    );
+    for planet in 0..3 {
+        let of = |gear: u32| format!("<ref id=\"{}\" role=\"stage\"/><ref id=\"{gear}\" role=\"gear\"/>", 134 + planet);
+        assert!(text.contains(&of(53)));
+        text = text.replace(&of(53), &of(170 + planet));
+    }
+    let stage = stage(&scene(&text, Some(1)).unwrap().text);
+    let torques = StageMesh::BOTH.map(|mesh| stage.meshes[mesh].scene().operation.pinion_torque_n_mm);
+    assert!((torques[0] - 100e3 * 17.0 / 22.0).abs() < 1e-6 && (torques[1] - 100e3).abs() < 1e-6, "{torques:?}");
+}
