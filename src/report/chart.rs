@@ -85,6 +85,8 @@ pub struct Chart {
     pub has_legend: bool,
     /// The nearest point is read, not all above one another.
     pub reads_nearest: bool,
+    /// Its axis upwards leaves the greatest values out, which the reading tells.
+    pub is_cut: bool,
     pub marks: Vec<Mark>,
     pub labels: Vec<Label>,
     pub traces: Vec<Trace>,
@@ -106,6 +108,7 @@ impl Chart {
             is_dragged: false,
             has_legend: true,
             reads_nearest: false,
+            is_cut: false,
             marks: Vec::new(),
             labels: Vec::new(),
             traces: Vec::new(),
@@ -188,6 +191,11 @@ impl Chart {
     /// The axis upwards from 0 to somewhat above `greatest`.
     pub fn y_up_to(self, greatest: f64) -> Self {
         self.y_range(from_zero(greatest))
+    }
+
+    /// The axis upwards from 0 to somewhat above `shown`, where values reach `greatest`.
+    pub fn y_cut_above(self, shown: f64, greatest: f64) -> Self {
+        Self { is_cut: shown < greatest, ..self.y_up_to(shown) }
     }
 
     /// The axis upwards as a depth: from somewhat below `greatest` up to 0.

@@ -93,7 +93,8 @@ pub struct ColourScale {
 #[derive(Debug, Clone)]
 pub struct Surface {
     pub field: Field,
-    pub height: Rows,
+    /// Height of a value of 1: negative where values are depths.
+    pub rise: f64,
     pub view: View,
 }
 

@@ -200,3 +200,20 @@ fn bad_input_is_told_with_key_and_what_is_allowed() {
         assert!(problems.iter().any(|p| p.key == key && p.found.contains(found)), "{more}: {problems:?}");
     }
 }
+
+/// A part of the wear law that does nothing is named with its figure; one that does something is not.
+#[test]
+fn a_law_that_changes_nothing_says_so() {
+    let law = |film: &str, severe: &str| format!("{OIL}[wear.film]\n{film}\n[wear.severe]\n{severe}\n");
+    let said = |more: &str, words: &str| run(more).summary.warnings.iter().any(|warning| warning.contains(words));
+    let idle = law("lambda = [20.0, 30.0]\nfactor = [1.0, 0.0]", "above_MPa = 9000.0\nfactor = 10.0");
+    let record = run(&idle);
+    let warnings = &record.summary.warnings;
+    let [film, severe] = ["wear.film changed nothing", "wear.severe changed nothing"]
+        .map(|words| warnings.iter().filter(|warning| warning.starts_with(words)).collect::<Vec<_>>());
+    assert_eq!([film.len(), severe.len()], [1, 1], "once for both gears: {warnings:?}");
+    let greatest = record.summary.new.peak_pressure_MPa.max(record.summary.worn.peak_pressure_MPa);
+    assert!(severe[0].contains(&format!("{greatest:.0} MPa at most")), "{severe:?}, {greatest}");
+    let active = law("lambda = [0.001, 0.5]\nfactor = [1.0, 0.0]", "above_MPa = 500.0\nfactor = 10.0");
+    assert!(!said(&active, "changed nothing"));
+}

@@ -7,12 +7,13 @@ Small examples of every kind of page are computed into --out/runs (those that ar
 opened at 1280 and 390 px, light and dark, and printed. Pictures (PNG, PDF) go to --out. It fails where a page
 
 - writes an error to the console,
-- is wider than the window,
+- is wider than the window, or has a table that is wider than its room,
 - has labels of one axis, or of one plot, that overlap,
 - has a curve that is not clipped to its plot area,
 - has an axis whose title does not fit beside it,
 - has a plot whose data go beyond the range of its axis, where they would be cut off without a word,
-- has a slider that does not change what is said beside it.
+- has a slider that does not change what is said beside it,
+- of a run, does not begin its first picture within the first screen, or is not one sheet of A4 where all its parts are closed.
 
 Only some: --only run-spur --only sweep-2d.
 """
@@ -21,6 +22,7 @@ import argparse
 import csv
 import pathlib
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -71,6 +73,9 @@ PAGES = {
     "validate": ["validate fzg-c-geometry exact-wear nafems-cylinder --out {o}"],
 }
 
+# Height of a screen of a telephone.
+SCREEN_PX = 844
+
 # In the page: what is wrong with it as it is drawn.
 LOOK = r"""() => {
     const wrong = [];
@@ -102,6 +107,10 @@ LOOK = r"""() => {
             }
         }
     }
+    for (const room of document.querySelectorAll(".scroll, .phases")) {
+        const cut = room.scrollWidth - room.clientWidth;
+        if (cut > 1) wrong.push(`a table is cut by ${cut} px: ${room.textContent.trim().slice(0, 40)}`);
+    }
     for (const plot of document.querySelectorAll(".plot")) {
         // A curve that leaves the plot without being clipped is drawn over the axes.
         for (const trace of plot.querySelectorAll(".trace")) {
@@ -109,8 +118,8 @@ LOOK = r"""() => {
         }
         const data = JSON.parse(document.getElementById(plot.id + "-data").textContent);
         data.traces.forEach((trace, i, all) => trace.x ??= all[i - 1].x);
-        // A drawing to scale shows a part on purpose.
-        for (const trace of data.is_to_scale ? [] : data.traces) {
+        // A drawing to scale shows a part on purpose; what is cut tells so in its caption.
+        for (const trace of data.is_to_scale || data.is_cut ? [] : data.traces) {
             if (!trace.is_shown || trace.values || trace.hover === null) continue;
             const place = (axis, value) => axis.is_logarithmic ? Math.log10(value) : value;
             const [[left, right], [low, high]] = [data.x, data.y].map(axis => [...axis.range].sort((a, b) => a - b));
@@ -254,6 +263,18 @@ def compute(program: str, name: str, scene_folder: pathlib.Path, folder: pathlib
     return pages
 
 
+def first_look(tab, media: str, sheet: pathlib.Path) -> list[str]:
+    """What is wrong with the page of a run before its parts are opened; its sheet is printed to a file."""
+    top = tab.evaluate("document.querySelector('.first .plot')?.getBoundingClientRect().top")
+    if top is None:
+        return []
+    if media != "print":
+        return [f"the first picture begins at {top:.0f} px"] if top > SCREEN_PX else []
+    tab.pdf(path=sheet, prefer_css_page_size=True)
+    sheets = len(re.findall(rb"/Type\s*/Page\b", sheet.read_bytes()))
+    return [f"{sheets} sheets where one is asked for"] if sheets != 1 else []
+
+
 def look(browser, page_file: pathlib.Path, name: str, out: pathlib.Path) -> list[str]:
     """Opens a page in all five ways, keeps a picture of each, and says what is wrong."""
     wrong = []
@@ -266,6 +287,8 @@ def look(browser, page_file: pathlib.Path, name: str, out: pathlib.Path) -> list
         tab.on("console", lambda m, way=way: wrong.append(f"{way}: console: {m.text}") if m.type == "error" else None)
         tab.on("pageerror", lambda e, way=way: wrong.append(f"{way}: console: {e}"))
         tab.goto(page_file.as_uri())
+        wrong += [f"{way}: {found}" for found in first_look(tab, media, out / f"{name}-sheet.pdf")]
+        tab.evaluate("document.querySelectorAll('details.fold').forEach(fold => fold.open = true)")
         height = tab.evaluate("document.documentElement.scrollHeight")
         for y in range(0, height, 800):
             tab.evaluate(f"window.scrollTo(0, {y})")

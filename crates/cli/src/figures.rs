@@ -1,6 +1,7 @@
 //! The main figures of a run, as a table for the terminal.
 
 use gearwear::report::headline;
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::error::{ErrorPerGear, ErrorSummary, TotalError};
 use gearwear_physics::results::figures::{FAMILIES, FigureFamily, FigureValues};
 use gearwear_physics::results::run::Summary;
@@ -13,6 +14,7 @@ pub(super) fn table(summary: &Summary) -> String {
         headline(summary),
         details(summary),
         over_the_width(summary),
+        films(summary),
         verified(&summary.error.total),
         estimated_errors(&summary.error),
         at_other_limits(&summary.error),
@@ -115,6 +117,27 @@ fn over_the_width(summary: &Summary) -> String {
     }
     let [gears, states] = GROUPS.map(|columns| rows(shown(columns).filter(|family| family.is_of_slices()), summary));
     format!("{states}{}{gears}", main_row("over the face width", GROUPS[0]))
+}
+
+/// Films, friction and losses; nothing without oil.
+fn films(summary: &Summary) -> String {
+    let Some(of) = &summary.lubrication else { return String::new() };
+    let mut text = main_row("films and losses", GROUPS[1]);
+    if let Some(film) = &of.film {
+        text.push_str(&figures("minimum of λ (film over mean roughness)", [film.lambda_new.min, film.lambda_worn.min]));
+        if let (Some(new), Some(worn)) = (film.wear_factor_new, film.wear_factor_worn) {
+            for gear in Gear::BOTH {
+                let name = format!("factor of the film on k of the {}", gear.name());
+                text.push_str(&figures(&name, [new[gear], worn[gear]]));
+            }
+        }
+    }
+    let (friction, losses) = (&of.friction, &of.losses);
+    text.push_str(&figures("mean coefficient of friction", [friction.mean_new, friction.mean_worn]));
+    text.push_str(&figures("mesh power loss, W", [losses.mesh_power_loss_new_W, losses.mesh_power_loss_worn_W]));
+    let efficiency = [losses.efficiency_new, losses.efficiency_worn];
+    text.push_str(&figures("efficiency of the mesh, %", efficiency.map(|share| 100.0 * share)));
+    text
 }
 
 /// Difference of the run from finite elements, or why it is not known.

@@ -12,6 +12,7 @@ pub mod guarded;
 pub mod hertz_comparison;
 mod inputs;
 mod invariants;
+mod law_without_effect;
 mod left_out_contact;
 mod lubrication;
 mod model;

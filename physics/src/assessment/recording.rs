@@ -1,10 +1,11 @@
 //! Record of a run: from its outcome in the program's units to the units of the output files.
 
 use super::lubrication::{self, LubricationFindings};
+use super::slices::MESH_ORDERS;
 use super::temperature::{self, ObservedHeat};
 use super::{
-    RunError, RunModel, UM_PER_MM, drawing, error_estimates, invariants, left_out_contact, phases, root_stress,
-    severe_pressure, slices, stability::Judged, verification::Verified,
+    RunError, RunModel, UM_PER_MM, drawing, error_estimates, invariants, law_without_effect, left_out_contact, phases,
+    root_stress, severe_pressure, slices, stability::Judged, verification::Verified,
 };
 use crate::contact::flank_pressure::{PressureFigures, TIP_EDGE_MEAN_OVER_MM};
 use crate::mesh_cycle::CycleObservation;
@@ -147,6 +148,8 @@ fn warnings(model: &RunModel<'_>, found: RunFindings<'_>, judged: Judged, figure
     let mut warnings = temperature::all_warnings(figures.wear.as_ref(), &figures.wear_of_gear);
     warnings.extend(temperature::tooth_warnings(model, figures.temperature.as_ref()));
     warnings.extend(figures.lubrication.as_ref().and_then(lubrication::warning));
+    let film = figures.lubrication.as_ref().and_then(|of| of.film.as_ref());
+    warnings.extend(law_without_effect::warnings(model, outcome, film));
     warnings.extend(judged.warnings);
     warnings.extend(sharp_edge_warning(pair, outcome));
     warnings.extend(left_out_contact::warning(model, outcome));
@@ -339,6 +342,7 @@ fn stiffness(model: &RunModel<'_>) -> Result<Option<StiffnessSummary>, RunError>
 
 fn cycle(pair: &GearPair, cycle: &CycleObservation) -> CycleSummary {
     let (min, max) = cycle.transmission_error_mm();
+    let orders_mm = cycle.mesh_orders_mm(pair.path.base_pitch_mm, MESH_ORDERS);
     CycleSummary {
         peak_pressure_MPa: cycle.greatest_pressure.defined_mpa,
         sharp_edge_pressure_MPa: cycle.greatest_pressure.sharp_edge_mpa,
@@ -352,6 +356,7 @@ fn cycle(pair: &GearPair, cycle: &CycleObservation) -> CycleSummary {
             max: max * UM_PER_MM,
             peak_to_peak: (max - min) * UM_PER_MM,
         },
+        mesh_orders_um: orders_mm.into_iter().map(|mm| mm * UM_PER_MM).collect(),
     }
 }
 

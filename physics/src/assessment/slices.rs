@@ -10,7 +10,7 @@ use gearwear_bodies::gear::spec::AxisParallelism;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear, lines_of_contact::LinesOfContact};
 
 /// Mesh orders that are kept.
-const MESH_ORDERS: usize = 5;
+pub(super) const MESH_ORDERS: usize = 5;
 
 /// New and worn mesh of a pair with slices, row beside row: worn teeth may touch farther before A and after E.
 pub(super) fn meshes(outcome: &Outcome) -> Option<[SlicedMesh; 2]> {

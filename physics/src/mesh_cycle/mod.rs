@@ -14,6 +14,7 @@ mod half_layers;
 pub(crate) mod influence;
 pub mod load_sharing;
 pub(crate) mod local_means;
+pub mod mesh_orders;
 pub mod pair_in_space;
 pub(crate) mod part_of_slice;
 pub mod positions;
@@ -465,6 +466,16 @@ impl CycleObservation {
         self.positions.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
             (low.min(p.transmission_error_mm), high.max(p.transmission_error_mm))
         })
+    }
+
+    /// Amplitudes of the first `count` mesh orders of the transmission error, mm; none where the positions do not reach over a base pitch.
+    pub fn mesh_orders_mm(&self, base_pitch_mm: f64, count: usize) -> Vec<f64> {
+        if let Some(slices) = &self.slices {
+            return slices.mesh_orders_mm(count);
+        }
+        let (positions, errors): (Vec<f64>, Vec<f64>) =
+            self.positions.iter().map(|at| (at.position_mm, at.transmission_error_mm)).unzip();
+        mesh_orders::of_positions(&positions, &errors, base_pitch_mm, count)
     }
 
     /// Greatest pressure with the reference pair at `position_mm`, linear between the observations on either side, MPa.

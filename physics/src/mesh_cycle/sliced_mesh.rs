@@ -3,6 +3,7 @@
 //! The positions of one base pitch suffice: tooth k at a position is the reference tooth k base pitches later, and the
 //! transmission error is the same in every base pitch.
 
+use super::mesh_orders;
 use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
@@ -181,26 +182,9 @@ impl SlicedMesh {
         loads.iter().copied().fold(0.0, f64::max) / mean
     }
 
-    /// Half of the peak-to-peak value that each of the first `count` harmonics of the tooth mesh contributes to the transmission
-    /// error, mm:
-    ///
-    /// ```text
-    /// A_k = 2/m |Σ δ_j exp(2πi k j/m)|
-    /// ```
+    /// Amplitudes of the first `count` mesh orders of the transmission error, mm.
     pub fn mesh_orders_mm(&self, count: usize) -> Vec<f64> {
-        let m = self.transmission_error_mm.len();
-        (1..=count)
-            .map(|k| {
-                let (cosine, sine) =
-                    self.transmission_error_mm.iter().enumerate().fold((0.0, 0.0), |(c, s), (j, te)| {
-                        let (sin, cos) = (std::f64::consts::TAU * ((k * j) % m) as f64 / m as f64).sin_cos();
-                        (c + te * cos, s + te * sin)
-                    });
-                // The last order that the positions resolve is its own mirror image.
-                let share = if 2 * k == m { 1.0 } else { 2.0 };
-                if 2 * k > m { 0.0 } else { share * f64::hypot(cosine, sine) / m as f64 }
-            })
-            .collect()
+        mesh_orders::of_even(&self.transmission_error_mm, count)
     }
 
     /// Greatest change of the transmission error from one position to the next, mm.

@@ -577,6 +577,13 @@ pub static FAMILIES: &[FigureFamily] = &[
     .in_headline()
     .in_sweeps([20, 21])
     .compared([8, 7]),
+    states("{state}.mesh_orders_um.1", "µm", "transmission error, first mesh order", |s| {
+        [s.new.mesh_orders_um.first().copied(), s.worn.mesh_orders_um.first().copied()]
+    })
+    .means("amplitude of the transmission error at the mesh frequency, {state}")
+    .wants_less()
+    .shown()
+    .in_sweeps([42, 43]),
     states("{state}.transmission_error_um.min", "µm", "transmission error, minimum", |s| {
         cycle(s, |c| c.transmission_error_um.min)
     })
@@ -740,7 +747,7 @@ pub static FAMILIES: &[FigureFamily] = &[
     .shown()
     .in_sweeps([30, 31])
     .compared([19, 20]),
-    states("helical.mesh_orders_{state}_um.1", "µm", "transmission error, first mesh order", |s| {
+    states("helical.mesh_orders_{state}_um.1", "µm", "transmission error of slices, first mesh order", |s| {
         let first = |orders: fn(&Summary) -> Option<&Vec<f64>>| orders(s)?.first().copied();
         [
             first(|s| Some(&s.helical.as_ref()?.mesh_orders_new_um)),
@@ -750,7 +757,6 @@ pub static FAMILIES: &[FigureFamily] = &[
     .means("amplitude at the mesh frequency, {state}; empty where there are no slices")
     .once_called("mesh_order_1_{state}_um")
     .wants_less()
-    .shown()
     .in_sweeps([32, 33]),
     pair("error.volume_balance", "", "difference of the worn volumes of pinion and wheel", |s| s.error.volume_balance)
         .means(

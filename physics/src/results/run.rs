@@ -395,6 +395,9 @@ pub struct CycleSummary {
     pub pitch_pressure_MPa: f64,
     /// Loaded transmission error over the cycle.
     pub transmission_error_um: RangeSummary,
+    /// Amplitudes of the first mesh orders of the transmission error; empty where the positions do not reach over a base pitch.
+    #[serde(default)]
+    pub mesh_orders_um: Vec<f64>,
     /// Greatest |Σ loads of the pairs / load to carry − 1| at any position.
     pub load_imbalance: f64,
 }

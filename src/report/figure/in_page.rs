@@ -37,6 +37,7 @@ struct Data<'a> {
     is_to_scale: bool,
     is_dragged: bool,
     reads_nearest: bool,
+    is_cut: bool,
     traces: Vec<TraceData<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     control: Option<&'a Control>,
@@ -80,7 +81,7 @@ struct TraceData<'a> {
 
 #[derive(Serialize)]
 struct SurfaceData<'a> {
-    height: &'a Rows,
+    rise: f64,
     view: &'a View,
     titles: [&'a str; 2],
     /// Values of the first and the last of `colours`.
@@ -111,6 +112,7 @@ pub fn of(chart: &Chart) -> InPage {
         is_to_scale: chart.is_to_scale,
         is_dragged: chart.is_dragged,
         reads_nearest: chart.reads_nearest,
+        is_cut: chart.is_cut,
         traces: traces(&drawing),
         control: chart.control.as_ref(),
     };
@@ -171,7 +173,7 @@ fn of_trace<'a>(drawing: &Drawing<'a>, number: usize, trace: &'a Trace) -> Trace
             let unit = &*surface.field.scale.unit;
             let colours =
                 (0..COLOURS).map(|i| palette::hex(palette::of_scale(i as f64 / (COLOURS - 1) as f64))).collect();
-            let data = SurfaceData { height: &surface.height, view: &surface.view, titles, range, colours, unit };
+            let data = SurfaceData { rise: surface.rise, view: &surface.view, titles, range, colours, unit };
             (Some(&surface.field.values), Some(data))
         }
         Drawn::Curve(_) | Drawn::Bars(_) => (None, None),

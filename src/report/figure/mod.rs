@@ -70,7 +70,7 @@ mod tests {
         let bars = Chart::new("bars", "Bars").x("order").y("µm").add(Trace::bars("new", names, vec![1.0, 2.0], INK));
         let empty_field = || Field { x: vec![], y: vec![], values: vec![], scale: ColourScale::of("µm") };
         let view = View { label: "wear", height_title: "wear, µm", height_range: [0.0, 1.0], drawn: [1.0; 3] };
-        let wear = Drawn::Surface(Surface { field: empty_field(), height: vec![], view });
+        let wear = Drawn::Surface(Surface { field: empty_field(), rise: 1.0, view });
         let surface = Chart::new("surface", "Surface").add(Trace::new(wear, "wear"));
         let empty = Chart::new("empty", "Empty").x("x").y("y").add(Trace::new(Drawn::Contours(empty_field()), ""));
         let paths = write_all(&[lines, map, bars, surface, empty], dir.path()).unwrap();

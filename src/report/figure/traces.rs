@@ -14,6 +14,8 @@ use crate::report::control::{Change, Control};
 const FILLED: f64 = 0.8;
 /// Cells for a pixel where those of a field have several sizes.
 const CELLS_PER_PX: f64 = 2.0;
+/// Distance that a drawn line may have from its points, px: a fifth of what is seen, so that parts can be enlarged.
+const THINNED_PX: f64 = 0.02;
 /// Half the width of the ends of a bar of uncertainty, px.
 const END_PX: f64 = 4.0;
 
@@ -51,8 +53,9 @@ impl Drawing<'_> {
             let pieces = places.split(is_gap).filter(|piece| !piece.is_empty());
             let steps: Vec<Step> = pieces
                 .flat_map(|piece| {
-                    let first = piece.iter().take(1).map(|place| Step::Move(*place));
-                    first.chain(piece.iter().skip(1).map(|place| Step::Line(*place)))
+                    let mut places = thinned(piece).into_iter();
+                    let first = places.next().map(Step::Move);
+                    first.into_iter().chain(places.map(Step::Line))
                 })
                 .collect();
             let (fill, line) = (curve.fill.clone(), (line.width_px > 0.0).then(|| line.clone()));
@@ -270,4 +273,51 @@ fn sampled(edges: &[f64], length_px: f64) -> Vec<usize> {
     let samples = (CELLS_PER_PX * length_px.abs()).ceil().max(1.0) as usize;
     let place = |sample: usize| first + (sample as f64 + 0.5) / samples as f64 * whole;
     (0..samples).map(|sample| edges.partition_point(|edge| *edge <= place(sample)).clamp(1, count) - 1).collect()
+}
+
+/// The places that a line through all of them needs, by the algorithm of Ramer, Douglas and Peucker: the others are within
+/// [`THINNED_PX`] of the line.
+fn thinned(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let Some(last) = places.len().checked_sub(1) else { return Vec::new() };
+    let mut is_kept = vec![false; places.len()];
+    (is_kept[0], is_kept[last]) = (true, true);
+    let mut spans = vec![(0, last)];
+    while let Some((from, to)) = spans.pop() {
+        let distances = (from + 1..to).map(|at| (at, distance_to_segment(places[at], places[from], places[to])));
+        let farthest = distances.max_by(|(_, one), (_, other)| one.total_cmp(other));
+        if let Some((at, _)) = farthest.filter(|(_, distance)| *distance > THINNED_PX) {
+            is_kept[at] = true;
+            spans.extend([(from, at), (at, to)]);
+        }
+    }
+    places.iter().zip(is_kept).filter_map(|(place, is_kept)| is_kept.then_some(*place)).collect()
+}
+
+fn distance_to_segment([x, y]: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
+    let [along, across] = [to[0] - from[0], to[1] - from[1]];
+    let squared = along * along + across * across;
+    let part = if squared > 0.0 { ((x - from[0]) * along + (y - from[1]) * across) / squared } else { 0.0 };
+    let part = part.clamp(0.0, 1.0);
+    (x - from[0] - part * along).hypot(y - from[1] - part * across)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_straight_line_needs_its_ends_and_a_curve_what_is_seen() {
+        let line: Vec<[f64; 2]> = (0..100).map(|i| [f64::from(i), 2.0 * f64::from(i)]).collect();
+        assert_eq!(thinned(&line), [[0.0, 0.0], [99.0, 198.0]]);
+        let wave: Vec<[f64; 2]> = (0..=500).map(|i| [f64::from(i), 50.0 * (f64::from(i) / 40.0).sin()]).collect();
+        let few = thinned(&wave);
+        assert!((40..250).contains(&few.len()), "{}", few.len());
+        for place in wave {
+            let nearest =
+                few.windows(2).map(|ends| distance_to_segment(place, ends[0], ends[1])).fold(f64::MAX, f64::min);
+            assert!(nearest <= THINNED_PX, "{nearest} at {place:?}");
+        }
+        assert_eq!(thinned(&[[1.0, 2.0], [1.0, 2.0]]).len(), 2);
+        assert!(thinned(&[]).is_empty());
+    }
 }

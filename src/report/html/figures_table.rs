@@ -5,45 +5,79 @@ use maud::{Markup, html};
 use super::number::{change, fixed, percent, significant, to_digits};
 use super::reading::capitalised;
 use super::table::{Cell, cells, line, list, row, table, whole};
-use super::{film_table, law_table, page, root_stress_table, sliced};
+use super::{film_table, law_table, mesh_orders, page, root_stress_table, sliced};
 use gearwear_physics::results::error::{ErrorSummary, SevereLimit, WearAtLimit};
 use gearwear_physics::results::figures::{FAMILIES, FigureFamily, FigureValues, STATED_ERRORS};
-use gearwear_physics::results::run::{GearSummary, HelicalSummary, PhaseSummary, PhaseWear, RunRecord, Summary};
+use gearwear_physics::results::run::{GearSummary, PhaseSummary, PhaseWear, Summary};
 
 /// Phases that are shown one by one.
 const MOST_PHASES: usize = 60;
 
-pub fn tables(record: &RunRecord) -> Markup {
-    let s = &record.summary;
-    let tables = figures(record);
-    html! { (tables) (page::note(&pitch_pressure_note(s))) }
-}
-
-fn figures(record: &RunRecord) -> Markup {
-    let s = &record.summary;
-    let sliced = s.helical.as_ref().map_or_else(Markup::default, |helical| sliced_tables(s, helical));
+/// The figures that a run is asked for, with their errors: wear, load and transmission error, the pair.
+pub fn main_figures(s: &Summary) -> Markup {
+    let with_errors = |wanted: fn(&FigureValues) -> bool| {
+        let families = shown(s, wanted).filter(|(family, ..)| family.in_headline || !family.errors[1].is_empty());
+        families.flat_map(|(family, label, values)| {
+            let errors = family.both_errors(&s.error.total);
+            let error = errors.iter().any(Option::is_some).then(|| {
+                let said = errors.map(|error| error.map(|error| format!("± {}", significant(100.0 * error, 2))));
+                row(html! { span.error { "its error" } }, "%", said)
+            });
+            [Some(row(label, family.unit, values)), error].into_iter().flatten()
+        })
+    };
+    let pair = [
+        row("Teeth", "", [format!("{}, {}", s.geometry.gears.pinion.teeth, s.geometry.gears.wheel.teeth)]),
+        row("Transverse contact ratio", "", [fixed(s.geometry.transverse_contact_ratio, 3)]),
+        row("Line load, whole torque", "N/mm", [s.contact.line_load_N_per_mm]),
+        row("Hertz pressure at C", "MPa", [s.contact.hertz_peak_pressure_MPa]),
+        row("Contact surface", "", [&*s.contact.surface]),
+    ];
     page::tables([
-        new_and_worn(s),
-        wear(s),
-        law_table::tables(s),
-        film_table::tables(s),
-        sliced,
-        pair(s),
-        gears(s),
-        contact(s),
-        root_stress_table::tables(&s.root_stress),
+        table("Wear", &["pinion", "wheel"], with_errors(|values| matches!(values, FigureValues::Gears(_)))),
+        table(
+            "Load and transmission error",
+            &["new", "worn"],
+            with_errors(|values| matches!(values, FigureValues::States(_))),
+        ),
+        table("The pair", &["value"], pair),
     ])
 }
 
-/// Slices, load over the face width with the mesh orders, and wear over the face width.
-fn sliced_tables(s: &Summary, helical: &HelicalSummary) -> Markup {
-    let mesh_cycle = of_states(s, true).chain(sliced::tables::higher_mesh_orders(helical));
+/// All figures of the mesh cycle.
+pub fn mesh_cycle(s: &Summary) -> Markup {
+    html! { (page::tables([new_and_worn(s)])) (page::note(&pitch_pressure_note(s))) }
+}
+
+/// All figures of wear, and the law that makes it.
+pub fn wear_and_law(s: &Summary) -> Markup {
+    html! { (page::tables([wear(s), law_table::law(s)])) (law_table::note(s)) (phases(s)) }
+}
+
+/// Temperatures; nothing where none was asked for.
+pub fn temperatures(s: &Summary) -> Markup {
+    page::tables([law_table::temperatures(s)])
+}
+
+/// Oil, films, friction and losses; nothing without oil.
+pub fn films(s: &Summary) -> Markup {
+    page::tables([film_table::tables(s)])
+}
+
+/// Geometry of the pair and of both gears, stiffness and root stress.
+pub fn pair_and_gears(s: &Summary) -> Markup {
+    page::tables([pair(s), gears(s), contact(s), root_stress_table::tables(&s.root_stress)])
+}
+
+/// Slices, load and wear over the face width; nothing where all sections are alike.
+pub fn over_width(s: &Summary) -> Markup {
+    let Some(helical) = &s.helical else { return Markup::default() };
     let wear = of_gears(s, true).chain([sliced::tables::asymmetry_of_the_first_mesh(&helical.wear)]);
-    html! {
+    page::tables([html! {
         (sliced::tables::slices(helical))
-        (table("Load over the face width and mesh orders", &["new", "worn", "change"], mesh_cycle))
+        (table("Load over the face width", &["new", "worn", "change"], of_states(s, true)))
         (table("Wear over the face width", &["pinion", "wheel"], wear))
-    }
+    }])
 }
 
 /// Families on the page whose values are the `wanted`, with heading and values; none of those that the run has no values of.
@@ -73,11 +107,12 @@ fn of_states(s: &Summary, of_slices: bool) -> impl Iterator<Item = Markup> {
 }
 
 fn new_and_worn(s: &Summary) -> Markup {
-    let mut rows: Vec<Markup> = of_states(s, false).collect();
+    let mut rows: Vec<Markup> = of_states(s, false).chain(mesh_orders::higher(s)).collect();
     let [new, worn] = over_hertz(s).map(|ratio| fixed(ratio, 3));
     rows.push(row("Pressure at the pitch point over Hertz’s with the whole load", "", cells![new, worn, ""]));
     // What one flank of a contact loses the other does too: what differs is error.
-    let balance = [s.wear_balance.new, s.wear_balance.worn].map(|share| share.map(percent));
+    let balance = [s.wear_balance.new, s.wear_balance.worn];
+    let balance = balance.map(|share| share.map(|share| format!("{}\u{202f}%", fixed(100.0 * share, 4))));
     let [new, worn] = balance;
     rows.push(row("Volumes worn off both flanks in one mesh, difference", "", cells![new, worn, ""]));
     table("Mesh cycle", &["new", "worn", "change"], rows)
@@ -220,7 +255,7 @@ fn contact(s: &Summary) -> Markup {
 }
 
 /// Under what each phase ran, and what it wore off; nothing where there is only one.
-pub fn phases(s: &Summary) -> Markup {
+fn phases(s: &Summary) -> Markup {
     if s.phases.len() < 2 {
         return Markup::default();
     }

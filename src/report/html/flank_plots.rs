@@ -2,8 +2,8 @@
 
 use super::active_flank::ActiveFlank;
 use super::number::{figure, hours, percent, revolutions, significant};
-use super::reading::{Extreme, greatest, place_on_flank, tip_edge_note, yield_note};
-use crate::report::chart::{Chart, Dash, INK, Trace, gear_colour, gear_colour_at};
+use super::reading::{gear_wear, greatest, place_on_flank};
+use crate::report::chart::{Chart, Dash, INK, Trace, gear_colour, gear_colour_at, gear_fill};
 use crate::report::control::{Change, Control, SliderStep};
 use gearwear_bodies::gear::Gear;
 use gearwear_bodies::reference::statistics::extent;
@@ -11,6 +11,9 @@ use gearwear_physics::results::run::{HistoryRow, RunRecord};
 
 /// At most so many snapshots are drawn, evenly chosen: more curves than that cannot be told apart.
 const CURVES: usize = 12;
+
+/// Height of a plot of pressure over the greatest between the tip-edge zones: what is more belongs to tip edges.
+const SHOWN_OVER_FLANK: f64 = 1.5;
 
 /// Wear depth over both flanks, one curve per snapshot.
 pub(super) fn wear(record: &RunRecord) -> Vec<Chart> {
@@ -82,7 +85,7 @@ fn wear_reading(record: &RunRecord, gear: Gear, drawn: usize) -> String {
     if record.history.is_empty() {
         return format!("No snapshot was reached, so the {}’s flank has no curve to show.", gear.name());
     }
-    let (flank, wear) = (&record.flanks[gear], gear_wear(record, gear));
+    let (flank, wear) = (&record.flanks[gear], gear_wear(&record.summary, gear));
     if [wear.peak_wear_um, wear.tip_edge_wear_um, wear.below_sap_wear_um].iter().all(|depth| *depth <= 0.0) {
         return format!("The {}’s flank has not worn.", gear.name());
     }
@@ -94,22 +97,14 @@ fn wear_reading(record: &RunRecord, gear: Gear, drawn: usize) -> String {
     let of_tip_edge =
         tip_edge.map_or_else(String::new, |off| format!(" ± {}", significant(off * wear.tip_edge_wear_um, 1)));
     let mut reading = format!(
-        "The active profile of the {} wears most {}: {} µm, against {} µm at the pitch circle; the maximum in its root zone is {} µm, at the tip \
-         edge {}{of_tip_edge} µm, below the active profile {} µm.",
-        gear.name(),
-        place_on_flank(flank, wear.peak_wear_radius_mm),
+        "{} µm on the active profile {}, {}{of_tip_edge} µm at the tip edge.",
         figure(wear.peak_wear_um),
-        figure(wear.pitch_wear_um),
-        figure(wear.root_wear_um),
+        place_on_flank(flank, wear.peak_wear_radius_mm),
         figure(wear.tip_edge_wear_um),
-        figure(wear.below_sap_wear_um),
     );
     if let Some(off) = profile {
-        reading.push_str(&format!(
-            " Dashed: the same wear simulation with finite elements; over the flank the two differ by {} of the wear (root mean square), the \
-             uncertainty of the finite elements included.",
-            percent(off)
-        ));
+        reading
+            .push_str(&format!(" Dashed: the same run on finite elements, {} off over the flank (rms).", percent(off)));
     }
     if drawn < record.history.len() {
         reading.push_str(&format!(" {drawn} of {} snapshots are drawn.", record.history.len()));
@@ -129,41 +124,64 @@ pub(super) fn pressure(record: &RunRecord) -> Vec<Chart> {
 fn pressure_on(record: &RunRecord, gear: Gear, top_mpa: f64) -> Chart {
     let flank = &record.flanks[gear];
     let active = ActiveFlank::of(flank);
-    let place = |at: Extreme| place_on_flank(flank, flank.radius_mm[at.index]);
+    let [shown_new, shown_worn] = [record.summary.new.flank_pressure_MPa, record.summary.worn.flank_pressure_MPa];
+    let shown_mpa = match SHOWN_OVER_FLANK * shown_new.max(shown_worn) {
+        shown if shown > 0.0 => shown.min(top_mpa),
+        _ => top_mpa,
+    };
     let reading = match (greatest(&flank.pressure_new_MPa), greatest(&flank.pressure_worn_MPa)) {
-        (Some(new), Some(worn)) => format!(
-            "The maximum pressure on the {}’s flank during one mesh is {} MPa new, {}, and {} MPa worn, {}.{}{}",
-            gear.name(),
-            figure(new.value),
-            place(new),
-            figure(worn.value),
-            place(worn),
-            tip_edge_note(&flank.path_point_radius_mm.named(), flank.radius_mm[worn.index]),
-            yield_note(new.value.max(worn.value)),
-        ),
+        (Some(new), Some(worn)) => {
+            let at_edges = if new.value.max(worn.value) > shown_mpa { ", cut off here" } else { "" };
+            format!(
+                "Flank pressure up to {} MPa new and {} MPa worn; where a tip edge touches (shaded) up to {} and {} MPa{at_edges}.",
+                figure(shown_new),
+                figure(shown_worn),
+                figure(new.value),
+                figure(worn.value),
+            )
+        }
         _ => format!("No pressure was computed on the {}’s flank.", gear.name()),
     };
     let [radius, new, worn] =
         [&flank.radius_mm, &flank.pressure_new_MPa, &flank.pressure_worn_MPa].map(|values| active.cut(values));
     let title = format!("Maximum pressure on the {}’s flank", gear.name());
-    let chart = Chart::new(format!("pressure-{}", gear.name()), title).y("maximum pressure, MPa").y_up_to(top_mpa);
+    let chart = Chart::new(format!("pressure-{}", gear.name()), title).y("maximum pressure, MPa");
+    let chart = chart.y_cut_above(shown_mpa, top_mpa).add_all(tip_edge_zones(record, gear, 1.06 * shown_mpa));
     active.across(chart.new_and_worn(&radius, new, worn, "%{y:.1f} MPa").reading(reading), gear)
 }
 
-/// Material that the modifications remove from each flank; nothing where there is none.
+/// The zones where the tip edge of either gear touches a flank, up to the height of the plot.
+fn tip_edge_zones(record: &RunRecord, gear: Gear, height_mpa: f64) -> [Trace; 2] {
+    let flank = &record.flanks[gear];
+    let [own_mm, mate_mm] = ActiveFlank::tip_edges_mm(record, gear);
+    let tip_mm = flank.radius_mm.last().copied().unwrap_or(own_mm);
+    let root_mm = flank.radius_mm.first().copied().unwrap_or(mate_mm);
+    [(gear, own_mm, tip_mm), (gear.mate(), mate_mm, root_mm)].map(|(edge, from, to)| {
+        let outline = [[from, 0.0], [from, height_mpa], [to, height_mpa], [to, 0.0]];
+        let stroke = (gear_colour(edge), 0.0, Dash::Solid);
+        let name = format!("tip edge of the {}", edge.name());
+        Trace::line(name, outline.map(|[x, _]| x), outline.map(|[_, y]| y), stroke).filled(gear_fill(edge))
+    })
+}
+
+/// Material that the modifications remove from each flank, the rounding of its tip edge left out; nothing where there is none.
 pub(super) fn modifications(record: &RunRecord) -> Vec<Chart> {
-    let modified = |gear: &Gear| record.flanks[*gear].removed_um.iter().any(|&h| h != 0.0);
+    let modified = |gear: &Gear| {
+        let flank = &record.flanks[*gear];
+        flank.removed_um[..ActiveFlank::rounding_from(flank)].iter().any(|&removed_um| removed_um != 0.0)
+    };
     Gear::BOTH.into_iter().filter(modified).map(|gear| modifications_of(record, gear)).collect()
 }
 
 fn modifications_of(record: &RunRecord, gear: Gear) -> Chart {
     let flank = &record.flanks[gear];
     let active = ActiveFlank::of(flank);
-    let removed = active.cut(&flank.removed_um);
-    let radius = active.cut(&flank.radius_mm);
+    let to = ActiveFlank::rounding_from(flank);
+    let removed = active.cut(&flank.removed_um[..to]);
+    let radius = active.cut(&flank.radius_mm[..to]);
     let reading = match greatest(&removed) {
         Some(at) if at.value > 0.0 => format!(
-            "Modifications, or what was measured, take up to {} µm off the {}’s active flank, {}.",
+            "Modifications, or what was measured, take up to {} µm off the {}’s active flank, {}; the rounding of its tip edge is left out.",
             figure(at.value),
             gear.name(),
             place_on_flank(flank, radius[at.index]),
@@ -181,13 +199,6 @@ fn modifications_of(record: &RunRecord, gear: Gear) -> Chart {
         .line("modifications", radius, removed, (gear_colour(gear), 2.2, Dash::Solid), "%{y:.3f} µm")
         .reading(reading);
     active.across(chart, gear)
-}
-
-fn gear_wear(record: &RunRecord, gear: Gear) -> &gearwear_physics::results::run::WearSummary {
-    match gear {
-        Gear::Pinion => &record.summary.pinion,
-        Gear::Wheel => &record.summary.wheel,
-    }
 }
 
 /// Indices of the snapshots drawn out of `count`: all, or evenly chosen with the last one.

@@ -9,9 +9,9 @@ use gearwear_bodies::gear::PerGear;
 use gearwear_physics::results::chemistry::{GreatestRise, TemperatureSummary, ToothTemperatureSummary, WearLawSummary};
 use gearwear_physics::results::run::Summary;
 
-pub fn tables(s: &Summary) -> Markup {
+/// Temperatures of teeth and contact; nothing where none was asked for.
+pub fn temperatures(s: &Summary) -> Markup {
     html! {
-        (law(s))
         @if let Some(t) = &s.temperature {
             @if let Some(tooth) = &t.tooth { (teeth(tooth)) }
             (temperature(t))
@@ -20,7 +20,7 @@ pub fn tables(s: &Summary) -> Markup {
 }
 
 /// One column for both gears, or one for each where each has its own law.
-fn law(s: &Summary) -> Markup {
+pub fn law(s: &Summary) -> Markup {
     let (columns, laws): (&[&str], Vec<&WearLawSummary>) = match &s.wear {
         Some(both) => (&["value"], vec![both]),
         None => (&["pinion", "wheel"], vec![&s.wear_of_gear.pinion, &s.wear_of_gear.wheel]),

@@ -14,6 +14,7 @@ mod film_table;
 mod flank_plots;
 mod history_plot;
 pub mod law_table;
+mod mesh_orders;
 pub mod number;
 pub mod page;
 pub mod reading;

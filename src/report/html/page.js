@@ -3,6 +3,7 @@
 (() => {
   "use strict";
   const PRINT_WIDTH = 670; // px: an A4 page less its margins
+  const PRINT_WIDTH_BESIDE = 532; // px: of plots beside one another, which are made smaller then
   const NEAR = 40; // px from a point at which it is read
   const LEAST_FRAME = 6; // px: a smaller one is a click
   const root = document.documentElement;
@@ -29,6 +30,7 @@
       this.turned = new Map(); // groups that a slider turns: angle and centre
       this.view = null; // ranges of x and y that the reader chose
       this.width = 0;
+      this.frame = this.data.frame;
       this.at = null; // value of its slider, where it has been moved
       // Where each part was drawn.
       for (const part of node.querySelectorAll(".at, .at-x, .at-y")) {
@@ -561,12 +563,54 @@
     plot.move(first);
   }
 
+  // A table wider than its room becomes a list of its rows, each cell with the name of its column.
+  const stacked = new ResizeObserver((entries) => {
+    for (const { target: room, contentRect: { width } } of entries) {
+      if (width === 0 || room.dataset.width === String(width)) continue;
+      room.dataset.width = width;
+      const table = room.querySelector("table");
+      table.classList.remove("stacked");
+      table.classList.toggle("stacked", room.scrollWidth > room.clientWidth + 1);
+    }
+  });
+  for (const room of document.querySelectorAll(".scroll")) {
+    const columns = [...room.querySelectorAll("thead tr > *")].map((column) => column.textContent);
+    for (const row of room.querySelectorAll("tbody tr")) [...row.cells].forEach((cell, i) => (cell.dataset.column = columns[i] || ""));
+    stacked.observe(room);
+  }
+
+  // Opens what a link leads to, and all of it.
+  const folds = [...document.querySelectorAll("details.fold")];
+  const lead = () => {
+    const at = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    const fold = at && at.closest("details");
+    if (!fold || fold.open) return;
+    fold.open = true;
+    at.scrollIntoView();
+  };
+  addEventListener("hashchange", lead);
+  lead();
+  if (folds.length) {
+    const line = element("p", "folds", "");
+    const button = line.appendChild(element("button", "", ""));
+    button.type = "button";
+    const name = () => (button.textContent = folds.every((fold) => fold.open) ? "Close all" : "Open all");
+    button.addEventListener("click", () => {
+      const isOpen = folds.every((fold) => fold.open);
+      for (const fold of folds) fold.open = !isOpen;
+    });
+    for (const fold of folds) fold.addEventListener("toggle", name);
+    name();
+    folds[0].before(line);
+  }
+
   const plots = [...document.querySelectorAll(".plot")].map((node) => (node.querySelector("canvas") ? new SurfacePlot(node) : new Plot(node)));
 
   const printing = () => "printing" in root.dataset;
   function fit() {
     for (const plot of plots) {
-      const width = printing() ? PRINT_WIDTH : plot.node.clientWidth;
+      const printed = plot.node.closest(".first") ? PRINT_WIDTH_BESIDE : PRINT_WIDTH;
+      const width = printing() ? printed : plot.node.clientWidth;
       if (width > 0 && width !== plot.width) plot.fit(width);
     }
   }

@@ -63,12 +63,7 @@ impl Page<'_> {
                         @if let Some(text) = self.interruption {
                             p.notice.interrupted role="alert" { strong { "Incomplete run." } " " (text) }
                         }
-                        @if !self.warnings.is_empty() {
-                            section.notice aria-labelledby="warnings" {
-                                h2 #warnings { "Warnings" }
-                                ul { @for warning in self.warnings { li { (warning) } } }
-                            }
-                        }
+                        (warnings(self.warnings))
                         (self.main)
                         (terms())
                     }
@@ -82,6 +77,23 @@ impl Page<'_> {
         };
         page.into_string()
     }
+}
+
+/// What the reader should know; nothing where there is nothing.
+pub fn warnings(warnings: &[String]) -> Markup {
+    html! {
+        @if !warnings.is_empty() {
+            section.notice aria-labelledby="warnings" {
+                h2 #warnings { "Warnings" }
+                ul { @for warning in warnings { li { (warning) } } }
+            }
+        }
+    }
+}
+
+/// A part of the page behind its heading, which opens it.
+pub fn fold(id: &str, heading: &str, content: Markup) -> Markup {
+    html! { details.fold id=(id) { summary { h2 { (heading) } } (content) } }
 }
 
 pub fn section(id: &str, heading: &str, content: Markup) -> Markup {
@@ -110,7 +122,9 @@ impl Plots {
         let first = self.shown.get() + 1;
         self.shown.set(self.shown.get() + charts.len());
         html! {
-            noscript { p.notice { "Without JavaScript plots cannot be enlarged or read point by point; all their numbers are in the data files." } }
+            @if first == 1 {
+                noscript { p.notice { "Without JavaScript plots cannot be enlarged or read point by point; all their numbers are in the data files." } }
+            }
             div.plots { @for (number, chart) in (first..).zip(charts) { (plot(number, chart)) } }
         }
     }

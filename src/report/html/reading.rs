@@ -55,7 +55,7 @@ pub fn duration(summary: &Summary) -> String {
     }
 }
 
-/// The run in one sentence or two: how much each gear has lost, where, and what it did to the mesh cycle.
+/// The run in three sentences: how much each gear has lost, where, how well that is known, and what it did to pressure and transmission error.
 pub fn answer(record: &RunRecord) -> String {
     let s = &record.summary;
     let lost = match (s.pinion.peak_wear_um > 0.0, s.wheel.peak_wear_um > 0.0) {
@@ -81,9 +81,13 @@ pub fn answer(record: &RunRecord) -> String {
         figure(s.new.transmission_error_um.peak_to_peak),
         with_error(s.worn.transmission_error_um.peak_to_peak, total.transmission_error_peak_to_peak),
     ));
-    if let Some(tips) = headline::tip_edges(s) {
-        text.push_str(&format!(" {tips}"));
-    }
+    text
+}
+
+/// What follows from the figures: about the load of tip edges, steel that would flow, and wear over the face width.
+pub fn remarks(record: &RunRecord) -> String {
+    let s = &record.summary;
+    let mut text = headline::tip_edges(s).unwrap_or_default();
     text.push_str(yield_note(s.new.flank_pressure_MPa.max(s.worn.flank_pressure_MPa)));
     if let Some(helical) = &s.helical {
         let wear = &helical.wear.pinion;
@@ -130,12 +134,16 @@ fn how_well_known(s: &Summary) -> String {
     text
 }
 
+/// The wear of one gear.
+pub fn gear_wear(summary: &Summary, gear: Gear) -> &WearSummary {
+    match gear {
+        Gear::Pinion => &summary.pinion,
+        Gear::Wheel => &summary.wheel,
+    }
+}
+
 fn depth(record: &RunRecord, gear: Gear) -> String {
-    let (s, flank) = (&record.summary, &record.flanks[gear]);
-    let wear: &WearSummary = match gear {
-        Gear::Pinion => &s.pinion,
-        Gear::Wheel => &s.wheel,
-    };
+    let (wear, flank) = (gear_wear(&record.summary, gear), &record.flanks[gear]);
     format!(
         "up to {} µm of its active profile {}",
         significant(wear.peak_wear_um, 3),

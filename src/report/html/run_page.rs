@@ -3,13 +3,12 @@
 use crate::report::output_files;
 use maud::{Markup, html};
 
-use super::page::{Page, Plots, note, section, sources_list, stages_table};
+use super::page::{Page, Plots, fold, note, sources_list, stages_table, warnings};
 use super::sliced::raster::{MOST_ACROSS, MOST_ALONG};
 use super::sliced::{self, sliced_run::SlicedRun};
 use super::table::{cells, line, list};
 use super::{
-    cycle_plots, drawing_plot, figures_table, film_plot, flank_plots, history_plot, law_table, reading,
-    temperature_plot,
+    cycle_plots, drawing_plot, figures_table, film_plot, flank_plots, history_plot, reading, temperature_plot,
 };
 use crate::report::chart::Chart;
 use gearwear_physics::results::run::{ReportedBy, RunRecord, Summary};
@@ -46,30 +45,81 @@ fn sliced_note() -> String {
     )
 }
 
+/// The plots of a run by their subjects, in the order of its page.
+pub(super) struct RunPlots {
+    /// Wear and pressure on both flanks: what one looks at first.
+    pub first: Vec<Chart>,
+    pub over_width: Vec<Chart>,
+    pub mesh_cycle: Vec<Chart>,
+    pub over_time: Vec<Chart>,
+    pub temperatures: Vec<Chart>,
+    pub films: Vec<Chart>,
+    pub pair: Vec<Chart>,
+}
+
+impl RunPlots {
+    fn of(record: &RunRecord) -> Self {
+        match SlicedRun::of(record) {
+            Some(run) => sliced::plots(run),
+            None => Self::of_equal_sections(record),
+        }
+    }
+
+    fn of_equal_sections(record: &RunRecord) -> Self {
+        let mut pair = vec![drawing_plot::pair(record)];
+        pair.extend(flank_plots::modifications(record));
+        Self {
+            first: [flank_plots::wear(record), flank_plots::pressure(record)].concat(),
+            over_width: Vec::new(),
+            mesh_cycle: cycle_plots::all(record),
+            over_time: vec![history_plot::wear_against_time(record)],
+            temperatures: temperature_plot::all(record),
+            films: film_plot::all(record),
+            pair,
+        }
+    }
+}
+
+/// First the answer, wear and pressure as pictures, and the figures that a run is asked for, which printed are one sheet; then all else by its
+/// subject behind headings.
 pub fn page(record: &RunRecord) -> String {
     let s = &record.summary;
-    let charts = charts(record);
-    let legend = if record.slices.is_some() { sliced_note() } else { NOTE.to_owned() };
-    let figures = html! {
-        (figures_table::tables(record))
-        (figures_table::phases(s))
-        (law_table::note(s))
-        (figures_table::errors(&s.error))
-    };
+    let shown = RunPlots::of(record);
     let plots = Plots::default();
+    let legend = if record.slices.is_some() { sliced_note() } else { NOTE.to_owned() };
+    let first = html! { div.first { (plots.show(&shown.first)) } };
+    let subject = |id: &str, heading: &str, words: Markup, charts: &[Chart]| {
+        let is_empty = words.0.is_empty() && charts.is_empty();
+        html! { @if !is_empty { (fold(id, heading, html! { (words) @if !charts.is_empty() { (plots.show(charts)) } })) } }
+    };
+    let of_lubrication = s.lubrication.as_ref().map(|_| figures_table::films(s)).unwrap_or_default();
+    let of_temperature = s.temperature.as_ref().map(|_| figures_table::temperatures(s)).unwrap_or_default();
+    let main = html! {
+        (first)
+        (warnings(&s.warnings))
+        section.figures aria-label="Main figures" {
+            (figures_table::main_figures(s))
+            (note(&reading::remarks(record)))
+        }
+        (subject("wear-law", "Wear over time, wear law", figures_table::wear_and_law(s), &shown.over_time))
+        (subject("over-width", "Over the face width", figures_table::over_width(s), &shown.over_width))
+        (subject("mesh-cycle", "Load, pressure and transmission error over the mesh", html! { (note(&legend)) (figures_table::mesh_cycle(s)) }, &shown.mesh_cycle))
+        (subject("temperatures", "Temperatures", of_temperature, &shown.temperatures))
+        (subject("films", "Oil, films, friction and losses", of_lubrication, &shown.films))
+        (subject("gears", "Pair and gears: geometry, modifications, stiffness, root stress", figures_table::pair_and_gears(s), &shown.pair))
+        (subject("errors", "Error of the result", figures_table::errors(&s.error), &[]))
+        (subject("work", "How it was computed", work(s), &[]))
+        (subject("sources", "Data and scene", sources(record), &[]))
+    };
     Page {
         kind: "Wear of a gear pair",
         title: &s.title,
         byline: &s.report.as_ref().map(ReportedBy::line).unwrap_or_default(),
         answer: &reading::answer(record),
         interruption: reading::interruption(s).as_deref(),
-        warnings: &s.warnings,
-        main: html! {
-            (section("figures", "Main figures", figures))
-            (section("plots", "Plots", html! { (note(&legend)) (plots.show(&charts)) }))
-            (section("work", "How it was computed", work(s)))
-            (section("sources", "Data and scene", sources(record)))
-        },
+        // They stand below the pictures.
+        warnings: &[],
+        main,
         plots,
         footer: &format!("gearwear {} · scene {}", s.program_version, s.scene_hash),
     }
@@ -78,22 +128,8 @@ pub fn page(record: &RunRecord) -> String {
 
 /// The plots of a run, in the order of its page.
 pub fn charts(record: &RunRecord) -> Vec<Chart> {
-    match SlicedRun::of(record) {
-        Some(run) => sliced::figures(run),
-        None => figures_of_equal_sections(record),
-    }
-}
-
-fn figures_of_equal_sections(record: &RunRecord) -> Vec<Chart> {
-    let mut charts = vec![drawing_plot::pair(record)];
-    charts.extend(flank_plots::wear(record));
-    charts.extend(flank_plots::pressure(record));
-    charts.extend(cycle_plots::all(record));
-    charts.extend(temperature_plot::all(record));
-    charts.extend(film_plot::all(record));
-    charts.push(history_plot::wear_against_time(record));
-    charts.extend(flank_plots::modifications(record));
-    charts
+    let RunPlots { first, over_width, mesh_cycle, over_time, temperatures, films, pair } = RunPlots::of(record);
+    [first, over_time, over_width, mesh_cycle, temperatures, films, pair].concat()
 }
 
 /// How the run came about: stages with their times, work done, stages left out.

@@ -79,7 +79,7 @@ class SurfacePlot {
     this.ink = Object.fromEntries(["ink", "rule", "muted"].map((name) => [name, style.getPropertyValue(`--${name}`)]));
     pen.font = `12px ${getComputedStyle(this.node).fontFamily}`;
     const place = this.projection(trace);
-    this.places = surface.height.map((row, j) => row.map((height, i) => (height === null ? null : place(x[i], y[j], height))));
+    this.places = values.map((row, j) => row.map((value, i) => (value === null ? null : place(x[i], y[j], surface.rise * value))));
     const words = this.walls(pen, place, surface);
     // From the far side to the near one.
     const order = (count, isRising) => Array.from({ length: count - 1 }, (_, k) => (isRising ? k : count - 2 - k));
@@ -187,8 +187,8 @@ class SurfacePlot {
     );
     this.tip.hidden = best.i === undefined;
     if (this.tip.hidden) return;
-    const { x, y, surface, hover } = this.data.traces[this.chosen];
-    const values = { x: x[best.i], y: y[best.j], z: surface.height[best.j][best.i] };
+    const { x, y, values: heights, surface, hover } = this.data.traces[this.chosen];
+    const values = { x: x[best.i], y: y[best.j], z: surface.rise * heights[best.j][best.i] };
     const said = hover.replace("<extra></extra>", "").replace(/%\{(\w+):([^}]+)\}/g, (_, key, format) => formatted(values[key], format));
     this.tip.textContent = said.replace("<br>", ": ");
     this.tip.style.left = `${Math.min(px + 12, this.width - this.tip.offsetWidth)}px`;

@@ -43,6 +43,10 @@ pub(super) fn contour(
     if y.axis.spacing == AxisSpacing::Logarithmic {
         chart = chart.y_logarithmic();
     }
+    let done = rows.iter().flatten().flatten().filter(|row| row.error.is_none());
+    let places: Vec<[f64; 2]> = done.map(|row| [row.values[x.at], row.values[y.at]]).collect();
+    let [along_x, along_y] = [0, 1].map(|axis| places.iter().map(move |place| place[axis]));
+    chart = chart.add(Trace::points("run", along_x, along_y, ("rgba(255,255,255,0.85)", "circle", 4)));
     let failed = rows.iter().flatten().flatten().filter_map(|row| Some((row, row.error.clone()?)));
     let (failed, errors): (Vec<&SweepRow>, Vec<String>) = failed.unzip();
     if !failed.is_empty() {

@@ -248,7 +248,7 @@ fn page_stands_alone() {
         for outside in ["http:", "https:", "src=", "<link", "@import", "url("] {
             assert!(!own.contains(outside), "{outside} in the page");
         }
-        assert!(page.len() < 800_000, "{} bytes", page.len());
+        assert!(page.len() < 700_000, "{} bytes", page.len());
         assert_eq!(page.matches("<script").count(), page.matches("</script>").count());
     }
 }
@@ -270,6 +270,28 @@ fn page_answers_in_a_sentence_with_numbers() {
     {
         assert!(page.contains(&format!("<div class=\"plot\" id=\"{id}\"")), "{id}");
     }
+}
+
+/// First the answer and wear and pressure as pictures, then warnings and three tables, then all else behind headings that open it.
+#[test]
+fn page_begins_with_pictures() {
+    let page = fs::read_to_string(written(&plausible::run()).path().join("report.html")).unwrap();
+    let at = |what: &str| page.find(what).unwrap_or_else(|| panic!("no {what}"));
+    let order = [
+        "class=\"answer\"",
+        "id=\"wear-pinion\"",
+        "id=\"pressure-wheel\"",
+        "id=\"warnings\"",
+        "The pair</span>",
+        "<details class=\"fold\" id=\"wear-law\"",
+        "id=\"history\"",
+        "id=\"load-sharing\"",
+        "id=\"pair\"",
+        "<details class=\"fold\" id=\"sources\"",
+    ];
+    assert!(order.windows(2).all(|pair| at(pair[0]) < at(pair[1])), "{:?}", order.map(at));
+    let figures = page.matches("<b>Figure ").count();
+    assert!((1..=figures).all(|number| page.contains(&format!("<b>Figure {number}."))), "figures are numbered");
 }
 
 #[test]

@@ -227,7 +227,8 @@ fn summary() -> Summary {
         ball_diameter_mm: Some(7.776),
         dimension_over_balls_mm: Some(tip + 1.7),
     };
-    let cycle = |peak, te_min, te_max| CycleSummary {
+    let cycle = |peak, te_min: f64, te_max: f64| CycleSummary {
+        mesh_orders_um: vec![0.4 * (te_max - te_min), 0.1 * (te_max - te_min)],
         peak_pressure_MPa: peak,
         flank_pressure_MPa: 0.98 * peak,
         tip_edge_line_load_N_per_mm: 260.0,

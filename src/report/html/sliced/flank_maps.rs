@@ -10,7 +10,7 @@ use crate::report::control::{Change, Control, SliderStep};
 use crate::report::html::active_flank::ActiveFlank;
 use crate::report::html::flank_plots::{drawn_snapshots, moment};
 use crate::report::html::number::{figure, significant};
-use crate::report::html::reading::{greatest, place_on_flank, yield_note};
+use crate::report::html::reading::{gear_wear, greatest, place_on_flank, yield_note};
 use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::FlankRecord;
 
@@ -30,37 +30,73 @@ struct MappedQuantity<'a> {
     reading: String,
 }
 
-/// Wear, sliding, pressure new and worn, and the modifications where there are any.
-pub(super) fn all(run: SlicedRun<'_>, gear: Gear) -> Vec<Chart> {
+/// Part of the greatest value between the tip-edge zones up to which colours tell values apart.
+const COLOURS_BEYOND_FLANK: f64 = 1.15;
+
+/// Wear at the end of the run, and at every snapshot.
+pub(super) fn wear(run: SlicedRun<'_>, gear: Gear) -> Chart {
+    let wear = &run.record.flanks[gear].wear_um;
+    let (top, ends) = colours_of(wear, gear_wear(&run.record.summary, gear).peak_wear_um, "µm");
+    let reading = wear_reading(run, gear) + &ends;
+    let worn_off = MappedQuantity { id: "wear", title: ["Wear of", ""], unit: "µm", values: wear, top, reading };
+    map(run, gear, worn_off).movable(over_time(run, gear))
+}
+
+pub(super) fn sliding(run: SlicedRun<'_>, gear: Gear) -> Chart {
     let flank = &run.record.flanks[gear];
-    let top = |field: &[f64]| greatest(field).map_or(0.0, |peak| peak.value);
-    let draw = |id, title, unit, values, top, reading| {
-        map(run, gear, MappedQuantity { id, title, unit, values, top, reading })
-    };
-    let (wear, sliding) = (&flank.wear_um, &flank.sliding_mm_per_mesh);
-    let (new, worn) = (&flank.pressure_new_MPa, &flank.pressure_worn_MPa);
-    let pressure_top = top(new).max(top(worn));
-    let pressure = |field, when| pressure_reading(run, gear, field, when);
-    let worn_off = draw("wear", ["Wear of", ""], "µm", wear, top(wear), wear_reading(run, gear));
-    let mut charts = vec![
-        worn_off.movable(over_time(run, gear)),
-        draw("sliding", ["Sliding of", " during one mesh, new"], "mm", sliding, top(sliding), sliding_reading(flank)),
-        draw("pressure-new", ["Maximum pressure on", ", new"], "MPa", new, pressure_top, pressure(new, "New")),
-        draw("pressure-worn", ["Maximum pressure on", ", worn"], "MPa", worn, pressure_top, pressure(worn, "Worn")),
-    ];
-    if flank.removed_um.iter().any(|&removed| removed != 0.0) {
-        let shown = on_active_flank(flank, &flank.removed_um);
-        let reading = format!("Modifications, or what was measured, take up to {}.", peak_of(flank, &shown, "µm"));
-        charts.push(draw(
-            "modifications",
-            ["Material missing from", " before the run"],
-            "µm",
-            &flank.removed_um,
-            top(&shown),
-            reading,
-        ));
+    let values = &flank.sliding_mm_per_mesh;
+    let top = greatest(values).map_or(0.0, |peak| peak.value);
+    let title = ["Sliding of", " during one mesh, new"];
+    map(run, gear, MappedQuantity { id: "sliding", title, unit: "mm", values, top, reading: sliding_reading(flank) })
+}
+
+pub(super) fn pressure_new(run: SlicedRun<'_>, gear: Gear) -> Chart {
+    pressure(run, gear, &run.record.flanks[gear].pressure_new_MPa, ["pressure-new", "new"])
+}
+
+pub(super) fn pressure_worn(run: SlicedRun<'_>, gear: Gear) -> Chart {
+    pressure(run, gear, &run.record.flanks[gear].pressure_worn_MPa, ["pressure-worn", "worn"])
+}
+
+/// New and worn have one scale of colours.
+fn pressure(run: SlicedRun<'_>, gear: Gear, values: &[f64], [id, when]: [&'static str; 2]) -> Chart {
+    let flank = &run.record.flanks[gear];
+    let s = &run.record.summary;
+    let both =
+        [&flank.pressure_new_MPa, &flank.pressure_worn_MPa].map(|field| greatest(field).map_or(0.0, |at| at.value));
+    let (top, ends) = colours_of(&both, s.new.flank_pressure_MPa.max(s.worn.flank_pressure_MPa), "MPa");
+    let reading = pressure_reading(run, gear, values, when) + &ends;
+    let title = ["Maximum pressure on", if when == "new" { ", new" } else { ", worn" }];
+    map(run, gear, MappedQuantity { id, title, unit: "MPa", values, top, reading })
+}
+
+/// What the modifications take off the flank below the rounding of its tip edge; none where they take nothing.
+pub(super) fn modifications(run: SlicedRun<'_>, gear: Gear) -> Option<Chart> {
+    let flank = &run.record.flanks[gear];
+    let points = flank.radius_mm.len();
+    let (first, rounding) = (ActiveFlank::of(flank).first, ActiveFlank::rounding_from(flank));
+    let is_shown = |place: usize| (first..rounding).contains(&(place % points));
+    let values = flank.removed_um.iter().enumerate();
+    let values: Vec<f64> = values.map(|(place, &value)| if is_shown(place) { value } else { f64::NAN }).collect();
+    if values.iter().all(|&removed| removed.is_nan() || removed == 0.0) {
+        return None;
     }
-    charts
+    let reading = format!(
+        "Modifications, or what was measured, take up to {}; the rounding of the tip edge is left out.",
+        peak_of(flank, &values, "µm")
+    );
+    let top = greatest(&values).map_or(0.0, |peak| peak.value);
+    let title = ["Material missing from", " before the run"];
+    Some(map(run, gear, MappedQuantity { id: "modifications", title, unit: "µm", values: &values, top, reading }))
+}
+
+/// Where the colours of a field end, somewhat above its greatest value `between` the tip-edge zones, and what to say of what is beyond.
+fn colours_of(field: &[f64], between: f64, unit: &str) -> (f64, String) {
+    let (all, end) = (greatest(field).map_or(0.0, |peak| peak.value), COLOURS_BEYOND_FLANK * between);
+    if end.is_nan() || end <= 0.0 || all <= end {
+        return (all, String::new());
+    }
+    (end, format!(" Colours end at {} {unit}: tip edges have more.", figure(end)))
 }
 
 /// The wear at every snapshot that is drawn.
@@ -74,13 +110,6 @@ fn over_time(run: SlicedRun<'_>, gear: Gear) -> Control {
         SliderStep { label: moment(&history[snapshot]), change: Change::Cells(cells) }
     });
     Control::Steps { name: "time", steps: steps.collect() }
-}
-
-/// The `field` with no value where it is not shown.
-fn on_active_flank(flank: &FlankRecord, field: &[f64]) -> Vec<f64> {
-    let (first, points) = (ActiveFlank::of(flank).first, flank.radius_mm.len());
-    let shown = |place: usize| place % points >= first;
-    field.iter().enumerate().map(|(place, &value)| if shown(place) { value } else { f64::NAN }).collect()
 }
 
 fn map(run: SlicedRun<'_>, gear: Gear, quantity: MappedQuantity<'_>) -> Chart {
@@ -182,9 +211,7 @@ fn wear_reading(run: SlicedRun<'_>, gear: Gear) -> String {
         ),
         _ => format!("The {}’s flank has not worn.", gear.name()),
     };
-    reading.push_str(&format!(
-        " White: lines of contact at {LINES_OF_CONTACT} positions of the tooth, evenly spaced from its first to its last touch."
-    ));
+    reading.push_str(" White: lines of contact.");
     reading
 }
 
@@ -200,7 +227,7 @@ fn sliding_reading(flank: &FlankRecord) -> String {
 fn pressure_reading(run: SlicedRun<'_>, gear: Gear, field: &[f64], when: &str) -> String {
     let flank = &run.record.flanks[gear];
     let mut reading =
-        format!("{when}, the maximum pressure on the {} is {}.", gear.name(), peak_of(flank, field, "MPa"));
+        format!("The maximum pressure on the {}, {when}, is {}.", gear.name(), peak_of(flank, field, "MPa"));
     reading.push_str(yield_note(greatest(field).map_or(0.0, |at| at.value)));
     // The slice that is farthest ahead enters first.
     if let Some(entering) = greatest(&run.slices.ahead_mm) {

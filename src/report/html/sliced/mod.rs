@@ -3,7 +3,6 @@
 mod film_maps;
 mod flank_maps;
 mod load_maps;
-mod mesh_orders;
 mod over_width;
 mod profiles;
 pub(super) mod raster;
@@ -13,27 +12,33 @@ pub(super) mod tables;
 mod tooth_cycle;
 
 use self::sliced_run::SlicedRun;
-use super::{cycle_plots, drawing_plot, film_plot, history_plot, temperature_plot};
+use super::run_page::RunPlots;
+use super::{cycle_plots, drawing_plot, film_plot, history_plot, mesh_orders, temperature_plot};
 use crate::report::chart::Chart;
 use gearwear_bodies::gear::Gear;
 
-/// All of them, in the order of the page.
-pub(super) fn figures(run: SlicedRun<'_>) -> Vec<Chart> {
-    let mut figures = vec![drawing_plot::pair(run.record)];
-    for gear in Gear::BOTH {
-        figures.extend(flank_maps::all(run, gear));
-        figures.push(surfaces::wear_and_pressure(run, gear));
+/// All of them by their subjects.
+pub(super) fn plots(run: SlicedRun<'_>) -> RunPlots {
+    let of_both = |plot: fn(SlicedRun<'_>, Gear) -> Chart| Gear::BOTH.map(|gear| plot(run, gear));
+    let mut over_width = [of_both(flank_maps::pressure_new), of_both(flank_maps::sliding)].concat();
+    over_width.extend(of_both(surfaces::wear_and_pressure));
+    over_width.extend(of_both(over_width::root_and_tip));
+    over_width.extend(profiles::wear(run));
+    over_width.extend(profiles::pressure(run));
+    let mut mesh_cycle = load_maps::new_and_worn(run);
+    mesh_cycle.extend([tooth_cycle::load_share(run), tooth_cycle::pressure(run)]);
+    mesh_cycle.push(cycle_plots::transmission_error(run.record));
+    mesh_cycle.extend(mesh_orders::new_and_worn(&run.record.summary));
+    mesh_cycle.extend(cycle_plots::mesh_stiffness(run.record));
+    let mut pair = vec![drawing_plot::pair(run.record)];
+    pair.extend(Gear::BOTH.into_iter().filter_map(|gear| flank_maps::modifications(run, gear)));
+    RunPlots {
+        first: [of_both(flank_maps::wear), of_both(flank_maps::pressure_worn)].concat(),
+        over_width,
+        mesh_cycle,
+        over_time: vec![history_plot::wear_against_time(run.record)],
+        temperatures: temperature_plot::all(run.record),
+        films: [film_maps::new_and_worn(run), film_plot::all(run.record)].concat(),
+        pair,
     }
-    figures.extend(Gear::BOTH.map(|gear| over_width::root_and_tip(run, gear)));
-    figures.extend(profiles::wear(run));
-    figures.extend(profiles::pressure(run));
-    figures.extend(load_maps::new_and_worn(run));
-    figures.extend([tooth_cycle::load_share(run), tooth_cycle::pressure(run)]);
-    figures.extend([cycle_plots::transmission_error(run.record), mesh_orders::new_and_worn(run)]);
-    figures.extend(cycle_plots::mesh_stiffness(run.record));
-    figures.extend(temperature_plot::all(run.record));
-    figures.extend(film_maps::new_and_worn(run));
-    figures.extend(film_plot::all(run.record));
-    figures.push(history_plot::wear_against_time(run.record));
-    figures
 }

@@ -10,7 +10,7 @@ use crate::report::html::number::to_digits;
 use gearwear_physics::results::run::FlankRecord;
 
 /// Cells at most from root to tip, or along the path.
-pub(crate) const MOST_ALONG: usize = 200;
+pub(crate) const MOST_ALONG: usize = 120;
 /// Cells at most over the face width.
 pub(crate) const MOST_ACROSS: usize = 60;
 /// Significant digits of a value in a picture.

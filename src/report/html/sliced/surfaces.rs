@@ -76,8 +76,7 @@ fn surface(run: SlicedRun<'_>, gear: Gear, shown: &ShownSurface<'_>, is_first: b
     };
     let values: Rows =
         raster.rows(|point, slice| shown.values[slice * points + point]).into_iter().map(to_ends).collect();
-    let sign = if shown.is_depth { -1.0 } else { 1.0 };
-    let height: Rows = values.iter().map(|row| row.iter().map(|value| sign * value).collect()).collect();
+    let rise = if shown.is_depth { -1.0 } else { 1.0 };
     let width = std::iter::once(0.0).chain(raster.across.middles()).chain([face_width]).map(plotted);
     let radius = raster.along.middles().into_iter().map(plotted);
     let (unit, top) = (shown.unit, shown.top);
@@ -89,7 +88,7 @@ fn surface(run: SlicedRun<'_>, gear: Gear, shown: &ShownSurface<'_>, is_first: b
         drawn: DRAWN,
     };
     let field = Field { x: width.collect(), y: radius.collect(), values, scale };
-    let mut trace = Trace::new(Drawn::Surface(Surface { field, height, view }), shown.label);
+    let mut trace = Trace::new(Drawn::Surface(Surface { field, rise, view }), shown.label);
     trace.is_shown = is_first;
     trace.hover(format!("width %{{x:.2f}} mm, radius %{{y:.2f}} mm<br>%{{z:.4~g}} {unit}<extra></extra>"))
 }

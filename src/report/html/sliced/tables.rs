@@ -2,8 +2,8 @@
 
 use maud::Markup;
 
-use crate::report::html::number::{change, fixed, significant};
-use crate::report::html::table::{cells, row, table};
+use crate::report::html::number::{fixed, significant};
+use crate::report::html::table::{row, table};
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::results::run::{HelicalSummary, OverWidthSummary};
 
@@ -34,15 +34,6 @@ pub(crate) fn slices(h: &HelicalSummary) -> Markup {
         rows.push(row("Helix slope of axes out of parallel", "µm", [significant(slope_um, 3)]));
     }
     table("Face width and slices", &["value"], rows)
-}
-
-/// Rows of the mesh orders after the first, which is a main figure.
-pub(crate) fn higher_mesh_orders(h: &HelicalSummary) -> impl Iterator<Item = Markup> {
-    let orders = h.mesh_orders_new_um.iter().zip(&h.mesh_orders_worn_um).enumerate().skip(1);
-    orders.map(|(i, (&new, &worn))| {
-        let label = format!("Transmission error, mesh order {}", i + 1);
-        row(label, "µm", cells![new, worn, change(new, worn)])
-    })
 }
 
 /// Row of the asymmetry at the root after the first mesh; that at the end of the run is a main figure.
