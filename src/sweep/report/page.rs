@@ -11,7 +11,7 @@ use super::{COMBINATIONS, LAST, best_tables, contour_figures, line_figures};
 use crate::journal;
 use crate::report::chart::Chart;
 use crate::report::html::number::{count, figure as shown_number, given, significant};
-use crate::report::html::page::{Page, Plots, section, sources_list};
+use crate::report::html::page::{Page, Plots, fold, section, sources_list};
 use crate::sweep::record::SweepRecord;
 use crate::sweep::verification::SweepVerification;
 use gearwear_bodies::reference::steel_yield;
@@ -27,11 +27,15 @@ const DATA_FILES: &[(&str, &str)] = &[
     (output_files::SCENE, "the scene as given"),
 ];
 
+/// Plots at the beginning of the page.
+const SHOWN_FIRST: usize = 4;
+
 /// Figures whose least value is given at the top of the page, where there is one.
 const HEADLINES: [&str; 2] = ["helical.wear.pinion.root_tip_variation", "pinion.peak_wear_um"];
 
 pub(super) fn page(record: &SweepRecord) -> String {
     let charts = figures(record);
+    let (first, others) = charts.split_at(charts.len().min(SHOWN_FIRST));
     let identity = &record.identity;
     let sources = sources_list(DATA_FILES, "The scene as given", &record.scene_toml);
     let plots = Plots::default();
@@ -43,12 +47,14 @@ pub(super) fn page(record: &SweepRecord) -> String {
         interruption: None,
         warnings: &pressure_warning(record).into_iter().collect::<Vec<_>>(),
         main: html! {
-            (section("figures", "Main figures", html! { (best_tables::best(record)) (best_tables::failed(record)) }))
+            @if !first.is_empty() { div.first { (plots.show(first)) } }
             @if let Some(optimum) = record.optimum() { (section("optimum", "Optimum", best_tables::optimum(&optimum))) }
+            (fold("figures", "Each figure, and where its minimum is", best_tables::best(record)))
+            @if record.failed() > 0 { (fold("failed", "Combinations without a result", best_tables::failed(record))) }
             @if let Some(verification) = record.verification() { (verified(record, &verification)) }
-            @if !charts.is_empty() { (section("plots", "Plots", plots.show(&charts))) }
-            (section("work", "How it was computed", work(record)))
-            (section("sources", "Data and scene", sources))
+            @if !others.is_empty() { (fold("plots", "Plots of the other figures", plots.show(others))) }
+            (fold("work", "How it was computed", work(record)))
+            (fold("sources", "Data and scene", sources))
         },
         plots,
         footer: &format!("gearwear {} · scene {}", identity.program_version, identity.scene_hash),
@@ -56,9 +62,14 @@ pub(super) fn page(record: &SweepRecord) -> String {
     .html()
 }
 
-/// Figures to minimise that are not constant.
-fn shown(record: &SweepRecord) -> impl Iterator<Item = &'static MainFigure> + '_ {
-    figures::in_sweeps().iter().copied().filter(|figure| figure.family.less_is_better && differs(record, figure))
+/// Figures to minimise that are not constant, those of the first words of a run before the others.
+fn shown(record: &SweepRecord) -> impl Iterator<Item = &'static MainFigure> {
+    let all = figures::in_sweeps().iter().copied();
+    let mut shown: Vec<&MainFigure> =
+        all.filter(|figure| figure.family.less_is_better && differs(record, figure)).collect();
+    // Those that a run begins with come first.
+    shown.sort_by_key(|figure| !figure.family.in_headline);
+    shown.into_iter()
 }
 
 fn figures(record: &SweepRecord) -> Vec<Chart> {
@@ -158,7 +169,7 @@ fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> Marku
         }
         @if !verification.rows.is_empty() { (best_tables::verified(record, verification)) }
     };
-    section("verification", "Verification", content)
+    fold("verification", "Verification by finite elements", content)
 }
 
 fn work(record: &SweepRecord) -> Markup {

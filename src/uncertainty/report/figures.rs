@@ -10,12 +10,64 @@ use gearwear_bodies::reference::statistics::extent;
 /// Number of bars of a distribution.
 const BARS: usize = 30;
 
-pub(super) fn all(record: &UncertaintyRecord) -> Vec<Chart> {
-    let bands = Gear::BOTH.into_iter().filter_map(|gear| band(record, gear));
+/// Distributions at the beginning of the page, beside the lives.
+const SHOWN_FIRST: usize = 2;
+
+/// The plots by where they stand on the page.
+pub(super) struct UncertaintyPlots {
+    pub first: Vec<Chart>,
+    pub indices: Vec<Chart>,
+    pub others: Vec<Chart>,
+}
+
+pub(super) fn of(record: &UncertaintyRecord) -> UncertaintyPlots {
     let outputs = record.outputs.iter().enumerate();
+    let is_life = |(_, output): &(usize, &OutputRecord)| output.censored.is_some();
     let distributions = outputs.clone().filter_map(|(number, output)| distribution(number, output));
-    let indices = outputs.filter_map(|(number, output)| indices(number, output));
-    indices.chain(distributions).chain(bands).collect()
+    let mut others: Vec<Chart> = distributions.collect();
+    let mut first: Vec<Chart> = others.drain(..others.len().min(SHOWN_FIRST)).collect();
+    first.extend(outputs.clone().filter(is_life).filter_map(|(number, output)| life(number, output)));
+    others.extend(Gear::BOTH.into_iter().filter_map(|gear| band(record, gear)));
+    let indices = outputs.filter_map(|(number, output)| indices(number, output)).collect();
+    UncertaintyPlots { first, indices, others }
+}
+
+/// Probability that the limit of a life is reached by then; those whose life is longer than their duration count as not reached.
+fn life(number: usize, output: &OutputRecord) -> Option<Chart> {
+    let lives: Vec<f64> = output.sorted.iter().copied().filter(|life| life.is_finite()).collect();
+    let (first, last) = (*lives.first()?, *lives.last()?);
+    let of_all = 100.0 / output.sorted.len() as f64;
+    let steps = lives
+        .iter()
+        .enumerate()
+        .flat_map(|(before, &life)| [(life, before as f64 * of_all), (life, (before + 1) as f64 * of_all)]);
+    let (at, reached): (Vec<f64>, Vec<f64>) = steps.unzip();
+    let [p05, _, p50, ..] = output.quantiles.all();
+    let known = [("one in twenty has", p05), ("half have", p50)];
+    let known: Vec<String> = known
+        .into_iter()
+        .filter_map(|(who, life)| Some(format!("{who} reached it by {} {}", figure(life?), output.unit)))
+        .collect();
+    let longer = output
+        .censored
+        .filter(|part| *part > 0.0)
+        .map_or_else(String::new, |part| format!(" {} have not reached it within their duration.", percent(part)));
+    let reading = if known.is_empty() {
+        longer.trim_start().to_owned()
+    } else {
+        format!("Of the samples {}.{longer}", known.join(", "))
+    };
+    Some(
+        Chart::new(format!("life-{number}"), format!("{}: probability that it has ended", output.meaning))
+            .height(320)
+            .legend(false)
+            .x(&with_unit(output))
+            .x_range(padded(first, last))
+            .y("part of the samples, %")
+            .y_up_to(100.0)
+            .line("ended", at, reached, ("var(--wheel)", 2.2, Dash::Solid), "%{y:.2f} %")
+            .reading(reading),
+    )
 }
 
 /// Title of the axis; the limit of a life stands in the title of the plot.

@@ -6,7 +6,7 @@ use maud::{Markup, html};
 use super::{LAST, SAMPLES, figures};
 use crate::journal;
 use crate::report::html::number::{count, figure, fixed, percent, significant};
-use crate::report::html::page::{Page, Plots, note, section, sources_list};
+use crate::report::html::page::{Page, Plots, fold, note, section, sources_list};
 use crate::report::html::table::{Cell, NONE, cells, line, list};
 use crate::uncertainty::record::UncertaintyRecord;
 use gearwear_bodies::reference::sobol_indices::Index;
@@ -20,7 +20,7 @@ const DATA_FILES: &[(&str, &str)] = &[
 
 pub(super) fn page(record: &UncertaintyRecord) -> String {
     let plots = Plots::default();
-    let charts = figures::all(record);
+    let shown = figures::of(record);
     let interruption = (record.samples < record.samples_asked).then(|| {
         format!(
             "It was interrupted after {} of {} points.",
@@ -44,12 +44,13 @@ pub(super) fn page(record: &UncertaintyRecord) -> String {
         interruption: interruption.as_deref(),
         warnings: &warnings,
         main: html! {
-            (section("uncertain", "What is uncertain", uncertain(record)))
+            @if !shown.first.is_empty() { div.first { (plots.show(&shown.first)) } }
             (section("figures", "Main figures", quantiles(record)))
-            (section("indices", "Sobol indices", indices(record)))
-            @if !charts.is_empty() { (section("plots", "Plots", plots.show(&charts))) }
-            (section("work", "How it was computed", work(record)))
-            (section("sources", "Data and scene", sources_list(DATA_FILES, "The scene as given", &record.scene_toml)))
+            (fold("uncertain", "What is uncertain", uncertain(record)))
+            (fold("indices", "What the scatter comes from: Sobol indices", html! { (plots.show(&shown.indices)) (indices(record)) }))
+            @if !shown.others.is_empty() { (fold("plots", "Distributions of the other figures, wear over the flanks", plots.show(&shown.others))) }
+            (fold("work", "How it was computed", work(record)))
+            (fold("sources", "Data and scene", sources_list(DATA_FILES, "The scene as given", &record.scene_toml)))
         },
         plots,
         footer: &format!("gearwear {} · scene {}", record.program_version, record.scene_hash),
