@@ -17,6 +17,7 @@ use super::condensed_contact::{CondensedContactPlace, HeatedContactRows, parts_o
 use super::load_sharing::EquilibriumError;
 use super::{
     CycleObservation, FlankOverlap, GROUPS, GreatestPressure, LostMaterial, MeshCycle, PositionObservation, Work,
+    most_are_mild,
 };
 use crate::contact::Footprint;
 use crate::contact::flank_pressure::PressureFigures;
@@ -73,6 +74,8 @@ struct CondensedPosition {
     /// Tilt of the worn flanks for which they were found; none for new flanks.
     about_rad: Option<PerGear<Vec<f64>>>,
     found: Option<ContactEquilibrium>,
+    /// Whether it keeps its wear over the stages of a step.
+    keeps_wear: bool,
 }
 
 /// Positions that collect wear together.
@@ -80,6 +83,8 @@ struct CondensedGroup {
     loaded_positions: Vec<CondensedPosition>,
     collected: Collected,
     rows: ContactRows,
+    /// Wear per mesh of the positions that keep theirs over the stages of a step.
+    kept_mm: PerGear<Vec<f64>>,
 }
 
 /// Buffers for the rows of one contact.
@@ -102,6 +107,8 @@ pub struct CondensedCycle<'a> {
     observation_mm: Vec<f64>,
     /// Zones of the flanks, for figures of the pressure.
     zones: Option<PerGear<FlankZones>>,
+    /// Whether positions keep their wear over the stages of a step.
+    some_keep_wear: bool,
 }
 
 impl<'a> CondensedCycle<'a> {
@@ -124,10 +131,11 @@ impl<'a> CondensedCycle<'a> {
                     .collect(),
                 collected: Collected::new(nodes.as_ref().map(FlankNodes::len)),
                 rows: ContactRows::default(),
+                kept_mm: PerGear::default(),
             })
             .collect();
         let observation_mm = model.pair.path.evenly_mm(positions);
-        Self { model, line_load_n_per_mm, nodes, radius_mm, groups, observation_mm, zones: None }
+        Self { model, line_load_n_per_mm, nodes, radius_mm, groups, observation_mm, zones: None, some_keep_wear: false }
     }
 
     /// Adds figures of the pressure by the zones of the flanks.
@@ -213,6 +221,29 @@ impl MeshCycle for CondensedCycle<'_> {
         self.evaluate_by(|group, step| group.evaluate(step), lost, wear, depth_mm, stopped)
     }
 
+    fn begin_stages(&mut self, lost: LostMaterial<'_>, wear: &WearModel<'_>) {
+        let mild_mpa = wear.surely_mild_mpa();
+        let pressures_mpa = self.loaded_positions().map(CondensedPosition::greatest_pressure_mpa);
+        self.some_keep_wear = mild_mpa.is_some_and(|mild_mpa| most_are_mild(pressures_mpa, mild_mpa));
+        if let (true, Some(mild_mpa)) = (self.some_keep_wear, mild_mpa) {
+            self.for_each_group(|group, step| group.keep_mild_wear(step, mild_mpa), lost, wear, &|| false);
+        }
+    }
+
+    fn evaluate_stage(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        if !self.some_keep_wear {
+            return self.evaluate(lost, wear, depth_mm, stopped);
+        }
+        let work = self.evaluate_by(|group, step| group.evaluate_stage(step), lost, wear, depth_mm, stopped)?;
+        Ok(Work { mesh_cycles: 0, ..work })
+    }
+
     fn reset(&mut self) {
         let (model, nodes) = (self.model, self.nodes.as_ref());
         self.groups.par_iter_mut().flat_map(|group| &mut group.loaded_positions).for_each(|loaded| {
@@ -294,11 +325,22 @@ impl CondensedCycle<'_> {
         depth_mm: &mut PerGear<Vec<f64>>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
+        self.for_each_group(part, lost, wear, stopped);
+        Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
+    }
+
+    /// Does `part` in all groups on flanks that have lost `lost`.
+    fn for_each_group(
+        &mut self,
+        part: impl Fn(&mut CondensedGroup, &WearEvaluation<'_>) + Sync,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) {
         let tilt_rad = PerGear::from_fn(|gear| self.nodes[gear].tilt_rad(lost[gear]));
         let worn = Worn { depth_mm: lost, tilt_rad: &tilt_rad };
         let step = WearEvaluation { model: self.model, worn, nodes: self.nodes.as_ref(), wear, stopped };
         self.groups.par_iter_mut().for_each(|group| part(group, &step));
-        Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
 
     /// Greatest pressure of all pairs found in the base pitch.
@@ -418,7 +460,29 @@ struct WearEvaluation<'a> {
 impl CondensedGroup {
     fn evaluate(&mut self, step: &WearEvaluation<'_>) {
         self.collected.clear();
+        self.evaluate_those(|_| true, step);
+    }
+
+    /// As [`Self::evaluate`], but for positions that keep their wear.
+    fn evaluate_stage(&mut self, step: &WearEvaluation<'_>) {
+        self.collected.begin_from(&self.kept_mm);
+        self.evaluate_those(|loaded| !loaded.keeps_wear, step);
+    }
+
+    /// Keeps the wear of the positions whose pressure is nowhere above `mild_mpa`.
+    fn keep_mild_wear(&mut self, step: &WearEvaluation<'_>, mild_mpa: f64) {
+        self.kept_mm = self.collected.depth_mm.as_ref().map(|depth_mm| vec![0.0; depth_mm.len()]);
         for loaded in &mut self.loaded_positions {
+            loaded.keeps_wear = loaded.greatest_pressure_mpa() <= mild_mpa;
+            if loaded.keeps_wear {
+                loaded.wear(step, &mut self.rows, &mut self.kept_mm);
+            }
+        }
+    }
+
+    /// Collects the wear of some of the positions.
+    fn evaluate_those(&mut self, are_asked: impl Fn(&CondensedPosition) -> bool, step: &WearEvaluation<'_>) {
+        for loaded in self.loaded_positions.iter_mut().filter(|loaded| are_asked(loaded)) {
             let solved = if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { loaded.solve(step) };
             if !self.collected.take(solved) {
                 return;
@@ -461,6 +525,7 @@ impl CondensedPosition {
             windows: 0,
             about_rad: None,
             found: None,
+            keeps_wear: false,
         };
         loaded.observe(model, nodes);
         loaded
@@ -471,6 +536,16 @@ impl CondensedPosition {
         self.turned_mm = self.prepared.unworn_transmission_error_mm();
         self.transfers = model.load_transfers(&self.prepared, self.stretch_mm, self.turned_mm, nodes, None);
         (self.windows, self.about_rad) = (self.prepared.windows(), None);
+    }
+
+    /// Greatest pressure on any multiplier, MPa.
+    fn greatest_pressure_mpa(&self) -> f64 {
+        let Some(found) = &self.found else { return 0.0 };
+        let of_contacts = self.transfers.iter().flat_map(|contact| {
+            let force = &found.force[contact.first_row..contact.first_row + contact.len()];
+            force.iter().zip(&contact.weight_mm).map(|(force, weight)| force / weight)
+        });
+        of_contacts.fold(0.0, f64::max)
     }
 
     fn overlap(&self) -> Option<FlankOverlap> {

@@ -47,6 +47,11 @@ pub trait Rate {
         Ok(0)
     }
 
+    /// As [`Self::evaluate`], within a step from the state where the rate was found last: slow sources of the rate may stay as they were there.
+    fn evaluate_stage(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Self::Error> {
+        self.evaluate(state, rate)
+    }
+
     /// Chooses a part of the sources of the rate, whose fastest decay is that of all, and finds the rate at `state` of that part alone; `None`, and
     /// nothing chosen, where no part is as good as the whole.
     fn choose_part(&mut self, _state: &[f64]) -> Result<Option<Vec<f64>>, Self::Error> {
