@@ -1,4 +1,4 @@
-//! A pressure that stands still in the tangent frame of its position, or on the tip edge that carries it, while flank points move through
+//! A pressure that stands still in the tangent frame of its position, or goes with the tip edge that carries it, while flank points move through
 //! it.
 //!
 //! Within the cell of a loading position, a flank point moves along the tangent and feels the mean of the field ([`PressureField`]) over the part of
