@@ -1,7 +1,7 @@
 //! Motion of the flanks under a contact within the cell of a loading position.
 
-use super::PositionCell;
-use gearwear_bodies::gear::{Gear, conjugate::ConjugateFlanks};
+use super::{Flanks, PositionCell};
+use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 
 /// Part of the flank's length by which a limit may miss the theoretical contact point at A or E, by rounding errors.
 pub(super) const ROUND_OFF: f64 = 1e-9;
@@ -32,10 +32,17 @@ pub(super) struct EdgeUnderLoad {
     pub is_before: bool,
 }
 
-/// The edge that carries the load with the theoretical contact point at `position_mm`: before A the wheel's tip edge or the corner in which the
-/// pinion's flank begins, after E the pinion's tip edge or the wheel's corner.
-pub(super) fn edge_under_load(geometry: &dyn ConjugateFlanks, position_mm: f64) -> Option<EdgeUnderLoad> {
-    let [pinion, wheel] = Gear::BOTH.map(|gear| geometry.flank_limits_mm(gear));
+impl EdgeUnderLoad {
+    /// Place on the tangent, mm.
+    fn on_tangent_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64) -> f64 {
+        on_tangent(self.gear, geometry.in_tangent_frame(self.gear, self.coordinate_mm, position_mm).along_mm)
+    }
+}
+
+/// The edges between which flanks touch on the line of action, each with the position at which it is the theoretical contact point: before A the
+/// wheel's tip edge, which begins at this coordinate, or the corner in which the pinion's flank begins, after E the pinion's tip edge or the wheel's corner.
+fn outermost_edges(geometry: &dyn ConjugateFlanks, tip_from_mm: PerGear<f64>) -> [(f64, EdgeUnderLoad); 2] {
+    let [pinion, wheel] = Gear::BOTH.map(|gear| (geometry.flank_limits_mm(gear).0, tip_from_mm[gear]));
     // The contact moves up the pinion and down the wheel.
     let [of_start, of_end] = [(true, [pinion.0, wheel.1]), (false, [pinion.1, wheel.0])].map(|(is_before, ends_mm)| {
         Gear::BOTH.map(|gear| {
@@ -43,8 +50,19 @@ pub(super) fn edge_under_load(geometry: &dyn ConjugateFlanks, position_mm: f64) 
             (geometry.position_at_mm(gear, coordinate_mm), EdgeUnderLoad { gear, coordinate_mm, is_before })
         })
     });
-    let (first_mm, first) = if of_start[0].0 > of_start[1].0 { of_start[0] } else { of_start[1] };
-    let (last_mm, last) = if of_end[1].0 < of_end[0].0 { of_end[1] } else { of_end[0] };
+    [
+        if of_start[0].0 > of_start[1].0 { of_start[0] } else { of_start[1] },
+        if of_end[1].0 < of_end[0].0 { of_end[1] } else { of_end[0] },
+    ]
+}
+
+/// The one of [`outermost_edges`] that carries the load with the theoretical contact point at `position_mm`.
+pub(super) fn edge_under_load(
+    geometry: &dyn ConjugateFlanks,
+    tip_from_mm: PerGear<f64>,
+    position_mm: f64,
+) -> Option<EdgeUnderLoad> {
+    let [(first_mm, first), (last_mm, last)] = outermost_edges(geometry, tip_from_mm);
     let round_off = ROUND_OFF * last_mm;
     match position_mm {
         before if before < first_mm - round_off => Some(first),
@@ -53,39 +71,102 @@ pub(super) fn edge_under_load(geometry: &dyn ConjugateFlanks, position_mm: f64) 
     }
 }
 
-/// How far a flank passes its contact within the cell of a loading position. On the line of action the contact stands still in the tangent frame;
-/// before A and after E it stands on an edge, which the mate passes as far as it slides. The points of the edge's flank then each feel the pressure
-/// on their part of the edge.
-pub(super) struct Passes<'a> {
-    geometry: &'a dyn ConjugateFlanks,
-    gear: Gear,
-    cell: PositionCell,
-    /// Gear of the edge under load, and distances that the edge itself moves.
-    edge: Option<(Gear, [f64; 2])>,
+/// Coordinates at which the flanks end at their tips.
+pub(super) fn tips_mm(geometry: &dyn ConjugateFlanks) -> PerGear<f64> {
+    PerGear::from_fn(|gear| geometry.flank_limits_mm(gear).1)
 }
 
-impl<'a> Passes<'a> {
-    /// Passes of the flank of `gear`.
-    pub(super) fn new(geometry: &'a dyn ConjugateFlanks, gear: Gear, cell: PositionCell) -> Self {
-        let edge = edge_under_load(geometry, cell.position_mm)
-            .map(|edge| (edge.gear, shift_to_ends_mm(geometry, edge.gear, edge.coordinate_mm, cell)));
-        Self { geometry, gear, cell, edge }
+/// Edges and beginnings of tip roundings within so many half-widths of the plain contact move its pressure between A and E.
+const NEAR_HALF_WIDTHS: f64 = 2.0;
+
+/// An edge, or the beginning of the rounding of a tip edge, that takes the pressure along.
+#[derive(Debug, Clone, Copy)]
+struct MovingEdge {
+    gear: Gear,
+    /// Place on the tangent, mm.
+    at_mm: f64,
+    /// Distances on the tangent that it moves from the cell's position to its ends.
+    to_ends_mm: [f64; 2],
+    /// Place on the tangent from which on the pressure stands still; none where all of it goes with the edge.
+    still_from_mm: Option<f64>,
+}
+
+impl MovingEdge {
+    /// Part of its motion that the pressure at a place on the tangent takes.
+    fn part_at(&self, along_mm: f64) -> f64 {
+        let of_way = |still_mm: f64| (still_mm - along_mm) / (still_mm - self.at_mm);
+        self.still_from_mm.map_or(1.0, of_way).clamp(0.0, 1.0)
+    }
+}
+
+/// Motion of the pressure along the tangent within the cell of a loading position.
+///
+/// On the line of action it stands still in the tangent frame, and the flanks pass through it. Before A and after E it stands on an edge, which the
+/// mate passes as far as it slides. Where a tip edge has a rounding, that holds from the beginning of the rounding on. Between A and E a
+/// contact that reaches the edge is pressed hardest there, and goes with it there; the motion falls in a straight line to nothing at the other end of
+/// the plain contact. Were the pressure to stand still at the edge, its maximum would be smeared over the course of the edge in a cell: an error of
+/// first order in the distance of the positions.
+///
+/// Points that the pressure passes by less than their own distance each feel it on their part of the flank.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PressureMotion {
+    /// Cell of the loading position.
+    pub cell: PositionCell,
+    edge: Option<MovingEdge>,
+}
+
+impl PressureMotion {
+    /// Motion within `cell`, where the plain contact has this half-width.
+    pub(crate) fn new(flanks: Flanks<'_>, cell: PositionCell, half_width_mm: f64) -> Self {
+        let geometry = &flanks.geometry;
+        let moving = |edge: EdgeUnderLoad, still_from_mm: Option<f64>| MovingEdge {
+            gear: edge.gear,
+            at_mm: edge.on_tangent_mm(geometry, cell.position_mm),
+            to_ends_mm: shift_to_ends_mm(geometry, edge.gear, edge.coordinate_mm, cell)
+                .map(|by| on_tangent(edge.gear, by)),
+            still_from_mm,
+        };
+        if let Some(edge) = edge_under_load(geometry, flanks.tip_from_mm, cell.position_mm) {
+            return Self { cell, edge: Some(moving(edge, None)) };
+        }
+        let near = outermost_edges(geometry, flanks.tip_from_mm).into_iter().find_map(|(_, edge)| {
+            let at_mm = edge.on_tangent_mm(geometry, cell.position_mm);
+            let inwards = if edge.is_before { 1.0 } else { -1.0 };
+            (at_mm.abs() < NEAR_HALF_WIDTHS * half_width_mm).then(|| moving(edge, Some(inwards * half_width_mm)))
+        });
+        Self { cell, edge: near }
     }
 
-    /// Distances that the flank around `coordinate_mm` passes from the cell's position to its ends, with points `spacing_mm` apart there.
-    pub(super) fn to_ends_mm(&self, coordinate_mm: f64, spacing_mm: impl FnOnce() -> f64) -> [f64; 2] {
-        let own = || shift_to_ends_mm(self.geometry, self.gear, coordinate_mm, self.cell);
-        match self.edge {
-            None => own(),
-            Some((gear, _)) if gear == self.gear => {
-                let half_mm = 0.5 * spacing_mm();
-                [-half_mm, half_mm]
-            }
-            Some((_, edges)) => {
-                let own = own();
-                [own[0] + edges[0], own[1] + edges[1]]
+    /// Whether all of the pressure stands on an edge.
+    pub(super) fn is_on_edge(&self) -> bool {
+        self.edge.is_some_and(|edge| edge.still_from_mm.is_none())
+    }
+
+    /// Whether points of `gear` may go with the pressure.
+    pub(super) fn goes_with(&self, gear: Gear) -> bool {
+        self.edge.is_some_and(|edge| edge.gear == gear)
+    }
+
+    /// Distances, in a gear's own direction of the tangent, that its flank around `coordinate_mm`, at `along_mm` on the tangent, passes the pressure from
+    /// the cell's position to its ends; of a flank that goes with the pressure, its points `spacing_mm` apart there.
+    pub(super) fn passes_mm(
+        &self,
+        geometry: &dyn ConjugateFlanks,
+        gear: Gear,
+        (coordinate_mm, along_mm): (f64, f64),
+        spacing_mm: impl FnOnce() -> f64,
+    ) -> [f64; 2] {
+        let own_mm = shift_to_ends_mm(geometry, gear, coordinate_mm, self.cell);
+        let Some(edge) = self.edge else { return own_mm };
+        let part = edge.part_at(along_mm);
+        let [lower, upper] = [0, 1].map(|end| own_mm[end] - part * on_tangent(gear, edge.to_ends_mm[end]));
+        if edge.gear == gear {
+            let half_mm = 0.5 * spacing_mm();
+            if (upper - lower).abs() < 2.0 * half_mm {
+                return [-half_mm, half_mm];
             }
         }
+        [lower, upper]
     }
 }
 

@@ -27,6 +27,7 @@
 use super::{
     ContactSurface, Effort, Flanks, Footprint, PairContact, PointContact, PositionCell, PressedCell, Response, Sweep,
     elastic_cells::ElasticCells,
+    flank_motion::PressureMotion,
     growing_window::{GrowingWindow, Sampled},
     hertz,
     strip::{ContactWindow, Strip, gaps_beside_mm, least_removed_mm, point_distance_mm},
@@ -76,7 +77,7 @@ impl ContactSurface for HalfSpace {
         let stretch = HalfSpaceStretch {
             flanks,
             position_mm,
-            cell,
+            motion: cell.map(|cell| PressureMotion::new(flanks, cell, half_width)),
             flattening,
             cell_mm: self.cell_width_mm(flanks, position_mm),
         };
@@ -110,7 +111,7 @@ impl HalfSpace {
 struct HalfSpaceStretch<'a> {
     flanks: Flanks<'a>,
     position_mm: f64,
-    cell: Option<PositionCell>,
+    motion: Option<PressureMotion>,
     flattening: Flattening,
     cell_mm: f64,
 }
@@ -131,10 +132,10 @@ impl Sampled for HalfSpaceStretch<'_> {
         let width = window.length_mm() / count as f64;
         // Rise of the weighted gap of a parabola above that at the centre: Δ²/16R.
         let rise = width * width / (16.0 * self.flattening.contact.relative_radius_mm());
-        let strip = Strip::new(self.flanks, self.position_mm, window, window.evenly_mm(2 * count), self.cell);
+        let strip = Strip::new(self.flanks, self.position_mm, window, window.evenly_mm(2 * count), self.motion);
         let strip = strip.over_cells(self.flanks.grid.map(|grid| grid.len()), rise);
         let compliance = cell_compliance_mm_per_mpa(&self.flattening.bodies, width, count);
-        let swept = SweptField::new(self.flanks, window, width, self.cell);
+        let swept = SweptField::new(self.flanks, window, width, self.motion);
         SampledStretch { strip, cells: ElasticCells::new(width, compliance), swept }
     }
 }

@@ -54,6 +54,8 @@ pub struct Flanks<'a> {
     pub parts: Option<FlankParts>,
     /// Gears whose corner of undercut, at the form circle, may carry load.
     pub sharp_corners: PerGear<bool>,
+    /// Coordinate at which the tip edge of each gear or its rounding begins, mm.
+    pub tip_from_mm: PerGear<f64>,
 }
 
 impl<'a> Flanks<'a> {
@@ -74,6 +76,7 @@ impl<'a> Flanks<'a> {
             modification_mm: None,
             sharp_edges: PerGear::default(),
             sharp_corners: PerGear::default(),
+            tip_from_mm: flank_motion::tips_mm(&geometry),
             parts: None,
         }
     }

@@ -1,6 +1,6 @@
 //! Points of one flank that may touch the other: places, motion and sliding while they face the mate.
 
-use super::flank_motion::{Passes, edge_under_load, shift_to_ends_mm};
+use super::flank_motion::{PressureMotion, on_tangent, shift_to_ends_mm};
 use super::strip::ContactWindow;
 use super::{Flanks, PositionCell};
 use gearwear_bodies::gear::{Gear, conjugate::ConjugateFlanks, involute::TangentFramePoint};
@@ -75,31 +75,34 @@ impl ObservedPoints {
         Self { first_point, sliding_mm, partly_exposed, standing_within_mm: None, at, shifts_to_ends_mm }
     }
 
-    /// The points under a pressure that stands still during the cell, or goes with an edge: the mate passes an edge all the time.
-    pub(crate) fn under_standing_pressure(
+    /// The points under a pressure of this motion; the mate passes an edge all the time.
+    pub(crate) fn under_pressure(
         flanks: Flanks<'_>,
         gear: Gear,
         window: ContactWindow,
-        cell: PositionCell,
+        motion: PressureMotion,
     ) -> Self {
+        let (geometry, cell) = (&flanks.geometry, motion.cell);
         let mut points = Self::new(flanks, gear, window, cell);
-        if let Some(edge) = edge_under_load(&flanks.geometry, cell.position_mm) {
-            let sliding = flanks.geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
+        if motion.is_on_edge() {
+            let sliding = geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
             points.partly_exposed.retain(|point| point.from == point.to);
             points.sliding_mm.fill(sliding);
             points.partly_exposed.iter().for_each(|point| points.sliding_mm[point.sample] = 0.0);
-            if edge.gear == gear {
-                let (from_mm, to_mm) = flanks.geometry.flank_limits_mm(gear);
-                let ends_mm = [from_mm, to_mm]
-                    .map(|end_mm| flanks.geometry.in_tangent_frame(gear, end_mm, cell.position_mm).along_mm);
-                points.standing_within_mm = Some(ends_mm);
-            }
-            let widest_mm = points.at.windows(2).map(|two| two[1].along_mm - two[0].along_mm).fold(0.0, f64::max);
-            let seen = points.first_point..points.first_point + points.sliding_mm.len();
-            let coordinates_mm = flanks.grid[gear].coordinate_mm[seen].iter();
-            let passes = Passes::new(&flanks.geometry, gear, cell);
-            points.shifts_to_ends_mm = coordinates_mm.map(|&at| passes.to_ends_mm(at, || widest_mm)).collect();
         }
+        if motion.goes_with(gear) {
+            let (from_mm, to_mm) = geometry.flank_limits_mm(gear);
+            let ends_mm =
+                [from_mm, to_mm].map(|end_mm| geometry.in_tangent_frame(gear, end_mm, cell.position_mm).along_mm);
+            points.standing_within_mm = Some(ends_mm);
+        }
+        let seen = points.first_point..points.first_point + points.sliding_mm.len();
+        let coordinates_mm = flanks.grid[gear].coordinate_mm[seen].iter();
+        let passes = coordinates_mm.zip(points.at.windows(3)).map(|(&at_mm, three)| {
+            let spacing_mm = 0.5 * (three[2].along_mm - three[0].along_mm);
+            motion.passes_mm(geometry, gear, (at_mm, on_tangent(gear, three[1].along_mm)), || spacing_mm)
+        });
+        points.shifts_to_ends_mm = passes.collect();
         points
     }
 
@@ -115,7 +118,8 @@ impl ObservedPoints {
                     (0.5 * (before - here)).max((from_mm - here).min(0.0)),
                     (0.5 * (after - here)).min((to_mm - here).max(0.0)),
                 ];
-                *course = course.map(|_| ends);
+                let is_shorter = |[from, to]: [f64; 2]| (to - from).abs() <= 0.5 * (after - before) * (1.0 + 1e-9);
+                *course = course.map(|course| if is_shorter(course) { ends } else { course });
             }
         }
         let unexposed = self.partly_exposed.iter().filter(|point| point.from == point.to);
@@ -209,15 +213,16 @@ mod tests {
             let position_mm = pair.path.start_mm + spacing_mm * f64::from(k);
             let (lower_mm, upper_mm) = (position_mm - 0.5 * spacing_mm, position_mm + 0.5 * spacing_mm);
             let cell = PositionCell { position_mm, lower_mm, upper_mm };
+            let motion = PressureMotion::new(flanks, cell, 0.1);
             for gear in Gear::BOTH {
                 let [first, grown] = [0.1, 0.4].map(|half_length_mm| {
                     let window = ContactWindow::new(flanks, position_mm, half_length_mm);
-                    ObservedPoints::under_standing_pressure(flanks, gear, window, cell)
+                    ObservedPoints::under_pressure(flanks, gear, window, motion)
                 });
                 let before = first.first_point - grown.first_point;
                 let courses_mm = grown.shifts_to_ends_mm();
                 let seen_before = &courses_mm[before..before + first.sliding_mm.len()];
-                if edge_under_load(&flanks.geometry, position_mm).is_none_or(|edge| edge.gear != gear) {
+                if !motion.goes_with(gear) {
                     assert_eq!(first.shifts_to_ends_mm(), seen_before, "{gear:?} at {position_mm} mm");
                 }
                 let [least, most] = [f64::min, f64::max]

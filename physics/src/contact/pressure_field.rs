@@ -3,7 +3,7 @@
 //! The field is linear from the centre of one cell to the next, and constant in the outer halves of the outermost
 //! cells: it carries the load of the cells exactly. Its integral P(x) is kept at the centres; a flank point that moves from x₁ to x₂ feels (P(x₂) − P(x₁))/(x₂ − x₁) on average.
 //!
-//! Between A and E the field is mirrored at a tip edge under pressure: within the cell of a position the edge moves to either side of its place,
+//! Between A and E the field is mirrored at an end under pressure with which it does not go ([`super::flank_motion`]): within the cell of a position the edge moves to either side of its place,
 //! uncovers as much on the one side as it covers on the other, and the flank feels the load of the cells on average. At A and E, where the edge only
 //! moves away, and before A and after E, where the field goes with it, there is no pressure beyond it.
 //!

@@ -10,10 +10,10 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
+use super::Flanks;
 use super::coordinates_along::CoordinatesAlong;
-use super::flank_motion::{Passes, ROUND_OFF, edge_under_load, on_tangent};
+use super::flank_motion::{PressureMotion, ROUND_OFF, edge_under_load, on_tangent, tips_mm};
 use super::weighted_rows::{RowsOfAnyLength, WeightedRows};
-use super::{Flanks, PositionCell};
 use gearwear_bodies::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 use gearwear_bodies::reference::linear_means::add_means;
 
@@ -78,12 +78,12 @@ impl Interpolation {
     }
 }
 
-/// Weights of the points of a flank in the means over the stretches that pass the samples `along_mm` within a [`PositionCell`], where the flank has
+/// Weights of the points of a flank in the means over the stretches that pass the samples `along_mm` under a pressure of this motion, where the flank has
 /// these coordinates.
 fn passing(
     flanks: Flanks<'_>,
     gear: Gear,
-    cell: PositionCell,
+    motion: PressureMotion,
     along_mm: &[f64],
     coordinates_mm: &[f64],
 ) -> WeightedRows {
@@ -93,14 +93,13 @@ fn passing(
     let points_mm = &grid.coordinate_mm[within.clone()];
     // All 0 again after every sample.
     let mut sums = vec![0.0; points_mm.len()];
-    let passes = Passes::new(&geometry, gear, cell);
     let between = CoordinatesAlong::new(along_mm, coordinates_mm);
     for (sample_mm, at_mm) in along_mm.iter().zip(coordinates_mm) {
-        let passed = passes.to_ends_mm(*at_mm, || grid.distance_at_mm(*at_mm));
+        let passed = motion.passes_mm(&geometry, gear, (*at_mm, *sample_mm), || grid.distance_at_mm(*at_mm));
         let ends = passed.map(|by| {
             let end_mm = on_tangent(gear, *sample_mm) - by;
             let interpolated = between.at(on_tangent(gear, end_mm));
-            interpolated.unwrap_or_else(|| geometry.at_along(gear, end_mm, cell.position_mm).0)
+            interpolated.unwrap_or_else(|| geometry.at_along(gear, end_mm, motion.cell.position_mm).0)
         });
         let reached = add_means(points_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
         passing.push(within.start + reached.start, &sums[reached.clone()]);
@@ -247,7 +246,7 @@ pub(super) fn common_extent_mm(geometry: &dyn ConjugateFlanks, position_mm: f64)
 /// Place within the extent of [`common_extent_mm`] where unworn flanks are nearest: the theoretical contact point, or the edge beside it where a
 /// flank has not begun or has ended. Before T1 and after T2 the corner of an undercut flank may lie on the other side of that point.
 pub(super) fn nearest_mm(geometry: &dyn ConjugateFlanks, position_mm: f64, (lower_mm, upper_mm): (f64, f64)) -> f64 {
-    match edge_under_load(geometry, position_mm) {
+    match edge_under_load(geometry, tips_mm(geometry), position_mm) {
         Some(edge) if edge.is_before => lower_mm,
         Some(_) => upper_mm,
         None => 0.0_f64.min(upper_mm).max(lower_mm),
@@ -288,15 +287,15 @@ enum Removed {
 }
 
 impl Strip {
-    /// Samples at `along_mm`, in order, the first and the last at the ends of `window`. Where the pressure stands still while the flanks pass
-    /// under it during a cell, `passed_during`, each sample has the mean wear of the flank that passes it, all of which feels its pressure:
+    /// Samples at `along_mm`, in order, the first and the last at the ends of `window`. Where flanks pass under a pressure of
+    /// the motion `passed_under`, each sample has the mean wear of the flank that passes it, all of which feels its pressure:
     /// with the wear of one place alone, a wave of wear as long as the distance of the positions would meet each of them alike, and grow.
     pub(crate) fn new(
         flanks: Flanks<'_>,
         position_mm: f64,
         window: ContactWindow,
         along_mm: Vec<f64>,
-        passed_during: Option<PositionCell>,
+        passed_under: Option<PressureMotion>,
     ) -> Self {
         let mut geometric_gap_mm = vec![0.0; along_mm.len()];
         let coordinates_mm = PerGear::from_fn(|gear| -> Vec<f64> {
@@ -314,11 +313,11 @@ impl Strip {
             here
         });
         let unmodified_at_ends_mm = [0, geometric_gap_mm.len() - 1].map(|end| geometric_gap_mm[end]);
-        let (Some(modification_mm), Some(cell)) = (flanks.modification_mm, passed_during) else {
+        let (Some(modification_mm), Some(motion)) = (flanks.modification_mm, passed_under) else {
             return Self { window, along_mm, geometric_gap_mm, unmodified_at_ends_mm, removed: Removed::Here(here) };
         };
         let passing = PerGear::from_fn(|gear| {
-            let passing = passing(flanks, gear, cell, &along_mm, &coordinates_mm[gear]);
+            let passing = passing(flanks, gear, motion, &along_mm, &coordinates_mm[gear]);
             // A modification counts as at the sample.
             let mut means = vec![0.0; along_mm.len()];
             passing.add_products(0, modification_mm[gear], &mut means);
@@ -469,9 +468,9 @@ fn unworn_gap_mm(flanks: Flanks<'_>, along_mm: f64, position_mm: f64) -> f64 {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::contact::ContactSurface;
     use crate::contact::half_space::HalfSpace;
     use crate::contact::winkler::{Winkler, WinklerFoundation};
+    use crate::contact::{ContactSurface, PositionCell};
     use gearwear_bodies::gear::GearPair;
     use gearwear_bodies::gear::flank::PointSpacing;
     use gearwear_bodies::gear::modification::Modification;
@@ -534,8 +533,8 @@ pub(super) mod tests {
             let (_, at_tips) = common_extent_mm(&flanks.geometry, position_mm);
             ends_at_root_form += at_tips.into_iter().filter(|at_tip| !at_tip).count();
             let cell = PositionCell { position_mm, lower_mm: position_mm - 0.1, upper_mm: position_mm + 0.1 };
-            for passed_during in [None, Some(cell)] {
-                let strip = Strip::new(flanks, position_mm, window, window.evenly_mm(400), passed_during);
+            for passed_under in [None, Some(PressureMotion::new(flanks, cell, 0.2))] {
+                let strip = Strip::new(flanks, position_mm, window, window.evenly_mm(400), passed_under);
                 let mut gap_mm = Vec::new();
                 strip.gap_mm(worn_mm.as_ref().map(Vec::as_slice), &mut gap_mm);
                 for (gap, geometric) in gap_mm.iter().zip(&strip.geometric_gap_mm) {

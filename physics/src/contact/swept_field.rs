@@ -1,4 +1,4 @@
-//! A pressure that stands still in the tangent frame of its position, or on the tip edge that carries it, while flank points move through
+//! A pressure that stands still in the tangent frame of its position, or goes with the tip edge that carries it, while flank points move through
 //! it.
 //!
 //! Within the cell of a loading position, a flank point moves along the tangent and feels the mean of the field ([`PressureField`]) over the part of
@@ -6,11 +6,11 @@
 
 use std::ops::Range;
 
-use super::flank_motion::{edge_under_load, on_tangent};
+use super::flank_motion::{PressureMotion, on_tangent};
 use super::observed_points::ObservedPoints;
 use super::strip::ContactWindow;
 use super::weighted_rows::{RowsOfAnyLength, WeightedRows};
-use super::{Flanks, PointContact, PositionCell, Sweep, pressure_field::PressureField};
+use super::{Flanks, PointContact, Sweep, pressure_field::PressureField};
 use gearwear_bodies::gear::{Gear, PerGear};
 
 /// A pressure field, and the points of both flanks that may feel it.
@@ -40,10 +40,10 @@ impl SweptPoints {
         flanks: Flanks<'_>,
         gear: Gear,
         window: ContactWindow,
-        cell: PositionCell,
+        motion: PressureMotion,
         (field, cells): (&PressureField, usize),
     ) -> Self {
-        let points = ObservedPoints::under_standing_pressure(flanks, gear, window, cell);
+        let points = ObservedPoints::under_pressure(flanks, gear, window, motion);
         let along_mm: Vec<f64> = points.at[1..=points.sliding_mm.len()].iter().map(|point| point.along_mm).collect();
         let courses = points.courses_mm();
         let courses = along_mm.iter().zip(courses);
@@ -70,15 +70,19 @@ impl SweptPoints {
 }
 
 impl SweptField {
-    /// A field of cells of `width_mm` over `window`, without pressure so far; with a `cell`, points are collected.
-    pub(crate) fn new(flanks: Flanks<'_>, window: ContactWindow, width_mm: f64, cell: Option<PositionCell>) -> Self {
+    /// A field of cells of `width_mm` over `window`, without pressure so far; with a `motion`, points are collected.
+    pub(crate) fn new(
+        flanks: Flanks<'_>,
+        window: ContactWindow,
+        width_mm: f64,
+        motion: Option<PressureMotion>,
+    ) -> Self {
         // An edge moves to both sides of its place unless the cell lies to one side of its position, or the field goes with the edge.
-        let mirrored = cell
-            .is_some_and(|cell| cell.goes_both_ways() && edge_under_load(&flanks.geometry, cell.position_mm).is_none());
+        let mirrored = motion.is_some_and(|motion| motion.cell.goes_both_ways() && !motion.is_on_edge());
         let field = PressureField::new(window.lower_mm, width_mm, mirrored);
         let cells = (window.length_mm() / width_mm).round() as usize;
-        let observed =
-            cell.map(|cell| PerGear::from_fn(|gear| SweptPoints::new(flanks, gear, window, cell, (&field, cells))));
+        let observed = motion
+            .map(|motion| PerGear::from_fn(|gear| SweptPoints::new(flanks, gear, window, motion, (&field, cells))));
         Self { field, observed }
     }
 

@@ -27,6 +27,7 @@
 use super::{
     ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, PressedCell, Response, Sweep,
     edge_foundation::{EdgeFoundations, EdgeStiffness},
+    flank_motion::PressureMotion,
     foundation::{FoundationCurve, FoundationStiffness, mean_positive},
     gap_at_points::GapAtPoints,
     growing_window::{GrowingWindow, Sampled},
@@ -168,8 +169,9 @@ impl Sampled for WinklerStretch<'_> {
         if self.at_edge {
             let window = ContactWindow::new(flanks, position_mm, half_length_mm);
             let intervals = ((window.length_mm() / distance_mm).ceil() as usize).max(LEAST_INTERVALS_AT_EDGE);
-            let strip = Strip::new(flanks, position_mm, window, window.evenly_mm(intervals), cell);
-            let swept = SweptField::new(flanks, window, strip.spacing_mm(), cell);
+            let motion = cell.map(|cell| PressureMotion::new(flanks, cell, self.first_half_length_mm));
+            let strip = Strip::new(flanks, position_mm, window, window.evenly_mm(intervals), motion);
+            let swept = SweptField::new(flanks, window, strip.spacing_mm(), motion);
             return (strip, Some(ObservedFlanks::Swept(swept)));
         }
         // One spacing in windows of all lengths, which are whole multiples of it.

@@ -28,6 +28,14 @@ impl Collected {
         self.keep();
     }
 
+    /// Forgets everything but these depths.
+    pub(super) fn begin_from(&mut self, depth_mm: &PerGear<Vec<f64>>) {
+        for gear in Gear::BOTH {
+            self.depth_mm[gear].copy_from_slice(&depth_mm[gear]);
+        }
+        self.keep();
+    }
+
     /// Keeps the depths, and forgets the work.
     pub(super) fn keep(&mut self) {
         (self.work, self.failure) = (Work::default(), None);

@@ -10,25 +10,23 @@
 //!
 //! The couplings of a position are prepared once; from one wear step to the next only the gaps change, and hardly the active set.
 
+mod observation;
+
 use rayon::prelude::*;
 
 use super::collected::Collected;
-use super::condensed_contact::{CondensedContactPlace, HeatedContactRows, parts_of_rows};
+use super::condensed_contact::{CondensedContactPlace, HeatedContactRows};
 use super::load_sharing::EquilibriumError;
-use super::{
-    CycleObservation, FlankOverlap, GROUPS, GreatestPressure, LostMaterial, MeshCycle, PositionObservation, Work,
-};
-use crate::contact::Footprint;
-use crate::contact::flank_pressure::PressureFigures;
+use super::{CycleObservation, FlankOverlap, GROUPS, LostMaterial, MeshCycle, Work, most_are_mild};
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::wear::{SlidingRow, WearModel};
 use gearwear_bodies::gear::{Gear, PerGear, flank_zones::FlankZones};
 use gearwear_bodies::gear_fem::condensed_pair::{CondensedPair, hertz_half_width_mm};
-use gearwear_bodies::gear_fem::flank_nodes::{FlankNodes, Weights};
+use gearwear_bodies::gear_fem::flank_nodes::FlankNodes;
 use gearwear_bodies::gear_fem::load_transfer::LoadTransfer;
 use gearwear_bodies::gear_fem::prepared::PreparedPosition;
 use gearwear_bodies::gear_fem::tilted::Worn;
-use gearwear_bodies::reference::{linear_means::value_at, monotone_cubic::MonotoneCubic};
+use gearwear_bodies::reference::linear_means::value_at;
 use gearwear_fem::active_set::ContactEquilibrium;
 
 /// Distance of positions.
@@ -73,6 +71,8 @@ struct CondensedPosition {
     /// Tilt of the worn flanks for which they were found; none for new flanks.
     about_rad: Option<PerGear<Vec<f64>>>,
     found: Option<ContactEquilibrium>,
+    /// Whether it keeps its wear over the stages of a step.
+    keeps_wear: bool,
 }
 
 /// Positions that collect wear together.
@@ -80,6 +80,8 @@ struct CondensedGroup {
     loaded_positions: Vec<CondensedPosition>,
     collected: Collected,
     rows: ContactRows,
+    /// Wear per mesh of the positions that keep theirs over the stages of a step.
+    kept_mm: PerGear<Vec<f64>>,
 }
 
 /// Buffers for the rows of one contact.
@@ -102,6 +104,8 @@ pub struct CondensedCycle<'a> {
     observation_mm: Vec<f64>,
     /// Zones of the flanks, for figures of the pressure.
     zones: Option<PerGear<FlankZones>>,
+    /// Whether positions keep their wear over the stages of a step.
+    some_keep_wear: bool,
 }
 
 impl<'a> CondensedCycle<'a> {
@@ -124,10 +128,11 @@ impl<'a> CondensedCycle<'a> {
                     .collect(),
                 collected: Collected::new(nodes.as_ref().map(FlankNodes::len)),
                 rows: ContactRows::default(),
+                kept_mm: PerGear::default(),
             })
             .collect();
         let observation_mm = model.pair.path.evenly_mm(positions);
-        Self { model, line_load_n_per_mm, nodes, radius_mm, groups, observation_mm, zones: None }
+        Self { model, line_load_n_per_mm, nodes, radius_mm, groups, observation_mm, zones: None, some_keep_wear: false }
     }
 
     /// Adds figures of the pressure by the zones of the flanks.
@@ -213,6 +218,29 @@ impl MeshCycle for CondensedCycle<'_> {
         self.evaluate_by(|group, step| group.evaluate(step), lost, wear, depth_mm, stopped)
     }
 
+    fn begin_stages(&mut self, lost: LostMaterial<'_>, wear: &WearModel<'_>) {
+        let mild_mpa = wear.surely_mild_mpa();
+        let pressures_mpa = self.loaded_positions().map(CondensedPosition::greatest_pressure_mpa);
+        self.some_keep_wear = mild_mpa.is_some_and(|mild_mpa| most_are_mild(pressures_mpa, mild_mpa));
+        if let (true, Some(mild_mpa)) = (self.some_keep_wear, mild_mpa) {
+            self.for_each_group(|group, step| group.keep_mild_wear(step, mild_mpa), lost, wear, &|| false);
+        }
+    }
+
+    fn evaluate_stage(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        if !self.some_keep_wear {
+            return self.evaluate(lost, wear, depth_mm, stopped);
+        }
+        let work = self.evaluate_by(|group, step| group.evaluate_stage(step), lost, wear, depth_mm, stopped)?;
+        Ok(Work { mesh_cycles: 0, ..work })
+    }
+
     fn reset(&mut self) {
         let (model, nodes) = (self.model, self.nodes.as_ref());
         self.groups.par_iter_mut().flat_map(|group| &mut group.loaded_positions).for_each(|loaded| {
@@ -225,48 +253,8 @@ impl MeshCycle for CondensedCycle<'_> {
         });
     }
 
-    /// Positions from A to E are between those of the base pitch.
     fn observe(&mut self, _lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
-        let zeros = PerGear::from_fn(|gear| vec![0.0; self.nodes[gear].len()]);
-        let mut observation = CycleObservation {
-            positions: self.along_the_path(),
-            shares_at_ends: Some(self.shares_at_ends()),
-            greatest_pressure: self.greatest_pressure(),
-            pressure_figures: self.pressure_figures(),
-            pressure_mpa: zeros.clone(),
-            sliding_mm: zeros,
-            sliding_work_n: None,
-            slices: None,
-            deepest_overlap: self
-                .loaded_positions()
-                .filter_map(CondensedPosition::overlap)
-                .reduce(FlankOverlap::deeper),
-        };
-        let mut sliding_work_n = 0.0;
-        for loaded in self.loaded_positions() {
-            let Some(found) = &loaded.found else { continue };
-            for contact in &loaded.transfers {
-                for i in 0..contact.len() {
-                    let force = found.force[contact.first_row + i];
-                    if force <= 0.0 {
-                        continue;
-                    }
-                    sliding_work_n += force * contact.sliding_mm[i];
-                    let pressure = force / contact.weight_mm[i];
-                    for gear in Gear::BOTH {
-                        let Weights { first, weights } = contact.means[gear].row(i);
-                        for (k, m) in weights.iter().enumerate().filter(|(_, m)| **m > 0.0) {
-                            let greatest = &mut observation.pressure_mpa[gear][first + k];
-                            *greatest = greatest.max(pressure);
-                            observation.sliding_mm[gear][first + k] +=
-                                m * contact.weight_mm[i] / self.nodes[gear].share_mm[first + k] * contact.sliding_mm[i];
-                        }
-                    }
-                }
-            }
-        }
-        observation.sliding_work_n = Some(sliding_work_n);
-        Ok(observation)
+        Ok(self.observation())
     }
 }
 
@@ -294,115 +282,22 @@ impl CondensedCycle<'_> {
         depth_mm: &mut PerGear<Vec<f64>>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
+        self.for_each_group(part, lost, wear, stopped);
+        Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
+    }
+
+    /// Does `part` in all groups on flanks that have lost `lost`.
+    fn for_each_group(
+        &mut self,
+        part: impl Fn(&mut CondensedGroup, &WearEvaluation<'_>) + Sync,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) {
         let tilt_rad = PerGear::from_fn(|gear| self.nodes[gear].tilt_rad(lost[gear]));
         let worn = Worn { depth_mm: lost, tilt_rad: &tilt_rad };
         let step = WearEvaluation { model: self.model, worn, nodes: self.nodes.as_ref(), wear, stopped };
         self.groups.par_iter_mut().for_each(|group| part(group, &step));
-        Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
-    }
-
-    /// Greatest pressure of all pairs found in the base pitch.
-    fn greatest_pressure(&self) -> GreatestPressure {
-        let mut greatest = GreatestPressure::default();
-        for loaded in self.loaded_positions() {
-            let Some(equilibrium) = &loaded.found else { continue };
-            for pair in self.model.tooth_pairs(&loaded.prepared, equilibrium) {
-                greatest.note(pair.peak_pressure_mpa, pair.at_sharp_edge);
-            }
-        }
-        greatest
-    }
-
-    /// Figures of the pressure of all pairs found in the base pitch.
-    fn pressure_figures(&self) -> PressureFigures {
-        let mut figures = PressureFigures::default();
-        let Some(zones) = &self.zones else { return figures };
-        for loaded in self.loaded_positions() {
-            let Some(found) = &loaded.found else { continue };
-            for contact in &loaded.transfers {
-                let force = &found.force[contact.first_row..contact.first_row + contact.len()];
-                let (parts, cells) = parts_of_rows(contact, force, self.radius_mm(), zones);
-                parts.note(&cells, &mut figures);
-            }
-        }
-        figures
-    }
-
-    /// Load shares of the first and the last pair along the path.
-    fn shares_at_ends(&self) -> [f64; 2] {
-        let mut ends = [(f64::INFINITY, 0.0), (f64::NEG_INFINITY, 0.0)];
-        for loaded in self.loaded_positions() {
-            let Some(equilibrium) = &loaded.found else { continue };
-            for pair in self.model.tooth_pairs(&loaded.prepared, equilibrium) {
-                let at_mm = loaded.prepared.position_mm + f64::from(pair.pair) * self.model.pair.path.base_pitch_mm;
-                let share = pair.line_load_n_per_mm / self.line_load_n_per_mm;
-                if at_mm < ends[0].0 {
-                    ends[0] = (at_mm, share);
-                }
-                if at_mm > ends[1].0 {
-                    ends[1] = (at_mm, share);
-                }
-            }
-        }
-        ends.map(|(_, share)| share)
-    }
-
-    /// The reference pair from A to E, from the pairs found in the base pitch.
-    fn along_the_path(&self) -> Vec<PositionObservation> {
-        let (path, load) = (&self.model.pair.path, self.line_load_n_per_mm);
-        let mut found: Vec<PositionObservation> = Vec::new();
-        for loaded in self.loaded_positions() {
-            let Some(equilibrium) = &loaded.found else { continue };
-            let at = loaded.prepared.position_mm;
-            let pairs = self.model.tooth_pairs(&loaded.prepared, equilibrium);
-            let total: f64 = pairs.iter().map(|pair| pair.line_load_n_per_mm).sum();
-            let first = ((path.start_mm - at) / path.base_pitch_mm).floor() as i32;
-            let last = ((path.end_mm - at) / path.base_pitch_mm).ceil() as i32;
-            found.extend((first..=last).map(|ahead| {
-                let pair = pairs.iter().find(|pair| pair.pair == ahead);
-                PositionObservation {
-                    position_mm: at + f64::from(ahead) * path.base_pitch_mm,
-                    transmission_error_mm: equilibrium.rigid[0],
-                    stiffness_n_per_mm2: equilibrium.resistance.first().copied(),
-                    load_share: pair.map_or(0.0, |pair| pair.line_load_n_per_mm / load),
-                    load_imbalance: total / load - 1.0,
-                    footprint: pair.map_or_else(Footprint::default, |pair| Footprint {
-                        peak_pressure_mpa: pair.peak_pressure_mpa,
-                        half_width_mm: pair.half_width_mm,
-                        at_sharp_edge: pair.at_sharp_edge,
-                    }),
-                }
-            }));
-        }
-        found.sort_by(|a, b| a.position_mm.total_cmp(&b.position_mm));
-        let places: Vec<f64> = found.iter().map(|at| at.position_mm).collect();
-        let figures: [fn(&PositionObservation) -> f64; 6] = [
-            |at| at.transmission_error_mm,
-            |at| at.stiffness_n_per_mm2.unwrap_or_default(),
-            |at| at.load_share,
-            |at| at.load_imbalance,
-            |at| at.footprint.peak_pressure_mpa,
-            |at| at.footprint.half_width_mm,
-        ];
-        let values = figures.map(|figure| found.iter().map(figure).collect::<Vec<f64>>());
-        let courses = values.each_ref().map(|values| MonotoneCubic::new(&places, values));
-        let observed = self.observation_mm.iter().map(|&position_mm| {
-            let [transmission_error_mm, stiffness, load_share, load_imbalance, peak_pressure_mpa, half_width_mm] =
-                courses.each_ref().map(|course| course.at(position_mm));
-            // Between two positions of which one is at a sharp edge, all counts as at a sharp edge.
-            let after = places.partition_point(|&place| place < position_mm);
-            let around = &found[after.saturating_sub(1)..(after + 1).min(found.len())];
-            let at_sharp_edge = around.iter().any(|at| at.footprint.at_sharp_edge);
-            PositionObservation {
-                position_mm,
-                transmission_error_mm,
-                stiffness_n_per_mm2: Some(stiffness),
-                load_share,
-                load_imbalance,
-                footprint: Footprint { peak_pressure_mpa, half_width_mm, at_sharp_edge },
-            }
-        });
-        observed.collect()
     }
 }
 
@@ -418,7 +313,29 @@ struct WearEvaluation<'a> {
 impl CondensedGroup {
     fn evaluate(&mut self, step: &WearEvaluation<'_>) {
         self.collected.clear();
+        self.evaluate_those(|_| true, step);
+    }
+
+    /// As [`Self::evaluate`], but for positions that keep their wear.
+    fn evaluate_stage(&mut self, step: &WearEvaluation<'_>) {
+        self.collected.begin_from(&self.kept_mm);
+        self.evaluate_those(|loaded| !loaded.keeps_wear, step);
+    }
+
+    /// Keeps the wear of the positions whose pressure is nowhere above `mild_mpa`.
+    fn keep_mild_wear(&mut self, step: &WearEvaluation<'_>, mild_mpa: f64) {
+        self.kept_mm = self.collected.depth_mm.as_ref().map(|depth_mm| vec![0.0; depth_mm.len()]);
         for loaded in &mut self.loaded_positions {
+            loaded.keeps_wear = loaded.greatest_pressure_mpa() <= mild_mpa;
+            if loaded.keeps_wear {
+                loaded.wear(step, &mut self.rows, &mut self.kept_mm);
+            }
+        }
+    }
+
+    /// Collects the wear of some of the positions.
+    fn evaluate_those(&mut self, are_asked: impl Fn(&CondensedPosition) -> bool, step: &WearEvaluation<'_>) {
+        for loaded in self.loaded_positions.iter_mut().filter(|loaded| are_asked(loaded)) {
             let solved = if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { loaded.solve(step) };
             if !self.collected.take(solved) {
                 return;
@@ -461,6 +378,7 @@ impl CondensedPosition {
             windows: 0,
             about_rad: None,
             found: None,
+            keeps_wear: false,
         };
         loaded.observe(model, nodes);
         loaded
@@ -471,6 +389,16 @@ impl CondensedPosition {
         self.turned_mm = self.prepared.unworn_transmission_error_mm();
         self.transfers = model.load_transfers(&self.prepared, self.stretch_mm, self.turned_mm, nodes, None);
         (self.windows, self.about_rad) = (self.prepared.windows(), None);
+    }
+
+    /// Greatest pressure on any multiplier, MPa.
+    fn greatest_pressure_mpa(&self) -> f64 {
+        let Some(found) = &self.found else { return 0.0 };
+        let of_contacts = self.transfers.iter().flat_map(|contact| {
+            let force = &found.force[contact.first_row..contact.first_row + contact.len()];
+            force.iter().zip(&contact.weight_mm).map(|(force, weight)| force / weight)
+        });
+        of_contacts.fold(0.0, f64::max)
     }
 
     fn overlap(&self) -> Option<FlankOverlap> {

@@ -100,6 +100,8 @@ struct LineOfActionPosition<'a> {
     /// Pairs in mesh, the reference pair first.
     pairs: Vec<MeshedPair<'a>>,
     equilibrium: PairEquilibrium,
+    /// Whether it keeps its wear over the stages of a step.
+    keeps_wear: bool,
 }
 
 /// Positions that collect wear together.
@@ -107,6 +109,8 @@ struct LineOfActionGroup<'a> {
     loaded_positions: Vec<LineOfActionPosition<'a>>,
     collected: Collected,
     points: WornPoints,
+    /// Wear per mesh of the positions that keep theirs over the stages of a step.
+    kept_mm: PerGear<Vec<f64>>,
 }
 
 /// All loading positions of a pair, ready to be evaluated on ever newly worn flanks.
@@ -116,6 +120,8 @@ pub struct LineOfActionCycle<'a> {
     /// Displacement of the bodies that all pairs share, under the whole load, mm.
     bodies_mm: f64,
     flanks: Flanks<'a>,
+    /// Whether positions keep their wear over the stages of a step.
+    some_keep_wear: bool,
 }
 
 /// Observation at one position.
@@ -247,6 +253,22 @@ pub trait MeshCycle {
         self.evaluate(lost, wear, depth_mm, stopped)
     }
 
+    /// Begins the stages of a wear step on flanks that have lost `lost`, after an evaluation on them. Where some positions wear severely, the others may
+    /// keep their wear per mesh over the stages: that of mild wear hardly changes in a step that severe wear allows, and what it does change is found
+    /// at the end of the step, and is in its error.
+    fn begin_stages(&mut self, _lost: LostMaterial<'_>, _wear: &WearModel<'_>) {}
+
+    /// As [`Self::evaluate`], in a stage of the step begun last; no mesh cycle is counted where positions keep their wear.
+    fn evaluate_stage(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.evaluate(lost, wear, depth_mm, stopped)
+    }
+
     /// Returns to the state before any evaluation: the next one depends only on what the flanks have lost, to the bit.
     fn reset(&mut self);
 
@@ -269,9 +291,10 @@ impl<'a> LineOfActionCycle<'a> {
                 loaded_positions: positions.iter().map(|p| LineOfActionPosition::new(flanks, surface, p)).collect(),
                 collected: Collected::new(flanks.grid.map(|grid| grid.len())),
                 points: WornPoints::default(),
+                kept_mm: PerGear::default(),
             })
             .collect();
-        Self { groups, line_load_n_per_mm, bodies_mm: 0.0, flanks }
+        Self { groups, line_load_n_per_mm, bodies_mm: 0.0, flanks, some_keep_wear: false }
     }
 
     /// Puts all pairs on gear bodies that yield by `bodies_mm` under the whole load.
@@ -295,6 +318,31 @@ impl MeshCycle for LineOfActionCycle<'_> {
         let load = self.line_load_n_per_mm;
         self.groups.par_iter_mut().for_each(|group| group.evaluate(lost, load, wear, stopped));
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
+    }
+
+    fn begin_stages(&mut self, lost: LostMaterial<'_>, wear: &WearModel<'_>) {
+        let mild_mpa = wear.surely_mild_mpa();
+        let pressures_mpa = self.loaded_positions().map(|at| at.pairs[0].contact.footprint().peak_pressure_mpa);
+        self.some_keep_wear = mild_mpa.is_some_and(|mild_mpa| most_are_mild(pressures_mpa, mild_mpa));
+        if let (true, Some(mild_mpa)) = (self.some_keep_wear, mild_mpa) {
+            self.groups.par_iter_mut().for_each(|group| group.keep_mild_wear(lost, wear, mild_mpa));
+        }
+    }
+
+    fn evaluate_stage(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        if !self.some_keep_wear {
+            return self.evaluate(lost, wear, depth_mm, stopped);
+        }
+        let load = self.line_load_n_per_mm;
+        self.groups.par_iter_mut().for_each(|group| group.evaluate_stage(lost, load, wear, stopped));
+        let work = Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)?;
+        Ok(Work { mesh_cycles: 0, ..work })
     }
 
     fn reset(&mut self) {
@@ -385,7 +433,31 @@ impl LineOfActionGroup<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) {
         self.collected.clear();
-        for loaded in &mut self.loaded_positions {
+        self.evaluate_those(|_| true, removed_mm, line_load, wear, stopped);
+    }
+
+    /// As [`Self::evaluate`], but for positions that keep their wear.
+    fn evaluate_stage(
+        &mut self,
+        removed_mm: PerGear<&[f64]>,
+        line_load: f64,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) {
+        self.collected.begin_from(&self.kept_mm);
+        self.evaluate_those(|loaded| !loaded.keeps_wear, removed_mm, line_load, wear, stopped);
+    }
+
+    /// Collects the wear of some of the positions.
+    fn evaluate_those(
+        &mut self,
+        are_asked: impl Fn(&LineOfActionPosition<'_>) -> bool,
+        removed_mm: PerGear<&[f64]>,
+        line_load: f64,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) {
+        for loaded in self.loaded_positions.iter_mut().filter(|loaded| are_asked(loaded)) {
             let solved =
                 if stopped() { Err(EquilibriumError::Interrupted) } else { loaded.solve(removed_mm, line_load) };
             if !self.collected.take(solved) {
@@ -395,6 +467,24 @@ impl LineOfActionGroup<'_> {
             self.points.wear(wear, contact, removed_mm, PerGear::default(), &mut self.collected.depth_mm);
         }
     }
+
+    /// Keeps the wear of the positions whose pressure is nowhere above `mild_mpa`.
+    fn keep_mild_wear(&mut self, removed_mm: PerGear<&[f64]>, wear: &WearModel<'_>, mild_mpa: f64) {
+        self.kept_mm = self.collected.depth_mm.as_ref().map(|depth_mm| vec![0.0; depth_mm.len()]);
+        for loaded in &mut self.loaded_positions {
+            loaded.keeps_wear = loaded.pairs[0].contact.footprint().peak_pressure_mpa <= mild_mpa;
+            if loaded.keeps_wear {
+                let contact = (&loaded.pairs[0], &loaded.place);
+                self.points.wear(wear, contact, removed_mm, PerGear::default(), &mut self.kept_mm);
+            }
+        }
+    }
+}
+
+/// Whether some of these pressures are above `mild_mpa`, and most are not: positions without a severe one among them have nothing to wait for.
+fn most_are_mild(pressures_mpa: impl Iterator<Item = f64>, mild_mpa: f64) -> bool {
+    let (severe, all) = pressures_mpa.fold((0, 0), |(severe, all), at| (severe + usize::from(at > mild_mpa), all + 1));
+    severe > 0 && 2 * severe < all
 }
 
 impl<'a> LineOfActionPosition<'a> {
@@ -412,7 +502,15 @@ impl<'a> LineOfActionPosition<'a> {
         let (cell, on_line_of_action) = (position.cell, position.on_line_of_action);
         let place = ContactOnPath::new(flanks, cell);
         let sliding_mm = flanks.geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
-        Self { cell, on_line_of_action, place, sliding_mm, pairs, equilibrium: PairEquilibrium::default() }
+        Self {
+            cell,
+            on_line_of_action,
+            place,
+            sliding_mm,
+            pairs,
+            equilibrium: PairEquilibrium::default(),
+            keeps_wear: false,
+        }
     }
 
     /// Equilibrium on the flanks as they are now.

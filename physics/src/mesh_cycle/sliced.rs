@@ -59,6 +59,11 @@ struct LoadedSlices<'a> {
     equilibrium: PairEquilibrium,
 }
 
+/// Place of the greatest of some depths, the last of equals; 0 where there are none.
+fn place_of_greatest(depths_mm: impl Iterator<Item = f64>) -> usize {
+    depths_mm.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(place, _)| place)
+}
+
 /// Figures of the pressure of slices.
 struct SlicedFigures {
     /// Whole slices.
@@ -166,8 +171,7 @@ impl MeshCycle for SlicedCycle<'_> {
 
     fn choose_part(&mut self) -> bool {
         // Contacts are shorter than the stretch of the path on which a group has each slice, and all groups have slices at tip edges.
-        let deepest = self.groups.iter().map(|group| group.collected.deepest_mm()).enumerate();
-        self.part = deepest.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(group, _)| group);
+        self.part = place_of_greatest(self.groups.iter().map(|group| group.collected.deepest_mm()));
         self.groups.len() > 1
     }
 
@@ -394,6 +398,19 @@ impl<'a> LoadedSlices<'a> {
             load_imbalance: total / (line_load_n_per_mm * slices as f64) - 1.0,
             contacts: contacts.collect(),
             jump_mm: self.jump_mm,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The part that stands for all in probes of the fastest decay is the one that wears deepest, wherever it is.
+    #[test]
+    fn ver_the_part_that_wears_deepest_is_chosen() {
+        for (depths_mm, deepest) in [([3.0, 1.0, 2.0], 0), ([1.0, 3.0, 2.0], 1), ([2.0, 1.0, 3.0], 2)] {
+            assert_eq!(place_of_greatest(depths_mm.into_iter()), deepest, "{depths_mm:?}");
         }
     }
 }

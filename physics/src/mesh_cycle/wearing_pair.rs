@@ -68,6 +68,18 @@ pub(crate) trait WearingPair {
         self.evaluate(wear, stopped)
     }
 
+    /// Begins the stages of a wear step after an evaluation on the same flanks ([`MeshCycle::begin_stages`]).
+    fn begin_stages(&mut self, _wear: &WearModel<'_>) {}
+
+    /// As [`Self::evaluate`], in a stage of the step begun last.
+    fn evaluate_stage(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.evaluate(wear, stopped)
+    }
+
     /// Makes the positions of a [`CondensedCycle`] anew ([`CondensedCycle::linearise_anew`]), after an evaluation on the same flanks.
     fn linearise_anew(
         &mut self,
@@ -156,6 +168,18 @@ impl WearingPair for OnFlankPoints<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
         self.cycle.evaluate_part(lost(&self.removed_mm), wear, &mut self.depth_mm, stopped)
+    }
+
+    fn begin_stages(&mut self, wear: &WearModel<'_>) {
+        self.cycle.begin_stages(lost(&self.removed_mm), wear);
+    }
+
+    fn evaluate_stage(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.cycle.evaluate_stage(lost(&self.removed_mm), wear, &mut self.depth_mm, stopped)
     }
 
     fn wear_for(&mut self, meshes: PerGear<f64>) {
@@ -256,6 +280,18 @@ impl WearingPair for OnFlankNodes<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Work>, EquilibriumError> {
         self.cycle.linearise_anew(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
+    }
+
+    fn begin_stages(&mut self, wear: &WearModel<'_>) {
+        self.cycle.begin_stages(lost(&self.lost_mm), wear);
+    }
+
+    fn evaluate_stage(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.cycle.evaluate_stage(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
     }
 
     fn wear_for(&mut self, meshes: PerGear<f64>) {

@@ -188,6 +188,7 @@ impl AdaptiveSteps {
         self.state.extend(Gear::BOTH.iter().flat_map(|&gear| &self.wear_mm[gear]));
         self.slope.resize(self.state.len(), 0.0);
         rate.read_slope(&mut self.depth_mm, &mut self.slope);
+        rate.pair.begin_stages(rate.wear);
         let clean_start = interval.clean_start;
         let (wear_mm, depth_mm) = (&mut self.wear_mm, &mut self.depth_mm);
         let mut pair = OnRows { rate, wear_mm, depth_mm, clean_start, probes_a_part: true };
@@ -275,6 +276,13 @@ impl Rate for OnRows<'_, '_> {
     fn evaluate(&mut self, state: &[f64], slope: &mut [f64]) -> Result<(), EquilibriumError> {
         self.set(state);
         self.rate.work += self.rate.pair.evaluate(self.rate.wear, self.rate.stopped)?;
+        self.rate.read_slope(self.depth_mm, slope);
+        Ok(())
+    }
+
+    fn evaluate_stage(&mut self, state: &[f64], slope: &mut [f64]) -> Result<(), EquilibriumError> {
+        self.set(state);
+        self.rate.work += self.rate.pair.evaluate_stage(self.rate.wear, self.rate.stopped)?;
         self.rate.read_slope(self.depth_mm, slope);
         Ok(())
     }

@@ -236,7 +236,8 @@ impl<'a> LoadedMesh<'a> {
         let bodies = bodies_mm2_per_n(teeth, sliced) * line_load;
         let sharp_edges = PerGear::from_fn(|gear| tip_contact && self.pair.spec.is_tip_sharp(gear));
         let sharp_corners = self.pair.undercut_corners().map(|corner| tip_contact && corner);
-        let flanks = Flanks { sharp_edges, sharp_corners, ..flanks };
+        let tip_from_mm = PerGear::from_fn(|gear| self.pair.rounding_start_rho_mm(gear));
+        let flanks = Flanks { sharp_edges, sharp_corners, tip_from_mm, ..flanks };
         let lever_ratio = |at| tip_contact::approach_ratio(self.pair, at);
         let beyond = match tip_contact {
             true => Some(tip_range_mm(self.pair, surface, teeth, sliced, line_load)?),

@@ -98,6 +98,11 @@ pub trait FlankWear: Sync {
 
     /// Depth per pressure and sliding distance of mild wear without a film, mm²/N.
     fn mild_coefficient_mm2_per_n(&self, at: &LocalContact) -> f64;
+
+    /// Pressure from which on wear is faster than mild, MPa; none where it never is.
+    fn severe_from_mpa(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// A law with the factors of severe wear and of the film.
@@ -157,6 +162,10 @@ impl<L: WearLaw> FlankWear for WithFactors<L> {
     fn mild_coefficient_mm2_per_n(&self, at: &LocalContact) -> f64 {
         self.law.coefficient_mm2_per_n(at)
     }
+
+    fn severe_from_mpa(&self) -> Option<f64> {
+        self.severe.map(|severe| severe.above_mpa - 0.5 * severe.band_mpa)
+    }
 }
 
 /// The wear that a scene asks for.
@@ -183,6 +192,9 @@ pub type Laws = PerGear<Box<dyn FlankWear>>;
 pub fn of_both(settings: &PerGear<WearSettings>) -> Laws {
     PerGear::from_fn(|gear| of(&settings[gear]))
 }
+
+/// Part of the pressure from which on wear is severe up to which a contact is far from it.
+const SURELY_MILD: f64 = 0.97;
 
 /// Laws of both gears, with heat and films of the mesh for laws that read them.
 #[derive(Clone, Copy)]
@@ -217,6 +229,12 @@ impl<'a> WearModel<'a> {
         'a: 'b,
     {
         WearModel::new(laws).under(self.heat, self.running)
+    }
+
+    /// Pressure up to which contacts stay far from severe wear over a wear step, MPa; none where wear is never severe.
+    pub(crate) fn surely_mild_mpa(&self) -> Option<f64> {
+        let severe_from_mpa = Gear::BOTH.into_iter().filter_map(|gear| self.laws[gear].severe_from_mpa());
+        severe_from_mpa.reduce(f64::min).map(|from_mpa| SURELY_MILD * from_mpa)
     }
 
     /// Friction heat, where either law reads contact conditions.

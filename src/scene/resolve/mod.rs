@@ -159,6 +159,11 @@ fn choose_numerics(
     // The life may be a small part of the duration.
     let adaptive = finely_resolved || is_severe || operation.stop.are_set();
     let tip_contact = contact.is_some_and(|contact| contact.tip_contact);
+    let positions = match surface {
+        Some(SurfaceKind::HalfSpace) if slices.is_some() && tip_contact => settings::POSITIONS_IN_SLICES,
+        _ => settings::POSITIONS,
+    };
+    file.get_or_insert_default().positions.get_or_insert(positions);
     let numerics = settings::numerics(file, operation.pinion_revolutions, adaptive, tip_contact, findings);
     if let (Some(numerics), Some(surface)) = (&numerics, surface) {
         settings::memory(numerics, surface, slices.map_or(1, |slices| slices.count), findings);

@@ -12,7 +12,9 @@ use gearwear_physics::simulation::settings::{Numerics, Stepping};
 use gearwear_physics::stiffness::settings::StiffnessSettings;
 
 const FLANK_POINTS: u32 = 750;
-const POSITIONS: u32 = 400;
+pub(super) const POSITIONS: u32 = 400;
+/// Positions of half-planes in slices whose tip edges are followed: slices enter the mesh one by one, so that there are many more places of contact.
+pub(super) const POSITIONS_IN_SLICES: u32 = 200;
 /// Error of the wear depth that adaptive steps may make, µm.
 const TOLERANCE_UM: f64 = 0.05;
 /// Least tolerance, µm: below the size of an atom the rounding of equilibria dominates, and steps become infinitely short.

@@ -30,7 +30,7 @@ use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_bodies::gear_fem::model::ModelError;
 
 /// Positions from A to E.
-const POSITIONS: usize = 200;
+const POSITIONS: usize = 150;
 /// Fewest slices that resolve the loads at the ends of the lines of contact.
 const LEAST_SLICES: usize = 20;
 /// Overlap ratio from which the transmission error is so small that slices make a ripple of a tenth of it and more, and more slices are compared with.

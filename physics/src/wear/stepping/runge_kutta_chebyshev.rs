@@ -119,7 +119,7 @@ impl RungeKuttaChebyshev {
         self.stage.clear();
         self.stage.extend(state.iter().zip(slope).map(|(y, f)| y + b * w1 * h * f));
         for j in 2..=stages {
-            rate.evaluate(&self.stage, &mut self.rate)?;
+            rate.evaluate_stage(&self.stage, &mut self.rate)?;
             let next = last.next(before, w0);
             let b_next = if j == 2 { b } else { next.weight() };
             let mu = 2.0 * b_next * w0 / b_last;

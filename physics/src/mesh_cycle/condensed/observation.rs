@@ -1,0 +1,161 @@
+//! Observation of the mesh cycle on the finite-element model: the reference pair from A to E, pressures and sliding, from the pairs found in one base
+//! pitch.
+
+use super::{CondensedCycle, CondensedPosition};
+use crate::contact::Footprint;
+use crate::contact::flank_pressure::PressureFigures;
+use crate::mesh_cycle::condensed_contact::parts_of_rows;
+use crate::mesh_cycle::{CycleObservation, FlankOverlap, GreatestPressure, PositionObservation};
+use gearwear_bodies::gear::{Gear, PerGear};
+use gearwear_bodies::gear_fem::flank_nodes::Weights;
+use gearwear_bodies::reference::monotone_cubic::MonotoneCubic;
+
+impl CondensedCycle<'_> {
+    /// Observation of the last evaluation: positions from A to E are between those of the base pitch.
+    pub(super) fn observation(&self) -> CycleObservation {
+        let zeros = PerGear::from_fn(|gear| vec![0.0; self.nodes[gear].len()]);
+        let mut observation = CycleObservation {
+            positions: self.along_the_path(),
+            shares_at_ends: Some(self.shares_at_ends()),
+            greatest_pressure: self.greatest_pressure(),
+            pressure_figures: self.pressure_figures(),
+            pressure_mpa: zeros.clone(),
+            sliding_mm: zeros,
+            sliding_work_n: None,
+            slices: None,
+            deepest_overlap: self
+                .loaded_positions()
+                .filter_map(CondensedPosition::overlap)
+                .reduce(FlankOverlap::deeper),
+        };
+        let mut sliding_work_n = 0.0;
+        for loaded in self.loaded_positions() {
+            let Some(found) = &loaded.found else { continue };
+            for contact in &loaded.transfers {
+                for i in 0..contact.len() {
+                    let force = found.force[contact.first_row + i];
+                    if force <= 0.0 {
+                        continue;
+                    }
+                    sliding_work_n += force * contact.sliding_mm[i];
+                    let pressure = force / contact.weight_mm[i];
+                    for gear in Gear::BOTH {
+                        let Weights { first, weights } = contact.means[gear].row(i);
+                        for (k, m) in weights.iter().enumerate().filter(|(_, m)| **m > 0.0) {
+                            let greatest = &mut observation.pressure_mpa[gear][first + k];
+                            *greatest = greatest.max(pressure);
+                            observation.sliding_mm[gear][first + k] +=
+                                m * contact.weight_mm[i] / self.nodes[gear].share_mm[first + k] * contact.sliding_mm[i];
+                        }
+                    }
+                }
+            }
+        }
+        observation.sliding_work_n = Some(sliding_work_n);
+        observation
+    }
+
+    /// Greatest pressure of all pairs found in the base pitch.
+    fn greatest_pressure(&self) -> GreatestPressure {
+        let mut greatest = GreatestPressure::default();
+        for loaded in self.loaded_positions() {
+            let Some(equilibrium) = &loaded.found else { continue };
+            for pair in self.model.tooth_pairs(&loaded.prepared, equilibrium) {
+                greatest.note(pair.peak_pressure_mpa, pair.at_sharp_edge);
+            }
+        }
+        greatest
+    }
+
+    /// Figures of the pressure of all pairs found in the base pitch.
+    fn pressure_figures(&self) -> PressureFigures {
+        let mut figures = PressureFigures::default();
+        let Some(zones) = &self.zones else { return figures };
+        for loaded in self.loaded_positions() {
+            let Some(found) = &loaded.found else { continue };
+            for contact in &loaded.transfers {
+                let force = &found.force[contact.first_row..contact.first_row + contact.len()];
+                let (parts, cells) = parts_of_rows(contact, force, self.radius_mm(), zones);
+                parts.note(&cells, &mut figures);
+            }
+        }
+        figures
+    }
+
+    /// Load shares of the first and the last pair along the path.
+    fn shares_at_ends(&self) -> [f64; 2] {
+        let mut ends = [(f64::INFINITY, 0.0), (f64::NEG_INFINITY, 0.0)];
+        for loaded in self.loaded_positions() {
+            let Some(equilibrium) = &loaded.found else { continue };
+            for pair in self.model.tooth_pairs(&loaded.prepared, equilibrium) {
+                let at_mm = loaded.prepared.position_mm + f64::from(pair.pair) * self.model.pair.path.base_pitch_mm;
+                let share = pair.line_load_n_per_mm / self.line_load_n_per_mm;
+                if at_mm < ends[0].0 {
+                    ends[0] = (at_mm, share);
+                }
+                if at_mm > ends[1].0 {
+                    ends[1] = (at_mm, share);
+                }
+            }
+        }
+        ends.map(|(_, share)| share)
+    }
+
+    /// The reference pair from A to E, from the pairs found in the base pitch.
+    fn along_the_path(&self) -> Vec<PositionObservation> {
+        let (path, load) = (&self.model.pair.path, self.line_load_n_per_mm);
+        let mut found: Vec<PositionObservation> = Vec::new();
+        for loaded in self.loaded_positions() {
+            let Some(equilibrium) = &loaded.found else { continue };
+            let at = loaded.prepared.position_mm;
+            let pairs = self.model.tooth_pairs(&loaded.prepared, equilibrium);
+            let total: f64 = pairs.iter().map(|pair| pair.line_load_n_per_mm).sum();
+            let first = ((path.start_mm - at) / path.base_pitch_mm).floor() as i32;
+            let last = ((path.end_mm - at) / path.base_pitch_mm).ceil() as i32;
+            found.extend((first..=last).map(|ahead| {
+                let pair = pairs.iter().find(|pair| pair.pair == ahead);
+                PositionObservation {
+                    position_mm: at + f64::from(ahead) * path.base_pitch_mm,
+                    transmission_error_mm: equilibrium.rigid[0],
+                    stiffness_n_per_mm2: equilibrium.resistance.first().copied(),
+                    load_share: pair.map_or(0.0, |pair| pair.line_load_n_per_mm / load),
+                    load_imbalance: total / load - 1.0,
+                    footprint: pair.map_or_else(Footprint::default, |pair| Footprint {
+                        peak_pressure_mpa: pair.peak_pressure_mpa,
+                        half_width_mm: pair.half_width_mm,
+                        at_sharp_edge: pair.at_sharp_edge,
+                    }),
+                }
+            }));
+        }
+        found.sort_by(|a, b| a.position_mm.total_cmp(&b.position_mm));
+        let places: Vec<f64> = found.iter().map(|at| at.position_mm).collect();
+        let figures: [fn(&PositionObservation) -> f64; 6] = [
+            |at| at.transmission_error_mm,
+            |at| at.stiffness_n_per_mm2.unwrap_or_default(),
+            |at| at.load_share,
+            |at| at.load_imbalance,
+            |at| at.footprint.peak_pressure_mpa,
+            |at| at.footprint.half_width_mm,
+        ];
+        let values = figures.map(|figure| found.iter().map(figure).collect::<Vec<f64>>());
+        let courses = values.each_ref().map(|values| MonotoneCubic::new(&places, values));
+        let observed = self.observation_mm.iter().map(|&position_mm| {
+            let [transmission_error_mm, stiffness, load_share, load_imbalance, peak_pressure_mpa, half_width_mm] =
+                courses.each_ref().map(|course| course.at(position_mm));
+            // Between two positions of which one is at a sharp edge, all counts as at a sharp edge.
+            let after = places.partition_point(|&place| place < position_mm);
+            let around = &found[after.saturating_sub(1)..(after + 1).min(found.len())];
+            let at_sharp_edge = around.iter().any(|at| at.footprint.at_sharp_edge);
+            PositionObservation {
+                position_mm,
+                transmission_error_mm,
+                stiffness_n_per_mm2: Some(stiffness),
+                load_share,
+                load_imbalance,
+                footprint: Footprint { peak_pressure_mpa, half_width_mm, at_sharp_edge },
+            }
+        });
+        observed.collect()
+    }
+}
