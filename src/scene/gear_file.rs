@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::measured_flank::file::FlankSide;
 use gearwear_bodies::gear::modification::ReliefShape;
 use gearwear_bodies::gear::shaft::EndFace;
+use gearwear_bodies::gear_mesh::settings::ToothOnPins;
 
 /// What carries the teeth of a gear and twists under the torque.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -41,6 +42,17 @@ pub struct CutterFile {
     pub tip_rounding_factor: Option<f64>,
 }
 
+/// Pins that hold a ring at its outside, at the tooth spaces nearest to even angles; rigid, and the ring may turn about each.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RimPinsFile {
+    /// Number of pins, at most half the number of teeth.
+    #[schemars(range(min = 2))]
+    pub count: u32,
+    /// Place of the tooth in mesh. Default: between-pins.
+    pub tooth: Option<ToothOnPins>,
+}
+
 /// One gear.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -57,6 +69,8 @@ pub struct GearFile {
     /// Default: 3.5 transverse modules.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub rim_thickness_mm: Option<f64>,
+    /// Pins that hold the rim of internal teeth. Default: none, it is held all round its outside.
+    pub rim_pins: Option<RimPinsFile>,
     /// Shaper cutter of internal teeth. Default: none, a circular fillet.
     pub cutter: Option<CutterFile>,
     /// Profile shift coefficient x of the module that is given, −5 to 5. Required without a preset.

@@ -68,6 +68,7 @@ pub(super) fn check_keys(file: &SceneFile, findings: &mut Findings) {
         let of_internal_teeth = [
             ("root_diameter_mm", gear.root_diameter_mm.is_some(), generated),
             ("cutter", gear.cutter.is_some(), generated),
+            ("rim_pins", gear.rim_pins.is_some(), "left out: external gears are held below their teeth"),
             (
                 "rim_thickness_mm",
                 gear.rim_thickness_mm.is_some(),

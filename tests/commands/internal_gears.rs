@@ -132,6 +132,35 @@ fn what_is_refused() {
             &["pair.pinion.rim_thickness_mm: found given for external teeth", "fem.clamp_radius_mm"],
         ),
         (
+            &[("internal = true", "internal = true\nrim_pins = { count = 1 }")],
+            &["pair.wheel.rim_pins.count", "found 1"],
+        ),
+        (
+            &[("internal = true", "internal = true\nrim_pins = { count = 31 }")],
+            &["pair.wheel.rim_pins.count: found 31", "2 to 30, half the number of teeth"],
+        ),
+        (
+            &[
+                ("internal = true", "internal = true\nrim_pins = { count = 6 }"),
+                ("[wear]", "[fem]\nbody = \"sector\"\n[wear]"),
+            ],
+            &["fem.body", "pins hold a whole ring"],
+        ),
+        (
+            &[
+                ("internal = true", "internal = true\nrim_pins = { count = 6 }"),
+                ("pressure_angle_deg", "helix_angle_deg = 5.0\npressure_angle_deg"),
+            ],
+            &[
+                "pair.wheel.rim_pins: found given for a pair whose sections differ",
+                "pins hold the plane ring of spur pairs",
+            ],
+        ),
+        (
+            &[("teeth = 20\n", "teeth = 20\nrim_pins = { count = 6 }\n")],
+            &["pair.pinion.rim_pins: found given for external teeth"],
+        ),
+        (
             &[("[wear]", "[stiffness]\nmodel = \"simon\"\ncurve = \"a.csv\"\n[wear]")],
             &["stiffness.model", "the other models hold for external teeth"],
         ),
@@ -181,6 +210,26 @@ fn commands_on_finite_elements_know_rings() {
     let other = [&calibrated[..], &[("internal = true", "internal = true\nrim_thickness_mm = 6.0")]].concat();
     let message = String::from_utf8(run(&with(&other), folder.path()).stderr).unwrap();
     assert!(message.contains("pair.wheel.rim_thickness_mm: calibration 10.5, scene 6"), "{message}");
+}
+
+/// A ring on pins yields more than one held all round; the resolved scene says where the tooth is.
+#[test]
+fn a_ring_on_pins_yields() {
+    let rounded = ("profile_shift = 0.3", "profile_shift = 0.3\ntip_rounding_mm = 0.1");
+    let default_surface = ("surface = \"hertz\"", "");
+    let errors_um = ["", "\nrim_pins = { count = 6, tooth = \"at-pin\" }", "\nrim_pins = { count = 6 }"].map(|pins| {
+        let folder = tempfile::tempdir().unwrap();
+        let wheel = format!("internal = true\ntip_rounding_mm = 0.1{pins}");
+        let output = run(&with(&[rounded, ("internal = true", &wheel), default_surface]), folder.path());
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        let scene = fs::read_to_string(folder.path().join("out/scene.toml")).unwrap();
+        assert_eq!(scene.contains("tooth = \"between-pins\""), pins.ends_with("count = 6 }"), "{scene}");
+        let summary = fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
+        let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+        summary["new"]["transmission_error_um"]["max"].as_f64().unwrap()
+    });
+    let [all_round_um, on_pins_um @ ..] = errors_um;
+    assert!(on_pins_um.into_iter().all(|on_pins_um| on_pins_um > 1.5 * all_round_um), "{errors_um:?}");
 }
 
 /// Runs on finite elements, the default, and on half-planes are verified.

@@ -13,6 +13,7 @@ import pressure_course
 import table
 import tip_edges
 import turned_pair
+import worn_flanks
 
 HERE = pathlib.Path(__file__).parent
 # The course of the pressure is compared up to this part of gearwear's fitted half-width; see pressure_course.py.
@@ -116,7 +117,7 @@ def rounded_tips(folder):
         state = "worn" if theirs["hours"] > 0.0 else "new"
 
         at_mm, to_whole = theirs["position_mm"], fzg_c_pair.TORQUE_NM / theirs["torque_Nm"]
-        error_um, share = (tip_edges.interpolated(places, [float(line[column]) for line in cycle], at_mm)
+        error_um, share = (worn_flanks.interpolated(places, [float(line[column]) for line in cycle], at_mm)
                            for column in (f"transmission_error_{state}_um", f"load_share_{state}"))
         lines = [("transmission error, µm", 3, theirs["transmission_error_um"] * to_whole, error_um)]
         for name, own in (("behind", 1.0 - share), ("reference", share), ("ahead", 1.0 - share)):

@@ -3,13 +3,11 @@
 Two pairs touch everywhere here: the one at its tip edge and the one that has the path to itself otherwise. The slave is
 the flank whose tip edge may touch, so that the normals CalculiX takes, the master's, are those of the smoother surface.
 
-The worn flanks are those of `gearwear run` after 127.75 h: every working flank's node is moved inwards along the normal
-by the depth at its nominal radius, and the bodies follow as an elastic solid would, without keeping its stress.
+The worn flanks are those of `gearwear run` after 127.75 h (worn_flanks.py).
 
     python3 tip_edges.py WORK_FOLDER
 """
 
-import bisect
 import dataclasses
 import math
 import pathlib
@@ -20,6 +18,7 @@ import calculix
 import fzg_c_pair
 import table
 import turned_pair
+import worn_flanks
 
 HERE = pathlib.Path(__file__).parent
 SCENE = """
@@ -54,9 +53,10 @@ POSITIONS_MM = {
     f"{E_MM + 0.4 - BASE_PITCH_MM:.4f}": (29.280, 36.246),
 }
 PITCH_POINT_MM = 13.9701
-GEARS = {"pinion": (0.0, 0.5 * 4.5 * 16 * math.cos(math.radians(20.0))), "wheel": (91.5, 0.5 * 4.5 * 24 * math.cos(math.radians(20.0)))}
-# Radii between which the flank is involute, whose nodes tell where the tooth stands.
-INVOLUTE_MM = {"pinion": (36.0, 40.0), "wheel": (55.0, 58.0)}
+WORN = worn_flanks.WornFlanks(
+    {"pinion": worn_flanks.Gear(0.0, 0.5 * 4.5 * 16 * math.cos(math.radians(20.0)), (36.0, 40.0)),
+     "wheel": worn_flanks.Gear(91.5, 0.5 * 4.5 * 24 * math.cos(math.radians(20.0)), (55.0, 58.0))},
+    fzg_c_pair.YOUNG_MODULUS_MPA, fzg_c_pair.POISSON_RATIO)
 HOURS = 127.75
 # Flanks further apart than this before deformation do not touch: they approach each other by the transmission error at most.
 REACH_MM = 0.06
@@ -68,80 +68,12 @@ def contacts(mesh, position_mm):
     return turned_pair.contacts(mesh, lambda pair: position_mm + pair * BASE_PITCH_MM < PITCH_POINT_MM, REACH_MM)
 
 
-def wear_of(run, gear):
-    """Radii of the nominal flank in mm, and the depth in mm there."""
-    rows = table.read(run / f"{gear}.csv")
-    return [float(row["radius_mm"]) for row in rows], [1e-3 * float(row["wear_um"]) for row in rows]
-
-
-def interpolated(places, values, at):
-    k = min(max(bisect.bisect_right(places, at), 1), len(places) - 1)
-    t = (at - places[k - 1]) / (places[k] - places[k - 1])
-    return values[k - 1] + min(max(t, 0.0), 1.0) * (values[k] - values[k - 1])
-
-
-def chain(mesh, group):
-    """The nodes of a flank from root to tip."""
-    centre = (0.0, GEARS[group.split("-")[0]][0])
-    return sorted(mesh.nodes_of(group), key=lambda node: math.dist(mesh.points[node], centre))
-
-
-def inward_normal(before, at, after):
-    """Of the parabola through three points of a flank at the middle one, towards the material.
-
-    Working flanks are those on the anticlockwise side of their tooth: the material is to the right of the way from root to tip.
-    """
-    h, k = math.dist(before, at), math.dist(at, after)
-    tangent = [(k * k * (b - a) + h * h * (c - b)) / (h * k * (h + k)) for a, b, c in zip(before, at, after)]
-    length = math.hypot(*tangent)
-    return tangent[1] / length, -tangent[0] / length
-
-
-def nominal_radii(points, gear):
-    """Radius of the involute's point whose normal passes through each point: normals are tangents of the base circle."""
-    axis_mm, base_mm = GEARS[gear]
-    polar = [(math.hypot(x, y - axis_mm), math.atan2(y - axis_mm, x)) for x, y in points]
-    # Roll angle + polar angle - pressure angle is one and the same for all points of an involute.
-    sums = sorted(math.tan(math.acos(base_mm / r)) + angle - math.acos(base_mm / r)
-                  for r, angle in polar if INVOLUTE_MM[gear][0] < r < INVOLUTE_MM[gear][1])
-    if sums[-1] - sums[0] > 1e-7:
-        raise SystemExit(f"the flank of the {gear} is no involute between {INVOLUTE_MM[gear]} mm")
-    whole = sums[len(sums) // 2]
-    rolls = [whole - angle + (math.acos(base_mm / r) if r > base_mm else 0.0) for r, angle in polar]
-    return [base_mm * math.hypot(1.0, max(roll, 0.0)) for roll in rolls]
-
-
-def wear_down(folder, name, mesh, run):
-    """Moves the nodes of the mesh to where the flanks are worn."""
-    moves = {}
-    for gear in GEARS:
-        worn = wear_of(run, gear)
-        for pair in turned_pair.PAIRS:
-            nodes = chain(mesh, turned_pair.flank(gear, pair))
-            points = [mesh.points[node] for node in nodes]
-            for i, (node, radius_mm) in enumerate(zip(nodes, nominal_radii(points, gear))):
-                middle = min(max(i, 1), len(nodes) - 2)
-                depth_mm = interpolated(*worn, radius_mm)
-                moves[node] = [depth_mm * part for part in inward_normal(*points[middle - 1:middle + 2])]
-    deck = calculix.Deck(mesh)
-    for body in mesh.bodies:
-        deck.material(body, fzg_c_pair.YOUNG_MODULUS_MPA, fzg_c_pair.POISSON_RATIO)
-    fixed = {node: (0.0, 0.0) for gear in GEARS for node in mesh.nodes_of(f"{gear}-clamp")}
-    for node, move in {**fixed, **moves}.items():
-        deck.displace(node, 1, move[0])
-        deck.displace(node, 2, move[1])
-    moved = {**deck.solve(folder, name, "wheel-clamp").displacement_mm, **moves}
-    for node, (x, y) in mesh.points.items():
-        dx, dy = moved.get(node, (0.0, 0.0))
-        mesh.points[node] = x + dx, y + dy
-
-
 def row(folder, scene, run, hours, position_mm):
     """A line of the table: new at 0 hours, with the wear of the run at its end."""
     mesh = turned_pair.pair_mesh(scene, position_mm)
     name = f"tips-{hours:g}-h-at-{position_mm}"
     if hours > 0.0:
-        wear_down(folder, f"{name}-shape", mesh, run)
+        WORN.wear_down(folder, f"{name}-shape", mesh, run)
     sides = contacts(mesh, float(position_mm))
     guess_um = POSITIONS_MM[position_mm][hours > 0.0]
     error_um, torque_nm, results = PAIR.at_torque(folder, name, mesh, guess_um, sides, fzg_c_pair.PENALTY_MPA_PER_MM)

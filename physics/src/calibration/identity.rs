@@ -9,7 +9,7 @@ use serde_json::Value;
 use gearwear_bodies::gear::modification::{Relief, ReliefShape};
 use gearwear_bodies::gear::ring_fillet::ShaperCutter;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear};
-use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides, Web};
+use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, RimPins, SectorSides, ToothOnPins, Web};
 use gearwear_bodies::material::Material;
 
 /// Relative difference of two numbers below which they are the same: round-off of units.
@@ -84,6 +84,9 @@ pub struct GearIdentity {
     /// Thickness of the rim of an internal gear.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rim_thickness_mm: Option<f64>,
+    /// Pins that hold the rim of an internal gear.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rim_pins: Option<PinsIdentity>,
     /// Shaper cutter of an internal gear.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cutter: Option<CutterIdentity>,
@@ -93,6 +96,16 @@ pub struct GearIdentity {
     pub tip_relief: Option<ReliefIdentity>,
     /// Root relief.
     pub root_relief: Option<ReliefIdentity>,
+}
+
+/// Pins of a ring.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PinsIdentity {
+    /// Number of pins.
+    pub count: u32,
+    /// Place of the tooth in mesh.
+    pub tooth: ToothOnPins,
 }
 
 /// A shaper cutter.
@@ -226,6 +239,10 @@ impl GearIdentity {
             profile_crowning_um: 1e3 * modification.profile_crowning_mm,
             root_diameter_mm: spec.ring.map(|_| 2.0 * root_radius_mm.abs()),
             rim_thickness_mm: spec.ring.map(|_| root_radius_mm - bodies.clamp_radius_mm[gear]),
+            rim_pins: bodies
+                .rim_pins
+                .filter(|_| spec.ring.is_some())
+                .map(|RimPins { count, tooth }| PinsIdentity { count, tooth }),
             cutter: spec.ring.and_then(|ring| ring.cutter).map(|cutter| CutterIdentity::of(&cutter)),
             tip_rounding_mm: modification.tip_rounding_mm,
             tip_relief: modification.tip_relief.map(ReliefIdentity::of),

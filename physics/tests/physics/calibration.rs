@@ -45,6 +45,7 @@ fn setup(pair: &GearPair, body: Body, elements_per_half_width: f64) -> Setup<'_>
         body,
         clamp_radius_mm: CLAMP_RADIUS_MM,
         web: NO_WEBS,
+        rim_pins: None,
         elements_per_half_width,
         rounding_refinement: 1.0,
     };
@@ -59,6 +60,7 @@ fn fzg_c_scene(elements_per_half_width: f64) -> Scene {
         body: Body::Ring,
         clamp_radius_mm: PerGear::from_fn(clamp),
         web: NO_WEBS,
+        rim_pins: None,
         elements_per_half_width,
         rounding_refinement: 1.0,
     };
@@ -404,6 +406,7 @@ fn differences_are_told_by_the_keys_of_the_scene() {
             body: Body::Ring,
             clamp_radius_mm,
             web: NO_WEBS,
+            rim_pins: None,
             elements_per_half_width: 4.0,
             rounding_refinement: 1.0,
         };
@@ -453,6 +456,7 @@ fn rounded_tips_and_other_orders_of_the_points_are_calibrated_too() {
             body: Body::Ring,
             clamp_radius_mm,
             web: NO_WEBS,
+            rim_pins: None,
             elements_per_half_width: 3.0,
             rounding_refinement: 1.0,
         };

@@ -28,6 +28,7 @@ fn settings(body: Body, elements_per_half_width: f64) -> BodySettings {
         body,
         clamp_radius_mm: CLAMP_RADIUS_MM,
         web: NO_WEBS,
+        rim_pins: None,
         elements_per_half_width,
         rounding_refinement: 1.0,
     }
@@ -270,6 +271,7 @@ fn ver_same_in_mm_and_in_m() {
             body: Body::Ring,
             clamp_radius_mm: CLAMP_RADIUS_MM.map(|r| r * s),
             web: NO_WEBS,
+            rim_pins: None,
             elements_per_half_width: 3.0,
             rounding_refinement: 1.0,
         };

@@ -36,6 +36,7 @@ fn condensed_for(pair: &GearPair, elements_per_half_width: f64, line_load_n_per_
         body: Body::Ring,
         clamp_radius_mm: PerGear::from_fn(clamp),
         web: NO_WEBS,
+        rim_pins: None,
         elements_per_half_width,
         rounding_refinement: 1.0,
     };

@@ -67,6 +67,45 @@ fn val_table_of_a_gear_maker() {
     }
 }
 
+/// bolsover/UtilitiesForAlibre (revision f871250), unit tests of its calculators of internal spur and helical pairs: the pair above again, and 16/24 of module 3 with
+/// helix angles of 30° and 10°. Its shift too is positive away from the tips, and of the transverse module in centre distances. Its contact ratios, reaching beyond
+/// T1, and diameters of shifted helical gears, with the same shift of the normal module, are not compared.
+#[test]
+fn val_tests_of_a_cad_tool() {
+    let spur_pair = pair(&of_khk());
+    assert_printed("d_b", 2.0 * spur_pair.teeth.pinion.involute.base_radius_mm, 45.1052, 4);
+    assert_printed("d_w", 2.0 * spur_pair.working_pitch_radius_mm(Gear::Pinion), 52.6731, 3);
+    assert_printed("d_w", 2.0 * spur_pair.working_pitch_radius_mm(Gear::Wheel).abs(), 79.0097, 3);
+
+    let helical = |helix_deg: f64, transverse_shift: f64| {
+        let shift = transverse_shift / helix_deg.to_radians().cos();
+        let mut spec = spur(3.0, f64::NAN, 20.0, gear(16, 0.0, None), ring(24, -shift, None));
+        spec.helix_angle_rad = helix_deg.to_radians();
+        spec.centre_distance_mm = spec.centre_distance_with_mm(Backlash::Circumferential(0.0)).unwrap();
+        spec
+    };
+    let spec = helical(30.0, 0.042633);
+    assert_printed("a", spec.centre_distance_mm.abs(), 14.0, 3);
+    assert_printed("alpha_t", spec.transverse_pressure_angle_rad().to_degrees(), 22.79588, 4);
+    assert_printed("overlap ratio", spec.overlap_ratio(), 1.0610, 4);
+    let mut base_mm = 0.0;
+    for (gear, reference, base, tip) in
+        [(Gear::Pinion, 55.4256, 51.0963, 61.4256), (Gear::Wheel, 83.1384, 76.6445, -77.3942)]
+    {
+        assert_printed("d", 2.0 * spec.reference_radius_mm(gear).abs(), reference, 3);
+        let tooth = Tooth::new(&spec, gear, 0.5 * tip).unwrap();
+        assert_printed("d_b", 2.0 * tooth.involute.base_radius_mm.abs(), base, 3);
+        base_mm -= tooth.involute.base_radius_mm;
+    }
+    assert_printed("alpha_wt", (base_mm / spec.centre_distance_mm.abs()).acos().to_degrees(), 24.1558, 3);
+
+    let spec = helical(10.0, 0.0);
+    assert_printed("a", spec.centre_distance_mm.abs(), 12.1852, 3);
+    for (gear, root) in [(Gear::Pinion, 41.2404), (Gear::Wheel, 80.611)] {
+        assert_printed("d_f", 2.0 * spec.root_radius_mm(gear).abs(), root, 3);
+    }
+}
+
 /// Spreadsheet "Centre distance of profile shifted internal gear calculation" (scribd.com/doc/92821234): 17/96, m = 14 mm, shifts 0.2 and 0.5, the wheel's positive
 /// away from the tips.
 #[test]

@@ -23,6 +23,7 @@ mod helical_targets;
 mod internal_fem;
 mod internal_gears;
 mod lubrication;
+mod ring_on_pins;
 mod root_stress;
 mod shaft;
 mod simplified;

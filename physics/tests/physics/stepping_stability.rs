@@ -86,6 +86,7 @@ fn ver_eulers_steps_break_where_the_bound_says_on_finite_elements() {
         body: Body::Ring,
         clamp_radius_mm: PerGear::from_fn(clamp),
         web: NO_WEBS,
+        rim_pins: None,
         elements_per_half_width: 4.0,
         rounding_refinement: 1.0,
     };

@@ -26,7 +26,14 @@ const LINE_LOAD: f64 = 302e3 / 33.8289 / 14.0;
 fn settings(pair: &GearPair, elements_per_half_width: f64) -> BodySettings {
     let module = pair.spec.normal_module_mm;
     let clamp_radius_mm = PerGear::from_fn(|g| default_clamp(pair.teeth[g].root_radius_mm, module).radius_mm);
-    BodySettings { body: Body::Ring, clamp_radius_mm, web: NO_WEBS, elements_per_half_width, rounding_refinement: 1.0 }
+    BodySettings {
+        body: Body::Ring,
+        clamp_radius_mm,
+        web: NO_WEBS,
+        rim_pins: None,
+        elements_per_half_width,
+        rounding_refinement: 1.0,
+    }
 }
 
 fn sectors(pair: &GearPair, settings: &BodySettings) -> PairSectors {

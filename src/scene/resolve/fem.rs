@@ -2,11 +2,11 @@
 
 use crate::scene::fem_file::{BodyKind, FemFile, WebFile, WebsFile};
 use crate::scene::findings::Findings;
-use crate::scene::gear_file::GearFile;
+use crate::scene::gear_file::{GearFile, RimPinsFile};
 use crate::scene::problem::number;
 use gearwear_bodies::gear::{Gear, PerGear, spec::PairSpec};
 use gearwear_bodies::gear_mesh::settings::{
-    Body, BodySettings, DefaultClamp, NO_WEBS, Web, default_clamp, default_ring_rim_mm, greatest_clamp_mm,
+    Body, BodySettings, DefaultClamp, NO_WEBS, RimPins, Web, default_clamp, default_ring_rim_mm, greatest_clamp_mm,
     least_ring_rim_mm, least_web_mm, rim_thickness_limits_mm,
 };
 
@@ -26,11 +26,36 @@ pub(super) fn choose(
     pair: &PairSpec,
     findings: &mut Findings,
 ) -> Option<BodySettings> {
-    let outside_mm = wheel.filter(|_| pair.is_internal()).map(|wheel| outside_radius(wheel, pair, findings));
-    match file {
+    let mut wheel = wheel.filter(|_| pair.is_internal());
+    let outside_mm = wheel.as_deref_mut().map(|wheel| outside_radius(wheel, pair, findings));
+    let pins = wheel.and_then(|wheel| wheel.rim_pins.as_mut()).map(|file| rim_pins(file, pair, findings));
+    let bodies = match file {
         Some(file) => given(file, outside_mm, pair, findings),
         None => given(&mut FemFile::default(), outside_mm, pair, &mut Findings::default()),
+    };
+    let bodies = BodySettings { rim_pins: pins.unwrap_or(Some(None))?, ..bodies? };
+    if bodies.rim_pins.is_some() && bodies.body != Body::Ring {
+        findings.not_allowed("fem.body", "\"sector\" with pair.wheel.rim_pins", "\"ring\": pins hold a whole ring");
     }
+    Some(bodies)
+}
+
+/// Checks the pins of an internal wheel.
+fn rim_pins(file: &mut RimPinsFile, pair: &PairSpec, findings: &mut Findings) -> Option<Option<RimPins>> {
+    const KEY: &str = "pair.wheel.rim_pins";
+    let (count, most) = (file.count, pair.gears.wheel.teeth / 2);
+    if !(RimPins::LEAST..=most).contains(&count) {
+        let allowed = format!("{} to {most}, half the number of teeth", RimPins::LEAST);
+        findings.not_allowed(&format!("{KEY}.count"), count.to_string(), allowed);
+        return None;
+    }
+    if !pair.is_alike_over_width() {
+        findings.not_allowed(KEY, "given for a pair whose sections differ over the face width", "left out");
+        findings
+            .help("pins hold the plane ring of spur pairs; teeth in space are held all round the outside of a ring");
+        return None;
+    }
+    Some(Some(RimPins { count, tooth: *file.tooth.get_or_insert_default() }))
 }
 
 /// Chooses the outside radius of an internal wheel by the thickness of its rim; negative, `None` where it is refused.
@@ -71,6 +96,7 @@ fn given(
         body: body?,
         clamp_radius_mm: clamp_radius_mm?,
         web: web?,
+        rim_pins: None,
         elements_per_half_width,
         rounding_refinement: 1.0,
     })

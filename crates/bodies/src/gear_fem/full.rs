@@ -13,7 +13,7 @@ use super::placement::{axis_mm, in_place_mm};
 use super::position::PositionContact;
 use super::ring::Surroundings;
 use crate::gear::{Gear, GearPair, PerGear};
-use crate::gear_mesh::{ToothMeshError, gear_mesh};
+use crate::gear_mesh::{GearMesh, ToothMeshError, gear_mesh};
 use gearwear_fem::active_set::Condensed;
 use gearwear_fem::contact::{mortar::MortarCoupling, surface::Surface};
 use gearwear_fem::elastic::{Analysis, Elastic};
@@ -96,11 +96,7 @@ impl WholePair {
         self.solid.elements.extend(elements);
 
         self.held.resize(self.solid.dofs(), false);
-        let clamped_sides = match meshed.surroundings {
-            Surroundings::ClampedSector { .. } => &mesh.sides[..],
-            _ => &[],
-        };
-        for node in mesh.teeth.iter().map(|tooth| &tooth.clamp).chain(clamped_sides).flatten() {
+        for node in held_nodes(&mesh, meshed.surroundings) {
             let dof = 2 * (node + offset) as usize;
             self.held[dof] = true;
             self.held[dof + 1] = true;
@@ -111,6 +107,21 @@ impl WholePair {
         }
         Ok(())
     }
+}
+
+/// Nodes at which a gear is held.
+fn held_nodes(mesh: &GearMesh, surroundings: Surroundings) -> Vec<u32> {
+    let clamped_sides = match surroundings {
+        Surroundings::PinnedRing { pins, .. } => {
+            // The tooth in mesh is in the middle of the row.
+            let (count, middle) = (mesh.teeth.len(), (mesh.teeth.len() - 1) / 2);
+            let cuts = pins.cuts(count as u32).into_iter().map(|cut| (cut as usize + middle) % count);
+            return cuts.filter_map(|place| mesh.teeth[place].clamp.last().copied()).collect();
+        }
+        Surroundings::ClampedSector { .. } => &mesh.sides[..],
+        Surroundings::Ring { .. } | Surroundings::FreeSector { .. } => &[],
+    };
+    mesh.teeth.iter().map(|tooth| &tooth.clamp).chain(clamped_sides).flatten().copied().collect()
 }
 
 /// Node numbers increased by `offset`.

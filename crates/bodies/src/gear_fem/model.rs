@@ -146,7 +146,13 @@ impl MeshedGear {
     ) -> Result<Self, ModelError> {
         let teeth = pair.teeth[gear].teeth;
         let surroundings = match settings.body {
-            Body::Ring => Surroundings::Ring { coarse: (teeth - fine_teeth) as usize },
+            Body::Ring => {
+                let coarse = (teeth - fine_teeth) as usize;
+                match settings.rim_pins.filter(|_| pair.teeth[gear].is_internal()) {
+                    Some(pins) => Surroundings::PinnedRing { coarse, pins },
+                    None => Surroundings::Ring { coarse },
+                }
+            }
             // A sector of all teeth has no cuts.
             Body::Sector { teeth: all, .. } if all == teeth => {
                 Surroundings::Ring { coarse: (teeth - fine_teeth) as usize }
@@ -181,7 +187,10 @@ impl MeshedGear {
 
     /// Degrees of freedom of the whole gear as modelled.
     pub fn dofs(&self) -> usize {
-        let rows = if matches!(self.surroundings, Surroundings::Ring { .. }) { 1 } else { 2 };
+        let rows = match self.surroundings {
+            Surroundings::Ring { .. } | Surroundings::PinnedRing { .. } => 1,
+            Surroundings::FreeSector { .. } | Surroundings::ClampedSector { .. } => 2,
+        };
         let coarse = rows * self.surroundings.coarse();
         self.fine_teeth as usize * dofs_without_cut(&self.fine)
             + coarse * self.coarse.as_ref().map_or(0, dofs_without_cut)
@@ -228,12 +237,12 @@ impl MeshedGear {
         if nodes > MOST_FLANK_NODES {
             return Err(ModelError::TooFine { gear: self.gear, nodes, most: MOST_FLANK_NODES });
         }
-        let mut fine = sector(&self.fine, half_angle_rad(pair, self.gear), flank.surface.mesh_nodes.clone());
+        let mut fine = self.sector(pair, &self.fine, flank.surface.mesh_nodes.clone());
         if stresses {
             fine.probes = self.fillet_probes(&fine.solid, material).map_err(|source| self.failed(source))?;
             fine.working_side_probes = self.fine.working_fillet.len();
         }
-        Ok((self.joined(pair, fine, material)?, flank))
+        Ok((self.joined(fine, self.coarse_sector(pair), material)?, flank))
     }
 
     /// Condenses the gear onto `nodes` of its working flank alone, without stresses, for known loads.
@@ -243,7 +252,7 @@ impl MeshedGear {
         material: Elastic,
         nodes: Vec<u32>,
     ) -> Result<GearCompliance, ModelError> {
-        self.joined(pair, sector(&self.fine, half_angle_rad(pair, self.gear), nodes), material)
+        self.joined(self.sector(pair, &self.fine, nodes), self.coarse_sector(pair), material)
     }
 
     /// Working flank as a contact surface, down to the end of the involute: the part below the resolved one touches a deeply worn mate.
@@ -252,8 +261,18 @@ impl MeshedGear {
         MeshedFlank::new(nodes, rho_mm, &self.fine.points_mm, self.sharp)
     }
 
-    fn joined(&self, pair: &GearPair, fine: Sector, material: Elastic) -> Result<GearCompliance, ModelError> {
-        let coarse = self.coarse.as_ref().map(|coarse| sector(coarse, half_angle_rad(pair, self.gear), Vec::new()));
+    /// One of the sectors, held below except on pins.
+    fn sector(&self, pair: &GearPair, mesh: &ToothSector, candidates: Vec<u32>) -> Sector {
+        let is_on_pins = matches!(self.surroundings, Surroundings::PinnedRing { .. });
+        let clamp = if is_on_pins { &[] } else { mesh.clamp.as_slice() };
+        held_sector(mesh, clamp, half_angle_rad(pair, self.gear), candidates)
+    }
+
+    fn coarse_sector(&self, pair: &GearPair) -> Option<Sector> {
+        self.coarse.as_ref().map(|coarse| self.sector(pair, coarse, Vec::new()))
+    }
+
+    fn joined(&self, fine: Sector, coarse: Option<Sector>, material: Elastic) -> Result<GearCompliance, ModelError> {
         let condense =
             |sector: Sector| sector.condense(material, Analysis::PlaneStrain).map_err(|source| self.failed(source));
         let (fine, coarse) = (condense(fine)?, coarse.map(condense).transpose()?);
@@ -276,13 +295,18 @@ fn half_angle_rad(pair: &GearPair, gear: Gear) -> f64 {
     std::f64::consts::PI / pair.teeth[gear].z()
 }
 
-/// Finite-element model of a meshed sector; forces may act on the nodes `candidates`.
+/// Finite-element model of a meshed sector held at its clamp circle; forces may act on the nodes `candidates`.
 pub fn sector(mesh: &ToothSector, half_angle_rad: f64, candidates: Vec<u32>) -> Sector {
-    let clamped: std::collections::BTreeSet<u32> = mesh.clamp.iter().copied().collect();
+    held_sector(mesh, &mesh.clamp, half_angle_rad, candidates)
+}
+
+/// Sector held at the nodes `clamp`.
+fn held_sector(mesh: &ToothSector, clamp: &[u32], half_angle_rad: f64, candidates: Vec<u32>) -> Sector {
+    let clamped: std::collections::BTreeSet<u32> = clamp.iter().copied().collect();
     let cuts = [&mesh.right_cut, &mesh.left_cut];
     Sector {
         solid: solid(mesh),
-        clamp: mesh.clamp.clone(),
+        clamp: clamp.to_vec(),
         cuts: cuts.map(|cut| cut.iter().copied().filter(|node| !clamped.contains(node)).collect()),
         half_angle_rad,
         candidates,

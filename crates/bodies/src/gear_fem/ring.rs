@@ -30,6 +30,7 @@ use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_uppe
 use faer::{Accum, Col, Mat, MatRef, Par, Scale, Side};
 
 use super::sector::{CondensedSector, SectorMatrices};
+use crate::gear_mesh::settings::RimPins;
 use gearwear_fem::active_set::ActiveSetError;
 
 /// Forces on the candidates of one tooth: column and N/mm, by increasing column.
@@ -42,6 +43,13 @@ pub enum Surroundings {
     Ring {
         /// Number of coarse teeth.
         coarse: usize,
+    },
+    /// All other teeth of a gear that pins hold and whose sectors are free below; coarse ones are needed.
+    PinnedRing {
+        /// Number of coarse teeth.
+        coarse: usize,
+        /// Pins.
+        pins: RimPins,
     },
     /// More teeth on either side, with free outer sides.
     FreeSector {
@@ -59,8 +67,21 @@ impl Surroundings {
     /// Number of coarse teeth in a row.
     pub fn coarse(self) -> usize {
         match self {
-            Self::Ring { coarse } | Self::FreeSector { coarse } | Self::ClampedSector { coarse } => coarse,
+            Self::Ring { coarse }
+            | Self::PinnedRing { coarse, .. }
+            | Self::FreeSector { coarse }
+            | Self::ClampedSector { coarse } => coarse,
         }
+    }
+
+    /// Cuts with a pin beside `teeth` fine teeth, rising from the clockwise cut of the first on: those above `teeth` are between coarse ones.
+    fn pinned_cuts(self, teeth: usize) -> Vec<usize> {
+        let Self::PinnedRing { coarse, pins } = self else { return Vec::new() };
+        let all = teeth + coarse;
+        let mut cuts: Vec<usize> =
+            pins.cuts(all as u32).into_iter().map(|cut| (cut as usize + teeth / 2) % all).collect();
+        cuts.sort_unstable();
+        cuts
     }
 }
 
@@ -89,11 +110,15 @@ impl JoinedSectors {
         for tooth in 0..teeth {
             cuts.add(&mut joined, &fine.cut_stiffness, &[tooth, tooth + 1]);
         }
+        let pinned = surroundings.pinned_cuts(teeth);
         if let (Some(coarse), count @ 1..) = (coarse, surroundings.coarse()) {
-            let chain = chain(coarse, count)?;
+            let on_pins: Vec<usize> = pinned.iter().filter(|cut| **cut > teeth).map(|cut| cut - teeth).collect();
+            let chain = chain_on_pins(coarse, count, &on_pins)?;
             match surroundings {
                 // The chain's clockwise cut is the group's anticlockwise one.
-                Surroundings::Ring { .. } => cuts.add(&mut joined, &chain, &[teeth, 0]),
+                Surroundings::Ring { .. } | Surroundings::PinnedRing { .. } => {
+                    cuts.add(&mut joined, &chain, &[teeth, 0])
+                }
                 Surroundings::FreeSector { .. } => {
                     cuts.add(&mut joined, &eliminated(&chain, 0, n)?, &[0]);
                     cuts.add(&mut joined, &eliminated(&chain, n, n)?, &[teeth]);
@@ -104,8 +129,15 @@ impl JoinedSectors {
                 }
             }
         }
+        let of_fine: Vec<usize> = pinned.into_iter().filter(|cut| *cut <= teeth).collect();
+        for &cut in &of_fine {
+            joined.pin(cut);
+        }
         let known = *sectors.start()..=sectors.end() + 1;
-        let cut_compliance = cuts.compliance(joined, &known)?;
+        let mut cut_compliance = cuts.compliance(joined, &known)?;
+        for row in of_fine.iter().flat_map(|cut| PIN_DOFS.map(|dof| n * cut + dof)) {
+            cut_compliance.row_mut(row).fill(0.0);
+        }
         Ok(Self { cut_compliance, known, cut_dofs: n })
     }
 
@@ -354,6 +386,9 @@ impl Cuts {
     }
 }
 
+/// Unknowns of a cut that a pin holds: those of its first node, on the outside circle.
+const PIN_DOFS: [usize; 2] = [0, 1];
+
 /// Symmetric matrix of blocks, one for each two cuts that are joined: row ≥ column.
 struct CutBlocks {
     /// Degrees of freedom of a cut.
@@ -378,6 +413,23 @@ impl CutBlocks {
         if row >= column {
             let dofs = self.dofs;
             *self.blocks.entry((row, column)).or_insert_with(|| Mat::zeros(dofs, dofs)) += block;
+        }
+    }
+
+    /// Holds a cut on a pin: the unknowns there are without coupling, and of stiffness 1.
+    fn pin(&mut self, cut: usize) {
+        for ((row, column), block) in &mut self.blocks {
+            for dof in PIN_DOFS {
+                if *row == cut {
+                    block.row_mut(dof).fill(0.0);
+                }
+                if *column == cut {
+                    block.col_mut(dof).fill(0.0);
+                }
+                if *row == cut && *column == cut {
+                    block[(dof, dof)] = 1.0;
+                }
+            }
         }
     }
 
@@ -435,14 +487,20 @@ impl CutBlocks {
     }
 }
 
-/// Stiffness of two neighbouring sectors or rows on their outer cuts.
-fn beside(first: &Mat<f64>, second: &Mat<f64>) -> Result<Mat<f64>, ActiveSetError> {
+/// Stiffness of two neighbouring sectors or rows on their outer cuts, with a pin at the cut between them or without.
+fn beside(first: &Mat<f64>, second: &Mat<f64>, is_pinned: bool) -> Result<Mat<f64>, ActiveSetError> {
     let n = first.nrows() / 2;
-    let inner = first.get(n.., n..) + second.get(..n, ..n);
-    let factor = factor(&inner)?;
+    let mut inner = first.get(n.., n..) + second.get(..n, ..n);
     let mut coupling = Mat::zeros(n, 2 * n);
     coupling.get_mut(.., ..n).copy_from(first.get(n.., ..n));
     coupling.get_mut(.., n..).copy_from(second.get(..n, n..));
+    for dof in PIN_DOFS.into_iter().filter(|_| is_pinned) {
+        inner.row_mut(dof).fill(0.0);
+        inner.col_mut(dof).fill(0.0);
+        inner[(dof, dof)] = 1.0;
+        coupling.row_mut(dof).fill(0.0);
+    }
+    let factor = factor(&inner)?;
     solve_lower_triangular_in_place(factor.L(), coupling.as_mut(), Par::Seq);
     let mut outer = Mat::zeros(2 * n, 2 * n);
     outer.get_mut(..n, ..n).copy_from(first.get(..n, ..n));
@@ -474,16 +532,31 @@ fn chain(one: &Mat<f64>, count: usize) -> Result<Mat<f64>, ActiveSetError> {
     let mut power = one.clone();
     for digit in 0..=count.ilog2() {
         if digit > 0 {
-            power = beside(&power, &power)?;
+            power = beside(&power, &power, false)?;
         }
         if count >> digit & 1 == 1 {
             row = Some(match row {
-                Some(row) => beside(&row, &power)?,
+                Some(row) => beside(&row, &power, false)?,
                 None => power.clone(),
             });
         }
     }
     Ok(row.unwrap_or(power))
+}
+
+/// Stiffness as of [`chain`], with pins at the cuts `on_pins` of the row, counted from its clockwise one, rising.
+fn chain_on_pins(one: &Mat<f64>, count: usize, on_pins: &[usize]) -> Result<Mat<f64>, ActiveSetError> {
+    let mut from = 0;
+    let mut row: Option<Mat<f64>> = None;
+    for &to in on_pins.iter().chain([&count]) {
+        let next = chain(one, to - from)?;
+        row = Some(match row {
+            Some(row) => beside(&row, &next, true)?,
+            None => next,
+        });
+        from = to;
+    }
+    Ok(row.expect("the end of the row is a cut"))
 }
 
 /// Schur complement of `stiffness` without the `count` free unknowns from `first` on.

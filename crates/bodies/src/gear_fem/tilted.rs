@@ -169,6 +169,7 @@ mod tests {
                 default_clamp(pair.teeth[gear].root_radius_mm, pair.spec.normal_module_mm).radius_mm
             }),
             web: NO_WEBS,
+            rim_pins: None,
             elements_per_half_width: 2.0,
             rounding_refinement: 1.0,
         };

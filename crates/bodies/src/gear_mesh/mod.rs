@@ -37,7 +37,7 @@ use nalgebra::Vector2;
 pub use error::ToothMeshError;
 pub use pair_mesh::{gear_sector, pair_mesh, pair_sectors, touching_pairs, turn_rad};
 pub use space_mesh::space_mesh;
-pub use whole_gear::gear_mesh;
+pub use whole_gear::{GearMesh, gear_mesh};
 
 use crate::gear::{Gear, GearPair, modification::Modification, tooth::Tooth};
 use cut::Cut;

@@ -37,6 +37,8 @@ pub struct BodySettings {
     pub clamp_radius_mm: PerGear<f64>,
     /// Webs that carry rims, in three dimensions only: plane elements are as wide as the teeth.
     pub web: PerGear<Option<Web>>,
+    /// Pins that hold an internal wheel; `None`: its outside is held all round.
+    pub rim_pins: Option<RimPins>,
     /// Elements in the local half-width of contact under the whole load.
     pub elements_per_half_width: f64,
     /// Factor of refinement on tip roundings and where these touch the mate: 1; more for tip edges that are hardly worn in,
@@ -93,6 +95,46 @@ pub enum Body {
         /// Support of the cuts.
         sides: SectorSides,
     },
+}
+
+/// Pins that hold a ring at its outside circle, at even angles; each holds a point, about which the ring may turn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RimPins {
+    /// Number of pins.
+    pub count: u32,
+    /// Place of the tooth in mesh.
+    pub tooth: ToothOnPins,
+}
+
+/// Place of the tooth in mesh on a ring that pins hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ToothOnPins {
+    /// Midway between two pins, to half a pitch.
+    #[default]
+    BetweenPins,
+    /// Beside a pin, half a pitch from it.
+    AtPin,
+}
+
+impl RimPins {
+    /// Least number of pins that holds a ring.
+    pub const LEAST: u32 = 2;
+
+    /// Cuts between the sectors of a ring of `teeth` that have a pin, rising: cut s is on the clockwise side of the tooth s pitches anticlockwise of
+    /// the one in mesh. Pins lie at the cuts nearest to even angles.
+    pub fn cuts(&self, teeth: u32) -> Vec<u32> {
+        let spacing = f64::from(teeth) / f64::from(self.count);
+        let first = match self.tooth {
+            ToothOnPins::AtPin => 1.0,
+            ToothOnPins::BetweenPins => 0.5 * (spacing + 1.0),
+        };
+        let mut cuts: Vec<u32> =
+            (0..self.count).map(|pin| (first + f64::from(pin) * spacing).round() as u32 % teeth).collect();
+        cuts.sort_unstable();
+        cuts.dedup();
+        cuts
+    }
 }
 
 /// Support of the cut sides of a sector.

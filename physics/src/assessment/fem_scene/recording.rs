@@ -182,7 +182,7 @@ impl RecordSource<'_> {
     fn gear_model(&self, gear: Gear) -> Result<GearModelSummary, FemPairError> {
         let meshed = &self.meshed[gear];
         let coarse = match meshed.surroundings {
-            Surroundings::Ring { coarse } => coarse,
+            Surroundings::Ring { coarse } | Surroundings::PinnedRing { coarse, .. } => coarse,
             Surroundings::FreeSector { coarse } | Surroundings::ClampedSector { coarse } => 2 * coarse,
         };
         Ok(GearModelSummary {
