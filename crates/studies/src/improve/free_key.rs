@@ -179,6 +179,15 @@ impl FreeKey {
         }
     }
 
+    /// Whether the key allows values beyond the `end` of the range, 0 or 1.
+    pub fn goes_beyond(&self, end: f64) -> bool {
+        let FreeRange::Between { from, to, is_whole } = &self.range else { return false };
+        let step = if *is_whole { 1.0 } else { (to - from) / LEAST_STEPS };
+        let beyond = if end > 0.5 { to + step } else { from - step };
+        let keys = linked_keys(&self.key);
+        keys.iter().all(|key| NumberKey::find(key).is_ok_and(|takes| takes.holds(beyond)))
+    }
+
     /// Values at the tolerance below and above `value`, within what the key allows.
     pub fn within_tolerance(&self, value: f64) -> Vec<f64> {
         let Some(tolerance) = self.tolerance else { return Vec::new() };
@@ -206,6 +215,7 @@ mod tests {
         assert_eq!((relief.tolerance, relief.value(0.123_456), relief.value(1.0)), (Some(3.0), 4.9, 40.0));
         // A relief is no less than none.
         assert_eq!((relief.within_tolerance(2.0), relief.within_tolerance(10.0)), (vec![5.0], vec![7.0, 13.0]));
+        assert!(relief.goes_beyond(1.0) && !relief.goes_beyond(0.0));
         let shape: FreeKey = "pair.pinion.tip_relief.shape = linear, parabolic".parse().unwrap();
         assert_eq!((shape.levels(), shape.value(0.7), shape.in_scene(1.0)), (Some(2), 1.0, "parabolic".into()));
         let teeth: FreeKey = "pair.pinion.teeth = 17:23".parse().unwrap();

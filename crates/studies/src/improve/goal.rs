@@ -147,7 +147,13 @@ impl ImproveGoal {
     pub fn heading(&self) -> String {
         match self.terms.as_slice() {
             [(1.0, figure)] => heading(&figure.path),
-            _ => self.to_string(),
+            terms => {
+                let terms = terms.iter().map(|(weight, figure)| match *weight {
+                    1.0 => heading(&figure.path),
+                    weight => format!("{} × {}", number(weight), heading(&figure.path)),
+                });
+                terms.collect::<Vec<_>>().join(" + ")
+            }
         }
     }
 
@@ -156,9 +162,10 @@ impl ImproveGoal {
     }
 }
 
-/// Name of a figure for people, lower case, without unit.
+/// Name of a figure for people, lower case, without unit; short, as the path stands beside it.
 pub fn heading(path: &str) -> String {
-    figures::find(path).map_or_else(|| path.to_owned(), |figure| figure.heading.clone())
+    let heading = figures::find(path).map_or_else(|| path.to_owned(), |figure| figure.heading.clone());
+    [", active profile", ", peak to peak", "maximum "].iter().fold(heading, |short, part| short.replace(part, ""))
 }
 
 /// Unit of a figure; `None` where none is known.

@@ -28,7 +28,7 @@ pub struct ChosenValue {
     pub key: String,
     /// As text: a number or a word.
     pub value: String,
-    /// End of the range that it lies on; null inside.
+    /// End of the range that it lies on and that could be wider; null inside.
     pub edge: Option<Edge>,
 }
 
@@ -185,8 +185,8 @@ pub fn values_of(free: &[FreeKey], values: &[f64]) -> Vec<ChosenValue> {
         let share = one.share(*value);
         let edge = match one.range {
             FreeRange::Words(_) => None,
-            FreeRange::Between { .. } if share <= EDGE => Some(Edge::Lower),
-            FreeRange::Between { .. } if share >= 1.0 - EDGE => Some(Edge::Upper),
+            FreeRange::Between { .. } if share <= EDGE && one.goes_beyond(0.0) => Some(Edge::Lower),
+            FreeRange::Between { .. } if share >= 1.0 - EDGE && one.goes_beyond(1.0) => Some(Edge::Upper),
             FreeRange::Between { .. } => None,
         };
         ChosenValue { key: one.key.clone(), value: one.said(*value), edge }

@@ -39,7 +39,7 @@ const RELIEF_TOLERANCES: [f64; 2] = [3.0, 0.2];
 /// Greatest tip relief of such a scene over the greatest approach of the new pair.
 const RELIEF_OVER_APPROACH: f64 = 3.0;
 /// Ends of its length over the part of the path with two pairs in contact.
-const RELIEF_LENGTHS: [f64; 2] = [0.25, 1.25];
+const RELIEF_LENGTHS: [f64; 2] = [0.25, 1.5];
 
 /// Looks for better designs of `scene` on `threads` threads, as its table `[improve]` asks. Finished designs are kept in a journal in `folder`, with which
 /// the same study goes on; without a folder in memory.

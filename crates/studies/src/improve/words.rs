@@ -2,7 +2,7 @@
 
 use super::proposal::{ChosenValue, ComparedFigure, Edge, Proposal};
 use super::record::ImproveRecord;
-use gearwear::report::html::number::{figure as shown, percent};
+use gearwear::report::html::number::{change, figure as shown};
 
 /// Change below which a figure whose error is not known counts as the same.
 const UNKNOWN_ERROR: f64 = 0.02;
@@ -22,10 +22,9 @@ impl ComparedFigure {
     }
 }
 
-/// Share as a percentage with its sign.
+/// Share as a percentage with its sign, to a tenth of a per cent at most.
 pub fn signed(share: f64) -> String {
-    let sign = if share > 0.0 { "+" } else { "" };
-    format!("{sign}{}", percent(share))
+    change(1.0, 1.0 + share)
 }
 
 impl ChosenValue {
@@ -54,17 +53,26 @@ impl Proposal {
     /// How sure the differences of the goals are.
     pub fn sureness(&self) -> String {
         let goals: Vec<&ComparedFigure> = self.figures.iter().filter(|figure| figure.is_goal).collect();
+        if goals.iter().all(|goal| goal.is_sure == Some(true)) {
+            return "All goals differ by more than the errors".to_owned();
+        }
         let named = |wanted: Option<bool>| -> Vec<&str> {
             goals.iter().filter(|goal| goal.is_sure == wanted).map(|goal| goal.heading.as_str()).collect()
         };
-        let [sure, within, unknown] = [Some(true), Some(false), None].map(named);
-        let said = [
-            (sure, "more than the errors of both"),
-            (within, "within the errors of both, no difference"),
-            (unknown, "of unknown error"),
-        ];
+        let [within, unknown] = [Some(false), None].map(named);
+        let said = [(within, "within the errors, no difference"), (unknown, "its error is not known")];
         let said = said.into_iter().filter(|(names, _)| !names.is_empty());
-        said.map(|(names, what)| format!("{}: {what}", names.join(", "))).collect::<Vec<_>>().join("; ")
+        capitalised(&said.map(|(names, what)| format!("{}: {what}", names.join(", "))).collect::<Vec<_>>().join("; "))
+    }
+
+    /// Goals whose gain the tolerances take at worst.
+    pub fn lost_to_tolerances(&self) -> Vec<&str> {
+        let goals = self.figures.iter().filter(|figure| figure.is_goal).zip(&self.tolerances_together);
+        let lost = goals.filter_map(|(goal, together)| {
+            let gain = (goal.as_given - goal.value).abs() / goal.value.abs();
+            (goal.is_better() && goal.is_changed() && (*together)? > gain).then_some(goal.heading.as_str())
+        });
+        lost.collect()
     }
 
     /// What tolerances take; empty where none are given.

@@ -10,6 +10,7 @@ use super::{DESIGNS, FRONT, LAST, figures};
 use gearwear::journal;
 use gearwear::report::html::number::{count, figure as shown, percent, significant};
 use gearwear::report::html::page::{Page, Plots, note, section, sources_list};
+use gearwear::report::html::reading::capitalised;
 use gearwear::report::html::table::{Cell, NONE, line, list};
 use gearwear::report::output_files;
 use gearwear_physics::results::run::ReportedBy;
@@ -109,7 +110,7 @@ fn proposals(record: &ImproveRecord) -> Markup {
     html! {
         ul {
             @for (proposal, letter) in record.proposals.iter().zip(LETTERS) {
-                li { b { (letter) " " (proposal.name) } ". " (gains_and_costs(proposal)) }
+                li { b { (letter) " " (proposal.name) } ". " (gains_and_costs(record, proposal)) }
             }
         }
         (list("Figures against the scene as given", head(), of_figures))
@@ -126,13 +127,20 @@ fn changed(figure: &ComparedFigure) -> Cell {
     Cell::from(html! { (shown(figure.value)) (error) br; span.unit { (change) } })
 }
 
-fn gains_and_costs(proposal: &Proposal) -> String {
-    let said =
-        |figures: Vec<&ComparedFigure>| figures.iter().map(|figure| figure.in_words()).collect::<Vec<_>>().join("; ");
+fn gains_and_costs(record: &ImproveRecord, proposal: &Proposal) -> String {
+    let said = |figures: Vec<&ComparedFigure>| {
+        let changes = figures.into_iter().map(|figure| match figure.change() {
+            Some(change) => format!("{} {}", figure.heading, signed(change)),
+            None => figure.in_words(),
+        });
+        changes.collect::<Vec<_>>().join(", ")
+    };
     let (gains, costs) = (said(proposal.gains()), said(proposal.costs()));
     let gains = if gains.is_empty() { "Gains nothing".to_owned() } else { format!("Gains: {gains}") };
-    let costs = if costs.is_empty() { "costs nothing".to_owned() } else { format!("costs: {costs}") };
-    format!("{gains}; {costs}. {}.", proposal.sureness())
+    let costs = if costs.is_empty() { "Costs: none".to_owned() } else { format!("Costs: {costs}") };
+    let tolerance = proposal.tolerance(&record.headings());
+    let tolerance = if tolerance.is_empty() { tolerance } else { format!(" {}.", capitalised(&tolerance)) };
+    format!("{gains}. {costs}. {}.{tolerance}", proposal.sureness())
 }
 
 fn tolerances(record: &ImproveRecord) -> Markup {
