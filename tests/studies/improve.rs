@@ -177,7 +177,7 @@ fn bad_questions_are_refused_where_they_stand() {
             vec!["improve.goals[0]", "does not have"],
         ),
         ("limits = [\"pinion.peak_wear_um < 5\"]", vec!["improve.limits[0]", "PATH <= VALUE"]),
-        ("evaluations = 5", vec!["improve.evaluations", "20 to 2000"]),
+        ("evaluations = 5", vec!["improve.evaluations", "at least 20 and at most 2000"]),
         ("speed = 5", vec!["improve.speed", "unknown key"]),
     ] {
         let bench = Bench::new(&coarse_scene(improve));

@@ -90,15 +90,16 @@ impl Kept for ImproveIdentity {
     }
 
     fn refuses(&self, row: &KeptDesign) -> Option<String> {
-        let fits = row.values.as_ref().is_none_or(|values| values.len() == self.free.len())
-            && row.figures.as_ref().is_ok_and(|figures| figures.len() == self.figures.len()) | row.figures.is_err();
+        let has_values = row.values.as_ref().is_none_or(|values| values.len() == self.free.len());
+        let has_figures = row.figures.as_ref().ok().is_none_or(|figures| figures.len() == self.figures.len());
+        let fits = has_values && has_figures;
         (!fits).then(|| format!("design {} of another study", row.number))
     }
 
     fn differences(&self, wanted: &Self) -> Vec<String> {
         let both = self.said().into_iter().zip(wanted.said());
         // What follows from the scene differs wherever it does.
-        let follows = |what: &str| ["the resolved scene"].contains(&what) && self.given_hash != wanted.given_hash;
+        let follows = |what: &str| what == "the resolved scene" && self.given_hash != wanted.given_hash;
         both.filter(|((what, mine), (_, theirs))| mine != theirs && !follows(what))
             .map(|((what, mine), (_, theirs))| format!("{what}: {mine} and {theirs}"))
             .collect()

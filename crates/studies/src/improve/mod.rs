@@ -12,6 +12,7 @@
 //! |---|---|
 //! | [`free_key`], [`goal`] | what may change and what for, as the user writes it |
 //! | [`asked`] | the question of a scene, checked, with its defaults |
+//! | [`tip_reliefs`] | free keys of a scene that names none |
 //! | [`fast_model`] | the model that is searched on |
 //! | [`search`] | front of a problem with a few hundred evaluations |
 //! | [`kept`] | designs finished so far, kept in the journal |
@@ -31,4 +32,5 @@ pub mod record;
 pub mod report;
 pub mod search;
 pub mod study;
+pub mod tip_reliefs;
 pub mod words;

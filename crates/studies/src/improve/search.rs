@@ -294,7 +294,11 @@ impl Surrogate {
         if points.len() < BATCH {
             search.fill_up(&mut points, rng);
         }
-        points.into_iter().map(|at| (self.scaled(&self.at(&at).goals), at)).map(|(goals, at)| (at, goals)).collect()
+        let with_goals = |at: Vec<f64>| {
+            let goals = self.scaled(&self.at(&at).goals);
+            (at, goals)
+        };
+        points.into_iter().map(with_goals).collect()
     }
 
     fn scaled(&self, goals: &[f64]) -> Vec<f64> {

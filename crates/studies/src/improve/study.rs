@@ -4,7 +4,6 @@ use std::cell::RefCell;
 use std::path::Path;
 use std::time::Instant;
 
-use gearwear::evaluate::output::SummaryOutput;
 use gearwear::journal::{Journal, RowKeeper};
 use gearwear::runs;
 use gearwear::scene::draft::Draft;
@@ -25,6 +24,7 @@ use super::proposal::{Proposal, Sensitivity, compared, file_of, goals_of, reason
 use super::reach::Tried;
 use super::record::{GoalRecord, ImproveRecord};
 use super::search::{Outcome, SearchProblem, SearchRecord, SearchSettings, SearchStop, front, search};
+use super::tip_reliefs;
 
 /// Designs of the front that are verified: of spur pairs, and of pairs in slices, which take longer.
 const VERIFIED: usize = 8;
@@ -33,13 +33,6 @@ const VERIFIED_IN_SLICES: usize = 4;
 const SLICED_POSITIONS: usize = 150;
 const SLICED_POINTS: usize = 300;
 const SLICED_TOLERANCE_UM: f64 = 0.1;
-
-/// Tolerances of a tip relief of a scene that names no free keys, µm and mm.
-const RELIEF_TOLERANCES: [f64; 2] = [3.0, 0.2];
-/// Greatest tip relief of such a scene over the greatest approach of the new pair.
-const RELIEF_OVER_APPROACH: f64 = 3.0;
-/// Ends of its length over the part of the path with two pairs in contact.
-const RELIEF_LENGTHS: [f64; 2] = [0.25, 1.5];
 
 /// Looks for better designs of `scene` on `threads` threads, as its table `[improve]` asks. Finished designs are kept in a journal in `folder`, with which
 /// the same study goes on; without a folder in memory.
@@ -70,7 +63,11 @@ pub fn improve(
     let identity = prepared.identity()?;
     let mut journal = match folder {
         None => Journal::in_memory(identity),
-        Some(folder) => Journal::open(folder, identity)?,
+        Some(folder) => {
+            let journal = Journal::open(folder, identity)?;
+            super::report::begin(folder)?;
+            journal
+        }
     };
     prepared.run(&mut journal, threads, observer)
 }
@@ -112,7 +109,7 @@ impl<'a> PreparedImprove<'a> {
         observer.stage("the scene as given, on the fast model");
         let is_free_by_default = question.free.is_empty();
         if is_free_by_default {
-            question.free = tip_reliefs(&fast, observer)?;
+            question.free = tip_reliefs::of(&fast, observer)?;
         }
         let as_given = fast.figures([], &question.figures, observer).ok_or(ImproveError::Interrupted)?;
         let as_given = as_given.map_err(ImproveError::Base)?;
@@ -533,31 +530,6 @@ fn greatest_difference(designs: &[KeptDesign], goals: &[Option<Vec<f64>>], count
         differences.filter(|difference| difference.is_finite()).reduce(f64::max)
     };
     (0..count).map(of_goal).collect()
-}
-
-/// Amount and length of the tip relief of both gears, with ranges that follow from load and path of contact.
-fn tip_reliefs(fast: &FastModel, observer: &dyn Observer) -> Result<Vec<FreeKey>, ImproveError> {
-    let paths = ["new.transmission_error_um.max", "geometry.transverse_contact_ratio", "geometry.base_pitch_mm"];
-    let outputs: Vec<SummaryOutput> = paths.iter().filter_map(|path| SummaryOutput::find(path).ok()).collect();
-    let figures = fast.figures([], &outputs, observer).ok_or(ImproveError::Interrupted)?;
-    let figures = figures.map_err(ImproveError::Base)?;
-    let &[Some(approach_um), Some(contact_ratio), Some(base_pitch_mm)] = figures.as_slice() else {
-        return Err(ImproveError::Base("it has no transmission error".to_owned()));
-    };
-    let greatest_um = 10.0 * (RELIEF_OVER_APPROACH * approach_um / 10.0).ceil();
-    let two_pairs_mm = (contact_ratio - 1.0).clamp(0.1, 1.0) * base_pitch_mm;
-    let [least_mm, greatest_mm] = RELIEF_LENGTHS.map(|share| (10.0 * share * two_pairs_mm).ceil() / 10.0);
-    let [amount, length] = RELIEF_TOLERANCES;
-    let of_gear = |gear: &str| {
-        [
-            format!("pair.{gear}.tip_relief.amount_um = 0:{greatest_um} ± {amount}"),
-            format!("pair.{gear}.tip_relief.length_mm = {least_mm}:{greatest_mm} ± {length}"),
-        ]
-    };
-    let given = ["pinion", "wheel"].into_iter().flat_map(of_gear);
-    given
-        .map(|text| text.parse().map_err(|error: super::free_key::FreeKeyError| ImproveError::Base(error.to_string())))
-        .collect()
 }
 
 impl Designs<'_, '_> {
