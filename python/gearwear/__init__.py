@@ -20,7 +20,7 @@ from gearwear.mesh import Mesh
 from gearwear.run import Flank, Run
 from gearwear.scene import Scene
 from gearwear.schema import scene_schema
-from gearwear.studies import Study, compare, compare_runs, remaining_life, validate
+from gearwear.studies import Study, compare, compare_runs, improve, remaining_life, validate
 from gearwear.sweep import Sweep, sweep
 from gearwear.table import Table
 from gearwear.uncertainty import Uncertainty, uncertainty
@@ -50,6 +50,7 @@ __all__ = [
     "compare_runs",
     "evaluate",
     "fem_problem",
+    "improve",
     "main_figures",
     "presets",
     "remaining_life",

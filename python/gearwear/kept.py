@@ -37,6 +37,7 @@ KINDS = (
     Kind("a comparison with measured profiles", "Study", "compare.json", "compare.csv"),
     Kind("a remaining life", "Study", "remaining_life.json", "remaining_life.csv"),
     Kind("a comparison of runs", "Study", "variants.json", "variants.csv"),
+    Kind("a study of improvement", "Study", "summary.json", "improve.csv"),
     Kind("a validation", "Study", "validation.json", "junit.xml"),
     Kind("a validation of invariants", "Study", "summary.json", "invariants.csv"),
     Kind("finite elements of a pair", "FemPair", "summary.json", "pressure.csv"),

@@ -1,4 +1,4 @@
-"""Studies that are read as the record of their command: accuracy, comparison with measured profiles and of runs, validation."""
+"""Studies that are read as the record of their command: accuracy, improvement, comparison with measured profiles and of runs, validation."""
 
 from __future__ import annotations
 
@@ -22,6 +22,8 @@ from gearwear.workers import ProgressArgument, Watched, thread_count
 if TYPE_CHECKING:
     import pandas as pd
 
+    from gearwear.scene import Scene
+
     #: A run, or the folder that one was written into.
     Finished = Run | str | os.PathLike[str]
 
@@ -39,7 +41,7 @@ class Study:
 
     @cached_property
     def summary(self) -> dict[str, Any]:
-        """The record, as the command writes it: ``accuracy.json``, ``compare.json``, ``remaining_life.json``, ``variants.json`` or
+        """The record, as the command writes it: ``accuracy.json``, ``summary.json`` of improvement, ``compare.json``, ``remaining_life.json``, ``variants.json`` or
         ``validation.json``."""
         summary: dict[str, Any] = json.loads(self._native.summary_json)
         return summary
@@ -123,6 +125,34 @@ def remaining_life(
         folder = _folder(run, kept)
         options = (limits, known, gear, form, float(shift_within_mm))
         return Study(_native.remaining_life(folder, named_table(table), *options, count, told))
+
+
+def improve(
+    scene: Scene,
+    *,
+    free: Sequence[str] | None = None,
+    goals: Sequence[str] | None = None,
+    limits: Sequence[str] | None = None,
+    evaluations: int | None = None,
+    seed: int | None = None,
+    out: str | os.PathLike[str] | None = None,
+    threads: int | None = None,
+    progress: ProgressArgument = False,
+) -> Study:
+    """Better designs within the ranges of free keys: ``gearwear improve``. The options are keys of the table ``[improve]`` and replace the scene's own.
+
+    ``summary["proposals"]`` has each proposal with its values and figures, ``tables["improve"]`` every design that was run. With ``out`` finished
+    designs and results are written there, and a killed study goes on when it is called again.
+    """
+    asked = {"free": free, "goals": goals, "limits": limits, "evaluations": evaluations, "seed": seed}
+    given = {f"improve.{key}": list(value) if key in ("free", "goals", "limits") else value for key, value in asked.items() if value is not None}
+    asking = scene.with_(given) if given else scene
+    folder = None if out is None else os.fspath(out)
+    with Watched(progress) as told:
+        study = Study(asking._native.improve(folder, thread_count(threads), told))
+    if out is not None:
+        study.write(out)
+    return study
 
 
 def compare_runs(runs: Mapping[str, Finished]) -> Study:

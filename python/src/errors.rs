@@ -115,10 +115,11 @@ pub(crate) fn of_sweep(py: Python<'_>, error: &SweepError) -> PyErr {
 
 /// Why a study came to nothing.
 pub(crate) fn of_study(py: Python<'_>, error: &StudyError) -> PyErr {
-    match error.in_loading() {
-        Some(error) => of_loading(py, error),
-        None if error.is_of_the_runs() => of_run(py, error.to_string()),
-        None => PyValueError::new_err(error.to_string()),
+    match (error.in_loading(), error.in_the_scene()) {
+        (Some(error), _) => of_loading(py, error),
+        (None, Some(error)) => of_scene(py, error),
+        (None, None) if error.is_of_the_runs() => of_run(py, error.to_string()),
+        (None, None) => PyValueError::new_err(error.to_string()),
     }
 }
 

@@ -246,6 +246,21 @@ impl Scene {
         Study::of(py, watched(py, threads, progress, work)?)
     }
 
+    /// Better designs, as its table `[improve]` asks.
+    fn improve(
+        &self,
+        py: Python<'_>,
+        folder: Option<PathBuf>,
+        threads: usize,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<Study> {
+        let (scene, count) = (self.loaded.clone(), cores(threads));
+        let work = move |observer: &dyn gearwear::Observer| {
+            gearwear_validation::found::improve(&scene, folder.as_deref(), count, observer)
+        };
+        Study::of(py, watched(py, 1, progress, work)?)
+    }
+
     /// Its sweep over these keys.
     fn sweep(
         &self,

@@ -206,3 +206,17 @@ def test_accuracy(tmp_path: Path) -> None:
     assert study.summary["recommendations"] and study.summary["stopped"] == "completed"
     study.write(tmp_path)
     assert json.loads((tmp_path / "accuracy.json").read_text(encoding="utf-8")) == study.summary
+
+
+def test_better_designs(tmp_path: Path) -> None:
+    """A wider gear wears less: the proposal is the widest that is allowed, and its study is read again from its folder."""
+    coarse = scene().with_({"numerics.verify": False, "numerics.error_estimate": False})
+    study = gearwear.improve(
+        coarse, free=["pair.face_width_mm = 10:20"], goals=["pinion.peak_wear_um"], evaluations=24, out=tmp_path / "out", threads=2
+    )
+    (proposal,) = study.summary["proposals"]
+    assert proposal["values"] == [{"key": "pair.face_width_mm", "value": "20", "edge": "upper"}]
+    assert (tmp_path / "out" / proposal["file"]).exists()
+    assert gearwear.Study.read(tmp_path / "out").summary == study.summary
+    with pytest.raises(gearwear.SceneError, match="improve.goals"):
+        gearwear.improve(coarse, goals=["pinion.peak_ware_um"])

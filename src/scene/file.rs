@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fem_file::FemFile;
 use super::gear_file::GearFile;
+use super::improve_file::ImproveFile;
 use super::lubrication_file::{FrictionFile, LoadFactorsFile, LubricantFile};
 use super::presets;
 use super::wear_file::{GearWearFile, TemperatureFile, WearFile};
@@ -55,6 +56,8 @@ pub struct SceneFile {
     pub helical: Option<HelicalFile>,
     /// Resolution in space and time.
     pub numerics: Option<NumericsFile>,
+    /// What gearwear improve may change, and what for.
+    pub improve: Option<ImproveFile>,
 }
 
 /// Who reports, and when.

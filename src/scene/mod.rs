@@ -11,6 +11,7 @@ pub mod file;
 mod findings;
 #[allow(rustdoc::broken_intra_doc_links, reason = "tables of the file stand in brackets, as in TOML")]
 pub mod gear_file;
+pub mod improve_file;
 mod internal;
 pub mod key;
 pub mod loaded;

@@ -101,15 +101,13 @@ impl NamedFiles {
                     None => "no file".to_owned(),
                     Some(_) => format!("one without K/H for the {}", lacking.name()),
                 };
-                return Err(
-                    Problem::of_named_file(text, CALIBRATION, found, CALIBRATION_ALLOWED, MAKE_CALIBRATION).into()
-                );
+                return Err(Problem::at_key(text, CALIBRATION, found, CALIBRATION_ALLOWED, MAKE_CALIBRATION).into());
             }
         }
         if let StiffnessSettings::Simon | StiffnessSettings::WangCheng = scene.stiffness
             && self.stiffness_curve.is_none()
         {
-            return Err(Problem::of_named_file(text, CURVE, "no file".to_owned(), CURVE_ALLOWED, CURVE_HELP).into());
+            return Err(Problem::at_key(text, CURVE, "no file".to_owned(), CURVE_ALLOWED, CURVE_HELP).into());
         }
         Ok(())
     }
@@ -145,7 +143,7 @@ pub(super) fn calibration(
     let Some(name) = resolved.scene.calibration_file.clone() else { return Ok(None) };
     let refused = |what: String, help: &str| {
         let found = format!("{name:?}, {what}");
-        given.refused(vec![Problem::of_named_file(&given.text, CALIBRATION, found, CALIBRATION_ALLOWED, help)])
+        given.refused(vec![Problem::at_key(&given.text, CALIBRATION, found, CALIBRATION_ALLOWED, help)])
     };
     let text = text_of(folder, known, CALIBRATION, &name).map_err(|what| refused(what, MAKE_CALIBRATION))?;
     let calibration = Calibration::from_json(&text)
@@ -156,7 +154,7 @@ pub(super) fn calibration(
 pub(super) fn of_another_pair(text: &str, name: &str, differences: &[String]) -> Problem {
     let found = format!("{name:?}, which belongs to another pair: {}", differences.join("; "));
     let help = "calibrate this scene, or name the calibration that belongs to it";
-    Problem::of_named_file(text, CALIBRATION, found, CALIBRATION_ALLOWED, help)
+    Problem::at_key(text, CALIBRATION, found, CALIBRATION_ALLOWED, help)
 }
 
 /// Differences of the pair of `calibration` from that of the scene. Bodies of finite elements count where the scene has `fem`.
@@ -212,7 +210,7 @@ pub(super) fn stiffness_curve(
     };
     let refused = |what: String| {
         let found = format!("{name:?}, {what}");
-        given.refused(vec![Problem::of_named_file(&given.text, CURVE, found, CURVE_ALLOWED, CURVE_HELP)])
+        given.refused(vec![Problem::at_key(&given.text, CURVE, found, CURVE_ALLOWED, CURVE_HELP)])
     };
     let text = text_of(folder, known, CURVE, name).map_err(refused)?;
     // The pair was checked when the scene was resolved.
@@ -237,7 +235,7 @@ pub(super) fn initial_flank(
     let InitialFlankFile { file: name, flank: side, tooth, width_mm, cutoff_mm } = asked;
     let refused = |what: String| {
         let found = format!("{name:?}, {what}");
-        given.refused(vec![Problem::of_named_file(&given.text, key, found, FLANK_ALLOWED, FLANK_HELP)])
+        given.refused(vec![Problem::at_key(&given.text, key, found, FLANK_ALLOWED, FLANK_HELP)])
     };
     let bytes = bytes_of(folder, known, key, &name).map_err(refused)?;
     // The pair was checked when the scene was resolved.

@@ -178,8 +178,8 @@ impl Problem {
         }
     }
 
-    /// Problem: the file that `key` names is invalid; `found` says how, after its name.
-    pub fn of_named_file(text: &str, key: &str, found: String, allowed: &str, help: &str) -> Self {
+    /// Problem: the value of `key` is not allowed; of a file that it names `found` says how, after its name.
+    pub fn at_key(text: &str, key: &str, found: String, allowed: &str, help: &str) -> Self {
         Self {
             kind: ProblemKind::NotAllowed,
             key: key.to_owned(),

@@ -10,6 +10,7 @@
 //! | [`asked`] | a sweep as it is asked for, checked |
 //! | [`axis`] | a varied key as the user writes it, checked |
 //! | [`goal`] | what is to be least, and what is as good within the error |
+//! | [`minimum`] | least value of a figure, and how far it is one |
 //! | [`combination`] | the scene of a combination, and its row |
 //! | [`crate::journal`] | the rows finished so far, kept on disk |
 //! | [`study`] | what is left to do, and runs it on all threads |
@@ -41,6 +42,7 @@ pub mod axis;
 pub mod combination;
 pub mod goal;
 pub mod merge;
+pub mod minimum;
 pub mod record;
 pub mod report;
 pub mod study;

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::goal::{Goal, Optimum};
+use super::minimum::Minimum;
 use super::verification::{Chosen, RowVerification, SweepVerification};
 use crate::journal::Kept;
 use crate::scene::problem::number;
@@ -372,6 +373,10 @@ pub struct BestCombination {
     pub value: f64,
     pub index: usize,
     pub values: Vec<f64>,
+    /// Keys on an end of their range beyond which there are further values.
+    pub on_edge: Vec<String>,
+    /// Combinations one step of one key away that are as good within the error; null where no error is known.
+    pub neighbours_as_good: Option<usize>,
 }
 
 impl SweepRecord {
@@ -408,8 +413,15 @@ impl SweepRecord {
                 .iter()
                 .filter(|figure| figure.family.less_is_better)
                 .filter_map(|figure| {
-                    let (row, value) = self.least(figure)?;
-                    Some(BestCombination { figure: &figure.name, value, index: row.index, values: row.values.clone() })
+                    let Minimum { row, value, on_edge, as_good, .. } = self.minimum(figure)?;
+                    Some(BestCombination {
+                        figure: &figure.name,
+                        value,
+                        index: row.index,
+                        values: row.values.clone(),
+                        on_edge: on_edge.into_iter().map(str::to_owned).collect(),
+                        neighbours_as_good: as_good,
+                    })
                 })
                 .collect(),
             optimum: self.optimum(),

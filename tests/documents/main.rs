@@ -39,7 +39,7 @@ fn check_generated(path: &str, what: &str, expected: &str) {
 
 #[test]
 fn scene_document_has_every_key() {
-    let sources = ["file", "fem_file", "gear_file", "lubrication_file", "wear_file"];
+    let sources = ["file", "fem_file", "gear_file", "improve_file", "lubrication_file", "wear_file"];
     let sources = sources.map(|name| read(&format!("src/scene/{name}.rs"))).join("\n");
     check_generated("docs/scene.md", "keys", &key_tables::of_schema(gearwear::scene::schema::schema(), &sources));
 }

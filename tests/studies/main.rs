@@ -5,6 +5,7 @@ mod accuracy;
 mod accuracy_helical;
 mod coarse_run;
 mod compare;
+mod improve;
 #[path = "../program/mod.rs"]
 mod program;
 mod remaining_life;

@@ -73,6 +73,9 @@ pub(super) enum Failure {
     /// No sample of a study of uncertainty has a result.
     #[error("none of {count} samples has a result; the first says: {error}")]
     NoSample { count: usize, error: String },
+    /// No design of a study of improvement can be proposed; the designs are kept.
+    #[error("{why}")]
+    NoProposal { why: String },
     /// Cases of the validation suite that are not as expected; the reports are written.
     #[error("{} of the validation suite's cases missed: {}", cases.len(), cases.join(", "))]
     Missed { cases: Vec<String> },
@@ -364,6 +367,7 @@ impl Failure {
             Failure::Calibrate(_)
             | Failure::NotFitted { .. }
             | Failure::NoCombination { .. }
+            | Failure::NoProposal { .. }
             | Failure::NoSample { .. } => 3,
         }
     }

@@ -11,6 +11,7 @@ mod failure;
 mod fem;
 mod fem_scene;
 mod figures;
+mod improve;
 mod init;
 mod mesh;
 mod out_of_memory;
@@ -65,6 +66,8 @@ enum Command {
     Sweep(sweep::SweepArgs),
     /// Run a scene for samples of uncertain keys: quantiles of its figures, and how much each key contributes (Sobol indices)
     Uncertainty(uncertainty::UncertaintyArgs),
+    /// Look for better designs within the ranges of [improve]: fast model, then finite elements; proposals with gain, cost and tolerance
+    Improve(improve::ImproveArgs),
     /// Calibrate the fast model: tooth stiffness and K/H from finite elements, against Hertz
     Calibrate(calibrate::CalibrateArgs),
     /// Compare measured flank profiles with a finished run, and fit the wear coefficients to them
@@ -111,6 +114,7 @@ pub fn with_arguments(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Accuracy(args) => accuracy::run(args),
         Command::Sweep(args) => sweep::run(args),
         Command::Uncertainty(args) => uncertainty::run(args),
+        Command::Improve(args) => improve::run(args),
         Command::Calibrate(args) => calibrate::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Export(args) => export::run(args),

@@ -251,7 +251,9 @@ fn table(record: &SweepRecord, out: &Path) -> String {
     }
     for best in &summary.best {
         let place = record.identity.in_words(best.index);
-        text.push_str(&format!("  {:42}{:>12}   {place}\n", best.figure, digits(best.value)));
+        let edge =
+            if best.on_edge.is_empty() { String::new() } else { format!("   end of {}", best.on_edge.join(", ")) };
+        text.push_str(&format!("  {:42}{:>12}   {place}{edge}\n", best.figure, digits(best.value)));
     }
     if let Some(goal) = &record.identity.goal {
         text.push_str(

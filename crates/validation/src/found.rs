@@ -14,7 +14,7 @@ use crate::record::Tier;
 use gearwear::measured_flank::file::FlankSide;
 use gearwear::measured_flank::teeth::{ChosenBy, TraceChoice};
 use gearwear::report::ReportError;
-use gearwear::scene::loaded::{LoadError, LoadedScene, SceneText};
+use gearwear::scene::loaded::{LoadError, LoadedScene, SceneError, SceneText};
 use gearwear_bodies::gear::Gear;
 use gearwear_physics::observer::Observer;
 use gearwear_studies::accuracy::selection;
@@ -23,13 +23,14 @@ use gearwear_studies::compare::asked::{CompareFault, PreparedComparison};
 use gearwear_studies::compare::question;
 use gearwear_studies::compare::run_folder::RunFolderError;
 use gearwear_studies::compare::study::CompareError;
+use gearwear_studies::improve::asked::ImproveError;
 use gearwear_studies::remaining_life::asked::{LifeError, LifeFault, LifeOptions, PreparedLife};
 use gearwear_studies::remaining_life::limit::LimitError;
 use gearwear_studies::remaining_life::regime::PriorError;
 use gearwear_studies::remaining_life::wear_curve::WearCurveError;
 use gearwear_studies::variants::finished_run::FinishedRun;
 use gearwear_studies::variants::record::VariantsRecord;
-use gearwear_studies::{accuracy, compare, remaining_life, variants};
+use gearwear_studies::{accuracy, compare, improve, remaining_life, variants};
 
 type Write = dyn Fn(&Path) -> Result<(), ReportError> + Send + Sync;
 
@@ -90,6 +91,8 @@ enum StudyFault {
     #[error(transparent)]
     Life(LifeFault),
     #[error(transparent)]
+    Improve(ImproveError),
+    #[error(transparent)]
     Lives(LifeError),
     #[error(transparent)]
     RunFolder(RunFolderError),
@@ -110,12 +113,23 @@ impl StudyError {
         }
     }
 
+    /// Fault of the scene, if that is the reason.
+    pub fn in_the_scene(&self) -> Option<&SceneError> {
+        if let StudyFault::Improve(ImproveError::Scene(error)) = &self.0 { Some(error) } else { None }
+    }
+
     /// Whether the question was sound and the runs failed.
     pub fn is_of_the_runs(&self) -> bool {
         matches!(
             self.0,
             StudyFault::Accuracy(_)
                 | StudyFault::Comparison(_)
+                | StudyFault::Improve(
+                    ImproveError::Base(_)
+                        | ImproveError::NoDesign { .. }
+                        | ImproveError::NotWithinLimits { .. }
+                        | ImproveError::Interrupted
+                )
                 | StudyFault::Lives(LifeError::Curve(WearCurveError::Run(_)) | LifeError::Profile { .. })
         )
     }
@@ -134,6 +148,20 @@ pub fn accuracy(scene: &LoadedScene, within: f64, quick: bool, observer: &dyn Ob
     let record = accuracy::study::run(scene, selection::AccuracyOptions { within, quick }, observer)
         .map_err(StudyFault::Accuracy)?;
     Study::new(record, |record, folder| accuracy::report::write(record, folder).map(drop))
+}
+
+/// Better designs of a scene, as `gearwear improve`; with a folder finished designs are kept there.
+///
+/// # Errors
+/// What is wrong with its table `[improve]`; runs that fail or are interrupted.
+pub fn improve(
+    scene: &LoadedScene,
+    folder: Option<&Path>,
+    threads: usize,
+    observer: &dyn Observer,
+) -> Result<Study, StudyError> {
+    let record = improve::study::improve(scene, folder, threads, observer).map_err(StudyFault::Improve)?;
+    Study::new(record, improve::report::write)
 }
 
 /// Options of a comparison with measured profiles, in the words of the command line.

@@ -22,6 +22,7 @@ use gearwear_fem::quadrature::GAUSS_3;
 use gearwear_fem::shape::along_edge;
 
 /// Halves of layers of elements over the face width.
+#[derive(Clone)]
 pub(super) struct HalfLayers {
     /// Ends of the halves, mm, from z = 0 on.
     ends_mm: Vec<f64>,

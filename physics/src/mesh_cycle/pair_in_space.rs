@@ -25,6 +25,7 @@ use super::half_layers::HalfLayers;
 use super::influence::Influence;
 use super::sliced_positions::{ContactPart, SliceContact};
 use crate::contact::PositionCell;
+use gearwear_bodies::gear::modification::Modification;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear, normal_section::Obliquity, slices::Slices, spec::PairSpec};
 use gearwear_bodies::gear_fem::in_space::{DeformedTooth, FlankForces, PlaneSection, SpaceError, TeethInSpace};
 use gearwear_bodies::gear_mesh::{
@@ -76,7 +77,7 @@ struct GearInSpace {
 
 /// Teeth in space of both gears.
 pub struct PairInSpace {
-    gears: PerGear<GearInSpace>,
+    gears: Arc<PerGear<GearInSpace>>,
     halves: HalfLayers,
     /// Elements over the face width, before those at its end faces are divided.
     even_layers: usize,
@@ -84,9 +85,12 @@ pub struct PairInSpace {
     reach_mm: [f64; 2],
 }
 
-/// The pair that was condensed last, shared by scenes derived from one another, most of which have the same teeth.
+/// Pairs that were condensed last, shared by scenes derived from one another, most of which have the same teeth.
 #[derive(Clone, Default)]
-pub struct KeptInSpace(Arc<Mutex<Option<KeptPair>>>);
+pub struct KeptInSpace(Arc<Mutex<Vec<KeptPair>>>);
+
+/// Number of pairs kept: deep reliefs bring one tooth more together than others.
+const KEPT: usize = 2;
 
 /// Teeth in space with the data that they depend on.
 struct KeptPair {
@@ -123,14 +127,25 @@ impl KeptInSpace {
         let layers = resolution.even_layers(&pair.spec);
         let reach_mm = pair.ample_tip_reach_mm(line_load_n_per_mm, contact_modulus_mpa(material));
         let together = [layers, teeth_together(pair, reach_mm)];
-        let of = (pair.spec.on_rigid_parallel_shafts(), material, bodies, together);
-        if let Some(KeptPair { teeth, .. }) = kept.as_ref().filter(|kept| kept.of == of) {
-            return Ok(Arc::clone(teeth));
+        let of = (teeth_of(&pair.spec), material, bodies, together);
+        if let Some(known) = kept.iter().find(|kept| kept.of == of) {
+            return Ok(known.teeth.with_reach(reach_mm));
         }
         let teeth = Arc::new(PairInSpace::new(pair, &material, &bodies, &resolution, reach_mm)?);
-        *kept = Some(KeptPair { of, teeth: Arc::clone(&teeth) });
+        kept.truncate(KEPT - 1);
+        kept.insert(0, KeptPair { of, teeth: Arc::clone(&teeth) });
         Ok(teeth)
     }
+}
+
+/// What teeth in space depend on of a pair: sections are meshed without modifications, and contact ends at the roundings of the tips.
+fn teeth_of(pair: &PairSpec) -> PairSpec {
+    let mut teeth = pair.on_rigid_parallel_shafts();
+    for gear in Gear::BOTH {
+        let tip_rounding_mm = teeth.gears[gear].modification.tip_rounding_mm;
+        teeth.gears[gear].modification = Modification { tip_rounding_mm, ..Modification::default() };
+    }
+    teeth
 }
 
 impl PairInSpace {
@@ -159,7 +174,16 @@ impl PairInSpace {
                 .map_err(|source| PairInSpaceError::Gear { gear, source: Box::new(source) })
         })?;
         let halves = HalfLayers::new(&gears.pinion.teeth.layer_ends_mm());
-        Ok(Self { gears, halves, even_layers: resolution.even_layers(&pair.spec), reach_mm })
+        Ok(Self { gears: Arc::new(gears), halves, even_layers: resolution.even_layers(&pair.spec), reach_mm })
+    }
+
+    /// The same teeth for contact up to another reach, for which there are as many.
+    fn with_reach(self: &Arc<Self>, reach_mm: [f64; 2]) -> Arc<Self> {
+        if self.reach_mm == reach_mm {
+            return Arc::clone(self);
+        }
+        let (gears, halves) = (Arc::clone(&self.gears), self.halves.clone());
+        Arc::new(Self { gears, halves, even_layers: self.even_layers, reach_mm })
     }
 
     /// Length before A and after E on which contact may be looked for, mm.

@@ -34,13 +34,14 @@ pub(super) fn shown_value(axis: &SweepAxis, value: f64) -> String {
 /// For each figure the range over all combinations, and where it is least.
 pub(super) fn best(record: &SweepRecord) -> Markup {
     let columns = cells!["figure", "minimum", "maximum", "unit"].into_iter().chain(keys(record));
+    let columns = columns.chain([Cell::sentence("remark")]);
     let rows = figures::in_sweeps().iter().filter_map(|figure| {
         let (least, greatest) = range(record, figure)?;
         let cells = cells![capitalised(&figure.heading), least, greatest, figure.unit()].into_iter();
-        let best = record.least(figure).filter(|_| figure.family.less_is_better && least < greatest);
+        let best = record.minimum(figure).filter(|_| figure.family.less_is_better && least < greatest);
         Some(match best {
-            Some((row, _)) => line(cells.chain(values(record, &row.values))),
-            None => line(cells.chain(record.identity.axes.iter().map(|_| NONE.into()))),
+            Some(best) => line(cells.chain(values(record, &best.row.values)).chain([Cell::sentence(best.remark())])),
+            None => line(cells.chain(record.identity.axes.iter().map(|_| NONE.into())).chain(["".into()])),
         })
     });
     list("Each figure over all combinations, and where its minimum is", columns, rows)

@@ -10,6 +10,7 @@ pub mod linear_means;
 pub mod monotone_cubic;
 pub mod moving_heat_band;
 pub mod persson;
+pub mod radial_basis;
 pub mod separate_peaks;
 pub mod sobol_indices;
 pub mod statistics;
