@@ -221,7 +221,8 @@ fn on_path(compliance: &PairCompliance, path_mm: [f64; 2], other_mm: [f64; 2]) -
     let scale = (other_mm[1] - other_mm[0]) / (path_mm[1] - path_mm[0]);
     let least_mm = 1e-3 * other_mm[1].abs();
     let mapped = compliance.position_mm.iter().map(|position| other_mm[0] + scale * (position - path_mm[0]));
-    let (position_mm, mm2_per_n) = mapped.zip(&compliance.mm2_per_n).filter(|(position, _)| *position > least_mm).unzip();
+    let (position_mm, mm2_per_n) =
+        mapped.zip(&compliance.mm2_per_n).filter(|(position, _)| *position > least_mm).unzip();
     PairCompliance { position_mm, mm2_per_n, ..*compliance }
 }
 

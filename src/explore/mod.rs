@@ -196,6 +196,19 @@ impl Session {
         Ok([scene].into_iter().chain(named).collect())
     }
 
+    /// Scene of `setting` with its own model and a table `[improve]`, whose free keys are the tip reliefs, and the other modifications that the setting turns, over the
+    /// ranges of their sliders.
+    ///
+    /// # Errors
+    /// What is wrong with the setting.
+    pub fn to_improve(&self, setting: &Setting) -> Result<InputFile, ExploreError> {
+        let (text, _) = self.text(setting, Model::Own, false)?;
+        let mut draft = Draft::parse(&text).map_err(ExploreError::Scene)?;
+        let free = self.sliders.free(setting).into_iter().map(Value::String).collect();
+        draft.set("improve.free", Value::Array(free));
+        Ok(InputFile { name: "improve.toml".to_owned(), bytes: draft.to_toml().into_bytes() })
+    }
+
     /// Scene of `setting` with `model`, whose answer is compared with another where it is to be `verified`.
     fn scene(&self, setting: &Setting, model: Model, verified: bool) -> Result<LoadedScene, ExploreError> {
         let (text, named) = self.text(setting, model, verified)?;
@@ -208,12 +221,7 @@ impl Session {
     }
 
     /// Text of that scene, with the files made for it.
-    fn text(
-        &self,
-        setting: &Setting,
-        model: Model,
-        verified: bool,
-    ) -> Result<(String, Vec<InputFile>), ExploreError> {
+    fn text(&self, setting: &Setting, model: Model, verified: bool) -> Result<(String, Vec<InputFile>), ExploreError> {
         let mut draft = self.draft.clone();
         apply(&mut draft, self.sliders.changes(setting)?);
         let Resolved { scene, .. } = draft.resolve().map_err(ExploreError::Scene)?;

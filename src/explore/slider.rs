@@ -13,6 +13,7 @@ use super::{Change, ExploreError, Setting};
 use crate::scene::draft::Draft;
 use crate::scene::file::PairFile;
 use crate::scene::loaded::LoadedScene;
+use crate::scene::problem::number;
 use gearwear_bodies::gear::modification::Relief;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear};
 
@@ -198,7 +199,8 @@ impl Sliders {
             }
         }
         let keys = ["wear.coefficient_m2_per_N", "wear.coefficient_mm3_per_Nm"];
-        let of_phase = phases.iter().any(|phase| Gear::BOTH.iter().any(|&gear| phase.coefficient_mm2_per_n[gear].is_some()));
+        let of_phase =
+            phases.iter().any(|phase| Gear::BOTH.iter().any(|&gear| phase.coefficient_mm2_per_n[gear].is_some()));
         let given_key = keys.into_iter().find(|key| draft.gives(key));
         let wear = &given.resolved.file.wear;
         let (m2_per_n, mm3_per_nm) = (wear.coefficient_m2_per_N, wear.coefficient_mm3_per_Nm);
@@ -250,6 +252,17 @@ impl Sliders {
             (value != slider.values[slider.at]).then_some((slider, turned, value))
         });
         Ok(turned.flat_map(|(slider, turned, value)| self.changes_of(slider, turned, value, setting)).collect())
+    }
+
+    /// Tip reliefs, and other modifications that `setting` turns, with the ranges of their sliders: `KEY = FROM:TO`.
+    pub(super) fn free(&self, setting: &Setting) -> Vec<String> {
+        let turned = self.list.iter().zip(&self.turned).filter(|(slider, turned)| match turned {
+            Turned::ReliefAmount(_) | Turned::ReliefLength(_) => true,
+            Turned::Key => slider.name.starts_with("pair.") && setting.contains_key(&slider.name),
+            Turned::Shift | Turned::Helix | Turned::Duration => false,
+        });
+        let range = |values: &[f64]| [number(values[0]), number(values[values.len() - 1])].join(":");
+        turned.map(|(slider, _)| format!("{} = {}", slider.name, range(&slider.values))).collect()
     }
 
     fn changes_of(&self, slider: &Slider, turned: &Turned, value: f64, setting: &Setting) -> Vec<Change> {

@@ -70,8 +70,12 @@ pub fn parse(text: &str, path: &PathOfContact) -> Result<PairCompliance, CurveFi
     }
     let columns = CurveColumns::find(table.names.0, &table.names.1)?;
     let stands_for = header.stands_for(columns.are_deflections)?;
-    let mut curve =
-        PairCompliance { position_mm: Vec::new(), mm2_per_n: Vec::new(), stands_for, shared_mm2_per_n: header.shared_mm2_per_n };
+    let mut curve = PairCompliance {
+        position_mm: Vec::new(),
+        mm2_per_n: Vec::new(),
+        stands_for,
+        shared_mm2_per_n: header.shared_mm2_per_n,
+    };
     for (line, values) in table.rows {
         let [position, value] =
             [columns.position, columns.value].map(|index| values.get(index).copied().unwrap_or_default());

@@ -103,8 +103,7 @@ impl Desk {
         if let Some(band) = self.as_opened.get() {
             return Ok(band.clone());
         }
-        let band =
-            self.elements.answer(&self.interrupted, |observer| self.session.band(&Setting::new(), observer))?;
+        let band = self.elements.answer(&self.interrupted, |observer| self.session.band(&Setting::new(), observer))?;
         Ok(self.as_opened.get_or_init(|| band).clone())
     }
 }

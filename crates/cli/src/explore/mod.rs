@@ -63,9 +63,7 @@ pub(super) fn run(args: &ExploreArgs) -> Result<(), Failure> {
 /// Failure of a scene that cannot be explored.
 fn refused(error: ExploreError, scene: &LoadedScene) -> Failure {
     match error {
-        ExploreError::Scene(problems) => {
-            Failure::Scene(SceneError { given: (*scene.given).clone(), problems })
-        }
+        ExploreError::Scene(problems) => Failure::Scene(SceneError { given: (*scene.given).clone(), problems }),
         ExploreError::Load(error) => error.into(),
         ExploreError::Run(error) => super::failure::in_the_scene(error, scene),
         ExploreError::Interrupted => Failure::Interrupted,

@@ -15,6 +15,7 @@ use tokio::task::spawn_blocking;
 use tokio::time::timeout;
 
 use gearwear::explore::{ExploreError, Model, Question};
+use gearwear_physics::results::run::InputFile;
 
 use super::access::Access;
 use super::desk::Desk;
@@ -55,13 +56,14 @@ pub(super) async fn answer(site: Arc<Site>, request: Request<Incoming>) -> Answe
         (&Method::GET, "window") => {
             with_headers(Response::new(Either::Right(site.windows.stream())), "text/event-stream")
         }
-        (&Method::POST, "answer" | "scene" | "band") => match question(request).await {
+        (&Method::POST, "answer" | "scene" | "improve" | "band") => match question(request).await {
             Ok(question) => asked(site, name, question).await,
             Err(status) => refusal(status),
         },
-        (_, "" | "page.css" | "page.js" | "chart.js" | "session" | "window" | "answer" | "scene" | "band") => {
-            refusal(StatusCode::METHOD_NOT_ALLOWED)
-        }
+        (
+            _,
+            "" | "page.css" | "page.js" | "chart.js" | "session" | "window" | "answer" | "scene" | "improve" | "band",
+        ) => refusal(StatusCode::METHOD_NOT_ALLOWED),
         _ => refusal(StatusCode::NOT_FOUND),
     }
 }
@@ -98,23 +100,24 @@ async fn asked(site: Arc<Site>, name: String, Question { setting, model }: Quest
         match name.as_str() {
             "answer" => desk.answer(&setting, model).map(in_json),
             "band" => desk.band().map(in_json),
-            _ => {
-                let files = desk.session().files(&setting, model)?.into_iter();
-                let files = files.map(|file| {
-                    json!({ "name": file.name, "text": String::from_utf8_lossy(&file.bytes) })
-                });
-                Ok(json!({ "files": files.collect::<Vec<_>>() }))
-            }
+            "improve" => Ok(in_files(vec![desk.session().to_improve(&setting)?])),
+            _ => desk.session().files(&setting, model).map(in_files),
         }
     };
     match spawn_blocking(work).await {
         Ok(Ok(value)) => told(StatusCode::OK, &value),
-        Ok(Err(ExploreError::Interrupted)) => {
-            told(StatusCode::CONFLICT, &json!({ "message": ExploreError::Interrupted.to_string() }))
-        }
+        // The page has asked for something else meanwhile.
+        Ok(Err(ExploreError::Interrupted)) => nothing(),
         Ok(Err(error)) => told(StatusCode::UNPROCESSABLE_ENTITY, &json!({ "message": error.to_string() })),
         Err(_) => refusal(StatusCode::INTERNAL_SERVER_ERROR),
     }
+}
+
+/// Files that the browser saves.
+fn in_files(files: Vec<InputFile>) -> Value {
+    let files =
+        files.into_iter().map(|file| json!({ "name": file.name, "text": String::from_utf8_lossy(&file.bytes) }));
+    json!({ "files": files.collect::<Vec<_>>() })
 }
 
 fn in_json(of: impl serde::Serialize) -> Value {
@@ -124,6 +127,12 @@ fn in_json(of: impl serde::Serialize) -> Value {
 fn told(status: StatusCode, value: &Value) -> Answered {
     let mut response = text("application/json", value.to_string());
     *response.status_mut() = status;
+    response
+}
+
+fn nothing() -> Answered {
+    let mut response = text("text/plain; charset=utf-8", "");
+    *response.status_mut() = StatusCode::NO_CONTENT;
     response
 }
 

@@ -108,10 +108,7 @@ async fn connection(stream: TcpStream, site: Arc<Site>, _counted: Counted) {
         }
     });
     let mut http = http1::Builder::new();
-    http.timer(TokioTimer::new())
-        .header_read_timeout(HEAD_TIME)
-        .max_buf_size(MOST_HEAD.0)
-        .max_headers(MOST_HEAD.1);
+    http.timer(TokioTimer::new()).header_read_timeout(HEAD_TIME).max_buf_size(MOST_HEAD.0).max_headers(MOST_HEAD.1);
     let mut served = pin!(http.serve_connection(TokioIo::new(stream), service));
     while timeout(LIFE.0, served.as_mut()).await.is_err() {
         if !is_window.load(Ordering::Relaxed) {
