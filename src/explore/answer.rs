@@ -4,6 +4,8 @@
 
 #![allow(non_snake_case, reason = "names end in their unit as in the output files")]
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use super::Model;
@@ -75,39 +77,23 @@ pub struct Answer {
     pub warnings: Vec<String>,
 }
 
-/// Relative differences of the figures of finite elements to others, by the names of the figures.
+/// Relative differences of the figures of finite elements to others, by the names of the figures; of those alone that are known.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
-pub struct Band {
-    pub pinion_wear: Option<f64>,
-    pub wheel_wear: Option<f64>,
-    pub pressure_new: Option<f64>,
-    pub pressure_worn: Option<f64>,
-    pub transmission_error: Option<f64>,
-}
+#[serde(transparent)]
+pub struct Band(BTreeMap<&'static str, f64>);
 
 impl Band {
     /// Differences that a verified run states of itself.
     pub fn of(summary: &Summary) -> Self {
         let TotalError { peak_wear, flank_pressure, transmission_error_peak_to_peak, .. } = &summary.error.total;
-        Self {
-            pinion_wear: peak_wear.pinion,
-            wheel_wear: peak_wear.wheel,
-            pressure_new: flank_pressure.new,
-            pressure_worn: flank_pressure.worn,
-            transmission_error: *transmission_error_peak_to_peak,
-        }
-    }
-
-    fn of_figure(&self, name: &str) -> Option<f64> {
-        match name {
-            "pinion.peak_wear_um" => self.pinion_wear,
-            "wheel.peak_wear_um" => self.wheel_wear,
-            "new.flank_pressure_MPa" => self.pressure_new,
-            "worn.flank_pressure_MPa" => self.pressure_worn,
-            // Stated of the worn pair.
-            "worn.transmission_error_um.peak_to_peak" => self.transmission_error,
-            _ => None,
-        }
+        let differences = [
+            ("pinion.peak_wear_um", peak_wear.pinion),
+            ("wheel.peak_wear_um", peak_wear.wheel),
+            ("new.flank_pressure_MPa", flank_pressure.new),
+            ("worn.flank_pressure_MPa", flank_pressure.worn),
+            ("worn.transmission_error_um.peak_to_peak", *transmission_error_peak_to_peak),
+        ];
+        Self(differences.into_iter().filter_map(|(name, difference)| Some((name, difference?))).collect())
     }
 }
 
@@ -127,7 +113,7 @@ impl Answer {
     /// Answer whose figures have their differences.
     pub fn with_band(mut self, band: &Band) -> Self {
         for figure in &mut self.figures {
-            figure.difference = band.of_figure(figure.name);
+            figure.difference = band.0.get(figure.name).copied();
         }
         self
     }

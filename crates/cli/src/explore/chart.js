@@ -46,6 +46,9 @@ function drawChart(figure, chart) {
   const step = evenStep(high - low, 4);
   low = Math.floor(low / step + 1e-9) * step;
   high = Math.ceil(high / step - 1e-9) * step;
+  const last = high;
+  // A curve along the frame is seen.
+  high += 0.03 * (high - low);
   const px = (x) => LEFT + (WIDE - LEFT - RIGHT) * (x - x0) / (x1 - x0);
   const py = (y) => HIGH - BOTTOM - (HIGH - TOP - BOTTOM) * (y - low) / (high - low);
   const svg = element('svg', { viewBox: `0 0 ${WIDE} ${HIGH}`, role: 'img', 'aria-label': chart.name });
@@ -57,7 +60,7 @@ function drawChart(figure, chart) {
     const [a, b] = [Math.max(px(from), LEFT), Math.min(px(to), WIDE - RIGHT)];
     if (b > a) svg.append(element('rect', { class: 'zone', x: a, y: TOP, width: b - a, height: HIGH - TOP - BOTTOM }));
   }
-  for (let y = low; y <= high + 0.01 * step; y += step) {
+  for (let y = low; y <= last + 0.01 * step; y += step) {
     svg.append(element('line', { class: 'grid', x1: LEFT, x2: WIDE - RIGHT, y1: py(y), y2: py(y) }));
     const places = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
     svg.append(element('text', { x: LEFT - 6, y: py(y) + 4, 'text-anchor': 'end' }, (Math.abs(y) < 1e-9 * step ? 0 : y).toFixed(places)));
@@ -91,7 +94,7 @@ function drawPair(figure, drawing) {
   const line = (points) => points.map((p, i) => `${i ? 'L' : 'M'}${at(p).map((v) => v.toFixed(2)).join(' ')}`).join('');
   const svg = element('svg', { viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': 'The pair in mesh, to scale' });
   for (const gear of ['pinion', 'wheel']) {
-    for (const piece of drawing.outline[gear]) svg.append(element('path', { class: 'tooth', d: line(piece) }));
+    for (const piece of drawing.outline[gear]) svg.append(element('path', { class: `tooth ${gear}`, d: line(piece) }));
     const [x, y] = at(drawing.axis[gear]);
     svg.append(element('circle', { class: 'circle', cx: x, cy: y, r: Math.abs(drawing.working_pitch_radius_mm[gear]) * scale, fill: 'none' }));
   }

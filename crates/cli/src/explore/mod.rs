@@ -51,7 +51,7 @@ pub(super) fn run(args: &ExploreArgs) -> Result<(), Failure> {
     let session = session.map_err(|error| refused(error, &scene))?;
     let access = Access::new(port).map_err(InputError::Server)?;
     print(&format!("{}\n", access.page()))?;
-    say("the page ends with its window, or by Ctrl-C");
+    say("open it in a browser; the program ends with the window, or by Ctrl-C");
     if !args.no_browser && open::that_detached(access.page()).is_err() {
         say("no browser could be opened: open the address above in one");
     }

@@ -16,6 +16,7 @@ let session = null;
 let fast = null, elements = null;        // newest answers, each with the setting it belongs to
 let pinned = [];                         // { letter, setting, fast, elements }
 let asking = false, asked = null;        // whether the fast model is being asked; when it was to be asked again
+let compared = false;                    // whether the finite elements of the scene as opened have been compared
 let resting = 0;                         // timer of the rest
 let generation = 0;                      // number of the newest setting
 const lags = [];                         // from each change to its curves, ms
@@ -150,11 +151,15 @@ async function askElements() {
     document.documentElement.dataset.seconds = elements.seconds.toFixed(3);
     say('');
     show();
-    if (session.compared_once && answer.figures.every((figure) => figure.difference === null)) {
+    if (session.compared_once && !compared) {
       say('Comparing the finite elements of the scene as opened with others…');
       // Interrupted by the next change, and asked again after the next answer.
-      await post('band', { setting: {} });
-      if (number === generation) askElements();
+      const band = await post('band', {});
+      if (!band) return;
+      compared = true;
+      say('');
+      for (const figure of answer.figures) figure.difference = band[figure.name] ?? null;
+      show();
     }
   } catch (error) {
     if (number !== generation) return;
@@ -200,8 +205,9 @@ function showFigures() {
     row.append(cell('td', digits(figure.value, 4), 'now'));
     const of = current();
     const found = of && of.answer.figures[i];
-    const spread = found && found.difference !== null ? ` ± ${digits(100 * Math.abs(found.difference), 2)} %` : '';
-    row.append(cell('td', found ? digits(found.value, 4) + spread : '…', 'fem'));
+    const answered = cell('td', found ? digits(found.value, 4) : '…', 'fem');
+    if (found && found.difference !== null) answered.append(' ', cell('small', `± ${digits(100 * Math.abs(found.difference), 2)} %`));
+    row.append(answered);
     for (const pin of pinned) row.append(cell('td', (pin.elements ? '' : '≈ ') + digits(best(pin).figures[i].value, 4), `pin-${pin.slot}`));
     return row;
   });
@@ -225,6 +231,9 @@ function mostActive(flank, name) {
   return maximum(flank[name].filter((_, i) => flank.radius_mm[i] >= from && flank.radius_mm[i] <= to));
 }
 
+// Greatest flank pressure, without that of tip edges, which would hide the others.
+const flankPressure = (answer) => maximum(answer.figures.filter((figure) => figure.name.endsWith('.flank_pressure_MPa')).map((figure) => figure.value));
+
 function showCharts() {
   const now = fast.answer, of = current();
   const sources = [[now, 'now']];
@@ -236,10 +245,11 @@ function showCharts() {
       ...sources.flatMap(([answer, kind]) => names.map(([name, faint]) => ({ x: answer.flanks[gear].radius_mm, y: answer.flanks[gear][name], kind: `${kind}${faint}` }))),
       ...pinned.map((pin) => ({ x: best(pin).flanks[gear].radius_mm, y: best(pin).flanks[gear][names[0][0]], kind: `pinned pin-${pin.slot}` })),
     ];
-    const most = (name) => 1.3 * Math.max(...sources.map(([answer]) => mostActive(answer.flanks[gear], name)), ...pinned.map((pin) => mostActive(best(pin).flanks[gear], name)));
-    drawChart(byId(`wear-${gear}`), { ...frame, name: `Wear of the ${gear}`, y: 'depth, µm', most: most('wear_um') || 1, series: curves([['wear_um', '']]) });
+    const shown = [...sources.map(([answer]) => answer), ...pinned.map(best)];
+    const mostWear = 1.2 * maximum(shown.map((answer) => mostActive(answer.flanks[gear], 'wear_um')));
+    drawChart(byId(`wear-${gear}`), { ...frame, name: `Wear of the ${gear}`, y: 'depth, µm', most: mostWear || 1, series: curves([['wear_um', '']]) });
     drawChart(byId(`pressure-${gear}`), {
-      ...frame, name: `Flank pressure, ${gear}`, y: 'MPa; faint: new', most: Math.max(most('pressure_worn_MPa'), most('pressure_new_MPa')),
+      ...frame, name: `Flank pressure, ${gear}`, y: 'MPa; faint: new', most: 1.3 * maximum(shown.map(flankPressure)) || 1,
       series: curves([['pressure_worn_MPa', ''], ['pressure_new_MPa', ' faint']]),
     });
   }
