@@ -77,8 +77,12 @@ impl FastModel {
         let scene = given.scene();
         let fast = [SurfaceKind::Winkler, SurfaceKind::Hertz, SurfaceKind::HertzMean];
         let own_surface = fast.contains(&scene.contact.surface) && scene.calibration_file.is_none();
-        let stiffness = match scene.stiffness {
-            StiffnessSettings::Fem => calibrated(scene, pair, observer)?,
+        let stiffness = match (scene.stiffness, &given.files.calibration) {
+            (StiffnessSettings::Fem, Some(calibration)) => {
+                let compliance = calibration.pair_compliance.clone();
+                ToothStiffness::Calibrated { compliance, path_mm: ends_of(&pair.path) }
+            }
+            (StiffnessSettings::Fem, None) => calibrated(scene, pair, observer)?,
             _ => ToothStiffness::Own,
         };
         let own_tolerance_um = match scene.numerics.stepping {

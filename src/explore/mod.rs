@@ -26,6 +26,7 @@ use gearwear_physics::assessment::{Done, Resumption, RunError};
 use gearwear_physics::observer::Observer;
 use gearwear_physics::operation::Scene;
 use gearwear_physics::results::run::{InputFile, RunRecord, StopReason};
+use gearwear_physics::wear::settings::WearOfPair;
 use serde::{Deserialize, Serialize};
 use slider::{Slider, Sliders};
 
@@ -152,9 +153,10 @@ impl Session {
         self.fast.in_words()
     }
 
-    /// Whether finite elements answer within about a second with the difference to coarser ones; those in space take some more, and are compared once.
-    pub fn is_alike_over_width(&self) -> bool {
-        self.given.scene().slices.is_none()
+    /// Whether finite elements are compared with coarser ones in each answer. Those in space, and those with severe wear, take too long for that.
+    pub fn compares_each_answer(&self) -> bool {
+        let scene = self.given.scene();
+        scene.slices.is_none() && !scene.wear.may_be_severe()
     }
 
     /// Runs `setting` with `model`.

@@ -91,7 +91,7 @@ impl Desk {
             self.elements.draw_number();
             return self.fast.answer(interrupted, |observer| session.answer(setting, Model::Fast, observer));
         }
-        if session.is_alike_over_width() {
+        if session.compares_each_answer() {
             return self.elements.answer(interrupted, |observer| session.verified_answer(setting, observer));
         }
         let answer = self.elements.answer(interrupted, |observer| session.answer(setting, model, observer))?;

@@ -77,7 +77,7 @@ fn session(desk: &Desk) -> Value {
         "version": env!("CARGO_PKG_VERSION"),
         "sliders": session.sliders(),
         "models": { "fast": fast, "finite_elements": elements },
-        "compared_once": !session.is_alike_over_width(),
+        "compared_once": !session.compares_each_answer(),
     })
 }
 
