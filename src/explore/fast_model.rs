@@ -29,7 +29,7 @@ use gearwear_physics::stiffness::curve_file;
 use gearwear_physics::stiffness::settings::StiffnessSettings;
 
 /// Flank points and positions where all sections are alike.
-const ALIKE: [usize; 2] = [250, 80];
+const ALIKE: [usize; 2] = [250, 120];
 /// Flank points and positions with slices.
 const SLICED: [usize; 2] = [150, 40];
 /// Number of slices.

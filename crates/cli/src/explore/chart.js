@@ -88,8 +88,8 @@ function drawChart(figure, chart) {
 // The pair around the pitch point, to scale.
 function drawPair(figure, drawing) {
   const [cx, cy] = drawing.middle, side = drawing.half_side_mm;
-  const scale = Math.min(WIDE, 1.25 * HIGH) / (2 * side);
-  const width = WIDE, height = Math.round(1.25 * HIGH);
+  const width = WIDE, height = HIGH;
+  const scale = 1.2 * height / (2 * side);
   const at = ([x, y]) => [(x - cx) * scale + width / 2, height / 2 - (y - cy) * scale];
   const line = (points) => points.map((p, i) => `${i ? 'L' : 'M'}${at(p).map((v) => v.toFixed(2)).join(' ')}`).join('');
   const svg = element('svg', { viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': 'The pair in mesh, to scale' });

@@ -42,6 +42,9 @@ function say(text) { byId('state').textContent = text; }
 function refuse(text) {
   const place = byId('refusal');
   place.hidden = !text;
+  // What stays belongs to an older setting.
+  byId('charts').classList.toggle('stale', Boolean(text));
+  byId('figures').classList.toggle('stale', Boolean(text));
   place.textContent = text || '';
 }
 
