@@ -105,6 +105,8 @@ pub mod evaluate;
 #[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod exchange;
 #[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
+pub mod explore;
+#[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod fem_problem;
 #[allow(missing_docs, reason = "internal to the workspace; names say what there is to say")]
 pub mod journal;

@@ -366,7 +366,8 @@ pub struct StiffnessFile {
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pair_N_per_mm_um: Option<f64>,
     /// Data file (CSV) relative to the scene: columns position_mm (radius of curvature of the pinion, from A to E) and stiffness_N_per_mm_um or
-    /// deflection_um, under lines "# flattening = included" (or excluded) and, with flattening or deflections, "# line_load_N_per_mm = …".
+    /// deflection_um, under lines "# flattening = included" (or excluded) and, with flattening or deflections, "# line_load_N_per_mm = …";
+    /// "# shared_um_mm_per_N = …": the part that all pairs in mesh share.
     /// Required with model = "simon" or "wang-cheng".
     pub curve: Option<String>,
 }

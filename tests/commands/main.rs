@@ -3,6 +3,7 @@
 
 mod bad_input;
 mod calibrate;
+mod explore;
 mod fem_pair;
 mod fem_problem;
 mod helical_output;

@@ -31,3 +31,16 @@ fn ver_a_run_states_the_stiffness_of_its_curve() {
     let whole = summary.stiffness.unwrap().pair_at_pitch_N_per_mm_um;
     assert_close("pair", whole, 1.0 / (teeth + flattening_um / load), 1e-5);
 }
+
+/// What is written is read as the same curve, the part that all pairs in mesh share included.
+#[test]
+fn a_curve_is_read_as_it_is_written() {
+    let path = pair(&fzg_c()).path;
+    let text = "# flattening = excluded\n# shared_um_mm_per_N = 0.0625\nposition_mm,stiffness_N_per_mm_um\n4.0,16.0\n24.0,8.0\n";
+    let curve = curve_file::parse(text, &path).unwrap();
+    assert_eq!((curve.shared_mm2_per_n, curve.at(24.0)), (0.0625e-3, 1.0 / 8e3));
+    assert_eq!(curve_file::to_text(&curve), text);
+    let whole = text.replace("excluded", "included\n# line_load_N_per_mm = 500.0");
+    let curve = curve_file::parse(&whole, &path).unwrap();
+    assert_eq!(curve_file::to_text(&curve), whole);
+}

@@ -244,6 +244,17 @@ pub(super) enum InputError {
     MergeWithoutScene,
     #[error("standard output cannot be written: {0}")]
     Stdout(io::Error),
+    /// `explore` on a port that cannot be had.
+    #[error("--port: found {port}, which cannot be had: {error}; allowed: a port that is free")]
+    #[diagnostic(help("leave it out for a free one"))]
+    Port { port: u16, error: io::Error },
+    /// `explore` without what it takes from the system.
+    #[error("the page cannot be served: {0}")]
+    Server(io::Error),
+    /// `explore` of a scene that has no answer.
+    #[error("the scene has no answer to begin with: {0}")]
+    #[diagnostic(help("gearwear run SCENE says more"))]
+    Explore(gearwear::explore::ExploreError),
     #[error("--threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }

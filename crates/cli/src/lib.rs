@@ -6,6 +6,7 @@ mod calibrate;
 mod compare;
 mod completions;
 mod counted_progress;
+mod explore;
 mod export;
 mod failure;
 mod fem;
@@ -58,6 +59,8 @@ enum Command {
     Mesh(mesh::MeshArgs),
     /// Run the wear simulation of a scene
     Run(run::RunArgs),
+    /// Turn a scene's keys on a local page: curves follow at once, finite elements soon after
+    Explore(explore::ExploreArgs),
     /// Solve elastic contact with finite elements: of a gear pair, or on a mesh of one's own
     Fem(fem::FemArgs),
     /// Draw error against run time of every model that fits a scene, and recommend the cheapest below a wanted error
@@ -110,6 +113,7 @@ pub fn with_arguments(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Plan(args) => plan::run(args),
         Command::Mesh(args) => mesh::run(args),
         Command::Run(args) => run::run(args),
+        Command::Explore(args) => explore::run(args),
         Command::Fem(args) => fem::run(args),
         Command::Accuracy(args) => accuracy::run(args),
         Command::Sweep(args) => sweep::run(args),

@@ -16,7 +16,8 @@
 //! other column is the stiffness of the pair, force per mm of face width and µm of approach along the line of action, or
 //! `deflection_um`, the approach under the line load. Lines that begin with # tell whether the values include the
 //! flattening of the flanks in contact (`included`, `excluded`), and the line load of the values, which is required for deflections
-//! and values with flattening. Other lines with # are remarks.
+//! and values with flattening. `# shared_um_mm_per_N = …` gives the part of the compliance that all pairs in mesh share, that of the gear bodies; without
+//! it there is none. Other lines with # are remarks.
 
 use super::curve::{PairCompliance, StandsFor};
 use gearwear_bodies::gear::path_of_contact::PathOfContact;
@@ -27,6 +28,7 @@ const STIFFNESS: &str = "stiffness_N_per_mm_um";
 const DEFLECTION: &str = "deflection_um";
 const FLATTENING: &str = "flattening";
 const LINE_LOAD: &str = "line_load_N_per_mm";
+const SHARED: &str = "shared_um_mm_per_N";
 const UM_PER_MM: f64 = 1e3;
 /// Fraction of the path of contact that may be missing at either end of a curve, where its outermost value is taken.
 const MISSING_AT_ENDS: f64 = 0.02;
@@ -56,6 +58,7 @@ pub enum CurveFileError {
 struct CurveHeader {
     flattening_included: Option<bool>,
     line_load_n_per_mm: Option<f64>,
+    shared_mm2_per_n: f64,
 }
 
 /// Curve in the text of a file, which must reach from A to E.
@@ -67,8 +70,12 @@ pub fn parse(text: &str, path: &PathOfContact) -> Result<PairCompliance, CurveFi
     }
     let columns = CurveColumns::find(table.names.0, &table.names.1)?;
     let stands_for = header.stands_for(columns.are_deflections)?;
-    let mut curve =
-        PairCompliance { position_mm: Vec::new(), mm2_per_n: Vec::new(), stands_for, shared_mm2_per_n: 0.0 };
+    let mut curve = PairCompliance {
+        position_mm: Vec::new(),
+        mm2_per_n: Vec::new(),
+        stands_for,
+        shared_mm2_per_n: header.shared_mm2_per_n,
+    };
     for (line, values) in table.rows {
         let [position, value] =
             [columns.position, columns.value].map(|index| values.get(index).copied().unwrap_or_default());
@@ -93,6 +100,24 @@ pub fn parse(text: &str, path: &PathOfContact) -> Result<PairCompliance, CurveFi
         }
         _ => Err(missing("rows", "at least two rows of numbers".to_owned()).into()),
     }
+}
+
+/// Text of the file of `curve`, from which [`parse`] reads it again.
+pub fn to_text(curve: &PairCompliance) -> String {
+    let mut text = match curve.stands_for {
+        StandsFor::Teeth => format!("# {FLATTENING} = excluded\n"),
+        StandsFor::WholePair { line_load_n_per_mm } => {
+            format!("# {FLATTENING} = included\n# {LINE_LOAD} = {line_load_n_per_mm:?}\n")
+        }
+    };
+    if curve.shared_mm2_per_n > 0.0 {
+        text.push_str(&format!("# {SHARED} = {:?}\n", curve.shared_mm2_per_n * UM_PER_MM));
+    }
+    text.push_str(&format!("{POSITION},{STIFFNESS}\n"));
+    for (position_mm, mm2_per_n) in curve.position_mm.iter().zip(&curve.mm2_per_n) {
+        text.push_str(&format!("{position_mm:?},{:?}\n", 1.0 / (mm2_per_n * UM_PER_MM)));
+    }
+    text
 }
 
 /// Numbers of the columns.
@@ -126,6 +151,7 @@ impl CurveHeader {
             (FLATTENING, "included") => self.flattening_included = Some(true),
             (FLATTENING, "excluded") => self.flattening_included = Some(false),
             (FLATTENING, other) => return Err(not_allowed(line, FLATTENING, other, "included or excluded".to_owned())),
+            (SHARED, value) => self.shared_mm2_per_n = positive(line, SHARED, value)? / UM_PER_MM,
             (LINE_LOAD, value) => self.line_load_n_per_mm = Some(positive(line, LINE_LOAD, value)?),
             _ => {}
         }
