@@ -54,10 +54,13 @@ TORQUE_NM, FACE_WIDTH_MM = 150.0, 20.0
 BASE_RADIUS_MM = 30.0 * math.cos(PRESSURE_ANGLE_RAD)
 BASE_PITCH_MM = 3.0 * math.pi * math.cos(PRESSURE_ANGLE_RAD)
 PITCH_POINT_MM = 30.0 * math.sin(PRESSURE_ANGLE_RAD)
-# Of the reference pair, with the transmission error in µm that the search begins at, new and worn, near the answer to save runs. Contact lasts from A,
-# 4.1594 mm, to E, 18.8279 mm; B is at 9.9715 and D at 13.0157 mm.
-POSITIONS_MM = [("7", 8.430, 17.88), ("11.5", 13.033, 18.05), ("17", 8.524, 16.25)]
+# Of the reference pair, by revolutions, with the transmission error in µm that the search begins at, near the answer to save runs. Contact lasts from A,
+# 4.1594 mm, to E, 18.8279 mm; B is at 9.9715 and D at 13.0157 mm. The mesh cycle of the run is that between 7.07 and 15.92 mm.
 REVOLUTIONS = 2e7
+POSITIONS_MM = {
+    0.0: [("7", 8.430), ("11.5", 13.033), ("17", 8.524)],
+    REVOLUTIONS: [("7", 17.88), ("7.5", 17.214), ("11.5", 18.019), ("15.5", 18.261)],
+}
 PENALTY_MPA_PER_MM = 1e8
 YOUNG_MODULUS_MPA, POISSON_RATIO = 206e3, 0.3
 REACH_MM = 0.06
@@ -122,8 +125,8 @@ def main():
     scene, run = folder / "internal.toml", folder / "internal-worn"
     scene.write_text(SCENE, encoding="utf-8")
     subprocess.run([turned_pair.gearwear(), "run", scene, "--out", run, "--quiet", "--no-report"], check=True)
-    rows = [row(folder, scene, run, revolutions, position_mm, guesses[revolutions > 0.0])
-            for revolutions in (0.0, REVOLUTIONS) for position_mm, *guesses in POSITIONS_MM]
+    rows = [row(folder, scene, run, revolutions, position_mm, guess_um)
+            for revolutions, positions in POSITIONS_MM.items() for position_mm, guess_um in positions]
     table.write(HERE / "internal-pair.csv", [
         f"CalculiX {calculix.version()}, made by validation/cross-check/run.sh (internal_pair.py)",
         f"revolutions: 0 new; {REVOLUTIONS:g} with the wear of gearwear run in the mesh",

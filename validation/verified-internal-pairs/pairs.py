@@ -59,7 +59,7 @@ def draw(r):
 
 
 if __name__ == "__main__":
-    seed, count = (list(map(int, sys.argv[1:])) + [1, 24])[:2] if len(sys.argv) < 3 else map(int, sys.argv[1:3])
+    seed, count = (list(map(int, sys.argv[1:])) + [1, 50])[:2] if len(sys.argv) < 3 else map(int, sys.argv[1:3])
     r = random.Random(seed)
     for _ in range(count):
         print(f"    {draw(r)},")
