@@ -2,7 +2,7 @@
 //!
 //! A spur pair on finite elements is searched on elastic half-planes, which take a seventh of the time, with the stiffness of its teeth by the same finite
 //! elements. That stiffness is of the unmodified teeth: where the free keys are modifications it is computed once, else for each design. Other scenes are
-//! searched on their own contact surface. The resolution is coarse: at most [`POSITIONS`] positions, [`FLANK_POINTS`] points, [`SLICES`] slices and wear
+//! searched on their own contact surface. The resolution is coarse: at most [`POSITIONS`], [`FLANK_POINTS`] and [`SLICES`] and wear
 //! steps within [`TOLERANCE_UM`].
 
 use gearwear::evaluate::output::SummaryOutput;
@@ -25,10 +25,10 @@ use gearwear_physics::stiffness::settings::StiffnessSettings;
 use super::asked::ImproveError;
 use super::free_key::FreeKey;
 
-/// Most positions from A to E.
-pub const POSITIONS: usize = 100;
-/// Most points of a flank.
-pub const FLANK_POINTS: usize = 250;
+/// Most positions from A to E: of sections that are alike, and of slices.
+pub const POSITIONS: [usize; 2] = [100, 60];
+/// Most points of a flank, likewise.
+pub const FLANK_POINTS: [usize; 2] = [250, 200];
 /// Most slices over the face width.
 pub const SLICES: usize = 8;
 /// Least error of the wear depth that adaptive steps may make, µm.
@@ -133,12 +133,13 @@ fn changes(
 ) -> Vec<(String, Option<toml::Value>)> {
     let numerics = &scene.numerics;
     let least = |own: usize, most: usize| Some(toml::Value::Integer(own.min(most) as i64));
+    let kind = usize::from(sliced.is_some());
     let mut changes = vec![
         ("improve".to_owned(), None),
         ("numerics.verify".to_owned(), Some(false.into())),
         ("numerics.error_estimate".to_owned(), Some(false.into())),
-        ("numerics.positions".to_owned(), least(numerics.positions, POSITIONS)),
-        ("numerics.flank_points".to_owned(), least(numerics.flank_points, FLANK_POINTS)),
+        ("numerics.positions".to_owned(), least(numerics.positions, POSITIONS[kind])),
+        ("numerics.flank_points".to_owned(), least(numerics.flank_points, FLANK_POINTS[kind])),
     ];
     if let Stepping::Adaptive { tolerance_mm } = numerics.stepping {
         changes.push(("numerics.tolerance_um".to_owned(), Some((1e3 * tolerance_mm).max(TOLERANCE_UM).into())));
