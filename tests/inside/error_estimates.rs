@@ -220,7 +220,7 @@ fn val_hardly_worn_tip_edges_are_verified_on_short_elements() {
     let of_gears = [(&light.pinion, total.pinion, 0.11706), (&light.wheel, total.wheel, 0.01708)];
     for (wear, claimed, converged_um) in of_gears {
         let (claimed, off) = (claimed.expect("verified"), (wear.tip_edge_wear_um / converged_um - 1.0).abs());
-        assert!(off > 0.03 && claimed > 0.9 * off && claimed < 1.6 * off, "{off} {claimed}");
+        assert!(off > 0.02 && claimed > 0.9 * off && claimed < 1.6 * off, "{off} {claimed}");
     }
     let ordinary = of(3e-17);
     assert!(!ordinary.error.total.how.contains("short on tip roundings"), "{}", ordinary.error.total.how);
@@ -277,7 +277,10 @@ fn adaptive_steps_estimate_their_own_error() {
         let summary = run(&unverified(&text));
         let (error, work) = (summary.error, summary.work);
         let what = format!("{surface} {severe}: {error:?}, {work:?}");
-        assert!(error.companions_cost.is_some_and(|cost| cost > 0.0 && cost <= 0.5), "{what}");
+        assert!(error.companions_cost.is_some_and(|cost| cost <= 0.5), "{what}");
+        // Beside a severe run that takes few evaluations, those of an abrupt transition would cost more than half of it.
+        let is_left_out = error.how.severe_switch.contains("would cost too much beside this one");
+        assert!(error.companions_cost > Some(0.0) || !severe.is_empty() && is_left_out, "{what}");
         // 0.05 µm, the default tolerance, of some 7 µm.
         assert!(error.wear_step.is_some_and(|e| e > 0.0 && e < 0.05), "{what}");
         assert!(error.how.wear_step.contains("adaptive steps"), "{what}");

@@ -167,7 +167,7 @@ fn val_slices_know_their_error() {
     let scene = coarse(&[
         ("operation.pinion_revolutions", 2e5.into()),
         ("numerics.flank_points", 180.into()),
-        ("numerics.positions", 60.into()),
+        ("numerics.positions", 100.into()),
     ]);
     let run_of = |changes: &[(&str, toml::Value)]| completed(&changed(scene.clone(), changes));
     let truth = run_of(&[("helical.slices", 32.into()), ("numerics.verify", false.into())]);

@@ -238,7 +238,7 @@ impl MeshCycle for CondensedCycle<'_> {
             return self.evaluate(lost, wear, depth_mm, stopped);
         }
         let work = self.evaluate_by(|group, step| group.evaluate_stage(step), lost, wear, depth_mm, stopped)?;
-        Ok(Work { mesh_cycles: 0, ..work })
+        Ok(work.of_a_part())
     }
 
     fn reset(&mut self) {

@@ -71,20 +71,35 @@ pub struct LoadingPosition {
 /// Counts of work done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Work {
-    /// Mesh cycles evaluated.
+    /// Mesh cycles evaluated at all their positions.
     pub mesh_cycles: u64,
     /// Equilibria solved.
     pub equilibria: u64,
+    /// Those of them that were solved at a part of the positions.
+    pub partial_equilibria: u64,
     /// Newton iterations in them.
     pub newton_iterations: u64,
     /// Evaluations of a pair's contact.
     pub pair_evaluations: u64,
 }
 
+impl Work {
+    /// The work of an evaluation at a part of the positions.
+    pub(crate) fn of_a_part(self) -> Self {
+        Self { mesh_cycles: 0, partial_equilibria: self.equilibria, ..self }
+    }
+
+    /// Positions of a mesh cycle.
+    pub fn positions_of_cycle(&self) -> u64 {
+        (self.equilibria - self.partial_equilibria) / self.mesh_cycles.max(1)
+    }
+}
+
 impl std::ops::AddAssign for Work {
     fn add_assign(&mut self, other: Self) {
         self.mesh_cycles += other.mesh_cycles;
         self.equilibria += other.equilibria;
+        self.partial_equilibria += other.partial_equilibria;
         self.newton_iterations += other.newton_iterations;
         self.pair_evaluations += other.pair_evaluations;
     }
@@ -342,7 +357,7 @@ impl MeshCycle for LineOfActionCycle<'_> {
         let load = self.line_load_n_per_mm;
         self.groups.par_iter_mut().for_each(|group| group.evaluate_stage(lost, load, wear, stopped));
         let work = Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)?;
-        Ok(Work { mesh_cycles: 0, ..work })
+        Ok(work.of_a_part())
     }
 
     fn reset(&mut self) {

@@ -186,7 +186,7 @@ impl MeshCycle for SlicedCycle<'_> {
         let group = &mut self.groups[self.part];
         group.evaluate(lost, points, load, wear, stopped);
         let work = Collected::sum(std::iter::once(&group.collected), depth_mm)?;
-        Ok(Work { mesh_cycles: 0, ..work })
+        Ok(work.of_a_part())
     }
 
     fn reset(&mut self) {

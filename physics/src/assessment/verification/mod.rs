@@ -453,7 +453,7 @@ impl<'a> RunComparison<'a> {
         format!(
             "the same wear simulation with {on} ({} positions in a base pitch, {} wear steps, {} mesh cycles); their own uncertainty is added: \
              {} % of the profile, {} % of the maximum wear, {:.2} and {:.2} % of that of the tip edges, and of the flank pressure {} % new and {} % worn",
-            positions_of_cycle(outcome),
+            outcome.work.positions_of_cycle(),
             outcome.steps.accepted,
             outcome.work.mesh_cycles,
             100.0 * uncertainty.profile,
@@ -498,12 +498,6 @@ fn of_hardly_worn_edge(pair: &GearPair, gear: Gear, bodies: &BodySettings, depth
     let element_mm = rounding_element_mm(rounding_mm, elements_per_half_width, rounding_refinement);
     let bulge_mm = element_mm.powi(2) / (8.0 * rounding_mm);
     (OF_BULGE * bulge_mm / depth_mm).min(MOST_OF_TIP_EDGE)
-}
-
-/// Positions of a mesh cycle. Those of slices are counted by themselves, since probes evaluate a part of them.
-fn positions_of_cycle(outcome: &Outcome) -> u64 {
-    let of_slices = outcome.new.cycle.slices.as_ref().map(|mesh| mesh.transmission_error_mm.len() as u64);
-    of_slices.unwrap_or_else(|| outcome.work.equilibria / outcome.work.mesh_cycles.max(1))
 }
 
 /// Whether the pressure reaches a transition to severe wear in any kept state of `reference`.
