@@ -177,6 +177,11 @@ impl PairInSpace {
         Ok(Self { gears: Arc::new(gears), halves, even_layers: resolution.even_layers(&pair.spec), reach_mm })
     }
 
+    /// Whether both have the teeth that were condensed once.
+    pub fn shares_teeth_with(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.gears, &other.gears)
+    }
+
     /// The same teeth for contact up to another reach, for which there are as many.
     fn with_reach(self: &Arc<Self>, reach_mm: [f64; 2]) -> Arc<Self> {
         if self.reach_mm == reach_mm {
