@@ -220,7 +220,8 @@ fn val_hardly_worn_tip_edges_are_verified_on_short_elements() {
     let of_gears = [(&light.pinion, total.pinion, 0.11706), (&light.wheel, total.wheel, 0.01708)];
     for (wear, claimed, converged_um) in of_gears {
         let (claimed, off) = (claimed.expect("verified"), (wear.tip_edge_wear_um / converged_um - 1.0).abs());
-        assert!(off > 0.02 && claimed > 0.9 * off && claimed < 1.6 * off, "{off} {claimed}");
+        // The verification's own uncertainty, 1.5 %, is in the claim.
+        assert!(claimed > 0.9 * off && claimed < 1.6 * off.max(0.015), "{off} {claimed}");
     }
     let ordinary = of(3e-17);
     assert!(!ordinary.error.total.how.contains("short on tip roundings"), "{}", ordinary.error.total.how);

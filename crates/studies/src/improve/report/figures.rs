@@ -2,11 +2,14 @@
 
 use gearwear::report::chart::{Chart, INK, MUTED, Trace};
 use gearwear::report::html::number::figure;
+use gearwear::report::html::reading::capitalised;
 
 use super::super::kept::{DesignRole, KeptDesign};
 use super::super::record::ImproveRecord;
 use gearwear_bodies::reference::statistics::extent;
 
+/// Characters of a heading that an axis has room for.
+const ROOM: usize = 36;
 /// Part of the width of the front that is shown around it.
 const AROUND: f64 = 0.6;
 
@@ -19,6 +22,24 @@ pub(super) fn all(record: &ImproveRecord) -> Vec<Chart> {
         _ => &[[0, 2], [1, 2], [0, 1]],
     };
     pairs.iter().map(|pair| of_pair(record, *pair)).collect()
+}
+
+/// Whether a goal is a sum of several figures, too long for an axis.
+fn is_long(record: &ImproveRecord, goal: usize) -> bool {
+    record.goals[goal].heading.chars().count() > ROOM
+}
+
+/// Its heading, or its number where that is too long.
+fn named(record: &ImproveRecord, goal: usize) -> String {
+    if is_long(record, goal) { format!("goal {}", goal + 1) } else { record.goals[goal].heading.clone() }
+}
+
+fn with_unit(record: &ImproveRecord, goal: usize) -> String {
+    match (is_long(record, goal), record.goals[goal].unit.as_str()) {
+        (true, "") => named(record, goal),
+        (true, unit) => format!("{}, {unit}", named(record, goal)),
+        (false, _) => record.goals[goal].with_unit(),
+    }
 }
 
 /// Text read at a design.
@@ -76,10 +97,15 @@ fn of_pair(record: &ImproveRecord, [x, y]: [usize; 2]) -> Chart {
         Trace::points("proposals, verified", goal(x, &proposed), goal(y, &proposed), ("var(--pinion)", "circle", 11));
     let names: Vec<String> =
         record.proposals.iter().zip(letters).map(|(proposal, letter)| format!("{letter} {}", proposal.name)).collect();
-    Chart::new(format!("front-{x}-{y}"), format!("{} and {}", record.goals[x].heading, record.goals[y].heading))
+    let told: Vec<String> = [x, y]
+        .into_iter()
+        .filter(|goal| is_long(record, *goal))
+        .map(|goal| format!(" Goal {}: {}.", goal + 1, record.goals[goal].heading))
+        .collect();
+    Chart::new(format!("front-{x}-{y}"), capitalised(&format!("{} and {}", named(record, x), named(record, y))))
         .read_nearest()
-        .x(&record.goals[x].with_unit())
-        .y(&record.goals[y].with_unit())
+        .x(&with_unit(record, x))
+        .y(&with_unit(record, y))
         .x_range(range(x))
         .y_range(range(y))
         .add(points("designs tried", &searched, (MUTED, "circle", 4)).opacity(0.5))
@@ -87,5 +113,9 @@ fn of_pair(record: &ImproveRecord, [x, y]: [usize; 2]) -> Chart {
         .add(points("verified", &verified, ("var(--pinion)", "circle-open", 9)))
         .add(points("as given", &as_given, (INK, "diamond", 10)))
         .add(proposals.lettered(lettered))
-        .reading(format!("{}. Less is better on both axes; designs far from the front lie outside.", names.join(", ")))
+        .reading(format!(
+            "{}.{} Less is better on both axes; designs far from the front lie outside.",
+            names.join(", "),
+            told.concat()
+        ))
 }

@@ -9,7 +9,7 @@ use super::super::words::signed;
 use super::{DESIGNS, FRONT, LAST, figures};
 use gearwear::journal;
 use gearwear::report::html::number::{count, figure as shown, percent, significant};
-use gearwear::report::html::page::{Page, Plots, note, section, sources_list};
+use gearwear::report::html::page::{Page, Plots, fold, note, section, sources_list};
 use gearwear::report::html::reading::capitalised;
 use gearwear::report::html::table::{Cell, NONE, line, list};
 use gearwear::report::output_files;
@@ -47,9 +47,9 @@ pub(super) fn page(record: &ImproveRecord) -> String {
                 (section("tolerances", "Tolerances", tolerances(record)))
             }
             (section("bounds", "What no design does", html! { ul { @for bound in &record.bounds { li { (bound) } } } }))
-            (section("verification", "Verified designs", verified(record)))
-            (section("work", "How it was computed", work(record)))
-            (section("sources", "Data and scene", sources_list(&files, "The scene as given", &record.scene_toml)))
+            (fold("verification", "Verified designs", verified(record)))
+            (fold("work", "How it was computed", work(record)))
+            (fold("sources", "Data and scene", sources_list(&files, "The scene as given", &record.scene_toml)))
         },
         plots,
         footer: &format!("gearwear {} · scene {}", record.program_version, record.scene_hash),
