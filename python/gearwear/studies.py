@@ -144,8 +144,9 @@ def improve(
     ``summary["proposals"]`` has each proposal with its values and figures, ``tables["improve"]`` every design that was run. With ``out`` finished
     designs and results are written there, and a killed study goes on when it is called again.
     """
-    asked = {"free": free, "goals": goals, "limits": limits, "evaluations": evaluations, "seed": seed}
-    given = {f"improve.{key}": list(value) if key in ("free", "goals", "limits") else value for key, value in asked.items() if value is not None}
+    lists = {name: list(texts) for name, texts in (("free", free), ("goals", goals), ("limits", limits)) if texts is not None}
+    numbers = {name: value for name, value in (("evaluations", evaluations), ("seed", seed)) if value is not None}
+    given: dict[str, Any] = {f"improve.{name}": value for name, value in (*lists.items(), *numbers.items())}
     asking = scene.with_(given) if given else scene
     folder = None if out is None else os.fspath(out)
     with Watched(progress) as told:
