@@ -177,11 +177,10 @@ class Plots:
         return self._finished(axes, ("width_mm", "face width"), ("", f"wear of the {gear} over its mean"))
 
     def mesh_orders(self, axes: Axes | None = None) -> Axes:
-        """Amplitudes of the first mesh orders of the transmission error, new and worn; of pairs with slices."""
-        self._slices()
+        """Amplitudes of the first mesh orders of the transmission error, new and worn."""
         axes = _axes(axes)
         for place, state in enumerate(_STATES):
-            amplitudes = self._run.summary["helical"][f"mesh_orders_{state}_um"]
+            amplitudes = self._run.summary[state]["mesh_orders_um"]
             axes.bar([order + 0.4 * place - 0.2 for order in range(1, len(amplitudes) + 1)], amplitudes, 0.4, label=state)
         return self._finished(axes, ("", "multiple of the tooth-mesh frequency"), ("amplitude_um", "amplitude"))
 
