@@ -214,6 +214,19 @@ fn a_law_that_changes_nothing_says_so() {
     assert_eq!([film.len(), severe.len()], [1, 1], "once for both gears: {warnings:?}");
     let greatest = record.summary.new.peak_pressure_MPa.max(record.summary.worn.peak_pressure_MPa);
     assert!(severe[0].contains(&format!("{greatest:.0} MPa at most")), "{severe:?}, {greatest}");
+    // λ is told as the law reads it.
+    let composite = run(&law(
+        "ratio = \"composite\"\nlambda = [20.0, 30.0]\nfactor = [1.0, 0.0]",
+        "above_MPa = 500.0\nfactor = 10.0",
+    ));
+    let film = composite.summary.lubrication.as_ref().and_then(|of| of.film.clone()).unwrap();
+    let told = format!("λ is {:.2} at most on new flanks", film.composite_lambda_new.unwrap().max);
+    assert!(told != format!("λ is {:.2} at most on new flanks", film.lambda_new.max));
+    assert!(
+        composite.summary.warnings.iter().any(|warning| warning.contains(&told)),
+        "{told}: {:?}",
+        composite.summary.warnings
+    );
     let active = law("lambda = [0.001, 0.5]\nfactor = [1.0, 0.0]", "above_MPa = 500.0\nfactor = 10.0");
     assert!(!said(&active, "changed nothing"));
 }

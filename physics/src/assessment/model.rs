@@ -5,6 +5,7 @@ use crate::operation::Scene;
 use crate::simulation::settings::LifeLimits;
 use crate::simulation::wear_run::{Outcome, RunPhase, WearRun, reference_phase};
 use crate::stiffness::{TeethSpring, settings::StiffnessSettings};
+use crate::wear::settings::WearOfPair;
 use gearwear_bodies::gear::{GearPair, PerGear, flank_zones::FlankZones};
 use gearwear_bodies::reference::flattening::Flattening;
 
@@ -60,6 +61,11 @@ impl RunModel<'_> {
             self.phases.iter_mut().for_each(|phase| phase.end_revolutions = phase.end_revolutions.min(end));
         }
         self
+    }
+
+    /// Whether any wear of `outcome` is severe.
+    pub(super) fn wears_severely(&self, outcome: &Outcome) -> bool {
+        self.scene.wear.severe_factor_under(outcome.greatest_pressure_mpa()).is_some()
     }
 
     /// Phase of the greatest load.

@@ -517,8 +517,7 @@ fn mesh_cycle(model: &RunModel<'_>, RunFindings { outcome, heat, .. }: RunFindin
 
 /// Warns where a mathematically sharp edge carries load in any kept state.
 fn sharp_edge_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
-    let mut states = [&outcome.new].into_iter().chain(&outcome.snapshots);
-    let is_loaded = states.any(|state| state.cycle.greatest_pressure.sharp_edge_mpa.is_some());
+    let is_loaded = outcome.states().any(|state| state.cycle.greatest_pressure.sharp_edge_mpa.is_some());
     is_loaded.then(|| {
         format!(
             "mathematically sharp edges carry load ({}): the pressure at an edge (sharp_edge_pressure_MPa, left out of peak_pressure_MPa) and \

@@ -32,11 +32,7 @@ fn over_elastic(model: &RunModel<'_>, outcome: &Outcome) -> Option<f64> {
 /// Warns where wear is severe, or would be under the elastic pressure, and the surface has another one.
 pub(super) fn warning(model: &RunModel<'_>, outcome: &Outcome) -> Option<String> {
     let ratio = over_elastic(model, outcome).filter(|ratio| (ratio - 1.0).abs() > LITTLE)?;
-    let greatest_mpa = [&outcome.new]
-        .into_iter()
-        .chain(&outcome.snapshots)
-        .map(|state| state.cycle.peak_pressure_mpa())
-        .fold(0.0, f64::max);
+    let greatest_mpa = outcome.greatest_pressure_mpa();
     model.scene.wear.is_severe_under(greatest_mpa.max(greatest_mpa / ratio), 1.0).then(|| {
         let (off, side) = (100.0 * (ratio - 1.0).abs(), if ratio > 1.0 { "above" } else { "below" });
         format!(

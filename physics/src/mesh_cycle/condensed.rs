@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use super::collected::Collected;
 use super::condensed_contact::{CondensedContactPlace, HeatedContactRows};
 use super::load_sharing::EquilibriumError;
-use super::{CycleObservation, FlankOverlap, GROUPS, LostMaterial, MeshCycle, Work, most_are_mild};
+use super::{CycleObservation, FlankOverlap, GROUPS, LostMaterial, MeshCycle, Work, kept_wear_to_mpa};
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::wear::{SlidingRow, WearModel};
 use gearwear_bodies::gear::{Gear, PerGear, flank_zones::FlankZones};
@@ -219,10 +219,10 @@ impl MeshCycle for CondensedCycle<'_> {
     }
 
     fn begin_stages(&mut self, lost: LostMaterial<'_>, wear: &WearModel<'_>) {
-        let mild_mpa = wear.surely_mild_mpa();
         let pressures_mpa = self.loaded_positions().map(CondensedPosition::greatest_pressure_mpa);
-        self.some_keep_wear = mild_mpa.is_some_and(|mild_mpa| most_are_mild(pressures_mpa, mild_mpa));
-        if let (true, Some(mild_mpa)) = (self.some_keep_wear, mild_mpa) {
+        let mild_mpa = kept_wear_to_mpa(wear, pressures_mpa);
+        self.some_keep_wear = mild_mpa.is_some();
+        if let Some(mild_mpa) = mild_mpa {
             self.for_each_group(|group, step| group.keep_mild_wear(step, mild_mpa), lost, wear, &|| false);
         }
     }

@@ -336,10 +336,10 @@ impl MeshCycle for LineOfActionCycle<'_> {
     }
 
     fn begin_stages(&mut self, lost: LostMaterial<'_>, wear: &WearModel<'_>) {
-        let mild_mpa = wear.surely_mild_mpa();
         let pressures_mpa = self.loaded_positions().map(|at| at.pairs[0].contact.footprint().peak_pressure_mpa);
-        self.some_keep_wear = mild_mpa.is_some_and(|mild_mpa| most_are_mild(pressures_mpa, mild_mpa));
-        if let (true, Some(mild_mpa)) = (self.some_keep_wear, mild_mpa) {
+        let mild_mpa = kept_wear_to_mpa(wear, pressures_mpa);
+        self.some_keep_wear = mild_mpa.is_some();
+        if let Some(mild_mpa) = mild_mpa {
             self.groups.par_iter_mut().for_each(|group| group.keep_mild_wear(lost, wear, mild_mpa));
         }
     }
@@ -496,10 +496,12 @@ impl LineOfActionGroup<'_> {
     }
 }
 
-/// Whether some of these pressures are above `mild_mpa`, and most are not: positions without a severe one among them have nothing to wait for.
-fn most_are_mild(pressures_mpa: impl Iterator<Item = f64>, mild_mpa: f64) -> bool {
+/// Pressure up to which positions of these pressures keep their wear over the stages of a step, MPa; `None` where none does: without a severe one
+/// among them they have nothing to wait for, and where most are severe they save little.
+fn kept_wear_to_mpa(wear: &WearModel<'_>, pressures_mpa: impl Iterator<Item = f64>) -> Option<f64> {
+    let mild_mpa = wear.surely_mild_mpa()?;
     let (severe, all) = pressures_mpa.fold((0, 0), |(severe, all), at| (severe + usize::from(at > mild_mpa), all + 1));
-    severe > 0 && 2 * severe < all
+    (severe > 0 && 2 * severe < all).then_some(mild_mpa)
 }
 
 impl<'a> LineOfActionPosition<'a> {

@@ -128,6 +128,16 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// The unworn pair, then the pair at each snapshot.
+    pub fn states(&self) -> impl Iterator<Item = &Snapshot> {
+        [&self.new].into_iter().chain(&self.snapshots)
+    }
+
+    /// Greatest pressure in any of [`Self::states`], at sharp tip edges too, MPa.
+    pub fn greatest_pressure_mpa(&self) -> f64 {
+        self.states().map(|state| state.cycle.peak_pressure_mpa()).fold(0.0, f64::max)
+    }
+
     /// The outcome as it would be had the run ended at its snapshot after `revolutions`; `None` where it has none. Counts of the work stay those of
     /// the whole run.
     pub fn ended_at(&self, revolutions: f64) -> Option<Self> {

@@ -164,7 +164,7 @@ impl<L: WearLaw> FlankWear for WithFactors<L> {
     }
 
     fn severe_from_mpa(&self) -> Option<f64> {
-        self.severe.map(|severe| severe.above_mpa - 0.5 * severe.band_mpa)
+        self.severe.map(SevereTransition::begins_mpa)
     }
 }
 

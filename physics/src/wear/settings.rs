@@ -26,6 +26,11 @@ impl SevereTransition {
     /// Least band over its limit that adaptive steps follow.
     pub const LEAST_BAND: f64 = 0.02;
 
+    /// Pressure from which on wear is faster than mild, MPa.
+    pub fn begins_mpa(self) -> f64 {
+        self.above_mpa - 0.5 * self.band_mpa
+    }
+
     /// A transition at `part` of this one's limit, over a band as wide in MPa.
     pub fn with_limit(self, part: f64) -> Self {
         Self { above_mpa: part * self.above_mpa, ..self }

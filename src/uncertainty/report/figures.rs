@@ -36,6 +36,9 @@ pub(super) fn of(record: &UncertaintyRecord) -> UncertaintyPlots {
 fn life(number: usize, output: &OutputRecord) -> Option<Chart> {
     let lives: Vec<f64> = output.sorted.iter().copied().filter(|life| life.is_finite()).collect();
     let (first, last) = (*lives.first()?, *lives.last()?);
+    if last <= first {
+        return None;
+    }
     let of_all = 100.0 / output.sorted.len() as f64;
     let steps = lives
         .iter()
@@ -196,4 +199,43 @@ fn band(record: &UncertaintyRecord, gear: Gear) -> Option<Chart> {
                 figure(deepest)
             )),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::chart::Curve;
+    use crate::uncertainty::record::Quantiles;
+
+    /// Of four samples one does not come to its limit: after the first life a quarter has ended, after the last three quarters.
+    #[test]
+    fn ver_a_life_is_the_part_of_all_samples_that_has_ended() {
+        let output = OutputRecord {
+            output: "life".to_owned(),
+            meaning: "Life".to_owned(),
+            unit: "h".to_owned(),
+            nominal: None,
+            model_error: None,
+            samples: 4,
+            censored: Some(0.25),
+            mean: None,
+            standard_deviation: None,
+            quantiles: Quantiles { p05: Some(10.0), p25: None, p50: Some(20.0), p75: None, p95: None },
+            indices: None,
+            no_indices_because: None,
+            surface_correction: None,
+            surface_difference: None,
+            sorted: vec![10.0, 20.0, 40.0, f64::INFINITY],
+        };
+        let chart = life(0, &output).unwrap();
+        let Drawn::Curve(Curve { x, y, .. }) = &chart.traces[0].drawn else { panic!("a curve") };
+        assert_eq!(x, &[10.0, 10.0, 20.0, 20.0, 40.0, 40.0]);
+        assert_eq!(y, &[0.0, 25.0, 25.0, 50.0, 50.0, 75.0]);
+        assert!(
+            chart.reading.contains("half have reached it by 20.00 h") && chart.reading.contains("25.0"),
+            "{}",
+            chart.reading
+        );
+        assert!(life(0, &OutputRecord { sorted: vec![f64::INFINITY], ..output }).is_none());
+    }
 }

@@ -29,12 +29,6 @@ const POSITIONS_SPACINGS: [usize; 2] = [2, 4];
 /// Fewest wear steps of a companion.
 const LEAST_STEPS: f64 = 40.0;
 
-/// Whether any wear of the run is severe.
-pub(super) fn is_severe_anywhere(model: &RunModel<'_>, outcome: &Outcome) -> bool {
-    let mut states = outcome.snapshots.iter().chain([&outcome.new]);
-    states.any(|state| model.scene.wear.severe_factor_under(state.cycle.peak_pressure_mpa()).is_some())
-}
-
 /// Estimate and its cost over that of the run, within `budget`.
 pub(super) fn estimate(
     model: &RunModel<'_>,
@@ -112,7 +106,7 @@ fn resolution(
     if !scene.wear.may_be_severe() {
         return Err("the scene has no transition to severe wear".to_owned());
     }
-    if !is_severe_anywhere(model, outcome) {
+    if !model.wears_severely(outcome) {
         return Err("no pressure reaches the transition to severe wear".to_owned());
     }
     let fine = scene.numerics;

@@ -27,7 +27,7 @@
 //!
 //! Source: L. F. Richardson (1911); P. J. Roache, *Verification and Validation in Computational Science* (1998).
 
-use super::{ErrorEstimate, LEAST_POINTS, greatest_difference, peak_wear_of_both_mm, severe_switch};
+use super::{ErrorEstimate, LEAST_POINTS, greatest_difference, peak_wear_of_both_mm};
 use crate::assessment::RunModel;
 use crate::contact::settings::SurfaceKind;
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
@@ -183,7 +183,7 @@ pub(super) fn estimate<'a>(
     let [discretisation, wear_step] = match embedded {
         Some(embedded) => {
             let first_order = companions.first_order();
-            let few = match severe_switch::is_severe_anywhere(model, outcome) {
+            let few = match model.wears_severely(outcome) {
                 true => Err("where wear is severe, fewer points take adaptive steps more work and not less".to_owned()),
                 false if is_verified && model.scene.contact.surface == SurfaceKind::Fem => {
                     Err("left to the verification on other finite elements".to_owned())

@@ -321,7 +321,7 @@ fn on_elements<'a>(
         .collect();
     let contacts = warm.iter().map(|own| MeshContact::FiniteElements(own.as_ref().unwrap_or(&elements))).collect();
     let reference = simulate(model, outcome, contacts, positions, observer)?;
-    let uncertainty = if wears_severely(model, &reference) { OF_ELEMENTS.severe() } else { OF_ELEMENTS };
+    let uncertainty = if model.wears_severely(&reference) { OF_ELEMENTS.severe() } else { OF_ELEMENTS };
     Ok(ReferenceRun {
         wear_mm: reference.worn.wear_mm.clone(),
         outcome: reference,
@@ -387,7 +387,7 @@ impl<'a> RunComparison<'a> {
         let ReferenceRun { outcome, uncertainty, extrapolation, wear_mm, .. } = self.reference;
         let peak = Gear::BOTH.into_iter().filter_map(|gear| self.peak_difference(gear)).reduce(f64::max);
         let [surface_model, discretisation] = match self.model.scene.contact.surface {
-            SurfaceKind::Fem => [None, peak.filter(|_| !wears_severely(self.model, outcome))],
+            SurfaceKind::Fem => [None, peak.filter(|_| !self.model.wears_severely(outcome))],
             _ if is_finest_in_space(self.model.scene) => [None; 2],
             _ => [peak, None],
         };
@@ -498,14 +498,6 @@ fn of_hardly_worn_edge(pair: &GearPair, gear: Gear, bodies: &BodySettings, depth
     let element_mm = rounding_element_mm(rounding_mm, elements_per_half_width, rounding_refinement);
     let bulge_mm = element_mm.powi(2) / (8.0 * rounding_mm);
     (OF_BULGE * bulge_mm / depth_mm).min(MOST_OF_TIP_EDGE)
-}
-
-/// Whether the pressure reaches a transition to severe wear in any kept state of `reference`.
-fn wears_severely(model: &RunModel<'_>, reference: &Outcome) -> bool {
-    let states = [&reference.new].into_iter().chain(&reference.snapshots);
-    let greatest_mpa = states.map(|state| state.cycle.peak_pressure_mpa()).fold(0.0, f64::max);
-    let mut transitions = Gear::BOTH.into_iter().filter_map(|gear| model.scene.wear[gear].severe_transition());
-    transitions.any(|severe| greatest_mpa > severe.above_mpa - 0.5 * severe.band_mpa)
 }
 
 /// |own − truth|/truth; none where the truth is 0.
