@@ -177,3 +177,59 @@ pub(super) fn on_tangent(gear: Gear, along_mm: f64) -> f64 {
         Gear::Wheel => -along_mm,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::strip::tests::pair_of;
+    use super::*;
+    use gearwear_bodies::gear::flank::{FlankGrid, PointSpacing};
+
+    /// The edge does not pass the pressure that goes with it, and the mate passes it as far as the flanks slide on each other, before A and where the
+    /// contact between A and E reaches the edge; half a half-width beyond the middle of the contact the pressure stands half as still.
+    #[test]
+    fn ver_the_pressure_goes_with_its_edge() {
+        let pair = pair_of(3.0, 114.74, [(19, 0.35), (57, -0.1)]);
+        let grid = PerGear::from_fn(|gear| FlankGrid::new(&pair, gear, 300, PointSpacing::Graded));
+        let flanks = Flanks::of_gears(&pair, grid.as_ref());
+        let half_width_mm = 0.2;
+        let [start_mm, end_mm] = [pair.path.start_mm, pair.path.end_mm];
+        for (position_mm, edge_gear, is_on_edge) in [
+            (start_mm - 0.1, Gear::Wheel, true),
+            (start_mm + 0.05, Gear::Wheel, false),
+            (end_mm - 0.05, Gear::Pinion, false),
+            (end_mm + 0.1, Gear::Pinion, true),
+        ] {
+            let cell = PositionCell { position_mm, lower_mm: position_mm - 0.01, upper_mm: position_mm + 0.01 };
+            let motion = PressureMotion::new(flanks, cell, half_width_mm);
+            assert!(
+                motion.is_on_edge() == is_on_edge && motion.goes_with(edge_gear) && !motion.goes_with(edge_gear.mate())
+            );
+            let tip_mm = pair.flank_limits_mm(edge_gear).1;
+            let edge_mm = on_tangent(edge_gear, pair.in_tangent_frame(edge_gear, tip_mm, position_mm).along_mm);
+            let span = |[lower, upper]: [f64; 2]| (upper - lower).abs();
+            // Points as close as these feel what the edge itself feels.
+            let own = motion.passes_mm(&pair, edge_gear, (tip_mm, edge_mm), || 1e-12);
+            assert!(span(own) < 1e-9, "{position_mm}: {own:?}");
+            let mate = edge_gear.mate();
+            let facing_mm = pair.at_along(mate, on_tangent(mate, edge_mm), position_mm).0;
+            let passed_mm = span(motion.passes_mm(&pair, mate, (facing_mm, edge_mm), || 1e-12));
+            let of_edge_mm = span(shift_to_ends_mm(&pair, edge_gear, tip_mm, cell));
+            let of_mate_mm = span(shift_to_ends_mm(&pair, mate, facing_mm, cell));
+            assert!(
+                (passed_mm - (of_mate_mm - of_edge_mm).abs()).abs() < 1e-12,
+                "{passed_mm} {of_mate_mm} {of_edge_mm}"
+            );
+            let sliding_mm = pair.sliding_mm(cell.lower_mm, cell.upper_mm).abs();
+            assert!((passed_mm / sliding_mm - 1.0).abs() < 0.1, "{position_mm}: {passed_mm} {sliding_mm}");
+            if !is_on_edge {
+                let still_mm = if edge_mm < 0.0 { half_width_mm } else { -half_width_mm };
+                let halfway_mm = edge_mm.midpoint(still_mm);
+                let of_mate = shift_to_ends_mm(&pair, mate, facing_mm, cell);
+                let half = motion.passes_mm(&pair, mate, (facing_mm, halfway_mm), || 1e-12);
+                let still = motion.passes_mm(&pair, mate, (facing_mm, still_mm), || 1e-12);
+                assert_eq!(still, of_mate);
+                assert!((span(half) - (of_mate_mm - 0.5 * of_edge_mm).abs()).abs() < 1e-9, "{half:?}");
+            }
+        }
+    }
+}

@@ -19,7 +19,10 @@ use gearwear_physics::contact::{
 };
 use gearwear_physics::mesh_cycle::{LineOfActionCycle, LoadingPosition, MeshCycle, PairInMesh};
 use gearwear_physics::simulation::wear_run::Outcome;
-use gearwear_physics::wear::{WearModel, settings::WearSettings};
+use gearwear_physics::wear::{
+    WearModel,
+    settings::{SevereTransition, WearSettings},
+};
 
 use super::common::{assert_close, fzg_c, fzg_c_scene, gear, pair, spur, steel};
 
@@ -247,4 +250,53 @@ fn val_rate_at_the_start_of_contact() {
     let load = 302e3 / pair.path.involute.pinion.base_radius_mm / 14.0 / 3.0;
     let depth_mm = 1e-11 * load * pair.path.specific_sliding(Gear::Pinion, pair.path.start_mm).abs();
     assert_close("k w |zeta| at A", depth_mm * 1e-3, 7.52e-12, 1e-3);
+}
+
+/// At the state where a step begins, the wear that mild positions keep and that of the severe ones, found again, are the wear of all. A third of the
+/// positions has one contact, which wears severely, the others share the load between two.
+#[test]
+fn ver_kept_wear_is_that_of_the_whole_evaluation() {
+    let discs = TwoDiscs {
+        radius_mm: PerGear { pinion: 100.0, wheel: 250.0 },
+        speed: PerGear { pinion: 1.0, wheel: 1.25 },
+        length_mm: 3.0,
+    };
+    let arcs: Vec<f64> = (0..=1500).map(|i| f64::from(i) * 2e-3).collect();
+    let grid = FlankGrid { coordinate_mm: arcs.clone(), arc_mm: arcs };
+    let flanks = Flanks::new(&discs, PerGear { pinion: &grid, wheel: &grid });
+    let (line_load, step) = (30.0, 0.02);
+    let positions: Vec<LoadingPosition> = (0..30)
+        .map(|j| {
+            let at = 0.9 + f64::from(j) * step;
+            let pair = || PairInMesh { position_mm: at, teeth_n_per_mm2: 20e3, lever_ratio: 1.0 };
+            LoadingPosition {
+                cell: PositionCell { position_mm: at, lower_mm: at - 0.5 * step, upper_mm: at + 0.5 * step },
+                pairs: if j < 10 { vec![pair()] } else { vec![pair(), pair()] },
+                on_line_of_action: true,
+            }
+        })
+        .collect();
+    let whole_mpa = hertz::flattening(&discs, &steel(), 1.0).contact.loaded(line_load).peak_pressure_mpa;
+    let severe = Some(SevereTransition { above_mpa: 0.85 * whole_mpa, factor: 10.0, band_mpa: 0.0 });
+    let law = gearwear_physics::wear::of(&WearSettings { severe, ..WearSettings::archard(1e-11) });
+    let wear = WearModel::cold(law.as_ref());
+    for surface in [
+        Box::new(HalfSpace { material: steel(), expected_line_load_n_per_mm: line_load }) as Box<dyn ContactSurface>,
+        Box::new(Hertz { material: steel(), expected_line_load_n_per_mm: line_load }),
+    ] {
+        let mut cycle = LineOfActionCycle::new(flanks, surface.as_ref(), &positions, line_load);
+        let zeros = vec![0.0; grid.len()];
+        let lost = PerGear { pinion: zeros.as_slice(), wheel: zeros.as_slice() };
+        let [mut whole, mut stage] = [(); 2].map(|()| PerGear { pinion: zeros.clone(), wheel: zeros.clone() });
+        let all = cycle.evaluate(lost, &wear, &mut whole, &|| false).unwrap();
+        cycle.begin_stages(lost, &wear);
+        let part = cycle.evaluate_stage(lost, &wear, &mut stage, &|| false).unwrap();
+        assert_eq!((all.equilibria, part.equilibria, part.partial_equilibria, part.mesh_cycles), (30, 10, 10, 0));
+        for gear in Gear::BOTH {
+            let greatest = whole[gear].iter().copied().fold(0.0, f64::max);
+            let apart =
+                whole[gear].iter().zip(&stage[gear]).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
+            assert!(greatest > 0.0 && apart < 1e-9 * greatest, "{gear:?}: {apart:e} of {greatest:e}");
+        }
+    }
 }

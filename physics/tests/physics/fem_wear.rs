@@ -15,7 +15,10 @@ use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_
 use gearwear_fem::elastic::Elastic;
 use gearwear_physics::contact::hertz;
 use gearwear_physics::mesh_cycle::{CycleObservation, MeshCycle, Work, condensed::CondensedCycle};
-use gearwear_physics::wear::{WearModel, settings::WearSettings};
+use gearwear_physics::wear::{
+    WearModel,
+    settings::{SevereTransition, WearSettings},
+};
 
 use super::common::{assert_close, fzg_c, pair, steel};
 
@@ -411,5 +414,34 @@ fn ver_windows_of_evenly_worn_flanks_do_not_grow() {
         let worn = model.solve(&mut prepared, opened, &|_, _| DEPTH_MM).expect("the contact is found");
         assert_eq!((windows, prepared.windows()), (1, 1), "at {position_mm} mm");
         assert_close("transmission error", worn.rigid[0] - new.rigid[0], 2.0 * DEPTH_MM, 1e-2);
+    }
+}
+
+/// At the state where a step begins, the wear that mild positions keep and that of the severe ones, found again, are the wear of all: rounded tip edges
+/// wear severely above 2500 MPa, the flanks carry up to 1700 MPa.
+#[test]
+fn ver_kept_wear_is_that_of_the_whole_evaluation() {
+    let mut spec = fzg_c();
+    for gear in Gear::BOTH {
+        spec.gears[gear].modification.tip_rounding_mm = 0.1;
+    }
+    let pair = pair(&spec);
+    let model = condensed(&pair, 3.0);
+    let mut cycle = CondensedCycle::new(&model, 60, line_load(&pair));
+    let unworn = cycle.nodes().map(|nodes| vec![0.0; nodes.len()]);
+    let lost = unworn.as_ref().map(Vec::as_slice);
+    let severe = Some(SevereTransition { above_mpa: 2500.0, factor: 10.0, band_mpa: 100.0 });
+    let law = gearwear_physics::wear::of(&WearSettings { severe, ..WearSettings::archard(COEFFICIENT) });
+    let wear = WearModel::cold(law.as_ref());
+    let (mut whole, mut stage) = (unworn.clone(), unworn.clone());
+    let all = cycle.evaluate(lost, &wear, &mut whole, &|| false).expect("the cycle has an equilibrium");
+    cycle.begin_stages(lost, &wear);
+    let part = cycle.evaluate_stage(lost, &wear, &mut stage, &|| false).expect("the cycle has an equilibrium");
+    assert!(part.equilibria > 0 && 2 * part.equilibria < all.equilibria, "{part:?} of {all:?}");
+    assert_eq!((part.partial_equilibria, part.mesh_cycles), (part.equilibria, 0));
+    for gear in Gear::BOTH {
+        let greatest = whole[gear].iter().copied().fold(0.0, f64::max);
+        let apart = whole[gear].iter().zip(&stage[gear]).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
+        assert!(greatest > 0.0 && apart < 1e-9 * greatest, "{gear:?}: {apart:e} of {greatest:e}");
     }
 }
