@@ -11,7 +11,7 @@ use gearwear_bodies::gear::{
     flank::{FlankGrid, PointSpacing},
 };
 use gearwear_bodies::gear_fem::position::WarmStart;
-use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides, default_clamp};
+use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, SectorSides, default_clamp};
 use gearwear_fem::locate::locate;
 use gearwear_physics::assessment::calibrate::{self, CalibrationExtent};
 use gearwear_physics::calibration::bodies::Setup;
@@ -41,14 +41,7 @@ const LINE_LOAD_N_PER_MM: f64 = 637.66;
 const CLAMP_RADIUS_MM: PerGear<f64> = PerGear { pinion: 19.943, wheel: 37.897 };
 
 fn setup(pair: &GearPair, body: Body, elements_per_half_width: f64) -> Setup<'_> {
-    let bodies = BodySettings {
-        body,
-        clamp_radius_mm: CLAMP_RADIUS_MM,
-        web: NO_WEBS,
-        rim_pins: None,
-        elements_per_half_width,
-        rounding_refinement: 1.0,
-    };
+    let bodies = BodySettings { body, ..BodySettings::rings(CLAMP_RADIUS_MM, elements_per_half_width) };
     Setup { pair, material: steel(), bodies, line_load_n_per_mm: LINE_LOAD_N_PER_MM }
 }
 
@@ -56,14 +49,7 @@ fn setup(pair: &GearPair, body: Body, elements_per_half_width: f64) -> Setup<'_>
 fn fzg_c_scene(elements_per_half_width: f64) -> Scene {
     let pair = preset("fzg-c");
     let clamp = |gear| default_clamp(pair.root_radius_mm(gear), pair.transverse_module_mm()).radius_mm;
-    let fem = BodySettings {
-        body: Body::Ring,
-        clamp_radius_mm: PerGear::from_fn(clamp),
-        web: NO_WEBS,
-        rim_pins: None,
-        elements_per_half_width,
-        rounding_refinement: 1.0,
-    };
+    let fem = BodySettings::rings(PerGear::from_fn(clamp), elements_per_half_width);
     let numerics = common::fzg_c_scene().numerics();
     let foundation = Foundation::Matched(MatchCriterion::HalfWidth);
     Scene {
@@ -402,14 +388,7 @@ fn a_file_comes_back_as_it_was_and_keeps_its_hash() {
 fn differences_are_told_by_the_keys_of_the_scene() {
     let identity = |spec: &PairSpec, clamp_mm: f64| {
         let clamp_radius_mm = PerGear { pinion: clamp_mm, wheel: 37.9 };
-        let bodies = BodySettings {
-            body: Body::Ring,
-            clamp_radius_mm,
-            web: NO_WEBS,
-            rim_pins: None,
-            elements_per_half_width: 4.0,
-            rounding_refinement: 1.0,
-        };
+        let bodies = BodySettings::rings(clamp_radius_mm, 4.0);
         CalibrationIdentity::of(&GearPair::new(spec).unwrap(), &steel(), &bodies)
     };
     let own = identity(&fzg_c(), 20.0);
@@ -452,14 +431,7 @@ fn rounded_tips_and_other_orders_of_the_points_are_calibrated_too() {
     // Type A has C before B.
     for (spec, clamp_radius_mm) in [(rounded, CLAMP_RADIUS_MM), (fzg_a(), PerGear { pinion: 22.9, wheel: 34.9 })] {
         let pair = GearPair::new(&spec).unwrap();
-        let bodies = BodySettings {
-            body: Body::Ring,
-            clamp_radius_mm,
-            web: NO_WEBS,
-            rim_pins: None,
-            elements_per_half_width: 3.0,
-            rounding_refinement: 1.0,
-        };
+        let bodies = BodySettings::rings(clamp_radius_mm, 3.0);
         let load = LINE_LOAD_N_PER_MM;
         let setup = Setup { pair: &pair, material: steel(), bodies, line_load_n_per_mm: load };
         let condensed = setup.condensed(&setup.meshed().unwrap()).unwrap();

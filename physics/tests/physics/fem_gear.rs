@@ -7,7 +7,7 @@ use gearwear_bodies::gear_fem::cycle::cycle;
 use gearwear_bodies::gear_fem::full;
 use gearwear_bodies::gear_fem::model::MeshedGear;
 use gearwear_bodies::gear_fem::position::{PositionContact, ToothPairContact, WarmStart};
-use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides};
+use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, SectorSides};
 use gearwear_bodies::reference::hertz_line::HertzLine;
 use gearwear_fem::elastic::Elastic;
 
@@ -24,14 +24,7 @@ fn steel() -> PerGear<Elastic> {
 }
 
 fn settings(body: Body, elements_per_half_width: f64) -> BodySettings {
-    BodySettings {
-        body,
-        clamp_radius_mm: CLAMP_RADIUS_MM,
-        web: NO_WEBS,
-        rim_pins: None,
-        elements_per_half_width,
-        rounding_refinement: 1.0,
-    }
+    BodySettings { body, ..BodySettings::rings(CLAMP_RADIUS_MM, elements_per_half_width) }
 }
 
 /// 302 N·m over base radius and face width.
@@ -267,14 +260,7 @@ fn ver_same_in_mm_and_in_m() {
         let pair = GearPair::new(&spec).unwrap();
         let material =
             PerGear::from_fn(|_| Elastic { young_modulus_mpa: YOUNG_MODULUS_MPA / s / s, poisson_ratio: 0.3 });
-        let settings = BodySettings {
-            body: Body::Ring,
-            clamp_radius_mm: CLAMP_RADIUS_MM.map(|r| r * s),
-            web: NO_WEBS,
-            rim_pins: None,
-            elements_per_half_width: 3.0,
-            rounding_refinement: 1.0,
-        };
+        let settings = BodySettings::rings(CLAMP_RADIUS_MM.map(|r| r * s), 3.0);
         let load = 637.66 / s;
         let gears = PerGear::from_fn(|gear| {
             let meshed = MeshedGear::new(&pair, gear, &material, load, &settings).unwrap();

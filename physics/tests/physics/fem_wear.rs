@@ -11,7 +11,7 @@ use gearwear_bodies::gear::{
 };
 use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
 use gearwear_bodies::gear_fem::position::WarmStart;
-use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
+use gearwear_bodies::gear_mesh::settings::{BodySettings, default_clamp};
 use gearwear_fem::elastic::Elastic;
 use gearwear_physics::contact::hertz;
 use gearwear_physics::mesh_cycle::{CycleObservation, MeshCycle, Work, condensed::CondensedCycle};
@@ -35,14 +35,7 @@ fn condensed(pair: &GearPair, elements_per_half_width: f64) -> CondensedPair<'_>
 
 fn condensed_for(pair: &GearPair, elements_per_half_width: f64, line_load_n_per_mm: f64) -> CondensedPair<'_> {
     let clamp = |gear| default_clamp(pair.teeth[gear].root_radius_mm, pair.spec.normal_module_mm).radius_mm;
-    let settings = BodySettings {
-        body: Body::Ring,
-        clamp_radius_mm: PerGear::from_fn(clamp),
-        web: NO_WEBS,
-        rim_pins: None,
-        elements_per_half_width,
-        rounding_refinement: 1.0,
-    };
+    let settings = BodySettings::rings(PerGear::from_fn(clamp), elements_per_half_width);
     let material =
         steel().map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio });
     CondensedPair::build(pair, &material, line_load_n_per_mm, &settings, &|_| {})

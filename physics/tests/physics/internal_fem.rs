@@ -12,7 +12,7 @@ use gearwear_bodies::gear_fem::in_space::TeethInSpace;
 use gearwear_bodies::gear_fem::model::{MeshedGear, sector};
 use gearwear_bodies::gear_fem::position::{PositionContact, WarmStart};
 use gearwear_bodies::gear_mesh::settings::{
-    Body, BodySettings, NO_WEBS, RimPins, SpaceBody, SpaceResolution, ToothOnPins, default_clamp,
+    BodySettings, RimPins, SpaceBody, SpaceResolution, ToothOnPins, default_clamp,
 };
 use gearwear_bodies::gear_mesh::tooth_section::ExtrudedTooth;
 use gearwear_bodies::gear_mesh::{ToothSector, gear_sector};
@@ -51,14 +51,7 @@ fn planet_in_ring(cutter: Option<ShaperCutter>) -> PairSpec {
 fn settings(pair: &GearPair, elements_per_half_width: f64) -> BodySettings {
     let module_mm = pair.spec.normal_module_mm;
     let clamp_radius_mm = PerGear::from_fn(|g| default_clamp(pair.teeth[g].root_radius_mm, module_mm).radius_mm);
-    BodySettings {
-        body: Body::Ring,
-        clamp_radius_mm,
-        web: NO_WEBS,
-        rim_pins: None,
-        elements_per_half_width,
-        rounding_refinement: 1.0,
-    }
+    BodySettings::rings(clamp_radius_mm, elements_per_half_width)
 }
 
 fn meshed(pair: &GearPair, settings: &BodySettings) -> PerGear<MeshedGear> {

@@ -2,7 +2,7 @@
 
 use gearwear_bodies::gear::{Gear, PerGear, flank::PointSpacing};
 use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
-use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
+use gearwear_bodies::gear_mesh::settings::{BodySettings, default_clamp};
 use gearwear_fem::elastic::Elastic;
 use gearwear_physics::observer::Unwatched;
 use gearwear_physics::simulation::mesh_contact::MeshContact;
@@ -82,14 +82,7 @@ fn ver_eulers_steps_break_where_the_bound_says() {
 fn ver_eulers_steps_break_where_the_bound_says_on_finite_elements() {
     let pair = pair(&fzg_c());
     let clamp = |gear| default_clamp(pair.teeth[gear].root_radius_mm, pair.spec.normal_module_mm).radius_mm;
-    let bodies = BodySettings {
-        body: Body::Ring,
-        clamp_radius_mm: PerGear::from_fn(clamp),
-        web: NO_WEBS,
-        rim_pins: None,
-        elements_per_half_width: 4.0,
-        rounding_refinement: 1.0,
-    };
+    let bodies = BodySettings::rings(PerGear::from_fn(clamp), 4.0);
     let material =
         steel().map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio });
     let scene = fzg_c_scene();

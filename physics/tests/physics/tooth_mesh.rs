@@ -9,7 +9,7 @@ use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear};
 use gearwear_bodies::gear_mesh::pair_mesh::PairSectors;
 use gearwear_bodies::gear_mesh::settings::{
-    Body, BodySettings, NO_WEBS, SectorSides, SpaceBody, SpaceResolution, Web, default_clamp,
+    Body, BodySettings, SectorSides, SpaceBody, SpaceResolution, Web, default_clamp,
 };
 use gearwear_bodies::gear_mesh::{self, FlankResolution, SectorSettings, ToothMeshError, ToothSector, ToothShape};
 use gearwear_mesh::quality::{self, MeshQuality};
@@ -26,14 +26,7 @@ const LINE_LOAD: f64 = 302e3 / 33.8289 / 14.0;
 fn settings(pair: &GearPair, elements_per_half_width: f64) -> BodySettings {
     let module = pair.spec.normal_module_mm;
     let clamp_radius_mm = PerGear::from_fn(|g| default_clamp(pair.teeth[g].root_radius_mm, module).radius_mm);
-    BodySettings {
-        body: Body::Ring,
-        clamp_radius_mm,
-        web: NO_WEBS,
-        rim_pins: None,
-        elements_per_half_width,
-        rounding_refinement: 1.0,
-    }
+    BodySettings::rings(clamp_radius_mm, elements_per_half_width)
 }
 
 fn sectors(pair: &GearPair, settings: &BodySettings) -> PairSectors {

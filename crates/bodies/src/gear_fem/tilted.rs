@@ -129,7 +129,7 @@ mod tests {
     use crate::gear::GearPair;
     use crate::gear::modification::Modification;
     use crate::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
-    use crate::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
+    use crate::gear_mesh::settings::{BodySettings, default_clamp};
     use gearwear_fem::elastic::Elastic;
 
     /// FZG type A gears with sharp tips (DIN 51354-1).
@@ -163,16 +163,10 @@ mod tests {
     #[test]
     fn the_compliance_is_that_of_the_tilted_coupling() {
         let pair = fzg_a();
-        let settings = BodySettings {
-            body: Body::Ring,
-            clamp_radius_mm: PerGear::from_fn(|gear| {
-                default_clamp(pair.teeth[gear].root_radius_mm, pair.spec.normal_module_mm).radius_mm
-            }),
-            web: NO_WEBS,
-            rim_pins: None,
-            elements_per_half_width: 2.0,
-            rounding_refinement: 1.0,
-        };
+        let clamp_radius_mm = PerGear::from_fn(|gear| {
+            default_clamp(pair.teeth[gear].root_radius_mm, pair.spec.normal_module_mm).radius_mm
+        });
+        let settings = BodySettings::rings(clamp_radius_mm, 2.0);
         let steel = Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 };
         let material = PerGear { pinion: steel, wheel: steel };
         let line_load_n_per_mm = 300.0;

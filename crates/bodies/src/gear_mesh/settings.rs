@@ -47,6 +47,18 @@ pub struct BodySettings {
 }
 
 impl BodySettings {
+    /// Whole rings on their clamp circles, without webs and pins.
+    pub fn rings(clamp_radius_mm: PerGear<f64>, elements_per_half_width: f64) -> Self {
+        Self {
+            body: Body::Ring,
+            clamp_radius_mm,
+            web: NO_WEBS,
+            rim_pins: None,
+            elements_per_half_width,
+            rounding_refinement: 1.0,
+        }
+    }
+
     /// Bodies of the three-dimensional tooth model.
     pub fn in_space(&self) -> PerGear<SpaceBody> {
         PerGear::from_fn(|gear| SpaceBody { clamp_radius_mm: self.clamp_radius_mm[gear], web: self.web[gear] })
