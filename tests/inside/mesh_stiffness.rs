@@ -72,6 +72,9 @@ fn ver_stiffness_and_work_of_slices() {
     check("plates", "helical", &keys("slicing"), 5e-3);
 }
 
+/// Transmission error at a position, µm.
+type Error = fn(&MeshCycleRow) -> f64;
+
 /// Mesh orders are the Fourier amplitudes of the transmission error over any base pitch: over that from A on, by the trapezoidal rule on the rows of
 /// `mesh_cycle.csv`, they are those of the summary, which takes another one.
 #[test]
@@ -80,7 +83,7 @@ fn ver_mesh_orders_of_a_spur_pair() {
     let pitch_mm = record.summary.geometry.base_pitch_mm;
     let rows = &record.mesh_cycle;
     let first_mm = rows[0].position_mm;
-    let of: [(fn(&MeshCycleRow) -> f64, &CycleSummary); 2] = [
+    let of: [(Error, &CycleSummary); 2] = [
         (|row| row.transmission_error_new_um, &record.summary.new),
         (|row| row.transmission_error_worn_um, &record.summary.worn),
     ];
