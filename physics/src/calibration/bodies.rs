@@ -12,7 +12,7 @@ use crate::contact::hertz;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear};
 use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
 use gearwear_bodies::gear_fem::model::MeshedGear;
-use gearwear_bodies::gear_fem::ring::ToothForce;
+use gearwear_bodies::gear_fem::ring::{GearCompliance, ToothForce};
 use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, SectorSides, greatest_clamp_mm};
 use gearwear_bodies::material::Material;
 use gearwear_fem::elastic::Elastic;
@@ -95,31 +95,46 @@ impl<'a> Setup<'a> {
         Ok(CondensedPair::new(self.pair, &elastic, gears))
     }
 
-    /// Compliance of one gear's tooth at the pitch point, flattening included, mm²/N, and the gear's degrees of freedom.
-    fn pitch_compliance(&self, gear: Gear, bodies: BodySettings) -> Result<(f64, usize), CalibrationError> {
+    /// Compliance of one gear's tooth at the pitch point with each of `shapes` for its body, flattening included, mm²/N, and the degrees of
+    /// freedom of the gear as `bodies` has it.
+    fn pitch_compliances(
+        &self,
+        gear: Gear,
+        bodies: BodySettings,
+        shapes: &[Body],
+    ) -> Result<(Vec<f64>, usize), CalibrationError> {
         let w = self.line_load_n_per_mm;
-        let meshed = MeshedGear::with_one_fine_tooth(self.pair, gear, &self.elastic(), w, &bodies)?;
-        let tooth = &self.pair.teeth[gear];
         let position_mm = self.pair.path.pitch_point_mm;
+        let meshed = MeshedGear::loaded_at(position_mm, self.pair, gear, &self.elastic(), w, &bodies)?;
+        let tooth = &self.pair.teeth[gear];
         let rho_mm = self.pair.path.rho_mm(gear, position_mm);
         let half_width_mm = hertz::flattening(self.pair, &self.material, position_mm).contact.loaded(w).half_width_mm;
         let flank = meshed.flank();
         let nodes = nodes_under(tooth, &flank, rho_mm, half_width_mm);
-        let body = meshed.condense_onto(self.pair, self.elastic()[gear], nodes)?;
-        let loaded = LoadedTooth::new(tooth, &body, &flank);
-        let middle = loaded.middle();
-        let moved = loaded
-            .ellipse(rho_mm, half_width_mm, w)
-            .and_then(|force: ToothForce| loaded.surface_mm(middle, rho_mm, middle, &force));
-        let moved = moved.ok_or(CalibrationError::OffTheFlank { gear, position_mm })?;
-        Ok((moved / w, meshed.dofs()))
+        let compliance = |body: &GearCompliance| {
+            let loaded = LoadedTooth::new(tooth, body, &flank);
+            let middle = loaded.middle();
+            let moved = loaded
+                .ellipse(rho_mm, half_width_mm, w)
+                .and_then(|force: ToothForce| loaded.surface_mm(middle, rho_mm, middle, &force));
+            moved.map(|moved| moved / w).ok_or(CalibrationError::OffTheFlank { gear, position_mm })
+        };
+        let condensed = meshed.condense_onto(self.pair, self.elastic()[gear], nodes, shapes)?;
+        Ok((condensed.iter().map(compliance).collect::<Result<_, _>>()?, meshed.dofs()))
+    }
+
+    /// Stiffness of the pair at the pitch point with each of `shapes` for its bodies, N/(mm·µm), and the degrees of freedom of both gears as
+    /// `bodies` has them.
+    fn pitch_stiffnesses(&self, bodies: BodySettings, shapes: &[Body]) -> Result<(Vec<f64>, usize), CalibrationError> {
+        let of = PerGear::try_in_parallel(|gear| self.pitch_compliances(gear, bodies, shapes))?;
+        let sums = of.pinion.0.iter().zip(&of.wheel.0).map(|(pinion, wheel)| 1e-3 / (pinion + wheel));
+        Ok((sums.collect(), of.pinion.1 + of.wheel.1))
     }
 
     /// Stiffness of the pair at the pitch point with `bodies`, N/(mm·µm), and the degrees of freedom of both gears.
     fn pitch_stiffness(&self, bodies: BodySettings) -> Result<(f64, usize), CalibrationError> {
-        let (pinion, wheel) =
-            (self.pitch_compliance(Gear::Pinion, bodies)?, self.pitch_compliance(Gear::Wheel, bodies)?);
-        Ok((1e-3 / (pinion.0 + wheel.0), pinion.1 + wheel.1))
+        let (stiffness, dofs) = self.pitch_stiffnesses(bodies, &[bodies.body])?;
+        Ok((stiffness[0], dofs))
     }
 
     /// Radius at which the body of a gear is held `depth_modules` below its root circle; none where it has no body there.
@@ -169,19 +184,22 @@ impl<'a> Setup<'a> {
     pub fn neighbours(&self) -> Result<Vec<NeighbourRow>, CalibrationError> {
         let least = self.pair.teeth.as_ref().map(|tooth| tooth.teeth);
         let least = least.pinion.min(least.wheel);
-        let mut kinds = vec![(Body::Ring, "whole ring".to_owned())];
-        for teeth in SECTORS.into_iter().filter(|&teeth| teeth <= least) {
-            for (sides, how) in [(SectorSides::Free, "free"), (SectorSides::Clamped, "clamped")] {
+        let sectors: Vec<(Body, String)> = SECTORS
+            .into_iter()
+            .filter(|&teeth| teeth <= least)
+            .flat_map(|teeth| {
                 let plural = if teeth == 1 { "tooth" } else { "teeth" };
-                kinds.push((Body::Sector { teeth, sides }, format!("{teeth} {plural}, sides {how}")));
-            }
-        }
-        kinds
-            .into_par_iter()
-            .map(|(body, name)| {
-                let (pair_n_per_mm_um, _) = self.pitch_stiffness(BodySettings { body, ..self.coarse() })?;
-                Ok(NeighbourRow { body: name, pair_n_per_mm_um })
+                [(SectorSides::Free, "free"), (SectorSides::Clamped, "clamped")]
+                    .map(|(sides, how)| (Body::Sector { teeth, sides }, format!("{teeth} {plural}, sides {how}")))
             })
-            .collect()
+            .collect();
+        let most = sectors.last().map_or(Body::Ring, |&(body, _)| body);
+        let shapes: Vec<Body> = sectors.iter().map(|&(body, _)| body).collect();
+        let row = |(body, pair_n_per_mm_um)| NeighbourRow { body, pair_n_per_mm_um };
+        let ring = self.pitch_stiffness(BodySettings { body: Body::Ring, ..self.coarse() })?.0;
+        let of_sectors = self.pitch_stiffnesses(BodySettings { body: most, ..self.coarse() }, &shapes)?.0;
+        let mut rows = vec![row(("whole ring".to_owned(), ring))];
+        rows.extend(sectors.into_iter().map(|(_, name)| name).zip(of_sectors).map(row));
+        Ok(rows)
     }
 }

@@ -1,9 +1,11 @@
 //! Condensed finite-element model of a gear pair: the gears are meshed, then condensed.
 
+use std::sync::Arc;
+
 use super::condensed_pair::{CondensedPair, hertz_half_width_mm};
 use super::flank_surface::MeshedFlank;
 use super::ring::{GearCompliance, Surroundings};
-use super::sector::{Functional, Sector};
+use super::sector::{CondensedSector, Functional, Sector};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::{Body, BodySettings, SectorSides};
 use crate::gear_mesh::{FlankChain, ToothElement, ToothMeshError, ToothSector, gear_sector, touching_pairs};
@@ -23,6 +25,13 @@ const GB_OF_MOST_NODES: f64 = 0.7;
 const MUCH_MEMORY_GB: f64 = 0.8;
 /// Memory above which a condensation is refused, GB: both gears with the most nodes.
 const MOST_MEMORY_GB: f64 = 2.0 * GB_OF_MOST_NODES;
+
+/// Arc of flank on either side of a known load whose elements are as short as under it, in half-widths.
+const LOAD_REACHES_HALF_WIDTHS: f64 = 3.0;
+/// Growth of the resolved half-width with the arc from there: slow enough for the layer of quadrilaterals.
+const GROWTH_FROM_LOAD: f64 = 0.3;
+/// Refinement of tip roundings that nothing touches.
+const UNTOUCHED_ROUNDING: f64 = 0.05;
 
 /// Reason why there is no model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -122,58 +131,46 @@ impl MeshedGear {
         let teeth = pair.teeth[gear].teeth;
         let reach_mm = pair.ample_tip_reach_mm(line_load_n_per_mm, contact_modulus_mpa(*material));
         let fine_teeth = (touching_pairs(pair, reach_mm).len() as u32).min(teeth - 1 + teeth % 2);
-        Self::with_fine_teeth(fine_teeth, pair, gear, material, line_load_n_per_mm, settings)
+        let contact_modulus_mpa = contact_modulus_mpa(*material);
+        let half_width_mm =
+            |position_mm: f64| hertz_half_width_mm(pair, contact_modulus_mpa, line_load_n_per_mm, position_mm);
+        Self::with_fine_teeth(fine_teeth, pair, gear, &half_width_mm, settings)
     }
 
-    /// Meshes a gear of which only the middle tooth is loaded.
-    pub fn with_one_fine_tooth(
+    /// Meshes a gear of which only the middle tooth is loaded, at `position_mm` alone: away from there the elements grow.
+    pub fn loaded_at(
+        position_mm: f64,
         pair: &GearPair,
         gear: Gear,
         material: &PerGear<Elastic>,
         line_load_n_per_mm: f64,
         settings: &BodySettings,
     ) -> Result<Self, ModelError> {
-        Self::with_fine_teeth(1, pair, gear, material, line_load_n_per_mm, settings)
+        let contact_modulus_mpa = contact_modulus_mpa(*material);
+        let hertz_mm =
+            |position_mm: f64| hertz_half_width_mm(pair, contact_modulus_mpa, line_load_n_per_mm, position_mm);
+        let arc_mm = |position_mm: f64| pair.path.involute[gear].arc_mm(pair.path.rho_mm(gear, position_mm));
+        let (loaded_mm, at_mm) = (hertz_mm(position_mm), arc_mm(position_mm));
+        let half_width_mm = |position_mm: f64| {
+            let away_mm = (arc_mm(position_mm) - at_mm).abs() - LOAD_REACHES_HALF_WIDTHS * loaded_mm;
+            hertz_mm(position_mm).max(loaded_mm + GROWTH_FROM_LOAD * away_mm.max(0.0))
+        };
+        let settings = BodySettings { rounding_refinement: UNTOUCHED_ROUNDING, ..*settings };
+        Self::with_fine_teeth(1, pair, gear, &half_width_mm, &settings)
     }
 
+    /// Meshes a gear with `fine_teeth` of which the flanks resolve the half-widths of contact `half_width_mm` by position.
     fn with_fine_teeth(
         fine_teeth: u32,
         pair: &GearPair,
         gear: Gear,
-        material: &PerGear<Elastic>,
-        line_load_n_per_mm: f64,
+        half_width_mm: &dyn Fn(f64) -> f64,
         settings: &BodySettings,
     ) -> Result<Self, ModelError> {
-        let teeth = pair.teeth[gear].teeth;
-        let surroundings = match settings.body {
-            Body::Ring => {
-                let coarse = (teeth - fine_teeth) as usize;
-                match settings.rim_pins.filter(|_| pair.teeth[gear].is_internal()) {
-                    Some(pins) => Surroundings::PinnedRing { coarse, pins },
-                    None => Surroundings::Ring { coarse },
-                }
-            }
-            // A sector of all teeth has no cuts.
-            Body::Sector { teeth: all, .. } if all == teeth => {
-                Surroundings::Ring { coarse: (teeth - fine_teeth) as usize }
-            }
-            Body::Sector { teeth, .. } if teeth < fine_teeth => {
-                return Err(ModelError::TooFewTeeth { gear, teeth, least: fine_teeth });
-            }
-            Body::Sector { teeth, sides } => {
-                let coarse = ((teeth - fine_teeth) / 2) as usize;
-                match sides {
-                    SectorSides::Free => Surroundings::FreeSector { coarse },
-                    SectorSides::Clamped => Surroundings::ClampedSector { coarse },
-                }
-            }
-        };
-        let contact_modulus_mpa = contact_modulus_mpa(*material);
-        let half_width_mm =
-            |position_mm: f64| hertz_half_width_mm(pair, contact_modulus_mpa, line_load_n_per_mm, position_mm);
+        let surroundings = surroundings(fine_teeth, pair, gear, settings)?;
         let failed = |source| ModelError::Mesh { gear, source: Box::new(source) };
-        let fine = gear_sector(pair, gear, true, settings, &half_width_mm).map_err(failed)?;
-        let coarse = (surroundings.coarse() > 0).then(|| gear_sector(pair, gear, false, settings, &half_width_mm));
+        let fine = gear_sector(pair, gear, true, settings, half_width_mm).map_err(failed)?;
+        let coarse = (surroundings.coarse() > 0).then(|| gear_sector(pair, gear, false, settings, half_width_mm));
         Ok(Self {
             gear,
             fine,
@@ -242,17 +239,28 @@ impl MeshedGear {
             fine.probes = self.fillet_probes(&fine.solid, material).map_err(|source| self.failed(source))?;
             fine.working_side_probes = self.fine.working_fillet.len();
         }
-        Ok((self.joined(fine, self.coarse_sector(pair), material)?, flank))
+        let (fine, coarse) = self.condensed_sectors(fine, self.coarse_sector(pair), material)?;
+        Ok((self.joined(fine, coarse.as_ref(), self.surroundings)?, flank))
     }
 
-    /// Condenses the gear onto `nodes` of its working flank alone, without stresses, for known loads.
+    /// Condenses the gear onto `nodes` of its working flank alone, without stresses, for known loads: once for all `bodies`, which are held
+    /// alike and have no more teeth than the gear was meshed with.
     pub fn condense_onto(
         &self,
         pair: &GearPair,
         material: Elastic,
         nodes: Vec<u32>,
-    ) -> Result<GearCompliance, ModelError> {
-        self.joined(self.sector(pair, &self.fine, nodes), self.coarse_sector(pair), material)
+        bodies: &[Body],
+    ) -> Result<Vec<GearCompliance>, ModelError> {
+        let (fine, coarse) =
+            self.condensed_sectors(self.sector(pair, &self.fine, nodes), self.coarse_sector(pair), material)?;
+        let fine = Arc::new(fine);
+        let of_body = |&body: &Body| {
+            let settings = BodySettings { body, ..self.settings };
+            let surroundings = surroundings(self.fine_teeth, pair, self.gear, &settings)?;
+            self.joined(fine.clone(), coarse.as_ref(), surroundings)
+        };
+        bodies.iter().map(of_body).collect()
     }
 
     /// Working flank as a contact surface, down to the end of the involute: the part below the resolved one touches a deeply worn mate.
@@ -272,17 +280,61 @@ impl MeshedGear {
         self.coarse.as_ref().map(|coarse| self.sector(pair, coarse, Vec::new()))
     }
 
-    fn joined(&self, fine: Sector, coarse: Option<Sector>, material: Elastic) -> Result<GearCompliance, ModelError> {
+    fn condensed_sectors(
+        &self,
+        fine: Sector,
+        coarse: Option<Sector>,
+        material: Elastic,
+    ) -> Result<(CondensedSector, Option<CondensedSector>), ModelError> {
         let condense =
             |sector: Sector| sector.condense(material, Analysis::PlaneStrain).map_err(|source| self.failed(source));
-        let (fine, coarse) = (condense(fine)?, coarse.map(condense).transpose()?);
-        let joined = GearCompliance::new(fine, coarse.as_ref(), self.fine_teeth as usize, self.surroundings);
-        joined.map_err(|error| self.failed(error.into()))
+        Ok((condense(fine)?, coarse.map(condense).transpose()?))
+    }
+
+    fn joined(
+        &self,
+        fine: impl Into<Arc<CondensedSector>>,
+        coarse: Option<&CondensedSector>,
+        surroundings: Surroundings,
+    ) -> Result<GearCompliance, ModelError> {
+        GearCompliance::new(fine, coarse, self.fine_teeth as usize, surroundings)
+            .map_err(|error| self.failed(error.into()))
     }
 
     fn failed(&self, source: SolveError) -> ModelError {
         ModelError::Condense { gear: self.gear, source }
     }
+}
+
+/// Surroundings of the fine teeth of a gear.
+fn surroundings(
+    fine_teeth: u32,
+    pair: &GearPair,
+    gear: Gear,
+    settings: &BodySettings,
+) -> Result<Surroundings, ModelError> {
+    let teeth = pair.teeth[gear].teeth;
+    Ok(match settings.body {
+        Body::Ring => {
+            let coarse = (teeth - fine_teeth) as usize;
+            match settings.rim_pins.filter(|_| pair.teeth[gear].is_internal()) {
+                Some(pins) => Surroundings::PinnedRing { coarse, pins },
+                None => Surroundings::Ring { coarse },
+            }
+        }
+        // A sector of all teeth has no cuts.
+        Body::Sector { teeth: all, .. } if all == teeth => Surroundings::Ring { coarse: (teeth - fine_teeth) as usize },
+        Body::Sector { teeth, .. } if teeth < fine_teeth => {
+            return Err(ModelError::TooFewTeeth { gear, teeth, least: fine_teeth });
+        }
+        Body::Sector { teeth, sides } => {
+            let coarse = ((teeth - fine_teeth) / 2) as usize;
+            match sides {
+                SectorSides::Free => Surroundings::FreeSector { coarse },
+                SectorSides::Clamped => Surroundings::ClampedSector { coarse },
+            }
+        }
+    })
 }
 
 /// Degrees of freedom of a sector without those of one cut, which it shares with its neighbour.

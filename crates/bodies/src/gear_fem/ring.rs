@@ -251,15 +251,16 @@ impl GearCompliance {
     /// Joins `teeth` fine sectors, from clockwise to anticlockwise, with their surroundings; `coarse` is needed where these
     /// have teeth.
     pub fn new(
-        fine: CondensedSector,
+        fine: impl Into<Arc<CondensedSector>>,
         coarse: Option<&CondensedSector>,
         teeth: usize,
         surroundings: Surroundings,
     ) -> Result<Self, ActiveSetError> {
+        let fine = fine.into();
         let coarse = coarse.map(|coarse| &coarse.matrices.cut_stiffness);
         let joined = JoinedSectors::new(&fine.matrices, coarse, teeth, surroundings, 0..=teeth - 1)?;
         let carried = CarriedShapes::new(&fine.matrices, &joined, teeth);
-        Ok(Self { sector: Arc::new(fine), carried: Arc::new(carried), joined: Arc::new(joined), softness: 1.0 })
+        Ok(Self { sector: fine, carried: Arc::new(carried), joined: Arc::new(joined), softness: 1.0 })
     }
 
     /// Gear of a material `by` times as soft, with the same Poisson's ratio: every displacement under the same forces is `by` times as great.
