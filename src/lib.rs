@@ -301,7 +301,7 @@ pub fn uncertainty(
         None => journal::Journal::in_memory(study),
         Some(folder) => journal::Journal::open(folder, study).map_err(uncertainty::asked::UncertaintyFault::Journal)?,
     };
-    Ok(prepared.run(&mut journal, threads, observer).map_err(of_study)?)
+    Ok(prepared.run(&mut journal, threads, observer, |_| {}).map_err(of_study)?)
 }
 
 /// Writes what `gearwear uncertainty` writes into `folder`, which is made if need be.

@@ -87,6 +87,9 @@ pub struct GearFile {
     /// Profile crowning in µm, 0 or more: a parabola over the active profile. Default 0.
     #[schemars(range(min = 0))]
     pub profile_crowning_um: Option<f64>,
+    /// Profile-slope deviation f_Hα over the active profile in µm (ISO 1328-1); positive: material is missing at its start, negative: at the tip.
+    /// Default 0.
+    pub profile_slope_deviation_um: Option<f64>,
     /// Lead crowning in µm, 0 or more: a parabola over the face width. Default 0.
     #[schemars(range(min = 0))]
     pub lead_crowning_um: Option<f64>,

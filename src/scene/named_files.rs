@@ -245,7 +245,7 @@ pub(super) fn initial_flank(
     let read = initial::read(&bytes, &choice, cutoff_mm, &pair, gear).map_err(|error| refused(error.to_string()))?;
     let mut with_flank = resolved.scene.pair.clone();
     if read.kind == ValueKind::Height && with_flank.gears[gear].modification.has_profile_modification() {
-        let keys = "tip_relief, root_relief and profile_crowning_um, which the heights have in them, are given as well";
+        let keys = "tip_relief, root_relief, profile_crowning_um and profile_slope_deviation_um, which the heights have in them, are given as well";
         return Err(refused(format!("but {keys}")).into());
     }
     let uncovered = read.uncovered(&pair, gear);

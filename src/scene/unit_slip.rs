@@ -178,6 +178,7 @@ impl SlipSearch<'_> {
             "root_relief.amount_um",
             "end_relief.amount_um",
             "profile_crowning_um",
+            "profile_slope_deviation_um",
             "lead_crowning_um",
         ] {
             let key = format!("pair.{gear}.{key}");

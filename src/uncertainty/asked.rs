@@ -4,6 +4,7 @@ use super::design::{self, CorrelationError, MOST_FACTORS, MOST_SAMPLES};
 use super::distribution::{self, UncertainError};
 use super::life::LimitError;
 use super::sampled_run::{SampledQuestion, UncertaintyStudyError};
+use super::usual;
 use crate::evaluate::output::{OutputError, SummaryOutput};
 use crate::journal::JournalError;
 use crate::scene::draft::Draft;
@@ -15,7 +16,7 @@ use gearwear_physics::results::figures;
 /// Question of a study of uncertainty.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UncertaintyQuestion {
-    /// Uncertain keys: `KEY=DISTRIBUTION` (docs/sweep.md).
+    /// Uncertain keys: `KEY=DISTRIBUTION`, or words for usual ones (docs/sweep.md).
     pub uncertain: Vec<String>,
     /// Correlations of their normal scores: `KEY:KEY=R`.
     pub correlation: Vec<String>,
@@ -89,8 +90,10 @@ impl SampledQuestion {
     pub fn of(scene: &LoadedScene, asked: &UncertaintyQuestion) -> Result<Self, UncertaintyFault> {
         let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
         let resolved: toml::Table = scene.to_toml().parse().unwrap_or_default();
-        let given = asked.uncertain.iter().map(String::as_str);
-        let uncertain = distribution::parse_all(given, |key| number_at(&resolved, key))?;
+        let own = |key: &str| number_at(&resolved, key);
+        let given = asked.uncertain.iter().map(|given| usual::expanded(given, scene, own));
+        let given: Vec<String> = given.collect::<Result<Vec<_>, _>>()?.concat();
+        let uncertain = distribution::parse_all(given.iter().map(String::as_str), own)?;
         if let Some(key) = missing_phase(uncertain.iter().flat_map(|one| linked_keys(&one.key)), &draft) {
             return Err(UncertainError::NoPhase { key }.into());
         }

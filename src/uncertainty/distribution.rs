@@ -29,8 +29,10 @@ const RARE: f64 = 1e-12;
 /// Faults of an uncertain key.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum UncertainError {
-    #[error("found {given:?}; allowed: KEY=DISTRIBUTION, with one of {FORMS}")]
+    #[error("found {given:?}; allowed: KEY=DISTRIBUTION, with one of {FORMS}; or coefficient, torque, class:7")]
     Form { given: String },
+    #[error("found class:{found}; allowed: a flank tolerance class of ISO 1328-1, class:1 to class:11")]
+    Class { found: String },
     #[error(transparent)]
     Key(#[from] KeyError),
     /// A key that takes whole numbers has no distribution.

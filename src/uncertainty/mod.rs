@@ -7,6 +7,7 @@
 //! |---|---|
 //! | [`asked`] | a study as it is asked for, checked |
 //! | [`distribution`] | an uncertain key as the user writes it |
+//! | `usual` | what is usual, by a word |
 //! | [`design`] | samples from a Sobol sequence, correlations |
 //! | [`sampled_run`] | a run of the scene with some values of its keys |
 //! | [`fast_model`] | the contact surface of the samples |
@@ -28,3 +29,4 @@ pub mod report;
 pub mod sampled_run;
 mod shared_runs;
 pub mod study;
+mod usual;

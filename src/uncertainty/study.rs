@@ -102,19 +102,20 @@ impl Samples<'_> {
         self.bounds.iter().any(Option::is_some)
     }
 
-    /// Runs what the journal does not have.
-    fn run_all(
+    /// Runs those of the first `points` that the journal does not have.
+    fn run_first(
         &self,
+        points: usize,
         journal: &mut Journal<SampledStudy>,
         threads: usize,
         observer: &dyn Observer,
     ) -> Result<(), UncertaintyStudyError> {
         let total = self.question.samples * self.sampling.matrices.len();
+        let asked = points * self.sampling.matrices.len();
         let rows = &journal.contents.rows;
-        let unfinished = |number: &usize| !rows.contains_key(number);
+        let mut left: BTreeSet<usize> = (0..total).filter(|number| !rows.contains_key(number)).collect();
         let mut tasks = self.sampling.groups(self.varied);
-        tasks.retain(|group| group.iter().any(unfinished));
-        let mut left: BTreeSet<usize> = tasks.iter().flatten().copied().filter(|number| *number < total).collect();
+        tasks.retain(|group| group.iter().any(|number| *number < asked && left.contains(number)));
         let mut failed: BTreeSet<usize> =
             rows.values().filter(|row| row.number < total && row.ran.is_err()).map(|row| row.number).collect();
         let tell = |row: &KeptRun| {
@@ -323,7 +324,8 @@ impl<'a> PreparedStudy<'a> {
         SampledStudy::of(self.scene, self.sampling.question, &self.sampled.surface.surface, places)
     }
 
-    /// Runs what `journal` does not have of the study, and evaluates it; where it is interrupted, the points that were finished.
+    /// Runs what `journal` does not have of the study, and evaluates it; where it is interrupted, the points that were finished. Each time that twice
+    /// as many points are finished, `earlier` gets the record of those.
     ///
     /// # Errors
     /// No finished sample, a journal that cannot be written.
@@ -332,6 +334,7 @@ impl<'a> PreparedStudy<'a> {
         journal: &mut Journal<SampledStudy>,
         threads: usize,
         observer: &dyn Observer,
+        mut earlier: impl FnMut(&UncertaintyRecord),
     ) -> Result<UncertaintyRecord, UncertaintyStudyError> {
         let Self { scene, sampling, nominal, sampled, places, begun } = self;
         let question = sampling.question;
@@ -350,18 +353,34 @@ impl<'a> PreparedStudy<'a> {
             corrections: &sampled.corrections,
             differences: &sampled.differences,
         };
-        samples.run_all(journal, threads, observer)?;
-
-        let runs_of_a_point = sampling.matrices.len();
-        let runs = 0..question.samples * runs_of_a_point;
-        let whole: Vec<Row> =
-            runs.map_while(|number| journal.contents.rows.get(&number)).map(|kept| kept.ran.clone()).collect();
-        if whole.len() / runs_of_a_point < question.samples.min(FEWEST_SAMPLES) {
+        let finished = |journal: &Journal<SampledStudy>, most: usize| {
+            let runs_of_a_point = sampling.matrices.len();
+            let runs = (0..most * runs_of_a_point).map_while(|number| journal.contents.rows.get(&number));
+            let mut whole: Vec<Row> = runs.map(|kept| kept.ran.clone()).collect();
+            whole.truncate(whole.len() / runs_of_a_point * runs_of_a_point);
+            whole
+        };
+        let evaluated = |whole: &[Row]| {
+            let rows: Vec<&[Row]> = whole.chunks_exact(sampling.matrices.len()).collect();
+            let surface = sampled.surface.clone();
+            let record = record(scene, &samples, &rows)?;
+            Ok(UncertaintyRecord { surface, threads, wall_s: begun.elapsed().as_secs_f64(), ..record })
+        };
+        let before = finished(journal, question.samples).len() / sampling.matrices.len();
+        let doubled = std::iter::successors(Some(FEWEST_SAMPLES), |points| points.checked_mul(2));
+        for points in doubled.take_while(|points| *points < question.samples).filter(|points| *points > before) {
+            samples.run_first(points, journal, threads, observer)?;
+            let whole = finished(journal, points);
+            if whole.len() == points * sampling.matrices.len() && whole.iter().any(Result::is_ok) {
+                earlier(&evaluated(&whole)?);
+            }
+        }
+        samples.run_first(question.samples, journal, threads, observer)?;
+        let whole = finished(journal, question.samples);
+        if whole.len() / sampling.matrices.len() < question.samples.min(FEWEST_SAMPLES) {
             return Err(UncertaintyStudyError::Interrupted);
         }
-        let rows: Vec<&[Row]> = whole.chunks_exact(runs_of_a_point).collect();
-        let record = record(scene, &samples, &rows)?;
-        Ok(UncertaintyRecord { surface: sampled.surface, threads, wall_s: begun.elapsed().as_secs_f64(), ..record })
+        evaluated(&whole)
     }
 }
 

@@ -42,6 +42,13 @@ impl CountedProgress {
         Self { display: Display::new(quiet, log), interrupted, announced: Mutex::default() }
     }
 
+    /// Prints a text, but where it is quiet.
+    pub(super) fn say(&self, text: &str) {
+        if !matches!(self.display, Display::Quiet) {
+            self.display.say(text);
+        }
+    }
+
     pub(super) fn finish(&self) {
         if let Display::Bar(bar) = &self.display {
             bar.finish_and_clear();

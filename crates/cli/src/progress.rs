@@ -33,10 +33,14 @@ impl<L> Display<L> {
 
     /// Prints a warning, beside the bar where there is one.
     pub(super) fn warn(&self, text: &str) {
-        let warning = format!("warning: {text}");
+        self.say(&format!("warning: {text}"));
+    }
+
+    /// Prints a text, beside the bar where there is one.
+    pub(super) fn say(&self, text: &str) {
         match self {
-            Display::Bar(bar) => bar.suspend(|| super::say(&warning)),
-            Display::Log(_) | Display::Quiet => super::say(&warning),
+            Display::Bar(bar) => bar.suspend(|| super::say(text)),
+            Display::Log(_) | Display::Quiet => super::say(text),
         }
     }
 }

@@ -27,7 +27,8 @@ pub(super) struct UncertaintyArgs {
     scene: PathBuf,
     /// A key of the scene, and its distribution: normal:MEAN:SD, lognormal:MEDIAN:FACTOR (68 % of the values lie from MEDIAN/FACTOR to
     /// MEDIAN·FACTOR), uniform:LOW:HIGH, triangular:LOW:MODE:HIGH; about the scene's own value ±40%, normal:10% and lognormal:FACTOR.
-    /// Keys that have the same value: pair.{pinion,wheel}.tip_rounding_mm. May be given several times
+    /// Keys that have the same value: pair.{pinion,wheel}.tip_rounding_mm. What is usual by a word: coefficient (lognormal:1.5), torque (±5%),
+    /// class:N (profile and helix slopes of ISO 1328-1). May be given several times
     #[arg(long, value_name = "KEY=DISTRIBUTION", required = true)]
     uncertain: Vec<String>,
     /// Correlation of two uncertain keys, of their normal scores. May be given several times; pairs that are not given are independent
@@ -91,9 +92,16 @@ pub(super) fn run(args: &UncertaintyArgs) -> Result<(), Failure> {
     if !(args.quiet || journal.contents.rows.is_empty()) {
         say(&format!("goes on: {} runs were finished before", journal.contents.rows.len()));
     }
-    let record = prepared.run(&mut journal, thread_count(args.threads), &progress);
+    let mut not_written = None;
+    let record = prepared.run(&mut journal, thread_count(args.threads), &progress, |record| {
+        progress.say(&earlier(record));
+        not_written = report_of_study::write(record, out).err();
+    });
     progress.finish();
     let record = record.map_err(UncertaintyFault::Study)?;
+    if let Some(error) = not_written {
+        return Err(error.into());
+    }
     report_of_study::write(&record, out)?;
     if !args.quiet {
         print(&table(&record, out))?;
@@ -138,6 +146,21 @@ impl From<UncertaintyFault> for Failure {
             wrong => InputError::Uncertainty(wrong).into(),
         }
     }
+}
+
+/// First figures of a study that goes on, for the terminal.
+fn earlier(record: &UncertaintyRecord) -> String {
+    let shown = record.outputs.iter().map(|output| {
+        let [low, middle, high] = [output.quantiles.p05, output.quantiles.p50, output.quantiles.p95].map(or_dash);
+        format!("\n  {:42}{low:>12}{middle:>12}{high:>12} {}", output.output, output.unit)
+    });
+    let shown: String = shown.collect();
+    format!(
+        "5, 50 and 95 % of {} of {} points, after {} s:{shown}",
+        record.samples,
+        record.samples_asked,
+        digits(record.wall_s)
+    )
 }
 
 /// Quantiles and indices, for the terminal.

@@ -78,6 +78,9 @@ pub struct GearIdentity {
     pub tooth_thickness_allowance_um: f64,
     /// Crowning, µm.
     pub profile_crowning_um: f64,
+    /// Profile-slope deviation, µm.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub profile_slope_deviation_um: f64,
     /// d_f of an internal gear, given or derived.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub root_diameter_mm: Option<f64>,
@@ -226,6 +229,10 @@ impl CalibrationIdentity {
     }
 }
 
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
 impl GearIdentity {
     fn of(pair: &GearPair, gear: Gear, bodies: &BodySettings) -> Self {
         let root_radius_mm = pair.teeth[gear].root_radius_mm;
@@ -237,6 +244,7 @@ impl GearIdentity {
             tip_diameter_mm: 2.0 * pair.teeth[gear].tip_radius_mm.abs(),
             tooth_thickness_allowance_um: 1e3 * spec.tooth_thickness_allowance_mm,
             profile_crowning_um: 1e3 * modification.profile_crowning_mm,
+            profile_slope_deviation_um: 1e3 * modification.profile_slope_mm,
             root_diameter_mm: spec.ring.map(|_| 2.0 * root_radius_mm.abs()),
             rim_thickness_mm: spec.ring.map(|_| root_radius_mm - bodies.clamp_radius_mm[gear]),
             rim_pins: bodies

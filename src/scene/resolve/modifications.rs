@@ -76,6 +76,7 @@ fn of_gear(
         tip_relief: tip_relief?,
         root_relief: root_relief?,
         profile_crowning_mm: UM * *file.profile_crowning_um.get_or_insert(0.0),
+        profile_slope_mm: UM * *file.profile_slope_deviation_um.get_or_insert(0.0),
         tip_rounding_mm,
         lead_crowning_mm: UM * *file.lead_crowning_um.get_or_insert(0.0),
         end_relief: file.end_relief.as_mut().map(end_relief),

@@ -23,7 +23,7 @@ pub(super) fn page(record: &UncertaintyRecord) -> String {
     let shown = figures::of(record);
     let interruption = (record.samples < record.samples_asked).then(|| {
         format!(
-            "It was interrupted after {} of {} points.",
+            "Figures of the first {} of {} points: the study goes on, or was interrupted.",
             count(record.samples as u64),
             count(record.samples_asked as u64)
         )

@@ -47,6 +47,8 @@ pub struct Modification {
     pub root_relief: Option<Relief>,
     /// Height of the profile crowning (parabola over the active profile, nothing removed at its middle), mm.
     pub profile_crowning_mm: f64,
+    /// Profile-slope deviation f_Hα over the active profile, mm: positive, material is missing at its start; negative, at the tip.
+    pub profile_slope_mm: f64,
     /// Radius of the rounding of the tip edge, mm.
     pub tip_rounding_mm: f64,
     /// Height of the lead crowning (parabola over the face width, nothing removed at its middle), mm.
@@ -60,7 +62,8 @@ pub struct Modification {
 impl Modification {
     /// Whether it changes the profile, apart from the rounding of the tip edge.
     pub fn has_profile_modification(&self) -> bool {
-        self.tip_relief.is_some() || self.root_relief.is_some() || self.profile_crowning_mm != 0.0
+        let over_the_profile = self.profile_crowning_mm != 0.0 || self.profile_slope_mm != 0.0;
+        self.tip_relief.is_some() || self.root_relief.is_some() || over_the_profile
     }
 
     /// Whether it varies over the face width.

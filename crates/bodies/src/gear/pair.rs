@@ -249,7 +249,11 @@ impl GearPair {
                 ("helix slope deviation", modification.helix_slope_mm.abs()),
             ];
             let measured_mm = self.spec.gears[gear].measured_flank.as_ref().map_or(0.0, |flank| flank.greatest_mm());
-            let of_profile = [("profile crowning", modification.profile_crowning_mm), (MEASURED_FLANK, measured_mm)];
+            let of_profile = [
+                ("profile crowning", modification.profile_crowning_mm),
+                ("profile slope deviation", modification.profile_slope_mm.abs()),
+                (MEASURED_FLANK, measured_mm),
+            ];
             for (name, amount_mm) in amounts.into_iter().chain(of_profile).chain(over_width) {
                 if amount_mm > greatest_mm {
                     return Err(PairError::ModificationTooDeep { gear, modification: name, amount_mm, greatest_mm });

@@ -6,6 +6,7 @@
 //! ```text
 //! relief        C (u/L)ⁿ       u: roll length from its beginning, L: its whole length, n = 1 linear, 2 parabolic
 //! crowning      C_α (2v)²      v: roll length from the middle of the active profile over its whole length
+//! profile slope f (½ − v)      f > 0; |f| (½ + v) where f < 0; constant beyond the ends
 //! tip rounding  ρ_k − √(ρ_k² − d²)   d: distance along the flank from the beginning of the rounding of radius ρ_k
 //! ```
 //!
@@ -113,8 +114,10 @@ pub fn removed_mm(modification: &Modification, tooth: &Tooth, active_start_rho_m
     let tip = modification.tip_relief.map_or(0.0, |r| relief_mm(r, rho_mm - (tip_rho - r.length_mm)));
     let root = modification.root_relief.map_or(0.0, |r| relief_mm(r, active_start_rho_mm + r.length_mm - rho_mm));
     let across = (2.0 * (rho_mm - active_start_rho_mm) / (tip_rho - active_start_rho_mm) - 1.0).clamp(-1.0, 1.0);
+    let sloped = modification.profile_slope_mm;
+    let slope = 0.5 * (sloped.abs() - sloped * across);
     let crowning = modification.profile_crowning_mm * across * across;
-    tip + root + crowning + tip_rounding_mm(modification.tip_rounding_mm, tooth, rho_mm)
+    tip + root + crowning + slope + tip_rounding_mm(modification.tip_rounding_mm, tooth, rho_mm)
 }
 
 /// Material removed by a relief at the roll length `from_start_mm` from its beginning; 0 before, its amount after its end.

@@ -1,24 +1,49 @@
 //! Tolerances of flanks from the tolerance class of a drawing.
 //!
-//! Helix slope, in µm, of a gear of reference diameter d and face width b in mm, class A from 1 to 11:
+//! Slopes of profile and helix, in µm, of a gear of reference diameter d, normal module m_n and face width b in mm, class A from 1 to 11:
 //!
 //! ```text
+//! f_HαT = (0.4 m_n + 0.001 d + 4) (√2)^(A − 5)
 //! f_HβT = (0.05 √d + 0.35 √b + 4) (√2)^(A − 5)
 //! ```
 //!
 //! rounded to whole µm above 10 µm, to 0.5 µm from 5 µm on, and to 0.1 µm below.
 //!
-//! Source: ISO 1328-1:2013, helix slope tolerance, and its rules of rounding.
+//! Source: ISO 1328-1:2013, profile and helix slope tolerances, and its rules of rounding.
 
 /// Range of reference diameters of the standard, mm.
 pub const DIAMETERS_MM: [f64; 2] = [5.0, 15_000.0];
 /// Range of face widths of the standard, mm.
 pub const WIDTHS_MM: [f64; 2] = [4.0, 1200.0];
 
+/// Classes of the standard.
+pub const CLASSES: std::ops::RangeInclusive<u32> = 1..=11;
+/// Class that the formulae are written for.
+pub const CLASS_OF_FORMULAE: f64 = 5.0;
+
+/// f_HαT of class 5, not rounded, µm.
+pub fn profile_slope_of_class_5_um(normal_module_mm: f64, reference_diameter_mm: f64) -> f64 {
+    0.4 * normal_module_mm + 0.001 * reference_diameter_mm + 4.0
+}
+
+/// f_HβT of class 5, not rounded, µm.
+pub fn helix_slope_of_class_5_um(reference_diameter_mm: f64, face_width_mm: f64) -> f64 {
+    0.05 * reference_diameter_mm.sqrt() + 0.35 * face_width_mm.sqrt() + 4.0
+}
+
+/// Tolerance of a class that is `of_class_5_um` in class 5, rounded, µm.
+pub fn of_class_um(class: u32, of_class_5_um: f64) -> f64 {
+    rounded_um(of_class_5_um * 2.0_f64.powf(0.5 * (f64::from(class) - CLASS_OF_FORMULAE)))
+}
+
 /// Helix slope tolerance f_HβT, µm.
 pub fn helix_slope_um(class: u32, reference_diameter_mm: f64, face_width_mm: f64) -> f64 {
-    let of_class_5_um = 0.05 * reference_diameter_mm.sqrt() + 0.35 * face_width_mm.sqrt() + 4.0;
-    rounded_um(of_class_5_um * 2.0_f64.powf(0.5 * (f64::from(class) - 5.0)))
+    of_class_um(class, helix_slope_of_class_5_um(reference_diameter_mm, face_width_mm))
+}
+
+/// Profile slope tolerance f_HαT, µm.
+pub fn profile_slope_um(class: u32, normal_module_mm: f64, reference_diameter_mm: f64) -> f64 {
+    of_class_um(class, profile_slope_of_class_5_um(normal_module_mm, reference_diameter_mm))
 }
 
 fn rounded_um(tolerance_um: f64) -> f64 {
@@ -48,6 +73,14 @@ mod tests {
             (11, 400.0, 100.0, 68.0),
         ] {
             assert_eq!(helix_slope_um(class, d, b), expected, "class {class}, d = {d}, b = {b}");
+        }
+    }
+
+    /// m_n = 3 mm, d = 100 mm: 1.2 + 0.1 + 4 = 5.3 µm in class 5, twice that in class 7.
+    #[test]
+    fn val_profile_slope_is_the_formula_of_the_standard() {
+        for (class, expected) in [(5, 5.5), (7, 11.0), (3, 2.7)] {
+            assert_eq!(profile_slope_um(class, 3.0, 100.0), expected, "class {class}");
         }
     }
 

@@ -169,11 +169,11 @@ impl<'a> Profile<'a> {
 
     /// Radii of curvature between the ends of the flank where the removed material has a kink.
     pub(super) fn kinks_rho_mm(&self) -> Vec<f64> {
-        let Modification { tip_relief, root_relief, profile_crowning_mm, .. } = self.modification;
+        let Modification { tip_relief, root_relief, profile_crowning_mm, profile_slope_mm, .. } = self.modification;
         let mut kinks = Vec::new();
         kinks.extend(tip_relief.map(|relief| self.tooth.tip_rho_mm() - relief.length_mm));
         kinks.extend(root_relief.map(|relief| self.active_start_rho_mm + relief.length_mm));
-        if root_relief.is_some() || profile_crowning_mm > 0.0 {
+        if root_relief.is_some() || profile_crowning_mm > 0.0 || profile_slope_mm != 0.0 {
             kinks.push(self.active_start_rho_mm);
         }
         kinks.sort_by(f64::total_cmp);

@@ -26,7 +26,7 @@
 
 use serde::Serialize;
 
-use gearwear_bodies::gear::{Gear, GearPair};
+use gearwear_bodies::gear::{Gear, GearPair, tolerance};
 
 /// Part of the roll length from start of active profile to tip form circle that is evaluated.
 const EVALUATED: f64 = 0.95;
@@ -36,8 +36,6 @@ const LEFT_OUT: f64 = 0.05;
 const COVERED: f64 = 0.9;
 /// Classes of the standard.
 const CLASSES: [f64; 2] = [1.0, 11.0];
-/// Class to which the formulae are written.
-const CLASS_OF_FORMULAE: f64 = 5.0;
 
 /// Deviations of a trace.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -76,7 +74,7 @@ impl Evaluation {
             from_mm: start,
             to_mm: start + EVALUATED * (form - start),
             length_mm: tooth.tip_rho_mm() - start,
-            slope_tolerance_um: 0.4 * module + 0.001 * diameter + 4.0,
+            slope_tolerance_um: tolerance::profile_slope_of_class_5_um(module, diameter),
             form_tolerance_um: 0.55 * module + 5.0,
         }
     }
@@ -90,7 +88,7 @@ impl Evaluation {
             from_mm: left_out,
             to_mm: width - left_out,
             length_mm: width,
-            slope_tolerance_um: 0.05 * diameter.sqrt() + 0.35 * width.sqrt() + 4.0,
+            slope_tolerance_um: tolerance::helix_slope_of_class_5_um(diameter, width),
             form_tolerance_um: 0.07 * diameter.sqrt() + 0.45 * width.sqrt() + 4.0,
         }
     }
@@ -136,7 +134,7 @@ impl Evaluation {
             .max(form_um / self.form_tolerance_um)
             .max(slope_um.abs() / self.slope_tolerance_um);
         // From one class to the next, tolerances grow by √2.
-        let class = (CLASS_OF_FORMULAE + 2.0 * worst.log2()).ceil().max(CLASSES[0]);
+        let class = (tolerance::CLASS_OF_FORMULAE + 2.0 * worst.log2()).ceil().max(CLASSES[0]);
         (class <= CLASSES[1]).then_some(class as u32)
     }
 }

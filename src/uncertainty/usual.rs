@@ -1,0 +1,75 @@
+//! Uncertain keys that are usual, by one word each.
+//!
+//! | word | stands for |
+//! |---|---|
+//! | `coefficient` | the wear coefficient of the law, `lognormal:1.5`: repeated twin-disc and gear tests scatter by ±40 to 60 % |
+//! | `torque` | `operation.pinion_torque_Nm=±5%` |
+//! | `class:N` | slopes of both gears' profiles, and of their helices where the pair has slices, normal about the scene's own values; flank tolerance class N of ISO 1328-1 lies at three standard deviations |
+
+use super::distribution::UncertainError;
+use crate::scene::loaded::LoadedScene;
+use gearwear_bodies::gear::{Gear, GearPair, tolerance};
+
+/// Tolerance over standard deviation: a capability index of 1.
+const TOLERANCE_IN_DEVIATIONS: f64 = 3.0;
+/// Key of the wear coefficient in a table of a law.
+const COEFFICIENT: &str = "coefficient_m2_per_N";
+
+/// The keys that `given` stands for, where it is one of the words; otherwise itself. `own` is the scene's own value of a key.
+pub(super) fn expanded(
+    given: &str,
+    scene: &LoadedScene,
+    own: impl Fn(&str) -> Option<f64>,
+) -> Result<Vec<String>, UncertainError> {
+    match given.trim() {
+        "coefficient" => Ok(coefficients(own).into_iter().map(|key| format!("{key}=lognormal:1.5")).collect()),
+        "torque" => Ok(vec!["operation.pinion_torque_Nm=±5%".to_owned()]),
+        word => match word.strip_prefix("class:") {
+            Some(class) => of_class(class, scene, own),
+            None => Ok(vec![given.to_owned()]),
+        },
+    }
+}
+
+/// Wear coefficients of the scene; one for both gears where they have the same.
+fn coefficients(own: impl Fn(&str) -> Option<f64>) -> Vec<String> {
+    let of_gears = ["pinion", "wheel"].map(|gear| format!("wear.{gear}.{COEFFICIENT}"));
+    match of_gears.each_ref().map(|key| own(key)) {
+        [Some(pinion), Some(wheel)] if pinion == wheel => vec![format!("wear.{{pinion,wheel}}.{COEFFICIENT}")],
+        [None, None] => vec![format!("wear.{COEFFICIENT}")],
+        found => of_gears
+            .into_iter()
+            .zip(found)
+            .filter(|(_, value)| value.is_some_and(|k| k > 0.0))
+            .map(|one| one.0)
+            .collect(),
+    }
+}
+
+/// Deviations of a flank tolerance class.
+fn of_class(
+    class: &str,
+    scene: &LoadedScene,
+    own: impl Fn(&str) -> Option<f64>,
+) -> Result<Vec<String>, UncertainError> {
+    let number: Option<u32> = class.trim().parse().ok().filter(|class| tolerance::CLASSES.contains(class));
+    let number = number.ok_or_else(|| UncertainError::Class { found: class.trim().to_owned() })?;
+    let spec = &scene.scene().pair;
+    let Ok(pair) = GearPair::new(spec) else { return Ok(Vec::new()) };
+    let mut keys = Vec::new();
+    for gear in Gear::BOTH {
+        let diameter_mm = 2.0 * pair.teeth[gear].reference_radius_mm.abs();
+        let profile_um = tolerance::profile_slope_um(number, spec.normal_module_mm, diameter_mm);
+        let helix_um = tolerance::helix_slope_um(number, diameter_mm, spec.face_width_mm);
+        let mut add = |name: &str, tolerance_um: f64| {
+            let key = format!("pair.{}.{name}", gear.name());
+            let (mean, deviation) = (own(&key).unwrap_or(0.0), tolerance_um / TOLERANCE_IN_DEVIATIONS);
+            keys.push(format!("{key}=normal:{mean}:{deviation}"));
+        };
+        add("profile_slope_deviation_um", profile_um);
+        if scene.scene().slices.is_some() {
+            add("helix_slope_deviation_um", helix_um);
+        }
+    }
+    Ok(keys)
+}
