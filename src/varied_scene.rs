@@ -8,7 +8,9 @@ use crate::scene::loaded::LoadedScene;
 use crate::scene::{Problem, Resolved};
 use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_physics::assessment::{Done, RunError};
+use gearwear_physics::calibration::identity::CalibrationIdentity;
 use gearwear_physics::observer::Observer;
+use gearwear_physics::operation::Scene;
 
 /// The first of `keys` that names a phase of the operation which `scene` does not have.
 pub fn missing_phase(keys: impl IntoIterator<Item = String>, scene: &Draft) -> Option<String> {
@@ -24,6 +26,8 @@ pub struct VariedScene {
     draft: Draft,
     /// The scene as given, with the files it names.
     given: LoadedScene,
+    /// Whether its calibration is good for pairs that differ in their modifications alone.
+    with_other_modifications: bool,
 }
 
 impl VariedScene {
@@ -33,7 +37,18 @@ impl VariedScene {
         draft.remove("operation.snapshots_h");
         draft.remove("operation.snapshots_revolutions");
         draft.set("numerics.error_estimate", error_estimate);
-        Ok(Self { draft, given: given.clone() })
+        Ok(Self { draft, given: given.clone(), with_other_modifications: false })
+    }
+
+    /// Scene whose calibration is good for pairs that differ in their modifications alone.
+    pub fn with_other_modifications(self) -> Self {
+        Self { with_other_modifications: true, ..self }
+    }
+
+    /// Whether the pair of `resolved` is that of the scene as given but for its modifications.
+    pub fn keeps_the_teeth(&self, resolved: &Resolved) -> bool {
+        let of = |scene: &Scene| CalibrationIdentity::of_unmodified(&scene.pair, &scene.material, &scene.fem);
+        of(&resolved.scene).is_some_and(|own| Some(own) == of(&self.given.resolved.scene))
     }
 
     /// The text of the scene, as given.
@@ -59,6 +74,9 @@ impl VariedScene {
 
     /// Whether the files that the scene names were made for the pair of `resolved`.
     pub fn inputs_belong_to(&self, resolved: &Resolved) -> Result<(), String> {
+        if self.with_other_modifications && self.keeps_the_teeth(resolved) {
+            return Ok(());
+        }
         let differences = self.given.files.foreign_to(resolved);
         if !differences.is_empty() {
             return Err(format!("contact.calibration belongs to another pair: {}", differences.join("; ")));

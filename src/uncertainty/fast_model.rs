@@ -16,13 +16,10 @@ use super::sampled_run::{SampledQuestion, UncertaintyStudyError, outputs_of, run
 use crate::runs;
 use crate::scene::loaded::LoadedScene;
 use crate::varied_scene::{VariedScene, in_words, one_line};
-use gearwear_bodies::gear::GearPair;
 use gearwear_physics::assessment::calibrate::{CalibrateError, CalibrationExtent};
 use gearwear_physics::assessment::guarded::guarded;
-use gearwear_physics::calibration::identity::CalibrationIdentity;
 use gearwear_physics::contact::settings::SurfaceKind;
 use gearwear_physics::observer::Observer;
-use gearwear_physics::operation::Scene;
 use gearwear_physics::results::worn_pair::WornPair;
 use gearwear_physics::stiffness::settings::StiffnessSettings;
 use gearwear_physics::wear::settings::WearOfPair;
@@ -94,9 +91,9 @@ impl SampledScene {
         if let Some(because) = needs_own_surface(scene, question, runs) {
             return Ok(Err(because));
         }
-        if !keeps_the_pair(scene, given, question) {
+        if !keeps_the_teeth(given, question) {
             return Ok(Err(
-                "the uncertain keys change the pair, and with it the calibration of a fast model".to_owned()
+                "the uncertain keys change the teeth, and with them the calibration of a fast model".to_owned()
             ));
         }
         observer.stage("calibration of the fast model");
@@ -113,7 +110,8 @@ impl SampledScene {
             Ok(on_foundation) => on_foundation,
             Err(error) => return Ok(Err(one_line(&error.to_string()))),
         };
-        let fast = Self::as_given(&on_foundation, String::new())?;
+        let mut fast = Self::as_given(&on_foundation, String::new())?;
+        fast.varied = fast.varied.with_other_modifications();
         observer.stage("the scene as given, on the fast model");
         let corrections = match at_values(&fast.varied, question, values_at(question, None), observer)? {
             Ok(found) => match corrections(question, nominal_run, &found) {
@@ -256,14 +254,10 @@ fn needs_own_surface(scene: &LoadedScene, question: &SampledQuestion, runs: usiz
     warms.then(|| "moduli of elasticity follow the temperature of the teeth".to_owned())
 }
 
-/// Whether a calibration of the scene belongs to the pair of every sample, tried with all keys low and high.
-fn keeps_the_pair(scene: &LoadedScene, given: &VariedScene, question: &SampledQuestion) -> bool {
-    let identity = |of: &Scene| {
-        let pair = GearPair::new(&of.pair).ok()?;
-        Some(CalibrationIdentity::of(&pair, &of.material, &of.fem))
-    };
-    let own = identity(scene.scene());
+/// Whether the teeth of every sample are those of the scene but for their modifications, tried with all keys low and high.
+fn keeps_the_teeth(given: &VariedScene, question: &SampledQuestion) -> bool {
     LOW_AND_HIGH.into_iter().all(|share| {
-        given.resolved(values_at(question, Some(share))).is_ok_and(|resolved| identity(&resolved.scene) == own)
+        let resolved = given.resolved(values_at(question, Some(share)));
+        resolved.is_ok_and(|resolved| given.keeps_the_teeth(&resolved))
     })
 }

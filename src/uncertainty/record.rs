@@ -25,6 +25,8 @@ pub struct UncertaintyRecord {
     pub seed: u32,
     /// Points of the Sobol sequence that were asked for.
     pub samples_asked: usize,
+    /// Number of runs of all of them.
+    pub runs_asked: usize,
     /// Points that were finished: each gives two independent samples, on which the quantiles stand.
     pub samples: usize,
     /// Runs of these points, and how many of them failed.

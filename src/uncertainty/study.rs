@@ -37,6 +37,8 @@ use gearwear_physics::results::worn_pair::{WearProfile, WornPair};
 
 type Row = Result<Ran, String>;
 
+/// Samples of a point that are independent: A and B, from which quantiles are.
+const INDEPENDENT: usize = 2;
 /// Greatest number of places of a band over the flank.
 const PLACES: usize = 160;
 
@@ -102,20 +104,21 @@ impl Samples<'_> {
         self.bounds.iter().any(Option::is_some)
     }
 
-    /// Runs those of the first `points` that the journal does not have.
+    /// Runs the first `matrices` samples of the first `points` that the journal does not have.
     fn run_first(
         &self,
-        points: usize,
+        (points, matrices): (usize, usize),
         journal: &mut Journal<SampledStudy>,
         threads: usize,
         observer: &dyn Observer,
     ) -> Result<(), UncertaintyStudyError> {
-        let total = self.question.samples * self.sampling.matrices.len();
-        let asked = points * self.sampling.matrices.len();
+        let of_a_point = self.sampling.matrices.len();
+        let total = self.question.samples * of_a_point;
         let rows = &journal.contents.rows;
         let mut left: BTreeSet<usize> = (0..total).filter(|number| !rows.contains_key(number)).collect();
+        let asked = |number: &usize| number / of_a_point < points && number % of_a_point < matrices;
         let mut tasks = self.sampling.groups(self.varied);
-        tasks.retain(|group| group.iter().any(|number| *number < asked && left.contains(number)));
+        tasks.retain(|group| group.iter().any(|number| asked(number) && left.contains(number)));
         let mut failed: BTreeSet<usize> =
             rows.values().filter(|row| row.number < total && row.ran.is_err()).map(|row| row.number).collect();
         let tell = |row: &KeptRun| {
@@ -353,31 +356,37 @@ impl<'a> PreparedStudy<'a> {
             corrections: &sampled.corrections,
             differences: &sampled.differences,
         };
-        let finished = |journal: &Journal<SampledStudy>, most: usize| {
-            let runs_of_a_point = sampling.matrices.len();
-            let runs = (0..most * runs_of_a_point).map_while(|number| journal.contents.rows.get(&number));
-            let mut whole: Vec<Row> = runs.map(|kept| kept.ran.clone()).collect();
-            whole.truncate(whole.len() / runs_of_a_point * runs_of_a_point);
-            whole
+        // Of each point A and B at least, from the first on.
+        let of_a_point = sampling.matrices.len();
+        let finished = |journal: &Journal<SampledStudy>, most: usize| -> Vec<Vec<Row>> {
+            let of_point = |point: usize| {
+                let numbers =
+                    (0..of_a_point).map_while(|matrix| journal.contents.rows.get(&(point * of_a_point + matrix)));
+                numbers.map(|kept| kept.ran.clone()).collect::<Vec<Row>>()
+            };
+            (0..most).map(of_point).take_while(|rows| rows.len() >= INDEPENDENT).collect()
         };
-        let evaluated = |whole: &[Row]| {
-            let rows: Vec<&[Row]> = whole.chunks_exact(sampling.matrices.len()).collect();
+        let evaluated = |whole: &[Vec<Row>]| {
+            let rows: Vec<&[Row]> = whole.iter().map(Vec::as_slice).collect();
             let surface = sampled.surface.clone();
             let record = record(scene, &samples, &rows)?;
             Ok(UncertaintyRecord { surface, threads, wall_s: begun.elapsed().as_secs_f64(), ..record })
         };
-        let before = finished(journal, question.samples).len() / sampling.matrices.len();
+        // Quantiles first, of twice as many points each time; what Sobol indices need besides comes last.
+        let before = finished(journal, question.samples).len();
         let doubled = std::iter::successors(Some(FEWEST_SAMPLES), |points| points.checked_mul(2));
-        for points in doubled.take_while(|points| *points < question.samples).filter(|points| *points > before) {
-            samples.run_first(points, journal, threads, observer)?;
+        let stages = doubled.take_while(|points| *points < question.samples).chain([question.samples]);
+        for points in stages.filter(|points| *points > before) {
+            samples.run_first((points, INDEPENDENT), journal, threads, observer)?;
             let whole = finished(journal, points);
-            if whole.len() == points * sampling.matrices.len() && whole.iter().any(Result::is_ok) {
+            let is_last = points == question.samples && of_a_point == INDEPENDENT;
+            if whole.len() == points && !is_last && whole.iter().flatten().any(Result::is_ok) {
                 earlier(&evaluated(&whole)?);
             }
         }
-        samples.run_first(question.samples, journal, threads, observer)?;
+        samples.run_first((question.samples, of_a_point), journal, threads, observer)?;
         let whole = finished(journal, question.samples);
-        if whole.len() / sampling.matrices.len() < question.samples.min(FEWEST_SAMPLES) {
+        if whole.len() < question.samples.min(FEWEST_SAMPLES) {
             return Err(UncertaintyStudyError::Interrupted);
         }
         evaluated(&whole)
@@ -409,6 +418,7 @@ fn record(
             .map(|correlation| correlation.matrix.row_iter().map(|row| row.iter().copied().collect()).collect()),
         seed: question.seed,
         samples_asked: question.samples,
+        runs_asked: question.samples * samples.sampling.matrices.len(),
         samples: rows.len(),
         runs,
         failed,

@@ -106,11 +106,11 @@ pub(super) fn run(args: &UncertaintyArgs) -> Result<(), Failure> {
     if !args.quiet {
         print(&table(&record, out))?;
     }
-    if record.samples < record.samples_asked {
+    if record.runs < record.runs_asked {
         say(&format!(
-            "interrupted: {} of {} samples were finished and are kept; --resume {} goes on",
-            record.samples,
-            record.samples_asked,
+            "interrupted: {} of {} runs were finished and are kept; --resume {} goes on",
+            record.runs,
+            record.runs_asked,
             out.display()
         ));
         return Err(Failure::Interrupted);

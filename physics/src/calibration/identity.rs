@@ -6,6 +6,8 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use gearwear_bodies::gear::modification::Modification;
+use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_bodies::gear::modification::{Relief, ReliefShape};
 use gearwear_bodies::gear::ring_fillet::ShaperCutter;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear};
@@ -178,6 +180,15 @@ pub struct WebIdentity {
 }
 
 impl CalibrationIdentity {
+    /// Identity of the pair of `spec` without its modifications, on which the stiffness of teeth hardly depends; `None` where it cannot exist.
+    pub fn of_unmodified(spec: &PairSpec, material: &PerGear<Material>, bodies: &BodySettings) -> Option<Self> {
+        let mut spec = spec.clone();
+        for gear in Gear::BOTH {
+            spec.gears[gear].modification = Modification::default();
+        }
+        GearPair::new(&spec).ok().map(|pair| Self::of(&pair, material, bodies))
+    }
+
     /// Identity of a pair with its material and bodies.
     pub fn of(pair: &GearPair, material: &PerGear<Material>, bodies: &BodySettings) -> Self {
         let spec = &pair.spec;

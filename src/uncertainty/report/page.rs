@@ -21,11 +21,11 @@ const DATA_FILES: &[(&str, &str)] = &[
 pub(super) fn page(record: &UncertaintyRecord) -> String {
     let plots = Plots::default();
     let shown = figures::of(record);
-    let interruption = (record.samples < record.samples_asked).then(|| {
+    let interruption = (record.runs < record.runs_asked).then(|| {
         format!(
-            "Figures of the first {} of {} points: the study goes on, or was interrupted.",
-            count(record.samples as u64),
-            count(record.samples_asked as u64)
+            "Figures of the first {} of {} runs: the study goes on, or was interrupted.",
+            count(record.runs as u64),
+            count(record.runs_asked as u64)
         )
     });
     let warnings: Vec<String> = record

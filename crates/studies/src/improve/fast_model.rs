@@ -10,7 +10,6 @@ use gearwear::runs;
 use gearwear::scene::Resolved;
 use gearwear::scene::loaded::LoadedScene;
 use gearwear::varied_scene::{VariedScene, in_words, one_line};
-use gearwear_bodies::gear::{Gear, GearPair};
 use gearwear_physics::assessment::calibrate::{CalibrateError, CalibrationExtent};
 use gearwear_physics::assessment::guarded::guarded;
 use gearwear_physics::calibration::identity::CalibrationIdentity;
@@ -185,11 +184,6 @@ fn slices_of_designs(scene: &LoadedScene, free: &[FreeKey]) -> Option<SliceSetti
 
 /// Unmodified teeth with their material, width and load.
 fn teeth(scene: &Scene) -> Option<(CalibrationIdentity, f64, String)> {
-    let mut spec = scene.pair.clone();
-    for gear in Gear::BOTH {
-        spec.gears[gear].modification = Default::default();
-    }
-    let pair = GearPair::new(&spec).ok()?;
-    let load = format!("{:?}", scene.operation.torque_range_n_mm());
-    Some((CalibrationIdentity::of(&pair, &scene.material, &scene.fem), spec.face_width_mm, load))
+    let teeth = CalibrationIdentity::of_unmodified(&scene.pair, &scene.material, &scene.fem)?;
+    Some((teeth, scene.pair.face_width_mm, format!("{:?}", scene.operation.torque_range_n_mm())))
 }
