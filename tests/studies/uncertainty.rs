@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::program::{exchanged, gearwear, json};
 
@@ -68,6 +68,36 @@ fn refused(output: &Output, parts: &[&str]) {
     for part in parts {
         assert!(message.contains(part), "no {part:?} in:\n{message}");
     }
+}
+
+/// Words stand for usual keys: of FZG gears type C (m 4.5 mm, d 72 and 108 mm) in class 7, f_HαT = 2 (0.4 m + 0.001 d + 4) µm rounded to whole ones,
+/// 12 µm for both, lies at three standard deviations.
+#[test]
+fn words_stand_for_usual_keys() {
+    let bench = Bench::new();
+    done(&bench.study("out", &["coefficient", "torque", "class:7"], &["--samples", "2"]));
+    let record = json(&bench.out("out").join("uncertainty.json"));
+    let found = record["uncertain"].as_array().unwrap();
+    let keys: Vec<&str> = found.iter().map(|one| one["key"].as_str().unwrap()).collect();
+    let slopes = ["pinion", "wheel"].map(|gear| format!("pair.{gear}.profile_slope_deviation_um"));
+    assert_eq!(keys, ["wear.coefficient_m2_per_N", "operation.pinion_torque_Nm", &slopes[0], &slopes[1]]);
+    assert_eq!(found[0]["factor"], 1.5);
+    assert_eq!((&found[2]["mean"], &found[2]["standard_deviation"]), (&json!(0.0), &json!(4.0)));
+    refused(&bench.study("wrong", &["class:12"], &[]), &["class:12", "class:1 to class:11"]);
+}
+
+/// A study says what it knows while it goes on, of eight points and then of twice as many each time.
+#[test]
+fn figures_come_while_a_study_goes_on() {
+    let bench = Bench::new();
+    let output = bench.study("out", &[K, TORQUE], &["--samples", "20"]);
+    done(&output);
+    let said = said(&output);
+    for points in ["of 8 of 20 points", "of 16 of 20 points", "of 20 of 20 points"] {
+        assert_eq!(said.matches(points).count(), 1, "{points}: {said}");
+    }
+    let record = json(&bench.out("out").join("uncertainty.json"));
+    assert_eq!((&record["runs"], &record["runs_asked"]), (&json!(80), &json!(80)));
 }
 
 /// The record without what may differ between two starts.

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use gearwear_bodies::gear::modification::Modification;
-use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_bodies::gear::modification::{Relief, ReliefShape};
 use gearwear_bodies::gear::ring_fillet::ShaperCutter;
+use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear};
 use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, NO_WEBS, RimPins, SectorSides, ToothOnPins, Web};
 use gearwear_bodies::material::Material;

@@ -199,6 +199,16 @@ fn ver_modifications_remove_what_they_say() {
     assert_close("ends", at(&crowned, tip), 0.008, 1e-12);
     assert!(at(&crowned, 0.5 * (start + tip)) < 1e-15);
 
+    // f_Hα > 0: material rises towards the tip, so that it is missing at the start of the active profile.
+    for (slope, at_start, at_tip) in [(0.006, 0.006, 0.0), (-0.006, 0.0, 0.006)] {
+        let sloped = Modification { profile_slope_mm: slope, ..Modification::default() };
+        assert_close("start", at(&sloped, start), at_start, 1e-12);
+        assert_close("tip", at(&sloped, tip), at_tip, 1e-12);
+        assert_close("middle", at(&sloped, 0.5 * (start + tip)), 0.003, 1e-12);
+        assert_close("below the start", at(&sloped, start - 1.0), at_start, 1e-12);
+        assert!(sloped.has_profile_modification());
+    }
+
     // The rounding's circle touches the flank where it begins and the tip circle at the tip: with the turn γ between
     // them the flank's end lies ρ − √(ρ² − d²) off the circle along its normal, with d = ρ tan(γ/2).
     let rounded = Modification { tip_rounding_mm: 0.2, ..Modification::default() };
