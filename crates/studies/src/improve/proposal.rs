@@ -1,11 +1,7 @@
 //! Proposals: designs of the front that are chosen for a reason, with what they gain and cost against the scene as given.
 //!
 //! With y_k a goal of a design and b_k that of the scene as given, r_k = y_k / b_k (of a life b_k / y_k). The design that is best in one aspect, such as
-//! wear, has the least product of its r_k; the balanced one has the least of the greatest
-//!
-//! ```text
-//! (r_k − min r_k) / (max r_k − min r_k)          over the front
-//! ```
+//! wear, has the least product of its r_k; the balanced one has the least max r_k: where a design betters every goal, it worsens none.
 //!
 //! A difference y − b is sure where it is more than both errors together, |y − b| > e_y |y| + e_b |b|. Tolerances ± t_j of manufacture change a goal by
 //! d_j at most, found on the fast model one key at a time; together they change it by Σ d_j at worst.
@@ -138,15 +134,7 @@ pub fn reasons(goals: &[ImproveGoal], front: &[Vec<f64>], as_given: &[f64]) -> V
         reasons.extend(best.map(|best| (name_of(aspect, of_aspect(aspect).map(|(_, goal)| goal)), best)));
     }
     if goals.len() > 1 {
-        let extents: Vec<[f64; 2]> = (0..goals.len())
-            .map(|goal| gearwear_bodies::reference::statistics::extent(ratios.iter().map(|own| own[goal])))
-            .collect();
-        let worst = |place: usize| {
-            let parts = ratios[place].iter().zip(&extents).map(|(ratio, [least, greatest])| {
-                if greatest > least { (ratio - least) / (greatest - least) } else { 0.0 }
-            });
-            parts.fold(0.0, f64::max)
-        };
+        let worst = |place: usize| ratios[place].iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let best = (0..front.len()).min_by(|a, b| worst(*a).total_cmp(&worst(*b)));
         reasons.extend(best.map(|best| ("balanced".to_owned(), best)));
     }

@@ -263,7 +263,7 @@ impl<'a> PreparedImprove<'a> {
         let front = front(outcomes.iter().map(Option::as_ref));
         self.check_found(&designs.done, &outcomes, &front)?;
         observer.stage("verification of the front");
-        let chosen = self.spread_over(&outcomes, &front);
+        let chosen = self.spread_over(&outcomes, &front, observer);
         let mut asked = vec![None];
         asked.extend(chosen.iter().map(|&place| designs.done[place].values.clone()));
         let verified = designs.run(DesignRole::Verify, asked)?;
@@ -319,11 +319,13 @@ impl<'a> PreparedImprove<'a> {
     }
 
     /// Designs of the front that are verified, by their places: those that would be proposed, then those furthest from them in the goals.
-    fn spread_over(&self, outcomes: &[Option<Outcome>], front: &[usize]) -> Vec<usize> {
+    fn spread_over(&self, outcomes: &[Option<Outcome>], front: &[usize], observer: &dyn Observer) -> Vec<usize> {
         let goals: Vec<Vec<f64>> =
             front.iter().filter_map(|&place| outcomes[place].as_ref()).map(|outcome| outcome.goals.clone()).collect();
         let most = if self.scene.scene().slices.is_some() { VERIFIED_IN_SLICES } else { VERIFIED };
-        let reference: Vec<f64> = goals[0].clone();
+        let as_given = self.fast.figures([], &self.question.figures, observer);
+        let as_given = as_given.and_then(|figures| Some(self.outcome(&figures)?.goals));
+        let reference = as_given.unwrap_or_else(|| goals[0].clone());
         let mut chosen: Vec<usize> =
             reasons(&self.question.goals, &goals, &reference).into_iter().map(|(_, place)| place).collect();
         let extents: Vec<[f64; 2]> = (0..self.question.goals.len())

@@ -11,8 +11,8 @@ use super::free_key::{FreeKey, FreeKeyError};
 const RELIEF_TOLERANCES: [f64; 2] = [3.0, 0.2];
 /// Greatest tip relief of such a scene over the greatest approach of the new pair.
 const RELIEF_OVER_APPROACH: f64 = 2.0;
-/// Ends of its length over the part of the path with two pairs in contact.
-const RELIEF_LENGTHS: [f64; 2] = [0.25, 1.5];
+/// Ends of its length over the part of the path with two pairs in contact: the longest begins where contact of a single pair ends.
+const RELIEF_LENGTHS: [f64; 2] = [0.25, 1.0];
 
 /// Keys of the scene of `fast`.
 ///
