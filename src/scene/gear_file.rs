@@ -98,6 +98,13 @@ pub struct GearFile {
     /// Radius of the tip edge in mm, 0 or more; below a thousandth of the module it counts as sharp. Default 0.
     #[schemars(range(min = 0))]
     pub tip_rounding_mm: Option<f64>,
+    /// Radial height h_K of a tip chamfer in mm, 0 or more, which ends the flank at the tip form diameter d_a − 2 h_K (internal gears: d_a + 2 h_K);
+    /// below a thousandth of the module there is none. Default 0.
+    #[schemars(range(min = 0))]
+    pub tip_chamfer_mm: Option<f64>,
+    /// Angle of the tip chamfer to the radius through its beginning, in the transverse section, in degrees, to 80. Default 45.
+    #[schemars(range(min = 5, max = 80))]
+    pub tip_chamfer_deg: Option<f64>,
     /// Arithmetic mean roughness Ra in µm, 0.0001 to 50; needed by films and friction. Default: none.
     #[schemars(range(min = 0.0001, max = 50))]
     pub roughness_Ra_um: Option<f64>,

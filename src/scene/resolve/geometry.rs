@@ -122,6 +122,18 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
         }
         PairError::AxesTooFarFromParallel { slope_mm, greatest_mm } => axes(slope_mm, greatest_mm),
         PairError::TipRoundingTooLarge { gear, radius_mm, greatest_mm } => tip_rounding(gear, radius_mm, greatest_mm),
+        PairError::TipChamferTooLarge { gear, height_mm, greatest_mm } => Cause {
+            key: key_of(gear, "tip_chamfer_mm"),
+            found: number(height_mm),
+            allowed: format!("at most {} mm", at_most(greatest_mm)),
+            help: "the chamfers of both flanks must leave a tip land, and some flank above the form circle".to_owned(),
+        },
+        PairError::TipChamferAngle { gear, angle_deg, least_deg, greatest_deg } => Cause {
+            key: key_of(gear, "tip_chamfer_deg"),
+            found: number(angle_deg),
+            allowed: format!("at least {:.2} and at most {}", (1e2 * least_deg).ceil() / 1e2, number(greatest_deg)),
+            help: "degrees between the chamfer and the radius; the flank’s own angle there and 5° more is the least".to_owned(),
+        },
     }
 }
 
@@ -378,6 +390,11 @@ mod tests {
                 "pair.pinion.tip_relief.amount_um",
             ),
             (PairError::TipRoundingTooLarge { gear, radius_mm: 2.7, greatest_mm: 2.6 }, "pair.pinion.tip_rounding_mm"),
+            (PairError::TipChamferTooLarge { gear, height_mm: 2.7, greatest_mm: 2.6 }, "pair.pinion.tip_chamfer_mm"),
+            (
+                PairError::TipChamferAngle { gear, angle_deg: 20.0, least_deg: 35.0, greatest_deg: 80.0 },
+                "pair.pinion.tip_chamfer_deg",
+            ),
         ]
     }
 

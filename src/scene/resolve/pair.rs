@@ -13,6 +13,7 @@ use gearwear_bodies::gear::ring_fillet::{RingSpec, ShaperCutter};
 use gearwear_bodies::gear::root_trochoid::greatest_fillet_radius_factor;
 use gearwear_bodies::gear::shaft::Shaft;
 use gearwear_bodies::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
+use gearwear_bodies::gear::tip_chamfer::TipChamfer;
 use gearwear_bodies::gear::{Gear, PerGear};
 
 const UM: f64 = 1e-3;
@@ -152,6 +153,7 @@ fn gear(file: &mut GearFile, which: Gear, factor_scale: f64, findings: &mut Find
         teeth: teeth?,
         profile_shift: factor_scale * shift?,
         tip_diameter_mm: file.tip_diameter_mm.map(signed),
+        tip_chamfer: tip_chamfer(file),
         tooth_thickness_allowance_mm: UM * *file.tooth_thickness_allowance_um.get_or_insert(0.0),
         bore_diameter_mm: file.bore_diameter_mm,
         // Chosen where the whole pair is known.
@@ -160,6 +162,14 @@ fn gear(file: &mut GearFile, which: Gear, factor_scale: f64, findings: &mut Find
         shaft: file.shaft.as_mut().and_then(|file| shaft(file, &format!("{table}.shaft"), findings)),
         ring,
     })
+}
+
+/// Angle of a tip chamfer to the radius, °.
+const CHAMFER_DEG: f64 = 45.0;
+
+fn tip_chamfer(file: &mut GearFile) -> Option<TipChamfer> {
+    let height_mm = file.tip_chamfer_mm.filter(|&height_mm| height_mm > 0.0)?;
+    Some(TipChamfer { height_mm, angle_rad: file.tip_chamfer_deg.get_or_insert(CHAMFER_DEG).to_radians() })
 }
 
 /// Addendum factor of a shaper cutter whose teeth reach as deep as those of the standard rack.

@@ -31,6 +31,7 @@ pub mod root_trochoid;
 pub mod shaft;
 pub mod slices;
 pub mod spec;
+pub mod tip_chamfer;
 pub(crate) mod tip_touch;
 pub mod tolerance;
 pub mod tooth;

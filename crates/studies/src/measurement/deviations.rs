@@ -75,7 +75,7 @@ impl Evaluation {
         Self {
             from_mm: start,
             to_mm: start + EVALUATED * (form - start),
-            length_mm: tooth.tip_rho_mm() - start,
+            length_mm: tooth.edge_rho_mm() - start,
             slope_tolerance_um: 0.4 * module + 0.001 * diameter + 4.0,
             form_tolerance_um: 0.55 * module + 5.0,
         }
