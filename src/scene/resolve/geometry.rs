@@ -5,6 +5,7 @@ use crate::scene::findings::Findings;
 use crate::scene::problem::{ProblemKind, number};
 use gearwear_bodies::gear::pair::{GearPair, MEASURED_FLANK};
 use gearwear_bodies::gear::spec::PairSpec;
+use gearwear_bodies::gear::tip_chamfer::TipChamfer;
 use gearwear_bodies::gear::{Gear, PairError};
 use gearwear_physics::mesh_cycle::settings::SliceSettings;
 
@@ -150,7 +151,8 @@ fn tip_rounding(gear: Gear, radius_mm: f64, greatest_mm: f64) -> Cause {
         key: key_of(gear, "tip_rounding_mm"),
         found: number(radius_mm),
         allowed: format!("at most {} mm", at_most(greatest_mm)),
-        help: "the roundings of both flanks must fit on the tip, and leave some active flank".to_owned(),
+        help: "the roundings of both flanks must fit on the tip or its chamfers, and leave some active flank"
+            .to_owned(),
     }
 }
 
@@ -199,6 +201,12 @@ impl ErrorPlace<'_> {
         Cause { key: key.to_owned(), found, allowed, help: help.to_owned() }
     }
 
+    /// The higher of the tip chamfers, where there are any.
+    fn highest_chamfer(&self) -> Option<(Gear, TipChamfer)> {
+        let given = Gear::BOTH.into_iter().filter_map(|gear| Some((gear, self.spec.tip_chamfer(gear)?)));
+        given.max_by(|(_, a), (_, b)| a.height_mm.total_cmp(&b.height_mm))
+    }
+
     fn contact_ratio(&self, contact_ratio: f64, overlap_ratio: f64) -> Cause {
         if overlap_ratio > 0.0 {
             let width = number(self.spec.face_width_mm);
@@ -212,6 +220,14 @@ impl ErrorPlace<'_> {
             };
         }
         let (key, found) = self.centre();
+        if let Some((gear, chamfer)) = self.highest_chamfer() {
+            return Cause {
+                key: key_of(gear, "tip_chamfer_mm"),
+                found: format!("{}, contact ratio {contact_ratio:.4}", number(chamfer.height_mm)),
+                allowed: "a transverse contact ratio of at least 1".to_owned(),
+                help: "chamfers end the flanks; lower ones raise it".to_owned(),
+            };
+        }
         Cause {
             key: key.to_owned(),
             found: format!("{found}, contact ratio {contact_ratio:.4}"),
