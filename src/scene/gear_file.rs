@@ -22,6 +22,11 @@ pub struct ShaftFile {
     pub bore_diameter_mm: Option<f64>,
     /// End face at which the torque enters. Default: start.
     pub driven_at: Option<EndFace>,
+    /// Coordinates in mm of two bearings along the axis, increasing, from the middle of the face width: the shaft tilts and bends under the load.
+    /// Default: none, it stays straight and parallel.
+    pub bearing_positions_mm: Option<[f64; 2]>,
+    /// Radial stiffness in N/mm of each bearing, with its housing, > 0.
+    pub bearing_stiffness_N_per_mm: Option<[f64; 2]>,
 }
 
 /// Shaper cutter of internal teeth; factors of the module that is given.

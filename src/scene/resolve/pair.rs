@@ -12,6 +12,7 @@ use gearwear_bodies::gear::modification::Modification;
 use gearwear_bodies::gear::ring_fillet::{RingSpec, ShaperCutter};
 use gearwear_bodies::gear::root_trochoid::greatest_fillet_radius_factor;
 use gearwear_bodies::gear::shaft::Shaft;
+use gearwear_bodies::gear::shaft_bearings::ShaftBearings;
 use gearwear_bodies::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
 use gearwear_bodies::gear::tip_chamfer::TipChamfer;
 use gearwear_bodies::gear::{Gear, PerGear};
@@ -197,7 +198,40 @@ fn shaft(file: &mut ShaftFile, key: &str, findings: &mut Findings) -> Option<Sha
         return None;
     }
     let driven_at = *file.driven_at.get_or_insert_default();
-    Some(Shaft { diameter_mm: file.diameter_mm, bore_diameter_mm, driven_at })
+    let bearings = bearings(file, key, findings)?;
+    Some(Shaft { diameter_mm: file.diameter_mm, bore_diameter_mm, driven_at, bearings })
+}
+
+/// The bearings of a shaft; `Some(None)` without any.
+fn bearings(file: &ShaftFile, key: &str, findings: &mut Findings) -> Option<Option<ShaftBearings>> {
+    let [positions, stiffness] =
+        ["bearing_positions_mm", "bearing_stiffness_N_per_mm"].map(|name| format!("{key}.{name}"));
+    let (positions_mm, stiffness_n_per_mm) = match (file.bearing_positions_mm, file.bearing_stiffness_N_per_mm) {
+        (None, None) => return Some(None),
+        (Some(positions_mm), Some(stiffness_n_per_mm)) => (positions_mm, stiffness_n_per_mm),
+        (Some(_), None) => {
+            findings.missing(&[&stiffness], "two numbers greater than 0");
+            return None;
+        }
+        (None, Some(_)) => {
+            findings.missing(&[&positions], "two increasing numbers");
+            return None;
+        }
+    };
+    let listed = |[a, b]: [f64; 2]| format!("[{a}, {b}]");
+    let is_increasing = positions_mm.iter().all(|x| x.is_finite()) && positions_mm[0] < positions_mm[1];
+    if !is_increasing {
+        findings.not_allowed(
+            &positions,
+            listed(positions_mm),
+            "two increasing numbers, mm from the middle of the face width",
+        );
+    }
+    let is_stiff = stiffness_n_per_mm.iter().all(|k| k.is_finite() && *k > 0.0);
+    if !is_stiff {
+        findings.not_allowed(&stiffness, listed(stiffness_n_per_mm), "two numbers greater than 0, N/mm");
+    }
+    (is_increasing && is_stiff).then_some(Some(ShaftBearings { positions_mm, stiffness_n_per_mm }))
 }
 
 fn axis_parallelism(file: &mut AxisParallelismFile, face_width_mm: f64) -> AxisParallelism {

@@ -29,6 +29,7 @@ pub mod removed_material;
 pub mod ring_fillet;
 pub mod root_trochoid;
 pub mod shaft;
+pub mod shaft_bearings;
 pub mod slices;
 pub mod spec;
 pub mod tip_chamfer;
