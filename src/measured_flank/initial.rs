@@ -55,7 +55,7 @@ pub struct InitialFlank {
 
 /// Default cutoff λ on a gear's flank, mm.
 pub fn default_cutoff_mm(pair: &GearPair, gear: Gear) -> f64 {
-    ((pair.teeth[gear].tip_rho_mm() - pair.active_start_rho_mm(gear)) / CUTOFFS).max(LEAST_CUTOFF_MM)
+    ((pair.teeth[gear].edge_rho_mm() - pair.active_start_rho_mm(gear)) / CUTOFFS).max(LEAST_CUTOFF_MM)
 }
 
 /// Flank of `gear` in a measured file, filtered with `cutoff_mm`; 0: not at all.
@@ -121,7 +121,7 @@ fn check_gear(file: &MeasuredFile, pair: &GearPair, gear: Gear) -> Result<(), Da
 /// e(ρ) of heights.
 fn from_heights(pair: &GearPair, gear: Gear, rho_mm: &[f64], height_um: &[f64], cutoff_mm: f64) -> Vec<f64> {
     let (tooth, rounding_mm) = (&pair.teeth[gear], pair.spec.gears[gear].modification.tip_rounding_mm);
-    let rounding = |rho: f64| removed_material::tip_rounding_mm(rounding_mm, tooth, rho);
+    let rounding = |rho: f64| removed_material::tip_edge_mm(rounding_mm, tooth, rho);
     let without_rounding: Vec<f64> =
         rho_mm.iter().zip(height_um).map(|(&rho, z)| MM_PER_UM * z + rounding(rho)).collect();
     let filtered_mm = filtered(rho_mm, &without_rounding, cutoff_mm);

@@ -22,6 +22,10 @@ pub struct ShaftFile {
     pub bore_diameter_mm: Option<f64>,
     /// End face at which the torque enters. Default: start.
     pub driven_at: Option<EndFace>,
+    /// Coordinates of two bearings along the axis from the middle of the face width in mm, increasing. Default: none, the shaft stays straight.
+    pub bearing_positions_mm: Option<[f64; 2]>,
+    /// Radial stiffness of each bearing with its housing in N/mm, above 0.
+    pub bearing_stiffness_N_per_mm: Option<[f64; 2]>,
 }
 
 /// Shaper cutter of internal teeth; factors of the module that is given.
@@ -101,6 +105,12 @@ pub struct GearFile {
     /// Radius of the tip edge in mm, 0 or more; below a thousandth of the module it counts as sharp. Default 0.
     #[schemars(range(min = 0))]
     pub tip_rounding_mm: Option<f64>,
+    /// Radial height h_K of the tip chamfer in mm, 0 or more: the flank ends at the tip form diameter d_a − 2 h_K, of a ring d_a + 2 h_K. Default 0.
+    #[schemars(range(min = 0))]
+    pub tip_chamfer_mm: Option<f64>,
+    /// Transverse angle of the tip chamfer to the radius in degrees, 5 to 80. Default 45.
+    #[schemars(range(min = 5, max = 80))]
+    pub tip_chamfer_deg: Option<f64>,
     /// Arithmetic mean roughness Ra in µm, 0.0001 to 50; needed by films and friction. Default: none.
     #[schemars(range(min = 0.0001, max = 50))]
     pub roughness_Ra_um: Option<f64>,

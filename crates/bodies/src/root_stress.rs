@@ -100,7 +100,7 @@ pub fn section(pair: &GearPair, gear: Gear, at: LoadedAt) -> Option<RootSection>
 
     // Radii in m_n.
     let base = 0.5 * teeth * alpha.cos();
-    let tip = 0.5 * teeth + (pair.teeth[gear].tip_radius_mm - spec.reference_radius_mm(gear)) / m_n;
+    let tip = 0.5 * teeth + (pair.teeth[gear].edge_radius_mm() - spec.reference_radius_mm(gear)) / m_n;
     let at_tip = (tip * tip - base * base).sqrt();
     let (length, contact_ratio_factor) = match at {
         LoadedAt::SinglePairContact if contact_ratio >= 2.0 => return None,

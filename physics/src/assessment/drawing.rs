@@ -88,6 +88,7 @@ mod tests {
             measured_flank: None,
             shaft: None,
             ring: None,
+            tip_chamfer: None,
         };
         let pair = GearPair::new(&PairSpec {
             normal_module_mm: 3.5,

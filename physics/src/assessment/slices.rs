@@ -55,6 +55,7 @@ pub(super) fn summary(model: &RunModel<'_>, outcome: &Outcome) -> Option<Helical
         coupling: sliced.settings.coupling.name().to_owned(),
         coupling_reach_mm: sliced.reach().map(|reach| [reach.twist_mm2.sqrt(), reach.bending_mm4.sqrt().sqrt()]),
         shaft_twist_um: PerGear::from_fn(|gear| shaft_twist_mm(model, gear).map(|mm| mm * UM_PER_MM)),
+        misalignment_um: PerGear::from_fn(|gear| misalignment_mm(model, gear).map(|mm| mm * UM_PER_MM)),
         slope_of_axes_um: (model.pair.spec.axis_parallelism != AxisParallelism::default())
             .then(|| model.pair.slope_of_axes_mm() * UM_PER_MM),
         helix_angle_deg: model.pair.spec.helix_angle_rad.to_degrees(),
@@ -76,6 +77,13 @@ fn shaft_twist_mm(model: &RunModel<'_>, gear: Gear) -> Option<f64> {
     let shear_modulus_mpa = material.elastic().shear_modulus_mpa();
     let (width_mm, load_n_per_mm) = (model.pair.spec.face_width_mm, model.reference().line_load_n_per_mm);
     Some(shaft.twist_mm(base_radius_mm, shear_modulus_mpa, width_mm, load_n_per_mm))
+}
+
+fn misalignment_mm(model: &RunModel<'_>, gear: Gear) -> Option<f64> {
+    let shaft = model.pair.spec.gears[gear].shaft?;
+    let young_modulus_mpa = model.scene.material[gear].young_modulus_mpa;
+    let beam = shaft.beam(model.pair.tooth_force_direction(gear), young_modulus_mpa)?;
+    Some(beam.misalignment_mm(model.pair.spec.face_width_mm, model.reference().line_load_n_per_mm))
 }
 
 fn line_of_contact(pair: &GearPair) -> LineOfContactSummary {

@@ -97,6 +97,12 @@ pub struct GearIdentity {
     pub cutter: Option<CutterIdentity>,
     /// Tip rounding.
     pub tip_rounding_mm: f64,
+    /// Radial height of the tip chamfer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tip_chamfer_mm: Option<f64>,
+    /// Angle of the tip chamfer to the radius.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tip_chamfer_deg: Option<f64>,
     /// Tip relief.
     pub tip_relief: Option<ReliefIdentity>,
     /// Root relief.
@@ -264,6 +270,8 @@ impl GearIdentity {
                 .map(|RimPins { count, tooth }| PinsIdentity { count, tooth }),
             cutter: spec.ring.and_then(|ring| ring.cutter).map(|cutter| CutterIdentity::of(&cutter)),
             tip_rounding_mm: modification.tip_rounding_mm,
+            tip_chamfer_mm: spec.tip_chamfer.map(|chamfer| chamfer.height_mm),
+            tip_chamfer_deg: spec.tip_chamfer.map(|chamfer| chamfer.angle_rad.to_degrees()),
             tip_relief: modification.tip_relief.map(ReliefIdentity::of),
             root_relief: modification.root_relief.map(ReliefIdentity::of),
         }

@@ -87,6 +87,7 @@ fn spec(setup: &Setup<'_>, teeth: u32) -> PairSpec {
         measured_flank: None,
         shaft: None,
         ring: None,
+        tip_chamfer: None,
     };
     spec
 }

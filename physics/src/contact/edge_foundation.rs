@@ -32,7 +32,7 @@ use super::pressure_field::PressureField;
 use super::settings::MatchCriterion;
 use super::strip::{common_extent_mm, nearest_mm};
 use gearwear_bodies::gear::flank_edge::PathEnd;
-use gearwear_bodies::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, removed_material::tip_rounding_mm};
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, removed_material::tip_edge_mm};
 use gearwear_bodies::material::{Material, contact_modulus_mpa};
 use gearwear_bodies::reference::half_plane::cell_compliance_mm_per_mpa;
 
@@ -270,7 +270,7 @@ impl EdgeBodies<'_> {
         let [pinion, wheel] = Gear::BOTH.map(|gear| {
             let (rho_mm, drop_mm) = self.pair.at_along(gear, on_tangent(gear, along_mm), position_mm);
             let rounding_mm = self.pair.spec.gears[gear].modification.tip_rounding_mm;
-            drop_mm + tip_rounding_mm(rounding_mm, &self.pair.teeth[gear], rho_mm)
+            drop_mm + tip_edge_mm(rounding_mm, &self.pair.teeth[gear], rho_mm)
         });
         self.pair.obliquity().normal_mm(pinion + wheel)
     }

@@ -498,6 +498,7 @@ pub(super) mod tests {
             measured_flank: None,
             shaft: None,
             ring: None,
+            tip_chamfer: None,
         });
         let spec = PairSpec {
             normal_module_mm,

@@ -25,7 +25,7 @@ pub struct SlicedTeeth {
     /// Compliance of the teeth of each slice over that of the section.
     softness: Arc<[f64]>,
     model: SliceModel,
-    /// Compliance by the twist of the shafts between slices of any teeth, mm²/N, row by row; none where nothing twists.
+    /// Compliance by twist and bending of the shafts between slices of any teeth, mm²/N, row by row; none where nothing twists.
     twist: Option<Arc<[f64]>>,
 }
 
@@ -136,12 +136,16 @@ impl SlicedTeeth {
     }
 }
 
-/// Compliance by the twist of both shafts between slices, mm²/N, row by row; none where nothing twists.
+/// Compliance by twist and bending of both shafts between slices, mm²/N, row by row; none where nothing twists.
 fn twist(pair: &GearPair, material: &PerGear<Material>, slices: &Slices) -> Option<Vec<f64>> {
     let twists = Gear::BOTH.into_iter().filter_map(|gear| {
         let shaft = pair.spec.gears[gear].shaft?;
         let shear_modulus_mpa = material[gear].elastic().shear_modulus_mpa();
-        Some(shaft.mm2_per_n(pair.teeth[gear].involute.base_radius_mm, shear_modulus_mpa, slices))
+        let mut compliance = shaft.mm2_per_n(pair.teeth[gear].involute.base_radius_mm, shear_modulus_mpa, slices);
+        if let Some(beam) = shaft.beam(pair.tooth_force_direction(gear), material[gear].young_modulus_mpa) {
+            compliance.iter_mut().zip(beam.mm2_per_n(slices)).for_each(|(twist, bending)| *twist += bending);
+        }
+        Some(compliance)
     });
     twists.reduce(|pinion, wheel| pinion.iter().zip(&wheel).map(|(a, b)| a + b).collect())
 }

@@ -284,6 +284,10 @@ pub struct HelicalSummary {
     /// How far each shaft's twist lets the teeth give way at the end that is not driven, under the load of the reference phase spread evenly;
     /// none where it is rigid.
     pub shaft_twist_um: PerGear<Option<f64>>,
+    /// How much farther each shaft on its bearings lets the teeth give way at the full width than at width 0, along the line of action under the
+    /// load of the reference phase spread evenly; none without bearings.
+    #[serde(default)]
+    pub misalignment_um: PerGear<Option<f64>>,
     /// Helix slope that axes out of parallel make over the face width; none where they are parallel.
     pub slope_of_axes_um: Option<f64>,
     /// β at the reference cylinder.

@@ -361,6 +361,7 @@ mod tests {
             measured_flank: None,
             shaft: None,
             ring: None,
+            tip_chamfer: None,
         }
     }
 

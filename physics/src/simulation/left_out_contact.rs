@@ -67,7 +67,7 @@ fn separation_mm(pair: &GearPair, outcome: &Outcome, state: &Snapshot, slice: us
             let grid = &outcome.grid[gear];
             let wear = &state.wear_mm[gear][slice * grid.len()..(slice + 1) * grid.len()];
             let width_mm = outcome.slices.width_mm[slice];
-            removed_material::without_rounding_mm(pair, gear, width_mm, rho(gear))
+            removed_material::without_tip_edge_mm(pair, gear, width_mm, rho(gear))
                 + pair.obliquity().transverse_mm(grid.value_at(wear, rho(gear)))
         })
         .sum();

@@ -28,7 +28,7 @@ pub struct SteadyWear {
 /// W_m of `gear` after stretches of steady wear, mm.
 pub fn mean_wear_mm(pair: &GearPair, gear: Gear, stretches: impl Iterator<Item = SteadyWear>) -> f64 {
     let tooth = &pair.teeth[gear];
-    let [tip, start] = [tooth.tip_radius_mm, pair.active_start_radius_mm(gear)].map(|radius| radius.powi(2));
+    let [tip, start] = [tooth.edge_radius_mm(), pair.active_start_radius_mm(gear)].map(|radius| radius.powi(2));
     let flank_mm = (tip - start) / (2.0 * tooth.involute.base_radius_mm);
     let volumes = stretches.map(|own| own.coefficient_mm2_per_n * TAU * own.pinion_torque_n_mm * own.revolutions);
     let volume_mm3 = loss::of_pair(pair) * volumes.sum::<f64>();

@@ -27,6 +27,7 @@ pub fn gear(teeth: u32, profile_shift: f64, tip_diameter_mm: Option<f64>) -> Gea
         measured_flank: None,
         shaft: None,
         ring: None,
+        tip_chamfer: None,
     }
 }
 

@@ -5,7 +5,7 @@ use gearwear_bodies::gear::{
     flank_zones::{FlankZone, FlankZones},
     modification::{Modification, Relief, ReliefShape},
     outline::{OutlineCurve, outline},
-    removed_material::removed_mm,
+    removed_material::{removed_mm, tip_edge_mm},
     tooth::Tooth,
 };
 use gearwear_physics::contact::hertz::flattening;
@@ -211,12 +211,11 @@ fn ver_modifications_remove_what_they_say() {
 
     // The rounding's circle touches the flank where it begins and the tip circle at the tip: with the turn γ between
     // them the flank's end lies ρ − √(ρ² − d²) off the circle along its normal, with d = ρ tan(γ/2).
-    let rounded = Modification { tip_rounding_mm: 0.2, ..Modification::default() };
     let turn = std::f64::consts::FRAC_PI_2 - tooth.involute.pressure_angle_rad(tip);
     let length = 0.2 * (0.5 * turn).tan();
     assert_close("length", tooth.tip_rounding_length_mm(0.2), length, 1e-12);
-    assert_close("at the tip", at(&rounded, tip), 0.2 - (0.04 - length * length).sqrt(), 1e-9);
-    assert_eq!(at(&rounded, tip - 2.0), 0.0);
+    assert_close("at the tip", tip_edge_mm(0.2, tooth, tip), 0.2 - (0.04 - length * length).sqrt(), 1e-9);
+    assert_eq!(tip_edge_mm(0.2, tooth, tip - 2.0), 0.0);
 }
 
 /// Length along the pinion's involute from r to the tip circle, s = (r_a² − r²)/(2 r_b): r_b = 36 cos 20°, r_a = 41.23 mm. Three half-widths

@@ -34,6 +34,7 @@ mod stiffness_curve;
 mod targets;
 mod teeth_in_space;
 mod temperature;
+mod tip_chamfer;
 mod tip_contact;
 mod tooth_mesh;
 mod wear_run;

@@ -349,7 +349,7 @@ fn teeth_are_condensed_once() {
     assert!(Arc::ptr_eq(&first, &again));
     // What carries the teeth is no part of them.
     let mut on_a_shaft = fzg_c();
-    let shaft = Shaft { diameter_mm: 40.0, bore_diameter_mm: 0.0, driven_at: EndFace::Start };
+    let shaft = Shaft { diameter_mm: 40.0, bore_diameter_mm: 0.0, driven_at: EndFace::Start, bearings: None };
     on_a_shaft.gears.pinion.shaft = Some(shaft);
     on_a_shaft.axis_parallelism = AxisParallelism { in_plane_mm: 0.01, out_of_plane_mm: 0.01 };
     assert!(first.shares_teeth_with(&condensed(&on_a_shaft)));

@@ -1,7 +1,7 @@
 //! Contact at tip edges before A and after E.
 
 use gearwear_bodies::gear::{
-    Gear, GearPair, conjugate::ConjugateFlanks, flank_edge::PathEnd, removed_material::tip_rounding_mm,
+    Gear, GearPair, conjugate::ConjugateFlanks, flank_edge::PathEnd, removed_material::tip_edge_mm,
 };
 use gearwear_bodies::gear_fem::placement::{axis_mm, tooth_angle_rad};
 use gearwear_physics::contact::{
@@ -328,7 +328,7 @@ fn val_the_tangent_frame_has_the_gap_of_the_rounded_edge() {
             Gear::BOTH.map(|gear| {
                 let along = if gear == Gear::Pinion { along } else { -along };
                 let (rho, drop) = pair.at_along(gear, along, position);
-                drop + tip_rounding_mm(0.1, &pair.teeth[gear], rho)
+                drop + tip_edge_mm(0.1, &pair.teeth[gear], rho)
             })
         };
         let least = (-10_000..10_000).map(|k| gap(1e-4 * f64::from(k)).iter().sum()).fold(f64::INFINITY, f64::min);

@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use gearwear_bodies::gear::modification::{Modification, Relief, ReliefShape};
 use gearwear_bodies::gear::removed_material::removed_mm;
 use gearwear_bodies::gear::spec::PairSpec;
+use gearwear_bodies::gear::tip_chamfer::TipChamfer;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear};
 use gearwear_bodies::gear_mesh::pair_mesh::PairSectors;
 use gearwear_bodies::gear_mesh::settings::{
@@ -61,6 +62,13 @@ fn modified(mut spec: PairSpec, tip_rounding_mm: f64) -> PairSpec {
     spec
 }
 
+fn chamfered(mut spec: PairSpec) -> PairSpec {
+    for g in Gear::BOTH {
+        spec.gears[g].tip_chamfer = Some(TipChamfer { height_mm: 0.4, angle_rad: 50f64.to_radians() });
+    }
+    spec
+}
+
 /// Pairs of every kind: standard, modified, sharp and full fillets, few teeth, many teeth, undercut.
 fn pairs() -> Vec<(&'static str, PairSpec)> {
     let mut full_fillet = fzg_c();
@@ -73,6 +81,8 @@ fn pairs() -> Vec<(&'static str, PairSpec)> {
         ("fzg-a", fzg_a()),
         ("relieved, rounded", modified(fzg_c(), 0.3)),
         ("relieved, hardly rounded", modified(fzg_c(), 0.02)),
+        ("chamfered", chamfered(fzg_c())),
+        ("relieved, rounded, chamfered", chamfered(modified(fzg_c(), 0.2))),
         ("relieved, sharp", modified(fzg_c(), 0.0)),
         ("full fillet", full_fillet),
         ("sharp rack", sharp_rack),

@@ -114,6 +114,9 @@ fn stage_tables<'a>(
     tables
 }
 
+/// Radius of an edge that is broken as usual, mm.
+const BROKEN_EDGE_MM: f64 = 0.1;
+
 /// The table of a relief in a scene, and what is to be said of it.
 fn relief(relief: &RexsRelief) -> (String, &'static str) {
     let start = match relief.start {
@@ -139,9 +142,15 @@ fn gear(text: &mut Text, data: &GearData) {
     }
     match data.tip_chamfer_mm {
         Some(chamfer_mm) => {
-            text.assumed("tip_rounding_mm", &rounded(chamfer_mm), "a rounding of the size of the file’s chamfer");
+            text.number("tip_chamfer_mm", chamfer_mm, "");
+            text.assumed("tip_chamfer_deg", "45.0", "the file has no angle of the chamfer");
+            text.assumed(
+                "tip_rounding_mm",
+                &rounded(chamfer_mm.min(BROKEN_EDGE_MM)),
+                "of the chamfer’s edge; a sharp one has no pressure",
+            );
         }
-        None => text.assumed("tip_rounding_mm", "0.1", "a broken edge; a sharp one has no pressure"),
+        None => text.assumed("tip_rounding_mm", &rounded(BROKEN_EDGE_MM), "a broken edge; a sharp one has no pressure"),
     }
     if let Some(roughness_um) = data.roughness_Ra_um {
         text.number("roughness_Ra_um", roughness_um, "");

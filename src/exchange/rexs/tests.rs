@@ -50,7 +50,9 @@ fn ver_modifications_come_in_their_units() {
         "tip_relief = { amount_um = 15.0, begins_at_diameter_mm = 71.5, shape = \"parabolic\" }",
         "end_relief = { amount_um = 10.0, length_mm = 3.0 }",
         "lead_crowning_um = 6.0",
-        "tip_rounding_mm = 0.2 ",
+        "tip_chamfer_mm = 0.2\n",
+        "tip_chamfer_deg = 45.0 ",
+        "tip_rounding_mm = 0.1 ",
         // (66 − 60.6) / 6 + 0.325.
         "basic_rack = { dedendum_factor = 1.225 }",
         // 302 N·m · 24/16 of the shaft before, which nothing else leaves.

@@ -5,6 +5,7 @@ use crate::scene::findings::Findings;
 use crate::scene::problem::{ProblemKind, number};
 use gearwear_bodies::gear::pair::{GearPair, MEASURED_FLANK};
 use gearwear_bodies::gear::spec::PairSpec;
+use gearwear_bodies::gear::tip_chamfer::TipChamfer;
 use gearwear_bodies::gear::{Gear, PairError};
 use gearwear_physics::mesh_cycle::settings::SliceSettings;
 
@@ -122,6 +123,18 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
         }
         PairError::AxesTooFarFromParallel { slope_mm, greatest_mm } => axes(slope_mm, greatest_mm),
         PairError::TipRoundingTooLarge { gear, radius_mm, greatest_mm } => tip_rounding(gear, radius_mm, greatest_mm),
+        PairError::TipChamferTooLarge { gear, height_mm, greatest_mm } => Cause {
+            key: key_of(gear, "tip_chamfer_mm"),
+            found: number(height_mm),
+            allowed: format!("at most {} mm", at_most(greatest_mm)),
+            help: "the chamfers of both flanks must leave a tip land, and some flank above the form circle".to_owned(),
+        },
+        PairError::TipChamferAngle { gear, angle_deg, least_deg, greatest_deg } => Cause {
+            key: key_of(gear, "tip_chamfer_deg"),
+            found: number(angle_deg),
+            allowed: format!("at least {:.2} and at most {}", (1e2 * least_deg).ceil() / 1e2, number(greatest_deg)),
+            help: "degrees between the chamfer and the radius; the flank’s own angle there and 5° more is the least".to_owned(),
+        },
     }
 }
 
@@ -138,7 +151,8 @@ fn tip_rounding(gear: Gear, radius_mm: f64, greatest_mm: f64) -> Cause {
         key: key_of(gear, "tip_rounding_mm"),
         found: number(radius_mm),
         allowed: format!("at most {} mm", at_most(greatest_mm)),
-        help: "the roundings of both flanks must fit on the tip, and leave some active flank".to_owned(),
+        help: "the roundings of both flanks must fit on the tip or its chamfers, and leave some active flank"
+            .to_owned(),
     }
 }
 
@@ -187,6 +201,12 @@ impl ErrorPlace<'_> {
         Cause { key: key.to_owned(), found, allowed, help: help.to_owned() }
     }
 
+    /// The higher of the tip chamfers, where there are any.
+    fn highest_chamfer(&self) -> Option<(Gear, TipChamfer)> {
+        let given = Gear::BOTH.into_iter().filter_map(|gear| Some((gear, self.spec.tip_chamfer(gear)?)));
+        given.max_by(|(_, a), (_, b)| a.height_mm.total_cmp(&b.height_mm))
+    }
+
     fn contact_ratio(&self, contact_ratio: f64, overlap_ratio: f64) -> Cause {
         if overlap_ratio > 0.0 {
             let width = number(self.spec.face_width_mm);
@@ -200,6 +220,14 @@ impl ErrorPlace<'_> {
             };
         }
         let (key, found) = self.centre();
+        if let Some((gear, chamfer)) = self.highest_chamfer() {
+            return Cause {
+                key: key_of(gear, "tip_chamfer_mm"),
+                found: format!("{}, contact ratio {contact_ratio:.4}", number(chamfer.height_mm)),
+                allowed: "a transverse contact ratio of at least 1".to_owned(),
+                help: "chamfers end the flanks; lower ones raise it".to_owned(),
+            };
+        }
         Cause {
             key: key.to_owned(),
             found: format!("{found}, contact ratio {contact_ratio:.4}"),
@@ -378,6 +406,11 @@ mod tests {
                 "pair.pinion.tip_relief.amount_um",
             ),
             (PairError::TipRoundingTooLarge { gear, radius_mm: 2.7, greatest_mm: 2.6 }, "pair.pinion.tip_rounding_mm"),
+            (PairError::TipChamferTooLarge { gear, height_mm: 2.7, greatest_mm: 2.6 }, "pair.pinion.tip_chamfer_mm"),
+            (
+                PairError::TipChamferAngle { gear, angle_deg: 20.0, least_deg: 35.0, greatest_deg: 80.0 },
+                "pair.pinion.tip_chamfer_deg",
+            ),
         ]
     }
 

@@ -72,6 +72,13 @@ fn of_gear(
             number((least_mm * 1e7).round() / 1e7),
         ));
     }
+    if let Some(height_mm) = file.tip_chamfer_mm.filter(|&height_mm| height_mm > 0.0 && height_mm < least_mm) {
+        findings.warnings.push(format!(
+            "{table}.tip_chamfer_mm: {} mm is less than {} mm, a thousandth of the module: it counts as none",
+            number(height_mm),
+            number((least_mm * 1e7).round() / 1e7),
+        ));
+    }
     Some(Modification {
         tip_relief: tip_relief?,
         root_relief: root_relief?,
@@ -116,7 +123,7 @@ fn relief(
         (_, begins_at_diameter_mm, begins_at_roll_angle_deg) => {
             let Some(pair) = pair else { return Some(None) };
             let flank = &pair.teeth[gear].involute;
-            let [start, tip] = [pair.active_start_rho_mm(gear), pair.teeth[gear].tip_rho_mm()];
+            let [start, tip] = [pair.active_start_rho_mm(gear), pair.teeth[gear].edge_rho_mm()];
             let (begins_mm, key, found, [least, most], unit) = match (begins_at_diameter_mm, begins_at_roll_angle_deg) {
                 (Some(diameter_mm), _) => {
                     let ends = [start, tip].map(|rho| 2.0 * flank.radius_mm(rho).abs());

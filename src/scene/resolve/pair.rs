@@ -12,7 +12,9 @@ use gearwear_bodies::gear::modification::Modification;
 use gearwear_bodies::gear::ring_fillet::{RingSpec, ShaperCutter};
 use gearwear_bodies::gear::root_trochoid::greatest_fillet_radius_factor;
 use gearwear_bodies::gear::shaft::Shaft;
+use gearwear_bodies::gear::shaft_bearings::ShaftBearings;
 use gearwear_bodies::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
+use gearwear_bodies::gear::tip_chamfer::TipChamfer;
 use gearwear_bodies::gear::{Gear, PerGear};
 
 const UM: f64 = 1e-3;
@@ -152,6 +154,7 @@ fn gear(file: &mut GearFile, which: Gear, factor_scale: f64, findings: &mut Find
         teeth: teeth?,
         profile_shift: factor_scale * shift?,
         tip_diameter_mm: file.tip_diameter_mm.map(signed),
+        tip_chamfer: tip_chamfer(file),
         tooth_thickness_allowance_mm: UM * *file.tooth_thickness_allowance_um.get_or_insert(0.0),
         bore_diameter_mm: file.bore_diameter_mm,
         // Chosen where the whole pair is known.
@@ -160,6 +163,14 @@ fn gear(file: &mut GearFile, which: Gear, factor_scale: f64, findings: &mut Find
         shaft: file.shaft.as_mut().and_then(|file| shaft(file, &format!("{table}.shaft"), findings)),
         ring,
     })
+}
+
+/// Angle of a tip chamfer to the radius, °.
+const CHAMFER_DEG: f64 = 45.0;
+
+fn tip_chamfer(file: &mut GearFile) -> Option<TipChamfer> {
+    let height_mm = file.tip_chamfer_mm.filter(|&height_mm| height_mm > 0.0)?;
+    Some(TipChamfer { height_mm, angle_rad: file.tip_chamfer_deg.get_or_insert(CHAMFER_DEG).to_radians() })
 }
 
 /// Addendum factor of a shaper cutter whose teeth reach as deep as those of the standard rack.
@@ -187,7 +198,40 @@ fn shaft(file: &mut ShaftFile, key: &str, findings: &mut Findings) -> Option<Sha
         return None;
     }
     let driven_at = *file.driven_at.get_or_insert_default();
-    Some(Shaft { diameter_mm: file.diameter_mm, bore_diameter_mm, driven_at })
+    let bearings = bearings(file, key, findings)?;
+    Some(Shaft { diameter_mm: file.diameter_mm, bore_diameter_mm, driven_at, bearings })
+}
+
+/// The bearings of a shaft; `Some(None)` without any.
+fn bearings(file: &ShaftFile, key: &str, findings: &mut Findings) -> Option<Option<ShaftBearings>> {
+    let [positions, stiffness] =
+        ["bearing_positions_mm", "bearing_stiffness_N_per_mm"].map(|name| format!("{key}.{name}"));
+    let (positions_mm, stiffness_n_per_mm) = match (file.bearing_positions_mm, file.bearing_stiffness_N_per_mm) {
+        (None, None) => return Some(None),
+        (Some(positions_mm), Some(stiffness_n_per_mm)) => (positions_mm, stiffness_n_per_mm),
+        (Some(_), None) => {
+            findings.missing(&[&stiffness], "two numbers greater than 0");
+            return None;
+        }
+        (None, Some(_)) => {
+            findings.missing(&[&positions], "two increasing numbers");
+            return None;
+        }
+    };
+    let listed = |[a, b]: [f64; 2]| format!("[{a}, {b}]");
+    let is_increasing = positions_mm.iter().all(|x| x.is_finite()) && positions_mm[0] < positions_mm[1];
+    if !is_increasing {
+        findings.not_allowed(
+            &positions,
+            listed(positions_mm),
+            "two increasing numbers, mm from the middle of the face width",
+        );
+    }
+    let is_stiff = stiffness_n_per_mm.iter().all(|k| k.is_finite() && *k > 0.0);
+    if !is_stiff {
+        findings.not_allowed(&stiffness, listed(stiffness_n_per_mm), "two numbers greater than 0, N/mm");
+    }
+    (is_increasing && is_stiff).then_some(Some(ShaftBearings { positions_mm, stiffness_n_per_mm }))
 }
 
 fn axis_parallelism(file: &mut AxisParallelismFile, face_width_mm: f64) -> AxisParallelism {

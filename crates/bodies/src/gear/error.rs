@@ -153,6 +153,28 @@ pub enum PairError {
         /// Greatest possible radius.
         greatest_mm: f64,
     },
+    /// The tip chamfers leave no flank, or meet.
+    #[error("the {} tip chamfer is {height_mm:.4} mm high: at most {greatest_mm:.4} mm leave flank and tip land", .gear.name())]
+    TipChamferTooLarge {
+        /// Gear with the chamfer.
+        gear: Gear,
+        /// Radial height.
+        height_mm: f64,
+        /// Greatest possible height.
+        greatest_mm: f64,
+    },
+    /// The tip chamfer lies nearly along the flank or the tip circle.
+    #[error("the {} tip chamfer is at {angle_deg:.2}° to the radius: at least {least_deg:.2}° and at most {greatest_deg:.2}° are possible", .gear.name())]
+    TipChamferAngle {
+        /// Gear with the chamfer.
+        gear: Gear,
+        /// Angle to the radius.
+        angle_deg: f64,
+        /// Least possible angle.
+        least_deg: f64,
+        /// Greatest possible angle.
+        greatest_deg: f64,
+    },
 }
 
 fn contact_ratio_message(contact_ratio: f64, overlap_ratio: f64) -> String {

@@ -7,13 +7,15 @@
 //! A = max(T1T2 − ρ_a2, ρ_Ff1)        E = min(ρ_a1, T1T2 − ρ_Ff2)
 //! ```
 //!
+//! with ρ_a where the flank ends towards the tip: on the tip circle, or at the beginning of a chamfer ([`super::tip_chamfer`]).
+//!
 //! On an undercut tooth fillet and involute meet in a corner, which is a sharp edge like that of a tip without rounding.
 //!
 //! Source: ISO 21771, section 5.4 (start of active profile: the larger of form circle and circle of the contact with the mate's tip).
 
-use super::{Gear, GearPair, PerGear, spec::PairSpec};
+use super::{Gear, GearPair, PerGear, spec::PairSpec, tip_chamfer::TipChamfer};
 
-/// Least tip rounding, in normal modules; smaller ones are of the size of roughness, and the edge counts as sharp.
+/// Least tip rounding and chamfer, in normal modules; smaller ones are of the size of roughness, and the edge counts as sharp.
 pub const LEAST_ROUNDING_MODULES: f64 = 1e-3;
 
 impl PairSpec {
@@ -21,6 +23,12 @@ impl PairSpec {
     pub fn tip_rounding_mm(&self, gear: Gear) -> f64 {
         let given_mm = self.gears[gear].modification.tip_rounding_mm;
         if given_mm < LEAST_ROUNDING_MODULES * self.normal_module_mm { 0.0 } else { given_mm }
+    }
+
+    /// Tip chamfer of `gear`; none below 10⁻³ normal modules.
+    pub fn tip_chamfer(&self, gear: Gear) -> Option<TipChamfer> {
+        let least_mm = LEAST_ROUNDING_MODULES * self.normal_module_mm;
+        self.gears[gear].tip_chamfer.filter(|chamfer| chamfer.height_mm >= least_mm)
     }
 
     /// Whether the tip edge of `gear` is sharp.
@@ -72,7 +80,7 @@ impl GearPair {
         let tip_of = end.addendum_of();
         let root_of = tip_of.mate();
         let form_rho_mm = self.teeth[root_of].root_form_rho_mm();
-        if self.path.rho_mm(tip_of, self.path.rho_mm(root_of, form_rho_mm)) < self.teeth[tip_of].tip_rho_mm() {
+        if self.path.rho_mm(tip_of, self.path.rho_mm(root_of, form_rho_mm)) < self.teeth[tip_of].edge_rho_mm() {
             let is_sharp = self.teeth[root_of].undercut;
             return FlankEdge { gear: root_of, at_root: true, rho_mm: form_rho_mm, rounding_mm: 0.0, is_sharp };
         }
@@ -96,8 +104,8 @@ impl GearPair {
         self.teeth.as_ref().map(|tooth| tooth.undercut)
     }
 
-    /// Radius r_Na of the end of the active profile towards the tip, mm: at the tip circle, or below it where the contact ends at the mate's form
-    /// circle.
+    /// Radius r_Na of the end of the active profile towards the tip, mm: at the tip circle or the edge of a chamfer, or below it where the
+    /// contact ends at the mate's form circle.
     pub fn active_end_radius_mm(&self, gear: Gear) -> f64 {
         let end_mm = match gear {
             Gear::Pinion => self.path.end_mm,

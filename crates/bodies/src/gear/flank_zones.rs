@@ -62,7 +62,7 @@ impl FlankZones {
         let start = pair.active_start_rho_mm(gear);
         // On a short flank the tip-edge zone begins at the start of active profile.
         let [tip_edge_radius_mm, tip_end_radius_mm] = [rounding_mm + length_mm, rounding_mm].map(|length_mm| {
-            let arc_mm = tooth.involute.arc_mm(tooth.tip_rho_mm()) - length_mm;
+            let arc_mm = tooth.involute.arc_mm(tooth.edge_rho_mm()) - length_mm;
             tooth.involute.radius_mm(tooth.involute.rho_at_arc_mm(arc_mm).max(start))
         });
         let (of_half_widths, most_mm) = PRESSURE_LENGTH;

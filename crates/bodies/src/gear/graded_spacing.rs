@@ -64,17 +64,19 @@ struct Distances {
 impl Distances {
     fn new(pair: &GearPair, gear: Gear) -> Self {
         let (tooth, module_mm) = (&pair.teeth[gear], pair.spec.normal_module_mm);
-        let [tip_mm, start_mm] =
-            [tooth.tip_rho_mm(), pair.active_start_rho_mm(gear)].map(|rho_mm| arc_on_flank_mm(tooth, rho_mm));
+        let [edge_mm, start_mm] =
+            [tooth.edge_rho_mm(), pair.active_start_rho_mm(gear)].map(|rho_mm| arc_on_flank_mm(tooth, rho_mm));
         let widest_mm = WIDEST_MODULES * module_mm;
         let rounding_mm = tooth.tip_rounding_length_mm(pair.spec.tip_rounding_mm(gear));
         let at_tip = match rounding_mm > 0.0 {
             true => (rounding_mm / ON_ROUNDING).clamp(FINEST * widest_mm, widest_mm),
             false => AT_SHARP_EDGE * widest_mm,
         };
+        // The rounding of a chamfer's edge ends as far beyond it as it begins below it.
+        let beyond_mm = if tooth.tip_chamfer.is_some() { 2.0 * rounding_mm } else { 0.0 };
         let about_mm = ABOUT_START_MODULES * module_mm;
         let mut features = vec![
-            Feature { from_mm: tip_mm - 2.0 * rounding_mm, to_mm: tip_mm, distance_mm: at_tip },
+            Feature { from_mm: edge_mm - 2.0 * rounding_mm, to_mm: edge_mm + beyond_mm, distance_mm: at_tip },
             Feature { from_mm: start_mm - about_mm, to_mm: start_mm + about_mm, distance_mm: AT_KINK * widest_mm },
         ];
         features.extend(pair.begins_of_reliefs(gear).map(|(rho_mm, _)| {

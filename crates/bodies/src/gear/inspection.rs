@@ -61,7 +61,7 @@ impl GearPair {
             let span_mm = m_n * alpha_n.cos() * ((f64::from(teeth) - 0.5) * PI + z * inv(alpha_t))
                 + 2.0 * shift_mm * alpha_n.sin();
             let rho_mm = 0.5 * span_mm * cos_base_helix;
-            let touches = (tooth.root_form_rho_mm()..=tooth.tip_rho_mm()).contains(&rho_mm)
+            let touches = (tooth.root_form_rho_mm()..=tooth.edge_rho_mm()).contains(&rho_mm)
                 && spec.face_width_mm >= span_mm * sin_base_helix.abs();
             touches.then_some(Span { teeth, span_mm })
         })
@@ -90,12 +90,12 @@ impl GearPair {
         let rho_mm = base_mm * alpha.tan() - 0.5 * ball_diameter_mm * cos_base_helix;
         let centre_mm = base_mm / alpha.cos();
         let touches = involute > 0.0
-            && (tooth.root_form_rho_mm()..=tooth.tip_rho_mm()).contains(&rho_mm)
+            && (tooth.root_form_rho_mm()..=tooth.edge_rho_mm()).contains(&rho_mm)
             && centre_mm + 0.5 * ball_diameter_mm > tooth.tip_radius_mm;
         touches.then_some(2.0 * centre_mm * odd + ball_diameter_mm)
     }
 
-    /// Tip form radius d_Fa/2, at the tip circle or where the rounding of the edge begins, mm.
+    /// Tip form radius d_Fa/2, at the tip circle or where chamfer or rounding of the edge begin, mm.
     pub fn tip_form_radius_mm(&self, gear: Gear) -> f64 {
         self.teeth[gear].involute.radius_mm(self.rounding_start_rho_mm(gear))
     }

@@ -26,6 +26,8 @@ const FILLET_POINTS: usize = 400;
 const PLACES: usize = 200;
 /// Number of points of the arc of a rounding.
 const ARC_POINTS: usize = 5;
+/// Points on a chamfer.
+const CHAMFER_POINTS: usize = 4;
 /// Iterations of the search for the least gap between two positions.
 const REFINEMENTS: usize = 40;
 
@@ -76,21 +78,35 @@ impl TipInSpace<'_> {
         let own_rho = self.line_of_action_mm - mate_rho;
         let axis = Vector2::new(own.base_radius_mm, -own_rho);
         // Arc of the rounding, or the corner alone.
+        let chamfer = self.mate.tip_chamfer;
+        let edge_rho = mate.curvature_radius_mm(self.tip_radius_mm - chamfer.map_or(0.0, |chamfer| chamfer.height_mm));
         let length = self.mate.tip_rounding_length_mm(self.rounding_mm);
-        let start_rho = mate.signed((tip_rho * tip_rho - 2.0 * mate.base_radius_mm * length).max(0.0).sqrt());
+        let start_rho = mate.signed((edge_rho * edge_rho - 2.0 * mate.base_radius_mm * length).max(0.0).sqrt());
         let turn = (start_rho - mate_rho) / mate.base_radius_mm;
         let (sin, cos) = turn.sin_cos();
         let start = mate.in_tangent_frame(start_rho, mate_rho);
         let centre = Vector2::new(start.along_mm, start.drop_mm) + self.rounding_mm * Vector2::new(-sin, cos);
-        let whole = FRAC_PI_2 - mate.pressure_angle_rad(start_rho);
+        let whole = chamfer.map_or(FRAC_PI_2, |chamfer| chamfer.angle_rad) - mate.pressure_angle_rad(start_rho);
         let points = if self.rounding_mm > 0.0 { ARC_POINTS } else { 1 };
-        (0..points)
+        let of_arc = (0..points)
             .map(|k| {
                 let (out, up) = (whole * k as f64 / (ARC_POINTS - 1) as f64).sin_cos();
                 let point = centre + self.rounding_mm * (up * Vector2::new(sin, -cos) + out * Vector2::new(cos, sin));
                 self.point_gap_mm(axis - point, own_rho)
             })
-            .fold(f64::INFINITY, f64::min)
+            .fold(f64::INFINITY, f64::min);
+        let Some(length_mm) = self.mate.chamfer_length_mm() else { return of_arc };
+        // The chamfer, turned by γ from the flank at its edge.
+        let edge = mate.in_tangent_frame(edge_rho, mate_rho);
+        let turned = (edge_rho - mate_rho) / mate.base_radius_mm + self.mate.edge_turn_rad();
+        let direction = Vector2::new(turned.cos(), turned.sin());
+        (1..=CHAMFER_POINTS)
+            .map(|k| {
+                let along_mm = length_mm * k as f64 / CHAMFER_POINTS as f64;
+                let point = Vector2::new(edge.along_mm, edge.drop_mm) + along_mm * direction;
+                self.point_gap_mm(axis - point, own_rho)
+            })
+            .fold(of_arc, f64::min)
     }
 
     /// Gap of a point of the tip, `seen` from the gear's axis; infinite above the form circle.

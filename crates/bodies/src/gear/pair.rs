@@ -29,7 +29,7 @@ const GREATEST_REMOVAL_MODULES: f64 = 0.25;
 /// Gear pair with its derived geometry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearPair {
-    /// Given data, without tip roundings that count as sharp.
+    /// Given data, without tip roundings and chamfers that count as sharp.
     pub spec: PairSpec,
     /// Circles and teeth.
     pub teeth: PerGear<Tooth>,
@@ -86,9 +86,9 @@ impl GearPair {
         let path = PathOfContact {
             line_of_action_mm,
             base_pitch_mm: 2.0 * PI * base_radii.pinion / f64::from(spec.gears.pinion.teeth),
-            start_mm: (line_of_action_mm - teeth.wheel.tip_rho_mm()).max(teeth.pinion.root_form_rho_mm()),
+            start_mm: (line_of_action_mm - teeth.wheel.edge_rho_mm()).max(teeth.pinion.root_form_rho_mm()),
             pitch_point_mm: base_radii.pinion * working_pressure_angle_rad.tan(),
-            end_mm: teeth.pinion.tip_rho_mm().min(line_of_action_mm - teeth.wheel.root_form_rho_mm()),
+            end_mm: teeth.pinion.edge_rho_mm().min(line_of_action_mm - teeth.wheel.root_form_rho_mm()),
             involute: teeth.as_ref().map(|tooth| tooth.involute),
         };
         let tip_clearance_mm =
@@ -96,6 +96,7 @@ impl GearPair {
         let mut spec = spec.clone();
         for gear in Gear::BOTH {
             spec.gears[gear].modification.tip_rounding_mm = spec.tip_rounding_mm(gear);
+            spec.gears[gear].tip_chamfer = spec.tip_chamfer(gear);
         }
         let mut pair = Self { spec, teeth, working_pressure_angle_rad, path, backlash_mm: 0.0, tip_clearance_mm };
         pair.backlash_mm = pair.checked_backlash_mm()?;
@@ -132,8 +133,8 @@ impl GearPair {
     /// Radii of curvature where the reliefs of a gear's flank begin, with their shapes; without reliefs of zero amount.
     pub fn begins_of_reliefs(&self, gear: Gear) -> impl Iterator<Item = (f64, ReliefShape)> + use<> {
         let Modification { tip_relief, root_relief, .. } = self.spec.gears[gear].modification;
-        let (tip_rho_mm, start_rho_mm) = (self.teeth[gear].tip_rho_mm(), self.active_start_rho_mm(gear));
-        let of_tip = tip_relief.map(|relief| (tip_rho_mm - relief.length_mm, relief));
+        let (edge_rho_mm, start_rho_mm) = (self.teeth[gear].edge_rho_mm(), self.active_start_rho_mm(gear));
+        let of_tip = tip_relief.map(|relief| (edge_rho_mm - relief.length_mm, relief));
         let of_root = root_relief.map(|relief| (start_rho_mm + relief.length_mm, relief));
         let begins = of_tip.into_iter().chain(of_root).filter(|(_, relief)| relief.amount_mm > 0.0);
         begins.map(|(rho_mm, relief)| (rho_mm, relief.shape))
@@ -155,7 +156,7 @@ impl GearPair {
     }
 
     /// Normal tooth thickness s_an at the tip cylinder after wear of `lost_mm` of one flank there along its transverse normal:
-    /// (s_a − h/cos α_a) cos β_a, with tan β_a = tan β r_a/r; without reliefs and roundings. Source: ISO 21771, sections 4 and 5.
+    /// (s_a − h/cos α_a) cos β_a, with tan β_a = tan β r_a/r; without reliefs, roundings and chamfers. Source: ISO 21771, sections 4 and 5.
     pub fn normal_tip_thickness_mm(&self, gear: Gear, lost_mm: f64) -> f64 {
         let tooth = &self.teeth[gear];
         let tip_radius = tooth.tip_radius_mm;
@@ -275,13 +276,13 @@ impl GearPair {
         Ok(())
     }
 
-    /// Refuses a rounding that leaves no active flank, or no room on the tip land for that of the other flank.
+    /// Refuses a rounding that leaves no active flank, or no room on its chamfer or, beside that of the other flank, on the tip land.
     fn check_tip_rounding(&self, gear: Gear, radius_mm: f64) -> Result<(), PairError> {
         let tooth = &self.teeth[gear];
-        let [tip_mm, start_mm] =
-            [tooth.tip_rho_mm(), self.active_start_rho_mm(gear)].map(|rho_mm| tooth.involute.arc_mm(rho_mm));
-        let flank_mm = tip_mm - start_mm;
-        let room_mm = flank_mm.min(0.5 * tooth.thickness_mm(tooth.tip_radius_mm));
+        let [edge_mm, start_mm] =
+            [tooth.edge_rho_mm(), self.active_start_rho_mm(gear)].map(|rho_mm| tooth.involute.arc_mm(rho_mm));
+        let beyond_edge_mm = tooth.chamfer_length_mm().unwrap_or_else(|| 0.5 * tooth.thickness_mm(tooth.tip_radius_mm));
+        let room_mm = (edge_mm - start_mm).min(beyond_edge_mm);
         let greatest_mm = room_mm / tooth.tip_rounding_length_mm(1.0);
         if radius_mm <= greatest_mm {
             Ok(())

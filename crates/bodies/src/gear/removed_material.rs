@@ -8,6 +8,7 @@
 //! crowning      C_α (2v)²      v: roll length from the middle of the active profile over its whole length
 //! profile slope f (½ − v)      f > 0; |f| (½ + v) where f < 0; constant beyond the ends
 //! tip rounding  ρ_k − √(ρ_k² − d²)   d: distance along the flank from the beginning of the rounding of radius ρ_k
+//! tip chamfer   ρ_k (1 − cos γ) + (d − ρ_k sin γ) tan γ      beyond d = ρ_k sin γ; γ: turn at its edge ([`super::tip_chamfer`])
 //! ```
 //!
 //! and by z over the face width b:
@@ -23,7 +24,8 @@
 //!
 //! Axes that are not parallel are a helix slope of the pinion, f_Σδ sin α_wt + f_Σβ cos α_wt.
 //!
-//! Source: ISO 21771-1, profile and helix modifications; ISO/TR 10064-3 for the axes; the rounding is the circle tangent to flank and tip circle.
+//! Source: ISO 21771-1, profile and helix modifications; ISO/TR 10064-3 for the axes; the rounding is the circle tangent to flank and
+//! tip circle or chamfer, with the flank straight next to the edge.
 
 use super::{
     Gear, GearPair,
@@ -60,27 +62,24 @@ fn with_axes(pair: &GearPair, gear: Gear) -> Modification {
     Modification { helix_slope_mm: own.helix_slope_mm + of_axes_mm, ..own }
 }
 
-/// Material removed at radius of curvature `rho_mm` and `width_mm` by all modifications except the tip rounding, along the transverse line of
-/// action, mm.
-pub fn without_rounding_mm(pair: &GearPair, gear: Gear, width_mm: f64, rho_mm: f64) -> f64 {
+/// Material removed at radius of curvature `rho_mm` and `width_mm` by all modifications except rounding and chamfer of the tip edge, along the
+/// transverse line of action, mm.
+pub fn without_tip_edge_mm(pair: &GearPair, gear: Gear, width_mm: f64, rho_mm: f64) -> f64 {
     of_profile_mm(pair, gear, rho_mm) + lead_removed_mm(&with_axes(pair, gear), pair.spec.face_width_mm, width_mm)
 }
 
-/// Material removed from the profile except by the tip rounding, along the transverse line of action, mm.
+/// Material removed from the profile except at the tip edge, along the transverse line of action, mm.
 pub(crate) fn of_profile_mm(pair: &GearPair, gear: Gear, rho_mm: f64) -> f64 {
-    let modification = Modification { tip_rounding_mm: 0.0, ..pair.spec.gears[gear].modification };
-    of_modification_mm(pair, gear, &modification, rho_mm)
+    let modification = &pair.spec.gears[gear].modification;
+    let removed_mm = removed_mm(modification, &pair.teeth[gear], pair.active_start_rho_mm(gear), rho_mm);
+    removed_mm + of_measurement_mm(pair, gear, rho_mm)
 }
 
-/// Material removed from the profile at radius of curvature `rho_mm`: by its modifications, and what a measured flank deviates from them, along the
-/// transverse line of action, mm.
+/// Material removed from the profile at radius of curvature `rho_mm`: by its modifications, at its tip edge, and what a measured flank deviates
+/// from them, along the transverse line of action, mm.
 pub fn whole_profile_mm(pair: &GearPair, gear: Gear, rho_mm: f64) -> f64 {
-    of_modification_mm(pair, gear, &pair.spec.gears[gear].modification, rho_mm)
-}
-
-fn of_modification_mm(pair: &GearPair, gear: Gear, modification: &Modification, rho_mm: f64) -> f64 {
-    let measured_mm = of_measurement_mm(pair, gear, rho_mm);
-    removed_mm(modification, &pair.teeth[gear], pair.active_start_rho_mm(gear), rho_mm) + measured_mm
+    let rounding_mm = pair.spec.gears[gear].modification.tip_rounding_mm;
+    of_profile_mm(pair, gear, rho_mm) + tip_edge_mm(rounding_mm, &pair.teeth[gear], rho_mm)
 }
 
 fn of_measurement_mm(pair: &GearPair, gear: Gear, rho_mm: f64) -> f64 {
@@ -108,16 +107,17 @@ pub fn lead_removed_mm(modification: &Modification, face_width_mm: f64, width_mm
     crowning + end + if slope >= 0.0 { slope * along } else { -slope * (1.0 - along) }
 }
 
-/// Material removed by profile modifications at radius of curvature `rho_mm` of `tooth`, whose active profile begins at `active_start_rho_mm`.
+/// Material removed by profile modifications at radius of curvature `rho_mm` of `tooth`, whose active profile begins at `active_start_rho_mm`;
+/// without rounding and chamfer of the tip edge.
 pub fn removed_mm(modification: &Modification, tooth: &Tooth, active_start_rho_mm: f64, rho_mm: f64) -> f64 {
-    let tip_rho = tooth.tip_rho_mm();
-    let tip = modification.tip_relief.map_or(0.0, |r| relief_mm(r, rho_mm - (tip_rho - r.length_mm)));
+    let edge_rho = tooth.edge_rho_mm();
+    let tip = modification.tip_relief.map_or(0.0, |r| relief_mm(r, rho_mm - (edge_rho - r.length_mm)));
     let root = modification.root_relief.map_or(0.0, |r| relief_mm(r, active_start_rho_mm + r.length_mm - rho_mm));
-    let across = (2.0 * (rho_mm - active_start_rho_mm) / (tip_rho - active_start_rho_mm) - 1.0).clamp(-1.0, 1.0);
+    let across = (2.0 * (rho_mm - active_start_rho_mm) / (edge_rho - active_start_rho_mm) - 1.0).clamp(-1.0, 1.0);
     let sloped = modification.profile_slope_mm;
     let slope = 0.5 * (sloped.abs() - sloped * across);
     let crowning = modification.profile_crowning_mm * across * across;
-    tip + root + crowning + slope + tip_rounding_mm(modification.tip_rounding_mm, tooth, rho_mm)
+    tip + root + crowning + slope
 }
 
 /// Material removed by a relief at the roll length `from_start_mm` from its beginning; 0 before, its amount after its end.
@@ -130,13 +130,22 @@ fn relief_mm(relief: Relief, from_start_mm: f64) -> f64 {
         }
 }
 
-/// Material removed at radius of curvature `rho_mm` of `tooth` by a rounding of its tip edge.
-pub fn tip_rounding_mm(radius: f64, tooth: &Tooth, rho_mm: f64) -> f64 {
-    let begins = tooth.involute.arc_mm(tooth.tip_rho_mm()) - tooth.tip_rounding_length_mm(radius);
-    let into = tooth.involute.arc_mm(rho_mm) - begins;
-    if radius <= 0.0 || into <= 0.0 {
+/// Material removed at radius of curvature `rho_mm` of `tooth` at its tip edge, by a rounding of radius `rounding_mm` and its chamfer.
+pub fn tip_edge_mm(rounding_mm: f64, tooth: &Tooth, rho_mm: f64) -> f64 {
+    let begins_mm = tooth.involute.arc_mm(tooth.edge_rho_mm()) - tooth.tip_rounding_length_mm(rounding_mm);
+    let into_mm = tooth.involute.arc_mm(rho_mm) - begins_mm;
+    if into_mm <= 0.0 {
+        return 0.0;
+    }
+    if tooth.tip_chamfer.is_some() {
+        let (sin, cos) = tooth.edge_turn_rad().sin_cos();
+        let on_chamfer_mm = into_mm - rounding_mm * sin;
+        if on_chamfer_mm > 0.0 {
+            return rounding_mm * (1.0 - cos) + on_chamfer_mm * sin / cos;
+        }
+    } else if rounding_mm <= 0.0 {
         return 0.0;
     }
     // ρ − √(ρ² − d²) without cancellation.
-    into * into / (radius + ((radius - into) * (radius + into)).max(0.0).sqrt())
+    into_mm * into_mm / (rounding_mm + ((rounding_mm - into_mm) * (rounding_mm + into_mm)).max(0.0).sqrt())
 }

@@ -16,7 +16,10 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use super::slices::Slices;
+use super::{
+    shaft_bearings::{ShaftBeam, ShaftBearings, ToothForceDirection},
+    slices::Slices,
+};
 
 /// End face of a gear.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, schemars::JsonSchema)]
@@ -38,12 +41,21 @@ pub struct Shaft {
     pub bore_diameter_mm: f64,
     /// End face at which the torque enters.
     pub driven_at: EndFace,
+    /// Bearings; `None` where they are left out, and the shaft stays straight and parallel.
+    pub bearings: Option<ShaftBearings>,
 }
 
 impl Shaft {
     /// Polar moment J, mm⁴.
     pub fn polar_moment_mm4(&self) -> f64 {
         PI / 32.0 * (self.diameter_mm.powi(4) - self.bore_diameter_mm.powi(4))
+    }
+
+    /// The shaft as a beam on its bearings, of Young's modulus `young_modulus_mpa`; `None` without bearings.
+    pub fn beam(&self, direction: ToothForceDirection, young_modulus_mpa: f64) -> Option<ShaftBeam> {
+        // I = J/2.
+        let bending_stiffness_n_mm2 = 0.5 * young_modulus_mpa * self.polar_moment_mm4();
+        self.bearings.map(|bearings| ShaftBeam { bearings, bending_stiffness_n_mm2, direction })
     }
 
     /// Displacement r_b (T/2) b/(G J) of the teeth at the end that is not driven under an even line load, mm.

@@ -16,6 +16,7 @@ use super::{
     per_gear::{Gear, PerGear},
     ring_fillet::RingSpec,
     shaft::Shaft,
+    tip_chamfer::TipChamfer,
 };
 
 /// Basic rack that generates the teeth (ISO 53), as factors of the normal module.
@@ -45,6 +46,8 @@ pub struct GearSpec {
     pub profile_shift: f64,
     /// Tip diameter d_a in mm, negative on an internal gear; `None` for that of the rack, reduced where the full tip clearance requires it.
     pub tip_diameter_mm: Option<f64>,
+    /// Chamfer of the tip edges of both flanks; `None` where flanks end at the tip circle.
+    pub tip_chamfer: Option<TipChamfer>,
     /// Tooth thickness allowance E_sn in mm in the normal section; negative thins the tooth.
     pub tooth_thickness_allowance_mm: f64,
     /// Bore diameter in mm.

@@ -85,9 +85,9 @@ impl GearPair {
     pub fn rounding_start_rho_mm(&self, gear: Gear) -> f64 {
         let (tooth, rounding_mm) = (&self.teeth[gear], self.spec.gears[gear].modification.tip_rounding_mm);
         if rounding_mm == 0.0 {
-            return tooth.tip_rho_mm();
+            return tooth.edge_rho_mm();
         }
-        let arc_mm = tooth.involute.arc_mm(tooth.tip_rho_mm()) - tooth.tip_rounding_length_mm(rounding_mm);
+        let arc_mm = tooth.involute.arc_mm(tooth.edge_rho_mm()) - tooth.tip_rounding_length_mm(rounding_mm);
         tooth.involute.rho_at_arc_mm(arc_mm)
     }
 
@@ -113,10 +113,10 @@ impl GearPair {
         })
     }
 
-    /// Radius of curvature at the edge at an end of the path, on the tip circle or the form circle.
+    /// Radius of curvature at the edge at an end of the path, where the flank ends towards the tip or on the form circle.
     fn outermost_rho_mm(&self, end: PathEnd) -> f64 {
         let FlankEdge { gear, at_root, rho_mm, .. } = self.edge(end);
-        if at_root { rho_mm } else { self.teeth[gear].tip_rho_mm() }
+        if at_root { rho_mm } else { self.teeth[gear].edge_rho_mm() }
     }
 
     /// Radius of curvature of a gear's flank at the theoretical contact point, with a lower bound before A and after E.

@@ -24,6 +24,7 @@ use super::{
     ring_fillet::RingFillet,
     root_trochoid::{RackTip, RootTrochoid, greatest_dedendum_factor, greatest_fillet_radius_factor},
     spec::PairSpec,
+    tip_chamfer::TipChamfer,
 };
 
 /// Circles and tooth of one gear; radii in mm, transverse, negative on an internal gear.
@@ -37,6 +38,8 @@ pub struct Tooth {
     pub involute: Involute,
     /// Tip radius r_a.
     pub tip_radius_mm: f64,
+    /// Chamfer of its tip edges.
+    pub tip_chamfer: Option<TipChamfer>,
     /// Root radius r_f.
     pub root_radius_mm: f64,
     /// Root form radius r_Ff, where the involute begins.
@@ -56,7 +59,7 @@ impl Tooth {
     ///
     /// # Errors
     /// [`PairError::RackPointed`], [`PairError::RackTipPointed`], [`PairError::NoTooth`],
-    /// [`PairError::TipBelowForm`], [`PairError::PointedTooth`], [`PairError::BoreTooLarge`], [`PairError::Internal`].
+    /// [`PairError::TipBelowForm`], [`PairError::PointedTooth`], [`PairError::TipChamferTooLarge`], [`PairError::TipChamferAngle`], [`PairError::BoreTooLarge`], [`PairError::Internal`].
     pub fn new(spec: &PairSpec, gear: Gear, tip_radius_mm: f64) -> Result<Self, PairError> {
         let own = &spec.gears[gear];
         let (m_n, alpha_n) = (spec.normal_module_mm, spec.normal_pressure_angle_rad);
@@ -91,6 +94,7 @@ impl Tooth {
             reference_radius_mm,
             involute,
             tip_radius_mm,
+            tip_chamfer: spec.tip_chamfer(gear),
             root_radius_mm,
             root_form_radius_mm: 0.0,
             undercut: false,
@@ -99,7 +103,9 @@ impl Tooth {
             base_half_angle_rad,
         };
         tooth.check(gear, own.bore_diameter_mm)?;
-        tooth.with_root_form(gear, alpha_t)
+        let tooth = tooth.with_root_form(gear, alpha_t)?;
+        tooth.check_chamfer(gear)?;
+        Ok(tooth)
     }
 
     /// Refuses a tooth without flank, without tip land or without body.
@@ -233,13 +239,12 @@ impl Tooth {
         2.0 * radius_mm * self.half_angle_rad(radius_mm)
     }
 
-    /// Length along the flank of a tip rounding of this radius, ρ_k tan(γ/2) with the angle γ = π/2 − α_a between flank and tip circle.
+    /// Length along the flank of a tip rounding of this radius, ρ_k tan(γ/2) with the angle γ between flank and tip circle or chamfer.
     pub fn tip_rounding_length_mm(&self, rounding_mm: f64) -> f64 {
-        let turn = std::f64::consts::FRAC_PI_2 - self.involute.pressure_angle_rad(self.tip_rho_mm());
-        rounding_mm * (0.5 * turn).tan()
+        rounding_mm * (0.5 * self.edge_turn_rad()).tan()
     }
 
-    /// Radius of curvature at the tip.
+    /// Radius of curvature at the tip circle, to which the involute goes on where a chamfer removes it.
     pub fn tip_rho_mm(&self) -> f64 {
         self.involute.curvature_radius_mm(self.tip_radius_mm)
     }

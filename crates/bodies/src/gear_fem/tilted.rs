@@ -144,6 +144,7 @@ mod tests {
             measured_flank: None,
             shaft: None,
             ring: None,
+            tip_chamfer: None,
         });
         let spec = PairSpec {
             normal_module_mm: 4.5,

@@ -150,14 +150,14 @@ fn working_flank(shape: &ToothShape, outline: &Outline, flank: Range<usize>) -> 
         .collect()
 }
 
-/// Flank and rounding of a side, from root to tip.
+/// Flank, rounding and chamfer of a side, from root to tip.
 fn flank_chain(outline: &Outline, side: ToothSide) -> FlankChain {
-    let (flank, rounding) = (outline.part(side, OutlinePart::Flank), outline.part(side, OutlinePart::Rounding));
+    let (flank, tip_edge) = (outline.part(side, OutlinePart::Flank), outline.part(side, OutlinePart::TipEdge));
     let involute = 0..flank.len();
-    // Flank and rounding share the node between them.
+    // Flank and tip edge share the node between them.
     let numbers: Vec<usize> = match side {
-        ToothSide::Right => flank.chain(rounding.skip(1)).collect(),
-        ToothSide::Left => flank.rev().chain(rounding.rev().skip(1)).collect(),
+        ToothSide::Right => flank.chain(tip_edge.skip(1)).collect(),
+        ToothSide::Left => flank.rev().chain(tip_edge.rev().skip(1)).collect(),
     };
     let rho_mm: Vec<f64> = numbers.iter().map(|&k| outline.rho_mm[k]).collect();
     let resolved = match outline.resolved_from_rho_mm {

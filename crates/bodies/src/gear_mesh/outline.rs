@@ -21,6 +21,8 @@ const FILLET_OVER_CURVATURE: f64 = 0.4;
 const LEAST_FILLET_MODULES: f64 = 0.01;
 /// Longest element of a rounding over its radius, where the flank is resolved and where it is not.
 const ROUNDING_OVER_RADIUS: [f64; 2] = [0.25, 0.6];
+/// Elements on the rounding of the edge of a chamfer.
+const CHAMFER_EDGE_ELEMENTS: f64 = 4.0;
 /// Longest element over the thickness of the tooth.
 const OVER_THICKNESS: f64 = 0.5;
 /// Longest element at the cuts, in modules.
@@ -92,7 +94,7 @@ impl Outline {
                 outline.rho_mm[k] = match piece {
                     Piece::Flank => profile.rho_mm(u),
                     Piece::RootArc | Piece::Fillet => profile.rho_mm(0.0),
-                    Piece::Rounding | Piece::Land => profile.rho_mm(1.0),
+                    Piece::Rounding | Piece::Chamfer | Piece::Land => profile.rho_mm(1.0),
                 };
             }
         }
@@ -118,7 +120,7 @@ pub(super) fn reaches(rho_mm: f64, from_rho_mm: f64) -> bool {
 struct ResolvedFlank<'a> {
     flank: FlankResolution<'a>,
     from_rho_mm: f64,
-    tip_rho_mm: f64,
+    edge_rho_mm: f64,
 }
 
 impl ResolvedFlank<'_> {
@@ -157,7 +159,7 @@ impl<'a> Wanted<'a> {
         // Arc length of the involute: s = ρ²/(2 r_b).
         let square = start * start - 2.0 * tooth.involute.base_radius_mm * margin_mm;
         let from_rho_mm = tooth.involute.signed(square.max(0.0).sqrt()).max(tooth.root_form_rho_mm());
-        let resolved = ResolvedFlank { flank, from_rho_mm, tip_rho_mm: tooth.tip_rho_mm() };
+        let resolved = ResolvedFlank { flank, from_rho_mm, edge_rho_mm: tooth.edge_rho_mm() };
         let least_mm = LEAST_MODULES * module_mm;
         for k in 0..=SAMPLES {
             let rho = from_rho_mm + (profile.flank_end_rho_mm() - from_rho_mm) * k as f64 / SAMPLES as f64;
@@ -185,7 +187,10 @@ impl<'a> Wanted<'a> {
             parts.push((OutlinePart::Flank, vec![(Piece::Flank, [ends[0], ends[1]])]));
         }
         if profile.rounding_mm() > 0.0 {
-            parts.push((OutlinePart::Rounding, vec![(Piece::Rounding, whole)]));
+            parts.push((OutlinePart::TipEdge, vec![(Piece::Rounding, whole)]));
+        }
+        if profile.has_chamfer() {
+            parts.push((OutlinePart::TipEdge, vec![(Piece::Chamfer, whole)]));
         }
         let runs = parts.into_iter().map(|(part, stretches)| {
             let directed: Vec<_> = match side {
@@ -237,19 +242,26 @@ impl<'a> Wanted<'a> {
                     .filter(|resolved| reaches(rho, resolved.from_rho_mm))
                     .map_or(open, |resolved| resolved.element_mm(rho).min(open))
             }),
-            OutlinePart::Rounding => {
-                let [fine, open] = ROUNDING_OVER_RADIUS.map(|part| (part * profile.rounding_mm()).max(least));
-                let wanted = resolved.map_or(open, |resolved| {
-                    let FlankResolution { elements_per_half_width, rounding_refinement, .. } = resolved.flank;
-                    let own = rounding_element_mm(profile.rounding_mm(), elements_per_half_width, rounding_refinement);
-                    fine.min(resolved.element_mm(resolved.tip_rho_mm)).min(own.max(least))
-                });
-                run.want(|_, _| wanted);
+            OutlinePart::TipEdge => {
+                let wanted = self.on_rounding_mm(profile, resolved, run.arc_mm());
+                run.want(|place, _| if place.piece == Piece::Chamfer { GREATEST_MODULES * module } else { wanted });
             }
             OutlinePart::Land => {
                 let wanted = (OVER_THICKNESS * run.arc_mm()).max(least);
                 run.want(|_, _| wanted);
             }
         }
+    }
+
+    /// Wanted length on the rounding of an edge, `arc_mm` long.
+    fn on_rounding_mm(&self, profile: &Profile, resolved: Option<&ResolvedFlank<'_>>, arc_mm: f64) -> f64 {
+        let least = LEAST_MODULES * self.module_mm;
+        let [fine, open] = ROUNDING_OVER_RADIUS.map(|part| (part * profile.rounding_mm()).max(least));
+        let Some(resolved) = resolved else { return open };
+        let FlankResolution { elements_per_half_width, rounding_refinement, .. } = resolved.flank;
+        let own = rounding_element_mm(profile.rounding_mm(), elements_per_half_width, rounding_refinement);
+        let wanted = fine.min(resolved.element_mm(resolved.edge_rho_mm)).min(own.max(least));
+        // The arc to a chamfer is short.
+        if profile.has_chamfer() { wanted.min((arc_mm / CHAMFER_EDGE_ELEMENTS).max(least)) } else { wanted }
     }
 }

@@ -2,12 +2,13 @@
 //!
 //! Half with x > 0, the tooth's centre line on +y; the other half is its mirror image. Angles θ run clockwise from
 //! the centre line. An internal tooth has negative radii and angles, and its centre line on −y: its tip points to +y too. From root to tip the
-//! pieces are the arc of the root circle, the fillet, the flank and the rounding of the tip edge:
+//! pieces are the arc of the root circle, the fillet, the flank, and rounding and chamfer of the tip edge:
 //!
 //! ```text
 //! flank      P(ρ) = T + (ρ − c(ρ)) n       T = r_b (sin θ_T, cos θ_T),   n = (cos θ_T, −sin θ_T),   θ_T = ψ_b − ρ/r_b
-//! tip        ρ − c(ρ) = ρ_a                where the flank with its material c removed along the normal reaches r_a
+//! tip        ρ − c(ρ) = ρ_a                where the flank with its material c removed along the normal reaches r_a, or r_Fa of a chamfer
 //! rounding   |P − r_k N| = r_a − r_k       N: outward normal of the relieved flank; the circle touches both
+//!            (P − r_k N − K) n_K = −r_k    on a chamfer from K with the outward normal n_K
 //! ```
 //!
 //! Where material is removed at the end of the involute, the fillet is shifted there by the same amount along the flank's normal, fading
@@ -20,7 +21,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::Vector2;
 
 use super::ToothMeshError;
-use crate::gear::{modification::Modification, removed_material::removed_mm, tooth::Tooth};
+use crate::gear::{modification::Modification, removed_material::removed_mm, tip_chamfer::TipChamfer, tooth::Tooth};
 
 /// Curve of the outline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,11 +34,37 @@ pub(super) enum Piece {
     Flank,
     /// Rounding of the tip edge.
     Rounding,
+    /// Chamfer of the tip edge.
+    Chamfer,
     /// Half of the tip circle's arc, to the centre line.
     Land,
 }
 
-/// The circle tangent to flank and tip circle.
+/// Straight line from the flank to the tip circle.
+#[derive(Debug, Clone, Copy)]
+struct Chamfer {
+    /// End of the flank, or of the rounding.
+    from_mm: Vector2<f64>,
+    /// End of the tip land.
+    to_mm: Vector2<f64>,
+}
+
+impl Chamfer {
+    /// The chamfer of a tooth whose relieved flank ends at `edge_mm`.
+    fn new(tooth: &Tooth, edge_mm: Vector2<f64>) -> Option<Self> {
+        let (TipChamfer { angle_rad, .. }, length_mm) = tooth.tip_chamfer.zip(tooth.chamfer_length_mm())?;
+        let (sin, cos) = (tooth.polar(edge_mm).1 - angle_rad).sin_cos();
+        Some(Self { from_mm: edge_mm, to_mm: edge_mm + length_mm * Vector2::new(sin, cos) })
+    }
+
+    /// Outward normal.
+    fn normal(&self) -> Vector2<f64> {
+        let along = (self.to_mm - self.from_mm).normalize();
+        Vector2::new(along.y, -along.x)
+    }
+}
+
+/// The circle tangent to flank and tip circle, or chamfer.
 #[derive(Debug, Clone, Copy)]
 struct Rounding {
     centre_mm: Vector2<f64>,
@@ -53,9 +80,10 @@ pub(super) struct Profile<'a> {
     tooth: &'a Tooth,
     modification: Modification,
     active_start_rho_mm: f64,
-    /// ρ where the flank ends: on the tip circle or where the rounding begins.
+    /// ρ where the flank ends: on the tip circle or where rounding or chamfer begin.
     flank_end_rho_mm: f64,
     rounding: Option<Rounding>,
+    chamfer: Option<Chamfer>,
     /// Half angle of the tip land.
     land_rad: f64,
 }
@@ -67,20 +95,26 @@ impl<'a> Profile<'a> {
         modification: &Modification,
         active_start_rho_mm: f64,
     ) -> Result<Self, ToothMeshError> {
-        // The rounding is a separate circle here, not material removed from the flank.
-        let modification = Modification { tip_rounding_mm: 0.0, ..*modification };
-        let mut profile =
-            Self { tooth, modification, active_start_rho_mm, flank_end_rho_mm: 0.0, rounding: None, land_rad: 0.0 };
-        // Beyond the tip circle of the plain involute the removed material is constant.
-        profile.flank_end_rho_mm = tooth.tip_rho_mm() + profile.removed_mm(tooth.tip_rho_mm());
+        let mut profile = Self {
+            tooth,
+            modification: *modification,
+            active_start_rho_mm,
+            flank_end_rho_mm: 0.0,
+            rounding: None,
+            chamfer: None,
+            land_rad: 0.0,
+        };
+        // Beyond the end of the plain involute the removed material is constant.
+        profile.flank_end_rho_mm = tooth.edge_rho_mm() + profile.removed_mm(tooth.edge_rho_mm());
         // The flank is most curved where it is nearest to its base circle: at the tip of an internal tooth.
-        let curved_rho = if tooth.is_internal() { tooth.tip_rho_mm() } else { tooth.root_form_rho_mm() };
+        let curved_rho = if tooth.is_internal() { tooth.edge_rho_mm() } else { tooth.root_form_rho_mm() };
         let (rho_mm, removed_mm) = (curved_rho.abs(), profile.removed_mm(curved_rho));
         if removed_mm > 0.5 * rho_mm && removed_mm > 0.0 {
             return Err(ToothMeshError::ReliefBeyondCurvature { removed_mm, rho_mm });
         }
         let corner = profile.flank_mm(profile.flank_end_rho_mm);
-        profile.land_rad = tooth.polar(corner).1;
+        profile.chamfer = Chamfer::new(tooth, corner);
+        profile.land_rad = tooth.polar(profile.chamfer.map_or(corner, |chamfer| chamfer.to_mm)).1;
         if profile.land_mm() <= 0.0 {
             return Err(ToothMeshError::PointedTip { tip_radius_mm: tooth.tip_radius_mm });
         }
@@ -108,10 +142,15 @@ impl<'a> Profile<'a> {
         let normal = self.normal(low);
         let centre_mm = self.flank_mm(low) - radius_mm * normal;
         let first_rad = normal.y.atan2(normal.x);
-        let to_tip = self.tooth.involute.signed(1.0) * centre_mm;
-        let sweep_rad = to_tip.y.atan2(to_tip.x) - first_rad;
-        self.land_rad = to_tip.x.atan2(to_tip.y);
-        if sweep_rad <= 0.0 || self.land_mm() < 0.0 {
+        let outwards =
+            self.chamfer.map_or_else(|| self.tooth.involute.signed(1.0) * centre_mm, |chamfer| chamfer.normal());
+        let sweep_rad = outwards.y.atan2(outwards.x) - first_rad;
+        match &mut self.chamfer {
+            Some(chamfer) => chamfer.from_mm = centre_mm + radius_mm * outwards,
+            None => self.land_rad = outwards.x.atan2(outwards.y),
+        }
+        let is_beyond_chamfer = self.chamfer.is_some_and(|Chamfer { from_mm, to_mm }| to_mm.y < from_mm.y);
+        if sweep_rad <= 0.0 || self.land_mm() < 0.0 || is_beyond_chamfer {
             return Err(error);
         }
         self.flank_end_rho_mm = low;
@@ -119,9 +158,13 @@ impl<'a> Profile<'a> {
         Ok(self)
     }
 
-    /// Distance by which a circle tangent to the flank at ρ from inside reaches beyond the tip circle, mm.
+    /// Distance by which a circle tangent to the flank at ρ from inside reaches beyond the tip circle or the chamfer, mm.
     fn beyond_tip_mm(&self, rho_mm: f64, radius_mm: f64) -> f64 {
-        let (centre_radius_mm, _) = self.tooth.polar(self.flank_mm(rho_mm) - radius_mm * self.normal(rho_mm));
+        let centre_mm = self.flank_mm(rho_mm) - radius_mm * self.normal(rho_mm);
+        if let Some(chamfer) = &self.chamfer {
+            return (centre_mm - chamfer.from_mm).dot(&chamfer.normal()) + radius_mm;
+        }
+        let (centre_radius_mm, _) = self.tooth.polar(centre_mm);
         centre_radius_mm - (self.tooth.tip_radius_mm - radius_mm)
     }
 
@@ -140,6 +183,10 @@ impl<'a> Profile<'a> {
                     let (sin, cos) = (rounding.first_rad + u * rounding.sweep_rad).sin_cos();
                     rounding.centre_mm + rounding.radius_mm * Vector2::new(cos, sin)
                 }
+                None => self.flank_mm(self.flank_end_rho_mm),
+            },
+            Piece::Chamfer => match self.chamfer {
+                Some(Chamfer { from_mm, to_mm }) => from_mm.lerp(&to_mm, u),
                 None => self.flank_mm(self.flank_end_rho_mm),
             },
             Piece::Land => {
@@ -171,7 +218,7 @@ impl<'a> Profile<'a> {
     pub(super) fn kinks_rho_mm(&self) -> Vec<f64> {
         let Modification { tip_relief, root_relief, profile_crowning_mm, profile_slope_mm, .. } = self.modification;
         let mut kinks = Vec::new();
-        kinks.extend(tip_relief.map(|relief| self.tooth.tip_rho_mm() - relief.length_mm));
+        kinks.extend(tip_relief.map(|relief| self.tooth.edge_rho_mm() - relief.length_mm));
         kinks.extend(root_relief.map(|relief| self.active_start_rho_mm + relief.length_mm));
         if root_relief.is_some() || profile_crowning_mm > 0.0 || profile_slope_mm != 0.0 {
             kinks.push(self.active_start_rho_mm);
@@ -194,6 +241,11 @@ impl<'a> Profile<'a> {
     /// Radius of the tip rounding; 0 where the edge is sharp.
     pub(super) fn rounding_mm(&self) -> f64 {
         self.rounding.map_or(0.0, |rounding| rounding.radius_mm)
+    }
+
+    /// Whether the tip edge has a chamfer.
+    pub(super) fn has_chamfer(&self) -> bool {
+        self.chamfer.is_some()
     }
 
     /// ρ where the flank ends.

@@ -38,7 +38,8 @@ pub(super) enum OutlinePart {
     RootArc,
     Fillet,
     Flank,
-    Rounding,
+    /// Rounding and chamfer of the tip edge.
+    TipEdge,
     Land,
 }
 

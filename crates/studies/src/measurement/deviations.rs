@@ -73,7 +73,7 @@ impl Evaluation {
         Self {
             from_mm: start,
             to_mm: start + EVALUATED * (form - start),
-            length_mm: tooth.tip_rho_mm() - start,
+            length_mm: tooth.edge_rho_mm() - start,
             slope_tolerance_um: tolerance::profile_slope_of_class_5_um(module, diameter),
             form_tolerance_um: 0.55 * module + 5.0,
         }

@@ -17,6 +17,8 @@ const STEEL_GPA: f64 = 206.0;
 
 /// One scene of so many has an internal wheel.
 const EVERY_INTERNAL: u64 = 12;
+/// One scene of so many has tip chamfers.
+const EVERY_CHAMFERED: u64 = 6;
 
 /// Random choices of one scene.
 struct Draw {
@@ -74,6 +76,9 @@ pub fn scene(seed: u64, index: u64) -> Table {
     let has_tooth_temperature = draw.temperature(&sizes, has_oil);
     draw.wear(&aim, has_oil, has_tooth_temperature);
     draw.numerics(&aim);
+    if index % EVERY_CHAMFERED == 1 {
+        draw.chamfers(sizes.module_mm);
+    }
     draw.table
 }
 
@@ -93,6 +98,17 @@ impl Draw {
     /// Evenly between two numbers, with four digits.
     fn between(&mut self, from: f64, to: f64) -> f64 {
         four_digits(from + (to - from) * self.random.f64())
+    }
+
+    fn chamfers(&mut self, module_mm: f64) {
+        for gear in ["pinion", "wheel"] {
+            if self.chance(0.7) {
+                let height = four_digits(module_mm * self.between(0.02, 0.12));
+                self.set(&format!("pair.{gear}.tip_chamfer_mm"), height);
+                let angle = self.random.i64(45..=65);
+                self.set(&format!("pair.{gear}.tip_chamfer_deg"), angle);
+            }
+        }
     }
 
     /// Number evenly distributed in the logarithm.

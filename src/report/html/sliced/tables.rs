@@ -29,6 +29,10 @@ pub(crate) fn slices(h: &HelicalSummary) -> Markup {
             let label = format!("Twist of the {} under an even load, far end", gear.name());
             rows.push(row(label, "µm", [significant(twist_um, 3)]));
         }
+        if let Some(misalignment_um) = h.misalignment_um[gear] {
+            let label = format!("Misalignment of the {} by shaft and bearings under an even load", gear.name());
+            rows.push(row(label, "µm", [significant(misalignment_um, 3)]));
+        }
     }
     if let Some(slope_um) = h.slope_of_axes_um {
         rows.push(row("Helix slope of axes out of parallel", "µm", [significant(slope_um, 3)]));
