@@ -24,6 +24,8 @@ pub struct VariedScene {
     draft: Draft,
     /// The scene as given, with the files it names.
     given: LoadedScene,
+    /// Whether runs find the transmission error over torque.
+    torque_curve: bool,
 }
 
 impl VariedScene {
@@ -33,7 +35,12 @@ impl VariedScene {
         draft.remove("operation.snapshots_h");
         draft.remove("operation.snapshots_revolutions");
         draft.set("numerics.error_estimate", error_estimate);
-        Ok(Self { draft, given: given.clone() })
+        Ok(Self { draft, given: given.clone(), torque_curve: false })
+    }
+
+    /// The same with the transmission error over torque, if that is `asked` for.
+    pub fn with_torque_curve(self, asked: bool) -> Self {
+        Self { torque_curve: asked, ..self }
     }
 
     /// The text of the scene, as given.
@@ -54,6 +61,9 @@ impl VariedScene {
         resolved.scene.verify = false;
         let operation = &mut resolved.scene.operation;
         operation.snapshots_revolutions = vec![operation.pinion_revolutions];
+        if !self.torque_curve {
+            operation.torque_curve_n_mm.clear();
+        }
         Ok(resolved)
     }
 
