@@ -155,9 +155,6 @@ impl MemberRun<'_> {
         let mut resolved = draft.resolve().map_err(wrong)?;
         // Cases have references of their own: a run is verified only where the case sets `verify`.
         resolved.scene.verify &= self.member.set.iter().any(|(key, _)| key == "numerics.verify");
-        if !self.member.set.iter().any(|(key, _)| key == "operation.torque_curve_Nm") {
-            resolved.scene.operation.torque_curve_n_mm.clear();
-        }
         Ok(resolved)
     }
 

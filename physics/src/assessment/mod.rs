@@ -305,14 +305,13 @@ impl EndedRun<'_, '_> {
             stages.planned(plan, StageKind::TorqueCurve, || torque_curve::observe(model, outcome, observer));
         let (mut error, verified) = errors(model, stages);
         verified.tell(&mut error);
-        let found =
-            RunFindings {
-                outcome,
-                heat: heat.as_ref(),
-                lubrication: films.as_ref(),
-                torque_curve: torque_curve.as_deref().unwrap_or_default(),
-                verified: Some(&verified),
-            };
+        let found = RunFindings {
+            outcome,
+            heat: heat.as_ref(),
+            lubrication: films.as_ref(),
+            torque_curve: torque_curve.as_deref().unwrap_or_default(),
+            verified: Some(&verified),
+        };
         let mut summary = recording::summary(self.provenance, plan, model, found, error, judged)?;
         summary.warnings.extend_from_slice(&self.warnings);
         summary.stages.clone_from(&stages.times);

@@ -309,7 +309,7 @@ fn losses(scene: &Scene) -> Result<String, String> {
 
 fn torque_curve(scene: &Scene) -> Result<String, String> {
     match scene.operation.torque_curve_n_mm.len() {
-        0 => Err("operation.torque_curve_Nm is empty".to_owned()),
+        0 => Err("operation.torque_curve_Nm names no torques".to_owned()),
         count => Ok(format!("operation.torque_curve_Nm: transmission error under {count} torques, new and worn")),
     }
 }

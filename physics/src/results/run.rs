@@ -110,7 +110,7 @@ pub struct Summary {
     pub new: CycleSummary,
     /// The mesh cycle of the worn pair, under the same load.
     pub worn: CycleSummary,
-    /// Transmission error over torque; null where `operation.torque_curve_Nm` is empty.
+    /// Transmission error over torque; null where `operation.torque_curve_Nm` names no torques.
     #[serde(default)]
     pub transmission_error_over_torque: Option<TorqueCurveSummary>,
     /// Wear of one pinion flank.

@@ -7,6 +7,7 @@
 //! Bodies, springs of the teeth and couplings of slices are those of the run. Positions of the mesh cycle are found anew for each load, as the reach
 //! of tip edges and the width of contact depend on it; finite elements keep the mesh that they have for the run's load.
 
+use super::advance;
 use super::wear_run::{Outcome, RunPhase, SimulationError, WearRun, fits};
 use crate::mesh_cycle::wearing_pair::WearingPair;
 use crate::mesh_cycle::{CycleObservation, Work};
@@ -39,7 +40,6 @@ impl WearRun<'_> {
         cycles.new = observed(&mut *pair, phase, &mut cycles.work, stopped);
         if let Some(wear_mm) = outcome.worn_places_mm.as_ref().filter(|wear_mm| fits(&*pair, wear_mm)) {
             pair.set_wear_mm(wear_mm);
-            pair.reset();
             cycles.worn = observed(&mut *pair, phase, &mut cycles.work, stopped);
         }
         Ok(cycles)
@@ -53,6 +53,6 @@ fn observed(
     work: &mut Work,
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Option<CycleObservation> {
-    *work += pair.evaluate(&phase.wear, stopped).ok()?;
+    *work += advance::evaluate(pair, &phase.wear, stopped).ok()?;
     pair.snapshot(0.0).ok().map(|state| state.cycle)
 }

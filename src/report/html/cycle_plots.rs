@@ -1,8 +1,8 @@
 //! Plots over the mesh cycle of the reference pair, from A to E: load sharing, transmission error, pressure.
 
-use super::{mesh_orders, torque_curve_plot};
 use super::number::{change, figure, percent, significant};
 use super::reading::{Extreme, defined_pressures, greatest, tip_edge_note};
+use super::{mesh_orders, torque_curve_plot};
 use crate::report::chart::Chart;
 use gearwear_bodies::reference::statistics::extent;
 use gearwear_physics::results::path_points::among;

@@ -151,8 +151,6 @@ fn operation_of(given: &Table, of_pinion: Transfer, mesh: StageMesh, planets: us
     };
     let meshes = Table::from_iter([("pinion".to_owned(), pinion.into()), ("wheel".to_owned(), wheel.into())]);
     operation.insert("meshes_per_revolution".to_owned(), meshes.into());
-    // The transmission error of the stage is that of its meshes together.
-    operation.insert("torque_curve_Nm".to_owned(), Value::Array(Vec::new()));
     operation
 }
 

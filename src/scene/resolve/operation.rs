@@ -10,9 +10,6 @@ use gearwear_physics::simulation::settings::{LifeLimits, Operation, Phase};
 /// Relative tolerance of snapshots at the end of the run: hours and revolutions round differently.
 const SAME_TIME: f64 = 1e-9;
 
-/// Torques of the curve, % of the greatest torque of the run.
-const CURVE_PERCENT: [f64; 7] = [10.0, 25.0, 50.0, 75.0, 100.0, 125.0, 150.0];
-
 /// Number of default snapshots, each at half the duration of the next.
 const HALVINGS: i32 = 6;
 
@@ -78,10 +75,10 @@ pub(super) fn choose(file: &mut OperationFile, findings: &mut Findings) -> Optio
     is_loaded.then_some(operation)
 }
 
-/// Torques of the curve, N·mm: as given, otherwise parts of the greatest torque of all phases.
-fn torque_curve_n_mm(file: &mut OperationFile, operation: &Operation, findings: &mut Findings) -> Option<Vec<f64>> {
+/// Torques of the curve, N·mm.
+fn torque_curve_n_mm(file: &OperationFile, operation: &Operation, findings: &mut Findings) -> Option<Vec<f64>> {
     let [_, greatest_n_mm] = operation.torque_range_n_mm();
-    let torques = file.torque_curve_Nm.get_or_insert_with(|| CURVE_PERCENT.map(|part| part * 1e-5 * greatest_n_mm).into());
+    let torques = file.torque_curve_Nm.as_deref().unwrap_or_default();
     if let Some(index) = (1..torques.len()).find(|&index| torques[index] <= torques[index - 1]) {
         let key = format!("operation.torque_curve_Nm[{index}]");
         findings.not_allowed(&key, number(torques[index]), "increasing torques".to_owned());
@@ -89,7 +86,13 @@ fn torque_curve_n_mm(file: &mut OperationFile, operation: &Operation, findings: 
     }
     // The torque of the run itself is not computed twice.
     let same = |torque_n_mm: f64| (torque_n_mm / greatest_n_mm - 1.0).abs() <= SAME_TIME;
-    Some(torques.iter().map(|torque| 1e3 * torque).map(|torque| if same(torque) { greatest_n_mm } else { torque }).collect())
+    Some(
+        torques
+            .iter()
+            .map(|torque| 1e3 * torque)
+            .map(|torque| if same(torque) { greatest_n_mm } else { torque })
+            .collect(),
+    )
 }
 
 /// Refuses a limit that `pair` has passed already.

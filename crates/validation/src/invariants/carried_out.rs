@@ -46,7 +46,7 @@ fn refused(error: impl ToString) -> Ended {
 }
 
 fn run(table: &Table, observer: &dyn Observer) -> Result<RunRecord, Ended> {
-    let scene = LoadedScene::from_toml(&table.to_string()).map_err(refused)?.without_torque_curve();
+    let scene = LoadedScene::from_toml(&table.to_string()).map_err(refused)?;
     let done = runs::run(&scene, observer).map_err(|error| match &error {
         error if error.is_interrupted() => Ended::Interrupted,
         RunError::Simulation(_) if error.stiffness().is_none() => Ended::NotConverged(one_line(&error.to_string())),
