@@ -15,6 +15,12 @@ use gearwear_physics::results::run::Summary;
 use gearwear_physics::results::worn_pair::WornPair;
 
 impl LoadedScene {
+    /// The scene without the transmission error over torque, for runs of which nobody reads it.
+    pub fn without_torque_curve(mut self) -> Self {
+        self.resolved.scene.operation.torque_curve_n_mm.clear();
+        self
+    }
+
     /// The stages a run of it has, those left out, and why.
     pub fn plan(&self) -> Plan {
         Plan::of(self.scene())

@@ -28,6 +28,8 @@ pub struct VariedScene {
     given: LoadedScene,
     /// Whether its calibration is good for pairs that differ in their modifications alone.
     with_other_modifications: bool,
+    /// Whether runs find the transmission error over torque.
+    torque_curve: bool,
 }
 
 impl VariedScene {
@@ -37,7 +39,12 @@ impl VariedScene {
         draft.remove("operation.snapshots_h");
         draft.remove("operation.snapshots_revolutions");
         draft.set("numerics.error_estimate", error_estimate);
-        Ok(Self { draft, given: given.clone(), with_other_modifications: false })
+        Ok(Self { draft, given: given.clone(), with_other_modifications: false, torque_curve: false })
+    }
+
+    /// The same with the transmission error over torque, if that is `asked` for.
+    pub fn with_torque_curve(self, asked: bool) -> Self {
+        Self { torque_curve: asked, ..self }
     }
 
     /// Scene whose calibration is good for pairs that differ in their modifications alone.
@@ -69,6 +76,9 @@ impl VariedScene {
         resolved.scene.verify = false;
         let operation = &mut resolved.scene.operation;
         operation.snapshots_revolutions = vec![operation.pinion_revolutions];
+        if !self.torque_curve {
+            operation.torque_curve_n_mm.clear();
+        }
         Ok(resolved)
     }
 

@@ -91,6 +91,19 @@ class Plots:
         """Loaded transmission error over the path of contact, new and worn."""
         return self._cycle(axes, "transmission_error_{}_um", "transmission error")
 
+    def transmission_error_over_torque(self, axes: Axes | None = None) -> Axes:
+        """Transmission error, peak to peak, over the torque on the pinion, new and worn; of scenes with ``operation.torque_curve_Nm``."""
+        curve = self._run.torque_curve
+        if curve is None:
+            raise ValueError("found a run without torques; allowed: one of a scene with operation.torque_curve_Nm")
+        axes = _axes(axes)
+        for state in _STATES:
+            values = curve[f"transmission_error_peak_to_peak_{state}_um"]
+            axes.plot(curve["pinion_torque_Nm"], values, marker=".", label=state)
+        return self._finished(
+            axes, ("pinion_torque_Nm", "torque on the pinion"), ("transmission_error_um", "transmission error, peak to peak")
+        )
+
     def mesh_stiffness(self, axes: Axes | None = None) -> Axes:
         """Mesh stiffness per mm of face width over the path of contact, new and worn."""
         return self._cycle(axes, "mesh_stiffness_{}_N_per_mm_um", "mesh stiffness")

@@ -211,6 +211,12 @@ class Run:
         return None if columns is None else Table("film", columns)
 
     @cached_property
+    def torque_curve(self) -> Table | None:
+        """A row for each torque: transmission error and flank pressure, new and worn; None where the scene names no torques."""
+        columns = self._native.table("torque_curve")
+        return None if columns is None else Table("torque_curve", columns)
+
+    @cached_property
     def slices(self) -> Slices | None:
         """The mesh of one tooth slice by slice; None where all sections are alike."""
         return None if self._native.slice_array("width_mm") is None else Slices(self._native)
@@ -247,6 +253,8 @@ class Run:
             tables["slices"] = self.slices
         if self.film is not None:
             tables["film"] = self.film
+        if self.torque_curve is not None:
+            tables["torque_curve"] = self.torque_curve
         return {name: table.to_pandas() for name, table in tables.items()}
 
     def to_xarray(self) -> xr.Dataset:

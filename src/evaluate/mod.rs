@@ -128,6 +128,7 @@ pub fn evaluate(
     let of_error = outputs.iter().any(SummaryOutput::is_of_error);
     let varied = VariedScene::new(scene, of_error && scene.scene().numerics.error_estimate);
     let varied = varied.map_err(|problems| scene.given.refused(problems))?;
+    let varied = varied.with_torque_curve(outputs.iter().any(SummaryOutput::is_of_torque_curve));
     let whole = keys.iter().map(|key| takes_whole_numbers(key)).collect();
     let verify = of_error && scene.scene().verify;
     let asked = AskedRows { varied, keys, whole, outputs, verify };

@@ -59,6 +59,11 @@ impl SummaryOutput {
         self.path.starts_with("error.")
     }
 
+    /// Whether it is of the transmission error over torque, which takes mesh cycles of its own.
+    pub fn is_of_torque_curve(&self) -> bool {
+        self.path.starts_with("transmission_error_over_torque.")
+    }
+
     /// Duration of a run that comes to no limit, where the output is the life to a limit.
     pub fn at_least(&self, summary: &Value) -> Option<f64> {
         let time = self.path.strip_prefix("life.").filter(|time| matches!(*time, "hours" | "revolutions"))?;

@@ -254,7 +254,8 @@ fn apply(draft: &mut Draft, changes: Vec<Change>) {
 
 /// Whole record of a complete run; a panic is an error.
 fn run(scene: &LoadedScene, observer: &dyn Observer) -> Result<RunRecord, ExploreError> {
-    let done = guarded(|| runs::run_from(scene, Resumption::none(), observer));
+    let scene = scene.clone().without_torque_curve();
+    let done = guarded(|| runs::run_from(&scene, Resumption::none(), observer));
     let done = done.map_err(|said| ExploreError::Defect(said.to_string()))?;
     match done {
         Err(_) | Ok(Done { failure: Some(_), .. }) if observer.interrupted() => Err(ExploreError::Interrupted),

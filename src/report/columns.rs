@@ -51,7 +51,7 @@ pub enum Values {
     Words(Vec<String>),
 }
 
-/// The table called `name` of a run: `pinion`, `wheel`, `history`, `profiles`, `mesh_cycle`, `film` or `slices`; none for another name, or where
+/// The table called `name` of a run: `pinion`, `wheel`, `history`, `profiles`, `mesh_cycle`, `film`, `torque_curve` or `slices`; none for another name, or where
 /// the run has no such table.
 pub fn of_run(record: &RunRecord, name: &str) -> Option<Table> {
     Some(match name {
@@ -61,6 +61,7 @@ pub fn of_run(record: &RunRecord, name: &str) -> Option<Table> {
         "profiles" => table("profiles", tables::profiles(record)),
         "mesh_cycle" => table("mesh_cycle", &record.mesh_cycle),
         "film" if !record.film.is_empty() => table("film", &record.film),
+        "torque_curve" if !record.torque_curve.is_empty() => table("torque_curve", &record.torque_curve),
         "slices" => {
             table("slices", slice_table::rows(record.slices.as_ref()?, &record.summary.geometry.curvature_radius_mm))
         }

@@ -8,6 +8,7 @@
 //! | `columns.json` | what the columns of the CSV files hold ([`csv_table`]) |
 //! | `slices.csv` | [`slice_table`]; only where the sections of the pair differ |
 //! | `film.csv` | [`FilmRow`](gearwear_physics::results::lubrication::FilmRow); only where the scene asks for films or losses |
+//! | `torque_curve.csv` | [`TorqueCurveRow`](gearwear_physics::results::torque_curve::TorqueCurveRow); unless the scene leaves it out |
 //! | `flank.vtu`; where asked for `flank.pvd`, `flank_000.vtu` … | [`flank_mesh`] |
 //! | `scene.toml` | the resolved scene, byte for byte, so that its SHA-256 begins with the scene hash |
 //! | `record.bin` | the record itself, written by [`resume`](crate::resume) |
@@ -78,6 +79,10 @@ pub fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, Report
         false => paths.push(csv.place(output_files::FILM, |out| table(out, &record.film))?),
         true => remove(dir, output_files::FILM)?,
     }
+    match record.torque_curve.is_empty() {
+        false => paths.push(csv.place(output_files::TORQUE_CURVE, |out| table(out, &record.torque_curve))?),
+        true => remove(dir, output_files::TORQUE_CURVE)?,
+    }
     paths.push(place(dir, output_files::FLANK, |out| flank_mesh::write(out, record))?);
     paths.push(csv.finish()?);
     Ok(paths)
@@ -140,7 +145,8 @@ pub fn figures(record: &RunRecord) -> Vec<figure::Figure> {
 pub fn write_workbook(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportError> {
     let sliced = record.slices.is_some().then_some(output_files::SLICES);
     let films = (!record.film.is_empty()).then_some(output_files::FILM);
-    let tables: Vec<&str> = TABLES.into_iter().chain(sliced).chain(films).collect();
+    let torques = (!record.torque_curve.is_empty()).then_some(output_files::TORQUE_CURVE);
+    let tables: Vec<&str> = TABLES.into_iter().chain(sliced).chain(films).chain(torques).collect();
     workbook::write(&record.summary, &tables, dir)
 }
 

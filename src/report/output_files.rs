@@ -26,6 +26,8 @@ pub const MESH_CYCLE: &str = "mesh_cycle.csv";
 pub const SLICES: &str = "slices.csv";
 /// Films and friction along the path of contact; only where asked for.
 pub const FILM: &str = "film.csv";
+/// Transmission error over torque; only where asked for.
+pub const TORQUE_CURVE: &str = "torque_curve.csv";
 /// Both flanks in space.
 pub const FLANK: &str = "flank.vtu";
 /// Both flanks in space at every snapshot; only where asked for.

@@ -265,6 +265,9 @@ pub struct OperationFile {
     pub snapshots_revolutions: Option<Vec<f64>>,
     /// Meshes of each gear per revolution, as of a sun with planets. Default: one each.
     pub meshes_per_revolution: Option<MeshesFile>,
+    /// Torques on the pinion in N·m, increasing, under which the transmission error of new and worn flanks is found. Default: none.
+    #[schemars(extend("items" = { "type": "number", "exclusiveMinimum": 0 }))]
+    pub torque_curve_Nm: Option<Vec<f64>>,
     /// Limits that end the run; the life until then is a result. Default: none.
     pub stop: Option<StopFile>,
     /// Load spectrum or running-in: phases one after the other, whose durations add up to that of the run. Default: one phase.

@@ -75,7 +75,9 @@ impl Sweep {
             figures,
             goal,
         };
-        Ok(Self { identity, varied: VariedScene::new(given, error_estimate)?, outputs: own })
+        let varied = VariedScene::new(given, error_estimate)?;
+        let varied = varied.with_torque_curve(own.iter().any(SummaryOutput::is_of_torque_curve));
+        Ok(Self { identity, varied, outputs: own })
     }
 
     /// The scene, as the user gave it.

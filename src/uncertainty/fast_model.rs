@@ -54,9 +54,14 @@ pub(super) struct SampledScene {
 
 impl SampledScene {
     /// Scene on its own surface.
-    pub(super) fn as_given(scene: &LoadedScene, because: String) -> Result<Self, UncertaintyStudyError> {
+    pub(super) fn as_given(
+        scene: &LoadedScene,
+        question: &SampledQuestion,
+        because: String,
+    ) -> Result<Self, UncertaintyStudyError> {
         let varied = VariedScene::new(scene, false);
         let varied = varied.map_err(|problems| UncertaintyStudyError::Run(in_words(&problems)))?;
+        let varied = varied.with_torque_curve(question.reads_torque_curve());
         let surface = scene.scene().contact.surface.name().to_owned();
         Ok(Self {
             varied,
@@ -110,7 +115,7 @@ impl SampledScene {
             Ok(on_foundation) => on_foundation,
             Err(error) => return Ok(Err(one_line(&error.to_string()))),
         };
-        let mut fast = Self::as_given(&on_foundation, String::new())?;
+        let mut fast = Self::as_given(&on_foundation, question, String::new())?;
         fast.varied = fast.varied.with_other_modifications();
         observer.stage("the scene as given, on the fast model");
         let corrections = match at_values(&fast.varied, question, values_at(question, None), observer)? {

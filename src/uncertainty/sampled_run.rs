@@ -36,6 +36,13 @@ pub struct SampledQuestion {
     pub on_own_surface: bool,
 }
 
+impl SampledQuestion {
+    /// Whether an output is of the transmission error over torque.
+    pub(super) fn reads_torque_curve(&self) -> bool {
+        self.outputs.iter().any(SummaryOutput::is_of_torque_curve)
+    }
+}
+
 #[derive(Debug, thiserror::Error)]
 pub enum UncertaintyStudyError {
     #[error("the scene as given cannot be run: {0}")]

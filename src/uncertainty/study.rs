@@ -137,7 +137,9 @@ impl Samples<'_> {
 
     /// Runs with these numbers, in one where they can share it; `None` where it was interrupted.
     fn run_group(&self, group: &[usize], observer: &dyn Observer) -> Option<Vec<KeptRun>> {
-        if let Some(pairs) = (group.len() > 1).then(|| self.shared_run(group, observer)).flatten() {
+        // The curve is of the flanks at the end of a run alone.
+        let shares = group.len() > 1 && !self.question.reads_torque_curve();
+        if let Some(pairs) = shares.then(|| self.shared_run(group, observer)).flatten() {
             let kept = group.iter().zip(pairs).map(|(&number, pair)| {
                 let (_, matrix) = self.sampling.of_run(number);
                 KeptRun { number, ran: self.kept(&pair, matrix) }
@@ -308,7 +310,7 @@ impl<'a> PreparedStudy<'a> {
         observer: &dyn Observer,
     ) -> Result<Self, UncertaintyStudyError> {
         let begun = Instant::now();
-        let given = SampledScene::as_given(scene, String::new())?;
+        let given = SampledScene::as_given(scene, question, String::new())?;
         let sampling = Sampling::of(question);
         observer.stage("the scene as given");
         let nominal = run_of(&given.varied, [], question, scene.scene().verify, observer)?;

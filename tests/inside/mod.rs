@@ -29,4 +29,5 @@ mod sobol_indices;
 mod stiffness_curve;
 mod teeth_in_space;
 mod temperature;
+mod torque_curve;
 mod wear_laws;

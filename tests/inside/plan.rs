@@ -30,7 +30,15 @@ fn given_stiffness_needs_no_stiffness_stage() {
         [&["geometry"], model, &of_springs[..], check, &["report"]].concat()
     };
     assert_eq!(stages, stages_with(&["finite-element-model"], &["verification"]));
-    let spring = ["tooth-stiffness", "teeth-in-space", "helical-slices", "contact-temperature", "film", "losses"];
+    let spring = [
+        "tooth-stiffness",
+        "teeth-in-space",
+        "helical-slices",
+        "contact-temperature",
+        "film",
+        "losses",
+        "torque-curve",
+    ];
     assert_eq!(left_out, [&["finite-element-calibration"], &spring[..]].concat());
     // Nothing else asks for finite elements.
     let (stages, left_out) = plan(&[("error_estimate = true", "error_estimate = true\nverify = false")]);

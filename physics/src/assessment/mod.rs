@@ -29,6 +29,7 @@ mod springs;
 mod stability;
 pub mod stage_clock;
 mod temperature;
+mod torque_curve;
 mod verification;
 
 use std::time::Instant;
@@ -193,6 +194,8 @@ fn prepared<R>(
         RunSlices::new(inputs, &pair, elasticity.stiffness, teeth[0].as_ref(), in_space.as_ref(), &mut stages)?;
     let conditions = prepare::conditions(scene, &pair);
     let phases = cases.phases(scene, &elasticity, &teeth, slices.of_teeth.as_ref(), &conditions);
+    let heaviest = phases[reference_phase(&phases)];
+    let torque_curve = cases.torque_curve(scene, &elasticity, &teeth, slices.of_teeth.as_ref(), heaviest);
     let model = RunModel {
         scene,
         stiffness: elasticity.stiffness,
@@ -201,6 +204,7 @@ fn prepared<R>(
         sliced: slices.of_teeth.as_ref(),
         teeth: teeth[cases.of_phase[reference_phase(&phases)]].as_ref(),
         phases,
+        torque_curve,
         at_pitch,
         foundations_mpa_per_mm: cases.foundations_mpa_per_mm(),
     };
@@ -296,10 +300,18 @@ impl EndedRun<'_, '_> {
         let heat = stages.planned(plan, StageKind::ContactTemperature, || temperature::observe(model, outcome));
         let heat = heat.flatten();
         let films = films_and_losses(plan, model, outcome, stages);
+        let observer = stages.observer;
+        let torque_curve =
+            stages.planned(plan, StageKind::TorqueCurve, || torque_curve::observe(model, outcome, observer));
         let (mut error, verified) = errors(model, stages);
         verified.tell(&mut error);
-        let found =
-            RunFindings { outcome, heat: heat.as_ref(), lubrication: films.as_ref(), verified: Some(&verified) };
+        let found = RunFindings {
+            outcome,
+            heat: heat.as_ref(),
+            lubrication: films.as_ref(),
+            torque_curve: torque_curve.as_deref().unwrap_or_default(),
+            verified: Some(&verified),
+        };
         let mut summary = recording::summary(self.provenance, plan, model, found, error, judged)?;
         summary.warnings.extend_from_slice(&self.warnings);
         summary.stages.clone_from(&stages.times);

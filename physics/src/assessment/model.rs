@@ -16,6 +16,8 @@ pub(super) struct RunModel<'a> {
     pub stiffness: StiffnessSettings,
     pub pair: &'a GearPair,
     pub phases: Vec<RunPhase<'a>>,
+    /// The pair under each torque of the curve, N·mm; none where nobody asks for it.
+    pub torque_curve: Vec<(f64, RunPhase<'a>)>,
     /// Limits that end the run early.
     pub limits: LifeLimits,
     /// The slices over the face width; none where all sections are alike.

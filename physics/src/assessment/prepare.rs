@@ -126,6 +126,8 @@ pub(super) struct ContactCases<'a> {
     all: Vec<ContactCase<'a>>,
     /// Index of the case of each phase.
     pub of_phase: Vec<usize>,
+    /// Index of the case of each torque of the curve.
+    of_torque: Vec<usize>,
 }
 
 impl<'a> ContactCases<'a> {
@@ -137,14 +139,19 @@ impl<'a> ContactCases<'a> {
         stages: &mut StageClock<'_>,
     ) -> Result<Self, RunError> {
         let scene = inputs.scene;
-        let mut cases = Self { all: Vec::new(), of_phase: Vec::with_capacity(scene.operation.phases.len()) };
-        for phase in &scene.operation.phases {
-            let (load, material) = (pair.line_load_n_per_mm(phase.pinion_torque_n_mm), scene.material_in(phase));
+        let operation = &scene.operation;
+        let mut cases = Self { all: Vec::new(), of_phase: Vec::new(), of_torque: Vec::new() };
+        let of_phases = operation.phases.iter().map(|phase| (phase.pinion_torque_n_mm, scene.material_in(phase)));
+        let heaviest = scene.material_in(operation.heaviest_phase());
+        let of_torques = operation.torque_curve_n_mm.iter().map(|&torque| (torque, heaviest));
+        for (index, (torque_n_mm, material)) in of_phases.chain(of_torques).enumerate() {
+            let load = pair.line_load_n_per_mm(torque_n_mm);
             let known = cases
                 .all
                 .iter()
                 .position(|case| case.line_load_n_per_mm.total_cmp(&load).is_eq() && case.material == material);
-            cases.of_phase.push(known.unwrap_or(cases.all.len()));
+            let of = if index < operation.phases.len() { &mut cases.of_phase } else { &mut cases.of_torque };
+            of.push(known.unwrap_or(cases.all.len()));
             if known.is_some() {
                 continue;
             }
@@ -204,6 +211,25 @@ impl<'a> ContactCases<'a> {
                 wear: WearModel::new(laws).under(heat.as_ref(), running.as_ref()),
                 line_load_n_per_mm: self.all[case].line_load_n_per_mm,
                 end_revolutions: phase.end_revolutions,
+            })
+            .collect()
+    }
+
+    /// The phase `like` under each torque of the curve, N·mm, and with the springs of its load.
+    pub(super) fn torque_curve<'s>(
+        &'s self,
+        scene: &'s Scene,
+        elasticity: &'s ToothElasticity<'_>,
+        teeth: &'s [Option<TeethSpring<'s>>],
+        sliced: Option<&'s SlicedTeeth>,
+        like: RunPhase<'s>,
+    ) -> Vec<(f64, RunPhase<'s>)> {
+        let torques = scene.operation.torque_curve_n_mm.iter().zip(&self.of_torque);
+        torques
+            .map(|(&torque_n_mm, &case)| {
+                let own = &self.all[case];
+                let contact = own.mesh_contact(scene, elasticity.worn.as_ref(), teeth[case].as_ref(), sliced);
+                (torque_n_mm, RunPhase { contact, line_load_n_per_mm: own.line_load_n_per_mm, ..like })
             })
             .collect()
     }

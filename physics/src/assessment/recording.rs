@@ -5,7 +5,7 @@ use super::slices::MESH_ORDERS;
 use super::temperature::{self, ObservedHeat};
 use super::{
     RunError, RunModel, UM_PER_MM, drawing, error_estimates, invariants, law_without_effect, left_out_contact, phases,
-    root_stress, severe_pressure, slices, stability::Judged, verification::Verified,
+    root_stress, severe_pressure, slices, stability::Judged, torque_curve, verification::Verified,
 };
 use crate::contact::flank_pressure::{PressureFigures, TIP_EDGE_MEAN_OVER_MM};
 use crate::mesh_cycle::CycleObservation;
@@ -19,6 +19,7 @@ use crate::results::run::{
     ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, MeshCycleRow, PathPoints,
     RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary, WorkSummary,
 };
+use crate::results::torque_curve::TorqueCurveRow;
 use crate::results::worn_pair::WornPair;
 use crate::simulation::figures::{WearFigures, wear_profile};
 use crate::simulation::wear_run::{Outcome, SMALL_WEAR_MODULES};
@@ -41,6 +42,7 @@ pub(super) struct RunFindings<'a> {
     pub outcome: &'a Outcome,
     pub heat: Option<&'a ObservedHeat>,
     pub lubrication: Option<&'a LubricationFindings>,
+    pub torque_curve: &'a [TorqueCurveRow],
     pub verified: Option<&'a Verified>,
 }
 
@@ -58,6 +60,7 @@ pub(super) fn record(from: &Provenance, model: &RunModel<'_>, found: RunFindings
         surface: PerGear::from_fn(|gear| FlankSurface::new(model.pair, gear)),
         slices: slices::record(outcome),
         drawing: drawing::draw(model.pair, model.scene.fem.clamp_radius_mm.wheel),
+        torque_curve: found.torque_curve.to_vec(),
     }
 }
 
@@ -114,6 +117,7 @@ pub(super) fn summary(
         lubrication: found.lubrication.map(|findings| findings.summary.clone()),
         new: cycle(pair, &outcome.new.cycle),
         worn: cycle(pair, &outcome.worn.cycle),
+        transmission_error_over_torque: torque_curve::summary(found.torque_curve),
         pinion: worn.pinion,
         wheel: worn.wheel,
         invariants: invariants::of_run(model, outcome, &wear_balance),

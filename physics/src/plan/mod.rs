@@ -47,6 +47,8 @@ pub enum StageKind {
     Film,
     /// Friction and losses of the mesh, new and worn.
     Losses,
+    /// Transmission error over torque, new and worn.
+    TorqueCurve,
     /// Coarser companion runs.
     ErrorEstimates,
     /// Wear simulation on finite elements, as a verification.
@@ -57,7 +59,7 @@ pub enum StageKind {
 
 impl StageKind {
     /// All stages, in the order of the work.
-    pub const ALL: [StageKind; 15] = [
+    pub const ALL: [StageKind; 16] = [
         StageKind::Geometry,
         StageKind::FiniteElementModel,
         StageKind::FiniteElementCalibration,
@@ -70,6 +72,7 @@ impl StageKind {
         StageKind::ContactTemperature,
         StageKind::Film,
         StageKind::Losses,
+        StageKind::TorqueCurve,
         StageKind::ErrorEstimates,
         StageKind::Verification,
         StageKind::Report,
@@ -89,6 +92,7 @@ impl StageKind {
             StageKind::ContactTemperature => "contact-temperature",
             StageKind::Film => "film",
             StageKind::Losses => "losses",
+            StageKind::TorqueCurve => "torque-curve",
             StageKind::Simulation => "simulation",
             StageKind::ErrorEstimates => "error-estimates",
             StageKind::Verification => "verification",
@@ -166,6 +170,7 @@ fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
         StageKind::ContactTemperature => contact_temperature(scene),
         StageKind::Film => film(scene),
         StageKind::Losses => losses(scene),
+        StageKind::TorqueCurve => torque_curve(scene),
         StageKind::Simulation => Ok(simulation(scene)),
         StageKind::ErrorEstimates if scene.numerics.error_estimate && is_estimated_by_verification(scene) => {
             Ok("numerics.error_estimate: of the wear step; the verification tells that of the elements".to_owned())
@@ -299,6 +304,13 @@ fn losses(scene: &Scene) -> Result<String, String> {
             "friction {} along the path of contact, loss factors, mesh power loss, new and worn",
             lubrication.friction.model.name()
         )),
+    }
+}
+
+fn torque_curve(scene: &Scene) -> Result<String, String> {
+    match scene.operation.torque_curve_n_mm.len() {
+        0 => Err("operation.torque_curve_Nm names no torques".to_owned()),
+        count => Ok(format!("operation.torque_curve_Nm: transmission error under {count} torques, new and worn")),
     }
 }
 

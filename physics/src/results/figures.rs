@@ -10,6 +10,7 @@ use std::sync::LazyLock;
 
 use super::error::TotalError;
 use super::run::{CycleSummary, HistoryRow, OverWidthSummary, Summary, WearSummary};
+use super::torque_curve::TorqueCurveState;
 use gearwear_bodies::gear::Gear;
 
 /// A relative error that a run states of itself, against the same wear simulation with finite elements.
@@ -479,6 +480,11 @@ fn cycle(summary: &Summary, of: fn(&CycleSummary) -> f64) -> [Option<f64>; 2] {
     [&summary.new, &summary.worn].map(|state| Some(of(state)))
 }
 
+fn over_torque(summary: &Summary, of: fn(&TorqueCurveState) -> Option<f64>) -> [Option<f64>; 2] {
+    let curve = summary.transmission_error_over_torque.as_ref();
+    [curve.and_then(|curve| of(&curve.new)), curve.and_then(|curve| of(&curve.worn))]
+}
+
 fn over_width(summary: &Summary, of: fn(&OverWidthSummary) -> f64) -> [Option<f64>; 2] {
     let wear = summary.helical.as_ref().map(|helical| &helical.wear);
     [wear.map(|wear| of(&wear.pinion)), wear.map(|wear| of(&wear.wheel))]
@@ -577,6 +583,18 @@ pub static FAMILIES: &[FigureFamily] = &[
     .in_headline()
     .in_sweeps([20, 21])
     .compared([8, 7]),
+    states("transmission_error_over_torque.{state}.mean_um", "µm", "transmission error over torque, mean", |s| {
+        over_torque(s, |of| of.mean_um)
+    })
+    .means("mean of the peak-to-peak values under the torques of operation.torque_curve_Nm, {state}; empty without torques")
+    .wants_less()
+    .on_page(),
+    states("transmission_error_over_torque.{state}.max_um", "µm", "transmission error over torque, maximum", |s| {
+        over_torque(s, |of| of.max_um)
+    })
+    .means("maximum of the peak-to-peak values under the torques of operation.torque_curve_Nm, {state}; empty without torques")
+    .wants_less()
+    .on_page(),
     states("{state}.mesh_orders_um.1", "µm", "transmission error, first mesh order", |s| {
         [s.new.mesh_orders_um.first().copied(), s.worn.mesh_orders_um.first().copied()]
     })

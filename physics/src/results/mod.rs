@@ -17,4 +17,5 @@ pub mod provenance;
 pub mod reported_by;
 pub mod root_stress;
 pub mod run;
+pub mod torque_curve;
 pub mod worn_pair;

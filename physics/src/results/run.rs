@@ -16,6 +16,7 @@ use super::lubrication::{FilmRow, LubricationSummary};
 pub use super::path_points::PathPoints;
 pub use super::reported_by::ReportedBy;
 use super::root_stress::RootStressSummary;
+use super::torque_curve::{TorqueCurveRow, TorqueCurveSummary};
 use gearwear_bodies::gear::{PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
 
 /// A finished (or interrupted) run.
@@ -41,6 +42,9 @@ pub struct RunRecord {
     pub slices: Option<SliceRecord>,
     /// The pair in mesh, to scale.
     pub drawing: PairDrawing,
+    /// Transmission error over torque, torque by torque; empty where nobody asks for it.
+    #[serde(default)]
+    pub torque_curve: Vec<TorqueCurveRow>,
 }
 
 /// A file that a scene names.
@@ -106,6 +110,9 @@ pub struct Summary {
     pub new: CycleSummary,
     /// The mesh cycle of the worn pair, under the same load.
     pub worn: CycleSummary,
+    /// Transmission error over torque; null where `operation.torque_curve_Nm` names no torques.
+    #[serde(default)]
+    pub transmission_error_over_torque: Option<TorqueCurveSummary>,
     /// Wear of one pinion flank.
     pub pinion: WearSummary,
     /// Wear of one wheel flank.

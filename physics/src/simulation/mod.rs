@@ -9,4 +9,5 @@ pub(crate) mod life;
 pub mod mesh_contact;
 pub mod settings;
 pub mod stability;
+pub mod torque_curve;
 pub mod wear_run;

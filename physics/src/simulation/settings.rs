@@ -58,6 +58,8 @@ pub struct Operation {
     pub stop: LifeLimits,
     /// Meshes of each tooth in one revolution of its own gear: the number of mates that run on the same flanks under the same load.
     pub meshes_per_revolution: PerGear<f64>,
+    /// Torques on the pinion, rising, at which the new and the worn pair are observed, N·mm; none where nobody asks for the curve.
+    pub torque_curve_n_mm: Vec<f64>,
 }
 
 impl Operation {
@@ -87,6 +89,7 @@ impl Operation {
             phases: vec![phase],
             stop: LifeLimits::default(),
             meshes_per_revolution: Self::ONE_MATE,
+            torque_curve_n_mm: Vec::new(),
         }
     }
 

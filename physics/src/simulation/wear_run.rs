@@ -117,6 +117,8 @@ pub struct Outcome {
     pub snapshots: Vec<Snapshot>,
     /// Pair at the end of the run, as in the last snapshot, but under the load of `new`.
     pub worn: Snapshot,
+    /// Wear of that pair at each place at which the model keeps it, mm; `None` where nothing is worn yet.
+    pub worn_places_mm: Option<PerGear<Vec<f64>>>,
     /// Index of the phase of that load. Where the worn pair finds no equilibrium under it, `worn` is under the load of its own phase.
     pub reference_phase: usize,
     /// Counts of the wear steps.
@@ -143,7 +145,9 @@ impl Outcome {
     pub fn ended_at(&self, revolutions: f64) -> Option<Self> {
         let last = self.snapshots.iter().position(|snapshot| snapshot.revolutions.total_cmp(&revolutions).is_eq())?;
         let snapshots = self.snapshots[..=last].to_vec();
-        Some(Self { worn: snapshots[last].clone(), snapshots, ..self.clone() })
+        let worn = snapshots[last].clone();
+        // The places at which wear is kept are those of the end.
+        Some(Self { worn, worn_places_mm: None, snapshots, ..self.clone() })
     }
 }
 
@@ -240,7 +244,8 @@ impl WearRun<'_> {
             None => StopReason::Interrupted,
         };
         let (steps, step_error_mm) = (run_state.stepper.counts(), run_state.stepper.error_mm());
-        let [new, worn] = self.new_and_worn(&mut run_state, &flanks)?;
+        let worn_places_mm = run_state.wear_of_last_state_mm.take().filter(|_| run_state.states.len() > 1);
+        let [new, worn] = self.new_and_worn(&mut run_state, worn_places_mm.as_ref(), &flanks)?;
         run_state.states.remove(0);
         let UnwornFlanks { grid, slices, modification_mm, .. } = flanks;
         Ok(Outcome {
@@ -254,6 +259,7 @@ impl WearRun<'_> {
             new,
             snapshots: run_state.states,
             worn,
+            worn_places_mm,
             reference_phase: reference_phase(self.phases),
             steps,
             step_error_mm,
@@ -262,10 +268,14 @@ impl WearRun<'_> {
     }
 
     /// First and last of the states under the load of the reference phase, where that finds an equilibrium.
-    fn new_and_worn(&self, run_state: &mut RunState, flanks: &UnwornFlanks) -> Result<[Snapshot; 2], SimulationError> {
+    fn new_and_worn(
+        &self,
+        run_state: &mut RunState,
+        last_wear_mm: Option<&PerGear<Vec<f64>>>,
+        flanks: &UnwornFlanks,
+    ) -> Result<[Snapshot; 2], SimulationError> {
         let reference = reference_phase(self.phases);
         let last_phase = run_state.phase.min(self.phases.len() - 1);
-        let last_wear_mm = run_state.wear_of_last_state_mm.take();
         let RunState { states, work, .. } = run_state;
         let (first, last) = (&states[0], &states[states.len() - 1]);
         let new = match reference {
@@ -274,7 +284,7 @@ impl WearRun<'_> {
         };
         let worn = match last_wear_mm {
             _ if states.len() == 1 => new.clone(),
-            Some(wear_mm) if last_phase != reference => self.under_reference(flanks, last, Some(&wear_mm), work)?,
+            Some(wear_mm) if last_phase != reference => self.under_reference(flanks, last, Some(wear_mm), work)?,
             _ => last.clone(),
         };
         Ok([new, worn])
@@ -552,7 +562,7 @@ impl WearRun<'_> {
 }
 
 /// Whether `wear_mm` has a value for every place of `pair`.
-fn fits(pair: &dyn WearingPair, wear_mm: &PerGear<Vec<f64>>) -> bool {
+pub(super) fn fits(pair: &dyn WearingPair, wear_mm: &PerGear<Vec<f64>>) -> bool {
     wear_mm.as_ref().map(Vec::len) == pair.wear_mm().map(|row| row.len())
 }
 

@@ -1,8 +1,8 @@
 //! Plots over the mesh cycle of the reference pair, from A to E: load sharing, transmission error, pressure.
 
-use super::mesh_orders;
 use super::number::{change, figure, percent, significant};
 use super::reading::{Extreme, defined_pressures, greatest, tip_edge_note};
+use super::{mesh_orders, torque_curve_plot};
 use crate::report::chart::Chart;
 use gearwear_bodies::reference::statistics::extent;
 use gearwear_physics::results::path_points::among;
@@ -14,6 +14,7 @@ pub(super) const ALONE: f64 = 0.9995;
 pub(super) fn all(record: &RunRecord) -> Vec<Chart> {
     let mut charts = vec![load_sharing(record), transmission_error(record)];
     charts.extend(mesh_orders::new_and_worn(&record.summary));
+    charts.extend(torque_curve_plot::all(record));
     charts.extend(mesh_stiffness(record));
     charts.push(pressure(record));
     charts

@@ -24,3 +24,4 @@ mod sliced;
 pub mod table;
 mod temperature_plot;
 mod terms;
+mod torque_curve_plot;

@@ -26,6 +26,7 @@ const DATA_FILES: [(&str, &str); 9] = [
     (output_files::SCENE, "the resolved scene"),
 ];
 const FILM_FILE: (&str, &str) = (output_files::FILM, "films and friction along the path of contact");
+const TORQUE_CURVE_FILE: (&str, &str) = (output_files::TORQUE_CURVE, "transmission error over torque");
 const SLICES_FILE: (&str, &str) = (output_files::SLICES, "the load of every slice over the mesh");
 
 /// What the plots of a pair have in common.
@@ -165,6 +166,9 @@ fn sources(record: &RunRecord) -> Markup {
     }
     if !record.film.is_empty() {
         files.push(FILM_FILE);
+    }
+    if !record.torque_curve.is_empty() {
+        files.push(TORQUE_CURVE_FILE);
     }
     sources_list(&files, "The resolved scene, every default filled in", &record.scene_toml)
 }

@@ -59,7 +59,9 @@ pub(super) fn choose(file: &mut OperationFile, findings: &mut Findings) -> Optio
         phases,
         stop,
         meshes_per_revolution: meshes_per_revolution(file.meshes_per_revolution.as_ref()),
+        torque_curve_n_mm: Vec::new(),
     };
+    operation.torque_curve_n_mm = torque_curve_n_mm(file, &operation, findings)?;
     operation.snapshots_revolutions = snapshots(file, &operation, findings)?;
     for phase in &operation.phases {
         let end = phase.end_revolutions;
@@ -71,6 +73,26 @@ pub(super) fn choose(file: &mut OperationFile, findings: &mut Findings) -> Optio
     }
     operation.snapshots_revolutions.sort_by(f64::total_cmp);
     is_loaded.then_some(operation)
+}
+
+/// Torques of the curve, N·mm.
+fn torque_curve_n_mm(file: &OperationFile, operation: &Operation, findings: &mut Findings) -> Option<Vec<f64>> {
+    let [_, greatest_n_mm] = operation.torque_range_n_mm();
+    let torques = file.torque_curve_Nm.as_deref().unwrap_or_default();
+    if let Some(index) = (1..torques.len()).find(|&index| torques[index] <= torques[index - 1]) {
+        let key = format!("operation.torque_curve_Nm[{index}]");
+        findings.not_allowed(&key, number(torques[index]), "increasing torques".to_owned());
+        return None;
+    }
+    // The torque of the run itself is not computed twice.
+    let same = |torque_n_mm: f64| (torque_n_mm / greatest_n_mm - 1.0).abs() <= SAME_TIME;
+    Some(
+        torques
+            .iter()
+            .map(|torque| 1e3 * torque)
+            .map(|torque| if same(torque) { greatest_n_mm } else { torque })
+            .collect(),
+    )
 }
 
 /// Refuses a limit that `pair` has passed already.

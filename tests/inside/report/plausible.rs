@@ -30,6 +30,7 @@ pub fn run() -> RunRecord {
         surface: PerGear::from_fn(surface),
         slices: None,
         drawing: drawing(),
+        torque_curve: Vec::new(),
     }
 }
 
@@ -312,6 +313,7 @@ fn summary() -> Summary {
         lubrication: None,
         new: cycle(1880.0, 24.0, 38.4),
         worn: cycle(1702.0, 26.5, 38.9),
+        transmission_error_over_torque: None,
         pinion: worn(Gear::Pinion, CURVATURE.A),
         wheel: worn(Gear::Wheel, CURVATURE.E),
         wear_balance: WearBalance::default(),

@@ -55,6 +55,7 @@ pub(super) fn measure(setting: &Setting, base: &LoadedScene, observer: &PartOf<'
     };
     // The comparison has its own reference.
     resolved.scene.verify = false;
+    resolved.scene.operation.torque_curve_n_mm.clear();
     record.settings = setting.record(&resolved.scene);
     let scene = match base.variant(resolved) {
         Ok(scene) => scene,

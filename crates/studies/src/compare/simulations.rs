@@ -238,7 +238,7 @@ impl<'a> Simulations<'a> {
         self.runs += 1;
         self.observer.stage(&format!("run {}", self.runs));
         let resolved = Resolved { scene, file: self.given.resolved.file.clone(), warnings: Vec::new() };
-        let scene = LoadedScene { resolved, ..self.given.clone() };
+        let scene = LoadedScene { resolved, ..self.given.clone() }.without_torque_curve();
         let done = runs::run(&scene, &PartOf::whole(self.observer));
         if self.observer.interrupted() {
             return Err(CompareError::Interrupted);

@@ -111,6 +111,14 @@ impl ImproveQuestion {
                 figures.push(figure.clone());
             }
         }
+        let over_torque = figures.iter().find(|figure| figure.is_of_torque_curve());
+        if let Some(figure) = over_torque.filter(|_| scene.scene().operation.torque_curve_n_mm.is_empty()) {
+            let said =
+                format!("found {}; allowed: with operation.torque_curve_Nm, the torques of the curve", figure.path);
+            let of_goal = goals.iter().any(|goal| goal.terms.iter().any(|(_, other)| other == figure));
+            let key = if of_goal { "improve.goals" } else { "improve.limits" };
+            return Err(refused(vec![at(key.to_owned(), said, None)]));
+        }
         let evaluations = evaluations.map(|count| count as usize);
         Ok(Self { free, goals, limits, evaluations, seed: seed.unwrap_or(1), figures })
     }

@@ -46,11 +46,17 @@ pub struct FastModel {
 }
 
 impl FastModel {
-    /// Fast model of designs of `scene`, in which `free` keys change; none are reliefs.
+    /// Fast model of designs of `scene`, in which `free` keys change; none are reliefs. It finds the transmission error over torque where that is
+    /// asked for.
     ///
     /// # Errors
     /// An interrupt, or a scene whose text cannot be read again.
-    pub fn of(scene: &LoadedScene, free: &[FreeKey], observer: &dyn Observer) -> Result<Self, ImproveError> {
+    pub fn of(
+        scene: &LoadedScene,
+        free: &[FreeKey],
+        torque_curve: bool,
+        observer: &dyn Observer,
+    ) -> Result<Self, ImproveError> {
         let keeps_the_teeth = keeps_the_teeth(scene, free);
         let half_space = scene.scene().contact.surface == SurfaceKind::Fem && scene.scene().slices.is_none();
         let sliced = scene.scene().slices.or_else(|| slices_of_designs(scene, free));
@@ -81,6 +87,7 @@ impl FastModel {
             of.numerics.positions, of.numerics.flank_points
         );
         let varied = VariedScene::new(&fast, false).map_err(|problems| scene.given.refused(problems))?;
+        let varied = varied.with_torque_curve(torque_curve);
         Ok(Self { varied, keeps_the_pair: keeps_the_teeth, how })
     }
 

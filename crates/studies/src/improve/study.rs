@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::path::Path;
 use std::time::Instant;
 
+use gearwear::evaluate::output::SummaryOutput;
 use gearwear::journal::{Journal, RowKeeper};
 use gearwear::runs;
 use gearwear::scene::draft::Draft;
@@ -105,7 +106,8 @@ impl<'a> PreparedImprove<'a> {
     pub fn new(scene: &'a LoadedScene, observer: &dyn Observer) -> Result<Self, ImproveError> {
         let begun = Instant::now();
         let mut question = ImproveQuestion::of(scene)?;
-        let fast = FastModel::of(scene, &question.free, observer)?;
+        let torque_curve = question.figures.iter().any(SummaryOutput::is_of_torque_curve);
+        let fast = FastModel::of(scene, &question.free, torque_curve, observer)?;
         observer.stage("the scene as given, on the fast model");
         let is_free_by_default = question.free.is_empty();
         if is_free_by_default {
@@ -200,7 +202,9 @@ impl<'a> PreparedImprove<'a> {
                 changes.push(("numerics.tolerance_um".to_owned(), Some(tolerance.into())));
             }
         }
-        scene.with_all(changes).map_err(|error| one_line(&error.to_string()))
+        let scene = scene.with_all(changes).map_err(|error| one_line(&error.to_string()))?;
+        let is_asked = self.question.figures.iter().any(SummaryOutput::is_of_torque_curve);
+        Ok(if is_asked { scene } else { scene.without_torque_curve() })
     }
 
     /// Figures of a verified design with its error; `None` where it was interrupted.

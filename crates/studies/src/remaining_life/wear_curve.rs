@@ -212,7 +212,7 @@ fn longer(
     operation.snapshots_revolutions = squares.collect();
     scene.numerics.stepping = scene.numerics.stepping.coarser((reach / AS_FINE_UP_TO).max(1.0));
     let resolved = Resolved { scene, file: given.resolved.file.clone(), warnings: Vec::new() };
-    let scene = LoadedScene { resolved, ..given.clone() };
+    let scene = LoadedScene { resolved, ..given.clone() }.without_torque_curve();
     let done = runs::run(&scene, &PartOf::whole(observer))?;
     if observer.interrupted() || done.record.summary.stopped == StopReason::Interrupted {
         return Err(CompareError::Interrupted);

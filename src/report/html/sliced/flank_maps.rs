@@ -9,7 +9,7 @@ use crate::report::chart::{Chart, Dash, Label, Trace};
 use crate::report::control::{Change, Control, SliderStep};
 use crate::report::html::active_flank::ActiveFlank;
 use crate::report::html::flank_plots::{drawn_snapshots, moment};
-use crate::report::html::number::{figure, significant};
+use crate::report::html::number::{figure, percent, significant};
 use crate::report::html::reading::{gear_wear, greatest, place_on_flank, yield_note};
 use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::run::FlankRecord;
@@ -65,9 +65,11 @@ fn pressure(run: SlicedRun<'_>, gear: Gear, values: &[f64], [id, when]: [&'stati
     let both =
         [&flank.pressure_new_MPa, &flank.pressure_worn_MPa].map(|field| greatest(field).map_or(0.0, |at| at.value));
     let (top, ends) = colours_of(&both, s.new.flank_pressure_MPa.max(s.worn.flank_pressure_MPa), "MPa");
-    let reading = pressure_reading(run, gear, values, when) + &ends;
-    let title = ["Maximum pressure on", if when == "new" { ", new" } else { ", worn" }];
-    map(run, gear, MappedQuantity { id, title, unit: "MPa", values, top, reading })
+    let reading = pressure_reading(run, gear, values, when) + &contact_pattern(flank, values) + &ends;
+    let title = ["Contact pattern and maximum pressure on", if when == "new" { ", new" } else { ", worn" }];
+    // What is not touched has no colour.
+    let values: Vec<f64> = values.iter().map(|&mpa| if mpa > 0.0 { mpa } else { f64::NAN }).collect();
+    map(run, gear, MappedQuantity { id, title, unit: "MPa", values: &values, top, reading })
 }
 
 /// What the modifications take off the flank below the rounding of its tip edge; none where they take nothing.
@@ -88,6 +90,37 @@ pub(super) fn modifications(run: SlicedRun<'_>, gear: Gear) -> Option<Chart> {
     let top = greatest(&values).map_or(0.0, |peak| peak.value);
     let title = ["Material missing from", " before the run"];
     Some(map(run, gear, MappedQuantity { id: "modifications", title, unit: "µm", values: &values, top, reading }))
+}
+
+/// What the contact pattern, all that is touched during a mesh, covers of the face width and of the active flank.
+fn contact_pattern(flank: &FlankRecord, pressure_mpa: &[f64]) -> String {
+    let points = flank.radius_mm.len();
+    let [a_mm, e_mm] = [flank.path_point_radius_mm.A, flank.path_point_radius_mm.E];
+    let is_active = |point: &usize| (a_mm.min(e_mm)..=a_mm.max(e_mm)).contains(&flank.radius_mm[*point]);
+    let active: Vec<usize> = (0..ActiveFlank::rounding_from(flank)).filter(is_active).collect();
+    let (mut slices, mut wide, mut area, mut touched) = (0_u32, 0_u32, 0.0, 0.0);
+    for slice in pressure_mpa.chunks_exact(points.max(1)) {
+        slices += 1;
+        let mut is_touched = false;
+        for &point in &active {
+            let half = |other: usize| 0.5 * (flank.radius_mm[point] - flank.radius_mm[other]).abs();
+            let share = half(point.saturating_sub(1)) + half((point + 1).min(points - 1));
+            area += share;
+            if slice[point] > 0.0 {
+                touched += share;
+                is_touched = true;
+            }
+        }
+        wide += u32::from(is_touched);
+    }
+    if area <= 0.0 {
+        return String::new();
+    }
+    let width = percent(f64::from(wide) / f64::from(slices));
+    format!(
+        " The contact pattern covers {width} of the face width and {} of the active flank.",
+        percent(touched / area)
+    )
 }
 
 /// Where the colours of a field end, somewhat above its greatest value `between` the tip-edge zones, and what to say of what is beyond.

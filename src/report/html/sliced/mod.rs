@@ -13,7 +13,7 @@ mod tooth_cycle;
 
 use self::sliced_run::SlicedRun;
 use super::run_page::RunPlots;
-use super::{cycle_plots, drawing_plot, film_plot, history_plot, mesh_orders, temperature_plot};
+use super::{cycle_plots, drawing_plot, film_plot, history_plot, mesh_orders, temperature_plot, torque_curve_plot};
 use crate::report::chart::Chart;
 use gearwear_bodies::gear::Gear;
 
@@ -29,6 +29,7 @@ pub(super) fn plots(run: SlicedRun<'_>) -> RunPlots {
     mesh_cycle.extend([tooth_cycle::load_share(run), tooth_cycle::pressure(run)]);
     mesh_cycle.push(cycle_plots::transmission_error(run.record));
     mesh_cycle.extend(mesh_orders::new_and_worn(&run.record.summary));
+    mesh_cycle.extend(torque_curve_plot::all(run.record));
     mesh_cycle.extend(cycle_plots::mesh_stiffness(run.record));
     let mut pair = vec![drawing_plot::pair(run.record)];
     pair.extend(Gear::BOTH.into_iter().filter_map(|gear| flank_maps::modifications(run, gear)));
