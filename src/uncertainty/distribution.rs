@@ -15,6 +15,7 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::scene::key::{KeyError, NumberKey, linked_keys};
 use crate::scene::table::other_ways_to_say;
+use gearwear_physics::wear::coefficient_range::RANGES;
 
 pub const FORMS: &str = "normal:MEAN:SD, lognormal:MEDIAN:FACTOR, uniform:LOW:HIGH, triangular:LOW:MODE:HIGH, ±40%, normal:10%, \
      lognormal:FACTOR";
@@ -33,6 +34,8 @@ pub enum UncertainError {
     Form { given: String },
     #[error("found class:{found}; allowed: a flank tolerance class of ISO 1328-1, class:1 to class:11")]
     Class { found: String },
+    #[error("found coefficient:{found}; allowed: coefficient, or coefficient: and one of {}", RANGES.map(|range| range.name).join(", "))]
+    Regime { found: String },
     #[error(transparent)]
     Key(#[from] KeyError),
     /// A key that takes whole numbers has no distribution.

@@ -3,12 +3,15 @@
 //! | word | stands for |
 //! |---|---|
 //! | `coefficient` | the wear coefficient of the law, `lognormal:1.5`: repeated twin-disc and gear tests scatter by ±40 to 60 % |
+//! | `coefficient:REGIME` | the same within the range of a regime ([`gearwear_physics::wear::coefficient_range`]) |
 //! | `torque` | `operation.pinion_torque_Nm=±5%` |
 //! | `class:N` | slopes of both gears' profiles, and of their helices where the pair has slices, normal about the scene's own values; flank tolerance class N of ISO 1328-1 lies at three standard deviations |
 
 use super::distribution::UncertainError;
 use crate::scene::loaded::LoadedScene;
 use gearwear_bodies::gear::{Gear, GearPair, tolerance};
+use gearwear_bodies::reference::statistics::HALF_WIDTH_95;
+use gearwear_physics::wear::coefficient_range::CoefficientRange;
 
 /// Tolerance over standard deviation: a capability index of 1.
 const TOLERANCE_IN_DEVIATIONS: f64 = 3.0;
@@ -22,27 +25,36 @@ pub(super) fn expanded(
     own: impl Fn(&str) -> Option<f64>,
 ) -> Result<Vec<String>, UncertainError> {
     match given.trim() {
-        "coefficient" => Ok(coefficients(own).into_iter().map(|key| format!("{key}=lognormal:1.5")).collect()),
+        "coefficient" => Ok(coefficients("lognormal:1.5", own)),
         "torque" => Ok(vec!["operation.pinion_torque_Nm=±5%".to_owned()]),
-        word => match word.strip_prefix("class:") {
-            Some(class) => of_class(class, scene, own),
-            None => Ok(vec![given.to_owned()]),
+        word => match (word.strip_prefix("class:"), word.strip_prefix("coefficient:")) {
+            (Some(class), _) => of_class(class, scene, own),
+            (None, Some(regime)) => of_regime(regime, own),
+            (None, None) => Ok(vec![given.to_owned()]),
         },
     }
 }
 
-/// Wear coefficients of the scene; one for both gears where they have the same.
-fn coefficients(own: impl Fn(&str) -> Option<f64>) -> Vec<String> {
+/// Wear coefficients within the range of a regime.
+fn of_regime(regime: &str, own: impl Fn(&str) -> Option<f64>) -> Result<Vec<String>, UncertainError> {
+    let range = CoefficientRange::named(regime);
+    let CoefficientRange { range_m2_per_n: [low, high], .. } =
+        range.ok_or_else(|| UncertainError::Regime { found: regime.trim().to_owned() })?;
+    let factor = (high / low).powf(0.5 / HALF_WIDTH_95);
+    Ok(coefficients(&format!("lognormal:{:e}:{factor}", (low * high).sqrt()), own))
+}
+
+/// Wear coefficients of the scene with a distribution; one for both gears where they have the same.
+fn coefficients(distribution: &str, own: impl Fn(&str) -> Option<f64>) -> Vec<String> {
+    let with = |key: String| format!("{key}={distribution}");
     let of_gears = ["pinion", "wheel"].map(|gear| format!("wear.{gear}.{COEFFICIENT}"));
     match of_gears.each_ref().map(|key| own(key)) {
-        [Some(pinion), Some(wheel)] if pinion == wheel => vec![format!("wear.{{pinion,wheel}}.{COEFFICIENT}")],
-        [None, None] => vec![format!("wear.{COEFFICIENT}")],
-        found => of_gears
-            .into_iter()
-            .zip(found)
-            .filter(|(_, value)| value.is_some_and(|k| k > 0.0))
-            .map(|one| one.0)
-            .collect(),
+        [Some(pinion), Some(wheel)] if pinion == wheel => vec![with(format!("wear.{{pinion,wheel}}.{COEFFICIENT}"))],
+        [None, None] => vec![with(format!("wear.{COEFFICIENT}"))],
+        found => {
+            let given = of_gears.into_iter().zip(found).filter(|(_, value)| value.is_some_and(|k| k > 0.0));
+            given.map(|(key, _)| with(key)).collect()
+        }
     }
 }
 

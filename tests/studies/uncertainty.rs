@@ -84,6 +84,15 @@ fn words_stand_for_usual_keys() {
     assert_eq!(found[0]["factor"], 1.5);
     assert_eq!((&found[2]["mean"], &found[2]["standard_deviation"]), (&json!(0.0), &json!(4.0)));
     refused(&bench.study("wrong", &["class:12"], &[]), &["class:12", "class:1 to class:11"]);
+    // Mild wear, 3e-18 to 6e-17 m²/N on 95 %: its middle is √(3·6)·10⁻¹⁷·⁵, and 1.96 standard deviations of the logarithm are ½ ln 20.
+    done(&bench.study("mild", &["coefficient:mild"], &["--samples", "2"]));
+    let mild = &json(&bench.out("mild").join("uncertainty.json"))["uncertain"][0];
+    let [median, factor] = ["median", "factor"].map(|key| mild[key].as_f64().unwrap());
+    assert!(
+        (median / 1.8e-34_f64.sqrt() - 1.0).abs() < 1e-12 && (factor.ln() - 0.5 * 20f64.ln() / 1.96).abs() < 1e-4,
+        "{mild}"
+    );
+    refused(&bench.study("wrong", &["coefficient:soft"], &[]), &["coefficient:soft", "regime-2"]);
 }
 
 /// A study says what it knows while it goes on, of eight points and then of twice as many each time.

@@ -112,7 +112,7 @@ fn last_parts(path: &Path, count: usize) -> String {
 }
 
 fn line(name: &str, cells: impl Iterator<Item = String>) -> String {
-    let cells: String = cells.map(|cell| format!("{cell:>22}")).collect();
+    let cells: String = cells.map(|cell| format!(" {cell:>22}")).collect();
     format!("  {name:57}{cells}\n")
 }
 

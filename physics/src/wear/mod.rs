@@ -11,6 +11,7 @@
 
 pub mod adsorption;
 pub(crate) mod archard;
+pub mod coefficient_range;
 pub(crate) mod heated_row;
 pub mod oxidation;
 pub mod regime;

@@ -1,5 +1,7 @@
 //! Extent, mean, standard deviation and quantiles of samples.
 
+/// Standard deviations between the middle and an end of a 95 % interval of a normal distribution.
+pub const HALF_WIDTH_95: f64 = 1.959_963_984_540_054;
 /// Probabilities of the quantiles.
 pub const SHARES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
 

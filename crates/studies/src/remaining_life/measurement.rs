@@ -2,10 +2,10 @@
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::regime::HALF_WIDTH_95;
 use super::wear_table::{WearKind, WearRow, WearValue};
 use crate::compare::asked::PreparedComparison;
 use gearwear_bodies::gear::Gear;
+use gearwear_bodies::reference::statistics::HALF_WIDTH_95;
 use gearwear_bodies::reference::statistics::mean;
 
 /// Relative difference up to which times are equal: hours and revolutions round differently.

@@ -6,7 +6,7 @@ use super::measurement::{ToothValues, WearMeasurement, relative_sigmas};
 use super::record::{
     BandPoint, GearLife, Interval, LifeRecord, LifeUpdate, MeasurementRecord, Prediction, RemainingLife,
 };
-use super::regime::{CoefficientPrior, HALF_WIDTH_95};
+use super::regime::CoefficientPrior;
 use super::wear_curve::{SimulatedWear, WearCurve, WearNeeded, WearQuantity, simulated_wear};
 use super::wear_process::{ExposureMeasurement, FactorPrior, Posterior};
 use super::wear_table::WearKind;
@@ -16,6 +16,7 @@ use crate::compare::study::CompareError;
 use crate::measurement::fit::FitStop;
 use gearwear::scene::loaded::LoadedScene;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear};
+use gearwear_bodies::reference::statistics::HALF_WIDTH_95;
 use gearwear_physics::observer::Observer;
 use rayon::prelude::*;
 
