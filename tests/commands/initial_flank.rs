@@ -106,7 +106,7 @@ fn files_of_no_initial_flank_are_refused() {
             &plain,
             "the pinion measured flank removes 2.0000 mm",
         ),
-        (Some(rows.to_owned()), relief, "tip_relief, root_relief and profile_crowning_um"),
+        (Some(rows.to_owned()), relief, "tip_relief, root_relief, profile_crowning_um and profile_slope_deviation_um"),
     ] {
         let path = folder.path().join("flank.csv");
         match content {

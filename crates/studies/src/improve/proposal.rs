@@ -255,7 +255,7 @@ mod tests {
     #[test]
     fn designs_are_proposed_for_a_reason() {
         let goals = goals(&["pinion.peak_wear_um", "wheel.peak_wear_um", "worn.transmission_error_um.peak_to_peak"]);
-        let front = [vec![4.0, 2.0, 9.0], vec![5.0, 2.5, 4.0], vec![4.2, 2.2, 6.0]];
+        let front = [vec![4.0, 2.0, 9.0], vec![5.0, 2.5, 4.0], vec![4.2, 2.2, 5.5]];
         let named = reasons(&goals, &front, &[5.0, 2.5, 6.0]);
         let expected = [("least wear", 0), ("quietest over life", 1), ("balanced", 2)];
         assert_eq!(named, expected.map(|(name, place)| (name.to_owned(), place)));
