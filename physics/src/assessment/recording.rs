@@ -10,6 +10,7 @@ use super::{
 use crate::contact::flank_pressure::{PressureFigures, TIP_EDGE_MEAN_OVER_MM};
 use crate::mesh_cycle::CycleObservation;
 use crate::mesh_cycle::wearing_pair::Snapshot;
+use crate::operation::Scene;
 use crate::plan::Plan;
 use crate::results::error::ErrorSummary;
 use crate::results::iso_stiffness::IsoStiffnessSummary;
@@ -28,7 +29,7 @@ use crate::thermal::settings::TemperatureMethod;
 use crate::wear::settings::WearOfPair;
 use crate::wear::settings::WearSettings;
 use crate::wear::vdi_2736::mean_wear_mm;
-use gearwear_bodies::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface, outline::section_mm2};
 use gearwear_bodies::reference::steel_yield;
 
 /// Flank points that the pitch point index of the output counts in.
@@ -381,10 +382,18 @@ fn wear_figures(model: &RunModel<'_>, outcome: &Outcome, gear: Gear) -> WearSumm
         worn_volume_mm3: volume_mm3,
         // kg/m³ are 1e-3 mg/mm³.
         worn_mass_mg: volume_mm3 * scene.material[gear].density_kg_per_m3 * 1e-3,
+        mass_kg: mass_kg(scene, pair, gear),
         normal_tip_thickness_mm: pair.normal_tip_thickness_mm(gear, figures.tip_edge.depth_mm),
         vdi_2736_mean_wear_um: mean_mm.map(|mean| mean * UM_PER_MM),
         peak_over_vdi_2736_mean_wear: mean_mm.filter(|mean| *mean > 0.0).map(|mean| figures.peak_mm / mean),
     }
+}
+
+fn mass_kg(scene: &Scene, pair: &GearPair, gear: Gear) -> f64 {
+    let bore_mm = pair.spec.gears[gear].bore_diameter_mm.unwrap_or(0.0);
+    let section_mm2 = section_mm2(&pair.teeth[gear], bore_mm, scene.fem.clamp_radius_mm[gear]);
+    // kg/m³ are 1e-9 kg/mm³.
+    section_mm2 * pair.spec.face_width_mm * scene.material[gear].density_kg_per_m3 * 1e-9
 }
 
 /// W_m of VDI 2736-2 after what has been run; none where neither gear is a plastic, or the law is more than a coefficient.

@@ -464,6 +464,9 @@ pub struct WearSummary {
     pub worn_volume_mm3: f64,
     /// Worn off the whole gear: all teeth, whole width.
     pub worn_mass_mg: f64,
+    /// Mass of the new gear as a disc as wide as its teeth, less the bore; of a ring up to the outside of its rim, without webs.
+    #[serde(default)]
+    pub mass_kg: f64,
     /// Normal tooth thickness left at the tip cylinder, reliefs and roundings not taken off: `tip_edge_wear_um` is.
     pub normal_tip_thickness_mm: f64,
     /// Mean wear W_m of VDI 2736-2, of an unchanged flank; `None` where neither gear is a plastic, or the wear law is more than a coefficient.

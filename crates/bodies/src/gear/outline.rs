@@ -88,6 +88,21 @@ pub fn polyline(tooth: &Tooth, per_segment: usize) -> Vec<[f64; 2]> {
     points
 }
 
+/// Points of each fillet and flank for an area: within 10⁻⁴ of it.
+const POINTS_FOR_AREA: usize = 24;
+
+/// Area of the transverse section of a gear, mm²: within the outline and outside the bore, or of a ring outside the outline and within the radius
+/// `rim_radius_mm` of its outside.
+pub fn section_mm2(tooth: &Tooth, bore_diameter_mm: f64, rim_radius_mm: f64) -> f64 {
+    let points = polyline(tooth, POINTS_FOR_AREA);
+    let sides = points.iter().zip(points.iter().cycle().skip(1));
+    let within = 0.5 * sides.map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>().abs();
+    match tooth.is_internal() {
+        true => PI * rim_radius_mm * rim_radius_mm - within,
+        false => within - 0.25 * PI * bore_diameter_mm * bore_diameter_mm,
+    }
+}
+
 impl OutlineSegment<'_> {
     /// Point at `tau` in [0, 1], mm.
     pub fn point_mm(&self, tau: f64) -> Vector2<f64> {
