@@ -84,11 +84,9 @@ impl VariedScene {
 
     /// Whether the files that the scene names were made for the pair of `resolved`.
     pub fn inputs_belong_to(&self, resolved: &Resolved) -> Result<(), String> {
-        if self.with_other_modifications && self.keeps_the_teeth(resolved) {
-            return Ok(());
-        }
         let differences = self.given.files.foreign_to(resolved);
-        if !differences.is_empty() {
+        let is_good = self.with_other_modifications && self.keeps_the_teeth(resolved);
+        if !is_good && !differences.is_empty() {
             return Err(format!("contact.calibration belongs to another pair: {}", differences.join("; ")));
         }
         if self.given.files.stiffness_curve.is_none() {

@@ -1,7 +1,8 @@
 //! Contact surface of the samples: that of the scene, or a calibrated Winkler foundation, which takes a fraction of its time.
 //!
-//! Finite elements of the scene as given calibrate K/H and the stiffness of the teeth once. The scene is then run on both surfaces, as given and with all
-//! uncertain keys low and high. With y the figure on the scene's own surface and y' that on the foundation, as given (0) or with the keys low or high (±),
+//! Finite elements of the scene as given calibrate K/H and the stiffness of the teeth once. The scene is then run on both surfaces, as given, with all
+//! uncertain keys low, with all high, and with some low and others high such that every two keys are once apart: the profile slopes of both gears do
+//! nothing while they are alike. With y the figure on the scene's own surface and y' that on the foundation, as given (0) or with the keys so (±),
 //!
 //! ```text
 //! correction   c = y₀/y'₀            difference   d = max |c y'±/y± − 1|
@@ -28,7 +29,7 @@ use gearwear_physics::wear::settings::WearOfPair;
 pub const GREATEST_DIFFERENCE: f64 = 0.05;
 /// Greatest relative difference of a figure as given that is corrected.
 pub const GREATEST_CORRECTION: f64 = 0.1;
-/// Shares of the distributions where both surfaces are compared too, all keys together.
+/// Shares of the distributions where both surfaces are compared too.
 const LOW_AND_HIGH: [f64; 2] = [0.05, 0.95];
 /// Number of runs from which a fast model pays.
 const FEW_RUNS: usize = 24;
@@ -126,8 +127,8 @@ impl SampledScene {
             Err(reason) => return Ok(Err(reason)),
         };
         let mut greatest = vec![0.0_f64; corrections.len()];
-        for share in LOW_AND_HIGH {
-            let values = || values_at(question, Some(share));
+        for shares in corners(question.uncertain.len()) {
+            let values = || values_at(question, Some(&shares));
             let found = match at_values(&fast.varied, question, values(), observer)? {
                 Ok(found) => found,
                 Err(reason) => return Ok(Err(reason)),
@@ -145,7 +146,7 @@ impl SampledScene {
         ];
         let because = format!(
             "a calibrated foundation takes a fraction of the time; its figures are corrected by what they differ as given, {:.1} % at most, and then differ \
-             with all keys low or high by {:.1} % at most",
+             with the keys low or high by {:.1} % at most",
             100.0 * corrected,
             100.0 * greatest_left
         );
@@ -153,13 +154,19 @@ impl SampledScene {
     }
 }
 
-/// The uncertain keys where this share of each distribution lies below; none as given.
-fn values_at(question: &SampledQuestion, share: Option<f64>) -> Vec<(&str, toml::Value)> {
-    let keys = question.uncertain.iter().map(|one| {
-        let value = share.map(|share| toml::Value::Float(one.distribution.quantile(share)))?;
-        Some((one.key.as_str(), value))
-    });
-    keys.flatten().collect()
+/// Shares of the distributions of `keys` keys where surfaces are compared: all low, all high, and high where a bit of the key's number is set, so that
+/// every two keys are once apart.
+fn corners(keys: usize) -> Vec<Vec<f64>> {
+    let [low, high] = LOW_AND_HIGH;
+    let bits = (0..usize::BITS).take_while(|bit| 1 << bit < keys);
+    let mixed = bits.map(|bit| (0..keys).map(|key| if key >> bit & 1 == 1 { high } else { low }).collect());
+    [vec![low; keys], vec![high; keys]].into_iter().chain(mixed).collect()
+}
+
+/// The uncertain keys where these shares of their distributions lie below; none as given.
+fn values_at<'q>(question: &'q SampledQuestion, shares: Option<&[f64]>) -> Vec<(&'q str, toml::Value)> {
+    let of_keys = question.uncertain.iter().zip(shares.unwrap_or_default());
+    of_keys.map(|(one, &share)| (one.key.as_str(), toml::Value::Float(one.distribution.quantile(share)))).collect()
 }
 
 /// Run of a scene with these values, or why it cannot be run.
@@ -209,7 +216,7 @@ fn differences(
         }
         let found = correction * found;
         let difference = if given == found || !given.is_finite() { 0.0 } else { (found / given - 1.0).abs() };
-        within(name, difference, GREATEST_DIFFERENCE, "differs with all keys low or high")?;
+        within(name, difference, GREATEST_DIFFERENCE, "differs with the keys low or high")?;
         Ok(difference)
     });
     of_each.collect()
@@ -259,10 +266,28 @@ fn needs_own_surface(scene: &LoadedScene, question: &SampledQuestion, runs: usiz
     warms.then(|| "moduli of elasticity follow the temperature of the teeth".to_owned())
 }
 
-/// Whether the teeth of every sample are those of the scene but for their modifications, tried with all keys low and high.
+/// Whether the teeth of every sample are those of the scene but for their modifications, tried with the keys low and high.
 fn keeps_the_teeth(given: &VariedScene, question: &SampledQuestion) -> bool {
-    LOW_AND_HIGH.into_iter().all(|share| {
-        let resolved = given.resolved(values_at(question, Some(share)));
+    corners(question.uncertain.len()).iter().all(|shares| {
+        let resolved = given.resolved(values_at(question, Some(shares)));
         resolved.is_ok_and(|resolved| given.keeps_the_teeth(&resolved))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What two keys do against one another would not be seen where they only move together.
+    #[test]
+    fn every_two_keys_are_once_apart() {
+        for keys in 1..=20 {
+            let corners = corners(keys);
+            assert!(corners.iter().all(|shares| shares.len() == keys));
+            for (one, other) in (0..keys).flat_map(|one| (0..one).map(move |other| (one, other))) {
+                assert!(corners.iter().any(|shares| shares[one] != shares[other]), "{keys}: {one} and {other}");
+            }
+        }
+        assert_eq!(corners(1).len(), 2);
+    }
 }

@@ -86,7 +86,7 @@ pub struct OutputRecord {
     /// Factor to the figures on the contact surface of the samples: that of the scene as given, over that there; null where they are on the surface of
     /// the scene.
     pub surface_correction: Option<f64>,
-    /// Greatest relative difference that the contact surface of the samples makes to it with all keys low or high, so corrected; null likewise.
+    /// Greatest relative difference that the contact surface of the samples makes to it with the keys low or high, so corrected; null likewise.
     pub surface_difference: Option<f64>,
     /// All values, rising.
     #[serde(skip)]

@@ -104,9 +104,10 @@ impl Samples<'_> {
         self.bounds.iter().any(Option::is_some)
     }
 
-    /// Runs the first `matrices` samples of the first `points` that the journal does not have.
+    /// Runs the first `matrices` samples of the first `points` that the journal does not have, in `groups` that share a run.
     fn run_first(
         &self,
+        groups: &[Vec<usize>],
         (points, matrices): (usize, usize),
         journal: &mut Journal<SampledStudy>,
         threads: usize,
@@ -117,8 +118,8 @@ impl Samples<'_> {
         let rows = &journal.contents.rows;
         let mut left: BTreeSet<usize> = (0..total).filter(|number| !rows.contains_key(number)).collect();
         let asked = |number: &usize| number / of_a_point < points && number % of_a_point < matrices;
-        let mut tasks = self.sampling.groups(self.varied);
-        tasks.retain(|group| group.iter().any(|number| asked(number) && left.contains(number)));
+        let is_asked = |group: &&Vec<usize>| group.iter().any(|number| asked(number) && left.contains(number));
+        let tasks: Vec<&Vec<usize>> = groups.iter().filter(is_asked).collect();
         let mut failed: BTreeSet<usize> =
             rows.values().filter(|row| row.number < total && row.ran.is_err()).map(|row| row.number).collect();
         let tell = |row: &KeptRun| {
@@ -130,7 +131,7 @@ impl Samples<'_> {
             observer.counted(total - left.len(), total, "samples", &beside);
         };
         let mut kept = RowKeeper { journal, tell, error: None };
-        let run = |group: &Vec<usize>, within: &dyn Observer| self.run_group(group, within);
+        let run = |group: &&Vec<usize>, within: &dyn Observer| self.run_group(group, within);
         spread(&tasks, threads.max(1), observer, run, |rows| rows.into_iter().all(|row| kept.keep(row)));
         kept.error.map_or(Ok(()), |error| Err(error.into()))
     }
@@ -360,6 +361,7 @@ impl<'a> PreparedStudy<'a> {
         };
         // Of each point A and B at least, from the first on.
         let of_a_point = sampling.matrices.len();
+        let groups = sampling.groups(&sampled.varied);
         let finished = |journal: &Journal<SampledStudy>, most: usize| -> Vec<Vec<Row>> {
             let of_point = |point: usize| {
                 let numbers =
@@ -379,14 +381,14 @@ impl<'a> PreparedStudy<'a> {
         let doubled = std::iter::successors(Some(FEWEST_SAMPLES), |points| points.checked_mul(2));
         let stages = doubled.take_while(|points| *points < question.samples).chain([question.samples]);
         for points in stages.filter(|points| *points > before) {
-            samples.run_first((points, INDEPENDENT), journal, threads, observer)?;
+            samples.run_first(&groups, (points, INDEPENDENT), journal, threads, observer)?;
             let whole = finished(journal, points);
             let is_last = points == question.samples && of_a_point == INDEPENDENT;
             if whole.len() == points && !is_last && whole.iter().flatten().any(Result::is_ok) {
                 earlier(&evaluated(&whole)?);
             }
         }
-        samples.run_first((question.samples, of_a_point), journal, threads, observer)?;
+        samples.run_first(&groups, (question.samples, of_a_point), journal, threads, observer)?;
         let whole = finished(journal, question.samples);
         if whole.len() < question.samples.min(FEWEST_SAMPLES) {
             return Err(UncertaintyStudyError::Interrupted);

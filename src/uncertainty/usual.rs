@@ -9,7 +9,7 @@
 
 use super::distribution::UncertainError;
 use crate::scene::loaded::LoadedScene;
-use gearwear_bodies::gear::{Gear, GearPair, tolerance};
+use gearwear_bodies::gear::{Gear, tolerance};
 use gearwear_bodies::reference::statistics::HALF_WIDTH_95;
 use gearwear_physics::wear::coefficient_range::CoefficientRange;
 
@@ -67,10 +67,9 @@ fn of_class(
     let number: Option<u32> = class.trim().parse().ok().filter(|class| tolerance::CLASSES.contains(class));
     let number = number.ok_or_else(|| UncertainError::Class { found: class.trim().to_owned() })?;
     let spec = &scene.scene().pair;
-    let Ok(pair) = GearPair::new(spec) else { return Ok(Vec::new()) };
     let mut keys = Vec::new();
     for gear in Gear::BOTH {
-        let diameter_mm = 2.0 * pair.teeth[gear].reference_radius_mm.abs();
+        let diameter_mm = 2.0 * spec.reference_radius_mm(gear).abs();
         let profile_um = tolerance::profile_slope_um(number, spec.normal_module_mm, diameter_mm);
         let helix_um = tolerance::helix_slope_um(number, diameter_mm, spec.face_width_mm);
         let mut add = |name: &str, tolerance_um: f64| {

@@ -16,6 +16,7 @@ mod life;
 mod lubrication;
 mod mesh_stiffness;
 mod meshes_per_revolution;
+mod modifications;
 mod named_limits;
 mod peak_figures;
 mod phases;

@@ -27,8 +27,8 @@ pub(super) struct UncertaintyArgs {
     scene: PathBuf,
     /// A key of the scene, and its distribution: normal:MEAN:SD, lognormal:MEDIAN:FACTOR (68 % of the values lie from MEDIAN/FACTOR to
     /// MEDIAN·FACTOR), uniform:LOW:HIGH, triangular:LOW:MODE:HIGH; about the scene's own value ±40%, normal:10% and lognormal:FACTOR.
-    /// Keys that have the same value: pair.{pinion,wheel}.tip_rounding_mm. What is usual by a word: coefficient (lognormal:1.5) or coefficient:REGIME (as compare --prior), torque (±5%),
-    /// class:N (profile and helix slopes of ISO 1328-1). May be given several times
+    /// Keys that have the same value: pair.{pinion,wheel}.tip_rounding_mm. What is usual by a word: coefficient (lognormal:1.5) or
+    /// coefficient:REGIME (as compare --prior), torque (±5%), class:N (profile and helix slopes of ISO 1328-1). May be given several times
     #[arg(long, value_name = "KEY=DISTRIBUTION", required = true)]
     uncertain: Vec<String>,
     /// Correlation of two uncertain keys, of their normal scores. May be given several times; pairs that are not given are independent

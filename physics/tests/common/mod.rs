@@ -132,6 +132,7 @@ pub fn steel() -> PerGear<gearwear_bodies::material::Material> {
     PerGear { pinion: STEEL, wheel: STEEL }
 }
 
+use gearwear_bodies::gear_mesh::ToothSector;
 use gearwear_physics::contact::{
     ContactSurface,
     foundation::matched_mpa_per_mm,
@@ -292,4 +293,16 @@ impl Scene {
         };
         then(&wear_run(&pair, &[phase], &self.snapshots, self.numerics()), &phase)
     }
+}
+
+/// Area of a meshed sector, mm², by corners and middles in turn round each cell.
+pub fn sector_mm2(sector: &ToothSector) -> f64 {
+    let cells = sector.cells.iter().map(|cell| {
+        let nodes = cell.nodes();
+        let corners = nodes.len() / 2;
+        let round = (0..corners).flat_map(|k| [nodes[k], nodes[corners + k]]);
+        let round: Vec<_> = round.map(|node| sector.points_mm[node as usize]).collect();
+        0.5 * (0..round.len()).map(|k| round[k].perp(&round[(k + 1) % round.len()])).sum::<f64>()
+    });
+    cells.sum::<f64>().abs()
 }

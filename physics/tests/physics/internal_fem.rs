@@ -2,6 +2,7 @@
 
 use gearwear_bodies::gear::backlash::Backlash;
 use gearwear_bodies::gear::modification::{Modification, Relief, ReliefShape};
+use gearwear_bodies::gear::outline::section_mm2;
 use gearwear_bodies::gear::removed_material::removed_mm;
 use gearwear_bodies::gear::ring_fillet::{RingSpec, ShaperCutter};
 use gearwear_bodies::gear::spec::{GearSpec, PairSpec};
@@ -24,7 +25,7 @@ use gearwear_fem::problem::Edge;
 use nalgebra::{Matrix2, Vector2};
 use std::f64::consts::PI;
 
-use super::common::{assert_close, gear, spur};
+use super::common::{assert_close, gear, sector_mm2, spur};
 
 const STEEL: Elastic = Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 };
 const BOTH: PerGear<Elastic> = PerGear { pinion: STEEL, wheel: STEEL };
@@ -69,6 +70,17 @@ fn at(model: &CondensedPair<'_>, position_mm: f64) -> PositionContact {
 fn fine_wheel(pair: &GearPair) -> ToothSector {
     let half_width_mm = |at_mm: f64| hertz_half_width_mm(pair, contact_modulus_mpa(BOTH), LINE_LOAD, at_mm);
     gear_sector(pair, Gear::Wheel, true, &settings(pair, 6.0), &half_width_mm).unwrap()
+}
+
+/// The section of a ring, from its outline to its outside, is what its sectors fill.
+#[test]
+fn ver_sectors_fill_the_section_of_a_ring() {
+    for cutter in [Some(CUTTER), None] {
+        let pair = GearPair::new(&planet_in_ring(cutter)).unwrap();
+        let (tooth, outside_mm) = (&pair.teeth.wheel, settings(&pair, 6.0).clamp_radius_mm.wheel);
+        let filled_mm2 = f64::from(tooth.teeth) * sector_mm2(&fine_wheel(&pair));
+        assert_close("section", section_mm2(tooth, 0.0, outside_mm), filled_mm2, 5e-4);
+    }
 }
 
 /// All nodes of the surface lie on the true profile, with reliefs and rounded tips, of a cut and of a plain ring.

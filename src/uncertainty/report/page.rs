@@ -134,7 +134,7 @@ fn quantiles(record: &UncertaintyRecord) -> Markup {
         (note(
             "A quantile of 95 % is the value that 95 % of the samples stay below. Longer: part of the samples whose life is longer than their \
              duration; a quantile among these is not known. Error: the relative difference to finite elements on the scene as given. Fast model: the \
-             relative difference that the contact surface of the samples makes with all keys low or high, at most, once it is corrected by that as given. The samples vary the figure uniformly within the sum of both."
+             relative difference that the contact surface of the samples makes with the keys low or high, at most, once it is corrected by that as given. The samples vary the figure uniformly within the sum of both."
         ))
     }
 }
