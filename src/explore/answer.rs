@@ -85,13 +85,15 @@ pub struct Band(BTreeMap<&'static str, f64>);
 impl Band {
     /// Differences that a verified run states of itself.
     pub fn of(summary: &Summary) -> Self {
-        let TotalError { peak_wear, flank_pressure, transmission_error_peak_to_peak, .. } = &summary.error.total;
+        let total = &summary.error.total;
+        let TotalError { peak_wear, flank_pressure, .. } = total;
         let differences = [
             ("pinion.peak_wear_um", peak_wear.pinion),
             ("wheel.peak_wear_um", peak_wear.wheel),
             ("new.flank_pressure_MPa", flank_pressure.new),
             ("worn.flank_pressure_MPa", flank_pressure.worn),
-            ("worn.transmission_error_um.peak_to_peak", *transmission_error_peak_to_peak),
+            ("new.transmission_error_um.peak_to_peak", total.transmission_error_peak_to_peak_new),
+            ("worn.transmission_error_um.peak_to_peak", total.transmission_error_peak_to_peak),
         ];
         Self(differences.into_iter().filter_map(|(name, difference)| Some((name, difference?))).collect())
     }

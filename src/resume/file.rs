@@ -53,6 +53,7 @@ mod tests {
     use gearwear_bodies::gear::PerGear;
     use gearwear_physics::mesh_cycle::Work;
     use gearwear_physics::simulation::advance::StepperState;
+    use gearwear_physics::simulation::over_life::PeakToPeakOverLife;
 
     fn written() -> (Vec<u8>, CheckpointFile) {
         let identity = RunIdentity::new("title = \"x\"\n".to_owned(), &[]);
@@ -64,6 +65,7 @@ mod tests {
             wear_mm,
             stepper: StepperState::default(),
             work: Work { mesh_cycles: 8, ..Work::default() },
+            over_life: PeakToPeakOverLife::default(),
             states: Vec::new(),
         };
         let folder = tempfile::tempdir().unwrap();

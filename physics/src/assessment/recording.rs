@@ -17,8 +17,9 @@ use crate::results::iso_stiffness::IsoStiffnessSummary;
 use crate::results::life::LifeSummary;
 use crate::results::provenance::Provenance;
 use crate::results::run::{
-    ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, MeshCycleRow, PathPoints,
-    RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary, WorkSummary,
+    ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, MeshCycleRow, OverLifeSummary,
+    PathPoints, RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary,
+    WorkSummary,
 };
 use crate::results::torque_curve::TorqueCurveRow;
 use crate::results::worn_pair::WornPair;
@@ -118,6 +119,10 @@ pub(super) fn summary(
         lubrication: found.lubrication.map(|findings| findings.summary.clone()),
         new: cycle(pair, &outcome.new.cycle),
         worn: cycle(pair, &outcome.worn.cycle),
+        transmission_error_over_life: Some(OverLifeSummary {
+            mean_um: outcome.worn.over_life.mean_mm() * UM_PER_MM,
+            max_um: outcome.worn.over_life.greatest_mm() * UM_PER_MM,
+        }),
         transmission_error_over_torque: torque_curve::summary(found.torque_curve),
         pinion: worn.pinion,
         wheel: worn.wheel,
@@ -470,7 +475,6 @@ fn history_row(model: &RunModel<'_>, outcome: &Outcome, snapshot: &Snapshot) -> 
     let pair = model.pair;
     let pinion = WearFigures::at(pair, Gear::Pinion, outcome, snapshot);
     let wheel = WearFigures::at(pair, Gear::Wheel, outcome, snapshot);
-    let (min, max) = snapshot.cycle.transmission_error_mm();
     let depth_mm =
         outcome.grid.pinion.value_at(&snapshot.depth_per_mesh_mm.pinion, pair.active_start_rho_mm(Gear::Pinion));
     let rate = model.scene.operation.meshes_per_revolution.pinion * depth_mm;
@@ -482,7 +486,7 @@ fn history_row(model: &RunModel<'_>, outcome: &Outcome, snapshot: &Snapshot) -> 
         pinion_pitch_wear_um: pinion.pitch_mm * UM_PER_MM,
         wheel_peak_wear_um: wheel.peak_mm * UM_PER_MM,
         peak_pressure_MPa: snapshot.cycle.greatest_pressure.defined_mpa,
-        transmission_error_peak_to_peak_um: (max - min) * UM_PER_MM,
+        transmission_error_peak_to_peak_um: snapshot.cycle.peak_to_peak_mm() * UM_PER_MM,
         pinion_peak_wear_radius_mm: pinion.peak_radius_mm,
         pinion_sap_wear_um: pinion.active_start_mm * UM_PER_MM,
         pinion_sap_wear_rate_um_per_Mrev: rate * UM_PER_MM * 1e6,

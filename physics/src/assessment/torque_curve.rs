@@ -19,10 +19,9 @@ struct Figures {
 impl Figures {
     fn of(model: &RunModel<'_>, cycle: Option<&CycleObservation>) -> Self {
         let Some(cycle) = cycle else { return Self::default() };
-        let (min, max) = cycle.transmission_error_mm();
         let orders_mm = cycle.mesh_orders_mm(model.pair.path.base_pitch_mm, MESH_ORDERS);
         Self {
-            peak_to_peak_um: Some((max - min) * UM_PER_MM),
+            peak_to_peak_um: Some(cycle.peak_to_peak_mm() * UM_PER_MM),
             orders_um: [0, 1, 2].map(|order| orders_mm.get(order).map(|mm| mm * UM_PER_MM)),
             flank_pressure_mpa: Some(cycle.pressure_figures.flank_mpa),
         }

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use super::collected::Collected;
 use super::condensed_contact::{CondensedContactPlace, HeatedContactRows};
 use super::load_sharing::EquilibriumError;
-use super::{CycleObservation, FlankOverlap, GROUPS, LostMaterial, MeshCycle, Work, kept_wear_to_mpa};
+use super::{CycleObservation, FlankOverlap, GROUPS, LostMaterial, MeshCycle, Work, kept_wear_to_mpa, range_mm};
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::wear::{SlidingRow, WearModel};
 use gearwear_bodies::gear::{Gear, PerGear, flank_zones::FlankZones};
@@ -251,6 +251,10 @@ impl MeshCycle for CondensedCycle<'_> {
                 loaded.observe(model, nodes);
             }
         });
+    }
+
+    fn peak_to_peak_mm(&self) -> f64 {
+        range_mm(self.loaded_positions().filter_map(|loaded| loaded.found.as_ref()).map(|found| found.rigid[0]))
     }
 
     fn observe(&mut self, _lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {

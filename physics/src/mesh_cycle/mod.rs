@@ -287,6 +287,9 @@ pub trait MeshCycle {
     /// Returns to the state before any evaluation: the next one depends only on what the flanks have lost, to the bit.
     fn reset(&mut self);
 
+    /// Greatest less least transmission error of the last evaluation, mm.
+    fn peak_to_peak_mm(&self) -> f64;
+
     /// Observation of the last evaluation, on the same `lost`.
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError>;
 }
@@ -364,6 +367,11 @@ impl MeshCycle for LineOfActionCycle<'_> {
         self.groups.par_iter_mut().flat_map(|group| &mut group.loaded_positions).for_each(|loaded| {
             loaded.pairs.iter_mut().for_each(MeshedPair::reset);
         });
+    }
+
+    fn peak_to_peak_mm(&self) -> f64 {
+        let observed = self.loaded_positions().filter(|loaded| loaded.on_line_of_action);
+        range_mm(observed.map(|loaded| loaded.equilibrium.transmission_error_mm))
     }
 
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
@@ -564,6 +572,17 @@ impl<'a> LineOfActionPosition<'a> {
     }
 }
 
+/// Least and greatest of `values_mm`.
+fn extremes_mm(values_mm: impl Iterator<Item = f64>) -> (f64, f64) {
+    values_mm.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), mm| (low.min(mm), high.max(mm)))
+}
+
+/// Greatest less least of `values_mm`; 0 without any.
+fn range_mm(values_mm: impl Iterator<Item = f64>) -> f64 {
+    let (low, high) = extremes_mm(values_mm);
+    (high - low).max(0.0)
+}
+
 /// Stiffness of springs of `n_per_mm2` on bodies of the compliance `mm2_per_n`, N/mm².
 fn in_series(n_per_mm2: f64, mm2_per_n: f64) -> f64 {
     n_per_mm2 / (1.0 + n_per_mm2 * mm2_per_n)
@@ -578,9 +597,13 @@ impl CycleObservation {
 
     /// Least and greatest transmission error, mm.
     pub fn transmission_error_mm(&self) -> (f64, f64) {
-        self.positions.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
-            (low.min(p.transmission_error_mm), high.max(p.transmission_error_mm))
-        })
+        extremes_mm(self.positions.iter().map(|at| at.transmission_error_mm))
+    }
+
+    /// Greatest less least transmission error, mm.
+    pub fn peak_to_peak_mm(&self) -> f64 {
+        let (low, high) = self.transmission_error_mm();
+        high - low
     }
 
     /// Amplitudes of the first `count` mesh orders of the transmission error, mm; none where the positions do not reach over a base pitch.

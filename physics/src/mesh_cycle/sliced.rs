@@ -26,7 +26,7 @@ use super::spring_along_path::SpringAlongPath;
 use super::worn_points::{ContactOnPath, WornPoints};
 use super::{
     CycleObservation, FlankOverlap, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, in_series,
-    note_contact_of_points, note_figures,
+    note_contact_of_points, note_figures, range_mm,
 };
 use crate::contact::flank_pressure::PressureFigures;
 use crate::contact::{ContactSurface, Flanks, Sweep};
@@ -194,6 +194,11 @@ impl MeshCycle for SlicedCycle<'_> {
             loaded.pairs.iter_mut().for_each(MeshedPair::reset);
             loaded.teeth.iter_mut().for_each(CoupledTeeth::straighten);
         });
+    }
+
+    fn peak_to_peak_mm(&self) -> f64 {
+        let loaded = self.groups.iter().flat_map(|group| &group.loaded_positions);
+        range_mm(loaded.map(|loaded| loaded.equilibrium.transmission_error_mm))
     }
 
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {

@@ -6,6 +6,7 @@
 use super::CycleObservation;
 use super::local_means::LocalMeans;
 use crate::mesh_cycle::{LostMaterial, MeshCycle, Work, condensed::CondensedCycle, load_sharing::EquilibriumError};
+use crate::simulation::over_life::PeakToPeakOverLife;
 use crate::wear::WearModel;
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_fem::weighted_sum::weighted_sum;
@@ -24,6 +25,8 @@ pub struct Snapshot {
     pub lost_at_nodes: Option<PerGear<LostArea>>,
     /// Mesh cycle of the present flanks.
     pub cycle: CycleObservation,
+    /// Transmission error from the beginning of the run to this state; none of a state outside a run.
+    pub over_life: PeakToPeakOverLife,
 }
 
 impl Snapshot {
@@ -110,6 +113,9 @@ pub(crate) trait WearingPair {
 
     /// Depth that each place loses in one mesh by the last evaluation, mm.
     fn depth_mm(&self, depth_mm: &mut PerGear<Vec<f64>>);
+
+    /// Greatest less least transmission error of the last evaluation, mm.
+    fn peak_to_peak_mm(&self) -> f64;
 
     /// The state that the last evaluation found.
     fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError>;
@@ -220,6 +226,10 @@ impl WearingPair for OnFlankPoints<'_> {
         depth_mm.clone_from(&self.depth_mm);
     }
 
+    fn peak_to_peak_mm(&self) -> f64 {
+        self.cycle.peak_to_peak_mm()
+    }
+
     fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {
         let cycle = self.cycle.observe(lost(&self.removed_mm))?;
         Ok(Snapshot {
@@ -228,6 +238,7 @@ impl WearingPair for OnFlankPoints<'_> {
             depth_per_mesh_mm: self.depth_mm.clone(),
             lost_at_nodes: None,
             cycle,
+            over_life: PeakToPeakOverLife::default(),
         })
     }
 }
@@ -329,6 +340,10 @@ impl WearingPair for OnFlankNodes<'_> {
         depth_mm.clone_from(&self.depth_mm);
     }
 
+    fn peak_to_peak_mm(&self) -> f64 {
+        self.cycle.peak_to_peak_mm()
+    }
+
     fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {
         let mut cycle = self.cycle.observe(lost(&self.lost_mm))?;
         cycle.pressure_mpa = self.at_points(&cycle.pressure_mpa);
@@ -339,6 +354,7 @@ impl WearingPair for OnFlankNodes<'_> {
             wear_mm2: weighted_sum(&nodes[gear].share_mm, &self.wear_mm[gear]),
             per_mesh_mm2: weighted_sum(&nodes[gear].share_mm, &self.depth_mm[gear]),
         });
-        Ok(Snapshot { revolutions, wear_mm, depth_per_mesh_mm, lost_at_nodes: Some(lost_at_nodes), cycle })
+        let over_life = PeakToPeakOverLife::default();
+        Ok(Snapshot { revolutions, wear_mm, depth_per_mesh_mm, lost_at_nodes: Some(lost_at_nodes), cycle, over_life })
     }
 }

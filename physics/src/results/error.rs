@@ -15,6 +15,12 @@ pub struct TotalError {
     pub tip_edge_wear: ErrorPerGear,
     /// Of the worn pair.
     pub transmission_error_peak_to_peak: Option<f64>,
+    /// Of the new pair.
+    #[serde(default)]
+    pub transmission_error_peak_to_peak_new: Option<f64>,
+    /// Of the mean over the life of the pair.
+    #[serde(default)]
+    pub transmission_error_over_life: Option<f64>,
     /// Of the maximum pressure of the worn pair at positions between the tip edges, root mean square.
     pub pressure_between_tips: Option<f64>,
     /// Of the maximum pressure between the tip-edge zones.

@@ -33,7 +33,7 @@ const fn stated(name: &'static str, title: &'static str, of: fn(&TotalError) -> 
 const RELATIVE_WEAR_ERROR: &str = "maximum_wear_depth_relative_error";
 
 /// All errors that a run states, in the order of tables.
-pub const STATED_ERRORS: [StatedError; 10] = [
+pub const STATED_ERRORS: [StatedError; 12] = [
     StatedError {
         rexs: RELATIVE_WEAR_ERROR,
         ..stated("error.total.peak_wear.pinion", "maximum wear of the pinion", |total| total.peak_wear.pinion)
@@ -48,6 +48,12 @@ pub const STATED_ERRORS: [StatedError; 10] = [
     stated("error.total.profile.wheel", "wear over the wheel’s flank (rms)", |total| total.profile.wheel),
     stated("error.total.transmission_error_peak_to_peak", "transmission error, peak to peak, worn", |total| {
         total.transmission_error_peak_to_peak
+    }),
+    stated("error.total.transmission_error_peak_to_peak_new", "transmission error, peak to peak, new", |total| {
+        total.transmission_error_peak_to_peak_new
+    }),
+    stated("error.total.transmission_error_over_life", "transmission error, mean over life", |total| {
+        total.transmission_error_over_life
     }),
     stated("error.total.pressure_between_tips", "pressure between the tip edges, worn (rms)", |total| {
         total.pressure_between_tips
@@ -274,6 +280,7 @@ impl FigureFamily {
         let of = |path: &str| (STATED_ERRORS.iter().find(|error| error.name == path)?.of)(total);
         let [one, other] = self.errors.map(of);
         match self.values {
+            FigureValues::Pair(_) if self.errors[1].is_empty() => [one; 2],
             FigureValues::Pair(_) => [one.zip(other).map(|(one, other)| one.max(other)); 2],
             FigureValues::Gears(_) | FigureValues::States(_) => [one, other],
         }
@@ -576,13 +583,27 @@ pub static FAMILIES: &[FigureFamily] = &[
         })
     }
     .means("of the loaded pair over the cycle, along the line of action, {state}")
-    .with_errors(["", "error.total.transmission_error_peak_to_peak"])
+    .with_errors(["error.total.transmission_error_peak_to_peak_new", "error.total.transmission_error_peak_to_peak"])
     .own_attribute("peak_to_peak_transmission_error_{state}")
     .once_called("transmission_error_peak_to_peak_{state}_um")
     .wants_less()
     .in_headline()
     .in_sweeps([20, 21])
     .compared([8, 7]),
+    pair("transmission_error_over_life.mean_um", "µm", "transmission error, mean over life", |s| {
+        Some(s.transmission_error_over_life?.mean_um)
+    })
+    .means("mean of the peak-to-peak values over the revolutions of the run, each phase under its own load")
+    .with_errors(["error.total.transmission_error_over_life", ""])
+    .wants_less()
+    .shown()
+    .in_sweeps([44, 0]),
+    pair("transmission_error_over_life.max_um", "µm", "transmission error, maximum over life", |s| {
+        Some(s.transmission_error_over_life?.max_um)
+    })
+    .means("maximum of the peak-to-peak values of all wear steps, each phase under its own load")
+    .wants_less()
+    .on_page(),
     states("transmission_error_over_torque.{state}.mean_um", "µm", "transmission error over torque, mean", |s| {
         over_torque(s, |of| of.mean_um)
     })

@@ -110,6 +110,9 @@ pub struct Summary {
     pub new: CycleSummary,
     /// The mesh cycle of the worn pair, under the same load.
     pub worn: CycleSummary,
+    /// Peak-to-peak transmission error over the life of the pair, each load of a spectrum in its own phase; null in results of earlier versions.
+    #[serde(default)]
+    pub transmission_error_over_life: Option<OverLifeSummary>,
     /// Transmission error over torque; null where `operation.torque_curve_Nm` names no torques.
     #[serde(default)]
     pub transmission_error_over_torque: Option<TorqueCurveSummary>,
@@ -639,6 +642,16 @@ pub struct MeshCycleRow {
     pub mesh_stiffness_new_N_per_mm_um: Option<f64>,
     /// the same, worn
     pub mesh_stiffness_worn_N_per_mm_um: Option<f64>,
+}
+
+/// Peak-to-peak transmission error from the beginning of a run to its end.
+#[allow(non_snake_case, reason = "names that end in their unit")]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OverLifeSummary {
+    /// Mean over the revolutions.
+    pub mean_um: f64,
+    /// Maximum of all wear steps.
+    pub max_um: f64,
 }
 
 /// The mesh of one tooth slice by slice, from its first touch to its last.

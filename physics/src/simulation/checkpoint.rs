@@ -13,6 +13,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::advance::StepperState;
+use super::over_life::PeakToPeakOverLife;
 use crate::mesh_cycle::Work;
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use gearwear_bodies::gear::PerGear;
@@ -30,6 +31,8 @@ pub struct Checkpoint {
     pub stepper: StepperState,
     /// Work done, the evaluation of this state included.
     pub work: Work,
+    /// Transmission error so far.
+    pub over_life: PeakToPeakOverLife,
     /// The unworn pair, then each snapshot reached.
     pub states: Vec<Snapshot>,
 }

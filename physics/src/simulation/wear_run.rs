@@ -10,6 +10,7 @@ use super::advance::{self, StepInterval, Stepper};
 use super::checkpoint::{Checkpoint, Keeper, NothingKept};
 use super::life::{LimitReached, LimitsOfPair, StepBeginning};
 use super::mesh_contact::{LoadedMesh, MeshContact};
+use super::over_life::PeakToPeakOverLife;
 use super::settings::{LifeLimits, Numerics, Stepping, first_greatest};
 use crate::contact::Flanks;
 use crate::mesh_cycle::wearing_pair::{Snapshot, WearingPair};
@@ -167,6 +168,7 @@ struct RunState {
     revolutions: f64,
     stepper: Stepper,
     work: Work,
+    over_life: PeakToPeakOverLife,
     /// Unworn pair, then each snapshot.
     states: Vec<Snapshot>,
     /// Wear depth at the beginning of the phase; none of new flanks.
@@ -306,7 +308,7 @@ impl WearRun<'_> {
         let evaluated = pair.evaluate(&phase.wear, &|| false);
         let state = evaluated.and_then(|done| {
             *work += done;
-            pair.snapshot(own.revolutions)
+            pair.snapshot(own.revolutions).map(|state| Snapshot { over_life: own.over_life, ..state })
         });
         Ok(state.unwrap_or_else(|_| own.clone()))
     }
@@ -344,6 +346,7 @@ impl WearRun<'_> {
             revolutions: 0.0,
             stepper: Stepper::new(self.numerics.stepping, self.end_revolutions(), self.meshes_per_pinion_turn),
             work: Work::default(),
+            over_life: PeakToPeakOverLife::default(),
             states: Vec::new(),
             wear_mm: None,
             wear_of_last_state_mm: None,
@@ -360,6 +363,7 @@ impl WearRun<'_> {
             phase: from.phase,
             revolutions: from.revolutions,
             work: from.work,
+            over_life: from.over_life,
             states: from.states,
             is_repeated: true,
             ..self.beginning()
@@ -478,11 +482,14 @@ impl WearRun<'_> {
         let keep = run_state.states.is_empty() || (worn_through.is_none() && (is_due || ends));
         let state = evaluated.and_then(|done| {
             run_state.work += done;
+            if worn_through.is_none() {
+                run_state.over_life.note(revolutions, pair.peak_to_peak_mm());
+            }
             keep.then(|| pair.snapshot(revolutions)).transpose()
         });
         match state {
             Ok(Some(state)) => {
-                run_state.states.push(state);
+                run_state.states.push(Snapshot { over_life: run_state.over_life, ..state });
                 run_state.wear_of_last_state_mm = Some(pair.wear_mm());
             }
             Ok(None) => {}
@@ -520,7 +527,7 @@ impl WearRun<'_> {
             pair.snapshot(revolutions)
         });
         if let Ok(state) = state {
-            run_state.states.push(state);
+            run_state.states.push(Snapshot { over_life: run_state.over_life, ..state });
             run_state.wear_of_last_state_mm = Some(wear_mm);
         }
     }
@@ -588,6 +595,7 @@ impl RunState {
             wear_mm,
             stepper: self.stepper.state(),
             work: self.work,
+            over_life: self.over_life,
             states: self.states.clone(),
         }
     }

@@ -78,7 +78,7 @@ pub fn answer(record: &RunRecord) -> String {
         with_error(s.new.flank_pressure_MPa, total.flank_pressure.new),
         with_error(s.worn.flank_pressure_MPa, total.flank_pressure.worn),
         change(s.new.flank_pressure_MPa, s.worn.flank_pressure_MPa),
-        figure(s.new.transmission_error_um.peak_to_peak),
+        with_error(s.new.transmission_error_um.peak_to_peak, total.transmission_error_peak_to_peak_new),
         with_error(s.worn.transmission_error_um.peak_to_peak, total.transmission_error_peak_to_peak),
     ));
     text

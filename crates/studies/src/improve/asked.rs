@@ -20,17 +20,17 @@ pub const MOST_GOALS: usize = 3;
 pub const MOST_KEYS: usize = 12;
 
 /// Goals of a scene that names none.
-const DEFAULT_GOALS: [&str; 3] =
-    ["pinion.peak_wear_um", "wheel.peak_wear_um", "worn.transmission_error_um.peak_to_peak"];
+const DEFAULT_GOALS: [&str; 3] = ["pinion.peak_wear_um", "wheel.peak_wear_um", "transmission_error_over_life.mean_um"];
 
 /// Figures that every design keeps.
-const WATCHED: [&str; 10] = [
+const WATCHED: [&str; 11] = [
     "pinion.peak_wear_um",
     "wheel.peak_wear_um",
     "pinion.tip_edge_wear_um",
     "wheel.tip_edge_wear_um",
     "new.transmission_error_um.peak_to_peak",
     "worn.transmission_error_um.peak_to_peak",
+    "transmission_error_over_life.mean_um",
     "new.flank_pressure_MPa",
     "worn.flank_pressure_MPa",
     "new.tip_edge_line_load_N_per_mm",

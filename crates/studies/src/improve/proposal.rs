@@ -153,7 +153,8 @@ fn name_of<'a>(aspect: Aspect, mut goals: impl Iterator<Item = &'a ImproveGoal>)
     match aspect {
         Aspect::Wear => "least wear".to_owned(),
         Aspect::TransmissionError => {
-            let is_worn = goals.any(|goal| goal.terms.iter().any(|(_, figure)| figure.path.contains("worn")));
+            let of_life = |path: &str| path.contains("worn") || path.contains("over_life");
+            let is_worn = goals.any(|goal| goal.terms.iter().any(|(_, figure)| of_life(&figure.path)));
             if is_worn { "quietest over life" } else { "quietest when new" }.to_owned()
         }
         Aspect::Pressure => "least pressure".to_owned(),

@@ -398,8 +398,9 @@ impl<'a> RunComparison<'a> {
                 self.peak_difference(gear).map(|off| extrapolation.wear * off + uncertainty.peak)
             }),
             tip_edge_wear: per_gear(|gear| self.tip_edge_wear(gear)),
-            transmission_error_peak_to_peak: relative(peak_to_peak_mm(self.run), peak_to_peak_mm(outcome))
-                .map(|off| extrapolation.transmission_error * off + uncertainty.transmission_error),
+            transmission_error_peak_to_peak: self.transmission_error(|outcome| outcome.worn.cycle.peak_to_peak_mm()),
+            transmission_error_peak_to_peak_new: self.transmission_error(|outcome| outcome.new.cycle.peak_to_peak_mm()),
+            transmission_error_over_life: self.transmission_error(|outcome| outcome.worn.over_life.mean_mm()),
             pressure_between_tips: pressure(self.model, &self.run.worn.cycle, &outcome.worn.cycle)
                 .map(|off| off + uncertainty.pressure),
             flank_pressure: ErrorNewAndWorn {
@@ -426,6 +427,13 @@ impl<'a> RunComparison<'a> {
             own.iter().zip(truth).zip(factors.iter().cycle()).map(|((own, truth), factor)| factor * (own - truth));
         let whole = integral_of_squares(grid, truth.iter().copied());
         (whole > 0.0).then(|| (integral_of_squares(grid, off) / whole).sqrt() + self.reference.uncertainty.profile)
+    }
+
+    /// Error of a figure of the transmission error.
+    fn transmission_error(&self, mm: impl Fn(&Outcome) -> f64) -> Option<f64> {
+        let ReferenceRun { outcome, uncertainty, extrapolation, .. } = self.reference;
+        relative(mm(self.run), mm(outcome))
+            .map(|off| extrapolation.transmission_error * off + uncertainty.transmission_error)
     }
 
     /// Relative difference of the greatest wear of the active profile.
@@ -474,12 +482,6 @@ fn per_gear(error: impl Fn(Gear) -> Option<f64>) -> ErrorPerGear {
 fn integral_of_squares(grid: &FlankGrid, values: impl Iterator<Item = f64>) -> f64 {
     let squares: Vec<f64> = values.map(|value| value.powi(2)).collect();
     squares.chunks_exact(grid.len()).map(|slice| grid.integral(slice)).sum::<f64>()
-}
-
-/// Peak-to-peak transmission error of the worn pair, mm.
-fn peak_to_peak_mm(outcome: &Outcome) -> f64 {
-    let (low, high) = outcome.worn.cycle.transmission_error_mm();
-    high - low
 }
 
 /// Sentence for each gear that has no error because it does not wear.

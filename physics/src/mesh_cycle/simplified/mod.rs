@@ -39,9 +39,11 @@ use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::mesh_cycle::{
     CycleObservation, GreatestPressure, Work,
     load_sharing::EquilibriumError,
+    range_mm,
     sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh},
     sliced_positions::{ContactPart, SlicedPosition},
 };
+use crate::simulation::over_life::PeakToPeakOverLife;
 use crate::wear::WearModel;
 use crate::wear::stepping::{greater_or_nan, greatest};
 use batch::Batch;
@@ -259,6 +261,11 @@ impl WearingPair for SimplifiedPair<'_> {
         }
     }
 
+    fn peak_to_peak_mm(&self) -> f64 {
+        let loaded = self.batches.iter().flat_map(|batch| &batch.loaded_positions);
+        range_mm(loaded.map(|loaded| loaded.transmission_error_mm))
+    }
+
     fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {
         let points = self.grid.map(|grid| grid.len());
         let zeros = points.map(|points| vec![0.0; self.knots.len() * points]);
@@ -314,6 +321,7 @@ impl WearingPair for SimplifiedPair<'_> {
             slices: Some(mesh),
             deepest_overlap: None,
         };
-        Ok(Snapshot { revolutions, wear_mm, depth_per_mesh_mm: depth_mm, lost_at_nodes: None, cycle })
+        let over_life = PeakToPeakOverLife::default();
+        Ok(Snapshot { revolutions, wear_mm, depth_per_mesh_mm: depth_mm, lost_at_nodes: None, cycle, over_life })
     }
 }
