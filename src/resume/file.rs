@@ -52,8 +52,8 @@ mod tests {
     use super::*;
     use gearwear_bodies::gear::PerGear;
     use gearwear_physics::mesh_cycle::Work;
+    use gearwear_physics::mesh_cycle::over_life::PeakToPeakOverLife;
     use gearwear_physics::simulation::advance::StepperState;
-    use gearwear_physics::simulation::over_life::PeakToPeakOverLife;
 
     fn written() -> (Vec<u8>, CheckpointFile) {
         let identity = RunIdentity::new("title = \"x\"\n".to_owned(), &[]);

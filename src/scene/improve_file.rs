@@ -11,7 +11,7 @@ pub struct ImproveFile {
     /// the tip relief of both gears.
     pub free: Option<Vec<String>>,
     /// One to three figures to lower (lives are raised), as paths in summary.json, or weighted sums of them: "0.7 * PATH + 0.3 * PATH". Default:
-    /// maximum wear of pinion and wheel, worn transmission error.
+    /// maximum wear of pinion and wheel, transmission error over life.
     pub goals: Option<Vec<String>>,
     /// Limits: "PATH <= VALUE" or "PATH >= VALUE". Default: none.
     pub limits: Option<Vec<String>>,

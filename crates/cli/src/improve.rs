@@ -23,7 +23,7 @@ use super::{print, say, warn};
 #[derive(Debug, clap::Args)]
 pub(super) struct ImproveArgs {
     /// The scene file; - reads standard input. Its table [improve] says what is free and what is wanted; without it tip reliefs are chosen
-    /// for least wear of both gears and least worn transmission error
+    /// for least wear of both gears and least transmission error over life
     scene: PathBuf,
     /// The folder for the results; a study that was stopped goes on where it was, another one is refused
     #[arg(long, value_name = "DIR")]
@@ -44,7 +44,12 @@ pub(super) fn run(args: &ImproveArgs) -> Result<(), Failure> {
     let prepared = PreparedImprove::new(&scene, &progress)?;
     if !args.quiet {
         let free: Vec<String> = prepared.free().iter().map(|one| format!("  {}", one.as_given())).collect();
-        say(&format!("free:\n{}\nat most {} designs on the fast model", free.join("\n"), prepared.evaluations()));
+        let time = prepared.seconds_at_most(thread_count(args.threads));
+        let time = time.map_or_else(String::new, |seconds| {
+            format!(", some {} s with their verification on an idle machine", two_digits(seconds))
+        });
+        let designs = prepared.evaluations();
+        say(&format!("free:\n{}\nat most {designs} designs on the fast model{time}", free.join("\n")));
     }
     let identity = prepared.identity()?;
     report::writable(&args.out)?;

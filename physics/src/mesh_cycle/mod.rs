@@ -15,6 +15,7 @@ pub(crate) mod influence;
 pub mod load_sharing;
 pub(crate) mod local_means;
 pub mod mesh_orders;
+pub mod over_life;
 pub mod pair_in_space;
 pub(crate) mod part_of_slice;
 pub mod positions;

@@ -5,8 +5,8 @@
 
 use super::CycleObservation;
 use super::local_means::LocalMeans;
+use crate::mesh_cycle::over_life::PeakToPeakOverLife;
 use crate::mesh_cycle::{LostMaterial, MeshCycle, Work, condensed::CondensedCycle, load_sharing::EquilibriumError};
-use crate::simulation::over_life::PeakToPeakOverLife;
 use crate::wear::WearModel;
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_fem::weighted_sum::weighted_sum;

@@ -13,8 +13,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::advance::StepperState;
-use super::over_life::PeakToPeakOverLife;
 use crate::mesh_cycle::Work;
+use crate::mesh_cycle::over_life::PeakToPeakOverLife;
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use gearwear_bodies::gear::PerGear;
 

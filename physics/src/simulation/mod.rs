@@ -7,7 +7,6 @@ pub mod heat_observation;
 pub mod left_out_contact;
 pub(crate) mod life;
 pub mod mesh_contact;
-pub mod over_life;
 pub mod settings;
 pub mod stability;
 pub mod torque_curve;

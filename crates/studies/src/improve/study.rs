@@ -11,9 +11,11 @@ use gearwear::scene::draft::Draft;
 use gearwear::scene::loaded::LoadedScene;
 use gearwear::spread::{SpreadOutcome, spread};
 use gearwear::varied_scene::one_line;
+use gearwear_bodies::gear::GearPair;
 use gearwear_physics::assessment::Done;
 use gearwear_physics::assessment::guarded::guarded;
 use gearwear_physics::observer::Observer;
+use gearwear_physics::plan::cost::RunCost;
 use gearwear_physics::results::error::TotalError;
 use gearwear_physics::results::run::StopReason;
 
@@ -79,6 +81,8 @@ pub struct PreparedImprove<'a> {
     question: ImproveQuestion,
     is_free_by_default: bool,
     fast: FastModel,
+    /// Time of the scene as given on the fast model, s.
+    fast_s: f64,
     begun: Instant,
 }
 
@@ -113,8 +117,10 @@ impl<'a> PreparedImprove<'a> {
         if is_free_by_default {
             question.free = tip_reliefs::of(&fast, observer)?;
         }
+        let of_one = Instant::now();
         let as_given = fast.figures([], &question.figures, observer).ok_or(ImproveError::Interrupted)?;
         let as_given = as_given.map_err(ImproveError::Base)?;
+        let fast_s = of_one.elapsed().as_secs_f64();
         if let Some(missing) =
             question.goals.iter().position(|goal| goal.value(|path| question.figure(&as_given, path)).is_none())
         {
@@ -125,7 +131,7 @@ impl<'a> PreparedImprove<'a> {
             let problem = of_entry(&scene.given.text, &format!("improve.goals[{missing}]"), &said, None);
             return Err(scene.given.refused(vec![problem]).into());
         }
-        let prepared = Self { scene, question, is_free_by_default, fast, begun };
+        let prepared = Self { scene, question, is_free_by_default, fast, fast_s, begun };
         prepared.check_space()?;
         Ok(prepared)
     }
@@ -151,6 +157,23 @@ impl<'a> PreparedImprove<'a> {
     /// Greatest number of designs of the search.
     pub fn evaluations(&self) -> usize {
         self.question.evaluations()
+    }
+
+    /// Time that the study takes on `threads` threads of an idle machine, s, at most: of the search and the tolerances by the scene as given on the fast model, of the
+    /// verification by the announced cost of a run; `None` where the verified scene is none.
+    pub fn seconds_at_most(&self, threads: usize) -> Option<f64> {
+        let with_tolerance = self.question.free.iter().filter(|one| one.tolerance.is_some()).count();
+        let on_fast_model = self.evaluations() + 2 * with_tolerance * (self.question.goals.len() + 1);
+        let scene = self.verified_scene_of(None).ok()?;
+        let pair = GearPair::new(&scene.scene().pair).ok()?;
+        let of_run = RunCost::of(scene.scene(), &scene.plan(), &pair).seconds;
+        let seconds = on_fast_model as f64 * self.fast_s + (self.most_verified() + 1) as f64 * of_run;
+        Some(seconds / threads as f64)
+    }
+
+    /// Greatest number of designs that are verified.
+    fn most_verified(&self) -> usize {
+        if self.scene.scene().slices.is_some() { VERIFIED_IN_SLICES } else { VERIFIED }
     }
 
     /// Study that a journal keeps the designs of.
@@ -326,7 +349,7 @@ impl<'a> PreparedImprove<'a> {
     fn spread_over(&self, outcomes: &[Option<Outcome>], front: &[usize], observer: &dyn Observer) -> Vec<usize> {
         let goals: Vec<Vec<f64>> =
             front.iter().filter_map(|&place| outcomes[place].as_ref()).map(|outcome| outcome.goals.clone()).collect();
-        let most = if self.scene.scene().slices.is_some() { VERIFIED_IN_SLICES } else { VERIFIED };
+        let most = self.most_verified();
         let as_given = self.fast.figures([], &self.question.figures, observer);
         let as_given = as_given.and_then(|figures| Some(self.outcome(&figures)?.goals));
         let reference = as_given.unwrap_or_else(|| goals[0].clone());

@@ -35,6 +35,7 @@ use crate::contact::{
     Footprint, PressedCell,
     flank_pressure::{FlankParts, PressureFigures},
 };
+use crate::mesh_cycle::over_life::PeakToPeakOverLife;
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::mesh_cycle::{
     CycleObservation, GreatestPressure, Work,
@@ -43,7 +44,6 @@ use crate::mesh_cycle::{
     sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh},
     sliced_positions::{ContactPart, SlicedPosition},
 };
-use crate::simulation::over_life::PeakToPeakOverLife;
 use crate::wear::WearModel;
 use crate::wear::stepping::{greater_or_nan, greatest};
 use batch::Batch;

@@ -22,7 +22,7 @@ pub struct PeakToPeakOverLife {
 impl PeakToPeakOverLife {
     /// Notes the value of an evaluation after `revolutions`, none before those of the last one. Another one at the same moment, under the load of the next
     /// phase, begins where that ends.
-    pub(super) fn note(&mut self, revolutions: f64, peak_to_peak_mm: f64) {
+    pub(crate) fn note(&mut self, revolutions: f64, peak_to_peak_mm: f64) {
         if let Some((before, last_mm)) = self.last {
             self.integral_mm += (revolutions - before) * last_mm.midpoint(peak_to_peak_mm);
         }
