@@ -18,6 +18,7 @@ mod mesh_stiffness;
 mod meshes_per_revolution;
 mod modifications;
 mod named_limits;
+mod over_life;
 mod peak_figures;
 mod phases;
 mod plan;

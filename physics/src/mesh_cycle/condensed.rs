@@ -254,7 +254,7 @@ impl MeshCycle for CondensedCycle<'_> {
     }
 
     fn peak_to_peak_mm(&self) -> f64 {
-        range_mm(self.loaded_positions().filter_map(|loaded| loaded.found.as_ref()).map(|found| found.rigid[0]))
+        range_mm(self.along_the_path().iter().map(|at| at.transmission_error_mm))
     }
 
     fn observe(&mut self, _lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {

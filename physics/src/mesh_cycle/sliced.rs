@@ -25,8 +25,8 @@ use super::sliced_teeth::SlicedTeeth;
 use super::spring_along_path::SpringAlongPath;
 use super::worn_points::{ContactOnPath, WornPoints};
 use super::{
-    CycleObservation, FlankOverlap, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, in_series,
-    note_contact_of_points, note_figures, range_mm,
+    CycleObservation, FlankOverlap, GROUPS, GreatestPressure, LostMaterial, MeshCycle, PositionObservation, Work,
+    in_series, note_contact_of_points, note_figures, range_mm,
 };
 use crate::contact::flank_pressure::PressureFigures;
 use crate::contact::{ContactSurface, Flanks, Sweep};
@@ -148,6 +148,19 @@ impl<'a> SlicedCycle<'a> {
         Self { bodies_mm, ..self }
     }
 
+    /// The mesh of one tooth by the last evaluation.
+    fn mesh(&self) -> SlicedMesh {
+        let slices = self.sliced.slices.count();
+        let loaded = self.groups.iter().flat_map(|group| &group.loaded_positions);
+        let observed = loaded.map(|loaded| loaded.observe(slices, self.line_load_n_per_mm, self.bodies_mm));
+        SlicedMesh::new(&observed.collect::<Vec<_>>(), slices, self.path.base_pitch_mm)
+    }
+
+    /// The tooth as a whole from A to E.
+    fn along_path(&self, mesh: &SlicedMesh) -> Vec<PositionObservation> {
+        mesh.along_path(self.path, self.positions, self.line_load_n_per_mm)
+    }
+
     /// Sum of all line loads: the mean line load in every slice.
     fn sum_of_line_loads(&self) -> f64 {
         self.line_load_n_per_mm * self.sliced.slices.count() as f64
@@ -197,8 +210,7 @@ impl MeshCycle for SlicedCycle<'_> {
     }
 
     fn peak_to_peak_mm(&self) -> f64 {
-        let loaded = self.groups.iter().flat_map(|group| &group.loaded_positions);
-        range_mm(loaded.map(|loaded| loaded.equilibrium.transmission_error_mm))
+        range_mm(self.along_path(&self.mesh()).iter().map(|at| at.transmission_error_mm))
     }
 
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
@@ -207,7 +219,6 @@ impl MeshCycle for SlicedCycle<'_> {
         let mut pressure_mpa = removed_mm.map(|flank| vec![0.0; flank.len()]);
         let mut sliding_mm = pressure_mpa.clone();
         let mut sweep = Sweep::default();
-        let mut observed = Vec::new();
         let mut greatest_pressure = GreatestPressure::default();
         let mut sliding_work_n = 0.0;
         let mut of_slices = vec![GreatestPressure::default(); slices];
@@ -238,10 +249,9 @@ impl MeshCycle for SlicedCycle<'_> {
                 }
                 sliding_work_n += pair.normal_load_n_per_mm() * sliding;
             }
-            observed.push(loaded.observe(slices, self.line_load_n_per_mm, self.bodies_mm));
         }
-        let mesh = SlicedMesh::new(&observed, slices, self.path.base_pitch_mm);
-        let positions = mesh.along_path(self.path, self.positions, self.line_load_n_per_mm);
+        let mesh = self.mesh();
+        let positions = self.along_path(&mesh);
         greatest_pressure.note_slices(&of_slices);
         let mut pressure_figures = figures.of_parts;
         pressure_figures.note_slices(&figures.of_slices);

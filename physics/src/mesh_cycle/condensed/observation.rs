@@ -102,7 +102,7 @@ impl CondensedCycle<'_> {
     }
 
     /// The reference pair from A to E, from the pairs found in the base pitch.
-    fn along_the_path(&self) -> Vec<PositionObservation> {
+    pub(super) fn along_the_path(&self) -> Vec<PositionObservation> {
         let (path, load) = (&self.model.pair.path, self.line_load_n_per_mm);
         let mut found: Vec<PositionObservation> = Vec::new();
         for loaded in self.loaded_positions() {

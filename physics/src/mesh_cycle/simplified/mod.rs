@@ -38,7 +38,7 @@ use crate::contact::{
 use crate::mesh_cycle::over_life::PeakToPeakOverLife;
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::mesh_cycle::{
-    CycleObservation, GreatestPressure, Work,
+    CycleObservation, GreatestPressure, PositionObservation, Work,
     load_sharing::EquilibriumError,
     range_mm,
     sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh},
@@ -148,6 +148,12 @@ impl<'a> SimplifiedPair<'a> {
         }
         figures.note_slices(&of_slices);
         figures
+    }
+
+    /// The tooth as a whole from A to E.
+    fn along_path(&self, mesh: &SlicedMesh) -> Vec<PositionObservation> {
+        let line_load = self.springs.line_load_n_per_mm / self.knots.len() as f64;
+        mesh.along_path(&self.springs.pair.path, self.positions, line_load)
     }
 
     /// The mesh of one tooth.
@@ -262,8 +268,7 @@ impl WearingPair for SimplifiedPair<'_> {
     }
 
     fn peak_to_peak_mm(&self) -> f64 {
-        let loaded = self.batches.iter().flat_map(|batch| &batch.loaded_positions);
-        range_mm(loaded.map(|loaded| loaded.transmission_error_mm))
+        range_mm(self.along_path(&self.mesh()).iter().map(|at| at.transmission_error_mm))
     }
 
     fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {
@@ -296,8 +301,7 @@ impl WearingPair for SimplifiedPair<'_> {
             }
         }
         let mesh = self.mesh();
-        let line_load = self.springs.line_load_n_per_mm / self.knots.len() as f64;
-        let positions = mesh.along_path(&self.springs.pair.path, self.positions, line_load);
+        let positions = self.along_path(&mesh);
         let mut of_slices = vec![GreatestPressure::default(); mesh.slices];
         // Closed forms have no tip edges.
         for (place, &pressure) in mesh.peak_pressure_mpa.iter().enumerate() {
