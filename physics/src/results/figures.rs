@@ -529,7 +529,7 @@ pub static FAMILIES: &[FigureFamily] = &[
     .wants_less()
     .in_headline()
     .in_sweeps([12, 13])
-    .compared([10, 9]),
+    .compared([11, 10]),
     states("{state}.tip_edge_line_load_N_per_mm", "N/mm", "line load of a tip edge", |s| {
         cycle(s, |c| c.tip_edge_line_load_N_per_mm)
     })
@@ -539,7 +539,7 @@ pub static FAMILIES: &[FigureFamily] = &[
     .wants_less()
     .on_page()
     .in_sweeps([14, 15])
-    .compared([12, 11]),
+    .compared([13, 12]),
     states("{state}.tip_edge_mean_pressure_MPa", "MPa", "pressure of a tip edge over 0.04 mm", |s| {
         cycle(s, |c| c.tip_edge_mean_pressure_MPa)
     })
@@ -549,7 +549,7 @@ pub static FAMILIES: &[FigureFamily] = &[
     .wants_less()
     .on_page()
     .in_sweeps([16, 17])
-    .compared([14, 13]),
+    .compared([15, 14]),
     FigureFamily {
         caveat: "not converged",
         ..states("{state}.peak_pressure_MPa", "MPa", "maximum pressure at a point", |s| cycle(s, |c| c.peak_pressure_MPa))
@@ -562,7 +562,7 @@ pub static FAMILIES: &[FigureFamily] = &[
     .once_called("peak_pressure_{state}_MPa")
     .on_page()
     .in_sweeps([18, 19])
-    .compared([16, 15]),
+    .compared([17, 16]),
     FigureFamily {
         caveat: "not defined",
         ..states("{state}.sharp_edge_pressure_MPa", "MPa", "pressure at sharp edges", |s| {
@@ -597,7 +597,8 @@ pub static FAMILIES: &[FigureFamily] = &[
     .with_errors(["error.total.transmission_error_over_life", ""])
     .wants_less()
     .shown()
-    .in_sweeps([44, 0]),
+    .in_sweeps([44, 0])
+    .compared([9, 0]),
     pair("transmission_error_over_life.max_um", "µm", "transmission error, maximum over life", |s| {
         Some(s.transmission_error_over_life?.max_um)
     })
@@ -716,7 +717,7 @@ pub static FAMILIES: &[FigureFamily] = &[
         .wants_less()
         .on_page()
         .in_sweeps([7, 11])
-        .compared([17, 18]),
+        .compared([18, 19]),
     FigureFamily {
         rexs: Some(RexsAttribute::Database { ids: &[RexsId::always("averaged_linear_wear_vdi_2736_2014")], unit: "mm" }),
         ..gears("{gear}.vdi_2736_mean_wear_um", "µm", "mean wear W_m{}, VDI 2736-2", |s| {
@@ -785,7 +786,7 @@ pub static FAMILIES: &[FigureFamily] = &[
     .wants_less()
     .shown()
     .in_sweeps([30, 31])
-    .compared([19, 20]),
+    .compared([20, 21]),
     states("helical.mesh_orders_{state}_um.1", "µm", "transmission error of slices, first mesh order", |s| {
         let first = |orders: fn(&Summary) -> Option<&Vec<f64>>| orders(s)?.first().copied();
         [
@@ -803,17 +804,17 @@ pub static FAMILIES: &[FigureFamily] = &[
         )
         .once_called("volume_balance")
         .in_sweeps([39, 0])
-        .compared([21, 0]),
+        .compared([22, 0]),
     pair("life.hours", "h", "life", |s| s.life.as_ref()?.hours)
         .means("until the first limit of operation.stop is reached; empty where none is within the duration")
         .once_called("life_h")
         .in_sweeps([40, 0])
-        .compared([22, 0]),
+        .compared([23, 0]),
     pair("life.revolutions", "pinion revolutions", "life", |s| s.life.as_ref()?.revolutions)
         .means("the same in pinion revolutions")
         .once_called("life_revolutions")
         .in_sweeps([41, 0])
-        .compared([23, 0]),
+        .compared([24, 0]),
 ];
 
 #[cfg(test)]

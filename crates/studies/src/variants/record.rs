@@ -116,12 +116,22 @@ fn row(figure: &MainFigure, first: &FinishedRun, run: &FinishedRun) -> VariantRo
     }
 }
 
-/// Difference of the maximum wear of both gears of each variant, in words.
+/// Figures that the answer speaks of, with their names in a sentence.
+const ANSWERED: [(&str, &str); 4] = [
+    ("pinion.peak_wear_um", "maximum wear of the pinion"),
+    ("wheel.peak_wear_um", "maximum wear of the wheel"),
+    ("transmission_error_over_life.mean_um", "mean transmission error over life"),
+    ("worn.flank_pressure_MPa", "flank pressure of the worn pair"),
+];
+
+/// Differences of the wear of both gears, the transmission error and the flank pressure of each variant, in words.
 fn answer(rows: &[VariantRow], first: &str) -> String {
     let mut sentences = Vec::new();
-    for row in rows.iter().filter(|row| row.figure.ends_with(".peak_wear_um")) {
+    let answered = ANSWERED
+        .iter()
+        .flat_map(|(path, name)| rows.iter().filter(|row| row.figure == *path).zip([name].into_iter().cycle()));
+    for (row, name) in answered {
         let Some(difference) = row.difference else { continue };
-        let gear = row.figure.split('.').next().unwrap_or_default();
         let per_cent = format!("{:.1} %", 100.0 * difference.abs());
         let more = if difference < 0.0 { "less" } else { "more" };
         let errors = row.errors_together.map(|errors| format!("{:.1} %", 100.0 * errors)).unwrap_or_default();
@@ -132,10 +142,7 @@ fn answer(rows: &[VariantRow], first: &str) -> String {
             }
             None => "whose error is not known, as not both runs were verified".to_owned(),
         };
-        sentences.push(format!(
-            "The maximum wear of the {gear} is {per_cent} {more} with {} than with {first}, {judged}.",
-            row.run
-        ));
+        sentences.push(format!("The {name} is {per_cent} {more} with {} than with {first}, {judged}.", row.run));
     }
     sentences.join(" ")
 }
