@@ -13,8 +13,11 @@ use gearwear::scene::loaded::SceneText;
 use gearwear_bodies::gear::Gear;
 use gearwear_physics::assessment::RunError;
 use gearwear_studies::compare::asked::{CompareFault, PreparedComparison};
+use gearwear_studies::compare::in_words::INTERVAL;
 use gearwear_studies::compare::question::{CompareOptions, FitKind};
-use gearwear_studies::compare::record::{CoefficientCorrelation, CompareFigures, CompareRecord, FittedValue};
+use gearwear_studies::compare::record::{
+    CoefficientCorrelation, CompareFigures, CompareRecord, FittedValue, ProfileRecord,
+};
 use gearwear_studies::compare::study::CompareError;
 use gearwear_studies::measurement::fit::FitStop;
 use gearwear_studies::measurement::form::Form;
@@ -183,6 +186,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<(), Failure> {
         fit: args.fit,
         shift_within_mm: args.shift_within,
         traces: args.traces(),
+        tries_slopes: true,
     };
     let prepared = PreparedComparison::open(&args.run, &texts, &asked)?;
     let out = args.out();
@@ -264,7 +268,11 @@ fn table(record: &CompareRecord) -> String {
     if let Some(correlation) = &fit.correlation {
         text.push_str(&correlations(correlation));
     }
-    text.push_str(&format!("\n  {}\n\n", fit.how));
+    text.push_str(&format!("\n  {}\n", fit.how));
+    if fit.coefficients.iter().any(|own| own.factor.low.is_some()) {
+        text.push_str(&format!("  {INTERVAL}\n"));
+    }
+    text.push('\n');
     if several {
         text.push_str(&line("", &profiles.iter().map(|of| of.gear.name().to_owned()).collect::<Vec<_>>()));
     }
@@ -278,6 +286,8 @@ fn table(record: &CompareRecord) -> String {
     for (name, value) in figures {
         text.push_str(&line(name, &profiles.iter().map(|of| or_dash(value(&of.figures))).collect::<Vec<_>>()));
     }
+    text.push_str(&deviations(profiles));
+    text.push_str(&slopes(record));
     let runs = if fit.runs == 1 { "run" } else { "runs" };
     let mut forms: Vec<&str> = profiles.iter().map(|of| of.form.as_str()).collect();
     forms.dedup();
@@ -288,6 +298,41 @@ fn table(record: &CompareRecord) -> String {
         fit.mesh_cycles
     ));
     text
+}
+
+/// One of the deviations of a profile, where it has it.
+type Deviation = fn(&ProfileRecord) -> Option<f64>;
+
+/// Deviations of the profiles after ISO 1328-1, as measured and before wear.
+fn deviations(profiles: &[ProfileRecord]) -> String {
+    let rows: [(&str, Deviation); 9] = [
+        ("as measured, total deviation F_α, µm", |of| Some(of.deviations?.measured?.total_um)),
+        ("  form deviation f_fα", |of| Some(of.deviations?.measured?.form_um)),
+        ("  slope deviation f_Hα", |of| Some(of.deviations?.measured?.slope_um)),
+        ("before wear, beside the scene’s flank, F_α, µm", |of| Some(of.deviations?.before_wear?.total_um)),
+        ("  form deviation f_fα", |of| Some(of.deviations?.before_wear?.form_um)),
+        ("  slope deviation f_Hα", |of| Some(of.deviations?.before_wear?.slope_um)),
+        ("f_Hα before wear, that of the scene in it, µm", |of| Some(of.profile_slope.as_ref()?.before_wear_um.value)),
+        ("  95 % from", |of| of.profile_slope.as_ref()?.before_wear_um.low),
+        ("  to", |of| of.profile_slope.as_ref()?.before_wear_um.high),
+    ];
+    let known = rows.into_iter().filter(|(_, value)| profiles.iter().any(|of| value(of).is_some()));
+    let rows: String = known
+        .map(|(name, value)| {
+            let cells = profiles.iter().map(|of| value(of).map_or_else(|| "–".to_owned(), |um| format!("{um:.2}")));
+            line(name, &cells.collect::<Vec<_>>())
+        })
+        .collect();
+    if rows.is_empty() { rows } else { format!("\n  deviations after ISO 1328-1\n{rows}") }
+}
+
+/// What was done with the slope of the profiles, and what to set.
+fn slopes(record: &CompareRecord) -> String {
+    let Some(finding) = record.slope_finding() else { return String::new() };
+    let sentences = finding.sentences.iter().map(|sentence| format!("  {sentence}\n"));
+    let keys = finding.keys.iter().map(|key| format!("    {key}\n"));
+    let moved = finding.moved.iter().map(|sentence| format!("  {sentence}\n"));
+    ["\n".to_owned()].into_iter().chain(sentences).chain(keys).chain(moved).collect()
 }
 
 /// The correlation coefficient of each pair of fitted values, a line for each.

@@ -213,6 +213,7 @@ pub fn compare(
             width_mm: question.width_mm,
             by: ChosenBy::Options,
         },
+        tries_slopes: true,
     };
     if measured.is_empty() {
         return Err(StudyFault::NoProfile.into());

@@ -219,6 +219,7 @@ fn profile(
         fit: Some(FitKind::K),
         shift_within_mm: asked.shift_within_mm,
         traces: asked.traces,
+        tries_slopes: false,
     };
     let refused = |error: QuestionError| Refused { name: text.name.clone(), error }.to_string();
     let file = file::parse(&text.text, &asked.traces).map_err(|error| refused(error.into()))?;

@@ -122,7 +122,14 @@ fn interpolated(x: &[f64], y: &[f64], at: f64) -> f64 {
 
 /// What is asked where a test says nothing else: k of heights, no shift.
 pub fn asked(fit: FitKind) -> CompareOptions {
-    CompareOptions { gear: None, form: None, fit: Some(fit), shift_within_mm: 0.0, traces: TraceChoice::default() }
+    CompareOptions {
+        gear: None,
+        form: None,
+        fit: Some(fit),
+        shift_within_mm: 0.0,
+        traces: TraceChoice::default(),
+        tries_slopes: false,
+    }
 }
 
 /// Normal numbers of mean 0 and deviation 1 by Box and Muller, from xorshift64* (Vigna 2016).
