@@ -19,10 +19,12 @@ use gearwear_studies::compare::record::{
     CoefficientCorrelation, CompareFigures, CompareRecord, FittedValue, ProfileRecord,
 };
 use gearwear_studies::compare::study::CompareError;
+use gearwear_studies::compare::unknown::Unknown;
 use gearwear_studies::measurement::fit::FitStop;
 use gearwear_studies::measurement::form::Form;
 use gearwear_studies::remaining_life::asked::LifeOptions;
 use gearwear_studies::remaining_life::limit::WearLimit;
+use gearwear_studies::remaining_life::other_gear::OtherCoefficient;
 use gearwear_studies::remaining_life::regime::CoefficientPrior;
 
 use super::failure::{Failure, InputError};
@@ -72,11 +74,16 @@ pub(super) struct CompareArgs {
     /// 95 % interval LOW:HIGH in m²/N; default: 100 times less to 100 times more than in the run
     #[arg(long, value_name = "REGIME", requires = "history")]
     prior: Option<CoefficientPrior>,
+    /// With --history: k of the gear that the table does not have, a number in m²/N or the folder of a comparison with RUN that
+    /// fitted it (RUN/compare/…); default: the k of the measured gear where the scene has one law for both, else that of the scene
+    #[arg(long, value_name = "K|DIR", requires = "history")]
+    other_k: Option<OtherCoefficient>,
     /// The gear that was measured, where the file does not say
     #[arg(long, value_name = "GEAR", value_parser = gear)]
     gear: Option<Gear>,
     /// The form removed from the measured and the simulated profile alike; default: cubic of heights, none of
-    /// wear depths
+    /// wear depths. With a form no slope counts as wear; what the flank had before wear is told beside the scene's flank, modifications
+    /// and profile_slope_deviation_um in it
     #[arg(long, value_enum)]
     form: Option<Form>,
     /// Coefficients to fit; default: k, and each with two profiles
@@ -139,6 +146,7 @@ impl CompareArgs {
             form: self.form,
             shift_within_mm: self.shift_within,
             traces: self.traces(),
+            other_k: self.other_k.clone(),
         };
         LifeQuestion { run: &self.run, table, options, out, threads: self.threads, quiet: self.quiet }
     }
@@ -306,13 +314,13 @@ type Deviation = fn(&ProfileRecord) -> Option<f64>;
 /// Deviations of the profiles after ISO 1328-1, as measured and before wear.
 fn deviations(profiles: &[ProfileRecord]) -> String {
     let rows: [(&str, Deviation); 9] = [
-        ("as measured, total deviation F_α, µm", |of| Some(of.deviations?.measured?.total_um)),
+        ("as measured, total deviation F_α", |of| Some(of.deviations?.measured?.total_um)),
         ("  form deviation f_fα", |of| Some(of.deviations?.measured?.form_um)),
         ("  slope deviation f_Hα", |of| Some(of.deviations?.measured?.slope_um)),
-        ("before wear, beside the scene’s flank, F_α, µm", |of| Some(of.deviations?.before_wear?.total_um)),
+        ("before wear, beside the scene’s flank, F_α", |of| Some(of.deviations?.before_wear?.total_um)),
         ("  form deviation f_fα", |of| Some(of.deviations?.before_wear?.form_um)),
         ("  slope deviation f_Hα", |of| Some(of.deviations?.before_wear?.slope_um)),
-        ("f_Hα before wear, that of the scene in it, µm", |of| Some(of.profile_slope.as_ref()?.before_wear_um.value)),
+        ("f_Hα before wear, that of the scene in it", |of| Some(of.profile_slope.as_ref()?.before_wear_um.value)),
         ("  95 % from", |of| of.profile_slope.as_ref()?.before_wear_um.low),
         ("  to", |of| of.profile_slope.as_ref()?.before_wear_um.high),
     ];
@@ -323,7 +331,7 @@ fn deviations(profiles: &[ProfileRecord]) -> String {
             line(name, &cells.collect::<Vec<_>>())
         })
         .collect();
-    if rows.is_empty() { rows } else { format!("\n  deviations after ISO 1328-1\n{rows}") }
+    if rows.is_empty() { rows } else { format!("\n  deviations after ISO 1328-1, µm\n{rows}") }
 }
 
 /// What was done with the slope of the profiles, and what to set.
@@ -335,12 +343,19 @@ fn slopes(record: &CompareRecord) -> String {
     ["\n".to_owned()].into_iter().chain(sentences).chain(keys).chain(moved).collect()
 }
 
-/// The correlation coefficient of each pair of fitted values, a line for each.
+/// Least correlation coefficient that the terminal shows; `compare.json` and the page have all.
+const SHOWN_CORRELATION: f64 = 0.3;
+
+/// The correlation coefficient of each pair of fitted values that is of the coefficients or matters, a line for each.
 fn correlations(correlation: &CoefficientCorrelation) -> String {
     let (parameters, matrix) = (&correlation.parameters, &correlation.matrix);
     let mut text = String::new();
     for i in 0..parameters.len() {
         for j in i + 1..parameters.len() {
+            let is_of_shift = [i, j].into_iter().any(|index| matches!(parameters[index], Unknown::Shift(_)));
+            if is_of_shift && matrix[i][j].abs() < SHOWN_CORRELATION {
+                continue;
+            }
             let pair = format!("{} and {}", parameters[i].key(), parameters[j].key());
             text.push_str(&format!("  {:44}{:>12.3}\n", format!("correlation of {pair}"), matrix[i][j]));
         }

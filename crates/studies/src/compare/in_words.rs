@@ -7,6 +7,9 @@ use gearwear::report::html::number::{figure, fixed, significant};
 pub const INTERVAL: &str = "This interval is of the fit: how well the profile gives the mean k up to its measurement. It is the one to compare oils, \
                             materials or loads by. For remaining life take that of --history, which is wider: it allows for k that wanders over life.";
 
+/// Logarithm of a ratio of likelihoods above which one of two explanations is told: a factor of 150.
+const DECISIVE: f64 = 5.0;
+
 /// A finding on profile slopes: sentences, and keys of the scene to set.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SlopeFinding {
@@ -49,9 +52,6 @@ impl CompareRecord {
         }
         finding.sentences.push("If manufacture made it so, it belongs into the scene:".to_owned());
         finding.moved = self.moved();
-        finding.moved.push(
-            "If it is of the measurement (clamping, or eccentricity, of which the mean of teeth around the gear is free), leave it out.".to_owned(),
-        );
         Some(finding)
     }
 
@@ -64,14 +64,21 @@ impl CompareRecord {
         let both = self.fit.coefficients.iter().zip(&with.coefficients);
         let moved = listed(both.map(|(without, with)| moved_coefficient(without, with, several)));
         let differences = |values: &mut dyn Iterator<Item = f64>| listed(values.map(figure));
-        vec![
-            format!("With it {moved}."),
-            format!(
-                "The difference after the fit is then {} µm (root mean square), without it {} µm.",
-                differences(&mut with.difference_um.iter().copied()),
-                differences(&mut self.profiles.iter().map(|of| of.figures.difference_um))
-            ),
-        ]
+        let described = format!(
+            "with it to {} µm (root mean square), without it to {} µm",
+            differences(&mut with.difference_um.iter().copied()),
+            differences(&mut self.profiles.iter().map(|of| of.figures.difference_um))
+        );
+        let likelier = match with.likelihood_gain {
+            gain if gain > DECISIVE => "the slope is likely of manufacture: set it",
+            gain if gain < -DECISIVE => {
+                "the slope is likely of the measurement (clamping, eccentricity of a tooth): leave it out"
+            }
+            _ => {
+                "the profiles do not tell which of both: a profile before wear, or the mean of teeth around the gear, does"
+            }
+        };
+        vec![format!("With it {moved}."), format!("The run describes the profiles {described}; {likelier}.")]
     }
 }
 
@@ -94,7 +101,7 @@ fn slope_of(of: &ProfileRecord) -> Option<String> {
         found.low.zip(found.high).map(|(low, high)| format!(" (95 % {} to {})", fixed(low, 2), fixed(high, 2)));
     let scene = if found.of_run == 0.0 { "0".to_owned() } else { fixed(found.of_run, 2) };
     Some(format!(
-        "{} µm{} on the {}, in the scene {scene}",
+        "{} µm{} on the {} (the scene has {scene})",
         fixed(found.value, 2),
         interval.unwrap_or_default(),
         of.gear.name()

@@ -66,6 +66,8 @@ pub struct FitWithSlopes {
     pub coefficients: Vec<Coefficient>,
     /// Root mean square of measured less simulated, profile by profile.
     pub difference_um: Vec<f64>,
+    /// Logarithm of the likelihood of the profiles with the slopes over that without: Σ n/2 ln(r²/r_with²), of n points that count.
+    pub likelihood_gain: f64,
     pub runs: u64,
     pub mesh_cycles: u64,
 }
@@ -177,17 +179,22 @@ pub(super) fn fit_with_slopes(
         let comparisons: Vec<Comparison<'_>> =
             question.profiles.iter().map(|of| Comparison::new(of, pair, numerics)).collect();
         let mut simulations = Simulations::new(&sloped, question, observer);
+        simulations.name = "with the profile slope, run";
         fitted = match CoefficientSearch::again(question, &comparisons, &fitted, &mut simulations) {
             Ok(fitted) => fitted,
             Err(CompareError::Interrupted) => return Err(CompareError::Interrupted),
             Err(CompareError::Run(error)) => return Ok(Err(NotTried::Refused(error.to_string()))),
         };
         (runs, mesh_cycles) = (runs + simulations.runs, mesh_cycles + simulations.mesh_cycles);
-        let mut difference_um = Vec::new();
+        let (mut difference_um, mut likelihood_gain) = (Vec::new(), 0.0);
         let mut is_settled = true;
         for (index, comparison) in comparisons.iter().enumerate() {
             let rows: Vec<CompareRow> = study::rows(question, pair, comparison, [&fitted.wear_um[index]; 2], &fitted);
-            difference_um.push(root_mean_square(rows.iter().map(|row| row.difference_um)));
+            let difference = root_mean_square(rows.iter().map(|row| row.difference_um));
+            let without = &profiles[index];
+            likelihood_gain +=
+                without.effective_points.unwrap_or_default() * (without.figures.difference_um / difference).ln();
+            difference_um.push(difference);
             let deviations = study::deviations(comparison.of, pair, &rows);
             let both = deviations.and_then(|of| Some([of.before_wear?, of.wear?]));
             let gear = comparison.of.profile.gear;
@@ -203,6 +210,7 @@ pub(super) fn fit_with_slopes(
                 stopped: fitted.stop,
                 coefficients: study::coefficients(question, &sloped.resolved, &fitted),
                 difference_um,
+                likelihood_gain,
                 runs,
                 mesh_cycles,
             }));

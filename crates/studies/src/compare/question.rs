@@ -329,6 +329,15 @@ fn check_fit(fit: FitKind, gear: Gear, profiles: usize, scene: &Scene) -> Result
     Ok(())
 }
 
+/// Multiplies the wear coefficients of `gear` in all phases.
+pub(crate) fn scale_coefficients(scene: &mut Scene, gear: Gear, factor: f64) {
+    scene.wear[gear].coefficient_mm2_per_n *= factor;
+    for phase in &mut scene.operation.phases {
+        let own = &mut phase.coefficient_mm2_per_n[gear];
+        *own = own.map(|own| own * factor);
+    }
+}
+
 /// Whether both gears wear by one law in all phases.
 pub(crate) fn is_of_both(scene: &Scene) -> bool {
     scene.operation.phases.iter().all(|phase| scene.wear_in(phase).are_alike())

@@ -34,6 +34,8 @@ const LOG_WIDTH: f64 = 0.02;
 const SHIFT_WIDTH_MM: f64 = 5e-3;
 /// Step, in standard deviations of a parameter, below which the search has converged.
 const NEGLIGIBLE: f64 = 0.02;
+/// The same of a fit that is made again.
+const NEGLIGIBLE_AGAIN: f64 = 0.1;
 /// Step, in standard deviations, that is accepted where the scatter of exact runs prevents a shorter one.
 const TOLERABLE: f64 = 0.5;
 /// Step, in widths of the finite differences, below which the search has converged.
@@ -158,7 +160,7 @@ impl<'a> CoefficientSearch<'a> {
             removals: self.removals.clone(),
         };
         if needs_runs {
-            self.settle(&mut found, simulations)?;
+            self.settle(&mut found, NEGLIGIBLE, simulations)?;
         }
         // A value at the end of its range has no interval.
         found.uncertainty = found.uncertainty.filter(|_| found.stop == FitStop::Converged);
@@ -181,7 +183,7 @@ impl<'a> CoefficientSearch<'a> {
             waves: before.waves.clone(),
         };
         let mut found = FittedCoefficients { unsettled: None, ..before.clone() };
-        search.settle(&mut found, simulations)?;
+        search.settle(&mut found, NEGLIGIBLE_AGAIN, simulations)?;
         found.uncertainty = found.uncertainty.filter(|_| found.stop == FitStop::Converged);
         Ok(found)
     }
@@ -266,7 +268,13 @@ impl<'a> CoefficientSearch<'a> {
     }
 
     /// Gauss–Newton steps on the residuals of exact runs until convergence.
-    fn settle(&self, found: &mut FittedCoefficients, simulations: &mut Simulations<'_>) -> Result<(), CompareError> {
+    /// A step of less than `negligible` standard deviations is the last.
+    fn settle(
+        &self,
+        found: &mut FittedCoefficients,
+        negligible: f64,
+        simulations: &mut Simulations<'_>,
+    ) -> Result<(), CompareError> {
         let parameters = found.bounds.clone();
         let mut jacobian = std::mem::take(&mut found.jacobian);
         let mut theta = found.parameters.clone();
@@ -298,7 +306,7 @@ impl<'a> CoefficientSearch<'a> {
                 .filter(|&i| step[i].abs() > SMALL_STEP * parameters[i].width)
                 .map(|i| step[i].abs() / deviations.as_ref().map_or(0.0, |all| all[i]))
                 .fold(0.0, f64::max);
-            if last_step <= NEGLIGIBLE {
+            if last_step <= negligible {
                 break;
             }
             before = Some((theta.clone(), r));
@@ -307,7 +315,7 @@ impl<'a> CoefficientSearch<'a> {
             }
         }
         found.jacobian = jacobian;
-        if converges && last_step > NEGLIGIBLE {
+        if converges && last_step > negligible {
             found.unsettled = Some(last_step);
             found.stop = if last_step <= TOLERABLE { FitStop::Converged } else { FitStop::MaxIterations };
         }

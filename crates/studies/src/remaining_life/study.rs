@@ -3,6 +3,7 @@
 use super::asked::LifeError;
 use super::limit::WearLimit;
 use super::measurement::{ToothValues, WearMeasurement, relative_sigmas};
+use super::other_gear::{CoefficientSource, OtherGear};
 use super::record::{
     BandPoint, GearLife, Interval, LifeRecord, LifeUpdate, MeasurementRecord, Prediction, RemainingLife,
 };
@@ -38,6 +39,8 @@ pub struct LifeQuestion {
     pub measurements: Vec<WearMeasurement>,
     pub limits: Vec<WearLimit>,
     pub prior: Option<CoefficientPrior>,
+    /// Whether the coefficient of the gear without measurements was given.
+    pub has_other_k: bool,
 }
 
 /// A measurement with the values of its teeth; of profiles exposures in revolutions.
@@ -78,7 +81,7 @@ pub fn run(
     let exposure = exposure.fold(0.0, f64::max);
     let mut simulated = simulated_wear(given, pair, 1.0, &needed, exposure, observer)?;
     let mut gears = evaluated(question, given, &simulated, &valued);
-    let ratio = coefficient_ratio(&gears, given);
+    let ratio = coefficient_ratio(&gears, question, given);
     if ratio.ln().abs() > SAME_RATIO {
         let again = simulated_wear(given, pair, ratio, &needed, exposure, observer)?;
         simulated = SimulatedWear {
@@ -94,6 +97,7 @@ pub fn run(
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_hash: given.resolved.scene_hash(),
         measured: question.measured.clone(),
+        other_gear: other_gear(&gears, question, given),
         gears,
         runs: simulated.runs,
         mesh_cycles: simulated.mesh_cycles,
@@ -177,7 +181,7 @@ fn evaluated(
 
 /// Coefficient of the wheel over that of the pinion, both over those of the run; a gear that was not measured keeps its own, unless both wear by one
 /// law.
-fn coefficient_ratio(gears: &[GearLife], given: &LoadedScene) -> f64 {
+fn coefficient_ratio(gears: &[GearLife], question: &LifeQuestion, given: &LoadedScene) -> f64 {
     let factor = |gear: Gear| {
         let of = gears.iter().find(|of| of.gear == gear)?;
         Some(of.updates.last()?.coefficient_m2_per_N.median / of.coefficient_of_run_m2_per_N)
@@ -185,9 +189,23 @@ fn coefficient_ratio(gears: &[GearLife], given: &LoadedScene) -> f64 {
     let factors = PerGear::from_fn(factor);
     match (factors.pinion, factors.wheel) {
         (Some(pinion), Some(wheel)) => wheel / pinion,
-        _ if is_of_both(&given.resolved.scene) => 1.0,
+        _ if is_of_both(&given.resolved.scene) && !question.has_other_k => 1.0,
         (pinion, wheel) => wheel.unwrap_or(1.0) / pinion.unwrap_or(1.0),
     }
+}
+
+/// The gear that was not measured, with the coefficient that the last evaluation has of it.
+fn other_gear(gears: &[GearLife], question: &LifeQuestion, given: &LoadedScene) -> Option<OtherGear> {
+    let [one] = gears else { return None };
+    let gear = one.gear.mate();
+    let scene = &given.resolved.scene;
+    let of_scene = M2_PER_MM2 * scene.wear_in(&scene.operation.phases[0])[gear].coefficient_mm2_per_n;
+    let (coefficient, source) = match (question.has_other_k, is_of_both(scene)) {
+        (true, _) => (of_scene, CoefficientSource::Given),
+        (false, true) => (one.updates.last()?.coefficient_m2_per_N.median, CoefficientSource::MeasuredGear),
+        (false, false) => (of_scene, CoefficientSource::Run),
+    };
+    Some(OtherGear { gear, coefficient_m2_per_N: coefficient, source })
 }
 
 impl GearCase<'_> {
@@ -273,8 +291,16 @@ impl GearCase<'_> {
                 high: hours(remaining.high)?,
             })
         };
+        let at = self.duration * posterior.revolutions;
         let passed = if posterior.revolutions > 0.0 { posterior.life_below(posterior.revolutions, limit) } else { 0.0 };
-        RemainingLife { passed, remaining_revolutions: remaining, remaining_hours: in_hours() }
+        let remaining_hours = in_hours();
+        RemainingLife {
+            passed,
+            remaining_revolutions: remaining,
+            remaining_hours,
+            total_revolutions: remaining.plus(at),
+            total_hours: remaining_hours.and_then(|remaining| Some(remaining.plus(hours(at)?))),
+        }
     }
 
     /// What is expected of a measurement that is not among those of `posterior`.

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::{LAST, POINTS, figures};
+use crate::compare::in_words::{INTERVAL, SlopeFinding};
 use crate::compare::record::{CoefficientCorrelation, CompareRecord, FittedValue, ProfileRecord};
 use crate::compare::unknown::Unknown;
 use crate::measurement::deviations::Deviations;
@@ -148,6 +149,8 @@ fn tables(record: &CompareRecord, correlated: Option<Markup>) -> Markup {
     html! {
         @if !fitted.is_empty() { (table("Fitted", &["run", "fitted", "from", "to"], fitted)) }
         p { (capitalised(&fit.how)) "." }
+        @if fit.coefficients.iter().any(|own| own.factor.low.is_some()) { p { (INTERVAL) } }
+        @if let Some(finding) = record.slope_finding() { (slopes(record, &finding)) }
         @if let Some(correlation) = &fit.correlation {
             (correlations(correlation))
         }
@@ -160,12 +163,28 @@ fn tables(record: &CompareRecord, correlated: Option<Markup>) -> Markup {
     }
 }
 
+/// Slopes before wear, what to set in the scene, and what that moves.
+fn slopes(record: &CompareRecord, finding: &SlopeFinding) -> Markup {
+    let told = record.profiles.iter().filter_map(|of| Some((of.gear, of.profile_slope.as_ref()?.before_wear_um)));
+    let rows = told.map(|(gear, slope)| {
+        let ends = [slope.low, slope.high].map(|end| end.map_or_else(|| NONE.to_owned(), |um| fixed(um, 2)));
+        let [low, high] = ends;
+        row(gear.name(), "µm", [fixed(slope.of_run, 2), fixed(slope.value, 2), low, high])
+    });
+    html! {
+        (table("Profile slope f_Hα before wear", &["scene", "found", "from", "to"], rows))
+        p { (finding.sentences.join(" ")) }
+        @for key in &finding.keys { pre { (key) } }
+        @if !finding.moved.is_empty() { p { (finding.moved.join(" ")) } }
+    }
+}
+
 /// Deviations of a profile and of its leads after ISO 1328-1, where there are any.
 fn deviations(of: &ProfileRecord, name_gear: bool) -> Option<Markup> {
     let profile = of.deviations.iter().flat_map(|of| {
         [
             ("as measured", of.measured),
-            ("before wear: wear as fitted put back", of.before_wear),
+            ("before wear (wear as fitted put back), beside the scene’s flank", of.before_wear),
             ("wear alone", of.wear),
         ]
     });
