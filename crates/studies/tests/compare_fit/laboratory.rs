@@ -58,6 +58,11 @@ impl Laboratory {
         self.pair.teeth[gear].involute.base_radius_mm
     }
 
+    /// L of f_Hα: from the start of active profile to the tip circle.
+    pub fn profile_length_mm(&self, gear: Gear) -> f64 {
+        self.pair.teeth[gear].edge_rho_mm() - self.pair.active_start_rho_mm(gear)
+    }
+
     /// What the comparison of a file with the run says.
     pub fn compare(&self, text: &str, asked: &CompareOptions) -> CompareRecord {
         self.compare_all(&[text], asked)
