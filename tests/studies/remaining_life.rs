@@ -198,7 +198,7 @@ fn the_gear_that_was_not_measured_has_a_coefficient() {
     let both = "# uncertain\nhours,gear,depth_um\n20,pinion,2.6\n20,wheel,2.0\n";
     Measured::new(both).refused(&run, &["--other-k", "1e-17"], &["--other-k", "both gears"]);
     let one = || Measured::new("# gear = pinion\nhours,depth_um\n20,2.6\n");
-    one().refused(&run, &["--other-k", "-1"], &["--other-k", "found -1"]);
+    one().refused(&run, &["--other-k", "0"], &["--other-k", "found 0"]);
     one().refused(&run, &["--other-k", "/nowhere"], &["--other-k", "/nowhere/compare.json"]);
 }
 

@@ -1,6 +1,8 @@
 //! What a comparison says of profile slopes and of its interval, in sentences: for the terminal and the page alike.
 
+use super::profile_slope::FitWithSlopes;
 use super::record::{Coefficient, CompareRecord, ProfileRecord};
+use crate::measurement::form::Form;
 use gearwear::report::html::number::{figure, fixed, significant};
 
 /// What the interval of a comparison is for, and what the one of `--history` is for.
@@ -28,9 +30,9 @@ impl CompareRecord {
         let differing: Vec<&ProfileRecord> =
             told.iter().copied().filter(|of| of.profile_slope.as_ref().is_some_and(|slope| slope.differs)).collect();
         if differing.is_empty() {
-            finding.sentences.push(
-                "Before wear it is the scene’s within its error, or its error is unknown: nothing to set.".to_owned(),
-            );
+            finding
+                .sentences
+                .push("Before wear it is the scene’s within its interval, or has none: nothing to set.".to_owned());
             return Some(finding);
         }
         finding
@@ -50,35 +52,56 @@ impl CompareRecord {
             );
             return Some(finding);
         }
-        finding.sentences.push("If manufacture made it so, it belongs into the scene:".to_owned());
-        finding.moved = self.moved();
+        match &self.with_profile_slopes {
+            Some(with) => {
+                finding.sentences.push(verdict(with.likelihood_gain, &self.described(with)));
+                finding.moved = vec![format!("With it {}.", self.moved(with))];
+            }
+            None => {
+                finding.sentences.push("If manufacture made it so, it belongs into the scene:".to_owned());
+                finding.moved = vec!["What that moves is not known.".to_owned()];
+            }
+        }
         Some(finding)
     }
 
+    /// Sentence of the headline, where slopes of manufacture are likely: another k than the fitted one.
+    pub fn slope_headline(&self) -> Option<String> {
+        let with = self.with_profile_slopes.as_ref().filter(|with| with.likelihood_gain > DECISIVE)?;
+        Some(format!(" With a profile slope of manufacture in the scene, which is likely, {}.", self.moved(with)))
+    }
+
     /// What the slopes move.
-    fn moved(&self) -> Vec<String> {
-        let Some(with) = &self.with_profile_slopes else {
-            return vec!["What that moves is unknown until the scene is run and compared with it.".to_owned()];
-        };
+    fn moved(&self, with: &FitWithSlopes) -> String {
         let several = self.profiles.len() > 1;
         let both = self.fit.coefficients.iter().zip(&with.coefficients);
-        let moved = listed(both.map(|(without, with)| moved_coefficient(without, with, several)));
-        let differences = |values: &mut dyn Iterator<Item = f64>| listed(values.map(figure));
-        let described = format!(
-            "with it to {} µm (root mean square), without it to {} µm",
-            differences(&mut with.difference_um.iter().copied()),
-            differences(&mut self.profiles.iter().map(|of| of.figures.difference_um))
-        );
-        let likelier = match with.likelihood_gain {
-            gain if gain > DECISIVE => "the slope is likely of manufacture: set it",
-            gain if gain < -DECISIVE => {
-                "the slope is likely of the measurement (clamping, eccentricity of a tooth): leave it out"
-            }
-            _ => {
-                "the profiles do not tell which of both: a profile before wear, or the mean of teeth around the gear, does"
-            }
-        };
-        vec![format!("With it {moved}."), format!("The run describes the profiles {described}; {likelier}.")]
+        listed(both.map(|(without, with)| moved_coefficient(without, with, several)))
+    }
+
+    /// How far the profiles are from the run with and without the slopes.
+    fn described(&self, with: &FitWithSlopes) -> String {
+        format!(
+            "root mean square of the difference {} µm with it, {} µm without",
+            listed(with.difference_um.iter().copied().map(figure)),
+            listed(self.profiles.iter().map(|of| figure(of.figures.difference_um)))
+        )
+    }
+}
+
+/// What the likelihood of the profiles with the slopes says of where they come from; keys follow.
+fn verdict(likelihood_gain: f64, described: &str) -> String {
+    match likelihood_gain {
+        gain if gain > DECISIVE => format!(
+            "The profiles are described better with it in the scene ({described}): it is likely of manufacture. Set, with the wear that goes with it:"
+        ),
+        gain if gain < -DECISIVE => format!(
+            "The profiles are described worse with it in the scene ({described}): it is likely of the measurement (clamping, eccentricity of a tooth). \
+             Leave the scene as it is. Of manufacture it would be, with the wear that goes with it:"
+        ),
+        _ => format!(
+            "The profiles do not tell ({described}) whether it is of manufacture or of the measurement (clamping, eccentricity of a tooth); a profile before \
+             wear does. Of manufacture, set, with the wear that goes with it:"
+        ),
     }
 }
 
@@ -86,11 +109,24 @@ impl CompareRecord {
 fn treatment(of: &ProfileRecord) -> String {
     match of.profile_slope.as_ref().is_some_and(|slope| slope.removed_with_form) {
         true => format!(
-            "Profile slope f_Hα: the form ({}) takes it away, so that it does not count as wear; but the flank wears where it is loaded, which depends \
-             on it.",
-            of.form
+            "Profile slope f_Hα: the form ({}) takes it away, so that it does not count as wear; but where the flank is loaded, and so the wear, depends \
+             on it.{}",
+            of.form,
+            if of.form == Form::Cubic.name() {
+                " Of heights from the involute --form involute leaves more of the wear."
+            } else {
+                ""
+            }
         ),
         false => "Profile slope f_Hα: without a form (--form none) it counts as wear.".to_owned(),
+    }
+}
+
+impl ProfileRecord {
+    /// Sentence on a slope before wear that is not the scene's.
+    pub fn other_slope(&self) -> Option<String> {
+        let is_other = self.profile_slope.as_ref().is_some_and(|slope| slope.differs);
+        is_other.then(|| slope_of(self)).flatten()
     }
 }
 

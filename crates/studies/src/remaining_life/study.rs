@@ -12,6 +12,7 @@ use super::wear_curve::{SimulatedWear, WearCurve, WearNeeded, WearQuantity, simu
 use super::wear_process::{ExposureMeasurement, FactorPrior, Posterior};
 use super::wear_table::WearKind;
 use crate::compare::question::is_of_both;
+use crate::compare::record::ProfileRecord;
 use crate::compare::run_folder::RunFolder;
 use crate::compare::study::CompareError;
 use crate::measurement::fit::FitStop;
@@ -47,6 +48,7 @@ pub struct LifeQuestion {
 struct Valued<'a> {
     of: &'a WearMeasurement,
     values: ToothValues,
+    warnings: Vec<String>,
 }
 
 /// All that one gear's evaluation needs.
@@ -91,7 +93,9 @@ pub fn run(
         };
         gears = evaluated(question, given, &simulated, &valued);
     }
-    let warnings = folder.version_warning().into_iter().chain(gears.iter().flat_map(warnings)).collect();
+    let of_profiles = valued.iter().flat_map(|of| of.warnings.iter().cloned());
+    let warnings =
+        folder.version_warning().into_iter().chain(of_profiles).chain(gears.iter().flat_map(warnings)).collect();
     Ok(LifeRecord {
         title: folder.summary.title.clone(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -111,15 +115,21 @@ fn valued<'a>(of: &'a WearMeasurement, observer: &dyn Observer) -> Result<Valued
     if of.kind != WearKind::Profile {
         let sigmas = of.values.iter().zip(&of.sigmas).map(|(value, sigma)| sigma.unwrap_or(0.0) / value);
         let values = ToothValues { values: of.values.clone(), relative_sigmas: sigmas.collect() };
-        return Ok(Valued { of, values });
+        return Ok(Valued { of, values, warnings: Vec::new() });
     }
     let mut values = ToothValues { values: Vec::new(), relative_sigmas: Vec::new() };
+    let mut warnings = Vec::new();
     for profile in &of.profiles {
         let refused = |why: String| LifeError::Profile { file: profile.file.clone(), why };
         let record = profile.comparison.carry_out(observer).map_err(|error| match error {
             CompareError::Interrupted => LifeError::Curve(CompareError::Interrupted.into()),
             CompareError::Run(error) => refused(error.to_string()),
         })?;
+        if let Some(slope) = record.profiles.first().and_then(ProfileRecord::other_slope) {
+            let file = &profile.file;
+            warnings
+                .push(format!("{file}: f_Hα before wear is {slope}: gearwear compare RUN {file} says what that moves"));
+        }
         let factor = record.fit.coefficients.first().map(|own| own.factor);
         let factor = factor.filter(|_| record.fit.stopped == FitStop::Converged);
         let factor = factor.ok_or_else(|| refused(record.warnings.join("; ")))?;
@@ -127,7 +137,7 @@ fn valued<'a>(of: &'a WearMeasurement, observer: &dyn Observer) -> Result<Valued
         values.values.push(factor.value * of.revolutions);
         values.relative_sigmas.push(0.5 * (high / low).ln() / HALF_WIDTH_95);
     }
-    Ok(Valued { of, values })
+    Ok(Valued { of, values, warnings })
 }
 
 /// Wear that the run has to come to, and that of the scene's own run, had it gone on for its whole duration.

@@ -72,7 +72,7 @@ fn ver_a_slope_of_manufacture_is_found_and_gives_the_coefficients_back() {
     assert!(with.likelihood_gain > 5.0, "{}", with.likelihood_gain);
     let finding = record.slope_finding().unwrap();
     assert!(finding.keys[0].starts_with("pair.pinion.profile_slope_deviation_um = ") && finding.keys.len() == 2);
-    assert!(finding.moved[1].contains("likely of manufacture"), "{finding:?}");
+    assert!(finding.sentences[2].contains("likely of manufacture"), "{finding:?}");
 }
 
 /// Gears that wore without a slope, measured with one: k is right without it, and the profiles are described worse with it in the scene.
@@ -90,7 +90,7 @@ fn ver_a_slope_of_the_measurement_is_told_from_one_of_manufacture() {
     let with = record.with_profile_slopes.as_ref().unwrap();
     println!("{with:?}");
     assert!(with.likelihood_gain < -5.0, "{with:?}");
-    assert!(record.slope_finding().unwrap().moved[1].contains("likely of the measurement"));
+    assert!(record.slope_finding().unwrap().sentences[2].contains("likely of the measurement"));
 }
 
 /// What waves there are.

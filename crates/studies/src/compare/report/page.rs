@@ -89,8 +89,9 @@ fn answer(record: &CompareRecord) -> String {
     let correlated = fit.coefficient_correlation().map_or_else(String::new, |correlation| {
         format!(" The correlation coefficient of both coefficients is {}.", fixed(correlation, 2))
     });
+    let slope = record.slope_headline().unwrap_or_default();
     format!(
-        "{whose} {fitted} best by {}; {residual} {difference} µm (root mean square).{correlated}",
+        "{whose} {fitted} best by {}; {residual} {difference} µm (root mean square).{correlated}{slope}",
         found.join(" and ")
     )
 }
@@ -174,7 +175,9 @@ fn slopes(record: &CompareRecord, finding: &SlopeFinding) -> Markup {
     html! {
         (table("Profile slope f_Hα before wear", &["scene", "found", "from", "to"], rows))
         p { (finding.sentences.join(" ")) }
-        @for key in &finding.keys { pre { (key) } }
+        @if !finding.keys.is_empty() {
+            p { @for (index, key) in finding.keys.iter().enumerate() { @if index > 0 { br; } code { (key) } } }
+        }
         @if !finding.moved.is_empty() { p { (finding.moved.join(" ")) } }
     }
 }

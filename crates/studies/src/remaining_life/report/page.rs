@@ -150,7 +150,7 @@ fn unit(of: &GearLife) -> &'static str {
 }
 
 fn lives(of: &GearLife) -> Vec<Markup> {
-    let rows = of.updates.iter().filter_map(|update| {
+    let rows = of.updates.iter().skip(1).filter_map(|update| {
         let life = update.life?;
         let [left, total] = match (life.remaining_hours, life.total_hours) {
             (Some(left), Some(total)) => [left, total].map(|of| [of.low, of.median, of.high].map(figure)),
