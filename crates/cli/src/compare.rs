@@ -299,8 +299,10 @@ fn table(record: &CompareRecord) -> String {
     let runs = if fit.runs == 1 { "run" } else { "runs" };
     let mut forms: Vec<&str> = profiles.iter().map(|of| of.form.as_str()).collect();
     forms.dedup();
+    let with_slopes = record.with_profile_slopes.as_ref();
+    let more = with_slopes.map_or_else(String::new, |with| format!(", {} more with the profile slope", with.runs));
     text.push_str(&format!(
-        "\nform {}, {} {runs} of the scene ({} mesh cycles)\n",
+        "\nform {}, {} {runs} of the scene ({} mesh cycles){more}\n",
         forms.join(" and "),
         fit.runs,
         fit.mesh_cycles
