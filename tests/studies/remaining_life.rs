@@ -143,8 +143,13 @@ fn it_finds_coefficient_and_life_of_both_gears_and_writes_everything() {
 /// Without a word the wheel wears with the k of the pinion, since one law is both gears'; with --other-k by a number, or as a comparison with the run fitted it.
 #[test]
 fn the_gear_that_was_not_measured_has_a_coefficient() {
-    let run = shared_run();
     let table = Measured::new("# gear = pinion\nhours,depth_um\n20,2.6\n60,7.0\n");
+    // A copy of the run, for its comparison.
+    let run = table.folder.path().join("run");
+    fs::create_dir(&run).unwrap();
+    for file in ["summary.json", "scene.toml", "profiles.csv", "pinion.csv", "wheel.csv"] {
+        fs::copy(shared_run().join(file), run.join(file)).unwrap();
+    }
     let found = |options: &[&str]| {
         let output = table.compare(&run, options).output().unwrap();
         assert!(output.status.success(), "{output:?}");
@@ -176,8 +181,10 @@ fn the_gear_that_was_not_measured_has_a_coefficient() {
         file
     };
     let [pinion, wheel] = [rows("pinion", 34.2..41.1, 1.2), rows("wheel", 52.0..59.0, 0.6)];
-    let fitted = table.folder.path().join("fitted");
-    gearwear().arg("compare").arg(&run).args([&pinion, &wheel]).arg("--out").arg(&fitted).assert().success();
+    gearwear().arg("compare").arg(&run).args([&pinion, &wheel]).assert().success();
+    let fitted = run.join("compare/pinion-wheel");
+    let (said, _) = found(&[]);
+    assert!(said.contains(&format!("Fitted k of the wheel: --other-k {}", fitted.display())), "{said}");
     let of_wheel = json(&fitted.join("compare.json"))["fit"]["coefficients"][1].clone();
     assert_eq!(of_wheel["gear"], "wheel");
     let k = of_wheel["coefficient_m2_per_N"]["value"].as_f64().unwrap();

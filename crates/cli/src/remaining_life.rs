@@ -8,6 +8,7 @@ use gearwear::report::{self, output_files};
 use gearwear::scene::loaded::SceneText;
 use gearwear_studies::compare::study::CompareError;
 use gearwear_studies::remaining_life::asked::{LifeError, LifeFault, LifeOptions, PreparedLife};
+use gearwear_studies::remaining_life::other_gear::{CoefficientSource, comparisons_in};
 use gearwear_studies::remaining_life::record::{GearLife, INTERVAL_OF_K, Interval, LifeRecord, LifeUpdate};
 use gearwear_studies::remaining_life::wear_curve::WearCurveError;
 
@@ -39,7 +40,7 @@ pub(super) fn run(asked: &LifeQuestion<'_>) -> Result<(), Failure> {
     gearwear_studies::remaining_life::report::write(&record, asked.out)?;
     if !asked.quiet {
         let page = asked.out.join(output_files::PAGE);
-        print(&format!("{}report: {}\n", findings(&record), page.display()))?;
+        print(&format!("{}report: {}\n", findings(&record, asked.run), page.display()))?;
     }
     warn(&record.warnings);
     Ok(())
@@ -73,7 +74,7 @@ impl From<LifeError> for Failure {
 }
 
 /// Findings for the terminal.
-fn findings(record: &LifeRecord) -> String {
+fn findings(record: &LifeRecord, run: &Path) -> String {
     let mut text = format!("{}\n", record.headline());
     for of in &record.gears {
         text.push_str(&of_gear(of));
@@ -81,6 +82,11 @@ fn findings(record: &LifeRecord) -> String {
     text.push_str(&format!("\n{INTERVAL_OF_K}\n"));
     if let Some(other) = &record.other_gear {
         text.push_str(&format!("{}\n", other.in_words(&digits(other.coefficient_m2_per_N))));
+        if other.source != CoefficientSource::Given {
+            for fitted in comparisons_in(run, other.gear, &record.scene_hash) {
+                text.push_str(&format!("Fitted k of the {}: --other-k {}\n", other.gear.name(), fitted.display()));
+            }
+        }
     }
     let runs = if record.runs == 1 { "run" } else { "runs" };
     text.push_str(&format!(

@@ -1,7 +1,8 @@
 //! Wear coefficient of the gear that a table does not have: its wear shares the load, so that the life of the measured gear depends on it.
 
 use std::convert::Infallible;
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use serde::Serialize;
@@ -12,6 +13,8 @@ use gearwear_files::size_limit::SizeLimit;
 
 /// File of a comparison that has its coefficients.
 const COMPARISON: &str = "compare.json";
+/// Folder of a run's comparisons.
+const COMPARISONS: &str = "compare";
 const COMPARISON_SIZE: SizeLimit = SizeLimit { of: "a comparison", megabytes: 256 };
 
 /// Coefficient as it is asked for.
@@ -104,6 +107,17 @@ impl OtherCoefficient {
             own.filter(|_| fit["stopped"] == "converged").and_then(|own| own["coefficient_m2_per_N"]["value"].as_f64());
         k.filter(|k| *k > 0.0).ok_or(OtherCoefficientError::NotFitted { path, gear: gear.name() })
     }
+}
+
+/// Folders of comparisons in that of the `run` of a scene with this hash that fitted the coefficient of `gear`, by their names.
+pub fn comparisons_in(run: &Path, gear: Gear, scene_hash: &str) -> Vec<PathBuf> {
+    let folders = fs::read_dir(run.join(COMPARISONS)).into_iter().flatten().filter_map(Result::ok);
+    let mut fitted: Vec<PathBuf> = folders
+        .map(|entry| entry.path())
+        .filter(|folder| OtherCoefficient::Comparison(folder.clone()).of(gear, scene_hash).is_ok())
+        .collect();
+    fitted.sort();
+    fitted
 }
 
 impl OtherGear {
