@@ -208,6 +208,7 @@ def remaining_life(
     gear: str | None,
     form: str | None,
     shift_within_mm: float,
+    other_k: str | None,
     threads: int,
     progress: _Progress | None,
 ) -> Study: ...

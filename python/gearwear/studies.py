@@ -108,22 +108,25 @@ def remaining_life(
     gear: str | None = None,
     form: str | None = None,
     shift_within_mm: float = 0.1,
+    other_k: float | str | os.PathLike[str] | None = None,
     threads: int | None = None,
     progress: ProgressArgument = False,
 ) -> Study:
     """Wear coefficient and remaining life by wear measured at several times: ``gearwear compare RUN --history TABLE``, whose options these are.
 
     The table is a file, or a dict or data frame of its columns: ``{"hours": …, "mass_loss_g": …}``. ``limit`` is the wear that ends the life,
-    ``{"pinion.peak_wear_um": 50.0}``; ``prior`` a regime such as ``"mild"``, or the ends of a 95 % interval in m²/N.
+    ``{"pinion.peak_wear_um": 50.0}``; ``prior`` a regime such as ``"mild"``, or the ends of a 95 % interval in m²/N; ``other_k`` the coefficient of the gear
+    that the table does not have, in m²/N, or the folder of a comparison that fitted it.
 
-    ``summary["gears"]`` has each measured gear: ``["updates"]`` is what was known before any measurement, and after each.
+    ``summary["gears"]`` has each measured gear: ``["updates"]`` is what was known before any measurement, and after each, with what is left and the life in all.
     """
     count = thread_count(threads)
     limits = [f"{figure}={float(value)!r}" for figure, value in (limit or {}).items()]
     known = prior if prior is None or isinstance(prior, str) else ":".join(repr(float(end)) for end in prior)
     with ExitStack() as kept, Watched(progress) as told:
         folder = _folder(run, kept)
-        options = (limits, known, gear, form, float(shift_within_mm))
+        other = None if other_k is None else os.fspath(other_k) if isinstance(other_k, (str, os.PathLike)) else repr(float(other_k))
+        options = (limits, known, gear, form, float(shift_within_mm), other)
         return Study(_native.remaining_life(folder, named_table(table), *options, count, told))
 
 

@@ -74,11 +74,12 @@ pub(crate) fn remaining_life(
     gear: Option<String>,
     form: Option<String>,
     shift_within_mm: f64,
+    other_k: Option<String>,
     threads: usize,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<Study> {
     let table = py.detach(|| text_of(table)).map_err(|error| errors::of_loading(py, &error))?;
-    let question = LifeQuestion { gear, limits, prior, form, shift_within_mm };
+    let question = LifeQuestion { gear, limits, prior, form, shift_within_mm, other_k };
     let work =
         move |observer: &dyn Observer| gearwear_validation::found::remaining_life(&run, &table, &question, observer);
     Study::of(py, watched(py, threads, progress, work)?)

@@ -131,6 +131,11 @@ def test_remaining_life(run: gearwear.Run, tmp_path: Path) -> None:
     assert k["low"] < 1.3 * pinion["coefficient_of_run_m2_per_N"] < k["high"]
     left = last["life"]["remaining_revolutions"]
     assert left["low"] < 0.4 * end < left["high"] and left["median"] == pytest.approx(0.4 * end, rel=0.25)
+    total = last["life"]["total_revolutions"]
+    assert total["median"] == pytest.approx(0.6 * end + left["median"]) and total["low"] < end < total["high"]
+    assert study.summary["other_gear"]["gear"] == "wheel"
+    wheel = gearwear.remaining_life(run, table, other_k=5e-18, **options).summary["other_gear"]
+    assert wheel["source"] == "given" and wheel["coefficient_m2_per_N"] == pytest.approx(5e-18)
     study.write(tmp_path / "out")
     assert json.loads((tmp_path / "out" / "remaining_life.json").read_text(encoding="utf-8")) == study.summary
     assert gearwear.Study.read(tmp_path / "out").summary == study.summary

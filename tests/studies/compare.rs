@@ -116,6 +116,50 @@ fn it_fits_and_writes_everything() {
     assert!(page.contains("Measured and simulated profile") && page.contains("95 % interval"));
 }
 
+/// A slope in roll length of the profile of a run with f_Hα 0: told on the terminal, in the record and on the page, with the key it belongs to.
+#[test]
+fn it_tells_the_slope_before_wear() {
+    let run = shared_run();
+    let radii =
+        column(&run.join("pinion.csv"), "radius_mm").into_iter().zip(column(&run.join("pinion.csv"), "wear_um"));
+    // Base radius of 16 teeth of module 4.5 mm at 20°; roll lengths of the start of active profile, 34.1233 mm, and of the tip, 41.23 mm.
+    let base_mm = 36.0 * 20f64.to_radians().cos();
+    let roll = |radius: f64| (radius * radius - base_mm * base_mm).max(0.0).sqrt();
+    let (mut sign, f_h_um) = (1.0, 4.0);
+    let slope = f_h_um / (roll(41.23) - roll(34.1233));
+    let rows: String = radii
+        .filter(|(r, _)| (34.2..41.1).contains(r))
+        .map(|(r, wear)| {
+            sign = -sign;
+            format!("{r},{}\n", slope * roll(r) - 1.2 * wear + 0.1 * sign)
+        })
+        .collect();
+    let trace = Trace::new(format!("# gear = pinion\nradius_mm,height_um\n{rows}"));
+    let output = trace.compare(&run, &["--form", "involute"]).output().unwrap();
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    let key = "pair.pinion.profile_slope_deviation_um";
+    for words in [
+        "as measured, total deviation F_α",
+        "slope deviation f_Hα",
+        "before wear, beside the scene’s flank",
+        "the form (involute) takes it away",
+        "This interval is of the fit",
+        key,
+        "With it k is",
+    ] {
+        assert!(said.contains(words), "no {words:?} in {said}");
+    }
+    let record = json(&trace.out().join("compare.json"));
+    let told = &record["profiles"][0]["profile_slope"];
+    let found = told["before_wear_um"]["value"].as_f64().unwrap();
+    assert!((found - f_h_um).abs() < 0.4, "{told}");
+    assert_eq!((&told["key"], &told["differs"], &told["removed_with_form"]), (&key.into(), &true.into(), &true.into()));
+    assert!(record["with_profile_slopes"]["profile_slopes_um"][key].as_f64().unwrap() > 2.0, "{record}");
+    let page = fs::read_to_string(trace.out().join("report.html")).unwrap();
+    assert!(page.contains("Profile slope f_Hα before wear") && page.contains(key), "not on the page");
+}
+
 /// The same bits again, on any number of threads, and no run of the scene where nothing is fitted.
 #[test]
 fn the_same_again_and_nothing_run_where_nothing_is_fitted() {

@@ -90,6 +90,9 @@ fn it_finds_coefficient_and_life_of_both_gears_and_writes_everything() {
         "pinion: k of the run",
         "hours left until pinion.peak_wear_um",
         "wheel: k of",
+        "hours, 95 % ",
+        "life in all: ",
+        "The interval of k is of the forecast",
         "report.html",
         "2 runs of the scene",
     ] {
@@ -107,6 +110,16 @@ fn it_finds_coefficient_and_life_of_both_gears_and_writes_everything() {
     };
     within(&last["coefficient_m2_per_N"], 1.4e-17, 0.05);
     within(&last["life"]["remaining_hours"], 127.75 / 1.4 - 60.0, 0.15);
+    within(&last["life"]["total_hours"], 127.75 / 1.4, 0.06);
+    for (left, total, at) in
+        [("remaining_hours", "total_hours", 60.0), ("remaining_revolutions", "total_revolutions", 5.4e5)]
+    {
+        for end in ["low", "median", "high"] {
+            let [left, total] = [left, total].map(|key| last["life"][key][end].as_f64().unwrap());
+            assert!((total - left - at).abs() < 1e-9 * total, "{total} {left}");
+        }
+    }
+    assert!(record["other_gear"].is_null(), "both were measured");
     within(&wheel["updates"][2]["coefficient_m2_per_N"], 1e-17, 0.05);
     assert_eq!(last["later"].as_array().map(Vec::len), Some(0));
     assert_eq!(pinion["updates"][0]["later"].as_array().map(Vec::len), Some(2));
@@ -117,9 +130,83 @@ fn it_finds_coefficient_and_life_of_both_gears_and_writes_everything() {
     let columns = json(&table.out().join("columns.json"));
     assert!(columns["files"]["predictions.csv"]["below_found"].as_str().unwrap().contains("probability"));
     let page = fs::read_to_string(table.out().join("report.html")).unwrap();
-    for words in ["Wear of the pinion, measured and to come", "Remaining life of the wheel", "limit passed"] {
+    for words in [
+        "Wear of the pinion, measured and to come",
+        "Remaining life of the wheel",
+        "limit passed",
+        "is its life in all",
+    ] {
         assert!(page.contains(words), "no {words:?} on the page");
     }
+}
+
+/// Without a word the wheel wears with the k of the pinion, since one law is both gears'; with --other-k by a number, or as a comparison with the run fitted it.
+#[test]
+fn the_gear_that_was_not_measured_has_a_coefficient() {
+    let table = Measured::new("# gear = pinion\nhours,depth_um\n20,2.6\n60,7.0\n");
+    // A copy of the run, for its comparison.
+    let run = table.folder.path().join("run");
+    fs::create_dir(&run).unwrap();
+    for file in ["summary.json", "scene.toml", "profiles.csv", "pinion.csv", "wheel.csv"] {
+        fs::copy(shared_run().join(file), run.join(file)).unwrap();
+    }
+    let found = |options: &[&str]| {
+        let output = table.compare(&run, options).output().unwrap();
+        assert!(output.status.success(), "{output:?}");
+        let record = json(&table.out().join("remaining_life.json"));
+        (String::from_utf8(output.stdout).unwrap(), record)
+    };
+    let (said, record) = found(&[]);
+    assert!(
+        said.contains("The wheel, not measured, wears with the k of the pinion") && said.contains("--other-k"),
+        "{said}"
+    );
+    let k = &record["gears"][0]["updates"][2]["coefficient_m2_per_N"]["median"];
+    assert_eq!(
+        (&record["other_gear"]["source"], &record["other_gear"]["coefficient_m2_per_N"]),
+        (&"measured-gear".into(), k)
+    );
+
+    let text = fs::read_to_string(run.join("wheel.csv")).unwrap();
+    let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    let [radius, wear] = ["radius_mm", "wear_um"].map(|name| names.iter().position(|n| *n == name).unwrap());
+    let rows = |gear: &str, radii: std::ops::Range<f64>, factor: f64| {
+        let text = fs::read_to_string(run.join(format!("{gear}.csv"))).unwrap();
+        let rows = text.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+        let inside = rows.filter(|row| radii.contains(&row[radius].parse().unwrap()));
+        let points: String =
+            inside.map(|row| format!("{},{}\n", row[radius], factor * row[wear].parse::<f64>().unwrap())).collect();
+        let file = table.folder.path().join(format!("{gear}.csv"));
+        fs::write(&file, format!("# gear = {gear}\nradius_mm,wear_um\n{points}")).unwrap();
+        file
+    };
+    let [pinion, wheel] = [rows("pinion", 34.2..41.1, 1.2), rows("wheel", 52.0..59.0, 0.6)];
+    gearwear().arg("compare").arg(&run).args([&pinion, &wheel]).assert().success();
+    let fitted = run.join("compare/pinion-wheel");
+    let (said, _) = found(&[]);
+    assert!(said.contains(&format!("Fitted k of the wheel: --other-k {}", fitted.display())), "{said}");
+    let of_wheel = json(&fitted.join("compare.json"))["fit"]["coefficients"][1].clone();
+    assert_eq!(of_wheel["gear"], "wheel");
+    let k = of_wheel["coefficient_m2_per_N"]["value"].as_f64().unwrap();
+    assert!(k < 0.8e-17, "{k}");
+    let (said, by_folder) = found(&["--other-k", fitted.to_str().unwrap()]);
+    let (_, by_number) = found(&["--other-k", &format!("{k:e}")]);
+    assert!(said.contains("as --other-k says"), "{said}");
+    assert_eq!(by_folder["other_gear"]["source"], "given");
+    let of = |record: &serde_json::Value| record["other_gear"]["coefficient_m2_per_N"].as_f64().unwrap();
+    assert!((of(&by_folder) / k - 1.0).abs() < 1e-12 && (of(&by_number) / k - 1.0).abs() < 1e-12);
+    // Less wear of the wheel leaves the pinion another pressure, and so another coefficient.
+    let median = |record: &serde_json::Value| {
+        record["gears"][0]["updates"][2]["coefficient_m2_per_N"]["median"].as_f64().unwrap()
+    };
+    let moved = median(&by_folder) / median(&record) - 1.0;
+    assert!(moved.abs() > 1e-3 && moved.abs() < 0.2, "{moved}");
+
+    let both = "# uncertain\nhours,gear,depth_um\n20,pinion,2.6\n20,wheel,2.0\n";
+    Measured::new(both).refused(&run, &["--other-k", "1e-17"], &["--other-k", "both gears"]);
+    let one = || Measured::new("# gear = pinion\nhours,depth_um\n20,2.6\n");
+    one().refused(&run, &["--other-k", "0"], &["--other-k", "found 0"]);
+    one().refused(&run, &["--other-k", "/nowhere"], &["--other-k", "/nowhere/compare.json"]);
 }
 
 /// The same bits again, on any number of threads.

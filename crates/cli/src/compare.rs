@@ -13,13 +13,18 @@ use gearwear::scene::loaded::SceneText;
 use gearwear_bodies::gear::Gear;
 use gearwear_physics::assessment::RunError;
 use gearwear_studies::compare::asked::{CompareFault, PreparedComparison};
+use gearwear_studies::compare::in_words::INTERVAL;
 use gearwear_studies::compare::question::{CompareOptions, FitKind};
-use gearwear_studies::compare::record::{CoefficientCorrelation, CompareFigures, CompareRecord, FittedValue};
+use gearwear_studies::compare::record::{
+    CoefficientCorrelation, CompareFigures, CompareRecord, FittedValue, ProfileRecord,
+};
 use gearwear_studies::compare::study::CompareError;
+use gearwear_studies::compare::unknown::Unknown;
 use gearwear_studies::measurement::fit::FitStop;
 use gearwear_studies::measurement::form::Form;
 use gearwear_studies::remaining_life::asked::LifeOptions;
 use gearwear_studies::remaining_life::limit::WearLimit;
+use gearwear_studies::remaining_life::other_gear::OtherCoefficient;
 use gearwear_studies::remaining_life::regime::CoefficientPrior;
 
 use super::failure::{Failure, InputError};
@@ -69,11 +74,16 @@ pub(super) struct CompareArgs {
     /// 95 % interval LOW:HIGH in m²/N; default: 100 times less to 100 times more than in the run
     #[arg(long, value_name = "REGIME", requires = "history")]
     prior: Option<CoefficientPrior>,
+    /// With --history: k of the gear that the table does not have, a number in m²/N or the folder of a comparison with RUN that
+    /// fitted it (RUN/compare/…); default: the k of the measured gear where the scene has one law for both, else that of the scene
+    #[arg(long, value_name = "K|DIR", requires = "history")]
+    other_k: Option<OtherCoefficient>,
     /// The gear that was measured, where the file does not say
     #[arg(long, value_name = "GEAR", value_parser = gear)]
     gear: Option<Gear>,
     /// The form removed from the measured and the simulated profile alike; default: cubic of heights, none of
-    /// wear depths
+    /// wear depths. With a form no slope counts as wear; what the flank had before wear is told beside the scene's flank, modifications
+    /// and profile_slope_deviation_um in it
     #[arg(long, value_enum)]
     form: Option<Form>,
     /// Coefficients to fit; default: k, and each with two profiles
@@ -136,6 +146,7 @@ impl CompareArgs {
             form: self.form,
             shift_within_mm: self.shift_within,
             traces: self.traces(),
+            other_k: self.other_k.clone(),
         };
         LifeQuestion { run: &self.run, table, options, out, threads: self.threads, quiet: self.quiet }
     }
@@ -183,6 +194,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<(), Failure> {
         fit: args.fit,
         shift_within_mm: args.shift_within,
         traces: args.traces(),
+        tries_slopes: true,
     };
     let prepared = PreparedComparison::open(&args.run, &texts, &asked)?;
     let out = args.out();
@@ -264,7 +276,11 @@ fn table(record: &CompareRecord) -> String {
     if let Some(correlation) = &fit.correlation {
         text.push_str(&correlations(correlation));
     }
-    text.push_str(&format!("\n  {}\n\n", fit.how));
+    text.push_str(&format!("\n  {}\n", fit.how));
+    if fit.coefficients.iter().any(|own| own.factor.low.is_some()) {
+        text.push_str(&format!("  {INTERVAL}\n"));
+    }
+    text.push('\n');
     if several {
         text.push_str(&line("", &profiles.iter().map(|of| of.gear.name().to_owned()).collect::<Vec<_>>()));
     }
@@ -278,11 +294,15 @@ fn table(record: &CompareRecord) -> String {
     for (name, value) in figures {
         text.push_str(&line(name, &profiles.iter().map(|of| or_dash(value(&of.figures))).collect::<Vec<_>>()));
     }
+    text.push_str(&deviations(profiles));
+    text.push_str(&slopes(record));
     let runs = if fit.runs == 1 { "run" } else { "runs" };
     let mut forms: Vec<&str> = profiles.iter().map(|of| of.form.as_str()).collect();
     forms.dedup();
+    let with_slopes = record.with_profile_slopes.as_ref();
+    let more = with_slopes.map_or_else(String::new, |with| format!(", {} more with the profile slope", with.runs));
     text.push_str(&format!(
-        "\nform {}, {} {runs} of the scene ({} mesh cycles)\n",
+        "\nform {}, {} {runs} of the scene ({} mesh cycles){more}\n",
         forms.join(" and "),
         fit.runs,
         fit.mesh_cycles
@@ -290,12 +310,54 @@ fn table(record: &CompareRecord) -> String {
     text
 }
 
-/// The correlation coefficient of each pair of fitted values, a line for each.
+/// One of the deviations of a profile, where it has it.
+type Deviation = fn(&ProfileRecord) -> Option<f64>;
+
+/// Deviations of the profiles after ISO 1328-1, as measured and before wear.
+fn deviations(profiles: &[ProfileRecord]) -> String {
+    let rows: [(&str, Deviation); 9] = [
+        ("as measured, total deviation F_α", |of| Some(of.deviations?.measured?.total_um)),
+        ("  form deviation f_fα", |of| Some(of.deviations?.measured?.form_um)),
+        ("  slope deviation f_Hα", |of| Some(of.deviations?.measured?.slope_um)),
+        ("before wear, beside the scene’s flank, F_α", |of| Some(of.deviations?.before_wear?.total_um)),
+        ("  form deviation f_fα", |of| Some(of.deviations?.before_wear?.form_um)),
+        ("  slope deviation f_Hα", |of| Some(of.deviations?.before_wear?.slope_um)),
+        ("f_Hα before wear, that of the scene in it", |of| Some(of.profile_slope.as_ref()?.before_wear_um.value)),
+        ("  95 % from", |of| of.profile_slope.as_ref()?.before_wear_um.low),
+        ("  to", |of| of.profile_slope.as_ref()?.before_wear_um.high),
+    ];
+    let known = rows.into_iter().filter(|(_, value)| profiles.iter().any(|of| value(of).is_some()));
+    let rows: String = known
+        .map(|(name, value)| {
+            let cells = profiles.iter().map(|of| value(of).map_or_else(|| "–".to_owned(), |um| format!("{um:.2}")));
+            line(name, &cells.collect::<Vec<_>>())
+        })
+        .collect();
+    if rows.is_empty() { rows } else { format!("\n  deviations after ISO 1328-1, µm\n{rows}") }
+}
+
+/// What was done with the slope of the profiles, and what to set.
+fn slopes(record: &CompareRecord) -> String {
+    let Some(finding) = record.slope_finding() else { return String::new() };
+    let sentences = finding.sentences.iter().map(|sentence| format!("  {sentence}\n"));
+    let keys = finding.keys.iter().map(|key| format!("    {key}\n"));
+    let moved = finding.moved.iter().map(|sentence| format!("  {sentence}\n"));
+    ["\n".to_owned()].into_iter().chain(sentences).chain(keys).chain(moved).collect()
+}
+
+/// Least correlation coefficient that the terminal shows; `compare.json` and the page have all.
+const SHOWN_CORRELATION: f64 = 0.3;
+
+/// The correlation coefficient of each pair of fitted values that is of the coefficients or matters, a line for each.
 fn correlations(correlation: &CoefficientCorrelation) -> String {
     let (parameters, matrix) = (&correlation.parameters, &correlation.matrix);
     let mut text = String::new();
     for i in 0..parameters.len() {
         for j in i + 1..parameters.len() {
+            let is_of_shift = [i, j].into_iter().any(|index| matches!(parameters[index], Unknown::Shift(_)));
+            if is_of_shift && matrix[i][j].abs() < SHOWN_CORRELATION {
+                continue;
+            }
             let pair = format!("{} and {}", parameters[i].key(), parameters[j].key());
             text.push_str(&format!("  {:44}{:>12.3}\n", format!("correlation of {pair}"), matrix[i][j]));
         }

@@ -8,7 +8,8 @@ use gearwear::report::{self, output_files};
 use gearwear::scene::loaded::SceneText;
 use gearwear_studies::compare::study::CompareError;
 use gearwear_studies::remaining_life::asked::{LifeError, LifeFault, LifeOptions, PreparedLife};
-use gearwear_studies::remaining_life::record::{GearLife, LifeRecord, LifeUpdate};
+use gearwear_studies::remaining_life::other_gear::{CoefficientSource, comparisons_in};
+use gearwear_studies::remaining_life::record::{GearLife, INTERVAL_OF_K, Interval, LifeRecord, LifeUpdate};
 use gearwear_studies::remaining_life::wear_curve::WearCurveError;
 
 use super::failure::{Failure, InputError};
@@ -39,7 +40,7 @@ pub(super) fn run(asked: &LifeQuestion<'_>) -> Result<(), Failure> {
     gearwear_studies::remaining_life::report::write(&record, asked.out)?;
     if !asked.quiet {
         let page = asked.out.join(output_files::PAGE);
-        print(&format!("{}report: {}\n", findings(&record), page.display()))?;
+        print(&format!("{}report: {}\n", findings(&record, asked.run), page.display()))?;
     }
     warn(&record.warnings);
     Ok(())
@@ -73,10 +74,19 @@ impl From<LifeError> for Failure {
 }
 
 /// Findings for the terminal.
-fn findings(record: &LifeRecord) -> String {
+fn findings(record: &LifeRecord, run: &Path) -> String {
     let mut text = format!("{}\n", record.headline());
     for of in &record.gears {
         text.push_str(&of_gear(of));
+    }
+    text.push_str(&format!("\n{INTERVAL_OF_K}\n"));
+    if let Some(other) = &record.other_gear {
+        text.push_str(&format!("{}\n", other.in_words(&digits(other.coefficient_m2_per_N))));
+        if other.source != CoefficientSource::Given {
+            for fitted in comparisons_in(run, other.gear, &record.scene_hash) {
+                text.push_str(&format!("Fitted k of the {}: --other-k {}\n", other.gear.name(), fitted.display()));
+            }
+        }
     }
     let runs = if record.runs == 1 { "run" } else { "runs" };
     text.push_str(&format!(
@@ -96,19 +106,37 @@ fn of_gear(of: &GearLife) -> String {
     );
     let has_speed = of.measurements.iter().all(|one| one.hours.is_some());
     let time = if has_speed { "hours" } else { "revolutions" };
-    let mut heads = vec!["after", time, "k, m²/N", "from", "to"];
+    let mut heads = vec!["after", time, "k, m²/N", "95 % from", "to"];
     if let Some(limit) = &of.limit {
         text.push_str(&format!("{time} left until {} = {}\n", limit.figure, digits(limit.value)));
-        heads.extend(["left", "from", "to"]);
+        heads.extend(["left", "95 % from", "to"]);
     }
     text.push_str(&line(&heads.into_iter().map(str::to_owned).collect::<Vec<_>>()));
     for update in of.updates.iter().skip(1) {
         text.push_str(&line(&cells(update)));
     }
-    if let Some(life) = of.updates.last().and_then(|last| last.life).filter(|life| life.passed >= 0.025) {
+    let Some((last, life)) = of.updates.last().and_then(|last| Some((last, last.life?))) else { return text };
+    let (at, left, total) = match (last.hours, life.remaining_hours, life.total_hours) {
+        (Some(at), Some(left), Some(total)) => (at, left, total),
+        _ => (last.revolutions, life.remaining_revolutions, life.total_revolutions),
+    };
+    text.push_str(&format!(
+        "  life in all: {} {time}, 95 % {}: {} until the last measurement and {} left, 95 % {}\n",
+        digits(total.median),
+        from_to(total),
+        digits(at),
+        digits(left.median),
+        from_to(left)
+    ));
+    if life.passed >= 0.025 {
         text.push_str(&format!("  the limit has been passed with a probability of {:.0} %\n", 100.0 * life.passed));
     }
     text
+}
+
+/// "152.4 to 255.4".
+fn from_to(interval: Interval) -> String {
+    format!("{} to {}", digits(interval.low), digits(interval.high))
 }
 
 fn cells(update: &LifeUpdate) -> Vec<String> {

@@ -26,6 +26,7 @@ use gearwear_studies::compare::study::CompareError;
 use gearwear_studies::improve::asked::ImproveError;
 use gearwear_studies::remaining_life::asked::{LifeError, LifeFault, LifeOptions, PreparedLife};
 use gearwear_studies::remaining_life::limit::LimitError;
+use gearwear_studies::remaining_life::other_gear::OtherCoefficient;
 use gearwear_studies::remaining_life::regime::PriorError;
 use gearwear_studies::remaining_life::wear_curve::WearCurveError;
 use gearwear_studies::variants::finished_run::FinishedRun;
@@ -213,6 +214,7 @@ pub fn compare(
             width_mm: question.width_mm,
             by: ChosenBy::Options,
         },
+        tries_slopes: true,
     };
     if measured.is_empty() {
         return Err(StudyFault::NoProfile.into());
@@ -247,6 +249,8 @@ pub struct LifeQuestion {
     pub form: Option<String>,
     /// How far a profile may be shifted along the flank, mm.
     pub shift_within_mm: f64,
+    /// Coefficient of the gear that the table does not have, in m²/N, or the folder of a comparison that fitted it.
+    pub other_k: Option<String>,
 }
 
 /// Wear coefficient and remaining life by the measurements of `table`, beside which the files of profiles lie, and the finished run in the folder `run`, as
@@ -271,6 +275,7 @@ pub fn remaining_life(
         form: question.form.as_deref().map(|name| one_of("form", name)).transpose()?,
         shift_within_mm: question.shift_within_mm,
         traces: TraceChoice::default(),
+        other_k: question.other_k.as_deref().map(OtherCoefficient::named),
     };
     let prepared = PreparedLife::open(run, table, &asked).map_err(StudyFault::Life)?;
     let record = prepared.carry_out(observer).map_err(StudyFault::Lives)?;

@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use super::question::{CompareOptions, ComparisonQuestion, Refused};
+use super::question::{CompareOptions, ComparisonQuestion, FittedGears, Refused, scale_coefficients};
 use super::record::CompareRecord;
 use super::run_folder::{RunFolder, RunFolderError};
 use super::study::{self, CompareError};
 use gearwear::measured_flank::file::{self, MeasuredFile};
 use gearwear::scene::loaded::{LoadError, LoadedScene, SceneText};
-use gearwear_bodies::gear::GearPair;
 use gearwear_bodies::gear::error::PairError;
+use gearwear_bodies::gear::{Gear, GearPair};
 use gearwear_physics::observer::Observer;
 
 /// Why profiles cannot be compared.
@@ -58,6 +58,15 @@ impl PreparedComparison {
         let pair = GearPair::new(&resolved.scene.pair)?;
         let question = ComparisonQuestion::new(asked, files, &folder, resolved, &pair)?;
         Ok(Self { folder, scene, question })
+    }
+
+    /// The same with `factor` times the wear coefficients of `gear`, which is not measured: those of its mate are fitted alone.
+    pub fn with_mate(mut self, gear: Gear, factor: f64) -> Self {
+        scale_coefficients(&mut self.scene.resolved.scene, gear, factor);
+        self.question.fitted = FittedGears::Alone(gear.mate());
+        // The wear that the run kept is that of its own coefficients.
+        self.question.profiles.iter_mut().for_each(|of| of.as_run_um = None);
+        self
     }
 
     pub fn carry_out(&self, observer: &dyn Observer) -> Result<CompareRecord, CompareError> {

@@ -15,10 +15,14 @@
 //! | `comparison` | a measured profile beside simulated ones |
 //! | [`unknown`] | what is fitted, by name |
 //! | `search` | the parameters that fit best |
+//! | [`profile_slope`] | the slope before wear, and the fit with it in the scene |
+//! | [`in_words`] | its findings on slope and interval in sentences |
 //! | [`study`] | all of it, in order |
 
 pub mod asked;
 mod comparison;
+pub mod in_words;
+pub mod profile_slope;
 pub mod question;
 pub mod record;
 pub mod report;

@@ -93,6 +93,8 @@ pub struct CompareOptions {
     pub shift_within_mm: f64,
     /// Traces of a file with several.
     pub traces: TraceChoice,
+    /// Whether to fit again with the profile slopes that are found in the scene.
+    pub tries_slopes: bool,
 }
 
 /// Inconsistent inputs.
@@ -182,6 +184,8 @@ pub struct ComparisonQuestion {
     pub fitted: FittedGears,
     /// How far a profile may be shifted along the flank, mm.
     pub shift_within_mm: f64,
+    /// Whether to fit again with the profile slopes that are found in the scene.
+    pub tries_slopes: bool,
 }
 
 impl ComparisonQuestion {
@@ -221,7 +225,8 @@ impl ComparisonQuestion {
             [one] if !is_of_both(scene) => FittedGears::Alone(one.profile.gear),
             _ => FittedGears::Together,
         };
-        Ok(Self { profiles, fit, fitted, shift_within_mm: asked.shift_within_mm })
+        let (shift_within_mm, tries_slopes) = (asked.shift_within_mm, asked.tries_slopes);
+        Ok(Self { profiles, fit, fitted, shift_within_mm, tries_slopes })
     }
 
     /// The shift of the profile of `gear` among the unknowns.
@@ -322,6 +327,15 @@ fn check_fit(fit: FitKind, gear: Gear, profiles: usize, scene: &Scene) -> Result
         return Err(QuestionError::DoesNotWear { gear: gear.name() });
     }
     Ok(())
+}
+
+/// Multiplies the wear coefficients of `gear` in all phases.
+pub(crate) fn scale_coefficients(scene: &mut Scene, gear: Gear, factor: f64) {
+    scene.wear[gear].coefficient_mm2_per_n *= factor;
+    for phase in &mut scene.operation.phases {
+        let own = &mut phase.coefficient_mm2_per_n[gear];
+        *own = own.map(|own| own * factor);
+    }
 }
 
 /// Whether both gears wear by one law in all phases.

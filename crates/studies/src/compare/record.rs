@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 
+use super::profile_slope::{FitWithSlopes, ProfileSlope};
 use super::unknown::Unknown;
 use crate::measurement::deviations::Deviations;
 use crate::measurement::fit::FitStop;
@@ -18,6 +19,8 @@ pub struct CompareRecord {
     /// First 16 hexadecimal digits of the SHA-256 of the scene of the run.
     pub scene_hash: String,
     pub fit: FitRecord,
+    /// The fit with the slopes of `profiles` before wear in the scene, where they differ from the scene's.
+    pub with_profile_slopes: Option<FitWithSlopes>,
     /// One, or that of the pinion and that of the wheel.
     pub profiles: Vec<ProfileRecord>,
     pub warnings: Vec<String>,
@@ -59,6 +62,8 @@ pub struct ProfileRecord {
     pub waves: Vec<Wave>,
     /// Deviations after ISO 1328-1; `None` where the heights are not from the involute.
     pub deviations: Option<ProfileDeviations>,
+    /// f_Hα before wear; `None` where it cannot be told.
+    pub profile_slope: Option<ProfileSlope>,
     /// Those of the leads of the same flanks.
     pub leads: Vec<LeadDeviations>,
     /// Radii of the points A–E on the gear.
@@ -73,7 +78,7 @@ pub struct ProfileRecord {
 pub struct ProfileDeviations {
     /// Of the profile as measured.
     pub measured: Option<Deviations>,
-    /// Of the profile as measured, with the simulated wear after the fit put back: before wear.
+    /// Of the profile as measured, with the simulated wear after the fit put back: before wear, beside the scene's flank with its modifications.
     pub before_wear: Option<Deviations>,
     /// Of the simulated wear alone, after the fit.
     pub wear: Option<Deviations>,
@@ -219,6 +224,7 @@ impl Serialize for CompareRecord {
             path_point_radius_mm: PathPoints,
             warnings: &'a [String],
             profiles: &'a [ProfileRecord],
+            with_profile_slopes: Option<&'a FitWithSlopes>,
         }
         let first = &self.profiles[0];
         Written {
@@ -236,6 +242,7 @@ impl Serialize for CompareRecord {
             path_point_radius_mm: first.path_point_radius_mm,
             warnings: &self.warnings,
             profiles: &self.profiles,
+            with_profile_slopes: self.with_profile_slopes.as_ref(),
         }
         .serialize(serializer)
     }

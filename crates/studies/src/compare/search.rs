@@ -34,6 +34,8 @@ const LOG_WIDTH: f64 = 0.02;
 const SHIFT_WIDTH_MM: f64 = 5e-3;
 /// Step, in standard deviations of a parameter, below which the search has converged.
 const NEGLIGIBLE: f64 = 0.02;
+/// The same of a fit that is made again.
+const NEGLIGIBLE_AGAIN: f64 = 0.1;
 /// Step, in standard deviations, that is accepted where the scatter of exact runs prevents a shorter one.
 const TOLERABLE: f64 = 0.5;
 /// Step, in widths of the finite differences, below which the search has converged.
@@ -42,7 +44,9 @@ const SMALL_STEP: f64 = 5e-3;
 const MOST_EXACT_RUNS: usize = 6;
 /// Least scatter of a profile for its weight, µm.
 const LEAST_SCATTER_UM: f64 = 1e-6;
+
 /// Result of the search.
+#[derive(Clone)]
 pub(super) struct FittedCoefficients {
     pub unknowns: Vec<Unknown>,
     parameters: Vec<f64>,
@@ -57,6 +61,11 @@ pub(super) struct FittedCoefficients {
     pub waves: Vec<Vec<Wave>>,
     /// Last step in standard deviations, where it is above the limit of convergence.
     pub unsettled: Option<f64>,
+    /// Derivatives of the residuals, parameter by parameter.
+    jacobian: Vec<Vec<f64>>,
+    bounds: Vec<Parameter>,
+    weights: Vec<f64>,
+    removals: Vec<FormRemoval>,
 }
 
 impl FittedCoefficients {
@@ -143,13 +152,38 @@ impl<'a> CoefficientSearch<'a> {
             stop: fitted.stop,
             unsettled: None,
             parameters: fitted.parameters,
+            jacobian: fitted.jacobian,
+            bounds: parameters,
             unknowns: self.unknowns.clone(),
             waves: self.waves.clone(),
+            weights: self.weights.clone(),
+            removals: self.removals.clone(),
         };
         if needs_runs {
-            self.settle(&mut found, &parameters, fitted.jacobian, simulations)?;
+            self.settle(&mut found, NEGLIGIBLE, simulations)?;
         }
         // A value at the end of its range has no interval.
+        found.uncertainty = found.uncertainty.filter(|_| found.stop == FitStop::Converged);
+        Ok(found)
+    }
+
+    /// The same fit with runs of another scene, from what was found on: by exact runs alone, with the weights and waves that were found.
+    pub(super) fn again(
+        question: &'a ComparisonQuestion,
+        comparisons: &'a [Comparison<'a>],
+        before: &FittedCoefficients,
+        simulations: &mut Simulations<'_>,
+    ) -> Result<FittedCoefficients, CompareError> {
+        let search = Self {
+            question,
+            comparisons,
+            unknowns: before.unknowns.clone(),
+            weights: before.weights.clone(),
+            removals: before.removals.clone(),
+            waves: before.waves.clone(),
+        };
+        let mut found = FittedCoefficients { unsettled: None, ..before.clone() };
+        search.settle(&mut found, NEGLIGIBLE_AGAIN, simulations)?;
         found.uncertainty = found.uncertainty.filter(|_| found.stop == FitStop::Converged);
         Ok(found)
     }
@@ -234,13 +268,15 @@ impl<'a> CoefficientSearch<'a> {
     }
 
     /// Gauss–Newton steps on the residuals of exact runs until convergence.
+    /// A step of less than `negligible` standard deviations is the last.
     fn settle(
         &self,
         found: &mut FittedCoefficients,
-        parameters: &[Parameter],
-        mut jacobian: Vec<Vec<f64>>,
+        negligible: f64,
         simulations: &mut Simulations<'_>,
     ) -> Result<(), CompareError> {
+        let parameters = found.bounds.clone();
+        let mut jacobian = std::mem::take(&mut found.jacobian);
         let mut theta = found.parameters.clone();
         let converges = found.stop == FitStop::Converged;
         let parts = self.parts();
@@ -254,7 +290,7 @@ impl<'a> CoefficientSearch<'a> {
             if let Some((theta_before, r_before)) = before.take() {
                 let [step, change] = [(&theta, theta_before), (&r, r_before)]
                     .map(|(now, before)| now.iter().zip(before).map(|(now, before)| now - before).collect::<Vec<_>>());
-                broyden_update(&mut jacobian, parameters, &step, &change);
+                broyden_update(&mut jacobian, &parameters, &step, &change);
             }
             let step = converges.then(|| gauss_newton_step(&jacobian, &r)).flatten();
             let uncertainty = uncertainty(&jacobian, &r, &parts);
@@ -270,15 +306,16 @@ impl<'a> CoefficientSearch<'a> {
                 .filter(|&i| step[i].abs() > SMALL_STEP * parameters[i].width)
                 .map(|i| step[i].abs() / deviations.as_ref().map_or(0.0, |all| all[i]))
                 .fold(0.0, f64::max);
-            if last_step <= NEGLIGIBLE {
+            if last_step <= negligible {
                 break;
             }
             before = Some((theta.clone(), r));
-            for ((value, by), p) in theta.iter_mut().zip(&step).zip(parameters) {
+            for ((value, by), p) in theta.iter_mut().zip(&step).zip(&parameters) {
                 *value = (*value + by).clamp(p.least, p.greatest);
             }
         }
-        if converges && last_step > NEGLIGIBLE {
+        found.jacobian = jacobian;
+        if converges && last_step > negligible {
             found.unsettled = Some(last_step);
             found.stop = if last_step <= TOLERABLE { FitStop::Converged } else { FitStop::MaxIterations };
         }

@@ -17,7 +17,7 @@
 
 use std::f64::consts::LN_2;
 
-use super::question::{ComparisonQuestion, FittedGears};
+use super::question::{ComparisonQuestion, FittedGears, scale_coefficients};
 use super::wear_by_coefficient::WearByCoefficient;
 use gearwear::runs;
 use gearwear::scene::Resolved;
@@ -85,6 +85,8 @@ pub(super) struct Simulations<'a> {
     until_measured: Scene,
     observer: &'a dyn Observer,
     courses: Vec<Course>,
+    /// What its runs are called for the observer, before their number.
+    pub name: &'static str,
     pub runs: u64,
     /// Mesh cycles evaluated in them.
     pub mesh_cycles: u64,
@@ -109,7 +111,16 @@ impl<'a> Simulations<'a> {
         snapshots.extend(question.profiles.iter().map(|of| of.revolutions));
         snapshots.sort_by(f64::total_cmp);
         snapshots.dedup();
-        Self { given, question, until_measured: scene, observer, courses: Vec::new(), runs: 0, mesh_cycles: 0 }
+        Self {
+            given,
+            question,
+            until_measured: scene,
+            observer,
+            courses: Vec::new(),
+            name: "run",
+            runs: 0,
+            mesh_cycles: 0,
+        }
     }
 
     /// The factor of severe wear of the measured gears in the scene; 1 where there is none.
@@ -236,7 +247,7 @@ impl<'a> Simulations<'a> {
     /// Runs a scene; the wear of each profile's flank points at each snapshot.
     fn run(&mut self, scene: Scene) -> Result<Vec<ProfileSnapshot>, CompareError> {
         self.runs += 1;
-        self.observer.stage(&format!("run {}", self.runs));
+        self.observer.stage(&format!("{} {}", self.name, self.runs));
         let resolved = Resolved { scene, file: self.given.resolved.file.clone(), warnings: Vec::new() };
         let scene = LoadedScene { resolved, ..self.given.clone() }.without_torque_curve();
         let done = runs::run(&scene, &PartOf::whole(self.observer));
@@ -268,16 +279,10 @@ impl<'a> Simulations<'a> {
     fn changed(&self, change: CoefficientChange) -> Scene {
         let mut scene = self.until_measured.clone();
         for gear in Gear::BOTH {
-            let factor = change.coefficient_factor[gear];
-            let wear = &mut scene.wear[gear];
-            wear.coefficient_mm2_per_n *= factor;
-            let severe = wear.severe.as_mut().filter(|_| self.question.fitted.has(gear));
+            scale_coefficients(&mut scene, gear, change.coefficient_factor[gear]);
+            let severe = scene.wear[gear].severe.as_mut().filter(|_| self.question.fitted.has(gear));
             if let (Some(severe), Some(factor)) = (severe, change.severe_factor) {
                 severe.factor = factor;
-            }
-            for phase in &mut scene.operation.phases {
-                let own = &mut phase.coefficient_mm2_per_n[gear];
-                *own = own.map(|own| own * factor);
             }
         }
         scene

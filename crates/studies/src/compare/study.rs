@@ -1,6 +1,7 @@
 //! A comparison from beginning to end.
 
 use super::comparison::{Comparison, root_mean_square};
+use super::profile_slope::{self, NotTried};
 use super::question::{ComparisonQuestion, FittedGears, ProfileQuestion, is_of_both};
 use super::record::{
     Coefficient, CoefficientCorrelation, CompareFigures, CompareRecord, CompareRow, FitRecord, FittedValue,
@@ -50,16 +51,22 @@ pub fn run(
 
     let profiles = comparisons.iter().enumerate().map(|(index, comparison)| {
         let rows = rows(question, pair, comparison, [&found.wear_um[index], &as_run_um[index]], &found);
-        profile(question, resolved, pair, (index, rows), &found)
+        profile(question, resolved, comparison, (index, rows), &found)
     });
     let profiles: Vec<ProfileRecord> = profiles.collect();
     let fit = fit(question, resolved, &found, &profiles, &simulations);
-    let warnings = folder.version_warning().into_iter().chain(warnings(&fit, &profiles, found.unsettled)).collect();
+    let sloped = profile_slope::fit_with_slopes(question, given, &profiles, &found, observer)?;
+    let mut warnings: Vec<String> =
+        folder.version_warning().into_iter().chain(warnings(&fit, &profiles, found.unsettled)).collect();
+    if let Err(NotTried::Refused(why)) = &sloped {
+        warnings.push(format!("what the slopes of the profiles before wear move is not known: {why}"));
+    }
     Ok(CompareRecord {
         title: folder.summary.title.clone(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_hash: resolved.scene_hash(),
         fit,
+        with_profile_slopes: sloped.ok(),
         profiles,
         warnings,
         scene_toml: resolved.to_toml(),
@@ -74,7 +81,7 @@ fn as_kept(comparison: &Comparison<'_>, pair: &GearPair) -> Option<Vec<f64>> {
     Some(over_width(wear_um, &slices.width_mm, points, of.width_mm))
 }
 
-fn rows(
+pub(super) fn rows(
     question: &ComparisonQuestion,
     pair: &GearPair,
     comparison: &Comparison<'_>,
@@ -111,13 +118,15 @@ fn rows(
 fn profile(
     question: &ComparisonQuestion,
     resolved: &Resolved,
-    pair: &GearPair,
+    comparison: &Comparison<'_>,
     (index, rows): (usize, Vec<CompareRow>),
     found: &FittedCoefficients,
 ) -> ProfileRecord {
-    let of = &question.profiles[index];
+    let (of, pair) = (comparison.of, comparison.pair);
     let gear = of.profile.gear;
     let scatter = found.uncertainty.as_ref().map(|u| u.scatter[index]);
+    let deviations = deviations(of, pair, &rows);
+    let both = deviations.and_then(|of| Some([of.before_wear?, of.wear?]));
     let [a, b, c, d, e] = pair.path.points_mm().map(|position| pair.radius_at_mm(gear, position));
     ProfileRecord {
         measured: of.measured.clone(),
@@ -138,7 +147,9 @@ fn profile(
         figures: figures(of, &rows),
         teeth: of.profile.teeth_um.len().max(1),
         waves: found.waves[index].clone(),
-        deviations: deviations(of, pair, &rows),
+        profile_slope: both
+            .and_then(|both| profile_slope::found(comparison, question.shift_of(gear), index, found, both)),
+        deviations,
         leads: leads(of, pair),
         path_point_radius_mm: PathPoints { A: a, B: b, C: c, D: d, E: e },
         rows,
@@ -159,15 +170,7 @@ fn fit(
     FitRecord {
         stopped: found.stop,
         blamed: found.blamed,
-        coefficients: whose(question, resolved)
-            .into_iter()
-            .filter_map(|(unknown, gear)| {
-                let logarithm = found.of(unknown)?;
-                let of_run = coefficient[gear.unwrap_or(profiles[0].gear)];
-                let (factor, value) = (estimate(logarithm, 1.0, 1.0), estimate(logarithm, of_run, of_run));
-                Some(Coefficient { gear, factor, coefficient_m2_per_N: value })
-            })
-            .collect(),
+        coefficients: coefficients(question, resolved, found),
         coefficient_ratio: found.difference(pinion, wheel).map(|logarithm| estimate(logarithm, ratio, ratio)),
         severe_factor: found.of(Unknown::Severe).map(|log| estimate(log, simulations.severe_factor(), 1.0)),
         correlation: found
@@ -179,6 +182,22 @@ fn fit(
         mesh_cycles: simulations.mesh_cycles,
         how: how(question, found, profiles),
     }
+}
+
+/// The fitted wear coefficients, over those of `resolved`.
+pub(super) fn coefficients(
+    question: &ComparisonQuestion,
+    resolved: &Resolved,
+    found: &FittedCoefficients,
+) -> Vec<Coefficient> {
+    let all = whose(question, resolved).into_iter().filter_map(|(unknown, gear)| {
+        let logarithm = found.of(unknown)?;
+        let own = gear.unwrap_or(question.profiles[0].profile.gear);
+        let of_run = M2_PER_MM2 * resolved.scene.wear[own].coefficient_mm2_per_n;
+        let (factor, value) = (estimate(logarithm, 1.0, 1.0), estimate(logarithm, of_run, of_run));
+        Some(Coefficient { gear, factor, coefficient_m2_per_N: value })
+    });
+    all.collect()
 }
 
 /// `unit` times the number of a logarithm, given with half the width of its interval.
@@ -239,7 +258,7 @@ fn how(question: &ComparisonQuestion, found: &FittedCoefficients, profiles: &[Pr
 }
 
 /// Deviations of the measured profile, without its wear, and of the wear.
-fn deviations(of: &ProfileQuestion, pair: &GearPair, rows: &[CompareRow]) -> Option<ProfileDeviations> {
+pub(super) fn deviations(of: &ProfileQuestion, pair: &GearPair, rows: &[CompareRow]) -> Option<ProfileDeviations> {
     let profile = &of.profile;
     if profile.height_from == HeightFrom::Line {
         return None;

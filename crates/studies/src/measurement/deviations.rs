@@ -24,9 +24,12 @@
 //!
 //! Source: ISO 1328-1:2013, definitions of profile and helix deviations, formulae of their tolerances.
 
+use std::f64::consts::PI;
+
 use serde::Serialize;
 
 use gearwear_bodies::gear::{Gear, GearPair, tolerance};
+use gearwear_bodies::reference::statistics::mean;
 
 /// Part of the roll length from start of active profile to tip form circle that is evaluated.
 const EVALUATED: f64 = 0.95;
@@ -126,6 +129,19 @@ impl Evaluation {
         let slope_um = slope * self.length_mm;
         let tolerance_class = self.class(total_um, form_um, slope_um);
         Some(Deviations { total_um, form_um, slope_um, tolerance_class })
+    }
+
+    /// Error of f_H by independent errors of 1 in the heights at these places: L/√Σ(x − x̄)² over the evaluation range.
+    pub fn slope_per_height(&self, place_mm: &[f64]) -> f64 {
+        let inside: Vec<f64> = place_mm.iter().copied().filter(|x| (self.from_mm..=self.to_mm).contains(x)).collect();
+        let middle = mean(inside.iter().copied());
+        self.length_mm / inside.iter().map(|x| (x - middle).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// Greatest error of f_H by a wave of amplitude 1 and this length: 6 λ/(π X) over a range X, times L/X.
+    pub fn slope_per_wave(&self, length_mm: f64) -> f64 {
+        let range_mm = self.to_mm - self.from_mm;
+        6.0 * length_mm / (PI * range_mm) * self.length_mm / range_mm
     }
 
     fn class(&self, total_um: f64, form_um: f64, slope_um: f64) -> Option<u32> {

@@ -274,7 +274,7 @@ fn root(falling: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 }
 
 /// t(0.975, ν).
-fn quantile(freedom: f64) -> Option<f64> {
+pub(crate) fn quantile(freedom: f64) -> Option<f64> {
     Some(StudentsT::new(0.0, 1.0, freedom).ok()?.inverse_cdf(0.5 + 0.5 * CONFIDENCE))
 }
 

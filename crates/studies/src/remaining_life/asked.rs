@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 
 use super::limit::WearLimit;
 use super::measurement::{WearMeasurement, in_order};
+use super::other_gear::{OtherCoefficient, OtherCoefficientError};
 use super::record::LifeRecord;
 use super::regime::CoefficientPrior;
 use super::study::{self, LifeQuestion};
 use super::wear_curve::{WearCurveError, WearQuantity};
 use super::wear_table::{self, WearRow, WearTime, WearValue};
 use crate::compare::asked::{CompareFault, PreparedComparison};
-use crate::compare::question::{CompareOptions, FitKind, QuestionError, Refused};
+use crate::compare::question::{CompareOptions, FitKind, QuestionError, Refused, scale_coefficients};
 use crate::compare::run_folder::{RunFolder, RunFolderError};
 use crate::measurement::form::Form;
 use gearwear::measured_flank::file::{self, Moment};
@@ -36,6 +37,8 @@ pub struct LifeOptions {
     pub shift_within_mm: f64,
     /// Traces of profile files with several.
     pub traces: TraceChoice,
+    /// Coefficient of the gear that the table does not have; `None`: as the scene has it, beside the measured one's.
+    pub other_k: Option<OtherCoefficient>,
 }
 
 /// Table or options that do not fit the run.
@@ -68,6 +71,8 @@ pub enum TableError {
     FarFromRun { line: usize, factor: f64 },
     #[error("line {line}: found {found} times of the {gear}; allowed: at most {MOST_TIMES}")]
     TooManyTimes { line: usize, found: usize, gear: &'static str },
+    #[error(transparent)]
+    OtherCoefficient(#[from] OtherCoefficientError),
     #[error("--limit: found {figure}; allowed: a figure of a measured gear: {measured}")]
     LimitOfOther { figure: String, measured: String },
 }
@@ -112,16 +117,20 @@ impl PreparedLife {
         let named = |error: TableError| LifeFault::Table { name: table.name.clone(), error };
         let rows = wear_table::parse(&table.text).map_err(|error| named(error.into()))?;
         let folder = RunFolder::open(run)?;
-        let scene = LoadedScene::open(folder.scene_path())?;
+        let mut scene = LoadedScene::open(folder.scene_path())?;
         folder.check_scene(&scene.resolved)?;
         let pair = GearPair::new(&scene.resolved.scene.pair)?;
         let found = scene.resolved.scene.operation.phases.len();
         if found != 1 {
             return Err(named(TableError::Phases { found }));
         }
+        let places = rows.iter().map(|row| placed(row, asked, &scene)).collect::<Result<Vec<_>, _>>().map_err(named)?;
+        let other = other_gear(asked, &places, &folder, &scene).map_err(|error| named(error.into()))?;
+        if let Some((gear, factor)) = other {
+            scale_coefficients(&mut scene.resolved.scene, gear, factor);
+        }
         let mut measurements = Vec::with_capacity(rows.len());
-        for row in &rows {
-            let (gear, revolutions) = placed(row, asked, &scene).map_err(named)?;
+        for (row, (gear, revolutions)) in rows.iter().zip(places) {
             let profile = match &row.value {
                 WearValue::Profile(file) => {
                     let path = beside(&table.name, file);
@@ -130,7 +139,8 @@ impl PreparedLife {
                         return Err(named(TableError::ProfileAfterRun { line: row.line, found: revolutions, end }));
                     }
                     let opened = profile(run, &path, gear, revolutions.min(end), asked);
-                    Some(opened.map_err(|error| named(TableError::Profile { line: row.line, error }))?)
+                    let opened = opened.map_err(|error| named(TableError::Profile { line: row.line, error }))?;
+                    Some(other.into_iter().fold(opened, |opened, (mate, factor)| opened.with_mate(mate, factor)))
                 }
                 _ => None,
             };
@@ -139,8 +149,9 @@ impl PreparedLife {
         let measurements = in_order(measurements);
         check_sizes(&measurements, &folder).map_err(named)?;
         let limits = limits(&measurements, asked, &scene).map_err(named)?;
-        let question =
-            LifeQuestion { measured: file_name(&table.name), measurements, limits, prior: asked.prior.clone() };
+        let measured = file_name(&table.name);
+        let has_other_k = other.is_some();
+        let question = LifeQuestion { measured, measurements, limits, prior: asked.prior.clone(), has_other_k };
         Ok(Self { folder, scene, pair, question })
     }
 
@@ -155,6 +166,8 @@ impl PreparedLife {
 const MOST_FACTOR: f64 = 1e6;
 /// Most times of a gear that are evaluated.
 const MOST_TIMES: usize = 100;
+/// mm²/N to m²/N.
+const M2_PER_MM2: f64 = 1e-6;
 /// Relative tolerance on the end of the run.
 const SAME_TIME: f64 = 1e-9;
 
@@ -180,6 +193,25 @@ fn placed(row: &WearRow, asked: &LifeOptions, scene: &LoadedScene) -> Result<(Ge
         }
     };
     Ok((gear, revolutions))
+}
+
+/// The gear that no row of the table is of, and the factor on its coefficient that was asked for.
+fn other_gear(
+    asked: &LifeOptions,
+    places: &[(Gear, f64)],
+    folder: &RunFolder,
+    scene: &LoadedScene,
+) -> Result<Option<(Gear, f64)>, OtherCoefficientError> {
+    let Some(other_k) = &asked.other_k else { return Ok(None) };
+    let gear = Gear::BOTH.into_iter().find(|&gear| places.iter().all(|(measured, _)| *measured != gear));
+    let gear = gear.ok_or(OtherCoefficientError::BothMeasured)?;
+    let scene = &scene.resolved.scene;
+    let of_run = scene.wear_in(&scene.operation.phases[0])[gear].coefficient_mm2_per_n;
+    if of_run <= 0.0 {
+        return Err(OtherCoefficientError::DoesNotWear { gear: gear.name() });
+    }
+    let k = other_k.of(gear, &folder.summary.scene_hash)?;
+    Ok(Some((gear, k / (M2_PER_MM2 * of_run))))
 }
 
 /// Checks the number of times, and that wear is not of another order than in the run.
@@ -219,6 +251,7 @@ fn profile(
         fit: Some(FitKind::K),
         shift_within_mm: asked.shift_within_mm,
         traces: asked.traces,
+        tries_slopes: false,
     };
     let refused = |error: QuestionError| Refused { name: text.name.clone(), error }.to_string();
     let file = file::parse(&text.text, &asked.traces).map_err(|error| refused(error.into()))?;

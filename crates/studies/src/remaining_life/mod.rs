@@ -11,6 +11,7 @@
 //! | [`asked`] | run, table and options, read and checked |
 //! | [`measurement`] | teeth of one time together |
 //! | [`regime`], [`limit`] | coefficient before any measurement; wear that ends the life |
+//! | [`other_gear`] | coefficient of the gear that was not measured |
 //! | [`wear_curve`] | simulated wear against revolutions |
 //! | [`wear_process`] | scatter, and what measurements say in spite of it |
 //! | [`study`] | all of it, in order |
@@ -19,6 +20,7 @@
 pub mod asked;
 pub mod limit;
 pub mod measurement;
+pub mod other_gear;
 pub mod record;
 pub mod regime;
 pub mod report;

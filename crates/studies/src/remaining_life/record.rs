@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::limit::WearLimit;
+use super::other_gear::OtherGear;
 use super::regime::CoefficientPrior;
 use super::wear_curve::WearQuantity;
 use super::wear_table::WearKind;
@@ -20,6 +21,8 @@ pub struct LifeRecord {
     pub measured: String,
     /// Each measured gear.
     pub gears: Vec<GearLife>,
+    /// Gear that was not measured.
+    pub other_gear: Option<OtherGear>,
     /// Runs of the scene that it took.
     pub runs: u64,
     pub mesh_cycles: u64,
@@ -115,6 +118,9 @@ pub struct RemainingLife {
     pub remaining_revolutions: Interval,
     /// Null where the scene gives no speed.
     pub remaining_hours: Option<Interval>,
+    /// From the beginning; where the limit has been passed, up to the last measurement.
+    pub total_revolutions: Interval,
+    pub total_hours: Option<Interval>,
 }
 
 /// A later measurement as it is expected, in the unit of its value; null where the run does not come to such wear.
@@ -168,6 +174,12 @@ pub struct LifeRow {
     pub remaining_low_revolutions: Option<f64>,
     /// upper end
     pub remaining_high_revolutions: Option<f64>,
+    /// revolutions of the pinion from the beginning until the limit, median
+    pub total_revolutions: Option<f64>,
+    /// lower end of their 95 % interval
+    pub total_low_revolutions: Option<f64>,
+    /// upper end
+    pub total_high_revolutions: Option<f64>,
 }
 
 /// A row of `predictions.csv`.
@@ -195,6 +207,18 @@ pub struct PredictionRow {
     pub below_found: f64,
 }
 
+/// What the interval of k is for, and what that of a comparison is for.
+pub const INTERVAL_OF_K: &str = "The interval of k is of the forecast: of the mean k over life, with wear that wanders from it and measurements that scatter. It is the \
+                                 one for the life; to compare oils, materials or loads take that of one profile (gearwear compare RUN PROFILE), which is \
+                                 narrower: it is of the fit alone.";
+
+impl Interval {
+    /// All of it longer.
+    pub fn plus(self, by: f64) -> Self {
+        Self { median: self.median + by, low: self.low + by, high: self.high + by }
+    }
+}
+
 impl LifeRecord {
     /// The run and the table.
     pub fn headline(&self) -> String {
@@ -219,6 +243,7 @@ impl LifeUpdate {
 
     fn row(&self, gear: Gear) -> LifeRow {
         let remaining = self.life.map(|life| life.remaining_revolutions);
+        let total = self.life.map(|life| life.total_revolutions);
         LifeRow {
             gear,
             measurements: self.measurements,
@@ -233,6 +258,9 @@ impl LifeUpdate {
             remaining_revolutions: remaining.map(|of| of.median),
             remaining_low_revolutions: remaining.map(|of| of.low),
             remaining_high_revolutions: remaining.map(|of| of.high),
+            total_revolutions: total.map(|of| of.median),
+            total_low_revolutions: total.map(|of| of.low),
+            total_high_revolutions: total.map(|of| of.high),
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::asked::LifeError;
 use super::limit::WearLimit;
 use super::measurement::{ToothValues, WearMeasurement, relative_sigmas};
+use super::other_gear::{CoefficientSource, OtherGear};
 use super::record::{
     BandPoint, GearLife, Interval, LifeRecord, LifeUpdate, MeasurementRecord, Prediction, RemainingLife,
 };
@@ -11,6 +12,7 @@ use super::wear_curve::{SimulatedWear, WearCurve, WearNeeded, WearQuantity, simu
 use super::wear_process::{ExposureMeasurement, FactorPrior, Posterior};
 use super::wear_table::WearKind;
 use crate::compare::question::is_of_both;
+use crate::compare::record::ProfileRecord;
 use crate::compare::run_folder::RunFolder;
 use crate::compare::study::CompareError;
 use crate::measurement::fit::FitStop;
@@ -38,12 +40,15 @@ pub struct LifeQuestion {
     pub measurements: Vec<WearMeasurement>,
     pub limits: Vec<WearLimit>,
     pub prior: Option<CoefficientPrior>,
+    /// Whether the coefficient of the gear without measurements was given.
+    pub has_other_k: bool,
 }
 
 /// A measurement with the values of its teeth; of profiles exposures in revolutions.
 struct Valued<'a> {
     of: &'a WearMeasurement,
     values: ToothValues,
+    warnings: Vec<String>,
 }
 
 /// All that one gear's evaluation needs.
@@ -78,7 +83,7 @@ pub fn run(
     let exposure = exposure.fold(0.0, f64::max);
     let mut simulated = simulated_wear(given, pair, 1.0, &needed, exposure, observer)?;
     let mut gears = evaluated(question, given, &simulated, &valued);
-    let ratio = coefficient_ratio(&gears, given);
+    let ratio = coefficient_ratio(&gears, question, given);
     if ratio.ln().abs() > SAME_RATIO {
         let again = simulated_wear(given, pair, ratio, &needed, exposure, observer)?;
         simulated = SimulatedWear {
@@ -88,12 +93,15 @@ pub fn run(
         };
         gears = evaluated(question, given, &simulated, &valued);
     }
-    let warnings = folder.version_warning().into_iter().chain(gears.iter().flat_map(warnings)).collect();
+    let of_profiles = valued.iter().flat_map(|of| of.warnings.iter().cloned());
+    let warnings =
+        folder.version_warning().into_iter().chain(of_profiles).chain(gears.iter().flat_map(warnings)).collect();
     Ok(LifeRecord {
         title: folder.summary.title.clone(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_hash: given.resolved.scene_hash(),
         measured: question.measured.clone(),
+        other_gear: other_gear(&gears, question, given),
         gears,
         runs: simulated.runs,
         mesh_cycles: simulated.mesh_cycles,
@@ -107,15 +115,21 @@ fn valued<'a>(of: &'a WearMeasurement, observer: &dyn Observer) -> Result<Valued
     if of.kind != WearKind::Profile {
         let sigmas = of.values.iter().zip(&of.sigmas).map(|(value, sigma)| sigma.unwrap_or(0.0) / value);
         let values = ToothValues { values: of.values.clone(), relative_sigmas: sigmas.collect() };
-        return Ok(Valued { of, values });
+        return Ok(Valued { of, values, warnings: Vec::new() });
     }
     let mut values = ToothValues { values: Vec::new(), relative_sigmas: Vec::new() };
+    let mut warnings = Vec::new();
     for profile in &of.profiles {
         let refused = |why: String| LifeError::Profile { file: profile.file.clone(), why };
         let record = profile.comparison.carry_out(observer).map_err(|error| match error {
             CompareError::Interrupted => LifeError::Curve(CompareError::Interrupted.into()),
             CompareError::Run(error) => refused(error.to_string()),
         })?;
+        if let Some(slope) = record.profiles.first().and_then(ProfileRecord::other_slope) {
+            let file = &profile.file;
+            warnings
+                .push(format!("{file}: f_Hα before wear is {slope}: gearwear compare RUN {file} says what that moves"));
+        }
         let factor = record.fit.coefficients.first().map(|own| own.factor);
         let factor = factor.filter(|_| record.fit.stopped == FitStop::Converged);
         let factor = factor.ok_or_else(|| refused(record.warnings.join("; ")))?;
@@ -123,7 +137,7 @@ fn valued<'a>(of: &'a WearMeasurement, observer: &dyn Observer) -> Result<Valued
         values.values.push(factor.value * of.revolutions);
         values.relative_sigmas.push(0.5 * (high / low).ln() / HALF_WIDTH_95);
     }
-    Ok(Valued { of, values })
+    Ok(Valued { of, values, warnings })
 }
 
 /// Wear that the run has to come to, and that of the scene's own run, had it gone on for its whole duration.
@@ -177,7 +191,7 @@ fn evaluated(
 
 /// Coefficient of the wheel over that of the pinion, both over those of the run; a gear that was not measured keeps its own, unless both wear by one
 /// law.
-fn coefficient_ratio(gears: &[GearLife], given: &LoadedScene) -> f64 {
+fn coefficient_ratio(gears: &[GearLife], question: &LifeQuestion, given: &LoadedScene) -> f64 {
     let factor = |gear: Gear| {
         let of = gears.iter().find(|of| of.gear == gear)?;
         Some(of.updates.last()?.coefficient_m2_per_N.median / of.coefficient_of_run_m2_per_N)
@@ -185,9 +199,23 @@ fn coefficient_ratio(gears: &[GearLife], given: &LoadedScene) -> f64 {
     let factors = PerGear::from_fn(factor);
     match (factors.pinion, factors.wheel) {
         (Some(pinion), Some(wheel)) => wheel / pinion,
-        _ if is_of_both(&given.resolved.scene) => 1.0,
+        _ if is_of_both(&given.resolved.scene) && !question.has_other_k => 1.0,
         (pinion, wheel) => wheel.unwrap_or(1.0) / pinion.unwrap_or(1.0),
     }
+}
+
+/// The gear that was not measured, with the coefficient that the last evaluation has of it.
+fn other_gear(gears: &[GearLife], question: &LifeQuestion, given: &LoadedScene) -> Option<OtherGear> {
+    let [one] = gears else { return None };
+    let gear = one.gear.mate();
+    let scene = &given.resolved.scene;
+    let of_scene = M2_PER_MM2 * scene.wear_in(&scene.operation.phases[0])[gear].coefficient_mm2_per_n;
+    let (coefficient, source) = match (question.has_other_k, is_of_both(scene)) {
+        (true, _) => (of_scene, CoefficientSource::Given),
+        (false, true) => (one.updates.last()?.coefficient_m2_per_N.median, CoefficientSource::MeasuredGear),
+        (false, false) => (of_scene, CoefficientSource::Run),
+    };
+    Some(OtherGear { gear, coefficient_m2_per_N: coefficient, source })
 }
 
 impl GearCase<'_> {
@@ -273,8 +301,16 @@ impl GearCase<'_> {
                 high: hours(remaining.high)?,
             })
         };
+        let at = self.duration * posterior.revolutions;
         let passed = if posterior.revolutions > 0.0 { posterior.life_below(posterior.revolutions, limit) } else { 0.0 };
-        RemainingLife { passed, remaining_revolutions: remaining, remaining_hours: in_hours() }
+        let remaining_hours = in_hours();
+        RemainingLife {
+            passed,
+            remaining_revolutions: remaining,
+            remaining_hours,
+            total_revolutions: remaining.plus(at),
+            total_hours: remaining_hours.and_then(|remaining| Some(remaining.plus(hours(at)?))),
+        }
     }
 
     /// What is expected of a measurement that is not among those of `posterior`.

@@ -58,6 +58,11 @@ impl Laboratory {
         self.pair.teeth[gear].involute.base_radius_mm
     }
 
+    /// L of f_Hα: from the start of active profile to the tip circle.
+    pub fn profile_length_mm(&self, gear: Gear) -> f64 {
+        self.pair.teeth[gear].edge_rho_mm() - self.pair.active_start_rho_mm(gear)
+    }
+
     /// What the comparison of a file with the run says.
     pub fn compare(&self, text: &str, asked: &CompareOptions) -> CompareRecord {
         self.compare_all(&[text], asked)
@@ -122,7 +127,14 @@ fn interpolated(x: &[f64], y: &[f64], at: f64) -> f64 {
 
 /// What is asked where a test says nothing else: k of heights, no shift.
 pub fn asked(fit: FitKind) -> CompareOptions {
-    CompareOptions { gear: None, form: None, fit: Some(fit), shift_within_mm: 0.0, traces: TraceChoice::default() }
+    CompareOptions {
+        gear: None,
+        form: None,
+        fit: Some(fit),
+        shift_within_mm: 0.0,
+        traces: TraceChoice::default(),
+        tries_slopes: false,
+    }
 }
 
 /// Normal numbers of mean 0 and deviation 1 by Box and Muller, from xorshift64* (Vigna 2016).

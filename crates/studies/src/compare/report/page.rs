@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::{LAST, POINTS, figures};
+use crate::compare::in_words::{INTERVAL, SlopeFinding};
 use crate::compare::record::{CoefficientCorrelation, CompareRecord, FittedValue, ProfileRecord};
 use crate::compare::unknown::Unknown;
 use crate::measurement::deviations::Deviations;
@@ -88,8 +89,9 @@ fn answer(record: &CompareRecord) -> String {
     let correlated = fit.coefficient_correlation().map_or_else(String::new, |correlation| {
         format!(" The correlation coefficient of both coefficients is {}.", fixed(correlation, 2))
     });
+    let slope = record.slope_headline().unwrap_or_default();
     format!(
-        "{whose} {fitted} best by {}; {residual} {difference} µm (root mean square).{correlated}",
+        "{whose} {fitted} best by {}; {residual} {difference} µm (root mean square).{correlated}{slope}",
         found.join(" and ")
     )
 }
@@ -148,6 +150,8 @@ fn tables(record: &CompareRecord, correlated: Option<Markup>) -> Markup {
     html! {
         @if !fitted.is_empty() { (table("Fitted", &["run", "fitted", "from", "to"], fitted)) }
         p { (capitalised(&fit.how)) "." }
+        @if fit.coefficients.iter().any(|own| own.factor.low.is_some()) { p { (INTERVAL) } }
+        @if let Some(finding) = record.slope_finding() { (slopes(record, &finding)) }
         @if let Some(correlation) = &fit.correlation {
             (correlations(correlation))
         }
@@ -160,12 +164,30 @@ fn tables(record: &CompareRecord, correlated: Option<Markup>) -> Markup {
     }
 }
 
+/// Slopes before wear, what to set in the scene, and what that moves.
+fn slopes(record: &CompareRecord, finding: &SlopeFinding) -> Markup {
+    let told = record.profiles.iter().filter_map(|of| Some((of.gear, of.profile_slope.as_ref()?.before_wear_um)));
+    let rows = told.map(|(gear, slope)| {
+        let ends = [slope.low, slope.high].map(|end| end.map_or_else(|| NONE.to_owned(), |um| fixed(um, 2)));
+        let [low, high] = ends;
+        row(gear.name(), "µm", [fixed(slope.of_run, 2), fixed(slope.value, 2), low, high])
+    });
+    html! {
+        (table("Profile slope f_Hα before wear", &["scene", "found", "from", "to"], rows))
+        p { (finding.sentences.join(" ")) }
+        @if !finding.keys.is_empty() {
+            p { @for (index, key) in finding.keys.iter().enumerate() { @if index > 0 { br; } code { (key) } } }
+        }
+        @if !finding.moved.is_empty() { p { (finding.moved.join(" ")) } }
+    }
+}
+
 /// Deviations of a profile and of its leads after ISO 1328-1, where there are any.
 fn deviations(of: &ProfileRecord, name_gear: bool) -> Option<Markup> {
     let profile = of.deviations.iter().flat_map(|of| {
         [
             ("as measured", of.measured),
-            ("before wear: wear as fitted put back", of.before_wear),
+            ("before wear (wear as fitted put back), beside the scene’s flank", of.before_wear),
             ("wear alone", of.wear),
         ]
     });

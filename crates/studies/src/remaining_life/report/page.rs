@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::{LAST, LIVES, PREDICTIONS, figures};
-use crate::remaining_life::record::{GearLife, LifeRecord, LifeUpdate};
+use crate::remaining_life::record::{GearLife, INTERVAL_OF_K, Interval, LifeRecord, LifeUpdate};
 use crate::remaining_life::wear_table::WearKind;
 use gearwear::report::html::number::{fixed, hours, percent, revolutions, significant};
 use gearwear::report::html::page::{Page, Plots, note, section, sources_list};
@@ -61,19 +61,15 @@ fn of_gear(of: &GearLife, last: &LifeUpdate) -> String {
     if life.passed > 0.5 {
         return format!("{found}; it has passed its limit with a probability of {} %.", fixed(100.0 * life.passed, 0));
     }
-    let left = match life.remaining_hours {
-        Some(left) => format!("{} h, {} to {}", figure(left.median), figure(left.low), figure(left.high)),
-        None => {
-            let left = life.remaining_revolutions;
-            format!(
-                "{} pinion revolutions, {} to {}",
-                revolutions(left.median),
-                revolutions(left.low),
-                revolutions(left.high)
-            )
-        }
+    let time = |interval: Interval, shown: fn(f64) -> String, unit: &str| {
+        format!("{} {unit} (95 % {} to {})", shown(interval.median), shown(interval.low), shown(interval.high))
     };
-    format!("{found}; its limit is {left} (95 %), away.")
+    let [left, total] = match (life.remaining_hours, life.total_hours) {
+        (Some(left), Some(total)) => [left, total].map(|interval| time(interval, figure, "h")),
+        _ => [life.remaining_revolutions, life.total_revolutions]
+            .map(|interval| time(interval, revolutions, "pinion revolutions")),
+    };
+    format!("{found}; {left} are left until its limit, {total} is its life in all.")
 }
 
 fn figure(value: f64) -> String {
@@ -88,9 +84,14 @@ fn tables(record: &LifeRecord) -> Markup {
     html! {
         @for of in &record.gears {
             (list(format!("Measurements of the {}", of.gear.name()), MEASUREMENT_COLUMNS, measurements(of)))
-            (list(format!("Known of the {}", of.gear.name()), update_columns(of), updates(of)))
+            (list(format!("Wear coefficient k of the {}", of.gear.name()), UPDATE_COLUMNS, updates(of)))
+            @if of.limit.is_some() {
+                (list(format!("Life of the {}, {}", of.gear.name(), unit(of)), LIFE_COLUMNS, lives(of)))
+            }
             p { (prior(of)) }
         }
+        p { (INTERVAL_OF_K) }
+        @if let Some(other) = &record.other_gear { p { (other.in_words(&figure(other.coefficient_m2_per_N))) } }
         (note(INTERVALS))
     }
 }
@@ -118,33 +119,49 @@ fn measurements(of: &GearLife) -> Vec<Markup> {
     rows.collect()
 }
 
-fn update_columns(of: &GearLife) -> Vec<&'static str> {
-    let mut columns = vec!["after", "k, m²/N", "95 % from", "to", "wander", "scatter"];
-    if of.limit.is_some() {
-        columns.extend(["revolutions left", "95 % from", "to", "limit passed"]);
-    }
-    columns
-}
+const UPDATE_COLUMNS: [&str; 6] = ["after", "k, m²/N", "95 % from", "to", "wander", "scatter"];
 
 fn updates(of: &GearLife) -> Vec<Markup> {
     let rows = of.updates.iter().map(|update| {
         let k = update.coefficient_m2_per_N;
-        let name = if update.measurements == 0 { "none".to_owned() } else { update.measurements.to_string() };
-        let mut cells: Vec<Cell> = cells![
-            name,
+        line(cells![
+            after(update),
             figure(k.median),
             figure(k.low),
             figure(k.high),
             percent(update.wander),
             percent(update.scatter)
-        ]
-        .into();
-        if let Some(life) = update.life {
-            let left = life.remaining_revolutions;
-            cells.extend([left.median, left.low, left.high].map(|value| Cell::from(long(value))));
-            cells.push(Cell::from(format!("{}\u{202f}%", fixed(100.0 * life.passed, 1))));
+        ])
+    });
+    rows.collect()
+}
+
+/// Number of measurements.
+fn after(update: &LifeUpdate) -> String {
+    if update.measurements == 0 { "none".to_owned() } else { update.measurements.to_string() }
+}
+
+const LIFE_COLUMNS: [&str; 8] = ["after", "left", "95 % from", "to", "in all", "95 % from", "to", "limit passed"];
+
+/// Unit of the lives of a gear.
+fn unit(of: &GearLife) -> &'static str {
+    let has_speed = of.updates.iter().filter_map(|update| update.life).all(|life| life.total_hours.is_some());
+    if has_speed { "h" } else { "pinion revolutions" }
+}
+
+fn lives(of: &GearLife) -> Vec<Markup> {
+    let rows = of.updates.iter().skip(1).filter_map(|update| {
+        let life = update.life?;
+        let [left, total] = match (life.remaining_hours, life.total_hours) {
+            (Some(left), Some(total)) => [left, total].map(|of| [of.low, of.median, of.high].map(figure)),
+            _ => [life.remaining_revolutions, life.total_revolutions].map(|of| [of.low, of.median, of.high].map(long)),
+        };
+        let mut cells: Vec<Cell> = vec![Cell::from(after(update))];
+        for [low, median, high] in [left, total] {
+            cells.extend([median, low, high].map(Cell::from));
         }
-        line(cells)
+        cells.push(Cell::from(format!("{}\u{202f}%", fixed(100.0 * life.passed, 1))));
+        Some(line(cells))
     });
     rows.collect()
 }
