@@ -178,8 +178,8 @@ impl PressureMotion {
     /// (x_still − x)/(x_still − x_edge − e) = (x_still − X)/(x_still − x_edge)          p(x) = p(X) dX/dx
     /// ```
     ///
-    /// Stretched pressure falls, so that it keeps its load: with p(X) alone the points would feel up to 2 % more or less of it, by the square of the
-    /// distance of positions.
+    /// Stretched pressure falls, so that it keeps its load. Means over straight courses, as if all of it went as far as at the place of the point, give the
+    /// points up to 2 % too much where positions are a half-width apart: an error by the square of their distance, which gathers where edges wear.
     pub(super) fn met_at_mm(&self, along_mm: f64, part_of_cell: f64) -> PressureMet {
         let Some(edge) = self.edge else { return PressureMet { along_mm, density: 1.0 } };
         let moved_mm = edge.moved_mm(part_of_cell);

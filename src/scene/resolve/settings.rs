@@ -253,3 +253,29 @@ pub(super) fn memory(numerics: &Numerics, surface: SurfaceKind, slices: usize, f
         findings.not_allowed("numerics.positions", positions.to_string(), allowed);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::draft::Draft;
+    use crate::scene::presets;
+
+    /// Positions of a preset that leaves them open, with these keys exchanged.
+    fn positions(preset: &str, exchanged: &[(&str, f64)]) -> usize {
+        let mut draft = Draft::parse(presets::find(preset).unwrap().text).unwrap();
+        draft.remove("numerics.positions");
+        exchanged.iter().for_each(|(key, value)| draft.set(key, *value));
+        draft.resolve().unwrap().scene.numerics.positions
+    }
+
+    /// helical: 19.097 mm from A to E and a = 0.2083 mm at C under 302 N·m give 19.097/(0.5 · 0.2083) = 183.3 intervals, 184 whole ones; under 1.5 times the
+    /// torque 183.3/√1.5 = 149.7, 150 whole ones. Within 100 and 200 positions whatever the load; a number that is given stands.
+    #[test]
+    fn ver_positions_in_slices_follow_the_width_of_contact() {
+        assert_eq!(positions("helical", &[]), 185);
+        assert_eq!(positions("helical", &[("operation.pinion_torque_Nm", 453.0)]), 151);
+        assert_eq!(positions("helical", &[("operation.pinion_torque_Nm", 30.0)]), 200);
+        assert_eq!(positions("h951", &[]), 100);
+        assert_eq!(positions("helical", &[("numerics.positions", 60.0)]), 60);
+        assert_eq!(positions("fzg-c", &[]), 400);
+    }
+}
