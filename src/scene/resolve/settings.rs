@@ -275,7 +275,9 @@ mod tests {
         assert_eq!(positions("helical", &[("operation.pinion_torque_Nm", 453.0)]), 151);
         assert_eq!(positions("helical", &[("operation.pinion_torque_Nm", 30.0)]), 200);
         assert_eq!(positions("h951", &[]), 100);
-        assert_eq!(positions("helical", &[("numerics.positions", 60.0)]), 60);
         assert_eq!(positions("fzg-c", &[]), 400);
+        let mut given = Draft::parse(presets::find("helical").unwrap().text).unwrap();
+        given.set("numerics.positions", 60);
+        assert_eq!(given.resolve().unwrap().scene.numerics.positions, 60);
     }
 }
