@@ -187,7 +187,7 @@ fn ver_heights_of_helical_flanks_are_transverse() {
             ("# coupling = \"slicing\"", "coupling = \"none\" #"),
             ("slices = 20", "slices = 4"),
             ("flank_points = 750", "flank_points = 150"),
-            ("positions = 200", "positions = 60"),
+            ("positions = 185", "positions = 60"),
             ("verify = true", "verify = false"),
             ("error_estimate = true", "error_estimate = false"),
             ("snapshots_revolutions = ", "# snapshots_revolutions = "),

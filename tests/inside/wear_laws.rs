@@ -157,7 +157,6 @@ fn ver_slices_wear_by_the_mean_coefficient() {
                 ("# coupling = \"slicing\" ", "coupling = \"none\" "),
                 ("pinion_revolutions = 6e5", "pinion_revolutions = 10.0"),
                 ("flank_points = 750 ", "flank_points = 300 "),
-                ("positions = 200 ", "positions = 100 "),
                 ("step = \"adaptive\" ", "step = { revolutions = 10.0 } "),
                 ("tolerance_um", "# tolerance_um"),
                 ("error_estimate = true ", "error_estimate = false "),

@@ -1,6 +1,6 @@
 //! Points of one flank that may touch the other: places, motion and sliding while they face the mate.
 
-use super::flank_motion::{PressureMotion, on_tangent, shift_to_ends_mm};
+use super::flank_motion::{PressureMet, PressureMotion, on_tangent, shift_to_ends_mm};
 use super::strip::ContactWindow;
 use super::{Flanks, PositionCell};
 use gearwear_bodies::gear::{Gear, conjugate::ConjugateFlanks, involute::TangentFramePoint};
@@ -22,6 +22,47 @@ pub(crate) struct ObservedPoints {
     standing_within_mm: Option<[f64; 2]>,
     /// Points that an end of the mate's flank passes within the cell, or that face nothing.
     partly_exposed: Vec<PartlyExposed>,
+}
+
+/// Parts of the time of a course for which a stretched pressure is averaged each by itself.
+const PARTS_OF_COURSE: usize = 4;
+
+/// Course of a flank point through the pressure at the cell's position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Course {
+    /// Places on the tangent where it begins and ends, mm.
+    pub ends_mm: [f64; 2],
+    /// Equal parts of its time; none where the pressure is not stretched.
+    pub parts: Option<[PartOfCourse; PARTS_OF_COURSE]>,
+}
+
+/// Part of a course.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct PartOfCourse {
+    /// Places on the tangent where it begins and ends, mm.
+    pub ends_mm: [f64; 2],
+    /// Weight of the mean pressure between them.
+    pub weight: f64,
+}
+
+impl Course {
+    /// Course through a pressure that is not stretched.
+    fn even(ends_mm: [f64; 2]) -> Self {
+        Self { ends_mm, parts: None }
+    }
+
+    /// Course over the part `from` to `to` of the cell; `met` tells the pressure that is met at a part of it.
+    fn stretched([from, to]: [f64; 2], met: impl Fn(f64) -> PressureMet) -> Self {
+        let at = |k: f64| from + (to - from) * k / PARTS_OF_COURSE as f64;
+        let parts = std::array::from_fn(|k| {
+            let k = k as f64;
+            PartOfCourse {
+                ends_mm: [k, k + 1.0].map(|end| met(at(end)).along_mm),
+                weight: met(at(k + 0.5)).density / PARTS_OF_COURSE as f64,
+            }
+        });
+        Self { ends_mm: [from, to].map(|end| met(end).along_mm), parts: Some(parts) }
+    }
 }
 
 /// A point that faces the mate during part of the cell only.
@@ -96,35 +137,41 @@ impl ObservedPoints {
                 [from_mm, to_mm].map(|end_mm| geometry.in_tangent_frame(gear, end_mm, cell.position_mm).along_mm);
             points.standing_within_mm = Some(ends_mm);
         }
-        let seen = points.first_point..points.first_point + points.sliding_mm.len();
-        let coordinates_mm = flanks.grid[gear].coordinate_mm[seen].iter();
-        let passes = coordinates_mm.zip(points.at.windows(3)).map(|(&at_mm, three)| {
-            let spacing_mm = 0.5 * (three[2].along_mm - three[0].along_mm);
-            motion.passes_mm(geometry, gear, (at_mm, on_tangent(gear, three[1].along_mm)), || spacing_mm)
-        });
-        points.shifts_to_ends_mm = passes.collect();
         points
     }
 
-    /// Distances that each point moves along the tangent from the cell's position to both ends of the part of the cell in which it faces the
-    /// mate; none for points that never do.
-    pub(crate) fn courses_mm(&self) -> Vec<Option<[f64; 2]>> {
-        let mut courses: Vec<_> = self.shifts_to_ends_mm().into_iter().map(Some).collect();
-        if let Some([from_mm, to_mm]) = self.standing_within_mm {
-            // Half of the way to either neighbour; the part of the outermost point ends with the edge.
-            for (three, course) in self.at.windows(3).zip(&mut courses) {
-                let [before, here, after] = [three[0], three[1], three[2]].map(|point| point.along_mm);
-                let ends = [
-                    (0.5 * (before - here)).max((from_mm - here).min(0.0)),
-                    (0.5 * (after - here)).min((to_mm - here).max(0.0)),
-                ];
-                let is_shorter = |[from, to]: [f64; 2]| (to - from).abs() <= 0.5 * (after - before) * (1.0 + 1e-9);
-                *course = course.map(|course| if is_shorter(course) { ends } else { course });
-            }
+    /// Courses of the points of `gear` through a pressure of this motion; none for points that never face the mate.
+    pub(crate) fn courses(&self, gear: Gear, motion: &PressureMotion) -> Vec<Option<Course>> {
+        let mut faced = vec![Some([0.0, 1.0]); self.sliding_mm.len()];
+        for point in &self.partly_exposed {
+            faced[point.sample] = (point.from < point.to).then_some([point.from, point.to]);
         }
-        let unexposed = self.partly_exposed.iter().filter(|point| point.from == point.to);
-        unexposed.for_each(|point| courses[point.sample] = None);
-        courses
+        let points = self.at.windows(3).zip(&self.shifts_to_ends_mm).zip(faced);
+        let courses = points.map(|((three, shifts_mm), faced)| {
+            let [from, to] = faced?;
+            let here_mm = three[1].along_mm;
+            let met = |part: f64| {
+                let moved_mm = shifts_mm[0] + part * (shifts_mm[1] - shifts_mm[0]);
+                motion.met_at_mm(on_tangent(gear, here_mm + moved_mm), part)
+            };
+            let ends_mm = [from, to].map(|part| met(part).along_mm);
+            let [before_mm, after_mm] = [three[0], three[2]].map(|point| point.along_mm);
+            if let Some([first_mm, last_mm]) = self.standing_within_mm
+                && (ends_mm[1] - ends_mm[0]).abs() <= 0.5 * (after_mm - before_mm) * (1.0 + 1e-9)
+            {
+                // Half of the way to either neighbour; the part of the outermost point ends with the edge.
+                let ends_mm = [
+                    here_mm + (0.5 * (before_mm - here_mm)).max((first_mm - here_mm).min(0.0)),
+                    here_mm + (0.5 * (after_mm - here_mm)).min((last_mm - here_mm).max(0.0)),
+                ];
+                return Some(Course::even(ends_mm.map(|end_mm| on_tangent(gear, end_mm))));
+            }
+            if !motion.is_stretched() {
+                return Some(Course::even(ends_mm));
+            }
+            Some(Course::stretched([from, to], met))
+        });
+        courses.collect()
     }
 
     /// Distances that each point moves along the tangent from the cell's position to the begin and to the end of the part of

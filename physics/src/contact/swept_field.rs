@@ -6,8 +6,8 @@
 
 use std::ops::Range;
 
-use super::flank_motion::{PressureMotion, on_tangent};
-use super::observed_points::ObservedPoints;
+use super::flank_motion::PressureMotion;
+use super::observed_points::{Course, ObservedPoints};
 use super::strip::ContactWindow;
 use super::weighted_rows::{RowsOfAnyLength, WeightedRows};
 use super::{Flanks, PointContact, Sweep, pressure_field::PressureField};
@@ -44,21 +44,17 @@ impl SweptPoints {
         (field, cells): (&PressureField, usize),
     ) -> Self {
         let points = ObservedPoints::under_pressure(flanks, gear, window, motion);
-        let along_mm: Vec<f64> = points.at[1..=points.sliding_mm.len()].iter().map(|point| point.along_mm).collect();
-        let courses = points.courses_mm();
-        let courses = along_mm.iter().zip(courses);
-        let courses_mm: Vec<Option<[f64; 2]>> =
-            courses.map(|(at, course)| course.map(|ends| ends.map(|by| on_tangent(gear, at + by)))).collect();
-        let (mut means, mut beyond) = (RowsOfAnyLength::of_about(courses_mm.len()), Vec::new());
-        let mut weights = Vec::new();
-        for (k, course) in (0..).zip(&courses_mm) {
-            weights.clear();
-            let first = course.map_or(0, |ends_mm| field.mean_weights(cells, ends_mm, &mut weights));
-            means.push(first, &weights);
-            if course.is_some_and(|ends_mm| field.may_be_mirrored(cells, ends_mm)) {
+        let courses = points.courses(gear, &motion);
+        let (mut means, mut beyond) = (RowsOfAnyLength::of_about(courses.len()), Vec::new());
+        let mut of_courses = CourseMeans { field, cells, weights: Vec::new(), sums: vec![0.0; cells] };
+        for (k, course) in (0..).zip(&courses) {
+            let (first, weights) = course.as_ref().map_or((0, &[][..]), |course| of_courses.of(course));
+            means.push(first, weights);
+            if course.is_some_and(|course| field.may_be_mirrored(cells, course.ends_mm)) {
                 beyond.push(k);
             }
         }
+        let courses_mm = courses.iter().map(|course| course.map(|course| course.ends_mm)).collect();
         Self {
             first_point: points.first_point,
             sliding_mm: points.sliding_mm,
@@ -66,6 +62,37 @@ impl SweptPoints {
             means: means.packed(cells),
             beyond,
         }
+    }
+}
+
+/// Weights of the pressures of cells in mean pressures on courses.
+struct CourseMeans<'f> {
+    field: &'f PressureField,
+    cells: usize,
+    weights: Vec<f64>,
+    /// All 0 again after every course.
+    sums: Vec<f64>,
+}
+
+impl CourseMeans<'_> {
+    /// First cell with a weight in the mean on a `course`, and the weights from it on.
+    fn of(&mut self, course: &Course) -> (usize, &[f64]) {
+        let Self { field, cells, weights, sums } = self;
+        let Some(parts) = course.parts else {
+            let first = field.mean_weights(*cells, course.ends_mm, weights);
+            return (first, weights);
+        };
+        let (mut begin, mut end) = (sums.len(), 0);
+        for part in parts {
+            let first = field.mean_weights(*cells, part.ends_mm, weights);
+            let sums = sums[first..].iter_mut().zip(&*weights);
+            sums.for_each(|(sum, weight)| *sum += part.weight * weight);
+            (begin, end) = (begin.min(first), end.max(first + weights.len()));
+        }
+        weights.clear();
+        weights.extend_from_slice(&sums[begin..end]);
+        sums[begin..end].fill(0.0);
+        (begin, weights)
     }
 }
 
@@ -131,5 +158,48 @@ impl SweptField {
         let Some(first) = of_points.iter().position(meets) else { return 0..0 };
         let last = of_points.iter().rposition(meets).unwrap_or(first);
         first.saturating_sub(1)..(last + 2).min(of_points.len())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::PositionCell;
+    use super::super::strip::tests::pair_of;
+    use super::*;
+    use gearwear_bodies::gear::conjugate::ConjugateFlanks;
+    use gearwear_bodies::gear::flank::{FlankGrid, PointSpacing};
+
+    /// The points of both flanks together carry the load of an ellipse that a tip edge cuts off within 1 %, where positions are 1.4 half-widths apart.
+    #[test]
+    fn ver_points_carry_the_load_beside_a_tip_edge() {
+        let pair = pair_of(4.5, 91.5, [(16, 0.1817), (24, 0.1715)]);
+        let grid = PerGear::from_fn(|gear| FlankGrid::new(&pair, gear, 3000, PointSpacing::Graded));
+        let flanks = Flanks::of_gears(&pair, grid.as_ref());
+        let half_width_mm = 0.13;
+        let [start_mm, end_mm] = [pair.path.start_mm, pair.path.end_mm];
+        let mut off = Vec::new();
+        for position_mm in [start_mm + 0.1, start_mm + 0.25, end_mm - 0.25, end_mm - 0.1] {
+            let cell = PositionCell { position_mm, lower_mm: position_mm - 0.09, upper_mm: position_mm + 0.09 };
+            let window = ContactWindow::new(flanks, position_mm, 1.2 * half_width_mm);
+            let cells = 100;
+            let width_mm = window.length_mm() / f64::from(cells);
+            let motion = PressureMotion::new(flanks, cell, half_width_mm);
+            assert!(motion.is_stretched(), "{position_mm}");
+            let mut swept = SweptField::new(flanks, window, width_mm, Some(motion));
+            let middles_mm = (0..cells).map(|k| window.lower_mm + (f64::from(k) + 0.5) * width_mm);
+            let ellipse = middles_mm.map(|x_mm| (1.0 - (x_mm / half_width_mm).powi(2)).max(0.0).sqrt());
+            let pressure: Vec<f64> = ellipse.collect();
+            let load = width_mm * pressure.iter().sum::<f64>();
+            swept.field.fill(|cells| cells.extend_from_slice(&pressure));
+            for gear in Gear::BOTH {
+                let mut sweep = Sweep::default();
+                swept.sweep(gear, &mut sweep);
+                let points = sweep.pressure_mpa.iter().zip(&sweep.sliding_mm).zip(sweep.first_point..);
+                let worn: f64 = points.map(|((p, slid), i)| p * slid * grid[gear].share_mm(i)).sum();
+                let sliding_mm = flanks.geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
+                off.push(worn / (load * sliding_mm) - 1.0);
+            }
+        }
+        assert!(off.iter().all(|off| off.abs() < 1e-2), "{off:?}");
     }
 }

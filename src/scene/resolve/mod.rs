@@ -60,13 +60,14 @@ pub(super) fn resolve_table(table: Table, mut findings: Findings) -> Result<Reso
     let resolved = text::typed::<SceneFile>(sound, &mut findings).and_then(|file| choose(file, &mut findings));
     let mut resolved = resolved.filter(|_| findings.problems.is_empty());
     let mut of_contact = false;
-    if let Some((scene, _)) = &mut resolved
+    if let Some((scene, file)) = &mut resolved
         && let Some(pair) = geometry::check(&scene.pair, scene.slices, &mut findings)
     {
         if let Some(warning) = settings::leave_elements_out(scene, &pair) {
             findings.warnings.push(warning);
         }
         contact_size::check(scene, &pair, &mut findings);
+        settings::positions(scene, file.numerics.get_or_insert_default(), &pair);
         of_contact = !findings.problems.is_empty();
         operation::check_stop(&scene.operation.stop, &pair, &mut findings);
     }
@@ -159,12 +160,12 @@ fn choose_numerics(
     // The life may be a small part of the duration.
     let adaptive = finely_resolved || is_severe || operation.stop.are_set();
     let tip_contact = contact.is_some_and(|contact| contact.tip_contact);
-    let positions = match surface {
-        Some(SurfaceKind::HalfSpace) if slices.is_some() && tip_contact => settings::POSITIONS_IN_SLICES,
-        _ => settings::POSITIONS,
+    let most_positions = match settings::are_in_slices(contact, slices) {
+        true => *settings::POSITIONS_IN_SLICES.end(),
+        false => settings::POSITIONS,
     };
-    file.get_or_insert_default().positions.get_or_insert(positions);
-    let numerics = settings::numerics(file, operation.pinion_revolutions, adaptive, tip_contact, findings);
+    let duration = operation.pinion_revolutions;
+    let numerics = settings::numerics(file, duration, adaptive, tip_contact, most_positions, findings);
     if let (Some(numerics), Some(surface)) = (&numerics, surface) {
         settings::memory(numerics, surface, slices.map_or(1, |slices| slices.count), findings);
     }

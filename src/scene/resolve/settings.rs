@@ -1,20 +1,25 @@
 //! Contact, stiffness and numerics.
 
+use std::ops::RangeInclusive;
+
 use crate::scene::file::{ContactFile, NamedStep, NumericsFile, StepFile, StiffnessFile, StiffnessModel};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 use gearwear_bodies::gear::GearPair;
 use gearwear_bodies::gear::flank::PointSpacing;
 use gearwear_physics::contact::settings::{ContactSettings, Foundation, SurfaceKind};
-use gearwear_physics::mesh_cycle::settings::Coupling;
+use gearwear_physics::mesh_cycle::settings::{Coupling, SliceSettings};
 use gearwear_physics::operation::Scene;
 use gearwear_physics::simulation::settings::{Numerics, Stepping};
 use gearwear_physics::stiffness::settings::StiffnessSettings;
 
 const FLANK_POINTS: u32 = 750;
-pub(super) const POSITIONS: u32 = 400;
-/// Positions of half-planes in slices whose tip edges are followed: slices enter the mesh one by one, so that there are many more places of contact.
-pub(super) const POSITIONS_IN_SLICES: u32 = 200;
+pub(super) const POSITIONS: usize = 400;
+/// Positions of half-planes in slices whose tip edges are followed, at least and at most: slices enter the mesh one by one, so that there are many more
+/// places of contact.
+pub(super) const POSITIONS_IN_SLICES: RangeInclusive<usize> = 100..=200;
+/// Distance of these positions in half-widths of contact: the error is proportional to the square of it (docs/accuracy.md).
+const APART_IN_SLICES: f64 = 0.5;
 /// Error of the wear depth that adaptive steps may make, µm.
 const TOLERANCE_UM: f64 = 0.05;
 /// Least tolerance, µm: below the size of an atom the rounding of equilibria dominates, and steps become infinitely short.
@@ -171,16 +176,32 @@ pub(super) fn numerics(
     duration: f64,
     adaptive: bool,
     tip_contact: bool,
+    most_positions: usize,
     findings: &mut Findings,
 ) -> Option<Numerics> {
     let file = file.get_or_insert_default();
     let stepping = stepping(file, duration, adaptive, findings)?;
     let flank_points = *file.flank_points.get_or_insert(FLANK_POINTS) as usize;
-    let positions = *file.positions.get_or_insert(POSITIONS) as usize;
+    let positions = file.positions.map_or(most_positions, |positions| positions as usize);
     let spacing = if tip_contact { PointSpacing::Graded } else { PointSpacing::Even };
     let point_spacing = *file.flank_point_spacing.get_or_insert(spacing);
     let error_estimate = *file.error_estimate.get_or_insert(true);
     Some(Numerics { flank_points, point_spacing, positions, stepping, error_estimate })
+}
+
+/// Chooses the positions that the scene leaves open, once its pair is known.
+pub(super) fn positions(scene: &mut Scene, file: &mut NumericsFile, pair: &GearPair) {
+    if file.positions.is_none() && are_in_slices(Some(scene.contact), scene.slices) {
+        scene.numerics.positions = scene.positions_apart(pair, APART_IN_SLICES, POSITIONS_IN_SLICES);
+    }
+    file.positions.get_or_insert(scene.numerics.positions as u32);
+}
+
+/// Whether contact is that of half-planes in slices that are followed beyond the tip edges.
+pub(super) fn are_in_slices(contact: Option<ContactSettings>, slices: Option<SliceSettings>) -> bool {
+    let of_half_planes =
+        contact.is_some_and(|contact| contact.surface == SurfaceKind::HalfSpace && contact.tip_contact);
+    of_half_planes && slices.is_some()
 }
 
 fn stepping(file: &mut NumericsFile, duration: f64, adaptive: bool, findings: &mut Findings) -> Option<Stepping> {
@@ -230,5 +251,33 @@ pub(super) fn memory(numerics: &Numerics, surface: SurfaceKind, slices: usize, f
             MOST_POINTS_TIMES_POSITIONS / a_position
         );
         findings.not_allowed("numerics.positions", positions.to_string(), allowed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::draft::Draft;
+    use crate::scene::presets;
+
+    /// Positions of a preset that leaves them open, with these keys exchanged.
+    fn positions(preset: &str, exchanged: &[(&str, f64)]) -> usize {
+        let mut draft = Draft::parse(presets::find(preset).unwrap().text).unwrap();
+        draft.remove("numerics.positions");
+        exchanged.iter().for_each(|(key, value)| draft.set(key, *value));
+        draft.resolve().unwrap().scene.numerics.positions
+    }
+
+    /// helical: 19.097 mm from A to E and a = 0.2083 mm at C under 302 N·m give 19.097/(0.5 · 0.2083) = 183.3 intervals, 184 whole ones; under 1.5 times the
+    /// torque 183.3/√1.5 = 149.7, 150 whole ones. Within 100 and 200 positions whatever the load; a number that is given stands.
+    #[test]
+    fn ver_positions_in_slices_follow_the_width_of_contact() {
+        assert_eq!(positions("helical", &[]), 185);
+        assert_eq!(positions("helical", &[("operation.pinion_torque_Nm", 453.0)]), 151);
+        assert_eq!(positions("helical", &[("operation.pinion_torque_Nm", 30.0)]), 200);
+        assert_eq!(positions("h951", &[]), 100);
+        assert_eq!(positions("fzg-c", &[]), 400);
+        let mut given = Draft::parse(presets::find("helical").unwrap().text).unwrap();
+        given.set("numerics.positions", 60);
+        assert_eq!(given.resolve().unwrap().scene.numerics.positions, 60);
     }
 }

@@ -9,6 +9,7 @@
 //! where the overlap is wide.
 
 use std::borrow::Cow;
+use std::ops::RangeInclusive;
 
 use super::{Elements, Extrapolation, ReferenceRun, ReferenceUncertainty, VerificationModels, simulate};
 use crate::assessment::RunModel;
@@ -29,8 +30,10 @@ use gearwear_bodies::gear::slices::Slices;
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_bodies::gear_fem::model::ModelError;
 
-/// Positions from A to E.
-const POSITIONS: usize = 150;
+/// Positions from A to E, at least and at most.
+const POSITIONS: RangeInclusive<usize> = 75..=150;
+/// Distance of the positions in half-widths of contact: a third more than that of a default run.
+const APART: f64 = 2.0 / 3.0;
 /// Fewest slices that resolve the loads at the ends of the lines of contact.
 const LEAST_SLICES: usize = 20;
 /// Overlap ratio from which the transmission error is so small that slices make a ripple of a tenth of it and more, and more slices are compared with.
@@ -84,7 +87,8 @@ pub(super) fn reference_run(
         .zip(&teeth)
         .map(|(surface, teeth)| MeshContact::LineOfAction { surface, teeth, tip_contact: true, sliced: Some(&sliced) })
         .collect();
-    let reference = simulate(model, outcome, contacts, POSITIONS, observer)?;
+    let positions = scene.positions_apart(pair, APART, POSITIONS);
+    let reference = simulate(model, outcome, contacts, positions, observer)?;
     let wear_mm = PerGear::from_fn(|gear: Gear| {
         let points = outcome.grid[gear].len();
         over_slices(&reference.worn.wear_mm[gear], points, &reference.slices, &outcome.slices)
