@@ -15,7 +15,7 @@ use gearwear_bodies::gear::{
 };
 use gearwear_physics::contact::hertz;
 
-use super::common::{Scene, assert_close, fzg_c_scene, gear, pair, spur, steel};
+use super::common::{Scene, assert_close, fzg_c, fzg_c_scene, gear, pair, spur, steel};
 
 /// An internal wheel by teeth, shift (positive towards the tips) and tip diameter, both as magnitudes.
 fn ring(teeth: u32, profile_shift: f64, tip_diameter_mm: Option<f64>) -> GearSpec {
@@ -141,8 +141,8 @@ struct ReportedStage {
     forms_mm: [f64; 2],
     /// Diameters of the starts of active profile.
     starts_mm: [f64; 2],
-    /// Arc thickness over the module.
-    thicknesses: [f64; 2],
+    /// Arc thicknesses on the reference circles.
+    thicknesses_mm: [f64; 2],
     tip_thicknesses_mm: [f64; 2],
     /// Radii of curvature of the planet at A, B, C, D, E.
     path_mm: [f64; 5],
@@ -167,7 +167,7 @@ const REPORTED_STAGES: [ReportedStage; 2] = [
         working_mm: [752.359, 2478.359],
         forms_mm: [748.795, 2662.682],
         starts_mm: [749.170, 2594.369],
-        thicknesses: [2.1547, 1.2059],
+        thicknesses_mm: [96.962, 54.264],
         tip_thicknesses_mm: [26.588, 38.407],
         path_mm: [105.462, 142.431, 110.993, 238.308, 275.277],
         contact_ratio: 1.278,
@@ -185,7 +185,7 @@ const REPORTED_STAGES: [ReportedStage; 2] = [
         working_mm: [737.684, 1905.684],
         forms_mm: [737.389, 1987.879],
         starts_mm: [738.082, 1969.750],
-        thicknesses: [1.9376, 1.6560],
+        thicknesses_mm: [40.689, 34.777],
         tip_thicknesses_mm: [14.858, 18.937],
         path_mm: [100.108, 138.396, 99.372, 162.102, 200.391],
         contact_ratio: 1.618,
@@ -228,8 +228,7 @@ fn val_planets_and_rings_of_a_gear_program() {
             assert_reported("d_f", diameter(tooth.root_radius_mm), roots_mm[k]);
             assert_reported("d_Ff", diameter(tooth.root_form_radius_mm), stage.forms_mm[k]);
             assert_reported("d_Nf", diameter(pair.active_start_radius_mm(gear)), stage.starts_mm[k]);
-            let thickness_mm = tooth.thickness_mm(tooth.reference_radius_mm);
-            assert_printed("s_n*", thickness_mm / module_mm, stage.thicknesses[k], 4);
+            assert_reported("s_n", tooth.thickness_mm(tooth.reference_radius_mm), stage.thicknesses_mm[k]);
             assert_reported("s_an", tooth.thickness_mm(tooth.tip_radius_mm), stage.tip_thicknesses_mm[k]);
             let [ball_mm, over_mm] = stage.balls_mm[k];
             assert_reported("M_dK", pair.dimension_over_balls_mm(gear, ball_mm).unwrap(), over_mm);
@@ -242,6 +241,15 @@ fn val_planets_and_rings_of_a_gear_program() {
         assert_eq!(span.teeth, stage.span.0);
         assert_reported("W_k", span.span_mm, stage.span.1);
     }
+}
+
+/// Load comes in at once where the tip circles part only if teeth approach by the gap that is left there.
+#[test]
+fn ver_tips_meet_where_their_circles_part() {
+    let planet = pair(&planet_in_ring());
+    assert_eq!(planet.tips_meet_mm(100.0), planet.farthest_touch_mm().map(Some));
+    assert_eq!(planet.tips_meet_mm(0.0), [None; 2]);
+    assert_eq!(pair(&fzg_c()).tips_meet_mm(0.02), [None; 2]);
 }
 
 /// standardsapplied.com, *Internal Ring Gear Design*: 72 teeth, diametral pitch 8, 20°, cutter with 32 teeth; inches.
