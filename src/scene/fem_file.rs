@@ -22,7 +22,7 @@ pub struct FemFile {
     pub clamp_radius_mm: Option<ClampRadiusFile>,
     /// Webs that carry the rims: the pair is taken in slices, and finite elements in space see the web. Default: discs as wide as the teeth.
     pub web: Option<WebsFile>,
-    /// Elements in the half-width of contact, 2 to 60. Default 10; in a wear run 3, with severe wear 5.
+    /// Elements in the half-width of contact, 2 to 60. Default 10; in a wear run 3, of internal pairs 4, with severe wear 5.
     #[schemars(range(min = 2, max = 60))]
     pub elements_per_half_width: Option<f64>,
 }

@@ -421,7 +421,7 @@ pub struct NumericsFile {
     pub flank_points: Option<u32>,
     /// Spacing of the flank points. Default: graded with contact.tip_contact, otherwise even.
     pub flank_point_spacing: Option<PointSpacing>,
-    /// Loading positions, evenly from A to E, 20 to 1000000. Default 400, of half-planes in slices 100 to 200, half a half-width of contact apart.
+    /// Loading positions, evenly from A to E, 20 to 1000000. Default 400, of half-planes in slices 150 to 200, half a half-width of contact apart.
     #[schemars(range(min = 20, max = 1000000))]
     pub positions: Option<u32>,
     /// Estimates of the numerical errors, which cost extra runs. Default true.

@@ -7,6 +7,8 @@
 //! Wear is that of the nodes of both flanks: the load of every multiplier reaches those that it faces while the contact moves on
 //! ([`gearwear_bodies::gear_fem::load_transfer`]). Positions are closer together where a tip edge touches, about A and E, where the contact is narrow,
 //! stands still on the edge and runs along the mate; and so about B and D, as a base pitch leads from A to D and from B to E.
+//! Edges of internal pairs under load may touch as far as the tip circles of both gears overlap ([`gearwear_bodies::gear::GearPair::tips_meet_mm`]): load comes in and
+//! leaves at once there. A stretch ends there, so that sums over positions stay of second order in their distance.
 //!
 //! The couplings of a position are prepared once; from one wear step to the next only the gaps change, and hardly the active set.
 
@@ -46,6 +48,8 @@ const APART_AT_TIP_EDGES: Apart = Apart { half_widths: 0.15, limits: [0.25, 1.0]
 const AMPLE_APPROACH: f64 = 1.3;
 /// Length within A–E on which the tip edge still changes a contact, in Hertz half-widths at the pitch point.
 const WITHIN_HALF_WIDTHS: f64 = 2.0;
+/// Length outside a place where load comes in at once on which positions are as close as inside, in Hertz half-widths at the pitch point.
+const OUTSIDE_JUMP_HALF_WIDTHS: f64 = 0.5;
 
 /// Relative difference of the lever of a tooth pair's load from that on the worn flanks, over the part of the load that other pairs carry, that is
 /// followed: a load share changes by some three times that.
@@ -167,7 +171,7 @@ impl<'a> CondensedCycle<'a> {
     }
 }
 
-/// Stretches of the positions of one base pitch: short ones where a tip edge touches.
+/// Stretches of the positions of one base pitch: short ones where a tip edge touches, and none across a place where load comes in at once.
 fn stretches(model: &CondensedPair<'_>, positions: usize, line_load_n_per_mm: f64) -> Vec<(f64, f64)> {
     let (pair, path) = (model.pair, &model.pair.path);
     let (start, pitch) = (model.first_position_mm(), path.base_pitch_mm);
@@ -178,6 +182,13 @@ fn stretches(model: &CondensedPair<'_>, positions: usize, line_load_n_per_mm: f6
         .at(path.pitch_point_mm, line_load_n_per_mm, &Default::default())
         .map_or(0.0, |contact| contact.transmission_error_mm);
     let [before, after] = pair.tip_reach_mm(AMPLE_APPROACH * approach);
+    // Distance, from the beginning, of the places where load comes in or leaves at once.
+    let [first, last] = pair.tips_meet_mm(AMPLE_APPROACH * approach);
+    let jumps = [first.map(|before| path.start_mm - before), last.map(|after| path.end_mm + after)];
+    let cuts = jumps.map(|jump| jump.map(|place| (place - start).rem_euclid(pitch)));
+    let outside = OUTSIDE_JUMP_HALF_WIDTHS * half_width;
+    let before = first.map_or(before, |jump| jump + outside);
+    let after = last.map_or(after, |jump| jump + outside);
     // Both stretches at tip edges, moved by base pitches to where they begin in this one, and cut at its end.
     let zones = [(path.start_mm - before, path.start_mm + within), (path.end_mm - within, path.end_mm + after)];
     let mut at_edges: Vec<(f64, f64)> = zones
@@ -199,12 +210,30 @@ fn stretches(model: &CondensedPair<'_>, positions: usize, line_load_n_per_mm: f6
             continue;
         }
         let apart = (half_widths * half_width).clamp(least * even, most * even);
-        let count = (length / apart - 1e-9).ceil().max(1.0) as usize;
-        let ends = (0..=count).map(|k| start + reached + length * k as f64 / count as f64).collect::<Vec<f64>>();
-        stretches.extend(ends.windows(2).map(|ends| (ends[0], ends[1])));
+        for (reached, to) in cut((reached, to), cuts, 1e-9 * pitch) {
+            let length = to - reached;
+            let count = (length / apart - 1e-9).ceil().max(1.0) as usize;
+            let ends = (0..=count).map(|k| start + reached + length * k as f64 / count as f64).collect::<Vec<f64>>();
+            stretches.extend(ends.windows(2).map(|ends| (ends[0], ends[1])));
+        }
         reached = to;
     }
     stretches
+}
+
+/// Parts of a stretch between the cuts that lie within it, farther than `least` from its ends and from each other.
+fn cut((from, to): (f64, f64), cuts: [Option<f64>; 2], least: f64) -> Vec<(f64, f64)> {
+    let mut places: Vec<f64> = cuts.into_iter().flatten().filter(|&at| at > from + least && at < to - least).collect();
+    places.sort_by(f64::total_cmp);
+    let mut parts = Vec::new();
+    let mut reached = from;
+    for place in places.into_iter().chain([to]) {
+        if place - reached > least {
+            parts.push((reached, place));
+            reached = place;
+        }
+    }
+    parts
 }
 
 impl MeshCycle for CondensedCycle<'_> {

@@ -5,7 +5,8 @@
 //! of second order in their distance.
 //!
 //! Where tip edges are followed into contact, positions go on before A and after E as far as pairs may touch there
-//! ([`super::tip_contact`]); every pair within those bounds may carry load, and loads do not jump: stretches need no cut.
+//! ([`super::tip_contact`]); every pair within those bounds may carry load, and loads do not jump: stretches need no cut. Limit: edges of an internal pair may still touch where
+//! the tip circles part; there load does jump, and sums are of first order.
 
 use super::{LoadingPosition, PairInMesh};
 use crate::contact::PositionCell;

@@ -15,7 +15,7 @@ use gearwear_bodies::gear::{
 };
 use gearwear_physics::contact::hertz;
 
-use super::common::{Scene, assert_close, fzg_c_scene, gear, pair, spur, steel};
+use super::common::{Scene, assert_close, fzg_c, fzg_c_scene, gear, pair, spur, steel};
 
 /// An internal wheel by teeth, shift (positive towards the tips) and tip diameter, both as magnitudes.
 fn ring(teeth: u32, profile_shift: f64, tip_diameter_mm: Option<f64>) -> GearSpec {
@@ -123,6 +123,133 @@ fn val_planet_and_ring_of_a_planetary_gear() {
     assert_printed("a", spec.centre_distance_mm.abs(), 56.8, 3);
     assert_printed("d", 2.0 * spec.reference_radius_mm(Gear::Wheel), -189.0, 4);
     assert_printed("d, planet", 2.0 * spec.reference_radius_mm(Gear::Pinion), 75.25, 4);
+}
+
+/// Planet and ring of a stage as a gear program reports them, lengths in mm.
+struct ReportedStage {
+    module_mm: f64,
+    centre_mm: f64,
+    /// Numbers of teeth of planet, ring and shaper cutter.
+    teeth: [u32; 3],
+    /// Root diameters, which have one digit more of the profile shifts than are printed.
+    roots_mm: [f64; 2],
+    tips_mm: [f64; 2],
+    working_angle_deg: f64,
+    bases_mm: [f64; 2],
+    working_mm: [f64; 2],
+    /// Root form diameters.
+    forms_mm: [f64; 2],
+    /// Diameters of the starts of active profile.
+    starts_mm: [f64; 2],
+    /// Arc thicknesses on the reference circles.
+    thicknesses_mm: [f64; 2],
+    tip_thicknesses_mm: [f64; 2],
+    /// Radii of curvature of the planet at A, B, C, D, E.
+    path_mm: [f64; 5],
+    contact_ratio: f64,
+    /// Teeth and length of the planet's span.
+    span: (u32, f64),
+    /// Diameter of balls and dimension over or between them.
+    balls_mm: [[f64; 2]; 2],
+}
+
+/// Reports of KISSsoft 03/2017 (ISO 21771:2007) of both planetary stages of the NREL 5 MW gearbox, public repository gfsReboucas/Drivetrain (revision 4a88df34).
+/// Its points A to E are those of the planet driven by the ring, and it cuts the ring to the root circle of the basic rack, from which the addendum of the cutter follows.
+const REPORTED_STAGES: [ReportedStage; 2] = [
+    ReportedStage {
+        module_mm: 45.0,
+        centre_mm: 863.0,
+        teeth: [17, 56, 36],
+        roots_mm: [724.692, 2677.618],
+        tips_mm: [905.470, 2475.118],
+        working_angle_deg: 17.161,
+        bases_mm: [718.865, 2368.025],
+        working_mm: [752.359, 2478.359],
+        forms_mm: [748.795, 2662.682],
+        starts_mm: [749.170, 2594.369],
+        thicknesses_mm: [96.962, 54.264],
+        tip_thicknesses_mm: [26.588, 38.407],
+        path_mm: [105.462, 142.431, 110.993, 238.308, 275.277],
+        contact_ratio: 1.278,
+        span: (3, 367.520),
+        balls_mm: [[110.0, 1008.755], [80.0, -2445.378]],
+    },
+    ReportedStage {
+        module_mm: 21.0,
+        centre_mm: 584.0,
+        teeth: [36, 93, 30],
+        roots_mm: [724.663, 2000.581],
+        tips_mm: [815.663, 1906.081],
+        working_angle_deg: 15.630,
+        bases_mm: [710.408, 1835.220],
+        working_mm: [737.684, 1905.684],
+        forms_mm: [737.389, 1987.879],
+        starts_mm: [738.082, 1969.750],
+        thicknesses_mm: [40.689, 34.777],
+        tip_thicknesses_mm: [14.858, 18.937],
+        path_mm: [100.108, 138.396, 99.372, 162.102, 200.391],
+        contact_ratio: 1.618,
+        span: (5, 296.803),
+        balls_mm: [[40.0, 836.492], [35.0, -1900.511]],
+    },
+];
+
+/// Two digits in the third place: half a digit of the figure, and what half a digit of the printed root diameters, tips and centre distance moves it by.
+#[track_caller]
+fn assert_reported(what: &str, found: f64, reported: f64) {
+    assert!((found - reported).abs() <= 2e-3, "{what}: {found}, reported {reported}");
+}
+
+#[test]
+fn val_planets_and_rings_of_a_gear_program() {
+    for stage in REPORTED_STAGES {
+        let ReportedStage { module_mm, teeth: [z_planet, z_ring, z_cutter], roots_mm, tips_mm, .. } = stage;
+        let shift_of = |z: f64, root_mm: f64| 0.5 * (root_mm / module_mm - z) + 1.25;
+        let x_planet = shift_of(f64::from(z_planet), roots_mm[0]);
+        let x_ring = shift_of(-f64::from(z_ring), -roots_mm[1]);
+        let cut_by = |addendum_factor: f64| {
+            let mut wheel = ring(z_ring, x_ring, Some(tips_mm[1]));
+            let cutter =
+                ShaperCutter { teeth: z_cutter, profile_shift: 0.0, addendum_factor, tip_rounding_factor: 0.3 };
+            wheel.ring = Some(RingSpec { cutter: Some(cutter), root_diameter_mm: None });
+            tight(module_mm, gear(z_planet, x_planet, Some(tips_mm[0])), wheel)
+        };
+        let missing_mm = 0.5 * roots_mm[1] + cut_by(1.25).root_radius_mm(Gear::Wheel);
+        let mut spec = cut_by(1.25 + missing_mm / module_mm);
+        assert_reported("a", spec.centre_distance_mm.abs(), stage.centre_mm);
+        spec.face_width_mm = 500.0;
+        let pair = pair(&spec);
+        assert_reported("alpha_w", pair.working_pressure_angle_rad.to_degrees(), stage.working_angle_deg);
+        for (k, gear) in Gear::BOTH.into_iter().enumerate() {
+            let tooth = &pair.teeth[gear];
+            let diameter = |radius_mm: f64| 2.0 * radius_mm.abs();
+            assert_reported("d_b", diameter(tooth.involute.base_radius_mm), stage.bases_mm[k]);
+            assert_reported("d_w", diameter(pair.working_pitch_radius_mm(gear)), stage.working_mm[k]);
+            assert_reported("d_f", diameter(tooth.root_radius_mm), roots_mm[k]);
+            assert_reported("d_Ff", diameter(tooth.root_form_radius_mm), stage.forms_mm[k]);
+            assert_reported("d_Nf", diameter(pair.active_start_radius_mm(gear)), stage.starts_mm[k]);
+            assert_reported("s_n", tooth.thickness_mm(tooth.reference_radius_mm), stage.thicknesses_mm[k]);
+            assert_reported("s_an", tooth.thickness_mm(tooth.tip_radius_mm), stage.tip_thicknesses_mm[k]);
+            let [ball_mm, over_mm] = stage.balls_mm[k];
+            assert_reported("M_dK", pair.dimension_over_balls_mm(gear, ball_mm).unwrap(), over_mm);
+        }
+        for (found_mm, reported_mm) in pair.path.points_mm().into_iter().zip(stage.path_mm) {
+            assert_reported("path", found_mm, reported_mm);
+        }
+        assert_printed("contact ratio", pair.path.contact_ratio(), stage.contact_ratio, 3);
+        let span = pair.span(Gear::Pinion).unwrap();
+        assert_eq!(span.teeth, stage.span.0);
+        assert_reported("W_k", span.span_mm, stage.span.1);
+    }
+}
+
+/// Load comes in at once where the tip circles part only if teeth approach by the gap that is left there.
+#[test]
+fn ver_tips_meet_where_their_circles_part() {
+    let planet = pair(&planet_in_ring());
+    assert_eq!(planet.tips_meet_mm(100.0), planet.farthest_touch_mm().map(Some));
+    assert_eq!(planet.tips_meet_mm(0.0), [None; 2]);
+    assert_eq!(pair(&fzg_c()).tips_meet_mm(0.02), [None; 2]);
 }
 
 /// standardsapplied.com, *Internal Ring Gear Design*: 72 teeth, diametral pitch 8, 20°, cutter with 32 teeth; inches.

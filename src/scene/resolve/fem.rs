@@ -13,6 +13,8 @@ use gearwear_bodies::gear_mesh::settings::{
 const ELEMENTS_PER_HALF_WIDTH: f64 = 10.0;
 /// Elements in a wear run: 3 and 8 give the same maximum wear within half a per cent (docs/accuracy.md).
 const WEAR_ELEMENTS_PER_HALF_WIDTH: f64 = 3.0;
+/// The same of a pair with an internal wheel, whose contact is wide beside what tip edges and reliefs change in it.
+const INTERNAL_WEAR_ELEMENTS_PER_HALF_WIDTH: f64 = 4.0;
 /// Elements with severe wear, which depends on where the pressure passes a limit: 3 and 8 differ by 3 %, 5 and 8 by 1 to 2 %.
 const SEVERE_WEAR_ELEMENTS_PER_HALF_WIDTH: f64 = 5.0;
 /// Number of elements in a half-width below which the pressure has an error of several per cent.
@@ -160,8 +162,12 @@ fn web(
 }
 
 /// Elements in the half-width of contact of a wear run, with a severe transition or without.
-pub(super) fn wear_elements_per_half_width(file: Option<&FemFile>, is_severe: bool) -> f64 {
-    let default = if is_severe { SEVERE_WEAR_ELEMENTS_PER_HALF_WIDTH } else { WEAR_ELEMENTS_PER_HALF_WIDTH };
+pub(super) fn wear_elements_per_half_width(file: Option<&FemFile>, is_severe: bool, is_internal: bool) -> f64 {
+    let default = match (is_severe, is_internal) {
+        (true, _) => SEVERE_WEAR_ELEMENTS_PER_HALF_WIDTH,
+        (false, true) => INTERNAL_WEAR_ELEMENTS_PER_HALF_WIDTH,
+        (false, false) => WEAR_ELEMENTS_PER_HALF_WIDTH,
+    };
     file.and_then(|file| file.elements_per_half_width).unwrap_or(default)
 }
 

@@ -225,6 +225,8 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         findings.warnings.push("numerics.verify is false: the error against finite elements is unknown".to_owned());
     }
     file.title.get_or_insert_with(|| default_title(&file.pair, &pair));
+    let wear_elements_per_half_width =
+        fem::wear_elements_per_half_width(file.fem.as_ref(), is_severe, pair.is_internal());
     let mut scene = Scene {
         pair,
         material: materials.elastic,
@@ -237,7 +239,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         stiffness_by_default,
         stiffness_curve_file,
         fem: fem?,
-        wear_elements_per_half_width: fem::wear_elements_per_half_width(file.fem.as_ref(), is_severe),
+        wear_elements_per_half_width,
         slices,
         coupling_by_default,
         heat: heat?,

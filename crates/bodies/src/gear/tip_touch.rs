@@ -140,6 +140,15 @@ impl GearPair {
         })
     }
 
+    /// Distance before A and after E at which load comes in or leaves at once, mm of path: there the tip circles part
+    /// ([`Self::farthest_touch_mm`]) while the gap of unworn flanks is still at most `approach_mm`; none where the flanks part before.
+    pub fn tips_meet_mm(&self, approach_mm: f64) -> [Option<f64>; 2] {
+        let [before, after] = self.farthest_touch_mm();
+        let ends = [(PathEnd::Start, self.path.start_mm - before), (PathEnd::End, self.path.end_mm + after)];
+        let touch = ends.map(|(end, position_mm)| self.edge_gap_mm(end, position_mm) <= approach_mm);
+        [touch[0].then_some(before), touch[1].then_some(after)]
+    }
+
     /// [`Self::tip_reach_mm`] of an upper bound of the approach of unworn flanks under `line_load_n_per_mm` with the contact modulus E*.
     pub fn ample_tip_reach_mm(&self, line_load_n_per_mm: f64, contact_modulus_mpa: f64) -> [f64; 2] {
         self.tip_reach_mm(AMPLE_APPROACH * line_load_n_per_mm / contact_modulus_mpa + self.unloaded_approach_mm())
