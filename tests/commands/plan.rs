@@ -30,6 +30,11 @@ fn a_plan_promises_nothing_that_cannot_run() {
     let mut command = Command::cargo_bin("gearwear").unwrap();
     let assert = command.args(["plan", "-"]).write_stdin(scene).assert().code(2).stdout("");
     assert.stderr(predicate::str::contains("contact.calibration").and(predicate::str::contains("nowhere.json")));
+    // Nor is one of what `improve` refuses.
+    let scene = preset("fzg-c") + "\n[improve]\ngoals = [\"pinion.peak_ware_um\"]\n";
+    let mut command = Command::cargo_bin("gearwear").unwrap();
+    let assert = command.args(["plan", "-"]).write_stdin(scene).assert().code(2).stdout("");
+    assert.stderr(predicate::str::contains("improve.goals[0]").and(predicate::str::contains("pinion.peak_wear_um")));
     #[cfg(target_os = "linux")]
     {
         let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();

@@ -100,7 +100,8 @@ fn answer(record: &ImproveRecord, out: &Path) -> String {
         record.stopped
     );
     for proposal in &record.proposals {
-        text.push_str(&proposed(proposal, &record.headings()));
+        let first = record.proposals.first().filter(|first| first.name != proposal.name);
+        text.push_str(&proposed(proposal, first));
     }
     text.push_str("\nwhat no design does\n");
     record.bounds.iter().for_each(|bound| text.push_str(&format!("  {bound}\n")));
@@ -108,7 +109,8 @@ fn answer(record: &ImproveRecord, out: &Path) -> String {
     text
 }
 
-fn proposed(proposal: &Proposal, goals: &[String]) -> String {
+/// A proposal, beside the `first` of them.
+fn proposed(proposal: &Proposal, first: Option<&Proposal>) -> String {
     let mut text = format!("\n{}: gearwear run {}\n", proposal.name, proposal.file);
     for value in &proposal.values {
         let edge = if value.edge.is_some() { "   end of the range: a wider one may have a better design" } else { "" };
@@ -128,9 +130,12 @@ fn proposed(proposal: &Proposal, goals: &[String]) -> String {
             figure.change().map_or_else(|| "–".to_owned(), signed)
         ));
     }
-    let tolerance = proposal.tolerance(goals);
+    let tolerance = proposal.tolerance();
     if !tolerance.is_empty() {
         text.push_str(&format!("  {tolerance}\n"));
+    }
+    if let Some(first) = first {
+        text.push_str(&format!("  {}\n", proposal.against(first)));
     }
     text
 }

@@ -10,6 +10,7 @@ use gearwear_physics::plan::cost::{PlanAndCost, RunCost};
 use gearwear::scene::loaded::LoadedScene;
 use gearwear::scene::planetary::OpenedScene;
 use gearwear::scene::planetary::mesh::{PerMesh, StageMesh};
+use gearwear_studies::improve::asked::ImproveQuestion;
 
 use super::failure::{Failure, in_the_scene};
 use super::figures::digits;
@@ -36,6 +37,8 @@ pub(super) fn run(args: &PlanArgs) -> Result<(), Failure> {
     let planned = match OpenedScene::open(&args.scene)? {
         OpenedScene::Pair(scene) => {
             let whole = plan_and_cost(&scene)?;
+            // A table [improve] is no part of a run, but a mistake in it is one of the scene.
+            ImproveQuestion::of(&scene).map_err(Failure::Scene)?;
             warn(scene.warnings());
             match args.format {
                 PlanFormat::Text => text(scene.resolved.title(), &whole),

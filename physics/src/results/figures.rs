@@ -803,18 +803,17 @@ pub static FAMILIES: &[FigureFamily] = &[
             "relative to the greater, over the whole run: an error, as both flanks of a contact lose the same; empty where nothing wears",
         )
         .once_called("volume_balance")
-        .in_sweeps([39, 0])
-        .compared([22, 0]),
+        .in_sweeps([39, 0]),
     pair("life.hours", "h", "life", |s| s.life.as_ref()?.hours)
         .means("until the first limit of operation.stop is reached; empty where none is within the duration")
         .once_called("life_h")
         .in_sweeps([40, 0])
-        .compared([23, 0]),
+        .compared([22, 0]),
     pair("life.revolutions", "pinion revolutions", "life", |s| s.life.as_ref()?.revolutions)
         .means("the same in pinion revolutions")
         .once_called("life_revolutions")
         .in_sweeps([41, 0])
-        .compared([24, 0]),
+        .compared([23, 0]),
 ];
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! Proposals: designs of the front that are chosen for a reason, with what they gain and cost against the scene as given.
 //!
 //! With y_k a goal of a design and b_k that of the scene as given, r_k = y_k / b_k (of a life b_k / y_k). The design that is best in one aspect, such as
-//! wear, has the least product of its r_k; the balanced one has the least max r_k: where a design betters every goal, it worsens none.
+//! wear, has the least product of its r_k; the balanced one has the least max r_k: where a design betters every goal, it worsens none. The robust one has the least
+//! max r_k with all tolerances at their worst.
 //!
 //! A difference y − b is sure where it is more than both errors together, |y − b| > e_y |y| + e_b |b|. Tolerances ± t_j of manufacture change a goal by
 //! d_j at most, found on the fast model one key at a time; together they change it by Σ d_j at worst.
@@ -112,8 +113,14 @@ fn ratio(goal: f64, as_given: f64) -> f64 {
     if ratio.is_finite() { ratio } else { 1.0 + goal - as_given }
 }
 
-/// Reasons to propose a design of a front, whose `goals` are to be lowered, with its place on the front.
-pub fn reasons(goals: &[ImproveGoal], front: &[Vec<f64>], as_given: &[f64]) -> Vec<(String, usize)> {
+/// Reasons to propose a design of a front, whose `goals` are to be lowered, with its place on the front. `tolerances` are the relative changes for the
+/// worse of each design's goals by all tolerances together; none where they are not known.
+pub fn reasons(
+    goals: &[ImproveGoal],
+    front: &[Vec<f64>],
+    as_given: &[f64],
+    tolerances: &[Vec<Option<f64>>],
+) -> Vec<(String, usize)> {
     let ratios: Vec<Vec<f64>> =
         front.iter().map(|own| own.iter().zip(as_given).map(|(goal, given)| ratio(*goal, *given)).collect()).collect();
     let mut aspects: Vec<Aspect> = goals.iter().map(ImproveGoal::aspect).collect();
@@ -138,6 +145,14 @@ pub fn reasons(goals: &[ImproveGoal], front: &[Vec<f64>], as_given: &[f64]) -> V
         let best = (0..front.len()).min_by(|a, b| worst(*a).total_cmp(&worst(*b)));
         reasons.extend(best.map(|best| ("balanced".to_owned(), best)));
     }
+    let at_worst = |place: usize| -> Option<f64> {
+        let changes = tolerances.get(place)?.iter().zip(&front[place]).zip(as_given);
+        let ratios = changes.map(|((change, goal), given)| Some(ratio(goal + (*change)? * goal.abs(), *given)));
+        ratios.collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::max)
+    };
+    let known = (0..front.len()).filter_map(|place| Some((place, at_worst(place)?)));
+    let robust = known.min_by(|a, b| a.1.total_cmp(&b.1));
+    reasons.extend(robust.map(|(place, _)| ("robust".to_owned(), place)));
     // One design for several reasons is one proposal.
     let mut merged: Vec<(String, usize)> = Vec::new();
     for (name, place) in reasons {
@@ -257,10 +272,10 @@ mod tests {
     fn designs_are_proposed_for_a_reason() {
         let goals = goals(&["pinion.peak_wear_um", "wheel.peak_wear_um", "worn.transmission_error_um.peak_to_peak"]);
         let front = [vec![4.0, 2.0, 9.0], vec![5.0, 2.5, 4.0], vec![4.2, 2.2, 5.5]];
-        let named = reasons(&goals, &front, &[5.0, 2.5, 6.0]);
+        let named = reasons(&goals, &front, &[5.0, 2.5, 6.0], &[]);
         let expected = [("least wear", 0), ("quietest over life", 1), ("balanced", 2)];
         assert_eq!(named, expected.map(|(name, place)| (name.to_owned(), place)));
-        let one = reasons(&goals, &front[..1], &[5.0, 2.5, 6.0]);
+        let one = reasons(&goals, &front[..1], &[5.0, 2.5, 6.0], &[]);
         assert_eq!(one, [("least wear and quietest over life and balanced".to_owned(), 0)]);
         assert_eq!(file_of(&named[1].0), "proposal-quietest-over-life.toml");
     }
@@ -268,8 +283,27 @@ mod tests {
     /// Lives are raised: as goals to be lowered they are negative.
     #[test]
     fn the_longest_life_is_the_least_of_its_negative() {
-        let named = reasons(&goals(&["life.hours"]), &[vec![-100.0], vec![-200.0]], &[-150.0]);
+        let named = reasons(&goals(&["life.hours"]), &[vec![-100.0], vec![-200.0]], &[-150.0], &[]);
         assert_eq!(named, [("longest life".to_owned(), 1)]);
+    }
+
+    /// Greatest ratios with tolerances: 1.2 · 9/6 = 1.8, 1.5 · 5/5 = 1.5 and 1.2 · 4.2/5 = 1.008; the last is least. A design whose tolerances cannot be run is none.
+    #[test]
+    fn ver_the_robust_design_is_best_at_its_worst() {
+        let goals = goals(&["pinion.peak_wear_um", "worn.transmission_error_um.peak_to_peak"]);
+        let front = [vec![4.0, 9.0], vec![5.0, 4.0], vec![4.2, 5.5], vec![4.1, 5.6]];
+        let changes = [[0.1, 0.2], [0.5, 0.1], [0.2, 0.1]].map(|own| own.map(Some).to_vec());
+        let changes = [changes.to_vec(), vec![vec![Some(0.0), None]]].concat();
+        let named = reasons(&goals, &front, &[5.0, 6.0], &changes);
+        assert_eq!(named.iter().find(|(name, _)| name.contains("robust")).map(|(_, place)| *place), Some(2));
+        // At its worst a long life is shorter.
+        let lives = reasons(
+            &self::goals(&["life.hours"]),
+            &[vec![-200.0], vec![-190.0]],
+            &[-150.0],
+            &[vec![Some(0.4)], vec![Some(0.1)]],
+        );
+        assert_eq!(lives, [("longest life".to_owned(), 0), ("robust".to_owned(), 1)]);
     }
 
     #[test]

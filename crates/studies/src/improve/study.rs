@@ -171,7 +171,7 @@ impl<'a> PreparedImprove<'a> {
     /// verification by the announced cost of a run; `None` where the verified scene is none.
     pub fn seconds_at_most(&self, threads: usize) -> Option<f64> {
         let with_tolerance = self.question.free.iter().filter(|one| one.tolerance.is_some()).count();
-        let on_fast_model = self.evaluations() + 2 * with_tolerance * (self.question.goals.len() + 1);
+        let on_fast_model = self.evaluations() + 2 * with_tolerance * self.most_verified();
         let scene = self.verified_scene_of(None).ok()?;
         let pair = GearPair::new(&scene.scene().pair).ok()?;
         let of_run = RunCost::of(scene.scene(), &scene.plan(), &pair).seconds;
@@ -362,7 +362,7 @@ impl<'a> PreparedImprove<'a> {
         let as_given = as_given.and_then(|figures| Some(self.outcome(&figures)?.goals));
         let reference = as_given.unwrap_or_else(|| goals[0].clone());
         let mut chosen: Vec<usize> =
-            reasons(&self.question.goals, &goals, &reference).into_iter().map(|(_, place)| place).collect();
+            reasons(&self.question.goals, &goals, &reference, &[]).into_iter().map(|(_, place)| place).collect();
         let extents: Vec<[f64; 2]> = (0..self.question.goals.len())
             .map(|goal| gearwear_bodies::reference::statistics::extent(goals.iter().map(|own| own[goal])))
             .collect();
@@ -408,16 +408,25 @@ impl<'a> PreparedImprove<'a> {
             let nearest = reason.unwrap_or_else(|| "verified, the designs of the front are beyond a limit".to_owned());
             return Err(ImproveError::NotWithinLimits { count: verified.len(), nearest });
         };
-        let mut proposals = Vec::new();
-        for (name, place) in reasons(&self.question.goals, &goals, &given) {
-            let design = &verified[front[place]];
-            let fast = designs.done[chosen[front[place]]].clone();
-            let values = design.values.clone().unwrap_or_default();
+        let mut tolerances = Vec::new();
+        for &place in &front {
+            let fast = designs.done[chosen[place]].clone();
+            let values = verified[place].values.clone().unwrap_or_default();
             let sensitivity = self.sensitivity(designs, &values, &fast)?;
             let together = (0..self.question.goals.len()).map(|goal| {
                 let changes: Option<Vec<f64>> = sensitivity.iter().map(|one| one.changes[goal]).collect();
                 changes.filter(|changes| !changes.is_empty()).map(|changes| changes.iter().sum())
             });
+            let together: Vec<Option<f64>> = together.collect();
+            tolerances.push((sensitivity, together));
+        }
+        let together: Vec<Vec<Option<f64>>> = tolerances.iter().map(|(_, together)| together.clone()).collect();
+        let mut proposals = Vec::new();
+        for (name, place) in reasons(&self.question.goals, &goals, &given, &together) {
+            let design = &verified[front[place]];
+            let fast = designs.done[chosen[front[place]]].clone();
+            let values = design.values.clone().unwrap_or_default();
+            let (sensitivity, tolerances_together) = tolerances[place].clone();
             let fast_figures = fast.figures.as_deref().unwrap_or_default();
             let title = format!("{}: {name}", self.scene.resolved.title());
             let scene = self.scene_of(Some(&values), Some(title));
@@ -426,7 +435,7 @@ impl<'a> PreparedImprove<'a> {
                 design: design.number,
                 values: values_of(&self.question.free, &values),
                 figures: compared(&self.question, (design, as_given), fast_figures),
-                tolerances_together: together.collect(),
+                tolerances_together,
                 sensitivity,
                 scene_toml: scene.map(|scene| scene.given.text.clone()).unwrap_or_default(),
                 name,

@@ -1,6 +1,6 @@
 //! What a study found, in words.
 
-use super::proposal::{ChosenValue, ComparedFigure, Edge, Proposal};
+use super::proposal::{ChosenValue, ComparedFigure, Edge, Proposal, Sensitivity};
 use super::record::ImproveRecord;
 use gearwear::report::html::number::{change, figure as shown};
 
@@ -75,18 +75,46 @@ impl Proposal {
         lost.collect()
     }
 
-    /// What tolerances take; empty where none are given.
-    pub fn tolerance(&self, goals: &[String]) -> String {
-        let worst = goals
-            .iter()
-            .zip(&self.tolerances_together)
-            .filter_map(|(heading, together)| Some(format!("{heading} {}", signed((*together)?))));
+    /// What tolerances take, and the key that takes most; empty where none are given.
+    pub fn tolerance(&self) -> String {
+        let goals = self.figures.iter().filter(|figure| figure.is_goal);
+        let worst = goals.zip(&self.tolerances_together).enumerate().filter_map(|(place, (goal, together))| {
+            let together = (*together)?;
+            // A life gets shorter.
+            let change = if goal.less_is_better { together } else { -together };
+            let by = |one: &Sensitivity| one.changes[place].unwrap_or_default();
+            let most = self.sensitivity.iter().max_by(|a, b| by(a).total_cmp(&by(b)));
+            let most = most.filter(|one| 2.0 * by(one) > together && self.sensitivity.len() > 1);
+            let by = most.map_or_else(String::new, |one| format!(", mostly by {}", one.key));
+            let unit = if goal.unit.is_empty() { String::new() } else { format!(" {}", goal.unit) };
+            let value = shown(goal.value * (1.0 + change));
+            Some(format!("{} {} (to {value}{unit}{by})", goal.heading, signed(change)))
+        });
         let worst: Vec<String> = worst.collect();
         if worst.is_empty() {
             String::new()
         } else {
             format!("all tolerances together, at worst: {}", worst.join(", "))
         }
+    }
+
+    /// Goals against those of another proposal, where they differ by more than the errors of both, and where they do not.
+    pub fn against(&self, other: &Self) -> String {
+        let goals = |proposal: &Self| -> Vec<ComparedFigure> {
+            proposal.figures.iter().filter(|figure| figure.is_goal).cloned().collect()
+        };
+        let compared = goals(self).into_iter().zip(goals(other)).map(|(own, its)| {
+            let errors = own.error.zip(its.error).map(|(a, b)| a * own.value.abs() + b * its.value.abs());
+            let is_sure = errors.map(|errors| (own.value - its.value).abs() > errors);
+            let change = if its.value == 0.0 { String::new() } else { signed(own.value / its.value - 1.0) };
+            let judged = match is_sure {
+                Some(true) => "",
+                Some(false) => " (within the errors)",
+                None => " (errors not known)",
+            };
+            format!("{} {change}{judged}", own.heading)
+        });
+        format!("against {}: {}", other.name, compared.collect::<Vec<_>>().join(", "))
     }
 
     /// Values on the ends of their ranges.
@@ -122,11 +150,6 @@ fn capitalised(text: &str) -> String {
 }
 
 impl ImproveRecord {
-    /// Headings of the goals.
-    pub fn headings(&self) -> Vec<String> {
-        self.goals.iter().map(|goal| goal.heading.clone()).collect()
-    }
-
     /// The answer, in a few sentences.
     pub fn answer(&self) -> String {
         let proposals: Vec<String> = self.proposals.iter().map(Proposal::headline).collect();

@@ -138,9 +138,11 @@ fn gains_and_costs(record: &ImproveRecord, proposal: &Proposal) -> String {
     let (gains, costs) = (said(proposal.gains()), said(proposal.costs()));
     let gains = if gains.is_empty() { "Gains nothing".to_owned() } else { format!("Gains: {gains}") };
     let costs = if costs.is_empty() { "Costs: none".to_owned() } else { format!("Costs: {costs}") };
-    let tolerance = proposal.tolerance(&record.headings());
+    let tolerance = proposal.tolerance();
     let tolerance = if tolerance.is_empty() { tolerance } else { format!(" {}.", capitalised(&tolerance)) };
-    format!("{gains}. {costs}. {}.{tolerance}", proposal.sureness())
+    let first = record.proposals.first().filter(|first| first.name != proposal.name);
+    let against = first.map_or_else(String::new, |first| format!(" {}.", capitalised(&proposal.against(first))));
+    format!("{gains}. {costs}. {}.{tolerance}{against}", proposal.sureness())
 }
 
 fn tolerances(record: &ImproveRecord) -> Markup {
