@@ -141,7 +141,7 @@ fn claims(out: &Path) -> Vec<String> {
     let (names, _) = table(out);
     let claims: Vec<String> =
         names.into_iter().filter(|name| name.starts_with("error.total.") && name != "error.total.how").collect();
-    assert_eq!(claims.len(), 10);
+    assert_eq!(claims.len(), 12);
     claims
 }
 

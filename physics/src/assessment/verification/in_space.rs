@@ -9,7 +9,6 @@
 //! where the overlap is wide.
 
 use std::borrow::Cow;
-use std::ops::RangeInclusive;
 
 use super::{Elements, Extrapolation, ReferenceRun, ReferenceUncertainty, VerificationModels, simulate};
 use crate::assessment::RunModel;
@@ -30,10 +29,10 @@ use gearwear_bodies::gear::slices::Slices;
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_bodies::gear_fem::model::ModelError;
 
-/// Positions from A to E, at least and at most.
-const POSITIONS: RangeInclusive<usize> = 75..=150;
-/// Distance of the positions in half-widths of contact: a third more than that of a default run.
-const APART: f64 = 2.0 / 3.0;
+/// Positions from A to E, and those of the verification of a run with about as many: errors of the same spacing would agree.
+const POSITIONS: [usize; 2] = [150, 120];
+/// Difference in the number of positions below which they are about as many.
+const ABOUT: usize = 25;
 /// Fewest slices that resolve the loads at the ends of the lines of contact.
 const LEAST_SLICES: usize = 20;
 /// Overlap ratio from which the transmission error is so small that slices make a ripple of a tenth of it and more, and more slices are compared with.
@@ -87,7 +86,7 @@ pub(super) fn reference_run(
         .zip(&teeth)
         .map(|(surface, teeth)| MeshContact::LineOfAction { surface, teeth, tip_contact: true, sliced: Some(&sliced) })
         .collect();
-    let positions = scene.positions_apart(pair, APART, POSITIONS);
+    let positions = POSITIONS[usize::from(scene.numerics.positions.abs_diff(POSITIONS[0]) < ABOUT)];
     let reference = simulate(model, outcome, contacts, positions, observer)?;
     let wear_mm = PerGear::from_fn(|gear: Gear| {
         let points = outcome.grid[gear].len();
