@@ -44,7 +44,7 @@ pub(super) fn run(args: &ImproveArgs) -> Result<(), Failure> {
     let prepared = PreparedImprove::new(&scene, &progress)?;
     if !args.quiet {
         let free: Vec<String> = prepared.free().iter().map(|one| format!("  {}", one.as_given())).collect();
-        let time = prepared.seconds_at_most(thread_count(args.threads));
+        let time = prepared.seconds_at_most(thread_count(args.threads), &progress);
         let time = time.map_or_else(String::new, |seconds| {
             format!(", some {} s with their verification on an idle machine", two_digits(seconds))
         });

@@ -603,8 +603,7 @@ impl CycleObservation {
 
     /// Greatest less least transmission error, mm.
     pub fn peak_to_peak_mm(&self) -> f64 {
-        let (low, high) = self.transmission_error_mm();
-        high - low
+        range_mm(self.positions.iter().map(|at| at.transmission_error_mm))
     }
 
     /// Amplitudes of the first `count` mesh orders of the transmission error, mm; none where the positions do not reach over a base pitch.

@@ -80,18 +80,21 @@ impl Scene {
     /// Whether contact at the pitch point is wide enough under the greatest load for finite elements of a reasonable size.
     pub fn contact_can_be_meshed(&self, pair: &GearPair) -> bool {
         let [_, greatest_n_mm] = self.operation.torque_range_n_mm();
+        self.half_width_at_pitch_mm(pair, greatest_n_mm) >= LEAST_HALF_WIDTH_MODULES * self.pair.normal_module_mm
+    }
+
+    /// Half-width of Hertz's contact at C under a torque on the pinion, mm.
+    fn half_width_at_pitch_mm(&self, pair: &GearPair, torque_n_mm: f64) -> f64 {
         let at_pitch = hertz::flattening(&pair.normal_section(), &self.material, pair.path.pitch_point_mm);
-        let half_width_mm = at_pitch.contact.loaded(pair.line_load_n_per_mm(greatest_n_mm)).half_width_mm;
-        half_width_mm >= LEAST_HALF_WIDTH_MODULES * self.pair.normal_module_mm
+        at_pitch.contact.loaded(pair.line_load_n_per_mm(torque_n_mm)).half_width_mm
     }
 
     /// Number of positions from A to E that are `half_widths` half-widths of Hertz's contact at C apart, under the least load of all phases, within
     /// `bounds`: a contact must not move much farther than it is wide.
     pub fn positions_apart(&self, pair: &GearPair, half_widths: f64, bounds: RangeInclusive<usize>) -> usize {
         let [least_n_mm, _] = self.operation.torque_range_n_mm();
-        let at_pitch = hertz::flattening(&pair.normal_section(), &self.material, pair.path.pitch_point_mm);
-        let half_width_mm = at_pitch.contact.loaded(pair.line_load_n_per_mm(least_n_mm)).half_width_mm;
-        let intervals = (pair.path.end_mm - pair.path.start_mm) / (half_widths * half_width_mm);
+        let apart_mm = half_widths * self.half_width_at_pitch_mm(pair, least_n_mm);
+        let intervals = (pair.path.end_mm - pair.path.start_mm) / apart_mm;
         // A half-width of 0 or none asks for as many as there may be.
         let most = *bounds.end();
         if intervals < most as f64 { (intervals.ceil() as usize + 1).clamp(*bounds.start(), most) } else { most }

@@ -162,8 +162,9 @@ pub(super) fn fit_with_slopes(
         return Ok(Err(NotTried::NothingToTry));
     }
     let mut fitted = fitted.clone();
-    let (mut runs, mut mesh_cycles) = (0, 0);
-    for tried in 1.. {
+    let (mut tried, mut runs, mut mesh_cycles) = (0, 0, 0);
+    loop {
+        tried += 1;
         let values = Gear::BOTH.into_iter().filter_map(|gear| Some((key(gear), slopes[gear]?)));
         let profile_slopes_um: BTreeMap<String, f64> = values.collect();
         let changes = profile_slopes_um.iter().map(|(key, value)| (key.clone(), Some(toml::Value::from(*value))));
@@ -216,7 +217,6 @@ pub(super) fn fit_with_slopes(
             }));
         }
     }
-    Ok(Err(NotTried::NothingToTry))
 }
 
 /// A slope as it is put into a scene, to 0.01 µm.

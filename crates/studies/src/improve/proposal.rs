@@ -198,6 +198,11 @@ pub fn values_of(free: &[FreeKey], values: &[f64]) -> Vec<ChosenValue> {
     free.iter().zip(values).map(of_key).collect()
 }
 
+/// Whether two values with these relative errors differ by more than both together; `None` where one error is not known.
+pub fn is_sure((value, error): (f64, Option<f64>), (other, its): (f64, Option<f64>)) -> Option<bool> {
+    Some((value - other).abs() > error? * value.abs() + its? * other.abs())
+}
+
 /// Goals and other figures of a verified `design` beside those of the scene as given; `fast` are those of the design on the fast model.
 pub fn compared(
     question: &ImproveQuestion,
@@ -207,9 +212,6 @@ pub fn compared(
     let none = TotalError::none("");
     let of = |kept: &KeptDesign| (kept.figures.clone().unwrap_or_default(), kept.total.clone().unwrap_or(none.clone()));
     let ((own, own_total), (given, given_total)) = (of(design), of(as_given));
-    let is_sure = |(value, error): (f64, Option<f64>), (other, its): (f64, Option<f64>)| {
-        Some((value - other).abs() > error? * value.abs() + its? * other.abs())
-    };
     let goals = question.goals.iter().filter_map(|goal| {
         let [value, base] = [&own, &given].map(|from| goal.value(|path| question.figure(from, path)));
         let (value, as_given) = (value?, base?);

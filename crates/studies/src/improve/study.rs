@@ -81,8 +81,8 @@ pub struct PreparedImprove<'a> {
     question: ImproveQuestion,
     is_free_by_default: bool,
     fast: FastModel,
-    /// Time of the scene as given on the fast model, s.
-    fast_s: f64,
+    /// Figures of the scene as given on the fast model.
+    as_given: Vec<Option<f64>>,
     begun: Instant,
 }
 
@@ -117,18 +117,8 @@ impl<'a> PreparedImprove<'a> {
         if is_free_by_default {
             question.free = tip_reliefs::of(&fast, observer)?;
         }
-        let of_one = Instant::now();
         let as_given = fast.figures([], &question.figures, observer).ok_or(ImproveError::Interrupted)?;
         let as_given = as_given.map_err(ImproveError::Base)?;
-        let mut fast_s = of_one.elapsed().as_secs_f64();
-        if scene.scene().slices.is_some() {
-            // The first run of a pair in slices makes the compliance of the teeth, which all designs share.
-            let of_next = Instant::now();
-            fast.figures([], &question.figures, observer)
-                .ok_or(ImproveError::Interrupted)?
-                .map_err(ImproveError::Base)?;
-            fast_s = of_next.elapsed().as_secs_f64();
-        }
         if let Some(missing) =
             question.goals.iter().position(|goal| goal.value(|path| question.figure(&as_given, path)).is_none())
         {
@@ -139,7 +129,7 @@ impl<'a> PreparedImprove<'a> {
             let problem = of_entry(&scene.given.text, &format!("improve.goals[{missing}]"), &said, None);
             return Err(scene.given.refused(vec![problem]).into());
         }
-        let prepared = Self { scene, question, is_free_by_default, fast, fast_s, begun };
+        let prepared = Self { scene, question, is_free_by_default, fast, as_given, begun };
         prepared.check_space()?;
         Ok(prepared)
     }
@@ -167,15 +157,19 @@ impl<'a> PreparedImprove<'a> {
         self.question.evaluations()
     }
 
-    /// Time that the study takes on `threads` threads of an idle machine, s, at most: of the search and the tolerances by the scene as given on the fast model, of the
-    /// verification by the announced cost of a run; `None` where the verified scene is none.
-    pub fn seconds_at_most(&self, threads: usize) -> Option<f64> {
+    /// Time that the study takes on `threads` threads of an idle machine, s, at most: of the search and the tolerances by another run of the scene as given on
+    /// the fast model (the first also makes what all designs share), of the verification by the announced cost of a run; `None` where the verified
+    /// scene is none.
+    pub fn seconds_at_most(&self, threads: usize, observer: &dyn Observer) -> Option<f64> {
         let with_tolerance = self.question.free.iter().filter(|one| one.tolerance.is_some()).count();
         let on_fast_model = self.evaluations() + 2 * with_tolerance * self.most_verified();
         let scene = self.verified_scene_of(None).ok()?;
         let pair = GearPair::new(&scene.scene().pair).ok()?;
         let of_run = RunCost::of(scene.scene(), &scene.plan(), &pair).seconds;
-        let seconds = on_fast_model as f64 * self.fast_s + (self.most_verified() + 1) as f64 * of_run;
+        let of_fast = Instant::now();
+        self.fast.figures([], &self.question.figures, observer)?.ok()?;
+        let seconds =
+            on_fast_model as f64 * of_fast.elapsed().as_secs_f64() + (self.most_verified() + 1) as f64 * of_run;
         Some(seconds / threads as f64)
     }
 
@@ -298,7 +292,7 @@ impl<'a> PreparedImprove<'a> {
         let front = front(outcomes.iter().map(Option::as_ref));
         self.check_found(&designs.done, &outcomes, &front)?;
         observer.stage("verification of the front");
-        let chosen = self.spread_over(&outcomes, &front, observer);
+        let chosen = self.spread_over(&outcomes, &front);
         let mut asked = vec![None];
         asked.extend(chosen.iter().map(|&place| designs.done[place].values.clone()));
         let verified = designs.run(DesignRole::Verify, asked)?;
@@ -354,13 +348,11 @@ impl<'a> PreparedImprove<'a> {
     }
 
     /// Designs of the front that are verified, by their places: those that would be proposed, then those furthest from them in the goals.
-    fn spread_over(&self, outcomes: &[Option<Outcome>], front: &[usize], observer: &dyn Observer) -> Vec<usize> {
+    fn spread_over(&self, outcomes: &[Option<Outcome>], front: &[usize]) -> Vec<usize> {
         let goals: Vec<Vec<f64>> =
             front.iter().filter_map(|&place| outcomes[place].as_ref()).map(|outcome| outcome.goals.clone()).collect();
         let most = self.most_verified();
-        let as_given = self.fast.figures([], &self.question.figures, observer);
-        let as_given = as_given.and_then(|figures| Some(self.outcome(&figures)?.goals));
-        let reference = as_given.unwrap_or_else(|| goals[0].clone());
+        let reference = goals_of(&self.question, &self.as_given).unwrap_or_else(|| goals[0].clone());
         let mut chosen: Vec<usize> =
             reasons(&self.question.goals, &goals, &reference, &[]).into_iter().map(|(_, place)| place).collect();
         let extents: Vec<[f64; 2]> = (0..self.question.goals.len())
@@ -408,26 +400,14 @@ impl<'a> PreparedImprove<'a> {
             let nearest = reason.unwrap_or_else(|| "verified, the designs of the front are beyond a limit".to_owned());
             return Err(ImproveError::NotWithinLimits { count: verified.len(), nearest });
         };
-        let mut tolerances = Vec::new();
-        for &place in &front {
-            let fast = designs.done[chosen[place]].clone();
-            let values = verified[place].values.clone().unwrap_or_default();
-            let sensitivity = self.sensitivity(designs, &values, &fast)?;
-            let together = (0..self.question.goals.len()).map(|goal| {
-                let changes: Option<Vec<f64>> = sensitivity.iter().map(|one| one.changes[goal]).collect();
-                changes.filter(|changes| !changes.is_empty()).map(|changes| changes.iter().sum())
-            });
-            let together: Vec<Option<f64>> = together.collect();
-            tolerances.push((sensitivity, together));
-        }
-        let together: Vec<Vec<Option<f64>>> = tolerances.iter().map(|(_, together)| together.clone()).collect();
+        let on_fast: Vec<KeptDesign> = front.iter().map(|&place| designs.done[chosen[place]].clone()).collect();
+        let sensitivities = self.sensitivities(designs, &on_fast)?;
+        let together: Vec<Vec<Option<f64>>> = sensitivities.iter().map(|of| self.together(of)).collect();
         let mut proposals = Vec::new();
         for (name, place) in reasons(&self.question.goals, &goals, &given, &together) {
             let design = &verified[front[place]];
-            let fast = designs.done[chosen[front[place]]].clone();
             let values = design.values.clone().unwrap_or_default();
-            let (sensitivity, tolerances_together) = tolerances[place].clone();
-            let fast_figures = fast.figures.as_deref().unwrap_or_default();
+            let fast_figures = on_fast[place].figures.as_deref().unwrap_or_default();
             let title = format!("{}: {name}", self.scene.resolved.title());
             let scene = self.scene_of(Some(&values), Some(title));
             proposals.push(Proposal {
@@ -435,8 +415,8 @@ impl<'a> PreparedImprove<'a> {
                 design: design.number,
                 values: values_of(&self.question.free, &values),
                 figures: compared(&self.question, (design, as_given), fast_figures),
-                tolerances_together,
-                sensitivity,
+                tolerances_together: together[place].clone(),
+                sensitivity: sensitivities[place].clone(),
                 scene_toml: scene.map(|scene| scene.given.text.clone()).unwrap_or_default(),
                 name,
             });
@@ -444,35 +424,50 @@ impl<'a> PreparedImprove<'a> {
         Ok(proposals)
     }
 
-    /// Change of the goals of a design by each tolerance.
-    fn sensitivity(
+    /// Changes of the goals of each of these designs of the search by each tolerance.
+    fn sensitivities(
         &self,
         designs: &mut Designs<'_, '_>,
-        values: &[f64],
-        fast: &KeptDesign,
-    ) -> Result<Vec<Sensitivity>, ImproveError> {
-        let free = self.question.free.iter().enumerate();
-        let toleranced: Vec<(usize, &FreeKey, Vec<f64>)> = free
-            .map(|(key, one)| (key, one, one.within_tolerance(values[key])))
-            .filter(|(.., beside)| !beside.is_empty())
-            .collect();
-        let asked = toleranced.iter().flat_map(|(key, _, beside)| {
-            beside.iter().map(|value| {
-                let mut values = values.to_vec();
-                values[*key] = *value;
-                Some(values)
-            })
-        });
-        let ran = designs.run(DesignRole::Tolerance, asked.collect())?;
-        let goals = |design: &KeptDesign| goals_of(&self.question, design.figures.as_ref().ok()?);
-        let Some(at) = goals(fast) else { return Ok(Vec::new()) };
+        of: &[KeptDesign],
+    ) -> Result<Vec<Vec<Sensitivity>>, ImproveError> {
+        let beside = |design: &KeptDesign| {
+            let values = design.values.iter().flatten();
+            let beside = self.question.free.iter().zip(values).map(|(one, value)| one.within_tolerance(*value));
+            beside.enumerate().filter(|(_, beside)| !beside.is_empty()).collect::<Vec<(usize, Vec<f64>)>>()
+        };
+        let mut asked = Vec::new();
+        for design in of {
+            for (key, value) in
+                beside(design).into_iter().flat_map(|(key, values)| values.into_iter().map(move |v| (key, v)))
+            {
+                let mut values = design.values.clone().unwrap_or_default();
+                values[key] = value;
+                asked.push(Some(values));
+            }
+        }
+        let ran = designs.run(DesignRole::Tolerance, asked)?;
         let mut ran = ran.iter();
-        let of_keys = toleranced.iter().map(|(_, one, beside)| {
-            let beside: Vec<Option<Vec<f64>>> = ran.by_ref().take(beside.len()).map(goals).collect();
-            let (key, tolerance) = (one.key.clone(), one.tolerance.unwrap_or_default());
-            Sensitivity { key, tolerance, changes: worsening(&at, &beside) }
+        let goals = |design: &KeptDesign| goals_of(&self.question, design.figures.as_ref().ok()?);
+        let of_designs = of.iter().map(|design| {
+            let at = goals(design);
+            let of_keys = beside(design).into_iter().filter_map(|(key, values)| {
+                let beside: Vec<Option<Vec<f64>>> = ran.by_ref().take(values.len()).map(goals).collect();
+                let one = &self.question.free[key];
+                let (key, tolerance) = (one.key.clone(), one.tolerance.unwrap_or_default());
+                Some(Sensitivity { key, tolerance, changes: worsening(at.as_ref()?, &beside) })
+            });
+            of_keys.collect()
         });
-        Ok(of_keys.collect())
+        Ok(of_designs.collect())
+    }
+
+    /// Changes of the goals by all tolerances together at worst: the sum of each by itself.
+    fn together(&self, of: &[Sensitivity]) -> Vec<Option<f64>> {
+        let of_goal = |goal: usize| -> Option<f64> {
+            let changes: Option<Vec<f64>> = of.iter().map(|one| one.changes[goal]).collect();
+            changes.filter(|changes| !changes.is_empty()).map(|changes| changes.iter().sum())
+        };
+        (0..self.question.goals.len()).map(of_goal).collect()
     }
 
     fn record(

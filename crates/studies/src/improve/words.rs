@@ -1,6 +1,6 @@
 //! What a study found, in words.
 
-use super::proposal::{ChosenValue, ComparedFigure, Edge, Proposal, Sensitivity};
+use super::proposal::{ChosenValue, ComparedFigure, Edge, Proposal, Sensitivity, is_sure};
 use super::record::ImproveRecord;
 use gearwear::report::html::number::{change, figure as shown};
 
@@ -100,14 +100,10 @@ impl Proposal {
 
     /// Goals against those of another proposal, where they differ by more than the errors of both, and where they do not.
     pub fn against(&self, other: &Self) -> String {
-        let goals = |proposal: &Self| -> Vec<ComparedFigure> {
-            proposal.figures.iter().filter(|figure| figure.is_goal).cloned().collect()
-        };
-        let compared = goals(self).into_iter().zip(goals(other)).map(|(own, its)| {
-            let errors = own.error.zip(its.error).map(|(a, b)| a * own.value.abs() + b * its.value.abs());
-            let is_sure = errors.map(|errors| (own.value - its.value).abs() > errors);
+        let [own, its] = [self, other].map(|proposal| proposal.figures.iter().filter(|figure| figure.is_goal));
+        let compared = own.zip(its).map(|(own, its)| {
             let change = if its.value == 0.0 { String::new() } else { signed(own.value / its.value - 1.0) };
-            let judged = match is_sure {
+            let judged = match is_sure((own.value, own.error), (its.value, its.error)) {
                 Some(true) => "",
                 Some(false) => " (within the errors)",
                 None => " (errors not known)",

@@ -129,7 +129,7 @@ fn answer(rows: &[VariantRow], first: &str) -> String {
     let mut sentences = Vec::new();
     let answered = ANSWERED
         .iter()
-        .flat_map(|(path, name)| rows.iter().filter(|row| row.figure == *path).zip([name].into_iter().cycle()));
+        .flat_map(|(path, name)| rows.iter().filter(move |row| row.figure == *path).map(move |row| (row, name)));
     for (row, name) in answered {
         let Some(difference) = row.difference else { continue };
         let per_cent = format!("{:.1} %", 100.0 * difference.abs());

@@ -86,8 +86,7 @@ pub(super) fn reference_run(
         .zip(&teeth)
         .map(|(surface, teeth)| MeshContact::LineOfAction { surface, teeth, tip_contact: true, sliced: Some(&sliced) })
         .collect();
-    let positions = POSITIONS[usize::from(scene.numerics.positions.abs_diff(POSITIONS[0]) < ABOUT)];
-    let reference = simulate(model, outcome, contacts, positions, observer)?;
+    let reference = simulate(model, outcome, contacts, positions_beside(scene.numerics.positions), observer)?;
     let wear_mm = PerGear::from_fn(|gear: Gear| {
         let points = outcome.grid[gear].len();
         over_slices(&reference.worn.wear_mm[gear], points, &reference.slices, &outcome.slices)
@@ -119,6 +118,11 @@ fn curve<'c>(
         (None, Some(Err(error))) => Err(error.to_string()),
         (None, None) => Err("there are no plane finite elements".to_owned()),
     }
+}
+
+/// Number of positions of the reference run for a run on `own` positions.
+fn positions_beside(own: usize) -> usize {
+    POSITIONS[usize::from(own.abs_diff(POSITIONS[0]) < ABOUT)]
 }
 
 /// Number of slices of the reference run for a run with `own` slices, and the factors of the differences to it.
@@ -158,4 +162,20 @@ fn over_slices(wear_mm: &[f64], points: usize, from: &Slices, to: &Slices) -> Ve
         }
     }
     means
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A check on the positions of the run itself would not see what their spacing does: those of the presets with slices, of the least number and of
+    /// a coarse run are at least a tenth off.
+    #[test]
+    fn ver_slices_are_verified_on_other_positions() {
+        for own in [60, 100, 130, 150, 163, 170, 185, 200, 400] {
+            let apart = positions_beside(own).abs_diff(own);
+            assert!(10 * apart >= own, "{own}: {}", positions_beside(own));
+        }
+        assert_eq!([100, 150, 200].map(positions_beside), [150, 120, 150]);
+    }
 }
