@@ -202,10 +202,13 @@ mod tests {
         }
     }
 
-    /// 20 teeth, module 3 mm, at zero sum of shifts, with a wheel of 60.
+    /// An approach by which tips of an internal pair touch until their circles part, mm.
+    const AMPLE_MM: f64 = 100.0;
+
+    /// 20 teeth, module 3 mm, at zero sum of shifts, with a wheel of 60, whose internal teeth are short enough not to interfere.
     fn pair(is_internal: bool) -> GearPair {
         let ring = is_internal.then(RingSpec::default);
-        let wheel = GearSpec { ring, ..gear(60, -0.3) };
+        let wheel = GearSpec { ring, tip_diameter_mm: is_internal.then_some(-176.2), ..gear(60, -0.3) };
         let teeth = 20.0 + wheel.z();
         let gears = PerGear { pinion: gear(20, 0.3), wheel };
         GearPair::new(&PairSpec {
@@ -281,7 +284,7 @@ mod tests {
     #[test]
     fn ver_stretches_of_an_internal_pair_end_at_its_jumps() {
         let pair = pair(true);
-        let base_pitch = base_pitch(&pair, 0.2);
+        let base_pitch = base_pitch(&pair, AMPLE_MM);
         let [Some(before), Some(after)] = base_pitch.jumps_mm() else { panic!("tips of this pair meet") };
         let stretches = base_pitch.stretches_mm();
         assert_tiled(&base_pitch, &stretches);
@@ -319,7 +322,7 @@ mod tests {
     fn ver_stretches_of_an_internal_pair_follow_the_number_of_positions() {
         let pair = pair(true);
         let [run, verification] = [400, 267].map(|positions| {
-            let base_pitch = with_positions(&pair, positions, 0.2);
+            let base_pitch = with_positions(&pair, positions, AMPLE_MM);
             base_pitch.apart.map(|apart| apart.mm(base_pitch.half_width_mm, base_pitch.even_mm))
         });
         for (run, verification) in run.into_iter().zip(verification) {
