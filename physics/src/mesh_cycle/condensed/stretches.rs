@@ -262,7 +262,7 @@ mod tests {
         assert!(stretches.iter().all(|(from, to)| to > from && to - from < longest * (1.0 + 1e-9)));
     }
 
-    /// Stretches about A and E are no longer than the distance of positions at tip edges; somewhere else they are longer.
+    /// Stretches about A and E are no longer than the distance of positions at tip edges; somewhere else, where there is that, they are longer.
     #[track_caller]
     fn assert_short_about_tip_edges(base_pitch: &BasePitch<'_>, stretches: &[(f64, f64)], beyond_mm: [f64; 2]) {
         let path = &base_pitch.pair.path;
@@ -277,7 +277,7 @@ mod tests {
         let longest = |of: &[(f64, f64)]| of.iter().map(|(from, to)| to - from).fold(0.0, f64::max);
         let apart = base_pitch.apart[1].mm(base_pitch.half_width_mm, base_pitch.even_mm);
         assert!(longest(&at_edges) <= apart * (1.0 + 1e-9), "{} {apart}", longest(&at_edges));
-        assert!(longest(&elsewhere) > 1.5 * apart, "{} {apart}", longest(&elsewhere));
+        assert!(elsewhere.is_empty() || longest(&elsewhere) > 1.5 * apart, "{} {apart}", longest(&elsewhere));
     }
 
     /// Under a load by which the tips of an internal pair touch until their circles part, stretches end there.
