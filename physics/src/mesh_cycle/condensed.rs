@@ -5,51 +5,30 @@
 //! base pitch of positions suffices: the pairs found there, each at its own place of the path, together are one tooth pair over its whole mesh.
 //!
 //! Wear is that of the nodes of both flanks: the load of every multiplier reaches those that it faces while the contact moves on
-//! ([`gearwear_bodies::gear_fem::load_transfer`]). Positions are closer together where a tip edge touches, about A and E, where the contact is narrow,
-//! stands still on the edge and runs along the mate; and so about B and D, as a base pitch leads from A to D and from B to E.
-//! Edges of internal pairs under load may touch as far as the tip circles of both gears overlap ([`gearwear_bodies::gear::GearPair::tips_meet_mm`]): load comes in and
-//! leaves at once there. A stretch ends there, so that sums over positions stay of second order in their distance.
+//! ([`gearwear_bodies::gear_fem::load_transfer`]). [`stretches`] says where positions are.
 //!
 //! The couplings of a position are prepared once; from one wear step to the next only the gaps change, and hardly the active set.
 
 mod observation;
+mod stretches;
 
 use rayon::prelude::*;
 
+use self::stretches::BasePitch;
 use super::collected::Collected;
 use super::condensed_contact::{CondensedContactPlace, HeatedContactRows};
 use super::load_sharing::EquilibriumError;
-use super::{CycleObservation, FlankOverlap, GROUPS, LostMaterial, MeshCycle, Work, kept_wear_to_mpa, range_mm};
+use super::{CycleObservation, FlankOverlap, GROUPS, LostMaterial, MeshCycle, Work, kept_wear_to_mpa};
 use crate::lubrication::running_pair::LoadedPlace;
 use crate::wear::{SlidingRow, WearModel};
 use gearwear_bodies::gear::{Gear, PerGear, flank_zones::FlankZones};
-use gearwear_bodies::gear_fem::condensed_pair::{CondensedPair, hertz_half_width_mm};
+use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
 use gearwear_bodies::gear_fem::flank_nodes::FlankNodes;
 use gearwear_bodies::gear_fem::load_transfer::LoadTransfer;
 use gearwear_bodies::gear_fem::prepared::PreparedPosition;
 use gearwear_bodies::gear_fem::tilted::Worn;
 use gearwear_bodies::reference::linear_means::value_at;
 use gearwear_fem::active_set::ContactEquilibrium;
-
-/// Distance of positions.
-#[derive(Clone, Copy)]
-struct Apart {
-    /// Distance in Hertz half-widths at the pitch point: a contact must not move much farther than it is wide.
-    half_widths: f64,
-    /// Least and greatest distance over that of positions which divide A–E evenly.
-    limits: [f64; 2],
-}
-
-/// Distance away from the tip edges.
-const APART: Apart = Apart { half_widths: 0.5, limits: [0.5, 4.0] };
-/// Distance where a tip edge touches, and contact is narrower.
-const APART_AT_TIP_EDGES: Apart = Apart { half_widths: 0.15, limits: [0.25, 1.0] };
-/// Length of the path beyond A and E, over the reach of unworn tip edges under the approach at the pitch point.
-const AMPLE_APPROACH: f64 = 1.3;
-/// Length within A–E on which the tip edge still changes a contact, in Hertz half-widths at the pitch point.
-const WITHIN_HALF_WIDTHS: f64 = 2.0;
-/// Length outside a place where load comes in at once on which positions are as close as inside, in Hertz half-widths at the pitch point.
-const OUTSIDE_JUMP_HALF_WIDTHS: f64 = 0.5;
 
 /// Relative difference of the lever of a tooth pair's load from that on the worn flanks, over the part of the load that other pairs carry, that is
 /// followed: a load share changes by some three times that.
@@ -104,6 +83,8 @@ pub struct CondensedCycle<'a> {
     /// Nominal radii of the nodes, from root to tip.
     radius_mm: PerGear<Vec<f64>>,
     groups: Vec<CondensedGroup>,
+    /// Positions before which load comes in or leaves at once, by their place in the base pitch.
+    after_jumps: Vec<usize>,
     /// Positions from A to E at which the cycle is observed.
     observation_mm: Vec<f64>,
     /// Zones of the flanks, for figures of the pressure.
@@ -122,7 +103,8 @@ impl<'a> CondensedCycle<'a> {
             nodes[gear].place.iter().zip(local).for_each(|(&place, radius)| radius_mm[place] = radius);
             radius_mm
         });
-        let stretches = stretches(model, positions, line_load_n_per_mm);
+        let base_pitch = BasePitch::of(model, positions, line_load_n_per_mm);
+        let stretches = base_pitch.stretches_mm();
         let groups = stretches
             .par_chunks(stretches.len().div_ceil(GROUPS))
             .map(|stretches| CondensedGroup {
@@ -135,8 +117,17 @@ impl<'a> CondensedCycle<'a> {
                 kept_mm: PerGear::default(),
             })
             .collect();
-        let observation_mm = model.pair.path.evenly_mm(positions);
-        Self { model, line_load_n_per_mm, nodes, radius_mm, groups, observation_mm, zones: None, some_keep_wear: false }
+        Self {
+            model,
+            line_load_n_per_mm,
+            nodes,
+            radius_mm,
+            groups,
+            after_jumps: base_pitch.after_jumps(&stretches),
+            observation_mm: model.pair.path.evenly_mm(positions),
+            zones: None,
+            some_keep_wear: false,
+        }
     }
 
     /// Adds figures of the pressure by the zones of the flanks.
@@ -169,71 +160,6 @@ impl<'a> CondensedCycle<'a> {
     fn loaded_positions(&self) -> impl Iterator<Item = &CondensedPosition> {
         self.groups.iter().flat_map(|group| &group.loaded_positions)
     }
-}
-
-/// Stretches of the positions of one base pitch: short ones where a tip edge touches, and none across a place where load comes in at once.
-fn stretches(model: &CondensedPair<'_>, positions: usize, line_load_n_per_mm: f64) -> Vec<(f64, f64)> {
-    let (pair, path) = (model.pair, &model.pair.path);
-    let (start, pitch) = (model.first_position_mm(), path.base_pitch_mm);
-    let even = (path.end_mm - path.start_mm) / (positions - 1) as f64;
-    let half_width = hertz_half_width_mm(pair, model.contact_modulus_mpa, line_load_n_per_mm, path.pitch_point_mm);
-    let within = WITHIN_HALF_WIDTHS * half_width;
-    let approach = model
-        .at(path.pitch_point_mm, line_load_n_per_mm, &Default::default())
-        .map_or(0.0, |contact| contact.transmission_error_mm);
-    let [before, after] = pair.tip_reach_mm(AMPLE_APPROACH * approach);
-    // Distance, from the beginning, of the places where load comes in or leaves at once.
-    let [first, last] = pair.tips_meet_mm(AMPLE_APPROACH * approach);
-    let jumps = [first.map(|before| path.start_mm - before), last.map(|after| path.end_mm + after)];
-    let cuts = jumps.map(|jump| jump.map(|place| (place - start).rem_euclid(pitch)));
-    let outside = OUTSIDE_JUMP_HALF_WIDTHS * half_width;
-    let before = first.map_or(before, |jump| jump + outside);
-    let after = last.map_or(after, |jump| jump + outside);
-    // Both stretches at tip edges, moved by base pitches to where they begin in this one, and cut at its end.
-    let zones = [(path.start_mm - before, path.start_mm + within), (path.end_mm - within, path.end_mm + after)];
-    let mut at_edges: Vec<(f64, f64)> = zones
-        .into_iter()
-        .flat_map(|(from, to)| {
-            let length = (to - from).min(pitch);
-            let from = (from - start).rem_euclid(pitch);
-            [(from, (from + length).min(pitch)), (0.0, from + length - pitch)]
-        })
-        .filter(|(from, to)| to > from)
-        .collect();
-    at_edges.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let ends = at_edges.into_iter().flat_map(|(from, to)| [(from, APART), (to, APART_AT_TIP_EDGES)]);
-    let mut stretches = Vec::new();
-    let mut reached = 0.0;
-    for (to, Apart { half_widths, limits: [least, most] }) in ends.chain([(pitch, APART)]) {
-        let length = to - reached;
-        if length <= 1e-9 * pitch {
-            continue;
-        }
-        let apart = (half_widths * half_width).clamp(least * even, most * even);
-        for (reached, to) in cut((reached, to), cuts, 1e-9 * pitch) {
-            let length = to - reached;
-            let count = (length / apart - 1e-9).ceil().max(1.0) as usize;
-            let ends = (0..=count).map(|k| start + reached + length * k as f64 / count as f64).collect::<Vec<f64>>();
-            stretches.extend(ends.windows(2).map(|ends| (ends[0], ends[1])));
-        }
-        reached = to;
-    }
-    stretches
-}
-
-/// Parts of a stretch between the cuts that lie within it, farther than `least` from its ends and from each other.
-fn cut((from, to): (f64, f64), cuts: [Option<f64>; 2], least: f64) -> Vec<(f64, f64)> {
-    let mut places: Vec<f64> = cuts.into_iter().flatten().filter(|&at| at > from + least && at < to - least).collect();
-    places.sort_by(f64::total_cmp);
-    let mut parts = Vec::new();
-    let mut reached = from;
-    for place in places.into_iter().chain([to]) {
-        if place - reached > least {
-            parts.push((reached, place));
-            reached = place;
-        }
-    }
-    parts
 }
 
 impl MeshCycle for CondensedCycle<'_> {
@@ -283,7 +209,7 @@ impl MeshCycle for CondensedCycle<'_> {
     }
 
     fn peak_to_peak_mm(&self) -> f64 {
-        range_mm(self.along_the_path().iter().map(|at| at.transmission_error_mm))
+        self.range_of_transmission_error_mm()
     }
 
     fn observe(&mut self, _lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {

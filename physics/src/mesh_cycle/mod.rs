@@ -233,6 +233,8 @@ pub struct CycleObservation {
     pub slices: Option<SlicedMesh>,
     /// Deepest overlap of the flanks beside their contacts; `None` where a model does not look at their gap.
     pub deepest_overlap: Option<FlankOverlap>,
+    /// Transmission error on both sides of the places where load comes in or leaves at once, mm; none where a model has no positions up to them.
+    pub transmission_error_beside_jumps_mm: Vec<f64>,
 }
 
 /// Material that flanks have lost, mm: at points, all that lies beside the involute, modifications, deviations of measured flanks and wear; at
@@ -392,6 +394,7 @@ impl MeshCycle for LineOfActionCycle<'_> {
                 .loaded_positions()
                 .filter_map(|at| at.overlap(removed_mm, self.bodies_mm))
                 .reduce(FlankOverlap::deeper),
+            transmission_error_beside_jumps_mm: Vec::new(),
         };
         let mut sliding_work_n = 0.0;
         let mut sweep = Sweep::default();
@@ -598,12 +601,18 @@ impl CycleObservation {
 
     /// Least and greatest transmission error, mm.
     pub fn transmission_error_mm(&self) -> (f64, f64) {
-        extremes_mm(self.positions.iter().map(|at| at.transmission_error_mm))
+        extremes_mm(self.transmission_errors_mm())
     }
 
     /// Greatest less least transmission error, mm.
     pub fn peak_to_peak_mm(&self) -> f64 {
-        range_mm(self.positions.iter().map(|at| at.transmission_error_mm))
+        range_mm(self.transmission_errors_mm())
+    }
+
+    /// Transmission error at all positions, and beside the jumps between them, mm.
+    fn transmission_errors_mm(&self) -> impl Iterator<Item = f64> {
+        let beside_jumps = self.transmission_error_beside_jumps_mm.iter().copied();
+        self.positions.iter().map(|at| at.transmission_error_mm).chain(beside_jumps)
     }
 
     /// Amplitudes of the first `count` mesh orders of the transmission error, mm; none where the positions do not reach over a base pitch.

@@ -265,6 +265,7 @@ impl MeshCycle for SlicedCycle<'_> {
             sliding_work_n: Some(sliding_work_n),
             slices: Some(mesh),
             deepest_overlap,
+            transmission_error_beside_jumps_mm: Vec::new(),
         })
     }
 }

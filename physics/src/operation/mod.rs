@@ -21,6 +21,9 @@ pub use phase_conditions::mean_friction;
 
 /// Least half-width of contact at the pitch point that is meshed, in modules: the flank then has some thousand nodes.
 pub(crate) const LEAST_HALF_WIDTH_MODULES: f64 = 0.015;
+/// Refinement of the elements of tip roundings of an internal pair that wears: with 1 they moved the wear of the wheel's tip edge by up to 6 %, now up and
+/// now down.
+const ON_ROUNDINGS_INSIDE: f64 = 1.5;
 
 /// A scene with every choice made: what plan and assessment work from.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,7 +71,9 @@ pub struct Scene {
 impl Scene {
     /// Bodies of finite elements that wear.
     pub fn wear_bodies(&self) -> BodySettings {
-        BodySettings { elements_per_half_width: self.wear_elements_per_half_width, ..self.fem }
+        let rounding_refinement =
+            if self.pair.is_internal() { ON_ROUNDINGS_INSIDE } else { self.fem.rounding_refinement };
+        BodySettings { elements_per_half_width: self.wear_elements_per_half_width, rounding_refinement, ..self.fem }
     }
 
     /// The scene on elastic half-planes, for a pair of which finite elements, the default surface, cannot be made.

@@ -16,7 +16,7 @@
 //! ```
 //!
 //! A run on finite elements is compared with one of elements and positions half as long again, from which it differs by more than from the converged
-//! answer where both approach that at first order or faster; a run with slices with one on three-dimensional finite elements ([`in_space`]).
+//! answer where both approach that at second order; a run with slices with one on three-dimensional finite elements ([`in_space`]).
 
 mod in_space;
 

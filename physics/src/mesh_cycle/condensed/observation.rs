@@ -5,7 +5,7 @@ use super::{CondensedCycle, CondensedPosition};
 use crate::contact::Footprint;
 use crate::contact::flank_pressure::PressureFigures;
 use crate::mesh_cycle::condensed_contact::parts_of_rows;
-use crate::mesh_cycle::{CycleObservation, FlankOverlap, GreatestPressure, PositionObservation};
+use crate::mesh_cycle::{CycleObservation, FlankOverlap, GreatestPressure, PositionObservation, range_mm};
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_bodies::gear_fem::flank_nodes::Weights;
 use gearwear_bodies::reference::monotone_cubic::MonotoneCubic;
@@ -27,6 +27,7 @@ impl CondensedCycle<'_> {
                 .loaded_positions()
                 .filter_map(CondensedPosition::overlap)
                 .reduce(FlankOverlap::deeper),
+            transmission_error_beside_jumps_mm: self.beside_jumps_mm(),
         };
         let mut sliding_work_n = 0.0;
         for loaded in self.loaded_positions() {
@@ -82,6 +83,36 @@ impl CondensedCycle<'_> {
         figures
     }
 
+    /// Transmission error on both sides of the places where load comes in or leaves at once, mm: linear from the two positions on that side, for the
+    /// error rises up to a jump, and the position next to it is half a stretch away.
+    fn beside_jumps_mm(&self) -> Vec<f64> {
+        let at: Vec<&CondensedPosition> = self.loaded_positions().collect();
+        let error_mm = |index: usize| at[index].found.as_ref().map(|found| found.rigid[0]);
+        let length_mm = |index: usize| at[index].stretch_mm.1 - at[index].stretch_mm.0;
+        let (before, after) = (|index: usize| (index + at.len() - 1) % at.len(), |index: usize| (index + 1) % at.len());
+        let begins_at_jump = |index: usize| self.after_jumps.contains(&index);
+        // At the end of the stretch of the position `near` that is away from the position `far`, between which may be another jump.
+        let at_end_mm = |near: usize, far: usize, jumps_between: bool| {
+            let (near_mm, far_mm) = (error_mm(near)?, error_mm(far)?);
+            let along = length_mm(near) / (length_mm(near) + length_mm(far));
+            Some(if jumps_between { near_mm } else { near_mm + (near_mm - far_mm) * along })
+        };
+        let both_sides = self.after_jumps.iter().flat_map(|&jump| {
+            let last = before(jump);
+            [
+                at_end_mm(last, before(last), begins_at_jump(last)),
+                at_end_mm(jump, after(jump), begins_at_jump(after(jump))),
+            ]
+        });
+        both_sides.flatten().collect()
+    }
+
+    /// Greatest less least transmission error, mm.
+    pub(super) fn range_of_transmission_error_mm(&self) -> f64 {
+        let errors_mm = self.along_the_path().into_iter().map(|at| at.transmission_error_mm);
+        range_mm(errors_mm.chain(self.beside_jumps_mm()))
+    }
+
     /// Load shares of the first and the last pair along the path.
     fn shares_at_ends(&self) -> [f64; 2] {
         let mut ends = [(f64::INFINITY, 0.0), (f64::NEG_INFINITY, 0.0)];
@@ -102,7 +133,7 @@ impl CondensedCycle<'_> {
     }
 
     /// The reference pair from A to E, from the pairs found in the base pitch.
-    pub(super) fn along_the_path(&self) -> Vec<PositionObservation> {
+    fn along_the_path(&self) -> Vec<PositionObservation> {
         let (path, load) = (&self.model.pair.path, self.line_load_n_per_mm);
         let mut found: Vec<PositionObservation> = Vec::new();
         for loaded in self.loaded_positions() {

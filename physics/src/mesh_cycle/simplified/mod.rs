@@ -324,6 +324,7 @@ impl WearingPair for SimplifiedPair<'_> {
             sliding_work_n: None,
             slices: Some(mesh),
             deepest_overlap: None,
+            transmission_error_beside_jumps_mm: Vec::new(),
         };
         let over_life = PeakToPeakOverLife::default();
         Ok(Snapshot { revolutions, wear_mm, depth_per_mesh_mm: depth_mm, lost_at_nodes: None, cycle, over_life })
