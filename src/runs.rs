@@ -41,6 +41,7 @@ impl LoadedScene {
             calibration: self.files.calibration.as_ref(),
             stiffness_curve: self.files.stiffness_curve.as_ref(),
             teeth_in_space: &self.teeth_in_space,
+            elements: &self.elements,
             provenance,
         }
     }

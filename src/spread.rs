@@ -6,6 +6,7 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
+use std::time::Instant;
 
 use gearwear_physics::observer::Observer;
 
@@ -70,6 +71,17 @@ pub fn spread<T: Sync, R>(
     });
     let (count, _) = kept.into_inner().unwrap_or_else(PoisonError::into_inner);
     if count == tasks.len() { SpreadOutcome::Completed } else { SpreadOutcome::Interrupted }
+}
+
+/// Time of a run where each of `threads` threads does one, over their number, s: with all that the machine does besides. `None` where it was interrupted.
+pub fn seconds_of_a_run(
+    threads: usize,
+    observer: &dyn Observer,
+    run: impl Fn(&dyn Observer) -> Option<()> + Sync,
+) -> Option<f64> {
+    let begun = Instant::now();
+    let ended = spread(&vec![(); threads], threads, observer, |(), within| run(within), |()| true);
+    (ended == SpreadOutcome::Completed).then(|| begun.elapsed().as_secs_f64() / threads as f64)
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ use super::scene_text::folder_of;
 pub use super::scene_text::{LoadError, SceneError, SceneText};
 use super::{Problem, ProblemKind, Resolved, presets};
 use gearwear_bodies::gear::Gear;
+use gearwear_physics::assessment::kept_elements::KeptElements;
 use gearwear_physics::calibration::Calibration;
 use gearwear_physics::contact::settings::SurfaceKind;
 use gearwear_physics::mesh_cycle::pair_in_space::KeptInSpace;
@@ -35,6 +36,8 @@ pub struct LoadedScene {
     pub folder: Arc<Path>,
     /// Teeth in space that a run of it, or of a scene it was made of, has condensed.
     pub teeth_in_space: KeptInSpace,
+    /// Plane finite elements that runs of it leave to one another.
+    pub elements: KeptElements,
 }
 
 impl LoadedScene {
@@ -194,7 +197,14 @@ impl LoadedScene {
         }
         files.put_flanks_into(&mut resolved);
         let (files, given, folder) = (Arc::new(files), Arc::new(given), Path::new("").into());
-        Ok(Self { resolved, files, given, folder, teeth_in_space: KeptInSpace::default() })
+        Ok(Self {
+            resolved,
+            files,
+            given,
+            folder,
+            teeth_in_space: KeptInSpace::default(),
+            elements: KeptElements::default(),
+        })
     }
 
     /// The scene as it stands in the folder of its run, naming the copies of its input files there.
@@ -268,7 +278,7 @@ impl LoadedScene {
         let name = format!("{}{CHANGED}", self.given.name.trim_end_matches(CHANGED));
         let given = SceneText { name, text: draft.to_toml() };
         let changed = Self::reading(given.resolve()?, given, Arc::clone(&self.folder), known)?;
-        Ok(Self { teeth_in_space: self.teeth_in_space.clone(), ..changed })
+        Ok(Self { teeth_in_space: self.teeth_in_space.clone(), elements: self.elements.clone(), ..changed })
     }
 
     /// Scene with a calibration made for it, whether it asks for one or not.

@@ -25,7 +25,7 @@ use crate::report::html::reading::capitalised;
 use crate::report::unit;
 use crate::runs;
 use crate::scene::loaded::{LoadedScene, SceneError};
-use crate::spread::spread;
+use crate::spread::{seconds_of_a_run, spread};
 use crate::varied_scene::VariedScene;
 use gearwear_bodies::gear::PerGear;
 use gearwear_bodies::reference::sobol_indices::indices;
@@ -328,6 +328,26 @@ impl<'a> PreparedStudy<'a> {
     pub fn study(&self) -> Result<SampledStudy, SceneError> {
         let places = self.places.as_ref().map(Vec::len);
         SampledStudy::of(self.scene, self.sampling.question, &self.sampled.surface.surface, places)
+    }
+
+    /// Time that the runs which `journal` does not have take on `threads` threads, s, by runs of the scene as given, one on each thread; `None` where there are
+    /// none, or where these fail.
+    pub fn seconds_left(
+        &self,
+        journal: &Journal<SampledStudy>,
+        threads: usize,
+        observer: &dyn Observer,
+    ) -> Option<f64> {
+        let rows = &journal.contents.rows;
+        let groups = self.sampling.groups(&self.sampled.varied);
+        let left = groups.iter().filter(|group| group.iter().any(|number| !rows.contains_key(number))).count();
+        if left == 0 {
+            return None;
+        }
+        let of_a_run = seconds_of_a_run(threads, observer, |within| {
+            run_of(&self.sampled.varied, [], self.sampling.question, false, within).ok().map(|_| ())
+        });
+        of_a_run.map(|seconds| left as f64 * seconds)
     }
 
     /// Runs what `journal` does not have of the study, and evaluates it; where it is interrupted, the points that were finished. Each time that twice

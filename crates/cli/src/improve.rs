@@ -46,7 +46,7 @@ pub(super) fn run(args: &ImproveArgs) -> Result<(), Failure> {
         let free: Vec<String> = prepared.free().iter().map(|one| format!("  {}", one.as_given())).collect();
         let time = prepared.seconds_at_most(thread_count(args.threads), &progress);
         let time = time.map_or_else(String::new, |seconds| {
-            format!(", some {} s with their verification on an idle machine", two_digits(seconds))
+            format!(", some {} s with their verification, the machine as busy as now", two_digits(seconds))
         });
         let designs = prepared.evaluations();
         say(&format!("free:\n{}\nat most {designs} designs on the fast model{time}", free.join("\n")));

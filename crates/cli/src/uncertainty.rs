@@ -17,7 +17,7 @@ use gearwear::uncertainty::study::PreparedStudy;
 
 use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError};
-use super::figures::{digits, or_dash};
+use super::figures::{digits, or_dash, two_digits};
 use super::run::{thread_count, watch_for_interrupt};
 use super::{print, say, warn};
 
@@ -91,6 +91,11 @@ pub(super) fn run(args: &UncertaintyArgs) -> Result<(), Failure> {
     report_of_study::begin(out)?;
     if !(args.quiet || journal.contents.rows.is_empty()) {
         say(&format!("goes on: {} runs were finished before", journal.contents.rows.len()));
+    }
+    if !args.quiet
+        && let Some(seconds) = prepared.seconds_left(&journal, thread_count(args.threads), &progress)
+    {
+        say(&format!("the runs take some {} s, the machine as busy as now", two_digits(seconds)));
     }
     let mut not_written = None;
     let record = prepared.run(&mut journal, thread_count(args.threads), &progress, |record| {

@@ -31,7 +31,7 @@ use super::support::Loose;
 
 /// Number of right-hand sides solved together: enough to reuse each block of L in the cache, few enough
 /// for their own rows to stay there too.
-const COLUMNS_AT_ONCE: usize = 32;
+pub const COLUMNS_AT_ONCE: usize = 32;
 
 /// Mark of a held degree of freedom.
 pub(super) const HELD: u32 = u32::MAX;

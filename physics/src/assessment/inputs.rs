@@ -1,5 +1,6 @@
 //! Inputs of a run.
 
+use super::kept_elements::KeptElements;
 use crate::calibration::Calibration;
 use crate::mesh_cycle::pair_in_space::KeptInSpace;
 use crate::operation::Scene;
@@ -17,6 +18,8 @@ pub struct RunInputs<'a> {
     pub stiffness_curve: Option<&'a PairCompliance>,
     /// Three-dimensional finite elements of the teeth, kept from an earlier run of the same pair.
     pub teeth_in_space: &'a KeptInSpace,
+    /// Plane finite elements, kept from an earlier run of the same pair.
+    pub elements: &'a KeptElements,
     /// Origin of the scene.
     pub provenance: &'a Provenance,
 }

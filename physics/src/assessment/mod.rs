@@ -12,6 +12,7 @@ pub mod guarded;
 pub mod hertz_comparison;
 mod inputs;
 mod invariants;
+pub mod kept_elements;
 mod law_without_effect;
 mod left_out_contact;
 mod lubrication;
@@ -172,7 +173,7 @@ fn prepared<R>(
     let mut stages = StageClock::new(observer);
 
     let pair = stages.run(StageKind::Geometry.name(), || GearPair::new(&inputs.scene.pair))?;
-    let (worn, on_half_planes) = match prepare::wearing_elements(inputs.scene, &pair, &mut stages) {
+    let (worn, on_half_planes) = match prepare::wearing_elements(inputs, &pair, &mut stages) {
         Err(error) if inputs.scene.surface_by_default => (None, Some((inputs.scene.on_half_planes(), error))),
         worn => (worn?, None),
     };
@@ -183,7 +184,7 @@ fn prepared<R>(
         format!("contact.surface: elastic half-planes, as finite elements, the default, cannot be made for this pair: {error}")
     });
     let at_pitch = hertz::flattening(&pair.normal_section(), &scene.material, pair.path.pitch_point_mm);
-    let elements = prepare::elements(scene, plan, &pair, &at_pitch, &mut stages);
+    let elements = prepare::elements(inputs, plan, &pair, &at_pitch, &mut stages);
     let elasticity = ToothElasticity::new(inputs, plan, &pair, elements.as_ref(), worn, &mut stages)?;
     let cases = ContactCases::new(inputs, &pair, &elasticity, elements.as_ref(), &mut stages)?;
     let teeth = cases.springs(inputs, plan, &pair, &elasticity, &mut stages)?;

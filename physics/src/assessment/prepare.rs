@@ -36,31 +36,31 @@ const LEAST_MESHED_LOAD: f64 = 0.25;
 
 /// Plane finite elements for both stiffness and verification; none where the plan has neither, or where the elements themselves wear.
 pub(super) fn elements<'a>(
-    scene: &Scene,
+    inputs: RunInputs<'_>,
     plan: &Plan,
     pair: &'a GearPair,
     at_pitch: &Flattening,
     stages: &mut StageClock<'_>,
 ) -> Option<Result<Elements<'a>, ModelError>> {
-    if scene.contact.surface == SurfaceKind::Fem {
+    if inputs.scene.contact.surface == SurfaceKind::Fem {
         return None;
     }
     let observer = stages.observer;
-    stages.planned(plan, StageKind::FiniteElementModel, || verification::elements(scene, pair, at_pitch, observer))
+    stages.planned(plan, StageKind::FiniteElementModel, || verification::elements(inputs, pair, at_pitch, observer))
 }
 
 /// Finite elements whose flank nodes wear in all phases; none of other surfaces.
 pub(super) fn wearing_elements<'a>(
-    scene: &Scene,
+    inputs: RunInputs<'_>,
     pair: &'a GearPair,
     stages: &mut StageClock<'_>,
 ) -> Result<Option<CondensedPair<'a>>, ModelError> {
-    let observer = stages.observer;
+    let (scene, observer) = (inputs.scene, stages.observer);
     let wearing = (scene.contact.surface == SurfaceKind::Fem).then(|| {
         let [least, greatest] = scene.operation.torque_range_n_mm().map(|torque| pair.line_load_n_per_mm(torque));
         let load = least.max(LEAST_MESHED_LOAD * greatest);
         stages.run(StageKind::FiniteElementModel.name(), || {
-            verification::condensed(scene, pair, load, &scene.wear_bodies(), observer)
+            verification::condensed(scene, pair, load, &scene.wear_bodies(), (inputs.elements, observer))
         })
     });
     wearing.transpose()

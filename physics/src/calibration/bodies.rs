@@ -72,6 +72,14 @@ pub struct NeighbourRow {
     pub pair_n_per_mm_um: f64,
 }
 
+/// Stiffness of the pair at C with whole rings, as the tables of rim and neighbours have them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WholeRings {
+    bodies: BodySettings,
+    pair_n_per_mm_um: f64,
+    dofs: usize,
+}
+
 impl<'a> Setup<'a> {
     /// The elastic constants.
     pub fn elastic(&self) -> PerGear<Elastic> {
@@ -131,8 +139,11 @@ impl<'a> Setup<'a> {
         Ok((sums.collect(), of.pinion.1 + of.wheel.1))
     }
 
-    /// Stiffness of the pair at the pitch point with `bodies`, N/(mm·µm), and the degrees of freedom of both gears.
-    fn pitch_stiffness(&self, bodies: BodySettings) -> Result<(f64, usize), CalibrationError> {
+    /// Stiffness of the pair at the pitch point with `bodies`, N/(mm·µm), and the degrees of freedom of both gears, unless `known`.
+    fn pitch_stiffness(&self, bodies: BodySettings, known: &WholeRings) -> Result<(f64, usize), CalibrationError> {
+        if bodies == known.bodies {
+            return Ok((known.pair_n_per_mm_um, known.dofs));
+        }
         let (stiffness, dofs) = self.pitch_stiffnesses(bodies, &[bodies.body])?;
         Ok((stiffness[0], dofs))
     }
@@ -151,37 +162,8 @@ impl<'a> Setup<'a> {
         BodySettings { elements_per_half_width: TABLE_ELEMENTS_PER_HALF_WIDTH, ..self.bodies }
     }
 
-    /// Stiffness on finer and finer meshes.
-    pub fn convergence(&self) -> Result<Vec<ResolutionRow>, CalibrationError> {
-        RESOLUTIONS
-            .par_iter()
-            .map(|&elements_per_half_width| {
-                let bodies = BodySettings { elements_per_half_width, ..self.bodies };
-                let (pair_n_per_mm_um, dofs) = self.pitch_stiffness(bodies)?;
-                Ok(ResolutionRow { elements_per_half_width, dofs, pair_n_per_mm_um })
-            })
-            .collect()
-    }
-
-    /// Stiffness of thinner and thicker rims, as far as both gears have bodies for them.
-    pub fn rim_depths(&self) -> Result<Vec<RimRow>, CalibrationError> {
-        let rims: Vec<(f64, PerGear<f64>)> = RIM_MODULES
-            .into_iter()
-            .filter_map(|modules| {
-                let [pinion, wheel] = Gear::BOTH.map(|gear| self.clamp_radius_mm(gear, modules));
-                Some((modules, PerGear { pinion: pinion?, wheel: wheel? }))
-            })
-            .collect();
-        rims.par_iter()
-            .map(|&(depth_modules, clamp_radius_mm)| {
-                let (pair_n_per_mm_um, _) = self.pitch_stiffness(BodySettings { clamp_radius_mm, ..self.coarse() })?;
-                Ok(RimRow { depth_modules, clamp_radius_mm: clamp_radius_mm.map(f64::abs), pair_n_per_mm_um })
-            })
-            .collect()
-    }
-
-    /// Stiffness of whole rings and of sectors.
-    pub fn neighbours(&self) -> Result<Vec<NeighbourRow>, CalibrationError> {
+    /// Stiffness of whole rings, which the other tables have in common, and of sectors.
+    pub fn neighbours(&self) -> Result<(Vec<NeighbourRow>, WholeRings), CalibrationError> {
         let least = self.pair.teeth.as_ref().map(|tooth| tooth.teeth);
         let least = least.pinion.min(least.wheel);
         let sectors: Vec<(Body, String)> = SECTORS
@@ -193,13 +175,49 @@ impl<'a> Setup<'a> {
                     .map(|(sides, how)| (Body::Sector { teeth, sides }, format!("{teeth} {plural}, sides {how}")))
             })
             .collect();
-        let most = sectors.last().map_or(Body::Ring, |&(body, _)| body);
+        let bodies = BodySettings { body: Body::Ring, ..self.coarse() };
         let shapes: Vec<Body> = sectors.iter().map(|&(body, _)| body).collect();
-        let row = |(body, pair_n_per_mm_um)| NeighbourRow { body, pair_n_per_mm_um };
-        let ring = self.pitch_stiffness(BodySettings { body: Body::Ring, ..self.coarse() })?.0;
-        let of_sectors = self.pitch_stiffnesses(BodySettings { body: most, ..self.coarse() }, &shapes)?.0;
-        let mut rows = vec![row(("whole ring".to_owned(), ring))];
-        rows.extend(sectors.into_iter().map(|(_, name)| name).zip(of_sectors).map(row));
-        Ok(rows)
+        // Pins hold a ring, and no sector.
+        let (mut stiffness, dofs) = match self.bodies.rim_pins {
+            None => self.pitch_stiffnesses(bodies, &[&[Body::Ring], &shapes[..]].concat())?,
+            Some(_) => self.pitch_stiffnesses(bodies, &[Body::Ring])?,
+        };
+        if let (Some(_), Some(&most)) = (self.bodies.rim_pins, shapes.last()) {
+            stiffness.extend(self.pitch_stiffnesses(BodySettings { body: most, ..bodies }, &shapes)?.0);
+        }
+        let names = ["whole ring".to_owned()].into_iter().chain(sectors.into_iter().map(|(_, name)| name));
+        let whole_rings = WholeRings { bodies, pair_n_per_mm_um: stiffness[0], dofs };
+        let rows = names.zip(stiffness).map(|(body, pair_n_per_mm_um)| NeighbourRow { body, pair_n_per_mm_um });
+        Ok((rows.collect(), whole_rings))
+    }
+
+    /// Stiffness on finer and finer meshes; `known` is one of them.
+    pub fn convergence(&self, known: &WholeRings) -> Result<Vec<ResolutionRow>, CalibrationError> {
+        RESOLUTIONS
+            .par_iter()
+            .map(|&elements_per_half_width| {
+                let bodies = BodySettings { elements_per_half_width, ..self.bodies };
+                let (pair_n_per_mm_um, dofs) = self.pitch_stiffness(bodies, known)?;
+                Ok(ResolutionRow { elements_per_half_width, dofs, pair_n_per_mm_um })
+            })
+            .collect()
+    }
+
+    /// Stiffness of thinner and thicker rims, as far as both gears have bodies for them; `known` may be one of them.
+    pub fn rim_depths(&self, known: &WholeRings) -> Result<Vec<RimRow>, CalibrationError> {
+        let rims: Vec<(f64, PerGear<f64>)> = RIM_MODULES
+            .into_iter()
+            .filter_map(|modules| {
+                let [pinion, wheel] = Gear::BOTH.map(|gear| self.clamp_radius_mm(gear, modules));
+                Some((modules, PerGear { pinion: pinion?, wheel: wheel? }))
+            })
+            .collect();
+        rims.par_iter()
+            .map(|&(depth_modules, clamp_radius_mm)| {
+                let bodies = BodySettings { clamp_radius_mm, ..self.coarse() };
+                let (pair_n_per_mm_um, _) = self.pitch_stiffness(bodies, known)?;
+                Ok(RimRow { depth_modules, clamp_radius_mm: clamp_radius_mm.map(f64::abs), pair_n_per_mm_um })
+            })
+            .collect()
     }
 }

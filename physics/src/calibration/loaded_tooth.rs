@@ -82,22 +82,30 @@ impl<'a> LoadedTooth<'a> {
         Some(self.body.displacement_along_mm(p, &point, q, force))
     }
 
-    /// The point inside where a load at ρ crosses the tooth's centre line, with its displacement along that load.
-    pub fn inside(&self, rho_mm: f64) -> Option<Inside> {
-        self.inside_along(&self.tooth.load_line(rho_mm))
+    /// The points inside where loads at these ρ cross the tooth's centre line, with their displacements along those loads; none where that is outside
+    /// the tooth.
+    pub fn inside(&self, rho_mm: &[f64]) -> Vec<Option<Inside>> {
+        self.inside_along(&rho_mm.iter().map(|&rho_mm| self.tooth.load_line(rho_mm)).collect::<Vec<_>>())
     }
 
-    /// The point inside where a load along `line` crosses the centre line, with its displacement along that load.
-    fn inside_along(&self, line: &LoadLine) -> Option<Inside> {
+    /// The points inside where loads along `lines` cross the centre line, with their displacements along those loads: all solved together.
+    fn inside_along(&self, lines: &[LoadLine]) -> Vec<Option<Inside>> {
+        let functionals: Vec<Option<Functional>> = lines.iter().map(|line| self.displacement_inside(line)).collect();
+        let known: Vec<Functional> = functionals.iter().flatten().cloned().collect();
+        let mut answers = self.body.sector.answers(&known).into_iter();
+        let found = lines.iter().zip(functionals).map(|(line, functional)| {
+            functional.and_then(|_| Some(Inside { depth_mm: line.depth_mm, answer: answers.next()? }))
+        });
+        found.collect()
+    }
+
+    /// Displacement of the point where `line` crosses the centre line, along it.
+    fn displacement_inside(&self, line: &LoadLine) -> Option<Functional> {
         let direction = direction(line);
-        let sector = &self.body.sector;
-        let place = locate(&sector.sector.solid, Vector2::new(0.0, line.centre_line_mm))?;
-        let functional: Functional = place
-            .weights
-            .iter()
-            .flat_map(|&(node, weight)| [(2 * node, weight * direction.x), (2 * node + 1, weight * direction.y)])
-            .collect();
-        Some(Inside { depth_mm: line.depth_mm, answer: sector.answer(&functional) })
+        let place = locate(&self.body.sector.sector.solid, Vector2::new(0.0, line.centre_line_mm))?;
+        let of_node =
+            |&(node, weight): &(u32, f64)| [(2 * node, weight * direction.x), (2 * node + 1, weight * direction.y)];
+        Some(place.weights.iter().flat_map(of_node).collect())
     }
 
     /// Displacement of the point inside tooth `p`, in the direction of its load, under forces on the fine teeth, mm.
@@ -107,17 +115,27 @@ impl<'a> LoadedTooth<'a> {
         self.body.softness() * (own + cuts.iter().zip(&inside.answer.by_cut).map(|(u, by)| u * by).sum::<f64>())
     }
 
-    /// Displacement over load of the point inside where `line` crosses the centre line, under a concentrated load along it at ρ,
+    /// Displacement over load of the points inside where lines cross the centre line, each under a concentrated load along its line at ρ,
     /// mm²/N. How a load is spread over the flank does not matter there, so that it may act on an edge; ρ counts up to where a
     /// rounding begins.
-    pub fn bending_mm2_per_n(&self, rho_mm: f64, line: &LoadLine) -> Option<f64> {
+    pub fn bending_mm2_per_n(&self, loads: &[(f64, LoadLine)]) -> Vec<Option<f64>> {
+        let lines: Vec<LoadLine> = loads.iter().map(|(_, line)| *line).collect();
+        let inside = self.inside_along(&lines).into_iter();
+        let bent = loads.iter().zip(inside).map(|((rho_mm, line), inside)| {
+            let mut forces = vec![ToothForce::new(); self.teeth()];
+            forces[self.middle()] = self.concentrated(*rho_mm, line)?;
+            Some(self.inside_mm(&inside?, self.middle(), &forces))
+        });
+        bent.collect()
+    }
+
+    /// Forces of a unit load along `line` at ρ.
+    fn concentrated(&self, rho_mm: f64, line: &LoadLine) -> Option<ToothForce> {
         let (first, last) = (self.edges.first()?, self.edges.last()?);
         let arc_mm = self.tooth.involute.arc_mm(rho_mm).clamp(first.arc_mm[0], last.arc_mm[2]);
         let mut force = self.along(arc_mm, direction(line))?;
         force.sort_by_key(|&(column, _)| column);
-        let mut forces = vec![ToothForce::new(); self.teeth()];
-        forces[self.middle()] = force;
-        Some(self.inside_mm(&self.inside_along(line)?, self.middle(), &forces))
+        Some(force)
     }
 
     /// Number of the tooth of the reference pair.

@@ -140,9 +140,11 @@ pub fn solve(
     reference_n_per_mm: f64,
 ) -> Result<Vec<SingleContact>, CalibrationError> {
     let places = places(loaded, reference_n_per_mm)?;
+    let inside = loaded.inside(&places.iter().map(|place| place.position_mm).collect::<Vec<_>>());
     let solved: Vec<Vec<SingleContact>> = places
         .par_iter()
-        .map(|place| at_all_loads(condensed, loaded, place, reference_n_per_mm))
+        .zip(inside)
+        .map(|(place, inside)| at_all_loads(condensed, loaded, place, &inside?, reference_n_per_mm))
         .collect::<Result<_, _>>()?;
     Ok(solved.into_iter().flatten().collect())
 }
@@ -167,15 +169,10 @@ fn at_all_loads(
     condensed: &CondensedPair<'_>,
     loaded: &LoadedPair<'_>,
     place: &SolvedPosition,
+    inside: &PerGear<Inside>,
     reference_n_per_mm: f64,
 ) -> Result<Vec<SingleContact>, CalibrationError> {
     let position_mm = place.position_mm;
-    let mut inside = Vec::with_capacity(2);
-    for gear in Gear::BOTH {
-        let rho_mm = condensed.pair.path.rho_mm(gear, position_mm);
-        let point = loaded.teeth[gear].inside(rho_mm);
-        inside.push(point.ok_or(CalibrationError::OffTheFlank { gear, position_mm })?);
-    }
     let mut loads: Vec<(f64, bool)> = FITTED_LOADS.map(|load| (load, true)).to_vec();
     loads.extend(HELD_OUT_LOADS.map(|load| (load, false)));
     loads.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -191,7 +188,7 @@ fn at_all_loads(
             (false, true) => Purpose::Fitted,
             (false, false) => Purpose::HeldOut,
         };
-        solved.push(read(condensed, loaded, &inside, &found, line_load_n_per_mm, purpose));
+        solved.push(read(condensed, loaded, inside, &found, line_load_n_per_mm, purpose));
         warm = found.warm;
     }
     Ok(solved)
@@ -216,20 +213,16 @@ fn half_width_mm(flank: &MeshedFlank, force: &ToothForce) -> f64 {
 fn read(
     condensed: &CondensedPair<'_>,
     loaded: &LoadedPair<'_>,
-    inside: &[Inside],
+    inside: &PerGear<Inside>,
     found: &PositionContact,
     line_load_n_per_mm: f64,
     purpose: Purpose,
 ) -> SingleContact {
     let position_mm = found.position_mm;
-    let bent_mm: f64 = Gear::BOTH
-        .into_iter()
-        .zip(inside)
-        .map(|(gear, inside)| {
-            let tooth = &loaded.teeth[gear];
-            tooth.inside_mm(inside, tooth.middle(), &found.forces[gear])
-        })
-        .sum();
+    let bent_mm = PerGear::from_fn(|gear| {
+        let tooth = &loaded.teeth[gear];
+        tooth.inside_mm(&inside[gear], tooth.middle(), &found.forces[gear])
+    });
     let hertz = loaded.hertz(position_mm);
     let slave = found.pairs.first().map_or(Gear::Pinion, |pair| pair.slave);
     let force = &found.forces[slave][loaded.teeth[slave].middle()];
@@ -242,7 +235,7 @@ fn read(
         fem: TouchFigures {
             half_width_mm: half_width_mm(&condensed.flanks[slave], force),
             peak_pressure_mpa: found.pairs.iter().map(|pair| pair.peak_pressure_mpa).fold(0.0, f64::max),
-            approach_mm: found.transmission_error_mm - bent_mm,
+            approach_mm: found.transmission_error_mm - bent_mm.sum(),
         },
         hertz: TouchFigures {
             half_width_mm: strip.half_width_mm,

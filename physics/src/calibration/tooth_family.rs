@@ -125,11 +125,14 @@ fn member(setup: &Setup<'_>, teeth: u32) -> Result<Option<FamilyMember>, Calibra
         deflection: Vec::with_capacity(HEIGHTS),
         weber_banaschek: Vec::with_capacity(HEIGHTS),
     };
-    for &height in &found.height {
+    // Rounding errors must not put a load beyond an end of the flank.
+    let on_flank = |height: &f64| {
         let radius_mm = start_mm + height * (tooth.tip_radius_mm - start_mm);
-        // Rounding errors must not put a load beyond an end of the flank.
-        let rho_mm = tooth.involute.curvature_radius_mm(radius_mm).clamp(low * (1.0 + 1e-12), high * (1.0 - 1e-12));
-        let read = loaded.ellipse(rho_mm, 0.0, 1.0).zip(loaded.inside(rho_mm));
+        tooth.involute.curvature_radius_mm(radius_mm).clamp(low * (1.0 + 1e-12), high * (1.0 - 1e-12))
+    };
+    let loads_mm: Vec<f64> = found.height.iter().map(on_flank).collect();
+    for (&rho_mm, inside) in loads_mm.iter().zip(loaded.inside(&loads_mm)) {
+        let read = loaded.ellipse(rho_mm, 0.0, 1.0).zip(inside);
         let Some((force, inside)) = read else { return Ok(None) };
         let mut forces = vec![ToothForce::new(); loaded.teeth()];
         forces[loaded.middle()] = force;

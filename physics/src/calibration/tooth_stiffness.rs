@@ -20,12 +20,12 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::CalibrationError;
-use super::loaded_tooth::LoadedTooth;
+use super::loaded_tooth::{Inside, LoadedTooth};
 use crate::contact::hertz;
 use crate::stiffness::curve::{PairCompliance, StandsFor};
 use crate::stiffness::weber_banaschek::ToothCompliance;
 use gearwear_bodies::gear::flank_edge::PathEnd;
-use gearwear_bodies::gear::{Gear, GearPair, PerGear};
+use gearwear_bodies::gear::{Gear, GearPair, PerGear, tooth::LoadLine};
 use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
 use gearwear_bodies::gear_fem::ring::ToothForce;
 use gearwear_bodies::material::{Material, contact_modulus_mpa};
@@ -160,8 +160,34 @@ impl<'a> LoadedPair<'a> {
         (low < high).then_some((low, high))
     }
 
-    /// Both teeth under `line_load_n_per_mm` at a position; `None` where the ellipse hangs over an edge.
-    pub fn deflection(&self, position_mm: f64, line_load_n_per_mm: f64) -> Option<PairDeflection> {
+    /// Both teeth under `line_load_n_per_mm` at each of some positions; `None` where the ellipse hangs over an edge.
+    pub fn deflections(&self, positions_mm: &[f64], line_load_n_per_mm: f64) -> Vec<Option<PairDeflection>> {
+        let at = positions_mm.par_iter().zip(self.inside(positions_mm));
+        at.map(|(&position_mm, inside)| self.deflection(position_mm, line_load_n_per_mm, &inside.ok()?)).collect()
+    }
+
+    /// Point inside each tooth at each of some positions; the error names a gear where it is outside the tooth.
+    pub(super) fn inside(&self, positions_mm: &[f64]) -> Vec<Result<PerGear<Inside>, CalibrationError>> {
+        let of_gears = PerGear::in_parallel(|gear| {
+            let rho_mm: Vec<f64> = positions_mm.iter().map(|&at_mm| self.pair.path.rho_mm(gear, at_mm)).collect();
+            self.teeth[gear].inside(&rho_mm)
+        });
+        let both = of_gears.pinion.into_iter().zip(of_gears.wheel).zip(positions_mm);
+        let in_teeth = both.map(|((pinion, wheel), &position_mm)| {
+            let off = |gear| CalibrationError::OffTheFlank { gear, position_mm };
+            let pinion = pinion.ok_or_else(|| off(Gear::Pinion))?;
+            Ok(PerGear { pinion, wheel: wheel.ok_or_else(|| off(Gear::Wheel))? })
+        });
+        in_teeth.collect()
+    }
+
+    /// Both teeth under `line_load_n_per_mm` at a position, with the points inside them.
+    fn deflection(
+        &self,
+        position_mm: f64,
+        line_load_n_per_mm: f64,
+        inside: &PerGear<Inside>,
+    ) -> Option<PairDeflection> {
         let (w, path) = (line_load_n_per_mm, &self.pair.path);
         let hertz = self.hertz(position_mm);
         let half_width_mm = hertz.contact.loaded(w).half_width_mm;
@@ -172,7 +198,7 @@ impl<'a> LoadedPair<'a> {
             let rho_mm = path.rho_mm(gear, position_mm);
             let force = tooth.ellipse(rho_mm, half_width_mm, w)?;
             let middle = tooth.middle();
-            let inside = tooth.inside(rho_mm)?;
+            let inside = &inside[gear];
             let mut forces = vec![ToothForce::new(); tooth.teeth()];
             forces[middle] = force;
             let force = &forces[middle];
@@ -181,7 +207,7 @@ impl<'a> LoadedPair<'a> {
             let both = Flattening { contact: hertz.contact, bodies: [one; 2] };
             own.push(ToothDeflection {
                 whole_mm2_per_n: tooth.surface_mm(middle, rho_mm, middle, force)? / w,
-                bending_mm2_per_n: tooth.inside_mm(&inside, middle, &forces) / w,
+                bending_mm2_per_n: tooth.inside_mm(inside, middle, &forces) / w,
                 depth_mm: inside.depth_mm,
                 closed_form_flattening_mm2_per_n: 0.5 * both.approach_mm(w) / w,
                 weber_banaschek_bending_mm2_per_n: self.weber_banaschek[gear].mm2_per_n(rho_mm),
@@ -220,7 +246,7 @@ impl<'a> LoadedPair<'a> {
         let none = CalibrationError::NoClearPosition { line_load_n_per_mm };
         let Some((low, high)) = self.clear_of_the_edges_mm(line_load_n_per_mm, CLEAR) else { return Err(none) };
         let positions = evenly(low, high, count.max(2));
-        let deflections = positions.par_iter().map(|&at| self.deflection(at, line_load_n_per_mm));
+        let deflections = self.deflections(&positions, line_load_n_per_mm).into_iter();
         deflections.map(|found| found.ok_or_else(|| none.clone())).collect()
     }
 
@@ -257,20 +283,29 @@ impl<'a> LoadedPair<'a> {
 
     /// The curve from `from` (position and compliance) to `to_mm` by way of `edge_mm`, where an edge begins to touch: it changes as bending does.
     fn continued(&self, from: (f64, f64), edge_mm: f64, to_mm: f64) -> Vec<(f64, f64)> {
-        let Some(at_from) = self.bending_mm2_per_n(from.0) else { return Vec::new() };
         let mut places = evenly(from.0, edge_mm, PLACES_TO_EDGE);
         places.pop();
         places.extend(evenly(edge_mm, to_mm, PLACES_BEYOND_EDGE));
-        let places = places.into_iter().filter(|place| (place - from.0) * (to_mm - from.0) > 0.0);
-        places.map_while(|place| Some((place, from.1 + self.bending_mm2_per_n(place)? - at_from))).collect()
+        let mut places: Vec<f64> =
+            places.into_iter().filter(|place| (place - from.0) * (to_mm - from.0) > 0.0).collect();
+        places.insert(0, from.0);
+        let bending = self.bending_mm2_per_n(&places);
+        let Some(at_from) = bending[0] else { return Vec::new() };
+        let beyond = places.into_iter().zip(bending).skip(1);
+        beyond.map_while(|(place, bending)| Some((place, from.1 + bending? - at_from))).collect()
     }
 
-    /// Bending of both teeth under a concentrated load where the flanks touch, over that load, mm²/N.
-    fn bending_mm2_per_n(&self, position_mm: f64) -> Option<f64> {
-        let touch = self.pair.touch(position_mm);
-        let [pinion, wheel] =
-            Gear::BOTH.map(|gear| self.teeth[gear].bending_mm2_per_n(touch.rho_mm[gear], &touch.load_line[gear]));
-        Some(pinion? + wheel?)
+    /// Bending of both teeth under a concentrated load where the flanks touch, over that load, at each of some positions, mm²/N.
+    fn bending_mm2_per_n(&self, positions_mm: &[f64]) -> Vec<Option<f64>> {
+        let loads = positions_mm.iter().map(|&position_mm| {
+            let touch = self.pair.touch(position_mm);
+            PerGear::from_fn(|gear| (touch.rho_mm[gear], touch.load_line[gear]))
+        });
+        let loads: Vec<PerGear<(f64, LoadLine)>> = loads.collect();
+        let of_gears = PerGear::in_parallel(|gear| {
+            self.teeth[gear].bending_mm2_per_n(&loads.iter().map(|load| load[gear]).collect::<Vec<_>>())
+        });
+        of_gears.pinion.into_iter().zip(of_gears.wheel).map(|(pinion, wheel)| Some(pinion? + wheel?)).collect()
     }
 }
 

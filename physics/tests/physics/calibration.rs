@@ -97,7 +97,7 @@ fn val_stiffness_at_the_pitch_point() {
         let setup = setup(&pair, body, 5.0);
         let condensed = setup.condensed(&setup.meshed().unwrap()).unwrap();
         let loaded = LoadedPair::new(&condensed, &steel());
-        let at = loaded.deflection(pair.path.pitch_point_mm, LINE_LOAD_N_PER_MM).unwrap();
+        let at = loaded.deflections(&[pair.path.pitch_point_mm], LINE_LOAD_N_PER_MM)[0].unwrap();
         assert_close("stiffness", at.pair_n_per_mm_um(), expected, 5e-3);
     }
 }
@@ -112,7 +112,7 @@ fn ver_a_known_load_and_contact_give_the_same_approach() {
     let loaded = LoadedPair::new(&condensed, &steel());
     for (position_mm, tolerance) in [(7.0, 2e-3), (pair.path.pitch_point_mm, 5e-4), (19.0, 5e-4)] {
         let found = condensed.at_alone(position_mm, LINE_LOAD_N_PER_MM, &WarmStart::default()).unwrap();
-        let known = loaded.deflection(position_mm, LINE_LOAD_N_PER_MM).unwrap();
+        let known = loaded.deflections(&[position_mm], LINE_LOAD_N_PER_MM)[0].unwrap();
         let approach = LINE_LOAD_N_PER_MM * known.sum(|tooth| tooth.whole_mm2_per_n);
         assert_close("approach", found.transmission_error_mm, approach, tolerance);
         assert_eq!(found.pairs.len(), 1);
@@ -140,7 +140,7 @@ fn ver_forces_carry_the_load_and_the_point_inside_is_that_of_the_field() {
         let middle = tooth.middle();
         let mut forces = vec![Vec::new(); tooth.teeth()];
         forces[middle] = force;
-        let inside = tooth.inside(rho_mm).unwrap();
+        let inside = tooth.inside(&[rho_mm]).remove(0).unwrap();
         assert_close("depth", inside.depth_mm, pair.depth_mm(gear, 12.0), 1e-12);
         let body = &condensed.gears[gear];
         let cuts = body.cut_displacement_mm(middle, &forces);
@@ -163,8 +163,8 @@ fn ver_coupling_is_mutual() {
     let condensed = setup.condensed(&setup.meshed().unwrap()).unwrap();
     let loaded = LoadedPair::new(&condensed, &steel());
     for position_mm in [5.5, 7.5, 9.5] {
-        let here = loaded.deflection(position_mm, LINE_LOAD_N_PER_MM).unwrap();
-        let ahead = loaded.deflection(position_mm + pair.path.base_pitch_mm, LINE_LOAD_N_PER_MM).unwrap();
+        let here = loaded.deflections(&[position_mm], LINE_LOAD_N_PER_MM)[0].unwrap();
+        let ahead = loaded.deflections(&[position_mm + pair.path.base_pitch_mm], LINE_LOAD_N_PER_MM)[0].unwrap();
         // An ellipse on one side, a point on the other: the spread of the load hardly matters a pitch away.
         assert_close("coupling", here.ahead_mm2_per_n.unwrap(), ahead.behind_mm2_per_n.unwrap(), 1e-4);
     }

@@ -1,5 +1,7 @@
 //! Finite-element contact of the FZG type C pair at 302 N·m: against Hertz, against other programs, against itself.
 
+use std::sync::Arc;
+
 use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_bodies::gear::{GearPair, PerGear};
 use gearwear_bodies::gear_fem::condensed_pair::CondensedPair;
@@ -10,6 +12,7 @@ use gearwear_bodies::gear_fem::position::{PositionContact, ToothPairContact, War
 use gearwear_bodies::gear_mesh::settings::{Body, BodySettings, SectorSides};
 use gearwear_bodies::reference::hertz_line::HertzLine;
 use gearwear_fem::elastic::Elastic;
+use gearwear_physics::assessment::kept_elements::KeptElements;
 
 use super::common::{assert_close, fzg_c};
 
@@ -273,4 +276,23 @@ fn ver_same_in_mm_and_in_m() {
     let (mm, m) = (scaled(1.0), scaled(1e-3));
     assert_close("transmission error", m.0, mm.0, 1e-9);
     assert_close("peak pressure", m.1, mm.1, 1e-9);
+}
+
+/// Runs of one study share the elements of the last pair; other loads and meshes have their own, and nothing is kept where it is not asked for.
+#[test]
+fn elements_of_the_last_run_are_kept() {
+    let pair = GearPair::new(&fzg_c()).unwrap();
+    let sector = |kept: &KeptElements, load: f64, elements: f64| {
+        let built = kept.condensed(&pair, &steel(), load * line_load(&pair), &settings(Body::Ring, elements), &|_| {});
+        Arc::clone(&built.unwrap().gears.pinion.sector)
+    };
+    let kept = KeptElements::of_last_run();
+    let first = sector(&kept, 1.0, 2.0);
+    assert!(Arc::ptr_eq(&first, &sector(&kept.clone(), 1.0, 2.0)));
+    assert!(!Arc::ptr_eq(&first, &sector(&kept, 0.5, 2.0)));
+    assert!(!Arc::ptr_eq(&first, &sector(&kept, 1.0, 3.0)));
+    // Those of the first pair are gone.
+    assert!(!Arc::ptr_eq(&first, &sector(&kept, 1.0, 2.0)));
+    let none = KeptElements::default();
+    assert!(!Arc::ptr_eq(&sector(&none, 1.0, 2.0), &sector(&none, 1.0, 2.0)));
 }

@@ -72,11 +72,17 @@ impl<T> From<PerGear<T>> for [T; 2] {
 
 impl<T: Send> PerGear<T> {
     /// Values of `of` for both gears, calculated in parallel.
+    pub fn in_parallel(of: impl Fn(Gear) -> T + Sync) -> Self {
+        let (pinion, wheel) = rayon::join(|| of(Gear::Pinion), || of(Gear::Wheel));
+        Self { pinion, wheel }
+    }
+
+    /// Values of `of` for both gears, calculated in parallel.
     ///
     /// # Errors
     /// The error of the pinion, or else of the wheel.
     pub fn try_in_parallel<E: Send>(of: impl Fn(Gear) -> Result<T, E> + Sync) -> Result<Self, E> {
-        let (pinion, wheel) = rayon::join(|| of(Gear::Pinion), || of(Gear::Wheel));
+        let PerGear { pinion, wheel } = PerGear::in_parallel(of);
         Ok(Self { pinion: pinion?, wheel: wheel? })
     }
 }

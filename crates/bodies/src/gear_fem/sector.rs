@@ -20,7 +20,7 @@ use nalgebra::Vector2;
 
 use gearwear_fem::elastic::{Analysis, Elastic};
 use gearwear_fem::equilibrium::SolveError;
-use gearwear_fem::factor::Factor;
+use gearwear_fem::factor::{COLUMNS_AT_ONCE, Factor};
 use gearwear_fem::solid::Solid;
 use gearwear_fem::stiffness::Stiffness;
 
@@ -160,6 +160,11 @@ fn along(functional: &Functional, (node, direction): (u32, Vector2<f64>)) -> f64
     products.sum()
 }
 
+/// Product of a sparse column with values of all degrees of freedom.
+fn product(column: &Functional, values: &[f64]) -> f64 {
+    column.iter().map(|&(dof, entry)| entry * values[dof as usize]).sum()
+}
+
 /// Displacement of one node by degree of freedom.
 fn given(node: u32, displacement: Vector2<f64>) -> [(u32, f64); 2] {
     [(2 * node, displacement.x), (2 * node + 1, displacement.y)]
@@ -193,27 +198,37 @@ impl CondensedSector {
         field
     }
 
-    /// Value of a functional p of the displacements per force on the candidates and displacement of the cuts, λ_c and p_b − K_bi λ
-    /// with λ = K_ii⁻¹ p_i: one solution, whatever the number of forces.
-    pub fn answer(&self, functional: &Functional) -> Answer {
-        let mut lambda = vec![0.0; self.sector.solid.dofs()];
-        for &(dof, value) in functional {
-            lambda[dof as usize] += value;
+    /// Values of functionals p of the displacements per force on the candidates and displacement of the cuts, λ_c and p_b − K_bi λ
+    /// with λ = K_ii⁻¹ p_i: one solution each, whatever the number of forces, and many at once.
+    pub fn answers(&self, functionals: &[Functional]) -> Vec<Answer> {
+        let directions = self.sector.cut_directions();
+        let by_cut = cut_columns(&self.stiffness, &directions);
+        let dofs = self.sector.solid.dofs();
+        let mut answers = Vec::with_capacity(functionals.len());
+        for functionals in functionals.chunks(COLUMNS_AT_ONCE) {
+            let mut lambda = vec![0.0; dofs * functionals.len()];
+            for (functional, lambda) in functionals.iter().zip(lambda.chunks_exact_mut(dofs)) {
+                functional.iter().for_each(|&(dof, value)| lambda[dof as usize] += value);
+            }
+            self.factor.solve(functionals.len(), &mut lambda);
+            let solved = functionals.iter().zip(lambda.chunks_exact(dofs));
+            answers.extend(solved.map(|(functional, lambda)| {
+                Answer {
+                    by_force: self.at_candidates(lambda),
+                    by_cut: directions
+                        .iter()
+                        .zip(&by_cut)
+                        .map(|(direction, column)| along(functional, *direction) - product(column, lambda))
+                        .collect(),
+                }
+            }));
         }
-        let own = lambda.clone();
-        self.factor.solve(1, &mut lambda);
-        let reaction = self.stiffness.matrix().multiply(&lambda);
-        let by_cut = self
-            .sector
-            .cut_directions()
-            .iter()
-            .map(|&(node, direction)| {
-                let dof = 2 * node as usize;
-                direction.x * (own[dof] - reaction[dof]) + direction.y * (own[dof + 1] - reaction[dof + 1])
-            })
-            .collect();
-        let by_force =
-            self.sector.candidates.iter().flat_map(|&node| [0, 1].map(|i| lambda[2 * node as usize + i])).collect();
-        Answer { by_force, by_cut }
+        answers
+    }
+
+    /// Displacements of the candidate columns.
+    fn at_candidates(&self, displacement_mm: &[f64]) -> Vec<f64> {
+        let dofs = self.sector.candidates.iter().flat_map(|&node| [2 * node as usize, 2 * node as usize + 1]);
+        dofs.map(|dof| displacement_mm[dof]).collect()
     }
 }

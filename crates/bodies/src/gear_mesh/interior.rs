@@ -18,6 +18,7 @@ use nalgebra::{Rotation2, Vector2};
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
+use super::boundary_circles::{BoundaryCircle, circles};
 use super::{ToothMeshError, neighbours::Neighbours, size_field::SizeField};
 
 /// Places per unit that points of the boundary are rounded to: 2³².
@@ -62,7 +63,7 @@ pub(super) fn fill(ring: &[Vector2<f64>], growth: f64, greatest_mm: f64) -> Resu
 }
 
 fn fill_dimensionless(ring: &[Vector2<f64>], growth: f64) -> Result<Filling, ToothMeshError> {
-    let boundary = Boundary { ring, field: SizeField::of_boundary(ring, growth, 1.0) };
+    let boundary = Boundary { ring, circles: circles(ring), field: SizeField::of_boundary(ring, growth, 1.0) };
     let mut points_mm = boundary.pack();
     let mut triangles = boundary.triangulate(&points_mm)?;
     for round in 0..ROUNDS {
@@ -102,6 +103,7 @@ impl Ord for Front {
 
 struct Boundary<'a> {
     ring: &'a [Vector2<f64>],
+    circles: Vec<BoundaryCircle>,
     field: SizeField,
 }
 
@@ -124,15 +126,21 @@ impl Boundary<'_> {
     fn holds(&self, point: Vector2<f64>, distance_mm: f64) -> bool {
         let least = distance_mm * distance_mm;
         let mut inside = false;
-        for k in 0..self.ring.len() {
-            let [a, b] = self.edge(k);
-            let (along, to) = (b - a, point - a);
-            let t = (to.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-            if (to - t * along).norm_squared() < least {
-                return false;
-            }
-            if (a.y > point.y) != (b.y > point.y) && to.x < along.x * (to.y / along.y) {
-                inside = !inside;
+        for circle in &self.circles {
+            let away = circle.distance(point);
+            for k in circle.nodes.clone() {
+                let [a, b] = self.edge(k);
+                let (along, to) = (b - a, point - a);
+                // With a reserve for rounding errors.
+                if away <= 1.001 * distance_mm {
+                    let t = (to.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+                    if (to - t * along).norm_squared() < least {
+                        return false;
+                    }
+                }
+                if (a.y > point.y) != (b.y > point.y) && to.x < along.x * (to.y / along.y) {
+                    inside = !inside;
+                }
             }
         }
         inside

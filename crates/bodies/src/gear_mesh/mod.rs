@@ -15,6 +15,7 @@
 //! at radii that depend on the gear alone, so that sectors turned by a pitch join exactly.
 
 mod assembly;
+mod boundary_circles;
 mod cut;
 mod error;
 mod interior;

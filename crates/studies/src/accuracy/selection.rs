@@ -153,22 +153,18 @@ impl Selection {
         let finest = levels[0];
         let long_steps = Coarsening { spacing: finest, step: COMPANION_STEP * finest };
         self.add(Setting::fem(elements, Coarsening::even(finest)));
-        let long = self.add(Setting::fem(elements, long_steps));
-        self.companions.push(CompanionRuns { fine: 0, coarse: long, spacing: RefinedSpacing::Step });
-        if let Some(&coarser) = meshes.get(1) {
-            let coarse = self.add(Setting::fem(coarser, long_steps));
-            self.companions.push(CompanionRuns {
-                fine: long,
-                coarse,
-                spacing: RefinedSpacing::Elements(elements / coarser),
-            });
-        }
         let cheapest = meshes.get(1).copied().unwrap_or(elements);
+        let fine = self.add(Setting::fem(cheapest, Coarsening::even(finest)));
+        let long = self.add(Setting::fem(cheapest, long_steps));
+        self.companions.push(CompanionRuns { fine, coarse: long, spacing: RefinedSpacing::Step });
+        if fine != 0 {
+            let spacing = RefinedSpacing::Elements(elements / cheapest);
+            self.companions.push(CompanionRuns { fine: 0, coarse: fine, spacing });
+        }
         if let Some(&wider) = levels.get(1) {
-            let fine = self.add(Setting::fem(cheapest, long_steps));
             let coarse = self.add(Setting::fem(cheapest, Coarsening { spacing: wider, ..long_steps }));
             let ratio = f64::from(wider) / f64::from(finest);
-            self.companions.push(CompanionRuns { fine, coarse, spacing: RefinedSpacing::Points(ratio) });
+            self.companions.push(CompanionRuns { fine: long, coarse, spacing: RefinedSpacing::Points(ratio) });
         }
         // The finest mesh has most of its cost in the mesh itself: fewer points and steps on it cost more than all of them on a coarser one.
         let coarser = if meshes.len() > 1 { &meshes[1..] } else { &meshes[..] };

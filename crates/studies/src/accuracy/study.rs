@@ -20,6 +20,7 @@ use gearwear::scene::Resolved;
 use gearwear::scene::loaded::LoadedScene;
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::assessment::calibrate::{self, CalibrateError, CalibrationExtent};
+use gearwear_physics::assessment::kept_elements::KeptElements;
 use gearwear_physics::calibration::Calibration;
 use gearwear_physics::contact::settings::MatchCriterion;
 use gearwear_physics::observer::{Observer, PartOf};
@@ -58,6 +59,7 @@ pub fn run(
     let CalibrationOfRuns { made, wall_s: calibration_s, why_none } = calibration(given, observer)?;
     let mut given = made.map_or_else(|| given.clone(), |made| given.calibrated(made));
     leave_out_stop(&mut given.resolved);
+    given.elements = KeptElements::of_last_run();
     let (resolved, made) = (&given.resolved, given.files.calibration.as_ref());
     let calibrated: Vec<MatchCriterion> = made.map_or_else(Vec::new, |made| made.foundation.keys().copied().collect());
     let selection = Selection::new(resolved, asked, &calibrated, &why_none);

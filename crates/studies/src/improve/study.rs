@@ -9,7 +9,7 @@ use gearwear::journal::{Journal, RowKeeper};
 use gearwear::runs;
 use gearwear::scene::draft::Draft;
 use gearwear::scene::loaded::LoadedScene;
-use gearwear::spread::{SpreadOutcome, spread};
+use gearwear::spread::{SpreadOutcome, seconds_of_a_run, spread};
 use gearwear::varied_scene::one_line;
 use gearwear_bodies::gear::GearPair;
 use gearwear_physics::assessment::Done;
@@ -157,20 +157,19 @@ impl<'a> PreparedImprove<'a> {
         self.question.evaluations()
     }
 
-    /// Time that the study takes on `threads` threads of an idle machine, s, at most: of the search and the tolerances by another run of the scene as given on
-    /// the fast model (the first also makes what all designs share), of the verification by the announced cost of a run; `None` where the verified
-    /// scene is none.
+    /// Time that the study takes on `threads` threads, s, at most: of the search and the tolerances by more runs of the scene as given on
+    /// the fast model, one on each thread (the first of all also made what designs share), of the verification by the announced cost of a run; `None` where
+    /// the verified scene is none.
     pub fn seconds_at_most(&self, threads: usize, observer: &dyn Observer) -> Option<f64> {
         let with_tolerance = self.question.free.iter().filter(|one| one.tolerance.is_some()).count();
         let on_fast_model = self.evaluations() + 2 * with_tolerance * self.most_verified();
         let scene = self.verified_scene_of(None).ok()?;
         let pair = GearPair::new(&scene.scene().pair).ok()?;
         let of_run = RunCost::of(scene.scene(), &scene.plan(), &pair).seconds;
-        let of_fast = Instant::now();
-        self.fast.figures([], &self.question.figures, observer)?.ok()?;
-        let seconds =
-            on_fast_model as f64 * of_fast.elapsed().as_secs_f64() + (self.most_verified() + 1) as f64 * of_run;
-        Some(seconds / threads as f64)
+        let of_fast = seconds_of_a_run(threads, observer, |within| {
+            self.fast.figures([], &self.question.figures, within)?.ok().map(|_| ())
+        })?;
+        Some(on_fast_model as f64 * of_fast + (self.most_verified() + 1) as f64 * of_run / threads as f64)
     }
 
     /// Greatest number of designs that are verified.

@@ -111,13 +111,16 @@ pub fn run(
     let condensed = stages.run(CalibrationStage::Condensation, || setup.condensed(&meshed))?;
     let loaded = LoadedPair::new(&condensed, &scene.material);
     let deflection = stages.run(CalibrationStage::ToothStiffness, || loaded.along_the_path(STIFFNESS_POSITIONS, w))?;
+    let points = loaded.deflections(&pair.path.points_mm(), w);
+    let at_points = std::array::from_fn(|point| points[point]);
     let single_contact = stages.run(CalibrationStage::Foundation, || on_plain_flanks(&setup, &condensed, &loaded))?;
     let (foundation, foundation_fit) = foundation_fit::all(&single_contact, w, (pair.path.start_mm, pair.path.end_mm));
     let (mut convergence, mut rim_depth, mut neighbours, mut family, mut wear_reference) = Default::default();
     if extent == CalibrationExtent::Whole {
-        convergence = stages.run(CalibrationStage::Convergence, || setup.convergence())?;
-        rim_depth = stages.run(CalibrationStage::RimDepth, || setup.rim_depths())?;
-        neighbours = stages.run(CalibrationStage::Neighbours, || setup.neighbours())?;
+        let (rows, whole_rings) = stages.run(CalibrationStage::Neighbours, || setup.neighbours())?;
+        neighbours = rows;
+        convergence = stages.run(CalibrationStage::Convergence, || setup.convergence(&whole_rings))?;
+        rim_depth = stages.run(CalibrationStage::RimDepth, || setup.rim_depths(&whole_rings))?;
         family = stages.run(CalibrationStage::ToothFamily, || tooth_family::family(&setup))?;
     }
     let pair_compliance = loaded.curve(&deflection, w);
@@ -140,7 +143,7 @@ pub fn run(
         pair_compliance,
         foundation,
         foundation_fit,
-        deflection_at_points: pair.path.points_mm().map(|position_mm| loaded.deflection(position_mm, w)),
+        deflection_at_points: at_points,
         iso6336_n_per_mm_um: 1e-3 * iso6336::single_stiffness_n_per_mm2(&scene.pair, &scene.material, w),
         courses: stiffness_variation::courses(&pair, &deflection),
         deflection,

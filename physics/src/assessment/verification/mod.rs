@@ -25,6 +25,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::RunModel;
 use super::guarded::guarded;
+use super::inputs::RunInputs;
+use super::kept_elements::KeptElements;
 use crate::contact::settings::SurfaceKind;
 use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::wearing_pair::Snapshot;
@@ -220,7 +222,7 @@ pub(super) struct Elements<'a> {
 
 /// Finite elements for the greatest of the scene's loads; where its contact is too narrow to be meshed, for the least that is.
 pub(super) fn elements<'a>(
-    scene: &Scene,
+    RunInputs { scene, elements, .. }: RunInputs<'_>,
     pair: &'a GearPair,
     at_pitch: &Flattening,
     observer: &dyn Observer,
@@ -231,20 +233,20 @@ pub(super) fn elements<'a>(
     let least_mm = LEAST_HALF_WIDTH_MODULES * pair.spec.normal_module_mm;
     // a² is proportional to the load.
     let line_load_n_per_mm = greatest_load * (least_mm / half_width_mm).max(1.0).powi(2);
-    let condensed = condensed(scene, pair, line_load_n_per_mm, &scene.wear_bodies(), observer)?;
+    let condensed = condensed(scene, pair, line_load_n_per_mm, &scene.wear_bodies(), (elements, observer))?;
     Ok(Elements { condensed, line_load_n_per_mm, half_width_mm: (half_width_mm, least_mm) })
 }
 
-/// The scene's gears, meshed for the contact under a load.
+/// The scene's gears, meshed for the contact under a load; `kept` elements stand for them where they are the same.
 pub(super) fn condensed<'a>(
     scene: &Scene,
     pair: &'a GearPair,
     line_load_n_per_mm: f64,
     bodies: &BodySettings,
-    observer: &dyn Observer,
+    (kept, observer): (&KeptElements, &dyn Observer),
 ) -> Result<CondensedPair<'a>, ModelError> {
     let material = scene.material.map(Material::elastic);
-    CondensedPair::build(pair, &material, line_load_n_per_mm, bodies, &|much| observer.announcement(much))
+    kept.condensed(pair, &material, line_load_n_per_mm, bodies, &|much| observer.announcement(much))
 }
 
 /// Elements of the scene's gears with other Young's moduli.
@@ -305,12 +307,12 @@ fn on_elements<'a>(
             ));
         }
         Some(Ok(elements)) if hardly_worn => {
-            condensed(scene, model.pair, elements.line_load_n_per_mm, &bodies, observer)
+            condensed(scene, model.pair, elements.line_load_n_per_mm, &bodies, (&KeptElements::default(), observer))
         }
         Some(elements) => elements.map(|elements| elements.condensed),
         None => {
             let greatest = model.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max);
-            condensed(scene, model.pair, greatest, &bodies, observer)
+            condensed(scene, model.pair, greatest, &bodies, (&KeptElements::default(), observer))
         }
     };
     let elements = elements.map_err(|error| error.to_string())?;

@@ -68,7 +68,11 @@ const RUN_COLUMNS: [RunColumn; 23] = [
     ("positions", "loading positions from A to E", |v| text(Some(v.settings.positions))),
     ("step_revolutions", "pinion revolutions a wear step", |v| text(Some(v.settings.step_revolutions))),
     ("simulation_s", "wall time of the wear run alone, the shortest of the repeats", |v| text(v.simulation_s)),
-    ("setup_s", "wall time of everything before it", |v| text(v.setup_s)),
+    (
+        "setup_s",
+        "wall time of everything before it; finite elements are those of the run before where they are the same",
+        |v| text(v.setup_s),
+    ),
     ("repeats", "how often it was run for its time", |v| text(Some(v.repeats))),
     ("wear_steps", "wear steps taken", |v| text(v.work.map(|work| work.wear_steps))),
     ("equilibria", "equilibria solved", |v| text(v.work.map(|work| work.equilibria))),
