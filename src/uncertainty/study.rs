@@ -37,6 +37,9 @@ use gearwear_physics::results::worn_pair::{WearProfile, WornPair};
 
 type Row = Result<Ran, String>;
 
+/// Fewest runs for each that is timed before.
+const RUNS_PER_TIMED: usize = 10;
+
 /// Samples of a point that are independent: A and B, from which quantiles are.
 const INDEPENDENT: usize = 2;
 /// Greatest number of places of a band over the flank.
@@ -330,8 +333,8 @@ impl<'a> PreparedStudy<'a> {
         SampledStudy::of(self.scene, self.sampling.question, &self.sampled.surface.surface, places)
     }
 
-    /// Time that the runs which `journal` does not have take on `threads` threads, s, by runs of the scene as given, one on each thread; `None` where there are
-    /// none, or where these fail.
+    /// Time that the runs which `journal` does not have take on `threads` threads, s, by runs of the scene as given, one on each thread; `None` where
+    /// these would take more than a tenth of it, or fail.
     pub fn seconds_left(
         &self,
         journal: &Journal<SampledStudy>,
@@ -341,7 +344,7 @@ impl<'a> PreparedStudy<'a> {
         let rows = &journal.contents.rows;
         let groups = self.sampling.groups(&self.sampled.varied);
         let left = groups.iter().filter(|group| group.iter().any(|number| !rows.contains_key(number))).count();
-        if left == 0 {
+        if left < RUNS_PER_TIMED * threads {
             return None;
         }
         let of_a_run = seconds_of_a_run(threads, observer, |within| {

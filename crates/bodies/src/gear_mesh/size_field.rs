@@ -7,7 +7,6 @@
 //! with h_b the mean length of the two edges that meet in b: the largest field that agrees with the boundary and grows
 //! at most at the rate g (P.-O. Persson, *Mesh size functions for implicit geometries and PDE-based gradient limiting*,
 //! Engineering with Computers 22 (2006), for a convex body the exact solution).
-
 //!
 //! Nodes that follow one another lie in a circle: none of them is nearer to a place than that is, and circles that are too far off are left out.
 
