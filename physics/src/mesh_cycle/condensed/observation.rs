@@ -94,8 +94,8 @@ impl CondensedCycle<'_> {
         // At the end of the stretch of the position `near` that is away from the position `far`, between which may be another jump.
         let at_end_mm = |near: usize, far: usize, jumps_between: bool| {
             let (near_mm, far_mm) = (error_mm(near)?, error_mm(far)?);
-            let along = length_mm(near) / (length_mm(near) + length_mm(far));
-            Some(if jumps_between { near_mm } else { near_mm + (near_mm - far_mm) * along })
+            let of_stretches = [(near_mm, length_mm(near)), (far_mm, length_mm(far))];
+            Some(if jumps_between { near_mm } else { linear_to_end(of_stretches) })
         };
         let both_sides = self.after_jumps.iter().flat_map(|&jump| {
             let last = before(jump);
@@ -188,5 +188,24 @@ impl CondensedCycle<'_> {
             }
         });
         observed.collect()
+    }
+}
+
+/// Value at the end of the first of two neighbouring stretches that is away from the second, linear from those in the middle of each; a stretch is its value
+/// with its length.
+fn linear_to_end([(near, near_length), (far, far_length)]: [(f64, f64); 2]) -> f64 {
+    near + (near - far) * near_length / (near_length + far_length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A linear course is found at the end of stretches of any lengths: 1 + 2 x at x = 0, from stretches that end at 0, 0.3 and 0.8.
+    #[test]
+    fn ver_linear_courses_are_carried_to_a_jump() {
+        let course = |x: f64| 1.0 + 2.0 * x;
+        let found = linear_to_end([(course(0.15), 0.3), (course(0.55), 0.5)]);
+        assert!((found - course(0.0)).abs() < 1e-12, "{found}");
     }
 }
