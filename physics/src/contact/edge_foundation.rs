@@ -20,6 +20,8 @@
 //! the bodies approach each other more than the foundation. Between those loads K/H is a power of the load, and the compliance (δ − d)/w linear in its
 //! logarithm; both are linear in the position between the places. On the gap of two involutes this is Hertz's contact.
 //!
+//! Between neighbouring values of a sampled gap |{g < d}| is linear in d and U quadratic: both indentations d_a and d are found exactly.
+//!
 //! Limits: the gap is that of unworn flanks without relief; half-planes go on where the tooth ends.
 
 use rayon::prelude::*;
@@ -32,6 +34,7 @@ use super::pressure_field::PressureField;
 use super::settings::MatchCriterion;
 use super::strip::{common_extent_mm, nearest_mm};
 use gearwear_bodies::gear::flank_edge::PathEnd;
+use gearwear_bodies::gear::normal_section::Obliquity;
 use gearwear_bodies::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, removed_material::tip_edge_mm};
 use gearwear_bodies::material::{Material, contact_modulus_mpa};
 use gearwear_bodies::reference::half_plane::cell_compliance_mm_per_mpa;
@@ -50,8 +53,6 @@ const CELLS: usize = 60;
 const FITTINGS: usize = 2;
 /// Part of the contact's width by which a window goes beyond it on either side.
 const MARGIN: f64 = 0.2;
-/// Bisections that find the indentation of the foundation to rounding errors.
-const HALVINGS: usize = 60;
 
 /// Foundations around A and E.
 #[derive(Debug, Clone, PartialEq)]
@@ -240,8 +241,9 @@ impl EdgeBodies<'_> {
     fn pressed(&self, position_mm: f64, window: (f64, f64), indentation_mm: f64) -> Option<(Pressed, (f64, f64))> {
         let (from_mm, to_mm) = window;
         let spacing_mm = (to_mm - from_mm) / (2 * CELLS) as f64;
+        let obliquity = self.pair.obliquity();
         let mut gap_mm: Vec<f64> =
-            (0..=2 * CELLS).map(|k| self.gap_mm(position_mm, from_mm + k as f64 * spacing_mm)).collect();
+            (0..=2 * CELLS).map(|k| self.gap_mm(position_mm, from_mm + k as f64 * spacing_mm, obliquity)).collect();
         let least_mm = gap_mm.iter().copied().fold(f64::INFINITY, f64::min);
         gap_mm.iter_mut().for_each(|gap| *gap -= least_mm);
         let flattening = hertz::flattening(&self.pair.normal_section(), self.material, position_mm);
@@ -266,13 +268,13 @@ impl EdgeBodies<'_> {
     }
 
     /// Gap of the unworn flanks, along their normal.
-    fn gap_mm(&self, position_mm: f64, along_mm: f64) -> f64 {
+    fn gap_mm(&self, position_mm: f64, along_mm: f64, obliquity: Obliquity) -> f64 {
         let [pinion, wheel] = Gear::BOTH.map(|gear| {
             let (rho_mm, drop_mm) = self.pair.at_along(gear, on_tangent(gear, along_mm), position_mm);
             let rounding_mm = self.pair.spec.gears[gear].modification.tip_rounding_mm;
             drop_mm + tip_edge_mm(rounding_mm, &self.pair.teeth[gear], rho_mm)
         });
-        self.pair.obliquity().normal_mm(pinion + wheel)
+        obliquity.normal_mm(pinion + wheel)
     }
 }
 
@@ -280,11 +282,11 @@ impl Pressed {
     /// Foundation whose K/H is `stiffer` times that of the foundation with the same half-width.
     fn matched(&self, stiffer: f64) -> LoadedEdge {
         let w = self.line_load_n_per_mm;
-        let as_wide_mm = self
-            .indentation_where(|indentation| self.sum(indentation, |(_, length)| length) >= 2.0 * self.half_width_mm);
-        let penetration_mm2 = self.sum(as_wide_mm, |(mean, _)| mean) / stiffer;
-        let foundation_mm =
-            self.indentation_where(|indentation| self.sum(indentation, |(mean, _)| mean) >= penetration_mm2);
+        let mut levels_mm = self.gap_mm.clone();
+        levels_mm.sort_by(f64::total_cmp);
+        let as_wide_mm = self.indentation_mm_where(&levels_mm, |at| at.contact_mm - 2.0 * self.half_width_mm);
+        let penetration_mm2 = self.penetration(as_wide_mm).area_mm2 / stiffer;
+        let foundation_mm = self.indentation_mm_where(&levels_mm, |at| at.area_mm2 - penetration_mm2);
         LoadedEdge {
             ln_line_load: w.ln(),
             ln_mpa_per_mm: (w / penetration_mm2).ln(),
@@ -292,20 +294,61 @@ impl Pressed {
         }
     }
 
-    /// Least indentation of the foundation at which `reached` holds, at most twice that of the half-planes.
-    fn indentation_where(&self, reached: impl Fn(f64) -> bool) -> f64 {
-        let (mut low, mut high) = (0.0, 2.0 * self.indentation_mm);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if reached(middle) { high = middle } else { low = middle }
+    /// Least indentation of the foundation at which `beyond`, |{g < d}| or U less a value, is not negative, at most twice that of the half-planes.
+    /// `levels_mm`: the gaps, rising.
+    fn indentation_mm_where(&self, levels_mm: &[f64], beyond: impl Fn(&Penetration) -> f64) -> f64 {
+        let most_mm = 2.0 * self.indentation_mm;
+        let above = levels_mm.partition_point(|&level_mm| beyond(&self.penetration(level_mm)) < 0.0);
+        let low_mm = levels_mm[above.max(1) - 1];
+        let high_mm = levels_mm.get(above).copied().unwrap_or(most_mm).min(most_mm);
+        if low_mm >= high_mm {
+            return high_mm;
         }
-        high
+        let [low, middle, high] =
+            [low_mm, low_mm.midpoint(high_mm), high_mm].map(|at_mm| beyond(&self.penetration(at_mm)));
+        // f₀ + b t + a t² on 0 ≤ t ≤ 1, rising.
+        let (a, b) = (2.0 * (low - 2.0 * middle + high), 4.0 * middle - 3.0 * low - high);
+        let t = -2.0 * low / (b + (b * b - 4.0 * a * low).max(0.0).sqrt());
+        low_mm + t.clamp(0.0, 1.0) * (high_mm - low_mm)
     }
 
-    /// U or |{g < d}|: sum of `of` mean penetration and fraction in contact over the intervals between samples, where the gap is linear.
-    fn sum(&self, indentation_mm: f64, of: impl Fn((f64, f64)) -> f64) -> f64 {
+    /// Penetration of the foundation by an indentation: sums over the intervals between samples, where the gap is linear.
+    fn penetration(&self, indentation_mm: f64) -> Penetration {
         let parts =
-            self.gap_mm.windows(2).map(|ends| of(mean_positive([indentation_mm - ends[0], indentation_mm - ends[1]])));
-        self.spacing_mm * parts.sum::<f64>()
+            self.gap_mm.windows(2).map(|ends| mean_positive([indentation_mm - ends[0], indentation_mm - ends[1]]));
+        let (mean, fraction) = parts.fold((0.0, 0.0), |sum, part| (sum.0 + part.0, sum.1 + part.1));
+        Penetration { area_mm2: self.spacing_mm * mean, contact_mm: self.spacing_mm * fraction }
+    }
+}
+
+/// Penetration of a foundation: U and |{g < d}|.
+struct Penetration {
+    area_mm2: f64,
+    contact_mm: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The foundation penetrates, and touches, as far as is asked for, on a gap with a slope on one side and a curve on the other; where that is out of
+    /// reach it has twice the indentation of the half-planes.
+    #[test]
+    fn ver_indentations_are_found_exactly() {
+        let gap_mm = (0..=2 * CELLS).map(|k| (k as f64 - 31.0) / 40.0);
+        let gap_mm = gap_mm.map(|x| if x < 0.0 { -0.7 * x } else { 0.3 * x * x }).collect();
+        let pressed =
+            Pressed { indentation_mm: 1.5, line_load_n_per_mm: 100.0, half_width_mm: 1.0, gap_mm, spacing_mm: 0.025 };
+        let mut levels_mm = pressed.gap_mm.clone();
+        levels_mm.sort_by(f64::total_cmp);
+        for part in [1e-6, 1e-3, 0.1, 0.4, 0.9, 0.999] {
+            let whole = pressed.penetration(3.0);
+            let (area_mm2, contact_mm) = (part * whole.area_mm2, part * whole.contact_mm);
+            let deep_mm = pressed.indentation_mm_where(&levels_mm, |at| at.area_mm2 - area_mm2);
+            assert!((pressed.penetration(deep_mm).area_mm2 / area_mm2 - 1.0).abs() < 1e-9, "{part}: {deep_mm}");
+            let wide_mm = pressed.indentation_mm_where(&levels_mm, |at| at.contact_mm - contact_mm);
+            assert!((pressed.penetration(wide_mm).contact_mm / contact_mm - 1.0).abs() < 1e-9, "{part}: {wide_mm}");
+        }
+        assert_eq!(pressed.indentation_mm_where(&levels_mm, |at| at.contact_mm - 3.1), 3.0);
     }
 }

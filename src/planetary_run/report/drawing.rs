@@ -106,8 +106,7 @@ mod tests {
             for (number, planet) in drawing.planets.iter().enumerate() {
                 let points = || planet.iter().step_by(5);
                 let in_sun = points().map(|&point| depth(&drawing.sun, point)).fold(f64::NEG_INFINITY, f64::max);
-                let out_of_ring =
-                    points().map(|&point| -depth(&drawing.ring, point)).fold(f64::NEG_INFINITY, f64::max);
+                let out_of_ring = points().map(|&point| -depth(&drawing.ring, point)).fold(f64::NEG_INFINITY, f64::max);
                 for (mate, overlap) in [("sun", in_sun), ("ring", out_of_ring)] {
                     assert!((-0.05..0.02).contains(&overlap), "planet {number} and {mate}: overlap {overlap} mm");
                 }
