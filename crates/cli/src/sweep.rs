@@ -9,7 +9,8 @@ use std::time::Instant;
 use gearwear::journal::{self, JournalContents, JournalError, Kept};
 use gearwear::report;
 use gearwear::scene::draft::Draft;
-use gearwear::scene::loaded::{LoadedScene, SceneText};
+use gearwear::scene::loaded::SceneText;
+use gearwear::scene::opened::OpenedScene;
 use gearwear::sweep::asked::SweepQuestion;
 use gearwear::sweep::axis::{self, AxisError};
 use gearwear::sweep::combination::Sweep;
@@ -111,7 +112,7 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Failure> {
 }
 
 fn run_sweep(args: &SweepRunArgs) -> Result<(), Failure> {
-    let scene = LoadedScene::open(&args.scene)?;
+    let scene = OpenedScene::open(&args.scene)?;
     warn(scene.warnings());
     let question = SweepQuestion {
         vary: args.vary.clone(),

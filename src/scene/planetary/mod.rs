@@ -2,7 +2,7 @@
 //!
 //! A stage is two pairs with a planet in common: sun and planet, planet and ring. The planet touches them with opposite flanks, so that neither mesh sees what the other
 //! wears, and each is the scene of a pair ([`pair_scene`]), run with its own law, oil and resolution. A file with `planetary.mesh` is that of one pair, for every command
-//! that takes a pair: sweeps, uncertainty, finite elements.
+//! that takes a pair, such as that of finite elements.
 
 #[allow(rustdoc::broken_intra_doc_links, reason = "tables of the file stand in brackets, as in TOML")]
 pub mod file;
@@ -18,11 +18,11 @@ use toml::{Table, Value};
 
 use self::file::{MemberFile, StageFile};
 use self::mesh::{PerMesh, StageMesh};
+use super::draft::Draft;
 use super::findings::Findings;
 use super::loaded::LoadedScene;
 use super::locate::Locator;
 use super::problem::{ProblemKind, number};
-use super::scene_text::folder_of;
 use super::schema::Node;
 use super::shape::{self, FileShape};
 use super::{LoadError, Problem, Resolved, SceneError, SceneText, internal, table, text};
@@ -58,30 +58,6 @@ pub struct PlanetaryScene {
     pub warnings: Vec<String>,
 }
 
-/// A scene of either kind.
-#[derive(Debug)]
-pub enum OpenedScene {
-    /// A gear pair.
-    Pair(Box<LoadedScene>),
-    /// A planetary stage.
-    Planetary(Box<PlanetaryScene>),
-}
-
-impl OpenedScene {
-    /// Opens the file at `path` (`-`: standard input): of a gear pair, or of a planetary stage, `[planetary]`, that does not name one of its meshes.
-    ///
-    /// # Errors
-    /// [`LoadError`], with everything that is wrong.
-    pub fn open(path: &Path) -> Result<Self, LoadError> {
-        let given = SceneText::read(path)?;
-        let stage = given.text.parse::<Table>().ok().and_then(|mut table| table.remove("planetary"));
-        Ok(match stage.is_some_and(|stage| stage.get("mesh").is_none()) {
-            true => Self::Planetary(Box::new(PlanetaryScene::from_text(given, folder_of(path))?)),
-            false => Self::Pair(Box::new(LoadedScene::from_text(given, folder_of(path))?)),
-        })
-    }
-}
-
 impl PlanetaryScene {
     /// The stage in a text; files it names lie in `folder`.
     ///
@@ -95,11 +71,33 @@ impl PlanetaryScene {
         };
         let locator = findings.into_locator();
         let meshes = mesh_scenes(&chosen, (&given, folder, &locator))?;
-        let mut findings = Findings::new(locator);
+        let assembled = Self::assembled(chosen, Arc::new(given.clone()), meshes, Findings::new(locator));
+        Ok(assembled.map_err(refused)?)
+    }
+
+    /// The stage of `draft`, its own file with other values, whose meshes have these scenes.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the stage then.
+    pub fn varied(&self, draft: &Draft, meshes: PerMesh<LoadedScene>) -> Result<Self, Vec<Problem>> {
+        let (table, mut findings) = draft.to_resolve();
+        match ChosenStage::of(&table, &mut findings) {
+            Some(chosen) => Self::assembled(chosen, Arc::clone(&self.given), meshes, findings),
+            None => Err(findings.in_order()),
+        }
+    }
+
+    /// The stage of its meshes, checked as a whole.
+    fn assembled(
+        chosen: ChosenStage,
+        given: Arc<SceneText>,
+        meshes: PerMesh<LoadedScene>,
+        mut findings: Findings,
+    ) -> Result<Self, Vec<Problem>> {
         let pairs = meshes.as_ref().map(|scene| GearPair::new(&scene.scene().pair));
         let (Ok(with_sun), Ok(with_ring)) = (pairs.sun_planet, pairs.planet_ring) else {
             // A scene that is resolved has a pair.
-            return Err(refused(findings.in_order()).into());
+            return Err(findings.in_order());
         };
         let ChosenStage { file, stage, member, title, .. } = chosen;
         let tip_diameter_mm = 2.0 * with_sun.teeth[Gear::Wheel].tip_radius_mm;
@@ -109,7 +107,7 @@ impl PlanetaryScene {
             None
         });
         if !findings.problems.is_empty() {
-            return Err(refused(findings.in_order()).into());
+            return Err(findings.in_order());
         }
         let warnings = StageMesh::BOTH.into_iter().flat_map(|mesh| {
             let of_mesh = move |warning: &String| format!("{}: {}", mesh.in_words(), words::of_stage(warning, mesh));
@@ -122,7 +120,7 @@ impl PlanetaryScene {
             pairs: PerMesh { sun_planet: with_sun, planet_ring: with_ring },
             load_sharing_factor: file.planetary.load_sharing_factor.unwrap_or(1.0),
             member: member.into(),
-            given: Arc::new(given),
+            given,
             title,
             stage,
             meshes,
@@ -136,7 +134,9 @@ pub(super) fn resolve_mesh(table: &Table, mut findings: Findings) -> Result<Reso
     let Some(mesh) = chosen.file.planetary.mesh else {
         let allowed = StageMesh::BOTH.map(|mesh| format!("{:?}", mesh.folder())).join(" or ");
         findings.missing(&["planetary.mesh"], &allowed);
-        findings.help("one pair of a planetary stage is asked for here; gearwear run and plan take both");
+        findings.help(
+            "one pair of a planetary stage is asked for here; gearwear run, plan, sweep and uncertainty take both",
+        );
         return Err(findings.in_order());
     };
     let scene = chosen.pair_scene(mesh);
