@@ -10,6 +10,7 @@
 //!
 //! The meshes run one after the other; an interrupted run goes on in the folder of either.
 
+pub mod folder;
 mod observed_mesh;
 pub mod record;
 mod report;
@@ -24,7 +25,7 @@ use self::record::{
 };
 use crate::report::files::remove;
 use crate::report::{self as run_report, ReportError, RunFiles, output_files};
-use crate::resume::folder;
+use crate::resume::folder as run_folder;
 use crate::resume::kept_run::{self, KeptRunError};
 use crate::runs;
 use crate::scene::planetary::PlanetaryScene;
@@ -85,11 +86,10 @@ pub fn run_kept(
         let own = dir.join(mesh.folder());
         if !goes_on {
             run_report::remove_summary(&own)?;
-            folder::remove_checkpoint(&own)?;
+            run_folder::remove_checkpoint(&own)?;
             remove(&own, output_files::SCENE)?;
         }
-        let files = RunFiles { figures: files.figures.as_ref().map(|to| to.join(mesh.folder())), ..files.clone() };
-        kept_run::run_with(&scene.meshes[mesh], &files, &own, observer)
+        kept_run::run_with(&scene.meshes[mesh], &folder::of_mesh(files, mesh), &own, observer)
     })?;
     report::write(&done.record, files, dir)?;
     Ok(done)
@@ -101,11 +101,11 @@ fn place_inputs(scene: &PlanetaryScene, dir: &Path) -> Result<(), ReportError> {
         for file in &scene.meshes[mesh].files.as_read {
             let stays_below = Path::new(&file.name).components().all(|part| matches!(part, Component::Normal(_)));
             if stays_below {
-                folder::place(dir, &file.name, &file.bytes)?;
+                run_folder::place(dir, &file.name, &file.bytes)?;
             }
         }
     }
-    folder::place(dir, output_files::SCENE, scene.given.text.as_bytes())
+    run_folder::place(dir, output_files::SCENE, scene.given.text.as_bytes())
 }
 
 /// Runs each mesh with `run`; the second is not begun where the first does not come to its end.
@@ -163,7 +163,7 @@ fn assembled(
     meshes: PerMesh<Option<MeshFindings<'_>>>,
 ) -> (PlanetarySummary, Vec<StageTransmissionRow>) {
     let rows = match (meshes.sun_planet, meshes.planet_ring) {
-        (Some(sun), Some(ring)) => transmission_error::rows(&scene.stage, scene.ring_mesh_phase, sun, ring),
+        (Some(sun), Some(ring)) => transmission_error::rows(&scene.stage.phases(), scene.ring_mesh_phase, sun, ring),
         _ => Vec::new(),
     };
     let of_error = StageTransmissionError {

@@ -13,7 +13,6 @@
 
 use super::MeshFindings;
 use super::record::StageTransmissionRow;
-use gearwear_bodies::gear::planetary::PlanetaryStage;
 use gearwear_physics::results::run::{MeshCycleRow, RangeSummary};
 
 /// Rows over one base pitch.
@@ -53,7 +52,7 @@ impl<'a> PeriodicError<'a> {
 
 /// Rows over one base pitch; empty where a path of contact is shorter than that.
 pub(super) fn rows(
-    stage: &PlanetaryStage,
+    phases: &[f64],
     ring_mesh_phase: f64,
     sun_planet: MeshFindings<'_>,
     planet_ring: MeshFindings<'_>,
@@ -61,7 +60,6 @@ pub(super) fn rows(
     let (Some(sun), Some(ring)) = (PeriodicError::of(sun_planet), PeriodicError::of(planet_ring)) else {
         return Vec::new();
     };
-    let phases = stage.phases();
     let of_stage = |phase: f64, of: fn(&MeshCycleRow) -> f64| {
         let of_planet = |own: &f64| sun.at(phase + own, of) + ring.at(phase + own + ring_mesh_phase, of);
         phases.iter().map(of_planet).sum::<f64>() / phases.len() as f64

@@ -6,6 +6,7 @@
 use toml::{Table, Value};
 
 use super::findings::Findings;
+use super::key::{as_whole, is_key, linked_keys, takes_whole_numbers};
 use super::locate::Locator;
 use super::problem::Problem;
 use super::table::{self, other_ways_to_say};
@@ -31,6 +32,22 @@ impl Draft {
             self.remove(&other);
         }
         table::set(&mut self.table, key, value);
+    }
+
+    /// Changes all these keys, each to a value or to nothing. A key with alternatives, `pair.{pinion,wheel}.teeth`, is all of them, and a number without a
+    /// fraction is whole where the key takes whole numbers.
+    pub fn change_all(&mut self, changes: impl IntoIterator<Item = (String, Option<Value>)>) {
+        for (keys, value) in changes {
+            for key in linked_keys(&keys) {
+                match &value {
+                    Some(value) if takes_whole_numbers(&key) => self.set(&key, as_whole(value)),
+                    Some(value) => self.set(&key, value.clone()),
+                    None if is_key(&key) => self.remove(&key),
+                    // As a key that is given, it is refused with what was probably meant.
+                    None => self.set(&key, true),
+                }
+            }
+        }
     }
 
     /// Whether the file gives the key at the path `key`.

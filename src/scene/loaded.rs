@@ -8,7 +8,6 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::draft::Draft;
-use super::key::{as_whole, is_key, linked_keys, takes_whole_numbers};
 pub use super::named_files::{CALIBRATION, CURVE, NamedFile, NamedFiles};
 use super::named_files::{KEYS, calibration, initial_flank, of_another_pair, stiffness_curve, warnings};
 use super::planetary::mesh::StageMesh;
@@ -120,20 +119,7 @@ impl LoadedScene {
         &self,
         changes: impl IntoIterator<Item = (String, Option<toml::Value>)>,
     ) -> Result<Self, LoadError> {
-        let change = |draft: &mut Draft| {
-            for (keys, value) in changes {
-                for key in linked_keys(&keys) {
-                    match &value {
-                        Some(value) if takes_whole_numbers(&key) => draft.set(&key, as_whole(value)),
-                        Some(value) => draft.set(&key, value.clone()),
-                        None if is_key(&key) => draft.remove(&key),
-                        // As a key that is given, it is refused with what was probably meant.
-                        None => draft.set(&key, true),
-                    }
-                }
-            }
-        };
-        self.changed(change, &self.files.as_read)
+        self.changed(|draft| draft.change_all(changes), &self.files.as_read)
     }
 
     /// Scene without `key`, as if the file left it out.

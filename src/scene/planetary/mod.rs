@@ -28,6 +28,7 @@ use super::shape::{self, FileShape};
 use super::{LoadError, Problem, Resolved, SceneError, SceneText, internal, table, text};
 use gearwear_bodies::gear::planetary::{AssemblyError, Member, PlanetaryStage, ring_mesh_phase};
 use gearwear_bodies::gear::{Gear, GearPair};
+use gearwear_physics::results::run::InputFile;
 
 /// Keys of other files, each with what to do.
 const OF_OTHER_FILES: &[(&str, &str)] =
@@ -64,13 +65,21 @@ impl PlanetaryScene {
     /// # Errors
     /// [`LoadError`], with everything that is wrong.
     pub fn from_text(given: SceneText, folder: &Path) -> Result<Self, LoadError> {
+        Self::from_parts(given, folder, &[])
+    }
+
+    /// The stage in a text: of the files it names, those among `files` need not be read, and the others lie in `folder`.
+    ///
+    /// # Errors
+    /// As [`Self::from_text`].
+    pub fn from_parts(given: SceneText, folder: &Path, files: &[InputFile]) -> Result<Self, LoadError> {
         let refused = |problems| SceneError { given: given.clone(), problems };
         let (table, mut findings) = text::parse(&given.text).map_err(refused)?;
         let Some(chosen) = ChosenStage::of(&table, &mut findings) else {
             return Err(refused(findings.in_order()).into());
         };
         let locator = findings.into_locator();
-        let meshes = mesh_scenes(&chosen, (&given, folder, &locator))?;
+        let meshes = mesh_scenes(&chosen, (&given, folder, files), &locator)?;
         let assembled = Self::assembled(chosen, Arc::new(given.clone()), meshes, Findings::new(locator));
         Ok(assembled.map_err(refused)?)
     }
@@ -180,6 +189,30 @@ impl ChosenStage {
 }
 
 impl PlanetaryScene {
+    /// The files that its meshes name, as they were read.
+    pub fn input_files(&self) -> Vec<InputFile> {
+        let mut files: Vec<InputFile> = Vec::new();
+        for file in self.meshes.both().into_iter().flat_map(LoadedScene::input_files) {
+            if !files.contains(&file) {
+                files.push(file);
+            }
+        }
+        files
+    }
+
+    /// The stage with all these keys of its file changed together, each to a value or to nothing; alternatives and whole numbers as of
+    /// [`LoadedScene::with_all`].
+    ///
+    /// # Errors
+    /// What is wrong with the stage then.
+    pub fn with_all(&self, changes: impl IntoIterator<Item = (String, Option<Value>)>) -> Result<Self, LoadError> {
+        let mut draft = Draft::parse(&self.given.text).map_err(|problems| self.given.refused(problems))?;
+        draft.change_all(changes);
+        let folder = &self.meshes.sun_planet.folder;
+        let given = SceneText { name: self.given.name.clone(), text: draft.to_toml() };
+        Self::from_parts(given, folder, &self.input_files())
+    }
+
     /// Problems of the scene of `mesh`, as of the stage's file.
     pub fn told_of_stage(&self, mesh: StageMesh, problems: Vec<Problem>) -> SceneError {
         let locator = Locator::new(&self.given.text).unwrap_or_default();
@@ -327,14 +360,15 @@ fn title(table: &Table, stage: &PlanetaryStage, file: &StageFile) -> String {
 /// Everything that is wrong with either, in the words of the stage.
 fn mesh_scenes(
     chosen: &ChosenStage,
-    (given, folder, locator): (&SceneText, &Path, &Locator),
+    (given, folder, files): (&SceneText, &Path, &[InputFile]),
+    locator: &Locator,
 ) -> Result<PerMesh<LoadedScene>, LoadError> {
     let mut problems: Vec<Problem> = Vec::new();
     let loaded = PerMesh::try_from_fn(|mesh| {
         let mut of_mesh = chosen.table.clone();
         table::set(&mut of_mesh, "planetary.mesh", mesh.folder());
         let name = format!("{} of {}", mesh.in_words(), given.name);
-        match LoadedScene::from_text(SceneText { name, text: of_mesh.to_string() }, folder) {
+        match LoadedScene::from_parts(SceneText { name, text: of_mesh.to_string() }, folder, files.to_vec()) {
             Ok(loaded) => Ok(Some(loaded)),
             Err(LoadError::Scene(SceneError { problems: of_mesh, .. })) => {
                 for problem in of_mesh {
