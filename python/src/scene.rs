@@ -4,7 +4,7 @@ use std::collections::hash_map::DefaultHasher;
 use std::fs::File;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use gearwear::exchange::rexs;
 use gearwear::exchange::rexs::container::{self, FileError};
@@ -13,7 +13,6 @@ use gearwear::sweep::SweepQuestion;
 use gearwear::toml::{Table, Value};
 use gearwear::{Done, LoadError, LoadedScene, Meshed, SceneText, UncertaintyQuestion};
 use gearwear::{KeptRunError, SceneFault};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::calibration::Calibration;

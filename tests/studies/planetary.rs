@@ -144,6 +144,24 @@ fn a_row_is_the_run_of_its_stage() {
     assert!(page.contains("planet towards the ring") && !page.contains("pinion’s"));
 }
 
+/// The law of one mesh alone, said in the other unit than in the file, changes the flanks of that mesh alone.
+#[test]
+fn ver_the_law_of_a_mesh_wears_its_flanks_alone() {
+    let bench = Bench::of(&format!("{STAGE}[sun_planet.wear]\ncoefficient_mm3_per_Nm = 1e-8\n"));
+    let output = bench.sweep("out", &["sun_planet.wear.coefficient_m2_per_N=1e-22,2e-22"], &["--threads", "1"]);
+    done(&output);
+    let of = |name: &str| {
+        let values = column(&bench.out("out").join("sweep.csv"), name);
+        let [one, other] = [0, 1].map(|row| values[row].parse::<f64>().unwrap());
+        other / one
+    };
+    // Wear of nanometres changes no pressure: it grows with k.
+    for (flank, expected) in [("sun", 2.0), ("planet.sun_flank", 2.0), ("planet.ring_flank", 1.0), ("ring", 1.0)] {
+        let ratio = of(&format!("{flank}.worn_volume_mm3"));
+        assert!((ratio / expected - 1.0).abs() < 1e-3, "{flank}: {ratio}");
+    }
+}
+
 /// A sweep that was stopped goes on with the rows that are missing, in shards or whole, to the same rows; stages that cannot be assembled are rows.
 #[test]
 fn a_cut_journal_goes_on_and_impossible_stages_are_rows() {
