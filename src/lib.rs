@@ -287,13 +287,16 @@ pub fn pair_mesh(
 ///
 /// # Errors
 /// What is wrong with the question; runs that all failed; a folder with the runs of another study, or that cannot be written.
-pub fn uncertainty(
-    scene: impl Into<OpenedScene>,
+pub fn uncertainty<S>(
+    scene: &S,
     question: &UncertaintyQuestion,
     folder: Option<&Path>,
     threads: usize,
     observer: &dyn Observer,
-) -> Result<UncertaintyRecord, UncertaintyError> {
+) -> Result<UncertaintyRecord, UncertaintyError>
+where
+    for<'s> &'s S: Into<OpenedScene>,
+{
     let scene = &scene.into();
     let question = uncertainty::sampled_run::SampledQuestion::of(scene, question)?;
     let of_study = uncertainty::asked::UncertaintyFault::Study;

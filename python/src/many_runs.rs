@@ -49,7 +49,7 @@ pub(crate) fn evaluate(
 /// The sweep of `scene` that `question` asks for.
 pub(crate) fn sweep(py: Python<'_>, scene: impl Into<OpenedScene>, question: SweepQuestion) -> PyResult<Sweep> {
     let scene = scene.into();
-    let sweep = py.detach(|| sweep::Sweep::of(scene, &question));
+    let sweep = py.detach(|| sweep::Sweep::of(&scene, &question));
     let sweep = Arc::new(sweep.map_err(|error| errors::of_sweep(py, &error))?);
     Ok(Sweep { sweep, notes: question.notes() })
 }
@@ -64,7 +64,7 @@ pub(crate) fn uncertainty(
 ) -> PyResult<Uncertainty> {
     let (scene, count) = (scene.into(), cores(threads));
     let work =
-        move |observer: &dyn Observer| gearwear::uncertainty(scene, &question, folder.as_deref(), count, observer);
+        move |observer: &dyn Observer| gearwear::uncertainty(&scene, &question, folder.as_deref(), count, observer);
     let record = watched(py, threads, progress, work)?.map_err(|error| errors::of_uncertainty(py, &error))?;
     Ok(Uncertainty { record })
 }

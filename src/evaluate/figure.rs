@@ -30,8 +30,10 @@ struct StageFigure {
     wants_less: bool,
     in_headline: bool,
     value: fn(&PlanetarySummary) -> Option<f64>,
-    error: Option<fn(&PerMesh<TotalError>) -> Option<f64>>,
+    error: Option<ErrorOfStage>,
 }
+
+type ErrorOfStage = fn(&PerMesh<TotalError>) -> Option<f64>;
 
 fn greatest(values: impl IntoIterator<Item = Option<f64>>) -> Option<f64> {
     values.into_iter().collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::max)

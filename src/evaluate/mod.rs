@@ -113,14 +113,17 @@ impl From<OutputError> for EvaluateError {
 ///
 /// # Errors
 /// Keys or outputs that do not exist, rows that do not fit the keys.
-pub fn evaluate(
-    scene: impl Into<OpenedScene>,
+pub fn evaluate<S>(
+    scene: &S,
     keys: &[impl AsRef<str>],
     rows: &[Vec<toml::Value>],
     outputs: &[impl AsRef<str>],
     threads: usize,
     observer: &dyn Observer,
-) -> Result<Evaluation, EvaluateError> {
+) -> Result<Evaluation, EvaluateError>
+where
+    for<'s> &'s S: Into<OpenedScene>,
+{
     let keys: Vec<&str> = keys.iter().map(AsRef::as_ref).collect();
     let scene = &scene.into();
     let outputs = self::outputs(scene.kind(), outputs)?;

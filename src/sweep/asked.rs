@@ -85,7 +85,10 @@ impl Sweep {
     ///
     /// # Errors
     /// Keys, values or figures that do not exist or do not go together.
-    pub fn of(scene: impl Into<OpenedScene>, question: &SweepQuestion) -> Result<Self, SweepError> {
+    pub fn of<S>(scene: &S, question: &SweepQuestion) -> Result<Self, SweepError>
+    where
+        for<'s> &'s S: Into<OpenedScene>,
+    {
         Self::asked(&scene.into(), question).map_err(SweepError)
     }
 
