@@ -95,6 +95,11 @@ impl SummaryOutput {
         self.of_pair().1.starts_with("transmission_error_over_torque.")
     }
 
+    /// Whether it is the life to a limit.
+    pub fn is_life(&self) -> bool {
+        self.of_pair().1.starts_with("life.")
+    }
+
     /// Duration of a run that comes to no limit, where the output is the life to a limit.
     pub fn at_least(&self, summary: &Value) -> Option<f64> {
         let (mesh, path) = self.of_pair();

@@ -11,6 +11,7 @@ use std::collections::BTreeMap;
 
 use super::sampled_run::SampledQuestion;
 use crate::evaluate::figure;
+use crate::evaluate::output::SummaryOutput;
 use crate::scene::loaded::LoadedScene;
 use crate::scene::opened::{EachMesh, OpenedScene};
 use crate::varied_scene::VariedScene;
@@ -26,8 +27,8 @@ const ROUNDING: f64 = 1e-12;
 /// The uncertain key on which only the wear coefficients depend, by its index; `None` where samples share no runs.
 pub(super) fn coefficient_key(varied: &VariedScene, question: &SampledQuestion) -> Option<usize> {
     // Lives and times follow from the coefficient too; a history has moments of its own.
-    let shares = |path: &str| figure::find(question.kind, path).is_some() && !path.contains("life.");
-    let all_share = question.outputs.iter().all(|output| shares(&output.path)) && question.limits.is_empty();
+    let shares = |output: &SummaryOutput| figure::find(question.kind, &output.path).is_some() && !output.is_life();
+    let all_share = question.outputs.iter().all(shares) && question.limits.is_empty();
     let keys = 0..question.uncertain.len();
     keys.into_iter().filter(|_| all_share).find(|&key| {
         let of_share = |share: f64| {

@@ -14,12 +14,11 @@
 use std::collections::BTreeSet;
 use std::time::Instant;
 
+use super::bands::{Places, bands, places_of, wear_at};
 use super::design::{Design, Matrix};
 use super::fast_model::{SampledScene, SampledSurface};
 use super::kept::{KeptRun, Ran, SampledStudy};
-use super::record::{
-    Band, Bands, FactorIndices, FlankBand, MODEL_ERROR, OutputRecord, Quantiles, SampleRow, UncertaintyRecord,
-};
+use super::record::{FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, SampleRow, UncertaintyRecord};
 use super::sampled_run::{FEWEST_SAMPLES, SampledQuestion, UncertaintyStudyError, outputs_of, run_of};
 use super::shared_runs;
 use crate::evaluate::figure;
@@ -30,12 +29,10 @@ use crate::scene::loaded::SceneError;
 use crate::scene::opened::{EachMesh, OpenedScene};
 use crate::spread::{seconds_of_a_run, spread};
 use crate::varied_scene::{StudiedRun, VariedScene};
-use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_bodies::reference::sobol_indices::indices;
 use gearwear_bodies::reference::statistics::{SHARES, mean, quantile, standard_deviation};
 use gearwear_physics::assessment::guarded::guarded;
 use gearwear_physics::observer::Observer;
-use gearwear_physics::results::worn_pair::WearProfile;
 
 type Row = Result<Ran, String>;
 
@@ -44,8 +41,6 @@ const RUNS_PER_TIMED: usize = 10;
 
 /// Samples of a point that are independent: A and B, from which quantiles are.
 const INDEPENDENT: usize = 2;
-/// Greatest number of places of a band over the flank.
-const PLACES: usize = 160;
 
 /// The samples of a question: of each point A and B, and A with each key from B.
 struct Sampling<'a> {
@@ -93,7 +88,7 @@ struct Samples<'a> {
     sampling: &'a Sampling<'a>,
     varied: &'a VariedScene,
     nominal: &'a StudiedRun,
-    places: &'a EachMesh<PerGear<Vec<f64>>>,
+    places: &'a Places,
     /// Relative error of the scene as given in each output, then in the depth of each limit; `None` where it is not known.
     errors: Vec<Option<f64>>,
     /// Factor to the figures of a fast model; empty where the samples are not on one.
@@ -202,16 +197,7 @@ impl Samples<'_> {
         Ok(Ran {
             outputs: outputs_of(self.question, found)?,
             growths: self.question.limits.iter().map(|limit| limit.growth(found)).collect(),
-            wear_um: matches!(matrix, Matrix::A | Matrix::B).then(|| self.wear(found)).flatten(),
-        })
-    }
-
-    /// Wear of a run at the places of the bands.
-    fn wear(&self, found: &StudiedRun) -> Option<EachMesh<PerGear<Vec<f32>>>> {
-        let pairs = found.pairs();
-        EachMesh::for_each(self.question.kind, |mesh| {
-            let (flanks, places) = (&pairs.of(mesh)?.flanks, self.places.of(mesh)?);
-            Some(PerGear::from_fn(|gear| at(&flanks[gear], &places[gear])))
+            wear_um: matches!(matrix, Matrix::A | Matrix::B).then(|| wear_at(self.places, found)).flatten(),
         })
     }
 
@@ -276,32 +262,6 @@ impl Samples<'_> {
     }
 }
 
-/// Wear at these radii, even between the points; 0 outside them.
-fn at(profile: &WearProfile, radii: &[f64]) -> Vec<f32> {
-    let (radius, wear) = (&profile.radius_mm, &profile.wear_um);
-    let values = radii.iter().map(|&r| {
-        let above = radius.partition_point(|&point| point < r);
-        let value = match (above.checked_sub(1), radius.get(above)) {
-            (Some(below), Some(&high)) => {
-                let part = (r - radius[below]) / (high - radius[below]);
-                wear[below] + part * (wear[above] - wear[below])
-            }
-            (None, Some(&high)) if high == r => wear[above],
-            _ => 0.0,
-        };
-        value as f32
-    });
-    values.collect()
-}
-
-/// Places of a band: points of the active profile, thinned.
-fn places(profile: &WearProfile) -> Vec<f64> {
-    let [low, high] = profile.active_mm;
-    let active: Vec<f64> = profile.radius_mm.iter().copied().filter(|r| (low..=high).contains(r)).collect();
-    let every = active.len().div_ceil(PLACES).max(1);
-    active.into_iter().step_by(every).collect()
-}
-
 /// Bounds e + d of errors, of those that are known.
 fn bounds(errors: &[Option<f64>], differences: &[f64]) -> Vec<Option<f64>> {
     let of_each = errors.iter().enumerate().map(|(figure, error)| match (error, differences.get(figure)) {
@@ -317,7 +277,7 @@ pub struct PreparedStudy<'a> {
     sampling: Sampling<'a>,
     nominal: StudiedRun,
     sampled: SampledScene,
-    places: EachMesh<PerGear<Vec<f64>>>,
+    places: Places,
     begun: Instant,
 }
 
@@ -338,7 +298,7 @@ impl<'a> PreparedStudy<'a> {
         let nominal = run_of(&given.varied, [], question, scene.verifies(), observer)?;
         let runs = sampling.groups(&given.varied).len();
         let sampled = SampledScene::choose(scene, given, question, (&nominal, runs), observer)?;
-        let places = nominal.pairs().map(|pair| PerGear::from_fn(|gear| places(&pair.flanks[gear])));
+        let places = places_of(&nominal);
         Ok(Self { scene, sampling, nominal, sampled, places, begun })
     }
 
@@ -471,31 +431,16 @@ fn record(
         first_failure,
         model_error_how: figure::how(&samples.nominal.total_errors()),
         outputs: (0..figures).map(|figure| output_record(samples, rows, figure)).collect(),
-        bands: bands(samples, rows),
+        bands: {
+            let ran = rows.iter().flat_map(|row| &row[..INDEPENDENT]).filter_map(|row| row.as_ref().ok());
+            bands(samples.places, samples.nominal, ran.filter_map(|ran| ran.wear_um.as_ref()))
+        },
         threads: 0,
         wall_s: 0.0,
         surface: SampledSurface::default(),
         scene_toml: scene.given().text.clone(),
         rows: sample_rows(samples, rows),
     })
-}
-
-/// Wear over each flank.
-fn bands(samples: &Samples<'_>, rows: &[&[Row]]) -> Bands {
-    let ran = rows.iter().flat_map(|row| &row[..INDEPENDENT]).filter_map(|row| row.as_ref().ok()?.wear_um.as_ref());
-    let ran: Vec<&EachMesh<PerGear<Vec<f32>>>> = ran.collect();
-    let pairs = samples.nominal.pairs();
-    let flanks = samples.question.kind.meshes().into_iter().flat_map(|mesh| Gear::BOTH.map(|gear| (mesh, gear)));
-    let bands = flanks.filter_map(|(mesh, gear)| {
-        let wear: Vec<&[f32]> = ran.iter().filter_map(|wear| Some(wear.of(mesh)?[gear].as_slice())).collect();
-        Some(FlankBand {
-            flank: mesh.map_or(gear.name(), |mesh| mesh.flank(gear)),
-            in_words: mesh.map_or(gear.name(), |mesh| mesh.flank_in_words(gear)),
-            gear,
-            band: band(&samples.places.of(mesh)?[gear], &pairs.of(mesh)?.flanks[gear], &wear),
-        })
-    });
-    Bands(bands.collect())
 }
 
 /// Name, meaning and unit of a figure, or of the life to a limit.
@@ -531,7 +476,7 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
         SHARES.map(|share| quantile(&sorted, share).filter(|value| censored == 0 || *value <= until));
     let complete = censored == 0 && !sorted.is_empty();
     let [output, meaning, unit] = named(samples, figure);
-    let is_life = limit.is_some() || output.starts_with("life.");
+    let is_life = limit.is_some() || question.outputs[figure].is_life();
     let nominal = match limit {
         None => outputs_of(question, samples.nominal).ok().map(|values| values[figure].times(1.0).0),
         Some(limit) => Some(limit.life(&limit.growth(samples.nominal), 1.0).0),
@@ -583,20 +528,6 @@ fn factor_indices(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Resu
     let names = samples.question.uncertain.iter().map(|one| one.key.as_str()).chain([MODEL_ERROR]);
     let both = found.first.into_iter().zip(found.total);
     Ok(names.zip(both).map(|(name, (first, total))| FactorIndices { factor: name.to_owned(), first, total }).collect())
-}
-
-fn band(places: &[f64], nominal: &WearProfile, wear: &[&[f32]]) -> Band {
-    let mut quantiles_um = [const { Vec::new() }; 5];
-    for place in 0..places.len() {
-        let mut values: Vec<f64> = wear.iter().map(|wear| f64::from(wear[place])).collect();
-        values.sort_by(f64::total_cmp);
-        for (all, share) in quantiles_um.iter_mut().zip(SHARES) {
-            all.push(quantile(&values, share).unwrap_or(f64::NAN));
-        }
-    }
-    let nominal_um = at(nominal, places).into_iter().map(f64::from).collect();
-    let radius_mm = places.iter().map(|radius| radius.abs()).collect();
-    Band { radius_mm, nominal_um, quantiles_um }
 }
 
 fn sample_rows(samples: &Samples<'_>, rows: &[&[Row]]) -> Vec<SampleRow> {

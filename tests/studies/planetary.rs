@@ -271,6 +271,21 @@ fn uncertainty_of_a_stage_goes_on_where_it_was_stopped() {
     }
 }
 
+/// The life of a stage is the shorter one of its meshes; samples that come to no limit are censored in both.
+#[test]
+fn lives_of_a_stage_are_censored() {
+    let bench = Bench::of(&STAGE.replace("hours = 1.0", "hours = 1.0\nstop = { wear_um = 1.5 }"));
+    let more = ["--samples", "16", "--outputs", "life.hours,life.revolutions,sun_planet.life.revolutions"];
+    done(&bench.study("out", &["coefficient"], &more));
+    let record = timeless(&bench.out("out"));
+    let [hours, revolutions, of_mesh] = ["life.hours", "life.revolutions", "sun_planet.life.revolutions"].map(|name| {
+        (output(&record, name)["censored"].as_f64().unwrap(), output(&record, name)["nominal"].as_f64().unwrap())
+    });
+    assert!(hours.0 > 0.0 && hours.0 < 0.5 && hours.0 == revolutions.0 && hours.0 == of_mesh.0, "{hours:?}");
+    // 1000 revolutions a minute of the sun, 3/4 of them on the carrier.
+    assert!((revolutions.1 / (60e3 * hours.1) - 1.0).abs() < 1e-9 && (of_mesh.1 / revolutions.1 - 0.75).abs() < 1e-9);
+}
+
 /// Where wear grows with k alone, its distribution is that of k in every flank, and samples that differ in k alone share runs of both meshes to the same figures
 /// as runs of their own.
 #[test]
