@@ -161,6 +161,7 @@ pub use scene::Resolved;
 pub use scene::blame::SceneFault;
 pub use scene::fem_problem::schema as fem_problem_schema;
 pub use scene::loaded::{LoadError, LoadedScene, SceneError, SceneText};
+pub use scene::opened::OpenedScene;
 pub use scene::presets::{PRESETS, Preset};
 pub use scene::schema::published as scene_schema;
 pub use scene::{Problem, ProblemKind};
@@ -286,13 +287,17 @@ pub fn pair_mesh(
 ///
 /// # Errors
 /// What is wrong with the question; runs that all failed; a folder with the runs of another study, or that cannot be written.
-pub fn uncertainty(
-    scene: &LoadedScene,
+pub fn uncertainty<S>(
+    scene: &S,
     question: &UncertaintyQuestion,
     folder: Option<&Path>,
     threads: usize,
     observer: &dyn Observer,
-) -> Result<UncertaintyRecord, UncertaintyError> {
+) -> Result<UncertaintyRecord, UncertaintyError>
+where
+    for<'s> &'s S: Into<OpenedScene>,
+{
+    let scene = &scene.into();
     let question = uncertainty::sampled_run::SampledQuestion::of(scene, question)?;
     let of_study = uncertainty::asked::UncertaintyFault::Study;
     let prepared = uncertainty::study::PreparedStudy::new(scene, &question, observer).map_err(of_study)?;

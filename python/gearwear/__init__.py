@@ -20,6 +20,7 @@ from gearwear.mesh import Mesh
 from gearwear.run import Flank, Run
 from gearwear.scene import Scene
 from gearwear.schema import scene_schema
+from gearwear.stage import PlanetaryStage, StageRun
 from gearwear.studies import Study, compare, compare_runs, improve, remaining_life, validate
 from gearwear.sweep import Sweep, sweep
 from gearwear.table import Table
@@ -36,10 +37,12 @@ __all__ = [
     "GearwearError",
     "Mesh",
     "NotConverged",
+    "PlanetaryStage",
     "Run",
     "RunError",
     "Scene",
     "SceneError",
+    "StageRun",
     "Study",
     "Sweep",
     "Table",

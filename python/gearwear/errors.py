@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from gearwear.run import Run
+    from gearwear.stage import StageRun
 
 
 class GearwearError(Exception):
@@ -54,13 +55,15 @@ class SceneError(GearwearError, ValueError):
 class RunError(GearwearError, RuntimeError):
     """A computation that failed. Where something was finished, :attr:`run` is what."""
 
-    def __init__(self, message: str, run: Run | None = None) -> None:
+    def __init__(self, message: str, run: Run | None = None, stage: StageRun | None = None) -> None:
         super().__init__(message)
         #: what was finished; None where nothing was
         self.run = run
+        #: the same of a planetary stage
+        self.stage = stage
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (str(self), self.run)
+        return type(self), (str(self), self.run, self.stage)
 
 
 class NotConverged(RunError):

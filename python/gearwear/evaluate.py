@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearwear.figures import warn_of_older_names
 from gearwear.scene import Scene
+from gearwear.stage import PlanetaryStage
 from gearwear.workers import ProgressArgument, Watched, thread_count
 
 if TYPE_CHECKING:
@@ -54,7 +55,7 @@ class Evaluation:
 
 
 def evaluate(
-    scene: Scene,
+    scene: Scene | PlanetaryStage,
     keys: Sequence[str],
     X: Any,  # noqa: N803
     outputs: Sequence[str],
@@ -73,8 +74,8 @@ def evaluate(
     # Which the package does not load before it is needed.
     import numpy as np
 
-    if not isinstance(scene, Scene):
-        raise TypeError(f"scene: found {type(scene).__name__}; allowed: a gearwear.Scene")
+    if not isinstance(scene, (Scene, PlanetaryStage)):
+        raise TypeError(f"scene: found {type(scene).__name__}; allowed: a gearwear.Scene or gearwear.PlanetaryStage")
     for name, texts in (("keys", keys), ("outputs", outputs)):
         if isinstance(texts, str) or not all(isinstance(text, str) for text in texts):
             raise TypeError(f"{name}: found {texts!r}; allowed: a list of texts")

@@ -35,17 +35,19 @@ def is_one_or_makes_one(executor: object) -> bool:
     return isinstance(executor, Executor) or callable(executor)
 
 
-def packed(scene: _native.Scene, question: Question) -> bytes:
+def packed(scene: _native.Scene | _native.Stage, question: Question) -> bytes:
     """The sweep for those who do its tasks."""
-    return pickle.dumps((_native.VERSION, (scene.name, scene.text, scene.folder, scene.files), question))
+    is_stage = isinstance(scene, _native.Stage)
+    return pickle.dumps((_native.VERSION, is_stage, (scene.name, scene.text, scene.folder, scene.files), question))
 
 
 @lru_cache(maxsize=2)
 def _unpacked(sweep: bytes) -> _native.Sweep:
     """The sweep, once in a process, as its runs share what they condense."""
-    version, scene, question = pickle.loads(sweep)
+    version, is_stage, scene, question = pickle.loads(sweep)
     refuse_other(version)
-    return _native.Scene.from_parts(*scene).sweep(*question)
+    kind = _native.Stage if is_stage else _native.Scene
+    return kind.from_parts(*scene).sweep(*question)
 
 
 def carry_out(sweep: bytes, task: str, losses: int) -> str:

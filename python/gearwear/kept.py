@@ -31,6 +31,7 @@ class Kind(NamedTuple):
 
 KINDS = (
     Kind("a run", "Run", "summary.json", "record.bin"),
+    Kind("a run of a planetary stage", "StageRun", "summary.json", "transmission_error.csv"),
     Kind("a sweep", "Sweep", "sweep.json", "sweep.csv"),
     Kind("a study of uncertainty", "Uncertainty", "uncertainty.json", "samples.csv"),
     Kind("a study of accuracy", "Study", "accuracy.json", "accuracy.csv"),
@@ -50,7 +51,7 @@ _OTHERS = (
     "junit.xml", "summary.md", "work_precision.json", "recommended.toml",
 )  # fmt: skip
 #: Columns of words that may be empty in every row.
-_WORDS = ("error", "verified", "error.total.how")
+_WORDS = ("error", "verified", "error.total.how", "sun_planet.error.total.how", "planet_ring.error.total.how")
 
 
 def kind_of(folder: str | os.PathLike[str], reader: str) -> Kind:

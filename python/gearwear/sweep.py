@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearwear.kept import Kept
 from gearwear.scene import Scene
+from gearwear.stage import PlanetaryStage
 from gearwear.table import Table
 from gearwear.workers import ProgressArgument, Watched, thread_count
 
@@ -52,7 +53,7 @@ class Sweep(Table):
 
 
 def sweep(
-    scene: Scene,
+    scene: Scene | PlanetaryStage,
     vary: Mapping[str, object],
     *,
     executor: Executor | Callable[[], Executor] | None = None,
@@ -79,8 +80,8 @@ def sweep(
     them, paths of numbers in the summary as in :func:`gearwear.evaluate`. ``best``, ``subject_to`` and ``error_estimate`` are those of
     the command. A combination that cannot be run is a row that says why; what is wrong with the question raises :class:`ValueError`.
     """
-    if not isinstance(scene, Scene):
-        raise TypeError(f"scene: found {type(scene).__name__}; allowed: a gearwear.Scene")
+    if not isinstance(scene, (Scene, PlanetaryStage)):
+        raise TypeError(f"scene: found {type(scene).__name__}; allowed: a gearwear.Scene or gearwear.PlanetaryStage")
     if not isinstance(vary, Mapping):
         raise TypeError(f"vary: found {type(vary).__name__}; allowed: a dict of keys and their values")
     if not vary:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from gearwear.figures import warn_of_older_names
 from gearwear.kept import Kept, as_kept
 from gearwear.scene import Scene
+from gearwear.stage import PlanetaryStage
 from gearwear.table import Table
 from gearwear.workers import ProgressArgument, Watched, thread_count
 
@@ -103,7 +104,7 @@ class Uncertainty:
         return Table("samples", self._native.samples())
 
     def band(self, gear: str) -> Band:
-        """The wear over the flank of ``"pinion"`` or ``"wheel"``."""
+        """The wear over the flank of ``"pinion"`` or ``"wheel"``; of a stage of ``"sun"``, ``"planet.sun_flank"``, ``"planet.ring_flank"`` or ``"ring"``."""
         import numpy as np
 
         bands = self.summary["bands"]
@@ -125,7 +126,7 @@ class Uncertainty:
 
 
 def uncertainty(
-    scene: Scene,
+    scene: Scene | PlanetaryStage,
     distributions: Mapping[str, Any],
     n: int = 512,
     seed: int = 1,
@@ -151,8 +152,8 @@ def uncertainty(
 
     What is wrong with the question raises :class:`ValueError`, and :class:`gearwear.RunError` is raised where no sample can be run.
     """
-    if not isinstance(scene, Scene):
-        raise TypeError(f"scene: found {type(scene).__name__}; allowed: a gearwear.Scene")
+    if not isinstance(scene, (Scene, PlanetaryStage)):
+        raise TypeError(f"scene: found {type(scene).__name__}; allowed: a gearwear.Scene or gearwear.PlanetaryStage")
     if not isinstance(distributions, Mapping):
         raise TypeError(f"distributions: found {type(distributions).__name__}; allowed: a dict of keys and their distributions")
     if isinstance(outputs, str):

@@ -7,10 +7,12 @@ mod array;
 mod calibration;
 mod errors;
 mod fem;
+mod many_runs;
 mod mesh;
 mod record_bytes;
 mod run;
 mod scene;
+mod stage;
 mod study;
 mod sweep;
 mod table;
@@ -87,6 +89,8 @@ mod _native {
     use super::run::Run;
     #[pymodule_export]
     use super::scene::Scene;
+    #[pymodule_export]
+    use super::stage::{Stage, StageRun};
     #[pymodule_export]
     use super::study::{Study, compare, compare_runs, remaining_life, validate};
     #[pymodule_export]

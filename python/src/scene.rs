@@ -4,21 +4,21 @@ use std::collections::hash_map::DefaultHasher;
 use std::fs::File;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use gearwear::exchange::rexs;
 use gearwear::exchange::rexs::container::{self, FileError};
 use gearwear::results::run::InputFile;
-use gearwear::sweep::{self, SweepQuestion};
+use gearwear::sweep::SweepQuestion;
 use gearwear::toml::{Table, Value};
-use gearwear::{Done, EvaluateError, Evaluation, LoadError, LoadedScene, Meshed, SceneText, UncertaintyQuestion};
+use gearwear::{Done, LoadError, LoadedScene, Meshed, SceneText, UncertaintyQuestion};
 use gearwear::{KeptRunError, SceneFault};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::calibration::Calibration;
 use crate::errors;
 use crate::fem::FemPair;
+use crate::many_runs::{self, Evaluated};
 use crate::mesh::Mesh;
 use crate::run::Run;
 use crate::study::Study;
@@ -26,9 +26,6 @@ use crate::sweep::Sweep;
 use crate::uncertainty::Uncertainty;
 use crate::value;
 use crate::watched::{cores, watched};
-
-/// The outputs of each row, and why one has none.
-type Evaluated = (Vec<Vec<f64>>, Vec<Option<String>>);
 
 /// A scene with every file it names.
 #[pyclass(frozen, module = "gearwear._native")]
@@ -44,10 +41,15 @@ struct Content {
     files: Vec<Vec<u8>>,
 }
 
+impl From<LoadedScene> for Scene {
+    fn from(loaded: LoadedScene) -> Self {
+        Self { loaded, content: OnceLock::new() }
+    }
+}
+
 impl Scene {
     fn of(py: Python<'_>, loaded: Result<LoadedScene, LoadError>) -> PyResult<Self> {
-        let loaded = loaded.map_err(|error| errors::of_loading(py, &error))?;
-        Ok(Self { loaded, content: OnceLock::new() })
+        loaded.map(Self::from).map_err(|error| errors::of_loading(py, &error))
     }
 
     /// The resolved scene.
@@ -213,21 +215,7 @@ impl Scene {
         threads: usize,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Evaluated> {
-        let name = |column: usize| keys.get(column).map_or("X", String::as_str);
-        let row = |row: Vec<Bound<'_, PyAny>>| -> PyResult<Vec<Value>> {
-            row.iter().enumerate().map(|(column, value)| value::of(name(column), value)).collect()
-        };
-        let rows = rows.into_iter().map(row).collect::<PyResult<Vec<_>>>()?;
-        let scene = self.loaded.clone();
-        let count = cores(threads);
-        let done = watched(py, threads, progress, move |observer| {
-            gearwear::evaluate(&scene, &keys, &rows, &outputs, count, observer)
-        })?;
-        let Evaluation { values, reasons } = done.map_err(|error| match error {
-            EvaluateError::Scene(error) => errors::of_scene(py, &error),
-            other => PyValueError::new_err(other.to_string()),
-        })?;
-        Ok((values, reasons))
+        many_runs::evaluate(py, &self.loaded, keys, rows, outputs, (threads, progress))
     }
 
     /// The error of every model that fits it against its run time.
@@ -271,10 +259,7 @@ impl Scene {
         error_estimate: bool,
         outputs: Vec<String>,
     ) -> PyResult<Sweep> {
-        let question = SweepQuestion { vary, best, subject_to, error_estimate, outputs };
-        let sweep = py.detach(|| sweep::Sweep::of(&self.loaded, &question));
-        let sweep = Arc::new(sweep.map_err(|error| errors::of_sweep(py, &error))?);
-        Ok(Sweep { sweep, notes: question.notes() })
+        many_runs::sweep(py, &self.loaded, SweepQuestion { vary, best, subject_to, error_estimate, outputs })
     }
 
     /// Quantiles and Sobol indices of its figures where keys are uncertain.
@@ -294,12 +279,7 @@ impl Scene {
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Uncertainty> {
         let question = UncertaintyQuestion { uncertain, correlation, outputs, limits, samples, seed, on_own_surface };
-        let (scene, count) = (self.loaded.clone(), cores(threads));
-        let work = move |observer: &dyn gearwear::Observer| {
-            gearwear::uncertainty(&scene, &question, folder.as_deref(), count, observer)
-        };
-        let record = watched(py, threads, progress, work)?.map_err(|error| errors::of_uncertainty(py, &error))?;
-        Ok(Uncertainty { record })
+        many_runs::uncertainty(py, &self.loaded, question, folder, (threads, progress))
     }
 
     /// Calibrates the fast model of its pair.

@@ -9,12 +9,13 @@
 //! snapshots, so that a run with snapshots differs by a fraction of its wear-step error. A row that cannot be run gives no
 //! numbers and says why; it is no error of the others. Rows are run one a thread, and no number of threads changes a bit of them.
 
+pub mod figure;
 pub mod output;
 
-use crate::runs;
 use crate::scene::draft::Draft;
 use crate::scene::key::{self, as_whole, is_key, linked_keys, takes_whole_numbers};
-use crate::scene::loaded::{LoadedScene, SceneError};
+use crate::scene::loaded::SceneError;
+use crate::scene::opened::{OpenedScene, SceneKind};
 use crate::scene::table::other_ways_to_say;
 use crate::spread::spread;
 use crate::varied_scene::{VariedScene, in_words, missing_phase, one_line};
@@ -112,25 +113,30 @@ impl From<OutputError> for EvaluateError {
 ///
 /// # Errors
 /// Keys or outputs that do not exist, rows that do not fit the keys.
-pub fn evaluate(
-    scene: &LoadedScene,
+pub fn evaluate<S>(
+    scene: &S,
     keys: &[impl AsRef<str>],
     rows: &[Vec<toml::Value>],
     outputs: &[impl AsRef<str>],
     threads: usize,
     observer: &dyn Observer,
-) -> Result<Evaluation, EvaluateError> {
+) -> Result<Evaluation, EvaluateError>
+where
+    for<'s> &'s S: Into<OpenedScene>,
+{
     let keys: Vec<&str> = keys.iter().map(AsRef::as_ref).collect();
-    let outputs = self::outputs(outputs)?;
-    let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
+    let scene = &scene.into();
+    let outputs = self::outputs(scene.kind(), outputs)?;
+    let draft = Draft::parse(&scene.given().text).map_err(|problems| scene.refused(problems))?;
     check_keys(&keys, &draft)?;
     check_rows(&keys, rows)?;
     let of_error = outputs.iter().any(SummaryOutput::is_of_error);
-    let varied = VariedScene::new(scene, of_error && scene.scene().numerics.error_estimate);
-    let varied = varied.map_err(|problems| scene.given.refused(problems))?;
+    let estimates = scene.each().all().iter().any(|pair| pair.scene().numerics.error_estimate);
+    let varied = VariedScene::new(scene, of_error && estimates);
+    let varied = varied.map_err(|problems| scene.refused(problems))?;
     let varied = varied.with_torque_curve(outputs.iter().any(SummaryOutput::is_of_torque_curve));
     let whole = keys.iter().map(|key| takes_whole_numbers(key)).collect();
-    let verify = of_error && scene.scene().verify;
+    let verify = of_error && scene.verifies();
     let asked = AskedRows { varied, keys, whole, outputs, verify };
 
     let mut found = Evaluation {
@@ -160,12 +166,12 @@ pub fn evaluate(
     Ok(found)
 }
 
-/// The outputs at these paths of the summary.
+/// The outputs at these paths of the summary of a kind of scene.
 ///
 /// # Errors
 /// A path that no summary has.
-pub fn outputs(paths: &[impl AsRef<str>]) -> Result<Vec<SummaryOutput>, EvaluateError> {
-    Ok(paths.iter().map(|path| SummaryOutput::find(path.as_ref())).collect::<Result<_, OutputError>>()?)
+pub fn outputs(kind: SceneKind, paths: &[impl AsRef<str>]) -> Result<Vec<SummaryOutput>, EvaluateError> {
+    Ok(paths.iter().map(|path| SummaryOutput::of_kind(kind, path.as_ref())).collect::<Result<_, OutputError>>()?)
 }
 
 /// Question that all rows share.
@@ -193,14 +199,16 @@ impl AskedRows<'_> {
         let values = row.iter().zip(&self.whole);
         let values = values.map(|(value, &whole)| if whole { as_whole(value) } else { value.clone() });
         let exchanged = self.keys.iter().copied().zip(values);
-        let mut resolved = self.varied.resolved(exchanged).map_err(|problems| in_words(&problems))?;
-        resolved.scene.verify = self.verify;
-        self.varied.inputs_belong_to(&resolved)?;
-        let summary = self.varied.carry_out(resolved, within, runs::summarise)?;
-        if summary.stopped == StopReason::Interrupted {
+        let mut scene = self.varied.resolved(exchanged).map_err(|problems| in_words(&problems))?;
+        if self.verify {
+            self.varied.verify_as_given(&mut scene);
+        }
+        self.varied.inputs_belong_to(&scene)?;
+        let run = self.varied.run(&scene, within)?;
+        if run.summary().stopped() == StopReason::Interrupted {
             return Ok(None);
         }
-        let summary = serde_json::to_value(&summary).map_err(|error| error.to_string())?;
+        let summary = serde_json::to_value(run.summary()).map_err(|error| error.to_string())?;
         Ok(Some(self.outputs.iter().map(|output| output.of(&summary).unwrap_or(f64::NAN)).collect()))
     }
 

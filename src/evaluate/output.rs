@@ -5,8 +5,12 @@ use std::sync::OnceLock;
 
 use serde_json::Value;
 
+use crate::planetary_run::record::PlanetarySummary;
 use crate::scene::key::{is_number, nearest_path};
+use crate::scene::opened::SceneKind;
+use crate::scene::planetary::mesh::StageMesh;
 use crate::scene::schema::{Node, schema_of};
+use gearwear_bodies::gear::Gear;
 use gearwear_physics::results::figures;
 use gearwear_physics::results::run::Summary;
 
@@ -27,19 +31,40 @@ pub struct OutputError {
     pub nearest: Option<String>,
 }
 
-fn schema() -> &'static Value {
-    static SCHEMA: OnceLock<Value> = OnceLock::new();
-    SCHEMA.get_or_init(schema_of::<Summary>)
+fn schema(kind: SceneKind) -> &'static Value {
+    static OF_PAIRS: OnceLock<Value> = OnceLock::new();
+    static OF_STAGES: OnceLock<Value> = OnceLock::new();
+    match kind {
+        SceneKind::Pair => OF_PAIRS.get_or_init(schema_of::<Summary>),
+        SceneKind::Stage => OF_STAGES.get_or_init(schema_of::<PlanetarySummary>),
+    }
+}
+
+/// Pointers to what the greatest wear of all is the greatest of.
+fn peak_wears(kind: SceneKind) -> Vec<String> {
+    let flanks = match kind {
+        SceneKind::Pair => GEARS.map(str::to_owned).into(),
+        SceneKind::Stage => {
+            let of_mesh = |mesh: StageMesh| Gear::BOTH.map(|gear| mesh.flank(gear).replace('.', "/"));
+            StageMesh::BOTH.map(of_mesh).concat()
+        }
+    };
+    flanks.iter().map(|flank: &String| format!("/{flank}/{}", figures::PEAK_WEAR_OF_EITHER)).collect()
 }
 
 impl SummaryOutput {
-    /// The number at `path`.
+    /// The number at `path` of the summary of a pair.
     pub fn find(path: &str) -> Result<Self, OutputError> {
-        let path = figures::name_now(path).unwrap_or(path);
+        Self::of_kind(SceneKind::Pair, path)
+    }
+
+    /// The number at `path` of the summary of a kind of scene.
+    pub fn of_kind(kind: SceneKind, path: &str) -> Result<Self, OutputError> {
+        let path = figures::name_now(path).filter(|_| kind.is_pair()).unwrap_or(path);
         if path == figures::PEAK_WEAR_OF_EITHER {
-            return Ok(Self { path: path.to_owned(), pointers: GEARS.map(|gear| format!("/{gear}/{path}")).into() });
+            return Ok(Self { path: path.to_owned(), pointers: peak_wears(kind) });
         }
-        let root = Node::root(schema());
+        let root = Node::root(schema(kind));
         let mut pointer = String::new();
         let mut node = Some(root);
         for part in path.split('.') {
@@ -54,19 +79,32 @@ impl SummaryOutput {
         }
     }
 
+    /// Path in the summary of a pair, and the mesh of a stage that it is of.
+    fn of_pair(&self) -> (Option<StageMesh>, &str) {
+        let of_mesh = |mesh: StageMesh| Some((Some(mesh), self.path.strip_prefix(mesh.table())?.strip_prefix('.')?));
+        StageMesh::BOTH.into_iter().find_map(of_mesh).unwrap_or((None, &self.path))
+    }
+
     /// Whether it is one of the run's statements about its own error, which take runs of their own.
     pub fn is_of_error(&self) -> bool {
-        self.path.starts_with("error.")
+        self.of_pair().1.starts_with("error.")
     }
 
     /// Whether it is of the transmission error over torque, which takes mesh cycles of its own.
     pub fn is_of_torque_curve(&self) -> bool {
-        self.path.starts_with("transmission_error_over_torque.")
+        self.of_pair().1.starts_with("transmission_error_over_torque.")
+    }
+
+    /// Whether it is the life to a limit.
+    pub fn is_life(&self) -> bool {
+        self.of_pair().1.starts_with("life.")
     }
 
     /// Duration of a run that comes to no limit, where the output is the life to a limit.
     pub fn at_least(&self, summary: &Value) -> Option<f64> {
-        let time = self.path.strip_prefix("life.").filter(|time| matches!(*time, "hours" | "revolutions"))?;
+        let (mesh, path) = self.of_pair();
+        let time = path.strip_prefix("life.").filter(|time| matches!(*time, "hours" | "revolutions"))?;
+        let summary = mesh.map_or(summary, |mesh| &summary[mesh.table()]);
         summary["life"].is_object().then(|| summary[time].as_f64())?
     }
 

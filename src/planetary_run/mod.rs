@@ -10,6 +10,7 @@
 //!
 //! The meshes run one after the other; an interrupted run goes on in the folder of either.
 
+pub mod folder;
 mod observed_mesh;
 pub mod record;
 mod report;
@@ -20,11 +21,11 @@ use std::path::{Component, Path};
 use self::observed_mesh::ObservedMesh;
 use self::record::{
     KinematicSummary, PerGearOfStage, PerMember, PlanetWear, PlanetaryRecord, PlanetarySummary, StageLife,
-    StageTransmissionError,
+    StageTransmissionError, StageTransmissionRow,
 };
 use crate::report::files::remove;
 use crate::report::{self as run_report, ReportError, RunFiles, output_files};
-use crate::resume::folder;
+use crate::resume::folder as run_folder;
 use crate::resume::kept_run::{self, KeptRunError};
 use crate::runs;
 use crate::scene::planetary::PlanetaryScene;
@@ -35,7 +36,8 @@ use gearwear_bodies::gear::Gear;
 use gearwear_bodies::gear::planetary::Member;
 use gearwear_physics::assessment::Done;
 use gearwear_physics::observer::Observer;
-use gearwear_physics::results::run::{RunRecord, StopReason, Summary};
+use gearwear_physics::results::run::{MeshCycleRow, RunRecord, StopReason, Summary};
+use gearwear_physics::results::worn_pair::WornPair;
 
 /// Failure of the run of a stage.
 #[derive(Debug, thiserror::Error)]
@@ -84,11 +86,10 @@ pub fn run_kept(
         let own = dir.join(mesh.folder());
         if !goes_on {
             run_report::remove_summary(&own)?;
-            folder::remove_checkpoint(&own)?;
+            run_folder::remove_checkpoint(&own)?;
             remove(&own, output_files::SCENE)?;
         }
-        let files = RunFiles { figures: files.figures.as_ref().map(|to| to.join(mesh.folder())), ..files.clone() };
-        kept_run::run_with(&scene.meshes[mesh], &files, &own, observer)
+        kept_run::run_with(&scene.meshes[mesh], &folder::of_mesh(files, mesh), &own, observer)
     })?;
     report::write(&done.record, files, dir)?;
     Ok(done)
@@ -100,11 +101,11 @@ fn place_inputs(scene: &PlanetaryScene, dir: &Path) -> Result<(), ReportError> {
         for file in &scene.meshes[mesh].files.as_read {
             let stays_below = Path::new(&file.name).components().all(|part| matches!(part, Component::Normal(_)));
             if stays_below {
-                folder::place(dir, &file.name, &file.bytes)?;
+                run_folder::place(dir, &file.name, &file.bytes)?;
             }
         }
     }
-    folder::place(dir, output_files::SCENE, scene.given.text.as_bytes())
+    run_folder::place(dir, output_files::SCENE, scene.given.text.as_bytes())
 }
 
 /// Runs each mesh with `run`; the second is not begun where the first does not come to its end.
@@ -132,23 +133,44 @@ fn of_meshes(
     Ok(Done { record: record_of(scene, meshes), failure })
 }
 
+/// Part of the run of a mesh that the stage is made of.
+#[derive(Clone, Copy)]
+struct MeshFindings<'a> {
+    summary: &'a Summary,
+    mesh_cycle: &'a [MeshCycleRow],
+}
+
+impl<'a> MeshFindings<'a> {
+    fn of(run: &'a RunRecord) -> Self {
+        Self { summary: &run.summary, mesh_cycle: &run.mesh_cycle }
+    }
+}
+
 /// The stage, of the runs of its meshes.
 fn record_of(scene: &PlanetaryScene, meshes: PerMesh<Option<RunRecord>>) -> PlanetaryRecord {
-    let transmission_error = match (&meshes.sun_planet, &meshes.planet_ring) {
-        (Some(sun), Some(ring)) => transmission_error::rows(&scene.stage, scene.ring_mesh_phase, sun, ring),
+    let (summary, transmission_error) = assembled(scene, meshes.as_ref().map(|run| run.as_ref().map(MeshFindings::of)));
+    PlanetaryRecord { summary, scene_toml: scene.given.text.clone(), meshes, transmission_error }
+}
+
+/// Summary of the stage, of its meshes as a study of many runs keeps them.
+pub fn summary(scene: &PlanetaryScene, meshes: PerMesh<&WornPair>) -> PlanetarySummary {
+    assembled(scene, meshes.map(|pair| Some(MeshFindings { summary: &pair.summary, mesh_cycle: &pair.mesh_cycle }))).0
+}
+
+/// Summary and transmission error of the stage, of the meshes that were run.
+fn assembled(
+    scene: &PlanetaryScene,
+    meshes: PerMesh<Option<MeshFindings<'_>>>,
+) -> (PlanetarySummary, Vec<StageTransmissionRow>) {
+    let rows = match (meshes.sun_planet, meshes.planet_ring) {
+        (Some(sun), Some(ring)) => transmission_error::rows(&scene.stage.phases(), scene.ring_mesh_phase, sun, ring),
         _ => Vec::new(),
     };
     let of_error = StageTransmissionError {
-        new: transmission_error::range(&transmission_error, |row| row.stage_new_um),
-        worn: transmission_error::range(&transmission_error, |row| row.stage_worn_um),
+        new: transmission_error::range(&rows, |row| row.stage_new_um),
+        worn: transmission_error::range(&rows, |row| row.stage_worn_um),
     };
-    let summaries = meshes.as_ref().map(|run| run.as_ref().map(|run| run.summary.clone()));
-    PlanetaryRecord {
-        summary: summary_of(scene, summaries, of_error),
-        scene_toml: scene.given.text.clone(),
-        meshes,
-        transmission_error,
-    }
+    (summary_of(scene, meshes.map(|found| found.map(|found| found.summary.clone())), of_error), rows)
 }
 
 fn summary_of(
@@ -205,7 +227,7 @@ fn summary_of(
 }
 
 /// Turns of each mesh's pinion on the carrier in one revolution of the given member.
-fn revolutions_per_turn(scene: &PlanetaryScene) -> PerMesh<f64> {
+pub fn revolutions_per_turn(scene: &PlanetaryScene) -> PerMesh<f64> {
     let stage = &scene.stage;
     let sun = stage.sun_turns_relative_to_carrier(scene.member).unwrap_or(1.0);
     PerMesh { sun_planet: sun, planet_ring: sun * f64::from(stage.sun_teeth) / f64::from(stage.planet_teeth) }

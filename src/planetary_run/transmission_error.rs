@@ -11,9 +11,9 @@
 //! φ, φ_i: place within the mesh and phase of planet i, in base pitches; γ: phase of its mesh with the ring ([`gearwear_bodies::gear::planetary`]). Each mesh has
 //! the load of the planet that carries most.
 
+use super::MeshFindings;
 use super::record::StageTransmissionRow;
-use gearwear_bodies::gear::planetary::PlanetaryStage;
-use gearwear_physics::results::run::{MeshCycleRow, RangeSummary, RunRecord};
+use gearwear_physics::results::run::{MeshCycleRow, RangeSummary};
 
 /// Rows over one base pitch.
 const ROWS: usize = 200;
@@ -27,9 +27,8 @@ struct PeriodicError<'a> {
 
 impl<'a> PeriodicError<'a> {
     /// `None` where the path of contact is shorter than a base pitch.
-    fn of(run: &'a RunRecord) -> Option<Self> {
-        let rows = run.mesh_cycle.as_slice();
-        let geometry = &run.summary.geometry;
+    fn of(MeshFindings { summary, mesh_cycle: rows }: MeshFindings<'a>) -> Option<Self> {
+        let geometry = &summary.geometry;
         let [first, last] = [rows.first()?.position_mm, rows.last()?.position_mm];
         let base_pitch_mm = geometry.base_pitch_mm;
         (last - first >= base_pitch_mm).then_some(Self {
@@ -53,15 +52,14 @@ impl<'a> PeriodicError<'a> {
 
 /// Rows over one base pitch; empty where a path of contact is shorter than that.
 pub(super) fn rows(
-    stage: &PlanetaryStage,
+    phases: &[f64],
     ring_mesh_phase: f64,
-    sun_planet: &RunRecord,
-    planet_ring: &RunRecord,
+    sun_planet: MeshFindings<'_>,
+    planet_ring: MeshFindings<'_>,
 ) -> Vec<StageTransmissionRow> {
     let (Some(sun), Some(ring)) = (PeriodicError::of(sun_planet), PeriodicError::of(planet_ring)) else {
         return Vec::new();
     };
-    let phases = stage.phases();
     let of_stage = |phase: f64, of: fn(&MeshCycleRow) -> f64| {
         let of_planet = |own: &f64| sun.at(phase + own, of) + ring.at(phase + own + ring_mesh_phase, of);
         phases.iter().map(of_planet).sum::<f64>() / phases.len() as f64

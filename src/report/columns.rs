@@ -129,7 +129,8 @@ fn values(cells: Vec<Cell<'_>>) -> Values {
     Values::Numbers(cells.into_iter().map(number).collect())
 }
 
-fn table<R: Serialize + JsonSchema>(name: &'static str, rows: impl IntoIterator<Item = R>) -> Table {
+/// The table called `name` of these records, a column for each of their fields.
+pub fn table<R: Serialize + JsonSchema>(name: &'static str, rows: impl IntoIterator<Item = R>) -> Table {
     let columns = csv_table::columns::<R>();
     let values = gather::columns(rows, columns.len());
     let column = |((name, meaning), values): (csv_table::Column, Values)| Column {

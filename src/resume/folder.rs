@@ -21,7 +21,7 @@ use gearwear_files::whole_file;
 use gearwear_physics::results::run::StopReason;
 
 /// Size of the scene and the summary of a run.
-pub(super) const MOST: SizeLimit = SizeLimit { of: "a file of a run", megabytes: 256 };
+pub(crate) const MOST: SizeLimit = SizeLimit { of: "a file of a run", megabytes: 256 };
 /// The last checkpoint.
 pub const CHECKPOINT: &str = "checkpoint.bin";
 

@@ -6,6 +6,7 @@
 use toml::{Table, Value};
 
 use super::findings::Findings;
+use super::key::{as_whole, is_key, linked_keys, takes_whole_numbers};
 use super::locate::Locator;
 use super::problem::Problem;
 use super::table::{self, other_ways_to_say};
@@ -33,6 +34,22 @@ impl Draft {
         table::set(&mut self.table, key, value);
     }
 
+    /// Changes all these keys, each to a value or to nothing. A key with alternatives, `pair.{pinion,wheel}.teeth`, is all of them, and a number without a
+    /// fraction is whole where the key takes whole numbers.
+    pub fn change_all(&mut self, changes: impl IntoIterator<Item = (String, Option<Value>)>) {
+        for (keys, value) in changes {
+            for key in linked_keys(&keys) {
+                match &value {
+                    Some(value) if takes_whole_numbers(&key) => self.set(&key, as_whole(value)),
+                    Some(value) => self.set(&key, value.clone()),
+                    None if is_key(&key) => self.remove(&key),
+                    // As a key that is given, it is refused with what was probably meant.
+                    None => self.set(&key, true),
+                }
+            }
+        }
+    }
+
     /// Whether the file gives the key at the path `key`.
     pub fn gives(&self, key: &str) -> bool {
         let mut parts = key.split('.');
@@ -56,7 +73,28 @@ impl Draft {
     /// # Errors
     /// Everything that is wrong with it, at the places of the text it was read from.
     pub fn resolve(&self) -> Result<Resolved, Vec<Problem>> {
-        resolve::resolve_table(self.table.clone(), Findings::new(self.locator.clone()))
+        let (table, findings) = self.to_resolve();
+        resolve::resolve_table(table, findings)
+    }
+
+    /// The table, and findings that know where its keys stand.
+    pub(super) fn to_resolve(&self) -> (Table, Findings) {
+        (self.table.clone(), Findings::new(self.locator.clone()))
+    }
+
+    /// Number at the path `key`; items of lists are numbered from 1.
+    pub fn number(&self, key: &str) -> Option<f64> {
+        number_at(&self.table, key)
+    }
+
+    /// Word at the path `key`, which leads through tables alone.
+    pub fn word(&self, key: &str) -> Option<&str> {
+        table::at(&self.table, key)?.as_str()
+    }
+
+    /// Paths of all values.
+    pub fn keys(&self) -> Vec<String> {
+        table::keys_of(&self.table, "")
     }
 
     /// Scene as text, with the changes made.
@@ -68,6 +106,17 @@ impl Draft {
     pub fn hash(&self) -> String {
         short_hash(self.table.to_string().as_bytes())
     }
+}
+
+/// The number at the path `key` of a table; items of lists are numbered from 1.
+pub fn number_at(table: &Table, key: &str) -> Option<f64> {
+    let mut parts = key.split('.');
+    let first = table.get(parts.next()?)?;
+    let value = parts.try_fold(first, |value, part| match value.as_array() {
+        Some(list) => list.get(part.parse::<usize>().ok()?.checked_sub(1)?),
+        None => value.get(part),
+    })?;
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
 #[cfg(test)]

@@ -122,12 +122,19 @@ pub fn is_number(node: Node<'_>) -> bool {
 
 /// The path of a number that `path` is most like: the least deep one that ends in it, or the nearest in spelling.
 fn nearest_number(path: &str) -> Option<String> {
-    nearest_path(path, Node::root(schema()), is_number)
+    nearest_in_either(path, is_number)
 }
 
 /// The key of a scene that `path` is most like, whatever it takes.
 pub fn nearest_key(path: &str) -> Option<String> {
-    nearest_path(path, Node::root(schema()), |node| node.keys().is_empty())
+    nearest_in_either(path, |node| node.keys().is_empty())
+}
+
+/// The path to what is `wanted` that `path` is most like, of a planetary stage where it begins with one of its tables, else of a pair.
+fn nearest_in_either(path: &str, wanted: fn(Node<'_>) -> bool) -> Option<String> {
+    let of_stage = ["planetary.", "sun_planet.", "planet_ring."].iter().any(|table| path.starts_with(table));
+    let schema = if of_stage { planetary::schema::published() } else { schema() };
+    nearest_path(path, Node::root(schema), wanted)
 }
 
 /// The path below `root` to what is `wanted` that `path` is most like: one that ends in it, or the nearest in spelling.
@@ -177,6 +184,8 @@ mod tests {
             ("pair.face_widht_mm", "pair.face_width_mm"),
             ("pair.helix_angle", "pair.helix_angle_deg"),
             ("pair.teeth", "pair.wheel.teeth"),
+            ("planetary.plnets", "planetary.planets"),
+            ("planetary.load_sharing", "planetary.load_sharing_factor"),
         ] {
             let Err(KeyError::Unknown { nearest, .. }) = NumberKey::find(path) else { panic!("{path} is known") };
             assert_eq!(nearest.as_deref(), Some(meant));

@@ -8,9 +8,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::draft::Draft;
-use super::key::{as_whole, is_key, linked_keys, takes_whole_numbers};
 pub use super::named_files::{CALIBRATION, CURVE, NamedFile, NamedFiles};
 use super::named_files::{KEYS, calibration, initial_flank, of_another_pair, stiffness_curve, warnings};
+use super::planetary::mesh::StageMesh;
 use super::scene_text::folder_of;
 pub use super::scene_text::{LoadError, SceneError, SceneText};
 use super::{Problem, ProblemKind, Resolved, presets};
@@ -119,20 +119,7 @@ impl LoadedScene {
         &self,
         changes: impl IntoIterator<Item = (String, Option<toml::Value>)>,
     ) -> Result<Self, LoadError> {
-        let change = |draft: &mut Draft| {
-            for (keys, value) in changes {
-                for key in linked_keys(&keys) {
-                    match &value {
-                        Some(value) if takes_whole_numbers(&key) => draft.set(&key, as_whole(value)),
-                        Some(value) => draft.set(&key, value.clone()),
-                        None if is_key(&key) => draft.remove(&key),
-                        // As a key that is given, it is refused with what was probably meant.
-                        None => draft.set(&key, true),
-                    }
-                }
-            }
-        };
-        self.changed(change, &self.files.as_read)
+        self.changed(|draft| draft.change_all(changes), &self.files.as_read)
     }
 
     /// Scene without `key`, as if the file left it out.
@@ -241,7 +228,7 @@ impl LoadedScene {
     /// # Errors
     /// A calibration of another pair.
     pub fn with_calibration(&self, calibration: Calibration) -> Result<Self, LoadError> {
-        self.calibrated_with(calibration, |_| {})
+        self.calibrated_with(calibration, |_, _| {})
     }
 
     /// Scene on a Winkler foundation with this calibration, as if the file named both, at the resolution of this one.
@@ -250,24 +237,34 @@ impl LoadedScene {
     /// A calibration of another pair.
     pub fn on_calibrated_foundation(&self, calibration: Calibration) -> Result<Self, LoadError> {
         let resolved: toml::Table = self.to_toml().parse().unwrap_or_default();
-        self.calibrated_with(calibration, |draft| {
-            draft.remove("contact.foundation_MPa_per_mm");
-            draft.set("contact.surface", SurfaceKind::Winkler.name());
+        self.calibrated_with(calibration, |draft, of_mesh| {
+            for foundation in ["contact.foundation_MPa_per_mm".to_owned(), of_mesh("contact.foundation_MPa_per_mm")] {
+                draft.remove(&foundation);
+            }
+            draft.set(&of_mesh("contact.surface"), SurfaceKind::Winkler.name());
             // Defaults of the resolution follow the surface.
             if let Some(numerics) = resolved.get("numerics") {
-                draft.set("numerics", numerics.clone());
+                draft.set(&of_mesh("numerics"), numerics.clone());
             }
         })
     }
 
-    fn calibrated_with(&self, calibration: Calibration, change: impl FnOnce(&mut Draft)) -> Result<Self, LoadError> {
+    /// Scene with this calibration and a further change, which gets the key of what holds for this pair alone.
+    fn calibrated_with(
+        &self,
+        calibration: Calibration,
+        change: impl FnOnce(&mut Draft, &dyn Fn(&str) -> String),
+    ) -> Result<Self, LoadError> {
         let (key, name) = (CALIBRATION, "calibration.json".to_owned());
         let mut known = self.files.as_read.clone();
         known.retain(|file| file.key != key);
         known.push(NamedFile { key, name: name.clone(), bytes: calibration.to_json().into_bytes() });
         let changed = |draft: &mut Draft| {
-            draft.set(key, name);
-            change(draft);
+            // Of a mesh of a planetary stage its own table lies above that of both.
+            let table = StageMesh::BOTH.into_iter().find(|mesh| draft.word("planetary.mesh") == Some(mesh.folder()));
+            let of_mesh = |key: &str| table.map_or_else(|| key.to_owned(), |mesh| format!("{}.{key}", mesh.table()));
+            draft.set(&of_mesh(key), name);
+            change(draft, &of_mesh);
         };
         self.changed(changed, &known)
     }

@@ -21,6 +21,7 @@ pub mod lubrication_file;
 pub mod material_presets;
 mod named_files;
 pub mod nearest;
+pub mod opened;
 mod outside_model;
 pub mod planetary;
 pub mod presets;

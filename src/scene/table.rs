@@ -25,12 +25,22 @@ const SAME_THING_OF_GEAR: [&[&str]; 3] = [
     &["helix_slope_deviation_um", "helix_slope_class"],
 ];
 
-/// Alternative keys of `wear.pinion` and `wear.wheel`.
+/// Tables of what holds for one mesh of a planetary stage alone, and its gears.
+const OF_MESHES: [&str; 2] = ["sun_planet.", "planet_ring."];
+const GEARS_OF_STAGE: [&str; 3] = ["sun.", "planet.", "ring."];
+
+/// Alternative keys of `wear.pinion` and `wear.wheel`, and of the gears of a planetary stage.
 const SAME_THING_OF_WEAR: [&[&str]; 1] = [&["coefficient_m2_per_N", "coefficient_mm3_per_Nm"]];
 
 /// Alternative keys of `key`.
 pub fn other_ways_to_say(key: &str) -> Vec<String> {
-    let tables: [(&str, &[&[&str]]); 8] = [
+    if let Some((table, rest)) = OF_MESHES.iter().find_map(|table| Some((table, key.strip_prefix(table)?))) {
+        let of_gear = GEARS_OF_STAGE.iter().any(|gear| rest.starts_with(gear));
+        let above = if of_gear { "planetary." } else { "" };
+        let others = other_ways_to_say(&format!("{above}{rest}"));
+        return others.iter().map(|other| format!("{table}{}", other.strip_prefix(above).unwrap_or(other))).collect();
+    }
+    let tables: [(&str, &[&[&str]]); 11] = [
         ("pair.pinion.", &SAME_THING_OF_GEAR),
         ("pair.wheel.", &SAME_THING_OF_GEAR),
         ("planetary.sun.", &SAME_THING_OF_GEAR),
@@ -38,6 +48,9 @@ pub fn other_ways_to_say(key: &str) -> Vec<String> {
         ("planetary.ring.", &SAME_THING_OF_GEAR),
         ("wear.pinion.", &SAME_THING_OF_WEAR),
         ("wear.wheel.", &SAME_THING_OF_WEAR),
+        ("wear.sun.", &SAME_THING_OF_WEAR),
+        ("wear.planet.", &SAME_THING_OF_WEAR),
+        ("wear.ring.", &SAME_THING_OF_WEAR),
         ("", &SAME_THING),
     ];
     let found = tables.into_iter().find_map(|(table, groups)| Some((table, key.strip_prefix(table)?, groups)));
@@ -109,4 +122,24 @@ pub fn set(table: &mut Table, key: &str, value: impl Into<Value>) {
 fn item_mut<'a>(list: &'a mut Value, number: &str) -> Option<&'a mut Value> {
     let index = number.parse::<usize>().ok()?.checked_sub(1)?;
     list.as_array_mut()?.get_mut(index)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What holds for one mesh alone has the alternatives of what holds for both.
+    #[test]
+    fn keys_of_a_stage_have_their_alternatives() {
+        for (key, other) in [
+            ("wear.ring.coefficient_m2_per_N", "wear.ring.coefficient_mm3_per_Nm"),
+            ("sun_planet.wear.coefficient_mm3_per_Nm", "sun_planet.wear.coefficient_m2_per_N"),
+            ("planet_ring.wear.ring.coefficient_mm3_per_Nm", "planet_ring.wear.ring.coefficient_m2_per_N"),
+            ("sun_planet.planet.helix_slope_class", "sun_planet.planet.helix_slope_deviation_um"),
+            ("planetary.normal_module_mm", "planetary.transverse_module_mm"),
+        ] {
+            assert_eq!(other_ways_to_say(key), [other], "{key}");
+        }
+        assert!(other_ways_to_say("sun_planet.planet.tip_rounding_mm").is_empty());
+    }
 }

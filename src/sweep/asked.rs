@@ -4,12 +4,13 @@ use std::io;
 
 use super::axis::{self, AxisError};
 use super::combination::Sweep;
-use super::goal::{Goal, GoalError};
+use super::goal::{FigureLimit, Goal, GoalError};
 use crate::evaluate::{self, EvaluateError};
 use crate::journal::JournalError;
 use crate::report::ReportError;
 use crate::scene::draft::Draft;
-use crate::scene::loaded::{LoadedScene, SceneError};
+use crate::scene::loaded::SceneError;
+use crate::scene::opened::OpenedScene;
 use gearwear_physics::results::figures;
 
 /// Question of a sweep.
@@ -84,19 +85,24 @@ impl Sweep {
     ///
     /// # Errors
     /// Keys, values or figures that do not exist or do not go together.
-    pub fn of(scene: &LoadedScene, question: &SweepQuestion) -> Result<Self, SweepError> {
-        Self::asked(scene, question).map_err(SweepError)
+    pub fn of<S>(scene: &S, question: &SweepQuestion) -> Result<Self, SweepError>
+    where
+        for<'s> &'s S: Into<OpenedScene>,
+    {
+        Self::asked(&scene.into(), question).map_err(SweepError)
     }
 
-    fn asked(scene: &LoadedScene, question: &SweepQuestion) -> Result<Self, SweepFault> {
+    fn asked(scene: &OpenedScene, question: &SweepQuestion) -> Result<Self, SweepFault> {
         let axes = axis::parse_all(question.vary.iter().map(String::as_str))?;
-        let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
+        let draft = Draft::parse(&scene.given().text).map_err(|problems| scene.refused(problems))?;
         axis::check_phases(&axes, &draft)?;
-        let limits = question.subject_to.iter().map(|limit| limit.parse()).collect::<Result<_, GoalError>>()?;
-        let goal = question.best.as_ref().map(|figure| Goal::new(figure, limits)).transpose()?;
-        let outputs = evaluate::outputs(&question.outputs)?;
+        let kind = scene.kind();
+        let limits = question.subject_to.iter().map(|limit| FigureLimit::parse(kind, limit));
+        let limits = limits.collect::<Result<_, GoalError>>()?;
+        let goal = question.best.as_ref().map(|figure| Goal::new(kind, figure, limits)).transpose()?;
+        let outputs = evaluate::outputs(kind, &question.outputs)?;
         let sweep = Self::new(scene, axes, goal, question.error_estimate, outputs);
-        Ok(sweep.map_err(|problems| scene.given.refused(problems))?)
+        Ok(sweep.map_err(|problems| scene.refused(problems))?)
     }
 
     /// Warnings: values that their key does not take.

@@ -5,21 +5,21 @@ use std::time::Instant;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use crate::evaluate::figure;
 use crate::evaluate::output::SummaryOutput;
-use crate::runs;
+use crate::scene::Problem;
 use crate::scene::draft::Draft;
-use crate::scene::loaded::LoadedScene;
-use crate::scene::{Problem, Resolved};
+use crate::scene::opened::{EachMesh, OpenedScene};
+use crate::scene::planetary::mesh::StageMesh;
 use crate::sweep::goal::Goal;
 use crate::sweep::record::{SweepAxis, SweepIdentity, SweepRow};
 use crate::sweep::verification::Chosen;
-use crate::varied_scene::{VariedScene, in_words, one_line};
+use crate::varied_scene::{StudiedRun, VariedScene, in_words, one_line};
 use gearwear_physics::assessment::guarded::guarded;
 use gearwear_physics::observer::Observer;
 use gearwear_physics::plan::{Plan, StageKind};
 use gearwear_physics::results::error::TotalError;
-use gearwear_physics::results::figures::{self, STATED_ERRORS};
-use gearwear_physics::results::run::{StopReason, Summary};
+use gearwear_physics::results::run::StopReason;
 
 /// Something to do of a sweep: what one thread, wherever it is, does from beginning to end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -46,16 +46,18 @@ impl Sweep {
     /// Snapshots are left out, as a row keeps only the end of the run; errors are estimated only where asked for, and rows verified
     /// only where the scene asks for it by name, or where there is a goal and the scene does not refuse it.
     pub fn new(
-        given: &LoadedScene,
+        given: &OpenedScene,
         axes: Vec<SweepAxis>,
         goal: Option<Goal>,
         error_estimate: bool,
         outputs: Vec<SummaryOutput>,
     ) -> Result<Self, Vec<Problem>> {
-        let draft = Draft::parse(&given.given.text)?;
-        let resolved = &given.resolved;
-        let mut figures: Vec<String> = figures::in_sweeps().iter().map(|figure| figure.name.clone()).collect();
-        let is_verified = |path: &str| STATED_ERRORS.iter().any(|claim| claim.name == path);
+        let draft = Draft::parse(&given.given().text)?;
+        let kind = given.kind();
+        let mut figures: Vec<String> = figure::in_sweeps(kind).iter().map(|figure| figure.name.clone()).collect();
+        let is_verified = |path: &str| figure::claims(kind).iter().any(|claim| claim.name == path);
+        let of_meshes = StageMesh::BOTH.map(|mesh| format!("{}.numerics.verify", mesh.table()));
+        let asks_by_name = draft.gives("numerics.verify") || of_meshes.iter().any(|key| draft.gives(key));
         let mut own = Vec::new();
         for output in outputs {
             if !figures.contains(&output.path) && !is_verified(&output.path) {
@@ -64,13 +66,14 @@ impl Sweep {
             }
         }
         let identity = SweepIdentity {
-            title: resolved.title().to_owned(),
+            kind,
+            title: given.title().to_owned(),
             program_version: env!("CARGO_PKG_VERSION").to_owned(),
-            scene_hash: resolved.scene_hash(),
+            scene_hash: given.scene_hash(),
             given_hash: draft.hash(),
-            inputs_hash: given.files.hash(),
+            inputs_hash: given.inputs_hash(),
             error_estimate,
-            verify: resolved.scene.verify && (draft.gives("numerics.verify") || goal.is_some()),
+            verify: given.verifies() && (asks_by_name || goal.is_some()),
             axes,
             figures,
             goal,
@@ -86,7 +89,7 @@ impl Sweep {
     }
 
     /// The scene of combination `index`, which is not verified.
-    pub fn scene(&self, index: usize) -> Result<Resolved, Vec<Problem>> {
+    pub fn scene(&self, index: usize) -> Result<OpenedScene, Vec<Problem>> {
         let values = self.identity.values(index);
         self.varied.resolved(self.identity.axes.iter().zip(values).map(|(axis, value)| {
             let value = match axis.word(value) {
@@ -115,11 +118,11 @@ impl Sweep {
         let run = guarded(|| self.run(index, observer));
         let run = run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
         let row = match run {
-            Ok(summary) if summary.stopped == StopReason::Interrupted => return None,
-            Ok(summary) => SweepRow {
-                figures: self.figures(&summary),
-                warnings: Some(summary.warnings.len()),
-                simulation_s: simulation_s(&summary),
+            Ok(run) if run.summary().stopped() == StopReason::Interrupted => return None,
+            Ok(run) => SweepRow {
+                figures: self.figures(&run),
+                warnings: Some(run.summary().warnings()),
+                simulation_s: run.simulation_s(),
                 ..self.empty(index)
             },
             Err(_) if observer.interrupted() => return None,
@@ -129,9 +132,9 @@ impl Sweep {
     }
 
     /// The figures of a row, in the order of the identity.
-    fn figures(&self, summary: &Summary) -> Vec<Option<f64>> {
-        let main = figures::in_sweeps().iter().map(|figure| figure.value(summary));
-        let whole = if self.outputs.is_empty() { Value::Null } else { serde_json::json!(summary) };
+    fn figures(&self, run: &StudiedRun) -> Vec<Option<f64>> {
+        let main = figure::in_sweeps(self.identity.kind).iter().map(|figure| figure.value(run));
+        let whole = if self.outputs.is_empty() { Value::Null } else { serde_json::json!(run.summary()) };
         let own = self.outputs.iter().map(|output| output.of(&whole));
         main.chain(own).map(|value| value.filter(|value| value.is_finite())).collect()
     }
@@ -154,10 +157,10 @@ impl Sweep {
         SweepRow { error: Some(one_line(reason)), ..self.empty(index) }
     }
 
-    fn run(&self, index: usize, observer: &dyn Observer) -> Result<Summary, String> {
-        let resolved = self.scene(index).map_err(|problems| in_words(&problems))?;
-        self.varied.inputs_belong_to(&resolved)?;
-        self.varied.carry_out(resolved, observer, runs::summarise)
+    fn run(&self, index: usize, observer: &dyn Observer) -> Result<StudiedRun, String> {
+        let scene = self.scene(index).map_err(|problems| in_words(&problems))?;
+        self.varied.inputs_belong_to(&scene)?;
+        self.varied.run(&scene, observer)
     }
 
     /// The row `row` verified by finite elements; `None` where that was interrupted. Its run is repeated with the same result: the best rows are
@@ -172,23 +175,26 @@ impl Sweep {
         if observer.interrupted() {
             return None;
         }
-        let total = total.unwrap_or_else(|reason| TotalError::none(&one_line(&reason)));
+        let total = total.unwrap_or_else(|reason| self.not_verified(&reason));
         Some(row.clone().verified(chosen, total, start.elapsed().as_secs_f64()))
     }
 
-    fn total_error(&self, index: usize, observer: &dyn Observer) -> Result<TotalError, String> {
-        let mut resolved = self.scene(index).map_err(|problems| in_words(&problems))?;
-        resolved.scene.verify = true;
-        resolved.scene.numerics.error_estimate = false;
-        let plan = Plan::of(&resolved.scene);
-        match plan.left_out_because(StageKind::Verification) {
-            Some(reason) => Err(reason.to_owned()),
-            None => self.varied.carry_out(resolved, observer, runs::summarise).map(|summary| summary.error.total),
+    /// Errors of a row that is not verified for `reason`.
+    pub fn not_verified(&self, reason: &str) -> EachMesh<TotalError> {
+        EachMesh::alike(self.identity.kind, TotalError::none(&one_line(reason)))
+    }
+
+    fn total_error(&self, index: usize, observer: &dyn Observer) -> Result<EachMesh<TotalError>, String> {
+        let mut scene = self.scene(index).map_err(|problems| in_words(&problems))?;
+        self.varied.verify_as_given(&mut scene);
+        scene.change_each(|pair| pair.resolved.scene.numerics.error_estimate = false);
+        let left_out = scene
+            .each()
+            .map(|pair| Plan::of(pair.scene()).left_out_because(StageKind::Verification).map(str::to_owned));
+        // Where one mesh has an answer, the other says why it has none.
+        match left_out.all().into_iter().cloned().collect::<Option<Vec<String>>>() {
+            Some(reasons) => Err(reasons.join("; ")),
+            None => Ok(self.varied.run(&scene, observer)?.total_errors()),
         }
     }
-}
-
-fn simulation_s(summary: &Summary) -> Option<f64> {
-    let name = StageKind::Simulation.name();
-    summary.stages.iter().find(|stage| stage.name == name).map(|stage| stage.wall_s)
 }

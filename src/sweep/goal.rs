@@ -8,14 +8,14 @@
 //! ```
 
 use std::fmt;
-use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
 use super::record::{SweepIdentity, SweepRow};
+use crate::evaluate::figure::{self, StudyFigure};
 use crate::scene::nearest::nearest;
+use crate::scene::opened::SceneKind;
 use crate::scene::problem::number;
-use gearwear_physics::results::figures::{self, MainFigure};
 
 /// Figure to minimise, and limits of other figures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -38,30 +38,30 @@ pub struct FigureLimit {
 /// Faults of a goal.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GoalError {
-    #[error("unknown figure {name}; allowed: a column of sweep.csv such as pinion.peak_wear_um{}", meant.as_ref().map_or_else(String::new, |meant| format!("; did you mean {meant}?")))]
-    Unknown { name: String, meant: Option<&'static str> },
+    #[error("unknown figure {name}; allowed: a column of sweep.csv such as {allowed}{}", meant.as_ref().map_or_else(String::new, |meant| format!("; did you mean {meant}?")))]
+    Unknown { name: String, meant: Option<&'static str>, allowed: &'static str },
     #[error("found {given:?}; allowed: FIGURE<=VALUE or FIGURE>=VALUE, such as \"wheel.peak_wear_um<=8\"")]
     Form { given: String },
 }
 
-impl FromStr for FigureLimit {
-    type Err = GoalError;
-
-    fn from_str(given: &str) -> Result<Self, GoalError> {
+impl FigureLimit {
+    /// Reads a limit of a figure of a kind of scene.
+    ///
+    /// # Errors
+    /// Another form; a name that no column has.
+    pub fn parse(kind: SceneKind, given: &str) -> Result<Self, GoalError> {
         let split = ["<=", ">="].into_iter().find_map(|sign| Some((given.split_once(sign)?, sign)));
         let read = split.and_then(|((figure, value), sign)| {
             let value = value.trim().parse::<f64>().ok().filter(|value| value.is_finite())?;
             Some((figure.trim(), sign == "<=", value))
         });
         let (figure, at_most, value) = read.ok_or_else(|| GoalError::Form { given: given.to_owned() })?;
-        Ok(Self { figure: known(figure)?.name.clone(), at_most, value })
+        Ok(Self { figure: known(kind, figure)?.name.clone(), at_most, value })
     }
-}
 
-impl FigureLimit {
     /// Whether `row` has the figure and keeps to the limit.
-    fn is_kept_by(&self, row: &SweepRow) -> bool {
-        let value = column(&self.figure).and_then(|figure| row.figure(figure));
+    fn is_kept_by(&self, kind: SceneKind, row: &SweepRow) -> bool {
+        let value = column(kind, &self.figure).and_then(|figure| row.figure(figure));
         value.is_some_and(|value| if self.at_most { value <= self.value } else { value >= self.value })
     }
 }
@@ -73,13 +73,18 @@ impl fmt::Display for FigureLimit {
 }
 
 /// The column of this name, or of this name in the version before.
-fn column(name: &str) -> Option<&'static MainFigure> {
-    figures::find(name).filter(|figure| figures::in_sweeps().contains(figure))
+fn column(kind: SceneKind, name: &str) -> Option<&'static StudyFigure> {
+    figure::find(kind, name).filter(|figure| figure.column().is_some())
 }
 
-fn known(name: &str) -> Result<&'static MainFigure, GoalError> {
-    let names: Vec<&'static str> = figures::in_sweeps().iter().map(|figure| figure.name.as_str()).collect();
-    column(name).ok_or_else(|| GoalError::Unknown { name: name.to_owned(), meant: nearest(name, &names) })
+fn known(kind: SceneKind, name: &str) -> Result<&'static StudyFigure, GoalError> {
+    let names: Vec<&'static str> = figure::in_sweeps(kind).iter().map(|figure| figure.name.as_str()).collect();
+    let allowed = if kind.is_pair() { "pinion.peak_wear_um" } else { "sun.peak_wear_um" };
+    column(kind, name).ok_or_else(|| GoalError::Unknown {
+        name: name.to_owned(),
+        meant: nearest(name, &names),
+        allowed,
+    })
 }
 
 impl Goal {
@@ -87,20 +92,20 @@ impl Goal {
     ///
     /// # Errors
     /// A name that no column has.
-    pub fn new(name: &str, limits: Vec<FigureLimit>) -> Result<Self, GoalError> {
-        Ok(Self { figure: known(name)?.name.clone(), limits })
+    pub fn new(kind: SceneKind, name: &str, limits: Vec<FigureLimit>) -> Result<Self, GoalError> {
+        Ok(Self { figure: known(kind, name)?.name.clone(), limits })
     }
 
-    pub fn figure(&self) -> &'static MainFigure {
+    pub fn figure(&self, kind: SceneKind) -> &'static StudyFigure {
         // The journal of another version may name a figure that no longer exists.
-        column(&self.figure).unwrap_or_else(figures::peak_wear_of_either)
+        column(kind, &self.figure).unwrap_or_else(|| figure::peak_wear(kind))
     }
 
     /// Whether `row` has the figure and is within all limits.
-    pub fn allows(&self, row: &SweepRow) -> bool {
+    pub fn allows(&self, kind: SceneKind, row: &SweepRow) -> bool {
         row.error.is_none()
-            && row.figure(self.figure()).is_some()
-            && self.limits.iter().all(|limit| limit.is_kept_by(row))
+            && row.figure(self.figure(kind)).is_some()
+            && self.limits.iter().all(|limit| limit.is_kept_by(kind, row))
     }
 
     /// In words: "pinion.peak_wear_um, with wheel.peak_wear_um ≤ 8".
@@ -111,9 +116,12 @@ impl Goal {
 
     /// Optimum among `rows`; `None` where no row is within the limits.
     pub fn optimum(&self, identity: &SweepIdentity, rows: &[SweepRow]) -> Option<Optimum> {
-        let figure = self.figure();
-        let allowed: Vec<(&SweepRow, f64)> =
-            rows.iter().filter(|row| self.allows(row)).filter_map(|row| Some((row, row.figure(figure)?))).collect();
+        let figure = self.figure(identity.kind);
+        let allowed: Vec<(&SweepRow, f64)> = rows
+            .iter()
+            .filter(|row| self.allows(identity.kind, row))
+            .filter_map(|row| Some((row, row.figure(figure)?)))
+            .collect();
         let &(best, value) = allowed.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
         let claims = allowed.iter().filter_map(|(row, _)| figure.error(&row.verification.as_ref()?.total));
         let own = best.verification.as_ref().and_then(|of| figure.error(&of.total));
@@ -126,10 +134,10 @@ impl Goal {
         let why_no_error = match (error, &best.verification) {
             (Some(_), _) => None,
             (None, None) => Some("the best combination is not verified by finite elements".to_owned()),
-            (None, Some(of)) if figure.error_paths().next().is_none() => {
-                Some(format!("the verification states no error of {} ({})", self.figure, of.total.how))
+            (None, Some(of)) if !figure.has_errors() => {
+                Some(format!("the verification states no error of {} ({})", self.figure, of.how()))
             }
-            (None, Some(of)) => Some(of.total.how.clone()),
+            (None, Some(of)) => Some(of.how()),
         };
         Some(Optimum {
             goal: self.clone(),
@@ -187,6 +195,7 @@ pub struct Optimum {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::opened::EachMesh;
     use crate::sweep::record::{AxisSpacing, SweepAxis};
     use crate::sweep::verification::{Chosen, RowVerification};
     use gearwear_physics::results::error::TotalError;
@@ -202,7 +211,7 @@ mod tests {
         };
         let identity = SweepIdentity { axes: vec![axis], ..SweepIdentity::default() };
         let rows = wear.iter().enumerate().map(|(index, &wear)| {
-            let is_wear = figures::in_sweeps().iter().map(|figure| figure.name == "pinion.peak_wear_um");
+            let is_wear = figure::in_sweeps(SceneKind::Pair).iter().map(|figure| figure.name == "pinion.peak_wear_um");
             let figures = is_wear.map(|is_wear| Some(if is_wear { wear } else { index as f64 })).collect();
             SweepRow { index, values: identity.values(index), figures, ..SweepRow::default() }
         });
@@ -214,30 +223,44 @@ mod tests {
     #[test]
     fn ver_an_optimum_is_a_plateau_of_the_width_of_its_error() {
         let (identity, mut rows) = rows(&[10.0, 9.0, 8.9, 9.2, 12.0]);
-        let goal = Goal::new("pinion.peak_wear_um", Vec::new()).unwrap();
+        let goal = Goal::new(SceneKind::Pair, "pinion.peak_wear_um", Vec::new()).unwrap();
         let unknown = goal.optimum(&identity, &rows).unwrap();
         assert_eq!((unknown.index, unknown.value, unknown.error, unknown.plateau), (2, 8.9, None, None));
         assert!(unknown.why_no_error.unwrap().contains("not verified"));
         let mut total = TotalError::none("");
         total.peak_wear.pinion = Some(0.02);
-        rows[2].verification = Some(RowVerification { chosen: Chosen::default(), total, wall_s: 0.0 });
+        rows[2].verification =
+            Some(RowVerification { chosen: Chosen::default(), total: EachMesh::Pair(total), wall_s: 0.0 });
         let found = goal.optimum(&identity, &rows).unwrap();
         assert_eq!(found.plateau, Some(vec![1, 2, 3]));
         assert_eq!(found.plateau_keys.unwrap(), ["pair.pinion.tip_relief.amount_um from 1 to 3"]);
         // Every figure but this one is the number of the row.
-        let limited = Goal::new("pinion.peak_wear_um", vec!["wheel.peak_wear_um<=1".parse().unwrap()]).unwrap();
+        let limited = Goal::new(
+            SceneKind::Pair,
+            "pinion.peak_wear_um",
+            vec![FigureLimit::parse(SceneKind::Pair, "wheel.peak_wear_um<=1").unwrap()],
+        )
+        .unwrap();
         let found = limited.optimum(&identity, &rows).unwrap();
         assert_eq!((found.index, found.within_limits), (1, 2));
-        let never = Goal::new("pinion.peak_wear_um", vec!["wheel.peak_wear_um >= 9".parse().unwrap()]).unwrap();
+        let never = Goal::new(
+            SceneKind::Pair,
+            "pinion.peak_wear_um",
+            vec![FigureLimit::parse(SceneKind::Pair, "wheel.peak_wear_um >= 9").unwrap()],
+        )
+        .unwrap();
         assert_eq!(never.optimum(&identity, &rows), None);
     }
 
     #[test]
     fn what_is_wrong_with_a_goal_is_said() {
-        let unknown = Goal::new("pinion_peak_wear", Vec::new()).unwrap_err().to_string();
+        let unknown = Goal::new(SceneKind::Pair, "pinion_peak_wear", Vec::new()).unwrap_err().to_string();
         assert!(unknown.contains("did you mean pinion.peak_wear_um?"), "{unknown}");
         for given in ["wheel.peak_wear_um<8", "wheel.peak_wear_um<=", "wheel.peak_wear_um<=eight"] {
-            assert!(given.parse::<FigureLimit>().unwrap_err().to_string().contains("FIGURE<=VALUE"), "{given}");
+            assert!(
+                FigureLimit::parse(SceneKind::Pair, given).unwrap_err().to_string().contains("FIGURE<=VALUE"),
+                "{given}"
+            );
         }
     }
 }

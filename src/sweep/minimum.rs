@@ -4,8 +4,8 @@
 //! Neighbours differ by one step of one key. With the relative error e of the least value y one with z is as good where z (1 − e) ≤ y (1 + e).
 
 use super::record::{SweepAxis, SweepRecord, SweepRow};
+use crate::evaluate::figure::StudyFigure;
 use crate::scene::key::{NumberKey, linked_keys};
-use gearwear_physics::results::figures::MainFigure;
 
 /// Least value of a figure.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +22,7 @@ pub struct Minimum<'a> {
 
 impl SweepRecord {
     /// Least value of `figure`; `None` where no combination has it.
-    pub fn minimum(&self, figure: &MainFigure) -> Option<Minimum<'_>> {
+    pub fn minimum(&self, figure: &StudyFigure) -> Option<Minimum<'_>> {
         let (row, value) = self.least(figure)?;
         let identity = &self.identity;
         let digits = identity.digits(row.index);
@@ -76,10 +76,11 @@ impl Minimum<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evaluate::figure;
+    use crate::scene::opened::{EachMesh, SceneKind};
     use crate::sweep::record::{AxisSpacing, SweepIdentity};
     use crate::sweep::verification::{Chosen, RowVerification};
     use gearwear_physics::results::error::TotalError;
-    use gearwear_physics::results::figures;
 
     /// Two keys of three values; the wear of each combination.
     fn record(wear: [f64; 9], error: Option<f64>) -> SweepRecord {
@@ -99,8 +100,12 @@ mod tests {
             SweepRow {
                 index,
                 values: identity.values(index),
-                figures: vec![Some(wear); figures::in_sweeps().len()],
-                verification: error.map(|_| RowVerification { chosen: Chosen::default(), total, wall_s: 0.0 }),
+                figures: vec![Some(wear); figure::in_sweeps(SceneKind::Pair).len()],
+                verification: error.map(|_| RowVerification {
+                    chosen: Chosen::default(),
+                    total: EachMesh::Pair(total),
+                    wall_s: 0.0,
+                }),
                 ..SweepRow::default()
             }
         });
@@ -111,7 +116,7 @@ mod tests {
     /// A relief of nothing is no end that could be passed, a face width is.
     #[test]
     fn ver_ends_and_neighbours_of_a_minimum() {
-        let figure = figures::find("pinion.peak_wear_um").unwrap();
+        let figure = figure::find(SceneKind::Pair, "pinion.peak_wear_um").unwrap();
         let inside = record([9.0, 8.0, 9.0, 7.0, 5.0, 7.0, 9.0, 5.1, 9.0], Some(0.02));
         let found = inside.minimum(figure).unwrap();
         assert_eq!((found.row.index, found.neighbours, found.as_good), (4, 4, Some(1)));

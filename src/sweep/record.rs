@@ -5,10 +5,11 @@ use serde::{Deserialize, Serialize};
 use super::goal::{Goal, Optimum};
 use super::minimum::Minimum;
 use super::verification::{Chosen, RowVerification, SweepVerification};
+use crate::evaluate::figure::{self, StudyFigure};
 use crate::journal::Kept;
+use crate::scene::opened::{EachMesh, SceneKind};
 use crate::scene::problem::number;
 use gearwear_physics::results::error::TotalError;
-use gearwear_physics::results::figures::{self, MainFigure};
 
 /// Significant digits of a value between the ends of a range.
 const DIGITS: i32 = 12;
@@ -126,7 +127,7 @@ impl SweepAxis {
         let (name, unit) = ending.map_or((last.as_str(), None), |(name, unit)| (name, Some(unit)));
         let section = self.key.split('.').next().unwrap_or_default();
         parts.push(if SAY_NOTHING_ALONE.contains(&name) { format!("{section} {name}") } else { name.to_owned() });
-        if let Some(gears) = parts.iter().position(|part| ["pinion", "wheel", "{pinion,wheel}"].contains(&&**part)) {
+        if let Some(gears) = parts.iter().position(|part| are_gears(part)) {
             let gears = parts.remove(gears);
             parts.push(gears.trim_matches(['{', '}']).replace(',', " and "));
         }
@@ -138,6 +139,12 @@ impl SweepAxis {
         let (name, unit) = self.name_and_unit();
         format!("{name} = {value}{}", unit.map_or_else(String::new, |unit| format!(" {unit}")))
     }
+}
+
+/// Whether a part of a key names a gear, or several.
+fn are_gears(part: &str) -> bool {
+    let mut gears = part.trim_matches(['{', '}']).split(',').map(str::trim);
+    gears.all(|gear| ["pinion", "wheel", "sun", "planet", "ring"].contains(&gear))
 }
 
 /// Last parts of keys that are clear only with the name of their section.
@@ -211,6 +218,9 @@ impl Kept for SweepPart {
 /// Identity of a sweep: rows of sweeps with equal identities can be merged.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SweepIdentity {
+    /// Kind of the scene.
+    #[serde(default, skip_serializing_if = "SceneKind::is_pair")]
+    pub kind: SceneKind,
     pub title: String,
     pub program_version: String,
     /// First 16 hexadecimal digits of the SHA-256 of the scene as given, resolved.
@@ -309,13 +319,12 @@ pub struct SweepRow {
 }
 
 impl SweepRow {
-    pub fn figure(&self, figure: &MainFigure) -> Option<f64> {
-        let at = figures::in_sweeps().iter().position(|known| *known == figure)?;
-        self.figures.get(at).copied().flatten()
+    pub fn figure(&self, figure: &StudyFigure) -> Option<f64> {
+        self.figures.get(figure.column()?).copied().flatten()
     }
 
     /// Row with its verification by finite elements.
-    pub fn verified(self, chosen: Chosen, total: TotalError, wall_s: f64) -> Self {
+    pub fn verified(self, chosen: Chosen, total: EachMesh<TotalError>, wall_s: f64) -> Self {
         Self { verification: Some(RowVerification { chosen, total, wall_s }), ..self }
     }
 
@@ -381,7 +390,7 @@ pub struct BestCombination {
 
 impl SweepRecord {
     /// Row with the least value of `figure`, the first of equal ones.
-    pub fn least(&self, figure: &MainFigure) -> Option<(&SweepRow, f64)> {
+    pub fn least(&self, figure: &StudyFigure) -> Option<(&SweepRow, f64)> {
         let valued = self.rows.iter().filter_map(|row| Some((row, row.figure(figure)?)));
         valued.min_by(|a, b| a.1.total_cmp(&b.1))
     }
@@ -409,9 +418,9 @@ impl SweepRecord {
             combinations: self.identity.combinations(),
             ok: self.rows.len() - failed,
             failed,
-            best: figures::in_sweeps()
+            best: figure::in_sweeps(self.identity.kind)
                 .iter()
-                .filter(|figure| figure.family.less_is_better)
+                .filter(|figure| figure.less_is_better())
                 .filter_map(|figure| {
                     let Minimum { row, value, on_edge, as_good, .. } = self.minimum(figure)?;
                     Some(BestCombination {

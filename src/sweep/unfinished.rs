@@ -19,9 +19,7 @@ use crate::journal::{Journal, JournalError};
 use crate::report::columns::Table;
 use crate::report::writable;
 use crate::spread::SpreadOutcome;
-use crate::varied_scene::one_line;
 use gearwear_physics::observer::Observer;
-use gearwear_physics::results::error::TotalError;
 
 /// A sweep with the rows that are finished.
 #[derive(Debug)]
@@ -145,7 +143,7 @@ impl Sweep {
     pub fn lost(&self, task: &str, reason: &str) -> Result<String, SweepError> {
         Ok(text_of(&match self.read(task)? {
             SweepTask::Run(index) => self.failed(index, reason),
-            SweepTask::Verify { row, chosen } => row.verified(chosen, TotalError::none(&one_line(reason)), 0.0),
+            SweepTask::Verify { row, chosen } => row.verified(chosen, self.not_verified(reason), 0.0),
         })?)
     }
 

@@ -21,12 +21,14 @@ use serde::{Deserialize, Serialize};
 
 use super::goal::Goal;
 use super::record::{SweepIdentity, SweepRow};
+use crate::evaluate::figure::{self, StudyFigure};
+use crate::scene::opened::EachMesh;
 use gearwear_physics::results::error::TotalError;
-use gearwear_physics::results::figures::{self, MainFigure, STATED_ERRORS};
 
 /// Figure by which rows are ranked: that of the goal, else the wear.
-pub fn objective(identity: &SweepIdentity) -> &'static MainFigure {
-    identity.goal.as_ref().map_or_else(figures::peak_wear_of_either, Goal::figure)
+pub fn objective(identity: &SweepIdentity) -> &'static StudyFigure {
+    let kind = identity.kind;
+    identity.goal.as_ref().map_or_else(|| figure::peak_wear(kind), |goal| goal.figure(kind))
 }
 
 /// Number of best rows that are verified: the best, and two more to tell whether it is best by more than its error.
@@ -60,13 +62,18 @@ impl Chosen {
 pub struct RowVerification {
     pub chosen: Chosen,
     /// Errors against finite elements, or the reason why they are not known.
-    pub total: TotalError,
+    pub total: EachMesh<TotalError>,
     pub wall_s: f64,
 }
 
 impl RowVerification {
     pub fn has_answer(&self) -> bool {
-        STATED_ERRORS.iter().any(|claim| (claim.of)(&self.total).is_some())
+        figure::claims(self.total.kind()).iter().any(|claim| claim.of(&self.total).is_some())
+    }
+
+    /// Source of the errors, or the reasons why they are not known.
+    pub fn how(&self) -> String {
+        figure::how(&self.total)
     }
 }
 
@@ -98,7 +105,7 @@ pub fn intention(identity: &SweepIdentity) -> String {
     let best = MOST_BEST.min(identity.combinations());
     let corners = if taken < all { format!("{taken} of the {all} corners") } else { format!("the corners ({taken})") };
     let most = (best + taken).min(identity.combinations());
-    let by = identity.goal.as_ref().map_or_else(|| figures::PEAK_WEAR_OF_EITHER.to_owned(), Goal::in_words);
+    let by = identity.goal.as_ref().map_or_else(|| figure::peak_wear(identity.kind).name.clone(), Goal::in_words);
     format!("the best ({best}, by {by}) and {corners} of what is varied, at most {most} combinations")
 }
 
@@ -111,7 +118,7 @@ pub fn chosen<'a>(identity: &SweepIdentity, rows: impl Iterator<Item = &'a Sweep
         if corners.contains(&row.index) {
             chosen.entry(row.index).or_default().corner = true;
         }
-        if identity.goal.as_ref().is_none_or(|goal| goal.allows(row)) {
+        if identity.goal.as_ref().is_none_or(|goal| goal.allows(identity.kind, row)) {
             ranked.extend(row.figure(objective(identity)).map(|value| (value, row.index)));
         }
     }
@@ -146,7 +153,7 @@ pub struct SweepVerification<'a> {
 pub struct VerifiedRow<'a> {
     pub index: usize,
     pub values: &'a [f64],
-    /// The greatest wear of both gears.
+    /// The greatest wear of all flanks.
     pub peak_wear_um: Option<f64>,
     /// Value of the figure by which rows are ranked.
     pub objective: Option<f64>,
@@ -174,15 +181,15 @@ impl<'a> SweepVerification<'a> {
             .filter_map(|row| {
                 let verification = row.verification.as_ref()?;
                 let (peak_wear_um, objective) =
-                    (row.figure(figures::peak_wear_of_either()), row.figure(objective(identity)));
+                    (row.figure(figure::peak_wear(identity.kind)), row.figure(objective(identity)));
                 Some(VerifiedRow { index: row.index, values: &row.values, peak_wear_um, objective, verification })
             })
             .collect();
-        let worst = STATED_ERRORS.iter().filter_map(|claim| {
-            let stated = rows.iter().filter_map(|row| Some((row, (claim.of)(&row.verification.total)?)));
+        let worst = figure::claims(identity.kind).iter().filter_map(|claim| {
+            let stated = rows.iter().filter_map(|row| Some((row, claim.of(&row.verification.total)?)));
             let (row, value) = stated.reduce(|worst, other| if other.1 > worst.1 { other } else { worst })?;
             let (index, values) = (row.index, row.values.to_vec());
-            Some(WorstClaim { claim: claim.name, title: claim.title, value, index, values })
+            Some(WorstClaim { claim: &claim.name, title: &claim.title, value, index, values })
         });
         let verified = rows.iter().filter(|row| row.verification.has_answer()).count();
         Self {
@@ -199,20 +206,21 @@ impl<'a> SweepVerification<'a> {
 
     /// The worst claim about the greatest wear of a gear.
     pub fn worst_of_peak_wear(&self) -> Option<f64> {
-        let peaks = self.rows.iter().map(|row| row.verification.total.peak_wear);
-        peaks.flat_map(|peak| [peak.pinion, peak.wheel]).flatten().reduce(f64::max)
+        let totals = self.rows.iter().flat_map(|row| row.verification.total.all());
+        totals.flat_map(|total| [total.peak_wear.pinion, total.peak_wear.wheel]).flatten().reduce(f64::max)
     }
 
     /// Reason of the first row without a result.
-    pub fn first_reason(&self) -> Option<&'a str> {
+    pub fn first_reason(&self) -> Option<String> {
         let unanswered = self.rows.iter().find(|row| !row.verification.has_answer());
-        unanswered.map(|row| row.verification.total.how.as_str())
+        unanswered.map(|row| row.verification.how())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::opened::SceneKind;
     use crate::sweep::record::{AxisSpacing, SweepAxis};
 
     fn identity(counts: &[usize]) -> SweepIdentity {
@@ -232,7 +240,7 @@ mod tests {
         SweepRow {
             index,
             error: wear.is_none().then(|| "no".to_owned()),
-            figures: vec![wear; figures::in_sweeps().len()],
+            figures: vec![wear; figure::in_sweeps(SceneKind::Pair).len()],
             ..SweepRow::default()
         }
     }
@@ -289,13 +297,14 @@ mod tests {
         for (row, peak) in rows.iter_mut().zip([Some(0.01), Some(0.03), None]) {
             let mut total = TotalError::none("the contact is too narrow");
             total.peak_wear.wheel = peak;
-            row.verification = Some(RowVerification { chosen: Chosen::default(), total, wall_s: 1.0 });
+            row.verification =
+                Some(RowVerification { chosen: Chosen::default(), total: EachMesh::Pair(total), wall_s: 1.0 });
         }
         let found = SweepVerification::of(&identity, &rows);
         assert_eq!((found.chosen, found.verified, found.unanswered, found.open), (4, 2, 1, 1));
         let worst: Vec<(&str, f64, usize)> = found.worst.iter().map(|w| (w.claim, w.value, w.index)).collect();
         assert_eq!(worst, [("error.total.peak_wear.wheel", 0.03, 1)]);
-        assert_eq!(found.first_reason(), Some("not verified: the contact is too narrow"));
+        assert_eq!(found.first_reason().as_deref(), Some("not verified: the contact is too narrow"));
         assert_eq!((found.worst_of_peak_wear(), found.wall_s), (Some(0.03), 3.0));
     }
 }

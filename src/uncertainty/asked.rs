@@ -2,14 +2,16 @@
 
 use super::design::{self, CorrelationError, MOST_FACTORS, MOST_SAMPLES};
 use super::distribution::{self, UncertainError};
-use super::life::LimitError;
+use super::life::{DepthLimit, LimitError};
 use super::sampled_run::{SampledQuestion, UncertaintyStudyError};
 use super::usual;
+use crate::evaluate::figure;
 use crate::evaluate::output::{OutputError, SummaryOutput};
 use crate::journal::JournalError;
-use crate::scene::draft::Draft;
+use crate::scene::draft::{Draft, number_at};
 use crate::scene::key::linked_keys;
-use crate::scene::loaded::{LoadedScene, SceneError};
+use crate::scene::loaded::SceneError;
+use crate::scene::opened::OpenedScene;
 use crate::varied_scene::missing_phase;
 use gearwear_physics::results::figures;
 
@@ -87,10 +89,11 @@ impl UncertaintyError {
 
 impl SampledQuestion {
     /// Question `asked`, resolved for `scene`.
-    pub fn of(scene: &LoadedScene, asked: &UncertaintyQuestion) -> Result<Self, UncertaintyFault> {
-        let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
-        let resolved: toml::Table = scene.to_toml().parse().unwrap_or_default();
-        let own = |key: &str| number_at(&resolved, key);
+    pub fn of(scene: &OpenedScene, asked: &UncertaintyQuestion) -> Result<Self, UncertaintyFault> {
+        let kind = scene.kind();
+        let draft = Draft::parse(&scene.given().text).map_err(|problems| scene.refused(problems))?;
+        let values = OwnValues::of(scene, &draft);
+        let own = |key: &str| values.of_key(key);
         let given = asked.uncertain.iter().map(|given| usual::expanded(given, scene, own));
         let given: Vec<String> = given.collect::<Result<Vec<_>, _>>()?.concat();
         let uncertain = distribution::parse_all(given.iter().map(String::as_str), own)?;
@@ -106,13 +109,15 @@ impl SampledQuestion {
         }
         let keys: Vec<&str> = uncertain.iter().map(|one| one.key.as_str()).collect();
         let correlation = design::correlation(&keys, &asked.correlation)?;
-        let limits = asked.limits.iter().map(|text| text.parse()).collect::<Result<_, LimitError>>()?;
+        let limits =
+            asked.limits.iter().map(|text| DepthLimit::parse(kind, text)).collect::<Result<_, LimitError>>()?;
         let outputs: Vec<&str> = match asked.outputs.as_slice() {
-            [] => figures::default_outputs().iter().map(|figure| &*figure.name).collect(),
+            [] => figure::default_outputs(kind),
             given => given.iter().map(|path| path.trim()).collect(),
         };
-        let outputs = outputs.into_iter().map(SummaryOutput::find).collect::<Result<_, _>>()?;
+        let outputs = outputs.into_iter().map(|path| SummaryOutput::of_kind(kind, path)).collect::<Result<_, _>>()?;
         Ok(Self {
+            kind,
             uncertain,
             correlation,
             outputs,
@@ -124,13 +129,25 @@ impl SampledQuestion {
     }
 }
 
-/// The number at the path `key` of a table; items of lists are numbered from 1.
-fn number_at(table: &toml::Table, key: &str) -> Option<f64> {
-    let mut parts = key.split('.');
-    let first = table.get(parts.next()?)?;
-    let value = parts.try_fold(first, |value, part| match value.as_array() {
-        Some(list) => list.get(part.parse::<usize>().ok()?.checked_sub(1)?),
-        None => value.get(part),
-    })?;
-    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+/// The scene's own values of its keys: of a pair with all defaults, of a stage as its file gives them.
+enum OwnValues<'a> {
+    Pair(toml::Table),
+    Stage(&'a Draft, f64),
+}
+
+impl<'a> OwnValues<'a> {
+    fn of(scene: &OpenedScene, draft: &'a Draft) -> Self {
+        match scene {
+            OpenedScene::Pair(scene) => Self::Pair(scene.to_toml().parse().unwrap_or_default()),
+            OpenedScene::Planetary(stage) => Self::Stage(draft, stage.load_sharing_factor),
+        }
+    }
+
+    fn of_key(&self, key: &str) -> Option<f64> {
+        match self {
+            Self::Pair(resolved) => number_at(resolved, key),
+            Self::Stage(_, factor) if key == "planetary.load_sharing_factor" => Some(*factor),
+            Self::Stage(draft, _) => draft.number(key),
+        }
+    }
 }

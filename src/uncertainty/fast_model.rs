@@ -17,12 +17,12 @@ use serde::Serialize;
 use super::sampled_run::{SampledQuestion, UncertaintyStudyError, outputs_of, run_of};
 use crate::runs;
 use crate::scene::loaded::LoadedScene;
-use crate::varied_scene::{VariedScene, in_words, one_line};
+use crate::scene::opened::OpenedScene;
+use crate::varied_scene::{StudiedRun, VariedScene, in_words, one_line};
 use gearwear_physics::assessment::calibrate::{CalibrateError, CalibrationExtent};
 use gearwear_physics::assessment::guarded::guarded;
 use gearwear_physics::contact::settings::SurfaceKind;
 use gearwear_physics::observer::Observer;
-use gearwear_physics::results::worn_pair::WornPair;
 use gearwear_physics::stiffness::settings::StiffnessSettings;
 use gearwear_physics::wear::settings::WearOfPair;
 
@@ -59,14 +59,17 @@ pub(super) struct SampledScene {
 impl SampledScene {
     /// Scene on its own surface.
     pub(super) fn as_given(
-        scene: &LoadedScene,
+        scene: &OpenedScene,
         question: &SampledQuestion,
         because: String,
     ) -> Result<Self, UncertaintyStudyError> {
         let varied = VariedScene::new(scene, false);
         let varied = varied.map_err(|problems| UncertaintyStudyError::Run(in_words(&problems)))?;
         let varied = varied.with_torque_curve(question.reads_torque_curve());
-        let surface = scene.scene().contact.surface.name().to_owned();
+        let scenes = scene.each();
+        let mut surfaces: Vec<&str> = scenes.all().iter().map(|pair| pair.scene().contact.surface.name()).collect();
+        surfaces.dedup();
+        let surface = surfaces.join(" and ");
         Ok(Self {
             varied,
             surface: SampledSurface { surface, because },
@@ -77,10 +80,10 @@ impl SampledScene {
 
     /// Scene of the samples of `question`: `given`, or the fast one. `nominal` is the run of the scene as given, and the number of runs of the samples.
     pub(super) fn choose(
-        scene: &LoadedScene,
+        scene: &OpenedScene,
         given: Self,
         question: &SampledQuestion,
-        nominal: (&WornPair, usize),
+        nominal: (&StudiedRun, usize),
         observer: &dyn Observer,
     ) -> Result<Self, UncertaintyStudyError> {
         Ok(match Self::on_foundation(scene, &given.varied, question, nominal, observer)? {
@@ -91,13 +94,16 @@ impl SampledScene {
 
     /// Scene on a calibrated foundation, or why it is not taken.
     fn on_foundation(
-        scene: &LoadedScene,
+        scene: &OpenedScene,
         given: &VariedScene,
         question: &SampledQuestion,
-        (nominal_run, runs): (&WornPair, usize),
+        (nominal_run, runs): (&StudiedRun, usize),
         observer: &dyn Observer,
     ) -> Result<Result<Self, String>, UncertaintyStudyError> {
-        if let Some(because) = needs_own_surface(scene, question, runs) {
+        if question.on_own_surface {
+            return Ok(Err("the study asks for the surface of the scene".to_owned()));
+        }
+        if let Some(because) = scene.each().all().into_iter().find_map(|pair| needs_own_surface(pair, runs)) {
             return Ok(Err(because));
         }
         if !keeps_the_teeth(given, question) {
@@ -105,23 +111,16 @@ impl SampledScene {
                 "the uncertain keys change the teeth, and with them the calibration of a fast model".to_owned()
             ));
         }
-        observer.stage("calibration of the fast model");
-        let calibrated = guarded(|| runs::calibrate(scene, CalibrationExtent::FastModel, observer));
-        let calibration = match calibrated {
-            Ok(Ok(calibrated)) => calibrated.calibration,
-            Ok(Err(CalibrateError::Interrupted)) => return Err(UncertaintyStudyError::Interrupted),
-            Ok(Err(error)) => {
-                return Ok(Err(format!("the pair cannot be calibrated: {}", one_line(&error.to_string()))));
+        let mut foundations = Vec::new();
+        for pair in scene.each().all() {
+            match on_calibrated_foundation(pair, observer)? {
+                Ok(pair) => foundations.push(pair),
+                Err(because) => return Ok(Err(because)),
             }
-            Err(error) => return Ok(Err(format!("the pair cannot be calibrated: {}", one_line(&error.to_string())))),
-        };
-        let positions = scene.scene().numerics.positions.min(POSITIONS) as i64;
-        let on_foundation = scene.on_calibrated_foundation(calibration);
-        let on_foundation = on_foundation.and_then(|scene| scene.with("numerics.positions", positions));
-        let on_foundation = match on_foundation {
-            Ok(on_foundation) => on_foundation,
-            Err(error) => return Ok(Err(one_line(&error.to_string()))),
-        };
+        }
+        let mut on_foundation = scene.clone();
+        let mut foundations = foundations.into_iter();
+        on_foundation.change_each(|pair| foundations.by_ref().take(1).for_each(|calibrated| *pair = calibrated));
         let mut fast = Self::as_given(&on_foundation, question, String::new())?;
         fast.varied = fast.varied.with_other_modifications();
         observer.stage("the scene as given, on the fast model");
@@ -160,6 +159,27 @@ impl SampledScene {
     }
 }
 
+/// A pair on a foundation that finite elements of it calibrate, or why it is not taken.
+fn on_calibrated_foundation(
+    scene: &LoadedScene,
+    observer: &dyn Observer,
+) -> Result<Result<LoadedScene, String>, UncertaintyStudyError> {
+    observer.stage("calibration of the fast model");
+    let calibrated = guarded(|| runs::calibrate(scene, CalibrationExtent::FastModel, observer));
+    let because = match calibrated {
+        Ok(Ok(calibrated)) => {
+            let positions = scene.scene().numerics.positions.min(POSITIONS) as i64;
+            let on_foundation = scene.on_calibrated_foundation(calibrated.calibration);
+            let on_foundation = on_foundation.and_then(|scene| scene.with("numerics.positions", positions));
+            return Ok(on_foundation.map_err(|error| one_line(&error.to_string())));
+        }
+        Ok(Err(CalibrateError::Interrupted)) => return Err(UncertaintyStudyError::Interrupted),
+        Ok(Err(error)) => error.to_string(),
+        Err(error) => error.to_string(),
+    };
+    Ok(Err(format!("the pair cannot be calibrated: {}", one_line(&because))))
+}
+
 /// Shares of the distributions of `keys` keys where surfaces are compared: all low, all high, and high where a bit of the key's number is set, so that
 /// every two keys are once apart.
 fn corners(keys: usize) -> Vec<Vec<f64>> {
@@ -181,7 +201,7 @@ fn at_values(
     question: &SampledQuestion,
     values: Vec<(&str, toml::Value)>,
     observer: &dyn Observer,
-) -> Result<Result<WornPair, String>, UncertaintyStudyError> {
+) -> Result<Result<StudiedRun, String>, UncertaintyStudyError> {
     match run_of(varied, values, question, false, observer) {
         Err(UncertaintyStudyError::Run(reason)) => Ok(Err(reason)),
         found => found.map(Ok),
@@ -195,7 +215,7 @@ fn names(question: &SampledQuestion) -> impl Iterator<Item = &str> {
 }
 
 /// Figures of `given` over those of `found`, or which are too far apart.
-fn corrections(question: &SampledQuestion, given: &WornPair, found: &WornPair) -> Result<Vec<f64>, String> {
+fn corrections(question: &SampledQuestion, given: &StudiedRun, found: &StudiedRun) -> Result<Vec<f64>, String> {
     let values = figures_of(question, given)?.into_iter().zip(figures_of(question, found)?);
     let of_each = names(question).zip(values).map(|(name, (given, found))| {
         if given.is_finite() != found.is_finite() || (given == 0.0) != (found == 0.0) {
@@ -211,8 +231,8 @@ fn corrections(question: &SampledQuestion, given: &WornPair, found: &WornPair) -
 /// Relative differences of the figures of `found`, corrected, from those of `given`, or which is too great.
 fn differences(
     question: &SampledQuestion,
-    given: &WornPair,
-    found: &WornPair,
+    given: &StudiedRun,
+    found: &StudiedRun,
     corrections: &[f64],
 ) -> Result<Vec<f64>, String> {
     let values = figures_of(question, given)?.into_iter().zip(figures_of(question, found)?);
@@ -241,18 +261,15 @@ fn within(name: &str, difference: f64, greatest: f64, differs: &str) -> Result<(
 }
 
 /// Values of the outputs and of the depths of the limits.
-fn figures_of(question: &SampledQuestion, of: &WornPair) -> Result<Vec<f64>, String> {
+fn figures_of(question: &SampledQuestion, of: &StudiedRun) -> Result<Vec<f64>, String> {
     let outputs = outputs_of(question, of)?.into_iter().map(|output| output.times(1.0).0);
-    let depths = question.limits.iter().map(|limit| limit.depth(&of.history));
+    let depths = question.limits.iter().map(|limit| limit.depth(of));
     Ok(outputs.chain(depths).collect())
 }
 
 /// Why the samples are run on the scene's own surface, where that is known without a calibration.
-fn needs_own_surface(scene: &LoadedScene, question: &SampledQuestion, runs: usize) -> Option<String> {
+fn needs_own_surface(scene: &LoadedScene, runs: usize) -> Option<String> {
     let of = scene.scene();
-    if question.on_own_surface {
-        return Some("the study asks for the surface of the scene".to_owned());
-    }
     if !matches!(of.contact.surface, SurfaceKind::HalfSpace | SurfaceKind::Fem) {
         return Some(format!("{} is a fast surface itself", of.contact.surface.name()));
     }

@@ -6,7 +6,8 @@ use super::life::Growth;
 use super::sampled_run::SampledQuestion;
 use crate::journal::Kept;
 use crate::scene::draft::Draft;
-use crate::scene::loaded::{LoadedScene, SceneError};
+use crate::scene::loaded::SceneError;
+use crate::scene::opened::{EachMesh, OpenedScene};
 use gearwear_bodies::gear::PerGear;
 
 /// A study as far as its runs depend on it. The number of samples is no part of it: more samples go on with the same sequence.
@@ -29,7 +30,7 @@ pub struct SampledStudy {
     /// Contact surface of the samples.
     pub surface: String,
     /// Places of each flank where the wear of samples A and B is kept.
-    pub places: PerGear<usize>,
+    pub places: EachMesh<PerGear<usize>>,
 }
 
 impl SampledStudy {
@@ -46,7 +47,10 @@ impl SampledStudy {
             ("the resolved scene", self.scene_hash.clone()),
             ("files that the scene names", self.inputs_hash.clone()),
             ("contact surface of the samples", self.surface.clone()),
-            ("places of the flanks", format!("{} and {}", self.places.pinion, self.places.wheel)),
+            ("places of the flanks", {
+                let places = self.places.all().into_iter().map(|of| format!("{} and {}", of.pinion, of.wheel));
+                places.collect::<Vec<_>>().join(" and ")
+            }),
         ]
     }
 
@@ -60,18 +64,18 @@ impl SampledStudy {
     /// # Errors
     /// A scene whose text cannot be read again.
     pub fn of(
-        scene: &LoadedScene,
+        scene: &OpenedScene,
         question: &SampledQuestion,
         surface: &str,
-        places: PerGear<usize>,
+        places: EachMesh<PerGear<usize>>,
     ) -> Result<Self, SceneError> {
         let correlation = question.correlation.as_ref();
-        let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
+        let draft = Draft::parse(&scene.given().text).map_err(|problems| scene.refused(problems))?;
         Ok(Self {
             program_version: env!("CARGO_PKG_VERSION").to_owned(),
             given_hash: draft.hash(),
-            scene_hash: scene.resolved.scene_hash(),
-            inputs_hash: scene.files.hash(),
+            scene_hash: scene.scene_hash(),
+            inputs_hash: scene.inputs_hash(),
             uncertain: question.uncertain.iter().map(|one| format!("{}={}", one.key, one.given)).collect(),
             correlation: correlation.map_or_else(Vec::new, |correlation| {
                 correlation.matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
@@ -96,7 +100,7 @@ impl Kept for SampledStudy {
 
     fn refuses(&self, row: &KeptRun) -> Option<String> {
         let Ok(ran) = &row.ran else { return None };
-        let of_flanks = ran.wear_um.as_ref().map(|wear| wear.as_ref().map(Vec::len));
+        let of_flanks = ran.wear_um.as_ref().map(|wear| wear.as_ref().map(|of| of.as_ref().map(Vec::len)));
         let has_wear = row.number % self.runs_of_a_point() < 2;
         let fits = ran.outputs.len() == self.outputs.len()
             && ran.growths.len() == self.limits.len()
@@ -127,7 +131,7 @@ pub struct Ran {
     pub outputs: Vec<ReadOutput>,
     pub growths: Vec<Growth>,
     /// Wear at the places of the bands, for samples A and B only.
-    pub wear_um: Option<PerGear<Vec<f32>>>,
+    pub wear_um: Option<EachMesh<PerGear<Vec<f32>>>>,
 }
 
 /// Output of a run: its value, or the time that a life is known to exceed; neither where the run has none.

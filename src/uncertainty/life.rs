@@ -3,21 +3,17 @@
 //! Between the moments of the history the depth is taken to grow evenly, from 0 at the beginning. A run that does not come to the limit
 //! says only that its life is longer than its duration: it is censored.
 
-use std::str::FromStr;
-
 use serde::Serialize;
 
+use crate::evaluate::figure::{self, StudyFigure};
 use crate::scene::nearest::nearest;
-use gearwear_physics::results::figures::{self, MainFigure};
-use gearwear_physics::results::run::HistoryRow;
+use crate::scene::opened::SceneKind;
+use crate::varied_scene::StudiedRun;
 
-/// Main figures that are depths of a history.
-fn depths() -> impl Iterator<Item = &'static MainFigure> {
-    figures::all().iter().filter(|figure| figure.depth_of_history().is_some())
-}
-
-fn names() -> Vec<&'static str> {
-    depths().map(|figure| figure.name.as_str()).collect()
+/// Names of the main figures of a kind of scene that are depths of a history.
+fn names(kind: SceneKind) -> Vec<&'static str> {
+    let depths = figure::all(kind).iter().filter(|figure| figure.has_history());
+    depths.map(|figure| figure.name.as_str()).collect()
 }
 
 /// A depth that ends the life.
@@ -25,44 +21,44 @@ fn names() -> Vec<&'static str> {
 pub struct DepthLimit {
     pub output: &'static str,
     pub depth_um: f64,
+    #[serde(skip)]
+    figure: &'static StudyFigure,
 }
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LimitError {
-    #[error("found {given:?}; allowed: FIGURE=VALUE with a value above 0, such as pinion.peak_wear_um=10")]
-    Form { given: String },
-    #[error("unknown figure {name}; allowed: {}{}", names().join(", "), meant.map_or_else(String::new, |meant| format!("; did you mean {meant}?")))]
-    Unknown { name: String, meant: Option<&'static str> },
+    #[error("found {given:?}; allowed: FIGURE=VALUE with a value above 0, such as {}=10", names(*kind)[0])]
+    Form { given: String, kind: SceneKind },
+    #[error("unknown figure {name}; allowed: {}{}", names(*kind).join(", "), nearest(name, &names(*kind)).map_or_else(String::new, |meant| format!("; did you mean {meant}?")))]
+    Unknown { name: String, kind: SceneKind },
 }
 
-impl FromStr for DepthLimit {
-    type Err = LimitError;
-
-    fn from_str(given: &str) -> Result<Self, LimitError> {
-        let parts = given.split_once('=').and_then(|(name, value)| {
-            Some((name.trim(), value.trim().parse().ok().filter(|depth: &f64| depth.is_finite() && *depth > 0.0)?))
-        });
-        let (name, depth_um) = parts.ok_or_else(|| LimitError::Form { given: given.to_owned() })?;
-        let figure = figures::find(name).filter(|figure| figure.depth_of_history().is_some());
-        let figure =
-            figure.ok_or_else(|| LimitError::Unknown { name: name.to_owned(), meant: nearest(name, &names()) })?;
-        Ok(Self { output: &figure.name, depth_um })
-    }
-}
-
-/// Time, in hours where the scene has a speed and else in revolutions of the pinion, and depth at each moment.
+/// Time, in hours where the scene has a speed and else in revolutions that the scene counts in, and depth at each moment.
 pub type Growth = Vec<(f64, f64)>;
 
 impl DepthLimit {
-    /// Growth of the depth over the history.
-    pub fn growth(&self, history: &[HistoryRow]) -> Growth {
-        let Some(of) = figures::find(self.output).and_then(MainFigure::depth_of_history) else { return Growth::new() };
-        history.iter().map(|row| (row.hours.unwrap_or(row.revolutions), of(row))).collect()
+    /// Reads a limit of a figure of a kind of scene.
+    ///
+    /// # Errors
+    /// Another form; a figure that no history has.
+    pub fn parse(kind: SceneKind, given: &str) -> Result<Self, LimitError> {
+        let parts = given.split_once('=').and_then(|(name, value)| {
+            Some((name.trim(), value.trim().parse().ok().filter(|depth: &f64| depth.is_finite() && *depth > 0.0)?))
+        });
+        let (name, depth_um) = parts.ok_or_else(|| LimitError::Form { given: given.to_owned(), kind })?;
+        let figure = figure::find(kind, name).filter(|figure| figure.has_history());
+        let figure = figure.ok_or_else(|| LimitError::Unknown { name: name.to_owned(), kind })?;
+        Ok(Self { output: &figure.name, depth_um, figure })
+    }
+
+    /// Growth of the depth over the history of a run.
+    pub fn growth(&self, run: &StudiedRun) -> Growth {
+        self.figure.growth(run)
     }
 
     /// Depth at the end of the history, µm; no number where there is none.
-    pub fn depth(&self, history: &[HistoryRow]) -> f64 {
-        self.growth(history).last().map_or(f64::NAN, |(_, depth_um)| *depth_um)
+    pub fn depth(&self, run: &StudiedRun) -> f64 {
+        self.growth(run).last().map_or(f64::NAN, |(_, depth_um)| *depth_um)
     }
 
     /// Life: when `times` times the depth reaches the limit; infinite where it does not, with the time up to which that is known.
@@ -88,7 +84,7 @@ mod tests {
     /// Wear that grows evenly, 2 µm an hour.
     #[test]
     fn ver_life_of_linear_wear() {
-        let limit: DepthLimit = "pinion.peak_wear_um = 5".parse().unwrap();
+        let limit = DepthLimit::parse(SceneKind::Pair, "pinion.peak_wear_um = 5").unwrap();
         let growth = vec![(1.0, 2.0), (2.0, 4.0), (3.0, 6.0)];
         assert_eq!(limit.life(&growth, 1.0), (2.5, 2.5));
         assert_eq!(limit.life(&growth, 5.0), (0.5, 0.5));
@@ -98,10 +94,10 @@ mod tests {
     #[test]
     fn depths_of_the_history_are_called_as_in_the_summary() {
         for name in ["wheel.below_sap_wear_um", "pinion.root_wear_um", "pinion_root_wear_um"] {
-            let limit: DepthLimit = format!("{name}=1").parse().unwrap();
+            let limit = DepthLimit::parse(SceneKind::Pair, &format!("{name}=1")).unwrap();
             assert_eq!(limit.output, name.replace("pinion_", "pinion."));
         }
-        assert!("wheel.root_wear_um=1".parse::<DepthLimit>().is_err(), "no history has it");
+        assert!(DepthLimit::parse(SceneKind::Pair, "wheel.root_wear_um=1").is_err(), "no history has it");
     }
 
     #[test]
@@ -111,7 +107,7 @@ mod tests {
             ("pinion.peak_wear_um=-1", "above 0"),
             ("pinion.peek_wear_um=1", "did you mean pinion.peak_wear_um?"),
         ] {
-            assert!(given.parse::<DepthLimit>().unwrap_err().to_string().contains(part), "{given}");
+            assert!(DepthLimit::parse(SceneKind::Pair, given).unwrap_err().to_string().contains(part), "{given}");
         }
     }
 }

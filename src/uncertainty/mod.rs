@@ -14,11 +14,13 @@
 //! | `shared_runs` | samples that share a run |
 //! | [`kept`] | finished runs, kept in a journal |
 //! | [`study`] | runs them on all threads |
+//! | `bands` | quantiles of the wear over the flanks |
 //! | [`life`] | when wear comes to a limit |
 //!
 //! Quantiles and Sobol indices of any values are in [`gearwear_bodies::reference`].
 
 pub mod asked;
+mod bands;
 pub mod design;
 pub mod distribution;
 pub mod fast_model;

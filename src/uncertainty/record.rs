@@ -1,18 +1,18 @@
 //! Record of a study of uncertainty: `uncertainty.json`, and the source of the other files.
 
-use serde::Serialize;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::distribution::Uncertain;
 use super::fast_model::SampledSurface;
 use super::life::DepthLimit;
-use gearwear_bodies::gear::PerGear;
+use gearwear_bodies::gear::Gear;
 use gearwear_bodies::reference::sobol_indices::Index;
 
 /// Name of the factor for the error of the fast model.
 pub const MODEL_ERROR: &str = "error of the fast model";
 
 /// A finished study, or one that was interrupted, of the points that were finished.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct UncertaintyRecord {
     pub title: String,
     pub program_version: String,
@@ -38,7 +38,7 @@ pub struct UncertaintyRecord {
     pub model_error_how: String,
     pub outputs: Vec<OutputRecord>,
     /// Wear over the active flanks.
-    pub bands: PerGear<Band>,
+    pub bands: Bands,
     pub threads: usize,
     pub wall_s: f64,
     /// Contact surface of the samples.
@@ -62,7 +62,7 @@ impl UncertaintyRecord {
 }
 
 /// A figure of the runs.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct OutputRecord {
     /// Path in `summary.json`, or of the depth that ends the life.
     pub output: String,
@@ -94,7 +94,7 @@ pub struct OutputRecord {
 }
 
 /// Null where a quantile lies among lives that are longer than their duration, or there are no values.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Quantiles {
     pub p05: Option<f64>,
     pub p25: Option<f64>,
@@ -110,7 +110,7 @@ impl Quantiles {
 }
 
 /// Sensitivity of a figure to a factor.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct FactorIndices {
     /// The key, or [`MODEL_ERROR`].
     pub factor: String,
@@ -120,8 +120,32 @@ pub struct FactorIndices {
     pub total: Index,
 }
 
+/// Wear over each flank of the scene, as a table by the flanks' paths in `summary.json`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bands(pub Vec<FlankBand>);
+
+/// Wear over a flank.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlankBand {
+    /// Path of the flank in `summary.json`.
+    pub flank: &'static str,
+    /// The same in words.
+    pub in_words: &'static str,
+    /// Gear of its pair.
+    pub gear: Gear,
+    pub band: Band,
+}
+
+impl Serialize for Bands {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        self.0.iter().try_for_each(|one| map.serialize_entry(one.flank, &one.band))?;
+        map.end()
+    }
+}
+
 /// Quantiles of wear, place by place; empty where nothing was worn.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize)]
 pub struct Band {
     /// Places on the flank of the scene as given.
     pub radius_mm: Vec<f64>,

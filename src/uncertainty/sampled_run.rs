@@ -8,13 +8,12 @@ use super::kept::ReadOutput;
 use super::life::DepthLimit;
 use crate::evaluate::output::SummaryOutput;
 use crate::journal::JournalError;
-use crate::runs;
-use crate::scene::Resolved;
-use crate::varied_scene::{VariedScene, in_words, one_line};
+use crate::scene::loaded::LoadedScene;
+use crate::scene::opened::SceneKind;
+use crate::varied_scene::{StudiedRun, VariedScene, in_words, one_line};
 use gearwear_physics::assessment::guarded::guarded;
 use gearwear_physics::observer::Observer;
 use gearwear_physics::results::run::StopReason;
-use gearwear_physics::results::worn_pair::WornPair;
 
 /// Number of moments of a history, evenly over the duration.
 const MOMENTS: usize = 20;
@@ -24,6 +23,8 @@ pub const FEWEST_SAMPLES: usize = 8;
 /// Question, resolved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SampledQuestion {
+    /// Kind of the scene.
+    pub kind: SceneKind,
     pub uncertain: Vec<Uncertain>,
     /// How the keys are correlated, if they are.
     pub correlation: Option<ScoreCorrelation>,
@@ -57,15 +58,15 @@ pub enum UncertaintyStudyError {
 }
 
 /// Sets [`MOMENTS`] moments of the history, evenly over the duration.
-fn take_moments(resolved: &mut Resolved) {
-    let operation = &mut resolved.scene.operation;
+fn take_moments(pair: &mut LoadedScene) {
+    let operation = &mut pair.resolved.scene.operation;
     let moments = (1..=MOMENTS).map(|number| operation.pinion_revolutions * number as f64 / MOMENTS as f64);
     operation.snapshots_revolutions = moments.collect();
 }
 
 /// Outputs of a run.
-pub(super) fn outputs_of(question: &SampledQuestion, found: &WornPair) -> Result<Vec<ReadOutput>, String> {
-    let summary = serde_json::to_value(&found.summary).map_err(|error| error.to_string())?;
+pub(super) fn outputs_of(question: &SampledQuestion, found: &StudiedRun) -> Result<Vec<ReadOutput>, String> {
+    let summary = serde_json::to_value(found.summary()).map_err(|error| error.to_string())?;
     let outputs = question.outputs.iter().map(|output| ReadOutput {
         value: output.of(&summary).filter(|value| value.is_finite()),
         at_least: output.at_least(&summary),
@@ -83,18 +84,20 @@ pub(super) fn run_of<'a>(
     question: &SampledQuestion,
     verify: bool,
     observer: &dyn Observer,
-) -> Result<WornPair, UncertaintyStudyError> {
-    let run = guarded(|| -> Result<WornPair, String> {
-        let mut resolved = varied.resolved(values).map_err(|problems| in_words(&problems))?;
-        varied.inputs_belong_to(&resolved)?;
-        resolved.scene.verify = verify;
-        if !question.limits.is_empty() {
-            take_moments(&mut resolved);
+) -> Result<StudiedRun, UncertaintyStudyError> {
+    let run = guarded(|| -> Result<StudiedRun, String> {
+        let mut scene = varied.resolved(values).map_err(|problems| in_words(&problems))?;
+        varied.inputs_belong_to(&scene)?;
+        if verify {
+            varied.verify_as_given(&mut scene);
         }
-        varied.carry_out(resolved, observer, runs::worn_pair)
+        if !question.limits.is_empty() {
+            scene.change_each(take_moments);
+        }
+        varied.run(&scene, observer)
     });
     match run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}"))) {
-        Ok(found) if found.summary.stopped == StopReason::Interrupted => Err(UncertaintyStudyError::Interrupted),
+        Ok(found) if found.summary().stopped() == StopReason::Interrupted => Err(UncertaintyStudyError::Interrupted),
         Ok(found) => Ok(found),
         Err(_) if observer.interrupted() => Err(UncertaintyStudyError::Interrupted),
         Err(error) => Err(UncertaintyStudyError::Run(one_line(&error))),

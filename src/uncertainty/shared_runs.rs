@@ -10,11 +10,13 @@
 use std::collections::BTreeMap;
 
 use super::sampled_run::SampledQuestion;
-use crate::scene::Resolved;
+use crate::evaluate::figure;
+use crate::evaluate::output::SummaryOutput;
+use crate::scene::loaded::LoadedScene;
+use crate::scene::opened::{EachMesh, OpenedScene};
 use crate::varied_scene::VariedScene;
 use gearwear_bodies::gear::{Gear, PerGear};
 use gearwear_physics::operation::Scene;
-use gearwear_physics::results::figures;
 use gearwear_physics::simulation::settings::Stepping;
 
 /// Points whose samples share runs where the coefficient is the only uncertain key.
@@ -25,8 +27,8 @@ const ROUNDING: f64 = 1e-12;
 /// The uncertain key on which only the wear coefficients depend, by its index; `None` where samples share no runs.
 pub(super) fn coefficient_key(varied: &VariedScene, question: &SampledQuestion) -> Option<usize> {
     // Lives and times follow from the coefficient too; a history has moments of its own.
-    let shares = |path: &str| figures::find(path).is_some() && !path.starts_with("life.");
-    let all_share = question.outputs.iter().all(|output| shares(&output.path)) && question.limits.is_empty();
+    let shares = |output: &SummaryOutput| figure::find(question.kind, &output.path).is_some() && !output.is_life();
+    let all_share = question.outputs.iter().all(shares) && question.limits.is_empty();
     let keys = 0..question.uncertain.len();
     keys.into_iter().filter(|_| all_share).find(|&key| {
         let of_share = |share: f64| {
@@ -37,7 +39,11 @@ pub(super) fn coefficient_key(varied: &VariedScene, question: &SampledQuestion) 
             varied.resolved(values)
         };
         let (low, high) = (of_share(0.25), of_share(0.75));
-        low.ok().zip(high.ok()).is_some_and(|(low, high)| coefficient_ratio(&low.scene, &high.scene).is_some())
+        low.ok().zip(high.ok()).is_some_and(|(low, high)| {
+            let (low, high) = (low.each(), high.each());
+            let mut both = low.all().into_iter().zip(high.all());
+            both.all(|(low, high)| coefficient_ratio(low.scene(), high.scene()).is_some())
+        })
     })
 }
 
@@ -105,16 +111,28 @@ pub(super) fn groups(
     groups
 }
 
-/// The scene with the greatest coefficient of `scenes`, with a snapshot for each of them, and the revolutions of these; `None` where they do not
-/// differ in their coefficients alone.
-pub(super) fn shared(scenes: &[Resolved]) -> Option<(Resolved, Vec<f64>)> {
-    let coefficient = |resolved: &Resolved| coefficients(&resolved.scene).map_or(0.0, |of| of.pinion.max(of.wheel));
-    let greatest = scenes.iter().max_by(|a, b| coefficient(a).total_cmp(&coefficient(b)))?;
-    let ratios = scenes.iter().map(|resolved| coefficient_ratio(&resolved.scene, &greatest.scene));
-    let duration = greatest.scene.operation.pinion_revolutions;
+/// The scene with the greatest coefficients of `scenes`, with a snapshot for each of them, and the revolutions of these, of each pair; `None` where they do
+/// not differ in their coefficients alone.
+pub(super) fn shared(scenes: &[OpenedScene]) -> Option<(OpenedScene, EachMesh<Vec<f64>>)> {
+    let mut run = scenes.first()?.clone();
+    let shared = EachMesh::for_each(run.kind(), |mesh| {
+        let pairs = scenes.iter().map(|scene| scene.each().of(mesh).copied()).collect::<Option<Vec<_>>>()?;
+        shared_by_pair(&pairs)
+    })?;
+    let mut pairs = shared.all().into_iter().map(|(pair, _)| pair.clone());
+    run.change_each(|pair| pairs.by_ref().take(1).for_each(|shared| *pair = shared));
+    Some((run, shared.map(|(_, revolutions)| revolutions)))
+}
+
+/// The same of one pair.
+fn shared_by_pair(pairs: &[&LoadedScene]) -> Option<(LoadedScene, Vec<f64>)> {
+    let coefficient = |pair: &LoadedScene| coefficients(pair.scene()).map_or(0.0, |of| of.pinion.max(of.wheel));
+    let greatest = pairs.iter().max_by(|a, b| coefficient(a).total_cmp(&coefficient(b)))?;
+    let ratios = pairs.iter().map(|pair| coefficient_ratio(pair.scene(), greatest.scene()));
+    let duration = greatest.scene().operation.pinion_revolutions;
     let revolutions: Vec<f64> = ratios.map(|ratio| Some(duration * ratio?.min(1.0))).collect::<Option<_>>()?;
-    let mut run = greatest.clone();
-    let snapshots = &mut run.scene.operation.snapshots_revolutions;
+    let mut run = (*greatest).clone();
+    let snapshots = &mut run.resolved.scene.operation.snapshots_revolutions;
     snapshots.extend(&revolutions);
     snapshots.sort_by(f64::total_cmp);
     snapshots.dedup();

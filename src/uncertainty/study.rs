@@ -14,26 +14,25 @@
 use std::collections::BTreeSet;
 use std::time::Instant;
 
+use super::bands::{Places, bands, places_of, wear_at};
 use super::design::{Design, Matrix};
 use super::fast_model::{SampledScene, SampledSurface};
 use super::kept::{KeptRun, Ran, SampledStudy};
-use super::record::{Band, FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, SampleRow, UncertaintyRecord};
+use super::record::{FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, SampleRow, UncertaintyRecord};
 use super::sampled_run::{FEWEST_SAMPLES, SampledQuestion, UncertaintyStudyError, outputs_of, run_of};
 use super::shared_runs;
+use crate::evaluate::figure;
 use crate::journal::{Journal, RowKeeper};
 use crate::report::html::reading::capitalised;
-use crate::report::unit;
 use crate::runs;
-use crate::scene::loaded::{LoadedScene, SceneError};
+use crate::scene::loaded::SceneError;
+use crate::scene::opened::{EachMesh, OpenedScene};
 use crate::spread::{seconds_of_a_run, spread};
-use crate::varied_scene::VariedScene;
-use gearwear_bodies::gear::PerGear;
+use crate::varied_scene::{StudiedRun, VariedScene};
 use gearwear_bodies::reference::sobol_indices::indices;
 use gearwear_bodies::reference::statistics::{SHARES, mean, quantile, standard_deviation};
 use gearwear_physics::assessment::guarded::guarded;
 use gearwear_physics::observer::Observer;
-use gearwear_physics::results::figures;
-use gearwear_physics::results::worn_pair::{WearProfile, WornPair};
 
 type Row = Result<Ran, String>;
 
@@ -42,8 +41,6 @@ const RUNS_PER_TIMED: usize = 10;
 
 /// Samples of a point that are independent: A and B, from which quantiles are.
 const INDEPENDENT: usize = 2;
-/// Greatest number of places of a band over the flank.
-const PLACES: usize = 160;
 
 /// The samples of a question: of each point A and B, and A with each key from B.
 struct Sampling<'a> {
@@ -90,8 +87,8 @@ struct Samples<'a> {
     question: &'a SampledQuestion,
     sampling: &'a Sampling<'a>,
     varied: &'a VariedScene,
-    nominal: &'a WornPair,
-    places: &'a PerGear<Vec<f64>>,
+    nominal: &'a StudiedRun,
+    places: &'a Places,
     /// Relative error of the scene as given in each output, then in the depth of each limit; `None` where it is not known.
     errors: Vec<Option<f64>>,
     /// Factor to the figures of a fast model; empty where the samples are not on one.
@@ -157,8 +154,8 @@ impl Samples<'_> {
         alone.collect()
     }
 
-    /// The worn pairs of samples that differ in their wear coefficient alone; `None` where each has to be run by itself.
-    fn shared_run(&self, group: &[usize], observer: &dyn Observer) -> Option<Vec<WornPair>> {
+    /// The runs of samples that differ in their wear coefficients alone; `None` where each has to be run by itself.
+    fn shared_run(&self, group: &[usize], observer: &dyn Observer) -> Option<Vec<StudiedRun>> {
         let scenes = group.iter().map(|&number| {
             let (point, matrix) = self.sampling.of_run(number);
             self.varied.resolved(self.keys_with(&self.sampling.values(point, matrix))).ok()
@@ -167,9 +164,17 @@ impl Samples<'_> {
         let (run, revolutions) = shared_runs::shared(&scenes)?;
         self.varied.inputs_belong_to(&run).ok()?;
         let found = guarded(|| {
-            self.varied.carry_out(run, observer, |scene, observer| runs::worn_pairs(scene, &revolutions, observer))
+            self.varied.carry_out(&run, observer, |mesh, scene, observer| {
+                let revolutions = revolutions.of(mesh).map_or(&[][..], Vec::as_slice);
+                runs::worn_pairs(scene, revolutions, observer)
+            })
         });
-        found.ok()?.ok().filter(|pairs| pairs.len() == scenes.len())
+        let mut found = found.ok()?.ok()?.map(Vec::into_iter);
+        let runs = scenes.iter().map(|scene| {
+            let pairs = EachMesh::for_each(scene.kind(), |mesh| found.of_mut(mesh)?.next())?;
+            StudiedRun::of(scene, pairs)
+        });
+        runs.collect()
     }
 
     /// The uncertain keys with these values.
@@ -188,12 +193,11 @@ impl Samples<'_> {
         }
     }
 
-    fn kept(&self, found: &WornPair, matrix: Matrix) -> Row {
+    fn kept(&self, found: &StudiedRun, matrix: Matrix) -> Row {
         Ok(Ran {
             outputs: outputs_of(self.question, found)?,
-            growths: self.question.limits.iter().map(|limit| limit.growth(&found.history)).collect(),
-            wear_um: matches!(matrix, Matrix::A | Matrix::B)
-                .then(|| PerGear::from_fn(|gear| at(&found.flanks[gear], &self.places[gear]))),
+            growths: self.question.limits.iter().map(|limit| limit.growth(found)).collect(),
+            wear_um: matches!(matrix, Matrix::A | Matrix::B).then(|| wear_at(self.places, found)).flatten(),
         })
     }
 
@@ -258,32 +262,6 @@ impl Samples<'_> {
     }
 }
 
-/// Wear at these radii, even between the points; 0 outside them.
-fn at(profile: &WearProfile, radii: &[f64]) -> Vec<f32> {
-    let (radius, wear) = (&profile.radius_mm, &profile.wear_um);
-    let values = radii.iter().map(|&r| {
-        let above = radius.partition_point(|&point| point < r);
-        let value = match (above.checked_sub(1), radius.get(above)) {
-            (Some(below), Some(&high)) => {
-                let part = (r - radius[below]) / (high - radius[below]);
-                wear[below] + part * (wear[above] - wear[below])
-            }
-            (None, Some(&high)) if high == r => wear[above],
-            _ => 0.0,
-        };
-        value as f32
-    });
-    values.collect()
-}
-
-/// Places of a band: points of the active profile, thinned.
-fn places(profile: &WearProfile) -> Vec<f64> {
-    let [low, high] = profile.active_mm;
-    let active: Vec<f64> = profile.radius_mm.iter().copied().filter(|r| (low..=high).contains(r)).collect();
-    let every = active.len().div_ceil(PLACES).max(1);
-    active.into_iter().step_by(every).collect()
-}
-
 /// Bounds e + d of errors, of those that are known.
 fn bounds(errors: &[Option<f64>], differences: &[f64]) -> Vec<Option<f64>> {
     let of_each = errors.iter().enumerate().map(|(figure, error)| match (error, differences.get(figure)) {
@@ -295,11 +273,11 @@ fn bounds(errors: &[Option<f64>], differences: &[f64]) -> Vec<Option<f64>> {
 
 /// A study whose scene as given is run, and the surface of its samples chosen.
 pub struct PreparedStudy<'a> {
-    scene: &'a LoadedScene,
+    scene: &'a OpenedScene,
     sampling: Sampling<'a>,
-    nominal: WornPair,
+    nominal: StudiedRun,
     sampled: SampledScene,
-    places: PerGear<Vec<f64>>,
+    places: Places,
     begun: Instant,
 }
 
@@ -309,7 +287,7 @@ impl<'a> PreparedStudy<'a> {
     /// # Errors
     /// A scene that cannot be run.
     pub fn new(
-        scene: &'a LoadedScene,
+        scene: &'a OpenedScene,
         question: &'a SampledQuestion,
         observer: &dyn Observer,
     ) -> Result<Self, UncertaintyStudyError> {
@@ -317,10 +295,10 @@ impl<'a> PreparedStudy<'a> {
         let given = SampledScene::as_given(scene, question, String::new())?;
         let sampling = Sampling::of(question);
         observer.stage("the scene as given");
-        let nominal = run_of(&given.varied, [], question, scene.scene().verify, observer)?;
+        let nominal = run_of(&given.varied, [], question, scene.verifies(), observer)?;
         let runs = sampling.groups(&given.varied).len();
         let sampled = SampledScene::choose(scene, given, question, (&nominal, runs), observer)?;
-        let places = PerGear::from_fn(|gear| places(&nominal.flanks[gear]));
+        let places = places_of(&nominal);
         Ok(Self { scene, sampling, nominal, sampled, places, begun })
     }
 
@@ -329,7 +307,7 @@ impl<'a> PreparedStudy<'a> {
     /// # Errors
     /// A scene whose text cannot be read again.
     pub fn study(&self) -> Result<SampledStudy, SceneError> {
-        let places = self.places.as_ref().map(Vec::len);
+        let places = self.places.as_ref().map(|of| of.as_ref().map(Vec::len));
         SampledStudy::of(self.scene, self.sampling.question, &self.sampled.surface.surface, places)
     }
 
@@ -367,10 +345,11 @@ impl<'a> PreparedStudy<'a> {
     ) -> Result<UncertaintyRecord, UncertaintyStudyError> {
         let Self { scene, sampling, nominal, sampled, places, begun } = self;
         let question = sampling.question;
-        let total = &nominal.summary.error.total;
+        let totals = nominal.total_errors();
         let paths = question.outputs.iter().map(|output| output.path.as_str());
-        let known = paths.chain(question.limits.iter().map(|limit| limit.output)).map(figures::find);
-        let errors: Vec<Option<f64>> = known.map(|figure| figure?.error(total)).collect();
+        let known =
+            paths.chain(question.limits.iter().map(|limit| limit.output)).map(|name| figure::find(question.kind, name));
+        let errors: Vec<Option<f64>> = known.map(|figure| figure?.error(&totals)).collect();
         let samples = Samples {
             question,
             sampling: &sampling,
@@ -421,7 +400,7 @@ impl<'a> PreparedStudy<'a> {
 }
 
 fn record(
-    scene: &LoadedScene,
+    scene: &OpenedScene,
     samples: &Samples<'_>,
     rows: &[&[Row]],
 ) -> Result<UncertaintyRecord, UncertaintyStudyError> {
@@ -434,9 +413,9 @@ fn record(
     }
     let figures = question.outputs.len() + question.limits.len();
     Ok(UncertaintyRecord {
-        title: scene.resolved.title().to_owned(),
+        title: scene.title().to_owned(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
-        scene_hash: scene.resolved.scene_hash(),
+        scene_hash: scene.scene_hash(),
         uncertain: question.uncertain.clone(),
         limits: question.limits.clone(),
         correlation: question
@@ -450,17 +429,16 @@ fn record(
         runs,
         failed,
         first_failure,
-        model_error_how: samples.nominal.summary.error.total.how.clone(),
+        model_error_how: figure::how(&samples.nominal.total_errors()),
         outputs: (0..figures).map(|figure| output_record(samples, rows, figure)).collect(),
-        bands: PerGear::from_fn(|gear| {
-            let ran = rows.iter().flat_map(|row| &row[..2]).filter_map(|row| row.as_ref().ok()?.wear_um.as_ref());
-            let wear: Vec<&[f32]> = ran.map(|wear| wear[gear].as_slice()).collect();
-            band(&samples.places[gear], &samples.nominal.flanks[gear], &wear)
-        }),
+        bands: {
+            let ran = rows.iter().flat_map(|row| &row[..INDEPENDENT]).filter_map(|row| row.as_ref().ok());
+            bands(samples.places, samples.nominal, ran.filter_map(|ran| ran.wear_um.as_ref()))
+        },
         threads: 0,
         wall_s: 0.0,
         surface: SampledSurface::default(),
-        scene_toml: scene.given.text.clone(),
+        scene_toml: scene.given().text.clone(),
         rows: sample_rows(samples, rows),
     })
 }
@@ -470,10 +448,13 @@ fn named(samples: &Samples<'_>, figure: usize) -> [String; 3] {
     let outputs = &samples.question.outputs;
     let limit = figure.checked_sub(outputs.len()).map(|number| &samples.question.limits[number]);
     let name = limit.map_or_else(|| outputs[figure].path.as_str(), |limit| limit.output);
-    let known = figures::find(name);
+    let kind = samples.question.kind;
+    let known = figure::find(kind, name);
     let heading = known.map_or_else(|| name.to_owned(), |known| capitalised(&known.heading));
-    let Some(limit) = limit else { return [name.to_owned(), heading, unit::of(name).unwrap_or_default().to_owned()] };
-    let unit = if samples.nominal.summary.hours.is_some() { "h" } else { "revolutions" };
+    let Some(limit) = limit else {
+        return [name.to_owned(), heading, figure::unit_of(kind, name).unwrap_or_default().to_owned()];
+    };
+    let unit = if samples.nominal.summary().hours().is_some() { "h" } else { "revolutions" };
     let depth_um = limit.depth_um;
     [format!("life.{name}={depth_um}"), format!("Life until {depth_um} µm: {heading}"), unit.to_owned()]
 }
@@ -495,10 +476,10 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
         SHARES.map(|share| quantile(&sorted, share).filter(|value| censored == 0 || *value <= until));
     let complete = censored == 0 && !sorted.is_empty();
     let [output, meaning, unit] = named(samples, figure);
-    let is_life = limit.is_some() || output.starts_with("life.");
+    let is_life = limit.is_some() || question.outputs[figure].is_life();
     let nominal = match limit {
         None => outputs_of(question, samples.nominal).ok().map(|values| values[figure].times(1.0).0),
-        Some(limit) => Some(limit.life(&limit.growth(&samples.nominal.history), 1.0).0),
+        Some(limit) => Some(limit.life(&limit.growth(samples.nominal), 1.0).0),
     };
     let found = match (&question.correlation, censored) {
         (Some(_), _) => Err("the keys are correlated: no part of the variance belongs to one of them".to_owned()),
@@ -547,20 +528,6 @@ fn factor_indices(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Resu
     let names = samples.question.uncertain.iter().map(|one| one.key.as_str()).chain([MODEL_ERROR]);
     let both = found.first.into_iter().zip(found.total);
     Ok(names.zip(both).map(|(name, (first, total))| FactorIndices { factor: name.to_owned(), first, total }).collect())
-}
-
-fn band(places: &[f64], nominal: &WearProfile, wear: &[&[f32]]) -> Band {
-    let mut quantiles_um = [const { Vec::new() }; 5];
-    for place in 0..places.len() {
-        let mut values: Vec<f64> = wear.iter().map(|wear| f64::from(wear[place])).collect();
-        values.sort_by(f64::total_cmp);
-        for (all, share) in quantiles_um.iter_mut().zip(SHARES) {
-            all.push(quantile(&values, share).unwrap_or(f64::NAN));
-        }
-    }
-    let nominal_um = at(nominal, places).into_iter().map(f64::from).collect();
-    let radius_mm = places.iter().map(|radius| radius.abs()).collect();
-    Band { radius_mm, nominal_um, quantiles_um }
 }
 
 fn sample_rows(samples: &Samples<'_>, rows: &[&[Row]]) -> Vec<SampleRow> {

@@ -127,3 +127,67 @@ fn what_does_not_go_together_is_refused() {
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("--out: cannot write no/new.rexs"));
 }
+
+/// A unit of a sun, a planet and a ring, 17/22/61 teeth: stages 4 and 5.
+fn planetary_unit() -> String {
+    let gear = |id: u32, kind: &str, teeth: u32, tip_mm: u32| {
+        format!(
+            "<component id=\"{id}\" type=\"{kind}\">\n<attribute id=\"normal_module\" unit=\"mm\">4</attribute>\n\
+             <attribute id=\"face_width\" unit=\"mm\">50</attribute>\n<attribute id=\"number_of_teeth\" unit=\"none\">{teeth}</attribute>\n\
+             <attribute id=\"tip_diameter\" unit=\"mm\">{tip_mm}</attribute>\n</component>\n"
+        )
+    };
+    let gears =
+        gear(1, "cylindrical_gear", 17, 76) + &gear(2, "cylindrical_gear", 22, 96) + &gear(3, "ring_gear", 61, 237);
+    let stage = |id: u32, gears: [u32; 2]| {
+        let [one, other] = gears;
+        let relation = format!(
+            "<relation id=\"{id}\" type=\"stage\"><ref id=\"{id}\" role=\"stage\"/><ref id=\"{one}\" role=\"gear_1\"/><ref id=\"{other}\" role=\"gear_2\"/></relation>\n"
+        );
+        let distance = "<attribute id=\"center_distance\" unit=\"mm\">78</attribute>";
+        (relation, format!("<component id=\"{id}\" type=\"cylindrical_stage\">\n{distance}\n</component>\n"))
+    };
+    let [(one, with_sun), (other, with_ring)] = [stage(4, [1, 2]), stage(5, [2, 3])];
+    format!(
+        "<model applicationId=\"by hand\" applicationVersion=\"1\" date=\"2026-01-01T00:00:00+00:00\" version=\"1.4\">\n<relations>\n{one}{other}\
+         <relation id=\"6\" type=\"flank\"><ref id=\"2\" role=\"gear\"/><ref id=\"6\" role=\"left\"/></relation>\n\
+         <relation id=\"7\" type=\"stage_gear_data\"><ref id=\"4\" role=\"stage\"/><ref id=\"1\" role=\"gear\"/><ref id=\"7\" role=\"stage_gear_data\"/></relation>\n\
+         </relations>\n<components>\n{gears}{with_sun}{with_ring}<component id=\"6\" type=\"cylindrical_gear_flank\">\n\
+         <attribute id=\"normal_pressure_angle\" unit=\"deg\">20</attribute>\n<attribute id=\"addendum_modification_coefficient\" unit=\"none\">0</attribute>\n</component>\n\
+         <component id=\"7\" type=\"stage_gear_data\">\n<attribute id=\"is_driving_gear\" unit=\"none\">true</attribute>\n\
+         <attribute id=\"torque\" unit=\"Nm\">100</attribute>\n</component>\n</components>\n</model>\n"
+    )
+}
+
+/// The folder of a planetary stage gives results at both of its meshes; that of one mesh is of a pair, and a pair's file takes none of a stage.
+#[test]
+fn the_results_of_a_planetary_stage_stand_at_both_meshes() {
+    let folder = Folder(tempfile::tempdir().unwrap());
+    fs::write(folder.path("unit.rexs"), planetary_unit()).unwrap();
+    let quick = "[contact]\nsurface = \"hertz-mean\"\n[stiffness]\nmodel = \"constant\"\npair_N_per_mm_um = 20.0\n[numerics]\n\
+                 error_estimate = false\nverify = false\nflank_points = 60\npositions = 40\n";
+    fs::write(folder.path("stage.toml"), format!("{}{quick}", folder.scene("unit.rexs"))).unwrap();
+    let made = folder.gearwear(&["run", "stage.toml", "--out", "run", "--quiet", "--no-report"]);
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    let output = folder.rexs("run", "unit.rexs", "1");
+    assert!(output.status.success() && output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(folder.scene("new.rexs"), folder.scene("unit.rexs"));
+    let text = fs::read_to_string(folder.path("new.rexs")).unwrap();
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let depths =
+        document.descendants().filter(|node| node.attribute("id") == Some("custom_gearwear_maximum_wear_depth"));
+    let mut depths: Vec<f64> = depths.map(|node| node.text().unwrap().parse().unwrap()).collect();
+    let summary = json(&folder.path("run/summary.json"));
+    let of = |path: &str| summary.pointer(path).and_then(|of| of["peak_wear_um"].as_f64()).unwrap();
+    let mut expected = ["/sun", "/planet/sun_flank", "/planet/ring_flank", "/ring"].map(of);
+    depths.sort_by(f64::total_cmp);
+    expected.sort_by(f64::total_cmp);
+    assert_eq!(depths.len(), 4);
+    for (found, expected) in depths.iter().zip(expected) {
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found} and {expected}");
+    }
+    fs::remove_file(folder.path("new.rexs")).unwrap();
+    fs::write(folder.path("pair.rexs"), UNIT).unwrap();
+    folder.refuses("run", "pair.rexs", "1", &["found that of a planetary stage", "whose gears meet no ring"]);
+    folder.refuses("run/planet-ring", "unit.rexs", "1", &["teeth of the pinion: found 22; allowed: 17"]);
+}

@@ -6,6 +6,7 @@ mod accuracy_helical;
 mod coarse_run;
 mod compare;
 mod improve;
+mod planetary;
 #[path = "../program/mod.rs"]
 mod program;
 mod remaining_life;

@@ -8,7 +8,7 @@ use gearwear_physics::assessment::RunError;
 use gearwear_physics::plan::cost::{PlanAndCost, RunCost};
 
 use gearwear::scene::loaded::LoadedScene;
-use gearwear::scene::planetary::OpenedScene;
+use gearwear::scene::opened::OpenedScene;
 use gearwear::scene::planetary::mesh::{PerMesh, StageMesh};
 use gearwear_studies::improve::asked::ImproveQuestion;
 

@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use gearwear::exchange::rexs::RexsError;
 use gearwear::exchange::rexs::container::{self, FileError};
 use gearwear::exchange::rexs::mesh_stiffness::MeshStiffness;
-use gearwear::exchange::rexs::results::{self, RunResults, WearDepths};
+use gearwear::exchange::rexs::results::{self, RunResults, StageResults, WearDepths};
 use gearwear::report::ReportError;
 use gearwear::scene::loaded::LoadedScene;
+use gearwear::scene::planetary::mesh::PerMesh;
 use gearwear_bodies::gear::PerGear;
 use gearwear_files::whole_file;
 use gearwear_studies::compare::run_folder::RunFolder;
@@ -24,7 +25,7 @@ pub(super) struct RexsArgs {
     /// The gear unit in REXS (versions 1.4 to 2.0, XML) that the run's scene came from; it is left as it is
     #[arg(long, value_name = "FILE")]
     into: PathBuf,
-    /// Number of the cylindrical stage in the file, from 1; may be left out where there is one
+    /// Number of the cylindrical stage in the file, from 1; of a planetary stage that of a mesh of its sun with a planet. May be left out where there is one
     #[arg(long, value_name = "N")]
     stage: Option<usize>,
     /// The file to be written: all that FILE holds, with the results as attributes of the stage and its gears
@@ -44,7 +45,11 @@ pub(super) fn run(args: &RexsArgs) -> Result<(), Failure> {
         let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
         InputError::NotUtf8 { name: name.clone(), line }
     })?;
-    let written = results::with_results(&text, args.stage, &run).map_err(refused)?;
+    let written = match &run {
+        FinishedResults::Pair(run) => results::with_results(&text, args.stage, run),
+        FinishedResults::Stage(run) => results::with_results_of_stage(&text, args.stage, run),
+    };
+    let written = written.map_err(refused)?;
     whole_file::write(&args.out, |out| out.write_all(written.text.as_bytes()))
         .map_err(|source| ReportError::WriteFile { path: args.out.clone(), source })?;
     warn(&written.warnings);
@@ -70,9 +75,26 @@ pub(super) fn bytes_of(file: &Path, refused: impl Fn(RexsError) -> InputError) -
     })
 }
 
+/// Results of a finished run of either kind.
+enum FinishedResults {
+    Pair(Box<RunResults>),
+    Stage(Box<StageResults>),
+}
+
 /// Results of the finished run to be written.
-fn read(args: &RexsArgs) -> Result<RunResults, Failure> {
+fn read(args: &RexsArgs) -> Result<FinishedResults, Failure> {
     let folder = RunFolder::open(&args.run).map_err(InputError::RunFolder)?;
+    if !folder.whole_summary["planetary"].is_object() {
+        return Ok(FinishedResults::Pair(Box::new(of_pair(folder)?)));
+    }
+    let meshes = PerMesh::try_from_fn(|mesh| {
+        of_pair(RunFolder::open(&args.run.join(mesh.folder())).map_err(InputError::RunFolder)?)
+    })?;
+    Ok(FinishedResults::Stage(Box::new(StageResults { summary: folder.whole_summary, meshes })))
+}
+
+/// Results of the run of a pair.
+fn of_pair(folder: RunFolder) -> Result<RunResults, Failure> {
     let scene = LoadedScene::open(folder.scene_path())?;
     folder.check_scene(&scene.resolved).map_err(InputError::RunFolder)?;
     let finished = FinishedRun::of(folder.clone(), String::new()).map_err(InputError::RunFolder)?;

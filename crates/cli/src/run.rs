@@ -13,7 +13,7 @@ use gearwear::resume::keeper::FolderKeeper;
 use gearwear::resume::{folder, result};
 use gearwear::runs;
 use gearwear::scene::loaded::LoadedScene;
-use gearwear::scene::planetary::OpenedScene;
+use gearwear::scene::opened::OpenedScene;
 use gearwear_physics::assessment::{Done, Resumption, RunError};
 use gearwear_physics::observer::Observer;
 use gearwear_physics::plan::StageKind;

@@ -6,10 +6,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
+use gearwear::evaluate::figure;
 use gearwear::journal::{self, JournalContents, JournalError, Kept};
 use gearwear::report;
 use gearwear::scene::draft::Draft;
-use gearwear::scene::loaded::{LoadedScene, SceneText};
+use gearwear::scene::loaded::SceneText;
+use gearwear::scene::opened::OpenedScene;
 use gearwear::sweep::asked::SweepQuestion;
 use gearwear::sweep::axis::{self, AxisError};
 use gearwear::sweep::combination::Sweep;
@@ -111,7 +113,7 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Failure> {
 }
 
 fn run_sweep(args: &SweepRunArgs) -> Result<(), Failure> {
-    let scene = LoadedScene::open(&args.scene)?;
+    let scene = OpenedScene::open(&args.scene)?;
     warn(scene.warnings());
     let question = SweepQuestion {
         vary: args.vary.clone(),
@@ -249,7 +251,10 @@ fn table(record: &SweepRecord, out: &Path) -> String {
     if !summary.best.is_empty() {
         text.push_str("\nleast of\n");
     }
-    for best in &summary.best {
+    let kind = record.identity.kind;
+    // Of a stage the first words alone: sweep.json and the page have all.
+    let is_listed = |name: &str| kind.is_pair() || figure::find(kind, name).is_some_and(|figure| figure.in_headline());
+    for best in summary.best.iter().filter(|best| is_listed(best.figure)) {
         let place = record.identity.in_words(best.index);
         let edge =
             if best.on_edge.is_empty() { String::new() } else { format!("   end of {}", best.on_edge.join(", ")) };

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use gearwear::journal::{self, Journal, JournalError};
 use gearwear::report;
-use gearwear::scene::loaded::LoadedScene;
+use gearwear::scene::opened::OpenedScene;
 use gearwear::uncertainty::asked::{UncertaintyFault, UncertaintyQuestion};
 use gearwear::uncertainty::kept::SampledStudy;
 use gearwear::uncertainty::record::UncertaintyRecord;
@@ -66,7 +66,7 @@ pub(super) struct UncertaintyArgs {
 }
 
 pub(super) fn run(args: &UncertaintyArgs) -> Result<(), Failure> {
-    let scene = LoadedScene::open(&args.scene)?;
+    let scene = OpenedScene::open(&args.scene)?;
     warn(scene.warnings());
     let asked = UncertaintyQuestion {
         uncertain: args.uncertain.clone(),

@@ -131,7 +131,11 @@ pub fn summarise(inputs: RunInputs<'_>, observer: &dyn Observer) -> Result<Done<
 /// # Errors
 /// As [`run`].
 pub fn worn_pair(inputs: RunInputs<'_>, observer: &dyn Observer) -> Result<Done<WornPair>, RunError> {
-    announced(inputs, observer, |run, stages| run.assess(Resumption::none(), stages, recording::worn_pair))
+    let start = Instant::now();
+    let mut done =
+        announced(inputs, observer, |run, stages| run.assess(Resumption::none(), stages, recording::worn_pair))?;
+    done.record.summary.wall_s = start.elapsed().as_secs_f64();
+    Ok(done)
 }
 
 /// The pair of a run at each of `revolutions`, which are snapshots of the scene, as [`worn_pair`] has it at the end; one evaluation of the wear stands

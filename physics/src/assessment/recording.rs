@@ -66,13 +66,14 @@ pub(super) fn record(from: &Provenance, model: &RunModel<'_>, found: RunFindings
     }
 }
 
-/// Main figures, history and wear over both flanks.
+/// Main figures, history, wear over both flanks and mesh cycle.
 pub(super) fn worn_pair(model: &RunModel<'_>, found: RunFindings<'_>, summary: Summary) -> WornPair {
     let outcome = found.outcome;
     WornPair {
         summary,
         history: outcome.snapshots.iter().map(|snapshot| history_row(model, outcome, snapshot)).collect(),
         flanks: PerGear::from_fn(|gear| wear_profile(model.pair, outcome, gear)),
+        mesh_cycle: mesh_cycle(model, found),
     }
 }
 

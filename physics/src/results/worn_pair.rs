@@ -1,6 +1,6 @@
-//! Record that a study of many runs keeps of each: the main figures, how they grew, and the wear over both flanks.
+//! Record that a study of many runs keeps of each: the main figures, how they grew, the wear over both flanks, and the mesh cycle.
 
-use super::run::{HistoryRow, Summary};
+use super::run::{HistoryRow, MeshCycleRow, Summary};
 use gearwear_bodies::gear::PerGear;
 
 /// A run as a study of many keeps it.
@@ -12,6 +12,8 @@ pub struct WornPair {
     pub history: Vec<HistoryRow>,
     /// Wear over both flanks at the end.
     pub flanks: PerGear<WearProfile>,
+    /// One row per position, of the new and of the worn pair.
+    pub mesh_cycle: Vec<MeshCycleRow>,
 }
 
 /// Wear over a flank.

@@ -131,6 +131,9 @@ pub enum RexsError {
     /// A run of another pair than that of the stage.
     #[error("RUN: {what}: found {found}; allowed: {allowed}, that of {stage}")]
     OtherPair { what: String, found: String, allowed: String, stage: String },
+    /// A run of a planetary stage for a pair that is none of one.
+    #[error("RUN: found that of a planetary stage; allowed: that of {stage}, whose gears meet no ring")]
+    NoRing { stage: String },
     #[error("line {line}: found a second load_spectrum; allowed: one, as the format has it")]
     SecondSpectrum { line: usize },
 }

@@ -1,10 +1,16 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use super::scene;
+use super::document::RexsDocument;
+use super::mesh_stiffness::MeshStiffness;
+use super::results::{RunResults, StageResults, WearDepths, with_results_of_stage};
+use super::{RexsError, scene};
+use crate::planetary_run::{self, record::PlanetaryRecord};
 use crate::scene::loaded::SceneText;
 use crate::scene::planetary::PlanetaryScene;
 use crate::scene::planetary::mesh::StageMesh;
+use gearwear_physics::observer::Unwatched;
+use gearwear_physics::results::run::RunRecord;
 
 /// A unit of one sun, three planets and a ring: 17/22/61 teeth, module 4 mm, 78 mm apart; attributes of the ring as given.
 fn unit(ring: &str) -> String {
@@ -158,4 +164,75 @@ fn ver_torque_of_planets_that_drive_the_sun() {
     let stage = stage(&scene(&text, Some(1)).unwrap().text);
     let torques = StageMesh::BOTH.map(|mesh| stage.meshes[mesh].scene().operation.pinion_torque_n_mm);
     assert!((torques[0] - 100e3 * 17.0 / 22.0).abs() < 1e-6 && (torques[1] - 100e3).abs() < 1e-6, "{torques:?}");
+}
+
+/// Results of a run of the unit's stage.
+fn results(text: &str) -> StageResults {
+    let made = scene(text, Some(1)).unwrap().text;
+    // What is quick: no finite elements, few positions.
+    let quick = "[contact]\nsurface = \"hertz-mean\"\n[stiffness]\nmodel = \"constant\"\npair_N_per_mm_um = 20.0\n\
+                 [numerics]\nverify = false\nerror_estimate = false\nflank_points = 80\npositions = 40\n";
+    let done = planetary_run::run(&stage(&format!("{made}\n{quick}")), &Unwatched).unwrap();
+    let PlanetaryRecord { summary, meshes, .. } = done.record;
+    let of_mesh = |run: Option<RunRecord>| {
+        let run = run.unwrap();
+        let pair = stage(&format!("{made}\n{quick}"));
+        let mesh =
+            if run.summary.geometry.gears.pinion.teeth == 17 { StageMesh::SunPlanet } else { StageMesh::PlanetRing };
+        RunResults {
+            pair: pair.meshes[mesh].scene().pair.clone(),
+            mesh_stiffness: MeshStiffness::default(),
+            wear_profile: run
+                .flanks
+                .as_ref()
+                .map(|flank| WearDepths { radius_mm: flank.radius_mm.clone(), depth_um: flank.wear_um.clone() }),
+            summary: serde_json::to_value(&run.summary).unwrap(),
+        }
+    };
+    StageResults { summary: serde_json::to_value(&summary).unwrap(), meshes: meshes.map(of_mesh) }
+}
+
+/// The results of both meshes stand at the stages of the first planet and at the data of its gears in these, all else stays, and the file gives the same scene; the same
+/// results change it no more.
+#[test]
+fn ver_results_of_a_stage_stand_at_both_meshes() {
+    let ring = "<attribute id=\"number_of_teeth\" unit=\"none\">-61</attribute><attribute id=\"tip_diameter\" unit=\"mm\">-237</attribute>";
+    let text = unit(ring);
+    let run = results(&text);
+    let with = with_results_of_stage(&text, Some(1), &run).unwrap();
+    assert!(with.warnings.is_empty(), "{:?}", with.warnings);
+    assert_eq!(with_results_of_stage(&with.text, Some(1), &run).unwrap().text, with.text);
+    assert_eq!(scene(&with.text, Some(1)).unwrap().text, scene(&text, Some(1)).unwrap().text);
+    let document = RexsDocument::parse(&with.text).unwrap();
+    let depth = |stage: &str, gear: &str| {
+        let relation = document.relation("stage_gear_data", &[("stage", stage), ("gear", gear)]).unwrap();
+        let data = document.component(relation.member("stage_gear_data").unwrap()).unwrap();
+        data.text("custom_gearwear_maximum_wear_depth").unwrap().parse::<f64>().unwrap()
+    };
+    // Sun 53, first planet 170, ring 58; their stages 134 and 143.
+    for (stage, gear, path) in [
+        ("134", "53", "/sun/peak_wear_um"),
+        ("134", "170", "/planet/sun_flank/peak_wear_um"),
+        ("143", "170", "/planet/ring_flank/peak_wear_um"),
+        ("143", "58", "/ring/peak_wear_um"),
+    ] {
+        let expected = run.summary.pointer(path).unwrap().as_f64().unwrap();
+        let found = depth(stage, gear);
+        assert!((found / expected - 1.0).abs() < 1e-9, "{path}: {found} and {expected}");
+    }
+    // The other planets have none.
+    assert_eq!(with.text.matches("custom_gearwear_scene_hash").count(), 2);
+    // All tags of the file are still there, in their order.
+    let mut rest = with.text.as_str();
+    for tag in text.split_inclusive('>') {
+        let at = rest.find(tag.trim()).unwrap_or_else(|| panic!("{tag}"));
+        rest = &rest[at + tag.trim().len()..];
+    }
+    let other_load = with_results_of_stage(&text.replace("\"Nm\">100<", "\"Nm\">90<"), Some(1), &run).unwrap();
+    assert!(other_load.warnings[0].contains("loads of the run are not those of the file"));
+    let other_ring = unit(&ring.replace("-61", "-62"));
+    assert!(matches!(with_results_of_stage(&other_ring, Some(1), &run), Err(RexsError::OtherPair { .. })));
+    let pair = include_str!("two_stages.rexs");
+    let refused = with_results_of_stage(pair, Some(1), &run).unwrap_err().to_string();
+    assert!(refused.contains("that of a planetary stage"), "{refused}");
 }

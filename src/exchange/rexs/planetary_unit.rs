@@ -19,6 +19,8 @@ pub(super) struct PlanetaryUnit<'a> {
     pub planets: usize,
     /// The ring.
     pub ring: GearData<'a>,
+    /// Mesh of the planet and the ring.
+    pub ring_mesh: RexsStage<'a>,
 }
 
 /// The planetary stage of `stage`, whose gears are `gears`; `None` where no gear of it meets a ring.
@@ -28,17 +30,18 @@ pub(super) fn of<'a>(
     gears: &Gears<'a>,
     warnings: &mut Vec<String>,
 ) -> Result<Option<PlanetaryUnit<'a>>, RexsError> {
-    let meshes: Vec<[&RexsComponent; 2]> = meshes(document);
-    let ring_of = |planet: &RexsComponent| {
-        let mates = meshes.iter().filter_map(|gears| mate(gears, planet));
-        mates.into_iter().find(|gear| gear.kind == "ring_gear")
+    let meshes: Vec<RexsStage> = meshes(document);
+    let mesh_with_ring = |planet: &RexsComponent| {
+        let mut of_planet = meshes.iter().filter_map(|mesh| Some((mesh, mate(&mesh.gears, planet)?)));
+        of_planet.find(|(_, mate)| mate.kind == "ring_gear")
     };
-    let found = stage.gears.iter().enumerate().find_map(|(side, planet)| Some((side, ring_of(planet)?)));
-    let Some((planet_side, ring)) = found else { return Ok(None) };
+    let ring_of = |planet: &RexsComponent| mesh_with_ring(planet).map(|(_, ring)| ring);
+    let found = stage.gears.iter().enumerate().find_map(|(side, planet)| Some((side, mesh_with_ring(planet)?)));
+    let Some((planet_side, (ring_mesh, ring))) = found else { return Ok(None) };
     let sun = stage.gears[1 - planet_side];
     let planets = meshes
         .iter()
-        .filter_map(|gears| mate(gears, sun))
+        .filter_map(|mesh| mate(&mesh.gears, sun))
         .filter(|planet| ring_of(planet).is_some_and(|other| other.id == ring.id))
         .count();
     let sun_drives = gears.pinion.component.id == sun.id;
@@ -55,21 +58,22 @@ pub(super) fn of<'a>(
     ring.profile_shift = ring_shift(section.as_ref(), gears.centre_distance_mm.as_ref(), planet, &ring);
     let mut units = document.components.iter().filter(|component| component.kind == "planetary_stage");
     let component = units.next().filter(|_| units.next().is_none());
-    Ok(Some(PlanetaryUnit { component, sun_drives, planets, ring }))
+    let ring_mesh = RexsStage { component: ring_mesh.component, gears: [stage.gears[planet_side], ring.component] };
+    Ok(Some(PlanetaryUnit { component, sun_drives, planets, ring, ring_mesh }))
 }
 
-/// Gears of all cylindrical stages.
-fn meshes(document: &RexsDocument) -> Vec<[&RexsComponent; 2]> {
+/// All cylindrical stages, with whatever gears.
+fn meshes(document: &RexsDocument) -> Vec<RexsStage<'_>> {
     let stages = document.components.iter().filter(|component| component.kind == "cylindrical_stage");
-    let gears = stages.filter_map(|stage| {
-        let relation = document.relation("stage", &[("stage", &stage.id)])?;
+    let meshes = stages.filter_map(|component| {
+        let relation = document.relation("stage", &[("stage", &component.id)])?;
         let [Some(one), Some(other)] = ["gear_1", "gear_2"].map(|role| document.component(relation.member(role)?))
         else {
             return None;
         };
-        Some([one, other])
+        Some(RexsStage { component, gears: [one, other] })
     });
-    gears.collect()
+    meshes.collect()
 }
 
 /// The other one of two gears.

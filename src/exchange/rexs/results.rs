@@ -26,17 +26,20 @@ use super::json;
 use super::load;
 use super::mesh_stiffness::MeshStiffness;
 use super::places::{LoadSpectrum, NewElement, Places};
-use super::same_loads::Loads;
+use super::planetary_unit;
+use super::same_loads::{LoadOfPhase, Loads};
 use super::same_pair;
 use super::scene_text::rounded;
-use super::stage::{Gears, RexsStage};
+use super::stage::{GearData, Gears, RexsStage};
 use crate::evaluate::output::SummaryOutput;
+use crate::scene::planetary::mesh::{PerMesh, StageMesh};
 use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_bodies::gear::{Gear, PerGear};
 
 /// The version whose names of attributes are the first to be written.
 const WRITTEN_FROM: &str = "1.4";
 const GEAR_IN_STAGE: &str = "cylindrical_stage_gear_data";
+const RING: &str = "ring_gear";
 
 /// Results of a finished run that are written.
 #[derive(Debug, Clone)]
@@ -100,12 +103,99 @@ struct Placed {
     attribute: NewElement,
 }
 
+/// Results of a finished run of a planetary stage that are written.
+#[derive(Debug, Clone)]
+pub struct StageResults {
+    /// `summary.json` of the stage.
+    pub summary: Value,
+    pub meshes: PerMesh<RunResults>,
+}
+
 /// The file of this text with the results of a run of its `number`-th cylindrical stage, from 1, or of its only one.
 ///
 /// # Errors
 ///
 /// As for [`super::scene`]; a run of another pair, and more than one load spectrum.
 pub fn with_results(text: &str, number: Option<usize>, run: &RunResults) -> Result<WithResults, RexsError> {
+    let document = opened(text)?;
+    // What a scene cannot say of the stage was told when it was made.
+    let stage = RexsStage::find(&document, number, &mut Vec::new())?;
+    let train = Drivetrain::of(&document);
+    let gears = stage.gears(&document, &train, &mut Vec::new())?;
+    same_pair::check(&stage, &gears, &run.pair)?;
+    let load = load::of(&document, &train, &stage, &gears, &mut Vec::new())?;
+    let loads = Loads::of(&document, &load, &LoadOfPhase::all_of(&run.summary));
+    written(text, &document, (&stage, &gears, loads), run)
+}
+
+/// The file of this text with the results of a run of the planetary stage whose mesh of sun and planet its `number`-th cylindrical stage is: in this
+/// mesh, and in that of the same planet with the ring.
+///
+/// # Errors
+///
+/// As for [`with_results`]; a stage whose gears meet no ring.
+pub fn with_results_of_stage(text: &str, number: Option<usize>, run: &StageResults) -> Result<WithResults, RexsError> {
+    let with_sun = with_results_of_mesh(text, number, run, StageMesh::SunPlanet)?;
+    let with_both = with_results_of_mesh(&with_sun.text, number, run, StageMesh::PlanetRing)?;
+    Ok(WithResults {
+        stage: format!("{} and {}", with_sun.stage, with_both.stage),
+        standard: with_sun.standard + with_both.standard,
+        custom: with_sun.custom + with_both.custom,
+        ..with_both
+    })
+}
+
+/// The file with the results of one mesh of a planetary stage.
+fn with_results_of_mesh(
+    text: &str,
+    number: Option<usize>,
+    run: &StageResults,
+    mesh: StageMesh,
+) -> Result<WithResults, RexsError> {
+    let document = opened(text)?;
+    let stage = RexsStage::find(&document, number, &mut Vec::new())?;
+    let train = Drivetrain::of(&document);
+    let gears = stage.gears(&document, &train, &mut Vec::new())?;
+    let unit = planetary_unit::of(&document, &stage, &gears, &mut Vec::new())?;
+    let unit = unit.ok_or_else(|| RexsError::NoRing { stage: stage.component.label() })?;
+    let load = load::of(&document, &train, &stage, &gears, &mut Vec::new())?;
+    let loads = Loads::of(&document, &load, &run.loads_of_driving_gear(unit.sun_drives));
+    let (sun, planet) = if unit.sun_drives { (gears.pinion, gears.wheel) } else { (gears.wheel, gears.pinion) };
+    let (stage, pinion, wheel) = match mesh {
+        StageMesh::SunPlanet => (stage, sun, planet),
+        StageMesh::PlanetRing => {
+            let of_planet = unit.ring_mesh.data_of(&document, planet.component);
+            let of_ring = unit.ring_mesh.data_of(&document, unit.ring.component);
+            let planet = GearData { in_stage: of_planet, ..planet };
+            (unit.ring_mesh, planet, GearData { in_stage: of_ring, ..unit.ring })
+        }
+    };
+    let gears = Gears { pinion, wheel, ..gears };
+    let run = &run.meshes[mesh];
+    same_pair::check(&stage, &gears, &run.pair)?;
+    written(text, &document, (&stage, &gears, loads), run)
+}
+
+impl StageResults {
+    /// Loads of the sun in its mesh with one planet in the phases of the run, or of the planet where that drives it.
+    fn loads_of_driving_gear(&self, sun_drives: bool) -> Vec<LoadOfPhase> {
+        let planetary = &self.summary["planetary"];
+        // The sun of a mesh turns relative to the carrier, that of the file to the housing.
+        let of_sun = planetary["speed_ratio"]["sun"].as_f64().zip(planetary["planets"].as_f64());
+        let of_sun = of_sun.zip(planetary["meshes_per_revolution"]["sun"].as_f64());
+        let factor = of_sun.map(|((ratio, planets), meshes)| ratio.abs() * planets / meshes).filter(|_| sun_drives);
+        let mesh = if sun_drives { StageMesh::SunPlanet } else { StageMesh::PlanetRing };
+        let phases = LoadOfPhase::all_of(&self.meshes[mesh].summary).into_iter();
+        let of_file = |phase: LoadOfPhase| LoadOfPhase {
+            speed_rpm: phase.speed_rpm.zip(factor).map(|(speed_rpm, factor)| speed_rpm * factor),
+            ..phase
+        };
+        phases.map(of_file).collect()
+    }
+}
+
+/// The file of this text, if results can be written into it.
+fn opened(text: &str) -> Result<RexsDocument, RexsError> {
     if json::is_json(text) {
         return Err(RexsError::OnlyXml);
     }
@@ -114,30 +204,32 @@ pub fn with_results(text: &str, number: Option<usize>, run: &RunResults) -> Resu
         let (line, found) = (document.version_line, document.version);
         return Err(RexsError::Version { line, found, allowed: "1.4 to 1.7 and 2.0" });
     }
+    Ok(document)
+}
+
+/// The file with the results of a run of this mesh, whose gears are the pinion and wheel of the run, under these loads.
+fn written(
+    text: &str,
+    document: &RexsDocument,
+    (stage, gears, loads): (&RexsStage, &Gears, Loads),
+    run: &RunResults,
+) -> Result<WithResults, RexsError> {
     let mut places = Places::of(text)?;
     let spectrum = places.load_spectrum()?.filter(|spectrum| !spectrum.cases.is_empty());
     if spectrum.as_ref().map_or(0, |spectrum| spectrum.cases.len()) != document.load_cases.len() {
         return Err(RexsError::NoModel { line: 1, found: "a load_case outside <load_spectrum>".to_owned() });
     }
-    // What a scene cannot say of the stage was told when it was made.
-    let stage = RexsStage::find(&document, number, &mut Vec::new())?;
-    let train = Drivetrain::of(&document);
-    let gears = stage.gears(&document, &train, &mut Vec::new())?;
-    same_pair::check(&stage, &gears, &run.pair)?;
-    let load = load::of(&document, &train, &stage, &gears, &mut Vec::new())?;
-    let loads = Loads::of(&document, &load, &run.summary);
-
-    let targets = targets(&stage, &gears, &places);
+    let targets = targets(stage, gears, &places);
     let writer = Writer {
         run,
-        naming: Naming::of(&document, loads),
+        naming: Naming::of(document, loads),
         loads,
         has_spectrum: spectrum.is_some(),
         load_cases: document.load_cases.len() as u64,
         targets: &targets,
     };
     let placed = writer.placed();
-    add_gear_data(&mut places, &stage, &gears, &targets)?;
+    add_gear_data(&mut places, stage, gears, &targets)?;
     put(&mut places, spectrum.as_ref(), &targets, &placed)?;
 
     let custom = placed.iter().filter(|placed| placed.attribute.id().starts_with(CUSTOM)).count();
@@ -164,7 +256,8 @@ fn targets(stage: &RexsStage, gears: &Gears, places: &Places) -> Vec<Target> {
     let mut targets = vec![target(On::Stage, None, stage.component, "cylindrical_stage")];
     let mut taken = BTreeSet::new();
     for (gear, data) in [(Gear::Pinion, &gears.pinion), (Gear::Wheel, &gears.wheel)] {
-        targets.push(target(On::Gear, Some(gear), data.component, "cylindrical_gear"));
+        let kind = if data.component.kind == RING { RING } else { "cylindrical_gear" };
+        targets.push(target(On::Gear, Some(gear), data.component, kind));
         targets.push(match data.in_stage {
             Some(known) => target(On::GearInStage, Some(gear), known, GEAR_IN_STAGE),
             None => {

@@ -25,7 +25,7 @@ pub(super) fn check(stage: &RexsStage, gears: &Gears, run: &PairSpec) -> Result<
         ("normal module in mm", run.normal_module_mm, value(&gears.normal_module_mm)),
         ("normal pressure angle in deg", run.normal_pressure_angle_rad.to_degrees(), value(&gears.pressure_angle_deg)),
         ("helix angle in deg", run.helix_angle_rad.to_degrees().abs(), Some(gears.helix_angle_deg.value.abs())),
-        ("centre distance in mm", run.centre_distance_mm, value(&gears.centre_distance_mm)),
+        ("centre distance in mm", run.centre_distance_mm.abs(), value(&gears.centre_distance_mm)),
         ("face width in mm", run.face_width_mm, value(&gears.face_width_mm)),
     ];
     let common = common.map(|(what, run, file)| (what.to_owned(), run, file));

@@ -36,7 +36,7 @@ pub struct PlanetaryFile {
     /// load. Default 1.
     #[schemars(range(min = 1, max = 20))]
     pub load_sharing_factor: Option<f64>,
-    /// Mesh of the stage that a command on one pair takes. Default: both, which run and plan take.
+    /// Mesh of the stage that a command on one pair takes. Default: both, which run, plan, sweep and uncertainty take.
     pub mesh: Option<StageMesh>,
     /// Normal module m_n in mm, > 0. Required, or transverse_module_mm.
     #[schemars(extend("exclusiveMinimum" = 0))]

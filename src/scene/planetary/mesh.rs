@@ -5,6 +5,8 @@ use std::ops::{Index, IndexMut};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use gearwear_bodies::gear::Gear;
+
 /// A mesh of the stage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -40,6 +42,26 @@ impl StageMesh {
         match self {
             StageMesh::SunPlanet => ["sun", "planet"],
             StageMesh::PlanetRing => ["planet", "ring"],
+        }
+    }
+
+    /// Path of a gear's flank in the summary of a stage.
+    pub fn flank(self, gear: Gear) -> &'static str {
+        match (self, gear) {
+            (StageMesh::SunPlanet, Gear::Pinion) => "sun",
+            (StageMesh::SunPlanet, Gear::Wheel) => "planet.sun_flank",
+            (StageMesh::PlanetRing, Gear::Pinion) => "planet.ring_flank",
+            (StageMesh::PlanetRing, Gear::Wheel) => "ring",
+        }
+    }
+
+    /// The flank in words.
+    pub fn flank_in_words(self, gear: Gear) -> &'static str {
+        match (self, gear) {
+            (StageMesh::SunPlanet, Gear::Pinion) => "sun",
+            (StageMesh::SunPlanet, Gear::Wheel) => "planet towards the sun",
+            (StageMesh::PlanetRing, Gear::Pinion) => "planet towards the ring",
+            (StageMesh::PlanetRing, Gear::Wheel) => "ring",
         }
     }
 

@@ -2,7 +2,7 @@
 //!
 //! A stage is two pairs with a planet in common: sun and planet, planet and ring. The planet touches them with opposite flanks, so that neither mesh sees what the other
 //! wears, and each is the scene of a pair ([`pair_scene`]), run with its own law, oil and resolution. A file with `planetary.mesh` is that of one pair, for every command
-//! that takes a pair: sweeps, uncertainty, finite elements.
+//! that takes a pair, such as that of finite elements.
 
 #[allow(rustdoc::broken_intra_doc_links, reason = "tables of the file stand in brackets, as in TOML")]
 pub mod file;
@@ -18,16 +18,17 @@ use toml::{Table, Value};
 
 use self::file::{MemberFile, StageFile};
 use self::mesh::{PerMesh, StageMesh};
+use super::draft::Draft;
 use super::findings::Findings;
 use super::loaded::LoadedScene;
 use super::locate::Locator;
 use super::problem::{ProblemKind, number};
-use super::scene_text::folder_of;
 use super::schema::Node;
 use super::shape::{self, FileShape};
 use super::{LoadError, Problem, Resolved, SceneError, SceneText, internal, table, text};
 use gearwear_bodies::gear::planetary::{AssemblyError, Member, PlanetaryStage, ring_mesh_phase};
 use gearwear_bodies::gear::{Gear, GearPair};
+use gearwear_physics::results::run::InputFile;
 
 /// Keys of other files, each with what to do.
 const OF_OTHER_FILES: &[(&str, &str)] =
@@ -58,48 +59,54 @@ pub struct PlanetaryScene {
     pub warnings: Vec<String>,
 }
 
-/// A scene of either kind.
-#[derive(Debug)]
-pub enum OpenedScene {
-    /// A gear pair.
-    Pair(Box<LoadedScene>),
-    /// A planetary stage.
-    Planetary(Box<PlanetaryScene>),
-}
-
-impl OpenedScene {
-    /// Opens the file at `path` (`-`: standard input): of a gear pair, or of a planetary stage, `[planetary]`, that does not name one of its meshes.
-    ///
-    /// # Errors
-    /// [`LoadError`], with everything that is wrong.
-    pub fn open(path: &Path) -> Result<Self, LoadError> {
-        let given = SceneText::read(path)?;
-        let stage = given.text.parse::<Table>().ok().and_then(|mut table| table.remove("planetary"));
-        Ok(match stage.is_some_and(|stage| stage.get("mesh").is_none()) {
-            true => Self::Planetary(Box::new(PlanetaryScene::from_text(given, folder_of(path))?)),
-            false => Self::Pair(Box::new(LoadedScene::from_text(given, folder_of(path))?)),
-        })
-    }
-}
-
 impl PlanetaryScene {
     /// The stage in a text; files it names lie in `folder`.
     ///
     /// # Errors
     /// [`LoadError`], with everything that is wrong.
     pub fn from_text(given: SceneText, folder: &Path) -> Result<Self, LoadError> {
+        Self::from_parts(given, folder, &[])
+    }
+
+    /// The stage in a text: of the files it names, those among `files` need not be read, and the others lie in `folder`.
+    ///
+    /// # Errors
+    /// As [`Self::from_text`].
+    pub fn from_parts(given: SceneText, folder: &Path, files: &[InputFile]) -> Result<Self, LoadError> {
         let refused = |problems| SceneError { given: given.clone(), problems };
         let (table, mut findings) = text::parse(&given.text).map_err(refused)?;
         let Some(chosen) = ChosenStage::of(&table, &mut findings) else {
             return Err(refused(findings.in_order()).into());
         };
         let locator = findings.into_locator();
-        let meshes = mesh_scenes(&chosen, (&given, folder, &locator))?;
-        let mut findings = Findings::new(locator);
+        let meshes = mesh_scenes(&chosen, (&given, folder, files), &locator)?;
+        let assembled = Self::assembled(chosen, Arc::new(given.clone()), meshes, Findings::new(locator));
+        Ok(assembled.map_err(refused)?)
+    }
+
+    /// The stage of `draft`, its own file with other values, whose meshes have these scenes.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the stage then.
+    pub fn varied(&self, draft: &Draft, meshes: PerMesh<LoadedScene>) -> Result<Self, Vec<Problem>> {
+        let (table, mut findings) = draft.to_resolve();
+        match ChosenStage::of(&table, &mut findings) {
+            Some(chosen) => Self::assembled(chosen, Arc::clone(&self.given), meshes, findings),
+            None => Err(findings.in_order()),
+        }
+    }
+
+    /// The stage of its meshes, checked as a whole.
+    fn assembled(
+        chosen: ChosenStage,
+        given: Arc<SceneText>,
+        meshes: PerMesh<LoadedScene>,
+        mut findings: Findings,
+    ) -> Result<Self, Vec<Problem>> {
         let pairs = meshes.as_ref().map(|scene| GearPair::new(&scene.scene().pair));
         let (Ok(with_sun), Ok(with_ring)) = (pairs.sun_planet, pairs.planet_ring) else {
             // A scene that is resolved has a pair.
-            return Err(refused(findings.in_order()).into());
+            return Err(findings.in_order());
         };
         let ChosenStage { file, stage, member, title, .. } = chosen;
         let tip_diameter_mm = 2.0 * with_sun.teeth[Gear::Wheel].tip_radius_mm;
@@ -109,7 +116,7 @@ impl PlanetaryScene {
             None
         });
         if !findings.problems.is_empty() {
-            return Err(refused(findings.in_order()).into());
+            return Err(findings.in_order());
         }
         let warnings = StageMesh::BOTH.into_iter().flat_map(|mesh| {
             let of_mesh = move |warning: &String| format!("{}: {}", mesh.in_words(), words::of_stage(warning, mesh));
@@ -122,7 +129,7 @@ impl PlanetaryScene {
             pairs: PerMesh { sun_planet: with_sun, planet_ring: with_ring },
             load_sharing_factor: file.planetary.load_sharing_factor.unwrap_or(1.0),
             member: member.into(),
-            given: Arc::new(given),
+            given,
             title,
             stage,
             meshes,
@@ -136,7 +143,9 @@ pub(super) fn resolve_mesh(table: &Table, mut findings: Findings) -> Result<Reso
     let Some(mesh) = chosen.file.planetary.mesh else {
         let allowed = StageMesh::BOTH.map(|mesh| format!("{:?}", mesh.folder())).join(" or ");
         findings.missing(&["planetary.mesh"], &allowed);
-        findings.help("one pair of a planetary stage is asked for here; gearwear run and plan take both");
+        findings.help(
+            "one pair of a planetary stage is asked for here; gearwear run, plan, sweep and uncertainty take both",
+        );
         return Err(findings.in_order());
     };
     let scene = chosen.pair_scene(mesh);
@@ -180,6 +189,30 @@ impl ChosenStage {
 }
 
 impl PlanetaryScene {
+    /// The files that its meshes name, as they were read.
+    pub fn input_files(&self) -> Vec<InputFile> {
+        let mut files: Vec<InputFile> = Vec::new();
+        for file in self.meshes.both().into_iter().flat_map(LoadedScene::input_files) {
+            if !files.contains(&file) {
+                files.push(file);
+            }
+        }
+        files
+    }
+
+    /// The stage with all these keys of its file changed together, each to a value or to nothing; alternatives and whole numbers as of
+    /// [`LoadedScene::with_all`].
+    ///
+    /// # Errors
+    /// What is wrong with the stage then.
+    pub fn with_all(&self, changes: impl IntoIterator<Item = (String, Option<Value>)>) -> Result<Self, LoadError> {
+        let mut draft = Draft::parse(&self.given.text).map_err(|problems| self.given.refused(problems))?;
+        draft.change_all(changes);
+        let folder = &self.meshes.sun_planet.folder;
+        let given = SceneText { name: self.given.name.clone(), text: draft.to_toml() };
+        Self::from_parts(given, folder, &self.input_files())
+    }
+
     /// Problems of the scene of `mesh`, as of the stage's file.
     pub fn told_of_stage(&self, mesh: StageMesh, problems: Vec<Problem>) -> SceneError {
         let locator = Locator::new(&self.given.text).unwrap_or_default();
@@ -327,14 +360,15 @@ fn title(table: &Table, stage: &PlanetaryStage, file: &StageFile) -> String {
 /// Everything that is wrong with either, in the words of the stage.
 fn mesh_scenes(
     chosen: &ChosenStage,
-    (given, folder, locator): (&SceneText, &Path, &Locator),
+    (given, folder, files): (&SceneText, &Path, &[InputFile]),
+    locator: &Locator,
 ) -> Result<PerMesh<LoadedScene>, LoadError> {
     let mut problems: Vec<Problem> = Vec::new();
     let loaded = PerMesh::try_from_fn(|mesh| {
         let mut of_mesh = chosen.table.clone();
         table::set(&mut of_mesh, "planetary.mesh", mesh.folder());
         let name = format!("{} of {}", mesh.in_words(), given.name);
-        match LoadedScene::from_text(SceneText { name, text: of_mesh.to_string() }, folder) {
+        match LoadedScene::from_parts(SceneText { name, text: of_mesh.to_string() }, folder, files.to_vec()) {
             Ok(loaded) => Ok(Some(loaded)),
             Err(LoadError::Scene(SceneError { problems: of_mesh, .. })) => {
                 for problem in of_mesh {

@@ -4,13 +4,14 @@
 use maud::{Markup, PreEscaped, html};
 
 use super::section_plane::range;
+use crate::evaluate::figure;
 use crate::report::html::number::{count, given, significant};
 use crate::report::html::reading::capitalised;
 use crate::report::html::table::{Cell, NONE, cells, line, list};
+use crate::scene::opened::SceneKind;
 use crate::sweep::goal::Optimum;
 use crate::sweep::record::{SweepAxis, SweepRecord, SweepRow};
 use crate::sweep::verification::{SweepVerification, objective};
-use gearwear_physics::results::figures::{self, STATED_ERRORS};
 
 /// Greatest number of combinations without a result on the page; all are in the table.
 const MOST_LISTED: usize = 20;
@@ -35,10 +36,10 @@ pub(super) fn shown_value(axis: &SweepAxis, value: f64) -> String {
 pub(super) fn best(record: &SweepRecord) -> Markup {
     let columns = cells!["figure", "minimum", "maximum", "unit"].into_iter().chain(keys(record));
     let columns = columns.chain([Cell::sentence("remark")]);
-    let rows = figures::in_sweeps().iter().filter_map(|figure| {
+    let rows = figure::in_sweeps(record.identity.kind).iter().filter_map(|figure| {
         let (least, greatest) = range(record, figure)?;
         let cells = cells![capitalised(&figure.heading), least, greatest, figure.unit()].into_iter();
-        let best = record.minimum(figure).filter(|_| figure.family.less_is_better && least < greatest);
+        let best = record.minimum(figure).filter(|_| figure.less_is_better() && least < greatest);
         Some(match best {
             Some(best) => line(cells.chain(values(record, &best.row.values)).chain([Cell::sentence(best.remark())])),
             None => line(cells.chain(record.identity.axes.iter().map(|_| NONE.into())).chain(["".into()])),
@@ -48,8 +49,8 @@ pub(super) fn best(record: &SweepRecord) -> Markup {
 }
 
 /// Optimum, and the combinations that equal it within the error.
-pub(super) fn optimum(optimum: &Optimum) -> Markup {
-    let figure = optimum.goal.figure();
+pub(super) fn optimum(kind: SceneKind, optimum: &Optimum) -> Markup {
+    let figure = optimum.goal.figure(kind);
     html! {
         p {
             "Objective: the lowest " (optimum.goal.in_words()) ". It is " b { (significant(optimum.value, 4)) " " (figure.unit()) }
@@ -77,15 +78,17 @@ pub(super) fn within(claim: f64) -> String {
 
 /// Errors of each verified combination, the greatest of all below them, and the reasons of those without a result.
 pub(super) fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> Markup {
-    let claims = STATED_ERRORS.iter().map(|claim| claim.title.into());
+    let claims = figure::claims(record.identity.kind).iter().map(|claim| claim.title.as_str().into());
     let columns = cells!["combination", "chosen as"].into_iter().chain(keys(record));
     let columns = columns.chain([objective(&record.identity).with_unit().into()]).chain(claims);
     let rows = verification.rows.iter().map(|row| {
-        let claims = STATED_ERRORS.iter().map(|claim| Cell::from((claim.of)(&row.verification.total).map(within)));
+        let claims = figure::claims(record.identity.kind)
+            .iter()
+            .map(|claim| Cell::from(claim.of(&row.verification.total).map(within)));
         let name = cells![row.index.to_string(), row.verification.chosen.name()].into_iter();
         line(name.chain(values(record, row.values)).chain([row.objective.into()]).chain(claims))
     });
-    let worst = STATED_ERRORS.iter().map(|claim| {
+    let worst = figure::claims(record.identity.kind).iter().map(|claim| {
         let worst = verification.worst.iter().find(|worst| worst.claim == claim.name);
         Cell::from(worst.map(|worst| within(worst.value)))
     });
@@ -94,7 +97,7 @@ pub(super) fn verified(record: &SweepRecord, verification: &SweepVerification<'_
     let caption =
         "Relative difference of each to the same wear simulation with finite elements, their own uncertainty added";
     let unanswered = verification.rows.iter().filter(|row| !row.verification.has_answer());
-    let reasons = unanswered.map(|row| (row.index, row.values, &*row.verification.total.how));
+    let reasons = unanswered.map(|row| (row.index, row.values, row.verification.how()));
     html! {
         div.phases { (list(caption, columns, rows.chain([last]))) }
         @if verification.unanswered > 0 {
@@ -107,7 +110,7 @@ pub(super) fn verified(record: &SweepRecord, verification: &SweepVerification<'_
 fn without<'a>(
     record: &SweepRecord,
     caption: String,
-    rows: impl Iterator<Item = (usize, &'a [f64], &'a str)>,
+    rows: impl Iterator<Item = (usize, &'a [f64], String)>,
 ) -> Markup {
     let columns = ["combination".into()].into_iter().chain(keys(record)).chain([Cell::sentence("error")]);
     let rows = rows.map(|(index, at, reason)| {
@@ -125,5 +128,5 @@ pub(super) fn failed(record: &SweepRecord) -> Markup {
     let more = if failed.len() > MOST_LISTED { format!(", the first {MOST_LISTED}") } else { String::new() };
     let caption = format!("{} combinations without a result{more}", count(failed.len() as u64));
     let listed = failed.iter().take(MOST_LISTED);
-    without(record, caption, listed.map(|row| (row.index, &*row.values, row.error.as_deref().unwrap_or_default())))
+    without(record, caption, listed.map(|row| (row.index, &*row.values, row.error.clone().unwrap_or_default())))
 }

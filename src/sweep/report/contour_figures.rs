@@ -2,16 +2,16 @@
 
 use super::best_tables::shown_value;
 use super::section_plane::{self, ShownAxis, range};
+use crate::evaluate::figure::StudyFigure;
 use crate::report::chart::{Chart, ColourScale, Drawn, Field, MUTED, Rows, Trace, padded};
 use crate::report::html::number::{figure as shown_number, plotted};
 use crate::report::html::reading::capitalised;
 use crate::sweep::record::{AxisSpacing, SweepRecord, SweepRow};
-use gearwear_physics::results::figures::MainFigure;
 
 /// The plot of `figure` over the keys `x` and `y`; further keys stay at the values where the figure is least.
 pub(super) fn contour(
     record: &SweepRecord,
-    figure: &MainFigure,
+    figure: &StudyFigure,
     x: &ShownAxis<'_>,
     y: &ShownAxis<'_>,
 ) -> Option<Chart> {
@@ -58,7 +58,7 @@ pub(super) fn contour(
 }
 
 /// Contours of a figure, from a row of combinations for each value of `y`.
-fn contours(figure: &MainFigure, x: &ShownAxis<'_>, y: &ShownAxis<'_>, rows: &[Vec<Option<&SweepRow>>]) -> Trace {
+fn contours(figure: &StudyFigure, x: &ShownAxis<'_>, y: &ShownAxis<'_>, rows: &[Vec<Option<&SweepRow>>]) -> Trace {
     let values: Rows = rows
         .iter()
         .map(|rows| {
@@ -89,12 +89,12 @@ fn ends(of: &ShownAxis<'_>) -> [f64; 2] {
     }
 }
 
-pub(super) fn id(kind: &str, figure: &MainFigure) -> String {
+pub(super) fn id(kind: &str, figure: &StudyFigure) -> String {
     format!("{kind}-{}", figure.name.to_lowercase().replace(['_', '.'], "-"))
 }
 
 /// Sentence with the least and greatest value of the figure and where it is least.
-pub(super) fn reading(record: &SweepRecord, figure: &MainFigure, best: &SweepRow, shown: &[&ShownAxis<'_>]) -> String {
+pub(super) fn reading(record: &SweepRecord, figure: &StudyFigure, best: &SweepRow, shown: &[&ShownAxis<'_>]) -> String {
     let Some((least, greatest)) = range(record, figure) else { return String::new() };
     let axes = &record.identity.axes;
     let values: Vec<String> = axes

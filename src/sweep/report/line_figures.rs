@@ -2,14 +2,14 @@
 
 use super::contour_figures::{id, numbered, reading};
 use super::section_plane::{self, ShownAxis};
+use crate::evaluate::figure::StudyFigure;
 use crate::report::chart::{Chart, Dash, Trace};
 use crate::report::html::number::figure as shown_number;
 use crate::report::html::reading::capitalised;
 use crate::sweep::record::{AxisSpacing, SweepRecord};
-use gearwear_physics::results::figures::MainFigure;
 
 /// The plot of `figure` over the key `x`.
-pub(super) fn along(record: &SweepRecord, figure: &MainFigure, x: &ShownAxis<'_>) -> Option<Chart> {
+pub(super) fn along(record: &SweepRecord, figure: &StudyFigure, x: &ShownAxis<'_>) -> Option<Chart> {
     let (best, least) = record.least(figure)?;
     let points: Vec<(f64, f64)> = x
         .shown

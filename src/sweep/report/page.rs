@@ -8,6 +8,7 @@ use super::PARQUET;
 use super::best_tables::shown_value;
 use super::section_plane::{differs, varied};
 use super::{COMBINATIONS, LAST, best_tables, contour_figures, line_figures};
+use crate::evaluate::figure::{self, StudyFigure};
 use crate::journal;
 use crate::report::chart::Chart;
 use crate::report::html::number::{count, figure as shown_number, given, significant};
@@ -15,7 +16,6 @@ use crate::report::html::page::{Page, Plots, fold, section, sources_list};
 use crate::sweep::record::SweepRecord;
 use crate::sweep::verification::SweepVerification;
 use gearwear_bodies::reference::steel_yield;
-use gearwear_physics::results::figures::{self, MainFigure};
 use gearwear_physics::results::run::ReportedBy;
 
 const DATA_FILES: &[(&str, &str)] = &[
@@ -31,7 +31,7 @@ const DATA_FILES: &[(&str, &str)] = &[
 const SHOWN_FIRST: usize = 4;
 
 /// Figures whose least value is given at the top of the page, where there is one.
-const HEADLINES: [&str; 2] = ["helical.wear.pinion.root_tip_variation", "pinion.peak_wear_um"];
+const HEADLINES: [&str; 3] = ["helical.wear.pinion.root_tip_variation", "pinion.peak_wear_um", "sun.peak_wear_um"];
 
 pub(super) fn page(record: &SweepRecord) -> String {
     let charts = figures(record);
@@ -48,7 +48,7 @@ pub(super) fn page(record: &SweepRecord) -> String {
         warnings: &pressure_warning(record).into_iter().collect::<Vec<_>>(),
         main: html! {
             @if !first.is_empty() { div.first { (plots.show(first)) } }
-            @if let Some(optimum) = record.optimum() { (section("optimum", "Optimum", best_tables::optimum(&optimum))) }
+            @if let Some(optimum) = record.optimum() { (section("optimum", "Optimum", best_tables::optimum(identity.kind, &optimum))) }
             (fold("figures", "Each figure, and where its minimum is", best_tables::best(record)))
             @if record.failed() > 0 { (fold("failed", "Combinations without a result", best_tables::failed(record))) }
             @if let Some(verification) = record.verification() { (verified(record, &verification)) }
@@ -63,12 +63,12 @@ pub(super) fn page(record: &SweepRecord) -> String {
 }
 
 /// Figures to minimise that are not constant, those of the first words of a run before the others.
-fn shown(record: &SweepRecord) -> impl Iterator<Item = &'static MainFigure> {
-    let all = figures::in_sweeps().iter().copied();
-    let mut shown: Vec<&MainFigure> =
-        all.filter(|figure| figure.family.less_is_better && differs(record, figure)).collect();
+fn shown(record: &SweepRecord) -> impl Iterator<Item = &'static StudyFigure> + use<> {
+    let all = figure::in_sweeps(record.identity.kind).iter();
+    let mut shown: Vec<&StudyFigure> =
+        all.filter(|figure| figure.less_is_better() && differs(record, figure)).collect();
     // Those that a run begins with come first.
-    shown.sort_by_key(|figure| !figure.family.in_headline);
+    shown.sort_by_key(|figure| !figure.in_headline());
     shown.into_iter()
 }
 
@@ -82,12 +82,14 @@ fn figures(record: &SweepRecord) -> Vec<Chart> {
 
 /// Warns where the pressure of any combination is above the hardness of steel, of the one where it is greatest.
 fn pressure_warning(record: &SweepRecord) -> Option<String> {
-    let pressures = [("new.flank_pressure_MPa", "new"), ("worn.flank_pressure_MPa", "worn")].into_iter().flat_map(
-        |(name, when)| {
-            let figure = figures::find(name);
-            record.rows.iter().filter_map(move |row| Some((row.figure(figure?)?, when, row.index)))
-        },
-    );
+    let figures = figure::in_sweeps(record.identity.kind).iter();
+    let pressures = figures.filter_map(|figure| {
+        let when = figure.name.strip_suffix(".flank_pressure_MPa")?;
+        Some((figure, when.rsplit('.').next().unwrap_or(when)))
+    });
+    let pressures = pressures.flat_map(|(figure, when)| {
+        record.rows.iter().filter_map(move |row| Some((row.figure(figure)?, when, row.index)))
+    });
     let (pressure_mpa, when, index) = pressures.max_by(|a, b| a.0.total_cmp(&b.0))?;
     steel_yield::warning(pressure_mpa, &format!("{when}, combination {index}"))
 }

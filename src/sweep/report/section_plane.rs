@@ -1,7 +1,7 @@
 //! Combinations of a plot: along one key or over two, with the other keys at their best.
 
+use crate::evaluate::figure::StudyFigure;
 use crate::sweep::record::{SweepAxis, SweepRecord, SweepRow};
-use gearwear_physics::results::figures::MainFigure;
 
 /// Greatest number of values of a key in a plot: more exceed the pixels of a screen.
 const MOST_SHOWN: usize = 200;
@@ -47,7 +47,7 @@ pub(super) fn row<'a>(
 }
 
 /// Least and greatest value of a figure; `None` where no row has it.
-pub(super) fn range(record: &SweepRecord, figure: &MainFigure) -> Option<(f64, f64)> {
+pub(super) fn range(record: &SweepRecord, figure: &StudyFigure) -> Option<(f64, f64)> {
     let values = record.rows.iter().filter_map(|row| row.figure(figure));
     values.fold(None, |range, value| match range {
         None => Some((value, value)),
@@ -56,7 +56,7 @@ pub(super) fn range(record: &SweepRecord, figure: &MainFigure) -> Option<(f64, f
 }
 
 /// Whether a figure differs between combinations by more than rounding.
-pub(super) fn differs(record: &SweepRecord, figure: &MainFigure) -> bool {
+pub(super) fn differs(record: &SweepRecord, figure: &StudyFigure) -> bool {
     range(record, figure).is_some_and(|(low, high)| high - low > 1e-9 * high.abs().max(low.abs()))
 }
 

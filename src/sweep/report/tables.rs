@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 use std::io::{self, Write};
 
+use crate::evaluate::figure;
 use crate::report::columns::{Cell, Table, of_cells};
 use crate::report::csv_table::{Column, table_of};
 use crate::sweep::record::{SweepRecord, SweepRow};
-use gearwear_physics::results::figures::{self, STATED_ERRORS};
 
 pub struct SweepColumn {
     pub name: String,
@@ -51,10 +51,11 @@ pub fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
     columns.push(SweepColumn::new("status", "ok, or failed: then the figures are empty and error says why", |row| {
         Cell::Text(Some(if row.error.is_none() { "ok" } else { "failed" }.into()))
     }));
-    for figure in figures::in_sweeps() {
+    let kind = record.identity.kind;
+    for figure in figure::in_sweeps(kind) {
         columns.push(SweepColumn::new(&figure.name, &figure.meaning, |row| Cell::Number(row.figure(figure))));
     }
-    for (at, path) in record.identity.figures.iter().enumerate().skip(figures::in_sweeps().len()) {
+    for (at, path) in record.identity.figures.iter().enumerate().skip(figure::in_sweeps(kind).len()) {
         columns.push(SweepColumn::new(path, "the number at this path of summary.json", move |row| {
             Cell::Number(row.figures.get(at).copied().flatten())
         }));
@@ -74,21 +75,23 @@ pub fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
             Cell::Text(row.verification.as_ref().map(|of| of.chosen.name().into()))
         }),
     ]);
-    for claim in STATED_ERRORS {
+    for claim in figure::claims(kind) {
         let meaning = format!(
             "{}: relative difference from the same wear simulation with finite elements, their own uncertainty added; as in summary.json of a run; \
              empty where not verified",
             claim.title
         );
-        columns.push(SweepColumn::new(claim.name, meaning, move |row| {
-            Cell::Number(row.verification.as_ref().and_then(|of| (claim.of)(&of.total)))
+        columns.push(SweepColumn::new(&claim.name, meaning, move |row| {
+            Cell::Number(row.verification.as_ref().and_then(|of| claim.of(&of.total)))
         }));
     }
-    columns.push(SweepColumn::new(
-        "error.total.how",
-        "how the row was verified, or why that was not possible",
-        |row| Cell::Text(row.verification.as_ref().map(|of| of.total.how.as_str().into())),
-    ));
+    for mesh in kind.meshes() {
+        let name = mesh.map_or_else(String::new, |mesh| format!("{}.", mesh.table())) + "error.total.how";
+        columns.push(SweepColumn::new(name, "how the row was verified, or why that was not possible", move |row| {
+            let total = row.verification.as_ref().and_then(|of| of.total.of(mesh));
+            Cell::Text(total.map(|total| total.how.as_str().into()))
+        }));
+    }
     columns
 }
 

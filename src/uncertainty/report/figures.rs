@@ -2,8 +2,7 @@
 
 use crate::report::chart::{BarPlaces, Bars, Chart, Dash, Drawn, INK, Trace, gear_colour, padded};
 use crate::report::html::number::{figure, percent};
-use crate::uncertainty::record::{FactorIndices, OutputRecord, UncertaintyRecord};
-use gearwear_bodies::gear::Gear;
+use crate::uncertainty::record::{FactorIndices, FlankBand, OutputRecord, UncertaintyRecord};
 use gearwear_bodies::reference::sobol_indices::Index;
 use gearwear_bodies::reference::statistics::extent;
 
@@ -27,7 +26,7 @@ pub(super) fn of(record: &UncertaintyRecord) -> UncertaintyPlots {
     let mut others: Vec<Chart> = distributions.collect();
     let mut first: Vec<Chart> = others.drain(..others.len().min(SHOWN_FIRST)).collect();
     first.extend(outputs.clone().filter(is_life).filter_map(|(number, output)| life(number, output)));
-    others.extend(Gear::BOTH.into_iter().filter_map(|gear| band(record, gear)));
+    others.extend(record.bands.0.iter().filter_map(band));
     let indices = outputs.filter_map(|(number, output)| indices(number, output)).collect();
     UncertaintyPlots { first, indices, others }
 }
@@ -170,8 +169,8 @@ fn area(name: &str, radius: &[f64], [below, above]: [&Vec<f64>; 2]) -> Trace {
 }
 
 /// Quantiles of wear over a flank.
-fn band(record: &UncertaintyRecord, gear: Gear) -> Option<Chart> {
-    let band = &record.bands[gear];
+fn band(FlankBand { flank, in_words, gear, band }: &FlankBand) -> Option<Chart> {
+    let gear = *gear;
     let [p05, p25, p50, p75, p95] = &band.quantiles_um;
     let deepest = p95.iter().copied().fold(0.0, f64::max);
     if deepest <= 0.0 {
@@ -181,10 +180,10 @@ fn band(record: &UncertaintyRecord, gear: Gear) -> Option<Chart> {
     let [low, high] = extent(radius.iter().copied());
     let [x, median, nominal] = [radius, p50, &band.nominal_um].map(|values| values.iter().copied());
     Some(
-        Chart::new(format!("band-{}", gear.name()), format!("Wear over the flank of the {}", gear.name()))
+        Chart::new(format!("band-{}", flank.replace(['.', '_'], "-")), format!("Wear over the flank of the {in_words}"))
             .wide()
             .height(420)
-            .x(&format!("radius on the {}, mm", gear.name()))
+            .x(&format!("radius on the {in_words}, mm"))
             .x_range(padded(low, high))
             .x_format(".3f")
             .y("wear depth, µm")

@@ -9,7 +9,7 @@ use gearwear::evaluate::output::SummaryOutput;
 use gearwear::runs;
 use gearwear::scene::Resolved;
 use gearwear::scene::loaded::LoadedScene;
-use gearwear::varied_scene::{VariedScene, in_words, one_line};
+use gearwear::varied_scene::{VariedPair, in_words, one_line};
 use gearwear_physics::assessment::calibrate::{CalibrateError, CalibrationExtent};
 use gearwear_physics::assessment::guarded::guarded;
 use gearwear_physics::calibration::identity::CalibrationIdentity;
@@ -38,7 +38,7 @@ pub type Figures = Result<Vec<Option<f64>>, String>;
 
 /// Fast model of a scene.
 pub struct FastModel {
-    varied: VariedScene,
+    varied: VariedPair,
     /// Whether files that the scene names belong to all designs.
     keeps_the_pair: bool,
     /// What it is, in a sentence.
@@ -86,7 +86,7 @@ impl FastModel {
             "contact surface {surface}{teeth}, {} positions, {} points a flank{slices}",
             of.numerics.positions, of.numerics.flank_points
         );
-        let varied = VariedScene::new(&fast, false).map_err(|problems| scene.given.refused(problems))?;
+        let varied = VariedPair::new(&fast, false).map_err(|problems| scene.given.refused(problems))?;
         let varied = varied.with_torque_curve(torque_curve);
         Ok(Self { varied, keeps_the_pair: keeps_the_teeth, how })
     }
@@ -174,7 +174,7 @@ fn calibrated(scene: &LoadedScene, observer: &dyn Observer) -> Result<Option<Loa
 
 /// Whether all designs have the teeth of the scene but for their modifications, tried with all free keys at either end.
 fn keeps_the_teeth(scene: &LoadedScene, free: &[FreeKey]) -> bool {
-    let Ok(varied) = VariedScene::new(scene, false) else { return false };
+    let Ok(varied) = VariedPair::new(scene, false) else { return false };
     let own = teeth(scene.scene());
     let at = |share: f64| varied.resolved(free.iter().map(|one| (one.key.as_str(), one.in_scene(one.value(share)))));
     let is_own = |resolved: &Resolved| teeth(&resolved.scene) == own;
@@ -184,7 +184,7 @@ fn keeps_the_teeth(scene: &LoadedScene, free: &[FreeKey]) -> bool {
 
 /// Slices of designs of a spur pair that vary over the face width.
 fn slices_of_designs(scene: &LoadedScene, free: &[FreeKey]) -> Option<SliceSettings> {
-    let varied = VariedScene::new(scene, false).ok()?;
+    let varied = VariedPair::new(scene, false).ok()?;
     let greatest = free.iter().map(|one| (one.key.as_str(), one.in_scene(one.value(1.0))));
     varied.resolved(greatest).ok()?.scene.slices
 }

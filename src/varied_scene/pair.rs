@@ -1,10 +1,9 @@
-//! A scene whose values are changed and which is resolved again for each of many runs.
-//!
-//! The text is read once. Defaults are chosen again each time; the named files and the condensed teeth in three dimensions are shared.
+//! The scene of a pair whose values are changed and which is resolved again for each of many runs.
 
 use crate::scene::draft::Draft;
 use crate::scene::key::linked_keys;
 use crate::scene::loaded::LoadedScene;
+use crate::scene::planetary::mesh::StageMesh;
 use crate::scene::{Problem, Resolved};
 use gearwear_bodies::gear::spec::PairSpec;
 use gearwear_physics::assessment::{Done, RunError};
@@ -12,16 +11,8 @@ use gearwear_physics::calibration::identity::CalibrationIdentity;
 use gearwear_physics::observer::Observer;
 use gearwear_physics::operation::Scene;
 
-/// The first of `keys` that names a phase of the operation which `scene` does not have.
-pub fn missing_phase(keys: impl IntoIterator<Item = String>, scene: &Draft) -> Option<String> {
-    keys.into_iter().find(|key| {
-        let number = key.strip_prefix("operation.phases.").and_then(|rest| rest.split('.').next());
-        number.is_some_and(|number| !scene.gives(&format!("operation.phases.{number}")))
-    })
-}
-
 #[derive(Debug, Clone)]
-pub struct VariedScene {
+pub struct VariedPair {
     /// The scene without what is left out of its runs.
     draft: Draft,
     /// The scene as given, with the files it names.
@@ -32,13 +23,20 @@ pub struct VariedScene {
     torque_curve: bool,
 }
 
-impl VariedScene {
+impl VariedPair {
     /// Scene of runs of which only the end is kept, from `given` without snapshots.
     pub fn new(given: &LoadedScene, error_estimate: bool) -> Result<Self, Vec<Problem>> {
         let mut draft = Draft::parse(&given.given.text)?;
         draft.remove("operation.snapshots_h");
         draft.remove("operation.snapshots_revolutions");
         draft.set("numerics.error_estimate", error_estimate);
+        // Of a mesh of a stage, its own tables lie above those of both.
+        for mesh in StageMesh::BOTH {
+            let own = format!("{}.numerics.error_estimate", mesh.table());
+            if draft.gives(&own) {
+                draft.set(&own, error_estimate);
+            }
+        }
         Ok(Self { draft, given: given.clone(), with_other_modifications: false, torque_curve: false })
     }
 
@@ -56,6 +54,11 @@ impl VariedScene {
     pub fn keeps_the_teeth(&self, resolved: &Resolved) -> bool {
         let of = |scene: &Scene| CalibrationIdentity::of_unmodified(&scene.pair, &scene.material, &scene.fem);
         of(&resolved.scene).is_some_and(|own| Some(own) == of(&self.given.resolved.scene))
+    }
+
+    /// Whether the run of the scene as given is verified.
+    pub fn is_verified(&self) -> bool {
+        self.given.resolved.scene.verify
     }
 
     /// The text of the scene, as given.
@@ -108,20 +111,28 @@ impl VariedScene {
         observer: &dyn Observer,
         run: impl FnOnce(&LoadedScene, &dyn Observer) -> Result<Done<R>, RunError>,
     ) -> Result<R, String> {
-        let scene = self.given.variant(resolved).map_err(|problem| problem.to_string())?;
-        match run(&scene, observer) {
-            Ok(Done { failure: Some(failure), .. }) => Err(failure.to_string()),
-            Ok(Done { record, failure: None }) => Ok(record),
-            Err(failure) => Err(failure.to_string()),
-        }
+        let scene = self.variant(resolved).map_err(|problem| problem.to_string())?;
+        carried_out(&scene, observer, run)
+    }
+
+    /// Scene of `resolved` with the files of the one as given.
+    ///
+    /// # Errors
+    /// A file that it needs and the scene as given does not name.
+    pub fn variant(&self, resolved: Resolved) -> Result<LoadedScene, Box<Problem>> {
+        self.given.variant(resolved)
     }
 }
 
-/// All of `problems` on one line.
-pub fn in_words(problems: &[Problem]) -> String {
-    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
-}
-
-pub fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+/// Runs `scene` with `run`; what ends it early is an error, as text.
+pub(super) fn carried_out<R>(
+    scene: &LoadedScene,
+    observer: &dyn Observer,
+    run: impl FnOnce(&LoadedScene, &dyn Observer) -> Result<Done<R>, RunError>,
+) -> Result<R, String> {
+    match run(scene, observer) {
+        Ok(Done { failure: Some(failure), .. }) => Err(failure.to_string()),
+        Ok(Done { record, failure: None }) => Ok(record),
+        Err(failure) => Err(failure.to_string()),
+    }
 }
