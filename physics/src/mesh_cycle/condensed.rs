@@ -196,6 +196,34 @@ impl MeshCycle for CondensedCycle<'_> {
         Ok(work.of_a_part())
     }
 
+    fn choose_part(&mut self) -> bool {
+        self.some_keep_wear
+    }
+
+    fn evaluate_part(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.evaluate_stage(lost, wear, depth_mm, stopped)
+    }
+
+    fn complete_stage(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Work>, EquilibriumError> {
+        if !self.some_keep_wear {
+            return Ok(None);
+        }
+        let work = self.evaluate_by(|group, step| group.complete_stage(step), lost, wear, depth_mm, stopped)?;
+        Ok(Some(work.of_a_part()))
+    }
+
     fn reset(&mut self) {
         let (model, nodes) = (self.model, self.nodes.as_ref());
         self.groups.par_iter_mut().flat_map(|group| &mut group.loaded_positions).for_each(|loaded| {
@@ -289,6 +317,22 @@ impl CondensedGroup {
             if loaded.keeps_wear {
                 loaded.wear(step, &mut self.rows, &mut self.kept_mm);
             }
+        }
+    }
+
+    /// Evaluates the positions that keep their wear, after [`Self::evaluate_stage`], and collects the wear of all.
+    fn complete_stage(&mut self, step: &WearEvaluation<'_>) {
+        self.collected.clear();
+        for loaded in &mut self.loaded_positions {
+            let solved = match loaded.keeps_wear {
+                true if (step.stopped)() => Err(EquilibriumError::Interrupted),
+                true => loaded.solve(step),
+                false => Ok(Work::default()),
+            };
+            if !self.collected.take(solved) {
+                return;
+            }
+            loaded.wear(step, &mut self.rows, &mut self.collected.depth_mm);
         }
     }
 
