@@ -189,10 +189,22 @@ impl MeshCycle for CondensedCycle<'_> {
         depth_mm: &mut PerGear<Vec<f64>>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
+        let keep = self.some_keep_wear;
+        let work = self.evaluate_by(|group, step| group.evaluate_stage(step, keep), lost, wear, depth_mm, stopped)?;
+        Ok(if keep { work.of_a_part() } else { work })
+    }
+
+    fn evaluate_end(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
         if !self.some_keep_wear {
             return self.evaluate(lost, wear, depth_mm, stopped);
         }
-        let work = self.evaluate_by(|group, step| group.evaluate_stage(step), lost, wear, depth_mm, stopped)?;
+        let work = self.evaluate_by(|group, step| group.evaluate_end(step), lost, wear, depth_mm, stopped)?;
         Ok(work.of_a_part())
     }
 
@@ -300,13 +312,22 @@ struct WearEvaluation<'a> {
 impl CondensedGroup {
     fn evaluate(&mut self, step: &WearEvaluation<'_>) {
         self.collected.clear();
-        self.evaluate_those(|_| true, step);
+        self.evaluate_those(|_| true, CondensedPosition::solve, step);
+    }
+
+    /// As [`Self::evaluate`], but for positions that keep their wear where they are to `keep` it, and contacts are looked for where they were alone.
+    fn evaluate_stage(&mut self, step: &WearEvaluation<'_>, keep: bool) {
+        match keep {
+            true => self.collected.begin_from(&self.kept_mm),
+            false => self.collected.clear(),
+        }
+        self.evaluate_those(|loaded| !(keep && loaded.keeps_wear), CondensedPosition::solve_again, step);
     }
 
     /// As [`Self::evaluate`], but for positions that keep their wear.
-    fn evaluate_stage(&mut self, step: &WearEvaluation<'_>) {
+    fn evaluate_end(&mut self, step: &WearEvaluation<'_>) {
         self.collected.begin_from(&self.kept_mm);
-        self.evaluate_those(|loaded| !loaded.keeps_wear, step);
+        self.evaluate_those(|loaded| !loaded.keeps_wear, CondensedPosition::solve, step);
     }
 
     /// Keeps the wear of the positions whose pressure is nowhere above `mild_mpa`.
@@ -320,7 +341,7 @@ impl CondensedGroup {
         }
     }
 
-    /// Evaluates the positions that keep their wear, after [`Self::evaluate_stage`], and collects the wear of all.
+    /// Evaluates the positions that keep their wear, after [`Self::evaluate_end`], and collects the wear of all.
     fn complete_stage(&mut self, step: &WearEvaluation<'_>) {
         self.collected.clear();
         for loaded in &mut self.loaded_positions {
@@ -337,9 +358,14 @@ impl CondensedGroup {
     }
 
     /// Collects the wear of some of the positions.
-    fn evaluate_those(&mut self, are_asked: impl Fn(&CondensedPosition) -> bool, step: &WearEvaluation<'_>) {
+    fn evaluate_those(
+        &mut self,
+        are_asked: impl Fn(&CondensedPosition) -> bool,
+        solve: impl Fn(&mut CondensedPosition, &WearEvaluation<'_>) -> Result<Work, EquilibriumError>,
+        step: &WearEvaluation<'_>,
+    ) {
         for loaded in self.loaded_positions.iter_mut().filter(|loaded| are_asked(loaded)) {
-            let solved = if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { loaded.solve(step) };
+            let solved = if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { solve(loaded, step) };
             if !self.collected.take(solved) {
                 return;
             }
@@ -416,6 +442,21 @@ impl CondensedPosition {
             work += self.follow_tilt(step)?;
         }
         Ok(Work { equilibria: 1, ..work })
+    }
+
+    /// Solves within a wear step: where the contact is still where it was, without looking for others.
+    fn solve_again(&mut self, step: &WearEvaluation<'_>) -> Result<Work, EquilibriumError> {
+        let Self { prepared, transfers, found, .. } = self;
+        let opening = &mut |prepared: &PreparedPosition, asked: &[bool], gap_mm: &mut [f64]| {
+            for contact in transfers.iter() {
+                contact.open_gaps_of(|row| asked[row], step.worn.depth_mm, |row| prepared.tilt_rad(row), gap_mm);
+            }
+        };
+        if found.as_mut().is_some_and(|found| prepared.solve_again(found, opening)) {
+            let pair_evaluations = prepared.tooth_pairs() as u64;
+            return Ok(Work { equilibria: 1, newton_iterations: 1, pair_evaluations, ..Work::default() });
+        }
+        self.solve(step)
     }
 
     /// Follows the tilt of the worn flanks, and finds the contact again as long as that changes it.

@@ -287,7 +287,18 @@ pub trait MeshCycle {
         self.evaluate(lost, wear, depth_mm, stopped)
     }
 
-    /// After [`Self::evaluate_stage`] on the same `lost`: evaluates the positions that keep their wear over the stages too, and fills `depth_mm` with the wear
+    /// As [`Self::evaluate_stage`], at the end of the step: also contacts that come up elsewhere within the step are found.
+    fn evaluate_end(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.evaluate_stage(lost, wear, depth_mm, stopped)
+    }
+
+    /// After [`Self::evaluate_end`] on the same `lost`: evaluates the positions that keep their wear over the stages too, and fills `depth_mm` with the wear
     /// of all. Returns the work; nothing where none does.
     fn complete_stage(
         &mut self,

@@ -83,7 +83,16 @@ pub(crate) trait WearingPair {
         self.evaluate(wear, stopped)
     }
 
-    /// After [`Self::evaluate_stage`] on the same flanks: evaluates the positions that keep their wear over the stages too. Returns the work; nothing where none
+    /// As [`Self::evaluate_stage`], at the end of the step ([`MeshCycle::evaluate_end`]).
+    fn evaluate_end(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.evaluate_stage(wear, stopped)
+    }
+
+    /// After [`Self::evaluate_end`] on the same flanks: evaluates the positions that keep their wear over the stages too. Returns the work; nothing where none
     /// does.
     fn complete_stage(
         &mut self,
@@ -321,6 +330,14 @@ impl WearingPair for OnFlankNodes<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
         self.cycle.evaluate_stage(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
+    }
+
+    fn evaluate_end(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.cycle.evaluate_end(lost(&self.lost_mm), wear, &mut self.depth_mm, stopped)
     }
 
     fn choose_part(&mut self) -> bool {

@@ -435,10 +435,9 @@ fn ver_kept_wear_is_that_of_the_whole_evaluation() {
     assert_close_wear(&stage, &whole);
 
     // On other flanks a stage has the new wear of the severe positions alone, and its completion that of all.
-    let other = PerGear::from_fn(|gear| {
-        let nodes = cycle.nodes()[gear].len();
-        (0..nodes).map(|node| 1e-4 * node as f64 / nodes as f64).collect::<Vec<f64>>()
-    });
+    let mut other = unworn.clone();
+    let nodes = other.pinion.len() as f64;
+    other.pinion.iter_mut().enumerate().for_each(|(node, depth)| *depth = 1e-3 * node as f64 / nodes);
     let lost = other.as_ref().map(Vec::as_slice);
     let part = cycle.evaluate_stage(lost, &wear, &mut stage, &|| false).expect("the cycle has an equilibrium");
     let mut completed = unworn.clone();

@@ -56,7 +56,12 @@ pub trait Rate {
         self.evaluate(state, rate)
     }
 
-    /// After [`Self::evaluate_stage`] at `state`: finds the sources that stayed as they were there too, and the rate of all. Returns whether there are any.
+    /// As [`Self::evaluate_stage`], at the end of the step: a rate that stages find near the last one alone is looked for everywhere.
+    fn evaluate_end(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Self::Error> {
+        self.evaluate_stage(state, rate)
+    }
+
+    /// After [`Self::evaluate_end`] at `state`: finds the sources that stayed as they were there too, and the rate of all. Returns whether there are any.
     fn complete_stage(&mut self, _state: &[f64], _rate: &mut [f64]) -> Result<bool, Self::Error> {
         Ok(false)
     }
