@@ -447,7 +447,7 @@ impl CondensedPosition {
     /// Solves within a wear step: where the contact is still where it was, without looking for others.
     fn solve_again(&mut self, step: &WearEvaluation<'_>) -> Result<Work, EquilibriumError> {
         let Self { prepared, transfers, found, .. } = self;
-        let opening = &mut |prepared: &PreparedPosition, asked: &[bool], gap_mm: &mut [f64]| {
+        let opening = |prepared: &PreparedPosition, asked: &[bool], gap_mm: &mut [f64]| {
             for contact in transfers.iter() {
                 contact.open_gaps_of(|row| asked[row], step.worn.depth_mm, |row| prepared.tilt_rad(row), gap_mm);
             }

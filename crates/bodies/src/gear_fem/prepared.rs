@@ -298,7 +298,7 @@ impl PreparedPosition {
     pub fn solve_again(
         &mut self,
         found: &mut ContactEquilibrium,
-        opening: &mut dyn FnMut(&PreparedPosition, &[bool], &mut [f64]),
+        opening: impl FnOnce(&PreparedPosition, &[bool], &mut [f64]),
     ) -> bool {
         let Some(mut kept) = self.kept.take() else { return false };
         let mut gap_mm = std::mem::take(&mut self.condensed.gap_mm);
